@@ -1,194 +1,258 @@
-//! A log in pieces as long as those of the filter that is to use the α's.
+//! Cutting a log into legs as long as the updates of the filter that is to use the α's.
 //!
 //! The α's belong to one length of leg: in the tables the variance of a drive grows with the square of its length, that of
-//! real wheels mostly with the length itself. What is fitted to legs of a centimetre is wrong for a filter that updates
-//! every quarter of a metre.
+//! real wheels mostly with the length itself.
 
 use super::trajectory::Trajectory;
 use crate::geom::se2::{SE2, wrap_angle};
+use crate::models::SPIN_BELOW;
 use nalgebra::Vector3;
 
-/// When a leg ends.
+/// Condition on which a leg ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LegLength {
-    /// As in AMCL (`update_min_d`, `update_min_a`): at the first reading that is more than `distance` (m) away in x or in y, each by
-    /// itself and along the axes of the odometry frame, or turned by more than `angle` (rad).
-    Moved { distance: f64, angle: f64 },
-    /// At the first reading after this time (s) or more.
-    Lasted { duration: f64 },
+    /// As in AMCL (`update_min_d`, `update_min_a`): at the first reading that is more than `distance` (m) away in x or in y of
+    /// the odometry frame, or turned by more than `angle` (rad).
+    Displacement { distance: f64, angle: f64 },
+    /// At the first reading after this time (s).
+    Duration { duration: f64 },
 }
 
 impl LegLength {
-    /// The defaults of AMCL in Navigation2.
-    pub const AMCL: Self = Self::Moved { distance: Self::AMCL_DISTANCE, angle: Self::AMCL_ANGLE };
+    /// Defaults of AMCL in Navigation2.
+    pub const AMCL: Self = Self::Displacement { distance: Self::AMCL_DISTANCE, angle: Self::AMCL_ANGLE };
     /// `update_min_d`, m.
     pub const AMCL_DISTANCE: f64 = 0.25;
     /// `update_min_a`, rad.
     pub const AMCL_ANGLE: f64 = 0.2;
 
-    /// How far a leg is, as a share of the trigger that ended it.
-    pub(super) fn share_of(&self, leg: &Leg) -> f64 {
-        let [from, to] = leg.odometry;
+    /// Returns the length of a leg over the one at which it should end.
+    pub(super) fn ratio(&self, [start, end]: &[SE2; 2], lasted: f64) -> f64 {
         match *self {
-            Self::Moved { distance, angle } => ((to.x() - from.x()).abs() / distance)
-                .max((to.y() - from.y()).abs() / distance)
-                .max(wrap_angle(to.theta() - from.theta()).abs() / angle),
-            Self::Lasted { duration } => leg.duration() / duration,
+            Self::Displacement { distance, angle } => ((end.x() - start.x()).abs() / distance)
+                .max((end.y() - start.y()).abs() / distance)
+                .max(wrap_angle(end.theta() - start.theta()).abs() / angle),
+            Self::Duration { duration } => lasted / duration,
         }
     }
 
-    fn ends(&self, time: f64, reading: &SE2, began: (f64, SE2)) -> bool {
-        let (start_time, start) = began;
-        match *self {
-            Self::Moved { distance, angle } => {
-                (reading.x() - start.x()).abs() > distance
-                    || (reading.y() - start.y()).abs() > distance
-                    || wrap_angle(reading.theta() - start.theta()).abs() > angle
-            }
-            // Times are multiples of a step, as far as they are rounded well.
-            Self::Lasted { duration } => time - start_time >= duration * (1.0 - 1e-9),
+    fn ends(&self, ends: &[SE2; 2], lasted: f64) -> bool {
+        match self {
+            Self::Displacement { .. } => self.ratio(ends, lasted) > 1.0,
+            // Times are multiples of a period up to rounding.
+            Self::Duration { .. } => self.ratio(ends, lasted) >= 1.0 - 1e-9,
         }
     }
 }
 
-/// A motion: what the wheels said of it, and what it was.
+/// One leg: the motion that the odometry read, and the one that the reference saw.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Leg {
-    /// Beginning and end by the clock of the odometry, s.
+    /// Start and end by the clock of the odometry, s.
     pub times: [f64; 2],
     /// Both ends in the odometry frame.
     pub odometry: [SE2; 2],
     /// Velocities by the odometry at both ends: m/s ahead and to the left, rad/s.
     pub velocities: [Vector3<f64>; 2],
-    /// By how much they are less just before the ends, and more just after them.
-    pub(super) kinks: [Vector3<f64>; 2],
-    /// Both ends in the reference’s.
+    /// Both ends in the frame of the reference.
     pub reference: [SE2; 2],
-    /// How much of the variance of a sample of the reference there is at both ends: all at one, half in the middle between two.
-    pub(super) averaged: [f64; 2],
+    /// Variance of the reference's error at both ends over that of one sample: below 1 between two samples.
+    pub(super) interpolation_variances: [f64; 2],
+    /// Whether it starts with the reference pose at which the leg before ends.
+    pub follows: bool,
+    /// Place of its drive among those of the calibration.
+    pub(super) drive: usize,
 }
 
 impl Leg {
-    /// s.
+    /// Duration, s.
     pub fn duration(&self) -> f64 {
         self.times[1] - self.times[0]
     }
 }
 
-/// Fewer than this and halves, blocks and tails would be of single legs.
-pub const FEWEST: usize = 8;
+/// Legs that a log does not give, by cause.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(target_arch = "wasm32", derive(serde::Serialize), serde(rename_all = "camelCase"))]
+pub struct LostLegs {
+    /// The reference does not cover an end, or has a gap there.
+    pub without_reference: usize,
+    /// A trajectory is broken on the way, as where the reference jumped.
+    pub across_breaks: usize,
+    /// A pause made it more than twice as long as asked.
+    pub across_pauses: usize,
+    /// The robot stood: less than 1 cm and 0.02 rad.
+    pub standing: usize,
+}
+
+impl LostLegs {
+    pub fn total(&self) -> usize {
+        self.without_reference + self.across_breaks + self.across_pauses + self.standing
+    }
+
+    pub(super) fn add(&mut self, other: &Self) {
+        self.without_reference += other.without_reference;
+        self.across_breaks += other.across_breaks;
+        self.across_pauses += other.across_pauses;
+        self.standing += other.standing;
+    }
+}
+
+/// Number of legs below which no fit is tried.
+pub const MIN_LEGS: usize = 8;
+
+/// Turn (rad) below which a leg that did not drive is one of a standing robot.
+const STANDING_TURN: f64 = 0.02;
+
+/// Length ratio above which a leg across a pause says nothing of legs of the asked length.
+const MAX_RATIO_ACROSS_PAUSE: f64 = 2.0;
+
+/// Ratio of periods above which the reference is the sparser trajectory.
+const SPARSE_RATIO: f64 = 1.5;
 
 /// One end of a leg.
 #[derive(Clone, Copy, Debug)]
 struct End {
-    /// By the clock of the odometry, s.
     time: f64,
-    reading: SE2,
+    odometry: SE2,
     velocity: Vector3<f64>,
-    kink: Vector3<f64>,
-    truth: SE2,
-    averaged: f64,
+    reference: SE2,
+    interpolation_variance: f64,
 }
 
-/// A reference with steps that are longer than the odometry's by more than this is the sparser one.
-const SPARSER: f64 = 1.5;
-
-/// Both trajectories, and how far (s) the reference's clock is ahead of the odometry's.
+/// Log with the offset (s) by which the reference's clock is ahead of the odometry's.
 struct Log<'a> {
     odometry: &'a Trajectory,
     reference: &'a Trajectory,
     clock_offset: f64,
-    /// Whether the reference has fewer samples.
-    sparse: bool,
+    is_sparse: bool,
 }
 
 impl Log<'_> {
-    /// The end of a leg at or next to a reading; none where that is beyond an end of either trajectory or in a gap.
-    fn end_at(&self, sample: usize, time: f64, reading: SE2) -> Option<End> {
-        let Self { odometry, reference, clock_offset, sparse } = *self;
-        if !sparse {
-            let truth = reference.pose_at(time + clock_offset)?;
-            let averaged = reference.averaged_at(time + clock_offset);
-            let (velocity, kink) = (odometry.velocity(sample), odometry.kink(sample));
-            return Some(End { time, reading, velocity, kink, truth, averaged });
-        }
-        let (seen, truth) = reference.sample(reference.nearest(time + clock_offset)?);
-        let time = seen - clock_offset;
-        let sample = odometry.nearest(time)?;
-        let (velocity, kink) = (odometry.velocity(sample), odometry.kink(sample));
-        Some(End { time, reading: odometry.pose_at(time)?, velocity, kink, truth, averaged: 1.0 })
-    }
-}
-
-/// The legs of a log: one begins where the one before ended. Where a leg of the odometry led across a gap of either trajectory,
-/// or beyond an end of the reference, it is left out.
-///
-/// A leg ends at a sample of the trajectory that has fewer of them, for between these nobody knows where the robot was: on the arc from
-/// one to the next it would cut corners, and have half of the noise of a leg and half of its neighbour's. Of a reference with
-/// fewer samples than the odometry it is the one that is next to the reading.
-///
-/// `clock_offset` (s) is how far the reference's clock is ahead of the odometry's.
-pub fn cut(odometry: &Trajectory, reference: &Trajectory, length: LegLength, clock_offset: f64) -> Vec<Leg> {
-    let mut cutting = Cutting::new(length, clock_offset);
-    cutting.go_on(odometry, reference, odometry.samples().len());
-    cutting.legs
-}
-
-/// A log being cut, from its first row on.
-#[derive(Clone, Debug)]
-pub(super) struct Cutting {
-    length: LegLength,
-    clock_offset: f64,
-    /// The next sample of the odometry.
-    next: usize,
-    /// The reading with which a leg began, and its end there.
-    began: Option<(f64, SE2, Option<End>)>,
-    pub legs: Vec<Leg>,
-}
-
-impl Cutting {
-    pub fn new(length: LegLength, clock_offset: f64) -> Self {
-        Self { length, clock_offset, next: 0, began: None, legs: Vec::new() }
-    }
-
-    /// Goes on by so many rows of the odometry; whether all of it is cut.
-    pub fn go_on(&mut self, odometry: &Trajectory, reference: &Trajectory, rows: usize) -> bool {
-        let Self { length, clock_offset, .. } = *self;
-        let sparse = reference.usual_step() > SPARSER * odometry.usual_step();
-        let log = Log { odometry, reference, clock_offset, sparse };
-        let all = odometry.samples().len();
-        let until = all.min(self.next + rows);
-        for sample in self.next..until {
-            let (time, reading) = odometry.sample(sample);
-            let Some((start_time, start_reading, start)) =
-                self.began.filter(|_| !odometry.has_gap_before(sample))
-            else {
-                self.began = Some((time, reading, log.end_at(sample, time, reading)));
-                continue;
-            };
-            if !length.ends(time, &reading, (start_time, start_reading)) {
-                continue;
-            }
-            let end = log.end_at(sample, time, reading);
-            // A reference that has fewer samples than there are legs ends one as soon as it has another.
-            if start.zip(end).is_some_and(|(start, end)| end.time <= start.time) {
-                continue;
-            }
-            self.began = Some((time, reading, end));
-            let Some((start, end)) = start.zip(end) else { continue };
-            if reference.has_gap(start.time + clock_offset, end.time + clock_offset) {
-                continue;
-            }
-            self.legs.push(Leg {
-                times: [start.time, end.time],
-                odometry: [start.reading, end.reading],
-                velocities: [start.velocity, end.velocity],
-                kinks: [start.kink, end.kink],
-                reference: [start.truth, end.truth],
-                averaged: [start.averaged, end.averaged],
+    /// Returns the end of a leg at a sample of the odometry, or next to it where the reference has fewer samples.
+    ///
+    /// Ends are at samples of the sparser trajectory. Between its samples the pose is interpolated on an arc, which has a part
+    /// of the noise of a leg, and a part of its neighbour's.
+    fn end_at(&self, sample: usize) -> Option<End> {
+        let Self { odometry, reference, clock_offset, is_sparse } = *self;
+        let (time, pose) = odometry.sample(sample);
+        if !is_sparse {
+            let at = time + clock_offset;
+            return Some(End {
+                time,
+                odometry: pose,
+                velocity: odometry.velocity(sample),
+                reference: reference.pose_at(at)?,
+                interpolation_variance: reference.interpolation_variance_at(at),
             });
         }
-        self.next = until;
-        until == all
+        let (seen, pose) = reference.sample(reference.nearest(time + clock_offset)?);
+        let time = seen - clock_offset;
+        let velocity = odometry.velocity(odometry.nearest(time)?);
+        Some(End {
+            time,
+            odometry: odometry.pose_at(time)?,
+            velocity,
+            reference: pose,
+            interpolation_variance: 1.0,
+        })
     }
+}
+
+fn is_sparse(odometry: &Trajectory, reference: &Trajectory) -> bool {
+    reference.median_period() > SPARSE_RATIO * odometry.median_period()
+}
+
+impl Leg {
+    /// Returns the leg under another offset of the clocks, `change` (s) later than that under which it was cut, which is then
+    /// `clock_offset`. None where a trajectory does not cover it.
+    pub(super) fn realigned(
+        &self,
+        odometry: &Trajectory,
+        reference: &Trajectory,
+        clock_offset: f64,
+        change: f64,
+    ) -> Option<Self> {
+        let mut leg = *self;
+        for end in 0..2 {
+            if is_sparse(odometry, reference) {
+                leg.times[end] -= change;
+                leg.odometry[end] = odometry.pose_at(leg.times[end])?;
+            } else {
+                let at = leg.times[end] + clock_offset;
+                leg.reference[end] = reference.pose_at(at)?;
+                leg.interpolation_variances[end] = reference.interpolation_variance_at(at);
+            }
+        }
+        Some(leg)
+    }
+}
+
+/// Cuts a log into legs, each beginning where the one before ended.
+///
+/// `clock_offset` (s) is how far the reference's clock is ahead of the odometry's. A leg may lead across a pause of either
+/// trajectory, for both ends are known, but not across a break.
+pub fn split_into_legs(
+    odometry: &Trajectory,
+    reference: &Trajectory,
+    length: LegLength,
+    clock_offset: f64,
+) -> (Vec<Leg>, LostLegs) {
+    let log = Log { odometry, reference, clock_offset, is_sparse: is_sparse(odometry, reference) };
+    let (mut legs, mut lost) = (Vec::new(), LostLegs::default());
+    // Reading at which a leg began, and its end there where the reference is known.
+    let mut start: Option<((f64, SE2), Option<End>)> = None;
+    let (mut follows, mut paused) = (false, false);
+    for (sample, (time, pose)) in odometry.samples().enumerate() {
+        if odometry.has_break_before(sample) && start.take().is_some() {
+            lost.across_breaks += 1;
+        }
+        let Some(((start_time, start_pose), from)) = start else {
+            start = Some(((time, pose), log.end_at(sample)));
+            (follows, paused) = (false, false);
+            continue;
+        };
+        paused |= odometry.has_gap_before(sample);
+        let ends = [start_pose, pose];
+        if !length.ends(&ends, time - start_time) {
+            continue;
+        }
+        let to = log.end_at(sample);
+        let (Some(from), Some(to)) = (from, to) else {
+            // The reference may come back within the length that a leg may have.
+            if from.is_none() || length.ratio(&ends, time - start_time) > MAX_RATIO_ACROSS_PAUSE {
+                lost.without_reference += 1;
+                (start, follows) = (Some(((time, pose), to)), false);
+            }
+            continue;
+        };
+        // A reference with fewer samples than there are legs ends one as soon as it has another sample.
+        if to.time <= from.time {
+            continue;
+        }
+        start = Some(((time, pose), Some(to)));
+        let (has_paused, did_follow) = (std::mem::take(&mut paused), std::mem::replace(&mut follows, true));
+        let motion = from.odometry.inverse() * to.odometry;
+        if reference.has_break(from.time + clock_offset, to.time + clock_offset) {
+            lost.across_breaks += 1;
+            follows = false;
+        } else if has_paused && length.ratio(&ends, time - start_time) > MAX_RATIO_ACROSS_PAUSE {
+            lost.across_pauses += 1;
+            follows = false;
+        } else if libm::hypot(motion.x(), motion.y()) < SPIN_BELOW && motion.theta().abs() < STANDING_TURN {
+            lost.standing += 1;
+            follows = false;
+        } else {
+            legs.push(Leg {
+                times: [from.time, to.time],
+                odometry: [from.odometry, to.odometry],
+                velocities: [from.velocity, to.velocity],
+                reference: [from.reference, to.reference],
+                interpolation_variances: [from.interpolation_variance, to.interpolation_variance],
+                follows: did_follow,
+                drive: 0,
+            });
+        }
+    }
+    (legs, lost)
 }

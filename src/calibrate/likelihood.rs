@@ -1,401 +1,415 @@
-//! The likelihood of variances that are sums, v = c + Σ αₖ fₖ, each α 0 or more; and where it is largest.
+//! Restricted likelihood (REML) of all residuals of a log.
+//!
+//! The residual of leg i is rᵢ = wᵢ + Aᵢ eᵢ₋₁ + Bᵢ eᵢ + Xᵢ β. The noise of the wheels wᵢ has covariance Dᵢ = diag(Σ αₖ cᵢₖ), the error
+//! eᵢ of the reference at the end of the leg R = diag(σ_p², σ_p², σ_θ²), and β are the systematic errors. A pose ends one leg and starts
+//! the next, so V = Cov(r) is block tridiagonal:
+//!
+//! ℓ = −½ [ln|V| + ln|XᵀV⁻¹X| + rᵀV⁻¹r − rᵀV⁻¹X (XᵀV⁻¹X)⁻¹ XᵀV⁻¹r − (N − q) ln 2π],
+//!
+//! with N residuals and q errors. One forward recursion over 3 × 3 blocks gives it (a Kalman filter whose state is eᵢ), a backward one the
+//! score. V is linear in the parameters, so that the average of observed and expected information is a product of vectors (Gilmour,
+//! Thompson and Cullis 1995).
 
-use super::bad::{Bad, BadAgain, Robust};
-use super::density::{Density, LogProduct, ROOT_6, ROOT_TAU};
-use super::model::{Model, Observation};
-use super::trajectory::sort;
-use super::work::Work;
-use crate::noise::NoiseKind;
-use std::ops::Range;
+use super::residuals::{Model, Observation};
+use super::systematic::{ERRORS, ErrorMask, SystematicError};
+use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
+use std::f64::consts::TAU;
 
-/// What the α's are at a point: of as many as there may be, six.
-pub(super) type Alphas = [f64; 6];
+/// Most α's of a model.
+pub(super) const ALPHAS: usize = 6;
 
-/// A leg's part of the likelihood.
+/// Places of σ_p² and σ_θ² after the α's.
+pub(super) const POSITION: usize = ALPHAS;
+pub(super) const YAW: usize = ALPHAS + 1;
+
+/// Number of variance parameters: α's, 0 where the model has fewer, then σ_p² (m²) and σ_θ² (rad²).
+pub(super) const PARAMETERS: usize = ALPHAS + 2;
+pub(super) type Parameters = SVector<f64, PARAMETERS>;
+pub(super) type Information = SMatrix<f64, PARAMETERS, PARAMETERS>;
+
+/// Columns that the recursion carries: the residual and the Jacobian of each systematic error.
+const COLUMNS: usize = 1 + ERRORS;
+type Columns = SMatrix<f64, 3, COLUMNS>;
+type Gram = SMatrix<f64, COLUMNS, COLUMNS>;
+pub(super) type ErrorMatrix = SMatrix<f64, ERRORS, ERRORS>;
+
+/// Least standard deviation of a residual (rad, m or their rates): a log without noise has a finite likelihood.
+const MIN_STD: f64 = 1e-7;
+
+/// Residuals of one leg as the likelihood sees them.
 #[derive(Clone, Copy, Debug)]
-struct Row {
-    /// How large the residuals are; 0 of one that is not told.
-    sizes: [f64; 3],
+pub(super) struct Term {
+    columns: Columns,
+    /// Factors of the α's in the variance of each component.
     coefficients: [[f64; 2]; 3],
-    /// 1 of a residual that is not told, of which nothing then depends.
-    floors: [f64; 3],
-    /// The standard deviations of what is not the wheels' noise.
-    blurs: [f64; 3],
-    told: [bool; 3],
-    /// Its place among the squares by the other way; none where it is past their end.
-    other_way: u32,
+    /// Least variance of each component; 1 of one that is not observed, whose residual is 0.
+    floors: Vector3<f64>,
+    start: Matrix3<f64>,
+    end: Matrix3<f64>,
+    /// Whether it starts with the pose at which the term before ends.
+    follows: bool,
+    pub observed: usize,
 }
 
-impl Row {
-    /// How large a residual is without what else there is of it: further away its density is below the smallest double.
-    #[inline(always)]
-    fn least_size(&self, kind: usize) -> f64 {
-        (self.sizes[kind] - FARTHEST * self.blurs[kind]).max(0.0)
-    }
-
-    #[inline(always)]
-    fn density(&self, noise: NoiseKind, sizes: &[f64; 3], variances: &[f64; 3]) -> Density {
-        match noise {
-            NoiseKind::Normal => Density::normal(sizes, variances),
-            NoiseKind::Triangular => {
-                // Which alone are triangular.
-                let of_wheels = std::array::from_fn(|k| {
-                    if self.told[k] { (variances[k] - self.floors[k]).max(0.0) } else { 1.0 }
-                });
-                Density::triangular(sizes, &self.blurs, &of_wheels)
-            }
-        }
-    }
-}
-
-/// What all legs say.
+/// Residuals of several legs, with the model and the systematic errors that are estimated with them.
 #[derive(Clone, Debug)]
-pub struct Evidence {
-    pub(super) pairs: [[usize; 2]; 3],
-    pub(super) noise: NoiseKind,
-    rows: Vec<Row>,
-    /// The α's of which some residual says anything.
-    pub(super) told: [bool; 6],
-    other_ways: Vec<[f64; 3]>,
-    pub(super) work: Work,
+pub(super) struct Residuals {
+    pub terms: Vec<Term>,
+    alphas: [[usize; 2]; 3],
+    pub estimated: ErrorMask,
 }
 
-impl Evidence {
+/// State of the forward recursion after one leg.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Innovation {
+    columns: Columns,
+    /// Inverse covariance of the innovation.
+    weight: Matrix3<f64>,
+    gain: Matrix3<f64>,
+}
+
+/// Innovation of one leg: its residual less what the legs before predict.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Standardized {
+    /// Each component over its standard deviation.
+    pub components: [f64; 3],
+    pub stds: [f64; 3],
+    /// Squared Mahalanobis distance: χ² with as many degrees of freedom as components are observed.
+    pub squared: f64,
+    pub observed: usize,
+}
+
+/// Generalized least squares of the systematic errors under given variances.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct LeastSquares {
+    pub log_likelihood: f64,
+    /// Estimate of β; 0 of errors that are not estimated.
+    pub errors: SVector<f64, ERRORS>,
+    /// Covariance of the estimate, (XᵀV⁻¹X)⁻¹.
+    pub covariance: ErrorMatrix,
+}
+
+/// Log-likelihood with its derivatives by the parameters.
+#[derive(Clone, Debug)]
+pub(super) struct Expansion {
+    pub log_likelihood: f64,
+    /// rᵀP Vⱼ P r and tr(P Vⱼ) of each parameter; the score is half of their difference.
+    pub quadratic: Parameters,
+    pub trace: Parameters,
+    pub information: Information,
+    /// Score of each leg.
+    pub scores: Vec<Parameters>,
+}
+
+impl Expansion {
+    pub fn score(&self) -> Parameters {
+        (self.quadratic - self.trace) * 0.5
+    }
+}
+
+impl Residuals {
+    /// Gathers the observations, each with whether it starts with the pose at which the one before ends.
     pub fn new<'a>(
         model: Model,
-        noise: NoiseKind,
-        observations: impl IntoIterator<Item = &'a Observation>,
+        estimated: ErrorMask,
+        observations: impl Iterator<Item = (&'a Observation, bool)>,
     ) -> Self {
-        let mut evidence = Self::none(model, noise, Work::default());
-        observations.into_iter().for_each(|each| evidence.add(each));
-        evidence
-    }
-
-    /// Of no legs yet; what it costs to go through them is counted as work.
-    pub(super) fn none(model: Model, noise: NoiseKind, work: Work) -> Self {
-        let pairs = model.kinds().map(|kind| kind.alphas);
-        Self { pairs, noise, rows: Vec::new(), told: [false; 6], other_ways: Vec::new(), work }
-    }
-
-    /// A residual that nothing would make uncertain is not told: its variance is 0 under all α's.
-    pub(super) fn add(&mut self, observation: &Observation) {
-        let Observation { residuals, coefficients, floors, unknown, other_way, .. } = observation;
-        let told: [bool; 3] = std::array::from_fn(|k| {
-            residuals[k].is_finite() && (coefficients[k] != [0.0; 2] || floors[k] > 0.0)
+        let terms = observations.map(|(observation, follows)| {
+            let residuals = Vector3::from(observation.residuals);
+            let observed = residuals.map(|residual| !residual.is_nan());
+            let mut columns = Columns::zeros();
+            columns.set_column(0, &residuals.map(|residual| if residual.is_nan() { 0.0 } else { residual }));
+            for error in (0..ERRORS).filter(|error| estimated[*error]) {
+                columns.set_column(1 + error, &observation.systematic.column(error));
+            }
+            Term {
+                columns,
+                coefficients: observation.coefficients,
+                floors: observed.map(|is| if is { MIN_STD * MIN_STD } else { 1.0 }),
+                start: observation.reference[0],
+                end: observation.reference[1],
+                follows,
+                observed: observed.iter().filter(|is| **is).count(),
+            }
         });
-        let size =
-            |residuals: &[f64; 3]| std::array::from_fn(|k| if told[k] { residuals[k].abs() } else { 0.0 });
-        self.rows.push(Row {
-            sizes: size(residuals),
-            coefficients: std::array::from_fn(|k| if told[k] { coefficients[k] } else { [0.0; 2] }),
-            floors: std::array::from_fn(|k| if told[k] { floors[k] + unknown[k] } else { 1.0 }),
-            blurs: std::array::from_fn(|k| if told[k] { (floors[k] + unknown[k]).sqrt() } else { 0.0 }),
-            told,
-            other_way: if other_way.is_some() { self.other_ways.len() as u32 } else { u32::MAX },
+        let alphas = model.components().map(|component| component.alphas);
+        Self { terms: terms.collect(), alphas, estimated }
+    }
+
+    /// Variances of the wheels' noise in one leg.
+    pub fn wheel_variances(&self, coefficients: &[[f64; 2]; 3], parameters: &Parameters) -> Vector3<f64> {
+        Vector3::from_fn(|component, _| {
+            let [first, second] = self.alphas[component];
+            let [by_first, by_second] = coefficients[component];
+            parameters[first] * by_first + parameters[second] * by_second
+        })
+    }
+
+    /// Runs the forward recursion, with `visit` called on each innovation; returns ln|V| and [r X]ᵀV⁻¹[r X].
+    fn filter(&self, parameters: &Parameters, mut visit: impl FnMut(&Term, Innovation)) -> (f64, Gram) {
+        let reference = reference_covariance(parameters);
+        let (mut log_det, mut gram) = (0.0, Gram::zeros());
+        let (mut mean, mut covariance) = (Columns::zeros(), reference);
+        // A product is cheaper than as many logarithms.
+        let mut det = 1.0;
+        for term in &self.terms {
+            if !term.follows {
+                (mean, covariance) = (Columns::zeros(), reference);
+            }
+            let columns = term.columns - term.start * mean;
+            let mut innovation = term.start * covariance * term.start.transpose()
+                + term.end * reference * term.end.transpose();
+            let wheels = self.wheel_variances(&term.coefficients, parameters) + term.floors;
+            for component in 0..3 {
+                innovation[(component, component)] += wheels[component];
+            }
+            let weight = innovation.try_inverse().unwrap_or_else(Matrix3::zeros);
+            det *= innovation.determinant();
+            if !(1e-200..1e200).contains(&det) {
+                log_det += libm::log(det.max(f64::MIN_POSITIVE));
+                det = 1.0;
+            }
+            let gain = reference * term.end.transpose() * weight;
+            gram += columns.transpose() * (weight * columns);
+            mean = gain * columns;
+            covariance = reference - gain * term.end * reference;
+            visit(term, Innovation { columns, weight, gain });
+        }
+        (log_det + libm::log(det), gram)
+    }
+
+    fn least_squares_of(&self, log_det: f64, gram: &Gram) -> LeastSquares {
+        let information: ErrorMatrix = gram.fixed_view::<ERRORS, ERRORS>(1, 1).into_owned();
+        let (covariance, log_det_information) = masked_inverse(&information, &self.estimated);
+        let pull: SVector<f64, ERRORS> = gram.fixed_view::<ERRORS, 1>(1, 0).into_owned();
+        let errors = covariance * pull;
+        let count: usize = self.terms.iter().map(|term| term.observed).sum();
+        let free = count as f64 - self.estimated.iter().filter(|is| **is).count() as f64;
+        let deviance =
+            log_det + log_det_information + gram[(0, 0)] - pull.dot(&errors) + free * libm::log(TAU);
+        LeastSquares { log_likelihood: -0.5 * deviance, errors, covariance }
+    }
+
+    pub fn least_squares(&self, parameters: &Parameters) -> LeastSquares {
+        let (log_det, gram) = self.filter(parameters, |_, _| ());
+        self.least_squares_of(log_det, &gram)
+    }
+
+    pub fn log_likelihood(&self, parameters: &Parameters) -> f64 {
+        self.least_squares(parameters).log_likelihood
+    }
+
+    /// Information that the residuals have on the systematic errors, XᵀV⁻¹X.
+    pub fn error_information(&self, parameters: &Parameters) -> ErrorMatrix {
+        let (_, gram) = self.filter(parameters, |_, _| ());
+        gram.fixed_view::<ERRORS, ERRORS>(1, 1).into_owned()
+    }
+
+    /// Returns the covariance of the systematic errors that the scatter of blocks of `length` legs gives, C (Σ gᵦ gᵦᵀ) C with the scores gᵦ and C
+    /// the covariance that the likelihood gives: it holds whatever the legs of a block have in common.
+    pub fn sandwich(
+        &self,
+        parameters: &Parameters,
+        LeastSquares { errors, covariance, .. }: &LeastSquares,
+        length: usize,
+    ) -> ErrorMatrix {
+        let (mut scatter, mut score, mut count) = (ErrorMatrix::zeros(), SVector::<f64, ERRORS>::zeros(), 0);
+        self.filter(parameters, |_, Innovation { columns, weight, .. }| {
+            let jacobian = columns.fixed_columns::<ERRORS>(1);
+            score += jacobian.transpose() * (weight * (columns.column(0) - jacobian * errors));
+            count += 1;
+            if count % length == 0 {
+                scatter += score * score.transpose();
+                score.fill(0.0);
+            }
         });
-        let row = &self.rows[self.rows.len() - 1];
-        for (pair, coefficients) in self.pairs.iter().zip(&row.coefficients) {
-            for i in 0..2 {
-                self.told[pair[i]] |= coefficients[i] > 0.0;
-            }
-        }
-        self.other_ways.extend(other_way.as_ref().map(size));
+        scatter += score * score.transpose();
+        covariance * scatter * covariance
     }
 
-    /// How often all legs were gone through so far; parts of them count as such.
-    pub fn passes(&self) -> f64 {
-        self.work.total() as f64 / self.rows.len() as f64
+    /// Returns the innovation of each leg, less what these systematic errors explain.
+    pub fn innovations(&self, parameters: &Parameters, errors: &SVector<f64, ERRORS>) -> Vec<Standardized> {
+        let mut all = Vec::with_capacity(self.terms.len());
+        self.filter(parameters, |term, Innovation { columns, weight, .. }| {
+            let innovation = columns.column(0) - columns.fixed_columns::<ERRORS>(1) * errors;
+            let covariance = weight.try_inverse().unwrap_or_else(Matrix3::zeros);
+            let stds = std::array::from_fn(|k| covariance[(k, k)].sqrt());
+            all.push(Standardized {
+                components: std::array::from_fn(|k| innovation[k] / stds[k]),
+                squared: innovation.dot(&(weight * innovation)),
+                stds,
+                observed: term.observed,
+            });
+        });
+        all
     }
 
-    fn residuals_told(&self) -> usize {
-        self.rows.iter().map(|row| row.told.iter().filter(|told| **told).count()).sum()
-    }
-
-    /// Where to begin, as if noise were normal: of each kind its two α's answer for half of what is there, without the hundredths that
-    /// are far from the rest.
-    pub(super) fn beginning(&self, robust: Robust) -> Parameters {
-        self.work.add(self.rows.len());
-        let mut alphas = [0.0f64; 6];
-        let mut spreads = [1.0; 3];
-        for (kind, pair) in self.pairs.iter().enumerate() {
-            let told = || self.rows.iter().filter(|row| row.told[kind]);
-            let mut sizes: Vec<f64> = told()
-                .step_by(1 + self.rows.len() / ENOUGH_FOR_A_MEDIAN)
-                .map(|row| row.sizes[kind])
-                .collect();
-            if sizes.is_empty() {
-                continue;
-            }
-            sort(&mut sizes);
-            let median = sizes[sizes.len() / 2];
-            let most = median * median * FAR;
-            let (mut count, mut sum, mut coefficients) = (0.0, 0.0, [0.0; 2]);
-            for row in told() {
-                let square = row.sizes[kind] * row.sizes[kind];
-                count += 1.0;
-                sum += if robust == Robust::No { square } else { square.min(most) };
-                coefficients[0] += row.coefficients[kind][0];
-                coefficients[1] += row.coefficients[kind][1];
-            }
-            for (k, coefficients) in pair.iter().zip(coefficients) {
-                if coefficients > 0.0 {
-                    // Of perfect ones too something: the scoring goes down from there.
-                    alphas[*k] = alphas[*k].max((0.5 * sum / coefficients).max(1e-12));
-                }
-            }
-            spreads[kind] = most.max(sum / count).max(1e-12);
-        }
-        let bad = match robust {
-            Robust::No => None,
-            Robust::Stated(share) => Some(Bad { share, spreads }),
-            Robust::Estimated => Some(Bad { share: 0.02, spreads }),
+    /// Returns the log-likelihood with its derivatives.
+    pub fn expansion(&self, parameters: &Parameters) -> Expansion {
+        let mut innovations = Vec::with_capacity(self.terms.len());
+        let (log_det, gram) = self.filter(parameters, |_, innovation| innovations.push(innovation));
+        let LeastSquares { log_likelihood, errors, covariance } = self.least_squares_of(log_det, &gram);
+        let mut expansion = Expansion {
+            log_likelihood,
+            quadratic: Parameters::zeros(),
+            trace: Parameters::zeros(),
+            information: Information::zeros(),
+            scores: vec![Parameters::zeros(); self.terms.len()],
         };
-        Parameters { alphas, bad, noise: NoiseKind::Normal }
-    }
-
-    /// How near to the edge of its triangle (as a share of its length) a residual has to be for the likelihood not to be a parabola, where
-    /// α's are about as well known as so many legs tell them.
-    pub(super) fn width(&self) -> f64 {
-        (EDGE / (self.rows.len() as f64).sqrt()).min(1.0)
-    }
-
-    /// By what factor, 1 or more, these α's have to be larger for all residuals to be inside of their triangles by this share of their
-    /// length; not finite where no factor is large enough.
-    pub(super) fn widening(&self, alphas: &Alphas, widened: &[usize], share: f64) -> f64 {
-        self.work.add(self.rows.len());
-        let part = 6.0 * (1.0 - share) * (1.0 - share);
-        let (mut others, mut these) = (*alphas, [0.0; 6]);
-        for &k in widened {
-            (others[k], these[k]) = (0.0, alphas[k]);
-        }
-        let mut factor: f64 = 1.0;
-        for row in &self.rows {
-            let (fixed, widened) = (self.variances(row, &others), self.variances(row, &these));
-            for k in 0..3 {
-                let size = row.least_size(k);
-                let missing = size * size / part - fixed[k];
-                if missing > factor * (widened[k] - row.floors[k]) {
-                    factor = missing / (widened[k] - row.floors[k]);
-                }
+        // P r of each leg, and AᵀP r + BᵀP r at the pose at which it starts (if it does not follow) and at that at which it ends.
+        let mut projected = vec![[Vector3::zeros(); 3]; self.terms.len()];
+        let project = |solved: &Columns| solved.column(0) - solved.fixed_columns::<ERRORS>(1) * errors;
+        // Diagonal of P, less than that of V⁻¹ by what is known of the systematic errors.
+        let known = |solved: &Columns, row: usize| {
+            let row = solved.fixed_view::<1, ERRORS>(row, 1);
+            (row * covariance).dot(&row)
+        };
+        // V⁻¹[r X] of the leg after, and its block on the diagonal of V⁻¹.
+        let mut after: Option<(Columns, Matrix3<f64>)> = None;
+        for (i, (term, Innovation { columns, weight, gain })) in
+            self.terms.iter().zip(&innovations).enumerate().rev()
+        {
+            let (mut solved, mut block) = (weight * columns, *weight);
+            let (mut at_end, mut end_block) = (Columns::zeros(), Matrix3::zeros());
+            if let Some((next, next_block)) = after {
+                let start = self.terms[i + 1].start;
+                let through = start * gain;
+                at_end = start.transpose() * next;
+                solved -= gain.transpose() * at_end;
+                let off_diagonal = -next_block * through;
+                block -= through.transpose() * off_diagonal;
+                let cross = start.transpose() * off_diagonal * term.end;
+                end_block = start.transpose() * next_block * start + cross + cross.transpose();
             }
-        }
-        factor
-    }
-
-    /// The legs with a residual so near to the edge of its triangle (in its length) that no parabola has their likelihood;
-    /// of normal noise none.
-    pub(super) fn edge(&self, at: &Parameters) -> Self {
-        let work = self.work.clone();
-        let mut edge = Self { rows: Vec::new(), other_ways: Vec::new(), work, ..*self };
-        if at.noise == NoiseKind::Normal {
-            return edge;
-        }
-        self.work.add(self.rows.len());
-        let width = self.width();
-        let [least, most] = [1.0 - width, 1.0 + width].map(|ratio| 6.0 * ratio * ratio);
-        for row in &self.rows {
-            let variances = self.variances(row, &at.alphas);
-            let other_way = self.other_ways.get(row.other_way as usize);
-            // What is blurred as far as that is nearly one again.
-            let sharp: [bool; 3] =
-                std::array::from_fn(|k| row.blurs[k] * row.blurs[k] < 6.0 * width * width * variances[k]);
-            let near = |sizes: &[f64; 3]| {
-                (0..3).filter(|k| sharp[*k]).any(|k| {
-                    let near = NEAR * row.blurs[k];
-                    let [nearest, farthest] = [sizes[k] - near, sizes[k] + near];
-                    farthest * farthest > least * variances[k]
-                        && nearest.max(0.0) * nearest < most * variances[k]
-                })
+            at_end += term.end.transpose() * solved;
+            end_block += term.end.transpose() * block * term.end;
+            let own = project(&solved);
+            let score = &mut expansion.scores[i];
+            let mut add = |parameter: usize, factor: f64, square: f64, trace: f64| {
+                expansion.quadratic[parameter] += factor * square;
+                expansion.trace[parameter] += factor * trace;
+                score[parameter] += 0.5 * factor * (square - trace);
             };
-            if near(&row.sizes) || other_way.is_some_and(near) {
-                let place = edge.other_ways.len() as u32;
-                edge.other_ways.extend(other_way);
-                edge.rows.push(Row { other_way: if other_way.is_some() { place } else { u32::MAX }, ..*row });
-            }
-        }
-        edge
-    }
-
-    /// How far a step may go without any residual leaving its triangle, as a share of it.
-    pub(super) fn reach(&self, from: &Alphas, to: &Alphas) -> f64 {
-        self.work.add(self.rows.len());
-        let mut reach: f64 = 1.0;
-        for row in &self.rows {
-            let [before, after] = [from, to].map(|alphas| self.variances(row, alphas));
-            for k in 0..3 {
-                let square = row.least_size(k) * row.least_size(k);
-                let [left, then] = [6.0 * before[k] - square, 6.0 * after[k] - square];
-                if left > 0.0 && left + reach * (then - left) < 0.0 {
-                    reach = left / (left - then);
+            for component in 0..3 {
+                let trace = block[(component, component)] - known(&solved, component);
+                for (alpha, factor) in self.alphas[component].iter().zip(term.coefficients[component]) {
+                    add(*alpha, factor, own[component] * own[component], trace);
                 }
             }
+            let mut add_pose = |solved: &Columns, block: &Matrix3<f64>| {
+                let projected = project(solved);
+                for row in 0..3 {
+                    let parameter = if row < 2 { POSITION } else { YAW };
+                    add(
+                        parameter,
+                        1.0,
+                        projected[row] * projected[row],
+                        block[(row, row)] - known(solved, row),
+                    );
+                }
+                projected
+            };
+            let end = add_pose(&at_end, &end_block);
+            let start = if term.follows && i > 0 {
+                Vector3::zeros()
+            } else {
+                add_pose(&(term.start.transpose() * solved), &(term.start.transpose() * block * term.start))
+            };
+            projected[i] = [own, start, end];
+            after = (term.follows && i > 0).then_some((solved, block));
         }
-        reach
+        expansion.information = self.average_information(&innovations, &projected, &covariance);
+        expansion
     }
 
-    pub(super) fn legs(&self) -> usize {
-        self.rows.len()
-    }
-
-    #[inline(always)]
-    fn variances(&self, row: &Row, alphas: &Alphas) -> [f64; 3] {
-        std::array::from_fn(|kind| {
-            let [first, second] = self.pairs[kind];
-            let [f, g] = row.coefficients[kind];
-            row.floors[kind] + alphas[first] * f + alphas[second] * g
-        })
-    }
-
-    /// The density of a row, and the probability that it is bad.
-    #[inline(always)]
-    fn density(&self, row: &Row, variances: &[f64; 3], at: &Parameters) -> (Density, f64) {
-        let mut density = row.density(at.noise, &row.sizes, variances);
-        if let Some(sizes) = self.other_ways.get(row.other_way as usize) {
-            density = density.or_of(|| row.density(at.noise, sizes, variances));
-        }
-        let Some(Bad { share, spreads }) = &at.bad else { return (density, 0.0) };
-        let wider: [f64; 3] =
-            std::array::from_fn(|k| if row.told[k] { variances[k] + spreads[k] } else { 1.0 });
-        let far = Density::normal(&row.sizes, &wider);
-        let powers = if at.noise == NoiseKind::Triangular {
-            row.told.iter().filter(|told| **told).map(|_| ROOT_6 / ROOT_TAU).product()
-        } else {
-            1.0
-        };
-        density.times(1.0 - share).or(&far.times(share * powers))
-    }
-
-    /// The logarithm of the likelihood (nats), its derivatives, and what Fisher expects of the second ones. With `robust` also what the
-    /// bad legs are likely to be if this is what the others are.
-    pub(super) fn slope(&self, at: &Parameters, robust: Robust) -> Slope {
-        let mut logs = LogProduct::EMPTY;
-        let (mut exponents, mut gradients, mut informations) = (0.0, [[0.0; 2]; 3], [[0.0; 3]; 3]);
-        let mut blurred = 0;
-        let mut again = at.bad.filter(|_| robust != Robust::No).map(BadAgain::new);
-        for row in &self.rows {
-            let variances = self.variances(row, &at.alphas);
-            let (density, part) = self.density(row, &variances, at);
-            logs.multiply(density.factor);
-            exponents += density.exponent;
-            blurred += usize::from(density.blurred);
-            for kind in 0..3 {
-                let [f, g] = row.coefficients[kind];
-                let (slope, information) = (density.by_variance[kind], density.information[kind]);
-                gradients[kind][0] += f * slope;
-                gradients[kind][1] += g * slope;
-                informations[kind][0] += f * f * information;
-                informations[kind][1] += f * g * information;
-                informations[kind][2] += g * g * information;
+    /// ½ rᵀP Vⱼ P Vₖ P r.
+    fn average_information(
+        &self,
+        innovations: &[Innovation],
+        projected: &[[Vector3<f64>; 3]],
+        covariance: &ErrorMatrix,
+    ) -> Information {
+        type Working = SMatrix<f64, 3, PARAMETERS>;
+        let (mut gram, mut cross) = (Information::zeros(), SMatrix::<f64, ERRORS, PARAMETERS>::zeros());
+        let (mut mean, mut pose) = (Working::zeros(), Vector3::zeros());
+        for ((term, innovation), [own, start, end]) in self.terms.iter().zip(innovations).zip(projected) {
+            if !term.follows {
+                (mean, pose) = (Working::zeros(), *start);
             }
-            if let Some(again) = &mut again {
-                again.add(&row.told, &row.sizes, &variances, part);
-            }
-        }
-        self.work.add(self.rows.len() + BLURRED * blurred);
-        let constant = match at.noise {
-            NoiseKind::Normal => libm::log(ROOT_TAU),
-            NoiseKind::Triangular => libm::log(ROOT_6),
-        };
-        let total = logs.log() + exponents - constant * self.residuals_told() as f64;
-        // With a variance of 0 the logarithm is infinite, and so is the share, or none.
-        let log_likelihood = if total.is_finite() { total } else { f64::NEG_INFINITY };
-        let bad = again.map(|again| again.likeliest(robust));
-        let mut slope = Slope { log_likelihood, gradient: [0.0; 6], information: [[0.0; 6]; 6], bad };
-        for (kind, [first, second]) in self.pairs.into_iter().enumerate() {
-            slope.gradient[first] += gradients[kind][0];
-            slope.gradient[second] += gradients[kind][1];
-            let [ff, fg, gg] = informations[kind];
-            slope.information[first][first] += ff;
-            slope.information[first][second] += fg;
-            slope.information[second][first] += fg;
-            slope.information[second][second] += gg;
-        }
-        slope
-    }
-
-    /// Of each of these legs: its variances, the probability that it is bad, and the derivatives of its logarithm by the α's.
-    pub(super) fn each(&self, at: &Parameters, legs: Range<usize>) -> impl Iterator<Item = LegDensity> {
-        self.work.add(legs.len());
-        self.rows[legs].iter().map(move |row| {
-            let variances = self.variances(row, &at.alphas);
-            let (density, bad) = self.density(row, &variances, at);
-            let mut gradient = [0.0; 6];
-            for (kind, [first, second]) in self.pairs.into_iter().enumerate() {
-                gradient[first] += row.coefficients[kind][0] * density.by_variance[kind];
-                gradient[second] += row.coefficients[kind][1] * density.by_variance[kind];
-            }
-            LegDensity {
-                variances: std::array::from_fn(|k| row.told[k].then_some(variances[k])),
-                bad,
-                gradient,
-            }
-        })
-    }
-
-    /// By how much the logarithms of the residuals' variances change with each α: in the mean, and Σ of the squares and products.
-    pub(super) fn log_variances_by(&self, at: &Parameters) -> (Alphas, [Alphas; 6]) {
-        self.work.add(self.rows.len());
-        let (mut count, mut mean, mut squares) = (0.0, [0.0; 6], [[0.0; 6]; 6]);
-        for row in &self.rows {
-            let variances = self.variances(row, &at.alphas);
-            for kind in (0..3).filter(|kind| row.told[*kind] && variances[*kind] > 0.0) {
-                let (pair, slopes) = (self.pairs[kind], row.coefficients[kind].map(|f| f / variances[kind]));
-                count += 1.0;
-                for (k, slope) in pair.into_iter().zip(slopes) {
-                    mean[k] += slope;
-                    pair.into_iter().zip(slopes).for_each(|(l, other)| squares[k][l] += slope * other);
+            let mut working = Working::zeros();
+            for component in 0..3 {
+                for (alpha, factor) in self.alphas[component].iter().zip(term.coefficients[component]) {
+                    working[(component, *alpha)] += factor * own[component];
                 }
             }
+            for row in 0..3 {
+                let parameter = if row < 2 { POSITION } else { YAW };
+                let moved = term.start.column(row) * pose[row] + term.end.column(row) * end[row];
+                let mut column = working.column_mut(parameter);
+                column += moved;
+            }
+            working -= term.start * mean;
+            let weighted = innovation.weight * working;
+            gram += working.transpose() * weighted;
+            cross += innovation.columns.fixed_columns::<ERRORS>(1).transpose() * weighted;
+            mean = innovation.gain * working;
+            pose = *end;
         }
-        (mean.map(|sum| sum / count), squares)
+        (gram - cross.transpose() * covariance * cross) * 0.5
     }
 }
 
-/// A residual's square is far from the rest beyond this many medians of them: of a normal distribution one in 25,000 is, of a
-/// mixture of straight legs and turns a few in a hundred are.
-const FAR: f64 = 8.0 / 0.454_936;
-
-/// Deviations at which a normal density is about 10⁻²⁰⁰.
-const FARTHEST: f64 = 30.0;
-
-/// Deviations within which the rounded end of a triangle is no parabola.
-const NEAR: f64 = 3.0;
-
-/// A row with a residual near a blurred corner takes as long as so many others besides.
-const BLURRED: usize = 4;
-
-/// So many tell a median to a hundredth.
-const ENOUGH_FOR_A_MEDIAN: usize = 10_000;
-
-/// For [`Evidence::width`]: a few deviations of an α, and 400 residuals on either side of the edge, of however many legs.
-const EDGE: f64 = 20.0;
-
-/// Where the likelihood is asked for.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Parameters {
-    pub alphas: Alphas,
-    pub bad: Option<Bad>,
-    /// What noise is taken for.
-    pub noise: NoiseKind,
+fn reference_covariance(parameters: &Parameters) -> Matrix3<f64> {
+    Matrix3::from_diagonal(&Vector3::new(parameters[POSITION], parameters[POSITION], parameters[YAW]))
 }
 
-/// What the parameters make of a leg.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct LegDensity {
-    /// Of the residuals that it tells.
-    pub variances: [Option<f64>; 3],
-    /// The probability that it is bad.
-    pub bad: f64,
-    /// The derivatives of its log-likelihood by the α's.
-    pub gradient: Alphas,
+/// Returns the inverse of the rows and columns in the mask, 0 elsewhere, and the logarithm of their determinant.
+pub(super) fn masked_inverse(information: &ErrorMatrix, mask: &ErrorMask) -> (ErrorMatrix, f64) {
+    let (mut inverse, mut log_det) = (*information, 0.0);
+    for pivot in (0..ERRORS).filter(|pivot| mask[*pivot]) {
+        log_det += libm::log(inverse[(pivot, pivot)].max(f64::MIN_POSITIVE));
+        sweep(&mut inverse, pivot);
+    }
+    for i in 0..ERRORS {
+        for j in 0..ERRORS {
+            if !(mask[i] && mask[j]) {
+                inverse[(i, j)] = 0.0;
+            }
+        }
+    }
+    (inverse, log_det)
 }
 
-/// The log-likelihood at a point, and how it changes about that.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Slope {
-    pub log_likelihood: f64,
-    pub gradient: Alphas,
-    pub information: [Alphas; 6],
-    /// What the bad legs are likely to be, if that was asked for.
-    pub bad: Option<Bad>,
+/// Returns the systematic errors that are identifiable: one is swept after the other, the best known first, until the best of those
+/// left has too large a standard error beside those that were swept.
+pub(super) fn identifiable_errors(information: &ErrorMatrix) -> ErrorMask {
+    let (mut swept, mut chosen) = (*information, [false; ERRORS]);
+    loop {
+        let known = |error: usize| {
+            let limit = SystematicError::ALL[error].identifiability_limit();
+            swept[(error, error)] * limit * limit
+        };
+        let next = (0..ERRORS).filter(|error| !chosen[*error]).map(|error| (error, known(error)));
+        let Some((pivot, _)) = next.max_by(|a, b| a.1.total_cmp(&b.1)).filter(|(_, known)| *known > 1.0)
+        else {
+            return chosen;
+        };
+        chosen[pivot] = true;
+        sweep(&mut swept, pivot);
+    }
+}
+
+/// Sweeps a symmetric matrix by one of its variables (Gauss and Jordan).
+fn sweep(matrix: &mut ErrorMatrix, pivot: usize) {
+    let scale = matrix[(pivot, pivot)];
+    let row = matrix.row(pivot) / scale;
+    for i in (0..ERRORS).filter(|i| *i != pivot) {
+        let factor = matrix[(i, pivot)];
+        for j in 0..ERRORS {
+            matrix[(i, j)] -= factor * row[j];
+        }
+        matrix[(i, pivot)] = -factor / scale;
+    }
+    matrix.set_row(pivot, &row);
+    matrix[(pivot, pivot)] = 1.0 / scale;
 }

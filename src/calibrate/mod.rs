@@ -1,42 +1,155 @@
-//! The α's of a robot, from a log: what its wheels said, and where it really went.
+//! Calibration of a robot's α's, from a log of what its wheels read and of where it really went.
 //!
-//! [`calibrate`] does it all, [`Calibrating`] in steps. A log is two [`Trajectory`]s. It is cut into [`Leg`]s as long as those of the
-//! filter that is to use the α's; each leg gives an [`Observation`], residuals whose variances are linear in the α's; what is
-//! [`Systematic`] is found by least squares, and the α's are those under which the residuals are likeliest. `doc/calibration.md`
-//! has the formulas.
+//! [`calibrate`] cuts the log into [`Leg`]s as long as the updates of the filter that is to use the α's. Each gives residuals whose variances
+//! are linear in the α's ([`Observation`]). α's, the noise of the reference and the systematic errors are those of the largest restricted
+//! likelihood. Checks tell whether to trust them, and windows of a metre by how much to inflate them. `doc/calibration.md` has the formulas.
 
-mod bad;
-mod bootstrap;
-mod calibrating;
-mod calibration;
-mod clock;
-mod density;
-mod doubts;
-mod judging;
-mod leg_lengths;
+mod alignment;
+mod checks;
+mod constancy;
+mod fit;
+mod identifiability;
+mod intervals;
 mod legs;
 mod likelihood;
-mod maximum;
-mod mismatch;
-mod model;
-mod overstated;
-mod profile;
-mod stages;
+mod optimizer;
+mod outliers;
+mod recommendation;
+mod residuals;
+mod result;
 mod systematic;
 mod trajectory;
-mod undetermined;
-mod work;
+mod windows;
 
-pub use bad::Robust;
-pub use calibrating::{Calibrating, calibrate};
-pub use calibration::{CalibrateError, Calibration, Options, ReferenceError};
-pub use doubts::{Doubts, HeldOut, Inflation, Judged, KindDoubts, Verdict};
-pub use leg_lengths::{AtLength, FACTORS};
-pub use legs::{FEWEST, Leg, LegLength, cut};
-pub use likelihood::Evidence;
-pub use model::{Kind, Model, Observation, Uncertainty};
-pub use profile::{Estimate, fit};
-pub use systematic::{ERRORS, Error, Systematic, Which};
-pub(crate) use trajectory::sort;
+pub use checks::{Check, CheckName, Diagnostics, Verdict};
+pub use identifiability::NotIdentifiable;
+pub use legs::{Leg, LegLength, LostLegs, MIN_LEGS, split_into_legs};
+pub use residuals::{Model, NoiseComponent, Observation};
+pub use result::{
+    CalibrateError, Calibration, Drive, Estimate, LegFit, Options, Outliers, Persistence, Recommended,
+};
+pub use systematic::{ERRORS, ErrorMask, Systematic, SystematicError};
 pub use trajectory::{Trajectory, TrajectoryError, TrajectoryFault};
-pub use undetermined::Undetermined;
+pub use windows::WindowCoverage;
+
+use fit::{Log, Sample, fit_corrected, fit_systematic, free_parameters};
+use identifiability::identifiability;
+use intervals::intervals;
+use likelihood::{POSITION, Standardized, YAW};
+use result::NORMAL_95;
+
+/// Calibrates the α's of a robot from one drive or several.
+///
+/// # Errors
+/// [`CalibrateError`] where odometry and reference have nothing in common, or there are fewer than [`MIN_LEGS`] legs.
+pub fn calibrate(drives: &[Drive], options: &Options) -> Result<Calibration, CalibrateError> {
+    let log = Log::new(drives)?;
+    let systematic = fit_systematic(&log, options)?;
+    let persistence = persistence(&systematic.sample, &systematic.innovations);
+    // Errors that persist are known as by fewer legs.
+    let correlation = persistence.correlation.value;
+    let repeated = ((1.0 + correlation) / (1.0 - correlation)).sqrt();
+    let systematic_stds = systematic.stds.map(|std| (std > 0.0).then_some(repeated * std));
+    let (scale_checks, is_constant) = constancy::scale_checks(&systematic, options, repeated);
+    let is_corrected: ErrorMask =
+        std::array::from_fn(|i| systematic_stds[i].is_some() && options.correct[i].unwrap_or(is_constant[i]));
+    let mut corrected = Systematic::NONE;
+    for (i, error) in SystematicError::ALL.into_iter().enumerate().filter(|(i, _)| is_corrected[*i]) {
+        corrected.set(error, systematic.systematic.get(error));
+        debug_assert_eq!(error as usize, i);
+    }
+    let (fit, all, lost) =
+        fit_corrected(&log, options, &corrected, is_corrected, &systematic.maximum.parameters)?;
+    let free = free_parameters(options);
+    let parameters = &fit.maximum.parameters;
+    let not_identifiable =
+        identifiability(options.model, &fit.maximum.expansion, parameters, &free, &fit.sample.observations);
+    let all_intervals = intervals(&fit.residuals, &fit.maximum, &free, correlation);
+    let identified = |alpha: usize| not_identifiable[alpha].is_none();
+    let alphas: Vec<Option<f64>> =
+        (0..options.model.alphas()).map(|alpha| identified(alpha).then_some(parameters[alpha])).collect();
+    let std = |parameter: usize| Estimate {
+        value: parameters[parameter].sqrt(),
+        interval: all_intervals[parameter].map(f64::sqrt),
+    };
+    let leg_fits = leg_fits(&all, options, &fit);
+    let mut checks = checks::log_checks(&all, &lost, options.legs, &systematic.systematic);
+    checks.extend(scale_checks);
+    let signed = correlation_of(&fit.sample, &fit.innovations).0;
+    checks.extend(checks::residual_checks(&all, &leg_fits, signed));
+    let recommendation = recommendation::recommend(&fit, &all, options, &alphas);
+    checks.extend(recommendation.checks);
+    let verdict = checks::verdict(&checks, alphas.iter().any(Option::is_some));
+    Ok(Calibration {
+        intervals: (0..alphas.len()).map(|alpha| identified(alpha).then_some(all_intervals[alpha])).collect(),
+        alphas,
+        not_identifiable,
+        systematic: systematic.systematic,
+        systematic_stds,
+        is_constant,
+        corrected,
+        is_corrected,
+        reference_noise: [std(POSITION), std(YAW)],
+        persistence,
+        log_likelihood: fit.maximum.expansion.log_likelihood,
+        legs: all.legs,
+        observations: all.observations,
+        leg_fits,
+        lost,
+        diagnostics: Diagnostics { verdict, checks, windows: recommendation.windows },
+        recommended: (verdict != Verdict::Unusable).then_some(recommendation.recommended),
+    })
+}
+
+/// Innovations of all legs under the fit to a sample of them.
+fn leg_fits(all: &Sample, options: &Options, fit: &fit::Fit) -> Vec<LegFit> {
+    let innovations = if all.legs.len() == fit.sample.legs.len() {
+        fit.innovations.clone()
+    } else {
+        let kept = all.residuals(options, fit.residuals.estimated, |leg| !all.outliers[leg]);
+        all.innovations(options, &kept, &fit.maximum.parameters)
+    };
+    let of = |(Standardized { stds, components, squared, .. }, is_outlier): (Standardized, &bool)| LegFit {
+        stds,
+        standardized: components,
+        squared,
+        is_outlier: *is_outlier,
+    };
+    innovations.into_iter().zip(&all.outliers).map(of).collect()
+}
+
+/// Correlation of the innovations of neighbouring legs, and its standard error.
+fn correlation_of(sample: &Sample, innovations: &[Standardized]) -> (f64, f64) {
+    let (mut product, mut squares, mut count) = (0.0, 0.0, 0);
+    for leg in 1..sample.legs.len() {
+        if !sample.legs[leg].follows || sample.outliers[leg] || sample.outliers[leg - 1] {
+            continue;
+        }
+        for component in 0..3 {
+            let seen = |leg: usize| !sample.observations[leg].residuals[component].is_nan();
+            if seen(leg) && seen(leg - 1) {
+                let [before, after] = [leg - 1, leg].map(|leg| innovations[leg].components[component]);
+                product += before * after;
+                squares += 0.5 * (before * before + after * after);
+                count += 1;
+            }
+        }
+    }
+    if count == 0 { (0.0, 1.0) } else { (product / squares, 1.0 / f64::from(count).sqrt()) }
+}
+
+/// Correlation of the wheels' errors in neighbouring legs, and how far it reaches.
+fn persistence(sample: &Sample, innovations: &[Standardized]) -> Persistence {
+    let (correlation, std) = correlation_of(sample, innovations);
+    let inside = |value: f64| value.clamp(0.0, 0.95);
+    // A correlation that chance explains is none.
+    let value = if correlation > NORMAL_95 * std { inside(correlation) } else { 0.0 };
+    let interval = [inside(correlation - NORMAL_95 * std), inside(correlation + NORMAL_95 * std)];
+    let driven = |leg: &Leg| {
+        let motion = leg.odometry[0].inverse() * leg.odometry[1];
+        libm::hypot(motion.x(), motion.y())
+    };
+    let mean = sample.legs.iter().map(driven).sum::<f64>() / sample.legs.len() as f64;
+    let length = if value > 0.0 { -mean / libm::log(value) } else { 0.0 };
+    Persistence { correlation: Estimate { value, interval }, length }
+}

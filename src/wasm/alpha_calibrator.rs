@@ -3,7 +3,7 @@
 use super::calibration::{calibration_to_js, columns_to_js};
 use super::face::{configured, sliced, stoppable};
 use super::fields::{whole, word};
-use super::log::{read_odometry, read_reference};
+use super::log::{read_odometry, read_poses};
 use super::pictures::index_of;
 use super::values::{flat, floats, object, plain};
 use crate::sim::alpha_calibrator::{AlphaCalibrator, LegView, Log};
@@ -13,7 +13,7 @@ use wasm_bindgen::prelude::*;
 const TYPES: &str = r#"
 /** The true values of the simulated log. */
 export interface CalibrationTruth {
-  /** Of the rule `table` on legs of 0.25 m or 0.2 rad. */
+  /** Of the rule `thrun` on legs of 0.25 m or 0.2 rad. */
   alphas: number[];
   clockOffset: number;
   mountYaw: number;
@@ -72,7 +72,7 @@ impl JsAlphaCalibrator {
     pub fn set_log(
         &mut self,
         #[wasm_bindgen(unchecked_param_type = "LoggedPoses | LoggedCommands")] odometry: &JsValue,
-        #[wasm_bindgen(unchecked_param_type = "LoggedReference")] reference: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "LoggedPoses")] reference: &JsValue,
     ) -> Result<(), JsValue> {
         self.0.set_log(read_log(odometry, reference)?);
         Ok(())
@@ -83,7 +83,7 @@ impl JsAlphaCalibrator {
     pub fn begin_log(
         &mut self,
         #[wasm_bindgen(unchecked_param_type = "LoggedPoses | LoggedCommands")] odometry: &JsValue,
-        #[wasm_bindgen(unchecked_param_type = "LoggedReference")] reference: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "LoggedPoses")] reference: &JsValue,
     ) -> Result<(), JsValue> {
         self.0.begin_log(read_log(odometry, reference)?);
         Ok(())
@@ -129,12 +129,10 @@ impl JsAlphaCalibrator {
         index_of(x, y, radius, |target, radius| self.0.nearest(target, radius))
     }
 
-    /// All that the log says but for its legs, as `calibrate` tells it; of too few legs, without any figure.
+    /// Result of the calibration without its legs; of a log with too few legs, one without any figure.
     #[wasm_bindgen(getter, unchecked_return_type = "Omit<Calibration, 'legs'>")]
-    pub fn stats(&self) -> JsValue {
-        let gaps = self.0.log().map(|Log { odometry, reference, .. }| [odometry.gaps(), reference.gaps()]);
-        let removed = self.0.shown_settings().removed();
-        calibration_to_js(&self.0.summary(), removed, gaps.unwrap_or_default(), None)
+    pub fn stats(&self) -> Result<JsValue, JsValue> {
+        calibration_to_js(self.0.calibration(), None)
     }
 
     /// The legs, as `calibrate` tells them; copies.
@@ -152,6 +150,5 @@ impl JsAlphaCalibrator {
 
 fn read_log(odometry: &JsValue, reference: &JsValue) -> Result<Log, JsValue> {
     let odometry = read_odometry("odometry", odometry)?;
-    let (reference, error) = read_reference("reference", reference)?;
-    Ok(Log { odometry, reference, error })
+    Ok(Log { odometry, reference: read_poses("reference", reference)? })
 }

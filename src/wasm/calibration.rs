@@ -1,8 +1,8 @@
 //! Calibrations as plain JavaScript values.
 
-use super::values::{floats, list, number_or_null, object};
+use super::values::{floats, list, number_or_null, object, plain};
 use crate::calibrate::{
-    AtLength, Calibration, Doubts, Error, Inflation, KindDoubts, Undetermined, Verdict, Which,
+    Calibration, Check, ErrorMask, Estimate, NotIdentifiable, Recommended, SystematicError, Verdict,
 };
 use js_sys::Array;
 use wasm_bindgen::prelude::*;
@@ -12,186 +12,155 @@ const TYPES: &str = r#"
 /** An interval that holds the true value in 95 of 100 logs. */
 export type Interval = [number, number];
 
-/** A systematic error: what the reference says of the odometry. Null where the log does not determine it. */
+/** An estimate with its 95 % interval. */
+export interface Estimate {
+  value: number;
+  interval: Interval;
+}
+
+/** A systematic error. Null where the log does not identify it. */
 export interface SystematicValue {
   value: number | null;
   interval: Interval | null;
-  /** Whether it was removed before the α's were fitted: of what was to be, what the log determines. */
-  removed: boolean;
+  /** Whether it is the same on straight and turning legs, and in both halves of the log; only scales are compared. */
+  constant: boolean;
+  /** Whether it was corrected before the α's were fitted. */
+  corrected: boolean;
 }
 
-/** The residuals of one kind, each by its standard deviation; bad legs left out. */
-export interface KindDoubts {
-  name: 'rot1' | 'trans' | 'rot2' | 'strafe' | 'v' | 'omega' | 'gamma';
+/** One check of a calibration. */
+export interface CalibrationCheck {
+  name:
+    | 'reference-matches' | 'enough-legs' | 'legs-lost' | 'sampling-dense' | 'outliers-few'
+    | 'distance-scale-constant' | 'turn-scale-constant' | 'residuals-uncorrelated' | 'tails-normal'
+    | 'holdout-covered' | 'window-1m-covered' | 'window-2m-covered' | 'window-5m-covered';
+  value: number;
+  /** Smallest and largest value that passes; ±Infinity where there is no bound. */
+  expected: Interval;
+  passed: boolean;
+  /** What the value means for the α's and what to do; empty where it passed. */
+  message: string;
+}
+
+/** Coverage of held-out windows of several legs by the fitted α's. */
+export interface WindowCoverage {
+  /** Distance driven, m. */
+  length: number;
   count: number;
-  /** Of each half of the log by itself, in the mean. */
-  kurtosis: number;
-  /** What that is if the model is true: of normal noise 3, of triangular 2.4 and more, as the reference's own error is normal. */
-  kurtosisExpected: number;
-  /** Of neighbouring legs; the model says 0. */
-  autocorrelation: number;
-  /** Below this it is in 95 of 100 logs of which the model is true. */
-  autocorrelationLimit: number;
-  /** At 0.01, 0.02, … 0.99. */
-  quantiles: Float64Array;
+  /** Fraction inside of the 95 % ellipsoid; NaN of no windows. */
+  coverage: number;
+  /** Mean squared Mahalanobis distance over 3; 1 if the α's hold. */
+  nees: number;
 }
 
-/** What a log says of a robot's α's. */
+/** Result of a calibration. */
 export interface Calibration {
-  /** Null where this log does not determine one. */
+  /** Fitted α's. Null where the log does not identify one. */
   alphas: (number | null)[];
-  /**
-   * Why not, null where it does: the robot turned too little (under the velocity model while it drove); it hardly went anywhere;
-   * the reference's stated error is larger than what even an α of 1 would make of its turns or ways; or turn and way had one ratio in all legs, so that one α may answer for what is another's.
-   */
-  undetermined: ('turns-too-little' | 'drives-too-little' | 'reference-too-coarse' | 'one-ratio' | null)[];
-  /** By the profile of the likelihood. */
+  /** 95 % intervals by the profile likelihood, wider where the errors of neighbouring legs are correlated. */
   intervals: (Interval | null)[];
-  /** By a bootstrap of blocks of legs, which does not take them for independent. */
-  bootstrap: (Interval | null)[];
+  /** Why the log does not identify an α; null where it does. */
+  notIdentifiable: ('insufficient-rotation' | 'insufficient-translation' | 'reference-too-noisy' | 'collinear' | null)[];
   /**
    * Reference's time = odometry's time + clockOffset (s); reference's heading = base's heading + mountYaw (rad); the point that
    * the reference follows is at leverArm (m, ahead and to the left) of the base; true distance = distanceScale × odometry's;
    * true turn = turnScale × odometry's.
    */
-  systematic: {
+  systematicErrors: {
     clockOffset: SystematicValue;
     mountYaw: SystematicValue;
-    leverArm: { value: [number | null, number | null]; interval: [Interval | null, Interval | null]; removed: boolean };
+    leverArm: Omit<SystematicValue, 'value' | 'interval'> & { value: [number | null, number | null]; interval: [Interval | null, Interval | null] };
     distanceScale: SystematicValue;
     turnScale: SystematicValue;
   };
+  /** Standard deviations of the reference: each coordinate (m) and heading (rad). */
+  referenceNoise: { positionStd: Estimate; yawStd: Estimate };
+  /** Correlation of the wheels' errors in neighbouring legs, 0 of independent ones, and the distance (m) over which it falls to 1/e. */
+  persistence: { correlation: Estimate; length: number };
   legs: CalibrationLegs;
-  /** Of the residuals, nats. */
+  /** Legs that the log does not give, by cause. */
+  lost: { withoutReference: number; acrossBreaks: number; acrossPauses: number; standing: number };
+  /** Restricted log-likelihood of the residuals, nats. */
   logLikelihood: number;
-  /** The share of bad legs; null where none is taken for bad. */
-  outliers: number | null;
-  doubts: {
-    kinds: KindDoubts[];
-    /** The second half of the log by the α's of the first; intervals say where a figure is in 95 of 100 logs of which the model is true. */
-    heldOut: { count: number; coverage: number; expected: number; interval: Interval; logLikelihood: number };
-    /** The mean of (r/σ)² over the held-out residuals. */
-    squaredError: { mean: number; interval: Interval };
-    /** Places of the legs that are furthest from what was expected, the worst first. */
-    worst: number[];
-    verdict: 'few-legs' | 'unrelated' | 'long-legs' | 'overstated' | 'correlated' | 'understated' | 'heavy-tails' | 'overconfident' | 'lazy' | 'fits';
+  diagnostics: {
+    verdict: 'consistent' | 'questionable' | 'unusable';
+    checks: CalibrationCheck[];
+    windows: WindowCoverage[];
   };
-  /** What α's larger by a factor make of the held-out half: the share inside of 95 % intervals, and nats a leg. */
-  inflation: { factors: Float64Array; coverage: Float64Array; logLikelihood: Float64Array };
-  /** By the lengths of legs, from the shortest on; empty unless asked for. */
-  byLength: AlphasAtLength[];
-  /** How often nothing is known of the way, because a trajectory pauses or is said to break: no leg leads across. */
-  gaps: { odometry: number; reference: number };
-}
-
-/** The α's of legs of another length, without the systematic errors that those asked for have told. */
-export interface AlphasAtLength {
-  /** Their distance and angle, or their duration, are those asked for times ¼, ½, 1, 2 or 4. */
-  factor: number;
-  /** How many were fitted: of more than 20 000 as many are taken evenly. */
-  legs: number;
-  /**
-   * Null where they do not determine one: none where legs are fewer than eight, mostly shorter than four rows of the log, or such that
-   * turns of more than half a circle would be lost.
-   */
-  alphas: (number | null)[];
-  intervals: (Interval | null)[];
-  /** 95 % too, not taking legs for independent: much longer where a few legs that are far out decide. */
-  bootstrap: (Interval | null)[];
+  /** α's for a filter: the fitted ones times the inflation under which held-out windows of 1 m are covered. Null where the log is unusable. */
+  recommended: { alphas: (number | null)[]; inflation: number; reason: string } | null;
 }
 
 /** Legs, one after the other in each array. */
 export interface CalibrationLegs {
   count: number;
-  /** Beginning and end, s. */
+  /** Start and end, s. */
   times: Float64Array;
   /** Both ends in the odometry frame, x, y, θ. */
   odometry: Float64Array;
-  /** Both ends of the robot's base by the reference, x, y, θ, without the lever arm and the mount's yaw. */
+  /** Both ends of the robot's base by the reference, x, y, θ. */
   reference: Float64Array;
   /** rot1, trans, rot2; or v, ω, Δt. */
   readings: Float64Array;
-  /** Executed less expected, of the three kinds in their order; NaN of one that a leg does not tell. */
+  /** Executed minus expected, of each noise component; NaN of one that a leg does not show. */
   residuals: Float64Array;
-  /** Their standard deviations under the α's. */
-  deviations: Float64Array;
-  /** Σ (r/σ)². */
-  squaredError: Float64Array;
-  /** The probability that the leg is bad. */
-  bad: Float64Array;
+  /** Innovations over their standard deviations. */
+  standardized: Float64Array;
+  /** Standard deviations of the innovations. */
+  stds: Float64Array;
+  /** Squared Mahalanobis distance of the innovation. */
+  squared: Float64Array;
+  /** 1 of an outlier, otherwise 0. */
+  outliers: Float64Array;
 }
 "#;
 
-/// Name of each systematic error, and its members of [`Error::ALL`].
-pub const SYSTEMATIC: [(&str, &[Error]); 5] = [
-    ("clockOffset", &[Error::ClockOffset]),
-    ("mountYaw", &[Error::MountYaw]),
-    ("leverArm", &[Error::LeverArmAhead, Error::LeverArmLeft]),
-    ("distanceScale", &[Error::DistanceScale]),
-    ("turnScale", &[Error::TurnScale]),
+/// Name of each systematic error, and its members of [`SystematicError::ALL`].
+pub const SYSTEMATIC: [(&str, &[SystematicError]); 5] = [
+    ("clockOffset", &[SystematicError::ClockOffset]),
+    ("mountYaw", &[SystematicError::MountYaw]),
+    ("leverArm", &[SystematicError::LeverArmAhead, SystematicError::LeverArmLeft]),
+    ("distanceScale", &[SystematicError::DistanceScale]),
+    ("turnScale", &[SystematicError::TurnScale]),
 ];
 
-/// All that is told of a calibration; its legs where they are given.
-pub fn calibration_to_js(
-    calibration: &Calibration,
-    remove: Which,
-    gaps: [usize; 2],
-    legs: Option<JsValue>,
-) -> JsValue {
-    let Calibration { estimate, undetermined, bootstrap, doubts, inflation, by_length, .. } = calibration;
-    let undetermined: Array = undetermined.iter().map(|reason| undetermined_word(*reason)).collect();
-    let by_length: Array = by_length.iter().map(|at| at_length_to_js(at, estimate.alphas.len())).collect();
-    let [odometry_gaps, reference_gaps] = gaps.map(|gaps| JsValue::from(gaps as f64));
-    let told = [
-        ("alphas", alphas(&estimate.alphas)),
-        ("undetermined", undetermined.into()),
-        ("intervals", intervals(&estimate.intervals)),
-        ("bootstrap", intervals(bootstrap)),
-        ("systematic", systematic_to_js(calibration, remove)),
-        ("logLikelihood", estimate.log_likelihood.into()),
-        ("outliers", number_or_null(estimate.outliers)),
-        ("doubts", doubts_to_js(doubts)),
-        ("inflation", inflation_to_js(inflation)),
-        ("byLength", by_length.into()),
-        ("gaps", object(&[("odometry", odometry_gaps), ("reference", reference_gaps)])),
+/// Makes an object of a calibration, with its legs where they are given.
+pub fn calibration_to_js(calibration: &Calibration, legs: Option<JsValue>) -> Result<JsValue, JsValue> {
+    let Calibration { not_identifiable, reference_noise, persistence, diagnostics, recommended, .. } =
+        calibration;
+    let reasons: Array = not_identifiable.iter().map(|reason| reason_word(*reason)).collect();
+    let [position, yaw] = reference_noise.map(|estimate| estimate_to_js(&estimate));
+    let checks: Array = diagnostics.checks.iter().map(check_to_js).collect();
+    let entries = [
+        ("alphas", alphas(&calibration.alphas)),
+        ("intervals", intervals(&calibration.intervals)),
+        ("notIdentifiable", reasons.into()),
+        ("systematicErrors", systematic_to_js(calibration)),
+        ("referenceNoise", object(&[("positionStd", position), ("yawStd", yaw)])),
+        (
+            "persistence",
+            object(&[
+                ("correlation", estimate_to_js(&persistence.correlation)),
+                ("length", persistence.length.into()),
+            ]),
+        ),
+        ("lost", plain(&calibration.lost)?),
+        ("logLikelihood", calibration.log_likelihood.into()),
+        (
+            "diagnostics",
+            object(&[
+                ("verdict", verdict_word(diagnostics.verdict).into()),
+                ("checks", checks.into()),
+                ("windows", plain(&diagnostics.windows)?),
+            ]),
+        ),
+        ("recommended", recommended.as_ref().map_or(JsValue::NULL, recommended_to_js)),
     ];
-    object(&told.into_iter().chain(legs.map(|legs| ("legs", legs))).collect::<Vec<_>>())
+    Ok(object(&entries.into_iter().chain(legs.map(|legs| ("legs", legs))).collect::<Vec<_>>()))
 }
 
-fn known(number: f64) -> JsValue {
-    number_or_null(Some(number).filter(|number| !number.is_nan()))
-}
-
-fn alphas(alphas: &[f64]) -> JsValue {
-    alphas.iter().map(|alpha| known(*alpha)).collect::<Array>().into()
-}
-
-fn undetermined_word(reason: Option<Undetermined>) -> JsValue {
-    reason.map_or(JsValue::NULL, |reason| {
-        let word = match reason {
-            Undetermined::TurnsTooLittle => "turns-too-little",
-            Undetermined::DrivesTooLittle => "drives-too-little",
-            Undetermined::ReferenceTooCoarse => "reference-too-coarse",
-            Undetermined::OneRatio => "one-ratio",
-        };
-        word.into()
-    })
-}
-
-/// Without an estimate none of the α's is told.
-fn at_length_to_js(at: &AtLength, count: usize) -> JsValue {
-    let (none, unknown) = (vec![f64::NAN; count], vec![None; count]);
-    let (told, their, stretched) = at
-        .estimate
-        .as_ref()
-        .map_or((&none, &unknown, &unknown), |told| (&told.alphas, &told.intervals, &at.bootstrap));
-    object(&[
-        ("factor", at.factor.into()),
-        ("legs", (at.legs as f64).into()),
-        ("alphas", alphas(told)),
-        ("intervals", intervals(their)),
-        ("bootstrap", intervals(stretched)),
-    ])
+fn alphas(alphas: &[Option<f64>]) -> JsValue {
+    alphas.iter().map(|alpha| number_or_null(*alpha)).collect::<Array>().into()
 }
 
 fn interval(interval: Option<[f64; 2]>) -> JsValue {
@@ -202,12 +171,29 @@ fn intervals(intervals: &[Option<[f64; 2]>]) -> JsValue {
     intervals.iter().map(|each| interval(*each)).collect::<Array>().into()
 }
 
-fn systematic_to_js(calibration: &Calibration, remove: Which) -> JsValue {
-    let value = |error: Error| {
-        let determined = calibration.deviations[error as usize].is_some();
-        number_or_null(determined.then(|| calibration.systematic.get(error)))
+fn estimate_to_js(Estimate { value, interval }: &Estimate) -> JsValue {
+    object(&[("value", (*value).into()), ("interval", list(interval))])
+}
+
+fn reason_word(reason: Option<NotIdentifiable>) -> JsValue {
+    reason.map_or(JsValue::NULL, |reason| {
+        let word = match reason {
+            NotIdentifiable::InsufficientRotation => "insufficient-rotation",
+            NotIdentifiable::InsufficientTranslation => "insufficient-translation",
+            NotIdentifiable::ReferenceTooNoisy => "reference-too-noisy",
+            NotIdentifiable::Collinear => "collinear",
+        };
+        word.into()
+    })
+}
+
+fn systematic_to_js(calibration: &Calibration) -> JsValue {
+    let value = |error: SystematicError| {
+        let identified = calibration.systematic_stds[error as usize].is_some();
+        number_or_null(identified.then(|| calibration.systematic.get(error)))
     };
-    let of = |error: Error| interval(calibration.interval_of(error));
+    let of = |error: SystematicError| interval(calibration.interval_of(error));
+    let all = |mask: &ErrorMask, errors: &[SystematicError]| errors.iter().any(|error| mask[*error as usize]);
     let entries = SYSTEMATIC.iter().map(|(key, errors)| {
         let [value, interval] = match errors {
             [error] => [value(*error), of(*error)],
@@ -216,92 +202,56 @@ fn systematic_to_js(calibration: &Calibration, remove: Which) -> JsValue {
                 errors.iter().map(|error| of(*error)).collect::<Array>().into(),
             ],
         };
-        let determined = errors.iter().any(|error| calibration.deviations[*error as usize].is_some());
-        let removed = (determined && remove[errors[0] as usize]).into();
-        (*key, object(&[("value", value), ("interval", interval), ("removed", removed)]))
+        let constant = all(&calibration.is_constant, errors).into();
+        let corrected = all(&calibration.is_corrected, errors).into();
+        let entries =
+            [("value", value), ("interval", interval), ("constant", constant), ("corrected", corrected)];
+        (*key, object(&entries))
     });
     object(&entries.collect::<Vec<_>>())
 }
 
-fn doubts_to_js(doubts: &Doubts) -> JsValue {
-    let Doubts { kinds, held_out, worst, verdict } = doubts;
-    let kinds: Array = kinds.iter().map(kind_to_js).collect();
-    let worst: Vec<f64> = worst.iter().map(|place| *place as f64).collect();
-    object(&[
-        ("kinds", kinds.into()),
-        (
-            "heldOut",
-            object(&[
-                ("count", (held_out.count as f64).into()),
-                ("coverage", held_out.coverage.into()),
-                ("expected", 0.95.into()),
-                ("interval", list(&held_out.coverage_interval)),
-                ("logLikelihood", held_out.log_likelihood.into()),
-            ]),
-        ),
-        (
-            "squaredError",
-            object(&[
-                ("mean", held_out.squared_error.into()),
-                ("interval", list(&held_out.squared_error_interval)),
-            ]),
-        ),
-        ("worst", list(&worst)),
-        ("verdict", verdict_word(*verdict).into()),
-    ])
-}
-
-fn kind_to_js(kind: &KindDoubts) -> JsValue {
-    object(&[
-        ("name", kind.name.into()),
-        ("count", (kind.count as f64).into()),
-        ("kurtosis", kind.kurtosis.into()),
-        ("kurtosisExpected", kind.kurtosis_expected.into()),
-        ("autocorrelation", kind.autocorrelation.into()),
-        ("autocorrelationLimit", kind.autocorrelation_limit.into()),
-        ("quantiles", floats(&kind.quantiles)),
-    ])
-}
-
 fn verdict_word(verdict: Verdict) -> &'static str {
     match verdict {
-        Verdict::FewLegs => "few-legs",
-        Verdict::Unrelated => "unrelated",
-        Verdict::LongLegs => "long-legs",
-        Verdict::Overstated => "overstated",
-        Verdict::Understated => "understated",
-        Verdict::HeavyTails => "heavy-tails",
-        Verdict::Correlated => "correlated",
-        Verdict::Overconfident => "overconfident",
-        Verdict::Lazy => "lazy",
-        Verdict::Fits => "fits",
+        Verdict::Consistent => "consistent",
+        Verdict::Questionable => "questionable",
+        Verdict::Unusable => "unusable",
     }
 }
 
-fn inflation_to_js(inflation: &Inflation) -> JsValue {
+fn check_to_js(Check { name, value, expected, passed, message }: &Check) -> JsValue {
     object(&[
-        ("factors", floats(&inflation.factors)),
-        ("coverage", floats(&inflation.coverage)),
-        ("logLikelihood", floats(&inflation.log_likelihood)),
+        ("name", name.key().into()),
+        ("value", (*value).into()),
+        ("expected", list(expected)),
+        ("passed", (*passed).into()),
+        ("message", (*message).into()),
     ])
+}
+
+fn recommended_to_js(Recommended { alphas: all, inflation, reason }: &Recommended) -> JsValue {
+    object(&[("alphas", alphas(all)), ("inflation", (*inflation).into()), ("reason", reason.as_str().into())])
 }
 
 /// Makes arrays of the legs of a calibration, one leg after the other in each.
 pub fn columns_to_js(calibration: &Calibration) -> JsValue {
-    let Calibration { legs, observations, judged, removed, .. } = calibration;
+    let Calibration { legs, observations, leg_fits, corrected, .. } = calibration;
     let [mut times, mut odometry, mut reference, mut readings, mut residuals] = [const { Vec::new() }; 5];
-    let [mut deviations, mut squared_error, mut bad] = [const { Vec::new() }; 3];
-    for ((leg, observation), judged) in legs.iter().zip(observations).zip(judged) {
+    let [mut standardized, mut stds, mut squared, mut outliers] = [const { Vec::new() }; 4];
+    for ((leg, observation), fit) in legs.iter().zip(observations).zip(leg_fits) {
         times.extend_from_slice(&leg.times);
-        for [told, pose] in [0, 1].map(|end| [leg.odometry[end], removed.base(&leg.reference[end])]) {
-            odometry.extend_from_slice(&[told.x(), told.y(), told.theta()]);
+        for [read, pose] in [0, 1].map(|end| [leg.odometry[end], corrected.base(&leg.reference[end])]) {
+            odometry.extend_from_slice(&[read.x(), read.y(), read.theta()]);
             reference.extend_from_slice(&[pose.x(), pose.y(), pose.theta()]);
         }
         readings.extend_from_slice(&observation.reading);
         residuals.extend_from_slice(&observation.residuals);
-        deviations.extend_from_slice(&judged.deviations);
-        squared_error.push(judged.squared_error);
-        bad.push(judged.bad);
+        let observed =
+            |k: usize, number: f64| if observation.residuals[k].is_nan() { f64::NAN } else { number };
+        standardized.extend((0..3).map(|k| observed(k, fit.standardized[k])));
+        stds.extend((0..3).map(|k| observed(k, fit.stds[k])));
+        squared.push(fit.squared);
+        outliers.push(f64::from(u8::from(fit.is_outlier)));
     }
     object(&[
         ("count", (legs.len() as f64).into()),
@@ -310,8 +260,9 @@ pub fn columns_to_js(calibration: &Calibration) -> JsValue {
         ("reference", floats(&reference)),
         ("readings", floats(&readings)),
         ("residuals", floats(&residuals)),
-        ("deviations", floats(&deviations)),
-        ("squaredError", floats(&squared_error)),
-        ("bad", floats(&bad)),
+        ("standardized", floats(&standardized)),
+        ("stds", floats(&stds)),
+        ("squared", floats(&squared)),
+        ("outliers", floats(&outliers)),
     ])
 }

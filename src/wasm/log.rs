@@ -1,7 +1,7 @@
 //! Logs of JavaScript: odometry and reference.
 
-use super::fields::{Fields, in_range, item, length, number, printed, type_error, whole};
-use crate::calibrate::{ReferenceError, Trajectory, TrajectoryError, TrajectoryFault};
+use super::fields::{Fields, item, length, number, printed, type_error, whole};
+use crate::calibrate::{Trajectory, TrajectoryError, TrajectoryFault};
 use crate::geom::se2::SE2;
 use crate::sim::settings::check_real;
 use js_sys::{Float64Array, RangeError};
@@ -27,14 +27,6 @@ export interface LoggedCommands {
   omega: ArrayLike<number>;
   /** As of poses. */
   breaks?: ArrayLike<number>;
-}
-
-/** Where the robot really was, in any fixed frame, and how well that is known at one moment. */
-export interface LoggedReference extends LoggedPoses {
-  /** Standard deviation of each coordinate, m; opens with 0. */
-  positionDeviation?: number;
-  /** Of the heading, rad; opens with 0. */
-  headingDeviation?: number;
 }
 "#;
 
@@ -65,18 +57,10 @@ pub fn read_odometry(field: &str, value: &JsValue) -> Result<Trajectory, JsValue
     trajectory(&fields, Trajectory::from_commands(commands))
 }
 
-/// Poses, and how well they are known.
-pub fn read_reference(field: &str, value: &JsValue) -> Result<(Trajectory, ReferenceError), JsValue> {
+/// Poses.
+pub fn read_poses(field: &str, value: &JsValue) -> Result<Trajectory, JsValue> {
     let prefix = format!("{field}.");
-    let keys = ["t", "x", "y", "theta", "breaks", "positionDeviation", "headingDeviation"];
-    let fields = Fields::new(field, &prefix, value, &keys)?;
-    let deviation =
-        |key: &str| fields.optional(key, |path, value| in_range(path, number(path, value)?, &(0.0..=1e3)));
-    let error = ReferenceError {
-        position: deviation("positionDeviation")?.unwrap_or(0.0),
-        heading: deviation("headingDeviation")?.unwrap_or(0.0),
-    };
-    Ok((poses(&fields)?, error))
+    poses(&Fields::new(field, &prefix, value, &["t", "x", "y", "theta", "breaks"])?)
 }
 
 fn poses(fields: &Fields) -> Result<Trajectory, JsValue> {
@@ -118,7 +102,7 @@ fn broken(fields: &Fields, mut trajectory: Trajectory) -> Result<Trajectory, JsV
             let message = format!("{path} is {sample}; allowed is more than {before}, the one before it");
             return Err(RangeError::new(&message).into());
         }
-        trajectory = trajectory.broken_before([sample]);
+        trajectory = trajectory.with_breaks_before([sample]);
         before = sample;
     }
     Ok(trajectory)

@@ -6,7 +6,7 @@
 //! size that they are taken for.
 
 use super::Log;
-use crate::calibrate::{ReferenceError, Trajectory};
+use crate::calibrate::Trajectory;
 use crate::geom::se2::{SE2, wrap_angle};
 use crate::models::{OdomDelta, OdometryRule};
 use crate::noise::{NoiseKind, Variance};
@@ -124,11 +124,7 @@ pub fn example(seed: u64) -> Log {
         let Ok(trajectory) = Trajectory::new(samples) else { unreachable!() };
         trajectory
     };
-    Log {
-        odometry: trajectory(odometry),
-        reference: trajectory(seen(&truth, &mut rng)),
-        error: ReferenceError::default(),
-    }
+    Log { odometry: trajectory(odometry), reference: trajectory(seen(&truth, &mut rng)) }
 }
 
 /// The leg has ended: its truth. The noise comes bit by bit, each with its share of the variance and independent of the others:

@@ -9,10 +9,7 @@ pub use settings::*;
 
 use super::cloud::draws::Draws;
 use super::settings::{Rules, SettingsError};
-use crate::calibrate::{
-    Calibrating, Calibration, Doubts, ERRORS, Estimate, HeldOut, Inflation, KindDoubts, Leg, Options,
-    ReferenceError, Robust, Systematic, Trajectory, Verdict,
-};
+use crate::calibrate::{Calibration, Drive, Leg, Trajectory, calibrate};
 use crate::geom::se2::SE2;
 use crate::models::{OdomDelta, RuleAlphas, VelocityAlphas, VelocityCmd, VelocityModel};
 use crate::stats::{CartesianMoments, Ellipse};
@@ -30,8 +27,6 @@ const OUTLINE_SEGMENTS: usize = 64;
 pub struct Log {
     pub odometry: Trajectory,
     pub reference: Trajectory,
-    /// How well the reference is known.
-    pub error: ReferenceError,
 }
 
 /// What is known of the log that the widget opens with.
@@ -65,8 +60,8 @@ pub struct AlphaCalibrator {
     settings: Settings,
     /// Log and calibration that are shown.
     shown: Shown,
-    /// Fit under way, which replaces what is shown when it is complete.
-    next: Option<Fitting>,
+    /// Source of the log that is to be fitted next.
+    next: Option<Source>,
     /// Number of completed fits.
     fits: u32,
 }
@@ -96,14 +91,6 @@ struct Shown {
     calibration: Calibration,
 }
 
-/// A calibration under way.
-#[derive(Clone, Debug)]
-struct Fitting {
-    source: Source,
-    /// None until the log is there.
-    calibrating: Option<Calibrating>,
-}
-
 impl AlphaCalibrator {
     /// The widget as it opens, with the simulated log.
     ///
@@ -122,10 +109,9 @@ impl AlphaCalibrator {
     pub fn empty(settings: Settings) -> Result<Self, SettingsError> {
         settings.check()?;
         let source = Source::Simulated(settings.seed, None);
-        let shown = Shown { settings, source: source.clone(), calibration: nothing(&settings) };
-        let mut machine = Self { settings, shown, next: None, fits: 0 };
-        machine.fit(source);
-        Ok(machine)
+        let shown =
+            Shown { settings, source: source.clone(), calibration: Calibration::empty(settings.model()) };
+        Ok(Self { settings, shown, next: Some(source), fits: 0 })
     }
 
     pub fn settings(&self) -> &Settings {
@@ -142,8 +128,7 @@ impl AlphaCalibrator {
         Ok(())
     }
 
-    /// As [`AlphaCalibrator::configure`], in slices: [`AlphaCalibrator::advance`] is to be called until it says true. Until then
-    /// the figures are the former ones.
+    /// As [`AlphaCalibrator::configure`], but the fit is left to [`AlphaCalibrator::advance`]. Until then the figures are the former ones.
     ///
     /// # Errors
     /// As [`AlphaCalibrator::configure`].
@@ -157,7 +142,7 @@ impl AlphaCalibrator {
                 }
                 same => same.clone(),
             };
-            self.fit(source);
+            self.next = Some(source);
         }
         if self.next.is_none() {
             self.shown.settings = settings;
@@ -167,7 +152,7 @@ impl AlphaCalibrator {
 
     /// Begins with another log, as [`AlphaCalibrator::begin`] with other settings.
     pub fn begin_log(&mut self, log: Log) {
-        self.fit(Source::Own(Arc::new(log)));
+        self.next = Some(Source::Own(Arc::new(log)));
     }
 
     /// Puts another log in the place of the present one.
@@ -176,34 +161,25 @@ impl AlphaCalibrator {
         self.finish();
     }
 
-    fn fit(&mut self, source: Source) {
-        self.next = Some(Fitting { source, calibrating: None });
-    }
-
     /// The log of what was begun last, whether that is complete or not.
     fn latest(&self) -> &Source {
-        self.next.as_ref().map_or(&self.shown.source, |next| &next.source)
+        self.next.as_ref().unwrap_or(&self.shown.source)
     }
 
-    /// Advances the fit that was begun by one step. Returns whether it is complete. A log with too few legs ends in a calibration without legs.
+    /// Fits the log that was begun, if any; returns true. A log with too few legs ends in a calibration without legs.
     pub fn advance(&mut self) -> bool {
-        let Some(Fitting { source, calibrating }) = &mut self.next else { return true };
-        let log = source.made();
-        let Some(calibrating) = calibrating else {
-            *calibrating = Some(Calibrating::new(options(&self.settings, log)));
-            return false;
-        };
-        let step = calibrating.step(&log.odometry, &log.reference);
-        let Some(calibration) = step.unwrap_or_else(|_| Some(nothing(&self.settings))) else { return false };
-        let source = source.clone();
+        let Some(mut source) = self.next.take() else { return true };
+        let Log { odometry, reference } = source.made();
+        let drive = Drive { odometry, reference };
+        let calibration = calibrate(&[drive], &self.settings.options());
+        let calibration = calibration.unwrap_or_else(|_| Calibration::empty(self.settings.model()));
         self.shown = Shown { settings: self.settings, source, calibration };
-        self.next = None;
         self.fits += 1;
         true
     }
 
     fn finish(&mut self) {
-        while !self.advance() {}
+        self.advance();
     }
 
     /// How often the figures have become others.
@@ -211,10 +187,9 @@ impl AlphaCalibrator {
         self.fits
     }
 
-    /// How much is done of what was begun, from 0 to 1.
+    /// Progress of what was begun, 0 or 1.
     pub fn progress(&self) -> f64 {
-        let Some(next) = &self.next else { return 1.0 };
-        next.calibrating.as_ref().map_or(0.0, Calibrating::progress)
+        f64::from(u8::from(self.next.is_none()))
     }
 
     /// Gives up what was begun: settings and figures are the former ones.
@@ -226,41 +201,6 @@ impl AlphaCalibrator {
     /// What is fitted.
     pub fn calibration(&self) -> &Calibration {
         &self.shown.calibration
-    }
-
-    /// What is fitted but for its legs, of which there may be many.
-    pub fn summary(&self) -> Calibration {
-        let Calibration {
-            estimate,
-            undetermined,
-            bootstrap,
-            systematic,
-            deviations,
-            removed,
-            doubts,
-            inflation,
-            by_length,
-            ..
-        } = self.calibration();
-        Calibration {
-            estimate: estimate.clone(),
-            undetermined: undetermined.clone(),
-            bootstrap: bootstrap.clone(),
-            systematic: *systematic,
-            deviations: *deviations,
-            removed: *removed,
-            legs: vec![],
-            observations: vec![],
-            judged: vec![],
-            doubts: doubts.clone(),
-            inflation: inflation.clone(),
-            by_length: by_length.clone(),
-        }
-    }
-
-    /// The settings under which it is fitted: during a change the former ones.
-    pub fn shown_settings(&self) -> &Settings {
-        &self.shown.settings
     }
 
     /// The log that it is fitted to; None before anything is.
@@ -289,8 +229,7 @@ impl AlphaCalibrator {
 
     /// Squared residuals against what drives them.
     pub fn panels(&self, driver: Driver) -> [Panel; 3] {
-        let Settings { noise, .. } = self.shown.settings;
-        panels(self.shown.settings.model(), noise, self.calibration(), driver)
+        panels(self.shown.settings.model(), self.calibration(), driver)
     }
 
     /// One leg from its beginning; None where there is no such leg.
@@ -305,7 +244,7 @@ impl AlphaCalibrator {
         let cloud = Ellipse::from_moments(&CartesianMoments::from_poses(&poses));
         let outline = if cloud.has_area() { cloud.boundary(OUTLINE_SEGMENTS) } else { vec![] };
         let read = self.outcome(&reading, [0.0; 3]);
-        let [from, to] = leg.reference.map(|pose| self.calibration().removed.base(&pose));
+        let [from, to] = leg.reference.map(|pose| self.calibration().corrected.base(&pose));
         let ended = from.inverse() * to;
         Some(LegView { outcomes, outline, read: numbers(read), ended: numbers(ended) })
     }
@@ -313,9 +252,9 @@ impl AlphaCalibrator {
     /// Where a leg ends with such noise.
     fn outcome(&self, reading: &[f64; 3], unit_noise: [f64; 3]) -> SE2 {
         let Shown { settings, calibration, .. } = &self.shown;
-        let known = |k: usize| calibration.estimate.alphas.get(k).copied().filter(|alpha| !alpha.is_nan());
-        // One that the log does not determine adds nothing.
-        let alpha = |k: usize| settings.inflation * known(k).unwrap_or(0.0);
+        // An α that the log does not identify adds nothing.
+        let alpha =
+            |k: usize| settings.inflation * calibration.alphas.get(k).copied().flatten().unwrap_or(0.0);
         let [first, second, third] = *reading;
         if settings.model == Model::Velocity {
             let model =
@@ -332,9 +271,9 @@ impl AlphaCalibrator {
 
     /// The leg whose way is nearest to a point (m) and within `radius` of it.
     pub fn nearest(&self, [x, y]: [f64; 2], radius: f64) -> Option<usize> {
-        let removed = &self.calibration().removed;
+        let corrected = &self.calibration().corrected;
         let distance = |leg: &Leg| {
-            let [from, to] = leg.reference.map(|pose| removed.base(&pose));
+            let [from, to] = leg.reference.map(|pose| corrected.base(&pose));
             let [dx, dy] = [to.x() - from.x(), to.y() - from.y()];
             let [px, py] = [x - from.x(), y - from.y()];
             let square = dx * dx + dy * dy;
@@ -345,66 +284,6 @@ impl AlphaCalibrator {
         near.filter(|(_, distance)| *distance < radius)
             .min_by(|(_, one), (_, other)| one.total_cmp(other))
             .map(|(index, _)| index)
-    }
-}
-
-/// What is asked of the log.
-fn options(settings: &Settings, log: &Log) -> Options {
-    Options {
-        model: settings.model(),
-        legs: settings.legs(),
-        noise: settings.noise,
-        robust: if settings.robust { Robust::Estimated } else { Robust::No },
-        remove: settings.removed(),
-        reference_error: settings.reference_error(log.error),
-        seed: settings.seed,
-        by_length: settings.by_length,
-    }
-}
-
-/// What is said of a log of too few legs.
-fn nothing(settings: &Settings) -> Calibration {
-    let model = settings.model();
-    let none = |name| KindDoubts {
-        name,
-        count: 0,
-        kurtosis: f64::NAN,
-        kurtosis_expected: f64::NAN,
-        autocorrelation: f64::NAN,
-        autocorrelation_limit: f64::NAN,
-        quantiles: vec![f64::NAN; 99],
-    };
-    let held_out = HeldOut {
-        count: 0,
-        coverage: f64::NAN,
-        coverage_interval: [f64::NAN; 2],
-        squared_error: f64::NAN,
-        squared_error_interval: [f64::NAN; 2],
-        log_likelihood: f64::NAN,
-    };
-    Calibration {
-        estimate: Estimate {
-            alphas: vec![f64::NAN; model.alphas()],
-            intervals: vec![None; model.alphas()],
-            log_likelihood: f64::NAN,
-            outliers: None,
-        },
-        undetermined: vec![None; model.alphas()],
-        bootstrap: vec![None; model.alphas()],
-        systematic: Systematic::NONE,
-        deviations: [None; ERRORS],
-        removed: Systematic::NONE,
-        legs: vec![],
-        observations: vec![],
-        judged: vec![],
-        doubts: Doubts {
-            kinds: model.kinds().iter().map(|kind| none(kind.name)).collect(),
-            held_out,
-            worst: vec![],
-            verdict: Verdict::FewLegs,
-        },
-        inflation: Inflation { factors: vec![], coverage: vec![], log_likelihood: vec![] },
-        by_length: vec![],
     }
 }
 

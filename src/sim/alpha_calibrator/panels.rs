@@ -1,8 +1,7 @@
 //! Squared residuals against what drives them: the line through them is an α.
 
-use crate::calibrate::{Calibration, Model, sort};
+use crate::calibrate::{Calibration, Model};
 use crate::models::OdometryRule;
-use crate::noise::NoiseKind;
 use crate::sim::settings::Words;
 
 /// What a variance is made of: in each, one α is for the turn and one for the way.
@@ -24,8 +23,8 @@ pub const BINS: usize = 8;
 /// Legs of a bin at least: the error of a mean of fewer says nothing.
 const LEAST: usize = 5;
 
-/// One noise against what drives it. By what the other α, the reference and the removed errors answer for, the squares are smaller than
-/// they were: their expectation is α·x.
+/// Squared innovations of one noise component against what drives it, less what the other α and the reference explain: their expectation
+/// is α·x.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(target_arch = "wasm32", derive(serde::Serialize))]
 pub struct Panel {
@@ -52,45 +51,37 @@ fn way_first(model: Model, kind: usize) -> bool {
 }
 
 /// A panel for each of the three noises.
-pub fn panels(model: Model, noise: NoiseKind, calibration: &Calibration, driver: Driver) -> [Panel; 3] {
-    [0, 1, 2].map(|kind| panel(model, noise, calibration, kind, driver))
+pub fn panels(model: Model, calibration: &Calibration, driver: Driver) -> [Panel; 3] {
+    [0, 1, 2].map(|kind| panel(model, calibration, kind, driver))
 }
 
-fn panel(model: Model, noise: NoiseKind, calibration: &Calibration, kind: usize, driver: Driver) -> Panel {
-    let Calibration { estimate, observations, judged, .. } = calibration;
+fn panel(model: Model, calibration: &Calibration, kind: usize, driver: Driver) -> Panel {
+    let Calibration { alphas, intervals, observations, leg_fits, .. } = calibration;
     let own = usize::from(way_first(model, kind) != (driver == Driver::Way));
-    let pair = model.kinds()[kind].alphas;
-    let known = |alpha: usize| Some(estimate.alphas[alpha]).filter(|alpha| !alpha.is_nan());
-    let other = known(pair[1 - own]).unwrap_or(0.0);
+    let pair = model.components()[kind].alphas;
+    let alpha = pair[own];
+    let slope = alphas[alpha];
     let points: Vec<[f64; 4]> = observations
         .iter()
-        .zip(judged)
-        .filter(|(observation, _)| !observation.residuals[kind].is_nan())
-        .map(|(observation, judged)| {
-            let coefficients = observation.coefficients[kind];
-            let answered =
-                other * coefficients[1 - own] + observation.floors[kind] + observation.unknown[kind];
-            let square = observation.residuals[kind] * observation.residuals[kind];
-            // The variance of a square of variance v: (κ − 1) v².
-            let variance = (noise.kurtosis() - 1.0) * judged.deviations[kind].powi(4);
-            [coefficients[own], square - answered, 1.0 - judged.bad, variance]
+        .zip(leg_fits)
+        .filter(|(observation, fit)| !observation.residuals[kind].is_nan() && !fit.is_outlier)
+        .map(|(observation, fit)| {
+            let coefficient = observation.coefficients[kind][own];
+            let variance = fit.stds[kind] * fit.stds[kind];
+            let explained = variance - slope.unwrap_or(0.0) * coefficient;
+            let square = fit.standardized[kind] * fit.standardized[kind] * variance;
+            // The square of a normal number of variance v has variance 2v².
+            [coefficient, square - explained, 1.0, 2.0 * variance * variance]
         })
         .collect();
-    let alpha = pair[own];
-    let mut panel = Panel {
-        alpha,
-        x: Vec::new(),
-        y: Vec::new(),
-        error: Vec::new(),
-        slope: known(alpha),
-        interval: estimate.intervals[alpha],
-    };
+    let mut panel =
+        Panel { alpha, x: Vec::new(), y: Vec::new(), error: Vec::new(), slope, interval: intervals[alpha] };
     // Of legs that hardly turn there is nothing to see against the turn.
     if panel.slope.is_none() {
         return panel;
     }
     let mut along: Vec<f64> = points.iter().map(|point| point[0]).collect();
-    sort(&mut along);
+    along.sort_unstable_by(f64::total_cmp);
     let size = points.len().div_ceil(BINS).max(LEAST);
     let mut after = f64::NEG_INFINITY;
     for bin in along.chunks(size) {

@@ -1,6 +1,6 @@
 //! What a user sets of the Alpha Calibrator.
 
-use crate::calibrate::{self, LegLength, ReferenceError, Which};
+use crate::calibrate::{self, ERRORS, LegLength, Options, Outliers};
 use crate::models::OdometryRule;
 use crate::noise::NoiseKind;
 use crate::sim::settings::{Allowed, MAX_SEED, Rules, SettingsError, Word, Words, settings};
@@ -24,6 +24,10 @@ impl Words for Model {
     ];
 }
 
+impl Words for Outliers {
+    const WORDS: &'static [(&'static str, Self)] = &[("reject", Self::Reject), ("keep", Self::Keep)];
+}
+
 settings! {
     /// Everything that a user sets.
     pub struct Settings {
@@ -31,36 +35,34 @@ settings! {
         model: Model = Model::Odometry;
         /// Whose bookkeeping of the odometry’s noise it is; omni goes with the omnidirectional model, and with no other.
         rule: OdometryRule = OdometryRule::Table;
-        /// Distribution of the noise; the variances are the same.
+        /// Distribution of the noise in the predicted outcomes of a leg; the variances are the same.
         noise: NoiseKind = NoiseKind::Normal;
-        /// Whether a share of the legs may be bad, as where the reference jumps: it is estimated then.
-        robust: bool = true;
+        /// Whether outliers, as where the reference jumps, are set aside or fitted as noise.
+        outliers: Outliers = Outliers::Reject;
         /// A leg ends where the odometry is further away in x or in y: `update_min_d` of AMCL.
         distance: f64 = 0.25, "m", in 0.01..=100.0;
         /// A leg ends where the odometry has turned by more: `update_min_a` of AMCL.
         angle: f64 = 0.2, "rad", in 0.01..=3.0;
         /// Where it is above 0, a leg ends after so long instead, whatever the odometry says.
         duration: f64 = 0.0, "s", in 0.0..=1e3;
-        /// Whether the yaw at which the reference is mounted is removed.
+        /// Whether the yaw at which the reference is mounted is corrected, if the log identifies it.
         mountYaw, by mount_yaw_mut;
-        /// Whether the reference’s lever arm is removed.
+        /// Whether the lever arm of the reference is corrected, if the log identifies it.
         leverArm, by lever_arm_mut;
-        /// Whether the odometry’s scale of distances is removed.
+        /// Whether the odometry’s scale of distances is corrected, if the log identifies it and it is constant.
         distanceScale, by distance_scale_mut;
-        /// Whether the odometry’s scale of turns is removed.
+        /// Whether the odometry’s scale of turns is corrected, if the log identifies it and it is constant.
         turnScale, by turn_scale_mut;
-        /// Whether the offset between the two clocks is removed.
+        /// Whether the offset between the two clocks is corrected, if the log identifies it.
         clockOffset, by clock_offset_mut;
-        /// Whether the α’s of legs of other lengths are fitted too, which takes up to three times as long.
-        byLength, by by_length_mut;
-        /// Standard deviation of the reference’s own coordinates; 0: as the log says, if it does.
-        positionDeviation, by position_deviation_mut, "m", in 0.0..=1e3;
-        /// Standard deviation of the reference’s own heading; 0: as the log says, if it does.
-        headingDeviation, by heading_deviation_mut, "rad", in 0.0..=1e3;
+        /// Standard deviation of each coordinate of the reference; 0: estimated.
+        positionStd, by position_std_mut, "m", in 0.0..=1e3;
+        /// Standard deviation of the reference’s heading; 0: estimated.
+        yawStd, by yaw_std_mut, "rad", in 0.0..=1e3;
         /// What the α’s are multiplied by in what is predicted.
         inflation: f64 = 1.0, in 0.01..=100.0;
         // One whose intervals hold all of the true values: what everybody sees first should not be bad luck.
-        /// The same seed is the same luck of the simulated log, and of the bootstrap.
+        /// Seed of the simulated log.
         seed: u64 = 8, in 0..=MAX_SEED;
         kept {
             /// The setting `mountYaw`.
@@ -73,10 +75,10 @@ settings! {
             turn_scale: bool = true;
             /// The setting `clockOffset`.
             clock_offset: bool = true;
-            /// The setting `byLength`.
-            by_length: bool = false;
-            /// The settings `positionDeviation` and `headingDeviation`.
-            deviations: ReferenceError = ReferenceError { position: 0.0, heading: 0.0 };
+            /// The setting `positionStd`.
+            position_std: f64 = 0.0;
+            /// The setting `yawStd`.
+            yaw_std: f64 = 0.0;
         }
     }
 }
@@ -102,21 +104,17 @@ impl Settings {
         &mut self.clock_offset
     }
 
-    fn by_length_mut(&mut self) -> &mut bool {
-        &mut self.by_length
+    fn position_std_mut(&mut self) -> &mut f64 {
+        &mut self.position_std
     }
 
-    fn position_deviation_mut(&mut self) -> &mut f64 {
-        &mut self.deviations.position
+    fn yaw_std_mut(&mut self) -> &mut f64 {
+        &mut self.yaw_std
     }
 
-    fn heading_deviation_mut(&mut self) -> &mut f64 {
-        &mut self.deviations.heading
-    }
-
-    /// Whether what is fitted under these settings is what is fitted under others: the factor is for the picture alone.
+    /// Returns whether the fit is the same under other settings: inflation and distribution are for the prediction alone.
     pub(super) fn fits_as(&self, other: &Self) -> bool {
-        Self { inflation: other.inflation, ..*self } == *other
+        Self { inflation: other.inflation, noise: other.noise, ..*self } == *other
     }
 }
 
@@ -155,33 +153,27 @@ impl Settings {
         }
     }
 
-    /// Which of [`calibrate::Error::ALL`] are removed.
-    pub fn removed(&self) -> Which {
-        [
-            self.clock_offset,
-            self.mount_yaw,
-            self.lever_arm,
-            self.lever_arm,
-            self.distance_scale,
-            self.turn_scale,
-        ]
+    /// Options of the calibration.
+    pub fn options(&self) -> Options {
+        let Self { mount_yaw, lever_arm, distance_scale, turn_scale, clock_offset, .. } = *self;
+        let corrected: [bool; ERRORS] =
+            [clock_offset, mount_yaw, lever_arm, lever_arm, distance_scale, turn_scale];
+        let stated = |std: f64| (std > 0.0).then_some(std);
+        Options {
+            model: self.model(),
+            legs: self.legs(),
+            outliers: self.outliers,
+            correct: corrected.map(|is| if is { None } else { Some(false) }),
+            position_std: stated(self.position_std),
+            yaw_std: stated(self.yaw_std),
+        }
     }
 
-    /// Where a leg ends.
-    pub fn legs(&self) -> LegLength {
+    fn legs(&self) -> LegLength {
         if self.duration > 0.0 {
-            return LegLength::Lasted { duration: self.duration };
+            return LegLength::Duration { duration: self.duration };
         }
-        LegLength::Moved { distance: self.distance, angle: self.angle }
-    }
-
-    /// How well a reference is known of which a log says this.
-    pub fn reference_error(&self, said: ReferenceError) -> ReferenceError {
-        let of = |own: f64, said: f64| if own > 0.0 { own } else { said };
-        ReferenceError {
-            position: of(self.deviations.position, said.position),
-            heading: of(self.deviations.heading, said.heading),
-        }
+        LegLength::Displacement { distance: self.distance, angle: self.angle }
     }
 
     fn omnidirectional(&self) -> bool {

@@ -8,7 +8,7 @@ use std::ops::RangeInclusive;
 
 impl Words for OdometryRule {
     const WORDS: &'static [(&'static str, Self)] =
-        &[("table", Self::Table), ("nav2", Self::Nav2), ("beluga", Self::Beluga), ("omni", Self::Omni)];
+        &[("thrun", Self::Table), ("nav2", Self::Nav2), ("beluga", Self::Beluga), ("omni", Self::Omni)];
 }
 
 /// A pose in the frame of the odometry.

@@ -1,6 +1,8 @@
 //! Logs of robots whose α's and errors are known.
 
-use motion::calibrate::{Error, LegLength, Model, Options, ReferenceError, Robust, Systematic, Trajectory};
+use motion::calibrate::{
+    LegLength, Model, Options, Outliers, Systematic, SystematicError as Error, Trajectory,
+};
 use motion::geom::se2::SE2;
 use motion::models::OdometryRule;
 use motion::{NoiseKind, OdomDelta, Variance, VelocityAlphas, VelocityCmd, VelocityModel};
@@ -54,6 +56,8 @@ pub struct Simulation {
     /// The share of the log in which it drives straight on, before anything else.
     pub straight: f64,
     pub seed: u64,
+    /// Standard deviations of the reference, m and rad.
+    pub reference_stds: [f64; 2],
 }
 
 impl Simulation {
@@ -71,14 +75,21 @@ impl Simulation {
             unlike: Unlike::Nothing,
             straight: 0.0,
             seed,
+            reference_stds: [0.0; 2],
         }
     }
 
-    /// What a calibration of its log is asked, if nothing else is said: all errors removed, no leg taken for bad, of no other length.
-    pub fn options(&self, robust: Robust) -> Options {
-        let Self { model, legs, noise, .. } = *self;
-        let reference_error = ReferenceError::default();
-        Options { model, legs, noise, robust, remove: [true; 6], reference_error, seed: 0, by_length: false }
+    /// Options of a calibration of its log.
+    pub fn options(&self) -> Options {
+        let Self { model, legs, .. } = *self;
+        Options {
+            model,
+            legs,
+            outliers: Outliers::Reject,
+            correct: [None; 6],
+            position_std: None,
+            yaw_std: None,
+        }
     }
 
     /// What the odometry says, and what the reference does.
@@ -138,7 +149,16 @@ impl Simulation {
         }
         let [ahead, to_left] = self.errors.lever_arm;
         let mount = SE2::new(ahead, to_left, self.errors.mount_yaw);
-        let reference = base.iter().map(|(t, pose)| (t + self.errors.clock_offset, *pose * mount));
+        let [place, yaw] = self.reference_stds.map(|std| Variance(std * std));
+        let mut error = |variance| NoiseKind::Normal.sample(variance, &mut rng);
+        let reference: Vec<(f64, SE2)> = base
+            .iter()
+            .map(|(t, pose)| {
+                let seen = *pose * mount;
+                let [x, y, theta] = [error(place), error(place), error(yaw)];
+                (t + self.errors.clock_offset, SE2::new(seen.x() + x, seen.y() + y, seen.theta() + theta))
+            })
+            .collect();
         [Trajectory::new(odometry).expect("times rise"), Trajectory::new(reference).expect("times rise")]
     }
 
@@ -191,11 +211,11 @@ impl Simulation {
 /// As `LegLength` says it, in words of its own.
 fn ends(legs: LegLength, lasted: f64, start: &SE2, reading: &SE2) -> bool {
     match legs {
-        LegLength::Moved { distance, angle } => {
+        LegLength::Displacement { distance, angle } => {
             let turned = motion::geom::se2::wrap_angle(reading.theta() - start.theta());
             let moved = [reading.x() - start.x(), reading.y() - start.y()];
             moved.iter().any(|along| along.abs() > distance) || turned.abs() > angle
         }
-        LegLength::Lasted { duration } => lasted > duration - 1e-6,
+        LegLength::Duration { duration } => lasted > duration - 1e-6,
     }
 }

@@ -1,0 +1,307 @@
+//! Fit of the variances and the systematic errors, in rounds: the residuals depend on the errors, their weights on the variances, and
+//! the outliers on both.
+
+use super::alignment::clock_offset;
+use super::legs::{Leg, LostLegs, MIN_LEGS, split_into_legs};
+use super::likelihood::{POSITION, Parameters, Residuals, Standardized, YAW, identifiable_errors};
+use super::optimizer::{Free, Maximum, maximize};
+use super::outliers::is_outlier;
+use super::residuals::Observation;
+use super::result::{CalibrateError, Drive, Options, Outliers};
+use super::systematic::{ERRORS, ErrorMask, Systematic, SystematicError};
+use super::trajectory::median;
+use crate::geom::se2::wrap_angle;
+
+/// Legs with their residuals, under the systematic errors that are corrected.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Sample {
+    pub legs: Vec<Leg>,
+    pub observations: Vec<Observation>,
+    pub outliers: Vec<bool>,
+}
+
+/// Fit to the legs of a sample.
+#[derive(Clone, Debug)]
+pub(super) struct Fit {
+    pub sample: Sample,
+    pub residuals: Residuals,
+    pub maximum: Maximum,
+    /// Systematic errors with which the residuals were computed.
+    pub systematic: Systematic,
+    /// Standard errors of the systematic errors; 0 of one that is not estimated.
+    pub stds: [f64; ERRORS],
+    pub innovations: Vec<Standardized>,
+}
+
+/// Legs that are fitted at most, in blocks spread over the log: they tell an α to some two hundredths.
+const MAX_LEGS: usize = 10_000;
+const BLOCK: usize = 100;
+
+const MAX_ROUNDS: usize = 15;
+
+/// Change of a systematic error, over its standard error, that counts as none.
+const CONVERGED: f64 = 0.05;
+
+/// Last round after which an outlier may turn out to be none.
+const LAST_RETURN: usize = 2;
+
+/// Factor of the outliers' gate while the variances are only guessed.
+const GUESSED_GATE: f64 = 4.0;
+
+impl Sample {
+    fn new(legs: Vec<Leg>) -> Self {
+        let outliers = vec![false; legs.len()];
+        Self { legs, observations: Vec::new(), outliers }
+    }
+
+    /// Returns blocks of neighbouring legs, evenly spread, where there are more than [`MAX_LEGS`].
+    fn thinned(legs: &[Leg]) -> Self {
+        if legs.len() <= MAX_LEGS {
+            return Self::new(legs.to_vec());
+        }
+        let blocks = MAX_LEGS / BLOCK;
+        let mut thinned = Vec::with_capacity(MAX_LEGS);
+        for block in 0..blocks {
+            let from = block * (legs.len() - BLOCK) / (blocks - 1);
+            thinned.extend_from_slice(&legs[from..from + BLOCK]);
+            let start = thinned.len() - BLOCK;
+            thinned[start].follows = false;
+        }
+        Self::new(thinned)
+    }
+
+    fn observe(&mut self, options: &Options, corrected: &Systematic, position_std: f64) {
+        self.observations = self
+            .legs
+            .iter()
+            .map(|leg| Observation::new(options.model, leg, corrected, position_std))
+            .collect();
+    }
+
+    /// Residuals of the legs that `select` chooses; one follows the leg before only if that is chosen too.
+    pub fn residuals(
+        &self,
+        options: &Options,
+        estimated: ErrorMask,
+        select: impl Fn(usize) -> bool,
+    ) -> Residuals {
+        let chosen = (0..self.legs.len()).filter(|leg| select(*leg));
+        let follows = |leg: usize| self.legs[leg].follows && leg > 0 && select(leg - 1);
+        Residuals::new(options.model, estimated, chosen.map(|leg| (&self.observations[leg], follows(leg))))
+    }
+
+    /// Innovations of all legs; an outlier is compared with what it would be by itself.
+    pub fn innovations(
+        &self,
+        options: &Options,
+        kept: &Residuals,
+        parameters: &Parameters,
+    ) -> Vec<Standardized> {
+        let errors = kept.least_squares(parameters).errors;
+        let mut inside = kept.innovations(parameters, &errors).into_iter();
+        let chosen = (0..self.legs.len()).filter(|leg| self.outliers[*leg]);
+        let outside =
+            Residuals::new(options.model, kept.estimated, chosen.map(|leg| (&self.observations[leg], false)));
+        let mut outside = outside.innovations(parameters, &errors).into_iter();
+        let next = |is_outlier: &bool| if *is_outlier { outside.next() } else { inside.next() };
+        self.outliers.iter().filter_map(next).collect()
+    }
+
+    /// Marks the outliers; returns whether they are others than before. In a late round none comes back: one next to the gate would
+    /// come and go.
+    fn mark_outliers(
+        &mut self,
+        options: &Options,
+        innovations: &[Standardized],
+        factor: f64,
+        round: usize,
+    ) -> bool {
+        if options.outliers == Outliers::Keep {
+            return false;
+        }
+        let stays = |was: bool| was && round > LAST_RETURN;
+        let mark = |(innovation, was): (&Standardized, &bool)| stays(*was) || is_outlier(innovation, factor);
+        let marked: Vec<bool> = innovations.iter().zip(&self.outliers).map(mark).collect();
+        std::mem::replace(&mut self.outliers, marked.clone()) != marked
+    }
+
+    /// Initial guess of the parameters: each component is as noisy as its median square says.
+    fn initial_guess(&self, options: &Options) -> Parameters {
+        let mut parameters = Parameters::zeros();
+        for (component, of) in options.model.components().iter().enumerate() {
+            let ratio = |observation: &Observation| {
+                let [first, second] = observation.coefficients[component];
+                observation.residuals[component].powi(2) / (first + second)
+            };
+            let mut ratios: Vec<f64> =
+                self.observations.iter().map(ratio).filter(|ratio| ratio.is_finite()).collect();
+            let alpha = (median(&mut ratios) / MEDIAN_SQUARE).clamp(1e-8, 10.0);
+            of.alphas.iter().for_each(|of| parameters[*of] = alpha.max(parameters[*of]));
+        }
+        let Options { position_std, yaw_std, .. } = *options;
+        parameters[POSITION] = position_std.map_or(INITIAL_STD * INITIAL_STD, |std| std * std);
+        parameters[YAW] = yaw_std.map_or(INITIAL_STD * INITIAL_STD, |std| std * std);
+        parameters
+    }
+}
+
+/// Median of the square of a standard normal number.
+const MEDIAN_SQUARE: f64 = 0.4549;
+
+/// Initial guess of the reference's errors, m and rad.
+const INITIAL_STD: f64 = 1e-3;
+
+/// Parameters that are fitted: α's of the model, and what is not stated of the reference.
+pub(super) fn free_parameters(options: &Options) -> Free {
+    std::array::from_fn(|parameter| match parameter {
+        POSITION => options.position_std.is_none(),
+        YAW => options.yaw_std.is_none(),
+        alpha => alpha < options.model.alphas(),
+    })
+}
+
+/// Legs of all drives.
+pub(super) struct Log<'a> {
+    drives: &'a [Drive<'a>],
+    /// Clock offset of each drive by the robot's turns, s.
+    offsets: Vec<f64>,
+}
+
+impl<'a> Log<'a> {
+    pub fn new(drives: &'a [Drive<'a>]) -> Result<Self, CalibrateError> {
+        let offset =
+            |drive: &Drive| clock_offset(drive.odometry, drive.reference).ok_or(CalibrateError::Apart);
+        Ok(Self { drives, offsets: drives.iter().map(offset).collect::<Result<_, _>>()? })
+    }
+
+    pub fn clock_offset(&self) -> f64 {
+        self.offsets.first().copied().unwrap_or(0.0)
+    }
+
+    /// Cuts all drives; `clock_offset` is that of the first.
+    pub fn legs(&self, options: &Options, clock_offset: f64) -> (Vec<Leg>, LostLegs) {
+        let (mut all, mut lost) = (Vec::new(), LostLegs::default());
+        for (drive, Drive { odometry, reference }) in self.drives.iter().enumerate() {
+            let offset = clock_offset + self.offsets[drive] - self.clock_offset();
+            let (legs, lost_here) = split_into_legs(odometry, reference, options.legs, offset);
+            all.extend(legs.into_iter().map(|leg| Leg { drive, ..leg }));
+            lost.add(&lost_here);
+        }
+        (all, lost)
+    }
+
+    /// Moves the reference of a leg by a change of the clock's offset; `clock_offset` is the new one of the first drive. A leg that would leave
+    /// the log stays as it is.
+    fn realign(&self, leg: &mut Leg, clock_offset: f64, change: f64) {
+        let Drive { odometry, reference } = self.drives[leg.drive];
+        let offset = clock_offset + self.offsets[leg.drive] - self.clock_offset();
+        if let Some(realigned) = leg.realigned(odometry, reference, offset, change) {
+            *leg = realigned;
+        }
+    }
+}
+
+/// Finds the systematic errors: each round fits the variances, and then corrects the errors by generalized least squares.
+pub(super) fn fit_systematic(log: &Log, options: &Options) -> Result<Fit, CalibrateError> {
+    let begun = Systematic { clock_offset: log.clock_offset(), ..Systematic::NONE };
+    let mut systematic = begun;
+    let (legs, _) = log.legs(options, begun.clock_offset);
+    if legs.len() < MIN_LEGS {
+        return Err(CalibrateError::TooFewLegs { legs: legs.len() });
+    }
+    systematic.mount_yaw = Systematic::initial_mount_yaw(&legs);
+    let mut sample = Sample::thinned(&legs);
+    let free = free_parameters(options);
+    let mut parameters: Option<Parameters> = None;
+    let mut round = 0;
+    loop {
+        round += 1;
+        let position_std = parameters.map_or(f64::INFINITY, |parameters| parameters[POSITION].sqrt());
+        sample.observe(options, &systematic, position_std);
+        let guess = parameters.unwrap_or_else(|| sample.initial_guess(options));
+        let information =
+            sample.residuals(options, [true; ERRORS], |leg| !sample.outliers[leg]).error_information(&guess);
+        let estimated = identifiable_errors(&information);
+        if parameters.is_none() {
+            let all = sample.residuals(options, estimated, |_| true);
+            let innovations = sample.innovations(options, &all, &guess);
+            sample.mark_outliers(options, &innovations, GUESSED_GATE, 0);
+        }
+        let residuals = sample.residuals(options, estimated, |leg| !sample.outliers[leg]);
+        if residuals.terms.len() < MIN_LEGS {
+            return Err(CalibrateError::TooFewLegs { legs: residuals.terms.len() });
+        }
+        let maximum = maximize(&residuals, guess, &free);
+        let squares = residuals.least_squares(&maximum.parameters);
+        let innovations = sample.innovations(options, &residuals, &maximum.parameters);
+        let mut is_settled = parameters.is_some() && !sample.mark_outliers(options, &innovations, 1.0, round);
+        let before = systematic;
+        for (i, error) in SystematicError::ALL.into_iter().enumerate() {
+            if estimated[i] {
+                let most = 4.0 * error.identifiability_limit();
+                let change = -squares.errors[i];
+                is_settled &= change.abs() <= CONVERGED * squares.covariance[(i, i)].sqrt();
+                systematic.set(error, systematic.get(error) + change.clamp(-most, most));
+            } else {
+                systematic.set(error, begun.get(error));
+            }
+        }
+        systematic.mount_yaw = wrap_angle(systematic.mount_yaw);
+        parameters = Some(maximum.parameters);
+        if is_settled || round == MAX_ROUNDS {
+            let length = (residuals.terms.len() as f64).cbrt().ceil() as usize;
+            let sandwich = residuals.sandwich(&maximum.parameters, &squares, length);
+            let stds: [f64; ERRORS] =
+                std::array::from_fn(|i| squares.covariance[(i, i)].max(sandwich[(i, i)]).max(0.0).sqrt());
+            return Ok(Fit { sample, residuals, maximum, systematic: before, stds, innovations });
+        }
+        let change = systematic.clock_offset - before.clock_offset;
+        if change != 0.0 {
+            sample.legs.iter_mut().for_each(|leg| log.realign(leg, systematic.clock_offset, change));
+        }
+    }
+}
+
+/// Fits the variances with these errors corrected and no others.
+pub(super) fn fit_corrected(
+    log: &Log,
+    options: &Options,
+    corrected: &Systematic,
+    mask: ErrorMask,
+    start: &Parameters,
+) -> Result<(Fit, Sample, LostLegs), CalibrateError> {
+    let (legs, lost) = log.legs(options, corrected.clock_offset);
+    let mut sample = Sample::thinned(&legs);
+    let free = free_parameters(options);
+    let mut parameters = *start;
+    let mut round = 0;
+    loop {
+        round += 1;
+        sample.observe(options, corrected, parameters[POSITION].sqrt());
+        let residuals = sample.residuals(options, mask, |leg| !sample.outliers[leg]);
+        if residuals.terms.len() < MIN_LEGS {
+            return Err(CalibrateError::TooFewLegs { legs: residuals.terms.len() });
+        }
+        // Innovations before the first fit find the outliers of the former one.
+        let maximum = maximize(&residuals, parameters, &free);
+        parameters = maximum.parameters;
+        let innovations = sample.innovations(options, &residuals, &parameters);
+        let changed = sample.mark_outliers(options, &innovations, 1.0, round);
+        if !changed || round == MAX_ROUNDS {
+            let mut all = Sample::new(legs);
+            if all.legs.len() == sample.legs.len() {
+                all = sample.clone();
+            } else {
+                all.observe(options, corrected, parameters[POSITION].sqrt());
+                for round in 0..2 {
+                    let kept = all.residuals(options, mask, |leg| !all.outliers[leg]);
+                    let innovations = all.innovations(options, &kept, &parameters);
+                    all.mark_outliers(options, &innovations, 1.0, round);
+                }
+            }
+            let fit =
+                Fit { sample, residuals, maximum, systematic: *corrected, stds: [0.0; ERRORS], innovations };
+            return Ok((fit, all, lost));
+        }
+    }
+}

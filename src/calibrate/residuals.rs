@@ -1,0 +1,249 @@
+//! Residuals of a leg, the motion that the reference saw less the one expected of the odometry, in the model's own coordinates:
+//! the noise of the wheels is independent there, and its variances are linear in the α's.
+
+use super::legs::Leg;
+use super::systematic::{ERRORS, Systematic, log_sinc_derivative};
+use crate::geom::arc::invert_arc;
+use crate::geom::se2::{SE2, wrap_angle};
+use crate::geom::sinc::sinc;
+use crate::models::{LegVariances, OdomDelta, OdometryRule, RuleAlphas, SPIN_BELOW};
+use nalgebra::{Matrix3, RowVector3, SMatrix, Vector3};
+use std::f64::consts::{FRAC_PI_2, PI};
+
+/// Model whose α's are fitted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Model {
+    /// Odometry model with the variances of a rule: four α's, under [`OdometryRule::Omni`] five.
+    Odometry(OdometryRule),
+    /// Velocity model: six α's.
+    Velocity,
+}
+
+/// Noise component of a model.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct NoiseComponent {
+    /// Name in the tables.
+    pub name: &'static str,
+    /// Indices, from 0, of the two α's in its variance.
+    pub alphas: [usize; 2],
+}
+
+const fn component(name: &'static str, first: usize, second: usize) -> NoiseComponent {
+    NoiseComponent { name, alphas: [first, second] }
+}
+
+const DIFFERENTIAL: [NoiseComponent; 3] =
+    [component("rot1", 0, 1), component("trans", 2, 3), component("rot2", 0, 1)];
+const OMNI: [NoiseComponent; 3] =
+    [component("rot2", 0, 1), component("trans", 2, 3), component("strafe", 4, 3)];
+const VELOCITY: [NoiseComponent; 3] =
+    [component("v", 0, 1), component("omega", 2, 3), component("gamma", 4, 5)];
+
+impl Model {
+    /// Number of α's.
+    pub fn alphas(self) -> usize {
+        match self {
+            Self::Odometry(OdometryRule::Omni) => 5,
+            Self::Odometry(_) => 4,
+            Self::Velocity => 6,
+        }
+    }
+
+    /// Noise components in the order of [`Observation::residuals`].
+    pub fn components(self) -> &'static [NoiseComponent; 3] {
+        match self {
+            Self::Odometry(OdometryRule::Omni) => &OMNI,
+            Self::Odometry(_) => &DIFFERENTIAL,
+            Self::Velocity => &VELOCITY,
+        }
+    }
+
+    /// Tells whether an α (index from 0) multiplies the square of a turn or turn rate, and not that of a distance or speed.
+    pub fn grows_with_turn(self, alpha: usize) -> bool {
+        match self {
+            Self::Odometry(_) => [0, 3].contains(&alpha),
+            Self::Velocity => alpha % 2 == 1,
+        }
+    }
+}
+
+/// Residuals of one leg, with all that their distribution depends on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Observation {
+    /// Executed minus expected; NaN of a component that the leg does not show, as the first rotation of a turn on the spot.
+    pub residuals: [f64; 3],
+    /// Factors of the two α's in the variance of each component.
+    pub coefficients: [[f64; 2]; 3],
+    /// Reading in the model's coordinates: rot1, trans, rot2 (rad, m, rad), or v, ω, Δt (m/s, rad/s, s).
+    pub reading: [f64; 3],
+    /// Motion that the model expects.
+    pub expected: SE2,
+    /// Jacobian of the residuals by the motion of the base (x, y, θ).
+    pub(super) jacobian: Matrix3<f64>,
+    /// Jacobians of the residuals by the reference's error at the start and at the end.
+    pub(super) reference: [Matrix3<f64>; 2],
+    /// Jacobian of the residuals by the systematic errors.
+    pub(super) systematic: SMatrix<f64, 3, ERRORS>,
+}
+
+/// Error of the reference over the length of a leg above which directions are taken to first order: atan2 of a displacement
+/// that the reference moves by much is biased.
+const LINEAR_FROM: f64 = 0.05;
+
+impl Observation {
+    /// Returns the residuals of a leg, with these systematic errors corrected.
+    ///
+    /// `position_std` (m) is that of the reference: where it is large beside the leg, directions are linearized at the reading.
+    pub(super) fn new(model: Model, leg: &Leg, corrected: &Systematic, position_std: f64) -> Self {
+        let expected = corrected.expected(leg);
+        let motion = corrected.motion(leg);
+        let is_linear = position_std > LINEAR_FROM * libm::hypot(expected.x(), expected.y());
+        let mut observation = match model {
+            Model::Odometry(OdometryRule::Omni) => omni(&expected, &motion),
+            Model::Odometry(rule) => differential(rule, &expected, &motion, is_linear),
+            Model::Velocity => velocity(leg.duration(), &expected, &motion, is_linear),
+        };
+        for component in 0..3 {
+            if observation.residuals[component].is_nan() {
+                observation.jacobian.row_mut(component).fill(0.0);
+            }
+        }
+        let jacobian = observation.jacobian;
+        observation.reference = corrected.reference_jacobians(leg).map(|by_error| jacobian * by_error);
+        observation.systematic = jacobian * corrected.motion_jacobian(leg, &observation.expected);
+        observation
+    }
+
+    fn of(
+        residuals: [f64; 3],
+        coefficients: [[f64; 2]; 3],
+        reading: [f64; 3],
+        expected: SE2,
+        jacobian: Matrix3<f64>,
+    ) -> Self {
+        Self {
+            residuals,
+            coefficients,
+            reading,
+            expected,
+            jacobian,
+            reference: [Matrix3::zeros(); 2],
+            systematic: SMatrix::zeros(),
+        }
+    }
+}
+
+/// Variances that each α of 1 gives a reading by itself: they are linear in the α's.
+fn unit_variances(rule: OdometryRule, reading: &OdomDelta) -> [LegVariances; 5] {
+    std::array::from_fn(|alpha| {
+        let mut alphas: RuleAlphas = [0.0; 5];
+        alphas[alpha] = 1.0;
+        rule.variances(reading, &alphas)
+    })
+}
+
+fn differential(rule: OdometryRule, expected: &SE2, motion: &SE2, is_linear: bool) -> Observation {
+    let read = OdomDelta::from_poses(&SE2::identity(), expected);
+    let OdomDelta { rot1, trans, rot2 } = rule.legs(&read);
+    let unit = unit_variances(rule, &read);
+    let first = [0, 1].map(|alpha: usize| unit[alpha].rot1.0);
+    let along = [2, 3].map(|alpha: usize| unit[alpha].trans.0);
+    let second = [0, 1].map(|alpha: usize| unit[alpha].rot2.0);
+    let reading = [rot1, trans, rot2];
+    let (sin, cos) = libm::sincos(rot1);
+    let forward = RowVector3::new(cos, sin, 0.0);
+    let turn = RowVector3::new(0.0, 0.0, 1.0);
+    let turned = wrap_angle(motion.theta() - rot1 - rot2);
+    let [ahead, left] = [cos * motion.x() + sin * motion.y(), cos * motion.y() - sin * motion.x()];
+    if read.trans < SPIN_BELOW {
+        let sum = [first[0] + second[0], first[1] + second[1]];
+        let jacobian = Matrix3::from_rows(&[RowVector3::zeros(), forward, turn]);
+        return Observation::of(
+            [f64::NAN, ahead - trans, turned],
+            [[0.0; 2], along, sum],
+            reading,
+            *expected,
+            jacobian,
+        );
+    }
+    let (off, longer) = if is_linear {
+        (left / trans, ahead - trans)
+    } else {
+        let off = wrap_angle(libm::atan2(motion.y(), motion.x()) - rot1);
+        let distance = libm::hypot(motion.x(), motion.y());
+        // A motion that leads backwards is a negative drive, not two half turns.
+        if off.abs() > FRAC_PI_2 {
+            (wrap_angle(off - PI), -distance - trans)
+        } else {
+            (off, distance - trans)
+        }
+    };
+    let across = RowVector3::new(-sin, cos, 0.0) / trans;
+    let jacobian = Matrix3::from_rows(&[across, forward, turn - across]);
+    Observation::of(
+        [off, longer, wrap_angle(turned - off)],
+        [first, along, second],
+        reading,
+        *expected,
+        jacobian,
+    )
+}
+
+fn omni(expected: &SE2, motion: &SE2) -> Observation {
+    let read = OdomDelta::from_poses(&SE2::identity(), expected);
+    let OdomDelta { rot1, trans, rot2 } = read;
+    let unit = unit_variances(OdometryRule::Omni, &read);
+    let (sin, cos) = libm::sincos(rot1);
+    let residuals = [
+        wrap_angle(motion.theta() - rot1 - rot2),
+        cos * motion.x() + sin * motion.y() - trans,
+        cos * motion.y() - sin * motion.x(),
+    ];
+    let coefficients = [
+        [unit[0].rot2.0, unit[1].rot2.0],
+        [unit[2].trans.0, unit[3].trans.0],
+        [unit[4].strafe.0, unit[3].strafe.0],
+    ];
+    let jacobian = Matrix3::new(0.0, 0.0, 1.0, cos, sin, 0.0, -sin, cos, 0.0);
+    Observation::of(residuals, coefficients, [rot1, trans, rot2], *expected, jacobian)
+}
+
+/// Returns the residuals of the constant command that leads where the odometry says, against the arc that was driven.
+fn velocity(dt: f64, read: &SE2, motion: &SE2, is_linear: bool) -> Observation {
+    let twist = read.log();
+    // A command does not lead sideways.
+    let expected = SE2::exp(&Vector3::new(twist.x, 0.0, twist.z));
+    let [length, turn] = [twist.x, twist.z];
+    let [v, omega] = [length / dt, turn / dt];
+    let half = 0.5 * turn;
+    let chord = length * sinc(half);
+    let (sin, cos) = libm::sincos(half);
+    let forward = RowVector3::new(cos, sin, 0.0) / sinc(half);
+    let [v2, omega2] = [v * v, omega * omega];
+    let reading = [v, omega, dt];
+    let ahead = (cos * motion.x() + sin * motion.y()) / sinc(half) / dt;
+    if length.abs() < SPIN_BELOW {
+        let jacobian = Matrix3::from_rows(&[forward / dt, RowVector3::zeros(), RowVector3::zeros()]);
+        let coefficients = [[v2, omega2], [0.0; 2], [0.0; 2]];
+        return Observation::of([ahead - v, f64::NAN, f64::NAN], coefficients, reading, expected, jacobian);
+    }
+    let bearing = RowVector3::new(-sin, cos, 0.0) / chord;
+    let jacobian = Matrix3::from_rows(&[
+        forward - bearing * (length * log_sinc_derivative(half)),
+        bearing * 2.0,
+        RowVector3::new(0.0, 0.0, 1.0) - bearing * 2.0,
+    ]) / dt;
+    let residuals = if is_linear {
+        let off = jacobian
+            * Vector3::new(
+                motion.x() - expected.x(),
+                motion.y() - expected.y(),
+                wrap_angle(motion.theta() - expected.theta()),
+            );
+        off.into()
+    } else {
+        let executed = invert_arc(&SE2::identity(), motion, dt);
+        [executed.v_hat - v, wrap_angle((executed.omega_hat - omega) * dt) / dt, executed.gamma_hat]
+    };
+    Observation::of(residuals, [[v2, omega2]; 3], reading, expected, jacobian)
+}

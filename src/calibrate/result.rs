@@ -1,0 +1,171 @@
+//! Options of a calibration, and its result.
+
+use super::checks::Diagnostics;
+use super::identifiability::NotIdentifiable;
+use super::legs::{Leg, LegLength, LostLegs, MIN_LEGS};
+use super::residuals::{Model, Observation};
+use super::systematic::{ERRORS, ErrorMask, Systematic, SystematicError};
+use super::trajectory::Trajectory;
+use std::fmt;
+
+/// Odometry and reference of one drive.
+#[derive(Clone, Copy, Debug)]
+pub struct Drive<'a> {
+    pub odometry: &'a Trajectory,
+    pub reference: &'a Trajectory,
+}
+
+/// Treatment of legs outside of the gate.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Outliers {
+    /// They are set aside.
+    #[default]
+    Reject,
+    /// They are fitted as noise.
+    Keep,
+}
+
+/// Options of a calibration.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Options {
+    pub model: Model,
+    pub legs: LegLength,
+    pub outliers: Outliers,
+    /// Whether each of [`SystematicError::ALL`] is corrected before the α's are fitted. None: if it is identifiable and constant.
+    pub correct: [Option<bool>; ERRORS],
+    /// Standard deviation of each coordinate of the reference, m. None: estimated.
+    pub position_std: Option<f64>,
+    /// Standard deviation of the reference's heading, rad. None: estimated.
+    pub yaw_std: Option<f64>,
+}
+
+/// Estimate with its 95 % interval.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Estimate {
+    pub value: f64,
+    pub interval: [f64; 2],
+}
+
+/// Correlation of the wheels' errors in neighbouring legs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Persistence {
+    /// Between 0, for independent legs, and 1.
+    pub correlation: Estimate,
+    /// Distance (m) over which the correlation falls to 1/e; 0 of independent legs.
+    pub length: f64,
+}
+
+/// One leg under the fit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LegFit {
+    /// Standard deviations of the innovation's components.
+    pub stds: [f64; 3],
+    /// Innovation over its standard deviations.
+    pub standardized: [f64; 3],
+    /// Squared Mahalanobis distance of the innovation.
+    pub squared: f64,
+    pub is_outlier: bool,
+}
+
+/// α's that a filter can use.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Recommended {
+    /// Fitted α's times the inflation; None of one that is not identifiable.
+    pub alphas: Vec<Option<f64>>,
+    pub inflation: f64,
+    pub reason: String,
+}
+
+/// Result of a calibration.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Calibration {
+    /// None of one that the log does not identify.
+    pub alphas: Vec<Option<f64>>,
+    /// 95 % intervals of the α's.
+    pub intervals: Vec<Option<[f64; 2]>>,
+    pub not_identifiable: Vec<Option<NotIdentifiable>>,
+    /// Systematic errors, all estimated together.
+    pub systematic: Systematic,
+    /// Standard errors of [`SystematicError::ALL`]; None of one that the log does not identify.
+    pub systematic_stds: [Option<f64>; ERRORS],
+    /// Whether each is the same on straight and on turning legs, and in both halves of the log.
+    pub is_constant: ErrorMask,
+    /// Systematic errors that were corrected, 0 (scales 1) where one was not.
+    pub corrected: Systematic,
+    /// Whether each was corrected.
+    pub is_corrected: ErrorMask,
+    /// Standard deviations of the reference: each coordinate (m) and heading (rad).
+    pub reference_noise: [Estimate; 2],
+    pub persistence: Persistence,
+    pub log_likelihood: f64,
+    pub legs: Vec<Leg>,
+    pub observations: Vec<Observation>,
+    pub leg_fits: Vec<LegFit>,
+    pub lost: LostLegs,
+    pub diagnostics: Diagnostics,
+    /// None where the log is unusable.
+    pub recommended: Option<Recommended>,
+}
+
+impl Calibration {
+    /// Returns the result of a log that gives too few legs, or none.
+    pub fn empty(model: Model) -> Self {
+        let unknown = Estimate { value: 0.0, interval: [0.0, f64::INFINITY] };
+        Self {
+            alphas: vec![None; model.alphas()],
+            intervals: vec![None; model.alphas()],
+            not_identifiable: vec![None; model.alphas()],
+            systematic: Systematic::NONE,
+            systematic_stds: [None; ERRORS],
+            is_constant: [true; ERRORS],
+            corrected: Systematic::NONE,
+            is_corrected: [false; ERRORS],
+            reference_noise: [unknown; 2],
+            persistence: Persistence {
+                correlation: Estimate { value: 0.0, interval: [0.0, 1.0] },
+                length: 0.0,
+            },
+            log_likelihood: f64::NAN,
+            legs: Vec::new(),
+            observations: Vec::new(),
+            leg_fits: Vec::new(),
+            lost: LostLegs::default(),
+            diagnostics: Diagnostics::too_few_legs(),
+            recommended: None,
+        }
+    }
+
+    /// 95 % interval of a systematic error; None where the log does not identify it.
+    pub fn interval_of(&self, error: SystematicError) -> Option<[f64; 2]> {
+        let (value, std) = (self.systematic.get(error), self.systematic_stds[error as usize]?);
+        Some([value - NORMAL_95 * std, value + NORMAL_95 * std])
+    }
+}
+
+/// Quantile 0.975 of the standard normal distribution.
+pub(super) const NORMAL_95: f64 = 1.959_963_984_540_054;
+
+/// Reason for which a log cannot be fitted.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum CalibrateError {
+    /// Odometry and reference have no time in common, and turn alike at no offset of their clocks.
+    Apart,
+    /// There are fewer than [`MIN_LEGS`] legs.
+    TooFewLegs { legs: usize },
+}
+
+impl fmt::Display for CalibrateError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Apart => f.write_str(
+                "odometry and reference have no time in common, and turn alike at no offset of their clocks; allowed are two logs of one drive",
+            ),
+            Self::TooFewLegs { legs } => write!(
+                f,
+                "the log has {legs} legs for which both trajectories are known; allowed are {MIN_LEGS} at least: shorter legs, a longer drive, or clocks that agree"
+            ),
+        }
+    }
+}
+
+impl std::error::Error for CalibrateError {}

@@ -3,7 +3,7 @@
 
 use super::alignment::clock_offset;
 use super::legs::{Leg, LostLegs, MIN_LEGS, split_into_legs};
-use super::likelihood::{POSITION, Parameters, Residuals, Standardized, YAW, identifiable_errors};
+use super::likelihood::{POSITION, Parameters, Residuals, Standardized, Term, YAW, identifiable_errors};
 use super::optimizer::{Free, Maximum, maximize};
 use super::outliers::is_outlier;
 use super::residuals::Observation;
@@ -17,6 +17,7 @@ use crate::geom::se2::wrap_angle;
 pub(super) struct Sample {
     pub legs: Vec<Leg>,
     pub observations: Vec<Observation>,
+    terms: Vec<Term>,
     pub outliers: Vec<bool>,
 }
 
@@ -33,8 +34,8 @@ pub(super) struct Fit {
     pub innovations: Vec<Standardized>,
 }
 
-/// Legs that are fitted at most, in blocks spread over the log: they tell an α to some two hundredths.
-const MAX_LEGS: usize = 10_000;
+/// Legs that are fitted at most, in blocks spread over the log: they tell an α to some three hundredths.
+const MAX_LEGS: usize = 6_000;
 const BLOCK: usize = 100;
 
 const MAX_ROUNDS: usize = 15;
@@ -51,7 +52,7 @@ const GUESSED_GATE: f64 = 4.0;
 impl Sample {
     fn new(legs: Vec<Leg>) -> Self {
         let outliers = vec![false; legs.len()];
-        Self { legs, observations: Vec::new(), outliers }
+        Self { legs, outliers, ..Self::default() }
     }
 
     /// Returns blocks of neighbouring legs, evenly spread, where there are more than [`MAX_LEGS`].
@@ -76,6 +77,8 @@ impl Sample {
             .iter()
             .map(|leg| Observation::new(options.model, leg, corrected, position_std))
             .collect();
+        let term = |(leg, observation): (&Leg, &Observation)| Term::new(leg, observation, corrected);
+        self.terms = self.legs.iter().zip(&self.observations).map(term).collect();
     }
 
     /// Residuals of the legs that `select` chooses; one follows the leg before only if that is chosen too.
@@ -87,42 +90,64 @@ impl Sample {
     ) -> Residuals {
         let chosen = (0..self.legs.len()).filter(|leg| select(*leg));
         let follows = |leg: usize| self.legs[leg].follows && leg > 0 && select(leg - 1);
-        Residuals::new(options.model, estimated, chosen.map(|leg| (&self.observations[leg], follows(leg))))
+        Residuals::new(options.model, estimated, chosen.map(|leg| (self.terms[leg], follows(leg))))
     }
 
     /// Innovations of all legs; an outlier is compared with what it would be by itself.
     pub fn innovations(
         &self,
         options: &Options,
-        kept: &Residuals,
+        mask: ErrorMask,
         parameters: &Parameters,
     ) -> Vec<Standardized> {
+        let kept = self.residuals(options, mask, |leg| !self.outliers[leg]);
         let errors = kept.least_squares(parameters).errors;
         let mut inside = kept.innovations(parameters, &errors).into_iter();
         let chosen = (0..self.legs.len()).filter(|leg| self.outliers[*leg]);
-        let outside =
-            Residuals::new(options.model, kept.estimated, chosen.map(|leg| (&self.observations[leg], false)));
+        let outside = Residuals::new(options.model, mask, chosen.map(|leg| (self.terms[leg], false)));
         let mut outside = outside.innovations(parameters, &errors).into_iter();
         let next = |is_outlier: &bool| if *is_outlier { outside.next() } else { inside.next() };
         self.outliers.iter().filter_map(next).collect()
     }
 
-    /// Marks the outliers; returns whether they are others than before. In a late round none comes back: one next to the gate would
-    /// come and go.
+    /// Marks the outliers under these parameters, and returns whether they are others than before. In a late round none comes back: one
+    /// next to the gate would come and go.
     fn mark_outliers(
         &mut self,
         options: &Options,
-        innovations: &[Standardized],
-        factor: f64,
+        mask: ErrorMask,
+        parameters: &Parameters,
+        gate: f64,
         round: usize,
     ) -> bool {
         if options.outliers == Outliers::Keep {
             return false;
         }
         let stays = |was: bool| was && round > LAST_RETURN;
-        let mark = |(innovation, was): (&Standardized, &bool)| stays(*was) || is_outlier(innovation, factor);
+        let innovations = self.innovations(options, mask, parameters);
+        // Where the variances are still too small, half of the legs must not pass for outliers.
+        let mut squares: Vec<f64> = innovations.iter().map(|innovation| innovation.squared).collect();
+        let gate = gate * (median(&mut squares) / MEDIAN_CHI2).max(1.0);
+        let mark = |(innovation, was): (&Standardized, &bool)| stays(*was) || is_outlier(innovation, gate);
         let marked: Vec<bool> = innovations.iter().zip(&self.outliers).map(mark).collect();
-        std::mem::replace(&mut self.outliers, marked.clone()) != marked
+        let changed = marked != self.outliers;
+        self.outliers = marked;
+        changed
+    }
+
+    /// Fits the variances to the legs that are no outliers.
+    fn fit(
+        &self,
+        options: &Options,
+        mask: ErrorMask,
+        start: Parameters,
+    ) -> Result<(Residuals, Maximum), CalibrateError> {
+        let residuals = self.residuals(options, mask, |leg| !self.outliers[leg]);
+        if residuals.terms.len() < MIN_LEGS {
+            return Err(CalibrateError::TooFewLegs { legs: residuals.terms.len() });
+        }
+        let maximum = maximize(&residuals, start, &free_parameters(options));
+        Ok((residuals, maximum))
     }
 
     /// Initial guess of the parameters: each component is as noisy as its median square says.
@@ -144,6 +169,9 @@ impl Sample {
         parameters
     }
 }
+
+/// Median of χ² with 3 degrees of freedom.
+const MEDIAN_CHI2: f64 = 2.366;
 
 /// Median of the square of a standard normal number.
 const MEDIAN_SQUARE: f64 = 0.4549;
@@ -211,33 +239,20 @@ pub(super) fn fit_systematic(log: &Log, options: &Options) -> Result<Fit, Calibr
     }
     systematic.mount_yaw = Systematic::initial_mount_yaw(&legs);
     let mut sample = Sample::thinned(&legs);
-    let free = free_parameters(options);
     let mut parameters: Option<Parameters> = None;
-    let mut round = 0;
-    loop {
-        round += 1;
+    for round in 1.. {
         let position_std = parameters.map_or(f64::INFINITY, |parameters| parameters[POSITION].sqrt());
         sample.observe(options, &systematic, position_std);
         let guess = parameters.unwrap_or_else(|| sample.initial_guess(options));
-        let information =
-            sample.residuals(options, [true; ERRORS], |leg| !sample.outliers[leg]).error_information(&guess);
-        let estimated = identifiable_errors(&information);
-        if parameters.is_none() {
-            let all = sample.residuals(options, estimated, |_| true);
-            let innovations = sample.innovations(options, &all, &guess);
-            sample.mark_outliers(options, &innovations, GUESSED_GATE, 0);
-        }
-        let residuals = sample.residuals(options, estimated, |leg| !sample.outliers[leg]);
-        if residuals.terms.len() < MIN_LEGS {
-            return Err(CalibrateError::TooFewLegs { legs: residuals.terms.len() });
-        }
-        let maximum = maximize(&residuals, guess, &free);
+        let kept = sample.residuals(options, [true; ERRORS], |leg| !sample.outliers[leg]);
+        let mask = identifiable_errors(&kept.error_information(&guess));
+        let gate = if parameters.is_some() { 1.0 } else { GUESSED_GATE };
+        let mut is_settled = !sample.mark_outliers(options, mask, &guess, gate, round) && round > 1;
+        let (residuals, maximum) = sample.fit(options, mask, guess)?;
         let squares = residuals.least_squares(&maximum.parameters);
-        let innovations = sample.innovations(options, &residuals, &maximum.parameters);
-        let mut is_settled = parameters.is_some() && !sample.mark_outliers(options, &innovations, 1.0, round);
         let before = systematic;
         for (i, error) in SystematicError::ALL.into_iter().enumerate() {
-            if estimated[i] {
+            if mask[i] {
                 let most = 4.0 * error.identifiability_limit();
                 let change = -squares.errors[i];
                 is_settled &= change.abs() <= CONVERGED * squares.covariance[(i, i)].sqrt();
@@ -251,18 +266,24 @@ pub(super) fn fit_systematic(log: &Log, options: &Options) -> Result<Fit, Calibr
         if is_settled || round == MAX_ROUNDS {
             let length = (residuals.terms.len() as f64).cbrt().ceil() as usize;
             let sandwich = residuals.sandwich(&maximum.parameters, &squares, length);
-            let stds: [f64; ERRORS] =
-                std::array::from_fn(|i| squares.covariance[(i, i)].max(sandwich[(i, i)]).max(0.0).sqrt());
-            return Ok(Fit { sample, residuals, maximum, systematic: before, stds, innovations });
+            let std = |i: usize| squares.covariance[(i, i)].max(sandwich[(i, i)]).max(0.0).sqrt();
+            let innovations = sample.innovations(options, mask, &maximum.parameters);
+            return Ok(Fit {
+                sample,
+                residuals,
+                maximum,
+                systematic: before,
+                stds: std::array::from_fn(std),
+                innovations,
+            });
         }
         let change = systematic.clock_offset - before.clock_offset;
-        if change != 0.0 {
-            sample.legs.iter_mut().for_each(|leg| log.realign(leg, systematic.clock_offset, change));
-        }
+        sample.legs.iter_mut().for_each(|leg| log.realign(leg, systematic.clock_offset, change));
     }
+    unreachable!("the last round returns")
 }
 
-/// Fits the variances with these errors corrected and no others.
+/// Fits the variances with these errors corrected and no others; returns all legs too, of which the fit may be to a part.
 pub(super) fn fit_corrected(
     log: &Log,
     options: &Options,
@@ -272,36 +293,26 @@ pub(super) fn fit_corrected(
 ) -> Result<(Fit, Sample, LostLegs), CalibrateError> {
     let (legs, lost) = log.legs(options, corrected.clock_offset);
     let mut sample = Sample::thinned(&legs);
-    let free = free_parameters(options);
     let mut parameters = *start;
-    let mut round = 0;
-    loop {
-        round += 1;
+    let mut last = None;
+    for round in 1..=MAX_ROUNDS {
         sample.observe(options, corrected, parameters[POSITION].sqrt());
-        let residuals = sample.residuals(options, mask, |leg| !sample.outliers[leg]);
-        if residuals.terms.len() < MIN_LEGS {
-            return Err(CalibrateError::TooFewLegs { legs: residuals.terms.len() });
+        if !sample.mark_outliers(options, mask, &parameters, 1.0, round) && last.is_some() {
+            break;
         }
-        // Innovations before the first fit find the outliers of the former one.
-        let maximum = maximize(&residuals, parameters, &free);
+        let (residuals, maximum) = sample.fit(options, mask, parameters)?;
         parameters = maximum.parameters;
-        let innovations = sample.innovations(options, &residuals, &parameters);
-        let changed = sample.mark_outliers(options, &innovations, 1.0, round);
-        if !changed || round == MAX_ROUNDS {
-            let mut all = Sample::new(legs);
-            if all.legs.len() == sample.legs.len() {
-                all = sample.clone();
-            } else {
-                all.observe(options, corrected, parameters[POSITION].sqrt());
-                for round in 0..2 {
-                    let kept = all.residuals(options, mask, |leg| !all.outliers[leg]);
-                    let innovations = all.innovations(options, &kept, &parameters);
-                    all.mark_outliers(options, &innovations, 1.0, round);
-                }
-            }
-            let fit =
-                Fit { sample, residuals, maximum, systematic: *corrected, stds: [0.0; ERRORS], innovations };
-            return Ok((fit, all, lost));
-        }
+        last = Some((residuals, maximum));
     }
+    let Some((residuals, maximum)) = last else { unreachable!("the first round fits") };
+    let innovations = sample.innovations(options, mask, &parameters);
+    let mut all = Sample::new(legs);
+    if all.legs.len() == sample.legs.len() {
+        all = sample.clone();
+    } else {
+        all.observe(options, corrected, parameters[POSITION].sqrt());
+        all.mark_outliers(options, mask, &parameters, 1.0, 1);
+    }
+    let fit = Fit { sample, residuals, maximum, systematic: *corrected, stds: [0.0; ERRORS], innovations };
+    Ok((fit, all, lost))
 }

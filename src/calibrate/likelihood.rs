@@ -10,8 +10,9 @@
 //! score. V is linear in the parameters, so that the average of observed and expected information is a product of vectors (Gilmour,
 //! Thompson and Cullis 1995).
 
+use super::legs::Leg;
 use super::residuals::{Model, Observation};
-use super::systematic::{ERRORS, ErrorMask, SystematicError};
+use super::systematic::{ERRORS, ErrorMask, Systematic, SystematicError};
 use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
 use std::f64::consts::TAU;
 
@@ -107,33 +108,32 @@ impl Expansion {
     }
 }
 
+impl Term {
+    pub fn new(leg: &Leg, observation: &Observation, corrected: &Systematic) -> Self {
+        let residuals = Vector3::from(observation.residuals);
+        let observed = residuals.map(|residual| !residual.is_nan());
+        let mut columns = Columns::zeros();
+        columns.set_column(0, &residuals.map(|residual| if residual.is_nan() { 0.0 } else { residual }));
+        let by_errors = observation.jacobian * corrected.motion_jacobian(leg, &observation.expected);
+        columns.fixed_columns_mut::<ERRORS>(1).copy_from(&by_errors);
+        let [start, end] = corrected.reference_jacobians(leg).map(|by_error| observation.jacobian * by_error);
+        Self {
+            columns,
+            coefficients: observation.coefficients,
+            floors: observed.map(|is| if is { MIN_STD * MIN_STD } else { 1.0 }),
+            start,
+            end,
+            follows: leg.follows,
+            observed: observed.iter().filter(|is| **is).count(),
+        }
+    }
+}
+
 impl Residuals {
-    /// Gathers the observations, each with whether it starts with the pose at which the one before ends.
-    pub fn new<'a>(
-        model: Model,
-        estimated: ErrorMask,
-        observations: impl Iterator<Item = (&'a Observation, bool)>,
-    ) -> Self {
-        let terms = observations.map(|(observation, follows)| {
-            let residuals = Vector3::from(observation.residuals);
-            let observed = residuals.map(|residual| !residual.is_nan());
-            let mut columns = Columns::zeros();
-            columns.set_column(0, &residuals.map(|residual| if residual.is_nan() { 0.0 } else { residual }));
-            for error in (0..ERRORS).filter(|error| estimated[*error]) {
-                columns.set_column(1 + error, &observation.systematic.column(error));
-            }
-            Term {
-                columns,
-                coefficients: observation.coefficients,
-                floors: observed.map(|is| if is { MIN_STD * MIN_STD } else { 1.0 }),
-                start: observation.reference[0],
-                end: observation.reference[1],
-                follows,
-                observed: observed.iter().filter(|is| **is).count(),
-            }
-        });
-        let alphas = model.components().map(|component| component.alphas);
-        Self { terms: terms.collect(), alphas, estimated }
+    /// Gathers terms, each with whether it starts with the pose at which the one before ends.
+    pub fn new(model: Model, estimated: ErrorMask, terms: impl Iterator<Item = (Term, bool)>) -> Self {
+        let terms = terms.map(|(term, follows)| Term { follows, ..term }).collect();
+        Self { terms, alphas: model.components().map(|component| component.alphas), estimated }
     }
 
     /// Variances of the wheels' noise in one leg.
@@ -145,8 +145,12 @@ impl Residuals {
         })
     }
 
-    /// Runs the forward recursion, with `visit` called on each innovation; returns ln|V| and [r X]ᵀV⁻¹[r X].
-    fn filter(&self, parameters: &Parameters, mut visit: impl FnMut(&Term, Innovation)) -> (f64, Gram) {
+    /// Runs the forward recursion, with `visit` called on each innovation and its covariance; returns ln|V| and [r X]ᵀV⁻¹[r X].
+    fn filter(
+        &self,
+        parameters: &Parameters,
+        mut visit: impl FnMut(&Term, Innovation, &Matrix3<f64>),
+    ) -> (f64, Gram) {
         let reference = reference_covariance(parameters);
         let (mut log_det, mut gram) = (0.0, Gram::zeros());
         let (mut mean, mut covariance) = (Columns::zeros(), reference);
@@ -173,7 +177,7 @@ impl Residuals {
             gram += columns.transpose() * (weight * columns);
             mean = gain * columns;
             covariance = reference - gain * term.end * reference;
-            visit(term, Innovation { columns, weight, gain });
+            visit(term, Innovation { columns, weight, gain }, &innovation);
         }
         (log_det + libm::log(det), gram)
     }
@@ -191,7 +195,7 @@ impl Residuals {
     }
 
     pub fn least_squares(&self, parameters: &Parameters) -> LeastSquares {
-        let (log_det, gram) = self.filter(parameters, |_, _| ());
+        let (log_det, gram) = self.filter(parameters, |_, _, _| ());
         self.least_squares_of(log_det, &gram)
     }
 
@@ -201,7 +205,7 @@ impl Residuals {
 
     /// Information that the residuals have on the systematic errors, XᵀV⁻¹X.
     pub fn error_information(&self, parameters: &Parameters) -> ErrorMatrix {
-        let (_, gram) = self.filter(parameters, |_, _| ());
+        let (_, gram) = self.filter(parameters, |_, _, _| ());
         gram.fixed_view::<ERRORS, ERRORS>(1, 1).into_owned()
     }
 
@@ -214,7 +218,7 @@ impl Residuals {
         length: usize,
     ) -> ErrorMatrix {
         let (mut scatter, mut score, mut count) = (ErrorMatrix::zeros(), SVector::<f64, ERRORS>::zeros(), 0);
-        self.filter(parameters, |_, Innovation { columns, weight, .. }| {
+        self.filter(parameters, |_, Innovation { columns, weight, .. }, _| {
             let jacobian = columns.fixed_columns::<ERRORS>(1);
             score += jacobian.transpose() * (weight * (columns.column(0) - jacobian * errors));
             count += 1;
@@ -230,9 +234,8 @@ impl Residuals {
     /// Returns the innovation of each leg, less what these systematic errors explain.
     pub fn innovations(&self, parameters: &Parameters, errors: &SVector<f64, ERRORS>) -> Vec<Standardized> {
         let mut all = Vec::with_capacity(self.terms.len());
-        self.filter(parameters, |term, Innovation { columns, weight, .. }| {
+        self.filter(parameters, |term, Innovation { columns, weight, .. }, covariance| {
             let innovation = columns.column(0) - columns.fixed_columns::<ERRORS>(1) * errors;
-            let covariance = weight.try_inverse().unwrap_or_else(Matrix3::zeros);
             let stds = std::array::from_fn(|k| covariance[(k, k)].sqrt());
             all.push(Standardized {
                 components: std::array::from_fn(|k| innovation[k] / stds[k]),
@@ -247,7 +250,7 @@ impl Residuals {
     /// Returns the log-likelihood with its derivatives.
     pub fn expansion(&self, parameters: &Parameters) -> Expansion {
         let mut innovations = Vec::with_capacity(self.terms.len());
-        let (log_det, gram) = self.filter(parameters, |_, innovation| innovations.push(innovation));
+        let (log_det, gram) = self.filter(parameters, |_, innovation, _| innovations.push(innovation));
         let LeastSquares { log_likelihood, errors, covariance } = self.least_squares_of(log_det, &gram);
         let mut expansion = Expansion {
             log_likelihood,

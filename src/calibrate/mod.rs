@@ -106,8 +106,7 @@ fn leg_fits(all: &Sample, options: &Options, fit: &fit::Fit) -> Vec<LegFit> {
     let innovations = if all.legs.len() == fit.sample.legs.len() {
         fit.innovations.clone()
     } else {
-        let kept = all.residuals(options, fit.residuals.estimated, |leg| !all.outliers[leg]);
-        all.innovations(options, &kept, &fit.maximum.parameters)
+        all.innovations(options, fit.residuals.estimated, &fit.maximum.parameters)
     };
     let of = |(Standardized { stds, components, squared, .. }, is_outlier): (Standardized, &bool)| LegFit {
         stds,

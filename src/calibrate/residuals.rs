@@ -2,12 +2,12 @@
 //! the noise of the wheels is independent there, and its variances are linear in the α's.
 
 use super::legs::Leg;
-use super::systematic::{ERRORS, Systematic, log_sinc_derivative};
+use super::systematic::{Systematic, log_sinc_derivative};
 use crate::geom::arc::invert_arc;
 use crate::geom::se2::{SE2, wrap_angle};
 use crate::geom::sinc::sinc;
 use crate::models::{LegVariances, OdomDelta, OdometryRule, RuleAlphas, SPIN_BELOW};
-use nalgebra::{Matrix3, RowVector3, SMatrix, Vector3};
+use nalgebra::{Matrix3, RowVector3, Vector3};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Model whose α's are fitted.
@@ -80,10 +80,6 @@ pub struct Observation {
     pub expected: SE2,
     /// Jacobian of the residuals by the motion of the base (x, y, θ).
     pub(super) jacobian: Matrix3<f64>,
-    /// Jacobians of the residuals by the reference's error at the start and at the end.
-    pub(super) reference: [Matrix3<f64>; 2],
-    /// Jacobian of the residuals by the systematic errors.
-    pub(super) systematic: SMatrix<f64, 3, ERRORS>,
 }
 
 /// Error of the reference over the length of a leg above which directions are taken to first order: atan2 of a displacement
@@ -108,9 +104,6 @@ impl Observation {
                 observation.jacobian.row_mut(component).fill(0.0);
             }
         }
-        let jacobian = observation.jacobian;
-        observation.reference = corrected.reference_jacobians(leg).map(|by_error| jacobian * by_error);
-        observation.systematic = jacobian * corrected.motion_jacobian(leg, &observation.expected);
         observation
     }
 
@@ -121,15 +114,7 @@ impl Observation {
         expected: SE2,
         jacobian: Matrix3<f64>,
     ) -> Self {
-        Self {
-            residuals,
-            coefficients,
-            reading,
-            expected,
-            jacobian,
-            reference: [Matrix3::zeros(); 2],
-            systematic: SMatrix::zeros(),
-        }
+        Self { residuals, coefficients, reading, expected, jacobian }
     }
 }
 

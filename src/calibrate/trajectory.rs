@@ -12,6 +12,7 @@ pub struct Trajectory {
     poses: Vec<SE2>,
     /// Gap before each sample: the motion from the sample before is unknown in between, or altogether.
     gaps: Vec<Gap>,
+    has_breaks: bool,
     median_period: f64,
 }
 
@@ -98,7 +99,7 @@ impl Trajectory {
                 *gap = Gap::Pause;
             }
         }
-        Ok(Self { times, poses, gaps, median_period })
+        Ok(Self { times, poses, gaps, has_breaks: false, median_period })
     }
 
     /// Returns the trajectory with a break before each of these samples: no leg leads across, as where a reference jumped.
@@ -107,6 +108,7 @@ impl Trajectory {
         for sample in samples {
             if let Some(gap) = self.gaps.get_mut(sample) {
                 *gap = Gap::Break;
+                self.has_breaks = true;
             }
         }
         self
@@ -209,6 +211,9 @@ impl Trajectory {
 
     /// Returns whether a break lies between two times (s).
     pub(super) fn has_break(&self, from: f64, to: f64) -> bool {
+        if !self.has_breaks {
+            return false;
+        }
         let after = self.times.partition_point(|time| *time <= from);
         let end = self.times.partition_point(|time| *time < to);
         self.gaps[after..].iter().take((end + 1).saturating_sub(after)).any(|gap| *gap == Gap::Break)

@@ -2,10 +2,9 @@
 
 use super::input::{Input, turn_of};
 use super::laws;
-use motion::NoiseKind;
 use motion::calibrate::{
-    CalibrateError, Calibrating, Calibration, Doubts, Error, Estimate, FACTORS, FEWEST, HeldOut, Inflation,
-    LegLength, Model, Options, ReferenceError, Robust, Trajectory, TrajectoryError, TrajectoryFault, Verdict,
+    CalibrateError, Calibration, Check, Drive, LegLength, MIN_LEGS, Model, Options, Outliers,
+    SystematicError, Trajectory, TrajectoryError, TrajectoryFault, Verdict, calibrate,
 };
 use motion::geom::se2::SE2;
 use motion::models::OdometryRule;
@@ -18,9 +17,6 @@ const PARTS: usize = 6;
 const FEW_ROWS: usize = 12;
 const ROWS: usize = 64;
 
-/// Steps of a calibration at most, with room: each is a pass over the legs or less, and what is searched for takes sixty at most.
-const STEPS: usize = 4000;
-
 const MODELS: [Model; 5] = [
     Model::Odometry(OdometryRule::Table),
     Model::Odometry(OdometryRule::Nav2),
@@ -30,76 +26,43 @@ const MODELS: [Model; 5] = [
 ];
 
 pub fn run(bytes: &[u8]) {
-    steps_of(bytes);
-}
-
-/// Returns the number of steps of the calibration, or 0 if a log is refused.
-pub fn steps_of(bytes: &[u8]) -> usize {
     let mut input = Input(bytes);
     let options = options(&mut input);
-    // Legs of other lengths take five calibrations, and searches among triangles and bad legs several times as long as of normal noise.
-    let Options { by_length, noise, robust, .. } = options;
-    let by_length = by_length && turn_of(16, bytes);
-    let noise = if turn_of(16, bytes) { noise } else { NoiseKind::Normal };
-    let robust = if turn_of(8, bytes) { robust } else { Robust::No };
-    let options = Options { by_length, noise, robust, ..options };
     let mut driven = driven(&mut input, if turn_of(128, bytes) { ROWS } else { FEW_ROWS });
     let mut seen = seen(&driven, &mut input);
     edit(&mut driven, &mut input);
     edit(&mut seen, &mut input);
     let (Some(odometry), Some(reference)) = (trajectory(&driven, &mut input), trajectory(&seen, &mut input))
     else {
-        return 0;
+        return;
     };
-    let mut calibrating = Calibrating::new(options);
-    let mut progress = 0.0;
-    for step in 1..=STEPS {
-        let now = calibrating.progress();
-        assert!((progress..=1.0).contains(&now), "{progress}, then {now}");
-        progress = now;
-        match calibrating.step(&odometry, &reference) {
-            Ok(None) => {}
-            Ok(Some(told)) => {
-                makes_sense(&told, &options, [&odometry, &reference]);
-                return step;
-            }
-            Err(CalibrateError::FewLegs { legs }) => {
-                assert!(legs < FEWEST);
-                return step;
-            }
-            Err(CalibrateError::Apart) => {
-                let [one, other] = [&odometry, &reference].map(|each| each.span().expect("a row at least"));
-                assert!(one[1] < other[0] || other[1] < one[0], "{one:?} {other:?}");
-                return step;
-            }
+    match calibrate(&[Drive { odometry: &odometry, reference: &reference }], &options) {
+        Ok(calibration) => makes_sense(&calibration, &options),
+        Err(CalibrateError::TooFewLegs { legs }) => assert!(legs < MIN_LEGS),
+        Err(CalibrateError::Apart) => {
+            let [one, other] = [&odometry, &reference].map(|each| each.span().expect("a row at least"));
+            assert!(one[1] < other[0] || other[1] < one[0], "{one:?} {other:?}");
         }
     }
-    panic!("{STEPS} steps, and {progress} is done");
 }
 
 fn options(input: &mut Input) -> Options {
     let legs = match input.choice(4) {
         0 => LegLength::AMCL,
-        1 => LegLength::Lasted { duration: length(input) },
-        _ => LegLength::Moved { distance: length(input), angle: length(input) },
+        1 => LegLength::Duration { duration: length(input) },
+        _ => LegLength::Displacement { distance: length(input), angle: length(input) },
     };
-    let robust = match input.choice(4) {
-        0 => Robust::Stated(input.within(1e-9..=0.5)),
-        1 => Robust::Estimated,
-        _ => Robust::No,
-    };
-    let removed = input.byte();
-    let mut deviation = || if input.choice(3) == 0 { input.within(0.0..=1e3) } else { 0.0 };
-    let reference_error = ReferenceError { position: deviation(), heading: deviation() };
+    let outliers = input.of(&[Outliers::Reject, Outliers::Keep]);
+    let corrected = input.byte();
+    let mut stated = || (input.choice(3) == 0).then(|| input.within(0.0..=1e3));
+    let [position_std, yaw_std] = [stated(), stated()];
     Options {
         model: input.of(&MODELS),
         legs,
-        noise: input.of(&[NoiseKind::Normal, NoiseKind::Triangular]),
-        robust,
-        remove: std::array::from_fn(|error| removed >> error & 1 == 0),
-        reference_error,
-        seed: u64::from(input.byte()),
-        by_length: input.choice(4) == 0,
+        outliers,
+        correct: std::array::from_fn(|error| (corrected >> error & 1 == 1).then_some(corrected & 64 == 0)),
+        position_std,
+        yaw_std,
     }
 }
 
@@ -183,7 +146,7 @@ fn trajectory(rows: &[Row], input: &mut Input) -> Option<Trajectory> {
             assert!(rows.is_sorted_by(|a, b| a.0 < b.0));
             let whole = trajectory.gaps();
             let breaks: Vec<usize> = (0..input.choice(4)).map(|_| usize::from(input.byte())).collect();
-            let broken = trajectory.broken_before(breaks.iter().copied());
+            let broken = trajectory.with_breaks_before(breaks.iter().copied());
             assert!((whole..=whole + breaks.len()).contains(&broken.gaps()));
             Some(broken)
         }
@@ -199,76 +162,55 @@ fn trajectory(rows: &[Row], input: &mut Input) -> Option<Trajectory> {
     }
 }
 
-fn makes_sense(told: &Calibration, options: &Options, [odometry, reference]: [&Trajectory; 2]) {
-    let Calibration { estimate, bootstrap, systematic, removed, legs, observations, judged, .. } = told;
-    assert!(legs.len() >= FEWEST);
-    assert_eq!([observations.len(), judged.len()], [legs.len(); 2]);
+fn makes_sense(calibration: &Calibration, options: &Options) {
+    let Calibration { alphas, intervals, not_identifiable, legs, observations, leg_fits, .. } = calibration;
+    assert!(legs.len() >= MIN_LEGS);
+    assert_eq!([observations.len(), leg_fits.len()], [legs.len(); 2]);
     let count = options.model.alphas();
-    assert_eq!([estimate.alphas.len(), estimate.intervals.len(), bootstrap.len()], [count; 3]);
-    for (k, alpha) in estimate.alphas.iter().enumerate() {
-        let Some([from, to]) = estimate.intervals[k] else {
-            assert!(alpha.is_nan() && bootstrap[k].is_none(), "α{}: {estimate:?}", k + 1);
-            continue;
-        };
-        assert!(
-            0.0 <= from && from <= *alpha && *alpha <= to && alpha.is_finite(),
-            "α{}: {estimate:?}",
-            k + 1
-        );
-        let [low, high] = bootstrap[k].expect("as determined as the other");
-        assert!(0.0 <= low && low <= high, "α{}: {bootstrap:?}", k + 1);
+    assert_eq!([alphas.len(), intervals.len(), not_identifiable.len()], [count; 3]);
+    for (k, alpha) in alphas.iter().enumerate() {
+        assert_eq!([alpha.is_none(), intervals[k].is_none()], [not_identifiable[k].is_some(); 2]);
+        let Some((alpha, [low, high])) = alpha.zip(intervals[k]) else { continue };
+        let inside = 0.0 <= low && low <= alpha && alpha <= high && alpha.is_finite();
+        assert!(inside, "α{}: {low} {alpha} {high}", k + 1);
     }
-    assert!(!estimate.log_likelihood.is_nan());
-    assert_eq!(estimate.outliers.is_some(), options.robust != Robust::No);
-    laws::share("bad legs", estimate.outliers.unwrap_or(0.0));
-    for error in Error::ALL {
-        let (value, interval) = (systematic.get(error), told.interval_of(error));
-        assert!(value.is_finite() && interval.is_none_or(|[from, to]| from <= value && value <= to));
-        let kept = if options.remove[error as usize] { systematic.get(error) } else { removed.get(error) };
-        assert_eq!(kept, removed.get(error), "{error:?}");
+    for noise in calibration.reference_noise {
+        let [low, high] = noise.interval;
+        assert!(0.0 <= low && low <= noise.value && noise.value <= high, "{noise:?}");
+    }
+    assert!(!calibration.log_likelihood.is_nan());
+    for (i, error) in SystematicError::ALL.into_iter().enumerate() {
+        let (value, interval) = (calibration.systematic.get(error), calibration.interval_of(error));
+        assert!(value.is_finite() && interval.is_none_or(|[low, high]| low <= value && value <= high));
+        let may = interval.is_some() && options.correct[i] != Some(false);
+        assert!(may || !calibration.is_corrected[i], "{error:?}");
     }
     for pair in legs.windows(2) {
         assert!(pair[0].times[1] <= pair[1].times[0]);
     }
-    for leg in legs {
-        let [from, to] = leg.times;
-        assert!(from < to && !odometry.has_gap(from, to), "{leg:?}");
-        let offset = removed.clock_offset;
-        assert!(!reference.has_gap(from + offset, to + offset), "{leg:?}");
+    assert!(legs.iter().all(|leg| leg.times[0] < leg.times[1]));
+    for leg in leg_fits {
+        assert!(!leg.squared.is_nan() && leg.stds.iter().all(|std| *std >= 0.0), "{leg:?}");
+        assert!(options.outliers == Outliers::Reject || !leg.is_outlier);
     }
-    for leg in judged {
-        laws::share("bad", leg.bad);
-        assert!(leg.squared_error >= 0.0, "{leg:?}");
-        assert!(leg.deviations.iter().all(|each| each.is_nan() || *each >= 0.0), "{leg:?}");
-    }
-    doubts_make_sense(told);
-    assert_eq!(told.by_length.len(), if options.by_length { FACTORS.len() } else { 0 });
-    for at in &told.by_length {
-        let Some(Estimate { alphas, intervals, .. }) = &at.estimate else { continue };
-        for (alpha, interval) in alphas.iter().zip(intervals) {
-            assert!(interval.map_or(alpha.is_nan(), |[from, to]| from <= *alpha && *alpha <= to), "{at:?}");
-        }
-    }
+    diagnostics_make_sense(calibration);
 }
 
-fn doubts_make_sense(Calibration { doubts, inflation, legs, judged, .. }: &Calibration) {
-    let Doubts { kinds, held_out, worst, verdict } = doubts;
-    for kind in kinds {
-        assert!(kind.quantiles.is_sorted() && kind.quantiles.len() == if kind.count > 0 { 99 } else { 0 });
-        // The kurtosis is NaN if z⁴ overflows for a tiny deviation.
-        assert!(kind.kurtosis.is_nan() || kind.kurtosis >= 0.99, "{kind:?}");
-        assert!(!kind.autocorrelation.is_infinite(), "{kind:?}");
+fn diagnostics_make_sense(Calibration { alphas, diagnostics, persistence, recommended, .. }: &Calibration) {
+    for Check { name, value, expected: [low, high], passed, message } in &diagnostics.checks {
+        assert_eq!(*passed, low <= value && value <= high, "{name:?}: {value} {low} {high}");
+        assert_eq!(*passed, message.is_empty(), "{name:?}");
     }
-    let HeldOut { coverage, coverage_interval: [from, to], squared_error_interval: [least, most], .. } =
-        *held_out;
-    laws::share("coverage", coverage);
-    laws::share("its end", from);
-    assert!(!(from > 0.95 || to < 0.95 || least > 1.0 || most < 1.0), "{held_out:?}");
-    assert_eq!(worst.len(), legs.len().min(10));
-    assert!(worst.is_sorted_by(|a, b| judged[*a].squared_error >= judged[*b].squared_error), "{worst:?}");
-    assert_eq!(*verdict == Verdict::FewLegs, legs.len() < 100 || held_out.count < 50);
-    let Inflation { factors, coverage, log_likelihood } = inflation;
-    assert_eq!([factors.len(), coverage.len(), log_likelihood.len()], [25; 3]);
-    coverage.iter().for_each(|share| laws::share("inflated", *share));
-    assert!(log_likelihood.iter().all(|nats| !nats.is_nan()), "{log_likelihood:?}");
+    let consistent = diagnostics.checks.iter().all(|check| check.passed);
+    assert!(consistent || diagnostics.verdict != Verdict::Consistent);
+    for window in diagnostics.windows.iter().filter(|window| window.count > 0) {
+        laws::share("covered windows", window.coverage);
+    }
+    laws::share("persistence", persistence.correlation.value);
+    assert_eq!(recommended.is_none(), diagnostics.verdict == Verdict::Unusable);
+    let Some(recommended) = recommended else { return };
+    assert!((1.0..=100.0).contains(&recommended.inflation), "{recommended:?}");
+    for (alpha, inflated) in alphas.iter().zip(&recommended.alphas) {
+        assert_eq!(alpha.map(|alpha| alpha * recommended.inflation), *inflated);
+    }
 }

@@ -121,19 +121,17 @@ export const widgets = {
 
   'alpha-calibrator'({ AlphaCalibrator }, _, { settings }) {
     const machine = new AlphaCalibrator(settings);
-    const { stats: { alphas, intervals, bootstrap, systematic, logLikelihood, outliers, doubts, inflation, byLength }, legs, truth } = machine;
-    const { kinds, heldOut, squaredError, worst } = doubts;
+    const { stats: { alphas, intervals, systematicErrors, referenceNoise, persistence, logLikelihood, diagnostics, recommended }, legs, truth } = machine;
+    const { checks, windows } = diagnostics;
     const told = {
-      alphas: { alphas, intervals, bootstrap, logLikelihood, outliers },
-      systematic: Object.values(systematic).map(({ value, interval }) => ({ value, interval })),
-      doubts: {
-        kinds: kinds.map(({ name: _, ...figures }) => figures),
-        heldOut: [heldOut.count, heldOut.coverage, heldOut.interval, heldOut.logLikelihood],
-        squaredError,
-        worst,
+      alphas: { alphas, intervals, logLikelihood },
+      systematic: Object.values(systematicErrors),
+      noise: { stds: Object.values(referenceNoise), persistence },
+      diagnostics: {
+        checks: checks.map(({ value, expected, passed }) => ({ value, expected, passed })),
+        windows,
+        recommended: recommended && { alphas: recommended.alphas, inflation: recommended.inflation },
       },
-      inflation,
-      byLength: byLength.map(({ factor, legs: count, ...told }) => [factor, count, told.alphas, told.intervals, told.bootstrap]),
       legs,
       truth,
       panels: ['turn', 'way'].map((driver) => machine.panels(/** @type {'turn' | 'way'} */ (driver))),

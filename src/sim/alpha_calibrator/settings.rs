@@ -138,7 +138,7 @@ impl Rules for Settings {
         if self.omnidirectional() == (self.rule == OdometryRule::Omni) {
             return Ok(());
         }
-        let allowed = if self.omnidirectional() { "omni" } else { "table, nav2 or beluga" };
+        let allowed = if self.omnidirectional() { "omni" } else { "thrun, nav2 or beluga" };
         let allowed = Allowed::Word { is: self.rule.get(), allowed };
         Err(SettingsError { field: "rule".to_owned(), value: f64::NAN, allowed })
     }

@@ -1,14 +1,17 @@
-//! α's from logs: against the models' own densities, and against the α's and the errors that simulated logs were made with.
+//! Calibration of logs whose α's and errors are known.
 
-mod doubts;
-mod errors;
-mod fits;
-mod leg_lengths;
-mod logs;
-mod mismatch;
-mod passes;
+mod accuracy;
 mod simulated;
-mod sparse;
-mod standing;
-mod stated;
-mod undetermined;
+
+use motion::calibrate::{Calibration, Drive, Options, Trajectory, calibrate};
+use simulated::Simulation;
+
+/// Returns the calibration of a simulated log.
+fn calibrated(simulation: &Simulation) -> Calibration {
+    calibrated_log(&simulation.log(), &simulation.options())
+}
+
+/// Returns the calibration of odometry and reference.
+fn calibrated_log([odometry, reference]: &[Trajectory; 2], options: &Options) -> Calibration {
+    calibrate(&[Drive { odometry, reference }], options).expect("legs enough")
+}

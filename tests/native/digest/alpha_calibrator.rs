@@ -3,8 +3,7 @@
 use super::configuration::Configuration;
 use super::told::{Part, Told};
 use motion::calibrate::{
-    AtLength, Calibration, Doubts, Error, Estimate, HeldOut, Inflation, KindDoubts, Leg, ReferenceError,
-    Trajectory,
+    Calibration, Check, Estimate, Leg, Persistence, Recommended, SystematicError, Trajectory, WindowCoverage,
 };
 use motion::geom::se2::SE2;
 use motion::sim::alpha_calibrator::{AlphaCalibrator, Driver, LegView, Log, Panel, Settings, Truth};
@@ -13,29 +12,25 @@ pub fn parts(configuration: &Configuration) -> Vec<Part> {
     let mut machine =
         AlphaCalibrator::new(configuration.settings(Settings::default())).expect("a valid setting");
     let calibration = machine.calibration();
-    let Calibration { estimate, bootstrap, doubts, inflation, by_length, .. } = calibration;
-    let by_length: Vec<Values> = by_length.iter().map(|at| at_length(at, estimate.alphas.len())).collect();
-    let Doubts { kinds, held_out, worst, .. } = doubts;
-    let kinds: Vec<Values> = kinds.iter().map(kind).collect();
-    let HeldOut { count, coverage, coverage_interval, squared_error, squared_error_interval, log_likelihood } =
-        *held_out;
-    // A list of four.
-    let held_out = Values::of(&[&4usize, &count, &coverage, &coverage_interval, &log_likelihood]);
-    let Inflation { factors, coverage: covered, log_likelihood: nats } = inflation;
+    let Calibration { alphas, intervals, log_likelihood, reference_noise, persistence, diagnostics, .. } =
+        calibration;
+    let Persistence { correlation, length } = persistence;
+    let checks: Vec<Values> = diagnostics.checks.iter().map(check).collect();
+    let windows: Vec<Values> = diagnostics.windows.iter().map(window).collect();
+    let recommended = calibration
+        .recommended
+        .as_ref()
+        .map(|Recommended { alphas, inflation, .. }| Values::of(&[alphas, inflation]));
     let panels = [Driver::Turn, Driver::Way].map(|driver| machine.panels(driver).map(|each| panel(&each)));
     let leg = machine.leg(5).map(|LegView { outcomes, outline, read, ended }| {
         Values::of(&[&outcomes.as_flattened().to_vec(), &outline.as_flattened().to_vec(), &read, &ended])
     });
     let nearest = machine.nearest([0.5, 1.0], 3.0).map_or(-1.0, |index| index as f64);
     let mut parts = vec![
-        Part::new(
-            "alphas",
-            &[&estimate.alphas, &estimate.intervals, bootstrap, &estimate.log_likelihood, &estimate.outliers],
-        ),
+        Part::new("alphas", &[alphas, intervals, log_likelihood]),
         Part::new("systematic", &[&systematic(calibration)]),
-        Part::new("doubts", &[&kinds, &held_out, &squared_error, &squared_error_interval, worst]),
-        Part::new("inflation", &[factors, covered, nats]),
-        Part::new("byLength", &[&by_length]),
+        Part::new("noise", &[&reference_noise.map(|std| estimate(&std)), &estimate(correlation), length]),
+        Part::new("diagnostics", &[&checks, &windows, &recommended]),
         Part::new("legs", &[&legs(calibration)]),
         Part::new("truth", &[&machine.truth().map(|known| truth(&known))]),
         Part::new("panels", &[&panels]),
@@ -45,20 +40,19 @@ pub fn parts(configuration: &Configuration) -> Vec<Part> {
     // Where legs begin is a log too.
     let log = (calibration.legs.len() > 1).then(|| begins(calibration));
     log.into_iter().for_each(|log| machine.set_log(log));
-    let Estimate { alphas, intervals, .. } = &machine.calibration().estimate;
+    let Calibration { alphas, intervals, .. } = machine.calibration();
     parts.push(Part::new("log", &[&Values::of(&[&3usize, &machine.fits(), alphas, intervals])]));
     parts
 }
 
 fn begins(calibration: &Calibration) -> Log {
-    let Calibration { legs, removed, .. } = calibration;
+    let Calibration { legs, corrected, .. } = calibration;
     let trajectory = |pose: &dyn Fn(&Leg) -> SE2| {
         Trajectory::new(legs.iter().map(|leg| (leg.times[0], pose(leg)))).expect("times that rise")
     };
     Log {
         odometry: trajectory(&|leg| leg.odometry[0]),
-        reference: trajectory(&|leg| removed.base(&leg.reference[0])),
-        error: ReferenceError::default(),
+        reference: trajectory(&|leg| corrected.base(&leg.reference[0])),
     }
 }
 
@@ -79,67 +73,74 @@ impl Told for Values {
     }
 }
 
-fn kind(kind: &KindDoubts) -> Values {
-    let KindDoubts {
-        count,
-        kurtosis,
-        kurtosis_expected,
-        autocorrelation,
-        autocorrelation_limit,
-        quantiles,
-        ..
-    } = kind;
-    Values::of(&[count, kurtosis, kurtosis_expected, autocorrelation, autocorrelation_limit, quantiles])
+fn estimate(Estimate { value, interval }: &Estimate) -> Values {
+    Values::of(&[value, interval])
+}
+
+fn check(Check { value, expected, passed, .. }: &Check) -> Values {
+    Values::of(&[value, expected, passed])
+}
+
+fn window(WindowCoverage { length, count, coverage, nees }: &WindowCoverage) -> Values {
+    Values::of(&[length, count, coverage, nees])
 }
 
 /// Of the five, the lever arm has two coordinates.
 fn systematic(calibration: &Calibration) -> Vec<Values> {
-    let value = |error: Error| {
-        calibration.deviations[error as usize].is_some().then(|| calibration.systematic.get(error))
+    let value = |error: SystematicError| {
+        calibration.systematic_stds[error as usize].is_some().then(|| calibration.systematic.get(error))
     };
-    let one = |error: Error| Values::of(&[&value(error), &calibration.interval_of(error)]);
-    let arm = [Error::LeverArmAhead, Error::LeverArmLeft];
+    let one = |error: SystematicError| {
+        let [constant, corrected] =
+            [calibration.is_constant, calibration.is_corrected].map(|mask| mask[error as usize]);
+        Values::of(&[&value(error), &calibration.interval_of(error), &constant, &corrected])
+    };
+    let arm = [SystematicError::LeverArmAhead, SystematicError::LeverArmLeft];
+    let either = |mask: [bool; 6]| arm.iter().any(|error| mask[*error as usize]);
     vec![
-        one(Error::ClockOffset),
-        one(Error::MountYaw),
-        Values::of(&[&arm.map(value), &arm.map(|error| calibration.interval_of(error))]),
-        one(Error::DistanceScale),
-        one(Error::TurnScale),
+        one(SystematicError::ClockOffset),
+        one(SystematicError::MountYaw),
+        Values::of(&[
+            &arm.map(value),
+            &arm.map(|error| calibration.interval_of(error)),
+            &either(calibration.is_constant),
+            &either(calibration.is_corrected),
+        ]),
+        one(SystematicError::DistanceScale),
+        one(SystematicError::TurnScale),
     ]
 }
 
 fn legs(calibration: &Calibration) -> Values {
-    let Calibration { legs, observations, judged, removed, .. } = calibration;
+    let Calibration { legs, observations, leg_fits, corrected, .. } = calibration;
     let flat = |poses: [SE2; 2]| poses.into_iter().flat_map(|pose| [pose.x(), pose.y(), pose.theta()]);
     let times: Vec<f64> = legs.iter().flat_map(|leg| leg.times).collect();
     let odometry: Vec<f64> = legs.iter().flat_map(|leg| flat(leg.odometry)).collect();
     let reference: Vec<f64> =
-        legs.iter().flat_map(|leg| flat(leg.reference.map(|end| removed.base(&end)))).collect();
+        legs.iter().flat_map(|leg| flat(leg.reference.map(|end| corrected.base(&end)))).collect();
     let readings: Vec<f64> = observations.iter().flat_map(|each| each.reading).collect();
     let residuals: Vec<f64> = observations.iter().flat_map(|each| each.residuals).collect();
-    let deviations: Vec<f64> = judged.iter().flat_map(|leg| leg.deviations).collect();
-    let squared_error: Vec<f64> = judged.iter().map(|leg| leg.squared_error).collect();
-    let bad: Vec<f64> = judged.iter().map(|leg| leg.bad).collect();
-    let count = legs.len();
+    let observed = |numbers: &dyn Fn(usize) -> [f64; 3]| -> Vec<f64> {
+        let of = |leg: usize| {
+            let (numbers, residuals) = (numbers(leg), observations[leg].residuals);
+            (0..3).map(move |k| if residuals[k].is_nan() { f64::NAN } else { numbers[k] })
+        };
+        (0..legs.len()).flat_map(of).collect()
+    };
+    let squared: Vec<f64> = leg_fits.iter().map(|fit| fit.squared).collect();
+    let outliers: Vec<bool> = leg_fits.iter().map(|fit| fit.is_outlier).collect();
     Values::of(&[
-        &count,
+        &legs.len(),
         &times,
         &odometry,
         &reference,
         &readings,
         &residuals,
-        &deviations,
-        &squared_error,
-        &bad,
+        &observed(&|leg| leg_fits[leg].standardized),
+        &observed(&|leg| leg_fits[leg].stds),
+        &squared,
+        &outliers,
     ])
-}
-
-/// A list of five.
-fn at_length(AtLength { factor, legs, estimate, bootstrap }: &AtLength, count: usize) -> Values {
-    let alphas = estimate.as_ref().map_or_else(|| vec![f64::NAN; count], |told| told.alphas.clone());
-    let intervals = estimate.as_ref().map_or_else(|| vec![None; count], |told| told.intervals.clone());
-    let stretched = if bootstrap.is_empty() { vec![None; count] } else { bootstrap.clone() };
-    Values::of(&[&5usize, factor, legs, &alphas, &intervals, &stretched])
 }
 
 fn truth(truth: &Truth) -> Values {

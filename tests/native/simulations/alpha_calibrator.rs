@@ -1,10 +1,9 @@
 //! The Alpha Calibrator's machine: its simulated log by what it was simulated with, its panels and its legs by another route.
 
 use motion::OdomDelta;
-use motion::calibrate::{Calibration, Error, Leg, ReferenceError, Trajectory, Verdict};
+use motion::calibrate::{Calibration, Leg, SystematicError, Trajectory, Verdict};
 use motion::geom::se2::SE2;
 use motion::models::OdometryRule;
-use motion::sim::alpha_calibrator::example::example;
 use motion::sim::alpha_calibrator::{AlphaCalibrator, Driver, Log, Model, Settings};
 
 const SEEDS: u64 = 40;
@@ -21,8 +20,8 @@ fn held(machine: &AlphaCalibrator) -> [bool; 10] {
     let errors = [truth.clock_offset, truth.mount_yaw, ahead, left, truth.distance_scale, truth.turn_scale];
     std::array::from_fn(|i| {
         let (value, interval) = match i {
-            0..4 => (truth.alphas[i], calibration.estimate.intervals[i]),
-            _ => (errors[i - 4], calibration.interval_of(Error::ALL[i - 4])),
+            0..4 => (truth.alphas[i], calibration.intervals[i]),
+            _ => (errors[i - 4], calibration.interval_of(SystematicError::ALL[i - 4])),
         };
         let [low, high] = interval.expect("the log turns and drives");
         (low..=high).contains(&value)
@@ -34,7 +33,7 @@ fn held(machine: &AlphaCalibrator) -> [bool; 10] {
 fn the_opening_intervals_hold_the_true_values() {
     let machine = machine(Settings::default());
     assert_eq!(held(&machine), [true; 10]);
-    assert_eq!(machine.calibration().doubts.verdict, Verdict::Fits);
+    assert_eq!(machine.calibration().diagnostics.verdict, Verdict::Consistent);
 }
 
 /// Legs of a duration last it, whatever distance and angle say; inflation is no reason to fit anew.
@@ -53,47 +52,41 @@ fn legs_end_after_a_duration_where_one_is_set() {
     assert!(machine.legs().len() < before.len() / 2);
 }
 
-/// What is set of the reference's own error counts as if the log had said it, and takes its place where that does.
+/// A standard deviation of 0 is none: the log tells it.
 #[test]
-fn the_reference_error_comes_from_the_settings_or_the_log() {
-    let alphas = |set: ReferenceError, said: ReferenceError| {
-        let mut machine = machine(Settings { deviations: set, ..Settings::default() });
-        machine.set_log(Log { error: said, ..example(Settings::default().seed) });
-        machine.calibration().estimate.alphas.clone()
+fn the_noise_of_the_reference_is_stated_or_estimated() {
+    let noise = |position_std: f64, yaw_std: f64| {
+        let machine = machine(Settings { position_std, yaw_std, ..Settings::default() });
+        machine.calibration().reference_noise.map(|std| (std.value, std.interval[0] == std.interval[1]))
     };
-    let [none, error] = [ReferenceError::default(), ReferenceError { position: 0.004, heading: 0.003 }];
-    let [without, with] = [alphas(none, none), alphas(none, error)];
-    assert!(with[3] < 0.9 * without[3], "{with:?} {without:?}");
-    assert_eq!(alphas(error, none), with);
-    assert_eq!(alphas(error, ReferenceError { position: 0.1, heading: 0.1 }), with);
-    // Each by itself.
-    let half = ReferenceError { heading: 0.0, ..error };
-    assert_eq!(alphas(half, ReferenceError { position: 0.1, ..error }), with);
+    let [estimated, yaw] = noise(0.0, 0.003);
+    assert_eq!((estimated.1, yaw.1), (false, true));
+    assert!((yaw.0 - 0.003).abs() < 1e-12, "{yaw:?}");
+    let [position, estimated] = noise(0.004, 0.0);
+    assert_eq!((position.1, estimated.1), (true, false));
+    assert!((position.0 - 0.004).abs() < 1e-12, "{position:?}");
 }
 
-/// The mean of squares less what the other α answers for, by bins that this test makes itself.
+/// The mean of squares less what the other α and the reference explain, by bins that this test makes itself.
 #[test]
-fn panels_are_means_of_squared_residuals() {
+fn panels_are_means_of_squared_innovations() {
     let machine = machine(Settings::default());
-    let Calibration { estimate, observations, judged, .. } = machine.calibration();
+    let Calibration { alphas, intervals, observations, leg_fits, .. } = machine.calibration();
     let [rot1, trans, rot2] = machine.panels(Driver::Turn);
     assert_eq!([rot1.alpha, trans.alpha, rot2.alpha], [0, 3, 0]);
     assert_eq!(machine.panels(Driver::Way).map(|panel| panel.alpha), [1, 2, 1]);
-    assert_eq!(trans.slope, Some(estimate.alphas[3]));
-    assert_eq!(trans.interval, estimate.intervals[3]);
+    assert_eq!((trans.slope, trans.interval), (alphas[3], intervals[3]));
+    let slope = alphas[3].expect("the log turns");
     // The table charges the drive for the squares of both turns.
-    let mut points: Vec<[f64; 3]> = observations
+    let mut points: Vec<[f64; 2]> = observations
         .iter()
-        .zip(judged)
-        .map(|(observation, judged)| {
-            let [first, way, second] = observation.reading;
-            let [of_way, of_turns] = observation.coefficients[1];
+        .zip(leg_fits)
+        .filter(|(_, fit)| !fit.is_outlier)
+        .map(|(observation, fit)| {
+            let [first, _, second] = observation.reading;
             let turns = first * first + second * second;
-            // What the clock, known to some milliseconds, leaves a leg of its own noise.
-            let own = if way > 0.0 { of_way / (way * way) } else { of_turns / turns };
-            assert!((0.9..1.0).contains(&own) && (own * turns - of_turns).abs() < 1e-12, "{own}");
-            let answered = estimate.alphas[2] * of_way + observation.floors[1] + observation.unknown[1];
-            [of_turns, observation.residuals[1].powi(2) - answered, 1.0 - judged.bad]
+            let [variance, innovation] = [fit.stds[1].powi(2), fit.standardized[1] * fit.stds[1]];
+            [turns, innovation * innovation - (variance - slope * turns)]
         })
         .collect();
     points.sort_by(|one, other| one[0].total_cmp(&other[0]));
@@ -103,13 +96,12 @@ fn panels_are_means_of_squared_residuals() {
         |i: usize| points.partition_point(|point| point[0] <= points[((i * size).min(points.len())) - 1][0]);
     for i in 0..8 {
         let bin = &points[if i == 0 { 0 } else { end(i) }..end(i + 1)];
-        let total: f64 = bin.iter().map(|point| point[2]).sum();
-        let mean = |of: usize| bin.iter().map(|point| point[2] * point[of]).sum::<f64>() / total;
+        let mean = |of: usize| bin.iter().map(|point| point[of]).sum::<f64>() / bin.len() as f64;
         assert!((trans.x[i] - mean(0)).abs() < 1e-12 && (trans.y[i] - mean(1)).abs() < 1e-12, "bin {i}");
     }
     assert_eq!(trans.x.len(), 8);
     // The model is true: the bins are about the line, as their errors say.
-    let off = |i: usize| ((trans.y[i] - estimate.alphas[3] * trans.x[i]) / trans.error[i]).powi(2);
+    let off = |i: usize| ((trans.y[i] - slope * trans.x[i]) / trans.error[i]).powi(2);
     assert!((0..8).map(off).sum::<f64>() < 26.1, "χ² of 8 is above that once in a thousand times");
 }
 
@@ -141,7 +133,7 @@ fn a_leg_is_shown_in_the_frame_of_its_start() {
     let calibration = machine.calibration();
     let index = 100;
     let view = machine.leg(index).expect("a leg");
-    let [from, to] = calibration.legs[index].reference.map(|pose| calibration.removed.base(&pose));
+    let [from, to] = calibration.legs[index].reference.map(|pose| calibration.corrected.base(&pose));
     let ended = from.inverse() * to;
     assert_eq!(view.ended, [ended.x(), ended.y(), ended.theta()]);
     let [rot1, trans, rot2] = calibration.observations[index].reading;
@@ -151,7 +143,7 @@ fn a_leg_is_shown_in_the_frame_of_its_start() {
     );
     // The cloud is that of the rule, with four times the variance.
     let mut alphas = [0.0; 5];
-    alphas[..4].copy_from_slice(&calibration.estimate.alphas);
+    alphas.iter_mut().zip(&calibration.alphas).for_each(|(alpha, fitted)| *alpha = fitted.expect("known"));
     let variances =
         OdometryRule::Table.variances(&OdomDelta { rot1, trans, rot2 }, &alphas.map(|alpha| 4.0 * alpha));
     let count = view.outcomes.len() as f64;
@@ -175,10 +167,10 @@ fn a_leg_is_shown_in_the_frame_of_its_start() {
 fn the_nearest_leg_is_the_one_that_leads_by() {
     let machine = machine(Settings::default());
     let calibration = machine.calibration();
-    let [from, to] = calibration.legs[7].reference.map(|pose| calibration.removed.base(&pose));
+    let [from, to] = calibration.legs[7].reference.map(|pose| calibration.corrected.base(&pose));
     let middle = [0.5 * (from.x() + to.x()), 0.5 * (from.y() + to.y())];
     let found = machine.nearest(middle, 1e-9).expect("it leads through there");
-    let [from, to] = calibration.legs[found].reference.map(|pose| calibration.removed.base(&pose));
+    let [from, to] = calibration.legs[found].reference.map(|pose| calibration.corrected.base(&pose));
     let way = |a: [f64; 2], b: [f64; 2]| libm::hypot(a[0] - b[0], a[1] - b[1]);
     let [from, to] = [from, to].map(|pose| [pose.x(), pose.y()]);
     assert!(way(from, middle) + way(middle, to) - way(from, to) < 1e-9);
@@ -201,25 +193,26 @@ fn the_model_and_the_rule_go_together() {
     assert_eq!(settled(|s| s.rule = OdometryRule::Nav2, "rule").model, Model::Odometry);
     let both = Settings { model: Model::Odometry, rule: OdometryRule::Omni, ..Settings::default() };
     let refusal = AlphaCalibrator::new(both).expect_err("they do not").to_string();
-    assert_eq!(refusal, "rule is omni; allowed is table, nav2 or beluga");
+    assert_eq!(refusal, "rule is omni; allowed is thrun, nav2 or beluga");
 }
 
 #[test]
-fn a_calibration_in_slices_equals_one_call() {
+fn a_calibration_that_was_begun_is_one_step() {
     let settings = Settings { rule: OdometryRule::Nav2, distance: 0.4, ..Settings::default() };
-    let mut sliced = machine(Settings::default());
-    let before = sliced.calibration().clone();
-    sliced.begin(settings).expect("allowed");
-    assert!(!sliced.advance() && sliced.progress() < 1.0);
-    sliced.stop();
-    assert_eq!(*sliced.settings(), Settings::default());
-    assert_eq!(format!("{:?}", sliced.calibration()), format!("{before:?}"));
-    sliced.begin(settings).expect("allowed");
-    while !sliced.advance() {}
-    assert_eq!(format!("{:?}", sliced.calibration()), format!("{:?}", machine(settings).calibration()));
-    // The factor takes no time.
-    sliced.begin(Settings { inflation: 2.0, ..settings }).expect("allowed");
-    assert!(sliced.advance());
+    let mut begun = machine(Settings::default());
+    // Residuals that a leg does not show are NaN, which equals nothing.
+    let before = format!("{:?}", begun.calibration());
+    begun.begin(settings).expect("allowed");
+    assert!(begun.progress() == 0.0 && format!("{:?}", begun.calibration()) == before);
+    begun.stop();
+    assert!(*begun.settings() == Settings::default() && format!("{:?}", begun.calibration()) == before);
+    begun.begin(settings).expect("allowed");
+    assert!(begun.advance());
+    assert_eq!((begun.progress(), begun.fits()), (1.0, 2));
+    assert!(format!("{:?}", begun.calibration()) == format!("{:?}", machine(settings).calibration()));
+    // The inflation is of the prediction alone.
+    begun.begin(Settings { inflation: 2.0, ..settings }).expect("allowed");
+    assert_eq!((begun.progress(), begun.fits()), (1.0, 2));
 }
 
 #[test]
@@ -227,14 +220,14 @@ fn a_log_without_legs_gives_an_empty_calibration() {
     let mut machine = machine(Settings::default());
     let poses =
         |count: usize| Trajectory::new((0..count).map(|i| (i as f64, SE2::identity()))).expect("times rise");
-    machine.set_log(Log { odometry: poses(10), reference: poses(10), error: ReferenceError::default() });
+    machine.set_log(Log { odometry: poses(10), reference: poses(10) });
     assert!(machine.truth().is_none());
-    let Calibration { estimate, legs, doubts, .. } = machine.calibration();
-    assert!(legs.is_empty() && estimate.alphas.iter().all(|alpha| alpha.is_nan()));
-    assert_eq!(doubts.verdict, Verdict::FewLegs);
+    let Calibration { alphas, legs, diagnostics, recommended, .. } = machine.calibration();
+    assert!(legs.is_empty() && alphas.iter().all(Option::is_none) && recommended.is_none());
+    assert_eq!(diagnostics.verdict, Verdict::Unusable);
     assert!(machine.leg(0).is_none() && machine.nearest([0.0; 2], 1.0).is_none());
     assert!(machine.panels(Driver::Turn).iter().all(|panel| panel.x.is_empty() && panel.slope.is_none()));
-    // Another seed is of the bootstrap then, and does not bring the simulated log back.
+    // Another seed does not bring the simulated log back.
     machine.configure(Settings { seed: 1, ..Settings::default() }).expect("allowed");
     assert!(machine.truth().is_none());
 }

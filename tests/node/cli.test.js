@@ -12,7 +12,6 @@ import { TRUTH } from '../../scripts/example-log.mjs';
 import { HELP } from '../../www/cli/options.js';
 import { textOf } from '../../www/cli/report.js';
 import { run } from '../../www/cli/run.js';
-import { de } from '../../www/widgets/alpha-calibrator/de.js';
 import { en } from '../../www/widgets/alpha-calibrator/en.js';
 import { odometry, poseOf, recordingOf, stampOf, transform, twistOf } from '../mcap.js';
 
@@ -50,17 +49,32 @@ async function callOf(args) {
 
 test('options reach the core', async () => {
   const { odometry: own, reference, ...fit } = await callOf(FILES);
-  assert.deepEqual(fit, { byLength: true, legs: { distance: 0.25, angle: 0.2 } });
-  assert.deepEqual([Object.keys(own), Object.keys(reference)], [['t', 'x', 'y', 'theta', 'breaks'], ['t', 'x', 'y', 'theta', 'breaks']]);
-  const all = '--model omnidirectional --rule nav2 --distance 0.5 --angle 0.3 --noise triangular --robust --without mountYaw,leverArm --seed 7 --position-deviation 0.001 --heading-deviation 2e-3';
-  const { reference: stated, ...rest } = await callOf([...FILES, ...all.split(' ')]);
-  delete rest.odometry;
-  const systematic = { clockOffset: true, mountYaw: false, leverArm: false, distanceScale: true, turnScale: true };
-  assert.deepEqual(rest, { model: 'omnidirectional', rule: 'nav2', legs: { distance: 0.5, angle: 0.3 }, noise: 'triangular', robust: true, systematic, seed: 7, byLength: true });
-  assert.deepEqual([stated.positionDeviation, stated.headingDeviation], [0.001, 0.002]);
-  assert.deepEqual((await callOf([...FILES, '--robust', '0.02'])).robust, { outliers: 0.02 });
-  assert.deepEqual((await callOf([...FILES, '--robust=0.03', '--duration=0.5'])).legs, { duration: 0.5 });
+  assert.deepEqual(fit, { legs: { distance: 0.25, angle: 0.2 } });
+  for (const log of [...own, ...reference]) assert.deepEqual(Object.keys(log), ['t', 'x', 'y', 'theta', 'breaks']);
+  const all = '--model omnidirectional --rule omni --update-min-d 0.5 --update-min-a 0.3 --outliers keep --reference-position-std 0.001 --reference-yaw-std 2e-3';
+  const stated = await callOf([...FILES, ...all.split(' ')]);
+  assert.deepEqual({ ...stated, odometry: [], reference: [] }, { odometry: [], reference: [], model: 'omnidirectional', rule: 'omni', legs: { distance: 0.5, angle: 0.3 }, outliers: 'keep', positionStd: 0.001, yawStd: 0.002 });
+  assert.deepEqual((await callOf([...FILES, '--duration=0.5'])).legs, { duration: 0.5 });
   assert.equal((await callOf([...FILES, '--rule', 'omni'])).model, 'omnidirectional');
+});
+
+test('systematic errors are corrected or left in by name, all of them or single ones', async () => {
+  const correctOf = async (/** @type {string} */ args) => (await callOf([...FILES, ...args.split(' ')])).correct;
+  assert.deepEqual(await correctOf('--no-correct mountYaw,leverArm --correct turnScale'), { mountYaw: false, leverArm: false, turnScale: true });
+  const none = { clockOffset: false, mountYaw: false, leverArm: false, distanceScale: false, turnScale: false };
+  assert.deepEqual(await correctOf('--no-correct all'), none);
+  assert.deepEqual(await correctOf('--correct clockOffset --no-correct all'), { ...none, clockOffset: true });
+});
+
+test('several drives are calibrated together, with times after one start', async () => {
+  const drives = ['2', '3'].flatMap((digit) => ['odometry', 'reference'].flatMap((role) => {
+    const rows = Array.from({ length: 40 }, (_, i) => `${digit}00.${10 + i},${i},0,0`);
+    return [`--${role}`, file(`${role}${digit}.csv`, ['t,x,y,yaw', ...rows].join('\n'))];
+  }));
+  const { odometry: own, reference } = await callOf(drives);
+  for (const logs of [own, reference]) assert.deepEqual(logs.map((/** @type {any} */ { t }) => Math.round(t[0])), [0, 100]);
+  const { err } = await outputOf(drives.slice(0, 6));
+  assert.equal(err, 'there are 2 logs of odometry and 1 of the reference; expected is one of each for a drive.\n');
 });
 
 test('a recording has both logs, by topics and frames that are clear or named', async () => {
@@ -80,16 +94,16 @@ test('a recording has both logs, by topics and frames that are clear or named', 
     ['--recording', file(name, await recordingOf(messages.filter(({ topic }) => topics.includes(topic)), { compression: 'zstd' }))];
   const numbersOf = async (/** @type {string[]} */ ...args) => {
     const call = await callOf(args);
-    return [call.odometry.y?.[3], call.odometry.omega?.[3], call.reference.y[3]];
+    return [call.odometry[0].y?.[3], call.odometry[0].omega?.[3], call.reference[0].y[3]];
   };
   const all = await recorded('run.mcap', '/odom', '/mocap', '/other', '/cmd_vel');
   assert.deepEqual(await numbersOf(...all), [1, undefined, 2]);
-  assert.deepEqual(await numbersOf(...all, '--odom-topic', '/mocap', '--reference-topic', '/odom'), [2, undefined, 1]);
+  assert.deepEqual(await numbersOf(...all, '--odometry-topic', '/mocap', '--reference-topic', '/odom'), [2, undefined, 1]);
   assert.deepEqual(await numbersOf(...all, '--model', 'velocity'), [undefined, 2, 2]);
   const frames = await recorded('tf.mcap', '/tf');
-  assert.deepEqual(await numbersOf(...frames, '--odom-frames', 'odom,base_link', '--frames', 'map,base_link'), [1, undefined, 2]);
+  assert.deepEqual(await numbersOf(...frames, '--odometry-frames', 'odom,base_link', '--reference-frames', 'map,base_link'), [1, undefined, 2]);
   for (const [args, sentence] of /** @type {const} */ ([
-    [frames, 'tf.mcap: which topic is the odometry is not clear; expected is a choice of /tf (TFMessage), by --odom-frames.\n'],
+    [frames, 'tf.mcap: which topic is the odometry is not clear; expected is a choice of /tf (TFMessage), by --odometry-frames.\n'],
     [
       await recorded('unclear.mcap', '/odom', '/other', '/third'),
       'unclear.mcap: which topic is the reference is not clear; expected is a choice of /odom (Odometry), /other (PoseStamped), /third (PoseStamped), by --reference-topic.\n',
@@ -102,23 +116,23 @@ test('bad input has the exit code 2 and a sentence', async () => {
   const straight = file('straight.csv', ['t,x,y,yaw', ...Array.from({ length: 2000 }, (_, i) => `${1_600_000_000 + i / 20},${i / 40},0,0`)].join('\n'));
   for (const [args, start] of /** @type {[string[], string][]} */ ([
     [['odom.csv'], '“odom.csv” belongs to no option; expected are options such as --odometry.'],
-    [['--odometri', 'a'], "Unknown option '--odometri'."],
-    [['--distance', '--json'], "Option '--distance' argument is ambiguous."],
+    [['--odometri', 'a'], '--odometri is no option; the nearest is --odometry, --help lists all.'],
+    [['--seed', '1'], '--seed is no option; --help lists all.'],
+    [['--update-min-d', '--json'], "Option '--update-min-d' argument is ambiguous."],
     [['--odometry', example('odometry')], '--reference is missing; expected is a file, or --recording with both.'],
-    [[...FILES, '--distance', '0,25'], '--distance is “0,25”; expected is a number with a decimal point, 0.25.'],
-    [[...FILES, '--angle', 'wide'], '--angle is “wide”; expected is a number.'],
-    [[...FILES, '--robust=some'], '--robust is “some”; expected is a number.'],
-    [[...FILES, '--duration', '1', '--angle', '1'], '--duration is 1 beside --distance or --angle; expected is either the one or the others.'],
-    [[...FILES, '--without', 'yaw'], '--without has “yaw”; expected are names of clockOffset, mountYaw, leverArm, distanceScale, turnScale.'],
-    [[...FILES, '--frames', 'map'], '--frames is “map”; expected are a parent and a child, as in map,base_link.'],
-    [[...FILES, '--frames', 'map,base_link'], 'reference.csv is no recording and has no frames map and base_link; expected is an MCAP file.'],
-    [[...FILES, '--odom-topic', '/odom'], 'odometry.csv is no recording and has no topic /odom; expected is an MCAP file.'],
+    [[...FILES, '--update-min-d', '0,25'], '--update-min-d is “0,25”; expected is a number with a decimal point, 0.25.'],
+    [[...FILES, '--update-min-a', 'wide'], '--update-min-a is “wide”; expected is a number.'],
+    [[...FILES, '--duration', '1', '--update-min-a', '1'], '--duration is 1 beside --update-min-d or --update-min-a; expected is either the one or the others.'],
+    [[...FILES, '--no-correct', 'yaw'], '--no-correct has “yaw”; expected is all, or names of clockOffset, mountYaw, leverArm, distanceScale, turnScale.'],
+    [[...FILES, '--reference-frames', 'map'], '--reference-frames is “map”; expected are a parent and a child, as in map,base_link.'],
+    [[...FILES, '--reference-frames', 'map,base_link'], 'reference.csv is no recording and has no frames map and base_link; expected is an MCAP file.'],
+    [[...FILES, '--odometry-topic', '/odom'], 'odometry.csv is no recording and has no topic /odom; expected is an MCAP file.'],
     [['--recording', FILES[1]], 'odometry.csv is no MCAP recording; expected is one for both odometry and reference, or two tables.'],
-    [[...FILES, '--reference', tmpdir()], `${tmpdir().slice(1)}: the file cannot be read (no file); expected is one that is still there.`],
+    [[...FILES.slice(0, 2), '--reference', tmpdir()], `${tmpdir().slice(1)}: the file cannot be read (no file); expected is one that is still there.`],
     // Errors of the core, by the names of options and files.
-    [[...FILES, '--distance=-1'], '--distance is -1; allowed is '],
-    [[...FILES, '--robust', '0.9'], '--robust is 0.9; allowed is '],
-    [[...FILES, '--position-deviation=-1'], '--position-deviation is -1; allowed is '],
+    [[...FILES, '--update-min-d=-1'], '--update-min-d is -1; allowed is '],
+    [[...FILES, '--outliers', 'some'], '--outliers is "some"; allowed is '],
+    [[...FILES, '--reference-position-std=-1'], '--reference-position-std is -1; allowed is '],
     [[...FILES, '--rule', 'amcl'], '--rule is "amcl"; allowed is '],
     [[...FILES.slice(0, 2), '--reference', straight], 'odometry.csv and straight.csv: odometry and reference have no time in common, and turn alike at no offset of their clocks; '],
   ])) {
@@ -154,42 +168,61 @@ test('a recording of the example has the truth in its intervals, and its JSON th
   const result = JSON.parse(stdout);
   const within = (/** @type {number} */ value, /** @type {[number, number]} */ [low, high]) => assert.ok(low <= value && value <= high, `${value}: ${low} to ${high}`);
   for (const [i, alpha] of TRUTH.alphas.entries()) within(alpha, result.intervals[i]);
-  for (const name of /** @type {const} */ (['mountYaw', 'clockOffset', 'distanceScale'])) within(TRUTH[name], result.systematic[name].interval);
-  assert.deepEqual([result.doubts.verdict, result.start], ['fits', 9]);
+  for (const name of /** @type {const} */ (['mountYaw', 'clockOffset', 'distanceScale'])) within(TRUTH[name], result.systematicErrors[name].interval);
+  assert.deepEqual([result.diagnostics.verdict, result.start, result.date.length], ['consistent', 9, 10]);
   const [, section] = readFileSync(new URL('../../doc/calibration.md', import.meta.url), 'utf8').match(/\n### JSON\n(.*?)\n### /s) ?? [];
   assert.deepEqual(Object.keys(result).filter((key) => !section.includes(`\`${key}\``)), []);
 });
 
-test('the text has the α’s, systematic errors, doubts, a verdict, lines for Nav2, and sentences for figures that are missing', async () => {
-  const { out } = await outputOf([...FILES, '--rule', 'nav2', '--distance', '1', '--angle', '1', '--position-deviation', '0.001']);
-  for (const line of [
-    /^odometry\.csv: \d+ of \d+ rows, /m, /^the reference errs by 0\.001 m, as stated; its heading is taken to be exact; .*: state it by --heading-deviation$/m,
-    /^alpha1 +\d\.\d+ +\S+ to \S+ +\S+ to \S+ +rotation noise from rotation$/m, /^by length +0\.25 m, 0\.25 rad +0\.5 m, 0\.5 rad /m, /^mount yaw +0\.0\d+ rad +\S+ to \S+ +removed$/m,
-    /^held-out residuals inside of 95 % +\S+ % /m, /^amcl:\n {2}ros__parameters:\n {4}# \d+ legs of 1 m or 1 rad of odometry\.csv and reference\.csv, 2026-01-02; /m,
-    /^ {4}alpha1: \d\.\d+ {2}# \S+ to \S+$/m, /^ {4}update_min_d: 1\.0\n {4}update_min_a: 1\.0$/m,
-  ]) assert.match(out, line);
-
-  const { reference, ...call } = await callOf(FILES);
-  const calibration = /** @type {any} */ (await load()).calibrate({ ...call, reference });
-  const { doubts, systematic, alphas, intervals, bootstrap } = calibration;
-  const printed = (/** @type {any} */ change, fit = {}) =>
-    textOf({ calibration: { ...calibration, ...change }, fit: { legs: call.legs, ...fit }, deviations: {}, logs: [], start: 0, date: '' });
-  for (const verdict of /** @type {(keyof typeof en.verdicts)[]} */ (Object.keys(en.verdicts))) {
-    const text = printed({ doubts: { ...doubts, verdict } });
-    const sentence = `${en.verdicts[verdict](/(?<=inside of 95 % +)[\d.]+ %/.exec(text)?.[0] ?? '')} ${en.nextSteps[verdict]}`;
-    assert.ok(text.includes(`\n${sentence}\n`), verdict);
-    assert.equal(text.includes(`    # ${sentence}\n`), verdict !== 'fits', verdict);
-  }
-  const declared = readFileSync(new URL('../../dist/machines.d.ts', import.meta.url), 'utf8').match(/verdict: '(.*)';/)?.[1].split("' | '");
-  for (const { verdicts } of [en, de]) assert.deepEqual(Object.keys(verdicts).sort(), declared?.sort());
-  const undetermined = ['one-ratio', 'one-ratio', 'drives-too-little', 'one-ratio'];
-  assert.match(printed({ undetermined }), /^alpha3 not determined: too little translation in this log; add ~50 straight legs\nalpha1, alpha2, and alpha4 not determined: /m);
-  assert.match(printed({ undetermined: [null, 'turns-too-little', null, null] }, { model: 'velocity' }), /^alpha2 not determined: too little rotation in this log; add ~50 legs in tight bends$/m);
-  const upTo = (/** @type {any[]} */ all) => all.toSpliced(1, 1, [0, 0.00123]);
-  const zero = printed({ alphas: alphas.toSpliced(1, 1, 0), intervals: upTo(intervals), bootstrap: upTo(bootstrap) });
-  assert.match(zero, /^alpha2 +≤ 0\.0012 +0\.0000 to 0\.0012 .*\n(.*\n)*alpha2 not told from 0: to tell it, add ~50 straight legs$/m);
-  assert.match(printed({ alphas: [null, null, null, null], undetermined }), /^alpha1 +not determined by this log/m);
-  assert.match(printed({ byLength: [{ factor: 1, legs: 3, alphas: [null, null, null, null], bootstrap: [null, null, null, null] }] }), /^–: too few legs, /m);
-  assert.match(printed({ systematic: { ...systematic, mountYaw: { value: null, interval: null, removed: false } } }), /^mount yaw +not determined$/m);
-  assert.match(printed({ gaps: { odometry: 1, reference: 2 } }), /^no leg leads across 1 gap of the odometry and 2 of the reference$/m);
+test('the report of the example, from the verdict to the lines for Nav2', async () => {
+  const { code, out } = await outputOf([...FILES, '--rule', 'nav2', '--reference-yaw-std', '0']);
+  assert.equal(code, 0);
+  const parts = [
+    /^Consistent: all checks passed\. Use the recommended α’s with legs of this length\.\n/, /^odometry\.csv: \d+ of \d+ rows, /m,
+    /^\d+ legs of 0\.25 m or 0\.2 rad; model odometry, rule nav2$/m, /^ +fitted +95 % +recommended$/m,
+    /^alpha1 +0\.0\d+ +\S+ to \S+ +0\.0\d+ +rotation noise from rotation$/m, /^The fit covers .* held-out windows of 1 m/m,
+    /^reference position σ +\S+ m +\S+ to \S+ +estimated$/m, /^reference yaw σ +0 rad +as stated$/m, /^mount yaw +0\.0\d+ rad +\S+ to \S+ +corrected$/m,
+    /^correlation of neighbouring legs +0\.0/m, /^enough-legs +\d+ +≥ 100 +ok$/m, /^tails-normal +\S+ +2\.5 to 3\.5 +ok$/m, /^outliers: 1 of \d+ legs, at \d+\.\d\d s$/m,
+    /^of 1 m +\d+ +\d\S* % +\d\.\d+$/m, /^# nav2_params\.yaml\namcl:$/m, /2026-01-02$/m, /^ {4}alpha1: 0\.\d+ {2}# fitted 0\.\d+, 95 % /m, /^ {4}update_min_a: 0\.2$/m,
+  ];
+  const places = parts.map((part) => out.search(part));
+  assert.deepEqual(places.filter((place, i) => place < 0 || place < places[i - 1]).map((place) => places.indexOf(place)), [], out);
 });
+
+test('an unusable log has a sentence and no lines for Nav2', async () => {
+  const swapped = file('swapped.csv', readFileSync(example('reference'), 'utf8').replace('t,x,y', 't,y,x'));
+  const { code, out } = await outputOf([...FILES.slice(0, 3), swapped]);
+  assert.equal(code, 0);
+  for (const line of [
+    /^Unusable: no α’s are recommended from this log\. The reference does not follow the odometry: /, /^reference-matches +\S+ +0 to 0\.7 +FAILED$/m,
+    /^alpha1 .* – +rotation noise/m, /^No lines for nav2_params\.yaml: the log is unusable\.$/m,
+  ]) assert.match(out, line);
+  assert.doesNotMatch(out, /amcl:/);
+});
+
+test('the report says what failed, what is lost, and what to drive', async () => {
+  const { odometry: own, reference, ...options } = await callOf(FILES);
+  const calibration = /** @type {any} */ (await load()).calibrate({ ...options, odometry: own, reference });
+  const { diagnostics, lost, persistence, systematicErrors } = calibration;
+  const printed = (/** @type {any} */ change, other = {}) => textOf({ calibration: { ...calibration, ...change }, options: { ...options, ...other }, logs: [], start: 0, date: '' });
+  const checks = [{ name: 'enough-legs', value: 20, expected: [100, Infinity], passed: false, message: 'Drive on.' }];
+  const failed = printed({ diagnostics: { ...diagnostics, verdict: 'questionable', checks } });
+  assert.match(failed, /^Questionable: one check failed\. .*\n[^]*^enough-legs +20 +≥ 100 +FAILED\nenough-legs: Drive on\.$/m);
+  assert.match(printed({ recommended: null, diagnostics: { ...diagnostics, verdict: 'unusable' } }), /^Unusable: .* It does not identify any α: /);
+  assert.match(printed({ lost: { ...lost, withoutReference: 3, standing: 7 } }), /^lost legs: 3 without reference, 7 of a standing robot$/m);
+  assert.match(printed({ persistence: { ...persistence, length: 0.987 } }), /^correlation of neighbouring legs .*errors persist over 0\.99 m$/m);
+  assert.match(printed({ systematicErrors: { ...systematicErrors, turnScale: { value: 0.9, interval: [0.88, 0.92], constant: false, corrected: false } } }), /^turn scale .*not corrected, not a constant$/m);
+  assert.match(printed({ systematicErrors: { ...systematicErrors, mountYaw: { value: null, interval: null, constant: true, corrected: false } } }), /^mount yaw +not identifiable$/m);
+  const unknown = { alphas: [0.1, null, 0.1, null], notIdentifiable: [null, 'collinear', null, 'collinear'] };
+  assert.match(printed(unknown), /^alpha2 +not identifiable .*\n(.*\n)*alpha2 and alpha4 not identifiable: rotation and translation are collinear in this log; add /m);
+  assert.match(printed({ ...unknown, notIdentifiable: [null, 'insufficient-rotation', null, null] }, { model: 'velocity' }), /^alpha2 not identifiable: .*; add ~50 legs in tight bends$/m);
+  assert.match(printed({ alphas: [0, 0.1, 0.1, 0.1], intervals: [[0, 0.00123], [0.05, 0.2], null, null] }), /^alpha1 +≤ 0\.0012 +0\.0000 to 0\.0012 +≤ 0\.0015 /m);
+  assert.match(printed({}, { model: 'velocity' }), /^No lines for nav2_params\.yaml: Nav2 has no velocity model\.$/m);
+  for (const reason of calibrationWords()) assert.ok(reason in en.alphas.lacking, reason);
+});
+
+/** Reasons for which an α is not identifiable, as the core declares them. */
+function calibrationWords() {
+  const [, declared] = readFileSync(new URL('../../dist/machines.d.ts', import.meta.url), 'utf8').match(/notIdentifiable: \('(.*)' \| null\)\[\];/) ?? [];
+  return declared.split("' | '");
+}

@@ -8,53 +8,55 @@ export class UsageError extends Error {}
 
 export const HELP = `motion-widgets calibrate: the α's of a robot's motion model, from a log
 
-  npx motion-widgets calibrate --odometry odom.csv --reference truth.csv
-  npx motion-widgets calibrate --recording run.mcap --odom-topic /odom --reference-topic /mocap/pose
+  npx motion-widgets calibrate --odometry odom.csv --reference truth.csv --rule nav2
+  npx motion-widgets calibrate --recording run.mcap --odometry-topic /odom --reference-topic /mocap/pose --rule nav2
 
-What goes in (times in s or ns, m, rad; numbers with a decimal point):
-  --odometry FILE          CSV with a header, TUM, or an MCAP recording of ROS 2; also commands: t, v, omega
-  --reference FILE         likewise, in any fixed frame: motion capture, total station, scan matching
-  --recording FILE         one MCAP recording with both
-  --odom-topic NAME        of a recording; not needed where only one topic can be meant
-  --reference-topic NAME   likewise
-  --odom-frames P,C        of a topic of transforms: parent and child, as in odom,base_link
-  --frames P,C             likewise of the reference: map,base_link
-  --position-deviation M   of the reference's own error; 0 unless said
-  --heading-deviation RAD  likewise
+Logs (times in s or ns, m, rad; numbers with a decimal point):
+  --odometry FILE            CSV with a header, TUM, or an MCAP recording of ROS 2; also commands: t, v, omega
+  --reference FILE           the same, in any fixed frame: motion capture, total station, scan matching
+  --recording FILE           one MCAP recording with both
+                             Several drives: give these options several times.
+  --odometry-topic NAME      of a recording; not needed where only one topic is possible
+  --reference-topic NAME     the same for the reference
+  --odometry-frames P,C      parent and child frame, of a topic of transforms: odom,base_link
+  --reference-frames P,C     the same for the reference: map,base_link
 
-What is fitted:
-  --model NAME             odometry (unless said), omnidirectional, velocity
-  --rule NAME              of the odometry model: table (unless said), nav2 (for Nav2's AMCL), beluga;
-                           omni is that of the omnidirectional model
-  --distance M --angle RAD a leg ends after so much, as AMCL's update_min_d and update_min_a; 0.25 and 0.2 unless said
-  --duration S             or after so long
-  --noise NAME             normal (unless said), triangular
-  --robust [SHARE]         some legs may be bad: a share that is estimated, or so many
-  --without NAMES          what is not removed, of clockOffset,mountYaw,leverArm,distanceScale,turnScale
-  --seed N                 of the bootstrap
+Fit:
+  --model NAME               odometry (default), omnidirectional, velocity
+  --rule NAME                of the odometry model: thrun (default, Table 5.6), nav2 (for Nav2's AMCL), beluga;
+                             omni is that of the omnidirectional model
+  --update-min-d M           a leg ends after so much, as in AMCL; default 0.25
+  --update-min-a RAD         or after so much rotation; default 0.2
+  --duration S               a leg ends after so long instead
+  --outliers NAME            reject (default), keep
+  --no-correct NAMES         systematic errors that are left in: all, or some of
+                             clockOffset,mountYaw,leverArm,distanceScale,turnScale
+  --correct NAMES            systematic errors that are corrected even if they are not constant
+  --reference-position-std M known standard deviation of the reference's x and y; default: estimated from the log
+  --reference-yaw-std RAD    known standard deviation of its yaw; default: estimated from the log
 
-What comes out:
-  --json                   everything, as JSON
-  --help                   this
+Output:
+  --json                     everything, as JSON
+  --help                     this text
 `;
 
 const text = /** @type {const} */ ({ type: 'string' });
+const texts = /** @type {const} */ ({ type: 'string', multiple: true });
 const flag = /** @type {const} */ ({ type: 'boolean' });
 
 const OPTIONS = {
-  odometry: text, reference: text, recording: text, 'odom-topic': text, 'reference-topic': text, 'odom-frames': text, frames: text,
-  'position-deviation': text, 'heading-deviation': text, model: text, rule: text, distance: text, angle: text, duration: text,
-  noise: text, robust: text, without: text, seed: text, json: flag, help: flag,
+  odometry: texts, reference: texts, recording: texts, 'odometry-topic': text, 'reference-topic': text, 'odometry-frames': text,
+  'reference-frames': text, model: text, rule: text, 'update-min-d': text, 'update-min-a': text, duration: text, outliers: text,
+  'no-correct': text, correct: text, 'reference-position-std': text, 'reference-yaw-std': text, json: flag, help: flag,
 };
 
-/** Systematic errors that can be removed before the α's are fitted. */
+/** Systematic errors that can be corrected before the α's are fitted. */
 const SYSTEMATIC = ['clockOffset', 'mountYaw', 'leverArm', 'distanceScale', 'turnScale'];
 
 /** Options by the fields of `calibrate`. @type {Record<string, string>} */
 const BY_FIELD = {
-  'legs.distance': 'distance', 'legs.angle': 'angle', 'legs.duration': 'duration', 'robust.outliers': 'robust',
-  'reference.positionDeviation': 'position-deviation', 'reference.headingDeviation': 'heading-deviation',
-  model: 'model', rule: 'rule', noise: 'noise', seed: 'seed',
+  'legs.distance': 'update-min-d', 'legs.angle': 'update-min-a', 'legs.duration': 'duration',
+  positionStd: 'reference-position-std', yawStd: 'reference-yaw-std', model: 'model', rule: 'rule', outliers: 'outliers',
 };
 
 /**
@@ -70,13 +72,11 @@ export function withOption(message) {
 
 /**
  * @typedef {object} Options
- * @property {Input} odometry
- * @property {Input} reference
+ * @property {{ odometry: Input, reference: Input }[]} drives
  * @property {Record<string, any>} fit options of `calibrate`
- * @property {{ positionDeviation?: number, headingDeviation?: number }} deviations of the reference
  * @property {boolean} json
  *
- * @typedef {'distance' | 'angle' | 'duration' | 'robust' | 'seed' | 'position-deviation' | 'heading-deviation'} Numeric option
+ * @typedef {'update-min-d' | 'update-min-a' | 'duration' | 'reference-position-std' | 'reference-yaw-std'} Numeric option
  *
  * @typedef {object} Input
  * @property {string} path
@@ -105,32 +105,31 @@ export function optionsOf(args) {
     const point = /^-?\d*,\d+$/.test(value) ? ` with a decimal point, ${value.replace(',', '.')}` : '';
     throw new UsageError(`--${name} is “${cut(value)}”; expected is a number${point}.`);
   };
-  const [distance, angle, duration] = [number('distance'), number('angle'), number('duration')];
+  const [distance, angle, duration] = [number('update-min-d'), number('update-min-a'), number('duration')];
   if (duration !== undefined && (distance ?? angle) !== undefined) {
-    throw new UsageError(`--duration is ${duration} beside --distance or --angle; expected is either the one or the others.`);
+    throw new UsageError(`--duration is ${duration} beside --update-min-d or --update-min-a; expected is either the one or the others.`);
   }
-  const without = values.without?.split(',').map((name) => name.trim()) ?? [];
-  const unknown = without.find((name) => !SYSTEMATIC.includes(name));
-  if (unknown !== undefined) throw new UsageError(`--without has “${cut(unknown)}”; expected are names of ${SYSTEMATIC.join(', ')}.`);
-  const pathOf = (/** @type {'odometry' | 'reference'} */ role) => {
-    const path = values[role] ?? values.recording;
-    if (!path) throw new UsageError(`--${role} is missing; expected is a file, or --recording with both.`);
-    return path;
+  const inputsOf = (/** @type {'odometry' | 'reference'} */ role) => {
+    const paths = values[role] ?? values.recording ?? [''];
+    if (paths.includes('')) throw new UsageError(`--${role} is missing; expected is a file, or --recording with both.`);
+    const frames = framesOf(`${role}-frames`, values[`${role}-frames`]);
+    return paths.map((path) => ({ path, topic: values[`${role}-topic`], frames }));
   };
+  const [odometry, reference] = [inputsOf('odometry'), inputsOf('reference')];
+  if (odometry.length !== reference.length) {
+    throw new UsageError(`there are ${odometry.length} logs of odometry and ${reference.length} of the reference; expected is one of each for a drive.`);
+  }
   return {
-    odometry: { path: pathOf('odometry'), topic: values['odom-topic'], frames: framesOf('odom-frames', values['odom-frames']) },
-    reference: { path: pathOf('reference'), topic: values['reference-topic'], frames: framesOf('frames', values.frames) },
+    drives: odometry.map((each, i) => ({ odometry: each, reference: reference[i] })),
     fit: defined({
       legs: duration === undefined ? { distance: distance ?? 0.25, angle: angle ?? 0.2 } : { duration },
-      byLength: true,
       model: values.model ?? (values.rule === 'omni' ? 'omnidirectional' : undefined),
       rule: values.rule,
-      noise: values.noise,
-      robust: values.robust === '' ? true : values.robust && { outliers: number('robust') },
-      systematic: values.without && Object.fromEntries(SYSTEMATIC.map((name) => [name, !without.includes(name)])),
-      seed: number('seed'),
+      outliers: values.outliers,
+      correct: correctOf(values['no-correct'], values.correct),
+      positionStd: number('reference-position-std'),
+      yawStd: number('reference-yaw-std'),
     }),
-    deviations: defined({ positionDeviation: number('position-deviation'), headingDeviation: number('heading-deviation') }),
     json: values.json ?? false,
   };
 }
@@ -138,15 +137,48 @@ export function optionsOf(args) {
 /** @template {object} T @param {T} all @returns {T} without keys that are undefined */
 const defined = (all) => /** @type {T} */ (Object.fromEntries(Object.entries(all).filter(([, value]) => value !== undefined)));
 
+/**
+ * @param {string} [left] names of --no-correct
+ * @param {string} [corrected] names of --correct
+ * @returns {Record<string, boolean> | undefined}
+ */
+function correctOf(left, corrected) {
+  const lists = [namesOf('no-correct', left), namesOf('correct', corrected)];
+  // Single names override `all`.
+  const [all, single] = [true, false].map((isAll) => lists.flatMap((names, i) => (names.includes('all') === isAll ? names : []).map((name) => [name, i === 1])));
+  const entries = [...all.flatMap(([, is]) => SYSTEMATIC.map((name) => [name, is])), ...single];
+  return entries.length ? Object.fromEntries(entries) : undefined;
+}
+
+/** @param {string} option @param {string} [value] @returns {string[]} */
+function namesOf(option, value) {
+  const names = value?.split(',').map((name) => name.trim()) ?? [];
+  const unknown = names.find((name) => name !== 'all' && !SYSTEMATIC.includes(name));
+  if (unknown === undefined) return names;
+  throw new UsageError(`--${option} has “${cut(unknown)}”; expected is all, or names of ${SYSTEMATIC.join(', ')}.`);
+}
+
 /** @param {string[]} args */
 function parsed(args) {
-  // The value of --robust is optional, which parseArgs does not know.
-  const explicit = args.map((arg, i) => (arg === '--robust' && (args[i + 1] ?? '--').startsWith('--') ? '--robust=' : arg));
   try {
-    return parseArgs({ args: explicit, options: OPTIONS, allowPositionals: true });
+    return parseArgs({ args, options: OPTIONS, allowPositionals: true });
   } catch (error) {
-    throw new UsageError(/** @type {Error} */ (error).message);
+    const { code, message } = /** @type {NodeJS.ErrnoException} */ (error);
+    const [, name] = (code === 'ERR_PARSE_ARGS_UNKNOWN_OPTION' && /'--?([^']*)'/.exec(message)) || [];
+    throw new UsageError(name === undefined ? message : `--${cut(name)} is no option; ${nearestTo(name)}--help lists all.`);
   }
+}
+
+/** Names the option that has the most pairs of letters in common with a name. @param {string} name */
+function nearestTo(name) {
+  const pairs = (/** @type {string} */ word) => Array.from(word, (letter, i) => letter + (word[i + 1] ?? ''));
+  const own = pairs(name);
+  const scores = Object.keys(OPTIONS).map((option) => {
+    const other = pairs(option);
+    return { option, score: own.filter((pair) => other.includes(pair)).length / Math.max(own.length, other.length) };
+  });
+  const { option, score } = scores.reduce((best, each) => (each.score > best.score ? each : best));
+  return score > 0.4 ? `the nearest is --${option}, ` : '';
 }
 
 /** @param {string} name @param {string | undefined} value @returns {Input['frames']} */

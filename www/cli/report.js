@@ -2,17 +2,15 @@
 
 import { en as shared } from '../messages/en.js';
 import { en } from '../widgets/alpha-calibrator/en.js';
-import { OVERSTATED, adviceOf, between, fixed, isZero, mostOf, nav2Lines, neededFor, short } from '../widgets/alpha-calibrator/lines.js';
+import { adviceOf, alphaOrBound, between, failedOf, fixed, nav2Lines, percent, short } from '../widgets/alpha-calibrator/lines.js';
 
 /**
  * @typedef {[number, number] | null} Interval
- * @typedef {{ distance?: number, angle?: number, duration?: number }} Legs
  *
  * @typedef {object} Result
  * @property {any} calibration of the core
- * @property {Record<string, any>} fit options of `calibrate`
- * @property {{ positionDeviation?: number, headingDeviation?: number }} deviations of the reference, as stated
- * @property {{ name: string, found: string[] }[]} logs odometry and reference with their summaries
+ * @property {Record<string, any>} options of `calibrate`
+ * @property {{ name: string, found: string[] }[]} logs odometry and reference of each drive, with their summaries
  * @property {number} start whole seconds that were subtracted from all times
  * @property {string} date
  */
@@ -22,156 +20,146 @@ const SYSTEMATIC = [
   ['clockOffset', 'clock offset', 's'],
   ['mountYaw', 'mount yaw', 'rad'],
   ['leverArm', 'lever arm', 'm'],
-  ['distanceScale', 'scale of distance', ''],
-  ['turnScale', 'scale of turning', ''],
+  ['distanceScale', 'distance scale', ''],
+  ['turnScale', 'turn scale', ''],
 ];
+
+/** Causes of lost legs. @type {Record<string, string>} */
+const LOST = {
+  withoutReference: 'without reference', acrossBreaks: 'across jumps or missing rows', acrossPauses: 'across pauses', standing: 'of a standing robot',
+};
+
+/** Checks whose failure makes a log unusable. */
+const DECISIVE = ['reference-matches', 'enough-legs'];
+
+/** Number of outliers that are listed. */
+const LISTED = 5;
 
 /**
  * @param {Result} result
  * @returns {string}
  */
-export function textOf({ calibration, fit, deviations, logs, start, date }) {
-  const { alphas, intervals, bootstrap, systematic, legs, doubts, outliers, logLikelihood, gaps } = calibration;
-  const model = fit.model ?? 'odometry';
-  const rule = model === 'odometry' ? `, rule ${fit.rule ?? 'table'}` : '';
-  const rows = alphas.map((/** @type {number | null} */ alpha, /** @type {number} */ i) => [
-    `alpha${i + 1}`,
-    alpha === null ? en.nav2.undetermined : toldOf(alpha, intervals[i]),
-    between(intervals[i]),
-    between(bootstrap[i]),
-    shared.alphas[model === 'velocity' ? 'velocity' : 'odometry'][i],
-  ]);
+export function textOf({ calibration, options, logs, start, date }) {
+  const { legs, lost, diagnostics: { checks, windows } } = calibration;
+  const { model = 'odometry', rule = 'thrun' } = options;
+  const failed = failedOf(checks);
+  const causes = Object.entries(LOST).filter(([cause]) => lost[cause] > 0).map(([cause, name]) => `${lost[cause]} ${name}`);
   return [
-    ...logs.flatMap(({ name, found }) => [`${name}: ${found[0]}`, ...found.slice(1).map((line) => `  ${line}`)]),
-    '',
-    `${legs.count} legs ${lengthOf(fit.legs)}; model ${model}${rule}, ${fit.noise ?? 'normal'} noise`,
-    exactnessOf(deviations),
-    ...(gaps.odometry + gaps.reference > 0 ? [`no leg leads across ${gaps.odometry} ${gaps.odometry === 1 ? 'gap' : 'gaps'} of the odometry and ${gaps.reference} of the reference`] : []),
-    '',
-    ...aligned([['', 'value', '95 %', '95 % by bootstrap', 'noise of'], ...rows]),
-    ...undeterminedOf(calibration, model),
-    '',
-    ...byLengthOf(calibration, fit.legs),
-    ...aligned([['systematic', 'value', '95 %', ''], ...SYSTEMATIC.map((each) => systematicRow(each, systematic))]),
-    '',
-    ...aligned([['doubts', 'measured', 'if the model is true'], ...doubtRows(doubts), ['log-likelihood', `${short(logLikelihood, 6)} nats`, '']]),
-    ...(outliers === null || outliers === undefined ? [] : [`bad legs: ${(100 * outliers).toFixed(1)} %`]),
-    ...worstOf(doubts, legs, start),
-    '',
     verdictOf(calibration),
     '',
-    ...nav2Of({ calibration, fit, deviations, logs, start, date }),
+    ...logs.flatMap(({ name, found }) => [`${name}: ${found[0]}`, ...found.slice(1).map((line) => `  ${line}`)]),
+    `${legs.count} legs ${lengthOf(options.legs)}; model ${model}${model === 'odometry' ? `, rule ${rule}` : ''}`,
+    '',
+    ...alphasOf(calibration, model),
+    '',
+    ...aligned([['', 'value', '95 %', ''], ...noiseRows(calibration, options), ...SYSTEMATIC.map((each) => systematicRow(each, calibration)), persistenceRow(calibration)]),
+    '',
+    ...aligned([['check', 'value', 'expected', ''], ...checks.map(checkRow)]),
+    ...failed.map(({ name, message }) => `${name}: ${message}`),
+    '',
+    ...(causes.length ? [`lost legs: ${causes.join(', ')}`] : []),
+    ...outliersOf(legs, start),
+    ...aligned([['held-out windows', 'number', 'covered', 'NEES'], ...windows.map(windowRow)]),
+    '',
+    ...nav2Of({ calibration, options, logs, start, date }),
     '',
   ].join('\n');
 }
 
-/** Says which errors of the reference were stated. @param {Result['deviations']} stated */
-function exactnessOf({ positionDeviation = 0, headingDeviation = 0 }) {
-  const errors = [...(positionDeviation ? [`${positionDeviation} m`] : []), ...(headingDeviation ? [`${headingDeviation} rad`] : [])];
-  const stated = errors.length ? `the reference errs by ${errors.join(' and ')}, as stated` : '';
-  if (errors.length === 2) return stated;
-  const exact = positionDeviation ? '; its heading is' : headingDeviation ? '; its position is' : 'the reference is';
-  const options = [...(positionDeviation ? [] : ['--position-deviation']), ...(headingDeviation ? [] : ['--heading-deviation'])];
-  return `${stated}${exact} taken to be exact; what it errs by passes for noise, of short legs most of all: state it by ${options.join(' and ')}`;
+/** Says the verdict and what to do. @param {any} calibration */
+function verdictOf({ diagnostics: { verdict, checks } }) {
+  const failed = failedOf(checks);
+  if (verdict === 'consistent') return 'Consistent: all checks passed. Use the recommended α’s with legs of this length.';
+  if (verdict === 'questionable') {
+    const count = failed.length === 1 ? 'one check' : `${failed.length} of ${checks.length} checks`;
+    return `Questionable: ${count} failed. Read below what that means; if the log cannot be improved, use the recommended α’s.`;
+  }
+  const message = failed.find(({ name }) => DECISIVE.includes(name))?.message ?? 'It does not identify any α: see below what to drive.';
+  return `Unusable: no α’s are recommended from this log. ${message}`;
 }
 
-/** @param {Legs} legs */
+/** @param {{ distance?: number, angle?: number, duration?: number }} legs */
 function lengthOf({ distance, angle, duration }) {
-  return duration === undefined ? `of ${distance} m or ${angle} rad` : `of ${duration} s`;
+  return duration === undefined ? en.nav2.moved(short(distance ?? null), short(angle ?? null)) : en.nav2.lasted(short(duration));
 }
 
 /**
- * Says which α's the log does not determine, and what to drive.
+ * Table of the α's, the reason for the inflation, and what to drive for those that are not identifiable.
  *
  * @param {any} calibration
  * @param {string} model
  * @returns {string[]}
  */
-function undeterminedOf({ alphas, intervals, undetermined, doubts: { verdict } }, model) {
-  const { lacking } = en.alphas;
-  return /** @type {(keyof typeof lacking)[]} */ (Object.keys(lacking)).flatMap((reason) => {
-    const { lack, drive } = adviceOf(lacking, model, reason);
-    const those = (/** @type {(i: number) => boolean} */ are) => new Intl.ListFormat('en').format(alphas.flatMap((/** @type {unknown} */ _, /** @type {number} */ i) => (are(i) ? [`alpha${i + 1}`] : [])));
-    const unknown = those((i) => undetermined[i] === reason);
-    const zero = those((i) => undetermined[i] === null && verdict !== OVERSTATED && isZero(alphas[i], intervals[i]) && neededFor(model, i) === reason);
-    return [...(unknown ? [`${unknown} not determined: ${lack}; ${drive}`] : []), ...(zero ? [`${zero} not told from 0: to tell it, ${drive}`] : [])];
-  });
-}
-
-/** Prints an α, or its upper bound if it is not told from 0. @param {number | null} alpha @param {Interval | undefined} interval */
-const toldOf = (alpha, interval) => (isZero(alpha, interval) ? `≤ ${mostOf(interval)}` : fixed(alpha, interval));
-
-/**
- * Table of the α's by the length of legs, each with its interval by the bootstrap, which is wide if few legs decide.
- *
- * @param {any} calibration
- * @param {Legs} legs
- * @returns {string[]}
- */
-function byLengthOf({ alphas, byLength }, legs) {
-  if (!byLength.length) return [];
-  const lengths = byLength.map((/** @type {any} */ { factor }) => {
-    const [distance, angle, duration] = [legs.distance, legs.angle, legs.duration].map((of) => short((of ?? 0) * factor));
-    return legs.duration === undefined ? `${distance} m, ${angle} rad` : `${duration} s`;
-  });
-  const counts = byLength.map((/** @type {any} */ at) => `${at.legs} legs`);
-  const rows = alphas.flatMap((/** @type {unknown} */ _, /** @type {number} */ i) => [
-    [`alpha${i + 1}`, ...byLength.map((/** @type {any} */ at) => toldOf(at.alphas[i], at.bootstrap[i]))],
-    ['', ...byLength.map((/** @type {any} */ at) => between(at.bootstrap[i]))],
+function alphasOf({ alphas, intervals, notIdentifiable, recommended }, model) {
+  const rows = alphas.map((/** @type {number | null} */ alpha, /** @type {number} */ i) => [
+    `alpha${i + 1}`,
+    alpha === null ? 'not identifiable' : alphaOrBound(alpha, intervals[i]),
+    between(intervals[i]),
+    recommended && alpha !== null ? alphaOrBound(alpha, intervals[i], recommended.inflation) : '–',
+    shared.alphas[model === 'velocity' ? 'velocity' : 'odometry'][i],
   ]);
-  const untold = byLength.some((/** @type {any} */ at) => at.alphas.every((/** @type {unknown} */ alpha) => alpha === null));
-  const why = untold ? ['–: too few legs, most of them shorter than four rows of a log, or turns of more than half a circle'] : [];
-  return [...aligned([['by length', ...lengths], ['95 % by bootstrap', ...counts], ...rows]), ...why, ''];
+  const { lacking } = en.alphas;
+  const advice = /** @type {(keyof typeof lacking)[]} */ (Object.keys(lacking)).flatMap((reason) => {
+    const names = notIdentifiable.flatMap((/** @type {string | null} */ each, /** @type {number} */ i) => (each === reason ? [`alpha${i + 1}`] : []));
+    const { lack, drive } = adviceOf(lacking, model, reason);
+    return names.length ? [`${new Intl.ListFormat('en').format(names)} not identifiable: ${lack}; ${drive}`] : [];
+  });
+  return [...aligned([['', 'fitted', '95 %', 'recommended', ''], ...rows]), ...advice, ...(recommended ? [recommended.reason] : [])];
 }
 
-/** @param {[string, string, string]} about @param {any} systematic @returns {string[]} */
-function systematicRow([key, name, unit], systematic) {
-  const { value, interval, removed } = systematic[key];
-  const said = (/** @type {any} */ one, /** @type {any} */ its) => [`${fixed(one, its)}${unit && ` ${unit}`}`, between(its)];
-  const isThere = (/** @type {number | null} */ one) => one !== null && Number.isFinite(one);
-  if (![value].flat().every(isThere)) return [name, 'not determined', '', ''];
-  const [told, ends] = Array.isArray(value) ? value.map((one, i) => said(one, interval?.[i])).reduce(([a, b], [c, d]) => [`${a}, ${c}`, `${b}, ${d}`]) : said(value, interval);
-  return [name, told, ends, removed ? 'removed' : 'left in'];
+/** @param {any} calibration @param {Result['options']} options @returns {string[][]} */
+function noiseRows({ referenceNoise }, options) {
+  const row = (/** @type {string} */ name, /** @type {'positionStd' | 'yawStd'} */ key, /** @type {string} */ unit) => {
+    const { value, interval } = referenceNoise[key];
+    const isStated = options[key] !== undefined;
+    return [name, `${fixed(value, interval)} ${unit}`, isStated ? '' : between(interval), isStated ? 'as stated' : 'estimated'];
+  };
+  return [row('reference position σ', 'positionStd', 'm'), row('reference yaw σ', 'yawStd', 'rad')];
 }
 
-/** @param {any} doubts @returns {string[][]} */
-function doubtRows({ kinds, heldOut, squaredError }) {
-  const percent = (/** @type {number | null} */ share) => (share === null || Number.isNaN(share) ? '–' : `${short(100 * share)} %`);
+/** @param {[string, string, string]} about @param {any} calibration @returns {string[]} */
+function systematicRow([key, name, unit], { systematicErrors }) {
+  const { value, interval, constant, corrected } = systematicErrors[key];
+  const [values, intervals] = Array.isArray(value) ? [value, interval] : [[value], [interval]];
+  if (values.includes(null)) return [name, 'not identifiable'];
+  const list = (/** @type {(one: any, its: Interval) => string} */ print) => values.map((/** @type {any} */ one, /** @type {number} */ i) => print(one, intervals[i])).join(', ');
   return [
-    ['held-out residuals inside of 95 %', percent(heldOut.coverage), heldOut.interval?.every(Number.isFinite) ? heldOut.interval.map(percent).join(' to ') : ''],
-    ['squared error by degree of freedom', fixed(squaredError.mean, squaredError.interval), between(squaredError.interval)],
-    ...kinds.flatMap((/** @type {any} */ { name, kurtosis, kurtosisExpected, autocorrelation, autocorrelationLimit }) => [
-      [`kurtosis, ${name}`, short(kurtosis), short(kurtosisExpected)],
-      [`autocorrelation, ${name}`, short(autocorrelation), Number.isFinite(autocorrelationLimit) ? `within ±${short(autocorrelationLimit)}` : ''],
-    ]),
+    name,
+    list((one, its) => fixed(one, its) + (unit && ` ${unit}`)),
+    list((_, its) => between(its)),
+    `${corrected ? 'corrected' : 'not corrected'}${constant ? '' : ', not a constant'}`,
   ];
 }
 
-/** Lists the worst legs by the times of the logs. @param {any} doubts @param {any} legs @param {number} start @returns {string[]} */
-function worstOf({ worst }, legs, start) {
-  if (!worst.length) return [];
-  const times = worst.slice(0, 5).map((/** @type {number} */ leg) => `${(start + legs.times[2 * leg]).toFixed(2)} s`);
-  return [`worst legs at ${times.join(', ')}`];
+/** @param {any} calibration @returns {string[]} */
+function persistenceRow({ persistence: { correlation: { value, interval }, length } }) {
+  return ['correlation of neighbouring legs', fixed(value, interval), between(interval), length > 0 ? `errors persist over ${short(length, 2)} m` : ''];
 }
 
-/**
- * Returns the verdict on the model and the next step.
- *
- * @param {Result['calibration']} calibration
- */
-function verdictOf({ doubts: { verdict, heldOut } }) {
-  const name = /** @type {keyof typeof en.verdicts} */ (verdict);
-  return `${en.verdicts[name](`${short(100 * heldOut.coverage)} %`)} ${en.nextSteps[name]}`;
+/** @param {any} check @returns {string[]} */
+function checkRow({ name, value, expected: [low, high], passed }) {
+  const range = low === -Infinity ? `≤ ${short(high)}` : high === Infinity ? `≥ ${short(low)}` : `${short(low)} to ${short(high)}`;
+  return [name, value === Infinity ? '∞' : short(value), range, passed ? 'ok' : 'FAILED'];
+}
+
+/** @param {any} window @returns {string[]} */
+function windowRow({ length, count, coverage, nees }) {
+  return [`of ${short(length)} m`, String(count), percent(coverage), short(nees)];
+}
+
+/** Lists outliers by the times of the logs. @param {any} legs @param {number} start @returns {string[]} */
+function outliersOf({ count, times, outliers }, start) {
+  const found = Array.from({ length: count }, (_, leg) => leg).filter((leg) => outliers[leg] === 1);
+  const list = found.slice(0, LISTED).map((leg) => `${(start + times[2 * leg]).toFixed(2)} s`).join(', ');
+  return found.length ? [`outliers: ${found.length} of ${count} legs, at ${list}${found.length > LISTED ? ', …' : ''}`] : [];
 }
 
 /** @param {Result} result @returns {string[]} */
-function nav2Of({ calibration, fit, logs, date }) {
-  const { alphas, intervals, bootstrap, legs: { count }, doubts: { verdict }, systematic } = calibration;
-  const { model = 'odometry', rule = 'table', legs } = fit;
-  const log = [...new Set(logs.map(({ name }) => name))].join(' and ');
-  const doubt = verdict === 'fits' ? undefined : verdictOf(calibration);
-  const lines = nav2Lines({ alphas, intervals, bootstrap, count, model, rule, legs, log, date, verdict, doubt, systematic }, en.nav2);
-  return lines.length ? ['# nav2_params.yaml', ...lines] : ['nav2_params.yaml has no lines for the velocity model.'];
+function nav2Of({ calibration, options: { model = 'odometry', rule = 'thrun', legs }, logs, date }) {
+  if (calibration.recommended === null) return ['No lines for nav2_params.yaml: the log is unusable.'];
+  const log = new Intl.ListFormat('en').format(new Set(logs.map(({ name }) => name)));
+  const lines = nav2Lines({ calibration, count: calibration.legs.count, model, rule, legs, log, date }, en.nav2);
+  return lines.length ? ['# nav2_params.yaml', ...lines] : ['No lines for nav2_params.yaml: Nav2 has no velocity model.'];
 }
 
 /** @param {string[][]} rows of a table @returns {string[]} */
@@ -184,7 +172,7 @@ function aligned(rows) {
  * @param {Result} result
  * @returns {string} with typed arrays as plain ones
  */
-export function jsonOf({ calibration, fit, deviations, logs, start, date }) {
+export function jsonOf({ calibration, options, logs, start, date }) {
   const plain = (/** @type {string} */ _, /** @type {unknown} */ value) => (ArrayBuffer.isView(value) ? [.../** @type {Float64Array} */ (value)] : value);
-  return `${JSON.stringify({ date, fit, deviations, logs, start, ...calibration }, plain, 1)}\n`;
+  return `${JSON.stringify({ date, options, logs, start, ...calibration }, plain, 1)}\n`;
 }

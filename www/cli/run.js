@@ -16,6 +16,8 @@ import { jsonOf, textOf } from './report.js';
  *
  * @typedef {'odometry' | 'reference'} Role
  *
+ * @typedef {{ odometry: Log, reference: Log, start: number }} Pair logs of one drive
+ *
  * @typedef {object} Environment
  * @property {() => Promise<any>} load the core
  * @property {(text: string) => void} print
@@ -24,10 +26,10 @@ import { jsonOf, textOf } from './report.js';
  */
 
 /** Options that choose a topic of a recording. */
-const TOPIC_OPTIONS = { odometry: '--odom-topic', reference: '--reference-topic' };
+const TOPIC_OPTIONS = { odometry: '--odometry-topic', reference: '--reference-topic' };
 
 /** Options that choose the frames of a topic of transforms. */
-const FRAMES_OPTIONS = { odometry: '--odom-frames', reference: '--frames' };
+const FRAMES_OPTIONS = { odometry: '--odometry-frames', reference: '--reference-frames' };
 
 /** Exit codes of a shell. */
 const [SUCCESS, BAD_INPUT] = [0, 2];
@@ -46,12 +48,13 @@ export async function run(args, { load, print, complain, now = new Date() }) {
       print(HELP);
       return SUCCESS;
     }
-    const [odometry, reference] = await read(options);
-    const paired = reader.pairLogs(odometry, reference);
-    const calibration = calibrate(await load(), options, paired);
-    const logs = [paired.odometry, paired.reference].map((log) => ({ name: log.name, found: reader.summarize(log, words.found) }));
-    const { fit, deviations, json } = options;
-    const result = { calibration, fit, deviations, logs, start: paired.start, date: now.toISOString().slice(0, 10) };
+    const { drives, fit, json } = options;
+    /** @type {Pair[]} */
+    const pairs = [];
+    for (const drive of drives) pairs.push(await read(drive, fit));
+    const calibration = calibrate(await load(), fit, pairs);
+    const logs = pairs.flatMap(({ odometry, reference }) => [odometry, reference]).map((log) => ({ name: log.name, found: reader.summarize(log, words.found) }));
+    const result = { calibration, options: fit, logs, start: pairs[0].start, date: now.toISOString().slice(0, 10) };
     print(json ? jsonOf(result) : textOf(result));
     return SUCCESS;
   } catch (error) {
@@ -63,20 +66,35 @@ export async function run(args, { load, print, complain, now = new Date() }) {
 
 /**
  * @param {any} motion
- * @param {Options} options
- * @param {{ odometry: Log, reference: Log }} logs
+ * @param {Options['fit']} fit
+ * @param {Pair[]} pairs
  */
-function calibrate(motion, { fit, deviations }, { odometry, reference }) {
+function calibrate(motion, fit, pairs) {
+  const [{ start }] = pairs;
+  const dataOf = (/** @type {Role} */ role) => pairs.map(({ [role]: log }) => reader.after(start, log).data);
   try {
-    return motion.calibrate({ ...fit, odometry: odometry.data, reference: { ...reference.data, ...deviations } });
+    return motion.calibrate({ ...fit, odometry: dataOf('odometry'), reference: dataOf('reference') });
   } catch (error) {
     if (!(error instanceof RangeError || error instanceof TypeError)) throw error;
-    throw new UsageError(withOption(error.message) ?? `${odometry.name} and ${reference.name}: ${error.message}.`);
+    const names = pairs.flatMap(({ odometry, reference }) => [odometry.name, reference.name]);
+    throw new UsageError(withOption(error.message) ?? `${new Intl.ListFormat('en').format(names)}: ${error.message}.`);
   }
 }
 
-/** @param {Options} options @returns {Promise<Log[]>} odometry and reference */
-async function read({ odometry, reference, fit }) {
+/**
+ * Reads the logs of a drive.
+ *
+ * @param {Options['drives'][number]} drive
+ * @param {Options['fit']} fit
+ * @returns {Promise<Pair>}
+ */
+async function read(drive, fit) {
+  const [odometry, reference] = await logsOf(drive, fit);
+  return reader.pairLogs(odometry, reference);
+}
+
+/** @param {Options['drives'][number]} drive @param {Options['fit']} fit @returns {Promise<Log[]>} odometry and reference */
+async function logsOf({ odometry, reference }, fit) {
   const kind = fit.model === 'velocity' ? 'commands' : undefined;
   if (odometry.path !== reference.path) return [await readOne(odometry, 'odometry', kind), await readOne(reference, 'reference', 'poses')];
   const file = await fileOf(odometry.path);

@@ -4,19 +4,13 @@
  * @typedef {[number, number] | null} Interval
  *
  * @typedef {object} Fitted
- * @property {(number | null)[]} alphas
- * @property {Interval[]} intervals by the likelihood, as the values are told by
- * @property {Interval[]} bootstrap those that are told with them, which are right too where legs have something in common
+ * @property {any} calibration of the core
  * @property {number} count of legs
  * @property {string} model
  * @property {string} rule
  * @property {{ distance?: number, angle?: number, duration?: number }} legs
- * @property {string} log its name, or theirs
+ * @property {string} log names of odometry and reference
  * @property {string} date
- * @property {string} verdict
- * @property {string} [doubt] a sentence, where there is something to doubt
- * @property {any} systematic as the core tells it
- * @property {number} [inflation]
  *
  * @typedef {typeof import('./en.js').en.nav2} Words
  */
@@ -41,11 +35,11 @@ const NONE = '–';
 /** Plugins of Nav2 by model. @type {Record<string, string>} */
 const NAV2 = { odometry: 'nav2_amcl::DifferentialMotionModel', omnidirectional: 'nav2_amcl::OmniMotionModel' };
 
-/** Verdict on a reference whose stated error is too large: no drive would tell more. */
-export const OVERSTATED = 'overstated';
+/** Names of topics and files that a localizer publishes its own estimate by. */
+const LOCALIZER = /amcl|locali[sz]|odometry[/_]filtered/i;
 
-/** Verdicts under which no α is exported. */
-const USELESS = ['few-legs', 'unrelated', OVERSTATED];
+/** Placeholder until doubts.js goes. */
+export const OVERSTATED = '';
 
 /** Rules of Nav2's models. */
 const ITS_RULES = ['nav2', 'omni'];
@@ -80,8 +74,17 @@ export const between = (interval) => (interval?.every(Number.isFinite) ? interva
  */
 export const isZero = (alpha, interval) => alpha !== null && Number(fixed(alpha, interval)) === 0;
 
+/** Prints a fraction in percent. @param {number | null} fraction */
+export const percent = (fraction) => (fraction !== null && Number.isFinite(fraction) ? `${short(100 * fraction)} %` : NONE);
+
 /** Upper end of an interval. @param {Interval | undefined} interval */
 export const mostOf = (interval) => short(interval?.[1] ?? null, OF_WIDTH);
+
+/** Multiplies an interval. @param {Interval} interval @param {number} factor @returns {Interval} */
+const scaled = (interval, factor) => interval && [factor * interval[0], factor * interval[1]];
+
+/** Prints an α times a factor, or its upper bound if it is not significantly different from 0. @param {number | null} alpha @param {Interval} interval */
+export const alphaOrBound = (alpha, interval, factor = 1) => (isZero(alpha, interval) ? `≤ ${mostOf(scaled(interval, factor))}` : fixed(alpha && factor * alpha, scaled(interval, factor)));
 
 /**
  * Returns the motion that an α multiplies.
@@ -96,7 +99,7 @@ export function driverOf(model, index) {
 }
 
 /**
- * Says why an α is not determined, and the drive that would determine it.
+ * Returns why an α is not identifiable, and the drive that would identify it.
  *
  * @param {typeof import('./en.js').en.alphas.lacking} lacking
  * @param {string} model
@@ -107,31 +110,43 @@ export function adviceOf(lacking, model, reason) {
   return { lack, drive: model === 'velocity' ? byCommands : drive };
 }
 
-/** Reason whose advice would tell an α from 0. @param {string} model @param {number} index @returns {'turns-too-little' | 'drives-too-little'} */
-export const neededFor = (model, index) => (driverOf(model, index) === 'turn' ? 'turns-too-little' : 'drives-too-little');
+/**
+ * Returns the reason whose advice would distinguish an α from 0.
+ *
+ * @param {string} model
+ * @param {number} index
+ * @returns {'insufficient-rotation' | 'insufficient-translation'}
+ */
+export const neededFor = (model, index) => (driverOf(model, index) === 'turn' ? 'insufficient-rotation' : 'insufficient-translation');
 
 /**
+ * Lines with the recommended α's; the fitted ones stand in comments.
+ *
  * @param {Fitted} fitted
  * @param {Words} say
- * @returns {string[]} none if Nav2 has no such model
+ * @returns {string[]} none if Nav2 has no such model, or no α's are recommended
  */
-export function nav2Lines({ alphas, intervals, bootstrap, count, model, rule, legs, log, date, verdict, doubt, systematic, inflation = 1 }, say) {
-  if (!Object.hasOwn(NAV2, model)) return [];
+export function nav2Lines({ calibration, count, model, rule, legs, log, date }, say) {
+  const { alphas, intervals, recommended, systematicErrors, diagnostics: { checks, windows: [window] } } = calibration;
+  if (!Object.hasOwn(NAV2, model) || recommended === null) return [];
+  const { inflation } = recommended;
   const { distance, angle, duration } = legs;
+  const failed = failedOf(checks).map(({ name }) => name).join(', ');
   const notes = [
     say.of(String(count), duration === undefined ? say.moved(short(distance ?? null), short(angle ?? null)) : say.lasted(short(duration)), log, date),
+    say.recommended(short(inflation), percent(window.coverage), String(window.count)),
     ...(model !== 'odometry' || ITS_RULES.includes(rule) ? [] : [say.otherRule]),
-    ...(inflation === 1 ? [] : [say.inflated(short(inflation))]),
-    ...correctionOf(systematic).map((errors) => say.corrected(errors)),
-    ...(doubt ? [doubt] : []),
+    ...correctionOf(systematicErrors).map((errors) => say.corrected(errors)),
+    ...(failed ? [say.failed(failed)] : []),
+    ...(LOCALIZER.test(log) ? [say.localizer] : []),
   ];
-  const lines = alphas.map((alpha, i) => {
-    const [interval, ends] = [intervals, bootstrap].map((all) => /** @type {Interval} */ (all[i]?.map((end) => inflation * end) ?? null));
-    if (USELESS.includes(verdict)) return `# alpha${i + 1}: ${say.useless}`;
-    if (alpha === null) return `# alpha${i + 1}: ${say.undetermined}`;
-    if (isZero(inflation * alpha, interval)) return `# alpha${i + 1}: ${say.zero(mostOf(ends))}`;
-    const value = fixed(inflation * alpha, interval);
-    return alpha > MOST ? `# alpha${i + 1}: ${value}, ${say.tooLarge}` : `alpha${i + 1}: ${double(value)}${ends ? `  # ${between(ends)}` : ''}`;
+  const lines = alphas.map((/** @type {number | null} */ alpha, /** @type {number} */ i) => {
+    const interval = intervals[i];
+    if (alpha === null) return `# alpha${i + 1}: ${say.notIdentifiable}`;
+    if (isZero(alpha, interval)) return `# alpha${i + 1}: ${say.zero(mostOf(scaled(interval, inflation)))}`;
+    const value = fixed(inflation * alpha, scaled(interval, inflation));
+    if (alpha > MOST) return `# alpha${i + 1}: ${value}, ${say.tooLarge}`;
+    return `alpha${i + 1}: ${double(value)}  # ${say.fitted(fixed(alpha, interval), between(interval))}`;
   });
   // A line break in a file's name would end the comment.
   const comments = notes.map((note) => `# ${note.replaceAll(/\s+/g, ' ')}`);
@@ -141,14 +156,17 @@ export function nav2Lines({ alphas, intervals, bootstrap, count, model, rule, le
   return ['amcl:', '  ros__parameters:', ...all.map((line) => `    ${line}`)];
 }
 
+/** Checks that failed. @param {{ name: string, passed: boolean, message: string }[]} checks */
+export const failedOf = (checks) => checks.filter(({ passed }) => !passed);
+
 /**
- * Lists the systematic errors that were removed: the odometry of the robot still has them.
+ * Lists the systematic errors that were corrected: the odometry of the robot still has them.
  *
- * @param {any} systematic
+ * @param {any} systematicErrors
  * @returns {string[]} one, or none
  */
-function correctionOf(systematic) {
-  const removed = Object.entries(systematic).filter(([, each]) => each.removed);
-  const told = removed.map(([name, { value, interval }]) => `${name} ${[value].flat().map((one, i) => fixed(one, Array.isArray(value) ? interval?.[i] : interval)).join(', ')}`);
-  return told.length ? [told.join('; ')] : [];
+function correctionOf(systematicErrors) {
+  const corrected = Object.entries(systematicErrors).filter(([, each]) => each.corrected);
+  const list = corrected.map(([name, { value, interval }]) => `${name} ${[value].flat().map((one, i) => fixed(one, Array.isArray(value) ? interval[i] : interval)).join(', ')}`);
+  return list.length ? [list.join('; ')] : [];
 }

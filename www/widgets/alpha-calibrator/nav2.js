@@ -7,7 +7,6 @@ import { words } from '../../messages/registry.js';
 import { button } from '../../ui/controls.js';
 import { nav2Lines } from './lines.js';
 import { legsOf } from './settings.js';
-import { judgementOf } from './words.js';
 
 /** @typedef {import('./alpha-calibrator.js').AlphaCalibratorElement} Figure */
 
@@ -15,16 +14,13 @@ import { judgementOf } from './words.js';
  * Lines for nav2_params.yaml.
  *
  * @param {Figure} figure
- * @returns {string} empty if Nav2 has no such model
+ * @returns {string} empty if Nav2 has no such model, or no α's are recommended
  */
 function yamlOf({ reading, logName }) {
   const { config, stats, legs: { count } } = reading;
-  const { model, rule, inflation } = config;
-  const { alphas, intervals, bootstrap, systematic, doubts: { verdict } } = stats;
-  const { finding, next } = judgementOf(reading);
-  const doubt = verdict === 'fits' ? undefined : `${finding} ${next}`;
+  const { model, rule } = config;
   const date = new Date().toISOString().slice(0, 10);
-  const fitted = { alphas, intervals, bootstrap, count, model, rule, legs: legsOf(config), log: logName, date, verdict, doubt, systematic, inflation };
+  const fitted = { calibration: stats, count, model, rule, legs: legsOf(config), log: logName, date };
   return nav2Lines(fitted, words.calibrator.nav2).map((line) => `${line}\n`).join('');
 }
 

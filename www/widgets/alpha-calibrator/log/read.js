@@ -166,7 +166,7 @@ export function pairLogs(odometry, reference) {
 }
 
 /** Moves times to another start. @param {number} start @param {Log} log @returns {Log} */
-function after(start, log) {
+export function after(start, log) {
   const later = log.start - start;
   return later === 0 ? log : { ...log, start, data: { ...log.data, t: log.data.t.map((each) => each + later) } };
 }

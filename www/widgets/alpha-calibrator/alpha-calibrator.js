@@ -14,18 +14,18 @@ import { pointOn } from '../../scene/canvas.js';
 import { group } from '../../ui/controls.js';
 import { counted } from '../../ui/format.js';
 import { startOverButton } from '../shared/presets.js';
-import { legControls, legLengths, legReadouts, modelControls } from './controls.js';
-import { doubts, inflation, panels } from './doubts.js';
-import { lengths } from './lengths.js';
+import { legControls, legLengths, legReadouts, modelControls, predictionControls } from './controls.js';
+import { diagnostics } from './diagnostics.js';
 import { Copied, copyButton, nav2 } from './nav2.js';
 import { LogOpener, dropZone, logSection } from './open.js';
+import { panels } from './panels.js';
 import { LegPicture, WayPicture } from './pictures.js';
 import { Plate } from './plate.js';
 import { legOf, readingOf } from './reading.js';
 import { alphaTable, alphaTexts, systematicTable, systematicTexts, verdictLine } from './readouts.js';
-import { LINES, attributes, declared, looks, own, vocabulary } from './settings.js';
+import { COMPONENTS, LINES, attributes, declared, looks, own, vocabulary } from './settings.js';
 import { calibratorStyles } from './styles.js';
-import { captionOf, legText, wayText } from './words.js';
+import { captionOf, legText, reasonOf, wayText } from './words.js';
 
 /**
  * @import { AlphaCalibrator as Machine, CalibrationLog } from '../../types.d.ts'
@@ -35,16 +35,13 @@ import { captionOf, legText, wayText } from './words.js';
 /** Keys of a log. */
 const KEYS = ['name', 'odometry', 'reference'];
 
-/** Settings of the reference's own error. */
-const DEVIATIONS = /** @type {const} */ (['positionDeviation', 'headingDeviation']);
-
 /**
  * The α's of a log, how well they are known, and whether the model is any good.
  *
  * @attr overlays - The lines that are drawn; in the attribute with spaces between.
  *
  * @csspart drop - The line that logs are dropped on.
- * @csspart chart - A plot of residuals, quantiles, coverage or likelihood.
+ * @csspart chart - A plot of residuals.
  *
  * @extends {FigureElement<Machine, Reading>}
  */
@@ -195,29 +192,21 @@ export class AlphaCalibratorElement extends FigureElement {
     return log ? log.name || words.calibrator.own.odometry : words.calibrator.simulated;
   }
 
-  /** Parts of the reference whose error is not stated, and taken to be 0. */
-  get exact() {
-    const { reference } = this.reading.log ?? {};
-    const [position, heading] = DEVIATIONS.map((key) => reference !== undefined && !this.settings.told[key] && !reference[key]);
-    return position && heading ? 'reference' : position ? 'position' : heading ? 'heading' : null;
-  }
-
   get takeaway() {
     const { config, legs } = this.fresh;
     const of = (/** @type {Float64Array} */ numbers, /** @type {number} */ i, /** @type {number} */ size) => numbers.subarray(size * i, size * (i + 1));
     const poses = (/** @type {string} */ whose) => ['from', 'to'].flatMap((end) => ['x_m', 'y_m', 'theta_rad'].map((name) => `${whose}_${end}_${name}`));
-    const kinds = this.reading.stats.doubts.kinds.map(({ name }) => name);
     return {
       title: this.lettering.name,
-      description: [wayText(this.reading, this.chosen), ...alphaTexts(this.reading).map((text) => `${text}.`), captionOf(this.reading, this.logName, this.exact), ...systematicTexts(this.reading)].join(' '),
+      description: [wayText(this.reading, this.chosen), ...alphaTexts(this.reading).map((text) => `${text}.`), captionOf(this.reading, this.logName), ...systematicTexts(this.reading)].join(' '),
       settings: { element: this.localName, log: this.#log?.name ?? null, ...config },
       columns: [
         'begins_s', 'ends_s', ...poses('odometry'), ...poses('reference'), 'reading_1', 'reading_2', 'reading_3',
-        ...kinds.map((name) => `residual_${name}`), ...kinds.map((name) => `deviation_${name}`), 'squared_error', 'bad',
+        ...['residual', 'standardized', 'std'].flatMap((what) => COMPONENTS[config.model].map((name) => `${what}_${name}`)), 'squared_mahalanobis', 'outlier',
       ],
       row: (/** @type {number} */ i) => [
         ...of(legs.times, i, 2), ...of(legs.odometry, i, 6), ...of(legs.reference, i, 6), ...of(legs.readings, i, 3),
-        ...of(legs.residuals, i, 3), ...of(legs.deviations, i, 3), legs.squaredError[i], legs.bad[i],
+        ...of(legs.residuals, i, 3), ...of(legs.standardized, i, 3), ...of(legs.stds, i, 3), legs.squared[i], legs.outliers[i],
       ],
       count: legs.count,
       notInCode: this.#log ? words.calibrator.logNotInCode : '',
@@ -226,7 +215,7 @@ export class AlphaCalibratorElement extends FigureElement {
 
   /** @param {Reading} reading */
   announcement(reading) {
-    return captionOf(reading, this.logName, this.exact);
+    return captionOf(reading, this.logName);
   }
 
   /** @param {Reading} reading */
@@ -256,6 +245,7 @@ export class AlphaCalibratorElement extends FigureElement {
               ${copyButton(this, this.#copied)} ${startOverButton(this)}
             </div>
             ${alphaTable(reading)}
+            <p class="muted reason">${reasonOf(reading)}</p>
           </div>`)}
         </div>
         ${this.stage.later(() => html`
@@ -265,11 +255,10 @@ export class AlphaCalibratorElement extends FigureElement {
           controls: () => html`${modelControls(this)}
             ${group(say.systematic.title, systematicTable(this))}
             ${group(say.own.title, logSection(this, this.#opener))}
-            ${group(say.inflation.title, inflation(this))}`,
+            ${predictionControls(this)}`,
           numbers: () => html`${group(say.oneLeg(counted(chosen + 1)), legReadouts(this))}
+            ${diagnostics(this)}
             ${group(say.panels.title, panels(this))}
-            ${group(say.doubts.title, doubts(this))}
-            ${group(say.lengths.title, lengths(this))}
             ${group(say.nav2.title, nav2(this))}`,
           csvTitle: say.csvTitle,
         })}`)}

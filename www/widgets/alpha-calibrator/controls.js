@@ -1,22 +1,22 @@
 /** Controls of the Alpha Calibrator: the leg that is shown, the model, and the length of legs. */
 
 import { html } from 'lit';
-import { check, choices, slider } from '../../figure/controls.js';
+import { choices, slider } from '../../figure/controls.js';
 import { words } from '../../messages/registry.js';
 import { button, group, radioGroup } from '../../ui/controls.js';
-import { NOTHING, counted, fixed, numberIn, percent, typed } from '../../ui/format.js';
+import { NOTHING, counted, fixed, numberIn, typed } from '../../ui/format.js';
 import { readoutList } from '../../ui/readouts.js';
 import { sliderRow } from '../../ui/slider.js';
+import { observedOf } from './reading.js';
 import { kindOf, settingsFor } from './settings.js';
 
 /** @typedef {import('./alpha-calibrator.js').AlphaCalibratorElement} Figure */
 
 /** Slider of the leg that is shown. @param {Figure} figure */
 export function legControls(figure) {
-  const { reading: { legs, stats }, chosen } = figure;
+  const { reading: { legs, worst }, chosen } = figure;
   const say = words.calibrator.leg;
-  const { worst } = stats.doubts;
-  // The leg that is shown may be one of the worst.
+  // The leg that is shown may be one of them.
   const next = worst[(worst.indexOf(figure.state.own.leg) + 1) % Math.max(1, worst.length)];
   const take = (/** @type {number} */ number) => figure.look(number - 1);
   return html`<fieldset class="leg">
@@ -52,26 +52,29 @@ export function legControls(figure) {
 }
 
 /** Readouts of the error of the leg that is shown. @param {Figure} figure */
-export function legReadouts({ reading: { legs, stats }, chosen, predicted: leg }) {
+export function legReadouts({ reading: { legs }, chosen, predicted: leg }) {
   const say = words.calibrator.leg;
   const off = leg ? Math.hypot(leg.ended[0] - leg.read[0], leg.ended[1] - leg.read[1]) : NaN;
-  const told = legs.residuals.subarray(3 * chosen, 3 * chosen + 3).filter((residual) => !Number.isNaN(residual)).length;
-  const [squared, bad] = leg ? [legs.squaredError[chosen], legs.bad[chosen]] : [NaN, NaN];
   return readoutList([
     [say.off, `${fixed(off, 3)} m`],
-    [say.squared(String(told)), fixed(squared, 1)],
-    // Without a fitted share of bad legs, no leg has a probability.
-    [say.bad, percent(stats.outliers === null ? NaN : bad)],
+    [say.squared(String(observedOf(legs.residuals, chosen))), fixed(leg ? legs.squared[chosen] : NaN, 1)],
+    [say.outlier, leg ? say.isOutlier[legs.outliers[chosen] > 0 ? 'yes' : 'no'] : NOTHING],
   ]);
 }
 
-/** The model with its rule, the robust fit, and legs of a duration. @param {Figure} figure */
+/** The model with its rule, the treatment of outliers, and legs of a duration. @param {Figure} figure */
 export function modelControls(figure) {
-  const { fit, settings: { model }, kinds, robust, noises } = words.calibrator;
+  const { fit, settings: { model }, kinds, outliers } = words.calibrator;
   const show = (/** @type {number} */ seconds) => (seconds > 0 ? `${typed(seconds, 2)} s` : NOTHING);
   const choose = (/** @type {import('./settings.js').Kind} */ kind) => figure.gesture.decide(settingsFor(kind));
   return group(fit, html`${radioGroup(model.name, 'kind', kinds, kindOf(/** @type {any} */ (figure.settings.told)), choose)}
-    ${choices(figure, 'noise', noises)} ${check(figure, 'robust', robust)} ${slider(figure, 'duration', { show })}`, 'fit');
+    ${choices(figure, 'outliers', outliers)} ${slider(figure, 'duration', { show })}`, 'fit');
+}
+
+/** Distribution and inflation of the predicted cloud. @param {Figure} figure */
+export function predictionControls(figure) {
+  const { prediction, noises } = words.calibrator;
+  return group(prediction, html`${choices(figure, 'noise', noises)} ${slider(figure, 'inflation')}`, 'fit');
 }
 
 /** Sliders of the length of a leg. @param {Figure} figure */
@@ -81,4 +84,8 @@ export function legLengths(figure) {
 }
 
 /** Sliders of the noise of the reference. @param {Figure} figure */
-export const deviations = (figure) => html`<div class="controls">${slider(figure, 'positionDeviation')} ${slider(figure, 'headingDeviation')}</div>`;
+export function referenceNoise(figure) {
+  const row = (/** @type {string} */ key, /** @type {string} */ unit) =>
+    slider(figure, key, { show: (/** @type {number} */ std) => (std > 0 ? `${typed(std, 3)} ${unit}` : words.calibrator.estimated) });
+  return html`<div class="controls">${row('positionStd', 'm')} ${row('yawStd', 'rad')}</div>`;
+}

@@ -5,7 +5,7 @@ import { Part } from '../../figure/part.js';
 import { language, words } from '../../messages/registry.js';
 import { button, inputOf } from '../../ui/controls.js';
 import { FileDrop, fileInput } from '../shared/files.js';
-import { deviations } from './controls.js';
+import { referenceNoise } from './controls.js';
 
 /**
  * @typedef {import('./alpha-calibrator.js').AlphaCalibratorElement} Figure
@@ -246,8 +246,8 @@ export function logSection(figure, { found }) {
   const say = words.calibrator.own;
   return html`<p>${figure.log ? say.present(figure.logName) : say.simulated}</p>
     ${figure.log ? found.map((sentence) => html`<p class="muted">${sentence}</p>`) : nothing}
-    ${deviations(figure)}
-    <p class="muted">${say.deviations}</p>`;
+    ${referenceNoise(figure)}
+    <p class="muted">${say.stds}</p>`;
 }
 
 /**

@@ -7,7 +7,7 @@ import { Picture, SamplesPicture } from '../../scene/picture.js';
 import { View, extentAround, extentOf } from '../../scene/view.js';
 import { lineKey } from '../shared/line-key.js';
 import { CLASSES, LINES } from './settings.js';
-import { WayLayer, styleOf } from './way.js';
+import { WayLayer, drawRings, styleOf } from './way.js';
 
 /**
  * @import { AlphaCalibrator as Machine, LegView } from '../../types.d.ts'
@@ -19,9 +19,6 @@ import { WayLayer, styleOf } from './way.js';
 
 /** Width of the lines of a single leg, CSS pixels. */
 const WIDTH = 2.25;
-
-/** Radius of the rings around the worst legs, CSS pixels. */
-const RING = 6;
 
 /**
  * The floor from above, in the frame of the reference.
@@ -44,20 +41,16 @@ export class WayPicture extends SamplesPicture {
   }
 
   /** @type {Picture<Scene>['paint']} */
-  paint = (brush, { legs, classes, stats: { doubts }, chosen, overlays }) => {
-    const { context, palette, view } = brush;
-    const keyed = brush.exported ? /** @type {const} */ ([...CLASSES.toReversed(), 'odometry']).filter((name) => overlays.includes(name)) : [];
-    const key = keyed.map((name) => lineKey(brush, words.calibrator.overlays[name].replaceAll('*', ''), styleOf(brush, name)));
+  paint = (brush, { legs, classes, chosen, overlays }) => {
+    const { palette } = brush;
+    const keyed = brush.exported ? /** @type {const} */ ([...CLASSES.toReversed(), 'odometry', 'outlier']).filter((name) => overlays.includes(name)) : [];
+    const key = keyed.map((name) => {
+      const entry = lineKey(brush, words.calibrator.overlays[name].replaceAll('*', ''), styleOf(brush, name));
+      return name === 'outlier' ? { ...entry, draw: (/** @type {number} */ x, /** @type {number} */ y, /** @type {number} */ length) => drawRings(brush, [[x + length / 2, y]]) } : entry;
+    });
     drawAxes(brush, { x: 'x (m)', y: 'y (m)' }, key);
     clipped(brush, () => {
       this.#layer.draw(brush, legs, classes, overlays);
-      context.strokeStyle = palette.ink;
-      context.lineWidth = 1;
-      for (const leg of doubts.worst) {
-        context.beginPath();
-        context.arc(view.toPixelX(legs.reference[6 * leg + 3]), view.toPixelY(legs.reference[6 * leg + 4]), RING, 0, 2 * Math.PI);
-        context.stroke();
-      }
       if (chosen < 0) return;
       const [fromX, fromY, , x, y, heading] = legs.reference.subarray(6 * chosen);
       drawOutline(brush, Float64Array.of(fromX, fromY, x, y), { colour: palette.ink, width: 3.25, dash: [] });

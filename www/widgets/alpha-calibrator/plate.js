@@ -6,7 +6,7 @@ import { brushOn } from '../../scene/canvas.js';
 import { Picture } from '../../scene/picture.js';
 import { View } from '../../scene/view.js';
 import { lineKey } from '../shared/line-key.js';
-import { panelsOf } from './doubts.js';
+import { panelsOf } from './panels.js';
 import { WayPicture } from './pictures.js';
 import { alphaTexts, systematicTexts } from './readouts.js';
 import { captionOf } from './words.js';
@@ -47,7 +47,7 @@ export class Plate extends Picture {
 
   /** @type {Picture<Scene>['draw']} */
   draw(surface, scene, palette) {
-    const { reading, logName, exact } = this.#figure;
+    const { reading, logName } = this.#figure;
     const brush = { ...brushOn(surface, this.view, palette), exported: true };
     const way = this.#way;
     within(brush, way.view, 0, 0, WAY, (own) => {
@@ -64,7 +64,7 @@ export class Plate extends Picture {
     let y = 2;
     for (const text of [`${words.calibrator.alphas.caption}:`, ...alphaTexts(reading)]) y = write(context, text, beside, y, WIDTH - beside) + LINE / 3;
     y = WAY.height + PANEL.height + LINE;
-    for (const text of [captionOf(reading, logName, exact), ...systematicTexts(reading)]) y = write(context, text, 2, y, WIDTH - 2);
+    for (const text of [captionOf(reading, logName), ...systematicTexts(reading)]) y = write(context, text, 2, y, WIDTH - 2);
     panelsOf(this.#figure).forEach(({ plot }, i) =>
       within(brush, this.#panel, i * PANEL.width, WAY.height + LINE / 2, PANEL, (own) => drawPlot(own, plot)));
     return false;

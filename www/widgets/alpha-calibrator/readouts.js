@@ -7,7 +7,7 @@ import { NOTHING, fixed, powerOfTen, significant, tick } from '../../ui/format.j
 import { adviceOf, isZero } from './lines.js';
 import { truthHolds } from './reading.js';
 import { SYSTEMATIC } from './settings.js';
-import { alphaName, judgementOf, legsText, noiseNames, significantly } from './words.js';
+import { alphaName, intervalsOf, judgementOf, legsText, noiseNames, significantly, uncorrectedText } from './words.js';
 
 /**
  * @import { Interval } from '../../types.d.ts'
@@ -22,13 +22,13 @@ const CHART = { width: 200, height: 24, middle: 18.5, inset: 12 };
 const MOST_DECADES = 4;
 
 /** Icons of the ratings. */
-const ICONS = { trust: '✓', caution: '!', unusable: '✕' };
+const ICONS = { consistent: '✓', questionable: '!', unusable: '✕' };
 
 /** Returns the badge of the α's, with the verdict, the next step and the legs. @param {Figure} figure */
-export function verdictLine({ reading, logName, exact }) {
+export function verdictLine({ reading, logName }) {
   const { rating, badge, finding, next } = judgementOf(reading);
   return html`<span class="badge ${rating}"><span aria-hidden="true">${ICONS[rating]}</span> ${badge}</span>
-    ${finding} <strong>${next}</strong> <span class="muted">${legsText(reading, logName, exact)}</span>`;
+    <strong>${finding} ${uncorrectedText(reading)}</strong> ${next} <span class="muted">${legsText(reading, logName)}</span>`;
 }
 
 /** Table of the α's, each with its interval on a common axis. @param {Reading} reading */
@@ -40,7 +40,7 @@ export function alphaTable(reading) {
   const place = axisOf([...alphas, ...intervals.flatMap((interval) => interval ?? []), ...(truth ?? [])]);
   return html`<table class="alphas" part="table">
     <thead>
-      <tr><th scope="col">${rich(say.alpha)}</th><th scope="col">${truth ? trueHead() : say.noise}</th><th scope="col">${say.value}</th><th scope="col">${say.interval}</th></tr>
+      <tr><th scope="col">${rich(say.alpha)}</th><th scope="col">${truth ? trueHead() : say.noise}</th><th scope="col">${say.value}</th><th scope="col">${say.recommended}</th></tr>
     </thead>
     <tbody>
       ${alphas.map((alpha, i) => html`<tr>
@@ -48,8 +48,8 @@ export function alphaTable(reading) {
         ${alpha === null
           ? html`<td colspan="3"><div class="of">${noises[i]}</div><span class="unknown">${lackOf(reading, i)}</span></td>`
           : html`<td class="chart"><div class="of">${noises[i]}</div>${whisker(place, alpha, intervals[i], truth?.[i])}</td>
-            <td class="roomy" data-room="0.0000">${toldOf(alpha, intervals[i])}</td>
-            <td class="between roomy" data-room=${say.between('0.0000', '0.0000')}>${betweenOf(intervals[i])}</td>`}
+            <td class="roomy" data-room=${say.between('0.0000', '0.0000')}>${toldOf(alpha, intervals[i])}<div class="between">${betweenOf(intervals[i])}</div></td>
+            <td class="roomy recommended" data-room="0.0000">${recommendedOf(reading, i)}</td>`}
       </tr>`)}
       <tr class="axis" aria-hidden="true">
         <td></td>
@@ -62,13 +62,20 @@ export function alphaTable(reading) {
   </table>`;
 }
 
+/** Prints a recommended α. @param {Reading} reading @param {number} index */
+function recommendedOf({ stats: { recommended, intervals } }, index) {
+  const alpha = recommended?.alphas[index] ?? null;
+  const ends = /** @type {Interval | null} */ (intervals[index]?.map((end) => (recommended?.inflation ?? 1) * end) ?? null);
+  return alpha === null ? NOTHING : toldOf(alpha, ends);
+}
+
 /** Prints an α, or its upper bound if it is not told from 0. @param {number} alpha @param {Interval | null} interval */
 export const toldOf = (alpha, interval) => (isZero(alpha, interval) ? `≤ ${interval ? significant(interval[1], 2) : NOTHING}` : significantly(alpha));
 
 /** Says why an α is not determined, and the drive that would determine it. @param {Reading} reading @param {number} index */
-function lackOf({ stats: { undetermined }, config: { model } }, index) {
+function lackOf({ stats: { notIdentifiable }, config: { model } }, index) {
   const say = words.calibrator.alphas;
-  const reason = undetermined[index];
+  const reason = notIdentifiable[index];
   if (!reason) return NOTHING;
   const { lack, drive } = adviceOf(say.lacking, model, reason);
   return say.unknown(lack, drive);
@@ -78,7 +85,7 @@ function lackOf({ stats: { undetermined }, config: { model } }, index) {
 export function alphaTexts(reading) {
   const { stats: { alphas, intervals }, config } = reading;
   return alphas.map((alpha, i) => {
-    const told = alpha === null ? [lackOf(reading, i)] : [toldOf(alpha, intervals[i]), betweenOf(intervals[i])];
+    const told = alpha === null ? [lackOf(reading, i)] : [toldOf(alpha, intervals[i]), betweenOf(intervals[i]), words.calibrator.alphas.recommendedText(recommendedOf(reading, i))];
     return `α${alphaName(i)} ${noiseNames(config.model)[i]}: ${told.join(', ')}`;
   });
 }
@@ -133,42 +140,43 @@ function whisker({ at, decades }, value, interval, truth) {
 const MOST_DECIMALS = 6;
 
 /**
- * Systematic errors as two texts: those that were removed, and those that the α's include.
+ * Systematic errors as two texts: those that were corrected, and those that the α's include.
  *
  * @param {Reading} reading
  */
-export function systematicTexts({ stats: { systematic } }) {
+export function systematicTexts({ stats: { systematicErrors: errors } }) {
   const say = words.calibrator.systematic;
-  const told = (/** @type {boolean} */ removed) =>
-    SYSTEMATIC.filter((key) => systematic[key].removed === removed).flatMap((key) => {
-      const { values, halves } = digitsOf(systematic[key]);
+  const told = (/** @type {boolean} */ corrected) =>
+    SYSTEMATIC.filter((key) => errors[key].corrected === corrected).flatMap((key) => {
+      const { values, halves } = digitsOf(errors[key]);
       return values.length ? [`${say.names[key]} ${values.map((value, i) => `${value} ± ${halves[i]}`).join(', ')}`] : [];
     });
   const [removed, left] = [told(true), told(false)];
   return [...(removed.length ? [say.removed(removed.join('; '))] : []), ...(left.length ? [say.left(left.join('; '))] : [])];
 }
 
-/** Table of the systematic errors, each with a box for its removal. @param {Figure} figure */
+/** Table of the systematic errors, each with a box for its correction. @param {Figure} figure */
 export function systematicTable(figure) {
-  const { stats: { systematic }, truth } = figure.reading;
+  const { stats: { systematicErrors: errors }, truth } = figure.reading;
   const say = words.calibrator.systematic;
   const told = figure.settings.told;
   return html`<table class="systematic" part="table">
     <thead>
       <tr>
-        <th scope="col">${say.what}</th><th scope="col">${say.value}</th><th scope="col">${say.interval}</th>
+        <th scope="col">${say.what}</th><th scope="col">${say.value}</th><th scope="col">${say.interval}</th><th scope="col">${say.treatment}</th>
         ${truth ? html`<th scope="col">${say.truth}</th>` : nothing}
       </tr>
     </thead>
     <tbody>
       ${SYSTEMATIC.map((key) => {
-        const { values, halves } = digitsOf(systematic[key]);
+        const { values, halves } = digitsOf(errors[key]);
         const box = toggle({ label: say.names[key], checked: told[key], change: (on) => figure.gesture.decide({ [key]: on }) });
-        if (values.length === 0) return html`<tr><th scope="row">${box}</th><td colspan="3">${say.unknown}</td></tr>`;
+        if (values.length === 0) return html`<tr><th scope="row">${box}</th><td colspan="4">${say.unknown}</td></tr>`;
         return html`<tr>
           <th scope="row">${box}</th>
           <td>${lines(values)}</td>
           <td class="between">${lines(halves.map((half) => `± ${half}`))}</td>
+          <td>${errors[key].corrected ? say.corrected : errors[key].constant ? say.notCorrected : say.notConstant}</td>
           ${truth ? html`<td class="muted">${lines([truth[key]].flat().map((each) => fixed(each, 3)))}</td>` : nothing}
         </tr>`;
       })}
@@ -182,11 +190,10 @@ const lines = (texts) => texts.map((text) => html`<div>${text}</div>`);
 /**
  * Prints an error as far as it is determined: its values, two for a lever arm, and half the width of each interval.
  *
- * @param {{ value: number | null | (number | null)[], interval: Interval | (Interval | null)[] | null }} error
+ * @param {{ value: number | null | (number | null)[], interval: Interval | [Interval | null, Interval | null] | null }} error
  */
 function digitsOf({ value, interval }) {
-  const intervals = typeof interval?.[0] === 'number' ? [/** @type {Interval} */ (interval)] : /** @type {(Interval | null)[]} */ (interval ?? []);
-  const known = intervals.map((each) => each && (each[1] - each[0]) / 2);
+  const known = intervalsOf(interval).map((each) => each && (each[1] - each[0]) / 2);
   return {
     values: [value].flat().flatMap((each, i) => (each === null ? [] : [fixed(each, decimalsOf(known[i]))])),
     halves: known.flatMap((half) => (half === null ? [] : [fixed(half, decimalsOf(half))])),

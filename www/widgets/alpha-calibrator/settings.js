@@ -15,12 +15,13 @@ export const vocabulary = 'calibrator';
 /** Dash of the odometry, CSS pixels. */
 const READ_DASH = [2.5, 3.5];
 
-/** Styles of the lines in the pictures: the classes of legs, the most usual first, then the rest. @satisfies {Record<string, import('../../figure/overlays.js').LineStyle>} */
+/** Styles of the lines and marks in the pictures: the classes of legs, the most usual first, then the rest. @satisfies {Record<string, import('../../figure/overlays.js').LineStyle>} */
 export const LINES = {
   likely: { role: 'truth', width: 1.5, dash: [] },
   plausible: { role: 'truth', width: 2, dash: [] },
   unlikely: { role: 'prediction', width: 3.25, dash: [] },
   implausible: { role: 'accent', width: 4.5, dash: [] },
+  outlier: { role: 'ink', width: 1.25, mark: 'ring' },
   odometry: { role: 'prior', width: 1.25, dash: READ_DASH },
   predicted: { role: 'prediction', width: 2, dash: [7, 4] },
   reference: { role: 'ink', width: 2.25, dash: [] },
@@ -54,13 +55,13 @@ export const own = {
 export const documentation = {
   properties: {},
   state: {
-    leg: { type: 'number | null', sentence: 'The leg that is shown, from 0; null, or one that is not there, for the worst that is no outlier.' },
+    leg: { type: 'number | null', sentence: 'The leg that is shown, from 0; null, or one that is not there, for the largest residual that is no outlier.' },
     driver: { type: "'turn' | 'way'", sentence: 'The motion that squared residuals are drawn against.' },
   },
 };
 
 /** Models with their rules: two settings, but one choice. */
-export const KINDS = /** @type {const} */ (['table', 'nav2', 'beluga', 'omni', 'velocity']);
+export const KINDS = /** @type {const} */ (['thrun', 'nav2', 'beluga', 'omni', 'velocity']);
 
 /** Legs of the simulated log: those that the element opens with. */
 export const SIMULATED = { distance: 0.25, angle: 0.2 };
@@ -75,9 +76,16 @@ export const kindOf = ({ model, rule }) => (model === 'velocity' ? 'velocity' : 
 
 /** The settings to make for one of them. @param {Kind} kind */
 export function settingsFor(kind) {
-  if (kind === 'velocity') return { model: 'velocity', rule: 'table' };
+  if (kind === 'velocity') return { model: 'velocity', rule: 'thrun' };
   return { model: kind === 'omni' ? 'omnidirectional' : 'odometry', rule: kind };
 }
+
+/** Noise components by model, in the order of the residuals. */
+export const COMPONENTS = /** @type {const} */ ({
+  odometry: ['rot1', 'trans', 'rot2'],
+  omnidirectional: ['rot2', 'trans', 'strafe'],
+  velocity: ['v', 'omega', 'gamma'],
+});
 
 /** Systematic errors in the order of the table. */
 export const SYSTEMATIC = /** @type {const} */ (['clockOffset', 'mountYaw', 'leverArm', 'distanceScale', 'turnScale']);
@@ -87,7 +95,7 @@ export const looks = {
   distance: { symbol: '*d*', role: 'prior', min: 0.05, max: 1, step: 0.01, decimals: 2 },
   angle: { symbol: '*φ*', role: 'prior', min: 0.05, max: 1, step: 0.01, decimals: 2 },
   duration: { symbol: '*T*', role: 'prior', min: 0, max: 5, step: 0.1, decimals: 2 },
-  positionDeviation: { symbol: '*σ*_{xy}', role: 'truth', min: 0, max: 0.05, step: 0.001, decimals: 3 },
-  headingDeviation: { symbol: '*σ*_{θ}', role: 'truth', min: 0, max: 0.05, step: 0.001, decimals: 3 },
+  positionStd: { symbol: '*σ*_{xy}', role: 'truth', min: 0, max: 0.05, step: 0.001, decimals: 3 },
+  yawStd: { symbol: '*σ*_{θ}', role: 'truth', min: 0, max: 0.05, step: 0.001, decimals: 3 },
   inflation: { symbol: '*f*', role: 'prediction', min: 0.1, max: 5, step: 0.05, decimals: 2 },
 };

@@ -75,7 +75,7 @@ const own = css`
     font-weight: bold;
   }
 
-  .badge.trust {
+  .badge.consistent {
     background: var(--posterior);
   }
 
@@ -210,8 +210,17 @@ const own = css`
     color: var(--muted);
   }
 
+  .alphas .recommended {
+    font-weight: bold;
+  }
+
+  .reason {
+    margin: 0;
+    font-size: 0.84em;
+  }
+
   .systematic {
-    max-width: 44em;
+    max-width: 48em;
   }
 
   .systematic :is(th, td) {

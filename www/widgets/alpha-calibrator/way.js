@@ -32,6 +32,9 @@ const COARSE = 8;
 /** Number of a square. @param {number} x CSS pixels @param {number} y @param {number} side */
 const squareOf = (x, y, side = FINE) => Math.round(x / side) + 2 ** 26 * Math.round(y / side);
 
+/** Radius of the rings around outliers, CSS pixels. */
+const RING = 6;
+
 /** Width of the thinnest lines, CSS pixels. */
 const HAIR = 1;
 
@@ -92,6 +95,24 @@ function drawWay(brush, legs, classes, overlays) {
     const style = styleOf(brush, name);
     drawLegs(brush, legs.reference, (leg) => classes[leg] === place, { ...style, width: HAIR + extra * (style.width - HAIR) });
   }
+  if (overlays.includes('outlier')) drawRings(brush, outlierEnds(brush, legs));
+}
+
+/** Returns the ends of the outliers, CSS pixels. @param {Painter} brush @param {CalibrationLegs} legs @returns {[number, number][]} */
+function outlierEnds({ view }, { outliers, reference }) {
+  const all = [...outliers.keys()].filter((leg) => outliers[leg] > 0);
+  return all.map((leg) => [view.toPixelX(reference[6 * leg + 3]), view.toPixelY(reference[6 * leg + 4])]);
+}
+
+/** Draws the rings that mark outliers. @param {Painter} brush @param {[number, number][]} points CSS pixels */
+export function drawRings(brush, points) {
+  const { context } = brush;
+  context.beginPath();
+  for (const [x, y] of points) {
+    context.moveTo(x + RING, y);
+    context.arc(x, y, RING, 0, 2 * Math.PI);
+  }
+  stroke(context, styleOf(brush, 'outlier'));
 }
 
 /**

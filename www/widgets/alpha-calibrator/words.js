@@ -3,32 +3,77 @@
 import { addEnglish, words } from '../../messages/registry.js';
 import { counted, fixed, percent, powerOfTen, rounded, significant } from '../../ui/format.js';
 import { en } from './en.js';
+import { SYSTEMATIC } from './settings.js';
 
 /**
- * @import { LegView } from '../../types.d.ts'
+ * @import { CalibrationCheck, LegView } from '../../types.d.ts'
  * @import { Reading } from './reading.js'
- *
- * @typedef {'reference' | 'position' | 'heading' | null} Exact
  */
 
 addEnglish({ calibrator: en });
 
-/** @typedef {'trust' | 'caution' | 'unusable'} Rating */
-
-/** Ratings of verdicts; the others are a caution. @type {Partial<Record<string, Rating>>} */
-const RATINGS = { fits: 'trust', 'few-legs': 'unusable', unrelated: 'unusable', 'long-legs': 'unusable' };
+/** Printed checks that are a count, and those that are a fraction; the others are plain numbers. */
+const COUNTS = ['enough-legs'];
+const FRACTIONS = ['legs-lost', 'outliers-few', 'holdout-covered', 'window-1m-covered', 'window-2m-covered', 'window-5m-covered'];
 
 /**
- * Returns the rating of the α's, with the verdict and the next step as sentences.
+ * Returns the rating of the α's, with the first failed check and the next step as sentences.
  *
  * @param {Reading} reading
- * @returns {{ rating: Rating, badge: string, finding: string, next: string }}
+ * @returns {{ rating: Reading['stats']['diagnostics']['verdict'], badge: string, finding: string, next: string }}
  */
-export function judgementOf({ stats: { doubts: { verdict, heldOut } }, legs }) {
-  const { badges, nextSteps, none, verdicts } = words.calibrator;
-  const rating = legs.count === 0 ? 'unusable' : (RATINGS[verdict] ?? 'caution');
-  const finding = legs.count === 0 ? none : verdicts[verdict](percent(heldOut.coverage));
-  return { rating, badge: badges[rating], finding, next: nextSteps[legs.count === 0 ? 'few-legs' : verdict] };
+export function judgementOf({ stats: { diagnostics: { verdict, checks } }, legs }) {
+  const say = words.calibrator;
+  const result = (/** @type {string} */ finding, /** @type {string} */ next) => ({ rating: verdict, badge: say.badges[verdict], finding, next });
+  if (legs.count === 0) return result(say.none, say.longer);
+  const failed = checks.filter(({ passed }) => !passed);
+  if (failed.length > 0) return result(say.failed(say.checks.names[failed[0].name], counted(failed.length), counted(checks.length)), messageOf(failed[0]));
+  return verdict === 'unusable' ? result(say.noAlpha, '') : result(say.passed(counted(checks.length)), say.use);
+}
+
+/** Returns what a failed check means and what to do. @param {CalibrationCheck} check */
+export const messageOf = ({ name, passed, message }) => (passed ? '' : (words.calibrator.checks.messages[name] ?? message));
+
+/** Prints the value of a check, or a limit of it. @param {CalibrationCheck['name']} name @param {number} value */
+export function checked(name, value) {
+  if (!Number.isFinite(value)) return Number.isNaN(value) ? percent(value) : '∞';
+  return COUNTS.includes(name) ? counted(value) : FRACTIONS.includes(name) ? percent(value) : fixed(value, 3);
+}
+
+/** Prints the values of a check that pass. @param {CalibrationCheck} check */
+export function expectedOf({ name, expected: [low, high] }) {
+  if (high === Infinity) return `≥ ${checked(name, low)}`;
+  return low === 0 ? `≤ ${checked(name, high)}` : words.calibrator.alphas.between(checked(name, low), checked(name, high));
+}
+
+/** Returns why the recommended α's are what they are. @param {Reading} reading */
+export function reasonOf({ stats: { recommended, diagnostics: { checks, windows } } }) {
+  const say = words.calibrator.recommended;
+  if (!recommended) return say.none;
+  const [{ count, coverage, nees }] = windows;
+  if (!checks.some(({ name }) => name === 'window-1m-covered')) return say.few(counted(count));
+  const { inflation } = recommended;
+  return inflation === 1 ? say.covered(percent(coverage), counted(count)) : say.inflated(fixed(inflation, 2), percent(coverage), counted(count), fixed(nees, 2));
+}
+
+/**
+ * Says which systematic errors differ from 0, or a scale from 1, but are not to be corrected.
+ *
+ * @param {Reading} reading
+ * @returns {string} empty if there are none
+ */
+export function uncorrectedText({ stats: { systematicErrors: errors }, config }) {
+  const say = words.calibrator.systematic;
+  const names = SYSTEMATIC.filter((key) => {
+    const neutral = key.endsWith('Scale') ? 1 : 0;
+    return !config[key] && intervalsOf(errors[key].interval).some((interval) => interval && (interval[0] > neutral || interval[1] < neutral));
+  });
+  return names.length > 0 ? say.matters(names.map((key) => say.names[key]).join(', ')) : '';
+}
+
+/** Returns the intervals of a systematic error: two for a lever arm. @param {Reading['stats']['systematicErrors']['mountYaw' | 'leverArm']['interval']} interval */
+export function intervalsOf(interval) {
+  return /** @type {([number, number] | null)[]} */ (Array.isArray(interval?.[0]) || interval?.[0] === null ? interval : [interval]);
 }
 
 /** Returns the names of the noises of a model. @param {Reading['config']['model']} model */
@@ -51,22 +96,17 @@ export function thousandths(highest) {
   return { scaled: (value) => value * 10 ** -exponent, unit: exponent < 0 ? powerOfTen(exponent) : '' };
 }
 
-/**
- * Returns the legs of the log in a sentence; empty if there are none.
- *
- * @param {Reading} reading
- * @param {string} log name
- * @param {Exact} exact part of the reference that is assumed to be exact
- */
-export function legsText({ legs }, log, exact) {
-  const say = words.calibrator;
-  return legs.count === 0 ? '' : say.present(log, counted(legs.count), exact && say.exact[exact]);
+/** Returns the legs and outliers of the log in a sentence; empty if there are none. @param {Reading} reading @param {string} log name */
+export function legsText({ legs }, log) {
+  if (legs.count === 0) return '';
+  const outliers = legs.outliers.reduce((sum, is) => sum + is, 0);
+  return words.calibrator.present(log, counted(legs.count), outliers > 0 ? counted(outliers) : '');
 }
 
 /** Returns the caption of the pictures: the judgement and the legs. @type {typeof legsText} */
-export function captionOf(reading, log, exact) {
+export function captionOf(reading, log) {
   const { badge, finding, next } = judgementOf(reading);
-  return `${badge}. ${finding} ${next} ${legsText(reading, log, exact)}`.trim();
+  return [`${badge}.`, finding, uncorrectedText(reading), next, legsText(reading, log)].filter(Boolean).join(' ');
 }
 
 /**

@@ -12,7 +12,7 @@ export const de = {
     rest: 'Im Stand',
   },
   rules: {
-    table: 'Tabelle 5.6',
+    thrun: 'Tabelle 5.6',
     nav2: 'AMCL von Nav2',
     beluga: 'Beluga 2',
     omni: 'AMCL, omnidirektional',

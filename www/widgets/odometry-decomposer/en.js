@@ -11,7 +11,7 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
     rest: 'At rest',
   },
   rules: {
-    table: 'Table 5.6',
+    thrun: 'Table 5.6',
     nav2: 'AMCL of Nav2',
     beluga: 'Beluga 2',
     omni: 'AMCL, omnidirectional',

@@ -25,7 +25,7 @@ export function captionOf({ config: { rule, alphas }, rules, legs, deviations, s
     const left = Math.PI - Math.abs(legs.rot2);
     return eitherWay && left < Math.PI / 2 ? say.spinEitherWay(fixed(left, 2)) : say.spin;
   }
-  if (rule === 'table' && Math.abs(rot1) > Math.PI / 2 && Math.abs(legs.rot2) > Math.PI / 2) return say.reverse;
+  if (rule === 'thrun' && Math.abs(rot1) > Math.PI / 2 && Math.abs(legs.rot2) > Math.PI / 2) return say.reverse;
   return say.lever(fixed(deviations.rot1, 2), fixed(trans, 2), fixed(stats.exactCrossTrack, 2));
 }
 

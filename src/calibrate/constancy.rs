@@ -64,7 +64,7 @@ fn scale_of(
     let mut mask = [false; ERRORS];
     mask[scale as usize] = true;
     let residuals = fit.sample.residuals(options, mask, |leg| select(leg) && !fit.sample.outliers[leg]);
-    if residuals.terms.len() < MIN_GROUP {
+    if residuals.len() < MIN_GROUP {
         return None;
     }
     let squares = residuals.least_squares(&fit.maximum.parameters);

@@ -11,13 +11,14 @@ use super::result::{CalibrateError, Drive, Options, Outliers};
 use super::systematic::{ERRORS, ErrorMask, Systematic, SystematicError};
 use super::trajectory::median;
 use crate::geom::se2::wrap_angle;
+use std::rc::Rc;
 
 /// Legs with their residuals, under the systematic errors that are corrected.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Sample {
     pub legs: Vec<Leg>,
     pub observations: Vec<Observation>,
-    terms: Vec<Term>,
+    terms: Rc<Vec<Term>>,
     pub outliers: Vec<bool>,
 }
 
@@ -78,7 +79,7 @@ impl Sample {
             .map(|leg| Observation::new(options.model, leg, corrected, position_std))
             .collect();
         let term = |(leg, observation): (&Leg, &Observation)| Term::new(leg, observation, corrected);
-        self.terms = self.legs.iter().zip(&self.observations).map(term).collect();
+        self.terms = Rc::new(self.legs.iter().zip(&self.observations).map(term).collect());
     }
 
     /// Residuals of the legs that `select` chooses; one follows the leg before only if that is chosen too.
@@ -90,7 +91,8 @@ impl Sample {
     ) -> Residuals {
         let chosen = (0..self.legs.len()).filter(|leg| select(*leg));
         let follows = |leg: usize| self.legs[leg].follows && leg > 0 && select(leg - 1);
-        Residuals::new(options.model, estimated, chosen.map(|leg| (self.terms[leg], follows(leg))))
+        let chosen = chosen.map(|leg| (leg, follows(leg))).collect();
+        Residuals::new(options.model, estimated, &self.terms, chosen)
     }
 
     /// Innovations of all legs; an outlier is compared with what it would be by itself.
@@ -104,7 +106,8 @@ impl Sample {
         let errors = kept.least_squares(parameters).errors;
         let mut inside = kept.innovations(parameters, &errors).into_iter();
         let chosen = (0..self.legs.len()).filter(|leg| self.outliers[*leg]);
-        let outside = Residuals::new(options.model, mask, chosen.map(|leg| (self.terms[leg], false)));
+        let outside =
+            Residuals::new(options.model, mask, &self.terms, chosen.map(|leg| (leg, false)).collect());
         let mut outside = outside.innovations(parameters, &errors).into_iter();
         let next = |is_outlier: &bool| if *is_outlier { outside.next() } else { inside.next() };
         self.outliers.iter().filter_map(next).collect()
@@ -143,8 +146,8 @@ impl Sample {
         start: Parameters,
     ) -> Result<(Residuals, Maximum), CalibrateError> {
         let residuals = self.residuals(options, mask, |leg| !self.outliers[leg]);
-        if residuals.terms.len() < MIN_LEGS {
-            return Err(CalibrateError::TooFewLegs { legs: residuals.terms.len() });
+        if residuals.len() < MIN_LEGS {
+            return Err(CalibrateError::TooFewLegs { legs: residuals.len() });
         }
         let maximum = maximize(&residuals, start, &free_parameters(options));
         Ok((residuals, maximum))
@@ -264,7 +267,7 @@ pub(super) fn fit_systematic(log: &Log, options: &Options) -> Result<Fit, Calibr
         systematic.mount_yaw = wrap_angle(systematic.mount_yaw);
         parameters = Some(maximum.parameters);
         if is_settled || round == MAX_ROUNDS {
-            let length = (residuals.terms.len() as f64).cbrt().ceil() as usize;
+            let length = (residuals.len() as f64).cbrt().ceil() as usize;
             let sandwich = residuals.sandwich(&maximum.parameters, &squares, length);
             let std = |i: usize| squares.covariance[(i, i)].max(sandwich[(i, i)]).max(0.0).sqrt();
             let innovations = sample.innovations(options, mask, &maximum.parameters);

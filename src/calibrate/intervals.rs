@@ -21,7 +21,7 @@ pub(super) fn intervals(
     free: &Free,
     persistence: f64,
 ) -> Vec<[f64; 2]> {
-    let count = residuals.terms.len();
+    let count = residuals.len();
     let blocks = Blocks::new(maximum, count, persistence);
     let freedom = (count.saturating_sub(PARAMETERS)).max(1) as f64;
     (0..PARAMETERS)

@@ -15,6 +15,7 @@ use super::residuals::{Model, Observation};
 use super::systematic::{ERRORS, ErrorMask, Systematic, SystematicError};
 use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
 use std::f64::consts::TAU;
+use std::rc::Rc;
 
 /// Most α's of a model.
 pub(super) const ALPHAS: usize = 6;
@@ -47,15 +48,15 @@ pub(super) struct Term {
     floors: Vector3<f64>,
     start: Matrix3<f64>,
     end: Matrix3<f64>,
-    /// Whether it starts with the pose at which the term before ends.
-    follows: bool,
     pub observed: usize,
 }
 
 /// Residuals of several legs, with the model and the systematic errors that are estimated with them.
 #[derive(Clone, Debug)]
 pub(super) struct Residuals {
-    pub terms: Vec<Term>,
+    terms: Rc<Vec<Term>>,
+    /// Indices of the terms that are used, each with whether it starts with the pose at which the one before ends.
+    chosen: Vec<(usize, bool)>,
     alphas: [[usize; 2]; 3],
     pub estimated: ErrorMask,
 }
@@ -123,17 +124,29 @@ impl Term {
             floors: observed.map(|is| if is { MIN_STD * MIN_STD } else { 1.0 }),
             start,
             end,
-            follows: leg.follows,
             observed: observed.iter().filter(|is| **is).count(),
         }
     }
 }
 
 impl Residuals {
-    /// Gathers terms, each with whether it starts with the pose at which the one before ends.
-    pub fn new(model: Model, estimated: ErrorMask, terms: impl Iterator<Item = (Term, bool)>) -> Self {
-        let terms = terms.map(|(term, follows)| Term { follows, ..term }).collect();
-        Self { terms, alphas: model.components().map(|component| component.alphas), estimated }
+    pub fn new(
+        model: Model,
+        estimated: ErrorMask,
+        terms: &Rc<Vec<Term>>,
+        chosen: Vec<(usize, bool)>,
+    ) -> Self {
+        let alphas = model.components().map(|component| component.alphas);
+        Self { terms: Rc::clone(terms), chosen, alphas, estimated }
+    }
+
+    /// Number of legs.
+    pub fn len(&self) -> usize {
+        self.chosen.len()
+    }
+
+    fn terms(&self) -> impl DoubleEndedIterator<Item = (&Term, bool)> + ExactSizeIterator {
+        self.chosen.iter().map(|(term, follows)| (&self.terms[*term], *follows))
     }
 
     /// Variances of the wheels' noise in one leg.
@@ -156,8 +169,8 @@ impl Residuals {
         let (mut mean, mut covariance) = (Columns::zeros(), reference);
         // A product is cheaper than as many logarithms.
         let mut det = 1.0;
-        for term in &self.terms {
-            if !term.follows {
+        for (term, follows) in self.terms() {
+            if !follows {
                 (mean, covariance) = (Columns::zeros(), reference);
             }
             let columns = term.columns - term.start * mean;
@@ -187,7 +200,7 @@ impl Residuals {
         let (covariance, log_det_information) = masked_inverse(&information, &self.estimated);
         let pull: SVector<f64, ERRORS> = gram.fixed_view::<ERRORS, 1>(1, 0).into_owned();
         let errors = covariance * pull;
-        let count: usize = self.terms.iter().map(|term| term.observed).sum();
+        let count: usize = self.terms().map(|(term, _)| term.observed).sum();
         let free = count as f64 - self.estimated.iter().filter(|is| **is).count() as f64;
         let deviance =
             log_det + log_det_information + gram[(0, 0)] - pull.dot(&errors) + free * libm::log(TAU);
@@ -233,7 +246,7 @@ impl Residuals {
 
     /// Returns the innovation of each leg, less what these systematic errors explain.
     pub fn innovations(&self, parameters: &Parameters, errors: &SVector<f64, ERRORS>) -> Vec<Standardized> {
-        let mut all = Vec::with_capacity(self.terms.len());
+        let mut all = Vec::with_capacity(self.len());
         self.filter(parameters, |term, Innovation { columns, weight, .. }, covariance| {
             let innovation = columns.column(0) - columns.fixed_columns::<ERRORS>(1) * errors;
             let stds = std::array::from_fn(|k| covariance[(k, k)].sqrt());
@@ -249,7 +262,7 @@ impl Residuals {
 
     /// Returns the log-likelihood with its derivatives.
     pub fn expansion(&self, parameters: &Parameters) -> Expansion {
-        let mut innovations = Vec::with_capacity(self.terms.len());
+        let mut innovations = Vec::with_capacity(self.len());
         let (log_det, gram) = self.filter(parameters, |_, innovation, _| innovations.push(innovation));
         let LeastSquares { log_likelihood, errors, covariance } = self.least_squares_of(log_det, &gram);
         let mut expansion = Expansion {
@@ -257,10 +270,10 @@ impl Residuals {
             quadratic: Parameters::zeros(),
             trace: Parameters::zeros(),
             information: Information::zeros(),
-            scores: vec![Parameters::zeros(); self.terms.len()],
+            scores: vec![Parameters::zeros(); self.len()],
         };
         // P r of each leg, and AᵀP r + BᵀP r at the pose at which it starts (if it does not follow) and at that at which it ends.
-        let mut projected = vec![[Vector3::zeros(); 3]; self.terms.len()];
+        let mut projected = vec![[Vector3::zeros(); 3]; self.len()];
         let project = |solved: &Columns| solved.column(0) - solved.fixed_columns::<ERRORS>(1) * errors;
         // Diagonal of P, less than that of V⁻¹ by what is known of the systematic errors.
         let known = |solved: &Columns, row: usize| {
@@ -269,13 +282,13 @@ impl Residuals {
         };
         // V⁻¹[r X] of the leg after, and its block on the diagonal of V⁻¹.
         let mut after: Option<(Columns, Matrix3<f64>)> = None;
-        for (i, (term, Innovation { columns, weight, gain })) in
-            self.terms.iter().zip(&innovations).enumerate().rev()
+        for (i, ((term, follows), Innovation { columns, weight, gain })) in
+            self.terms().zip(&innovations).enumerate().rev()
         {
             let (mut solved, mut block) = (weight * columns, *weight);
             let (mut at_end, mut end_block) = (Columns::zeros(), Matrix3::zeros());
             if let Some((next, next_block)) = after {
-                let start = self.terms[i + 1].start;
+                let start = self.terms[self.chosen[i + 1].0].start;
                 let through = start * gain;
                 at_end = start.transpose() * next;
                 solved -= gain.transpose() * at_end;
@@ -313,13 +326,13 @@ impl Residuals {
                 projected
             };
             let end = add_pose(&at_end, &end_block);
-            let start = if term.follows && i > 0 {
+            let start = if follows && i > 0 {
                 Vector3::zeros()
             } else {
                 add_pose(&(term.start.transpose() * solved), &(term.start.transpose() * block * term.start))
             };
             projected[i] = [own, start, end];
-            after = (term.follows && i > 0).then_some((solved, block));
+            after = (follows && i > 0).then_some((solved, block));
         }
         expansion.information = self.average_information(&innovations, &projected, &covariance);
         expansion
@@ -335,8 +348,9 @@ impl Residuals {
         type Working = SMatrix<f64, 3, PARAMETERS>;
         let (mut gram, mut cross) = (Information::zeros(), SMatrix::<f64, ERRORS, PARAMETERS>::zeros());
         let (mut mean, mut pose) = (Working::zeros(), Vector3::zeros());
-        for ((term, innovation), [own, start, end]) in self.terms.iter().zip(innovations).zip(projected) {
-            if !term.follows {
+        for (((term, follows), innovation), [own, start, end]) in self.terms().zip(innovations).zip(projected)
+        {
+            if !follows {
                 (mean, pose) = (Working::zeros(), *start);
             }
             let mut working = Working::zeros();

@@ -22,9 +22,10 @@ import { panels } from './panels.js';
 import { LegPicture, WayPicture } from './pictures.js';
 import { Plate } from './plate.js';
 import { legOf, readingOf } from './reading.js';
-import { alphaTable, alphaTexts, systematicTable, systematicTexts, verdictLine } from './readouts.js';
+import { alphaTable, alphaTexts, verdictLine } from './readouts.js';
 import { COMPONENTS, LINES, attributes, declared, looks, own, vocabulary } from './settings.js';
 import { calibratorStyles } from './styles.js';
+import { systematicTable, systematicTexts } from './systematic.js';
 import { captionOf, legText, reasonOf, wayText } from './words.js';
 
 /**

@@ -189,7 +189,7 @@ export const de = {
     what: 'Größe',
     value: 'Wert',
     correlation: 'Korrelation der Radfehler benachbarter Etappen',
-    length: 'Strecke bis 1/e davon',
+    length: 'Korrelationslänge',
   },
   lost: {
     title: 'Verlorene Etappen',

@@ -38,8 +38,8 @@ const NAV2 = { odometry: 'nav2_amcl::DifferentialMotionModel', omnidirectional: 
 /** Names of topics and files that a localizer publishes its own estimate by. */
 const LOCALIZER = /amcl|locali[sz]|odometry[/_]filtered/i;
 
-/** Placeholder until doubts.js goes. */
-export const OVERSTATED = '';
+/** Checks whether a log is by its name the estimate of a localizer. @param {string} log */
+export const isLocalizer = (log) => LOCALIZER.test(log);
 
 /** Rules of Nav2's models. */
 const ITS_RULES = ['nav2', 'omni'];
@@ -138,7 +138,7 @@ export function nav2Lines({ calibration, count, model, rule, legs, log, date }, 
     ...(model !== 'odometry' || ITS_RULES.includes(rule) ? [] : [say.otherRule]),
     ...correctionOf(systematicErrors).map((errors) => say.corrected(errors)),
     ...(failed ? [say.failed(failed)] : []),
-    ...(LOCALIZER.test(log) ? [say.localizer] : []),
+    ...(isLocalizer(log) ? [say.localizer] : []),
   ];
   const lines = alphas.map((/** @type {number | null} */ alpha, /** @type {number} */ i) => {
     const interval = intervals[i];

@@ -160,7 +160,7 @@ export class LogOpener extends Part {
           await reader.readLog(files[1], { kind: 'poses', ...partOf(watching, 0.5, 1) }),
         ];
     const paired = reader.pairLogs(first, second);
-    const name = [...new Set(files.map((file) => file.name))].join(', ');
+    const name = [...new Set(files.map((file) => file.name)), ...(topics.length ? [reference] : [])].join(', ');
     const log = { name, odometry: paired.odometry.data, reference: /** @type {Poses} */ (paired.reference.data) };
     const say = await wordsOf();
     watching.signal.throwIfAborted();

@@ -8,7 +8,8 @@ import { View } from '../../scene/view.js';
 import { lineKey } from '../shared/line-key.js';
 import { panelsOf } from './panels.js';
 import { WayPicture } from './pictures.js';
-import { alphaTexts, systematicTexts } from './readouts.js';
+import { alphaTexts } from './readouts.js';
+import { systematicTexts } from './systematic.js';
 import { captionOf } from './words.js';
 
 /**

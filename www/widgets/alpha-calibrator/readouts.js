@@ -1,16 +1,14 @@
-/** The Alpha Calibrator's figures: the α's and what is systematic, each with its interval. */
+/** Judgement and α's of the Alpha Calibrator, each α with its interval. */
 
 import { html, nothing, svg } from 'lit';
 import { words } from '../../messages/registry.js';
-import { rich, toggle } from '../../ui/controls.js';
-import { NOTHING, fixed, powerOfTen, significant, tick } from '../../ui/format.js';
-import { adviceOf, isZero } from './lines.js';
+import { rich } from '../../ui/controls.js';
+import { NOTHING, powerOfTen, tick } from '../../ui/format.js';
+import { adviceOf, alphaOrBound, fixed } from './lines.js';
 import { truthHolds } from './reading.js';
-import { SYSTEMATIC } from './settings.js';
-import { alphaName, intervalsOf, judgementOf, legsText, noiseNames, significantly, uncorrectedText } from './words.js';
+import { alphaName, judgementOf, legsText, localized, noiseNames } from './words.js';
 
 /**
- * @import { Interval } from '../../types.d.ts'
  * @import { Reading } from './reading.js'
  * @typedef {import('./alpha-calibrator.js').AlphaCalibratorElement} Figure
  */
@@ -26,9 +24,9 @@ const ICONS = { consistent: '✓', questionable: '!', unusable: '✕' };
 
 /** Returns the badge of the α's, with the verdict, the next step and the legs. @param {Figure} figure */
 export function verdictLine({ reading, logName }) {
-  const { rating, badge, finding, next } = judgementOf(reading);
+  const { rating, badge, finding, next } = judgementOf(reading, logName);
   return html`<span class="badge ${rating}"><span aria-hidden="true">${ICONS[rating]}</span> ${badge}</span>
-    <strong>${finding} ${uncorrectedText(reading)}</strong> ${next} <span class="muted">${legsText(reading, logName)}</span>`;
+    <strong>${finding}</strong> ${next} <span class="muted">${legsText(reading, logName)}</span>`;
 }
 
 /** Table of the α's, each with its interval on a common axis. @param {Reading} reading */
@@ -48,7 +46,7 @@ export function alphaTable(reading) {
         ${alpha === null
           ? html`<td colspan="3"><div class="of">${noises[i]}</div><span class="unknown">${lackOf(reading, i)}</span></td>`
           : html`<td class="chart"><div class="of">${noises[i]}</div>${whisker(place, alpha, intervals[i], truth?.[i])}</td>
-            <td class="roomy" data-room=${say.between('0.0000', '0.0000')}>${toldOf(alpha, intervals[i])}<div class="between">${betweenOf(intervals[i])}</div></td>
+            <td class="roomy" data-room=${say.between('0.0000', '0.0000')}>${fittedOf(reading, i)}<div class="between">${betweenOf(reading, i)}</div></td>
             <td class="roomy recommended" data-room="0.0000">${recommendedOf(reading, i)}</td>`}
       </tr>`)}
       <tr class="axis" aria-hidden="true">
@@ -63,14 +61,12 @@ export function alphaTable(reading) {
 }
 
 /** Prints a recommended α. @param {Reading} reading @param {number} index */
-function recommendedOf({ stats: { recommended, intervals } }, index) {
-  const alpha = recommended?.alphas[index] ?? null;
-  const ends = /** @type {Interval | null} */ (intervals[index]?.map((end) => (recommended?.inflation ?? 1) * end) ?? null);
-  return alpha === null ? NOTHING : toldOf(alpha, ends);
+function recommendedOf({ stats: { recommended, alphas, intervals } }, index) {
+  return recommended && alphas[index] !== null ? localized(alphaOrBound(alphas[index], intervals[index], recommended.inflation)) : NOTHING;
 }
 
-/** Prints an α, or its upper bound if it is not told from 0. @param {number} alpha @param {Interval | null} interval */
-export const toldOf = (alpha, interval) => (isZero(alpha, interval) ? `≤ ${interval ? significant(interval[1], 2) : NOTHING}` : significantly(alpha));
+/** Prints a fitted α. @param {Reading} reading @param {number} index */
+const fittedOf = ({ stats: { alphas, intervals } }, index) => localized(alphaOrBound(alphas[index], intervals[index]));
 
 /** Says why an α is not determined, and the drive that would determine it. @param {Reading} reading @param {number} index */
 function lackOf({ stats: { notIdentifiable }, config: { model } }, index) {
@@ -83,15 +79,19 @@ function lackOf({ stats: { notIdentifiable }, config: { model } }, index) {
 
 /** All α's as texts, each with its interval. @param {Reading} reading */
 export function alphaTexts(reading) {
-  const { stats: { alphas, intervals }, config } = reading;
+  const { stats: { alphas }, config } = reading;
+  const { recommendedText } = words.calibrator.alphas;
   return alphas.map((alpha, i) => {
-    const told = alpha === null ? [lackOf(reading, i)] : [toldOf(alpha, intervals[i]), betweenOf(intervals[i]), words.calibrator.alphas.recommendedText(recommendedOf(reading, i))];
+    const told = alpha === null ? [lackOf(reading, i)] : [fittedOf(reading, i), betweenOf(reading, i), recommendedText(recommendedOf(reading, i))];
     return `α${alphaName(i)} ${noiseNames(config.model)[i]}: ${told.join(', ')}`;
   });
 }
 
-/** @param {Interval | null} interval */
-const betweenOf = (interval) => (interval ? words.calibrator.alphas.between(significantly(interval[0]), significantly(interval[1])) : NOTHING);
+/** Prints the interval of an α. @param {Reading} reading @param {number} index */
+function betweenOf({ stats: { intervals } }, index) {
+  const interval = intervals[index];
+  return interval ? words.calibrator.alphas.between(localized(fixed(interval[0], interval)), localized(fixed(interval[1], interval))) : NOTHING;
+}
 
 /** Returns the head of the noises with the mark of the true value. */
 function trueHead() {
@@ -135,70 +135,3 @@ function whisker({ at, decades }, value, interval, truth) {
     <path class="dot" d="M${at(value)} ${middle}h0" />
   </svg>`;
 }
-
-/** Most decimals of a systematic error: a micrometre. */
-const MOST_DECIMALS = 6;
-
-/**
- * Systematic errors as two texts: those that were corrected, and those that the α's include.
- *
- * @param {Reading} reading
- */
-export function systematicTexts({ stats: { systematicErrors: errors } }) {
-  const say = words.calibrator.systematic;
-  const told = (/** @type {boolean} */ corrected) =>
-    SYSTEMATIC.filter((key) => errors[key].corrected === corrected).flatMap((key) => {
-      const { values, halves } = digitsOf(errors[key]);
-      return values.length ? [`${say.names[key]} ${values.map((value, i) => `${value} ± ${halves[i]}`).join(', ')}`] : [];
-    });
-  const [removed, left] = [told(true), told(false)];
-  return [...(removed.length ? [say.removed(removed.join('; '))] : []), ...(left.length ? [say.left(left.join('; '))] : [])];
-}
-
-/** Table of the systematic errors, each with a box for its correction. @param {Figure} figure */
-export function systematicTable(figure) {
-  const { stats: { systematicErrors: errors }, truth } = figure.reading;
-  const say = words.calibrator.systematic;
-  const told = figure.settings.told;
-  return html`<table class="systematic" part="table">
-    <thead>
-      <tr>
-        <th scope="col">${say.what}</th><th scope="col">${say.value}</th><th scope="col">${say.interval}</th><th scope="col">${say.treatment}</th>
-        ${truth ? html`<th scope="col">${say.truth}</th>` : nothing}
-      </tr>
-    </thead>
-    <tbody>
-      ${SYSTEMATIC.map((key) => {
-        const { values, halves } = digitsOf(errors[key]);
-        const box = toggle({ label: say.names[key], checked: told[key], change: (on) => figure.gesture.decide({ [key]: on }) });
-        if (values.length === 0) return html`<tr><th scope="row">${box}</th><td colspan="4">${say.unknown}</td></tr>`;
-        return html`<tr>
-          <th scope="row">${box}</th>
-          <td>${lines(values)}</td>
-          <td class="between">${lines(halves.map((half) => `± ${half}`))}</td>
-          <td>${errors[key].corrected ? say.corrected : errors[key].constant ? say.notCorrected : say.notConstant}</td>
-          ${truth ? html`<td class="muted">${lines([truth[key]].flat().map((each) => fixed(each, 3)))}</td>` : nothing}
-        </tr>`;
-      })}
-    </tbody>
-  </table>`;
-}
-
-/** One below the other. @param {string[]} texts */
-const lines = (texts) => texts.map((text) => html`<div>${text}</div>`);
-
-/**
- * Prints an error as far as it is determined: its values, two for a lever arm, and half the width of each interval.
- *
- * @param {{ value: number | null | (number | null)[], interval: Interval | [Interval | null, Interval | null] | null }} error
- */
-function digitsOf({ value, interval }) {
-  const known = intervalsOf(interval).map((each) => each && (each[1] - each[0]) / 2);
-  return {
-    values: [value].flat().flatMap((each, i) => (each === null ? [] : [fixed(each, decimalsOf(known[i]))])),
-    halves: known.flatMap((half) => (half === null ? [] : [fixed(half, decimalsOf(half))])),
-  };
-}
-
-/** Decimals of an error: three, or more if it is known better than to a thousandth. @param {number | null | undefined} half of an interval */
-const decimalsOf = (half) => (half ? Math.min(MOST_DECIMALS, Math.max(3, -Math.floor(Math.log10(2 * half)))) : 3);

@@ -110,9 +110,17 @@ const own = css`
   }
 
   table {
-    max-width: none;
+    max-width: 48em;
     margin: 0.2em 0 0.5em;
     font-size: 0.84em;
+  }
+
+  td {
+    white-space: nowrap;
+  }
+
+  .alphas {
+    max-width: none;
   }
 
   .alphas :is(th, td) {
@@ -217,10 +225,6 @@ const own = css`
   .reason {
     margin: 0;
     font-size: 0.84em;
-  }
-
-  .systematic {
-    max-width: 48em;
   }
 
   .systematic :is(th, td) {

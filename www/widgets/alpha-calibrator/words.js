@@ -3,7 +3,8 @@
 import { addEnglish, words } from '../../messages/registry.js';
 import { counted, fixed, percent, powerOfTen, rounded, significant } from '../../ui/format.js';
 import { en } from './en.js';
-import { SYSTEMATIC } from './settings.js';
+import { isLocalizer } from './lines.js';
+import { uncorrectedText } from './systematic.js';
 
 /**
  * @import { CalibrationCheck, LegView } from '../../types.d.ts'
@@ -17,22 +18,27 @@ const COUNTS = ['enough-legs'];
 const FRACTIONS = ['legs-lost', 'outliers-few', 'holdout-covered', 'window-1m-covered', 'window-2m-covered', 'window-5m-covered'];
 
 /**
- * Returns the rating of the α's, with the first failed check and the next step as sentences.
+ * Returns the rating of the α's, with the first failed check, warnings and the next step as sentences. A warning makes consistent α's
+ * questionable.
  *
  * @param {Reading} reading
+ * @param {string} log name
  * @returns {{ rating: Reading['stats']['diagnostics']['verdict'], badge: string, finding: string, next: string }}
  */
-export function judgementOf({ stats: { diagnostics: { verdict, checks } }, legs }) {
+export function judgementOf(reading, log) {
+  const { stats: { diagnostics: { verdict, checks } }, legs } = reading;
   const say = words.calibrator;
-  const result = (/** @type {string} */ finding, /** @type {string} */ next) => ({ rating: verdict, badge: say.badges[verdict], finding, next });
+  const warnings = [uncorrectedText(reading), isLocalizer(log) ? say.nav2.localizer : ''].filter(Boolean);
+  const rating = verdict === 'consistent' && warnings.length > 0 ? 'questionable' : verdict;
+  const result = (/** @type {string} */ finding, /** @type {string} */ next) => ({ rating, badge: say.badges[rating], finding: [finding, ...warnings].join(' '), next });
   if (legs.count === 0) return result(say.none, say.longer);
   const failed = checks.filter(({ passed }) => !passed);
   if (failed.length > 0) return result(say.failed(say.checks.names[failed[0].name], counted(failed.length), counted(checks.length)), messageOf(failed[0]));
-  return verdict === 'unusable' ? result(say.noAlpha, '') : result(say.passed(counted(checks.length)), say.use);
+  return verdict === 'unusable' ? result(say.noAlpha, '') : result(say.passed(counted(checks.length)), rating === 'consistent' ? say.use : '');
 }
 
 /** Returns what a failed check means and what to do. @param {CalibrationCheck} check */
-export const messageOf = ({ name, passed, message }) => (passed ? '' : (words.calibrator.checks.messages[name] ?? message));
+export const messageOf = ({ name, passed, message }) => (passed ? '' : (words.calibrator.checks.messages[name] ?? message.replaceAll("'", '’')));
 
 /** Prints the value of a check, or a limit of it. @param {CalibrationCheck['name']} name @param {number} value */
 export function checked(name, value) {
@@ -56,31 +62,14 @@ export function reasonOf({ stats: { recommended, diagnostics: { checks, windows 
   return inflation === 1 ? say.covered(percent(coverage), counted(count)) : say.inflated(fixed(inflation, 2), percent(coverage), counted(count), fixed(nees, 2));
 }
 
-/**
- * Says which systematic errors differ from 0, or a scale from 1, but are not to be corrected.
- *
- * @param {Reading} reading
- * @returns {string} empty if there are none
- */
-export function uncorrectedText({ stats: { systematicErrors: errors }, config }) {
-  const say = words.calibrator.systematic;
-  const names = SYSTEMATIC.filter((key) => {
-    const neutral = key.endsWith('Scale') ? 1 : 0;
-    return !config[key] && intervalsOf(errors[key].interval).some((interval) => interval && (interval[0] > neutral || interval[1] < neutral));
-  });
-  return names.length > 0 ? say.matters(names.map((key) => say.names[key]).join(', ')) : '';
-}
-
-/** Returns the intervals of a systematic error: two for a lever arm. @param {Reading['stats']['systematicErrors']['mountYaw' | 'leverArm']['interval']} interval */
-export function intervalsOf(interval) {
-  return /** @type {([number, number] | null)[]} */ (Array.isArray(interval?.[0]) || interval?.[0] === null ? interval : [interval]);
-}
-
 /** Returns the names of the noises of a model. @param {Reading['config']['model']} model */
 export const noiseNames = (model) => words.alphas[model === 'velocity' ? 'velocity' : 'odometry'];
 
 /** The subscript of an α. @param {number} index from 0 */
 export const alphaName = (index) => String.fromCharCode(0x2081 + index);
+
+/** Prints a number that is in the format of files, as 1.5e-7. @param {string} number */
+export const localized = (number) => number.replace('.', fixed(0.5, 1)[1]).replace(/e(-?\d+)$/, (_, exponent) => `·${powerOfTen(Number(exponent))}`);
 
 /** Prints an α with three digits, or two with a power of ten. @param {number} alpha */
 export const significantly = (alpha) => (alpha >= 1e-4 ? rounded(alpha, 3) : significant(alpha, 2));
@@ -105,8 +94,8 @@ export function legsText({ legs }, log) {
 
 /** Returns the caption of the pictures: the judgement and the legs. @type {typeof legsText} */
 export function captionOf(reading, log) {
-  const { badge, finding, next } = judgementOf(reading);
-  return [`${badge}.`, finding, uncorrectedText(reading), next, legsText(reading, log)].filter(Boolean).join(' ');
+  const { badge, finding, next } = judgementOf(reading, log);
+  return [`${badge}.`, finding, next, legsText(reading, log)].filter(Boolean).join(' ');
 }
 
 /**

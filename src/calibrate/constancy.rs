@@ -2,7 +2,6 @@
 
 use super::checks::{Check, CheckName, scale_check};
 use super::fit::Fit;
-use super::result::Options;
 use super::systematic::{ERRORS, ErrorMask, SystematicError};
 
 /// Turn (rad) above which a leg counts as turning.
@@ -19,7 +18,7 @@ const NEGLIGIBLE: f64 = 0.01;
 
 /// Returns a check of each scale that is identifiable, and whether each systematic error is constant; those that are no scales count as
 /// constant. `repeated` is the factor of standard errors where errors persist.
-pub(super) fn scale_checks(fit: &Fit, options: &Options, repeated: f64) -> (Vec<Check>, ErrorMask) {
+pub(super) fn scale_checks(fit: &Fit, repeated: f64) -> (Vec<Check>, ErrorMask) {
     let (mut checks, mut is_constant) = (Vec::new(), [true; ERRORS]);
     let half = fit.sample.legs.len() / 2;
     let is_turning = |leg: usize| fit.sample.observations[leg].expected.theta().abs() > TURNS;
@@ -34,7 +33,7 @@ pub(super) fn scale_checks(fit: &Fit, options: &Options, repeated: f64) -> (Vec<
         let mut worst = (0.0, NEGLIGIBLE);
         let mut compare = |in_first: &dyn Fn(usize) -> bool| {
             let [first, second] =
-                [true, false].map(|which| scale_of(fit, options, scale, |leg| in_first(leg) == which));
+                [true, false].map(|which| scale_of(fit, scale, |leg| in_first(leg) == which));
             if let Some(([a, a_std], [b, b_std])) = first.zip(second) {
                 let tolerance = NEGLIGIBLE.max(MAX_STD_ERRORS * repeated * libm::hypot(a_std, b_std));
                 if (a - b).abs() / tolerance > f64::abs(worst.0) / worst.1 {
@@ -55,15 +54,10 @@ pub(super) fn scale_checks(fit: &Fit, options: &Options, repeated: f64) -> (Vec<
 
 /// Scale of some legs, relative to that of all, and its standard error; the other errors stay as they are. None where the legs do not
 /// identify it.
-fn scale_of(
-    fit: &Fit,
-    options: &Options,
-    scale: SystematicError,
-    select: impl Fn(usize) -> bool,
-) -> Option<[f64; 2]> {
+fn scale_of(fit: &Fit, scale: SystematicError, select: impl Fn(usize) -> bool) -> Option<[f64; 2]> {
     let mut mask = [false; ERRORS];
     mask[scale as usize] = true;
-    let residuals = fit.sample.residuals(options, mask, |leg| select(leg) && !fit.sample.outliers[leg]);
+    let residuals = fit.sample.residuals(mask, |leg| select(leg) && !fit.sample.outliers[leg]);
     if residuals.len() < MIN_GROUP {
         return None;
     }

@@ -5,21 +5,26 @@ use super::alignment::clock_offset;
 use super::legs::{Leg, LostLegs, MIN_LEGS, split_into_legs};
 use super::likelihood::{POSITION, Parameters, Residuals, Standardized, Term, YAW, identifiable_errors};
 use super::optimizer::{Free, Maximum, maximize};
-use super::outliers::is_outlier;
 use super::residuals::Observation;
-use super::result::{CalibrateError, Drive, Options, Outliers};
+use super::result::{CalibrateError, Drive, Options};
 use super::systematic::{ERRORS, ErrorMask, Systematic, SystematicError};
 use super::trajectory::median;
 use crate::geom::se2::wrap_angle;
+use std::ops::Range;
 use std::rc::Rc;
 
 /// Legs with their residuals, under the systematic errors that are corrected.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub(super) struct Sample {
+    pub options: Options,
     pub legs: Vec<Leg>,
     pub observations: Vec<Observation>,
-    terms: Rc<Vec<Term>>,
+    pub terms: Rc<Vec<Term>>,
     pub outliers: Vec<bool>,
+    /// Systematic errors with which the residuals were computed.
+    pub systematic: Systematic,
+    /// Systematic errors that are estimated along with the variances.
+    pub estimated: ErrorMask,
 }
 
 /// Fit to the legs of a sample.
@@ -28,8 +33,6 @@ pub(super) struct Fit {
     pub sample: Sample,
     pub residuals: Residuals,
     pub maximum: Maximum,
-    /// Systematic errors with which the residuals were computed.
-    pub systematic: Systematic,
     /// Standard errors of the systematic errors; 0 of one that is not estimated.
     pub stds: [f64; ERRORS],
     pub innovations: Vec<Standardized>,
@@ -44,22 +47,27 @@ const MAX_ROUNDS: usize = 15;
 /// Change of a systematic error, over its standard error, that counts as none.
 const CONVERGED: f64 = 0.05;
 
-/// Last round after which an outlier may turn out to be none.
-const LAST_RETURN: usize = 2;
-
 /// Factor of the outliers' gate while the variances are only guessed.
 const GUESSED_GATE: f64 = 4.0;
 
 impl Sample {
-    fn new(legs: Vec<Leg>) -> Self {
-        let outliers = vec![false; legs.len()];
-        Self { legs, outliers, ..Self::default() }
+    fn new(legs: Vec<Leg>, estimated: ErrorMask, options: &Options) -> Self {
+        let (outliers, terms) = (vec![false; legs.len()], Rc::default());
+        Self {
+            options: *options,
+            legs,
+            observations: Vec::new(),
+            terms,
+            outliers,
+            systematic: Systematic::NONE,
+            estimated,
+        }
     }
 
     /// Returns blocks of neighbouring legs, evenly spread, where there are more than [`MAX_LEGS`].
-    fn thinned(legs: &[Leg]) -> Self {
+    fn thinned(legs: &[Leg], estimated: ErrorMask, options: &Options) -> Self {
         if legs.len() <= MAX_LEGS {
-            return Self::new(legs.to_vec());
+            return Self::new(legs.to_vec(), estimated, options);
         }
         let blocks = MAX_LEGS / BLOCK;
         let mut thinned = Vec::with_capacity(MAX_LEGS);
@@ -69,94 +77,44 @@ impl Sample {
             let start = thinned.len() - BLOCK;
             thinned[start].follows = false;
         }
-        Self::new(thinned)
+        Self::new(thinned, estimated, options)
     }
 
-    fn observe(&mut self, options: &Options, corrected: &Systematic, position_std: f64) {
-        self.observations = self
-            .legs
-            .iter()
-            .map(|leg| Observation::new(options.model, leg, corrected, position_std))
-            .collect();
+    fn observe(&mut self, corrected: &Systematic, position_std: f64) {
+        let model = self.options.model;
+        self.systematic = *corrected;
+        self.observations =
+            self.legs.iter().map(|leg| Observation::new(model, leg, corrected, position_std)).collect();
         let term = |(leg, observation): (&Leg, &Observation)| Term::new(leg, observation, corrected);
         self.terms = Rc::new(self.legs.iter().zip(&self.observations).map(term).collect());
     }
 
     /// Residuals of the legs that `select` chooses; one follows the leg before only if that is chosen too.
-    pub fn residuals(
-        &self,
-        options: &Options,
-        estimated: ErrorMask,
-        select: impl Fn(usize) -> bool,
-    ) -> Residuals {
-        let chosen = (0..self.legs.len()).filter(|leg| select(*leg));
+    pub fn residuals(&self, estimated: ErrorMask, select: impl Fn(usize) -> bool) -> Residuals {
         let follows = |leg: usize| self.legs[leg].follows && leg > 0 && select(leg - 1);
-        let chosen = chosen.map(|leg| (leg, follows(leg))).collect();
-        Residuals::new(options.model, estimated, &self.terms, chosen)
+        let chosen = (0..self.legs.len()).filter(|leg| select(*leg)).map(|leg| (leg, follows(leg)));
+        Residuals::new(self.options.model, estimated, &self.terms, chosen.collect())
     }
 
-    /// Innovations of all legs; an outlier is compared with what it would be by itself.
-    pub fn innovations(
-        &self,
-        options: &Options,
-        mask: ErrorMask,
-        parameters: &Parameters,
-    ) -> Vec<Standardized> {
-        let kept = self.residuals(options, mask, |leg| !self.outliers[leg]);
-        let errors = kept.least_squares(parameters).errors;
-        let mut inside = kept.innovations(parameters, &errors).into_iter();
-        let chosen = (0..self.legs.len()).filter(|leg| self.outliers[*leg]);
-        let outside =
-            Residuals::new(options.model, mask, &self.terms, chosen.map(|leg| (leg, false)).collect());
-        let mut outside = outside.innovations(parameters, &errors).into_iter();
-        let next = |is_outlier: &bool| if *is_outlier { outside.next() } else { inside.next() };
-        self.outliers.iter().filter_map(next).collect()
-    }
-
-    /// Marks the outliers under these parameters, and returns whether they are others than before. In a late round none comes back: one
-    /// next to the gate would come and go.
-    fn mark_outliers(
-        &mut self,
-        options: &Options,
-        mask: ErrorMask,
-        parameters: &Parameters,
-        gate: f64,
-        round: usize,
-    ) -> bool {
-        if options.outliers == Outliers::Keep {
-            return false;
-        }
-        let stays = |was: bool| was && round > LAST_RETURN;
-        let innovations = self.innovations(options, mask, parameters);
-        // Where the variances are still too small, half of the legs must not pass for outliers.
-        let mut squares: Vec<f64> = innovations.iter().map(|innovation| innovation.squared).collect();
-        let gate = gate * (median(&mut squares) / MEDIAN_CHI2).max(1.0);
-        let mark = |(innovation, was): (&Standardized, &bool)| stays(*was) || is_outlier(innovation, gate);
-        let marked: Vec<bool> = innovations.iter().zip(&self.outliers).map(mark).collect();
-        let changed = marked != self.outliers;
-        self.outliers = marked;
-        changed
+    /// Residuals of the legs in a range that are no outliers.
+    pub fn kept(&self, range: Range<usize>) -> Residuals {
+        self.residuals(self.estimated, |leg| range.contains(&leg) && !self.outliers[leg])
     }
 
     /// Fits the variances to the legs that are no outliers.
-    fn fit(
-        &self,
-        options: &Options,
-        mask: ErrorMask,
-        start: Parameters,
-    ) -> Result<(Residuals, Maximum), CalibrateError> {
-        let residuals = self.residuals(options, mask, |leg| !self.outliers[leg]);
+    fn fit(&self, start: Parameters) -> Result<(Residuals, Maximum), CalibrateError> {
+        let residuals = self.kept(0..self.legs.len());
         if residuals.len() < MIN_LEGS {
             return Err(CalibrateError::TooFewLegs { legs: residuals.len() });
         }
-        let maximum = maximize(&residuals, start, &free_parameters(options));
+        let maximum = maximize(&residuals, start, &free_parameters(&self.options));
         Ok((residuals, maximum))
     }
 
     /// Initial guess of the parameters: each component is as noisy as its median square says.
-    fn initial_guess(&self, options: &Options) -> Parameters {
+    fn initial_guess(&self) -> Parameters {
         let mut parameters = Parameters::zeros();
-        for (component, of) in options.model.components().iter().enumerate() {
+        for (component, of) in self.options.model.components().iter().enumerate() {
             let ratio = |observation: &Observation| {
                 let [first, second] = observation.coefficients[component];
                 observation.residuals[component].powi(2) / (first + second)
@@ -166,15 +124,12 @@ impl Sample {
             let alpha = (median(&mut ratios) / MEDIAN_SQUARE).clamp(1e-8, 10.0);
             of.alphas.iter().for_each(|of| parameters[*of] = alpha.max(parameters[*of]));
         }
-        let Options { position_std, yaw_std, .. } = *options;
+        let Options { position_std, yaw_std, .. } = self.options;
         parameters[POSITION] = position_std.map_or(INITIAL_STD * INITIAL_STD, |std| std * std);
         parameters[YAW] = yaw_std.map_or(INITIAL_STD * INITIAL_STD, |std| std * std);
         parameters
     }
 }
-
-/// Median of χ² with 3 degrees of freedom.
-const MEDIAN_CHI2: f64 = 2.366;
 
 /// Median of the square of a standard normal number.
 const MEDIAN_SQUARE: f64 = 0.4549;
@@ -235,27 +190,25 @@ impl<'a> Log<'a> {
 /// Finds the systematic errors: each round fits the variances, and then corrects the errors by generalized least squares.
 pub(super) fn fit_systematic(log: &Log, options: &Options) -> Result<Fit, CalibrateError> {
     let begun = Systematic { clock_offset: log.clock_offset(), ..Systematic::NONE };
-    let mut systematic = begun;
     let (legs, _) = log.legs(options, begun.clock_offset);
     if legs.len() < MIN_LEGS {
         return Err(CalibrateError::TooFewLegs { legs: legs.len() });
     }
-    systematic.mount_yaw = Systematic::initial_mount_yaw(&legs);
-    let mut sample = Sample::thinned(&legs);
+    let mut systematic = Systematic { mount_yaw: Systematic::initial_mount_yaw(&legs), ..begun };
+    let mut sample = Sample::thinned(&legs, [true; ERRORS], options);
     let mut parameters: Option<Parameters> = None;
     for round in 1.. {
         let position_std = parameters.map_or(f64::INFINITY, |parameters| parameters[POSITION].sqrt());
-        sample.observe(options, &systematic, position_std);
-        let guess = parameters.unwrap_or_else(|| sample.initial_guess(options));
-        let kept = sample.residuals(options, [true; ERRORS], |leg| !sample.outliers[leg]);
-        let mask = identifiable_errors(&kept.error_information(&guess));
+        sample.observe(&systematic, position_std);
+        let guess = parameters.unwrap_or_else(|| sample.initial_guess());
+        sample.estimated = identifiable_errors(&sample.kept(0..legs.len()).error_information(&guess));
         let gate = if parameters.is_some() { 1.0 } else { GUESSED_GATE };
-        let mut is_settled = !sample.mark_outliers(options, mask, &guess, gate, round) && round > 1;
-        let (residuals, maximum) = sample.fit(options, mask, guess)?;
+        let mut is_settled = !sample.mark_outliers(&guess, gate, round) && round > 1;
+        let (residuals, maximum) = sample.fit(guess)?;
         let squares = residuals.least_squares(&maximum.parameters);
         let before = systematic;
         for (i, error) in SystematicError::ALL.into_iter().enumerate() {
-            if mask[i] {
+            if sample.estimated[i] {
                 let most = 4.0 * error.identifiability_limit();
                 let change = -squares.errors[i];
                 is_settled &= change.abs() <= CONVERGED * squares.covariance[(i, i)].sqrt();
@@ -270,15 +223,9 @@ pub(super) fn fit_systematic(log: &Log, options: &Options) -> Result<Fit, Calibr
             let length = (residuals.len() as f64).cbrt().ceil() as usize;
             let sandwich = residuals.sandwich(&maximum.parameters, &squares, length);
             let std = |i: usize| squares.covariance[(i, i)].max(sandwich[(i, i)]).max(0.0).sqrt();
-            let innovations = sample.innovations(options, mask, &maximum.parameters);
-            return Ok(Fit {
-                sample,
-                residuals,
-                maximum,
-                systematic: before,
-                stds: std::array::from_fn(std),
-                innovations,
-            });
+            let innovations = sample.innovations(&maximum.parameters);
+            let stds = std::array::from_fn(std);
+            return Ok(Fit { sample, residuals, maximum, stds, innovations });
         }
         let change = systematic.clock_offset - before.clock_offset;
         sample.legs.iter_mut().for_each(|leg| log.realign(leg, systematic.clock_offset, change));
@@ -295,27 +242,26 @@ pub(super) fn fit_corrected(
     start: &Parameters,
 ) -> Result<(Fit, Sample, LostLegs), CalibrateError> {
     let (legs, lost) = log.legs(options, corrected.clock_offset);
-    let mut sample = Sample::thinned(&legs);
+    let mut sample = Sample::thinned(&legs, mask, options);
     let mut parameters = *start;
     let mut last = None;
     for round in 1..=MAX_ROUNDS {
-        sample.observe(options, corrected, parameters[POSITION].sqrt());
-        if !sample.mark_outliers(options, mask, &parameters, 1.0, round) && last.is_some() {
+        sample.observe(corrected, parameters[POSITION].sqrt());
+        if !sample.mark_outliers(&parameters, 1.0, round) && last.is_some() {
             break;
         }
-        let (residuals, maximum) = sample.fit(options, mask, parameters)?;
+        let (residuals, maximum) = sample.fit(parameters)?;
         parameters = maximum.parameters;
         last = Some((residuals, maximum));
     }
     let Some((residuals, maximum)) = last else { unreachable!("the first round fits") };
-    let innovations = sample.innovations(options, mask, &parameters);
-    let mut all = Sample::new(legs);
-    if all.legs.len() == sample.legs.len() {
-        all = sample.clone();
-    } else {
-        all.observe(options, corrected, parameters[POSITION].sqrt());
-        all.mark_outliers(options, mask, &parameters, 1.0, 1);
+    let innovations = sample.innovations(&parameters);
+    let mut all = sample.clone();
+    if legs.len() > sample.legs.len() {
+        all = Sample::new(legs, mask, options);
+        all.observe(corrected, parameters[POSITION].sqrt());
+        all.mark_outliers(&parameters, 1.0, 1);
     }
-    let fit = Fit { sample, residuals, maximum, systematic: *corrected, stds: [0.0; ERRORS], innovations };
+    let fit = Fit { sample, residuals, maximum, stds: [0.0; ERRORS], innovations };
     Ok((fit, all, lost))
 }

@@ -1,7 +1,8 @@
-//! 95 % intervals of variances: profile likelihood, widened where neighbouring legs have something in common.
+//! 95 % intervals of variances, by the profile likelihood, and whether the log identifies an α at all.
 
-use super::likelihood::{Information, PARAMETERS, Parameters, Residuals};
+use super::likelihood::{Expansion, Information, PARAMETERS, Parameters, Residuals};
 use super::optimizer::{Free, Maximum, conditional_information, conditional_inverse};
+use super::residuals::{Model, Observation};
 use super::result::NORMAL_95;
 use nalgebra::SVector;
 
@@ -145,4 +146,69 @@ pub(super) fn student_95(freedom: f64) -> f64 {
     let (z, z3) = (NORMAL_95, NORMAL_95.powi(3));
     z + (z3 + z) / (4.0 * freedom)
         + (5.0 * NORMAL_95.powi(5) + 16.0 * z3 + 3.0 * z) / (96.0 * freedom * freedom)
+}
+
+/// Reason for which a log does not identify an α.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NotIdentifiable {
+    /// The robot turned too little. Under the velocity model: while it drove, for a turn on the spot shows no executed turn rate.
+    InsufficientRotation,
+    /// The robot drove too little.
+    InsufficientTranslation,
+    /// The error of the reference hides the noise of the wheels.
+    ReferenceTooNoisy,
+    /// Turn and distance had one ratio in all legs: the noise may be this α's or that of the other one of its component.
+    Collinear,
+}
+
+/// Least information on an α: its standard error is then 0.5, and its interval leads from 0 to 1.
+const MIN_INFORMATION: f64 = 4.0;
+
+/// Least fraction of the information on an α that is left when the others are unknown. Below it, the ratio of turn and distance varies
+/// by less than a seventh.
+const MIN_FREE_INFORMATION: f64 = 0.02;
+
+/// Drive (m) and turn (rad) of a leg that counts as one of a robot that drives or turns.
+const DRIVES: f64 = 0.05;
+const TURNS: f64 = 0.1;
+
+/// Number of such legs that identify an α against an exact reference: its standard error is then a fifth.
+const ENOUGH_LEGS: usize = 50;
+
+/// Returns of each α why it is not identifiable; None where it is.
+pub(super) fn identifiability(
+    model: Model,
+    expansion: &Expansion,
+    parameters: &Parameters,
+    free: &Free,
+    observations: &[Observation],
+) -> Vec<Option<NotIdentifiable>> {
+    let of = |alpha: usize| {
+        let marginal = expansion.information[(alpha, alpha)];
+        let conditional = conditional_information(expansion, parameters, free, alpha);
+        if conditional >= MIN_INFORMATION && conditional >= MIN_FREE_INFORMATION * marginal {
+            return None;
+        }
+        if marginal >= MIN_INFORMATION {
+            return Some(NotIdentifiable::Collinear);
+        }
+        let turns = model.grows_with_turn(alpha);
+        let uses = |observation: &&Observation| {
+            let shown = (0..3)
+                .any(|k| model.components()[k].alphas.contains(&alpha) && !observation.residuals[k].is_nan());
+            let motion = &observation.expected;
+            shown
+                && if turns {
+                    motion.theta().abs() > TURNS
+                } else {
+                    libm::hypot(motion.x(), motion.y()) > DRIVES
+                }
+        };
+        Some(match observations.iter().filter(uses).count() {
+            count if count >= ENOUGH_LEGS => NotIdentifiable::ReferenceTooNoisy,
+            _ if turns => NotIdentifiable::InsufficientRotation,
+            _ => NotIdentifiable::InsufficientTranslation,
+        })
+    };
+    (0..model.alphas()).map(of).collect()
 }

@@ -8,13 +8,11 @@ mod alignment;
 mod checks;
 mod constancy;
 mod fit;
-mod identifiability;
 mod intervals;
 mod legs;
 mod likelihood;
 mod optimizer;
 mod outliers;
-mod recommendation;
 mod residuals;
 mod result;
 mod systematic;
@@ -22,7 +20,7 @@ mod trajectory;
 mod windows;
 
 pub use checks::{Check, CheckName, Diagnostics, Verdict};
-pub use identifiability::NotIdentifiable;
+pub use intervals::NotIdentifiable;
 pub use legs::{Leg, LegLength, LostLegs, MIN_LEGS, split_into_legs};
 pub use residuals::{Model, NoiseComponent, Observation};
 pub use result::{
@@ -33,8 +31,7 @@ pub use trajectory::{Trajectory, TrajectoryError, TrajectoryFault};
 pub use windows::WindowCoverage;
 
 use fit::{Log, Sample, fit_corrected, fit_systematic, free_parameters};
-use identifiability::identifiability;
-use intervals::intervals;
+use intervals::{identifiability, intervals};
 use likelihood::{POSITION, Standardized, YAW};
 use result::NORMAL_95;
 
@@ -50,12 +47,12 @@ pub fn calibrate(drives: &[Drive], options: &Options) -> Result<Calibration, Cal
     let correlation = persistence.correlation.value;
     let repeated = ((1.0 + correlation) / (1.0 - correlation)).sqrt();
     let systematic_stds = systematic.stds.map(|std| (std > 0.0).then_some(repeated * std));
-    let (scale_checks, is_constant) = constancy::scale_checks(&systematic, options, repeated);
+    let (scale_checks, is_constant) = constancy::scale_checks(&systematic, repeated);
     let is_corrected: ErrorMask =
         std::array::from_fn(|i| systematic_stds[i].is_some() && options.correct[i].unwrap_or(is_constant[i]));
     let mut corrected = Systematic::NONE;
     for (i, error) in SystematicError::ALL.into_iter().enumerate().filter(|(i, _)| is_corrected[*i]) {
-        corrected.set(error, systematic.systematic.get(error));
+        corrected.set(error, systematic.sample.systematic.get(error));
         debug_assert_eq!(error as usize, i);
     }
     let (fit, all, lost) =
@@ -72,19 +69,19 @@ pub fn calibrate(drives: &[Drive], options: &Options) -> Result<Calibration, Cal
         value: parameters[parameter].sqrt(),
         interval: all_intervals[parameter].map(f64::sqrt),
     };
-    let leg_fits = leg_fits(&all, options, &fit);
-    let mut checks = checks::log_checks(&all, &lost, options.legs, &systematic.systematic);
+    let leg_fits = leg_fits(&all, &fit);
+    let mut checks = checks::log_checks(&all, &lost, options.legs, &systematic.sample.systematic);
     checks.extend(scale_checks);
     let signed = correlation_of(&fit.sample, &fit.innovations).0;
     checks.extend(checks::residual_checks(&all, &leg_fits, signed));
-    let recommendation = recommendation::recommend(&fit, &all, options, &alphas);
+    let recommendation = windows::recommend(&fit, &all, &alphas);
     checks.extend(recommendation.checks);
     let verdict = checks::verdict(&checks, alphas.iter().any(Option::is_some));
     Ok(Calibration {
         intervals: (0..alphas.len()).map(|alpha| identified(alpha).then_some(all_intervals[alpha])).collect(),
         alphas,
         not_identifiable,
-        systematic: systematic.systematic,
+        systematic: systematic.sample.systematic,
         systematic_stds,
         is_constant,
         corrected,
@@ -102,11 +99,11 @@ pub fn calibrate(drives: &[Drive], options: &Options) -> Result<Calibration, Cal
 }
 
 /// Innovations of all legs under the fit to a sample of them.
-fn leg_fits(all: &Sample, options: &Options, fit: &fit::Fit) -> Vec<LegFit> {
+fn leg_fits(all: &Sample, fit: &fit::Fit) -> Vec<LegFit> {
     let innovations = if all.legs.len() == fit.sample.legs.len() {
         fit.innovations.clone()
     } else {
-        all.innovations(options, fit.residuals.estimated, &fit.maximum.parameters)
+        all.innovations(&fit.maximum.parameters)
     };
     let of = |(Standardized { stds, components, squared, .. }, is_outlier): (Standardized, &bool)| LegFit {
         stds,

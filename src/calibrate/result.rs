@@ -1,7 +1,7 @@
 //! Options of a calibration, and its result.
 
 use super::checks::Diagnostics;
-use super::identifiability::NotIdentifiable;
+use super::intervals::NotIdentifiable;
 use super::legs::{Leg, LegLength, LostLegs, MIN_LEGS};
 use super::residuals::{Model, Observation};
 use super::systematic::{ERRORS, ErrorMask, Systematic, SystematicError};

@@ -1,13 +1,17 @@
-//! Windows of several legs: whether the α's cover what the robot does over a metre, and by how much to inflate them if not.
+//! α's that a filter can use: the fitted ones, inflated until held-out windows of a metre are covered.
 //!
 //! A filter needs α's that hold between two corrections, not over one leg: errors of real wheels persist.
 
+use super::checks::{Check, holdout_check, window_checks};
+use super::fit::{Fit, Sample, free_parameters};
 use super::legs::Leg;
 use super::likelihood::{POSITION, Parameters, YAW};
-use super::residuals::{Model, Observation};
-use super::systematic::Systematic;
+use super::optimizer::maximize;
+use super::residuals::Observation;
+use super::result::Recommended;
 use crate::geom::se2::SE2;
 use nalgebra::{Matrix3, Vector3};
+use std::ops::Range;
 
 /// Error of the motion over a window in exponential coordinates, and what it is made of.
 #[derive(Clone, Copy, Debug)]
@@ -31,9 +35,6 @@ pub struct WindowCoverage {
     pub nees: f64,
 }
 
-/// Quantile 0.95 of χ² with 3 degrees of freedom.
-const CHI2_95: f64 = 7.815;
-
 /// Number of windows below which nothing is concluded from them.
 pub(super) const MIN_WINDOWS: usize = 20;
 
@@ -47,23 +48,9 @@ impl Window {
     }
 }
 
-/// Legs with their residuals, as windows are made of them.
-pub(super) struct WindowedLegs<'a> {
-    pub model: Model,
-    pub corrected: &'a Systematic,
-    pub legs: &'a [Leg],
-    pub observations: &'a [Observation],
-    pub outliers: &'a [bool],
-}
-
-impl WindowedLegs<'_> {
+impl Sample {
     /// Cuts the legs in `range` into windows of `length` (m) driven. None of them contains an outlier or leads across a gap.
-    pub fn windows(
-        &self,
-        range: std::ops::Range<usize>,
-        length: f64,
-        parameters: &Parameters,
-    ) -> Vec<Window> {
+    fn windows(&self, range: std::ops::Range<usize>, length: f64, parameters: &Parameters) -> Vec<Window> {
         let mut windows = Vec::new();
         let (mut first, mut driven) = (range.start, 0.0);
         for leg in range {
@@ -94,7 +81,7 @@ impl WindowedLegs<'_> {
             if let Some(jacobian) = self.noise_jacobian(leg) {
                 let to_end = to_end_frame(&motion) * jacobian;
                 let variances = Vector3::from_fn(|k, _| {
-                    let [first, second] = self.model.components()[k].alphas;
+                    let [first, second] = self.options.model.components()[k].alphas;
                     parameters[first] * observation.coefficients[k][0]
                         + parameters[second] * observation.coefficients[k][1]
                 });
@@ -110,10 +97,10 @@ impl WindowedLegs<'_> {
             ],
             ..self.legs[first]
         };
-        let seen = self.corrected.motion(&whole);
+        let seen = self.systematic.motion(&whole);
         let error = Vector3::new(parameters[POSITION], parameters[POSITION], parameters[YAW]);
         let reference = self
-            .corrected
+            .systematic
             .reference_jacobians(&whole)
             .map(|jacobian| {
                 let to_end = to_end_frame(&seen) * jacobian;
@@ -148,7 +135,7 @@ fn to_end_frame(motion: &SE2) -> Matrix3<f64> {
 pub(super) fn coverage(windows: &[Window], length: f64, inflation: f64) -> WindowCoverage {
     let squares: Vec<f64> = windows.iter().map(|window| window.squared(inflation)).collect();
     let count = squares.len();
-    let inside = squares.iter().filter(|square| **square < CHI2_95).count();
+    let inside = squares.iter().filter(|square| **square < CHI2_95[2]).count();
     WindowCoverage {
         length,
         count,
@@ -177,4 +164,77 @@ pub(super) fn required_inflation(windows: &[Window]) -> f64 {
         if holds(middle) { high = middle } else { low = middle }
     }
     high
+}
+
+/// Lengths of the windows, m; the first one is that which the recommended α's have to cover.
+const LENGTHS: [f64; 3] = [1.0, 2.0, 5.0];
+
+/// Quantiles 0.95 of χ² with 1, 2 and 3 degrees of freedom.
+const CHI2_95: [f64; 3] = [3.841, 5.991, 7.815];
+
+pub(super) struct Recommendation {
+    pub recommended: Recommended,
+    pub checks: Vec<Check>,
+    pub windows: Vec<WindowCoverage>,
+}
+
+/// Fits each half of the log, compares the other one with that, and finds the inflation that windows need.
+pub(super) fn recommend(fit: &Fit, all: &Sample, alphas: &[Option<f64>]) -> Recommendation {
+    let count = fit.sample.legs.len();
+    let halves = [0..count / 2, count / 2..count];
+    let free = free_parameters(&fit.sample.options);
+    let residuals = halves.map(|half| fit.sample.kept(half));
+    let parameters = [0, 1].map(|half| maximize(&residuals[half], fit.maximum.parameters, &free).parameters);
+    let (mut inside, mut compared) = (0, 0);
+    for (residuals, parameters) in residuals.iter().zip([&parameters[1], &parameters[0]]) {
+        let errors = residuals.least_squares(parameters).errors;
+        let innovations = residuals.innovations(parameters, &errors);
+        compared += innovations.len();
+        inside += innovations
+            .iter()
+            .filter(|each| each.observed > 0 && each.squared < CHI2_95[each.observed - 1])
+            .count();
+    }
+    // Variances of n legs have the relative variance 2/3n; α's share them.
+    let scale_std = (2.0 * alphas.len() as f64 / (3 * count / 2).max(1) as f64).sqrt();
+    let mut checks = vec![holdout_check(inside as f64 / compared as f64, compared, scale_std)];
+    // Windows of the whole log, each under the fit to the half in which it is not.
+    let total = all.legs.len();
+    let ranges = [0..total / 2, total / 2..total];
+    let held_out = |length: f64| -> Vec<Window> {
+        let of = |(range, parameters): (&Range<usize>, &Parameters)| {
+            all.windows(range.clone(), length, parameters)
+        };
+        ranges.iter().zip([&parameters[1], &parameters[0]]).flat_map(of).collect()
+    };
+    let windows: Vec<Vec<Window>> = LENGTHS.map(held_out).into();
+    let inflation = required_inflation(&windows[0]);
+    let covered: Vec<WindowCoverage> =
+        windows.iter().zip(LENGTHS).map(|(windows, length)| coverage(windows, length, 1.0)).collect();
+    checks.extend(window_checks(&covered, scale_std));
+    let reason = reason(&covered[0], inflation);
+    let recommended = Recommended {
+        alphas: alphas.iter().map(|alpha| alpha.map(|alpha| inflation * alpha)).collect(),
+        inflation,
+        reason,
+    };
+    Recommendation { recommended, checks, windows: covered }
+}
+
+fn reason(window: &WindowCoverage, inflation: f64) -> String {
+    let WindowCoverage { count, coverage, nees, .. } = *window;
+    if count < MIN_WINDOWS {
+        return format!(
+            "The log has {count} windows of 1 m that were not used for the fit; {MIN_WINDOWS} are needed to judge it, so the fit stands as it is."
+        );
+    }
+    let percent = 100.0 * coverage;
+    if inflation == 1.0 {
+        return format!(
+            "The fit covers {percent:.1} % of {count} held-out windows of 1 m, where 95 % is right."
+        );
+    }
+    format!(
+        "The fit covers {percent:.1} % of {count} held-out windows of 1 m (NEES {nees:.2}, where 1 is right); times {inflation:.2} it covers 95 %."
+    )
 }

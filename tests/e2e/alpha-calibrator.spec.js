@@ -1,6 +1,6 @@
 import { readFileSync } from 'node:fs';
 import { expect } from '@playwright/test';
-import { between } from '../../www/widgets/alpha-calibrator/lines.js';
+import { isZero } from '../../www/widgets/alpha-calibrator/lines.js';
 import { caption, openCalibrator, rows, section, settled, stats } from './calibrator-support.js';
 import { STILL, frames, pixelsOf, stateOf, test, unfold } from './support.js';
 
@@ -10,7 +10,7 @@ test.use(STILL);
 
 test('opens with the simulated log, said to be one, whose true α’s are inside of the intervals', async ({ page }) => {
   const widget = await openCalibrator(page);
-  await expect(caption(widget)).toHaveText(/^✓ Trust\s+The model fits: 9\d\.\d.% of held-out residuals lie within their 95 % interval\. Use these α’s with legs of this length\. \d+ legs of the simulated log\.$/);
+  await expect(caption(widget)).toHaveText(/^✓ Trust\s+All 12 checks passed\. Use the recommended α’s with legs of this length\. \d+ legs of the simulated log, \d outliers\.$/);
   const { alphas, intervals } = await stats(widget);
   const truth = await widget.evaluate((element) => /** @type {AlphaCalibratorElement} */ (element).machine.truth);
   expect(alphas.length).toBe(4);
@@ -35,7 +35,7 @@ test('the true α’s are shown where the fit is of their rule and legs, and now
   await widget.getByRole('radio', { name: 'velocity' }).check();
   await settled(widget);
   await expect(rows(widget)).toHaveCount(6);
-  expect(await stateOf(widget)).toMatchObject({ model: 'velocity', rule: 'table' });
+  expect(await stateOf(widget)).toMatchObject({ model: 'velocity', rule: 'thrun' });
   await widget.getByRole('radio', { name: 'omnidirectional' }).check();
   await settled(widget);
   await expect(rows(widget)).toHaveCount(5);
@@ -53,44 +53,59 @@ test('the meaning of each α stands beside it in one line, also on a phone and i
     text.selectNodeContents(of);
     const table = /** @type {Element} */ (row.closest('table'));
     const number = new Range();
-    number.selectNodeContents(value);
+    number.selectNode(/** @type {Element} */ (value.querySelector('.between')));
     const [end, top] = [text.getBoundingClientRect(), number.getBoundingClientRect()];
     return { lines: text.getClientRects().length, apart: end.right <= top.left || end.bottom <= top.top + 2, over: table.scrollWidth - table.clientWidth };
   }));
   for (const each of told) expect(each).toEqual({ lines: 1, apart: true, over: 0 });
 });
 
-test('without the robust fit a few outliers decide', async ({ page }) => {
+test('outliers are ringed, and decide the fit where they are not set aside', async ({ page }) => {
   const widget = await openCalibrator(page);
   await unfold(widget);
   const before = await stats(widget);
-  await widget.getByRole('checkbox', { name: 'Robust fit' }).uncheck();
+  const rings = await pixelsOf(widget.locator('canvas.plane'), 'ink');
+  await widget.getByRole('checkbox', { name: 'outlier', exact: true }).uncheck();
+  expect(await pixelsOf(widget.locator('canvas.plane'), 'ink')).toBeLessThan(rings - 40);
+  await widget.getByRole('radio', { name: 'fit as noise' }).check();
   await settled(widget);
   const after = await stats(widget);
-  expect(after.outliers).toBeNull();
   expect(Number(after.alphas[2])).toBeGreaterThan(5 * Number(before.alphas[2]));
-  await expect(caption(widget)).toHaveText(/^! Caution\s+Heavy tails/);
+  await expect(caption(widget)).toHaveText(/^! Caution\s+Failed check: correlation of neighbouring legs \(4 of 12 failed\)\..* \d+ legs of the simulated log\.$/);
 });
 
-test('a systematic error that is not corrected makes the α’s larger, and is told all the same', async ({ page }) => {
+test('a systematic error that is not corrected is named in the advice', async ({ page }) => {
   const widget = await openCalibrator(page);
   await unfold(widget);
   const before = await stats(widget);
   await widget.getByRole('checkbox', { name: /^mount yaw/ }).uncheck();
   await settled(widget);
   const after = await stats(widget);
-  expect(after.systematic.mountYaw.removed).toBe(false);
-  expect(after.systematic.mountYaw.value).toBeCloseTo(0.07, 2);
+  expect(after.systematicErrors.mountYaw.corrected).toBe(false);
+  expect(after.systematicErrors.mountYaw.value).toBeCloseTo(0.07, 2);
   // As the page says.
-  const [from, to] = [before, after].map(({ alphas: [, second] }) => Number(second).toFixed(3));
-  expect(readFileSync(new URL('../../www/index.html', import.meta.url), 'utf8')).toContain(`<sub>2</sub> goes from ${from} to ${to}.`);
-  await expect(caption(widget)).toHaveText(/Correlated residuals/);
+  const [from, to] = [before, after].map(({ referenceNoise: { yawStd } }) => yawStd.value.toFixed(3));
+  expect(readFileSync(new URL('../../www/index.html', import.meta.url), 'utf8')).toContain(`goes from ${from} to ${to}&nbsp;rad`);
+  await expect(caption(widget)).toHaveText(/^! Caution\s+Failed check: correlation of neighbouring legs \(2 of 12 failed\)\. Not corrected: mount yaw \(rad\) 0\.070 ± 0\.00\d\. Tick under More controls\./);
+  await expect(widget.getByRole('row', { name: /mount yaw/ })).toContainText('not corrected');
 });
 
-test('a leg is chosen in the picture, by its slider, and from worst to worst', async ({ page }) => {
+test('every check has its value, the values that pass, and what to do where it failed', async ({ page }) => {
+  const widget = await openCalibrator(page, 'outliers="keep" lang="de"');
+  await unfold(widget);
+  const { diagnostics: { checks } } = await stats(widget);
+  const told = section(widget, 'Prüfungen').locator('tbody tr');
+  await expect(told).toHaveCount(checks.length);
+  expect(checks.filter(({ passed }) => !passed).length).toBeGreaterThan(1);
+  for (const [i, { passed }] of checks.entries()) await expect(told.nth(i)).toContainText(passed ? '✓ bestanden' : '✕ nicht bestanden');
+  await expect(told.filter({ hasText: 'Korrelation benachbarter Etappen' })).toContainText('Fehler benachbarter Etappen sind korreliert');
+  await expect(told.filter({ hasText: 'Anzahl der Etappen' })).toContainText('≥ 100');
+});
+
+test('a leg is chosen in the picture, by its slider, and from one large residual to the next', async ({ page }) => {
   const widget = await openCalibrator(page);
-  const { worst } = (await stats(widget)).doubts;
-  const button = widget.getByRole('button', { name: 'Next worst leg' });
+  const { worst } = await widget.evaluate((element) => /** @type {any} */ (element).reading);
+  const button = widget.getByRole('button', { name: 'Next largest residual' });
   await button.click();
   expect(await stateOf(widget)).toMatchObject({ leg: worst[0] });
   await button.click();
@@ -111,18 +126,19 @@ test('a leg is chosen in the picture, by its slider, and from worst to worst', a
   await expect(widget.locator('canvas.leg')).toHaveAttribute('aria-label', new RegExp(`^Leg ${at.leg + 1} `));
 });
 
-test('inflation multiplies the predictions and the exported α’s', async ({ page }) => {
+test('inflation multiplies the predictions alone', async ({ page }) => {
   const widget = await openCalibrator(page);
   await unfold(widget);
-  const { alphas } = await stats(widget);
-  const slider = widget.locator('#inflation');
-  await slider.fill('2');
+  const yaml = await widget.locator('textarea.yaml').inputValue();
+  const spread = () => widget.evaluate((element) => {
+    const { outline } = /** @type {any} */ (element).predicted;
+    return Math.max(...outline.filter((/** @type {number} */ _, /** @type {number} */ i) => i % 2)) - Math.min(...outline.filter((/** @type {number} */ _, /** @type {number} */ i) => i % 2));
+  });
+  const before = await spread();
+  await widget.locator('#inflation').fill('4');
   await settled(widget);
-  await expect(widget.locator('textarea.yaml')).toHaveValue(new RegExp(`alpha3: ${(2 * Number(alphas[2])).toFixed(4)}  #`));
-  await expect(section(widget, 'Noise inflation').locator('p.caption')).toHaveText(/^Too large: underconfident/);
-  await slider.fill('0.3');
-  await settled(widget);
-  await expect(section(widget, 'Noise inflation').locator('p.caption')).toHaveText(/^Too small: overconfident/);
+  expect((await spread()) / before).toBeCloseTo(2, 0);
+  await expect(widget.locator('textarea.yaml')).toHaveValue(yaml);
 });
 
 test('an export as a picture has the key, the α’s with their intervals, the panels, and the verdict', async ({ page }) => {
@@ -131,8 +147,8 @@ test('an export as a picture has the key, the α’s with their intervals, the p
   await widget.getByRole('checkbox', { name: 'mount yaw (rad)' }).uncheck();
   await settled(widget);
   const texts = await rows(widget).evaluateAll((all) => all.map((row) => {
-    const [of, value, between] = ['.of', 'td:nth-of-type(2)', '.between'].map((part) => row.querySelector(part)?.textContent?.trim());
-    return `${of}: ${value}, ${between}`;
+    const [of, value, between, recommended] = ['.of', '.fitted-value', '.between', '.recommended'].map((part) => row.querySelector(part)?.textContent?.trim());
+    return `${of}: ${value}, ${between}, recommended ${recommended}`;
   }));
   const said = ((await caption(widget).textContent()) ?? '').replace(/^\s*✓?!?\s*/, '').replace(/\s+/g, ' ').trim();
   const drawn = await widget.evaluate(async (element) => {
@@ -160,28 +176,15 @@ test('an export as a picture has the key, the α’s with their intervals, the p
   drawn.png.forEach((pixels, i) => expect(Math.abs(pixels - 2 * drawn.size[i])).toBeLessThanOrEqual(1));
 });
 
-test('in plots the key names every line, and no label lies on a curve', async ({ page }) => {
-  const widget = await openCalibrator(page, 'inflation="1.5"');
-  await unfold(widget);
-  const inflate = section(widget, 'Noise inflation');
-  expect((await inflate.locator('.plot text').allTextContents()).filter((text) => text.includes('='))).toEqual([]);
-  for (const i of [0, 1]) {
-    const plot = inflate.locator('figure').nth(i);
-    await expect(plot.locator('.plot-key li').last()).toHaveText('f = 1.50');
-    await expect(plot.locator('.plot path.curve[stroke-dasharray="2 3"]')).toHaveCount(1);
-  }
-});
-
-test('the lines for Nav2 say what they are of', async ({ page }) => {
+test('the lines for Nav2 are the recommended α’s, with the fitted ones and the intervals of the table', async ({ page }) => {
   const widget = await openCalibrator(page, 'rule="nav2" distance="0.3"');
   await unfold(widget);
-  const { alphas, intervals, bootstrap } = await stats(widget);
   const yaml = await widget.locator('textarea.yaml').inputValue();
-  expect(yaml).toMatch(/^amcl:\n {2}ros__parameters:\n {4}# \d+ legs of 0\.3 m or 0\.2 rad of the simulated log, \d{4}-\d\d-\d\d; 95 % intervals by bootstrap\n/);
+  expect(yaml).toMatch(/^amcl:\n {2}ros__parameters:\n {4}# \d+ legs of 0\.3 m or 0\.2 rad of the simulated log, \d{4}-\d\d-\d\d\n/);
   expect(yaml).toContain('    robot_model_type: "nav2_amcl::DifferentialMotionModel"\n');
-  alphas.forEach((alpha, i) => expect(yaml).toMatch(new RegExp(`^ {4}alpha${i + 1}: ${Number(alpha).toFixed(3).slice(0, -1)}\\d*  # [\\d.]+ to [\\d.]+$`, 'm')));
-  for (const pair of bootstrap) expect(yaml).toContain(`  # ${between(pair)}\n`);
-  expect(bootstrap.map(between)).not.toEqual(intervals.map(between));
+  const told = await rows(widget).evaluateAll((all) => all.map((row) => ['.fitted-value', '.between', '.recommended'].map((part) => row.querySelector(part)?.textContent?.trim() ?? '')));
+  expect(told).toHaveLength(4);
+  told.forEach(([fitted, between, recommended], i) => expect(yaml).toContain(`    alpha${i + 1}: ${recommended}  # fitted ${fitted}, 95 % ${between.replace(' – ', ' to ')}\n`));
   expect(yaml).toContain('    update_min_d: 0.3\n    update_min_a: 0.2\n');
   await widget.getByRole('radio', { name: 'omnidirectional' }).check();
   await settled(widget);
@@ -217,43 +220,23 @@ test('legs of a time, and how well the reference is known, are set by their slid
   await settled(widget);
   expect((await stats(widget)).alphas).toEqual(before.alphas);
   // Noise of the reference is no noise of the wheels.
+  await expect(widget.locator('.slider:has(#positionStd) .typed')).toHaveValue('estimated');
   await widget.getByRole('slider', { name: /reference position σ/ }).fill('0.004');
   await widget.getByRole('slider', { name: /reference yaw σ/ }).fill('0.003');
   await settled(widget);
-  expect(await stateOf(widget)).toMatchObject({ positionDeviation: 0.004, headingDeviation: 0.003, duration: 0 });
+  expect(await stateOf(widget)).toMatchObject({ positionStd: 0.004, yawStd: 0.003, duration: 0 });
   expect(Number((await stats(widget)).alphas[3])).toBeLessThan(0.9 * Number(before.alphas[3]));
-});
-
-test('α’s of other lengths of legs are fitted where they are asked for, and drawn against the length', async ({ page }) => {
-  const widget = await openCalibrator(page);
-  const { alphas, byLength } = await stats(widget);
-  expect(byLength).toEqual([]);
-  await unfold(widget);
-  const lengths = section(widget, 'Dependence on leg length');
-  await lengths.getByRole('checkbox').check();
-  await settled(widget);
-  const told = await stats(widget);
-  expect(told.alphas).toEqual(alphas);
-  expect(told.byLength.map(({ factor }) => factor)).toEqual([0.25, 0.5, 1, 2, 4]);
-  const plots = lengths.locator('svg.plot');
-  await expect(plots).toHaveCount(4);
-  // The α's of the table, at the legs that are asked for.
-  for (const [i, length] of [['0', '0.200'], ['2', '0.250']]) {
-    const shown = await rows(widget).nth(Number(i)).locator('td').nth(1).textContent();
-    await expect(plots.nth(Number(i))).toHaveAttribute('aria-label', new RegExp(`${shown?.trim()} at ${length}`));
-  }
-  await expect(widget).toHaveAttribute('bylength');
 });
 
 test('an α that a log does not tell from 0 is no result of 0', async ({ page }) => {
   // Few legs: what turning adds is not seen beside what driving does.
-  const widget = await openCalibrator(page, 'model="velocity" distance="1" angle="1.5" bylength');
+  const widget = await openCalibrator(page, 'model="velocity" distance="1" angle="1.5"');
   const { alphas, intervals } = await stats(widget);
-  const zeros = alphas.flatMap((alpha, i) => (alpha !== null && alpha < 0.01 * (intervals[i]?.[1] ?? 0) ? [i] : []));
+  const zeros = alphas.flatMap((alpha, i) => (alpha !== null && isZero(alpha, intervals[i]) ? [i] : []));
   expect(zeros.length).toBeGreaterThan(0);
   expect(zeros.length).toBeLessThan(6);
   for (let i = 0; i < 6; i++) {
-    if (zeros.includes(i)) await expect(rows(widget).nth(i)).toContainText(/≤ (0\.0*[1-9]\d|[1-9]\.\d·10⁻.)\s/);
+    if (zeros.includes(i)) await expect(rows(widget).nth(i)).toContainText(/≤ (0\.0*[1-9]\d?|[1-9](\.\d)?·10⁻.)/);
     else await expect(rows(widget).nth(i)).not.toContainText('≤');
   }
 });

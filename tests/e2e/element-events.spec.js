@@ -114,12 +114,12 @@ const ACTS = {
   'alpha-calibrator': [
     ['model', (widget) => widget.locator('input[name=kind]').nth(1).check()],
     ['noise', (widget) => widget.locator('input[name=noise]').nth(1).check()],
-    ['robust fit', (widget) => widget.getByRole('checkbox', { name: 'Robust fit' }).uncheck()],
+    ['outliers', (widget) => widget.locator('input[name=outliers]').nth(1).check()],
     ['legend', (widget) => widget.getByRole('checkbox', { name: 'odometry' }).uncheck()],
     ['systematic error', (widget) => widget.getByRole('checkbox', { name: /^mount yaw/ }).uncheck()],
     ['slider by key', (widget) => widget.locator('#distance').press('ArrowRight')],
     ['leg by key', (widget) => widget.locator('#leg').press('ArrowRight')],
-    ['worst leg', (widget) => widget.getByRole('button', { name: 'Next worst leg' }).click()],
+    ['largest residual', (widget) => widget.getByRole('button', { name: 'Next largest residual' }).click()],
     ['inflation by key', (widget) => widget.locator('#inflation').press('ArrowRight')],
   ],
 };

@@ -49,7 +49,7 @@ export const KNOWN = {
     fold: MARKED, paper: { at: 1, part: 'table' },
   },
   'alpha-calibrator': {
-    slider: 'distance', at: ['distance'], values: [0.4, 0.3], other: ['angle', 0.35], button: 'Next worst leg',
+    slider: 'distance', at: ['distance'], values: [0.4, 0.3], other: ['angle', 0.35], button: 'Next largest residual',
     fold: { at: 0, field: '.slider:has(#inflation) .typed', value: '2.50' }, paper: { at: 1, part: 'table' },
   },
 };

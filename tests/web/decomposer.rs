@@ -8,7 +8,7 @@ fn it_opens_as_the_figure_does() {
     let it = Object::new("new motion.OdometryDecomposer()");
     assert_eq!(
         it.get::<String>("JSON.stringify(it.config)"),
-        r#"{"from":{"x":0,"y":0,"theta":0},"to":{"x":-1.2,"y":-0.3,"theta":0.1},"rule":"table","#.to_owned()
+        r#"{"from":{"x":0,"y":0,"theta":0},"to":{"x":-1.2,"y":-0.3,"theta":0.1},"rule":"thrun","#.to_owned()
             + r#""alphas":[0.03,0.01,0.01,0.02,0.01],"noise":"normal","correlation":0,"drift":40,"phase":3,"samples":500,"seed":25}"#
     );
     assert_eq!(get::<String>("motion.OdometryDecomposer.presets[1].name"), "turn-drive");
@@ -20,7 +20,7 @@ fn the_reading_is_taken_apart_by_every_rule() {
     let it = Object::new("new motion.OdometryDecomposer({ to: { x: 1.2, y: 1, theta: 1.2 } })");
     assert_eq!(
         it.get::<Vec<String>>("it.rules.map(({ rule }) => rule)"),
-        ["table", "nav2", "beluga", "omni"]
+        ["thrun", "nav2", "beluga", "omni"]
     );
     let rot1 = (1_f64 / 1.2).atan();
     assert_near(it.get("Object.values(it.rules[0].legs)"), [rot1, 2.44_f64.sqrt(), 1.2 - rot1], 1e-12);
@@ -60,7 +60,7 @@ fn what_is_refused_changes_nothing() {
         "[it.config, it.stats]",
         r#"
         it.configure({ seed: 1, rule: 'amcl' })
-        RangeError: rule is "amcl"; allowed is "table" or "nav2" or "beluga" or "omni"
+        RangeError: rule is "amcl"; allowed is "thrun" or "nav2" or "beluga" or "omni"
         it.configure({ correlation: 2 })
         RangeError: correlation is 2; allowed is a number from -1 to 1
         it.configure({ alphas: [1, 2, 3, 4] })

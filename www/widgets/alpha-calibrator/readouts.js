@@ -46,7 +46,7 @@ export function alphaTable(reading) {
         ${alpha === null
           ? html`<td colspan="3"><div class="of">${noises[i]}</div><span class="unknown">${lackOf(reading, i)}</span></td>`
           : html`<td class="chart"><div class="of">${noises[i]}</div>${whisker(place, alpha, intervals[i], truth?.[i])}</td>
-            <td class="roomy" data-room=${say.between('0.0000', '0.0000')}>${fittedOf(reading, i)}<div class="between">${betweenOf(reading, i)}</div></td>
+            <td class="roomy" data-room=${say.between('0.0000', '0.0000')}><div class="fitted-value">${fittedOf(reading, i)}</div><div class="between">${betweenOf(reading, i)}</div></td>
             <td class="roomy recommended" data-room="0.0000">${recommendedOf(reading, i)}</td>`}
       </tr>`)}
       <tr class="axis" aria-hidden="true">

@@ -189,6 +189,9 @@ const ramps = (count) => Uint8Array.from({ length: 1024 * count }, (_, at) => {
   return [i, 255 - i, 85 * (at >> 10), 255][at & 3];
 });
 
+/** @type {(value: object) => value is ArrayLike<unknown>} */
+const isList = (value) => Array.isArray(value) || ArrayBuffer.isView(value);
+
 /**
  * @param {Told} value
  * @param {number[]} numbers that it is added to: of a list its length and its items, of a word those of its letters, of an
@@ -199,7 +202,7 @@ function tell(value, numbers) {
   else if (typeof value === 'number' || typeof value === 'boolean') numbers.push(Number(value));
   else if (typeof value === 'string') tell(Uint16Array.from(value, (_, i) => value.charCodeAt(i)), numbers);
   else if (typeof value !== 'object') throw new TypeError(`${typeof value} is nothing to be told.`);
-  else if ('length' in value) {
+  else if (isList(value)) {
     numbers.push(value.length);
     for (let i = 0; i < value.length; i++) tell(/** @type {any} */ (value)[i], numbers);
   } else for (const each of Object.values(value)) tell(each, numbers);

@@ -36,7 +36,7 @@ export async function measure(motion, { quick, log, progress }) {
   }
   progress('calibration');
   const [odometry, reference] = [log.odometry, log.reference].map(columns);
-  const { calibration } = await race({ calibration: (seed) => void motion.calibrate({ odometry, reference, seed }) }, { seconds });
+  const { calibration } = await race({ calibration: () => void motion.calibrate({ odometry, reference }) }, { seconds });
   return { refresh, calibration: spread(calibration) };
 }
 

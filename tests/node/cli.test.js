@@ -226,3 +226,11 @@ function calibrationWords() {
   const [, declared] = readFileSync(new URL('../../dist/machines.d.ts', import.meta.url), 'utf8').match(/notIdentifiable: \('(.*)' \| null\)\[\];/) ?? [];
   return declared.split("' | '");
 }
+
+test('the worked example of doc/calibration.md is what the command prints', async () => {
+  const { code, out } = await outputOf(FILES);
+  assert.equal(code, 0);
+  const [, printed] = readFileSync(new URL('../../doc/calibration.md', import.meta.url), 'utf8').match(/\n```text\n(.*?)\n```\n/s) ?? [];
+  const dated = /** @param {string} text */ (text) => text.trim().replace(/\d{4}-\d\d-\d\d/, 'DATE');
+  assert.equal(dated(out), dated(printed));
+});

@@ -56,7 +56,7 @@ pub struct Check {
     /// Smallest and largest value that passes.
     pub expected: [f64; 2],
     pub passed: bool,
-    /// What the value means for the α's, and what to do.
+    /// Meaning for the α's of a check that failed, and the remedy; empty where it passed.
     pub message: &'static str,
 }
 
@@ -97,7 +97,7 @@ impl CheckName {
         }
     }
 
-    /// What a failure means for the α's, and what to do.
+    /// Returns the meaning of a failure for the α's, and the remedy.
     fn failure(self) -> &'static str {
         match self {
             Self::ReferenceMatches => {

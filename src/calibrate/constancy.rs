@@ -1,4 +1,4 @@
-//! Whether the scales of the odometry are constants: the same on straight and on turning legs, and in both halves of the log.
+//! Constancy of the odometry's scales: on straight and on turning legs, and in both halves of the log.
 
 use super::checks::{Check, CheckName, scale_check};
 use super::fit::Fit;

@@ -11,8 +11,8 @@ use nalgebra::Vector3;
 /// Condition on which a leg ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LegLength {
-    /// As in AMCL (`update_min_d`, `update_min_a`): at the first reading that is more than `distance` (m) away in x or in y of
-    /// the odometry frame, or turned by more than `angle` (rad).
+    /// Displacement as in AMCL (`update_min_d`, `update_min_a`): at the first reading that is more than `distance` (m) away, or
+    /// turned by more than `angle` (rad). The distance is compared along each axis of the odometry frame.
     Displacement { distance: f64, angle: f64 },
     /// At the first reading after this time (s).
     Duration { duration: f64 },
@@ -58,7 +58,7 @@ pub struct Leg {
     pub reference: [SE2; 2],
     /// Variance of the reference's error at both ends over that of one sample: below 1 between two samples.
     pub(super) interpolation_variances: [f64; 2],
-    /// Whether it starts with the reference pose at which the leg before ends.
+    /// True if it starts with the reference pose at which the leg before ends.
     pub follows: bool,
     /// Place of its drive among those of the calibration.
     pub(super) drive: usize,

@@ -1,8 +1,11 @@
 //! Restricted likelihood (REML) of all residuals of a log.
 //!
-//! The residual of leg i is rᵢ = wᵢ + Aᵢ eᵢ₋₁ + Bᵢ eᵢ + Xᵢ β. The noise of the wheels wᵢ has covariance Dᵢ = diag(Σ αₖ cᵢₖ), the error
-//! eᵢ of the reference at the end of the leg R = diag(σ_p², σ_p², σ_θ²), and β are the systematic errors. A pose ends one leg and starts
-//! the next, so V = Cov(r) is block tridiagonal:
+//! The residual of leg i is rᵢ = wᵢ + Aᵢ eᵢ₋₁ + Bᵢ eᵢ + Xᵢ β, with
+//! - wᵢ the noise of the wheels, of covariance Dᵢ = diag(Σ αₖ cᵢₖ),
+//! - eᵢ the error of the reference at the end of the leg, of covariance R = diag(σ_p², σ_p², σ_θ²),
+//! - β the systematic errors.
+//!
+//! A pose ends one leg and starts the next. So V = Cov(r) is block tridiagonal:
 //!
 //! ℓ = −½ [ln|V| + ln|XᵀV⁻¹X| + rᵀV⁻¹r − rᵀV⁻¹X (XᵀV⁻¹X)⁻¹ XᵀV⁻¹r − (N − q) ln 2π],
 //!
@@ -222,8 +225,8 @@ impl Residuals {
         gram.fixed_view::<ERRORS, ERRORS>(1, 1).into_owned()
     }
 
-    /// Returns the covariance of the systematic errors that the scatter of blocks of `length` legs gives, C (Σ gᵦ gᵦᵀ) C with the scores gᵦ and C
-    /// the covariance that the likelihood gives: it holds whatever the legs of a block have in common.
+    /// Returns the sandwich covariance of the systematic errors, C (Σ gᵦ gᵦᵀ) C. C is the covariance by the likelihood, and gᵦ the score of a
+    /// block of `length` legs: it holds whatever the legs of a block have in common.
     pub fn sandwich(
         &self,
         parameters: &Parameters,

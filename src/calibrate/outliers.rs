@@ -33,7 +33,7 @@ impl Sample {
             return false;
         }
         let innovations = self.innovations(parameters);
-        // Where the variances are still too small, half of the legs must not pass for outliers.
+        // Variances may still be too small: half of the legs must not pass for outliers then.
         let mut squares: Vec<f64> = innovations.iter().map(|innovation| innovation.squared).collect();
         let gate = gate * (median(&mut squares) / MEDIAN_CHI2).max(1.0);
         let is_outside =

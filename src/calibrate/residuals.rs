@@ -1,5 +1,6 @@
-//! Residuals of a leg, the motion that the reference saw less the one expected of the odometry, in the model's own coordinates:
-//! the noise of the wheels is independent there, and its variances are linear in the α's.
+//! Residuals of a leg: the motion that the reference saw, less the one that the odometry read.
+//!
+//! They are in the model's own coordinates, where the noise of the wheels is independent and its variances are linear in the α's.
 
 use super::legs::Leg;
 use super::systematic::{Systematic, log_sinc_derivative};

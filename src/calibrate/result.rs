@@ -31,7 +31,7 @@ pub struct Options {
     pub model: Model,
     pub legs: LegLength,
     pub outliers: Outliers,
-    /// Whether each of [`SystematicError::ALL`] is corrected before the α's are fitted. None: if it is identifiable and constant.
+    /// Choice for each of [`SystematicError::ALL`]: corrected or not. None: corrected if it is identifiable and constant.
     pub correct: [Option<bool>; ERRORS],
     /// Standard deviation of each coordinate of the reference, m. None: estimated.
     pub position_std: Option<f64>,
@@ -88,11 +88,11 @@ pub struct Calibration {
     pub systematic: Systematic,
     /// Standard errors of [`SystematicError::ALL`]; None of one that the log does not identify.
     pub systematic_stds: [Option<f64>; ERRORS],
-    /// Whether each is the same on straight and on turning legs, and in both halves of the log.
+    /// True of each that is the same on straight and on turning legs, and in both halves of the log.
     pub is_constant: ErrorMask,
     /// Systematic errors that were corrected, 0 (scales 1) where one was not.
     pub corrected: Systematic,
-    /// Whether each was corrected.
+    /// True of each that was corrected.
     pub is_corrected: ErrorMask,
     /// Standard deviations of the reference: each coordinate (m) and heading (rad).
     pub reference_noise: [Estimate; 2],

@@ -20,7 +20,7 @@ pub struct Trajectory {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Gap {
     None,
-    /// Nothing was recorded for a while; both ends are right.
+    /// Pause of the recording; the poses at both ends are right.
     Pause,
     /// The pose may have jumped: no motion is known across.
     Break,

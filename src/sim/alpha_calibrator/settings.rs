@@ -37,7 +37,7 @@ settings! {
         rule: OdometryRule = OdometryRule::Table;
         /// Distribution of the noise in the predicted outcomes of a leg; the variances are the same.
         noise: NoiseKind = NoiseKind::Normal;
-        /// Whether outliers, as where the reference jumps, are set aside or fitted as noise.
+        /// Treatment of outliers, as where the reference jumps: set aside, or fitted as noise.
         outliers: Outliers = Outliers::Reject;
         /// A leg ends where the odometry is further away in x or in y: `update_min_d` of AMCL.
         distance: f64 = 0.25, "m", in 0.01..=100.0;
@@ -45,15 +45,15 @@ settings! {
         angle: f64 = 0.2, "rad", in 0.01..=3.0;
         /// Where it is above 0, a leg ends after so long instead, whatever the odometry says.
         duration: f64 = 0.0, "s", in 0.0..=1e3;
-        /// Whether the yaw at which the reference is mounted is corrected, if the log identifies it.
+        /// Correction of the yaw at which the reference is mounted, if the log identifies it.
         mountYaw, by mount_yaw_mut;
-        /// Whether the lever arm of the reference is corrected, if the log identifies it.
+        /// Correction of the reference’s lever arm, if the log identifies it.
         leverArm, by lever_arm_mut;
-        /// Whether the odometry’s scale of distances is corrected, if the log identifies it and it is constant.
+        /// Correction of the odometry’s scale of distances, if the log identifies it and it is constant.
         distanceScale, by distance_scale_mut;
-        /// Whether the odometry’s scale of turns is corrected, if the log identifies it and it is constant.
+        /// Correction of the odometry’s scale of turns, if the log identifies it and it is constant.
         turnScale, by turn_scale_mut;
-        /// Whether the offset between the two clocks is corrected, if the log identifies it.
+        /// Correction of the offset between the two clocks, if the log identifies it.
         clockOffset, by clock_offset_mut;
         /// Standard deviation of each coordinate of the reference; 0: estimated.
         positionStd, by position_std_mut, "m", in 0.0..=1e3;

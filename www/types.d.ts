@@ -1,6 +1,6 @@
 /** All types. Those of settings, machines and elements follow from what is declared: scripts/types.mjs writes them. */
 
-import type { BananaMachinePreset, BananaMachineSettings, LoggedCommands, LoggedPoses, LoggedReference, MapSqueezeSettings, Start } from '../build/machines.d.ts';
+import type { BananaMachinePreset, BananaMachineSettings, LoggedCommands, LoggedPoses, MapSqueezeSettings, Start } from '../build/machines.d.ts';
 import type { BananaMachineElement, BananaMachineState, FigureElement, MapSqueezeState } from '../build/elements.d.ts';
 
 export type * from '../build/machines.d.ts';
@@ -34,7 +34,7 @@ export type MapData =
 export interface CalibrationLog {
   name?: string;
   odometry: LoggedPoses | LoggedCommands;
-  reference: LoggedReference;
+  reference: LoggedPoses;
 }
 
 // Shorter names.

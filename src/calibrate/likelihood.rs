@@ -195,7 +195,7 @@ impl Residuals {
             covariance = reference - gain * term.end * reference;
             visit(term, Innovation { columns, weight, gain }, &innovation);
         }
-        (log_det + libm::log(det), gram)
+        (log_det + libm::log(det.max(f64::MIN_POSITIVE)), gram)
     }
 
     fn least_squares_of(&self, log_det: f64, gram: &Gram) -> LeastSquares {

@@ -5,20 +5,23 @@ import { test } from 'node:test';
 import { de } from '../../www/widgets/alpha-calibrator/de.js';
 import { en } from '../../www/widgets/alpha-calibrator/en.js';
 import { between as ends, fixed, nav2Lines, short } from '../../www/widgets/alpha-calibrator/lines.js';
-import { truthHolds } from '../../www/widgets/alpha-calibrator/reading.js';
+import { classesOf, truthHolds } from '../../www/widgets/alpha-calibrator/reading.js';
 import { SIMULATED } from '../../www/widgets/alpha-calibrator/settings.js';
-import { significantly } from '../../www/widgets/alpha-calibrator/words.js';
+import { localized } from '../../www/widgets/alpha-calibrator/words.js';
 import { settings } from '../../www/settings.js';
 
-test('an α is printed in digits that are its own, however small it is', () => {
-  for (const [alpha, text] of /** @type {[number, string][]} */ ([
-    [0, '0'],
-    [0.123456, '0.123'],
-    [0.0001, '0.000100'],
-    [0.0000234, '2.3·10⁻⁵'],
-    [1e-10, '1.0·10⁻¹⁰'],
-    [Infinity, '∞'],
-  ])) assert.equal(significantly(alpha), text);
+test('a leg has the class of its p-value, by as many noises as it shows', () => {
+  const residuals = Float64Array.of(0, 0, 0, 0, 0, NaN, 0, NaN, NaN);
+  const classes = (/** @type {number[]} */ ...squared) => [...classesOf({ count: 3, squared: Float64Array.from(squared), residuals })];
+  // Quantiles of χ² with 3, 2 and 1 degrees of freedom, from tables.
+  assert.deepEqual(classes(2.36, 1.38, 0.45), [0, 0, 0]);
+  assert.deepEqual(classes(7.81, 5.99, 3.84), [1, 1, 1]);
+  assert.deepEqual(classes(16.2, 13.8, 10.8), [2, 2, 2]);
+  assert.deepEqual(classes(16.3, 13.9, 10.9), [3, 3, 3]);
+});
+
+test('a number in the format of files is printed as on screen', () => {
+  assert.deepEqual(['0.050', '1.0e-7', '≤ 2.3e-13'].map(localized), ['0.050', '1.0·10⁻⁷', '≤ 2.3·10⁻¹³']);
 });
 
 test('numbers of files: as many digits as the interval has a meaning in, with an exponent where they are tiny', () => {

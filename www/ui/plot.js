@@ -147,7 +147,6 @@ export const plotStyles = css`
  * @property {number} x
  * @property {number} y NaN where there is none
  * @property {number} error
- * @property {number[]} [ends] of its interval, which reaches up and down differently
  *
  * @typedef {object} Mark a line across the plot, at an x or at a y
  * @property {number} [x]
@@ -187,10 +186,10 @@ export function plot({ label, x, y, curves, points = [], marks = [], slider, leg
         ${curves.map((curve) => !curve.area && svg`<path class="curve ${litOf(curve)}" stroke="var(--${curve.role})" stroke-dasharray=${curve.dash ?? nothing} d=${line(curve, toX, toY)} />`)}
         ${marks.map((mark, row) => markOf(mark, row, toX, toY))}
         ${points.filter(({ y: value, error }) => !Number.isNaN(value + error)).map(
-          ({ role, x: at, y: value, error, ends: [low, high] = [value - error, value + error] }) => svg`<path
+          ({ role, x: at, y: value, error }) => svg`<path
             class="curve"
             stroke="var(--${role})"
-            d="M${toX(at) - SERIF},${toY(low)}h${2 * SERIF}m${-SERIF},0V${toY(high)}m${-SERIF},0h${2 * SERIF}"
+            d="M${toX(at) - SERIF},${toY(value - error)}h${2 * SERIF}m${-SERIF},0V${toY(value + error)}m${-SERIF},0h${2 * SERIF}"
           /><circle cx=${toX(at)} cy=${toY(value)} r="3" fill="var(--${role})" />`,
         )}
       </svg>

@@ -199,7 +199,7 @@ export class AlphaCalibratorElement extends FigureElement {
     const poses = (/** @type {string} */ whose) => ['from', 'to'].flatMap((end) => ['x_m', 'y_m', 'theta_rad'].map((name) => `${whose}_${end}_${name}`));
     return {
       title: this.lettering.name,
-      description: [wayText(this.reading, this.chosen), ...alphaTexts(this.reading).map((text) => `${text}.`), captionOf(this.reading, this.logName), ...systematicTexts(this.reading)].join(' '),
+      description: [wayText(this.reading, this.chosen), ...alphaTexts(this.reading).map((text) => `${text}.`), captionOf(this.reading, this.logName), reasonOf(this.reading), ...systematicTexts(this.reading)].join(' '),
       settings: { element: this.localName, log: this.#log?.name ?? null, ...config },
       columns: [
         'begins_s', 'ends_s', ...poses('odometry'), ...poses('reference'), 'reading_1', 'reading_2', 'reading_3',

@@ -6,6 +6,33 @@
  */
 const parts = (count, more = 'n') => `${count} Etappe${count === '1' ? '' : more}`;
 
+/** Messages of failed checks. @type {Record<string, string>} */
+const MESSAGES = {
+  'reference-matches':
+    'Die Referenz folgt der Odometrie nicht: Sie kann von einer anderen Fahrt sein, andere Einheiten (Grad, Millimeter) oder andere Achsen (y nach oben) haben, oder ihre Spalten sind vertauscht. Die α sind bedeutungslos. Beide Dateien Zeile für Zeile vergleichen.',
+  'enough-legs':
+    'Es sind wenige Etappen: Die Intervalle sind breit und die anderen Prüfungen schwach. Weiter aufzeichnen: eine Viertelstunde mit Geraden, Bögen und Drehungen auf der Stelle.',
+  'legs-lost':
+    'Viele Etappen gingen durch Lücken, Brüche oder Stillstand verloren. Die α gelten für den Rest. Die Anzahlen nach Ursache ansehen und ohne Lücken aufzeichnen.',
+  'sampling-dense':
+    'Die Aufzeichnung hat zu wenige Zeilen für diese Länge: Die Etappen sind länger als verlangt, und die α gelten für die längeren. Öfter aufzeichnen oder längere Etappen wählen.',
+  'outliers-few':
+    'Viele Etappen sind Ausreißer. Die α gelten für den Rest und sind zu klein, wenn die Ausreißer Schlupf der Räder sind. Die markierten Etappen ansehen: ein Sprung der Referenz oder Schlupf?',
+  'distance-scale-constant':
+    'Der Skalenfaktor der Strecke ist keine Konstante und wurde nicht korrigiert. Raddurchmesser, Last und Schlupf in Kurven prüfen; erst die Räder kalibrieren, dann das Rauschen.',
+  'turn-scale-constant': 'Der Skalenfaktor der Drehung ist keine Konstante und wurde nicht korrigiert. Spurweite und Schlupf auf diesem Boden prüfen.',
+  'residuals-uncorrelated':
+    'Fehler benachbarter Etappen sind korreliert: Sie halten über mehrere Etappen an, oder ein systematischer Fehler ist nicht korrigiert. An Etappen angepasste α sind für längere Strecken zu klein. Die empfohlenen verwenden.',
+  'tails-normal':
+    'Einige Fehler sind viel größer, als normalverteiltes Rauschen sie hat: Die Ränder der Vorhersage sind zu schmal. Die empfohlenen α verwenden und die größten Residuen ansehen.',
+  'holdout-covered':
+    'Die α der einen Hälfte der Aufzeichnung passen nicht zur anderen: Boden, Last oder Geschwindigkeit haben sich geändert. Für jede Bedingung kalibrieren oder die empfohlenen α verwenden.',
+  ...Object.fromEntries([1, 2, 5].map((length) => [
+    `window-${length}m-covered`,
+    'Über Fenster dieser Länge sagen die angepassten α den Fehler nicht vorher: Er wächst anders. Die empfohlenen verwenden, die über 1 m gelten.',
+  ])),
+};
+
 /** @type {typeof import('./en.js').en} */
 export const de = {
   title: 'Der Alpha-Kalibrierer',
@@ -74,31 +101,7 @@ export const de = {
       'window-2m-covered': 'zurückgehaltene Fenster von 2 m innerhalb von 95 %',
       'window-5m-covered': 'zurückgehaltene Fenster von 5 m innerhalb von 95 %',
     },
-    messages: {
-      'reference-matches':
-        'Die Referenz folgt der Odometrie nicht: Sie kann von einer anderen Fahrt sein, andere Einheiten (Grad, Millimeter) oder andere Achsen (y nach oben) haben, oder ihre Spalten sind vertauscht. Die α sind bedeutungslos. Beide Dateien Zeile für Zeile vergleichen.',
-      'enough-legs':
-        'Es sind wenige Etappen: Die Intervalle sind breit und die anderen Prüfungen schwach. Weiter aufzeichnen: eine Viertelstunde mit Geraden, Bögen und Drehungen auf der Stelle.',
-      'legs-lost':
-        'Viele Etappen gingen durch Lücken, Brüche oder Stillstand verloren. Die α gelten für den Rest. Die Anzahlen nach Ursache ansehen und ohne Lücken aufzeichnen.',
-      'sampling-dense':
-        'Die Aufzeichnung hat zu wenige Zeilen für diese Länge: Die Etappen sind länger als verlangt, und die α gelten für die längeren. Öfter aufzeichnen oder längere Etappen wählen.',
-      'outliers-few':
-        'Viele Etappen sind Ausreißer. Die α gelten für den Rest und sind zu klein, wenn die Ausreißer Schlupf der Räder sind. Die markierten Etappen ansehen: ein Sprung der Referenz oder Schlupf?',
-      'distance-scale-constant':
-        'Der Skalenfaktor der Strecke ist keine Konstante und wurde nicht korrigiert. Raddurchmesser, Last und Schlupf in Kurven prüfen; erst die Räder kalibrieren, dann das Rauschen.',
-      'turn-scale-constant': 'Der Skalenfaktor der Drehung ist keine Konstante und wurde nicht korrigiert. Spurweite und Schlupf auf diesem Boden prüfen.',
-      'residuals-uncorrelated':
-        'Fehler benachbarter Etappen sind korreliert: Sie halten über mehrere Etappen an, oder ein systematischer Fehler ist nicht korrigiert. An Etappen angepasste α sind für längere Strecken zu klein. Die empfohlenen verwenden.',
-      'tails-normal':
-        'Einige Fehler sind viel größer, als normalverteiltes Rauschen sie hat: Die Ränder der Vorhersage sind zu schmal. Die empfohlenen α verwenden und die größten Residuen ansehen.',
-      'holdout-covered':
-        'Die α der einen Hälfte der Aufzeichnung passen nicht zur anderen: Boden, Last oder Geschwindigkeit haben sich geändert. Für jede Bedingung kalibrieren oder die empfohlenen α verwenden.',
-      ...Object.fromEntries([1, 2, 5].map((length) => [
-        `window-${length}m-covered`,
-        'Über Fenster dieser Länge sagen die angepassten α den Fehler nicht vorher: Er wächst anders. Die empfohlenen verwenden, die über 1 m gelten.',
-      ])),
-    },
+    message: (name, english) => MESSAGES[name] ?? english,
   },
   recommended: {
     none: 'Es gibt keine empfohlenen α: Die Aufzeichnung ist unbrauchbar.',
@@ -144,7 +147,7 @@ export const de = {
     corrected: 'korrigiert',
     notCorrected: 'nicht korrigiert',
     notConstant: 'keine Konstante',
-    matters: (errors) => `Nicht korrigiert: ${errors}. Unter Weitere Regler ankreuzen.`,
+    matters: (errors) => `Nicht korrigiert: ${errors} (siehe Weitere Regler).`,
     removed: (errors) => `Korrigierte systematische Fehler: ${errors}.`,
     left: (errors) => `Nicht korrigierte systematische Fehler (in den α enthalten): ${errors}.`,
   },
@@ -230,7 +233,7 @@ export const de = {
     otherRule: 'nach einer anderen Regel als der von Nav2 angepasst: die Regel von Nav2 wählen',
     notIdentifiable: 'von dieser Aufzeichnung nicht bestimmt',
     zero: (most) => `nicht signifikant von 0 verschieden, höchstens ${most}`,
-    tooLarge: 'unplausibel (angepasst > 1): Prüfungen und Ausreißer ansehen',
+    tooLarge: 'unplausibel (> 1): Prüfungen und Ausreißer ansehen',
     of: (legs, length, log, date) => `${parts(legs)} ${length}, ${log}, ${date}`,
     moved: (distance, angle) => `von ${distance} m oder ${angle} rad`,
     lasted: (duration) => `von ${duration} s`,

@@ -73,8 +73,7 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
       'window-2m-covered': 'held-out windows of 2 m within 95 %',
       'window-5m-covered': 'held-out windows of 5 m within 95 %',
     },
-    /** Messages of failed checks; those of the core are in English. */
-    messages: /** @type {Partial<Record<import('../../types.d.ts').CalibrationCheck['name'], string>>} */ ({}),
+    message: (_name, english) => english.replaceAll("'", '’'),
   },
   recommended: {
     none: 'There are no recommended α’s: the log is unusable.',
@@ -120,7 +119,7 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
     corrected: 'corrected',
     notCorrected: 'not corrected',
     notConstant: 'not a constant',
-    matters: (errors) => `Not corrected: ${errors}. Tick under More controls.`,
+    matters: (errors) => `Not corrected: ${errors} (see More controls).`,
     removed: (errors) => `Systematic errors corrected: ${errors}.`,
     left: (errors) => `Systematic errors not corrected (absorbed by the α’s): ${errors}.`,
   },
@@ -206,7 +205,7 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
     otherRule: 'fitted by another rule than Nav2’s: choose the rule of Nav2',
     notIdentifiable: 'not identifiable from this log',
     zero: (most) => `not significantly different from 0, at most ${most}`,
-    tooLarge: 'implausible (fitted > 1): see the failed checks and the outliers',
+    tooLarge: 'implausible (> 1): see the failed checks and the outliers',
     of: (legs, length, log, date) => `${of(legs, 'leg')} ${length} of ${log}, ${date}`,
     moved: (distance, angle) => `of ${distance} m or ${angle} rad`,
     lasted: (duration) => `of ${duration} s`,

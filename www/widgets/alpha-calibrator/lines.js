@@ -145,7 +145,7 @@ export function nav2Lines({ calibration, count, model, rule, legs, log, date }, 
     if (alpha === null) return `# alpha${i + 1}: ${say.notIdentifiable}`;
     if (isZero(alpha, interval)) return `# alpha${i + 1}: ${say.zero(mostOf(scaled(interval, inflation)))}`;
     const value = fixed(inflation * alpha, scaled(interval, inflation));
-    if (alpha > MOST) return `# alpha${i + 1}: ${value}, ${say.tooLarge}`;
+    if (inflation * alpha > MOST) return `# alpha${i + 1}: ${value}, ${say.tooLarge}`;
     return `alpha${i + 1}: ${double(value)}  # ${say.fitted(fixed(alpha, interval), between(interval))}`;
   });
   // A line break in a file's name would end the comment.

@@ -5,9 +5,9 @@ import { words } from '../../messages/registry.js';
 import { radioGroup, rich } from '../../ui/controls.js';
 import { NOTHING } from '../../ui/format.js';
 import { plot } from '../../ui/plot.js';
-import { adviceOf, isZero, neededFor } from './lines.js';
+import { adviceOf, alphaOrBound, isZero, neededFor } from './lines.js';
 import { COMPONENTS } from './settings.js';
-import { alphaName, significantly, thousandths } from './words.js';
+import { alphaName, localized, thousandths } from './words.js';
 
 /**
  * @import { CalibrationPanel } from '../../types.d.ts'
@@ -35,7 +35,7 @@ export function panels(figure) {
 }
 
 /** Panels with their plots; none without legs. @param {Figure} figure */
-export function panelsOf({ machine, reading: { config, legs }, state: { own: { driver } } }) {
+function panelsOf({ machine, reading: { config, legs }, state: { own: { driver } } }) {
   const say = words.calibrator.panels;
   const axes = config.model === 'velocity' ? { turn: say.turnRate, way: say.speed } : { turn: say.turn, way: say.way };
   const all = legs.count > 0 ? (machine?.panels(driver) ?? []) : [];
@@ -68,7 +68,7 @@ function panelPlot({ alpha, x, y, error, slope, interval }, kind, axis) {
     { name: words.calibrator.alphas.interval, role: 'cloud', area: true, x: [0, last], y: [0, scaled(middle * last)], error: [0, scaled(((high - low) / 2) * last)] },
   ];
   return {
-    label: say.label(kind, String(alpha + 1), slope === null ? NOTHING : significantly(slope)),
+    label: say.label(kind, String(alpha + 1), slope === null ? NOTHING : localized(alphaOrBound(slope, interval))),
     x: { name: axis, from: 0, to: last },
     y: { name: `${kind}, ${say.axis}${unit && ` (${unit})`}`, from: scaled(from), to: scaled(highest) },
     curves: [...lines, { name: say.bins, role: 'ink', x: [], y: [] }],
@@ -93,7 +93,7 @@ function noteOf({ alpha, slope, interval }, { config: { model } }) {
  * @param {number} line its highest square
  * @returns {{ from: number, to: number }}
  */
-export function axisOfSquares(squares, error, line) {
+function axisOfSquares(squares, error, line) {
   const [lowest, highest] = [Math.min(0, ...squares), Math.max(0, line, ...squares)];
   const ends = (/** @type {number} */ side) => squares.map((square, i) => square + side * error[i]);
   const room = (highest - lowest) / 2;

@@ -51,7 +51,7 @@ const SHORTEST = 0.01;
 const LISTED = 10;
 
 /** Quantiles 0.5, 0.95 and 0.999 of χ² with 0 to 3 degrees of freedom. */
-export const CHI2 = [[0, 0, 0], [0.455, 3.841, 10.828], [1.386, 5.991, 13.816], [2.366, 7.815, 16.266]];
+const CHI2 = [[0, 0, 0], [0.455, 3.841, 10.828], [1.386, 5.991, 13.816], [2.366, 7.815, 16.266]];
 
 /**
  * Returns the class of each leg: the index of the first quantile that its squared Mahalanobis distance does not exceed.
@@ -70,7 +70,7 @@ export function classesOf({ count, squared, residuals }) {
 export const observedOf = (residuals, leg) => residuals.subarray(3 * leg, 3 * leg + 3).reduce((count, residual) => count + Number(!Number.isNaN(residual)), 0);
 
 /** Returns the legs with the largest residuals, the largest first. @param {Pick<CalibrationLegs, 'squared'>} legs */
-export function worstOf({ squared }) {
+function worstOf({ squared }) {
   const least = squared.toSorted()[Math.max(0, squared.length - LISTED)];
   const candidates = [...squared.keys()].filter((leg) => squared[leg] >= least);
   return candidates.sort((one, other) => squared[other] - squared[one]).slice(0, LISTED);

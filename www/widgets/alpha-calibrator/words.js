@@ -1,7 +1,7 @@
 /** Texts of the Alpha Calibrator in the present language. */
 
 import { addEnglish, words } from '../../messages/registry.js';
-import { counted, fixed, percent, powerOfTen, rounded, significant } from '../../ui/format.js';
+import { counted, fixed, percent, powerOfTen } from '../../ui/format.js';
 import { en } from './en.js';
 import { isLocalizer } from './lines.js';
 import { uncorrectedText } from './systematic.js';
@@ -38,7 +38,7 @@ export function judgementOf(reading, log) {
 }
 
 /** Returns what a failed check means and what to do. @param {CalibrationCheck} check */
-export const messageOf = ({ name, passed, message }) => (passed ? '' : (words.calibrator.checks.messages[name] ?? message.replaceAll("'", '’')));
+export const messageOf = ({ name, passed, message }) => (passed ? '' : words.calibrator.checks.message(name, message));
 
 /** Prints the value of a check, or a limit of it. @param {CalibrationCheck['name']} name @param {number} value */
 export function checked(name, value) {
@@ -70,9 +70,6 @@ export const alphaName = (index) => String.fromCharCode(0x2081 + index);
 
 /** Prints a number that is in the format of files, as 1.5e-7. @param {string} number */
 export const localized = (number) => number.replace('.', fixed(0.5, 1)[1]).replace(/e(-?\d+)$/, (_, exponent) => `·${powerOfTen(Number(exponent))}`);
-
-/** Prints an α with three digits, or two with a power of ten. @param {number} alpha */
-export const significantly = (alpha) => (alpha >= 1e-4 ? rounded(alpha, 3) : significant(alpha, 2));
 
 /**
  * Scales small numbers by a power of 1000, as they have no room beside an axis.

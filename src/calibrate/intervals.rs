@@ -183,9 +183,11 @@ pub(super) fn identifiability(
     free: &Free,
     observations: &[Observation],
 ) -> Vec<Option<NotIdentifiable>> {
+    // An α that is 0 in this log may be none of the robot: it is unknown like the others.
+    let unknown = parameters.map(|parameter| parameter.max(f64::MIN_POSITIVE));
     let of = |alpha: usize| {
         let marginal = expansion.information[(alpha, alpha)];
-        let conditional = conditional_information(expansion, parameters, free, alpha);
+        let conditional = conditional_information(expansion, &unknown, free, alpha);
         if conditional >= MIN_INFORMATION && conditional >= MIN_FREE_INFORMATION * marginal {
             return None;
         }

@@ -1,9 +1,16 @@
 //! Calibration of logs whose α's and errors are known.
 
 mod accuracy;
+mod checks;
+mod errors;
+mod identifiability;
+mod likelihood;
+mod logs;
 mod simulated;
+mod windows;
 
-use motion::calibrate::{Calibration, Drive, Options, Trajectory, calibrate};
+use motion::NoiseKind;
+use motion::calibrate::{Calibration, Drive, Model, Options, Trajectory, calibrate};
 use simulated::Simulation;
 
 /// Returns the calibration of a simulated log.
@@ -14,4 +21,9 @@ fn calibrated(simulation: &Simulation) -> Calibration {
 /// Returns the calibration of odometry and reference.
 fn calibrated_log([odometry, reference]: &[Trajectory; 2], options: &Options) -> Calibration {
     calibrate(&[Drive { odometry, reference }], options).expect("legs enough")
+}
+
+/// Default options.
+fn options_of(model: Model) -> Options {
+    Simulation::of(model, NoiseKind::Normal, 0, 0).options()
 }

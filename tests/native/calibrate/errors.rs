@@ -1,0 +1,257 @@
+//! Systematic errors: found, corrected where they are constant, and no reason for other α's.
+
+use super::simulated::{ALPHAS, MODELS, Simulation};
+use super::{calibrated, calibrated_log, options_of};
+use motion::NoiseKind;
+use motion::calibrate::{
+    CalibrateError, Calibration, Drive, LegLength, Model, Options, Systematic, SystematicError, Trajectory,
+    calibrate,
+};
+use motion::geom::se2::{SE2, wrap_angle};
+use motion::models::OdometryRule;
+use nalgebra::Vector3;
+use rand::{RngExt, SeedableRng};
+use rand_xoshiro::Xoshiro256PlusPlus;
+use std::f64::consts::{FRAC_PI_2, PI};
+
+const NAV2: Model = Model::Odometry(OdometryRule::Nav2);
+
+fn with_errors(model: Model, count: usize, errors: Systematic) -> Simulation {
+    Simulation { errors, ..Simulation::of(model, NoiseKind::Normal, count, 77) }
+}
+
+fn trajectory(samples: impl IntoIterator<Item = (f64, SE2)>) -> Trajectory {
+    Trajectory::new(samples.into_iter().collect::<Vec<_>>()).expect("times rise")
+}
+
+/// An error may be off by four of its standard errors: one of sixteen thousand is. Below a millimetre, a millisecond or a milliradian the
+/// products of the noises matter too.
+fn recovers(calibration: &Calibration, error: SystematicError, truth: f64) {
+    let std = calibration.systematic_stds[error as usize].expect("identifiable");
+    let off = wrap_angle(calibration.systematic.get(error) - truth).abs();
+    assert!(off < 4.0 * std.max(1e-3) && off < 0.05, "{error:?} is off by {off}, {std}");
+}
+
+#[test]
+fn a_mount_yaw_of_any_size_and_a_lever_arm_are_found() {
+    for yaw in [0.07, FRAC_PI_2, -2.6, PI] {
+        for model in MODELS {
+            let errors = Systematic { mount_yaw: yaw, lever_arm: [0.3, -0.2], ..Systematic::NONE };
+            let calibration = calibrated(&with_errors(model, 500, errors));
+            recovers(&calibration, SystematicError::MountYaw, yaw);
+            recovers(&calibration, SystematicError::LeverArmAhead, 0.3);
+            recovers(&calibration, SystematicError::LeverArmLeft, -0.2);
+            // The worst known α has a standard error of 13 %, of which four are allowed.
+            for (alpha, truth) in calibration.alphas.iter().zip(ALPHAS) {
+                let ratio = alpha.expect("identifiable") / truth;
+                assert!((ratio - 1.0).abs() < 0.5, "{model:?} {yaw}: {:?}", calibration.alphas);
+            }
+        }
+    }
+}
+
+#[test]
+fn clocks_with_any_offset_are_aligned() {
+    for offset in [-1.7e9, -4000.0, 0.12, 7.25, 15.12, 1.7e9] {
+        let errors = Systematic { clock_offset: offset, ..Systematic::NONE };
+        let calibration = calibrated(&with_errors(NAV2, 500, errors));
+        recovers(&calibration, SystematicError::ClockOffset, offset);
+        assert!(calibration.legs.len() > 490, "{offset}: {}", calibration.legs.len());
+    }
+}
+
+/// A reference that begins anew every twenty seconds with another heading, one that sees a third of the time, and one that was there for a
+/// fifth of the drive.
+#[test]
+fn clocks_are_aligned_by_the_turns_of_a_broken_reference() {
+    let errors = Systematic { clock_offset: 3.2, ..Systematic::NONE };
+    let simulation = with_errors(NAV2, 2000, errors);
+    let [odometry, reference] = simulation.log();
+    let rows = reference.samples().len();
+    let mut rng = Xoshiro256PlusPlus::seed_from_u64(2);
+    let mut turned = 0.0;
+    let anew = trajectory(reference.samples().enumerate().map(|(row, (time, pose))| {
+        if row % 400 == 0 {
+            turned = rng.random_range(-3.0..3.0);
+        }
+        (time, SE2::new(0.0, 0.0, turned) * pose)
+    }));
+    let seldom = trajectory(reference.samples().filter(|(time, _)| time.rem_euclid(60.0) < 20.0));
+    let shortly = trajectory(reference.samples().skip(rows / 2).take(rows / 5));
+    for broken in [anew.with_breaks_before((0..rows).step_by(400)), seldom, shortly] {
+        let calibration = calibrated_log(&[odometry.clone(), broken], &simulation.options());
+        recovers(&calibration, SystematicError::ClockOffset, 3.2);
+    }
+}
+
+#[test]
+fn trajectories_without_a_common_time_are_refused() {
+    let refused = |odometry: &Trajectory, reference: &Trajectory| {
+        calibrate(&[Drive { odometry, reference }], &options_of(NAV2))
+            .map(|calibration| calibration.systematic)
+    };
+    let later = |log: &Trajectory, by: f64| trajectory(log.samples().map(|(time, pose)| (time + by, pose)));
+    let [odometry, _] = Simulation::of(NAV2, NoiseKind::Normal, 500, 6).log();
+    let [_, of_another] = Simulation::of(NAV2, NoiseKind::Normal, 500, 7).log();
+    assert_eq!(refused(&odometry, &later(&of_another, 1e6)), Err(CalibrateError::Apart));
+    // Two that lead straight on are taken as they are, if they overlap at all.
+    let straight = |from: f64| {
+        trajectory(
+            (0..1000).map(|row| (from + 0.1 * f64::from(row), SE2::new(0.05 * f64::from(row), 0.0, 0.0))),
+        )
+    };
+    assert_eq!(refused(&straight(0.0), &straight(70.0)).map(|found| found.clock_offset), Ok(0.0));
+    assert_eq!(refused(&straight(0.0), &straight(100.0)), Err(CalibrateError::Apart));
+}
+
+#[test]
+fn too_few_legs_are_refused() {
+    let simulation = Simulation::of(Model::Velocity, NoiseKind::Normal, 7, 1);
+    let [odometry, reference] = simulation.log();
+    let refused = calibrate(&[Drive { odometry: &odometry, reference: &reference }], &simulation.options());
+    assert!(matches!(refused, Err(CalibrateError::TooFewLegs { legs: 6 | 7 })));
+}
+
+/// A mount of 0.07 rad turns each rotation by as much: on legs of a quarter of a metre that is an α₂ of 0.08, and more on the shorter ones of
+/// turns. Where the noise of the reference is estimated, it takes the error: both headings of a leg are wrong by as much.
+#[test]
+fn an_error_that_is_not_corrected_is_noise_of_the_wheels_or_of_the_reference() {
+    let simulation = with_errors(NAV2, 600, Systematic { mount_yaw: 0.07, ..Systematic::NONE });
+    let log = simulation.log();
+    let exact = Options { position_std: Some(0.0), yaw_std: Some(0.0), ..simulation.options() };
+    let left = |options: Options| calibrated_log(&log, &Options { correct: [Some(false); 6], ..options });
+    let [corrected, estimated, exact] =
+        [calibrated_log(&log, &exact), left(simulation.options()), left(exact)];
+    let second = |calibration: &Calibration| calibration.alphas[1].expect("identifiable");
+    let added = second(&exact) - second(&corrected);
+    assert!((0.05..0.2).contains(&added), "{added}");
+    let ratio = second(&estimated) / second(&corrected);
+    assert!((0.7..1.5).contains(&ratio), "{ratio}");
+    let yaw = estimated.reference_noise[1].value;
+    assert!((yaw / 0.07 - 1.0).abs() < 0.1, "{yaw}");
+    // It is reported all the same.
+    assert_eq!(
+        exact.interval_of(SystematicError::MountYaw),
+        corrected.interval_of(SystematicError::MountYaw)
+    );
+    assert_eq!((exact.corrected, exact.is_corrected), (Systematic::NONE, [false; 6]));
+}
+
+#[test]
+fn an_error_that_the_log_does_not_identify_is_not_corrected() {
+    let simulation = Simulation { straight: 1.0, ..Simulation::of(NAV2, NoiseKind::Normal, 600, 4) };
+    let calibration = calibrated(&simulation);
+    let unknown = |error: SystematicError| calibration.systematic_stds[error as usize].is_none();
+    assert!(unknown(SystematicError::TurnScale) && unknown(SystematicError::LeverArmAhead));
+    for error in SystematicError::ALL.into_iter().filter(|error| unknown(*error)) {
+        assert!(!calibration.is_corrected[error as usize], "{error:?}");
+        assert_eq!(calibration.corrected.get(error), Systematic::NONE.get(error), "{error:?}");
+    }
+}
+
+/// Where wheels do not err, all errors are exact but for rounding, also where the reference has fewer rows, and between those of the
+/// odometry.
+#[test]
+fn errors_of_a_robot_without_noise_are_exact() {
+    const OFFSET: f64 = 0.123;
+    let (mut pose, mut samples) = (SE2::identity(), Vec::new());
+    for row in 0..20_000_u32 {
+        samples.push((0.01 * f64::from(row), pose));
+        let phase = row as usize / 170;
+        let turn = [0.7, -0.5, 0.9][phase / 3 % 3];
+        let twist = [[0.0, turn], [0.4, 0.0], [0.4, 0.3]][phase % 3];
+        pose = pose.boxplus(Vector3::new(twist[0], 0.0, twist[1]) * 0.01);
+    }
+    let odometry = trajectory(samples.iter().copied().step_by(2));
+    for (first, every) in [(0, 2), (0, 10), (7, 50), (7, 100)] {
+        let later = samples.iter().skip(first).step_by(every).map(|(time, pose)| (time + OFFSET, *pose));
+        let log = [odometry.clone(), trajectory(later)];
+        let calibration =
+            calibrated_log(&log, &Options { correct: [Some(true); 6], ..options_of(MODELS[0]) });
+        let truth = Systematic { clock_offset: OFFSET, ..Systematic::NONE };
+        for error in SystematicError::ALL {
+            let off = calibration.systematic.get(error) - truth.get(error);
+            assert!(off.abs() < 1e-6, "{error:?} is off by {off}, every {every}");
+        }
+        assert!(
+            calibration.alphas.iter().all(|alpha| alpha.is_none_or(|alpha| alpha < 1e-7)),
+            "every {every}"
+        );
+    }
+}
+
+/// Standard errors fall as the root of the number of legs, whether they are of one drive or of four. Each drive has a clock of its own.
+#[test]
+fn four_drives_tell_as_much_as_one_that_is_as_long() {
+    let clock = |clock_offset: f64, count: usize, seed: u64| {
+        let errors = Systematic { clock_offset, ..Systematic::NONE };
+        Simulation { errors, seed, ..with_errors(NAV2, count, errors) }
+    };
+    let logs: Vec<[Trajectory; 2]> = [0.0, 0.4, -3.0, 900.0]
+        .into_iter()
+        .zip(20..)
+        .map(|(offset, seed)| clock(offset, 300, seed).log())
+        .collect();
+    let drives: Vec<Drive> = logs.iter().map(|[odometry, reference]| Drive { odometry, reference }).collect();
+    let four = calibrate(&drives, &options_of(NAV2)).expect("legs enough");
+    let one = calibrated(&clock(0.0, 1200, 20));
+    assert!(four.legs.len() > 1190, "{}", four.legs.len());
+    for alpha in 0..4 {
+        let width = |calibration: &Calibration| {
+            let [low, high] = calibration.intervals[alpha].expect("identifiable");
+            (high - low) / calibration.alphas[alpha].expect("identifiable")
+        };
+        let ratio = width(&four) / width(&one);
+        assert!((ratio - 1.0).abs() < 0.3, "α{}: {ratio}", alpha + 1);
+        // Standard errors are at most 9 %, of which four are allowed.
+        let fitted = four.alphas[alpha].expect("identifiable") / ALPHAS[alpha];
+        assert!((fitted - 1.0).abs() < 0.36, "α{}: {fitted}", alpha + 1);
+    }
+}
+
+/// Encoders tremble by 3 mm and 3 mrad, half of the time where the robot stands: legs of half a second do not tell that the wheels turn
+/// without the robot.
+#[test]
+fn standing_robots_whose_encoders_tremble_do_not_change_the_turn_scale() {
+    let mut rng = Xoshiro256PlusPlus::seed_from_u64(5);
+    let mut noise = |most: f64| rng.random_range(-most..most);
+    let (mut read, mut truth, mut rows) = (SE2::identity(), SE2::identity(), Vec::new());
+    for row in 0..16_000_usize {
+        let phase = row / 40;
+        let twist = match phase % 4 {
+            0 => [0.4, if phase % 8 == 0 { 0.5 } else { -0.6 }],
+            2 => [0.0, if phase % 8 == 2 { 0.7 } else { -0.5 }],
+            _ => [0.0, 0.0],
+        };
+        let twist = Vector3::new(twist[0], 0.0, twist[1]) * 0.05;
+        let shown = SE2::new(noise(0.003), noise(0.003), noise(0.003));
+        rows.push([(0.05 * row as f64, read * shown), (0.05 * row as f64, truth)]);
+        read = read.boxplus(twist);
+        let moves = twist.norm() > 0.0;
+        let off = if moves { Vector3::new(noise(0.004), 0.0, noise(0.008)) } else { Vector3::zeros() };
+        truth = truth.boxplus(twist + off);
+    }
+    let log = [0, 1].map(|which| trajectory(rows.iter().map(|row| row[which])));
+    let options = Options { legs: LegLength::Duration { duration: 0.5 }, ..options_of(NAV2) };
+    let calibration = calibrated_log(&log, &options);
+    recovers(&calibration, SystematicError::TurnScale, 1.0);
+    recovers(&calibration, SystematicError::DistanceScale, 1.0);
+}
+
+/// A reference with one row a leg has the ends of legs at its rows. Its α's are those of all rows: of the same legs or so, so that they differ
+/// by less than their standard errors of 8 %.
+#[test]
+fn one_row_a_leg_is_enough_for_the_reference() {
+    // Legs of a second: the noise of each ends where the row is.
+    let legs = LegLength::Duration { duration: 1.0 };
+    let simulation = Simulation { legs, ..Simulation::of(NAV2, NoiseKind::Normal, 800, 3) };
+    let [odometry, reference] = simulation.log();
+    let sparse = trajectory(reference.samples().step_by(20));
+    let whole = calibrated_log(&[odometry.clone(), reference], &simulation.options());
+    let few = calibrated_log(&[odometry, sparse], &simulation.options());
+    assert!(few.legs.len() > 780, "{}", few.legs.len());
+    for (one, other) in few.alphas.iter().zip(&whole.alphas) {
+        let ratio = one.expect("identifiable") / other.expect("identifiable");
+        assert!((ratio - 1.0).abs() < 0.08, "{ratio}");
+    }
+}

@@ -1,0 +1,121 @@
+//! α's that a log does not identify: the reason, and the drive that identifies them.
+
+use super::simulated::{ALPHAS, MODELS, Simulation};
+use super::{calibrated, calibrated_log};
+use motion::NoiseKind;
+use motion::calibrate::NotIdentifiable::{
+    self, Collinear, InsufficientRotation, InsufficientTranslation, ReferenceTooNoisy,
+};
+use motion::calibrate::{Calibration, Model, Options, Verdict};
+use motion::models::OdometryRule;
+
+type Drive = fn(usize) -> [f64; 2];
+
+fn driven(model: Model, drive: Drive) -> Calibration {
+    calibrated(&Simulation { drive: Some(drive), ..Simulation::of(model, NoiseKind::Normal, 400, 17) })
+}
+
+const STRAIGHT: [f64; 2] = [0.3, 0.0];
+const SPIN: [f64; 2] = [0.0, 0.6];
+const BEND: [f64; 2] = [0.2, 0.8];
+
+/// Drive that lacks something, with the reason for each α.
+struct Lacking {
+    name: &'static str,
+    drive: Drive,
+    odometry: [Option<NotIdentifiable>; 5],
+    velocity: [Option<NotIdentifiable>; 6],
+    /// Drive with fifty legs of what it lacks. The velocity model sees no executed turn rate in a turn on the spot.
+    complete: [Drive; 2],
+}
+
+const LACKING: [Lacking; 3] = [
+    Lacking {
+        name: "straight",
+        drive: |_| STRAIGHT,
+        odometry: [Some(InsufficientRotation), None, None, Some(InsufficientRotation), None],
+        velocity: [
+            None,
+            Some(InsufficientRotation),
+            None,
+            Some(InsufficientRotation),
+            None,
+            Some(InsufficientRotation),
+        ],
+        complete: [
+            |leg| if leg.is_multiple_of(8) { SPIN } else { STRAIGHT },
+            |leg| if leg.is_multiple_of(8) { BEND } else { STRAIGHT },
+        ],
+    },
+    Lacking {
+        name: "on the spot",
+        drive: |_| SPIN,
+        odometry: [
+            None,
+            Some(InsufficientTranslation),
+            Some(InsufficientTranslation),
+            None,
+            Some(InsufficientTranslation),
+        ],
+        velocity: [
+            Some(InsufficientTranslation),
+            None,
+            Some(InsufficientTranslation),
+            Some(InsufficientRotation),
+            Some(InsufficientTranslation),
+            Some(InsufficientRotation),
+        ],
+        complete: [
+            |leg| if leg.is_multiple_of(8) { STRAIGHT } else { SPIN },
+            |leg| [SPIN, STRAIGHT, BEND, STRAIGHT, BEND, STRAIGHT, BEND, BEND][leg % 8],
+        ],
+    },
+    // One radius but for a few hundredths.
+    Lacking {
+        name: "one bend",
+        drive: |leg| [0.3, if leg.is_multiple_of(2) { 0.29 } else { 0.31 }],
+        odometry: [Some(Collinear); 5],
+        velocity: [Some(Collinear); 6],
+        complete: [
+            |leg| [[0.3, 0.3], STRAIGHT, [0.3, 0.3], SPIN][leg % 4],
+            |leg| [[0.3, 0.3], STRAIGHT, [0.3, 0.3], BEND][leg % 4],
+        ],
+    },
+];
+
+#[test]
+fn each_drive_has_its_reason_and_a_complete_one_identifies_all_alphas() {
+    let (mut held, mut intervals) = (0, 0);
+    for model in MODELS {
+        for Lacking { name, drive, odometry, velocity, complete } in &LACKING {
+            let by_commands = model == Model::Velocity;
+            let expected: &[_] = if by_commands { velocity } else { odometry };
+            let calibration = driven(model, *drive);
+            assert_eq!(calibration.not_identifiable, expected[..model.alphas()], "{model:?} {name}");
+            for (k, reason) in calibration.not_identifiable.iter().enumerate() {
+                let known = [calibration.alphas[k].is_some(), calibration.intervals[k].is_some()];
+                assert_eq!(known, [reason.is_none(); 2], "{model:?} {name}: α{}", k + 1);
+            }
+            let whole = driven(model, complete[usize::from(by_commands)]);
+            assert!(whole.not_identifiable.iter().all(Option::is_none), "{model:?} {name}");
+            for (interval, truth) in whole.intervals.iter().zip(ALPHAS) {
+                let [low, high] = interval.expect("identifiable");
+                held += u32::from((low..=high).contains(&truth));
+                intervals += 1;
+            }
+        }
+    }
+    // A share of 0.95 of 69 intervals has the standard error 0.026, of which three are allowed.
+    let share = f64::from(held) / f64::from(intervals);
+    assert!(share > 0.95 - 3.0 * 0.026, "{share}");
+}
+
+/// Errors of 100 m and 100 rad, as the options have it: an α of 1 makes a leg err by 0.3 m and 0.3 rad.
+#[test]
+fn a_reference_that_hides_the_noise_of_the_wheels_is_too_noisy() {
+    let made = Simulation::of(Model::Odometry(OdometryRule::Nav2), NoiseKind::Normal, 400, 32);
+    let options = Options { position_std: Some(100.0), yaw_std: Some(100.0), ..made.options() };
+    let calibration = calibrated_log(&made.log(), &options);
+    assert_eq!(calibration.not_identifiable, [Some(ReferenceTooNoisy); 4]);
+    assert_eq!(calibration.diagnostics.verdict, Verdict::Unusable);
+}

@@ -1,0 +1,220 @@
+//! Trajectories, and the legs that they are cut into.
+
+use motion::calibrate::{Leg, LegLength, LostLegs, Trajectory, split_into_legs};
+use motion::geom::se2::SE2;
+use nalgebra::Vector3;
+
+const QUARTER: LegLength = LegLength::Displacement { distance: 0.25, angle: 0.2 };
+
+/// Robot that drives straight on, a row each 0.1 s.
+fn straight(rows: usize, step: f64) -> Trajectory {
+    trajectory((0..rows).map(|row| (0.1 * row as f64, SE2::new(step * row as f64, 0.0, 0.0))))
+}
+
+fn trajectory(samples: impl IntoIterator<Item = (f64, SE2)>) -> Trajectory {
+    Trajectory::new(samples.into_iter().collect::<Vec<_>>()).expect("times rise")
+}
+
+/// Returns the trajectory without the rows between two of them.
+fn without(whole: &Trajectory, from: usize, to: usize) -> Trajectory {
+    trajectory(whole.samples().enumerate().filter(|(row, _)| !(from < *row && *row < to)).map(|(_, row)| row))
+}
+
+fn times(trajectory: &Trajectory) -> Vec<f64> {
+    trajectory.samples().map(|(time, _)| time).collect()
+}
+
+#[test]
+fn legs_end_as_amcl_ends_them() {
+    let odometry = straight(41, 0.0625);
+    let (legs, lost) = split_into_legs(&odometry, &odometry, QUARTER, 0.0);
+    // At exactly a quarter of a metre not yet: five steps each.
+    assert_eq!((legs.len(), lost), (8, LostLegs::default()));
+    for (i, leg) in legs.iter().enumerate() {
+        assert_eq!(leg.odometry[1].x() - leg.odometry[0].x(), 0.3125);
+        assert_eq!(leg.times[0], times(&odometry)[5 * i]);
+        assert_eq!(leg.follows, i > 0);
+    }
+    // Each axis by itself: 0.24 m along both is no leg, though it is 0.34 m away.
+    let diagonal = trajectory([(0.0, 0.0), (0.1, 0.24), (0.2, 0.26)].map(|(t, x)| (t, SE2::new(x, x, 0.0))));
+    assert_eq!(split_into_legs(&diagonal, &diagonal, QUARTER, 0.0).0[0].times, [0.0, 0.2]);
+    // Across the half turn the angle is small.
+    let turning = [(0.0, 3.1), (0.1, -3.1), (0.2, -2.9)].map(|(t, theta)| (t, SE2::new(0.0, 0.0, theta)));
+    let turning = trajectory(turning);
+    assert_eq!(split_into_legs(&turning, &turning, QUARTER, 0.0).0[0].times, [0.0, 0.2]);
+    let timed = split_into_legs(&odometry, &odometry, LegLength::Duration { duration: 0.5 }, 0.0).0;
+    assert_eq!(timed.len(), 8);
+}
+
+/// Five steps make a leg. A pause of six steps after the first one of a leg makes one of 0.44 m, after the fourth one of 0.63 m, more than
+/// twice as long as asked for.
+#[test]
+fn a_leg_leads_across_a_pause_if_it_stays_short_enough() {
+    let whole = straight(101, 0.0625);
+    for (after, ends, across_pauses) in [(1, 37, 0), (4, 40, 1)] {
+        let paused = without(&whole, 30 + after, 30 + after + 6);
+        assert_eq!(paused.gaps(), 1);
+        let (legs, lost) = split_into_legs(&paused, &whole, QUARTER, 0.0);
+        assert_eq!(lost, LostLegs { across_pauses, ..LostLegs::default() });
+        let across = legs.iter().find(|leg| leg.times[0] == times(&whole)[30]);
+        assert_eq!(across.map(|leg| leg.times[1]), (across_pauses == 0).then_some(times(&whole)[ends]));
+        // The leg after one that was lost does not share an end with the leg before it in the list.
+        let after = legs.iter().find(|leg| leg.times[0] == times(&whole)[ends]).expect("it goes on");
+        assert_eq!(after.follows, across_pauses == 0);
+    }
+    // Both ends are known though the reference is not there on the way.
+    let (legs, lost) = split_into_legs(&whole, &without(&whole, 30, 35), QUARTER, 0.0);
+    assert_eq!((legs, lost), split_into_legs(&whole, &whole, QUARTER, 0.0));
+}
+
+#[test]
+fn lost_legs_are_counted_by_cause() {
+    let whole = straight(101, 0.05);
+    let all = split_into_legs(&whole, &whole, QUARTER, 0.0).0;
+    // A reference of the rows from 12 to 66: it begins after two of sixteen legs and ends before the last five.
+    let shorter = trajectory(whole.samples().skip(12).take(55));
+    let (legs, lost) = split_into_legs(&whole, &shorter, QUARTER, 0.0);
+    assert_eq!(
+        legs.iter().map(|leg| leg.times).collect::<Vec<_>>(),
+        all[2..11].iter().map(|leg| leg.times).collect::<Vec<_>>()
+    );
+    assert!(lost.without_reference >= 4 && lost.total() == lost.without_reference, "{lost:?}");
+    // It stands for 4 s, four legs of a second.
+    let standing = trajectory(whole.samples().map(|(time, pose)| {
+        (time, SE2::new(if time < 3.0 { pose.x() } else { 1.5 + (pose.x() - 3.5).max(0.0) }, 0.0, 0.0))
+    }));
+    let (legs, lost) = split_into_legs(&standing, &standing, LegLength::Duration { duration: 1.0 }, 0.0);
+    assert_eq!((legs.len(), lost), (6, LostLegs { standing: 4, ..LostLegs::default() }));
+}
+
+#[test]
+fn no_leg_leads_across_a_break() {
+    let whole = straight(101, 0.1);
+    let all = split_into_legs(&whole, &whole, QUARTER, 0.0).0;
+    let breaks = [17, 33, 34, 70];
+    let broken = whole.clone().with_breaks_before(breaks);
+    assert_eq!([whole.gaps(), broken.gaps()], [0, 4]);
+    let spans = |leg: &Leg| {
+        let across = |row: usize| leg.times[0] < times(&whole)[row] && times(&whole)[row] <= leg.times[1];
+        breaks.into_iter().any(across)
+    };
+    let kept: Vec<[f64; 2]> = all.iter().filter(|leg| !spans(leg)).map(|leg| leg.times).collect();
+    // A break of the reference takes the legs across it, and no others.
+    let (legs, lost) = split_into_legs(&whole, &broken, QUARTER, 0.0);
+    assert_eq!(legs.iter().map(|leg| leg.times).collect::<Vec<_>>(), kept);
+    assert_eq!(lost, LostLegs { across_breaks: all.len() - kept.len(), ..LostLegs::default() });
+    // A leg after a break of the odometry begins there.
+    let (legs, lost) = split_into_legs(&broken, &whole, QUARTER, 0.0);
+    assert!(legs.len() > 25 && !legs.iter().any(spans));
+    assert_eq!(lost, LostLegs { across_breaks: 4, ..LostLegs::default() });
+    assert!([17, 34, 70].iter().all(|row| legs.iter().any(|leg| leg.times[0] == times(&whole)[*row])));
+    // There is no pose between the rows, and no break before the first row or after the last.
+    assert!(broken.pose_at(times(&whole)[16] + 0.01).is_none());
+    assert!([16, 17].iter().all(|row| broken.pose_at(times(&whole)[*row]).is_some()));
+    assert_eq!(whole.with_breaks_before([0, 101]).gaps(), 0);
+}
+
+#[test]
+fn a_declared_jump_is_in_no_velocity() {
+    let jumps = |row: usize| if (40..43).contains(&row) { 5.0 } else { 0.0 };
+    let rows = straight(101, 0.1);
+    let rows =
+        rows.samples().enumerate().map(|(row, (time, pose))| (time, SE2::new(pose.x(), jumps(row), 0.0)));
+    let jumping = trajectory(rows).with_breaks_before([40, 43]);
+    // Some legs are the three rows between the jumps.
+    let length = LegLength::Displacement { distance: 0.15, angle: 0.2 };
+    let legs = split_into_legs(&jumping, &jumping, length, 0.0).0;
+    assert!(legs.len() > 45 && legs.iter().any(|leg| leg.odometry[0].y() == 5.0));
+    for leg in legs {
+        assert!(leg.velocities.iter().all(|velocity| (velocity - Vector3::x()).norm() < 1e-9));
+    }
+}
+
+#[test]
+fn both_ends_of_a_leg_are_at_one_moment_of_both_clocks() {
+    let odometry = straight(101, 0.1);
+    let ahead = trajectory(odometry.samples().map(|(time, pose)| (time + 3.0, pose)));
+    let legs = split_into_legs(&odometry, &ahead, LegLength::AMCL, 3.0).0;
+    assert!(legs.len() > 25);
+    for leg in legs {
+        for (read, seen) in leg.odometry.iter().zip(leg.reference) {
+            assert!(read.boxminus(&seen).norm() < 1e-9);
+        }
+    }
+}
+
+#[test]
+fn a_leg_ends_at_a_sample_of_the_sparser_trajectory() {
+    let whole = straight(1001, 0.05);
+    let every = |first: usize, step: usize| trajectory(whole.samples().skip(first).step_by(step));
+    let has = |samples: &Trajectory, time: f64| times(samples).contains(&time);
+    // With a sample each 0.4 s or each 0.8 s, a leg of half a second ends at the nearest.
+    for (step, duration) in [(4, 0.5), (8, 0.8)] {
+        let sparse = every(3, step);
+        let length = LegLength::Duration { duration: 0.5 };
+        let legs = split_into_legs(&whole, &sparse, length, 0.0).0;
+        assert!(legs.len() > 100);
+        for leg in &legs {
+            assert!(leg.times.iter().all(|time| has(&sparse, *time)), "{:?}", leg.times);
+            assert!((leg.duration() - duration).abs() < 0.31, "{}", leg.duration());
+            assert_eq!(leg.odometry, leg.reference);
+        }
+        assert!(legs.windows(2).all(|pair| pair[0].times[1] == pair[1].times[0]));
+        // An odometry with fewer samples has the ends at its own.
+        let legs = split_into_legs(&sparse, &whole, length, 0.01).0;
+        assert!(legs.len() > 100 && legs.iter().all(|leg| leg.times.iter().all(|time| has(&sparse, *time))));
+    }
+}
+
+#[test]
+fn poses_between_samples_lie_on_an_arc() {
+    let twist = Vector3::new(0.5, 0.1, 0.8);
+    let start = SE2::new(2.0, 1.0, 3.0);
+    let arc = trajectory([(1.0, start), (2.0, start.boxplus(twist))]);
+    let there = arc.pose_at(1.25).expect("inside");
+    assert!(there.boxminus(&start.boxplus(twist * 0.25)).norm() < 1e-12);
+    assert_eq!([0.99, 2.01].map(|time| arc.pose_at(time)), [None; 2]);
+}
+
+#[test]
+fn times_must_rise_and_numbers_must_be_finite() {
+    let refused = |samples: &[(f64, f64)]| {
+        let poses = samples.iter().map(|(time, x)| (*time, SE2::new(*x, 0.0, 0.0)));
+        Trajectory::new(poses).err().map(|error| error.to_string())
+    };
+    assert_eq!([refused(&[]), refused(&[(1.0, 2.0)])], [None, None]);
+    let later = "sample 2 is not later than the one before, at 1 s; allowed are times that rise";
+    assert_eq!(refused(&[(0.0, 0.0), (1.0, 0.0), (1.0, 0.0)]).as_deref(), Some(later));
+    let finite = "sample 1 has a time or a coordinate that is not finite; allowed are finite numbers";
+    assert_eq!(refused(&[(0.0, 0.0), (f64::NAN, 0.0)]).as_deref(), Some(finite));
+    assert_eq!(refused(&[(0.0, 0.0), (1.0, f64::INFINITY)]).as_deref(), Some(finite));
+    assert!(Trajectory::from_commands([(0.0, 1.0, 0.0), (1.0, f64::NAN, 0.0)]).is_err());
+}
+
+#[test]
+fn commands_are_integrated_along_arcs() {
+    let driven =
+        Trajectory::from_commands([(0.0, 1.0, 0.0), (1.0, 0.5, 1.0), (3.0, 0.0, -2.0), (4.0, 9.0, 9.0)]);
+    let driven = driven.expect("times rise");
+    // A metre ahead; an arc of a metre that turns by 2 rad, of radius ½; a turn on the spot, back to the first heading.
+    let arc = SE2::new(1.0 + 0.5 * libm::sin(2.0), 0.5 * (1.0 - libm::cos(2.0)), 2.0);
+    let expected = [SE2::identity(), SE2::new(1.0, 0.0, 0.0), arc, SE2::new(arc.x(), arc.y(), 0.0)];
+    for (time, expected) in [0.0, 1.0, 3.0, 4.0].into_iter().zip(expected) {
+        let pose = driven.pose_at(time).expect("inside");
+        assert!(pose.boxminus(&expected).norm() < 1e-12, "{pose:?} is not {expected:?}");
+    }
+}
+
+/// A command that is held for 20 s has no row of its own for 40 legs. Steps of a tenth of a second are 5 cm, half as much again at most.
+#[test]
+fn a_held_command_is_cut_between_its_rows() {
+    let held =
+        Trajectory::from_commands([(0.0, 0.5, 0.0), (20.0, 0.5, 0.0), (40.0, 0.0, 0.0)]).expect("times rise");
+    let (legs, lost) = split_into_legs(&held, &straight(401, 0.05), QUARTER, 0.0);
+    assert_eq!(lost, LostLegs::default());
+    assert!(legs.len() > 60, "{}", legs.len());
+    for leg in legs {
+        let driven = leg.odometry[1].x() - leg.odometry[0].x();
+        assert!(0.25 < driven && driven <= 0.325, "{driven}");
+    }
+}

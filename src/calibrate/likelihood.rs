@@ -41,6 +41,9 @@ pub(super) type ErrorMatrix = SMatrix<f64, ERRORS, ERRORS>;
 /// Least standard deviation of a residual (rad, m or their rates): a log without noise has a finite likelihood.
 const MIN_STD: f64 = 1e-7;
 
+/// Largest residual or derivative of one that is used.
+const MAX_ENTRY: f64 = 1e30;
+
 /// Residuals of one leg as the likelihood sees them.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Term {
@@ -115,15 +118,22 @@ impl Expansion {
 impl Term {
     pub fn new(leg: &Leg, observation: &Observation, corrected: &Systematic) -> Self {
         let residuals = Vector3::from(observation.residuals);
-        let observed = residuals.map(|residual| !residual.is_nan());
-        let mut columns = Columns::zeros();
-        columns.set_column(0, &residuals.map(|residual| if residual.is_nan() { 0.0 } else { residual }));
         let by_errors = observation.jacobian * corrected.motion_jacobian(leg, &observation.expected);
-        columns.fixed_columns_mut::<ERRORS>(1).copy_from(&by_errors);
-        let [start, end] = corrected.reference_jacobians(leg).map(|by_error| observation.jacobian * by_error);
+        // Squares of astronomic numbers would overflow: such a leg says nothing.
+        let is_sane = !residuals.iter().chain(&by_errors).any(|entry| entry.abs() > MAX_ENTRY);
+        let observed = residuals.map(|residual| is_sane && !residual.is_nan());
+        let mut columns = Columns::zeros();
+        let [mut start, mut end] =
+            corrected.reference_jacobians(leg).map(|by_error| observation.jacobian * by_error);
+        if is_sane {
+            columns.set_column(0, &residuals.map(|residual| if residual.is_nan() { 0.0 } else { residual }));
+            columns.fixed_columns_mut::<ERRORS>(1).copy_from(&by_errors);
+        } else {
+            [start, end] = [Matrix3::zeros(); 2];
+        }
         Self {
             columns,
-            coefficients: observation.coefficients,
+            coefficients: if is_sane { observation.coefficients } else { [[0.0; 2]; 3] },
             floors: observed.map(|is| if is { MIN_STD * MIN_STD } else { 1.0 }),
             start,
             end,

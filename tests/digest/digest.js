@@ -191,7 +191,7 @@ const ramps = (count) => Uint8Array.from({ length: 1024 * count }, (_, at) => {
   return [i, 255 - i, 85 * (at >> 10), 255][at & 3];
 });
 
-/** @type {(value: any) => value is ArrayLike<unknown>} */
+/** @param {any} value @returns {value is ArrayLike<unknown>} */
 const isList = (value) => Array.isArray(value) || ArrayBuffer.isView(value);
 
 /**

@@ -200,6 +200,11 @@ test('an unusable log has a sentence and no lines for Nav2', async () => {
   assert.doesNotMatch(out, /amcl:/);
 });
 
+test('the report warns of a localizer as reference', async () => {
+  const { out } = await outputOf([...FILES.slice(0, 3), file('amcl_pose.csv', readFileSync(example('reference')))]);
+  assert.match(out, new RegExp(`^Consistent: .*\\n${en.nav2.localizer}\\n`));
+});
+
 test('the report says what failed, what is lost, and what to drive', async () => {
   const { odometry: own, reference, ...options } = await callOf(FILES);
   const calibration = /** @type {any} */ (await load()).calibrate({ ...options, odometry: own, reference });

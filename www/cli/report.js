@@ -2,7 +2,7 @@
 
 import { en as shared } from '../messages/en.js';
 import { en } from '../widgets/alpha-calibrator/en.js';
-import { adviceOf, alphaOrBound, between, failedOf, fixed, nav2Lines, percent, short } from '../widgets/alpha-calibrator/lines.js';
+import { adviceOf, alphaOrBound, between, failedOf, fixed, isLocalizer, nav2Lines, percent, short } from '../widgets/alpha-calibrator/lines.js';
 
 /**
  * @typedef {[number, number] | null} Interval
@@ -46,6 +46,7 @@ export function textOf({ calibration, options, logs, start, date }) {
   const causes = Object.entries(LOST).filter(([cause]) => lost[cause] > 0).map(([cause, name]) => `${lost[cause]} ${name}`);
   return [
     verdictOf(calibration),
+    ...(logs.some(({ name }) => isLocalizer(name)) ? [en.nav2.localizer] : []),
     '',
     ...logs.flatMap(({ name, found }) => [`${name}: ${found[0]}`, ...found.slice(1).map((line) => `  ${line}`)]),
     `${legs.count} legs ${lengthOf(options.legs)}; model ${model}${model === 'odometry' ? `, rule ${rule}` : ''}`,

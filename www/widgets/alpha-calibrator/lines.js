@@ -78,25 +78,13 @@ export const isZero = (alpha, interval) => alpha !== null && Number(fixed(alpha,
 export const percent = (fraction) => (fraction !== null && Number.isFinite(fraction) ? `${short(100 * fraction)} %` : NONE);
 
 /** Upper end of an interval. @param {Interval | undefined} interval */
-export const mostOf = (interval) => short(interval?.[1] ?? null, OF_WIDTH);
+const mostOf = (interval) => short(interval?.[1] ?? null, OF_WIDTH);
 
 /** Multiplies an interval. @param {Interval} interval @param {number} factor @returns {Interval} */
 const scaled = (interval, factor) => interval && [factor * interval[0], factor * interval[1]];
 
 /** Prints an α times a factor, or its upper bound if it is not significantly different from 0. @param {number | null} alpha @param {Interval} interval */
 export const alphaOrBound = (alpha, interval, factor = 1) => (isZero(alpha, interval) ? `≤ ${mostOf(scaled(interval, factor))}` : fixed(alpha && factor * alpha, scaled(interval, factor)));
-
-/**
- * Returns the motion that an α multiplies.
- *
- * @param {string} model
- * @param {number} index of the α, from 0
- * @returns {'turn' | 'way'}
- */
-export function driverOf(model, index) {
-  if (model === 'velocity') return index % 2 ? 'turn' : 'way';
-  return index === 0 || index === 3 ? 'turn' : 'way';
-}
 
 /**
  * Returns why an α is not identifiable, and the drive that would identify it.
@@ -114,10 +102,13 @@ export function adviceOf(lacking, model, reason) {
  * Returns the reason whose advice would distinguish an α from 0.
  *
  * @param {string} model
- * @param {number} index
+ * @param {number} index of the α, from 0
  * @returns {'insufficient-rotation' | 'insufficient-translation'}
  */
-export const neededFor = (model, index) => (driverOf(model, index) === 'turn' ? 'insufficient-rotation' : 'insufficient-translation');
+export function neededFor(model, index) {
+  const isOfRotation = model === 'velocity' ? index % 2 === 1 : index === 0 || index === 3;
+  return isOfRotation ? 'insufficient-rotation' : 'insufficient-translation';
+}
 
 /**
  * Lines with the recommended α's; the fitted ones stand in comments.

@@ -121,6 +121,7 @@ const own = css`
 
   .alphas {
     max-width: none;
+    margin-bottom: 0.1em;
   }
 
   .alphas :is(th, td) {
@@ -131,8 +132,7 @@ const own = css`
   }
 
   /* Rows of 32 px, beside letters of 16 px. */
-  .alphas tbody tr:not(.axis),
-  .alphas thead tr {
+  .alphas tbody tr:not(.axis) {
     height: calc(2em / 0.84);
   }
 
@@ -223,8 +223,9 @@ const own = css`
   }
 
   .reason {
-    margin: 0;
+    margin: 0 0 0.3em;
     font-size: 0.84em;
+    line-height: 1.3;
   }
 
   .systematic :is(th, td) {
@@ -334,11 +335,11 @@ const own = css`
   /* All of it fits on a screen of 720 px. */
   @container (38em <= width < 42em) {
     canvas {
-      aspect-ratio: 5 / 3;
+      aspect-ratio: 7 / 4;
     }
 
     .one canvas {
-      aspect-ratio: 5 / 2;
+      aspect-ratio: 8 / 3;
     }
   }
 

@@ -228,13 +228,21 @@ fn reason(window: &WindowCoverage, inflation: f64) -> String {
             "The log has {count} windows of 1 m that were not used for the fit; {MIN_WINDOWS} are needed to judge it, so the fit stands as it is."
         );
     }
-    let percent = 100.0 * coverage;
+    let percent = decimal(100.0 * coverage, 1);
     if inflation == 1.0 {
         return format!(
-            "The fit covers {percent:.1} % of {count} held-out windows of 1 m, where 95 % is right."
+            "The fit covers {percent} % of {count} held-out windows of 1 m, where 95 % is right."
         );
     }
+    let [nees, inflation] = [nees, inflation].map(|number| decimal(number, 2));
     format!(
-        "The fit covers {percent:.1} % of {count} held-out windows of 1 m (NEES {nees:.2}, where 1 is right); times {inflation:.2} it covers 95 %."
+        "The fit covers {percent} % of {count} held-out windows of 1 m (NEES {nees}, where 1 is right); times {inflation} it covers 95 %."
     )
+}
+
+/// Prints a positive number with decimals. The formatting of floating-point numbers would be a twentieth of the module for a page.
+fn decimal(number: f64, decimals: usize) -> String {
+    let scale = 10_u64.pow(decimals as u32);
+    let scaled = (number * scale as f64).round() as u64;
+    format!("{}.{:0decimals$}", scaled / scale, scaled % scale)
 }

@@ -189,6 +189,12 @@ test('the report of the example, from the verdict to the lines for Nav2', async 
   assert.deepEqual(places.filter((place, i) => place < 0 || place < places[i - 1]).map((place) => places.indexOf(place)), [], out);
 });
 
+test('doc/calibration.md shows the report of the example', async () => {
+  const [, shown] = readFileSync(new URL('../../doc/calibration.md', import.meta.url), 'utf8').match(/\n```text\n(.*?)\s*```\n/s) ?? [];
+  const { out } = await outputOf(FILES);
+  assert.equal(shown.replace(/\d{4}-\d\d-\d\d$/m, '2026-01-02'), out.trimEnd());
+});
+
 test('an unusable log has a sentence and no lines for Nav2', async () => {
   const swapped = file('swapped.csv', readFileSync(example('reference'), 'utf8').replace('t,x,y', 't,y,x'));
   const { code, out } = await outputOf([...FILES.slice(0, 3), swapped]);

@@ -29,7 +29,8 @@ export const widgets = {
     const pictureOf = (/** @type {'plane' | 'twist'} */ view) =>
       machine.picture(view, xMin, yMin, xMax, yMax, columns, rows, ramps(1)).slice();
     // The native digest has no error of the area ratio.
-    const { areaRatioError: _, ...stats } = machine.stats;
+    const stats = { ...machine.stats, areaRatioError: undefined };
+    delete stats.areaRatioError;
     const told = {
       poses: machine.poses,
       twists: machine.twists,

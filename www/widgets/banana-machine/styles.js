@@ -29,8 +29,10 @@ const own = css`
     }
   }
 
+  /* Clear of the fade below the pictures. */
   .morphing {
     display: grid;
+    margin-top: 0.7em;
     grid-template-columns: 1fr auto;
     align-items: start;
     gap: 1em;

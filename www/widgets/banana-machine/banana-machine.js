@@ -24,7 +24,7 @@ import { alphaControls, commandControls, modelControls } from './controls.js';
 import { presetButtons } from '../shared/presets.js';
 import { ArcHandle } from './handle.js';
 import { IntroducedCloud } from './introduction.js';
-import { DURATION, carrying, gapsAt, ringsAt, morphControl, outlinesAt, placeOf } from './morph.js';
+import { DURATION, carrying, gapsAt, morphControl, outlinesAt, placeOf, ringsAt } from './morph.js';
 import { PlanePicture, TwistPicture } from './pictures.js';
 import { CurveMemo, readingOf } from './reading.js';
 import { markedRobot, otherReadouts, readouts, twistTable, workedExample } from './readouts.js';

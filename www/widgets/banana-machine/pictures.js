@@ -45,7 +45,7 @@ import { LINES } from './settings.js';
  *   callouts: [number, number][],
  *   rings: Float64Array[],
  *   reached: Float64Array,
- * }} Scene what both pictures are of; outlines, places of callouts, and rings around the cloud that these keep clear of are those at the morph, and the ellipse is `reached` at its end
+ * }} Scene what both pictures are of; outlines, callouts and the `rings` that these keep clear of are at the morph, the ellipse is `reached` at its end
  */
 
 /** A larger cloud is drawn as a density: dots would be one blot, and cost more than a frame. */

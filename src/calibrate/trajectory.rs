@@ -134,7 +134,7 @@ impl Trajectory {
                 samples.push((*time, pose));
                 break;
             };
-            let parts = ((next - time) / (1.5 * step)).ceil().clamp(1.0, 1e5);
+            let parts = ((next - time) / (1.5 * step)).ceil().clamp(1.0, 1e3);
             let dt = (next - time) / parts;
             for part in 0..parts as usize {
                 samples.push((time + part as f64 * dt, pose));

@@ -34,8 +34,6 @@ pub enum Unlike {
     Times(f64),
     /// Its deviation is another one in the course of the log, from 0 to 1.
     Changing(fn(f64) -> f64),
-    /// The logarithm of its variance wanders with this deviation, and forgets a tenth of it from leg to leg; the mean of the variance is 1.
-    Wandering(f64),
 }
 
 /// What a log is made with.
@@ -103,7 +101,7 @@ impl Simulation {
         let (mut speeds, mut left, mut began) = ([0.3, 0.0], 40, 0);
         // What was driven since the leg began, by what the odometry would say without its errors.
         let (mut driven, mut inside) = (SE2::identity(), Vec::new());
-        let (mut legs, mut unit_noise, mut wander) = (0, [0.0; 3], 0.0);
+        let (mut legs, mut unit_noise) = (0, [0.0; 3]);
         while legs < self.count {
             if left == 0 {
                 speeds = self.speeds(&mut rng);
@@ -126,13 +124,6 @@ impl Simulation {
             }
             let from = base.last().expect("some").1;
             unit_noise = self.unit_noise(legs as f64 / self.count as f64, unit_noise, &mut rng);
-            if let Unlike::Wandering(deviation) = self.unlike {
-                let own = NoiseKind::Normal.sample(Variance(deviation * deviation), &mut rng);
-                wander = 0.9 * wander + f64::sqrt(1.0 - 0.81) * own;
-                // The mean of e to a normal number is e to half its variance.
-                let times = libm::exp(0.5 * (wander - 0.5 * deviation * deviation));
-                unit_noise = unit_noise.map(|noise| times * noise);
-            }
             let to = self.executed(&from, &driven, time - start_time, unit_noise);
             // Where it ends beyond what was read comes evenly on the way.
             let off = (driven.inverse() * from.inverse() * to).log();
@@ -178,7 +169,7 @@ impl Simulation {
         before.map(|before| {
             let own = self.noise.sample(Variance(1.0), rng);
             match self.unlike {
-                Unlike::Nothing | Unlike::Wandering(_) => own,
+                Unlike::Nothing => own,
                 Unlike::Tails(freedom) => {
                     let normal = |_| NoiseKind::Normal.sample(Variance(1.0), rng);
                     let square: f64 = (0..freedom).map(normal).map(|z| z * z).sum();

@@ -233,7 +233,7 @@ const own = css`
   }
 
   .systematic .toggle {
-    min-height: calc(1.75em / 0.84);
+    min-height: calc(2em / 0.84);
   }
 
   .looked {

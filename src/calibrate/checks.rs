@@ -38,7 +38,7 @@ pub enum CheckName {
     TurnScaleConstant,
     /// Correlation of the innovations of neighbouring legs.
     ResidualsUncorrelated,
-    /// Kurtosis of the innovations; 3 of normal ones.
+    /// Kurtosis of the innovations: 3 of normal ones, at least 1 of any, and less than 3 does no harm.
     TailsNormal,
     /// Fraction of the legs of each half inside of the 95 % region by the fit to the other half.
     HoldoutCovered,
@@ -238,7 +238,7 @@ pub(super) fn residual_checks(sample: &Sample, fits: &[LegFit], correlation: f64
     let tails = NEGLIGIBLE_KURTOSIS.max(MAX_STD_ERRORS * (24.0 / count).sqrt());
     vec![
         check(CheckName::ResidualsUncorrelated, correlation, [-limit, limit]),
-        check(CheckName::TailsNormal, kurtosis, [3.0 - tails, 3.0 + tails]),
+        check(CheckName::TailsNormal, kurtosis, [1.0, 3.0 + tails]),
     ]
 }
 
@@ -265,12 +265,12 @@ pub(super) fn window_checks(windows: &[WindowCoverage], scale_std: f64) -> Vec<C
     enough.map(of).collect()
 }
 
-/// Judges by all checks, and by whether any α is identifiable.
-pub(super) fn verdict(checks: &[Check], identifies: bool) -> Verdict {
+/// Judges by all checks, and by whether the log identifies any α and some inflation covers its windows.
+pub(super) fn verdict(checks: &[Check], is_usable: bool) -> Verdict {
     let failed = |name: CheckName| checks.iter().any(|check| check.name == name && !check.passed);
     let legs =
         checks.iter().find(|check| check.name == CheckName::EnoughLegs).map_or(0.0, |check| check.value);
-    if failed(CheckName::ReferenceMatches) || legs < USABLE_LEGS || !identifies {
+    if failed(CheckName::ReferenceMatches) || legs < USABLE_LEGS || !is_usable {
         Verdict::Unusable
     } else if checks.iter().all(|check| check.passed) {
         Verdict::Consistent

@@ -76,7 +76,8 @@ pub fn calibrate(drives: &[Drive], options: &Options) -> Result<Calibration, Cal
     checks.extend(checks::residual_checks(&all, &leg_fits, signed));
     let recommendation = windows::recommend(&fit, &all, &alphas);
     checks.extend(recommendation.checks);
-    let verdict = checks::verdict(&checks, alphas.iter().any(Option::is_some));
+    let is_usable = alphas.iter().any(Option::is_some) && recommendation.recommended.is_some();
+    let verdict = checks::verdict(&checks, is_usable);
     Ok(Calibration {
         intervals: (0..alphas.len()).map(|alpha| identified(alpha).then_some(all_intervals[alpha])).collect(),
         alphas,
@@ -94,7 +95,7 @@ pub fn calibrate(drives: &[Drive], options: &Options) -> Result<Calibration, Cal
         leg_fits,
         lost,
         diagnostics: Diagnostics { verdict, checks, windows: recommendation.windows },
-        recommended: (verdict != Verdict::Unusable).then_some(recommendation.recommended),
+        recommended: recommendation.recommended.filter(|_| verdict != Verdict::Unusable),
     })
 }
 

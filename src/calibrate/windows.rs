@@ -38,8 +38,8 @@ pub struct WindowCoverage {
 /// Number of windows below which nothing is concluded from them.
 pub(super) const MIN_WINDOWS: usize = 20;
 
-/// Bounds of the inflation.
-const MAX_INFLATION: f64 = 100.0;
+/// Largest inflation: α's that need more do not describe the robot.
+const MAX_INFLATION: f64 = 30.0;
 
 impl Window {
     fn squared(&self, inflation: f64) -> f64 {
@@ -149,21 +149,25 @@ pub(super) fn nees_std(count: usize) -> f64 {
     (6.0 / count as f64).sqrt() / 3.0
 }
 
-/// Returns the smallest inflation, 1 at least, under which 95 % of the windows are covered and NEES is not above its 95 % interval.
-pub(super) fn required_inflation(windows: &[Window]) -> f64 {
+/// Returns the smallest inflation, 1 at least, under which 95 % of the windows are covered and NEES is not above its 95 % interval. None
+/// where [`MAX_INFLATION`] is not enough.
+fn required_inflation(windows: &[Window]) -> Option<f64> {
     let holds = |inflation: f64| {
         let WindowCoverage { coverage, nees, count, .. } = coverage(windows, 0.0, inflation);
         coverage >= 0.95 && nees <= 1.0 + 1.96 * nees_std(count)
     };
     if windows.len() < MIN_WINDOWS || holds(1.0) {
-        return 1.0;
+        return Some(1.0);
+    }
+    if !holds(MAX_INFLATION) {
+        return None;
     }
     let (mut low, mut high) = (1.0, MAX_INFLATION);
     while high / low > 1.005 {
         let middle = f64::sqrt(low * high);
         if holds(middle) { high = middle } else { low = middle }
     }
-    high
+    Some(high)
 }
 
 /// Lengths of the windows, m; the first one is that which the recommended α's have to cover.
@@ -173,7 +177,7 @@ const LENGTHS: [f64; 3] = [1.0, 2.0, 5.0];
 const CHI2_95: [f64; 3] = [3.841, 5.991, 7.815];
 
 pub(super) struct Recommendation {
-    pub recommended: Recommended,
+    pub recommended: Option<Recommended>,
     pub checks: Vec<Check>,
     pub windows: Vec<WindowCoverage>,
 }
@@ -212,12 +216,11 @@ pub(super) fn recommend(fit: &Fit, all: &Sample, alphas: &[Option<f64>]) -> Reco
     let covered: Vec<WindowCoverage> =
         windows.iter().zip(LENGTHS).map(|(windows, length)| coverage(windows, length, 1.0)).collect();
     checks.extend(window_checks(&covered, scale_std));
-    let reason = reason(&covered[0], inflation);
-    let recommended = Recommended {
+    let recommended = inflation.map(|inflation| Recommended {
         alphas: alphas.iter().map(|alpha| alpha.map(|alpha| inflation * alpha)).collect(),
         inflation,
-        reason,
-    };
+        reason: reason(&covered[0], inflation),
+    });
     Recommendation { recommended, checks, windows: covered }
 }
 

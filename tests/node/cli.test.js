@@ -182,7 +182,7 @@ test('the report of the example, from the verdict to the lines for Nav2', async 
     /^\d+ legs of 0\.25 m or 0\.2 rad; model odometry, rule nav2$/m, /^ +fitted +95 % +recommended$/m,
     /^alpha1 +0\.0\d+ +\S+ to \S+ +0\.0\d+ +rotation noise from rotation$/m, /^The fit covers .* held-out windows of 1 m/m,
     /^reference position σ +\S+ m +\S+ to \S+ +estimated$/m, /^reference yaw σ +0 rad +as stated$/m, /^mount yaw +0\.0\d+ rad +\S+ to \S+ +corrected$/m,
-    /^correlation of neighbouring legs +0\.0/m, /^enough-legs +\d+ +≥ 100 +ok$/m, /^tails-normal +\S+ +2\.5 to 3\.5 +ok$/m, /^outliers: 1 of \d+ legs, at \d+\.\d\d s$/m,
+    /^correlation of neighbouring legs +0\.0/m, /^enough-legs +\d+ +≥ 100 +ok$/m, /^tails-normal +\S+ +1 to 3\.5 +ok$/m, /^outliers: 1 of \d+ legs, at \d+\.\d\d s$/m,
     /^of 1 m +\d+ +\d\S* % +\d\.\d+$/m, /^# nav2_params\.yaml\namcl:$/m, /2026-01-02$/m, /^ {4}alpha1: 0\.\d+ {2}# fitted 0\.\d+, 95 % /m, /^ {4}update_min_a: 0\.2$/m,
   ];
   const places = parts.map((part) => out.search(part));

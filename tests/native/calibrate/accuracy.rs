@@ -66,9 +66,9 @@ fn study(model: Model, scenario: &Scenario, logs: usize) -> Study {
         let mut made = Simulation::of(model, NoiseKind::Normal, LEGS, 5000 + seed);
         (scenario.change)(&mut made);
         let calibration = calibrated(&made);
-        for alpha in 0..count {
-            study.ratios[alpha].extend(calibration.alphas[alpha].map(|fitted| fitted / ALPHAS[alpha]));
-            study.held[alpha] += holds(calibration.intervals[alpha], ALPHAS[alpha]);
+        for (alpha, truth) in ALPHAS.iter().enumerate().take(count) {
+            study.ratios[alpha].extend(calibration.alphas[alpha].map(|fitted| fitted / truth));
+            study.held[alpha] += holds(calibration.intervals[alpha], *truth);
         }
         for (error, held) in SystematicError::ALL.into_iter().zip(&mut study.errors_held) {
             *held += holds(calibration.interval_of(error), made.errors.get(error));

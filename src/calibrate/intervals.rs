@@ -1,6 +1,6 @@
 //! 95 % intervals of variances, by the profile likelihood, and whether the log identifies an α at all.
 
-use super::likelihood::{Expansion, Information, PARAMETERS, Parameters, Residuals};
+use super::likelihood::{ALPHAS, Expansion, Information, PARAMETERS, Parameters, Residuals};
 use super::optimizer::{Free, Maximum, conditional_information, conditional_inverse};
 use super::residuals::{Model, Observation};
 use super::result::NORMAL_95;
@@ -36,14 +36,14 @@ pub(super) fn intervals(
             if information <= 0.0 {
                 return [0.0, f64::INFINITY];
             }
-            let line = ridge(maximum, free, parameter);
+            let lines = ridges(maximum, free, parameter);
             let threshold = student_95(freedom);
             let widening = blocks.widening(maximum, free, parameter);
             let end = |sign: f64| {
                 profile_end(
                     residuals,
                     maximum,
-                    &line,
+                    &lines,
                     parameter,
                     sign * threshold / information.sqrt(),
                     threshold,
@@ -55,11 +55,25 @@ pub(super) fn intervals(
         .collect()
 }
 
+/// Ridges of the likelihood: one on which variances of 0 stay 0, and another, where there are such α's, on which these rise.
+fn ridges(maximum: &Maximum, free: &Free, parameter: usize) -> Vec<Parameters> {
+    let at_zero = (0..ALPHAS).any(|alpha| free[alpha] && maximum.parameters[alpha] == 0.0);
+    let risen = at_zero.then(|| unknown_alphas(&maximum.parameters));
+    [Some(maximum.parameters), risen]
+        .iter()
+        .flatten()
+        .map(|parameters| ridge(&maximum.expansion, parameters, free, parameter))
+        .collect()
+}
+
+/// Returns the parameters with α's of 0 as small as can be: they are unknown like the others.
+fn unknown_alphas(parameters: &Parameters) -> Parameters {
+    Parameters::from_fn(|j, _| if j < ALPHAS { parameters[j].max(f64::MIN_POSITIVE) } else { parameters[j] })
+}
+
 /// Change of all parameters when one of them changes by 1 along the ridge of the likelihood.
-fn ridge(maximum: &Maximum, free: &Free, parameter: usize) -> Parameters {
-    let column = conditional_inverse(&maximum.expansion, &maximum.parameters, free, parameter)
-        .column(parameter)
-        .into_owned();
+fn ridge(expansion: &Expansion, parameters: &Parameters, free: &Free, parameter: usize) -> Parameters {
+    let column = conditional_inverse(expansion, parameters, free, parameter).column(parameter).into_owned();
     if column[parameter] > 0.0 {
         column / column[parameter]
     } else {
@@ -71,15 +85,18 @@ fn ridge(maximum: &Maximum, free: &Free, parameter: usize) -> Parameters {
 fn profile_end(
     residuals: &Residuals,
     maximum: &Maximum,
-    line: &Parameters,
+    lines: &[Parameters],
     parameter: usize,
     guess: f64,
     threshold: f64,
 ) -> f64 {
     let value = maximum.parameters[parameter];
     let root = |distance: f64| {
-        let moved = (maximum.parameters + line * distance).map(|each| each.max(0.0));
-        (2.0 * (maximum.expansion.log_likelihood - residuals.log_likelihood(&moved))).max(0.0).sqrt()
+        let along = |line: &Parameters| {
+            residuals.log_likelihood(&(maximum.parameters + line * distance).map(|each| each.max(0.0)))
+        };
+        let best = lines.iter().map(along).fold(f64::NEG_INFINITY, f64::max);
+        (2.0 * (maximum.expansion.log_likelihood - best)).max(0.0).sqrt()
     };
     let mut distance = guess.max(-value);
     if distance == -value && (value == 0.0 || root(distance) <= threshold) {
@@ -183,8 +200,7 @@ pub(super) fn identifiability(
     free: &Free,
     observations: &[Observation],
 ) -> Vec<Option<NotIdentifiable>> {
-    // An α that is 0 in this log may be none of the robot: it is unknown like the others.
-    let unknown = parameters.map(|parameter| parameter.max(f64::MIN_POSITIVE));
+    let unknown = unknown_alphas(parameters);
     let of = |alpha: usize| {
         let marginal = expansion.information[(alpha, alpha)];
         let conditional = conditional_information(expansion, &unknown, free, alpha);

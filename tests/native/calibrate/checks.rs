@@ -133,7 +133,7 @@ fn errors_that_persist_are_correlated_and_leave_windows_uncovered() {
     fails(ResidualsUncorrelated, &calibration);
     fails(Window1Covered, &calibration);
     fails(Window2Covered, &calibration);
-    // Of 1,800 residuals a correlation has the standard error 0.02.
+    // A correlation of 1,800 residuals has the standard error 0.02.
     let correlation = calibration.persistence.correlation.value;
     assert!((correlation - 0.7).abs() < 0.08, "{correlation}");
     assert!(calibration.recommended.expect("usable").inflation > 1.5);
@@ -167,7 +167,7 @@ fn consistent(model: Model, logs: u64) -> usize {
     count
 }
 
-/// Of twelve logs, each consistent with a probability of 0.95, eight or fewer are in one of five thousand runs.
+/// Twelve logs that are consistent with a probability of 0.95 each have eight or fewer consistent ones in one of five thousand runs.
 #[test]
 fn good_logs_are_consistent() {
     assert!(consistent(NAV2, 12) > 8);

@@ -149,7 +149,7 @@ fn an_error_that_the_log_does_not_identify_is_not_corrected() {
     }
 }
 
-/// Where wheels do not err, all errors are exact but for rounding, also where the reference has fewer rows, and between those of the
+/// Wheels that do not err show all errors but for rounding, also to a reference with fewer rows, and with rows between those of the
 /// odometry.
 #[test]
 fn errors_of_a_robot_without_noise_are_exact() {
@@ -196,7 +196,7 @@ fn four_drives_tell_as_much_as_one_that_is_as_long() {
     let four = calibrate(&drives, &options_of(NAV2)).expect("legs enough");
     let one = calibrated(&clock(0.0, 1200, 20));
     assert!(four.legs.len() > 1190, "{}", four.legs.len());
-    for (alpha, truth) in ALPHAS.iter().enumerate().take(4) {
+    for (alpha, truth) in ALPHAS.into_iter().enumerate().take(4) {
         let width = |calibration: &Calibration| {
             let [low, high] = calibration.intervals[alpha].expect("identifiable");
             (high - low) / calibration.alphas[alpha].expect("identifiable")

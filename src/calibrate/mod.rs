@@ -76,6 +76,9 @@ pub fn calibrate(drives: &[Drive], options: &Options) -> Result<Calibration, Cal
     checks.extend(checks::residual_checks(&all, &leg_fits, signed));
     let recommendation = windows::recommend(&fit, &all, &alphas);
     checks.extend(recommendation.checks);
+    if recommendation.recommended.is_none() {
+        checks::lead_with_windows(&mut checks);
+    }
     let is_usable = alphas.iter().any(Option::is_some) && recommendation.recommended.is_some();
     let verdict = checks::verdict(&checks, is_usable);
     Ok(Calibration {

@@ -118,8 +118,7 @@ test.describe('at first sight', () => {
     await page.emulateMedia({ reducedMotion: 'no-preference' });
     const driving = () => page.locator('banana-machine').evaluate((element) => /** @type {any} */ (element).cloud.driving?.robots);
     await show(page, '<banana-machine></banana-machine>');
-    await ready(page.locator('banana-machine'));
-    expect(await driving()).toBeGreaterThan(0);
+    await page.waitForFunction(() => /** @type {any} */ (document.querySelector('banana-machine'))?.cloud?.driving?.robots > 0);
     await page.keyboard.press('Shift');
     expect(await driving()).toBeUndefined();
     await expect.poll(async () => (await state(page.locator('banana-machine'))).shown).toBeGreaterThan(10);

@@ -5,7 +5,7 @@ use super::legs::{LegLength, LostLegs, MIN_LEGS};
 use super::result::LegFit;
 use super::systematic::{Systematic, SystematicError};
 use super::trajectory::median;
-use super::windows::{MIN_WINDOWS, WindowCoverage};
+use super::windows::{MAX_INFLATION, MIN_WINDOWS, WindowCoverage};
 use crate::geom::se2::SE2;
 
 /// Overall judgement of a calibration.
@@ -36,6 +36,8 @@ pub enum CheckName {
     DistanceScaleConstant,
     /// Difference of the turn scales of both halves.
     TurnScaleConstant,
+    /// Inflation under which windows of 1 m are covered.
+    InflationBounded,
     /// Correlation of the innovations of neighbouring legs.
     ResidualsUncorrelated,
     /// Kurtosis of the innovations: 3 of normal ones, at least 1 of any, and less than 3 does no harm.
@@ -88,6 +90,7 @@ impl CheckName {
             Self::OutliersFew => "outliers-few",
             Self::DistanceScaleConstant => "distance-scale-constant",
             Self::TurnScaleConstant => "turn-scale-constant",
+            Self::InflationBounded => "inflation-bounded",
             Self::ResidualsUncorrelated => "residuals-uncorrelated",
             Self::TailsNormal => "tails-normal",
             Self::HoldoutCovered => "holdout-covered",
@@ -121,17 +124,20 @@ impl CheckName {
             Self::TurnScaleConstant => {
                 "The odometry's scale of turns is not a constant, so it was not corrected unless asked for. Check the track width and slip on this floor."
             }
+            Self::InflationBounded => {
+                "No inflation up to 30 covers the errors over 1 m: they are no noise of the wheels. Find their cause first: outliers that were kept, a reference that jumps, slip."
+            }
             Self::ResidualsUncorrelated => {
-                "Errors of neighbouring legs are correlated: they persist over several legs, or a systematic error is left in. α's fitted to legs are too small for longer ways. Use the recommended ones."
+                "Errors of neighbouring legs are correlated: they persist over several legs, or a systematic error is left in. α's fitted to legs are too small for longer ways. Recommended α's allow for it."
             }
             Self::TailsNormal => {
-                "A few errors are much larger than normal noise has them. Intervals of the predicted pose are too narrow in the tails. Use the recommended α's, and look at the largest residuals."
+                "A few errors are much larger than normal noise has them. Intervals of the predicted pose are too narrow in the tails. Recommended α's allow for it. Look at the largest residuals."
             }
             Self::HoldoutCovered => {
-                "The α's of one half of the log do not fit the other: floor, load or speed changed. Calibrate for each condition, or use the recommended α's."
+                "The α's of one half of the log do not fit the other: floor, load or speed changed. Calibrate for each condition. Recommended α's allow for it."
             }
             Self::Window1Covered | Self::Window2Covered | Self::Window5Covered => {
-                "Over windows of this length the fitted α's do not predict the error: it grows otherwise than they say. Use the recommended ones, which hold over 1 m."
+                "Over windows of this length the fitted α's do not predict the error: it grows otherwise than they say. Recommended α's hold over 1 m."
             }
         }
     }
@@ -265,23 +271,18 @@ pub(super) fn window_checks(windows: &[WindowCoverage], scale_std: f64) -> Vec<C
     enough.map(of).collect()
 }
 
-/// Fails the check of windows of 1 m and moves it to the front, where no inflation covers them.
-pub(super) fn lead_with_windows(checks: &mut [Check]) {
-    if let Some(place) = checks.iter().position(|check| check.name == CheckName::Window1Covered) {
-        (checks[place].passed, checks[place].message) = (false, UNCOVERED);
-        checks[..=place].rotate_right(1);
-    }
+/// Check of the inflation that windows of 1 m need; ∞ where none is enough.
+pub(super) fn inflation_check(inflation: f64) -> Check {
+    check(CheckName::InflationBounded, inflation, [1.0, MAX_INFLATION])
 }
 
-/// Message of windows of 1 m that no inflation covers.
-const UNCOVERED: &str = "No inflation up to 30 covers the errors over 1 m: they are no noise of the wheels. Find their cause first: outliers that were kept, a reference that jumps, slip.";
-
-/// Judges by all checks, and by whether the log identifies any α and some inflation covers its windows.
-pub(super) fn verdict(checks: &[Check], is_usable: bool) -> Verdict {
+/// Judges by all checks, and by whether the log identifies any α.
+pub(super) fn verdict(checks: &[Check], identifies: bool) -> Verdict {
     let failed = |name: CheckName| checks.iter().any(|check| check.name == name && !check.passed);
     let legs =
         checks.iter().find(|check| check.name == CheckName::EnoughLegs).map_or(0.0, |check| check.value);
-    if failed(CheckName::ReferenceMatches) || legs < USABLE_LEGS || !is_usable {
+    let is_covered = !failed(CheckName::InflationBounded);
+    if failed(CheckName::ReferenceMatches) || legs < USABLE_LEGS || !identifies || !is_covered {
         Verdict::Unusable
     } else if checks.iter().all(|check| check.passed) {
         Verdict::Consistent

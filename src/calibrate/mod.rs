@@ -72,15 +72,14 @@ pub fn calibrate(drives: &[Drive], options: &Options) -> Result<Calibration, Cal
     let leg_fits = leg_fits(&all, &fit);
     let mut checks = checks::log_checks(&all, &lost, options.legs, &systematic.sample.systematic);
     checks.extend(scale_checks);
+    let recommendation = windows::recommend(&fit, &all, &alphas);
+    let inflation =
+        recommendation.recommended.as_ref().map_or(f64::INFINITY, |recommended| recommended.inflation);
+    checks.push(checks::inflation_check(inflation));
     let signed = correlation_of(&fit.sample, &fit.innovations).0;
     checks.extend(checks::residual_checks(&all, &leg_fits, signed));
-    let recommendation = windows::recommend(&fit, &all, &alphas);
     checks.extend(recommendation.checks);
-    if recommendation.recommended.is_none() {
-        checks::lead_with_windows(&mut checks);
-    }
-    let is_usable = alphas.iter().any(Option::is_some) && recommendation.recommended.is_some();
-    let verdict = checks::verdict(&checks, is_usable);
+    let verdict = checks::verdict(&checks, alphas.iter().any(Option::is_some));
     Ok(Calibration {
         intervals: (0..alphas.len()).map(|alpha| identified(alpha).then_some(all_intervals[alpha])).collect(),
         alphas,

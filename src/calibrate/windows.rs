@@ -39,7 +39,7 @@ pub struct WindowCoverage {
 pub(super) const MIN_WINDOWS: usize = 20;
 
 /// Largest inflation: α's that need more do not describe the robot.
-const MAX_INFLATION: f64 = 30.0;
+pub(super) const MAX_INFLATION: f64 = 30.0;
 
 impl Window {
     fn squared(&self, inflation: f64) -> f64 {

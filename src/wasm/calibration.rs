@@ -32,7 +32,7 @@ export interface SystematicValue {
 export interface CalibrationCheck {
   name:
     | 'reference-matches' | 'enough-legs' | 'legs-lost' | 'sampling-dense' | 'outliers-few'
-    | 'distance-scale-constant' | 'turn-scale-constant' | 'residuals-uncorrelated' | 'tails-normal'
+    | 'distance-scale-constant' | 'turn-scale-constant' | 'inflation-bounded' | 'residuals-uncorrelated' | 'tails-normal'
     | 'holdout-covered' | 'window-1m-covered' | 'window-2m-covered' | 'window-5m-covered';
   value: number;
   /** Smallest and largest value that passes; ±Infinity where there is no bound. */

@@ -10,7 +10,7 @@ test.use(STILL);
 
 test('opens with the simulated log, said to be one, whose true α’s are inside of the intervals', async ({ page }) => {
   const widget = await openCalibrator(page);
-  await expect(caption(widget)).toHaveText(/^✓ Trust\s+All 12 checks passed\. Use the recommended α’s with legs of this length\. \d+ legs of the simulated log, \d outliers\.$/);
+  await expect(caption(widget)).toHaveText(/^✓ Trust\s+All 13 checks passed\. Use the recommended α’s with legs of this length\. \d+ legs of the simulated log, \d outliers\.$/);
   const { alphas, intervals } = await stats(widget);
   const truth = await widget.evaluate((element) => /** @type {AlphaCalibratorElement} */ (element).machine.truth);
   expect(alphas.length).toBe(4);
@@ -71,7 +71,7 @@ test('outliers are ringed, and decide the fit where they are not set aside', asy
   await settled(widget);
   const after = await stats(widget);
   expect(Number(after.alphas[2])).toBeGreaterThan(5 * Number(before.alphas[2]));
-  await expect(caption(widget)).toHaveText(/^✕ Do not use\s+Failed check: held-out windows of 1 m within 95 % \(5 of 12 failed\)\..* \d+ legs of the simulated log\.$/);
+  await expect(caption(widget)).toHaveText(/^✕ Do not use\s+Failed check: inflation that windows of 1 m need \(5 of 13 failed\)\..* \d+ legs of the simulated log\.$/);
 });
 
 test('a systematic error that is not corrected is named in the advice', async ({ page }) => {
@@ -86,7 +86,7 @@ test('a systematic error that is not corrected is named in the advice', async ({
   // As the page says.
   const [from, to] = [before, after].map(({ referenceNoise: { yawStd } }) => yawStd.value.toFixed(3));
   expect(readFileSync(new URL('../../www/index.html', import.meta.url), 'utf8')).toContain(`goes from ${from} to ${to}&nbsp;rad`);
-  await expect(caption(widget)).toHaveText(/^! Caution\s+Failed check: correlation of neighbouring legs \(1 of 12 failed\)\. Not corrected: mount yaw \(rad\) 0\.070 ± 0\.00\d \(see More controls\)\./);
+  await expect(caption(widget)).toHaveText(/^! Caution\s+Failed check: correlation of neighbouring legs \(1 of 13 failed\)\. Not corrected: mount yaw \(rad\) 0\.070 ± 0\.00\d \(see More controls\)\./);
   await expect(widget.getByRole('row', { name: /mount yaw/ })).toContainText('not corrected');
 });
 

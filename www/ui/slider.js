@@ -388,9 +388,12 @@ function field({ id, keys, type, forget }, shown) {
 function leadIntoField(event) {
   const { key, ctrlKey, altKey, metaKey } = event;
   if (ctrlKey || altKey || metaKey || (key !== 'Enter' && !BEGINS_A_NUMBER.test(key))) return;
+  const slider = inputOf(event);
+  // Digits are keys of a presentation.
+  if (/\d/.test(key) && /** @type {any} */ (slider.getRootNode()).host?.presentation) return;
   if (key === 'Enter') event.preventDefault();
   event.stopPropagation();
-  const row = /** @type {Element} */ (inputOf(event).closest('.slider'));
+  const row = /** @type {Element} */ (slider.closest('.slider'));
   /** @type {HTMLInputElement} */ (row.querySelector('.typed')).focus();
 }
 

@@ -21,15 +21,17 @@ const MESSAGES = {
   'distance-scale-constant':
     'Der Skalenfaktor der Strecke ist keine Konstante und wurde nicht korrigiert. Raddurchmesser, Last und Schlupf in Kurven prüfen; erst die Räder kalibrieren, dann das Rauschen.',
   'turn-scale-constant': 'Der Skalenfaktor der Drehung ist keine Konstante und wurde nicht korrigiert. Spurweite und Schlupf auf diesem Boden prüfen.',
+  'inflation-bounded':
+    'Keine Vergrößerung bis 30 deckt die Fehler über 1 m: Sie sind kein Rauschen der Räder. Zuerst die Ursache suchen: behaltene Ausreißer, eine springende Referenz, Schlupf.',
   'residuals-uncorrelated':
-    'Fehler benachbarter Etappen sind korreliert: Sie halten über mehrere Etappen an, oder ein systematischer Fehler ist nicht korrigiert. An Etappen angepasste α sind für längere Strecken zu klein. Die empfohlenen verwenden.',
+    'Fehler benachbarter Etappen sind korreliert: Sie halten über mehrere Etappen an, oder ein systematischer Fehler ist nicht korrigiert. An Etappen angepasste α sind für längere Strecken zu klein. Empfohlene α berücksichtigen das.',
   'tails-normal':
-    'Einige Fehler sind viel größer, als normalverteiltes Rauschen sie hat: Die Ränder der Vorhersage sind zu schmal. Die empfohlenen α verwenden und die größten Residuen ansehen.',
+    'Einige Fehler sind viel größer, als normalverteiltes Rauschen sie hat: Die Ränder der Vorhersage sind zu schmal. Empfohlene α berücksichtigen das. Die größten Residuen ansehen.',
   'holdout-covered':
-    'Die α der einen Hälfte der Aufzeichnung passen nicht zur anderen: Boden, Last oder Geschwindigkeit haben sich geändert. Für jede Bedingung kalibrieren oder die empfohlenen α verwenden.',
+    'Die α der einen Hälfte der Aufzeichnung passen nicht zur anderen: Boden, Last oder Geschwindigkeit haben sich geändert. Für jede Bedingung kalibrieren. Empfohlene α berücksichtigen das.',
   ...Object.fromEntries([1, 2, 5].map((length) => [
     `window-${length}m-covered`,
-    'Über Fenster dieser Länge sagen die angepassten α den Fehler nicht vorher: Er wächst anders. Die empfohlenen verwenden, die über 1 m gelten.',
+    'Über Fenster dieser Länge sagen die angepassten α den Fehler nicht vorher: Er wächst anders. Empfohlene α gelten über 1 m.',
   ])),
 };
 
@@ -94,6 +96,7 @@ export const de = {
       'outliers-few': 'Ausreißer',
       'distance-scale-constant': 'Änderung des Skalenfaktors, Strecke',
       'turn-scale-constant': 'Änderung des Skalenfaktors, Drehung',
+      'inflation-bounded': 'Vergrößerung, die Fenster von 1 m brauchen',
       'residuals-uncorrelated': 'Korrelation benachbarter Etappen',
       'tails-normal': 'Kurtosis der Residuen',
       'holdout-covered': 'zurückgehaltene Etappen innerhalb von 95 %',
@@ -230,7 +233,7 @@ export const de = {
     copied: 'Kopiert.',
     json: 'Alles als JSON speichern',
     none: 'Keine Zeilen: Nav2 hat kein Geschwindigkeitsmodell, oder es werden keine α’s empfohlen. In JSON steht alles.',
-    otherRule: 'nach einer anderen Regel als der von Nav2 angepasst: die Regel von Nav2 wählen',
+    otherRule: 'Nach einer anderen Regel als der von Nav2 angepasst: als Modell „Nav2“ wählen, oder --rule nav2',
     notIdentifiable: 'von dieser Aufzeichnung nicht bestimmt',
     zero: (most) => `nicht signifikant von 0 verschieden, höchstens ${most}`,
     tooLarge: 'unplausibel (> 1): Prüfungen und Ausreißer ansehen',

@@ -136,6 +136,7 @@ export const de = {
   readouts: {
     skew: 'Schiefe quer zur Fahrt',
     exactly: (value) => `genau ${value}`,
+    unwrapped: (value) => `genau ${value}, wenn Richtungen nicht umliefen`,
     gain: 'Log-Likelihood-Gewinn in *ξ* (Nat je Roboter)',
     gainOnFloor: 'Log-Likelihood-Gewinn am Boden (Nat je Roboter)',
     nat: '1 Nat: ein Faktor *e*',

@@ -141,6 +141,7 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
   readouts: {
     skew: 'cross-track skew',
     exactly: (value) => `exactly ${value}`,
+    unwrapped: (value) => `exactly ${value}, were headings not wrapped`,
     gain: 'log-likelihood gain in *ξ* (nats per robot)',
     gainOnFloor: 'log-likelihood gain on the floor (nats per robot)',
     nat: '1 nat: a factor of *e*',

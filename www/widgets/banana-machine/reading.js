@@ -71,7 +71,7 @@ export function readingOf(machine) {
 function gainOf({ n, likelihoodGain, likelihoodGainError }, { exact }) {
   const unbounded = exact.likelihoodGain.pose === Infinity;
   const kind = unbounded ? 'floor' : 'pose';
-  return { n, unbounded, value: likelihoodGain[kind], error: likelihoodGainError[kind], exact: exact.likelihoodGain[kind] };
+  return { n, unbounded, value: likelihoodGain[kind], error: likelihoodGainError[kind], exact: exact.likelihoodGain[kind], wraps: 4 * Math.sqrt(exact.cov[2][2]) > Math.PI };
 }
 
 /**

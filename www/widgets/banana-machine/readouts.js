@@ -45,11 +45,11 @@ function valuesOf({ stats, gain }) {
 }
 
 /** Returns the exact gain, or the reason why it has no limit. @param {Reading['gain']} gain */
-function gainText({ unbounded, value, exact }) {
-  const { withoutLimit, onLine, exactly, nat } = words.banana.readouts;
+function gainText({ unbounded, value, exact, wraps }) {
+  const { withoutLimit, onLine, exactly, unwrapped, nat } = words.banana.readouts;
   if (Number.isNaN(value)) return NOTHING;
   if (value === Infinity) return onLine;
-  return unbounded ? withoutLimit : `${exactly(fixed(exact, 3))}; ${nat}`;
+  return unbounded ? withoutLimit : `${(wraps ? unwrapped : exactly)(fixed(exact, 3))}; ${nat}`;
 }
 
 /** The others. @param {Reading} reading */

@@ -16,8 +16,10 @@ const MAX_STD_ERRORS: f64 = 2.8;
 /// Difference that is too small to matter.
 const NEGLIGIBLE: f64 = 0.01;
 
-/// Returns a check of each scale that is identifiable, and whether each systematic error is constant; those that are no scales count as
-/// constant. `repeated` is the factor of standard errors where errors persist.
+/// Returns a check of each scale that is identifiable, and which systematic errors are constant.
+///
+/// Only scales are tested: all others, and scales that are not identifiable, count as constant. `repeated` multiplies standard errors
+/// where errors persist; it is 1 otherwise.
 pub(super) fn scale_checks(fit: &Fit, repeated: f64) -> (Vec<Check>, ErrorMask) {
     let (mut checks, mut is_constant) = (Vec::new(), [true; ERRORS]);
     let half = fit.sample.legs.len() / 2;

@@ -47,7 +47,7 @@ const MAX_ROUNDS: usize = 15;
 /// Change of a systematic error, over its standard error, that counts as none.
 const CONVERGED: f64 = 0.05;
 
-/// Factor of the outliers' gate while the variances are only guessed.
+/// Factor of the outliers' gate (a squared distance) in the first round, whose variances are the initial guess.
 const GUESSED_GATE: f64 = 4.0;
 
 impl Sample {

@@ -9,7 +9,7 @@ use nalgebra::SVector;
 /// Steps of the search for an end of an interval; the root of the deviance is nearly linear.
 const MAX_STEPS: usize = 12;
 
-/// Relative error of the deviance at an end.
+/// Relative tolerance on the root of the deviance at an end of an interval.
 const TOLERANCE: f64 = 0.02;
 
 /// Returns the 95 % interval of each free parameter; that of a parameter without information is [0, ∞].
@@ -178,7 +178,7 @@ pub enum NotIdentifiable {
     Collinear,
 }
 
-/// Least information on an α: its standard error is then 0.5, and its interval leads from 0 to 1.
+/// Fisher information below which an α is not identifiable: 4 is a standard error of 0.5, far above any plausible α.
 const MIN_INFORMATION: f64 = 4.0;
 
 /// Least fraction of the information on an α that is left when the others are unknown. Below it, the ratio of turn and distance varies

@@ -75,13 +75,13 @@ impl Leg {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(target_arch = "wasm32", derive(serde::Serialize), serde(rename_all = "camelCase"))]
 pub struct LostLegs {
-    /// The reference does not cover an end, or has a gap there.
+    /// Leg of which the reference does not cover an end, or has a gap there.
     pub without_reference: usize,
-    /// A trajectory is broken on the way, as where the reference jumped.
+    /// Leg on which a trajectory is broken, as where the reference jumped.
     pub across_breaks: usize,
-    /// A pause made it more than twice as long as asked.
+    /// Leg that a pause stretched to more than twice the length asked for.
     pub across_pauses: usize,
-    /// The robot stood: less than 1 cm and 0.02 rad.
+    /// Leg of a standing robot: less than 1 cm and 0.02 rad.
     pub standing: usize,
 }
 

@@ -94,8 +94,7 @@ fn minorized(parameters: &Parameters, expansion: &Expansion, free: &Free) -> Par
     })
 }
 
-/// Inverse of the information on the free parameters, of which variances of 0 that want to be negative are held; `parameter` is free in
-/// any case.
+/// Inverse of the information on the free parameters above 0, and on `parameter` in any case; those at 0 are held there.
 pub(super) fn conditional_inverse(
     expansion: &Expansion,
     parameters: &Parameters,

@@ -15,7 +15,7 @@ const MEDIAN_CHI2: f64 = 2.366;
 const LAST_RETURN: usize = 2;
 
 impl Sample {
-    /// Innovations of all legs; an outlier is compared with what it would be by itself.
+    /// Innovations of all legs: of an outlier without the leg before it, of the others along the chain of kept legs.
     pub(super) fn innovations(&self, parameters: &Parameters) -> Vec<Standardized> {
         let kept = self.kept(0..self.legs.len());
         let errors = kept.least_squares(parameters).errors;

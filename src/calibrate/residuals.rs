@@ -119,7 +119,7 @@ impl Observation {
     }
 }
 
-/// Variances that each α of 1 gives a reading by itself: they are linear in the α's.
+/// Coefficients of the α's: the variances of a reading where one α is 1 and all others are 0.
 fn unit_variances(rule: OdometryRule, reading: &OdomDelta) -> [LegVariances; 5] {
     std::array::from_fn(|alpha| {
         let mut alphas: RuleAlphas = [0.0; 5];

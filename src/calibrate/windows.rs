@@ -130,8 +130,8 @@ fn to_end_frame(motion: &SE2) -> Matrix3<f64> {
     Matrix3::new(cos, sin, 0.0, -sin, cos, 0.0, 0.0, 0.0, 1.0)
 }
 
-/// Returns the fraction of windows inside of their 95 % ellipsoid, and the mean of their squared distance over 3, with the wheels' variances
-/// inflated.
+/// Returns the fraction of windows inside of their 95 % ellipsoid, and their NEES: the mean squared Mahalanobis distance divided by its 3
+/// degrees of freedom. The wheels' variances are multiplied by `inflation`.
 pub(super) fn coverage(windows: &[Window], length: f64, inflation: f64) -> WindowCoverage {
     let squares: Vec<f64> = windows.iter().map(|window| window.squared(inflation)).collect();
     let count = squares.len();

@@ -9,7 +9,7 @@ const parts = (count, more = 'n') => `${count} Etappe${count === '1' ? '' : more
 /** Messages of failed checks. @type {Record<string, string>} */
 const MESSAGES = {
   'reference-matches':
-    'Die Referenz folgt der Odometrie nicht: Sie kann von einer anderen Fahrt sein, andere Einheiten (Grad, Millimeter) oder andere Achsen (y nach oben) haben, oder ihre Spalten sind vertauscht. Die α sind bedeutungslos. Beide Dateien Zeile für Zeile vergleichen.',
+    'Die Referenz folgt der Odometrie nicht: Sie kann von einer anderen Fahrt sein, andere Einheiten (Grad, Millimeter) oder eine gespiegelte y-Achse haben, oder ihre Spalten sind vertauscht. Die α sind bedeutungslos. Beide Dateien Zeile für Zeile vergleichen.',
   'enough-legs':
     'Es sind wenige Etappen: Die Intervalle sind breit und die anderen Prüfungen schwach. Weiter aufzeichnen: eine Viertelstunde mit Geraden, Bögen und Drehungen auf der Stelle.',
   'legs-lost':

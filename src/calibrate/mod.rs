@@ -75,7 +75,8 @@ pub fn calibrate(drives: &[Drive], options: &Options) -> Result<Calibration, Cal
     let recommendation = windows::recommend(&fit, &all, &alphas);
     let inflation =
         recommendation.recommended.as_ref().map_or(f64::INFINITY, |recommended| recommended.inflation);
-    checks.push(checks::inflation_check(inflation));
+    // Checks that decide whether a log is usable come first: the first failure is the advice.
+    checks.insert(2, checks::inflation_check(inflation));
     let signed = correlation_of(&fit.sample, &fit.innovations).0;
     checks.extend(checks::residual_checks(&all, &leg_fits, signed));
     checks.extend(recommendation.checks);

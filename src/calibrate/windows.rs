@@ -132,7 +132,7 @@ fn to_end_frame(motion: &SE2) -> Matrix3<f64> {
 
 /// Returns the fraction of windows inside of their 95 % ellipsoid, and their NEES: the mean squared Mahalanobis distance divided by its 3
 /// degrees of freedom. The wheels' variances are multiplied by `inflation`.
-pub(super) fn coverage(windows: &[Window], length: f64, inflation: f64) -> WindowCoverage {
+fn coverage(windows: &[Window], length: f64, inflation: f64) -> WindowCoverage {
     let squares: Vec<f64> = windows.iter().map(|window| window.squared(inflation)).collect();
     let count = squares.len();
     let inside = squares.iter().filter(|square| **square < CHI2_95[2]).count();
@@ -145,7 +145,7 @@ pub(super) fn coverage(windows: &[Window], length: f64, inflation: f64) -> Windo
 }
 
 /// Standard error of NEES over `count` windows: χ² with 3 degrees of freedom has variance 6.
-pub(super) fn nees_std(count: usize) -> f64 {
+fn nees_std(count: usize) -> f64 {
     (6.0 / count as f64).sqrt() / 3.0
 }
 

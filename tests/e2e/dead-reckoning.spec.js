@@ -121,6 +121,7 @@ test('with J_r, and to fourth order, every component is right', async ({ page })
 
 test('entries of the legends hide curves and outlines', async ({ page }) => {
   const widget = await openReckoning(page, 'overlays="lateral tolerance measured exponential"');
+  await expect(widget.locator('[part=caption]')).toHaveText(/^[−+][\d.]+\s% laterally at the end\. Of the lateral variance /);
   await expect(plotOf(widget).locator('path.curve')).toHaveCount(2);
   const twist = await pictureOf(widget.locator('canvas.twist'));
   await widget.getByRole('checkbox', { name: 'measured' }).uncheck();

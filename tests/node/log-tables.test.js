@@ -225,7 +225,7 @@ test('other files are refused with the line, the value and what is expected', as
 test('a file that has been moved is refused', async () => {
   const gone = { name: `${'n'.repeat(50)}.csv`, size: 5, slice: () => ({ arrayBuffer: () => Promise.reject(new DOMException('', 'NotFoundError')) }) };
   const { message } = await refusalOf(readLog(/** @type {any} */ (gone)));
-  assert.equal(message, `${'n'.repeat(40)}…: the file cannot be read (NotFoundError); expected is one that is still there.`);
+  assert.equal(message, `${'n'.repeat(40)}…: the file cannot be read (NotFoundError); expected is one that exists and may be read.`);
 });
 
 test('reading can be cancelled', async () => {

@@ -165,7 +165,8 @@ function parsed(args) {
   } catch (error) {
     const { code, message } = /** @type {NodeJS.ErrnoException} */ (error);
     const [, name] = (code === 'ERR_PARSE_ARGS_UNKNOWN_OPTION' && /'--?([^']*)'/.exec(message)) || [];
-    throw new UsageError(name === undefined ? message : `--${cut(name)} is no option; ${nearestTo(name)}--help lists all.`);
+    const [sentence] = message.split('\n');
+    throw new UsageError(name === undefined ? sentence : `--${cut(name)} is no option; ${nearestTo(name)}--help lists all.`);
   }
 }
 

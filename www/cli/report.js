@@ -30,7 +30,7 @@ const LOST = {
 };
 
 /** Checks whose failure makes a log unusable. */
-const DECISIVE = ['reference-matches', 'enough-legs'];
+const DECISIVE = ['reference-matches', 'enough-legs', 'inflation-bounded'];
 
 /** Number of outliers that are listed. */
 const LISTED = 5;
@@ -91,7 +91,7 @@ function lengthOf({ distance, angle, duration }) {
  * @param {string} model
  * @returns {string[]}
  */
-function alphasOf({ alphas, intervals, notIdentifiable, recommended }, model) {
+function alphasOf({ alphas, intervals, notIdentifiable, recommended, diagnostics }, model) {
   const rows = alphas.map((/** @type {number | null} */ alpha, /** @type {number} */ i) => [
     `alpha${i + 1}`,
     alpha === null ? 'not identifiable' : alphaOrBound(alpha, intervals[i]),
@@ -100,7 +100,9 @@ function alphasOf({ alphas, intervals, notIdentifiable, recommended }, model) {
     shared.alphas[model === 'velocity' ? 'velocity' : 'odometry'][i],
   ]);
   const { lacking } = en.alphas;
-  const advice = /** @type {(keyof typeof lacking)[]} */ (Object.keys(lacking)).flatMap((reason) => {
+  // Driving differently does not help where the reference is another drive's, or has other units.
+  const matches = diagnostics.checks.every((/** @type {any} */ { name, passed }) => passed || name !== 'reference-matches');
+  const advice = !matches ? [] : /** @type {(keyof typeof lacking)[]} */ (Object.keys(lacking)).flatMap((reason) => {
     const names = notIdentifiable.flatMap((/** @type {string | null} */ each, /** @type {number} */ i) => (each === reason ? [`alpha${i + 1}`] : []));
     const { lack, drive } = adviceOf(lacking, model, reason);
     return names.length ? [`${new Intl.ListFormat('en').format(names)} not identifiable: ${lack}; ${drive}`] : [];

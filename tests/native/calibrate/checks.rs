@@ -4,7 +4,7 @@ use super::simulated::{MODELS, Simulation, Unlike};
 use super::{calibrated, calibrated_log};
 use motion::NoiseKind;
 use motion::calibrate::CheckName::{self, *};
-use motion::calibrate::{Calibration, Model, SystematicError, Trajectory, Verdict};
+use motion::calibrate::{Calibration, Model, Options, Outliers, SystematicError, Trajectory, Verdict};
 use motion::geom::se2::SE2;
 use motion::models::OdometryRule;
 use nalgebra::Vector3;
@@ -90,6 +90,20 @@ fn legs_that_are_longer_than_asked_for_are_reported() {
 #[test]
 fn many_outliers_are_reported() {
     fails(OutliersFew, &calibrated(&Simulation { jumps: 0.1, ..good(600, 6) }));
+}
+
+/// One jump of 10 m that is fitted as noise, far beyond what the half without it predicts.
+#[test]
+fn a_log_that_no_inflation_covers_is_unusable() {
+    let made = good(600, 12);
+    let [odometry, reference] = made.log();
+    let late = 0.75 * reference.span().expect("samples")[1];
+    let shifted = |pose: SE2| SE2::new(10.0, 0.0, 0.0) * pose;
+    let jumped = edited(&reference, |(time, pose)| (time, if time < late { pose } else { shifted(pose) }));
+    let options = Options { outliers: Outliers::Keep, ..made.options() };
+    let calibration = calibrated_log(&[odometry, jumped], &options);
+    assert_eq!(failed(&calibration)[0], InflationBounded);
+    assert_eq!((calibration.diagnostics.verdict, calibration.recommended), (Verdict::Unusable, None));
 }
 
 /// Steps of the odometry, each scaled by how the robot drives there and by when.

@@ -101,7 +101,7 @@ export class DeadReckoningElement extends FigureElement {
     };
   }
 
-  announcement = announcementOf;
+  announcement = (/** @type {Reading} */ reading) => announcementOf(reading, this.state.own.overlays);
 
   /** The poses of the marked robot after each step, if it is among those driven. */
   get #marked() {
@@ -119,7 +119,7 @@ export class DeadReckoningElement extends FigureElement {
           ${panel(say.chart, html`<div class="chart">${ratioPlot(this, reading)}</div>`, 'ratios')}
           ${this.stage.later(() => html`<div class="said">
             ${headline(reading, overlays)}
-            <p part="caption" class="caption ${condition !== 'told' && 'note'}">${captionOf(reading)}</p>
+            <p part="caption" class="caption ${condition !== 'told' && 'note'}">${captionOf(reading, overlays)}</p>
             ${recursionChoice(this)}
           </div>`)}
           ${panel(say.floor, html`<div class="stage" part="picture">${canvas(this, this.#floor, planeText(reading))}</div>`, 'floor')}

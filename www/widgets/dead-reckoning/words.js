@@ -22,15 +22,17 @@ function signed(share, printed = fixed(100 * share, 1)) {
 /** How far a ratio is off after the last step. @param {{ end: number, error: number }} misses */
 export const endText = ({ end, error }) => signed(end, withError(100 * end, 100 * error, 1));
 
-/** What stands under the pictures: how well the recursion that is looked at predicts. @param {Reading} reading */
-export function captionOf({ config: { compounding }, stats: { misses, n }, condition, curves }) {
+/** Returns how well the recursion predicts the components that are shown. @param {Reading} reading @param {string[]} overlays */
+export function captionOf({ config: { compounding }, stats: { misses, n }, condition, curves }, overlays) {
   const say = words.reckoning;
   if (condition !== 'told') return say.conditions[condition];
   const ofAll = misses[compounding];
+  const shown = componentsOf(overlays);
+  const ifShown = (/** @type {number} */ miss, /** @type {number} */ axis) => (shown.includes(COMPONENTS[axis]) ? miss : NaN);
   if (ofAll.every(({ first }) => first === null)) return say.right(counted(n));
   // Whose ratio is furthest from 1, at the end and anywhere.
-  const far = furthest(ofAll.map(({ end }) => Math.abs(end)));
-  const worst = furthest(curves.map(({ ratio }) => ratio.reduce((most, value) => Math.max(most, Math.abs(value - 1) || 0), 0)));
+  const far = furthest(ofAll.map(({ end }, axis) => ifShown(Math.abs(end), axis)));
+  const worst = furthest(curves.map(({ ratio }, axis) => ifShown(ratio.reduce((most, value) => Math.max(most, Math.abs(value - 1) || 0), 0), axis)));
   const list = listOf(Array.from(curves[worst].ratio));
   const [end, where, of] = [signed(ofAll[far].end), say.where[COMPONENTS[far]], say.of[COMPONENTS[worst]]];
   return far === worst ? `${say.wrong(end, where)} ${say.begins(of, list)}` : say.worse(end, where, of, list);
@@ -67,10 +69,10 @@ export function worstAt({ config: { step }, curves }, overlays) {
   return { component: COMPONENTS[worst], ratio: ratios[worst] };
 }
 
-/** What is announced after a change has come to rest. @param {Reading} reading */
-export function announcementOf(reading) {
+/** What is announced after a change has come to rest. @param {Reading} reading @param {string[]} overlays */
+export function announcementOf(reading, overlays) {
   const { config, shown } = reading;
-  return words.reckoning.announcement(counted(shown), commandText(config.command), String(config.steps), captionOf(reading));
+  return words.reckoning.announcement(counted(shown), commandText(config.command), String(config.steps), captionOf(reading, overlays));
 }
 
 /** Returns the ratios that are shown, at the selected step. @param {Reading} reading @param {string[]} overlays */

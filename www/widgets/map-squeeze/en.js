@@ -134,7 +134,7 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
     several: (names, count) => `${names}: these are ${count} maps; expected is one at a time.`,
     noFile: 'No file',
     alone: (name) => `${name}: an image alone has no scale; expected is its .yaml file together with it.`,
-    gone: (name, reason) => `${name}: the file cannot be read (${reason}); expected is one that is still there.`,
+    gone: (name, reason) => `${name}: the file cannot be read (${reason}); expected is one that exists and may be read.`,
     long: (name, bytes, most) => `${name}: the file has ${bytes} bytes; expected are at most ${most}.`,
     plan: (name, reason, form) => `${name}: ${reason}; a floor plan is ${form} in metres.`,
     planForm: (form) => `${form} in metres`,

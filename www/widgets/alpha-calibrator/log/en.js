@@ -32,7 +32,7 @@ export const log = {
     `${file}${line ? `, line ${line}` : ''}${topic ? `, topic ${topic}` : ''}`,
   /** Reasons for refusing a log, each after its place. */
   refused: {
-    gone: (/** @type {string} */ reason) => `the file cannot be read (${reason}); expected is one that is still there.`,
+    gone: (/** @type {string} */ reason) => `the file cannot be read (${reason}); expected is one that exists and may be read.`,
     empty: 'there is nothing in it; expected is a log of poses or commands.',
     binary: 'it is neither text nor an MCAP recording; expected is CSV, TUM or MCAP.',
     longLine: (/** @type {number} */ most) => `the line has more than ${most} bytes; expected is one row a line.`,

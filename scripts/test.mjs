@@ -106,10 +106,10 @@ const PARTS = {
   rustfmt: {
     prepare: async (more) => lint(await native(), 'fmt', ['--check', ...more, '--', ...filesOf('scripts/bind/src'), ...filesOf('fuzz/fuzz_targets')]),
   },
-  eslint: {
+  oxlint: {
     async prepare(more) {
       await ensurePackages('tests');
-      return npmProgram('eslint/bin/eslint.js', ['--max-warnings', '0', ...more, '.']);
+      return npmProgram('oxlint/bin/oxlint', ['--deny-warnings', ...more, '.']);
     },
   },
   build: {
@@ -184,7 +184,7 @@ const LANES = [
   ['rustfmt', 'clippy', 'rust', ...(ALL ? ['docs'] : [])],
   // The link of the WebAssembly tests has one core: not at the end, when nobody uses the other.
   ['build', 'wasm', ...(ALL ? ['clippy-wasm'] : [])],
-  ['eslint', 'tsc', 'node', 'package'],
+  ['oxlint', 'tsc', 'node', 'package'],
 ];
 
 /** Alone, for they watch frames and time; they use all cores by themselves. */
@@ -270,7 +270,7 @@ function nodeTests(directory, more) {
   const named = files.filter((path) => more.some((each) => !each.startsWith('-') && path.includes(each)));
   const options = more.filter((each) => !named.some((path) => path.includes(each)));
   // By itself it leaves a core idle.
-  return [process.execPath, '--test', '--test-reporter', 'tap', '--test-concurrency', `${availableParallelism()}`, ...options, ...(named.length > 0 ? named : files)];
+  return [process.execPath, '--import', 'tsx', '--test', '--test-reporter', 'tap', '--test-concurrency', `${availableParallelism()}`, ...options, ...(named.length > 0 ? named : files)];
 }
 
 /**

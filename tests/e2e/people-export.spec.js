@@ -187,7 +187,7 @@ test('the menu saves files with names that say what they are, from the keyboard 
 const HOSTILE = ']]> --> <!-- <![CDATA[ </svg><script>alert(1)</script> & &amp; " \u0027 \u0000\u0001\u0008\u000b\u000c\u001f\ufffe\uffff \ud800 \udc00 \u{1f916} é';
 
 /** Returns a text as an SVG file has it. @param {string} text */
-// eslint-disable-next-line no-control-regex
+// oxlint-disable-next-line no-control-regex
 const harmless = (text) => text.replace(/[\0-\x08\x0b\x0c\x1f\ufffe\uffff\p{Cs}]/gu, '\ufffd');
 
 test('SVG is well-formed whatever the names of a page are', async ({ page }) => {

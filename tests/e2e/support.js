@@ -31,11 +31,11 @@ import { CLOUDS, HANDLED, figureFor } from './figures.js';
  * @type {import('@playwright/test').TestType<import('@playwright/test').PlaywrightTestArgs & import('@playwright/test').PlaywrightTestOptions & Chosen, import('@playwright/test').PlaywrightWorkerArgs & import('@playwright/test').PlaywrightWorkerOptions>}
  */
 export const test = base.extend({
-  /* eslint-disable no-empty-pattern */
+  /* oxlint-disable no-empty-pattern */
   figure: async ({}, use, { title }) => use(figureFor(title)),
   cloud: async ({}, use, { title }) => use(figureFor(title, CLOUDS)),
   handled: async ({}, use, { title }) => use(figureFor(title, HANDLED)),
-  /* eslint-enable no-empty-pattern */
+  /* oxlint-enable no-empty-pattern */
   introduced: [true, { option: true }],
   page: async ({ page, introduced }, use) => {
     if (introduced) await page.addInitScript(skipIntroduction);

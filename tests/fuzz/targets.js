@@ -10,7 +10,7 @@ import { load } from '../../dist/core.js';
 import { attributesOf, isSetting } from '../../www/figure/attributes.js';
 import { pack, unpack } from '../../www/figure/packing.js';
 import { settings } from '../../www/settings.js';
-import { LogError, readLog, topicsOf } from '../../www/widgets/alpha-calibrator/log/read.js';
+import { LogError, readLog, topicsOf } from '../../www/logs/read.js';
 import { applyMap, cellsOf, mapData } from '../../www/widgets/map-squeeze/maps/data.js';
 import { odometry, poseOf, recordingOf, stampOf, transform, twistOf } from '../mcap.js';
 import { description, file, refusalOf } from '../node/map-support.js';

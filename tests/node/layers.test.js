@@ -58,6 +58,14 @@ test('no import runs up, and none from one widget to another', () => {
   }
 });
 
+test('readers of logs import neither the page nor Node', () => {
+  const read = Object.entries(metafile.inputs).filter(([path]) => path.startsWith('www/logs/'));
+  assert.ok(read.length > 5, `${read.length} files`);
+  for (const [path, { imports }] of read) {
+    for (const each of imports) assert.match(each.path, /^(www\/logs|node_modules)\//, `${path} imports ${each.path}`);
+  }
+});
+
 test('only core.js touches the generated glue', () => {
   const glue = Object.entries(metafile.inputs).filter(([, { imports }]) => imports.some(({ path }) => /^build\/motion/.test(path)));
   assert.deepEqual(glue.map(([path]) => [dirname(path), path]), [['www', 'www/core.js']]);

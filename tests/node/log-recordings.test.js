@@ -2,11 +2,11 @@
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { log as german } from '../../www/widgets/alpha-calibrator/log/de.js';
-import { log as english } from '../../www/widgets/alpha-calibrator/log/en.js';
-import { unlz4 } from '../../www/widgets/alpha-calibrator/log/lz4.js';
-import { MAX_CHUNK } from '../../www/widgets/alpha-calibrator/log/mcap.js';
-import { LogError, guessTopics, isRecording, logsOf, pairLogs, readLog, summarize, topicsOf } from '../../www/widgets/alpha-calibrator/log/read.js';
+import { log as german } from '../../www/logs/de.js';
+import { log as english } from '../../www/logs/en.js';
+import { unlz4 } from '../../www/logs/lz4.js';
+import { MAX_CHUNK } from '../../www/logs/mcap.js';
+import { LogError, guessTopics, isRecording, logsOf, pairLogs, readLog, summarize, topicsOf } from '../../www/logs/read.js';
 import { odometry, poseOf, recordingOf, stampOf, transform, twistOf } from '../mcap.js';
 import { generator } from '../random.js';
 

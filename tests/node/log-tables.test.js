@@ -2,11 +2,11 @@
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { log as german } from '../../www/widgets/alpha-calibrator/log/de.js';
-import { log as english } from '../../www/widgets/alpha-calibrator/log/en.js';
-import { LogError, pairLogs, readLog, summarize } from '../../www/widgets/alpha-calibrator/log/read.js';
+import { log as german } from '../../www/logs/de.js';
+import { log as english } from '../../www/logs/en.js';
+import { LogError, pairLogs, readLog, summarize } from '../../www/logs/read.js';
 
-/** @param {string | Uint8Array<ArrayBuffer>} contents @param {import('../../www/widgets/alpha-calibrator/log/read.js').Choice} [choice] */
+/** @param {string | Uint8Array<ArrayBuffer>} contents @param {import('../../www/logs/read.js').Choice} [choice] */
 const read = (contents, choice) => readLog(new File([contents], 'run.csv'), choice);
 
 /** @param {string} contents @returns {Promise<any>} */

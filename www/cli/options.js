@@ -1,7 +1,7 @@
 /** Options of the command line. */
 
 import { parseArgs } from 'node:util';
-import { cut } from '../widgets/alpha-calibrator/log/log-error.js';
+import { cut } from '../logs/log-error.js';
 
 /** Error about the options; its message is a sentence. */
 export class UsageError extends Error {}

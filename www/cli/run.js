@@ -3,15 +3,15 @@
 import { openAsBlob } from 'node:fs';
 import { stat } from 'node:fs/promises';
 import { basename } from 'node:path';
-import { log as words } from '../widgets/alpha-calibrator/log/en.js';
-import { LogError, cut } from '../widgets/alpha-calibrator/log/log-error.js';
-import * as reader from '../widgets/alpha-calibrator/log/read.js';
+import { log as words } from '../logs/en.js';
+import { LogError, cut } from '../logs/log-error.js';
+import * as reader from '../logs/read.js';
 import { HELP, UsageError, optionsOf, withOption } from './options.js';
 import { jsonOf, textOf } from './report.js';
 
 /**
- * @import { Choice, Topic } from '../widgets/alpha-calibrator/log/read.js'
- * @import { Log } from '../widgets/alpha-calibrator/log/rows.js'
+ * @import { Choice, Topic } from '../logs/read.js'
+ * @import { Log } from '../logs/rows.js'
  * @import { Input, Options } from './options.js'
  *
  * @typedef {'odometry' | 'reference'} Role

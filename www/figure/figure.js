@@ -458,7 +458,7 @@ export class FigureElement extends LitElement {
     this.#updating = true;
     try {
       // At once: what was shown before a trap stays, and in the place of what failed comes the sentence.
-      this.runtime.attemptOrFail(rendered) ?? rendered();
+      if (!this.runtime.attemptOrFail(rendered)) rendered();
     } catch {
       // No template can be rendered here, now or later.
       this.shouldUpdate = () => false;

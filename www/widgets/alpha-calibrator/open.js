@@ -9,11 +9,11 @@ import { referenceNoise } from './controls.js';
 
 /**
  * @typedef {import('./alpha-calibrator.js').AlphaCalibratorElement} Figure
- * @typedef {import('./log/log-error.js').LogError} LogError
- * @typedef {import('./log/rows.js').Poses} Poses
- * @typedef {import('./log/read.js').Topic} Topic
+ * @typedef {import('../../logs/log-error.js').LogError} LogError
+ * @typedef {import('../../logs/rows.js').Poses} Poses
+ * @typedef {import('../../logs/read.js').Topic} Topic
  * @typedef {import('../../types.d.ts').CalibrationLog} CalibrationLog
- * @typedef {typeof import('./log/read.js')} Reader
+ * @typedef {typeof import('../../logs/read.js')} Reader
  * @typedef {{ onProgress: (share: number) => void, signal: AbortSignal }} Watched
  *
  * @typedef {object} Chosen recording with its topics, or two tables without
@@ -197,7 +197,7 @@ export class LogOpener extends Part {
     };
     show(0);
     try {
-      await work(await import('./log/read.js'), { onProgress: show, signal });
+      await work(await import('../../logs/read.js'), { onProgress: show, signal });
       show(undefined);
     } catch (error) {
       show(undefined);
@@ -209,9 +209,9 @@ export class LogOpener extends Part {
 /** @param {Topic[]} topics @param {string} topic */
 const holdsTransforms = (topics, topic) => topics.some(({ name, kind }) => name === topic && kind === 'transforms');
 
-/** Loads the words of logs. @returns {Promise<() => typeof import('./log/en.js').log>} those of the present language */
+/** Loads the words of logs. @returns {Promise<() => typeof import('../../logs/en.js').log>} those of the present language */
 async function wordsOf() {
-  const [{ log: english }, { log: german }] = await Promise.all([import('./log/en.js'), import('./log/de.js')]);
+  const [{ log: english }, { log: german }] = await Promise.all([import('../../logs/en.js'), import('../../logs/de.js')]);
   return () => (language === 'de' ? german : english);
 }
 

@@ -1,10 +1,10 @@
 /** Messages of ROS 2 with poses, commands or transforms. */
 
 import { MessageReader } from '@foxglove/rosmsg2-serialization';
-import { headingOf, isRotation } from './quaternion.js';
+import { headingOf, isRotation } from './quaternion.ts';
 
 /**
- * @import { Quaternion, Vector } from './quaternion.js'
+ * @import { Quaternion, Vector } from './quaternion.ts'
  *
  * @typedef {{ sec: number, nanosec: number }} Stamp
  * @typedef {{ translation: Vector, rotation: Quaternion }} Transform

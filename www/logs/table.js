@@ -3,7 +3,7 @@
 import { isHeader, layoutOf } from './header.js';
 import { LogError, bytesOf, cut } from './log-error.js';
 import { numberOf, timeOf } from './numbers.js';
-import { headingOf, isRotation } from './quaternion.js';
+import { headingOf, isRotation } from './quaternion.ts';
 import { Rows } from './rows.js';
 
 /**

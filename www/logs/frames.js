@@ -1,7 +1,7 @@
 /** Chain of transforms between two frames, from transforms as they are recorded. */
 
 import { withoutSlash } from './messages.js';
-import { headingOf, isRotation, product, rotated } from './quaternion.js';
+import { headingOf, isRotation, product, rotated } from './quaternion.ts';
 
 /** @import { Edge, Reading, Transform } from './messages.js' */
 

@@ -43,7 +43,7 @@ export class LogError extends Error {
  * @param {number} [most] characters
  */
 export function cut(text, most = QUOTED) {
-  // eslint-disable-next-line no-control-regex
+  // oxlint-disable-next-line no-control-regex
   const line = text.slice(0, most + 1).replaceAll(/[\0-\x1f\x7f-\x9f\u2028\u2029]/g, '\ufffd');
   return line.length > most ? `${line.slice(0, most)}…` : line;
 }

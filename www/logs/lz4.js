@@ -80,7 +80,7 @@ function decompressBlock(block, out, filled) {
     const end = filled + lengthFrom(token & 15) + SHORTEST_MATCH;
     check(distance > 0 && distance <= filled && end <= out.length);
     // A match longer than its distance repeats bytes that it has just written.
-    for (let from = filled - distance; filled < end; ) {
+    for (const from = filled - distance; filled < end; ) {
       const part = Math.min(end - filled, filled - from);
       out.copyWithin(filled, from, from + part);
       filled += part;

@@ -1,0 +1,30 @@
+/** Quaternions of recorded poses. */
+
+export interface Vector { x: number; y: number; z: number }
+export interface Quaternion extends Vector { w: number }
+
+/** Largest deviation from length 1 that rounding explains. */
+const TOLERANCE = 0.1;
+
+/** Returns the angle about the vertical axis, for quaternions of any length. */
+export function headingOf(qx: number, qy: number, qz: number, qw: number): number {
+  return Math.atan2(2 * (qw * qz + qx * qy), qw * qw + qx * qx - qy * qy - qz * qz);
+}
+
+/** Checks that a quaternion has length 1. One with NaN passes: its row is dropped as not finite. */
+export function isRotation(qx: number, qy: number, qz: number, qw: number): boolean {
+  return !(Math.abs(Math.sqrt(qx * qx + qy * qy + qz * qz + qw * qw) - 1) > TOLERANCE);
+}
+
+/** Hamilton product. */
+export const product = (a: Quaternion, b: Quaternion): Quaternion => ({
+  x: a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
+  y: a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x,
+  z: a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w,
+  w: a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z,
+});
+
+/** Rotates a vector by a quaternion of length 1. */
+export function rotated(q: Quaternion, v: Vector): Vector {
+  return product(product(q, { ...v, w: 0 }), { x: -q.x, y: -q.y, z: -q.z, w: q.w });
+}

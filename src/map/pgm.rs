@@ -55,10 +55,12 @@ pub fn read_pgm(bytes: &[u8]) -> Result<Image<Shades<'_>>, PgmError> {
         }
         Coding::Plain
     } else {
-        // One white space character ends the header.
-        reader.at += 1;
         let (coding, size) = if greatest < 256 { (Coding::Bytes, 1) } else { (Coding::Words, 2) };
-        let (there, wanted) = (bytes.len().saturating_sub(reader.at), left * size);
+        let wanted = left * size;
+        // One white space character ends the header. Windows editors write two: carriage return and line feed.
+        let is_crlf = bytes[reader.at..].starts_with(b"\r\n") && bytes.len() >= reader.at + 2 + wanted;
+        reader.at += if is_crlf { 2 } else { 1 };
+        let there = bytes.len().saturating_sub(reader.at);
         if there < wanted {
             let allowed = format!("{wanted} for {width} × {height} pixels");
             let (field, value) = ("the length of the raster in bytes", there.to_string());

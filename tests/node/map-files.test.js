@@ -51,6 +51,17 @@ test('what else YAML has beyond fields and values is refused at once', async () 
   assert.equal(Reflect.get({}, 'resolution'), undefined);
 });
 
+test('a description is read as leniently as map_server reads it', async () => {
+  const plain = await opened(description({ image: 'map.pgm', origin: '[-1, 2, 0]', mode: 'trinary', negate: 1 }), PGM);
+  for (const yaml of [
+    'image: map.pgm\r\nresolution: "0.05"\r\norigin: ["-1.0", \'2\', 0]\r\nnegate: "1"\r\nmode: Trinary\r\n',
+    'image:\tmap.pgm\nresolution:\t0.05\t\norigin:\t[-1,\t2,\t0]\n\tnegate: Yes\nmode:\tTRINARY\n',
+  ]) assert.deepEqual((await opened(file('map.yaml', yaml), PGM)).grid, plain.grid, yaml);
+  const png = pngOf({ width: 2, height: 1, sample: (column) => [0, 127][column] });
+  const misnamed = await opened(description({ image: 'map.pgm', origin: '[-1, 2, 0]', negate: 1 }), file('map.pgm', png));
+  assert.deepEqual(misnamed.grid, plain.grid, 'a PNG image with another extension');
+});
+
 test('a value of any kind or length is refused by a sentence that can be read', async () => {
   const long = 'x'.repeat(9e4);
   for (const value of [`"${long}"`, `[${'[1], '.repeat(1e4)}]`, '{a: {b: [c]}}', 'null', 'true', '.nan', '1e999', '""']) {

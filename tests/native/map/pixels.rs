@@ -66,6 +66,13 @@ fn pgm_rasters_may_hold_any_bytes() {
     // The first byte of the raster may look like white space or a comment.
     assert_eq!(shades(&read_pgm(b"P5 2 1 255\n\n#").expect("two pixels")), [10.0 / 255.0, 35.0 / 255.0]);
     assert_eq!(shades(&read_pgm(b"P5 1 1 100\n\xff").expect("a pixel too bright")), [1.0]);
+    // Editors of Windows end the lines of a header with two characters.
+    for header in ["P5\r\n2 1\r\n5\r\n", "P5\r\n# by hand\r\n2 1 5\r\n", "P5 2 1 5\r\n"] {
+        let file = [header.as_bytes(), &[0, 5]].concat();
+        assert_eq!(shades(&read_pgm(&file).expect("a header of Windows")), [0.0, 1.0], "{header:?}");
+    }
+    // Without a byte to spare the line feed is the first pixel.
+    assert_eq!(shades(&read_pgm(b"P5 2 1 255\r\n#").expect("two pixels")), [10.0 / 255.0, 35.0 / 255.0]);
 }
 
 /// A sentence that names the line, the field, its value and what is allowed.

@@ -42,6 +42,9 @@ const FORGIVEN = 200_000;
 /** Characters of a name or a value that a sentence quotes. */
 const QUOTED = 100;
 
+/** First bytes of a PNG image. */
+const PNG = [0x89, 0x50, 0x4e, 0x47];
+
 /** Form of a floor plan. */
 const PLAN_FORM = '{"bounds": [x0, y0, x1, y1], "walls": [[x0, y0, x1, y1], …]}';
 
@@ -188,9 +191,9 @@ async function readGrid(file, images, decodePng) {
     throw new MapFileError(file.name, (say, name) => say.pair(name, quoted(wanted), quoted(given)));
   }
   checkSize(image.name, image.size, limits.bytes);
-  const pixels = /\.pgm$/i.test(image.name)
-    ? new Uint8Array(await bytesOf(image, image.name))
-    : await readPng(image, decodePng);
+  const bytes = new Uint8Array(await bytesOf(image, image.name));
+  const isPng = PNG.every((byte, i) => byte === bytes[i]);
+  const pixels = isPng ? await readPng(image.name, bytes, decodePng) : bytes;
   return {
     name: file.name,
     apply: (machine) =>
@@ -202,31 +205,47 @@ async function readGrid(file, images, decodePng) {
   };
 }
 
-/** Truth in words: to the older YAML of map_server they are no strings. */
-const WORDS = new Map([['yes', true], ['on', true], ['no', false], ['off', false]]);
+/** Truth in words, which YAML 1.2 reads as strings and map_server as booleans. */
+const WORDS = new Map([['true', true], ['yes', true], ['on', true], ['false', false], ['no', false], ['off', false]]);
+
+/** Fields of numbers. map_server also reads numbers in quotes. */
+const NUMBERS = ['resolution', 'origin', 'negate', 'occupied_thresh', 'free_thresh'];
+
+/** Number in quotes as a number; other values as they are. @param {unknown} value @returns {unknown} */
+function unquoted(value) {
+  if (Array.isArray(value)) return value.map(unquoted);
+  return typeof value === 'string' && value.trim() !== '' && Number.isFinite(Number(value)) ? Number(value) : value;
+}
 
 /**
+ * Parses a description as leniently as map_server does.
+ *
  * @param {string} name of the file
  * @param {string} text
  */
 async function readDescription(name, text) {
-  const description = await parsed(name, text, 'YAML');
+  // YAML forbids tabs as indentation, and the fields have none.
+  const description = await parsed(name, text.replaceAll(/^\t+/gm, '').replaceAll('\t', ' '), 'YAML');
   if (!isObject(description)) throw new MapFileError(name, (say, file) => say.fields(file));
-  const { negate } = description;
-  return typeof negate === 'string' ? { ...description, negate: WORDS.get(negate.toLowerCase()) ?? negate } : description;
+  const fields = { ...description };
+  for (const key of NUMBERS) if (key in fields) fields[key] = unquoted(fields[key]);
+  const { negate, mode } = fields;
+  if (typeof negate === 'string') fields.negate = WORDS.get(negate.toLowerCase()) ?? negate;
+  if (typeof mode === 'string') fields.mode = mode.toLowerCase();
+  return fields;
 }
 
 /**
- * @param {File} file
+ * @param {string} name of the file
+ * @param {Uint8Array} bytes
  * @param {DecodePng} decodePng
  */
-async function readPng(file, decodePng) {
-  const bytes = new Uint8Array(await bytesOf(file, file.name));
+async function readPng(name, bytes, decodePng) {
   try {
     return await decodePng(bytes);
   } catch (error) {
     if (!(error instanceof RangeError)) throw error;
-    throw new MapFileError(file.name, (say, name) => say.broken(name, error.message));
+    throw new MapFileError(name, (say, file) => say.broken(file, error.message));
   }
 }
 

@@ -126,7 +126,7 @@ test('files that are no log are refused in a sentence, and all stays as it was',
   await choose(widget, { 'alone.csv': 't,x,y,yaw\n0,0,0,0\n' });
   await expect(alert).toHaveText(/Log refused: 1 file given; choose two tables at once/);
   await choose(widget, { 'notes.mcap': 'no recording' });
-  await expect(alert).toHaveText(/^notes\.mcap: the recording is damaged/);
+  await expect(alert).toHaveText(/^notes\.mcap, line 1: none of the columns no, recording is the time/);
   const buffer = await recordingOf([{ topic: '/rosout', type: 'rcl_interfaces/msg/Log', t: 1, message: {} }], {});
   await widget.locator('#log-files').setInputFiles({ name: 'words.mcap', mimeType: 'application/octet-stream', buffer });
   await expect(alert).toHaveText(/^words\.mcap: the topics are \/rosout \(Log\); expected is one of type nav_msgs\/msg\/Odometry/);

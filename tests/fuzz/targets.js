@@ -10,9 +10,11 @@ import { load } from '../../dist/core.js';
 import { attributesOf, isSetting } from '../../www/figure/attributes.js';
 import { pack, unpack } from '../../www/figure/packing.js';
 import { settings } from '../../www/settings.js';
-import { LogError, readLog, topicsOf } from '../../www/logs/read.js';
+import { LogError } from '../../www/logs/log-error.js';
+import { openRecordings } from '../../www/logs/open.ts';
 import { applyMap, cellsOf, mapData } from '../../www/widgets/map-squeeze/maps/data.js';
 import { odometry, poseOf, recordingOf, stampOf, transform, twistOf } from '../mcap.js';
+import { readLog } from '../node/log-support.js';
 import { description, file, refusalOf } from '../node/map-support.js';
 
 /**
@@ -99,8 +101,8 @@ async function logIsRead(read) {
   const { t, breaks, ...values } = log.data;
   assert.ok(t.length > 1 && t.every((each, i) => Number.isFinite(each) && each > (t[i - 1] ?? -1)));
   for (const column of Object.values(values)) assert.ok(column.length === t.length && column.every(Number.isFinite));
-  const { rows, leftOut } = log.found;
-  assert.equal(Object.values(leftOut).reduce((sum, { count }) => sum + count, t.length), rows);
+  const { rows, dropped } = log.summary;
+  assert.equal(Object.values(dropped).reduce((sum, { count }) => sum + count, t.length), rows);
   assert.ok(breaks.every((row, i) => row > (breaks[i - 1] ?? 0) && row < t.length));
   return true;
 }
@@ -133,7 +135,7 @@ function unchecked(bytes) {
 }
 
 /** Topics and frames that are read from a recording. */
-const CHOICES = [{ topic: '/odom' }, { topic: '/pose' }, { topic: '/cmd_vel' }, { topic: '/tf', frames: { parent: 'map', child: 'base' } }];
+const CHOICES = [{ series: '/odom' }, { series: '/pose' }, { series: '/cmd_vel' }, { series: '/tf', frames: { parent: 'map', child: 'base' } }];
 
 /** Description of an image in which few cells are occupied: walls are slow, and the core has its own targets. */
 const bare = (/** @type {string} */ image) => description({ image, negate: 1, occupied_thresh: 0.99 });
@@ -185,7 +187,7 @@ export const targets = {
         // One input in four lists the topics too.
       if (Math.floor(bytes.length / length) % 4) return taken;
       try {
-        for (const { name, count } of await topicsOf(source)) assert.ok(typeof name === 'string' && count >= 0);
+        for (const { name, count } of (await openRecordings([source]))[0].series) assert.ok(typeof name === 'string' && count >= 0);
       } catch (error) {
         if (!(error instanceof LogError)) throw error;
         look(error.message);

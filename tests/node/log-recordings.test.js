@@ -3,12 +3,16 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { log as german } from '../../www/logs/de.js';
+import { guessSeries, pairLogs } from '../../www/logs/drives.ts';
 import { log as english } from '../../www/logs/en.js';
+import { LogError } from '../../www/logs/log-error.js';
 import { unlz4 } from '../../www/logs/lz4.js';
 import { MAX_CHUNK } from '../../www/logs/mcap.js';
-import { LogError, guessTopics, isRecording, logsOf, pairLogs, readLog, summarize, topicsOf } from '../../www/logs/read.js';
+import { openRecordings } from '../../www/logs/open.ts';
+import { summarize } from '../../www/logs/summary.ts';
 import { odometry, poseOf, recordingOf, stampOf, transform, twistOf } from '../mcap.js';
 import { generator } from '../random.js';
+import { readLog } from './log-support.js';
 
 /** @import { Message } from '../mcap.js' */
 
@@ -70,8 +74,9 @@ const FORMS = [
 for (const [name, options] of FORMS) {
   test(`${name}: topics are listed, poses and commands are read`, async () => {
     const source = file(await recordingOf(drive(), options));
-    assert.ok(await isRecording(source));
-    const topics = await topicsOf(source);
+    const [recording] = await openRecordings([source]);
+    const topics = recording.series;
+    assert.equal(recording.format, 'mcap');
     assert.deepEqual(
       topics.map(({ name, count, kind }) => [name, count, kind]),
       [
@@ -80,15 +85,15 @@ for (const [name, options] of FORMS) {
       ],
     );
     assert.equal(topics[5].type, ODOMETRY);
-    assert.deepEqual(guessTopics(topics), { odometry: '/odom', reference: '/mocap/pose' });
-    assert.deepEqual(guessTopics(topics, 'commands'), { odometry: '/cmd_vel', reference: '/mocap/pose' });
+    assert.deepEqual(guessSeries(topics), { odometry: '/odom', reference: '/mocap/pose' });
+    assert.deepEqual(guessSeries(topics, 'commands'), { odometry: '/cmd_vel', reference: '/mocap/pose' });
 
-    const logs = await logsOf(source, [
-      ...['/odom', '/mocap/pose', '/fused', '/cmd_vel', '/cmd_stamped'].map((topic) => ({ topic })),
-      ...[['map', '/base_link'], ['odom', 'base_footprint']].map(([parent, child]) => ({ topic: '/tf', frames: { parent, child } })),
+    const logs = await recording.read([
+      ...['/odom', '/mocap/pose', '/fused', '/cmd_vel', '/cmd_stamped'].map((series) => ({ series })),
+      ...[['map', '/base_link'], ['odom', 'base_footprint']].map(([parent, child]) => ({ series: '/tf', frames: { parent, child } })),
     ]);
-    for (const log of logs) assert.deepEqual([log.start, log.data.t.length, log.how.cutShort], [START, COUNT, false], log.name);
-    assert.deepEqual(await readLog(source, { topic: '/odom' }), logs[0]);
+    for (const log of logs) assert.deepEqual([log.start, log.data.t.length, log.summary.notes], [START, COUNT, []], log.name);
+    assert.deepEqual(await readLog(source, { series: '/odom' }), logs[0]);
     const [own, reference, fused, driven, stamped, chained, drifting] = logs.map(({ data }) => /** @type {any} */ (data));
     for (const { t, x, y, theta } of [own, reference]) {
       close(t, (i) => i / 20);
@@ -116,8 +121,8 @@ for (const [name, options] of FORMS) {
 test('a recording that breaks off is read as far as it goes', async () => {
   for (const [name, options] of FORMS) {
     const whole = await recordingOf(drive(), options);
-    const log = await readLog(file(whole.subarray(0, Math.floor(0.4 * whole.length))), { topic: '/odom' });
-    assert.ok(log.how.cutShort);
+    const log = await readLog(file(whole.subarray(0, Math.floor(0.4 * whole.length))), { series: '/odom' });
+    assert.deepEqual(log.summary.notes, [{ name: 'cutShort', values: [] }]);
     const { length } = log.data.t;
     assert.ok(length > 0.1 * COUNT && length < 0.6 * COUNT, `${name}: ${length}`);
     close(/** @type {any} */ (log.data).x, (i) => i / 100);
@@ -126,7 +131,7 @@ test('a recording that breaks off is read as far as it goes', async () => {
 
 test('an incomplete index is not used', async () => {
   const bytes = await recordingOf(drive());
-  const plain = await readLog(file(bytes), { topic: '/odom' });
+  const plain = await readLog(file(bytes), { series: '/odom' });
   // Statistics in the summary, whose checksum is cleared, count more chunks than the index has.
   const footer = bytes.length - 28;
   bytes.writeUInt32LE(0, footer + 16);
@@ -134,33 +139,32 @@ test('an incomplete index is not used', async () => {
   let record = Number(bytes.readBigUInt64LE(footer));
   while (bytes[record] !== STATISTICS) record += 9 + Number(bytes.readBigUInt64LE(record + 1));
   bytes.writeUInt32LE(bytes.readUInt32LE(record + 9 + 22) + 1, record + 9 + 22);
-  assert.deepEqual((await readLog(file(bytes), { topic: '/odom' })).data, plain.data);
+  assert.deepEqual((await readLog(file(bytes), { series: '/odom' })).data, plain.data);
 });
 
 test('a clock that begins at 0 has stamps; messages without stamps have the times of recording, which is reported', async () => {
   const rows = async (/** @type {(i: number) => number} */ stamp) => {
     const messages = wheels(100, (i) => odometry(stamp(i), i, 0, 0)).map((message, i) => ({ ...message, t: 1_700_000_000 + i / 20 }));
-    const log = await readLog(file(await recordingOf(messages)), { topic: '/odom' });
-    return { ...log, summary: summarize(log, english.found).join(' ') };
+    const log = await readLog(file(await recordingOf(messages)), { series: '/odom' });
+    return { ...log, sentences: summarize(log, english.found).join(' ') };
   };
   const simulated = await rows((i) => i / 10);
-  assert.deepEqual([simulated.start, simulated.found.rows, simulated.data.t[0], simulated.data.t[99]], [0, 100, 0, 9.9]);
+  assert.deepEqual([simulated.start, simulated.summary.rows, simulated.data.t[0], simulated.data.t[99]], [0, 100, 0, 9.9]);
   const unstamped = await rows(() => 0);
   assert.deepEqual([unstamped.start, unstamped.data.t.length, unstamped.data.t[20]], [1_700_000_000, 100, 1]);
-  assert.match(unstamped.summary, /times are those at which messages were recorded/);
-  assert.doesNotMatch(simulated.summary, /recorded/);
+  assert.match(unstamped.sentences, /times are those at which messages were recorded/);
+  assert.doesNotMatch(simulated.sentences, /recorded/);
   // A single stamp that is missing goes back in time.
   const missing = await rows((i) => (i === 50 ? 0 : 5 + i / 10));
-  assert.deepEqual([missing.data.t.length, missing.found.leftOut.falling.count], [99, 1]);
+  assert.deepEqual([missing.data.t.length, missing.summary.dropped.falling?.count], [99, 1]);
   assert.match(await sentenceOf(rows((i) => 50 - i / 10)), /^run\.mcap, topic \/odom: 99 of 100 rows, that of message 2 first, go back in time;/);
 });
 
 test('unusable quaternions, numbers and times are left out', async () => {
   const messages = wheels(20, (i) => odometry(i === 8 ? at(2) : at(i), i === 5 ? NaN : i, 0, 0, i === 3 ? 0 : 1));
-  const { data, found } = await readLog(file(await recordingOf(messages)), { topic: '/odom' });
+  const { data, summary } = await readLog(file(await recordingOf(messages)), { series: '/odom' });
   assert.deepEqual([.../** @type {any} */ (data).x], Array.from({ length: 20 }, (_, i) => i).filter((i) => ![3, 5, 8].includes(i)));
-  const { noRotation, notFinite, falling } = found.leftOut;
-  assert.deepEqual([noRotation.count, noRotation.line, notFinite.count, notFinite.line, falling.count, falling.line], [1, 4, 1, 6, 1, 9]);
+  assert.deepEqual(summary.dropped, { noRotation: { count: 1, first: 4 }, notFinite: { count: 1, first: 6 }, falling: { count: 1, first: 9 } });
   assert.deepEqual([...data.breaks], [3, 4]);
 });
 
@@ -169,16 +173,17 @@ test('messages that were written in any order are read in the order of their tim
   const shuffled = wheels(200).map((message) => ({ message, key: random() })).sort((one, other) => one.key - other.key).map(({ message }) => message);
   // All in one chunk, or in dozens that overlap.
   for (const chunkSize of [1e6, 4096]) {
-    const { data } = await readLog(file(await recordingOf(shuffled, { chunkSize })), { topic: '/odom' });
+    const { data } = await readLog(file(await recordingOf(shuffled, { chunkSize })), { series: '/odom' });
     assert.deepEqual([.../** @type {any} */ (data).x], Array.from({ length: 200 }, (_, i) => i));
   }
 });
 
 test('one topic is not two logs, but one topic of transforms can be', async () => {
   const source = file(await recordingOf(drive()));
-  const [one, other] = await logsOf(source, [{ topic: '/odom' }, { topic: '/odom' }]);
+  const [recording] = await openRecordings([source]);
+  const [one, other] = await recording.read([{ series: '/odom' }, { series: '/odom' }]);
   assert.throws(() => pairLogs(one, other), { message: 'run.mcap, /odom: it is both odometry and reference; expected are two logs of one drive.' });
-  const [two, frames] = await logsOf(source, [{ topic: '/tf', frames: { parent: 'odom', child: 'base_footprint' } }, { topic: '/tf', frames: { parent: 'map', child: 'base_footprint' } }]);
+  const [two, frames] = await recording.read([{ series: '/tf', frames: { parent: 'odom', child: 'base_footprint' } }, { series: '/tf', frames: { parent: 'map', child: 'base_footprint' } }]);
   assert.ok(pairLogs(two, frames).reference.data.t.length > 1);
 });
 
@@ -187,17 +192,17 @@ test('topics and frames that cannot be read are refused', async () => {
   const commands = 'geometry_msgs/msg/Twist or TwistStamped';
   const source = file(await recordingOf(drive()));
   for (const [choice, sentence] of /** @type {const} */ ([
-    [{ topic: '/od' }, 'run.mcap, topic /od: there is no such topic; expected is one of /tf_static, /tf, /odom, /mocap/pose, /fused, /cmd_vel, /cmd_stamped, /chatter.'],
-    [{ topic: '/chatter' }, `run.mcap, topic /chatter: its type is “std_msgs/msg/String”; expected is ${poses}, or ${commands}.`],
-    [{ topic: '/cmd_vel', kind: 'poses' }, `run.mcap, topic /cmd_vel: its type is “geometry_msgs/msg/Twist”; expected is ${poses}.`],
-    [{ topic: '/odom', frames: { parent: 'map', child: 'odom' } }, 'run.mcap, topic /odom: its type is “nav_msgs/msg/Odometry”; expected is tf2_msgs/msg/TFMessage, which has frames.'],
-    [{ topic: '/tf' }, 'run.mcap, topic /tf: which frames are meant is not told; expected are a parent and a child, connected by map to odom, odom to base_footprint, base_link to wheel.'],
-    [{ topic: '/tf', frames: { parent: 'map', child: 'laser' } }, 'run.mcap, topic /tf: no transforms lead from map to laser; expected are frames that are connected, of base_footprint to base_link, map to odom, odom to base_footprint, base_link to wheel.'],
+    [{ series: '/od' }, 'run.mcap, topic /od: there is no such topic; expected is one of /tf_static, /tf, /odom, /mocap/pose, /fused, /cmd_vel, /cmd_stamped, /chatter.'],
+    [{ series: '/chatter' }, `run.mcap, topic /chatter: its type is “std_msgs/msg/String”; expected is ${poses}, or ${commands}.`],
+    [{ series: '/cmd_vel', kind: 'poses' }, `run.mcap, topic /cmd_vel: its type is “geometry_msgs/msg/Twist”; expected is ${poses}.`],
+    [{ series: '/odom', frames: { parent: 'map', child: 'odom' } }, 'run.mcap, topic /odom: its type is “nav_msgs/msg/Odometry”; expected is tf2_msgs/msg/TFMessage, which has frames.'],
+    [{ series: '/tf' }, 'run.mcap, topic /tf: which frames are meant is not told; expected are a parent and a child, connected by map to odom, odom to base_footprint, base_link to wheel.'],
+    [{ series: '/tf', frames: { parent: 'map', child: 'laser' } }, 'run.mcap, topic /tf: no transforms lead from map to laser; expected are frames that are connected, of base_footprint to base_link, map to odom, odom to base_footprint, base_link to wheel.'],
   ])) assert.equal(await sentenceOf(readLog(source, choice)), sentence);
 });
 
 test('other recordings are refused', async () => {
-  const read = async (/** @type {Parameters<typeof recordingOf>[1]} */ options, messages = drive()) => sentenceOf(readLog(file(await recordingOf(messages, options)), { topic: '/odom' }));
+  const read = async (/** @type {Parameters<typeof recordingOf>[1]} */ options, messages = drive()) => sentenceOf(readLog(file(await recordingOf(messages, options)), { series: '/odom' }));
   assert.equal(await read({ compression: 'odd' }), 'run.mcap: its chunks are compressed by “snappy”; expected is zstd, lz4 or none.');
   assert.equal(await read({ encoding: 'ros1' }), 'run.mcap, topic /odom: its messages are encoded as “ros1”; expected is cdr, that of ROS 2.');
   assert.equal(await read({}, []), 'run.mcap, topic /odom: there is no such topic; expected is one of none: it has no messages.');
@@ -211,7 +216,7 @@ test('damaged chunks are refused', async () => {
   for (const compression of /** @type {const} */ (['none', 'zstd', 'lz4'])) {
     const damaged = await recordingOf(wheels(20), { compression, chunkSize: 1e6 });
     damaged[damaged.length >> 2] ^= 1;
-    assert.match(await sentenceOf(readLog(file(damaged), { topic: '/odom' })), /^run\.mcap: the recording is damaged \(.+\); expected is an undamaged MCAP file\.$/);
+    assert.match(await sentenceOf(readLog(file(damaged), { series: '/odom' })), /^run\.mcap: the recording is damaged \(.+\); expected is an undamaged MCAP file\.$/);
   }
 
   const bytes = await recordingOf(drive(), { compression: 'zstd', index: false, chunks: true });
@@ -222,7 +227,7 @@ test('damaged chunks are refused', async () => {
     [10n, 'the recording is damaged (a compressed chunk is not what was written); expected is an undamaged MCAP file.'],
   ])) {
     bytes.writeBigUInt64LE(size, chunk + 9 + 16);
-    assert.equal(await sentenceOf(readLog(file(bytes), { topic: '/odom' })), `run.mcap: ${reason}`);
+    assert.equal(await sentenceOf(readLog(file(bytes), { series: '/odom' })), `run.mcap: ${reason}`);
   }
 });
 

@@ -3,10 +3,13 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { log as german } from '../../www/logs/de.js';
+import { pairLogs } from '../../www/logs/drives.ts';
 import { log as english } from '../../www/logs/en.js';
-import { LogError, pairLogs, readLog, summarize } from '../../www/logs/read.js';
+import { LogError } from '../../www/logs/log-error.js';
+import { summarize } from '../../www/logs/summary.ts';
+import { readLog } from './log-support.js';
 
-/** @param {string | Uint8Array<ArrayBuffer>} contents @param {import('../../www/logs/read.js').Choice} [choice] */
+/** @param {string | Uint8Array<ArrayBuffer>} contents @param {Partial<import('../../www/logs/log.ts').Choice>} [choice] */
 const read = (contents, choice) => readLog(new File([contents], 'run.csv'), choice);
 
 /** @param {string} contents @returns {Promise<any>} */
@@ -42,9 +45,9 @@ test('columns are found by their names, whatever separates them', async () => {
 });
 
 test('a header may be a comment, as in data sets of visual odometry', async () => {
-  const { data, how } = await read('#timestamp [ns], p_RS_R_x [m], p_RS_R_y [m], p_RS_R_z [m], q_RS_w [], q_RS_x [], q_RS_y [], q_RS_z []\n1403636579758555392,4,5,6,0,0,0,1\n1403636579763555584,4,5,6,0,0,0,-1\n');
-  assert.equal(how.columns.x, 'p_RS_R_x [m]');
-  assert.equal(how.unitBy, 'name');
+  const { data, summary } = await read('#timestamp [ns], p_RS_R_x [m], p_RS_R_y [m], p_RS_R_z [m], q_RS_w [], q_RS_x [], q_RS_y [], q_RS_z []\n1403636579758555392,4,5,6,0,0,0,1\n1403636579763555584,4,5,6,0,0,0,-1\n');
+  assert.equal(summary.columns?.x, 'p_RS_R_x [m]');
+  assert.equal(summary.units.time.by, 'name');
   close(/** @type {any} */ (data).theta[0], Math.PI);
 });
 
@@ -54,26 +57,26 @@ test('a log that a recorder exported: the stamp of the message, and poses before
   const row = (/** @type {number} */ i) => [2e18, i, `1700000000${100000000 + i}`, 'odom', 'base', i, -i, 0, 0, 0, Math.SQRT1_2, Math.SQRT1_2, 9, 0.5, 9, 9, 0.1].join(',');
   const text = [header.join(','), row(1), row(2), row(3)].join('\n');
   const poses = await read(text);
-  assert.deepEqual([poses.start, poses.how.hasBoth], [1_700_000_000, true]);
+  assert.equal(poses.start, 1_700_000_000);
   assert.deepEqual([...poses.data.t], [0.100000001, 0.100000002, 0.100000003]);
   close(/** @type {any} */ (poses.data).theta[1], Math.PI / 2);
   // A message that contains another one has its own fields read.
   const nested = await read('time,object.pose.position.x,pose.position.x,pose.position.y,pose.yaw\n0,9,1,2,3\n1,9,1,2,3\n');
-  assert.equal(nested.how.columns.x, 'pose.position.x');
+  assert.equal(nested.summary.columns?.x, 'pose.position.x');
   const commands = await read(text, { kind: 'commands' });
   assert.deepEqual([commands.kind, [.../** @type {any} */ (commands.data).v], [.../** @type {any} */ (commands.data).omega]], ['commands', [0.5, 0.5, 0.5], [0.1, 0.1, 0.1]]);
 });
 
 test('poses are read if commands are wanted and there are none', async () => {
   for (const text of ['t,x,y,yaw\n0,0,0,0\n1,2,0,0\n', '0 0 0 0 0 0 0 1\n1 2 0 0 0 0 0 1\n']) {
-    const { kind, data, how } = await read(text, { kind: 'commands' });
-    assert.deepEqual([kind, [.../** @type {any} */ (data).x], how.hasBoth], ['poses', [0, 2], false]);
+    const { kind, data } = await read(text, { kind: 'commands' });
+    assert.deepEqual([kind, [.../** @type {any} */ (data).x]], ['poses', [0, 2]]);
   }
 });
 
 test('TUM: eight numbers a row', async () => {
-  const { data, how, start } = await read('# timestamp tx ty tz qx qy qz qw\n1305031098.6659 1.25 -0.5 9 0 0 0 1\n1305031098.675900001 1.5 -0.5 9 0 0 0.6 0.8\n');
-  assert.deepEqual([how.format, start], ['tum', 1_305_031_098]);
+  const { data, start } = await read('# timestamp tx ty tz qx qy qz qw\n1305031098.6659 1.25 -0.5 9 0 0 0 1\n1305031098.675900001 1.5 -0.5 9 0 0 0.6 0.8\n');
+  assert.equal(start, 1_305_031_098);
   assert.deepEqual([...data.t], [0.6659, 0.675900001]);
   close(/** @type {any} */ (data).theta[1], 2 * Math.asin(0.6));
 });
@@ -82,12 +85,12 @@ test('nanoseconds of the present keep their digits, in every unit', async () => 
   const times = [['1699999999999999999', '1700000000000000001'], ['1699999999999999.999', '1700000000000000.001'], ['1699999999999.999999', '1700000000000.000001'], ['1699999999.999999999', '1700000000.000000001']];
   for (const [i, unit] of /** @type {const} */ (['ns', 'us', 'ms', 's']).entries()) {
     const [one, other] = times[i];
-    const { data, start, how } = await read(`t,x,y,yaw\n${one},0,0,0\n${other},0,0,0`);
-    assert.deepEqual([start, how.unit, how.unitBy], [1_699_999_999, unit, 'size']);
+    const { data, start, summary: { units: { time } } } = await read(`t,x,y,yaw\n${one},0,0,0\n${other},0,0,0`);
+    assert.deepEqual([start, time.unit, time.by], [1_699_999_999, unit, 'size']);
     close(data.t[0], 0.999999999);
     close(data.t[1], 1.000000001);
     const named = await read(`t_${unit},x,y,yaw\n${one},0,0,0\n${other},0,0,0`);
-    assert.deepEqual([named.data, named.how.unitBy], [data, 'name']);
+    assert.deepEqual([named.data, named.summary.units.time.by], [data, 'name']);
   }
   // Units by name alone, negative times and short ones.
   assert.deepEqual((await dataOf('time (ms),x,y,yaw\n-250,0,0,0\n5,0,0,0\n10.5,0,0,0')).t, [0.75, 1.005, 1.0105]);
@@ -106,12 +109,12 @@ test('unusable rows are left out and reported with the first line, and break the
   const rows = ['0,0,0,0', '1,nan,0,0', '2,,0,0', '3,0,0,0', '3,1,0,0', '4,0,0,0', '2.5,0,0,0', '5,0,inf,0', 'NaN,0,0,0', '6,0,0,0', '7,0'];
   const log = await read(`t,x,y,yaw\n${rows.join('\n')}`);
   assert.deepEqual([...log.data.t], [0, 3, 4, 6]);
-  const { leftOut, rows: count } = log.found;
+  const { dropped, rows: count, notes } = log.summary;
   assert.equal(count, rows.length);
-  assert.deepEqual(leftOut.notFinite, { count: 4, line: 3 });
-  assert.deepEqual(leftOut.duplicate, { count: 1, line: 6 });
-  assert.deepEqual(leftOut.falling, { count: 1, line: 8 });
-  assert.deepEqual([leftOut.short.count, leftOut.short.line, log.how.cutShort], [1, 12, true]);
+  assert.deepEqual(dropped.notFinite, { count: 4, first: 3 });
+  assert.deepEqual(dropped.duplicate, { count: 1, first: 6 });
+  assert.deepEqual(dropped.falling, { count: 1, first: 8 });
+  assert.deepEqual([dropped.short, notes.map(({ name }) => name)], [{ count: 1, first: 12 }, ['cutShort']]);
   // One row late, or told twice, is no hole.
   assert.deepEqual([...log.data.breaks], [1, 3]);
   assert.equal(summarize(log, english.found).length, 6);
@@ -122,7 +125,7 @@ test('one time that is far ahead is left out by itself', async () => {
   const rows = Array.from({ length: 50 }, (_, i) => `${i === 20 ? 1e6 : i / 10},0,0,0`);
   const log = await read(`t,x,y,yaw\n${rows.join('\n')}`);
   assert.equal(log.data.t.length, 49);
-  assert.deepEqual(log.found.leftOut.falling, { count: 1, line: 22 });
+  assert.deepEqual(log.summary.dropped.falling, { count: 1, first: 22 });
   assert.deepEqual([...log.data.breaks], []);
   // An unusable row before it still breaks the path.
   const lost = await read(`t,x,y,yaw\n${rows.toSpliced(20, 0, '1.95,nan,0,0').join('\n')}`);
@@ -131,20 +134,20 @@ test('one time that is far ahead is left out by itself', async () => {
 
 test('a clock that is set back breaks the path', async () => {
   const rows = Array.from({ length: 300 }, (_, i) => `${(i < 200 ? i : i - 50) / 10},${i / 100},0,0`);
-  const { data, found } = await read(`t,x,y,yaw\n${rows.join('\n')}`);
-  assert.deepEqual([found.leftOut.falling.count, data.t.length], [49, 250]);
+  const { data, summary } = await read(`t,x,y,yaw\n${rows.join('\n')}`);
+  assert.deepEqual([summary.dropped.falling?.count, data.t.length], [49, 250]);
   assert.deepEqual([...data.breaks], [200]);
 });
 
 test('pauses and jumps are found', async () => {
   const rows = Array.from({ length: 400 }, (_, i) => [i / 20 + (i >= 100 ? 3 : 0), i / 100 + (i >= 200 ? 1 : 0), 0, i / 50 + (i >= 300 ? 1.5 : 0)].join(','));
-  const { found, data } = await read(`t,x,y,yaw\n${rows.join('\n')}`);
-  assert.deepEqual([found.gaps.count, found.gaps.time, found.gaps.longest], [1, 99 / 20, 3.05]);
-  assert.deepEqual([found.jumps.count, found.jumps.time], [2, 13]);
+  const { summary: { gaps, jumps }, data } = await read(`t,x,y,yaw\n${rows.join('\n')}`);
+  assert.deepEqual([gaps.count, gaps.first, gaps.longest], [1, 99 / 20, 3.05]);
+  assert.deepEqual([jumps.count, jumps.first], [2, 13]);
   assert.deepEqual([...data.breaks], [200, 300]);
   // A heading that wraps is no jump.
   const wrapped = rows.map((_, i) => [i / 20, 0, 0, ((i / 20 + Math.PI) % (2 * Math.PI)) - Math.PI].join(','));
-  assert.equal((await read(`t,x,y,yaw\n${wrapped.join('\n')}`)).found.jumps.count, 0);
+  assert.equal((await read(`t,x,y,yaw\n${wrapped.join('\n')}`)).summary.jumps.count, 0);
 });
 
 test('two logs get one start', async () => {
@@ -172,18 +175,18 @@ test('a frozen reference is left out while the odometry moves on, and kept while
   const drives = (/** @type {number} */ i) => Math.max(0, i - 100) / 50;
   const [odometry, good, lost] = await Promise.all([poses(drives), poses(drives), poses((i) => drives(i >= 200 && i < 300 ? 200 : i))]);
   const same = pairLogs(odometry, good);
-  assert.deepEqual([same.reference.data, same.reference.found], [good.data, good.found]);
+  assert.deepEqual([same.reference.data, same.reference.summary], [good.data, good.summary]);
   const { reference } = pairLogs(odometry, lost);
   assert.deepEqual([...reference.data.t], [...lost.data.t].filter((_, i) => i <= 200 || i >= 300));
   assert.deepEqual([...reference.data.breaks], [201]);
-  assert.deepEqual(reference.found.leftOut.held, { count: 99, line: 0 });
+  assert.deepEqual(reference.summary.dropped.held, { count: 99, first: 0 });
   assert.ok(summarize(reference, english.found).includes('left out 99 rows: the pose stands while the odometry moves on'));
   const { message } = await refusalOf(poses(() => 7).then((still) => pairLogs(odometry, still)));
   assert.equal(message, 'run.csv: its pose stands while the odometry moves on; expected is one that follows the robot.');
   assert.equal((await refusalOf(read('t,v,omega\n0,0,0\n1,0,0').then((driven) => pairLogs(odometry, driven)))).message, 'run.csv: the columns are t, v, omega; expected are x, y and yaw (or qx, qy, qz and qw) among them.');
   // Commands tell too that the robot moves.
   const commands = await read(['t,v,omega', ...Array.from({ length: 400 }, (_, i) => `${i / 20},${i < 100 ? 0 : 0.4},0`)].join('\n'));
-  assert.equal(pairLogs(commands, lost).reference.found.leftOut.held.count, 99);
+  assert.equal(pairLogs(commands, lost).reference.summary.dropped.held?.count, 99);
 });
 
 const LONG = 'x'.repeat(100);
@@ -226,11 +229,6 @@ test('a file that has been moved is refused', async () => {
   const gone = { name: `${'n'.repeat(50)}.csv`, size: 5, slice: () => ({ arrayBuffer: () => Promise.reject(new DOMException('', 'NotFoundError')) }) };
   const { message } = await refusalOf(readLog(/** @type {any} */ (gone)));
   assert.equal(message, `${'n'.repeat(40)}…: the file cannot be read (NotFoundError); expected is one that exists and may be read.`);
-});
-
-test('reading can be cancelled', async () => {
-  const signal = AbortSignal.abort();
-  await assert.rejects(readLog(new File(['t,x,y,yaw\n0,0,0,0\n1,0,0,0'], 'run.csv'), { signal }), { name: 'AbortError' });
 });
 
 test('lines across the pieces of a large file are read whole', async () => {

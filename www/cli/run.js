@@ -3,18 +3,18 @@
 import { openAsBlob } from 'node:fs';
 import { stat } from 'node:fs/promises';
 import { basename } from 'node:path';
+import { after, ambiguousSeries, guessSeries, pairLogs, usefulSeries } from '../logs/drives.ts';
 import { log as words } from '../logs/en.js';
 import { LogError, cut } from '../logs/log-error.js';
-import * as reader from '../logs/read.js';
+import { openRecordings } from '../logs/open.ts';
+import { summarize } from '../logs/summary.ts';
 import { HELP, UsageError, optionsOf, withOption } from './options.js';
 import { jsonOf, textOf } from './report.js';
 
 /**
- * @import { Choice, Topic } from '../logs/read.js'
- * @import { Log } from '../logs/rows.js'
+ * @import { Role } from '../logs/drives.ts'
+ * @import { Choice, Log, Recording } from '../logs/log.ts'
  * @import { Input, Options } from './options.js'
- *
- * @typedef {'odometry' | 'reference'} Role
  *
  * @typedef {{ odometry: Log, reference: Log, start: number }} Pair logs of one drive
  *
@@ -53,7 +53,7 @@ export async function run(args, { load, print, complain, now = new Date() }) {
     const pairs = [];
     for (const drive of drives) pairs.push(await read(drive, fit));
     const calibration = calibrate(await load(), fit, pairs);
-    const logs = pairs.flatMap(({ odometry, reference }) => [odometry, reference]).map((log) => ({ name: log.name, found: reader.summarize(log, words.found) }));
+    const logs = pairs.flatMap(({ odometry, reference }) => [odometry, reference]).map((log) => ({ name: log.name, found: summarize(log, words.found) }));
     const result = { calibration, options: fit, logs, start: pairs[0].start, date: now.toISOString().slice(0, 10) };
     print(json ? jsonOf(result) : textOf(result));
     return SUCCESS;
@@ -71,7 +71,7 @@ export async function run(args, { load, print, complain, now = new Date() }) {
  */
 function calibrate(motion, fit, pairs) {
   const [{ start }] = pairs;
-  const dataOf = (/** @type {Role} */ role) => pairs.map(({ [role]: log }) => reader.after(start, log).data);
+  const dataOf = (/** @type {Role} */ role) => pairs.map(({ [role]: log }) => after(start, log).data);
   try {
     return motion.calibrate({ ...fit, odometry: dataOf('odometry'), reference: dataOf('reference') });
   } catch (error) {
@@ -90,28 +90,37 @@ function calibrate(motion, fit, pairs) {
  */
 async function read(drive, fit) {
   const [odometry, reference] = await logsOf(drive, fit);
-  return reader.pairLogs(odometry, reference);
+  return pairLogs(odometry, reference);
 }
 
 /** @param {Options['drives'][number]} drive @param {Options['fit']} fit @returns {Promise<Log[]>} odometry and reference */
 async function logsOf({ odometry, reference }, fit) {
   const kind = fit.model === 'velocity' ? 'commands' : undefined;
   if (odometry.path !== reference.path) return [await readOne(odometry, 'odometry', kind), await readOne(reference, 'reference', 'poses')];
-  const file = await fileOf(odometry.path);
-  if (!(await reader.isRecording(file))) {
-    throw new UsageError(`${file.name} is no MCAP recording; expected is one for both odometry and reference, or two tables.`);
+  const recording = await open(odometry.path);
+  if (isTable(recording)) {
+    throw new UsageError(`${recording.name} is no MCAP recording; expected is one for both odometry and reference, or two tables.`);
   }
-  return reader.logsOf(file, [await choiceOf(file, odometry, 'odometry', kind), await choiceOf(file, reference, 'reference', 'poses')]);
+  return recording.read([choiceOf(recording, odometry, 'odometry', kind), choiceOf(recording, reference, 'reference', 'poses')]);
 }
 
 /** @param {Input} input @param {Role} role @param {Choice['kind']} kind */
 async function readOne(input, role, kind) {
-  const file = await fileOf(input.path);
-  if (await reader.isRecording(file)) return reader.readLog(file, await choiceOf(file, input, role, kind));
+  const recording = await open(input.path);
   const { topic, frames } = input;
   const wanted = topic !== undefined ? `topic ${cut(topic)}` : frames && `frames ${cut(frames.parent)} and ${cut(frames.child)}`;
-  if (wanted) throw new UsageError(`${file.name} is no recording and has no ${wanted}; expected is an MCAP file.`);
-  return reader.readLog(file, { kind });
+  if (isTable(recording) && wanted) throw new UsageError(`${recording.name} is no recording and has no ${wanted}; expected is an MCAP file.`);
+  const [log] = await recording.read([isTable(recording) ? { series: '', kind } : choiceOf(recording, input, role, kind)]);
+  return log;
+}
+
+/** @param {Recording} recording */
+const isTable = ({ format }) => format === 'csv' || format === 'tum';
+
+/** @param {string} path @returns {Promise<Recording>} */
+async function open(path) {
+  const [recording] = await openRecordings([await fileOf(path)]);
+  return recording;
 }
 
 /** @param {string} path @returns {Promise<File>} rejects with a LogError if there is no such file */
@@ -129,31 +138,31 @@ async function fileOf(path) {
 /**
  * Chooses a log of a recording.
  *
- * @param {File} file
+ * @param {Recording} recording
  * @param {Input} input
  * @param {Role} role
  * @param {Choice['kind']} kind
- * @returns {Promise<Choice>}
+ * @returns {Choice}
  */
-async function choiceOf(file, { topic, frames }, role, kind) {
-  return { topic: topic ?? guessTopic(file.name, await reader.topicsOf(file), role, kind, frames), frames, kind };
+function choiceOf({ name, series }, { topic, frames }, role, kind) {
+  return { series: topic ?? guess(name, series, role, kind, frames), frames, kind };
 }
 
 /**
  * @param {string} file
- * @param {Topic[]} topics
+ * @param {Recording['series']} series
  * @param {Role} role
  * @param {Choice['kind']} kind
  * @param {Choice['frames']} frames
  */
-function guessTopic(file, topics, role, kind, frames) {
-  const useful = reader.usefulTopics(file, topics);
+function guess(file, series, role, kind, frames) {
+  const useful = usefulSeries(file, series);
   // Static transforms have a topic of their own, which is read with any other.
   const [transforms, ...more] = frames ? useful.filter(({ name, kind }) => kind === 'transforms' && !/static/.test(name)) : [];
   if (transforms && more.length === 0) return transforms.name;
   // In a recording of transforms alone the frames identify the topic.
   const options = useful.every(({ kind }) => kind === 'transforms') ? FRAMES_OPTIONS : TOPIC_OPTIONS;
-  const guess = reader.guessTopics(topics, kind)[role];
-  if (guess === null) throw reader.ambiguousTopic(file, useful, role, options[role]);
-  return guess;
+  const guessed = guessSeries(series, kind)[role];
+  if (guessed === null) throw ambiguousSeries(file, useful, role, options[role]);
+  return guessed;
 }

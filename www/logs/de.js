@@ -18,7 +18,7 @@ const TYPES = { poses: OF_POSES, either: `${OF_POSES}, oder ${OF_COMMANDS}`, tra
 const times = (/** @type {number} */ count, /** @type {string} */ one, /** @type {string} */ more) => `${count} ${count === 1 ? one : more}`;
 const comma = (/** @type {number} */ value, /** @type {number} */ digits) => value.toFixed(digits).replace('.', ',');
 
-/** @type {Record<import('./en.js').Reason, string>} */
+/** @type {Record<import('./log.ts').Cause, string>} */
 const REASONS = {
   notFinite: 'keine endliche Zahl',
   noRotation: 'ein Quaternion, das keine Drehung ist',
@@ -78,9 +78,11 @@ export const log = {
     unit: (unit) => `Zeiten in ${unit}, nach ihrer Größe`,
     logTimes: 'die Zeiten sind die der Aufzeichnung, denn die Köpfe der Nachrichten haben keine',
     degrees: 'Richtungen in Grad, nach dem Namen der Spalte',
-    cutShort: 'die Datei endet mitten in einer Zeile oder einem Record',
-    swapped: (odometry) => `sie heißt wie eine Odometrie, und ${odometry} nicht: Sind die beiden vertauscht?`,
-    apart: (name, one, other) =>
-      `ihre Zeiten (${one}) und die von ${name} (${other}) haben nichts gemeinsam: die Uhren werden danach gestellt, wie der Roboter sich gedreht hat`,
+    notes: {
+      cutShort: () => 'die Datei endet mitten in einer Zeile oder einem Record',
+      swapped: (odometry) => `sie heißt wie eine Odometrie, und ${odometry} nicht: Sind die beiden vertauscht?`,
+      apart: (name, one, other) =>
+        `ihre Zeiten (${one}) und die von ${name} (${other}) haben nichts gemeinsam: die Uhren werden danach gestellt, wie der Roboter sich gedreht hat`,
+    },
   },
 };

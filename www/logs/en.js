@@ -25,8 +25,6 @@ const REASONS = {
   held: 'the pose stands while the odometry moves on',
 };
 
-/** @typedef {keyof typeof REASONS} Reason for leaving a row out */
-
 export const log = {
   place: (/** @type {string} */ file, /** @type {number} */ line, /** @type {string} */ topic) =>
     `${file}${line ? `, line ${line}` : ''}${topic ? `, topic ${topic}` : ''}`,
@@ -53,7 +51,7 @@ export const log = {
       `${message ? `message ${message} has the value ${value}` : `a value is ${value}`}; expected are numbers from ${-most} to ${most}, in m, rad and s.`,
     falling: (/** @type {number} */ count, /** @type {number} */ rows, /** @type {number} */ message) =>
       `${count} of ${rows} rows, ${message ? `that of message ${message}` : 'this one'} first, go back in time; expected are times that grow.`,
-    few: (/** @type {number} */ kept, /** @type {number} */ rows, /** @type {Reason | undefined} */ reason) =>
+    few: (/** @type {number} */ kept, /** @type {number} */ rows, /** @type {import('./log.ts').Cause | undefined} */ reason) =>
       `${kept} of ${rows} rows can be used${reason ? ` (${REASONS[reason]})` : ''}; expected are at least 2.`,
     unit: (/** @type {number} */ step, /** @type {string} */ unit) =>
       `in ${unit}, ${Math.round(step)} s pass from row to row; expected is another unit in the name of the time, as in t_ns.`,
@@ -83,7 +81,7 @@ export const log = {
   found: {
     rows: (/** @type {number} */ kept, /** @type {number} */ rows, /** @type {number} */ seconds, /** @type {number} */ rate) =>
       `${kept} of ${rows} rows, ${seconds.toFixed(1)} s at ${rate.toPrecision(3)} Hz`,
-    leftOut: (/** @type {Reason} */ reason, /** @type {number} */ count, /** @type {number} */ line) =>
+    leftOut: (/** @type {import('./log.ts').Cause} */ reason, /** @type {number} */ count, /** @type {number} */ line) =>
       `left out ${count} ${count === 1 ? 'row' : 'rows'}${line ? `, from line ${line} on` : ''}: ${REASONS[reason]}`,
     gaps: (/** @type {number} */ count, /** @type {number} */ first, /** @type {number} */ longest) =>
       `${count} ${count === 1 ? 'pause' : 'pauses'}, the first at ${first.toFixed(2)} s, the longest of ${longest.toFixed(2)} s`,
@@ -91,9 +89,11 @@ export const log = {
     unit: (/** @type {string} */ unit) => `times in ${unit}, by their size`,
     logTimes: 'times are those at which messages were recorded, for their headers have none',
     degrees: 'headings in degrees, by the name of the column',
-    cutShort: 'the file ends in the middle of a row or record',
-    swapped: (/** @type {string} */ odometry) => `it is called as odometry is, and ${odometry} is not: are the two the other way round?`,
-    apart: (/** @type {string} */ name, /** @type {string} */ one, /** @type {string} */ other) =>
-      `its times (${one}) and those of ${name} (${other}) have nothing in common: the clocks are aligned by how the robot turned`,
+    notes: {
+      cutShort: () => 'the file ends in the middle of a row or record',
+      swapped: (/** @type {string} */ odometry) => `it is called as odometry is, and ${odometry} is not: are the two the other way round?`,
+      apart: (/** @type {string} */ name, /** @type {string} */ one, /** @type {string} */ other) =>
+        `its times (${one}) and those of ${name} (${other}) have nothing in common: the clocks are aligned by how the robot turned`,
+    },
   },
 };

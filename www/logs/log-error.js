@@ -5,11 +5,7 @@ import { log as english } from './en.js';
 /**
  * @typedef {typeof english} Words
  *
- * @typedef {Pick<File, 'name' | 'size' | 'slice'>} Source
- *
- * @typedef {object} Watching
- * @property {(share: number) => void} [onProgress] is called with the share that has been read, 0 to 1
- * @property {AbortSignal} [signal] cancels the reading
+ * @import { Question, Source } from './log.ts'
  *
  * @typedef {object} Place position in a source, with a line or a topic but not both
  * @property {string} file
@@ -25,13 +21,15 @@ export class LogError extends Error {
   /**
    * @param {Place} place
    * @param {(say: Words['refused']) => string} reason in the language of the page when the error is shown
+   * @param {Question} [ask] question whose answer resolves the error
    */
-  constructor(place, reason) {
+  constructor(place, reason, ask) {
     const sentence = (/** @type {Words} */ say) =>
       `${say.place(cut(place.file), place.line ?? 0, cut(place.topic ?? ''))}: ${reason(say.refused)}`;
     super(sentence(english));
     this.name = 'LogError';
     this.place = place;
+    this.ask = ask;
     this.sentence = sentence;
   }
 }

@@ -7,7 +7,8 @@ import { unlz4 } from './lz4.js';
 
 /**
  * @import { McapTypes } from '@mcap/core'
- * @import { Place, Source, Watching } from './log-error.js'
+ * @import { Place } from './log-error.js'
+ * @import { Source } from './log.ts'
  *
  * @typedef {{ topic: string, type: string, encoding: string }} Channel
  *
@@ -16,7 +17,7 @@ import { unlz4 } from './lz4.js';
  * @typedef {object} Recording
  * @property {Map<number, Channel>} channels by number; without an index, those that were read so far
  * @property {Map<number, number> | undefined} counts of messages by channel, from the index
- * @property {(isWanted: (topic: string) => boolean, each: (message: Message) => void, watching: Watching) => Promise<void>} read
+ * @property {(isWanted: (topic: string) => boolean, each: (message: Message) => void, onProgress?: (share: number) => void) => Promise<void>} read
  *   passes on the messages of topics; rejects with a LogError
  * @property {boolean} cutShort whether the file breaks off, as far as it was read
  */
@@ -68,7 +69,7 @@ function byIndex(source, reader) {
     channels: new Map([...channelsById].map(([id, channel]) => [id, channelOf(channel, schemasById)])),
     counts,
     cutShort: false,
-    async read(isWanted, each, { onProgress, signal }) {
+    async read(isWanted, each, onProgress) {
       const wanted = [...channelsById.values()].filter(({ topic }) => isWanted(topic));
       const expected = wanted.reduce((sum, { id }) => sum + (counts.get(id) ?? 0), 0);
       let done = 0;
@@ -77,7 +78,6 @@ function byIndex(source, reader) {
           each(message);
           done += 1;
           if (done % MESSAGES > 0) continue;
-          signal?.throwIfAborted();
           onProgress?.(Math.min(done / expected, 1));
         }
       });
@@ -99,11 +99,10 @@ function fromStart(source, reader) {
     channels: new Map(),
     counts: undefined,
     cutShort: true,
-    async read(isWanted, each, { onProgress, signal }) {
+    async read(isWanted, each, onProgress) {
       await inSentences(place, async () => {
         for (let at = 0; at < source.size; at += PIECE) {
           reader.append(await bytesOf(source, at, Math.min(at + PIECE, source.size)));
-          signal?.throwIfAborted();
           onProgress?.(at / source.size);
           for (let record = reader.nextRecord(); record; record = reader.nextRecord()) {
             if (record.type === 'DataEnd') {

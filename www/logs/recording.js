@@ -4,14 +4,14 @@ import { Frames } from './frames.js';
 import { LogError, cut, listed, reasonOf } from './log-error.js';
 import { openRecording } from './mcap.js';
 import { KINDS, edgeReader, poseReader } from './messages.js';
-import { LOG_TIME, Rows } from './rows.js';
+import { LOG_TIME } from './log.ts';
+import { Rows } from './rows.js';
 
 /**
- * @import { Source, Watching, Words } from './log-error.js'
+ * @import { Choice, Log, Series, Source } from './log.ts'
+ * @import { Words } from './log-error.js'
  * @import { Channel, Message, Recording } from './mcap.js'
  * @import { Reading } from './messages.js'
- * @import { Choice, Topic } from './read.js'
- * @import { Log } from './rows.js'
  */
 
 /** Messages of transforms after which all frames are taken to be known. */
@@ -27,16 +27,15 @@ const kindOf = (type) => (Object.hasOwn(KINDS, type) ? KINDS[type].kind : null);
  * Lists the topics.
  *
  * @param {Source} source
- * @param {Watching} watching
- * @returns {Promise<Topic[]>}
+ * @returns {Promise<Series[]>}
  */
-export async function listTopics(source, watching) {
+export async function listTopics(source) {
   const recording = await openRecording(source);
   /** @type {Map<number, number>} */
   const counts = recording.counts ?? new Map();
   const count = (/** @type {Message} */ { channelId }) => counts.set(channelId, (counts.get(channelId) ?? 0) + 1);
-  if (!recording.counts) await recording.read(() => true, count, watching);
-  /** @type {Map<string, Topic>} */
+  if (!recording.counts) await recording.read(() => true, count);
+  /** @type {Map<string, Series>} */
   const topics = new Map();
   for (const [id, { topic, type }] of recording.channels) {
     const count = (topics.get(topic)?.count ?? 0) + (counts.get(id) ?? 0);
@@ -50,10 +49,10 @@ export async function listTopics(source, watching) {
  *
  * @param {Source} source
  * @param {Choice[]} choices
- * @param {Watching} watching
+ * @param {(share: number) => void} [onProgress]
  * @returns {Promise<Log[]>} one for each choice; rejects with a LogError
  */
-export async function readRecording(source, choices, watching) {
+export async function readRecording(source, choices, onProgress) {
   const recording = await openRecording(source);
   const topics = choices.map((choice) => new TopicReader(source.name, recording, choice));
   if (recording.counts) for (const topic of topics) topic.checkPresence();
@@ -63,7 +62,7 @@ export async function readRecording(source, choices, watching) {
       const channel = /** @type {Channel} */ (recording.channels.get(message.channelId));
       for (const topic of topics) if (topic.wants(channel.topic)) topic.take(message, channel);
     },
-    watching,
+    onProgress,
   );
   return topics.map((topic) => topic.end());
 }
@@ -90,7 +89,7 @@ class TopicReader {
   /** @param {string} file @param {Recording} recording @param {Choice} choice */
   constructor(file, recording, choice) {
     this.#file = file;
-    this.#topic = choice.topic ?? '';
+    this.#topic = choice.series;
     this.#recording = recording;
     this.#choice = choice;
     const place = { file, topic: this.#topic };
@@ -176,13 +175,10 @@ class TopicReader {
     const [rows, clock] = this.#hasStamps ? [this.#stamped, 'header.stamp'] : [this.#recorded, LOG_TIME];
     const chain = frames ? ` (${frames.parent} to ${frames.child})` : '';
     return rows.end(`${this.#file}, ${this.#topic}${chain}`, kind, {
-      format: 'mcap',
-      unit: 'ns',
-      unitBy: 'format',
-      heading: kind === 'poses' ? 'quaternion' : 'none',
-      columns: { type: this.#type, clock },
-      cutShort: this.#recording.cutShort,
-      hasBoth: false,
+      units: { time: { unit: 'ns', by: 'format' }, length: { unit: 'm', by: 'format' }, angle: { unit: kind === 'poses' ? 'quaternion' : 'none', by: 'format' } },
+      clock,
+      ...(frames && { frames }),
+      notes: this.#recording.cutShort ? [{ name: 'cutShort', values: [] }] : [],
     });
   }
 

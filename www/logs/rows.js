@@ -1,56 +1,14 @@
 /** Rows of a log: which are kept, and which are left out and why. */
 
 import { LogError } from './log-error.js';
+import { distanceOf } from './summary.ts';
 
 /**
- * @import { Reason } from './en.js'
+ * @import { Cause, Log } from './log.ts'
  * @import { Place } from './log-error.js'
  *
- * @typedef {object} Trouble number of occurrences, and the first of them
- * @property {number} count
- * @property {number} line of the file, or number of the message, from 1; 0 if there was none
- *
- * @typedef {object} Event number of occurrences, and the time of the first in seconds
- * @property {number} count
- * @property {number} time
- *
- * @typedef {object} How interpretation of the source
- * @property {'csv' | 'tum' | 'mcap'} format
- * @property {'s' | 'ms' | 'us' | 'ns'} unit of the times
- * @property {'name' | 'size' | 'format'} unitBy source of the unit: name of the column, size of the numbers, or the format
- * @property {'radians' | 'degrees' | 'quaternion' | 'none'} heading
- * @property {Record<string, string>} columns by field; of a recording its message type and clock
- * @property {boolean} hasBoth whether the table has poses and commands, only one of which is read
- * @property {boolean} cutShort whether the file ends in the middle of a row or record
- * @property {[string, string, string]} [apart] name of the odometry and the times of both logs, if they have no time in common
- * @property {string} [swapped] name of the odometry, if the reference is named like an odometry and the odometry is not
- *
- * @typedef {object} Found
- * @property {number} rows
- * @property {Record<Reason, Trouble>} leftOut
- * @property {Event & { longest: number }} gaps pauses of more than five usual steps, the longest in seconds
- * @property {Event} jumps steps that are much faster than the others
- * @property {number} step median, in seconds
- *
- * @typedef {object} Breaks
- * @property {Uint32Array} breaks rising indices of rows before which the path is unknown: after unusable rows, and at jumps. Pauses are
- *   found by the core and are not among them.
- *
- * @typedef {{ t: Float64Array, x: Float64Array, y: Float64Array, theta: Float64Array } & Breaks} Poses s, m, rad
- *
- * @typedef {{ t: Float64Array, v: Float64Array, omega: Float64Array } & Breaks} Commands s, m/s, rad/s
- *
- * @typedef {object} Log
- * @property {string} name of the file, with the topic and the frames of a recording
- * @property {'poses' | 'commands'} kind
- * @property {number} start whole seconds that were subtracted from all times
- * @property {Poses | Commands} data for the core: times rise strictly, in seconds after the start
- * @property {How} how
- * @property {Found} found
+ * @typedef {Pick<import('./log.ts').Summary, 'units' | 'clock' | 'frames' | 'columns' | 'notes'>} Decisions
  */
-
-/** Clock of messages without stamps. */
-export const LOG_TIME = 'log time';
 
 /** Most rows: a day at 100 Hz. */
 const MAX_ROWS = 10_000_000;
@@ -76,12 +34,6 @@ const SAMPLED = 10_000;
 /** Longest usual step in seconds. */
 const SLOWEST = 1000;
 
-/** @returns {Trouble} */
-const none = () => ({ count: 0, line: 0 });
-
-/** Reasons that occurred. @param {Found['leftOut']} leftOut */
-export const reasonsOf = (leftOut) => /** @type {[Reason, Trouble][]} */ (Object.entries(leftOut)).filter(([, { count }]) => count > 0);
-
 export class Rows {
   #place;
   #start = NaN;
@@ -93,8 +45,8 @@ export class Rows {
   #b = [];
   /** @type {number[]} */
   #c = [];
-  /** @type {Record<Reason, Trouble>} */
-  #leftOut = { notFinite: none(), noRotation: none(), short: none(), duplicate: none(), falling: none(), held: none() };
+  /** @type {Log['summary']['dropped']} */
+  #dropped = {};
   /** True if the path since the last row that was kept is unknown. */
   #broken = false;
   /** Rows in succession that went back in time. */
@@ -111,7 +63,7 @@ export class Rows {
     this.#place = place;
   }
 
-  /** @param {Reason} reason @param {number} line */
+  /** @param {Cause} reason @param {number} line */
   leaveOut(reason, line) {
     this.count += 1;
     this.#note(reason, line);
@@ -167,49 +119,46 @@ export class Rows {
    *
    * @param {string} name
    * @param {'poses' | 'commands'} kind
-   * @param {How} how
+   * @param {Decisions} decisions
    * @returns {Log}
    * @throws {LogError} if the rows that are left are no log
    */
-  end(name, kind, how) {
+  end(name, kind, decisions) {
     const [t, x, y, theta] = [this.#t, this.#a, this.#b, this.#c].map((column) => new Float64Array(column));
     const { count } = this;
-    const { falling } = this.#leftOut;
-    if (2 * falling.count > count) {
-      throw new LogError(this.#at(falling.line), (say) => say.falling(falling.count, count, this.#message(falling.line)));
+    const { falling } = this.#dropped;
+    if (falling && 2 * falling.count > count) {
+      throw new LogError(this.#at(falling.first), (say) => say.falling(falling.count, count, this.#message(falling.first)));
     }
     if (t.length < 2) {
-      const [reason, { line }] = reasonsOf(this.#leftOut)[0] ?? [undefined, none()];
-      throw new LogError(this.#at(line), (say) => say.few(t.length, count, reason));
+      const cause = /** @type {Cause[]} */ (['notFinite', 'noRotation', 'short', 'duplicate', 'falling']).find((each) => this.#dropped[each]);
+      throw new LogError(this.#at(cause ? (this.#dropped[cause]?.first ?? 0) : 0), (say) => say.few(t.length, count, cause));
     }
     const step = quantile(sample(t.length - 1, (i) => t[i + 1] - t[i]), 0.5);
     // A log with one row in a quarter of an hour has times in another unit.
-    if (step > SLOWEST) throw new LogError(this.#place, (say) => say.unit(step, how.unit));
-    const gaps = { count: 0, time: NaN, longest: 0 };
-    const jumps = { count: 0, time: NaN };
+    if (step > SLOWEST) throw new LogError(this.#place, (say) => say.unit(step, decisions.units.time.unit));
+    const gaps = { count: 0, longest: 0, first: NaN };
+    const jumps = { count: 0, first: NaN };
     const breaks = new Set(this.#breaks);
     const isJump = kind === 'poses' ? jumpTest(t, x, y, theta) : () => false;
     for (let i = 1; i < t.length; i++) {
       const pause = t[i] - t[i - 1];
       if (pause > STEPS_OF_A_GAP * step) {
-        if (gaps.count === 0) gaps.time = this.#start + t[i - 1];
+        if (gaps.count === 0) gaps.first = this.#start + t[i - 1];
         gaps.count += 1;
         gaps.longest = Math.max(gaps.longest, pause);
       }
       if (!isJump(i)) continue;
-      if (jumps.count === 0) jumps.time = this.#start + t[i];
+      if (jumps.count === 0) jumps.first = this.#start + t[i];
       jumps.count += 1;
       breaks.add(i);
     }
     const all = { breaks: Uint32Array.from(breaks).sort() };
-    return {
-      name,
-      kind,
-      start: this.#start,
-      data: kind === 'poses' ? { t, x, y, theta, ...all } : { t, v: x, omega: y, ...all },
-      how,
-      found: { rows: count, leftOut: this.#leftOut, gaps, jumps, step },
+    const data = kind === 'poses' ? { t, x, y, theta, ...all } : { t, v: x, omega: y, ...all };
+    const summary = {
+      rows: count, used: t.length, dropped: this.#dropped, seconds: t[t.length - 1] - t[0], rate: 1 / step, distance: distanceOf(data), gaps, jumps, ...decisions,
     };
+    return { name, kind, start: this.#start, data, summary };
   }
 
   /** @param {number} line @returns {Place} */
@@ -222,11 +171,10 @@ export class Rows {
     return this.#place.topic === undefined ? 0 : line;
   }
 
-  /** @param {Reason} reason @param {number} line */
+  /** @param {Cause} reason @param {number} line */
   #note(reason, line) {
-    const trouble = this.#leftOut[reason];
-    if (trouble.count === 0) trouble.line = line;
-    trouble.count += 1;
+    const dropped = (this.#dropped[reason] ??= { count: 0, first: line });
+    dropped.count += 1;
     if (reason === 'falling') this.#late += 1;
     // A repeated time or one late row leaves no hole, as the rows beside it are known. Two late rows mean that the clock was set.
     if (!(reason === 'duplicate' || (reason === 'falling' && this.#late < 2))) this.#broken = true;

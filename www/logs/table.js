@@ -8,8 +8,8 @@ import { Rows } from './rows.js';
 
 /**
  * @import { Layout } from './header.js'
- * @import { Place, Source, Watching, Words } from './log-error.js'
- * @import { How, Log } from './rows.js'
+ * @import { Place, Words } from './log-error.js'
+ * @import { Log, Source, TimeUnit } from './log.ts'
  *
  * @typedef {object} Format
  * @property {'csv' | 'tum'} name
@@ -51,16 +51,15 @@ const TUM = {
  *
  * @param {Source} source
  * @param {'poses' | 'commands' | undefined} wanted
- * @param {Watching} watching
+ * @param {(share: number) => void} [onProgress]
  * @returns {Promise<Log>} rejects with a LogError
  */
-export async function readTable(source, wanted, { onProgress, signal }) {
+export async function readTable(source, wanted, onProgress) {
   const table = new Table(source.name, wanted);
   const decoder = new TextDecoder();
   let rest = '';
   for (let at = 0; at < source.size; at += PIECE) {
     const bytes = await bytesOf(source, at, Math.min(at + PIECE, source.size));
-    signal?.throwIfAborted();
     onProgress?.(at / source.size);
     const text = decoder.decode(bytes, { stream: true });
     if (text.includes('\0')) throw new LogError({ file: source.name }, (say) => say.binary);
@@ -73,6 +72,29 @@ export async function readTable(source, wanted, { onProgress, signal }) {
   return table.end();
 }
 
+/**
+ * Detects the format and the columns of a table.
+ *
+ * @param {Source} source
+ * @returns {Promise<Format>} rejects with a LogError
+ */
+export async function headerOf(source) {
+  const bytes = await bytesOf(source, 0, Math.min(4 * LONGEST, source.size));
+  const place = { file: source.name };
+  const text = new TextDecoder().decode(bytes);
+  if (text.includes('\0')) throw new LogError(place, (say) => say.binary);
+  let comment = '';
+  for (const [i, line] of text.split('\n').entries()) {
+    const trimmed = line.trim();
+    if (trimmed.startsWith('#')) comment = trimmed.slice(1);
+    else if (trimmed !== '') {
+      if (line.length > LONGEST) throw new LogError({ ...place, line: i + 1 }, (say) => say.longLine(LONGEST));
+      return formatOf(trimmed, comment, { ...place, line: i + 1 }, undefined);
+    }
+  }
+  throw new LogError(place, (say) => say.empty);
+}
+
 /** Table that is read line by line. */
 class Table {
   #file;
@@ -83,7 +105,7 @@ class Table {
   #comment = '';
   /** @type {Format | undefined} */
   #format;
-  /** @type {How['unit'] | undefined} */
+  /** @type {TimeUnit | undefined} */
   #unit;
   #cutShort = false;
   /** Numbers of the present row. */
@@ -161,15 +183,17 @@ class Table {
   /** @returns {Log} @throws {LogError} if the rows are no log */
   end() {
     if (!this.#format) throw new LogError({ file: this.#file }, (say) => say.empty);
-    const { name, layout: { kind, fields, names, unit, degrees, hasBoth } } = this.#format;
+    const { kind, fields, names, unit, degrees } = this.#format.layout;
+    const isQuaternion = fields.includes('qw');
     return this.#rows.end(this.#file, kind, {
-      format: name,
-      unit: this.#unit ?? 's',
-      unitBy: unit ? 'name' : 'size',
-      heading: kind === 'commands' ? 'none' : fields.includes('qw') ? 'quaternion' : degrees ? 'degrees' : 'radians',
+      units: {
+        time: { unit: this.#unit ?? 's', by: unit ? 'name' : 'size' },
+        length: { unit: 'm', by: 'usage' },
+        angle: { unit: kind === 'commands' ? 'none' : isQuaternion ? 'quaternion' : degrees ? 'deg' : 'rad', by: isQuaternion ? 'format' : degrees ? 'name' : 'usage' },
+      },
+      clock: names[0],
       columns: Object.fromEntries(fields.map((field, i) => [field, names[i]])),
-      cutShort: this.#cutShort,
-      hasBoth,
+      notes: this.#cutShort ? [{ name: 'cutShort', values: [] }] : [],
     });
   }
 

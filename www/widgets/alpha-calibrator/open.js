@@ -10,15 +10,16 @@ import { referenceNoise } from './controls.js';
 /**
  * @typedef {import('./alpha-calibrator.js').AlphaCalibratorElement} Figure
  * @typedef {import('../../logs/log-error.js').LogError} LogError
- * @typedef {import('../../logs/rows.js').Poses} Poses
- * @typedef {import('../../logs/read.js').Topic} Topic
+ * @typedef {import('../../logs/log.ts').Poses} Poses
+ * @typedef {import('../../logs/log.ts').Recording} Recording
+ * @typedef {import('../../logs/log.ts').Series} Series
  * @typedef {import('../../types.d.ts').CalibrationLog} CalibrationLog
- * @typedef {typeof import('../../logs/read.js')} Reader
+ * @typedef {Awaited<ReturnType<typeof loadReader>>} Reader
  * @typedef {{ onProgress: (share: number) => void, signal: AbortSignal }} Watched
  *
  * @typedef {object} Chosen recording with its topics, or two tables without
- * @property {File[]} files
- * @property {Topic[]} topics
+ * @property {Recording[]} files
+ * @property {Series[]} topics
  * @property {string} odometry topic; empty where it is ambiguous
  * @property {string} reference topic; empty where it is ambiguous
  * @property {typeof FRAMES} frames of topics of transforms
@@ -35,8 +36,18 @@ const ZONE = 'log';
 /** Usual frames of a topic of transforms: parent and child. */
 const FRAMES = { odometry: 'odom, base_link', reference: 'map, base_link' };
 
-/** Progress of one part of the reading. @param {Watched} watching @param {number} from @param {number} to @returns {Watched} */
-const partOf = ({ onProgress, signal }, from, to) => ({ signal, onProgress: (share) => onProgress(from + share * (to - from)) });
+/**
+ * Progress of one part of the reading, which throws once it is cancelled.
+ *
+ * @param {Watched} watching
+ * @param {number} from
+ * @param {number} to
+ * @returns {(share: number) => void}
+ */
+const partOf = ({ onProgress, signal }, from, to) => (share) => {
+  signal.throwIfAborted();
+  onProgress(from + share * (to - from));
+};
 
 /** @extends {Part<Figure>} */
 export class LogOpener extends Part {
@@ -81,7 +92,7 @@ export class LogOpener extends Part {
     if (chosen !== this.chosen || log !== this.host.log || chosen.kind === this.#kind) return;
     chosen.kind = this.#kind;
     this.#attempt(async (reader, watching) => {
-      const { odometry } = reader.guessTopics(chosen.topics, chosen.kind);
+      const { odometry } = reader.guessSeries(chosen.topics, chosen.kind);
       const isOther = odometry !== null && odometry !== chosen.odometry && !chosen.isExplicit;
       if (isOther) chosen.odometry = odometry;
       if (isOther || hasBoth) await this.#read(chosen, reader, watching);
@@ -108,16 +119,15 @@ export class LogOpener extends Part {
     if (files.length === 0) return;
     this.chosen = undefined;
     this.#attempt(async (reader, watching) => {
-      const [{ name }, second] = files;
-      const recorded = await Promise.all(files.map(reader.isRecording));
-      // A file with the extension of a recording is refused as one.
-      const isTaken = second ? files.length === 2 && !recorded.includes(true) : recorded[0] || /\.mcap$/i.test(name);
-      if (!isTaken) throw new Error(words.calibrator.own.two(files.length));
-      const topics = second ? [] : reader.usefulTopics(name, await reader.topicsOf(files[0], partOf(watching, 0, 0.5)));
+      const recordings = await reader.openRecordings(files);
+      const [{ name, series }, second] = recordings;
+      const areTables = recordings.map(isTable);
+      if (second ? files.length > 2 || areTables.includes(false) : areTables[0]) throw new Error(words.calibrator.own.two(files.length));
+      const topics = second ? [] : reader.usefulSeries(name, series);
       const kind = this.#kind;
-      const guess = reader.guessTopics(topics, kind);
+      const guess = reader.guessSeries(topics, kind);
       const chosen = {
-        files: second && reader.areSwapped(name, second.name) ? files.toReversed() : files,
+        files: second && reader.areSwapped(name, second.name) ? recordings.toReversed() : recordings,
         topics,
         odometry: guess.odometry ?? '',
         reference: guess.reference ?? '',
@@ -127,7 +137,7 @@ export class LogOpener extends Part {
       };
       this.chosen = chosen;
       const role = guess.odometry === null ? 'odometry' : 'reference';
-      if (!second && guess[role] === null) throw reader.ambiguousTopic(name, topics, role);
+      if (!second && guess[role] === null) throw reader.ambiguousSeries(name, topics, role);
       await this.#read(chosen, reader, watching);
     });
   }
@@ -151,13 +161,13 @@ export class LogOpener extends Part {
     const { files, topics, odometry, reference, frames, kind } = chosen;
     const choice = (/** @type {string} */ topic, /** @type {string} */ its) => {
       const [parent, child = ''] = its.split(',').map((frame) => frame.trim());
-      return { topic, ...(holdsTransforms(topics, topic) && { frames: { parent, child } }) };
+      return { series: topic, ...(holdsTransforms(topics, topic) && { frames: { parent, child } }) };
     };
     const [first, second] = topics.length
-      ? await reader.logsOf(files[0], [choice(odometry, frames.odometry), choice(reference, frames.reference)], partOf(watching, this.share ?? 0, 1))
+      ? await files[0].read([choice(odometry, frames.odometry), choice(reference, frames.reference)], partOf(watching, this.share ?? 0, 1))
       : [
-          await reader.readLog(files[0], { kind, ...partOf(watching, 0, 0.5) }),
-          await reader.readLog(files[1], { kind: 'poses', ...partOf(watching, 0.5, 1) }),
+          ...(await files[0].read([{ series: '', kind }], partOf(watching, 0, 0.5))),
+          ...(await files[1].read([{ series: '', kind: 'poses' }], partOf(watching, 0.5, 1))),
         ];
     const paired = reader.pairLogs(first, second);
     const name = [...new Set(files.map((file) => file.name)), ...(topics.length ? [reference] : [])].join(', ');
@@ -165,7 +175,7 @@ export class LogOpener extends Part {
     const say = await wordsOf();
     watching.signal.throwIfAborted();
     this.host.open(log, () => {
-      this.#opened = { chosen, log, hasBoth: first.how.hasBoth };
+      this.#opened = { chosen, log, hasBoth: !topics.length && files[0].series[0].hasCommands === true };
       const logs = [paired.odometry, paired.reference];
       this.#found = () => logs.map((each) => `${each.name}: ${reader.summarize(each, say().found).join(' ')}`);
     }, (error) => this.#refuse(error));
@@ -197,7 +207,7 @@ export class LogOpener extends Part {
     };
     show(0);
     try {
-      await work(await import('../../logs/read.js'), { onProgress: show, signal });
+      await work(await loadReader(), { onProgress: show, signal });
       show(undefined);
     } catch (error) {
       show(undefined);
@@ -206,7 +216,16 @@ export class LogOpener extends Part {
   }
 }
 
-/** @param {Topic[]} topics @param {string} topic */
+/** @param {Recording} recording */
+const isTable = ({ format }) => format === 'csv' || format === 'tum';
+
+/** Loads the reader of logs. */
+async function loadReader() {
+  const [drives, open, summary] = await Promise.all([import('../../logs/drives.ts'), import('../../logs/open.ts'), import('../../logs/summary.ts')]);
+  return { ...drives, ...open, ...summary };
+}
+
+/** @param {Series[]} topics @param {string} topic */
 const holdsTransforms = (topics, topic) => topics.some(({ name, kind }) => name === topic && kind === 'transforms');
 
 /** Loads the words of logs. @returns {Promise<() => typeof import('../../logs/en.js').log>} those of the present language */

@@ -1,8 +1,7 @@
 /** Reference that has lost the robot and repeats its last pose while the robot drives. */
 
 import { bisectRight } from 'd3-array';
-
-/** @import { Commands, Log, Poses } from './rows.js' */
+import type { Commands, Log, Poses } from './log.ts';
 
 /** Seconds that are ignored at both ends of a standstill: the clocks may differ by as much. */
 const MARGIN = 1;
@@ -10,15 +9,9 @@ const MARGIN = 1;
 /** Least motion of the odometry meanwhile, in metres or radians: at rest it may count a pulse or two. */
 const MOVES = 0.05;
 
-/**
- * Removes rows of the reference that repeat a pose while the odometry moves on.
- *
- * @param {Log} reference
- * @param {Log} odometry of the same start
- * @returns {Log}
- */
-export function withoutFrozenPoses(reference, odometry) {
-  const { t, x, y, theta, breaks: known } = /** @type {Poses} */ (reference.data);
+/** Removes rows of the reference that repeat a pose while the odometry, which has the same start, moves on. */
+export function withoutFrozenPoses(reference: Log, odometry: Log): Log {
+  const { t, x, y, theta, breaks: known } = reference.data as Poses;
   const movedAt = pathLength(odometry.data);
   const isKept = new Uint8Array(t.length).fill(1);
   const breaks = new Set(known);
@@ -30,7 +23,7 @@ export function withoutFrozenPoses(reference, odometry) {
     breaks.add(to);
   }
   if (!isKept.includes(0)) return reference;
-  const kept = (/** @type {unknown} */ _, /** @type {number} */ i) => isKept[i] === 1;
+  const kept = (_: unknown, i: number) => isKept[i] === 1;
   // Rows get other indices where earlier ones are removed.
   const indices = new Uint32Array(t.length + 1);
   for (let i = 0; i < t.length; i++) indices[i + 1] = indices[i] + isKept[i];
@@ -45,20 +38,15 @@ export function withoutFrozenPoses(reference, odometry) {
       theta: theta.filter(kept),
       breaks: Uint32Array.from(moved).filter((row) => row < left).sort(),
     },
-    found: { ...reference.found, leftOut: { ...reference.found.leftOut, held: { count: t.length - left, line: 0 } } },
+    summary: { ...reference.summary, used: left, dropped: { ...reference.summary.dropped, held: { count: t.length - left, first: 0 } } },
   };
 }
 
-/**
- * Returns the path length of a robot by time, metres and radians together.
- *
- * @param {Poses | Commands} data
- * @returns {(time: number) => number}
- */
-function pathLength(data) {
+/** Returns the path length of a robot by time, metres and radians together. */
+function pathLength(data: Poses | Commands): (time: number) => number {
   const { t } = data;
   const moved = new Float64Array(t.length);
-  const step = (/** @type {number} */ i) => {
+  const step = (i: number) => {
     if ('v' in data) return (Math.abs(data.v[i - 1]) + Math.abs(data.omega[i - 1])) * (t[i] - t[i - 1]);
     const { x, y, theta } = data;
     return Math.hypot(x[i] - x[i - 1], y[i] - y[i - 1]) + 2 * Math.abs(Math.sin((theta[i] - theta[i - 1]) / 2));

@@ -23,8 +23,10 @@ const REASONS = {
   notFinite: 'keine endliche Zahl',
   noRotation: 'ein Quaternion, das keine Drehung ist',
   short: 'abgebrochen',
+  noStamp: 'der Zeitstempel 0',
   duplicate: 'die Zeit der Zeile davor',
-  falling: 'eine Zeit, die zurückgeht',
+  stray: 'eine Zeit fern von allen anderen',
+  setBack: 'Zeiten einer zurückgestellten Uhr',
   held: 'die Pose steht, während die Odometrie weitergeht',
 };
 
@@ -48,10 +50,17 @@ export const log = {
     number: (column, value) => `${column} ist „${value}“; erwartet wird eine Zahl${/^[+-]?\d*,\d+$/.test(value) ? ' mit Dezimalpunkt' : ''}.`,
     rows: (most) => `es sind mehr Zeilen; erwartet werden höchstens ${most}.`,
     far: (value, most, message) => `${message ? `die Nachricht ${message} hat den Wert ${value}` : `ein Wert ist ${value}`}; erwartet werden Zahlen von ${-most} bis ${most}, in m, rad und s.`,
-    falling: (count, rows, message) => `${count} von ${rows} Zeilen, ${message ? `die der Nachricht ${message}` : 'diese'} zuerst, gehen in der Zeit zurück; erwartet werden wachsende Zeiten.`,
+    setBack: (seconds, message) =>
+      `die Zeiten springen ${message ? `bei Nachricht ${message} ` : ''}um ${seconds.toPrecision(3)} s zurück und wiederholen die davor; dort die Datei teilen, oder nur eine Aufzeichnung angeben.`,
+    sameTimes: (count, rows, message) =>
+      `${count} von ${rows} Zeilen, ${message ? `die der Nachricht ${message}` : 'diese'} zuerst, haben die Zeit einer anderen Zeile und andere Werte; nötig ist das Log eines Roboters, mit allen Stellen der Zeiten (eine Tabellenkalkulation kann sie gerundet haben).`,
     few: (kept, rows, reason) => `${kept} von ${rows} Zeilen sind zu brauchen${reason ? ` (${REASONS[reason]})` : ''}; erwartet werden mindestens 2.`,
-    unit: (step, unit) =>
-      `in ${unit} vergehen von Zeile zu Zeile ${Math.round(step)} s; erwartet wird eine andere Einheit im Namen der Zeit, wie in t_ns.`,
+    timeUnit: (rate, unit, choices) =>
+      `in ${unit} wären es ${rate.toPrecision(3)} Zeilen je Sekunde; die Einheit der Zeiten angeben mit --time-unit ${choices.join(' oder ') || 's, ms, us oder ns'}.`,
+    lengthUnit: (speed, unit, choices) =>
+      `in ${unit} führe der Roboter ${speed.toPrecision(3)} m/s; die Einheit der Längen angeben mit --length-unit ${choices.join(' oder ')}.`,
+    angleUnit: (turn, unit, choices) =>
+      `Richtungen in ${unit} drehten sich mit ${turn.toPrecision(3)} rad/s und passen nicht zur Bahn oder zu ihrem Bereich; ihre Einheit angeben mit --angle-unit ${choices.join(' oder ')}.`,
     damaged: (reason) => `die Aufzeichnung ist beschädigt (${reason}); erwartet wird eine unbeschädigte MCAP-Datei.`,
     large: (what, bytes, most) => `angekündigt wird ${{ 'a chunk': 'ein Chunk', 'a record': 'ein Record' }[what] ?? what} von ${bytes} Bytes; erwartet werden höchstens ${most}.`,
     compression: (value) => `ihre Chunks sind mit „${value}“ komprimiert; erwartet wird zstd, lz4 oder nichts davon.`,
@@ -75,11 +84,12 @@ export const log = {
       `ausgelassen ${times(count, 'Zeile', 'Zeilen')}${line ? ` ab Zeile ${line}` : ''}: ${REASONS[reason]}`,
     gaps: (count, first, longest) => `${times(count, 'Pause', 'Pausen')}, die erste bei ${comma(first, 2)} s, die längste von ${comma(longest, 2)} s`,
     jumps: (count, first) => `${times(count, 'Sprung', 'Sprünge')}, der erste bei ${comma(first, 2)} s`,
-    unit: (unit) => `Zeiten in ${unit}, nach ihrer Größe`,
+    unit: (unit, by) => `Zeiten in ${unit}, nach ${by === 'rate' ? 'ihrer Rate und der Geschwindigkeit des Roboters' : 'ihrer Größe'}`,
     logTimes: 'die Zeiten sind die der Aufzeichnung, denn die Köpfe der Nachrichten haben keine',
     degrees: 'Richtungen in Grad, nach dem Namen der Spalte',
     notes: {
       cutShort: () => 'die Datei endet mitten in einer Zeile oder einem Record',
+      sorted: (count) => `${times(count, 'verspätete Zeile', 'verspätete Zeilen')} nach der Zeit sortiert`,
       swapped: (odometry) => `sie heißt wie eine Odometrie, und ${odometry} nicht: Sind die beiden vertauscht?`,
       apart: (name, one, other) =>
         `ihre Zeiten (${one}) und die von ${name} (${other}) haben nichts gemeinsam: die Uhren werden danach gestellt, wie der Roboter sich gedreht hat`,

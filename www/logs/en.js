@@ -20,8 +20,10 @@ const REASONS = {
   notFinite: 'no finite number',
   noRotation: 'a quaternion that is no rotation',
   short: 'cut short',
+  noStamp: 'a stamp of 0',
   duplicate: 'the time of the row before',
-  falling: 'a time that goes back',
+  stray: 'a time far from all others',
+  setBack: 'times of a clock that was set back',
   held: 'the pose stands while the odometry moves on',
 };
 
@@ -49,12 +51,18 @@ export const log = {
     rows: (/** @type {number} */ most) => `there are more rows; expected are at most ${most}.`,
     far: (/** @type {number} */ value, /** @type {number} */ most, /** @type {number} */ message) =>
       `${message ? `message ${message} has the value ${value}` : `a value is ${value}`}; expected are numbers from ${-most} to ${most}, in m, rad and s.`,
-    falling: (/** @type {number} */ count, /** @type {number} */ rows, /** @type {number} */ message) =>
-      `${count} of ${rows} rows, ${message ? `that of message ${message}` : 'this one'} first, go back in time; expected are times that grow.`,
+    setBack: (/** @type {number} */ seconds, /** @type {number} */ message) =>
+      `times go back by ${seconds.toPrecision(3)} s${message ? ` at message ${message}` : ''} and repeat those before; split the file there, or give one recording only.`,
+    sameTimes: (/** @type {number} */ count, /** @type {number} */ rows, /** @type {number} */ message) =>
+      `${count} of ${rows} rows, ${message ? `that of message ${message}` : 'this one'} first, have the time of another row and other values; give the log of one robot, with all digits of its times (a spreadsheet may have rounded them).`,
     few: (/** @type {number} */ kept, /** @type {number} */ rows, /** @type {import('./log.ts').Cause | undefined} */ reason) =>
       `${kept} of ${rows} rows can be used${reason ? ` (${REASONS[reason]})` : ''}; expected are at least 2.`,
-    unit: (/** @type {number} */ step, /** @type {string} */ unit) =>
-      `in ${unit}, ${Math.round(step)} s pass from row to row; expected is another unit in the name of the time, as in t_ns.`,
+    timeUnit: (/** @type {number} */ rate, /** @type {string} */ unit, /** @type {string[]} */ choices) =>
+      `in ${unit}, the times would mean ${rate.toPrecision(3)} rows a second; state their unit by --time-unit ${choices.join(' or ') || 's, ms, us or ns'}.`,
+    lengthUnit: (/** @type {number} */ speed, /** @type {string} */ unit, /** @type {string[]} */ choices) =>
+      `in ${unit}, the robot would drive at ${speed.toPrecision(3)} m/s; state the unit of lengths by --length-unit ${choices.join(' or ')}.`,
+    angleUnit: (/** @type {number} */ turn, /** @type {string} */ unit, /** @type {string[]} */ choices) =>
+      `headings in ${unit} would turn at ${turn.toPrecision(3)} rad/s, and do not agree with the path or with their range; state their unit by --angle-unit ${choices.join(' or ')}.`,
     /** Errors of recordings. */
     damaged: (/** @type {string} */ reason) => `the recording is damaged (${reason}); expected is an undamaged MCAP file.`,
     large: (/** @type {string} */ what, /** @type {string} */ bytes, /** @type {number} */ most) =>
@@ -86,11 +94,12 @@ export const log = {
     gaps: (/** @type {number} */ count, /** @type {number} */ first, /** @type {number} */ longest) =>
       `${count} ${count === 1 ? 'pause' : 'pauses'}, the first at ${first.toFixed(2)} s, the longest of ${longest.toFixed(2)} s`,
     jumps: (/** @type {number} */ count, /** @type {number} */ first) => `${count} ${count === 1 ? 'jump' : 'jumps'}, the first at ${first.toFixed(2)} s`,
-    unit: (/** @type {string} */ unit) => `times in ${unit}, by their size`,
+    unit: (/** @type {string} */ unit, /** @type {string} */ by) => `times in ${unit}, by ${by === 'rate' ? 'their rate and the speed of the robot' : 'their size'}`,
     logTimes: 'times are those at which messages were recorded, for their headers have none',
     degrees: 'headings in degrees, by the name of the column',
     notes: {
       cutShort: () => 'the file ends in the middle of a row or record',
+      sorted: (/** @type {number} */ count) => `${count} late ${count === 1 ? 'row' : 'rows'} sorted by time`,
       swapped: (/** @type {string} */ odometry) => `it is called as odometry is, and ${odometry} is not: are the two the other way round?`,
       apart: (/** @type {string} */ name, /** @type {string} */ one, /** @type {string} */ other) =>
         `its times (${one}) and those of ${name} (${other}) have nothing in common: the clocks are aligned by how the robot turned`,

@@ -89,14 +89,14 @@ export interface Log {
 }
 
 /** Cause for dropping a row. */
-export type Cause = 'notFinite' | 'noRotation' | 'short' | 'duplicate' | 'falling' | 'held';
+export type Cause = 'notFinite' | 'noRotation' | 'noStamp' | 'short' | 'duplicate' | 'stray' | 'setBack' | 'held';
 
-/** Basis of a decision about a unit: a name, the size of the numbers, the format's definition, an option, or usage without another sign. */
-export type Basis = 'name' | 'size' | 'format' | 'option' | 'usage';
+/** Basis of a decision about a unit: a name, the size of the numbers, rate and speed, the format's definition, an option, or usage without another sign. */
+export type Basis = 'name' | 'size' | 'rate' | 'format' | 'option' | 'usage';
 
 /** Sentence about a log: name of a word in `found.notes`, and the values in it. */
 export interface Note {
-  name: 'cutShort' | 'swapped' | 'apart';
+  name: 'cutShort' | 'sorted' | 'swapped' | 'apart';
   values: (string | number)[];
 }
 

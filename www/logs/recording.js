@@ -5,7 +5,7 @@ import { LogError, cut, listed, reasonOf } from './log-error.js';
 import { openRecording } from './mcap.js';
 import { KINDS, edgeReader, poseReader } from './messages.js';
 import { LOG_TIME } from './log.ts';
-import { Rows } from './rows.js';
+import { Rows } from './rows.ts';
 
 /**
  * @import { Choice, Log, Series, Source } from './log.ts'
@@ -73,11 +73,8 @@ class TopicReader {
   #topic;
   #recording;
   #choice;
-  /** Rows by the stamps of the headers. */
-  #stamped;
-  /** Rows by the times of recording, until a header has a stamp. */
-  #recorded;
-  #hasStamps = false;
+  /** Rows by the stamps of the headers, and by the times of recording. */
+  #rows;
   /** Messages so far. */
   #number = 0;
   #type = '';
@@ -92,9 +89,7 @@ class TopicReader {
     this.#topic = choice.series;
     this.#recording = recording;
     this.#choice = choice;
-    const place = { file, topic: this.#topic };
-    this.#stamped = new Rows(place);
-    this.#recorded = new Rows(place);
+    this.#rows = new Rows({ file, topic: this.#topic });
   }
 
   /** @param {string} topic */
@@ -149,16 +144,9 @@ class TopicReader {
   /** @param {Reading} reading @param {bigint} logTime in nanoseconds */
   #add({ stamp, a, b, c, isRotation }, logTime) {
     const { sec, nanosec } = stamp ?? { sec: 0, nanosec: 0 };
-    this.#hasStamps ||= sec !== 0 || nanosec !== 0;
     const number = this.#number;
-    if (!isRotation) {
-      this.#stamped.leaveOut('noRotation', number);
-      this.#recorded.leaveOut('noRotation', number);
-      return;
-    }
-    this.#stamped.add(sec, nanosec / 1e9, a, b, c, number);
-    if (this.#hasStamps) return;
-    this.#recorded.add(Number(logTime / 1_000_000_000n), Number(logTime % 1_000_000_000n) / 1e9, a, b, c, number);
+    if (!isRotation) return this.#rows.leaveOut('noRotation', number);
+    this.#rows.add(sec, nanosec / 1e9, a, b, c, number, Number(logTime / 1_000_000_000n), Number(logTime % 1_000_000_000n) / 1e9);
   }
 
   /** @returns {Log} @throws {LogError} if the messages are no log */
@@ -168,15 +156,14 @@ class TopicReader {
     const { frames } = this.#choice;
     const tree = this.#frames;
     if (tree && !frames) this.#refuseWithoutFrames(tree);
-    if (tree && frames && this.#stamped.count === 0) {
+    if (tree && frames && this.#rows.count === 0) {
       this.#refuse((say) => say.noChain(`${cut(frames.parent)},${cut(frames.child)}`, listed(tree.known)));
     }
     const kind = kindOf(this.#type) === 'commands' ? 'commands' : 'poses';
-    const [rows, clock] = this.#hasStamps ? [this.#stamped, 'header.stamp'] : [this.#recorded, LOG_TIME];
     const chain = frames ? ` (${frames.parent} to ${frames.child})` : '';
-    return rows.end(`${this.#file}, ${this.#topic}${chain}`, kind, {
+    return this.#rows.end(`${this.#file}, ${this.#topic}${chain}`, kind, {
       units: { time: { unit: 'ns', by: 'format' }, length: { unit: 'm', by: 'format' }, angle: { unit: kind === 'poses' ? 'quaternion' : 'none', by: 'format' } },
-      clock,
+      clocks: ['header.stamp', LOG_TIME],
       ...(frames && { frames }),
       notes: this.#recording.cutShort ? [{ name: 'cutShort', values: [] }] : [],
     });

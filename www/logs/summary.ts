@@ -29,7 +29,7 @@ export function summarize({ summary, kind }: Log, say: Words['found']): string[]
   const { rows, used, dropped, seconds, rate, units: { time, angle }, clock, columns, gaps, jumps, notes } = summary;
   return [
     say.rows(used, rows, seconds, rate),
-    ...(time.by === 'size' && time.unit !== 's' ? [say.unit(time.unit)] : []),
+    ...((time.by === 'size' || time.by === 'rate') && time.unit !== 's' ? [say.unit(time.unit, time.by)] : []),
     ...(clock === LOG_TIME ? [say.logTimes] : []),
     ...(kind === 'poses' && angle.unit === 'deg' ? [say.degrees] : []),
     ...(Object.entries(dropped) as [Cause, { count: number; first: number }][]).map(([cause, { count, first }]) => say.leftOut(cause, count, columns ? first : 0)),

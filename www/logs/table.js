@@ -2,9 +2,9 @@
 
 import { isHeader, layoutOf } from './header.js';
 import { LogError, bytesOf, cut } from './log-error.js';
-import { numberOf, timeOf } from './numbers.js';
+import { numberOf, timeOf } from './numbers.ts';
 import { headingOf, isRotation } from './quaternion.ts';
-import { Rows } from './rows.js';
+import { Rows } from './rows.ts';
 
 /**
  * @import { Layout } from './header.js'
@@ -147,7 +147,7 @@ class Table {
   }
 
   /** @param {string[]} cells @param {Layout} layout */
-  #add(cells, { fields, columns, names, kind, degrees }) {
+  #add(cells, { fields, columns, names, kind }) {
     const time = cells[columns[0]];
     if (this.#unit === undefined) {
       const size = Math.abs(numberOf(time) ?? NaN);
@@ -171,7 +171,7 @@ class Table {
       const [qx, qy] = last - first === 5 ? [values[last - 3], values[last - 2]] : [0, 0];
       if (!isRotation(qx, qy, qz, qw)) return this.#rows.leaveOut('noRotation', this.#line);
       heading = headingOf(qx, qy, qz, qw);
-    } else if (kind === 'poses') heading = values[last] * (degrees ? Math.PI / 180 : 1);
+    } else if (kind === 'poses') heading = values[last];
     this.#rows.add(seconds, rest, x, y, heading, this.#line);
   }
 
@@ -189,9 +189,9 @@ class Table {
       units: {
         time: { unit: this.#unit ?? 's', by: unit ? 'name' : 'size' },
         length: { unit: 'm', by: 'usage' },
-        angle: { unit: kind === 'commands' ? 'none' : isQuaternion ? 'quaternion' : degrees ? 'deg' : 'rad', by: isQuaternion ? 'format' : degrees ? 'name' : 'usage' },
+        angle: { unit: isQuaternion ? 'quaternion' : degrees ? 'deg' : 'rad', by: isQuaternion ? 'format' : degrees ? 'name' : 'usage' },
       },
-      clock: names[0],
+      clocks: [names[0]],
       columns: Object.fromEntries(fields.map((field, i) => [field, names[i]])),
       notes: this.#cutShort ? [{ name: 'cutShort', values: [] }] : [],
     });

@@ -1,0 +1,61 @@
+/** Numbers and times in text. */
+
+/** Time in whole seconds and the rest in seconds, so that nanoseconds since 1970 keep their digits. */
+export type Time = [seconds: number, rest: number];
+
+/** Words for a missing or infinite number. */
+const NOT_FINITE = /^(?:[+-]?(?:nan|inf(?:inity)?)|null|none|nat|na|n\/a|-)?$/i;
+
+const DECIMAL = /^\s*([+-]?)(\d+)(?:\.(\d*))?(?:[eE]([+-]?\d{1,3}))?\s*$/;
+
+const DATE = /^\s*(\d{4})[-/](\d{1,2})[-/](\d{1,2})(?:[T\s]+(\d{1,2}):(\d{2})(?::(\d{2})(?:[.,](\d+))?)?\s*(Z|UTC|GMT|[+-]\d{2}(?::?\d{2})?)?)?\s*$/i;
+
+/** Duration as of pandas ("0 days 00:00:01.5") and MATLAB ("00:00:01.5"). */
+const DURATION = /^\s*(?:(\d+) days? )?\+?(\d+):(\d{2}):(\d{2})(?:[.,](\d+))?\s*$/;
+
+/** Returns NaN for an empty cell or a word for no number, and undefined for any other text. */
+export function numberOf(cell: string): number | undefined {
+  const value = Number(cell);
+  // Number also takes empty cells and hexadecimal digits, both as whole numbers, which parseFloat does not.
+  if (value === value && (value % 1 !== 0 || value === parseFloat(cell))) return value;
+  return NOT_FINITE.test(cell.trim()) ? NaN : undefined;
+}
+
+/**
+ * Parses a time.
+ *
+ * @param power of ten that a second has of the unit: 9 for nanoseconds
+ * @returns NaN or undefined as `numberOf`
+ */
+export function timeOf(cell: string, power: number): Time | undefined {
+  const decimal = DECIMAL.exec(cell);
+  if (!decimal) {
+    const number = numberOf(cell);
+    if (number === undefined) return undefined;
+    const time = number / 10 ** power;
+    return [Math.floor(time), time - Math.floor(time)];
+  }
+  const [, sign, digits, decimals = '', exponent] = decimal;
+  // The digits are split where the seconds end, without a rounding.
+  const point = digits.length - power + (exponent === undefined ? 0 : Number(exponent));
+  const all = digits + decimals;
+  const seconds = point <= 0 ? 0 : Number(all.slice(0, point).padEnd(point, '0'));
+  const rest = Number(`.${point < 0 ? '0'.repeat(-point) + all : all.slice(point)}0`);
+  return sign === '-' ? [-seconds, -rest] : [seconds, rest];
+}
+
+/** Parses a date of ISO 8601 or a duration; undefined for any other text. A date without a zone is one of UTC. */
+export function dateOf(cell: string): { time: Time; hasZone: boolean; isDuration: boolean } | undefined {
+  const date = DATE.exec(cell);
+  if (date) {
+    const [, year, month, day, hour = '0', minute = '0', second = '0', fraction = '', zone] = date;
+    const [sign, hours, minutes] = /^([+-])(\d{2}):?(\d{2})?$/.exec(zone ?? '')?.slice(1) ?? ['+', '0', '0'];
+    const offset = (sign === '-' ? -60 : 60) * (60 * Number(hours) + Number(minutes ?? 0));
+    const seconds = Date.UTC(Number(year), Number(month) - 1, Number(day), Number(hour), Number(minute), Number(second)) / 1000 - offset;
+    return { time: [seconds, Number(`.${fraction}0`)], hasZone: zone !== undefined, isDuration: false };
+  }
+  const duration = DURATION.exec(cell);
+  if (!duration) return undefined;
+  const [days = '0', hours, minutes, seconds, fraction = ''] = duration.slice(1);
+  return { time: [((Number(days) * 24 + Number(hours)) * 60 + Number(minutes)) * 60 + Number(seconds), Number(`.${fraction}0`)], hasZone: true, isDuration: true };
+}

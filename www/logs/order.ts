@@ -1,0 +1,85 @@
+/** Order of rows in time. */
+
+import { quantile, sample } from './quantile.ts';
+
+/** Usual steps within which two times are near each other. */
+const NEAR = 5;
+
+/** Part of the usual step within which two rows are of the same time. */
+const SAME = 0.75;
+
+/** Rows at times that earlier rows have too, which show a clock that was set back: of late rows there are fewer. */
+const MIN_OVERLAP = 3;
+
+/** Fates of a row. */
+export const [KEPT, LATE, STRAY, SET_BACK] = [0, 1, 2, 3];
+
+export interface Order {
+  /** Kept rows by their times; rows of the same time in the order of the file. */
+  order: Uint32Array;
+  /** Fate of each row. A late one is kept, at its time. */
+  fates: Uint8Array;
+  /** Row before which the clock was set back first, or -1. */
+  setBack: number;
+  /** Rows under the setting of the clock that most rows are of. */
+  most: number;
+}
+
+/**
+ * Sorts rows by their times. A row that is late is put where it belongs. A single time far from all others is dropped, and so are all
+ * rows but the largest part where the clock was set back: there, rows of one part repeat times of another.
+ *
+ * @param t in the order of the file
+ * @param isSame checks whether two rows have the same values
+ */
+export function sortRows(t: Float64Array, isSame: (one: number, other: number) => boolean): Order {
+  const fates = new Uint8Array(t.length);
+  const all = Uint32Array.from(t.keys());
+  const isLate = (i: number) => i > 0 && t[i] < t[i - 1];
+  if (!t.some((_, i) => isLate(i))) return { order: all, fates, setBack: -1, most: t.length };
+
+  const step = quantile(sample(t.length - 1, (i) => t[i + 1] - t[i]).filter((each) => each > 0), 0.5);
+  const sorted = all.toSorted((one, other) => t[one] - t[other] || one - other);
+  const places = new Uint32Array(t.length);
+  for (let place = 0; place < t.length; place++) places[sorted[place]] = place;
+  const isAlone = (i: number) => [t[sorted[places[i] - 1]], t[sorted[places[i] + 1]]].every((other) => !(Math.abs(other - t[i]) <= NEAR * step));
+  for (let i = 0; i < t.length; i++) {
+    const around = t[i + 1] - t[i - 1];
+    const isBetween = t[i] >= t[i - 1] && t[i] <= t[i + 1];
+    if (around >= 0 && around <= NEAR * step && !isBetween && isAlone(i)) fates[i] = STRAY;
+  }
+
+  // Runs of rising times. A run that repeats times of earlier runs begins a part under another setting of the clock.
+  const runs = new Uint32Array(t.length);
+  for (let i = 1, last = 0; i < t.length; i++) {
+    runs[i] = runs[i - 1];
+    if (fates[i - 1] !== STRAY) last = i - 1;
+    if (fates[i] !== STRAY && t[i] < t[last]) {
+      runs[i] += 1;
+      fates[i] = LATE;
+    }
+  }
+  const overlaps = new Uint32Array(runs[t.length - 1] + 1);
+  let previous = -1;
+  for (const i of sorted) {
+    if (fates[i] === STRAY) continue;
+    const isRepeated = previous >= 0 && runs[previous] !== runs[i] && t[i] - t[previous] < SAME * step;
+    if (isRepeated && !isSame(previous, i)) overlaps[Math.max(runs[previous], runs[i])] += 1;
+    previous = i;
+  }
+  const parts = new Uint32Array(t.length);
+  const sizes = [0];
+  let setBack = -1;
+  for (let i = 0; i < t.length; i++) {
+    if (i > 0 && runs[i] !== runs[i - 1] && overlaps[runs[i]] >= MIN_OVERLAP) {
+      if (setBack < 0) setBack = i;
+      sizes.push(0);
+    }
+    parts[i] = sizes.length - 1;
+    if (fates[i] !== STRAY) sizes[parts[i]] += 1;
+  }
+  const most = Math.max(...sizes);
+  const kept = sizes.indexOf(most);
+  for (let i = 0; i < t.length; i++) if (fates[i] !== STRAY && parts[i] !== kept) fates[i] = SET_BACK;
+  return { order: sorted.filter((i) => fates[i] < STRAY), fates, setBack, most };
+}

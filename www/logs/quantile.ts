@@ -1,0 +1,15 @@
+/** Quantiles of long columns. */
+
+/** Most items that a quantile is taken from. */
+const SAMPLED = 10_000;
+
+/** Evaluates many evenly spread items. */
+export function sample(count: number, value: (i: number) => number): Float64Array {
+  const every = Math.max(1, Math.ceil(count / SAMPLED));
+  const values = new Float64Array(Math.max(0, Math.ceil(count / every)));
+  for (let i = 0; i < values.length; i++) values[i] = value(i * every);
+  return values;
+}
+
+/** Returns a quantile of values, which are sorted; NaN of none. */
+export const quantile = (values: Float64Array, share: number) => values.sort()[Math.floor(share * (values.length - 1))] ?? NaN;

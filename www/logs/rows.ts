@@ -1,0 +1,263 @@
+/** Rows of a log: which are kept, and which are dropped and why. */
+
+import { LogError, type Place } from './log-error.js';
+import type { Cause, Log, LogKind, Note, OpenOptions, Summary } from './log.ts';
+import { KEPT, LATE, STRAY, sortRows } from './order.ts';
+import { quantile, sample } from './quantile.ts';
+import { distanceOf } from './summary.ts';
+import { type Units, judgeUnits } from './units.ts';
+
+/** Decisions about a log that its reader makes. */
+export interface Decisions {
+  /** Units that a name or the format states. */
+  units: Units;
+  /** Name of the clock of the rows, and of the other clock if there is one. */
+  clocks: [string, string?];
+  frames?: Summary['frames'];
+  columns?: Summary['columns'];
+  notes: Note[];
+}
+
+/** Most rows: a day at 100 Hz. */
+const MAX_ROWS = 10_000_000;
+
+/** Largest coordinate or speed that the core accepts. */
+export const MAX_VALUE = 1e9;
+
+/** Usual steps in a gap, as in the core. */
+const STEPS_OF_A_GAP = 5;
+
+/** Speed of a jump in units of the 90 % quantile of the moving steps. */
+const TIMES_FASTER = 8;
+
+/** Least length of a jump in metres and radians: the noise of a fast log is none. */
+const [FAR, TURNED] = [0.1, 0.2];
+
+/** Speed in metres or radians a second below which a robot stands. */
+const STANDS = 0.01;
+
+/** Times from here on count from 1970 and not from the start of a program: 1e8 s is the year 1973. */
+const EPOCH = 1e8;
+
+/** Least share of the rows that has to be left after a clock was set back, and that has to be of different times. */
+const MIN_SHARE = 0.6;
+
+export class Rows {
+  #place: Place;
+  #seconds: number[] = [];
+  #rest: number[] = [];
+  /** Times by the other clock. */
+  #otherSeconds: number[] = [];
+  #otherRest: number[] = [];
+  #a: number[] = [];
+  #b: number[] = [];
+  #c: number[] = [];
+  #lines: number[] = [];
+  /** Rows before which unusable ones were dropped, so that the path is unknown there. */
+  #broken = new Set<number>();
+  #dropped: Summary['dropped'] = {};
+
+  /** All rows, with those that are dropped. */
+  count = 0;
+
+  /** @param place for errors */
+  constructor(place: Place) {
+    this.#place = place;
+  }
+
+  /** Drops an unusable row. */
+  leaveOut(cause: Cause, line: number): void {
+    this.count += 1;
+    this.#note(cause, line);
+    this.#broken.add(this.#a.length);
+  }
+
+  /**
+   * Adds a row, or drops it.
+   *
+   * @param seconds whole part of the time
+   * @param rest of the time, in seconds
+   * @param a x, or v
+   * @param b y, or omega
+   * @param c heading, or 0
+   * @param line or number of the message
+   * @param otherSeconds whole part of the time by the other clock, which is used if the first one stands at 0
+   * @param otherRest of the time by the other clock
+   */
+  add(seconds: number, rest: number, a: number, b: number, c: number, line: number, otherSeconds = 0, otherRest = 0): void {
+    // A sum is finite if all of its terms are.
+    if (!Number.isFinite(seconds + rest + a + b + c)) return this.leaveOut('notFinite', line);
+    this.count += 1;
+    if (this.count > MAX_ROWS) throw new LogError(this.#place, (say) => say.rows(MAX_ROWS));
+    if (Math.max(Math.abs(a), Math.abs(b), Math.abs(c)) > MAX_VALUE) {
+      const far = [a, b, c].find((value) => Math.abs(value) > MAX_VALUE) ?? NaN;
+      throw new LogError(this.#at(line), (say) => say.far(far, MAX_VALUE, this.#message(line)));
+    }
+    this.#seconds.push(seconds);
+    this.#rest.push(rest);
+    this.#otherSeconds.push(otherSeconds);
+    this.#otherRest.push(otherRest);
+    this.#a.push(a);
+    this.#b.push(b);
+    this.#c.push(c);
+    this.#lines.push(line);
+  }
+
+  /**
+   * Finishes the log.
+   *
+   * @param options answers to questions about units
+   * @throws {LogError} if the rows that are left are no log, or their units are in doubt
+   */
+  end(name: string, kind: LogKind, { units: stated, clocks, ...decisions }: Decisions, options: OpenOptions = {}): Log {
+    const usesOther = this.#chooseClock(clocks[1] !== undefined);
+    const { rows, late, ...times } = this.#inOrder();
+    const [a, b, c] = [this.#a, this.#b, this.#c].map((column) => {
+      const values = new Float64Array(rows.length);
+      for (let i = 0; i < rows.length; i++) values[i] = column[rows[i]];
+      return values;
+    });
+    const { count } = this;
+    if (rows.length < 2) {
+      const [cause, dropped] = (Object.entries(this.#dropped) as [Cause, { first: number }][])[0] ?? [];
+      throw new LogError(this.#at(dropped?.first ?? 0), (say) => say.few(rows.length, count, cause));
+    }
+    const columns = { ...times, a, b, c };
+    const units = judgeUnits(this.#place, kind, columns, stated, options);
+    const { start, t } = columns;
+    const { breaks, ...found } = this.#events(kind, start, [t, a, b, c], rows);
+    const data = { t, ...(kind === 'poses' ? { x: a, y: b, theta: c } : { v: a, omega: b }), breaks } as Log['data'];
+    const notes = late > 0 ? [...decisions.notes, { name: 'sorted' as const, values: [late] }] : decisions.notes;
+    const seconds = t[t.length - 1] - t[0];
+    const summary = {
+      rows: count, used: t.length, dropped: this.#dropped, seconds, distance: distanceOf(data), ...found,
+      ...decisions, units, clock: clocks[usesOther ? 1 : 0] ?? '', notes,
+    };
+    return { name, kind, start, data, summary };
+  }
+
+  /** Takes the other clock if the first one mostly stands at 0. @returns whether it did */
+  #chooseClock(hasOther: boolean): boolean {
+    const rows = this.#seconds.length;
+    let unset = 0;
+    for (let row = 0; row < rows; row++) if (this.#isUnset(row)) unset += 1;
+    if (!hasOther || 2 * unset <= rows) return false;
+    this.#seconds = this.#otherSeconds;
+    this.#rest = this.#otherRest;
+    return true;
+  }
+
+  #isUnset(row: number): boolean {
+    return this.#seconds[row] === 0 && this.#rest[row] === 0;
+  }
+
+  /** Returns the rows that are kept by their times, each time once, and the number of those that were late. */
+  #inOrder(): { start: number; t: Float64Array; rows: Uint32Array; late: number } {
+    // A stamp of 0 among times since 1970 was never set.
+    const isSince1970 = quantile(sample(this.#seconds.length, (row) => this.#seconds[row]), 0.5) > EPOCH;
+    const stamped = Uint32Array.from(this.#seconds.keys()).filter((row) => !(isSince1970 && this.#isUnset(row)));
+    const base = Math.floor(this.#seconds[stamped[0]]);
+    const times = new Float64Array(stamped.length);
+    for (let i = 0; i < times.length; i++) times[i] = this.#seconds[stamped[i]] - base + this.#rest[stamped[i]];
+    const isSame = (one: number, other: number) => [this.#a, this.#b, this.#c].every((column) => column[stamped[one]] === column[stamped[other]]);
+    const { order, fates, setBack, most } = sortRows(times, isSame);
+    if (setBack >= 0 && most < MIN_SHARE * times.length) {
+      const line = this.#lines[stamped[setBack]];
+      throw new LogError(this.#at(line), (say) => say.setBack(times[setBack - 1] - times[setBack], this.#message(line)));
+    }
+
+    const start = base + Math.floor(times[order[0]]);
+    const t = new Float64Array(order.length);
+    const rows = new Uint32Array(order.length);
+    const isDropped = new Map<number, Cause>();
+    let [used, different] = [0, 0];
+    for (let i = 0; i < order.length; i++) {
+      const row = stamped[order[i]];
+      const time = this.#seconds[row] - start + this.#rest[row];
+      if (used > 0 && time <= t[used - 1]) {
+        isDropped.set(row, 'duplicate');
+        if (!isSame(order[i - 1], order[i])) different += 1;
+        continue;
+      }
+      rows[used] = row;
+      t[used] = time;
+      used += 1;
+    }
+    if (order.length > 3 && different > (1 - MIN_SHARE) * order.length) {
+      const line = this.#lines[Math.min(...isDropped.keys())];
+      throw new LogError(this.#at(line), (say) => say.sameTimes(different, order.length, this.#message(line)));
+    }
+    let late = 0;
+    for (let i = 0; i < fates.length; i++) {
+      if (fates[i] === LATE) late += 1;
+      else if (fates[i] !== KEPT) isDropped.set(stamped[i], fates[i] === STRAY ? 'stray' : 'setBack');
+    }
+    for (let row = 0; row < this.#seconds.length && stamped.length < this.#seconds.length; row++) {
+      if (isSince1970 && this.#isUnset(row)) isDropped.set(row, 'noStamp');
+    }
+    this.#drop(isDropped);
+    return { start, t: t.slice(0, used), rows: rows.slice(0, used), late };
+  }
+
+  /** Drops rows that were added. The path is known there, but for rows under another setting of the clock. */
+  #drop(rows: Map<number, Cause>): void {
+    for (const row of [...rows.keys()].sort((one, other) => one - other)) {
+      const cause = rows.get(row) as Cause;
+      this.#note(cause, this.#lines[row]);
+      if (cause === 'setBack' || this.#broken.delete(row)) this.#broken.add(row + 1);
+    }
+  }
+
+  /** Returns the rate, the gaps, the jumps, and the rows before which the path is unknown. */
+  #events(kind: LogKind, start: number, [t, a, b, c]: Float64Array[], rows: Uint32Array) {
+    const step = quantile(sample(t.length - 1, (i) => t[i + 1] - t[i]), 0.5);
+    const gaps = { count: 0, longest: 0, first: NaN };
+    const jumps = { count: 0, first: NaN };
+    const breaks: number[] = [];
+    const isJump = kind === 'poses' ? jumpTest(t, a, b, c) : () => false;
+    for (let i = 1; i < t.length; i++) {
+      const pause = t[i] - t[i - 1];
+      if (pause > STEPS_OF_A_GAP * step) {
+        if (gaps.count === 0) gaps.first = start + t[i - 1];
+        gaps.count += 1;
+        gaps.longest = Math.max(gaps.longest, pause);
+      }
+      if (isJump(i)) {
+        if (jumps.count === 0) jumps.first = start + t[i];
+        jumps.count += 1;
+        breaks.push(i);
+      } else if (this.#broken.has(rows[i])) breaks.push(i);
+    }
+    return { rate: 1 / step, gaps, jumps, breaks: Uint32Array.from(breaks) };
+  }
+
+  #at(line: number): Place {
+    return line && !this.#message(line) ? { ...this.#place, line } : this.#place;
+  }
+
+  /** Returns the number of a message of a recording; 0 in a table. */
+  #message(line: number): number {
+    return this.#place.topic === undefined ? 0 : line;
+  }
+
+  #note(cause: Cause, line: number): void {
+    const dropped = (this.#dropped[cause] ??= { count: 0, first: line });
+    dropped.count += 1;
+  }
+}
+
+/** Returns a test for a jump just before a row. */
+function jumpTest(t: Float64Array, x: Float64Array, y: Float64Array, theta: Float64Array): (i: number) => boolean {
+  const distance = (i: number) => Math.hypot(x[i] - x[i - 1], y[i] - y[i - 1]);
+  const turn = (i: number) => {
+    const difference = theta[i] - theta[i - 1];
+    return Math.abs(difference - 2 * Math.PI * Math.round(difference / (2 * Math.PI)));
+  };
+  const tests = ([[distance, FAR], [turn, TURNED]] as const).map(([length, least]) => {
+    const rates = sample(t.length - 1, (i) => length(i + 1) / (t[i + 1] - t[i]));
+    const limit = TIMES_FASTER * quantile(rates.filter((rate) => rate > STANDS), 0.9);
+    // A robot that never moves has no limit of its speed.
+    return (i: number) => length(i) > Math.max(least, (limit || 0) * (t[i] - t[i - 1]));
+  });
+  return (i) => tests.some((test) => test(i));
+}

@@ -1,0 +1,197 @@
+/** Units of a log, judged by two signs that know nothing of each other. Where they disagree, the log is refused with a question. */
+
+import { LogError, type Place } from './log-error.js';
+import type { AngleUnit, LengthUnit, LogKind, OpenOptions, Question, Summary, TimeUnit } from './log.ts';
+import { quantile, sample } from './quantile.ts';
+
+export type Units = Summary['units'];
+
+/** Rows in the units that are stated for them. */
+export interface Columns {
+  /** Seconds that were subtracted from all times. */
+  start: number;
+  t: Float64Array;
+  /** x, or v. */
+  a: Float64Array;
+  /** y, or omega. */
+  b: Float64Array;
+  /** Heading, or 0. */
+  c: Float64Array;
+}
+
+/** Units of time by the powers of ten that a second has of them. */
+export const POWERS = { s: 0, ms: 3, us: 6, ns: 9 } as const;
+
+/** Units of length and angle, by their size in m and rad. */
+const METRES = { m: 1, cm: 0.01, mm: 0.001 } as const;
+const RADIANS = { rad: 1, deg: Math.PI / 180 } as const;
+
+/** Least size of a time since 1970 in each unit: 1e11 s is the year 5138. */
+const SIZES = [['ns', 1e17], ['us', 1e14], ['ms', 1e11]] as const;
+
+/** Rows below which a log is too short to judge. */
+const MIN_ROWS = 10;
+
+/** Rates of logs in Hz: those of any, and those of a log whose unit nothing states. */
+const [RATES, USUAL_RATES] = [[0.05, 5000], [0.2, 2000]] as const;
+
+/** Speeds of robots in m/s or rad/s, the rounding of times included. */
+const [SLOWEST, FASTEST] = [0.005, 20.5];
+
+/** Duration in s of the steps whose speed is judged: the noise of shorter ones is fast. */
+const STEP = 0.5;
+
+/** Least length in m of a step with a direction. */
+const MIN_STEP = 0.02;
+
+/** Least number of steps with a direction. */
+const MIN_STEPS = 20;
+
+/** Turn in degrees of a step across the end of a full circle. */
+const WRAPS = [330, 390] as const;
+
+const isWithin = (value: number, [low, high]: readonly [number, number]) => value >= low && value <= high;
+
+/** Returns the unit of a time by its size, or undefined for a time that does not count from 1970. */
+export const unitOfSize = (time: number): TimeUnit | undefined => SIZES.find(([, least]) => Math.abs(time) >= least)?.[0];
+
+/**
+ * Judges the units, and converts the columns to s, m and rad.
+ *
+ * @param stated units by a name, the size of the times, the format or usage, in which the columns are
+ * @param options answers to questions, which are not doubted
+ * @throws {LogError} with a question, where the signs disagree
+ */
+export function judgeUnits(place: Place, kind: LogKind, columns: Columns, stated: Units, options: OpenOptions): Units {
+  const isJudged = columns.t.length >= MIN_ROWS;
+  const ask = (what: 'timeUnit' | 'lengthUnit' | 'angleUnit', value: number, unit: string, choices: string[]): never => {
+    throw new LogError(place, (say) => say[what](value, unit, choices), { what, choices } satisfies Question);
+  };
+  const time = isJudged ? timeUnit(kind, columns, stated.time, ask) : stated.time;
+  convertTimes(columns, 10 ** (POWERS[time.unit] - POWERS[stated.time.unit]));
+
+  let { length, angle } = stated;
+  if (options.lengthUnit) length = { unit: options.lengthUnit, by: 'option' };
+  else if (isJudged) checkLength(kind, columns, length, ask);
+  const metres = METRES[length.unit];
+  if (metres !== 1) for (const column of kind === 'poses' ? [columns.a, columns.b] : [columns.a]) scale(column, metres);
+
+  if (angle.unit === 'quaternion' || angle.unit === 'none') return { time, length, angle };
+  if (options.angleUnit) angle = { unit: options.angleUnit, by: 'option' };
+  else if (isJudged) angle = angleUnit(kind, columns, angle, ask);
+  if (angle.unit === 'deg') scale(kind === 'poses' ? columns.c : columns.b, RADIANS.deg);
+  return { time, length, angle };
+}
+
+type Ask = (what: 'timeUnit' | 'lengthUnit' | 'angleUnit', value: number, unit: string, choices: string[]) => never;
+
+/** Judges times by their size or name, and by the rate and the speed that they imply. */
+function timeUnit(kind: LogKind, { t, a, b, c }: Columns, stated: Units['time'], ask: Ask): Units['time'] {
+  if (stated.by === 'format' || stated.by === 'option') return stated;
+  const step = quantile(sample(t.length - 1, (i) => t[i + 1] - t[i]), 0.5);
+  const units = Object.keys(POWERS) as TimeUnit[];
+  const rate = (unit: TimeUnit) => 10 ** (POWERS[unit] - POWERS[stated.unit]) / step;
+  if (stated.by !== 'usage') {
+    if (isWithin(rate(stated.unit), RATES)) return stated;
+    return ask('timeUnit', rate(stated.unit), stated.unit, units.filter((unit) => isWithin(rate(unit), RATES)));
+  }
+  const [speed, turn] = kind === 'poses' ? [speedOf(t, a, b, step), turnOf(t, c)] : [0, 0];
+  const moves = speed > 0 || turn > 0;
+  /** Checks the rate, and that the robot is neither too fast nor too slow. */
+  const fits = (unit: TimeUnit) => {
+    const speeds = [speed, turn].map((each) => each * rate(unit) * step);
+    return isWithin(rate(unit), USUAL_RATES) && (!moves || (speeds.every((each) => each <= FASTEST) && speeds.some((each) => each >= SLOWEST)));
+  };
+  if (fits(stated.unit)) return stated;
+  const [unit, ...others] = units.filter(fits);
+  if (unit && others.length === 0 && moves) return { unit, by: 'rate' };
+  // A robot that is too fast may have its lengths in another unit.
+  if (isWithin(rate(stated.unit), USUAL_RATES) && speed > FASTEST) return stated;
+  return ask('timeUnit', rate(stated.unit), stated.unit, units.filter((each) => isWithin(rate(each), USUAL_RATES)));
+}
+
+/** Checks lengths by the speed of the robot. */
+function checkLength(kind: LogKind, { t, a, b }: Columns, { unit, by }: Units['length'], ask: Ask): void {
+  const step = quantile(sample(t.length - 1, (i) => t[i + 1] - t[i]), 0.5);
+  const speed = kind === 'poses' ? speedOf(t, a, b, step) : quantile(sample(a.length, (i) => Math.abs(a[i])), 0.9);
+  const inMetres = speed * METRES[unit];
+  const others = (Object.keys(METRES) as LengthUnit[]).filter((each) => isWithin(speed * METRES[each], [SLOWEST, FASTEST]));
+  // A name is doubted where the robot would creep in its unit, and drive as robots do in another.
+  if (inMetres > FASTEST || (by === 'name' && unit !== 'm' && inMetres < SLOWEST && speed > 0.1 && others.includes('m'))) {
+    ask('lengthUnit', inMetres, unit, others.includes(unit) ? others : [...others, unit]);
+  }
+}
+
+/** Judges headings and turn rates by their name and size, by the turn rate, and by the direction of the path. */
+function angleUnit(kind: LogKind, { t, a, b, c }: Columns, stated: Units['angle'], ask: Ask): Units['angle'] {
+  const choices = ['rad', 'deg'];
+  if (kind === 'commands') {
+    const turn = quantile(sample(b.length, (i) => Math.abs(b[i])), 0.9) * RADIANS[stated.unit as AngleUnit];
+    return turn > FASTEST ? ask('angleUnit', turn, stated.unit, choices) : stated;
+  }
+  const path = unitOfPath(t, a, b, c);
+  const turn = turnOf(t, c);
+  if (stated.by !== 'usage') {
+    const isDoubted = path !== undefined && path !== stated.unit && (stated.unit === 'deg') !== turn > FASTEST;
+    return isDoubted ? ask('angleUnit', turn * RADIANS[stated.unit as AngleUnit], stated.unit, choices) : stated;
+  }
+  let [low, high, wraps] = [Infinity, -Infinity, 0];
+  for (let i = 0; i < c.length; i++) {
+    low = Math.min(low, c[i]);
+    high = Math.max(high, c[i]);
+    if (i > 0 && isWithin(Math.abs(c[i] - c[i - 1]), WRAPS)) wraps += 1;
+  }
+  const signs = [path === 'deg', wraps > 0, turn > FASTEST].filter(Boolean).length;
+  // Headings in radians that are not wrapped grow beyond a full circle too.
+  const isBeyond = Math.max(high, -low) > 2 * Math.PI + 0.1;
+  if (path !== 'rad' && signs >= 2 && isBeyond) return { unit: 'deg', by: 'size' };
+  if (path === 'rad' ? turn > FASTEST && wraps > 0 : turn > FASTEST || isBeyond) return ask('angleUnit', turn, stated.unit, choices);
+  return stated;
+}
+
+/**
+ * Returns the unit in which the heading follows the direction of the path, forwards or backwards at a constant angle; undefined where
+ * both do, as on a straight path, or none, as of a robot that drives sideways.
+ */
+function unitOfPath(t: Float64Array, x: Float64Array, y: Float64Array, heading: Float64Array): AngleUnit | undefined {
+  const stride = Math.max(2, Math.ceil(STEP / quantile(sample(t.length - 1, (i) => t[i + 1] - t[i]), 0.5)));
+  const sums = { rad: [0, 0], deg: [0, 0] };
+  let count = 0;
+  for (let i = 0; i + stride < t.length; i += stride) {
+    const [dx, dy] = [x[i + stride] - x[i], y[i + stride] - y[i]];
+    if (Math.hypot(dx, dy) < MIN_STEP) continue;
+    count += 1;
+    for (const unit of ['rad', 'deg'] as const) {
+      const angle = 2 * (Math.atan2(dy, dx) - heading[i + (stride >> 1)] * RADIANS[unit]);
+      sums[unit][0] += Math.cos(angle);
+      sums[unit][1] += Math.sin(angle);
+    }
+  }
+  if (count < MIN_STEPS) return undefined;
+  // Mean resultant lengths: 1 of directions that are all the same, 0 of random ones.
+  const [rad, deg] = [sums.rad, sums.deg].map(([cosine, sine]) => Math.hypot(cosine, sine) / count);
+  if (Math.max(rad, deg) < 0.8 || Math.abs(rad - deg) < 0.3) return undefined;
+  return rad > deg ? 'rad' : 'deg';
+}
+
+/** Returns the speed that nine in ten steps do not exceed. */
+function speedOf(t: Float64Array, x: Float64Array, y: Float64Array, step: number): number {
+  const stride = Math.min(Math.max(1, Math.round(STEP / step)), t.length - 1);
+  return quantile(sample(t.length - stride, (i) => Math.hypot(x[i + stride] - x[i], y[i + stride] - y[i]) / (t[i + stride] - t[i])), 0.9);
+}
+
+/** Returns the turn rate that nine in ten steps do not exceed. */
+const turnOf = (t: Float64Array, heading: Float64Array) =>
+  quantile(sample(t.length - 1, (i) => Math.abs(heading[i + 1] - heading[i]) / (t[i + 1] - t[i])), 0.9);
+
+function scale(column: Float64Array, factor: number): void {
+  for (let i = 0; i < column.length; i++) column[i] *= factor;
+}
+
+/** Divides all times, and keeps a whole second as their start. */
+function convertTimes(columns: Columns, factor: number): void {
+  if (factor === 1) return;
+  const { start, t } = columns;
+  columns.start = Math.floor((start + t[0]) / factor);
+  for (let i = 0; i < t.length; i++) t[i] = (start + t[i]) / factor - columns.start;
+}

@@ -68,7 +68,7 @@ test('systematic errors are corrected or left in by name, all of them or single 
 
 test('several drives are calibrated together, with times after one start', async () => {
   const drives = ['2', '3'].flatMap((digit) => ['odometry', 'reference'].flatMap((role) => {
-    const rows = Array.from({ length: 40 }, (_, i) => `${digit}00.${10 + i},${i},0,0`);
+    const rows = Array.from({ length: 40 }, (_, i) => `${digit}00.${10 + i},${i / 10},0,0`);
     return [`--${role}`, file(`${role}${digit}.csv`, ['t,x,y,yaw', ...rows].join('\n'))];
   }));
   const { odometry: own, reference } = await callOf(drives);

@@ -13,7 +13,7 @@ import { ensurePackages, wasmRust } from './toolchain.mjs';
 
 const at = (/** @type {string} */ path) => join(ROOT, path);
 
-const PAGE_SCRIPTS = ['bundle', 'declarations', 'manifest', 'names', 'python', 'react', 'tables', 'types'].map((name) => `scripts/${name}.mjs`);
+const PAGE_SCRIPTS = ['bundle', 'declarations', 'manifest', 'names', 'python', 'react', 'tables', 'types', 'typescript'].map((name) => `scripts/${name}.mjs`);
 
 /** What scripts/bundle.mjs gives to who imports the module. */
 const CARRIED = `type Bytes = Uint8Array<ArrayBuffer>;
@@ -223,7 +223,7 @@ async function writeGlue(name, between) {
   const changes = /** @type {[RegExp, string][]} */ ([
     // What it throws by itself is the end of a core, as a trap is; plain errors are the page's own, thrown where a core reads.
     [/throw new Error\((?=getStringFromWasm)/g, 'throw new WebAssembly.RuntimeError('],
-    // For all classes; www/core.js does it.
+    // For all classes; www/core.ts does it.
     [/^if \(Symbol\.dispose\) .*$/gm, ''],
     [/new FinalizationRegistry\(/g, '/* @__PURE__ */ $&'],
     // A namespace is filled bit by bit, as if that had effects.

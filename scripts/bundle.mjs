@@ -12,6 +12,7 @@ import { writePython } from './python.mjs';
 import { writeComponents } from './react.mjs';
 import { withTables } from './tables.mjs';
 import { writeTypes } from './types.mjs';
+import { importTypeScript } from './typescript.mjs';
 
 const at = (/** @type {string} */ path) => join(ROOT, path);
 
@@ -94,7 +95,7 @@ const SHIFTED = {
   ascii: /(?<=\0)\d/g,
 };
 
-/** What takes the place of www/address.js, where a bundle is not the very script that the page names. */
+/** What takes the place of www/address.ts, where a bundle is not the very script that the page names. */
 const ADDRESS = {
   /** Only while it is evaluated; in the middle of a page it has none. */
   classic: "export const address = globalThis.document?.currentScript?.src ?? ''; export const classic = true;",
@@ -144,7 +145,7 @@ export async function bundle({ tags = WIDGETS, changed = (_, script) => script }
       format: 'esm',
       target: 'es2022',
       charset: 'utf8',
-      inject: [at('www/without-dom.js')],
+      inject: [at('www/without-dom.ts')],
       // A module is strict without being told, a classic script is not.
       tsconfigRaw: { compilerOptions: { alwaysStrict: options.format === 'iife' } },
       plugins: [
@@ -152,10 +153,11 @@ export async function bundle({ tags = WIDGETS, changed = (_, script) => script }
           name: 'wasm',
           setup({ onLoad, onResolve }) {
             onLoad({ filter: /\.wasm$/ }, () => ({ contents: form === 'external' ? MODULE.external(tags) : MODULE.inlined(), loader: 'js' }));
+            if (options.platform === 'node') onResolve({ filter: /^\.\/core\.ts$/ }, () => ({ path: './core.js', external: true }));
             onResolve({ filter: new RegExp(`^${BYTES}$`) }, ({ path }) => ({ path, namespace: 'core' }));
             onLoad({ filter: /./, namespace: 'core' }, () => ({ contents: MODULE.bytes(wasm, SHIFTED[options.charset === 'ascii' ? 'ascii' : 'utf8']) }));
             onLoad({ filter: /[/\\]www[/\\]settings\.js$/ }, () => ({ contents: ofDeclarations(), loader: 'js' }));
-            onLoad({ filter: /[/\\]www[/\\]address\.js$/ }, ({ path }) => ({
+            onLoad({ filter: /[/\\]www[/\\]address\.ts$/ }, ({ path }) => ({
               contents: options.format === 'iife' ? ADDRESS.classic : options.splitting ? ADDRESS.chunk : readFileSync(path, 'utf8'),
               loader: 'js',
             }));
@@ -167,9 +169,9 @@ export async function bundle({ tags = WIDGETS, changed = (_, script) => script }
               contents: withReplaced(readFileSync(path, 'utf8'), /** @type {keyof typeof REPLACED} */ (basename(path))),
               loader: 'js',
             }));
-            onLoad({ filter: /[/\\]www[/\\].+\.js$/ }, ({ path }) => ({
+            onLoad({ filter: /[/\\]www[/\\].+\.[jt]s$/ }, ({ path }) => ({
               contents: changed(path, withShortStyles(readFileSync(path, 'utf8'), transformSync)),
-              loader: 'js',
+              loader: path.endsWith('.ts') ? 'ts' : 'js',
             }));
           },
         },
@@ -179,17 +181,17 @@ export async function bundle({ tags = WIDGETS, changed = (_, script) => script }
       write: false,
     });
   const results = await Promise.all([
-    bundled({ core: 'core.js' }, 'inlined', { inject: [] }),
-    bundled({ 'motion-widgets': 'motion-widgets.js' }, 'inlined', {}),
+    bundled({ core: 'core.ts' }, 'inlined', { inject: [] }),
+    bundled({ 'motion-widgets': 'motion-widgets.ts' }, 'inlined', {}),
     // It travels as a text, without what would stand beside it.
-    bundled({ anywidget: 'anywidget.js' }, 'inlined', { sourcemap: false }),
-    bundled({ external: 'external.js' }, 'external', { splitting: true, chunkNames: 'chunks/[name]-[hash]' }),
-    bundled({ 'motion-widgets.iife': 'motion-widgets.js' }, 'inlined', { format: 'iife', charset: 'ascii', sourcemap: false }),
+    bundled({ anywidget: 'anywidget.ts' }, 'inlined', { sourcemap: false }),
+    bundled({ external: 'external.ts' }, 'external', { splitting: true, chunkNames: 'chunks/[name]-[hash]' }),
+    bundled({ 'motion-widgets.iife': 'motion-widgets.ts' }, 'inlined', { format: 'iife', charset: 'ascii', sourcemap: false }),
     bundled({ react: '../build/react.js' }, 'inlined', { external: ['react', 'motion-widgets'], inject: [] }),
-    bundled({ de: 'de.js', page: 'page.js', 'server-component': 'server-component.js' }, 'inlined', { inject: [] }),
+    bundled({ de: 'de.ts', page: 'page.ts', 'server-component': 'server-component.ts' }, 'inlined', { inject: [] }),
     // The core is the file beside it.
-    bundled({ cli: 'cli.js' }, 'inlined', { platform: 'node', external: ['./core.js'], sourcemap: false, inject: [] }),
-    bundled({ embed: 'embed.js' }, 'inlined', { format: 'iife', sourcemap: false, inject: [] }),
+    bundled({ cli: 'cli.js' }, 'inlined', { platform: 'node', sourcemap: false, inject: [] }),
+    bundled({ embed: 'embed.ts' }, 'inlined', { format: 'iife', sourcemap: false, inject: [] }),
   ]).catch(() => []);
   if (!results.length || results.some(({ warnings }) => warnings.length)) {
     throw new Missing('The pages do not bundle: see the messages above.');
@@ -214,7 +216,7 @@ export async function bundle({ tags = WIDGETS, changed = (_, script) => script }
   // Before and after: a page that takes all margins away takes this too. Where scripts are off, nothing is to come, and what
   // stands between the tags is shown.
   // Its styles are Lit's, which a bare clone has not.
-  const { roomBefore } = await import('../www/figure/page/room.js');
+  const { roomBefore } = await importTypeScript('www/figure/page/room.ts');
   const kept = `@media (scripting:enabled){\n${roomBefore()}\n}`;
   appendFileSync(at('dist/motion-widgets.css'), `\n:where(${WIDGETS}){margin-block:1em}\n${kept}\n`);
   write(at('dist/motion.wasm'), wasm);
@@ -274,8 +276,8 @@ export function filesOf(path) {
  * @returns {Promise<string>} a module
  */
 async function chunks() {
-  const loaders = WIDGETS.map((tag) => `  '${tag}': () => import('../www/widgets/${tag}/${tag}.js'),\n`);
-  const modules = await Promise.all(WIDGETS.map((tag) => import(`../www/widgets/${tag}/settings.js`)));
+  const loaders = WIDGETS.map((tag) => `  '${tag}': () => import('../www/widgets/${tag}/${tag}.ts'),\n`);
+  const modules = await Promise.all(WIDGETS.map((tag) => importTypeScript(`www/widgets/${tag}/settings.ts`)));
   return (
     '/** @type {Record<string, () => Promise<unknown>>} by their tags */\n' +
     `export const widgets = {\n${loaders.join('')}};\n\n` +

@@ -4,6 +4,7 @@
 import { presets, settings } from '../www/settings.js';
 import { scriptName } from './names.mjs';
 import { ROOT } from './process.mjs';
+import { importTypeScript } from './typescript.mjs';
 
 /**
  * @typedef {import('../www/settings.js').Declaration} Declaration
@@ -28,7 +29,7 @@ import { ROOT } from './process.mjs';
 /** Of the settings that are no words and no groups. @type {Record<string, string>} */
 const TYPES = { number: 'number', whole: 'number', boolean: 'boolean', numbers: 'number[]' };
 
-/** What every element with a cloud has besides. @type {import('../www/figure/attributes.js').Documentation} */
+/** What every element with a cloud has besides. @type {import('../www/figure/attributes.ts').Documentation} */
 const OF_CLOUDS = {
   properties: {
     marked: { type: 'number | null', sentence: 'The sample that is marked, counted from 0.' },
@@ -91,7 +92,7 @@ async function analyze() {
   // @ts-expect-error It comes without types.
   const { cli } = await import('@custom-elements-manifest/analyzer/cli.js');
   // It writes nothing but, into package.json, where the manifest is: in dist.
-  const argv = ['analyze', '--litelement', '--quiet', '--outdir', 'dist', '--globs', 'www/figure/figure.js', 'www/widgets/*/*.js'];
+  const argv = ['analyze', '--litelement', '--quiet', '--outdir', 'dist', '--globs', 'www/figure/figure.ts', 'www/widgets/*/*.ts'];
   const { schemaVersion, modules } = await cli({ argv, cwd: ROOT, noWrite: true });
   /** @type {any[]} */
   const declarations = modules.flatMap((/** @type {any} */ { declarations }) => declarations ?? []);
@@ -112,9 +113,9 @@ export function widgets() {
  */
 async function widget(tag) {
   // They import libraries, which a bare clone does not have yet.
-  const { COMMON, WORDS } = await import('../www/figure/attributes.js');
-  const { attributes, declared, documentation, own } = await import(`../www/widgets/${tag}/settings.js`);
-  /** @type {import('../www/figure/attributes.js').Documentation[]} */
+  const { COMMON, WORDS } = await importTypeScript('www/figure/attributes.ts');
+  const { attributes, declared, documentation, own } = await importTypeScript(`www/widgets/${tag}/settings.ts`);
+  /** @type {import('../www/figure/attributes.ts').Documentation[]} */
   const documents = [...('marked' in own ? [OF_CLOUDS] : []), ...(documentation ? [documentation] : [])];
   const { classes } = await comments();
   const element = classes.get(`${pascal(tag)}Element`);
@@ -150,7 +151,7 @@ async function widget(tag) {
   const groups = whole.filter(({ key }) => !(key in attributes)).map(plain);
   const ofClass = element.members
     .filter((/** @type {any} */ { kind, privacy, inheritedFrom }) => kind === 'field' && privacy === 'public' && !inheritedFrom)
-    .map((/** @type {any} */ { name, description, readonly, return: { type } }) => ({ name, description: oneLine(description), readonly, type: type.text }));
+    .map((/** @type {any} */ { name, description, readonly, type }) => ({ name, description: oneLine(description), readonly, type: type.text }));
   const properties = [...groups, ...Object.entries(propertyTable).map(told), ...ofClass];
   const ofElement = Object.keys(own).map((name) => {
     const { type, description } = /** @type {Named} */ ([...attributeList, ...properties].find((each) => each.name === name) ?? {});

@@ -6,7 +6,7 @@ import { ROOT } from './process.mjs';
 
 /** @import { Pose } from '../www/types.d.ts' */
 
-/** @typedef {Awaited<ReturnType<typeof import('../www/core.js').load>>} Motion */
+/** @typedef {Awaited<ReturnType<typeof import('../www/core.ts').load>>} Motion */
 
 /** Paths of the logs. @type {Record<string, string>} */
 export const EXAMPLE_LOGS = { odometry: 'examples/calibration/odometry.csv', reference: 'examples/calibration/reference.csv' };

@@ -46,7 +46,6 @@ function elementOf({ tag, machine, attributes, properties }, name, said) {
     kind,
     ...item(rest),
     ...(parameters && { parameters: parameters.map(item) }),
-    ...(kind === 'field' && result && { type: ours(result.type.text) }),
     ...(kind === 'method' && result && { return: { type: ours(result.type.text) } }),
     ...(readonly && { readonly }),
   });

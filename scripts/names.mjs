@@ -18,7 +18,7 @@ const JAVASCRIPT = new Set(
 
 /**
  * Returns the name of a property in Python: in snake case, and with an underscore behind a name that is taken, as PEP 8
- * recommends. www/anywidget.js reads traits by this spelling too.
+ * recommends. www/anywidget.ts reads traits by this spelling too.
  *
  * @param {string} property
  */

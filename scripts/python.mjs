@@ -7,6 +7,7 @@ import { settings } from '../www/settings.js';
 import { comments, oneLine, widgets } from './declarations.mjs';
 import { pythonName } from './names.mjs';
 import { ROOT } from './process.mjs';
+import { importTypeScript } from './typescript.mjs';
 
 /**
  * @typedef {import('../www/settings.js').Declaration} Declaration
@@ -28,12 +29,12 @@ export async function writePython() {
 
 /** @returns {Promise<string>} a module of Python */
 export async function elements() {
-  const { GLOBAL } = await import('../www/named.js');
+  const { GLOBAL } = await importTypeScript('www/named.ts');
   const { classes } = await comments();
   const all = (await widgets()).map(({ tag, machine, attributes, properties }) => {
     const told = [...attributes.map(({ property, name, ...rest }) => ({ ...rest, name: property ?? name })), ...properties];
     const traits = told.filter(({ readonly }) => !readonly).map((each) => ({ ...each, trait: traitOf(each, tag) }));
-    const global = GLOBAL.map((name) => ({ name, trait: 'Text()', description: `As the attribute \`${name}\` of HTML.` }));
+    const global = GLOBAL.map((/** @type {string} */ name) => ({ name, trait: 'Text()', description: `As the attribute \`${name}\` of HTML.` }));
     return { machine, tag, sentence: oneLine(classes.get(`${machine}Element`).description), traits: [...traits, ...global] };
   });
   const lines = [

@@ -1,5 +1,5 @@
 // The elements as components for React, and their tags in its JSX, as they follow from what is declared: build/react.js and
-// build/react.d.ts. What all of them have in common is in www/react.js, and here in types.
+// build/react.d.ts. What all of them have in common is in www/react.ts, and here in types.
 
 import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
@@ -13,7 +13,7 @@ const HEAD = '// Generated from the declarations: not to be edited.\n';
 /** Writes both. */
 export async function writeComponents() {
   const all = await widgets();
-  writeFileSync(join(ROOT, 'build/react.js'), `'use client';\n${HEAD}\nimport { component } from '../www/react.js';\n\n${all.map(componentOf).join('')}`);
+  writeFileSync(join(ROOT, 'build/react.js'), `'use client';\n${HEAD}\nimport { component } from '../www/react.ts';\n\n${all.map(componentOf).join('')}`);
   writeFileSync(join(ROOT, 'build/react.d.ts'), [HEAD, imported(all), COMMON, ...all.map(typesOf), tagsIn(all)].join('\n'));
 }
 

@@ -6,6 +6,7 @@ import { join } from 'node:path';
 import { settings } from '../www/settings.js';
 import { comments, describe, oneLine, pascal, presetsOf, typeOf, union, widgets } from './declarations.mjs';
 import { ROOT } from './process.mjs';
+import { importTypeScript } from './typescript.mjs';
 
 /** @typedef {import('./declarations.mjs').Named} Named */
 
@@ -70,15 +71,15 @@ function named(declaration) {
 
 /** What every figure has, by what the comments of its class say is public. @param {import('./declarations.mjs').Widget[]} all */
 async function figureType([{ attributes }]) {
-  const { COMMON } = await import('../www/figure/attributes.js');
+  const { COMMON } = await importTypeScript('www/figure/attributes.ts');
   const { classes } = await comments();
   /** @type {any[]} */
   const members = classes.get('FigureElement').members.filter((/** @type {any} */ { privacy }) => privacy === 'public');
   /** @param {{ type: { text: string } }} [typed] what it is in TypeScript; in the comments it is of any widget */
   const typeIn = (typed) => (typed?.type.text ?? 'void').replace(/\bMachine\['stats'\]/, 'Stats').replace(/\bValues\b/, 'State');
-  const fields = members.map(({ kind, name, description, parameters = [], return: result, readonly }) => {
+  const fields = members.map(({ kind, name, description, parameters = [], type, return: result, readonly }) => {
     const given = parameters.map((/** @type {any} */ parameter) => `${parameter.name}: ${typeIn(parameter)}`);
-    return { name: kind === 'method' ? `${name}(${given.join(', ')})` : name, type: typeIn(result), description: oneLine(description), readonly };
+    return { name: kind === 'method' ? `${name}(${given.join(', ')})` : name, type: typeIn(kind === 'method' ? result : { type }), description: oneLine(description), readonly };
   });
   const common = attributes.filter(({ name }) => name in COMMON).map(({ property, ...each }) => ({ ...each, name: property ?? each.name }));
   const events = classes.get('FigureElement').events.map((/** @type {any} */ { name, type, description }) => {
@@ -103,7 +104,7 @@ const LISTENERS = ['add', 'remove'].flatMap((verb) => {
 
 /** @param {import('./declarations.mjs').Widget} widget */
 async function elementTypes({ tag, machine, attributes, properties, state }) {
-  const { COMMON } = await import('../www/figure/attributes.js');
+  const { COMMON } = await importTypeScript('www/figure/attributes.ts');
   const element = `FigureElement<${machine}State, ${machine}['stats']>`;
   const widget = { name: 'widget', type: `'${tag}'`, description: '' };
   // What every figure has is there already.

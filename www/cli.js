@@ -1,7 +1,7 @@
 #!/usr/bin/env node
 /** `npx motion-widgets calibrate`: α's from a log, for those who never open a browser. */
 
-import { load } from './core.js';
+import { load } from './core.ts';
 import { run } from './cli/run.js';
 
 // A reader such as `head` may close the pipe.

@@ -1,6 +1,6 @@
 import { readFileSync } from 'node:fs';
 import { expect } from '@playwright/test';
-import { isZero } from '../../www/widgets/alpha-calibrator/lines.js';
+import { isZero } from '../../www/widgets/alpha-calibrator/lines.ts';
 import { caption, openCalibrator, rows, section, settled, stats } from './calibrator-support.js';
 import { STILL, frames, pixelsOf, stateOf, test, unfold } from './support.js';
 

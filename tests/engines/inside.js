@@ -8,7 +8,7 @@ import { digest, hashOf } from '../digest/digest.js';
 
 /**
  * @typedef {{ x: number, y: number }} Point
- * @typedef {HTMLElement & { machine: any, pictures: { view: import('../../www/scene/view.js').View }[] }} Figure
+ * @typedef {HTMLElement & { machine: any, pictures: { view: import('../../www/scene/view.ts').View }[] }} Figure
  * @typedef {{ config: any, hash: string }} State what a machine is told, and a hash of all bits of what it tells
  */
 

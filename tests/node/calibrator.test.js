@@ -2,12 +2,12 @@
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { de } from '../../www/widgets/alpha-calibrator/de.js';
-import { en } from '../../www/widgets/alpha-calibrator/en.js';
-import { between as ends, fixed, nav2Lines, short } from '../../www/widgets/alpha-calibrator/lines.js';
-import { classesOf, truthHolds } from '../../www/widgets/alpha-calibrator/reading.js';
-import { SIMULATED } from '../../www/widgets/alpha-calibrator/settings.js';
-import { localized } from '../../www/widgets/alpha-calibrator/words.js';
+import { de } from '../../www/widgets/alpha-calibrator/de.ts';
+import { en } from '../../www/widgets/alpha-calibrator/en.ts';
+import { between as ends, fixed, nav2Lines, short } from '../../www/widgets/alpha-calibrator/lines.ts';
+import { classesOf, truthHolds } from '../../www/widgets/alpha-calibrator/reading.ts';
+import { SIMULATED } from '../../www/widgets/alpha-calibrator/settings.ts';
+import { localized } from '../../www/widgets/alpha-calibrator/words.ts';
 import { settings } from '../../www/settings.js';
 
 test('a leg has the class of its p-value, by as many noises as it shows', () => {

@@ -12,7 +12,7 @@ import { TRUTH } from '../../scripts/example-log.mjs';
 import { HELP } from '../../www/cli/options.js';
 import { textOf } from '../../www/cli/report.js';
 import { run } from '../../www/cli/run.js';
-import { en } from '../../www/widgets/alpha-calibrator/en.js';
+import { en } from '../../www/widgets/alpha-calibrator/en.ts';
 import { odometry, poseOf, recordingOf, stampOf, transform, twistOf } from '../mcap.js';
 
 const CLI = fileURLToPath(new URL('../../dist/cli.js', import.meta.url));

@@ -32,8 +32,8 @@ test('a seed gives the bits that it gave', async () => {
 });
 
 test('every widget and every class of the core has configurations, and every function is asked', () => {
-  const listed = [...read('www/widgets/index.js').matchAll(/^import '\.\/([\w-]+)\//gm)].map(([, tag]) => tag);
-  assert.deepEqual(Object.keys(all.widgets).sort(), listed.sort(), 'www/widgets/index.js');
+  const listed = [...read('www/widgets/index.ts').matchAll(/^import '\.\/([\w-]+)\//gm)].map(([, tag]) => tag);
+  assert.deepEqual(Object.keys(all.widgets).sort(), listed.sort(), 'www/widgets/index.ts');
   assert.deepEqual(Object.keys(all.widgets).sort(), [...classes.keys()].sort(), 'core.js');
   assert.deepEqual(Object.keys(widgets).sort(), listed, 'digest.js');
   const functions = Object.keys(motion).filter((name) => !('free' in (motion[name].prototype ?? {})) && !OTHERWISE.has(name) && !HOMEWORK.has(name));

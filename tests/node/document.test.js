@@ -9,11 +9,11 @@ const read = (/** @type {string} */ path) => readFileSync(new URL(`../../${path}
 
 /** Where a constant stands, its name, and what is said of it. @type {[string, string, RegExp][]} */
 const LIMITS = [
-  ['www/widgets/banana-machine/pictures.js', 'MAX_DOTS', /Up to (\S+) robots are drawn as dots/],
-  ['www/widgets/map-squeeze/reading.js', 'MAX_DOTS', /more than (\S+) motions are drawn as cells/],
-  ['www/widgets/banana-machine/words.js', 'HARDLY', /leans to neither side, below (\S+) hardly/],
-  ['www/widgets/banana-machine/words.js', 'TOO_LARGE', /where the ellipse has more than (\S+) times the area/],
-  ['www/widgets/banana-machine/words.js', 'BENT', /or else the gain is more than (\S+) nats a robot/],
+  ['www/widgets/banana-machine/pictures.ts', 'MAX_DOTS', /Up to (\S+) robots are drawn as dots/],
+  ['www/widgets/map-squeeze/reading.ts', 'MAX_DOTS', /more than (\S+) motions are drawn as cells/],
+  ['www/widgets/banana-machine/words.ts', 'HARDLY', /leans to neither side, below (\S+) hardly/],
+  ['www/widgets/banana-machine/words.ts', 'TOO_LARGE', /where the ellipse has more than (\S+) times the area/],
+  ['www/widgets/banana-machine/words.ts', 'BENT', /or else the gain is more than (\S+) nats a robot/],
 ];
 
 test('doc/model.md has the limits of the pages', () => {

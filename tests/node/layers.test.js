@@ -11,7 +11,7 @@ import { settings } from '../../www/settings.js';
 const FLOORS = ['www/widgets', 'www/figure', 'www/scene', 'www/ui', 'www/messages'];
 
 const { metafile } = await build({
-  entryPoints: ['www/motion-widgets.js', 'www/external.js', 'www/de.js', 'www/embed.js', 'www/anywidget.js'],
+  entryPoints: ['www/motion-widgets.ts', 'www/external.ts', 'www/de.ts', 'www/embed.ts', 'www/anywidget.ts'],
   absWorkingDir: new URL('../..', import.meta.url).pathname,
   bundle: true,
   write: false,
@@ -66,9 +66,9 @@ test('readers of logs import neither the page nor Node', () => {
   }
 });
 
-test('only core.js touches the generated glue', () => {
+test('only core.ts touches the generated glue', () => {
   const glue = Object.entries(metafile.inputs).filter(([, { imports }]) => imports.some(({ path }) => /^build\/motion/.test(path)));
-  assert.deepEqual(glue.map(([path]) => [dirname(path), path]), [['www', 'www/core.js']]);
+  assert.deepEqual(glue.map(([path]) => [dirname(path), path]), [['www', 'www/core.ts']]);
 });
 
 test('a widget is one class above the base, which is one above Lit', () => {
@@ -79,9 +79,9 @@ test('a widget is one class above the base, which is one above Lit', () => {
   const elements = chains.filter(({ base }) => /Element$/.test(base));
   assert.deepEqual(
     elements.filter(({ base }) => base !== 'FigureElement').map(({ file, name, base }) => [file, name, base]),
-    [['www/figure/figure.js', 'FigureElement', 'LitElement']],
+    [['www/figure/figure.ts', 'FigureElement', 'LitElement']],
   );
   for (const tag of Object.keys(settings)) {
-    assert.ok(elements.some(({ file, base }) => file === `www/widgets/${tag}/${tag}.js` && base === 'FigureElement'), tag);
+    assert.ok(elements.some(({ file, base }) => file === `www/widgets/${tag}/${tag}.ts` && base === 'FigureElement'), tag);
   }
 });

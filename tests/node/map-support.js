@@ -1,9 +1,9 @@
 // Map files as a reader hands them over, and what becomes of them.
 
 import { load } from '../../dist/core.js';
-import { de } from '../../www/widgets/map-squeeze/de.js';
-import { en } from '../../www/widgets/map-squeeze/en.js';
-import { MapFileError, readMapFiles } from '../../www/widgets/map-squeeze/maps/files.js';
+import { de } from '../../www/widgets/map-squeeze/de.ts';
+import { en } from '../../www/widgets/map-squeeze/en.ts';
+import { MapFileError, readMapFiles } from '../../www/widgets/map-squeeze/maps/files.ts';
 
 const motion = await load();
 

@@ -2,7 +2,7 @@
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { contactOf, gripsOf, movedWalls } from '../../www/widgets/map-squeeze/walls.js';
+import { contactOf, gripsOf, movedWalls } from '../../www/widgets/map-squeeze/walls.ts';
 
 /** Room of 6 m × 4 m with a wall at x = 3 that has a doorway, and a wall that ends at its lower part. */
 const BOUNDS = Float64Array.of(0, 0, 6, 4);

@@ -2,7 +2,7 @@
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { stretchesOf } from '../../www/widgets/dead-reckoning/pictures.js';
+import { stretchesOf } from '../../www/widgets/dead-reckoning/pictures.ts';
 
 test('the stretched axis has the factor of the scales, and none that is not seen', () => {
   assert.deepEqual(stretchesOf({ scaleX: 100, scaleY: 720 }), ['', '7.2']);

@@ -41,7 +41,7 @@ function chunk(source) {
   return loadedWith(found[0]);
 }
 
-const element = (/** @type {string} */ tag) => chunk(`www/widgets/${tag}/${tag}.js`);
+const element = (/** @type {string} */ tag) => chunk(`www/widgets/${tag}/${tag}.ts`);
 const glue = (/** @type {string} */ name) => chunk(`build/${name}.js`);
 
 /**

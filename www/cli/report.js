@@ -1,8 +1,8 @@
 /** Result as text and as JSON. */
 
-import { en as shared } from '../messages/en.js';
-import { en } from '../widgets/alpha-calibrator/en.js';
-import { adviceOf, alphaOrBound, between, failedOf, fixed, isLocalizer, nav2Lines, percent, short } from '../widgets/alpha-calibrator/lines.js';
+import { en as shared } from '../messages/en.ts';
+import { en } from '../widgets/alpha-calibrator/en.ts';
+import { adviceOf, alphaOrBound, between, failedOf, fixed, isLocalizer, nav2Lines, percent, short } from '../widgets/alpha-calibrator/lines.ts';
 
 /**
  * @typedef {[number, number] | null} Interval

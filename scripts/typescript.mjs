@@ -1,0 +1,19 @@
+// Modules of www/ in scripts: Node itself does not run TypeScript.
+
+import { join } from 'node:path';
+import { pathToFileURL } from 'node:url';
+import { once, ROOT } from './process.mjs';
+
+/** Installs the loader. A bare clone does not have it before its packages are there. */
+const loader = once(async () => (await import('tsx/esm/api')).register());
+
+/**
+ * Imports a module.
+ *
+ * @param {string} path from the root
+ * @returns {Promise<any>}
+ */
+export async function importTypeScript(path) {
+  await loader();
+  return import(pathToFileURL(join(ROOT, path)).href);
+}

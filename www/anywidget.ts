@@ -1,0 +1,147 @@
+/**
+ * The elements for notebooks and books that show widgets as anywidget has them. A model says by its trait `widget` which
+ * element it is, and by others, called as the attributes, the properties, or those in Python's spelling, what that shows.
+ *
+ * Traits that the model has not are left alone, but for a change that comes later. What the figure shows goes back to those
+ * that it has: as it opens, and where the reader or the model has changed it. `stats` get the statistics, `error` the last
+ * refusal.
+ */
+
+import './de.ts';
+import './widgets/index.ts';
+import { COMMON, groupsOf } from './figure/attributes.ts';
+import { has } from './figure/checks.ts';
+import { GLOBAL, elementNamed, sorry } from './named.ts';
+
+/** Model as anywidget's. */
+export interface Model {
+  /** Undefined where it has no such trait. */
+  get: (name: string) => any;
+  set: (name: string, value: unknown) => void;
+  on: (event: string, listener: () => void) => void;
+  off: (event: string, listener: () => void) => void;
+  save_changes: () => void;
+}
+
+/** @returns what takes the figure away again */
+function render({ model, el }: { model: Model, el: HTMLElement }): (() => void) | undefined {
+  let element: any;
+  try {
+    element = elementNamed(model.get('widget'));
+  } catch (error) {
+    el.append(sorry('This cell', error));
+    return;
+  }
+  // Digits and letters that are typed in a figure are no shortcuts of JupyterLab, by which it would change the cell.
+  element.dataset.lmSuppressShortcuts = 'true';
+  // Around what a cell puts out JupyterLab's themes change the ground and leave black text; the colour that they mean is here.
+  element.style.color = 'var(--jp-content-font-color1, inherit)';
+
+  let unsaved = false;
+  const put = (trait: string, value: unknown) => {
+    const present = model.get(trait);
+    if (present === undefined || has(present, value)) return;
+    unsaved = true;
+    model.set(trait, value);
+  };
+  const save = () => {
+    if (!unsaved) return;
+    unsaved = false;
+    withoutKernel(() => model.save_changes());
+  };
+
+  const traits = traitsOf(element);
+  let telling = false;
+  let writing = false;
+  /** After all that the model changed at once. */
+  const tell = () => {
+    if (telling) return;
+    telling = true;
+    queueMicrotask(() => {
+      telling = false;
+      // It is on no page: what it showed last was told.
+      if (!element.machine) return;
+      const ours = traits.filter(([, property]) => !GLOBAL.includes(property));
+      const told = ours.map(([trait, property]) => [trait, plain(element[property])] as [string, unknown]);
+      // What is none follows from the others, where another view hears of both.
+      writing = true;
+      for (const none of [false, true]) for (const [trait, value] of told) if ((value === null) === none) put(trait, value);
+      writing = false;
+      // Of one moment, and of which: what a kernel has asked for since is later, however long this is on its way.
+      put('_shown', { heard: model.get('_asked'), settings: Object.fromEntries(told.filter(([trait]) => model.get(trait) !== undefined)) });
+      save();
+    });
+  };
+
+  element.addEventListener('error', (event: ErrorEvent) => {
+    if (model.get('error') === undefined) return;
+    event.preventDefault();
+    put('error', event.message);
+    save();
+  });
+  element.addEventListener('load', tell);
+  element.addEventListener('change', () => {
+    put('error', '');
+    tell();
+  });
+  element.addEventListener('stats', ({ detail }: CustomEvent) => {
+    if (model.get('stats') === undefined) return;
+    put('stats', plain(detail));
+    save();
+  });
+
+  const heard = traits.map(([trait, property]) => {
+    const take = () => {
+      if (writing) return;
+      put('error', '');
+      // What every element has is a text, and none is the empty one.
+      element[property] = model.get(trait) ?? (GLOBAL.includes(property) ? '' : null);
+      tell();
+    };
+    const value = model.get(trait);
+    if (value !== undefined && value !== null) element[property] = value;
+    model.on(`change:${trait}`, take);
+    return () => model.off(`change:${trait}`, take);
+  });
+  el.append(element);
+
+  return () => {
+    for (const end of heard) withoutKernel(end);
+    element.remove();
+  };
+}
+
+/**
+ * Where a page has a model without a kernel behind it, as MyST does, nothing is kept, and nobody is there to be told: its
+ * methods throw.
+ */
+function withoutKernel(work: () => void) {
+  try {
+    work();
+  } catch {
+    // The figure goes on.
+  }
+}
+
+/** The traits that say a property, each by what it may be called; those that others depend on come first. */
+function traitsOf(element: any): [trait: string, property: string][] {
+  const { attributes, declared, own } = element.constructor;
+  const names: Record<string, { property?: string }> = { ...attributes, ...groupsOf(declared), ...own, ...COMMON, ...Object.fromEntries(GLOBAL.map((name) => [name, {}])) };
+  return Object.entries(names).flatMap(([name, { property = name }]) => {
+    if (!(property in element)) return [];
+    const inPython = property.replaceAll(/[A-Z]/g, (capital) => `_${capital.toLowerCase()}`);
+    // With the underscore of a keyword, as in `from_`.
+    const spellings = new Set([name, property, inPython, `${inPython}_`]);
+    return [...spellings].map((trait) => [trait, property] as [string, string]);
+  });
+}
+
+/** As JSON has it: lists for typed arrays, null for what is no number. */
+function plain(value: unknown): unknown {
+  if (typeof value === 'number') return Number.isFinite(value) ? value : null;
+  if (typeof value !== 'object' || value === null) return value;
+  if (Array.isArray(value) || ArrayBuffer.isView(value)) return Array.from(value as ArrayLike<unknown>, plain);
+  return Object.fromEntries(Object.entries(value).map(([key, each]) => [key, plain(each)]));
+}
+
+export default { render };

@@ -1,0 +1,209 @@
+/**
+ * Loads the WebAssembly core; a page or process compiles a module once. The only file that touches generated glue.
+ * Importing it runs nothing: no DOM, no network, no compilation before `load()`.
+ */
+
+import carried from '../build/motion.wasm';
+import type { Motion } from './types.d.ts';
+
+/** Module as bytes, as an address, or compiled. */
+export type Source = BufferSource | URL | string | WebAssembly.Module;
+
+/** What the first to name a source named. */
+let wanted: Source | undefined;
+/** Carrier of a module and its glue. */
+export type Carrier = typeof carried.motion;
+
+/** Modules, by what carries them. */
+const compiling: Map<Carrier, Promise<WebAssembly.Module>> = new Map();
+/** Tags of widgets that the page has met: external.js adds them. */
+export const expected: Set<string> = new Set();
+let loading: Promise<Motion> | undefined;
+
+/**
+ * The core, ready to use. Later calls get the same core, and a call after a failed one tries again.
+ *
+ * `source` is the module as bytes, an address, or compiled. Where it is left out it is the one that
+ * the bundle carries, or, in external.js, the file `motion.wasm` beside that, or the copy embedded in a script
+ * where that file cannot be had. The first to name one
+ * decides for the page: a script that imports the elements and names a source at once comes early
+ * enough, though the elements on the page have asked before it.
+ */
+export function load(source?: Source): Promise<Motion> {
+  wanted ??= source;
+  loading ??= instantiate().catch((error) => {
+    loading = undefined;
+    throw error;
+  });
+  return loading;
+}
+
+/**
+ * One more core from the same compiled module, with a memory of its own: a trap in it harms no other,
+ * and all of its memory goes when nothing refers to it any more.
+ */
+export function instantiate(source?: Source): Promise<Motion> {
+  wanted ??= source;
+  return instantiateFor('motion');
+}
+
+/**
+ * As `instantiate`, for a widget. In external.js its module has no other's machine, as long as the page has met no other.
+ *
+ * @param name of the widget, its tag
+ */
+export async function instantiateFor(name: string): Promise<Motion> {
+  if (typeof WebAssembly === 'undefined') {
+    throw new Error('WebAssembly is not available here, and motion-widgets needs it.');
+  }
+  let motion;
+  try {
+    // Elements ask while they are being defined, before the script that imports them has had its say.
+    await null;
+    const [module, { default: makeCore }] = await found(name);
+    motion = await makeCore(module);
+  } catch (error) {
+    if (!forbidden()) throw error;
+    throw new Error(
+      "This page's Content-Security-Policy forbids WebAssembly: its script-src directive lacks 'wasm-unsafe-eval'.",
+      { cause: error },
+    );
+  }
+  for (const { prototype } of (Object.values(motion) as any[])) if (prototype?.free) makeDisposable(prototype);
+  return motion;
+}
+
+/**
+ * Forgets a machine of a core that has trapped: what is left in its memory is not to be trusted, not
+ * even to free the machine, as would happen when its handle is collected.
+ */
+export function abandon(machine: { free(): void }) {
+  (machine as unknown as { __destroy_into_raw(): number }).__destroy_into_raw();
+}
+
+/** True once the file of a module was asked for in vain. */
+let unreachable = false;
+
+/**
+ * A module and its glue; the embedded ones where there is no file, or it cannot be had.
+ *
+ * @param name of a widget, or of the whole core
+ */
+async function found(name: string): Promise<[WebAssembly.Module, Awaited<ReturnType<Carrier['glue']>>]> {
+  const named = wanted;
+  const carrier = carrierOf(name);
+  try {
+    return await Promise.all([compiled(carrier), carrier.glue()]);
+  } catch (error) {
+    if (named !== undefined || !carried.embedded || carrier === carried.embedded || forbidden()) throw error;
+    unreachable = true;
+    const embedded = await found(name).catch(() => {
+      unreachable = false;
+      throw error;
+    });
+    console.warn(`motion-widgets: the module embedded in a script is used. ${(error as Error).message}`);
+    return embedded;
+  }
+}
+
+/**
+ * The carrier of one module for all widgets of a page, which is less than one for each.
+ *
+ * @param name of a widget, or of the whole core
+ */
+function carrierOf(name: string) {
+  const own = carried[name];
+  const carrier = own && (compiling.has(own) || (wanted === undefined && expected.size < 2)) ? own : carried.motion;
+  return carried.embedded && wanted === undefined && (unreachable || !carrier.source()) ? carried.embedded : carrier;
+}
+
+function compiled(carrier: Carrier): Promise<WebAssembly.Module> {
+  let module = compiling.get(carrier);
+  if (!module) {
+    module = compile(wanted ?? carrier.source()).catch((error) => {
+      wanted = undefined;
+      compiling.delete(carrier);
+      throw error;
+    });
+    compiling.set(carrier, module);
+  }
+  return module;
+}
+
+/** Advice to an author whose site has no module. */
+const CURE =
+  "Copy motion.wasm from the package's dist/ into the site and give its address to load(), or import 'motion-widgets/inlined', which has it inside.";
+
+/** Characters of an address that are quoted: one with data in it has millions. */
+const LONGEST = 200;
+
+async function compile(given: Source | Promise<BufferSource> | undefined) {
+  const source = await given;
+  if (source instanceof WebAssembly.Module) return source;
+  if (source instanceof ArrayBuffer || ArrayBuffer.isView(source)) return WebAssembly.compile(source);
+  if (source instanceof URL || typeof source === 'string') {
+    const file = fileAt(source);
+    return file ? WebAssembly.compile(await file) : streamed(source);
+  }
+  throw new TypeError(
+    `load: source is of the type ${typeof source}; allowed are the module's bytes, a URL or string, and a WebAssembly.Module.`,
+  );
+}
+
+/** Whether not even an empty module may run here: WebKit forbids that alone, others to compile it. */
+function forbidden() {
+  try {
+    return !new WebAssembly.Instance(new WebAssembly.Module(Uint8Array.of(0, 0x61, 0x73, 0x6d, 1, 0, 0, 0)));
+  } catch {
+    return true;
+  }
+}
+
+/**
+ * A module compiled while it is still arriving, or afterwards where the server calls it something
+ * else than application/wasm.
+ */
+async function streamed(source: URL | string) {
+  const response = await fetch(source).catch((error) => {
+    throw new Error(
+      `load: ${String(source).slice(0, LONGEST)} cannot be fetched (${error.message}); a Content-Security-Policy has to allow it by connect-src. ${CURE}`,
+      { cause: error },
+    );
+  });
+  const url = response.url.slice(0, LONGEST);
+  if (!response.ok) throw new Error(`load: ${url} answers ${response.status}. ${CURE}`);
+  const type = response.headers.get('content-type') ?? 'something without a type';
+  try {
+    if (/^application\/wasm\s*$/i.test(type)) return await WebAssembly.compileStreaming(response);
+    return await WebAssembly.compile(await response.arrayBuffer());
+  } catch (error) {
+    const reason = (error as Error).message;
+    throw new Error(`load: ${url} answers with ${type}, which is no WebAssembly module: ${reason}. ${CURE}`, { cause: error });
+  }
+}
+
+/**
+ * Node's `fetch` refuses file: addresses and paths, so there the file is read.
+ *
+ * @returns undefined where `fetch` is the way
+ */
+function fileAt(source: URL | string): Promise<BufferSource> | undefined {
+  if (/^(https?|data|blob):/.test(String(source))) return undefined;
+  // No import: bundlers for browsers would stumble over it.
+  const files = globalThis.process?.getBuiltinModule?.('node:fs/promises');
+  return files?.readFile(String(source).startsWith('file:') ? new URL(source) : source);
+}
+
+/**
+ * Makes a class of the generated glue disposable: `free()` may be called again, which does nothing, and so may
+ * `[Symbol.dispose]()`, in engines without that symbol too.
+ *
+ * @param prototype of the class
+ */
+function makeDisposable(prototype: any) {
+  if (!Symbol.dispose) Object.defineProperty(Symbol, 'dispose', { value: Symbol('Symbol.dispose') });
+  const { free } = prototype;
+  prototype.free = prototype[Symbol.dispose] = function () {
+    if (this.__wbg_ptr) free.call(this);
+  };
+}

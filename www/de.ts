@@ -1,0 +1,12 @@
+/** German words for the elements: load it beside motion-widgets.js, before or after it. */
+
+import { de } from './messages/de.ts';
+import { setMessages } from './messages/registry.ts';
+import { de as banana } from './widgets/banana-machine/de.ts';
+import { de as squeeze } from './widgets/map-squeeze/de.ts';
+import { de as anatomy } from './widgets/arc-anatomy/de.ts';
+import { de as decomposer } from './widgets/odometry-decomposer/de.ts';
+import { de as reckoning } from './widgets/dead-reckoning/de.ts';
+import { de as calibrator } from './widgets/alpha-calibrator/de.ts';
+
+setMessages('de', { ...de, banana, squeeze, anatomy, decomposer, reckoning, calibrator });

@@ -1,0 +1,41 @@
+/**
+ * One widget for an iframe. The query says which, and its attributes:
+ * `embed.html?widget=banana-machine&omega=0.8`. The page around the frame is told the height by
+ * messages `{ type: 'motion-widgets:height', height }`, in CSS pixels.
+ */
+
+import './de.ts';
+import { GLOBAL, elementNamed, sorry } from './named.ts';
+
+/**
+ * The widget that a query describes.
+ *
+ * @throws {Error} with a sentence that names the parameter and what is allowed
+ */
+function widgetOf(query: URLSearchParams) {
+  const widget = elementNamed(query.get('widget'));
+  const name = widget.localName;
+  const known = [...(widget.constructor as any).observedAttributes, ...GLOBAL];
+  for (const [key, value] of query) {
+    if (key === 'widget') continue;
+    if (!known.includes(key)) {
+      throw new Error(`${key} is an unknown parameter of ${name}; allowed are ${known.sort().join(', ')}`);
+    }
+    if (query.getAll(key).length > 1) throw new Error(`${key} is given more than once; allowed is once`);
+    widget.setAttribute(key, value);
+  }
+  return widget;
+}
+
+function tellHeight() {
+  const height = Math.ceil(document.body.getBoundingClientRect().height);
+  // Whoever shows the frame may know how high it is.
+  parent.postMessage({ type: 'motion-widgets:height', height }, '*');
+}
+
+try {
+  document.body.append(widgetOf(new URLSearchParams(location.search)));
+} catch (error) {
+  document.body.append(sorry('This address', error));
+}
+new ResizeObserver(tellHeight).observe(document.body);

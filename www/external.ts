@@ -1,0 +1,63 @@
+/**
+ * As motion-widgets.js, with the WebAssembly module in a file of its own and each widget in another, which is
+ * loaded when its tag is met: in the document, or in an open shadow root.
+ */
+
+import { vocabularies, widgets } from '../build/widgets.js';
+import { expected } from './core.ts';
+import { roomBefore } from './figure/page/room.ts';
+import { en } from './messages/en.ts';
+import { addEnglish } from './messages/registry.ts';
+
+export { load } from './core.ts';
+export { setMessages } from './messages/registry.ts';
+
+// The page may give a widget words before it has come.
+addEnglish({ ...en, ...Object.fromEntries(vocabularies.map((key) => [key, {}])) });
+
+/** Those that were not met yet. */
+const waiting = new Set(Object.keys(widgets).filter((tag) => !customElements.get(tag)));
+
+/** @param root a document, a shadow root, or an element with all that is in it */
+function meet(root: ParentNode) {
+  for (const element of [root, ...root.querySelectorAll('*')]) {
+    if (!(element instanceof Element)) continue;
+    const { localName } = element;
+    if (waiting.delete(localName)) {
+      expected.add(localName);
+      widgets[localName]();
+    }
+    // What a widget shows has no widget in it.
+    else if (localName in widgets) continue;
+    else if (element.shadowRoot) watch(element.shadowRoot);
+    else if (!element.matches(':defined')) customElements.whenDefined(localName).then(() => element.shadowRoot && watch(element.shadowRoot));
+  }
+}
+
+const observer: MutationObserver | undefined =
+  typeof MutationObserver === 'undefined'
+    ? undefined
+    : new MutationObserver((changes) => {
+        for (const { addedNodes } of changes) {
+          for (const node of addedNodes) if (node instanceof Element) meet(node);
+        }
+        if (waiting.size === 0) observer?.disconnect();
+      });
+
+const watched: WeakSet<Node> = new WeakSet();
+
+function watch(root: Document | ShadowRoot) {
+  if (waiting.size === 0 || watched.has(root)) return;
+  watched.add(root);
+  observer?.observe(root, { childList: true, subtree: true });
+  meet(root);
+}
+
+// Where there is no DOM, as in Node, no tag is met.
+if (observer) {
+  // Nothing is to move when they come.
+  const sheet = new CSSStyleSheet();
+  sheet.replaceSync(roomBefore());
+  document.adoptedStyleSheets.push(sheet);
+  watch(document);
+}

@@ -1,0 +1,86 @@
+/** Refusals in the words of the core, of what the page gives to the element itself. */
+
+/** @returns a TypeError where the kind of value is wrong */
+export function refusal(field: string, value: unknown, allowed: string, Kind = RangeError): TypeError | RangeError {
+  return new Kind(`${field} is ${described(value)}; allowed is ${allowed}`);
+}
+
+/**
+ * The error of a refused change, in the name by which it was asked for.
+ *
+ * @param path what it is called where it was refused, if not so
+ */
+export function renamed(error: unknown, name: string, path: string = name) {
+  if (error instanceof Error && error.message.startsWith(path)) {
+    error.message = name + error.message.slice(path.length);
+  }
+  return error;
+}
+
+function described(value: unknown) {
+  if (typeof value === 'string') return JSON.stringify(beginning(value));
+  if (typeof value === 'object' && value !== null) return Array.isArray(value) ? 'an array' : 'an object';
+  return ['function', 'symbol', 'bigint'].includes(typeof value) ? `a ${typeof value}` : String(value);
+}
+
+/** The first characters of a text, whole ones: enough to recognize it. */
+function beginning(text: string) {
+  const first = String(/.{0,40}/su.exec(text));
+  return first === text ? text : `${first}…`;
+}
+
+/**
+ * @param keys that it may have
+ * @param heed what matters more than its keys
+ */
+export function object(field: string, value: unknown, keys: readonly string[], heed?: (value: Record<string, unknown>) => void) {
+  if (typeof value !== 'object' || value === null || Array.isArray(value)) {
+    throw refusal(field, value, `an object with keys from ${keys.join(', ')}`, TypeError);
+  }
+  heed?.(value as Record<string, unknown>);
+  const stranger = Object.keys(value).find((key) => !keys.includes(key));
+  if (stranger !== undefined) {
+    throw new TypeError(`${field}.${beginning(stranger)} is an unknown key; allowed are ${keys.join(', ')}`);
+  }
+  return value as Record<string, unknown>;
+}
+
+export function word<Word extends string>(field: string, value: unknown, allowed: readonly Word[]) {
+  const found = allowed.find((each) => each === value);
+  if (found !== undefined) return found;
+  const Kind = typeof value === 'string' ? RangeError : TypeError;
+  throw refusal(field, value, allowed.map((each) => JSON.stringify(each)).join(' or '), Kind);
+}
+
+export function truth(field: string, value: unknown) {
+  if (typeof value === 'boolean') return value;
+  throw refusal(field, value, 'true or false', TypeError);
+}
+
+export function wholeNumber(field: string, value: unknown, least: number, most: number) {
+  const allowed = `a whole number from ${least} to ${most}`;
+  if (typeof value !== 'number') throw refusal(field, value, allowed, TypeError);
+  if (!Number.isInteger(value) || value < least || value > most) throw refusal(field, value, allowed);
+  return value;
+}
+
+export function numberWithin(field: string, value: unknown, least: number, most: number) {
+  const allowed = `${least} to ${most}`;
+  if (typeof value !== 'number') throw refusal(field, value, allowed, TypeError);
+  if (!(value >= least && value <= most)) throw refusal(field, value, allowed);
+  return value;
+}
+
+/** @returns those of them that it names, in their own order */
+export function subset(field: string, value: unknown, allowed: readonly string[]): string[] {
+  if (!Array.isArray(value)) throw refusal(field, value, `an array of ${allowed.join(', ')}`, TypeError);
+  const names = value.map((name, i) => word(`${field}[${i}]`, name, allowed));
+  return allowed.filter((name) => names.includes(name));
+}
+
+/** Tells whether a value has every part of another one; parts that the other one lacks do not count. */
+export function has(present: any, given: any): boolean {
+  if (Object.is(present, given)) return true;
+  if (typeof present !== 'object' || typeof given !== 'object' || !present || !given || present.length !== given.length) return false;
+  return Object.keys(given).every((key) => Object.hasOwn(present, key) && has(present[key], given[key]));
+}

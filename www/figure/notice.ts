@@ -1,0 +1,36 @@
+/** A sentence over the lower edge of the figure or of the window, which the reader closes. Nothing moves for it. */
+
+import { css, html, nothing } from 'lit';
+import { words } from '../messages/registry.ts';
+import { button } from '../ui/controls.ts';
+import { Part } from './part.ts';
+
+/** The place is that of progress. */
+export const noticeStyles = css`
+  .progress > .notice {
+    width: max-content;
+    border-left: 3px solid var(--accent);
+    white-space: normal;
+  }
+`;
+
+export class Notice extends Part {
+  #sentence = '';
+
+  get isShown() {
+    return this.#sentence !== '';
+  }
+
+  /** @param sentence empty for none */
+  show(sentence: string) {
+    this.#sentence = sentence;
+    this.host.requestUpdate();
+  }
+
+  render() {
+    if (!this.isShown) return nothing;
+    return html`<div class="progress">
+      <div class="notice"><span role="alert">${this.#sentence}</span> ${button(words.close, () => this.show(''))}</div>
+    </div>`;
+  }
+}

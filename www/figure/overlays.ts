@@ -1,0 +1,67 @@
+/** Lines and marks of a picture that a reader can hide: their state, and the legend whose entries are their toggles. */
+
+import { html, nothing, svg } from 'lit';
+import { words } from '../messages/registry.ts';
+import { rich, toggle } from '../ui/controls.ts';
+import { WORDS } from './attributes.ts';
+import { subset } from './checks.ts';
+
+/** How something is drawn, in the picture and in the legend. */
+export interface LineStyle {
+  role: keyof import('../ui/theme.ts').Palette;
+  /** CSS pixels. */
+  dash?: number[];
+  /** CSS pixels. */
+  width?: number;
+  /** A line by default. */
+  mark?: 'line' | 'dot' | 'ring' | 'area' | 'cross';
+}
+
+/**
+ * Returns the attribute and the state of what can be hidden.
+ *
+ * @param opening names of what is shown when the figure opens
+ */
+export function overlaysOf(names: readonly string[], opening: readonly string[] = names): { attribute: import('./attributes.ts').Attribute & import('./attributes.ts').Own, state: import('./state.ts').Owned } {
+  return {
+    attribute: { kind: WORDS, own: true, words: names },
+    state: { opening, check: (field, overlays) => subset(field, overlays, names) },
+  };
+}
+
+/**
+ * Returns the legend of a figure's pictures. The words are those of `overlays` in the catalogue.
+ *
+ * @param styles in the order of the entries; what they leave out stays as it is
+ * @param notes words after the names of entries
+ */
+export function legend(figure: import('./figure.ts').Figure, styles: Record<string, LineStyle>, notes: Record<string, string> = {}) {
+  const { overlays } = figure.state.own;
+  const { overlays: names } = (words as any)[figure.kind.vocabulary];
+  const all = Object.keys(styles);
+  const every = figure.kind.attributes.overlays.words as string[];
+  const choose = (name: string, shown: boolean) =>
+    figure.gesture.choose('overlays', every.filter((each) => (each === name ? shown : overlays.includes(each))));
+  const light = (name: string | null) => (figure.highlight = name);
+  return html`<div class="legend" part="legend" role="group" aria-label=${words.legend}>
+    ${all.map((name) => html`<span @pointerenter=${() => light(name)} @pointerleave=${() => light(null)} @focusin=${() => light(name)} @focusout=${() => light(null)}>
+      ${toggle({
+        label: html`${swatch(styles[name])}<span>${rich(names[name])}${notes[name] ? `: ${notes[name]}` : nothing}</span>`,
+        checked: overlays.includes(name),
+        change: (shown) => choose(name, shown),
+      })}
+    </span>`)}
+  </div>`;
+}
+
+/** Returns a sample of how something is drawn. */
+export function swatch({ role, dash, width = 2.25, mark = 'line' }: LineStyle) {
+  const shapes = {
+    line: svg`<line x1="1" x2="29" y1="6" y2="6" stroke-width=${width} stroke-dasharray=${dash?.join(' ') ?? nothing} />`,
+    dot: svg`<circle class="filled" cx="15" cy="6" r="3" />`,
+    ring: svg`<circle cx="15" cy="6" r="4" stroke-width=${width} />`,
+    area: svg`<rect class="filled" x="4" y="1" width="22" height="10" opacity="0.4" />`,
+    cross: svg`<path d="M11 2l8 8m0 -8l-8 8" stroke-width=${width} />`,
+  };
+  return html`<svg class="swatch" viewBox="0 0 30 12" aria-hidden="true" data-role=${role}>${shapes[mark]}</svg>`;
+}

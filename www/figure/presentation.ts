@@ -1,0 +1,128 @@
+/** Presentation of a figure to an audience: it fills the screen, and its controls are shown on demand. */
+
+import { html, nothing } from 'lit';
+import { words } from '../messages/registry.ts';
+import { button } from '../ui/controls.ts';
+import { Part } from './part.ts';
+
+/** Key that shows and hides the controls. */
+const KEY = 'c';
+
+/** Key that brings back the state in which the presentation began. */
+const BACK = '0';
+
+export class Presentation extends Part {
+  /** Whether the controls are shown. */
+  #controls = false;
+  /** Whole state at the beginning; undefined where the figure opened in the presentation. */
+  #prepared: import('./state.ts').Values | undefined;
+  /** Stops listening to keys; undefined while the figure is not presented. */
+  #listening: AbortController | undefined;
+
+  hostConnected() {
+    this.follow();
+    // The browser leaves full screen by keys of its own.
+    this.host.addEventListener('fullscreenchange', this.#left);
+  }
+
+  hostDisconnected() {
+    void this.#end();
+  }
+
+  /** Begins or ends the presentation, as the attribute says. */
+  follow() {
+    const { host } = this;
+    if (!host.isConnected || host.presentation === (this.#listening !== undefined)) return;
+    if (host.presentation) void this.#begin();
+    else void this.#end();
+  }
+
+  async #begin() {
+    const { host } = this;
+    this.#prepared = host.machine && host.snapshot();
+    this.#listening = new AbortController();
+    addEventListener('keydown', this.#key, { signal: this.#listening.signal });
+    const keyed = host.renderRoot?.querySelector('.to-present:focus-visible');
+    await host.updateComplete;
+    // After a click, a ring around a button would stay before the audience.
+    this.#focus(keyed ? '.presenting button' : '.presenting');
+    try {
+      // The browser asks for a key press or a click. Without full screen the figure fills the window, by its styles.
+      if (navigator.userActivation.isActive) await host.requestFullscreen();
+    } catch {
+      return;
+    }
+    if (!this.#listening) await this.#exit();
+  }
+
+  async #end() {
+    if (!this.#listening) return;
+    this.#listening.abort();
+    this.#listening = undefined;
+    this.#controls = false;
+    await this.#exit();
+    await this.host.updateComplete;
+    // The page has its layout back, and scrolls to the button.
+    this.#focus('.to-present');
+  }
+
+  async #exit() {
+    if (this.host.matches(':fullscreen')) await document.exitFullscreen().catch(() => {});
+  }
+
+  #left = () => {
+    if (!this.host.matches(':fullscreen')) this.host.presentation = false;
+  };
+
+  #focus(selector: string) {
+    (this.host.renderRoot.querySelector(selector) as HTMLElement | null)?.focus();
+  }
+
+  #key = ({ key, ctrlKey, altKey, metaKey, defaultPrevented }: KeyboardEvent) => {
+    if (defaultPrevented || ctrlKey || altKey || metaKey) return;
+    if (key === 'Escape') this.host.presentation = false;
+    else if (key.toLowerCase() === KEY) this.#toggle();
+    else if (key === BACK) this.#goBack();
+    else this.#choose(this.host.kind.attributes.preset?.words?.[Number(key) - 1]);
+  };
+
+  /** Sets the figure to a preset, as its button does. */
+  #choose(preset?: string) {
+    if (preset === undefined || !this.host.machine) return;
+    Object.assign(this.host, { preset });
+    this.host.gesture.step();
+    this.host.gesture.commit();
+  }
+
+  #goBack() {
+    if (this.host.machine) this.host.state.goBack(this.#prepared);
+  }
+
+  #toggle() {
+    this.#controls = !this.#controls;
+    this.host.requestUpdate();
+  }
+
+  /** Class of the surface while the controls are shown. */
+  get className() {
+    return this.#controls ? 'with-controls' : '';
+  }
+
+  /** Button that begins the presentation. */
+  button() {
+    const say = words.presentation;
+    return button(say.begin, () => (this.host.presentation = true), { title: say.title, name: 'to-present' });
+  }
+
+  /** Buttons that show the controls, bring back the beginning and end the presentation, with their keys. */
+  render() {
+    if (!this.#listening) return nothing;
+    const say = words.presentation;
+    const keyed = (key: string, label: string) => html`<kbd>${key}</kbd> ${label}`;
+    return html`<div class="presenting" role="group" tabindex="-1" aria-label=${say.begin}>
+      ${button(keyed(KEY.toUpperCase(), say.controls), () => this.#toggle(), { pressed: this.#controls })}
+      ${button(keyed(BACK, say.back), () => this.#goBack(), { title: say.backTitle })}
+      ${button(keyed('Esc', say.end), () => (this.host.presentation = false))}
+    </div>`;
+  }
+}

@@ -1,0 +1,106 @@
+/** What a reader sees of work that takes longer than a moment, and how they stop it. */
+
+import { css, html, nothing } from 'lit';
+import { words } from '../messages/registry.ts';
+import { button } from '../ui/controls.ts';
+import { Part } from './part.ts';
+
+/** So long work goes on unseen, milliseconds: what flashes up tells nobody anything. */
+const PATIENCE = 200;
+
+/** At the lower edge of the figure or of the window, and over what is there: nothing moves. */
+export const progressStyles = css`
+  .progress {
+    position: sticky;
+    z-index: 3;
+    bottom: 0;
+    height: 0;
+  }
+
+  .progress > div {
+    position: absolute;
+    bottom: 0.5em;
+    left: 50%;
+    display: flex;
+    align-items: center;
+    gap: 0.8em;
+    box-sizing: border-box;
+    max-width: 100%;
+    padding: 0.35em 0.5em 0.35em 0.9em;
+    transform: translateX(-50%);
+    background: var(--paper);
+    border: 1px solid var(--rule);
+    border-radius: 4px;
+    box-shadow: 0 2px 10px rgb(0 0 0 / 25%);
+    white-space: nowrap;
+    font-variant-numeric: tabular-nums;
+  }
+
+  progress {
+    flex: 0 1 8em;
+    min-width: 3em;
+    accent-color: var(--posterior);
+  }
+`;
+
+export class Progress extends Part {
+  /** When the work was first told of. */
+  #since: number | undefined;
+  #shown = false;
+
+  hostConnected() {
+    // Before the page or the figure takes it for something else.
+    document.addEventListener('keydown', this.#key, { capture: true });
+  }
+
+  hostDisconnected() {
+    document.removeEventListener('keydown', this.#key, { capture: true });
+  }
+
+  #key = (event: KeyboardEvent) => {
+    // One for each press.
+    if (event.key !== 'Escape' || !this.#shown || event.defaultPrevented) return;
+    // What has the focus is the figure, or nothing: a file was dropped, or what had it is gone.
+    if (event.target !== document.body && !event.composedPath().includes(this.host)) return;
+    event.preventDefault();
+    event.stopPropagation();
+    this.#stop();
+  };
+
+  /** There is more to do than a frame has time for. */
+  tell() {
+    if (!this.host.settings.canStop) return;
+    const now = performance.now();
+    this.#since ??= now;
+    if (now - this.#since < PATIENCE) return;
+    if (!this.#shown) this.host.announcer.tell(words.progress.begins);
+    this.#shown = true;
+    this.host.requestUpdate();
+  }
+
+  /** All is done. */
+  rest() {
+    this.#since = undefined;
+    if (!this.#shown) return;
+    this.#shown = false;
+    this.host.requestUpdate();
+  }
+
+  #stop() {
+    this.host.announcer.tell(words.progress.stopped);
+    this.host.settings.stop();
+  }
+
+  render() {
+    if (!this.#shown) return nothing;
+    const { done } = this.host.settings;
+    const say = words.progress;
+    return html`<div class="progress">
+      <div part="progress">
+        <progress aria-label=${say.label} .value=${done}></progress>
+        <span aria-hidden="true">${say.label} ${Math.floor(100 * done)} %</span>
+        ${button(say.stop, () => this.#stop(), { title: say.stopTitle })}
+      </div>
+    </div>`;
+  }
+}

@@ -1,0 +1,286 @@
+/** The element's attributes and properties: taken from the page, and kept saying what the settings are. */
+
+import { COMMON, groupsOf, isSetting } from './attributes.ts';
+import { has, renamed, word } from './checks.ts';
+import { cloudProperties } from './cloud.ts';
+import { Part } from './part.ts';
+import type { Attributes, Present, Setting } from './attributes.ts';
+import type { Figure } from './figure.ts';
+
+/** Texts of attributes; null for none. */
+export type Texts = Map<string, string | null>;
+
+export class Reflection extends Part {
+  #attributes;
+  /** With the settings that have no attribute. */
+  #entries: Attributes;
+  /** Names in the order of the table, a group before its parts. */
+  #order;
+  /** The settings whose values decide what others open with. */
+  #basis;
+  /** What the page asked for before there was a machine, first by attributes. */
+  #early: Map<string, string | null> = new Map();
+  /** By their properties; whole states under keys of their own. */
+  #wishes: Map<unknown, { value?: unknown, take: () => void }> = new Map();
+  /** Whether the attributes are being written, and a change of one is no news. */
+  #writing = false;
+  /** The attribute that is being read: what it says is not written over. */
+  #hearing: string | undefined;
+  /** As the attributes tell it, or would. */
+  #told: Texts | undefined;
+
+  constructor(host: Figure, attributes: Attributes, basis: string[]) {
+    super(host);
+    this.#attributes = attributes;
+    this.#entries = { ...groupsOf(host.kind.declared), ...attributes };
+    // A preset leaves a map, a map puts the robot somewhere, and a sample is marked of as many as there are; a log
+    // takes long, and whatever comes while it does would wait for it.
+    this.#order = ['preset', 'map', ...host.kind.declared.map(({ key }) => key), ...Object.keys(attributes), 'marked', 'log'];
+    this.#basis = basis;
+  }
+
+  /** Takes up the properties that were set before the element was one. */
+  hostConnected() {
+    const host = this.host as unknown as Record<string, unknown>;
+    for (const name of Object.keys(host)) {
+      for (let at = Object.getPrototypeOf(host); at !== HTMLElement.prototype; at = Object.getPrototypeOf(at)) {
+        if (!Object.getOwnPropertyDescriptor(at, name)?.set) continue;
+        const value = host[name];
+        delete host[name];
+        host[name] = value;
+        break;
+      }
+    }
+  }
+
+  /** Takes up what the page asked for before there was a machine. */
+  catchUp() {
+    // In the order of the table: what others depend on comes first.
+    for (const name of Object.keys(this.#attributes)) {
+      const text = this.#early.get(name);
+      if (text !== undefined) this.#take(name, text);
+    }
+    this.#early.clear();
+    // Properties too, in whatever order they were given; but a state is entered when it came.
+    let since = 0;
+    const wishes = [...this.#wishes].map(([name, { take }]) =>
+      ({ take, when: typeof name === 'string' ? since + this.#order.indexOf(name) : (since += this.#order.length) }));
+    this.#wishes.clear();
+    wishes.sort((one, other) => one.when - other.when);
+    for (const { take } of wishes) this.host.runtime.tolerate(take);
+  }
+
+  /** Enters a state, now or as soon as there is a machine. */
+  whenReady(enter: () => void) {
+    if (this.host.machine) this.host.runtime.attempt(enter);
+    else this.#wishes.set({}, { take: enter });
+  }
+
+  /**
+   * The page gives a property a value, as a text too where an attribute says it; null or undefined for what the figure opens
+   * with. What it has already changes nothing, so that a page may give it again and again. What is refused is reported, and
+   * the last good value stays.
+   */
+  give(name: string, value: any, take: (value: any) => void) {
+    const entry = this.#entries[name];
+    const given = typeof value === 'string' && entry?.kind ? entry.kind.parse(value) : value;
+    const taken = () => {
+      const wanted = given ?? this.#usual(name) ?? null;
+      const setting = entry && isSetting(entry) ? entry : undefined;
+      const present = setting ? setting.get(this.#present) : Reflect.get(this.host, name);
+      // A part of a setting's group leaves the others as they are; of the element's own a part is another whole.
+      if (!has(present, wanted) || (!setting && !has(wanted, present))) take(wanted);
+    };
+    if (this.host.machine) {
+      this.host.runtime.tolerate(taken);
+    } else {
+      // The latest is the last: what others depend on may have been given meanwhile.
+      this.#wishes.delete(name);
+      this.#wishes.set(name, { value: given, take: taken });
+    }
+  }
+
+  /** What a property will be that was given before there was a machine; undefined if it was not. */
+  wished(name: string) {
+    return this.#wishes.get(name)?.value;
+  }
+
+  /** Says a property that every figure has by its attribute, or by none. */
+  say(attribute: string, value: unknown) {
+    const { host } = this;
+    const { words, property = attribute } = COMMON[attribute] as { words: readonly string[], property?: string };
+    if (value === null || value === undefined) host.removeAttribute(attribute);
+    else host.runtime.tolerate(() => host.setAttribute(attribute, word(property, typeof value === 'number' ? String(value) : value, words)));
+  }
+
+  /**
+   * An attribute says something else.
+   *
+   * @param attribute in lower case
+   */
+  hear(attribute: string, text: string | null) {
+    const { words } = COMMON[attribute] ?? {};
+    if (words && text !== null) this.host.runtime.tolerate(() => word(attribute, text, words));
+    const name = Object.keys(this.#attributes).find((key) => key.toLowerCase() === attribute);
+    if (this.#writing || name === undefined) return;
+    if (this.host.machine) this.#take(name, text);
+    else this.#early.set(name, text);
+  }
+
+  #take(name: string, text: string | null) {
+    this.#hearing = name;
+    try {
+      Reflect.set(this.host, name, text);
+    } finally {
+      this.#hearing = undefined;
+    }
+  }
+
+  /**
+   * Gives a setting another value.
+   *
+   * @param name that it is asked for by
+   * @throws {TypeError | RangeError} in that name
+   */
+  assign(name: string, setting: Setting, value: unknown) {
+    try {
+      this.host.settings.assign(setting.change(value, this.#present));
+    } catch (error) {
+      throw renamed(error, name, setting.path);
+    }
+  }
+
+  get #present(): Present {
+    return { config: this.host.settings.wanted, machine: this.host.machine };
+  }
+
+  /** What a property is when the widget opens. */
+  #usual(name: string) {
+    const entry = this.#entries[name];
+    if (entry && isSetting(entry)) return this.#opening((opening) => entry.get(opening), this.#basis.includes(name) ? [] : this.#basis);
+    return entry?.opening ?? this.host.state.opening(name);
+  }
+
+  /**
+   * Asks something of how the widget opens.
+   *
+   * @param basis the settings that are as they are at present, for what depends on them
+   */
+  #opening<Answer>(question: (opening: Present) => Answer, basis: string[] = this.#basis) {
+    const { wanted } = this.host.settings;
+    const machine = this.host.createMachine(this.host.motion);
+    try {
+      machine.configure(Object.fromEntries(basis.map((key) => [key, wanted[key]])));
+      return question({ config: machine.config, machine });
+    } finally {
+      machine.free();
+    }
+  }
+
+  /**
+   * What the attributes should say.
+   *
+   * @param own what the element itself has by that name
+   */
+  #texts(present: Present, own: (name: string) => unknown) {
+    return new Map(
+      Object.entries(this.#attributes).map(([name, entry]) => {
+        const value = isSetting(entry) ? entry.get(present) : own(name);
+        return [name, entry.kind.print(value ?? null)];
+      }),
+    );
+  }
+
+  get #now() {
+    return this.#texts(this.#present, (name) => Reflect.get(this.host, name));
+  }
+
+  /** Lets the attributes say what has changed. The first time nothing has: so the element opens. */
+  tell() {
+    this.host.runtime.attempt(() => {
+      if (this.host.machine) this.#tell(this.#now);
+    });
+  }
+
+  #tell(texts: Texts) {
+    const told = this.#told;
+    this.#told = texts;
+    if (!told) return;
+    const changed = new Set([...texts.keys()].filter((name) => texts.get(name) !== told.get(name)));
+    for (const [name, entry] of Object.entries(this.#attributes)) {
+      if (!entry.covers || texts.get(name) !== null || !changed.has(name)) continue;
+      const usual = this.#usualTexts;
+      for (const covered of entry.covers(null)) if (texts.get(covered) !== usual.get(covered)) changed.add(covered);
+    }
+    this.#writing = true;
+    for (const name of changed) {
+      if (name === this.#hearing) continue;
+      const text = texts.get(name) ?? null;
+      if (text === null) this.host.removeAttribute(name);
+      else this.host.setAttribute(name, text);
+    }
+    this.#writing = false;
+  }
+
+  /** Texts of the attributes when the widget opens. */
+  get #usualTexts() {
+    const usual = this.#opening((opening) => this.#texts(opening, (name) => this.#usual(name)));
+    for (const name of this.#basis) usual.set(name, this.#attributes[name].kind.print(this.#usual(name)));
+    return usual;
+  }
+
+  /** The attributes that a figure needs which opens otherwise. */
+  needed(): [string, string][] {
+    const texts = this.#now;
+    const usual = this.#usualTexts;
+    const covered: Set<string> = new Set();
+    const needed: [string, string][] = [];
+    for (const [name, entry] of Object.entries(this.#attributes)) {
+      const text = texts.get(name) ?? null;
+      if (text === null) continue;
+      if (text !== usual.get(name) && !covered.has(name)) needed.push([name, text]);
+      entry.covers?.(text).forEach((each) => covered.add(each));
+    }
+    return needed;
+  }
+}
+
+/**
+ * Gives a widget's class the properties of its settings, and of what is the element's own and has an attribute, and
+ * defines it, unless the page has it already: it may carry the script twice.
+ */
+export function define(tag: string, Widget: typeof import('./figure.ts').FigureElement<any, any>) {
+  if (customElements.get(tag)) return;
+  const { prototype, attributes, declared, own } = Widget;
+  const property = (name: string, accessors: PropertyDescriptor & ThisType<any>) =>
+    Object.defineProperty(prototype, name, { configurable: true, enumerable: true, ...accessors });
+  for (const [name, entry] of Object.entries({ ...attributes, ...groupsOf(declared) })) {
+    if (isSetting(entry)) {
+      property(name, {
+        get() {
+          if (!this.machine) return this.reflection.wished(name);
+          // That is known before anything is computed with it.
+          return this.runtime.attempt(() => {
+            this.settings.takeUp();
+            const { machine } = this;
+            return machine && entry.get({ config: machine.config, machine });
+          }) ?? null;
+        },
+        set(value) {
+          this.reflection.give(name, value, (given: unknown) => this.reflection.assign(name, entry, given));
+        },
+      });
+    } else if (name in own) {
+      property(name, {
+        get() {
+          return this.reflection.wished(name) ?? this.state.copy(name);
+        },
+        set(value) {
+          this.reflection.give(name, value, (given: unknown) => this.state.assign(name, given));
+        },
+      });
+    }
+  }
+  if ('marked' in own) Object.defineProperties(prototype, cloudProperties);
+  customElements.define(tag, Widget);
+}

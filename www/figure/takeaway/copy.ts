@@ -1,0 +1,73 @@
+/** Buttons with which a reader copies a link to the figure as it is, or the HTML that embeds it. */
+
+import { html, nothing } from 'lit';
+import { address, classic } from '../../address.ts';
+import { words } from '../../messages/registry.ts';
+import { escaped } from '../../scene/svg.ts';
+import { button } from '../../ui/controls.ts';
+import { Part } from '../part.ts';
+
+export type Kind = 'link' | 'code';
+
+/** Buttons that copy, each with its answer: what was copied last, or what to copy by hand. */
+export class CopyMenu extends Part {
+  #copied: { kind: Kind, text: string, done?: boolean, missing: string } | undefined;
+
+  /** @param missing what of the figure is not in it, in a sentence */
+  async #copy(kind: Kind, text: string, missing: string = '') {
+    // Refused in a frame without the permission, and absent where the page came without encryption.
+    const done = await Promise.resolve(navigator.clipboard?.writeText(text).then(() => true)).catch(() => undefined);
+    this.#copied = { kind, text, done, missing };
+    this.host.requestUpdate();
+  }
+
+  /** Returns the button that copies a link to the figure as it is. */
+  linkButton() {
+    const say = words.copies;
+    return button(say.link, async () => this.#copy('link', await this.host.shareLink()), { title: say.linkTitle });
+  }
+
+  /** Returns the button that copies the code to embed, with its answer. */
+  codeButton() {
+    const say = words.copies;
+    const { host } = this;
+    return html`<fieldset class="copies" part="copies">
+      <legend>${say.label}</legend>
+      <div class="buttons">
+        ${button(say.code, () => this.#copy('code', host.embedCode(), host.takeaway.notInCode), { title: say.codeTitle })}
+      </div>
+      ${this.answer('code')}
+    </fieldset>`;
+  }
+
+  /** Returns the answer to a button. */
+  answer(kind: Kind) {
+    const say = words.copies;
+    const copied = this.#copied?.kind === kind ? this.#copied : undefined;
+    return html`<output class="copied">${copied ? `${copied.missing} ${copied.done ? say.done : say.byHand}` : nothing}</output>
+      ${copied && !copied.done
+        ? html`<textarea readonly rows="3" aria-label=${say.byHand} .value=${copied.text}></textarea>`
+        : nothing}`;
+  }
+}
+
+/** Where the script is for everybody, if it is not known from where it came. */
+const PUBLISHED = 'https://cdn.jsdelivr.net/npm/motion-widgets@0.1/dist/motion-widgets.js';
+
+/**
+ * HTML for any page: the script that defined the element, from where it came, and the tag with the attributes
+ * that the figure needs to open as it is now.
+ */
+export function embedding(figure: import('../figure.ts').Figure) {
+  const given = ['theme', 'lang', 'dir'].map((name) => [name, figure.getAttribute(name) ?? ''] as [string, string]);
+  const needed = figure.machine ? figure.reflection.needed() : [];
+  // A file on a disk, or a script inside of the page, is nothing to others.
+  const known = /^https?:/.test(address);
+  const kind = (known && classic ? ['defer', ''] : ['type', 'module']) as [string, string];
+  const script = tag('script', [kind, ['src', known ? address : PUBLISHED]]);
+  return `${script}\n${tag(figure.localName, [...given.filter(([, text]) => text !== ''), ...needed])}\n`;
+}
+
+function tag(name: string, attributes: [string, string][]) {
+  return `<${name}${attributes.map(([key, text]) => (text === '' ? ` ${key}` : ` ${key}="${escaped(text)}"`)).join('')}></${name}>`;
+}

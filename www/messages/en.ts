@@ -1,0 +1,87 @@
+/**
+ * The words that all widgets share, in English; those of each are in its folder. A message with values in
+ * it is a function of them; numbers come printed, save where their size decides on the words. *Stars* make
+ * italics, subscript digits and _{braces} subscripts, where HTML is shown.
+ */
+
+export const plural = (count: number, word: string) => `${word}${count === 1 ? '' : 's'}`;
+
+export const en = {
+  failure: (reason) => `This interactive figure cannot run here. ${reason}`,
+  presets: 'Presets',
+  cloud: {
+    play: 'Draw samples',
+    playTitle: 'A few at a time',
+    step: (batch) => `Draw ${batch} more`,
+    clear: 'Clear the samples; the same seed draws the same ones',
+    reseed: 'New random seed',
+  },
+  legend: 'Legend',
+  moreControls: 'More controls',
+  numbersAndData: 'Numbers and data',
+  samples: 'Samples',
+  play: 'Play',
+  pause: 'Pause',
+  step: 'Step',
+  clear: 'Clear',
+  startOver: 'Start over',
+  startOverTitle: 'Settings, view and seed as the figure opened',
+  newSeed: 'New seed',
+  seed: 'seed',
+  commandText: (v, omega, dt) => `v = ${v} m/s, ω = ${omega} rad/s, Δt = ${dt} s`,
+  command: 'Command',
+  settings: {
+    v: { name: 'speed' },
+    omega: { name: 'turn rate' },
+    dt: { name: 'duration' },
+    samples: { name: 'samples' },
+  },
+  noise: 'Noise',
+  /** Names of the noise parameters: the noise, and the motion that it grows with. */
+  alphas: {
+    velocity: [
+      'speed noise from speed', 'speed noise from turning',
+      'turn rate noise from speed', 'turn rate noise from turning',
+      'last turn noise from speed', 'last turn noise from turning',
+    ],
+    odometry: [
+      'rotation noise from rotation', 'rotation noise from translation',
+      'translation noise from translation', 'translation noise from rotation',
+      'sideways noise from translation',
+    ],
+  },
+  pose: {
+    keys: 'Arrow keys move it, with Shift by larger steps; Page Up and Page Down move it far in y, Home and End to the ends along x; [ and ] turn it',
+    headingKeys: 'Arrow keys turn it, with Shift by larger steps; Page Up and Page Down turn it far, Home and End to the back',
+  },
+  sliderEnds: (end) => `The slider ends at ${end}; values beyond can be typed.`,
+  refused: (name, given, least, most, whole) =>
+    `${name} must be ${whole ? 'a whole number ' : ''}between ${least} and ${most}${given.includes(',') && !whole ? ', with a decimal point' : ''} (got ${given}).`,
+  exports: {
+    label: 'Save the figure',
+    png: 'PNG',
+    svg: 'SVG',
+    csv: 'CSV',
+    pngTitle: 'The picture in twice the pixels of the screen',
+    svgTitle: 'The picture as vector graphics',
+    csvTitle: 'Every sample, with the parameters and the seed',
+  },
+  close: 'Close',
+  progress: {
+    label: 'Computing',
+    begins: 'This takes a moment. Escape stops it.',
+    stop: 'Stop',
+    stopTitle: 'Everything stays as it was (Escape)',
+    stopped: 'Stopped: everything is as it was.',
+  },
+  presentation: { begin: 'Present', title: 'Fills the screen, for an audience', controls: 'Controls', back: 'As prepared', backTitle: 'The figure as it was when the presentation began', end: 'Exit' },
+  copies: {
+    label: 'Embed the figure',
+    link: 'Copy link',
+    linkTitle: 'The address of this page with the figure as it is now',
+    code: 'Copy embed code',
+    codeTitle: 'HTML that shows the figure as it is now on a page of your own',
+    done: 'Copied.',
+    byHand: 'Copy manually:',
+  },
+} satisfies import('./registry.ts').Message;

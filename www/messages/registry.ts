@@ -1,0 +1,163 @@
+/**
+ * The words of the elements, by language. English and German come with the project; a page adds or
+ * replaces others with `setMessages`. What a widget alone says stands under a key of its own.
+ *
+ * An element speaks the language of its nearest `lang` attribute as far as there are words in it, and
+ * English otherwise. `speak` makes that language the present one before anything is rendered or
+ * drawn, all of which happens at once: `words` and the numbers of ui/format.js are in it then.
+ */
+
+export type Message = string | ((...values: any[]) => string) | Message[] | { [key: string]: Message };
+
+/** `WidgetWords`: see widgets/words.d.ts. */
+export type Messages = typeof import('./en.ts').en & WidgetWords;
+
+/** What all scripts of a page share: a language may come in a file of its own. */
+export interface Shared {
+  /** What the elements say where nobody has given them other words. */
+  english: object;
+  /** What was given, by language. */
+  catalogues: Record<string, Record<string, object>>;
+  /** Called when words or languages change. */
+  listeners: Set<() => void>;
+}
+
+const KEY = Symbol.for('motion-widgets.messages');
+
+const shared: Shared = ((globalThis as any)[KEY] ??= { english: {}, catalogues: {}, listeners: new Set() });
+
+/** The words of the present language. */
+export let words: Messages;
+
+/** The present language as a BCP 47 tag, for numbers. */
+export let language = 'en';
+
+/** By what the page asks for */
+const voices: Map<string, { words: Messages, language: string }> = new Map();
+shared.listeners.add(() => voices.clear());
+
+/**
+ * Adds the elements' own words. They are in English, and say which messages there are.
+ *
+ * @param messages an empty catalogue stands for one that comes later
+ */
+export function addEnglish(messages: { [key: string]: Message }) {
+  shared.english = merge(shared.english, messages);
+  // What a page gave before these came has not been checked.
+  for (const [lang, given] of Object.entries(shared.catalogues)) {
+    for (const key of Object.keys(messages).filter((key) => Object.hasOwn(given, key))) {
+      try {
+        check(messages, { [key]: given[key] }, lang);
+      } catch (error) {
+        delete given[key];
+        reportError(error);
+      }
+    }
+  }
+  tellAll();
+}
+
+/**
+ * Gives the elements words in a language, at once and on the whole page. What is left out stays as it
+ * was, and is English in a new language.
+ *
+ * @param lang a BCP 47 tag: "de", "pt-BR"
+ * @param messages in the shape of the English ones, or a part of it
+ * @throws {RangeError} if there is no such language
+ * @throws {TypeError} if a message is not of the catalogue, or not of the kind it is there: a list has as many entries as the
+ *   English one, and a function is of as many values or fewer
+ */
+export function setMessages(lang: string, messages: object) {
+  const { english, catalogues } = shared;
+  if (!isTag(lang)) throw new RangeError(`messages: lang is ${JSON.stringify(lang)}; allowed is a BCP 47 tag, as "de" or "pt-BR".`);
+  check(english, messages, lang);
+  const key = lang.toLowerCase();
+  catalogues[key] = merge(catalogues[key] ?? {}, messages);
+  tellAll();
+}
+
+/** @param known empty where it is not there yet: then anything is accepted */
+function check(known: any, given: any, path: string) {
+  if (Object.keys(known).length === 0) return;
+  for (const [key, message] of Object.entries(given)) {
+    const expected = Object.hasOwn(known, key) ? known[key] : undefined;
+    const [is, allowed] = [describe(message), describe(expected)];
+    const isLess = typeof message === 'function' && typeof expected === 'function' && message.length < expected.length;
+    if (is !== allowed && !isLess) {
+      const instead = expected === undefined ? `one of ${Object.keys(known).join(', ')}` : allowed;
+      throw new TypeError(`messages: ${path}.${key} is ${is}; allowed is ${instead}.`);
+    }
+    if (typeof message === 'object') check(expected, message, `${path}.${key}`);
+  }
+}
+
+function describe(value: any) {
+  if (Array.isArray(value)) return `a list of ${value.length}`;
+  if (typeof value === 'function') return `a function of ${value.length} values`;
+  return value === null || value === undefined ? String(value) : typeof value === 'object' ? 'a group' : `a ${typeof value}`;
+}
+
+function merge(base: any, over: any) {
+  const merged = { ...base };
+  for (const [key, message] of Object.entries(over)) {
+    merged[key] = typeof message === 'object' && !Array.isArray(message) ? merge(base[key] ?? {}, message) : message;
+  }
+  return merged;
+}
+
+/** Makes the language of an element the present one. */
+export function speak(element: Element) {
+  const wanted = languageOf(element);
+  let voice = voices.get(wanted);
+  if (!voice) {
+    const [primary] = wanted.split('-');
+    const found = [wanted, primary].find((tag) => Object.hasOwn(shared.catalogues, tag)) ?? 'en';
+    const language = primary === found && isTag(wanted) ? wanted : found;
+    const { english, catalogues } = shared;
+    const said = [catalogues.en, catalogues[found]].reduce((base, over) => merge(base, over ?? {}), english);
+    voices.set(wanted, (voice = { language, words: said as Messages }));
+  }
+  ({ words, language } = voice);
+}
+
+function isTag(text: unknown) {
+  try {
+    return typeof text === 'string' && Intl.getCanonicalLocales(text).length > 0;
+  } catch {
+    return false;
+  }
+}
+
+/** @returns the nearest language, through shadow roots; lower case, empty where there is none */
+function languageOf(element: Element): string {
+  for (let at = element as Element | undefined; at; ) {
+    const bearer = at.closest('[lang]') as Element | null;
+    if (bearer) return bearer.getAttribute('lang')?.toLowerCase() ?? '';
+    const root = at.getRootNode();
+    at = root instanceof ShadowRoot ? root.host : undefined;
+  }
+  return '';
+}
+
+let observer: MutationObserver | undefined;
+
+/** No closure of `onLanguage`: the observer would hold that one's element for as long as the page lives. */
+function tellAll() {
+  for (const listener of shared.listeners) listener();
+}
+
+/**
+ * Calls back when an element may have to speak again: on other words, or another language.
+ *
+ * @param signal that ends it
+ */
+export function onLanguage(element: Element, listener: () => void, signal: AbortSignal) {
+  const { listeners } = shared;
+  observer ??= new MutationObserver(tellAll);
+  const watch = { attributeFilter: ['lang'], subtree: true };
+  observer.observe(document, watch);
+  const root = element.getRootNode();
+  if (root !== document) observer.observe(root, watch);
+  listeners.add(listener);
+  signal.addEventListener('abort', () => listeners.delete(listener));
+}

@@ -1,0 +1,92 @@
+/**
+ * Script of the page around the figures: buttons that set the state of a figure, terms that highlight a line in its picture,
+ * predictions, and the contents list.
+ *
+ * @module
+ */
+
+import { prepareBet } from './page/bet.ts';
+import { prepareSketch } from './page/sketch.ts';
+
+/** Any of the elements. */
+export type Figure = HTMLElement & Record<string, any>;
+
+/** Whole state that each figure opened with. */
+const openings: WeakMap<Element, Record<string, any>> = new WeakMap();
+
+/** Returns the figure that an element of the page is about. */
+export const figureOf = (element: Element): Figure => element.closest('article')?.querySelector('.stand > :first-child') as Figure;
+
+/**
+ * Puts a figure into the state that it opened with, with some values changed.
+ *
+ * @param values by property, or by field of its state where no property has that name; a preset comes first
+ */
+export async function enter(figure: Figure, values: Record<string, unknown>) {
+  if (!openings.has(figure)) await new Promise((resolve) => figure.addEventListener('load', resolve, { once: true }));
+  const opening = openings.get(figure) ?? {};
+  // The whole cloud at once: what the item says is to be seen now.
+  const grown = 'shown' in opening ? { shown: opening.samples, playing: false } : {};
+  // A line that a bet hides stays in sight once it is shown.
+  const bets = [...(figure.closest('article')?.querySelectorAll('[data-hides]') ?? [])] as HTMLElement[];
+  const bared = bets.map(({ dataset }) => dataset.hides).filter((name) => figure.overlays.includes(name));
+  const { widget, version, overlays } = opening;
+  figure.setState({ ...opening, ...grown, ...(overlays && { overlays: [...overlays, ...bared] }) });
+  for (const [key, value] of Object.entries(values)) {
+    if (key in figure) figure[key] = value;
+    else figure.setState({ widget, version, [key]: value });
+  }
+}
+
+async function tryOut(button: HTMLElement) {
+  const figure = figureOf(button);
+  for (const each of button.closest('article')?.querySelectorAll('[data-try]') ?? []) each.removeAttribute('aria-current');
+  await enter(figure, JSON.parse(button.dataset.try ?? '{}'));
+  button.setAttribute('aria-current', 'true');
+  const changed = () => button.removeAttribute('aria-current');
+  figure.addEventListener('input', changed, { once: true });
+}
+
+/** Highlights the line that a term names while the pointer or the focus is on the term. */
+function light({ type, target }: Event) {
+  const term = target instanceof Element ? (target.closest('[data-line]') as HTMLElement | null) : null;
+  if (!term) return;
+  figureOf(term).highlight = /over|in$/.test(type) ? term.dataset.line : null;
+}
+
+/** Keeps the picture of each figure in sight while its items are read, where these are below the figure. */
+function followItems() {
+  const observer = new ResizeObserver((entries) => {
+    for (const { target, borderBoxSize: [{ blockSize }] } of entries) {
+      (target.parentElement as HTMLElement).style.setProperty('--below', `${blockSize}px`);
+    }
+  });
+  for (const items of document.querySelectorAll('.try')) observer.observe(items);
+}
+
+/** Marks the section in sight in the contents list. */
+function followSections() {
+  const links = new Map(
+    [...document.querySelectorAll('nav a[href^="#"]')].map((link) => [document.querySelector(link.getAttribute('href') ?? ''), link]),
+  );
+  const observer = new IntersectionObserver(
+    (entries) => {
+      for (const { target, isIntersecting } of entries) links.get(target)?.toggleAttribute('data-here', isIntersecting);
+    },
+    { rootMargin: '-45% 0% -55%' },
+  );
+  for (const section of links.keys()) if (section) observer.observe(section);
+}
+
+document.addEventListener('load', ({ target }) => {
+  const figure = target as Figure;
+  if (figure.getState && !openings.has(figure)) openings.set(figure, figure.getState());
+}, { capture: true });
+document.addEventListener('click', ({ target }) => {
+  const button = target instanceof Element ? target.closest('button[data-try]') : null;
+  if (button) void tryOut(button as HTMLElement);
+});
+for (const type of ['pointerover', 'pointerout', 'focusin', 'focusout']) document.addEventListener(type, light);
+for (const form of document.querySelectorAll('form')) (form.matches('.sketch') ? prepareSketch : prepareBet)(form, (values) => enter(figureOf(form), values), figureOf(form));
+followSections();
+followItems();

@@ -1,0 +1,101 @@
+/** The elements as components for React 18 and 19: build/react.js, which follows from the declarations, has one of each. */
+
+import { createElement, forwardRef, useEffect, useImperativeHandle, useLayoutEffect, useRef, useState } from 'react';
+import 'motion-widgets';
+
+export type Props = Record<string, any>;
+
+/** Names of the props that are an element's own. */
+export interface Names {
+  /** Attributes by their props. */
+  attributes: Record<string, string>;
+  /** Props of attributes that are there or not, whatever they say. */
+  flags: string[];
+  /** Those that have no attribute. */
+  properties: string[];
+}
+
+/** Props of events. */
+const HANDLERS = { load: 'onLoad', error: 'onError', input: 'onInput', change: 'onChange', stats: 'onStats' };
+const EVENTS = Object.keys(HANDLERS) as (keyof typeof HANDLERS)[];
+
+const onServer = typeof document === 'undefined';
+/** A server lays nothing out, and React 18 complains of who wants it there. */
+const useLayout = onServer ? useEffect : useLayoutEffect;
+
+/**
+ * What a component of React says to its element: a prop when it says something else than before, not at every rendering, as
+ * a list that is written in JSX would undo what the reader drags. React itself writes the attributes on a server alone: on
+ * the page it would give properties to an element or not, depending on its version, on who sent the element, and on
+ * whether that is defined yet.
+ */
+class Figure {
+  element: any;
+  names: Names;
+  /** As they were said last. */
+  props: Props | undefined;
+
+  constructor(names: Names) {
+    this.names = names;
+  }
+
+  /** What the attribute of a prop says; null for none. */
+  text(name: string, { [name]: value = null }: Props) {
+    if (value === null || (value === false && this.names.flags.includes(name))) return null;
+    return Array.isArray(value) ? value.join(' ') : value === true ? '' : String(value);
+  }
+
+  say(element: any, props: Props) {
+    const { props: before } = this;
+    Object.assign(this, { element, props });
+    for (const type of EVENTS) element.addEventListener(type, this);
+    if (!before && element.stats) this.catchUp(element, props);
+    for (const [name, attribute] of Object.entries(this.names.attributes)) {
+      const text = this.text(name, props);
+      // What the server has sent stands at first: the reader may have gone on from there.
+      if (before ? text === this.text(name, before) : text === null || element.hasAttribute(attribute)) continue;
+      if (text === null) element.removeAttribute(attribute);
+      else element.setAttribute(attribute, text);
+    }
+    for (const name of this.names.properties) if (differ(before?.[name], props[name])) element[name] = props[name];
+  }
+
+  /** The server has sent the element, and it was there before React came to it: nobody has heard of it yet. */
+  catchUp(element: any, props: Props) {
+    element.dispatchEvent(new Event('load'));
+    element.dispatchEvent(new CustomEvent('stats', { detail: element.stats }));
+    for (const [name, attribute] of Object.entries(this.names.attributes)) {
+      const text = this.text(name, props);
+      // What was refused as an attribute still stands there, and is refused once more.
+      if (text !== null && element.getAttribute(attribute) === text) element[name] = props[name];
+    }
+  }
+
+  handleEvent(event: Event) {
+    this.props?.[HANDLERS[(event.type as keyof typeof HANDLERS)]]?.(event);
+  }
+
+  leave() {
+    for (const type of EVENTS) this.element.removeEventListener(type, this);
+  }
+}
+
+function differ(one: unknown, other: unknown) {
+  return one !== other && JSON.stringify(one) !== JSON.stringify(other);
+}
+
+export function component(displayName: string, tag: string, names: Names) {
+  const own = new Set([...Object.keys(names.attributes), ...names.properties, ...Object.values(HANDLERS)]);
+  const render = (props: Props, ref: import('react').ForwardedRef<unknown>) => {
+    const element = useRef(null);
+    const [figure] = useState(() => new Figure(names));
+    useImperativeHandle(ref, () => element.current, []);
+    useLayout(() => figure.say(element.current, props));
+    useLayout(() => () => figure.leave(), [figure]);
+    // React 18 does not know className of elements that HTML does not know.
+    const { className, ...others } = Object.fromEntries(Object.entries(props).filter(([name]) => !own.has(name)));
+    const sent = onServer ? Object.entries(names.attributes).map(([name, attribute]) => [attribute, figure.text(name, props)]) : [];
+    return createElement(tag, { ...others, ...Object.fromEntries(sent), class: className, ref: element, suppressHydrationWarning: true });
+  };
+  return Object.assign(forwardRef(render), { displayName });
+}

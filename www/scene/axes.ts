@@ -1,0 +1,131 @@
+/** What surrounds a picture: axes with their ticks and names, a key, and the edge of what is inside. */
+
+import { ticks } from 'd3-array';
+import { powerOfTen, tick } from '../ui/format.ts';
+import type { Brush } from './canvas.ts';
+
+/** Ticks nearer to each other are told as multiples of a power of ten: their zeros have no room beside the axis. */
+const NEAREST_TICKS = 9e-4;
+
+/** Least distances between two ticks, CSS pixels. */
+const TICK_SPACING = { x: 60, y: 48 };
+
+/** Gap between entries of a key, width of a sample in one, and from line to line: shares of the size of its type. */
+const KEY = { gap: 0.8, sample: 1.5, space: 0.35, line: 1.4 };
+
+/**
+ * Hairline axes with ticks at the left and the bottom, a faint grid, and above it the name of what runs upwards and a key.
+ *
+ * @param names with their units in brackets
+ * @param key the most important first: as many as there is room for, in as many lines as the view keeps free
+ * @param grid its opacity
+ */
+export function drawAxes(brush: Brush, names: { x: string, y: string }, key: KeyEntry[], grid: number = 0.5) {
+  const { context, view, palette, font } = brush;
+  const { left, right, top, bottom } = view.frame;
+  const { xMin, xMax, yMin, yMax } = view.extent;
+  context.font = font;
+  context.lineWidth = 1;
+  context.strokeStyle = palette.rule;
+  context.fillStyle = palette.muted;
+
+  const xTicks = ticksOf(xMin, xMax, (right - left) / TICK_SPACING.x);
+  // The axis has its name where its last tick would be.
+  const xName = names.x.replace('(', `(${xTicks.unit}`);
+  const free = right - context.measureText(xName).width - 10;
+  context.textAlign = 'center';
+  context.textBaseline = 'top';
+  for (const value of xTicks.values) {
+    const x = Math.round(view.toPixelX(value)) + 0.5;
+    line(context, [x, top, x, bottom], grid);
+    const text = xTicks.text(value);
+    if (x + context.measureText(text).width / 2 < free) context.fillText(text, x, bottom + 6);
+  }
+  const yTicks = ticksOf(yMin, yMax, (bottom - top) / TICK_SPACING.y);
+  context.textAlign = 'right';
+  context.textBaseline = 'middle';
+  for (const value of yTicks.values) {
+    const y = Math.round(view.toPixelY(value)) + 0.5;
+    line(context, [left, y, right, y], grid);
+    context.fillText(yTicks.text(value), left - 6, y);
+  }
+
+  line(context, [left, bottom + 0.5, right, bottom + 0.5], 1);
+  line(context, [left - 0.5, top, left - 0.5, bottom], 1);
+  context.font = `italic ${font}`;
+  context.textAlign = 'right';
+  context.textBaseline = 'top';
+  context.fillText(xName, right, bottom + 6);
+  context.textAlign = 'left';
+  const yName = names.y.replace('(', `(${yTicks.unit}`);
+  drawKey(brush, yName, key);
+}
+
+/** @param before the name that it begins after */
+
+export interface KeyEntry {
+  name: string;
+  /** A sample, from its left to its right in the middle of the line; CSS pixels. */
+  draw: (x: number, y: number, width: number) => void;
+}
+function drawKey({ context, view, palette, font }: Brush, before: string, entries: KeyEntry[]) {
+  const size = parseFloat(font);
+  const [width, line] = [KEY.sample * size, KEY.line * size];
+  let y = view.frame.top - 22;
+  const [begin, last] = [2 + context.measureText(before).width, Math.floor(y / line)];
+  context.font = font;
+  let [x, row] = [begin, 0];
+  const placed = [];
+  for (const entry of entries) {
+    const length = (KEY.gap + KEY.space) * size + width + context.measureText(entry.name).width;
+    // A line of its own begins without a gap.
+    if (x + length > view.width && row < last) [x, row] = [2 - KEY.gap * size, row + 1];
+    if (x + length > view.width) break;
+    placed.push({ ...entry, from: x + KEY.gap * size, row });
+    x += length;
+  }
+  // The last line stands next to the picture.
+  y -= row * line;
+  context.font = `italic ${font}`;
+  context.fillText(before, 2, y);
+  context.font = font;
+  for (const { name, draw, from, row } of placed) {
+    context.fillStyle = palette.ink;
+    context.fillText(name, from + width + KEY.space * size, y + row * line);
+    draw(from, y + row * line + size / 2, width);
+  }
+}
+
+/** @param count of ticks, about */
+function ticksOf(from: number, to: number, count: number) {
+  const values = ticks(from, to, Math.max(2, Math.floor(count)));
+  const step = values.length > 1 ? values[1] - values[0] : 1;
+  const exponent = step < NEAREST_TICKS ? Math.floor(Math.log10(step) + 1e-9) : 0;
+  return {
+    values,
+    /** What stands before the unit of the axis. */
+    unit: exponent < 0 ? `${powerOfTen(exponent)} ` : '',
+    text: (value: number) => tick(value / 10 ** exponent, step / 10 ** exponent),
+  };
+}
+
+function line(context: CanvasRenderingContext2D, [x1, y1, x2, y2]: number[], alpha: number) {
+  const { globalAlpha } = context;
+  context.globalAlpha = alpha * globalAlpha;
+  context.beginPath();
+  context.moveTo(x1, y1);
+  context.lineTo(x2, y2);
+  context.stroke();
+  context.globalAlpha = globalAlpha;
+}
+
+/** Confines what `paint` draws to the inside of the axes. */
+export function clipped({ context, view }: Brush, paint: () => void) {
+  const { left, right, top, bottom } = view.frame;
+  context.save();
+  context.beginPath();
+  context.rect(left, top, right - left, bottom - top);
+  context.clip();
+  paint();
+  context.restore();
+}

@@ -1,0 +1,89 @@
+/** Sentences in a picture, each with a line to what it is about. */
+
+import { least } from 'd3-array';
+import { clamp } from '../ui/clamp.ts';
+import { drawLeader } from './labels.ts';
+import type { Brush } from './canvas.ts';
+
+/** Length of the shortest line, distance of two lines of text, and room around them: pixels. */
+const LINE = 22;
+const LEADING = 15;
+const ROOM = 4;
+
+/** Distance that a sentence keeps from lines and other sentences, pixels. */
+const CLEAR = 9;
+
+/** Turns of a sentence out of the direction away from the middle, rad, and lengths of its line, in shortest ones. */
+const TURNS = Array.from({ length: 24 }, (_, i) => (Math.PI * (i - 12)) / 12);
+const LENGTHS = [1, 2, 3];
+
+/** Cost of a turn of 1 rad and of the length of a line, in pixels of a sentence that cover something. */
+const TURN_COST = 2;
+const LENGTH_COST = 0.2;
+
+/** Middle and half of its sides, pixels. */
+export type Box = { x: number, y: number, across: number, down: number };
+
+/**
+ * Draws sentences about points of something round, outside of it, where they cover least of the picture. The cost of a place is continuous
+ * in all points, so that a sentence seldom jumps.
+ *
+ * @param callouts texts with line breaks, and the points that they are about, in the view's world
+ */
+export function drawCallouts({ context, view, palette, font }: Brush, callouts: { text: string, at: [number, number] }[], { from, lines }: { from: [number, number]; lines: Float64Array[] }) {
+  context.font = font;
+  const pixels = ({ 0: x, 1: y }: ArrayLike<number>) => [view.toPixelX(x), view.toPixelY(y)];
+  const [fromX, fromY] = pixels(from);
+  const kept = callouts.map(({ at }) => pixels(at));
+  for (const line of lines) {
+    for (let i = 0; i + 3 < line.length; i += 2) kept.push(...pointsBetween(pixels(line.subarray(i)), pixels(line.subarray(i + 2))));
+  }
+  const others: Box[] = [];
+  const { left, right, top, bottom } = view.frame;
+  for (const { text, at } of callouts) {
+    const rows = text.split('\n');
+    const across = Math.max(...rows.map((row) => context.measureText(row).width)) / 2 + ROOM;
+    const down = (LEADING * rows.length) / 2 + ROOM;
+    const [x, y] = pixels(at);
+    const away = Math.atan2(y - fromY, x - fromX);
+    const places = LENGTHS.flatMap((length) => TURNS.map((turn) => {
+      const [wantedX, wantedY] = [x + (length * LINE + across) * Math.cos(away + turn), y + (length * LINE + down) * Math.sin(away + turn)];
+      const box = {
+        x: clamp(wantedX, left + across, Math.max(left + across, right - across)),
+        y: clamp(wantedY, top + down, Math.max(top + down, bottom - down)),
+        across, down,
+      };
+      return { ...box, cost: TURN_COST * Math.abs(turn) + LENGTH_COST * length * LINE + coveredBy(box, kept, others) };
+    }));
+    const place = least(places, ({ cost }) => cost) as Box;
+    const begin = [clamp(x, place.x - across, place.x + across), clamp(y, place.y - down, place.y + down)];
+    others.push(place);
+    kept.push(...pointsBetween(begin, [x, y]));
+
+    drawLeader(context, [begin, [x, y]], palette.ink);
+    context.fillStyle = palette.paper;
+    context.globalAlpha = 0.85;
+    context.fillRect(place.x - across, place.y - down, 2 * across, 2 * down);
+    context.globalAlpha = 1;
+    context.fillStyle = palette.ink;
+    context.textAlign = 'center';
+    context.textBaseline = 'middle';
+    rows.forEach((row, i) => context.fillText(row, place.x, place.y + (i - (rows.length - 1) / 2) * LEADING));
+  }
+}
+
+/** Returns the first of two points, and points between them that no sentence passes through, pixels. */
+function pointsBetween([x, y]: number[], [toX, toY]: number[]) {
+  const count = Math.ceil(Math.hypot(toX - x, toY - y) / (2 * CLEAR)) || 1;
+  return Array.from({ length: count }, (_, i) => [x + (i / count) * (toX - x), y + (i / count) * (toY - y)]);
+}
+
+/** Returns how deep points and other boxes are inside of a box, pixels. */
+function coveredBy({ x, y, across, down }: Box, points: number[][], others: Box[]) {
+  const depth = (toX: number, toY: number, roomX = 0, roomY = 0) =>
+    Math.min(across + roomX + CLEAR - Math.abs(toX - x), down + roomY + CLEAR - Math.abs(toY - y));
+  let deepest = 0;
+  for (const [toX, toY] of points) deepest = Math.max(deepest, depth(toX, toY));
+  for (const other of others) deepest = Math.max(deepest, 2 * depth(other.x, other.y, other.across, other.down));
+  return deepest;
+}

@@ -1,0 +1,82 @@
+/** Canvases, and what pictures are painted on them with. */
+
+/** What pictures are drawn on: a canvas, or what stands for one. */
+
+export interface Surface {
+  /** Pixels. */
+  width: number;
+  height: number;
+  /** CSS pixels. */
+  clientWidth: number;
+  /** Those of its style for an element. */
+  letters: { fontFamily: string, fontSize: string };
+  getContext: (kind: '2d') => CanvasRenderingContext2D | null;
+}
+
+/** What a picture is painted with, in the view's pixels: CSS pixels where the letters have 13 of them, and more in proportion, so that everything grows with the letters. */
+export interface Brush {
+  context: CanvasRenderingContext2D;
+  view: import('./view.ts').View;
+  palette: import('../ui/theme.ts').Palette;
+  /** Device pixels a pixel of the view. */
+  ratio: number;
+  /** Font of the canvas's style. */
+  font: string;
+  /** True if a file is drawn: a picture on the page has its key beside it. */
+  exported?: boolean;
+  /** True if handles are painted: on the screen they are elements over the picture. */
+  handles?: boolean;
+  /** Name of the line that is drawn thicker, and all others faint. */
+  highlight?: string | null;
+  /** Earlier reading whose outlines stay as a ghost. */
+  former?: any;
+}
+
+/** Height of a picture's letters, pixels of its view; those of the figure have 16: see the style of canvases. */
+const LETTERS = 13;
+
+/**
+ * A length in the figure's own style.
+ *
+ * @param pixels of a view
+ */
+export const length = (pixels: number) => `${pixels / 16}em`;
+
+/**
+ * A size in pixels of a view, in CSS pixels.
+ *
+ * @param canvas with letters in its style
+ */
+export const inCss = ({ width, height }: { width: number, height: number }, canvas: Element) => [width, height].map((each) => (each * parseFloat(getComputedStyle(canvas).fontSize)) / LETTERS);
+
+/**
+ * A point of the window in the pixels of a view, which what is around it may enlarge.
+ *
+ * @param element as wide as the view
+ */
+export function pointOn(element: Element, view: import('./view.ts').View, { clientX, clientY }: { clientX: number, clientY: number }) {
+  const { left, top, width } = element.getBoundingClientRect();
+  const zoom = width / view.width;
+  return [(clientX - left) / zoom, (clientY - top) / zoom];
+}
+
+/**
+ * Of a canvas that is copied to those that are seen. The processor draws it: a graphics card may lose what it has, and this
+ * would not be back when those are drawn again.
+ */
+export function hiddenContext(canvas: OffscreenCanvas) {
+  return canvas.getContext('2d', { willReadFrequently: true }) as OffscreenCanvasRenderingContext2D;
+}
+
+/** Clears a canvas, sets the view to the size of the canvas, and returns what pictures draw with. */
+export function brushOn(canvas: HTMLCanvasElement | Surface, view: import('./view.ts').View, palette: import('../ui/theme.ts').Palette) {
+  const { fontFamily, fontSize } = canvas instanceof HTMLElement ? getComputedStyle(canvas) : canvas.letters;
+  const ratio = ((canvas.width / Math.max(1, canvas.clientWidth)) * parseFloat(fontSize)) / LETTERS;
+  view.resize(canvas.width / ratio, canvas.height / ratio);
+  const context = canvas.getContext('2d') as CanvasRenderingContext2D;
+  context.setTransform(ratio, 0, 0, ratio, 0, 0);
+  context.clearRect(0, 0, view.width, view.height);
+  // Numbers with signs, in whatever language the page is.
+  context.direction = 'ltr';
+  return { context, view, palette, ratio, font: `${LETTERS}px ${fontFamily}` };
+}

@@ -1,0 +1,303 @@
+/**
+ * What pictures are made of: robots, densities, outlines and marks. Every function takes the
+ * brush, which knows the view's transform and the colours, and none keeps anything.
+ */
+
+import { limits } from '../settings.js';
+import { channels } from '../ui/theme.ts';
+import { hiddenContext } from './canvas.ts';
+import { drawLabel } from './labels.ts';
+import type { Brush } from './canvas.ts';
+import type { Palette } from '../ui/theme.ts';
+
+export type Context = CanvasRenderingContext2D;
+
+/**
+ * Heading ticks that are stroked at once. More is faster; but those of one stroke do not darken
+ * where they cross, so many more would flatten the crowd.
+ */
+const TICKS_A_STROKE = 25;
+
+/**
+ * Samples as dots. Overlapping dots darken, so that a crowd looks like one.
+ *
+ * @param layout which of the three numbers are drawn, and the length of the heading's line as a share of the usual one
+ */
+export function drawDots(brush: Brush, triples: Float64Array, layout: { x: number, y: number, heading: number | null, ahead?: number }) {
+  const { context, view, palette } = brush;
+  const count = triples.length / 3;
+  const few = count < 400;
+  // Smaller in a small picture, where as many robots share less room.
+  const size = Math.min(1, Math.max(0.7, view.width / 720));
+  const radius = size * (few ? 2.4 : 1.8);
+  const x = (i: number) => view.toPixelX(triples[3 * i + layout.x]);
+  const y = (i: number) => view.toPixelY(triples[3 * i + layout.y]);
+  const { heading, ahead = 1 } = layout;
+  if (heading !== null) {
+    const length = ahead * size * (few ? 13 : 9);
+    context.strokeStyle = palette.cloud;
+    context.lineWidth = 1;
+    context.globalAlpha = few ? 0.6 : 0.32;
+    for (let i = 0; i < count; i++) {
+      if (i % TICKS_A_STROKE === 0) context.beginPath();
+      headingTick(brush, x(i), y(i), triples[3 * i + heading], length);
+      if (i % TICKS_A_STROKE === TICKS_A_STROKE - 1 || i === count - 1) context.stroke();
+    }
+  }
+  context.globalAlpha = few ? 0.9 : 0.5;
+  context.fillStyle = palette.cloud;
+  for (let i = 0; i < count; i++) {
+    context.beginPath();
+    context.arc(x(i), y(i), radius, 0, 2 * Math.PI);
+    context.fill();
+  }
+  context.globalAlpha = 1;
+}
+
+/**
+ * Adds a line from a point in a direction of the world to the path.
+ *
+ * @param x CSS pixels
+ * @param heading radians
+ * @param length CSS pixels
+ */
+function headingTick({ context, view }: Brush, x: number, y: number, heading: number, length: number) {
+  const ahead = view.direction(heading);
+  context.moveTo(x, y);
+  context.lineTo(x + length * ahead.x, y + length * ahead.y);
+}
+
+/** Many robots at one place: a single marker, and every heading as a ray of a fan. */
+export function drawHeap(brush: Brush, { x, y, headings, label }: { x: number, y: number, headings: number[], label: string }) {
+  const { context, view, palette } = brush;
+  const px = view.toPixelX(x);
+  const py = view.toPixelY(y);
+  context.strokeStyle = palette.prediction;
+  context.lineWidth = 1;
+  context.globalAlpha = Math.min(1, 30 / headings.length);
+  for (const heading of headings) {
+    context.beginPath();
+    headingTick(brush, px, py, heading, 64);
+    context.stroke();
+  }
+  context.globalAlpha = 1;
+  context.fillStyle = palette.prediction;
+  context.beginPath();
+  // Large enough to show around the handle, which is often in the same place.
+  context.arc(px, py, 14, 0, 2 * Math.PI);
+  context.fill();
+  drawLabel(brush, { x: px + 14, y: py + 27, towards: 1, text: label, colour: palette.prediction });
+}
+
+/**
+ * The colours of a density by the share of its fullest cell: ink of the role's colour, thinner where there is less.
+ *
+ * @returns red, green, blue and alpha of each
+ */
+export function densityRamp(palette: Palette): Uint8Array {
+  const cloud = channels(palette.cloud);
+  const ink = channels(palette.ink);
+  const ramp = new Uint8Array(4 * limits.ramp);
+  for (let i = 0; i < limits.ramp; i++) {
+    const shade = i / (limits.ramp - 1);
+    const darkening = 0.6 * Math.max(0, shade - 0.5);
+    for (let k = 0; k < 3; k++) ramp[4 * i + k] = cloud[k] + darkening * (ink[k] - cloud[k]);
+    ramp[4 * i + 3] = 255 * (0.15 + 0.85 * shade);
+  }
+  return ramp;
+}
+
+/**
+ * An image that covers the inside of the axes. Only the part with ink is drawn: of a density most is empty, and to stretch it
+ * costs more than all the rest of a picture.
+ *
+ * @param grid what the pixels go through to be stretched
+ * @param pixels row 0 at the top
+ */
+export function drawPixels({ context, view }: Brush, grid: OffscreenCanvas, pixels: Uint8ClampedArray<ArrayBuffer>, columns: number) {
+  const rows = pixels.length / (4 * columns);
+  if (grid.width !== columns) grid.width = columns;
+  if (grid.height !== rows) grid.height = rows;
+  const inked = inkedPart(pixels, columns, rows);
+  if (!inked) return;
+  const [x, y, width, height] = inked;
+  // All of them: where they are stretched, those around the part shine through its edges.
+  hiddenContext(grid).putImageData(new ImageData(pixels, columns, rows), 0, 0);
+  const { left, right, top, bottom } = view.frame;
+  const [across, down] = [(right - left) / columns, (bottom - top) / rows];
+  context.imageSmoothingEnabled = true;
+  context.drawImage(grid, x, y, width, height, left + across * x, top + down * y, across * width, down * height);
+}
+
+/**
+ * Draws a density over the inside of the axes.
+ *
+ * @param grid as for `drawPixels`
+ * @param cell CSS pixels
+ */
+export function drawDensity(brush: Brush, grid: OffscreenCanvas, cell: number, pixelsOf: (...view: [xMin: number, yMin: number, xMax: number, yMax: number, columns: number, rows: number]) => Uint8ClampedArray<ArrayBuffer>) {
+  const { left, right, top, bottom } = brush.view.frame;
+  const { xMin, yMin, xMax, yMax } = brush.view.extent;
+  const [columns, rows] = [right - left, bottom - top].map((length) => Math.max(1, Math.round(length / cell)));
+  drawPixels(brush, grid, pixelsOf(xMin, yMin, xMax, yMax, columns, rows), columns);
+}
+
+/** The box of the pixels with ink and a pixel around it, into which they fade where they are stretched. */
+function inkedPart(pixels: Uint8ClampedArray<ArrayBuffer>, columns: number, rows: number): [x: number, y: number, width: number, height: number] | undefined {
+  const cells = new Uint32Array(pixels.buffer, pixels.byteOffset, columns * rows);
+  let [left, right, first, last] = [columns, 0, -1, -1];
+  for (let i = 0; i < cells.length; i++) {
+    if (cells[i] === 0) continue;
+    if (first < 0) first = i;
+    last = i;
+    left = Math.min(left, i % columns);
+    right = Math.max(right, i % columns);
+  }
+  if (first < 0) return undefined;
+  const [x, y] = [Math.max(0, left - 1), Math.max(0, Math.floor(first / columns) - 1)];
+  return [x, y, Math.min(columns, right + 2) - x, Math.min(rows, Math.floor(last / columns) + 2) - y];
+}
+
+/** Adds a polyline through x, y pairs to the path. */
+export function trace({ context, view }: Brush, points: Float64Array) {
+  context.moveTo(view.toPixelX(points[0]), view.toPixelY(points[1]));
+  for (let i = 2; i < points.length; i += 2) {
+    context.lineTo(view.toPixelX(points[i]), view.toPixelY(points[i + 1]));
+  }
+}
+
+export interface Outline {
+  /** X, y pairs. */
+  points: Float64Array;
+  colour: string;
+  /** CSS pixels. */
+  width: number;
+  dash: number[];
+}
+
+/** Width of a highlighted line, times its own. */
+const THICK = 1.9;
+
+/** Ink of the lines that are not highlighted. */
+const FAINT = 0.3;
+
+/** Returns how lines are drawn by name: in the colours of their roles, the highlighted one thicker and all others faint. */
+export function lineStyles<Name extends string>({ palette, highlight }: Pick<Brush, 'palette' | 'highlight'>, lines: Record<Name, import('../figure/overlays.ts').LineStyle>) {
+  const isLit = Object.keys(lines).some((name) => name === highlight);
+  const styles = Object.entries(lines as Record<string, import('../figure/overlays.ts').LineStyle>).map(([name, { role, width = 2.25, dash = [] }]) => {
+    const colour = isLit && name !== highlight ? `rgb(${channels(palette[role]).join(' ')} / ${FAINT})` : palette[role];
+    return [name, { colour, width: name === highlight ? THICK * width : width, dash }];
+  });
+  return Object.fromEntries(styles) as Record<Name, { colour: string, width: number, dash: number[] }>;
+}
+
+/** Whether an outline has any length: that of robots at one place has none but of rounding. */
+export const hasLength = (points: Float64Array) => points.some((value, i) => Math.abs(value - points[i % 2]) > 1e-9);
+
+/**
+ * Polylines with halos of paper, so that they read on top of the cloud. The halos are below all of them: where two nearly
+ * coincide, both are seen.
+ *
+ * @param outlines the last one on top
+ */
+export function drawOutlines(brush: Brush, outlines: Outline[]) {
+  const { context, palette } = brush;
+  const drawn = outlines.filter(({ points }) => hasLength(points));
+  context.lineJoin = 'round';
+  context.globalAlpha = 0.7;
+  context.strokeStyle = palette.paper;
+  for (const { points, width } of drawn) {
+    context.beginPath();
+    trace(brush, points);
+    context.lineWidth = width + 2.5;
+    context.stroke();
+  }
+  context.globalAlpha = 1;
+  strokeLines(brush, drawn);
+}
+
+/** Draws lines in their own styles. */
+function strokeLines(brush: Brush, lines: Outline[]) {
+  const { context } = brush;
+  for (const { points, colour, width, dash } of lines) {
+    context.beginPath();
+    trace(brush, points);
+    context.strokeStyle = colour;
+    context.lineWidth = width;
+    context.setLineDash(dash);
+    context.stroke();
+  }
+  context.setLineDash([]);
+}
+
+/** Opacity of outlines as they were. */
+const GHOST = 0.35;
+
+/** Draws outlines as they were before what is seen now. */
+export function drawGhosts(brush: Brush, outlines: Outline[]) {
+  brush.context.globalAlpha = GHOST;
+  strokeLines(brush, outlines.filter(({ points }) => hasLength(points)));
+  brush.context.globalAlpha = 1;
+}
+
+/** A single one of them. */
+export function drawOutline(brush: Brush, points: Float64Array, style: Omit<Outline, 'points'>) {
+  drawOutlines(brush, [{ points, ...style }]);
+}
+
+/** A robot seen from above: a disc with a line to the front. */
+export function drawRobot(brush: Brush, { x, y, heading, colour }: { x: number, y: number, heading: number, colour: string }) {
+  const { context, view, palette } = brush;
+  const px = view.toPixelX(x);
+  const py = view.toPixelY(y);
+  context.beginPath();
+  context.arc(px, py, 8, 0, 2 * Math.PI);
+  context.fillStyle = palette.paper;
+  context.fill();
+  headingTick(brush, px, py, heading, 14);
+  context.strokeStyle = colour;
+  context.lineWidth = 2;
+  context.stroke();
+}
+
+/**
+ * Paints a handle where no element stands for it: in files and on paper.
+ *
+ * @param handle pixels
+ */
+export function drawHandle({ context, palette, handles }: Brush, { x, y, radius, colour }: { x: number, y: number, radius: number, colour: string }) {
+  if (!handles) return;
+  context.beginPath();
+  context.arc(x, y, radius, 0, 2 * Math.PI);
+  context.fillStyle = palette.paper;
+  context.fill();
+  context.strokeStyle = colour;
+  context.lineWidth = 3;
+  context.stroke();
+}
+
+/**
+ * The ring and cross hairs of the marked sample.
+ *
+ * @param accent its colour
+ */
+export function drawMark(brush: Brush, { x, y, heading }: { x: number, y: number, heading: number | null }, accent: string = brush.palette.accent) {
+  const { context, view, palette } = brush;
+  const px = view.toPixelX(x);
+  const py = view.toPixelY(y);
+  for (const [colour, width] of ([
+    [palette.paper, 5],
+    [accent, 2],
+  ] as const)) {
+    context.strokeStyle = colour;
+    context.lineWidth = width;
+    context.beginPath();
+    context.arc(px, py, 7, 0, 2 * Math.PI);
+    for (const [dx, dy] of [[1, 0], [0, 1], [-1, 0], [0, -1]]) {
+      context.moveTo(px + 7 * dx, py + 7 * dy);
+      context.lineTo(px + 12 * dx, py + 12 * dy);
+    }
+    if (heading !== null) headingTick(brush, px, py, heading, 24);
+    context.stroke();
+  }
+}

@@ -1,0 +1,160 @@
+/** Something in a picture under the reader's hand: dragged by pointer, moved from the keyboard. */
+
+import { html, nothing } from 'lit';
+import { length, pointOn } from './canvas.ts';
+
+/** What a handle acts on; lengths in metres. */
+export interface Hooks {
+  view: () => import('./view.ts').View;
+  /** X and y of what is held by a pointer that is there; the middle of the handle where it is left out. */
+  at?: (pointer: number[]) => number[];
+  /** What is held is wanted there. */
+  drag: (x: number, y: number) => void;
+  /** True if the key is one that moved it. */
+  key: (event: KeyboardEvent) => boolean;
+  /** Commit it has come to rest. */
+  commit: () => void;
+}
+
+/** Said of a handle. */
+export interface Said {
+  name: string;
+  keys: string;
+  title: string;
+  /** Range from and to. */
+  range: number[];
+  now: number;
+  /** The value in words. */
+  text: string;
+  /** A few words on what it has come up against, if it has. */
+  stop?: string | false;
+  /** A few words to one who has not seen it yet, while it pulses once. */
+  hint?: string | false;
+}
+
+/** Steps of keys, x and y up: Home and End go to the ends of the range along x. */
+const STEPS: Record<string, [number, number]> = {
+  ArrowRight: [1, 0],
+  ArrowLeft: [-1, 0],
+  ArrowUp: [0, 1],
+  ArrowDown: [0, -1],
+  PageUp: [0, 10],
+  PageDown: [0, -10],
+  Home: [-Infinity, 0],
+  End: [Infinity, 0],
+};
+
+/** Steps of an arrow key with Shift. */
+const LONG_STEP = 5;
+
+/** Returns the steps along x and y that a key moves something by; undefined for other keys and those of the browser. */
+export function stepsOf({ key, shiftKey, ctrlKey, metaKey, altKey }: KeyboardEvent): [number, number] | undefined {
+  const steps = ctrlKey || metaKey || altKey ? undefined : STEPS[key];
+  if (!steps || !shiftKey || !key.startsWith('Arrow')) return steps;
+  return [LONG_STEP * steps[0], LONG_STEP * steps[1]];
+}
+
+export class Handle {
+  #part;
+  #hooks;
+  /** The pointer that holds it, and its element. */
+  #hold: { id: number, by: Element } | undefined;
+  /** From the pointer to what is held, metres: taken by its edge it does not jump. */
+  #grip = [0, 0];
+  /** Where its middle was placed, pixels of the view: on the screen it is rounded. */
+  #middle = [0, 0];
+
+  /** @param part classes of its element */
+  constructor(part: string, hooks: Hooks) {
+    this.#part = part;
+    this.#hooks = hooks;
+  }
+
+  /** Whether a pointer holds it: a browser lets go of what leaves the page, and tells nobody. */
+  get held() {
+    return this.#hold?.by.hasPointerCapture(this.#hold.id) ?? false;
+  }
+
+  element({ name, keys, title, range, now, text, stop, hint }: Said) {
+    // What stops it stands beside it, towards the middle of the picture.
+    const side = 2 * this.#middle[0] > this.#hooks.view().width ? 'right' : '';
+    return html`<div
+      class="handle ${this.#part} ${side} ${this.held ? 'held' : ''}"
+      role="slider"
+      tabindex="0"
+      aria-label=${name}
+      aria-description=${keys}
+      aria-valuemin=${range[0]}
+      aria-valuemax=${range[1]}
+      aria-valuenow=${now}
+      aria-valuetext=${stop ? `${text}. ${stop}` : text}
+      data-stop=${stop || nothing}
+      data-hint=${hint || nothing}
+      title=${title}
+      @pointerdown=${this.#take}
+      @pointermove=${this.#drag}
+      @pointerup=${this.#release}
+      @pointercancel=${this.#release}
+      @keydown=${this.#key}
+    ></div>`;
+  }
+
+  /**
+   * @param root that it was rendered into
+   * @param x of its middle, pixels of the view: its style has that at 0
+   * @param size its width and height; that of its style where it is left out
+   */
+  place(root: ParentNode, x: number, y: number, size?: number) {
+    const handle = root.querySelector(`.handle.${this.#part.replace(' ', '.')}`) as HTMLElement | null;
+    if (!handle) return;
+    this.#middle = [x, y];
+    if (size !== undefined) handle.style.width = handle.style.height = length(size);
+    handle.style.translate = `${length(x)} ${length(y)}`;
+  }
+
+  /**
+   * @param point pixels of the view
+   * @returns the same in metres
+   */
+  #world([x, y]: number[]): number[] {
+    const view = this.#hooks.view();
+    return [view.toWorldX(x), view.toWorldY(y)];
+  }
+
+  /**
+   * @param event on the handle
+   * @returns where the pointer is, metres
+   */
+  #pointer(event: PointerEvent): number[] {
+    const { parentElement } = event.currentTarget as Element;
+    return this.#world(pointOn(parentElement as Element, this.#hooks.view(), event));
+  }
+
+  #take = (event: PointerEvent) => {
+    if (event.button !== 0) return;
+    const handle = event.currentTarget as Element;
+    handle.setPointerCapture(event.pointerId);
+    this.#hold = { id: event.pointerId, by: handle };
+    const pointer = this.#pointer(event);
+    const held = this.#hooks.at?.(pointer) ?? this.#world(this.#middle);
+    this.#grip = [held[0] - pointer[0], held[1] - pointer[1]];
+  };
+
+  #drag = (event: PointerEvent) => {
+    if (!this.held) return;
+    const [x, y] = this.#pointer(event);
+    this.#hooks.drag(x + this.#grip[0], y + this.#grip[1]);
+  };
+
+  #release = () => {
+    if (!this.#hold) return;
+    this.#hold = undefined;
+    this.#hooks.commit();
+  };
+
+  #key = (event: KeyboardEvent) => {
+    if (!this.#hooks.key(event)) return;
+    event.preventDefault();
+    this.#hooks.commit();
+  };
+}

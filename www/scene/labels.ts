@@ -1,0 +1,146 @@
+/** Labels in pictures: a symbol with its subscript, and a text. */
+
+import { clamp } from '../ui/clamp.ts';
+import type { Brush } from './canvas.ts';
+
+/** Size of a subscript, as a share of the letters, and its distance below the line, pixels. */
+const SUBSCRIPT = 0.78;
+const DROP = 3;
+
+/** Half the height of a label's ground, pixels, and its opacity. */
+const GROUND = { half: 9, alpha: 0.9 };
+
+/** Distance from row to row of labels above a picture, and gap between two of one row, pixels. */
+const ROW = 17;
+const GAP = 12;
+
+/** Room that two rows of labels need above a picture, beside the name of its axis, pixels. */
+export const LABELS_ABOVE = 24 + ROW;
+
+export interface Text {
+  /** Symbol in italics. */
+  symbol?: string;
+  /** Subscript of the symbol. */
+  sub?: string;
+  /** Text after the symbol. */
+  text?: string;
+}
+
+/**
+ * Draws a label on a ground of its own, inside of the axes.
+ *
+ * @param label with its place in pixels, and the side of it that has room, from −1 for the left to 1 for the right
+ */
+export function drawLabel(brush: Brush, { x, y, towards, colour, ...text }: Text & { x: number, y: number, towards: number, colour: string }) {
+  const { context, view, palette } = brush;
+  const parts = measured(brush, text);
+  if (parts.length === 0) return;
+  const width = widthOf(parts);
+  const { left, right, top, bottom } = view.frame;
+  const at = clamp(x - (0.5 - 0.5 * towards) * width, left + 3, Math.max(left + 3, right - width - 3));
+  const line = clamp(y, top + 10, bottom - 10);
+  context.fillStyle = palette.paper;
+  context.globalAlpha = GROUND.alpha;
+  context.fillRect(at - 2, line - GROUND.half, width + 4, 2 * GROUND.half);
+  context.globalAlpha = 1;
+  write(brush, parts, at, line, colour);
+}
+
+/**
+ * Draws labels above a picture, each with a leader to what it names. From left to right they stand in two rows by turns, so that a leader
+ * of the upper row passes between two labels of the lower one.
+ *
+ * @param brush of a view with {@link LABELS_ABOVE} at its top
+ * @param labels with their anchors in pixels
+ */
+export function drawLabelsAbove(brush: Brush, labels: (Text & { x: number, y: number, colour: string })[]) {
+  const { context, view, palette } = brush;
+  const { left, right, top } = view.frame;
+  const placed = labels
+    .map((label) => ({ ...label, parts: measured(brush, label) }))
+    .map((label) => ({ ...label, width: widthOf(label.parts) }))
+    .sort((one, other) => one.x - other.x)
+    .map((label, i) => ({ ...label, row: i % 2, from: label.x - label.width / 2 }));
+  for (const row of [0, 1]) {
+    const inRow = placed.filter((label) => label.row === row);
+    // Each keeps clear of the one before it; then the last ones make room at the right.
+    let free = left;
+    for (const label of inRow) {
+      label.from = Math.max(label.from, free);
+      free = label.from + label.width + GAP;
+    }
+    free = right;
+    for (const label of inRow.toReversed()) {
+      label.from = Math.min(label.from, free - label.width);
+      free = label.from - GAP;
+    }
+  }
+  placed.forEach((label, i) => {
+    const { from, width, row, x, y, colour, parts } = label;
+    const line = top - GROUND.half - ROW * row;
+    const [before, after] = [placed[i - 1], placed[i + 1]];
+    const least = row === 0 ? from : before.from + before.width + GAP / 2;
+    const most = row === 0 ? from + width : (after?.from ?? right) - GAP / 2;
+    const leader = clamp(x, least, Math.max(least, most));
+    const begin = [clamp(leader, from, from + width), line + GROUND.half];
+    drawLeader(context, [begin, [leader, top - (row === 0 ? 0 : ROW)], [leader, top], [x, y]], palette.muted);
+    write(brush, parts, from, line, colour);
+  });
+}
+
+/**
+ * Draws a leader: a thin line from a text to a point, with a dot at the point.
+ *
+ * @param line its points, x and y in pixels; the dot is at the last
+ */
+export function drawLeader(context: CanvasRenderingContext2D, line: number[][], colour: string) {
+  context.strokeStyle = context.fillStyle = colour;
+  context.lineWidth = 1;
+  context.beginPath();
+  for (const [x, y] of line) context.lineTo(x, y);
+  context.stroke();
+  const [x, y] = line[line.length - 1];
+  context.beginPath();
+  context.arc(x, y, 2.5, 0, 2 * Math.PI);
+  context.fill();
+}
+
+/** Returns the parts of a text with their widths. */
+function measured({ context, font }: Brush, { symbol = '', sub = '', text = '' }: Text) {
+  const small = font.replace(/[\d.]+px/, (size) => `${SUBSCRIPT * parseFloat(size)}px`);
+  const parts = [
+    { text: symbol, style: `italic ${font}`, drop: 0 },
+    { text: sub, style: small, drop: DROP },
+    { text: symbol && text ? ` ${text}` : text, style: font, drop: 0 },
+  ].filter((part) => part.text);
+  return parts.map((part) => {
+    context.font = part.style;
+    return { ...part, width: context.measureText(part.text).width };
+  });
+}
+
+const widthOf = (parts: { width: number }[]) => parts.reduce((sum, { width }) => sum + width, 0);
+
+/**
+ * Writes parts one after the other, with a halo of paper.
+ *
+ * @param x of the left end, pixels
+ * @param y of the middle
+ */
+function write({ context, palette }: Brush, parts: ReturnType<typeof measured>, x: number, y: number, colour: string) {
+  context.save();
+  context.textAlign = 'left';
+  context.textBaseline = 'middle';
+  context.lineJoin = 'round';
+  context.lineWidth = 4;
+  context.strokeStyle = palette.paper;
+  context.fillStyle = colour;
+  let at = x;
+  for (const { text, style, drop, width } of parts) {
+    context.font = style;
+    context.strokeText(text, at, y + drop);
+    context.fillText(text, at, y + drop);
+    at += width;
+  }
+  context.restore();
+}

@@ -1,0 +1,171 @@
+/**
+ * A stand-in for a canvas that writes down what is drawn on it as SVG: the pictures are drawn once and
+ * for both. It knows what scene/draw.js and the pictures use of a canvas, and no more.
+ */
+
+/** What XML has no way to write. */
+const UNWRITABLE = /[^\t\n\r\u0020-\ud7ff\ue000-\ufffd\u{10000}-\u{10ffff}]/gu;
+
+export const escaped = (text: string) =>
+  text.replace(UNWRITABLE, '\ufffd').replaceAll('&', '&amp;').replaceAll('<', '&lt;').replaceAll('>', '&gt;').replaceAll('"', '&quot;');
+
+/** @param length CSS pixels: a hundredth of one is finer than any printer */
+export const short = (length: number) => String(Math.round(100 * length) / 100);
+
+/** Moves a text down from where the canvas has its baseline, in its own height. */
+const BASELINES = { top: '0.8em', middle: '0.33em' } as Record<string, string>;
+const ANCHORS = { center: 'middle', right: 'end' } as Record<string, string>;
+
+export class SvgContext {
+  /** Tells those who draw pixels for speed that here are none. */
+  vector = true;
+  strokeStyle = '';
+  fillStyle = '';
+  lineWidth = 1;
+  lineJoin = 'miter';
+  lineCap = 'butt';
+  globalAlpha = 1;
+  font = '';
+  textAlign = 'left';
+  textBaseline = 'alphabetic';
+  direction = 'ltr';
+  imageSmoothingEnabled = true;
+  #path = '';
+  #dash: number[] = [];
+  #marks: string[] = [];
+  /** Groups to be closed by each `restore`. */
+  #open: number[] = [];
+  #clips = 0;
+  #name;
+  #ruler = new OffscreenCanvas(1, 1).getContext('2d') as OffscreenCanvasRenderingContext2D;
+
+  /** @param name that the ids begin with: several figures may stand on one page */
+  constructor(name: string) {
+    this.#name = name;
+  }
+
+  /** What was drawn, as elements of SVG. */
+  get markup() {
+    return this.#marks.join('\n');
+  }
+
+  // What was cleared is not there, and the unit is the CSS pixel anyhow.
+  setTransform() {}
+  clearRect() {}
+
+  save() {
+    this.#open.push(0);
+  }
+
+  translate: CanvasTransform['translate'] = (x, y) => {
+    this.#marks.push(`<g transform="translate(${short(x)} ${short(y)})">`);
+    this.#open[this.#open.length - 1]++;
+  };
+
+  restore() {
+    this.#marks.push('</g>'.repeat(this.#open.pop() ?? 0));
+  }
+
+  beginPath() {
+    this.#path = '';
+  }
+
+  moveTo: CanvasPath['moveTo'] = (x, y) => {
+    this.#path += `M${short(x)},${short(y)}`;
+  };
+
+  lineTo: CanvasPath['lineTo'] = (x, y) => {
+    // A canvas begins a path so, too.
+    this.#path += `${this.#path ? 'L' : 'M'}${short(x)},${short(y)}`;
+  };
+
+  arc: CanvasPath['arc'] = (x, y, radius, from, to, backwards = false) => {
+    const r = short(radius);
+    const turn = backwards ? from - to : to - from;
+    if (turn >= 2 * Math.PI) {
+      const across = short(2 * radius);
+      this.#path += `M${short(x - radius)},${short(y)}a${r},${r} 0 1 0 ${across},0a${r},${r} 0 1 0 -${across},0Z`;
+      return;
+    }
+    const at = (angle: number) => `${short(x + radius * Math.cos(angle))},${short(y + radius * Math.sin(angle))}`;
+    const [large, clockwise] = [turn > Math.PI, !backwards].map(Number);
+    this.#path += `${this.#path ? 'L' : 'M'}${at(from)}A${r},${r} 0 ${large} ${clockwise} ${at(to)}`;
+  };
+
+  rect: CanvasPath['rect'] = (x, y, width, height) => {
+    this.#path += `M${short(x)},${short(y)}h${short(width)}v${short(height)}h${short(-width)}Z`;
+  };
+
+  closePath() {
+    this.#path += 'Z';
+  }
+
+  fillRect: CanvasRect['fillRect'] = (...box) => {
+    this.#path = '';
+    this.rect(...box);
+    this.fill();
+  };
+
+  strokeRect: CanvasRect['strokeRect'] = (...box) => {
+    this.#path = '';
+    this.rect(...box);
+    this.stroke();
+  };
+
+  clip() {
+    const id = `${this.#name}-clip${++this.#clips}`;
+    this.#marks.push(`<clipPath id="${id}"><path d="${this.#path}"/></clipPath><g clip-path="url(#${id})">`);
+    if (this.#open.length) this.#open[this.#open.length - 1]++;
+  }
+
+  setLineDash(dash: number[]) {
+    this.#dash = dash;
+  }
+
+  stroke() {
+    this.#marks.push(`<path d="${this.#path}" fill="none"${this.#line()}/>`);
+  }
+
+  fill() {
+    this.#marks.push(`<path d="${this.#path}" fill="${this.fillStyle}"${this.#opacity()}/>`);
+  }
+
+  #opacity() {
+    return this.globalAlpha === 1 ? '' : ` opacity="${this.globalAlpha}"`;
+  }
+
+  #line() {
+    const dash = this.#dash.length ? ` stroke-dasharray="${this.#dash}"` : '';
+    const cap = this.lineCap === 'butt' ? '' : ` stroke-linecap="${this.lineCap}"`;
+    const join = this.lineJoin === 'miter' ? '' : ` stroke-linejoin="${this.lineJoin}"`;
+    return ` stroke="${this.strokeStyle}" stroke-width="${this.lineWidth}"${dash}${cap}${join}${this.#opacity()}`;
+  }
+
+  measureText(text: string) {
+    this.#ruler.font = this.font;
+    return this.#ruler.measureText(text);
+  }
+
+  fillText: CanvasText['fillText'] = (text, x, y) => this.#text(text, x, y, ` fill="${this.fillStyle}"${this.#opacity()}`);
+
+  strokeText: CanvasText['strokeText'] = (text, x, y) => this.#text(text, x, y, ` fill="none"${this.#line()}`);
+
+  #text(text: string, x: number, y: number, paint: string) {
+    const dy = BASELINES[this.textBaseline] ?? '0';
+    const anchor = ANCHORS[this.textAlign] ?? 'start';
+    const place = `x="${short(x)}" y="${short(y)}" dy="${dy}" text-anchor="${anchor}"`;
+    this.#marks.push(`<text ${place} style="font:${escaped(this.font)}"${paint}>${escaped(text)}</text>`);
+  }
+
+  /** @param place x, y, width and height; before them those of the part of the image, where it is not all of it */
+  drawImage(image: CanvasImageSource & { width: number, height: number }, ...place: number[]) {
+    const [x, y, width, height] = place.slice(-4).map(short);
+    const [fromX, fromY, columns, rows] = place.length > 4 ? place : [0, 0, image.width, image.height];
+    const canvas = document.createElement('canvas');
+    canvas.width = columns;
+    canvas.height = rows;
+    (canvas.getContext('2d') as CanvasRenderingContext2D).drawImage(image, -fromX, -fromY);
+    const box = `x="${x}" y="${y}" width="${width}" height="${height}"`;
+    this.#marks.push(`<image ${box} preserveAspectRatio="none" href="${canvas.toDataURL()}"${this.#opacity()}/>`);
+  }
+}

@@ -1,0 +1,169 @@
+/** Layer of the walls of a map: there may be thousands, and they change only with the map, the view or the colours. */
+
+import { clamp } from '../ui/clamp.ts';
+import { channels } from '../ui/theme.ts';
+import { hiddenContext } from './canvas.ts';
+import type { View } from './view.ts';
+import type { Brush } from './canvas.ts';
+import type { Grid, Plan } from '../types.d.ts';
+
+/** Cells of a grid; without the unknown ones where there are none. */
+export type Cells = Omit<Grid, 'unknown'> & { unknown?: Uint8Array };
+
+export type Painter = Pick<Brush, 'view' | 'palette' | 'ratio' | 'highlight'> & { context: CanvasRenderingContext2D | OffscreenCanvasRenderingContext2D };
+
+/** Width of a wall, CSS pixels. */
+const WALL = 2.5;
+
+/** Distance, width and opacity of the lines that hatch unknown cells; lengths in CSS pixels. */
+const HATCH = { apart: 7, width: 1, opacity: 0.4 };
+
+/** Walls that are stroked at once: browsers take far longer for one path of many. */
+const WALLS_A_STROKE = 500;
+
+/** Plans of so few walls are stroked with every picture: copying a layer takes longer. */
+const FEW_WALLS = 50;
+
+export class WallLayer {
+  #plan;
+  #grid;
+  #layer = new OffscreenCanvas(1, 1);
+  /** View and colours that the layer was painted with. */
+  #shown = '';
+
+  /** @param grid the cells that are drawn instead of the walls, if the map is a grid */
+  constructor(plan: Plan, grid: Cells | null) {
+    this.#plan = plan;
+    this.#grid = grid;
+  }
+
+  /** @param unknown whether unknown cells are hatched */
+  draw(brush: Brush, unknown: boolean) {
+    const { context, view, palette, ratio } = brush;
+    const { extent, frame, width, height } = view;
+    const { walls } = this.#plan;
+    if (!this.#grid && ('vector' in context || walls.length <= 4 * FEW_WALLS)) {
+      this.#paint(brush, unknown);
+      return;
+    }
+    const wanted = JSON.stringify([extent, frame, width, height, palette.truth, palette.rule, palette.muted, ratio, unknown]);
+    if (wanted !== this.#shown) {
+      this.#shown = wanted;
+      // A new size clears the layer.
+      this.#layer.width = Math.round(width * ratio);
+      this.#layer.height = Math.round(height * ratio);
+      const layer = hiddenContext(this.#layer);
+      layer.scale(ratio, ratio);
+      this.#paint({ context: layer, view, palette, ratio }, unknown);
+    }
+    context.drawImage(this.#layer, 0, 0, width, height);
+  }
+
+  #paint(painter: Painter, unknown: boolean) {
+    const { context, view, palette } = painter;
+    const grid = this.#grid;
+    if (unknown && grid?.unknown) {
+      // The cells say where, the hatching goes there.
+      fillCells(painter, grid, grid.unknown, palette.muted);
+      context.globalCompositeOperation = 'source-in';
+      hatch(context, view, palette.muted);
+      context.globalCompositeOperation = 'source-over';
+    }
+    if (grid) fillCells(painter, grid, grid.occupied, palette.truth);
+    const { bounds } = this.#plan;
+    const [left, top] = [view.toPixelX(bounds[0]), view.toPixelY(bounds[3])];
+    context.strokeStyle = palette.rule;
+    context.lineWidth = 1;
+    context.strokeRect(left, top, view.toPixelX(bounds[2]) - left, view.toPixelY(bounds[1]) - top);
+    if (!grid) this.#stroke(painter);
+  }
+
+  #stroke({ context, view, palette }: Painter) {
+    const { walls } = this.#plan;
+    context.strokeStyle = palette.truth;
+    context.lineWidth = WALL;
+    context.lineCap = 'round';
+    for (let begin = 0; begin < walls.length; begin += 4 * WALLS_A_STROKE) {
+      context.beginPath();
+      for (let i = begin; i < Math.min(walls.length, begin + 4 * WALLS_A_STROKE); i += 4) {
+        context.moveTo(view.toPixelX(walls[i]), view.toPixelY(walls[i + 1]));
+        context.lineTo(view.toPixelX(walls[i + 2]), view.toPixelY(walls[i + 3]));
+      }
+      context.stroke();
+    }
+    context.lineCap = 'butt';
+  }
+}
+
+/** Diagonals over the whole of a view. */
+function hatch(context: Painter['context'], { width, height }: View, colour: string) {
+  context.beginPath();
+  for (let x = -height; x < width; x += HATCH.apart) {
+    context.moveTo(x, height);
+    context.lineTo(x + height, 0);
+  }
+  context.strokeStyle = colour;
+  context.lineWidth = HATCH.width;
+  context.globalAlpha = HATCH.opacity;
+  context.stroke();
+  context.globalAlpha = 1;
+}
+
+/**
+ * Range of the cells that a view shows, in whole squares.
+ *
+ * @param side of a square, in cells
+ * @returns first column and row, and those after the last
+ */
+function cellsIn({ extent: { xMin, xMax, yMin, yMax } }: View, { columns, rows, resolution, origin: [x, y, yaw] }: Cells, side: number): number[] {
+  const [along, up] = [Math.cos(yaw) / resolution, Math.sin(yaw) / resolution];
+  const corners = [xMin - x, xMax - x].flatMap((dx) => [yMin - y, yMax - y].map((dy) => [dx * along + dy * up, dy * along - dx * up]));
+  const ends = [columns, rows].map((count, i) => {
+    const all = corners.map((corner) => clamp(corner[i], 0, count));
+    return [Math.floor(Math.min(...all) / side) * side, Math.min(count, Math.ceil(Math.max(...all) / side) * side)];
+  });
+  return [0, 1].flatMap((end) => ends.map((each) => each[end]));
+}
+
+/** Position of the corner of a cell, m. */
+export function cornerOf({ resolution, origin: [x, y, yaw] }: Cells, column: number, row: number) {
+  const [along, up] = [resolution * Math.cos(yaw), resolution * Math.sin(yaw)];
+  return [x + column * along - row * up, y + column * up + row * along];
+}
+
+/**
+ * Fills the cells of a kind. A view of a whole building has many cells a pixel: squares of them are drawn, each as soon as one
+ * of its cells is of the kind, so that thin walls stay visible.
+ *
+ * @param cells 1 for those of the kind
+ */
+function fillCells({ context, view, ratio }: Painter, grid: Cells, cells: Uint8Array, colour: string) {
+  const side = Math.max(1, Math.floor(1 / (grid.resolution * view.scaleX * ratio)));
+  const [left, bottom, right, top] = cellsIn(view, grid, side);
+  const [width, height] = [Math.ceil((right - left) / side), Math.ceil((top - bottom) / side)];
+  if (width < 1 || height < 1) return;
+  const image = new ImageData(width, height);
+  const pixels = new Uint32Array(image.data.buffer);
+  const [ink] = new Uint32Array(Uint8Array.of(...channels(colour), 255).buffer);
+  for (let row = bottom; row < top; row++) {
+    const end = row * grid.columns + right;
+    let pixel = Math.floor((row - bottom) / side) * width;
+    for (let i = row * grid.columns + left; i < end; pixel++) {
+      for (const next = Math.min(i + side, end); i < next; i++) if (cells[i]) pixels[pixel] = ink;
+    }
+  }
+  const canvas = new OffscreenCanvas(width, height);
+  hiddenContext(canvas).putImageData(image, 0, 0);
+  const corner = (column: number, row: number) => {
+    const [x, y] = cornerOf(grid, column, row);
+    return [view.toPixelX(x), view.toPixelY(y)];
+  };
+  // Rows of the image go up, as those of the grid.
+  const [[fromX, fromY], [rightX, rightY], [aboveX, aboveY]] = [corner(left, bottom), corner(left + side, bottom), corner(left, bottom + side)];
+  context.save();
+  context.transform(rightX - fromX, rightY - fromY, aboveX - fromX, aboveY - fromY, fromX, fromY);
+  // Large cells have sharp edges.
+  context.imageSmoothingEnabled = side > 1;
+  context.drawImage(canvas, 0, 0);
+  context.restore();
+}

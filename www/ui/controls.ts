@@ -1,0 +1,293 @@
+/** Native inputs with a label, buttons, and groups of them. */
+
+import { css, html, nothing } from 'lit';
+import { live } from 'lit/directives/live.js';
+
+export const controlStyles = css`
+  fieldset {
+    display: grid;
+    min-width: 0;
+    margin: 0 0 0.5em;
+    padding: 0;
+    border: 0;
+    position: relative;
+  }
+
+  .effect {
+    color: var(--muted);
+    font-size: 0.84em;
+    line-height: 1.25;
+  }
+
+  :is(button, input, textarea, summary, .handle, .reserved):focus-visible {
+    outline: 2px solid var(--accent);
+    outline-offset: 2px;
+  }
+
+  summary {
+    width: fit-content;
+    min-height: 1.75em;
+    cursor: pointer;
+  }
+
+  :is(button, textarea, input[type='number']),
+  ::file-selector-button {
+    background: none;
+    border: 1px solid var(--muted);
+    border-radius: 3px;
+    color: var(--ink);
+  }
+
+  /* A browser gives controls letters of a size of its own. */
+  input {
+    font-size: inherit;
+  }
+
+  /* As high and as wide about its letters, however small these are. */
+  button,
+  ::file-selector-button {
+    --size: 1;
+    min-height: calc(2em / var(--size));
+    padding: calc(0.15em / var(--size)) calc(var(--beside, 0.65em) / var(--size)) calc(0.25em / var(--size));
+    font: inherit;
+    font-size: calc(1em * var(--size));
+    cursor: pointer;
+  }
+
+  button:disabled {
+    border-color: var(--rule);
+    color: var(--muted);
+    cursor: default;
+  }
+
+  button:enabled:hover {
+    border-color: var(--ink);
+    box-shadow: inset 0 0 0 1px var(--ink);
+  }
+
+  button[aria-pressed='true'] {
+    background: var(--ink);
+    border-color: var(--ink);
+    color: var(--paper);
+  }
+
+  @media (forced-colors: active) {
+    :is(input[type='range'], svg, .handle) {
+      forced-color-adjust: none;
+    }
+
+    :is(button[aria-pressed='true'], .options .choice:has(:checked)) {
+      forced-color-adjust: none;
+      background: Highlight;
+      border-color: Highlight;
+      color: HighlightText;
+    }
+  }
+
+  /* Text with room for a longer one, which nobody sees. */
+  .roomy::after {
+    content: attr(data-room);
+    display: block;
+    height: 0;
+    overflow: hidden;
+    visibility: hidden;
+  }
+
+  legend {
+    margin-bottom: 0.25em;
+    padding: 0;
+    font-weight: bold;
+    font-size: 0.92em;
+  }
+
+  .choice,
+  .toggle {
+    display: inline-flex;
+    align-items: center;
+    gap: 0.45em;
+    min-height: 1.75em;
+    cursor: pointer;
+  }
+
+  .choices,
+  .options {
+    display: flex;
+    flex-wrap: wrap;
+    column-gap: 1em;
+  }
+
+  .choices {
+    align-items: center;
+    row-gap: 0.2em;
+    margin-bottom: 0.5em;
+  }
+
+  /* Segments: the whole label is pressed, and the chosen one filled. */
+  .options {
+    gap: 2px;
+  }
+
+  .options .choice {
+    position: relative;
+    min-height: 2em;
+    padding: 0 0.65em;
+    border: 1px solid var(--muted);
+    border-radius: 3px;
+  }
+
+  .options input {
+    position: absolute;
+    inset: 0;
+    width: 100%;
+    height: 100%;
+    margin: 0;
+    opacity: 0;
+  }
+
+  .options .choice:has(:checked) {
+    background: var(--ink);
+    border-color: var(--ink);
+    color: var(--paper);
+  }
+
+  .options .choice:has(:focus-visible) {
+    outline: 2px solid var(--accent);
+    outline-offset: 2px;
+  }
+
+  .marked {
+    display: flex;
+    flex-wrap: wrap;
+    align-items: center;
+    gap: 0.1em 1.1em;
+    min-height: 2.2em;
+    margin: 0.3em 0 0;
+  }
+
+  .marked output {
+    display: inline-flex;
+    flex-wrap: wrap;
+    gap: 0.1em 1.1em;
+  }
+
+  .marked label {
+    color: var(--accent);
+  }
+
+  .marked input {
+    width: 8em;
+    min-height: 1.75em;
+    margin-left: 0.3em;
+    padding: 0 0.3em;
+    font: inherit;
+    font-variant-numeric: inherit;
+  }
+
+  .hint {
+    color: var(--muted);
+    font-style: italic;
+  }
+
+  input:is([type='radio'], [type='checkbox']) {
+    flex: none;
+    width: 1em;
+    height: 1em;
+    margin: 0.25em;
+    accent-color: var(--ink);
+    cursor: pointer;
+  }
+`;
+
+/** Pieces of a formula in a message: italics and subscripts. */
+const PIECES = String.raw`\*(?:\\\*|[^*])+\*|[₀-₉]|_\{[^}]+\}`;
+const PIECE = new RegExp(PIECES, 'g');
+const FORMULA = new RegExp(`((?:${PIECES})+)`);
+
+/**
+ * A message with its formulas.
+ *
+ * @param message as messages/en.js has it; \\* is a star
+ */
+export function rich(message: string) {
+  // Every second part is a formula.
+  return message.split(FORMULA).map((part, i) => (i % 2 ? symbols(part.match(PIECE)?.map(printed)) : part));
+}
+
+function printed(piece: string) {
+  if (piece[0] === '*') return html`<i>${piece.slice(1, -1).replaceAll('\\*', '*')}</i>`;
+  return html`<sub>${piece[0] === '_' ? piece.slice(2, -1) : piece.charCodeAt(0) - 0x2080}</sub>`;
+}
+
+/** A value or formula: it has a direction of its own among words, and page translators leave it as it is. */
+export const symbols = (content: unknown) => html`<bdi translate="no" class="notranslate">${content}</bdi>`;
+
+/**
+ * Returns controls that belong together, under their heading.
+ *
+ * @param name class
+ */
+export function group(heading: unknown, controls: unknown, name?: string) {
+  return html`<fieldset class=${name ?? nothing}>
+    <legend>${heading}</legend>
+    ${controls}
+  </fieldset>`;
+}
+
+/**
+ * One of a group of radio buttons.
+ *
+ * @param option with a name for screen readers where it has no label
+ */
+export function choice({ group, label, name, checked, choose }: { group: string, label?: unknown, name?: string, checked: boolean, choose: () => void }) {
+  return html`<label class="choice">
+    <input type="radio" name=${group} aria-label=${name ?? nothing} .checked=${live(checked)} @change=${choose} />
+    ${label ? html`<span>${label}</span>` : nothing}
+  </label>`;
+}
+
+export function toggle({ label, checked, change }: { label: unknown, checked: boolean, change: (checked: boolean) => void }) {
+  return html`<label class="toggle">
+    <input
+      type="checkbox"
+      .checked=${live(checked)}
+      @change=${(event: Event) => change(inputOf(event).checked)}
+    />
+    ${label}
+  </label>`;
+}
+
+/** @param state with a class */
+export function button(label: unknown, press: () => void, { pressed, disabled = false, title, name }: { pressed?: boolean, disabled?: boolean, title?: string, name?: string } = {}) {
+  return html`<button
+    type="button"
+    class=${name ?? nothing}
+    part="button"
+    ?disabled=${disabled}
+    title=${title ?? nothing}
+    aria-pressed=${pressed ?? nothing}
+    @click=${press}
+  >
+    ${label}
+  </button>`;
+}
+
+export function inputOf(event: Event) {
+  return event.target as HTMLInputElement;
+}
+
+/**
+ * Radio buttons in a row under one name.
+ *
+ * @param labels in the order shown
+ */
+export function radioGroup<Name extends string>(label: string, group: string, labels: Record<Name, string>, current: Name, choose: (name: Name) => void) {
+  const names = Object.keys(labels) as Name[];
+  return html`<div class="choices" role="radiogroup" aria-label=${label}>
+    <span aria-hidden="true">${label}</span>
+    <div class="options">
+      ${names.map((name) =>
+        choice({ group, label: labels[name], checked: name === current, choose: () => choose(name) }),
+      )}
+    </div>
+  </div>`;
+}

@@ -1,0 +1,34 @@
+/** What is folded away. */
+
+import { html, noChange, nothing } from 'lit';
+import { Directive, directive } from 'lit/directive.js';
+
+/**
+ * What is folded away until it is asked for: nothing of it is made before, nor while it is closed again.
+ *
+ * @param id where something else than the reader opens it too
+ */
+export function fold(name: string, content: () => unknown, id?: string) {
+  return html`<details part="fold" id=${id ?? nothing} @toggle=${renderHost}>
+    <summary>${name}</summary>
+    <div class="folded">${whileOpen(content)}</div>
+  </details>`;
+}
+
+/** Lit calls listeners with the element that has rendered them. */
+function renderHost(this: import('lit').LitElement) {
+  this.requestUpdate();
+}
+
+const whileOpen = directive(
+  class extends Directive {
+    render(content: () => unknown) {
+      return content();
+    }
+
+    update({ parentNode }: import('lit').ChildPart, [content]: [() => unknown]) {
+      const details = (parentNode as Element).closest('details');
+      return details?.open ? this.render(content) : noChange;
+    }
+  },
+);

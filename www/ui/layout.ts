@@ -1,0 +1,335 @@
+/**
+ * The page of a widget, from above: its pictures side by side, the sentence that they say, the figures that matter, the
+ * controls in compact rows, and folds with everything else. So much is seen without scrolling in a column of 700 pixels.
+ */
+
+import { css } from 'lit';
+import { controlStyles } from './controls.ts';
+import { readoutStyles } from './readouts.ts';
+import { sliderStyles } from './slider.ts';
+
+const layout = css`
+  /* The pictures stay in sight for as long as this reaches, behind text of the page. */
+  .machine {
+    margin-bottom: calc(-1 * var(--motion-sticky-bottom, 0px));
+  }
+
+  .machine::after {
+    content: '';
+    display: block;
+    height: var(--motion-sticky-bottom, 0);
+    visibility: hidden;
+  }
+
+  .views,
+  .controls {
+    display: grid;
+    gap: 0.25em 2em;
+    align-items: start;
+  }
+
+  .controls {
+    grid-template-columns: repeat(auto-fit, minmax(min(100%, 18em), 1fr));
+    gap: 0.5em 2.5em;
+  }
+
+  @container (min-width: 56em) {
+    .controls {
+      column-gap: 5em;
+    }
+  }
+
+  /* What is needed less often, one beside the other; an open one has the whole width. */
+  .folds {
+    display: flex;
+    flex-wrap: wrap;
+    align-items: start;
+    gap: 0.1em 1.2em;
+    margin-top: 0.4em;
+    padding-top: 0.3em;
+    border-top: 1px solid var(--rule);
+  }
+
+  .folds > details {
+    min-width: 0;
+  }
+
+  .folds > details[open] {
+    flex: 1 0 100%;
+    padding-bottom: 0.8em;
+  }
+
+  .begin {
+    display: flex;
+    gap: 0.5em;
+    margin-inline-start: auto;
+  }
+
+  /* An answer has a line of its own. */
+  .folds > :is(output, textarea) {
+    flex: 1 0 100%;
+    text-align: end;
+  }
+
+  .folded {
+    padding-top: 0.4em;
+  }
+
+  .figures {
+    display: grid;
+    gap: 1em 2.75em;
+    align-items: start;
+    grid-template-columns: repeat(auto-fit, minmax(min(100%, 20em), 1fr));
+  }
+
+  figure,
+  dl {
+    margin: 0;
+  }
+
+  .stage {
+    position: relative;
+    /* Handles stand where the former width had them until the next frame. */
+    overflow-x: clip;
+  }
+
+  canvas {
+    display: block;
+    width: 100%;
+    touch-action: pan-y pinch-zoom;
+    /* The pictures' own unit: what they are drawn in, too, is in proportion to the letters. See scene/canvas.js. */
+    font-size: 0.8125em;
+    cursor: crosshair;
+  }
+
+  .handle {
+    position: absolute;
+    top: 0;
+    left: 0;
+    width: 2.25em;
+    height: 2.25em;
+    transform: translate(-50%, -50%);
+    border-radius: 50%;
+    cursor: grab;
+    touch-action: none;
+  }
+
+  .handle:active {
+    cursor: grabbing;
+  }
+
+  .handle::after {
+    content: '';
+    position: absolute;
+    inset: 0.55em;
+    box-sizing: border-box;
+    background: var(--paper);
+    border: 3px solid var(--prior);
+    border-radius: 50%;
+  }
+
+  /* What stops a handle, while it is held or moved from the keyboard. */
+  .handle[data-stop]:is(.held, :focus-visible)::before {
+    content: attr(data-stop);
+    position: absolute;
+    top: 50%;
+    left: calc(100% + 0.35em);
+    translate: 0 -50%;
+    padding: 0.12em 0.6em;
+    background: var(--ink);
+    border-radius: 3px;
+    color: var(--paper);
+    font-size: 0.85em;
+    white-space: nowrap;
+    pointer-events: none;
+  }
+
+  .handle.right[data-stop]:is(.held, :focus-visible)::before {
+    right: calc(100% + 0.35em);
+    left: auto;
+  }
+
+  .handle:hover::after {
+    background: var(--prior);
+  }
+
+  .handle[data-hint]::before {
+    content: attr(data-hint);
+    position: absolute;
+    top: 100%;
+    left: 50%;
+    translate: -50% 0;
+    padding: 0.12em 0.6em;
+    background: var(--prior);
+    border-radius: 3px;
+    color: var(--paper);
+    font-size: 0.85em;
+    white-space: nowrap;
+    pointer-events: none;
+    animation: hinted 2.4s ease-in-out both;
+  }
+
+  .handle[data-hint]::after {
+    animation: pulsing 1.2s ease-in-out;
+  }
+
+  @keyframes hinted {
+    from,
+    to {
+      opacity: 0;
+    }
+
+    20%,
+    80% {
+      opacity: 1;
+    }
+  }
+
+  @keyframes pulsing {
+    50% {
+      box-shadow: 0 0 0 0.9em color-mix(in srgb, var(--prior) 35%, transparent);
+    }
+  }
+
+  /* Two lines, however short the sentence is: nothing moves when another one comes. */
+  .caption {
+    min-height: 2lh;
+    margin: 0;
+    padding: 0.25em 0;
+  }
+
+  .note {
+    margin: 0.5em 0;
+    padding-left: 0.8em;
+    border-left: 3px solid var(--accent);
+  }
+
+  .caption.note {
+    margin: 0;
+  }
+
+  @container (max-width: 34em) {
+    .caption {
+      min-height: 4lh;
+      font-size: 0.95em;
+      line-height: 1.25;
+    }
+  }
+
+  .panel {
+    display: grid;
+    grid-template-rows: auto 1fr;
+    min-width: 0;
+  }
+
+  .panel-title {
+    margin: 0;
+    font-weight: bold;
+    font-size: 0.92em;
+  }
+
+  .legend {
+    display: flex;
+    flex-wrap: wrap;
+    gap: 0 1.2em;
+    margin: 0.2em 0;
+    padding: 0;
+    font-size: 0.92em;
+    list-style: none;
+  }
+
+  .swatch {
+    flex: none;
+    width: 1.9em;
+    height: 0.76em;
+    fill: none;
+    stroke: var(--role);
+  }
+
+  .swatch .filled {
+    fill: var(--role);
+  }
+
+  .buttons {
+    display: flex;
+    flex-wrap: wrap;
+    align-items: center;
+    gap: 0.5em;
+    margin-bottom: 0.5em;
+  }
+
+  .start-over {
+    margin-inline-start: auto;
+  }
+
+  .seed input {
+    width: 5em;
+    min-height: 2em;
+    padding: 0 0.4em;
+    background: none;
+    border: 1px solid var(--muted);
+    border-radius: 3px;
+    color: var(--ink);
+    font: inherit;
+  }
+
+  .heading {
+    margin: 1em 0 0.3em;
+    font-weight: bold;
+  }
+
+  figcaption {
+    margin: 0.43em 0 1.36em;
+    color: var(--muted);
+    font-size: 0.92em;
+  }
+
+  /* The pictures stay in sight while the controls below them are used. */
+  @media (min-height: 22em) {
+    .stage canvas {
+      max-height: 45svh;
+    }
+
+    :is(button, input, summary, textarea) {
+      scroll-margin-top: calc(45svh + 2em + var(--top));
+    }
+
+    /* Covers handles that stick out at the sides, and fades text that goes below. */
+    .machine {
+      --fade: -0.5em 0 var(--paper), 0.5em 0 var(--paper), 0 0.4em 0.4em var(--paper);
+    }
+
+    @container (width >= 30em) {
+      .views {
+        position: sticky;
+        top: var(--top);
+        z-index: 1;
+        background: var(--paper);
+        box-shadow: var(--fade);
+      }
+    }
+
+    @container (width < 30em) {
+      .stage[part='picture'] {
+        position: sticky;
+        top: var(--top);
+        z-index: 1;
+        background: var(--paper);
+        box-shadow: var(--fade);
+      }
+
+      .views,
+      .panel:has([part='picture']) {
+        display: contents;
+      }
+
+      /* Clear of the fade. */
+      .stage[part='picture'] + *,
+      .panel:has([part='picture']) + * {
+        margin-top: 0.7em;
+      }
+    }
+  }
+`;
+
+export const layoutStyles = [readoutStyles, controlStyles, sliderStyles, layout];

@@ -1,0 +1,154 @@
+/** Figures in print: a list of readouts, and tables. */
+
+import { css, html, nothing } from 'lit';
+import { rich, symbols } from './controls.ts';
+
+export const readoutStyles = css`
+  /* A name above its figure, side by side. */
+  .readouts {
+    display: flex;
+    flex-wrap: wrap;
+    gap: 0.2em 2em;
+    margin: 0.1em 0 0.5em;
+  }
+
+  /* A longer value moves no neighbour. */
+  .readouts > div {
+    min-width: 5em;
+  }
+
+  .readouts dt {
+    color: var(--muted);
+    font-size: 0.84em;
+    line-height: 1.25;
+  }
+
+  .readouts dd {
+    margin: 0;
+    font-size: 1.1em;
+    line-height: 1.25;
+    white-space: nowrap;
+  }
+
+  .readouts .headline dd:not(.detail) {
+    font-size: 1.9em;
+    line-height: 1.1;
+  }
+
+  .readouts .detail {
+    color: var(--muted);
+    font-size: 0.84em;
+    white-space: normal;
+  }
+
+  sub {
+    line-height: 0;
+  }
+
+  table {
+    width: 100%;
+    max-width: 37em;
+    margin-bottom: 1.36em;
+    border-collapse: collapse;
+    font-size: 0.92em;
+    border-block: 1.5px solid var(--ink);
+  }
+
+  caption {
+    caption-side: bottom;
+    padding-top: 0.54em;
+    text-align: start;
+    color: var(--muted);
+  }
+
+  thead {
+    border-bottom: 0.75px solid var(--ink);
+  }
+
+  th {
+    font-weight: normal;
+    text-align: start;
+  }
+
+  :is(th, td) {
+    padding: 0.15em 0;
+    padding-inline-start: 0.54em;
+  }
+
+  :is(th, td):first-child {
+    padding-inline-start: 0;
+  }
+
+  thead th:not(:first-child),
+  td {
+    text-align: end;
+  }
+
+  /* The name of a row above its numbers, which have the whole width then. */
+  @container (width < 26em) {
+    table {
+      font-size: 0.82em;
+    }
+
+    table :is(caption, thead, tbody) {
+      display: block;
+    }
+
+    tr {
+      display: flex;
+      flex-wrap: wrap;
+    }
+
+    tr > :is(th, td) {
+      flex: 1;
+      min-width: 0;
+      padding: 0.17em 0;
+      padding-inline-start: 0.37em;
+      overflow-wrap: anywhere;
+    }
+
+    tr > :first-child {
+      flex-basis: 100%;
+      padding-inline-start: 0;
+    }
+  }
+`;
+
+/**
+ * @param rows each with optional details in smaller print
+ * @param headline index of the row that is the figure's message
+ */
+export function readoutList(rows: [name: string, value: string, ...details: (string | undefined)[]][], headline?: number) {
+  return html`<dl class="readouts" part="readouts">
+    ${rows.map(
+      ([name, value, ...details], i) => html`<div class=${i === headline ? 'headline' : nothing}>
+        <dt>${rich(name)}</dt>
+        <dd>${symbols(value)}</dd>
+        ${details.map((detail) => (detail ? html`<dd class="detail">${rich(detail)}</dd>` : nothing))}
+      </div>`,
+    )}
+  </dl>`;
+}
+
+export function figureTable({ caption, columns, rows, outdated = false }: { caption: unknown; columns: unknown[]; rows: unknown[][]; outdated?: boolean }) {
+  const cells = ([first, ...others]: unknown[]) =>
+    others.length === 0
+      ? html`<td colspan=${columns.length - 1}>${symbols(first)}</td>`
+      : [first, ...others].map((cell) => html`<td>${symbols(cell)}</td>`);
+  return html`<table part="table" class=${outdated ? 'outdated' : nothing}>
+    <caption>${caption}</caption>
+    <thead>
+      <tr>
+        ${columns.map((name) => html`<th scope="col">${name}</th>`)}
+      </tr>
+    </thead>
+    <tbody>
+      ${rows.map(
+        ([name, ...row]) => html`<tr>
+          <th scope="row">${name}</th>
+          ${cells(row)}
+        </tr>`,
+      )}
+    </tbody>
+  </table>`;
+}

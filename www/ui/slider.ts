@@ -1,0 +1,356 @@
+/** A slider with its label, its value, which can be typed too, and one line that says what it does to the picture. */
+
+import { css, html, noChange, nothing } from 'lit';
+import { Directive, directive } from 'lit/directive.js';
+import { live } from 'lit/directives/live.js';
+import { inputOf } from './controls.ts';
+
+export const sliderStyles = css`
+  /* Name and value above the track; below it the room for a line of help. */
+  .slider {
+    position: relative;
+    display: grid;
+    grid-template: 'pick name value' auto 'track track track' auto / auto 1fr auto;
+    align-items: baseline;
+    padding-bottom: 1.1em;
+  }
+
+  /* In wide figures all in one row, in columns that every group shares. */
+  @container (min-width: 56em) {
+    .slider {
+      grid-template: 'pick name track value' auto / auto 14em 1fr 5.5em;
+      align-items: center;
+      column-gap: 0.5em;
+    }
+
+    .slider:not(:has(> .choice)) {
+      grid-template: 'name track value' auto / 14em 1fr 5.5em;
+    }
+  }
+
+  .slider > [for] {
+    grid-area: name;
+    line-height: 1.2;
+  }
+
+  .slider > [for] .symbol {
+    margin-inline-end: 0.3em;
+    font-size: 1.1em;
+  }
+
+  .slider > .choice {
+    grid-area: pick;
+    min-height: 0;
+    margin-inline-end: 0.3em;
+  }
+
+  .slider > input[type='range'] {
+    grid-area: track;
+  }
+
+  .slider .value {
+    grid-area: value;
+    position: relative;
+    text-align: right;
+    white-space: nowrap;
+  }
+
+  /* The value lies over its print, which keeps the room for it and is what paper has. */
+  .printed {
+    visibility: hidden;
+  }
+
+  .typed {
+    position: absolute;
+    inset: -0.2em 0 auto auto;
+    box-sizing: border-box;
+    width: calc(100% + 0.4em);
+    padding: 0.1em 0.1em 0.1em 0.2em;
+    background: none;
+    border: 1px solid transparent;
+    border-radius: 3px;
+    color: inherit;
+    font: inherit;
+    font-variant-numeric: inherit;
+    text-align: right;
+    cursor: text;
+  }
+
+  .typed:hover {
+    border-color: var(--muted);
+  }
+
+  /* A text of more lines covers what stands below. */
+  .slider .effect {
+    position: absolute;
+    top: calc(100% - 1.3em);
+    right: 0;
+    left: 0;
+    z-index: 1;
+    margin: 0;
+    visibility: hidden;
+    background: var(--paper);
+  }
+
+  .slider:is(:focus-within, :hover) .effect {
+    visibility: visible;
+  }
+
+  /* What was refused is said until something else is of interest. */
+  .slider.refused .effect {
+    visibility: visible;
+    color: var(--accent);
+  }
+
+  .slider.off :is(label, .value) {
+    color: var(--muted);
+  }
+
+  .slider.off input[type='range'] {
+    --thumb: var(--paper);
+    --thumb-edge: var(--muted);
+  }
+
+  .slider {
+    --thumb: var(--role);
+  }
+
+  input[type='range'] {
+    --thumb-edge: var(--thumb);
+    appearance: none;
+    width: 100%;
+    height: 1.75em;
+    margin: 0;
+    background: none;
+    cursor: pointer;
+    touch-action: pan-y;
+  }
+
+  input[type='range']::-webkit-slider-runnable-track {
+    height: 2px;
+    background: var(--muted);
+    border-radius: 1px;
+  }
+
+  input[type='range']::-moz-range-track {
+    height: 2px;
+    background: var(--muted);
+    border-radius: 1px;
+  }
+
+  input[type='range']::-webkit-slider-thumb {
+    appearance: none;
+    width: 1.05em;
+    height: 1.05em;
+    margin-top: calc(1px - 0.525em);
+    background: var(--thumb);
+    border: 2px solid var(--thumb-edge);
+    border-radius: 50%;
+    box-shadow: 0 0 0 3px var(--paper);
+  }
+
+  input[type='range']::-moz-range-thumb {
+    box-sizing: border-box;
+    width: 1.05em;
+    height: 1.05em;
+    background: var(--thumb);
+    border: 2px solid var(--thumb-edge);
+    border-radius: 50%;
+    box-shadow: 0 0 0 3px var(--paper);
+  }
+
+  /* Around the thumb alone: around all of the slider it would cut into the rows above and below. */
+  input[type='range']:focus-visible {
+    outline: none;
+  }
+
+  input[type='range']:focus-visible::-webkit-slider-thumb {
+    outline: 2px solid var(--accent);
+    outline-offset: 2px;
+  }
+
+  input[type='range']:focus-visible::-moz-range-thumb {
+    outline: 2px solid var(--accent);
+    outline-offset: 2px;
+  }
+
+  .typed:focus-visible {
+    outline-offset: 0;
+    background: var(--paper);
+  }
+`;
+
+/* A finger that goes up or down over a slider scrolls the page and sets nothing; one that goes across or taps sets it. */
+
+/** A finger that has moved less than this, CSS pixels, may be going anywhere. */
+const SLOP = 8;
+
+/** Position of a finger that may still scroll or set. */
+let down: { clientX: number, clientY: number } | undefined;
+
+const forget = () => (down = undefined);
+
+const finger = {
+  comes({ pointerType, clientX, clientY }: PointerEvent) {
+    down = pointerType === 'touch' ? { clientX, clientY } : undefined;
+    // The element under the finger may leave the page, and then hears no pointerup.
+    addEventListener('pointerup', forget);
+    addEventListener('pointercancel', forget);
+  },
+
+  moves(event: PointerEvent) {
+    if (!down) return;
+    const [across, along] = [Math.abs(event.clientX - down.clientX), Math.abs(event.clientY - down.clientY)];
+    if (across > SLOP && across > along) down = undefined;
+  },
+
+  /** @returns whether it only tapped */
+  goes(): boolean {
+    const tapped = down !== undefined;
+    down = undefined;
+    return tapped;
+  },
+
+  /** True while the finger may still scroll the page. */
+  get waits() {
+    return down !== undefined;
+  },
+};
+
+/** What begins a number, typed where a slider has the focus. */
+const BEGINS_A_NUMBER = /^[\d.,+\-\u2212]$/;
+
+/**
+ * A slider row. Its value is a field as well: what is typed there may lie beyond the slider. Tab passes the field by;
+ * Enter or the first digit leads from the slider into it, Enter and Escape lead back.
+ */
+export function sliderRow(row: { id: string; symbol?: unknown; name: unknown; value: number; min: number; max: number; step: number; show: (value: number) => string; effect: unknown; role: 'prior' | 'prediction' | 'truth'; off?: boolean; pick?: unknown; keys: 'decimal' | 'numeric' | 'text'; type: (text: string) => string | undefined; refusal?: string; forget: () => void; input: (value: number) => void; commit: () => void }) {
+  const states = {
+    off: row.off,
+    refused: row.refusal,
+  };
+  const classes = ['slider', ...Object.keys(states).filter((key) => states[(key as keyof typeof states)])].join(' ');
+  const shown = row.show(row.value);
+  const room = [row.show(row.min), row.show(row.max)].reduce((one, other) => (other.length > one.length ? other : one), shown);
+  return html`
+    <div class=${classes} part="slider" data-role=${row.role}>
+      ${row.pick ?? nothing}
+      <label for=${row.id} id="${row.id}-name">${row.symbol ? html`<bdi class="symbol notranslate" translate="no">${row.symbol}</bdi>` : nothing}${row.name}</label>
+      ${track({ ...row, name: undefined, text: shown, describedBy: `${row.id}-effect`, keydown: leadIntoField })}
+      <span class="value roomy notranslate" translate="no" dir="ltr" data-room=${room}>
+        <span class="printed">${shown}</span>
+        ${field(row, shown)}
+      </span>
+      <p class="effect" id="${row.id}-effect" role=${row.refusal ? 'alert' : nothing}>${row.refusal || row.effect}</p>
+    </div>
+  `;
+}
+
+/** What a thumb is moved on. A finger that goes up or down over it scrolls the page. */
+export function track({ id, name, min, max, step, value, text, describedBy, keydown, input, commit }: { id: string; name?: string; min: number; max: number; step: number; value: number; text: string; describedBy?: string; keydown?: (event: KeyboardEvent) => void; input: (value: number) => void; commit: () => void }) {
+  // A browser sets a slider as soon as a finger comes down on it: until the finger taps or scrolls, a rendering leaves that value.
+  const set = (event: Event) => {
+    if (!finger.waits) input(inputOf(event).valueAsNumber);
+  };
+  return html`<input
+    id=${id}
+    type="range"
+    min=${min}
+    max=${max}
+    step=${step}
+    .value=${finger.waits ? noChange : live(String(value))}
+    aria-label=${name ?? nothing}
+    aria-valuetext=${text}
+    aria-describedby=${describedBy ?? nothing}
+    @keydown=${keydown}
+    @pointerdown=${finger.comes}
+    @pointermove=${(event: PointerEvent) => {
+      finger.moves(event);
+      if (event.pointerType === 'touch' && !finger.waits) set(event);
+    }}
+    @pointerup=${(event: PointerEvent) => finger.goes() && set(event)}
+    @pointercancel=${(event: PointerEvent) => {
+      if (finger.goes()) inputOf(event).value = String(value);
+    }}
+    @input=${set}
+    @change=${commit}
+  />`;
+}
+
+/** What a field shows while nobody types in it: a picture that takes long is drawn after the reader has gone on. */
+const untilTyped = directive(
+  class extends Directive {
+    render(shown: string) {
+      return shown;
+    }
+
+    update({ element }: import('lit').PropertyPart, [shown]: [string]) {
+      const input = element as HTMLInputElement;
+      const isHere = input.matches(':focus');
+      if (isHere && input.value !== input.defaultValue) return noChange;
+      if (input.value !== shown) input.value = shown;
+      if (isHere) input.defaultValue = shown;
+      return noChange;
+    }
+  },
+);
+
+/** The value of a slider as a field to type into. */
+function field({ id, keys, type, forget }: Pick<Parameters<typeof sliderRow>[0], 'id' | 'keys' | 'type' | 'forget'>, shown: string) {
+  /** @returns whether what stands there is the value now */
+  const take = (input: HTMLInputElement): boolean => {
+    // By default it has what stood there when the reader came.
+    if (input.value === input.defaultValue) return true;
+    const now = type(input.value);
+    input.value = input.defaultValue = now ?? input.defaultValue;
+    return now !== undefined;
+  };
+  const key = (event: KeyboardEvent) => {
+    const input = inputOf(event);
+    if (event.key === 'Escape') input.value = input.defaultValue = shown;
+    else if (event.key !== 'Enter') return;
+    // Escape does nothing else here.
+    event.preventDefault();
+    if (take(input)) sliderBeside(input).focus();
+    else input.select();
+  };
+  return html`<input
+    class="typed"
+    type="text"
+    tabindex="-1"
+    inputmode=${keys}
+    enterkeyhint="done"
+    autocomplete="off"
+    spellcheck="false"
+    aria-labelledby="${id}-name"
+    aria-describedby="${id}-effect"
+    .value=${untilTyped(shown)}
+    @focus=${(event: Event) => {
+      const input = inputOf(event);
+      input.defaultValue = input.value;
+      input.select();
+    }}
+    @input=${forget}
+    @keydown=${key}
+    @blur=${(event: Event) => take(inputOf(event))}
+  />`;
+}
+
+/** Goes on in the field beside a slider: it takes the key that was pressed, and all of its text is selected. */
+function leadIntoField(event: KeyboardEvent) {
+  const { key, ctrlKey, altKey, metaKey } = event;
+  if (ctrlKey || altKey || metaKey || (key !== 'Enter' && !BEGINS_A_NUMBER.test(key))) return;
+  const slider = inputOf(event);
+  // Digits are keys of a presentation.
+  if (/\d/.test(key) && (slider.getRootNode() as any).host?.presentation) return;
+  if (key === 'Enter') event.preventDefault();
+  event.stopPropagation();
+  const row = slider.closest('.slider') as Element;
+  (row.querySelector('.typed') as HTMLInputElement).focus();
+}
+
+/** @param input the field of its value */
+function sliderBeside(input: Element) {
+  const row = input.closest('.slider') as Element;
+  return row.querySelector('input[type=range]') as HTMLInputElement;
+}

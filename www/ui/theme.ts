@@ -1,0 +1,265 @@
+/**
+ * The palette: one colour a role, the same in every view, for light and dark paper. Paper and ink are those of the
+ * surroundings, and what explains is between them; the hues are Okabe and Ito's, with lightness spread so that the roles
+ * stay apart under every common form of colour blindness; each role also has a dash or a shape of its own. Text on the
+ * paper keeps a contrast of at least 4.5, and lines at least 3. A page may give each role a colour of its own, by a
+ * custom property that begins with --motion.
+ */
+
+import { css, unsafeCSS } from 'lit';
+import { likedWidth } from './width.ts';
+
+/**
+ * Roles that the canvas needs as resolved colours; each is a custom property of the same name. A cloud is a
+ * prediction too, but a mass of dots rather than a line or text.
+ */
+const ROLES = 
+  ['paper', 'ink', 'muted', 'rule', 'prior', 'prediction', 'cloud', 'truth', 'posterior', 'accent'] as const
+;
+
+/** Resolved CSS colours. */
+export type Palette = Record<(typeof ROLES)[number], string>;
+
+export const theme = css`
+  :host {
+    display: block;
+    min-width: 0;
+    max-width: 100%;
+    margin-block: 1em;
+    font-family: var(--motion-font, inherit);
+    line-height: 1.4;
+    font-variant-numeric: lining-nums tabular-nums;
+    text-align: start;
+  }
+
+  :host::before {
+    ${unsafeCSS(likedWidth)}
+  }
+
+  /* --ground and --text are what is found around the figure, --shade how far the ground is
+     from white, and --strength how much ink what is muted needs: see Stage. */
+  .scheme-probe,
+  .surface {
+    --paper: var(--motion-paper, var(--ground, light-dark(#fffefb, #16181b)));
+    --ink: var(--motion-ink, var(--text, light-dark(#1f1e1b, #ebe9e3)));
+    --muted: var(--motion-muted, var(--mw-muted, color-mix(in srgb, var(--ink) var(--strength, 75%), var(--paper))));
+    --rule: var(--motion-rule, var(--mw-rule, color-mix(in srgb, var(--ink) 18%, var(--paper))));
+    --prior: var(--motion-prior, color-mix(in srgb-linear, light-dark(#0b61b0, #5a9ff0), black var(--shade, 0%)));
+    --prediction: var(--motion-prediction, color-mix(in srgb-linear, light-dark(#b85300, #f0963a), black var(--shade, 0%)));
+    --cloud: var(--motion-cloud, color-mix(in srgb-linear, light-dark(#dd6f00, #f0963a), black var(--shade, 0%)));
+    --truth: var(--motion-truth, color-mix(in srgb-linear, light-dark(#8a8a8a, #8e8e8e), black var(--shade, 0%)));
+    --posterior: var(--motion-posterior, color-mix(in srgb-linear, light-dark(#00694a, #4fe3b0), black var(--shade, 0%)));
+    --accent: var(--motion-accent, color-mix(in srgb-linear, light-dark(#7a1560, #fbb4e0), black var(--shade, 0%)));
+    --top: var(--motion-sticky-top, var(--mw-top, 0px));
+  }
+
+  /* In a style sheet, as extensions that darken pages rewrite no custom properties of elements. */
+  ${unsafeCSS(ROLES.map((role) => `[data-role='${role}'] { --role: var(--${role}); }`).join('\n'))}
+
+  :host([hidden]) {
+    display: none;
+  }
+
+  /* Paper and ink are the reader's own then, and the roles keep their hues on it. */
+  @media (forced-colors: active) {
+    .scheme-probe,
+    .surface {
+      --paper: Canvas;
+      --ink: CanvasText;
+      --muted: CanvasText;
+      --rule: color-mix(in srgb, CanvasText 35%, Canvas);
+    }
+  }
+
+  /* A change of any role is an event: see schemeStyles. */
+  .scheme-probe {
+    background: var(--motion-paper, transparent);
+    color: var(--motion-ink);
+    border-color: Canvas var(--muted) var(--rule);
+    caret-color: var(--truth);
+    column-rule-color: var(--cloud);
+    fill: var(--posterior);
+    outline-color: var(--prior);
+    stroke: var(--accent);
+    text-decoration-color: var(--prediction);
+  }
+
+  .surface {
+    display: flow-root;
+    container-type: inline-size;
+    background: var(--motion-paper, var(--back));
+    color: var(--ink);
+  }
+
+  /* The probe and the surface have no colour of the page then: some of those would be forced, and others not. */
+  @media (forced-colors: active) {
+    .scheme-probe,
+    .surface {
+      background: Canvas;
+      color: CanvasText;
+    }
+  }
+
+  .spoken {
+    display: contents;
+  }
+
+  /* A page translator may have words of another direction. */
+  .spoken :is(p, li, dt, dd, th, td, caption, figcaption, legend, label, summary, button, output) {
+    unicode-bidi: plaintext;
+  }
+
+  .title-slot {
+    margin: 0 0 0.27em;
+    font-size: 1.1em;
+  }
+
+  .caption-slot {
+    margin: 0.53em 0 0;
+    font-size: 0.95em;
+  }
+
+  .failure {
+    margin: 0;
+    padding: 1em 0;
+    border-block: 1px solid var(--rule);
+  }
+
+  .visually-hidden {
+    position: absolute;
+    width: 1px;
+    height: 1px;
+    overflow: hidden;
+    clip-path: inset(50%);
+    white-space: nowrap;
+  }
+
+  .on-paper {
+    display: none;
+  }
+
+  /* On paper: the figure and what it was made with, and nothing that wants to be pressed. */
+  @media print {
+    /* Values whose sliders are in a closed disclosure. */
+    .folds:not(:has(> #more[open])) + .on-paper {
+      display: block;
+      margin: 0.4em 0;
+      font-size: 0.85em;
+    }
+
+    .on-paper span {
+      margin-inline-end: 1em;
+      white-space: nowrap;
+    }
+
+    /* Browsers print no ground behind letters. */
+    .options .choice:has(:checked) {
+      padding: 0;
+      background: none !important;
+      border: 0;
+      color: var(--ink) !important;
+    }
+
+    .surface {
+      color-scheme: light !important;
+    }
+
+    .stage {
+      position: static !important;
+    }
+
+    .machine {
+      min-height: 0 !important;
+    }
+
+    /* The printed page has another width than the window that it was drawn for. */
+    .stage canvas {
+      height: auto !important;
+      max-height: none !important;
+      aspect-ratio: auto !important;
+    }
+
+    :is(button, input, textarea, summary, .handle, .effect, .marked, .visually-hidden),
+    :not(th) > label:has(input:not(:checked)) {
+      display: none !important;
+    }
+
+    /* A row that may be chosen keeps its name. */
+    th > label:has(input:checked) {
+      font-weight: bold;
+    }
+
+    fieldset {
+      display: block !important;
+    }
+
+    .folds {
+      border: 0 !important;
+    }
+
+    .slider {
+      display: inline-flex !important;
+      gap: 0.4em;
+      margin: 0 1.5em 0 0 !important;
+    }
+
+    .printed {
+      visibility: visible !important;
+    }
+
+    .roomy::after,
+    .reserved {
+      display: none !important;
+    }
+
+    figure,
+    table,
+    .stage,
+    fieldset {
+      break-inside: avoid;
+    }
+  }
+`;
+
+/** The palette as the element sees it now. */
+export function resolvePalette(surface: HTMLElement) {
+  // One for each role: all are there before the first is asked, so that the browser styles them once.
+  const swatches = ROLES.map((role) => {
+    const swatch = document.createElement('span');
+    swatch.hidden = true;
+    swatch.style.color = `var(--${role})`;
+    // In forced colours too, the roles keep their hues.
+    swatch.style.forcedColorAdjust = 'none';
+    return swatch;
+  });
+  surface.append(...swatches);
+  const colours = swatches.map((swatch, i) => {
+    const { color } = getComputedStyle(swatch);
+    // Mixed ones are told in notations that few programs read.
+    return [ROLES[i], /^rgb/.test(color) ? color : `rgb(${channels(color)})`];
+  });
+  for (const swatch of swatches) swatch.remove();
+  return Object.fromEntries(colours) as Palette;
+}
+
+let pixel: OffscreenCanvasRenderingContext2D | undefined;
+
+/**
+ * @param colours in any form that the browser knows, a page may have named them; each covers those before
+ * @returns red, green, blue, 0 to 255
+ */
+export function channels(...colours: string[]): [number, number, number] {
+  // As browsers hand most colours out.
+  const plain = colours.at(-1)?.match(/^rgb\((\d+), (\d+), (\d+)\)$/);
+  if (plain) return [Number(plain[1]), Number(plain[2]), Number(plain[3])];
+  const context = (pixel ??= (
+    new OffscreenCanvas(1, 1).getContext('2d', { willReadFrequently: true }) as OffscreenCanvasRenderingContext2D
+  ));
+  context.clearRect(0, 0, 1, 1);
+  for (const colour of colours) {
+    context.fillStyle = colour;
+    context.fillRect(0, 0, 1, 1);
+  }
+  const [red, green, blue] = context.getImageData(0, 0, 1, 1).data;
+  return [red, green, blue];
+}

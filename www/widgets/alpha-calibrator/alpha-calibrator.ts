@@ -1,0 +1,263 @@
+/** <alpha-calibrator>: the α's of a log, how well they are known, and whether the model is any good. */
+
+import { html } from 'lit';
+import { object } from '../../figure/checks.ts';
+import { canvas, disclosures, panel } from '../../figure/controls.ts';
+import { FigureElement } from '../../figure/figure.ts';
+import { legend } from '../../figure/overlays.ts';
+import { reserve } from '../../figure/page/room.ts';
+import { define } from '../../figure/reflection.ts';
+import { orFree } from '../../figure/runtime.ts';
+import { LONGEST_WORK, advancing } from '../../figure/settings.ts';
+import { words } from '../../messages/registry.ts';
+import { pointOn } from '../../scene/canvas.ts';
+import { group } from '../../ui/controls.ts';
+import { counted } from '../../ui/format.ts';
+import { startOverButton } from '../shared/presets.ts';
+import { legControls, legLengths, legReadouts, modelControls, predictionControls } from './controls.ts';
+import { diagnostics } from './diagnostics.ts';
+import { Copied, copyButton, nav2 } from './nav2.ts';
+import { LogOpener, dropZone, logSection } from './open.ts';
+import { panels } from './panels.ts';
+import { LegPicture, WayPicture } from './pictures.ts';
+import { Plate } from './plate.ts';
+import { legOf, readingOf } from './reading.ts';
+import { alphaTable, alphaTexts, verdictLine } from './readouts.ts';
+import { COMPONENTS, LINES, attributes, declared, looks, own, vocabulary } from './settings.ts';
+import { calibratorStyles } from './styles.ts';
+import { systematicTable, systematicTexts } from './systematic.ts';
+import { captionOf, legText, reasonOf, wayText } from './words.ts';
+import type { AlphaCalibrator as Machine, CalibrationLog } from '../../types.d.ts';
+import type { Reading } from './reading.ts';
+
+/** Keys of a log. */
+const KEYS = ['name', 'odometry', 'reference'];
+
+/**
+ * The α's of a log, how well they are known, and whether the model is any good.
+ *
+ * @attr overlays - The lines that are drawn; in the attribute with spaces between.
+ * @csspart drop - The line that logs are dropped on.
+ * @csspart chart - A plot of residuals.
+ */
+export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
+  static styles = [...FigureElement.styles, reserve('alpha-calibrator'), ...calibratorStyles];
+
+  static declared = declared;
+  static attributes = attributes;
+  static own = own;
+  static looks = looks;
+  static vocabulary = vocabulary;
+
+  #way = new WayPicture();
+  #one = new LegPicture();
+  pictures = [this.#way, this.#one];
+  plate = new Plate(this);
+  #opener = new LogOpener(this);
+  #copied = new Copied(this);
+  /** Log of the reader or of the page; null for the simulated one. */
+  #log: CalibrationLog | null = null;
+
+  createMachine: FigureElement<Machine, Reading>['createMachine'] = (motion, state) => {
+    if (!state) return new motion.AlphaCalibrator();
+    // Fitting goes on in later frames.
+    const machine = motion.AlphaCalibrator.empty(this.settings.declared(state));
+    return orFree(machine, () => this.#log && machine.beginLog(this.#log.odometry, this.#log.reference));
+  };
+
+  read(machine: Machine) {
+    return readingOf(machine, this.#log, this.reading);
+  }
+
+  /** Leg that is shown, from 0; −1 if there is none. */
+  get chosen() {
+    return legOf(this.reading, this.state.own.leg);
+  }
+
+  /** Prediction and end of that leg, as of the latest fit that is complete. */
+  get predicted() {
+    const { chosen } = this;
+    return chosen < 0 ? null : (this.machine?.leg(chosen) ?? null);
+  }
+
+  get scene() {
+    const reading = this.fresh;
+    return { ...reading, chosen: this.chosen, leg: this.predicted, overlays: this.state.own.overlays };
+  }
+
+  /**
+   * Shows a leg while the reader moves between legs.
+   *
+   * @param leg from 0
+   */
+  look(leg: number) {
+    this.state.own.leg = leg;
+    this.gesture.step();
+    this.stage.wake();
+  }
+
+  /**
+   * Shows a leg that the reader has chosen.
+   *
+   * @param leg from 0
+   */
+  choose(leg: number) {
+    this.look(leg);
+    this.gesture.commit();
+  }
+
+  /** Shows the leg that was clicked in the picture. */
+  #press = (event: MouseEvent) => {
+    this.runtime.attempt(() => {
+      const { machine } = this;
+      if (!machine || !(event.target instanceof HTMLCanvasElement)) return;
+      const [x, y] = pointOn(event.target, this.#way.view, event);
+      const leg = this.#way.nearest(machine, x, y);
+      if (leg >= 0) this.choose(leg);
+    });
+  };
+
+  /**
+   * A log of the page’s own; null for the simulated one. It is in no state and in no link.
+   *
+   * @public
+   */
+  get log(): CalibrationLog | null {
+    return this.#log;
+  }
+
+  set log(log) {
+    this.reflection.give('log', log, (given) => {
+      if (given !== null) object('log', given, KEYS);
+      this.#enter(given);
+      this.reflection.tell();
+      this.settings.show();
+    });
+  }
+
+  /**
+   * Opens a log of the reader's.
+   *
+   * @param arrived is called when the log is fitted
+   * @param refuse is called if the log is refused while it is fitted, as one without legs
+   */
+  open(log: CalibrationLog | null, arrived?: () => void, refuse?: (error: unknown) => void) {
+    this.runtime.attempt(() => this.#enter(log, () => {
+      this.gesture.step();
+      this.gesture.commit();
+      arrived?.();
+    }, refuse));
+    this.stage.wake();
+  }
+
+  /**
+   * Replaces the log. Another machine is fitted to it first: all stays as it is if the log is refused, or the reader stops.
+   *
+   * @param arrived is called when the log is fitted
+   * @param refuse is called if the log is refused while it is fitted; without it a log may have no legs
+   * @throws {TypeError | RangeError} if the log is refused at once
+   */
+  #enter(log: CalibrationLog | null, arrived: () => void = () => this.reflection.tell(), refuse?: (error: unknown) => void) {
+    const { motion, settings } = this;
+    if (!motion) return;
+    const end = performance.now() + LONGEST_WORK;
+    const machine = motion.AlphaCalibrator.empty(settings.declared(settings.wanted));
+    orFree(machine, () => log && machine.beginLog(log.odometry, log.reference));
+    settings.prepare(machine, this.#entering(machine, log, arrived, refuse !== undefined), refuse ?? ((error) => this.runtime.report(error)), end);
+  }
+
+  /**
+   * @param machine with the log
+   * @param isStrict whether the log must have legs
+   */
+  *#entering(machine: Machine, log: CalibrationLog | null, arrived: () => void, isStrict: boolean): import('../../figure/settings.ts').Job {
+    yield* advancing(machine);
+    if (isStrict && machine.count === 0) throw new RangeError(words.calibrator.none);
+    this.#log = log;
+    this.state.own.leg = null;
+    this.runtime.replace(machine);
+    this.settings.arrive();
+    this.settings.stale = true;
+    arrived();
+  }
+
+  /** Name of the log. */
+  get logName() {
+    const { log } = this.reading;
+    return log ? log.name || words.calibrator.own.odometry : words.calibrator.simulated;
+  }
+
+  get takeaway() {
+    const { config, legs } = this.fresh;
+    const of = (numbers: Float64Array, i: number, size: number) => numbers.subarray(size * i, size * (i + 1));
+    const poses = (whose: string) => ['from', 'to'].flatMap((end) => ['x_m', 'y_m', 'theta_rad'].map((name) => `${whose}_${end}_${name}`));
+    return {
+      title: this.lettering.name,
+      description: [wayText(this.reading, this.chosen), ...alphaTexts(this.reading).map((text) => `${text}.`), captionOf(this.reading, this.logName), reasonOf(this.reading), ...systematicTexts(this.reading)].join(' '),
+      settings: { element: this.localName, log: this.#log?.name ?? null, ...config },
+      columns: [
+        'begins_s', 'ends_s', ...poses('odometry'), ...poses('reference'), 'reading_1', 'reading_2', 'reading_3',
+        ...['residual', 'standardized', 'std'].flatMap((what) => COMPONENTS[config.model].map((name) => `${what}_${name}`)), 'squared_mahalanobis', 'outlier',
+      ],
+      row: (i: number) => [
+        ...of(legs.times, i, 2), ...of(legs.odometry, i, 6), ...of(legs.reference, i, 6), ...of(legs.readings, i, 3),
+        ...of(legs.residuals, i, 3), ...of(legs.standardized, i, 3), ...of(legs.stds, i, 3), legs.squared[i], legs.outliers[i],
+      ],
+      count: legs.count,
+      notInCode: this.#log ? words.calibrator.logNotInCode : '',
+    };
+  }
+
+  announcement(reading: Reading) {
+    return captionOf(reading, this.logName);
+  }
+
+  content(reading: Reading) {
+    const say = words.calibrator;
+    const { chosen } = this;
+    return html`
+      <section
+        class="machine"
+        aria-label=${this.lettering.name}
+        @dragover=${this.#opener.dropped.over}
+        @dragleave=${this.#opener.dropped.away}
+        @drop=${this.#opener.dropped.drop}
+      >
+        ${dropZone(this, this.#opener)}
+        <p part="caption" class="caption verdict">${this.stage.later(() => verdictLine(this))}</p>
+        <div class="views">
+          ${panel(say.path, html`<div class="stage" part="picture" @click=${this.#press}>${canvas(this, this.#way, wayText(reading, chosen))}</div>`)}
+          <div class="one">
+            ${panel(say.oneLeg(counted(chosen + 1)), html`<div class="stage">${canvas(this, this.#one, legText(this.predicted, chosen))}</div>`)}
+            ${this.stage.later(() => html`<div class="looked">${legControls(this)}</div>`)}
+          </div>
+          ${this.stage.later(() => html`
+          <div class="fitted" part="readouts">
+            <div class="buttons told">
+              <p class="panel-title">${say.alphas.title}</p>
+              ${copyButton(this, this.#copied)} ${startOverButton(this)}
+            </div>
+            ${alphaTable(reading)}
+            <p class="muted reason">${reasonOf(reading)}</p>
+          </div>`)}
+        </div>
+        ${this.stage.later(() => html`
+        ${legend(this, LINES)}
+        <div part="controls">${legLengths(this)}</div>
+        ${disclosures(this, {
+          controls: () => html`${modelControls(this)}
+            ${group(say.systematic.title, systematicTable(this))}
+            ${group(say.own.title, logSection(this, this.#opener))}
+            ${predictionControls(this)}`,
+          numbers: () => html`${group(say.oneLeg(counted(chosen + 1)), legReadouts(this))}
+            ${diagnostics(this)}
+            ${group(say.panels.title, panels(this))}
+            ${group(say.nav2.title, nav2(this))}`,
+          csvTitle: say.csvTitle,
+        })}`)}
+      </section>
+    `;
+  }
+}
+
+define('alpha-calibrator', AlphaCalibratorElement);

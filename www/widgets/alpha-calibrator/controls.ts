@@ -1,0 +1,91 @@
+/** Controls of the Alpha Calibrator: the leg that is shown, the model, and the length of legs. */
+
+import { html } from 'lit';
+import { choices, slider } from '../../figure/controls.ts';
+import { words } from '../../messages/registry.ts';
+import { button, group, radioGroup } from '../../ui/controls.ts';
+import { NOTHING, counted, fixed, numberIn, typed } from '../../ui/format.ts';
+import { readoutList } from '../../ui/readouts.ts';
+import { sliderRow } from '../../ui/slider.ts';
+import { observedOf } from './reading.ts';
+import { kindOf, settingsFor } from './settings.ts';
+
+export type Figure = import('./alpha-calibrator.ts').AlphaCalibratorElement;
+
+/** Slider of the leg that is shown. */
+export function legControls(figure: Figure) {
+  const { reading: { legs, worst }, chosen } = figure;
+  const say = words.calibrator.leg;
+  // The leg that is shown may be one of them.
+  const next = worst[(worst.indexOf(figure.state.own.leg) + 1) % Math.max(1, worst.length)];
+  const take = (number: number) => figure.look(number - 1);
+  return html`<fieldset class="leg">
+      <legend class="visually-hidden">${say.name}</legend>
+      ${sliderRow({
+        id: 'leg',
+        name: say.name,
+        value: chosen + 1,
+        min: 1,
+        max: Math.max(2, legs.count),
+        step: 1,
+        show: counted,
+        effect: undefined,
+        role: 'truth',
+        off: legs.count < 2,
+        keys: 'numeric',
+        input: take,
+        commit: () => figure.gesture.commit(),
+        type: (text) => {
+          const number = numberIn(text, '', true);
+          if (Number.isInteger(number) && number >= 1 && number <= legs.count) {
+            take(number);
+            figure.gesture.commit();
+            return counted(number);
+          }
+          figure.typing.refuse('leg', words.refused(say.name, Number.isNaN(number) ? `"${text}"` : text.trim(), '1', counted(legs.count), true));
+        },
+        refusal: figure.typing.refusalOf('leg'),
+        forget: () => figure.typing.forget(),
+      })}
+    </fieldset>
+    ${button(say.worst, () => figure.choose(next), { disabled: next === undefined, title: say.worstTitle })}`;
+}
+
+/** Readouts of the error of the leg that is shown. */
+export function legReadouts({ reading: { legs }, chosen, predicted: leg }: Figure) {
+  const say = words.calibrator.leg;
+  const off = leg ? Math.hypot(leg.ended[0] - leg.read[0], leg.ended[1] - leg.read[1]) : NaN;
+  return readoutList([
+    [say.off, `${fixed(off, 3)} m`],
+    [say.squared(String(observedOf(legs.residuals, chosen))), fixed(leg ? legs.squared[chosen] : NaN, 1)],
+    [say.outlier, leg ? say.isOutlier[legs.outliers[chosen] > 0 ? 'yes' : 'no'] : NOTHING],
+  ]);
+}
+
+/** The model with its rule, the treatment of outliers, and legs of a duration. */
+export function modelControls(figure: Figure) {
+  const { fit, settings: { model }, kinds, outliers } = words.calibrator;
+  const show = (seconds: number) => (seconds > 0 ? `${typed(seconds, 2)} s` : NOTHING);
+  const choose = (kind: import('./settings.ts').Kind) => figure.gesture.decide(settingsFor(kind));
+  return group(fit, html`${radioGroup(model.name, 'kind', kinds, kindOf(figure.settings.told as any), choose)}
+    ${choices(figure, 'outliers', outliers)} ${slider(figure, 'duration', { show })}`, 'fit');
+}
+
+/** Distribution and inflation of the predicted cloud. */
+export function predictionControls(figure: Figure) {
+  const { prediction, noises } = words.calibrator;
+  return group(prediction, html`${choices(figure, 'noise', noises)} ${slider(figure, 'inflation')}`, 'fit');
+}
+
+/** Sliders of the length of a leg. */
+export function legLengths(figure: Figure) {
+  const off = figure.settings.told.duration > 0;
+  return group(words.calibrator.leg.group, html`<div class="controls">${slider(figure, 'distance', { off })} ${slider(figure, 'angle', { off })}</div>`);
+}
+
+/** Sliders of the noise of the reference. */
+export function referenceNoise(figure: Figure) {
+  const row = (key: string, unit: string) =>
+    slider(figure, key, { show: (std: number) => (std > 0 ? `${typed(std, 3)} ${unit}` : words.calibrator.estimated) });
+  return html`<div class="controls">${row('positionStd', 'm')} ${row('yawStd', 'rad')}</div>`;
+}

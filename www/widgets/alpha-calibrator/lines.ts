@@ -1,0 +1,148 @@
+/** Lines for nav2_params.yaml, with numbers in the format of files in every language. */
+
+export type Interval = [number, number] | null;
+
+export interface Fitted {
+  /** Calibration of the core. */
+  calibration: any;
+  /** Count of legs. */
+  count: number;
+  model: string;
+  rule: string;
+  legs: { distance?: number, angle?: number, duration?: number };
+  /** Names of odometry and reference. */
+  log: string;
+  date: string;
+}
+
+export type Words = typeof import('./en.ts').en.nav2;
+
+/** Significant digits of an interval's width, and of what has no interval. */
+const [OF_WIDTH, DIGITS] = [2, 3];
+
+/** Below it values have an exponent. */
+const TINY = 1e-6;
+
+const MOST_DECIMALS = 12;
+
+/** From it on whole numbers have an exponent: times since 1970 have none. */
+const LONG = 1e15;
+
+/** Largest plausible α: an error as large as the motion, or of a radian a metre. */
+const MOST = 1;
+
+/** Placeholder for a missing number. */
+const NONE = '–';
+
+/** Plugins of Nav2 by model. */
+const NAV2: Record<string, string> = { odometry: 'nav2_amcl::DifferentialMotionModel', omnidirectional: 'nav2_amcl::OmniMotionModel' };
+
+/** Names of topics and files that a localizer publishes its own estimate by. */
+const LOCALIZER = /amcl|locali[sz]|odometry[/_]filtered/i;
+
+/** Checks whether a log is by its name the estimate of a localizer. */
+export const isLocalizer = (log: string) => LOCALIZER.test(log);
+
+/** Rules of Nav2's models. */
+const ITS_RULES = ['nav2', 'omni'];
+
+export const short = (value: number | null, digits = DIGITS) => (value !== null && Number.isFinite(value) ? pointed(String(Number(value.toPrecision(digits)))) : NONE);
+
+/** Adds a point to an exponent, without which YAML 1.1 reads a text. */
+const pointed = (number: string) => number.replace(/^(-?\d)e/, '$1.0e');
+
+/** Adds decimals to a whole number, which Nav2 refuses for its doubles. */
+const double = (number: string) => (number.includes('.') ? number : `${number}.0`);
+
+/** Prints the decimals that an interval leaves meaning to. */
+export function fixed(value: number | null, interval: Interval | undefined) {
+  const width = interval ? interval[1] - interval[0] : 0;
+  if (value === null || !(Math.abs(value) < LONG) || !(width > 0 && width < Infinity)) return short(value);
+  const decimals = OF_WIDTH - 1 - Math.floor(Math.log10(width));
+  if (width >= TINY || Math.abs(value) >= TINY) return value.toFixed(Math.max(0, Math.min(MOST_DECIMALS, decimals)));
+  const digits = decimals + Math.floor(Math.log10(Math.abs(value)));
+  return digits < 0 ? '0' : pointed(value.toExponential(Math.min(MOST_DECIMALS, digits)));
+}
+
+/** Prints an interval; empty if an end is not finite. */
+export const between = (interval: Interval | undefined) => (interval?.every(Number.isFinite) ? interval.map((end) => fixed(end, interval)).join(' to ') : '');
+
+/** Checks whether an α is 0 in the digits of its interval. A printed zero would look like a result. */
+export const isZero = (alpha: number | null, interval: Interval | undefined) => alpha !== null && Number(fixed(alpha, interval)) === 0;
+
+/** Prints a fraction in percent. */
+export const percent = (fraction: number | null) => (fraction !== null && Number.isFinite(fraction) ? `${short(100 * fraction)} %` : NONE);
+
+/** Upper end of an interval. */
+const mostOf = (interval: Interval | undefined) => short(interval?.[1] ?? null, OF_WIDTH);
+
+/** Multiplies an interval. */
+const scaled = (interval: Interval, factor: number): Interval => interval && [factor * interval[0], factor * interval[1]];
+
+/** Prints an α times a factor, or its upper bound if it is not significantly different from 0. */
+export const alphaOrBound = (alpha: number | null, interval: Interval, factor = 1) => (isZero(alpha, interval) ? `≤ ${mostOf(scaled(interval, factor))}` : fixed(alpha && factor * alpha, scaled(interval, factor)));
+
+/** Returns why an α is not identifiable, and the drive that would identify it. */
+export function adviceOf(lacking: typeof import('./en.ts').en.alphas.lacking, model: string, reason: keyof typeof lacking) {
+  const { lack, drive, byCommands } = lacking[reason];
+  return { lack, drive: model === 'velocity' ? byCommands : drive };
+}
+
+/**
+ * Returns the reason whose advice would distinguish an α from 0.
+ *
+ * @param index of the α, from 0
+ */
+export function neededFor(model: string, index: number): 'insufficient-rotation' | 'insufficient-translation' {
+  const isOfRotation = model === 'velocity' ? index % 2 === 1 : index === 0 || index === 3;
+  return isOfRotation ? 'insufficient-rotation' : 'insufficient-translation';
+}
+
+/**
+ * Lines with the recommended α's; the fitted ones stand in comments.
+ *
+ * @returns none if Nav2 has no such model, or no α's are recommended
+ */
+export function nav2Lines({ calibration, count, model, rule, legs, log, date }: Fitted, say: Words): string[] {
+  const { alphas, intervals, recommended, systematicErrors, diagnostics: { checks, windows: [window] } } = calibration;
+  if (!Object.hasOwn(NAV2, model) || recommended === null) return [];
+  const { inflation } = recommended;
+  const { distance, angle, duration } = legs;
+  const failed = failedOf(checks).map(({ name }) => name).join(', ');
+  const notes = [
+    say.of(String(count), duration === undefined ? say.moved(short(distance ?? null), short(angle ?? null)) : say.lasted(short(duration)), log, date),
+    say.recommended(short(inflation), percent(window.coverage), String(window.count)),
+    ...(model !== 'odometry' || ITS_RULES.includes(rule) ? [] : [say.otherRule]),
+    ...correctionOf(systematicErrors).map((errors) => say.corrected(errors)),
+    ...(failed ? [say.failed(failed)] : []),
+    ...(isLocalizer(log) ? [say.localizer] : []),
+  ];
+  const lines = alphas.map((alpha: number | null, i: number) => {
+    const interval = intervals[i];
+    if (alpha === null) return `# alpha${i + 1}: ${say.notIdentifiable}`;
+    if (isZero(alpha, interval)) return `# alpha${i + 1}: ${say.zero(mostOf(scaled(interval, inflation)))}`;
+    const value = fixed(inflation * alpha, scaled(interval, inflation));
+    if (inflation * alpha > MOST) return `# alpha${i + 1}: ${value}, ${say.tooLarge}`;
+    return `alpha${i + 1}: ${double(value)}  # ${say.fitted(fixed(alpha, interval), between(interval))}`;
+  });
+  // A line break in a file's name would end the comment.
+  const comments = notes.map((note) => `# ${note.replaceAll(/\s+/g, ' ')}`);
+  const fifth = alphas.length < 5 ? [`# ${say.fifth}`] : [];
+  const triggers = duration === undefined ? [`update_min_d: ${double(short(distance ?? null))}`, `update_min_a: ${double(short(angle ?? null))}`] : [];
+  const all = [...comments, `robot_model_type: "${NAV2[model]}"`, ...lines, ...fifth, ...triggers];
+  return ['amcl:', '  ros__parameters:', ...all.map((line) => `    ${line}`)];
+}
+
+/** Checks that failed. */
+export const failedOf = (checks: { name: string, passed: boolean, message: string }[]) => checks.filter(({ passed }) => !passed);
+
+/**
+ * Lists the systematic errors that were corrected: the odometry of the robot still has them.
+ *
+ * @returns one, or none
+ */
+function correctionOf(systematicErrors: any): string[] {
+  const corrected = Object.entries<any>(systematicErrors).filter(([, each]) => each.corrected);
+  const list = corrected.map(([name, { value, interval }]) => `${name} ${[value].flat().map((one, i) => fixed(one, Array.isArray(value) ? interval[i] : interval)).join(', ')}`);
+  return list.length ? [list.join('; ')] : [];
+}

@@ -1,0 +1,65 @@
+/** Exports of the Alpha Calibrator: lines of nav2_params.yaml, and everything as JSON. */
+
+import { html, nothing } from 'lit';
+import { Part } from '../../figure/part.ts';
+import { save } from '../../figure/takeaway/export.ts';
+import { words } from '../../messages/registry.ts';
+import { button } from '../../ui/controls.ts';
+import { nav2Lines } from './lines.ts';
+import { legsOf } from './settings.ts';
+
+export type Figure = import('./alpha-calibrator.ts').AlphaCalibratorElement;
+
+/**
+ * Lines for nav2_params.yaml.
+ *
+ * @returns empty if Nav2 has no such model, or no α's are recommended
+ */
+function yamlOf({ reading, logName }: Figure): string {
+  const { config, stats, legs: { count } } = reading;
+  const { model, rule } = config;
+  const date = new Date().toISOString().slice(0, 10);
+  const fitted = { calibration: stats, count, model, rule, legs: legsOf(config), log: logName, date };
+  return nav2Lines(fitted, words.calibrator.nav2).map((line) => `${line}\n`).join('');
+}
+
+/** All results, with typed arrays as plain ones. */
+function jsonOf({ reading: { config, stats, legs, truth }, logName }: Figure) {
+  const all = { log: logName, date: new Date().toISOString(), settings: config, ...stats, ...(truth && { truth }), legs };
+  return JSON.stringify(all, (_, value) => (ArrayBuffer.isView(value) ? [...(value as Float64Array)] : value), 1);
+}
+
+/** Text that was copied last. */
+export class Copied extends Part<Figure> {
+  #text: string | undefined;
+
+  /** Checks whether a text was copied last. */
+  has(text: string) {
+    return this.#text === text;
+  }
+
+  async copy(text: string) {
+    // A frame may lack the permission, and a page without encryption the clipboard: the lines can still be selected.
+    await Promise.resolve(navigator.clipboard?.writeText(text).then(() => (this.#text = text))).catch(() => undefined);
+    this.host.requestUpdate();
+  }
+}
+
+/** Returns the button that copies the lines for Nav2. */
+export function copyButton(figure: Figure, copied: Copied) {
+  const say = words.calibrator.nav2;
+  const yaml = yamlOf(figure);
+  return html`${button(say.copy, () => copied.copy(yaml), { disabled: !yaml, title: yaml ? say.label : say.none })}
+    <output>${yaml && copied.has(yaml) ? [say.copied, yaml.includes(say.otherRule) ? ` ${say.otherRule}.` : nothing] : nothing}</output>`;
+}
+
+/** Returns the lines for Nav2, and the button that saves everything as JSON. */
+export function nav2(figure: Figure) {
+  const say = words.calibrator.nav2;
+  const yaml = yamlOf(figure);
+  const name = `${figure.localName}-${figure.reading.config.seed}.json`;
+  return html`${yaml ? html`<textarea class="yaml" readonly rows=${yaml.split('\n').length} aria-label=${say.label} .value=${yaml}></textarea>` : html`<p>${say.none}</p>`}
+    <div class="buttons">
+      ${button(say.json, () => save(name, new Blob([jsonOf(figure)], { type: 'application/json' })))}
+    </div>`;
+}

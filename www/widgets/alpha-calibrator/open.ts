@@ -1,0 +1,280 @@
+/** Logs of the reader's own: chosen or dropped, and read. */
+
+import { html, nothing } from 'lit';
+import { Part } from '../../figure/part.ts';
+import { language, words } from '../../messages/registry.ts';
+import { button, inputOf } from '../../ui/controls.ts';
+import { FileDrop, fileInput } from '../shared/files.ts';
+import { referenceNoise } from './controls.ts';
+
+export type Figure = import('./alpha-calibrator.ts').AlphaCalibratorElement;
+
+export type LogError = import('../../logs/log-error.js').LogError;
+
+export type Poses = import('../../logs/log.ts').Poses;
+
+export type Recording = import('../../logs/log.ts').Recording;
+
+export type Series = import('../../logs/log.ts').Series;
+
+export type CalibrationLog = import('../../types.d.ts').CalibrationLog;
+
+export type Reader = Awaited<ReturnType<typeof loadReader>>;
+
+export type Watched = { onProgress: (share: number) => void, signal: AbortSignal };
+
+/** Recording with its topics, or two tables without. */
+export interface Chosen {
+  files: Recording[];
+  topics: Series[];
+  /** Topic; empty where it is ambiguous. */
+  odometry: string;
+  /** Topic; empty where it is ambiguous. */
+  reference: string;
+  /** Frames of topics of transforms. */
+  frames: typeof FRAMES;
+  /** Kind of odometry that the model wanted when it was read. */
+  kind: 'commands' | undefined;
+  /** True if the reader chose the topic of the odometry. */
+  isExplicit: boolean;
+}
+
+/** Extensions that the file dialog offers. */
+const EXTENSIONS = ['.csv', '.txt', '.tum', '.mcap'];
+
+/** Id of the drop zone. */
+const ZONE = 'log';
+
+/** Usual frames of a topic of transforms: parent and child. */
+const FRAMES = { odometry: 'odom, base_link', reference: 'map, base_link' };
+
+/** Progress of one part of the reading, which throws once it is cancelled. */
+const partOf = ({ onProgress, signal }: Watched, from: number, to: number): (share: number) => void => (share) => {
+  signal.throwIfAborted();
+  onProgress(from + share * (to - from));
+};
+
+export class LogOpener extends Part<Figure> {
+  dropped = new FileDrop(this.host, ZONE, (files) => this.choose(files));
+  /** Why the latest log was refused. */
+  #complaint: (() => string) | undefined;
+  /** Summary of the present log. */
+  #found: (() => string[]) | undefined;
+  /** Files and topics of the latest log. */
+  chosen: Chosen | undefined;
+  /** Log that was opened last, and whether its table has poses and commands. */
+  #opened: { chosen: Chosen, log: CalibrationLog, hasBoth: boolean } | undefined;
+  /** Share of the file that has been read; undefined while none is being read. */
+  share: number | undefined;
+  /** Cancels the reading. */
+  #stopping = new AbortController();
+
+  /** Why the latest log was refused; empty where it was not. */
+  get complaint() {
+    return this.#complaint?.() ?? '';
+  }
+
+  /** Sentences about the present log: decisions, and rows that were left out. */
+  get found() {
+    return this.#found?.() ?? [];
+  }
+
+  /** Odometry that the model prefers where a log has both: the velocity model takes commands. */
+  get #kind(): 'commands' | undefined {
+    return this.host.reading.config.model === 'velocity' ? 'commands' : undefined;
+  }
+
+  /** Reads the files again where another model prefers another odometry of them. */
+  hostUpdated() {
+    if (!this.#opened || this.share !== undefined) return;
+    const { chosen, log, hasBoth } = this.#opened;
+    if (chosen !== this.chosen || log !== this.host.log || chosen.kind === this.#kind) return;
+    chosen.kind = this.#kind;
+    this.#attempt(async (reader, watching) => {
+      const { odometry } = reader.guessSeries(chosen.topics, chosen.kind);
+      const isOther = odometry !== null && odometry !== chosen.odometry && !chosen.isExplicit;
+      if (isOther) chosen.odometry = odometry;
+      if (isOther || hasBoth) await this.#read(chosen, reader, watching);
+    });
+  }
+
+  /** Returns to the simulated log. */
+  leave() {
+    this.#stopping.abort();
+    this.share = this.chosen = this.#complaint = this.#found = undefined;
+    this.host.open(null);
+  }
+
+  /** Stops reading. */
+  stop() {
+    this.#stopping.abort();
+    this.share = undefined;
+    this.#complaint = () => words.progress.stopped;
+    this.host.requestUpdate();
+  }
+
+  choose(files: File[]) {
+    if (files.length === 0) return;
+    this.chosen = undefined;
+    this.#attempt(async (reader, watching) => {
+      const recordings = await reader.openRecordings(files);
+      const [{ name, series }, second] = recordings;
+      const areTables = recordings.map(isTable);
+      if (second ? files.length > 2 || areTables.includes(false) : areTables[0]) throw new Error(words.calibrator.own.two(files.length));
+      const topics = second ? [] : reader.usefulSeries(name, series);
+      const kind = this.#kind;
+      const guess = reader.guessSeries(topics, kind);
+      const chosen = {
+        files: second && reader.areSwapped(name, second.name) ? recordings.toReversed() : recordings,
+        topics,
+        odometry: guess.odometry ?? '',
+        reference: guess.reference ?? '',
+        frames: FRAMES,
+        kind,
+        isExplicit: false,
+      };
+      this.chosen = chosen;
+      const role = guess.odometry === null ? 'odometry' : 'reference';
+      if (!second && guess[role] === null) throw reader.ambiguousSeries(name, topics, role);
+      await this.#read(chosen, reader, watching);
+    });
+  }
+
+  /** Takes a choice of the reader. */
+  change(change: Partial<Chosen>) {
+    if (!this.chosen) return;
+    const chosen = { ...this.chosen, ...change, isExplicit: this.chosen.isExplicit || change.odometry !== undefined };
+    this.chosen = chosen;
+    this.host.requestUpdate();
+    if (chosen.topics.length > 0 && !(chosen.odometry && chosen.reference)) return;
+    this.#attempt((reader, watching) => this.#read(chosen, reader, watching));
+  }
+
+  async #read(chosen: Chosen, reader: Reader, watching: Watched) {
+    const { files, topics, odometry, reference, frames, kind } = chosen;
+    const choice = (topic: string, its: string) => {
+      const [parent, child = ''] = its.split(',').map((frame) => frame.trim());
+      return { series: topic, ...(holdsTransforms(topics, topic) && { frames: { parent, child } }) };
+    };
+    const [first, second] = topics.length
+      ? await files[0].read([choice(odometry, frames.odometry), choice(reference, frames.reference)], partOf(watching, this.share ?? 0, 1))
+      : [
+          ...(await files[0].read([{ series: '', kind }], partOf(watching, 0, 0.5))),
+          ...(await files[1].read([{ series: '', kind: 'poses' }], partOf(watching, 0.5, 1))),
+        ];
+    const paired = reader.pairLogs(first, second);
+    const name = [...new Set(files.map((file) => file.name)), ...(topics.length ? [reference] : [])].join(', ');
+    const log = { name, odometry: paired.odometry.data, reference: paired.reference.data as Poses };
+    const say = await wordsOf();
+    watching.signal.throwIfAborted();
+    this.host.open(log, () => {
+      this.#opened = { chosen, log, hasBoth: !topics.length && files[0].series[0].hasCommands === true };
+      const logs = [paired.odometry, paired.reference];
+      this.#found = () => logs.map((each) => `${each.name}: ${reader.summarize(each, say().found).join(' ')}`);
+    }, (error) => this.#refuse(error));
+  }
+
+  /** Shows why a log was refused. */
+  async #refuse(error: unknown) {
+    const { message, sentence } = error as Error & Partial<LogError>;
+    const say = sentence && (await wordsOf());
+    this.#complaint = () => (say ? sentence(say()) : words.calibrator.own.refused(message));
+    this.host.requestUpdate();
+    await this.dropped.showRefusal(this.complaint);
+  }
+
+  /** Loads the reader of logs, cancels a reading that is under way, and starts another. */
+  async #attempt(work: (reader: Reader, watching: Watched) => Promise<void>) {
+    this.#stopping.abort();
+    this.#stopping = new AbortController();
+    const { signal } = this.#stopping;
+    this.#complaint = undefined;
+    const show = (share: number | undefined) => {
+      if (signal.aborted) return;
+      this.share = share;
+      this.host.requestUpdate();
+    };
+    show(0);
+    try {
+      await work(await loadReader(), { onProgress: show, signal });
+      show(undefined);
+    } catch (error) {
+      show(undefined);
+      if (!signal.aborted) await this.#refuse(error);
+    }
+  }
+}
+
+const isTable = ({ format }: Recording) => format === 'csv' || format === 'tum';
+
+/** Loads the reader of logs. */
+async function loadReader() {
+  const [drives, open, summary] = await Promise.all([import('../../logs/drives.ts'), import('../../logs/open.ts'), import('../../logs/summary.ts')]);
+  return { ...drives, ...open, ...summary };
+}
+
+const holdsTransforms = (topics: Series[], topic: string) => topics.some(({ name, kind }) => name === topic && kind === 'transforms');
+
+/**
+ * Loads the words of logs.
+ *
+ * @returns those of the present language
+ */
+async function wordsOf(): Promise<() => typeof import('../../logs/en.js').log> {
+  const [{ log: english }, { log: german }] = await Promise.all([import('../../logs/en.js'), import('../../logs/de.js')]);
+  return () => (language === 'de' ? german : english);
+}
+
+/** Returns the line that logs are dropped on, and below it what becomes of a log: progress, topics, and why it is refused. */
+export function dropZone(figure: Figure, opener: LogOpener) {
+  const say = words.calibrator.own;
+  const { chosen, complaint, share } = opener;
+  return html`<div class="drop-zone" id=${ZONE} part="drop">
+    <p title=${say.dropTitle}>
+      ${say.drop}
+      <label class="files"><span>${say.files}</span>${fileInput('log-files', EXTENSIONS, (files) => opener.dropped.take(files))}</label>
+      ${figure.log ? html`<span class="present">${say.present(figure.logName)}</span> ${button(say.leave, () => opener.leave())}` : nothing}
+    </p>
+    ${share === undefined ? nothing : html`<p><progress aria-label=${say.reading} .value=${share}></progress> ${button(words.progress.stop, () => opener.stop())}</p>`}
+    ${chosen ? whichIsWhich(opener, chosen) : nothing}
+    <p class="note" role=${figure.notice.isShown ? nothing : 'alert'} ?hidden=${complaint === ''}>${complaint}</p>
+  </div>`;
+}
+
+/** Returns the summary of the log, and the noise of its reference. */
+export function logSection(figure: Figure, { found }: LogOpener) {
+  const say = words.calibrator.own;
+  return html`<p>${figure.log ? say.present(figure.logName) : say.simulated}</p>
+    ${figure.log ? found.map((sentence) => html`<p class="muted">${sentence}</p>`) : nothing}
+    ${referenceNoise(figure)}
+    <p class="muted">${say.stds}</p>`;
+}
+
+function whichIsWhich(opener: LogOpener, { files, topics, frames, ...chosen }: Chosen) {
+  const say = words.calibrator.own;
+  if (topics.length === 0) {
+    return html`<p>
+      ${say.odometry}: ${files[0].name}; ${say.reference}: ${files[1].name}
+      ${button(say.swap, () => opener.change({ files: [files[1], files[0]] }))}
+    </p>`;
+  }
+  const select = (role: 'odometry' | 'reference') => html`<label>
+      ${say[role]}
+      <select aria-label=${say[role]} @change=${(event: Event) => opener.change({ [role]: (event.target as HTMLSelectElement).value })}>
+        <option value="" ?selected=${chosen[role] === ''}></option>
+        ${topics.map(({ name, count }) => html`<option value=${name} ?selected=${name === chosen[role]}>${name} (${count})</option>`)}
+      </select>
+    </label>
+    ${holdsTransforms(topics, chosen[role])
+      ? html`<label>
+          ${say.frames}
+          <input
+            type="text"
+            aria-label="${say[role]}: ${say.frames}"
+            .value=${frames[role]}
+            @change=${(event: Event) => opener.change({ frames: { ...frames, [role]: inputOf(event).value } })}
+          />
+        </label>`
+      : nothing}`;
+  return html`<p class="topics">${select('odometry')} ${select('reference')}</p>`;
+}

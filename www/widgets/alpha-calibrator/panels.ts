@@ -1,0 +1,94 @@
+/** Squared residuals of the Alpha Calibrator against what drives them: the slope is an α. */
+
+import { html } from 'lit';
+import { words } from '../../messages/registry.ts';
+import { radioGroup, rich } from '../../ui/controls.ts';
+import { NOTHING } from '../../ui/format.ts';
+import { plot } from '../../ui/plot.ts';
+import { adviceOf, alphaOrBound, isZero, neededFor } from './lines.ts';
+import { COMPONENTS } from './settings.ts';
+import { alphaName, localized, thousandths } from './words.ts';
+import type { CalibrationPanel } from '../../types.d.ts';
+import type { Curve } from '../../ui/plot.ts';
+
+export type Figure = import('./alpha-calibrator.ts').AlphaCalibratorElement;
+
+/** Least square of a way or turn: a millimetre, or a thousandth of a radian. */
+const DRIVEN = 1e-6;
+
+/** Squared residuals of the three noises against what drives them. */
+export function panels(figure: Figure) {
+  const { reading, state: { own: { driver } }, gesture } = figure;
+  const say = words.calibrator.panels;
+  if (reading.legs.count === 0) return html`<p>${words.calibrator.none}</p>`;
+  const choose = (name: import('./settings.ts').Driver) => gesture.choose('driver', name);
+  return html`${radioGroup(say.against, 'driver', say.drivers, driver, choose)}
+    <div class="panels">
+      ${panelsOf(figure).map(({ panel, plot: described }) => html`<figure>
+        ${plot(described)}
+        ${noteOf(panel, reading)}
+      </figure>`)}
+    </div>
+    <p class="figcaption">${rich(say.caption)}</p>`;
+}
+
+/** Panels with their plots; none without legs. */
+function panelsOf({ machine, reading: { config, legs }, state: { own: { driver } } }: Figure) {
+  const say = words.calibrator.panels;
+  const axes = config.model === 'velocity' ? { turn: say.turnRate, way: say.speed } : { turn: say.turn, way: say.way };
+  const all = legs.count > 0 ? (machine?.panels(driver) ?? []) : [];
+  return all.map((panel, i) => {
+    const kind = say.kinds[COMPONENTS[config.model][i]];
+    return { panel, plot: panelPlot(panel, kind, axes[(driver as 'turn' | 'way')]) };
+  });
+}
+
+function panelPlot({ alpha, x, y, error, slope, interval }: CalibrationPanel, kind: string, axis: string): import('../../ui/plot.ts').Plot {
+  const say = words.calibrator.panels;
+  const furthest = Math.max(0, ...x);
+  // A log without turns or without ways has an empty axis.
+  const last = furthest > DRIVEN ? 1.06 * furthest : 1;
+  const { from, to } = axisOfSquares(y, error, (slope ?? 0) * last);
+  const highest = 1.1 * Math.max(x.length ? 1e-12 : 1, to);
+  const { scaled, unit } = thousandths(Math.max(highest, -from));
+  const name = alphaName(alpha);
+  const [low, high] = interval ?? [NaN, NaN];
+  const middle = (low + high) / 2;
+  const lines: Curve[] = slope === null ? [] : [
+    { name: say.slope(name), role: 'prediction', x: [0, last], y: [0, scaled(slope * last)] },
+    { name: words.calibrator.alphas.interval, role: 'cloud', area: true, x: [0, last], y: [0, scaled(middle * last)], error: [0, scaled(((high - low) / 2) * last)] },
+  ];
+  return {
+    label: say.label(kind, String(alpha + 1), slope === null ? NOTHING : localized(alphaOrBound(slope, interval))),
+    x: { name: axis, from: 0, to: last },
+    y: { name: `${kind}, ${say.axis}${unit && ` (${unit})`}`, from: scaled(from), to: scaled(highest) },
+    curves: [...lines, { name: say.bins, role: 'ink', x: [], y: [] }],
+    points: x.map((at, i) => ({ role: 'ink' as const, x: at, y: scaled(y[i]), error: scaled(error[i]) })),
+  };
+}
+
+/** Note on an α that is not determined or not told from 0. */
+function noteOf({ alpha, slope, interval }: CalibrationPanel, { config: { model } }: import('./reading.ts').Reading) {
+  const { panels: say, alphas: { lacking } } = words.calibrator;
+  if (slope !== null && !isZero(slope, interval)) return '';
+  const name = alphaName(alpha);
+  return html`<p class="note">${rich(slope === null ? say.noSlope(name) : say.zero(name, adviceOf(lacking, model, neededFor(model, alpha)).drive))}</p>`;
+}
+
+/**
+ * Range of an axis of squares: all bins and the line, and half as much again of their bars. The bar of a single leg would leave the
+ * others no room.
+ *
+ * @param squares of bins
+ * @param error of each
+ * @param line its highest square
+ */
+function axisOfSquares(squares: number[], error: number[], line: number): { from: number, to: number } {
+  const [lowest, highest] = [Math.min(0, ...squares), Math.max(0, line, ...squares)];
+  const ends = (side: number) => squares.map((square, i) => square + side * error[i]);
+  const room = (highest - lowest) / 2;
+  return {
+    from: Math.max(lowest - room, Math.min(lowest, ...ends(-1))),
+    to: Math.min(highest + room, Math.max(highest, ...ends(1))),
+  };
+}

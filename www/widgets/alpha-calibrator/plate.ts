@@ -1,0 +1,78 @@
+/** Exported picture: the path, the α's with their intervals, the verdict, and the systematic errors. */
+
+import { words } from '../../messages/registry.ts';
+import { brushOn } from '../../scene/canvas.ts';
+import { Picture } from '../../scene/picture.ts';
+import { View } from '../../scene/view.ts';
+import { WayPicture } from './pictures.ts';
+import { alphaTexts } from './readouts.ts';
+import { systematicTexts } from './systematic.ts';
+import { captionOf, reasonOf } from './words.ts';
+import type { Scene } from './pictures.ts';
+
+export type Figure = import('./alpha-calibrator.ts').AlphaCalibratorElement;
+
+/** Pixels: the path at the left, the α's beside it, and sentences below them. */
+const [WIDTH, HEIGHT] = [720, 560];
+const WAY = { width: 430, height: 344 };
+
+/** Room for a key in two lines, CSS pixels. */
+const TWO_LINES = 42;
+
+/** Distance of lines. */
+const LINE = 18;
+
+export class Plate extends Picture<Scene> {
+  size = { width: WIDTH, height: HEIGHT };
+  #way = new WayPicture(TWO_LINES);
+  #figure;
+
+  constructor(figure: Figure) {
+    super('plate', new View());
+    this.#figure = figure;
+  }
+
+  draw(surface: Parameters<Picture<Scene>['draw']>[0], scene: Parameters<Picture<Scene>['draw']>[1], palette: Parameters<Picture<Scene>['draw']>[2]) {
+    const { reading, logName } = this.#figure;
+    const brush = { ...brushOn(surface, this.view, palette), exported: true };
+    const way = this.#way;
+    way.view.resize(WAY.width, WAY.height);
+    way.fit(scene);
+    way.view.ease(0, true);
+    const { context } = brush;
+    context.save();
+    way.paint({ ...brush, view: way.view }, scene);
+    context.restore();
+    context.fillStyle = palette.ink;
+    context.font = brush.font;
+    context.textAlign = 'left';
+    context.textBaseline = 'top';
+    const beside = WAY.width + 20;
+    let y = 2;
+    for (const text of [`${words.calibrator.alphas.caption}:`, ...alphaTexts(reading)]) y = write(context, text, beside, y, WIDTH - beside) + LINE / 3;
+    y = Math.max(WAY.height, y) + LINE;
+    for (const text of [captionOf(reading, logName), reasonOf(reading), ...systematicTexts(reading)]) y = write(context, text, 2, y, WIDTH - 2);
+    return false;
+  }
+}
+
+/**
+ * Writes a text in lines that are not longer than the width.
+ *
+ * @returns where the next one may begin
+ */
+function write(context: CanvasRenderingContext2D, text: string, x: number, y: number, width: number): number {
+  let line = '';
+  for (const word of text.split(' ')) {
+    const longer = line && `${line} ${word}`;
+    if (longer && context.measureText(longer).width <= width) {
+      line = longer;
+      continue;
+    }
+    if (line) context.fillText(line, x, y);
+    if (line) y += LINE;
+    line = word;
+  }
+  context.fillText(line, x, y);
+  return y + LINE;
+}

@@ -1,0 +1,93 @@
+/** View model of the Alpha Calibrator. */
+
+import { SIMULATED } from './settings.ts';
+import type { AlphaCalibrator as Machine, CalibrationLegs, CalibrationLog } from '../../types.d.ts';
+
+export interface Reading {
+  machine: Machine;
+  /** Null for the simulated one. */
+  log: CalibrationLog | null;
+  config: Machine['config'];
+  /** Number of the fit. */
+  fits: number;
+  stats: Machine['stats'];
+  legs: CalibrationLegs;
+  truth: Machine['truth'];
+  /** Classes of the legs, the most usual first. */
+  classes: Uint8Array;
+  /** Legs with the largest residuals, the largest first. */
+  worst: number[];
+  /** Leg that is shown if none was chosen. */
+  opening: number;
+}
+
+/**
+ * Reads the machine for pictures and readouts, once a change.
+ *
+ * @param before latest reading, whose copies are used again if they are of the same fit
+ */
+export function readingOf(machine: Machine, log: CalibrationLog | null, before: Reading | undefined): Reading {
+  const { config, fits } = machine;
+  if (before?.machine === machine && before.fits === fits) return { ...before, log, config };
+  const { stats, legs, truth } = machine;
+  return {
+    machine,
+    log,
+    config,
+    fits,
+    stats,
+    legs,
+    truth,
+    classes: classesOf(legs),
+    worst: worstOf(legs),
+    opening: openingOf(legs, config.duration > 0 ? SHORTEST : config.distance),
+  };
+}
+
+/** Least length of a leg with a direction, m. */
+const SHORTEST = 0.01;
+
+/** Number of the largest residuals that are listed. */
+const LISTED = 10;
+
+/** Quantiles 0.5, 0.95 and 0.999 of χ² with 0 to 3 degrees of freedom. */
+const CHI2 = [[0, 0, 0], [0.455, 3.841, 10.828], [1.386, 5.991, 13.816], [2.366, 7.815, 16.266]];
+
+/** Returns the class of each leg: the index of the first quantile that its squared Mahalanobis distance does not exceed. */
+export function classesOf({ count, squared, residuals }: Pick<CalibrationLegs, 'count' | 'squared' | 'residuals'>) {
+  return Uint8Array.from({ length: count }, (_, leg) => {
+    const quantiles = CHI2[observedOf(residuals, leg)];
+    const place = quantiles.findIndex((quantile) => squared[leg] <= quantile);
+    return place < 0 ? quantiles.length : place;
+  });
+}
+
+/** Returns the number of noise components that a leg shows. */
+export const observedOf = (residuals: Float64Array, leg: number) => residuals.subarray(3 * leg, 3 * leg + 3).reduce((count, residual) => count + Number(!Number.isNaN(residual)), 0);
+
+/** Returns the legs with the largest residuals, the largest first. */
+function worstOf({ squared }: Pick<CalibrationLegs, 'squared'>) {
+  const least = squared.toSorted()[Math.max(0, squared.length - LISTED)];
+  const candidates = [...squared.keys()].filter((leg) => squared[leg] >= least);
+  return candidates.sort((one, other) => squared[other] - squared[one]).slice(0, LISTED);
+}
+
+/**
+ * Returns the driven leg with the largest residual that is no outlier. An outlier is no evidence against the model, and a turn on the
+ * spot shows no cloud.
+ *
+ * @param distance least length of the leg
+ * @returns −1 where there is none
+ */
+function openingOf({ squared, outliers, odometry }: CalibrationLegs, distance: number): number {
+  const isDriven = (leg: number) => Math.hypot(odometry[6 * leg + 3] - odometry[6 * leg], odometry[6 * leg + 4] - odometry[6 * leg + 1]) >= distance;
+  const worst = squared.reduce((found, error, leg) => (outliers[leg] === 0 && isDriven(leg) && error > (squared[found] ?? -1) ? leg : found), -1);
+  return worst < 0 && squared.length > 0 ? 0 : worst;
+}
+
+/** Returns the leg that is shown; −1 if there is none. */
+export const legOf = ({ opening, legs }: Reading, chosen: number | null) => (chosen !== null && chosen < legs.count ? chosen : opening);
+
+/** Checks whether the true α's are of the rule and the legs of the present fit. */
+export const truthHolds = ({ truth, config: { rule, model, distance, angle, duration } }: Pick<Reading, 'truth' | 'config'>) =>
+  truth !== null && model === 'odometry' && rule === 'thrun' && distance === SIMULATED.distance && angle === SIMULATED.angle && duration === 0;

@@ -1,0 +1,125 @@
+/** Judgement and α's of the Alpha Calibrator, each α with its interval. */
+
+import { html, nothing, svg } from 'lit';
+import { words } from '../../messages/registry.ts';
+import { rich } from '../../ui/controls.ts';
+import { NOTHING, powerOfTen, tick } from '../../ui/format.ts';
+import { adviceOf, alphaOrBound, fixed } from './lines.ts';
+import { truthHolds } from './reading.ts';
+import { alphaName, judgementOf, legsText, localized, noiseNames } from './words.ts';
+import type { Reading } from './reading.ts';
+
+export type Figure = import('./alpha-calibrator.ts').AlphaCalibratorElement;
+
+/** Size of a whisker's row. */
+const CHART = { width: 200, height: 24, middle: 18.5, inset: 12 };
+
+/** Most decades between labels of the axis. */
+const MOST_DECADES = 4;
+
+/** Icons of the ratings. */
+const ICONS = { consistent: '✓', questionable: '!', unusable: '✕' };
+
+/** Returns the badge of the α's, with the verdict, the next step and the legs. */
+export function verdictLine({ reading, logName }: Figure) {
+  const { rating, badge, finding, next } = judgementOf(reading, logName);
+  return html`<span class="badge ${rating}"><span aria-hidden="true">${ICONS[rating]}</span> ${badge}</span>
+    <strong>${finding}</strong> ${next} <span class="muted">${legsText(reading, logName)}</span>`;
+}
+
+/** Table of the α's, each with its interval on a common axis. */
+export function alphaTable(reading: Reading) {
+  const { alphas, intervals } = reading.stats;
+  const say = words.calibrator.alphas;
+  const noises = noiseNames(reading.config.model);
+  const truth = truthHolds(reading) ? reading.truth?.alphas : undefined;
+  const place = axisOf([...alphas, ...intervals.flatMap((interval) => interval ?? []), ...(truth ?? [])]);
+  return html`<table class="alphas" part="table">
+    <thead>
+      <tr><th scope="col">${rich(say.alpha)}</th><th scope="col">${truth ? trueHead() : say.noise}</th><th scope="col">${say.value}</th><th scope="col">${say.recommended}</th></tr>
+    </thead>
+    <tbody>
+      ${alphas.map((alpha, i) => html`<tr>
+        <th scope="row">${rich(`*α*${alphaName(i)}`)}</th>
+        ${alpha === null
+          ? html`<td colspan="3"><div class="of">${noises[i]}</div><span class="unknown">${lackOf(reading, i)}</span></td>`
+          : html`<td class="chart"><div class="of">${noises[i]}</div>${whisker(place, alpha, intervals[i], truth?.[i])}</td>
+            <td class="roomy" data-room=${say.between('0.0000', '0.0000')}><div class="fitted-value">${fittedOf(reading, i)}</div><div class="between">${betweenOf(reading, i)}</div></td>
+            <td class="roomy recommended" data-room="0.0000">${recommendedOf(reading, i)}</td>`}
+      </tr>`)}
+      <tr class="axis" aria-hidden="true">
+        <td></td>
+        <td class="chart">
+          <div class="scale">${place.decades.map((decade) => html`<span .style=${`left: ${(100 * place.at(decade)) / CHART.width}%`}>${decade < 5e-4 ? powerOfTen(Math.round(Math.log10(decade))) : tick(decade, decade)}</span>`)}</div>
+        </td>
+        <td colspan="2"></td>
+      </tr>
+    </tbody>
+  </table>`;
+}
+
+/** Prints a recommended α. */
+function recommendedOf({ stats: { recommended, alphas, intervals } }: Reading, index: number) {
+  return recommended && alphas[index] !== null ? localized(alphaOrBound(alphas[index], intervals[index], recommended.inflation)) : NOTHING;
+}
+
+/** Prints a fitted α. */
+const fittedOf = ({ stats: { alphas, intervals } }: Reading, index: number) => localized(alphaOrBound(alphas[index], intervals[index]));
+
+/** Says why an α is not determined, and the drive that would determine it. */
+function lackOf({ stats: { notIdentifiable }, config: { model } }: Reading, index: number) {
+  const say = words.calibrator.alphas;
+  const reason = notIdentifiable[index];
+  if (!reason) return NOTHING;
+  const { lack, drive } = adviceOf(say.lacking, model, reason);
+  return say.unknown(lack, drive);
+}
+
+/** All α's as texts, each with its interval. */
+export function alphaTexts(reading: Reading) {
+  const { stats: { alphas }, config } = reading;
+  const { recommendedText } = words.calibrator.alphas;
+  return alphas.map((alpha, i) => {
+    const told = alpha === null ? [lackOf(reading, i)] : [fittedOf(reading, i), betweenOf(reading, i), recommendedText(recommendedOf(reading, i))];
+    return `α${alphaName(i)} ${noiseNames(config.model)[i]}: ${told.join(', ')}`;
+  });
+}
+
+/** Prints the interval of an α. */
+function betweenOf({ stats: { intervals } }: Reading, index: number) {
+  const interval = intervals[index];
+  return interval ? words.calibrator.alphas.between(localized(fixed(interval[0], interval)), localized(fixed(interval[1], interval))) : NOTHING;
+}
+
+/** Returns the head of the noises with the mark of the true value. */
+function trueHead() {
+  const [before, after] = words.calibrator.alphas.noiseTrue.split('|');
+  return html`${before}<svg class="sample" viewBox="0 0 6 12" aria-hidden="true"><path class="true" d="M3 1V11" /></svg>${after}`;
+}
+
+/** Logarithmic axis over the decades of some values. */
+function axisOf(values: (number | null)[]) {
+  const logs = values.filter((value) => value !== null && value > 0 && Number.isFinite(value)).map((value) => Math.log10(value as number));
+  const from = Math.floor(Math.min(0, ...(logs.length ? [Math.max(Math.min(...logs), Math.max(...logs) - 4)] : [-3])));
+  const to = Math.max(from + 1, Math.ceil(logs.length ? Math.max(...logs) : 0));
+  const { width, inset } = CHART;
+  const at = (value: number) => {
+    const share = (Math.log10(Math.max(value, 0)) - from) / (to - from);
+    // A mark beyond the axis stays whole at its edge.
+    return Math.max(inset / 3, Math.min(width - inset / 3, inset + share * (width - 2 * inset)));
+  };
+  // More labels would touch.
+  const step = Math.ceil((to - from) / MOST_DECADES);
+  return { at, decades: Array.from({ length: Math.floor((to - from) / step) + 1 }, (_, i) => 10 ** (from + i * step)) };
+}
+
+function whisker({ at, decades }: ReturnType<typeof axisOf>, value: number, interval: [number, number] | null, truth: number | undefined) {
+  const { width, height, middle } = CHART;
+  const [low, high] = (interval ?? [value, value]).map(at);
+  return html`<svg viewBox="0 0 ${width} ${height}" preserveAspectRatio="none" aria-hidden="true">
+    ${decades.map((decade) => svg`<path class="grid" d="M${at(decade)} 0V${height}" />`)}
+    ${truth === undefined ? nothing : svg`<path class="true" d="M${at(truth)} ${middle - 5}V${height}" />`}
+    <path class="whisker" d="M${low} ${middle}H${high}M${low} ${middle - 4}v8M${high} ${middle - 4}v8" />
+    <path class="dot" d="M${at(value)} ${middle}h0" />
+  </svg>`;
+}

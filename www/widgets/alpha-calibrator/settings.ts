@@ -1,0 +1,96 @@
+/** The Alpha Calibrator's settings as attributes, in its state, and as the eye sees them. */
+
+import { attributesOf } from '../../figure/attributes.ts';
+import { wholeNumber, word } from '../../figure/checks.ts';
+import { overlaysOf } from '../../figure/overlays.ts';
+import { settings } from '../../settings.js';
+import type { AlphaCalibratorSettings } from '../../types.d.ts';
+
+export const declared = settings['alpha-calibrator'];
+
+/** Key of the words in the catalogues. */
+export const vocabulary = 'calibrator';
+
+/** Dash of the odometry, CSS pixels. */
+const READ_DASH = [2.5, 3.5];
+
+/** Styles of the lines and marks in the pictures: the classes of legs, the most usual first, then the rest. */
+export const LINES = {
+  likely: { role: 'truth', width: 1.5, dash: [] },
+  plausible: { role: 'truth', width: 2, dash: [] },
+  unlikely: { role: 'prediction', width: 3.25, dash: [] },
+  implausible: { role: 'accent', width: 4.5, dash: [] },
+  outlier: { role: 'ink', width: 1.25, mark: 'ring' },
+  odometry: { role: 'prior', width: 1.25, dash: READ_DASH },
+  predicted: { role: 'prediction', width: 2, dash: [7, 4] },
+  reference: { role: 'ink', width: 2.25, dash: [] },
+} satisfies Record<string, import('../../figure/overlays.ts').LineStyle>;
+
+export type LineName = keyof typeof LINES;
+
+/** Classes of legs, the most usual first. */
+export const CLASSES = ['likely', 'plausible', 'unlikely', 'implausible'] as const satisfies LineName[];
+
+const { attribute: overlays, state } = overlaysOf(Object.keys(LINES));
+
+export const attributes = { ...attributesOf(declared), overlays };
+
+/** Motions whose squares a variance is made of. */
+const DRIVERS = ['turn', 'way'] as const;
+
+export type Driver = (typeof DRIVERS)[number];
+
+/** Largest number of a leg in a link: the count is not known before the fit. */
+const MOST_LEGS = 9_999_999;
+
+export const own: Record<string, import('../../figure/state.ts').Owned> = {
+  leg: { opening: null, check: (field, leg) => (leg === null ? null : wholeNumber(field, leg, 0, MOST_LEGS)) },
+  overlays: state,
+  driver: { opening: DRIVERS[0], check: (field, driver) => word(field, driver, DRIVERS) },
+};
+
+export const documentation: import('../../figure/attributes.ts').Documentation = {
+  properties: {},
+  state: {
+    leg: { type: 'number | null', sentence: 'The leg that is shown, from 0; null, or one that is not there, for the largest residual that is no outlier.' },
+    driver: { type: "'turn' | 'way'", sentence: 'The motion that squared residuals are drawn against.' },
+  },
+};
+
+/** Models with their rules: two settings, but one choice. */
+export const KINDS = ['thrun', 'nav2', 'beluga', 'omni', 'velocity'] as const;
+
+/** Legs of the simulated log: those that the element opens with. */
+export const SIMULATED = { distance: 0.25, angle: 0.2 };
+
+export type Kind = (typeof KINDS)[number];
+
+/** Length of legs as an option of `calibrate`. */
+export const legsOf = ({ distance, angle, duration }: AlphaCalibratorSettings): { duration: number } | { distance: number, angle: number } => (duration > 0 ? { duration } : { distance, angle });
+
+export const kindOf = ({ model, rule }: AlphaCalibratorSettings): Kind => (model === 'velocity' ? 'velocity' : rule);
+
+/** The settings to make for one of them. */
+export function settingsFor(kind: Kind) {
+  if (kind === 'velocity') return { model: 'velocity', rule: 'thrun' };
+  return { model: kind === 'omni' ? 'omnidirectional' : 'odometry', rule: kind };
+}
+
+/** Noise components by model, in the order of the residuals. */
+export const COMPONENTS = {
+  odometry: ['rot1', 'trans', 'rot2'],
+  omnidirectional: ['rot2', 'trans', 'strafe'],
+  velocity: ['v', 'omega', 'gamma'],
+} as const;
+
+/** Systematic errors in the order of the table. */
+export const SYSTEMATIC = ['clockOffset', 'mountYaw', 'leverArm', 'distanceScale', 'turnScale'] as const;
+
+export const looks: Record<string, import('../../figure/controls.ts').Look> = {
+  distance: { symbol: '*d*', role: 'prior', min: 0.05, max: 1, step: 0.01, decimals: 2 },
+  angle: { symbol: '*φ*', role: 'prior', min: 0.05, max: 1, step: 0.01, decimals: 2 },
+  duration: { symbol: '*T*', role: 'prior', min: 0, max: 5, step: 0.1, decimals: 2 },
+  positionStd: { symbol: '*σ*_{xy}', role: 'truth', min: 0, max: 0.05, step: 0.001, decimals: 3 },
+  yawStd: { symbol: '*σ*_{θ}', role: 'truth', min: 0, max: 0.05, step: 0.001, decimals: 3 },
+  inflation: { symbol: '*f*', role: 'prediction', min: 0.1, max: 5, step: 0.05, decimals: 2 },
+};

@@ -1,0 +1,369 @@
+/** Styles of the Alpha Calibrator. */
+
+import { css } from 'lit';
+import { layoutStyles } from '../../ui/layout.ts';
+import { plotStyles } from '../../ui/plot.ts';
+import { fileStyles } from '../shared/files.ts';
+
+const own = css`
+  canvas {
+    aspect-ratio: 5 / 4;
+  }
+
+  .drop-zone {
+    margin-bottom: 0.4em;
+    padding: 0.25em 0.6em;
+    border: 1px dashed var(--muted);
+    border-radius: 3px;
+  }
+
+  .drop-zone p {
+    margin: 0;
+  }
+
+  .drop-zone .note {
+    margin: 0.3em 0;
+  }
+
+  /* The button of the browser speaks its own language: it lies, unseen, on one in that of the figure. */
+  .files {
+    position: relative;
+    display: inline-block;
+    padding: 0.05em 0.6em;
+    border: 1px solid var(--muted);
+    border-radius: 3px;
+  }
+
+  .files input {
+    position: absolute;
+    inset: 0;
+    width: 100%;
+    min-height: 0;
+    margin: 0;
+    opacity: 0;
+    cursor: pointer;
+  }
+
+  .files input::file-selector-button {
+    width: 100%;
+    cursor: pointer;
+  }
+
+  .files:hover {
+    border-color: var(--ink);
+    box-shadow: inset 0 0 0 1px var(--ink);
+  }
+
+  .files:has(:focus-visible) {
+    outline: 2px solid var(--accent);
+    outline-offset: 2px;
+  }
+
+  /* The second class of legs has a colour between two roles, as in the picture. */
+  .legend > :nth-child(2) .swatch {
+    --role: color-mix(in srgb, var(--truth), var(--cloud));
+  }
+
+  .badge {
+    display: inline-block;
+    margin-inline-end: 0.4em;
+    padding: 0.1em 0.6em;
+    border: 1px solid var(--paper);
+    border-radius: 3px;
+    background: var(--prediction);
+    color: var(--paper);
+    font-weight: bold;
+  }
+
+  .badge.consistent {
+    background: var(--posterior);
+  }
+
+  .badge.unusable {
+    background: var(--accent);
+  }
+
+  @media (forced-colors: active) {
+    .badge {
+      color: CanvasText;
+      border-color: CanvasText;
+    }
+  }
+
+  /* The picture of the leg takes the room that is left. */
+  :host([presentation]) .one {
+    display: flex;
+    flex-direction: column;
+    align-self: stretch;
+  }
+
+  :host([presentation]) .one .panel {
+    flex: 1;
+  }
+
+  .fitted .buttons {
+    margin-bottom: 0.1em;
+  }
+
+  .fitted .panel-title {
+    flex: 1 0 100%;
+  }
+
+  table {
+    max-width: 48em;
+    margin: 0.2em 0 0.5em;
+    font-size: 0.84em;
+  }
+
+  td {
+    white-space: nowrap;
+  }
+
+  .alphas {
+    max-width: none;
+    margin-bottom: 0.1em;
+  }
+
+  .alphas :is(th, td) {
+    padding: 0 0 0 0.6em;
+    line-height: 1.2;
+    white-space: nowrap;
+    vertical-align: bottom;
+  }
+
+  /* Rows of 32 px, beside letters of 16 px. */
+  .alphas tbody tr:not(.axis) {
+    height: calc(2em / 0.84);
+  }
+
+  .alphas :is(thead, tbody) th {
+    vertical-align: middle;
+  }
+
+  .alphas thead th:nth-child(2) {
+    text-align: left;
+  }
+
+  .alphas .chart {
+    width: 100%;
+    padding-bottom: 0.1em;
+  }
+
+  /* A longer name goes on above the value. */
+  .alphas .of {
+    width: 0;
+    color: var(--muted);
+    line-height: 1;
+    text-align: left;
+  }
+
+  .alphas svg {
+    display: block;
+    width: 100%;
+    height: 1.2em;
+  }
+
+  .alphas .sample {
+    display: inline-block;
+    width: 0.5em;
+    height: 1em;
+    vertical-align: -0.1em;
+  }
+
+  .alphas path {
+    fill: none;
+    vector-effect: non-scaling-stroke;
+  }
+
+  .alphas .grid {
+    stroke: var(--rule);
+  }
+
+  .alphas .true {
+    stroke: var(--truth);
+    stroke-width: 3;
+  }
+
+  .alphas .whisker {
+    stroke: var(--prediction);
+    stroke-width: 1.9;
+  }
+
+  .alphas .dot {
+    stroke: var(--prediction);
+    stroke-width: 5;
+    stroke-linecap: round;
+  }
+
+  .alphas .scale {
+    position: relative;
+    height: 1.1em;
+    color: var(--muted);
+    font-size: 0.84em;
+  }
+
+  .scale > span {
+    position: absolute;
+    translate: -50%;
+  }
+
+  .alphas .unknown {
+    display: block;
+    text-align: left;
+    font-style: italic;
+    white-space: normal;
+  }
+
+  :is(.between, .muted) {
+    color: var(--muted);
+  }
+
+  .alphas .recommended {
+    font-weight: bold;
+  }
+
+  .reason {
+    margin: 0 0 0.3em;
+    font-size: 0.84em;
+    line-height: 1.3;
+  }
+
+  .systematic :is(th, td) {
+    padding-block: 0;
+  }
+
+  .systematic .toggle {
+    min-height: calc(2em / 0.84);
+  }
+
+  .looked {
+    display: grid;
+    gap: 0 0.8em;
+    align-items: center;
+    grid-template-columns: minmax(min-content, 1fr) auto;
+  }
+
+  .looked .slider {
+    grid-template: 'name value' auto 'track track' auto / 1fr auto;
+    padding-bottom: 0.2em;
+  }
+
+  .looked fieldset {
+    margin: 0;
+  }
+
+  [part='controls'] .controls {
+    grid-template-columns: repeat(auto-fit, minmax(min(100%, 13em), 1fr));
+    column-gap: 1.5em;
+  }
+
+  [part='controls'] .slider {
+    grid-template: 'name value' auto 'track track' auto / 1fr auto;
+  }
+
+  .panels {
+    display: grid;
+    grid-template-columns: repeat(auto-fit, minmax(min(100%, 17em), 1fr));
+    gap: 0.5em 1em;
+  }
+
+  .figcaption {
+    margin: 0.3em 0 0;
+    color: var(--muted);
+    font-size: 0.92em;
+  }
+
+  textarea.yaml {
+    width: 100%;
+    box-sizing: border-box;
+    font: 0.84em / 1.4 ui-monospace, monospace;
+  }
+
+  .dropping .drop-zone {
+    outline: 2px solid var(--accent);
+    outline-offset: 2px;
+  }
+
+  @media print {
+    .drop-zone {
+      display: none;
+    }
+  }
+
+  @container (width < 26em) {
+    .alphas :is(thead, tbody) {
+      display: revert;
+    }
+
+    .alphas tr {
+      display: table-row;
+    }
+
+    .alphas tr > :is(th, td) {
+      padding: 0 0 0 0.4em;
+      overflow-wrap: normal;
+    }
+
+    .alphas thead th {
+      white-space: normal;
+    }
+  }
+
+  @container (min-width: 38em) {
+    .views {
+      grid-template-columns: repeat(2, minmax(0, 1fr));
+      gap: 0.25em 1.25em;
+    }
+
+    .fitted {
+      grid-column: 1 / -1;
+    }
+
+    .fitted .panel-title {
+      flex: none;
+    }
+
+    canvas {
+      aspect-ratio: 8 / 5;
+    }
+
+    .one canvas {
+      aspect-ratio: 9 / 4;
+    }
+  }
+
+  /* All of it fits on a screen of 720 px. */
+  @container (38em <= width < 42em) {
+    canvas {
+      aspect-ratio: 7 / 4;
+    }
+
+    .one canvas {
+      aspect-ratio: 8 / 3;
+    }
+  }
+
+  @container (min-width: 56em) {
+    .views {
+      grid-template-columns: minmax(0, 1.2fr) minmax(0, 1fr) minmax(min-content, 1.1fr);
+    }
+
+    .fitted {
+      grid-column: auto;
+    }
+
+    .fitted .panel-title {
+      flex: 1 0 100%;
+    }
+
+    canvas {
+      aspect-ratio: 8 / 7;
+    }
+
+    .one canvas {
+      aspect-ratio: 5 / 4;
+    }
+  }
+`;
+
+export const calibratorStyles = [...layoutStyles, plotStyles, fileStyles, own];

@@ -1,0 +1,105 @@
+/** Systematic errors of the Alpha Calibrator: as a table, and as sentences. */
+
+import { html, nothing } from 'lit';
+import { words } from '../../messages/registry.ts';
+import { toggle } from '../../ui/controls.ts';
+import { fixed } from '../../ui/format.ts';
+import { SYSTEMATIC } from './settings.ts';
+import type { Interval } from '../../types.d.ts';
+import type { Reading } from './reading.ts';
+
+export type Figure = import('./alpha-calibrator.ts').AlphaCalibratorElement;
+
+export type SystematicError = Reading['stats']['systematicErrors']['mountYaw' | 'leverArm'];
+
+/** Most decimals of a systematic error: a micrometre. */
+const MOST_DECIMALS = 6;
+
+/** Returns the systematic errors in two sentences: those that were corrected, and those that the α's include. */
+export function systematicTexts({ stats: { systematicErrors: errors } }: Reading) {
+  const say = words.calibrator.systematic;
+  const list = (corrected: boolean) => SYSTEMATIC.filter((key) => errors[key].corrected === corrected).flatMap((key) => textOf(key, errors[key])).join('; ');
+  const [corrected, left] = [list(true), list(false)];
+  return [...(corrected ? [say.removed(corrected)] : []), ...(left ? [say.left(left)] : [])];
+}
+
+/**
+ * Names the systematic errors that differ from 0, or a scale from 1, but are not to be corrected.
+ *
+ * @returns empty if there are none
+ */
+export function uncorrectedText({ stats: { systematicErrors: errors }, config }: Reading): string {
+  const say = words.calibrator.systematic;
+  const uncorrected = SYSTEMATIC.filter((key) => !config[key] && matters(key, errors[key])).flatMap((key) => textOf(key, errors[key]));
+  return uncorrected.length > 0 ? say.matters(uncorrected.join('; ')) : '';
+}
+
+/** Checks whether an error differs from 0, or a scale from 1, beyond its interval. */
+function matters(key: string, { interval }: SystematicError) {
+  const neutral = key.endsWith('Scale') ? 1 : 0;
+  return intervalsOf(interval).some((ends) => ends && (ends[0] > neutral || ends[1] < neutral));
+}
+
+/**
+ * Prints an error with its name.
+ *
+ * @returns one text, or none if it is unknown
+ */
+function textOf(key: typeof SYSTEMATIC[number], error: SystematicError): string[] {
+  const { values, halves } = digitsOf(error);
+  return values.length ? [`${words.calibrator.systematic.names[key]} ${values.map((value, i) => `${value} ± ${halves[i]}`).join(', ')}`] : [];
+}
+
+/** Returns the intervals of an error: two for a lever arm. */
+function intervalsOf(interval: SystematicError['interval']) {
+  const isPair = Array.isArray(interval) && interval.some((end) => typeof end !== 'number');
+  return (isPair ? interval : [interval]) as (Interval | null)[];
+}
+
+/** Table of the systematic errors, each with a box for its correction. */
+export function systematicTable(figure: Figure) {
+  const { stats: { systematicErrors: errors }, truth } = figure.reading;
+  const say = words.calibrator.systematic;
+  const told = figure.settings.told;
+  return html`<table class="systematic" part="table">
+    <thead>
+      <tr>
+        <th scope="col">${say.what}</th><th scope="col">${say.value}</th><th scope="col">${say.interval}</th><th scope="col">${say.treatment}</th>
+        ${truth ? html`<th scope="col">${say.truth}</th>` : nothing}
+      </tr>
+    </thead>
+    <tbody>
+      ${SYSTEMATIC.map((key) => {
+        const { values, halves } = digitsOf(errors[key]);
+        const box = toggle({ label: say.names[key], checked: told[key], change: (on) => figure.gesture.decide({ [key]: on }) });
+        if (values.length === 0) return html`<tr><th scope="row">${box}</th><td colspan="4">${say.unknown}</td></tr>`;
+        return html`<tr>
+          <th scope="row">${box}</th>
+          <td>${lines(values)}</td>
+          <td class="between">${lines(halves.map((half) => `± ${half}`))}</td>
+          <td>${errors[key].corrected ? say.corrected : errors[key].constant ? say.notCorrected : say.notConstant}</td>
+          ${truth ? html`<td class="muted">${lines([truth[key]].flat().map((each) => fixed(each, 3)))}</td>` : nothing}
+        </tr>`;
+      })}
+    </tbody>
+  </table>`;
+}
+
+/** One below the other. */
+const lines = (texts: string[]) => texts.map((text) => html`<div>${text}</div>`);
+
+/** Prints an error as far as it is determined: its values, two for a lever arm, and half the width of each interval. */
+function digitsOf({ value, interval }: SystematicError) {
+  const known = intervalsOf(interval).map((each) => each && (each[1] - each[0]) / 2);
+  return {
+    values: [value].flat().flatMap((each, i) => (each === null ? [] : [fixed(each, decimalsOf(known[i]))])),
+    halves: known.flatMap((half) => (half === null ? [] : [fixed(half, decimalsOf(half))])),
+  };
+}
+
+/**
+ * Decimals of an error: three, or more if it is known better than to a thousandth.
+ *
+ * @param half of an interval
+ */
+const decimalsOf = (half: number | null | undefined) => (half ? Math.min(MOST_DECIMALS, Math.max(3, -Math.floor(Math.log10(2 * half)))) : 3);

@@ -1,0 +1,196 @@
+/**
+ * The path of the robot, leg by leg. There may be a hundred thousand legs, which change only with the log, the view or the colours: they
+ * are drawn on a layer of their own.
+ */
+
+import { hiddenContext } from '../../scene/canvas.ts';
+import { lineStyles } from '../../scene/draw.ts';
+import { channels } from '../../ui/theme.ts';
+import { CLASSES, LINES } from './settings.ts';
+import type { CalibrationLegs } from '../../types.d.ts';
+import type { Painter } from '../../scene/walls.ts';
+import type { Brush } from '../../scene/canvas.ts';
+import type { LineName } from './settings.ts';
+
+export type Style = { colour: string, width: number, dash: number[] };
+
+/** Legs in one stroke: browsers take far longer for one path of many. */
+const LEGS_A_STROKE = 500;
+
+/** Legs that are drawn without a layer, which takes memory. */
+const FEW_LEGS = 2000;
+
+/** Side of the squares in each of which one step is drawn that is shorter, CSS pixels: nobody sees the others. */
+const FINE = 1;
+
+/** Side of the squares in which overlapping legs are counted, CSS pixels. */
+const COARSE = 8;
+
+/**
+ * Number of a square.
+ *
+ * @param x CSS pixels
+ */
+const squareOf = (x: number, y: number, side: number = FINE) => Math.round(x / side) + 2 ** 26 * Math.round(y / side);
+
+/** Radius of the rings around outliers, CSS pixels. */
+const RING = 6;
+
+/** Width of the thinnest lines, CSS pixels. */
+const HAIR = 1;
+
+/** Returns the style of a line. */
+export function styleOf({ palette, highlight }: Pick<Brush, 'palette' | 'highlight'>, name: LineName): Style {
+  const truth = name === 'plausible' ? between(palette.truth, palette.cloud) : palette.truth;
+  return lineStyles({ palette: { ...palette, truth }, highlight }, LINES)[name];
+}
+
+/** Mixes two colours. */
+function between(one: string, other: string) {
+  const [from, to] = [channels(one), channels(other)];
+  return `rgb(${from.map((value, i) => Math.round((value + to[i]) / 2))})`;
+}
+
+export class WayLayer {
+  #layer = new OffscreenCanvas(1, 1);
+  /** View and colours of the layer. */
+  #key = '';
+  /** Legs of the layer. */
+  #legs: CalibrationLegs | undefined;
+
+  /**
+   * @param classes of the legs, the most usual first
+   * @param overlays lines that are shown
+   */
+  draw(brush: Brush, legs: CalibrationLegs, classes: Uint8Array, overlays: LineName[]) {
+    const { context, view, palette, ratio, highlight } = brush;
+    if ('vector' in context || legs.count <= FEW_LEGS) return drawWay(brush, legs, classes, overlays);
+    const { extent, frame, width, height } = view;
+    const key = JSON.stringify([extent, frame, width, height, palette, ratio, highlight, overlays]);
+    if (key !== this.#key || legs !== this.#legs) {
+      this.#key = key;
+      this.#legs = legs;
+      this.#layer = new OffscreenCanvas(Math.round(width * ratio), Math.round(height * ratio));
+      const layer = hiddenContext(this.#layer);
+      layer.scale(ratio, ratio);
+      drawWay({ context: layer, view, palette, ratio, highlight }, legs, classes, overlays);
+    }
+    context.drawImage(this.#layer, 0, 0, width, height);
+  }
+}
+
+function drawWay(brush: Painter, legs: CalibrationLegs, classes: Uint8Array, overlays: LineName[]) {
+  if (overlays.includes('odometry')) drawOdometry(brush, legs);
+  // Widths fall continuously from one layer of legs to two, so that nothing jumps when a plot is resized.
+  const extra = Math.max(0, Math.min(1, 2 - layersOf(brush.view, legs.reference)));
+  for (const [place, name] of CLASSES.entries()) {
+    if (!overlays.includes(name)) continue;
+    const style = styleOf(brush, name);
+    drawLegs(brush, legs.reference, (leg) => classes[leg] === place, { ...style, width: HAIR + extra * (style.width - HAIR) });
+  }
+  if (overlays.includes('outlier')) drawRings(brush, outlierEnds(brush, legs));
+}
+
+/** Returns the ends of the outliers, CSS pixels. */
+function outlierEnds({ view }: Painter, { outliers, reference }: CalibrationLegs): [number, number][] {
+  const all = [...outliers.keys()].filter((leg) => outliers[leg] > 0);
+  return all.map((leg) => [view.toPixelX(reference[6 * leg + 3]), view.toPixelY(reference[6 * leg + 4])]);
+}
+
+/**
+ * Draws the rings that mark outliers.
+ *
+ * @param points CSS pixels
+ */
+export function drawRings(brush: Painter, points: [number, number][]) {
+  const { context } = brush;
+  context.beginPath();
+  for (const [x, y] of points) {
+    context.moveTo(x + RING, y);
+    context.arc(x, y, RING, 0, 2 * Math.PI);
+  }
+  stroke(context, styleOf(brush, 'outlier'));
+}
+
+/**
+ * Returns how many times usual legs cover the squares that they are in. Where that is more than once, wide lines would hide the
+ * others, while as hairs each class covers its share of the legs.
+ *
+ * @param reference both ends of each leg
+ */
+function layersOf(view: Painter['view'], reference: Float64Array) {
+  const squares: Set<number> = new Set();
+  let length = 0;
+  for (let at = 0; at < reference.length; at += 6) {
+    const [x, y] = [view.toPixelX(reference[at + 3]), view.toPixelY(reference[at + 4])];
+    squares.add(squareOf(x, y, COARSE));
+    // No more of a longer leg is in the square in which it ends.
+    length += Math.min(COARSE, Math.hypot(x - view.toPixelX(reference[at]), y - view.toPixelY(reference[at + 1])));
+  }
+  return (length * LINES.likely.width) / (squares.size * COARSE ** 2);
+}
+
+/** Draws the odometry from the first pose of the reference on: it drifts away, and each leg is compared by itself. */
+function drawOdometry({ context, view, ...brush }: Painter, { count, odometry, reference }: CalibrationLegs) {
+  if (count === 0) return;
+  const turn = reference[2] - odometry[2];
+  const [cos, sin] = [Math.cos(turn), Math.sin(turn)];
+  const style = styleOf(brush, 'odometry');
+  let last = NaN;
+  let points = 0;
+  context.beginPath();
+  for (let leg = 0; leg < count; leg++) {
+    const [dx, dy] = [odometry[6 * leg + 3] - odometry[0], odometry[6 * leg + 4] - odometry[1]];
+    const x = view.toPixelX(reference[0] + cos * dx - sin * dy);
+    const y = view.toPixelY(reference[1] + sin * dx + cos * dy);
+    const square = squareOf(x, y);
+    if (square === last) continue;
+    last = square;
+    context.lineTo(x, y);
+    points += 1;
+    if (points <= LEGS_A_STROKE) continue;
+    stroke(context, style);
+    points = 1;
+    context.beginPath();
+    context.moveTo(x, y);
+  }
+  stroke(context, style);
+}
+
+/**
+ * Draws some legs of the reference.
+ *
+ * @param reference both ends of each leg
+ */
+function drawLegs({ context, view }: Painter, reference: Float64Array, isDrawn: (leg: number) => boolean, style: Style) {
+  const drawn: Set<number> = new Set();
+  let begun = 0;
+  for (let leg = 0; leg < reference.length / 6; leg++) {
+    if (!isDrawn(leg)) continue;
+    const at = 6 * leg;
+    const [x, y] = [view.toPixelX(reference[at]), view.toPixelY(reference[at + 1])];
+    const [toX, toY] = [view.toPixelX(reference[at + 3]), view.toPixelY(reference[at + 4])];
+    if (Math.hypot(toX - x, toY - y) < FINE) {
+      const square = squareOf(toX, toY);
+      if (drawn.has(square)) continue;
+      drawn.add(square);
+    }
+    if (begun === 0) context.beginPath();
+    context.moveTo(x, y);
+    context.lineTo(toX, toY);
+    begun = (begun + 1) % LEGS_A_STROKE;
+    if (begun === 0) stroke(context, style);
+  }
+  if (begun > 0) stroke(context, style);
+}
+
+/** Strokes the present path, with round ends unless it is dashed. */
+function stroke(context: Painter['context'], { colour, width, dash }: Style) {
+  context.strokeStyle = colour;
+  context.lineWidth = width;
+  context.lineCap = dash.length > 0 ? 'butt' : 'round';
+  context.setLineDash(dash);
+  context.stroke();
+  context.lineCap = 'butt';
+  context.setLineDash([]);
+}

@@ -1,0 +1,112 @@
+/** Texts of the Alpha Calibrator in the present language. */
+
+import { addEnglish, words } from '../../messages/registry.ts';
+import { counted, fixed, percent, powerOfTen } from '../../ui/format.ts';
+import { en } from './en.ts';
+import { isLocalizer } from './lines.ts';
+import { uncorrectedText } from './systematic.ts';
+import type { CalibrationCheck, LegView } from '../../types.d.ts';
+import type { Reading } from './reading.ts';
+
+addEnglish({ calibrator: en });
+
+/** Printed checks that are a count, and those that are a fraction; the others are plain numbers. */
+const COUNTS = ['enough-legs'];
+const FRACTIONS = ['legs-lost', 'outliers-few', 'holdout-covered', 'window-1m-covered', 'window-2m-covered', 'window-5m-covered'];
+
+/**
+ * Returns the rating of the α's, with the first failed check, warnings and the next step as sentences. A warning makes consistent α's
+ * questionable.
+ *
+ * @param log name
+ */
+export function judgementOf(reading: Reading, log: string): { rating: Reading['stats']['diagnostics']['verdict'], badge: string, finding: string, next: string } {
+  const { stats: { diagnostics: { verdict, checks } }, legs } = reading;
+  const say = words.calibrator;
+  const warnings = [uncorrectedText(reading), isLocalizer(log) ? say.nav2.localizer : ''].filter(Boolean);
+  const rating = verdict === 'consistent' && warnings.length > 0 ? 'questionable' : verdict;
+  const result = (finding: string, next: string) => ({ rating, badge: say.badges[rating], finding: [finding, ...warnings].join(' '), next });
+  if (legs.count === 0) return result(say.none, say.longer);
+  const failed = checks.filter(({ passed }) => !passed);
+  if (failed.length > 0) return result(say.failed(say.checks.names[failed[0].name], counted(failed.length), counted(checks.length)), messageOf(failed[0]));
+  return verdict === 'unusable' ? result(say.noAlpha, '') : result(say.passed(counted(checks.length)), rating === 'consistent' ? say.use : '');
+}
+
+/** Returns what a failed check means and what to do. */
+export const messageOf = ({ name, passed, message }: CalibrationCheck) => (passed ? '' : words.calibrator.checks.message(name, message));
+
+/** Prints the value of a check, or a limit of it. */
+export function checked(name: CalibrationCheck['name'], value: number) {
+  if (!Number.isFinite(value)) return Number.isNaN(value) ? percent(value) : '∞';
+  return COUNTS.includes(name) ? counted(value) : FRACTIONS.includes(name) ? percent(value) : fixed(value, 3);
+}
+
+/** Prints the values of a check that pass. */
+export function expectedOf({ name, expected: [low, high] }: CalibrationCheck) {
+  if (high === Infinity) return `≥ ${checked(name, low)}`;
+  return low === 0 ? `≤ ${checked(name, high)}` : words.calibrator.alphas.between(checked(name, low), checked(name, high));
+}
+
+/** Returns why the recommended α's are what they are. */
+export function reasonOf({ stats: { recommended, diagnostics: { checks, windows } } }: Reading) {
+  const say = words.calibrator.recommended;
+  if (!recommended) return say.none;
+  const [{ count, coverage, nees }] = windows;
+  if (!checks.some(({ name }) => name === 'window-1m-covered')) return say.few(counted(count));
+  const { inflation } = recommended;
+  return inflation === 1 ? say.covered(percent(coverage), counted(count)) : say.inflated(fixed(inflation, 2), percent(coverage), counted(count), fixed(nees, 2));
+}
+
+/** Returns the names of the noises of a model. */
+export const noiseNames = (model: Reading['config']['model']) => words.alphas[model === 'velocity' ? 'velocity' : 'odometry'];
+
+/**
+ * The subscript of an α.
+ *
+ * @param index from 0
+ */
+export const alphaName = (index: number) => String.fromCharCode(0x2081 + index);
+
+/** Prints a number that is in the format of files, as 1.5e-7. */
+export const localized = (number: string) => number.replace('.', fixed(0.5, 1)[1]).replace(/e(-?\d+)$/, (_, exponent) => `·${powerOfTen(Number(exponent))}`);
+
+/**
+ * Scales small numbers by a power of 1000, as they have no room beside an axis.
+ *
+ * @returns the unit is empty where it is 1
+ */
+export function thousandths(highest: number): { scaled: (value: number) => number, unit: string } {
+  const exponent = Math.min(0, 3 * Math.floor(Math.log10(highest) / 3));
+  return { scaled: (value) => value * 10 ** -exponent, unit: exponent < 0 ? powerOfTen(exponent) : '' };
+}
+
+/**
+ * Returns the legs and outliers of the log in a sentence; empty if there are none.
+ *
+ * @param log name
+ */
+export function legsText({ legs }: Reading, log: string) {
+  if (legs.count === 0) return '';
+  const outliers = legs.outliers.reduce((sum, is) => sum + is, 0);
+  return words.calibrator.present(log, counted(legs.count), outliers > 0 ? counted(outliers) : '');
+}
+
+/** Returns the caption of the pictures: the judgement and the legs. */
+export function captionOf(reading: Reading, log: string) {
+  const { badge, finding, next } = judgementOf(reading, log);
+  return [`${badge}.`, finding, next, legsText(reading, log)].filter(Boolean).join(' ');
+}
+
+/** The text equivalent of the way. */
+export function wayText({ legs, classes }: Reading, chosen: number) {
+  if (chosen < 0) return words.calibrator.noWay;
+  const far = classes.reduce((sum, place) => sum + Number(place > 1), 0);
+  return words.calibrator.way(counted(legs.count), counted(far), counted(chosen + 1));
+}
+
+/** The text equivalent of a leg. */
+export function legText(leg: LegView | null, chosen: number) {
+  if (!leg) return words.calibrator.noLeg;
+  const [readX, readY, endX, endY] = [leg.read[0], leg.read[1], leg.ended[0], leg.ended[1]];
+  return words.calibrator.legText(counted(chosen + 1), fixed(readX, 3), fixed(readY, 3), fixed(endX, 3), fixed(endY, 3));
+}

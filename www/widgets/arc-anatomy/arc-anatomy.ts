@@ -1,0 +1,139 @@
+/** <arc-anatomy>: the arc between two poses, and how likely it is after a command. */
+
+import { html } from 'lit';
+import { canvas, disclosures, panel } from '../../figure/controls.ts';
+import { FigureElement } from '../../figure/figure.ts';
+import { legend } from '../../figure/overlays.ts';
+import { reserve } from '../../figure/page/room.ts';
+import { define } from '../../figure/reflection.ts';
+import { words } from '../../messages/registry.ts';
+import { Player } from '../shared/player.ts';
+import { PoseHandles } from '../shared/pose-handles.ts';
+import { presetButtons } from '../shared/presets.ts';
+import { commandControls, likelihoodControls, lineStepper, noiseControls, timeControl } from './controls.ts';
+import { formsPlot } from './forms.ts';
+import { ArcPicture, RADIUS } from './picture.ts';
+import { readingOf } from './reading.ts';
+import { factorBars, headline, likelihoods, tableOf } from './readouts.ts';
+import { LINES, REACH, WHOLE, attributes, declared, looks, own, vocabulary } from './settings.ts';
+import { anatomyStyles } from './styles.ts';
+import { pictureText, verdictOf } from './words.ts';
+import type { ArcAnatomy as Machine } from '../../types.d.ts';
+import type { Reading } from './reading.ts';
+
+/** Where both poses can be dragged, m. */
+const BOUNDS = [-REACH, -REACH, REACH, REACH];
+
+/**
+ * The arc between two poses, and how likely it is after a command.
+ *
+ * @attr preset - A command from the origin, and a final pose off its arc; none otherwise.
+ * @attr overlays - The lines that are drawn; in the attribute with spaces between.
+ * @csspart chart - The plot of three forms of the arc near straight.
+ */
+export class ArcAnatomyElement extends FigureElement<Machine, Reading> {
+  static styles = [...FigureElement.styles, reserve('arc-anatomy'), ...anatomyStyles];
+
+  static declared = declared;
+  static attributes = attributes;
+  static own = own;
+  static looks = looks;
+  static vocabulary = vocabulary;
+
+  #picture = new ArcPicture();
+  pictures = [this.#picture];
+  /** The final one on top, where both poses are at one place. */
+  #handles: PoseHandles[] = (['start', 'next'] as const).map(
+    (setting) =>
+      new PoseHandles(this, setting, {
+        view: () => this.#picture.view,
+        bounds: () => BOUNDS,
+        say: () => ({ ...words.anatomy.handles[setting], ends: words.anatomy.handles.ends }),
+      }),
+  );
+
+  player: Player<'underway'> = new Player(this, {
+    // Whatever the command: its time is told beside.
+    underway: { from: 0, to: WHOLE, duration: 2000, at: () => this.state.own.underway, put: (at) => this.#drive(at) },
+  });
+
+  createMachine: FigureElement<Machine, Reading>['createMachine'] = (motion, state) => new motion.ArcAnatomy(state && this.settings.declared(state));
+
+  read = readingOf;
+
+  /** In a state that came, or came back, nothing is played. */
+  machineChanged() {
+    this.player.stop();
+  }
+
+  get scene() {
+    const { overlays, line, underway } = this.state.own;
+    const reading = this.fresh;
+    const robots = underway < WHOLE ? this.machine?.underway(underway / WHOLE) : undefined;
+    return { ...reading, machine: this.machine, overlays, line, underway: robots };
+  }
+
+  get takeaway() {
+    const { config, stats: { factors } } = this.fresh;
+    return {
+      title: this.lettering.name,
+      description: pictureText(this.reading),
+      settings: { element: this.localName, ...config },
+      columns: ['estimate', 'residual', 'standard_deviation', 'residual_over_deviation', 'prob', 'share_of_peak'],
+      row: (i: number) => {
+        const { estimate, residual, deviation, deviations, value, share } = factors[i];
+        return [estimate, residual, deviation, deviations, value, share];
+      },
+      count: factors.length,
+    };
+  }
+
+  announcement = verdictOf;
+
+  /**
+   * The robot goes by whole per cents, each of which is a step that a page hears of.
+   *
+   * @param at per cent of the way
+   */
+  #drive(at: number) {
+    const { own } = this.state;
+    if (Math.floor(at) === own.underway) return;
+    own.underway = Math.floor(at);
+    this.gesture.step();
+    this.stage.wake();
+  }
+
+  placeHandles({ config: { start, next } }: Reading) {
+    const [before, after] = this.#handles;
+    before.place(start, RADIUS);
+    after.place(next, RADIUS);
+  }
+
+  content(reading: Reading) {
+    const say = words.anatomy;
+    return html`
+      <section class="machine" aria-label=${this.lettering.name}>
+        <div class="views">
+          ${panel(say.floor, html`<div class="stage" part="picture">
+            ${canvas(this, this.#picture, pictureText(reading))} ${this.#handles.map((handle) => handle.render())}
+          </div>`)}
+          ${this.stage.later(() => html`
+          <div class="aside">${headline(reading)} ${factorBars(reading, this.state.own.line)}</div>`)}
+        </div>
+        ${this.stage.later(() => html`
+        ${legend(this, LINES)}
+        <p class="verdict caption" part="caption">${verdictOf(reading)}</p>
+        ${presetButtons(this)}
+        <div class="controls" part="controls">${commandControls(this)} ${timeControl(this)}</div>
+        ${disclosures(this, {
+          controls: () => html`<div class="controls">${likelihoodControls(this)} ${noiseControls(this)}</div>`,
+          numbers: () => html`${lineStepper(this)} ${tableOf(reading, this.state.own.line)} ${likelihoods(reading)} ${formsPlot(this.motion)}`,
+          mark: 'figure',
+          csvTitle: say.csvTitle,
+        })}`)}
+      </section>
+    `;
+  }
+}
+
+define('arc-anatomy', ArcAnatomyElement);

@@ -1,0 +1,59 @@
+/** Controls of Arc Anatomy: the command, the noise, the heat map, the time along the arcs, and the lines of Table 5.1. */
+
+import { html, nothing } from 'lit';
+import { check, choices, sliders } from '../../figure/controls.ts';
+import { swatch } from '../../figure/overlays.ts';
+import { words } from '../../messages/registry.ts';
+import { button, group, rich } from '../../ui/controls.ts';
+import { fixed } from '../../ui/format.ts';
+import { track } from '../../ui/slider.ts';
+import { lineText } from './readouts.ts';
+import { ALPHAS, COMMAND, TABLE_LINES, WHOLE } from './settings.ts';
+import { CONTOURS } from './surface.ts';
+
+export type Figure = import('./arc-anatomy.ts').ArcAnatomyElement;
+
+export const commandControls = (figure: Figure) => group(words.command, sliders(figure, COMMAND));
+
+export const noiseControls = (figure: Figure) =>
+  group(words.noise, html`${choices(figure, 'noise', words.anatomy.noises)} ${sliders(figure, ALPHAS)}`, 'alphas');
+
+/** Returns the controls of the likelihood: the sign of the radius, and the heat map with the names of its contours. */
+export function likelihoodControls(figure: Figure) {
+  const { likelihood, maps, printed } = words.anatomy;
+  const { map } = figure.settings.told;
+  const contour = (name: 'prob' | 'density') =>
+    html`<span>${swatch({ role: 'ink', width: 1, dash: CONTOURS[name] })} ${maps[name]}</span>`;
+  return group(likelihood, html`${check(figure, 'printed', rich(printed))} ${choices(figure, 'map', maps)}
+    ${map === 'none' ? nothing : html`<p class="legend contours">${contour('prob')} ${contour('density')}</p>`}`);
+}
+
+/** A sign for the eye, words for the ear. */
+const sign = (seen: string, heard: string) => html`<span aria-hidden="true">${seen}</span><span class="visually-hidden">${heard}</span>`;
+
+/** Returns the buttons that step through Table 5.1. Each line highlights its construction. */
+export function lineStepper(figure: Figure) {
+  const say = words.anatomy.table;
+  const { line } = figure.state.own;
+  const go = (to: number) => () => figure.gesture.choose('line', to);
+  return html`<div class="stepper" role="group" aria-label=${say.label}>
+    ${button(sign('‹', say.back), go(line - 1), { disabled: line === 0, title: say.back })}
+    ${button(sign('›', say.on), go(line + 1), { disabled: line === TABLE_LINES, title: say.on })}
+    <p role="status">${line === 0 ? say.begin : rich(lineText(figure.reading, line))}</p>
+  </div>`;
+}
+
+/** Returns the slider of the time, which moves a robot along each arc, with its Play button. */
+export function timeControl({ player, gesture, reading, state }: Figure) {
+  const { underway } = state.own;
+  const { dt } = reading.config.command;
+  const shown = words.anatomy.timeOf(fixed((underway / WHOLE) * dt, 2), fixed(dt, 2));
+  return group(words.anatomy.time, html`<div class="underway">
+    ${player.button('underway', words.play)}
+    <div class="slider" part="slider" data-role="truth">
+      <label for="underway"><bdi class="symbol notranslate" translate="no"><i>t</i></bdi>${words.anatomy.underway}</label>
+      ${track({ id: 'underway', min: 0, max: WHOLE, step: 1, value: underway, text: shown, input: (at) => player.put('underway', at), commit: () => gesture.commit() })}
+      <output class="value" for="underway">${shown}</output>
+    </div>
+  </div>`);
+}

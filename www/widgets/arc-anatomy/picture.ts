@@ -1,0 +1,318 @@
+/** Arc Anatomy's picture: the commanded arc, the arc that leads to the robot, and what they are constructed of. */
+
+import { words } from '../../messages/registry.ts';
+import { clipped, drawAxes } from '../../scene/axes.ts';
+import { drawOutlines, drawRobot, lineStyles } from '../../scene/draw.ts';
+import { drawLabel } from '../../scene/labels.ts';
+import { Picture } from '../../scene/picture.ts';
+import { View, extentAround } from '../../scene/view.ts';
+import { clamp } from '../../ui/clamp.ts';
+import { fixed, significant } from '../../ui/format.ts';
+import { lineKey } from '../shared/line-key.ts';
+import { drawHeldRobot, drawRobotOutline } from '../shared/robot.ts';
+import { LINES } from './settings.ts';
+import { CONTOURS, SurfaceLayer } from './surface.ts';
+import type { ArcAnatomy, Bend, Pose } from '../../types.d.ts';
+import type { Brush } from '../../scene/canvas.ts';
+import type { LineName } from './settings.ts';
+import type { Reading } from './reading.ts';
+
+export type Scene = Reading & { machine: ArcAnatomy, overlays: LineName[], line: number, underway: Float64Array | undefined };
+
+/** Of the robots, m. */
+export const RADIUS = 0.06;
+
+/** A centre is shown that is no further away than so many times the way, and so many metres. */
+const CENTRE = { ways: 3, metres: 1.5 };
+
+/** Room around everything, m. */
+const AROUND = 0.15;
+
+/** Radius of the arcs that mark angles, CSS pixels at most. */
+const ANGLE = 40;
+
+/** Radius of the wedge, CSS pixels. */
+const WEDGE = 64;
+
+/** Half of the cross at a centre, CSS pixels. */
+const CROSS = 4;
+
+/** Length of the arrow towards a centre that is out of sight, CSS pixels. */
+const ARROW = 9;
+
+/** From one line of letters to the next, CSS pixels. */
+const LINE = 17;
+
+/** What each line of Table 5.1 constructs. */
+const LIT: Record<number, string[]> = {
+  1: ['bisector'],
+  2: ['bisector', 'centre'],
+  3: ['bisector', 'centre'],
+  4: ['centre', 'radius'],
+  5: ['angle', 'radius'],
+  6: ['arc'],
+  7: ['angle'],
+  8: ['wedge'],
+};
+
+export class ArcPicture extends Picture<Scene> {
+  #surface = new SurfaceLayer();
+
+  constructor() {
+    super('plane', new View());
+  }
+
+  fit({ config: { start, next }, stats: { commanded, inverted }, paths }: Scene) {
+    let box = extentAround([start.x, start.y, next.x, next.y], 2);
+    for (const path of [paths.commanded, paths.inverted, paths.driven]) box = extentAround(path, 2, box);
+    const way = Math.hypot(box.xMax - box.xMin, box.yMax - box.yMin);
+    for (const { center, radius } of [commanded, inverted]) {
+      if (center && Math.abs(radius) < Math.max(CENTRE.metres, CENTRE.ways * way)) box = extentAround(center, 2, box);
+    }
+    const { xMin, yMin, xMax, yMax } = box;
+    this.view.fit({ xMin: xMin - AROUND, yMin: yMin - AROUND, xMax: xMax + AROUND, yMax: yMax + AROUND });
+  }
+
+  paint: Picture<Scene>['paint'] = (brush, scene) => {
+    const { config: { start, next, printed }, stats, paths, overlays } = scene;
+    const { palette } = brush;
+    const shows = (name: LineName) => overlays.includes(name);
+    const styles = lineStyles(brush, LINES);
+    drawAxes(brush, { x: 'x (m)', y: 'y (m)' }, brush.exported ? keyOf(brush, scene) : []);
+    clipped(brush, () => {
+      this.#surface.draw(brush, scene.machine, scene.config);
+      const { commanded, inverted, driven, lastTurn } = stats;
+      if (shows('commanded')) {
+        drawCircle(brush, start, commanded, { ...styles.commanded, side: -1, angle: `ωΔt = ${fixed(commanded.turn, 2)}`, radius: '' });
+      }
+      if (shows('inverted')) {
+        drawCircle(brush, start, inverted, {
+          ...styles.inverted,
+          side: 1,
+          angle: `ω̂Δt = ${fixed(inverted.turn, 2)}`,
+          radius: `r* = ${printed ? fixed(Math.abs(inverted.radius), 2) : signedText(inverted.radius)} m`,
+        });
+      }
+      if (shows('chord')) drawChord(brush, start, next, styles.chord);
+      if (shows('wedge')) drawWedge(brush, next, lastTurn, styles.wedge.colour);
+      if (shows('twist')) drawTwist(brush, paths.ticks, styles.twist.colour);
+      drawOutlines(brush, [
+        ...(shows('commanded') ? [{ points: paths.commanded, ...styles.commanded }] : []),
+        ...(shows('twist') ? [{ points: paths.lie, ...styles.twist }] : []),
+        ...(shows('inverted') ? [{ points: paths.driven, ...styles.inverted }] : []),
+      ]);
+      if (shows('inverted') && driven.arcLength !== inverted.arcLength) {
+        drawOutlines(brush, [{ points: paths.inverted, colour: styles.inverted.colour, width: 1, dash: [2, 3] }]);
+      }
+      drawLit(brush, scene);
+      if (shows('commanded')) {
+        const [endX, endY, endTheta] = commanded.end;
+        drawRobotOutline(brush, endX, endY, RADIUS, styles.commanded.colour);
+        drawHeading(brush, { x: endX, y: endY, theta: endTheta }, styles.commanded.colour);
+      }
+      drawUnderway(brush, scene);
+      drawHeldRobot(brush, start, RADIUS, palette.truth);
+      drawHeldRobot(brush, next, RADIUS, palette.prediction);
+      if (shows('wedge')) drawLabel(brush, { ...besideWedge(brush, next, lastTurn), text: `γ̂Δt = ${fixed(lastTurn, 2)}`, colour: styles.wedge.colour });
+    });
+  };
+}
+
+/** Returns the key of an exported picture. The last turn has its label in the picture. */
+function keyOf(brush: Brush, { overlays, config: { map } }: Scene) {
+  const { palette } = brush;
+  const { overlays: names, maps } = words.anatomy;
+  const contour = (of: 'prob' | 'density') => lineKey(brush, maps[of], { colour: palette.ink, width: 1, dash: CONTOURS[of] });
+  return [
+    ...(['inverted', 'commanded', 'chord', 'twist'] as const)
+      .filter((name) => overlays.includes(name))
+      .map((name) => lineKey(brush, names[name].replaceAll('*', ''), lineStyles(brush, LINES)[name])),
+    ...(map === 'none' ? [] : [contour('prob'), contour('density')]),
+  ];
+}
+
+/** @param width CSS pixels */
+function stroke(context: Brush['context'], colour: string, width: number, dash: number[], path: () => void) {
+  context.strokeStyle = colour;
+  context.lineWidth = width;
+  context.setLineDash(dash);
+  context.beginPath();
+  path();
+  context.stroke();
+  context.setLineDash([]);
+}
+
+/**
+ * The centre of an arc, both radii and the turn between them.
+ *
+ * @param style with the side to which the first radius makes room for another on the same line, and its labels
+ */
+function drawCircle(brush: Brush, start: Pose, { center, end, turn, arcLength }: Bend, { colour, dash, side, angle, radius: signed }: { colour: string, dash: number[], side: number, angle: string, radius: string }) {
+  if (!center) return;
+  const { context, view } = brush;
+  const [x, y] = [view.toPixelX(center[0]), view.toPixelY(center[1])];
+  const [fromX, fromY] = [view.toPixelX(start.x), view.toPixelY(start.y)];
+  const [toX, toY] = [view.toPixelX(end[0]), view.toPixelY(end[1])];
+  const ahead = view.direction(start.theta);
+  const [offX, offY] = [1.5 * side * ahead.x, 1.5 * side * ahead.y];
+  const seen = shareSeen(view.frame, [fromX, fromY], [x, y]);
+  stroke(context, colour, 1.25, dash, () => {
+    context.moveTo(fromX + offX, fromY + offY);
+    context.lineTo(x + offX, y + offY);
+    context.moveTo(x, y);
+    context.lineTo(toX, toY);
+  });
+  stroke(context, colour, 2, [], () => {
+    context.moveTo(x - CROSS, y);
+    context.lineTo(x + CROSS, y);
+    context.moveTo(x, y - CROSS);
+    context.lineTo(x, y + CROSS);
+  });
+  const first = Math.atan2(fromY - y, fromX - x);
+  const radius = Math.min(ANGLE, 0.4 * Math.hypot(fromX - x, fromY - y));
+  // Pixels count downwards: to the left is backwards.
+  stroke(context, colour, 1.5, [], () => context.arc(x, y, radius, first, first - turn, turn > 0));
+  // Behind the robot, where nothing of the arc is; along it where it is so flat that a picture ends behind the robot.
+  const beside = Math.sign(arcLength) * (seen === 1 ? -1 : 1);
+  const tell = (text: string, share: number, below = 0) => {
+    const at = [fromX + share * (x - fromX) + 10 * beside * ahead.x, fromY + share * (y - fromY) + 10 * beside * ahead.y];
+    const towards = beside * ahead.x;
+    drawLabel(brush, { x: at[0], y: at[1] + below, towards: Math.abs(towards) < 0.3 ? 0 : Math.sign(towards), text, colour });
+  };
+  tell(signed, seen / 2);
+  if (seen === 1) {
+    tell(angle, 1);
+    return;
+  }
+  drawArrow(context, colour, [fromX + seen * (x - fromX), fromY + seen * (y - fromY)], Math.atan2(y - fromY, x - fromX));
+  const distance = significant(Math.hypot(center[0] - start.x, center[1] - start.y), 2);
+  // Inside of the border, and of two in one place each in a line of its own.
+  tell(`${words.anatomy.centreAt(distance)}, ${angle}`, seen, Math.sign(fromY - y) * LINE * (side < 0 ? 0.6 : 1.6));
+}
+
+/** @param way that it points, rad, downwards from the right */
+function drawArrow(context: Brush['context'], colour: string, [x, y]: number[], way: number) {
+  stroke(context, colour, 2.25, [], () => {
+    for (const wing of [2.6, -2.6]) {
+      context.moveTo(x + ARROW * Math.cos(way + wing), y + ARROW * Math.sin(way + wing));
+      context.lineTo(x, y);
+    }
+  });
+}
+
+/**
+ * How much of the way to a place is in sight, as a share.
+ *
+ * @param from in sight
+ */
+function shareSeen({ left, right, top, bottom }: import('../../scene/view.ts').View['frame'], [fromX, fromY]: [x: number, y: number], [x, y]: [x: number, y: number]) {
+  const along = (start: number, end: number, least: number, most: number) =>
+    end >= least && end <= most ? 1 : (clamp(end, least, most) - start) / (end - start);
+  return Math.min(along(fromX, x, left, right), along(fromY, y, top, bottom));
+}
+
+function drawChord({ context, view }: Brush, start: Pose, next: Pose, { colour, width, dash }: { colour: string, width: number, dash: number[] }) {
+  stroke(context, colour, width, dash, () => {
+    context.moveTo(view.toPixelX(start.x), view.toPixelY(start.y));
+    context.lineTo(view.toPixelX(next.x), view.toPixelY(next.y));
+  });
+}
+
+/**
+ * What the arc leaves of the final heading.
+ *
+ * @param turn rad, the last of it
+ */
+function drawWedge({ context, view }: Brush, next: Pose, turn: number, colour: string) {
+  const [x, y] = [view.toPixelX(next.x), view.toPixelY(next.y)];
+  context.beginPath();
+  context.moveTo(x, y);
+  context.arc(x, y, WEDGE, turn - next.theta, -next.theta, turn > 0);
+  context.lineTo(x, y);
+  context.fillStyle = colour;
+  context.globalAlpha = 0.32;
+  context.fill();
+  context.globalAlpha = 1;
+  // The heading at the end of the arc.
+  const before = view.direction(next.theta - turn);
+  stroke(context, colour, 1.25, [], () => {
+    context.moveTo(x, y);
+    context.lineTo(x + WEDGE * before.x, y + WEDGE * before.y);
+  });
+}
+
+/**
+ * Where the wedge has its label.
+ *
+ * @param turn rad
+ * @returns CSS pixels
+ */
+function besideWedge({ view }: Brush, next: Pose, turn: number): { x: number, y: number, towards: number } {
+  const ahead = view.direction(next.theta - turn / 2);
+  return { x: view.toPixelX(next.x) + (WEDGE + 8) * ahead.x, y: view.toPixelY(next.y) + (WEDGE + 10) * ahead.y, towards: 0 };
+}
+
+function drawHeading({ context, view }: Brush, { x, y, theta }: Pose, colour: string) {
+  const ahead = view.direction(theta);
+  stroke(context, colour, 1.5, [], () => {
+    context.moveTo(view.toPixelX(x), view.toPixelY(y));
+    context.lineTo(view.toPixelX(x) + 24 * ahead.x, view.toPixelY(y) + 24 * ahead.y);
+  });
+}
+
+/** Draws the robot at one time on each path that is shown. */
+function drawUnderway(brush: Brush, { underway, overlays }: Scene) {
+  if (!underway) return;
+  for (const [i, name] of (['commanded', 'inverted', 'twist'] as const).entries()) {
+    if (!overlays.includes(name)) continue;
+    const [x, y, theta] = underway.subarray(3 * i);
+    drawRobot(brush, { x, y, heading: theta, colour: brush.palette[LINES[name].role] });
+  }
+}
+
+/** The way sideways of the constant twist. */
+function drawTwist({ context, view }: Brush, ticks: Float64Array, colour: string) {
+  stroke(context, colour, 1.25, [], () => {
+    for (let i = 0; i < ticks.length; i += 4) {
+      context.moveTo(view.toPixelX(ticks[i]), view.toPixelY(ticks[i + 1]));
+      context.lineTo(view.toPixelX(ticks[i + 2]), view.toPixelY(ticks[i + 3]));
+    }
+  });
+}
+
+/** What the lit line of the table constructs. */
+function drawLit(brush: Brush, { config: { start, next }, stats: { inverted, lastTurn }, table: { middle }, paths, line }: Scene) {
+  const lit = LIT[line] ?? [];
+  const { context, view, palette: { accent } } = brush;
+  const at = ([x, y]: number[]) => [view.toPixelX(x), view.toPixelY(y)] as [number, number];
+  const from = at([start.x, start.y]);
+  const to = at([next.x, next.y]);
+  const lineTo = (one: [number, number], other: [number, number]) => {
+    context.moveTo(...one);
+    context.lineTo(...other);
+  };
+  if (lit.includes('arc')) drawOutlines(brush, [{ points: paths.driven, colour: accent, width: 5, dash: [] }]);
+  if (lit.includes('wedge')) drawWedge(brush, next, lastTurn, accent);
+  if (!inverted.center) return;
+  const centre = at(inverted.center);
+  if (lit.includes('bisector')) {
+    stroke(context, accent, 2.5, [6, 4], () => lineTo(at(middle), centre));
+    stroke(context, accent, 2.5, [], () => lineTo(from, centre));
+    stroke(context, accent, 2.5, [], () => lineTo(from, to));
+  }
+  if (lit.includes('radius')) stroke(context, accent, 3, [], () => (lineTo(from, centre), lineTo(centre, to)));
+  if (lit.includes('centre')) {
+    stroke(context, accent, 3, [], () => {
+      context.moveTo(centre[0] + 8, centre[1]);
+      context.arc(...centre, 8, 0, 2 * Math.PI);
+    });
+  }
+  if (lit.includes('angle')) {
+    const first = Math.atan2(from[1] - centre[1], from[0] - centre[0]);
+    const radius = Math.min(ANGLE, 0.4 * Math.hypot(from[0] - centre[0], from[1] - centre[1]));
+    stroke(context, accent, 4, [], () => context.arc(...centre, radius, first, first - inverted.turn, inverted.turn > 0));
+  }
+}
+
+/** With its sign, which is that of the side. */
+const signedText = (radius: number) => (radius > 0 ? `+${fixed(radius, 2)}` : fixed(radius, 2));

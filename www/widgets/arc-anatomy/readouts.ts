@@ -1,0 +1,113 @@
+/** Readouts of Arc Anatomy: the likelihood, its three factors as bars, and Table 5.1. */
+
+import { html, nothing, svg } from 'lit';
+import { words } from '../../messages/registry.ts';
+import { clamp } from '../../ui/clamp.ts';
+import { rich } from '../../ui/controls.ts';
+import { fixed } from '../../ui/format.ts';
+import { readoutList } from '../../ui/readouts.ts';
+import { TABLE_LINES } from './settings.ts';
+import { densityText, isTiny, shareText } from './words.ts';
+import type { Factor } from '../../types.d.ts';
+import type { Reading } from './reading.ts';
+
+/** Scale of the bars: deviations to either side, and pixels each. */
+const SCALE = { most: 4, pixels: 22 };
+const MIDDLE = SCALE.most * SCALE.pixels + 4;
+
+/** Symbols and units of the factors, with the residuals of the table. */
+const FACTORS = [
+  { symbol: '*v̂*', residual: '(*v* − *v̂*)', unit: 'm/s' },
+  { symbol: '*ω̂*', residual: '(*ω* − *ω̂*)', unit: 'rad/s' },
+  { symbol: '*γ̂*', residual: '*γ̂*', unit: 'rad/s' },
+];
+
+/** Returns the headline: p as a share of its peak. */
+export function headline({ stats: { share } }: Reading) {
+  const say = words.anatomy.headline;
+  return html`<p class="headline" part="readouts"><strong>${shareText(share)}</strong> ${isTiny(share) ? say.times : say.share}</p>`;
+}
+
+/**
+ * Returns the three residuals in standard deviations, each with its factor as a share of the peak.
+ *
+ * @param line of the table that is lit
+ */
+export function factorBars({ stats: { factors, weakest, share } }: Reading, line: number) {
+  const say = words.anatomy.bars;
+  return html`<ul part="readouts" class="factors ${line === TABLE_LINES ? 'lit' : ''}" aria-label=${say.label}>
+    ${factors.map((factor, i) => {
+      const { symbol, residual, unit } = FACTORS[i];
+      return html`<li class=${i === weakest && share < 1 ? 'weakest' : nothing}>
+        <span class="estimate">${rich(symbol)} ${say.names[i]} = ${fixed(factor.estimate, 2)} ${unit}</span>
+        ${bar(factor)}
+        <span class="keeps">${say.factor(shareText(factor.share))}</span>
+        <span class="off">${rich(residual)}/<i>σ</i> = ${fixed(factor.deviations, 1)}</span>
+      </li>`;
+    })}
+  </ul>`;
+}
+
+function bar({ deviations }: Factor) {
+  const at = (value: number) => MIDDLE + SCALE.pixels * clamp(value, -SCALE.most, SCALE.most);
+  const beyond = Math.abs(deviations) > SCALE.most;
+  const end = at(deviations);
+  const side = Math.sign(deviations);
+  const ticks = Array.from({ length: 2 * SCALE.most + 1 }, (_, i) => i - SCALE.most);
+  return html`<svg viewBox="0 0 ${2 * MIDDLE} 20" preserveAspectRatio="none" aria-hidden="true">
+    ${ticks.map((tick) => svg`<line class="tick" x1=${at(tick)} x2=${at(tick)} y1=${tick === 0 ? 0 : 14} y2="20" />`)}
+    <rect x=${Math.min(at(0), end)} width=${Math.abs(end - at(0))} y="3" height="11" />
+    ${beyond ? svg`<path class="beyond" d="M${end - 6 * side},1l${6 * side},7.5l${-6 * side},7.5" />` : nothing}
+  </svg>`;
+}
+
+/** Returns p, the density of the sampler, and ξ. */
+export function likelihoods({ stats: { prob, density, xi } }: Reading) {
+  const say = words.anatomy.likelihoods;
+  const [along, lateral, heading] = xi;
+  return readoutList([
+    [say.prob, densityText(prob)],
+    [say.density, density === null ? say.none : densityText(density)],
+    [say.xi, `(${fixed(along, 2)}, ${fixed(lateral, 2)}, ${fixed(heading, 2)})`],
+  ]);
+}
+
+/** The lines of Table 5.1, in the marks of messages. */
+const FORMULAS = [
+  '*μ* = ½ · [(*x* − *x*′) cos *θ* + (*y* − *y*′) sin *θ*] / [(*y* − *y*′) cos *θ* − (*x* − *x*′) sin *θ*]',
+  '*x\\** = (*x* + *x*′)/2 + *μ*(*y* − *y*′)',
+  '*y\\** = (*y* + *y*′)/2 + *μ*(*x*′ − *x*)',
+  '*r\\** = ±√[(*x* − *x\\**)² + (*y* − *y\\**)²]',
+  'Δ*θ* = atan2(*y*′ − *y\\**, *x*′ − *x\\**) − atan2(*y* − *y\\**, *x* − *x\\**)',
+  '*v̂* = Δ*θ*/Δ*t* · *r\\**',
+  '*ω̂* = Δ*θ*/Δ*t*',
+  '*γ̂* = (*θ*′ − *θ*)/Δ*t* − *ω̂*',
+  '*p* = prob(*v* − *v̂*) · prob(*ω* − *ω̂*) · prob(*γ̂*)',
+];
+
+const UNITS = ['', ' m', ' m', ' m', ' rad', ' m/s', ' rad/s', ' rad/s', ''];
+
+/**
+ * A line of the table with its value.
+ *
+ * @param line from 1
+ */
+export function lineText({ table: { lines }, config: { printed } }: Reading, line: number) {
+  const value = lines[line - 1];
+  const formula = printed ? FORMULAS[line - 1].replace('±', '') : FORMULAS[line - 1];
+  const number = line === TABLE_LINES ? densityText(value) : fixed(value, 3);
+  return `${line}. ${formula} = ${number}${UNITS[line - 1]}`;
+}
+
+/**
+ * All of them.
+ *
+ * @param lit from 1
+ */
+export function tableOf(reading: Reading, lit: number) {
+  const say = words.anatomy.table;
+  return html`<ol class="lines" part="table">
+      ${FORMULAS.map((_, i) => html`<li class=${i + 1 === lit ? 'lit' : nothing}>${rich(lineText(reading, i + 1))}</li>`)}
+    </ol>
+    <p class="about">${rich(say.sign)}</p>`;
+}

@@ -1,0 +1,62 @@
+/** Arc Anatomy's settings as attributes, in its state, and as the eye sees them. */
+
+import { attributesOf, presetsOf } from '../../figure/attributes.ts';
+import { wholeNumber } from '../../figure/checks.ts';
+import { overlaysOf } from '../../figure/overlays.ts';
+import { presets, settings } from '../../settings.js';
+import { COMMAND_DASH, commandLooks } from '../shared/command.ts';
+import { alphaLooks } from '../shared/noise.ts';
+
+export type Settings = import('../../types.d.ts').ArcAnatomySettings;
+
+export const declared = settings['arc-anatomy'];
+
+/** The key of its words in the catalogues. */
+export const vocabulary = 'anatomy';
+
+/** Number of lines of Table 5.1. */
+export const TABLE_LINES = 9;
+
+/** Whole duration, per cent. */
+export const WHOLE = 100;
+
+/** Styles of the lines in the picture. */
+export const LINES = {
+  commanded: { role: 'prior', width: 2.5, dash: COMMAND_DASH },
+  inverted: { role: 'prediction', width: 2.75, dash: [] },
+  wedge: { role: 'accent', mark: 'area' },
+  chord: { role: 'ink', width: 1, dash: [2, 3] },
+  twist: { role: 'posterior', width: 2, dash: [7, 3] },
+} satisfies Record<string, import('../../figure/overlays.ts').LineStyle>;
+
+export type LineName = keyof typeof LINES;
+
+const { attribute: overlays, state } = overlaysOf(Object.keys(LINES), ['commanded', 'inverted', 'wedge', 'chord']);
+
+export const attributes: import('../../figure/attributes.ts').Attributes = {
+  preset: presetsOf(presets['arc-anatomy'], declared),
+  ...attributesOf(declared),
+  overlays,
+};
+
+export const own: Record<string, import('../../figure/state.ts').Owned> = {
+  overlays: state,
+  line: { opening: 0, check: (field, line) => wholeNumber(field, line, 0, TABLE_LINES) },
+  underway: { opening: WHOLE, check: (field, share) => wholeNumber(field, share, 0, WHOLE) },
+};
+
+export const documentation: import('../../figure/attributes.ts').Documentation = {
+  state: {
+    line: { type: 'number', sentence: 'The line of Table 5.1 that is lit, from 1; 0 for none.' },
+    underway: { type: 'number', sentence: 'How much of the time the robot has been underway, in per cent.' },
+  },
+};
+
+export const COMMAND = commandLooks(4);
+
+export const ALPHAS = alphaLooks(6);
+
+export const looks: Record<string, import('../../figure/controls.ts').Look> = { ...COMMAND, ...ALPHAS };
+
+/** How far the poses can be dragged from the origin, m. */
+export const REACH = 4;

@@ -1,0 +1,173 @@
+/** Styles of Arc Anatomy: the headline, the bars, and the lines of the table. */
+
+import { css } from 'lit';
+import { layoutStyles } from '../../ui/layout.ts';
+import { plotStyles } from '../../ui/plot.ts';
+import { poseHandleStyles } from '../shared/styles.ts';
+
+const own = css`
+  canvas {
+    aspect-ratio: 5 / 4;
+  }
+
+  .headline {
+    margin: 0 0 0.5em;
+    line-height: 1.25;
+  }
+
+  .headline strong {
+    display: block;
+    font-size: 1.8em;
+    line-height: 1.15;
+  }
+
+  .factors {
+    display: grid;
+    gap: 0.5em;
+    margin: 0 0 0.6em;
+    padding: 0;
+    list-style: none;
+  }
+
+  .factors li {
+    display: grid;
+    grid-template: 'estimate estimate' 'bar bar' 'keeps off' / 1fr auto;
+    align-content: start;
+    padding-left: 0.5em;
+    border-left: 3px solid transparent;
+  }
+
+  .factors.lit li,
+  .factors .weakest {
+    border-color: var(--accent);
+  }
+
+  .factors .estimate {
+    grid-area: estimate;
+  }
+
+  .factors .off {
+    grid-area: off;
+    font-size: 0.84em;
+  }
+
+  .factors svg {
+    grid-area: bar;
+    width: 100%;
+    height: 1.3em;
+  }
+
+  .factors rect {
+    fill: var(--prediction);
+  }
+
+  .factors .tick {
+    stroke: var(--muted);
+    vector-effect: non-scaling-stroke;
+  }
+
+  .factors .beyond {
+    fill: none;
+    stroke: var(--prediction);
+    stroke-width: 3;
+  }
+
+  .factors .keeps {
+    grid-area: keeps;
+    color: var(--muted);
+    font-size: 0.84em;
+    line-height: 1.25;
+  }
+
+  /* Below the picture the bars stand side by side. */
+  @container (22em <= width < 38em) {
+    .factors {
+      grid-template-columns: repeat(3, minmax(0, 1fr));
+      font-size: 0.88em;
+    }
+
+    .factors li {
+      grid-template: 'estimate' 'bar' 'off' 'keeps' / 1fr;
+    }
+  }
+
+  /* The likelihood beside the picture. */
+  @container (min-width: 38em) {
+    .views {
+      grid-template-columns: minmax(0, 1fr) 16em;
+      column-gap: 1.25em;
+    }
+  }
+
+  @container (min-width: 52em) {
+    canvas {
+      aspect-ratio: 7 / 4;
+    }
+  }
+
+  .contours {
+    margin: 0 0 0.5em;
+  }
+
+  .stepper {
+    display: grid;
+    grid-template-columns: auto auto 1fr;
+    gap: 0.35em;
+    align-items: start;
+    margin: 0.2em 0 0.5em;
+  }
+
+  .stepper p {
+    min-height: 2lh;
+    margin: 0.2em 0 0 0.4em;
+  }
+
+  .underway {
+    display: flex;
+    gap: 0.6em;
+    align-items: center;
+  }
+
+  .underway .slider {
+    flex: 1;
+    padding-bottom: 0;
+  }
+
+  .lines {
+    margin: 0 0 0.6em;
+    padding: 0;
+    list-style: none;
+  }
+
+  .lines li {
+    padding: 0.1em 0.5em;
+    border-left: 3px solid transparent;
+  }
+
+  .lines .lit {
+    border-color: var(--accent);
+  }
+
+  .about {
+    margin: 0 0 0.7em;
+    color: var(--muted);
+  }
+
+  .handle.turn {
+    --ring: var(--prediction);
+  }
+
+  .handle.turn.start {
+    --ring: var(--truth);
+  }
+
+  .handle.turn::after {
+    border-color: var(--ring);
+  }
+
+  .handle.turn:hover::after {
+    background: var(--ring);
+  }
+`;
+
+export const anatomyStyles = [...layoutStyles, plotStyles, poseHandleStyles, own];

@@ -1,0 +1,55 @@
+/** What Arc Anatomy says when, in the words of the present language. */
+
+import { addEnglish, words } from '../../messages/registry.ts';
+import { fixed, percent, powerOfTen, significant } from '../../ui/format.ts';
+import { commandText } from '../shared/command.ts';
+import { en } from './en.ts';
+import type { Pose } from '../../types.d.ts';
+import type { Reading } from './reading.ts';
+
+addEnglish({ anatomy: en });
+
+/** Smaller numbers are printed as powers of ten: p is a product of three densities, and spans many decades. */
+const SMALL = 0.0005;
+
+/** @param value above 0 */
+function powerText(value: number) {
+  const [mantissa, exponent] = value.toExponential(1).split('e').map(Number);
+  return `${fixed(mantissa, 1)}·${powerOfTen(exponent)}`;
+}
+
+/** Checks whether a number is printed as a power of ten. */
+export const isTiny = (value: number) => value > 0 && value < SMALL;
+
+/** @param share from 0 to 1 */
+export const shareText = (share: number) => (isTiny(share) ? powerText(share) : percent(share));
+
+export const densityText = (density: number) => (isTiny(density) ? powerText(density) : significant(density, 3));
+
+const SYMBOLS = ['v̂', 'ω̂', 'γ̂'];
+
+/** Which factor kills p, in a sentence. */
+export function verdictOf({ config, stats: { factors, weakest, share, driven, inverted } }: Reading) {
+  const say = words.anatomy.verdict;
+  const { deviations, share: kept, deviation } = factors[weakest];
+  const symbol = SYMBOLS[weakest];
+  if (config.printed && driven.arcLength !== inverted.arcLength) return say.printed(fixed(factors[0].estimate, 2), shareText(share));
+  if (share === 1) return say.peak;
+  if (deviation === 0) return say.noiseless(symbol);
+  return say.off(symbol, fixed(Math.abs(deviations), 1), shareText(kept), shareText(share));
+}
+
+const poseText = ({ x, y, theta }: Pose) => words.anatomy.pose(fixed(x, 2), fixed(y, 2), fixed(theta, 2));
+
+/** The text equivalent of the picture. */
+export function pictureText(reading: Reading) {
+  const { config, stats: { inverted, factors } } = reading;
+  const say = words.anatomy.picture;
+  const [v, omega, gamma] = factors.map(({ estimate }) => fixed(estimate, 2));
+  return [
+    say.poses(poseText(config.start), commandText(config.command), poseText(config.next)),
+    inverted.center === null ? say.straight : say.arc(fixed(inverted.radius, 2), inverted.radius > 0),
+    say.estimates(v, omega, gamma),
+    verdictOf(reading),
+  ].join(' ');
+}

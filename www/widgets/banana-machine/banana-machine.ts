@@ -1,0 +1,324 @@
+/**
+ * <banana-machine>: one command, thousands of outcomes, and the coordinates in which they are close
+ * to an ordinary Gaussian.
+ */
+
+import { html } from 'lit';
+import { object } from '../../figure/checks.ts';
+import { shownOf } from '../../figure/cloud.ts';
+import { canvas, cloudControls, disclosures, panel } from '../../figure/controls.ts';
+import { FigureElement } from '../../figure/figure.ts';
+import { reserve } from '../../figure/page/room.ts';
+import { legend } from '../../figure/overlays.ts';
+import { define } from '../../figure/reflection.ts';
+import { orFree } from '../../figure/runtime.ts';
+import { words } from '../../messages/registry.ts';
+import { openingAlphas } from '../../settings.js';
+import { hasLength } from '../../scene/draw.ts';
+import { clamp } from '../../ui/clamp.ts';
+import { button, rich } from '../../ui/controls.ts';
+import { fixed } from '../../ui/format.ts';
+import { plot } from '../../ui/plot.ts';
+import { Player } from '../shared/player.ts';
+import { alphaControls, commandControls, modelControls } from './controls.ts';
+import { presetButtons } from '../shared/presets.ts';
+import { ArcHandle } from './handle.ts';
+import { IntroducedCloud } from './introduction.ts';
+import { DURATION, carrying, gapsAt, morphControl, outlinesAt, placeOf, ringsAt } from './morph.ts';
+import { PlanePicture, TwistPicture } from './pictures.ts';
+import { CurveMemo, readingOf } from './reading.ts';
+import { markedRobot, otherReadouts, readouts, twistTable, workedExample } from './readouts.ts';
+import { LINES, OVERLAYS, SAMPLE_COUNTS, attributes, declared, looks, own, vocabulary } from './settings.ts';
+import { bananaStyles } from './styles.ts';
+import { announcementOf, captionOf, floorTitle, planeText, skewText, twistCaption, twistText } from './words.ts';
+import type { BananaMachine as Machine } from '../../types.d.ts';
+import type { Values } from '../../figure/state.ts';
+import type { Reading } from './reading.ts';
+
+/** Of each robot in a table: where it ended, its exponential coordinates, and what it executed to get there. */
+const POSE_COLUMNS = ['x_m', 'y_m', 'theta_rad'];
+const TWIST_COLUMNS = ['xi_along_m', 'xi_lateral_m', 'xi_heading_rad'];
+const EXECUTED_COLUMNS = {
+  velocity: ['v_hat_m_per_s', 'omega_hat_rad_per_s', 'gamma_hat_rad_per_s'],
+  odometry: ['delta_hat_rot1_rad', 'delta_hat_trans_m', 'delta_hat_rot2_rad'],
+};
+
+/** Heights that the chart of the skew may have, so that it holds still while a slider is dragged. */
+const SKEWS = [0.25, 0.5, 1, 2, 4, 8];
+
+/**
+ * One command, thousands of outcomes, and the coordinates in which they are close to an ordinary Gaussian.
+ *
+ * @attr preset - A command worth starting from; none where the command is another.
+ * @attr overlays - The outlines that are drawn; in the attribute with spaces between.
+ * @attr morph - Share of the way that the floor has been carried to exponential coordinates, from 0 to 1.
+ * @csspart figures - Readouts, chart and table.
+ * @csspart chart - The chart of the skew.
+ */
+export class BananaMachineElement extends FigureElement<Machine, Reading> {
+  static styles = [...FigureElement.styles, reserve('banana-machine'), ...bananaStyles];
+
+  static declared = declared;
+  static attributes = attributes;
+  static own = own;
+  static looks = looks;
+  static vocabulary = vocabulary;
+  static basis = ['model'];
+
+  cloud = new IntroducedCloud(this);
+  #curve = new CurveMemo();
+  #plane = new PlanePicture();
+  #twist = new TwistPicture();
+  pictures = [this.#plane, this.#twist];
+  #handle = new ArcHandle(this);
+
+  /** Reading that the present cloud is compared with. */
+  #pinned: Reading | undefined;
+
+  player: Player<'morph'> = new Player(this, {
+    morph: { from: 0, to: 1, duration: DURATION, at: () => this.state.own.morph, put: (to) => this.#carry(to) },
+  });
+
+  createMachine: FigureElement<Machine, Reading>['createMachine'] = (motion, state) => {
+    // Empty: the cloud grows before the reader's eyes, and nobody waits for what is not shown yet.
+    const machine = motion.BananaMachine.empty();
+    if (!state) return machine;
+    const { model, alphas, shown } = state;
+    return orFree(machine, () => {
+      // Each model keeps its own.
+      const other = model === 'velocity' ? 'odometry' : 'velocity';
+      machine.configure({ model: other, alphas: alphas[other] });
+      machine.configure({ ...this.settings.declared(state), alphas: alphas[model] });
+      machine.beginToGrow(shownOf(machine, shown));
+    });
+  };
+
+  read(machine: Machine) {
+    this.cloud.unmark();
+    return readingOf(machine);
+  }
+
+  /** In a state that came, or came back, nothing is played. */
+  machineChanged() {
+    this.player.stop();
+  }
+
+  get scene() {
+    const reading = this.fresh;
+    const { motion } = this;
+    const { overlays, morph } = this.state.own;
+    const shown = Object.fromEntries(OVERLAYS.map((name) => [name, overlays.includes(name)]));
+    // Outlines wander while a cloud grows or is dragged, under a view that holds still.
+    const isMoving = this.cloud.playing || (this.gesture.pressed && reading !== this.gesture.former);
+    const callouts = isMoving ? [] : gapsAt(motion, reading, morph);
+    return {
+      ...reading,
+      machine: this.machine,
+      overlays: shown,
+      marked: this.#inspection,
+      morph,
+      outlinesOf: (of: Reading) => outlinesAt(motion, of, morph),
+      callouts,
+      rings: callouts.length > 0 ? ringsAt(motion, reading, morph) : [],
+      pinned: this.#pinned,
+      driving: this.cloud.driving,
+      reached: morph > 0 ? carrying(motion, reading, 1)(reading.contours.ellipse) : reading.contours.ellipse,
+    };
+  }
+
+  startedOver() {
+    this.#pinned = undefined;
+  }
+
+  /** Keeps the outlines and the numbers to compare with, or lets go of those that are kept. */
+  #pin() {
+    this.#pinned = this.#pinned ? undefined : this.fresh;
+    this.stage.wake();
+    this.requestUpdate();
+  }
+
+  /** Carries the floor so far to exponential coordinates. */
+  #carry(morph: number) {
+    this.state.own.morph = morph;
+    this.gesture.step();
+    this.stage.wake();
+  }
+
+  get takeaway() {
+    const { config, shown: count } = this.fresh;
+    const { poses, twists, executed } = this.machine as Machine;
+    return {
+      title: this.lettering.name,
+      description: this.#description,
+      settings: { element: this.localName, ...config },
+      columns: [...POSE_COLUMNS, ...TWIST_COLUMNS, ...EXECUTED_COLUMNS[config.model]],
+      row: (i: number) => [poses, twists, executed].flatMap((each) => [...each.subarray(3 * i, 3 * i + 3)]),
+      count,
+    };
+  }
+
+  announcement = announcementOf;
+
+  snapshot() {
+    return { ...super.snapshot(), alphas: this.machine?.alphasOfModels };
+  }
+
+  completed(present: Values, given: Values) {
+    const alphas = object('state.alphas', given.alphas ?? {}, Object.keys(openingAlphas));
+    return { ...super.completed(present, given), alphas: { ...present.alphas, ...alphas } };
+  }
+
+  /** Place of the end of the commanded arc, in the view's world. */
+  get seenEnd() {
+    const { v, omega, dt } = this.fresh.config.command;
+    return placeOf([v * dt, 0, omega * dt], this.state.own.morph);
+  }
+
+  placeHandles() {
+    const { view } = this.#plane;
+    const [x, y] = this.seenEnd;
+    this.#handle.place(this.renderRoot, view.toPixelX(x), view.toPixelY(y));
+  }
+
+  /**
+   * ξ along, lateral (m), heading (rad) of each robot shown; a copy.
+   *
+   * @public
+   */
+  get twists(): Float64Array | null {
+    return this.ask((machine) => machine.twists);
+  }
+
+  /**
+   * What each robot shown executed: v̂ (m/s), ω̂, γ̂ (rad/s), or under the odometry model its legs δ̂_rot1 (rad), δ̂_trans (m),
+   * δ̂_rot2 (rad); a copy.
+   *
+   * @public
+   */
+  get executed(): Float64Array | null {
+    return this.ask((machine) => machine.executed);
+  }
+
+  /** The marked robot, if it is among those shown. */
+  get #inspection() {
+    return this.cloud.isMarked ? this.machine?.inspect(this.cloud.index) : undefined;
+  }
+
+  /**
+   * Leaves one α alone in effect.
+   *
+   * @param number from 1
+   */
+  leaveAlone(number: number) {
+    this.state.own.isolateChoice = number;
+    this.gesture.decide({ isolate: number });
+  }
+
+  /**
+   * Sets the command to the arc that ends at a point, as far as the sliders go: of the many that do,
+   * the one nearest to the present one, so that nothing leaps.
+   *
+   * @param x in the view's world
+   */
+  reach(x: number, y: number) {
+    this.settings.want(({ command }) => {
+      const { v, omega } = this.motion.commandReaching(x, y, command, this.state.own.morph);
+      const within = (value: number, { min, max }: { min: number, max: number }) => clamp(value, min, max);
+      return { command: { ...command, v: within(v, looks.v), omega: within(omega, looks.omega) } };
+    });
+  }
+
+  /** Title of the picture that the morph carries along. */
+  get #title() {
+    const { morph } = this.state.own;
+    return morph === 0 ? floorTitle(this.reading) : morph === 1 ? words.banana.twist : words.banana.morph.title;
+  }
+
+  /** Returns a note on each outline of the floor that is to be drawn and that the morph cannot carry. */
+  #missing(reading: Reading) {
+    const { morph, overlays } = this.state.own;
+    const lost = morph === 0 ? [] : Object.entries(outlinesAt(this.motion, reading, morph)).filter(([name, { length }]) => length === 0 && overlays.includes(name));
+    return Object.fromEntries(lost.map(([name]) => [name, words.banana.notCarried]));
+  }
+
+  /** What the floor shows, in words. */
+  get #description() {
+    const { overlays } = this.state.own as { overlays: (typeof OVERLAYS)[number][] };
+    const drawn = overlays.filter((name) => hasLength(this.reading.contours[name]));
+    return planeText(this.reading, drawn.map((name) => words.banana.overlays[name]), this.state.own.morph);
+  }
+
+  content(reading: Reading) {
+    const { config, note } = reading;
+    const say = words.banana;
+    return html`
+      <section class="machine" aria-label=${this.lettering.name}>
+        <div class="views">
+          ${panel(this.#title, html`<div class="stage" part="picture">
+            ${canvas(this, this.#plane, this.#description)} ${this.#handle.render(config.command, this.cloud.asking)}
+          </div>`)}
+          ${panel(say.twist, html`<div class="stage">${canvas(this, this.#twist, twistText(reading))}</div>`, 'twist')}
+        </div>
+        ${this.stage.later(() => html`
+        <div class="morphing">
+          ${morphControl(this)}
+          ${button(say.pin, () => this.#pin(), { title: say.pinTitle, pressed: this.#pinned !== undefined })}
+        </div>
+        ${legend(this, LINES, this.#missing(reading))}
+        <p part="caption" class="caption ${note && 'note'}">${captionOf(reading)}</p>
+        ${readouts(reading, this.#pinned)} ${presetButtons(this)}
+        <div class="controls" part="controls">
+          ${commandControls(this)} ${cloudControls(this, SAMPLE_COUNTS)}
+        </div>
+        ${disclosures(this, {
+          controls: () => html`<div class="controls">${alphaControls(this)} ${modelControls(this)}</div>`,
+          numbers: () => html`${markedRobot(this, this.#inspection)} ${this.#figures(reading)}`,
+        })}`)}
+      </section>
+    `;
+  }
+
+  #figures(reading: Reading) {
+    const say = words.banana;
+    return html`${otherReadouts(reading)}<p>${rich(say.gainIs)}</p>
+      <div class="figures" part="figures">
+        <figure>${this.#chart(reading)}<figcaption>${rich(say.chartCaption)}</figcaption></figure>
+        <figure>${workedExample(reading)}</figure>
+        <figure>${twistTable(reading)}<p>${twistCaption(reading)}</p></figure>
+      </div>`;
+  }
+
+  /** The skew against ω; a slider over it sets ω. */
+  #chart({ config: { command: { omega } }, stats, exactSkew }: Reading) {
+    const say = words.banana;
+    const curve = this.#curve.of(this.machine as Machine);
+    const { min, max, step } = looks.omega;
+    const peak = curve.reduce((most, value) => Math.max(most, Math.abs(value) || 0), 0);
+    const height = SKEWS.find((each) => each >= peak) ?? peak;
+    const ends = [min, max];
+    return plot({
+      label: say.chart,
+      x: { name: 'ω (rad/s)', from: min, to: max },
+      y: { name: say.chartAxis, from: -height, to: height },
+      curves: [
+        { name: say.chartAxis, role: 'ink', x: curve.map((_, i) => min + (i * (max - min)) / (curve.length - 1)), y: curve },
+        { name: say.chartGaussian, role: 'prediction', dash: '7 4', x: ends, y: [0, 0] },
+      ],
+      points: [
+        { role: 'prior', x: omega, y: exactSkew, error: 0 },
+        { role: 'prediction', x: omega, y: stats.crossTrackSkew, error: stats.crossTrackSkewError },
+      ],
+      slider: {
+        id: 'chart-omega',
+        name: say.chartMarker,
+        step,
+        value: omega,
+        text: say.chartText(fixed(omega, 2), skewText(exactSkew)),
+        input: (to) => this.settings.want(({ command }) => ({ command: { ...command, omega: to } })),
+        commit: () => this.gesture.commit(),
+      },
+    });
+  }
+}
+
+define('banana-machine', BananaMachineElement);

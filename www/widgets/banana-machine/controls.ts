@@ -1,0 +1,58 @@
+/** The Banana Machine's controls: the command, the noise and the overlays. */
+
+import { html, nothing } from 'lit';
+import { check, choices, slider, sliders } from '../../figure/controls.ts';
+import { words } from '../../messages/registry.ts';
+import { choice, group, toggle } from '../../ui/controls.ts';
+import { typed } from '../../ui/format.ts';
+import { alphaName } from './reading.ts';
+import { COMMAND } from './settings.ts';
+
+export type Figure = import('./banana-machine.ts').BananaMachineElement;
+
+export function commandControls(figure: Figure) {
+  return group(words.command, sliders(figure, COMMAND));
+}
+
+export function modelControls(figure: Figure) {
+  const { model, alphas, isolate } = figure.reading.config;
+  const say = words.banana;
+  // From 1; the other model may have fewer.
+  const chosen = Math.min(figure.state.own.isolateChoice, alphas.length);
+  return group(say.modelGroup, html`${choices(figure, 'model', say.models)} ${choices(figure, 'noise', say.noises)}
+    ${model === 'odometry' ? check(figure, 'reverseAware', say.reverseAware) : nothing}
+    ${toggle({
+      label: say.isolate,
+      checked: isolate !== null,
+      change: (on) => figure.gesture.decide({ isolate: on ? chosen : null }),
+    })}`);
+}
+
+export function alphaControls(figure: Figure) {
+  const { model, alphas } = figure.reading.config;
+  const { effects } = words.banana.settings.alphas;
+  const names = words.alphas[(model as 'velocity' | 'odometry')];
+  const slider = (index: number) => alphaSlider(figure, `alpha${index + 1}`, index + 1, names[index], effects[model][index]);
+  return group(words.noise, alphas.map((_, index) => slider(index)), 'alphas');
+}
+
+/**
+ * @param number from 1
+ * @param effect the noise that the α feeds, and what that does to the picture
+ */
+function alphaSlider(figure: Figure, key: string, number: number, name: string, [path, picture]: string[]) {
+  const { isolate } = figure.reading.config;
+  const off = isolate !== null && isolate !== number;
+  const choose = () => figure.leaveAlone(number);
+  return slider(figure, key, {
+    name,
+    off,
+    pick: isolate === null ? undefined : choice({ group: 'isolate', name: words.banana.only(alphaName(number - 1)), checked: !off, choose }),
+    show: (value) => (off ? words.banana.off(typed(value, 3)) : typed(value, 3)),
+    effect: html`<span class="path">${path}:</span> ${picture}.`,
+    input: (value) => {
+      if (off) choose();
+      figure.settings.want(({ alphas }) => ({ alphas: alphas.with(number - 1, value) }));
+    },
+  });
+}

@@ -1,0 +1,46 @@
+/** The ring at the end of the commanded arc, dragged by pointer or moved from the keyboard. */
+
+import { words } from '../../messages/registry.ts';
+import { Handle, stepsOf } from '../../scene/handle.ts';
+import { clamp } from '../../ui/clamp.ts';
+import { fixed } from '../../ui/format.ts';
+import { looks } from './settings.ts';
+
+/** Distance that an arrow key moves the end of the arc by, metres. */
+const KEY_STEP = 0.02;
+
+export class ArcHandle extends Handle {
+  constructor(figure: import('./banana-machine.ts').BananaMachineElement) {
+    super('end', {
+      view: () => figure.pictures[0].view,
+      drag: (x, y) => figure.reach(x, y),
+      key: (event) => {
+        const steps = stepsOf(event);
+        if (!steps) return false;
+        const [x, y] = figure.runtime.attempt(() => figure.machine && figure.seenEnd) ?? [0, 0];
+        // No arc ends farther away than the straight one.
+        const farthest = looks.v.max * figure.settings.wanted.command.dt;
+        figure.reach(clamp(x + KEY_STEP * steps[0], -farthest, farthest), y + KEY_STEP * steps[1]);
+        return true;
+      },
+      commit: () => figure.gesture.commit(),
+    });
+  }
+
+  /** @param isAsking whether it asks to be dragged */
+  render({ v, omega }: import('../../types.d.ts').Command, isAsking: boolean) {
+    const say = words.banana;
+    const { min, max } = looks.omega;
+    const ends = [v - looks.v.min, looks.v.max - v, omega - min, max - omega].some((left) => left <= 0);
+    return this.element({
+      name: say.handle,
+      keys: say.handleKeys,
+      title: say.handleTitle,
+      range: [min, max],
+      now: omega,
+      text: `v = ${fixed(v, 2)} m/s, ω = ${fixed(omega, 2)} rad/s`,
+      stop: ends && say.slidersEnd,
+      hint: isAsking && say.handleHint,
+    });
+  }
+}

@@ -1,0 +1,35 @@
+/** The lines of equal length and of equal turn, which bend on the floor and are straight in exponential coordinates. */
+
+import { ticks } from 'd3-array';
+import { placeOf } from './morph.ts';
+import type { Brush } from '../../scene/canvas.ts';
+import type { View } from '../../scene/view.ts';
+
+/** Lines of either kind, about; chords of a line. */
+const LINES = 7;
+const CHORDS = 32;
+
+/**
+ * Draws the grid of exponential coordinates as a morph has it.
+ *
+ * @param end window on exponential coordinates
+ */
+export function drawLattice({ context, view, palette }: Brush, { extent: { xMin, xMax, yMin, yMax } }: View, morph: number) {
+  context.strokeStyle = palette.rule;
+  context.lineWidth = 1;
+  // It comes soon, and goes where the straight one of the axes is.
+  context.globalAlpha = 0.7 * Math.min(1, 5 * morph);
+  const line = (at: (share: number) => [along: number, heading: number]) => {
+    for (let i = 0; i <= CHORDS; i++) {
+      const [along, heading] = at(i / CHORDS);
+      const [x, y] = placeOf([along, 0, heading], morph);
+      if (i === 0) context.moveTo(view.toPixelX(x), view.toPixelY(y));
+      else context.lineTo(view.toPixelX(x), view.toPixelY(y));
+    }
+  };
+  context.beginPath();
+  for (const along of ticks(xMin, xMax, LINES)) line((share) => [along, yMin + share * (yMax - yMin)]);
+  for (const heading of ticks(yMin, yMax, LINES)) line((share) => [xMin + share * (xMax - xMin), heading]);
+  context.stroke();
+  context.globalAlpha = 1;
+}

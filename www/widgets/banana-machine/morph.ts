@@ -1,0 +1,133 @@
+/** The morph that carries the floor continuously to exponential coordinates: see doc/model.md. */
+
+import { html } from 'lit';
+import { words } from '../../messages/registry.ts';
+import { View } from '../../scene/view.ts';
+import { percent } from '../../ui/format.ts';
+import { track } from '../../ui/slider.ts';
+import type { Motion } from '../../types.d.ts';
+import type { Extent } from '../../scene/view.ts';
+import type { Reading } from './reading.ts';
+
+/** Lines on the floor, or where a morph has carried them. */
+export type Outlines = Omit<Reading['contours'], 'twistEllipse'>;
+
+/** Duration of the morph when it is played, ms. */
+export const DURATION = 5000;
+
+/** Step of the slider. */
+const STEP = 0.01;
+
+/**
+ * Returns the place of a twist at a morph: `geom::unbend` of the core.
+ *
+ * @param twist along and lateral (m), heading (rad)
+ */
+export function placeOf({ 0: along, 1: lateral, 2: heading }: ArrayLike<number>, morph: number): [number, number] {
+  const half = ((1 - morph) * heading) / 2;
+  const sinc = half === 0 ? 1 : Math.sin(half) / half;
+  const [ahead, aside] = [sinc * along, sinc * (1 - morph) * lateral];
+  const [cos, sin] = [Math.cos(half), Math.sin(half)];
+  return [ahead * cos - aside * sin, ahead * sin + aside * cos + morph * heading];
+}
+
+/** Returns a function that carries a line of points of the floor to a morph. */
+export const carrying = (motion: Motion, { config: { command } }: Reading, morph: number) => (line: Float64Array) =>
+  morph === 0 ? line : motion.unbendLine(line, command.omega * command.dt, morph);
+
+/** Returns the outlines of a reading at a morph: those of its two Gaussians, carried along. */
+export function outlinesAt(motion: Motion, reading: Reading, morph: number): Outlines {
+  const { contours, stats } = reading;
+  if (morph === 0) return contours;
+  const carried = carrying(motion, reading, morph);
+  const { mean, cov } = stats.exponential;
+  return {
+    command: commandAt(reading, morph),
+    ellipse: carried(contours.ellipse),
+    linearized: carried(contours.linearized),
+    additive: carried(contours.additive),
+    exponential: contours.exponential.length > 0 ? motion.unbendGaussian(Float64Array.from([...mean, ...cov.flat()]), morph) : contours.exponential,
+  };
+}
+
+/** Sizes of the rings, in outlines of two standard deviations. */
+const RINGS = [0.5, 1, 1.5];
+
+/** Returns outlines of the Gaussian in exponential coordinates, with nearly the whole cloud inside of the largest, carried to a morph. */
+export function ringsAt(motion: Motion, { stats: { exponential: { mean, cov } } }: Reading, morph: number) {
+  return RINGS.map((size) => motion.unbendGaussian(Float64Array.from([...mean, ...cov.flat().map((each) => size ** 2 * each)]), morph));
+}
+
+/** Returns the commanded arc at a morph. */
+function commandAt({ config: { command: { v, omega, dt } }, contours }: Reading, morph: number) {
+  const chords = contours.command.length / 2 - 1;
+  const part = (i: number) => placeOf([(i / chords) * v * dt, 0, (i / chords) * omega * dt], morph);
+  return Float64Array.from(Array.from({ length: chords + 1 }, (_, i) => part(i)).flat());
+}
+
+/** Returns the places of the gaps of a reading at a morph. */
+export function gapsAt(motion: Motion, reading: Reading, morph: number): [number, number][] {
+  const places = carrying(motion, reading, morph)(reading.gaps);
+  return Array.from({ length: places.length / 2 }, (_, i) => [places[2 * i], places[2 * i + 1]]);
+}
+
+/** Window on the world at a morph: between that on the floor and that on exponential coordinates, each of which is aimed alone. */
+export class MorphView extends View {
+  /** Share of the way from the floor (0) to exponential coordinates (1). */
+  morph = 0;
+  /** Windows at both ends. */
+  ends;
+
+  constructor(inset: { left: number, right: number }) {
+    super(inset);
+    this.ends = [new View(inset), new View({ ...inset, equal: false })];
+  }
+
+  resize(width: Parameters<View['resize']>[0], height: Parameters<View['resize']>[1]) {
+    super.resize(width, height);
+    for (const end of this.ends) end.resize(width, height);
+  }
+
+  release() {
+    for (const end of this.ends) end.release();
+  }
+
+  forget() {
+    for (const end of this.ends) end.forget();
+  }
+
+  get aimed() {
+    return this.ends[this.morph > 0 ? 1 : 0].aimed;
+  }
+
+  /** Aims the window at an end. */
+  fitEnd(needed: Extent, end: 0 | 1) {
+    const view = this.ends[end];
+    view.widened = false;
+    view.fit(needed);
+    this.widened ||= view.widened;
+  }
+
+  ease(elapsed: Parameters<View['ease']>[0], atOnce: Parameters<View['ease']>[1]) {
+    const moving = this.ends.map((end) => end.ease(elapsed, atOnce)).includes(true);
+    const [floor, twist] = this.ends.map(({ extent }) => extent);
+    const between = (key: keyof Extent) => floor[key] + this.morph * (twist[key] - floor[key]);
+    this.extent = { xMin: between('xMin'), yMin: between('yMin'), xMax: between('xMax'), yMax: between('yMax') };
+    return moving;
+  }
+}
+
+/** Slider from the floor to exponential coordinates, and the button that plays it. */
+export function morphControl({ player, gesture, state }: import('./banana-machine.ts').BananaMachineElement) {
+  const say = words.banana.morph;
+  const { morph } = state.own;
+  return html`<div class="morph" role="group" aria-label=${say.name}>
+    ${player.button('morph', say.play)}
+    ${track({
+      id: 'morph', name: say.name, min: 0, max: 1, step: STEP, value: morph, text: say.text(percent(morph)),
+      input: (to) => player.put('morph', to), commit: () => gesture.commit(),
+    })}
+    <span class="end floor" aria-hidden="true">${say.floor}</span>
+    <span class="end twist" aria-hidden="true">${say.twist}</span>
+  </div>`;
+}

@@ -1,0 +1,365 @@
+/** The Banana Machine's two pictures of the same robots: the floor from above, and exponential coordinates. */
+
+import { greatest } from 'd3-array';
+import { words } from '../../messages/registry.ts';
+import { clipped, drawAxes } from '../../scene/axes.ts';
+import { drawCallouts } from '../../scene/callout.ts';
+import {
+  densityRamp,
+  drawDensity,
+  drawDots,
+  drawGhosts,
+  drawHandle,
+  drawHeap,
+  drawMark,
+  drawOutline,
+  drawOutlines,
+  drawRobot,
+  hasLength,
+  lineStyles,
+} from '../../scene/draw.ts';
+import { drawLabel } from '../../scene/labels.ts';
+import { Picture } from '../../scene/picture.ts';
+import { View, extentOf } from '../../scene/view.ts';
+import { clamp } from '../../ui/clamp.ts';
+import { counted } from '../../ui/format.ts';
+import { lineKey } from '../shared/line-key.ts';
+import { drawLattice } from './lattice.ts';
+import { MorphView, placeOf } from './morph.ts';
+import { deviation } from './reading.ts';
+import { LINES } from './settings.ts';
+import type { BananaMachine, Moments } from '../../types.d.ts';
+import type { Brush } from '../../scene/canvas.ts';
+import type { Outlines } from './morph.ts';
+
+/** What both pictures are of; outlines, callouts and the `rings` that these keep clear of are at the morph, the ellipse is `reached` at its end. */
+export type Scene = import('./reading.ts').Reading & { machine: BananaMachine, overlays: Record<import('./settings.ts').LineName, boolean>, marked: import('../../types.d.ts').Inspection | undefined, morph: number, pinned: import('./reading.ts').Reading | undefined, driving: { robots: number, share: number } | undefined, outlinesOf: (reading: import('./reading.ts').Reading) => Outlines, callouts: [number, number][], rings: Float64Array[], reached: Float64Array, };
+
+/** A larger cloud is drawn as a density: dots would be one blot, and cost more than a frame. */
+const MAX_DOTS = 1000;
+
+/** Rays of a fan of headings: more look no different. */
+const MAX_RAYS = 400;
+
+/** A cloud whose standard deviation is below this many pixels is drawn as one place. */
+const ONE_PLACE = 0.6;
+
+/** Standard deviations around the mean that a view makes room for. */
+const ROOM = 3.2;
+
+/** Radius of the ring at the end of the arc, pixels. */
+const RING = 7.5;
+
+/** How near to a robot the pointer must be to mark it, CSS pixels. */
+const REACH = 14;
+
+/** A picture of the robots: as dots, or as a density. */
+class CloudPicture extends Picture<Scene, import('../../types.d.ts').ViewName> {
+  #grid = new OffscreenCanvas(1, 1);
+
+  /** Share of the way from the floor to exponential coordinates that is shown. */
+  get morph(): number {
+    return this.name === 'plane' ? 0 : 1;
+  }
+
+  /**
+   * The robot nearest to the pointer; −1 for none.
+   *
+   * @param x CSS pixels of the canvas
+   */
+  nearest(machine: BananaMachine, x: number, y: number) {
+    return machine.nearest(this.morph, ...this.around(x, y, REACH));
+  }
+
+  /** @param area that the robots cover, square pixels */
+  paintCloud(brush: Brush, machine: BananaMachine, area: number) {
+    const { morph } = this;
+    const { palette } = brush;
+    if (machine.shown <= MAX_DOTS) {
+      // The heading goes with the turn.
+      if (morph === 0) drawDots(brush, machine.poses, { x: 0, y: 1, heading: 2 });
+      else drawDots(brush, placesOf(machine.twists, morph), { x: 0, y: 1, heading: morph < 1 ? 2 : null, ahead: 1 - morph });
+      return;
+    }
+    const ramp = densityRamp(palette);
+    drawDensity(brush, this.#grid, cellSize(area, machine.shown), (...part) => machine.picture(morph, ...part, ramp));
+  }
+}
+
+/** Returns the place of each robot at a morph, with the heading that is left of it. */
+function placesOf(twists: Float64Array, morph: number) {
+  const places = new Float64Array(twists.length);
+  for (let i = 0; i < twists.length; i += 3) {
+    places.set([...placeOf(twists.subarray(i, i + 3), morph), (1 - morph) * twists[i + 2]], i);
+  }
+  return places;
+}
+
+/**
+ * Cells of the density, CSS pixels: fine when there are robots enough to fill them.
+ *
+ * @param area that the cloud covers, square pixels
+ */
+function cellSize(area: number, count: number) {
+  return Math.min(7, Math.max(2, Math.round(Math.sqrt((3 * area) / count))));
+}
+
+/** Outline name in the order that they are painted in, and that the key names them in. */
+export type OutlineName = import('./settings.ts').LineName;
+const PAINTED = ['additive', 'linearized', 'ellipse', 'exponential', 'command'] as const satisfies OutlineName[];
+const NAMED = ['ellipse', 'exponential', 'linearized', 'additive', 'command'] as const satisfies OutlineName[];
+
+/** Insets of the views, CSS pixels. */
+const INSET = { left: 46, right: 10 };
+
+/** The floor from above, and what a morph makes of it on the way to exponential coordinates. */
+export class PlanePicture extends CloudPicture {
+  view: MorphView = new MorphView(INSET);
+
+  constructor() {
+    super('plane', new View());
+  }
+
+  get morph() {
+    return this.view.morph;
+  }
+
+  draw(...[surface, scene, ...how]: Parameters<Picture<Scene>['draw']>) {
+    this.view.morph = scene.morph;
+    return super.draw(surface, scene, ...how);
+  }
+
+  fit(scene: Scene) {
+    this.#fitFloor(scene);
+    if (scene.morph > 0) this.view.fitEnd(extentOf([...pointsOfTwists(scene), ...(scene.overlays.ellipse ? scene.reached : [])], 0.1), 1);
+  }
+
+  #fitFloor({ contours, table, end, overlays }: Scene) {
+    const { mean, cov } = table.exact;
+    const [sx, sy] = [ROOM * deviation(cov[0][0]), ROOM * deviation(cov[1][1])];
+    const points = [mean[0] - sx, mean[1] - sy, mean[0] + sx, mean[1] + sy, ...contours.command];
+    // The only outline that may be much larger than the cloud.
+    if (overlays.additive) points.push(...contours.additive);
+    const box = extentOf(points, 0.4);
+    // Around the end there is room for a fan of headings, which may be all there is to see.
+    const fan = 0.2 * (box.xMax - box.xMin);
+    const [x, y] = end;
+    this.view.fitEnd(extentOf([...points, x - fan, y - fan, x + fan, y + fan], 0.4), 0);
+  }
+
+  paint: Picture<Scene>['paint'] = (brush, scene) => {
+    const { context, view, palette } = brush;
+    const { machine, overlays, table, marked, end, morph } = scene;
+    const outlines = scene.outlinesOf(scene);
+    const styles = lineStyles(brush, LINES);
+    const drawn = (name: OutlineName) => overlays[name] && hasLength(outlines[name]);
+    const key = NAMED.filter(drawn).map((name) => lineKey(brush, words.banana.overlays[name], styles[name]));
+    // One pair of axes goes before the other comes.
+    const [floor, twist] = this.view.ends;
+    const axes = [
+      { view: floor, there: 1 - 2 * morph, names: { x: 'x (m)', y: 'y (m)' } },
+      { view: twist, there: 2 * morph - 1, names: { x: words.banana.axisAlong, y: words.banana.axisHeading } },
+    ];
+    for (const { view: of, there, names } of axes) {
+      context.globalAlpha = clamp(there, 0, 1);
+      // The lattice is the grid of exponential coordinates until it is straight.
+      if (there > 0) drawAxes({ ...brush, view: of }, names, brush.exported ? key : [], of === twist && morph < 1 ? 0 : undefined);
+    }
+    context.globalAlpha = 1;
+    clipped(brush, () => {
+      if (morph > 0 && morph < 1) drawLattice(brush, twist, morph);
+      if (scene.driving) {
+        drawDriving(brush, machine, scene.driving);
+        return;
+      }
+      const { cov } = table.exact;
+      const heaped = morph === 0 && deviation(cov[0][0] + cov[1][1]) * view.scaleX < ONE_PLACE;
+      if (!heaped) {
+        const determinant = Math.max(0, cov[0][0] * cov[1][1] - cov[0][1] * cov[1][0]);
+        const area = Math.sqrt(determinant) + morph * (areaOfTwists(scene) - Math.sqrt(determinant));
+        this.paintCloud(brush, machine, 4 * Math.PI * area * view.scaleX * view.scaleY);
+      }
+      drawRobot(brush, { x: 0, y: 0, heading: 0, colour: palette.truth });
+      const lines = (of: Outlines) => PAINTED.filter(drawn).map((name) => ({ points: of[name], ...styles[name] }));
+      for (const before of [brush.former, scene.pinned]) if (before) drawGhosts(brush, lines(scene.outlinesOf(before)));
+      drawOutlines(brush, lines(outlines));
+      if (scene.pinned) drawPinned(brush, lines(scene.outlinesOf(scene.pinned)), placeOf(scene.stats.exponential.mean, morph));
+      if (overlays.command && scene.reading && morph === 0) drawReading(brush, scene.reading, end);
+      if (heaped && machine.shown > 0) drawHeap(brush, heapOf(machine));
+      const [endX, endY] = outlines.command.slice(-2);
+      drawHandle(brush, { x: view.toPixelX(endX), y: view.toPixelY(endY), radius: RING, colour: palette.prior });
+      if (marked) {
+        const { pose, twist: at, path } = marked;
+        if (morph === 0) drawOutline(brush, path, { colour: palette.accent, width: 1.25, dash: [6, 2] });
+        const [x, y] = morph === 0 ? pose : placeOf(at, morph);
+        drawMark(brush, { x, y, heading: morph < 1 ? (1 - morph) * pose[2] : null });
+      }
+    });
+    if (!overlays.ellipse || !overlays.exponential) return;
+    const callouts = scene.callouts.map((at, i) => ({ text: words.banana.callouts[i], at }));
+    const lines = [outlines.command, outlines.ellipse, ...scene.rings];
+    drawCallouts(brush, callouts, { from: placeOf(scene.stats.exponential.mean, morph), lines });
+  };
+}
+
+/** Draws robots that are on their way, with the way that they have behind them. */
+function drawDriving(brush: Brush, machine: BananaMachine, { robots, share }: { robots: number, share: number }) {
+  const { palette } = brush;
+  for (let i = 0; i < robots; i++) {
+    const { path, pose } = machine.inspect(i);
+    // The first has arrived when the others start.
+    const chords = path.length / 2 - 1;
+    const at = (i === 0 && robots > 1 ? 1 : share) * chords;
+    const begin = Math.min(Math.floor(at), chords - 1);
+    const [x, y, nextX, nextY] = path.subarray(2 * begin, 2 * begin + 4);
+    const [endX, endY] = [x + (at - begin) * (nextX - x), y + (at - begin) * (nextY - y)];
+    drawOutline(brush, Float64Array.of(...path.subarray(0, 2 * begin + 2), endX, endY), { colour: palette.cloud, width: 1.5, dash: [] });
+    const heading = at === chords ? pose[2] : Math.atan2(nextY - y, nextX - x);
+    drawRobot(brush, { x: endX, y: endY, heading, colour: palette.cloud });
+  }
+}
+
+/**
+ * Names the pinned outlines, where they are furthest from the present cloud.
+ *
+ * @param from middle of the cloud
+ */
+function drawPinned(brush: Brush, lines: { points: Float64Array }[], from: [number, number]) {
+  const { view, palette } = brush;
+  const [x, y] = [view.toPixelX(from[0]), view.toPixelY(from[1])];
+  const places = lines.flatMap(({ points }) => Array.from({ length: points.length / 2 }, (_, i) => [view.toPixelX(points[2 * i]), view.toPixelY(points[2 * i + 1])]));
+  const place = greatest(places, ([atX, atY]) => Math.hypot(atX - x, atY - y));
+  if (place) drawLabel(brush, { x: place[0], y: place[1], towards: Math.sign(place[0] - x), text: words.banana.pinned, colour: palette.muted });
+}
+
+/** Radius of the arcs that show a turn, CSS pixels, and how far beyond the end the second one's line goes on. */
+const TURN_RADIUS = 26;
+const TURN_LINE = 38;
+
+/**
+ * What odometry reads of the command: turn, drive, turn.
+ *
+ * @param end metres
+ */
+function drawReading(brush: Brush, { rot1, trans, rot2 }: import('../../types.d.ts').Legs, [x, y]: [number, number]) {
+  const { context, view, palette } = brush;
+  const [fromX, fromY, toX, toY] = [view.toPixelX(0), view.toPixelY(0), view.toPixelX(x), view.toPixelY(y)];
+  const ahead = view.direction(rot1);
+  context.lineWidth = 1.5;
+  context.strokeStyle = palette.prior;
+  context.beginPath();
+  // Straight ahead from the start, the drive, and on from its end.
+  context.moveTo(fromX + TURN_LINE, fromY);
+  context.lineTo(fromX, fromY);
+  context.lineTo(toX, toY);
+  context.lineTo(toX + TURN_LINE * ahead.x, toY + TURN_LINE * ahead.y);
+  context.moveTo(toX, toY);
+  const last = view.direction(rot1 + rot2);
+  context.lineTo(toX + TURN_LINE * last.x, toY + TURN_LINE * last.y);
+  context.stroke();
+  turn(context, fromX, fromY, 0, rot1);
+  turn(context, toX, toY, rot1, rot2);
+  const colour = palette.prior;
+  const turned = (sub: string, atX: number, atY: number, heading: number) => {
+    const out = view.direction(heading);
+    drawLabel(brush, { x: atX + (TURN_LINE + 6) * out.x, y: atY + (TURN_LINE + 6) * out.y, towards: out.x < 0 ? -1 : 1, symbol: 'δ', sub, colour });
+  };
+  turned('rot1', fromX, fromY, rot1 / 2);
+  turned('rot2', toX, toY, rot1 + rot2 / 2);
+  if (trans > 0) {
+    const [atX, atY] = [(fromX + toX) / 2 + 10 * ahead.y, (fromY + toY) / 2 - 10 * ahead.x + 6];
+    drawLabel(brush, { x: atX, y: atY, towards: 1, symbol: 'δ', sub: 'trans', colour });
+  }
+}
+
+/**
+ * @param x CSS pixels
+ * @param from heading, rad
+ * @param by rad; positive to the left
+ */
+function turn(context: Brush['context'], x: number, y: number, from: number, by: number) {
+  context.beginPath();
+  // On the screen y runs down.
+  context.arc(x, y, TURN_RADIUS, -from, -from - by, by > 0);
+  context.stroke();
+}
+
+/** Robots that are all in one place. */
+function heapOf(machine: BananaMachine) {
+  const stride = Math.ceil(machine.shown / MAX_RAYS);
+  const headings = [];
+  for (let i = 0; i < machine.shown; i += stride) headings.push(machine.heading(i));
+  const [x, y] = machine.inspect(0).pose;
+  return { x, y, headings, label: words.banana.robotsHere(machine.shown, counted(machine.shown)) };
+}
+
+/**
+ * What is known of the cloud in exponential coordinates: the model's own moments and the sample's;
+ * where there are neither, the spread in the plane around the command.
+ *
+ * @returns one at least
+ */
+function twistMoments({ config, stats, table }: Scene): Moments[] {
+  const known = [table.tangent, stats.exponential].filter((moments) => moments !== null);
+  const finite = known.filter(({ cov }) => Number.isFinite(cov[0][0]));
+  if (finite.length > 0) return finite;
+  const { v, omega, dt } = config.command;
+  const { cov } = table.exact;
+  const along = cov[0][0] + cov[1][1];
+  return [{ mean: [v * dt, 0, omega * dt], cov: [[along, 0, 0], [0, 0, 0], [0, 0, cov[2][2]]] }];
+}
+
+/** Returns points around what there is to see in exponential coordinates. */
+function pointsOfTwists(scene: Scene) {
+  const { v, omega, dt } = scene.config.command;
+  const points = [v * dt, omega * dt];
+  for (const { mean, cov } of twistMoments(scene)) {
+    const [along, heading] = [ROOM * deviation(cov[0][0]), ROOM * deviation(cov[2][2])];
+    points.push(mean[0] - along, mean[2] - heading, mean[0] + along, mean[2] + heading);
+  }
+  return points;
+}
+
+/** Returns the product of the standard deviations in exponential coordinates. */
+function areaOfTwists(scene: Scene) {
+  const [{ cov }] = twistMoments(scene);
+  return deviation(cov[0][0]) * deviation(cov[2][2]);
+}
+
+/** The same robots in exponential coordinates. */
+export class TwistPicture extends CloudPicture {
+  constructor() {
+    super('twist', new View({ ...INSET, equal: false }));
+  }
+
+  fit(scene: Scene) {
+    this.view.fit(extentOf(pointsOfTwists(scene), 0.1));
+  }
+
+  paint: Picture<Scene>['paint'] = (brush, scene) => {
+    const { context, view, palette } = brush;
+    const { machine, config, contours, overlays, marked } = scene;
+    const { exponential, command } = lineStyles(brush, LINES);
+    const key = overlays.exponential && hasLength(contours.twistEllipse) ? [lineKey(brush, words.banana.overlays.exponential, exponential)] : [];
+    drawAxes(brush, { x: words.banana.axisAlong, y: words.banana.axisHeading }, brush.exported ? key : []);
+    clipped(brush, () => {
+      if (scene.driving) return;
+      this.paintCloud(brush, machine, 4 * Math.PI * areaOfTwists(scene) * view.scaleX * view.scaleY);
+      if (overlays.exponential) {
+        for (const before of [brush.former, scene.pinned]) if (before) drawGhosts(brush, [{ points: before.contours.twistEllipse, ...exponential }]);
+        drawOutline(brush, contours.twistEllipse, exponential);
+      }
+      if (overlays.command) {
+        const { v, omega, dt } = config.command;
+        context.beginPath();
+        context.arc(view.toPixelX(v * dt), view.toPixelY(omega * dt), 5, 0, 2 * Math.PI);
+        context.fillStyle = palette.paper;
+        context.fill();
+        context.strokeStyle = command.colour;
+        context.lineWidth = command.width;
+        context.stroke();
+      }
+      if (marked) drawMark(brush, { x: marked.twist[0], y: marked.twist[2], heading: null });
+    });
+  };
+}

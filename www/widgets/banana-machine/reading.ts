@@ -1,0 +1,139 @@
+/** What the Banana Machine shows of its machine. */
+
+import { words } from '../../messages/registry.ts';
+import { looks } from './settings.ts';
+import type { BananaMachine as Machine, Settings, Stats, Table } from '../../types.d.ts';
+
+export type Reading = ReturnType<typeof readingOf>;
+
+/** Below this, metres or radians, a spread is none: rounding of the quadrature, not noise. */
+const NO_SPREAD = 1e-9;
+
+/**
+ * Points of the chart's curve. Fewer would draw the fall of the skew across ω = 0 as a kinked line;
+ * more than a pixel each would be wasted.
+ */
+const CURVE_POINTS = 241;
+
+/** The skew against ω, which costs milliseconds and which only some of the settings alter. */
+export class CurveMemo {
+  #curve: Float64Array = new Float64Array();
+  #holdsFor = '';
+
+  of(machine: Machine) {
+    const { model, noise, command, alphas, isolate } = machine.config;
+    const wanted = JSON.stringify([model, noise, command.v, command.dt, alphas, isolate]);
+    if (wanted !== this.#holdsFor) {
+      this.#holdsFor = wanted;
+      this.#curve = machine.skewCurve(looks.omega.min, looks.omega.max, CURVE_POINTS);
+    }
+    return this.#curve;
+  }
+}
+
+/** Everything that the pictures and readouts need of the machine, asked once a change. */
+export function readingOf(machine: Machine) {
+  const { config, shown, stats, contours, gaps, table, chartHolds } = machine;
+  return {
+    config,
+    shown,
+    stats,
+    contours,
+    gaps,
+    table,
+    note: noteOn(config, table, stats, chartHolds),
+    exactSkew: table.exact.crossTrackSkew,
+    gain: gainOf(stats, table),
+    bowTie: bowTieOf(config),
+    /** The command as odometry reads it; null under the velocity model. */
+    reading: config.model === 'odometry' ? machine.reading : null,
+    /** The end of the commanded arc, metres. */
+    end: [...contours.command.slice(-2)] as [number, number],
+  };
+}
+
+/**
+ * The gain of the Gaussian in the coordinates that bend with the cloud. Where its covariance is singular, the gain over
+ * (x, y, θ) is unbounded; then it is that of the arc's own coordinates over (x, y).
+ */
+function gainOf({ n, likelihoodGain, likelihoodGainError }: Stats, { exact }: Table) {
+  const unbounded = exact.likelihoodGain.pose === Infinity;
+  const kind = unbounded ? 'floor' : 'pose';
+  return { n, unbounded, value: likelihoodGain[kind], error: likelihoodGainError[kind], exact: exact.likelihoodGain[kind], wraps: 4 * Math.sqrt(exact.cov[2][2]) > Math.PI };
+}
+
+/**
+ * Whether the noise of the length is that of the turn above all, and so large beside the length that is commanded that the
+ * robots end on both sides of the start; if so, what says it.
+ */
+function bowTieOf({ model, command: { v, omega, dt }, alphas, isolate, reverseAware }: Settings) {
+  const [a1, a2, a3, a4] = alphas.map((alpha, i) => (isolate === null || isolate === i + 1 ? alpha : 0));
+  if (model === 'velocity') {
+    const [straight, turning] = [a1 * v * v, a2 * omega * omega];
+    const deviation = Math.sqrt(straight + turning);
+    return turning > straight && deviation > Math.abs(v) ? { model, length: v, deviation } : null;
+  }
+  const turn = omega * dt;
+  const length = Math.abs(v * dt * (turn === 0 ? 1 : Math.sin(turn / 2) / (turn / 2)));
+  // It turns by half of it before the drive and by half of it after; in reverse, as the table has it, by that much less
+  // than half a turn.
+  const rotation = v < 0 && !reverseAware ? Math.PI - Math.abs(turn) / 2 : turn / 2;
+  const [straight, turning] = [a3 * length * length, 2 * a4 * rotation * rotation];
+  const deviation = Math.sqrt(straight + turning);
+  return turning > straight && deviation > length ? { model, length, deviation } : null;
+}
+
+/** @param index from 0 */
+export function alphaName(index: number) {
+  return `α${String.fromCharCode(0x2081 + index)}`;
+}
+
+/** What the α's of each model have multiplied by their squares: the speed, or the turn rate. */
+const CAUSES = { velocity: [...'vωvωvω'], odometry: [...'ωvvω'] } as const;
+
+/**
+ * A sentence on an α that has nothing to multiply.
+ *
+ * @param index of the α, from 0
+ */
+export function silenceOf(model: Settings['model'], index: number) {
+  const { alphaIsSilent, nothingToMultiply, settings } = words.banana;
+  const cause = CAUSES[model][index] as 'v' | 'ω';
+  return alphaIsSilent(alphaName(index), nothingToMultiply[model][cause], cause, settings.alphas.effects[model][index][2]);
+}
+
+/** @param variance whose quadrature may round to less than 0 */
+export function deviation(variance: number) {
+  return Math.sqrt(Math.max(0, variance));
+}
+
+/**
+ * What kind of spread the cloud has, by the exact covariance.
+ *
+ * @returns one pose; one place but many headings; or a spread
+ */
+export function spreadOf({ exact: { cov } }: Table): 'point' | 'headings' | 'cloud' {
+  if (deviation(Math.max(cov[0][0], cov[1][1])) > NO_SPREAD) return 'cloud';
+  return deviation(cov[2][2]) > NO_SPREAD ? 'headings' : 'point';
+}
+
+/**
+ * A sentence on a cloud that is not what a reader expects, from the settings that made it so.
+ *
+ * @param chartHolds whether exponential coordinates reach as far as the robots turn
+ * @returns empty for an ordinary cloud
+ */
+function noteOn({ model, command, alphas, isolate, reverseAware }: Settings, table: Table, stats: Stats, chartHolds: boolean): string {
+  const { notes, alphaIsZero } = words.banana;
+  const spread = spreadOf(table);
+  const { v, omega } = command;
+  if (spread === 'point') {
+    if (v === 0 && omega === 0) return notes.still;
+    if (isolate === null) return alphas.every((alpha) => alpha === 0) ? notes.silent : notes.unfed;
+    return alphas[isolate - 1] === 0 ? alphaIsZero(alphaName(isolate - 1)) : silenceOf(model, isolate - 1);
+  }
+  if (spread === 'headings') return notes.headings;
+  if (!chartHolds) return notes.circle;
+  if (model === 'odometry' && v < 0 && !reverseAware) return notes.backwards;
+  return stats.n > 2 && Object.values(stats.coverage).some(Number.isNaN) ? notes.line : '';
+}

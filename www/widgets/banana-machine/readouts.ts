@@ -1,0 +1,141 @@
+/** The Banana Machine's readouts: the statistics of the cloud, the marked robot, and the tables of moments. */
+
+import { html } from 'lit';
+import { markedField } from '../../figure/controls.ts';
+import { words } from '../../messages/registry.ts';
+import { rich } from '../../ui/controls.ts';
+import { NOTHING, counted, fixed, percent, significant, withError } from '../../ui/format.ts';
+import { figureTable, readoutList } from '../../ui/readouts.ts';
+import type { Inspection, Moments, Table } from '../../types.d.ts';
+import type { Reading } from './reading.ts';
+
+/** Share of a Gaussian in the plane inside its 2σ ellipse, 1 − e⁻². */
+const NOMINAL = 1 - Math.exp(-2);
+
+/**
+ * Returns the three figures of the message: the floor that the ellipse wastes, the gain of the other coordinates, and the lean of the
+ * cloud. Those of a pinned cloud stand below.
+ */
+export function readouts(reading: Reading, pinned?: Reading) {
+  const say = words.banana.readouts;
+  const { stats: { coverage }, exactSkew, gain } = reading;
+  const values = valuesOf(reading);
+  const before = pinned && valuesOf(pinned).map((value) => `${words.banana.pinned}: ${value}`);
+  const shares = [coverage.ellipse, coverage.exponential];
+  return readoutList([
+    [say.area, values[0], shares.every(Number.isNaN) ? NOTHING : say.areaDetail(percent(shares[0]), percent(shares[1])), before?.[0]],
+    [gain.unbounded ? say.gainOnFloor : say.gain, values[1], gainText(gain), before?.[1]],
+    [say.skew, values[2], Number.isNaN(exactSkew) ? NOTHING : say.exactly(fixed(exactSkew, 3)), before?.[2]],
+  ], 0);
+}
+
+/** Returns the area ratio, the gain and the skew as they are printed. */
+function valuesOf({ stats, gain }: Reading) {
+  return [
+    Number.isNaN(stats.areaRatio) ? NOTHING : `${withError(stats.areaRatio, stats.areaRatioError, 2)} ×`,
+    withError(gain.value, gain.error, 3),
+    withError(stats.crossTrackSkew, stats.crossTrackSkewError, 3),
+  ];
+}
+
+/** Returns the exact gain, or the reason why it has no limit. */
+function gainText({ unbounded, value, exact, wraps }: Reading['gain']) {
+  const { withoutLimit, onLine, exactly, unwrapped, nat } = words.banana.readouts;
+  if (Number.isNaN(value)) return NOTHING;
+  if (value === Infinity) return onLine;
+  return unbounded ? withoutLimit : `${(wraps ? unwrapped : exactly)(fixed(exact, 3))}; ${nat}`;
+}
+
+/** The others. */
+export function otherReadouts({ config, stats, table }: Reading) {
+  const say = words.banana.readouts;
+  const { nOfAll } = words.banana;
+  return readoutList([
+    [say.robots, nOfAll(counted(stats.n), counted(config.samples))],
+    [say.gaussian, fixed(stats.gaussianSkew, 3)],
+    [say.rho, fixed(stats.rhoCrossHeading, 3)],
+    [say.exactArea, fixed(table.exact.areaRatio, 3)],
+    [say.nominal, percent(NOMINAL)],
+  ]);
+}
+
+/**
+ * The marked robot, with the arc that reaches its place.
+ *
+ * @param inspection of it, if there is one
+ */
+export function markedRobot(figure: import('./banana-machine.ts').BananaMachineElement, inspection: Inspection | undefined): import('lit').TemplateResult {
+  const { robot, markHint } = words.banana;
+  const { shown } = figure.reading;
+  const quantity = (symbol: string, value: number, unit: string) =>
+    html`<span><i>${symbol}</i> = ${fixed(value, 3)} ${unit}</span>`;
+  const told = inspection && (inspection.legs
+    ? legsOf(inspection.legs, figure.reading.reading as import('../../types.d.ts').Legs)
+    : [
+        quantity('v̂', inspection.vHat, 'm/s'),
+        quantity('ω̂', inspection.omegaHat, 'rad/s'),
+        quantity('γ̂', inspection.gammaHat, 'rad/s'),
+      ]);
+  return markedField(figure, { id: 'robot', label: robot, hint: markHint, shown, told });
+}
+
+/** The noise of each hinge: what was read less what was driven, as Table 5.6 subtracts it. */
+function legsOf(driven: import('../../types.d.ts').Legs, read: import('../../types.d.ts').Legs) {
+  return ([['rot1', 'rad'], ['trans', 'm'], ['rot2', 'rad']] as const).map(([leg, unit]) => {
+    const noise = read[leg] - driven[leg];
+    return html`<span><i>ε</i><sub>${leg}</sub> = ${fixed(noise, 3)} ${unit}</span>`;
+  });
+}
+
+/** Digits of what is computed, as many as the book prints; and of what chance leaves uncertain. */
+const DIGITS = 5;
+const MEASURED_DIGITS = 3;
+
+const sigma = (indices: string) => html`<i>Σ</i><sub><i>${indices}</i></sub>`;
+
+export function workedExample({ table: { linearized, exact, measured }, stats }: Reading) {
+  const computed = [linearized, exact];
+  const [skew, ...error] = withError(stats.crossTrackSkew, stats.crossTrackSkewError, 3).split(' ');
+  // Two lines, also while there is no error: the row keeps its height.
+  const measuredSkew = html`${skew} <br />${error.join(' ') || '\u00a0'}`;
+  const say = words.banana.table;
+  const rows: [unknown, (column: Table['exact']) => number, unknown?][] = [
+    [rich(say.mean('*x*')), ({ mean }) => mean[0]],
+    [rich(say.mean('*y*')), ({ mean }) => mean[1]],
+    [rich(say.mean('*θ*')), ({ mean }) => mean[2]],
+    [sigma('xx'), ({ cov }) => cov[0][0]],
+    [sigma('yy'), ({ cov }) => cov[1][1]],
+    [sigma('xy'), ({ cov }) => cov[0][1]],
+    [sigma('xθ'), ({ cov }) => cov[0][2]],
+    [sigma('yθ'), ({ cov }) => cov[1][2]],
+    [sigma('θθ'), ({ cov }) => cov[2][2]],
+    [html`<i>ρ</i><sub><i>yθ</i></sub>`, ({ cov }) => cov[1][2] / Math.sqrt(cov[1][1] * cov[2][2])],
+    [say.skew, ({ crossTrackSkew }) => crossTrackSkew, measuredSkew],
+  ];
+  return figureTable({
+    caption: say.caption,
+    columns: [say.quantity, say.linearized, say.exact, say.measured],
+    rows: rows.map(([name, of, withItsError]) => [
+      name,
+      ...computed.map((column) => significant(of(column), DIGITS)),
+      withItsError ?? significant(of(measured), MEASURED_DIGITS),
+    ]),
+  });
+}
+
+export function twistTable({ table: { tangent }, stats: { exponential } }: Reading) {
+  const say = words.banana.table;
+  const rows = say.axes.flatMap((axis, i) => [
+    [say.mean(axis), ({ mean }) => mean[i]],
+    [say.variance(axis), ({ cov }) => cov[i][i]],
+  ] as [string, (moments: Moments) => number][]);
+  return figureTable({
+    caption: say.twistCaption,
+    columns: [say.quantity, say.command, say.measured],
+    rows: rows.map(([name, of]) => [
+      rich(name),
+      tangent === null ? NOTHING : significant(of(tangent), DIGITS),
+      significant(of(exponential), MEASURED_DIGITS),
+    ]),
+  });
+}

@@ -1,0 +1,58 @@
+/** The Banana Machine's settings as attributes, in its state, and as the eye sees them. */
+
+import { NUMBER, attributesOf, presetsOf } from '../../figure/attributes.ts';
+import { numberWithin, wholeNumber } from '../../figure/checks.ts';
+import { cloudState } from '../../figure/cloud.ts';
+import { overlaysOf } from '../../figure/overlays.ts';
+import { openingAlphas, presets, settings } from '../../settings.js';
+import { COMMAND_DASH, commandLooks } from '../shared/command.ts';
+import { alphaLooks } from '../shared/noise.ts';
+
+export const declared = settings['banana-machine'];
+
+/** The key of its words in the catalogues. */
+export const vocabulary = 'banana';
+
+/** Styles of the lines in the pictures. */
+export const LINES = {
+  command: { role: 'prior', width: 2.5, dash: COMMAND_DASH },
+  ellipse: { role: 'prediction', width: 2, dash: [7, 4] },
+  exponential: { role: 'posterior', width: 2.25, dash: [] },
+  linearized: { role: 'prediction', width: 1.75, dash: [9, 3, 2, 3] },
+  additive: { role: 'prediction', width: 2.5, dash: [1.5, 5] },
+} satisfies Record<string, import('../../figure/overlays.ts').LineStyle>;
+
+export type LineName = keyof typeof LINES;
+
+export const OVERLAYS = Object.keys(LINES) as LineName[];
+const { attribute, state } = overlaysOf(OVERLAYS, ['command', 'ellipse', 'exponential']);
+
+export const attributes: import('../../figure/attributes.ts').Attributes = {
+  preset: presetsOf(presets['banana-machine'], declared),
+  ...attributesOf(declared),
+  overlays: attribute,
+  morph: { kind: NUMBER, own: true },
+};
+
+export const own: Record<string, import('../../figure/state.ts').Owned> = {
+  ...cloudState,
+  /** The α that Isolate leaves, from 1; remembered while Isolate is off. */
+  isolateChoice: { opening: 4, check: (field, number) => wholeNumber(field, number, 1, openingAlphas.velocity.length) },
+  overlays: state,
+  /** Share of the way from the floor to exponential coordinates. */
+  morph: { opening: 0, check: (field, morph) => numberWithin(field, morph, 0, 1) },
+};
+
+export const documentation: import('../../figure/attributes.ts').Documentation = {
+  state: {
+    alphas: { type: '{ velocity: number[]; odometry: number[] }', sentence: 'Six and four, of either model.' },
+    isolateChoice: { type: 'number', sentence: 'What Isolate leaves when it is turned on, from 1.' },
+  },
+};
+
+export const COMMAND = commandLooks(3);
+
+export const looks = { ...COMMAND, ...alphaLooks(6) };
+
+/** Sample counts of the slider, in the 1–2–5 steps of a logarithmic scale; beyond a million a drag no longer follows the finger. */
+export const SAMPLE_COUNTS = [1, 2, 3, 4, 5].flatMap((decade) => [1, 2, 5].map((step) => step * 10 ** decade)).concat(1_000_000);

@@ -1,0 +1,87 @@
+/** What the Banana Machine's page has of its own. */
+
+import { css } from 'lit';
+import { layoutStyles } from '../../ui/layout.ts';
+import { plotStyles } from '../../ui/plot.ts';
+
+const own = css`
+  canvas {
+    aspect-ratio: 5 / 4;
+  }
+
+  @container (min-width: 30em) {
+    .views {
+      grid-template-columns: 1fr 1fr;
+      gap: 1em;
+    }
+  }
+
+  @container (min-width: 56em) {
+    canvas {
+      aspect-ratio: 1.6;
+    }
+  }
+
+  /* A narrow figure has one picture: the one that shows both ends. */
+  @container (width < 30em) {
+    .views > .twist {
+      display: none;
+    }
+  }
+
+  /* Clear of the fade below the pictures. */
+  .morphing {
+    display: grid;
+    margin-top: 0.7em;
+    grid-template-columns: 1fr auto;
+    align-items: start;
+    gap: 1em;
+  }
+
+  /* The ends have their names below the track. */
+  .morph {
+    --thumb: var(--posterior);
+    display: grid;
+    grid-template: 'play track track' auto 'play floor twist' auto / auto auto 1fr;
+    align-items: start;
+    column-gap: 0.75em;
+  }
+
+  .morph button {
+    grid-area: play;
+  }
+
+  .morph input {
+    grid-area: track;
+    min-width: 0;
+  }
+
+  .morph .floor {
+    grid-area: floor;
+  }
+
+  .morph .twist {
+    grid-area: twist;
+    text-align: end;
+  }
+
+  .morph .end {
+    color: var(--muted);
+    font-size: 0.84em;
+    line-height: 1.2;
+  }
+
+  /* The three that matter, in columns of equal width where there is room. */
+  .surface .machine > .readouts {
+    display: grid;
+    gap: 0.4em 1.25em;
+  }
+
+  @container (min-width: 30em) {
+    .surface .machine > .readouts {
+      grid-template-columns: repeat(3, 1fr);
+    }
+  }
+`;
+
+export const bananaStyles = [...layoutStyles, plotStyles, own];

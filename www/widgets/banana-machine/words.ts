@@ -1,0 +1,125 @@
+/**
+ * What the Banana Machine says when, in the words of the present language: sentences about degenerate
+ * clouds, and the text that stands for the pictures.
+ */
+
+import { addEnglish, words } from '../../messages/registry.ts';
+import { counted, fixed, percent, withError } from '../../ui/format.ts';
+import { commandText } from '../shared/command.ts';
+import { en } from './en.ts';
+import { deviation, spreadOf } from './reading.ts';
+import type { Reading } from './reading.ts';
+
+addEnglish({ banana: en });
+
+/** What is announced after a change has come to rest. */
+export function announcementOf({ config, stats, note }: Reading) {
+  const { announcement, skew, noSkew } = words.banana;
+  const outcome = Number.isNaN(stats.crossTrackSkew)
+    ? noSkew
+    : skew(withError(stats.crossTrackSkew, stats.crossTrackSkewError, 2));
+  return announcement(counted(stats.n), commandText(config.command), note || outcome);
+}
+
+/**
+ * The text equivalent of the view of the floor.
+ *
+ * @param overlays names of the outlines that are shown
+ */
+export function planeText(reading: Reading, overlays: string[], morph: number) {
+  const { config, stats, table, note } = reading;
+  const { plane, between, noRobots, mean, onePlace, spread, drawnOver } = words.banana;
+  const command = commandText(config.command);
+  const sentences = [morph === 0 ? plane(command) : between(percent(morph), command)];
+  if (stats.n === 0) sentences.push(noRobots);
+  else {
+    const { mean: centre, cov } = stats.cartesian;
+    sentences.push((spreadOf(table) === 'cloud' ? mean : onePlace)(counted(stats.n), fixed(centre[0], 2), fixed(centre[1], 2)));
+    if (note) sentences.push(note);
+    else sentences.push(spread(deviationText(cov[0][0]), deviationText(cov[1][1])), bendText(reading));
+  }
+  if (overlays.length) sentences.push(drawnOver(overlays.join(', ')));
+  return sentences.filter(Boolean).join(' ');
+}
+
+function deviationText(variance: number) {
+  return fixed(deviation(variance), 2);
+}
+
+/** An exact skew below this is 0, by symmetry: the rounding of its quadrature is some 1e-15. */
+const NO_SKEW = 1e-9;
+
+/** Below this a cloud leans so little that nobody sees it. */
+const HARDLY = 0.05;
+
+/** From this gain on, nats a robot, a hundred robots tell the two Gaussians apart: by a factor of e² and more. */
+const BENT = 0.02;
+
+/** From this area ratio on, the ellipse is seen to be too large. */
+const TOO_LARGE = 1.1;
+
+/** From this gain on the floor on, nats a robot, twenty robots tell the two Gaussians apart: by a factor of e and more. */
+const MISSHAPEN = 0.05;
+
+/** Title of the view of the floor: how the ellipse fits, by the exact figures. */
+export function floorTitle({ stats, table: { exact: { areaRatio, likelihoodGain } } }: Pick<Reading, 'stats' | 'table'>) {
+  const { floor, ellipseIs } = words.banana;
+  if (stats.n < 2 || Number.isNaN(areaRatio + stats.areaRatio)) return floor;
+  const fit = areaRatio > TOO_LARGE ? 'large' : likelihoodGain.floor > MISSHAPEN ? 'misshapen' : 'near';
+  return `${floor}: ${ellipseIs[fit]}`;
+}
+
+/**
+ * What the cloud looks like: to which side it leans is the model's to decide, and the robots' to show. Figures are those of
+ * the readouts beside it.
+ */
+function bendText({ stats: { crossTrackSkew: skew, crossTrackSkewError: error, areaRatio }, exactSkew, bowTie, table, gain }: Pick<Reading, 'stats' | 'exactSkew' | 'bowTie' | 'table' | 'gain'>) {
+  if (Number.isNaN(skew)) return '';
+  const say = words.banana.bend;
+  // No line ends within a number and its error.
+  const unbroken = (number: string) => number.replaceAll(' ', '\u00a0');
+  const [measured, exactly] = [unbroken(withError(skew, error, 3)), fixed(exactSkew, 3)];
+  if (bowTie) return say.bowTie[bowTie.model](fixed(bowTie.length, 2), fixed(bowTie.deviation, 2), measured);
+  if (Math.abs(exactSkew) < HARDLY) {
+    const lean = Math.abs(exactSkew) < NO_SKEW ? say.neither(measured) : say.hardly(measured, exactly);
+    if (Math.min(areaRatio, table.exact.areaRatio) > TOO_LARGE) return `${lean} ${say.wide(fixed(areaRatio, 2))}`;
+    return Math.min(gain.value, gain.exact) > BENT ? `${lean} ${say.gains(unbroken(withError(gain.value, gain.error, 3)))}` : lean;
+  }
+  if (Math.abs(skew) < 2 * error || skew * exactSkew < 0) return say.unsure(measured, exactly);
+  return exactSkew < 0 ? say.right(measured) : say.left(measured);
+}
+
+/** What stands under the view of the floor. */
+export function captionOf(reading: Reading) {
+  const { note, stats } = reading;
+  return note || (stats.n === 0 ? words.banana.noRobots : bendText(reading) || words.banana.fewRobots);
+}
+
+/** @param skew exact */
+export function skewText(skew: number) {
+  return Number.isNaN(skew) ? words.banana.noExactSkew : words.banana.exactSkew(fixed(skew, 3));
+}
+
+/**
+ * What stands under the view in exponential coordinates: how Gaussian they make this cloud, unless
+ * there is something else to note about it.
+ */
+export function twistCaption({ config: { model, noise, alphas, isolate }, note }: Reading) {
+  const { twist, twistIs } = words.banana;
+  if (note) return `${twist}.`;
+  const turned = alphas.some((alpha, i) => i >= 4 && alpha > 0 && (isolate === null || isolate === i + 1));
+  const kind = model === 'odometry' ? model : noise === 'triangular' ? noise : turned ? 'turned' : 'exact';
+  return `${twist}: ${twistIs[kind]}`;
+}
+
+/** The text equivalent of the view in exponential coordinates. */
+export function twistText({ stats: { n, exponential, coverage } }: Reading) {
+  const { mean, cov } = exponential;
+  const { twist, twistAxes, noRobots, oneRobot, twistMoments } = words.banana;
+  const start = `${twist}, ${twistAxes}.`;
+  if (n < 2) return `${start} ${n === 0 ? noRobots : oneRobot}`;
+  const [along, heading] = [fixed(mean[0], 2), fixed(mean[2], 2)];
+  const [ofAlong, ofHeading] = [deviationText(cov[0][0]), deviationText(cov[2][2])];
+  const share = Number.isNaN(coverage.exponential) ? '' : percent(coverage.exponential);
+  return `${start} ${twistMoments(along, heading, ofAlong, ofHeading, share)}`;
+}

@@ -1,0 +1,41 @@
+/** Dead Reckoning's controls: the recursion, the path, its noise, and the samples. */
+
+import { html } from 'lit';
+import { choices, cloudControls, slider, sliders } from '../../figure/controls.ts';
+import { words } from '../../messages/registry.ts';
+import { group } from '../../ui/controls.ts';
+import { fixed } from '../../ui/format.ts';
+import { COMMAND, NOISE, SAMPLE_COUNTS } from './settings.ts';
+
+export type Figure = import('./dead-reckoning.ts').DeadReckoningElement;
+
+/** Returns the choice of the recursion. */
+export function recursionChoice(figure: Figure) {
+  return choices(figure, 'compounding', words.reckoning.recursions);
+}
+
+/** Returns what is changed most: the heading noise, and the number of steps of the same path. */
+export function pathControls(figure: Figure) {
+  return html`<div class="controls" part="controls">
+    ${slider(figure, 'headingNoise')} ${slider(figure, 'steps', { input: (steps) => figure.settings.want((wanted) => samePath(wanted, steps)) })}
+  </div>`;
+}
+
+/** The same way in another number of steps, seen from the same place on it. */
+function samePath({ command, steps: before, step }: Record<string, any>, steps: number) {
+  return { steps, step: Math.max(1, Math.round((step * steps) / before)), command: { ...command, dt: (command.dt * before) / steps } };
+}
+
+/** Returns the selected step to be typed, the command, the noise and the samples. */
+export function moreControls(figure: Figure) {
+  const { steps, step, command: { dt } } = figure.settings.told;
+  const { settings: { alphas }, walked, per } = words.reckoning;
+  const effect = walked(fixed(step * dt, 2), fixed(steps * dt, 2));
+  return html`<div class="controls">
+    ${group(words.command, html`${sliders(figure, COMMAND)}
+      ${slider(figure, 'step', { max: Math.max(2, steps), most: steps, off: steps === 1, effect })}`)}
+    ${group(words.noise, html`${Object.keys(NOISE).map((key, i) => slider(figure, key, { effect: alphas.effects[i] }))}
+      ${choices(figure, 'per', per)}`)}
+    ${cloudControls(figure, SAMPLE_COUNTS)}
+  </div>`;
+}

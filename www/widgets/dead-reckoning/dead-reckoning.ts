@@ -1,0 +1,129 @@
+/** <dead-reckoning>: one command driven step after step, and how well its growing uncertainty is predicted. */
+
+import { html } from 'lit';
+import { Cloud, shownOf } from '../../figure/cloud.ts';
+import { canvas, disclosures, panel } from '../../figure/controls.ts';
+import { FigureElement } from '../../figure/figure.ts';
+import { legend } from '../../figure/overlays.ts';
+import { reserve } from '../../figure/page/room.ts';
+import { define } from '../../figure/reflection.ts';
+import { orFree } from '../../figure/runtime.ts';
+import { words } from '../../messages/registry.ts';
+import { presetButtons } from '../shared/presets.ts';
+import { moreControls, pathControls, recursionChoice } from './controls.ts';
+import { PathPicture, StepPicture } from './pictures.ts';
+import { COMPONENTS, readingOf } from './reading.ts';
+import { headline, markedRobot, missTable, ratioPlot, straightPlot } from './readouts.ts';
+import { OUTLINES, RECURSIONS, attributes, declared, looks, own, vocabulary } from './settings.ts';
+import { reckoningStyles } from './styles.ts';
+import { announcementOf, captionOf, planeText, stepText } from './words.ts';
+import type { DeadReckoning as Machine } from '../../types.d.ts';
+import type { Reading } from './reading.ts';
+
+/** Units of the components' variances. */
+const UNITS = { along: 'm2', lateral: 'm2', heading: 'rad2' };
+
+/** Columns of a quantity in a table, one a component. */
+const columnsOf = (quantity: string) => COMPONENTS.map((name) => `${quantity}_${name}_${UNITS[name]}`);
+
+/**
+ * One command driven step after step, and how well its growing uncertainty is predicted.
+ *
+ * @attr preset - A path worth starting from; none where the path is another.
+ * @attr overlays - Curves and outlines that are drawn; in the attribute with spaces between.
+ * @csspart chart - The plot of predicted over measured variance.
+ */
+export class DeadReckoningElement extends FigureElement<Machine, Reading> {
+  static styles = [...FigureElement.styles, reserve('dead-reckoning'), ...reckoningStyles];
+
+  static declared = declared;
+  static attributes = attributes;
+  static own = own;
+  static looks = looks;
+  static vocabulary = vocabulary;
+  static basis = ['steps'];
+
+  cloud = new Cloud(this);
+  #floor = new PathPicture();
+  #step = new StepPicture();
+  pictures = [this.#floor, this.#step];
+
+  createMachine: FigureElement<Machine, Reading>['createMachine'] = (motion, state) => {
+    // Empty: the robots come before the reader's eyes, and nobody waits for those that are not shown yet.
+    const machine = motion.DeadReckoning.empty();
+    if (!state) return machine;
+    return orFree(machine, () => {
+      machine.configure(this.settings.declared(state));
+      machine.beginToGrow(shownOf(machine, state.shown));
+    });
+  };
+
+  completed(present: Parameters<FigureElement<Machine, Reading>['completed']>[0], given: Parameters<FigureElement<Machine, Reading>['completed']>[1]) {
+    // A path that becomes shorter than what is looked at is looked at where it ends.
+    const { steps = present.steps } = given;
+    return { step: Math.min(present.step, steps), ...super.completed(present, given) };
+  }
+
+  read(machine: Machine) {
+    this.cloud.unmark();
+    return readingOf(machine);
+  }
+
+  get scene() {
+    return { ...this.fresh, marked: this.#marked, overlays: this.state.own.overlays };
+  }
+
+  get takeaway() {
+    const { config } = this.fresh;
+    const { measured, relativeErrors, predicted } = this.machine as Machine;
+    const of = (triples: Float64Array, i: number) => triples.subarray(3 * i, 3 * i + 3);
+    return {
+      title: this.lettering.name,
+      description: planeText(this.reading),
+      settings: { element: this.localName, ...config },
+      columns: [
+        'step',
+        ...columnsOf('measured'),
+        ...COMPONENTS.map((name) => `relative_error_${name}`),
+        ...RECURSIONS.flatMap((recursion) => columnsOf(recursion.replace('-', '_'))),
+      ],
+      row: (i: number) => [i + 1, ...of(measured, i), ...of(relativeErrors, i), ...RECURSIONS.flatMap((recursion) => [...of(predicted[recursion], i)])],
+      count: config.steps,
+    };
+  }
+
+  announcement = (reading: Reading) => announcementOf(reading, this.state.own.overlays);
+
+  /** The poses of the marked robot after each step, if it is among those driven. */
+  get #marked() {
+    return this.cloud.isMarked ? this.machine?.rollout(this.cloud.index) : undefined;
+  }
+
+  content(reading: Reading) {
+    const { condition, config: { step } } = reading;
+    const { overlays } = this.state.own;
+    const say = words.reckoning;
+    return html`
+      <section class="machine" aria-label=${this.lettering.name}>
+        <div class="views">
+          ${panel(say.chart, html`<div class="chart">${ratioPlot(this, reading)}</div>`, 'ratios')}
+          ${this.stage.later(() => html`<div class="said">
+            ${headline(reading, overlays)}
+            <p part="caption" class="caption ${condition !== 'told' && 'note'}">${captionOf(reading, overlays)}</p>
+            ${recursionChoice(this)}
+          </div>`)}
+          ${panel(say.floor, html`<div class="stage" part="picture">${canvas(this, this.#floor, planeText(reading))}</div>`, 'floor')}
+          ${panel(say.atStepTitle(step), html`<div class="stage">${canvas(this, this.#step, stepText(reading))}</div>`, 'step')}
+        </div>
+        ${this.stage.later(() => html`
+        ${legend(this, OUTLINES)} ${presetButtons(this)} ${pathControls(this)}
+        ${disclosures(this, {
+          controls: () => moreControls(this),
+          numbers: () => html`${missTable(reading, overlays)} ${markedRobot(this, this.#marked)} ${straightPlot((this.machine as Machine).straight)}`,
+        })}`)}
+      </section>
+    `;
+  }
+}
+
+define('dead-reckoning', DeadReckoningElement);

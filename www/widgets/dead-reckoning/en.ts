@@ -1,0 +1,100 @@
+/** Dead Reckoning in English; see messages/en.js. */
+
+const robotsOf = (robots: string) => (robots === '1' ? '1 robot' : `${robots} robots`);
+const stepsOf = (steps: string) => (steps === '1' ? '1 step' : `${steps} steps`);
+
+export const en = {
+  title: 'Dead Reckoning',
+  presets: { chapter: 'The chapter’s 20 steps', doubled: 'Heading σ doubled', fine: 'Same path, 200 steps', straight: 'Straight' },
+  /** What a preset does that its name does not say. */
+  presetTitles: { doubled: 'The standard deviation is doubled: the variance, and with it α₃ to α₆, is fourfold' },
+  settings: {
+    v: { effect: 'How fast each step is driven; below zero the robot backs up.' },
+    omega: { effect: 'How sharply each step bends: what is missing from the recursion grows with *ωΔt*.' },
+    dt: { name: 'duration of a step', effect: 'How long a step takes; the path grows with it.' },
+    step: { name: 'selected step' },
+    steps: { name: 'steps', effect: 'The same path in more and shorter steps.' },
+    headingNoise: { name: 'heading noise *α*₃ to *α*₆', effect: 'Sets *α*₃ and *α*₄ to this value, *α*₅ and *α*₆ to a quarter of it.' },
+    compounding: { name: 'Recursion' },
+    per: { name: 'α’s apply per' },
+    alphas: {
+            effects: [
+        'v² into v̂: spreads along the track', 'ω² into v̂: the same, only in turns',
+        'v² into ω̂: turns within the step', 'ω² into ω̂: the same, only in turns',
+        'v² into γ̂: turns after the step', 'ω² into γ̂: the same, only in turns',
+      ],
+    },
+    samples: { name: 'robots', effect: 'The more robots, the narrower the bands.' },
+  },
+  walked: (gone, whole) => `t = ${gone} s of ${whole} s`,
+  recursions: { chapter: 'the chapter’s', 'first-order': 'with Jᵣ, the turn during a step', 'fourth-order': 'fourth order' },
+  per: { step: 'step', path: 'whole path' },
+  chart: 'Predicted share of the robots’ variance, by step',
+  floor: 'On the floor, outlines at 2σ',
+  atStepTitle: (step) => `Step ${step} in exponential coordinates`,
+  overlays: {
+    lateral: 'lateral',
+    along: 'along the track',
+    heading: 'heading',
+    tolerance: 'within 5 %',
+    command: 'command',
+    measured: 'measured',
+    ellipse: 'predicted in (x, y)',
+    exponential: 'predicted in ξ',
+  },
+  axisAlong: 'ξ along (m)',
+  axisLateral: 'ξ lateral (m)',
+  /** An axis that is drawn on a larger scale than the other one. */
+  stretched: (axis, factor) => `${axis} ×${factor}`,
+  components: { along: 'along', lateral: 'lateral', heading: 'heading' },
+  where: { along: 'along the track', lateral: 'laterally', heading: 'in heading' },
+  of: { along: 'along-track', lateral: 'lateral', heading: 'heading' },
+  ratioAxis: 'predicted / measured variance',
+  stepAxis: 'step',
+  atStepMark: (step) => `step ${step}`,
+  /** Before the ratio, and after it. */
+  predictionHas: (step) => `At step ${step} the prediction has`,
+  ofVariance: (component) => `of the ${component} variance`,
+  ratioText: (recursion, step, ratios) =>
+    `Predicted over measured variance by step; recursion: ${recursion}. At step ${step}: ${ratios}.`,
+  atStep: (ratio, step) => `${ratio} at step ${step}`,
+  wrong: (end, where) => `${end} ${where} at the end.`,
+  worse: (end, where, worst, list) => `The ${end} ${where} at the end hides a worse miss: of the ${worst} variance it predicts ${list}.`,
+  begins: (worst, list) => `Of the ${worst} variance it predicts ${list}.`,
+  right: (robots) => `Within 5 % of what ${robots} robots do, in every component at every step.`,
+  conditions: {
+    none: 'No robots yet.',
+    still: 'No noise: every robot is where it was told to be, without variance.',
+    lost: 'The fourth order has left no covariance: too much noise for a series.',
+    few: 'Too few robots to tell 5 %: the bands are wider than that.',
+  },
+  announcement: (robots, command, steps, outcome) => `${robotsOf(robots)}, ${stepsOf(steps)} of ${command}. ${outcome}`,
+  plane: (command, steps, robots, step, x, y, recursion) =>
+    `View of the floor from above, x to the right and y up. ${robotsOf(robots)} ${robots === '1' ? 'drives' : 'drive'} ${stepsOf(steps)} of ${command}. Clouds grow along the path; after step ${step} the command is at x ${x} m, y ${y} m. Outlines by the recursion: ${recursion}.`,
+  stepText: (step, measured, predicted) =>
+    `Step ${step} in exponential coordinates, ξ along to the right and ξ lateral up. Standard deviations measured ${measured[0]} m and ${measured[1]} m, predicted ${predicted[0]} m and ${predicted[1]} m.`,
+  misses: {
+    caption: 'Steps at which predicted and measured variance differ by more than 5 %, and the difference after the last step',
+    component: 'component',
+    never: 'never',
+    unknown: 'too few',
+    from: (first, last) => (first === last ? `step ${first}` : `steps ${first}–${last}`),
+    endOf: (component) => `${component}, at the end`,
+  },
+  straight: {
+    title: 'Why bananas bend',
+    label: (crossing) => `Variances of a straight drive against its duration, on logarithmic axes. ${crossing}`,
+    crossing: (duration) => `Equal to first order after ${duration} s.`,
+    never: 'They never cross.',
+    mark: (duration) => `${duration} s`,
+    along: 'along the track, *α*₁*v*²*Δt*²',
+    across: 'across it, ¼*α*₃*v*⁴*Δt*⁴',
+    exact: 'exact',
+    x: 'Δt (s)',
+    y: 'variance (m²)',
+    caption: 'Straight ahead at *v*, to first order and exactly. From the crossing on, (2/*v*)·√(*α*₁/*α*₃), heading decides, however good the encoders.',
+  },
+  robot: 'Robot',
+  markHint: 'Point at one on the floor to see its way.',
+  markedAt: (x, y, theta) => `x ${x} m, y ${y} m, θ ${theta} rad`,
+} satisfies import('../../messages/registry.ts').Message;

@@ -1,0 +1,144 @@
+/** Dead Reckoning's two pictures: the floor with the path, and the step that is looked at in exponential coordinates. */
+
+import { words } from '../../messages/registry.ts';
+import { clipped, drawAxes } from '../../scene/axes.ts';
+import { drawDots, drawGhosts, drawMark, drawOutlines, drawRobot, lineStyles, trace } from '../../scene/draw.ts';
+import { Picture, SamplesPicture } from '../../scene/picture.ts';
+import { View, extentAround, extentOf } from '../../scene/view.ts';
+import { significant } from '../../ui/format.ts';
+import { lineKey } from '../shared/line-key.ts';
+import { OUTLINES } from './settings.ts';
+import type { Brush } from '../../scene/canvas.ts';
+
+/** What both pictures are of, with the poses of the robot that is marked after each step. */
+export type Scene = import('./reading.ts').Reading & { marked: Float64Array | undefined, overlays: string[] };
+
+/** Standard deviations of a cloud that a view makes room for. */
+const ROOM = 3.2;
+
+/** Dots of a cloud that is not looked at, at most, and their radius and ink. */
+const PASSED = { most: 200, radius: 1.3, alpha: 0.4 };
+
+export type OutlineName = keyof typeof OUTLINES;
+
+/** Returns the key of an exported picture: on the page the legend stands beside it. */
+const keyOf = (brush: Brush, names: OutlineName[]) =>
+  brush.exported ? names.map((name) => lineKey(brush, words.reckoning.overlays[name], lineStyles(brush, OUTLINES)[name])) : [];
+
+/** The floor from above. */
+export class PathPicture extends SamplesPicture<Scene> {
+  constructor() {
+    super('plane', new View());
+  }
+
+  fit({ commanded, outlines, milestones, poses }: Scene) {
+    const all = [outlines, ...milestones.map((milestone) => milestone.outlines)].flatMap(({ ellipse, exponential }) => [...ellipse, ...exponential]);
+    const points = [...commanded, ...all];
+    // Where nothing is predicted, the robots themselves.
+    const box = extentAround(poses, 3, extentAround(points, 2));
+    this.view.fit(extentOf(all.length > 0 ? points : [box.xMin, box.yMin, box.xMax, box.yMax], 0.4));
+  }
+
+  paint: Picture<Scene>['paint'] = (brush, { commanded, outlines, milestones, poses, pose, marked, overlays, config: { step } }) => {
+    const { context, palette } = brush;
+    const styles = lineStyles(brush, OUTLINES);
+    const drawn = (names: OutlineName[]) => names.filter((name) => overlays.includes(name));
+    const predictions = drawn(['ellipse', 'exponential']) as ('ellipse' | 'exponential')[];
+    drawAxes(brush, { x: 'x (m)', y: 'y (m)' }, keyOf(brush, drawn(['ellipse', 'exponential', 'command'])));
+    const styled = (of: Scene['outlines']) => predictions.map((name) => ({ points: of[name], ...styles[name] }));
+    clipped(brush, () => {
+      for (const milestone of milestones) drawPassed(brush, milestone.poses);
+      drawDots(brush, poses, { x: 0, y: 1, heading: null });
+      drawOutlines(brush, [
+        ...drawn(['command']).map((name) => ({ points: commanded, ...styles[name] })),
+        ...milestones.flatMap(({ outlines: passed }) => styled(passed).map((outline) => ({ ...outline, width: 1 }))),
+      ]);
+      if (brush.former) drawGhosts(brush, styled(brush.former.outlines));
+      drawOutlines(brush, styled(outlines));
+      drawRobot(brush, { x: 0, y: 0, heading: 0, colour: palette.truth });
+      drawPlace(brush, pose);
+      if (!marked) return;
+      context.strokeStyle = palette.accent;
+      context.lineWidth = 1.25;
+      context.setLineDash([6, 2]);
+      context.beginPath();
+      trace(brush, Float64Array.from([0, 0, ...marked.filter((_, i) => i % 3 < 2)]));
+      context.stroke();
+      context.setLineDash([]);
+      const [x, y, heading] = marked.subarray(3 * (step - 1));
+      drawMark(brush, { x, y, heading });
+    });
+  };
+}
+
+/** Half the size of the mark where the command is, CSS pixels. */
+const PLACE = 4;
+
+/** Where the command is after the step: small, so that the cloud is seen around it. */
+function drawPlace({ context, view, palette }: Brush, [x, y]: Float64Array) {
+  context.beginPath();
+  context.arc(view.toPixelX(x), view.toPixelY(y), PLACE, 0, 2 * Math.PI);
+  context.fillStyle = palette.prior;
+  context.strokeStyle = palette.paper;
+  context.lineWidth = 1.5;
+  context.fill();
+  context.stroke();
+}
+
+/** Robots where they were at another step. */
+function drawPassed({ context, view, palette }: Brush, poses: Float64Array) {
+  context.fillStyle = palette.cloud;
+  context.globalAlpha = PASSED.alpha;
+  const side = 2 * PASSED.radius;
+  const count = Math.min(PASSED.most, poses.length / 3);
+  for (let i = 0; i < count; i++) {
+    context.fillRect(view.toPixelX(poses[3 * i]) - PASSED.radius, view.toPixelY(poses[3 * i + 1]) - PASSED.radius, side, side);
+  }
+  context.globalAlpha = 1;
+}
+
+/** ξ along and lateral about the commanded pose, each on a scale of its own: a lateral spread is small at first. */
+export class StepPicture extends Picture<Scene> {
+  constructor() {
+    super('twist', new View({ equal: false, left: 52, right: 10 }));
+  }
+
+  fit({ outlines: { predicted }, stats: { measured: { mean, cov } } }: Scene) {
+    const points = [0, 0, ...predicted];
+    const [along, lateral] = [0, 1].map((axis) => ROOM * Math.sqrt(cov[axis][axis]));
+    if (along + lateral > 0) points.push(mean[0] - along, mean[1] - lateral, mean[0] + along, mean[1] + lateral);
+    const box = extentAround(points, 2);
+    // Equal scales would hide it; none at all has a scale too.
+    const room = Math.max(1e-6, 1e-3 * (box.xMax - box.xMin));
+    const lack = Math.max(0, room - (box.yMax - box.yMin)) / 2;
+    const aside = Math.max(0, 1e-6 - (box.xMax - box.xMin)) / 2;
+    this.view.fit({ xMin: box.xMin - aside, xMax: box.xMax + aside, yMin: box.yMin - lack, yMax: box.yMax + lack });
+  }
+
+  paint: Picture<Scene>['paint'] = (brush, { outlines: { predicted, measured }, overlays, twists }) => {
+    const styles = lineStyles(brush, OUTLINES);
+    const drawn = (['exponential', 'measured'] as ('exponential' | 'measured')[]).filter((name) => overlays.includes(name));
+    drawAxes(brush, axesOf(this.view), keyOf(brush, drawn));
+    const points = { exponential: predicted, measured };
+    clipped(brush, () => {
+      drawDots(brush, twists, { x: 0, y: 1, heading: null });
+      if (brush.former && overlays.includes('exponential')) drawGhosts(brush, [{ points: brush.former.outlines.predicted, ...styles.exponential }]);
+      drawOutlines(brush, drawn.map((name) => ({ points: points[name], ...styles[name] })));
+    });
+  };
+}
+
+/** Stretch of one axis against the other that is not seen. */
+const UNSEEN = 1.05;
+
+/** Returns the factors by which x and y are stretched against each other, as they are printed; empty where it is not seen. */
+export function stretchesOf({ scaleX, scaleY }: Pick<View, 'scaleX' | 'scaleY'>) {
+  return [scaleX / scaleY, scaleY / scaleX].map((by) => (by > UNSEEN ? significant(by, by < 10 ? 2 : 1) : ''));
+}
+
+/** Returns the names of the axes, with the factor by which one is stretched against the other. */
+function axesOf(view: View) {
+  const { axisAlong, axisLateral, stretched } = words.reckoning;
+  const [x, y] = [axisAlong, axisLateral].map((name, i) => [name, stretchesOf(view)[i]]).map(([name, by]) => (by ? stretched(name, by) : name));
+  return { x, y };
+}

@@ -1,0 +1,128 @@
+/** Dead Reckoning's figures: ratios by step, and where they are off. */
+
+import { html } from 'lit';
+import { markedField } from '../../figure/controls.ts';
+import { legend } from '../../figure/overlays.ts';
+import { words } from '../../messages/registry.ts';
+import { rich } from '../../ui/controls.ts';
+import { NOTHING, fixed, significant } from '../../ui/format.ts';
+import { plot } from '../../ui/plot.ts';
+import { figureTable, readoutList } from '../../ui/readouts.ts';
+import { COMPONENTS } from './reading.ts';
+import { CURVES, RECURSIONS } from './settings.ts';
+import { componentsOf, endText, ratioText, worstAt } from './words.ts';
+import type { Misses } from '../../types.d.ts';
+import type { Reading } from './reading.ts';
+import type { Role } from '../../ui/plot.ts';
+
+/** Heights that the plot may have, so that it holds still while a slider is dragged. */
+const HEIGHTS = [1.2, 1.6, 2, 3, 5, 10];
+
+/** What counts as right. */
+const TOLERANCE = 0.05;
+
+/** Returns the chart of predicted over measured variance, whose line at the selected step is a slider. */
+export function ratioPlot(figure: import('./dead-reckoning.ts').DeadReckoningElement, reading: Reading) {
+  const { config: { step, steps }, curves } = reading;
+  const { overlays } = figure.state.own;
+  const say = words.reckoning;
+  const x = Array.from({ length: steps }, (_, i) => i + 1);
+  const highest = Math.max(...curves.flatMap(({ ratio }) => Array.from(ratio, (value) => value || 0)));
+  const shown = COMPONENTS.map((name, axis) => ({ ...lookOf(name, figure.highlight), name, ...curves[axis] })).filter(({ name }) => overlays.includes(name));
+  const band = { name: say.overlays.tolerance, ...lookOf('tolerance', figure.highlight), x: [0, steps], y: [1, 1], error: [TOLERANCE, TOLERANCE], area: true };
+  return plot({
+    label: ratioText(reading, overlays),
+    x: { name: say.stepAxis, from: 0, to: steps },
+    y: { name: say.ratioAxis, from: 0, to: HEIGHTS.find((height) => height >= highest) ?? highest },
+    curves: [
+      ...(overlays.includes('tolerance') ? [band] : []),
+      ...shown.map(({ ratio, ...curve }) => ({ ...curve, x, y: ratio })),
+    ],
+    points: shown.map(({ role, ratio, error }) => ({ role, x: step, y: ratio[step - 1], error: error[step - 1] })),
+    marks: [{ x: step, text: say.atStepMark(step) }],
+    slider: {
+      id: 'chart-step',
+      name: say.settings.step.name,
+      step: 1,
+      value: step,
+      text: say.atStepMark(step),
+      input: (to) => figure.settings.want({ step: Math.max(1, to) }),
+      commit: () => figure.gesture.commit(),
+    },
+    legend: legend(figure, CURVES),
+  });
+}
+
+/** Returns the look of a curve. */
+function lookOf(name: keyof typeof CURVES, highlight: string | null) {
+  const { role, dash } = CURVES[name] as import('../../figure/overlays.ts').LineStyle & { role: Role };
+  const lit = highlight !== null && highlight in CURVES ? name === highlight : undefined;
+  return { role, dash: dash?.join(' '), lit };
+}
+
+/** Returns the ratio at the selected step that is furthest from 1, as the message of the figure. */
+export function headline(reading: Reading, overlays: string[]) {
+  const say = words.reckoning;
+  const { ratio, component } = worstAt(reading, overlays);
+  return readoutList([[say.predictionHas(reading.config.step), fixed(ratio, 2), say.ofVariance(say.of[component])]], 0);
+}
+
+/** Logarithmic axes that hold what sliders can make of it: the variances of an opening and of a tenth and ten times of it. */
+const GROWTH = { durations: [0.1, 10], variances: [1e-6, 100] };
+
+/** Exercise 2: variances against the duration. */
+export function straightPlot({ durations: x, along, across, alongFirstOrder, acrossFirstOrder, crossing }: import('../../types.d.ts').StraightGrowth) {
+  const say = words.reckoning.straight;
+  const [from, to] = GROWTH.durations;
+  const [least, most] = GROWTH.variances;
+  const told = crossing === null ? '' : significant(crossing, 3);
+  return html`<figure>
+    <p class="panel-title">${say.title}</p>
+    ${plot({
+      label: say.label(crossing === null ? say.never : say.crossing(told)),
+      x: { name: say.x, from, to, logarithmic: true },
+      y: { name: say.y, from: least, to: most, logarithmic: true },
+      curves: [
+        { name: say.along, role: 'ink', dash: '8 4', x, y: alongFirstOrder },
+        { name: say.across, role: 'prediction', x, y: acrossFirstOrder },
+        // Both, with a gap between.
+        { name: say.exact, role: 'truth', dash: '2 3', x: [...x, NaN, ...x], y: [...along, NaN, ...across] },
+      ],
+      marks: crossing !== null && crossing >= from && crossing <= to ? [{ x: crossing, text: say.mark(told) }] : [],
+    })}
+    <figcaption>${rich(say.caption)}</figcaption>
+  </figure>`;
+}
+
+/** Steps with a miss. */
+function missed({ told, first, last, end }: Misses) {
+  const { never, unknown, from } = words.reckoning.misses;
+  if (!told) return Number.isNaN(end) ? NOTHING : unknown;
+  return first === null || last === null ? never : from(first, last);
+}
+
+/** Returns the misses of all recursions in the components that are shown. */
+export function missTable({ stats: { misses } }: Reading, overlays: string[]) {
+  const say = words.reckoning;
+  return figureTable({
+    caption: say.misses.caption,
+    columns: [say.misses.component, ...RECURSIONS.map((recursion) => say.recursions[recursion])],
+    rows: componentsOf(overlays).flatMap((component) => {
+      const ofEach = RECURSIONS.map((recursion) => misses[recursion][COMPONENTS.indexOf(component)]);
+      return [[say.components[component], ...ofEach.map(missed)], [say.misses.endOf(say.components[component]), ...ofEach.map(endText)]];
+    }),
+  });
+}
+
+/**
+ * The marked robot, and where it is at the step.
+ *
+ * @param marked its poses after each step
+ */
+export function markedRobot(figure: import('./dead-reckoning.ts').DeadReckoningElement, marked: Float64Array | undefined): import('lit').TemplateResult {
+  const { robot, markHint, markedAt } = words.reckoning;
+  const { config: { step }, shown } = figure.reading;
+  const pose = marked?.subarray(3 * (step - 1), 3 * step);
+  const told = pose && [markedAt(fixed(pose[0], 3), fixed(pose[1], 3), fixed(pose[2], 3))];
+  return markedField(figure, { id: 'robot', label: robot, hint: markHint, shown, told });
+}

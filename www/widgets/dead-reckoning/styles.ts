@@ -1,0 +1,128 @@
+/** What Dead Reckoning's page has of its own. */
+
+import { css } from 'lit';
+import { layoutStyles } from '../../ui/layout.ts';
+import { plotStyles } from '../../ui/plot.ts';
+
+const own = css`
+  canvas {
+    aspect-ratio: 5 / 4;
+  }
+
+  .chart .plotted {
+    max-width: calc(60svh * 1.52);
+    margin-inline: auto;
+  }
+
+  /* The line at the selected step is dragged where the pointer takes it. */
+  .chart input {
+    --thumb: var(--accent);
+    cursor: ew-resize;
+  }
+
+  .said .readouts {
+    margin: 0;
+  }
+
+  .ratios {
+    grid-area: ratios;
+  }
+
+  .said {
+    grid-area: said;
+  }
+
+  .floor {
+    grid-area: floor;
+  }
+
+  .step {
+    grid-area: step;
+  }
+
+  @container (min-width: 30em) {
+    canvas {
+      aspect-ratio: 1;
+    }
+
+    .step canvas {
+      aspect-ratio: 2;
+    }
+
+    .views {
+      grid-template: 'ratios floor' 'said step' / minmax(0, 1.45fr) minmax(0, 1fr);
+      gap: 0.25em 1em;
+    }
+
+    .said {
+      display: grid;
+      grid-template: 'headline caption' 'choices choices' / auto 1fr;
+      column-gap: 1em;
+      align-items: center;
+    }
+
+    .said .caption {
+      font-size: 0.95em;
+      line-height: 1.25;
+    }
+
+    .said .choices {
+      grid-area: choices;
+    }
+  }
+
+  @container (min-width: 56em) {
+    :is(canvas, .step canvas) {
+      aspect-ratio: 6 / 7;
+    }
+
+    .views {
+      grid-template: 'ratios floor step' 'said said said' / minmax(0, 1.75fr) minmax(0, 1fr) minmax(0, 1fr);
+    }
+
+    /* Sliders in one row with their names need the room of two columns. */
+    .folded .controls {
+      grid-template-columns: repeat(2, minmax(0, 1fr));
+    }
+
+    /* The chart is larger than its letters. */
+    .chart .plot text {
+      font-size: 10.5px;
+    }
+
+    .said {
+      grid-template: 'headline caption choices' / auto 1fr auto;
+      column-gap: 2em;
+    }
+  }
+
+  /* The chart stays in sight, as its line is what is dragged. */
+  @media (min-height: 22em) {
+    @container (width < 30em) {
+      .ratios,
+      .chart {
+        display: contents;
+      }
+
+      .chart .plotted {
+        position: sticky;
+        top: var(--top);
+        z-index: 2;
+        max-width: calc(45svh * 1.52);
+        background: var(--paper);
+        box-shadow:
+          -0.5em 0 var(--paper),
+          0.5em 0 var(--paper),
+          0 0.5em 0.5em var(--paper);
+      }
+
+      .floor .stage[part='picture'] {
+        position: relative;
+        z-index: auto;
+        box-shadow: none;
+      }
+    }
+  }
+`;
+
+export const reckoningStyles = [...layoutStyles, plotStyles, own];

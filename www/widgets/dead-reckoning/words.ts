@@ -1,0 +1,92 @@
+/** What Dead Reckoning says when, in the words of the present language. */
+
+import { addEnglish, words } from '../../messages/registry.ts';
+import { NOTHING, counted, fixed, withError } from '../../ui/format.ts';
+import { commandText } from '../shared/command.ts';
+import { en } from './en.ts';
+import { COMPONENTS } from './reading.ts';
+import type { Reading } from './reading.ts';
+
+addEnglish({ reckoning: en });
+
+/** Steps at which the worst component is told. */
+const TOLD_STEPS = [1, 2, 5];
+
+/** A share in per cent, with a sign where it is more than none. */
+function signed(share: number, printed: string = fixed(100 * share, 1)) {
+  if (Number.isNaN(share)) return NOTHING;
+  return `${100 * share >= 0.05 ? '+' : ''}${printed}\u202f%`;
+}
+
+/** How far a ratio is off after the last step. */
+export const endText = ({ end, error }: { end: number, error: number }) => signed(end, withError(100 * end, 100 * error, 1));
+
+/** Returns how well the recursion predicts the components that are shown. */
+export function captionOf({ config: { compounding }, stats: { misses, n }, condition, curves }: Reading, overlays: string[]) {
+  const say = words.reckoning;
+  if (condition !== 'told') return say.conditions[condition];
+  const ofAll = misses[compounding];
+  const shown = componentsOf(overlays);
+  const ifShown = (miss: number, axis: number) => (shown.includes(COMPONENTS[axis]) ? miss : NaN);
+  if (ofAll.every(({ first }) => first === null)) return say.right(counted(n));
+  // Whose ratio is furthest from 1, at the end and anywhere.
+  const far = furthest(ofAll.map(({ end }, axis) => ifShown(Math.abs(end), axis)));
+  const worst = furthest(curves.map(({ ratio }, axis) => ifShown(ratio.reduce((most, value) => Math.max(most, Math.abs(value - 1) || 0), 0), axis)));
+  const list = listOf(Array.from(curves[worst].ratio));
+  const [end, where, of] = [signed(ofAll[far].end), say.where[COMPONENTS[far]], say.of[COMPONENTS[worst]]];
+  return far === worst ? `${say.wrong(end, where)} ${say.begins(of, list)}` : say.worse(end, where, of, list);
+}
+
+/**
+ * @param misses of which NaN is none
+ * @returns the place of the greatest
+ */
+const furthest = (misses: number[]): number => misses.reduce((most, miss, i) => (miss > (misses[most] || 0) ? i : most), 0);
+
+/** The first ratios, in words. */
+const listOf = (ratios: number[]) =>
+  TOLD_STEPS.filter((step) => step <= ratios.length).map((step) => words.reckoning.atStep(fixed(ratios[step - 1], 2), String(step))).join(', ');
+
+/** Returns the components whose curves are shown; all where none is. */
+export function componentsOf(overlays: string[]): readonly (typeof COMPONENTS)[number][] {
+  const shown = COMPONENTS.filter((name) => overlays.includes(name));
+  return shown.length > 0 ? shown : COMPONENTS;
+}
+
+/** Returns the component whose ratio at the selected step is furthest from 1, of those shown. */
+export function worstAt({ config: { step }, curves }: Reading, overlays: string[]) {
+  const ratios = curves.map(({ ratio }) => ratio[step - 1]);
+  const shown = componentsOf(overlays);
+  const worst = furthest(ratios.map((ratio, axis) => (shown.includes(COMPONENTS[axis]) ? Math.abs(ratio - 1) : NaN)));
+  return { component: COMPONENTS[worst], ratio: ratios[worst] };
+}
+
+/** What is announced after a change has come to rest. */
+export function announcementOf(reading: Reading, overlays: string[]) {
+  const { config, shown } = reading;
+  return words.reckoning.announcement(counted(shown), commandText(config.command), String(config.steps), captionOf(reading, overlays));
+}
+
+/** Returns the ratios that are shown, at the selected step. */
+export function ratioText({ config: { step, compounding }, curves }: Reading, overlays: string[]) {
+  const say = words.reckoning;
+  const ratios = componentsOf(overlays).map((name) => {
+    const { ratio, error } = curves[COMPONENTS.indexOf(name)];
+    return `${say.components[name]} ${withError(ratio[step - 1], error[step - 1], 2)}`;
+  });
+  return say.ratioText(say.recursions[compounding], String(step), ratios.join(', '));
+}
+
+/** The text equivalent of the floor. */
+export function planeText({ config, shown, pose }: Reading) {
+  const { command, steps, step, compounding } = config;
+  const say = words.reckoning;
+  return say.plane(commandText(command), String(steps), counted(shown), String(step), fixed(pose[0], 2), fixed(pose[1], 2), say.recursions[compounding]);
+}
+
+/** The text equivalent of the step in exponential coordinates. */
+export function stepText({ config: { step, compounding }, stats: { measured, predicted } }: Reading) {
+  const say = words.reckoning;
+  const deviations = (cov: number[][] | null) => [0, 1].map((axis) => fixed(Math.sqrt(cov?.[axis][axis] ?? NaN), 4));
+  return say.stepText(String(step), deviations(measured.cov), deviations(predicted[compounding]));
+}

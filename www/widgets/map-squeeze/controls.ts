@@ -1,0 +1,90 @@
+/** Map Squeeze's controls: places, command, noise, sampler, and maps of the reader's own. */
+
+import { html, nothing } from 'lit';
+import { check, choices, cloudControls, slider, sliders } from '../../figure/controls.ts';
+import { words } from '../../messages/registry.ts';
+import { button, group, radioGroup } from '../../ui/controls.ts';
+import { fileInput } from '../shared/files.ts';
+import { EXTENSIONS } from './maps/open.ts';
+import { presetButtons, startOverButton } from '../shared/presets.ts';
+import { COMMAND, MOST_SAMPLES, SAMPLE_COUNTS } from './settings.ts';
+
+export type Figure = import('./map-squeeze.ts').MapSqueezeElement;
+
+/** A floor plan to start from: a room with a gap in its wall. */
+const EXAMPLE = `{
+  "bounds": [0, 0, 6, 4],
+  "walls": [
+    [3, 0, 3, 1.5], [3, 2.5, 3, 4],
+    [0, 0, 6, 0], [6, 0, 6, 4],
+    [6, 4, 0, 4], [0, 4, 0, 0]
+  ]
+}`;
+
+/** Returns the places of the present map; the apartment's are not offered in another, which they would make the reader leave. */
+export function placeControls(figure: Figure) {
+  const { map, left } = figure;
+  const { own, pasted } = words.squeeze;
+  if (!map) return presetButtons(figure, left ? button(own.back(left.name || pasted), () => figure.returnToMap()) : nothing);
+  return html`<div class="buttons presets">
+    ${button(own.leave, () => figure.leaveMap())} ${button(own.open, () => figure.goToOpen(), { pressed: figure.inTheOpen })}
+    ${startOverButton(figure)}
+  </div>`;
+}
+
+/** Returns the choice of the sampler, with what it does. */
+export function samplerControls(figure: Figure) {
+  const { conditioned, sampler, samples, steps } = figure.reading.config;
+  const { settings, samplers, samplerEffects } = words.squeeze;
+  // Sub-steps multiply the samples.
+  const most = (name: string) => (name === 'sub-stepped' ? Math.floor(MOST_SAMPLES / steps) : MOST_SAMPLES);
+  const choose = (name: string) => figure.gesture.decide({ sampler: name, ...(samples > most(name) && { samples: most(name) }) });
+  return html`<div class="judge">
+    ${radioGroup(settings.sampler.name, 'sampler', samplers, sampler, choose)}
+    <p class="effect">${samplerEffects[conditioned ? sampler : 'off']}</p>
+    ${conditioned && sampler === 'sub-stepped' ? slider(figure, 'steps') : nothing}
+  </div>`;
+}
+
+/** Returns the sliders of the command and of the noise, and the samples. */
+export function motionControls(figure: Figure) {
+  return html`${group(words.command, sliders(figure, COMMAND))}
+    <div>${group(words.noise, slider(figure, 'noise'))} ${cloudControls(figure, SAMPLE_COUNTS)}</div>`;
+}
+
+/**
+ * Returns what is changed less often.
+ *
+ * @param hasUnknown whether there are cells of which the map says nothing
+ */
+export function robotAndMap(figure: Figure, hasUnknown: boolean) {
+  const { robotAndMap: heading, condition, settings, unknown, views } = words.squeeze;
+  return group(heading, html`${slider(figure, 'clearance')} ${check(figure, 'conditioned', condition)}
+    ${hasUnknown ? choices(figure, 'unknown', unknown) : nothing}
+    ${radioGroup(settings.view.name, 'view', views, figure.state.own.view, (view) => figure.gesture.choose('view', view))}`);
+}
+
+/** @param map the present one, with its size */
+export function ownMap(figure: Figure, opener: import('./maps/open.ts').MapOpener, map: string) {
+  const say = words.squeeze.own;
+  const paste = () => {
+    const text = figure.renderRoot.querySelector('#map-text') as HTMLTextAreaElement;
+    opener.paste(text.value);
+  };
+  const { complaint } = opener;
+  return group(say.legend, html`<div class="own-map">
+    <div>
+      <p>${say.text}</p>
+      <label for="map-files">${say.files}</label>
+      ${fileInput('map-files', EXTENSIONS, (files) => opener.dropped.take(files))}
+      <p ?hidden=${!opener.isReading}>${say.reading}</p>
+      <p class="note" role=${figure.notice.isShown ? nothing : 'alert'} ?hidden=${complaint === ''}>${complaint}</p>
+      <p class="present">${map}.</p>
+    </div>
+    <div>
+      <label for="map-text">${say.plan}</label>
+      <textarea id="map-text" rows="8" spellcheck="false" autocomplete="off" .defaultValue=${EXAMPLE}></textarea>
+      ${button(say.use, paste)}
+    </div>
+  </div>`);
+}

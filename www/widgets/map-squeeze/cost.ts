@@ -1,0 +1,116 @@
+/** What each sampler costs on this device, measured. */
+
+import { Part } from '../../figure/part.ts';
+import { limits } from '../../settings.js';
+import { SAMPLERS } from './settings.ts';
+import type { MapSqueeze, SamplerName } from '../../types.d.ts';
+
+/** Cost of one accepted sample. */
+export interface Cost {
+  /** Microseconds. */
+  micros: number;
+  draws: number;
+  wallTests: number;
+}
+
+/** The particles and rate of the chapter's exercise: samples a second. */
+export const DEMAND = 2000 * 20;
+
+/** Milliseconds that a measurement lasts at least, and twice that at most: browsers' clocks are as coarse as 1 ms. */
+const LONG_ENOUGH = 12;
+
+/** Runs of which the median is told. */
+const RUNS = 5;
+
+/**
+ * Measures a run at a time: the page goes on between two of them.
+ *
+ * @param parts of the command
+ * @returns the cost, or why there is none
+ */
+function* measuring(machine: MapSqueeze, sampler: SamplerName, parts: number): Generator<undefined, Cost | 'wedged' | 'few'> {
+  const most = Math.floor(limits.trial / parts);
+  let count = 1;
+  const run = () => {
+    const start = performance.now();
+    const { draws, wallTests } = machine.trial(sampler, parts, count);
+    return { draws, wallTests, elapsed: performance.now() - start };
+  };
+  try {
+    for (;;) {
+      const warmUp = run();
+      if (warmUp.elapsed >= LONG_ENOUGH || count === most) {
+        const runs = [];
+        while (runs.length < RUNS) {
+          yield;
+          runs.push(run());
+        }
+        runs.sort((one, other) => one.elapsed - other.elapsed);
+        const { draws, wallTests, elapsed } = runs[(RUNS - 1) / 2];
+        // If not, the warm-up was long because the device was busy, and more samples are needed.
+        if (elapsed >= LONG_ENOUGH / 2 || count === most) {
+          return { micros: (1000 * elapsed) / count, draws: draws / count, wallTests: wallTests / count };
+        }
+      }
+      yield;
+      count = Math.min(most, 2 * count);
+    }
+  } catch (error) {
+    if (!(error instanceof RangeError && error.message.includes('wedged'))) throw error;
+    return count === 1 ? 'wedged' : 'few';
+  }
+}
+
+/** Milliseconds of rest before measuring: a reader between two presses of a key is not kept waiting. */
+const REST = 300;
+
+/** Measures the samplers one after the other when things have come to rest, and tells of each. */
+export class CostMeter extends Part {
+  /** As last measured, or why there is none */
+  costs: Partial<Record<SamplerName, Cost | 'wedged' | 'few'>> = {};
+  /** Whether the costs are those of the present settings. */
+  current = false;
+  /** The settings that were measured, or are to be. */
+  #settings = '';
+  #timer: ReturnType<typeof setTimeout> | undefined;
+
+  /** The costs are no longer those of the present settings. */
+  outdate() {
+    clearTimeout(this.#timer);
+    this.current = false;
+  }
+
+  /**
+   * Measures once these settings have been at rest for a while.
+   *
+   * @param atRest whether nothing moves at present
+   */
+  heed(config: object, atRest: boolean) {
+    const settings = JSON.stringify(config);
+    if (atRest || settings !== this.#settings) this.outdate();
+    this.#settings = settings;
+    if (atRest) this.#measureSoon();
+  }
+
+  #measureSoon() {
+    const { host } = this;
+    const measured = host.machine;
+    if (!measured) return;
+    const measurements = SAMPLERS.map((sampler) =>
+      measuring(measured, sampler, sampler === 'sub-stepped' ? measured.config.steps : 1),
+    );
+    const next = (index: number) => {
+      // The element may have gone, and its machine with it.
+      if (host.machine !== measured) return;
+      const { done, value } = measurements[index].next();
+      if (done) {
+        this.costs[SAMPLERS[index]] = value;
+        this.current = index === SAMPLERS.length - 1;
+        host.requestUpdate();
+      }
+      if (!this.current) this.#timer = setTimeout(step, 0, done ? index + 1 : index);
+    };
+    const step = (index: number) => host.runtime.attempt(() => next(index));
+    this.#timer = setTimeout(step, REST, 0);
+  }
+}

@@ -1,0 +1,151 @@
+/** Map Squeeze in German; see messages/en.js. */
+
+export const de: typeof import('./en.ts').en = {
+  title: 'Map Squeeze: mit Karte durch die Wand',
+  floor: 'Auf dem Boden: wo ein Befehl enden kann',
+  presets: { doorway: 'Vor einer Tür', wall: 'Vor einer Wand', corridor: 'Im freien Flur' },
+  samplers: { endpoint: 'Endpunkt', 'whole-arc': 'Ganzer Bogen', 'sub-stepped': 'Teilschritte' },
+  samplerEffects: {
+    endpoint: 'Nimmt eine Stichprobe an, wenn ihre Endpose kollisionsfrei ist; der Weg wird nicht geprüft.',
+    'whole-arc': 'Nimmt eine Stichprobe an, wenn ihr ganzer Weg kollisionsfrei ist.',
+    'sub-stepped': 'Teilt den Befehl in Teilschritte und nimmt jeden an, wenn seine Endpose kollisionsfrei ist.',
+    off: 'Die Karte wird nicht verwendet (siehe Weitere Regler): Jede Stichprobe wird angenommen.',
+  },
+  settings: {
+    v: { effect: 'Bestimmt, wie weit der Roboter fährt und wie viele Wände er treffen kann.' },
+    omega: { effect: 'Biegt den Weg: Er kann hinter einer Ecke im Freien enden.' },
+    dt: { effect: 'Zeit zwischen zwei Kollisionsprüfungen.' },
+    noise: { name: 'Rauschpegel', effect: 'Verbreitert die Wolke: setzt α₁ bis α₄; α₅ und α₆ sind ein Viertel.' },
+    clearance: { name: 'Roboterradius', effect: 'Ein breiterer Roboter hat an weniger Stellen Platz und trifft mehr Wände.' },
+    unknown: { name: 'Unbekannte Zellen' },
+    sampler: { name: 'Verfahren' },
+    steps: { name: 'Teilschritte', effect: 'Teile des Befehls, jeder mit eigenem Rauschen.' },
+    samples: { effect: 'Mehr Bewegungen verengen das Intervall des Anteils durch die Wand.' },
+    view: { name: 'Ansicht' },
+  },
+  overlays: {
+    accepted: 'angenommen', through: 'angenommen durch eine Wand', rejected: 'verworfen',
+    commanded: 'befohlener Weg', unknown: 'unbekannte Zellen',
+  },
+  unknown: { free: 'frei', blocked: 'gesperrt' },
+  views: { whole: 'ganze Karte', close: 'aus der Nähe' },
+  robotAndMap: 'Roboter und Karte',
+  mapNotInCode: 'Der Code ist ohne Ihre Karte: Eine Seite gibt sie der Eigenschaft map.',
+  condition: 'Stichproben mit der Karte prüfen',
+  headline: {
+    untried: 'Noch keine Bewegung versucht',
+    nothing: 'Keine Bewegung wurde angenommen',
+    none: 'Keine angenommene Bewegung ging durch eine Wand',
+    share: (few, of) => `${few} von ${of} angenommenen Bewegungen ${few === 1 ? 'ging' : 'gingen'} durch eine Wand`,
+    most: 'Fast alle angenommenen Bewegungen gingen durch eine Wand',
+    all: 'Alle angenommenen Bewegungen gingen durch eine Wand',
+  },
+  wedged: (drawn, accepted, printed, all, through) =>
+    `Der Roboter sitzt fest: Von ${drawn} gezogenen Teilschritten ${accepted === 0 ? 'hat keiner eine Bewegung vollendet' : `wurden nur ${printed} von ${all} Bewegungen vollendet; ${through}`}.`,
+  nothing: (count, drawn, wholeArc) =>
+    count === 1
+      ? `Keine Stichprobe wurde angenommen: ${wholeArc ? 'Der eine gezogene Weg' : 'Die eine gezogene Endpose'} ist in Kollision.`
+      : `Keine Stichprobe wurde angenommen: Alle ${drawn} gezogenen ${wholeArc ? 'Wege' : 'Endposen'} sind in Kollision.`,
+  noRoom: 'Die Startpose ist in Kollision.',
+  verdict: {
+    part: 'Teilschritt gescheitert: keine kollisionsfreie Stichprobe gefunden',
+    end: 'die Endpose ist in Kollision',
+    free: 'Endpose und Weg sind kollisionsfrei',
+    way: 'die Endpose ist frei, aber der Weg berührt eine Wand oder verlässt die Karte',
+  },
+  tested: {
+    endpoint: (accepted, all) => `${accepted} von ${all} Bewegungen enden, wo der Roboter Platz hat, und sind angenommen`,
+    'whole-arc': (accepted, all) => `${accepted} von ${all} Bewegungen berühren unterwegs keine Wand und sind angenommen`,
+    'sub-stepped': (accepted, all) =>
+      `${accepted} von ${all} Bewegungen enden mit jedem Teilschritt, wo der Roboter Platz hat, und sind angenommen`,
+    off: (accepted) => `Ohne die Karte werden alle ${accepted} Bewegungen angenommen`,
+  },
+  throughOf: (count, through, share, interval) =>
+    `${count === 0 ? 'keine davon ging' : `${through} davon, ${share}, gingen`} durch eine Wand${interval && ` (95-%-Intervall ${interval})`}`,
+  verdictOf: (tested, through) => `${tested}; ${through}.`,
+  density: 'Dichte: dunkler = mehr Stichproben; Farbe = häufigster Ausgang je Zelle.',
+  apartment: 'Die Wohnung',
+  edited: 'Geänderte Wohnung',
+  pasted: 'Eingegebener Plan',
+  mapText: (name, width, height, walls, printed) =>
+    `${name}: ${width} m × ${height} m, ${printed} ${walls === 1 ? 'Wand' : 'Wände'}`,
+  picture: (map) => `Grundriss von oben, x nach rechts und y nach oben. ${map}.`,
+  robotAt: (x, y, theta, command) =>
+    `Der Roboter steht bei x ${x} m, y ${y} m, Richtung ${theta} rad. Befohlen: ${command}.`,
+  outcome: (drawn, parts, accepted, through, density) =>
+    `${drawn} ${parts ? 'Teilschritte ' : ''}gezogen; ${accepted} ${parts ? 'Bewegungen ' : ''}angenommen, als ${density ? 'Dichte' : 'Punkte'}; davon ${through} durch eine Wand.`,
+  rest: (density) => `Der Rest ist verworfen${density ? '' : ', als Kreuze'}.`,
+  throughThisWall: 'durch diese Wand',
+  robot: {
+    robot: 'Roboter',
+    robotTitle: 'Zieh den Roboter',
+    heading: 'Richtung des Roboters',
+    headingTitle: 'Dreh den Roboter',
+    ends: 'Hier endet die Karte',
+  },
+  walls: {
+    jamb: 'Türkante',
+    jambTitle: 'Zieh die Türkante',
+    wall: 'Wand',
+    wallTitle: 'Zieh die Wand',
+    keys: 'Pfeiltasten bewegen sie, mit Umschalt in größeren Schritten; [ und ] führen zu den anderen Wänden',
+  },
+  tally: {
+    drawn: 'gezogen',
+    accepted: 'angenommen',
+    ofDrawn: (share, parts) => `${share} ${parts ? 'aller gezogenen Teilschritte' : 'der gezogenen'}`,
+    through: 'angenommen durch eine Wand',
+    ofAccepted: (share) => `${share} der angenommenen`,
+    byConstruction: '0, nach Bauart',
+    paths: 'gezeichnete Wege durch eine Wand',
+    first: (count) => `die ersten ${count}`,
+    draws: 'gezogene je angenommene Stichprobe',
+    tests: 'berechnete Wandabstände je angenommene Stichprobe',
+  },
+  sample: 'Stichprobe',
+  markHint: 'Zeig auf eine, um ihren Weg und ihr Urteil zu sehen.',
+  costs: {
+    caption:
+      'Kosten einer angenommenen Stichprobe jedes Verfahrens mit den Einstellungen oben, auf diesem Gerät gemessen; und der Anteil eines Rechenkerns, den 2000 Partikel bei 20 Hz bräuchten. Wiederholte Messungen weichen um einige Prozent ab.',
+    sampler: 'Verfahren',
+    draws: 'gezogen',
+    tests: 'Abstände',
+    core: 'vom Kern',
+    none: 'noch nicht gemessen',
+    wedged: 'sitzt fest: keine wird angenommen',
+    few: 'zu wenige angenommen, um zu messen',
+  },
+  own: {
+    reading: 'Die Karte wird gelesen …',
+    legend: 'Eine eigene Karte',
+    text: 'Zieh Dateien irgendwo auf diese Abbildung oder wähle sie hier: einen Grundriss in JSON oder eine Karte des map_server von ROS, die YAML-Datei zusammen mit ihrem Bild in PGM oder PNG. Sie verlassen dieses Gerät nicht.',
+    files: 'Kartendateien',
+    open: 'Roboter ins Freie setzen',
+    leave: 'Zurück in die Wohnung',
+    back: (name) => `Zurück zu ${name}`,
+    plan: 'Oder hier ein Grundriss, in Metern',
+    use: 'Diesen Plan nehmen',
+  },
+  refused: {
+    cannot: (reason) => `Die Karte lässt sich nicht öffnen: ${reason}.`,
+    kind: (name) =>
+      `${name}: Dateien dieser Art werden nicht gelesen; erwartet wird ein Grundriss als .json oder eine .yaml-Datei zusammen mit ihrem Bild als .pgm oder .png.`,
+    several: (names, count) => `${names}: Das sind ${count} Karten; erwartet wird eine auf einmal.`,
+    noFile: 'Keine Datei',
+    alone: (name) => `${name}: Ein Bild allein hat keinen Maßstab; erwartet wird seine .yaml-Datei dazu.`,
+    gone: (name, reason) => `${name}: Die Datei ist nicht lesbar (${reason}); erwartet wird eine, die noch da ist.`,
+    long: (name, bytes, most) => `${name}: Die Datei hat ${bytes} Bytes; erwartet werden höchstens ${most}.`,
+    plan: (name, reason, form) => `${name}: ${reason}; ein Grundriss ist ${form} in Metern.`,
+    planForm: (form) => `${form} in Metern`,
+    yamlForm: 'ein Feld je Zeile, wie in resolution: 0.05',
+    syntax: (name, line, format, reason, expected) =>
+      `${name}${line ? `, Zeile ${line}` : ''}: Das ist kein ${format} (${reason}); erwartet wird ${expected}.`,
+    image: (name, value) =>
+      `${name}: image ${value ? `ist ${value}` : 'fehlt'}; erwartet wird der Name einer .pgm- oder .png-Datei.`,
+    pair: (name, wanted, given) =>
+      `${name}: image nennt ${wanted}, das nicht dabei ist${given && ` (dafür kam ${given})`}; erwartet werden beide Dateien zusammen.`,
+    fields: (name) => `${name}: Darin sind keine Felder; erwartet werden mindestens image, resolution und origin.`,
+    broken: (name, reason) => `${name}: ${reason}.`,
+    line: (name, line, reason) => `${name}, Zeile ${line}: ${reason}.`,
+  },
+};

@@ -1,0 +1,151 @@
+/** Map Squeeze in English; see messages/en.js. */
+
+import { plural } from '../../messages/en.ts';
+
+export const en = {
+  title: 'Map Squeeze',
+  floor: 'On the floor: where one command may end',
+  presets: { doorway: 'Facing a doorway', wall: 'Facing a wall', corridor: 'Open corridor' },
+  samplers: { endpoint: 'Endpoint', 'whole-arc': 'Whole arc', 'sub-stepped': 'Sub-stepped' },
+  samplerEffects: {
+    endpoint: 'Accepts a sample if its end pose is collision-free; the path is not checked.',
+    'whole-arc': 'Accepts a sample if its whole path is collision-free.',
+    'sub-stepped': 'Splits the command into sub-steps, and accepts each if its end pose is collision-free.',
+    off: 'The map is not used (see More controls): every sample is accepted.',
+  },
+  settings: {
+    v: { effect: 'Sets how far the robot is sent, and how many walls it may meet.' },
+    omega: { effect: 'Bends the path: it can end in free space behind a corner.' },
+    dt: { effect: 'Time between collision checks.' },
+    noise: { name: 'noise level', effect: 'Spreads the cloud: sets α₁ to α₄; α₅ and α₆ are a quarter.' },
+    clearance: { name: 'robot radius', effect: 'A wider robot fits in fewer places and meets more walls.' },
+    unknown: { name: 'Unknown cells' },
+    sampler: { name: 'Sampler' },
+    steps: { name: 'sub-steps', effect: 'Parts of the command, each with noise of its own.' },
+    samples: { effect: 'More motions narrow the interval of the share through a wall.' },
+    view: { name: 'View' },
+  },
+  overlays: {
+    accepted: 'accepted', through: 'accepted through a wall', rejected: 'rejected',
+    commanded: 'commanded path', unknown: 'unknown cells',
+  },
+  unknown: { free: 'free', blocked: 'blocked' },
+  views: { whole: 'whole map', close: 'close-up' },
+  robotAndMap: 'Robot and map',
+  mapNotInCode: 'The code is without your map: a page gives that to the property map.',
+  condition: 'Check samples against the map',
+  headline: {
+    untried: 'No motion has been tried yet',
+    nothing: 'No motion was accepted',
+    none: 'No accepted motion went through a wall',
+    share: (few, of) => `${few} in ${of} accepted motions went through a wall`,
+    most: 'Nearly all accepted motions went through a wall',
+    all: 'All accepted motions went through a wall',
+  },
+  wedged: (drawn, accepted, printed, all, through) =>
+    `The robot is wedged: of ${drawn} sub-steps drawn, ${accepted === 0 ? 'none completed a motion' : `only ${printed} of ${all} motions were completed; ${through}`}.`,
+  nothing: (count, drawn, wholeArc) =>
+    `No sample was accepted: ${count === 1 ? 'the one drawn' : `all ${drawn} drawn`} ${plural(count, wholeArc ? 'path' : 'end pose')} ${count === 1 ? 'is' : 'are'} in collision.`,
+  noRoom: 'The start pose is in collision.',
+  verdict: {
+    part: 'sub-step failed: no collision-free sample found',
+    end: 'the end pose is in collision',
+    free: 'end pose and path are collision-free',
+    way: 'the end pose is free, but the path touches a wall or leaves the map',
+  },
+  /** Counts of the picture in one sentence: the test, and how many went through a wall all the same. */
+  tested: {
+    endpoint: (accepted, all) => `${accepted} of ${all} motions end where the robot fits and are accepted`,
+    'whole-arc': (accepted, all) => `${accepted} of ${all} motions keep clear of walls all the way and are accepted`,
+    'sub-stepped': (accepted, all) => `${accepted} of ${all} motions end each sub-step where the robot fits and are accepted`,
+    off: (accepted) => `Without the map all ${accepted} motions are accepted`,
+  },
+  throughOf: (count, through, share, interval) =>
+    `${count === 0 ? 'none of them' : `${through} of them, ${share},`} went through a wall${interval && ` (95\u202f% interval ${interval})`}`,
+  verdictOf: (tested, through) => `${tested}; ${through}.`,
+  density: 'Density: darker = more samples; colour = most frequent outcome per cell.',
+  apartment: 'The apartment',
+  edited: 'Edited apartment',
+  pasted: 'Pasted plan',
+  mapText: (name, width, height, walls, printed) =>
+    `${name}: ${width} m × ${height} m, ${printed} ${plural(walls, 'wall')}`,
+  picture: (map) => `Floor plan from above, x to the right and y up. ${map}.`,
+  robotAt: (x, y, theta, command) =>
+    `The robot stands at x ${x} m, y ${y} m, heading ${theta} rad. Commanded: ${command}.`,
+  outcome: (drawn, parts, accepted, through, density) =>
+    `${drawn} ${parts ? 'sub-steps ' : ''}drawn; ${accepted} ${parts ? 'motions ' : ''}accepted, as ${density ? 'a density' : 'dots'}; ${through} of those through a wall.`,
+  rest: (density) => `The rest is rejected${density ? '' : ', as crosses'}.`,
+  throughThisWall: 'through this wall',
+  robot: {
+    robot: 'Robot',
+    robotTitle: 'Drag the robot',
+    heading: 'Heading of the robot',
+    headingTitle: 'Turn the robot',
+    ends: 'The map ends here',
+  },
+  walls: {
+    jamb: 'Edge of a doorway',
+    jambTitle: 'Drag the edge of the doorway',
+    wall: 'Wall',
+    wallTitle: 'Drag the wall',
+    keys: 'Arrow keys move it, with Shift by larger steps; [ and ] go to the other walls',
+  },
+  tally: {
+    drawn: 'drawn',
+    accepted: 'accepted',
+    ofDrawn: (share, parts) => `${share} of ${parts ? 'all sub-steps drawn' : 'those drawn'}`,
+    through: 'accepted through a wall',
+    ofAccepted: (share) => `${share} of those accepted`,
+    byConstruction: '0, by construction',
+    paths: 'paths through a wall shown',
+    first: (count) => `the first ${count}`,
+    draws: 'samples drawn per accepted sample',
+    tests: 'wall distances computed per accepted sample',
+  },
+  sample: 'Sample',
+  markHint: 'Point at one to see its path and its verdict.',
+  costs: {
+    caption:
+      'Cost of one accepted sample for each sampler at the settings above, measured on this device; and the share of a core that 2000 particles at 20 Hz would take. Repeated runs differ by several per cent.',
+    sampler: 'sampler',
+    draws: 'samples drawn',
+    tests: 'wall distances',
+    core: 'of a core',
+    none: 'not yet measured',
+    wedged: 'wedged: none is accepted',
+    few: 'too few are accepted to measure',
+  },
+  own: {
+    reading: 'Reading the map …',
+    legend: 'A map of your own',
+    text: 'Drop files anywhere on this figure, or choose them here: a floor plan in JSON, or a map of ROS map_server, its YAML file and its PGM or PNG image together. They do not leave this device.',
+    files: 'Map files',
+    open: 'Place robot in free space',
+    leave: 'Back to the apartment',
+    back: (name) => `Back to ${name}`,
+    plan: 'Or a floor plan here, in metres',
+    use: 'Use this plan',
+  },
+  /** Why files are refused: the file, the line or field, and what was expected. */
+  refused: {
+    cannot: (reason) => `The map cannot be opened: ${reason}.`,
+    kind: (name) =>
+      `${name}: this kind of file is not read; expected is a .json floor plan, or a .yaml file together with its .pgm or .png image.`,
+    several: (names, count) => `${names}: these are ${count} maps; expected is one at a time.`,
+    noFile: 'No file',
+    alone: (name) => `${name}: an image alone has no scale; expected is its .yaml file together with it.`,
+    gone: (name, reason) => `${name}: the file cannot be read (${reason}); expected is one that exists and may be read.`,
+    long: (name, bytes, most) => `${name}: the file has ${bytes} bytes; expected are at most ${most}.`,
+    plan: (name, reason, form) => `${name}: ${reason}; a floor plan is ${form} in metres.`,
+    planForm: (form) => `${form} in metres`,
+    yamlForm: 'one field a line, as in resolution: 0.05',
+    syntax: (name, line, format, reason, expected) =>
+      `${name}${line ? `, line ${line}` : ''}: this is not ${format} (${reason}); expected is ${expected}.`,
+    image: (name, value) => `${name}: image is ${value || 'missing'}; expected is the name of a .pgm or .png file.`,
+    pair: (name, wanted, given) =>
+      `${name}: image names ${wanted}, which is not there${given && ` (${given} came instead)`}; expected are both files together.`,
+    fields: (name) => `${name}: there are no fields in it; expected are at least image, resolution and origin.`,
+    broken: (name, reason) => `${name}: ${reason}.`,
+    line: (name, line, reason) => `${name}, line ${line}: ${reason}.`,
+  },
+} satisfies import('../../messages/registry.ts').Message;

@@ -1,0 +1,416 @@
+/** <map-squeeze>: motion conditioned on a map, and what the condition cannot see. */
+
+import { html, nothing } from 'lit';
+import { Cloud, shownOf } from '../../figure/cloud.ts';
+import { canvas, disclosures, panel } from '../../figure/controls.ts';
+import { FigureElement } from '../../figure/figure.ts';
+import { legend } from '../../figure/overlays.ts';
+import { reserve } from '../../figure/page/room.ts';
+import { define } from '../../figure/reflection.ts';
+import { orFree } from '../../figure/runtime.ts';
+import { LONGEST_WORK, advancing } from '../../figure/settings.ts';
+import { words } from '../../messages/registry.ts';
+import { verdict as bits } from '../../settings.js';
+import { PoseHandles } from '../shared/pose-handles.ts';
+import { motionControls, ownMap, placeControls, robotAndMap, samplerControls } from './controls.ts';
+import { CostMeter } from './cost.ts';
+import { applyMap, cellsOf, mapData } from './maps/data.ts';
+import { MapOpener } from './maps/open.ts';
+import { overview } from './overview.ts';
+import { FloorPicture } from './picture.ts';
+import { kindOf, readingOf } from './reading.ts';
+import { costTable, markedDraw, tally } from './readouts.ts';
+import { LINES, OPENING_START, PRESET, attributes, declared, looks, own, vocabulary } from './settings.ts';
+import { squeezeStyles } from './styles.ts';
+import { WallHandles } from './wall-handles.ts';
+import { contactOf } from './walls.ts';
+import { headlineOf, mapText, pictureText, verdictOf } from './words.ts';
+import type { Job } from '../../figure/settings.ts';
+import type { Cells } from '../../scene/walls.ts';
+import type { MapData, MapSqueeze as Machine, Pose } from '../../types.d.ts';
+import type { OwnMap } from './maps/files.ts';
+import type { Reading } from './reading.ts';
+
+/** Largest number of samples that are judged in each frame of a drag of walls. */
+const MOST_LIVE = 2000;
+
+/**
+ * Motion conditioned on a map, and what the condition cannot see.
+ *
+ * @attr preset - A place in the apartment to start from; none elsewhere.
+ * @attr view - The whole map, or what is near the robot.
+ * @attr overlays - The marks and lines that are drawn; in the attribute with spaces between.
+ */
+export class MapSqueezeElement extends FigureElement<Machine, Reading> {
+  static styles = [...FigureElement.styles, reserve('map-squeeze'), ...squeezeStyles];
+
+  static declared = declared;
+  static attributes = attributes;
+  static own = own;
+  static looks = looks;
+  static vocabulary = vocabulary;
+
+  cloud = new Cloud(this, (machine: Machine) => machine.stats.gaveUp);
+
+  /** Of the map that the robot is in. */
+  picture = new FloorPicture({ bounds: new Float64Array(4), walls: new Float64Array() }, null);
+  #meter = new CostMeter(this);
+  #opener = new MapOpener(this);
+  #handles = new PoseHandles(this, 'start', {
+    view: () => this.picture.view,
+    bounds: () => this.picture.plan.bounds,
+    say: () => words.squeeze.robot,
+  });
+  #wallHandles = new WallHandles(this);
+  /** True while the picture has walls that the machine does not have yet. */
+  #isAhead = false;
+  /** What unknown cells are in the map of the picture. */
+  #unknown = '';
+  /** The grid of the machine that was asked for it last. */
+  #grid: { of: Machine, grid: Cells | null } | undefined;
+  /** The machine in the making of a map that the page gave. */
+  #given: Machine | undefined;
+  /** The reader's own map that was left last, and where the robot stood in it. */
+  #left: { map: MapData, start: Pose } | null = null;
+  /** Where the robot was put last in the open. */
+  #open: Pose | undefined;
+
+  createMachine: FigureElement<Machine, Reading>['createMachine'] = (motion, state) => {
+    if (!state) return new motion.MapSqueeze();
+    return orFree(motion.MapSqueeze.empty(), (machine) => {
+      machine.configure(this.settings.declared(state));
+      // Attempts wait for the map.
+      if (state.map === null) machine.beginToGrow(shownOf(machine, state.shown));
+    });
+  };
+
+  *complete(machine: Parameters<FigureElement<Machine, Reading>['complete']>[0], state: Parameters<FigureElement<Machine, Reading>['complete']>[1]) {
+    // Of the opening there is none to be put in.
+    const { map } = 'map' in state ? state : { map: null };
+    if (map !== null) {
+      applyMap(machine, map);
+      machine.beginToGrow(shownOf(machine, state.shown));
+    }
+    yield* advancing(machine);
+    if (map !== null) state.map = mapData(machine, map.name ?? '', this.#gridOf(machine));
+  }
+
+  #gridOf(machine: Machine) {
+    if (this.#grid?.of !== machine) this.#grid = { of: machine, grid: cellsOf(machine) };
+    return this.#grid.grid;
+  }
+
+  machineChanged() {
+    const { machine } = this;
+    if (!machine) return;
+    const grid = this.#gridOf(machine);
+    this.#opener.forgive();
+    this.#meter.outdate();
+    this.#isAhead = false;
+    this.#unknown = machine.config.unknown;
+    this.picture = new FloorPicture(machine.plan, grid, this.picture);
+    this.pictures = [this.picture];
+  }
+
+  read(machine: Machine) {
+    const reading = readingOf(machine);
+    const isGivenUp = this.#isAhead && !this.settings.next && !this.gesture.pressed;
+    if (isGivenUp || (reading.config.unknown !== this.#unknown && this.picture.hasUnknown)) this.machineChanged();
+    this.#meter.heed(reading.config, !this.cloud.playing && !this.gesture.pressed);
+    return reading;
+  }
+
+  get scene() {
+    const { fresh } = this;
+    const { index, isMarked } = this.cloud;
+    this.picture.close = this.state.own.view === 'close';
+    return { ...fresh, machine: this.machine, overlays: this.state.own.overlays, marked: isMarked ? this.#marked(index) : undefined };
+  }
+
+  /** Returns the marked sample, with the point where an accepted one went through a wall. */
+  #marked(index: number) {
+    const { poses, verdicts, config } = this.fresh;
+    const path = (this.machine as Machine).path(index);
+    const isThrough = kindOf(verdicts[index]) === 2;
+    return { pose: poses.subarray(3 * index), path, contact: isThrough ? contactOf(path, this.picture.plan.walls, config.clearance) : undefined };
+  }
+
+  get takeaway() {
+    const { config, poses, verdicts } = this.fresh;
+    return {
+      title: this.lettering.name,
+      description: this.#description,
+      settings: { element: this.localName, map: this.map?.name ?? null, ...config },
+      columns: ['x_m', 'y_m', 'theta_rad', 'end_free', 'path_free', 'accepted'],
+      row: (i: number) => [
+        ...poses.subarray(3 * i, 3 * i + 3),
+        ...Object.values(bits).map((bit) => Math.sign(verdicts[i] & bit)),
+      ],
+      count: verdicts.length,
+      notInCode: this.map ? words.squeeze.mapNotInCode : '',
+    };
+  }
+
+  announcement = verdictOf;
+
+  placeHandles({ config: { start, clearance } }: Reading) {
+    this.#handles.place(start, clearance);
+    this.#wallHandles.place(this.picture.view);
+  }
+
+  /** The place in the apartment that the robot starts from; null elsewhere. */
+  get preset(): string | null {
+    if (!this.machine) return (this.reflection.wished('preset') as string | undefined) ?? null;
+    return (this.map ? null : PRESET.get({ config: this.settings.wanted, machine: this.machine })) as string | null;
+  }
+
+  set preset(name) {
+    this.reflection.give('preset', name, (given) => {
+      const settings = PRESET.change(given, { config: {}, machine: this.machine });
+      this.#leave();
+      this.settings.assign(settings);
+    });
+  }
+
+  /**
+   * A map of the reader's own; null for the apartment.
+   *
+   * @public
+   */
+  get map(): MapData | null {
+    return this.state.own.map;
+  }
+
+  set map(map) {
+    // Not a file that the reader has opened meanwhile.
+    if (!map && this.#given && this.#given === this.settings.next) this.settings.abandon();
+    const isNameless = typeof map === 'object' && map !== null && !Array.isArray(map) && map.name === undefined;
+    this.reflection.give('map', isNameless ? { ...map, name: '' } : map, (given) => {
+      if (given === null) {
+        this.#leave();
+        this.#findRoom();
+      } else {
+        this.#enter(mapOf(given), () => this.reflection.tell(), (error) => this.runtime.report(error));
+        this.#given = this.settings.next;
+      }
+      this.reflection.tell();
+      this.settings.show();
+    });
+  }
+
+  /**
+   * A byte an attempt: 1 where its end is free, 2 where its path is, 4 where it is accepted.
+   *
+   * @public
+   */
+  get verdicts(): Uint8Array | null {
+    return this.ask((machine) => machine.verdicts);
+  }
+
+  /** The own map that was left last: the reader can go back to it. */
+  get left() {
+    return this.#left?.map ?? null;
+  }
+
+  /** The reader wants the robot at a place in the present map, or in the apartment. */
+  go(start: Pose) {
+    this.stage.release();
+    this.gesture.decide({ start });
+  }
+
+  /** The reader wants the robot in the open. */
+  goToOpen() {
+    this.runtime.attempt(() => {
+      if (this.machine) this.go(this.#putInTheOpen(this.machine));
+    });
+  }
+
+  /** Whether the robot is where it was put last in the open. */
+  get inTheOpen() {
+    const { x, y, theta } = this.reading.config.start;
+    return this.#open?.x === x && this.#open.y === y && this.#open.theta === theta;
+  }
+
+  /**
+   * Where the robot is put that comes into a map: in an occupancy grid also where it has room, for what is unknown there
+   * may be free, so that a place which is free may lie outside of everything that was mapped.
+   */
+  #putInTheOpen({ openPlace, config, plan }: Machine): Pose {
+    const [left, bottom, right, top] = plan.bounds;
+    return (this.#open = openPlace ?? { ...config.start, x: (left + right) / 2, y: (bottom + top) / 2 });
+  }
+
+  /** The reader wants to leave their map, which stays at hand. */
+  leaveMap() {
+    this.runtime.attempt(() => this.#leave());
+    this.go(OPENING_START);
+  }
+
+  /** The reader wants to go back to their map, as they left it. */
+  returnToMap() {
+    const left = this.#left;
+    if (left) this.open({ ...mapOf(left.map), start: left.start });
+  }
+
+  /** The reader wants the robot in a map of their own. */
+  open(map: OwnMap & { start?: Pose }) {
+    if (!this.machine) return;
+    this.runtime.attempt(() => this.#enter(map, () => {
+      this.gesture.step();
+      this.gesture.commit();
+    }, (error) => this.#opener.refuse(error)));
+    this.stage.wake();
+  }
+
+  /**
+   * Moves walls. The picture shows them at once; the samples follow in the same frame where they are few, otherwise when the
+   * walls have come to rest.
+   */
+  moveWalls(walls: Float64Array) {
+    this.picture = new FloorPicture({ bounds: this.picture.plan.bounds, walls }, null, this.picture);
+    this.pictures = [this.picture];
+    this.#isAhead = true;
+    if (this.settings.present.samples <= MOST_LIVE) this.#judgeWalls();
+    this.stage.wake();
+  }
+
+  /** The walls that were moved have come to rest. */
+  restWalls() {
+    if (this.#isAhead && !this.settings.next) this.#judgeWalls();
+    this.gesture.commit();
+  }
+
+  /** Makes the walls of the picture the reader's own map. */
+  #judgeWalls() {
+    const { bounds, walls } = this.picture.plan;
+    const name = this.map?.name ?? words.squeeze.edited;
+    const apply: OwnMap['apply'] = (machine) => machine.setPlan({ bounds: [...bounds], walls });
+    this.runtime.attempt(() => this.#enter(
+      { name, apply, start: this.settings.wanted.start },
+      () => this.gesture.step(),
+      (error) => this.runtime.report(error),
+    ));
+  }
+
+  /** Leaves the reader's own map, if it is there. */
+  #leave() {
+    const { machine, map } = this;
+    if (!machine) return;
+    this.#opener.forgive();
+    this.settings.abandon();
+    if (!map) return;
+    this.#left = { map, start: this.settings.wanted.start };
+    machine.setPlan(undefined);
+    this.#grid = undefined;
+    this.#moved(null);
+  }
+
+  /**
+   * Puts the robot into another map. A machine of its own tries it: the present one stays as it is where
+   * the map, or the place in it, is refused, or the reader does not want to wait.
+   *
+   * @param map with the place in it, where that is known
+   * @param arrived is called when it is there
+   * @param refuse is called where it is refused later than here
+   */
+  #enter(map: OwnMap & { start?: Pose }, arrived: () => void, refuse: (error: unknown) => void) {
+    const { motion, settings } = this;
+    if (!motion) return;
+    const end = performance.now() + LONGEST_WORK;
+    const machine = motion.MapSqueeze.empty();
+    orFree(machine, () => {
+      machine.configure(settings.declared(settings.wanted));
+      map.apply(machine);
+    });
+    settings.prepare(machine, this.#entering(machine, map, arrived), refuse, end);
+  }
+
+  /** @param machine in another map */
+  *#entering(machine: Machine, { name, start }: OwnMap & { start?: Pose }, arrived: () => void): Job {
+    const isGrid = this.#gridOf(machine) !== null;
+    if (start) machine.configure({ start });
+    else if (isGrid || !machine.startFree) machine.configure({ start: this.#putInTheOpen(machine) });
+    machine.beginToGrow(this.cloud.asked);
+    yield* advancing(machine);
+    const data = mapData(machine, name, this.#gridOf(machine));
+    this.runtime.replace(machine);
+    this.settings.arrive();
+    this.#left = null;
+    this.#moved(data);
+    arrived();
+  }
+
+  /** In the apartment the robot goes to where it opens if it has no room where it is. */
+  #findRoom() {
+    const { machine } = this;
+    if (machine && !machine.startFree) this.settings.assign({ start: OPENING_START });
+  }
+
+  /** @param map that the machine has now */
+  #moved(map: MapData | null) {
+    this.state.own.map = map;
+    this.machineChanged();
+    this.settings.stale = true;
+    this.cloud.mark(-1);
+  }
+
+  /** The map that the robot is in, in words. */
+  get #mapText() {
+    const { pasted, apartment } = words.squeeze;
+    return mapText(this.map ? this.map.name || pasted : apartment, this.picture.plan);
+  }
+
+  /** What the picture shows, in words. */
+  get #description() {
+    return pictureText(this.reading, this.#mapText);
+  }
+
+  content(reading: Reading) {
+    const { config, sorted, stats, note } = reading;
+    const { hasUnknown } = this.picture;
+    const { floor, density } = words.squeeze;
+    const { unknown, ...marks } = LINES;
+    return html`
+      <section
+        class="machine"
+        aria-label=${this.lettering.name}
+        @dragover=${this.#opener.dropped.over}
+        @dragleave=${this.#opener.dropped.away}
+        @drop=${this.#opener.dropped.drop}
+      >
+        <div class="views">
+          ${panel(floor, html`<div class="stage" part="picture">
+              ${canvas(this, this.picture, this.#description)}
+              ${this.stage.later(() => this.#wallHandles.render())}
+              ${this.#handles.render()}
+            </div>
+            ${this.stage.later(() => html`<div>
+              ${legend(this, hasUnknown ? { ...marks, unknown } : marks)}
+              ${sorted ? nothing : html`<p class="about">${density}</p>`}
+            </div>`)}`)}
+          ${this.stage.later(() => html`<div class="aside">
+            <div class="told">
+              <p class="headline">${headlineOf(stats)}</p>
+              <p class="verdict caption ${note && 'note'}" part="caption">${verdictOf(reading)}</p>
+            </div>
+            ${placeControls(this)} ${samplerControls(this)} ${overview(this.picture, reading)}
+          </div>`)}
+        </div>
+        ${this.stage.later(() => html`
+        <div class="controls" part="controls">${motionControls(this)}</div>
+        ${disclosures(this, {
+          controls: () => html`<div class="controls">${robotAndMap(this, hasUnknown)}</div> ${ownMap(this, this.#opener, this.#mapText)}`,
+          numbers: () => html`${tally(reading)} ${markedDraw(this)} ${costTable(this.#meter, config.steps)}`,
+        })}`)}
+      </section>
+    `;
+  }
+}
+
+/** What is there as data. */
+const mapOf = (map: MapData): OwnMap => ({
+  name: map.name ?? '',
+  apply: (machine) => applyMap(machine, map),
+});
+
+define('map-squeeze', MapSqueezeElement);

@@ -1,0 +1,252 @@
+/** Maps of the reader's own: a JSON floor plan, or a pair of files as ROS map_server has them. */
+
+import { limits } from '../../../settings.js';
+import type { MapSqueeze } from '../../../types.d.ts';
+
+export type Refused = import('../../../messages/registry.ts').Messages['squeeze']['refused'];
+
+/** Throws a RangeError for what is no PNG image. */
+export type DecodePng = (bytes: Uint8Array) => Promise<Pick<ImageData, 'width' | 'height' | 'data'>>;
+
+export interface OwnMap {
+  name: string;
+  /** Puts it into a machine, or throws a MapFileError and leaves the present map. */
+  apply: (machine: MapSqueeze) => void;
+}
+
+/** One sentence that names the file, the line or field, and what was expected. */
+export class MapFileError extends Error {
+  sentence: (say: Refused) => string;
+
+  /**
+   * @param file its name
+   * @param sentence in the words of the time when it is shown
+   */
+  constructor(file: string, sentence: (say: Refused, file: string) => string) {
+    super('The map is refused.');
+    this.sentence = (say: Refused) => sentence(say, quoted(file));
+  }
+}
+
+/** Largest size of a floor plan, in bytes: a hundred for each wall that the core takes. */
+const PLAN_BYTES = 2_000_000;
+
+/** Bytes at most of what says how an image is to be read. */
+const DESCRIPTION_BYTES = 100_000;
+
+/**
+ * Characters of a plan at most that is read although it is not quite JSON: what is written by hand is shorter, and a longer
+ * one would take seconds.
+ */
+const FORGIVEN = 200_000;
+
+/** Characters of a name or a value that a sentence quotes. */
+const QUOTED = 100;
+
+/** First bytes of a PNG image. */
+const PNG = [0x89, 0x50, 0x4e, 0x47];
+
+/** Form of a floor plan. */
+const PLAN_FORM = '{"bounds": [x0, y0, x1, y1], "walls": [[x0, y0, x1, y1], …]}';
+
+/**
+ * The map that files hold.
+ *
+ * @throws {MapFileError}
+ */
+export async function readMapFiles(files: File[], decodePng: DecodePng): Promise<OwnMap> {
+  const named = (pattern: RegExp) => files.filter(({ name }) => pattern.test(name));
+  const [plans, descriptions, images] = [named(/\.json$/i), named(/\.ya?ml$/i), named(/\.(pgm|png)$/i)];
+  const stranger = files.find((file) => ![...plans, ...descriptions, ...images].includes(file));
+  if (stranger) {
+    throw new MapFileError(stranger.name, (say, name) => say.kind(name));
+  }
+  const maps = plans.length + descriptions.length;
+  if (maps > 1) {
+    const names = [...plans, ...descriptions].map(({ name }) => name).join(', ');
+    throw new MapFileError(names, (say, those) => say.several(those, maps));
+  }
+  if (plans.length) return readPlan(plans[0].name, await textOf(plans[0], PLAN_BYTES));
+  if (descriptions.length) return readGrid(descriptions[0], images, decodePng);
+  throw new MapFileError(images[0]?.name ?? '', (say, image) => say.alone(image || say.noFile));
+}
+
+/**
+ * Contents of a file: it may have gone, or be forbidden, since it was chosen.
+ *
+ * @param part of the file or all of it
+ */
+async function bytesOf(part: Blob, name: string) {
+  try {
+    return await part.arrayBuffer();
+  } catch (error) {
+    const reason = error instanceof Error ? error.name : String(error);
+    throw new MapFileError(name, (say, file) => say.gone(file, reason));
+  }
+}
+
+/** @param most bytes */
+async function textOf(file: File, most: number) {
+  checkSize(file.name, file.size, most);
+  return new TextDecoder().decode(await bytesOf(file, file.name));
+}
+
+/**
+ * @param name of a file
+ * @param size in bytes, before they are read
+ */
+function checkSize(name: string, size: number, most: number) {
+  if (size > most) throw new MapFileError(name, (say, file) => say.long(file, size, most));
+}
+
+/** As much of a text as a sentence quotes. */
+function quoted(text: string) {
+  return text.length > QUOTED ? `${text.slice(0, QUOTED)}…` : text;
+}
+
+/**
+ * A floor plan from JSON.
+ *
+ * @param name of the file
+ * @throws {MapFileError}
+ */
+export async function readPlan(name: string, text: string): Promise<OwnMap> {
+  checkSize(name, text.length, PLAN_BYTES);
+  const plan = await planOf(name, text);
+  return {
+    name,
+    apply: (machine) =>
+      explaining(name, () => machine.setPlan(plan ?? null), (say, file, reason) => say.plan(file, reason, PLAN_FORM)),
+  };
+}
+
+/**
+ * What a plan says, the browser reads in a fiftieth of the time that a library takes, which is asked where it is not quite JSON.
+ *
+ * @param name of the file
+ */
+async function planOf(name: string, text: string) {
+  try {
+    return JSON.parse(text);
+  } catch (error) {
+    if (text.length <= FORGIVEN) return parsed(name, text, 'JSON');
+    const { message } = error as SyntaxError;
+    throw new MapFileError(name, (say, file) => say.syntax(file, 0, 'JSON', quoted(message), say.planForm(PLAN_FORM)));
+  }
+}
+
+function isObject(value: unknown): value is Record<string, unknown> {
+  return typeof value === 'object' && value !== null && !Array.isArray(value);
+}
+
+/**
+ * Parses a text. JSON is YAML too: the one parser forgives a trailing comma or a comment in a plan
+ * written by hand, and knows the line of a mistake, which JSON.parse says in some browsers only. It is
+ * as long as both widgets together, and loaded when the first map is opened.
+ *
+ * @param name of the file
+ */
+async function parsed(name: string, text: string, language: 'JSON' | 'YAML') {
+  const { YAMLException, parseYaml } = await import('./yaml.ts');
+  try {
+    return parseYaml(text);
+  } catch (error) {
+    if (!(error instanceof YAMLException)) throw error;
+    const line = error.mark ? error.mark.line + 1 : 0;
+    throw new MapFileError(name, (say, file) =>
+      say.syntax(file, line, language, quoted(error.reason), language === 'JSON' ? say.planForm(PLAN_FORM) : say.yamlForm),
+    );
+  }
+}
+
+/** @param file YAML */
+async function readGrid(file: File, images: File[], decodePng: DecodePng): Promise<OwnMap> {
+  const description = await readDescription(file.name, await textOf(file, DESCRIPTION_BYTES));
+  const { image: path } = description;
+  if (typeof path !== 'string' || path === '') {
+    throw new MapFileError(file.name, (say, name) => say.image(name, path === undefined ? '' : quoted(JSON.stringify(path))));
+  }
+  const wanted = path.slice(Math.max(path.lastIndexOf('/'), path.lastIndexOf('\\')) + 1);
+  const image = images.find(({ name }) => name === wanted);
+  if (!image) {
+    const given = images.map(({ name }) => name).join(', ');
+    throw new MapFileError(file.name, (say, name) => say.pair(name, quoted(wanted), quoted(given)));
+  }
+  checkSize(image.name, image.size, limits.bytes);
+  const bytes = new Uint8Array(await bytesOf(image, image.name));
+  const isPng = PNG.every((byte, i) => byte === bytes[i]);
+  const pixels = isPng ? await readPng(image.name, bytes, decodePng) : bytes;
+  return {
+    name: file.name,
+    apply: (machine) =>
+      explaining(
+        file.name,
+        () => machine.setGrid(description, pixels),
+        (say, name, reason) => gridComplaint(say, name, quoted(image.name), reason),
+      ),
+  };
+}
+
+/** Truth in words, which YAML 1.2 reads as strings and map_server as booleans. */
+const WORDS = new Map([['true', true], ['yes', true], ['on', true], ['false', false], ['no', false], ['off', false]]);
+
+/** Fields of numbers. map_server also reads numbers in quotes. */
+const NUMBERS = ['resolution', 'origin', 'negate', 'occupied_thresh', 'free_thresh'];
+
+/** Number in quotes as a number; other values as they are. */
+function unquoted(value: unknown): unknown {
+  if (Array.isArray(value)) return value.map(unquoted);
+  return typeof value === 'string' && value.trim() !== '' && Number.isFinite(Number(value)) ? Number(value) : value;
+}
+
+/**
+ * Parses a description as leniently as map_server does.
+ *
+ * @param name of the file
+ */
+async function readDescription(name: string, text: string) {
+  // YAML forbids tabs as indentation, and the fields have none.
+  const description = await parsed(name, text.replaceAll(/^\t+/gm, '').replaceAll('\t', ' '), 'YAML');
+  if (!isObject(description)) throw new MapFileError(name, (say, file) => say.fields(file));
+  const fields = { ...description };
+  for (const key of NUMBERS) if (key in fields) fields[key] = unquoted(fields[key]);
+  const { negate, mode } = fields;
+  if (typeof negate === 'string') fields.negate = WORDS.get(negate.toLowerCase()) ?? negate;
+  if (typeof mode === 'string') fields.mode = mode.toLowerCase();
+  return fields;
+}
+
+/** @param name of the file */
+async function readPng(name: string, bytes: Uint8Array, decodePng: DecodePng) {
+  try {
+    return await decodePng(bytes);
+  } catch (error) {
+    if (!(error instanceof RangeError)) throw error;
+    throw new MapFileError(name, (say, file) => say.broken(file, error.message));
+  }
+}
+
+/**
+ * @param description name of the YAML file
+ * @param image name of the image file
+ */
+function gridComplaint(say: Refused, description: string, image: string, reason: string) {
+  const line = /^line (\d+): (.*)$/.exec(reason);
+  if (line) return say.line(image, line[1], line[2]);
+  return `${reason.startsWith('image') ? image : description}: ${reason}.`;
+}
+
+/**
+ * Lets the core take a map, and explains why it refuses one.
+ *
+ * @param name of the file that holds the map
+ */
+function explaining(name: string, take: () => void, sentence: (say: Refused, file: string, reason: string) => string) {
+  try {
+    take();
+  } catch (error) {
+    if (!(error instanceof RangeError || error instanceof TypeError)) throw error;
+    const reason = error.message.replace(' is undefined;', ' is missing;');
+    throw new MapFileError(name, (say, file) => sentence(say, file, reason));
+  }
+}

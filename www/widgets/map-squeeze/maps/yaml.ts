@@ -1,0 +1,14 @@
+/**
+ * Reading YAML. In a file of its own, so that it can be loaded when it is first needed, and without
+ * the other half of the library, which writes.
+ */
+
+import { YAMLException, load } from 'js-yaml';
+
+export { YAMLException };
+
+/** @throws {YAMLException} */
+export function parseYaml(text: string): unknown {
+  // No map repeats itself, and by repetition a short text says a billion things, or one that contains itself.
+  return load(text, { maxAliases: 0 });
+}

@@ -1,0 +1,22 @@
+/** Overview beside a close view: the whole map, and the part of it that the picture shows. */
+
+import { html, nothing } from 'lit';
+
+/** Largest share of the map's area that a close view shows with an overview beside it. */
+const MOST = 0.6;
+
+/** Returns the overview, or nothing where the picture shows most of the map. */
+export function overview(picture: import('./picture.ts').FloorPicture, { config, commanded }: import('./reading.ts').Reading) {
+  const { xMin, yMin, xMax, yMax } = picture.mapped(config.start);
+  const [width, height] = [xMax - xMin, yMax - yMin];
+  const { extent } = picture.view;
+  const shown = [extent.xMax - extent.xMin, extent.yMax - extent.yMin];
+  if (!picture.close || shown[0] * shown[1] > MOST * width * height) return nothing;
+  return html`<svg class="overview" viewBox=${`${xMin} ${-yMax} ${width} ${height}`} aria-hidden="true">
+    <g transform="scale(1 -1)">
+      <path class="walls" d=${picture.outline} />
+      <polyline class="way" points=${[...commanded].join(' ')} />
+      <rect x=${extent.xMin} y=${extent.yMin} width=${shown[0]} height=${shown[1]} />
+    </g>
+  </svg>`;
+}

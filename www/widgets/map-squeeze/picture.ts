@@ -1,0 +1,266 @@
+/** Map Squeeze's picture: walls, the robot with its command, and what became of every draw. */
+
+import { words } from '../../messages/registry.ts';
+import { clipped, drawAxes } from '../../scene/axes.ts';
+import { densityRamp, drawDensity, drawMark, drawOutline, lineStyles, trace } from '../../scene/draw.ts';
+import { drawLabel, drawLeader } from '../../scene/labels.ts';
+import { SamplesPicture } from '../../scene/picture.ts';
+import { View, extentAround } from '../../scene/view.ts';
+import { WallLayer, cornerOf } from '../../scene/walls.ts';
+import { limits } from '../../settings.js';
+import { clamp } from '../../ui/clamp.ts';
+import { drawHeldRobot, drawRobotOutline } from '../shared/robot.ts';
+import { LINES } from './settings.ts';
+import type { MapSqueeze, Plan, SqueezeSettings } from '../../types.d.ts';
+import type { Brush } from '../../scene/canvas.ts';
+import type { Extent } from '../../scene/view.ts';
+import type { Cells } from '../../scene/walls.ts';
+
+export type Scene = ReturnType<typeof import('./reading.ts').readingOf> & { machine: MapSqueeze, overlays: string[], marked: { pose: Float64Array, path: Float64Array, contact: number[] | undefined } | undefined, };
+
+/** Half a cross, CSS pixels. */
+const CROSS = 2.6;
+
+/** Dot of a sample: radius in CSS pixels, by the width of the picture, and opacity. */
+const DOT = { least: 2, most: 3, per: 240, alpha: 0.4 };
+
+/** Leader from a label to the wall that it is about, CSS pixels. */
+const LEADER = { x: 46, y: 30 };
+
+/** Surroundings shown around the end of the command: this many times its length, and at least so many metres. */
+const SURROUNDINGS = 0.8;
+const MIN_SURROUNDINGS = 0.8;
+
+/** Room shown around the commanded way, metres. */
+const WAYSIDE = 0.45;
+
+/** Room shown around the map, as a share of its longer side. */
+const EDGE = 0.025;
+
+/** Cells of the density, CSS pixels, of many samples and of few, which need larger ones to be a density. */
+const CELL = { least: 2, most: 5, samples: 40_000 };
+
+/** Paths that a density is drawn with: more would hide it. */
+const PATHS_ON_DENSITY = 25;
+
+/** Colours of a kind of samples that is hidden in a density. */
+const HIDDEN = new Uint8Array(4 * limits.ramp);
+
+export class FloorPicture extends SamplesPicture<Scene> {
+  plan;
+  /** Whether there are cells of which the map says nothing. */
+  hasUnknown;
+  /** False for a grid, whose walls outline its cells and cannot be moved. */
+  movable;
+  #near = new View();
+  #whole = this.view;
+  #walls;
+  /** Corners of what the map knows: what is around it may be much more. */
+  #known: ArrayLike<number>;
+  #pixels = new OffscreenCanvas(1, 1);
+  #outline = '';
+
+  /** @param former the picture whose place it takes: where the map is as large, the views stay where they are */
+  constructor(plan: Plan, grid: Cells | null, former?: FloorPicture) {
+    super('plane', new View({ snug: true }));
+    this.plan = plan;
+    this.hasUnknown = grid?.unknown !== undefined;
+    this.movable = grid === null;
+    this.#walls = new WallLayer(plan, grid);
+    this.#known = grid?.unknown ? knownCorners(grid, grid.unknown) : plan.walls;
+    if (former?.plan.bounds.every((bound, i) => bound === plan.bounds[i])) {
+      this.#near = former.#near;
+      this.#whole = former.#whole;
+      this.view = former.view;
+    }
+  }
+
+  /** Walls as a path of SVG, metres. */
+  get outline() {
+    if (this.#outline) return this.#outline;
+    const { walls } = this.plan;
+    for (let i = 0; i < walls.length; i += 4) this.#outline += `M${walls[i]} ${walls[i + 1]}L${walls[i + 2]} ${walls[i + 3]}`;
+    return this.#outline;
+  }
+
+  /** Whether the view is of the robot's surroundings only. */
+  get close() {
+    return this.view === this.#near;
+  }
+
+  set close(close) {
+    if (close === this.close) return;
+    this.view = close ? this.#near : this.#whole;
+    this.view.forget();
+  }
+
+  fit({ commanded, config }: Scene) {
+    const mapped = this.mapped(config.start);
+    if (!this.close) {
+      this.#whole.fit(mapped);
+      return;
+    }
+    const length = Math.abs(config.command.v * config.command.dt);
+    const room = Math.max(MIN_SURROUNDINGS, SURROUNDINGS * length) + config.clearance;
+    const [x, y] = commanded.slice(-2);
+    const way = extentAround(commanded, 2);
+    const wayside = [way.xMin - WAYSIDE, way.yMin - WAYSIDE, way.xMax + WAYSIDE, way.yMax + WAYSIDE];
+    const needed = extentAround([...wayside, x - room, y - room, x + room, y + room], 2);
+    this.#near.within = mapped;
+    this.#near.fit({
+      xMin: Math.max(needed.xMin, mapped.xMin),
+      yMin: Math.max(needed.yMin, mapped.yMin),
+      xMax: Math.min(needed.xMax, mapped.xMax),
+      yMax: Math.min(needed.yMax, mapped.yMax),
+    });
+  }
+
+  /** Returns the part of the plan of which something is known, as long as the robot is in it; otherwise all of it. */
+  mapped({ x, y }: { x: number, y: number }) {
+    const [xMin, yMin, xMax, yMax] = this.plan.bounds;
+    const box = extentAround(this.#known, 2, { xMin: x, yMin: y, xMax: x, yMax: y });
+    const inside = box.xMin < x && x < box.xMax && box.yMin < y && y < box.yMax;
+    const { xMin: left, yMin: bottom, xMax: right, yMax: top } = inside ? box : { xMin, yMin, xMax, yMax };
+    const edge = EDGE * Math.max(right - left, top - bottom);
+    return { xMin: left - edge, yMin: bottom - edge, xMax: right + edge, yMax: top + edge };
+  }
+
+  paint: SamplesPicture<Scene>['paint'] = (brush, scene) => {
+    const { sorted, paths, commanded, config, marked, overlays } = scene;
+    const { palette } = brush;
+    const has = (name: string) => overlays.includes(name);
+    const { accepted, through, rejected, commanded: command } = lineStyles(brush, LINES);
+    drawAxes(brush, { x: 'x (m)', y: 'y (m)' }, brush.exported ? keyOf(brush, scene) : []);
+    clipped(brush, () => {
+      // What passes through a wall must not hide it.
+      if (sorted) {
+        if (has('through')) drawPaths(brush, paths, through.colour);
+        if (has('accepted')) drawSamples(brush, sorted.free, accepted.colour);
+        if (has('through')) drawSamples(brush, sorted.through, through.colour);
+        this.#walls.draw(brush, has('unknown'));
+        if (has('rejected')) drawCrosses(brush, sorted.rejected, rejected.colour);
+      } else {
+        this.#drawDensity(brush, scene);
+        this.#walls.draw(brush, has('unknown'));
+        if (has('through')) drawPaths(brush, paths.slice(0, PATHS_ON_DENSITY), through.colour);
+      }
+      const { start, clearance } = config;
+      if (has('commanded')) {
+        drawOutline(brush, commanded, command);
+        const [endX, endY] = commanded.slice(-2);
+        drawRobotOutline(brush, endX, endY, clearance, command.colour);
+      }
+      drawHeldRobot(brush, start, clearance, palette.prior);
+      if (marked) {
+        const { pose, path, contact } = marked;
+        drawOutline(brush, path, { colour: palette.ink, width: 1.5, dash: [2, 3] });
+        drawMark(brush, { x: pose[0], y: pose[1], heading: pose[2] }, palette.ink);
+        if (contact) drawContact(brush, contact);
+      }
+    });
+  };
+
+  #drawDensity(brush: Brush, { machine, stats, overlays }: Scene) {
+    const { palette } = brush;
+    const roles = [['rejected', palette.truth], ['accepted', palette.cloud], ['through', palette.accent]] as const;
+    const ramps = roles.flatMap(([name, cloud]) => [...(overlays.includes(name) ? densityRamp({ ...palette, cloud }) : HIDDEN)]);
+    const cell = clamp(CELL.most * Math.sqrt(CELL.samples / stats.attempts) / 2, CELL.least, CELL.most);
+    drawDensity(brush, this.#pixels, cell, (...part) => machine.picture(...part, Uint8Array.from(ramps)));
+  }
+}
+
+/** The corners of the box of cells of which a grid says something, as x, y pairs. */
+function knownCorners(grid: Cells, unknown: Uint8Array) {
+  const { columns } = grid;
+  const box = { left: Infinity, bottom: Infinity, right: -Infinity, top: -Infinity };
+  for (let row = 0; row * columns < unknown.length; row++) {
+    const cells = unknown.subarray(row * columns, (row + 1) * columns);
+    const first = cells.indexOf(0);
+    if (first < 0) continue;
+    box.left = Math.min(box.left, first);
+    box.right = Math.max(box.right, cells.lastIndexOf(0) + 1);
+    box.bottom = Math.min(box.bottom, row);
+    box.top = row + 1;
+  }
+  if (box.left > box.right) return [];
+  const { left, bottom, right, top } = box;
+  return [left, right].flatMap((column) => [bottom, top].flatMap((row) => cornerOf(grid, column, row)));
+}
+
+/**
+ * Draws what a path did to a wall, with a leader to the place.
+ *
+ * @param contact metres
+ */
+function drawContact(brush: Brush, contact: number[]) {
+  const { context, view, palette } = brush;
+  const [x, y] = [view.toPixelX(contact[0]), view.toPixelY(contact[1])];
+  const { left, right, top, bottom } = view.frame;
+  const [side, down] = [2 * x > left + right ? -1 : 1, 2 * y > top + bottom ? -1 : 1];
+  const [endX, endY] = [x + side * LEADER.x, y + down * LEADER.y];
+  drawLeader(context, [[endX, endY], [x, y]], palette.ink);
+  drawLabel(brush, { x: endX + 4 * side, y: endY, towards: side, text: words.squeeze.throughThisWall, colour: palette.ink });
+}
+
+/** Returns the key of an exported picture: the marks, or the colours of a density. */
+function keyOf({ context, palette }: Brush, { overlays, sorted }: Scene): import('../../scene/axes.ts').KeyEntry[] {
+  const names = (['accepted', 'through', 'rejected'] as const).filter((name) => overlays.includes(name));
+  return names.map((name) => ({
+    name: words.squeeze.overlays[name],
+    draw: (x, y, width) => {
+      const middle = x + width / 2;
+      context.strokeStyle = context.fillStyle = palette[LINES[name].role];
+      context.lineWidth = 1;
+      context.beginPath();
+      if (!sorted) context.rect(middle - 5, y - 5, 10, 10);
+      else if (name === 'rejected') cross(context, middle, y);
+      else context.arc(middle, y, DOT.most, 0, 2 * Math.PI);
+      context.fill();
+      context.stroke();
+    },
+  }));
+}
+
+/** @param x CSS pixels */
+function cross(context: Brush['context'], x: number, y: number) {
+  context.moveTo(x - CROSS, y - CROSS);
+  context.lineTo(x + CROSS, y + CROSS);
+  context.moveTo(x - CROSS, y + CROSS);
+  context.lineTo(x + CROSS, y - CROSS);
+}
+
+function drawCrosses({ context, view }: Brush, triples: Float64Array, colour: string) {
+  context.beginPath();
+  for (let i = 0; i < triples.length; i += 3) cross(context, view.toPixelX(triples[i]), view.toPixelY(triples[i + 1]));
+  context.strokeStyle = colour;
+  context.lineWidth = 1;
+  context.globalAlpha = 0.5;
+  context.stroke();
+  context.globalAlpha = 1;
+}
+
+function drawPaths(brush: Brush, paths: Float64Array[], colour: string) {
+  const { context } = brush;
+  context.strokeStyle = colour;
+  context.lineWidth = 1;
+  context.globalAlpha = 0.3;
+  for (const path of paths) {
+    context.beginPath();
+    trace(brush, path);
+    context.stroke();
+  }
+  context.globalAlpha = 1;
+}
+
+/** Draws samples as dots that darken where they overlap. */
+function drawSamples({ context, view }: Brush, triples: Float64Array, colour: string) {
+  context.fillStyle = colour;
+  context.globalAlpha = DOT.alpha;
+  const radius = clamp(view.width / DOT.per, DOT.least, DOT.most);
+  for (let i = 0; i < triples.length; i += 3) {
+    context.beginPath();
+    context.arc(view.toPixelX(triples[i]), view.toPixelY(triples[i + 1]), radius, 0, 2 * Math.PI);
+    context.fill();
+  }
+  context.globalAlpha = 1;
+}

@@ -1,0 +1,77 @@
+/** What Map Squeeze shows of its machine. */
+
+import { words } from '../../messages/registry.ts';
+import { verdict as bits } from '../../settings.js';
+import { counted, fixed, percent } from '../../ui/format.ts';
+import type { MapSqueeze, SqueezeSettings, SqueezeStats } from '../../types.d.ts';
+
+export type Reading = ReturnType<typeof readingOf>;
+
+/** Most paths that are drawn: more would be one blot, and cost more than a frame. */
+const MAX_PATHS = 150;
+
+/** A larger cloud is drawn as a density: dots would be one blot, and cost more than a frame. */
+export const MAX_DOTS = 1500;
+
+/** Everything that the picture and the readouts need of the machine, asked once a change. */
+export function readingOf(machine: MapSqueeze) {
+  const { config, stats, verdicts, poses, commanded, startFree } = machine;
+  const through = first(verdicts, MAX_PATHS, (verdict) => kindOf(verdict) === 2);
+  return {
+    config,
+    stats,
+    verdicts,
+    poses,
+    commanded,
+    sorted: stats.attempts > MAX_DOTS ? undefined : sort(poses, verdicts),
+    paths: through.map((index) => machine.path(index)),
+    note: noteOn(config, stats, startFree),
+  };
+}
+
+/** @returns the first indices for which it holds */
+function first(verdicts: Uint8Array, most: number, holds: (verdict: number) => boolean): number[] {
+  const indices = [];
+  for (let i = 0; i < verdicts.length && indices.length < most; i++) if (holds(verdicts[i])) indices.push(i);
+  return indices;
+}
+
+/** Sorts draws by what became of them. */
+function sort(poses: Float64Array, verdicts: Uint8Array) {
+  const posesOf = (wanted: number) => {
+    const some = first(verdicts, verdicts.length, (verdict) => kindOf(verdict) === wanted);
+    return Float64Array.from(some.flatMap((i) => [poses[3 * i], poses[3 * i + 1], poses[3 * i + 2]]));
+  };
+  return { rejected: posesOf(0), free: posesOf(1), through: posesOf(2) };
+}
+
+/** Returns 0 for a sample that is rejected, 1 for an accepted one, 2 where its path is not free. */
+export function kindOf(verdict: number) {
+  if ((verdict & bits.accepted) === 0) return 0;
+  return (verdict & bits.pathFree) === 0 ? 2 : 1;
+}
+
+/**
+ * Returns how many of the accepted motions went through a wall, with the interval of their share. There is none where the
+ * sampler excludes it, or where the machine gave up: where that ends is chance too.
+ *
+ * @param certain whether the sampler excludes it
+ */
+export function throughText({ throughWall, throughWallRate, throughWallInterval: [low, high], gaveUp }: Pick<SqueezeStats, 'throughWall' | 'throughWallRate' | 'throughWallInterval' | 'gaveUp'>, certain: boolean) {
+  const interval = certain || gaveUp ? '' : `${fixed(100 * low, 1)}\u2060–\u2060${percent(high)}`;
+  return words.squeeze.throughOf(throughWall, counted(throughWall), percent(throughWallRate), interval);
+}
+
+/**
+ * A sentence on a robot that gets nowhere.
+ *
+ * @returns empty for an ordinary cloud
+ */
+function noteOn(config: SqueezeSettings, stats: SqueezeStats, startFree: boolean): string {
+  const { wedged, nothing, noRoom } = words.squeeze;
+  const { accepted } = stats;
+  const drawn = counted(stats.drawn);
+  if (stats.gaveUp) return wedged(drawn, accepted, counted(accepted), counted(config.samples), throughText(stats, false));
+  if (stats.drawn > 0 && accepted === 0) return nothing(stats.drawn, drawn, config.sampler === 'whole-arc');
+  return startFree ? '' : noRoom;
+}

@@ -1,0 +1,66 @@
+/** Map Squeeze's settings as attributes, in its state, and as the eye sees them. */
+
+import { WORD, attributesOf, presetsOf } from '../../figure/attributes.ts';
+import { word } from '../../figure/checks.ts';
+import { cloudState } from '../../figure/cloud.ts';
+import { overlaysOf } from '../../figure/overlays.ts';
+import { presets, settings } from '../../settings.js';
+import { COMMAND_DASH, commandLooks } from '../shared/command.ts';
+
+export const declared = settings['map-squeeze'];
+
+/** The key of its words in the catalogues. */
+export const vocabulary = 'squeeze';
+
+/** Places in the apartment, each with the settings that show what it is for. */
+export const PRESET = presetsOf(presets['map-squeeze'], declared);
+
+/** Pose of the robot where a map has been left. */
+export const OPENING_START = presets['map-squeeze'][0].start;
+
+const VIEWS = ['close', 'whole'];
+
+/** Marks and lines of the picture. */
+export const LINES = {
+  accepted: { role: 'cloud', mark: 'dot' },
+  through: { role: 'accent', mark: 'dot' },
+  rejected: { role: 'muted', mark: 'cross', width: 1.5 },
+  commanded: { role: 'prior', width: 2.5, dash: COMMAND_DASH },
+  unknown: { role: 'muted', mark: 'area' },
+} satisfies Record<string, import('../../figure/overlays.ts').LineStyle>;
+const overlays = overlaysOf(Object.keys(LINES));
+
+export const attributes: import('../../figure/attributes.ts').Attributes = {
+  preset: { ...PRESET, own: true, opening: PRESET.words?.[0] },
+  ...attributesOf(declared),
+  view: { kind: WORD, own: true, words: VIEWS },
+  overlays: overlays.attribute,
+};
+
+export const own: Record<string, import('../../figure/state.ts').Owned> = {
+  ...cloudState,
+  view: { opening: 'close', check: (field, view) => word(field, view, VIEWS) },
+  overlays: overlays.state,
+  /** The reader's own; null for the apartment. A machine has looked at it. */
+  map: { opening: null, check: (_, map) => map },
+};
+
+export const COMMAND = commandLooks(4);
+
+export const looks: Record<string, import('../../figure/controls.ts').Look> = {
+  ...COMMAND,
+  noise: { role: 'prediction', min: 0, max: 0.4, step: 0.005, decimals: 3, value: ({ alphas, noise = alphas[0] }) => noise },
+  clearance: { symbol: '*r*', role: 'truth', min: 0, max: 0.4, step: 0.01, decimals: 2 },
+  steps: { role: 'prediction', min: 1, max: 64, step: 1, decimals: 0 },
+};
+
+/** The samplers in the order in which they are offered. */
+export const SAMPLERS = 
+  declared.find(({ key }) => key === 'sampler')?.words as ('endpoint' | 'whole-arc' | 'sub-stepped')[]
+;
+
+/** Sample counts of the slider. The machine takes more, but they would be slow to follow a slider. */
+export const SAMPLE_COUNTS = [1, 2, 5, 10, 20, 50, 100, 200, 300, 600, 1000, 2000, 5000, 10_000, 20_000, 50_000, 100_000];
+
+/** In one step; as many fewer in several. */
+export const MOST_SAMPLES = declared.find(({ key }) => key === 'samples')?.max ?? 0;

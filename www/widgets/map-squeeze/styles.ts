@@ -1,0 +1,201 @@
+/** Styles of Map Squeeze's own: its headline, the overview, and room for maps of the reader's. */
+
+import { css } from 'lit';
+import { layoutStyles } from '../../ui/layout.ts';
+import { fileStyles } from '../shared/files.ts';
+import { poseHandleStyles } from '../shared/styles.ts';
+
+const own = css`
+  canvas {
+    aspect-ratio: 5 / 4;
+  }
+
+  .handle:is(.jamb, .side) {
+    width: 1.75em;
+    height: 1.75em;
+    border-radius: 0;
+  }
+
+  .handle.jamb::after {
+    inset: 0.6em;
+    border: 1.5px solid var(--truth);
+    border-radius: 1px;
+  }
+
+  .handle.side {
+    transform-origin: 0 0;
+  }
+
+  .handle.side::after {
+    inset: 0.625em 0.2em;
+    border: 1.5px solid var(--truth);
+    border-radius: 0.25em;
+  }
+
+  .handle:is(.jamb, .side):hover::after {
+    background: var(--truth);
+  }
+
+  /* Marks of walls come with the pointer; fingers have none to come with. */
+  @media (hover) {
+    .stage:not(:hover) .handle.side:not(:focus-visible)::after {
+      opacity: 0;
+    }
+  }
+
+  .headline {
+    margin: 0.15em 0 0;
+    font-size: 1.75em;
+    line-height: 1.15;
+    text-wrap: balance;
+  }
+
+  .verdict.caption {
+    min-height: 3lh;
+    margin-bottom: 0.3em;
+    font-size: 0.92em;
+  }
+
+  .judge .choices {
+    margin-bottom: 0.2em;
+  }
+
+  .judge .effect {
+    min-height: 2lh;
+    margin: 0 0 0.5em;
+  }
+
+  .about {
+    margin: 0;
+    color: var(--muted);
+    font-size: 0.92em;
+  }
+
+  .overview {
+    display: none;
+  }
+
+  .views {
+    margin-bottom: 0.5em;
+  }
+
+  /* The picture, as high as it may be, with the sentence and what is chosen beside it. */
+  @container (min-width: 38em) {
+    .views {
+      grid-template-columns: minmax(0, 60svh) minmax(16em, 1fr);
+      column-gap: 1.25em;
+    }
+
+    :host([presentation]) .views {
+      grid-template-columns: minmax(0, 1fr) 17em;
+    }
+
+    canvas {
+      aspect-ratio: 4 / 3;
+    }
+
+  }
+
+  /* The samplers in one row. */
+  @container (38em <= width < 56em) {
+    .judge .choices > span {
+      flex: 1 0 100%;
+    }
+
+    .judge .choice {
+      padding: 0 0.4em;
+      font-size: 0.92em;
+    }
+  }
+
+  @container (min-width: 56em) {
+    .headline {
+      font-size: 2em;
+    }
+
+    .verdict.caption {
+      min-height: 2lh;
+    }
+
+    :host(:not([presentation])) .overview {
+      display: block;
+      width: 11em;
+      max-height: 8.5em;
+      overflow: visible;
+      fill: none;
+      stroke: var(--muted);
+      stroke-width: 1;
+    }
+
+    .overview > * > * {
+      vector-effect: non-scaling-stroke;
+    }
+
+    .overview .way {
+      stroke: var(--prior);
+      stroke-width: 2;
+    }
+
+    .overview rect {
+      stroke: var(--ink);
+    }
+  }
+
+  .own-map {
+    display: grid;
+    gap: 0.5em 2.75em;
+    grid-template-columns: repeat(auto-fit, minmax(min(100%, 20em), 1fr));
+    margin: 0;
+  }
+
+  .dropping .stage {
+    outline: 2px dashed var(--accent);
+    outline-offset: 4px;
+  }
+
+  .marked label {
+    color: var(--ink);
+  }
+
+  table.outdated tbody {
+    color: var(--muted);
+  }
+
+  .own-map p {
+    margin: 0 0 0.6em;
+  }
+
+  .own-map .note {
+    margin: 0.7em 0;
+    /* Scrolled to, it brings along which map is there. */
+    scroll-margin: 4em;
+    overflow-wrap: anywhere;
+  }
+
+  .own-map .present {
+    color: var(--muted);
+  }
+
+  label[for='map-files'] {
+    display: block;
+  }
+
+  textarea {
+    box-sizing: border-box;
+    display: block;
+    width: 100%;
+    margin: 0.35em 0 0.7em;
+    padding: 0.47em 0.59em;
+    font-size: 0.85em;
+    line-height: 1.35;
+    resize: vertical;
+  }
+
+  @media print {
+    .own-map :not(.present, :has(.present)) {
+      display: none !important;
+    }
+  }
+`;
+
+export const squeezeStyles = [...layoutStyles, poseHandleStyles, fileStyles, own];

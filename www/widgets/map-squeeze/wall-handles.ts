@@ -1,0 +1,193 @@
+/** Walls under the reader's hand: the edges of doorways along their walls, and walls across, by pointer and by keyboard. */
+
+import { nothing } from 'lit';
+import { Part } from '../../figure/part.ts';
+import { words } from '../../messages/registry.ts';
+import { Handle, stepsOf } from '../../scene/handle.ts';
+import { clamp } from '../../ui/clamp.ts';
+import { fixed } from '../../ui/format.ts';
+import { gripsOf, movedWalls } from './walls.ts';
+import type { Plan } from '../../types.d.ts';
+import type { View } from '../../scene/view.ts';
+import type { Grip } from './walls.ts';
+
+/** Movement by a key, metres. */
+const KEY_STEP = 0.05;
+
+/** Largest number of walls with handles. */
+const MOST_WALLS = 50;
+
+/** Distance of the grip of an end from that end, pixels, and the largest share of the wall: grips in a narrow doorway stay apart. */
+const INWARD = 12;
+const MOST_INWARD = 1 / 6;
+
+/** Keys that go to another wall. */
+const TURNS: Record<string, number> = { '[': -1, ']': 1 };
+
+export class WallHandles extends Part<import('./map-squeeze.ts').MapSqueezeElement> {
+  /** Handles by name. */
+  #handles: Map<string, Handle> = new Map();
+  /** Plan of the grips. */
+  #plan: Plan | undefined;
+  #grips: (Grip | undefined)[] = [];
+  /** Plan whose handles were rendered, and whether they have not been placed. */
+  #rendered: Plan | undefined;
+  #hasNew = false;
+  /** Plan and view that the handles were placed in. */
+  #shown: unknown[] = [];
+  /** Name of the handle that Tab leads to. */
+  #current = '';
+
+  /** Grips of the plan in the picture. */
+  get #present() {
+    const { plan, movable } = this.host.picture;
+    if (plan !== this.#plan) {
+      this.#plan = plan;
+      this.#grips = movable && plan.walls.length <= 4 * MOST_WALLS ? gripsOf(plan) : [];
+    }
+    return this.#grips;
+  }
+
+  render() {
+    const say = words.squeeze.walls;
+    this.#hasNew ||= this.#rendered !== this.host.picture.plan;
+    this.#rendered = this.host.picture.plan;
+    return this.#present.map((grip) => {
+      if (!grip) return nothing;
+      const [x, y] = this.#pointOf(grip);
+      const now = x * grip.axis[0] + y * grip.axis[1];
+      return this.#handleOf(grip).element({
+        name: grip.part === 'side' ? say.wall : say.jamb,
+        keys: say.keys,
+        title: grip.part === 'side' ? say.wallTitle : say.jambTitle,
+        range: grip.range.map((each) => now + each),
+        now,
+        text: `x = ${fixed(x, 2)} m, y = ${fixed(y, 2)} m`,
+      });
+    });
+  }
+
+  /** Places new elements: they come after the picture. */
+  hostUpdated() {
+    if (this.#hasNew) this.#place(this.host.picture.view);
+    this.#hasNew = false;
+  }
+
+  /** Puts the handles where the walls are drawn. */
+  place(view: View) {
+    const shown = [this.host.picture.plan, view.extent, view.frame];
+    if (shown.some((each, i) => each !== this.#shown[i])) this.#place(view);
+    this.#shown = shown;
+  }
+
+  #place(view: View) {
+    const root = this.host.renderRoot;
+    const shown = this.#present.filter((grip) => grip !== undefined).map((grip) => {
+      const element = root.querySelector(`.handle.${nameOf(grip)}`) as HTMLElement | null;
+      const middle = grip.part === 'side' ? this.#middleIn(grip, view) : this.#gripOf(grip, view);
+      const at = middle && [view.toPixelX(middle[0]), view.toPixelY(middle[1])];
+      const { left, right, top, bottom } = view.frame;
+      const isShown = at !== undefined && at[0] > left && at[0] < right && at[1] > top && at[1] < bottom;
+      if (element) {
+        element.style.visibility = isShown ? '' : 'hidden';
+        if (grip.part === 'side') element.style.rotate = `${Math.atan2(grip.axis[0], grip.axis[1])}rad`;
+      }
+      if (isShown) this.#handleOf(grip).place(root, at[0], at[1]);
+      return { name: nameOf(grip), element: isShown ? element : null };
+    });
+    const present = shown.filter(({ element }) => element);
+    const current = present.find(({ name }) => name === this.#current) ?? present[0];
+    for (const each of present) (each.element as HTMLElement).tabIndex = each === current ? 0 : -1;
+  }
+
+  #handleOf(grip: Grip) {
+    const name = nameOf(grip);
+    const present = () => this.#present.find((each) => each && nameOf(each) === name) as Grip;
+    const handle = this.#handles.get(name) ?? new Handle(`${grip.part === 'side' ? 'side' : 'jamb'} ${name}`, {
+      view: () => this.host.picture.view,
+      at: () => this.#pointOf(present()),
+      drag: (x, y) => this.#move(present(), (point, axis) => (x - point[0]) * axis[0] + (y - point[1]) * axis[1]),
+      key: (event) => this.#key(event, present()),
+      commit: () => this.host.restWalls(),
+    });
+    this.#handles.set(name, handle);
+    return handle;
+  }
+
+  #key(event: KeyboardEvent, grip: Grip) {
+    const turn = TURNS[event.key];
+    if (turn) {
+      event.preventDefault();
+      this.#go(nameOf(grip), turn);
+      return false;
+    }
+    const steps = stepsOf(event);
+    if (!steps) return false;
+    const [dx, dy] = steps;
+    // Keys across the axis move along it too, as with every slider.
+    return this.#move(grip, (_, [ux, uy]) => KEY_STEP * (dx * ux + dy * uy || (dx + dy) * (ux + uy)));
+  }
+
+  /** Moves the focus to another handle. */
+  #go(name: string, turn: number) {
+    const all = ([...this.host.renderRoot.querySelectorAll('.handle:is(.jamb, .side)')] as HTMLElement[]).filter(({ style }) => !style.visibility);
+    const from = all.findIndex((element) => element.classList.contains(name));
+    const next = all[(from + turn + all.length) % all.length];
+    this.#current = next.classList[2];
+    next.focus();
+    this.#place(this.host.picture.view);
+  }
+
+  /** @param distanceOf wanted movement along the axis */
+  #move(grip: Grip, distanceOf: (point: number[], axis: number[]) => number) {
+    if (!grip) return false;
+    this.#current = nameOf(grip);
+    const distance = clamp(distanceOf(this.#pointOf(grip), grip.axis), grip.range[0], grip.range[1]);
+    if (distance) this.host.moveWalls(movedWalls((this.#plan as Plan).walls, grip, distance));
+    return !Number.isNaN(distance);
+  }
+
+  /** Returns the end of a wall that a grip moves, or its first end. */
+  #pointOf({ wall, part }: Grip) {
+    const { walls } = this.#plan as Plan;
+    return part === 'to' ? [walls[wall + 2], walls[wall + 3]] : [walls[wall], walls[wall + 1]];
+  }
+
+  /** Returns the place of the grip of an end, on the wall. */
+  #gripOf(grip: Grip, view: View) {
+    const [x, y] = this.#pointOf(grip);
+    const [ux, uy] = grip.axis;
+    const inward = this.#lengthOf(grip) * this.#inward(grip, view);
+    return [x - inward * ux, y - inward * uy];
+  }
+
+  #lengthOf({ wall }: Grip) {
+    const [x, y, x1, y1] = (this.#plan as Plan).walls.subarray(wall, wall + 4);
+    return Math.hypot(x1 - x, y1 - y);
+  }
+
+  /** Returns the share of a wall between an end and its grip. */
+  #inward(grip: Grip, view: View) {
+    return Math.min(MOST_INWARD, INWARD / (this.#lengthOf(grip) * view.scaleX));
+  }
+
+  /** Returns the middle of the visible part of a wall between the grips of its ends; undefined where none is visible. */
+  #middleIn(grip: Grip, view: View) {
+    const { wall } = grip;
+    const { xMin, yMin, xMax, yMax } = view.extent;
+    const [x, y, x1, y1] = (this.#plan as Plan).walls.subarray(wall, wall + 4);
+    const [dx, dy] = [x1 - x, y1 - y];
+    const taken = (part: Grip['part']) => (this.#present.some((each) => each?.wall === wall && each.part === part) ? 2 * this.#inward(grip, view) : 0);
+    let [from, to] = [taken('from'), 1 - taken('to')];
+    for (const [at, delta, least, most] of [[x, dx, xMin, xMax], [y, dy, yMin, yMax]]) {
+      if (!delta) continue;
+      const shares = [(least - at) / delta, (most - at) / delta];
+      [from, to] = [Math.max(from, Math.min(...shares)), Math.min(to, Math.max(...shares))];
+    }
+    const share = (from + to) / 2;
+    return from < to ? [x + share * dx, y + share * dy] : undefined;
+  }
+}
+
+/** Returns the class of a grip's handle. */
+const nameOf = ({ wall, part }: Grip) => `${part}-${wall / 4}`;

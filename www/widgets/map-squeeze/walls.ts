@@ -1,0 +1,145 @@
+/** Geometry of walls: the one that a path touches, and walls that are moved. Lengths in metres. */
+
+import { extentAround } from '../../scene/view.ts';
+import type { Plan } from '../../types.d.ts';
+
+/** Distance below which two walls touch. */
+const TOUCH = 1e-6;
+
+/** Opening that stays between the end of a wall and the next wall, and the shortest wall. */
+const GAP = 0.05;
+
+/** Least distance at which a path touches a wall, and the tested points of a path in such a distance. */
+const LEAST_REACH = 0.02;
+const STEPS_A_REACH = 4;
+
+/**
+ * Returns the point of a wall nearest to another point, with the distance.
+ *
+ * @param k index of the first number of the wall
+ */
+function nearestOn(walls: ArrayLike<number>, k: number, x: number, y: number) {
+  const [x0, y0] = [walls[k], walls[k + 1]];
+  const [dx, dy] = [walls[k + 2] - x0, walls[k + 3] - y0];
+  const along = ((x - x0) * dx + (y - y0) * dy) / (dx * dx + dy * dy || 1);
+  const share = Math.min(1, Math.max(0, along));
+  const point = [x0 + share * dx, y0 + share * dy];
+  return { point, distance: Math.hypot(x - point[0], y - point[1]) };
+}
+
+/**
+ * Returns the point of a wall that a robot touches first on a path; undefined for none.
+ *
+ * @param path x, y pairs
+ * @param radius of the robot
+ */
+export function contactOf(path: ArrayLike<number>, walls: Float64Array, radius: number) {
+  const reach = Math.max(radius, LEAST_REACH);
+  const box = extentAround(path, 2);
+  const near = [];
+  for (let k = 0; k < walls.length; k += 4) {
+    const wall = extentAround(walls.subarray(k, k + 4), 2);
+    const apart = Math.max(wall.xMin - box.xMax, box.xMin - wall.xMax, wall.yMin - box.yMax, box.yMin - wall.yMax);
+    if (apart < reach) near.push(k);
+  }
+  for (let i = 0; i + 3 < path.length; i += 2) {
+    const [dx, dy] = [path[i + 2] - path[i], path[i + 3] - path[i + 1]];
+    const steps = Math.ceil((STEPS_A_REACH * Math.hypot(dx, dy)) / reach) || 1;
+    for (let step = 0; step <= steps; step++) {
+      const [x, y] = [path[i] + (step / steps) * dx, path[i + 1] + (step / steps) * dy];
+      const [first] = near.map((k) => nearestOn(walls, k, x, y)).sort((one, other) => one.distance - other.distance);
+      if (first?.distance < reach) return first.point;
+    }
+  }
+}
+
+/** Part of a wall that can be moved along an axis. */
+export interface Grip {
+  /** Index of its first number. */
+  wall: number;
+  /** A free end, or the whole wall, which moves across. */
+  part: 'from' | 'to' | 'side';
+  /** Unit vector. */
+  axis: number[];
+  /** Least and greatest movement along the axis. */
+  range: number[];
+}
+
+/**
+ * Returns the grips of a plan: of each wall its two ends, which can be moved where they touch no other wall, and its side. The
+ * shell has none.
+ *
+ * @returns three a wall, in the order of the walls
+ */
+export function gripsOf({ bounds, walls }: Plan): (Grip | undefined)[] {
+  const grips = [];
+  for (let wall = 0; wall < walls.length; wall += 4) {
+    const [x0, y0, x1, y1] = walls.subarray(wall, wall + 4);
+    const length = Math.hypot(x1 - x0, y1 - y0);
+    const along = [(x1 - x0) / length, (y1 - y0) / length];
+    const side = [-along[1], along[0]];
+    const isShell = [0, 1].some((i) => [bounds[i], bounds[i + 2]].some((bound) => walls[wall + i] === bound && walls[wall + i + 2] === bound));
+    const ends: [part: 'from' | 'to', end: number[], axis: number[]][] = [['from', [x0, y0], along.map((each) => -each)], ['to', [x1, y1], along]];
+    for (const [part, end, axis] of ends) {
+      const most = Math.min(rangeWithin(bounds, [end], axis)[1], roomAhead(walls, wall, end, axis));
+      const range = [Math.min(0, GAP - length), Math.max(0, most)];
+      grips.push(isShell || length < GAP || !isFree(walls, wall, end) ? undefined : { wall, part, axis, range });
+    }
+    const range = rangeWithin(bounds, [[x0, y0], [x1, y1]], side);
+    grips.push(isShell || length < GAP ? undefined : { wall, part: 'side' as const, axis: side, range });
+  }
+  return grips;
+}
+
+/** Returns whether an end of a wall touches no other wall. */
+function isFree(walls: Float64Array, wall: number, [x, y]: readonly number[]) {
+  for (let k = 0; k < walls.length; k += 4) if (k !== wall && nearestOn(walls, k, x, y).distance < TOUCH) return false;
+  return true;
+}
+
+/** Returns how far points may move along an axis within bounds. */
+function rangeWithin(bounds: ArrayLike<number>, points: readonly (readonly number[])[], axis: readonly number[]): [number, number] {
+  let [least, most] = [-Infinity, Infinity];
+  for (const point of points) {
+    for (const i of [0, 1].filter((each) => Math.abs(axis[each]) > TOUCH)) {
+      const ends = [bounds[i] + GAP, bounds[i + 2] - GAP].map((bound) => (bound - point[i]) / axis[i]).sort((a, b) => a - b);
+      [least, most] = [Math.max(least, ends[0]), Math.min(most, ends[1])];
+    }
+  }
+  return [Math.min(0, least), Math.max(0, most)];
+}
+
+/** Returns how far the end of a wall may move ahead before it is near another wall. */
+function roomAhead(walls: Float64Array, wall: number, [x, y]: readonly number[], [ux, uy]: readonly number[]) {
+  let room = Infinity;
+  for (let k = 0; k < walls.length; k += 4) {
+    if (k === wall) continue;
+    const ends = [k, k + 2].map((i) => [(walls[i] - x) * ux + (walls[i + 1] - y) * uy, (walls[i + 1] - y) * ux - (walls[i] - x) * uy]);
+    const [[ahead, left], [further, right]] = ends;
+    if (Math.min(left, right) > TOUCH || Math.max(left, right) < -TOUCH) continue;
+    const at = Math.abs(right - left) < TOUCH ? Math.min(ahead, further) : ahead - (left * (further - ahead)) / (right - left);
+    if (at > 0) room = Math.min(room, at - GAP);
+  }
+  return room;
+}
+
+/**
+ * Returns the walls with one of them moved. Walls that end on one that moves across follow it where that only lengthens them.
+ *
+ * @param distance along its axis
+ */
+export function movedWalls(walls: Float64Array, { wall, part, axis: [ux, uy] }: Grip, distance: number) {
+  const moved = walls.slice();
+  const move = (at: number) => {
+    moved[at] = walls[at] + distance * ux;
+    moved[at + 1] = walls[at + 1] + distance * uy;
+  };
+  if (part !== 'to') move(wall);
+  if (part !== 'from') move(wall + 2);
+  for (let k = 0; k < walls.length && part === 'side'; k += 4) {
+    const [dx, dy] = [walls[k + 2] - walls[k], walls[k + 3] - walls[k + 1]];
+    if (k === wall || Math.abs(dx * uy - dy * ux) > TOUCH) continue;
+    for (const end of [k, k + 2]) if (nearestOn(walls, wall, walls[end], walls[end + 1]).distance < TOUCH) move(end);
+  }
+  return moved;
+}

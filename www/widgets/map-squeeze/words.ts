@@ -1,0 +1,92 @@
+/**
+ * What Map Squeeze says when, in the words of the present language: verdicts, sentences about robots
+ * that cannot move, and the text that stands for the picture.
+ */
+
+import { addEnglish, words } from '../../messages/registry.ts';
+import { verdict as bits } from '../../settings.js';
+import { clamp } from '../../ui/clamp.ts';
+import { counted, fixed } from '../../ui/format.ts';
+import { commandText } from '../shared/command.ts';
+import { en } from './en.ts';
+import { throughText } from './reading.ts';
+import type { Plan, SqueezeSettings as Settings, SqueezeStats as Stats } from '../../types.d.ts';
+import type { Reading } from './reading.ts';
+
+addEnglish({ squeeze: en });
+
+/** @param verdict see `verdict` of settings.js */
+export function verdictText(verdict: number, config: Settings) {
+  const is = (bit: number) => (verdict & bit) !== 0;
+  const { overlays, verdict: reasons } = words.squeeze;
+  const accepted = is(bits.accepted);
+  if (!accepted && config.sampler === 'sub-stepped') return `${overlays.rejected}: ${reasons.part}`;
+  const outcome = accepted ? overlays.accepted : overlays.rejected;
+  if (!is(bits.endFree)) return `${outcome}: ${reasons.end}`;
+  if (is(bits.pathFree)) return `${outcome}: ${reasons.free}`;
+  return `${accepted ? overlays.through : outcome}: ${reasons.way}`;
+}
+
+/** Denominators of the fractions of a headline, by preference. */
+const DENOMINATORS = [2, 3, 4, 5, 6, 7, 8, 9, 10];
+
+/** Shares told as one in some number, and shares told as nearly all. */
+const FEW = 0.075;
+const MOST = 0.95;
+
+/** Returns a share between 0 and 1 as a simple fraction. */
+export function fractionOf(share: number): [few: number, of: number] {
+  if (share < FEW) return [1, Number((1 / share).toPrecision(2))];
+  const fractions = DENOMINATORS.map((of) => [clamp(Math.round(share * of), 1, of - 1), of] as [number, number]);
+  const off = ([few, of]: [number, number]) => Math.abs(few / of - share);
+  return fractions.reduce((best, each) => (off(each) < off(best) - 1e-9 ? each : best));
+}
+
+/** Returns the sentence that the figure is for. */
+export function headlineOf({ attempts, accepted, throughWall }: Pick<Stats, 'attempts' | 'accepted' | 'throughWall'>) {
+  const say = words.squeeze.headline;
+  if (attempts === 0) return say.untried;
+  if (accepted === 0) return say.nothing;
+  if (throughWall === 0) return say.none;
+  const share = throughWall / accepted;
+  if (share === 1) return say.all;
+  return share > MOST ? say.most : say.share(...fractionOf(share));
+}
+
+/** Returns what the picture shows, in one sentence; and what keeps the robot from moving, if something does. */
+export function verdictOf({ config: { conditioned, sampler }, stats, note }: Reading) {
+  const { accepted, attempts, gaveUp } = stats;
+  const say = words.squeeze;
+  // The note counts all motions of a robot that is wedged.
+  if (note && (accepted === 0 || gaveUp)) return note;
+  if (attempts === 0) return `${say.headline.untried}.`;
+  const tested = say.tested[conditioned ? sampler : 'off'](counted(accepted), counted(attempts));
+  const sentence = say.verdictOf(tested, throughText(stats, conditioned && sampler === 'whole-arc'));
+  return note ? `${sentence} ${note}` : sentence;
+}
+
+/** The name of a map with its size. */
+export function mapText(name: string, { bounds, walls }: Plan) {
+  const [left, bottom, right, top] = bounds;
+  const count = walls.length / 4;
+  return words.squeeze.mapText(name, fixed(right - left, 1), fixed(top - bottom, 1), count, counted(count));
+}
+
+/**
+ * The text equivalent of the picture.
+ *
+ * @param map as `mapText` has it
+ */
+export function pictureText({ config, stats, sorted, note }: Reading, map: string) {
+  const { x, y, theta } = config.start;
+  const { attempts, accepted, drawn, throughWall } = stats;
+  const say = words.squeeze;
+  const parts = config.conditioned && config.sampler === 'sub-stepped';
+  return [
+    say.picture(map),
+    say.robotAt(fixed(x, 2), fixed(y, 2), fixed(theta, 2), commandText(config.command)),
+    say.outcome(counted(drawn), parts, counted(accepted), counted(throughWall), !sorted),
+    accepted < attempts && config.conditioned ? say.rest(!sorted) : '',
+    note,
+  ].filter(Boolean).join(' ');
+}

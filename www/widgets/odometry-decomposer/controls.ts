@@ -1,0 +1,49 @@
+/** The Odometry Decomposer's controls: noise models side by side, sliders that can be played, and the noise. */
+
+import { html } from 'lit';
+import { choices, cloudControls, slider, sliders } from '../../figure/controls.ts';
+import { words } from '../../messages/registry.ts';
+import { choice, group, rich } from '../../ui/controls.ts';
+import { fixed } from '../../ui/format.ts';
+import { figureTable } from '../../ui/readouts.ts';
+import { NOISE, SAMPLE_COUNTS } from './settings.ts';
+
+export type Figure = import('./odometry-decomposer.ts').OdometryDecomposerElement;
+
+/** Returns the deviations by every noise model: those that differ from the printed table's stand out. */
+export function rulesTable(figure: Figure) {
+  const { rules: names, table: say, settings } = words.decomposer;
+  const { rules } = figure.reading;
+  const present = figure.settings.told.rule;
+  const rows = rules.map(({ deviations, crossTrack, heading }) => [...deviations, crossTrack, heading].map((value) => fixed(value, 3)));
+  return html`<div class="rules" role="radiogroup" aria-label=${settings.rule.name}>
+    ${figureTable({
+      caption: rich(say.caption),
+      columns: [settings.rule.name, ...say.columns.map(rich)],
+      rows: rules.map(({ rule }, i) => [
+        choice({ group: 'rule', label: names[rule], checked: rule === present, choose: () => figure.gesture.decide({ rule }) }),
+        ...rows[i].map((cell, column) => (cell === rows[0][column] ? cell : html`<strong>${cell}</strong>`)),
+      ]),
+    })}
+  </div>`;
+}
+
+/** A slider that can be played; for who wants less motion it is only moved. */
+export function playable(figure: Figure, key: 'phase' | 'drift', legend: string) {
+  const { player } = figure;
+  const { plays } = words.decomposer;
+  return html`<fieldset class="playable ${key}">
+    <legend class="visually-hidden">${legend}</legend>
+    ${slider(figure, key, { input: (value) => player.put(key, value) })} ${player.button(key, plays[key])}
+  </fieldset>`;
+}
+
+/** Returns the noise, the correlation of the two rotations, and the outcomes. */
+export function noiseControls(figure: Figure) {
+  const { hinges, noises } = words.decomposer;
+  return html`<div class="controls">
+      ${group(words.noise, html`${sliders(figure, NOISE)} ${choices(figure, 'noise', noises)}`, 'alphas')}
+      ${cloudControls(figure, SAMPLE_COUNTS)}
+    </div>
+    <p>${rich(hinges)}</p>`;
+}

@@ -1,0 +1,100 @@
+/** The Odometry Decomposer in English; see messages/en.js. */
+
+export const en = {
+  title: 'The Odometry Decomposer',
+  presets: {
+    all: 'Turn, drive, turn',
+    'turn-drive': 'Turn, drive',
+    'drive-turn': 'Drive, turn',
+    reverse: 'Reverse',
+    spin: 'Spin',
+    rest: 'At rest',
+  },
+  rules: {
+    thrun: 'Table 5.6',
+    nav2: 'AMCL of Nav2',
+    beluga: 'Beluga 2',
+    omni: 'AMCL, omnidirectional',
+  },
+  settings: {
+    rule: { name: 'Noise model' },
+    noise: { name: 'Distribution' },
+    alpha1: { effect: 'The more it turns, the less it knows its heading.' },
+    alpha2: { effect: 'Opens the hinges of a straight path too.' },
+    alpha3: { effect: 'Spreads the outcomes along the path.' },
+    alpha4: { effect: 'Spreads them along the path even where it has only turned.' },
+    alpha5: { effect: 'In the omnidirectional model alone.' },
+    correlation: {
+      name: 'correlation of the rotations',
+      effect: 'Between the noises of the two rotations: turns the outcomes where they stand and moves none.',
+    },
+    phase: { name: 'progress of the motion', effect: 'The first rotation up to 1, the drive up to 2, the second rotation up to 3.' },
+    drift: { name: 'drift time', effect: 'Carries the frame of the odometry away. The prediction stays.' },
+    samples: { name: 'outcomes', effect: 'Outcomes: more of them narrow the error of what they measure.' },
+  },
+  noises: { normal: 'normal', triangular: 'triangular' },
+  path: 'Path',
+  drift: 'Drift',
+  plays: { phase: 'Drive the legs', drift: 'Let it drift' },
+  handles: {
+    from: { robot: 'Odometry before', robotTitle: 'Drag the pose before', heading: 'Heading before', headingTitle: 'Turn the pose before' },
+    to: { robot: 'Odometry after', robotTitle: 'Drag the pose after', heading: 'Heading after', headingTitle: 'Turn the pose after' },
+    ends: 'The floor ends here',
+  },
+  legsTitle: 'What odometry reads: turn, drive, turn',
+  worldTitle: 'In the world: the frame drifts',
+  overlays: {
+    legs: 'reading',
+    deviation: '± *σ*',
+    outcomes: 'outcomes',
+    prediction: 'prediction *x*',
+    odometry: 'odometry *x̄*',
+    difference: 'difference',
+  },
+  readouts: {
+    lever: 'lever, *δ*_{trans} · *σ*(*δ*_{rot1})',
+    across: 'standard deviation across the path',
+    crossTrack: '*σ* across the path, measured',
+    heading: '*σ* of the heading, measured',
+    exactly: (exact) => `exactly ${exact}`,
+    independent: (exact, independent) => `exactly ${exact}; if independent ${independent}`,
+  },
+  table: {
+    caption: 'Standard deviations with the same *α*. Bold on a tint: not as in Table 5.6, the odometry model of *Probabilistic Robotics*.',
+    columns: ['*δ*_{rot1} (rad)', '*δ*_{trans} (m)', '*δ*_{rot2} (rad)', 'slide (m)', 'across (m)', '*θ* (rad)'],
+  },
+  caption: {
+    lever: (deviation, trans, lever) =>
+      `The first hinge has the lever: ± ${deviation} rad at the start become ± ${lever} m across the path after ${trans} m.`,
+    reverse: 'Reverse driving decomposes into two rotations near π. Table 5.6 adds noise for both; the others use min(|\u2060δ\u2060|,\u00a0π\u00a0−\u00a0|\u2060δ\u2060|).',
+    rest: (trans, rot1) =>
+      `The wheels stand still and their encoders jitter by ${trans} mm. Table 5.6 takes it for a rotation of ${rot1} rad, and adds noise for that.`,
+    restSpin: (trans) => `Less than a centimetre: ${trans} mm has no direction in this noise model, so there is nearly no noise.`,
+    spin: 'A turn on the spot is all in the second rotation. Only the noise of α₄ moves the robot.',
+    spinEitherWay: (left) => `Beyond a quarter turn this noise model uses what is left to a half turn, here ${left} rad: a half turn on the spot has no noise.`,
+    omni: (strafe) => `This noise model has no hinges: the bearing is exact, and the robot slides ± ${strafe} m across it, however it turns.`,
+    still: 'Without noise every outcome is the reading.',
+  },
+  worldCaption: (distance) =>
+    `The frame drifts, the prediction stays: only the motion from *x̄*_{t−1} to *x̄*_{t} enters. Never compare: *x̄*_{t} is ${distance} m from *x*_{t}.`,
+  hinges:
+    'The noise models draw both rotations independently. A correlation *ρ* leaves the noise of each as it is and every outcome in its place; the headings spread from the difference of the two deviations (*ρ* = −1) to their sum (*ρ* = 1). At *ρ* = 0 neither is seen.',
+  plot: {
+    title: 'Spread against the length of the drive',
+    label: (trans, exact) =>
+      `Standard deviations against the length of the drive: across the path, the lever alone, and along the path. At the reading, ${trans} m, ${exact} m across.`,
+    x: 'δ trans (m)',
+    y: 'σ (m)',
+    crossTrack: 'across the path, exact',
+    lever: 'lever, *δ*_{trans} · *σ*(*δ*_{rot1})',
+    along: 'along the path',
+    here: 'read',
+    caption: 'The rotations as they were read. The point is that of the outcomes, with its standard error.',
+  },
+  picture: (rot1, trans, rot2, x, y) =>
+    `Floor from above, in the frame of the odometry, x to the right and y up. The reading: a first rotation by ${rot1} rad, a drive of ${trans} m, a second rotation by ${rot2} rad, to x ${x} m, y ${y} m.`,
+  outcomes: (count, across, heading) => `${count} outcomes spread by ${across} m across the path and by ${heading} rad in their heading.`,
+  none: 'No outcome has been drawn yet.',
+  worldPicture: (x, y, theta, distance) =>
+    `The world from above. The frame of the odometry has drifted to x ${x} m, y ${y} m, heading ${theta} rad. The robot and its predicted outcomes are where they were, ${distance} m from the odometry’s own pose.`,
+} satisfies import('../../messages/registry.ts').Message;

@@ -1,0 +1,105 @@
+/** Marks of both pictures: turns as arcs with an arrow, and fans of uncertainty. */
+
+import type { Pose } from '../../types.d.ts';
+import type { Brush } from '../../scene/canvas.ts';
+
+/** Half the width and the length of an arrow's head, pixels. */
+const HEAD = { half: 4, length: 9 };
+
+/** Steps of the chord that an arc is drawn by, radians. */
+const STEP = 0.1;
+
+/**
+ * Points of an arc about a place of the world.
+ *
+ * @param centre from whose heading it begins
+ * @param turn radians
+ * @param radius pixels
+ */
+export function arcOf({ view }: Pick<Brush, 'view'>, { x, y, theta }: Pose, turn: number, radius: number) {
+  const count = Math.max(1, Math.ceil(Math.abs(turn) / STEP));
+  return Array.from({ length: count + 1 }, (_, i) => {
+    const ahead = view.direction(theta + (turn * i) / count);
+    return [view.toPixelX(x) + radius * ahead.x, view.toPixelY(y) + radius * ahead.y];
+  });
+}
+
+/** @param points pixels */
+function path(context: Brush['context'], points: number[][]) {
+  context.beginPath();
+  points.forEach(([x, y], i) => (i ? context.lineTo(x, y) : context.moveTo(x, y)));
+}
+
+/**
+ * A turn from a pose's heading, as an arc with an arrow.
+ *
+ * @param turn radians
+ * @param radius pixels
+ */
+export function drawTurn(brush: Brush, from: Pose, turn: number, radius: number, colour: string) {
+  const { context, view } = brush;
+  const points = arcOf(brush, from, turn, radius);
+  context.strokeStyle = context.fillStyle = colour;
+  context.lineWidth = 1.75;
+  path(context, points);
+  context.stroke();
+  // A small turn has no room for a whole head.
+  const length = Math.min(HEAD.length, radius * Math.abs(turn));
+  const tip = points[points.length - 1];
+  const back = view.direction(from.theta + turn - (Math.sign(turn) * length) / radius);
+  const share = length / HEAD.length;
+  const foot = (side: number) => {
+    const reach = radius + side * share * HEAD.half;
+    return [view.toPixelX(from.x) + reach * back.x, view.toPixelY(from.y) + reach * back.y];
+  };
+  path(context, [tip, foot(1), foot(-1)]);
+  context.fill();
+}
+
+/**
+ * A standard deviation either side of a heading, as a fan.
+ *
+ * @param deviation radians
+ * @param radius pixels
+ */
+export function drawFan(brush: Brush, middle: Pose, deviation: number, radius: number, colour: string) {
+  const half = Math.min(deviation, Math.PI);
+  if (half === 0) return;
+  const { context, view } = brush;
+  const rim = arcOf(brush, { ...middle, theta: middle.theta - half }, 2 * half, radius);
+  path(context, [[view.toPixelX(middle.x), view.toPixelY(middle.y)], ...rim]);
+  context.closePath();
+  context.fillStyle = context.strokeStyle = colour;
+  context.globalAlpha = 0.14;
+  context.fill();
+  context.globalAlpha = 0.75;
+  context.lineWidth = 1;
+  context.setLineDash([5, 3]);
+  context.stroke();
+  context.setLineDash([]);
+  context.globalAlpha = 1;
+}
+
+/**
+ * A standard deviation either side of a place, as a bar with ends.
+ *
+ * @param middle along whose heading it lies
+ * @param deviation metres
+ */
+export function drawBar({ context, view }: Brush, { x, y, theta }: Pose, deviation: number, colour: string) {
+  if (deviation === 0) return;
+  const ahead = view.direction(theta);
+  const reach = deviation * view.scaleX;
+  const [px, py] = [view.toPixelX(x), view.toPixelY(y)];
+  context.beginPath();
+  for (const side of [-reach, reach]) {
+    const [endX, endY] = [px + side * ahead.x, py + side * ahead.y];
+    context.moveTo(px, py);
+    context.lineTo(endX, endY);
+    context.moveTo(endX - HEAD.half * ahead.y, endY + HEAD.half * ahead.x);
+    context.lineTo(endX + HEAD.half * ahead.y, endY - HEAD.half * ahead.x);
+  }
+  context.strokeStyle = colour;
+  context.lineWidth = 1.75;
+  context.stroke();
+}

@@ -1,0 +1,149 @@
+/** <odometry-decomposer>: what odometry read as rotate, drive, rotate, and what localizers make of its noise. */
+
+import { html } from 'lit';
+import { Cloud, shownOf } from '../../figure/cloud.ts';
+import { canvas, disclosures, panel } from '../../figure/controls.ts';
+import { FigureElement } from '../../figure/figure.ts';
+import { legend } from '../../figure/overlays.ts';
+import { reserve } from '../../figure/page/room.ts';
+import { define } from '../../figure/reflection.ts';
+import { orFree } from '../../figure/runtime.ts';
+import { words } from '../../messages/registry.ts';
+import { rich } from '../../ui/controls.ts';
+import { fixed } from '../../ui/format.ts';
+import { Player } from '../shared/player.ts';
+import { PoseHandles } from '../shared/pose-handles.ts';
+import { presetButtons } from '../shared/presets.ts';
+import { noiseControls, playable, rulesTable } from './controls.ts';
+import { LegsPicture, RADIUS, WorldPicture } from './pictures.ts';
+import { readingOf } from './reading.ts';
+import { headline, readouts, spreads } from './readouts.ts';
+import { LINES, attributes, declared, looks, own, vocabulary } from './settings.ts';
+import { decomposerStyles } from './styles.ts';
+import { apart, captionOf, legsText, worldText } from './words.ts';
+import type { OdometryDecomposer as Machine } from '../../types.d.ts';
+import type { Reading } from './reading.ts';
+
+/** Where the handles take the poses: left, bottom, right and top, m. */
+const FLOOR = [-4, -4, 4, 4];
+
+/**
+ * What odometry read as rotate, drive, rotate, and what localizers make of its noise.
+ *
+ * @attr preset - A reading worth starting from; none where it is another.
+ * @attr overlays - Lines and marks that are drawn; in the attribute with spaces between.
+ * @csspart chart - The plot of the deviation across the way.
+ */
+export class OdometryDecomposerElement extends FigureElement<Machine, Reading> {
+  static styles = [...FigureElement.styles, reserve('odometry-decomposer'), ...decomposerStyles];
+
+  static declared = declared;
+  static attributes = attributes;
+  static own = own;
+  static looks = looks;
+  static vocabulary = vocabulary;
+
+  cloud = new Cloud(this);
+  player: Player<'phase' | 'drift'> = new Player(this, { phase: this.#played('phase', 4000), drift: this.#played('drift', 8000) });
+  #legs = new LegsPicture();
+  #world = new WorldPicture();
+  pictures = [this.#legs, this.#world];
+  /** The later one on top, where both poses are at one place. */
+  #handles: PoseHandles[] = (['from', 'to'] as const).map(
+    (setting) =>
+      new PoseHandles(this, setting, {
+        view: () => this.#legs.view,
+        bounds: () => FLOOR,
+        say: () => ({ ...words.decomposer.handles[setting], ends: words.decomposer.handles.ends }),
+      }),
+  );
+
+  createMachine: FigureElement<Machine, Reading>['createMachine'] = (motion, state) => {
+    const machine = new motion.OdometryDecomposer();
+    if (!state) return machine;
+    return orFree(machine, () => {
+      machine.configure(this.settings.declared(state));
+      const shown = shownOf(machine, state.shown);
+      machine.restart();
+      machine.grow(shown);
+    });
+  };
+
+  read(machine: Machine) {
+    this.cloud.unmark();
+    return readingOf(machine);
+  }
+
+  /** In a state that came, or came back, nothing is played. */
+  machineChanged() {
+    this.player.stop();
+  }
+
+  get scene() {
+    const reading = this.fresh;
+    const { index, isMarked } = this.cloud;
+    return { ...reading, overlays: this.state.own.overlays, marked: isMarked ? reading.poses.subarray(3 * index) : undefined };
+  }
+
+  /**
+   * A setting, to be played from one end of its slider to the other.
+   *
+   * @param duration milliseconds
+   */
+  #played(key: keyof typeof looks, duration: number) {
+    const { min, max } = looks[key];
+    return {
+      from: min,
+      to: max,
+      duration,
+      at: () => this.settings.wanted[key],
+      put: (value: number) => this.settings.want({ [key]: value }),
+    };
+  }
+
+  get takeaway() {
+    const { config, poses } = this.fresh;
+    return {
+      title: this.lettering.name,
+      description: legsText(this.reading),
+      settings: { element: this.localName, ...config },
+      columns: ['x_m', 'y_m', 'theta_rad'],
+      row: (i: number) => [...poses.subarray(3 * i, 3 * i + 3)],
+      count: poses.length / 3,
+    };
+  }
+
+  announcement = captionOf;
+
+  placeHandles({ config: { from, to } }: Reading) {
+    const [before, after] = this.#handles;
+    before.place(from, RADIUS);
+    after.place(to, RADIUS);
+  }
+
+  content(reading: Reading) {
+    const say = words.decomposer;
+    return html`
+      <section class="machine" aria-label=${this.lettering.name}>
+        <div class="views">
+          ${panel(say.legsTitle, html`<div class="stage" part="picture">
+            ${canvas(this, this.#legs, legsText(reading))} ${this.#handles.map((handle) => handle.render())}
+          </div>`, 'legs')}
+          ${panel(say.worldTitle, html`<div class="stage">${canvas(this, this.#world, worldText(reading))}</div>`, 'world')}
+          ${this.stage.later(() => html`
+          <div class="said">${headline(reading)} <p class="caption" part="caption">${captionOf(reading)}</p></div>
+          <p class="caption drifting">${rich(say.worldCaption(fixed(apart(reading), 2)))}</p>`)}
+        </div>
+        ${this.stage.later(() => html`
+        ${legend(this, LINES)} ${presetButtons(this)} ${rulesTable(this)}
+        <div class="plays" part="controls">${playable(this, 'phase', say.path)} ${playable(this, 'drift', say.drift)}</div>
+        ${disclosures(this, {
+          controls: () => noiseControls(this),
+          numbers: () => html`${readouts(reading)} ${this.machine && spreads(this.machine, reading)}`,
+        })}`)}
+      </section>
+    `;
+  }
+}
+
+define('odometry-decomposer', OdometryDecomposerElement);

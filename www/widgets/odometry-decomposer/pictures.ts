@@ -1,0 +1,301 @@
+/** The Odometry Decomposer's two pictures: the three legs in the frame of the odometry, and the same in the world. */
+
+import { words } from '../../messages/registry.ts';
+import { clipped, drawAxes } from '../../scene/axes.ts';
+import { drawDots, drawMark, lineStyles } from '../../scene/draw.ts';
+import { LABELS_ABOVE, drawLabelsAbove } from '../../scene/labels.ts';
+import { SamplesPicture } from '../../scene/picture.ts';
+import { View, extentOf } from '../../scene/view.ts';
+import { fixed } from '../../ui/format.ts';
+import { lineKey } from '../shared/line-key.ts';
+import { drawHeldRobot, drawRobotOutline, turnDistance } from '../shared/robot.ts';
+import { arcOf, drawBar, drawFan, drawTurn } from './marks.ts';
+import { poseIn } from './reading.ts';
+import { LINES } from './settings.ts';
+import type { Pose } from '../../types.d.ts';
+import type { Brush } from '../../scene/canvas.ts';
+
+export type LineName = keyof typeof LINES;
+
+/** What both pictures are of, with the names of the lines that are shown. */
+export type Scene = import('./reading.ts').Reading & { marked: Float64Array | undefined, overlays: string[] };
+
+/** Radius of the robot, m. */
+export const RADIUS = 0.11;
+
+/** Room around the robots, and around a standard deviation of the outcomes. */
+const ROOM = { metres: 0.3, deviations: 2.4 };
+
+/** With more outcomes their headings would be one blot. */
+const MAX_TICKS = 1000;
+
+/** Between the handle that turns a robot and the arc of a turn about it, and between the two arcs, CSS pixels. */
+const GAP = { handle: 14, arcs: 16 };
+
+/** Rounds in which a view finds the scale at which it has room for arcs, whose size is in pixels. */
+const ROUNDS = 4;
+
+/** A shorter drive is not seen as one, CSS pixels: there is no label for it. */
+const SEEN = 24;
+
+/** A smaller turn, rad, has no arc. */
+const NO_TURN = 0.005;
+
+/** Places along the arc of a turn that a leader may end at, as shares of it. */
+const ANCHORS = [0.5, 0.3, 0.7, 0.1, 0.9];
+
+const AXES = { x: 'x (m)', y: 'y (m)' };
+
+/** How long the axes of the odometry's frame are drawn, m. */
+const AXIS = 0.35;
+
+/** Returns the key of an exported picture: on the page the legend stands beside it. */
+function keyOf(brush: Brush, { overlays }: Scene, names: LineName[]) {
+  const styles = lineStyles(brush, LINES);
+  const say = words.decomposer.overlays;
+  return brush.exported ? names.filter((name) => overlays.includes(name)).map((name) => lineKey(brush, say[name].replaceAll('*', ''), styles[name])) : [];
+}
+
+/**
+ * Corners of where the outcomes are, as far as a picture makes room for them.
+ *
+ * @returns x, y pairs
+ */
+function surroundings({ linkage, legs, deviations, stats }: Scene): number[] {
+  const [{ x, y }, driven] = [poseIn(linkage, 0), poseIn(linkage, 2)];
+  const along = Math.min(ROOM.deviations * deviations.trans, legs.trans + 2);
+  // No hinge turns a drive farther than to all sides.
+  const across = ROOM.deviations * stats.exactCrossTrack;
+  const [dx, dy] = [Math.abs(Math.cos(driven.theta)), Math.abs(Math.sin(driven.theta))];
+  const room = [ROOM.metres + along * dx + across * dy, ROOM.metres + along * dy + across * dx];
+  return [
+    ...[x - ROOM.metres, y - ROOM.metres, x + ROOM.metres, y + ROOM.metres],
+    ...[driven.x - room[0], driven.y - room[1], driven.x + room[0], driven.y + room[1]],
+  ];
+}
+
+function drawOutcomes(brush: Brush, { poses, overlays }: Scene) {
+  if (!overlays.includes('outcomes')) return;
+  drawDots(brush, poses, { x: 0, y: 1, heading: poses.length <= 3 * MAX_TICKS ? 2 : null });
+}
+
+class OutcomesPicture extends SamplesPicture<Scene> {
+  constructor(name: string) {
+    super(name, new View({ top: LABELS_ABOVE, snug: true }));
+  }
+
+  paintMark(brush: Brush, { marked }: Scene) {
+    if (marked) drawMark(brush, { x: marked[0], y: marked[1], heading: marked[2] });
+  }
+}
+
+/** Returns the radii of the arcs of both turns, pixels. */
+const reachesAt = (view: Pick<View, 'scaleX'>) => [0, 1].map((arc) => turnDistance(view, RADIUS) + GAP.handle + arc * GAP.arcs);
+
+/** The frame of the odometry: the legs as a linkage, and what noise makes of it. */
+export class LegsPicture extends OutcomesPicture {
+  constructor() {
+    super('plane');
+  }
+
+  fit(scene: Scene) {
+    const { view } = this;
+    const { linkage, legs, overlays } = scene;
+    const room = surroundings(scene);
+    let box = extentOf(room, 1.2);
+    for (let round = 0; overlays.includes('legs') && round < ROUNDS; round++) {
+      const scale = view.scaleFor(box);
+      const reaches = reachesAt({ scaleX: scale });
+      const arcs = [legs.rot1, legs.rot2].flatMap((by, i) => {
+        const centre = poseIn(linkage, 2 * i);
+        const [x, y] = [view.toPixelX(centre.x), view.toPixelY(centre.y)];
+        return arcOf({ view }, centre, by, reaches[i]).flatMap(([atX, atY]) => [centre.x + (atX - x) / scale, centre.y - (atY - y) / scale]);
+      });
+      box = extentOf([...room, ...arcs], 1.2);
+    }
+    view.fit(box);
+  }
+
+  paint: SamplesPicture<Scene>['paint'] = (brush, scene) => {
+    const { palette } = brush;
+    const { linkage, legs, deviations, config, overlays } = scene;
+    const [start, turned, driven] = [0, 1, 2].map((index) => poseIn(linkage, index));
+    drawAxes(brush, AXES, keyOf(brush, scene, ['legs', 'deviation', 'outcomes']));
+    const [first, second] = reachesAt(this.view);
+    const styles = lineStyles(brush, LINES);
+    const spread = overlays.includes('deviation');
+    const { colour } = styles.deviation;
+    clipped(brush, () => {
+      if (spread) drawFan(brush, turned, deviations.rot1, Math.max(legs.trans * this.view.scaleX, second), colour);
+      if (overlays.includes('outcomes')) this.#paintGhosts(brush, scene);
+      drawOutcomes(brush, scene);
+      if (overlays.includes('legs')) drawSegment(brush, start, driven, styles.legs);
+      drawHeldRobot(brush, start, RADIUS, palette.prior);
+      drawHeldRobot(brush, config.to, RADIUS, palette.prior);
+      if (spread) {
+        drawBar(brush, driven, deviations.trans, colour);
+        drawBar(brush, { ...driven, theta: driven.theta + Math.PI / 2 }, deviations.strafe, colour);
+        drawFan(brush, { ...driven, theta: driven.theta + legs.rot2 }, deviations.rot2, second, colour);
+      }
+      if (config.phase < 3) this.#paintRobot(brush, scene.robot);
+      if (overlays.includes('legs')) {
+        for (const [from, by, reach] of ([[start, legs.rot1, first], [driven, legs.rot2, second]] as [Pose, number, number][])) {
+          if (Math.abs(by) >= NO_TURN) drawTurn(brush, from, by, reach, styles.legs.colour);
+        }
+      }
+      this.paintMark(brush, scene);
+    });
+    if (overlays.includes('legs')) drawLabelsAbove(brush, this.#labels(brush, scene, first, second));
+  };
+
+  /**
+   * Returns the labels of the legs that are seen, with their values and deviations.
+   *
+   * @param first radius of the arc of the first turn, pixels
+   */
+  #labels({ view, palette: { prior: colour } }: Brush, { linkage, legs, deviations }: Scene, first: number, second: number) {
+    const [start, driven] = [0, 2].map((index) => poseIn(linkage, index));
+    const label = (sub: 'rot1' | 'trans' | 'rot2', unit: string, place: { x: number, y: number }) => ({
+      ...place,
+      symbol: 'δ',
+      sub,
+      text: `${fixed(legs[sub], 2)}${deviations[sub] > 0 ? ` ± ${fixed(deviations[sub], 2)}` : ''} ${unit}`,
+      colour,
+    });
+    // The place of an arc that is nearest to the labels, and inside of the axes.
+    const onArc = ({ x, y, theta }: Pose, by: number, reach: number) => {
+      const places = ANCHORS.map((share) => view.direction(theta + share * by))
+        .map((out) => ({ x: view.toPixelX(x) + reach * out.x, y: view.toPixelY(y) + reach * out.y }))
+        .sort((one, other) => one.y - other.y);
+      return places.find((place) => place.y > view.frame.top) ?? places[places.length - 1];
+    };
+    const middle = { x: view.toPixelX((start.x + driven.x) / 2), y: view.toPixelY((start.y + driven.y) / 2) };
+    return [
+      ...(Math.abs(legs.rot1) < NO_TURN ? [] : [label('rot1', 'rad', onArc(start, legs.rot1, first))]),
+      ...(legs.trans * view.scaleX < SEEN ? [] : [label('trans', 'm', middle)]),
+      ...(Math.abs(legs.rot2) < NO_TURN ? [] : [label('rot2', 'rad', onArc(driven, legs.rot2, second))]),
+    ];
+  }
+
+  /** The linkages of some outcomes. */
+  #paintGhosts({ context, view, palette }: Brush, { ghosts }: Scene) {
+    context.strokeStyle = palette.cloud;
+    context.lineWidth = 1;
+    context.globalAlpha = 0.5;
+    context.beginPath();
+    for (let i = 0; i < ghosts.length / 3; i++) {
+      const { x, y } = poseIn(ghosts, i);
+      if (i % 4 === 0) context.moveTo(view.toPixelX(x), view.toPixelY(y));
+      else context.lineTo(view.toPixelX(x), view.toPixelY(y));
+    }
+    context.stroke();
+    context.globalAlpha = 1;
+  }
+
+  /** On its way. */
+  #paintRobot(brush: Brush, { x, y, theta }: Pose) {
+    const { context, view, palette } = brush;
+    const ahead = view.direction(theta);
+    const [px, py, size] = [view.toPixelX(x), view.toPixelY(y), Math.max(7, 0.7 * RADIUS * view.scaleX)];
+    context.fillStyle = palette.accent;
+    context.strokeStyle = palette.paper;
+    context.lineWidth = 2;
+    context.beginPath();
+    context.arc(px, py, size, 0, 2 * Math.PI);
+    context.fill();
+    context.stroke();
+    context.beginPath();
+    context.moveTo(px, py);
+    context.lineTo(px + size * ahead.x, py + size * ahead.y);
+    context.stroke();
+  }
+}
+
+/** The world, in which the frame of the odometry drifts. */
+export class WorldPicture extends OutcomesPicture {
+  constructor() {
+    super('world');
+  }
+
+  fit(scene: Scene) {
+    const { poses } = scene.drifted;
+    const around = [0, 1, 2].flatMap((index) => {
+      const { x, y } = poseIn(poses, index);
+      return [x - ROOM.metres, y - ROOM.metres, x + ROOM.metres, y + ROOM.metres];
+    });
+    this.view.fit(extentOf([...surroundings(scene), ...around], 1.2));
+  }
+
+  paint: SamplesPicture<Scene>['paint'] = (brush, scene) => {
+    const { palette } = brush;
+    const { overlays } = scene;
+    const [frame, from, to] = [0, 1, 2].map((index) => poseIn(scene.drifted.poses, index));
+    const [start, end] = [poseIn(scene.linkage, 0), poseIn(scene.linkage, 3)];
+    const styles = lineStyles(brush, LINES);
+    drawAxes(brush, AXES, keyOf(brush, scene, ['prediction', 'odometry', 'difference']));
+    clipped(brush, () => {
+      if (overlays.includes('odometry')) {
+        this.#paintFrame(brush, frame);
+        drawSegment(brush, from, to, styles.odometry);
+        for (const pose of [from, to]) this.#paintOdometry(brush, pose);
+      }
+      drawOutcomes(brush, scene);
+      if (overlays.includes('prediction')) drawSegment(brush, start, end, styles.prediction);
+      if (overlays.includes('difference')) drawSegment(brush, to, end, styles.difference);
+      drawHeldRobot(brush, start, RADIUS, palette.truth);
+      this.paintMark(brush, scene);
+    });
+    drawLabelsAbove(brush, [
+      ...(overlays.includes('prediction') ? this.#labels(brush, [start, end], 'x', [palette.ink, palette.prediction]) : []),
+      ...(overlays.includes('odometry') ? this.#labels(brush, [from, to], 'x̄', [palette.prior, palette.prior]) : []),
+    ]);
+  };
+
+  /** The axes of the frame that the odometry is told in. */
+  #paintFrame({ context, view, palette }: Brush, { x, y, theta }: Pose) {
+    const [px, py, reach] = [view.toPixelX(x), view.toPixelY(y), AXIS * view.scaleX];
+    context.strokeStyle = palette.prior;
+    context.lineWidth = 1.25;
+    context.beginPath();
+    for (const turn of [0, Math.PI / 2]) {
+      const ahead = view.direction(theta + turn);
+      context.moveTo(px, py);
+      context.lineTo(px + reach * ahead.x, py + reach * ahead.y);
+    }
+    context.stroke();
+  }
+
+  #paintOdometry(brush: Brush, { x, y, theta }: Pose) {
+    const { context, view, palette } = brush;
+    drawRobotOutline(brush, x, y, RADIUS, palette.prior);
+    const ahead = view.direction(theta);
+    const [px, py, reach] = [view.toPixelX(x), view.toPixelY(y), RADIUS * view.scaleX + 8];
+    context.beginPath();
+    context.moveTo(px, py);
+    context.lineTo(px + reach * ahead.x, py + reach * ahead.y);
+    context.stroke();
+  }
+
+  /** Returns the labels of the poses before and after; the former where these are two places. */
+  #labels({ view }: Brush, poses: Pose[], symbol: string, colours: string[]) {
+    const [before, after] = poses.map(({ x, y }, i) => ({
+      x: view.toPixelX(x),
+      y: view.toPixelY(y),
+      symbol,
+      sub: ['t−1', 't'][i],
+      colour: colours[i],
+    }));
+    return Math.hypot(before.x - after.x, before.y - after.y) > SEEN ? [before, after] : [after];
+  }
+}
+
+function drawSegment({ context, view }: Brush, from: Pose, to: Pose, { colour, width, dash }: { colour: string, width: number, dash: number[] }) {
+  context.strokeStyle = colour;
+  context.lineWidth = width;
+  context.setLineDash(dash);
+  context.beginPath();
+  context.moveTo(view.toPixelX(from.x), view.toPixelY(from.y));
+  context.lineTo(view.toPixelX(to.x), view.toPixelY(to.y));
+  context.stroke();
+  context.setLineDash([]);
+}

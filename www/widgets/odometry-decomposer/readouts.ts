@@ -1,0 +1,61 @@
+/** The Odometry Decomposer's readouts: what the outcomes measure beside what is exact, and spreads against the drive. */
+
+import { html } from 'lit';
+import { words } from '../../messages/registry.ts';
+import { rich } from '../../ui/controls.ts';
+import { fixed, withError } from '../../ui/format.ts';
+import { plot } from '../../ui/plot.ts';
+import { readoutList } from '../../ui/readouts.ts';
+import type { OdometryDecomposer } from '../../types.d.ts';
+import type { Reading } from './reading.ts';
+
+/** @param value m */
+const metres = (value: number) => `${fixed(value, 3)} m`;
+
+/** Returns the deviation across the path by the present noise model, as the message of the figure. */
+export function headline({ config: { rule }, stats }: Reading) {
+  const say = words.decomposer;
+  return readoutList([[say.readouts.across, `± ${metres(stats.exactCrossTrack)}`, say.rules[rule]]], 0);
+}
+
+/** The lever beside what it does to the outcomes. */
+export function readouts({ stats }: Reading) {
+  const say = words.decomposer.readouts;
+  const { crossTrack, crossTrackError, exactCrossTrack, heading, headingError, exactHeading, independentHeading } = stats;
+  const exactly = say.exactly(fixed(exactHeading, 3));
+  const both = say.independent(fixed(exactHeading, 3), fixed(independentHeading, 3));
+  return readoutList([
+    [say.lever, metres(stats.lever)],
+    [say.crossTrack, `${withError(crossTrack, crossTrackError, 3)} m`, say.exactly(metres(exactCrossTrack))],
+    [say.heading, `${withError(heading, headingError, 3)} rad`, exactHeading === independentHeading ? exactly : both],
+  ]);
+}
+
+/** Points of the curves: a pixel each on a large screen. */
+const POINTS = 121;
+
+/** The spreads against the length of the drive. */
+export function spreads(machine: OdometryDecomposer, { legs, stats }: Reading) {
+  const say = words.decomposer.plot;
+  const longest = Math.max(1, 2 * legs.trans);
+  const rows = machine.curve(longest, POINTS);
+  const column = (index: number) => Float64Array.from({ length: POINTS }, (_, i) => rows[4 * i + index]);
+  const [x, crossTrack, lever, along] = [0, 1, 2, 3].map(column);
+  const highest = Math.max(0.1, ...crossTrack, ...along, stats.crossTrack + stats.crossTrackError || 0);
+  return html`<figure>
+    <p class="panel-title">${say.title}</p>
+    ${plot({
+      label: say.label(fixed(legs.trans, 2), fixed(stats.exactCrossTrack, 3)),
+      x: { name: say.x, from: 0, to: longest },
+      y: { name: say.y, from: 0, to: 1.08 * highest },
+      curves: [
+        { name: say.crossTrack, role: 'prediction', x, y: crossTrack },
+        { name: say.lever, role: 'muted', dash: '2 4', x, y: lever },
+        { name: say.along, role: 'prior', dash: '7 4', x, y: along },
+      ],
+      points: [{ role: 'prediction', x: legs.trans, y: stats.crossTrack, error: stats.crossTrackError }],
+      marks: [{ x: legs.trans, text: say.here }],
+    })}
+    <figcaption>${rich(say.caption)}</figcaption>
+  </figure>`;
+}

@@ -1,0 +1,42 @@
+/** The Odometry Decomposer's settings as attributes, in its state, and as the eye sees them. */
+
+import { attributesOf, presetsOf } from '../../figure/attributes.ts';
+import { cloudState } from '../../figure/cloud.ts';
+import { overlaysOf } from '../../figure/overlays.ts';
+import { presets, settings } from '../../settings.js';
+import { alphaLooks } from '../shared/noise.ts';
+
+export const declared = settings['odometry-decomposer'];
+
+/** The key of its words in the catalogues. */
+export const vocabulary = 'decomposer';
+
+/** Styles of what the pictures show. */
+export const LINES = {
+  legs: { role: 'prior', width: 3, dash: [] },
+  deviation: { role: 'prediction', width: 1.25, dash: [5, 3] },
+  outcomes: { role: 'cloud', mark: 'dot' },
+  prediction: { role: 'prediction', width: 2.5, dash: [] },
+  odometry: { role: 'prior', width: 1.75, dash: [6, 4] },
+  difference: { role: 'accent', width: 1.5, dash: [2, 4] },
+} satisfies Record<string, import('../../figure/overlays.ts').LineStyle>;
+
+const { attribute, state } = overlaysOf(Object.keys(LINES));
+
+export const attributes: import('../../figure/attributes.ts').Attributes = { preset: presetsOf(presets['odometry-decomposer'], declared), ...attributesOf(declared), overlays: attribute };
+
+export const own: Record<string, import('../../figure/state.ts').Owned> = { ...cloudState, overlays: state };
+
+/** Of the noise. */
+export const NOISE = {
+  ...alphaLooks(5, 'odometry'),
+  correlation: { symbol: '*ρ*', role: 'prediction' as const, min: -1, max: 1, step: 0.05, decimals: 2 },
+};
+
+export const looks: Record<string, import('../../figure/controls.ts').Look> = {
+  ...NOISE,
+  phase: { role: 'prior', min: 0, max: 3, step: 0.01, decimals: 2 },
+  drift: { role: 'truth', min: 0, max: 120, step: 1, decimals: 0 },
+};
+
+export const SAMPLE_COUNTS = [10, 20, 50, 100, 200, 500, 1000, 2000, 5000];

@@ -1,0 +1,153 @@
+/** What the Odometry Decomposer's page has of its own. */
+
+import { css } from 'lit';
+import { layoutStyles } from '../../ui/layout.ts';
+import { plotStyles } from '../../ui/plot.ts';
+import { poseHandleStyles } from '../shared/styles.ts';
+
+const own = css`
+  canvas {
+    aspect-ratio: 5 / 4;
+  }
+
+  /* On a phone, handles of two robots need room beside each other. */
+  .legs canvas {
+    aspect-ratio: 1;
+  }
+
+  .said .readouts {
+    margin: 0;
+  }
+
+  @container (30em <= width < 38em) {
+    .stage canvas {
+      aspect-ratio: 8 / 5;
+    }
+  }
+
+  /* The legs beside the world, each with what is said of it. */
+  @container (min-width: 38em) {
+    .views {
+      grid-template: 'legs world' 'said drifting' / minmax(0, 3fr) minmax(0, 2fr);
+      column-gap: 1.5em;
+    }
+
+    .panel {
+      --high: 0.57;
+    }
+
+    .legs {
+      grid-area: legs;
+    }
+
+    .world {
+      grid-area: world;
+    }
+
+    .legs canvas {
+      aspect-ratio: 1 / var(--high);
+    }
+
+    .world canvas {
+      /* As high as the legs, which are half as wide again. */
+      aspect-ratio: 2 / calc(3 * var(--high));
+    }
+
+    .said {
+      display: grid;
+      grid-template-columns: auto 1fr;
+      grid-area: said;
+      column-gap: 1em;
+      align-items: center;
+    }
+
+    .drifting {
+      grid-area: drifting;
+    }
+
+    .plays {
+      display: grid;
+      grid-template-columns: 1fr 1fr;
+      column-gap: 2.5em;
+    }
+  }
+
+  /* Wider, and not higher: all of it is to fit on a screen. */
+  @container (min-width: 55em) {
+    .panel {
+      --high: 0.48;
+    }
+  }
+
+  @container (min-width: 65em) {
+    .panel {
+      --high: 0.36;
+    }
+  }
+
+  @container (38em <= width < 50em) {
+    /* All of them in a row. */
+    .presets {
+      --beside: 0.45em;
+      gap: 0.35em;
+    }
+
+    .said .readouts {
+      max-width: 8.5em;
+    }
+
+    .views .caption {
+      font-size: 0.92em;
+      line-height: 1.25;
+    }
+  }
+
+  .playable {
+    grid-template-columns: minmax(0, 1fr) auto;
+    gap: 0.75em;
+    align-items: center;
+  }
+
+  .playable > button {
+    min-width: 5em;
+    /* Beside the track, not beside the hint below it. */
+    margin-bottom: 1em;
+  }
+
+  .rules table {
+    max-width: none;
+    margin-bottom: 0.5em;
+  }
+
+  .rules th .choice {
+    min-height: max(24px, 1.6em);
+  }
+
+  @container (width < 38em) {
+    .rules th .choice {
+      min-height: max(28px, 1.75em);
+    }
+  }
+
+  /* Bold, and on a tint. */
+  .rules td:has(strong) {
+    background: color-mix(in srgb, var(--prediction) 16%, var(--paper));
+  }
+
+  .rules :is(td, thead th:not(:first-child)) {
+    padding-inline: 0.54em;
+  }
+
+  /* The table needs room too. */
+  :host([presentation]) .with-controls .stage {
+    min-height: 34vh;
+  }
+
+  .surface .folded > .readouts {
+    display: grid;
+    grid-template-columns: repeat(auto-fit, minmax(min(100%, 12em), 1fr));
+    gap: 0.2em 1.25em;
+  }
+`;
+
+export const decomposerStyles = [...layoutStyles, plotStyles, poseHandleStyles, own];

@@ -1,0 +1,49 @@
+/** What the Odometry Decomposer says when, in the words of the present language. */
+
+import { addEnglish, words } from '../../messages/registry.ts';
+import { counted, fixed } from '../../ui/format.ts';
+import { en } from './en.ts';
+import { poseIn } from './reading.ts';
+import type { Reading } from './reading.ts';
+
+addEnglish({ decomposer: en });
+
+/** Readings shorter than this are jitter for those who look at it, m. */
+const JITTER = 0.01;
+
+/** What stands below the pictures. */
+export function captionOf({ config: { rule, alphas }, rules, legs, deviations, stats }: Reading) {
+  const say = words.decomposer.caption;
+  const [{ legs: { rot1, trans } }] = rules;
+  const eitherWay = rule === 'nav2' || rule === 'beluga';
+  const millimetres = fixed(1000 * trans, 1);
+  if (alphas.every((alpha) => alpha === 0)) return say.still;
+  if (rule === 'omni') return say.omni(fixed(deviations.strafe, 2));
+  if (trans > 0 && trans < JITTER) return eitherWay ? say.restSpin(millimetres) : say.rest(millimetres, fixed(rot1, 2));
+  if (trans === 0) {
+    const left = Math.PI - Math.abs(legs.rot2);
+    return eitherWay && left < Math.PI / 2 ? say.spinEitherWay(fixed(left, 2)) : say.spin;
+  }
+  if (rule === 'thrun' && Math.abs(rot1) > Math.PI / 2 && Math.abs(legs.rot2) > Math.PI / 2) return say.reverse;
+  return say.lever(fixed(deviations.rot1, 2), fixed(trans, 2), fixed(stats.exactCrossTrack, 2));
+}
+
+/** How far the odometry's own pose is from where the robot is predicted, m. */
+export function apart({ drifted, linkage }: Reading) {
+  const [own, predicted] = [poseIn(drifted.poses, 2), poseIn(linkage, 3)];
+  return Math.hypot(own.x - predicted.x, own.y - predicted.y);
+}
+
+/** The text equivalent of the legs' picture. */
+export function legsText(reading: Reading) {
+  const { legs: { rot1, trans, rot2 }, config: { to }, stats } = reading;
+  const say = words.decomposer;
+  const outcomes = stats.n === 0 ? say.none : say.outcomes(counted(stats.n), fixed(stats.crossTrack, 2), fixed(stats.heading, 2));
+  return `${say.picture(fixed(rot1, 2), fixed(trans, 2), fixed(rot2, 2), fixed(to.x, 2), fixed(to.y, 2))} ${outcomes} ${captionOf(reading)}`;
+}
+
+/** The text equivalent of the world's picture. */
+export function worldText(reading: Reading) {
+  const { x, y, theta } = poseIn(reading.drifted.poses, 0);
+  return words.decomposer.worldPicture(fixed(x, 2), fixed(y, 2), fixed(theta, 2), fixed(apart(reading), 2));
+}

@@ -1,0 +1,25 @@
+/** The velocity command, as every widget that sends one shows it. */
+
+import { words } from '../../messages/registry.ts';
+import { fixed } from '../../ui/format.ts';
+
+/** The dash of the commanded way, CSS pixels. */
+export const COMMAND_DASH = [2.5, 3.5];
+
+const SPEED = { role: 'prior' as const, step: 0.01, decimals: 2 };
+
+/**
+ * How the settings of a command look. Handles and charts that set it keep to the ranges of its sliders.
+ *
+ * @param longest duration of the slider, s
+ */
+export const commandLooks = (longest: number) => ({
+  v: { ...SPEED, symbol: '*v*', min: -1.5, max: 1.5 },
+  omega: { ...SPEED, symbol: '*ω*', min: -2, max: 2 },
+  dt: { ...SPEED, symbol: '*Δt*', min: 0.1, max: longest, step: 0.05 },
+});
+
+/** The command in words. */
+export function commandText({ v, omega, dt }: import('../../types.d.ts').Command) {
+  return words.commandText(fixed(v, 2), fixed(omega, 2), fixed(dt, 2));
+}

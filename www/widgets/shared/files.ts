@@ -1,0 +1,86 @@
+/** Files of the reader, chosen or dropped on a figure. A fold says what becomes of them, and a notice why a drop was refused. */
+
+import { css, html } from 'lit';
+import { inputOf } from '../../ui/controls.ts';
+
+export type Figure = import('../../figure/figure.ts').Figure;
+
+/** What browsers say beside the button is that there is no file, whatever the figure has taken: it is not shown. */
+export const fileStyles = css`
+  input[type='file'] {
+    max-width: 100%;
+    margin: 0.3em 0 0.6em;
+    min-height: 2em;
+    color: transparent;
+    font: inherit;
+  }
+`;
+
+export class FileDrop {
+  #host;
+  #id;
+  #choose;
+  #isDropped = false;
+
+  /** @param id of the element that says what becomes of the files; a disclosure opens */
+  constructor(host: Figure, id: string, choose: (files: File[]) => void) {
+    this.#host = host;
+    this.#id = id;
+    this.#choose = choose;
+  }
+
+  /** Element that says what becomes of the files, null until the figure has been drawn. */
+  get #place() {
+    return this.#host.renderRoot.querySelector(`#${this.#id}`);
+  }
+
+  /** Says why files were refused: dropped ones in sight of where they were dropped. */
+  async showRefusal(sentence: string) {
+    if (this.#isDropped) this.#host.notice.show(sentence);
+    await this.#host.updateComplete;
+    if (!this.#isDropped) this.#place?.querySelector('.note')?.scrollIntoView({ block: 'nearest' });
+  }
+
+  /** Takes files that the reader has chosen or dropped. */
+  take(files: File[], isDropped: boolean = false) {
+    this.#isDropped = isDropped;
+    this.#host.notice.show('');
+    this.#choose(files);
+  }
+
+  over = (event: DragEvent) => {
+    if (!event.dataTransfer?.types.includes('Files')) return;
+    event.preventDefault();
+    (event.currentTarget as HTMLElement).classList.add('dropping');
+  };
+
+  away = (event: DragEvent) => {
+    const section = event.currentTarget as HTMLElement;
+    const to = event.relatedTarget as Node | null;
+    if (!section.contains(to)) section.classList.remove('dropping');
+  };
+
+  drop = (event: DragEvent) => {
+    (event.currentTarget as HTMLElement).classList.remove('dropping');
+    if (!event.dataTransfer?.types.includes('Files')) return;
+    // The browser would leave the page for the file.
+    event.preventDefault();
+    // What becomes of the file is said in there.
+    if (this.#place instanceof HTMLDetailsElement) this.#place.open = true;
+    this.take([...event.dataTransfer.files], true);
+  };
+}
+
+/** @param extensions what the names of files may end in */
+export const fileInput = (id: string, extensions: string[], choose: (files: File[]) => void) => html`<input
+  id=${id}
+  type="file"
+  multiple
+  accept=${extensions.join(',')}
+  @change=${(event: Event) => {
+    const input = inputOf(event);
+    choose([...(input.files ?? [])]);
+    // So that choosing the same file again, mended, is a change too.
+    input.value = '';
+  }}
+/>`;

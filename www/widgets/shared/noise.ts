@@ -1,0 +1,15 @@
+/** The noise parameters of a model, as every widget shows them that has them all. */
+
+/** Up to a standard deviation of nearly half the command. */
+export const ALPHA = { role: 'prediction' as const, min: 0, max: 0.2, step: 0.001, decimals: 3 };
+
+/**
+ * Returns the sliders of the first noise parameters of a model, by the names of their settings.
+ *
+ * @param model whose words they have
+ */
+export function alphaLooks(count: number, model: 'velocity' | 'odometry' = 'velocity'): Record<string, import('../../figure/controls.ts').Look> {
+  return Object.fromEntries(
+    Array.from({ length: count }, (_, i) => [`alpha${i + 1}`, { ...ALPHA, symbol: `*α*${String.fromCharCode(0x2081 + i)}`, alpha: [model, i] }]),
+  );
+}

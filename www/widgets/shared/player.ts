@@ -1,0 +1,79 @@
+/** Plays what a slider sets: from where it stands, or from its beginning where it stands at its end. */
+
+import { nothing } from 'lit';
+import { Part } from '../../figure/part.ts';
+import { isCalm } from '../../figure/stage.ts';
+import { words } from '../../messages/registry.ts';
+import { button } from '../../ui/controls.ts';
+
+export interface Played {
+  from: number;
+  to: number;
+  /** Duration from one to the other, milliseconds. */
+  duration: number;
+  at: () => number;
+  put: (value: number) => void;
+}
+
+export class Player<Key extends string> extends Part {
+  /** What is played. */
+  #key: Key | undefined;
+  #played;
+  /** What was gone and not put, where only whole steps are. */
+  #beyond = 0;
+
+  constructor(host: import('../../figure/figure.ts').Figure, played: Record<Key, Played>) {
+    super(host);
+    this.#played = played;
+  }
+
+  /** Another state has come. */
+  stop() {
+    this.#key = undefined;
+  }
+
+  /** The reader takes over. */
+  put(key: Key, value: number) {
+    this.stop();
+    this.#played[key].put(value);
+  }
+
+  #toggle(key: Key) {
+    const { host: { gesture, stage } } = this;
+    const { from, to, at, put } = this.#played[key];
+    const playing = this.#key !== key;
+    if (this.#key) gesture.commit();
+    if (playing && at() >= to) put(from);
+    this.#key = playing ? key : undefined;
+    this.#beyond = 0;
+    stage.wake();
+    this.host.requestUpdate();
+  }
+
+  /**
+   * To be called in each frame.
+   *
+   * @param elapsed milliseconds since the one before
+   * @returns whether there is more to play
+   */
+  advance(elapsed: number): boolean {
+    if (!this.#key) return false;
+    const { from, to, duration, at, put } = this.#played[this.#key];
+    const next = Math.min(to, at() + this.#beyond + ((to - from) * elapsed) / duration);
+    put(next);
+    this.#beyond = next - at();
+    if (next < to) return true;
+    this.stop();
+    this.host.gesture.commit();
+    return false;
+  }
+
+  /**
+   * Plays and pauses. Nothing for who wants less motion: the slider is there to be moved.
+   *
+   * @param label of the button, which names what is played
+   */
+  button(key: Key, label: string) {
+    return isCalm() ? nothing : button(this.#key === key ? words.pause : label, () => this.#toggle(key));
+  }
+}

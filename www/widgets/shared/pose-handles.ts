@@ -1,0 +1,159 @@
+/** A robot under the reader's hand: its body moves it, a handle ahead of it turns it, by pointer and by keyboard. */
+
+import { Part } from '../../figure/part.ts';
+import { words } from '../../messages/registry.ts';
+import { Handle, stepsOf } from '../../scene/handle.ts';
+import { clamp } from '../../ui/clamp.ts';
+import { fixed } from '../../ui/format.ts';
+import { turnDistance } from './robot.ts';
+import type { Pose } from '../../types.d.ts';
+
+/** What is under the hand. */
+export interface Held {
+  /** View of its picture. */
+  view: () => import('../../scene/view.ts').View;
+  /** Left, bottom, right and top of where it may be, metres. */
+  bounds: () => number[] | Float64Array;
+  say: () => Said;
+}
+
+/** Said of it. */
+export interface Said {
+  /** Robot its name. */
+  robot: string;
+  robotTitle: string;
+  /** The name of its heading. */
+  heading: string;
+  headingTitle: string;
+  /** A few words where the bounds stop it. */
+  ends?: string;
+}
+
+/** What a key moves the robot by, metres, and turns it by, radians. */
+const KEY_STEP = 0.05;
+const KEY_TURN = Math.PI / 36;
+
+/** Turns by keys at the robot itself, counter-clockwise. */
+const TURNS: Record<string, number> = { '[': 1, ']': -1 };
+
+const turnsOf = ({ key, metaKey }: KeyboardEvent) => (metaKey ? undefined : TURNS[key]);
+
+/** Least size of the body's handle, CSS pixels. */
+const MIN_BODY = 32;
+
+/** The handle that turns the robot stays this far inside of the picture, CSS pixels. */
+const MARGIN = 12;
+
+export class PoseHandles extends Part<import('../../figure/figure.ts').Figure> {
+  #setting;
+  #of;
+  #body;
+  #turn;
+
+  /** @param setting which is the pose */
+  constructor(host: import('../../figure/figure.ts').Figure, setting: string, of: Held) {
+    super(host);
+    this.#setting = setting;
+    this.#of = of;
+    const hooks = { view: of.view, commit: () => host.gesture.commit() };
+    this.#body = new Handle(`body ${setting}`, {
+      ...hooks,
+      at: () => [this.#pose.x, this.#pose.y],
+      drag: (x, y) => this.#moveTo(x, y),
+      key: (event) => this.#moveBy(stepsOf(event)) || this.#turnBy(turnsOf(event)),
+    });
+    this.#turn = new Handle(`turn ${setting}`, {
+      ...hooks,
+      at: (pointer) => pointer,
+      drag: (x, y) => this.#turnTo(Math.atan2(y - this.#pose.y, x - this.#pose.x)),
+      key: (event) => {
+        const steps = stepsOf(event);
+        // To the left is counter-clockwise, as for a driver.
+        return this.#turnBy(turnsOf(event) ?? (steps && steps[1] - steps[0]));
+      },
+    });
+  }
+
+  /** As it is wanted so far. */
+  get #pose(): Pose {
+    return this.host.settings.wanted[this.#setting];
+  }
+
+  render() {
+    const { robot, robotTitle, heading, headingTitle, ends } = this.#of.say();
+    const { x, y, theta } = this.#pose;
+    const [left, bottom, right, top] = this.#of.bounds();
+    return [
+      this.#body.element({
+        name: robot,
+        keys: words.pose.keys,
+        title: robotTitle,
+        range: [left, right],
+        now: x,
+        text: `x = ${fixed(x, 2)} m, y = ${fixed(y, 2)} m`,
+        stop: (x <= left || x >= right || y <= bottom || y >= top) && ends,
+      }),
+      this.#turn.element({
+        name: heading,
+        keys: words.pose.headingKeys,
+        title: headingTitle,
+        range: [-Math.PI, Math.PI],
+        now: theta,
+        text: `${fixed(theta, 2)} rad`,
+      }),
+    ];
+  }
+
+  /**
+   * Puts the handles where the robot is drawn.
+   *
+   * @param radius metres
+   */
+  place(pose: Pose, radius: number) {
+    const view = this.#of.view();
+    const root = this.host.renderRoot;
+    const [x, y] = [view.toPixelX(pose.x), view.toPixelY(pose.y)];
+    const ahead = view.direction(pose.theta);
+    const distance = turnDistance(view, radius);
+    const inside = (at: number, size: number) => clamp(at, MARGIN, size - MARGIN);
+    this.#body.place(root, x, y, Math.max(MIN_BODY, 2 * radius * view.scaleX));
+    this.#turn.place(root, inside(x + distance * ahead.x, view.width), inside(y + distance * ahead.y, view.height));
+  }
+
+  /**
+   * @param steps along x and y
+   * @returns whether there are any
+   */
+  #moveBy(steps?: [number, number]): boolean {
+    if (!steps) return false;
+    const { x, y } = this.#pose;
+    this.#moveTo(x + KEY_STEP * steps[0], y + KEY_STEP * steps[1]);
+    return true;
+  }
+
+  /**
+   * @param steps counter-clockwise; infinitely many for half a turn from 0
+   * @returns whether there are any
+   */
+  #turnBy(steps?: number): boolean {
+    if (!steps) return false;
+    this.#turnTo(Number.isFinite(steps) ? this.#pose.theta + KEY_TURN * steps : Math.sign(steps) * Math.PI);
+    return true;
+  }
+
+  /** @param x metres */
+  #moveTo(x: number, y: number) {
+    const [left, bottom, right, top] = this.#of.bounds();
+    this.#want({ ...this.#pose, x: clamp(x, left, right), y: clamp(y, bottom, top) });
+  }
+
+  /** @param theta radians */
+  #turnTo(theta: number) {
+    // Into (−π, π], without sines: in their last digits engines differ, and the same keys are to be the same heading.
+    this.#want({ ...this.#pose, theta: theta - 2 * Math.PI * Math.ceil(theta / (2 * Math.PI) - 0.5) });
+  }
+
+  #want(pose: Pose) {
+    this.host.settings.want({ [this.#setting]: pose });
+  }
+}

@@ -1,0 +1,30 @@
+/** Buttons of the presets, and the one that brings back how the figure opened. */
+
+import { html, nothing } from 'lit';
+import { words } from '../../messages/registry.ts';
+import { button } from '../../ui/controls.ts';
+
+/**
+ * Returns a button for each preset, the present one pressed, and the one to start over.
+ *
+ * @param more buttons after them
+ */
+export function presetButtons(figure: import('../../figure/figure.ts').Figure, more: unknown = nothing) {
+  const { gesture, kind, machine, settings, stage } = figure;
+  const { presets, presetTitles = {} } = (words as any)[kind.vocabulary];
+  const preset = kind.attributes.preset as import('../../figure/attributes.ts').Setting;
+  const present = { config: settings.told, machine };
+  const current = preset.get(present);
+  const begin = (name: string) => {
+    stage.release();
+    gesture.decide(preset.change(name, present));
+  };
+  return html`<div class="buttons presets" role="group" aria-label=${words.presets}>
+    ${Object.entries(presets).map(([name, label]) =>
+      button(label, () => begin(name), { pressed: name === current, title: presetTitles[name] }))}
+    ${more} ${startOverButton(figure)}
+  </div>`;
+}
+
+/** Returns the button that brings back how the figure opened. */
+export const startOverButton = ({ state }: import('../../figure/figure.ts').Figure) => button(words.startOver, () => state.startOver(), { title: words.startOverTitle, name: 'start-over' });

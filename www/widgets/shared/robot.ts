@@ -1,0 +1,68 @@
+/** A robot from above: a disc, and a line from its middle to the handle that turns it. */
+
+import { drawHandle } from '../../scene/draw.ts';
+import type { Pose } from '../../types.d.ts';
+import type { Brush } from '../../scene/canvas.ts';
+import type { View } from '../../scene/view.ts';
+
+/** In a view of much it is drawn no smaller than this, CSS pixels. */
+const SMALLEST = 3;
+
+/** Radius of the ring that turns it, pixels. */
+const TURN = 5.5;
+
+/**
+ * How far ahead of the robot's centre the handle is that turns it.
+ *
+ * @param radius metres
+ * @returns CSS pixels
+ */
+export function turnDistance(view: Pick<View, 'scaleX'>, radius: number): number {
+  return Math.max(34, radius * view.scaleX + 22);
+}
+
+/**
+ * The robot that the reader has in hand.
+ *
+ * @param radius metres
+ */
+export function drawHeldRobot(brush: Brush, { x, y, theta }: Pose, radius: number, colour: string) {
+  const { context, view, palette } = brush;
+  const [atX, atY] = [view.toPixelX(x), view.toPixelY(y)];
+  const ahead = view.direction(theta);
+  const reach = turnDistance(view, radius);
+  context.strokeStyle = colour;
+  context.fillStyle = palette.paper;
+  context.lineWidth = 2.25;
+  context.beginPath();
+  context.arc(atX, atY, radiusOn(view, radius), 0, 2 * Math.PI);
+  context.fill();
+  context.moveTo(atX, atY);
+  context.lineTo(atX + reach * ahead.x, atY + reach * ahead.y);
+  context.stroke();
+  drawHandle(brush, { x: atX + reach * ahead.x, y: atY + reach * ahead.y, radius: TURN, colour });
+}
+
+/**
+ * The dashed outline of a robot that is not there: where a command would bring it.
+ *
+ * @param x metres
+ * @param radius metres
+ */
+export function drawRobotOutline({ context, view }: Brush, x: number, y: number, radius: number, colour: string) {
+  context.strokeStyle = colour;
+  context.lineWidth = 1.5;
+  context.setLineDash([3, 3]);
+  context.beginPath();
+  context.arc(view.toPixelX(x), view.toPixelY(y), radiusOn(view, radius), 0, 2 * Math.PI);
+  context.stroke();
+  context.setLineDash([]);
+}
+
+/**
+ * @param radius metres
+ * @returns CSS pixels
+ */
+function radiusOn(view: View, radius: number): number {
+  return Math.max(SMALLEST, radius * view.scaleX);
+}

@@ -1,0 +1,9 @@
+/**
+ * What libraries and elements ask for while they are being imported. Where there is no DOM, as in
+ * Node, a page generator may import the elements all the same, and nothing is defined.
+ */
+
+const { HTMLElement = class {}, customElements = { get: () => true }, document = { createTreeWalker() {} } } =
+  globalThis as any;
+
+export { HTMLElement, customElements, document };

@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import { readFile } from 'node:fs/promises';
 import { test } from 'node:test';
-import { MAX_VALUE } from '../../www/logs/rows.js';
+import { MAX_VALUE } from '../../www/logs/rows.ts';
 import { freshModule, near } from './support.js';
 
 test('importing and loading touch neither the DOM nor the network, and load gives one module', async () => {

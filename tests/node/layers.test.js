@@ -74,7 +74,7 @@ test('only core.ts touches the generated glue', () => {
 test('a widget is one class above the base, which is one above Lit', () => {
   const files = new Set(imports.flat());
   const chains = [...files].flatMap((file) =>
-    [...readFileSync(new URL(`../../${file}`, import.meta.url), 'utf8').matchAll(/\bclass (\w+) extends (\w+)/g)].map(([, name, base]) => ({ file, name, base })),
+    [...readFileSync(new URL(`../../${file}`, import.meta.url), 'utf8').matchAll(/\bclass (\w+)(?:<.+>)? extends (\w+)/g)].map(([, name, base]) => ({ file, name, base })),
   );
   const elements = chains.filter(({ base }) => /Element$/.test(base));
   assert.deepEqual(

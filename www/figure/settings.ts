@@ -186,20 +186,21 @@ export class Settings extends Part {
    * @param end of that time, by performance.now()
    */
   prepare(next: any, job: Job, refuse: (error: unknown) => void, end: number) {
-    const settings = this;
-    let later = false;
-    this.work((function* () {
-      try {
-        yield* job;
-      } catch (error) {
-        if (!later || settings.next !== next || isTrap(error)) throw error;
-        settings.abandon();
-        settings.show();
-        refuse(error);
-      }
-    })(), next);
+    const time = { isOver: false };
+    this.work(this.#prepared(next, job, refuse, time), next);
     this.settle(end - performance.now());
-    later = true;
+    time.isOver = true;
+  }
+
+  *#prepared(next: any, job: Job, refuse: (error: unknown) => void, time: { isOver: boolean }): Job {
+    try {
+      yield* job;
+    } catch (error) {
+      if (!time.isOver || this.next !== next || isTrap(error)) throw error;
+      this.abandon();
+      this.show();
+      refuse(error);
+    }
   }
 
   /** What is being done is given up. */

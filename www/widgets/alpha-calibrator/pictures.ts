@@ -8,7 +8,7 @@ import { View, extentAround, extentOf } from '../../scene/view.ts';
 import { lineKey } from '../shared/line-key.ts';
 import { CLASSES, LINES } from './settings.ts';
 import { WayLayer, drawRings, styleOf } from './way.ts';
-import type { AlphaCalibrator as Machine, LegView } from '../../types.d.ts';
+import type { LegView } from '../../types.d.ts';
 import type { Reading } from './reading.ts';
 import type { LineName } from './settings.ts';
 

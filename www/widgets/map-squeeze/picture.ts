@@ -11,9 +11,8 @@ import { limits } from '../../settings.js';
 import { clamp } from '../../ui/clamp.ts';
 import { drawHeldRobot, drawRobotOutline } from '../shared/robot.ts';
 import { LINES } from './settings.ts';
-import type { MapSqueeze, Plan, SqueezeSettings } from '../../types.d.ts';
+import type { MapSqueeze, Plan } from '../../types.d.ts';
 import type { Brush } from '../../scene/canvas.ts';
-import type { Extent } from '../../scene/view.ts';
 import type { Cells } from '../../scene/walls.ts';
 
 export type Scene = ReturnType<typeof import('./reading.ts').readingOf> & { machine: MapSqueeze, overlays: string[], marked: { pose: Float64Array, path: Float64Array, contact: number[] | undefined } | undefined, };

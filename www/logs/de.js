@@ -46,7 +46,17 @@ export const log = {
     noColumns: (wanted, columns) => `die Spalten sind ${columns}; erwartet werden darunter ${NEEDED[wanted]}.`,
     twice: (field, one, other) => `sowohl „${one}“ als auch „${other}“ kann ${FIELDS[field]} sein; erwartet wird eines davon.`,
     cells: (count, needed) => `die Zeile hat ${times(count, 'Feld', 'Felder')}; erwartet werden mindestens ${needed}.`,
-    wide: (count, needed) => `die Zeile hat ${times(count, 'Feld', 'Felder')} und der Kopf ${needed}; erwartet werden gleich viele, mit Dezimalpunkten in Zahlen.`,
+    wide: (count, needed, header) =>
+      `die Zeile hat ${times(count, 'Feld', 'Felder')} und der Kopf in Zeile ${header} ${needed}; erwartet werden gleich viele, mit Dezimalpunkten in Zahlen oder Semikolons zwischen Feldern.`,
+    given: (count, given) => `die Zeile hat ${times(count, 'Feld', 'Felder')}, und --columns nennt ${given}; alle Spalten der Reihe nach nennen, mit - für die, die nicht gelesen werden.`,
+    noHeader: (count, row, usual) =>
+      `die Tabelle hat keinen Kopf, und ihre erste Zeile ist „${row}“; ihre ${count} Spalten der Reihe nach nennen, mit - für die, die nicht gelesen werden, wie in --columns ${usual}.`,
+    kitti: 'Zeilen mit 12 Zahlen sind Posen von KITTI, die keine Zeiten haben; diese aus times.txt mit kitti_poses_and_timestamps_to_trajectory.py von evo ergänzen und die TUM-Datei angeben, die es schreibt.',
+    euler: (rotation) => `die Drehungen sind Eulerwinkel (${rotation}); die Aufnahme noch einmal aus Motive exportieren, mit Rotation Type „Quaternion“.`,
+    tilted: 'die Posen drehen sich nicht um eine senkrechte Z-Achse; erwartet werden Quaternionen in der Reihenfolge des Kopfs auf einer Ebene mit Z nach oben. Mit Z nach oben exportieren, oder die Spalten der Reihe nach mit --columns nennen.',
+    mixed: (frames) => `die Zeilen gehören zu mehreren Frames (${frames}); nur die eines davon behalten.`,
+    several: (names) => `die Tabelle hat mehrere Logs; eines davon wählen: ${names}.`,
+    unknownUnit: (unit) => `die Einheit ${unit} einer Spalte ist unbekannt, oder nicht die einer anderen; erwartet wird m, cm oder mm, und rad oder deg.`,
     number: (column, value) => `${column} ist „${value}“; erwartet wird eine Zahl${/^[+-]?\d*,\d+$/.test(value) ? ' mit Dezimalpunkt' : ''}.`,
     rows: (most) => `es sind mehr Zeilen; erwartet werden höchstens ${most}.`,
     far: (value, most, message) => `${message ? `die Nachricht ${message} hat den Wert ${value}` : `ein Wert ist ${value}`}; erwartet werden Zahlen von ${-most} bis ${most}, in m, rad und s.`,
@@ -89,6 +99,8 @@ export const log = {
     degrees: 'Richtungen in Grad, nach dem Namen der Spalte',
     notes: {
       cutShort: () => 'die Datei endet mitten in einer Zeile oder einem Record',
+      noZone: () => 'Datumsangaben ohne Zeitzone gelten als UTC',
+      upAxis: (axis) => `${axis} ist die senkrechte Achse`,
       sorted: (count) => `${times(count, 'verspätete Zeile', 'verspätete Zeilen')} nach der Zeit sortiert`,
       swapped: (odometry) => `sie heißt wie eine Odometrie, und ${odometry} nicht: Sind die beiden vertauscht?`,
       apart: (name, one, other) =>

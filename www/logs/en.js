@@ -46,7 +46,17 @@ export const log = {
     twice: (/** @type {string} */ field, /** @type {string} */ one, /** @type {string} */ other) =>
       `both “${one}” and “${other}” may be ${FIELDS[field]}; expected is one of them.`,
     cells: (/** @type {number} */ count, /** @type {number} */ needed) => `the row has ${count} cells; expected are at least ${needed}.`,
-    wide: (/** @type {number} */ count, /** @type {number} */ needed) => `the row has ${count} cells, and the header ${needed}; expected are as many, with decimal points in numbers.`,
+    wide: (/** @type {number} */ count, /** @type {number} */ needed, /** @type {number} */ header) =>
+      `the row has ${count} cells, and the header in line ${header} ${needed}; expected are as many, with decimal points in numbers, or semicolons between cells.`,
+    given: (/** @type {number} */ count, /** @type {number} */ given) => `the row has ${count} cells, and --columns names ${given}; name each column in order, with - for those to skip.`,
+    noHeader: (/** @type {number} */ count, /** @type {string} */ row, /** @type {string} */ usual) =>
+      `the table has no header, and its first row is “${row}”; name its ${count} columns in order, with - for those to skip, as in --columns ${usual}.`,
+    kitti: 'rows of 12 numbers are poses of KITTI, which have no times; add them from its times.txt with kitti_poses_and_timestamps_to_trajectory.py of evo, and give the TUM file that it writes.',
+    euler: (/** @type {string} */ rotation) => `the rotations are Euler angles (${rotation}); export the take from Motive again with the rotation type Quaternion.`,
+    tilted: 'the poses do not turn about a vertical Z axis; expected are quaternions in the order of the header on a plane with Z up. Export with Z up, or name the columns in their order by --columns.',
+    mixed: (/** @type {string} */ frames) => `the rows are of several frames (${frames}); keep those of one.`,
+    several: (/** @type {string} */ names) => `the table has several logs; choose one of ${names}.`,
+    unknownUnit: (/** @type {string} */ unit) => `the unit ${unit} of a column is not known, or differs from that of another; expected is m, cm or mm, and rad or deg.`,
     number: (/** @type {string} */ column, /** @type {string} */ value) => `${column} is “${value}”; expected is a number${/^[+-]?\d*,\d+$/.test(value) ? ' with a decimal point' : ''}.`,
     rows: (/** @type {number} */ most) => `there are more rows; expected are at most ${most}.`,
     far: (/** @type {number} */ value, /** @type {number} */ most, /** @type {number} */ message) =>
@@ -99,6 +109,8 @@ export const log = {
     degrees: 'headings in degrees, by the name of the column',
     notes: {
       cutShort: () => 'the file ends in the middle of a row or record',
+      noZone: () => 'dates without a time zone are taken as UTC',
+      upAxis: (/** @type {string} */ axis) => `${axis} is the vertical axis`,
       sorted: (/** @type {number} */ count) => `${count} late ${count === 1 ? 'row' : 'rows'} sorted by time`,
       swapped: (/** @type {string} */ odometry) => `it is called as odometry is, and ${odometry} is not: are the two the other way round?`,
       apart: (/** @type {string} */ name, /** @type {string} */ one, /** @type {string} */ other) =>

@@ -96,7 +96,7 @@ export type Basis = 'name' | 'size' | 'rate' | 'format' | 'option' | 'usage';
 
 /** Sentence about a log: name of a word in `found.notes`, and the values in it. */
 export interface Note {
-  name: 'cutShort' | 'sorted' | 'swapped' | 'apart';
+  name: 'cutShort' | 'sorted' | 'noZone' | 'upAxis' | 'swapped' | 'apart';
   values: (string | number)[];
 }
 

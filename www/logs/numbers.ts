@@ -8,6 +8,9 @@ const NOT_FINITE = /^(?:[+-]?(?:nan|inf(?:inity)?)|null|none|nat|na|n\/a|-)?$/i;
 
 const DECIMAL = /^\s*([+-]?)(\d+)(?:\.(\d*))?(?:[eE]([+-]?\d{1,3}))?\s*$/;
 
+/** Digits, with a point or without. */
+const PLAIN = /^\d+(?:\.\d*)?$/;
+
 const DATE = /^\s*(\d{4})[-/](\d{1,2})[-/](\d{1,2})(?:[T\s]+(\d{1,2}):(\d{2})(?::(\d{2})(?:[.,](\d+))?)?\s*(Z|UTC|GMT|[+-]\d{2}(?::?\d{2})?)?)?\s*$/i;
 
 /** Duration as of pandas ("0 days 00:00:01.5") and MATLAB ("00:00:01.5"). */
@@ -17,7 +20,7 @@ const DURATION = /^\s*(?:(\d+) days? )?\+?(\d+):(\d{2}):(\d{2})(?:[.,](\d+))?\s*
 export function numberOf(cell: string): number | undefined {
   const value = Number(cell);
   // Number also takes empty cells and hexadecimal digits, both as whole numbers, which parseFloat does not.
-  if (value === value && (value % 1 !== 0 || value === parseFloat(cell))) return value;
+  if (value === value && (Math.trunc(value) !== value || value === parseFloat(cell))) return value;
   return NOT_FINITE.test(cell.trim()) ? NaN : undefined;
 }
 
@@ -28,6 +31,12 @@ export function numberOf(cell: string): number | undefined {
  * @returns NaN or undefined as `numberOf`
  */
 export function timeOf(cell: string, power: number): Time | undefined {
+  if (PLAIN.test(cell)) {
+    // Most times: the digits are split where the seconds end.
+    const point = cell.indexOf('.');
+    if (power === 0 && point > 0) return [Number(cell.slice(0, point)), Number(`${cell.slice(point)}0`)];
+    if (point < 0 && cell.length > power) return power === 0 ? [Number(cell), 0] : [Number(cell.slice(0, -power)), Number(`.${cell.slice(-power)}`)];
+  }
   const decimal = DECIMAL.exec(cell);
   if (!decimal) {
     const number = numberOf(cell);

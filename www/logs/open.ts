@@ -1,18 +1,18 @@
 /** Recordings in files, by the contents of each. */
 
-import { bytesOf, listed } from './log-error.js';
-import type { Log, OpenOptions, Recording, Source } from './log.ts';
-import { headerOf, readTable } from './table.js';
+import { bytesOf } from './log-error.js';
+import type { OpenOptions, Recording, Source } from './log.ts';
+import { openTable } from './table.ts';
 
 /** First bytes of an MCAP recording. */
 const MCAP = [0x89, 0x4d, 0x43, 0x41, 0x50, 0x30, 0x0d, 0x0a];
 
 /** Opens files; rejects with a LogError that names the file, the line or topic, and what is expected. */
-export async function openRecordings(sources: Source[], _options: OpenOptions = {}): Promise<Recording[]> {
+export async function openRecordings(sources: Source[], options: OpenOptions = {}): Promise<Recording[]> {
   const recordings = [];
   for (const source of sources) {
     const start = await bytesOf(source, 0, MCAP.length);
-    recordings.push(await (MCAP.every((byte, i) => byte === start[i]) ? mcapOf(source) : tableOf(source)));
+    recordings.push(await (MCAP.every((byte, i) => byte === start[i]) ? mcapOf(source) : openTable(source, options)));
   }
   return recordings;
 }
@@ -24,19 +24,5 @@ async function mcapOf(source: Source): Promise<Recording> {
     format: 'mcap',
     series: await listTopics(source),
     read: (choices, onProgress) => readRecording(source, choices, onProgress),
-  };
-}
-
-async function tableOf(source: Source): Promise<Recording> {
-  const { name, layout: { kind, hasBoth, names } } = await headerOf(source);
-  return {
-    name: source.name,
-    format: name,
-    series: [{ name: '', type: listed(names), kind, hasCommands: hasBoth || kind === 'commands', count: 0 }],
-    async read(choices, onProgress) {
-      const logs: Log[] = [];
-      for (const choice of choices) logs.push(await readTable(source, choice.kind, onProgress));
-      return logs;
-    },
   };
 }

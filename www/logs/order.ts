@@ -34,9 +34,13 @@ export interface Order {
  */
 export function sortRows(t: Float64Array, isSame: (one: number, other: number) => boolean): Order {
   const fates = new Uint8Array(t.length);
-  const all = Uint32Array.from(t.keys());
-  const isLate = (i: number) => i > 0 && t[i] < t[i - 1];
-  if (!t.some((_, i) => isLate(i))) return { order: all, fates, setBack: -1, most: t.length };
+  const all = new Uint32Array(t.length);
+  let isSorted = true;
+  for (let i = 0; i < t.length; i++) {
+    all[i] = i;
+    if (t[i] < t[i - 1]) isSorted = false;
+  }
+  if (isSorted) return { order: all, fates, setBack: -1, most: t.length };
 
   const step = quantile(sample(t.length - 1, (i) => t[i + 1] - t[i]).filter((each) => each > 0), 0.5);
   const sorted = all.toSorted((one, other) => t[one] - t[other] || one - other);

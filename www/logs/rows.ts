@@ -42,17 +42,16 @@ const EPOCH = 1e8;
 /** Least share of the rows that has to be left after a clock was set back, and that has to be of different times. */
 const MIN_SHARE = 0.6;
 
+/** Columns of the numbers of a row. The rest of a clock's time is behind its seconds. */
+const [SECONDS, REST, A, B, C, LINE, OTHER_SECONDS, OTHER_REST, WIDTH] = [0, 1, 2, 3, 4, 5, 6, 7, 8];
+
 export class Rows {
   #place: Place;
-  #seconds: number[] = [];
-  #rest: number[] = [];
-  /** Times by the other clock. */
-  #otherSeconds: number[] = [];
-  #otherRest: number[] = [];
-  #a: number[] = [];
-  #b: number[] = [];
-  #c: number[] = [];
-  #lines: number[] = [];
+  /** Numbers of the rows that were added, row by row. */
+  #numbers = new Float64Array(1024 * WIDTH);
+  #added = 0;
+  /** Column of the clock's seconds. */
+  #clock = SECONDS;
   /** Rows before which unusable ones were dropped, so that the path is unknown there. */
   #broken = new Set<number>();
   #dropped: Summary['dropped'] = {};
@@ -69,7 +68,7 @@ export class Rows {
   leaveOut(cause: Cause, line: number): void {
     this.count += 1;
     this.#note(cause, line);
-    this.#broken.add(this.#a.length);
+    this.#broken.add(this.#added);
   }
 
   /**
@@ -93,14 +92,21 @@ export class Rows {
       const far = [a, b, c].find((value) => Math.abs(value) > MAX_VALUE) ?? NaN;
       throw new LogError(this.#at(line), (say) => say.far(far, MAX_VALUE, this.#message(line)));
     }
-    this.#seconds.push(seconds);
-    this.#rest.push(rest);
-    this.#otherSeconds.push(otherSeconds);
-    this.#otherRest.push(otherRest);
-    this.#a.push(a);
-    this.#b.push(b);
-    this.#c.push(c);
-    this.#lines.push(line);
+    const at = WIDTH * this.#added++;
+    if (at === this.#numbers.length) {
+      const grown = new Float64Array(2 * at);
+      grown.set(this.#numbers);
+      this.#numbers = grown;
+    }
+    const numbers = this.#numbers;
+    numbers[at + SECONDS] = seconds;
+    numbers[at + REST] = rest;
+    numbers[at + A] = a;
+    numbers[at + B] = b;
+    numbers[at + C] = c;
+    numbers[at + LINE] = line;
+    numbers[at + OTHER_SECONDS] = otherSeconds;
+    numbers[at + OTHER_REST] = otherRest;
   }
 
   /**
@@ -112,9 +118,9 @@ export class Rows {
   end(name: string, kind: LogKind, { units: stated, clocks, ...decisions }: Decisions, options: OpenOptions = {}): Log {
     const usesOther = this.#chooseClock(clocks[1] !== undefined);
     const { rows, late, ...times } = this.#inOrder();
-    const [a, b, c] = [this.#a, this.#b, this.#c].map((column) => {
+    const [a, b, c] = [A, B, C].map((column) => {
       const values = new Float64Array(rows.length);
-      for (let i = 0; i < rows.length; i++) values[i] = column[rows[i]];
+      for (let i = 0; i < rows.length; i++) values[i] = this.#numbers[WIDTH * rows[i] + column];
       return values;
     });
     const { count } = this;
@@ -138,31 +144,45 @@ export class Rows {
 
   /** Takes the other clock if the first one mostly stands at 0. @returns whether it did */
   #chooseClock(hasOther: boolean): boolean {
-    const rows = this.#seconds.length;
     let unset = 0;
-    for (let row = 0; row < rows; row++) if (this.#isUnset(row)) unset += 1;
-    if (!hasOther || 2 * unset <= rows) return false;
-    this.#seconds = this.#otherSeconds;
-    this.#rest = this.#otherRest;
+    for (let row = 0; row < this.#added; row++) if (this.#isUnset(row)) unset += 1;
+    if (!hasOther || 2 * unset <= this.#added) return false;
+    this.#clock = OTHER_SECONDS;
     return true;
   }
 
+  #seconds(row: number): number {
+    return this.#numbers[WIDTH * row + this.#clock];
+  }
+
+  #rest(row: number): number {
+    return this.#numbers[WIDTH * row + this.#clock + 1];
+  }
+
+  #line(row: number): number {
+    return this.#numbers[WIDTH * row + LINE];
+  }
+
   #isUnset(row: number): boolean {
-    return this.#seconds[row] === 0 && this.#rest[row] === 0;
+    return this.#seconds(row) === 0 && this.#rest(row) === 0;
   }
 
   /** Returns the rows that are kept by their times, each time once, and the number of those that were late. */
   #inOrder(): { start: number; t: Float64Array; rows: Uint32Array; late: number } {
     // A stamp of 0 among times since 1970 was never set.
-    const isSince1970 = quantile(sample(this.#seconds.length, (row) => this.#seconds[row]), 0.5) > EPOCH;
-    const stamped = Uint32Array.from(this.#seconds.keys()).filter((row) => !(isSince1970 && this.#isUnset(row)));
-    const base = Math.floor(this.#seconds[stamped[0]]);
-    const times = new Float64Array(stamped.length);
-    for (let i = 0; i < times.length; i++) times[i] = this.#seconds[stamped[i]] - base + this.#rest[stamped[i]];
-    const isSame = (one: number, other: number) => [this.#a, this.#b, this.#c].every((column) => column[stamped[one]] === column[stamped[other]]);
+    const isSince1970 = quantile(sample(this.#added, (row) => this.#seconds(row)), 0.5) > EPOCH;
+    let stamped = new Uint32Array(this.#added);
+    let count = 0;
+    for (let row = 0; row < this.#added; row++) if (!(isSince1970 && this.#isUnset(row))) stamped[count++] = row;
+    stamped = stamped.subarray(0, count);
+    const base = Math.floor(this.#seconds(stamped[0]));
+    const times = new Float64Array(count);
+    for (let i = 0; i < count; i++) times[i] = this.#seconds(stamped[i]) - base + this.#rest(stamped[i]);
+    const isSame = (one: number, other: number) =>
+      [A, B, C].every((column) => this.#numbers[WIDTH * stamped[one] + column] === this.#numbers[WIDTH * stamped[other] + column]);
     const { order, fates, setBack, most } = sortRows(times, isSame);
     if (setBack >= 0 && most < MIN_SHARE * times.length) {
-      const line = this.#lines[stamped[setBack]];
+      const line = this.#line(stamped[setBack]);
       throw new LogError(this.#at(line), (say) => say.setBack(times[setBack - 1] - times[setBack], this.#message(line)));
     }
 
@@ -173,7 +193,7 @@ export class Rows {
     let [used, different] = [0, 0];
     for (let i = 0; i < order.length; i++) {
       const row = stamped[order[i]];
-      const time = this.#seconds[row] - start + this.#rest[row];
+      const time = this.#seconds(row) - start + this.#rest(row);
       if (used > 0 && time <= t[used - 1]) {
         isDropped.set(row, 'duplicate');
         if (!isSame(order[i - 1], order[i])) different += 1;
@@ -184,7 +204,7 @@ export class Rows {
       used += 1;
     }
     if (order.length > 3 && different > (1 - MIN_SHARE) * order.length) {
-      const line = this.#lines[Math.min(...isDropped.keys())];
+      const line = this.#line([...isDropped.keys()].reduce((first, row) => Math.min(first, row)));
       throw new LogError(this.#at(line), (say) => say.sameTimes(different, order.length, this.#message(line)));
     }
     let late = 0;
@@ -192,7 +212,7 @@ export class Rows {
       if (fates[i] === LATE) late += 1;
       else if (fates[i] !== KEPT) isDropped.set(stamped[i], fates[i] === STRAY ? 'stray' : 'setBack');
     }
-    for (let row = 0; row < this.#seconds.length && stamped.length < this.#seconds.length; row++) {
+    for (let row = 0; row < this.#added && count < this.#added; row++) {
       if (isSince1970 && this.#isUnset(row)) isDropped.set(row, 'noStamp');
     }
     this.#drop(isDropped);
@@ -203,7 +223,7 @@ export class Rows {
   #drop(rows: Map<number, Cause>): void {
     for (const row of [...rows.keys()].sort((one, other) => one - other)) {
       const cause = rows.get(row) as Cause;
-      this.#note(cause, this.#lines[row]);
+      this.#note(cause, this.#line(row));
       if (cause === 'setBack' || this.#broken.delete(row)) this.#broken.add(row + 1);
     }
   }
@@ -248,7 +268,7 @@ export class Rows {
 
 /** Returns a test for a jump just before a row. */
 function jumpTest(t: Float64Array, x: Float64Array, y: Float64Array, theta: Float64Array): (i: number) => boolean {
-  const distance = (i: number) => Math.hypot(x[i] - x[i - 1], y[i] - y[i - 1]);
+  const distance = (i: number) => Math.sqrt((x[i] - x[i - 1]) ** 2 + (y[i] - y[i - 1]) ** 2);
   const turn = (i: number) => {
     const difference = theta[i] - theta[i - 1];
     return Math.abs(difference - 2 * Math.PI * Math.round(difference / (2 * Math.PI)));

@@ -26,8 +26,8 @@ export const POWERS = { s: 0, ms: 3, us: 6, ns: 9 } as const;
 const METRES = { m: 1, cm: 0.01, mm: 0.001 } as const;
 const RADIANS = { rad: 1, deg: Math.PI / 180 } as const;
 
-/** Least size of a time since 1970 in each unit: 1e11 s is the year 5138. */
-const SIZES = [['ns', 1e17], ['us', 1e14], ['ms', 1e11]] as const;
+/** Least size of a time since 1970 in each unit: 1e8 s is the year 1973, and 1e11 s the year 5138. */
+const SIZES = [['ns', 1e17], ['us', 1e14], ['ms', 1e11], ['s', 1e8]] as const;
 
 /** Rows below which a log is too short to judge. */
 const MIN_ROWS = 10;
@@ -67,7 +67,7 @@ export function judgeUnits(place: Place, kind: LogKind, columns: Columns, stated
   const ask = (what: 'timeUnit' | 'lengthUnit' | 'angleUnit', value: number, unit: string, choices: string[]): never => {
     throw new LogError(place, (say) => say[what](value, unit, choices), { what, choices } satisfies Question);
   };
-  const time = isJudged ? timeUnit(kind, columns, stated.time, ask) : stated.time;
+  const time = isJudged ? timeUnit(kind, columns, stated, options, ask) : stated.time;
   convertTimes(columns, 10 ** (POWERS[time.unit] - POWERS[stated.time.unit]));
 
   let { length, angle } = stated;
@@ -86,7 +86,7 @@ export function judgeUnits(place: Place, kind: LogKind, columns: Columns, stated
 type Ask = (what: 'timeUnit' | 'lengthUnit' | 'angleUnit', value: number, unit: string, choices: string[]) => never;
 
 /** Judges times by their size or name, and by the rate and the speed that they imply. */
-function timeUnit(kind: LogKind, { t, a, b, c }: Columns, stated: Units['time'], ask: Ask): Units['time'] {
+function timeUnit(kind: LogKind, { t, a, b, c }: Columns, { time: stated, length, angle }: Units, options: OpenOptions, ask: Ask): Units['time'] {
   if (stated.by === 'format' || stated.by === 'option') return stated;
   const step = quantile(sample(t.length - 1, (i) => t[i + 1] - t[i]), 0.5);
   const units = Object.keys(POWERS) as TimeUnit[];
@@ -95,7 +95,10 @@ function timeUnit(kind: LogKind, { t, a, b, c }: Columns, stated: Units['time'],
     if (isWithin(rate(stated.unit), RATES)) return stated;
     return ask('timeUnit', rate(stated.unit), stated.unit, units.filter((unit) => isWithin(rate(unit), RATES)));
   }
-  const [speed, turn] = kind === 'poses' ? [speedOf(t, a, b, step), turnOf(t, c)] : [0, 0];
+  // Headings whose unit nothing states are not counted.
+  const radians = RADIANS[options.angleUnit ?? (angle.unit === 'deg' ? 'deg' : 'rad')];
+  const isCounted = options.angleUnit !== undefined || angle.by !== 'usage';
+  const [speed, turn] = kind === 'poses' ? [speedOf(t, a, b, step) * METRES[options.lengthUnit ?? length.unit], isCounted ? turnOf(t, c) * radians : 0] : [0, 0];
   const moves = speed > 0 || turn > 0;
   /** Checks the rate, and that the robot is neither too fast nor too slow. */
   const fits = (unit: TimeUnit) => {
@@ -135,15 +138,16 @@ function angleUnit(kind: LogKind, { t, a, b, c }: Columns, stated: Units['angle'
     const isDoubted = path !== undefined && path !== stated.unit && (stated.unit === 'deg') !== turn > FASTEST;
     return isDoubted ? ask('angleUnit', turn * RADIANS[stated.unit as AngleUnit], stated.unit, choices) : stated;
   }
-  let [low, high, wraps] = [Infinity, -Infinity, 0];
+  let largest = 0;
+  let wraps = 0;
   for (let i = 0; i < c.length; i++) {
-    low = Math.min(low, c[i]);
-    high = Math.max(high, c[i]);
-    if (i > 0 && isWithin(Math.abs(c[i] - c[i - 1]), WRAPS)) wraps += 1;
+    if (Math.abs(c[i]) > largest) largest = Math.abs(c[i]);
+    const step = Math.abs(c[i] - c[i - 1]);
+    if (step >= WRAPS[0] && step <= WRAPS[1]) wraps += 1;
   }
   const signs = [path === 'deg', wraps > 0, turn > FASTEST].filter(Boolean).length;
   // Headings in radians that are not wrapped grow beyond a full circle too.
-  const isBeyond = Math.max(high, -low) > 2 * Math.PI + 0.1;
+  const isBeyond = largest > 2 * Math.PI + 0.1;
   if (path !== 'rad' && signs >= 2 && isBeyond) return { unit: 'deg', by: 'size' };
   if (path === 'rad' ? turn > FASTEST && wraps > 0 : turn > FASTEST || isBeyond) return ask('angleUnit', turn, stated.unit, choices);
   return stated;

@@ -1,0 +1,266 @@
+/** Columns of a table: groups with a common prefix, from the names that people and recorders give them. */
+
+import { LogError, cut, listed, type Place } from './log-error.js';
+import type { AngleUnit, LengthUnit, LogKind, Series, TimeUnit } from './log.ts';
+
+export type Field = 't' | 'seconds' | 'nanoseconds' | 'x' | 'y' | 'z' | 'yaw' | 'qx' | 'qy' | 'qz' | 'qw' | 'v' | 'omega' | 'frame' | 'child';
+
+export interface Column {
+  /** Index, from 0. */
+  at: number;
+  name: string;
+  /** Unit that the name states, of time, length, or angle; those of speeds are of their length or angle. */
+  unit?: string;
+  /** Order among columns of the same field: the lowest is the field. */
+  rank: number;
+}
+
+export interface Clock {
+  name: string;
+  /** One column, or those of seconds and nanoseconds. */
+  columns: [Column] | [Column, Column];
+  unit?: TimeUnit;
+}
+
+export interface Group {
+  /** Prefix of the names. */
+  name: string;
+  kind: Series['kind'];
+  hasCommands: boolean;
+  columns: Partial<Record<Field, Column>>;
+  /** Second column of a field that is as good as the first. */
+  twice: Partial<Record<Field, Column>>;
+  /** Columns of times, best first. */
+  times: Column[];
+  /** Clock of the rows, and another one that is used if the first stands at 0. */
+  clocks: Clock[];
+  /** First cell of its rows, in a file of rows of several kinds. */
+  tag?: string;
+}
+
+/** Messages in which a field lies. */
+const POSE = '(?:(?:pose|transform|odometry)\\.)*';
+const TWIST = '(?:(?:twist|velocity|vel|cmd)\\.)*';
+const HEADER = '(?:header\\.)?';
+
+/**
+ * Names of each field, best first, in small letters with dots between their parts. A part before them is the prefix of a group.
+ * The first pattern that matches a name is its field.
+ */
+const NAMES: [Field, string[]][] = [
+  ['child', ['child\\.frame\\.id']],
+  ['frame', [`${HEADER}frame\\.id`]],
+  ['nanoseconds', [`${HEADER}(?:time\\.?)?stamp\\.(?:nano?secs?|nsecs?|nanoseconds?)`, '(?:nano?secs?|nsecs?|nanoseconds?)']],
+  ['seconds', [`${HEADER}(?:time\\.?)?stamp\\.(?:secs?|seconds?)`, '(?:secs?|seconds?)']],
+  ['t', [`${HEADER}stamp`, '(?:ros|bag|rosbag|msg|epoch|unix)?\\.?time\\.?stamp', '(?:ros|bag|epoch|unix|elapsed|log|recv)?\\.?(?:time|date\\.?time|zeit)', 't']],
+  ['qx', ['q\\..*\\.x', `${POSE}(?:orientation|rotation|quaternion|quat|rot|q)\\.?x`]],
+  ['qy', ['q\\..*\\.y', `${POSE}(?:orientation|rotation|quaternion|quat|rot|q)\\.?y`]],
+  ['qz', ['q\\..*\\.z', `${POSE}(?:orientation|rotation|quaternion|quat|rot|q)\\.?z`]],
+  ['qw', ['q\\..*\\.w', `${POSE}(?:orientation|rotation|quaternion|quat|rot|q)\\.?w`]],
+  ['omega', [`${TWIST}(?:angular|ang)\\.(?:vel(?:ocity)?\\.)?z`, 'omega(?:\\.z)?|ω', '(?:yaw|turn|heading)\\.?(?:rate|vel(?:ocity)?)|wz?', '(?:angular|ang)(?:\\.?(?:vel(?:ocity)?|speed|rate))?', 'vel(?:ocity)?\\.(?:yaw|theta)']],
+  ['v', [`${TWIST}(?:linear|lin)\\.(?:vel(?:ocity)?\\.)?x`, 'vx?', '(?:linear|lin|forward|fwd)?\\.?(?:vel(?:ocity)?|speed)(?:\\.x)?|linear|lin']],
+  ['yaw', [`${POSE}(?:(?:orientation|rotation|euler|rpy|rot)\\.)?(?:yaw|theta|heading)(?:\\.angle)?`, 'θ|ψ|psi|phi']],
+  ['x', ['p\\..*\\.x', `${POSE}(?:position|translation|location|pos|loc|trans|[pt])\\.?x`, `${POSE}x`]],
+  ['y', ['p\\..*\\.y', `${POSE}(?:position|translation|location|pos|loc|trans|[pt])\\.?y`, `${POSE}y`]],
+  ['z', ['p\\..*\\.z', `${POSE}(?:position|translation|location|pos|loc|trans|[pt])\\.?z`, `${POSE}z`]],
+];
+
+/** Patterns with the prefix first. The dot of a prefix is lazy, so that a message belongs to the field and not to the prefix. */
+const PATTERNS = NAMES.flatMap(([field, names]) => names.map((name, rank) => ({ field, rank, pattern: new RegExp(`^(?:(.*?)\\.)??(?:${name})$`, 'u') })));
+
+/** Field and a group after it: x_gt, yaw_odom, x1. */
+const SUFFIXED = /^((?:pos\.|position\.)?[xy]|yaw|theta|heading|q\.?[xyzw]|t|time|v|omega)\.?(\d+|(?<=\.)(?!rate|dot)\p{L}.*)$/u;
+
+/** Parts of names of other quantities: uncertainty, acceleration, and vectors of an IMU. */
+const OTHERS = /(^|\.)(cov(ariance)?|std(dev)?|sigma|var(iance)?|err(or)?|residual|acc(el(eration)?)?|force|torque|effort|bias|mag(netic)?|dot|linear|angular|lin|ang|vel(ocity)?|twist|goal|setpoint|euler|rpy)(\.|\d|$)|^[vabw]\./;
+
+type Unit = { of: 'time' | 'length' | 'angle'; unit: TimeUnit | LengthUnit | AngleUnit; isRate: boolean };
+
+const UNIT_WORDS: [RegExp, Unit['of'], Unit['unit']][] = [
+  [/^(s|secs?|seconds?)$/, 'time', 's'],
+  [/^(ms|m?secs?|millisecs?|milliseconds?)$/, 'time', 'ms'],
+  [/^(us|µs|μs|usecs?|microsecs?|microseconds?)$/, 'time', 'us'],
+  [/^(ns|nsecs?|nano?secs?|nanoseconds?)$/, 'time', 'ns'],
+  [/^(m|met(er|re)s?)$/, 'length', 'm'],
+  [/^(cm|centimet(er|re)s?)$/, 'length', 'cm'],
+  [/^(mm|millimet(er|re)s?)$/, 'length', 'mm'],
+  [/^(rad|radians?)$/, 'angle', 'rad'],
+  [/^(deg|degrees?|°|grad)$/, 'angle', 'deg'],
+];
+
+/** Division by a second: "m/s", "m s^-1", "m_s", "mps". */
+const PER_SECOND = /(\/|[ ._*]|p|per)\.?s(ec(ond)?)?(\^?-1)?$/;
+
+/** Units that numbers without one have. */
+const NO_UNIT = /^(|-|1|quat(ernion)?|unitless|none)$/;
+
+/** Unit at the end of a name, in brackets, or as MATLAB makes a name of "x [m]". */
+const BRACKETS = /\s*[[({]([^\])}]*)[\])}]\s*$/;
+const LAST_PART = /[._ ]+((?:m|mm|cm|rad|deg)[._ /]s|[^._ /]+)_?$/;
+
+function unitOf(text: string): Unit | undefined {
+  const small = text.trim().toLowerCase().replace(/^dps$/, 'deg/s');
+  const rate = small.replace(PER_SECOND, '');
+  const isRate = rate !== small && rate !== '' && !/^(p|m|u|n)$/.test(small.replace(/s$/, ''));
+  const [, of, unit] = UNIT_WORDS.find(([pattern]) => pattern.test(isRate ? rate : small)) ?? [];
+  return of && unit ? { of, unit, isRate } : undefined;
+}
+
+/** Quantity of each field. */
+const UNITS_OF: Partial<Record<Field, [Unit['of'], boolean]>> = {
+  t: ['time', false], x: ['length', false], y: ['length', false], z: ['length', false], yaw: ['angle', false], v: ['length', true], omega: ['angle', true],
+};
+
+/** Parts of a name in small letters, with dots between them. */
+function pathOf(name: string): string {
+  const parts = name.replace(/^%/, '').replace(/^field\./, '').replaceAll(/(\p{Ll})(\p{Lu})/gu, '$1.$2').toLowerCase();
+  return parts.replaceAll(/[^\p{L}\p{N}°]+/gu, '.').replaceAll(/^\.+|\.+$/g, '');
+}
+
+interface Reading { field: Field; rank: number; prefix: string; unit?: string }
+
+/** Returns the field of a column, or undefined for another quantity. */
+function readName(name: string): Reading | undefined {
+  const [bracketed, inside] = BRACKETS.exec(name) ?? [];
+  if (bracketed !== undefined && inside !== undefined && !NO_UNIT.test(inside.trim())) {
+    const unit = unitOf(inside);
+    const reading = fieldOf(pathOf(name.slice(0, -bracketed.length)));
+    return reading && fits(reading.field, unit) ? { ...reading, unit: unit?.unit ?? inside.trim() } : undefined;
+  }
+  const bare = bracketed === undefined ? name : name.slice(0, -bracketed.length);
+  const whole = fieldOf(pathOf(bare));
+  if (whole) return whole;
+  const [last, word] = LAST_PART.exec(bare) ?? [];
+  const unit = word === undefined ? undefined : unitOf(word.replace(/[. ]/, '_'));
+  const reading = last !== undefined && unit ? fieldOf(pathOf(bare.slice(0, -last.length))) : undefined;
+  if (reading && unit && fits(reading.field, unit)) return { ...reading, unit: unit.unit };
+  const [, front, suffix] = SUFFIXED.exec(pathOf(bare)) ?? [];
+  const fronted = front === undefined ? undefined : fieldOf(front);
+  return fronted && suffix !== undefined && !OTHERS.test(suffix) ? { ...fronted, prefix: suffix } : undefined;
+}
+
+/** Checks that a field can have a unit. One that is not known is refused when the column is read. */
+function fits(field: Field, unit: Unit | undefined): boolean {
+  const [of, isRate] = UNITS_OF[field] ?? [];
+  return unit === undefined || (unit.of === of && unit.isRate === isRate);
+}
+
+function fieldOf(path: string): Reading | undefined {
+  for (const { field, rank, pattern } of PATTERNS) {
+    const [found, prefix = ''] = pattern.exec(path) ?? [];
+    if (found === undefined) continue;
+    return OTHERS.test(prefix) || /^[vabw]\..*\.[xyzw]$/.test(path) ? undefined : { field, rank, prefix };
+  }
+  return undefined;
+}
+
+/**
+ * Groups the columns of a table.
+ *
+ * @param names of the columns
+ * @param isTime checks whether a column without a name holds times
+ * @returns groups in the order of their columns, with those of other quantities left out
+ */
+export function groupsOf(names: string[], isTime: (at: number) => boolean = () => false): Group[] {
+  const groups = new Map<string, Group>();
+  for (const [at, name] of names.entries()) {
+    const isIndex = /^\s*(|unnamed: \d+|index)\s*$/i.test(name);
+    const reading: Reading | undefined = isIndex ? (isTime(at) ? { field: 't', rank: 9, prefix: '' } : undefined) : readName(name);
+    if (!reading) continue;
+    const { field, rank, prefix, unit } = reading;
+    const group = groups.get(prefix) ?? { name: prefix, kind: null, hasCommands: false, columns: {}, twice: {}, times: [], clocks: [] };
+    groups.set(prefix, group);
+    // Headings in radians are as recorded, and those in degrees beside them derived.
+    const column = { at, name: name.trim(), rank: rank + (unit === 'deg' ? 0.5 : 0), ...(unit !== undefined && { unit }) };
+    if (field === 't') group.times.push(column);
+    const known = group.columns[field];
+    if (!known || column.rank < known.rank) {
+      group.columns[field] = column;
+      delete group.twice[field];
+    } else if (column.rank === known.rank) group.twice[field] ??= column;
+  }
+  const all = [...groups.values()];
+  const clocks = new Map(all.map((group) => [group, clocksOf(group)]));
+  const shared = groups.get('') ? (clocks.get(groups.get('') as Group) ?? []) : [];
+  const only = all.flatMap((group) => clocks.get(group) ?? []);
+  for (const group of all) {
+    group.clocks = [...new Set([...(clocks.get(group) ?? []), ...shared])].slice(0, 2);
+    // The only clock of a table is that of all of its rows.
+    if (group.clocks.length === 0 && only.length === 1) group.clocks = only;
+    const has = (...fields: Field[]) => fields.every((field) => group.columns[field]);
+    group.hasCommands = has('v', 'omega');
+    group.kind = has('x', 'y') ? (has('yaw') || has('qz', 'qw') ? 'poses' : 'positions') : group.hasCommands ? 'commands' : null;
+    if (group.clocks.length === 0) group.kind = null;
+    if (group.kind === 'positions' && group.hasCommands) group.kind = 'commands';
+  }
+  return all.filter(({ columns }) => columns.x || columns.y || columns.v || columns.omega || columns.yaw || columns.qw).map((group) => ({ ...group, name: nameOf(group, names) }));
+}
+
+/** Returns the clocks of a group: the stamp of the message first, as the other may be the time when it was written down. */
+function clocksOf({ columns: { seconds, nanoseconds }, times }: Group): Clock[] {
+  const inOne = times.toSorted((one, other) => one.rank - other.rank).map((column) => ({ name: column.name, columns: [column], ...unitOfClock(column) }) as Clock);
+  if (seconds && nanoseconds) return [{ name: `${seconds.name}, ${nanoseconds.name}`, columns: [seconds, nanoseconds], unit: 's' }, ...inOne];
+  if (inOne.length > 0) return inOne;
+  return [...(seconds ? [{ name: seconds.name, columns: [seconds], unit: 's' } as Clock] : []), ...(nanoseconds ? [{ name: nanoseconds.name, columns: [nanoseconds], unit: 'ns' } as Clock] : [])];
+}
+
+const unitOfClock = ({ unit }: Column) => (unit === undefined ? {} : { unit: unit as TimeUnit });
+
+/** Returns the common prefix of a group's columns as the table has it, or the suffix; of a group with neither, its columns. */
+function nameOf({ name, columns }: Group, names: string[]): string {
+  if (name === '') return '';
+  const { x, v, yaw, omega } = columns;
+  const [first] = [x, v, yaw, omega].filter((column) => column !== undefined);
+  const raw = names[first?.at ?? 0].trim().replace(/^%?(field\.)?/, '');
+  for (let end = 1; end < raw.length; end++) {
+    if (/[^\p{L}\p{N}]/u.test(raw[end]) && pathOf(raw.slice(0, end)) === name) return raw.slice(0, raw[end] === '_' ? end + 1 : end);
+  }
+  for (let start = 1; start < raw.length; start++) if (pathOf(raw.slice(start)) === name) return raw.slice(start);
+  return name;
+}
+
+/** Columns that are read for a log. */
+export interface Layout {
+  kind: LogKind | 'positions';
+  clocks: Clock[];
+  /** x, y and heading, or v and omega. */
+  columns: Column[];
+  fields: Field[];
+  length: LengthUnit | undefined;
+  angle: AngleUnit | undefined;
+}
+
+/**
+ * Returns the columns of a group that a log is read from.
+ *
+ * @param wanted commands if they are there, poses alone, or by default poses if they are there
+ * @throws {LogError} where a field is missing, or two columns are it
+ */
+export function layoutOf(group: Group | undefined, names: string[], place: Place, wanted: LogKind | undefined): Layout {
+  const all = listed(names.map((name) => name.trim()));
+  if (!group) throw new LogError(place, (say) => say.noColumns(wanted === 'poses' ? wanted : 'either', all), { what: 'columns', choices: [] });
+  const { columns, twice, clocks } = group;
+  const has = (...fields: Field[]) => fields.every((field) => columns[field]);
+  if (clocks.length === 0) throw new LogError(place, (say) => say.noTime(all), { what: 'columns', choices: [] });
+  const takesCommands = group.hasCommands && wanted !== 'poses' && (wanted === 'commands' || group.kind === 'commands');
+  if (!takesCommands && !has('x', 'y')) throw new LogError(place, (say) => say.noColumns(wanted === 'poses' ? wanted : 'either', all), { what: 'columns', choices: [] });
+  const heading: Field[] = has('qx', 'qy', 'qz', 'qw') ? ['qx', 'qy', 'qz', 'qw'] : has('yaw') ? ['yaw'] : has('qz', 'qw') ? ['qz', 'qw'] : [];
+  const fields: Field[] = takesCommands ? ['v', 'omega'] : ['x', 'y', ...heading];
+  for (const field of [...(clocks[0].columns[0] === columns.t ? ['t' as const] : []), ...fields]) {
+    const [one, other] = [columns[field], twice[field]];
+    if (one && other) throw new LogError(place, (say) => say.twice(field, cut(one.name), cut(other.name)));
+  }
+  const read = fields.map((field) => columns[field] as Column);
+  const [length, ...others] = new Set((takesCommands ? read.slice(0, 1) : read.slice(0, 2)).map(({ unit }) => unit));
+  const angle = takesCommands ? columns.omega?.unit : heading[0] === 'yaw' ? columns.yaw?.unit : undefined;
+  const [unknown] = [...[length, ...others].filter((unit) => unit !== undefined && !['m', 'cm', 'mm'].includes(unit)), ...(angle === undefined || ['rad', 'deg'].includes(angle) ? [] : [angle])];
+  if (unknown !== undefined) throw new LogError(place, (say) => say.unknownUnit(cut(unknown)));
+  if (others.length > 0) throw new LogError(place, (say) => say.unknownUnit([length, ...others].map((unit) => unit ?? '–').join(', ')));
+  return {
+    kind: takesCommands ? 'commands' : heading.length > 0 ? 'poses' : 'positions',
+    clocks, columns: read, fields, length: length as LengthUnit | undefined, angle: angle as AngleUnit | undefined,
+  };
+}
+
+/** Checks for a header: some cell is a name. */
+export const isHeader = (cells: string[]) => cells.some((cell) => /\p{L}/u.test(cell) && !/^[+-]?(nan|inf(inity)?|[\d.,]+e[+-]?\d+)$/i.test(cell.trim()));

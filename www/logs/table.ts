@@ -1,0 +1,303 @@
+/** Logs in text: tables as robots, recorders and spreadsheets write them. */
+
+import { type Clock, type Group, type Layout, layoutOf } from './columns.ts';
+import { type Format, carmenCells, cellsOf, formatOf } from './format.ts';
+import { LogError, bytesOf, cut, listed, type Place } from './log-error.js';
+import type { Choice, Log, Note, OpenOptions, Recording, Series, Source, TimeUnit } from './log.ts';
+import { type Time, dateOf, numberOf, timeOf } from './numbers.ts';
+import { quantile, sample } from './quantile.ts';
+import { headingOf, isRotation } from './quaternion.ts';
+import { Rows } from './rows.ts';
+import { POWERS, unitOfSize } from './units.ts';
+
+/** Bytes that are read and parsed at a time. */
+const PIECE = 2 ** 22;
+
+/** Bytes that the format is detected from: a preamble and some rows. */
+const HEAD = 2 ** 18;
+
+/** Most characters of a line: a row of a thousand columns. */
+const LONGEST = 2 ** 16;
+
+/** Most different frames that a sentence lists. */
+const MOST_FRAMES = 4;
+
+/** Range of the cosine of the tilt, from the 5 % to the 95 % quantile, beyond which a robot does not drive on a plane. */
+const TILTS = 0.5;
+
+/** Opens a table; rejects with a LogError. */
+export async function openTable(source: Source, options: OpenOptions = {}): Promise<Recording> {
+  const encoding = await encodingOf(source);
+  const decoded = new TextDecoder(encoding).decode(await bytesOf(source, 0, Math.min(HEAD, source.size)), { stream: true });
+  if (decoded.includes('\0')) throw new LogError({ file: source.name }, (say) => say.binary);
+  const lines = decoded.split(endOf(decoded));
+  // The last line may have been cut off, unless it is the only one.
+  if (source.size > HEAD && lines.length > 1) lines.pop();
+  const long = lines.findIndex((line) => line.length > LONGEST);
+  if (long >= 0) throw new LogError({ file: source.name, line: long + 1 }, (say) => say.longLine(LONGEST));
+  const format = formatOf(lines, source.name, options.columns);
+  const readable = format.groups.filter(({ kind }) => kind !== null);
+  const place = { file: source.name, line: Math.max(1, format.firstLine - 1) };
+  // A table that cannot be read says why when it is opened.
+  if (readable.length === 0) layoutOf(format.groups.toSorted((a, b) => Object.keys(b.columns).length - Object.keys(a.columns).length)[0], format.names, place, undefined);
+  const seriesOf = (group: Group): Series => ({
+    name: readable.length === 1 ? '' : group.name || listed(columnNames(group)),
+    type: listed(columnNames(group)),
+    kind: group.kind,
+    hasCommands: group.hasCommands,
+    count: 0,
+  });
+  const series = format.groups.map(seriesOf);
+  return {
+    name: source.name,
+    format: format.name,
+    series,
+    async read(choices, onProgress) {
+      const readers = choices.map((choice) => {
+        const chosen = readable.length === 1 && choice.series === '' ? readable[0] : format.groups[series.findIndex(({ name }) => isNamed(name, choice.series))];
+        if (!chosen) throw ambiguous(source.name, format.groups.map(seriesOf), choice);
+        const layout = layoutOf(chosen, format.names, place, choice.kind);
+        return new LogReader(readable.length === 1 ? source.name : `${source.name}, ${seriesOf(chosen).name}`, { file: source.name }, format, chosen, layout, options);
+      });
+      await readLines(source, encoding, format.firstLine, onProgress, (line, number, isOpen) => {
+        for (const reader of readers) reader.take(line, number, isOpen);
+      });
+      return readers.map((reader) => reader.end());
+    },
+  };
+}
+
+const columnNames = ({ columns }: Group) => Object.values(columns).toSorted((a, b) => a.at - b.at).map(({ name }) => name);
+
+/** Checks the name of a series, which may be typed without the separator at its end. */
+const isNamed = (name: string, wanted: string) => name === wanted || (wanted !== '' && name.replaceAll(/^[_/.]|[_/.]$/g, '') === wanted.replaceAll(/^[_/.]|[_/.]$/g, ''));
+
+function ambiguous(file: string, series: Series[], { series: wanted }: Choice): LogError {
+  const names = series.filter(({ kind }) => kind !== null).map(({ name }) => name);
+  return new LogError({ file }, (say) => (wanted === '' ? say.several(listed(names)) : say.noTopic(listed(names))), { what: 'series', choices: names });
+}
+
+/** Returns the encoding of a text, by its byte order mark or by the zeros of UTF-16. */
+async function encodingOf(source: Source): Promise<string> {
+  const bytes = await bytesOf(source, 0, Math.min(64, source.size));
+  const [first, second] = bytes;
+  if ((first === 0xff && second === 0xfe) || (bytes.length >= 4 && first !== 0 && second === 0 && bytes[2] !== 0 && bytes[3] === 0)) return 'utf-16le';
+  return first === 0xfe && second === 0xff ? 'utf-16be' : 'utf-8';
+}
+
+/** Returns the end of lines: of old spreadsheets it is a single carriage return. */
+const endOf = (text: string) => (text.includes('\n') || !text.includes('\r') ? '\n' : '\r');
+
+/** Calls back for each line from the first row on. The last one is open if no line feed ends it: the file may have been cut off there. */
+async function readLines(source: Source, encoding: string, from: number, onProgress: ((share: number) => void) | undefined, take: (line: string, number: number, isOpen: boolean) => void) {
+  const decoder = new TextDecoder(encoding);
+  let rest = '';
+  let end = '';
+  let number = 0;
+  for (let at = 0; at < source.size; at += PIECE) {
+    const bytes = await bytesOf(source, at, Math.min(at + PIECE, source.size));
+    onProgress?.(at / source.size);
+    const text = rest + decoder.decode(bytes, { stream: true });
+    if (text.includes('\0')) throw new LogError({ file: source.name }, (say) => say.binary);
+    end ||= endOf(text);
+    const lines = text.split(end);
+    rest = lines.pop() ?? '';
+    for (const line of lines) {
+      number += 1;
+      if (number >= from) take(line, number, false);
+    }
+    if (rest.length > LONGEST) throw new LogError({ file: source.name, line: number + 1 }, (say) => say.longLine(LONGEST));
+  }
+  if (number + 1 >= from) take(rest, number + 1, true);
+}
+
+/** Reader of the rows of one series. */
+class LogReader {
+  #name: string;
+  #place: Place;
+  #format: Format;
+  #group: Group;
+  #layout: Layout;
+  #options: OpenOptions;
+  #rows: Rows;
+  /** Rows with the Y axis up, where it may be. */
+  #upright: Rows | undefined;
+  /** Cells of a row that are split off. */
+  #needed: number;
+  #at: number[];
+  #values: Float64Array;
+  #readTimes: ((cells: string[]) => Time | undefined)[] = [];
+  #units: TimeUnit[] = [];
+  /** True where the size of the first time states its unit. */
+  #isSized = false;
+  #notes: Note[] = [];
+  #frames = new Set<string>();
+  /** Cosines of the angle between the vertical axes of robot and map: Z, and Y. */
+  #tilts: [number[], number[]] = [[], []];
+  /** Coordinates along Y and Z. */
+  #heights: [number[], number[]] = [[], []];
+
+  constructor(name: string, place: Place, format: Format, group: Group, layout: Layout, options: OpenOptions) {
+    this.#name = name;
+    this.#place = place;
+    this.#format = format;
+    this.#group = group;
+    this.#layout = layout;
+    this.#options = options;
+    this.#rows = new Rows(place);
+    if (format.hasUnknownAxis) this.#upright = new Rows(place);
+    const { z } = group.columns;
+    const read = this.#upright && z ? [...layout.columns, z] : layout.columns;
+    this.#at = read.map(({ at }) => at);
+    this.#values = new Float64Array(read.length);
+    const { frame, child } = group.columns;
+    const all = [...this.#at, ...layout.clocks.flatMap(({ columns }) => columns.map(({ at }) => at)), ...[frame, child].map((column) => column?.at ?? 0)];
+    this.#needed = Math.max(...all) + 1;
+  }
+
+  take(line: string, number: number, isOpen: boolean): void {
+    if (line.length > LONGEST) this.#refuse(number, (say) => say.longLine(LONGEST));
+    const { separator, isSparse } = this.#format;
+    const { tag } = this.#group;
+    if (tag !== undefined && !line.startsWith(`${tag} `)) return;
+    const start = line.trimStart();
+    if (start === '' || start[0] === '#' || start[0] === '%') return;
+    const cells = tag === undefined ? cellsOf(line, separator, this.#needed) : carmenCells(line);
+    if (cells.length < this.#needed) {
+      if (!isOpen) this.#refuse(number, (say) => say.cells(cells.length, this.#needed));
+      this.#notes.push({ name: 'cutShort', values: [] });
+      return this.#leaveOut('short', number);
+    }
+    // The cells of another topic's sample are filled, and those of this one are empty.
+    if (isSparse && this.#at.every((at) => cells[at].trim() === '')) return;
+    this.#add(cells, number);
+  }
+
+  #add(cells: string[], line: number): void {
+    if (this.#readTimes.length === 0 && !this.#startClocks(cells)) return this.#leaveOut('notFinite', line);
+    const times = this.#readTimes.map((read, i) => {
+      const time = read(cells);
+      if (!time) this.#refuseNumber(line, this.#layout.clocks[i].name, cells[this.#layout.clocks[i].columns[0].at]);
+      return time as Time;
+    });
+    const values = this.#values;
+    const { hasCommas } = this.#format;
+    for (let i = 0; i < values.length; i++) {
+      const cell = cells[this.#at[i]];
+      const value = numberOf(hasCommas ? withPoint(cell) : cell);
+      if (value === undefined) return this.#refuseNumber(line, this.#layout.columns[i]?.name ?? 'z', cell);
+      values[i] = value;
+    }
+    const [[seconds, rest], [otherSeconds, otherRest] = [0, 0]] = times;
+    const { columns } = this.#group;
+    if (this.#frames.size <= MOST_FRAMES && (columns.child || columns.frame)) this.#frames.add([columns.frame, columns.child].flatMap((column) => (column ? [cells[column.at].trim()] : [])).join(' to '));
+    const [x, y] = values;
+    const { fields } = this.#layout;
+    if (fields.at(-1) !== 'qw') return this.#rows.add(seconds, rest, x, y, values.length > 2 ? values[2] : 0, line, otherSeconds, otherRest);
+    const [qx, qy, qz, qw] = fields.length === 6 ? values.subarray(2, 6) : [0, 0, values[2], values[3]];
+    if (!isRotation(qx, qy, qz, qw)) return this.#leaveOut('noRotation', line);
+    this.#tilts[0].push(1 - 2 * (qx * qx + qy * qy));
+    this.#rows.add(seconds, rest, x, y, headingOf(qx, qy, qz, qw), line, otherSeconds, otherRest);
+    if (!this.#upright) return;
+    const z = values[6];
+    this.#tilts[1].push(1 - 2 * (qx * qx + qz * qz));
+    this.#heights[0].push(z);
+    this.#heights[1].push(y);
+    this.#upright.add(seconds, rest, z, x, headingOf(qz, qx, qy, qw), line, otherSeconds, otherRest);
+  }
+
+  #leaveOut(cause: 'short' | 'noRotation' | 'notFinite', line: number): void {
+    this.#rows.leaveOut(cause, line);
+    this.#upright?.leaveOut(cause, line);
+  }
+
+  /** Chooses how times are read, by the first row that has one. @returns false where the cell is empty */
+  #startClocks(cells: string[]): boolean {
+    const { clocks } = this.#layout;
+    if (cells[clocks[0].columns[0].at].trim() === '') return false;
+    this.#readTimes = clocks.map((clock, i) => this.#timeReader(clock, cells[clock.columns[0].at], i === 0));
+    return true;
+  }
+
+  #timeReader({ columns: [{ at }, nanoseconds], unit }: Clock, cell: string, isFirst: boolean): (cells: string[]) => Time | undefined {
+    const { hasCommas } = this.#format;
+    const text = hasCommas ? (cells: string[]) => withPoint(cells[at]) : (cells: string[]) => cells[at];
+    if (nanoseconds) {
+      this.#units.push('s');
+      return (cells) => {
+        const [seconds, rest] = [timeOf(text(cells), 0), numberOf(cells[nanoseconds.at])];
+        return seconds && rest !== undefined ? [seconds[0], seconds[1] + rest / 1e9] : undefined;
+      };
+    }
+    const date = dateOf(cell);
+    if (date) {
+      this.#units.push('s');
+      this.#isSized = true;
+      if (isFirst && !date.hasZone) this.#notes.push({ name: 'noZone', values: [] });
+      return (cells) => dateOf(cells[at])?.time;
+    }
+    const stated = (isFirst ? this.#options.timeUnit : undefined) ?? unit;
+    let power = stated === undefined ? undefined : POWERS[stated];
+    const index = this.#units.push(stated ?? 's') - 1;
+    return (cells) => {
+      const trimmed = text(cells);
+      if (power === undefined) {
+        const size = numberOf(trimmed);
+        // A first stamp of 0 says nothing about the unit.
+        if (size !== undefined && size !== 0 && Number.isFinite(size)) {
+          this.#units[index] = unitOfSize(size) ?? 's';
+          if (isFirst) this.#isSized = unitOfSize(size) !== undefined;
+          power = POWERS[this.#units[index]];
+        }
+      }
+      return timeOf(trimmed, power ?? 0);
+    };
+  }
+
+  end(): Log {
+    const { clocks, columns, fields, kind, length, angle } = this.#layout;
+    if (kind === 'positions') throw new LogError(this.#place, (say) => say.noHeading(listed(columns.map(({ name }) => name))));
+    if (this.#frames.size > 1) throw new LogError(this.#place, (say) => say.mixed(listed([...this.#frames])));
+    const upright = this.#upright && this.#hasYUp() ? this.#upright : undefined;
+    if (this.#upright) this.#notes.push({ name: 'upAxis', values: [upright ? 'Y' : 'Z'] });
+    else if (isTilted(this.#tilts[0])) throw new LogError(this.#place, (say) => say.tilted);
+    const isQuaternion = fields.at(-1) === 'qw';
+    const { timeUnit } = this.#options;
+    return (upright ?? this.#rows).end(this.#name, kind, {
+      units: {
+        time: { unit: this.#units[0] ?? 's', by: timeUnit ? 'option' : clocks[0].unit ? 'name' : this.#isSized ? 'size' : 'usage' },
+        length: { unit: length ?? 'm', by: length ? 'name' : 'usage' },
+        angle: isQuaternion ? { unit: 'quaternion', by: 'format' } : { unit: angle ?? 'rad', by: angle ? 'name' : 'usage' },
+      },
+      clocks: [clocks[0].name, clocks[1]?.name],
+      columns: Object.fromEntries([['t', clocks[0].name], ...fields.map((field, i) => [field, columns[i].name])]),
+      notes: this.#notes,
+    }, this.#options);
+  }
+
+  /** Decides which axis of Motive is vertical: that about which the robot turns, and along which it hardly moves. */
+  #hasYUp(): boolean {
+    const [z, y] = this.#heights.map(spread);
+    const isTurning = this.#tilts.map(isTilted);
+    if (isTurning[0] && isTurning[1]) throw new LogError(this.#place, (say) => say.tilted);
+    return isTurning[0] || (!isTurning[1] && y <= z);
+  }
+
+  #refuseNumber(line: number, name: string, cell: string): never {
+    return this.#refuse(line, (say) => say.number(cut(name), cut(cell.trim())));
+  }
+
+  #refuse(line: number, reason: ConstructorParameters<typeof LogError>[1]): never {
+    throw new LogError({ ...this.#place, line }, reason);
+  }
+}
+
+/** Number with a decimal point; a point beside commas separates thousands, so that such a number is not clear and is kept as it is. */
+const withPoint = (cell: string) => (cell.includes('.') && !cell.includes(':') && /^\s*[+-]?[\d.]+,?\d*\s*$/.test(cell) ? `${cell}?` : cell.replace(',', '.'));
+
+const spread = (values: number[]) => {
+  const some = sample(values.length, (i) => values[i]).filter(Number.isFinite);
+  return quantile(some, 0.95) - quantile(some, 0.05);
+};
+
+const isTilted = (tilts: number[]) => spread(tilts) > TILTS;

@@ -1,16 +1,29 @@
 #!/usr/bin/env node
-/** `npx motion-widgets calibrate`: α's from a log, for those who never open a browser. */
+/** `npx motion-widgets`: α's from a log, for those who never open a browser. */
 
+import { readFileSync } from 'node:fs';
 import { load } from './core.ts';
-import { run } from './cli/run.js';
+import { run } from './cli/run.ts';
 
 // A reader such as `head` may close the pipe.
 process.stdout.on('error', (error) => {
   if (/** @type {NodeJS.ErrnoException} */ (error).code !== 'EPIPE') throw error;
 });
 
+const { stdout, stderr } = process;
+/** Percent that were shown last. */
+let shown = -1;
+
 process.exitCode = await run(process.argv.slice(2), {
   load,
-  print: (text) => process.stdout.write(text),
-  complain: (text) => process.stderr.write(text),
+  print: (text) => stdout.write(text),
+  complain: (text) => stderr.write(text),
+  version: JSON.parse(readFileSync(new URL('../package.json', import.meta.url), 'utf8')).version,
+  isColored: stdout.isTTY && !process.env.NO_COLOR,
+  onProgress(share) {
+    const percent = share === undefined ? -1 : Math.floor(100 * share);
+    if (!stderr.isTTY || percent === shown) return;
+    shown = percent;
+    stderr.write(share === undefined ? '\r\x1b[K' : `\rreading ${percent} %`);
+  },
 });

@@ -18,7 +18,7 @@ test('two tables of the reader’s own take the place of the simulated log, and 
   await expect(widget.locator('.drop-zone .present')).toHaveText('Log: odom.csv, truth.csv.');
   await unfold(widget);
   // Their names say which is which, whatever the reader does.
-  const hint = widget.getByText('it is called as odometry is, and truth.csv is not: are the two the other way round?');
+  const hint = widget.getByText('its name is that of odometry, and truth.csv is not: are the two swapped?');
   await expect(hint).toHaveCount(0);
   await widget.getByRole('button', { name: 'Swap odometry and reference' }).click();
   await expect(caption(widget)).toHaveText(/of truth\.csv, odom\.csv[.,]/);
@@ -51,12 +51,12 @@ test('a recording has both, and where it is not clear which topic is which, the 
   await expect(caption(widget)).toHaveText(/of odometry\.csv, reference\.csv[.,]/);
   await settled(widget);
   const { alphas } = await stats(widget);
-  for (const topics of [['/mocap/pose'], ['/mocap/pose', '/slam/pose']]) {
+  for (const topics of [['/mocap/pose'], ['/mocap/pose', '/vicon/pose']]) {
     const name = `run-${topics.length}.mcap`;
     const buffer = await recordingWith(topics);
     await widget.locator('#log-files').setInputFiles({ name, mimeType: 'application/octet-stream', buffer });
     if (topics.length > 1) {
-      await expect(widget.getByRole('alert')).toHaveText(/^run-2\.mcap: which topic is the reference is not clear; expected is a choice of .*\/slam\/pose \(PoseStamped\)\.$/);
+      await expect(widget.getByRole('alert')).toHaveText(/^run-2\.mcap: it is not clear what the reference is: .*\/vicon\/pose \(PoseStamped\)\.$/);
       await widget.getByLabel('Reference', { exact: true }).selectOption('/mocap/pose');
     }
     await expect(caption(widget)).toHaveText(new RegExp(`of ${name}, /mocap/pose[.,]`));
@@ -124,7 +124,7 @@ test('files that are no log are refused in a sentence, and all stays as it was',
   await choose(widget, { 'odom.csv': 't,x,y,yaw\n0,0,0,0\n1,one,0,0\n', 'truth.csv': 't,x,y,yaw\n0,0,0,0\n' });
   await expect(alert).toHaveText(/^odom\.csv, line 3: x is “one”; expected is a number\.$/);
   await choose(widget, { 'alone.csv': 't,x,y,yaw\n0,0,0,0\n' });
-  await expect(alert).toHaveText(/Log refused: 1 file given; choose two tables at once/);
+  await expect(alert).toHaveText(/^alone\.csv: it has one log only, t, x, y, yaw; give odometry and reference\.$/);
   await choose(widget, { 'notes.mcap': 'no recording' });
   await expect(alert).toHaveText(/^notes\.mcap, line 1: none of the columns no, recording is the time/);
   const buffer = await recordingOf([{ topic: '/rosout', type: 'rcl_interfaces/msg/Log', t: 1, message: {} }], {});

@@ -119,7 +119,7 @@ const CASES = [
   { name: 'columns that are given, some skipped', options: { columns: ['-', 't', 'x', 'y', 'yaw_deg'] }, text: table('a,b,c,d,e', ({ i, t, x, y, theta }) => [i, t, x, y, degrees(theta)]) },
   { name: 'dates with a zone', start: EPOCH, text: table(',x,y,yaw', ({ t, x, y, theta }) => [`${iso(t + 7200).replace('T', ' ')}+02:00`, x, y, theta]) },
   { name: 'dates without a zone', start: EPOCH, text: table('datetime,x,y,yaw', ({ t, x, y, theta }) => [iso(t), x, y, theta]), says: /UTC/ },
-  { name: 'times in ms, by rate and speed', text: table('t,x,y,yaw', ({ t, x, y, theta }) => [t * 1000, x, y, theta]), says: /times in ms, by their rate/ },
+  { name: 'times in ms, by rate and speed', text: table('t,x,y,yaw', ({ t, x, y, theta }) => [t * 1000, x, y, theta]), says: /time in ms \(by rate and speed\)/ },
   { name: 'degrees, by range and path', text: table('t,x,y,yaw', ({ t, x, y, theta }) => [t, x, y, degrees(theta)]), options: { angleUnit: 'deg' } },
 ];
 

@@ -18,6 +18,12 @@ const TYPES = { poses: OF_POSES, either: `${OF_POSES}, oder ${OF_COMMANDS}`, tra
 const times = (/** @type {number} */ count, /** @type {string} */ one, /** @type {string} */ more) => `${count} ${count === 1 ? one : more}`;
 const comma = (/** @type {number} */ value, /** @type {number} */ digits) => value.toFixed(digits).replace('.', ',');
 
+/** @type {Record<import('./log.ts').Basis, string>} */
+const BY = { name: ' (nach dem Namen)', size: ' (nach der Größe)', rate: ' (nach Rate und Geschwindigkeit)', format: '', option: ' (wie angegeben)', usage: '' };
+
+/** @type {Record<import('./log.ts').Summary['units']['angle']['unit'], string>} */
+const ANGLES = { rad: 'Richtung in rad', deg: 'Richtung in Grad', quaternion: 'Richtung aus einem Quaternion', none: '' };
+
 /** @type {Record<import('./log.ts').Cause, string>} */
 const REASONS = {
   notFinite: 'keine endliche Zahl',
@@ -34,7 +40,7 @@ const REASONS = {
 export const log = {
   place: (file, line, topic) => `${file}${line ? `, Zeile ${line}` : ''}${topic ? `, Topic ${topic}` : ''}`,
   refused: {
-    gone: (reason) => `die Datei lässt sich nicht lesen (${reason}); erwartet wird eine, die noch da ist.`,
+    gone: (reason) => (reason === 'ENOENT' ? 'es gibt keine solche Datei und keinen solchen Ordner.' : `die Datei lässt sich nicht lesen (${reason}); erwartet wird eine, die noch da ist.`),
     empty: 'es steht nichts darin; erwartet wird ein Log von Posen oder Befehlen.',
     binary: 'das ist weder Text noch eine MCAP-Aufzeichnung; erwartet wird CSV, TUM oder MCAP.',
     longLine: (most) => `die Zeile hat mehr als ${most} Bytes; erwartet wird eine Zeile je Zeitpunkt.`,
@@ -76,35 +82,41 @@ export const log = {
     compression: (value) => `ihre Chunks sind mit „${value}“ komprimiert; erwartet wird zstd, lz4 oder nichts davon.`,
     noTopic: (topics) => `dieses Topic gibt es nicht; erwartet wird eines von ${topics || 'keinen: sie hat keine Nachrichten'}.`,
     noTopics: (topics) => `die Topics sind ${topics || 'keine'}; erwartet wird eines vom Typ ${TYPES.either}.`,
-    alone: (topic) => `von Nutzen ist nur das Topic ${topic}; erwartet werden zwei, von Odometrie und Referenz.`,
-    choose: (role, topics, option) => `welches Topic ${role === 'odometry' ? 'die Odometrie' : 'die Referenz'} ist, steht nicht fest; erwartet wird eine Wahl aus ${topics}${option ? `, mit ${option}` : ''}.`,
+    alone: (series) => `es ist nur ein Log darin, ${series}; gebraucht werden Odometrie und Referenz.`,
+    choose: (role, series) => `es ist nicht klar, was die ${role === 'odometry' ? 'Odometrie' : 'Referenz'} ist: ${series}.`,
     type: (type, wanted) => `sein Typ ist „${type}“; erwartet wird ${TYPES[wanted]}.`,
     encoding: (value) => `seine Nachrichten sind als „${value}“ kodiert; erwartet wird cdr, die Kodierung von ROS 2.`,
     message: (number, reason) => `die Nachricht ${number} lässt sich nicht lesen (${reason}); erwartet wird eine vom Typ des Topics.`,
-    frames: (known) => `welche Frames gemeint sind, ist nicht gesagt; erwartet werden ein äußerer und ein innerer, verbunden durch ${known || 'Transformationen, von denen es keine gibt'}.`,
+    frames: (known) => `zu nennen sind ein äußerer und ein innerer Frame, verbunden durch ${known || 'Transformationen, von denen es keine gibt'}.`,
     noChain: (frames, known) =>
       `keine Transformationen führen von ${frames.replace(',', ' nach ')}; erwartet werden verbundene Frames, aus ${known || 'keinen'}.`,
     noMessages: 'es gibt keine Nachrichten darauf; erwartet werden mindestens 2.',
-    same: 'das ist Odometrie und Referenz zugleich; erwartet werden zwei Logs einer Fahrt.',
-    held: 'ihre Pose steht, während die Odometrie weitergeht; erwartet wird eine, die dem Roboter folgt.',
+    same: (other) => `sie hat dieselbe Bewegung wie ${other}; gebraucht werden zwei unabhängige Messungen einer Fahrt.`,
+    held: 'ihre Pose steht, während die Odometrie weitergeht: Sie hat den Roboter verloren; gebraucht wird eine, die ihm folgt.',
+    noRole: 'ihr Name sagt nicht, ob sie Odometrie oder Referenz ist; Namen wie odom1.csv, truth1.csv, odom2.csv, … sagen es, oder --odometry und --reference.',
+    unpaired: (odometry, reference) => `es sind ${odometry} Logs der Odometrie und ${reference} der Referenz; gebraucht wird je eines für eine Fahrt.`,
+    noGroup: (groups) => `es ist eine Tabelle, und keine Gruppe ihrer Spalten heißt so; sie hat ${groups}.`,
+    noPoses: (series) => `es gibt nur Befehle, ${series}; eine Referenz braucht Posen.`,
+    noTransforms: (series) => `es gibt keine Transformationen zwischen Frames; es gibt ${series}.`,
   },
   found: {
-    rows: (kept, rows, seconds, rate) => `${kept} von ${rows} Zeilen, ${comma(seconds, 1)} s mit ${rate.toPrecision(3).replace('.', ',')} Hz`,
+    rows: (used, rows, seconds, rate, distance) => `${used} von ${rows} Zeilen, ${comma(seconds, 1)} s mit ${rate.toPrecision(3).replace('.', ',')} Hz, ${comma(distance, 1)} m gefahren`,
+    columns: (columns) => `Spalten ${columns}`,
+    units: ({ time, length, angle }) =>
+      `Zeit in ${time.unit}${BY[time.by]}, Längen in ${length.unit}${BY[length.by]}${ANGLES[angle.unit] ? `, ${ANGLES[angle.unit]}${BY[angle.by]}` : ''}`,
     leftOut: (reason, count, line) =>
       `ausgelassen ${times(count, 'Zeile', 'Zeilen')}${line ? ` ab Zeile ${line}` : ''}: ${REASONS[reason]}`,
-    gaps: (count, first, longest) => `${times(count, 'Pause', 'Pausen')}, die erste bei ${comma(first, 2)} s, die längste von ${comma(longest, 2)} s`,
+    gaps: (count, first, longest) => `${times(count, 'Lücke', 'Lücken')}, die erste bei ${comma(first, 2)} s, die längste von ${comma(longest, 2)} s`,
     jumps: (count, first) => `${times(count, 'Sprung', 'Sprünge')}, der erste bei ${comma(first, 2)} s`,
-    unit: (unit, by) => `Zeiten in ${unit}, nach ${by === 'rate' ? 'ihrer Rate und der Geschwindigkeit des Roboters' : 'ihrer Größe'}`,
-    logTimes: 'die Zeiten sind die der Aufzeichnung, denn die Köpfe der Nachrichten haben keine',
-    degrees: 'Richtungen in Grad, nach dem Namen der Spalte',
+    logTimes: 'Zeiten der Aufzeichnung, da die Köpfe der Nachrichten keine haben',
     notes: {
-      cutShort: () => 'die Datei endet mitten in einer Zeile oder einem Record',
-      noZone: () => 'Datumsangaben ohne Zeitzone gelten als UTC',
+      cutShort: 'die Datei endet mitten in einer Zeile oder einem Record',
+      noZone: 'Datumsangaben ohne Zeitzone gelten als UTC',
       upAxis: (axis) => `${axis} ist die senkrechte Achse`,
       sorted: (count) => `${times(count, 'verspätete Zeile', 'verspätete Zeilen')} nach der Zeit sortiert`,
       swapped: (odometry) => `sie heißt wie eine Odometrie, und ${odometry} nicht: Sind die beiden vertauscht?`,
-      apart: (name, one, other) =>
-        `ihre Zeiten (${one}) und die von ${name} (${other}) haben nichts gemeinsam: die Uhren werden danach gestellt, wie der Roboter sich gedreht hat`,
+      apart: (name, one, other) => `keine Zeit gemeinsam mit ${name} (${one}, und ${other}): Die Uhren werden nach den Drehungen des Roboters gestellt`,
+      localizer: 'die Schätzung eines Lokalisierers, deren Fehler der Odometrie folgen: Die Referenz muss unabhängig gemessen sein',
     },
   },
 };

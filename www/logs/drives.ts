@@ -1,87 +1,154 @@
 /** Drives: odometry and reference of one drive, from the recordings that have them. */
 
-import { withoutFrozenPoses } from './frozen-pose.ts';
+import { candidates, isTable, roleByName, usefulSeries, type Role } from './candidates.ts';
 import { LogError, listed } from './log-error.js';
-import type { Log, LogKind, Note, Series } from './log.ts';
+import type { Choice, Frames, Log, LogKind, Recording, Series } from './log.ts';
+import { pairLogs, pairedByTime, type Drive } from './pairs.ts';
 
-export type Role = 'odometry' | 'reference';
+export type { Drive, Role };
 
-/** Series with their types, for a sentence. */
-const described = (series: Series[]) => listed(series.map(({ name, type }) => `${name} (${type.replace(/^.*\//, '')})`));
+/** Choice of a recording for one role. */
+export interface Part { recording: Recording; choice: Choice }
 
-/** Returns the series with messages that can be read; throws a LogError if there are none. */
-export function usefulSeries(file: string, series: Series[]): Series[] {
-  const useful = series.filter(({ kind, count }) => kind !== null && count > 1);
-  if (useful.length === 0) throw new LogError({ file }, (say) => say.noTopics(described(series)));
-  return useful;
+/** Drives, and parts of other recordings that are paired by their times. */
+export interface Plan { drives: Record<Role, Part>[]; loose: Record<Role, Part[]> }
+
+/** Answers of a user; what is missing is guessed. */
+export interface Wishes {
+  /** Name of a series, or of a prefix without its separator, and frames. */
+  odometry?: { series?: string; frames?: Frames };
+  reference?: { series?: string; frames?: Frames };
+  /** Preferred odometry: commands are taken if there are any. */
+  kind?: LogKind;
+  /** Roles of recordings that have one log only. */
+  roles?: ReadonlyMap<Recording, Role>;
 }
 
-/** Returns an error about a series that has to be chosen, by an option of the command line. */
-export function ambiguousSeries(file: string, series: Series[], role: Role, option?: string): LogError {
-  // Transforms may have both, of other frames.
-  const isAlone = series.length === 1 && series[0].kind !== 'transforms';
-  return new LogError(
+/** Series with their types, for a sentence. */
+const described = (series: Series[]) => listed(series.map(({ name, type }) => (name ? `${name} (${type.replace(/^.*\//, '')})` : type)));
+
+const linked = ({ parent, child }: Frames) => `${parent},${child}`;
+
+const isSame = (one: Choice, other?: Choice) => one.series === other?.series && one.frames?.parent === other.frames?.parent && one.frames?.child === other.frames?.child;
+
+/** Plans which parts of recordings make which drives; throws a LogError, with a question where something is not clear. */
+export function planDrives(recordings: Recording[], wishes: Wishes = {}): Plan {
+  const plan: Plan = { drives: [], loose: { odometry: [], reference: [] } };
+  const unnamed: Recording[] = [];
+  for (const recording of recordings) {
+    const role = wishes.roles?.get(recording) ?? (recordings.length > 1 ? onlyRole(recording, wishes) : 'both');
+    if (role === 'both') plan.drives.push(bothOf(recording, wishes));
+    else if (role) plan.loose[role].push({ recording, choice: choose(recording, role, wishes) });
+    else unnamed.push(recording);
+  }
+  const { odometry, reference } = plan.loose;
+  for (const [i, recording] of unnamed.entries()) {
+    // Names that say nothing leave the other half of the files, or the order of two.
+    const role = odometry.length + reference.length + unnamed.length === 2 && unnamed.length === 2 ? (['odometry', 'reference'] as const)[i]
+      : 2 * odometry.length >= recordings.length ? 'reference'
+        : 2 * reference.length >= recordings.length ? 'odometry' : undefined;
+    if (!role) throw new LogError({ file: recording.name }, (say) => say.noRole);
+    plan.loose[role].push({ recording, choice: choose(recording, role, wishes) });
+  }
+  if (odometry.length !== reference.length) {
+    const [first] = odometry.length > reference.length ? odometry : reference;
+    throw new LogError({ file: first.recording.name }, (say) => say.unpaired(odometry.length, reference.length));
+  }
+  return plan;
+}
+
+/** Returns the role of a recording among several; undefined where it has one log and no telling name. */
+function onlyRole(recording: Recording, wishes: Wishes): Role | 'both' | undefined {
+  const works = (work: () => unknown) => {
+    try {
+      work();
+      return true;
+    } catch (error) {
+      if (error instanceof LogError) return false;
+      throw error;
+    }
+  };
+  if (works(() => bothOf(recording, wishes))) return 'both';
+  const [isOdometry, isReference] = (['odometry', 'reference'] as const).map((role) => works(() => choose(recording, role, wishes)));
+  if (isOdometry !== isReference) return isOdometry ? 'odometry' : 'reference';
+  return isOdometry ? roleByName(recording.name) : 'both';
+}
+
+/** Chooses both logs of one recording. */
+function bothOf(recording: Recording, wishes: Wishes): Record<Role, Part> {
+  // A stated choice is not guessed for the other role.
+  const { series, frames } = wishes.reference ?? {};
+  const stated = series !== undefined || frames ? choose(recording, 'reference', wishes) : undefined;
+  const odometry = choose(recording, 'odometry', wishes, stated);
+  const reference = stated ?? choose(recording, 'reference', wishes, odometry);
+  if (isSame(odometry, reference)) throw new LogError({ file: recording.name, topic: reference.series }, (say) => say.same(recording.name));
+  return { odometry: { recording, choice: odometry }, reference: { recording, choice: reference } };
+}
+
+/** Chooses the log of a recording for a role, other than the one that the other role has. */
+function choose(recording: Recording, role: Role, wishes: Wishes, other?: Choice): Choice {
+  const { series, frames } = wishes[role] ?? {};
+  return series !== undefined || frames ? stated(recording, role, wishes) : guessed(recording, role, wishes, other);
+}
+
+function stated(recording: Recording, role: Role, wishes: Wishes): Choice {
+  const { series, frames } = wishes[role] ?? {};
+  const kind = role === 'reference' ? 'poses' : wishes.kind;
+  const bare = (name: string) => name.replace(/[/_.]+$/, '');
+  const found = series === undefined
+    ? recording.series.find(({ name, kind: its }) => its === 'transforms' && !/static/.test(name))
+    : (recording.series.find(({ name }) => name === series) ?? recording.series.find(({ name }) => bare(name) === bare(series)));
+  const useful = usefulSeries(recording);
+  if (!found) {
+    throw new LogError(
+      { file: recording.name, topic: series },
+      (say) => (isTable(recording) ? say.noGroup(described(recording.series)) : series === undefined ? say.noTransforms(described(useful)) : say.noTopic(listed(recording.series.map(({ name }) => name)))),
+      { what: 'series', role, choices: useful.map(({ name }) => name) },
+    );
+  }
+  if (found.kind !== 'transforms' || frames) return { series: found.name, ...(kind && { kind }), ...(frames && { frames }) };
+  const [chains = []] = candidates(recording, role, wishes).map((tier) => tier.filter((choice) => choice.series === found.name)).filter(({ length }) => length);
+  if (chains.length === 1) return chains[0];
+  throw framesError(recording, found, role);
+}
+
+function framesError({ name: file }: Recording, { name: topic, links = [] }: Series, role: Role): LogError {
+  const known = links.map(linked);
+  return new LogError({ file, topic }, (say) => say.frames(listed(known)), { what: 'frames', role, choices: known });
+}
+
+function guessed(recording: Recording, role: Role, wishes: Wishes, other?: Choice): Choice {
+  const [best = []] = candidates(recording, role, wishes).map((tier) => tier.filter((choice) => !isSame(choice, other))).filter(({ length }) => length);
+  // Both logs are about the same frame of the robot.
+  const alike = best.filter(({ frames }) => frames && frames.child === other?.frames?.child);
+  if (alike.length === 1) return alike[0];
+  if (best.length === 1) return best[0];
+  const file = recording.name;
+  const useful = usefulSeries(recording);
+  if (useful.length === 0) throw new LogError({ file }, (say) => say.noTopics(described(recording.series)));
+  const transforms = useful.filter(({ kind }) => kind === 'transforms');
+  if (transforms.length === useful.length) throw framesError(recording, transforms.find(({ name }) => !/static/.test(name)) ?? transforms[0], role);
+  if (role === 'reference' && useful.every(({ kind }) => kind === 'commands')) throw new LogError({ file }, (say) => say.noPoses(described(useful)));
+  const isAlone = useful.length === 1;
+  throw new LogError(
     { file },
-    (say) => (isAlone ? say.alone(described(series)) : say.choose(role, described(series), option)),
-    { what: 'series', role, choices: series.map(({ name }) => name) },
+    (say) => (isAlone ? say.alone(described(useful)) : say.choose(role, described(useful))),
+    isAlone ? undefined : { what: 'series', role, choices: useful.map(({ name }) => name) },
   );
 }
 
-const NAME_OF_ODOMETRY = /odom|wheel|cmd/i;
-
-/** Checks whether the second of two tables is named like an odometry, and the first is not. */
-export const areSwapped = (first: string, second: string) => NAME_OF_ODOMETRY.test(second) && !NAME_OF_ODOMETRY.test(first);
-
-/** Usual names of topics of odometry, commands and references. */
-const ODOMETRY = /(^|\/)odom(etry)?$/i;
-const COMMANDS = /(^|\/)cmd_vel$/i;
-const REFERENCE = /truth|gt|mocap|vicon|optitrack|qualisys|vrpn|reference|station|slam|amcl/i;
-
-/** Guesses the series by their types and names; null for an ambiguous one. */
-export function guessSeries(series: Series[], kind?: LogKind): { odometry: string | null; reference: string | null } {
-  const of = (wanted: Series['kind']) => series.filter(({ kind, count }) => kind === wanted && count > 1);
-  /** Returns the name of the only series that matches, or of the only one. */
-  const guess = (some: Series[], name: RegExp) => {
-    const named = some.filter((each) => name.test(each.name));
-    const [only] = named.length === 1 ? named : some.length === 1 ? some : [];
-    return only?.name ?? null;
-  };
-  const poses = of('poses');
-  const odometry = guess(poses.filter(({ type, name }) => type === 'nav_msgs/msg/Odometry' && !REFERENCE.test(name)), ODOMETRY);
-  const commands = kind === 'commands' ? guess(of('commands'), COMMANDS) : null;
-  return { odometry: commands ?? odometry, reference: guess(poses.filter(({ name }) => name !== odometry), REFERENCE) };
-}
-
-/**
- * Pairs two logs of one drive: with times after the same start, and without rows in which the reference had lost the robot. Logs
- * without a common time are noted. Throws a LogError if the reference has no poses, or does not follow the robot.
- */
-export function pairLogs(odometry: Log, reference: Log): { odometry: Log; reference: Log; start: number } {
-  const place = { file: reference.name };
-  const isTable = reference.summary.columns !== undefined;
-  if (!isTable && odometry.name === reference.name) throw new LogError(place, (say) => say.same);
-  if (reference.kind === 'commands') throw new LogError(place, (say) => say.noColumns('poses', 't, v, omega'));
-  const start = Math.min(odometry.start, reference.start);
-  const [first, second] = [odometry, reference].map((log) => after(start, log));
-  const [one, other] = [first.data.t, second.data.t];
-  const isApart = one[0] > other[other.length - 1] || other[0] > one[one.length - 1];
-  const reliable = withoutFrozenPoses(second, first);
-  if (reliable.data.t.length < 2) throw new LogError(place, (say) => say.held);
-  const notes: Note[] = [
-    ...reliable.summary.notes,
-    ...(isTable && areSwapped(odometry.name, reference.name) ? [{ name: 'swapped', values: [odometry.name] } as const] : []),
-    ...(isApart ? [{ name: 'apart', values: [odometry.name, span(reference), span(odometry)] } as const] : []),
-  ].map((note) => ({ ...note, values: [...note.values] }));
-  return { odometry: first, reference: { ...reliable, summary: { ...reliable.summary, notes } }, start };
-}
-
-/** Moves times to another start. */
-export function after(start: number, log: Log): Log {
-  const later = log.start - start;
-  return later === 0 ? log : { ...log, start, data: { ...log.data, t: log.data.t.map((each) => each + later) } };
-}
-
-function span({ start, data: { t } }: Log): string {
-  const [from, to] = [t[0], t[t.length - 1]].map((each) => (start + each).toFixed(2));
-  return `${from} s to ${to} s`;
+/** Reads the logs of a plan, and pairs them; rejects with a LogError. */
+export async function readDrives({ drives, loose }: Plan, onProgress?: (share: number) => void): Promise<Drive[]> {
+  const reads = [...drives.map((drive) => [drive.odometry, drive.reference]), ...[...loose.odometry, ...loose.reference].map((part) => [part])];
+  const logs: Log[] = [];
+  for (const [i, parts] of reads.entries()) {
+    const [{ recording }] = parts;
+    logs.push(...(await recording.read(parts.map(({ choice }) => choice), (share) => onProgress?.((i + share) / reads.length))));
+  }
+  const others = logs.splice(2 * drives.length);
+  const pairs: [Log, Log][] = [
+    ...drives.map((_, i): [Log, Log] => [logs[2 * i], logs[2 * i + 1]]),
+    ...pairedByTime(others.slice(0, loose.odometry.length), others.slice(loose.odometry.length)),
+  ];
+  return pairs.map(([odometry, reference]) => pairLogs(odometry, reference));
 }

@@ -15,6 +15,12 @@ const OF_POSES = 'nav_msgs/msg/Odometry, geometry_msgs/msg/PoseStamped, PoseWith
 const OF_COMMANDS = 'geometry_msgs/msg/Twist or TwistStamped';
 const TYPES = { poses: OF_POSES, either: `${OF_POSES}, or ${OF_COMMANDS}`, transforms: 'tf2_msgs/msg/TFMessage, which has frames' };
 
+/** Bases of decisions about units. @type {Record<import('./log.ts').Basis, string>} */
+const BY = { name: ' (by name)', size: ' (by size)', rate: ' (by rate and speed)', format: '', option: ' (as stated)', usage: '' };
+
+/** Units of angles. @type {Record<import('./log.ts').Summary['units']['angle']['unit'], string>} */
+const ANGLES = { rad: 'yaw in rad', deg: 'yaw in degrees', quaternion: 'yaw from a quaternion', none: '' };
+
 /** Reasons for leaving rows out. */
 const REASONS = {
   notFinite: 'no finite number',
@@ -32,7 +38,7 @@ export const log = {
     `${file}${line ? `, line ${line}` : ''}${topic ? `, topic ${topic}` : ''}`,
   /** Reasons for refusing a log, each after its place. */
   refused: {
-    gone: (/** @type {string} */ reason) => `the file cannot be read (${reason}); expected is one that exists and may be read.`,
+    gone: (/** @type {string} */ reason) => (reason === 'ENOENT' ? 'there is no such file or folder.' : `the file cannot be read (${reason}); expected is one that exists and may be read.`),
     empty: 'there is nothing in it; expected is a log of poses or commands.',
     binary: 'it is neither text nor an MCAP recording; expected is CSV, TUM or MCAP.',
     longLine: (/** @type {number} */ most) => `the line has more than ${most} bytes; expected is one row a line.`,
@@ -80,41 +86,48 @@ export const log = {
     compression: (/** @type {string} */ value) => `its chunks are compressed by “${value}”; expected is zstd, lz4 or none.`,
     noTopic: (/** @type {string} */ topics) => `there is no such topic; expected is one of ${topics || 'none: it has no messages'}.`,
     noTopics: (/** @type {string} */ topics) => `the topics are ${topics || 'none'}; expected is one of type ${TYPES.either}.`,
-    alone: (/** @type {string} */ topic) => `the only topic of use is ${topic}; expected are two, of odometry and of the reference.`,
-    choose: (/** @type {string} */ role, /** @type {string} */ topics, /** @type {string | undefined} */ option) =>
-      `which topic is the ${role} is not clear; expected is a choice of ${topics}${option ? `, by ${option}` : ''}.`,
+    alone: (/** @type {string} */ series) => `it has one log only, ${series}; give odometry and reference.`,
+    choose: (/** @type {'odometry' | 'reference'} */ role, /** @type {string} */ series) => `it is not clear what the ${role} is: ${series}.`,
     type: (/** @type {string} */ type, /** @type {keyof typeof TYPES} */ wanted) => `its type is “${type}”; expected is ${TYPES[wanted]}.`,
     encoding: (/** @type {string} */ value) => `its messages are encoded as “${value}”; expected is cdr, that of ROS 2.`,
     message: (/** @type {number} */ number, /** @type {string} */ reason) =>
       `message ${number} cannot be read (${reason}); expected is one of the topic's type.`,
-    frames: (/** @type {string} */ known) => `which frames are meant is not told; expected are a parent and a child, connected by ${known || 'transforms, of which there are none'}.`,
+    frames: (/** @type {string} */ known) => `give a parent and a child frame, connected by ${known || 'transforms, of which there are none'}.`,
     noChain: (/** @type {string} */ frames, /** @type {string} */ known) =>
       `no transforms lead from ${frames.replace(',', ' to ')}; expected are frames that are connected, of ${known || 'none'}.`,
     noMessages: 'there are no messages on it; expected are at least 2.',
     /** Errors of two logs. */
-    same: 'it is both odometry and reference; expected are two logs of one drive.',
-    held: 'its pose stands while the odometry moves on; expected is one that follows the robot.',
+    same: (/** @type {string} */ other) => `it has the same motion as ${other}; give two independent measurements of one drive.`,
+    held: 'its pose stands while the odometry moves on: it has lost the robot; give one that follows the robot.',
+    /** Errors of several recordings. */
+    noRole: 'its name does not say whether it is odometry or reference; call the files odom1.csv, truth1.csv, odom2.csv, … or give --odometry and --reference.',
+    unpaired: (/** @type {number} */ odometry, /** @type {number} */ reference) => `there are ${odometry} logs of odometry and ${reference} of the reference; give one of each for a drive.`,
+    noGroup: (/** @type {string} */ groups) => `it is a table, and no group of its columns has this name; it has ${groups}.`,
+    noPoses: (/** @type {string} */ series) => `it has commands only, ${series}; a reference needs poses.`,
+    noTransforms: (/** @type {string} */ series) => `it has no transforms between frames; it has ${series}.`,
   },
   /** Summary of a log. */
   found: {
-    rows: (/** @type {number} */ kept, /** @type {number} */ rows, /** @type {number} */ seconds, /** @type {number} */ rate) =>
-      `${kept} of ${rows} rows, ${seconds.toFixed(1)} s at ${rate.toPrecision(3)} Hz`,
+    rows: (/** @type {number} */ used, /** @type {number} */ rows, /** @type {number} */ seconds, /** @type {number} */ rate, /** @type {number} */ distance) =>
+      `${used} of ${rows} rows, ${seconds.toFixed(1)} s at ${rate.toPrecision(3)} Hz, ${distance.toFixed(1)} m driven`,
+    columns: (/** @type {string} */ columns) => `columns ${columns}`,
+    units: (/** @type {import('./log.ts').Summary['units']} */ { time, length, angle }) =>
+      `time in ${time.unit}${BY[time.by]}, lengths in ${length.unit}${BY[length.by]}${ANGLES[angle.unit] ? `, ${ANGLES[angle.unit]}${BY[angle.by]}` : ''}`,
     leftOut: (/** @type {import('./log.ts').Cause} */ reason, /** @type {number} */ count, /** @type {number} */ line) =>
       `left out ${count} ${count === 1 ? 'row' : 'rows'}${line ? `, from line ${line} on` : ''}: ${REASONS[reason]}`,
     gaps: (/** @type {number} */ count, /** @type {number} */ first, /** @type {number} */ longest) =>
-      `${count} ${count === 1 ? 'pause' : 'pauses'}, the first at ${first.toFixed(2)} s, the longest of ${longest.toFixed(2)} s`,
+      `${count} ${count === 1 ? 'gap' : 'gaps'}, the first at ${first.toFixed(2)} s, the longest of ${longest.toFixed(2)} s`,
     jumps: (/** @type {number} */ count, /** @type {number} */ first) => `${count} ${count === 1 ? 'jump' : 'jumps'}, the first at ${first.toFixed(2)} s`,
-    unit: (/** @type {string} */ unit, /** @type {string} */ by) => `times in ${unit}, by ${by === 'rate' ? 'their rate and the speed of the robot' : 'their size'}`,
-    logTimes: 'times are those at which messages were recorded, for their headers have none',
-    degrees: 'headings in degrees, by the name of the column',
+    logTimes: 'times at which messages were recorded, as their headers have none',
     notes: {
-      cutShort: () => 'the file ends in the middle of a row or record',
-      noZone: () => 'dates without a time zone are taken as UTC',
+      cutShort: 'the file ends in the middle of a row or record',
+      noZone: 'dates without a time zone are taken as UTC',
       upAxis: (/** @type {string} */ axis) => `${axis} is the vertical axis`,
       sorted: (/** @type {number} */ count) => `${count} late ${count === 1 ? 'row' : 'rows'} sorted by time`,
-      swapped: (/** @type {string} */ odometry) => `it is called as odometry is, and ${odometry} is not: are the two the other way round?`,
+      swapped: (/** @type {string} */ odometry) => `its name is that of odometry, and ${odometry} is not: are the two swapped?`,
       apart: (/** @type {string} */ name, /** @type {string} */ one, /** @type {string} */ other) =>
-        `its times (${one}) and those of ${name} (${other}) have nothing in common: the clocks are aligned by how the robot turned`,
+        `no time in common with ${name} (${one}, and ${other}): the clocks are aligned by the turns of the robot`,
+      localizer: 'a localizer’s own estimate, whose errors follow the odometry: measure the reference independently',
     },
   },
 };

@@ -15,6 +15,8 @@ export interface Series {
   kind: LogKind | 'positions' | 'transforms' | null;
   /** True where a series of poses has speeds too, which a choice of commands reads. */
   hasCommands?: boolean;
+  /** Transforms at the start of a recording, of a series of transforms. */
+  links?: Frames[];
   /** Messages; 0 for a table, whose rows are not counted yet. */
   count: number;
 }
@@ -96,7 +98,7 @@ export type Basis = 'name' | 'size' | 'rate' | 'format' | 'option' | 'usage';
 
 /** Sentence about a log: name of a word in `found.notes`, and the values in it. */
 export interface Note {
-  name: 'cutShort' | 'sorted' | 'noZone' | 'upAxis' | 'swapped' | 'apart';
+  name: 'cutShort' | 'sorted' | 'noZone' | 'upAxis' | 'swapped' | 'apart' | 'localizer';
   values: (string | number)[];
 }
 

@@ -24,17 +24,19 @@ export function distanceOf(data: Poses | Commands): number {
   return distance;
 }
 
-/** Returns a sentence for each decision and each cause for dropping rows. */
-export function summarize({ summary, kind }: Log, say: Words['found']): string[] {
-  const { rows, used, dropped, seconds, rate, units: { time, angle }, clock, columns, gaps, jumps, notes } = summary;
+/** Returns a sentence for each decision, each cause for dropping rows, gaps and jumps. */
+export function summarize({ summary }: Log, say: Words['found']): string[] {
+  const { rows, used, dropped, seconds, rate, distance, units, clock, columns, gaps, jumps, notes } = summary;
   return [
-    say.rows(used, rows, seconds, rate),
-    ...((time.by === 'size' || time.by === 'rate') && time.unit !== 's' ? [say.unit(time.unit, time.by)] : []),
+    say.rows(used, rows, seconds, rate, distance),
+    ...(columns ? [`${say.columns(Object.values(columns).join(', '))}; ${say.units(units)}`] : []),
     ...(clock === LOG_TIME ? [say.logTimes] : []),
-    ...(kind === 'poses' && angle.unit === 'deg' ? [say.degrees] : []),
     ...(Object.entries(dropped) as [Cause, { count: number; first: number }][]).map(([cause, { count, first }]) => say.leftOut(cause, count, columns ? first : 0)),
     ...(gaps.count ? [say.gaps(gaps.count, gaps.first, gaps.longest)] : []),
     ...(jumps.count ? [say.jumps(jumps.count, jumps.first)] : []),
-    ...notes.map(({ name, values }) => (say.notes[name] as (...values: (string | number)[]) => string)(...values)),
+    ...notes.map(({ name, values }) => {
+      const note: string | ((...values: any[]) => string) = say.notes[name];
+      return typeof note === 'string' ? note : note(...values);
+    }),
   ];
 }

@@ -23,8 +23,9 @@ export type Reader = Awaited<ReturnType<typeof loadReader>>;
 
 export type Watched = { onProgress: (share: number) => void, signal: AbortSignal };
 
-/** Recording with its topics, or two tables without. */
+/** One recording with its topics, or two tables without. */
 export interface Chosen {
+  /** Of two, the odometry first. */
   files: Recording[];
   topics: Series[];
   /** Topic; empty where it is ambiguous. */
@@ -91,10 +92,9 @@ export class LogOpener extends Part<Figure> {
     if (chosen !== this.chosen || log !== this.host.log || chosen.kind === this.#kind) return;
     chosen.kind = this.#kind;
     this.#attempt(async (reader, watching) => {
-      const { odometry } = reader.guessSeries(chosen.topics, chosen.kind);
-      const isOther = odometry !== null && odometry !== chosen.odometry && !chosen.isExplicit;
-      if (isOther) chosen.odometry = odometry;
-      if (isOther || hasBoth) await this.#read(chosen, reader, watching);
+      const { odometry } = chosen;
+      if (!chosen.isExplicit && chosen.topics.length) chosen.odometry = guessOf(reader, chosen, 'odometry') || odometry;
+      if (chosen.odometry !== odometry || hasBoth) await this.#read(chosen, reader, watching);
     });
   }
 
@@ -118,24 +118,20 @@ export class LogOpener extends Part<Figure> {
     this.chosen = undefined;
     this.#attempt(async (reader, watching) => {
       const recordings = await reader.openRecordings(files);
-      const [{ name, series }, second] = recordings;
-      const areTables = recordings.map(isTable);
-      if (second ? files.length > 2 || areTables.includes(false) : areTables[0]) throw new Error(words.calibrator.own.two(files.length));
-      const topics = second ? [] : reader.usefulSeries(name, series);
-      const kind = this.#kind;
-      const guess = reader.guessSeries(topics, kind);
-      const chosen = {
-        files: second && reader.areSwapped(name, second.name) ? recordings.toReversed() : recordings,
-        topics,
-        odometry: guess.odometry ?? '',
-        reference: guess.reference ?? '',
-        frames: FRAMES,
-        kind,
-        isExplicit: false,
-      };
-      this.chosen = chosen;
-      const role = guess.odometry === null ? 'odometry' : 'reference';
-      if (!second && guess[role] === null) throw reader.ambiguousSeries(name, topics, role);
+      const topics = recordings.length === 1 ? reader.usefulSeries(recordings[0]) : [];
+      const chosen: Chosen = { files: recordings, topics, odometry: '', reference: '', frames: FRAMES, kind: this.#kind, isExplicit: false };
+      const plan = () => reader.planDrives(recordings, { kind: chosen.kind });
+      if (recordings.length === 1) {
+        if (topics.length > 1 || topics[0]?.kind === 'transforms') this.chosen = chosen;
+        for (const role of ['odometry', 'reference'] as const) chosen[role] = guessOf(reader, chosen, role);
+        if (!chosen.odometry || !chosen.reference) plan();
+      } else {
+        const { drives, loose } = plan();
+        const parts = [...loose.odometry, ...loose.reference].map(({ recording }) => recording);
+        if (drives.length > 0 || parts.length > 2) throw new Error(words.calibrator.own.two(files.length));
+        chosen.files = parts;
+        this.chosen = chosen;
+      }
       await this.#read(chosen, reader, watching);
     });
   }
@@ -152,23 +148,20 @@ export class LogOpener extends Part<Figure> {
 
   async #read(chosen: Chosen, reader: Reader, watching: Watched) {
     const { files, topics, odometry, reference, frames, kind } = chosen;
-    const choice = (topic: string, its: string) => {
-      const [parent, child = ''] = its.split(',').map((frame) => frame.trim());
-      return { series: topic, ...(holdsTransforms(topics, topic) && { frames: { parent, child } }) };
+    const roles = ['odometry', 'reference'] as const;
+    const wishes = {
+      kind,
+      ...(topics.length
+        ? { odometry: wishOf(topics, odometry, frames.odometry), reference: wishOf(topics, reference, frames.reference) }
+        : { roles: new Map(files.map((recording, i) => [recording, roles[i]])) }),
     };
-    const [first, second] = topics.length
-      ? await files[0].read([choice(odometry, frames.odometry), choice(reference, frames.reference)], partOf(watching, this.share ?? 0, 1))
-      : [
-          ...(await files[0].read([{ series: '', kind }], partOf(watching, 0, 0.5))),
-          ...(await files[1].read([{ series: '', kind: 'poses' }], partOf(watching, 0.5, 1))),
-        ];
-    const paired = reader.pairLogs(first, second);
+    const [paired] = await reader.readDrives(reader.planDrives(files, wishes), partOf(watching, this.share ?? 0, 1));
     const name = [...new Set(files.map((file) => file.name)), ...(topics.length ? [reference] : [])].join(', ');
     const log = { name, odometry: paired.odometry.data, reference: paired.reference.data as Poses };
     const say = await wordsOf();
     watching.signal.throwIfAborted();
     this.host.open(log, () => {
-      this.#opened = { chosen, log, hasBoth: !topics.length && files[0].series[0].hasCommands === true };
+      this.#opened = { chosen, log, hasBoth: !topics.length && files[0].series.some(({ hasCommands }) => hasCommands) };
       const logs = [paired.odometry, paired.reference];
       this.#found = () => logs.map((each) => `${each.name}: ${reader.summarize(each, say().found).join(' ')}`);
     }, (error) => this.#refuse(error));
@@ -205,12 +198,23 @@ export class LogOpener extends Part<Figure> {
   }
 }
 
-const isTable = ({ format }: Recording) => format === 'csv' || format === 'tum';
+/** Returns the series of a role that is not ambiguous. */
+function guessOf(reader: Reader, { files: [recording], odometry, kind }: Chosen, role: import('../../logs/drives.ts').Role): string {
+  const tiers = reader.candidates(recording, role, { kind }).map((tier) => tier.filter(({ series }) => role === 'odometry' || series !== odometry));
+  const best = tiers.find(({ length }) => length > 0);
+  return best?.length === 1 ? best[0].series : '';
+}
+
+/** Returns a choice of the reader, with the frames of a topic of transforms. */
+function wishOf(topics: Series[], series: string, its: string) {
+  const [parent, child = ''] = its.split(',').map((frame) => frame.trim());
+  return { series, ...(holdsTransforms(topics, series) && { frames: { parent, child } }) };
+}
 
 /** Loads the reader of logs. */
 async function loadReader() {
-  const [drives, open, summary] = await Promise.all([import('../../logs/drives.ts'), import('../../logs/open.ts'), import('../../logs/summary.ts')]);
-  return { ...drives, ...open, ...summary };
+  const [candidates, drives, open, summary] = await Promise.all([import('../../logs/candidates.ts'), import('../../logs/drives.ts'), import('../../logs/open.ts'), import('../../logs/summary.ts')]);
+  return { ...candidates, ...drives, ...open, ...summary };
 }
 
 const holdsTransforms = (topics: Series[], topic: string) => topics.some(({ name, kind }) => name === topic && kind === 'transforms');

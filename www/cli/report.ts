@@ -1,22 +1,29 @@
 /** Result as text and as JSON. */
 
+import type { Summary } from '../logs/log.ts';
 import { en as shared } from '../messages/en.ts';
 import { en } from '../widgets/alpha-calibrator/en.ts';
-import { adviceOf, alphaOrBound, between, failedOf, fixed, isLocalizer, nav2Lines, percent, short } from '../widgets/alpha-calibrator/lines.ts';
+import { adviceOf, alphaOrBound, between, failedOf, fixed, nav2Lines, percent, short } from '../widgets/alpha-calibrator/lines.ts';
 
-/**
- * @typedef {[number, number] | null} Interval
- *
- * @typedef {object} Result
- * @property {any} calibration of the core
- * @property {Record<string, any>} options of `calibrate`
- * @property {{ name: string, found: string[] }[]} logs odometry and reference of each drive, with their summaries
- * @property {number} start whole seconds that were subtracted from all times
- * @property {string} date
- */
+type Interval = [number, number] | null;
 
-/** Systematic errors: key, name and unit. @type {[string, string, string][]} */
-const SYSTEMATIC = [
+/** Log with its summary, as numbers and as sentences. */
+export interface ReadLog { name: string; summary: Summary; sentences: string[] }
+
+export interface Result {
+  /** Result of the core. */
+  calibration: any;
+  /** Options of `calibrate`. */
+  options: Record<string, any>;
+  /** Odometry and reference of each drive. */
+  logs: ReadLog[];
+  /** Whole seconds that were subtracted from all times. */
+  start: number;
+  date: string;
+}
+
+/** Systematic errors: key, name and unit. */
+const SYSTEMATIC: [string, string, string][] = [
   ['clockOffset', 'clock offset', 's'],
   ['mountYaw', 'mount yaw', 'rad'],
   ['leverArm', 'lever arm', 'm'],
@@ -24,8 +31,8 @@ const SYSTEMATIC = [
   ['turnScale', 'turn scale', ''],
 ];
 
-/** Causes of lost legs. @type {Record<string, string>} */
-const LOST = {
+/** Causes of lost legs. */
+const LOST: Record<string, string> = {
   withoutReference: 'without reference', acrossBreaks: 'across jumps or missing rows', acrossPauses: 'across pauses', standing: 'of a standing robot',
 };
 
@@ -35,20 +42,20 @@ const DECISIVE = ['reference-matches', 'enough-legs', 'inflation-bounded'];
 /** Number of outliers that are listed. */
 const LISTED = 5;
 
-/**
- * @param {Result} result
- * @returns {string}
- */
-export function textOf({ calibration, options, logs, start, date }) {
+/** Returns what was read, a section of its own. */
+export const readOf = (logs: ReadLog[]): string => logs.map(({ name, sentences: [first, ...more] }) => `${[`${name}: ${first}`, ...more].join('\n  ')}\n`).join('');
+
+/** Returns the report after the summary of the logs. */
+export function textOf({ calibration, options, logs, start, date }: Result, isColored = false): string {
   const { legs, lost, diagnostics: { checks, windows } } = calibration;
   const { model = 'odometry', rule = 'thrun' } = options;
   const failed = failedOf(checks);
   const causes = Object.entries(LOST).filter(([cause]) => lost[cause] > 0).map(([cause, name]) => `${lost[cause]} ${name}`);
-  return [
-    verdictOf(calibration),
-    ...(logs.some(({ name }) => isLocalizer(name)) ? [en.nav2.localizer] : []),
+  const text = [
     '',
-    ...logs.flatMap(({ name, found }) => [`${name}: ${found[0]}`, ...found.slice(1).map((line) => `  ${line}`)]),
+    verdictOf(calibration),
+    ...(logs.some(({ summary: { notes } }) => notes.some(({ name }) => name === 'localizer')) ? [en.nav2.localizer] : []),
+    '',
     `${legs.count} legs ${lengthOf(options.legs)}; model ${model}${model === 'odometry' ? `, rule ${rule}` : ''}`,
     '',
     ...alphasOf(calibration, model),
@@ -65,10 +72,16 @@ export function textOf({ calibration, options, logs, start, date }) {
     ...nav2Of({ calibration, options, logs, start, date }),
     '',
   ].join('\n');
+  return isColored ? text.replaceAll(/^Consistent|\bok$/gm, painted(GREEN)).replace(/^Questionable/m, painted(YELLOW)).replaceAll(/^Unusable|\bFAILED$/gm, painted(RED)) : text;
 }
 
-/** Says the verdict and what to do. @param {any} calibration */
-function verdictOf({ diagnostics: { verdict, checks } }) {
+/** Colours of a terminal. */
+const [RED, GREEN, YELLOW] = [31, 32, 33];
+
+const painted = (color: number) => (text: string) => `\x1b[${color}m${text}\x1b[0m`;
+
+/** Says the verdict and what to do. */
+function verdictOf({ diagnostics: { verdict, checks } }: any): string {
   const failed = failedOf(checks);
   if (verdict === 'consistent') return 'Consistent: all checks passed. Use the recommended α’s with legs of this length.';
   if (verdict === 'questionable') {
@@ -79,20 +92,13 @@ function verdictOf({ diagnostics: { verdict, checks } }) {
   return `Unusable: no α’s are recommended from this log. ${message}`;
 }
 
-/** @param {{ distance?: number, angle?: number, duration?: number }} legs */
-function lengthOf({ distance, angle, duration }) {
+function lengthOf({ distance, angle, duration }: { distance?: number; angle?: number; duration?: number }): string {
   return duration === undefined ? en.nav2.moved(short(distance ?? null), short(angle ?? null)) : en.nav2.lasted(short(duration));
 }
 
-/**
- * Table of the α's, the reason for the inflation, and what to drive for those that are not identifiable.
- *
- * @param {any} calibration
- * @param {string} model
- * @returns {string[]}
- */
-function alphasOf({ alphas, intervals, notIdentifiable, recommended, diagnostics }, model) {
-  const rows = alphas.map((/** @type {number | null} */ alpha, /** @type {number} */ i) => [
+/** Returns the table of the α's, the reason for the inflation, and what to drive for those that are not identifiable. */
+function alphasOf({ alphas, intervals, notIdentifiable, recommended, diagnostics }: any, model: string): string[] {
+  const rows = alphas.map((alpha: number | null, i: number) => [
     `alpha${i + 1}`,
     alpha === null ? 'not identifiable' : alphaOrBound(alpha, intervals[i]),
     between(intervals[i]),
@@ -101,18 +107,17 @@ function alphasOf({ alphas, intervals, notIdentifiable, recommended, diagnostics
   ]);
   const { lacking } = en.alphas;
   // Driving differently does not help where the reference is another drive's, or has other units.
-  const matches = diagnostics.checks.every((/** @type {any} */ { name, passed }) => passed || name !== 'reference-matches');
-  const advice = !matches ? [] : /** @type {(keyof typeof lacking)[]} */ (Object.keys(lacking)).flatMap((reason) => {
-    const names = notIdentifiable.flatMap((/** @type {string | null} */ each, /** @type {number} */ i) => (each === reason ? [`alpha${i + 1}`] : []));
+  const matches = diagnostics.checks.every(({ name, passed }: any) => passed || name !== 'reference-matches');
+  const advice = !matches ? [] : (Object.keys(lacking) as (keyof typeof lacking)[]).flatMap((reason) => {
+    const names = notIdentifiable.flatMap((each: string | null, i: number) => (each === reason ? [`alpha${i + 1}`] : []));
     const { lack, drive } = adviceOf(lacking, model, reason);
     return names.length ? [`${new Intl.ListFormat('en').format(names)} not identifiable: ${lack}; ${drive}`] : [];
   });
   return [...aligned([['', 'fitted', '95 %', 'recommended', ''], ...rows]), ...advice, ...(recommended ? [recommended.reason] : [])];
 }
 
-/** @param {any} calibration @param {Result['options']} options @returns {string[][]} */
-function noiseRows({ referenceNoise }, options) {
-  const row = (/** @type {string} */ name, /** @type {'positionStd' | 'yawStd'} */ key, /** @type {string} */ unit) => {
+function noiseRows({ referenceNoise }: any, options: Result['options']): string[][] {
+  const row = (name: string, key: 'positionStd' | 'yawStd', unit: string) => {
     const { value, interval } = referenceNoise[key];
     const isStated = options[key] !== undefined;
     return [name, `${fixed(value, interval)} ${unit}`, isStated ? '' : between(interval), isStated ? 'as stated' : 'estimated'];
@@ -120,12 +125,11 @@ function noiseRows({ referenceNoise }, options) {
   return [row('reference position σ', 'positionStd', 'm'), row('reference yaw σ', 'yawStd', 'rad')];
 }
 
-/** @param {[string, string, string]} about @param {any} calibration @returns {string[]} */
-function systematicRow([key, name, unit], { systematicErrors }) {
+function systematicRow([key, name, unit]: [string, string, string], { systematicErrors }: any): string[] {
   const { value, interval, constant, corrected } = systematicErrors[key];
   const [values, intervals] = Array.isArray(value) ? [value, interval] : [[value], [interval]];
   if (values.includes(null)) return [name, 'not identifiable'];
-  const list = (/** @type {(one: any, its: Interval) => string} */ print) => values.map((/** @type {any} */ one, /** @type {number} */ i) => print(one, intervals[i])).join(', ');
+  const list = (print: (one: any, its: Interval) => string) => values.map((one: any, i: number) => print(one, intervals[i])).join(', ');
   return [
     name,
     list((one, its) => fixed(one, its) + (unit && ` ${unit}`)),
@@ -134,48 +138,47 @@ function systematicRow([key, name, unit], { systematicErrors }) {
   ];
 }
 
-/** @param {any} calibration @returns {string[]} */
-function persistenceRow({ persistence: { correlation: { value, interval }, length } }) {
+function persistenceRow({ persistence: { correlation: { value, interval }, length } }: any): string[] {
   return ['correlation of neighbouring legs', fixed(value, interval), between(interval), length > 0 ? `errors persist over ${short(length, 2)} m` : ''];
 }
 
-/** @param {any} check @returns {string[]} */
-function checkRow({ name, value, expected: [low, high], passed }) {
+function checkRow({ name, value, expected: [low, high], passed }: any): string[] {
   const range = low === -Infinity ? `≤ ${short(high)}` : high === Infinity ? `≥ ${short(low)}` : `${short(low)} to ${short(high)}`;
   return [name, value === Infinity ? '∞' : short(value), range, passed ? 'ok' : 'FAILED'];
 }
 
-/** @param {any} window @returns {string[]} */
-function windowRow({ length, count, coverage, nees }) {
+function windowRow({ length, count, coverage, nees }: any): string[] {
   return [`of ${short(length)} m`, String(count), percent(coverage), short(nees)];
 }
 
-/** Lists outliers by the times of the logs. @param {any} legs @param {number} start @returns {string[]} */
-function outliersOf({ count, times, outliers }, start) {
+/** Lists outliers by the times of the logs. */
+function outliersOf({ count, times, outliers }: any, start: number): string[] {
   const found = Array.from({ length: count }, (_, leg) => leg).filter((leg) => outliers[leg] === 1);
   const list = found.slice(0, LISTED).map((leg) => `${(start + times[2 * leg]).toFixed(2)} s`).join(', ');
   return found.length ? [`outliers: ${found.length} of ${count} legs, at ${list}${found.length > LISTED ? ', …' : ''}`] : [];
 }
 
-/** @param {Result} result @returns {string[]} */
-function nav2Of({ calibration, options: { model = 'odometry', rule = 'thrun', legs }, logs, date }) {
-  if (calibration.recommended === null) return ['No lines for nav2_params.yaml: the log is unusable.'];
-  const log = new Intl.ListFormat('en').format(new Set(logs.map(({ name }) => name)));
-  const lines = nav2Lines({ calibration, count: calibration.legs.count, model, rule, legs, log, date }, en.nav2);
-  return lines.length ? ['# nav2_params.yaml', ...lines] : ['No lines for nav2_params.yaml: Nav2 has no velocity model.'];
+function nav2Of(result: Result): string[] {
+  const { yaml, reason } = yamlOf(result);
+  return reason ? [reason] : ['# nav2_params.yaml', yaml.trimEnd()];
 }
 
-/** @param {string[][]} rows of a table @returns {string[]} */
-function aligned(rows) {
+/** Returns the lines for nav2_params.yaml, or the reason why there are none. */
+export function yamlOf({ calibration, options: { model = 'odometry', rule = 'thrun', legs }, logs, date }: Result): { yaml: string; reason?: string } {
+  if (calibration.recommended === null) return { yaml: '', reason: 'No lines for nav2_params.yaml: the log is unusable.' };
+  const log = new Intl.ListFormat('en').format(new Set(logs.map(({ name }) => name)));
+  const lines = nav2Lines({ calibration, count: calibration.legs.count, model, rule, legs, log, date }, en.nav2);
+  return lines.length ? { yaml: `${lines.join('\n')}\n` } : { yaml: '', reason: 'No lines for nav2_params.yaml: Nav2 has no velocity model.' };
+}
+
+/** Aligns the columns of a table. */
+export function aligned(rows: string[][]): string[] {
   const widths = rows[0].map((_, column) => Math.max(...rows.map((row) => (row[column] ?? '').length)));
   return rows.map((row) => row.map((cell, column) => cell.padEnd(widths[column])).join('  ').trimEnd());
 }
 
-/**
- * @param {Result} result
- * @returns {string} with typed arrays as plain ones
- */
-export function jsonOf({ calibration, options, logs, start, date }) {
-  const plain = (/** @type {string} */ _, /** @type {unknown} */ value) => (ArrayBuffer.isView(value) ? [.../** @type {Float64Array} */ (value)] : value);
+/** Returns everything as JSON, with typed arrays as plain ones. */
+export function jsonOf({ calibration, options, logs, start, date }: Result): string {
+  const plain = (_: string, value: unknown) => (ArrayBuffer.isView(value) ? [...(value as Float64Array)] : value);
   return `${JSON.stringify({ date, options, logs, start, ...calibration }, plain, 1)}\n`;
 }

@@ -1,0 +1,205 @@
+// Drives: guesses of odometry and reference, pairs of logs, checks between two logs, and their summaries.
+
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { log as german } from '../../www/logs/de.js';
+import { planDrives, readDrives } from '../../www/logs/drives.ts';
+import { log as english } from '../../www/logs/en.js';
+import { LogError } from '../../www/logs/log-error.js';
+import { openRecordings } from '../../www/logs/open.ts';
+import { summarize } from '../../www/logs/summary.ts';
+
+/** @import { Recording, Series } from '../../www/logs/log.ts' */
+
+const TYPES = /** @type {const} */ ({
+  odometry: ['nav_msgs/msg/Odometry', 'poses'], pose: ['geometry_msgs/msg/PoseStamped', 'poses'], point: ['geometry_msgs/msg/PointStamped', 'positions'],
+  twist: ['geometry_msgs/msg/Twist', 'commands'], tf: ['tf2_msgs/msg/TFMessage', 'transforms'], text: ['std_msgs/msg/String', null], columns: ['t, x, y, yaw', 'poses'],
+});
+
+/**
+ * Recording with series that are never read.
+ *
+ * @param {Record<string, keyof typeof TYPES>} series types by name
+ * @param {Partial<Recording>} [more]
+ * @param {string[]} [links] of transforms, as "odom base_link"
+ * @returns {Recording}
+ */
+const recording = (series, more, links = []) => ({
+  name: 'run.mcap',
+  format: 'mcap',
+  series: Object.entries(series).map(([name, of]) => {
+    const [type, kind] = TYPES[of];
+    return { name, type, kind, count: 9, ...(kind === 'transforms' && { links: links.map((link) => ({ parent: link.split(' ')[0], child: link.split(' ')[1] })) }) };
+  }),
+  read: () => Promise.reject(new Error('not read')),
+  ...more,
+});
+
+/** @param {{ series: string, frames?: { parent: string, child: string } }} choice */
+const printed = ({ series, frames }) => (frames ? `${series} ${frames.parent} ${frames.child}` : series);
+
+/** @param {() => unknown} work @returns {LogError} */
+function refusalOf(work) {
+  try {
+    work();
+  } catch (error) {
+    assert.ok(error instanceof LogError, String(error));
+    assert.ok(error.sentence(german).length > 20);
+    return error;
+  }
+  throw new assert.AssertionError({ message: 'nothing was refused' });
+}
+
+/** Series of a recording, the expected odometry and reference, links of transforms and wishes. @type {[Parameters<typeof recording>[0], string, string, string[]?, any?][]} */
+const CLEAR = [
+  [{ '/odom': 'odometry', '/vrpn_client_node/robot/pose': 'pose', '/amcl_pose': 'pose', '/cmd_vel': 'twist' }, '/odom', '/vrpn_client_node/robot/pose'],
+  [{ '/odom': 'odometry', '/vicon/robot': 'pose', '/cmd_vel': 'twist' }, '/cmd_vel', '/vicon/robot', [], { kind: 'commands' }],
+  [{ '/odom': 'odometry', '/vicon/robot': 'pose' }, '/odom', '/vicon/robot', [], { kind: 'commands' }],
+  [{ '/odom': 'odometry', '/amcl_pose': 'pose', '/goal_pose': 'pose' }, '/odom', '/amcl_pose'],
+  [{ '/robot1/wheel_odometry': 'odometry', '/base_pose_ground_truth': 'odometry' }, '/robot1/wheel_odometry', '/base_pose_ground_truth'],
+  [{ '/odom': 'odometry', '/odometry/filtered': 'odometry', '/leica/position': 'point' }, '/odom', '/leica/position'],
+  [{ '/odom': 'odometry', '/pose': 'pose' }, '/odom', '/pose'],
+  [{ '/odom': 'odometry', '/tf': 'tf' }, '/odom', '/tf map base_footprint', ['odom base_footprint', 'map odom', 'base_footprint base_link', 'base_link laser']],
+  [{ '/tf': 'tf', '/mocap': 'pose' }, '/tf odom base_link', '/mocap', ['odom base_link', 'map odom']],
+  [{ '/tf': 'tf' }, '/tf r1/odom r1/base_link', '/tf map r1/base_link', ['r1/odom r1/base_link', 'map r1/odom']],
+  [{ '/odom': 'odometry', '/slam': 'pose', '/mocap': 'pose' }, '/odom', '/slam', [], { reference: { series: '/slam' } }],
+  [{ '/odom': 'odometry', '/mocap': 'pose' }, '/mocap', '/odom', [], { odometry: { series: '/mocap' }, reference: { series: '/odom' } }],
+  [{ '/tf': 'tf', '/mocap': 'pose' }, '/tf odom base', '/mocap', [], { odometry: { frames: { parent: 'odom', child: 'base' } } }],
+];
+
+test('odometry and reference are guessed by types, names and frames', () => {
+  for (const [series, odometry, reference, links, wishes] of CLEAR) {
+    const [drive] = planDrives([recording(series, {}, links)], wishes).drives;
+    assert.deepEqual([printed(drive.odometry.choice), printed(drive.reference.choice)], [odometry, reference]);
+  }
+});
+
+test('groups of columns are guessed as topics are, and may be named without a separator', () => {
+  const table = /** @type {const} */ ({ name: 'run.csv', format: 'csv' });
+  for (const [series, odometry, reference, wishes] of /** @type {[Parameters<typeof recording>[0], string, string, any?][]} */ ([
+    [{ odom_: 'columns', gt_: 'columns' }, 'odom_', 'gt_'], [{ '': 'columns', gt_: 'columns' }, '', 'gt_'], [{ '/truth': 'columns', '/odom': 'columns' }, '/odom', '/truth'],
+    [{ a_: 'columns', b_: 'columns' }, 'b_', 'a_', { odometry: { series: 'b' } }],
+  ])) {
+    const [drive] = planDrives([recording(series, table)], wishes).drives;
+    assert.deepEqual([drive.odometry.choice.series, drive.reference.choice.series], [odometry, reference]);
+  }
+});
+
+test('what is not clear is asked', () => {
+  for (const [series, sentence, what, role, choices, links, wishes] of /** @type {[Parameters<typeof recording>[0], string, string?, string?, string[]?, string[]?, any?][]} */ ([
+    [{ '/odom': 'odometry', '/a': 'pose', '/b': 'pose' }, 'it is not clear what the reference is: /odom (Odometry), /a (PoseStamped), /b (PoseStamped).', 'series', 'reference', ['/odom', '/a', '/b']],
+    [{ '/odom': 'odometry', '/wheel/odometry': 'odometry', '/mocap': 'pose' }, 'it is not clear what the odometry is: ', 'series', 'odometry'],
+    [{ '/odom': 'odometry', '/odometry/filtered': 'odometry' }, 'it is not clear what the reference is: ', 'series', 'reference'],
+    [{ '/tf': 'tf' }, 'give a parent and a child frame, connected by base_link,laser.', 'frames', 'odometry', ['base_link,laser'], ['base_link laser']],
+    [{ '/odom': 'odometry' }, 'it has one log only, /odom (Odometry); give odometry and reference.'],
+    [{ '/cmd_vel': 'twist' }, 'it has commands only, /cmd_vel (Twist); a reference needs poses.', undefined, undefined, undefined, [], { kind: 'commands' }],
+    [{ '/rosout': 'text' }, 'the topics are /rosout (String); '],
+    [{ '/odom': 'odometry', '/mocap': 'pose' }, 'there is no such topic; ', 'series', 'reference', ['/odom', '/mocap'], [], { reference: { series: '/moc' } }],
+    [{ '/odom': 'odometry', '/mocap': 'pose' }, 'it has the same motion as run.mcap; ', undefined, undefined, undefined, [], { odometry: { series: '/odom' }, reference: { series: '/odom' } }],
+  ])) {
+    const { message, ask } = refusalOf(() => planDrives([recording(series, {}, links)], wishes));
+    assert.ok(message.startsWith('run.mcap') && message.includes(`: ${sentence}`), message);
+    assert.deepEqual([ask?.what, ask?.role], [what, role], message);
+    if (choices) assert.deepEqual(ask?.choices, choices);
+  }
+});
+
+test('several recordings are drives of their own, or give one log each', () => {
+  const both = recording({ '/odom': 'odometry', '/mocap': 'pose' });
+  assert.equal(planDrives([both, both]).drives.length, 2);
+  const { loose } = planDrives([recording({ '/mocap': 'pose' }), recording({ '/odom': 'odometry', '/cmd_vel': 'twist' })]);
+  assert.deepEqual([loose.odometry[0].choice.series, loose.reference[0].choice.series], ['/odom', '/mocap']);
+  const tables = (/** @type {string[]} */ ...names) => {
+    const plan = planDrives(names.map((name) => recording({ '': 'columns' }, { name, format: 'csv' })));
+    return [plan.loose.odometry, plan.loose.reference].map((parts) => parts.map(({ recording: { name } }) => name));
+  };
+  assert.deepEqual(tables('truth.csv', 'a.csv'), [['a.csv'], ['truth.csv']]);
+  assert.deepEqual(tables('a.csv', 'b.csv'), [['a.csv'], ['b.csv']]);
+  assert.deepEqual(tables('odom1.csv', 'x.csv', 'y.csv', 'odom2.csv'), [['odom1.csv', 'odom2.csv'], ['x.csv', 'y.csv']]);
+  assert.match(refusalOf(() => tables('a.csv', 'b.csv', 'c.csv', 'd.csv')).message, /^a\.csv: its name does not say whether it is odometry or reference; /);
+  assert.match(refusalOf(() => tables('odom1.csv', 'odom2.csv', 'truth.csv')).message, /^odom1\.csv: there are 2 logs of odometry and 1 of the reference; /);
+});
+
+/** Reads drives from tables by their names. @param {Record<string, string>} files @param {import('../../www/logs/drives.ts').Wishes} [wishes] */
+const drivesOf = async (files, wishes) => readDrives(planDrives(await openRecordings(Object.entries(files).map(([name, text]) => new File([text], name))), wishes));
+
+/** Table of poses. @param {number} count @param {(i: number) => number[]} row */
+const table = (count, row) => ['t,x,y,yaw', ...Array.from({ length: count }, (_, i) => row(i).join(','))].join('\n');
+
+/** Poses along x at 20 Hz. @param {(i: number) => number} x @param {number} [start] */
+const along = (x, start = 0) => table(400, (i) => [start + i / 20, x(i), 0, 0]);
+
+/** @param {Promise<unknown>} reading @returns {Promise<string>} */
+async function sentenceOf(reading) {
+  const error = await reading.then(() => undefined, (reason) => reason);
+  assert.ok(error instanceof LogError, String(error));
+  return error.message;
+}
+
+test('logs of several drives are paired by their times, their names, or their order', async () => {
+  const pairs = async (/** @type {Record<string, number>} */ starts) => (await drivesOf(Object.fromEntries(Object.entries(starts).map(([name, start], k) => [name, along((i) => (i * (k + 1)) / 100, start)])))).map(({ odometry, reference }) => [odometry.name, reference.name]);
+  assert.deepEqual(await pairs({ 'odom1.csv': 100, 'odom2.csv': 500, 'truth_a.csv': 501, 'truth_b.csv': 99 }), [['odom1.csv', 'truth_b.csv'], ['odom2.csv', 'truth_a.csv']]);
+  assert.deepEqual(await pairs({ 'odom1.csv': 0, 'odom2.csv': 0, 'truth2.csv': 0, 'truth1.csv': 0 }), [['odom1.csv', 'truth1.csv'], ['odom2.csv', 'truth2.csv']]);
+  assert.deepEqual(await pairs({ 'odom1.csv': 0, 'odom2.csv': 0, 'truth_a.csv': 0, 'truth_b.csv': 0 }), [['odom1.csv', 'truth_a.csv'], ['odom2.csv', 'truth_b.csv']]);
+});
+
+test('two logs get one start, and none in common is noted', async () => {
+  const own = 't,x,y,yaw\n1700000000.25,0,0,0\n1700000009.5,0,0,0';
+  const [both] = await drivesOf({ 'odom.csv': own, 'truth.csv': 't,x,y,yaw\n1700000003.125,0,0,0\n1700000008.5,0,0,0' });
+  assert.equal(both.start, 1_700_000_000);
+  assert.deepEqual([[...both.odometry.data.t], [...both.reference.data.t]], [[0.25, 9.5], [3.125, 8.5]]);
+  const [other] = await drivesOf({ 'odom.csv': own, 'truth.csv': 't,x,y,yaw\n0,0,0,0\n1,0,0,0' });
+  assert.deepEqual([other.start, [...other.odometry.data.t]], [0, [1_700_000_000.25, 1_700_000_009.5]]);
+  assert.match(summarize(other.reference, english.found).at(-1) ?? '', /^no time in common with odom\.csv \(0\.00 s to 1\.00 s, and 1700000000\.25 s to 1700000009\.50 s\): /);
+  assert.equal(summarize(other.reference, german.found).length, summarize(both.reference, german.found).length + 1);
+});
+
+test('names of a localizer, and swapped ones, are noted', async () => {
+  const notes = async (/** @type {string} */ odometry, /** @type {string} */ reference) => {
+    const recordings = await openRecordings([odometry, reference].map((name, k) => new File([along((i) => (i * (k + 1)) / 100)], name)));
+    const [drive] = await readDrives(planDrives(recordings, { roles: new Map([[recordings[0], 'odometry'], [recordings[1], 'reference']]) }));
+    return drive.reference.summary.notes.map(({ name }) => name);
+  };
+  assert.deepEqual(await notes('truth.csv', 'wheels.csv'), ['swapped']);
+  assert.deepEqual(await notes('odom.csv', 'amcl_pose.csv'), ['localizer']);
+  for (const [one, other] of [['wheels.csv', 'truth.csv'], ['odom.csv', 'reference-by-odom.csv'], ['a.csv', 'b.csv']]) assert.deepEqual(await notes(one, other), [], one);
+});
+
+test('one path given as both logs is refused, in another frame and in other files too', async () => {
+  const curve = (/** @type {number} */ i, dx = 0, turn = 0) => {
+    const [x, y] = [Math.sin(i / 50), 1 - Math.cos(i / 50)];
+    return [i / 20, dx + x * Math.cos(turn) - y * Math.sin(turn), x * Math.sin(turn) + y * Math.cos(turn), i / 50 + turn];
+  };
+  const same = await sentenceOf(drivesOf({ 'odom.csv': table(400, (i) => curve(i)), 'truth.csv': table(400, (i) => curve(i, 3, 1).map((value) => Number(value.toFixed(6)))) }));
+  assert.equal(same, 'truth.csv: it has the same motion as odom.csv; give two independent measurements of one drive.');
+  const commands = ['t,x,y,yaw,v,omega', ...Array.from({ length: 99 }, (_, i) => `${i / 20},${i / 40},0,0,0.5,0`)].join('\n');
+  const [one, other] = await openRecordings([new File([commands], 'log.csv'), new File([commands], 'log.csv')]);
+  assert.match(await sentenceOf(readDrives(planDrives([one, other], { kind: 'commands', roles: new Map([[one, 'odometry'], [other, 'reference']]) }))), /same motion/);
+  // A millimetre is a difference.
+  assert.equal((await drivesOf({ 'odom.csv': table(400, (i) => curve(i)), 'truth.csv': table(400, (i) => curve(i).with(1, curve(i)[1] + (i % 7) / 1000)) })).length, 1);
+});
+
+test('a frozen reference is left out while the odometry moves on, and kept while it stands', async () => {
+  const driven = (/** @type {number} */ i) => Math.max(0, i - 100) / 50;
+  const odometry = along(driven);
+  const seen = (/** @type {number} */ i) => 1.01 * driven(i);
+  const pair = async (/** @type {string} */ reference, own = odometry) => (await drivesOf({ 'odom.csv': own, 'truth.csv': reference }))[0].reference;
+  assert.deepEqual([(await pair(along(seen))).summary.dropped, (await pair(along(seen))).summary.used], [{}, 400]);
+  const lost = along((i) => seen(i >= 200 && i < 300 ? 200 : i));
+  const { data, summary } = await pair(lost);
+  assert.deepEqual([data.t.length, [...data.breaks], summary.used, summary.dropped], [301, [201], 301, { held: { count: 99, first: 0 } }]);
+  assert.equal(await sentenceOf(pair(along(() => 7))), 'truth.csv: its pose stands while the odometry moves on: it has lost the robot; give one that follows the robot.');
+  // Commands tell too that the robot moves.
+  const commands = ['t,v,omega', ...Array.from({ length: 400 }, (_, i) => `${i / 20},${i < 100 ? 0 : 0.4},0`)].join('\n');
+  assert.equal((await pair(lost, commands)).summary.dropped.held?.count, 99);
+});
+
+test('a summary has the distance driven, units and how they were judged, dropped rows and gaps', async () => {
+  const rows = Array.from({ length: 200 }, (_, i) => `${1_700_000_000_000 + 50 * i + (i > 100 ? 3000 : 0)},${i === 9 ? 'nan' : i / 100},${(i % 2) / 1000},${i / 2}`);
+  const [{ reference }] = await drivesOf({ 'odom.csv': along((i) => i / 90, 1_700_000_000), 'truth.csv': ['t,x,y,yaw_deg', ...rows].join('\n') });
+  assert.equal(reference.summary.distance.toFixed(1), '2.0');
+  assert.deepEqual(summarize(reference, english.found), [
+    '199 of 200 rows, 12.9 s at 20.0 Hz, 2.0 m driven', 'columns t, x, y, yaw_deg; time in ms (by size), lengths in m, yaw in degrees (by name)',
+    'left out 1 row, from line 11 on: no finite number', '1 gap, the first at 1700000005.00 s, the longest of 3.05 s',
+  ]);
+});

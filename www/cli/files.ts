@@ -1,0 +1,34 @@
+/** Recordings of files and folders. */
+
+import { openAsBlob } from 'node:fs';
+import { readdir, stat } from 'node:fs/promises';
+import { basename, join, resolve } from 'node:path';
+import { LogError } from '../logs/log-error.js';
+import type { Recording, Source } from '../logs/log.ts';
+import { openRecordings } from '../logs/open.ts';
+import type { Input } from './options.ts';
+
+/** Opens a file or a folder; rejects with a LogError. */
+export async function recordingsOf({ path, open }: Input): Promise<Recording[]> {
+  return openRecordings(await sourcesOf(path), open);
+}
+
+async function sourcesOf(path: string): Promise<Source[]> {
+  const name = basename(resolve(path));
+  try {
+    if (!(await stat(path)).isDirectory()) return [await sourceOf(path, name)];
+    const found = await readdir(path, { withFileTypes: true, recursive: true });
+    const files = found.filter((entry) => entry.isFile() && !entry.name.startsWith('.')).map((entry) => join(entry.parentPath, entry.name)).toSorted();
+    if (files.length === 0) throw Object.assign(new Error(), { code: 'an empty folder' });
+    return await Promise.all(files.map((file) => sourceOf(file, basename(file), join(name, file.slice(join(path, '/').length)).replaceAll('\\', '/'))));
+  } catch (error) {
+    const { code } = error as NodeJS.ErrnoException;
+    if (error instanceof LogError || code === undefined) throw error;
+    throw new LogError({ file: name }, (say) => say.gone(code));
+  }
+}
+
+/** Returns a file whose bytes are read when they are needed. */
+async function sourceOf(file: string, name: string, path?: string): Promise<Source> {
+  return Object.assign(new File([await openAsBlob(file)], name), path !== undefined && { path });
+}

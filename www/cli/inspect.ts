@@ -1,0 +1,68 @@
+/** Command `inspect`: the contents of a recording, and the command to go on with. */
+
+import { candidates, isTable, usefulSeries } from '../logs/candidates.ts';
+import { planDrives } from '../logs/drives.ts';
+import { log as words } from '../logs/en.js';
+import { LogError } from '../logs/log-error.js';
+import type { Choice, Log, Recording } from '../logs/log.ts';
+import { summarize } from '../logs/summary.ts';
+import { aligned } from './report.ts';
+
+const ROLES = ['odometry', 'reference'] as const;
+
+/** Names of the formats. */
+const FORMATS: Partial<Record<Recording['format'], string>> = { mcap: 'MCAP recording', rosbag: 'ROS 1 bag', sqlite: 'rosbag2 SQLite recording', csv: 'table', tum: 'TUM table' };
+
+/** Returns the report about a recording. */
+export async function inspect(recording: Recording, path: string, onProgress?: (share: number | undefined) => void): Promise<string> {
+  const { name, format, series } = recording;
+  const reasons: string[] = [];
+  const logs = new Map<string, Log>();
+  const readable = usefulSeries(recording).filter(({ kind }) => kind !== 'transforms');
+  for (const [i, { name: its }] of readable.entries()) {
+    try {
+      const [log] = await recording.read([{ series: its }], (share) => onProgress?.((i + share) / readable.length));
+      logs.set(its, log);
+    } catch (error) {
+      if (!(error instanceof LogError)) throw error;
+      reasons.push(error.message);
+    }
+  }
+  onProgress?.(undefined);
+  const rows = series.map(({ name: its, type, count, links }) => {
+    const log = logs.get(its);
+    const use = ROLES.flatMap((role) => (candidates(recording, role, { kind: role === 'odometry' && log?.kind === 'commands' ? 'commands' : undefined }).flat().some((choice) => choice.series === its) ? [role] : []));
+    const all = links?.map(({ parent, child }) => `${parent} → ${child}`).join(', ');
+    return [its || '(all columns)', type, String(log?.summary.rows ?? count), log ? `${log.summary.rate.toPrecision(3)} Hz` : '', [use.join(' or '), ...(all ? [all] : [])].filter(Boolean).join(': ')];
+  });
+  const found = [...logs].flatMap(([its, log]) => [...(its ? [its] : []), ...summarize(log, words.found)].map((line, i) => (its && i > 0 ? `  ${line}` : line)));
+  return [
+    `${name}: ${FORMATS[format] ?? format}`,
+    ...aligned([[isTable(recording) ? 'columns' : 'topic', 'type', 'rows', 'rate', 'could be'], ...rows]).map((line) => `  ${line}`),
+    ...found.map((line) => `  ${line}`),
+    ...reasons,
+    ...commandOf(recording, path),
+    '',
+  ].join('\n');
+}
+
+/** Returns the command that calibrates from the recording. */
+function commandOf(recording: Recording, path: string): string[] {
+  const quoted = (text: string) => (/^[\w./,@%+=:-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`);
+  const optionsOf = (role: (typeof ROLES)[number], { series, frames }: Choice) => [
+    ...(series ? [`--${role}-topic ${quoted(series)}`] : []),
+    ...(frames ? [`--${role}-frames ${quoted(`${frames.parent},${frames.child}`)}`] : []),
+  ];
+  const start = 'motion-widgets calibrate';
+  try {
+    const { drives: [drive] } = planDrives([recording]);
+    return ['', `  ${[`${start} --recording ${quoted(path)}`, ...ROLES.flatMap((role) => optionsOf(role, drive[role].choice))].join(' ')} --rule nav2`];
+  } catch (error) {
+    if (!(error instanceof LogError)) throw error;
+    const [role] = ROLES.filter((each) => candidates(recording, each).some(({ length }) => length > 0));
+    if (!role) return [];
+    const other = role === 'odometry' ? '--reference FILE' : '--odometry FILE';
+    if (usefulSeries(recording).length === 1) return ['', `  ${start} --${role} ${quoted(path)} ${other} --rule nav2`];
+    return ['', `  ${start} --recording ${quoted(path)} --odometry-topic NAME --reference-topic NAME --rule nav2`];
+  }
+}

@@ -1,0 +1,211 @@
+/** Options of the command line. */
+
+import { parseArgs } from 'node:util';
+import type { Wishes } from '../logs/drives.ts';
+import { cut } from '../logs/log-error.js';
+import type { Frames, OpenOptions } from '../logs/log.ts';
+
+/** Error about the options; its message is a sentence. */
+export class UsageError extends Error {}
+
+export const HELP = `motion-widgets: the α's of a robot's motion model, from logs of its odometry and of a reference
+
+  motion-widgets inspect run.bag
+      lists what is in a recording or table, what could be odometry or reference, and the command to go on with
+  motion-widgets calibrate --recording run.bag --rule nav2
+      calibrates from a bag, folder or MCAP file that has both, for Nav2's AMCL
+  motion-widgets calibrate --odometry odom.csv --reference mocap.csv --rule nav2 --yaml >> nav2_params.yaml
+      calibrates from two files, and appends the lines for Nav2
+
+Logs: ROS 1 bags, rosbag2 (MCAP, SQLite, folders), CSV and other tables, TUM.
+  --recording PATH           file or folder with odometry and reference
+  --odometry PATH            file or folder with the odometry: poses, or commands v and omega
+  --reference PATH           file or folder with the reference: motion capture, total station, scan matching
+                             Several drives: give these options several times.
+  --odometry-topic NAME      topic, or prefix of a table's columns (odom_); default: guessed from types and names
+  --reference-topic NAME     the same for the reference
+  --odometry-frames P,C      parent and child frame, of a topic of transforms: odom,base_link
+  --reference-frames P,C     the same for the reference: map,base_link
+  --columns NAMES            names of the columns of a table without a header: t,x,y,yaw or t,v,omega
+  --odometry-columns NAMES   the same for the odometry only
+  --reference-columns NAMES  the same for the reference only
+  --time-unit UNIT           s, ms, us or ns; default: judged
+  --length-unit UNIT         m, cm or mm; default: judged
+  --angle-unit UNIT          rad or deg; default: judged
+
+Fit:
+  --model NAME               odometry (default), omnidirectional, velocity (from commands)
+  --rule NAME                of the odometry model: thrun (default, Table 5.6), nav2 (for Nav2's AMCL), beluga;
+                             omni is that of the omnidirectional model
+  --update-min-d M           a leg ends after so much, as in AMCL; default 0.25
+  --update-min-a RAD         or after so much rotation; default 0.2
+  --duration S               a leg ends after so long instead
+  --reference-position-std M known standard deviation of the reference's x and y; default: estimated from the log
+  --reference-yaw-std RAD    known standard deviation of its yaw; default: estimated from the log
+  --outliers NAME            reject (default), keep
+  --no-correct NAMES         systematic errors that are not corrected: all, or some of
+                             clockOffset,mountYaw,leverArm,distanceScale,turnScale
+  --correct NAMES            systematic errors that are corrected even if they are not constant
+
+Output:
+  --json                     everything, as JSON
+  --yaml                     only the lines for nav2_params.yaml
+  --plot FILE.svg            a picture of both paths, the legs and the outliers
+  --help, --version
+
+Exit codes: 0 result, 2 bad input or options, 3 the log is unusable (see the failed checks), 1 a defect of the program.
+`;
+
+const text = { type: 'string' } as const;
+const texts = { type: 'string', multiple: true } as const;
+const flag = { type: 'boolean' } as const;
+
+const OPTIONS = {
+  odometry: texts, reference: texts, recording: texts, 'odometry-topic': text, 'reference-topic': text, 'odometry-frames': text,
+  'reference-frames': text, columns: text, 'odometry-columns': text, 'reference-columns': text, 'time-unit': text, 'length-unit': text,
+  'angle-unit': text, model: text, rule: text, 'update-min-d': text, 'update-min-a': text, duration: text, outliers: text,
+  'no-correct': text, correct: text, 'reference-position-std': text, 'reference-yaw-std': text, json: flag, yaml: flag, plot: text,
+  help: { ...flag, short: 'h' }, version: flag,
+} as const;
+
+const UNITS = { time: ['s', 'ms', 'us', 'ns'], length: ['m', 'cm', 'mm'], angle: ['rad', 'deg'] } as const;
+
+/** Systematic errors that can be corrected before the α's are fitted. */
+const SYSTEMATIC = ['clockOffset', 'mountYaw', 'leverArm', 'distanceScale', 'turnScale'];
+
+/** Options by the fields of `calibrate`. */
+const BY_FIELD: Record<string, string> = {
+  'legs.distance': 'update-min-d', 'legs.angle': 'update-min-a', 'legs.duration': 'duration',
+  positionStd: 'reference-position-std', yawStd: 'reference-yaw-std', model: 'model', rule: 'rule', outliers: 'outliers',
+};
+
+/** Names the option that an error of the core is about; its message begins with a field. Undefined if the error is about the logs. */
+export function withOption(message: string): string | undefined {
+  const [field] = message.split(' ');
+  return Object.hasOwn(BY_FIELD, field) ? `--${BY_FIELD[field]}${message.slice(field.length)}.` : undefined;
+}
+
+/** File or folder, and the options to open it with. */
+export interface Input { path: string; open: OpenOptions }
+
+export interface Calibrate {
+  command: 'calibrate';
+  inputs: { recording: Input[]; odometry: Input[]; reference: Input[] };
+  wishes: Wishes;
+  /** Options of `calibrate` of the core. */
+  fit: Record<string, any>;
+  output: 'text' | 'json' | 'yaml';
+  /** Path of the picture. */
+  plot: string | undefined;
+}
+
+export interface Inspect { command: 'inspect'; inputs: Input[] }
+
+/** Parses the arguments; throws a UsageError. */
+export function optionsOf(args: string[]): Calibrate | Inspect | 'help' | 'version' {
+  const { values, positionals: [command, ...paths] } = parsed(args);
+  if (values.version) return 'version';
+  if (values.help || args.length === 0) return 'help';
+  const columns = (name: 'columns' | 'odometry-columns' | 'reference-columns') => values[name]?.split(',').map((each) => each.trim());
+  const units = Object.fromEntries((['time', 'length', 'angle'] as const).flatMap((of) => {
+    const unit = values[`${of}-unit`];
+    if (unit === undefined) return [];
+    if ((UNITS[of] as readonly string[]).includes(unit)) return [[`${of}Unit`, unit]];
+    throw new UsageError(`--${of}-unit must be ${listOf(UNITS[of])} (got “${cut(unit)}”).`);
+  }));
+  const open = (names = columns('columns')): OpenOptions => ({ ...units, ...(names && { columns: names }) });
+  if (command === 'inspect') {
+    const all = [...paths, ...(values.recording ?? []), ...(values.odometry ?? []), ...(values.reference ?? [])];
+    if (all.length === 0) throw new UsageError('inspect needs a file or folder: motion-widgets inspect run.bag');
+    return { command, inputs: all.map((path) => ({ path, open: open() })) };
+  }
+  if (command !== 'calibrate') throw new UsageError(`the command must be calibrate or inspect (got “${cut(command ?? '')}”); --help has examples.`);
+  const [stray] = paths;
+  if (stray !== undefined) throw new UsageError(`“${cut(stray)}” belongs to no option; files follow --recording, --odometry or --reference.`);
+
+  const number = (name: 'update-min-d' | 'update-min-a' | 'duration' | 'reference-position-std' | 'reference-yaw-std') => {
+    const value = values[name];
+    if (value === undefined) return undefined;
+    const parsed = value.trim() === '' ? NaN : Number(value);
+    if (Number.isFinite(parsed)) return parsed;
+    const point = /^-?\d*,\d+$/.test(value) ? ` with a decimal point, ${value.replace(',', '.')}` : '';
+    throw new UsageError(`--${name} must be a number${point} (got “${cut(value)}”).`);
+  };
+  const [distance, angle, duration] = [number('update-min-d'), number('update-min-a'), number('duration')];
+  if (duration !== undefined && (distance ?? angle) !== undefined) throw new UsageError('--duration excludes --update-min-d and --update-min-a: give one or the other.');
+  if (values.json && values.yaml) throw new UsageError('--json excludes --yaml: give one or the other.');
+  const { recording = [], odometry = [], reference = [] } = values;
+  for (const [one, other] of [[odometry, 'reference'], [reference, 'odometry']] as const) {
+    if (one.length > 0 && !values[other]) throw new UsageError(`--${other} is missing; give a file or folder, or --recording with both.`);
+  }
+  if (odometry.length !== reference.length) throw new UsageError(`there are ${odometry.length} logs of odometry and ${reference.length} of the reference; give one of each for a drive.`);
+  if (recording.length + odometry.length === 0) throw new UsageError('no logs are given; give --recording, or --odometry and --reference.');
+  const wish = (role: 'odometry' | 'reference') => defined({ series: values[`${role}-topic`], frames: framesOf(`${role}-frames`, values[`${role}-frames`]) });
+  const inputs = (all: string[], names?: string[]) => all.map((path) => ({ path, open: open(names) }));
+  return {
+    command,
+    inputs: { recording: inputs(recording), odometry: inputs(odometry, columns('odometry-columns')), reference: inputs(reference, columns('reference-columns')) },
+    wishes: { odometry: wish('odometry'), reference: wish('reference'), ...(values.model === 'velocity' && { kind: 'commands' }) },
+    fit: defined({
+      legs: duration === undefined ? { distance: distance ?? 0.25, angle: angle ?? 0.2 } : { duration },
+      model: values.model ?? (values.rule === 'omni' ? 'omnidirectional' : undefined),
+      rule: values.rule,
+      outliers: values.outliers,
+      correct: correctOf(values['no-correct'], values.correct),
+      positionStd: number('reference-position-std'),
+      yawStd: number('reference-yaw-std'),
+    }),
+    output: values.json ? 'json' : values.yaml ? 'yaml' : 'text',
+    plot: values.plot,
+  };
+}
+
+/** Returns an object without keys that are undefined. */
+const defined = <T extends object>(all: T): T => Object.fromEntries(Object.entries(all).filter(([, value]) => value !== undefined)) as T;
+
+const listOf = (names: readonly string[]) => new Intl.ListFormat('en', { type: 'disjunction' }).format(names);
+
+/** Returns which errors are corrected; single names override `all`. */
+function correctOf(left?: string, corrected?: string): Record<string, boolean> | undefined {
+  const lists = [namesOf('no-correct', left), namesOf('correct', corrected)];
+  const [all, single] = [true, false].map((isAll) => lists.flatMap((names, i) => (names.includes('all') === isAll ? names : []).map((name) => [name, i === 1] as const)));
+  const entries = [...all.flatMap(([, is]) => SYSTEMATIC.map((name) => [name, is] as const)), ...single];
+  return entries.length ? Object.fromEntries(entries) : undefined;
+}
+
+function namesOf(option: string, value?: string): string[] {
+  const names = value?.split(',').map((name) => name.trim()) ?? [];
+  const unknown = names.find((name) => name !== 'all' && !SYSTEMATIC.includes(name));
+  if (unknown === undefined) return names;
+  throw new UsageError(`--${option} must be all, or names of ${SYSTEMATIC.join(', ')} (got “${cut(unknown)}”).`);
+}
+
+function parsed(args: string[]) {
+  try {
+    return parseArgs({ args, options: OPTIONS, allowPositionals: true });
+  } catch (error) {
+    const { code, message } = error as NodeJS.ErrnoException;
+    const [, name] = (code === 'ERR_PARSE_ARGS_UNKNOWN_OPTION' && /'--?([^']*)'/.exec(message)) || [];
+    const [sentence] = message.split('\n');
+    throw new UsageError(name === undefined ? sentence : `unknown option --${cut(name)}; ${nearestTo(name)}--help lists all.`);
+  }
+}
+
+/** Names the option that has the most pairs of letters in common with a name. */
+function nearestTo(name: string): string {
+  const pairs = (word: string) => Array.from(word, (letter, i) => letter + (word[i + 1] ?? ''));
+  const own = pairs(name);
+  const scores = Object.keys(OPTIONS).map((option) => {
+    const other = pairs(option);
+    return { option, score: own.filter((pair) => other.includes(pair)).length / Math.max(own.length, other.length) };
+  });
+  const { option, score } = scores.reduce((best, each) => (each.score > best.score ? each : best));
+  return score > 0.4 ? `the nearest is --${option}, ` : '';
+}
+
+function framesOf(name: string, value: string | undefined): Frames | undefined {
+  if (value === undefined) return undefined;
+  const [parent, child, ...more] = value.split(',').map((each) => each.trim());
+  if (parent && child && more.length === 0) return { parent, child };
+  throw new UsageError(`--${name} must be a parent and a child frame, as in map,base_link (got “${cut(value)}”).`);
+}

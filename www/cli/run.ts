@@ -1,0 +1,105 @@
+/** Commands `calibrate` and `inspect`. */
+
+import { writeFile } from 'node:fs/promises';
+import { planDrives, readDrives, type Drive } from '../logs/drives.ts';
+import { log as words } from '../logs/en.js';
+import { LogError, cut } from '../logs/log-error.js';
+import { after } from '../logs/pairs.ts';
+import { summarize } from '../logs/summary.ts';
+import { recordingsOf } from './files.ts';
+import { inspect } from './inspect.ts';
+import { HELP, UsageError, optionsOf, withOption, type Calibrate } from './options.ts';
+import { plotOf } from './plot.ts';
+import { jsonOf, readOf, textOf, yamlOf, type Result } from './report.ts';
+
+export interface Environment {
+  /** Loads the core. */
+  load(): Promise<any>;
+  print(text: string): void;
+  complain(text: string): void;
+  /** Shows the progress of reading; undefined hides it. */
+  onProgress?(share: number | undefined): void;
+  version?: string;
+  isColored?: boolean;
+  now?: Date;
+}
+
+/** Exit codes of a shell. */
+const [SUCCESS, BAD_INPUT, UNUSABLE] = [0, 2, 3];
+
+/** Runs a command, and returns the exit code; rejects on a defect of the program. */
+export async function run(args: string[], environment: Environment): Promise<number> {
+  const { print, complain, onProgress } = environment;
+  try {
+    const options = optionsOf(args);
+    if (options === 'help') print(HELP);
+    else if (options === 'version') print(`${environment.version}\n`);
+    else if (options.command === 'inspect') {
+      for (const input of options.inputs) for (const recording of await recordingsOf(input)) print(await inspect(recording, input.path, onProgress));
+    } else return await calibrate(options, environment);
+    return SUCCESS;
+  } catch (error) {
+    onProgress?.(undefined);
+    if (!(error instanceof LogError || error instanceof UsageError)) throw error;
+    complain(`${error.message}${error instanceof LogError ? adviceOf(error) : ''}\n`);
+    return BAD_INPUT;
+  }
+}
+
+/** Names the option that answers the question of an error. */
+function adviceOf({ ask, message }: LogError): string {
+  if (!ask || message.includes(' --')) return '';
+  const { what, role = 'odometry', choices } = ask;
+  const option = { series: `--${role}-topic`, frames: `--${role}-frames`, columns: '--columns', timeUnit: '--time-unit', lengthUnit: '--length-unit', angleUnit: '--angle-unit' }[what];
+  const [first] = choices.filter(Boolean);
+  return ` Choose with ${option}${first === undefined ? '' : `, as in ${option} ${cut(first)}`}.`;
+}
+
+async function calibrate({ inputs, wishes, fit, output, plot }: Calibrate, { load, print, complain, onProgress, isColored = false, now = new Date() }: Environment): Promise<number> {
+  const roles = new Map();
+  const recordings = [];
+  for (const kind of ['recording', 'odometry', 'reference'] as const) {
+    for (const input of inputs[kind]) {
+      const opened = await recordingsOf(input);
+      recordings.push(...opened);
+      if (kind !== 'recording') for (const each of opened) roles.set(each, kind);
+    }
+  }
+  const drives = await readDrives(planDrives(recordings, { ...wishes, roles }), onProgress);
+  onProgress?.(undefined);
+  const [{ start }] = drives;
+  const logs = drives.flatMap(({ odometry, reference }) => [odometry, reference]).map(({ name, ...log }) => ({ name, summary: log.summary, sentences: summarize({ name, ...log }, words.found) }));
+  // The summary is shown even if the fit is refused.
+  if (output === 'text') print(readOf(logs));
+  if (output === 'yaml') complain(readOf(logs));
+  const calibration = fitted(await load(), fit, drives);
+  const result: Result = { calibration, options: fit, logs, start, date: now.toISOString().slice(0, 10) };
+  if (plot !== undefined) await save(plot, plotOf(drives, calibration));
+  const isUnusable = calibration.recommended === null;
+  if (output === 'yaml') {
+    const { yaml, reason } = yamlOf(result);
+    if (reason) complain(`${reason}\n`);
+    print(yaml);
+    return isUnusable ? UNUSABLE : yaml ? SUCCESS : BAD_INPUT;
+  }
+  print(output === 'json' ? jsonOf(result) : textOf(result, isColored));
+  return isUnusable ? UNUSABLE : SUCCESS;
+}
+
+async function save(path: string, text: string): Promise<void> {
+  await writeFile(path, text).catch(({ code }: NodeJS.ErrnoException) => {
+    throw new UsageError(`--plot ${cut(path)} cannot be written (${code}).`);
+  });
+}
+
+function fitted(motion: any, fit: Calibrate['fit'], drives: Drive[]): any {
+  const [{ start }] = drives;
+  const dataOf = (role: 'odometry' | 'reference') => drives.map(({ [role]: log }) => after(start, log).data);
+  try {
+    return motion.calibrate({ ...fit, odometry: dataOf('odometry'), reference: dataOf('reference') });
+  } catch (error) {
+    if (!(error instanceof RangeError || error instanceof TypeError)) throw error;
+    const names = drives.flatMap(({ odometry, reference }) => [odometry.name, reference.name]);
+    throw new UsageError(withOption(error.message) ?? `${new Intl.ListFormat('en').format(names)}: ${error.message}.`);
+  }
+}

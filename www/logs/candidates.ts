@@ -1,0 +1,75 @@
+/** Series that could be odometry or reference, by their types and names. */
+
+import type { Choice, Frames, LogKind, Recording, Series } from './log.ts';
+
+export type Role = 'odometry' | 'reference';
+
+/** Names of odometry and of commands, the likeliest first. */
+const ODOMETRY = [/(^|[/_.])odom(etry)?[/_.]?$/i, /odom|wheel|encoder/i];
+const COMMANDS = [/(^|[/_.])cmd_?vel[/_.]?$/i, /cmd|command|twist/i];
+
+/** Names of measurements from outside. */
+const MEASURED = /truth|(^|[^a-z])(gt|ref)([^a-z]|$)|mocap|vicon|optitrack|qualisys|vrpn|motive|natnet|phasespace|reference|station|leica|prism|tracker/i;
+
+/** Names of estimates by localizers, whose errors follow the odometry where they use it. */
+const LOCALIZED = /slam|amcl|locali[sz]|carto|tracked_pose|icp|loam|scan_?match|pose_graph/i;
+
+/** Names of filters over the odometry. */
+const FILTERED = /odometry[/_]filtered|ekf|ukf|odom_combined/i;
+
+/** Names of topics that are no path of the robot. */
+const GOAL = /goal|initial_?pose|waypoint|target|setpoint/i;
+
+/** Frames of a robot, and frames that are fixed, the likeliest first. */
+const BASES = [/(^|\/)base_footprint$/, /(^|\/)base_link$/, /(^|\/)base/];
+const FIXED = { odometry: [/(^|[/_])odom(etry)?$/], reference: [/mocap|vicon|optitrack|world/, /(^|\/)map$/] };
+
+const NAME_OF_ODOMETRY = /odom|wheel|encoder|cmd/i;
+
+/** Checks whether a recording is a table, which has groups of columns in the place of topics. */
+export const isTable = ({ format }: Recording): boolean => !['mcap', 'rosbag', 'sqlite'].includes(format);
+
+/** Checks whether a log is by its name the estimate of a localizer, or of a filter over the odometry. */
+export const isLocalizer = (name: string): boolean => (LOCALIZED.test(name) || FILTERED.test(name)) && !MEASURED.test(name);
+
+/** Returns the role that the name of a file says; undefined where it says none. */
+export function roleByName(name: string): Role | undefined {
+  if (MEASURED.test(name) || LOCALIZED.test(name)) return 'reference';
+  return NAME_OF_ODOMETRY.test(name) ? 'odometry' : undefined;
+}
+
+/** Returns the series that can be read. A topic needs two messages. */
+export const usefulSeries = (recording: Recording): Series[] => recording.series.filter(({ kind, count }) => kind !== null && (isTable(recording) || count > 1));
+
+/** Returns the choices for a role in tiers, the likeliest first. A tier of several is ambiguous. */
+export function candidates(recording: Recording, role: Role, { kind }: { kind?: LogKind } = {}): Choice[][] {
+  const isOfTable = isTable(recording);
+  const useful = usefulSeries(recording).filter(({ name }) => !GOAL.test(name));
+  const paths = useful.filter((each) => each.kind === 'poses' || each.kind === 'positions');
+  const chains = useful.flatMap(({ name, links = [] }) => chainsOf(links, role).map((frames) => ({ series: name, frames })));
+  if (role === 'reference') {
+    const others = paths.filter(({ name }) => !FILTERED.test(name) && !ODOMETRY[0].test(name));
+    return [...tiers(paths, [MEASURED, LOCALIZED], 'poses'), choices(others, 'poses'), ...(isOfTable ? [choices(paths, 'poses')] : []), chains];
+  }
+  // A message says by its type that it is odometry.
+  const wheels = paths.filter(({ kind, name, type }) => kind === 'poses' && !MEASURED.test(name) && !LOCALIZED.test(name) && (isOfTable || /Odometry$/.test(type)));
+  const poses = [...tiers(wheels, ODOMETRY), choices(wheels), chains];
+  const commands = useful.filter((each) => each.kind === 'commands' || (isOfTable && each.hasCommands));
+  const driven = [...tiers(commands, COMMANDS, 'commands'), choices(commands, 'commands')];
+  return kind === 'commands' ? [...driven, ...poses] : isOfTable ? [...poses, ...driven] : poses;
+}
+
+const choices = (series: Series[], kind?: LogKind): Choice[] => series.map(({ name }) => ({ series: name, ...(kind && { kind }) }));
+
+const tiers = (series: Series[], names: RegExp[], kind?: LogKind): Choice[][] => names.map((pattern) => choices(series.filter(({ name }) => pattern.test(name)), kind));
+
+/** Returns the ends of chains of transforms from a fixed frame to the robot's, the likeliest of them. */
+function chainsOf(links: Frames[], role: Role): Frames[] {
+  const below = (parent: string, seen: string[] = [parent]): string[] => {
+    const children = links.filter((link) => link.parent === parent && !seen.includes(link.child)).map(({ child }) => child);
+    return children.flatMap((child) => [child, ...below(child, [...seen, child])]);
+  };
+  const first = (names: RegExp[], some: string[]) => names.map((name) => some.filter((each) => name.test(each))).find(({ length }) => length) ?? [];
+  const fixed = first(FIXED[role], [...new Set(links.map(({ parent }) => parent))]);
+  return fixed.flatMap((parent) => first(BASES, below(parent)).map((child) => ({ parent, child })));
+}

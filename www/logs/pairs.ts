@@ -1,0 +1,101 @@
+/** Pairs of logs of one drive, and checks between the two. */
+
+import { bisectLeft } from 'd3-array';
+import { isLocalizer, roleByName } from './candidates.ts';
+import { withoutFrozenPoses } from './frozen-pose.ts';
+import { LogError } from './log-error.js';
+import type { Log, Note, Poses } from './log.ts';
+
+/** Two logs of one drive, with times after the same start. */
+export interface Drive { odometry: Log; reference: Log; start: number }
+
+/** Share of the shorter log that two logs of one drive have in common. */
+const COMMON = 0.5;
+
+/** Rows that are compared to find one log in two files, and fewest that show it. */
+const [COMPARED, ENOUGH] = [500, 10];
+
+/** Largest difference in m and rad of two paths that are one: the rounding of six digits. */
+const SAME = 1e-5;
+
+/** Least motion in m and rad of paths that are compared. */
+const MOVED = 0.1;
+
+/** Absolute times of the first and the last row. */
+const spanOf = ({ start, data: { t } }: Log): [number, number] => [start + t[0], start + t[t.length - 1]];
+
+const printed = (log: Log) => spanOf(log).map((time) => `${time.toFixed(2)} s`).join(' to ');
+
+/** Duration that two logs have in common; negative for logs apart. */
+function overlap(one: Log, other: Log): number {
+  const [[a, b], [c, d]] = [spanOf(one), spanOf(other)];
+  return Math.min(b, d) - Math.max(a, c);
+}
+
+/** Name of a file without its extension and the words for its role. */
+const stemOf = (name: string) => name.toLowerCase().replace(/\.\w+$/, '').replace(/odom(etry)?|wheels?|encoders?|cmd(_vel)?|(ground)?[_-]?truth|gt|reference|ref|mocap|vicon|optitrack|poses?/g, '').replace(/[^a-z0-9]+/g, '');
+
+/** Pairs logs of several drives: by their times, by the names of their files, or in their order. */
+export function pairedByTime(odometry: Log[], reference: Log[]): [Log, Log][] {
+  const isLong = (one: Log, other: Log) => overlap(one, other) > COMMON * Math.min(one.summary.seconds, other.summary.seconds);
+  const isNamed = (one: Log, other: Log) => stemOf(one.name) === stemOf(other.name);
+  for (const match of [isLong, isNamed]) {
+    const partners = odometry.map((one) => reference.filter((other) => match(one, other)));
+    if (partners.every(({ length }) => length === 1) && new Set(partners.flat()).size === reference.length) return odometry.map((one, i) => [one, partners[i][0]]);
+  }
+  return odometry.map((one, i) => [one, reference[i]]);
+}
+
+/**
+ * Pairs two logs of one drive: with times after the same start, and without rows in which the reference had lost the robot. Throws a
+ * LogError if the reference has no poses, does not follow the robot, or is the odometry itself.
+ */
+export function pairLogs(odometry: Log, reference: Log): Drive {
+  const place = { file: reference.name };
+  if (reference.kind === 'commands') throw new LogError(place, (say) => say.noColumns('poses', 't, v, omega'));
+  const start = Math.min(odometry.start, reference.start);
+  const [first, second] = [after(start, odometry), after(start, reference)];
+  if (isSamePath(first, second)) throw new LogError(place, (say) => say.same(odometry.name));
+  const reliable = withoutFrozenPoses(second, first);
+  if (reliable.data.t.length < 2) throw new LogError(place, (say) => say.held);
+  const isSwapped = roleByName(odometry.name) !== 'odometry' && roleByName(reference.name) === 'odometry';
+  const notes: Note[] = [
+    ...reliable.summary.notes,
+    ...(isSwapped ? [{ name: 'swapped' as const, values: [odometry.name] }] : []),
+    ...(isLocalizer(reference.name) || reference.summary.frames?.parent === 'map' ? [{ name: 'localizer' as const, values: [] }] : []),
+    ...(overlap(odometry, reference) < 0 ? [{ name: 'apart' as const, values: [odometry.name, printed(reference), printed(odometry)] }] : []),
+  ];
+  return { odometry: first, reference: { ...reliable, summary: { ...reliable.summary, notes } }, start };
+}
+
+/** Moves times to another start. */
+export function after(start: number, log: Log): Log {
+  const later = log.start - start;
+  return later === 0 ? log : { ...log, start, data: { ...log.data, t: log.data.t.map((each) => each + later) } };
+}
+
+/** Checks whether two logs are one: rows of one time have the same motion since the first of them, whatever frame the poses are in. */
+function isSamePath(odometry: Log, reference: Log): boolean {
+  const [{ t }, other] = [odometry.data, reference.data as Poses];
+  if ('v' in odometry.data) return odometry.name === reference.name && t.length === other.t.length && t.every((time, i) => time === other.t[i]);
+  const poses = odometry.data;
+  const every = Math.ceil(t.length / COMPARED);
+  const motion = ({ x, y, theta }: Poses, from: number, to: number) => {
+    const [dx, dy, cos, sin] = [x[to] - x[from], y[to] - y[from], Math.cos(theta[from]), Math.sin(theta[from])];
+    return [cos * dx + sin * dy, cos * dy - sin * dx, theta[to] - theta[from]];
+  };
+  let first: [number, number] | undefined;
+  let [rows, moved] = [0, 0];
+  for (let i = 0; i < t.length; i += every) {
+    const j = bisectLeft(other.t, t[i] - 1e-6);
+    if (!(Math.abs(other.t[j] - t[i]) <= 1e-6)) continue;
+    first ??= [i, j];
+    const [one, two] = [motion(poses, first[0], i), motion(other, first[1], j)];
+    const distance = Math.hypot(one[0], one[1]);
+    const turn = Math.abs(Math.sin((one[2] - two[2]) / 2));
+    if (Math.hypot(one[0] - two[0], one[1] - two[1]) > SAME * (1 + distance) || turn > SAME) return false;
+    rows += 1;
+    moved = Math.max(moved, distance, Math.abs(Math.sin(one[2] / 2)));
+  }
+  return rows >= ENOUGH && moved > MOVED;
+}

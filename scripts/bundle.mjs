@@ -190,7 +190,7 @@ export async function bundle({ tags = WIDGETS, changed = (_, script) => script }
     bundled({ react: '../build/react.js' }, 'inlined', { external: ['react', 'motion-widgets'], inject: [] }),
     bundled({ de: 'de.ts', page: 'page.ts', 'server-component': 'server-component.ts' }, 'inlined', { inject: [] }),
     // The core is the file beside it.
-    bundled({ cli: 'cli.js' }, 'inlined', { platform: 'node', sourcemap: false, inject: [] }),
+    bundled({ cli: 'cli.ts' }, 'inlined', { platform: 'node', sourcemap: false, inject: [] }),
     bundled({ embed: 'embed.ts' }, 'inlined', { format: 'iife', sourcemap: false, inject: [] }),
   ]).catch(() => []);
   if (!results.length || results.some(({ warnings }) => warnings.length)) {

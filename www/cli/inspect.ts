@@ -1,6 +1,6 @@
 /** Command `inspect`: the contents of a recording, and the command to go on with. */
 
-import { candidates, isTable, usefulSeries } from '../logs/candidates.ts';
+import { candidates, isLocalizer, isTable, usefulSeries } from '../logs/candidates.ts';
 import { planDrives } from '../logs/drives.ts';
 import { log as words } from '../logs/en.js';
 import { LogError } from '../logs/log-error.js';
@@ -16,26 +16,15 @@ const FORMATS: Partial<Record<Recording['format'], string>> = { mcap: 'MCAP reco
 /** Returns the report about a recording. */
 export async function inspect(recording: Recording, path: string, onProgress?: (share: number | undefined) => void): Promise<string> {
   const { name, format, series } = recording;
-  const reasons: string[] = [];
-  const logs = new Map<string, Log>();
-  const readable = usefulSeries(recording).filter(({ kind }) => kind !== 'transforms');
-  for (const [i, { name: its }] of readable.entries()) {
-    try {
-      const [log] = await recording.read([{ series: its }], (share) => onProgress?.((i + share) / readable.length));
-      logs.set(its, log);
-    } catch (error) {
-      if (!(error instanceof LogError)) throw error;
-      reasons.push(error.message);
-    }
-  }
+  const uses = new Map(series.map(({ name: its }) => [its, usesOf(recording, its)]));
+  const { logs, reasons } = await read(recording, usefulSeries(recording).filter(({ name: its, kind }) => kind !== 'transforms' && uses.get(its) !== '').map(({ name: its }) => its), onProgress);
   onProgress?.(undefined);
   const rows = series.map(({ name: its, type, count, links }) => {
     const log = logs.get(its);
-    const use = ROLES.flatMap((role) => (candidates(recording, role, { kind: role === 'odometry' && log?.kind === 'commands' ? 'commands' : undefined }).flat().some((choice) => choice.series === its) ? [role] : []));
     const all = links?.map(({ parent, child }) => `${parent} → ${child}`).join(', ');
-    return [its || '(all columns)', type, String(log?.summary.rows ?? count), log ? `${log.summary.rate.toPrecision(3)} Hz` : '', [use.join(' or '), ...(all ? [all] : [])].filter(Boolean).join(': ')];
+    return [its || '(all columns)', type, String(log?.summary.rows ?? count), log ? `${log.summary.rate.toPrecision(3)} Hz` : '', [uses.get(its), all].filter(Boolean).join(': ')];
   });
-  const found = [...logs].flatMap(([its, log]) => [...(its ? [its] : []), ...summarize(log, words.found)].map((line, i) => (its && i > 0 ? `  ${line}` : line)));
+  const found = [...logs].flatMap(([its, log]) => summarize(log, words.found).map((line, i) => (i > 0 ? `  ${line}` : its ? `${its}: ${line}` : line)));
   return [
     `${name}: ${FORMATS[format] ?? format}`,
     ...aligned([[isTable(recording) ? 'columns' : 'topic', 'type', 'rows', 'rate', 'could be'], ...rows]).map((line) => `  ${line}`),
@@ -44,6 +33,30 @@ export async function inspect(recording: Recording, path: string, onProgress?: (
     ...commandOf(recording, path),
     '',
   ].join('\n');
+}
+
+/** Says what a series could be. */
+function usesOf(recording: Recording, name: string): string {
+  const isUsed = (role: (typeof ROLES)[number], kind?: 'commands') => candidates(recording, role, { kind }).flat().some((choice) => choice.series === name && (!kind || choice.kind === kind));
+  const uses = [isUsed('odometry') ? 'odometry' : isUsed('odometry', 'commands') ? 'odometry (commands)' : '', isUsed('reference') ? `reference${isLocalizer(name) ? ' (a localizer)' : ''}` : ''];
+  return uses.filter(Boolean).join(' or ');
+}
+
+/** Reads series in one pass, or one by one if any is refused. */
+async function read(recording: Recording, names: string[], onProgress?: (share: number) => void): Promise<{ logs: Map<string, Log>; reasons: string[] }> {
+  const logs = new Map<string, Log>();
+  const reasons: string[] = [];
+  const readAll = async (some: string[]) => {
+    try {
+      for (const [i, log] of (await recording.read(some.map((series) => ({ series })), onProgress)).entries()) logs.set(some[i], log);
+    } catch (error) {
+      if (!(error instanceof LogError)) throw error;
+      if (some.length === 1) reasons.push(error.message);
+      else for (const one of some) await readAll([one]);
+    }
+  };
+  if (names.length > 0) await readAll(names);
+  return { logs, reasons };
 }
 
 /** Returns the command that calibrates from the recording. */

@@ -25,7 +25,7 @@ export type Watched = { onProgress: (share: number) => void, signal: AbortSignal
 
 /** One recording with its topics, or two tables without. */
 export interface Chosen {
-  /** Of two, the odometry first. */
+  /** Recordings; of two, the odometry first. */
   files: Recording[];
   topics: Series[];
   /** Topic; empty where it is ambiguous. */

@@ -7,7 +7,7 @@ import { run } from './cli/run.ts';
 
 // A reader such as `head` may close the pipe.
 process.stdout.on('error', (error) => {
-  if (/** @type {NodeJS.ErrnoException} */ (error).code !== 'EPIPE') throw error;
+  if ((error as NodeJS.ErrnoException).code !== 'EPIPE') throw error;
 });
 
 const { stdout, stderr } = process;

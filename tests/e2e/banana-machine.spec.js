@@ -32,20 +32,6 @@ test('presets set the whole command', async ({ page }) => {
   }
 });
 
-test('sliders dragged with the mouse set v, ω and Δt', async ({ page }) => {
-  const widget = await open(page, GENTLE);
-  const before = await pictureOf(widget.locator('canvas.plane'));
-  for (const key of ['v', 'omega', 'dt']) {
-    const slider = widget.locator(`#${key}`);
-    await dragSlider(slider, 0.7);
-    const value = Number(await slider.inputValue());
-    expect(value).toBeGreaterThan(0);
-    const { config } = await state(widget);
-    expect(config.command).toMatchObject({ [key]: value });
-  }
-  expect(await pictureOf(widget.locator('canvas.plane'))).not.toBe(before);
-});
-
 test('the end of the arc can be dragged', async ({ page }) => {
   const widget = await open(page);
   const handle = widget.getByRole('slider', { name: 'End of the commanded arc' });

@@ -7,7 +7,7 @@ import { test } from './support.js';
 
 const at = (/** @type {string} */ name) => new URL(`../digest/${name}`, import.meta.url).pathname;
 
-test('a seed gives the bits that it gives natively and in Node', async ({ page }) => {
+test('a seed gives the bits that it gives natively and in Node @nightly', async ({ page }) => {
   // Some seconds for all machines, and many times that beside other work.
   test.setTimeout(180_000);
   await page.route('**/digest/*', (route) => route.fulfill({ path: at(new URL(route.request().url()).pathname.split('/')[2]) }));

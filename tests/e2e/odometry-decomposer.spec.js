@@ -88,16 +88,6 @@ test('the later pose is dragged by its body and turned by its heading', async ({
   expect({ ...turned.config.to, theta: 0 }).toEqual({ ...dragged.config.to, theta: 0 });
 });
 
-test('both poses follow the keyboard, and stop where the floor ends', async ({ page }) => {
-  const widget = await open(page, 'fromx="-3.98"');
-  const body = slider(widget, 'Odometry before');
-  await body.press('ArrowLeft');
-  expect((await told(widget)).config.from).toEqual({ x: -4, y: 0, theta: 0 });
-  await expect(body).toHaveAttribute('aria-valuetext', /The floor ends here/);
-  await body.press(']');
-  expect((await told(widget)).config.from.theta).toBeCloseTo(-Math.PI / 36, 12);
-});
-
 test('a rule is chosen in the table, which has the deviations of each rule', async ({ page }) => {
   const widget = await open(page, 'preset="reverse"');
   const row = (/** @type {string} */ name) => widget.locator('tbody tr').filter({ has: page.getByText(name, { exact: true }) });

@@ -87,33 +87,45 @@ test('examples of the reference start when they are opened, and are what their c
 /** Values of items that leave a preset what it is. */
 const OUTSIDE_PRESETS = ['preset', 'samples', 'overlays', 'line', 'morph'];
 
+/**
+ * Expects that each item sets the whole state that it describes, whatever was pressed before.
+ *
+ * @param {import('@playwright/test').Page} page
+ * @param {import('./figures.js').Name} name
+ */
+async function expectItems(page, name) {
+  await page.goto('/');
+  const article = page.locator('article', { has: page.locator(name) });
+  const figure = article.locator(name);
+  await figure.scrollIntoViewIfNeeded();
+  await ready(figure);
+  const buttons = await article.locator('button[data-try]').all();
+  const press = async (/** @type {import('@playwright/test').Locator} */ button) => {
+    // Those in a closed disclosure, too.
+    await button.evaluate((element) => /** @type {HTMLElement} */ (element).click());
+    await expect(button).toHaveAttribute('aria-current', 'true');
+    await frames(page);
+    const values = JSON.parse((await button.getAttribute('data-try')) ?? '{}');
+    const [state, properties] = await figure.evaluate((element, keys) => {
+      const state = /** @type {any} */ (element).getState();
+      return [state, Object.fromEntries(keys.map((key) => [key, key in element ? Reflect.get(element, key) : Reflect.get(state, key)]))];
+    }, Object.keys(values));
+    // A preset that something was changed of is none.
+    const preset = Object.keys(values).every((key) => OUTSIDE_PRESETS.includes(key)) ? values.preset : properties.preset;
+    expect(properties).toEqual({ ...values, ...(values.preset && { preset }) });
+    return state;
+  };
+  const first = [];
+  for (const button of buttons) first.push(await press(button));
+  for (const [i, button] of [...buttons.entries()].reverse()) expect(await press(button)).toEqual(first[i]);
+}
+
+test('each item sets the whole state that it describes, whatever was pressed before', ({ page, figure }) => expectItems(page, figure));
+
 for (const name of ALL) {
-  test(`each item of ${name} sets the whole state that it describes, whatever was pressed before`, async ({ page }) => {
+  test(`each item of ${name} sets the whole state that it describes @nightly`, ({ page }) => {
     test.slow();
-    await page.goto('/');
-    const article = page.locator('article', { has: page.locator(name) });
-    const figure = article.locator(name);
-    await figure.scrollIntoViewIfNeeded();
-    await ready(figure);
-    const buttons = await article.locator('button[data-try]').all();
-    const press = async (/** @type {import('@playwright/test').Locator} */ button) => {
-      // Those in a closed disclosure, too.
-      await button.evaluate((element) => /** @type {HTMLElement} */ (element).click());
-      await expect(button).toHaveAttribute('aria-current', 'true');
-      await frames(page);
-      const values = JSON.parse((await button.getAttribute('data-try')) ?? '{}');
-      const [state, properties] = await figure.evaluate((element, keys) => {
-        const state = /** @type {any} */ (element).getState();
-        return [state, Object.fromEntries(keys.map((key) => [key, key in element ? Reflect.get(element, key) : Reflect.get(state, key)]))];
-      }, Object.keys(values));
-      // A preset that something was changed of is none.
-      const preset = Object.keys(values).every((key) => OUTSIDE_PRESETS.includes(key)) ? values.preset : properties.preset;
-      expect(properties).toEqual({ ...values, ...(values.preset && { preset }) });
-      return state;
-    };
-    const first = [];
-    for (const button of buttons) first.push(await press(button));
-    for (const [i, button] of [...buttons.entries()].reverse()) expect(await press(button)).toEqual(first[i]);
+    return expectItems(page, name);
   });
 }
 
@@ -188,23 +200,13 @@ for (const path of ['/', '/reference.html']) {
   });
 }
 
-test('pictures, readouts and presets of both figures fit into 720 px in the column of a book', async ({ page }) => {
-  await page.setViewportSize({ width: 700, height: 720 });
-  for (const figure of await openGallery(page)) {
-    const [top, bottom] = await figure.evaluate((element) => [
-      element.getBoundingClientRect().top,
-      Math.max(...[...(element.shadowRoot?.querySelectorAll('.presets, .readouts') ?? [])].map((each) => each.getBoundingClientRect().bottom)),
-    ]);
-    expect(bottom - top).toBeLessThanOrEqual(720);
-  }
-});
-
 test('two figures of a kind on a page share nothing', async ({ page }) => {
-  const [first] = await openGallery(page);
-  const opening = await property(first, 'omega');
-  await page.evaluate(() => document.querySelector('main')?.append(document.createElement('banana-machine')));
-  const second = page.locator('banana-machine').last();
+  await show(page, '<banana-machine></banana-machine><banana-machine></banana-machine>');
+  const [first, second] = [0, 1].map((i) => page.locator('banana-machine').nth(i));
+  await ready(first);
   await second.scrollIntoViewIfNeeded();
+  await ready(second);
+  const opening = await property(first, 'omega');
   await second.getByRole('button', { name: 'Pivot' }).click();
   await frames(page);
   expect([await property(second, 'omega'), await property(first, 'omega')]).toEqual([1.5, opening]);

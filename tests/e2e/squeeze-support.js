@@ -4,9 +4,8 @@
  * @module
  */
 
-import { expect } from '@playwright/test';
 import { pngOf } from '../png.js';
-import { frames, show, unfolded } from './support.js';
+import { frames, ready, show, unfolded } from './support.js';
 
 /**
  * @typedef {import('@playwright/test').Page} Page
@@ -27,8 +26,7 @@ import { frames, show, unfolded } from './support.js';
 export async function openSqueeze(page, attributes = '') {
   await show(page, `<main><h1>Bare</h1><map-squeeze heading-level="2" ${attributes}></map-squeeze></main>`);
   const widget = page.locator('map-squeeze');
-  await expect(widget.locator('.folds')).toBeVisible();
-  await frames(page);
+  await ready(widget);
   return widget;
 }
 

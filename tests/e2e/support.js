@@ -104,7 +104,9 @@ export async function show(page, body, { head = '', fragment = '', script = '<sc
  * @param {Locator} widget
  */
 export async function ready(widget) {
-  await expect.poll(() => widget.evaluate((element) => Reflect.get(element, 'machine') !== undefined)).toBe(true);
+  await widget.evaluate(async (element) => {
+    while (Reflect.get(element, 'machine') === undefined) await new Promise(requestAnimationFrame);
+  });
   await frames(widget.page());
 }
 
@@ -198,8 +200,7 @@ export function stateOf(widget) {
 export async function open(page, attributes = '') {
   await show(page, `<main><h1>Bare</h1><banana-machine heading-level="2" ${attributes}></banana-machine></main>`);
   const widget = page.locator('banana-machine');
-  await expect(widget.getByRole('button', { name: 'Straight' })).toBeVisible();
-  await frames(page);
+  await ready(widget);
   return widget;
 }
 
@@ -224,16 +225,15 @@ export async function pauseEarly(page, name) {
 }
 
 /**
- * Opens every fold of a widget, as a reader does.
+ * Opens every fold of a widget.
  *
  * @param {Locator} widget
  */
 export async function unfold(widget) {
-  const closed = widget.locator('details[part=fold]:not([open]) > summary');
-  for (let left = await closed.count(); left > 0; left--) await closed.first().click();
-  await expect(widget.locator('details[part=fold]:not([open])')).toHaveCount(0);
+  await widget.evaluate(({ shadowRoot }) => {
+    for (const fold of shadowRoot?.querySelectorAll('details') ?? []) fold.open ||= fold.matches('[part=fold]');
+  });
   await unfolded(widget);
-  await frames(widget.page());
 }
 
 /**
@@ -241,7 +241,12 @@ export async function unfold(widget) {
  *
  * @param {Locator} widget
  */
-export const unfolded = (widget) => expect(widget.locator('details[part=fold][open] > .folded:empty')).toHaveCount(0);
+export async function unfolded(widget) {
+  await widget.evaluate(async ({ shadowRoot }) => {
+    while (shadowRoot?.querySelector('details[open] > .folded:empty')) await new Promise(requestAnimationFrame);
+  });
+  await frames(widget.page());
+}
 
 /**
  * The field of a slider's value.

@@ -109,9 +109,7 @@ export class Baseline {
  * @returns {number[]} sums in the order of SUMS
  */
 function drive(noise, cloud, command, deviations, origin) {
-  const v = command[0], omega = command[1], dt = command[2];
-  const sdV = deviations[0], sdOmega = deviations[1], sdGamma = deviations[2];
-  const x0 = origin.x, y0 = origin.y, l0 = origin.l, t0 = origin.t;
+  const [[v, omega, dt], [sdV, sdOmega, sdGamma], { x: x0, y: y0, l: l0, t: t0 }] = [command, deviations, origin];
   let x1 = 0, y1 = 0, l1 = 0, m1 = 0, t1 = 0, s1 = 0, c1 = 0;
   let xx = 0, xy = 0, yy = 0, xt = 0, yt = 0, tt = 0;
   let ll = 0, lm = 0, mm = 0, lt = 0, mt = 0;
@@ -166,11 +164,8 @@ function drive(noise, cloud, command, deviations, origin) {
  * @returns {number[]} samples inside each contour, sums of squares and cubes, largest count
  */
 function measure(cloud, counts, scales, view) {
-  const cx = scales[0], cy = scales[1], cl = scales[2], ct = scales[3];
-  const e00 = scales[4], e10 = scales[5], e11 = scales[6];
-  const f00 = scales[7], f10 = scales[8], f11 = scales[9];
-  const sin = scales[10], cos = scales[11];
-  const left = view[0], perX = view[1], top = view[2], perY = view[3], columns = view[4], rows = view[5];
+  const [cx, cy, cl, ct, e00, e10, e11, f00, f10, f11, sin, cos] = scales;
+  const [left, perX, top, perY, columns, rows] = view;
   let inEllipse = 0, inTilted = 0, square = 0, cube = 0, most = 0;
   for (let j = 0; j < cloud.length; j += 4) {
     const x = cloud[j];

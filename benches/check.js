@@ -37,21 +37,13 @@ export function differences(motion, samples) {
 }
 
 /**
- * Standard normal noise of a machine's samples: executed command minus given command, over the deviations of the model.
+ * Returns the standard normal noise of a machine's samples: executed command minus given command, over the deviations of the model.
  *
  * @param {import('../www/types.d.ts').BananaMachine} machine
  */
-function noiseOf(machine) {
-  const { v, omega } = machine.config.command;
-  const [a1, a2, a3, a4, a5, a6] = machine.config.alphas;
-  const noise = new Float64Array(3 * machine.shown);
-  for (let i = 0; i < machine.shown; i++) {
-    const { vHat, omegaHat, gammaHat } = machine.inspect(i);
-    noise[3 * i] = (vHat - v) / Math.sqrt(a1 * v * v + a2 * omega * omega);
-    noise[3 * i + 1] = (omegaHat - omega) / Math.sqrt(a3 * v * v + a4 * omega * omega);
-    noise[3 * i + 2] = gammaHat / Math.sqrt(a5 * v * v + a6 * omega * omega);
-  }
-  return noise;
+export function noiseOf({ config: { command: { v, omega }, alphas: [a1, a2, a3, a4, a5, a6] }, executed }) {
+  const deviations = [[a1, a2], [a3, a4], [a5, a6]].map(([byV, byOmega]) => Math.sqrt(byV * v * v + byOmega * omega * omega));
+  return executed.map((value, i) => (value - [v, omega, 0][i % 3]) / deviations[i % 3]);
 }
 
 /**

@@ -5,7 +5,7 @@
  */
 
 import { Baseline } from './baseline.js';
-import { drawNoise } from './random.js';
+import { noiseOf } from './check.js';
 import { ALPHAS, RAMP, VIEW, command, figures, picture } from './scene.js';
 import { ratio, race, spread } from './timing.js';
 
@@ -25,8 +25,8 @@ import { ratio, race, spread } from './timing.js';
  * @returns {Promise<Refresh>}
  */
 export async function timeRefresh(motion, { samples, seconds }) {
-  const machine = new motion.BananaMachine({ alphas: ALPHAS, samples, seed: 1 });
-  const contender = new Baseline(ALPHAS, drawNoise(samples, 1));
+  const machine = new motion.BananaMachine({ alphas: ALPHAS, samples, seed: 1, command: command(0) });
+  const contender = new Baseline(ALPHAS, noiseOf(machine));
   const { core, baseline } = await race(
     {
       core: (event) => {

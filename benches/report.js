@@ -128,8 +128,6 @@ function whole(value) {
  * @param {string[][]} rows
  */
 function table(heads, rows) {
-  const all = [heads, ...rows];
-  const widths = heads.map((_, i) => Math.max(3, ...all.map((row) => row[i].length)));
-  const line = (/** @type {string[]} */ row) => `| ${row.map((text, i) => text.padEnd(widths[i])).join(' | ')} |`;
-  return [line(heads), line(widths.map((width) => '-'.repeat(width))), ...rows.map(line)].join('\n');
+  const line = (/** @type {string[]} */ row) => `| ${row.join(' | ')} |`;
+  return [line(heads), line(heads.map(() => '---')), ...rows.map(line)].join('\n');
 }

@@ -54,10 +54,7 @@ export async function race(contenders, { seconds, most = 60 }) {
   return turns;
 }
 
-/**
- * @param {number[]} values
- * @returns {Spread}
- */
+/** Returns median and quartiles. @param {number[]} values @returns {Spread} */
 export function spread(values) {
   const sorted = [...values].sort((a, b) => a - b);
   const at = (/** @type {number} */ share) => {
@@ -69,12 +66,7 @@ export function spread(values) {
   return { median: at(0.5), lower: at(0.25), upper: at(0.75), turns: sorted.length };
 }
 
-/**
- * Ratio of two times, turn by turn.
- *
- * @param {number[]} slow
- * @param {number[]} fast
- */
+/** Returns the ratio of two times, turn by turn. @param {number[]} slow @param {number[]} fast */
 export function ratio(slow, fast) {
   return spread(slow.map((value, turn) => value / fast[turn]));
 }

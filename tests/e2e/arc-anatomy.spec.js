@@ -1,5 +1,5 @@
 import { expect } from '@playwright/test';
-import { STILL, centreOf, frames, numberIn, pictureOf, pixelsOf, played, readout, ready, show, test, unfold } from './support.js';
+import { STILL, centreOf, frames, mount, numberIn, pictureOf, pixelsOf, played, readout, test, unfold } from './support.js';
 
 /**
  * @typedef {import('@playwright/test').Page} Page
@@ -10,17 +10,8 @@ import { STILL, centreOf, frames, numberIn, pictureOf, pixelsOf, played, readout
 
 test.use(STILL);
 
-/**
- * @param {Page} page
- * @param {string} [attributes]
- */
-async function open(page, attributes = '') {
-  await show(page, `<arc-anatomy ${attributes}></arc-anatomy>`);
-  const widget = page.locator('arc-anatomy');
-  await ready(widget);
-  await expect(widget.locator('.folds')).toBeVisible();
-  return widget;
-}
+/** Opens a page with the figure. @param {Page} page @param {string} [attributes] */
+const open = (page, attributes) => mount(page, 'arc-anatomy', { attributes });
 
 /** @param {Locator} widget */
 async function told(widget) {

@@ -5,9 +5,8 @@
  */
 
 import { readFileSync } from 'node:fs';
-import { expect } from '@playwright/test';
 import { odometry, poseOf, recordingOf, stampOf, twistOf } from '../mcap.js';
-import { frames, ready, show } from './support.js';
+import { frames, mount } from './support.js';
 
 /**
  * @typedef {import('@playwright/test').Page} Page
@@ -16,29 +15,21 @@ import { frames, ready, show } from './support.js';
  * @typedef {HTMLElement & { machine: Machine, log: import('../../www/types.d.ts').CalibrationLog | null, settings: any }} AlphaCalibratorElement
  */
 
-/**
- * The element on a page of its own, with its log fitted.
- *
- * @param {Page} page
- * @param {string} [attributes]
- */
-export async function openCalibrator(page, attributes = '') {
-  await show(page, `<main><h1>Bare</h1><alpha-calibrator heading-level="2" ${attributes}></alpha-calibrator></main>`, {
-    script: ['motion-widgets', 'de'].map((name) => `<script type="module" src="/${name}.js"></script>`).join(''),
+/** Opens a page with the figure, with its log fitted. @param {Page} page @param {string} [attributes] */
+export async function openCalibrator(page, attributes) {
+  const widget = await mount(page, 'alpha-calibrator', {
+    attributes, script: ['motion-widgets', 'de'].map((name) => `<script type="module" src="/${name}.js"></script>`).join(''),
   });
-  const widget = page.locator('alpha-calibrator');
-  await ready(widget);
-  await expect(widget.locator('.folds')).toBeVisible();
   await settled(widget);
   return widget;
 }
 
 /** Waits until all is fitted and shown. @param {Locator} widget */
 export async function settled(widget) {
-  await expect.poll(() => widget.evaluate((element) => {
-    const { machine, settings } = /** @type {AlphaCalibratorElement} */ (element);
-    return machine !== undefined && !settings.stale && !settings.next && machine.progress === 1;
-  })).toBe(true);
+  await widget.evaluate(async (element) => {
+    const figure = /** @type {AlphaCalibratorElement} */ (element);
+    while (figure.settings.stale || figure.settings.next || figure.machine.progress !== 1) await new Promise(requestAnimationFrame);
+  });
   await frames(widget.page());
 }
 

@@ -1,5 +1,5 @@
 import { expect } from '@playwright/test';
-import { STILL, detail, dragSlider, frames, pictureOf, pixelsOf, readout, show, test, unfold, valueField } from './support.js';
+import { STILL, detail, dragSlider, frames, mount, pictureOf, pixelsOf, readout, test, unfold, valueField } from './support.js';
 
 /**
  * @typedef {import('@playwright/test').Page} Page
@@ -10,26 +10,19 @@ import { STILL, detail, dragSlider, frames, pictureOf, pixelsOf, readout, show, 
 
 test.use(STILL);
 
-/**
- * Opens a page with the figure, and waits for all of its robots.
- *
- * @param {Page} page
- * @param {string} [attributes]
- */
-async function openReckoning(page, attributes = '') {
-  await show(page, `<main><h1>Bare</h1><dead-reckoning heading-level="2" ${attributes}></dead-reckoning></main>`);
-  const widget = page.locator('dead-reckoning');
-  await expect(widget.locator('.folds')).toBeVisible();
+/** Opens a page with the figure, and waits for all of its robots. @param {Page} page @param {string} [attributes] */
+async function openReckoning(page, attributes) {
+  const widget = await mount(page, 'dead-reckoning', { attributes });
   await settled(widget);
   return widget;
 }
 
 /** Waits until all robots are driven and shown. @param {Locator} widget */
 async function settled(widget) {
-  await expect.poll(() => widget.evaluate((element) => {
-    const { machine, settings } = /** @type {any} */ (element);
-    return !settings.stale && machine.shown === machine.config.samples && machine.stats.n === machine.shown;
-  })).toBe(true);
+  await widget.evaluate(async (element) => {
+    const isSettled = (/** @type {any} */ { machine, settings }) => !settings.stale && machine.shown === machine.config.samples && machine.stats.n === machine.shown;
+    while (!isSettled(/** @type {any} */ (element))) await new Promise(requestAnimationFrame);
+  });
   await frames(widget.page());
 }
 

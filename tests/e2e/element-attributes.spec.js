@@ -2,7 +2,7 @@ import { readFileSync } from 'node:fs';
 import { expect } from '@playwright/test';
 import { SEEDS, anyOf } from './any-state.js';
 import { ALL, KNOWN, NAMES } from './figures.js';
-import { STILL, assign, frames, heard, property, ready, show, test, unfold } from './support.js';
+import { STILL, assign, frames, heard, mount, property, ready, show, test, unfold } from './support.js';
 
 /** @typedef {import('./support.js').AnyElement} AnyElement */
 /** @typedef {import('./figures.js').Name} Name */
@@ -97,9 +97,7 @@ test('boolean attributes may be empty or "true", and lists may have any space', 
 });
 
 test('attributes follow the controls of a figure, and lead back to the default where they are removed', async ({ page, figure }) => {
-  await show(page, `<${figure}></${figure}>`);
-  const widget = page.locator(figure);
-  await ready(widget);
+  const widget = await mount(page, figure);
   const { slider, values: [first, second] } = KNOWN[figure];
   const opening = await property(widget, slider);
   await widget.locator(`#${slider}`).fill(String(first));
@@ -116,9 +114,7 @@ test('attributes follow the controls of a figure, and lead back to the default w
 });
 
 test('attributes that are refused are reported in the words of the core, and the last good value stays', async ({ page }) => {
-  await show(page, '<banana-machine v="fast" omega="0.7" model="walking" samples="0" overlays="ellipse stars"></banana-machine>');
-  const widget = page.locator('banana-machine');
-  await ready(widget);
+  const widget = await mount(page, 'banana-machine', { attributes: 'v="fast" omega="0.7" model="walking" samples="0" overlays="ellipse stars"' });
   const errors = (await heard(page, ['error'])).map(({ message }) => message);
   expect(errors).toEqual([
     'model is "walking"; allowed is "velocity" or "odometry"',
@@ -144,9 +140,7 @@ test('attributes that are refused are reported in the words of the core, and the
 });
 
 test('attributes that are removed leave the defaults', async ({ page }) => {
-  await show(page, '<banana-machine v="2" alpha1="0.2" overlays="ellipse" isolate="2" model="odometry"></banana-machine>');
-  const widget = page.locator('banana-machine');
-  await ready(widget);
+  const widget = await mount(page, 'banana-machine', { attributes: 'v="2" alpha1="0.2" overlays="ellipse" isolate="2" model="odometry"' });
   const names = ['model', 'v', 'alpha1', 'overlays', 'isolate'];
   await widget.evaluate((element, given) => given.forEach((name) => element.removeAttribute(name)), names);
   const values = await Promise.all(names.map((name) => property(widget, name)));
@@ -257,9 +251,7 @@ test('properties that were set before the element was defined are taken up, in a
 });
 
 test('properties that are null or undefined are the defaults', async ({ page, figure }) => {
-  await show(page, `<${figure}></${figure}>`);
-  const widget = page.locator(figure);
-  await ready(widget);
+  const widget = await mount(page, figure);
   const [opening, ...again] = await widget.evaluate((element, state) => {
     const figure = /** @type {any} */ (element);
     const names = Object.keys(state).filter((key) => key in figure && !['playing', 'map'].includes(key));
@@ -277,9 +269,7 @@ test('properties that are null or undefined are the defaults', async ({ page, fi
 });
 
 test('properties that are assigned their own value change nothing', async ({ page, figure }) => {
-  await show(page, `<${figure}></${figure}>`);
-  const widget = page.locator(figure);
-  await ready(widget);
+  const widget = await mount(page, figure);
   await widget.evaluate((element, state) => /** @type {any} */ (element).setState(state), /** @type {any} */ (anyOf(2)[figure]));
   await heard(page, ['stats']);
   const count = await widget.evaluate((element, keys) => {
@@ -331,9 +321,7 @@ test('properties take effect at once and reflect; those out of range are reporte
 });
 
 test('properties that are refused fire an error event that does not bubble, and warn in the console if nobody listens', async ({ page }) => {
-  await show(page, '<banana-machine></banana-machine>');
-  const widget = page.locator('banana-machine');
-  await ready(widget);
+  const widget = await mount(page, 'banana-machine');
   const told = await widget.evaluate((element) => {
     const at = /** @type {string[]} */ ([]);
     for (const target of [window, document, document.body]) target.addEventListener('error', () => at.push('above'));

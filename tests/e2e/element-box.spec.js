@@ -1,5 +1,5 @@
 import { expect } from '@playwright/test';
-import { FRESH, STILL, boxOf, frames, ready, show, test } from './support.js';
+import { FRESH, STILL, boxOf, frames, mount, ready, show, test } from './support.js';
 
 /** @typedef {import('@playwright/test').Page} Page */
 
@@ -90,9 +90,7 @@ test('a figure is in proportion to the letters around it, whatever the font size
 });
 
 test('a handle is held where it is shown, also with large letters', async ({ page }) => {
-  await show(page, '<banana-machine style="font-size: 24px"></banana-machine>');
-  const widget = page.locator('banana-machine');
-  await ready(widget);
+  const widget = await mount(page, 'banana-machine', { attributes: 'style="font-size: 24px"' });
   const handle = widget.getByRole('slider', { name: 'End of the commanded arc' });
   const from = await boxOf(handle);
   await page.mouse.move(from.x + from.width / 2, from.y + from.height / 2);

@@ -1,6 +1,6 @@
 import { expect } from '@playwright/test';
 import { ALL, KNOWN } from './figures.js';
-import { STILL, assign, centreOf, dragSlider, frames, heard, ready, show, stateOf, test, unfold } from './support.js';
+import { STILL, assign, centreOf, dragSlider, frames, heard, mount, ready, show, stateOf, test, unfold } from './support.js';
 
 /** @typedef {import('@playwright/test').Locator} Locator */
 /** @typedef {import('@playwright/test').Page} Page */
@@ -127,9 +127,7 @@ const ACTS = {
 
 /** Expects that each control of a figure fires one input and one change. @param {Page} page @param {Name} name */
 async function expectEvents(page, name) {
-  await show(page, `<${name}></${name}>`);
-  const widget = page.locator(name);
-  await ready(widget);
+  const widget = await mount(page, name);
   await unfold(widget);
   await heard(page);
   for (const [act, go] of ACTS[name]) {
@@ -145,9 +143,7 @@ for (const name of ALL) {
 }
 
 test('a handle that is dragged fires input at each step and one change', async ({ page, handled }) => {
-  await show(page, `<${handled}></${handled}>`);
-  const widget = page.locator(handled);
-  await ready(widget);
+  const widget = await mount(page, handled);
   await heard(page);
   const { x, y } = await centreOf(widget.locator('.handle').first());
   await page.mouse.move(x, y);
@@ -186,9 +182,7 @@ test('changes by the page fire stats alone, also out of sight', async ({ page, f
 });
 
 test('events report changes alone, whatever is drawn and asked', async ({ page, figure }) => {
-  await show(page, `<${figure}></${figure}>`);
-  const widget = page.locator(figure);
-  await ready(widget);
+  const widget = await mount(page, figure);
   await heard(page, ['stats']);
   await widget.locator('canvas.plane').hover({ position: { x: 100, y: 100 } });
   await page.emulateMedia({ colorScheme: 'dark' });
@@ -209,9 +203,7 @@ test('an arrow key that a control used goes no further; any other key does', asy
     'banana-machine': ['#chart-omega'],
   };
   for (const [name, selectors] of Object.entries(parts)) {
-    await show(page, `<${name}></${name}>`);
-    const widget = page.locator(name);
-    await ready(widget);
+    const widget = await mount(page, name);
     await unfold(widget);
     await page.evaluate(() => {
       const keys = /** @type {string[]} */ ([]);

@@ -1,7 +1,7 @@
 import { chromium, expect } from '@playwright/test';
 import { CHROME_ARGUMENTS, findChrome } from '../../scripts/browser.mjs';
 import { ALL, CLOUDS, KNOWN, NAMES } from './figures.js';
-import { FRESH, STILL, assign, boxOf, centreOf, frames, heard, pictureOf, property, ready, show, stateOf, test, unfold } from './support.js';
+import { FRESH, STILL, assign, boxOf, centreOf, frames, heard, mount, pictureOf, property, ready, show, stateOf, test, unfold } from './support.js';
 
 /** @typedef {import('./support.js').AnyElement} AnyElement */
 /** @typedef {import('@playwright/test').Locator} Locator */
@@ -114,9 +114,7 @@ test('a cloud that is out of sight asks for no frames, and goes on growing where
 
 test('a figure in a hidden tab asks for no frames, and shows afterwards what was set meanwhile', async ({ page, figure }) => {
   await count(page);
-  await show(page, `<${figure}></${figure}>`);
-  const widget = page.locator(figure);
-  await ready(widget);
+  const widget = await mount(page, figure);
   const canvas = widget.locator('canvas.plane');
   const [setting, other] = KNOWN[figure].other;
   await assign(widget, setting, other);
@@ -205,9 +203,7 @@ test('folds, fields and height of a figure stay over a move and over a removal',
 
 test('a figure keeps what the reader did in the moment before it was removed', async ({ page, figure }) => {
   const { slider, at, values: [value] } = KNOWN[figure];
-  await show(page, `<${figure}></${figure}>`);
-  const widget = page.locator(figure);
-  await ready(widget);
+  const widget = await mount(page, figure);
   const kept = await widget.evaluate(async (element, [id, to]) => {
     const slider = /** @type {HTMLInputElement} */ (element.shadowRoot?.querySelector(`#${id}`));
     slider.value = String(to);
@@ -245,9 +241,7 @@ test('a figure that is moved while a handle is held lets go of it, and fits its 
 });
 
 test('a canvas that has got its context back is drawn again', async ({ page, figure }) => {
-  await show(page, `<${figure}></${figure}>`);
-  const widget = page.locator(figure);
-  await ready(widget);
+  const widget = await mount(page, figure);
   const canvas = widget.locator('canvas.plane');
   const before = await pictureOf(canvas);
   const blank = await canvas.evaluate((element) => {
@@ -276,20 +270,6 @@ test('a figure that was not displayed shows what was set meanwhile', async ({ pa
   await display('block');
   await expect.poll(() => pictureOf(canvas)).not.toBe(before);
   await expect(widget).toHaveAttribute(KNOWN[figure].other[0].replace(/[A-Z]/g, (letter) => `-${letter.toLowerCase()}`), String(KNOWN[figure].other[1]));
-});
-
-test('two copies of the bundle on one page work as one', async ({ page }) => {
-  await page.route('**/copy.js', async (route) => {
-    const original = await page.request.get('/motion-widgets.js');
-    await route.fulfill({ contentType: 'text/javascript', body: await original.text() });
-  });
-  await show(page, ALL.map((name) => `<${name}></${name}>`).join(''), {
-    script: '<script type="module" src="/motion-widgets.js"></script><script type="module" src="/copy.js"></script><script src="/motion-widgets.iife.js" defer></script>',
-  });
-  const widget = page.locator('banana-machine');
-  await ready(widget);
-  expect(await property(widget, 'samples')).toBe(50000);
-  expect((await heard(page, ['error'])).length).toBe(0);
 });
 
 test('a page that comes back from the back-forward cache is alive @nightly', async ({ baseURL }) => {
@@ -326,7 +306,7 @@ test('figures that were removed leave no memory, no observers and no nodes @nigh
   const session = await page.context().newCDPSession(page);
   await session.send('HeapProfiler.enable');
   /** Mounts a figure of each kind after the other, and removes it when it is drawn. @param {number} rounds */
-  const mount = async (rounds) => {
+  const mounted = async (rounds) => {
     for (let round = 0; round < rounds; round++) {
       for (const name of ALL) {
         await page.evaluate(async ([tag, few]) => {
@@ -357,11 +337,11 @@ test('figures that were removed leave no memory, no observers and no nodes @nigh
     counts.nodes = (await session.send('Memory.getDOMCounters')).nodes;
     return counts;
   };
-  await mount(2);
+  await mounted(2);
   // The engine may keep the latest object of a class for a while.
   await expect.poll(async () => (await living()).ShadowRoot, { timeout: 30_000 }).toBeLessThanOrEqual(1);
   const before = await living();
-  await mount(20);
+  await mounted(20);
   await expect.poll(async () => (await living()).ShadowRoot, { timeout: 30_000 }).toBeLessThanOrEqual(1);
   const after = await living();
   for (const [name, count] of Object.entries(after)) expect.soft(count - before[name], name).toBeLessThanOrEqual(2);

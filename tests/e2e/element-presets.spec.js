@@ -1,5 +1,5 @@
 import { expect } from '@playwright/test';
-import { STILL, frames, property, ready, show, stateOf, test, unfold } from './support.js';
+import { STILL, frames, mount, property, stateOf, test, unfold } from './support.js';
 
 test.use(STILL);
 
@@ -16,9 +16,7 @@ for (const [name, [key, usual, other]] of Object.entries(UNLISTED)) {
   // All of them share the code of one.
   const tier = name === 'map-squeeze' ? '' : ' @nightly';
   test(`a preset of ${name} sets every setting but samples and seed, and is marked while all hold${tier}`, async ({ page }) => {
-    await show(page, `<${name} samples="50" seed="4"></${name}>`);
-    const widget = page.locator(name);
-    await ready(widget);
+    const widget = await mount(page, name, { attributes: 'samples="50" seed="4"' });
     const set = (/** @type {unknown} */ value) => widget.evaluate((element, [key, value]) => void Reflect.set(element, /** @type {string} */ (key), value), [key, value]);
     const button = widget.locator('.presets button').nth(1);
     await button.click();
@@ -33,9 +31,7 @@ for (const [name, [key, usual, other]] of Object.entries(UNLISTED)) {
 }
 
 test('Start over brings back the settings, the seed and the lines as the figure opened', async ({ page }) => {
-  await show(page, '<banana-machine preset="hard" samples="2000" seed="5" overlays="ellipse"></banana-machine>');
-  const widget = page.locator('banana-machine');
-  await ready(widget);
+  const widget = await mount(page, 'banana-machine', { attributes: 'preset="hard" samples="2000" seed="5" overlays="ellipse"' });
   const opened = await stateOf(widget);
   await unfold(widget);
   await widget.locator('#alpha4').fill('0.15');
@@ -50,9 +46,7 @@ test('Start over brings back the settings, the seed and the lines as the figure 
 });
 
 test('a seed is typed, and one that is none is refused by a sentence', async ({ page, cloud }) => {
-  await show(page, `<${cloud}></${cloud}>`);
-  const widget = page.locator(cloud);
-  await ready(widget);
+  const widget = await mount(page, cloud);
   await unfold(widget);
   const field = widget.getByRole('textbox', { name: 'seed', exact: true });
   await field.fill('42');

@@ -1,7 +1,7 @@
 import { expect } from '@playwright/test';
 import { expectAccessible } from './axe.js';
 import { KNOWN } from './figures.js';
-import { FRESH, STILL, frames, heard, property, ready, show, stateOf, test } from './support.js';
+import { FRESH, STILL, frames, heard, mount, property, ready, show, stateOf, test } from './support.js';
 
 /** @typedef {import('./support.js').AnyElement} AnyElement */
 /** @typedef {import('@playwright/test').Locator} Locator */
@@ -147,9 +147,7 @@ test('an anchor that is not there, or that the reader has left, scrolls nothing'
 test('a link that is broken is reported, and the figure opens as its attributes say', async ({ page }) => {
   for (const text of ['nonsense!', 'q1YqSy0qzszPU7JSMtAzUKoFAA']) {
     await page.goto('about:blank');
-    await show(page, '<banana-machine share v="0.5"></banana-machine>', { fragment: `#banana-machine.1=${text}` });
-    const widget = page.locator('banana-machine');
-    await ready(widget);
+    const widget = await mount(page, 'banana-machine', { attributes: 'share v="0.5"', fragment: `#banana-machine.1=${text}` });
     const errors = await heard(page, ['error']);
     expect(errors.length, text).toBe(1);
     expect(errors[0].message).toMatch(/^state.*; allowed (is|are) /);
@@ -158,9 +156,7 @@ test('a link that is broken is reported, and the figure opens as its attributes 
 });
 
 test('a page with a base of its own keeps its address', async ({ page }) => {
-  await show(page, '<map-squeeze share></map-squeeze>', { head: '<base href="/somewhere/else/">' });
-  const widget = page.locator('map-squeeze');
-  await ready(widget);
+  const widget = await mount(page, 'map-squeeze', { attributes: 'share', head: '<base href="/somewhere/else/">' });
   const address = () => page.evaluate(() => location.href);
   await widget.getByRole('button', { name: 'Facing a wall' }).click();
   await expect.poll(address).toMatch(/\/bare\.html#map-squeeze\.1=[\w-]+$/);
@@ -173,9 +169,7 @@ test('a page with a base of its own keeps its address', async ({ page }) => {
 
 test('a figure without share leaves the address alone, and opens its part of a link and keeps it up to date', FRESH, async ({ page, context, figure }) => {
   const { slider, values, button } = KNOWN[figure];
-  await show(page, `<${figure}></${figure}>`, { fragment: '#elsewhere' });
-  const widget = page.locator(figure);
-  await ready(widget);
+  const widget = await mount(page, figure, { fragment: '#elsewhere' });
   await widget.evaluate((element, [key, value]) => void Reflect.set(element, key, value), /** @type {const} */ ([slider, values[0]]));
   await widget.getByRole('button', { name: button, exact: true }).click();
   await frames(page);
@@ -225,9 +219,7 @@ test.describe('the menu', () => {
   test.use({ permissions: ['clipboard-read', 'clipboard-write'] });
 
 test('copies a link, and the code to embed with the address of the script', async ({ page }) => {
-  await show(page, '<banana-machine></banana-machine>');
-  const widget = page.locator('banana-machine');
-  await ready(widget);
+  const widget = await mount(page, 'banana-machine');
   await widget.getByRole('button', { name: 'Pivot' }).click();
   await frames(page);
   const clipboard = () => page.evaluate(() => navigator.clipboard.readText());
@@ -244,9 +236,7 @@ test('copies a link, and the code to embed with the address of the script', asyn
 });
 
 test('says that the code to embed is without the own map', async ({ page }) => {
-  await show(page, '<map-squeeze></map-squeeze>');
-  const widget = page.locator('map-squeeze');
-  await ready(widget);
+  const widget = await mount(page, 'map-squeeze');
   await widget.getByText('Numbers and data').click();
   await widget.getByRole('button', { name: 'Copy embed code' }).click();
   await expect(widget.getByText('Copied.')).toHaveText('Copied.');
@@ -259,9 +249,7 @@ test('says that the code to embed is without the own map', async ({ page }) => {
 
 test('the menu shows what the clipboard does not take', async ({ page }) => {
   await page.addInitScript(() => Object.defineProperty(navigator, 'clipboard', { value: undefined }));
-  await show(page, '<map-squeeze seed="4"></map-squeeze>');
-  const widget = page.locator('map-squeeze');
-  await ready(widget);
+  const widget = await mount(page, 'map-squeeze', { attributes: 'seed="4"' });
   await widget.getByText('Numbers and data').click();
   await widget.getByRole('button', { name: 'Copy embed code' }).click();
   await expect(widget.getByRole('textbox', { name: 'Copy manually' })).toHaveValue(/<map-squeeze seed="4"><\/map-squeeze>/);
@@ -269,9 +257,7 @@ test('the menu shows what the clipboard does not take', async ({ page }) => {
 });
 
 test('the code to embed names the script that defined the element', FRESH, async ({ page }) => {
-  await show(page, '<map-squeeze></map-squeeze>', { script: '<script defer src="/motion-widgets.iife.js"></script>' });
-  const widget = page.locator('map-squeeze');
-  await ready(widget);
+  const widget = await mount(page, 'map-squeeze', { script: '<script defer src="/motion-widgets.iife.js"></script>' });
   const code = await widget.evaluate((element) => /** @type {AnyElement} */ (element).embedCode());
   expect(code).toContain(`<script defer src="${new URL(page.url()).origin}/motion-widgets.iife.js"></script>`);
 });

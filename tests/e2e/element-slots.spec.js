@@ -1,5 +1,5 @@
 import { expect } from '@playwright/test';
-import { STILL, assign, boxOf, heard, property, ready, show, test } from './support.js';
+import { STILL, assign, boxOf, heard, mount, property, ready, show, test } from './support.js';
 
 test.use(STILL);
 
@@ -26,9 +26,7 @@ test('a figure has the title above and the caption below that the page gives it'
 });
 
 test('a heading has one of six levels', async ({ page }) => {
-  await show(page, '<map-squeeze heading-level="9"></map-squeeze>');
-  const widget = page.locator('map-squeeze');
-  await ready(widget);
+  const widget = await mount(page, 'map-squeeze', { attributes: 'heading-level="9"' });
   expect((await heard(page, ['error'])).map(({ message }) => message)).toEqual(['heading-level is "9"; allowed is "1" or "2" or "3" or "4" or "5" or "6"']);
   expect(await assign(widget, 'headingLevel', 7)).toContain('RangeError: headingLevel is "7"');
   expect(await assign(widget, 'headingLevel', 2)).toBe('');

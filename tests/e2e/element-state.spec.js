@@ -1,7 +1,7 @@
 import { expect } from '@playwright/test';
 import { SEEDS, anyOf } from './any-state.js';
 import { ALL } from './figures.js';
-import { STILL, frames, heard, ready, show, stateOf, test, unfold } from './support.js';
+import { STILL, frames, heard, mount, ready, show, stateOf, test, unfold } from './support.js';
 
 /** @typedef {import('./support.js').AnyElement} AnyElement */
 /** @typedef {import('./figures.js').Name} Name */
@@ -83,9 +83,7 @@ test('a state that is refused names the field, and changes nothing', async ({ pa
 });
 
 test('a part of a state leaves the rest, and both models keep their noise', async ({ page }) => {
-  await show(page, '<banana-machine></banana-machine>');
-  const widget = page.locator('banana-machine');
-  await ready(widget);
+  const widget = await mount(page, 'banana-machine');
   await unfold(widget);
   await widget.locator('#alpha1').fill('0.15');
   await widget.getByLabel('odometry').check();
@@ -109,9 +107,7 @@ test('a part of a state leaves the rest, and both models keep their noise', asyn
 });
 
 test('a property set right after a state holds, however long the state takes', async ({ page }) => {
-  await show(page, '<banana-machine></banana-machine>');
-  const widget = page.locator('banana-machine');
-  await ready(widget);
+  const widget = await mount(page, 'banana-machine');
   await widget.evaluate((element) => {
     const figure = /** @type {any} */ (element);
     figure.setState({ widget: 'banana-machine', version: 1, samples: 3e6, shown: 3e6, playing: false, morph: 0 });
@@ -123,9 +119,7 @@ test('a property set right after a state holds, however long the state takes', a
 
 test('a state that comes while a slider plays is what is shown from then on', async ({ page }) => {
   await page.emulateMedia({ reducedMotion: 'no-preference' });
-  await show(page, '<odometry-decomposer></odometry-decomposer>');
-  const widget = page.locator('odometry-decomposer');
-  await ready(widget);
+  const widget = await mount(page, 'odometry-decomposer');
   await widget.evaluate((element) => element.addEventListener('input', () => {
     /** @type {AnyElement} */ (element).setState({ widget: element.localName, version: 1, phase: 1 });
   }, { once: true }));
@@ -137,9 +131,7 @@ test('a state that comes while a slider plays is what is shown from then on', as
 });
 
 test('a state in part keeps the share of samples that are shown, and the mark that is among them', async ({ page, cloud }) => {
-  await show(page, `<${cloud} samples="300"></${cloud}>`);
-  const widget = page.locator(cloud);
-  await ready(widget);
+  const widget = await mount(page, cloud, { attributes: 'samples="300"' });
   const states = await widget.evaluate((element) => {
     const figure = /** @type {AnyElement} */ (element);
     const parts = [{ shown: 100, marked: 50 }, { seed: 5 }, { shown: 50 }, { samples: 30 }, { samples: 300 }, { shown: 100, playing: true }];

@@ -1,5 +1,5 @@
 import { expect } from '@playwright/test';
-import { STILL, frames, pixelsOf, ready, show, test, unfold } from './support.js';
+import { STILL, frames, mount, pixelsOf, ready, show, test, unfold } from './support.js';
 
 /** @typedef {import('@playwright/test').Locator} Locator */
 
@@ -90,9 +90,7 @@ const SETTINGS = /** @type {[string, string, (scheme: 'light' | 'dark') => strin
 
 for (const [what, head, to] of SETTINGS) {
   test(`a figure follows ${what}`, async ({ page, figure }) => {
-    await show(page, `<${figure} id="it"></${figure}>`, { head });
-    const widget = page.locator(figure);
-    await ready(widget);
+    const widget = await mount(page, figure, { attributes: 'id="it"', head });
     expect(await lookOf(widget)).toBe('light');
     for (const scheme of /** @type {const} */ (['dark', 'light'])) {
       await page.evaluate(to(scheme));
@@ -105,27 +103,21 @@ for (const [what, head, to] of SETTINGS) {
 
 test('a figure follows the system where the page does', async ({ page, figure }) => {
   await page.emulateMedia({ colorScheme: 'dark' });
-  await show(page, `<${figure}></${figure}>`, { head: '<style>:root { color-scheme: light dark }</style>' });
-  const widget = page.locator(figure);
-  await ready(widget);
+  const widget = await mount(page, figure, { head: '<style>:root { color-scheme: light dark }</style>' });
   expect(await lookOf(widget)).toBe('dark');
   await page.emulateMedia({ colorScheme: 'light' });
   await expect.poll(() => lookOf(widget)).toBe('light');
 });
 
 test('the theme of a figure overrides its surroundings', async ({ page, figure }) => {
-  await show(page, `<${figure} theme="light"></${figure}>`, { head: '<style>:root { color-scheme: dark; color: white }</style>' });
-  const widget = page.locator(figure);
-  await ready(widget);
+  const widget = await mount(page, figure, { attributes: 'theme="light"', head: '<style>:root { color-scheme: dark; color: white }</style>' });
   expect(await lookOf(widget)).toBe('light');
   await widget.evaluate((element) => element.removeAttribute('theme'));
   await expect.poll(() => lookOf(widget)).toBe('dark');
 });
 
 test('a figure on the ground of any theme has its ink and letters, and enough contrast', async ({ page }) => {
-  await show(page, '<banana-machine></banana-machine>', { head: "<style>body { font: 17px 'DejaVu Sans', sans-serif }</style>" });
-  const widget = page.locator('banana-machine');
-  await ready(widget);
+  const widget = await mount(page, 'banana-machine', { head: "<style>body { font: 17px 'DejaVu Sans', sans-serif }</style>" });
   const { backgroundColor, fontFamily, fontSize } = await surfaceOf(widget);
   expect({ backgroundColor, fontFamily, fontSize }).toEqual({ backgroundColor: 'rgba(0, 0, 0, 0)', fontFamily: '"DejaVu Sans", sans-serif', fontSize: '17px' });
   for (const [theme, [ground, text]] of Object.entries(THEMES)) {
@@ -172,9 +164,7 @@ test('a ground that fades arrives where the page does, also where the text has c
 });
 
 test('a light text on an image of the page asks for dark paper', async ({ page }) => {
-  await show(page, '<banana-machine></banana-machine>', { head: '<style>body { background: linear-gradient(#222, #333); color: #eee }</style>' });
-  const widget = page.locator('banana-machine');
-  await ready(widget);
+  const widget = await mount(page, 'banana-machine', { head: '<style>body { background: linear-gradient(#222, #333); color: #eee }</style>' });
   expect((await coloursOf(widget, ['paper']))[0]).toEqual([18, 18, 18]);
 });
 
@@ -187,9 +177,7 @@ const BLACK_ON_DARK = /** @type {[string, Parameters<import('@playwright/test').
 for (const [what, media, style] of BLACK_ON_DARK) {
   test(`a figure on a page with ${what} is legible`, async ({ page, figure }) => {
     await page.emulateMedia(media);
-    await show(page, `<${figure} theme="auto"></${figure}>`, { head: `<style>${style}</style>` });
-    const widget = page.locator(figure);
-    await ready(widget);
+    const widget = await mount(page, figure, { attributes: 'theme="auto"', head: `<style>${style}</style>` });
     const theme = (/** @type {string} */ name) => widget.evaluate((element, to) => element.setAttribute('theme', to), name);
     for (const name of media?.forcedColors ? ['auto', 'light', 'dark'] : ['auto']) {
       await theme(name);
@@ -204,9 +192,7 @@ for (const [what, media, style] of BLACK_ON_DARK) {
 
 test('a theme other than that of the page gives a figure its own paper and ink', async ({ page }) => {
   const style = 'body { background: #fff; color: #333; --color-foreground-muted: #112233; --color-background-border: #445566 }';
-  await show(page, '<banana-machine theme="dark"></banana-machine>', { head: `<style>${style}</style><link rel="stylesheet" href="/motion-widgets.css">` });
-  const widget = page.locator('banana-machine');
-  await ready(widget);
+  const widget = await mount(page, 'banana-machine', { attributes: 'theme="dark"', head: `<style>${style}</style><link rel="stylesheet" href="/motion-widgets.css">` });
   expect(await surfaceOf(widget)).toMatchObject({ backgroundColor: 'rgb(22, 24, 27)', color: 'rgb(235, 233, 227)', colorScheme: 'dark' });
   // Neither do the page's other colours fit that paper.
   const ofPage = ['#112233', '#445566'];
@@ -226,9 +212,7 @@ const NAMES_OF_THEMES = {
 };
 
 test('the stylesheet adopts muted text, hairlines and header height of a theme, and --motion- properties override them', async ({ page }) => {
-  await show(page, '<banana-machine></banana-machine>', { head: '<link rel="stylesheet" href="/motion-widgets.css">' });
-  const widget = page.locator('banana-machine');
-  await ready(widget);
+  const widget = await mount(page, 'banana-machine', { head: '<link rel="stylesheet" href="/motion-widgets.css">' });
   const look = async () => [
     ...(await coloursOf(widget, ['muted', 'rule'])).map(hex),
     await widget.locator('.surface').evaluate((element) => {
@@ -249,18 +233,14 @@ test('the stylesheet adopts muted text, hairlines and header height of a theme, 
 });
 
 test('a figure has the paper and ink of --motion-paper and --motion-ink', async ({ page, figure }) => {
-  await show(page, `<${figure} style="--motion-paper: #102030; --motion-ink: #f0f0f0"></${figure}>`, { head: '<style>body { background: #fff; color: #000 }</style>' });
-  const widget = page.locator(figure);
-  await ready(widget);
+  const widget = await mount(page, figure, { attributes: 'style="--motion-paper: #102030; --motion-ink: #f0f0f0"', head: '<style>body { background: #fff; color: #000 }</style>' });
   // Light letters on dark paper: hues of the dark.
   expect(await surfaceOf(widget)).toMatchObject({ backgroundColor: 'rgb(16, 32, 48)', color: 'rgb(240, 240, 240)', colorScheme: 'dark' });
   expect(await widget.locator('.slider .effect').first().evaluate((element) => getComputedStyle(element).backgroundColor)).toBe('rgb(16, 32, 48)');
 });
 
 test('custom properties colour controls and canvases, also when they change', async ({ page }) => {
-  await show(page, '<banana-machine></banana-machine>');
-  const widget = page.locator('banana-machine');
-  await ready(widget);
+  const widget = await mount(page, 'banana-machine');
   const canvas = widget.locator('canvas.plane');
   await page.addStyleTag({ content: 'banana-machine { --motion-posterior: rgb(200, 20, 90); --motion-font: monospace }' });
   await expect.poll(() => pixelsOf(canvas, 'posterior')).toBeGreaterThan(100);
@@ -268,9 +248,7 @@ test('custom properties colour controls and canvases, also when they change', as
 });
 
 test('no control has custom properties of its own, which extensions that darken pages leave behind', async ({ page, figure }) => {
-  await show(page, `<${figure}></${figure}>`);
-  const widget = page.locator(figure);
-  await ready(widget);
+  const widget = await mount(page, figure);
   await unfold(widget);
   expect(await widget.locator('.machine [style*="--"]').count()).toBe(0);
   const thumbs = await widget.getByRole('slider').evaluateAll((all) =>

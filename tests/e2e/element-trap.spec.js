@@ -1,6 +1,6 @@
 import { expect } from '@playwright/test';
 import { ALL, KNOWN } from './figures.js';
-import { STILL, frames, heard, pictureOf, ready, show, stateOf, test } from './support.js';
+import { STILL, frames, heard, mount, pictureOf, ready, show, stateOf, test } from './support.js';
 
 /** @typedef {import('./support.js').AnyElement} AnyElement */
 /** @typedef {import('@playwright/test').Locator} Locator */
@@ -62,9 +62,7 @@ test('a core that traps is restarted with the same state and picture, and no oth
 });
 
 test('a core that traps twice without a picture between ends in a sentence', async ({ page }) => {
-  await show(page, '<banana-machine></banana-machine>');
-  const widget = page.locator('banana-machine');
-  await ready(widget);
+  const widget = await mount(page, 'banana-machine');
   await heard(page);
   await widget.evaluate((element) => {
     const widget = /** @type {any} */ (element);

@@ -1,5 +1,5 @@
 import { expect } from '@playwright/test';
-import { STILL, centreOf, frames, pictureOf, played, readout, ready, show, test, unfold } from './support.js';
+import { STILL, centreOf, frames, mount, pictureOf, played, readout, test, unfold } from './support.js';
 
 /**
  * @typedef {import('@playwright/test').Page} Page
@@ -9,19 +9,8 @@ import { STILL, centreOf, frames, pictureOf, played, readout, ready, show, test,
 
 test.use(STILL);
 
-/**
- * Opens a page with the figure.
- *
- * @param {Page} page
- * @param {string} [attributes]
- */
-async function open(page, attributes = '') {
-  await show(page, `<odometry-decomposer ${attributes}></odometry-decomposer>`);
-  const widget = page.locator('odometry-decomposer');
-  await ready(widget);
-  await expect(widget.locator('.folds')).toBeVisible();
-  return widget;
-}
+/** Opens a page with the figure. @param {Page} page @param {string} [attributes] */
+const open = (page, attributes) => mount(page, 'odometry-decomposer', { attributes });
 
 /** @param {Locator} widget */
 async function told(widget) {

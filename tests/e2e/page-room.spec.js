@@ -1,6 +1,6 @@
 import { expect } from '@playwright/test';
 import { ALL, figureFor } from './figures.js';
-import { FRESH, STILL, boxOf, frames, ready, show, test } from './support.js';
+import { FRESH, STILL, boxOf, frames, mount, ready, show, test } from './support.js';
 
 /**
  * @typedef {import('@playwright/test').Page} Page
@@ -69,9 +69,7 @@ for (const name of ALL) {
 test('a figure is at most 720 px high in the column of a book and on a screen', async ({ page }, { title }) => {
   // Arc Anatomy is higher: its table of factors stands below the picture.
   const figure = figureFor(title, ALL.filter((name) => name !== 'arc-anatomy'));
-  await show(page, `<${figure}></${figure}>`, { head: '<style>body { margin: 0 }</style>' });
-  const widget = page.locator(figure);
-  await ready(widget);
+  const widget = await mount(page, figure, { head: '<style>body { margin: 0 }</style>' });
   await expect(widget.locator('.folds')).toBeVisible();
   for (const width of [640, 1280]) {
     await page.setViewportSize({ width, height: 720 });

@@ -2,7 +2,7 @@ import { readFileSync } from 'node:fs';
 import { expect } from '@playwright/test';
 import { presets } from '../../www/settings.js';
 import { openSqueeze, squeezed } from './squeeze-support.js';
-import { STILL, assign, boxOf, frames, numberIn, open, posesOf, property, readout, ready, show, state, test, unfold } from './support.js';
+import { STILL, assign, boxOf, frames, mount, numberIn, open, posesOf, property, readout, state, test, unfold } from './support.js';
 
 /**
  * @typedef {import('@playwright/test').Locator} Locator
@@ -130,9 +130,7 @@ const map = await elementsOf(page, await svgOf(await openSqueeze(page)));
 
 for (const [tag, own] of Object.entries(presets)) {
   test(`every preset of ${tag} is exported as vectors @nightly`, async ({ page }) => {
-  await show(page, `<${tag}></${tag}>`);
-  const widget = page.locator(tag);
-  await ready(widget);
+  const widget = await mount(page, tag);
   for (const { name } of own) {
     await assign(widget, 'preset', name);
     const { title, texts, paths, size } = await elementsOf(page, await svgOf(widget));
@@ -147,9 +145,7 @@ for (const [tag, own] of Object.entries(presets)) {
 
 test('PNG of a figure has twice the pixels and opaque paper', async ({ page, figure }) => {
   await page.emulateMedia({ colorScheme: 'dark' });
-  await show(page, `<${figure}></${figure}>`);
-  const widget = page.locator(figure);
-  await ready(widget);
+  const widget = await mount(page, figure);
   const png = await widget.evaluate(async (element) => {
     const figure = /** @type {Figure} */ (element);
     const svg = new DOMParser().parseFromString(figure.toSVG(), 'image/svg+xml').documentElement;

@@ -1,64 +1,9 @@
 import { expect, test as plain } from '@playwright/test';
 import { expectAccessible } from './axe.js';
-import { ALL, NAMES } from './figures.js';
-import { STILL, boxOf, frames, pictureOf, property, ready, show, test, unfold } from './support.js';
+import { ALL } from './figures.js';
+import { STILL, boxOf, frames, mount, pictureOf, property, ready, show, test } from './support.js';
 
 test.use(STILL);
-
-/**
- * Opens the gallery, with some of its figures running.
- *
- * @param {import('@playwright/test').Page} page
- * @param {readonly import('./figures.js').Name[]} [names]
- */
-async function openGallery(page, names = NAMES) {
-  await page.goto('/');
-  const figures = names.map((name) => page.locator(name).first());
-  for (const figure of figures) {
-    await figure.scrollIntoViewIfNeeded();
-    await ready(figure);
-    await expect(figure.locator('.folds')).toBeVisible();
-  }
-  return figures;
-}
-
-/**
- * Returns the names that the reference documents.
- *
- * @param {import('@playwright/test').Page} page
- * @param {string} kind
- * @param {string} [of]
- */
-async function documented(page, kind, of = 'both') {
-  const names = await page.locator(`.api[data-of=${of}][data-kind=${kind}] th code`).allTextContents();
-  return names.map((name) => name.replace(/\(.*/, '')).sort();
-}
-
-test('the reference documents every attribute, method, part and custom property, and no other', async ({ page }) => {
-  await page.goto('/reference.html');
-  const [methods, documentedParts, documentedProperties] = await Promise.all(['method', 'part', 'property'].map((kind) => documented(page, kind)));
-  const attributes = await Promise.all(NAMES.map((name) => documented(page, 'attribute', name)));
-  for (const figure of await openGallery(page, ALL)) await unfold(figure);
-  for (const [i, name] of NAMES.entries()) {
-    const observed = await page.evaluate((tag) => Reflect.get(customElements.get(tag) ?? {}, 'observedAttributes'), name);
-    // HTML has them in lower case.
-    expect(attributes[i].map((each) => each.toLowerCase()).sort()).toEqual([...observed].sort());
-    const missing = await page.locator(name).first().evaluate(
-      (element, all) => all.filter((method) => typeof Reflect.get(element, method) !== 'function'),
-      methods,
-    );
-    expect(missing).toEqual([]);
-  }
-  const [parts, properties] = await page.evaluate((selector) => {
-    const roots = [...document.querySelectorAll(selector)].map((element) => element.shadowRoot);
-    const parts = roots.flatMap((root) => [...(root?.querySelectorAll('[part]') ?? [])].map((each) => each.getAttribute('part')));
-    const styles = roots.flatMap((root) => (root?.adoptedStyleSheets ?? []).flatMap((sheet) => [...sheet.cssRules].map(({ cssText }) => cssText)));
-    return [[...new Set(parts)].sort(), [...new Set(styles.join('').match(/--motion-[a-z-]+/g))].sort()];
-  }, ALL.join());
-  // The progress is there while there is some.
-  expect(documentedParts).toEqual([...parts, 'progress'].sort());
-  expect(documentedProperties).toEqual(properties);
-});
 
 test('examples of the reference start when they are opened, and are what their code says', async ({ page }) => {
   await page.goto('/reference.html');
@@ -130,9 +75,7 @@ for (const name of ALL) {
 }
 
 test('an entry of the legend highlights its curve in the chart', async ({ page }) => {
-  await show(page, '<dead-reckoning></dead-reckoning>');
-  const widget = page.locator('dead-reckoning');
-  await ready(widget);
+  const widget = await mount(page, 'dead-reckoning');
   await widget.getByRole('checkbox', { name: 'lateral' }).hover();
   await expect(widget.locator('.plot .curve.lit')).toHaveAttribute('stroke', 'var(--prediction)');
   await expect(widget.locator('.plot .curve.unlit')).toHaveCount(2);
@@ -189,7 +132,11 @@ test('nothing on the page moves while figures load', async ({ page }) => {
       for (const entry of list.getEntries()) moved.push(Reflect.get(entry, 'value'));
     }).observe({ type: 'layout-shift', buffered: true });
   });
-  await openGallery(page, ALL);
+  await page.goto('/');
+  for (const name of ALL) {
+    await page.locator(name).first().scrollIntoViewIfNeeded();
+    await ready(page.locator(name).first());
+  }
   expect(await page.evaluate(() => Reflect.get(window, 'moved'))).toEqual([]);
 });
 

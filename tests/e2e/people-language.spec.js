@@ -1,6 +1,6 @@
 import { expect } from '@playwright/test';
 import { ALL, KNOWN } from './figures.js';
-import { STILL, frames, numberIn, open, pictureOf, readout, ready, show, state, test, unfold } from './support.js';
+import { STILL, frames, mount, numberIn, open, pictureOf, readout, ready, show, state, test, unfold } from './support.js';
 
 test.use(STILL);
 
@@ -151,9 +151,7 @@ test('a page may replace words and add languages; a message of another shape is 
 });
 
 test('a page from right to left has the same picture, and nothing beside its figure', async ({ page, figure }) => {
-  await show(page, `<${figure}></${figure}>`);
-  const widget = page.locator(figure);
-  await ready(widget);
+  const widget = await mount(page, figure);
   const canvas = widget.locator('canvas.plane');
   const before = await pictureOf(canvas);
   await page.evaluate(() => void (document.documentElement.dir = 'rtl'));

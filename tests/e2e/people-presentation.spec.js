@@ -1,7 +1,7 @@
 import { expect } from '@playwright/test';
 import { expectAccessible } from './axe.js';
 import { ALL } from './figures.js';
-import { STILL, boxOf, centreOf, frames, ready, show, stateOf, test } from './support.js';
+import { STILL, boxOf, centreOf, frames, mount, ready, show, stateOf, test } from './support.js';
 
 test.use({ ...STILL, viewport: { width: 1920, height: 1080 } });
 
@@ -42,9 +42,7 @@ test('the button fills the screen, C shows the controls, and Escape leaves', asy
 
 test('without full screen the attribute fills the window, and the button leaves', async ({ page }) => {
   await page.addInitScript(() => (Element.prototype.requestFullscreen = () => Promise.reject(new TypeError('refused'))));
-  await show(page, '<banana-machine></banana-machine>');
-  const widget = page.locator('banana-machine');
-  await ready(widget);
+  const widget = await mount(page, 'banana-machine');
   const before = await boxOf(widget);
   await widget.evaluate((element) => void Object.assign(element, { presentation: true }));
   expect(await boxOf(widget)).toEqual({ x: 0, y: 0, width: 1920, height: 1080 });
@@ -65,9 +63,7 @@ test('without full screen the attribute fills the window, and the button leaves'
 });
 
 test('the keys 1 to 9 choose presets, and entering from the keyboard leads to a button', async ({ page }) => {
-  await show(page, '<banana-machine></banana-machine>');
-  const widget = page.locator('banana-machine');
-  await ready(widget);
+  const widget = await mount(page, 'banana-machine');
   await widget.getByRole('button', { name: 'Present' }).press('Enter');
   await expect(widget.getByRole('button', { name: 'C Controls' })).toBeFocused();
   const words = await widget.evaluate((element) => /** @type {any} */ (element).kind.attributes.preset.words);
@@ -81,9 +77,7 @@ test('the keys 1 to 9 choose presets, and entering from the keyboard leads to a 
 });
 
 test('the key 0 brings back the state in which the presentation began', async ({ page }) => {
-  await show(page, '<banana-machine></banana-machine>');
-  const widget = page.locator('banana-machine');
-  await ready(widget);
+  const widget = await mount(page, 'banana-machine');
   await widget.evaluate((element) => void Object.assign(element, { preset: 'hard', omega: 0.7 }));
   const prepared = await stateOf(widget);
   await widget.getByRole('button', { name: 'Present' }).click();
@@ -97,9 +91,7 @@ test('the key 0 brings back the state in which the presentation began', async ({
 });
 
 test('a figure that opens in the presentation goes back to its opening', async ({ page }) => {
-  await show(page, '<banana-machine preset="pivot" presentation></banana-machine>');
-  const widget = page.locator('banana-machine');
-  await ready(widget);
+  const widget = await mount(page, 'banana-machine', { attributes: 'preset="pivot" presentation' });
   await page.keyboard.press('1');
   await expect(widget).toHaveAttribute('preset', 'straight');
   await page.keyboard.press('0');
@@ -107,17 +99,13 @@ test('a figure that opens in the presentation goes back to its opening', async (
 });
 
 test('Map Squeeze has its places and samplers before an audience', async ({ page }) => {
-  await show(page, '<map-squeeze presentation></map-squeeze>');
-  const widget = page.locator('map-squeeze');
-  await ready(widget);
+  const widget = await mount(page, 'map-squeeze', { attributes: 'presentation' });
   await expect(widget.getByRole('button', { name: 'Facing a wall' })).toBeInViewport();
   await expect(widget.getByRole('radio', { name: 'Whole arc' })).toBeInViewport();
 });
 
 test('the browser ends the presentation by a key of its own', async ({ page }) => {
-  await show(page, '<banana-machine></banana-machine>');
-  const widget = page.locator('banana-machine');
-  await ready(widget);
+  const widget = await mount(page, 'banana-machine');
   await widget.getByRole('button', { name: 'Present' }).click();
   await expect.poll(() => page.evaluate(() => document.fullscreenElement?.localName)).toBe('banana-machine');
   await page.evaluate(() => document.exitFullscreen());
@@ -131,9 +119,7 @@ test('the browser ends the presentation by a key of its own', async ({ page }) =
  * @param {string} name
  */
 async function expectLarge(page, name) {
-  await show(page, `<${name}></${name}>`);
-  const widget = page.locator(name);
-  await ready(widget);
+  const widget = await mount(page, name);
   await expect(widget.locator('[part~=caption]').first()).toBeVisible();
   const sizes = () => widget.locator('canvas, .readouts dt').evaluateAll((all) => all.map((each) => parseFloat(getComputedStyle(each).fontSize)));
   const onPage = await sizes();

@@ -2,7 +2,7 @@ import { expect } from '@playwright/test';
 import { settings } from '../../www/settings.js';
 import { expectAccessible } from './axe.js';
 import { NAMES } from './figures.js';
-import { STILL, counted, frames, heard, property, ready, show, test, unfold, valueField } from './support.js';
+import { STILL, counted, frames, heard, mount, property, test, unfold, valueField } from './support.js';
 
 /** @typedef {import('@playwright/test').Locator} Locator */
 
@@ -10,9 +10,7 @@ test.use(STILL);
 
 /** @param {import('@playwright/test').Page} page @param {string} name */
 async function widgetOf(page, name) {
-  await show(page, `<${name}></${name}>`);
-  const widget = page.locator(name);
-  await ready(widget);
+  const widget = await mount(page, name);
   await unfold(widget);
   await heard(page);
   return widget;

@@ -111,6 +111,21 @@ export async function ready(widget) {
 }
 
 /**
+ * Opens a page with one figure.
+ *
+ * @param {Page} page
+ * @param {string} name of the element
+ * @param {Parameters<typeof show>[2] & { attributes?: string }} [options]
+ * @returns {Promise<Locator>} the figure, running
+ */
+export async function mount(page, name, { attributes = '', ...options } = {}) {
+  await show(page, `<${name} ${attributes}></${name}>`, options);
+  const widget = page.locator(name);
+  await ready(widget);
+  return widget;
+}
+
+/**
  * Takes the events of the elements since the last call.
  *
  * @param {Page} page
@@ -198,10 +213,7 @@ export function stateOf(widget) {
  * @param {string} [attributes]
  */
 export async function open(page, attributes = '') {
-  await show(page, `<main><h1>Bare</h1><banana-machine heading-level="2" ${attributes}></banana-machine></main>`);
-  const widget = page.locator('banana-machine');
-  await ready(widget);
-  return widget;
+  return mount(page, 'banana-machine', { attributes });
 }
 
 /**

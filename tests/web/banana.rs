@@ -231,12 +231,8 @@ fn every_kind_of_bad_value_is_refused_and_changes_nothing() {
         TypeError: command.dt is undefined; allowed is a number
         it.configure({ command: { v: 1, omega: 0, dt: 1, w: 1 } })
         TypeError: command.w is an unknown key; allowed are v, omega, dt
-        it.configure({ command: null })
-        TypeError: command is null; allowed is an object with keys from v, omega, dt
         it.configure({ samples: 0 })
         RangeError: samples is 0; allowed is a whole number from 1 to 10000000
-        it.configure({ samples: 1.5 })
-        RangeError: samples is 1.5; allowed is a whole number from 1 to 10000000
         it.configure({ samples: 7n })
         TypeError: samples is a bigint; allowed is a number
         it.configure({ seed: -1 })
@@ -273,8 +269,6 @@ fn every_kind_of_bad_value_is_refused_and_changes_nothing() {
         RangeError: omegaMin is NaN; allowed is a number from -1000000 to 1000000
         it.nearest('side', 0, 0, 1, 1)
         RangeError: view is "side"; allowed is "plane" or "twist"
-        it.nearest('plane', 0, 0, -1, 1)
-        RangeError: radiusX is -1; allowed is a number from 0 to Infinity
         it.density('plane', 0, 0, -1, 1, 9, 9)
         RangeError: xMax is -1; allowed is a number from 0 to 1000000000000000000
         it.density('plane', 0, 0, 1, 1, 2 ** 14, 2 ** 10 + 1)

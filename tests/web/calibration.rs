@@ -237,10 +237,6 @@ fn what_is_refused_is_named_with_its_value_and_what_is_allowed() {
         TypeError: correct.yaw is an unknown key; allowed are clockOffset, mountYaw, leverArm, distanceScale, turnScale
         it.machine.configure({ seed: 1, rule: 'omnibus' })
         RangeError: rule is "omnibus"; allowed is "thrun" or "nav2" or "beluga" or "omni"
-        it.machine.configure({ inflation: 0 })
-        RangeError: inflation is 0; allowed is a number from 0.01 to 100
-        it.machine.panels('time')
-        RangeError: driver is "time"; allowed is "way" or "turn"
         it.machine.setLog(it.few)
         TypeError: reference is undefined; allowed is an object with keys from t, x, y, theta, breaks
         "#,

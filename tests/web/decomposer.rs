@@ -61,14 +61,8 @@ fn what_is_refused_changes_nothing() {
         r#"
         it.configure({ seed: 1, rule: 'amcl' })
         RangeError: rule is "amcl"; allowed is "thrun" or "nav2" or "beluga" or "omni"
-        it.configure({ correlation: 2 })
-        RangeError: correlation is 2; allowed is a number from -1 to 1
         it.configure({ alphas: [1, 2, 3, 4] })
         RangeError: alphas has length 4; allowed is an array of 5 numbers
-        it.configure({ from: { x: 0, y: 0 } })
-        TypeError: from.theta is undefined; allowed is a number
-        it.grow(1.5)
-        RangeError: count is 1.5; allowed is a whole number from 0 to 5000
         it.curve(-1, 5)
         RangeError: longest is -1; allowed is a number from 0 to 1000000
         it.nearest(0, 0)

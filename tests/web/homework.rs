@@ -198,8 +198,6 @@ fn what_is_refused_is_named_with_its_value_and_what_is_allowed() {
         r#"
         new motion.VelocityModel({ alphas: [1, 2] })
         RangeError: alphas has length 2; allowed is an array of 6 numbers
-        new motion.VelocityModel({ alphas: 0.1 })
-        TypeError: alphas is 0.1; allowed is an array of 6 numbers
         new motion.OdometryModel({ alphas: [1, 2, 3, -4] })
         RangeError: alphas[3] is -4; allowed is a number from 0 to 1000000
         new motion.VelocityModel({ alphas: Array(6).fill(0.1), noise: 'loud' })
@@ -212,8 +210,6 @@ fn what_is_refused_is_named_with_its_value_and_what_is_allowed() {
         TypeError: next.theta is undefined; allowed is a number
         it.odometry.prob(it.next, it.command, it.start)
         TypeError: control.v is an unknown key; allowed are rot1, trans, rot2
-        it.velocity.sample(it.command, it.start, -1, 0)
-        RangeError: count is -1; allowed is a whole number from 0 to 10000000
         it.velocity.sample(it.command, it.start, 1, 0.5)
         RangeError: seed is 0.5; allowed is a whole number from 0 to 9007199254740991
         motion.invertArc(it.start, it.next, 0)
@@ -231,10 +227,6 @@ fn what_is_refused_is_named_with_its_value_and_what_is_allowed() {
         motion.propagate({ command: { v: 1, omega: 3, dt: 0.7 }, alphas: Array(6).fill(1), compounding: 'fourth-order',
             steps: 7, })
         RangeError: steps is 7; allowed are at most 2 here: the next leaves no covariance, for the noise is too large
-        motion.commandReaching(NaN, 0, it.command)
-        RangeError: x is NaN; allowed is a number from -1000000 to 1000000
-        motion.commandReaching(1, 0)
-        TypeError: command is undefined; allowed is an object with keys from v, omega, dt
         "#,
     );
 }

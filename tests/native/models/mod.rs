@@ -1,6 +1,5 @@
 //! Noises and motion models.
 
-mod distributions;
 mod noise;
 mod odometry;
 mod odometry_rules;

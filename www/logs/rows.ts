@@ -170,7 +170,9 @@ export class Rows {
   /** Returns the rows that are kept by their times, each time once, and the number of those that were late. */
   #inOrder(): { start: number; t: Float64Array; rows: Uint32Array; late: number } {
     // A stamp of 0 among times since 1970 was never set.
-    const isSince1970 = quantile(sample(this.#added, (row) => this.#seconds(row)), 0.5) > EPOCH;
+    let first = Infinity;
+    for (let row = 0; row < this.#added; row++) if (!this.#isUnset(row)) first = Math.min(first, this.#seconds(row));
+    const isSince1970 = first > EPOCH && first < Infinity;
     let stamped = new Uint32Array(this.#added);
     let count = 0;
     for (let row = 0; row < this.#added; row++) if (!(isSince1970 && this.#isUnset(row))) stamped[count++] = row;

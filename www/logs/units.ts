@@ -98,12 +98,13 @@ function timeUnit(kind: LogKind, { t, a, b, c }: Columns, { time: stated, length
   // Headings whose unit nothing states are not counted.
   const radians = RADIANS[options.angleUnit ?? (angle.unit === 'deg' ? 'deg' : 'rad')];
   const isCounted = options.angleUnit !== undefined || angle.by !== 'usage';
-  const [speed, turn] = kind === 'poses' ? [speedOf(t, a, b, step) * METRES[options.lengthUnit ?? length.unit], isCounted ? turnOf(t, c) * radians : 0] : [0, 0];
+  const raw = kind === 'poses' ? speedOf(t, a, b, step) : 0;
+  const [speed, turn] = [raw * METRES[options.lengthUnit ?? length.unit], kind === 'poses' && isCounted ? turnOf(t, c) * radians : 0];
   const moves = speed > 0 || turn > 0;
   /** Checks the rate, and that the robot is neither too fast nor too slow. */
   const fits = (unit: TimeUnit) => {
     const speeds = [speed, turn].map((each) => each * rate(unit) * step);
-    return isWithin(rate(unit), USUAL_RATES) && (!moves || (speeds.every((each) => each <= FASTEST) && speeds.some((each) => each >= SLOWEST)));
+    return isWithin(rate(unit), USUAL_RATES) && (!moves || (speeds.every((each) => each <= FASTEST) && [...speeds, raw * rate(unit) * step].some((each) => each >= SLOWEST)));
   };
   if (fits(stated.unit)) return stated;
   const [unit, ...others] = units.filter(fits);

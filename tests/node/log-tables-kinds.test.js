@@ -1,0 +1,200 @@
+// Logs in text: rows that are dropped, units that are judged, and tables that are refused.
+
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { openRecordings } from '../../www/logs/open.ts';
+import { log as german } from '../../www/logs/de.js';
+import { LogError } from '../../www/logs/log-error.js';
+
+/** @param {string | Uint8Array<ArrayBuffer>} text @param {import('../../www/logs/log.ts').OpenOptions} [options] @param {string} [series] */
+async function read(text, options, series = '') {
+  const [recording] = await openRecordings([new File([text], 'run.csv')], options);
+  const [log] = await recording.read([{ series }]);
+  return { ...log, data: /** @type {any} */ (log.data) };
+}
+
+/** @param {Promise<unknown>} reading @returns {Promise<LogError>} */
+async function refusalOf(reading) {
+  try {
+    await reading;
+  } catch (error) {
+    assert.ok(error instanceof LogError, String(error));
+    return error;
+  }
+  throw new assert.AssertionError({ message: 'nothing was refused' });
+}
+
+/** Drive on circles of 1 m at 0.5 m/s with 20 rows a second: time, x, y, heading. */
+const CIRCLES = Array.from({ length: 800 }, (_, i) => [i / 20, Math.sin(i / 40), -Math.cos(i / 40), Math.atan2(Math.sin(i / 40), Math.cos(i / 40))]);
+
+/** @param {(row: number[], i: number) => (string | number)[]} [cells] @param {string} [header] */
+const circles = (cells = (row) => row, header = 't,x,y,yaw') => [header, ...CIRCLES.map((row, i) => cells(row, i).join(','))].join('\n');
+
+/** Table of a robot that drives straight on, at these times. @param {(number | string)[]} times */
+const straight = (times) => ['t,x,y,yaw', ...times.map((t, i) => `${t},${i / 50},0,0`)].join('\n');
+const steps = (/** @type {number} */ count, from = 0) => Array.from({ length: count }, (_, i) => from + i / 10);
+
+test('nanoseconds of the present keep their digits, in every unit', async () => {
+  const times = ['1699999999999999999', '1700000000000000001'];
+  for (const [unit, digits] of Object.entries({ ns: 0, us: 3, ms: 6, s: 9 })) {
+    const [one, other] = times.map((time) => (digits ? `${time.slice(0, -digits)}.${time.slice(-digits)}` : time));
+    for (const header of ['t', `t_${unit}`]) {
+      const { data, start, summary } = await read(`${header},x,y,yaw\n${one},0,0,0\n${other},0,0,0`);
+      assert.deepEqual([start, summary.units.time], [1_699_999_999, { unit, by: header === 't' ? 'size' : 'name' }]);
+      assert.deepEqual([...data.t].map((t) => Math.round(t * 1e9)), [999_999_999, 1_000_000_001]);
+    }
+  }
+});
+
+test('numbers are the nearest doubles', async () => {
+  const values = ['0.1', '-12345.6789012345', '1e-7', '123456789.012345678', '3.141592653589793238462643', '-0', '.5', '7.', '+4.', '2.2250738585072014e-308'];
+  const { x } = (await read(['t,x,y,yaw', ...values.map((value, i) => `${i},${value},0,0`)].join('\n'), { lengthUnit: 'm' })).data;
+  assert.deepEqual([...x], values.map(Number));
+});
+
+test('rows that cannot be used are dropped with the first line of each cause, and break the path', async () => {
+  const rows = ['0,0,0,0', '1,nan,0,0', '2,,0,0', '3,0,0,0', '3,1,0,0', '4,0,0,0', '5,0,inf,0', 'NaN,0,0,0', '6,0,0,0', '7,0'];
+  const { data, summary: { dropped, rows: count, notes } } = await read(`t,x,y,yaw\n${rows.join('\n')}`);
+  assert.deepEqual([[...data.t], [...data.breaks]], [[0, 3, 4, 6], [1, 3]]);
+  assert.deepEqual(dropped, { notFinite: { count: 4, first: 3 }, short: { count: 1, first: 11 }, duplicate: { count: 1, first: 6 } });
+  assert.deepEqual([count, notes], [rows.length, [{ name: 'cutShort', values: [] }]]);
+});
+
+test('late rows are sorted; a time far from all others is dropped', async () => {
+  const times = steps(50);
+  const late = await read(straight([...times.slice(0, 20), times[22], times[20], times[21], ...times.slice(23)]));
+  assert.deepEqual([[...late.data.t], [...late.data.breaks]], [times, []]);
+  assert.deepEqual([late.data.x[20], late.summary.notes], [21 / 50, [{ name: 'sorted', values: [1] }]]);
+  const parts = await read(straight([...steps(50, 100), ...steps(50)]));
+  assert.deepEqual([parts.data.t.length, parts.data.t[0], parts.data.x[0]], [100, 0, 1]);
+  for (const stray of [1e6, -1e6]) {
+    const { data, summary } = await read(straight(times.with(20, stray)));
+    assert.deepEqual([[...data.t], summary.dropped, [...data.breaks]], [times.toSpliced(20, 1), { stray: { count: 1, first: 22 } }, []]);
+  }
+});
+
+test('a clock that was set back leaves the larger part, and halves are refused', async () => {
+  for (const back of [5, 4.96]) {
+    const { data, summary } = await read(straight([...steps(200), ...steps(100, 20 - back)]));
+    assert.deepEqual([data.t.length, summary.dropped], [200, { setBack: { count: 100, first: 202 } }]);
+  }
+  const end = await read(straight([...steps(60), ...steps(140, 4.03)]));
+  assert.deepEqual([end.data.t.length, end.data.x[0], end.summary.dropped.setBack], [140, 60 / 50, { count: 60, first: 2 }]);
+  assert.match((await refusalOf(read(straight([...steps(100), ...steps(100, 5)])))).message, /^run\.csv, line 102: times go back by 4\.90 s and repeat those before; split the file there/);
+});
+
+test('stamps of 0 drop their rows, and are no choice of the clock for the others', async () => {
+  const stamp = (/** @type {number} */ i) => (i < 2 || i === 30 ? 0 : `${1_718_000_000 + Math.floor(i / 10)}${i % 10}00000000`);
+  const rows = Array.from({ length: 60 }, (_, i) => `${1_718_000_007 + i / 10},${stamp(i)},${i / 20},0,0`);
+  const { start, data, summary } = await read(['time,header.stamp,x,y,yaw', ...rows].join('\n'));
+  assert.deepEqual([start, data.t.length, data.t[0], summary.clock, summary.units.time.unit], [1_718_000_000, 57, 0.2, 'header.stamp', 'ns']);
+  assert.deepEqual([summary.dropped, [...data.breaks]], [{ noStamp: { count: 3, first: 2 } }, []]);
+});
+
+test('pauses and jumps are found, and a heading that wraps is no jump', async () => {
+  const rows = Array.from({ length: 400 }, (_, i) => [i / 20 + (i >= 100 ? 3 : 0), i / 100 + (i >= 200 ? 1 : 0), 0, i / 500 + (i >= 300 ? 1.5 : 0)].join(','));
+  const { summary, data } = await read(`t,x,y,yaw\n${rows.join('\n')}`);
+  assert.deepEqual(summary.gaps, { count: 1, longest: 3.05, first: 99 / 20 });
+  assert.deepEqual([summary.jumps, [...data.breaks]], [{ count: 2, first: 13 }, [200, 300]]);
+  assert.equal((await read(circles())).summary.jumps.count, 0);
+});
+
+test('units are taken by two signs', async () => {
+  const degrees = (/** @type {number} */ yaw) => (yaw * 180) / Math.PI;
+  /** Tables and their units of time and angle. @type {[string, string, string][]} */
+  const cases = [
+    [circles(), 's', 'rad'],
+    [circles(([t, x, y], i) => [t, x, y, i / 40]), 's', 'rad'],
+    [circles(([t, x, y, yaw]) => [t, x, y, degrees(yaw)]), 's', 'deg'],
+    [circles(([t, x, y, yaw]) => [t, x, y, (degrees(yaw) + 360) % 360]), 's', 'deg'],
+    [circles(([t, x, y, yaw]) => [1000 * t, x, y, yaw]), 'ms', 'rad'],
+    [circles(([t, x, y, yaw]) => [1e9 * t, x, y, yaw]), 'ns', 'rad'],
+    [circles(([t, x, y, yaw]) => [1000 * t, x, y, degrees(yaw)]), 'ms', 'deg'],
+  ];
+  for (const [text, time, angle] of cases) {
+    const { data, summary: { units } } = await read(text);
+    assert.deepEqual([units.time.unit, units.angle.unit], [time, angle]);
+    assert.ok(Math.abs(data.t[799] - CIRCLES[799][0]) < 1e-9, `${data.t[799]}`);
+    assert.ok(Math.abs(Math.sin(data.theta[799] - CIRCLES[799][3])) < 1e-9, `${data.theta[799]}`);
+  }
+});
+
+/** Questions, and the option that answers each. @type {[string, string, RegExp, import('../../www/logs/log.ts').OpenOptions][]} */
+const QUESTIONS = [
+  ['millimetres', circles(([t, x, y, yaw]) => [t, 1000 * x, 1000 * y, yaw]), /in m, the robot would drive at \d+ m\/s; .* --length-unit cm or mm or m\.$/, { lengthUnit: 'mm' }],
+  ['metres that a name has as millimetres', circles(undefined, 't,x_mm,y_mm,yaw'), /in mm, the robot .* --length-unit m or mm\.$/, { lengthUnit: 'm' }],
+  ['commands in milliseconds', ['t,v,omega', ...steps(50).map((t) => `${1000 * t},0.5,0.5`)].join('\n'), /in s, the times would mean 0\.01\d* rows a second; .* --time-unit /, { timeUnit: 'ms' }],
+  ['seconds that a name has as nanoseconds', circles(undefined, 't_ns,x,y,yaw'), /in ns, the times would mean/, { timeUnit: 's' }],
+  ['degrees of a robot that drives straight on', circles(([t]) => [t, t / 2, 0, 20 * Math.sin(t / 9)]), /headings in rad .* --angle-unit rad or deg\.$/, { angleUnit: 'deg' }],
+  ['radians that a name has as degrees', circles(undefined, 't,x,y,yaw_deg'), /headings in deg .* --angle-unit rad or deg\.$/, { angleUnit: 'rad' }],
+  ['turn rates in degrees', ['t,v,omega', ...steps(50).map((t) => `${t},0.5,30`)].join('\n'), /headings in rad would turn at 30\.0 rad\/s/, { angleUnit: 'deg' }],
+];
+
+for (const [name, text, sentence, options] of QUESTIONS) {
+  test(`asks about ${name}`, async () => {
+    const error = await refusalOf(read(text));
+    assert.match(error.message, sentence);
+    const [[what, answer]] = Object.entries(options);
+    assert.equal(error.ask?.what, what);
+    assert.ok(error.ask.choices.includes(answer), String(error.ask.choices));
+    await read(text, options);
+  });
+}
+
+const LONG = 'x'.repeat(100);
+const HEADING = 'the heading; expected is';
+const KITTI = Array.from({ length: 12 }, () => 1).join(' ');
+
+/** Tables, and how each is refused. @type {[string, string | Uint8Array<ArrayBuffer>, RegExp, import('../../www/logs/log.ts').OpenOptions?][]} */
+const REFUSED = [
+  ['nothing', '', /^run\.csv: there is nothing in it;/],
+  ['comments alone', '# t,x,y,yaw\n\n', /there is nothing in it;/],
+  ['a header alone', 't,x,y,yaw\n', /0 of 0 rows can be used;/],
+  ['bytes', Uint8Array.of(1, 2, 0, 4), /it is neither text nor/],
+  ['no header', '1,2,3,4\n2,3,4,5\n', /^run\.csv, line 1: the table has no header, and its first row is “1,2,3,4”; .* --columns t,x,y,yaw\.$/],
+  ['no time', 'x,y,yaw\n0,0,0\n', /, line 1: none of the columns x, y, yaw is the time;/],
+  ['a count of rows as times', ',x,y,yaw\n0,0,0,0\n1,0,0,0\n', /is the time;/],
+  ['positions without a heading', 't,x,y,qx\n', new RegExp(HEADING)],
+  ['x and y of one source and the heading of another', 't,x,y,imu_yaw\n0,0,0,0\n1,0,0,0\n', new RegExp(HEADING)],
+  ['other columns', `t,${LONG}\n`, /, line 1: the columns are t, x{40}…; expected are x, y and yaw/],
+  ['two columns of one name', 't,t,x,y,yaw\n0,0,0,0,0\n1,1,0,0,0\n', /both “t” and “t” may be the time;/],
+  ['a unit that is not known', 't,x [ft],y [ft],yaw\n0,0,0,0\n1,0,0,0\n', /the unit ft of a column is not known/],
+  ['several logs', 't,gt_x,gt_y,gt_yaw,odom_x,odom_y,odom_yaw\n0,0,0,0,0,0,0\n1,0,0,0,0,0,0\n', /the table has several logs; choose one of gt_, odom_\.$/],
+  ['text for a number', `t,x,y,yaw\n0,0,0,0\n1,${LONG},0,0\n`, /, line 3: x is “x{40}…”; expected is a number\.$/],
+  ['hexadecimal digits', 't,x,y,yaw\n0x10,0,0,0\n', /, line 2: t is “0x10”;/],
+  ['thousands beside decimal commas', 't;x;y;yaw\n0,5;1.234;0;0\n1,5;1;0;0\n', /, line 2: x is “1\.234”;/],
+  ['decimal commas between commas', 't,x,y,yaw\n0,5,1,25,2,5,0,1\n1,5,1,25,2,5,0,1\n', /has 8 cells, and the header in line 1 4;/],
+  ['short rows', 't,x,y,yaw\n0,0,0,0\n0,0,0\n1,0,0,0\n', /, line 3: the row has 3 cells;/],
+  ['a long line', `t,x,y,yaw\n0,0,0,0\n${'1'.repeat(400_000)}`, /, line 3: the line has more than 65536 bytes;/],
+  ['few rows', 't,x,y,yaw\nnan,0,0,0\n1,0,0,0', /, line 2: 1 of 2 rows can be used \(no finite number\);/],
+  ['no rotations', '0 0 0 0 0 0 0 0\n1 0 0 0 0 0 0 0\n', /, line 1: 0 of 2 rows can be used \(a quaternion that is no rotation\);/],
+  ['a large value', 't,x,y,yaw\n0,0,0,0\n1,0,1e300,0\n', /, line 3: a value is 1e\+300;/],
+  ['two logs at the same times', circles((row, i) => row.with(0, CIRCLES[i - (i % 2)][0])), /, line 3: 400 of 800 rows, this one first, have the time of another row/],
+  ['times that a spreadsheet rounded', circles((row, i) => [`1.71800${i >> 6}E+18`, ...row.slice(1)]), /have the time of another row/],
+  ['a quaternion in another order', circles(([t, x, y, yaw]) => [t, x, y, 0, Math.cos(yaw / 2), 0, 0, Math.sin(yaw / 2)]).slice('t,x,y,yaw\n'.length), /do not turn about a vertical Z axis;/],
+  ['several frames', circles((row, i) => [...row, i % 2 ? 'base' : 'wheel'], 't,x,y,yaw,child_frame_id'), /of several frames \(base, wheel\)|of several frames \(wheel, base\)/],
+  ['poses of KITTI', `${KITTI}\n${KITTI}\n`, /poses of KITTI, which have no times; add/],
+  ['Euler angles of Motive', 'Format Version,1.23,Take Name,x,Rotation Type,XYZ,Length Units,Meters\n\n,Type,Rigid Body\n,Name,Robot\n,ID,1\n,,Rotation\nFrame,Time (Seconds),X\n0,0.0,1\n1,0.1,1\n', /Euler angles \(XYZ\); export/],
+  ['columns for a table of another width', '0 1 2 3 4\n1 1 2 3 4\n', /has 5 cells, and --columns names 4;/, { columns: ['t', 'x', 'y', 'yaw'] }],
+];
+
+for (const [name, contents, sentence, options] of REFUSED) {
+  test(`refuses ${name}`, async () => {
+    const error = await refusalOf(read(contents, options));
+    assert.match(error.message, sentence);
+    assert.match(error.message, /; [a-z].+\.$/);
+    assert.match(error.sentence(german), /^run\.csv(, Zeile \d+)?: .+; .+\.$/);
+  });
+}
+
+test('a file that has been moved is refused', async () => {
+  const gone = { name: `${'n'.repeat(50)}.csv`, size: 5, slice: () => ({ arrayBuffer: () => Promise.reject(new DOMException('', 'NotFoundError')) }) };
+  const { message } = await refusalOf(openRecordings([/** @type {any} */ (gone)]));
+  assert.equal(message, `${'n'.repeat(40)}…: the file cannot be read (NotFoundError); expected is one that exists and may be read.`);
+});
+
+test('lines across the pieces of a large file are read whole', async () => {
+  const rows = Array.from({ length: 120_000 }, (_, i) => `${i},${i / 8},${'x'.repeat(i % 40)},0,0.125`);
+  const { data } = await read(['t,x,note,y,yaw', ...rows].join('\n'));
+  assert.deepEqual([...data.x], rows.map((_, i) => i / 8));
+});

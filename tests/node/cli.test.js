@@ -2,7 +2,7 @@
 
 import assert from 'node:assert/strict';
 import { spawnSync } from 'node:child_process';
-import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
@@ -126,7 +126,7 @@ test('bad input has the exit code 2 and a sentence', async () => {
     [[...FILES, '--duration', '1', '--update-min-a', '1'], '--duration excludes --update-min-d and --update-min-a: give one or the other.'],
     [[...FILES, '--no-correct', 'yaw'], '--no-correct must be all, or names of clockOffset, mountYaw, leverArm, distanceScale, turnScale (got “yaw”).'],
     [[...FILES, '--reference-frames', 'map'], '--reference-frames must be a parent and a child frame, as in map,base_link (got “map”).'],
-    [[...FILES, '--time-unit', 'min'], '--time-unit must be s, ms, us, or ns (got “min”).'],
+    [[...FILES, '--time-unit', 'min'], '--time-unit must be s, ms, us, or ns, or two of these for odometry and reference (got “min”).'],
     [[...FILES, '--reference-frames', 'map,base_link'], 'reference.csv: it is a table, and no group of its columns has this name; it has t, x, y, yaw.'],
     [[...FILES, '--odometry-topic', '/odom'], 'odometry.csv, topic /odom: it is a table, and no group of its columns has this name; it has t, x, y, yaw.'],
     [['--recording', FILES[1]], 'odometry.csv: it has one log only, t, x, y, yaw; give odometry and reference.'],
@@ -198,6 +198,25 @@ test('doc/calibration.md shows the report of the example', async () => {
   const [, shown] = readFileSync(new URL('../../doc/calibration.md', import.meta.url), 'utf8').match(/\n```text\n(.*?)\s*```\n/s) ?? [];
   const { out } = await outputOf(FILES);
   assert.equal(shown.replace(/\d{4}-\d\d-\d\d$/m, '2026-01-02'), out.trimEnd());
+});
+
+test('units are stated for both logs, or for each', async () => {
+  const [header, ...rows] = readFileSync(example('odometry'), 'utf8').trim().split('\n');
+  const scaled = file('scaled.csv', [header, ...rows.map((row) => row.split(',').map((cell, i) => Number(cell) * [1000, 1000, 1000, 180 / Math.PI][i]).join(','))].join('\n'));
+  const units = ['--time-unit', 'ms,s', '--length-unit', 'mm,m', '--angle-unit', 'deg,rad'];
+  const [plain, stated] = [await callOf(FILES), await callOf(['--odometry', scaled, ...FILES.slice(2), ...units])];
+  assert.deepEqual(stated.reference, plain.reference);
+  for (const name of ['t', 'x', 'theta']) assert.ok(Math.abs(stated.odometry[0][name][999] - plain.odometry[0][name][999]) < 1e-9, name);
+});
+
+test('a folder gives its logs, and other files are skipped', async () => {
+  const path = join(folder, 'drive');
+  mkdirSync(path);
+  for (const [name, from] of [['odom.csv', 'odometry'], ['truth.csv', 'reference']]) writeFileSync(join(path, name), readFileSync(example(from)));
+  writeFileSync(join(path, 'README.md'), '# A drive\n\nwith words, and no numbers\n');
+  const { code, out, err } = await outputOf(['--recording', path]);
+  assert.deepEqual([code, out.match(/^.*\.csv(?=:)/gm)], [0, ['odom.csv', 'truth.csv']]);
+  assert.match(err, /^skipped: README\.md, line 3: .*\n$/);
 });
 
 test('--yaml prints the lines for Nav2 alone, or none of an unusable log', async () => {

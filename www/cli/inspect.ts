@@ -22,7 +22,7 @@ export async function inspect(recording: Recording, path: string, onProgress?: (
   const rows = series.map(({ name: its, type, count, links }) => {
     const log = logs.get(its);
     const all = links?.map(({ parent, child }) => `${parent} → ${child}`).join(', ');
-    return [its || '(all columns)', type, String(log?.summary.rows ?? count), log ? `${log.summary.rate.toPrecision(3)} Hz` : '', [uses.get(its), all].filter(Boolean).join(': ')];
+    return [its || '(all columns)', type, String(log?.summary.rows ?? (count || '')), log ? `${log.summary.rate.toPrecision(3)} Hz` : '', [uses.get(its), all].filter(Boolean).join(': ')];
   });
   const found = [...logs].flatMap(([its, log]) => summarize(log, words.found).map((line, i) => (i > 0 ? `  ${line}` : its ? `${its}: ${line}` : line)));
   return [

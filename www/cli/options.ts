@@ -29,9 +29,10 @@ Logs: ROS 1 bags, rosbag2 (MCAP, SQLite, folders), CSV and other tables, TUM.
   --columns NAMES            names of the columns of a table without a header: t,x,y,yaw or t,v,omega
   --odometry-columns NAMES   the same for the odometry only
   --reference-columns NAMES  the same for the reference only
-  --time-unit UNIT           s, ms, us or ns; default: judged
-  --length-unit UNIT         m, cm or mm; default: judged
-  --angle-unit UNIT          rad or deg; default: judged
+  --time-unit UNIT           s, ms, us or ns; default: judged. Where the two files differ: that of the odometry
+                             and of the reference, as in --time-unit ms,s
+  --length-unit UNIT         m, cm or mm; likewise
+  --angle-unit UNIT          rad or deg; likewise
 
 Fit:
   --model NAME               odometry (default), omnidirectional, velocity (from commands)
@@ -107,13 +108,7 @@ export function optionsOf(args: string[]): Calibrate | Inspect | 'help' | 'versi
   if (values.version) return 'version';
   if (values.help || args.length === 0) return 'help';
   const columns = (name: 'columns' | 'odometry-columns' | 'reference-columns') => values[name]?.split(',').map((each) => each.trim());
-  const units = Object.fromEntries((['time', 'length', 'angle'] as const).flatMap((of) => {
-    const unit = values[`${of}-unit`];
-    if (unit === undefined) return [];
-    if ((UNITS[of] as readonly string[]).includes(unit)) return [[`${of}Unit`, unit]];
-    throw new UsageError(`--${of}-unit must be ${listOf(UNITS[of])} (got “${cut(unit)}”).`);
-  }));
-  const open = (names = columns('columns')): OpenOptions => ({ ...units, ...(names && { columns: names }) });
+  const open = (role: 'odometry' | 'reference' = 'odometry', names = columns('columns')): OpenOptions => ({ ...unitsOf(values, role), ...(names && { columns: names }) });
   if (command === 'inspect') {
     const all = [...paths, ...(values.recording ?? []), ...(values.odometry ?? []), ...(values.reference ?? [])];
     if (all.length === 0) throw new UsageError('inspect needs a file or folder: motion-widgets inspect run.bag');
@@ -141,10 +136,10 @@ export function optionsOf(args: string[]): Calibrate | Inspect | 'help' | 'versi
   if (odometry.length !== reference.length) throw new UsageError(`there are ${odometry.length} logs of odometry and ${reference.length} of the reference; give one of each for a drive.`);
   if (recording.length + odometry.length === 0) throw new UsageError('no logs are given; give --recording, or --odometry and --reference.');
   const wish = (role: 'odometry' | 'reference') => defined({ series: values[`${role}-topic`], frames: framesOf(`${role}-frames`, values[`${role}-frames`]) });
-  const inputs = (all: string[], names?: string[]) => all.map((path) => ({ path, open: open(names) }));
+  const inputs = (all: string[], role?: 'odometry' | 'reference') => all.map((path) => ({ path, open: open(role, role && columns(`${role}-columns`)) }));
   return {
     command,
-    inputs: { recording: inputs(recording), odometry: inputs(odometry, columns('odometry-columns')), reference: inputs(reference, columns('reference-columns')) },
+    inputs: { recording: inputs(recording), odometry: inputs(odometry, 'odometry'), reference: inputs(reference, 'reference') },
     wishes: { odometry: wish('odometry'), reference: wish('reference'), ...(values.model === 'velocity' && { kind: 'commands' }) },
     fit: defined({
       legs: duration === undefined ? { distance: distance ?? 0.25, angle: angle ?? 0.2 } : { duration },
@@ -158,6 +153,19 @@ export function optionsOf(args: string[]): Calibrate | Inspect | 'help' | 'versi
     output: values.json ? 'json' : values.yaml ? 'yaml' : 'text',
     plot: values.plot,
   };
+}
+
+/** Returns the units that are stated for a log: one for both, or one for each. */
+function unitsOf(values: { [name in `${keyof typeof UNITS}-unit`]?: string }, role: 'odometry' | 'reference'): OpenOptions {
+  return Object.fromEntries((['time', 'length', 'angle'] as const).flatMap((of) => {
+    const stated = values[`${of}-unit`];
+    if (stated === undefined) return [];
+    const units = stated.split(',').map((unit) => unit.trim());
+    if (units.length > 2 || !units.every((unit) => (UNITS[of] as readonly string[]).includes(unit))) {
+      throw new UsageError(`--${of}-unit must be ${listOf(UNITS[of])}, or two of these for odometry and reference (got “${cut(stated)}”).`);
+    }
+    return [[`${of}Unit`, role === 'odometry' ? units[0] : units.at(-1)]];
+  }));
 }
 
 /** Returns an object without keys that are undefined. */

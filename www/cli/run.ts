@@ -30,13 +30,14 @@ const [SUCCESS, BAD_INPUT, UNUSABLE] = [0, 2, 3];
 /** Runs a command, and returns the exit code; rejects on a defect of the program. */
 export async function run(args: string[], environment: Environment): Promise<number> {
   const { print, complain, onProgress } = environment;
+  const onSkip = (reason: string) => complain(`skipped: ${reason}\n`);
   try {
     const options = optionsOf(args);
     if (options === 'help') print(HELP);
     else if (options === 'version') print(`${environment.version}\n`);
     else if (options.command === 'inspect') {
-      for (const input of options.inputs) for (const recording of await recordingsOf(input)) print(await inspect(recording, input.path, onProgress));
-    } else return await calibrate(options, environment);
+      for (const input of options.inputs) for (const recording of await recordingsOf(input, onSkip)) print(await inspect(recording, input.path, onProgress));
+    } else return await calibrate(options, environment, onSkip);
     return SUCCESS;
   } catch (error) {
     onProgress?.(undefined);
@@ -55,16 +56,17 @@ function adviceOf({ ask, message }: LogError): string {
   return ` Choose with ${option}${first === undefined ? '' : `, as in ${option} ${cut(first)}`}.`;
 }
 
-async function calibrate({ inputs, wishes, fit, output, plot }: Calibrate, { load, print, complain, onProgress, isColored = false, now = new Date() }: Environment): Promise<number> {
+async function calibrate({ inputs, wishes, fit, output, plot }: Calibrate, { load, print, complain, onProgress, isColored = false, now = new Date() }: Environment, onSkip: (reason: string) => void): Promise<number> {
   const roles = new Map();
   const recordings = [];
   for (const kind of ['recording', 'odometry', 'reference'] as const) {
     for (const input of inputs[kind]) {
-      const opened = await recordingsOf(input);
+      const opened = await recordingsOf(input, onSkip);
       recordings.push(...opened);
       if (kind !== 'recording') for (const each of opened) roles.set(each, kind);
     }
   }
+  if (recordings.length === 0) throw new UsageError('there are no logs in the folder.');
   const drives = await readDrives(planDrives(recordings, { ...wishes, roles }), onProgress);
   onProgress?.(undefined);
   const [{ start }] = drives;

@@ -49,7 +49,7 @@ export function candidates(recording: Recording, role: Role, { kind }: { kind?: 
   const chains = useful.flatMap(({ name, links = [] }) => chainsOf(links, role).map((frames) => ({ series: name, frames })));
   if (role === 'reference') {
     const others = paths.filter(({ name }) => !FILTERED.test(name) && !ODOMETRY[0].test(name));
-    return [...tiers(paths, [MEASURED, LOCALIZED], 'poses'), choices(others, 'poses'), ...(isOfTable ? [choices(paths, 'poses')] : []), chains];
+    return [...tiers(paths, [MEASURED, LOCALIZED], 'poses'), choices(others, 'poses'), ...(isOfTable && useful.length === 1 ? [choices(paths, 'poses')] : []), chains];
   }
   // A message says by its type that it is odometry.
   const wheels = paths.filter(({ kind, name, type }) => kind === 'poses' && !MEASURED.test(name) && !LOCALIZED.test(name) && (isOfTable || /Odometry$/.test(type)));

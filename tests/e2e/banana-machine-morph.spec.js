@@ -1,5 +1,5 @@
 import { expect } from '@playwright/test';
-import { FRESH, STILL, centreOf, open, pictureOf, played, property, readout, ready, show, state, stateOf, test } from './support.js';
+import { FRESH, STILL, boxOf, centreOf, open, pictureOf, played, property, readout, ready, show, state, stateOf, test } from './support.js';
 
 test.use(STILL);
 
@@ -74,12 +74,15 @@ test('the title of the floor agrees with the fit of the ellipse', async ({ page 
   }
 });
 
-test('an outline that the morph cannot carry is named in the legend', async ({ page }) => {
+test('an outline that the morph cannot carry is struck through in the legend, which keeps its size', async ({ page }) => {
   const widget = await open(page, 'preset="pivot"');
   const legend = widget.locator('.legend').first();
   await expect(legend).not.toContainText('on the floor alone');
+  const before = await boxOf(legend);
   await widget.getByRole('slider', { name: 'From the floor' }).fill('0.5');
-  await expect(legend.getByRole('checkbox', { name: 'Gaussian in (x, y), 2σ: around the start, on the floor alone' })).toBeVisible();
+  await expect(legend.getByRole('checkbox', { name: /^Gaussian in \(x, y\), 2σ.*around the start, on the floor alone/ })).toBeVisible();
+  await expect(legend.getByText('Gaussian in (x, y), 2σ')).toHaveCSS('text-decoration-line', 'line-through');
+  expect(await boxOf(legend)).toEqual(before);
 });
 
 test('the buttons that play have the names of what they play', async ({ page }) => {

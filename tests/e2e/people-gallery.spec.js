@@ -126,10 +126,11 @@ for (const [width, height] of [[1280, 720], [375, 760]]) {
 
 test('nothing on the page moves while figures load', async ({ page }) => {
   await page.addInitScript(() => {
-    const moved = /** @type {number[]} */ ([]);
+    const moved = /** @type {string[]} */ ([]);
     Object.assign(window, { moved });
     new PerformanceObserver((list) => {
-      for (const entry of list.getEntries()) moved.push(Reflect.get(entry, 'value'));
+      const sources = list.getEntries().flatMap((entry) => [...Reflect.get(entry, 'sources')]);
+      for (const { node, previousRect: from, currentRect: to } of sources) moved.push(`${node?.className ?? node?.nodeName}: ${JSON.stringify([from, to])}`);
     }).observe({ type: 'layout-shift', buffered: true });
   });
   await page.goto('/');

@@ -33,7 +33,7 @@ export function overlaysOf(names: readonly string[], opening: readonly string[] 
  * Returns the legend of a figure's pictures. The words are those of `overlays` in the catalogue.
  *
  * @param styles in the order of the entries; what they leave out stays as it is
- * @param notes words after the names of entries
+ * @param notes reasons why lines are not in the picture, by name: the entries keep their size
  */
 export function legend(figure: import('./figure.ts').Figure, styles: Record<string, LineStyle>, notes: Record<string, string> = {}) {
   const { overlays } = figure.state.own;
@@ -44,9 +44,9 @@ export function legend(figure: import('./figure.ts').Figure, styles: Record<stri
     figure.gesture.choose('overlays', every.filter((each) => (each === name ? shown : overlays.includes(each))));
   const light = (name: string | null) => (figure.highlight = name);
   return html`<div class="legend" part="legend" role="group" aria-label=${words.legend}>
-    ${all.map((name) => html`<span @pointerenter=${() => light(name)} @pointerleave=${() => light(null)} @focusin=${() => light(name)} @focusout=${() => light(null)}>
+    ${all.map((name) => html`<span title=${notes[name] ?? nothing} @pointerenter=${() => light(name)} @pointerleave=${() => light(null)} @focusin=${() => light(name)} @focusout=${() => light(null)}>
       ${toggle({
-        label: html`${swatch(styles[name])}<span>${rich(names[name])}${notes[name] ? `: ${notes[name]}` : nothing}</span>`,
+        label: html`${swatch(styles[name])}<span class=${notes[name] ? 'absent' : nothing}>${rich(names[name])}${notes[name] ? html`<span class="visually-hidden">: ${notes[name]}</span>` : nothing}</span>`,
         checked: overlays.includes(name),
         change: (shown) => choose(name, shown),
       })}

@@ -40,6 +40,7 @@ export class Presentation extends Part {
   async #begin() {
     const { host } = this;
     this.#prepared = host.machine && host.snapshot();
+    host.copies.forget();
     this.#listening = new AbortController();
     addEventListener('keydown', this.#key, { signal: this.#listening.signal });
     const keyed = host.renderRoot?.querySelector('.to-present:focus-visible');

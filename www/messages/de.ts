@@ -18,6 +18,7 @@ export const de: typeof import('./en.ts').en = {
   pause: 'Anhalten',
   step: 'Schritt',
   clear: 'Leeren',
+  before: 'vorher',
   startOver: 'Von vorn',
   startOverTitle: 'Einstellungen, Ausschnitt und Startwert wie am Anfang',
   newSeed: 'Neu würfeln',
@@ -44,7 +45,7 @@ export const de: typeof import('./en.ts').en = {
     ],
   },
   pose: {
-    keys: 'Die Pfeiltasten bewegen ihn, mit Umschalt in größeren Schritten; Bild auf und Bild ab bewegen ihn weit in y, Pos1 und Ende an die Enden in x; [ und ] drehen ihn',
+    keys: 'Die Pfeiltasten bewegen ihn, mit Umschalt in größeren Schritten; Bild auf und Bild ab bewegen ihn weit in y, Pos1 und Ende an die Enden in x; Komma und Punkt oder [ und ] drehen ihn',
     headingKeys: 'Die Pfeiltasten drehen ihn, mit Umschalt in größeren Schritten; Bild auf und Bild ab drehen ihn weit, Pos1 und Ende nach hinten',
   },
   sliderEnds: (end) => `Der Regler endet bei ${end}; Werte darüber hinaus kann man eintippen.`,
@@ -67,7 +68,7 @@ export const de: typeof import('./en.ts').en = {
     stopTitle: 'Alles bleibt, wie es war (Escape)',
     stopped: 'Abgebrochen: Alles ist, wie es war.',
   },
-  presentation: { begin: 'Vorführen', title: 'Füllt den Bildschirm, für ein Publikum', controls: 'Bedienung', back: 'Wie vorbereitet', backTitle: 'Die Abbildung, wie sie zu Beginn der Vorführung war', end: 'Beenden' },
+  presentation: { begin: 'Vorführen', title: 'Füllt den Bildschirm, für ein Publikum, und merkt sich den jetzigen Zustand: Die Taste 0 bringt ihn zurück', controls: 'Bedienung', back: 'Wie vorbereitet', backTitle: 'Die Abbildung, wie sie war, als Vorführen gedrückt wurde', end: 'Beenden' },
   copies: {
     label: 'Abbildung einbetten',
     link: 'Link kopieren',

@@ -24,6 +24,7 @@ export const en = {
   pause: 'Pause',
   step: 'Step',
   clear: 'Clear',
+  before: 'before',
   startOver: 'Start over',
   startOverTitle: 'Settings, view and seed as the figure opened',
   newSeed: 'New seed',
@@ -51,7 +52,7 @@ export const en = {
     ],
   },
   pose: {
-    keys: 'Arrow keys move it, with Shift by larger steps; Page Up and Page Down move it far in y, Home and End to the ends along x; [ and ] turn it',
+    keys: 'Arrow keys move it, with Shift by larger steps; Page Up and Page Down move it far in y, Home and End to the ends along x; comma and period, or [ and ], turn it',
     headingKeys: 'Arrow keys turn it, with Shift by larger steps; Page Up and Page Down turn it far, Home and End to the back',
   },
   sliderEnds: (end) => `The slider ends at ${end}; values beyond can be typed.`,
@@ -74,7 +75,7 @@ export const en = {
     stopTitle: 'Everything stays as it was (Escape)',
     stopped: 'Stopped: everything is as it was.',
   },
-  presentation: { begin: 'Present', title: 'Fills the screen, for an audience', controls: 'Controls', back: 'As prepared', backTitle: 'The figure as it was when the presentation began', end: 'Exit' },
+  presentation: { begin: 'Present', title: 'Fills the screen, for an audience, and keeps the present state: the key 0 brings it back', controls: 'Controls', back: 'As prepared', backTitle: 'The figure as it was when Present was pressed', end: 'Exit' },
   copies: {
     label: 'Embed the figure',
     link: 'Copy link',

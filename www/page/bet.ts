@@ -27,12 +27,7 @@ export function prepareBet(form: HTMLFormElement, enter: (values: Record<string,
   const text = (value: number) => `${isShare ? value.toFixed(slider.valueAsNumber === value ? 0 : 1) + '\u00a0%' : value}`;
   const show = () => (slider.ariaValueText = shown.textContent = text(slider.valueAsNumber));
 
-  // No answer before a bet.
-  button.disabled = true;
-  slider.addEventListener('input', () => {
-    button.disabled = false;
-    show();
-  });
+  slider.addEventListener('input', show);
   show();
   form.addEventListener('submit', async (event) => {
     event.preventDefault();

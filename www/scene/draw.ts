@@ -3,6 +3,7 @@
  * brush, which knows the view's transform and the colours, and none keeps anything.
  */
 
+import { greatest } from 'd3-array';
 import { limits } from '../settings.js';
 import { channels } from '../ui/theme.ts';
 import { hiddenContext } from './canvas.ts';
@@ -233,11 +234,21 @@ function strokeLines(brush: Brush, lines: Outline[]) {
 /** Opacity of outlines as they were. */
 const GHOST = 0.35;
 
-/** Draws outlines as they were before what is seen now. */
-export function drawGhosts(brush: Brush, outlines: Outline[]) {
-  brush.context.globalAlpha = GHOST;
-  strokeLines(brush, outlines.filter(({ points }) => hasLength(points)));
-  brush.context.globalAlpha = 1;
+/**
+ * Draws earlier outlines, and names them where they are furthest from the present cloud.
+ *
+ * @param from middle of the cloud: x, y
+ */
+export function drawGhosts(brush: Brush, outlines: Outline[], { 0: fromX, 1: fromY }: ArrayLike<number>, text: string) {
+  const { context, view, palette } = brush;
+  const drawn = outlines.filter(({ points }) => hasLength(points));
+  context.globalAlpha = GHOST;
+  strokeLines(brush, drawn);
+  context.globalAlpha = 1;
+  const [x, y] = [view.toPixelX(fromX), view.toPixelY(fromY)];
+  const places = drawn.flatMap(({ points }) => Array.from({ length: points.length / 2 }, (_, i) => [view.toPixelX(points[2 * i]), view.toPixelY(points[2 * i + 1])]));
+  const place = greatest(places, ([atX, atY]) => Math.hypot(atX - x, atY - y));
+  if (place) drawLabel(brush, { x: place[0], y: place[1], towards: Math.sign(place[0] - x), text, colour: palette.muted });
 }
 
 /** A single one of them. */

@@ -54,6 +54,12 @@ export function stepsOf({ key, shiftKey, ctrlKey, metaKey, altKey }: KeyboardEve
   return [LONG_STEP * steps[0], LONG_STEP * steps[1]];
 }
 
+/** Turns by keys, the first two for keyboards on which brackets need a modifier. */
+const TURNS: Record<string, number> = { ',': 1, '.': -1, '[': 1, ']': -1 };
+
+/** Returns the steps to the left, or back, that a key turns something by; undefined for other keys. */
+export const turnsOf = ({ key, metaKey }: KeyboardEvent): number | undefined => (metaKey ? undefined : TURNS[key]);
+
 export class Handle {
   #part;
   #hooks;

@@ -105,7 +105,7 @@ export const controlStyles = css`
     display: inline-flex;
     align-items: center;
     gap: 0.45em;
-    min-height: 1.75em;
+    min-height: max(24px, 1.75em);
     cursor: pointer;
   }
 

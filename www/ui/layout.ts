@@ -39,6 +39,45 @@ const layout = css`
     }
   }
 
+  /* A single slider has the samples below it, beside the command. */
+  @container (min-width: 56em) {
+    .controls > fieldset:has(+ .single) {
+      grid-row: span 2;
+    }
+  }
+
+  /* A group of sliders is a row of three columns. */
+  @container (38em <= width < 56em) {
+    .machine > .controls:has(> fieldset) {
+      grid-template-columns: repeat(3, minmax(0, 1fr));
+      column-gap: 2em;
+    }
+
+    .machine > .controls > fieldset {
+      grid-column: 1 / -1;
+      grid-template-columns: repeat(3, minmax(0, 1fr));
+      column-gap: inherit;
+    }
+
+    .machine > .controls > .single {
+      grid-column: auto;
+      grid-template-columns: 1fr;
+    }
+
+    .machine > .controls > .single + .cloud {
+      grid-column: 2 / -1;
+      grid-template-columns: minmax(0, 1fr) minmax(0, 1.7fr);
+    }
+
+    .machine > .controls > fieldset > .buttons {
+      grid-column: 2 / -1;
+    }
+
+    .machine > .controls > fieldset > .underway {
+      grid-column: 1 / -1;
+    }
+  }
+
   /* What is needed less often, one beside the other; an open one has the whole width. */
   .folds {
     display: flex;
@@ -248,6 +287,11 @@ const layout = css`
 
   .swatch .filled {
     fill: var(--role);
+  }
+
+  .absent {
+    color: var(--muted);
+    text-decoration: line-through;
   }
 
   .buttons {

@@ -13,7 +13,7 @@ export const presentationStyles = css`
     height: 100% !important;
     margin: 0 !important;
     padding: 0 !important;
-    font-size: max(1em, min(1.5em, 100vw / 44, 100vh / 30), min(100vw / 80, 100vh / 45)) !important;
+    font-size: max(1em, min(1.5em, 100vw / 44, 100vh / 36), min(100vw / 80, 100vh / 45)) !important;
   }
 
   /* The controls need more room. */
@@ -90,19 +90,17 @@ export const presentationStyles = css`
       grid-template-rows: auto;
     }
 
-    :host([presentation]) .panel {
-    align-self: stretch;
-  }
-
-  :host([presentation]) .stage {
+    :host([presentation]) .stage {
       min-height: 60vmin;
     }
   }
 
-  :host([presentation]) .surface:not(.with-controls) .machine > :not(.views, .morphing, [part~='legend'], [part~='caption'], [part~='readouts']),
+  :host([presentation]) .surface:not(.with-controls) .machine > :not(.views, .morphing, .presets, [part~='legend'], [part~='caption'], [part~='readouts']),
   :host([presentation]) .surface:not(.with-controls) .aside > :not([part~='readouts'], .told, .presets, .judge),
   :host([presentation]) .surface:not(.with-controls) :is(.told, .looked) > :is(fieldset, .choices, button),
+  :host([presentation]) .surface:not(.with-controls) .start-over,
   :host([presentation]) .surface > .caption-slot,
+  :host([presentation]) .folds > :is(output, textarea),
   :host([presentation]) .begin {
     display: none !important;
   }
@@ -131,6 +129,20 @@ export const presentationStyles = css`
 
   .presenting button[aria-pressed='true'] {
     background: var(--ink);
+  }
+
+  /* The key of a preset stands in its button. */
+  :host([presentation]) .presets {
+    counter-reset: key;
+    margin: 0.2em 0 0;
+    font-size: 0.85em;
+  }
+
+  :host([presentation]) .presets > .preset::before {
+    counter-increment: key;
+    content: counter(key) / '';
+    margin-inline-end: 0.5em;
+    font-weight: bold;
   }
 
   kbd {

@@ -83,7 +83,7 @@ fn ratios_and_crossings_are_those_of_exercise_7() {
         crossings,
     );
     page().assert(
-        "it is off by more than 5 % from step # on, and with twice the heading noise from step # on, which is earlier, \
+        "it is off by more than 5 % from step # on, and with the heading σ doubled from step # on, which is earlier, \
          but not by half.",
         crossings,
     );
@@ -95,7 +95,7 @@ fn the_crossing_times_are_those_on_the_page() {
     let [along, across]: [Number; 2] =
         page().numbers("along the track with the power #, across it with the power #. They cross");
     let [usual, sharper]: [Number; 2] =
-        page().numbers("They cross after # s; with four times the heading noise, after # s.");
+        page().numbers("They cross after # s; with the heading σ doubled, after # s.");
     let opening = machine(Settings { samples: 1, ..Settings::default() });
     let growth = opening.straight();
     usual.assert(growth.crossing.expect("a crossing"), 0.0);

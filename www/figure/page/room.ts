@@ -7,14 +7,14 @@ import { likedWidth } from '../../ui/width.ts';
 const WIDTHS = [0, 30, 38, 56];
 
 /**
- * Heights by the tag and the width class, em: in the middle of those measured as the figures open, up to a width of 80 em, in a usual
- * font.
+ * Heights by the tag and the width class: in the middle of those measured as the figures open, up to a width of 80 em, in a usual
+ * font. A number is in em.
  */
-const HEIGHTS: Record<string, number[]> = {
-  'banana-machine': [82.5, 64, 58, 51.5],
+const HEIGHTS: Record<string, (number | string)[]> = {
+  'banana-machine': [82.5, 64, 51, 51.5],
   'map-squeeze': [76, 76.5, 43, 44.5],
-  'arc-anatomy': [73, 68, 49.5, 46],
-  'odometry-decomposer': [104, 92, 45, 44],
+  'arc-anatomy': [73, 68, 45, 46],
+  'odometry-decomposer': [104, 92, 'clamp(44.5em, 100svh - 0.5em, 55.5em)', 'clamp(43.5em, 100svh - 1em, 51.5em)'],
   'dead-reckoning': [101, 52, 46, 38.5],
   'alpha-calibrator': [89, 89, 44.5, 39],
 };
@@ -28,7 +28,7 @@ function heightOf(tag: string, unit: '%' | 'cqi') {
   const heights = HEIGHTS[tag].map((height, i) => {
     const [least, next] = [WIDTHS[i], WIDTHS[i + 1]];
     const above = next ? ` - 1e6*max(0em,100${unit} - ${next - 0.001}em)` : '';
-    return `${height}em - 1e6*max(0em,${least}em - 100${unit})${above}`;
+    return `${typeof height === 'number' ? `${height}em` : height} - 1e6*max(0em,${least}em - 100${unit})${above}`;
   });
   return `max(${heights})`;
 }

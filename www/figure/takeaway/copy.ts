@@ -21,6 +21,12 @@ export class CopyMenu extends Part {
     this.host.requestUpdate();
   }
 
+  /** Takes the answer away. */
+  forget() {
+    this.#copied = undefined;
+    this.host.requestUpdate();
+  }
+
   /** Returns the button that copies a link to the figure as it is. */
   linkButton() {
     const say = words.copies;

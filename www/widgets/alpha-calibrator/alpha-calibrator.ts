@@ -224,8 +224,8 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
         @drop=${this.#opener.dropped.drop}
       >
         ${dropZone(this, this.#opener)}
-        <p part="caption" class="caption verdict">${this.stage.later(() => verdictLine(this))}</p>
         <div class="views">
+          <p part="caption" class="caption verdict">${this.stage.later(() => verdictLine(this))}</p>
           ${panel(say.path, html`<div class="stage" part="picture" @click=${this.#press}>${canvas(this, this.#way, wayText(reading, chosen))}</div>`)}
           <div class="one">
             ${panel(say.oneLeg(counted(chosen + 1)), html`<div class="stage">${canvas(this, this.#one, legText(this.predicted, chosen))}</div>`)}

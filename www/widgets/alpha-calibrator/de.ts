@@ -94,7 +94,7 @@ export const de: typeof import('./en.ts').en = {
       'turn-scale-constant': 'Änderung des Skalenfaktors, Drehung',
       'inflation-bounded': 'Vergrößerung, die Fenster von 1 m brauchen',
       'residuals-uncorrelated': 'Korrelation benachbarter Etappen',
-      'tails-normal': 'Kurtosis der Residuen',
+      'tails-normal': 'Kurtosis der Residuen (Gewicht der Ausläufer; eine Gaußverteilung hat 3)',
       'holdout-covered': 'zurückgehaltene Etappen innerhalb von 95 %',
       'window-1m-covered': 'zurückgehaltene Fenster von 1 m innerhalb von 95 %',
       'window-2m-covered': 'zurückgehaltene Fenster von 2 m innerhalb von 95 %',
@@ -107,7 +107,7 @@ export const de: typeof import('./en.ts').en = {
     few: (count) => `Empfohlen: die Anpassung selbst, da ${count} zurückgehaltene Fenster von 1 m sie nicht beurteilen können.`,
     covered: (coverage, count) => `Empfohlen: die Anpassung selbst. In ihrem Bereich liegen ${coverage} von ${count} zurückgehaltenen Fenstern von 1 m; richtig sind 95 %.`,
     inflated: (inflation, coverage, count, nees) =>
-      `Empfohlen: angepasst × ${inflation}. Im Bereich der Anpassung liegen nur ${coverage} von ${count} zurückgehaltenen Fenstern von 1 m (NEES ${nees}, richtig ist 1).`,
+      `Empfohlen: angepasst × ${inflation}. Im Bereich der Anpassung liegen nur ${coverage} von ${count} zurückgehaltenen Fenstern von 1 m (NEES, quadrierter Fehler durch vorhergesagte Varianz, ${nees}: richtig ist 1).`,
   },
   alphas: {
     title: 'Angepasste Rauschparameter',
@@ -183,7 +183,7 @@ export const de: typeof import('./en.ts').en = {
     length: 'Strecke',
     count: 'Fenster',
     coverage: 'innerhalb von 95 %',
-    nees: 'NEES (erwartet 1)',
+    nees: 'NEES, quadrierter Fehler durch vorhergesagte Varianz (erwartet 1)',
   },
   noise: {
     title: 'Rauschen der Referenz und Persistenz',

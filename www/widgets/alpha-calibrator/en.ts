@@ -64,7 +64,7 @@ export const en = {
       'turn-scale-constant': 'change of the rotation scale',
       'inflation-bounded': 'inflation that windows of 1 m need',
       'residuals-uncorrelated': 'correlation of neighbouring legs',
-      'tails-normal': 'kurtosis of the residuals',
+      'tails-normal': 'kurtosis of the residuals (weight of their tails; a Gaussian has 3)',
       'holdout-covered': 'held-out legs within 95 %',
       'window-1m-covered': 'held-out windows of 1 m within 95 %',
       'window-2m-covered': 'held-out windows of 2 m within 95 %',
@@ -77,7 +77,7 @@ export const en = {
     few: (count) => `Recommended: the fit itself, as ${of(count, 'held-out window')} of 1 m cannot judge it.`,
     covered: (coverage, count) => `Recommended: the fit itself. It covers ${coverage} of ${count} held-out windows of 1 m; 95 % is right.`,
     inflated: (inflation, coverage, count, nees) =>
-      `Recommended: fitted × ${inflation}. The fit covers only ${coverage} of ${count} held-out windows of 1 m (NEES ${nees}, 1 is right).`,
+      `Recommended: fitted × ${inflation}. The fit covers only ${coverage} of ${count} held-out windows of 1 m (NEES, squared error over predicted variance, ${nees}: 1 is right).`,
   },
   alphas: {
     title: 'Fitted noise parameters',
@@ -153,7 +153,7 @@ export const en = {
     length: 'distance driven',
     count: 'windows',
     coverage: 'within 95 %',
-    nees: 'NEES (expected 1)',
+    nees: 'NEES, squared error over predicted variance (expected 1)',
   },
   noise: {
     title: 'Reference noise and persistence',

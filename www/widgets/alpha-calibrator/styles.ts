@@ -90,6 +90,10 @@ const own = css`
     }
   }
 
+  :host([presentation]) .views {
+    grid-template-rows: auto 1fr;
+  }
+
   /* The picture of the leg takes the room that is left. */
   :host([presentation]) .one {
     display: flex;
@@ -315,7 +319,7 @@ const own = css`
       gap: 0.25em 1.25em;
     }
 
-    .fitted {
+    :is(.verdict, .fitted) {
       grid-column: 1 / -1;
     }
 
@@ -345,7 +349,8 @@ const own = css`
 
   @container (min-width: 56em) {
     .views {
-      grid-template-columns: minmax(0, 1.2fr) minmax(0, 1fr) minmax(min-content, 1.1fr);
+      /* The table comes after the pictures, and moves nothing. */
+      grid-template-columns: minmax(0, 1.2fr) minmax(0, 1fr) 22em;
     }
 
     .fitted {

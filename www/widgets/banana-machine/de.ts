@@ -157,7 +157,7 @@ export const de: typeof import('./en.ts').en = {
   markHint: 'Zeig in einer der Ansichten auf einen, um ihn in beiden zu markieren.',
   table: {
     caption:
-      'Momente der Pose: um den Befehl linearisiert, exakt, und an den gezeigten Robotern gemessen. Meter und Radiant.',
+      'Momente der Pose: um den Befehl linearisiert, wie ein erweitertes Kalman-Filter (EKF) es tut, exakt, und an den gezeigten Robotern gemessen. Meter und Radiant.',
     twistCaption: 'Momente in Exponentialkoordinaten: die des Befehls mit seinem Rauschen, und die gemessenen.',
     quantity: 'Größe',
     linearized: 'linearisiert',

@@ -163,7 +163,7 @@ export const en = {
   markHint: 'Point at one in either view to mark it in both.',
   table: {
     caption:
-      'Moments of the pose: linearized at the command, exact, and measured on the robots shown. Metres and radians.',
+      'Moments of the pose: linearized at the command, as an extended Kalman filter (EKF) does, exact, and measured on the robots shown. Metres and radians.',
     twistCaption: 'Moments in exponential coordinates: of the command with its noise, and measured.',
     quantity: 'quantity',
     linearized: 'linearized',

@@ -1,6 +1,5 @@
 /** The Banana Machine's two pictures of the same robots: the floor from above, and exponential coordinates. */
 
-import { greatest } from 'd3-array';
 import { words } from '../../messages/registry.ts';
 import { clipped, drawAxes } from '../../scene/axes.ts';
 import { drawCallouts } from '../../scene/callout.ts';
@@ -181,9 +180,8 @@ export class PlanePicture extends CloudPicture {
       }
       drawRobot(brush, { x: 0, y: 0, heading: 0, colour: palette.truth });
       const lines = (of: Outlines) => PAINTED.filter(drawn).map((name) => ({ points: of[name], ...styles[name] }));
-      for (const before of [brush.former, scene.pinned]) if (before) drawGhosts(brush, lines(scene.outlinesOf(before)));
+      for (const { reading, text } of ghostsOf(brush, scene)) drawGhosts(brush, lines(scene.outlinesOf(reading)), placeOf(scene.stats.exponential.mean, morph), text);
       drawOutlines(brush, lines(outlines));
-      if (scene.pinned) drawPinned(brush, lines(scene.outlinesOf(scene.pinned)), placeOf(scene.stats.exponential.mean, morph));
       if (overlays.command && scene.reading && morph === 0) drawReading(brush, scene.reading, end);
       if (heaped && machine.shown > 0) drawHeap(brush, heapOf(machine));
       const [endX, endY] = outlines.command.slice(-2);
@@ -202,6 +200,10 @@ export class PlanePicture extends CloudPicture {
   };
 }
 
+/** Returns the readings whose outlines stay in the picture, with their names. */
+const ghostsOf = ({ former }: Brush, { pinned }: Scene) =>
+  [{ reading: former, text: words.before }, { reading: pinned, text: words.banana.pinned }].filter(({ reading }) => reading);
+
 /** Draws robots that are on their way, with the way that they have behind them. */
 function drawDriving(brush: Brush, machine: BananaMachine, { robots, share }: { robots: number, share: number }) {
   const { palette } = brush;
@@ -217,19 +219,6 @@ function drawDriving(brush: Brush, machine: BananaMachine, { robots, share }: { 
     const heading = at === chords ? pose[2] : Math.atan2(nextY - y, nextX - x);
     drawRobot(brush, { x: endX, y: endY, heading, colour: palette.cloud });
   }
-}
-
-/**
- * Names the pinned outlines, where they are furthest from the present cloud.
- *
- * @param from middle of the cloud
- */
-function drawPinned(brush: Brush, lines: { points: Float64Array }[], from: [number, number]) {
-  const { view, palette } = brush;
-  const [x, y] = [view.toPixelX(from[0]), view.toPixelY(from[1])];
-  const places = lines.flatMap(({ points }) => Array.from({ length: points.length / 2 }, (_, i) => [view.toPixelX(points[2 * i]), view.toPixelY(points[2 * i + 1])]));
-  const place = greatest(places, ([atX, atY]) => Math.hypot(atX - x, atY - y));
-  if (place) drawLabel(brush, { x: place[0], y: place[1], towards: Math.sign(place[0] - x), text: words.banana.pinned, colour: palette.muted });
 }
 
 /** Radius of the arcs that show a turn, CSS pixels, and how far beyond the end the second one's line goes on. */
@@ -346,7 +335,8 @@ export class TwistPicture extends CloudPicture {
       if (scene.driving) return;
       this.paintCloud(brush, machine, 4 * Math.PI * areaOfTwists(scene) * view.scaleX * view.scaleY);
       if (overlays.exponential) {
-        for (const before of [brush.former, scene.pinned]) if (before) drawGhosts(brush, [{ points: before.contours.twistEllipse, ...exponential }]);
+        const { mean } = scene.stats.exponential;
+        for (const { reading, text } of ghostsOf(brush, scene)) drawGhosts(brush, [{ points: reading.contours.twistEllipse, ...exponential }], [mean[0], mean[2]], text);
         drawOutline(brush, contours.twistEllipse, exponential);
       }
       if (overlays.command) {

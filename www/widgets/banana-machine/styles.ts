@@ -16,6 +16,12 @@ const own = css`
     }
   }
 
+  @container (min-width: 38em) {
+    canvas {
+      aspect-ratio: 1.45;
+    }
+  }
+
   @container (min-width: 56em) {
     canvas {
       aspect-ratio: 1.6;

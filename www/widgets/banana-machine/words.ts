@@ -12,7 +12,7 @@ import type { Reading } from './reading.ts';
 
 addEnglish({ banana: en });
 
-/** What is announced after a change has come to rest. */
+/** Returns the announcement of a change that has come to rest. */
 export function announcementOf({ config, stats, note }: Reading) {
   const { announcement, skew, noSkew } = words.banana;
   const outcome = Number.isNaN(stats.crossTrackSkew)

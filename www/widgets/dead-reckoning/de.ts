@@ -4,19 +4,18 @@ const stepsOf = (steps: string) => (steps === '1' ? '1 Schritt' : `${steps} Schr
 
 export const de: typeof import('./en.ts').en = {
   title: 'Koppelnavigation',
-  presets: { chapter: '20 Schritte (Kapitel)', doubled: 'Richtung doppelt', fine: '200 Schritte', straight: 'Geradeaus' },
-  presetTitles: { doubled: 'Doppelte Standardabweichung: Die Varianz, und mit ihr α₃ bis α₆, ist vierfach' },
+  presets: { chapter: '20 Schritte (Kapitel)', doubled: 'Richtungs-σ verdoppelt', fine: '200 Schritte', straight: 'Geradeaus' },
   settings: {
     v: { effect: 'Wie schnell jeder Schritt gefahren wird; unter null rückwärts.' },
     omega: { effect: 'Wie eng jeder Schritt ist: Was der Rekursion fehlt, wächst mit *ωΔt*.' },
     dt: { name: 'Dauer eines Schritts', effect: 'Wie lange ein Schritt dauert; der Weg wächst mit.' },
     step: { name: 'gewählter Schritt' },
     steps: { name: 'Schritte', effect: 'Derselbe Weg in mehr und kürzeren Schritten.' },
-    headingNoise: { name: 'Richtungsrauschen *α*₃ bis *α*₆', effect: 'Setzt *α*₃ und *α*₄ auf diesen Wert, *α*₅ und *α*₆ auf ein Viertel davon.' },
+    headingNoise: { name: 'Richtungsrauschen *α*₃ bis *α*₆', effect: '*α*₃ und *α*₄; *α*₅ und *α*₆ sind ein Viertel. Sie skalieren Varianzen: mal 4 verdoppelt *σ*.' },
     compounding: { name: 'Rekursion' },
     per: { name: 'Die α gelten für' },
     alphas: {
-            effects: [
+      effects: [
         'v² in v̂: streut in Fahrtrichtung', 'ω² in v̂: ebenso, nur in Kurven',
         'v² in ω̂: dreht im Schritt', 'ω² in ω̂: ebenso, nur in Kurven',
         'v² in γ̂: dreht nach dem Schritt', 'ω² in γ̂: ebenso, nur in Kurven',

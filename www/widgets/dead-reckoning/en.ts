@@ -6,19 +6,17 @@ const stepsOf = (steps: string) => (steps === '1' ? '1 step' : `${steps} steps`)
 export const en = {
   title: 'Dead Reckoning',
   presets: { chapter: 'The chapter’s 20 steps', doubled: 'Heading σ doubled', fine: 'Same path, 200 steps', straight: 'Straight' },
-  /** What a preset does that its name does not say. */
-  presetTitles: { doubled: 'The standard deviation is doubled: the variance, and with it α₃ to α₆, is fourfold' },
   settings: {
     v: { effect: 'How fast each step is driven; below zero the robot backs up.' },
     omega: { effect: 'How sharply each step bends: what is missing from the recursion grows with *ωΔt*.' },
     dt: { name: 'duration of a step', effect: 'How long a step takes; the path grows with it.' },
     step: { name: 'selected step' },
     steps: { name: 'steps', effect: 'The same path in more and shorter steps.' },
-    headingNoise: { name: 'heading noise *α*₃ to *α*₆', effect: 'Sets *α*₃ and *α*₄ to this value, *α*₅ and *α*₆ to a quarter of it.' },
+    headingNoise: { name: 'heading noise *α*₃ to *α*₆', effect: '*α*₃ and *α*₄; *α*₅ and *α*₆ are a quarter. They scale variances: times 4 doubles *σ*.' },
     compounding: { name: 'Recursion' },
     per: { name: 'α’s apply per' },
     alphas: {
-            effects: [
+      effects: [
         'v² into v̂: spreads along the track', 'ω² into v̂: the same, only in turns',
         'v² into ω̂: turns within the step', 'ω² into ω̂: the same, only in turns',
         'v² into γ̂: turns after the step', 'ω² into γ̂: the same, only in turns',

@@ -53,7 +53,7 @@ export class PathPicture extends SamplesPicture<Scene> {
         ...drawn(['command']).map((name) => ({ points: commanded, ...styles[name] })),
         ...milestones.flatMap(({ outlines: passed }) => styled(passed).map((outline) => ({ ...outline, width: 1 }))),
       ]);
-      if (brush.former) drawGhosts(brush, styled(brush.former.outlines));
+      if (brush.former) drawGhosts(brush, styled(brush.former.outlines), pose, words.before);
       drawOutlines(brush, styled(outlines));
       drawRobot(brush, { x: 0, y: 0, heading: 0, colour: palette.truth });
       drawPlace(brush, pose);
@@ -122,7 +122,7 @@ export class StepPicture extends Picture<Scene> {
     const points = { exponential: predicted, measured };
     clipped(brush, () => {
       drawDots(brush, twists, { x: 0, y: 1, heading: null });
-      if (brush.former && overlays.includes('exponential')) drawGhosts(brush, [{ points: brush.former.outlines.predicted, ...styles.exponential }]);
+      if (brush.former && overlays.includes('exponential')) drawGhosts(brush, [{ points: brush.former.outlines.predicted, ...styles.exponential }], [0, 0], words.before);
       drawOutlines(brush, drawn.map((name) => ({ points: points[name], ...styles[name] })));
     });
   };

@@ -18,7 +18,7 @@ function signed(share: number, printed: string = fixed(100 * share, 1)) {
   return `${100 * share >= 0.05 ? '+' : ''}${printed}\u202f%`;
 }
 
-/** How far a ratio is off after the last step. */
+/** Returns the miss of a ratio after the last step. */
 export const endText = ({ end, error }: { end: number, error: number }) => signed(end, withError(100 * end, 100 * error, 1));
 
 /** Returns how well the recursion predicts the components that are shown. */
@@ -43,7 +43,7 @@ export function captionOf({ config: { compounding }, stats: { misses, n }, condi
  */
 const furthest = (misses: number[]): number => misses.reduce((most, miss, i) => (miss > (misses[most] || 0) ? i : most), 0);
 
-/** The first ratios, in words. */
+/** Returns the first ratios, in words. */
 const listOf = (ratios: number[]) =>
   TOLD_STEPS.filter((step) => step <= ratios.length).map((step) => words.reckoning.atStep(fixed(ratios[step - 1], 2), String(step))).join(', ');
 
@@ -61,7 +61,7 @@ export function worstAt({ config: { step }, curves }: Reading, overlays: string[
   return { component: COMPONENTS[worst], ratio: ratios[worst] };
 }
 
-/** What is announced after a change has come to rest. */
+/** Returns the announcement of a change that has come to rest. */
 export function announcementOf(reading: Reading, overlays: string[]) {
   const { config, shown } = reading;
   return words.reckoning.announcement(counted(shown), commandText(config.command), String(config.steps), captionOf(reading, overlays));
@@ -77,14 +77,14 @@ export function ratioText({ config: { step, compounding }, curves }: Reading, ov
   return say.ratioText(say.recursions[compounding], String(step), ratios.join(', '));
 }
 
-/** The text equivalent of the floor. */
+/** Returns the text equivalent of the floor. */
 export function planeText({ config, shown, pose }: Reading) {
   const { command, steps, step, compounding } = config;
   const say = words.reckoning;
   return say.plane(commandText(command), String(steps), counted(shown), String(step), fixed(pose[0], 2), fixed(pose[1], 2), say.recursions[compounding]);
 }
 
-/** The text equivalent of the step in exponential coordinates. */
+/** Returns the text equivalent of the step in exponential coordinates. */
 export function stepText({ config: { step, compounding }, stats: { measured, predicted } }: Reading) {
   const say = words.reckoning;
   const deviations = (cov: number[][] | null) => [0, 1].map((axis) => fixed(Math.sqrt(cov?.[axis][axis] ?? NaN), 4));

@@ -49,7 +49,7 @@ export function samplerControls(figure: Figure) {
 /** Returns the sliders of the command and of the noise, and the samples. */
 export function motionControls(figure: Figure) {
   return html`${group(words.command, sliders(figure, COMMAND))}
-    <div>${group(words.noise, slider(figure, 'noise'))} ${cloudControls(figure, SAMPLE_COUNTS)}</div>`;
+    ${group(words.noise, slider(figure, 'noise'), 'single')} ${cloudControls(figure, SAMPLE_COUNTS)}`;
 }
 
 /**

@@ -88,7 +88,7 @@ export const de: typeof import('./en.ts').en = {
     jambTitle: 'Zieh die Türkante',
     wall: 'Wand',
     wallTitle: 'Zieh die Wand',
-    keys: 'Pfeiltasten bewegen sie, mit Umschalt in größeren Schritten; [ und ] führen zu den anderen Wänden',
+    keys: 'Pfeiltasten bewegen sie, mit Umschalt in größeren Schritten; Komma und Punkt oder [ und ] führen zu den anderen Wänden',
   },
   tally: {
     drawn: 'gezogen',

@@ -88,7 +88,7 @@ export const en = {
     jambTitle: 'Drag the edge of the doorway',
     wall: 'Wall',
     wallTitle: 'Drag the wall',
-    keys: 'Arrow keys move it, with Shift by larger steps; [ and ] go to the other walls',
+    keys: 'Arrow keys move it, with Shift by larger steps; comma and period, or [ and ], go to the other walls',
   },
   tally: {
     drawn: 'drawn',

@@ -3,7 +3,7 @@
 import { nothing } from 'lit';
 import { Part } from '../../figure/part.ts';
 import { words } from '../../messages/registry.ts';
-import { Handle, stepsOf } from '../../scene/handle.ts';
+import { Handle, stepsOf, turnsOf } from '../../scene/handle.ts';
 import { clamp } from '../../ui/clamp.ts';
 import { fixed } from '../../ui/format.ts';
 import { gripsOf, movedWalls } from './walls.ts';
@@ -20,9 +20,6 @@ const MOST_WALLS = 50;
 /** Distance of the grip of an end from that end, pixels, and the largest share of the wall: grips in a narrow doorway stay apart. */
 const INWARD = 12;
 const MOST_INWARD = 1 / 6;
-
-/** Keys that go to another wall. */
-const TURNS: Record<string, number> = { '[': -1, ']': 1 };
 
 export class WallHandles extends Part<import('./map-squeeze.ts').MapSqueezeElement> {
   /** Handles by name. */
@@ -115,10 +112,10 @@ export class WallHandles extends Part<import('./map-squeeze.ts').MapSqueezeEleme
   }
 
   #key(event: KeyboardEvent, grip: Grip) {
-    const turn = TURNS[event.key];
+    const turn = turnsOf(event);
     if (turn) {
       event.preventDefault();
-      this.#go(nameOf(grip), turn);
+      this.#go(nameOf(grip), -turn);
       return false;
     }
     const steps = stepsOf(event);

@@ -32,8 +32,13 @@ const own = css`
       column-gap: 1.5em;
     }
 
-    .panel {
-      --high: 0.57;
+    /* Both as high as the window has room for. */
+    :host(:not([presentation])) .stage {
+      height: clamp(12.5em, 100svh - 32.5em, min(45svh, 24em));
+    }
+
+    canvas {
+      height: 100%;
     }
 
     .legs {
@@ -42,15 +47,6 @@ const own = css`
 
     .world {
       grid-area: world;
-    }
-
-    .legs canvas {
-      aspect-ratio: 1 / var(--high);
-    }
-
-    .world canvas {
-      /* As high as the legs, which are half as wide again. */
-      aspect-ratio: 2 / calc(3 * var(--high));
     }
 
     .said {
@@ -72,16 +68,9 @@ const own = css`
     }
   }
 
-  /* Wider, and not higher: all of it is to fit on a screen. */
-  @container (min-width: 55em) {
-    .panel {
-      --high: 0.48;
-    }
-  }
-
-  @container (min-width: 65em) {
-    .panel {
-      --high: 0.36;
+  @container (min-width: 56em) {
+    :host(:not([presentation])) .stage {
+      height: clamp(16em, 100svh - 28.5em, min(45svh, 24em));
     }
   }
 

@@ -2,7 +2,7 @@
 
 import { Part } from '../../figure/part.ts';
 import { words } from '../../messages/registry.ts';
-import { Handle, stepsOf } from '../../scene/handle.ts';
+import { Handle, stepsOf, turnsOf } from '../../scene/handle.ts';
 import { clamp } from '../../ui/clamp.ts';
 import { fixed } from '../../ui/format.ts';
 import { turnDistance } from './robot.ts';
@@ -32,11 +32,6 @@ export interface Said {
 /** What a key moves the robot by, metres, and turns it by, radians. */
 const KEY_STEP = 0.05;
 const KEY_TURN = Math.PI / 36;
-
-/** Turns by keys at the robot itself, counter-clockwise. */
-const TURNS: Record<string, number> = { '[': 1, ']': -1 };
-
-const turnsOf = ({ key, metaKey }: KeyboardEvent) => (metaKey ? undefined : TURNS[key]);
 
 /** Least size of the body's handle, CSS pixels. */
 const MIN_BODY = 32;

@@ -11,7 +11,7 @@ import { button } from '../../ui/controls.ts';
  */
 export function presetButtons(figure: import('../../figure/figure.ts').Figure, more: unknown = nothing) {
   const { gesture, kind, machine, settings, stage } = figure;
-  const { presets, presetTitles = {} } = (words as any)[kind.vocabulary];
+  const { presets } = (words as any)[kind.vocabulary];
   const preset = kind.attributes.preset as import('../../figure/attributes.ts').Setting;
   const present = { config: settings.told, machine };
   const current = preset.get(present);
@@ -21,7 +21,7 @@ export function presetButtons(figure: import('../../figure/figure.ts').Figure, m
   };
   return html`<div class="buttons presets" role="group" aria-label=${words.presets}>
     ${Object.entries(presets).map(([name, label]) =>
-      button(label, () => begin(name), { pressed: name === current, title: presetTitles[name] }))}
+      button(label, () => begin(name), { pressed: name === current, name: 'preset' }))}
     ${more} ${startOverButton(figure)}
   </div>`;
 }

@@ -317,11 +317,6 @@ const layout = css`
     font: inherit;
   }
 
-  .heading {
-    margin: 1em 0 0.3em;
-    font-weight: bold;
-  }
-
   figcaption {
     margin: 0.43em 0 1.36em;
     color: var(--muted);

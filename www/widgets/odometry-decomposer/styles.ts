@@ -70,7 +70,7 @@ const own = css`
 
   @container (min-width: 56em) {
     :host(:not([presentation])) .stage {
-      height: clamp(16em, 100svh - 28.5em, min(45svh, 24em));
+      height: clamp(17em, 100svh - 28em, min(45svh, 24em));
     }
   }
 

@@ -165,7 +165,7 @@ export async function bundle({ tags = WIDGETS, changed = (_, script) => script }
               contents: withoutEffects(readFileSync(path, 'utf8')),
               loader: 'js',
             }));
-            onLoad({ filter: /[/\\](?:zstddec\.mjs|lit-html\.js)$/ }, ({ path }) => ({
+            onLoad({ filter: /[/\\](?:zstddec-stream\.mjs|lit-html\.js)$/ }, ({ path }) => ({
               contents: withReplaced(readFileSync(path, 'utf8'), /** @type {keyof typeof REPLACED} */ (basename(path))),
               loader: 'js',
             }));
@@ -309,7 +309,7 @@ function withoutEffects(library) {
 /** Passages of libraries that are replaced, by the names of the libraries' files. */
 const REPLACED = {
   // The module is a text in the library. Strict security policies forbid the fetch that reads it.
-  'zstddec.mjs': [
+  'zstddec-stream.mjs': [
     ['typeof fetch !== "undefined"', 'false'],
     ['Buffer.from(wasm, "base64")', 'Uint8Array.from(atob(wasm), (each) => each.charCodeAt(0))'],
   ],

@@ -11,9 +11,9 @@ const NEEDED = {
   either: 'x, y und yaw (oder qx, qy, qz und qw), oder v und omega',
 };
 
-const OF_POSES = 'nav_msgs/msg/Odometry, geometry_msgs/msg/PoseStamped, PoseWithCovarianceStamped oder tf2_msgs/msg/TFMessage';
-const OF_COMMANDS = 'geometry_msgs/msg/Twist oder TwistStamped';
-const TYPES = { poses: OF_POSES, either: `${OF_POSES}, oder ${OF_COMMANDS}`, transforms: 'tf2_msgs/msg/TFMessage, worin Koordinatensysteme sind' };
+const OF_POSES = 'nav_msgs/Odometry, geometry_msgs/PoseStamped, PoseWithCovarianceStamped, TransformStamped, Pose2D oder tf2_msgs/TFMessage';
+const OF_COMMANDS = 'geometry_msgs/Twist, TwistStamped oder TwistWithCovarianceStamped';
+const TYPES = { poses: OF_POSES, either: `${OF_POSES}, oder ${OF_COMMANDS}`, transforms: 'tf2_msgs/TFMessage, worin Koordinatensysteme sind' };
 
 const times = (/** @type {number} */ count, /** @type {string} */ one, /** @type {string} */ more) => `${count} ${count === 1 ? one : more}`;
 const comma = (/** @type {number} */ value, /** @type {number} */ digits) => value.toFixed(digits).replace('.', ',');
@@ -26,6 +26,7 @@ const ANGLES = { rad: 'Richtung in rad', deg: 'Richtung in Grad', quaternion: 'R
 
 /** @type {Record<import('./log.ts').Cause, string>} */
 const REASONS = {
+  damaged: 'beschädigte Nachrichten',
   notFinite: 'keine endliche Zahl',
   noRotation: 'ein Quaternion, das keine Drehung ist',
   short: 'abgebrochen',
@@ -34,6 +35,22 @@ const REASONS = {
   stray: 'eine Zeit fern von allen anderen',
   setBack: 'Zeiten einer zurückgestellten Uhr',
   held: 'die Pose steht, während die Odometrie weitergeht',
+};
+
+/** @type {typeof import('./en.js').OTHERS} */
+const OTHERS = {
+  rosbag1: 'eine ROS-Bag der Version 1.2; mit „rosbag reindex“ umwandeln.',
+  ulog: 'ein PX4-Log (ULog); mit „ulog2csv“ umwandeln und zwei der Tabellen angeben.',
+  dataflash: 'ein ArduPilot-Log; mit „mavlogdump.py --format csv --types POS“ umwandeln.',
+  pcap: 'ein Netzwerkmitschnitt; erwartet wird eine Aufzeichnung von „ros2 bag record“ oder „rosbag record“.',
+  wal: 'das Journal einer SQLite-Datenbank; die .db3-Datei einmal mit „sqlite3“ öffnen, das es zurückschreibt, und diese angeben.',
+  zip: 'ein Zip-Archiv; entpacken und die Dateien darin angeben.',
+  gzip: 'mit gzip komprimiert; mit „gunzip“ dekomprimieren und das Ergebnis angeben.',
+  bzip2: 'mit bzip2 komprimiert; mit „bunzip2“ dekomprimieren und das Ergebnis angeben.',
+  xz: 'mit xz komprimiert; mit „unxz“ dekomprimieren und das Ergebnis angeben.',
+  lz4: 'mit LZ4 komprimiert; mit „unlz4“ dekomprimieren und das Ergebnis angeben.',
+  hdf5: 'eine HDF5- oder MATLAB-Datei; Zeiten und Posen als CSV exportieren.',
+  parquet: 'eine Parquet-Tabelle; als CSV exportieren.',
 };
 
 /** @type {import('./log-error.js').Words} */
@@ -77,19 +94,26 @@ export const log = {
       `in ${unit} führe der Roboter ${speed.toPrecision(3)} m/s; die Einheit der Längen angeben mit --length-unit ${choices.join(' oder ')}.`,
     angleUnit: (turn, unit, choices) =>
       `Richtungen in ${unit} drehten sich mit ${turn.toPrecision(3)} rad/s und passen nicht zur Bahn oder zu ihrem Bereich; ihre Einheit angeben mit --angle-unit ${choices.join(' oder ')}.`,
-    damaged: (reason) => `die Aufzeichnung ist beschädigt (${reason}); erwartet wird eine unbeschädigte MCAP-Datei.`,
-    large: (what, bytes, most) => `angekündigt wird ${{ 'a chunk': 'ein Chunk', 'a record': 'ein Record' }[what] ?? what} von ${bytes} Bytes; erwartet werden höchstens ${most}.`,
-    compression: (value) => `ihre Chunks sind mit „${value}“ komprimiert; erwartet wird zstd, lz4 oder nichts davon.`,
+    damaged: (reason) => `keine der Nachrichten lässt sich lesen (${reason}); erwartet wird eine unbeschädigte Aufzeichnung.`,
+    largeFile: (command, most) => `sie hat dekomprimiert mehr als ${most} Bytes; mit „${command}“ dekomprimieren und das Ergebnis angeben.`,
+    noRosbag2: 'das ist eine SQLite-Datenbank ohne die Tabellen „topics“ und „messages“ von rosbag2; erwartet wird eine Aufzeichnung von „ros2 bag record“.',
+    notRosbag2: 'sie steht in der metadata.yaml einer Aufzeichnung und ist keine; erwartet wird eine MCAP- oder .db3-Datei.',
+    notRead: (format) => `das ist ${OTHERS[format]}`,
+    noFiles: (files) => `sie beschreibt eine Aufzeichnung in ${files}; auch diese Datei angeben, oder den ganzen Ordner.`,
     noTopic: (topics) => `dieses Topic gibt es nicht; erwartet wird eines von ${topics || 'keinen: sie hat keine Nachrichten'}.`,
     noTopics: (topics) => `die Topics sind ${topics || 'keine'}; erwartet wird eines vom Typ ${TYPES.either}.`,
     alone: (series) => `es ist nur ein Log darin, ${series}; gebraucht werden Odometrie und Referenz.`,
     choose: (role, series) => `es ist nicht klar, was die ${role === 'odometry' ? 'Odometrie' : 'Referenz'} ist: ${series}.`,
     type: (type, wanted) => `sein Typ ist „${type}“; erwartet wird ${TYPES[wanted]}.`,
-    encoding: (value) => `seine Nachrichten sind als „${value}“ kodiert; erwartet wird cdr, die Kodierung von ROS 2.`,
+    encoding: (value) => `seine Nachrichten sind als „${value}“ kodiert; erwartet wird cdr von ROS 2, oder ros1.`,
+    types: (types) => `seine Nachrichten haben die Typen ${types}; erwartet wird einer: das Topic eines Knotens umbenennen und neu aufzeichnen.`,
+    publishers: (nodes) => `mehrere Knoten senden abwechselnd darauf (${nodes}); erwartet wird einer: das Topic eines Knotens umbenennen und neu aufzeichnen.`,
     message: (number, reason) => `die Nachricht ${number} lässt sich nicht lesen (${reason}); erwartet wird eine vom Typ des Topics.`,
     frames: (known) => `zu nennen sind ein äußerer und ein innerer Frame, verbunden durch ${known || 'Transformationen, von denen es keine gibt'}.`,
     noChain: (frames, known) =>
-      `keine Transformationen führen von ${frames.replace(',', ' nach ')}; erwartet werden verbundene Frames, aus ${known || 'keinen'}.`,
+      `keine Transformationen führen entlang ${frames}; erwartet werden verbundene Frames, aus ${known || 'keinen'}.`,
+    constant: (frames, others) =>
+      `die Transformation ${frames} ändert sich nie und ist daher keine Bahn eines Roboters; erwartet werden Frames, die sich bewegen${others ? `, wie ${others}` : ''}.`,
     noMessages: 'es gibt keine Nachrichten darauf; erwartet werden mindestens 2.',
     same: (other) => `sie hat dieselbe Bewegung wie ${other}; gebraucht werden zwei unabhängige Messungen einer Fahrt.`,
     held: 'ihre Pose steht, während die Odometrie weitergeht: Sie hat den Roboter verloren; gebraucht wird eine, die ihm folgt.',
@@ -110,6 +134,8 @@ export const log = {
     jumps: (count, first) => `${times(count, 'Sprung', 'Sprünge')}, der erste bei ${comma(first, 2)} s`,
     logTimes: 'Zeiten der Aufzeichnung, da die Köpfe der Nachrichten keine haben',
     notes: {
+      missing: (files) => `die Dateien ${files} der Aufzeichnung fehlen`,
+      damaged: (count, reason) => `${times(count, 'beschädigter Block', 'beschädigte Blöcke')} übersprungen (${reason})`,
       cutShort: 'die Datei endet mitten in einer Zeile oder einem Record',
       noZone: 'Datumsangaben ohne Zeitzone gelten als UTC',
       upAxis: (axis) => `${axis} ist die senkrechte Achse`,

@@ -112,8 +112,8 @@ function stated(recording: Recording, role: Role, wishes: Wishes): Choice {
   throw framesError(recording, found, role);
 }
 
-function framesError({ name: file }: Recording, { name: topic, links = [] }: Series, role: Role): LogError {
-  const known = links.map(linked);
+function framesError({ name: file }: Recording, { name: topic, links = [], frames = [] }: Series, role: Role): LogError {
+  const known = (frames.length ? frames : links).map(linked);
   return new LogError({ file, topic }, (say) => say.frames(listed(known)), { what: 'frames', role, choices: known });
 }
 

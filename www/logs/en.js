@@ -11,9 +11,9 @@ const NEEDED = {
   either: 'x, y and yaw (or qx, qy, qz and qw), or v and omega',
 };
 
-const OF_POSES = 'nav_msgs/msg/Odometry, geometry_msgs/msg/PoseStamped, PoseWithCovarianceStamped or tf2_msgs/msg/TFMessage';
-const OF_COMMANDS = 'geometry_msgs/msg/Twist or TwistStamped';
-const TYPES = { poses: OF_POSES, either: `${OF_POSES}, or ${OF_COMMANDS}`, transforms: 'tf2_msgs/msg/TFMessage, which has frames' };
+const OF_POSES = 'nav_msgs/Odometry, geometry_msgs/PoseStamped, PoseWithCovarianceStamped, TransformStamped, Pose2D or tf2_msgs/TFMessage';
+const OF_COMMANDS = 'geometry_msgs/Twist, TwistStamped or TwistWithCovarianceStamped';
+const TYPES = { poses: OF_POSES, either: `${OF_POSES}, or ${OF_COMMANDS}`, transforms: 'tf2_msgs/TFMessage, which has frames' };
 
 /** Bases of decisions about units. @type {Record<import('./log.ts').Basis, string>} */
 const BY = { name: ' (by name)', size: ' (by size)', rate: ' (by rate and speed)', format: '', option: ' (as stated)', usage: '' };
@@ -23,6 +23,7 @@ const ANGLES = { rad: 'yaw in rad', deg: 'yaw in degrees', quaternion: 'yaw from
 
 /** Reasons for leaving rows out. */
 const REASONS = {
+  damaged: 'damaged messages',
   notFinite: 'no finite number',
   noRotation: 'a quaternion that is no rotation',
   short: 'cut short',
@@ -31,6 +32,22 @@ const REASONS = {
   stray: 'a time far from all others',
   setBack: 'times of a clock that was set back',
   held: 'the pose stands while the odometry moves on',
+};
+
+/** Formats that are known and not read, each with the cure. */
+export const OTHERS = {
+  rosbag1: 'a ROS bag of version 1.2; convert it with “rosbag reindex”.',
+  ulog: 'a PX4 log (ULog); convert it with “ulog2csv”, and give two of the tables.',
+  dataflash: 'an ArduPilot log; convert it with “mavlogdump.py --format csv --types POS”.',
+  pcap: 'a network capture; expected is a recording of “ros2 bag record” or “rosbag record”.',
+  wal: 'the journal of an SQLite database; open the .db3 file once with “sqlite3”, which writes it back, and give that.',
+  zip: 'a zip archive; unzip it, and give the files in it.',
+  gzip: 'compressed by gzip; decompress it with “gunzip”, and give the result.',
+  bzip2: 'compressed by bzip2; decompress it with “bunzip2”, and give the result.',
+  xz: 'compressed by xz; decompress it with “unxz”, and give the result.',
+  lz4: 'compressed by LZ4; decompress it with “unlz4”, and give the result.',
+  hdf5: 'an HDF5 or MATLAB file; export times and poses as CSV.',
+  parquet: 'a Parquet table; export it as CSV.',
 };
 
 export const log = {
@@ -80,21 +97,27 @@ export const log = {
     angleUnit: (/** @type {number} */ turn, /** @type {string} */ unit, /** @type {string[]} */ choices) =>
       `headings in ${unit} would turn at ${turn.toPrecision(3)} rad/s, and do not agree with the path or with their range; state their unit by --angle-unit ${choices.join(' or ')}.`,
     /** Errors of recordings. */
-    damaged: (/** @type {string} */ reason) => `the recording is damaged (${reason}); expected is an undamaged MCAP file.`,
-    large: (/** @type {string} */ what, /** @type {string} */ bytes, /** @type {number} */ most) =>
-      `${what} of ${bytes} bytes is announced; expected are at most ${most}.`,
-    compression: (/** @type {string} */ value) => `its chunks are compressed by “${value}”; expected is zstd, lz4 or none.`,
+    damaged: (/** @type {string} */ reason) => `none of its messages can be read (${reason}); expected is an undamaged recording.`,
+    largeFile: (/** @type {string} */ command, /** @type {number} */ most) => `it has more than ${most} bytes when it is decompressed; decompress it with “${command}”, and give the result.`,
+    noRosbag2: 'it is an SQLite database without the tables “topics” and “messages” of rosbag2; expected is a recording of “ros2 bag record”.',
+    notRosbag2: 'it is listed in the metadata.yaml of a recording, and is none; expected is an MCAP or .db3 file.',
+    notRead: (/** @type {keyof typeof OTHERS} */ format) => `it is ${OTHERS[format]}`,
+    noFiles: (/** @type {string} */ files) => `it describes a recording in ${files}; give that file too, or the whole folder.`,
     noTopic: (/** @type {string} */ topics) => `there is no such topic; expected is one of ${topics || 'none: it has no messages'}.`,
     noTopics: (/** @type {string} */ topics) => `the topics are ${topics || 'none'}; expected is one of type ${TYPES.either}.`,
     alone: (/** @type {string} */ series) => `it has one log only, ${series}; give odometry and reference.`,
     choose: (/** @type {'odometry' | 'reference'} */ role, /** @type {string} */ series) => `it is not clear what the ${role} is: ${series}.`,
     type: (/** @type {string} */ type, /** @type {keyof typeof TYPES} */ wanted) => `its type is “${type}”; expected is ${TYPES[wanted]}.`,
-    encoding: (/** @type {string} */ value) => `its messages are encoded as “${value}”; expected is cdr, that of ROS 2.`,
+    encoding: (/** @type {string} */ value) => `its messages are encoded as “${value}”; expected is cdr of ROS 2, or ros1.`,
+    types: (/** @type {string} */ types) => `its messages have the types ${types}; expected is one: rename the topic of one node, and record again.`,
+    publishers: (/** @type {string} */ nodes) => `several nodes publish it in turns (${nodes}); expected is one: rename the topic of one node, and record again.`,
     message: (/** @type {number} */ number, /** @type {string} */ reason) =>
       `message ${number} cannot be read (${reason}); expected is one of the topic's type.`,
     frames: (/** @type {string} */ known) => `give a parent and a child frame, connected by ${known || 'transforms, of which there are none'}.`,
     noChain: (/** @type {string} */ frames, /** @type {string} */ known) =>
-      `no transforms lead from ${frames.replace(',', ' to ')}; expected are frames that are connected, of ${known || 'none'}.`,
+      `no transforms lead along ${frames}; expected are frames that are connected, of ${known || 'none'}.`,
+    constant: (/** @type {string} */ frames, /** @type {string} */ others) =>
+      `the transform ${frames} never changes, so it is no path of a robot; expected are frames that move${others ? `, as ${others}` : ''}.`,
     noMessages: 'there are no messages on it; expected are at least 2.',
     /** Errors of two logs. */
     same: (/** @type {string} */ other) => `it has the same motion as ${other}; give two independent measurements of one drive.`,
@@ -120,6 +143,8 @@ export const log = {
     jumps: (/** @type {number} */ count, /** @type {number} */ first) => `${count} ${count === 1 ? 'jump' : 'jumps'}, the first at ${first.toFixed(2)} s`,
     logTimes: 'times at which messages were recorded, as their headers have none',
     notes: {
+      missing: (/** @type {string} */ files) => `the files ${files} of the recording are missing`,
+      damaged: (/** @type {number} */ count, /** @type {string} */ reason) => `${count} damaged ${count === 1 ? 'block' : 'blocks'} skipped (${reason})`,
       cutShort: 'the file ends in the middle of a row or record',
       noZone: 'dates without a time zone are taken as UTC',
       upAxis: (/** @type {string} */ axis) => `${axis} is the vertical axis`,

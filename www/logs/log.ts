@@ -19,6 +19,8 @@ export interface Series {
   links?: Frames[];
   /** Messages; 0 for a table, whose rows are not counted yet. */
   count: number;
+  /** Ends of chains of transforms that may be poses of the robot. */
+  frames?: Frames[];
 }
 
 export interface Frames {
@@ -91,14 +93,14 @@ export interface Log {
 }
 
 /** Cause for dropping a row. */
-export type Cause = 'notFinite' | 'noRotation' | 'noStamp' | 'short' | 'duplicate' | 'stray' | 'setBack' | 'held';
+export type Cause = 'damaged' | 'notFinite' | 'noRotation' | 'noStamp' | 'short' | 'duplicate' | 'stray' | 'setBack' | 'held';
 
 /** Basis of a decision about a unit: a name, the size of the numbers, rate and speed, the format's definition, an option, or usage without another sign. */
 export type Basis = 'name' | 'size' | 'rate' | 'format' | 'option' | 'usage';
 
 /** Sentence about a log: name of a word in `found.notes`, and the values in it. */
 export interface Note {
-  name: 'cutShort' | 'sorted' | 'noZone' | 'upAxis' | 'swapped' | 'apart' | 'localizer';
+  name: 'cutShort' | 'damaged' | 'missing' | 'sorted' | 'noZone' | 'upAxis' | 'swapped' | 'apart' | 'localizer';
   values: (string | number)[];
 }
 

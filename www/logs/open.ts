@@ -1,28 +1,73 @@
 /** Recordings in files, by the contents of each. */
 
-import { bytesOf } from './log-error.js';
+import type { OTHERS } from './en.js';
+import type { Container } from './formats/container.ts';
+import { LogError, bytesOf } from './log-error.js';
 import type { OpenOptions, Recording, Source } from './log.ts';
 import { openTable } from './table.ts';
 
-/** First bytes of an MCAP recording. */
-const MCAP = [0x89, 0x4d, 0x43, 0x41, 0x50, 0x30, 0x0d, 0x0a];
+type Format = 'mcap' | 'rosbag' | 'sqlite' | 'zstd' | 'metadata';
 
-/** Opens files; rejects with a LogError that names the file, the line or topic, and what is expected. */
-export async function openRecordings(sources: Source[], options: OpenOptions = {}): Promise<Recording[]> {
-  const recordings = [];
-  for (const source of sources) {
-    const start = await bytesOf(source, 0, MCAP.length);
-    recordings.push(await (MCAP.every((byte, i) => byte === start[i]) ? mcapOf(source) : openTable(source, options)));
+/** First bytes of formats that are read. */
+const FORMATS: Record<Format, string> = {
+  mcap: '\x89MCAP0\r\n',
+  rosbag: '#ROSBAG V2.0\n',
+  sqlite: 'SQLite format 3\0',
+  zstd: '\x28\xb5\x2f\xfd',
+  metadata: 'rosbag2_bagfile_information:',
+};
+
+/** First bytes of formats that are known and not read. */
+const REFUSED: [keyof typeof OTHERS, string][] = [
+  ['rosbag1', '#ROSBAG V1'], ['rosbag1', '#ROSRECORD'], ['ulog', 'ULog\x01\x12\x35'], ['dataflash', '\xa3\x95\x80'],
+  ['pcap', '\xd4\xc3\xb2\xa1'], ['pcap', '\xa1\xb2\xc3\xd4'], ['pcap', '\x4d\x3c\xb2\xa1'], ['pcap', '\x0a\x0d\x0d\x0a'],
+  ['wal', '\x37\x7f\x06\x82'], ['wal', '\x37\x7f\x06\x83'], ['zip', 'PK\x03\x04'], ['gzip', '\x1f\x8b'], ['bzip2', 'BZh'],
+  ['xz', '\xfd7zXZ\0'], ['lz4', '\x04\x22\x4d\x18'], ['hdf5', '\x89HDF\r\n\x1a\n'], ['hdf5', 'MATLAB 5.0 MAT-file'], ['parquet', 'PAR1'],
+];
+
+/** Bytes that identify a format. */
+const START = 32;
+
+/**
+ * Opens files; rejects with a LogError that names the file, the line or topic, and what to do. Files that a metadata.yaml of rosbag2
+ * lists become one recording.
+ */
+export async function openRecordings(files: Source[], options: OpenOptions = {}): Promise<Recording[]> {
+  const formats = new Map<Source, Format | undefined>();
+  for (const file of files) {
+    const format = await formatOf(file);
+    const source = format === 'zstd' ? await (await import('./formats/zstd.ts')).unzstdFile(file) : file;
+    formats.set(source, format === 'zstd' ? await formatOf(source) : format);
+  }
+  const sources = [...formats.keys()];
+  const recordings: Recording[] = [];
+  for (const metadata of sources.filter((source) => formats.get(source) === 'metadata')) {
+    const { filesOf, joined } = await import('./formats/folder.ts');
+    const { name, found, missing } = await filesOf(metadata, sources);
+    const parts: Container[] = [];
+    for (const source of found) parts.push(await containerOf(source, formats.get(source)));
+    recordings.push(await (await import('./topics.ts')).recordingOf(name, joined(parts, missing), options));
+    for (const source of [metadata, ...found]) formats.delete(source);
+  }
+  for (const [source, format] of formats) {
+    if (!format) recordings.push(await openTable(source, options));
+    else recordings.push(await (await import('./topics.ts')).recordingOf(source.name, await containerOf(source, format), options));
   }
   return recordings;
 }
 
-async function mcapOf(source: Source): Promise<Recording> {
-  const { listTopics, readRecording } = await import('./recording.js');
-  return {
-    name: source.name,
-    format: 'mcap',
-    series: await listTopics(source),
-    read: (choices, onProgress) => readRecording(source, choices, onProgress),
-  };
+/** Returns the format by the first bytes; undefined for a table. */
+async function formatOf(source: Source): Promise<Format | undefined> {
+  const start = String.fromCharCode(...(await bytesOf(source, 0, START)));
+  const refused = REFUSED.find(([, magic]) => start.startsWith(magic));
+  if (refused) throw new LogError({ file: source.name }, (say) => say.notRead(refused[0]));
+  return (Object.keys(FORMATS) as Format[]).find((format) => start.startsWith(FORMATS[format]));
+}
+
+/** Opens a container. The readers are loaded when they are needed. */
+async function containerOf(source: Source, format: Format | undefined): Promise<Container> {
+  if (format === 'mcap') return (await import('./formats/mcap.ts')).openMcap(source);
+  if (format === 'rosbag') return (await import('./formats/rosbag.ts')).openRosbag(source);
+  if (format === 'sqlite') return (await import('./formats/sqlite.ts')).openSqlite(source);
+  throw new LogError({ file: source.name }, (say) => say.notRosbag2);
 }

@@ -116,6 +116,7 @@ export class Rows {
    * @throws {LogError} if the rows that are left are no log, or their units are in doubt
    */
   end(name: string, kind: LogKind, { units: stated, clocks, ...decisions }: Decisions, options: OpenOptions = {}): Log {
+    if (clocks[1] !== undefined) this.#sortByOtherClock();
     const usesOther = this.#chooseClock(clocks[1] !== undefined);
     const { rows, late, ...times } = this.#inOrder();
     const [a, b, c] = [A, B, C].map((column) => {
@@ -140,6 +141,21 @@ export class Rows {
       ...decisions, units, clock: clocks[usesOther ? 1 : 0] ?? '', notes,
     };
     return { name, kind, start, data, summary };
+  }
+
+  /** Puts the rows into the order of the other clock, that of recording, which a file of several blocks may not have. */
+  #sortByOtherClock(): void {
+    const numbers = this.#numbers;
+    const compare = (one: number, other: number) =>
+      numbers[WIDTH * one + OTHER_SECONDS] - numbers[WIDTH * other + OTHER_SECONDS] || numbers[WIDTH * one + OTHER_REST] - numbers[WIDTH * other + OTHER_REST];
+    let row = 1;
+    while (row < this.#added && compare(row - 1, row) <= 0) row += 1;
+    if (row >= this.#added) return;
+    const order = Uint32Array.from({ length: this.#added }, (_, each) => each).sort(compare);
+    this.#numbers = new Float64Array(numbers.length);
+    for (const [rank, from] of order.entries()) this.#numbers.set(numbers.subarray(WIDTH * from, WIDTH * (from + 1)), WIDTH * rank);
+    const broken = this.#broken;
+    this.#broken = new Set([...order.keys()].filter((rank) => broken.has(order[rank])));
   }
 
   /** Takes the other clock if the first one mostly stands at 0. @returns whether it did */

@@ -11,20 +11,12 @@ const PLAIN = 0x80000000;
 /** Length of a match that is written as 0. */
 const SHORTEST_MATCH = 4;
 
-/** @param {boolean} condition */
-function check(condition) {
+function check(condition: boolean): void {
   if (!condition) throw new RangeError('a damaged LZ4 frame');
 }
 
-/**
- * Decompresses a frame. Checksums are left to the chunk around it.
- *
- * @param {Uint8Array} bytes
- * @param {number} size of the contents
- * @returns {Uint8Array<ArrayBuffer>}
- * @throws {RangeError} if the frame is damaged, or its contents have another size
- */
-export function unlz4(bytes, size) {
+/** Decompresses a frame; throws a RangeError if it is damaged, or its contents have another size. Checksums are not checked. */
+export function unlz4(bytes: Uint8Array, size: number): Uint8Array<ArrayBuffer> {
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
   const flags = view.getUint8(4);
   check(view.getUint32(0, true) === MAGIC && (flags & VERSION) === VERSION_1 && !(flags & DICTIONARY));
@@ -49,16 +41,11 @@ export function unlz4(bytes, size) {
   return out;
 }
 
-/**
- * @param {Uint8Array} block
- * @param {Uint8Array} out
- * @param {number} filled bytes of it so far
- * @returns {number} bytes that are filled then
- */
-function decompressBlock(block, out, filled) {
+/** Decompresses a block behind the bytes that are filled, and returns the number that are filled then. */
+function decompressBlock(block: Uint8Array, out: Uint8Array, filled: number): number {
   let at = 0;
-  /** Reads the rest of a length. @param {number} length of four bits */
-  const lengthFrom = (length) => {
+  /** Reads the rest of a length of four bits. */
+  const lengthFrom = (length: number) => {
     if (length < 15) return length;
     for (let byte = 255; byte === 255; length += byte) {
       check(at < block.length);

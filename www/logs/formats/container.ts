@@ -1,0 +1,57 @@
+/** Containers of messages: the interface that the readers of all formats share. */
+
+import type { Recording, Source } from '../log.ts';
+import { bytesOf } from '../log-error.js';
+
+/** Topic as one node published it. */
+export interface Channel {
+  topic: string;
+  /** Message type as it was recorded. */
+  type: string;
+  /** Serialization: "cdr" of ROS 2, "ros1", or another. */
+  encoding: string;
+  /** Name of the node, or a number of the container's own. */
+  publisher: string;
+  /** Messages. */
+  count: number;
+}
+
+export interface Message {
+  channel: Channel;
+  /** Time of recording. */
+  seconds: number;
+  nanoseconds: number;
+  data: Uint8Array;
+}
+
+export interface Container {
+  format: Recording['format'];
+  channels: Channel[];
+  /** Reasons by position of damaged blocks that were skipped. */
+  damage: Map<number, string>;
+  /** True if the file ends before its end was written. */
+  cutShort: boolean;
+  /** Names of split files that belong to the recording and are not there. */
+  missing: string[];
+  /** Passes on the messages of channels, block by block. Stops after a block if `onProgress` returns true. */
+  read(isWanted: (channel: Channel) => boolean, each: (message: Message) => void, onProgress?: (share: number) => boolean | void): Promise<void>;
+}
+
+/** Most bytes of a block: recorders write one to four million. */
+export const MAX_BLOCK = 2 ** 26;
+
+/** Bytes that are read ahead. */
+const PIECE = 2 ** 22;
+
+/** Returns a function that reads bytes of a source in rising order, piece by piece. */
+export function readAhead(source: Source): (from: number, to: number) => Promise<Uint8Array> {
+  let [start, piece] = [0, new Uint8Array()];
+  return async (from, to) => {
+    if (from < start || to > start + piece.length) {
+      [start, piece] = [from, await bytesOf(source, from, Math.min(Math.max(to, from + PIECE), source.size))];
+    }
+    return piece.subarray(from - start, to - start);
+  };
+}
+
+export const viewOf = ({ buffer, byteOffset, byteLength }: Uint8Array) => new DataView(buffer, byteOffset, byteLength);

@@ -1,0 +1,164 @@
+/** Channels and messages of MCAP files. https://mcap.dev/spec */
+
+import { crc32 } from '@foxglove/crc';
+import { McapIndexedReader, McapStreamReader } from '@mcap/core';
+import { LogError, bytesOf, reasonOf } from '../log-error.js';
+import type { Source } from '../log.ts';
+import { MAX_BLOCK, readAhead, viewOf, type Channel, type Container, type Message } from './container.ts';
+import { unlz4 } from './lz4.ts';
+import { loadZstd, unzstd } from './zstd.ts';
+
+/** Codes of records, and the bytes of code and length before each. */
+const [SCHEMA, CHANNEL, MESSAGE, CHUNK, DATA_END] = [3, 4, 5, 6, 15];
+const HEAD = 9;
+
+/** Bytes before the first record. */
+const MAGIC = 8;
+
+const SECOND = 1_000_000_000n;
+
+/** Opens a recording: by its index, or without one from its start as far as it goes. */
+export async function openMcap(source: Source): Promise<Container> {
+  await loadZstd();
+  const size = BigInt(source.size);
+  const readable = {
+    size: async () => size,
+    read: async (offset: bigint, length: bigint) => {
+      if (offset + length > size) throw new RangeError('it ends before what it refers to');
+      return bytesOf(source, Number(offset), Number(offset + length));
+    },
+  };
+  const index = await McapIndexedReader.Initialize({ readable }).catch(() => undefined);
+  const mcap = new Mcap(source);
+  if (index && isComplete(index)) mcap.useIndex(index);
+  else await mcap.read(() => true, ({ channel }) => (channel.count += 1));
+  return mcap;
+}
+
+/** Checks that an index has all chunks and messages. */
+const isComplete = ({ chunkIndexes, statistics }: McapIndexedReader) =>
+  statistics?.chunkCount === chunkIndexes.length &&
+  (chunkIndexes.length > 0 || statistics.messageCount === 0n) &&
+  chunkIndexes.every(({ messageIndexOffsets, messageEndTime }) => messageIndexOffsets.size > 0 || messageEndTime === 0n);
+
+type Wanted = (channel: Channel) => boolean;
+type Each = (message: Message) => void;
+
+class Mcap implements Container {
+  readonly format = 'mcap';
+  readonly damage = new Map<number, string>();
+  readonly missing = [];
+  cutShort = false;
+  #source;
+  #chunks: McapIndexedReader['chunkIndexes'] | undefined;
+  #types = new Map<number, string>();
+  #channels = new Map<number, Channel>();
+
+  constructor(source: Source) {
+    this.#source = source;
+  }
+
+  get channels() {
+    return [...this.#channels.values()];
+  }
+
+  useIndex({ chunkIndexes, schemasById, channelsById, statistics }: McapIndexedReader): void {
+    this.#chunks = chunkIndexes;
+    for (const { id, name } of schemasById.values()) this.#types.set(id, name);
+    for (const channel of channelsById.values()) this.#addChannel(channel, Number(statistics?.channelMessageCounts.get(channel.id) ?? 0));
+  }
+
+  #addChannel({ id, topic, schemaId, messageEncoding, metadata }: McapIndexedReader['channelsById'] extends ReadonlyMap<number, infer C> ? C : never, count = 0): void {
+    const publisher = metadata.get('callerid') ?? `${id}`;
+    if (!this.#channels.has(id)) this.#channels.set(id, { topic, type: this.#types.get(schemaId) ?? '', encoding: messageEncoding, publisher, count });
+  }
+
+  async read(isWanted: Wanted, each: Each, onProgress?: (share: number) => boolean | void): Promise<void> {
+    if (!this.#chunks) return this.#readFromStart(isWanted, each, onProgress);
+    const wanted = new Set([...this.#channels].filter(([, channel]) => isWanted(channel)).map(([id]) => id));
+    const chunks = this.#chunks.filter(({ messageIndexOffsets }) => [...messageIndexOffsets.keys()].some((id) => wanted.has(id)));
+    for (const [i, { chunkStartOffset, chunkLength }] of chunks.entries()) {
+      const from = Number(chunkStartOffset);
+      await this.#attempt(from, async () => {
+        if (chunkLength > MAX_BLOCK) throw new RangeError(`a chunk of ${chunkLength} bytes`);
+        const bytes = await bytesOf(this.#source, from, from + Number(chunkLength));
+        if (bytes[0] !== CHUNK) throw new RangeError('no chunk is there');
+        this.#readRecords(contentsOf(bytes.subarray(HEAD)), isWanted, each);
+      });
+      if (onProgress?.((i + 1) / chunks.length)) return;
+    }
+  }
+
+  async #readFromStart(isWanted: Wanted, each: Each, onProgress?: (share: number) => boolean | void): Promise<void> {
+    const { size } = this.#source;
+    const bytesAt = readAhead(this.#source);
+    this.cutShort = true;
+    for (let at = MAGIC, reported = 0; at + HEAD <= size; ) {
+      const head = await bytesAt(at, at + HEAD);
+      const length = viewOf(head).getBigUint64(1, true);
+      const next = at + HEAD + Number(length);
+      if (next > size) return;
+      if (head[0] === DATA_END) {
+        this.cutShort = false;
+        return;
+      }
+      if ([SCHEMA, CHANNEL, MESSAGE, CHUNK].includes(head[0])) {
+        await this.#attempt(at, async () => {
+          if (length > MAX_BLOCK) throw new RangeError(`a record of ${length} bytes`);
+          const record = await bytesAt(at, next);
+          this.#readRecords(head[0] === CHUNK ? contentsOf(record.subarray(HEAD)) : record, isWanted, each);
+        });
+      }
+      at = next;
+      if (at < reported) continue;
+      if (onProgress?.(at / size)) return;
+      reported = at + size / 100;
+    }
+  }
+
+  /** Notes damage of a block, whose rest is skipped. */
+  async #attempt(position: number, work: () => Promise<void>): Promise<void> {
+    try {
+      await work();
+    } catch (error) {
+      if (error instanceof LogError) throw error;
+      this.damage.set(position, reasonOf(error));
+    }
+  }
+
+  #readRecords(bytes: Uint8Array, isWanted: Wanted, each: Each): void {
+    const view = viewOf(bytes);
+    for (let at = 0; at < bytes.length; ) {
+      const next = at + HEAD + Number(view.getBigUint64(at + 1, true));
+      if (next > bytes.length) throw new RangeError('a record is cut short');
+      if (bytes[at] === MESSAGE) {
+        const channel = this.#channels.get(view.getUint16(at + HEAD, true));
+        if (channel && isWanted(channel)) {
+          const time = view.getBigUint64(at + HEAD + 6, true);
+          each({ channel, seconds: Number(time / SECOND), nanoseconds: Number(time % SECOND), data: bytes.subarray(at + HEAD + 22, next) });
+        }
+      } else {
+        const reader = new McapStreamReader({ noMagicPrefix: true });
+        reader.append(bytes.subarray(at, next));
+        const record = reader.nextRecord();
+        if (record?.type === 'Schema') this.#types.set(record.id, record.name);
+        if (record?.type === 'Channel') this.#addChannel(record);
+      }
+      at = next;
+    }
+  }
+}
+
+/** Returns the records of a chunk; throws an error if it is damaged, or its compression is unknown. */
+function contentsOf(chunk: Uint8Array): Uint8Array {
+  const view = viewOf(chunk);
+  const [size, crc, length] = [view.getBigUint64(16, true), view.getUint32(24, true), view.getUint32(28, true)];
+  if (size > MAX_BLOCK) throw new RangeError(`a chunk of ${size} bytes`);
+  const compression = new TextDecoder().decode(chunk.subarray(32, 32 + length));
+  const bytes = chunk.subarray(40 + length);
+  const decompress = { '': () => bytes, zstd: () => unzstd(bytes, Number(size)), lz4: () => unlz4(bytes, Number(size)) }[compression];
+  if (!decompress) throw new RangeError(`compression by ${compression}, not by zstd or lz4`);
+  const contents = decompress();
+  if (crc !== 0 && crc32(contents) !== crc) throw new RangeError('the checksum of a chunk is wrong');
+  return contents;
+}

@@ -1,0 +1,210 @@
+/** Connections and messages of ROS 1 bags. http://wiki.ros.org/Bags/Format/2.0 */
+
+import { LogError, bytesOf, reasonOf } from '../log-error.js';
+import type { Source } from '../log.ts';
+import { MAX_BLOCK, readAhead, viewOf, type Channel, type Container, type Message } from './container.ts';
+import { unlz4 } from './lz4.ts';
+
+/** Values of the field "op" of records. */
+const [MESSAGE, BAG, CHUNK, CHUNK_INFO, CONNECTION] = [2, 3, 5, 6, 7];
+
+/** Bytes before the first record. */
+const MAGIC = 13;
+
+/** Bytes of a header that are read at first; a longer one has a long topic. */
+const HEADER = 4096;
+
+type Wanted = (channel: Channel) => boolean;
+type Each = (message: Message) => void;
+
+/** Opens a bag: by its index, or without one from its start as far as it goes. */
+export async function openRosbag(source: Source): Promise<Container> {
+  const bag = new Rosbag(source);
+  if (!(await bag.readIndex())) await bag.read(() => true, ({ channel }) => (channel.count += 1));
+  return bag;
+}
+
+/** Header of a record: named fields, each after its length. */
+class Fields {
+  #bytes;
+  #view;
+
+  constructor(bytes: Uint8Array) {
+    this.#bytes = bytes;
+    this.#view = viewOf(bytes);
+  }
+
+  /** Returns the bytes of a field; throws a RangeError if there is none. */
+  get(name: string): Uint8Array {
+    const [from, to] = this.#find(name);
+    return this.#bytes.subarray(from, to);
+  }
+
+  has(name: string): boolean {
+    return this.#find(name)[0] > 0;
+  }
+
+  text(name: string): string {
+    return new TextDecoder().decode(this.get(name));
+  }
+
+  byte(name: string): number {
+    return this.#bytes[this.#position(name)];
+  }
+
+  uint32(name: string, at = 0): number {
+    return this.#view.getUint32(this.#position(name) + at, true);
+  }
+
+  uint64(name: string): number {
+    return Number(this.#view.getBigUint64(this.#position(name), true));
+  }
+
+  #position(name: string): number {
+    const [from] = this.#find(name);
+    if (from === 0) throw new RangeError(`a record has no field ${name}`);
+    return from;
+  }
+
+  /** Returns start and end of a value; zeros if there is none. */
+  #find(name: string): [number, number] {
+    const bytes = this.#bytes;
+    for (let at = 0, end; at < bytes.length; at = end) {
+      end = at + 4 + this.#view.getUint32(at, true);
+      if (end > bytes.length) throw new RangeError('a header is damaged');
+      const equals = at + 4 + name.length;
+      if (bytes[equals] !== 0x3d) continue;
+      let same = 0;
+      while (same < name.length && bytes[at + 4 + same] === name.charCodeAt(same)) same += 1;
+      if (same === name.length) return [equals + 1, end];
+    }
+    return [0, 0];
+  }
+}
+
+/** Record at a position of a block, with the position of the next one. Throws a RangeError if it is cut short. */
+function recordAt(bytes: Uint8Array, view: DataView, at: number): { fields: Fields; data: Uint8Array; next: number } {
+  const header = at + 4 + view.getUint32(at, true);
+  const next = header + 4 + view.getUint32(header, true);
+  if (next > bytes.length) throw new RangeError('a record is cut short');
+  return { fields: new Fields(bytes.subarray(at + 4, header)), data: bytes.subarray(header + 4, next), next };
+}
+
+class Rosbag implements Container {
+  readonly format = 'rosbag';
+  readonly damage = new Map<number, string>();
+  readonly missing = [];
+  cutShort = false;
+  #source;
+  /** Chunks of the index, with the connections that each has. */
+  #chunks: { position: number; connections: number[] }[] | undefined;
+  #channels = new Map<number, Channel>();
+
+  constructor(source: Source) {
+    this.#source = source;
+  }
+
+  get channels() {
+    return [...this.#channels.values()];
+  }
+
+  /** Reads the index at the end, and returns false if there is none or it is damaged. */
+  async readIndex(): Promise<boolean> {
+    const { size } = this.#source;
+    try {
+      const head = await bytesOf(this.#source, MAGIC, MAGIC + HEADER);
+      const { fields } = recordAt(head, viewOf(head), 0);
+      const [start, count] = [fields.uint64('index_pos'), fields.uint32('chunk_count')];
+      if (fields.byte('op') !== BAG || start === 0 || start > size) return false;
+      const bytes = await bytesOf(this.#source, start, size);
+      const chunks = [];
+      for (let at = 0; at < bytes.length; ) {
+        const { fields, data, next } = recordAt(bytes, viewOf(bytes), at);
+        if (fields.byte('op') === CONNECTION) this.#addConnection(fields, data);
+        if (fields.byte('op') === CHUNK_INFO) {
+          const pairs = Array.from({ length: fields.uint32('count') }, (_, i) => [0, 4].map((part) => viewOf(data).getUint32(8 * i + part, true)));
+          for (const [id, messages] of pairs) {
+            const channel = this.#channels.get(id);
+            if (channel) channel.count += messages;
+          }
+          chunks.push({ position: fields.uint64('chunk_pos'), connections: pairs.map(([id]) => id) });
+        }
+        at = next;
+      }
+      if (chunks.length !== count) throw new RangeError('the index is incomplete');
+      this.#chunks = chunks;
+      return true;
+    } catch (error) {
+      if (error instanceof LogError) throw error;
+      this.#channels.clear();
+      return false;
+    }
+  }
+
+  #addConnection(fields: Fields, data: Uint8Array): void {
+    const id = fields.uint32('conn');
+    if (this.#channels.has(id)) return;
+    const more = new Fields(data);
+    const publisher = more.has('callerid') ? more.text('callerid') : `${id}`;
+    this.#channels.set(id, { topic: fields.text('topic'), type: more.text('type'), encoding: 'ros1', publisher, count: 0 });
+  }
+
+  async read(isWanted: Wanted, each: Each, onProgress?: (share: number) => boolean | void): Promise<void> {
+    const { size } = this.#source;
+    const bytesAt = readAhead(this.#source);
+    const wanted = new Set([...this.#channels].filter(([, channel]) => isWanted(channel)).map(([id]) => id));
+    const chunks = this.#chunks?.filter(({ connections }) => connections.some((id) => wanted.has(id)));
+    this.cutShort = !chunks;
+    for (let i = 0, at = MAGIC; chunks ? i < chunks.length : at + 8 <= size; i++) {
+      if (chunks) at = chunks[i].position;
+      const position = at;
+      try {
+        let head = await bytesAt(at, Math.min(at + HEADER, size));
+        const length = viewOf(head).getUint32(0, true);
+        if (length > MAX_BLOCK) throw new RangeError('a header is damaged');
+        if (length + 8 > head.length) head = await bytesAt(at, Math.min(at + length + 8, size));
+        const bytes = viewOf(head).getUint32(4 + length, true);
+        const from = at + 8 + length;
+        at = from + bytes;
+        // The last record of a bag that was not closed.
+        if (at > size && !chunks) return;
+        const fields = new Fields(head.subarray(4, 4 + length));
+        const op = fields.byte('op');
+        if (op === CONNECTION) this.#addConnection(fields, await bytesAt(from, at));
+        if (op === CHUNK) {
+          if (Math.max(bytes, fields.uint32('size')) > MAX_BLOCK) throw new RangeError(`a chunk of ${fields.uint32('size')} bytes`);
+          await this.#readChunk(fields, await bytesAt(from, at), isWanted, each);
+        } else if (chunks) throw new RangeError('no chunk is there');
+      } catch (error) {
+        if (error instanceof LogError) throw error;
+        this.damage.set(position, reasonOf(error));
+        // Without an index, and without a length, nothing leads to the next record.
+        if (at === position && !chunks) return;
+      }
+      if (onProgress?.(chunks ? (i + 1) / chunks.length : at / size)) return;
+    }
+  }
+
+  async #readChunk(chunk: Fields, compressed: Uint8Array, isWanted: Wanted, each: Each): Promise<void> {
+    const bytes = await this.#decompress(chunk.text('compression'), compressed, chunk.uint32('size'));
+    const view = viewOf(bytes);
+    for (let at = 0; at < bytes.length; ) {
+      const { fields, data, next } = recordAt(bytes, view, at);
+      const op = fields.byte('op');
+      if (op === CONNECTION) this.#addConnection(fields, data);
+      if (op === MESSAGE) {
+        const channel = this.#channels.get(fields.uint32('conn'));
+        if (channel && isWanted(channel)) each({ channel, seconds: fields.uint32('time'), nanoseconds: fields.uint32('time', 4), data });
+      }
+      at = next;
+    }
+  }
+
+  async #decompress(compression: string, bytes: Uint8Array, size: number): Promise<Uint8Array> {
+    if (compression === 'none') return bytes;
+    if (compression === 'lz4') return unlz4(bytes, size);
+    if (compression !== 'bz2') throw new RangeError(`compression by ${compression}, not by bz2 or lz4`);
+    const { default: bzip } = await import('@openpgp/seek-bzip');
+    return bzip.decode(bytes, new Uint8Array(size));
+  }
+}

@@ -1,0 +1,238 @@
+/** Topics and messages of rosbag2's SQLite databases. https://www.sqlite.org/fileformat.html */
+
+import { LogError, bytesOf, reasonOf } from '../log-error.js';
+import type { Source } from '../log.ts';
+import { readAhead, viewOf, type Channel, type Container, type Message } from './container.ts';
+import { loadZstd } from './zstd.ts';
+
+/** Types of the pages of a table. */
+const [INTERIOR, LEAF] = [5, 13];
+
+/** Bytes of the database's header, on the first page. */
+const HEADER = 100;
+
+/** Most levels of a table: 2³² pages have fewer. */
+const MAX_DEPTH = 20;
+
+/** Most bytes of a row: the largest messages are point clouds and images. */
+const MAX_ROW = 2 ** 28;
+
+const SECOND = 1_000_000_000n;
+
+type Value = number | bigint | Uint8Array;
+
+/** Row of a table: its bytes on the page of the table, those in all, and the page with the next ones. */
+interface Row {
+  id: number;
+  bytes: Uint8Array;
+  length: number;
+  next: number;
+}
+
+interface Table {
+  root: number;
+  columns: string[];
+}
+
+const textOf = (value: Value) => (value instanceof Uint8Array ? new TextDecoder().decode(value) : '');
+
+export async function openSqlite(source: Source): Promise<Container> {
+  await loadZstd();
+  const container = new Rosbag2(source);
+  await container.open();
+  return container;
+}
+
+class Rosbag2 implements Container {
+  readonly format = 'sqlite';
+  readonly damage = new Map<number, string>();
+  readonly missing = [];
+  cutShort = false;
+  #source;
+  #pageSize = 0;
+  /** Bytes of a page without those reserved at its end. */
+  #usable = 0;
+  #messages: Table = { root: 0, columns: [] };
+  #channels = new Map<Value, Channel>();
+  #bytesAt;
+
+  constructor(source: Source) {
+    this.#source = source;
+    this.#bytesAt = readAhead(source);
+  }
+
+  get channels() {
+    return [...this.#channels.values()];
+  }
+
+  async open(): Promise<void> {
+    const view = viewOf(await bytesOf(this.#source, 0, HEADER));
+    const refuse = () => new LogError({ file: this.#source.name }, (say) => say.noRosbag2);
+    if (view.byteLength < HEADER) throw refuse();
+    this.#pageSize = view.getUint16(16) === 1 ? 65536 : view.getUint16(16);
+    this.#usable = this.#pageSize - view.getUint8(20);
+    if (this.#usable < 480) throw refuse();
+    this.cutShort = view.getUint32(28) * this.#pageSize > this.#source.size;
+    const tables = new Map<string, Table>();
+    await this.#eachRow({ root: 1, columns: [] }, async (row) => {
+      const bytes = await this.#whole(row);
+      const [name, root, sql] = [1, 3, 4].map((column) => valueOf(bytes, column));
+      const columns = textOf(sql).replace(/^[^(]*\(|\)[^)]*$/g, '').split(',').map((column) => column.trim().split(/\s/)[0]);
+      tables.set(textOf(name), { root: Number(root), columns });
+    });
+    const [topics, messages] = ['topics', 'messages'].map((name) => tables.get(name));
+    if (!topics || !messages) throw refuse();
+    this.#messages = messages;
+    await this.#eachRow(topics, async (row) => {
+      const bytes = await this.#whole(row);
+      const [topic, type, encoding] = ['name', 'type', 'serialization_format'].map((column) => textOf(valueOf(bytes, topics.columns.indexOf(column))));
+      this.#channels.set(row.id, { topic, type, encoding, publisher: `${row.id}`, count: 0 });
+    });
+    const topicId = messages.columns.indexOf('topic_id');
+    await this.#eachRow(messages, ({ bytes }) => {
+      const channel = this.#channels.get(valueOf(bytes, topicId));
+      if (channel) channel.count += 1;
+    });
+  }
+
+  async read(isWanted: (channel: Channel) => boolean, each: (message: Message) => void, onProgress?: (share: number) => boolean | void): Promise<void> {
+    const wanted = new Map([...this.#channels].filter(([, channel]) => isWanted(channel)));
+    const [topicId, timestamp, data] = ['topic_id', 'timestamp', 'data'].map((column) => this.#messages.columns.indexOf(column));
+    const take = (channel: Channel, bytes: Uint8Array) => {
+      const time = BigInt(valueOf(bytes, timestamp) as bigint);
+      each({ channel, seconds: Number(time / SECOND), nanoseconds: Number(time % SECOND), data: valueOf(bytes, data) as Uint8Array });
+    };
+    await this.#eachRow(this.#messages, (row) => {
+      const channel = wanted.get(valueOf(row.bytes, topicId));
+      if (!channel) return undefined;
+      return row.bytes.length < row.length ? this.#whole(row).then((bytes) => take(channel, bytes)) : take(channel, row.bytes);
+    }, onProgress);
+  }
+
+  /** Passes on the rows of a table in the order of their numbers. Damaged pages are skipped. */
+  async #eachRow({ root }: Table, each: (row: Row) => void | Promise<void>, onProgress?: (share: number) => boolean | void): Promise<void> {
+    const leaves = await this.#leavesOf(root);
+    for (const [i, number] of leaves.entries()) {
+      try {
+        const page = await this.#page(number);
+        for (const cell of cellsOf(page, number, LEAF)) {
+          const waiting = each(this.#rowAt(page, cell));
+          if (waiting) await waiting;
+        }
+      } catch (error) {
+        if (error instanceof LogError) throw error;
+        this.damage.set(number, reasonOf(error));
+      }
+      if (onProgress?.((i + 1) / leaves.length)) return;
+    }
+  }
+
+  /** Numbers of the pages with a table's rows, in their order. */
+  async #leavesOf(root: number): Promise<number[]> {
+    const { size } = this.#source;
+    let level = [root];
+    for (let depth = 0; depth < MAX_DEPTH; depth++) {
+      const below: number[] = [];
+      for (const number of level) {
+        // Single pages, far from each other.
+        const page = await bytesOf(this.#source, (number - 1) * this.#pageSize, number * this.#pageSize);
+        if (page.length === this.#pageSize && page[number === 1 ? HEADER : 0] === LEAF && below.length === 0) return level;
+        try {
+          const view = viewOf(page);
+          for (const cell of cellsOf(page, number, INTERIOR)) below.push(view.getUint32(cell));
+          below.push(view.getUint32((number === 1 ? HEADER : 0) + 8));
+        } catch (error) {
+          this.damage.set(number, reasonOf(error));
+        }
+      }
+      if (below.length * this.#pageSize > 2 * size) break;
+      level = below;
+    }
+    return [];
+  }
+
+  async #page(number: number): Promise<Uint8Array> {
+    const page = await this.#bytesAt((number - 1) * this.#pageSize, number * this.#pageSize);
+    if (page.length < this.#pageSize) throw new RangeError('a page is cut short');
+    return page;
+  }
+
+  #rowAt(page: Uint8Array, cell: number): Row {
+    const [length, afterLength] = varintAt(page, cell);
+    const [id, start] = varintAt(page, afterLength);
+    const end = start + this.#localBytes(length);
+    if (end > page.length || length > MAX_ROW) throw new RangeError('a row is damaged');
+    return { id, bytes: page.subarray(start, end), length, next: end - start < length ? viewOf(page).getUint32(end) : 0 };
+  }
+
+  /** Bytes of a row that are on its page; the rest overflows to others. */
+  #localBytes(length: number): number {
+    const most = this.#usable - 35;
+    if (length <= most) return length;
+    const least = Math.floor(((this.#usable - 12) * 32) / 255) - 23;
+    const wished = least + ((length - least) % (this.#usable - 4));
+    return wished <= most ? wished : least;
+  }
+
+  /** Returns a row with what overflows to other pages. */
+  async #whole({ bytes, length, next }: Row): Promise<Uint8Array> {
+    if (bytes.length === length) return bytes;
+    const row = new Uint8Array(length);
+    row.set(bytes);
+    for (let filled = bytes.length; filled < length; ) {
+      const page = await this.#page(next);
+      const part = page.subarray(4, Math.min(this.#usable, 4 + length - filled));
+      row.set(part, filled);
+      filled += part.length;
+      next = viewOf(page).getUint32(0);
+    }
+    return row;
+  }
+}
+
+/** Positions of the cells of a page; throws a RangeError if it is of another type. */
+function cellsOf(page: Uint8Array, number: number, type: number): number[] {
+  const view = viewOf(page);
+  const start = number === 1 ? HEADER : 0;
+  if (view.getUint8(start) !== type) throw new RangeError('a page is damaged');
+  const pointers = start + (type === LEAF ? 8 : 12);
+  return Array.from({ length: view.getUint16(start + 3) }, (_, i) => view.getUint16(pointers + 2 * i));
+}
+
+/** Returns a number of one to nine bytes, and the position behind it. */
+function varintAt(bytes: Uint8Array, at: number): [value: number, next: number] {
+  let value = 0;
+  for (let i = 0; i < 9; i++) {
+    if (at + i >= bytes.length) break;
+    const byte = bytes[at + i];
+    if (i < 8 && byte & 0x80) value = value * 128 + (byte & 0x7f);
+    else return [i < 8 ? value * 128 + byte : value * 256 + byte, at + i + 1];
+  }
+  throw new RangeError('a row is damaged');
+}
+
+/** Bytes of the integers of types 0 to 9. */
+const INTEGERS = [0, 1, 2, 3, 4, 6, 8, 8, 0, 0];
+
+/** Returns the value of a column; throws a RangeError if it is not among the bytes. */
+function valueOf(row: Uint8Array, column: number): Value {
+  let [from, at] = varintAt(row, 0);
+  const end = from;
+  for (let i = 0; at < end; i++) {
+    const [type, next] = varintAt(row, at);
+    const to = from + (INTEGERS[type] ?? (type - 12 - (type % 2)) / 2);
+    if (i < column) [from, at] = [to, next];
+    else if (to > row.length) break;
+    else if (type >= 12) return row.subarray(from, to);
+    else return integerOf(row, type, from, to);
+  }
+  throw new RangeError('a row is damaged');
+}
+
+function integerOf(row: Uint8Array, type: number, from: number, to: number): number | bigint {
+  if (type === 6) return viewOf(row).getBigInt64(from);
+  if (type === 8 || type === 9) return type - 8;
+  let value = 0;
+  for (let at = from; at < to; at++) value = value * 256 + (at === from ? (row[at] << 24) >> 24 : row[at]);
+  return value;
+}

@@ -1,0 +1,155 @@
+/** Chains of transforms between frames. */
+
+import type { Message } from './formats/container.ts';
+import type { Frames } from './log.ts';
+import { poseOf, withoutSlash, type Edge, type Reading, type Transform } from './messages.ts';
+import { product, rotated } from './quaternion.ts';
+
+/** Most different frames: a robot has some dozens. */
+const MAX_FRAMES = 10_000;
+
+/** Least motion in m of a frame that travels; joints only turn, and suspensions move less. */
+const TRAVELS = 0.05;
+
+/** Usual names of a robot's own frame, which is fixed to one that travels. */
+const BASE = /base|body|chassis|robot/i;
+
+interface Link extends Frames {
+  isStatic: boolean;
+  origin: Transform;
+  /** Largest distance from the origin. */
+  travelled: number;
+}
+
+export const nameOf = ({ parent, child }: Frames) => `${parent} → ${child}`;
+
+/** Links between frames. A frame may have several parents, as one in the map and one in the odometry. */
+export class FrameTree {
+  #links = new Map<string, Link>();
+  #above = new Map<string, Link[]>();
+
+  take({ parent, child, transform }: Edge, isStatic: boolean): void {
+    const link = this.#links.get(nameOf({ parent, child }));
+    if (link) {
+      link.travelled = Math.max(link.travelled, Math.hypot(transform[0] - link.origin[0], transform[1] - link.origin[1]));
+    } else if (this.#links.size < MAX_FRAMES) {
+      const added = { parent, child, isStatic, origin: transform, travelled: 0 };
+      this.#links.set(nameOf(added), added);
+      this.#above.set(child, [...(this.#above.get(child) ?? []), added]);
+    }
+  }
+
+  get links(): Frames[] {
+    return [...this.#links.values()].map(({ parent, child }) => ({ parent, child }));
+  }
+
+  /** Returns the links from one frame to another, or undefined if they are not connected. */
+  chain({ parent, child }: Frames, seen = new Set<string>()): Frames[] | undefined {
+    if (seen.has(child)) return undefined;
+    seen.add(child);
+    for (const link of this.#above.get(child) ?? []) {
+      const chain = link.parent === parent ? [] : this.chain({ parent, child: link.parent }, seen);
+      if (chain) return [...chain, link];
+    }
+    return undefined;
+  }
+
+  /**
+   * Returns the ends of chains that may be poses of a robot: they end at a frame that travels, or at a base that is fixed to it. If
+   * none travels, all frames that are published again and again may do so.
+   */
+  candidates(): Frames[] {
+    const links = [...this.#links.values()];
+    const travelling = links.filter(({ isStatic, travelled }) => !isStatic && travelled > TRAVELS);
+    const moving = new Set((travelling.length ? travelling : links.filter(({ isStatic }) => !isStatic)).map(({ child }) => child));
+    const children = [...new Set(links.map(({ child }) => child))];
+    return children.flatMap((child) => {
+      const ancestors = this.#ancestors(child);
+      const isMoving = moving.has(child);
+      const isInner = isMoving && children.some((other) => other !== child && moving.has(other) && this.#ancestors(other).includes(child));
+      // Frames between a base and the next moving frame are fixed to it.
+      const fixed = isMoving || !BASE.test(child) ? 0 : ancestors.findIndex((frame) => moving.has(frame)) + 1;
+      return isInner || (!isMoving && fixed === 0) ? [] : ancestors.slice(fixed).map((parent) => ({ parent, child }));
+    });
+  }
+
+  /** Frames above another, the nearest first. */
+  #ancestors(frame: string): string[] {
+    const found = new Set<string>([frame]);
+    for (const each of found) for (const { parent } of this.#above.get(each) ?? []) found.add(parent);
+    return [...found].slice(1);
+  }
+}
+
+/** Transform of a chain at the time of its message. */
+interface Sample {
+  link: string;
+  edge: Edge;
+  message: Omit<Message, 'data'>;
+  number: number;
+}
+
+/** Poses of a frame in another, from the transforms between them. */
+export class Chain {
+  readonly tree = new FrameTree();
+  readonly #ends: Frames;
+  /** Names of the links, from the first to the last. */
+  #links: string[] = [];
+  /** Samples in the order of their messages; at first the latest ones of each link when the chain was connected. */
+  #samples: Sample[] = [];
+  /** Latest samples of links, while the chain is not connected. */
+  #waiting = new Map<string, Sample>();
+
+  constructor({ parent, child }: Frames) {
+    this.#ends = { parent: withoutSlash(parent), child: withoutSlash(child) };
+  }
+
+  /** Takes a transform, static ones before all others: they hold at all times. */
+  take(edge: Edge, isStatic: boolean, { channel, seconds, nanoseconds }: Message, number: number): void {
+    this.tree.take(edge, isStatic);
+    const sample = { link: nameOf(edge), edge, message: { channel, seconds, nanoseconds }, number };
+    if (this.isConnected) {
+      if (this.#links.includes(sample.link)) this.#samples.push(sample);
+      return;
+    }
+    this.#waiting.set(sample.link, sample);
+    this.#links = (this.tree.chain(this.#ends) ?? []).map(nameOf);
+    for (const link of this.#links) this.#samples.push(this.#waiting.get(link) as Sample);
+  }
+
+  get isConnected(): boolean {
+    return this.#links.length > 0;
+  }
+
+  /**
+   * Passes on the poses at the times of the moving transform that is nearest to the child, with the latest ones of all others.
+   *
+   * @returns false if no transform ever changes
+   */
+  poses(each: (reading: Reading, sample: Sample) => void): boolean {
+    const latest = new Map<string, Transform>();
+    const moving = new Set<string>();
+    for (const { link, edge: { transform } } of this.#samples) {
+      const first = latest.get(link);
+      if (!first) latest.set(link, transform);
+      else if (transform.some((value, i) => value !== first[i])) moving.add(link);
+    }
+    const nearest = this.#links.findLast((link) => moving.has(link));
+    if (nearest === undefined) return false;
+    const timeOf = ({ message: { seconds, nanoseconds } }: Sample) => seconds + nanoseconds / 1e9;
+    for (const sample of this.#samples.toSorted((one, other) => timeOf(one) - timeOf(other))) {
+      latest.set(sample.link, sample.edge.transform);
+      if (sample.link !== nearest) continue;
+      each(poseOf(sample.edge, this.#links.map((link) => latest.get(link) as Transform).reduce(composed)), sample);
+    }
+    return true;
+  }
+}
+
+/** Returns the transform of a second frame, which stands in the first. */
+function composed([x, y, z, qx, qy, qz, qw]: Transform, [x2, y2, z2, qx2, qy2, qz2, qw2]: Transform): Transform {
+  const rotation = { x: qx, y: qy, z: qz, w: qw };
+  const moved = rotated(rotation, { x: x2, y: y2, z: z2 });
+  const turned = product(rotation, { x: qx2, y: qy2, z: qz2, w: qw2 });
+  return [x + moved.x, y + moved.y, z + moved.z, turned.x, turned.y, turned.z, turned.w];
+}

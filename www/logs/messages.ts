@@ -1,0 +1,188 @@
+/** Messages of ROS 1 and ROS 2 with poses, commands or transforms. Only the leading fields are read; covariances and the like follow. */
+
+import { viewOf, type Channel } from './formats/container.ts';
+import { concatenated, unzstdPart } from './formats/zstd.ts';
+import type { Series } from './log.ts';
+import { headingOf, isRotation } from './quaternion.ts';
+
+export interface Stamp {
+  /** Zeros of a type without a stamp. */
+  seconds: number;
+  nanoseconds: number;
+}
+
+export interface Reading extends Stamp {
+  /** x, or v. */
+  a: number;
+  /** y, or omega. */
+  b: number;
+  /** Heading, or 0. */
+  c: number;
+  /** True if the quaternion has length 1. */
+  isRotation: boolean;
+}
+
+/** Position and quaternion. */
+export type Transform = [x: number, y: number, z: number, qx: number, qy: number, qz: number, qw: number];
+
+/** Transform of the child's frame in the parent's. */
+export interface Edge extends Stamp {
+  parent: string;
+  child: string;
+  transform: Transform;
+}
+
+/** Kinds of CDR: plain, and plain of version 2, which aligns to four bytes at most. */
+const [CDR, CDR_2] = [[0, 1], [6, 7, 16, 17]];
+
+/** Bytes of the header of CDR, from whose end values are aligned. */
+const CDR_HEADER = 4;
+
+/** Reader of the values of a message: packed in ROS 1, aligned to their size in ROS 2. */
+class Reader {
+  #view;
+  #at = 0;
+  #isLittle = true;
+  #alignment = 1;
+
+  constructor(encoding: string, data: Uint8Array) {
+    this.#view = viewOf(data);
+    if (encoding === 'ros1') return;
+    const kind = this.#view.getUint8(1);
+    if (!CDR.includes(kind) && !CDR_2.includes(kind)) throw new RangeError(`CDR of kind ${kind}`);
+    this.#isLittle = kind % 2 === 1;
+    this.#alignment = CDR.includes(kind) ? 8 : 4;
+    this.#at = CDR_HEADER;
+  }
+
+  /** Stamp of a header, which in ROS 1 comes after a number. */
+  stamp(): Stamp {
+    if (this.#alignment === 1) this.seek(4);
+    return { seconds: this.#view.getInt32(this.#next(4), this.#isLittle), nanoseconds: this.uint32() };
+  }
+
+  seek(bytes: number): void {
+    this.#at += bytes;
+  }
+
+  uint32(): number {
+    return this.#view.getUint32(this.#next(4), this.#isLittle);
+  }
+
+  float64(): number {
+    return this.#view.getFloat64(this.#next(8), this.#isLittle);
+  }
+
+  string(): string {
+    const length = this.uint32();
+    this.#at += length;
+    const { buffer, byteOffset } = this.#view;
+    return new TextDecoder().decode(new Uint8Array(buffer, byteOffset + this.#at - length, length)).replace(/\0$/, '');
+  }
+
+  /** Returns the position of a value, and goes on behind it. */
+  #next(size: number): number {
+    const alignment = Math.min(size, this.#alignment);
+    const at = this.#at + ((CDR_HEADER - this.#at) & (alignment - 1));
+    this.#at = at + size;
+    return at;
+  }
+}
+
+const NO_STAMP: Stamp = { seconds: 0, nanoseconds: 0 };
+
+/** Skips a string: decoding it takes as long as all the rest. */
+function skipString(reader: Reader): void {
+  reader.seek(reader.uint32());
+}
+
+function header(reader: Reader): Stamp {
+  const stamp = reader.stamp();
+  skipString(reader);
+  return stamp;
+}
+
+function transform(reader: Reader): Transform {
+  return [reader.float64(), reader.float64(), reader.float64(), reader.float64(), reader.float64(), reader.float64(), reader.float64()];
+}
+
+export function poseOf({ seconds, nanoseconds }: Stamp, [x, y, , qx, qy, qz, qw]: Transform): Reading {
+  return { seconds, nanoseconds, a: x, b: y, c: headingOf(qx, qy, qz, qw), isRotation: isRotation(qx, qy, qz, qw) };
+}
+
+function twist({ seconds, nanoseconds }: Stamp, reader: Reader): Reading {
+  const v = reader.float64();
+  // The other speeds, and the turn rates about the other axes.
+  reader.seek(4 * 8);
+  return { seconds, nanoseconds, a: v, b: reader.float64(), c: 0, isRotation: true };
+}
+
+/** Returns stamp and pose of a frame in another. */
+function child(reader: Reader): Reading {
+  const stamp = header(reader);
+  skipString(reader);
+  return poseOf(stamp, transform(reader));
+}
+
+const stamped = (reader: Reader) => poseOf(header(reader), transform(reader));
+
+/** Readers of poses and commands by message type. */
+const POSES: Record<string, (reader: Reader) => Reading> = {
+  'nav_msgs/Odometry': child,
+  'geometry_msgs/TransformStamped': child,
+  'geometry_msgs/PoseStamped': stamped,
+  'geometry_msgs/PoseWithCovarianceStamped': stamped,
+  'geometry_msgs/Pose2D': (reader) => ({ ...NO_STAMP, a: reader.float64(), b: reader.float64(), c: reader.float64(), isRotation: true }),
+};
+const COMMANDS: typeof POSES = {
+  'geometry_msgs/Twist': (reader) => twist(NO_STAMP, reader),
+  'geometry_msgs/TwistStamped': (reader) => twist(header(reader), reader),
+  'geometry_msgs/TwistWithCovarianceStamped': (reader) => twist(header(reader), reader),
+};
+const TRANSFORMS = ['tf2_msgs/TFMessage', 'tf/tfMessage'];
+
+/** Name of a type in ROS 1. */
+const plainType = (type: string) => type.replace('/msg/', '/');
+
+/** Returns what can be read from messages of a type. */
+export function kindOf(type: string): Series['kind'] {
+  const plain = plainType(type);
+  if (Object.hasOwn(POSES, plain)) return 'poses';
+  if (Object.hasOwn(COMMANDS, plain)) return 'commands';
+  return TRANSFORMS.includes(plain) ? 'transforms' : null;
+}
+
+/** Checks whether messages are serialized as ROS 1 or ROS 2 does. */
+export const isReadable = ({ encoding }: Channel) => encoding === 'cdr' || encoding === 'ros1';
+
+/** First bytes of a message that rosbag2 compressed; others start with 0. */
+const ZSTD = 0x28b52ffd;
+
+/** Most bytes of a message that is decompressed. */
+const MAX_MESSAGE = 2 ** 24;
+
+function readerOf(encoding: string, data: Uint8Array): Reader {
+  if (encoding === 'ros1' || data[0] === 0 || viewOf(data).getUint32(0) !== ZSTD) return new Reader(encoding, data);
+  return new Reader(encoding, concatenated(unzstdPart(data, MAX_MESSAGE)));
+}
+
+/** Returns a reader of poses or commands, which throws an error if the bytes are no such message. */
+export function poseReader({ type, encoding }: Channel): (data: Uint8Array) => Reading {
+  const read = POSES[plainType(type)] ?? COMMANDS[plainType(type)];
+  return (data) => read(readerOf(encoding, data));
+}
+
+/** Name of a frame without the leading slash of the first tf. */
+export const withoutSlash = (name: string) => name.replace(/^\/+/, '');
+
+/** Reads transforms; throws an error if the bytes are no such message. */
+export function edgesOf({ encoding }: Channel, data: Uint8Array): Edge[] {
+  const reader = readerOf(encoding, data);
+  const edges: Edge[] = [];
+  for (let left = reader.uint32(); left > 0; left--) {
+    const { seconds, nanoseconds } = reader.stamp();
+    const [parent, child] = [withoutSlash(reader.string()), withoutSlash(reader.string())];
+    edges.push({ seconds, nanoseconds, parent, child, transform: transform(reader) });
+  }
+  return edges;
+}

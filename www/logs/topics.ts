@@ -1,0 +1,203 @@
+/** Logs of the topics of a recording. */
+
+import type { Channel, Container, Message } from './formats/container.ts';
+import { Chain, FrameTree, nameOf } from './frames.ts';
+import { LogError, cut, listed, reasonOf, type Words } from './log-error.js';
+import { LOG_TIME, type Choice, type Log, type Note, type OpenOptions, type Question, type Recording, type Series } from './log.ts';
+import { edgesOf, isReadable, kindOf, poseReader, type Reading } from './messages.ts';
+import { MAX_VALUE, Rows } from './rows.ts';
+
+/** Messages of transforms after which all frames are taken to be known. */
+const MESSAGES_OF_FRAMES = 2000;
+
+/** Times that nodes may take turns in publishing a topic: one that is started again begins where another has ended. */
+const MAX_TURNS = 2;
+
+/** Checks for a topic of transforms that never change. */
+const isStatic = ({ topic, type }: Channel) => kindOf(type) === 'transforms' && /(^|\/)tf_static$/.test(topic);
+
+/** Returns the recording that a container holds. */
+export async function recordingOf(name: string, container: Container, options: OpenOptions): Promise<Recording> {
+  const series = await seriesOf(container);
+  return { name, format: container.format, series, read };
+
+  /** Reads several logs in one pass. */
+  async function read(choices: Choice[], onProgress?: (share: number) => void): Promise<Log[]> {
+    const topics = choices.map((choice) => new TopicReader(name, container, choice, series));
+    const byChannel = new Map(container.channels.map((channel) => [channel, topics.filter((topic) => topic.wants(channel))]));
+    const take = (message: Message) => {
+      for (const topic of byChannel.get(message.channel) ?? []) topic.take(message);
+    };
+    const wanted = new Set(container.channels.filter((channel) => byChannel.get(channel)?.length && !isStatic(channel)));
+    // Static transforms hold at all times, whenever they were recorded.
+    if (choices.some(({ frames }) => frames)) await container.read(isStatic, take);
+    await container.read((channel) => wanted.has(channel), take, onProgress);
+    return topics.map((topic) => topic.end(options));
+  }
+}
+
+async function seriesOf(container: Container): Promise<Series[]> {
+  const byTopic = new Map<string, Channel[]>();
+  for (const channel of container.channels) byTopic.set(channel.topic, [...(byTopic.get(channel.topic) ?? []), channel]);
+  const series: Series[] = [...byTopic].map(([topic, channels]) => {
+    const readable = channels.filter((channel) => isReadable(channel) && kindOf(channel.type) !== null);
+    const types = new Set((readable.length ? readable : channels).map(({ type }) => type));
+    const count = (readable.length ? readable : channels).reduce((sum, channel) => sum + channel.count, 0);
+    return { name: topic, type: [...types].join(', '), kind: readable.length && types.size === 1 ? kindOf([...types][0]) : null, count };
+  });
+  const transforms = series.filter(({ name, kind }) => kind === 'transforms' && !/(^|\/)tf_static$/.test(name));
+  for (const each of transforms) {
+    const tree = new FrameTree();
+    let messages = 0;
+    const take = ({ channel, data }: Message) => {
+      messages += 1;
+      try {
+        for (const edge of edgesOf(channel, data)) tree.take(edge, isStatic(channel));
+      } catch {
+        // A damaged message is counted when the log is read.
+      }
+    };
+    await container.read(isStatic, take);
+    await container.read(({ topic }) => topic === each.name, take, () => messages >= MESSAGES_OF_FRAMES);
+    each.links = tree.links;
+    each.frames = tree.candidates();
+  }
+  return series.sort((one, other) => (one.name < other.name ? -1 : 1));
+}
+
+/** Reader of one topic; of a topic of transforms, also of the static ones. */
+class TopicReader {
+  #file;
+  #container;
+  #choice;
+  #rows;
+  #kind: Series['kind'] = null;
+  #chain: Chain | undefined;
+  /** Messages so far. */
+  #number = 0;
+  /** Messages that cannot be read, and the reason for the first. */
+  #damaged = 0;
+  #reason = '';
+  /** Readers by channel. */
+  #readers = new Map<Channel, (message: Message) => void>();
+  /** Nodes in the order of their first messages, and the number of times that one followed which had published before. */
+  #publishers: string[] = [];
+  #publisher = '';
+  #turns = 0;
+
+  constructor(file: string, container: Container, choice: Choice, series: Series[]) {
+    this.#file = file;
+    this.#container = container;
+    this.#choice = choice;
+    this.#rows = new Rows({ file, topic: choice.series });
+    this.#kind = this.#checkTypes();
+    if (this.#kind !== 'transforms') return;
+    const candidates = series.find(({ name }) => name === choice.series)?.frames ?? [];
+    if (!choice.frames) {
+      const ask = { what: 'frames' as const, choices: candidates.map(({ parent, child }) => `${parent},${child}`) };
+      this.#refuse((say) => say.frames(listed(candidates.map(nameOf))), ask);
+    }
+    this.#chain = new Chain(choice.frames);
+  }
+
+  wants(channel: Channel): boolean {
+    if (kindOf(channel.type) !== this.#kind) return false;
+    return channel.topic === this.#choice.series || (this.#choice.frames !== undefined && isStatic(channel));
+  }
+
+  /** Checks that there is such a topic, and that it has one type that can be read. */
+  #checkTypes(): Series['kind'] {
+    const { series, kind: wanted, frames } = this.#choice;
+    const all = this.#container.channels;
+    const channels = all.filter(({ topic }) => topic === series);
+    const [reason] = this.#container.damage.values();
+    if (channels.length === 0) this.#refuse((say) => reason && all.length === 0 ? say.damaged(reason) : say.noTopic(listed([...new Set(all.map(({ topic }) => topic))])));
+    const isWanted = ({ type }: Channel) => {
+      const kind = kindOf(type);
+      return frames ? kind === 'transforms' : kind !== null && !(wanted === 'poses' && kind === 'commands');
+    };
+    const fitting = channels.filter(isWanted);
+    const types = [...new Set((fitting.length ? fitting : channels).map(({ type }) => type))];
+    if (fitting.length === 0) this.#refuse((say) => say.type(cut(types.join(', ')), frames ? 'transforms' : wanted === 'poses' ? wanted : 'either'));
+    if (types.length > 1) this.#refuse((say) => say.types(listed(types)));
+    if (!isReadable(fitting[0])) this.#refuse((say) => say.encoding(cut(fitting[0].encoding)));
+    return kindOf(types[0]);
+  }
+
+  take(message: Message): void {
+    const { channel } = message;
+    let read = this.#readers.get(channel);
+    if (!read) this.#readers.set(channel, (read = this.#readerOf(channel)));
+    this.#number += 1;
+    try {
+      read(message);
+    } catch (error) {
+      if (error instanceof LogError) throw error;
+      return this.#drop(this.#number, reasonOf(error));
+    }
+    if (channel.publisher === this.#publisher || this.#chain) return;
+    this.#publisher = channel.publisher;
+    if (this.#publishers.includes(channel.publisher)) this.#turns += 1;
+    else this.#publishers.push(channel.publisher);
+  }
+
+  #readerOf(channel: Channel): (message: Message) => void {
+    const chain = this.#chain;
+    if (!chain) {
+      const pose = poseReader(channel);
+      return (message) => this.#add(pose(message.data), message, this.#number);
+    }
+    const fixed = isStatic(channel);
+    return (message) => {
+      for (const edge of edgesOf(channel, message.data)) chain.take(edge, fixed, message, this.#number);
+    };
+  }
+
+  #add({ seconds, nanoseconds, a, b, c, isRotation }: Reading, recorded: Omit<Message, 'data'>, number: number): void {
+    if (Math.max(Math.abs(a), Math.abs(b), Math.abs(c)) > MAX_VALUE) return this.#drop(number, 'a value is out of range');
+    if (!isRotation) return this.#rows.leaveOut('noRotation', number);
+    this.#rows.add(seconds, nanoseconds / 1e9, a, b, c, number, recorded.seconds, recorded.nanoseconds / 1e9);
+  }
+
+  /** Drops a damaged message. */
+  #drop(number: number, reason: string): void {
+    this.#damaged += 1;
+    this.#reason ||= reason;
+    this.#rows.leaveOut('damaged', number);
+  }
+
+  /** Returns the log; throws a LogError if the messages are none. */
+  end(options: OpenOptions): Log {
+    const { series, frames } = this.#choice;
+    const { damage, cutShort, missing } = this.#container;
+    const [reason] = damage.values();
+    if (this.#number === 0) this.#refuse((say) => (reason ? say.damaged(reason) : say.noMessages));
+    if (this.#turns > MAX_TURNS) this.#refuse((say) => say.publishers(listed(this.#publishers)));
+    if (this.#chain) this.#addPoses(this.#chain);
+    if (this.#damaged === this.#number) this.#refuse((say) => say.message(1, this.#reason));
+    const kind = this.#kind === 'commands' ? 'commands' : 'poses';
+    const notes: Note[] = [
+      ...(missing.length ? [{ name: 'missing' as const, values: [listed(missing)] }] : []),
+      ...(damage.size ? [{ name: 'damaged' as const, values: [damage.size, reason] }] : []),
+      ...(cutShort ? [{ name: 'cutShort' as const, values: [] }] : []),
+    ];
+    return this.#rows.end(`${this.#file}, ${series}${frames ? ` (${nameOf(frames)})` : ''}`, kind, {
+      units: { time: { unit: 'ns', by: 'format' }, length: { unit: 'm', by: 'format' }, angle: { unit: kind === 'poses' ? 'quaternion' : 'none', by: 'format' } },
+      clocks: ['header.stamp', LOG_TIME],
+      ...(frames && { frames }),
+      notes,
+    }, options);
+  }
+
+  #addPoses(chain: Chain): void {
+    const frames = this.#choice.frames as NonNullable<Choice['frames']>;
+    if (this.#damaged === this.#number) return;
+    if (!chain.isConnected) this.#refuse((say) => say.noChain(nameOf(frames), listed(chain.tree.links.map(nameOf))));
+    const changes = chain.poses((pose, { message, number }) => this.#add(pose, message, number));
+    if (!changes) this.#refuse((say) => say.constant(nameOf(frames), listed(chain.tree.candidates().map(nameOf))));
+  }
+
+  #refuse(reason: (say: Words['refused']) => string, ask?: Question): never {
+    throw new LogError({ file: this.#file, topic: this.#choice.series }, reason, ask);
+  }
+}

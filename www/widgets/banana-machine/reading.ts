@@ -96,7 +96,7 @@ const CAUSES = { velocity: [...'vωvωvω'], odometry: [...'ωvvω'] } as const;
  *
  * @param index of the α, from 0
  */
-export function silenceOf(model: Settings['model'], index: number) {
+function silenceOf(model: Settings['model'], index: number) {
   const { alphaIsSilent, nothingToMultiply, settings } = words.banana;
   const cause = CAUSES[model][index] as 'v' | 'ω';
   return alphaIsSilent(alphaName(index), nothingToMultiply[model][cause], cause, settings.alphas.effects[model][index][2]);

@@ -35,7 +35,7 @@ const FEW = 0.075;
 const MOST = 0.95;
 
 /** Returns a share between 0 and 1 as a simple fraction. */
-export function fractionOf(share: number): [few: number, of: number] {
+function fractionOf(share: number): [few: number, of: number] {
   if (share < FEW) return [1, Number((1 / share).toPrecision(2))];
   const fractions = DENOMINATORS.map((of) => [clamp(Math.round(share * of), 1, of - 1), of] as [number, number]);
   const off = ([few, of]: [number, number]) => Math.abs(few / of - share);

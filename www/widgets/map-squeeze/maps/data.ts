@@ -56,7 +56,7 @@ export function mapData(machine: MapSqueeze, name: string, grid: Cells | null): 
  * The walls of a floor plan as the core reads them soonest, one after the other; as they are where they are something else
  * than such a list, of which the core says what is wrong.
  */
-export function inOneList(walls: unknown) {
+function inOneList(walls: unknown) {
   if (!Array.isArray(walls) || walls.length > MAX_WALLS) return walls;
   const numbers = new Float64Array(4 * walls.length);
   for (const [i, wall] of walls.entries()) {

@@ -124,11 +124,6 @@ test('attributes that are refused are reported in the words of the core, and the
   ]);
   const values = async () => Promise.all(['v', 'omega', 'model', 'samples'].map((name) => property(widget, name)));
   expect(await values()).toEqual([1, 0.7, 'velocity', 50000]);
-  await widget.evaluate((element) => element.setAttribute('dt', '-1'));
-  expect((await heard(page, ['error'])).map(({ message }) => message)).toEqual([
-    'command.dt is -1; allowed is a number from 0.000001 to 1000000',
-  ]);
-  expect(await property(widget, 'dt')).toBe(2);
   // A blank attribute is neither a number nor zero.
   await widget.evaluate((element) => element.setAttribute('omega', ' '));
   expect((await heard(page, ['error'])).map(({ message }) => message)).toEqual(['command.omega is " "; allowed is a number']);
@@ -137,14 +132,6 @@ test('attributes that are refused are reported in the words of the core, and the
   expect(await property(widget, 'dt')).toBe(3);
   await widget.getByRole('button', { name: 'Pivot' }).click();
   expect(await values()).toEqual([0.06, 1.5, 'velocity', 50000]);
-});
-
-test('attributes that are removed leave the defaults', async ({ page }) => {
-  const widget = await mount(page, 'banana-machine', { attributes: 'v="2" alpha1="0.2" overlays="ellipse" isolate="2" model="odometry"' });
-  const names = ['model', 'v', 'alpha1', 'overlays', 'isolate'];
-  await widget.evaluate((element, given) => given.forEach((name) => element.removeAttribute(name)), names);
-  const values = await Promise.all(names.map((name) => property(widget, name)));
-  expect(values).toEqual(['velocity', 1, 0.002, ['command', 'ellipse', 'exponential'], null]);
 });
 
 test('elements in the table of doc/embedding.md have the attributes that it shows', async ({ page, figure }) => {
@@ -296,19 +283,10 @@ test('properties take effect at once and reflect; those out of range are reporte
   for (const [widget, name, value, message] of /** @type {const} */ ([
     [banana, 'v', 'fast', 'TypeError: command.v is "fast"; allowed is a number'],
     [banana, 'omega', NaN, 'RangeError: command.omega is NaN; allowed is a number from -1000000 to 1000000'],
-    [banana, 'v', 1e7, 'RangeError: command.v is 10000000; allowed is a number from -1000000 to 1000000'],
-    [banana, 'preset', 'loop', 'RangeError: preset is "loop"; allowed is "straight" or "gentle" or "hard" or "pivot" or "banana" or "worked"'],
     [banana, 'theme', 'sepia', 'RangeError: theme is "sepia"; allowed is "auto" or "light" or "dark"'],
     [banana, 'marked', 50000, 'RangeError: marked is 50000; allowed is a whole number from 0 to 49999'],
-    // As those begin that it has.
     [banana, 'alphas', [0.05, 0.05], 'RangeError: alphas has length 2; allowed is an array of 6 numbers'],
-    [banana, 'alphas', [1, 2], 'RangeError: alphas has length 2; allowed is an array of 6 numbers'],
-    [banana, 'alpha4', -1, 'RangeError: alpha4 is -1; allowed is a number from 0 to 1000000'],
-    [squeeze, 'noise', -1, 'RangeError: noise is -1; allowed is a number from 0 to 1000000'],
-    [squeeze, 'conditioned', 'maybe', 'TypeError: conditioned is "maybe"; allowed is true or false'],
     [squeeze, 'conditioned', 'toString', 'TypeError: conditioned is "toString"; allowed is true or false'],
-    [banana, 'model', 'constructor', 'RangeError: model is "constructor"; allowed is "velocity" or "odometry"'],
-    [squeeze, 'view', 'near', 'RangeError: view is "near"; allowed is "close" or "whole"'],
     [squeeze, 'map', { bounds: [0, 0, 1], walls: [] }, 'RangeError: map.bounds has length 3; allowed is an array of 4 numbers'],
   ])) {
     const before = await widget.evaluate((element) => JSON.stringify(/** @type {AnyElement} */ (element).getState()));

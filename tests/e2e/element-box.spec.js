@@ -1,5 +1,5 @@
 import { expect } from '@playwright/test';
-import { FRESH, STILL, boxOf, frames, mount, ready, show, test } from './support.js';
+import { FRESH, STILL, boxOf, frames, ready, show, test } from './support.js';
 
 /** @typedef {import('@playwright/test').Page} Page */
 
@@ -87,19 +87,6 @@ test('a figure is in proportion to the letters around it, whatever the font size
     const off = boxes.filter(({ numbers }, i) => numbers.some((number, k) => Math.abs(number - first.boxes[i].numbers[k]) > 0.25));
     expect(off, `${em} px, root ${root}`).toEqual([]);
   }
-});
-
-test('a handle is held where it is shown, also with large letters', async ({ page }) => {
-  const widget = await mount(page, 'banana-machine', { attributes: 'style="font-size: 24px"' });
-  const handle = widget.getByRole('slider', { name: 'End of the commanded arc' });
-  const from = await boxOf(handle);
-  await page.mouse.move(from.x + from.width / 2, from.y + from.height / 2);
-  await page.mouse.down();
-  await page.mouse.move(from.x + from.width / 2 + 40, from.y + from.height / 2 - 30, { steps: 4 });
-  await frames(page);
-  const to = await boxOf(handle);
-  expect(Math.hypot(to.x - from.x - 40, to.y - from.y + 30)).toBeLessThan(2);
-  await page.mouse.up();
 });
 
 test('the picture of a figure stays in sight on a phone, below the header of the site', async ({ page, figure }) => {

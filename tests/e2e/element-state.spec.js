@@ -42,29 +42,17 @@ for (const name of ALL) {
 }
 
 test('a state that is refused names the field, and changes nothing', async ({ page }) => {
-  await show(page, ALL.map((name) => `<${name}></${name}>`).join(''));
   const cases = /** @type {[string, object, string][]} */ ([
     ['banana-machine', { version: 2, speed: 1 }, 'RangeError: state.version is 2; allowed is 1'],
-    ['banana-machine', { widget: 'map-squeeze', start: {} }, 'RangeError: state.widget is "map-squeeze"; allowed is "banana-machine"'],
     ['banana-machine', { speed: 1 }, 'TypeError: state.speed is an unknown key; allowed are'],
     ['banana-machine', { overlays: ['stars'] }, 'RangeError: state.overlays[0] is "stars"; allowed is'],
-    ['banana-machine', { command: { v: 'fast', omega: 0, dt: 1 } }, 'TypeError: command.v is "fast"; allowed is a number'],
-    ['banana-machine', { alphas: { odometry: [1] } }, 'RangeError: alphas has length 1; allowed is an array of 4 numbers'],
     ['banana-machine', { shown: 10, marked: 10 }, 'RangeError: state.marked is 10; allowed is a whole number from 0 to 9'],
-    ['map-squeeze', { shown: 0.5 }, 'RangeError: state.shown is 0.5; allowed is a whole number from 0 to 600'],
     ['map-squeeze', { view: '🤖'.repeat(1000) }, `RangeError: state.view is "${'🤖'.repeat(40)}…"; allowed is "close" or "whole"`],
-    ['map-squeeze', { map: { bounds: [0, 0, 1, 1], walls: [3] } }, 'TypeError: map.walls[0] is 3; allowed is'],
     ['map-squeeze', { map: { columns: 2, rows: 2, resolution: 1, origin: [0, 0, 0], occupied: '?' } }, 'RangeError: map.occupied is "?"; allowed is base64 of 1 bytes'],
-    ['arc-anatomy', { line: 10 }, 'RangeError: state.line is 10'],
-    ['arc-anatomy', { next: { x: 1 } }, 'TypeError: next.y is'],
-    ['odometry-decomposer', { phase: 3.5 }, 'RangeError: phase is 3.5; allowed is a number from 0 to 3'],
     ['dead-reckoning', { steps: 1, step: 2 }, 'RangeError: step is 2; allowed is'],
-    ['alpha-calibrator', { rule: 'amcl' }, 'RangeError: rule is "amcl"; allowed is'],
   ]);
-  for (const name of ALL) {
-    const widget = page.locator(name);
-    await widget.scrollIntoViewIfNeeded();
-    await ready(widget);
+  for (const name of new Set(cases.map(([of]) => of))) {
+    const widget = await mount(page, name);
     const before = await stateOf(widget);
     for (const [, change, message] of cases.filter(([of]) => of === name)) {
       const [thrown, after] = await widget.evaluate((element, part) => {

@@ -21,15 +21,15 @@ const TYPES = /** @type {const} */ ({
  *
  * @param {Record<string, keyof typeof TYPES>} series types by name
  * @param {Partial<Recording>} [more]
- * @param {string[]} [links] of transforms, as "odom base_link"
+ * @param {string[]} [frames] of transforms, as "odom base_link"
  * @returns {Recording}
  */
-const recording = (series, more, links = []) => ({
+const recording = (series, more, frames = []) => ({
   name: 'run.mcap',
   format: 'mcap',
   series: Object.entries(series).map(([name, of]) => {
     const [type, kind] = TYPES[of];
-    return { name, type, kind, count: 9, ...(kind === 'transforms' && { links: links.map((link) => ({ parent: link.split(' ')[0], child: link.split(' ')[1] })) }) };
+    return { name, type, kind, count: 9, ...(kind === 'transforms' && { frames: frames.map((each) => ({ parent: each.split(' ')[0], child: each.split(' ')[1] })) }) };
   }),
   read: () => Promise.reject(new Error('not read')),
   ...more,
@@ -50,7 +50,7 @@ function refusalOf(work) {
   throw new assert.AssertionError({ message: 'nothing was refused' });
 }
 
-/** Series of a recording, the expected odometry and reference, links of transforms and wishes. @type {[Parameters<typeof recording>[0], string, string, string[]?, any?][]} */
+/** Series of a recording, the expected odometry and reference, frames of transforms and wishes. @type {[Parameters<typeof recording>[0], string, string, string[]?, any?][]} */
 const CLEAR = [
   [{ '/odom': 'odometry', '/vrpn_client_node/robot/pose': 'pose', '/amcl_pose': 'pose', '/cmd_vel': 'twist' }, '/odom', '/vrpn_client_node/robot/pose'],
   [{ '/odom': 'odometry', '/vicon/robot': 'pose', '/cmd_vel': 'twist' }, '/cmd_vel', '/vicon/robot', [], { kind: 'commands' }],
@@ -59,17 +59,17 @@ const CLEAR = [
   [{ '/robot1/wheel_odometry': 'odometry', '/base_pose_ground_truth': 'odometry' }, '/robot1/wheel_odometry', '/base_pose_ground_truth'],
   [{ '/odom': 'odometry', '/odometry/filtered': 'odometry', '/leica/position': 'point' }, '/odom', '/leica/position'],
   [{ '/odom': 'odometry', '/pose': 'pose' }, '/odom', '/pose'],
-  [{ '/odom': 'odometry', '/tf': 'tf' }, '/odom', '/tf map base_footprint', ['odom base_footprint', 'map odom', 'base_footprint base_link', 'base_link laser']],
-  [{ '/tf': 'tf', '/mocap': 'pose' }, '/tf odom base_link', '/mocap', ['odom base_link', 'map odom']],
-  [{ '/tf': 'tf' }, '/tf r1/odom r1/base_link', '/tf map r1/base_link', ['r1/odom r1/base_link', 'map r1/odom']],
+  [{ '/odom': 'odometry', '/tf': 'tf' }, '/odom', '/tf map base_footprint', ['odom base_footprint', 'map base_footprint', 'odom base_link', 'map base_link']],
+  [{ '/tf': 'tf', '/mocap': 'pose' }, '/tf odom base_link', '/mocap', ['odom base_link', 'map base_link']],
+  [{ '/tf': 'tf' }, '/tf r1/odom r1/base_link', '/tf map r1/base_link', ['r1/odom r1/base_link', 'map r1/base_link']],
   [{ '/odom': 'odometry', '/slam': 'pose', '/mocap': 'pose' }, '/odom', '/slam', [], { reference: { series: '/slam' } }],
   [{ '/odom': 'odometry', '/mocap': 'pose' }, '/mocap', '/odom', [], { odometry: { series: '/mocap' }, reference: { series: '/odom' } }],
   [{ '/tf': 'tf', '/mocap': 'pose' }, '/tf odom base', '/mocap', [], { odometry: { frames: { parent: 'odom', child: 'base' } } }],
 ];
 
 test('odometry and reference are guessed by types, names and frames', () => {
-  for (const [series, odometry, reference, links, wishes] of CLEAR) {
-    const [drive] = planDrives([recording(series, {}, links)], wishes).drives;
+  for (const [series, odometry, reference, frames, wishes] of CLEAR) {
+    const [drive] = planDrives([recording(series, {}, frames)], wishes).drives;
     assert.deepEqual([printed(drive.odometry.choice), printed(drive.reference.choice)], [odometry, reference]);
   }
 });
@@ -86,7 +86,7 @@ test('groups of columns are guessed as topics are, and may be named without a se
 });
 
 test('what is not clear is asked', () => {
-  for (const [series, sentence, what, role, choices, links, wishes] of /** @type {[Parameters<typeof recording>[0], string, string?, string?, string[]?, string[]?, any?][]} */ ([
+  for (const [series, sentence, what, role, choices, frames, wishes] of /** @type {[Parameters<typeof recording>[0], string, string?, string?, string[]?, string[]?, any?][]} */ ([
     [{ '/odom': 'odometry', '/a': 'pose', '/b': 'pose' }, 'it is not clear what the reference is: /odom (Odometry), /a (PoseStamped), /b (PoseStamped).', 'series', 'reference', ['/odom', '/a', '/b']],
     [{ '/odom': 'odometry', '/wheel/odometry': 'odometry', '/mocap': 'pose' }, 'it is not clear what the odometry is: ', 'series', 'odometry'],
     [{ '/odom': 'odometry', '/odometry/filtered': 'odometry' }, 'it is not clear what the reference is: ', 'series', 'reference'],
@@ -97,7 +97,7 @@ test('what is not clear is asked', () => {
     [{ '/odom': 'odometry', '/mocap': 'pose' }, 'there is no such topic; ', 'series', 'reference', ['/odom', '/mocap'], [], { reference: { series: '/moc' } }],
     [{ '/odom': 'odometry', '/mocap': 'pose' }, 'it has the same motion as run.mcap; ', undefined, undefined, undefined, [], { odometry: { series: '/odom' }, reference: { series: '/odom' } }],
   ])) {
-    const { message, ask } = refusalOf(() => planDrives([recording(series, {}, links)], wishes));
+    const { message, ask } = refusalOf(() => planDrives([recording(series, {}, frames)], wishes));
     assert.ok(message.startsWith('run.mcap') && message.includes(`: ${sentence}`), message);
     assert.deepEqual([ask?.what, ask?.role], [what, role], message);
     if (choices) assert.deepEqual(ask?.choices, choices);
@@ -175,6 +175,10 @@ test('one path given as both logs is refused, in another frame and in other file
   const commands = ['t,x,y,yaw,v,omega', ...Array.from({ length: 99 }, (_, i) => `${i / 20},${i / 40},0,0,0.5,0`)].join('\n');
   const [one, other] = await openRecordings([new File([commands], 'log.csv'), new File([commands], 'log.csv')]);
   assert.match(await sentenceOf(readDrives(planDrives([one, other], { kind: 'commands', roles: new Map([[one, 'odometry'], [other, 'reference']]) }))), /same motion/);
+  assert.equal(
+    await sentenceOf(drivesOf({ 'odom1.csv': table(400, (i) => curve(i)), 'odom2.csv': table(400, (i) => curve(i)), 'truth1.csv': along((i) => i / 90), 'truth2.csv': along((i) => i / 80) })),
+    'odom2.csv: it is the drive of odom1.csv; give each drive once.',
+  );
   // A millimetre is a difference.
   assert.equal((await drivesOf({ 'odom.csv': table(400, (i) => curve(i)), 'truth.csv': table(400, (i) => curve(i).with(1, curve(i)[1] + (i % 7) / 1000)) })).length, 1);
 });

@@ -19,10 +19,9 @@ export async function inspect(recording: Recording, path: string, onProgress?: (
   const uses = new Map(series.map(({ name: its }) => [its, usesOf(recording, its)]));
   const { logs, reasons } = await read(recording, usefulSeries(recording).filter(({ name: its, kind }) => kind !== 'transforms' && uses.get(its) !== '').map(({ name: its }) => its), onProgress);
   onProgress?.(undefined);
-  const rows = series.map(({ name: its, type, count, links }) => {
+  const rows = series.map(({ name: its, type, count }) => {
     const log = logs.get(its);
-    const all = links?.map(({ parent, child }) => `${parent} → ${child}`).join(', ');
-    return [its || '(all columns)', type, String(log?.summary.rows ?? (count || '')), log ? `${log.summary.rate.toPrecision(3)} Hz` : '', [uses.get(its), all].filter(Boolean).join(': ')];
+    return [its || '(all columns)', type, String(log?.summary.rows ?? (count || '')), log ? `${log.summary.rate.toPrecision(3)} Hz` : '', uses.get(its) ?? ''];
   });
   const found = [...logs].flatMap(([its, log]) => summarize(log, words.found).map((line, i) => (i > 0 ? `  ${line}` : its ? `${its}: ${line}` : line)));
   return [
@@ -37,9 +36,13 @@ export async function inspect(recording: Recording, path: string, onProgress?: (
 
 /** Says what a series could be. */
 function usesOf(recording: Recording, name: string): string {
-  const isUsed = (role: (typeof ROLES)[number], kind?: 'commands') => candidates(recording, role, { kind }).flat().some((choice) => choice.series === name && (!kind || choice.kind === kind));
-  const uses = [isUsed('odometry') ? 'odometry' : isUsed('odometry', 'commands') ? 'odometry (commands)' : '', isUsed('reference') ? `reference${isLocalizer(name) ? ' (a localizer)' : ''}` : ''];
-  return uses.filter(Boolean).join(' or ');
+  const choices = (role: (typeof ROLES)[number], kind?: 'commands') => candidates(recording, role, { kind }).flat().filter((choice) => choice.series === name && (!kind || choice.kind === kind));
+  const frames = ([first]: Choice[]) => (first.frames ? ` ${first.frames.parent} → ${first.frames.child}` : '');
+  const [odometry, commands, reference] = [choices('odometry'), choices('odometry', 'commands'), choices('reference')];
+  return [
+    ...(odometry.length ? [`odometry${frames(odometry)}`] : commands.length ? ['odometry (commands)'] : []),
+    ...(reference.length ? [`reference${frames(reference)}${isLocalizer(name) || frames(reference).startsWith(' map ') ? ' (a localizer)' : ''}`] : []),
+  ].join(' or ');
 }
 
 /** Reads series in one pass, or one by one if any is refused. */

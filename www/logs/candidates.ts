@@ -46,7 +46,7 @@ export function candidates(recording: Recording, role: Role, { kind }: { kind?: 
   const isOfTable = isTable(recording);
   const useful = usefulSeries(recording).filter(({ name }) => !GOAL.test(name));
   const paths = useful.filter((each) => each.kind === 'poses' || each.kind === 'positions');
-  const chains = useful.flatMap(({ name, links = [] }) => chainsOf(links, role).map((frames) => ({ series: name, frames })));
+  const chains = useful.flatMap(({ name, frames = [] }) => likeliest(frames, role).map((each) => ({ series: name, frames: each })));
   if (role === 'reference') {
     const others = paths.filter(({ name }) => !FILTERED.test(name) && !ODOMETRY[0].test(name));
     return [...tiers(paths, [MEASURED, LOCALIZED], 'poses'), choices(others, 'poses'), ...(isOfTable && useful.length === 1 ? [choices(paths, 'poses')] : []), chains];
@@ -63,13 +63,9 @@ const choices = (series: Series[], kind?: LogKind): Choice[] => series.map(({ na
 
 const tiers = (series: Series[], names: RegExp[], kind?: LogKind): Choice[][] => names.map((pattern) => choices(series.filter(({ name }) => pattern.test(name)), kind));
 
-/** Returns the ends of chains of transforms from a fixed frame to the robot's, the likeliest of them. */
-function chainsOf(links: Frames[], role: Role): Frames[] {
-  const below = (parent: string, seen: string[] = [parent]): string[] => {
-    const children = links.filter((link) => link.parent === parent && !seen.includes(link.child)).map(({ child }) => child);
-    return children.flatMap((child) => [child, ...below(child, [...seen, child])]);
-  };
-  const first = (names: RegExp[], some: string[]) => names.map((name) => some.filter((each) => name.test(each))).find(({ length }) => length) ?? [];
-  const fixed = first(FIXED[role], [...new Set(links.map(({ parent }) => parent))]);
-  return fixed.flatMap((parent) => first(BASES, below(parent)).map((child) => ({ parent, child })));
+/** Returns the frames that a role has by their names, the likeliest of them. */
+function likeliest(frames: Frames[], role: Role): Frames[] {
+  const first = (some: Frames[], names: RegExp[], end: keyof Frames) => names.map((name) => some.filter((each) => name.test(each[end]))).find(({ length }) => length);
+  const fixed = first(frames, FIXED[role], 'parent') ?? [];
+  return first(fixed, BASES, 'child') ?? fixed;
 }

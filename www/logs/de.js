@@ -121,6 +121,7 @@ export const log = {
     unpaired: (odometry, reference) => `es sind ${odometry} Logs der Odometrie und ${reference} der Referenz; gebraucht wird je eines für eine Fahrt.`,
     noGroup: (groups) => `es ist eine Tabelle, und keine Gruppe ihrer Spalten heißt so; sie hat ${groups}.`,
     noPoses: (series) => `es gibt nur Befehle, ${series}; eine Referenz braucht Posen.`,
+    sameDrive: (other) => `es ist die Fahrt von ${other}; gebraucht wird jede Fahrt nur einmal.`,
     noTransforms: (series) => `es gibt keine Transformationen zwischen Frames; es gibt ${series}.`,
   },
   found: {

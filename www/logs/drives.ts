@@ -3,7 +3,7 @@
 import { candidates, isTable, roleByName, usefulSeries, type Role } from './candidates.ts';
 import { LogError, listed } from './log-error.js';
 import type { Choice, Frames, Log, LogKind, Recording, Series } from './log.ts';
-import { pairLogs, pairedByTime, type Drive } from './pairs.ts';
+import { after, isSamePath, pairLogs, pairedByTime, type Drive } from './pairs.ts';
 
 export type { Drive, Role };
 
@@ -112,8 +112,8 @@ function stated(recording: Recording, role: Role, wishes: Wishes): Choice {
   throw framesError(recording, found, role);
 }
 
-function framesError({ name: file }: Recording, { name: topic, links = [], frames = [] }: Series, role: Role): LogError {
-  const known = (frames.length ? frames : links).map(linked);
+function framesError({ name: file }: Recording, { name: topic, frames = [] }: Series, role: Role): LogError {
+  const known = frames.map(linked);
   return new LogError({ file, topic }, (say) => say.frames(listed(known)), { what: 'frames', role, choices: known });
 }
 
@@ -150,5 +150,10 @@ export async function readDrives({ drives, loose }: Plan, onProgress?: (share: n
     ...drives.map((_, i): [Log, Log] => [logs[2 * i], logs[2 * i + 1]]),
     ...pairedByTime(others.slice(0, loose.odometry.length), others.slice(loose.odometry.length)),
   ];
-  return pairs.map(([odometry, reference]) => pairLogs(odometry, reference));
+  const result = pairs.map(([odometry, reference]) => pairLogs(odometry, reference));
+  for (const [i, { odometry }] of result.entries()) {
+    const twin = result.slice(0, i).find((other) => isSamePath(after(odometry.start, other.odometry), odometry));
+    if (twin) throw new LogError({ file: odometry.name }, (say) => say.sameDrive(twin.odometry.name));
+  }
+  return result;
 }

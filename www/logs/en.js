@@ -127,6 +127,7 @@ export const log = {
     unpaired: (/** @type {number} */ odometry, /** @type {number} */ reference) => `there are ${odometry} logs of odometry and ${reference} of the reference; give one of each for a drive.`,
     noGroup: (/** @type {string} */ groups) => `it is a table, and no group of its columns has this name; it has ${groups}.`,
     noPoses: (/** @type {string} */ series) => `it has commands only, ${series}; a reference needs poses.`,
+    sameDrive: (/** @type {string} */ other) => `it is the drive of ${other}; give each drive once.`,
     noTransforms: (/** @type {string} */ series) => `it has no transforms between frames; it has ${series}.`,
   },
   /** Summary of a log. */

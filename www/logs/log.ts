@@ -15,8 +15,6 @@ export interface Series {
   kind: LogKind | 'positions' | 'transforms' | null;
   /** True where a series of poses has speeds too, which a choice of commands reads. */
   hasCommands?: boolean;
-  /** Transforms at the start of a recording, of a series of transforms. */
-  links?: Frames[];
   /** Messages; 0 for a table, whose rows are not counted yet. */
   count: number;
   /** Ends of chains of transforms that may be poses of the robot. */

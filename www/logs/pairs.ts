@@ -75,10 +75,13 @@ export function after(start: number, log: Log): Log {
 }
 
 /** Checks whether two logs are one: rows of one time have the same motion since the first of them, whatever frame the poses are in. */
-function isSamePath(odometry: Log, reference: Log): boolean {
-  const [{ t }, other] = [odometry.data, reference.data as Poses];
-  if ('v' in odometry.data) return odometry.name === reference.name && t.length === other.t.length && t.every((time, i) => time === other.t[i]);
-  const poses = odometry.data;
+export function isSamePath(one: Log, two: Log): boolean {
+  const [poses, other] = [one.data, two.data];
+  const { t } = poses;
+  // Commands are not integrated: those of a table have the times of its poses.
+  if ('v' in poses || 'v' in other) {
+    return (one.kind === two.kind || one.name === two.name) && t.length === other.t.length && t.every((time, i) => time === other.t[i]);
+  }
   const every = Math.ceil(t.length / COMPARED);
   const motion = ({ x, y, theta }: Poses, from: number, to: number) => {
     const [dx, dy, cos, sin] = [x[to] - x[from], y[to] - y[from], Math.cos(theta[from]), Math.sin(theta[from])];
@@ -90,12 +93,12 @@ function isSamePath(odometry: Log, reference: Log): boolean {
     const j = bisectLeft(other.t, t[i] - 1e-6);
     if (!(Math.abs(other.t[j] - t[i]) <= 1e-6)) continue;
     first ??= [i, j];
-    const [one, two] = [motion(poses, first[0], i), motion(other, first[1], j)];
-    const distance = Math.hypot(one[0], one[1]);
-    const turn = Math.abs(Math.sin((one[2] - two[2]) / 2));
-    if (Math.hypot(one[0] - two[0], one[1] - two[1]) > SAME * (1 + distance) || turn > SAME) return false;
+    const [own, its] = [motion(poses, first[0], i), motion(other, first[1], j)];
+    const distance = Math.hypot(own[0], own[1]);
+    const turn = Math.abs(Math.sin((own[2] - its[2]) / 2));
+    if (Math.hypot(own[0] - its[0], own[1] - its[1]) > SAME * (1 + distance) || turn > SAME) return false;
     rows += 1;
-    moved = Math.max(moved, distance, Math.abs(Math.sin(one[2] / 2)));
+    moved = Math.max(moved, distance, Math.abs(Math.sin(own[2] / 2)));
   }
   return rows >= ENOUGH && moved > MOVED;
 }

@@ -59,7 +59,6 @@ async function seriesOf(container: Container): Promise<Series[]> {
     };
     await container.read(isStatic, take);
     await container.read(({ topic }) => topic === each.name, take, () => messages >= MESSAGES_OF_FRAMES);
-    each.links = tree.links;
     each.frames = tree.candidates();
   }
   return series.sort((one, other) => (one.name < other.name ? -1 : 1));

@@ -20,6 +20,8 @@ const CARRIED = `type Bytes = Uint8Array<ArrayBuffer>;
 type Carried = { glue(): Promise<typeof import('./motion.js')>; source(): Bytes | URL | Promise<Bytes> | undefined };
 declare const cores: { motion: Carried; [tag: string]: Carried | undefined };
 export default cores;
+/** Starts the worker of logs; undefined where the bundle does not know its script. */
+export function startWorker(): Worker | undefined;
 `;
 
 /** Files that decide what the compiled cores are. */

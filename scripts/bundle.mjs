@@ -31,6 +31,30 @@ const BYTES = 'motion.bytes';
  */
 const OWN_NAME = 'chunk-________.js';
 
+/** Figures whose logs a worker reads. */
+const WITH_LOGS = ['alpha-calibrator'];
+
+/** Path of the worker's script in dist/. */
+const LOG_WORKER = 'chunks/log-worker.js';
+
+/**
+ * Script of the function that starts the worker. Within dist/ the script is found by its place; a page of another origin starts it by a
+ * script of its own.
+ *
+ * @param {string} place of dist/, as the bundle sees it
+ * @param {string} [otherwise] statement for where the bundle is in another one
+ */
+const startWorker = (place, otherwise = '') =>
+  'export function startWorker() {' +
+  '  const here = import.meta.url;' +
+  `  if (here?.includes('${OWN_NAME}')) {` +
+  `    const url = new URL('${place}${LOG_WORKER}', here);` +
+  '    const script = () => URL.createObjectURL(new Blob([`import ${JSON.stringify(url)}`], { type: "text/javascript" }));' +
+  '    return new Worker(url.origin === location.origin ? url : script(), { type: "module" });' +
+  '  }' +
+  `  ${otherwise} ` +
+  '}';
+
 /** Scripts that a bundle finds where it imports the WebAssembly module: functions that return modules and their glue. */
 const MODULE = {
   /**
@@ -50,7 +74,17 @@ const MODULE = {
       'for (let i = 0; i < bytes.length; i++) bytes[i] = text.charCodeAt(i); return bytes; };'
     );
   },
-  inlined: () => `import source from '${BYTES}'; import * as motion from './motion.js'; export default { motion: { glue: async () => motion, source } };`,
+  /**
+   * Glue without modules: the page has compiled one already.
+   *
+   * @param {string[]} tags of the figures with logs that have a module of their own
+   */
+  worker: (tags) => {
+    const glue = ['motion', ...tags].map((tag, i) => [`import * as glue${i} from './${tag}.js';`, `'${tag}': { glue: async () => glue${i} }`]);
+    return `${glue.map(([imported]) => imported).join('')} export default { ${glue.map(([, entry]) => entry).join(', ')} }; export function startWorker() {}`;
+  },
+  /** @param {boolean} isClassic */
+  inlined: (isClassic) => `import source from '${BYTES}'; import * as motion from './motion.js'; export default { motion: { glue: async () => motion, source } };${isClassic ? 'export function startWorker() {}' : startWorker('./')}`,
   /**
    * Vite, webpack and others know `new URL(…, import.meta.url)`, carry the file along and write its new address there. Others,
    * as esbuild and Rollup, leave the expression alone and the file behind: then the address is what it is without them, in a
@@ -71,7 +105,8 @@ const MODULE = {
       `  return url && (here.includes('${OWN_NAME}') || url.href !== new URL(path, here).href) ? url : undefined;` +
       '};' +
       `const embedded = { glue: () => import('./motion.js'), source: async () => (await import('${BYTES}')).default() };` +
-      `export default { embedded, ${carried} };`
+      `const all = { embedded, ${carried} }; export default all;` +
+      startWorker('../', `if (all.motion.source()) return new Worker(new URL('./${basename(LOG_WORKER)}', import.meta.url), { type: 'module' });`)
     );
   },
 };
@@ -131,7 +166,7 @@ export async function bundle({ tags = WIDGETS, changed = (_, script) => script }
   const { build, transformSync } = await import('esbuild');
   /**
    * @param {Record<string, string>} entryPoints by the name of the product, from www/
-   * @param {keyof typeof MODULE} form
+   * @param {'external' | 'inlined' | 'worker'} form
    * @param {import('esbuild').BuildOptions} options
    */
   const bundled = (entryPoints, form, options) =>
@@ -152,7 +187,12 @@ export async function bundle({ tags = WIDGETS, changed = (_, script) => script }
         {
           name: 'wasm',
           setup({ onLoad, onResolve }) {
-            onLoad({ filter: /\.wasm$/ }, () => ({ contents: form === 'external' ? MODULE.external(tags) : MODULE.inlined(), loader: 'js' }));
+            const carriers = {
+              external: () => MODULE.external(tags),
+              worker: () => MODULE.worker(tags.filter((tag) => WITH_LOGS.includes(tag))),
+              inlined: () => MODULE.inlined(options.format === 'iife'),
+            };
+            onLoad({ filter: /\.wasm$/ }, () => ({ contents: carriers[form](), loader: 'js' }));
             if (options.platform === 'node') onResolve({ filter: /^\.\/core\.ts$/ }, () => ({ path: './core.js', external: true }));
             onResolve({ filter: new RegExp(`^${BYTES}$`) }, ({ path }) => ({ path, namespace: 'core' }));
             onLoad({ filter: /./, namespace: 'core' }, () => ({ contents: MODULE.bytes(wasm, SHIFTED[options.charset === 'ascii' ? 'ascii' : 'utf8']) }));
@@ -186,6 +226,7 @@ export async function bundle({ tags = WIDGETS, changed = (_, script) => script }
     // It travels as a text, without what would stand beside it.
     bundled({ anywidget: 'anywidget.ts' }, 'inlined', { sourcemap: false }),
     bundled({ external: 'external.ts' }, 'external', { splitting: true, chunkNames: 'chunks/[name]-[hash]' }),
+    bundled({ [LOG_WORKER.replace('.js', '')]: 'logs/worker.ts' }, 'worker', { inject: [] }),
     bundled({ 'motion-widgets.iife': 'motion-widgets.ts' }, 'inlined', { format: 'iife', charset: 'ascii', sourcemap: false }),
     bundled({ react: '../build/react.js' }, 'inlined', { external: ['react', 'motion-widgets'], inject: [] }),
     bundled({ de: 'de.ts', page: 'page.ts', 'server-component': 'server-component.ts' }, 'inlined', { inject: [] }),

@@ -6,6 +6,8 @@
 import carried from '../build/motion.wasm';
 import type { Motion } from './types.d.ts';
 
+export { startWorker } from '../build/motion.wasm';
+
 /** Module as bytes, as an address, or compiled. */
 export type Source = BufferSource | URL | string | WebAssembly.Module;
 
@@ -71,6 +73,25 @@ export async function instantiateFor(name: string): Promise<Motion> {
   }
   for (const { prototype } of (Object.values(motion) as any[])) if (prototype?.free) makeDisposable(prototype);
   return motion;
+}
+
+/** Compiled module of a widget, and the name of its glue: a worker makes a core of them. */
+export interface SharedCore {
+  module: WebAssembly.Module;
+  glue: string;
+}
+
+/** Returns what another thread needs for the core of a widget, by its tag. */
+export async function sharedCore(name: string): Promise<SharedCore> {
+  const [module] = await found(name);
+  const carrier = carrierOf(name);
+  return { module, glue: Object.keys(carried).find((key) => carried[key] === carrier) ?? 'motion' };
+}
+
+/** Makes a core of what another thread has compiled. */
+export async function instantiateShared({ module, glue }: SharedCore): Promise<Motion> {
+  const { default: makeCore } = await (carried[glue] ?? carried.motion).glue();
+  return makeCore(module);
 }
 
 /**

@@ -200,9 +200,8 @@ fn makes_sense(calibration: &Calibration, options: &Options) {
 }
 
 fn diagnostics_make_sense(Calibration { alphas, diagnostics, persistence, recommended, .. }: &Calibration) {
-    for Check { name, value, expected: [low, high], passed, message } in &diagnostics.checks {
+    for Check { name, value, expected: [low, high], passed } in &diagnostics.checks {
         assert_eq!(*passed, low <= value && value <= high, "{name:?}: {value} {low} {high}");
-        assert_eq!(*passed, message.is_empty(), "{name:?}");
     }
     let consistent = diagnostics.checks.iter().all(|check| check.passed);
     assert!(consistent || diagnostics.verdict != Verdict::Consistent);

@@ -7,9 +7,10 @@ use super::systematic::{Systematic, SystematicError};
 use super::trajectory::median;
 use super::windows::{MAX_INFLATION, MIN_WINDOWS, WindowCoverage};
 use crate::geom::se2::SE2;
+use serde::{Deserialize, Serialize};
 
 /// Overall judgement of a calibration.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Verdict {
     /// Every check passed.
     Consistent,
@@ -20,7 +21,7 @@ pub enum Verdict {
 }
 
 /// Names of the checks.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum CheckName {
     /// Median difference of the two motions over the median motion.
     ReferenceMatches,
@@ -51,19 +52,24 @@ pub enum CheckName {
 }
 
 /// One check.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Check {
     pub name: CheckName,
     pub value: f64,
     /// Smallest and largest value that passes.
     pub expected: [f64; 2],
     pub passed: bool,
-    /// Meaning for the α's of a check that failed, and the remedy; empty where it passed.
-    pub message: &'static str,
+}
+
+impl Check {
+    /// Returns the meaning for the α's of a check that failed, and the remedy; nothing where it passed.
+    pub fn message(&self) -> &'static str {
+        if self.passed { "" } else { self.name.failure() }
+    }
 }
 
 /// Checks with the judgement that follows from them.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Diagnostics {
     pub verdict: Verdict,
     pub checks: Vec<Check>,
@@ -168,8 +174,7 @@ const DRIVES: f64 = 0.05;
 const TURNS: f64 = 0.1;
 
 fn check(name: CheckName, value: f64, expected: [f64; 2]) -> Check {
-    let passed = value >= expected[0] && value <= expected[1];
-    Check { name, value, expected, passed, message: if passed { "" } else { name.failure() } }
+    Check { name, value, expected, passed: value >= expected[0] && value <= expected[1] }
 }
 
 /// Returns the check of a scale: its largest difference between groups of legs, which may be `tolerance`.

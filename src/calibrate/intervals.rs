@@ -5,6 +5,7 @@ use super::optimizer::{Free, Maximum, conditional_information, conditional_inver
 use super::residuals::{Model, Observation};
 use super::result::NORMAL_95;
 use nalgebra::SVector;
+use serde::{Deserialize, Serialize};
 
 /// Steps of the search for an end of an interval; the root of the deviance is nearly linear.
 const MAX_STEPS: usize = 12;
@@ -166,7 +167,7 @@ pub(super) fn student_95(freedom: f64) -> f64 {
 }
 
 /// Reason for which a log does not identify an α.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum NotIdentifiable {
     /// The robot turned too little. Under the velocity model: while it drove, for a turn on the spot shows no executed turn rate.
     InsufficientRotation,

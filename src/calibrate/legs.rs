@@ -7,6 +7,7 @@ use super::trajectory::Trajectory;
 use crate::geom::se2::{SE2, wrap_angle};
 use crate::models::SPIN_BELOW;
 use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
 
 /// Condition on which a leg ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,7 +47,7 @@ impl LegLength {
 }
 
 /// One leg: the motion that the odometry read, and the one that the reference saw.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Leg {
     /// Start and end by the clock of the odometry, s.
     pub times: [f64; 2],
@@ -72,8 +73,8 @@ impl Leg {
 }
 
 /// Legs that a log does not give, by cause.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[cfg_attr(target_arch = "wasm32", derive(serde::Serialize), serde(rename_all = "camelCase"))]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
 pub struct LostLegs {
     /// Leg of which the reference does not cover an end, or has a gap there.
     pub without_reference: usize,

@@ -9,6 +9,7 @@ use crate::geom::se2::{SE2, wrap_angle};
 use crate::geom::sinc::sinc;
 use crate::models::{LegVariances, OdomDelta, OdometryRule, RuleAlphas, SPIN_BELOW};
 use nalgebra::{Matrix3, RowVector3, Vector3};
+use serde::{Deserialize, Serialize};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Model whose α's are fitted.
@@ -69,7 +70,7 @@ impl Model {
 }
 
 /// Residuals of one leg, with all that their distribution depends on.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Observation {
     /// Executed minus expected; NaN of a component that the leg does not show, as the first rotation of a turn on the spot.
     pub residuals: [f64; 3],

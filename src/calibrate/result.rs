@@ -6,6 +6,7 @@ use super::legs::{Leg, LegLength, LostLegs, MIN_LEGS};
 use super::residuals::{Model, Observation};
 use super::systematic::{ERRORS, ErrorMask, Systematic, SystematicError};
 use super::trajectory::Trajectory;
+use serde::{Deserialize, Serialize};
 use std::fmt;
 
 /// Odometry and reference of one drive.
@@ -40,14 +41,14 @@ pub struct Options {
 }
 
 /// Estimate with its 95 % interval.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Estimate {
     pub value: f64,
     pub interval: [f64; 2],
 }
 
 /// Correlation of the wheels' errors in neighbouring legs.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Persistence {
     /// Between 0, for independent legs, and 1.
     pub correlation: Estimate,
@@ -56,7 +57,7 @@ pub struct Persistence {
 }
 
 /// One leg under the fit.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LegFit {
     /// Standard deviations of the innovation's components.
     pub stds: [f64; 3],
@@ -68,7 +69,7 @@ pub struct LegFit {
 }
 
 /// α's that a filter can use.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Recommended {
     /// Fitted α's times the inflation; None of one that is not identifiable.
     pub alphas: Vec<Option<f64>>,
@@ -77,7 +78,7 @@ pub struct Recommended {
 }
 
 /// Result of a calibration.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Calibration {
     /// None of one that the log does not identify.
     pub alphas: Vec<Option<f64>>,

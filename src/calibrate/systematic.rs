@@ -3,9 +3,10 @@
 use super::legs::Leg;
 use crate::geom::se2::SE2;
 use nalgebra::{Matrix2, Matrix3, SMatrix, Vector2, Vector3};
+use serde::{Deserialize, Serialize};
 
 /// Systematic errors of odometry and reference.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Systematic {
     /// Time by the reference's clock minus time by the odometry's, s.
     pub clock_offset: f64,

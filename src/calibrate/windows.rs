@@ -11,6 +11,7 @@ use super::residuals::Observation;
 use super::result::Recommended;
 use crate::geom::se2::SE2;
 use nalgebra::{Matrix3, Vector3};
+use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
 /// Error of the motion over a window in exponential coordinates, and what it is made of.
@@ -23,8 +24,7 @@ pub(super) struct Window {
 }
 
 /// Coverage of windows of one length.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(target_arch = "wasm32", derive(serde::Serialize))]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct WindowCoverage {
     /// Least distance driven, m.
     pub length: f64,

@@ -5,13 +5,14 @@
 //! body frame: x ⊞ τ = x · exp(τ).
 
 use nalgebra::{Matrix3, Vector3};
+use serde::{Deserialize, Serialize};
 use std::ops::Mul;
 
 pub use super::angle::wrap_angle;
 use super::sinc::{chord_factors, sinc};
 
 /// A pose: position (x, y) in metres and heading θ in (−π, π] radians, of a body frame in a reference frame.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SE2 {
     x: f64,
     y: f64,

@@ -1,12 +1,13 @@
 //! `AlphaCalibrator` for JavaScript.
 
 use super::calibration::{calibration_to_js, columns_to_js};
-use super::face::{configured, sliced, stoppable};
-use super::fields::{whole, word};
+use super::face::configured;
+use super::fields::{read_opening, whole, word};
 use super::log::{read_odometry, read_poses};
 use super::pictures::index_of;
-use super::values::{flat, floats, object, plain};
-use crate::sim::alpha_calibrator::{AlphaCalibrator, LegView, Log};
+use super::values::{flat, floats, object, plain, settings_to_js};
+use crate::sim::alpha_calibrator::{AlphaCalibrator, LegView, Log, RestoreError};
+use js_sys::TypeError;
 use wasm_bindgen::prelude::*;
 
 #[wasm_bindgen(typescript_custom_section)]
@@ -57,14 +58,38 @@ configured!(
     "AlphaCalibratorSettings",
     "Partial<AlphaCalibratorSettings>"
 );
-sliced!(JsAlphaCalibrator, AlphaCalibrator, "AlphaCalibrator", "Partial<AlphaCalibratorSettings>");
-stoppable!(JsAlphaCalibrator, "AlphaCalibrator");
 
 #[wasm_bindgen(js_class = AlphaCalibrator)]
 impl JsAlphaCalibrator {
-    /// Works on what was begun, by a step of its own, however much is asked for; whether all is done.
-    pub fn advance(&mut self, _steps: f64) -> bool {
-        self.0.advance()
+    /// A machine of these settings with the fit that another has saved. It has no log: settings that need another fit are pending.
+    pub fn restored(
+        #[wasm_bindgen(unchecked_param_type = "Partial<AlphaCalibratorSettings>")] settings: &JsValue,
+        saved: &[u8],
+    ) -> Result<Self, JsValue> {
+        match AlphaCalibrator::restored(read_opening(settings)?, saved) {
+            Ok(machine) => Ok(Self(machine)),
+            Err(RestoreError::Settings(error)) => Err(error.into()),
+            Err(RestoreError::Bytes) => {
+                Err(TypeError::new("saved is no fit; allowed is that of another machine").into())
+            }
+        }
+    }
+
+    /// The fit, for `restored`.
+    pub fn save(&self) -> Vec<u8> {
+        self.0.saved()
+    }
+
+    /// Settings of the fit; those of `config` unless they are pending.
+    #[wasm_bindgen(getter, js_name = fittedConfig, unchecked_return_type = "AlphaCalibratorSettings")]
+    pub fn fitted_config(&self) -> JsValue {
+        settings_to_js(self.0.fitted_settings())
+    }
+
+    /// True while the settings need another fit, which only the machine with the log can make.
+    #[wasm_bindgen(getter, js_name = isPending)]
+    pub fn is_pending(&self) -> bool {
+        self.0.is_pending()
     }
 
     /// Puts a log in the place of the present one: odometry and reference as `calibrate` takes them.
@@ -74,22 +99,12 @@ impl JsAlphaCalibrator {
         #[wasm_bindgen(unchecked_param_type = "LoggedPoses | LoggedCommands")] odometry: &JsValue,
         #[wasm_bindgen(unchecked_param_type = "LoggedPoses")] reference: &JsValue,
     ) -> Result<(), JsValue> {
-        self.0.set_log(read_log(odometry, reference)?);
+        let odometry = read_odometry("odometry", odometry)?;
+        self.0.set_log(Log { odometry, reference: read_poses("reference", reference)? });
         Ok(())
     }
 
-    /// As `setLog`, in slices like `begin`.
-    #[wasm_bindgen(js_name = beginLog)]
-    pub fn begin_log(
-        &mut self,
-        #[wasm_bindgen(unchecked_param_type = "LoggedPoses | LoggedCommands")] odometry: &JsValue,
-        #[wasm_bindgen(unchecked_param_type = "LoggedPoses")] reference: &JsValue,
-    ) -> Result<(), JsValue> {
-        self.0.begin_log(read_log(odometry, reference)?);
-        Ok(())
-    }
-
-    /// Number of times that the figures have changed since the machine was made.
+    /// Number of the fit: another one has another number.
     #[wasm_bindgen(getter)]
     pub fn fits(&self) -> u32 {
         self.0.fits()
@@ -146,9 +161,4 @@ impl JsAlphaCalibrator {
     pub fn count(&self) -> usize {
         self.0.legs().len()
     }
-}
-
-fn read_log(odometry: &JsValue, reference: &JsValue) -> Result<Log, JsValue> {
-    let odometry = read_odometry("odometry", odometry)?;
-    Ok(Log { odometry, reference: read_poses("reference", reference)? })
 }

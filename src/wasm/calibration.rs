@@ -219,13 +219,13 @@ fn verdict_word(verdict: Verdict) -> &'static str {
     }
 }
 
-fn check_to_js(Check { name, value, expected, passed, message }: &Check) -> JsValue {
+fn check_to_js(check: &Check) -> JsValue {
     object(&[
-        ("name", name.key().into()),
-        ("value", (*value).into()),
-        ("expected", list(expected)),
-        ("passed", (*passed).into()),
-        ("message", (*message).into()),
+        ("name", check.name.key().into()),
+        ("value", check.value.into()),
+        ("expected", list(&check.expected)),
+        ("passed", check.passed.into()),
+        ("message", check.message().into()),
     ])
 }
 

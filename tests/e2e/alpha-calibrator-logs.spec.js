@@ -1,12 +1,16 @@
 import { spawnSync } from 'node:child_process';
-import { expect } from '@playwright/test';
+import { expect, test as anyway } from '@playwright/test';
 import { recordingOf, transform } from '../mcap.js';
 import { caption, choose, example, openCalibrator, recordingWith, rows, settled, stats, tablesOf } from './calibrator-support.js';
 import { STILL, heard, stateOf, test, unfold } from './support.js';
 
-/** @typedef {import('./calibrator-support.js').AlphaCalibratorElement} AlphaCalibratorElement */
+/**
+ * @typedef {import('@playwright/test').Locator} Locator
+ * @typedef {import('./calibrator-support.js').AlphaCalibratorElement} AlphaCalibratorElement
+ */
 
 test.use(STILL);
+anyway.use(STILL);
 
 test('two tables of the reader’s own take the place of the simulated log, and leave it again', async ({ page }) => {
   const widget = await openCalibrator(page);
@@ -126,7 +130,7 @@ test('files that are no log are refused in a sentence, and all stays as it was',
   await choose(widget, { 'alone.csv': 't,x,y,yaw\n0,0,0,0\n' });
   await expect(alert).toHaveText(/^alone\.csv: it has one log only, t, x, y, yaw; give odometry and reference\.$/);
   await choose(widget, { 'notes.mcap': 'no recording' });
-  await expect(alert).toHaveText(/^notes\.mcap, line 1: none of the columns no, recording is the time/);
+  await expect(alert).toHaveText(/^notes\.mcap, line 1: the columns are no, recording/);
   const buffer = await recordingOf([{ topic: '/rosout', type: 'rcl_interfaces/msg/Log', t: 1, message: {} }], {});
   await widget.locator('#log-files').setInputFiles({ name: 'words.mcap', mimeType: 'application/octet-stream', buffer });
   await expect(alert).toHaveText(/^words\.mcap: the topics are \/rosout \(Log\); expected is one of type nav_msgs\/msg\/Odometry/);
@@ -150,50 +154,106 @@ test('a log without enough legs is refused, and the present log keeps its place 
   await expect(widget.locator('.drop-zone .present')).toContainText('odometry.csv, reference.csv');
 });
 
+/** Gives the figure two tables of a quarter of an hour, as if they were chosen. @param {Locator} widget */
+const chooseLong = (widget) => widget.evaluate((element) => {
+  const input = /** @type {HTMLInputElement} */ (element.shadowRoot?.querySelector('#log-files'));
+  const row = (/** @type {number} */ i, /** @type {number} */ shake) => {
+    const [t, angle] = [i / 100, i / 400];
+    return [t, 3 * Math.sin(angle), 3 - 3 * Math.cos(angle) + shake * Math.sin(7 * t), angle % 6].join(',');
+  };
+  const { files, items } = new DataTransfer();
+  for (const [name, shake] of /** @type {const} */ ([['odom.csv', 0], ['truth.csv', 0.02]])) {
+    items.add(new File([['t,x,y,yaw', ...Array.from({ length: 90_000 }, (_, i) => row(i, shake))].join('\n')], name));
+  }
+  input.files = files;
+  const began = performance.now();
+  input.dispatchEvent(new Event('change'));
+  return began;
+});
+
+test('a log is read and fitted in a worker, and the page stays free', async ({ page }) => {
+  const widget = await openCalibrator(page);
+  await page.evaluate(() => {
+    const tasks = /** @type {PerformanceEntry[]} */ ([]);
+    new PerformanceObserver((list) => void tasks.push(...list.getEntries())).observe({ type: 'longtask' });
+    Object.assign(window, { tasks });
+  });
+  const began = await chooseLong(widget);
+  await expect(caption(widget)).toHaveText(/of odom\.csv, truth\.csv[.,]/);
+  expect(page.workers().map((worker) => new URL(worker.url()).pathname)).toEqual(['/chunks/log-worker.js']);
+  const busy = await page.evaluate((since) => {
+    const all = /** @type {PerformanceEntry[]} */ (Reflect.get(window, 'tasks'));
+    const during = all.filter(({ startTime }) => startTime > since).reduce((sum, { duration }) => sum + duration, 0);
+    return during / (performance.now() - since);
+  }, began);
+  expect(busy).toBeLessThan(0.5);
+  // A setting has the log fitted again; the former fit is shown until then.
+  const { alphas } = await stats(widget);
+  await widget.evaluate((element) => void Object.assign(element, { distance: 0.5 }));
+  expect(await widget.evaluate((element) => Reflect.get(element, 'distance'))).toBe(0.5);
+  expect((await stats(widget)).alphas).toEqual(alphas);
+  await settled(widget);
+  expect((await stats(widget)).alphas).not.toEqual(alphas);
+});
+
+anyway('where the page’s policy forbids workers, a log is read all the same', async ({ page }) => {
+  await page.route('**/bare.html', (route) => route.fulfill({
+    contentType: 'text/html',
+    headers: { 'content-security-policy': "worker-src 'none'" },
+    body: '<script type="module" src="/external.js"></script><alpha-calibrator></alpha-calibrator>',
+  }));
+  await page.goto('/bare.html');
+  const widget = page.locator('alpha-calibrator');
+  await expect(widget.locator('.folds')).toBeVisible();
+  await choose(widget, { 'odometry.csv': example('odometry'), 'reference.csv': example('reference') });
+  await expect(caption(widget)).toHaveText(/of odometry\.csv, reference\.csv[.,]/);
+  expect(page.workers()).toEqual([]);
+});
+
 test('reading a log can be stopped, and everything is as it was', async ({ page }) => {
   const widget = await openCalibrator(page);
   const before = await stateOf(widget);
-  await widget.evaluate(async (element) => {
-    const root = /** @type {ShadowRoot} */ (element.shadowRoot);
-    const input = /** @type {HTMLInputElement} */ (root.querySelector('#log-files'));
-    const table = ['t,x,y,yaw', ...Array.from({ length: 200_000 }, (_, row) => `${row / 20},0,0,0`)].join('\n');
-    const { files, items } = new DataTransfer();
-    for (const name of ['odom.csv', 'truth.csv']) items.add(new File([table], name));
-    input.files = files;
-    input.dispatchEvent(new Event('change'));
-    const button = () => [...root.querySelectorAll('button')].find(({ textContent }) => textContent?.trim() === 'Stop');
-    while (!button()) await new Promise(requestAnimationFrame);
-    button()?.click();
-  });
+  await chooseLong(widget);
+  await widget.locator('.drop-zone').getByRole('button', { name: 'Stop' }).click();
   await expect(widget.getByRole('alert')).toHaveText('Stopped: everything is as it was.');
   await expect(widget.locator('.drop-zone progress')).toHaveCount(0);
   expect(await stateOf(widget)).toEqual(before);
   await expect(caption(widget)).toHaveText(/of the simulated log/);
+  await expect.poll(() => page.workers().length).toBe(0);
 });
 
 test('a log that a page gives is fitted, and is in no state; one that is refused leaves the present one', async ({ page }) => {
   const widget = await openCalibrator(page);
   const before = await stateOf(widget);
   const opened = await caption(widget).innerText();
-  const [name, count, refused] = await widget.evaluate(async (element) => {
+  const refused = await widget.evaluate(async (element) => {
     const figure = /** @type {AlphaCalibratorElement} */ (element);
     const { legs } = figure.machine;
     const t = Array.from({ length: legs.count }, (_, leg) => leg);
     const column = (/** @type {Float64Array} */ poses, /** @type {number} */ at) => t.map((leg) => poses[6 * leg + at]);
     const poses = (/** @type {Float64Array} */ all) => ({ t, x: column(all, 0), y: column(all, 1), theta: column(all, 2) });
     const given = { name: 'of the page', odometry: poses(legs.odometry), reference: poses(legs.reference) };
+    const error = () => new Promise((resolve) => {
+      figure.addEventListener('error', (event) => {
+        event.preventDefault();
+        resolve(/** @type {ErrorEvent} */ (event).message);
+      }, { once: true });
+    });
     figure.log = given;
     await new Promise((resolve) => figure.addEventListener('stats', resolve, { once: true }));
-    let refused = '';
-    figure.addEventListener('error', (event) => { refused = /** @type {ErrorEvent} */ (event).message; event.preventDefault(); }, { once: true });
-    figure.log = { ...given, odometry: { ...given.odometry, t: t.with(3, 1) } };
-    figure.addEventListener('error', (event) => { refused += `; ${/** @type {ErrorEvent} */ (event).message}`; event.preventDefault(); }, { once: true });
-    Object.assign(figure, { log: 5 });
-    return [figure.log?.name, figure.machine.count, refused];
+    const errors = [];
+    for (const log of [{ ...given, odometry: { ...given.odometry, t: t.with(3, 1) } }, 5]) {
+      const refusal = error();
+      Object.assign(figure, { log });
+      errors.push(await refusal);
+    }
+    return errors;
   });
-  expect(name).toBe('of the page');
-  expect(Number(count)).toBeGreaterThan(100);
-  expect(refused).toMatch(/^odometry: sample 3 is not later than the one before.*; log is 5; allowed is an object with keys from name, odometry, reference$/);
+  expect(refused).toEqual([expect.stringMatching(/^odometry: sample 3 is not later than the one before/), 'log is 5; allowed is an object with keys from name, odometry, reference']);
+  expect(await widget.evaluate((element) => {
+    const { log, machine: { count } } = /** @type {AlphaCalibratorElement} */ (element);
+    return [log?.name, count > 100];
+  })).toEqual(['of the page', true]);
   expect(await stateOf(widget)).toEqual(before);
   await widget.evaluate((element) => void Object.assign(element, { log: null }));
   await expect(caption(widget)).toHaveText(opened);
@@ -205,6 +265,7 @@ test('a log without legs says so', async ({ page }) => {
     const still = { t: [0, 1, 2, 3], x: [0, 0, 0, 0], y: [0, 0, 0, 0], theta: [0, 0, 0, 0] };
     /** @type {AlphaCalibratorElement} */ (element).log = { odometry: still, reference: still };
   });
+  await expect.poll(() => widget.evaluate((element) => /** @type {AlphaCalibratorElement} */ (element).machine.count)).toBe(0);
   await settled(widget);
   await unfold(widget);
   await expect(caption(widget)).toHaveText(/^✕ Do not use\s+Not enough data: fewer than 8 legs, or the logs do not overlap in time\. Record a longer drive/);

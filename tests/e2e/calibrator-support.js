@@ -12,7 +12,7 @@ import { frames, mount } from './support.js';
  * @typedef {import('@playwright/test').Page} Page
  * @typedef {import('@playwright/test').Locator} Locator
  * @typedef {import('../../www/types.d.ts').AlphaCalibrator} Machine
- * @typedef {HTMLElement & { machine: Machine, log: import('../../www/types.d.ts').CalibrationLog | null, settings: any }} AlphaCalibratorElement
+ * @typedef {HTMLElement & { machine: Machine, log: import('../../www/types.d.ts').CalibrationLog | null, settings: any, service: { isBusy: boolean } }} AlphaCalibratorElement
  */
 
 /** Opens a page with the figure, with its log fitted. @param {Page} page @param {string} [attributes] */
@@ -28,7 +28,7 @@ export async function openCalibrator(page, attributes) {
 export async function settled(widget) {
   await widget.evaluate(async (element) => {
     const figure = /** @type {AlphaCalibratorElement} */ (element);
-    while (figure.settings.stale || figure.settings.next || figure.machine.progress !== 1) await new Promise(requestAnimationFrame);
+    while (figure.settings.stale || figure.service.isBusy || figure.machine.isPending) await new Promise(requestAnimationFrame);
   });
   await frames(widget.page());
 }

@@ -164,42 +164,34 @@ fn the_figure_opens_with_a_log_of_known_alphas() {
 }
 
 #[wasm_bindgen_test]
-fn a_log_of_ones_own_replaces_it_at_once_or_in_slices() {
+fn a_log_of_ones_own_replaces_it_and_its_fit_can_be_restored() {
     let it = drive();
-    it.run(
-        "[it.whole, it.sliced] = [0, 1].map(() => new motion.AlphaCalibrator({ outliers: 'keep',
-        duration: 1 }))",
-    );
-    let told = |name: &str| {
-        it.get::<String>(&format!("JSON.stringify([it.{name}.config, it.{name}.stats, it.{name}.count])"))
-    };
-    let opening = told("whole");
-    it.run("it.whole.setLog(it.odometry, it.reference)");
-    it.run("it.sliced.beginLog(it.odometry, it.reference)");
-    assert!(it.get::<f64>("it.sliced.progress") == 0.0 && told("sliced") == opening);
-    it.run("it.sliced.stop()");
-    assert!(it.get::<bool>("it.sliced.advance(1)") && told("sliced") == opening);
-    it.run("(() => { it.sliced.beginLog(it.odometry, it.reference); while (!it.sliced.advance(1)); })()");
-    assert_eq!(told("sliced"), told("whole"));
-    assert_eq!(it.get::<Option<()>>("it.whole.truth"), None);
+    it.run("it.machine = new motion.AlphaCalibrator({ outliers: 'keep', duration: 1 })");
+    it.run("it.machine.setLog(it.odometry, it.reference)");
+    assert_eq!(it.get::<Option<()>>("it.machine.truth"), None);
     assert_eq!(
-        it.get::<Vec<f64>>("it.whole.stats.alphas"),
+        it.get::<Vec<f64>>("it.machine.stats.alphas"),
         it.get::<Vec<f64>>(
             "motion.calibrate({ odometry: it.odometry, reference: it.reference,
         legs: { duration: 1 }, outliers: 'keep' }).alphas"
         )
     );
-    it.run("(() => { it.sliced.begin({ rule: 'nav2' }); while (!it.sliced.advance(1)); })()");
-    it.run("it.whole.configure({ rule: 'nav2' })");
-    assert_eq!(told("sliced"), told("whole"));
-    it.assert("it.sliced.fits === 3 && it.sliced.progress === 1");
+    it.run("it.restored = motion.AlphaCalibrator.restored(it.machine.config, it.machine.save())");
+    let told = |name: &str| {
+        it.get::<String>(&format!("JSON.stringify([it.{name}.config, it.{name}.stats, it.{name}.count])"))
+    };
+    assert_eq!(told("restored"), told("machine"));
+    it.run("it.restored.configure({ rule: 'nav2' })");
+    it.assert("it.restored.isPending && it.restored.fittedConfig.rule === 'thrun' && it.restored.fits === 1");
+    it.run("it.machine.configure({ rule: 'nav2' })");
+    it.assert("!it.machine.isPending && it.machine.fits === 3");
 }
 
 #[wasm_bindgen_test]
 fn what_is_refused_is_named_with_its_value_and_what_is_allowed() {
     let it = drive();
     it.run("it.few = { t: [0, 1], x: [0, 1], y: [0, 0], theta: [0, 0] }");
-    it.run("it.machine = motion.AlphaCalibrator.empty()");
+    it.run("it.machine = new motion.AlphaCalibrator()");
     it.assert_refused(
         "it.machine.config",
         r#"
@@ -237,6 +229,8 @@ fn what_is_refused_is_named_with_its_value_and_what_is_allowed() {
         TypeError: correct.yaw is an unknown key; allowed are clockOffset, mountYaw, leverArm, distanceScale, turnScale
         it.machine.configure({ seed: 1, rule: 'omnibus' })
         RangeError: rule is "omnibus"; allowed is "thrun" or "nav2" or "beluga" or "omni"
+        motion.AlphaCalibrator.restored({}, new Uint8Array(3))
+        TypeError: saved is no fit; allowed is that of another machine
         it.machine.setLog(it.few)
         TypeError: reference is undefined; allowed is an object with keys from t, x, y, theta, breaks
         "#,

@@ -43,7 +43,16 @@ export const progressStyles = css`
   }
 `;
 
+/** Work that can be shown. */
+export interface Work {
+  canStop: boolean;
+  /** Share that is done; null where nobody knows. */
+  done: number | null;
+  stop(): void;
+}
+
 export class Progress extends Part {
+  #work: Work = this.host.settings;
   /** When the work was first told of. */
   #since: number | undefined;
   #shown = false;
@@ -68,8 +77,9 @@ export class Progress extends Part {
   };
 
   /** There is more to do than a frame has time for. */
-  tell() {
-    if (!this.host.settings.canStop) return;
+  tell(work: Work = this.host.settings) {
+    if (!work.canStop) return;
+    this.#work = work;
     const now = performance.now();
     this.#since ??= now;
     if (now - this.#since < PATIENCE) return;
@@ -79,7 +89,8 @@ export class Progress extends Part {
   }
 
   /** All is done. */
-  rest() {
+  rest(work: Work = this.host.settings) {
+    if (work !== this.#work) return;
     this.#since = undefined;
     if (!this.#shown) return;
     this.#shown = false;
@@ -88,17 +99,17 @@ export class Progress extends Part {
 
   #stop() {
     this.host.announcer.tell(words.progress.stopped);
-    this.host.settings.stop();
+    this.#work.stop();
   }
 
   render() {
     if (!this.#shown) return nothing;
-    const { done } = this.host.settings;
+    const { done } = this.#work;
     const say = words.progress;
     return html`<div class="progress">
       <div part="progress">
-        <progress aria-label=${say.label} .value=${done}></progress>
-        <span aria-hidden="true">${say.label} ${Math.floor(100 * done)} %</span>
+        <progress aria-label=${say.label} value=${done ?? nothing}></progress>
+        <span aria-hidden="true">${say.label}${done === null ? '' : ` ${Math.floor(100 * done)} %`}</span>
         ${button(say.stop, () => this.#stop(), { title: say.stopTitle })}
       </div>
     </div>`;

@@ -14,7 +14,7 @@ use crate::geom::se2::SE2;
 use crate::models::{OdomDelta, RuleAlphas, VelocityAlphas, VelocityCmd, VelocityModel};
 use crate::stats::{CartesianMoments, Ellipse};
 use panels::panels;
-use std::sync::Arc;
+use std::cell::OnceCell;
 
 /// Outcomes that are drawn of a leg.
 pub const OUTCOMES: usize = 400;
@@ -27,6 +27,13 @@ const OUTLINE_SEGMENTS: usize = 64;
 pub struct Log {
     pub odometry: Trajectory,
     pub reference: Trajectory,
+}
+
+/// Reason for which a fit cannot be restored.
+#[derive(Clone, Debug, PartialEq)]
+pub enum RestoreError {
+    Settings(SettingsError),
+    Bytes,
 }
 
 /// What is known of the log that the widget opens with.
@@ -54,41 +61,31 @@ pub struct LegView {
     pub ended: [f64; 3],
 }
 
-/// The simulation behind the widget: settings, a log, and what is fitted to it.
+/// The simulation behind the widget: settings, a log, and the fit to it, which is made when it is asked for first.
 #[derive(Clone, Debug)]
 pub struct AlphaCalibrator {
     settings: Settings,
-    /// Log and calibration that are shown.
-    shown: Shown,
-    /// Source of the log that is to be fitted next.
-    next: Option<Source>,
-    /// Number of completed fits.
+    source: Source,
+    fit: Fit,
+    /// Number of the fit.
     fits: u32,
 }
 
-/// Where a log is from.
+/// Source of a log.
 #[derive(Clone, Debug)]
 enum Source {
-    /// Of this seed; made when it is needed first, which takes as long as a frame has.
-    Simulated(u64, Option<Arc<Log>>),
-    Own(Arc<Log>),
+    /// Simulated with the seed of the settings.
+    Simulated,
+    Own(Log),
+    /// Log of another machine, from which the fit is restored.
+    Elsewhere,
 }
 
-impl Source {
-    fn made(&mut self) -> &Log {
-        match self {
-            Self::Simulated(seed, log) => log.get_or_insert_with(|| Arc::new(example::example(*seed))),
-            Self::Own(log) => log,
-        }
-    }
-}
-
-/// What is fitted to which log, and under which settings.
+/// Calibration, and the settings that it is made under.
 #[derive(Clone, Debug)]
-struct Shown {
+struct Fit {
     settings: Settings,
-    source: Source,
-    calibration: Calibration,
+    calibration: OnceCell<Calibration>,
 }
 
 impl AlphaCalibrator {
@@ -97,25 +94,45 @@ impl AlphaCalibrator {
     /// # Errors
     /// [`SettingsError`] for the first setting out of range.
     pub fn new(settings: Settings) -> Result<Self, SettingsError> {
-        let mut machine = Self::empty(settings)?;
-        machine.finish();
-        Ok(machine)
+        Self::with(settings, Source::Simulated, OnceCell::new())
     }
 
-    /// A machine that has begun with the simulated log, and shows nothing of it yet.
+    /// Returns the machine of these settings with a fit that another machine has saved. Settings that change the fit are
+    /// [pending](AlphaCalibrator::is_pending) here, as the log is elsewhere.
     ///
     /// # Errors
-    /// As [`AlphaCalibrator::new`].
-    pub fn empty(settings: Settings) -> Result<Self, SettingsError> {
+    /// [`RestoreError`] for settings out of range, or bytes of no fit.
+    pub fn restored(settings: Settings, saved: &[u8]) -> Result<Self, RestoreError> {
+        let calibration: Calibration = postcard::from_bytes(saved).map_err(|_| RestoreError::Bytes)?;
+        Self::with(settings, Source::Elsewhere, OnceCell::from(calibration)).map_err(RestoreError::Settings)
+    }
+
+    fn with(
+        settings: Settings,
+        source: Source,
+        calibration: OnceCell<Calibration>,
+    ) -> Result<Self, SettingsError> {
         settings.check()?;
-        let source = Source::Simulated(settings.seed, None);
-        let shown =
-            Shown { settings, source: source.clone(), calibration: Calibration::empty(settings.model()) };
-        Ok(Self { settings, shown, next: Some(source), fits: 0 })
+        Ok(Self { settings, source, fit: Fit { settings, calibration }, fits: 1 })
+    }
+
+    /// Returns the fit as bytes for [`AlphaCalibrator::restored`], on the same machine.
+    pub fn saved(&self) -> Vec<u8> {
+        postcard::to_allocvec(self.calibration()).unwrap_or_default()
     }
 
     pub fn settings(&self) -> &Settings {
         &self.settings
+    }
+
+    /// Settings of the fit. They differ from [`AlphaCalibrator::settings`] while these are pending.
+    pub fn fitted_settings(&self) -> &Settings {
+        &self.fit.settings
+    }
+
+    /// Tells whether the settings need another fit, which only the machine with the log can make.
+    pub fn is_pending(&self) -> bool {
+        !self.fit.settings.fits_as(&self.settings)
     }
 
     /// Changes the settings.
@@ -123,97 +140,53 @@ impl AlphaCalibrator {
     /// # Errors
     /// As [`AlphaCalibrator::new`]; nothing has changed then.
     pub fn configure(&mut self, settings: Settings) -> Result<(), SettingsError> {
-        self.begin(settings)?;
-        self.finish();
-        Ok(())
-    }
-
-    /// As [`AlphaCalibrator::configure`], but the fit is left to [`AlphaCalibrator::advance`]. Until then the figures are the former ones.
-    ///
-    /// # Errors
-    /// As [`AlphaCalibrator::configure`].
-    pub fn begin(&mut self, settings: Settings) -> Result<(), SettingsError> {
         settings.check()?;
-        let before = std::mem::replace(&mut self.settings, settings);
-        if !before.fits_as(&settings) {
-            let source = match self.latest() {
-                Source::Simulated(seed, _) if *seed != settings.seed => {
-                    Source::Simulated(settings.seed, None)
-                }
-                same => same.clone(),
-            };
-            self.next = Some(source);
-        }
-        if self.next.is_none() {
-            self.shown.settings = settings;
+        let is_same_log = !matches!(self.source, Source::Simulated) || self.settings.seed == settings.seed;
+        self.settings = settings;
+        self.fit.settings.predict_as(&settings);
+        if !is_same_log || self.is_pending() {
+            self.invalidate();
         }
         Ok(())
-    }
-
-    /// Begins with another log, as [`AlphaCalibrator::begin`] with other settings.
-    pub fn begin_log(&mut self, log: Log) {
-        self.next = Some(Source::Own(Arc::new(log)));
     }
 
     /// Puts another log in the place of the present one.
     pub fn set_log(&mut self, log: Log) {
-        self.begin_log(log);
-        self.finish();
+        self.source = Source::Own(log);
+        self.invalidate();
     }
 
-    /// The log of what was begun last, whether that is complete or not.
-    fn latest(&self) -> &Source {
-        self.next.as_ref().unwrap_or(&self.shown.source)
+    fn invalidate(&mut self) {
+        if !matches!(self.source, Source::Elsewhere) {
+            self.fit = Fit { settings: self.settings, calibration: OnceCell::new() };
+            self.fits += 1;
+        }
     }
 
-    /// Fits the log that was begun, if any; returns true. A log with too few legs ends in a calibration without legs.
-    pub fn advance(&mut self) -> bool {
-        let Some(mut source) = self.next.take() else { return true };
-        let Log { odometry, reference } = source.made();
-        let drive = Drive { odometry, reference };
-        let calibration = calibrate(&[drive], &self.settings.options());
-        let calibration = calibration.unwrap_or_else(|_| Calibration::empty(self.settings.model()));
-        self.shown = Shown { settings: self.settings, source, calibration };
-        self.fits += 1;
-        true
-    }
-
-    fn finish(&mut self) {
-        self.advance();
-    }
-
-    /// How often the figures have become others.
+    /// Number of the fit: another one has another number.
     pub fn fits(&self) -> u32 {
         self.fits
     }
 
-    /// Progress of what was begun, 0 or 1.
-    pub fn progress(&self) -> f64 {
-        f64::from(u8::from(self.next.is_none()))
-    }
-
-    /// Gives up what was begun: settings and figures are the former ones.
-    pub fn stop(&mut self) {
-        self.next = None;
-        self.settings = self.shown.settings;
-    }
-
-    /// What is fitted.
+    /// The fit. A log with too few legs has a calibration without legs.
     pub fn calibration(&self) -> &Calibration {
-        &self.shown.calibration
-    }
-
-    /// The log that it is fitted to; None before anything is.
-    pub fn log(&self) -> Option<&Log> {
-        match &self.shown.source {
-            Source::Simulated(_, log) => log.as_deref(),
-            Source::Own(log) => Some(log),
-        }
+        self.fit.calibration.get_or_init(|| {
+            let Settings { seed, .. } = self.fit.settings;
+            let options = self.fit.settings.options();
+            let fitted =
+                |Log { odometry, reference }: &Log| calibrate(&[Drive { odometry, reference }], &options);
+            match &self.source {
+                Source::Simulated => fitted(&example::example(seed)).ok(),
+                Source::Own(log) => fitted(log).ok(),
+                Source::Elsewhere => None,
+            }
+            .unwrap_or_else(|| Calibration::empty(options.model))
+        })
     }
 
     /// The true values, where the log is simulated; the α's belong to the legs and to the rule that it was simulated with.
     pub fn truth(&self) -> Option<Truth> {
-        matches!(self.shown.source, Source::Simulated(..)).then_some(Truth {
+        matches!(self.source, Source::Simulated).then_some(Truth {
             alphas: example::ALPHAS,
             clock_offset: example::CLOCK_OFFSET,
             mount_yaw: example::MOUNT_YAW,
@@ -229,14 +202,14 @@ impl AlphaCalibrator {
 
     /// Squared residuals against what drives them.
     pub fn panels(&self, driver: Driver) -> [Panel; 3] {
-        panels(self.shown.settings.model(), self.calibration(), driver)
+        panels(self.fit.settings.model(), self.calibration(), driver)
     }
 
     /// One leg from its beginning; None where there is no such leg.
     pub fn leg(&self, index: usize) -> Option<LegView> {
         let leg = self.legs().get(index)?;
         let reading = self.calibration().observations[index].reading;
-        let mut draws = Draws::new(self.shown.settings.seed, self.shown.settings.noise);
+        let mut draws = Draws::new(self.fit.settings.seed, self.fit.settings.noise);
         draws.extend_to(OUTCOMES);
         let outcomes: Vec<[f64; 3]> =
             (0..OUTCOMES).map(|outcome| self.outcome(&reading, draws.of(outcome))).map(numbers).collect();
@@ -251,7 +224,7 @@ impl AlphaCalibrator {
 
     /// Where a leg ends with such noise.
     fn outcome(&self, reading: &[f64; 3], unit_noise: [f64; 3]) -> SE2 {
-        let Shown { settings, calibration, .. } = &self.shown;
+        let (settings, calibration) = (&self.fit.settings, self.calibration());
         // An α that the log does not identify adds nothing.
         let alpha =
             |k: usize| settings.inflation * calibration.alphas.get(k).copied().flatten().unwrap_or(0.0);

@@ -112,9 +112,17 @@ impl Settings {
         &mut self.yaw_std
     }
 
-    /// Returns whether the fit is the same under other settings: inflation and distribution are for the prediction alone.
+    /// Takes the settings of the prediction from others: inflation, distribution and seed.
+    pub(super) fn predict_as(&mut self, other: &Self) {
+        let Self { inflation, noise, seed, .. } = *other;
+        *self = Self { inflation, noise, seed, ..*self };
+    }
+
+    /// Tells whether the fit to a log is the same under other settings.
     pub(super) fn fits_as(&self, other: &Self) -> bool {
-        Self { inflation: other.inflation, noise: other.noise, ..*self } == *other
+        let mut predicting = *self;
+        predicting.predict_as(other);
+        predicting == *other
     }
 }
 

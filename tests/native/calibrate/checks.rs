@@ -24,7 +24,7 @@ fn failed(calibration: &Calibration) -> Vec<CheckName> {
 fn fails(name: CheckName, calibration: &Calibration) {
     let found = failed(calibration);
     assert!(found.contains(&name), "{name:?} is not among {found:?}");
-    assert!(calibration.diagnostics.checks.iter().all(|check| check.passed == check.message.is_empty()));
+    assert!(calibration.diagnostics.checks.iter().all(|check| check.passed == check.message().is_empty()));
     assert_eq!(calibration.diagnostics.verdict, Verdict::Questionable, "{name:?}");
     let recommended = calibration.recommended.as_ref().expect("it is usable");
     assert!(recommended.inflation >= 1.0 && !recommended.reason.is_empty());

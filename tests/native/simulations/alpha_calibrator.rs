@@ -4,7 +4,7 @@ use motion::OdomDelta;
 use motion::calibrate::{Calibration, Leg, SystematicError, Trajectory, Verdict};
 use motion::geom::se2::SE2;
 use motion::models::OdometryRule;
-use motion::sim::alpha_calibrator::{AlphaCalibrator, Driver, Log, Model, Settings};
+use motion::sim::alpha_calibrator::{AlphaCalibrator, Driver, Log, Model, RestoreError, Settings};
 
 const SEEDS: u64 = 40;
 
@@ -197,22 +197,23 @@ fn the_model_and_the_rule_go_together() {
 }
 
 #[test]
-fn a_calibration_that_was_begun_is_one_step() {
+fn a_restored_fit_is_the_fitted_one_to_the_last_bit() {
     let settings = Settings { rule: OdometryRule::Nav2, distance: 0.4, ..Settings::default() };
-    let mut begun = machine(Settings::default());
+    let fitted = machine(settings);
+    let mut restored = AlphaCalibrator::restored(settings, &fitted.saved()).expect("a fit");
     // Residuals that a leg does not show are NaN, which equals nothing.
-    let before = format!("{:?}", begun.calibration());
-    begun.begin(settings).expect("allowed");
-    assert!(begun.progress() == 0.0 && format!("{:?}", begun.calibration()) == before);
-    begun.stop();
-    assert!(*begun.settings() == Settings::default() && format!("{:?}", begun.calibration()) == before);
-    begun.begin(settings).expect("allowed");
-    assert!(begun.advance());
-    assert_eq!((begun.progress(), begun.fits()), (1.0, 2));
-    assert!(format!("{:?}", begun.calibration()) == format!("{:?}", machine(settings).calibration()));
-    // The inflation is of the prediction alone.
-    begun.begin(Settings { inflation: 2.0, ..settings }).expect("allowed");
-    assert_eq!((begun.progress(), begun.fits()), (1.0, 2));
+    let told = |of: &AlphaCalibrator| {
+        let panels = [Driver::Turn, Driver::Way].map(|driver| of.panels(driver));
+        format!("{:?} {panels:?} {:?} {:?}", of.calibration(), of.leg(5), of.nearest([0.5, 1.0], 3.0))
+    };
+    let before = told(&fitted);
+    assert!(told(&restored) == before && restored.truth().is_none() && !restored.is_pending());
+    // The inflation is of the prediction alone; another rule needs the log.
+    restored.configure(Settings { inflation: 2.0, ..settings }).expect("allowed");
+    assert!(!restored.is_pending() && told(&restored) != before);
+    restored.configure(Settings::default()).expect("allowed");
+    assert!(restored.is_pending() && told(&restored) == before && *restored.fitted_settings() == settings);
+    assert_eq!(AlphaCalibrator::restored(settings, &[1, 2]).unwrap_err(), RestoreError::Bytes);
 }
 
 #[test]

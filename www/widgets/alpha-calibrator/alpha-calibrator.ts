@@ -8,7 +8,6 @@ import { legend } from '../../figure/overlays.ts';
 import { reserve } from '../../figure/page/room.ts';
 import { define } from '../../figure/reflection.ts';
 import { orFree } from '../../figure/runtime.ts';
-import { LONGEST_WORK, advancing } from '../../figure/settings.ts';
 import { words } from '../../messages/registry.ts';
 import { pointOn } from '../../scene/canvas.ts';
 import { group } from '../../ui/controls.ts';
@@ -16,6 +15,7 @@ import { counted } from '../../ui/format.ts';
 import { startOverButton } from '../shared/presets.ts';
 import { legControls, legLengths, legReadouts, modelControls, predictionControls } from './controls.ts';
 import { diagnostics } from './diagnostics.ts';
+import { LogService, isStopped } from './log-service.ts';
 import { Copied, copyButton, nav2 } from './nav2.ts';
 import { LogOpener, dropZone, logSection } from './open.ts';
 import { panels } from './panels.ts';
@@ -27,8 +27,15 @@ import { COMPONENTS, LINES, attributes, declared, looks, own, vocabulary } from 
 import { calibratorStyles } from './styles.ts';
 import { systematicTable, systematicTexts } from './systematic.ts';
 import { captionOf, legText, reasonOf, wayText } from './words.ts';
-import type { AlphaCalibrator as Machine, CalibrationLog } from '../../types.d.ts';
+import type { AlphaCalibrator as Machine, CalibrationLog, Motion } from '../../types.d.ts';
 import type { Reading } from './reading.ts';
+
+/** Log of the reader or of the page, with the fit that the service has made, and the settings of the fit. */
+interface Given {
+  log: CalibrationLog;
+  config: Machine['config'];
+  fit: Uint8Array;
+}
 
 /** Keys of a log. */
 const KEYS = ['name', 'odometry', 'reference'];
@@ -55,18 +62,26 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
   plate = new Plate(this);
   #opener = new LogOpener(this);
   #copied = new Copied(this);
-  /** Log of the reader or of the page; null for the simulated one. */
-  #log: CalibrationLog | null = null;
+  service = new LogService('alpha-calibrator');
+  /** Null for the simulated log. */
+  #given: Given | null = null;
 
-  createMachine: FigureElement<Machine, Reading>['createMachine'] = (motion, state) => {
-    if (!state) return new motion.AlphaCalibrator();
-    // Fitting goes on in later frames.
-    const machine = motion.AlphaCalibrator.empty(this.settings.declared(state));
-    return orFree(machine, () => this.#log && machine.beginLog(this.#log.odometry, this.#log.reference));
-  };
+  createMachine: FigureElement<Machine, Reading>['createMachine'] = (motion, state) =>
+    state ? this.#machineOf(motion, this.settings.declared(state), this.#given) : new motion.AlphaCalibrator();
+
+  #machineOf({ AlphaCalibrator }: Motion, requested: Partial<Machine['config']>, given: Given | null): Machine {
+    if (!given) return new AlphaCalibrator(requested);
+    return orFree(AlphaCalibrator.restored(given.config, given.fit), (machine) => machine.configure(requested));
+  }
 
   read(machine: Machine) {
-    return readingOf(machine, this.#log, this.reading);
+    if (machine.isPending) this.#follow();
+    return readingOf(machine, this.log, this.reading);
+  }
+
+  disconnectedCallback() {
+    super.disconnectedCallback();
+    this.service.end();
   }
 
   /** Leg that is shown, from 0; −1 if there is none. */
@@ -123,62 +138,67 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
    * @public
    */
   get log(): CalibrationLog | null {
-    return this.#log;
+    return this.#given?.log ?? null;
   }
 
   set log(log) {
     this.reflection.give('log', log, (given) => {
       if (given !== null) object('log', given, KEYS);
-      this.#enter(given);
-      this.reflection.tell();
+      this.service.stop();
+      this.open(given).then(() => this.reflection.tell(), this.#report);
+    });
+  }
+
+  #report = (error: unknown) => {
+    if (!isStopped(error)) this.runtime.report(error);
+  };
+
+  /**
+   * Replaces the log once it is fitted; a log that is refused leaves the present one. The simulated log comes at once.
+   *
+   * @param check throws if the log is refused
+   */
+  async open(log: CalibrationLog | null, check?: (machine: Machine) => void) {
+    const config = this.settings.declared(this.settings.present) as Machine['config'];
+    const given = log && { log, config, fit: await this.service.calibrate(config, log) };
+    this.runtime.attempt(() => {
+      if (!this.machine) return;
+      const machine = this.#machineOf(this.motion, this.settings.declared(this.settings.present), given);
+      orFree(machine, () => check?.(machine));
+      if (log !== this.log) this.state.own.leg = null;
+      this.#given = given;
+      this.runtime.replace(machine);
+      this.settings.arrive();
       this.settings.show();
     });
   }
 
-  /**
-   * Opens a log of the reader's.
-   *
-   * @param arrived is called when the log is fitted
-   * @param refuse is called if the log is refused while it is fitted, as one without legs
-   */
-  open(log: CalibrationLog | null, arrived?: () => void, refuse?: (error: unknown) => void) {
-    this.runtime.attempt(() => this.#enter(log, () => {
-      this.gesture.step();
-      this.gesture.commit();
-      arrived?.();
-    }, refuse));
-    this.stage.wake();
+  /** Fits the present log under settings that are pending. The figure shows the former fit until then. */
+  async #follow() {
+    const { log, service, progress } = this;
+    if (!log || service.isBusy) return;
+    const work = { canStop: true, done: null, stop: () => this.#giveUp() };
+    const telling = setInterval(() => progress.tell(work), 100);
+    try {
+      await this.open(log);
+    } catch (error) {
+      if (!isStopped(error)) this.#giveUp();
+      this.#report(error);
+    } finally {
+      clearInterval(telling);
+      progress.rest(work);
+    }
   }
 
-  /**
-   * Replaces the log. Another machine is fitted to it first: all stays as it is if the log is refused, or the reader stops.
-   *
-   * @param arrived is called when the log is fitted
-   * @param refuse is called if the log is refused while it is fitted; without it a log may have no legs
-   * @throws {TypeError | RangeError} if the log is refused at once
-   */
-  #enter(log: CalibrationLog | null, arrived: () => void = () => this.reflection.tell(), refuse?: (error: unknown) => void) {
-    const { motion, settings } = this;
-    if (!motion) return;
-    const end = performance.now() + LONGEST_WORK;
-    const machine = motion.AlphaCalibrator.empty(settings.declared(settings.wanted));
-    orFree(machine, () => log && machine.beginLog(log.odometry, log.reference));
-    settings.prepare(machine, this.#entering(machine, log, arrived, refuse !== undefined), refuse ?? ((error) => this.runtime.report(error)), end);
-  }
-
-  /**
-   * @param machine with the log
-   * @param isStrict whether the log must have legs
-   */
-  *#entering(machine: Machine, log: CalibrationLog | null, arrived: () => void, isStrict: boolean): import('../../figure/settings.ts').Job {
-    yield* advancing(machine);
-    if (isStrict && machine.count === 0) throw new RangeError(words.calibrator.none);
-    this.#log = log;
-    this.state.own.leg = null;
-    this.runtime.replace(machine);
-    this.settings.arrive();
-    this.settings.stale = true;
-    arrived();
+  /** Returns to the settings of the fit that is shown. */
+  #giveUp() {
+    this.service.stop();
+    this.runtime.attempt(() => {
+      this.machine?.configure(this.machine.fittedConfig);
+      this.settings.stale = true;
+      this.reflection.tell();
+      this.settings.show();
+    });
   }
 
   /** Name of the log. */
@@ -188,23 +208,23 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
   }
 
   get takeaway() {
-    const { config, legs } = this.fresh;
+    const { fitted, legs } = this.fresh;
     const of = (numbers: Float64Array, i: number, size: number) => numbers.subarray(size * i, size * (i + 1));
     const poses = (whose: string) => ['from', 'to'].flatMap((end) => ['x_m', 'y_m', 'theta_rad'].map((name) => `${whose}_${end}_${name}`));
     return {
       title: this.lettering.name,
       description: [wayText(this.reading, this.chosen), ...alphaTexts(this.reading).map((text) => `${text}.`), captionOf(this.reading, this.logName), reasonOf(this.reading), ...systematicTexts(this.reading)].join(' '),
-      settings: { element: this.localName, log: this.#log?.name ?? null, ...config },
+      settings: { element: this.localName, log: this.log?.name ?? null, ...fitted },
       columns: [
         'begins_s', 'ends_s', ...poses('odometry'), ...poses('reference'), 'reading_1', 'reading_2', 'reading_3',
-        ...['residual', 'standardized', 'std'].flatMap((what) => COMPONENTS[config.model].map((name) => `${what}_${name}`)), 'squared_mahalanobis', 'outlier',
+        ...['residual', 'standardized', 'std'].flatMap((what) => COMPONENTS[fitted.model].map((name) => `${what}_${name}`)), 'squared_mahalanobis', 'outlier',
       ],
       row: (i: number) => [
         ...of(legs.times, i, 2), ...of(legs.odometry, i, 6), ...of(legs.reference, i, 6), ...of(legs.readings, i, 3),
         ...of(legs.residuals, i, 3), ...of(legs.standardized, i, 3), ...of(legs.stds, i, 3), legs.squared[i], legs.outliers[i],
       ],
       count: legs.count,
-      notInCode: this.#log ? words.calibrator.logNotInCode : '',
+      notInCode: this.log ? words.calibrator.logNotInCode : '',
     };
   }
 

@@ -16,7 +16,7 @@ export type Figure = import('./alpha-calibrator.ts').AlphaCalibratorElement;
  * @returns empty if Nav2 has no such model, or no α's are recommended
  */
 function yamlOf({ reading, logName }: Figure): string {
-  const { config, stats, legs: { count } } = reading;
+  const { fitted: config, stats, legs: { count } } = reading;
   const { model, rule } = config;
   const date = new Date().toISOString().slice(0, 10);
   const fitted = { calibration: stats, count, model, rule, legs: legsOf(config), log: logName, date };
@@ -24,8 +24,8 @@ function yamlOf({ reading, logName }: Figure): string {
 }
 
 /** All results, with typed arrays as plain ones. */
-function jsonOf({ reading: { config, stats, legs, truth }, logName }: Figure) {
-  const all = { log: logName, date: new Date().toISOString(), settings: config, ...stats, ...(truth && { truth }), legs };
+function jsonOf({ reading: { fitted, stats, legs, truth }, logName }: Figure) {
+  const all = { log: logName, date: new Date().toISOString(), settings: fitted, ...stats, ...(truth && { truth }), legs };
   return JSON.stringify(all, (_, value) => (ArrayBuffer.isView(value) ? [...(value as Float64Array)] : value), 1);
 }
 

@@ -6,6 +6,7 @@ import { language, words } from '../../messages/registry.ts';
 import { button, inputOf } from '../../ui/controls.ts';
 import { FileDrop, fileInput } from '../shared/files.ts';
 import { referenceNoise } from './controls.ts';
+import { isStopped } from './log-service.ts';
 
 export type Figure = import('./alpha-calibrator.ts').AlphaCalibratorElement;
 
@@ -19,9 +20,9 @@ export type Series = import('../../logs/log.ts').Series;
 
 export type CalibrationLog = import('../../types.d.ts').CalibrationLog;
 
-export type Reader = Awaited<ReturnType<typeof loadReader>>;
+type LogFailure = import('./log-service.ts').LogFailure;
 
-export type Watched = { onProgress: (share: number) => void, signal: AbortSignal };
+export type Reader = Awaited<ReturnType<typeof loadReader>>;
 
 /** One recording with its topics, or two tables without. */
 export interface Chosen {
@@ -49,12 +50,6 @@ const ZONE = 'log';
 /** Usual frames of a topic of transforms: parent and child. */
 const FRAMES = { odometry: 'odom, base_link', reference: 'map, base_link' };
 
-/** Progress of one part of the reading, which throws once it is cancelled. */
-const partOf = ({ onProgress, signal }: Watched, from: number, to: number): (share: number) => void => (share) => {
-  signal.throwIfAborted();
-  onProgress(from + share * (to - from));
-};
-
 export class LogOpener extends Part<Figure> {
   dropped = new FileDrop(this.host, ZONE, (files) => this.choose(files));
   /** Why the latest log was refused. */
@@ -67,8 +62,8 @@ export class LogOpener extends Part<Figure> {
   #opened: { chosen: Chosen, log: CalibrationLog, hasBoth: boolean } | undefined;
   /** Share of the file that has been read; undefined while none is being read. */
   share: number | undefined;
-  /** Cancels the reading. */
-  #stopping = new AbortController();
+  /** Number of the latest attempt to read files. */
+  #latest = 0;
 
   /** Why the latest log was refused; empty where it was not. */
   get complaint() {
@@ -91,33 +86,50 @@ export class LogOpener extends Part<Figure> {
     const { chosen, log, hasBoth } = this.#opened;
     if (chosen !== this.chosen || log !== this.host.log || chosen.kind === this.#kind) return;
     chosen.kind = this.#kind;
-    this.#attempt(async (reader, watching) => {
+    this.#attempt(async (reader) => {
       const { odometry } = chosen;
       if (!chosen.isExplicit && chosen.topics.length) chosen.odometry = guessOf(reader, chosen, 'odometry') || odometry;
-      if (chosen.odometry !== odometry || hasBoth) await this.#read(chosen, reader, watching);
+      if (chosen.odometry !== odometry || hasBoth) await this.#read(chosen, reader);
     });
   }
 
   /** Returns to the simulated log. */
   leave() {
-    this.#stopping.abort();
-    this.share = this.chosen = this.#complaint = this.#found = undefined;
-    this.host.open(null);
+    this.#end();
+    this.chosen = this.#complaint = this.#found = undefined;
+    this.host.open(null).then(() => this.#commit());
   }
 
   /** Stops reading. */
   stop() {
-    this.#stopping.abort();
-    this.share = undefined;
+    this.#end();
     this.#complaint = () => words.progress.stopped;
+  }
+
+  #end() {
+    this.#latest++;
+    this.host.service.stop();
+    this.#rest();
+  }
+
+  /** Shows that nothing is being read, and lets the figure go on with what was waiting for that. */
+  #rest() {
+    this.share = undefined;
+    this.host.settings.stale = true;
+    this.host.stage.wake();
     this.host.requestUpdate();
+  }
+
+  #commit() {
+    this.host.gesture.step();
+    this.host.gesture.commit();
   }
 
   choose(files: File[]) {
     if (files.length === 0) return;
     this.chosen = undefined;
-    this.#attempt(async (reader, watching) => {
-      const recordings = await reader.openRecordings(files);
+    this.#attempt(async (reader) => {
+      const recordings = await this.host.service.open(files);
       const topics = recordings.length === 1 ? reader.usefulSeries(recordings[0]) : [];
       const chosen: Chosen = { files: recordings, topics, odometry: '', reference: '', frames: FRAMES, kind: this.#kind, isExplicit: false };
       const plan = () => reader.planDrives(recordings, { kind: chosen.kind });
@@ -132,7 +144,7 @@ export class LogOpener extends Part<Figure> {
         chosen.files = parts;
         this.chosen = chosen;
       }
-      await this.#read(chosen, reader, watching);
+      await this.#read(chosen, reader);
     });
   }
 
@@ -143,10 +155,10 @@ export class LogOpener extends Part<Figure> {
     this.chosen = chosen;
     this.host.requestUpdate();
     if (chosen.topics.length > 0 && !(chosen.odometry && chosen.reference)) return;
-    this.#attempt((reader, watching) => this.#read(chosen, reader, watching));
+    this.#attempt((reader) => this.#read(chosen, reader));
   }
 
-  async #read(chosen: Chosen, reader: Reader, watching: Watched) {
+  async #read(chosen: Chosen, reader: Reader) {
     const { files, topics, odometry, reference, frames, kind } = chosen;
     const roles = ['odometry', 'reference'] as const;
     const wishes = {
@@ -155,46 +167,46 @@ export class LogOpener extends Part<Figure> {
         ? { odometry: wishOf(topics, odometry, frames.odometry), reference: wishOf(topics, reference, frames.reference) }
         : { roles: new Map(files.map((recording, i) => [recording, roles[i]])) }),
     };
-    const [paired] = await reader.readDrives(reader.planDrives(files, wishes), partOf(watching, this.share ?? 0, 1));
+    const latest = this.#latest;
+    const [paired] = await this.host.service.read(reader.planDrives(files, wishes), (share) => {
+      if (latest !== this.#latest) return;
+      this.share = share;
+      this.host.requestUpdate();
+    });
     const name = [...new Set(files.map((file) => file.name)), ...(topics.length ? [reference] : [])].join(', ');
     const log = { name, odometry: paired.odometry.data, reference: paired.reference.data as Poses };
     const say = await wordsOf();
-    watching.signal.throwIfAborted();
-    this.host.open(log, () => {
-      this.#opened = { chosen, log, hasBoth: !topics.length && files[0].series.some(({ hasCommands }) => hasCommands) };
-      const logs = [paired.odometry, paired.reference];
-      this.#found = () => logs.map((each) => `${each.name}: ${reader.summarize(each, say().found).join(' ')}`);
-    }, (error) => this.#refuse(error));
+    await this.host.open(log, ({ count }) => {
+      if (count === 0) throw new RangeError(words.calibrator.none);
+    });
+    this.#commit();
+    this.#opened = { chosen, log, hasBoth: !topics.length && files[0].series.some(({ hasCommands }) => hasCommands) };
+    const logs = [paired.odometry, paired.reference];
+    this.#found = () => logs.map((each) => `${each.name}: ${reader.summarize(each, say().found).join(' ')}`);
   }
 
   /** Shows why a log was refused. */
   async #refuse(error: unknown) {
-    const { message, sentence } = error as Error & Partial<LogError>;
+    const { message, sentence, sentences } = error as Error & Partial<LogError & LogFailure>;
     const say = sentence && (await wordsOf());
-    this.#complaint = () => (say ? sentence(say()) : words.calibrator.own.refused(message));
+    this.#complaint = () => sentences?.[language === 'de' ? 'de' : 'en'] ?? (say ? sentence(say()) : words.calibrator.own.refused(message));
     this.host.requestUpdate();
     await this.dropped.showRefusal(this.complaint);
   }
 
-  /** Loads the reader of logs, cancels a reading that is under way, and starts another. */
-  async #attempt(work: (reader: Reader, watching: Watched) => Promise<void>) {
-    this.#stopping.abort();
-    this.#stopping = new AbortController();
-    const { signal } = this.#stopping;
+  /** Gives up the reading that is under way, and starts another. */
+  async #attempt(work: (reader: Reader) => Promise<void>) {
+    const number = ++this.#latest;
+    this.host.service.stop();
     this.#complaint = undefined;
-    const show = (share: number | undefined) => {
-      if (signal.aborted) return;
-      this.share = share;
-      this.host.requestUpdate();
-    };
-    show(0);
+    this.share = 0;
+    this.host.requestUpdate();
     try {
-      await work(await loadReader(), { onProgress: show, signal });
-      show(undefined);
+      await work(await loadReader());
     } catch (error) {
-      show(undefined);
-      if (!signal.aborted) await this.#refuse(error);
+      if (number === this.#latest && !isStopped(error)) await this.#refuse(error);
     }
+    if (number === this.#latest) this.#rest();
   }
 }
 
@@ -211,10 +223,10 @@ function wishOf(topics: Series[], series: string, its: string) {
   return { series, ...(holdsTransforms(topics, series) && { frames: { parent, child } }) };
 }
 
-/** Loads the reader of logs. */
+/** Loads what plans drives, and what makes sentences of summaries. */
 async function loadReader() {
-  const [candidates, drives, open, summary] = await Promise.all([import('../../logs/candidates.ts'), import('../../logs/drives.ts'), import('../../logs/open.ts'), import('../../logs/summary.ts')]);
-  return { ...candidates, ...drives, ...open, ...summary };
+  const [candidates, drives, summary] = await Promise.all([import('../../logs/candidates.ts'), import('../../logs/drives.ts'), import('../../logs/summary.ts')]);
+  return { ...candidates, ...drives, ...summary };
 }
 
 const holdsTransforms = (topics: Series[], topic: string) => topics.some(({ name, kind }) => name === topic && kind === 'transforms');

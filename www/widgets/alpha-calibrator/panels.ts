@@ -33,12 +33,12 @@ export function panels(figure: Figure) {
 }
 
 /** Panels with their plots; none without legs. */
-function panelsOf({ machine, reading: { config, legs }, state: { own: { driver } } }: Figure) {
+function panelsOf({ machine, reading: { fitted, legs }, state: { own: { driver } } }: Figure) {
   const say = words.calibrator.panels;
-  const axes = config.model === 'velocity' ? { turn: say.turnRate, way: say.speed } : { turn: say.turn, way: say.way };
+  const axes = fitted.model === 'velocity' ? { turn: say.turnRate, way: say.speed } : { turn: say.turn, way: say.way };
   const all = legs.count > 0 ? (machine?.panels(driver) ?? []) : [];
   return all.map((panel, i) => {
-    const kind = say.kinds[COMPONENTS[config.model][i]];
+    const kind = say.kinds[COMPONENTS[fitted.model][i]];
     return { panel, plot: panelPlot(panel, kind, axes[(driver as 'turn' | 'way')]) };
   });
 }
@@ -68,7 +68,7 @@ function panelPlot({ alpha, x, y, error, slope, interval }: CalibrationPanel, ki
 }
 
 /** Note on an α that is not determined or not told from 0. */
-function noteOf({ alpha, slope, interval }: CalibrationPanel, { config: { model } }: import('./reading.ts').Reading) {
+function noteOf({ alpha, slope, interval }: CalibrationPanel, { fitted: { model } }: import('./reading.ts').Reading) {
   const { panels: say, alphas: { lacking } } = words.calibrator;
   if (slope !== null && !isZero(slope, interval)) return '';
   const name = alphaName(alpha);

@@ -7,7 +7,10 @@ export interface Reading {
   machine: Machine;
   /** Null for the simulated one. */
   log: CalibrationLog | null;
+  /** Requested settings. */
   config: Machine['config'];
+  /** Settings of the fit. */
+  fitted: Machine['config'];
   /** Number of the fit. */
   fits: number;
   stats: Machine['stats'];
@@ -27,20 +30,21 @@ export interface Reading {
  * @param before latest reading, whose copies are used again if they are of the same fit
  */
 export function readingOf(machine: Machine, log: CalibrationLog | null, before: Reading | undefined): Reading {
-  const { config, fits } = machine;
-  if (before?.machine === machine && before.fits === fits) return { ...before, log, config };
+  const { config, fittedConfig: fitted, fits } = machine;
+  if (before?.machine === machine && before.fits === fits) return { ...before, log, config, fitted };
   const { stats, legs, truth } = machine;
   return {
     machine,
     log,
     config,
+    fitted,
     fits,
     stats,
     legs,
     truth,
     classes: classesOf(legs),
     worst: worstOf(legs),
-    opening: openingOf(legs, config.duration > 0 ? SHORTEST : config.distance),
+    opening: openingOf(legs, fitted.duration > 0 ? SHORTEST : fitted.distance),
   };
 }
 
@@ -89,5 +93,5 @@ function openingOf({ squared, outliers, odometry }: CalibrationLegs, distance: n
 export const legOf = ({ opening, legs }: Reading, chosen: number | null) => (chosen !== null && chosen < legs.count ? chosen : opening);
 
 /** Checks whether the true α's are of the rule and the legs of the present fit. */
-export const truthHolds = ({ truth, config: { rule, model, distance, angle, duration } }: Pick<Reading, 'truth' | 'config'>) =>
+export const truthHolds = ({ truth, fitted: { rule, model, distance, angle, duration } }: Pick<Reading, 'truth' | 'fitted'>) =>
   truth !== null && model === 'odometry' && rule === 'thrun' && distance === SIMULATED.distance && angle === SIMULATED.angle && duration === 0;

@@ -31,7 +31,7 @@ export function verdictLine({ reading, logName }: Figure) {
 export function alphaTable(reading: Reading) {
   const { alphas, intervals } = reading.stats;
   const say = words.calibrator.alphas;
-  const noises = noiseNames(reading.config.model);
+  const noises = noiseNames(reading.fitted.model);
   const truth = truthHolds(reading) ? reading.truth?.alphas : undefined;
   const place = axisOf([...alphas, ...intervals.flatMap((interval) => interval ?? []), ...(truth ?? [])]);
   return html`<table class="alphas" part="table">
@@ -67,7 +67,7 @@ function recommendedOf({ stats: { recommended, alphas, intervals } }: Reading, i
 const fittedOf = ({ stats: { alphas, intervals } }: Reading, index: number) => localized(alphaOrBound(alphas[index], intervals[index]));
 
 /** Says why an α is not determined, and the drive that would determine it. */
-function lackOf({ stats: { notIdentifiable }, config: { model } }: Reading, index: number) {
+function lackOf({ stats: { notIdentifiable }, fitted: { model } }: Reading, index: number) {
   const say = words.calibrator.alphas;
   const reason = notIdentifiable[index];
   if (!reason) return NOTHING;
@@ -77,11 +77,11 @@ function lackOf({ stats: { notIdentifiable }, config: { model } }: Reading, inde
 
 /** All α's as texts, each with its interval. */
 export function alphaTexts(reading: Reading) {
-  const { stats: { alphas }, config } = reading;
+  const { stats: { alphas }, fitted } = reading;
   const { recommendedText } = words.calibrator.alphas;
   return alphas.map((alpha, i) => {
     const told = alpha === null ? [lackOf(reading, i)] : [fittedOf(reading, i), betweenOf(reading, i), recommendedText(recommendedOf(reading, i))];
-    return `α${alphaName(i)} ${noiseNames(config.model)[i]}: ${told.join(', ')}`;
+    return `α${alphaName(i)} ${noiseNames(fitted.model)[i]}: ${told.join(', ')}`;
   });
 }
 

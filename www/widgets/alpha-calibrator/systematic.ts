@@ -28,9 +28,9 @@ export function systematicTexts({ stats: { systematicErrors: errors } }: Reading
  *
  * @returns empty if there are none
  */
-export function uncorrectedText({ stats: { systematicErrors: errors }, config }: Reading): string {
+export function uncorrectedText({ stats: { systematicErrors: errors }, fitted }: Reading): string {
   const say = words.calibrator.systematic;
-  const uncorrected = SYSTEMATIC.filter((key) => !config[key] && matters(key, errors[key])).flatMap((key) => textOf(key, errors[key]));
+  const uncorrected = SYSTEMATIC.filter((key) => !fitted[key] && matters(key, errors[key])).flatMap((key) => textOf(key, errors[key]));
   return uncorrected.length > 0 ? say.matters(uncorrected.join('; ')) : '';
 }
 

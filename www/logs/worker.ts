@@ -1,0 +1,108 @@
+/**
+ * Recordings and one log, held away from the page, and the calibration of the log. A worker answers the page's messages; a page that may
+ * have no worker gives one end of a channel to `serve`.
+ */
+
+import { instantiateShared, type SharedCore } from '../core.ts';
+import type { AlphaCalibrator, AlphaCalibratorSettings, CalibrationLog, Motion } from '../types.d.ts';
+import { log as german } from './de.js';
+import { readDrives, type Drive, type Part, type Plan } from './drives.ts';
+import { log as english } from './en.js';
+import { LogError } from './log-error.js';
+import type { OpenOptions, Poses, Question, Recording, Source } from './log.ts';
+import { openRecordings } from './open.ts';
+
+/** Recording as the page has it: with its place among the opened ones, but `read` stays here. */
+export type Opened = Recording & { place: number };
+
+/** Error as a message has it: an error of a log has its sentence in each language. */
+export interface Failure {
+  name: string;
+  message: string;
+  sentences?: Record<'en' | 'de', string>;
+  ask?: Question;
+}
+
+export type OnProgress = (share: number) => void;
+
+/** Request: a method of `LogKeeper`, and what it is given. */
+export interface Request {
+  number: number;
+  method: 'open' | 'read' | 'calibrate';
+  parameters: unknown[];
+}
+
+/** Answer to the request of that number: progress, and then the result or the failure. */
+export type Answer = { number: number } & ({ progress: number } | { result: unknown } | { failure: Failure });
+
+/** Keeper of the opened recordings, and of the log that was read last. */
+export class LogKeeper {
+  #motion: Motion;
+  #recordings: Recording[] = [];
+  #machine: AlphaCalibrator;
+
+  constructor(motion: Motion) {
+    this.#motion = motion;
+    this.#machine = new this.#motion.AlphaCalibrator();
+  }
+
+  async open(_: OnProgress, sources: { file: Source; path: string }[], options?: OpenOptions): Promise<Opened[]> {
+    this.#recordings = await openRecordings(sources.map(({ file, path }) => Object.assign(file, { path })), options);
+    return this.#recordings.map(({ name, format, series }, place) => ({ name, format, series, place }) as Opened);
+  }
+
+  /** Reads the logs of a plan that the page has made. The first drive is then the one to calibrate. */
+  async read(onProgress: OnProgress, { drives, loose }: Plan): Promise<Drive[]> {
+    const held = ({ recording, choice }: Part) => ({ recording: this.#recordings[(recording as Opened).place], choice });
+    const plan = {
+      drives: drives.map(({ odometry, reference }) => ({ odometry: held(odometry), reference: held(reference) })),
+      loose: { odometry: loose.odometry.map(held), reference: loose.reference.map(held) },
+    };
+    const read = await readDrives(plan, onProgress);
+    const [{ odometry, reference }] = read;
+    this.#take({ odometry: odometry.data, reference: reference.data as Poses });
+    return read;
+  }
+
+  /** Returns the fit to the log, or to another that it takes, for `AlphaCalibrator.restored`. */
+  calibrate(_: OnProgress, config: AlphaCalibratorSettings, log?: CalibrationLog): Uint8Array {
+    if (log) this.#take(log);
+    this.#machine.configure(config);
+    return this.#machine.save();
+  }
+
+  #take({ odometry, reference }: CalibrationLog) {
+    this.#machine.setLog(odometry, reference);
+  }
+}
+
+function failureOf(error: unknown): Failure {
+  const { name, message } = error instanceof Error ? error : new Error(String(error));
+  if (!(error instanceof LogError)) return { name, message };
+  return { name, message, ask: error.ask, sentences: { en: error.sentence(english), de: error.sentence(german) } };
+}
+
+/** Returns the buffers of an answer, which are moved and not copied. */
+function buffersOf(result: unknown): ArrayBuffer[] {
+  if (ArrayBuffer.isView(result)) return [result.buffer as ArrayBuffer];
+  return typeof result === 'object' && result ? [...new Set(Object.values(result).flatMap(buffersOf))] : [];
+}
+
+/** Answers the requests that come by a port, after a first message with the core. */
+export function serve(port: Pick<MessagePort, 'onmessage' | 'postMessage'>) {
+  let keeper: LogKeeper;
+  const answer = (message: Answer, buffers: ArrayBuffer[] = []) => port.postMessage(message, buffers);
+  port.onmessage = async ({ data }: MessageEvent<Request & { core?: SharedCore }>) => {
+    const { core, number = 0, method, parameters } = data;
+    try {
+      if (core) keeper = new LogKeeper(await instantiateShared(core));
+      const onProgress = (progress: number) => answer({ number, progress });
+      const result = core ? null : await (keeper[method] as (...all: unknown[]) => unknown).call(keeper, onProgress, ...parameters);
+      answer({ number, result }, buffersOf(result));
+    } catch (error) {
+      answer({ number, failure: failureOf(error) });
+    }
+  };
+}
+
+if ('DedicatedWorkerGlobalScope' in globalThis) serve(globalThis as unknown as MessagePort);

@@ -1,0 +1,163 @@
+/** Reading and calibration of logs, in a worker or, where the page may have none, in the page's thread. */
+
+import { sharedCore, startWorker, type SharedCore } from '../../core.ts';
+import type { Drive, Plan } from '../../logs/drives.ts';
+import type { OpenOptions, Source } from '../../logs/log.ts';
+import type { Answer, Failure, OnProgress, Opened, Request } from '../../logs/worker.ts';
+import type { AlphaCalibratorSettings, CalibrationLog } from '../../types.d.ts';
+
+/** Way to the worker, or to the same module in the page's thread. */
+interface Link {
+  port: Worker | MessagePort;
+  end(): void;
+}
+
+/** Error of a log, in the languages of the page. */
+export class LogFailure extends Error {
+  sentences: Failure['sentences'];
+  ask: Failure['ask'];
+
+  constructor({ name, message, sentences, ask }: Failure) {
+    super(message);
+    Object.assign(this, { name, sentences, ask });
+  }
+}
+
+/** Checks whether a request was given up, and nothing is to be said about it. */
+export const isStopped = (error: unknown) => error instanceof DOMException && error.name === 'AbortError';
+
+/** Client of the worker: one request at a time. */
+export class LogService {
+  #tag: string;
+  #link: Promise<Link> | undefined;
+  /** Number of the latest request: other answers are ignored. */
+  #number = 0;
+  #fail: ((error: unknown) => void) | undefined;
+  #sources: { file: Source; path: string }[] = [];
+  #options: OpenOptions | undefined;
+  /** True where the worker has the recordings. */
+  #isOpen = false;
+  /** Odometry of the log that the worker has. */
+  #held: CalibrationLog['odometry'] | undefined;
+
+  /** Takes the tag whose module the worker shares. */
+  constructor(tag: string) {
+    this.#tag = tag;
+  }
+
+  get isBusy() {
+    return this.#fail !== undefined;
+  }
+
+  /** Opens files, and gives up what is being done. */
+  async open(files: Source[], options?: OpenOptions): Promise<Opened[]> {
+    this.stop();
+    // A copy of a file has no path.
+    this.#sources = files.map((file) => ({ file, path: file.path ?? '' }));
+    this.#options = options;
+    return this.#openAgain();
+  }
+
+  async #openAgain() {
+    this.#isOpen = false;
+    const opened = await this.#ask<Opened[]>('open', [this.#sources, this.#options]);
+    this.#isOpen = true;
+    return opened;
+  }
+
+  /** Reads the drives of a plan for the opened recordings. The worker then has the log of the first. */
+  async read(plan: Plan, onProgress: OnProgress): Promise<Drive[]> {
+    this.stop();
+    if (!this.#isOpen) await this.#openAgain();
+    this.#held = undefined;
+    const drives = await this.#ask<Drive[]>('read', [plan], onProgress);
+    this.#held = drives[0].odometry.data;
+    return drives;
+  }
+
+  /** Returns the fit to a log, for `AlphaCalibrator.restored`. */
+  async calibrate(config: AlphaCalibratorSettings, log: CalibrationLog): Promise<Uint8Array> {
+    this.stop();
+    const isHeld = this.#held === log.odometry;
+    this.#held = undefined;
+    const fit = await this.#ask<Uint8Array>('calibrate', [config, isHeld ? undefined : log]);
+    this.#held = log.odometry;
+    return fit;
+  }
+
+  /** Gives up what is being done: its request rejects. */
+  stop() {
+    if (this.isBusy) this.end();
+  }
+
+  /** Lets go of the worker and all that it has. */
+  end() {
+    this.#link?.then(({ end }) => end(), () => {});
+    this.#link = this.#held = undefined;
+    this.#isOpen = false;
+    this.#number++;
+    this.#fail?.(new DOMException('', 'AbortError'));
+  }
+
+  #ask<Result>(method: Request['method'], parameters: unknown[], onProgress?: OnProgress): Promise<Result> {
+    const number = ++this.#number;
+    const asked = new Promise<Result>((resolve, reject) => {
+      this.#fail = reject;
+      const post = async () => {
+        const { port } = await (this.#link ??= connect(this.#tag));
+        if (number !== this.#number) return;
+        port.onmessage = ({ data }: MessageEvent<Answer>) => {
+          if (data.number !== this.#number) return;
+          if ('progress' in data) onProgress?.(data.progress);
+          else if ('failure' in data) reject(new LogFailure(data.failure));
+          else resolve(data.result as Result);
+        };
+        port.postMessage({ number, method, parameters } satisfies Request);
+      };
+      post().catch((error) => {
+        this.#link = undefined;
+        reject(error);
+      });
+    });
+    return asked.finally(() => {
+      if (number === this.#number) this.#fail = undefined;
+    });
+  }
+}
+
+async function connect(tag: string): Promise<Link> {
+  const core = await sharedCore(tag);
+  return (await workerOf(core)) ?? inPage(core);
+}
+
+/** Starts a worker; undefined where there is none, or the page's policy or origin forbids it. */
+async function workerOf(core: SharedCore): Promise<Link | undefined> {
+  try {
+    const worker = startWorker();
+    if (!worker) return undefined;
+    const isReady = await new Promise<boolean>((resolve) => {
+      worker.onmessage = ({ data }: MessageEvent<Answer>) => resolve('result' in data);
+      worker.onerror = (event: ErrorEvent) => {
+        event.preventDefault();
+        resolve(false);
+      };
+      worker.postMessage({ core });
+    });
+    if (isReady) return { port: worker, end: () => worker.terminate() };
+    worker.terminate();
+  } catch {
+    // Some browsers throw where a policy forbids workers, others fire an error.
+  }
+  return undefined;
+}
+
+async function inPage(core: SharedCore): Promise<Link> {
+  const { serve } = await import('../../logs/worker.ts');
+  const { port1, port2 } = new MessageChannel();
+  serve(port2);
+  await new Promise<void>((resolve, reject) => {
+    port1.onmessage = ({ data }: MessageEvent<Answer>) => ('failure' in data ? reject(new LogFailure(data.failure)) : resolve());
+    port1.postMessage({ core });
+  });
+  return { port: port1, end: () => port1.close() };
+}

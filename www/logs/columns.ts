@@ -52,16 +52,16 @@ const NAMES: [Field, string[]][] = [
   ['frame', [`${HEADER}frame\\.id`]],
   ['nanoseconds', [`${HEADER}(?:time\\.?)?stamp\\.(?:nano?secs?|nsecs?|nanoseconds?)`, '(?:nano?secs?|nsecs?|nanoseconds?)']],
   ['seconds', [`${HEADER}(?:time\\.?)?stamp\\.(?:secs?|seconds?)`, '(?:secs?|seconds?)']],
-  ['t', [`${HEADER}stamp`, '(?:ros|bag|rosbag|msg|epoch|unix)?\\.?time\\.?stamp', '(?:ros|bag|epoch|unix|elapsed|log|recv)?\\.?(?:time|date\\.?time|zeit)', 't']],
+  ['t', [`${HEADER}stamp`, '(?:ros|bag|rosbag|msg|epoch|unix)?\\.?time\\.?stamp', '(?:ros|bag|epoch|unix|elapsed|log|recv)?\\.?(?:time|date\\.?time|zeit)|millis|micros|nanos', 't']],
   ['qx', ['q\\..*\\.x', `${POSE}(?:orientation|rotation|quaternion|quat|rot|q)\\.?x`]],
   ['qy', ['q\\..*\\.y', `${POSE}(?:orientation|rotation|quaternion|quat|rot|q)\\.?y`]],
   ['qz', ['q\\..*\\.z', `${POSE}(?:orientation|rotation|quaternion|quat|rot|q)\\.?z`]],
   ['qw', ['q\\..*\\.w', `${POSE}(?:orientation|rotation|quaternion|quat|rot|q)\\.?w`]],
   ['omega', [`${TWIST}(?:angular|ang)\\.(?:vel(?:ocity)?\\.)?z`, 'omega(?:\\.z)?|ω', '(?:yaw|turn|heading)\\.?(?:rate|vel(?:ocity)?)|wz?', '(?:angular|ang)(?:\\.?(?:vel(?:ocity)?|speed|rate))?', 'vel(?:ocity)?\\.(?:yaw|theta)']],
   ['v', [`${TWIST}(?:linear|lin)\\.(?:vel(?:ocity)?\\.)?x`, 'vx?', '(?:linear|lin|forward|fwd)?\\.?(?:vel(?:ocity)?|speed)(?:\\.x)?|linear|lin']],
-  ['yaw', [`${POSE}(?:(?:orientation|rotation|euler|rpy|rot)\\.)?(?:yaw|theta|heading)(?:\\.angle)?`, 'θ|ψ|psi|phi']],
-  ['x', ['p\\..*\\.x', `${POSE}(?:position|translation|location|pos|loc|trans|[pt])\\.?x`, `${POSE}x`]],
-  ['y', ['p\\..*\\.y', `${POSE}(?:position|translation|location|pos|loc|trans|[pt])\\.?y`, `${POSE}y`]],
+  ['yaw', [`${POSE}(?:(?:orientation|rotation|euler|rpy|rot)\\.)?(?:yaw|theta|heading|gier(?:winkel)?)(?:\\.angle)?`, 'θ|ψ|psi|phi']],
+  ['x', ['p\\..*\\.x', 'east(?:ing)?', `${POSE}(?:position|translation|location|pos|loc|trans|[pt])\\.?x`, `${POSE}x`]],
+  ['y', ['p\\..*\\.y', 'north(?:ing)?', `${POSE}(?:position|translation|location|pos|loc|trans|[pt])\\.?y`, `${POSE}y`]],
   ['z', ['p\\..*\\.z', `${POSE}(?:position|translation|location|pos|loc|trans|[pt])\\.?z`, `${POSE}z`]],
 ];
 
@@ -128,13 +128,15 @@ function readName(name: string): Reading | undefined {
     return reading && fits(reading.field, unit) ? { ...reading, unit: unit?.unit ?? inside.trim() } : undefined;
   }
   const bare = bracketed === undefined ? name : name.slice(0, -bracketed.length);
-  const whole = fieldOf(pathOf(bare));
-  if (whole) return whole;
+  const path = pathOf(bare);
+  const whole = fieldOf(path);
+  // Clocks of microcontrollers have their unit for a name.
+  if (whole) return { ...whole, ...(/millis$/.test(path) ? { unit: 'ms' } : /micros$/.test(path) ? { unit: 'us' } : /nanos$/.test(path) ? { unit: 'ns' } : {}) };
   const [last, word] = LAST_PART.exec(bare) ?? [];
   const unit = word === undefined ? undefined : unitOf(word.replace(/[. ]/, '_'));
   const reading = last !== undefined && unit ? fieldOf(pathOf(bare.slice(0, -last.length))) : undefined;
   if (reading && unit && fits(reading.field, unit)) return { ...reading, unit: unit.unit };
-  const [, front, suffix] = SUFFIXED.exec(pathOf(bare)) ?? [];
+  const [, front, suffix] = SUFFIXED.exec(path) ?? [];
   const fronted = front === undefined ? undefined : fieldOf(front);
   return fronted && suffix !== undefined && !OTHERS.test(suffix) ? { ...fronted, prefix: suffix } : undefined;
 }

@@ -32,6 +32,7 @@ const REASONS = {
   short: 'abgebrochen',
   noStamp: 'der Zeitstempel 0',
   duplicate: 'die Zeit der Zeile davor',
+  repeated: 'eine Pose, die öfter wiederholt ist, als sie gemessen wurde',
   stray: 'eine Zeit fern von allen anderen',
   setBack: 'Zeiten einer zurückgestellten Uhr',
   held: 'die Pose steht, während die Odometrie weitergeht',
@@ -63,10 +64,8 @@ export const log = {
     longLine: (most) => `die Zeile hat mehr als ${most} Bytes; erwartet wird eine Zeile je Zeitpunkt.`,
     header: (value) => `die erste Zeile ist „${value}“; erwartet wird eine Kopfzeile mit Namen wie t, x, y und yaw.`,
     noTime: (columns) =>
-      `keine der Spalten ${columns} ist die Zeit; erwartet wird eine mit dem Namen t, time, timestamp oder stamp, oder zwei mit sec und nanosec.`,
-    noHeading: (columns) =>
-      `keine der Spalten ${columns} ist die Richtung; erwartet wird yaw, theta oder heading, oder qx, qy, qz und qw.`,
-    noColumns: (wanted, columns) => `die Spalten sind ${columns}; erwartet werden darunter ${NEEDED[wanted]}.`,
+      `keine der Spalten ${columns} ist die Zeit; erwartet wird eine mit dem Namen t, time, timestamp oder stamp, oder zwei mit sec und nanosec, oder Namen mit --columns.`,
+    noColumns: (wanted, columns) => `die Spalten sind ${columns}; erwartet werden darunter ${NEEDED[wanted]}, oder Namen mit --columns.`,
     twice: (field, one, other) => `sowohl „${one}“ als auch „${other}“ kann ${FIELDS[field]} sein; erwartet wird eines davon.`,
     cells: (count, needed) => `die Zeile hat ${times(count, 'Feld', 'Felder')}; erwartet werden mindestens ${needed}.`,
     wide: (count, needed, header) =>
@@ -74,19 +73,23 @@ export const log = {
     given: (count, given) => `die Zeile hat ${times(count, 'Feld', 'Felder')}, und --columns nennt ${given}; alle Spalten der Reihe nach nennen, mit - für die, die nicht gelesen werden.`,
     noHeader: (count, row, usual) =>
       `die Tabelle hat keinen Kopf, und ihre erste Zeile ist „${row}“; ihre ${count} Spalten der Reihe nach nennen, mit - für die, die nicht gelesen werden, wie in --columns ${usual}.`,
+    noTable: (notation) => `das ist ${notation} und keine Tabelle; eine Zeile je Zeitpunkt schreiben, wie mit ros2 topic echo --csv, rostopic echo -p oder pandas, oder die Aufzeichnung selbst angeben.`,
+    twists: 'Zeilen mit 6 Zahlen sind Befehle von geometry_msgs/Twist, die keine Zeiten haben; die Aufzeichnung selbst angeben, oder eine Spalte mit Zeiten ergänzen.',
+    positions: (columns) =>
+      `die Spalten ${columns} sind Positionen ohne Richtung; nötig ist eine Referenz, die die Richtung misst, wie mit zwei Prismen, Markern oder Scan-Matching: Die Fahrtrichtung verbirgt Drehfehler und würde alpha1 und alpha2 halbieren.`,
     kitti: 'Zeilen mit 12 Zahlen sind Posen von KITTI, die keine Zeiten haben; diese aus times.txt mit kitti_poses_and_timestamps_to_trajectory.py von evo ergänzen und die TUM-Datei angeben, die es schreibt.',
     euler: (rotation) => `die Drehungen sind Eulerwinkel (${rotation}); die Aufnahme noch einmal aus Motive exportieren, mit Rotation Type „Quaternion“.`,
     tilted: 'die Posen drehen sich nicht um eine senkrechte Z-Achse; erwartet werden Quaternionen in der Reihenfolge des Kopfs auf einer Ebene mit Z nach oben. Mit Z nach oben exportieren, oder die Spalten der Reihe nach mit --columns nennen.',
     mixed: (frames) => `die Zeilen gehören zu mehreren Frames (${frames}); nur die eines davon behalten.`,
     several: (names) => `die Tabelle hat mehrere Logs; eines davon wählen: ${names}.`,
     unknownUnit: (unit) => `die Einheit ${unit} einer Spalte ist unbekannt, oder nicht die einer anderen; erwartet wird m, cm oder mm, und rad oder deg.`,
-    number: (column, value) => `${column} ist „${value}“; erwartet wird eine Zahl${/^[+-]?\d*,\d+$/.test(value) ? ' mit Dezimalpunkt' : ''}.`,
+    number: (column, value) => `${column} ist „${value}“; erwartet wird eine Zahl${/^[+-]?\d*,\d+$/.test(value) ? ' mit Dezimalpunkt' : /\d[/:-]\d/.test(value) ? ', oder ein Datum wie 2024-01-31 12:00:00.5' : ''}.`,
     rows: (most) => `es sind mehr Zeilen; erwartet werden höchstens ${most}.`,
     far: (value, most, message) => `${message ? `die Nachricht ${message} hat den Wert ${value}` : `ein Wert ist ${value}`}; erwartet werden Zahlen von ${-most} bis ${most}, in m, rad und s.`,
     setBack: (seconds, message) =>
       `die Zeiten springen ${message ? `bei Nachricht ${message} ` : ''}um ${seconds.toPrecision(3)} s zurück und wiederholen die davor; dort die Datei teilen, oder nur eine Aufzeichnung angeben.`,
     sameTimes: (count, rows, message) =>
-      `${count} von ${rows} Zeilen, ${message ? `die der Nachricht ${message}` : 'diese'} zuerst, haben die Zeit einer anderen Zeile und andere Werte; nötig ist das Log eines Roboters, mit allen Stellen der Zeiten (eine Tabellenkalkulation kann sie gerundet haben).`,
+      `${count} von ${rows} Zeilen, ${message ? `die der Nachricht ${message}` : 'diese'} zuerst, haben die Zeit einer anderen Zeile und andere Werte; nötig ist das Log eines Roboters, mit allen Stellen der Zeiten (eine Tabellenkalkulation oder ein Format wie %.9e kann sie gerundet haben).`,
     few: (kept, rows, reason) => `${kept} von ${rows} Zeilen sind zu brauchen${reason ? ` (${REASONS[reason]})` : ''}; erwartet werden mindestens 2.`,
     timeUnit: (rate, unit, choices) =>
       `in ${unit} wären es ${rate.toPrecision(3)} Zeilen je Sekunde; die Einheit der Zeiten angeben mit --time-unit ${choices.join(' oder ') || 's, ms, us oder ns'}.`,

@@ -29,6 +29,7 @@ const REASONS = {
   short: 'cut short',
   noStamp: 'a stamp of 0',
   duplicate: 'the time of the row before',
+  repeated: 'a pose repeated at a higher rate than it was measured',
   stray: 'a time far from all others',
   setBack: 'times of a clock that was set back',
   held: 'the pose stands while the odometry moves on',
@@ -61,11 +62,9 @@ export const log = {
     longLine: (/** @type {number} */ most) => `the line has more than ${most} bytes; expected is one row a line.`,
     header: (/** @type {string} */ value) => `the first row is “${value}”; expected is a header with names such as t, x, y and yaw.`,
     noTime: (/** @type {string} */ columns) =>
-      `none of the columns ${columns} is the time; expected is one named t, time, timestamp or stamp, or two named sec and nanosec.`,
-    noHeading: (/** @type {string} */ columns) =>
-      `none of the columns ${columns} is the heading; expected is yaw, theta or heading, or qx, qy, qz and qw.`,
+      `none of the columns ${columns} is the time; expected is one named t, time, timestamp or stamp, or two named sec and nanosec, or names by --columns.`,
     noColumns: (/** @type {keyof typeof NEEDED} */ wanted, /** @type {string} */ columns) =>
-      `the columns are ${columns}; expected are ${NEEDED[wanted]} among them.`,
+      `the columns are ${columns}; expected are ${NEEDED[wanted]} among them, or names by --columns.`,
     twice: (/** @type {string} */ field, /** @type {string} */ one, /** @type {string} */ other) =>
       `both “${one}” and “${other}” may be ${FIELDS[field]}; expected is one of them.`,
     cells: (/** @type {number} */ count, /** @type {number} */ needed) => `the row has ${count} cells; expected are at least ${needed}.`,
@@ -74,20 +73,24 @@ export const log = {
     given: (/** @type {number} */ count, /** @type {number} */ given) => `the row has ${count} cells, and --columns names ${given}; name each column in order, with - for those to skip.`,
     noHeader: (/** @type {number} */ count, /** @type {string} */ row, /** @type {string} */ usual) =>
       `the table has no header, and its first row is “${row}”; name its ${count} columns in order, with - for those to skip, as in --columns ${usual}.`,
+    noTable: (/** @type {string} */ notation) => `it is ${notation} and no table; write one row a time, as by ros2 topic echo --csv, rostopic echo -p or pandas, or give the recording itself.`,
+    twists: 'rows of 6 numbers are commands of geometry_msgs/Twist, which have no times; give the recording itself, or add a column of times.',
+    positions: (/** @type {string} */ columns) =>
+      `the columns ${columns} are positions without a heading; give a reference that measures the heading, as by two prisms, markers or scan matching: the direction of travel hides turning errors, and would halve alpha1 and alpha2.`,
     kitti: 'rows of 12 numbers are poses of KITTI, which have no times; add them from its times.txt with kitti_poses_and_timestamps_to_trajectory.py of evo, and give the TUM file that it writes.',
     euler: (/** @type {string} */ rotation) => `the rotations are Euler angles (${rotation}); export the take from Motive again with the rotation type Quaternion.`,
     tilted: 'the poses do not turn about a vertical Z axis; expected are quaternions in the order of the header on a plane with Z up. Export with Z up, or name the columns in their order by --columns.',
     mixed: (/** @type {string} */ frames) => `the rows are of several frames (${frames}); keep those of one.`,
     several: (/** @type {string} */ names) => `the table has several logs; choose one of ${names}.`,
     unknownUnit: (/** @type {string} */ unit) => `the unit ${unit} of a column is not known, or differs from that of another; expected is m, cm or mm, and rad or deg.`,
-    number: (/** @type {string} */ column, /** @type {string} */ value) => `${column} is “${value}”; expected is a number${/^[+-]?\d*,\d+$/.test(value) ? ' with a decimal point' : ''}.`,
+    number: (/** @type {string} */ column, /** @type {string} */ value) => `${column} is “${value}”; expected is a number${/^[+-]?\d*,\d+$/.test(value) ? ' with a decimal point' : /\d[/:-]\d/.test(value) ? ', or a date as 2024-01-31 12:00:00.5' : ''}.`,
     rows: (/** @type {number} */ most) => `there are more rows; expected are at most ${most}.`,
     far: (/** @type {number} */ value, /** @type {number} */ most, /** @type {number} */ message) =>
       `${message ? `message ${message} has the value ${value}` : `a value is ${value}`}; expected are numbers from ${-most} to ${most}, in m, rad and s.`,
     setBack: (/** @type {number} */ seconds, /** @type {number} */ message) =>
       `times go back by ${seconds.toPrecision(3)} s${message ? ` at message ${message}` : ''} and repeat those before; split the file there, or give one recording only.`,
     sameTimes: (/** @type {number} */ count, /** @type {number} */ rows, /** @type {number} */ message) =>
-      `${count} of ${rows} rows, ${message ? `that of message ${message}` : 'this one'} first, have the time of another row and other values; give the log of one robot, with all digits of its times (a spreadsheet may have rounded them).`,
+      `${count} of ${rows} rows, ${message ? `that of message ${message}` : 'this one'} first, have the time of another row and other values; give the log of one robot, with all digits of its times (a spreadsheet, or a format such as %.9e, may have rounded them).`,
     few: (/** @type {number} */ kept, /** @type {number} */ rows, /** @type {import('./log.ts').Cause | undefined} */ reason) =>
       `${kept} of ${rows} rows can be used${reason ? ` (${REASONS[reason]})` : ''}; expected are at least 2.`,
     timeUnit: (/** @type {number} */ rate, /** @type {string} */ unit, /** @type {string[]} */ choices) =>

@@ -14,6 +14,8 @@ export interface Format {
   /** Number of the first row's line, from 1. */
   firstLine: number;
   names: string[];
+  /** Line of the header, which a file that was put together repeats. */
+  header?: string;
   groups: Group[];
   /** True where empty cells are those of a sample of another topic. */
   isSparse: boolean;
@@ -31,12 +33,13 @@ const TWIST = ['linear.x', 'linear.y', 'linear.z', 'angular.x', 'angular.y', 'an
 const STAMP = ['header.stamp.sec', 'header.stamp.nanosec', 'header.frame_id'];
 const OTHERS = Array.from({ length: 36 }, () => '-');
 
-/** Messages as `ros2 topic echo --csv` prints them. */
+/** Messages as `ros2 topic echo --csv` prints them: Odometry, PoseStamped with and without covariance, TwistStamped, and one transform. */
 const ROS2 = [
   [...STAMP, 'child_frame_id', ...POSE, ...OTHERS, ...TWIST, ...OTHERS],
   [...STAMP, ...POSE],
   [...STAMP, ...POSE, ...OTHERS],
   [...STAMP, ...TWIST],
+  [...STAMP, 'child_frame_id', ...POSE],
 ];
 
 /** Records of CARMEN's logs; of FLASER behind its readings. */
@@ -46,8 +49,11 @@ const CARMEN: [tag: string, series: string, names: string[]][] = [
   ['FLASER', 'FLASER', ['-', 'x', 'y', 'theta', '-', '-', '-', 't']],
 ];
 
-/** Columns of a row of KITTI's poses, which have no times. */
-const KITTI = 12;
+/** Columns of rows that have no times: poses of KITTI, and geometry_msgs/Twist. */
+const [KITTI, TWISTS] = [12, 6];
+
+/** First lines of text that is no table. */
+const NO_TABLE: [RegExp, string][] = [[/^\s*[[{]/, 'JSON'], [/^(---|header:|pose:|transforms:|- header:)\s*$/, 'YAML']];
 
 /** Splits a line. A separator in quotes separates nothing. */
 export function cellsOf(line: string, separator: string, needed?: number): string[] {
@@ -84,8 +90,8 @@ function separatorOf(lines: string[]): string {
   const stated = lines.map((line) => /^"?sep=(.)"?$/i.exec(line)?.[1]).find((each) => each !== undefined);
   if (stated) return stated;
   const score = (separator: string) => {
-    const cells = lines.map((line) => cellsOf(line, separator));
-    return cells.reduce((sum, each) => sum + each.filter(isNumber).length + each.length / 1000, 0);
+    const all = lines.map((line) => cellsOf(line, separator));
+    return all.filter(isRow).flat().filter(isNumber).length || all.flat().length / 1e6;
   };
   return [';', '\t', ',', ' '].map((separator) => ({ separator, score: score(separator) })).reduce((best, each) => (each.score > best.score ? each : best)).separator;
 }
@@ -102,6 +108,8 @@ export function formatOf(lines: string[], file: string, columns: string[] | unde
   const isComment = ({ line }: { line: string }) => /^\s*(#|%|\/\/)/.test(line);
   const texts = filled.filter((each) => !isComment(each));
   if (texts.length === 0) throw new LogError({ file }, (say) => say.empty);
+  const [, notation] = NO_TABLE.find(([pattern]) => pattern.test(texts[0].line)) ?? [];
+  if (notation !== undefined) throw new LogError({ file }, (say) => say.noTable(notation));
   const tags = CARMEN.filter(([tag]) => texts.some(({ line }) => line.startsWith(`${tag} `)));
   if (tags.length > 0 && texts.every(({ line }) => /^[A-Z_0-9]+ /.test(line))) return carmenFormat(tags, filled[0].number);
 
@@ -128,14 +136,15 @@ export function formatOf(lines: string[], file: string, columns: string[] | unde
     // A decimal comma in each number nearly doubles the cells.
     if (width > names.length) throw new LogError({ file, line: first?.number }, (say) => say.wide(width, names.length, number));
     const groups = grouped(names, rows[0]);
-    return { ...common, names, groups, isSparse: groups.length > 1 || names.some((name) => name.trim() === '__time') };
+    return { ...common, names, header: lines[number - 1], groups, isSparse: groups.length > 1 || names.some((name) => name.trim() === '__time') };
   }
   if (!first) throw new LogError(place, (say) => say.header(cut(filled[0].line.trim())), { what: 'columns', choices: [] });
   const names = withoutHeader(rows);
   if (names) return { ...common, name: names === TUM ? 'tum' : 'csv', names, groups: grouped(names, rows[0]) };
   if (width === KITTI) throw new LogError(place, (say) => say.kitti);
+  if (width === TWISTS && rows.every((row) => row.slice(1, 5).every((cell) => Number(cell) === 0))) throw new LogError(place, (say) => say.twists);
   const usual = ({ 3: 't,v,omega', 4: 't,x,y,yaw' } as Record<number, string>)[width] ?? `t,x,y,yaw${',-'.repeat(Math.max(0, width - 4))}`;
-  throw new LogError(place, (say) => say.noHeader(width, cut(first.line.trim()), usual), { what: 'columns', choices: [] });
+  throw new LogError(place, (say) => say.noHeader(width, cut(first.line.trim().replaceAll('\t', ' ')), usual), { what: 'columns', choices: [] });
 }
 
 /** Groups columns. One without a name holds times if the first row has a date or a fraction there, and not a count of rows. */

@@ -13,6 +13,12 @@ const PLAIN = /^\d+(?:\.\d*)?$/;
 
 const DATE = /^\s*(\d{4})[-/](\d{1,2})[-/](\d{1,2})(?:[T\s]+(\d{1,2}):(\d{2})(?::(\d{2})(?:[.,](\d+))?)?\s*(Z|UTC|GMT|[+-]\d{2}(?::?\d{2})?)?)?\s*$/i;
 
+/** Date as of German spreadsheets; the order of day and month with slashes is not clear. */
+const GERMAN_DATE = /^\s*(\d{1,2})\.(\d{1,2})\.(\d{4})(?=\s|$)/;
+
+/** Duration in seconds as of MATLAB ("1.5 sec"). */
+const SECONDS = /^\s*(\d+)(?:[.,](\d+))?\s*s(?:ec(?:onds?)?)?\s*$/i;
+
 /** Duration as of pandas ("0 days 00:00:01.5") and MATLAB ("00:00:01.5"). */
 const DURATION = /^\s*(?:(\d+) days? )?\+?(\d+):(\d{2}):(\d{2})(?:[.,](\d+))?\s*$/;
 
@@ -54,17 +60,19 @@ export function timeOf(cell: string, power: number): Time | undefined {
 }
 
 /** Parses a date of ISO 8601 or a duration; undefined for any other text. A date without a zone is one of UTC. */
-export function dateOf(cell: string): { time: Time; hasZone: boolean; isDuration: boolean } | undefined {
-  const date = DATE.exec(cell);
+export function dateOf(cell: string): { time: Time; hasZone: boolean } | undefined {
+  const date = DATE.exec(cell.replace(GERMAN_DATE, '$3-$2-$1'));
   if (date) {
     const [, year, month, day, hour = '0', minute = '0', second = '0', fraction = '', zone] = date;
     const [sign, hours, minutes] = /^([+-])(\d{2}):?(\d{2})?$/.exec(zone ?? '')?.slice(1) ?? ['+', '0', '0'];
     const offset = (sign === '-' ? -60 : 60) * (60 * Number(hours) + Number(minutes ?? 0));
     const seconds = Date.UTC(Number(year), Number(month) - 1, Number(day), Number(hour), Number(minute), Number(second)) / 1000 - offset;
-    return { time: [seconds, Number(`.${fraction}0`)], hasZone: zone !== undefined, isDuration: false };
+    return { time: [seconds, Number(`.${fraction}0`)], hasZone: zone !== undefined };
   }
+  const [short, whole, part = ''] = SECONDS.exec(cell) ?? [];
+  if (short !== undefined) return { time: [Number(whole), Number(`.${part}0`)], hasZone: true };
   const duration = DURATION.exec(cell);
   if (!duration) return undefined;
   const [days = '0', hours, minutes, seconds, fraction = ''] = duration.slice(1);
-  return { time: [((Number(days) * 24 + Number(hours)) * 60 + Number(minutes)) * 60 + Number(seconds), Number(`.${fraction}0`)], hasZone: true, isDuration: true };
+  return { time: [((Number(days) * 24 + Number(hours)) * 60 + Number(minutes)) * 60 + Number(seconds), Number(`.${fraction}0`)], hasZone: true };
 }

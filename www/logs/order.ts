@@ -87,3 +87,30 @@ export function sortRows(t: Float64Array, isSame: (one: number, other: number) =
   for (let i = 0; i < t.length; i++) if (fates[i] !== STRAY && parts[i] !== kept) fates[i] = SET_BACK;
   return { order: sorted.filter((i) => fates[i] < STRAY), fates, setBack, most };
 }
+
+/** Rows that repeat a pose while the robot moves: runs of this duration in s at most, and at least this number of them. */
+const [LONGEST_HOLD, MIN_HOLDS] = [1, 20];
+
+/** Share of the rows of a moving robot in such runs, from which on poses are repeated by the recorder. */
+const MIN_HELD = 0.8;
+
+/**
+ * Returns the number of rows that have the same pose while the robot moves, or 1. A table that fills a slow log up to the rate of a
+ * fast one repeats poses.
+ *
+ * @param isRepeated checks whether a row has the pose of the row before
+ */
+export function holdOf(t: Float64Array, isRepeated: (i: number) => boolean): number {
+  const lengths: number[] = [];
+  let [single, held] = [0, 0];
+  for (let from = 0, to; from < t.length; from = to) {
+    for (to = from + 1; to < t.length && isRepeated(to); ) to += 1;
+    if (to - from === 1) single += 1;
+    else if (t[to - 1] - t[from] <= LONGEST_HOLD) {
+      held += to - from;
+      lengths.push(to - from);
+    }
+  }
+  if (lengths.length < MIN_HOLDS || held < MIN_HELD * (held + single)) return 1;
+  return quantile(Float64Array.from(lengths), 0.5);
+}

@@ -2,7 +2,7 @@
 
 import { LogError, type Place } from './log-error.js';
 import type { Cause, Log, LogKind, Note, OpenOptions, Summary } from './log.ts';
-import { KEPT, LATE, STRAY, sortRows } from './order.ts';
+import { KEPT, LATE, STRAY, holdOf, sortRows } from './order.ts';
 import { quantile, sample } from './quantile.ts';
 import { distanceOf } from './summary.ts';
 import { type Units, judgeUnits } from './units.ts';
@@ -118,7 +118,7 @@ export class Rows {
   end(name: string, kind: LogKind, { units: stated, clocks, ...decisions }: Decisions, options: OpenOptions = {}): Log {
     if (clocks[1] !== undefined) this.#sortByOtherClock();
     const usesOther = this.#chooseClock(clocks[1] !== undefined);
-    const { rows, late, ...times } = this.#inOrder();
+    const { rows, late, ...times } = this.#inOrder(kind);
     const [a, b, c] = [A, B, C].map((column) => {
       const values = new Float64Array(rows.length);
       for (let i = 0; i < rows.length; i++) values[i] = this.#numbers[WIDTH * rows[i] + column];
@@ -184,7 +184,7 @@ export class Rows {
   }
 
   /** Returns the rows that are kept by their times, each time once, and the number of those that were late. */
-  #inOrder(): { start: number; t: Float64Array; rows: Uint32Array; late: number } {
+  #inOrder(kind: LogKind): { start: number; t: Float64Array; rows: Uint32Array; late: number } {
     // A stamp of 0 among times since 1970 was never set.
     let first = Infinity;
     for (let row = 0; row < this.#added; row++) if (!this.#isUnset(row)) first = Math.min(first, this.#seconds(row));
@@ -224,6 +224,24 @@ export class Rows {
     if (order.length > 3 && different > (1 - MIN_SHARE) * order.length) {
       const line = this.#line([...isDropped.keys()].reduce((first, row) => Math.min(first, row)));
       throw new LogError(this.#at(line), (say) => say.sameTimes(different, order.length, this.#message(line)));
+    }
+    const isRepeated = (i: number) => [A, B, C].every((column) => this.#numbers[WIDTH * rows[i] + column] === this.#numbers[WIDTH * rows[i - 1] + column]);
+    const hold = kind === 'poses' ? holdOf(t.subarray(0, used), isRepeated) : 1;
+    if (hold > 1) {
+      const repeats = Array.from({ length: used }, (_, i) => i > 0 && isRepeated(i));
+      let kept = 0;
+      for (let i = 0, run = 0; i < used; i++) {
+        run = repeats[i] ? run + 1 : 0;
+        // A standing robot keeps rows at the rate of the others.
+        if (run % hold !== 0) {
+          isDropped.set(rows[i], 'repeated');
+          continue;
+        }
+        rows[kept] = rows[i];
+        t[kept] = t[i];
+        kept += 1;
+      }
+      used = kept;
     }
     let late = 0;
     for (let i = 0; i < fates.length; i++) {

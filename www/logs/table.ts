@@ -77,12 +77,18 @@ function ambiguous(file: string, series: Series[], { series: wanted }: Choice): 
   return new LogError({ file }, (say) => (wanted === '' ? say.several(listed(names)) : say.noTopic(listed(names))), { what: 'series', choices: names });
 }
 
-/** Returns the encoding of a text, by its byte order mark or by the zeros of UTF-16. */
+/** Returns the encoding of a text, by its byte order mark, the zeros of UTF-16, or bytes that UTF-8 does not have. */
 async function encodingOf(source: Source): Promise<string> {
-  const bytes = await bytesOf(source, 0, Math.min(64, source.size));
-  const [first, second] = bytes;
-  if ((first === 0xff && second === 0xfe) || (bytes.length >= 4 && first !== 0 && second === 0 && bytes[2] !== 0 && bytes[3] === 0)) return 'utf-16le';
-  return first === 0xfe && second === 0xff ? 'utf-16be' : 'utf-8';
+  const bytes = await bytesOf(source, 0, Math.min(HEAD, source.size));
+  const [first, second, third, fourth] = bytes;
+  if ((first === 0xff && second === 0xfe) || (first !== 0 && second === 0 && third !== 0 && fourth === 0)) return 'utf-16le';
+  if (first === 0xfe && second === 0xff) return 'utf-16be';
+  try {
+    new TextDecoder('utf-8', { fatal: true }).decode(bytes, { stream: true });
+    return 'utf-8';
+  } catch {
+    return 'windows-1252';
+  }
 }
 
 /** Returns the end of lines: of old spreadsheets it is a single carriage return. */
@@ -162,6 +168,7 @@ class LogReader {
     if (tag !== undefined && !line.startsWith(`${tag} `)) return;
     const start = line.trimStart();
     if (start === '' || start[0] === '#' || start[0] === '%') return;
+    if (line === this.#format.header) return this.#leaveOut('notFinite', number);
     const cells = tag === undefined ? cellsOf(line, separator, this.#needed) : carmenCells(line);
     if (cells.length < this.#needed) {
       if (!isOpen) this.#refuse(number, (say) => say.cells(cells.length, this.#needed));
@@ -256,7 +263,7 @@ class LogReader {
 
   end(): Log {
     const { clocks, columns, fields, kind, length, angle } = this.#layout;
-    if (kind === 'positions') throw new LogError(this.#place, (say) => say.noHeading(listed(columns.map(({ name }) => name))));
+    if (kind === 'positions') throw new LogError(this.#place, (say) => say.positions(listed(columns.map(({ name }) => name))));
     if (this.#frames.size > 1) throw new LogError(this.#place, (say) => say.mixed(listed([...this.#frames])));
     const upright = this.#upright && this.#hasYUp() ? this.#upright : undefined;
     if (this.#upright) this.#notes.push({ name: 'upAxis', values: [upright ? 'Y' : 'Z'] });

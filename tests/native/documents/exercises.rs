@@ -80,8 +80,9 @@ fn exercise_2_why_bananas_bend() {
     for (axis, told) in told.into_iter().enumerate() {
         told.assert((long[axis] / short[axis]).log2(), 1e-12);
     }
-    let told: [Number; 2] =
-        document().numbers("with α₁ = α₃ after # s, and with the heading's σ doubled (α₃ four times as large) after # s");
+    let told: [Number; 2] = document().numbers(
+        "with α₁ = α₃ after # s, and with the heading's σ doubled (α₃ four times as large) after # s",
+    );
     for (told, alphas) in told.into_iter().zip([[0.02, 0.02], [0.02, 0.08]]) {
         let [along, across] = spread(alphas, told.value);
         assert!((along / across - 1.0).abs() < 1e-12, "{along} {across}");

@@ -220,7 +220,7 @@ fn the_ratio_is_that_of_the_areas_drawn() {
 /// The error against the spread of the ratio over independent clouds.
 #[test]
 fn the_error_of_the_ratio_is_its_spread_over_clouds() {
-    const CLOUDS: usize = 2000;
+    const CLOUDS: usize = 500;
     for Preset { name, command, alphas } in PRESETS {
         let of = |seed: usize| {
             let seed = seed as u64;

@@ -170,13 +170,14 @@ export const targets = {
       't,x,y,yaw\n0.5,1,2,3\n0.75,1,2,-3\n1,nan,2,3\n1.25,1,2,3\n',
       '# by hand\nstamp_ns;v;omega\n1700000000000000001;0.5;-1e-1\n1700000000100000001;.5;+0.1',
       '"time [ms]"\t"x"\t"y"\t"heading_deg"\r\n0\t1\t2\t90\r\n50\t1\t2\t91\r\n',
+      '# timestamp tx ty tz qx qy qz qw\n1305031098.6659 1.25 -0.5 9 0 0 0 1\n1305031098.6759 1.5 -0.5 9 0 0 0.6 0.8\n',
+      '0 0 0 0 0 0 0 1\n\t1  2 3 4 0 0 1 0\n2 0 0 0 0 0 0 0\n',
+      'sep=;\r\nTime;x_mm_;y_mm_;Gierwinkel [\u00b0]\r\n2024-06-10 06:13:20,5;0,5;1,5E+2;90\r\n10.06.2024 06:13:21;1;2;91\r\n',
+      'Format Version,1.23,Rotation Type,Quaternion,Length Units,Millimeters\n\n,Type,Rigid Body,Rigid Body,Rigid Body,Rigid Body,Rigid Body,Rigid Body,Rigid Body\n,Name,A,A,A,A,A,A,A\n,,Rotation,Rotation,Rotation,Rotation,Position,Position,Position\nFrame,Time (Seconds),X,Y,Z,W,X,Y,Z\n0,0,0,0,0,1,1,2,3\n1,0.1,0,0.6,0,0.8,2,2,3\n',
+      'ODOM 1 2 3 0.5 0.1 0 7 host 8\nODOM 1 2 3 0.5 0.1 0 8 host 8\nFLASER 2 1 1 1 2 3 1 2 3 7 host 8\n',
       'header.stamp.sec,header.stamp.nanosec,pose.pose.position.x,pose.pose.position.y,pose.pose.orientation.z,pose.pose.orientation.w\n7,5,1,2,0,1\n7,9,1,2,1,0\n',
     ),
     run: (bytes) => logIsRead(() => readLog(new File([bytes], 'run.csv'), { kind: bytes[0] % 8 === 1 ? 'commands' : undefined })),
-  },
-  tum: {
-    corpus: texts('# timestamp tx ty tz qx qy qz qw\n1305031098.6659 1.25 -0.5 9 0 0 0 1\n1305031098.6759 1.5 -0.5 9 0 0 0.6 0.8\n', '0 0 0 0 0 0 0 1\n\t1  2 3 4 0 0 1 0\n2 0 0 0 0 0 0 0\n'),
-    run: (bytes) => logIsRead(() => readLog(new File([bytes], 'run.tum'), {})),
   },
   mcap: {
     corpus: await recordings(),

@@ -10,7 +10,7 @@ import { load } from '../../dist/core.js';
 import { attributesOf, isSetting } from '../../www/figure/attributes.ts';
 import { pack, unpack } from '../../www/figure/packing.ts';
 import { settings } from '../../www/settings.js';
-import { LogError } from '../../www/logs/log-error.js';
+import { LogError } from '../../www/logs/log-error.ts';
 import { openRecordings } from '../../www/logs/open.ts';
 import { applyMap, cellsOf, mapData } from '../../www/widgets/map-squeeze/maps/data.ts';
 import { odometry, poseOf, recordingOf, stampOf, transform, twistOf } from '../mcap.js';

@@ -2,10 +2,10 @@
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { log as german } from '../../www/logs/de.js';
+import { log as german } from '../../www/logs/de.ts';
 import { planDrives, readDrives } from '../../www/logs/drives.ts';
-import { log as english } from '../../www/logs/en.js';
-import { LogError } from '../../www/logs/log-error.js';
+import { log as english } from '../../www/logs/en.ts';
+import { LogError } from '../../www/logs/log-error.ts';
 import { openRecordings } from '../../www/logs/open.ts';
 import { summarize } from '../../www/logs/summary.ts';
 

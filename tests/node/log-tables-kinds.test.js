@@ -3,8 +3,8 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { openRecordings } from '../../www/logs/open.ts';
-import { log as german } from '../../www/logs/de.js';
-import { LogError } from '../../www/logs/log-error.js';
+import { log as german } from '../../www/logs/de.ts';
+import { LogError } from '../../www/logs/log-error.ts';
 
 /** @param {string | Uint8Array<ArrayBuffer>} text @param {import('../../www/logs/log.ts').OpenOptions} [options] @param {string} [series] */
 async function read(text, options, series = '') {

@@ -3,7 +3,7 @@
 import { openAsBlob } from 'node:fs';
 import { readdir, stat } from 'node:fs/promises';
 import { basename, dirname, join, resolve } from 'node:path';
-import { LogError } from '../logs/log-error.js';
+import { LogError } from '../logs/log-error.ts';
 import type { Recording, Source } from '../logs/log.ts';
 import { openRecordings } from '../logs/open.ts';
 import type { Input } from './options.ts';

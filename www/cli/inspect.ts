@@ -2,8 +2,8 @@
 
 import { candidates, isLocalizer, isTable, usefulSeries } from '../logs/candidates.ts';
 import { planDrives } from '../logs/drives.ts';
-import { log as words } from '../logs/en.js';
-import { LogError } from '../logs/log-error.js';
+import { log as words } from '../logs/en.ts';
+import { LogError } from '../logs/log-error.ts';
 import type { Choice, Log, Recording } from '../logs/log.ts';
 import { summarize } from '../logs/summary.ts';
 import { aligned } from './report.ts';

@@ -2,7 +2,7 @@
 
 import { parseArgs } from 'node:util';
 import type { Wishes } from '../logs/drives.ts';
-import { cut } from '../logs/log-error.js';
+import { cut } from '../logs/log-error.ts';
 import type { Frames, OpenOptions } from '../logs/log.ts';
 
 /** Error about the options; its message is a sentence. */

@@ -2,8 +2,8 @@
 
 import { writeFile } from 'node:fs/promises';
 import { planDrives, readDrives, type Drive } from '../logs/drives.ts';
-import { log as words } from '../logs/en.js';
-import { LogError, cut } from '../logs/log-error.js';
+import { log as words } from '../logs/en.ts';
+import { LogError, cut } from '../logs/log-error.ts';
 import { after } from '../logs/pairs.ts';
 import { summarize } from '../logs/summary.ts';
 import { recordingsOf } from './files.ts';

@@ -1,6 +1,6 @@
 /** Columns of a table: groups with a common prefix, from the names that people and recorders give them. */
 
-import { LogError, cut, listed, type Place } from './log-error.js';
+import { LogError, cut, listed, type Place } from './log-error.ts';
 import type { AngleUnit, LengthUnit, LogKind, Series, TimeUnit } from './log.ts';
 
 export type Field = 't' | 'seconds' | 'nanoseconds' | 'x' | 'y' | 'z' | 'yaw' | 'qx' | 'qy' | 'qz' | 'qw' | 'v' | 'omega' | 'frame' | 'child';

@@ -1,7 +1,7 @@
 /** Drives: odometry and reference of one drive, from the recordings that have them. */
 
 import { candidates, isTable, roleByName, usefulSeries, type Role } from './candidates.ts';
-import { LogError, listed } from './log-error.js';
+import { LogError, listed } from './log-error.ts';
 import type { Choice, Frames, Log, LogKind, Recording, Series } from './log.ts';
 import { after, isSamePath, pairLogs, pairedByTime, type Drive } from './pairs.ts';
 

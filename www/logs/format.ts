@@ -1,7 +1,7 @@
 /** Format of a table: encoding, separator, preamble and header, from its first lines. */
 
 import { type Group, groupsOf, isHeader } from './columns.ts';
-import { LogError, cut, type Place } from './log-error.js';
+import { LogError, cut, type Place } from './log-error.ts';
 import { dateOf, numberOf } from './numbers.ts';
 import { unitOfSize } from './units.ts';
 

@@ -1,8 +1,8 @@
 /** Recordings in files, by the contents of each. */
 
-import type { OTHERS } from './en.js';
+import type { OTHERS } from './en.ts';
 import type { Container } from './formats/container.ts';
-import { LogError, bytesOf } from './log-error.js';
+import { LogError, bytesOf } from './log-error.ts';
 import type { OpenOptions, Recording, Source } from './log.ts';
 import { openTable } from './table.ts';
 

@@ -3,7 +3,7 @@
 import { bisectLeft } from 'd3-array';
 import { isLocalizer, roleByName } from './candidates.ts';
 import { withoutFrozenPoses } from './frozen-pose.ts';
-import { LogError } from './log-error.js';
+import { LogError } from './log-error.ts';
 import type { Log, Note, Poses } from './log.ts';
 
 /** Two logs of one drive, with times after the same start. */

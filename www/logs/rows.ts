@@ -1,6 +1,6 @@
 /** Rows of a log: which are kept, and which are dropped and why. */
 
-import { LogError, type Place } from './log-error.js';
+import { LogError, type Place } from './log-error.ts';
 import type { Cause, Log, LogKind, Note, OpenOptions, Summary } from './log.ts';
 import { KEPT, LATE, STRAY, holdOf, sortRows } from './order.ts';
 import { quantile, sample } from './quantile.ts';

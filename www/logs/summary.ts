@@ -1,6 +1,6 @@
 /** Summaries of logs: numbers, and sentences. */
 
-import type { Words } from './log-error.js';
+import type { Words } from './log-error.ts';
 import { LOG_TIME, type Cause, type Commands, type Log, type Poses } from './log.ts';
 
 /** Path between two points in m that counts as driven: the noise of poses at rest adds up to nothing. */

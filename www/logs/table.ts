@@ -2,7 +2,7 @@
 
 import { type Clock, type Group, type Layout, layoutOf } from './columns.ts';
 import { type Format, carmenCells, cellsOf, formatOf } from './format.ts';
-import { LogError, bytesOf, cut, listed, type Place } from './log-error.js';
+import { LogError, bytesOf, cut, listed, type Place } from './log-error.ts';
 import type { Choice, Log, Note, OpenOptions, Recording, Series, Source, TimeUnit } from './log.ts';
 import { type Time, dateOf, numberOf, timeOf } from './numbers.ts';
 import { quantile, sample } from './quantile.ts';

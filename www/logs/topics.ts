@@ -2,7 +2,7 @@
 
 import type { Channel, Container, Message } from './formats/container.ts';
 import { Chain, FrameTree, nameOf } from './frames.ts';
-import { LogError, cut, listed, reasonOf, type Words } from './log-error.js';
+import { LogError, cut, listed, reasonOf, type Words } from './log-error.ts';
 import { LOG_TIME, type Choice, type Log, type Note, type OpenOptions, type Question, type Recording, type Series } from './log.ts';
 import { edgesOf, isReadable, kindOf, poseReader, type Reading } from './messages.ts';
 import { MAX_VALUE, Rows } from './rows.ts';

@@ -1,6 +1,6 @@
 /** Units of a log, judged by two signs that know nothing of each other. Where they disagree, the log is refused with a question. */
 
-import { LogError, type Place } from './log-error.js';
+import { LogError, type Place } from './log-error.ts';
 import type { AngleUnit, LengthUnit, LogKind, OpenOptions, Question, Summary, TimeUnit } from './log.ts';
 import { quantile, sample } from './quantile.ts';
 

@@ -1,7 +1,7 @@
 /** Containers of messages: the interface that the readers of all formats share. */
 
 import type { Recording, Source } from '../log.ts';
-import { bytesOf } from '../log-error.js';
+import { bytesOf } from '../log-error.ts';
 
 /** Topic as one node published it. */
 export interface Channel {

@@ -1,7 +1,7 @@
 /** Recordings of rosbag2 in several files, by their metadata.yaml. */
 
 import { load } from 'js-yaml';
-import { LogError, bytesOf, listed, reasonOf } from '../log-error.js';
+import { LogError, bytesOf, listed, reasonOf } from '../log-error.ts';
 import type { Source } from '../log.ts';
 import type { Channel, Container, Message } from './container.ts';
 

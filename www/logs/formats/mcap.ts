@@ -2,7 +2,7 @@
 
 import { crc32 } from '@foxglove/crc';
 import { McapIndexedReader, McapStreamReader } from '@mcap/core';
-import { LogError, bytesOf, reasonOf } from '../log-error.js';
+import { LogError, bytesOf, reasonOf } from '../log-error.ts';
 import type { Source } from '../log.ts';
 import { MAX_BLOCK, readAhead, viewOf, type Channel, type Container, type Message } from './container.ts';
 import { unlz4 } from './lz4.ts';

@@ -1,6 +1,6 @@
 /** Connections and messages of ROS 1 bags. http://wiki.ros.org/Bags/Format/2.0 */
 
-import { LogError, bytesOf, reasonOf } from '../log-error.js';
+import { LogError, bytesOf, reasonOf } from '../log-error.ts';
 import type { Source } from '../log.ts';
 import { MAX_BLOCK, readAhead, viewOf, type Channel, type Container, type Message } from './container.ts';
 import { unlz4 } from './lz4.ts';

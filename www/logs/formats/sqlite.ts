@@ -1,6 +1,6 @@
 /** Topics and messages of rosbag2's SQLite databases. https://www.sqlite.org/fileformat.html */
 
-import { LogError, bytesOf, reasonOf } from '../log-error.js';
+import { LogError, bytesOf, reasonOf } from '../log-error.ts';
 import type { Source } from '../log.ts';
 import { readAhead, viewOf, type Channel, type Container, type Message } from './container.ts';
 import { loadZstd } from './zstd.ts';

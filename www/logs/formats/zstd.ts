@@ -1,7 +1,7 @@
 /** Zstandard: blocks of recordings, single messages, and whole files. */
 
 import { ZSTDDecoder } from 'zstddec/stream';
-import { LogError, bytesOf } from '../log-error.js';
+import { LogError, bytesOf } from '../log-error.ts';
 import type { Source } from '../log.ts';
 
 const decoder = new ZSTDDecoder();

@@ -10,7 +10,7 @@ import { isStopped } from './log-service.ts';
 
 export type Figure = import('./alpha-calibrator.ts').AlphaCalibratorElement;
 
-export type LogError = import('../../logs/log-error.js').LogError;
+export type LogError = import('../../logs/log-error.ts').LogError;
 
 export type Poses = import('../../logs/log.ts').Poses;
 
@@ -236,8 +236,8 @@ const holdsTransforms = (topics: Series[], topic: string) => topics.some(({ name
  *
  * @returns those of the present language
  */
-async function wordsOf(): Promise<() => typeof import('../../logs/en.js').log> {
-  const [{ log: english }, { log: german }] = await Promise.all([import('../../logs/en.js'), import('../../logs/de.js')]);
+async function wordsOf(): Promise<() => typeof import('../../logs/en.ts').log> {
+  const [{ log: english }, { log: german }] = await Promise.all([import('../../logs/en.ts'), import('../../logs/de.ts')]);
   return () => (language === 'de' ? german : english);
 }
 

@@ -1,7 +1,9 @@
 /** Sentences about logs, in German. */
 
-/** @type {Record<string, string>} */
-const FIELDS = {
+import type { Words } from './log-error.ts';
+import type { Basis, Cause, Summary } from './log.ts';
+
+const FIELDS: Record<string, string> = {
   t: 'die Zeit', seconds: 'die Sekunden der Zeit', nanoseconds: 'die Nanosekunden der Zeit', x: 'x', y: 'y', yaw: 'die Richtung',
   qx: 'qx', qy: 'qy', qz: 'qz', qw: 'qw', v: 'die Geschwindigkeit v', omega: 'die Drehrate omega',
 };
@@ -15,17 +17,14 @@ const OF_POSES = 'nav_msgs/Odometry, geometry_msgs/PoseStamped, PoseWithCovarian
 const OF_COMMANDS = 'geometry_msgs/Twist, TwistStamped oder TwistWithCovarianceStamped';
 const TYPES = { poses: OF_POSES, either: `${OF_POSES}, oder ${OF_COMMANDS}`, transforms: 'tf2_msgs/TFMessage, worin Koordinatensysteme sind' };
 
-const times = (/** @type {number} */ count, /** @type {string} */ one, /** @type {string} */ more) => `${count} ${count === 1 ? one : more}`;
-const comma = (/** @type {number} */ value, /** @type {number} */ digits) => value.toFixed(digits).replace('.', ',');
+const times = (count: number, one: string, more: string) => `${count} ${count === 1 ? one : more}`;
+const comma = (value: number, digits: number) => value.toFixed(digits).replace('.', ',');
 
-/** @type {Record<import('./log.ts').Basis, string>} */
-const BY = { name: ' (nach dem Namen)', size: ' (nach der Größe)', rate: ' (nach Rate und Geschwindigkeit)', format: '', option: ' (wie angegeben)', usage: '' };
+const BY: Record<Basis, string> = { name: ' (nach dem Namen)', size: ' (nach der Größe)', rate: ' (nach Rate und Geschwindigkeit)', format: '', option: ' (wie angegeben)', usage: '' };
 
-/** @type {Record<import('./log.ts').Summary['units']['angle']['unit'], string>} */
-const ANGLES = { rad: 'Richtung in rad', deg: 'Richtung in Grad', quaternion: 'Richtung aus einem Quaternion', none: '' };
+const ANGLES: Record<Summary['units']['angle']['unit'], string> = { rad: 'Richtung in rad', deg: 'Richtung in Grad', quaternion: 'Richtung aus einem Quaternion', none: '' };
 
-/** @type {Record<import('./log.ts').Cause, string>} */
-const REASONS = {
+const REASONS: Record<Cause, string> = {
   damaged: 'beschädigte Nachrichten',
   notFinite: 'keine endliche Zahl',
   noRotation: 'ein Quaternion, das keine Drehung ist',
@@ -38,8 +37,7 @@ const REASONS = {
   held: 'die Pose steht, während die Odometrie weitergeht',
 };
 
-/** @type {typeof import('./en.js').OTHERS} */
-const OTHERS = {
+const OTHERS: typeof import('./en.ts').OTHERS = {
   rosbag1: 'eine ROS-Bag der Version 1.2; mit „rosbag reindex“ umwandeln.',
   ulog: 'ein PX4-Log (ULog); mit „ulog2csv“ umwandeln und zwei der Tabellen angeben.',
   dataflash: 'ein ArduPilot-Log; mit „mavlogdump.py --format csv --types POS“ umwandeln.',
@@ -54,13 +52,12 @@ const OTHERS = {
   parquet: 'eine Parquet-Tabelle; als CSV exportieren.',
 };
 
-/** @type {import('./log-error.js').Words} */
-export const log = {
+export const log: Words = {
   place: (file, line, topic) => `${file}${line ? `, Zeile ${line}` : ''}${topic ? `, Topic ${topic}` : ''}`,
   refused: {
     gone: (reason) => (reason === 'ENOENT' ? 'es gibt keine solche Datei und keinen solchen Ordner.' : `die Datei lässt sich nicht lesen (${reason}); erwartet wird eine, die noch da ist.`),
     empty: 'es steht nichts darin; erwartet wird ein Log von Posen oder Befehlen.',
-    binary: 'das ist weder Text noch eine MCAP-Aufzeichnung; erwartet wird CSV, TUM oder MCAP.',
+    binary: 'das ist weder Text noch eine bekannte Aufzeichnung; erwartet wird eine ROS-Bag, rosbag2, MCAP, oder eine Tabelle als CSV oder TUM.',
     longLine: (most) => `die Zeile hat mehr als ${most} Bytes; erwartet wird eine Zeile je Zeitpunkt.`,
     header: (value) => `die erste Zeile ist „${value}“; erwartet wird eine Kopfzeile mit Namen wie t, x, y und yaw.`,
     noTime: (columns) =>

@@ -1,0 +1,164 @@
+/** Sentences about logs, in English. */
+
+import type { Basis, Cause, Summary } from './log.ts';
+
+/** Fields of a table, as a sentence names them. */
+const FIELDS: Record<string, string> = {
+  t: 'the time', seconds: 'the seconds of the time', nanoseconds: 'the nanoseconds of the time', x: 'x', y: 'y', yaw: 'the heading',
+  qx: 'qx', qy: 'qy', qz: 'qz', qw: 'qw', v: 'the speed v', omega: 'the turn rate omega',
+};
+
+const NEEDED = {
+  poses: 'x, y and yaw (or qx, qy, qz and qw)',
+  either: 'x, y and yaw (or qx, qy, qz and qw), or v and omega',
+};
+
+const OF_POSES = 'nav_msgs/Odometry, geometry_msgs/PoseStamped, PoseWithCovarianceStamped, TransformStamped, Pose2D or tf2_msgs/TFMessage';
+const OF_COMMANDS = 'geometry_msgs/Twist, TwistStamped or TwistWithCovarianceStamped';
+const TYPES = { poses: OF_POSES, either: `${OF_POSES}, or ${OF_COMMANDS}`, transforms: 'tf2_msgs/TFMessage, which has frames' };
+
+/** Bases of decisions about units. */
+const BY: Record<Basis, string> = { name: ' (by name)', size: ' (by size)', rate: ' (by rate and speed)', format: '', option: ' (as stated)', usage: '' };
+
+/** Units of angles. */
+const ANGLES: Record<Summary['units']['angle']['unit'], string> = { rad: 'yaw in rad', deg: 'yaw in degrees', quaternion: 'yaw from a quaternion', none: '' };
+
+/** Reasons for leaving rows out. */
+const REASONS = {
+  damaged: 'damaged messages',
+  notFinite: 'no finite number',
+  noRotation: 'a quaternion that is no rotation',
+  short: 'cut short',
+  noStamp: 'a stamp of 0',
+  duplicate: 'the time of the row before',
+  repeated: 'a pose repeated at a higher rate than it was measured',
+  stray: 'a time far from all others',
+  setBack: 'times of a clock that was set back',
+  held: 'the pose stands while the odometry moves on',
+};
+
+/** Formats that are known and not read, each with the cure. */
+export const OTHERS = {
+  rosbag1: 'a ROS bag of version 1.2; convert it with “rosbag reindex”.',
+  ulog: 'a PX4 log (ULog); convert it with “ulog2csv”, and give two of the tables.',
+  dataflash: 'an ArduPilot log; convert it with “mavlogdump.py --format csv --types POS”.',
+  pcap: 'a network capture; expected is a recording of “ros2 bag record” or “rosbag record”.',
+  wal: 'the journal of an SQLite database; open the .db3 file once with “sqlite3”, which writes it back, and give that.',
+  zip: 'a zip archive; unzip it, and give the files in it.',
+  gzip: 'compressed by gzip; decompress it with “gunzip”, and give the result.',
+  bzip2: 'compressed by bzip2; decompress it with “bunzip2”, and give the result.',
+  xz: 'compressed by xz; decompress it with “unxz”, and give the result.',
+  lz4: 'compressed by LZ4; decompress it with “unlz4”, and give the result.',
+  hdf5: 'an HDF5 or MATLAB file; export times and poses as CSV.',
+  parquet: 'a Parquet table; export it as CSV.',
+};
+
+export const log = {
+  place: (file: string, line: number, topic: string) =>
+    `${file}${line ? `, line ${line}` : ''}${topic ? `, topic ${topic}` : ''}`,
+  /** Reasons for refusing a log, each after its place. */
+  refused: {
+    gone: (reason: string) => (reason === 'ENOENT' ? 'there is no such file or folder.' : `the file cannot be read (${reason}); expected is one that exists and may be read.`),
+    empty: 'there is nothing in it; expected is a log of poses or commands.',
+    binary: 'it is neither text nor a known recording; expected is a ROS bag, rosbag2, MCAP, or a table as CSV or TUM.',
+    longLine: (most: number) => `the line has more than ${most} bytes; expected is one row a line.`,
+    header: (value: string) => `the first row is “${value}”; expected is a header with names such as t, x, y and yaw.`,
+    noTime: (columns: string) =>
+      `none of the columns ${columns} is the time; expected is one named t, time, timestamp or stamp, or two named sec and nanosec, or names by --columns.`,
+    noColumns: (wanted: keyof typeof NEEDED, columns: string) =>
+      `the columns are ${columns}; expected are ${NEEDED[wanted]} among them, or names by --columns.`,
+    twice: (field: string, one: string, other: string) =>
+      `both “${one}” and “${other}” may be ${FIELDS[field]}; expected is one of them.`,
+    cells: (count: number, needed: number) => `the row has ${count} cells; expected are at least ${needed}.`,
+    wide: (count: number, needed: number, header: number) =>
+      `the row has ${count} cells, and the header in line ${header} ${needed}; expected are as many, with decimal points in numbers, or semicolons between cells.`,
+    given: (count: number, given: number) => `the row has ${count} cells, and --columns names ${given}; name each column in order, with - for those to skip.`,
+    noHeader: (count: number, row: string, usual: string) =>
+      `the table has no header, and its first row is “${row}”; name its ${count} columns in order, with - for those to skip, as in --columns ${usual}.`,
+    noTable: (notation: string) => `it is ${notation} and no table; write one row a time, as by ros2 topic echo --csv, rostopic echo -p or pandas, or give the recording itself.`,
+    twists: 'rows of 6 numbers are commands of geometry_msgs/Twist, which have no times; give the recording itself, or add a column of times.',
+    positions: (columns: string) =>
+      `the columns ${columns} are positions without a heading; give a reference that measures the heading, as by two prisms, markers or scan matching: the direction of travel hides turning errors, and would halve alpha1 and alpha2.`,
+    kitti: 'rows of 12 numbers are poses of KITTI, which have no times; add them from its times.txt with kitti_poses_and_timestamps_to_trajectory.py of evo, and give the TUM file that it writes.',
+    euler: (rotation: string) => `the rotations are Euler angles (${rotation}); export the take from Motive again with the rotation type Quaternion.`,
+    tilted: 'the poses do not turn about a vertical Z axis; expected are quaternions in the order of the header on a plane with Z up. Export with Z up, or name the columns in their order by --columns.',
+    mixed: (frames: string) => `the rows are of several frames (${frames}); keep those of one.`,
+    several: (names: string) => `the table has several logs; choose one of ${names}.`,
+    unknownUnit: (unit: string) => `the unit ${unit} of a column is not known, or differs from that of another; expected is m, cm or mm, and rad or deg.`,
+    number: (column: string, value: string) => `${column} is “${value}”; expected is a number${/^[+-]?\d*,\d+$/.test(value) ? ' with a decimal point' : /\d[/:-]\d/.test(value) ? ', or a date as 2024-01-31 12:00:00.5' : ''}.`,
+    rows: (most: number) => `there are more rows; expected are at most ${most}.`,
+    far: (value: number, most: number, message: number) =>
+      `${message ? `message ${message} has the value ${value}` : `a value is ${value}`}; expected are numbers from ${-most} to ${most}, in m, rad and s.`,
+    setBack: (seconds: number, message: number) =>
+      `times go back by ${seconds.toPrecision(3)} s${message ? ` at message ${message}` : ''} and repeat those before; split the file there, or give one recording only.`,
+    sameTimes: (count: number, rows: number, message: number) =>
+      `${count} of ${rows} rows, ${message ? `that of message ${message}` : 'this one'} first, have the time of another row and other values; give the log of one robot, with all digits of its times (a spreadsheet, or a format such as %.9e, may have rounded them).`,
+    few: (kept: number, rows: number, reason: Cause | undefined) =>
+      `${kept} of ${rows} rows can be used${reason ? ` (${REASONS[reason]})` : ''}; expected are at least 2.`,
+    timeUnit: (rate: number, unit: string, choices: string[]) =>
+      `in ${unit}, the times would mean ${rate.toPrecision(3)} rows a second; state their unit by --time-unit ${choices.join(' or ') || 's, ms, us or ns'}.`,
+    lengthUnit: (speed: number, unit: string, choices: string[]) =>
+      `in ${unit}, the robot would drive at ${speed.toPrecision(3)} m/s; state the unit of lengths by --length-unit ${choices.join(' or ')}.`,
+    angleUnit: (turn: number, unit: string, choices: string[]) =>
+      `headings in ${unit} would turn at ${turn.toPrecision(3)} rad/s, and do not agree with the path or with their range; state their unit by --angle-unit ${choices.join(' or ')}.`,
+    /** Errors of recordings. */
+    damaged: (reason: string) => `none of its messages can be read (${reason}); expected is an undamaged recording.`,
+    largeFile: (command: string, most: number) => `it has more than ${most} bytes when it is decompressed; decompress it with “${command}”, and give the result.`,
+    noRosbag2: 'it is an SQLite database without the tables “topics” and “messages” of rosbag2; expected is a recording of “ros2 bag record”.',
+    notRosbag2: 'it is listed in the metadata.yaml of a recording, and is none; expected is an MCAP or .db3 file.',
+    notRead: (format: keyof typeof OTHERS) => `it is ${OTHERS[format]}`,
+    noFiles: (files: string) => `it describes a recording in ${files}; give that file too, or the whole folder.`,
+    noTopic: (topics: string) => `there is no such topic; expected is one of ${topics || 'none: it has no messages'}.`,
+    noTopics: (topics: string) => `the topics are ${topics || 'none'}; expected is one of type ${TYPES.either}.`,
+    alone: (series: string) => `it has one log only, ${series}; give odometry and reference.`,
+    choose: (role: 'odometry' | 'reference', series: string) => `it is not clear what the ${role} is: ${series}.`,
+    type: (type: string, wanted: keyof typeof TYPES) => `its type is “${type}”; expected is ${TYPES[wanted]}.`,
+    encoding: (value: string) => `its messages are encoded as “${value}”; expected is cdr of ROS 2, or ros1.`,
+    types: (types: string) => `its messages have the types ${types}; expected is one: rename the topic of one node, and record again.`,
+    publishers: (nodes: string) => `several nodes publish it in turns (${nodes}); expected is one: rename the topic of one node, and record again.`,
+    message: (number: number, reason: string) =>
+      `message ${number} cannot be read (${reason}); expected is one of the topic's type.`,
+    frames: (known: string) => `give a parent and a child frame, connected by ${known || 'transforms, of which there are none'}.`,
+    noChain: (frames: string, known: string) =>
+      `no transforms lead along ${frames}; expected are frames that are connected, of ${known || 'none'}.`,
+    constant: (frames: string, others: string) =>
+      `the transform ${frames} never changes, so it is no path of a robot; expected are frames that move${others ? `, as ${others}` : ''}.`,
+    noMessages: 'there are no messages on it; expected are at least 2.',
+    /** Errors of two logs. */
+    same: (other: string) => `it has the same motion as ${other}; give two independent measurements of one drive.`,
+    held: 'its pose stands while the odometry moves on: it has lost the robot; give one that follows the robot.',
+    /** Errors of several recordings. */
+    noRole: 'its name does not say whether it is odometry or reference; call the files odom1.csv, truth1.csv, odom2.csv, … or give --odometry and --reference.',
+    unpaired: (odometry: number, reference: number) => `there are ${odometry} logs of odometry and ${reference} of the reference; give one of each for a drive.`,
+    noGroup: (groups: string) => `it is a table, and no group of its columns has this name; it has ${groups}.`,
+    noPoses: (series: string) => `it has commands only, ${series}; a reference needs poses.`,
+    sameDrive: (other: string) => `it is the drive of ${other}; give each drive once.`,
+    noTransforms: (series: string) => `it has no transforms between frames; it has ${series}.`,
+  },
+  /** Summary of a log. */
+  found: {
+    rows: (used: number, rows: number, seconds: number, rate: number, distance: number) =>
+      `${used} of ${rows} rows, ${seconds.toFixed(1)} s at ${rate.toPrecision(3)} Hz, ${distance.toFixed(1)} m driven`,
+    columns: (columns: string) => `columns ${columns}`,
+    units: ({ time, length, angle }: Summary['units']) =>
+      `time in ${time.unit}${BY[time.by]}, lengths in ${length.unit}${BY[length.by]}${ANGLES[angle.unit] ? `, ${ANGLES[angle.unit]}${BY[angle.by]}` : ''}`,
+    leftOut: (reason: Cause, count: number, line: number) =>
+      `left out ${count} ${count === 1 ? 'row' : 'rows'}${line ? `, from line ${line} on` : ''}: ${REASONS[reason]}`,
+    gaps: (count: number, first: number, longest: number) =>
+      `${count} ${count === 1 ? 'gap' : 'gaps'}, the first at ${first.toFixed(2)} s, the longest of ${longest.toFixed(2)} s`,
+    jumps: (count: number, first: number) => `${count} ${count === 1 ? 'jump' : 'jumps'}, the first at ${first.toFixed(2)} s`,
+    logTimes: 'times at which messages were recorded, as their headers have none',
+    notes: {
+      missing: (files: string) => `the files ${files} of the recording are missing`,
+      damaged: (count: number, reason: string) => `${count} damaged ${count === 1 ? 'block' : 'blocks'} skipped (${reason})`,
+      cutShort: 'the file ends in the middle of a row or record',
+      noZone: 'dates without a time zone are taken as UTC',
+      upAxis: (axis: string) => `${axis} is the vertical axis`,
+      sorted: (count: number) => `${count} late ${count === 1 ? 'row' : 'rows'} sorted by time`,
+      swapped: (odometry: string) => `its name is that of odometry, and ${odometry} is not: are the two swapped?`,
+      apart: (name: string, one: string, other: string) =>
+        `no time in common with ${name} (${one}, and ${other}): the clocks are aligned by the turns of the robot`,
+      localizer: 'a localizer’s own estimate, whose errors follow the odometry: measure the reference independently',
+    },
+  },
+};

@@ -1,0 +1,66 @@
+/** Errors of logs, and the bytes that logs are read from. */
+
+import { log as english } from './en.ts';
+import type { Question, Source } from './log.ts';
+
+export type Words = typeof english;
+
+/** Position in a source, with a line or a topic but not both. */
+export interface Place {
+  file: string;
+  /** Line from 1. */
+  line?: number;
+  /** Topic of a recording. */
+  topic?: string;
+}
+
+/** Most characters that a sentence quotes of a name or value, and of a library's message. */
+const [QUOTED, REASON] = [40, 100];
+
+/** Error with one sentence that names the file, the line or topic, the value, and what is expected. */
+export class LogError extends Error {
+  place: Place;
+  /** Question whose answer resolves the error. */
+  ask?: Question;
+  /** Returns the sentence in a language. */
+  sentence: (say: Words) => string;
+
+  /** @param reason in the language of the page when the error is shown */
+  constructor(place: Place, reason: (say: Words['refused']) => string, ask?: Question) {
+    const sentence = (say: Words) => `${say.place(cut(place.file), place.line ?? 0, cut(place.topic ?? ''))}: ${reason(say.refused)}`;
+    super(sentence(english));
+    this.name = 'LogError';
+    this.place = place;
+    this.ask = ask;
+    this.sentence = sentence;
+  }
+}
+
+/** Shortens a text to one line of so many characters that a sentence can quote. */
+export function cut(text: string, most = QUOTED): string {
+  // oxlint-disable-next-line no-control-regex
+  const line = text.slice(0, most + 1).replaceAll(/[\0-\x1f\x7f-\x9f\u2028\u2029]/g, '\ufffd');
+  return line.length > most ? `${line.slice(0, most)}…` : line;
+}
+
+/** Returns the message of a library's error, for a sentence. */
+export function reasonOf(error: unknown): string {
+  const message = error instanceof Error ? error.message : String(error);
+  return cut(message.replace(/ \[(library=[^\]]*|no header)\]$/, ''), REASON);
+}
+
+/** Returns the first few names of a list, for a sentence. */
+export function listed(names: string[]): string {
+  const most = 8;
+  return [...names.slice(0, most).map((name) => cut(name)), ...(names.length > most ? ['…'] : [])].join(', ');
+}
+
+/** Reads bytes of a source; rejects with a LogError if the file has been moved or changed since it was chosen. */
+export async function bytesOf(source: Source, from: number, to: number): Promise<Uint8Array<ArrayBuffer>> {
+  try {
+    return new Uint8Array(await source.slice(from, to).arrayBuffer());
+  } catch (error) {
+    const reason = error instanceof Error ? error.name : String(error);
+    throw new LogError({ file: source.name }, (say) => say.gone(reason));
+  }
+}

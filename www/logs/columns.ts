@@ -130,6 +130,8 @@ function readName(name: string): Reading | undefined {
   const bare = bracketed === undefined ? name : name.slice(0, -bracketed.length);
   const path = pathOf(bare);
   const whole = fieldOf(path);
+  // Times of rostopic are nanoseconds, in a simulation too.
+  if (whole?.field === 't' && /^%time|^field\..*stamp$/.test(name)) return { ...whole, unit: 'ns' };
   // Clocks of microcontrollers have their unit for a name.
   if (whole) return { ...whole, ...(/millis$/.test(path) ? { unit: 'ms' } : /micros$/.test(path) ? { unit: 'us' } : /nanos$/.test(path) ? { unit: 'ns' } : {}) };
   const [last, word] = LAST_PART.exec(bare) ?? [];

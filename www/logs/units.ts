@@ -93,7 +93,8 @@ function timeUnit(kind: LogKind, { t, a, b, c }: Columns, { time: stated, length
   const rate = (unit: TimeUnit) => 10 ** (POWERS[unit] - POWERS[stated.unit]) / step;
   if (stated.by !== 'usage') {
     if (isWithin(rate(stated.unit), RATES)) return stated;
-    return ask('timeUnit', rate(stated.unit), stated.unit, units.filter((unit) => isWithin(rate(unit), RATES)));
+    // Seconds since 1970 may also be nanoseconds since the start of a simulation.
+    if (stated.by === 'name' || stated.unit !== 's') return ask('timeUnit', rate(stated.unit), stated.unit, units.filter((unit) => isWithin(rate(unit), RATES)));
   }
   // Headings whose unit nothing states are not counted.
   const radians = RADIANS[options.angleUnit ?? (angle.unit === 'deg' ? 'deg' : 'rad')];

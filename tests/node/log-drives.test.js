@@ -58,7 +58,7 @@ const CLEAR = [
   [{ '/odom': 'odometry', '/amcl_pose': 'pose', '/goal_pose': 'pose' }, '/odom', '/amcl_pose'],
   [{ '/robot1/wheel_odometry': 'odometry', '/base_pose_ground_truth': 'odometry' }, '/robot1/wheel_odometry', '/base_pose_ground_truth'],
   [{ '/odom': 'odometry', '/odometry/filtered': 'odometry', '/leica/position': 'point' }, '/odom', '/leica/position'],
-  [{ '/odom': 'odometry', '/pose': 'pose' }, '/odom', '/pose'],
+  [{ '/odom': 'odometry', '/leica/position': 'point', '/pose': 'pose' }, '/odom', '/pose'],
   [{ '/odom': 'odometry', '/tf': 'tf' }, '/odom', '/tf map base_footprint', ['odom base_footprint', 'map base_footprint', 'odom base_link', 'map base_link']],
   [{ '/tf': 'tf', '/mocap': 'pose' }, '/tf odom base_link', '/mocap', ['odom base_link', 'map base_link']],
   [{ '/tf': 'tf' }, '/tf r1/odom r1/base_link', '/tf map r1/base_link', ['r1/odom r1/base_link', 'map r1/base_link']],

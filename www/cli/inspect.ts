@@ -29,7 +29,7 @@ export async function inspect(recording: Recording, path: string, onProgress?: (
     ...aligned([[isTable(recording) ? 'columns' : 'topic', 'type', 'rows', 'rate', 'could be'], ...rows]).map((line) => `  ${line}`),
     ...found.map((line) => `  ${line}`),
     ...reasons,
-    ...commandOf(recording, path),
+    ...(reasons.length > 0 && logs.size === 0 ? [] : commandOf(recording, path)),
     '',
   ].join('\n');
 }

@@ -45,14 +45,16 @@ export const usefulSeries = (recording: Recording): Series[] => recording.series
 export function candidates(recording: Recording, role: Role, { kind }: { kind?: LogKind } = {}): Choice[][] {
   const isOfTable = isTable(recording);
   const useful = usefulSeries(recording).filter(({ name }) => !GOAL.test(name));
-  const paths = useful.filter((each) => each.kind === 'poses' || each.kind === 'positions');
+  const paths = useful.filter((each) => each.kind === 'poses');
   const chains = useful.flatMap(({ name, frames = [] }) => likeliest(frames, role).map((each) => ({ series: name, frames: each })));
   if (role === 'reference') {
+    // Positions are refused with a reason, if there is nothing else.
+    const positions = choices(useful.filter((each) => each.kind === 'positions'), 'poses');
     const others = paths.filter(({ name }) => !FILTERED.test(name) && !ODOMETRY[0].test(name));
-    return [...tiers(paths, [MEASURED, LOCALIZED], 'poses'), choices(others, 'poses'), ...(isOfTable && useful.length === 1 ? [choices(paths, 'poses')] : []), chains];
+    return [...tiers(paths, [MEASURED, LOCALIZED], 'poses'), choices(others, 'poses'), ...(isOfTable && useful.length === 1 ? [choices(paths, 'poses')] : []), chains, positions];
   }
   // A message says by its type that it is odometry.
-  const wheels = paths.filter(({ kind, name, type }) => kind === 'poses' && !MEASURED.test(name) && !LOCALIZED.test(name) && (isOfTable || /Odometry$/.test(type)));
+  const wheels = paths.filter(({ name, type }) => !MEASURED.test(name) && !LOCALIZED.test(name) && (isOfTable || /Odometry$/.test(type)));
   const poses = [...tiers(wheels, ODOMETRY), choices(wheels), chains];
   const commands = useful.filter((each) => each.kind === 'commands' || (isOfTable && each.hasCommands));
   const driven = [...tiers(commands, COMMANDS, 'commands'), choices(commands, 'commands')];

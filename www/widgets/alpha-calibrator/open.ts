@@ -182,7 +182,7 @@ export class LogOpener extends Part<Figure> {
     this.#commit();
     this.#opened = { chosen, log, hasBoth: !topics.length && files[0].series.some(({ hasCommands }) => hasCommands) };
     const logs = [paired.odometry, paired.reference];
-    this.#found = () => logs.map((each) => `${each.name}: ${reader.summarize(each, say().found).join(' ')}`);
+    this.#found = () => logs.map((each) => `${each.name}: ${reader.summarize(each, say().found).join('; ')}`);
   }
 
   /** Shows why a log was refused. */

@@ -1,9 +1,6 @@
 //! Plans, grids and files of maps.
 
 use super::doubles::{any_double, cases};
-use crate::common::distance::point_to_line;
-use motion::geom::arc::Arc;
-use motion::geom::se2::SE2;
 use motion::geom::segment::Segment;
 use motion::map::{FloorPlan, FloorPlanError, Pixel, read_pgm};
 use proptest::collection::vec;
@@ -24,60 +21,8 @@ fn walls() -> impl Strategy<Value = Vec<Segment>> {
     vec((points(), points()).prop_map(|(from, to)| Segment { from, to }), 0..12)
 }
 
-fn arcs() -> impl Strategy<Value = Arc> {
-    let length = prop_oneof![-10.0..10.0, -0.1..0.1, Just(0.0)];
-    let turn = prop_oneof![-3.0..3.0, -30.0..30.0, Just(0.0), -1e-9..1e-9];
-    (points(), -3.2..3.2, length, turn).prop_map(|([x, y], theta, length, turn)| Arc {
-        start: SE2::new(x, y, theta),
-        length,
-        turn,
-    })
-}
-
-fn plan(walls: Vec<Segment>) -> FloorPlan {
-    FloorPlan::new(walls, [0.0, 0.0, SIDE, SIDE]).expect("walls inside the bounds")
-}
-
-/// Least and greatest that the distance from the way to a wall can be, by the distance of many points of the way.
-fn looked_at(arc: &Arc, walls: &[Segment]) -> [f64; 2] {
-    const CHORDS: u32 = 500;
-    let least = (0..=CHORDS).map(|i| {
-        let f = f64::from(i) / f64::from(CHORDS);
-        let at = Arc { length: f * arc.length, turn: f * arc.turn, ..*arc }.end();
-        let room = walls.iter().map(|Segment { from, to }| point_to_line([at.x(), at.y()], [*from, *to]));
-        room.fold(f64::INFINITY, f64::min)
-    });
-    let least = least.fold(f64::INFINITY, f64::min);
-    [least - 0.5 * arc.length.abs() / f64::from(CHORDS), least]
-}
-
-/// How far inside the bounds the way stays, likewise.
-fn inside(arc: &Arc) -> [f64; 2] {
-    const CHORDS: u32 = 500;
-    let depths = (0..=CHORDS).map(|i| {
-        let f = f64::from(i) / f64::from(CHORDS);
-        let at = Arc { length: f * arc.length, turn: f * arc.turn, ..*arc }.end();
-        at.x().min(at.y()).min(SIDE - at.x()).min(SIDE - at.y())
-    });
-    let least = depths.fold(f64::INFINITY, f64::min);
-    [least - 0.5 * arc.length.abs() / f64::from(CHORDS), least]
-}
-
 proptest! {
     #![proptest_config(cases(150))]
-
-    /// Against points along the way; between two of them either verdict will do.
-    #[test]
-    fn verdicts_match_points_along_the_arc(walls in walls(), arc in arcs(), clearance in 0.0..2.0f64) {
-        let ([nearest, near], [shallowest, shallow]) = (looked_at(&arc, &walls), inside(&arc));
-        let free = plan(walls).arc_free(&arc, clearance).free;
-        if near < clearance - ROUNDING || shallow < -ROUNDING {
-            prop_assert!(!free, "room {}, depth {}", near, shallow);
-        }
-        if nearest > clearance + ROUNDING && shallowest > ROUNDING {
-            prop_assert!(free, "room {}, depth {}", nearest, shallowest);
-        }
-    }
 
     #[test]
     fn bounds_are_accepted_or_reported(bounds in [any_double(), any_double(), any_double(), any_double()]) {

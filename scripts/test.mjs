@@ -266,7 +266,7 @@ function inBrowser(runner, { chrome, driver }) {
  * @param {string[]} more files or options
  */
 function nodeTests(directory, more) {
-  const files = filesOf(directory).filter((path) => path.endsWith('.test.js') && (ALL || !path.endsWith('.nightly.test.js')));
+  const files = filesOf(directory).filter((path) => /\.test\.[jt]s$/.test(path) && (ALL || !path.endsWith('.nightly.test.js')));
   const named = files.filter((path) => more.some((each) => !each.startsWith('-') && path.includes(each)));
   const options = more.filter((each) => !named.some((path) => path.includes(each)));
   // By itself it leaves a core idle.

@@ -114,7 +114,7 @@ test('of transforms the reader says which frames are meant', async ({ page }) =>
   await widget.locator('#log-files').setInputFiles({ name: 'tf.mcap', mimeType: 'application/octet-stream', buffer });
   await widget.getByLabel('Odometry', { exact: true }).selectOption('/tf');
   await widget.getByLabel('Reference', { exact: true }).selectOption('/tf');
-  await expect(widget.getByRole('alert')).toHaveText(/no transforms lead from odom to base_link; expected are frames that are connected, of .*base_footprint/);
+  await expect(widget.getByRole('alert')).toHaveText(/no transforms lead along odom → base_link; expected are frames that are connected, of .*base_footprint/);
   const frames = widget.getByLabel('Odometry: Frames');
   await frames.fill('odom, base_footprint');
   await frames.press('Enter');

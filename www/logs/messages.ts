@@ -1,7 +1,7 @@
 /** Messages of ROS 1 and ROS 2 with poses, commands or transforms. Only the leading fields are read; covariances and the like follow. */
 
 import { viewOf, type Channel } from './formats/container.ts';
-import { concatenated, unzstdPart } from './formats/zstd.ts';
+import { unzstdMessage } from './formats/zstd.ts';
 import type { Series } from './log.ts';
 import { headingOf, isRotation } from './quaternion.ts';
 
@@ -158,12 +158,9 @@ export const isReadable = ({ encoding }: Channel) => encoding === 'cdr' || encod
 /** First bytes of a message that rosbag2 compressed; others start with 0. */
 const ZSTD = 0x28b52ffd;
 
-/** Most bytes of a message that is decompressed. */
-const MAX_MESSAGE = 2 ** 24;
-
 function readerOf(encoding: string, data: Uint8Array): Reader {
   if (encoding === 'ros1' || data[0] === 0 || viewOf(data).getUint32(0) !== ZSTD) return new Reader(encoding, data);
-  return new Reader(encoding, concatenated(unzstdPart(data, MAX_MESSAGE)));
+  return new Reader(encoding, unzstdMessage(data));
 }
 
 /** Returns a reader of poses or commands, which throws an error if the bytes are no such message. */

@@ -109,7 +109,7 @@ class TopicReader {
     const { series, kind: wanted, frames } = this.#choice;
     const all = this.#container.channels;
     const channels = all.filter(({ topic }) => topic === series);
-    const [reason] = this.#container.damage.values();
+    const reason = [...this.#container.damage.values(), ...(this.#container.cutShort ? ['it ends before the first of them'] : [])][0];
     if (channels.length === 0) this.#refuse((say) => reason && all.length === 0 ? say.damaged(reason) : say.noTopic(listed([...new Set(all.map(({ topic }) => topic))])));
     const isWanted = ({ type }: Channel) => {
       const kind = kindOf(type);

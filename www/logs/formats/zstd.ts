@@ -1,8 +1,9 @@
 /** Zstandard: blocks of recordings, single messages, and whole files. */
 
 import { ZSTDDecoder } from 'zstddec/stream';
-import { LogError, bytesOf } from '../log-error.ts';
+import { LogError, bytesOf, reasonOf } from '../log-error.ts';
 import type { Source } from '../log.ts';
+import { MAX_BLOCK, viewOf } from './container.ts';
 
 const decoder = new ZSTDDecoder();
 
@@ -11,6 +12,9 @@ const MAX_FILE = 2 ** 30;
 
 /** Bytes that are decompressed at once. */
 const PIECE = 2 ** 20;
+
+/** Most successive parts without a byte: at the end of a piece or frame there is one. */
+const MAX_EMPTY = 100;
 
 /** Loads the decoder; the other functions need it. */
 export const loadZstd = () => decoder.init();
@@ -23,40 +27,52 @@ export function unzstd(bytes: Uint8Array, size: number): Uint8Array {
   return out;
 }
 
-/** Decompresses a message or file of unknown size, up to a limit. What comes before damage is kept. */
-export function unzstdPart(bytes: Uint8Array, limit: number): Uint8Array<ArrayBuffer>[] {
-  const parts: Uint8Array<ArrayBuffer>[] = [];
-  let size = 0;
-  try {
-    for (const part of decoder.decodeStreaming(piecesOf(bytes))) {
-      parts.push(part.slice());
-      if ((size += part.length) > limit) break;
-    }
-  } catch (error) {
-    if (size === 0) throw error;
-  }
-  return parts;
+/** Decompresses a message; throws a RangeError if it is damaged. */
+export function unzstdMessage(bytes: Uint8Array): Uint8Array {
+  const size = contentSize(bytes);
+  if (size > MAX_BLOCK) throw new RangeError(`a message of ${size} bytes`);
+  return unzstd(bytes, size);
 }
 
-export function concatenated(parts: Uint8Array[]): Uint8Array {
-  const bytes = new Uint8Array(parts.reduce((size, { length }) => size + length, 0));
-  let at = 0;
-  for (const part of parts) {
-    bytes.set(part, at);
-    at += part.length;
+/** Size of the contents that the header of a frame states; Infinity if it states none. https://www.rfc-editor.org/rfc/rfc8878 */
+function contentSize(frame: Uint8Array): number {
+  const view = viewOf(frame);
+  const descriptor = view.getUint8(4);
+  const isSingle = (descriptor >> 5) & 1;
+  const at = 6 - isSingle + [0, 1, 2, 4][descriptor & 3];
+  switch (descriptor >> 6) {
+    case 0: return isSingle ? view.getUint8(at) : Infinity;
+    case 1: return view.getUint16(at, true) + 256;
+    case 2: return view.getUint32(at, true);
+    default: return Number(view.getBigUint64(at, true));
   }
-  return bytes;
+}
+
+/** Decompresses a file, which keeps its name. What comes before damage is kept. */
+export async function unzstdFile(source: Source): Promise<Source> {
+  await loadZstd();
+  const tooLarge = () => new LogError({ file: source.name }, (say) => say.largeFile('zstd -d', MAX_FILE));
+  if (source.size > MAX_FILE) throw tooLarge();
+  const bytes = await bytesOf(source, 0, source.size);
+  const parts: Uint8Array<ArrayBuffer>[] = [];
+  let [size, empty] = [0, 0];
+  try {
+    for (const part of decoder.decodeStreaming(piecesOf(bytes))) {
+      // The decoder does not stop at damage.
+      empty = part.length === 0 ? empty + 1 : 0;
+      if (empty > MAX_EMPTY) throw new RangeError('its compression is damaged');
+      parts.push(part.slice());
+      size += part.length;
+      if (size > MAX_FILE) throw tooLarge();
+    }
+  } catch (error) {
+    if (error instanceof LogError) throw error;
+    if (size === 0) throw new LogError({ file: source.name }, (say) => say.damaged(reasonOf(error)));
+  }
+  const file = new Blob(parts);
+  return { name: source.name, path: source.path, size: file.size, slice: (from, to) => file.slice(from, to) };
 }
 
 function* piecesOf(bytes: Uint8Array) {
   for (let at = 0; at < bytes.length; at += PIECE) yield bytes.subarray(at, at + PIECE);
-}
-
-/** Decompresses a file, which keeps its name. */
-export async function unzstdFile(source: Source): Promise<Source> {
-  await loadZstd();
-  const parts = source.size > MAX_FILE ? [] : unzstdPart(await bytesOf(source, 0, source.size), MAX_FILE);
-  const file = new Blob(parts);
-  if (source.size > MAX_FILE || file.size > MAX_FILE) throw new LogError({ file: source.name }, (say) => say.largeFile('zstd -d', MAX_FILE));
-  return { name: source.name, path: source.path, size: file.size, slice: (from, to) => file.slice(from, to) };
 }

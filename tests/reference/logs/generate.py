@@ -1,0 +1,229 @@
+#!/usr/bin/env python3
+"""Writes one drive in all formats of recordings, as their own libraries write them, for tests/node/log-formats.test.ts.
+
+    pip install rosbags mcap mcap-ros1-support mcap-ros2-support && python3 generate.py
+
+Numbers are multiples of 2⁻¹², so that the files are small. They are compressed by gzip. Running the script again gives the same rows.
+"""
+
+import gzip
+import math
+import pathlib
+import random
+import shutil
+import tempfile
+
+import numpy as np
+from mcap.writer import CompressionType, IndexType
+from mcap_ros1.writer import Writer as McapRos1
+from mcap_ros2.writer import Writer as McapRos2
+from rosbags.rosbag1 import Writer as Bag
+from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin
+from rosbags.rosbag2 import Writer as Rosbag2
+from rosbags.typesys import Stores, get_types_from_msg, get_typestore
+
+HERE = pathlib.Path(__file__).parent
+START = 1_700_000_000_123_456_789
+ROWS = 100
+rng = random.Random(2005)
+
+
+def coarse(value):
+    return round(value * 4096) / 4096
+
+
+def drive():
+    """Rows of odometry and reference: stamp in ns, x, y, qz, qw, v, omega."""
+    x = y = theta = 0.0
+    for i in range(ROWS):
+        v, omega = 0.5 + 0.2 * math.sin(i / 9), 0.8 * math.sin(i / 23)
+        x, y, theta = x + v * 0.05 * math.cos(theta), y + v * 0.05 * math.sin(theta), theta + omega * 0.05
+        stamp = START + 50_000_000 * i
+        noise = [rng.gauss(0, 0.002) for _ in range(3)]
+        yield [
+            [stamp, coarse(px), coarse(py), coarse(math.sin(heading / 2)), coarse(math.cos(heading / 2)), coarse(v), coarse(omega)]
+            for px, py, heading in ((x * 1.01, y * 1.01, theta * 1.02), (x + noise[0], y + noise[1], theta + noise[2]))
+        ]
+
+
+DRIVE = list(drive())
+
+
+class Messages:
+    """Messages of a ROS distribution about the rows."""
+
+    def __init__(self, store):
+        self.store = store
+        if 'tf2_msgs/msg/TFMessage' not in store.types:
+            store.register(get_types_from_msg('geometry_msgs/TransformStamped[] transforms', 'tf2_msgs/msg/TFMessage'))
+        self.types = store.types
+
+    def __call__(self, name, *args):
+        return self.types[name](*args)
+
+    def header(self, i, stamp, frame):
+        time = self('builtin_interfaces/msg/Time', stamp // 10**9, stamp % 10**9)
+        header = self.types['std_msgs/msg/Header']
+        return header(i, time, frame) if 'seq' in header.__dataclass_fields__ else header(time, frame)
+
+    def pose(self, row):
+        _, x, y, qz, qw, *_ = row
+        return self('geometry_msgs/msg/Pose', self('geometry_msgs/msg/Point', x, y, 0.0), self('geometry_msgs/msg/Quaternion', 0.0, 0.0, qz, qw))
+
+    def twist(self, row):
+        vector = self.types['geometry_msgs/msg/Vector3']
+        return self('geometry_msgs/msg/Twist', vector(row[5], 0.0, 0.0), vector(0.0, 0.0, row[6]))
+
+    def transform(self, i, row, parent, child):
+        _, x, y, qz, qw, *_ = row
+        rotation = self('geometry_msgs/msg/Quaternion', 0.0, 0.0, qz, qw)
+        transform = self('geometry_msgs/msg/Transform', self('geometry_msgs/msg/Vector3', x, y, 0.0), rotation)
+        return self('geometry_msgs/msg/TransformStamped', self.header(i, row[0], parent), child, transform)
+
+    def logs(self):
+        """Odometry and reference: topic, type, message, time of recording."""
+        covariance = np.zeros(36)
+        for i, (odometry, reference) in enumerate(DRIVE):
+            pose = self('geometry_msgs/msg/PoseWithCovariance', self.pose(odometry), covariance)
+            twist = self('geometry_msgs/msg/TwistWithCovariance', self.twist(odometry), covariance)
+            message = self('nav_msgs/msg/Odometry', self.header(i, odometry[0], 'odom'), 'base_link', pose, twist)
+            yield '/odom', 'nav_msgs/msg/Odometry', message, odometry[0] + 2_000_000
+            message = self('geometry_msgs/msg/PoseStamped', self.header(i, reference[0], 'map'), self.pose(reference))
+            yield '/truth', 'geometry_msgs/msg/PoseStamped', message, reference[0] + 3_000_000
+
+    def others(self):
+        """The odometry in messages of all other types that are read; a static transform comes last."""
+        covariance = np.zeros(36)
+        for i, (row, _) in enumerate(DRIVE[:40]):
+            stamp = row[0]
+            pose = self('geometry_msgs/msg/PoseWithCovariance', self.pose(row), covariance)
+            yield '/fused', 'geometry_msgs/msg/PoseWithCovarianceStamped', self('geometry_msgs/msg/PoseWithCovarianceStamped', self.header(i, stamp, 'map'), pose), stamp
+            yield '/vicon', 'geometry_msgs/msg/TransformStamped', self.transform(i, row, 'map', 'robot'), stamp
+            yield '/pose2d', 'geometry_msgs/msg/Pose2D', self('geometry_msgs/msg/Pose2D', row[1], row[2], 2 * math.atan2(row[3], row[4])), stamp
+            yield '/cmd_vel', 'geometry_msgs/msg/Twist', self.twist(row), stamp
+            yield '/cmd_stamped', 'geometry_msgs/msg/TwistStamped', self('geometry_msgs/msg/TwistStamped', self.header(i, stamp, ''), self.twist(row)), stamp
+            wheel = self.transform(i, [stamp, 0.0, 0.1, coarse(math.sin(i)), coarse(math.cos(i))], 'base_link', 'wheel')
+            yield '/tf', 'tf2_msgs/msg/TFMessage', self('tf2_msgs/msg/TFMessage', [self.transform(i, row, 'odom', 'base_footprint'), wheel]), stamp
+        fixed = self.transform(0, [stamp, 0.0, 0.0, 0.0, 1.0], 'base_footprint', 'base_link')
+        yield '/tf_static', 'tf2_msgs/msg/TFMessage', self('tf2_msgs/msg/TFMessage', [fixed]), stamp
+
+
+ROS1, ROS2 = Messages(get_typestore(Stores.ROS1_NOETIC)), Messages(get_typestore(Stores.ROS2_HUMBLE))
+
+
+def bag(path, messages, compression=None, nodes=('/base',)):
+    writer = Bag(path)
+    if compression:
+        writer.set_compression(compression)
+    with writer:
+        connections = {}
+        for i, (topic, kind, message, time) in enumerate(messages):
+            node = nodes[i // 2 % len(nodes)]
+            if (topic, node) not in connections:
+                connections[topic, node] = writer.add_connection(topic, kind, typestore=ROS1.store, callerid=node)
+            writer.write(connections[topic, node], time, ROS1.store.serialize_ros1(message, kind))
+
+
+def rosbag2(path, messages, storage, mode=None):
+    writer = Rosbag2(path, version=9, storage_plugin=storage)
+    if mode:
+        writer.set_compression(mode, CompressionFormat.ZSTD)
+    with writer:
+        connections = {}
+        for topic, kind, message, time in messages:
+            if topic not in connections:
+                connections[topic] = writer.add_connection(topic, kind, typestore=ROS2.store)
+            writer.write(connections[topic], time, ROS2.store.serialize_cdr(message, kind))
+
+
+def mcap(path, messages, compression, **options):
+    """Writes CDR messages by the library of MCAP."""
+    from mcap.writer import Writer
+
+    with open(path, 'wb') as stream:
+        writer = Writer(stream, chunk_size=16384, compression=compression, **options)
+        writer.start('ros2', 'tests')
+        channels = {}
+        for topic, kind, message, time in messages:
+            if topic not in channels:
+                schema = writer.register_schema(kind, 'ros2msg', b'')
+                channels[topic] = writer.register_channel(topic, 'cdr', schema)
+            writer.add_message(channels[topic], time, bytes(ROS2.store.serialize_cdr(message, kind)), time)
+        writer.finish()
+
+
+def dict_of(message):
+    """A message as mcap-ros1-support and mcap-ros2-support take it."""
+    if hasattr(message, '__dataclass_fields__'):
+        names = [name for name in message.__dataclass_fields__ if not name.startswith('__')]
+        return {name: dict_of(getattr(message, name)) for name in names}
+    return message.tolist() if isinstance(message, np.ndarray) else [dict_of(each) for each in message] if isinstance(message, list) else message
+
+
+def mcap_ros2(path, messages):
+    with open(path, 'wb') as stream, McapRos2(stream, chunk_size=16384) as writer:
+        schemas = {}
+        for topic, kind, message, time in messages:
+            if kind not in schemas:
+                text, _ = ROS2.store.generate_msgdef(kind, ros_version=2)
+                schemas[kind] = writer.register_msgdef(kind, text)
+            writer.write_message(topic, schemas[kind], dict_of(message), log_time=time, publish_time=time)
+
+
+def mcap_ros1(path, messages):
+    """Messages as genpy has them: of a class with the definition, and with a method that serializes them."""
+
+    def as_genpy(kind, message):
+        text, md5 = ROS1.store.generate_msgdef(kind)
+        fields = {'_type': kind.replace('/msg/', '/'), '_full_text': text, '_md5sum': md5}
+        serialize = lambda self, buffer: buffer.write(bytes(ROS1.store.serialize_ros1(message, kind)))
+        return type('Message', (), {**fields, 'serialize': serialize})()
+
+    with open(path, 'wb') as stream:
+        writer = McapRos1(stream, chunk_size=16384)
+        for topic, kind, message, time in messages:
+            writer.write_message(topic, as_genpy(kind, message), log_time=time, publish_time=time)
+        writer.finish()
+
+
+def table(path, column):
+    rows = ['t,x,y,qx,qy,qz,qw']
+    for row in DRIVE:
+        stamp, x, y, qz, qw, *_ = row[column]
+        rows.append(f'{stamp // 10**9}.{stamp % 10**9:09d},{x!r},{y!r},0,0,{qz!r},{qw!r}')
+    path.write_text('\n'.join(rows) + '\n')
+
+
+def keep(path):
+    """Compresses a file into this folder, under the name of its folder if it is in one."""
+    name = path.name if path.parent == WORK else f'{path.parent.name}-{path.name}'
+    data = gzip.compress(path.read_bytes(), 9, mtime=0)
+    (HERE / f'{name}.gz').write_bytes(data)
+    print(f'{name}: {len(data)} bytes')
+
+
+with tempfile.TemporaryDirectory() as folder:
+    WORK = pathlib.Path(folder)
+    table(WORK / 'odometry.csv', 0)
+    table(WORK / 'reference.csv', 1)
+    for name, compression in (('none', None), ('bz2', Bag.CompressionFormat.BZ2), ('lz4', Bag.CompressionFormat.LZ4)):
+        bag(WORK / f'{name}.bag', ROS1.logs(), compression)
+    bag(WORK / 'types.bag', ROS1.others())
+    bag(WORK / 'nodes.bag', ROS1.logs(), None, ('/base', '/simulator'))
+    rosbag2(WORK / 'sqlite', ROS2.logs(), StoragePlugin.SQLITE3)
+    rosbag2(WORK / 'sqlite-messages', ROS2.logs(), StoragePlugin.SQLITE3, CompressionMode.MESSAGE)
+    rosbag2(WORK / 'sqlite-file', ROS2.logs(), StoragePlugin.SQLITE3, CompressionMode.FILE)
+    rosbag2(WORK / 'mcap', ROS2.logs(), StoragePlugin.MCAP)
+    rosbag2(WORK / 'mcap-messages', ROS2.logs(), StoragePlugin.MCAP, CompressionMode.MESSAGE)
+    rosbag2(WORK / 'mcap-file', ROS2.logs(), StoragePlugin.MCAP, CompressionMode.FILE)
+    for compression in CompressionType:
+        mcap(WORK / f'{compression.name.lower()}.mcap', ROS2.logs(), compression)
+    mcap(WORK / 'unindexed.mcap', ROS2.logs(), CompressionType.ZSTD, index_types=IndexType.NONE, use_statistics=False, repeat_channels=False)
+    mcap(WORK / 'unchunked.mcap', ROS2.logs(), CompressionType.NONE, use_chunking=False)
+    mcap(WORK / 'types.mcap', ROS2.others(), CompressionType.ZSTD)
+    mcap_ros2(WORK / 'ros2-support.mcap', ROS2.logs())
+    mcap_ros1(WORK / 'ros1-support.mcap', ROS1.logs())
+    for half in (0, 1):
+        rosbag2(WORK / f'split{half}', list(ROS2.logs())[ROWS * half:ROWS * (half + 1)], StoragePlugin.MCAP)
+    for path in sorted(path for path in WORK.rglob('*') if path.is_file()):
+        keep(path)

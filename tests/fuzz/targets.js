@@ -5,7 +5,8 @@
 
 import assert from 'node:assert/strict';
 import { Buffer } from 'node:buffer';
-import { deflateRawSync } from 'node:zlib';
+import { readFileSync } from 'node:fs';
+import { deflateRawSync, gunzipSync } from 'node:zlib';
 import { load } from '../../dist/core.js';
 import { attributesOf, isSetting } from '../../www/figure/attributes.ts';
 import { pack, unpack } from '../../www/figure/packing.ts';
@@ -134,6 +135,11 @@ function unchecked(bytes) {
   return bytes;
 }
 
+/** Recordings that other libraries wrote. @param {string[]} names */
+function fixtures(...names) {
+  return names.map((name) => gunzipSync(readFileSync(new URL(`../reference/logs/${name}.gz`, import.meta.url))));
+}
+
 /** Topics and frames that are read from a recording. */
 const CHOICES = [{ series: '/odom' }, { series: '/pose' }, { series: '/cmd_vel' }, { series: '/tf', frames: { parent: 'map', child: 'base' } }];
 
@@ -179,14 +185,15 @@ export const targets = {
     ),
     run: (bytes) => logIsRead(() => readLog(new File([bytes], 'run.csv'), { kind: bytes[0] % 8 === 1 ? 'commands' : undefined })),
   },
-  mcap: {
-    corpus: await recordings(),
-    async run(bytes) {
+  ...Object.fromEntries([['mcap', await recordings()], ['rosbag', fixtures('none.bag', 'lz4.bag', 'types.bag')], ['sqlite', fixtures('sqlite-sqlite.db3')]].map(([name, corpus]) => [name, {
+    corpus,
+    async run(/** @type {Buffer<ArrayBuffer>} */ bytes) {
       const source = new File([bytes], 'run.mcap');
       const { length } = CHOICES;
-      const taken = await logIsRead(() => readLog(source, CHOICES[bytes.length % length]));
+      const pick = bytes.reduce((sum, byte) => sum + byte, 0);
+      const taken = await logIsRead(() => readLog(source, CHOICES[pick % length]));
         // One input in four lists the topics too.
-      if (Math.floor(bytes.length / length) % 4) return taken;
+      if (Math.floor(pick / length) % 4) return taken;
       try {
         for (const { name, count } of (await openRecordings([source]))[0].series) assert.ok(typeof name === 'string' && count >= 0);
       } catch (error) {
@@ -195,7 +202,7 @@ export const targets = {
       }
       return taken;
     },
-  },
+  }])),
   link: {
     corpus: [...texts(...(await Promise.all(states().map(pack)))), ...texts(...states().map((state) => JSON.stringify(state)))],
     async run(bytes) {

@@ -161,7 +161,7 @@ class Rosbag2 implements Container {
     const [length, afterLength] = varintAt(page, cell);
     const [id, start] = varintAt(page, afterLength);
     const end = start + this.#localBytes(length);
-    if (end > page.length || length > MAX_ROW) throw new RangeError('a row is damaged');
+    if (end > page.length || length > Math.min(MAX_ROW, this.#source.size)) throw new RangeError('a row is damaged');
     return { id, bytes: page.subarray(start, end), length, next: end - start < length ? viewOf(page).getUint32(end) : 0 };
   }
 

@@ -30,7 +30,8 @@ export async function openTable(source: Source, options: OpenOptions = {}): Prom
   const encoding = await encodingOf(source);
   const decoded = new TextDecoder(encoding).decode(await bytesOf(source, 0, Math.min(HEAD, source.size)), { stream: true });
   if (decoded.includes('\0')) throw new LogError({ file: source.name }, (say) => say.binary);
-  const lines = decoded.split(endOf(decoded));
+  const end = endOf(decoded);
+  const lines = decoded.split(end);
   // The last line may have been cut off, unless it is the only one.
   if (source.size > HEAD && lines.length > 1) lines.pop();
   const long = lines.findIndex((line) => line.length > LONGEST);
@@ -59,7 +60,7 @@ export async function openTable(source: Source, options: OpenOptions = {}): Prom
         const layout = layoutOf(chosen, format.names, place, choice.kind);
         return new LogReader(readable.length === 1 ? source.name : `${source.name}, ${seriesOf(chosen).name}`, { file: source.name }, format, chosen, layout, options);
       });
-      await readLines(source, encoding, format.firstLine, onProgress, (line, number, isOpen) => {
+      await readLines(source, encoding, end, format.firstLine, onProgress, (line, number, isOpen) => {
         for (const reader of readers) reader.take(line, number, isOpen);
       });
       return readers.map((reader) => reader.end());
@@ -95,26 +96,41 @@ async function encodingOf(source: Source): Promise<string> {
 const endOf = (text: string) => (text.includes('\n') || !text.includes('\r') ? '\n' : '\r');
 
 /** Calls back for each line from the first row on. The last one is open if no line feed ends it: the file may have been cut off there. */
-async function readLines(source: Source, encoding: string, from: number, onProgress: ((share: number) => void) | undefined, take: (line: string, number: number, isOpen: boolean) => void) {
+async function readLines(source: Source, encoding: string, end: string, from: number, onProgress: ((share: number) => void) | undefined, take: (line: string, number: number, isOpen: boolean) => void) {
+  // Whole lines are decoded at once: Node decodes streams into strings of twice the size.
   const decoder = new TextDecoder(encoding);
-  let rest = '';
-  let end = '';
+  const width = encoding.startsWith('utf-16') ? 2 : 1;
+  let rest = new Uint8Array();
   let number = 0;
   for (let at = 0; at < source.size; at += PIECE) {
-    const bytes = await bytesOf(source, at, Math.min(at + PIECE, source.size));
+    const piece = await bytesOf(source, at, Math.min(at + PIECE, source.size));
     onProgress?.(at / source.size);
-    const text = rest + decoder.decode(bytes, { stream: true });
+    const bytes = new Uint8Array(rest.length + piece.length);
+    bytes.set(rest);
+    bytes.set(piece, rest.length);
+    const cutAt = afterLast(bytes, end.charCodeAt(0), width);
+    const text = decoder.decode(bytes.subarray(0, cutAt));
+    rest = bytes.slice(cutAt);
     if (text.includes('\0')) throw new LogError({ file: source.name }, (say) => say.binary);
-    end ||= endOf(text);
     const lines = text.split(end);
-    rest = lines.pop() ?? '';
+    lines.pop();
     for (const line of lines) {
       number += 1;
       if (number >= from) take(line, number, false);
     }
-    if (rest.length > LONGEST) throw new LogError({ file: source.name, line: number + 1 }, (say) => say.longLine(LONGEST));
+    if (rest.length > LONGEST * width) throw new LogError({ file: source.name, line: number + 1 }, (say) => say.longLine(LONGEST));
   }
-  if (number + 1 >= from) take(rest, number + 1, true);
+  const last = decoder.decode(rest);
+  if (last.includes('\0')) throw new LogError({ file: source.name }, (say) => say.binary);
+  if (number + 1 >= from) take(last, number + 1, true);
+}
+
+/** Returns the index after the last end of a line, in characters of one or two bytes; 0 where there is none. */
+function afterLast(bytes: Uint8Array, end: number, width: number): number {
+  let at = bytes.lastIndexOf(end);
+  // In UTF-16 the other byte of the character is 0.
+  while (width === 2 && at >= 0 && bytes[at ^ 1] !== 0) at = at === 0 ? -1 : bytes.lastIndexOf(end, at - 1);
+  return at < 0 ? 0 : at - (at % width) + width;
 }
 
 /** Reader of the rows of one series. */

@@ -185,7 +185,7 @@ export const targets = {
     ),
     run: (bytes) => logIsRead(() => readLog(new File([bytes], 'run.csv'), { kind: bytes[0] % 8 === 1 ? 'commands' : undefined })),
   },
-  ...Object.fromEntries([['mcap', await recordings()], ['rosbag', fixtures('none.bag', 'lz4.bag', 'types.bag')], ['sqlite', fixtures('sqlite-sqlite.db3')]].map(([name, corpus]) => [name, {
+  ...Object.fromEntries([['mcap', await recordings()], ['rosbag', fixtures('small.bag')], ['sqlite', fixtures('small.db3')]].map(([name, corpus]) => [name, {
     corpus,
     async run(/** @type {Buffer<ArrayBuffer>} */ bytes) {
       const source = new File([bytes], 'run.mcap');

@@ -10,7 +10,7 @@ import gzip
 import math
 import pathlib
 import random
-import shutil
+import sqlite3
 import tempfile
 
 import numpy as np
@@ -186,6 +186,32 @@ def mcap_ros1(path, messages):
         writer.finish()
 
 
+def small_bag(path):
+    """Messages of the reference, without the padding of the header, as mutated inputs are cut at 4096 bytes."""
+    bag(path, [('/odom', *message[1:]) for message in list(ROS1.logs())[1:8:2]])
+    data = bytearray(path.read_bytes())
+    start = 13 + 4 + int.from_bytes(data[13:17], 'little')
+    padding = int.from_bytes(data[start:start + 4], 'little')
+    data[start:start + 4 + padding] = bytes(4)
+    for field in (b'index_pos=', b'chunk_pos='):
+        at = data.index(field) + len(field)
+        data[at:at + 8] = (int.from_bytes(data[at:at + 8], 'little') - padding).to_bytes(8, 'little')
+    path.write_bytes(data)
+
+
+def small_database(path):
+    """Messages of the reference in pages of 512 bytes."""
+    database = sqlite3.connect(path)
+    database.execute('PRAGMA page_size = 512')
+    database.execute('CREATE TABLE topics(id INTEGER PRIMARY KEY, name TEXT, type TEXT, serialization_format TEXT)')
+    database.execute('CREATE TABLE messages(id INTEGER PRIMARY KEY, topic_id INTEGER, timestamp INTEGER, data BLOB)')
+    database.execute("INSERT INTO topics VALUES (1, '/odom', 'geometry_msgs/msg/PoseStamped', 'cdr')")
+    for _, kind, message, time in list(ROS2.logs())[1:12:2]:
+        database.execute('INSERT INTO messages(topic_id, timestamp, data) VALUES (1, ?, ?)', (time, bytes(ROS2.store.serialize_cdr(message, kind))))
+    database.commit()
+    database.close()
+
+
 def table(path, column):
     rows = ['t,x,y,qx,qy,qz,qw']
     for row in DRIVE:
@@ -210,6 +236,8 @@ with tempfile.TemporaryDirectory() as folder:
         bag(WORK / f'{name}.bag', ROS1.logs(), compression)
     bag(WORK / 'types.bag', ROS1.others())
     bag(WORK / 'nodes.bag', ROS1.logs(), None, ('/base', '/simulator'))
+    small_bag(WORK / 'small.bag')
+    small_database(WORK / 'small.db3')
     rosbag2(WORK / 'sqlite', ROS2.logs(), StoragePlugin.SQLITE3)
     rosbag2(WORK / 'sqlite-messages', ROS2.logs(), StoragePlugin.SQLITE3, CompressionMode.MESSAGE)
     rosbag2(WORK / 'sqlite-file', ROS2.logs(), StoragePlugin.SQLITE3, CompressionMode.FILE)

@@ -1,6 +1,6 @@
 /** All types. Those of settings, machines and elements follow from what is declared: scripts/types.mjs writes them. */
 
-import type { BananaMachinePreset, BananaMachineSettings, LoggedCommands, LoggedPoses, MapSqueezeSettings, Start } from '../build/machines.d.ts';
+import type { BananaMachinePreset, BananaMachineSettings, CalibrationOptions, MapSqueezeSettings, Start } from '../build/machines.d.ts';
 import type { BananaMachineElement, BananaMachineState, FigureElement, MapSqueezeState } from '../build/elements.d.ts';
 
 export type * from '../build/machines.d.ts';
@@ -30,11 +30,9 @@ export type MapData =
   | Readonly<{ name?: string; bounds: readonly number[]; walls: readonly (readonly number[])[] }>
   | Readonly<{ name?: string; columns: number; rows: number; resolution: number; origin: readonly number[]; occupied: string; unknown?: string }>;
 
-/** What a robot's wheels said, and where it really was. */
-export interface CalibrationLog {
+/** What a robot's wheels said, and where it really was: of one drive, or of several in arrays. */
+export interface CalibrationLog extends Pick<CalibrationOptions, 'odometry' | 'reference'> {
   name?: string;
-  odometry: LoggedPoses | LoggedCommands;
-  reference: LoggedPoses;
 }
 
 // Shorter names.

@@ -3,10 +3,10 @@
 use super::calibration::{calibration_to_js, columns_to_js};
 use super::face::configured;
 use super::fields::{read_opening, whole, word};
-use super::log::{read_odometry, read_poses};
+use super::log::read_logs;
 use super::pictures::index_of;
 use super::values::{flat, floats, object, plain, settings_to_js};
-use crate::sim::alpha_calibrator::{AlphaCalibrator, LegView, Log, RestoreError};
+use crate::sim::alpha_calibrator::{AlphaCalibrator, LegView, RestoreError};
 use js_sys::TypeError;
 use wasm_bindgen::prelude::*;
 
@@ -96,11 +96,10 @@ impl JsAlphaCalibrator {
     #[wasm_bindgen(js_name = setLog)]
     pub fn set_log(
         &mut self,
-        #[wasm_bindgen(unchecked_param_type = "LoggedPoses | LoggedCommands")] odometry: &JsValue,
-        #[wasm_bindgen(unchecked_param_type = "LoggedPoses")] reference: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "CalibrationOptions['odometry']")] odometry: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "CalibrationOptions['reference']")] reference: &JsValue,
     ) -> Result<(), JsValue> {
-        let odometry = read_odometry("odometry", odometry)?;
-        self.0.set_log(Log { odometry, reference: read_poses("reference", reference)? });
+        self.0.set_log(read_logs(odometry, reference)?);
         Ok(())
     }
 

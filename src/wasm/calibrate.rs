@@ -1,11 +1,11 @@
 //! `motion.calibrate` for JavaScript: logs in, α's out.
 
 use super::calibration::{SYSTEMATIC, calibration_to_js, columns_to_js};
-use super::fields::{Fields, boolean, in_range, item, length, number, type_error, word};
-use super::log::{read_odometry, read_poses};
-use crate::calibrate::{Drive, ERRORS, LegLength, Model, Options, Trajectory, calibrate};
+use super::fields::{Fields, boolean, in_range, number, type_error, word};
+use super::log::read_logs;
+use crate::calibrate::{Drive, ERRORS, LegLength, Model, Options, calibrate};
 use crate::models::OdometryRule;
-use crate::sim::alpha_calibrator::Model as Asked;
+use crate::sim::alpha_calibrator::{Log, Model as Asked};
 use js_sys::RangeError;
 use std::ops::RangeInclusive;
 use wasm_bindgen::prelude::*;
@@ -64,35 +64,11 @@ pub fn calibrated(
         position_std: std("positionStd")?,
         yaw_std: std("yawStd")?,
     };
-    let odometry = drives("odometry", &fields.value("odometry")?, read_odometry)?;
-    let reference = drives("reference", &fields.value("reference")?, read_poses)?;
-    if odometry.len() != reference.len() {
-        let [odometry, reference] = [odometry.len(), reference.len()];
-        let message = format!(
-            "reference has {reference} drives; allowed is one for each of the {odometry} of odometry"
-        );
-        return Err(RangeError::new(&message).into());
-    }
+    let logs = read_logs(&fields.value("odometry")?, &fields.value("reference")?)?;
     let drives: Vec<Drive> =
-        odometry.iter().zip(&reference).map(|(odometry, reference)| Drive { odometry, reference }).collect();
+        logs.iter().map(|Log { odometry, reference }| Drive { odometry, reference }).collect();
     let calibration = calibrate(&drives, &options).map_err(|error| RangeError::new(&error.to_string()))?;
     calibration_to_js(&calibration, Some(columns_to_js(&calibration)))
-}
-
-/// One trajectory, or an array of them.
-fn drives(
-    field: &str,
-    value: &JsValue,
-    read: fn(&str, &JsValue) -> Result<Trajectory, JsValue>,
-) -> Result<Vec<Trajectory>, JsValue> {
-    if !js_sys::Array::is_array(value) {
-        return Ok(vec![read(field, value)?]);
-    }
-    let count = length(field, value, "an array of drives")?;
-    if count == 0 {
-        return Err(RangeError::new(&format!("{field} is empty; allowed is one drive at least")).into());
-    }
-    (0..count).map(|i| read(&format!("{field}[{i}]"), &item(value, i)?)).collect()
 }
 
 fn model(fields: &Fields) -> Result<Model, JsValue> {

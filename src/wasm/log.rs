@@ -3,6 +3,7 @@
 use super::fields::{Fields, item, length, number, printed, type_error, whole};
 use crate::calibrate::{Trajectory, TrajectoryError, TrajectoryFault};
 use crate::geom::se2::SE2;
+use crate::sim::alpha_calibrator::Log;
 use crate::sim::settings::check_real;
 use js_sys::{Float64Array, RangeError};
 use std::ops::RangeInclusive;
@@ -39,8 +40,38 @@ const TIME: RangeInclusive<f64> = -1e12..=1e12;
 /// Coordinates, m, and what else a log has: those of any map of a country.
 const COORDINATE: RangeInclusive<f64> = -1e9..=1e9;
 
+/// Reads one drive, or arrays of both logs of several drives.
+pub fn read_logs(odometry: &JsValue, reference: &JsValue) -> Result<Vec<Log>, JsValue> {
+    let odometry = drives("odometry", odometry, read_odometry)?;
+    let reference = drives("reference", reference, read_poses)?;
+    if odometry.len() != reference.len() {
+        let [odometry, reference] = [odometry.len(), reference.len()];
+        let message = format!(
+            "reference has {reference} drives; allowed is one for each of the {odometry} of odometry"
+        );
+        return Err(RangeError::new(&message).into());
+    }
+    Ok(odometry.into_iter().zip(reference).map(|(odometry, reference)| Log { odometry, reference }).collect())
+}
+
+/// One trajectory, or an array of them.
+fn drives(
+    field: &str,
+    value: &JsValue,
+    read: fn(&str, &JsValue) -> Result<Trajectory, JsValue>,
+) -> Result<Vec<Trajectory>, JsValue> {
+    if !js_sys::Array::is_array(value) {
+        return Ok(vec![read(field, value)?]);
+    }
+    let count = length(field, value, "an array of drives")?;
+    if count == 0 {
+        return Err(RangeError::new(&format!("{field} is empty; allowed is one drive at least")).into());
+    }
+    (0..count).map(|i| read(&format!("{field}[{i}]"), &item(value, i)?)).collect()
+}
+
 /// Poses or commands.
-pub fn read_odometry(field: &str, value: &JsValue) -> Result<Trajectory, JsValue> {
+fn read_odometry(field: &str, value: &JsValue) -> Result<Trajectory, JsValue> {
     let prefix = format!("{field}.");
     if !value.is_object() {
         let allowed = "an object with keys from t, x, y, theta, breaks or from t, v, omega, breaks";
@@ -58,7 +89,7 @@ pub fn read_odometry(field: &str, value: &JsValue) -> Result<Trajectory, JsValue
 }
 
 /// Poses.
-pub fn read_poses(field: &str, value: &JsValue) -> Result<Trajectory, JsValue> {
+fn read_poses(field: &str, value: &JsValue) -> Result<Trajectory, JsValue> {
     let prefix = format!("{field}.");
     poses(&Fields::new(field, &prefix, value, &["t", "x", "y", "theta", "breaks"])?)
 }

@@ -20,11 +20,13 @@ test('two tables of the reader’s own take the place of the simulated log, and 
   await settled(widget);
   expect(await widget.evaluate((element) => /** @type {AlphaCalibratorElement} */ (element).machine.truth)).toBeNull();
   await expect(widget.locator('.drop-zone .present')).toHaveText('Log: odom.csv, truth.csv.');
-  await unfold(widget);
+  // What was read stays beside the result.
+  await expect(widget.getByRole('row', { name: /^rows used \d+ of/ })).toBeVisible();
+  await expect(widget.getByRole('img', { name: /^Paths from above: .* m by .* m\.$/ })).toBeVisible();
   // Their names say which is which, whatever the reader does.
   const hint = widget.getByText('its name is that of odometry, and truth.csv is not: are the two swapped?');
   await expect(hint).toHaveCount(0);
-  await widget.getByRole('button', { name: 'Swap odometry and reference' }).click();
+  await widget.getByLabel('odom.csv').selectOption('Reference');
   await expect(caption(widget)).toHaveText(/of truth\.csv, odom\.csv[.,]/);
   await expect(hint).toBeVisible();
   await widget.getByRole('button', { name: 'Back to the simulated log' }).click();
@@ -104,7 +106,7 @@ test('of files with poses and commands the velocity model takes the commands, an
   await model('velocity', 'omega');
 });
 
-test('of transforms the reader says which frames are meant', async ({ page }) => {
+test('of transforms the reader chooses among the chains that the recording has', async ({ page }) => {
   const widget = await openCalibrator(page);
   const rows = (/** @type {'odometry' | 'reference'} */ name) => example(name).trim().split('\n').slice(1).map((line) => line.split(',').map(Number));
   const messages = (/** @type {'odometry' | 'reference'} */ name, /** @type {string} */ parent, /** @type {string} */ child) =>
@@ -112,13 +114,55 @@ test('of transforms the reader says which frames are meant', async ({ page }) =>
   const all = [...messages('odometry', 'odom', 'base_footprint'), ...messages('reference', 'map', 'base_link')];
   const buffer = await recordingOf(all.sort((one, other) => one.t - other.t), { compression: 'zstd', chunkSize: 100_000 });
   await widget.locator('#log-files').setInputFiles({ name: 'tf.mcap', mimeType: 'application/octet-stream', buffer });
-  await widget.getByLabel('Odometry', { exact: true }).selectOption('/tf');
-  await widget.getByLabel('Reference', { exact: true }).selectOption('/tf');
-  await expect(widget.getByRole('alert')).toHaveText(/no transforms lead along odom → base_link; expected are frames that are connected, of .*base_footprint/);
-  const frames = widget.getByLabel('Odometry: Frames');
-  await frames.fill('odom, base_footprint');
-  await frames.press('Enter');
-  await expect(caption(widget)).toHaveText(/of tf\.mcap, \/tf[.,]/);
+  await expect(caption(widget)).toHaveText(/of tf\.mcap, \/tf: map → base_link[.,]/);
+  await expect(widget.getByLabel('Odometry', { exact: true }).locator(':checked')).toHaveText('/tf: odom → base_footprint');
+  await widget.getByLabel('Reference', { exact: true }).selectOption('/tf: odom → base_footprint');
+  await expect(widget.getByRole('alert')).toHaveText(/^tf\.mcap/);
+});
+
+test('of several drives all files are read at once, and those without a telling name are given a role', async ({ page }) => {
+  const widget = await openCalibrator(page);
+  const halves = (/** @type {'odometry' | 'reference'} */ name) => {
+    const [header, ...all] = example(name).trim().split('\n');
+    const middle = Number(all.at(-1)?.split(',')[0]) / 2;
+    return [false, true].map((isLate) => [header, ...all.filter((line) => Number(line.split(',')[0]) > middle === isLate)].join('\n'));
+  };
+  const [[a, c], [b, d]] = [halves('odometry'), halves('reference')];
+  await choose(widget, { 'a.csv': a, 'b.csv': b, 'c.csv': c, 'd.csv': d });
+  await expect(widget.getByRole('alert')).toHaveText(/^a\.csv: its name does not say whether it is odometry or reference;/);
+  await expect(widget.getByLabel('a.csv')).toBeFocused();
+  for (const [name, role] of [['a', 'Odometry'], ['b', 'Reference'], ['c', 'Odometry'], ['d', 'Reference']]) await widget.getByLabel(`${name}.csv`).selectOption(role);
+  await expect(caption(widget)).toHaveText(/of a\.csv, c\.csv, b\.csv, d\.csv[.,]/);
+  await expect(widget.locator('.found caption')).toHaveText(['Drive 1', 'Drive 2']);
+});
+
+test('what a table leaves open is asked, and the answer holds for that file', async ({ page }) => {
+  const widget = await openCalibrator(page);
+  const [, ...all] = example('odometry').trim().split('\n');
+  const inMillimetres = all.map((line) => line.split(',').map(Number)).map(([t, x, y, yaw]) => [t, 1000 * x, 1000 * y, yaw].join(','));
+  await choose(widget, { 'odom.csv': inMillimetres.join('\n'), 'truth.csv': example('reference') });
+  const alert = widget.getByRole('alert');
+  await expect(alert).toHaveText(/^odom\.csv, line 1: the table has no header, .* name its 4 columns\.$/);
+  await expect(widget.getByRole('group', { name: 'Columns of odom.csv' }).getByLabel('time', { exact: true })).toBeFocused();
+  await widget.getByRole('button', { name: 'Read', exact: true }).press('Enter');
+  await expect(alert).toHaveText(/in m, the robot would drive at .* state the unit of lengths: cm or mm or m\.$/);
+  await widget.getByRole('radiogroup', { name: 'Unit of lengths in odom.csv' }).getByRole('radio', { name: 'millimetres (mm)' }).check();
+  await expect(caption(widget)).toHaveText(/of odom\.csv, truth\.csv[.,]/);
+});
+
+test('the files of a dropped folder are one recording', async ({ page }) => {
+  const widget = await openCalibrator(page);
+  const bytes = [...(await recordingWith(['/mocap/pose']))];
+  await widget.locator('section.machine').evaluate((section, content) => {
+    const text = 'rosbag2_bagfile_information:\n  relative_file_paths: [run_0.mcap]\n';
+    const entries = [new File([new Uint8Array(content)], 'run_0.mcap'), new File([text], 'metadata.yaml')].map((file) =>
+      ({ name: file.name, isDirectory: false, fullPath: `/run/${file.name}`, file: (/** @type {(file: File) => void} */ take) => take(file) }));
+    const rest = [entries, []];
+    const entry = { isDirectory: true, createReader: () => ({ readEntries: (/** @type {(some: unknown) => void} */ take) => take(rest.shift()) }) };
+    const dataTransfer = { types: ['Files'], items: [{ kind: 'file', webkitGetAsEntry: () => entry, getAsFile: () => null }] };
+    section.dispatchEvent(Object.defineProperty(new Event('drop'), 'dataTransfer', { value: dataTransfer }));
+  }, bytes);
+  await expect(caption(widget)).toHaveText(/of run, \/mocap\/pose[.,]/);
 });
 
 test('files that are no log are refused in a sentence, and all stays as it was', async ({ page }) => {

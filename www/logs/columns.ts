@@ -1,7 +1,7 @@
 /** Columns of a table: groups with a common prefix, from the names that people and recorders give them. */
 
 import { LogError, cut, listed, type Place } from './log-error.ts';
-import type { AngleUnit, LengthUnit, LogKind, Series, TimeUnit } from './log.ts';
+import type { AngleUnit, LengthUnit, LogKind, Series, TimeUnit, Question } from './log.ts';
 
 export type Field = 't' | 'seconds' | 'nanoseconds' | 'x' | 'y' | 'z' | 'yaw' | 'qx' | 'qy' | 'qz' | 'qw' | 'v' | 'omega' | 'frame' | 'child';
 
@@ -242,12 +242,13 @@ export interface Layout {
  */
 export function layoutOf(group: Group | undefined, names: string[], place: Place, wanted: LogKind | undefined): Layout {
   const all = listed(names.map((name) => name.trim()));
-  if (!group) throw new LogError(place, (say) => say.noColumns(wanted === 'poses' ? wanted : 'either', all), { what: 'columns', choices: [] });
+  const ask: Question = { what: 'columns', choices: [], columns: names };
+  if (!group) throw new LogError(place, (say) => say.noColumns(wanted === 'poses' ? wanted : 'either', all), ask);
   const { columns, twice, clocks } = group;
   const has = (...fields: Field[]) => fields.every((field) => columns[field]);
-  if (clocks.length === 0) throw new LogError(place, (say) => say.noTime(all), { what: 'columns', choices: [] });
+  if (clocks.length === 0) throw new LogError(place, (say) => say.noTime(all), ask);
   const takesCommands = group.hasCommands && wanted !== 'poses' && (wanted === 'commands' || group.kind === 'commands');
-  if (!takesCommands && !has('x', 'y')) throw new LogError(place, (say) => say.noColumns(wanted === 'poses' ? wanted : 'either', all), { what: 'columns', choices: [] });
+  if (!takesCommands && !has('x', 'y')) throw new LogError(place, (say) => say.noColumns(wanted === 'poses' ? wanted : 'either', all), ask);
   const heading: Field[] = has('qx', 'qy', 'qz', 'qw') ? ['qx', 'qy', 'qz', 'qw'] : has('yaw') ? ['yaw'] : has('qz', 'qw') ? ['qz', 'qw'] : [];
   const fields: Field[] = takesCommands ? ['v', 'omega'] : ['x', 'y', ...heading];
   for (const field of [...(clocks[0].columns[0] === columns.t ? ['t' as const] : []), ...fields]) {

@@ -47,7 +47,7 @@ export function planDrives(recordings: Recording[], wishes: Wishes = {}): Plan {
     const role = odometry.length + reference.length + unnamed.length === 2 && unnamed.length === 2 ? (['odometry', 'reference'] as const)[i]
       : 2 * odometry.length >= recordings.length ? 'reference'
         : 2 * reference.length >= recordings.length ? 'odometry' : undefined;
-    if (!role) throw new LogError({ file: recording.name }, (say) => say.noRole);
+    if (!role) throw new LogError({ file: recording.name }, (say) => say.noRole, { what: 'roles', choices: [] });
     plan.loose[role].push({ recording, choice: choose(recording, role, wishes) });
   }
   if (odometry.length !== reference.length) {

@@ -64,24 +64,24 @@ export const log = {
     longLine: (most: number) => `the line has more than ${most} bytes; expected is one row a line.`,
     header: (value: string) => `the first row is “${value}”; expected is a header with names such as t, x, y and yaw.`,
     noTime: (columns: string) =>
-      `none of the columns ${columns} is the time; expected is one named t, time, timestamp or stamp, or two named sec and nanosec, or names by --columns.`,
+      `none of the columns ${columns} is the time; expected is one named t, time, timestamp or stamp, or two named sec and nanosec, or a choice of columns.`,
     noColumns: (wanted: keyof typeof NEEDED, columns: string) =>
-      `the columns are ${columns}; expected are ${NEEDED[wanted]} among them, or names by --columns.`,
+      `the columns are ${columns}; expected are ${NEEDED[wanted]} among them, or a choice of columns.`,
     twice: (field: string, one: string, other: string) =>
       `both “${one}” and “${other}” may be ${FIELDS[field]}; expected is one of them.`,
     cells: (count: number, needed: number) => `the row has ${count} cells; expected are at least ${needed}.`,
     wide: (count: number, needed: number, header: number) =>
       `the row has ${count} cells, and the header in line ${header} ${needed}; expected are as many, with decimal points in numbers, or semicolons between cells.`,
     given: (count: number, given: number) => `the row has ${count} cells, and --columns names ${given}; name each column in order, with - for those to skip.`,
-    noHeader: (count: number, row: string, usual: string) =>
-      `the table has no header, and its first row is “${row}”; name its ${count} columns in order, with - for those to skip, as in --columns ${usual}.`,
+    noHeader: (count: number, row: string) =>
+      `the table has no header, and its first row is “${row}”; name its ${count} columns.`,
     noTable: (notation: string) => `it is ${notation} and no table; write one row a time, as by ros2 topic echo --csv, rostopic echo -p or pandas, or give the recording itself.`,
     twists: 'rows of 6 numbers are commands of geometry_msgs/Twist, which have no times; give the recording itself, or add a column of times.',
     positions: (columns: string) =>
       `the columns ${columns} are positions without a heading; give a reference that measures the heading, as by two prisms, markers or scan matching: the direction of travel hides turning errors, and would halve alpha1 and alpha2.`,
     kitti: 'rows of 12 numbers are poses of KITTI, which have no times; add them from its times.txt with kitti_poses_and_timestamps_to_trajectory.py of evo, and give the TUM file that it writes.',
     euler: (rotation: string) => `the rotations are Euler angles (${rotation}); export the take from Motive again with the rotation type Quaternion.`,
-    tilted: 'the poses do not turn about a vertical Z axis; expected are quaternions in the order of the header on a plane with Z up. Export with Z up, or name the columns in their order by --columns.',
+    tilted: 'the poses do not turn about a vertical Z axis; expected are quaternions in the order of the header on a plane with Z up. Export with Z up, or choose the columns.',
     mixed: (frames: string) => `the rows are of several frames (${frames}); keep those of one.`,
     several: (names: string) => `the table has several logs; choose one of ${names}.`,
     unknownUnit: (unit: string) => `the unit ${unit} of a column is not known, or differs from that of another; expected is m, cm or mm, and rad or deg.`,
@@ -96,11 +96,11 @@ export const log = {
     few: (kept: number, rows: number, reason: Cause | undefined) =>
       `${kept} of ${rows} rows can be used${reason ? ` (${REASONS[reason]})` : ''}; expected are at least 2.`,
     timeUnit: (rate: number, unit: string, choices: string[]) =>
-      `in ${unit}, the times would mean ${rate.toPrecision(3)} rows a second; state their unit by --time-unit ${choices.join(' or ') || 's, ms, us or ns'}.`,
+      `in ${unit}, the times would mean ${rate.toPrecision(3)} rows a second; state their unit${choices.length ? `: ${choices.join(' or ')}` : ''}.`,
     lengthUnit: (speed: number, unit: string, choices: string[]) =>
-      `in ${unit}, the robot would drive at ${speed.toPrecision(3)} m/s; state the unit of lengths by --length-unit ${choices.join(' or ')}.`,
+      `in ${unit}, the robot would drive at ${speed.toPrecision(3)} m/s; state the unit of lengths: ${choices.join(' or ')}.`,
     angleUnit: (turn: number, unit: string, choices: string[]) =>
-      `headings in ${unit} would turn at ${turn.toPrecision(3)} rad/s, and do not agree with the path or with their range; state their unit by --angle-unit ${choices.join(' or ')}.`,
+      `headings in ${unit} would turn at ${turn.toPrecision(3)} rad/s, and do not agree with the path or with their range; state their unit: ${choices.join(' or ')}.`,
     /** Errors of recordings. */
     damaged: (reason: string) => `none of its messages can be read (${reason}); expected is an undamaged recording.`,
     largeFile: (command: string, most: number) => `it has more than ${most} bytes when it is decompressed; decompress it with “${command}”, and give the result.`,
@@ -128,15 +128,51 @@ export const log = {
     same: (other: string) => `it has the same motion as ${other}; give two independent measurements of one drive.`,
     held: 'its pose stands while the odometry moves on: it has lost the robot; give one that follows the robot.',
     /** Errors of several recordings. */
-    noRole: 'its name does not say whether it is odometry or reference; call the files odom1.csv, truth1.csv, odom2.csv, … or give --odometry and --reference.',
+    noRole: 'its name does not say whether it is odometry or reference; call the files odom1.csv, truth1.csv, odom2.csv, … or state which is which.',
     unpaired: (odometry: number, reference: number) => `there are ${odometry} logs of odometry and ${reference} of the reference; give one of each for a drive.`,
     noGroup: (groups: string) => `it is a table, and no group of its columns has this name; it has ${groups}.`,
     noPoses: (series: string) => `it has commands only, ${series}; a reference needs poses.`,
     sameDrive: (other: string) => `it is the drive of ${other}; give each drive once.`,
     noTransforms: (series: string) => `it has no transforms between frames; it has ${series}.`,
   },
+  /** Choosers of what is read. */
+  choose: {
+    roles: { odometry: 'Odometry', reference: 'Reference' },
+    open: 'choose',
+    timeUnit: (file: string) => `Unit of times in ${file}`,
+    lengthUnit: (file: string) => `Unit of lengths in ${file}`,
+    angleUnit: (file: string) => `Unit of headings in ${file}`,
+    units: { s: 'seconds (s)', ms: 'milliseconds (ms)', us: 'microseconds (µs)', ns: 'nanoseconds (ns)', m: 'metres (m)', cm: 'centimetres (cm)', mm: 'millimetres (mm)', rad: 'radians (rad)', deg: 'degrees (°)' },
+    columns: (file: string) => `Columns of ${file}`,
+    column: (number: number, cell: string) => `column ${number}: ${cell}`,
+    fields: { t: 'time', x: 'x', y: 'y', yaw: 'yaw', qx: 'qx', qy: 'qy', qz: 'qz', qw: 'qw', v: 'speed v', omega: 'turn rate ω' },
+    none: 'none',
+    read: 'Read',
+  },
   /** Summary of a log. */
   found: {
+    labels: {
+      title: 'What was read',
+      drive: (number: number) => `Drive ${number}`,
+      rows: 'rows used',
+      ofRows: (used: string, rows: string) => `${used} of ${rows}`,
+      leftOut: 'rows left out',
+      dropped: (reason: import('./log.ts').Cause, count: string, line: number) => `${count}: ${REASONS[reason]}${line ? ` (first in line ${line})` : ''}`,
+      duration: 'duration',
+      at: (seconds: string, rate: string) => `${seconds} s at ${rate} Hz`,
+      distance: 'distance driven',
+      gaps: 'largest gap',
+      longest: (seconds: string, count: string) => `${seconds} s (of ${count})`,
+      none: 'none',
+      jumps: 'jumps',
+      units: 'units',
+      frames: 'frames',
+      columns: 'columns',
+      clock: 'times',
+      recorded: 'when messages were recorded, as their headers have none',
+      notes: 'notes',
+      paths: (width: string, height: string) => `Paths from above: reference (solid) and odometry (dashed), from the same first pose; ${width} m by ${height} m.`,
+    },
     rows: (used: number, rows: number, seconds: number, rate: number, distance: number) =>
       `${used} of ${rows} rows, ${seconds.toFixed(1)} s at ${rate.toPrecision(3)} Hz, ${distance.toFixed(1)} m driven`,
     columns: (columns: string) => `columns ${columns}`,

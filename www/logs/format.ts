@@ -144,7 +144,7 @@ export function formatOf(lines: string[], file: string, columns: string[] | unde
   if (width === KITTI) throw new LogError(place, (say) => say.kitti);
   if (width === TWISTS && rows.every((row) => row.slice(1, 5).every((cell) => Number(cell) === 0))) throw new LogError(place, (say) => say.twists);
   const usual = ({ 3: 't,v,omega', 4: 't,x,y,yaw' } as Record<number, string>)[width] ?? `t,x,y,yaw${',-'.repeat(Math.max(0, width - 4))}`;
-  throw new LogError(place, (say) => say.noHeader(width, cut(first.line.trim().replaceAll('\t', ' ')), usual), { what: 'columns', choices: [] });
+  throw new LogError(place, (say) => say.noHeader(width, cut(first.line.trim().replaceAll('\t', ' '))), { what: 'columns', choices: [usual], columns: rows[0].slice(0, width) });
 }
 
 /** Groups columns. One without a name holds times if the first row has a date or a fraction there, and not a count of rows. */

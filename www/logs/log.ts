@@ -61,10 +61,12 @@ export interface OpenOptions {
 
 /** Question of an error: the option that answers it, and the answers. */
 export interface Question {
-  what: 'timeUnit' | 'lengthUnit' | 'angleUnit' | 'series' | 'columns' | 'frames';
+  what: 'timeUnit' | 'lengthUnit' | 'angleUnit' | 'series' | 'columns' | 'frames' | 'roles';
   /** Log that a choice of series or frames is for. */
   role?: 'odometry' | 'reference';
   choices: string[];
+  /** Columns of the table: their names, or the cells of its first row. */
+  columns?: string[];
 }
 
 interface Breaks {

@@ -31,8 +31,11 @@ const START = 32;
 /**
  * Opens files; rejects with a LogError that names the file, the line or topic, and what to do. Files that a metadata.yaml of rosbag2
  * lists become one recording.
+ *
+ * @param options of all files, or of each by its name
  */
-export async function openRecordings(files: Source[], options: OpenOptions = {}): Promise<Recording[]> {
+export async function openRecordings(files: Source[], options: OpenOptions | ((file: string) => OpenOptions | undefined) = {}): Promise<Recording[]> {
+  const optionsOf = (file: string) => (typeof options === 'function' ? options(file) : options) ?? {};
   const formats = new Map<Source, Format | undefined>();
   for (const file of files) {
     const format = await formatOf(file);
@@ -46,12 +49,12 @@ export async function openRecordings(files: Source[], options: OpenOptions = {})
     const { name, found, missing } = await filesOf(metadata, sources);
     const parts: Container[] = [];
     for (const source of found) parts.push(await containerOf(source, formats.get(source)));
-    recordings.push(await (await import('./topics.ts')).recordingOf(name, joined(parts, missing), options));
+    recordings.push(await (await import('./topics.ts')).recordingOf(name, joined(parts, missing), optionsOf(name)));
     for (const source of [metadata, ...found]) formats.delete(source);
   }
   for (const [source, format] of formats) {
-    if (!format) recordings.push(await openTable(source, options));
-    else recordings.push(await (await import('./topics.ts')).recordingOf(source.name, await containerOf(source, format), options));
+    if (!format) recordings.push(await openTable(source, optionsOf(source.name)));
+    else recordings.push(await (await import('./topics.ts')).recordingOf(source.name, await containerOf(source, format), optionsOf(source.name)));
   }
   return recordings;
 }

@@ -1,7 +1,8 @@
 /** Pairs of logs of one drive, and checks between the two. */
 
 import { bisectLeft } from 'd3-array';
-import { isLocalizer, roleByName } from './candidates.ts';
+import type { CalibrationLog } from '../types.d.ts';
+import { isLocalizer, roleByName, type Role } from './candidates.ts';
 import { withoutFrozenPoses } from './frozen-pose.ts';
 import { LogError } from './log-error.ts';
 import type { Log, Note, Poses } from './log.ts';
@@ -72,6 +73,13 @@ export function pairLogs(odometry: Log, reference: Log): Drive {
 export function after(start: number, log: Log): Log {
   const later = log.start - start;
   return later === 0 ? log : { ...log, start, data: { ...log.data, t: log.data.t.map((each) => each + later) } };
+}
+
+/** Returns the logs of drives as the core takes them: arrays where there are several. */
+export function logOf(drives: Drive[]): Pick<CalibrationLog, Role> {
+  const odometry = drives.map((drive) => drive.odometry.data);
+  const reference = drives.map((drive) => drive.reference.data as Poses);
+  return drives.length === 1 ? { odometry: odometry[0], reference: reference[0] } : { odometry, reference };
 }
 
 /** Checks whether two logs are one: rows of one time have the same motion since the first of them, whatever frame the poses are in. */

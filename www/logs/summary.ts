@@ -25,8 +25,8 @@ export function distanceOf(data: Poses | Commands): number {
 }
 
 /** Returns a sentence for each decision, each cause for dropping rows, gaps and jumps. */
-export function summarize({ summary }: Log, say: Words['found']): string[] {
-  const { rows, used, dropped, seconds, rate, distance, units, clock, columns, gaps, jumps, notes } = summary;
+export function summarize(log: Log, say: Words['found']): string[] {
+  const { rows, used, dropped, seconds, rate, distance, units, clock, columns, gaps, jumps } = log.summary;
   return [
     say.rows(used, rows, seconds, rate, distance),
     ...(columns ? [`${say.columns(Object.values(columns).join(', '))}; ${say.units(units)}`] : []),
@@ -34,9 +34,12 @@ export function summarize({ summary }: Log, say: Words['found']): string[] {
     ...(Object.entries(dropped) as [Cause, { count: number; first: number }][]).map(([cause, { count, first }]) => say.leftOut(cause, count, columns ? first : 0)),
     ...(gaps.count ? [say.gaps(gaps.count, gaps.first, gaps.longest)] : []),
     ...(jumps.count ? [say.jumps(jumps.count, jumps.first)] : []),
-    ...notes.map(({ name, values }) => {
-      const note: string | ((...values: any[]) => string) = say.notes[name];
-      return typeof note === 'string' ? note : note(...values);
-    }),
+    ...notesOf(log, say),
   ];
 }
+
+/** Returns a sentence for each note. */
+export const notesOf = ({ summary: { notes } }: Log, say: Words['found']): string[] => notes.map(({ name, values }) => {
+  const note: string | ((...values: any[]) => string) = say.notes[name];
+  return typeof note === 'string' ? note : note(...values);
+});

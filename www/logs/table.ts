@@ -283,7 +283,7 @@ class LogReader {
     if (this.#frames.size > 1) throw new LogError(this.#place, (say) => say.mixed(listed([...this.#frames])));
     const upright = this.#upright && this.#hasYUp() ? this.#upright : undefined;
     if (this.#upright) this.#notes.push({ name: 'upAxis', values: [upright ? 'Y' : 'Z'] });
-    else if (isTilted(this.#tilts[0])) throw new LogError(this.#place, (say) => say.tilted);
+    else if (isTilted(this.#tilts[0])) throw new LogError(this.#place, (say) => say.tilted, { what: 'columns', choices: [], columns: this.#format.names });
     const isQuaternion = fields.at(-1) === 'qw';
     const { timeUnit } = this.#options;
     return (upright ?? this.#rows).end(this.#name, kind, {
@@ -302,7 +302,7 @@ class LogReader {
   #hasYUp(): boolean {
     const [z, y] = this.#heights.map(spread);
     const isTurning = this.#tilts.map(isTilted);
-    if (isTurning[0] && isTurning[1]) throw new LogError(this.#place, (say) => say.tilted);
+    if (isTurning[0] && isTurning[1]) throw new LogError(this.#place, (say) => say.tilted, { what: 'columns', choices: [], columns: this.#format.names });
     return isTurning[0] || (!isTurning[1] && y <= z);
   }
 

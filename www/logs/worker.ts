@@ -9,8 +9,9 @@ import { log as german } from './de.ts';
 import { readDrives, type Drive, type Part, type Plan } from './drives.ts';
 import { log as english } from './en.ts';
 import { LogError } from './log-error.ts';
-import type { OpenOptions, Poses, Question, Recording, Source } from './log.ts';
+import type { OpenOptions, Question, Recording, Source } from './log.ts';
 import { openRecordings } from './open.ts';
+import { after, logOf } from './pairs.ts';
 
 /** Recording as the page has it: with its place among the opened ones, but `read` stays here. */
 export type Opened = Recording & { place: number };
@@ -20,6 +21,7 @@ export interface Failure {
   name: string;
   message: string;
   sentences?: Record<'en' | 'de', string>;
+  file?: string;
   ask?: Question;
 }
 
@@ -46,12 +48,12 @@ export class LogKeeper {
     this.#machine = new this.#motion.AlphaCalibrator();
   }
 
-  async open(_: OnProgress, sources: { file: Source; path: string }[], options?: OpenOptions): Promise<Opened[]> {
-    this.#recordings = await openRecordings(sources.map(({ file, path }) => Object.assign(file, { path })), options);
+  async open(_: OnProgress, sources: { file: Source; path: string }[], answers: Record<string, OpenOptions>): Promise<Opened[]> {
+    this.#recordings = await openRecordings(sources.map(({ file, path }) => Object.assign(file, { path })), (name) => answers[name]);
     return this.#recordings.map(({ name, format, series }, place) => ({ name, format, series, place }) as Opened);
   }
 
-  /** Reads the logs of a plan that the page has made. The first drive is then the one to calibrate. */
+  /** Reads the logs of a plan that the page has made, with times after one start. These drives are then those to calibrate. */
   async read(onProgress: OnProgress, { drives, loose }: Plan): Promise<Drive[]> {
     const held = ({ recording, choice }: Part) => ({ recording: this.#recordings[(recording as Opened).place], choice });
     const plan = {
@@ -59,9 +61,10 @@ export class LogKeeper {
       loose: { odometry: loose.odometry.map(held), reference: loose.reference.map(held) },
     };
     const read = await readDrives(plan, onProgress);
-    const [{ odometry, reference }] = read;
-    this.#take({ odometry: odometry.data, reference: reference.data as Poses });
-    return read;
+    const [{ start }] = read;
+    const aligned = read.map(({ odometry, reference }) => ({ odometry: after(start, odometry), reference: after(start, reference), start }));
+    this.#take(logOf(aligned));
+    return aligned;
   }
 
   /** Returns the fit to the log, or to another that it takes, for `AlphaCalibrator.restored`. */
@@ -79,7 +82,7 @@ export class LogKeeper {
 function failureOf(error: unknown): Failure {
   const { name, message } = error instanceof Error ? error : new Error(String(error));
   if (!(error instanceof LogError)) return { name, message };
-  return { name, message, ask: error.ask, sentences: { en: error.sentence(english), de: error.sentence(german) } };
+  return { name, message, file: error.place.file, ask: error.ask, sentences: { en: error.sentence(english), de: error.sentence(german) } };
 }
 
 /** Returns the buffers of an answer, which are moved and not copied. */

@@ -76,7 +76,7 @@ pub struct AlphaCalibrator {
 enum Source {
     /// Simulated with the seed of the settings.
     Simulated,
-    Own(Log),
+    Own(Vec<Log>),
     /// Log of another machine, from which the fit is restored.
     Elsewhere,
 }
@@ -150,9 +150,9 @@ impl AlphaCalibrator {
         Ok(())
     }
 
-    /// Puts another log in the place of the present one.
-    pub fn set_log(&mut self, log: Log) {
-        self.source = Source::Own(log);
+    /// Puts another log in the place of the present one: one of each drive.
+    pub fn set_log(&mut self, logs: Vec<Log>) {
+        self.source = Source::Own(logs);
         self.invalidate();
     }
 
@@ -173,11 +173,14 @@ impl AlphaCalibrator {
         self.fit.calibration.get_or_init(|| {
             let Settings { seed, .. } = self.fit.settings;
             let options = self.fit.settings.options();
-            let fitted =
-                |Log { odometry, reference }: &Log| calibrate(&[Drive { odometry, reference }], &options);
+            let fitted = |logs: &[Log]| {
+                let drives: Vec<Drive> =
+                    logs.iter().map(|Log { odometry, reference }| Drive { odometry, reference }).collect();
+                calibrate(&drives, &options)
+            };
             match &self.source {
-                Source::Simulated => fitted(&example::example(seed)).ok(),
-                Source::Own(log) => fitted(log).ok(),
+                Source::Simulated => fitted(&[example::example(seed)]).ok(),
+                Source::Own(logs) => fitted(logs).ok(),
                 Source::Elsewhere => None,
             }
             .unwrap_or_else(|| Calibration::empty(options.model))

@@ -39,7 +39,7 @@ pub fn parts(configuration: &Configuration) -> Vec<Part> {
     ];
     // Where legs begin is a log too.
     let log = (calibration.legs.len() > 1).then(|| begins(calibration));
-    log.into_iter().for_each(|log| machine.set_log(log));
+    log.into_iter().for_each(|log| machine.set_log(vec![log]));
     let Calibration { alphas, intervals, .. } = machine.calibration();
     parts.push(Part::new("log", &[&Values::of(&[&3usize, &machine.fits(), alphas, intervals])]));
     parts

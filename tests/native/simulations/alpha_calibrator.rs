@@ -221,7 +221,7 @@ fn a_log_without_legs_gives_an_empty_calibration() {
     let mut machine = machine(Settings::default());
     let poses =
         |count: usize| Trajectory::new((0..count).map(|i| (i as f64, SE2::identity()))).expect("times rise");
-    machine.set_log(Log { odometry: poses(10), reference: poses(10) });
+    machine.set_log(vec![Log { odometry: poses(10), reference: poses(10) }]);
     assert!(machine.truth().is_none());
     let Calibration { alphas, legs, diagnostics, recommended, .. } = machine.calibration();
     assert!(legs.is_empty() && alphas.iter().all(Option::is_none) && recommended.is_none());

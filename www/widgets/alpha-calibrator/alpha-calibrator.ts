@@ -267,7 +267,7 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
         ${disclosures(this, {
           controls: () => html`${modelControls(this)}
             ${group(say.systematic.title, systematicTable(this))}
-            ${group(say.own.title, logSection(this, this.#opener))}
+            ${group(say.own.title, logSection(this))}
             ${predictionControls(this)}`,
           numbers: () => html`${group(say.oneLeg(counted(chosen + 1)), legReadouts(this))}
             ${diagnostics(this)}

@@ -6,6 +6,8 @@ import type { OpenOptions, Source } from '../../logs/log.ts';
 import type { Answer, Failure, OnProgress, Opened, Request } from '../../logs/worker.ts';
 import type { AlphaCalibratorSettings, CalibrationLog } from '../../types.d.ts';
 
+type Trajectory = Exclude<CalibrationLog['odometry'], unknown[]>;
+
 /** Way to the worker, or to the same module in the page's thread. */
 interface Link {
   port: Worker | MessagePort;
@@ -15,11 +17,12 @@ interface Link {
 /** Error of a log, in the languages of the page. */
 export class LogFailure extends Error {
   sentences: Failure['sentences'];
+  file: Failure['file'];
   ask: Failure['ask'];
 
-  constructor({ name, message, sentences, ask }: Failure) {
+  constructor({ message, ...failure }: Failure) {
     super(message);
-    Object.assign(this, { name, sentences, ask });
+    Object.assign(this, failure);
   }
 }
 
@@ -34,11 +37,11 @@ export class LogService {
   #number = 0;
   #fail: ((error: unknown) => void) | undefined;
   #sources: { file: Source; path: string }[] = [];
-  #options: OpenOptions | undefined;
+  #answers: Record<string, OpenOptions> = {};
   /** True where the worker has the recordings. */
   #isOpen = false;
-  /** Odometry of the log that the worker has. */
-  #held: CalibrationLog['odometry'] | undefined;
+  /** Odometry of the drives that the worker has. */
+  #held: Trajectory[] | undefined;
 
   /** Takes the tag whose module the worker shares. */
   constructor(tag: string) {
@@ -49,39 +52,44 @@ export class LogService {
     return this.#fail !== undefined;
   }
 
-  /** Opens files, and gives up what is being done. */
-  async open(files: Source[], options?: OpenOptions): Promise<Opened[]> {
+  /**
+   * Opens files, and gives up what is being done.
+   *
+   * @param answers options by the names of files
+   */
+  async open(files: Source[], answers: Record<string, OpenOptions>): Promise<Opened[]> {
     this.stop();
     // A copy of a file has no path.
     this.#sources = files.map((file) => ({ file, path: file.path ?? '' }));
-    this.#options = options;
+    this.#answers = answers;
     return this.#openAgain();
   }
 
   async #openAgain() {
     this.#isOpen = false;
-    const opened = await this.#ask<Opened[]>('open', [this.#sources, this.#options]);
+    const opened = await this.#ask<Opened[]>('open', [this.#sources, this.#answers]);
     this.#isOpen = true;
     return opened;
   }
 
-  /** Reads the drives of a plan for the opened recordings. The worker then has the log of the first. */
+  /** Reads the drives of a plan for the opened recordings. The worker then has their logs. */
   async read(plan: Plan, onProgress: OnProgress): Promise<Drive[]> {
     this.stop();
     if (!this.#isOpen) await this.#openAgain();
     this.#held = undefined;
     const drives = await this.#ask<Drive[]>('read', [plan], onProgress);
-    this.#held = drives[0].odometry.data;
+    this.#held = drives.map(({ odometry }) => odometry.data);
     return drives;
   }
 
   /** Returns the fit to a log, for `AlphaCalibrator.restored`. */
   async calibrate(config: AlphaCalibratorSettings, log: CalibrationLog): Promise<Uint8Array> {
     this.stop();
-    const isHeld = this.#held === log.odometry;
+    const odometry = [log.odometry].flat();
+    const isHeld = this.#held?.length === odometry.length && odometry.every((each, i) => each === this.#held?.[i]);
     this.#held = undefined;
     const fit = await this.#ask<Uint8Array>('calibrate', [config, isHeld ? undefined : log]);
-    this.#held = log.odometry;
+    this.#held = odometry;
     return fit;
   }
 

@@ -3,100 +3,94 @@
 import { html, nothing } from 'lit';
 import { Part } from '../../figure/part.ts';
 import { language, words } from '../../messages/registry.ts';
-import { button, inputOf } from '../../ui/controls.ts';
+import { button } from '../../ui/controls.ts';
 import { FileDrop, fileInput } from '../shared/files.ts';
 import { referenceNoise } from './controls.ts';
 import { isStopped } from './log-service.ts';
+import type { Drive, Plan, Role, Wishes } from '../../logs/drives.ts';
+import type { OpenOptions, Question, Recording } from '../../logs/log.ts';
+import type { LogFailure } from './log-service.ts';
 
 export type Figure = import('./alpha-calibrator.ts').AlphaCalibratorElement;
 
-export type LogError = import('../../logs/log-error.ts').LogError;
+export type LogWords = typeof import('../../logs/en.ts').log;
 
-export type Poses = import('../../logs/log.ts').Poses;
+type LogError = import('../../logs/log-error.ts').LogError;
 
-export type Recording = import('../../logs/log.ts').Recording;
+type Reader = Awaited<ReturnType<typeof loadReader>>;
 
-export type Series = import('../../logs/log.ts').Series;
+/** Question about a file, which the reader has answered or has to answer. */
+export interface Asked { file: string; ask: Question }
 
-export type CalibrationLog = import('../../types.d.ts').CalibrationLog;
-
-type LogFailure = import('./log-service.ts').LogFailure;
-
-export type Reader = Awaited<ReturnType<typeof loadReader>>;
-
-/** One recording with its topics, or two tables without. */
+/** Files with their recordings, the reader's choices, and what was read by them. */
 export interface Chosen {
-  /** Recordings; of two, the odometry first. */
-  files: Recording[];
-  topics: Series[];
-  /** Topic; empty where it is ambiguous. */
-  odometry: string;
-  /** Topic; empty where it is ambiguous. */
-  reference: string;
-  /** Frames of topics of transforms. */
-  frames: typeof FRAMES;
-  /** Kind of odometry that the model wanted when it was read. */
-  kind: 'commands' | undefined;
-  /** True if the reader chose the topic of the odometry. */
-  isExplicit: boolean;
+  files: File[];
+  recordings: Recording[];
+  /** Options of files by their names. */
+  answers: Record<string, OpenOptions>;
+  questions: Asked[];
+  /** Choices of the reader; what is missing is guessed. */
+  wishes: Pick<Wishes, Role>;
+  /** Roles of recordings with one log, by their places. */
+  roles: Map<number, Role>;
+  /** Undefined where it is not clear what is to be read. */
+  plan?: Plan;
+  drives?: Drive[];
 }
 
 /** Extensions that the file dialog offers. */
-const EXTENSIONS = ['.csv', '.txt', '.tum', '.mcap'];
+const EXTENSIONS = ['.csv', '.txt', '.tum', '.log', '.mcap', '.bag', '.db3', '.zst', '.zstd', '.yaml'];
 
 /** Id of the drop zone. */
 const ZONE = 'log';
 
-/** Usual frames of a topic of transforms: parent and child. */
-const FRAMES = { odometry: 'odom, base_link', reference: 'map, base_link' };
+/** Most files that the name of a log lists. */
+const MOST_NAMES = 4;
 
 export class LogOpener extends Part<Figure> {
   dropped = new FileDrop(this.host, ZONE, (files) => this.choose(files));
   /** Why the latest log was refused. */
   #complaint: (() => string) | undefined;
-  /** Summary of the present log. */
-  #found: (() => string[]) | undefined;
-  /** Files and topics of the latest log. */
   chosen: Chosen | undefined;
-  /** Log that was opened last, and whether its table has poses and commands. */
-  #opened: { chosen: Chosen, log: CalibrationLog, hasBoth: boolean } | undefined;
-  /** Share of the file that has been read; undefined while none is being read. */
+  /** Module that reads and shows logs, and its words; undefined until a file is chosen. */
+  reader: Reader | undefined;
+  /** Share of the files that has been read; undefined while none is being read. */
   share: number | undefined;
   /** Number of the latest attempt to read files. */
   #latest = 0;
+  /** Odometry that the model preferred when the log was read. */
+  #preferred: 'commands' | undefined;
 
   /** Why the latest log was refused; empty where it was not. */
   get complaint() {
     return this.#complaint?.() ?? '';
   }
 
-  /** Sentences about the present log: decisions, and rows that were left out. */
-  get found() {
-    return this.#found?.() ?? [];
+  /** Odometry that the model prefers where a log has both: the velocity model takes commands. */
+  get kind(): 'commands' | undefined {
+    return this.host.reading.config.model === 'velocity' ? 'commands' : undefined;
   }
 
-  /** Odometry that the model prefers where a log has both: the velocity model takes commands. */
-  get #kind(): 'commands' | undefined {
-    return this.host.reading.config.model === 'velocity' ? 'commands' : undefined;
+  /** Words of logs in the present language. */
+  get say(): LogWords | undefined {
+    return this.reader?.[language === 'de' ? 'de' : 'en'];
   }
 
   /** Reads the files again where another model prefers another odometry of them. */
   hostUpdated() {
-    if (!this.#opened || this.share !== undefined) return;
-    const { chosen, log, hasBoth } = this.#opened;
-    if (chosen !== this.chosen || log !== this.host.log || chosen.kind === this.#kind) return;
-    chosen.kind = this.#kind;
+    const { chosen } = this;
+    if (!chosen?.drives || this.share !== undefined || this.#preferred === this.kind) return;
+    const before = choicesOf(chosen.plan);
     this.#attempt(async (reader) => {
-      const { odometry } = chosen;
-      if (!chosen.isExplicit && chosen.topics.length) chosen.odometry = guessOf(reader, chosen, 'odometry') || odometry;
-      if (chosen.odometry !== odometry || hasBoth) await this.#read(chosen, reader);
+      const plan = planOf(reader, chosen, this.kind);
+      if (choicesOf(plan) !== before) await this.#read(chosen, plan, reader);
     });
   }
 
   /** Returns to the simulated log. */
   leave() {
     this.#end();
-    this.chosen = this.#complaint = this.#found = undefined;
+    this.chosen = this.#complaint = undefined;
     this.host.open(null).then(() => this.#commit());
   }
 
@@ -126,72 +120,57 @@ export class LogOpener extends Part<Figure> {
   }
 
   choose(files: File[]) {
-    if (files.length === 0) return;
-    this.chosen = undefined;
+    if (files.length > 0) this.#open({ files, recordings: [], answers: {}, questions: [], wishes: {}, roles: new Map() });
+  }
+
+  /** Takes an answer to a question, which files are opened with. */
+  answer({ file }: Asked, answer: OpenOptions) {
+    if (!this.chosen) return;
+    const { answers } = this.chosen;
+    this.#open({ ...this.chosen, recordings: [], answers: { ...answers, [file]: { ...answers[file], ...answer } } });
+  }
+
+  /** Takes a choice of what is read. */
+  change(change: Pick<Chosen, 'wishes'> | Pick<Chosen, 'roles'>) {
+    if (this.chosen) this.#open({ ...this.chosen, ...change });
+  }
+
+  #open(chosen: Chosen) {
+    this.chosen = { ...chosen, plan: undefined, drives: undefined };
+    const now = this.chosen;
     this.#attempt(async (reader) => {
-      const recordings = await this.host.service.open(files);
-      const topics = recordings.length === 1 ? reader.usefulSeries(recordings[0]) : [];
-      const chosen: Chosen = { files: recordings, topics, odometry: '', reference: '', frames: FRAMES, kind: this.#kind, isExplicit: false };
-      const plan = () => reader.planDrives(recordings, { kind: chosen.kind });
-      if (recordings.length === 1) {
-        if (topics.length > 1 || topics[0]?.kind === 'transforms') this.chosen = chosen;
-        for (const role of ['odometry', 'reference'] as const) chosen[role] = guessOf(reader, chosen, role);
-        if (!chosen.odometry || !chosen.reference) plan();
-      } else {
-        const { drives, loose } = plan();
-        const parts = [...loose.odometry, ...loose.reference].map(({ recording }) => recording);
-        if (drives.length > 0 || parts.length > 2) throw new Error(words.calibrator.own.two(files.length));
-        chosen.files = parts;
-        this.chosen = chosen;
-      }
-      await this.#read(chosen, reader);
+      if (now.recordings.length === 0) now.recordings = await this.host.service.open(now.files, now.answers);
+      await this.#read(now, planOf(reader, now, this.kind), reader);
     });
   }
 
-  /** Takes a choice of the reader. */
-  change(change: Partial<Chosen>) {
-    if (!this.chosen) return;
-    const chosen = { ...this.chosen, ...change, isExplicit: this.chosen.isExplicit || change.odometry !== undefined };
-    this.chosen = chosen;
-    this.host.requestUpdate();
-    if (chosen.topics.length > 0 && !(chosen.odometry && chosen.reference)) return;
-    this.#attempt((reader) => this.#read(chosen, reader));
-  }
-
-  async #read(chosen: Chosen, reader: Reader) {
-    const { files, topics, odometry, reference, frames, kind } = chosen;
-    const roles = ['odometry', 'reference'] as const;
-    const wishes = {
-      kind,
-      ...(topics.length
-        ? { odometry: wishOf(topics, odometry, frames.odometry), reference: wishOf(topics, reference, frames.reference) }
-        : { roles: new Map(files.map((recording, i) => [recording, roles[i]])) }),
-    };
+  async #read(chosen: Chosen, plan: Plan, reader: Reader) {
     const latest = this.#latest;
-    const [paired] = await this.host.service.read(reader.planDrives(files, wishes), (share) => {
+    chosen.plan = plan;
+    const drives = await this.host.service.read(plan, (share) => {
       if (latest !== this.#latest) return;
       this.share = share;
       this.host.requestUpdate();
     });
-    const name = [...new Set(files.map((file) => file.name)), ...(topics.length ? [reference] : [])].join(', ');
-    const log = { name, odometry: paired.odometry.data, reference: paired.reference.data as Poses };
-    const say = await wordsOf();
-    await this.host.open(log, ({ count }) => {
+    // What was read is shown before it is used.
+    chosen.drives = drives;
+    this.host.requestUpdate();
+    await this.host.open({ name: nameOf(plan, reader), ...reader.logOf(drives) }, ({ count }) => {
       if (count === 0) throw new RangeError(words.calibrator.none);
     });
     this.#commit();
-    this.#opened = { chosen, log, hasBoth: !topics.length && files[0].series.some(({ hasCommands }) => hasCommands) };
-    const logs = [paired.odometry, paired.reference];
-    this.#found = () => logs.map((each) => `${each.name}: ${reader.summarize(each, say().found).join('; ')}`);
   }
 
-  /** Shows why a log was refused. */
+  /** Shows why a log was refused, and what to choose. */
   async #refuse(error: unknown) {
-    const { message, sentence, sentences } = error as Error & Partial<LogError & LogFailure>;
-    const say = sentence && (await wordsOf());
-    this.#complaint = () => sentences?.[language === 'de' ? 'de' : 'en'] ?? (say ? sentence(say()) : words.calibrator.own.refused(message));
+    const { message, sentence, sentences, ask, file, place } = error as Error & Partial<LogError & LogFailure>;
+    this.#complaint = () => sentences?.[language === 'de' ? 'de' : 'en'] ?? (sentence && this.say ? sentence(this.say) : words.calibrator.own.refused(message));
+    const { chosen } = this;
+    const asked = ask && chosen && { file: file ?? place?.file ?? '', ask };
+    if (asked && !chosen.questions.some((each) => each.file === asked.file && each.ask.what === ask.what)) chosen.questions.push(asked);
     this.host.requestUpdate();
-    await this.dropped.showRefusal(this.complaint);
+    await this.host.updateComplete;
+    if (!(asked && this.reader?.focusOn(this.host, asked))) await this.dropped.showRefusal(this.complaint);
   }
 
   /** Gives up the reading that is under way, and starts another. */
@@ -199,10 +178,12 @@ export class LogOpener extends Part<Figure> {
     const number = ++this.#latest;
     this.host.service.stop();
     this.#complaint = undefined;
+    this.#preferred = this.kind;
     this.share = 0;
     this.host.requestUpdate();
     try {
-      await work(await loadReader());
+      this.reader ??= await loadReader();
+      await work(this.reader);
     } catch (error) {
       if (number === this.#latest && !isStopped(error)) await this.#refuse(error);
     }
@@ -210,41 +191,33 @@ export class LogOpener extends Part<Figure> {
   }
 }
 
-/** Returns the series of a role that is not ambiguous. */
-function guessOf(reader: Reader, { files: [recording], odometry, kind }: Chosen, role: import('../../logs/drives.ts').Role): string {
-  const tiers = reader.candidates(recording, role, { kind }).map((tier) => tier.filter(({ series }) => role === 'odometry' || series !== odometry));
-  const best = tiers.find(({ length }) => length > 0);
-  return best?.length === 1 ? best[0].series : '';
+function planOf(reader: Reader, { recordings, wishes, roles }: Chosen, kind: 'commands' | undefined): Plan {
+  return reader.planDrives(recordings, { ...wishes, kind, roles: new Map([...roles].map(([place, role]) => [recordings[place], role])) });
 }
 
-/** Returns a choice of the reader, with the frames of a topic of transforms. */
-function wishOf(topics: Series[], series: string, its: string) {
-  const [parent, child = ''] = its.split(',').map((frame) => frame.trim());
-  return { series, ...(holdsTransforms(topics, series) && { frames: { parent, child } }) };
+/** Returns what a plan reads, as a text that can be compared. */
+const choicesOf = (plan: Plan | undefined) => JSON.stringify(plan && [plan.drives, plan.loose]);
+
+/** Returns the files of a log, and the topic of its reference where one recording has both. */
+function nameOf({ drives, loose }: Plan, reader: Reader) {
+  const parts = [...drives.map(({ odometry }) => odometry), ...loose.odometry, ...loose.reference];
+  const names = parts.map(({ recording }) => recording.name);
+  const [only] = parts.length === 1 ? drives : [];
+  return [...names.slice(0, MOST_NAMES), ...(names.length > MOST_NAMES ? ['…'] : []), ...(only ? [reader.labelOf(only.reference.choice)] : [])].join(', ');
 }
 
-/** Loads what plans drives, and what makes sentences of summaries. */
+/** Loads what plans drives and shows them. */
 async function loadReader() {
-  const [candidates, drives, summary] = await Promise.all([import('../../logs/candidates.ts'), import('../../logs/drives.ts'), import('../../logs/summary.ts')]);
-  return { ...candidates, ...drives, ...summary };
+  const [candidates, drives, pairs, choice, summary, { log: en }, { log: de }] = await Promise.all([
+    import('../../logs/candidates.ts'), import('../../logs/drives.ts'), import('../../logs/pairs.ts'), import('./log-choice.ts'), import('./log-summary.ts'), import('../../logs/en.ts'), import('../../logs/de.ts'),
+  ]);
+  return { ...candidates, ...drives, ...pairs, ...choice, ...summary, en, de };
 }
 
-const holdsTransforms = (topics: Series[], topic: string) => topics.some(({ name, kind }) => name === topic && kind === 'transforms');
-
-/**
- * Loads the words of logs.
- *
- * @returns those of the present language
- */
-async function wordsOf(): Promise<() => typeof import('../../logs/en.ts').log> {
-  const [{ log: english }, { log: german }] = await Promise.all([import('../../logs/en.ts'), import('../../logs/de.ts')]);
-  return () => (language === 'de' ? german : english);
-}
-
-/** Returns the line that logs are dropped on, and below it what becomes of a log: progress, topics, and why it is refused. */
+/** Returns the line that logs are dropped on, and below it what becomes of a log: progress, choices, why it is refused, and what was read. */
 export function dropZone(figure: Figure, opener: LogOpener) {
   const say = words.calibrator.own;
-  const { chosen, complaint, share } = opener;
+  const { complaint, share, reader } = opener;
   return html`<div class="drop-zone" id=${ZONE} part="drop">
     <p title=${say.dropTitle}>
       ${say.drop}
@@ -252,45 +225,15 @@ export function dropZone(figure: Figure, opener: LogOpener) {
       ${figure.log ? html`<span class="present">${say.present(figure.logName)}</span> ${button(say.leave, () => opener.leave())}` : nothing}
     </p>
     ${share === undefined ? nothing : html`<p><progress aria-label=${say.reading} .value=${share}></progress> ${button(words.progress.stop, () => opener.stop())}</p>`}
-    ${chosen ? whichIsWhich(opener, chosen) : nothing}
-    <p class="note" role=${figure.notice.isShown ? nothing : 'alert'} ?hidden=${complaint === ''}>${complaint}</p>
+    <p class="note" id="refusal" role=${figure.notice.isShown ? nothing : 'alert'} ?hidden=${complaint === ''}>${complaint}</p>
+    ${reader?.choosers(opener)} ${reader?.summaryOf(opener)}
   </div>`;
 }
 
-/** Returns the summary of the log, and the noise of its reference. */
-export function logSection(figure: Figure, { found }: LogOpener) {
+/** Returns what log is shown, and the noise of its reference. */
+export function logSection(figure: Figure) {
   const say = words.calibrator.own;
   return html`<p>${figure.log ? say.present(figure.logName) : say.simulated}</p>
-    ${figure.log ? found.map((sentence) => html`<p class="muted">${sentence}</p>`) : nothing}
     ${referenceNoise(figure)}
     <p class="muted">${say.stds}</p>`;
-}
-
-function whichIsWhich(opener: LogOpener, { files, topics, frames, ...chosen }: Chosen) {
-  const say = words.calibrator.own;
-  if (topics.length === 0) {
-    return html`<p>
-      ${say.odometry}: ${files[0].name}; ${say.reference}: ${files[1].name}
-      ${button(say.swap, () => opener.change({ files: [files[1], files[0]] }))}
-    </p>`;
-  }
-  const select = (role: 'odometry' | 'reference') => html`<label>
-      ${say[role]}
-      <select aria-label=${say[role]} @change=${(event: Event) => opener.change({ [role]: (event.target as HTMLSelectElement).value })}>
-        <option value="" ?selected=${chosen[role] === ''}></option>
-        ${topics.map(({ name, count }) => html`<option value=${name} ?selected=${name === chosen[role]}>${name} (${count})</option>`)}
-      </select>
-    </label>
-    ${holdsTransforms(topics, chosen[role])
-      ? html`<label>
-          ${say.frames}
-          <input
-            type="text"
-            aria-label="${say[role]}: ${say.frames}"
-            .value=${frames[role]}
-            @change=${(event: Event) => opener.change({ frames: { ...frames, [role]: inputOf(event).value } })}
-          />
-        </label>`
-      : nothing}`;
-  return html`<p class="topics">${select('odometry')} ${select('reference')}</p>`;
 }

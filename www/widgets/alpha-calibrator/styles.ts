@@ -59,6 +59,84 @@ const own = css`
     outline-offset: 2px;
   }
 
+  .choosers .topics {
+    display: flex;
+    flex-wrap: wrap;
+    gap: 0.3em 1em;
+    align-items: center;
+    margin-block: 0.3em;
+  }
+
+  .choosers select {
+    max-width: 100%;
+    min-height: 2em;
+    border: 1px solid var(--muted);
+    border-radius: 3px;
+    background: var(--paper);
+    color: var(--ink);
+    font: inherit;
+  }
+
+  .choosers select:focus-visible {
+    outline: 2px solid var(--accent);
+    outline-offset: 2px;
+  }
+
+  .drive {
+    display: flex;
+    flex-wrap: wrap;
+    gap: 0.5em 1.5em;
+    align-items: flex-start;
+  }
+
+  .found table {
+    flex: 1 1 18em;
+    margin: 0;
+    line-height: 1.25;
+  }
+
+  .found :is(thead, tbody) :is(th, td) {
+    padding-block: 0;
+    font-weight: normal;
+    text-align: start;
+    vertical-align: top;
+    white-space: normal;
+    overflow-wrap: anywhere;
+  }
+
+  .found thead th {
+    font-weight: bold;
+  }
+
+  .found tbody th {
+    color: var(--muted);
+    white-space: nowrap;
+  }
+
+  .paths {
+    flex: 0 0 14em;
+    margin: 0;
+    font-size: 0.84em;
+    line-height: 1.25;
+  }
+
+  .paths svg {
+    display: block;
+    width: 100%;
+  }
+
+  .paths path {
+    fill: none;
+    stroke: var(--ink);
+    stroke-width: 1.25;
+    stroke-linejoin: round;
+  }
+
+  .paths .odometry {
+    stroke: var(--prior);
+    stroke-dasharray: 4 2;
+  }
+
   /* The second class of legs has a colour between two roles, as in the picture. */
   .legend > :nth-child(2) .swatch {
     --role: color-mix(in srgb, var(--truth), var(--cloud));

@@ -67,8 +67,30 @@ export class FileDrop {
     event.preventDefault();
     // What becomes of the file is said in there.
     if (this.#place instanceof HTMLDetailsElement) this.#place.open = true;
-    this.take([...event.dataTransfer.files], true);
+    filesOf(event.dataTransfer).then((files) => this.take(files, true));
   };
+}
+
+/** Returns what was dropped, with the files of folders and their paths in them. */
+async function filesOf({ items }: DataTransfer): Promise<File[]> {
+  // All entries are taken at once: the list is empty afterwards.
+  const dropped = [...items].filter(({ kind }) => kind === 'file').map((item) => ({ entry: item.webkitGetAsEntry(), file: item.getAsFile() }));
+  const files = await Promise.all(dropped.map(({ entry, file }) => (entry?.isDirectory ? inside(entry as FileSystemDirectoryEntry) : file ? [file] : [])));
+  return files.flat();
+}
+
+async function inside(folder: FileSystemDirectoryEntry): Promise<File[]> {
+  const reader = folder.createReader();
+  const entries: FileSystemEntry[] = [];
+  const more = () => new Promise<FileSystemEntry[]>((resolve, reject) => reader.readEntries(resolve, reject));
+  // Browsers give a hundred entries at a time.
+  for (let some = await more(); some.length > 0; some = await more()) entries.push(...some);
+  const files = await Promise.all(entries.filter(({ name }) => !name.startsWith('.')).map(async (entry) => {
+    if (entry.isDirectory) return inside(entry as FileSystemDirectoryEntry);
+    const file = await new Promise<File>((resolve, reject) => (entry as FileSystemFileEntry).file(resolve, reject));
+    return [Object.assign(file, { path: entry.fullPath.slice(1) })];
+  }));
+  return files.flat();
 }
 
 /** @param extensions what the names of files may end in */

@@ -1,0 +1,135 @@
+/** Choosers of what is read: which log is which, and answers to questions that files leave open. Loaded with the first log. */
+
+import { html, nothing } from 'lit';
+import { live } from 'lit/directives/live.js';
+import { candidates, usefulSeries, type Role } from '../../logs/candidates.ts';
+import type { Choice, Question, Recording } from '../../logs/log.ts';
+import { radioGroup } from '../../ui/controls.ts';
+import type { Asked, Chosen, Figure, LogOpener, LogWords } from './open.ts';
+
+const ROLES = ['odometry', 'reference'] as const;
+
+/** Units that may be chosen where no sign excludes one. */
+const UNITS = { timeUnit: ['s', 'ms', 'us', 'ns'], lengthUnit: ['m', 'cm', 'mm'], angleUnit: ['rad', 'deg'] };
+
+/** Fields of a table. */
+const FIELDS = ['t', 'x', 'y', 'yaw', 'qx', 'qy', 'qz', 'qw', 'v', 'omega'] as const;
+
+/** Most characters of a cell beside the number of its column. */
+const CELL = 16;
+
+interface Option { key: string; label: string; choice: Choice }
+
+/** Returns the name of a choice: its series, with the frames of transforms. */
+export const labelOf = ({ series, frames }: Choice) => (frames ? `${series}: ${frames.parent} → ${frames.child}` : series);
+
+const keyOf = ({ series, frames }: Choice) => JSON.stringify([series, frames?.parent, frames?.child]);
+
+/** Returns all that a role may be read from; each chain of transforms is an option of its own. */
+function optionsOf(recording: Recording, role?: Role): Option[] {
+  const useful = usefulSeries(recording).filter(({ kind }) => role !== 'reference' || kind !== 'commands');
+  const choices = useful.flatMap(({ name: series, kind, frames = [] }): Choice[] => (kind === 'transforms' ? frames.map((each) => ({ series, frames: each })) : [{ series }]));
+  return choices.map((choice) => ({ key: keyOf(choice), label: labelOf(choice) || recording.name, choice }));
+}
+
+/** Returns the choosers for the present files; nothing where there is nothing to choose. */
+export function choosers(opener: LogOpener) {
+  const { chosen, say } = opener;
+  if (!chosen || !say) return nothing;
+  const { recordings, questions } = chosen;
+  const hasOptions = recordings.some((recording) => optionsOf(recording).length > 1);
+  const which = hasOptions ? ROLES.map((role) => seriesSelect(opener, chosen, role, say)) : recordings.length > 1 ? recordings.map((_, place) => roleSelect(opener, chosen, place, say)) : [];
+  return html`<div class="choosers">
+    ${which.length ? html`<div class="topics">${which}</div>` : nothing}
+    ${questions.map((asked) => questionOf(opener, chosen, asked, say))}
+  </div>`;
+}
+
+function select(id: string, label: string, value: string, options: [value: string, label: string][], choose: (value: string) => void, open: string) {
+  const all = options.some(([each]) => each === value) ? options : [['', open], ...options];
+  return html`<label>
+    ${label}
+    <select id=${id} aria-label=${label} aria-describedby="refusal" @change=${(event: Event) => choose((event.target as HTMLSelectElement).value)}>
+      ${all.map(([each, text]) => html`<option value=${each} .selected=${live(each === value || (value === '' && each === ''))}>${text}</option>`)}
+    </select>
+  </label>`;
+}
+
+function seriesSelect(opener: LogOpener, { recordings, wishes, plan }: Chosen, role: Role, { choose: say }: LogWords) {
+  const options = new Map(recordings.flatMap((recording) => optionsOf(recording, role)).map((option) => [option.key, option]));
+  const [planned] = plan ? [...plan.drives.map((drive) => drive[role]), ...plan.loose[role]] : [];
+  const present = (wishes[role] as Choice | undefined) ?? planned?.choice ?? guessOf(recordings[0], role, opener.kind);
+  return select(`log-${role}`, say.roles[role], present ? keyOf(present) : '', [...options.values()].map(({ key, label }) => [key, label]), (key) => {
+    const choice = options.get(key)?.choice;
+    if (choice) opener.change({ wishes: { ...wishes, [role]: choice } });
+  }, say.open);
+}
+
+/** Returns the likeliest choice where it is the only one. */
+function guessOf(recording: Recording, role: Role, kind: 'commands' | undefined): Choice | undefined {
+  const best = candidates(recording, role, { kind }).find(({ length }) => length > 0);
+  return best?.length === 1 ? best[0] : undefined;
+}
+
+function roleSelect(opener: LogOpener, { recordings, roles, plan }: Chosen, place: number, { choose: say }: LogWords) {
+  const { name } = recordings[place];
+  const present = roles.get(place) ?? ROLES.find((role) => plan?.loose[role].some(({ recording }) => recording === recordings[place]));
+  return select(`log-role-${place}`, name, present ?? '', ROLES.map((role) => [role, say.roles[role]]), (value) => {
+    const role = value as Role;
+    const changed = new Map(roles).set(place, role);
+    // Of two files, the other one has the other role.
+    if (recordings.length === 2) changed.set(1 - place, role === 'odometry' ? 'reference' : 'odometry');
+    opener.change({ roles: changed });
+  }, say.open);
+}
+
+function questionOf(opener: LogOpener, { answers }: Chosen, asked: Asked, { choose: say }: LogWords) {
+  const { file, ask: { what, choices } } = asked;
+  if (what === 'columns') return columnsForm(opener, asked, answers[file]?.columns, say);
+  if (what !== 'timeUnit' && what !== 'lengthUnit' && what !== 'angleUnit') return nothing;
+  const labels: Record<string, string> = Object.fromEntries((choices.length ? choices : UNITS[what]).map((unit) => [unit, say.units[unit as keyof typeof say.units]]));
+  return html`<div id=${idOf(asked)}>
+    ${radioGroup(say[what](file), idOf(asked), labels, answers[file]?.[what] ?? '', (unit) => opener.answer(asked, { [what]: unit }))}
+  </div>`;
+}
+
+/** Returns a select of a column for each field. */
+function columnsForm(opener: LogOpener, asked: Asked, answer: string[] | undefined, say: LogWords['choose']) {
+  const { file, ask: { choices: [usual = ''], columns = [] } } = asked;
+  const present = answer ?? usual.split(',');
+  const options = columns.map((cell, at): [string, string] => [String(at), say.column(at + 1, cell.trim().slice(0, CELL))]);
+  const taken = (event: Event) => {
+    event.preventDefault();
+    const names = columns.map(() => '-');
+    for (const [field, at] of new FormData(event.target as HTMLFormElement)) if (at !== '') names[Number(at)] = String(field);
+    opener.answer(asked, { columns: names });
+  };
+  return html`<form id=${idOf(asked)} @submit=${taken}>
+    <fieldset>
+      <legend>${say.columns(file)}</legend>
+      <div class="topics">
+        ${FIELDS.map((field) => html`<label>
+          ${say.fields[field]}
+          <select name=${field} aria-label=${say.fields[field]} aria-describedby="refusal">
+            <option value="">${say.none}</option>
+            ${options.map(([at, label]) => html`<option value=${at} ?selected=${present[Number(at)] === field}>${label}</option>`)}
+          </select>
+        </label>`)}
+        <button type="submit" part="button">${say.read}</button>
+      </div>
+    </fieldset>
+  </form>`;
+}
+
+const idOf = ({ file, ask: { what } }: Asked) => `log-${what}-${file.replaceAll(/[^\w-]/g, '_')}`;
+
+/** Moves the focus to the chooser of a question, unless it is in one. Returns whether there is one. */
+export function focusOn({ renderRoot }: Figure, asked: Asked): boolean {
+  const { what, role = 'odometry' }: Question = asked.ask;
+  const ids = { series: `log-${role}`, frames: `log-${role}`, roles: 'log-role-0' } as Partial<Record<Question['what'], string>>;
+  const chooser = renderRoot.querySelector<HTMLElement>(`#${CSS.escape(ids[what] ?? idOf(asked))}`);
+  const control = chooser?.matches('select') ? chooser : chooser?.querySelector<HTMLElement>('select, input');
+  if (!control) return false;
+  if (!control.closest('.choosers')?.contains((renderRoot as ShadowRoot).activeElement)) control.focus();
+  return true;
+}

@@ -1,0 +1,114 @@
+/** Summary of what was read: numbers and decisions about each log, and a small picture of both paths. Loaded with the first log. */
+
+import { bisectLeft } from 'd3-array';
+import { html, nothing, svg } from 'lit';
+import type { Drive } from '../../logs/drives.ts';
+import { LOG_TIME, type Cause, type Commands, type Log, type Poses } from '../../logs/log.ts';
+import { notesOf } from '../../logs/summary.ts';
+import { counted, fixed } from '../../ui/format.ts';
+import type { LogOpener, LogWords } from './open.ts';
+
+type Point = [x: number, y: number, theta: number];
+
+/** Size of the picture, CSS pixels, and its margin for the width of lines. */
+const [WIDTH, HEIGHT, MARGIN] = [220, 150, 4];
+
+/** Most points of a path: a pixel has several. */
+const POINTS = 1500;
+
+/** Returns what was read of each drive, before it is used and beside the result. */
+export function summaryOf({ chosen, say }: LogOpener) {
+  if (!chosen?.drives || !say) return nothing;
+  const { drives } = chosen;
+  return html`<details class="found" open>
+    <summary>${say.found.labels.title}</summary>
+    ${drives.map((drive, i) => html`<div class="drive">
+      ${tableOf(drive, drives.length > 1 ? say.found.labels.drive(i + 1) : '', say)}
+      ${pathsOf(drive, say)}
+    </div>`)}
+  </details>`;
+}
+
+function tableOf({ odometry, reference }: Drive, caption: string, say: LogWords) {
+  const logs = [odometry, reference];
+  const { labels } = say.found;
+  const row = (label: string, cellOf: (log: Log) => unknown) => {
+    const cells = logs.map(cellOf);
+    return cells.some((cell) => cell !== '') ? html`<tr><th scope="row">${label}</th>${cells.map((cell) => html`<td>${cell === '' ? '—' : cell}</td>`)}</tr>` : nothing;
+  };
+  const lines = (texts: string[]) => (texts.length ? texts.map((text, i) => html`${i ? html`<br />` : nothing}${text}`) : '');
+  return html`<table>
+    ${caption ? html`<caption>${caption}</caption>` : nothing}
+    <thead>
+      <tr><td></td>${(['odometry', 'reference'] as const).map((role, i) => html`<th scope="col">${say.choose.roles[role]}: ${logs[i].name}</th>`)}</tr>
+    </thead>
+    <tbody>
+      ${row(labels.rows, ({ summary: { used, rows } }) => labels.ofRows(counted(used), counted(rows)))}
+      ${row(labels.leftOut, ({ summary: { dropped, columns } }) =>
+        lines((Object.entries(dropped) as [Cause, { count: number; first: number }][]).map(([cause, { count, first }]) => labels.dropped(cause, counted(count), columns ? first : 0))))}
+      ${row(labels.duration, ({ summary: { seconds, rate } }) => labels.at(fixed(seconds, 1), fixed(rate, 1)))}
+      ${row(labels.distance, ({ summary: { distance } }) => (Number.isNaN(distance) ? '' : `${fixed(distance, 1)} m`))}
+      ${row(labels.gaps, ({ summary: { gaps } }) => (gaps.count ? labels.longest(fixed(gaps.longest, 2), counted(gaps.count)) : labels.none))}
+      ${row(labels.jumps, ({ summary: { jumps } }) => (jumps.count ? counted(jumps.count) : ''))}
+      ${row(labels.units, ({ summary: { units } }) => say.found.units(units))}
+      ${row(labels.frames, ({ summary: { frames } }) => (frames ? `${frames.parent} → ${frames.child}` : ''))}
+      ${row(labels.columns, ({ summary: { columns } }) => (columns ? Object.values(columns).join(', ') : ''))}
+      ${row(labels.clock, ({ summary: { clock, columns } }) => (columns ? '' : clock === LOG_TIME ? labels.recorded : clock))}
+      ${row(labels.notes, (log) => lines(notesOf(log, say.found)))}
+    </tbody>
+  </table>`;
+}
+
+/** Returns a picture of both paths. The odometry begins at the pose of the reference, so that its drift is seen. */
+function pathsOf({ odometry, reference }: Drive, { found: { labels } }: LogWords) {
+  const [driven, truth] = [odometry.data, reference.data].map((data) => pathOf(data));
+  const begin = Math.max(odometry.data.t[0], reference.data.t[0]);
+  const turned = moved(driven.points, poseAt(driven, begin), poseAt(truth, begin));
+  const all = [...turned, ...truth.points];
+  const ends = ([0, 1] as const).map((axis) => [Math.min(...all.map((point) => point[axis])), Math.max(...all.map((point) => point[axis]))]);
+  const [width, height] = ends.map(([low, high]) => high - low);
+  const scale = Math.min((WIDTH - 2 * MARGIN) / Math.max(width, 0.1), (HEIGHT - 2 * MARGIN) / Math.max(height, 0.1));
+  const pixel = (value: number) => value.toFixed(1);
+  const line = (points: Point[], breaks: Set<number>) => points.map(([x, y], i) =>
+    `${i === 0 || breaks.has(i) ? 'M' : 'L'}${pixel(MARGIN + (x - ends[0][0]) * scale)} ${pixel(HEIGHT - MARGIN - (y - ends[1][0]) * scale)}`).join('');
+  const text = labels.paths(fixed(width, 1), fixed(height, 1));
+  return html`<figure class="paths">
+    <svg viewBox="0 0 ${WIDTH} ${HEIGHT}" role="img" aria-label=${text}>
+      ${svg`<path class="reference" d=${line(truth.points, truth.breaks)}></path><path class="odometry" d=${line(turned, driven.breaks)}></path>`}
+    </svg>
+    <figcaption>${text}</figcaption>
+  </figure>`;
+}
+
+interface Path { t: number[]; points: Point[]; breaks: Set<number> }
+
+/** Returns some points of the path of poses, or of that of commands from the origin. */
+function pathOf(data: Poses | Commands): Path {
+  const { t, breaks: all } = data;
+  const every = Math.ceil(t.length / POINTS);
+  const path: Path = { t: [], points: [], breaks: new Set() };
+  let [x, y, theta, next] = [0, 0, 0, 0];
+  for (let i = 0; i < t.length; i++) {
+    if ('x' in data) [x, y, theta] = [data.x[i], data.y[i], data.theta[i]];
+    else if (i > 0) {
+      const dt = t[i] - t[i - 1];
+      const turn = data.omega[i - 1] * dt;
+      x += data.v[i - 1] * dt * Math.cos(theta + turn / 2);
+      y += data.v[i - 1] * dt * Math.sin(theta + turn / 2);
+      theta += turn;
+    }
+    if (i % every !== 0 && i < t.length - 1) continue;
+    for (; next < all.length && all[next] <= i; next++) path.breaks.add(path.points.length);
+    path.t.push(t[i]);
+    path.points.push([x, y, theta]);
+  }
+  return path;
+}
+
+const poseAt = ({ t, points }: Path, time: number): Point => points[Math.min(bisectLeft(t, time), points.length - 1)];
+
+/** Moves points so that one pose comes to lie on another. */
+function moved(points: Point[], [x0, y0, theta0]: Point, [toX, toY, to]: Point): Point[] {
+  const [cos, sin] = [Math.cos(to - theta0), Math.sin(to - theta0)];
+  return points.map(([x, y, theta]) => [toX + cos * (x - x0) - sin * (y - y0), toY + sin * (x - x0) + cos * (y - y0), theta + to - theta0]);
+}

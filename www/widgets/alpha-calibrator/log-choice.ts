@@ -18,18 +18,14 @@ const FIELDS = ['t', 'x', 'y', 'yaw', 'qx', 'qy', 'qz', 'qw', 'v', 'omega'] as c
 /** Most characters of a cell beside the number of its column. */
 const CELL = 16;
 
-interface Option { key: string; label: string; choice: Choice }
-
 /** Returns the name of a choice: its series, with the frames of transforms. */
 export const labelOf = ({ series, frames }: Choice) => (frames ? `${series}: ${frames.parent} → ${frames.child}` : series);
 
-const keyOf = ({ series, frames }: Choice) => JSON.stringify([series, frames?.parent, frames?.child]);
-
 /** Returns all that a role may be read from; each chain of transforms is an option of its own. */
-function optionsOf(recording: Recording, role?: Role): Option[] {
+function optionsOf(recording: Recording, role?: Role): [label: string, Choice][] {
   const useful = usefulSeries(recording).filter(({ kind }) => role !== 'reference' || kind !== 'commands');
   const choices = useful.flatMap(({ name: series, kind, frames = [] }): Choice[] => (kind === 'transforms' ? frames.map((each) => ({ series, frames: each })) : [{ series }]));
-  return choices.map((choice) => ({ key: keyOf(choice), label: labelOf(choice) || recording.name, choice }));
+  return choices.map((choice) => [labelOf(choice) || recording.name, choice]);
 }
 
 /** Returns the choosers for the present files; nothing where there is nothing to choose. */
@@ -56,11 +52,11 @@ function select(id: string, label: string, value: string, options: [value: strin
 }
 
 function seriesSelect(opener: LogOpener, { recordings, wishes, plan }: Chosen, role: Role, { choose: say }: LogWords) {
-  const options = new Map(recordings.flatMap((recording) => optionsOf(recording, role)).map((option) => [option.key, option]));
+  const options = new Map(recordings.flatMap((recording) => optionsOf(recording, role)));
   const [planned] = plan ? [...plan.drives.map((drive) => drive[role]), ...plan.loose[role]] : [];
   const present = (wishes[role] as Choice | undefined) ?? planned?.choice ?? guessOf(recordings[0], role, opener.kind);
-  return select(`log-${role}`, say.roles[role], present ? keyOf(present) : '', [...options.values()].map(({ key, label }) => [key, label]), (key) => {
-    const choice = options.get(key)?.choice;
+  return select(`log-${role}`, say.roles[role], present ? labelOf(present) || (planned?.recording ?? recordings[0]).name : '', [...options.keys()].map((label) => [label, label]), (label) => {
+    const choice = options.get(label);
     if (choice) opener.change({ wishes: { ...wishes, [role]: choice } });
   }, say.open);
 }

@@ -129,12 +129,12 @@ test('units are taken by two signs', async () => {
 
 /** Questions, and the option that answers each. @type {[string, string, RegExp, import('../../www/logs/log.ts').OpenOptions][]} */
 const QUESTIONS = [
-  ['millimetres', circles(([t, x, y, yaw]) => [t, 1000 * x, 1000 * y, yaw]), /in m, the robot would drive at \d+ m\/s; .* --length-unit cm or mm or m\.$/, { lengthUnit: 'mm' }],
-  ['metres that a name has as millimetres', circles(undefined, 't,x_mm,y_mm,yaw'), /in mm, the robot .* --length-unit m or mm\.$/, { lengthUnit: 'm' }],
-  ['commands in milliseconds', ['t,v,omega', ...steps(50).map((t) => `${1000 * t},0.5,0.5`)].join('\n'), /in s, the times would mean 0\.01\d* rows a second; .* --time-unit /, { timeUnit: 'ms' }],
+  ['millimetres', circles(([t, x, y, yaw]) => [t, 1000 * x, 1000 * y, yaw]), /in m, the robot would drive at \d+ m\/s; .*: cm or mm or m\.$/, { lengthUnit: 'mm' }],
+  ['metres that a name has as millimetres', circles(undefined, 't,x_mm,y_mm,yaw'), /in mm, the robot .*: m or mm\.$/, { lengthUnit: 'm' }],
+  ['commands in milliseconds', ['t,v,omega', ...steps(50).map((t) => `${1000 * t},0.5,0.5`)].join('\n'), /in s, the times would mean 0\.01\d* rows a second; state their unit/, { timeUnit: 'ms' }],
   ['seconds that a name has as nanoseconds', circles(undefined, 't_ns,x,y,yaw'), /in ns, the times would mean/, { timeUnit: 's' }],
-  ['degrees of a robot that drives straight on', circles(([t]) => [t, t / 2, 0, 20 * Math.sin(t / 9)]), /headings in rad .* --angle-unit rad or deg\.$/, { angleUnit: 'deg' }],
-  ['radians that a name has as degrees', circles(undefined, 't,x,y,yaw_deg'), /headings in deg .* --angle-unit rad or deg\.$/, { angleUnit: 'rad' }],
+  ['degrees of a robot that drives straight on', circles(([t]) => [t, t / 2, 0, 20 * Math.sin(t / 9)]), /headings in rad .*: rad or deg\.$/, { angleUnit: 'deg' }],
+  ['radians that a name has as degrees', circles(undefined, 't,x,y,yaw_deg'), /headings in deg .*: rad or deg\.$/, { angleUnit: 'rad' }],
   ['turn rates in degrees', ['t,v,omega', ...steps(50).map((t) => `${t},0.5,30`)].join('\n'), /headings in rad would turn at 30\.0 rad\/s/, { angleUnit: 'deg' }],
 ];
 
@@ -158,7 +158,7 @@ const REFUSED = [
   ['comments alone', '# t,x,y,yaw\n\n', /there is nothing in it;/],
   ['a header alone', 't,x,y,yaw\n', /0 of 0 rows can be used;/],
   ['bytes', Uint8Array.of(1, 2, 0, 4), /it is neither text nor/],
-  ['no header', '1,2,3,4\n2,3,4,5\n', /^run\.csv, line 1: the table has no header, and its first row is “1,2,3,4”; .* --columns t,x,y,yaw\.$/],
+  ['no header', '1,2,3,4\n2,3,4,5\n', /^run\.csv, line 1: the table has no header, and its first row is “1,2,3,4”; name its 4 columns\.$/],
   ['no time', 'x,y,yaw\n0,0,0\n', /, line 1: none of the columns x, y, yaw is the time;/],
   ['a count of rows as times', ',x,y,yaw\n0,0,0,0\n1,0,0,0\n', /is the time;/],
   ['x and y of one source and the heading of another', 't,x,y,imu_yaw\n0,0,0,0\n1,0,0,0\n', /the columns x, y are positions without a heading;/],

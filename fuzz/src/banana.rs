@@ -19,12 +19,12 @@ pub fn run(bytes: &[u8]) {
     let [with_curves, with_double] = [0; 2].map(|_| input.choice(4) == 1);
     let opening = changed(&few(Settings::default()), &mut input);
     if !allowed(&opening) {
-        assert!(BananaMachine::empty(opening).is_err());
+        assert!(BananaMachine::showing(opening, 0).is_err());
         return;
     }
-    let mut machine = BananaMachine::empty(few(opening)).expect("allowed");
+    let mut machine = BananaMachine::showing(few(opening), 0).expect("allowed");
     if input.truth() {
-        machine.grow(SAMPLES);
+        machine.add_samples(SAMPLES);
     }
     for _ in 0..CALLS {
         if input.is_empty() {
@@ -50,15 +50,15 @@ fn few(settings: Settings) -> Settings {
 fn call(machine: &mut BananaMachine, input: &mut Input) {
     match input.choice(9) {
         0 => configure(machine, input),
-        1 => in_slices(machine, input),
+        1 => in_blocks(machine, input),
         2 => {
             let before = machine.shown();
             let count = input.choice(SAMPLES);
-            let after = machine.grow(count);
+            let after = machine.add_samples(count);
             assert_eq!(after, (before + count).min(machine.settings().samples));
         }
         3 => {
-            machine.restart();
+            machine.configure_first(*machine.settings(), 0).expect("allowed");
             assert_eq!(machine.shown(), 0);
         }
         4 => paint(machine, input),
@@ -82,31 +82,32 @@ fn configure(machine: &mut BananaMachine, input: &mut Input) {
         return;
     }
     let (before, shown) = (*machine.settings(), numbers(machine));
-    assert!(machine.configure(settings).is_err() && machine.begin(settings).is_err());
+    assert!(machine.configure(settings).is_err() && machine.configure_first(settings, 0).is_err());
     assert_eq!(*machine.settings(), before);
     laws::same("after a refusal", &numbers(machine), &shown);
 }
 
-/// Slices lead to what one call leads to.
-fn in_slices(machine: &mut BananaMachine, input: &mut Input) {
+/// Blocks lead to what one call leads to.
+fn in_blocks(machine: &mut BananaMachine, input: &mut Input) {
     let settings = changed(machine.settings(), input);
     if !allowed(&settings) {
         return;
     }
     let mut other = machine.clone();
     other.configure(few(settings)).expect("allowed");
-    machine.begin(few(settings)).expect("allowed");
-    let poses = 1 + usize::from(input.byte());
-    let slices = (0..8).take_while(|_| !machine.advance(poses)).count();
-    assert!(slices < 8, "{slices} slices for {} samples", settings.samples);
-    laws::same("in slices", &numbers(machine), &numbers(&other));
+    let count = 1 + usize::from(input.byte());
+    machine.configure_first(few(settings), count).expect("allowed");
+    while machine.shown() < machine.settings().samples {
+        machine.add_samples(count);
+    }
+    laws::same("in blocks", &numbers(machine), &numbers(&other));
 }
 
 /// A machine is what its settings are, whatever came before.
 fn as_if_new(machine: &BananaMachine) {
-    let mut other = BananaMachine::empty(*machine.settings()).expect("allowed");
+    let mut other = BananaMachine::showing(*machine.settings(), 0).expect("allowed");
     if machine.shown() > 0 {
-        other.grow(machine.shown());
+        other.add_samples(machine.shown());
         laws::same("as if new", &numbers(machine), &numbers(&other));
     }
 }

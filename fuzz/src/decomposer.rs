@@ -41,10 +41,10 @@ fn call(machine: &mut OdometryDecomposer, input: &mut Input) {
         0 | 1 => configure(machine, input),
         2 => {
             let count = input.choice(SAMPLES);
-            assert_eq!(machine.grow(count), (shown + count).min(machine.settings().samples));
+            assert_eq!(machine.add_samples(count), (shown + count).min(machine.settings().samples));
         }
         3 => {
-            machine.restart();
+            machine.configure_first(*machine.settings(), 0).expect("allowed");
             assert!(machine.poses().is_empty());
         }
         4 => {
@@ -69,9 +69,7 @@ fn configure(machine: &mut OdometryDecomposer, input: &mut Input) {
     }
     let settings = few(settings);
     machine.configure(settings).expect("allowed");
-    let complete = poses.len() == before.samples;
-    let shown = if complete { settings.samples } else { poses.len().min(settings.samples) };
-    assert_eq!(machine.poses().len(), shown);
+    assert_eq!(machine.poses().len(), settings.samples);
 }
 
 fn curve(machine: &OdometryDecomposer, longest: f64, count: usize) {
@@ -148,8 +146,8 @@ fn shows_sense(machine: &OdometryDecomposer) {
     // A machine is what its settings are, whatever came before.
     let mut other = OdometryDecomposer::new(*settings).expect("allowed");
     if n < settings.samples {
-        other.restart();
-        other.grow(n);
+        other.configure_first(*settings, 0).expect("allowed");
+        other.add_samples(n);
     }
     assert_eq!(other.poses(), machine.poses());
 }

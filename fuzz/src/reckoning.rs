@@ -21,14 +21,14 @@ pub fn run(bytes: &[u8]) {
     let opening = Settings { samples: 3, steps: STEPS, ..Settings::default() };
     let opening = changed(&opening, &mut input);
     if !allowed(&opening) {
-        assert!(DeadReckoning::empty(opening).is_err());
+        assert!(DeadReckoning::showing(opening, 0).is_err());
         return;
     }
     let most = if turn_of(16, bytes) { SAMPLES } else { FEW_SAMPLES };
     let few = |settings| few(settings, most);
-    let mut machine = DeadReckoning::empty(few(opening)).expect("allowed");
+    let mut machine = DeadReckoning::showing(few(opening), 0).expect("allowed");
     if input.truth() {
-        machine.grow(SAMPLES);
+        machine.add_samples(SAMPLES);
     }
     for _ in 0..CALLS {
         if input.is_empty() {
@@ -60,13 +60,13 @@ fn call(machine: &mut DeadReckoning, few: &dyn Fn(Settings) -> Settings, input: 
     let shown = machine.shown();
     match input.choice(9) {
         0 | 1 => configure(machine, few, input),
-        2 | 3 => in_slices(machine, few, input),
+        2 | 3 => in_blocks(machine, few, input),
         4 => {
             let count = usize::from(u16::from_le_bytes(input.bytes())) % SAMPLES;
-            assert_eq!(machine.grow(count), (shown + count).min(machine.settings().samples));
+            assert_eq!(machine.add_samples(count), (shown + count).min(machine.settings().samples));
         }
         5 => {
-            machine.restart();
+            machine.configure_first(*machine.settings(), 0).expect("allowed");
             assert_eq!(machine.shown(), 0);
         }
         6 => nearest(machine, input),
@@ -82,65 +82,33 @@ fn configure(machine: &mut DeadReckoning, few: &dyn Fn(Settings) -> Settings, in
         return;
     }
     let before = told(machine);
-    assert!(machine.configure(settings).is_err() && machine.begin(settings).is_err());
+    assert!(machine.configure(settings).is_err() && machine.configure_first(settings, 0).is_err());
     assert_eq!(told(machine), before);
 }
 
-/// Changes in slices, of which the last may be given up or followed by a start from none.
-fn in_slices(machine: &mut DeadReckoning, few: &dyn Fn(Settings) -> Settings, input: &mut Input) {
-    let (before, shown) = (*machine.settings(), machine.shown());
-    for _ in 0..=input.choice(3) {
-        let present = *machine.settings();
-        let count = 1 + usize::from(u16::from_le_bytes(input.bytes())) % SAMPLES;
-        match input.choice(4) {
-            0 => machine.begin_to_grow(count),
-            // The same way, looked at elsewhere or by more robots or fewer.
-            1 => {
-                let step = 1 + u32::from(input.byte()) % present.steps;
-                machine.begin(few(Settings { step, samples: count, ..present })).expect("allowed");
-            }
-            _ => {
-                let settings = changed(&present, input);
-                if allowed(&settings) {
-                    machine.begin(few(settings)).expect("allowed");
-                }
-            }
-        }
-        assert!((0.0..=1.0).contains(&machine.progress()), "{}", machine.progress());
-        let work = usize::from(u16::from_le_bytes(input.bytes()));
-        let done = machine.advance(work);
-        assert!((0.0..=1.0).contains(&machine.progress()), "{}", machine.progress());
-        if done {
-            assert_eq!(machine.shown_settings(), machine.settings());
-            shows_sense(machine);
-            return;
-        }
-        assert_eq!(machine.shown(), shown, "the former figures stay");
+/// Blocks lead to what one call leads to.
+fn in_blocks(machine: &mut DeadReckoning, few: &dyn Fn(Settings) -> Settings, input: &mut Input) {
+    let settings = changed(machine.settings(), input);
+    if !allowed(&settings) {
+        return;
     }
+    let settings = few(settings);
+    let mut other = machine.clone();
+    other.configure(settings).expect("allowed");
+    let count = 1 + usize::from(u16::from_le_bytes(input.bytes())) % SAMPLES;
+    machine.configure_first(settings, count).expect("allowed");
+    while machine.shown() < settings.samples {
+        machine.add_samples(count);
+    }
+    assert_eq!(told(machine), told(&other));
     shows_sense(machine);
-    match input.choice(3) {
-        0 => {
-            machine.stop();
-            let Settings { step, compounding, .. } = *machine.settings();
-            assert_eq!(*machine.settings(), Settings { step, compounding, ..before });
-            assert_eq!(machine.shown(), shown);
-        }
-        1 => machine.restart(),
-        _ => {
-            let slices = (0..32).take_while(|i| !machine.advance(1 << i)).count();
-            assert!(slices < 32, "{slices} slices");
-        }
-    }
-    assert_eq!(machine.shown_settings(), machine.settings());
 }
 
 /// A machine is what its settings are, whatever came before.
 fn as_if_new(machine: &DeadReckoning) {
-    let mut machine = machine.clone();
-    machine.grow(0);
-    let mut other = DeadReckoning::empty(*machine.settings()).expect("allowed");
-    other.grow(machine.shown());
-    assert_eq!(told(&other), told(&machine));
+    let mut other = DeadReckoning::showing(*machine.settings(), 0).expect("allowed");
+    other.add_samples(machine.shown());
+    assert_eq!(told(&other), told(machine));
 }
 
 /// All that is told: of the step that is shown bit by bit, the rest as text, in which NaN is equal to itself.
@@ -156,7 +124,7 @@ fn told(machine: &DeadReckoning) -> (String, Vec<u64>) {
 
 /// Everything shown is finite, or NaN or empty where it has no meaning.
 fn shows_sense(machine: &DeadReckoning) {
-    let settings = machine.shown_settings();
+    let settings = machine.settings();
     let (n, steps) = (machine.shown(), settings.steps as usize);
     assert!(n <= SAMPLES && (1..=settings.steps).contains(&settings.step), "{settings:?} of {n}");
     assert_eq!([machine.measured().len(), machine.nominal().len()], [steps; 2]);
@@ -241,7 +209,7 @@ fn straight(machine: &DeadReckoning) {
 }
 
 fn outlines(machine: &DeadReckoning, step: u32) {
-    let settings = machine.shown_settings();
+    let settings = machine.settings();
     let Some(outlines) = machine.outlines(step) else {
         assert!(step > settings.steps);
         return;
@@ -262,7 +230,7 @@ fn rollout(machine: &DeadReckoning, index: usize) {
         assert!(index >= machine.shown());
         return;
     };
-    assert_eq!(way.len(), machine.shown_settings().steps as usize);
+    assert_eq!(way.len(), machine.settings().steps as usize);
     laws::finite("a way", way.as_flattened());
     for (step, pose) in (1..).zip(&way) {
         assert!(machine.poses(step).get(index).is_none_or(|shown| shown == pose), "{index} at {step}");
@@ -273,7 +241,7 @@ fn nearest(machine: &DeadReckoning, input: &mut Input) {
     let target = [0; 2].map(|_| input.number());
     let radius = input.within(0.0..=f64::INFINITY);
     let Some(index) = machine.nearest(target, radius) else { return };
-    let poses = machine.poses(machine.shown_settings().step);
+    let poses = machine.poses(machine.settings().step);
     let away = |[x, y, _]: &[f64; 3]| ((x - target[0]) / radius).hypot((y - target[1]) / radius);
     let least = poses.iter().map(away).fold(f64::INFINITY, f64::min);
     // A square of a distance below 1e-154 of the radius is 0.

@@ -52,7 +52,7 @@ fn judged_once(sampler: Sampler) -> Sampler {
 fn call(machine: &mut MapSqueeze, input: &mut Input) {
     match input.choice(10) {
         0 => configure(machine, input),
-        1 => in_slices(machine, input),
+        1 => in_blocks(machine, input),
         2 => {
             if let Some(plan) = plan::read(input) {
                 machine.set_plan(plan);
@@ -66,11 +66,11 @@ fn call(machine: &mut MapSqueeze, input: &mut Input) {
         }
         4 => {
             let before = machine.attempts().len();
-            let after = machine.grow(input.choice(SAMPLES));
+            let after = machine.add_samples(input.choice(SAMPLES));
             assert!(before <= after && after <= machine.settings().samples);
         }
         5 => {
-            machine.restart();
+            machine.configure_first(*machine.settings(), 0).expect("allowed");
             assert!(machine.attempts().is_empty());
         }
         6 => paint(machine, input),
@@ -101,39 +101,27 @@ fn configure(machine: &mut MapSqueeze, input: &mut Input) {
     assert_eq!(machine.attempts(), attempts);
 }
 
-/// Slices lead to what one call leads to, and back where they are stopped.
-fn in_slices(machine: &mut MapSqueeze, input: &mut Input) {
+/// Blocks lead to what one call leads to.
+fn in_blocks(machine: &mut MapSqueeze, input: &mut Input) {
     let settings = few(changed(machine.settings(), input), false);
     if !allowed(&settings) {
         return;
     }
-    let (before, attempts) = (*machine.settings(), machine.attempts().to_vec());
     let mut other = machine.clone();
     other.configure(settings).expect("allowed");
-    machine.begin(settings).expect("allowed");
-    let patience = input.choice(16);
-    let mut work = 1 + usize::from(u16::from_le_bytes(input.bytes()));
-    for slice in 0.. {
-        if machine.advance(work) {
-            assert_eq!(machine.attempts(), other.attempts());
-            return;
-        }
-        assert!(slice < 40 && (0.0..=1.0).contains(&machine.progress()), "{slice} slices");
-        if slice == patience {
-            machine.stop();
-            assert_eq!(*machine.settings(), before);
-            assert_eq!(machine.attempts(), attempts);
-            return;
-        }
-        work *= 2;
+    let count = 1 + input.choice(SAMPLES);
+    machine.configure_first(settings, count).expect("allowed");
+    while machine.shown() < settings.samples && !machine.gave_up() {
+        machine.add_samples(count);
     }
+    assert_eq!(machine.attempts(), other.attempts());
 }
 
 /// A machine is what its settings and its map are, whatever came before.
 fn as_if_new(machine: &MapSqueeze) {
-    let mut other = MapSqueeze::empty(*machine.settings()).expect("allowed");
+    let mut other = MapSqueeze::showing(*machine.settings(), 0).expect("allowed");
     other.set_plan(machine.plan().clone());
-    other.grow(machine.attempts().len());
+    other.add_samples(machine.attempts().len());
     assert_eq!(other.attempts(), machine.attempts());
 }
 

@@ -2,7 +2,7 @@
 
 use std::ops::RangeInclusive;
 
-use super::face::{advancing, cloud, configured, sliced};
+use super::face::{cloud, configured};
 use super::fields::{in_range, not_shown, whole, word};
 use super::pictures::{RADIUS, read_grid, read_ramps, view_of};
 use super::values::{flat, floats, group_to_js, list, object, plain};
@@ -146,9 +146,7 @@ configured!(
     "BananaMachineSettings",
     "Partial<BananaMachineSettings>"
 );
-sliced!(JsBananaMachine, BananaMachine, "BananaMachine", "Partial<BananaMachineSettings>");
-advancing!(JsBananaMachine, "BananaMachine", poses);
-cloud!(JsBananaMachine, "BananaMachine", MAX_SAMPLES);
+cloud!(JsBananaMachine, BananaMachine, "BananaMachine", "Partial<BananaMachineSettings>", MAX_SAMPLES);
 
 #[wasm_bindgen(js_class = BananaMachine)]
 impl JsBananaMachine {

@@ -1,6 +1,6 @@
 //! `DeadReckoning` for JavaScript.
 
-use super::face::{advancing, cloud, configured, sliced, stoppable};
+use super::face::{cloud, configured};
 use super::fields::{not_shown, whole};
 use super::pictures::index_of;
 use super::values::{flat, floats, group_to_js, list, number_or_null, object, plain};
@@ -80,15 +80,13 @@ configured!(
     "DeadReckoningSettings",
     "Partial<DeadReckoningSettings> & { headingNoise?: number }"
 );
-sliced!(
+cloud!(
     JsDeadReckoning,
     DeadReckoning,
     "DeadReckoning",
-    "Partial<DeadReckoningSettings> & { headingNoise?: number }"
+    "Partial<DeadReckoningSettings> & { headingNoise?: number }",
+    MAX_SAMPLES
 );
-advancing!(JsDeadReckoning, "DeadReckoning", steps);
-stoppable!(JsDeadReckoning, "DeadReckoning");
-cloud!(JsDeadReckoning, "DeadReckoning", MAX_SAMPLES);
 
 #[wasm_bindgen(js_class = DeadReckoning)]
 impl JsDeadReckoning {
@@ -177,7 +175,7 @@ impl JsDeadReckoning {
     /// x, y (m), θ (rad) of the first robots after the step that is looked at, 600 at most; a copy.
     #[wasm_bindgen(getter)]
     pub fn poses(&self) -> Float64Array {
-        flat(self.0.poses(self.0.shown_settings().step))
+        flat(self.0.poses(self.0.settings().step))
     }
 
     /// As `poses`, after another step, 1 to 200; empty where the path is shorter.

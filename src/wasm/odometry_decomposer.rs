@@ -63,7 +63,13 @@ configured!(
     "OdometryDecomposerSettings",
     "Partial<OdometryDecomposerSettings>"
 );
-cloud!(JsOdometryDecomposer, "OdometryDecomposer", MAX_SAMPLES);
+cloud!(
+    JsOdometryDecomposer,
+    OdometryDecomposer,
+    "OdometryDecomposer",
+    "Partial<OdometryDecomposerSettings>",
+    MAX_SAMPLES
+);
 
 #[wasm_bindgen(js_class = OdometryDecomposer)]
 impl JsOdometryDecomposer {

@@ -1,6 +1,6 @@
 //! `MapSqueeze` for JavaScript.
 
-use super::face::{advancing, cloud, configured, sliced, stoppable};
+use super::face::{cloud, configured};
 use super::fields::{in_range, quoted, whole, word};
 use super::maps::{read_map, read_plan};
 use super::pictures::{index_of, read_grid, read_ramps, view_of};
@@ -64,10 +64,13 @@ configured!(
     "MapSqueezeSettings",
     "Partial<MapSqueezeSettings> & { noise?: number }"
 );
-sliced!(JsMapSqueeze, MapSqueeze, "MapSqueeze", "Partial<MapSqueezeSettings> & { noise?: number }");
-advancing!(JsMapSqueeze, "MapSqueeze", distances);
-stoppable!(JsMapSqueeze, "MapSqueeze");
-cloud!(JsMapSqueeze, "MapSqueeze", MAX_SAMPLES);
+cloud!(
+    JsMapSqueeze,
+    MapSqueeze,
+    "MapSqueeze",
+    "Partial<MapSqueezeSettings> & { noise?: number }",
+    MAX_SAMPLES
+);
 
 #[wasm_bindgen(js_class = MapSqueeze)]
 impl JsMapSqueeze {

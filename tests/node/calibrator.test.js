@@ -92,7 +92,7 @@ test('lines for Nav2 warn of failed checks, of another rule, and of a localizer 
 test('legs of the simulated log are those that the settings open with', () => {
   const config = Object.fromEntries(settings['alpha-calibrator'].map((each) => [each.key, each.default]));
   assert.deepEqual(SIMULATED, { distance: config.distance, angle: config.angle });
-  const holds = (/** @type {object} */ change) => truthHolds(/** @type {any} */ ({ truth: {}, config: { ...config, ...change } }));
+  const holds = (/** @type {object} */ change) => truthHolds(/** @type {any} */ ({ truth: {}, fitted: { ...config, ...change } }));
   assert.deepEqual([holds({}), holds({ distance: 0.3 }), holds({ angle: 0.3 }), holds({ duration: 1 }), holds({ rule: 'nav2' })], [true, false, false, false, false]);
 });
 

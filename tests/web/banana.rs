@@ -175,40 +175,31 @@ fn outlines_and_curves_are_arrays_of_points() {
 }
 
 #[wasm_bindgen_test]
-fn a_cloud_grows_and_a_change_in_slices_ends_where_a_change_at_once_does() {
+fn a_cloud_that_comes_in_blocks_ends_as_one_that_comes_at_once() {
     let it = Object::new(
-        "({ sliced: new motion.BananaMachine({ samples: 300 }),
-            whole: new motion.BananaMachine({ samples: 300 }),
-            empty: motion.BananaMachine.empty({ samples: 300 }) })",
+        "({ blocks: motion.BananaMachine.empty({ samples: 300 }), whole: new motion.BananaMachine({ samples: 300 }) })",
     );
-    assert_eq!(
-        it.get::<[usize; 4]>("[it.empty.shown, it.empty.grow(1), it.empty.grow(100), it.empty.grow(1000)]"),
-        [0, 1, 101, 300]
-    );
-    let same = |one: &str, other: &str| {
-        it.get::<bool>(&format!(
-            "JSON.stringify([it.{one}.config, it.{one}.stats, [...it.{one}.poses]]) ===
-             JSON.stringify([it.{other}.config, it.{other}.stats, [...it.{other}.poses]])"
-        ))
-    };
-    assert!(same("empty", "whole"));
-    it.run("it.empty.restart()");
     it.assert(
-        "it.empty.shown === 0 && it.empty.contours.ellipse.length === 0
-        && Number.isNaN(it.empty.stats.gaussianSkew)",
+        "it.blocks.shown === 0 && it.blocks.contours.ellipse.length === 0
+        && Number.isNaN(it.blocks.stats.gaussianSkew)",
     );
-    it.run("it.empty.beginToGrow(300)");
-    it.run("(() => { while (!it.empty.advance(100)); })()");
-    assert!(same("empty", "whole"));
-
-    let change = "{ command: { v: 1, omega: 1.2, dt: 1.4 }, samples: 20_000, seed: 5 }";
-    let mean: f64 = it.get("it.sliced.stats.cartesian.mean[0]");
-    it.run(&format!("it.sliced.begin({change})"));
-    assert!(!it.get::<bool>("it.sliced.advance(1000)"));
-    assert_eq!(it.get::<f64>("it.sliced.stats.cartesian.mean[0]"), mean, "the former figures");
-    it.run("(() => { while (!it.sliced.advance(1000)); })()");
+    let same = || {
+        it.get::<bool>(
+            "JSON.stringify([it.blocks.config, it.blocks.stats, [...it.blocks.poses]]) ===
+             JSON.stringify([it.whole.config, it.whole.stats, [...it.whole.poses]])",
+        )
+    };
+    assert_eq!(
+        it.get::<[usize; 3]>("[1, 100, 1000].map((count) => it.blocks.addSamples(count))"),
+        [1, 101, 300]
+    );
+    assert!(same());
+    let change = "{ command: { v: 1, omega: 1.2, dt: 1.4 }, samples: 120_000, seed: 5 }";
+    it.run(&format!("it.blocks.configureFirst({change}, Infinity)"));
+    it.assert("it.blocks.shown === 50_000 && it.blocks.stats.n === 50_000");
+    it.run("(() => { while (it.blocks.shown < 120_000) it.blocks.addSamples(it.blocks.block); })()");
     it.run(&format!("it.whole.configure({change})"));
-    assert!(same("sliced", "whole"));
+    assert!(same());
 }
 
 #[wasm_bindgen_test]
@@ -255,11 +246,9 @@ fn every_kind_of_bad_value_is_refused_and_changes_nothing() {
             samples, seed
         new motion.BananaMachine({ model: 'x'.repeat(50) })
         RangeError: model is "xxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxx…"; allowed is "velocity" or "odometry"
-        it.begin({ samples: 0 })
+        it.configureFirst({ samples: 0 }, 1)
         RangeError: samples is 0; allowed is a whole number from 1 to 10000000
-        it.advance(0)
-        RangeError: poses is 0; allowed is a whole number from 1 to 9007199254740991
-        it.grow(-1)
+        it.addSamples(-1)
         RangeError: count is -1; allowed is a whole number from 0 to 10000000
         it.inspect(30)
         RangeError: index is 30; allowed is one of the 30 samples shown, counted from 0

@@ -48,8 +48,8 @@ fn outcomes_spread_as_is_exact() {
     assert_near([heading], [exact], 4.5 * error);
     assert_eq!(it.get::<i32>("it.nearest(it.poses[3 * 40], it.poses[3 * 40 + 1], 1e-9)"), 40);
     let cloud: Vec<f64> = it.get("it.poses");
-    it.run("it.restart()");
-    assert_eq!(it.get::<[usize; 3]>("[it.shown, it.grow(30), it.grow(5000)]"), [0, 30, 5000]);
+    it.run("it.configureFirst({}, 0)");
+    assert_eq!(it.get::<[usize; 3]>("[it.shown, it.addSamples(30), it.addSamples(5000)]"), [0, 30, 5000]);
     assert_eq!(it.get::<Vec<f64>>("it.poses"), cloud);
 }
 

@@ -94,33 +94,6 @@ fn one_level_stands_for_all_heading_noise() {
 }
 
 #[wasm_bindgen_test]
-fn a_change_in_slices_ends_where_a_change_at_once_does_or_is_given_up() {
-    let it = Object::new(
-        "({ sliced: new motion.DeadReckoning({ samples: 500 }), whole: new motion.DeadReckoning({ samples: \
-         500 }) })",
-    );
-    let same = || {
-        it.get::<bool>(
-            "JSON.stringify([it.sliced.config, it.sliced.stats, [...it.sliced.poses]]) ===
-             JSON.stringify([it.whole.config, it.whole.stats, [...it.whole.poses]])",
-        )
-    };
-    let change = "{ samples: 3000, per: 'path', seed: 4 }";
-    it.run(&format!("it.sliced.begin({change})"));
-    it.assert("!it.sliced.advance(3000) && it.sliced.progress > 0 && it.sliced.progress < 1");
-    it.run("it.sliced.stop()");
-    assert!(it.get::<bool>("it.sliced.advance(1)") && same());
-    it.run(&format!("it.sliced.begin({change})"));
-    it.run("(() => { while (!it.sliced.advance(3000)); })()");
-    it.run(&format!("it.whole.configure({change})"));
-    assert!(same());
-    it.run("it.sliced.restart()");
-    assert_eq!(it.get::<[usize; 2]>("[it.sliced.shown, it.sliced.grow(1000)]"), [0, 1000]);
-    it.run("(() => { it.sliced.beginToGrow(2000); while (!it.sliced.advance(3000)); })()");
-    assert!(same());
-}
-
-#[wasm_bindgen_test]
 fn what_is_refused_changes_nothing() {
     let it = Object::new("new motion.DeadReckoning({ samples: 20 })");
     it.assert_refused(

@@ -67,8 +67,11 @@ fn statistics_count_the_verdicts() {
 fn attempts_come_a_few_at_a_time_with_the_paths_they_took() {
     let it = Object::new("new motion.MapSqueeze({ sampler: 'sub-stepped', samples: 100 })");
     let poses: Vec<f64> = it.get("it.poses");
-    it.run("it.restart()");
-    assert_eq!(it.get::<[usize; 4]>("[it.shown, it.grow(30), it.grow(0), it.grow(1000)]"), [0, 30, 30, 100]);
+    it.run("it.configureFirst({}, 0)");
+    assert_eq!(
+        it.get::<[usize; 4]>("[it.shown, it.addSamples(30), it.addSamples(0), it.addSamples(1000)]"),
+        [0, 30, 30, 100]
+    );
     assert_eq!(it.get::<Vec<f64>>("it.poses"), poses);
     let path: Vec<f64> = it.get("it.path(9)");
     assert_eq!(path[..2], [2.05, 2.6]);
@@ -165,30 +168,6 @@ fn a_map_is_read_from_a_file_or_from_pixels() {
     it.assert("it.machine.startFree");
     it.run("it.machine.configure({ unknown: 'blocked' })");
     assert!(!it.get::<bool>("it.machine.startFree"));
-}
-
-#[wasm_bindgen_test]
-fn work_in_slices_ends_where_work_at_once_does_or_is_given_up() {
-    let it = Object::new(
-        "({ sliced: new motion.MapSqueeze({ samples: 300 }), whole: new motion.MapSqueeze({ samples: 300 }) })",
-    );
-    let same = || {
-        let told = |name: &str| {
-            it.get::<String>(&format!(
-                "JSON.stringify((({{ config, stats, plan, poses }}) => [config,
-                stats, plan, [...poses]])(it.{name}))"
-            ))
-        };
-        told("sliced") == told("whole")
-    };
-    it.run(
-        "(() => { it.sliced.begin({ sampler: 'whole-arc',
-        samples: 900 }); while (!it.sliced.advance(100)); })()",
-    );
-    it.run("it.whole.configure({ sampler: 'whole-arc', samples: 900 })");
-    assert!(same());
-    it.run("(() => { it.sliced.restart(); it.sliced.beginToGrow(900); while (!it.sliced.advance(100)); })()");
-    assert!(same());
 }
 
 #[wasm_bindgen_test]

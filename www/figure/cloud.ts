@@ -8,7 +8,6 @@ import { button, inputOf } from '../ui/controls.ts';
 import { counted } from '../ui/format.ts';
 import { truth, wholeNumber } from './checks.ts';
 import { Part } from './part.ts';
-import { LONGEST_WORK } from './settings.ts';
 import { isCalm } from './stage.ts';
 import type { Figure } from './figure.ts';
 import type { Values } from './state.ts';
@@ -17,22 +16,29 @@ import type { Values } from './state.ts';
 export interface Growing {
   config: { samples: number, seed: number };
   shown: number;
-  grow: (count: number) => number;
-  /** Begin to grow as grow, in slices. */
-  beginToGrow: (count: number) => void;
-  restart: () => void;
+  /** Number of samples that are added within a few milliseconds. */
+  block: number;
+  /** Changes settings and shows the first block of `goal` samples. */
+  configureFirst: (settings: Values, goal: number) => void;
+  /** Returns how many are shown then. */
+  addSamples: (count: number) => number;
 }
 
 /** Steps that a cloud grows in. */
 const BATCHES = 150;
 
+/** Time in a frame for adding samples, ms: with the pictures it stays below 50. */
+const FRAME_WORK = 12;
+
 export class Cloud extends Part {
   playing = false;
-  /** Whether a step has begun that has not been shown. */
-  #begun = false;
+  /** Number of samples that are to be shown; Infinity for all. */
+  #goal = Infinity;
   #gaveUp;
+  /** Resolves the promises of those who wait for all samples. */
+  #waiting: (() => void)[] = [];
 
-  /** @param gaveUp whether the machine has stopped short of its samples for good */
+  /** @param gaveUp tells whether the machine has stopped short of its samples for good */
   constructor(host: Figure, gaveUp: (machine: any) => boolean = () => false) {
     super(host);
     this.#gaveUp = gaveUp;
@@ -42,54 +48,88 @@ export class Cloud extends Part {
     return this.host.machine as Growing;
   }
 
-  /** Whether it will not grow any more. */
+  /** True if it will not grow any more. */
   get complete() {
-    return this.#machine.shown === this.#samples || this.#gaveUp(this.#machine);
+    return this.#goal >= this.#samples || this.#gaveUp(this.#machine);
   }
 
-  /** How many samples there are when all have come. */
+  /** Number of samples of the complete cloud. */
   get #samples(): number {
     return this.host.settings.present.samples;
   }
 
-  /** How many samples a step adds. */
+  /** Number of samples that a step adds. */
   get #batch() {
     return Math.ceil(this.#samples / BATCHES);
   }
 
-  /** Whether it has not been shown yet: it opens with all of its samples on their way. */
-  get #unopened() {
-    return this.host.reading === undefined;
-  }
-
-  /** How many samples have been asked for so far: all of them where the machine has given up before. */
+  /** Number of samples that are to be shown: all of them where the machine has given up before. */
   get asked() {
-    return this.complete || this.#unopened ? this.#samples : this.#machine.shown;
+    return this.complete ? this.#samples : this.#goal;
   }
 
-  /** Whether samples are still to come. */
-  get growing() {
-    return this.playing || this.#unopened;
+  /** Promise that all samples that are to be shown are. */
+  get settled(): Promise<void> {
+    return new Promise((resolve) => {
+      this.#waiting.push(resolve);
+      this.host.settings.show();
+    });
   }
 
   /**
-   * Starts the show: the cloud grows, or stands there for one who wants less motion.
+   * Starts the show: the cloud grows, or is complete for readers who want less motion.
    *
    * @param state that the machine is in, if it is not the opening
    */
   introduce(state?: Values) {
-    if (!state && !isCalm()) this.#machine.restart();
-    this.pause();
     this.playing = state ? state.playing : true;
+    this.#goal = state && state.shown < this.#samples ? state.shown : Infinity;
+    if (!state && !isCalm()) this.#restart();
     if (isCalm()) this.finish();
   }
 
-  /** A cloud that grows is complete at once. */
+  /** Changes settings: a block of samples is shown at once, and the others in later frames. */
+  configure(values: Values) {
+    this.#machine.configureFirst(values, this.#goal);
+  }
+
+  #restart() {
+    this.#goal = 0;
+    this.configure({});
+    this.host.settings.stale = true;
+  }
+
+  /** Completes a cloud that grows. */
   finish() {
     if (!this.playing) return;
     this.pause();
-    this.#machine.grow(this.#samples);
-    this.host.settings.stale = true;
+    this.#goal = Infinity;
+    this.refine(Infinity);
+  }
+
+  /** Shows so many samples. */
+  show(count: number) {
+    this.#goal = Math.min(count, this.#samples);
+    this.refine(Infinity);
+  }
+
+  /**
+   * Adds samples that are to be shown, as many as a frame has time for.
+   *
+   * @param limit milliseconds
+   * @returns true if all of them are shown
+   */
+  refine(limit = FRAME_WORK): boolean {
+    const machine = this.#machine;
+    const end = performance.now() + limit;
+    let { shown } = machine;
+    while (shown < this.asked && !this.#gaveUp(machine)) {
+      if (performance.now() > end) return false;
+      shown = machine.addSamples(Math.min(this.asked - shown, machine.block));
+      this.host.settings.stale = true;
+    }
+    if (!this.playing) for (const resolve of this.#waiting.splice(0)) resolve();
+    return true;
   }
 
   /** @returns its part of the state */
@@ -144,9 +184,9 @@ export class Cloud extends Part {
     return this.index >= 0 && this.index < this.markable;
   }
 
-  /** How many samples can be marked: one that is to come can be, and is from when it is there. */
+  /** Number of samples that can be marked: also one that is to come. */
   get markable() {
-    return this.growing ? this.#machine.config.samples : this.#machine.shown;
+    return this.playing ? this.#samples : this.asked;
   }
 
   /** A mark of what is not there, and does not come, goes. */
@@ -154,42 +194,44 @@ export class Cloud extends Part {
     if (!this.#isWanted) this.mark(-1);
   }
 
-  /** @returns whether there is nothing left to do in this frame: a large cloud may take more than one */
-  grow(): boolean {
-    if (!this.playing) return true;
-    // A step that took several frames is shown before the next begins.
-    if (!this.#begun && !this.complete) {
-      this.#begun = true;
-      this.#machine.beginToGrow(this.#batch);
-      this.host.settings.work();
-      if (!this.host.settings.settle(LONGEST_WORK)) return false;
-    }
-    this.#begun = false;
-    this.host.settings.stale = true;
-    if (this.complete) {
-      this.playing = false;
-      this.host.announcer.expect();
-    }
-    return true;
+  /**
+   * Adds samples in a frame. A change is answered with one block, so that a drag of a large cloud is as quick as one of a small cloud.
+   *
+   * @param isChanged tells whether the settings have changed since the frame before
+   * @param isLast tells whether no frame will follow, as on paper
+   * @returns true if more are to come
+   */
+  advance(isChanged: boolean, isLast: boolean): boolean {
+    if (this.playing) this.grow();
+    else if (isLast || !isChanged) this.refine(isLast ? Infinity : FRAME_WORK);
+    return this.#machine.shown < this.asked && !this.#gaveUp(this.#machine);
   }
 
-  /** It stands, and of a step that it has begun with nothing is to come. */
+  /** Adds a step to a cloud that grows. */
+  grow() {
+    this.show(this.#machine.shown + this.#batch);
+    if (!this.complete) return;
+    this.#goal = Infinity;
+    this.playing = false;
+    this.host.announcer.expect();
+  }
+
   pause() {
-    this.playing = this.#begun = false;
+    this.playing = false;
   }
 
   play() {
     this.#turn(!this.playing, () => {
-      if (!this.playing && this.complete) this.#machine.restart();
+      if (!this.playing && this.complete) this.#restart();
     });
   }
 
   step() {
-    this.#turn(false, () => this.#machine.grow(this.#batch));
+    this.#turn(false, () => this.show(this.#machine.shown + this.#batch));
   }
 
   clear() {
-    this.#turn(false, () => this.#machine.restart());
+    this.#turn(false, () => this.#restart());
   }
 
   reseed() {
@@ -205,7 +247,6 @@ export class Cloud extends Part {
     this.host.runtime.attempt(() => {
       if (!this.host.machine) return;
       act();
-      this.pause();
       this.playing = playing;
       this.host.gesture.step();
       this.host.gesture.commit();
@@ -237,7 +278,7 @@ export class Cloud extends Part {
         type="text"
         inputmode="numeric"
         autocomplete="off"
-        .value=${refusal ? noChange : live(String(host.settings.told.seed))}
+        .value=${refusal ? noChange : live(String(host.settings.wanted.seed))}
         @input=${type}
         @change=${() => host.gesture.commit()}
         @blur=${() => host.typing.forget()}
@@ -248,12 +289,13 @@ export class Cloud extends Part {
 }
 
 /**
- * How many samples a state shows.
+ * Puts a machine into a state, with the first block of the samples that it shows.
  *
- * @param machine in that state
+ * @throws {TypeError | RangeError}
  */
-export function shownOf(machine: Growing, shown: number) {
-  return wholeNumber('state.shown', shown, 0, machine.config.samples);
+export function enterCloud(machine: Growing, settings: Values, shown: number) {
+  machine.configureFirst(settings, 0);
+  machine.configureFirst({}, wholeNumber('state.shown', shown, 0, machine.config.samples));
 }
 
 /** What of the state of an element with a cloud is its own. */

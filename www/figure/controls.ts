@@ -41,7 +41,7 @@ export function slider(figure: Figure, key: string, otherwise?: Row) {
   const { symbol, decimals, value, ...look } = looks[key];
   const { name, effect } = wordsFor(figure, key);
   const { unit } = declarationOf(figure, key);
-  const config = figure.settings.told;
+  const config = figure.settings.wanted;
   const setting = attributes[key] as Setting;
   return typeable(figure, key, symbol ?? name, {
     ...look,
@@ -119,12 +119,12 @@ export function sliders(figure: Figure, looks: Record<string, Look>) {
  * @param labels of its words
  */
 export function choices(figure: Figure, key: string, labels: Record<string, string>) {
-  return radioGroup(wordsFor(figure, key).name, key, labels, figure.settings.told[key], (word) => figure.gesture.decide({ [key]: word }));
+  return radioGroup(wordsFor(figure, key).name, key, labels, figure.settings.wanted[key], (word) => figure.gesture.decide({ [key]: word }));
 }
 
 /** @param key of a setting that is true or false */
 export function check(figure: Figure, key: string, label: unknown) {
-  return toggle({ label, checked: figure.settings.told[key], change: (on) => figure.gesture.decide({ [key]: on }) });
+  return toggle({ label, checked: figure.settings.wanted[key], change: (on) => figure.gesture.decide({ [key]: on }) });
 }
 
 /** Returns the two disclosures below a figure, and the buttons that copy a link to it and present it. */
@@ -139,7 +139,7 @@ export function disclosures(figure: Figure, { controls, numbers, mark = figure.r
 }
 
 /** Returns the noise parameters with their values, for paper. */
-function noiseOf({ kind: { attributes, looks }, machine, settings: { told: config } }: Figure) {
+function noiseOf({ kind: { attributes, looks }, machine, settings: { wanted: config } }: Figure) {
   return Object.entries(looks).filter(([, { alpha }]) => alpha).flatMap(([key, { symbol = '', decimals }]) => {
     const value = (attributes[key] as Setting).get({ config, machine }) as number | null;
     return value === null ? [] : html`<span>${rich(`${symbol}\u00a0=\u00a0${typed(value, decimals)}`)}</span> `;
@@ -165,7 +165,7 @@ export function panel(title: unknown, picture: unknown, name?: string) {
  * @param counts the sizes that the slider offers
  */
 export function cloudControls(figure: Figure & { cloud: import('./cloud.ts').Cloud }, counts: readonly number[]) {
-  const { samples } = figure.settings.told;
+  const { samples } = figure.settings.wanted;
   const { name, effect } = wordsFor(figure, 'samples');
   const last = counts.length - 1;
   const nearest = counts.findIndex((count) => count >= samples);

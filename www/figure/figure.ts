@@ -16,11 +16,11 @@ import { Link } from './link.ts';
 import { Lettering } from './lettering.ts';
 import { THEMES, schemeStyles } from './page/scheme.ts';
 import { Notice, noticeStyles } from './notice.ts';
-import { Presentation } from './presentation.ts';
 import { Progress, progressStyles } from './progress.ts';
+import { Presentation } from './presentation.ts';
 import { Reflection } from './reflection.ts';
 import { Runtime } from './runtime.ts';
-import { Settings, advancing } from './settings.ts';
+import { Settings } from './settings.ts';
 import { Stage } from './stage.ts';
 import { State } from './state.ts';
 import { surface } from './surface.ts';
@@ -65,7 +65,7 @@ addEnglish(en);
  * @csspart readouts - The figures about the cloud.
  * @csspart table - A table of figures.
  * @csspart fold - What is folded away, with its name.
- * @csspart progress - How much is done of what takes longer, with the button that stops it.
+ * @csspart progress - The button that stops a long calculation.
  * @csspart exports - Pictures and data to take along.
  * @csspart copies - HTML to copy.
  * @cssprop --motion-paper - The ground of everything; without it, that of what is around the figure.
@@ -84,7 +84,7 @@ addEnglish(en);
  * @cssprop --motion-sticky-bottom - Height of text below the figure beside which the picture still stays in sight. The text
  *   needs a `position` to be above the figure.
  */
-export class FigureElement<Machine extends { free(): void, stats: object, config: Values, configure(settings: Values): void, begin?(settings: Values): void, advance?(work: number): boolean }, Reading extends { config: Values }> extends LitElement {
+export class FigureElement<Machine extends { free(): void, stats: object, config: Values, configure(settings: Values): void }, Reading extends { config: Values }> extends LitElement {
   static styles = [theme, schemeStyles, presentationStyles, progressStyles, noticeStyles];
 
   /** The widget's settings, as declared. */
@@ -145,10 +145,8 @@ export class FigureElement<Machine extends { free(): void, stats: object, config
     throw new Error('A widget makes its own machine.');
   }
 
-  /** Lets a machine that was made of a state have all of it, and the state hold it as the machine does. */
-  complete(machine: Machine, _state: Values): import('./settings.ts').Job {
-    return advancing(machine);
-  }
+  /** Completes a machine that was made of a state, and the state, where it takes more than settings. */
+  complete(_machine: Machine, _state: Values) {}
 
   /** Everything that pictures and HTML need of the machine, asked once a change. */
   read(_machine: Machine): Reading {
@@ -209,7 +207,7 @@ export class FigureElement<Machine extends { free(): void, stats: object, config
     if (!machine) return;
     speak(this);
     this.reading = this.read(machine);
-    this.settings.read();
+    this.settings.stale = false;
     this.announcer.say(() => this.announcement(this.reading));
     this.state.keep();
     this.dispatchEvent(new CustomEvent('stats', { detail: machine.stats, bubbles: true, composed: true }));
@@ -219,9 +217,7 @@ export class FigureElement<Machine extends { free(): void, stats: object, config
   get fresh(): Reading {
     if (!this.machine) throw new Error('There is no figure yet: it is there from the load event on.');
     speak(this);
-    // A machine that is still in the making is no change of this one. And whoever went on with it here would tell of progress, and
-    // be asked again by the rendering of that, until it is done.
-    if (!this.settings.next) this.settings.settle();
+    this.settings.settle();
     if (this.settings.stale) this.refresh();
     return this.reading;
   }
@@ -242,13 +238,23 @@ export class FigureElement<Machine extends { free(): void, stats: object, config
   // What a page has of every figure.
 
   /**
-   * The statistics as they are; null before there are any. What is being computed is finished for it: who can wait
-   * for that listens for `stats`.
+   * Statistics of the samples shown, which say how many these are; null before there are any. A large cloud is complete a few frames
+   * after a change: see `settled`.
    *
    * @public
    */
   get stats(): Machine['stats'] | null {
     return this.ask((machine) => machine.stats);
+  }
+
+  /**
+   * Promise that every change is in effect and all samples are shown.
+   *
+   * @public
+   */
+  get settled(): Promise<void> {
+    this.settings.settle();
+    return this.cloud && this.machine ? this.cloud.settled : Promise.resolve();
   }
 
   /** Light, dark, or as the surroundings are. */

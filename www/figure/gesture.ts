@@ -4,7 +4,6 @@
  */
 
 import { Part } from './part.ts';
-import { LONGEST_WORK } from './settings.ts';
 import type { Values } from './settings.ts';
 
 export class Gesture extends Part {
@@ -56,7 +55,7 @@ export class Gesture extends Part {
   /** What the reader changed has come to rest: put it into effect and say what it led to. */
   commit() {
     const { runtime, settings, announcer, stage } = this.host;
-    runtime.attempt(() => settings.settle(LONGEST_WORK));
+    runtime.attempt(() => settings.settle());
     announcer.expect();
     settings.stale = true;
     this.#rest();

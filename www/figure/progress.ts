@@ -43,16 +43,13 @@ export const progressStyles = css`
   }
 `;
 
-/** Work that can be shown. */
+/** Work that can be stopped. */
 export interface Work {
-  canStop: boolean;
-  /** Share that is done; null where nobody knows. */
-  done: number | null;
   stop(): void;
 }
 
 export class Progress extends Part {
-  #work: Work = this.host.settings;
+  #work: Work | undefined;
   /** When the work was first told of. */
   #since: number | undefined;
   #shown = false;
@@ -76,9 +73,8 @@ export class Progress extends Part {
     this.#stop();
   };
 
-  /** There is more to do than a frame has time for. */
-  tell(work: Work = this.host.settings) {
-    if (!work.canStop) return;
+  /** Tells of work that goes on. */
+  tell(work: Work) {
     this.#work = work;
     const now = performance.now();
     this.#since ??= now;
@@ -89,7 +85,7 @@ export class Progress extends Part {
   }
 
   /** All is done. */
-  rest(work: Work = this.host.settings) {
+  rest(work: Work) {
     if (work !== this.#work) return;
     this.#since = undefined;
     if (!this.#shown) return;
@@ -99,17 +95,16 @@ export class Progress extends Part {
 
   #stop() {
     this.host.announcer.tell(words.progress.stopped);
-    this.#work.stop();
+    this.#work?.stop();
   }
 
   render() {
     if (!this.#shown) return nothing;
-    const { done } = this.#work;
     const say = words.progress;
     return html`<div class="progress">
       <div part="progress">
-        <progress aria-label=${say.label} value=${done ?? nothing}></progress>
-        <span aria-hidden="true">${say.label}${done === null ? '' : ` ${Math.floor(100 * done)} %`}</span>
+        <progress aria-label=${say.label} ></progress>
+        <span aria-hidden="true">${say.label}</span>
         ${button(say.stop, () => this.#stop(), { title: say.stopTitle })}
       </div>
     </div>`;

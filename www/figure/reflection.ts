@@ -261,7 +261,7 @@ export function define(tag: string, Widget: typeof import('./figure.ts').FigureE
           if (!this.machine) return this.reflection.wished(name);
           // That is known before anything is computed with it.
           return this.runtime.attempt(() => {
-            this.settings.takeUp();
+            this.settings.settle();
             const { machine } = this;
             return machine && entry.get({ config: machine.config, machine });
           }) ?? null;

@@ -127,7 +127,7 @@ export class Runtime extends Part {
   }
 
   #abandon() {
-    for (const machine of [this.machine, this.host.settings.next]) if (machine) abandon(machine);
+    if (this.machine) abandon(this.machine);
     this.host.settings.reset();
     this.machine = this.motion = undefined;
   }

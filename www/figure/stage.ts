@@ -9,16 +9,12 @@ import { resolvePalette } from '../ui/theme.ts';
 import { sleep, wake } from './page/frames.ts';
 import { ancestors, surroundings } from './page/scheme.ts';
 import { Part } from './part.ts';
-import { LONGEST_WORK } from './settings.ts';
 
 /**
  * A picture that took no longer, milliseconds, has its words in the same frame: to lay them out takes about as long again.
  * After a longer one they follow in the next frame, so that neither takes longer than one.
  */
 const QUICK = 5;
-
-/** What is drawn and told of a machine after so much work in a frame, milliseconds, would make that a long one. */
-const ENOUGH_WORK = LONGEST_WORK / 2;
 
 /** Longest that words wait while every frame has a picture, milliseconds: what comes later is no answer to the hand. */
 const LATEST_WORDS = 100;
@@ -47,8 +43,6 @@ export class Stage extends Part {
   /** When the first picture was drawn whose words have not come yet. */
   #owedSince: number | undefined;
   #printing = false;
-  /** Whether the frame before was too short for what was to be done. */
-  #slicing: boolean | undefined;
   /** Words of other heights would change the sizes that are being told of: they wait for the next frame. */
   #resizing: boolean | undefined;
   #sizes: ResizeObserver | undefined;
@@ -173,20 +167,10 @@ export class Stage extends Part {
   #draw(elapsed: number) {
     const host = this.host;
     const began = performance.now();
-    // A large cloud takes several frames: the former one is shown until then. So is the machine that another one is to
-    // replace, also where nothing of it has been drawn yet.
-    const settled = host.settings.settle(this.#printing ? Infinity : LONGEST_WORK);
+    const isChanged = host.settings.settle();
     // It has trapped: the next picture is that of the core in its place.
     if (!host.machine) return;
-    // What came in slices is drawn in the frame after the last of them, if that has taken long.
-    const enough = this.#slicing && performance.now() - began > ENOUGH_WORK;
-    this.#slicing = !settled;
-    if (!settled || enough) this.wake();
-    if (enough && settled) return;
-    if (settled ? host.cloud?.grow() === false : !host.settings.next || this.#told) {
-      this.wake();
-      return;
-    }
+    if (host.cloud?.advance(isChanged, this.#printing)) this.wake();
     const { scene } = host;
     const { pressed: still, former } = host.gesture;
     const how = { elapsed, still, atOnce: this.#printing || isCalm(), former, highlight: host.highlight, handles: this.#printing };

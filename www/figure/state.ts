@@ -3,7 +3,6 @@
 import { object, refusal, word } from './checks.ts';
 import { Part } from './part.ts';
 import { orFree } from './runtime.ts';
-import { LONGEST_WORK } from './settings.ts';
 import type { Figure } from './figure.ts';
 
 /** Plain data; which fields, the widget says. */
@@ -54,20 +53,12 @@ export class State extends Part {
     if (this.host.machine) this.kept = this.host.snapshot();
   }
 
-  /** A machine was made of the last good state: the figure goes on with it, and with what the page asked for meanwhile. */
+  /** Goes on with a machine that was made of the last good state, and with the wishes of the page meanwhile. */
   resume() {
     const { host } = this;
     host.settings.reset();
-    host.settings.work(this.#resuming());
-    host.settings.settle(LONGEST_WORK);
-    host.settings.show();
-  }
-
-  *#resuming() {
-    const { host } = this;
-    yield* host.complete(host.machine, this.kept ?? {});
+    if (this.kept) host.complete(host.machine, this.kept);
     host.machineChanged();
-    host.settings.reset();
     host.reflection.catchUp();
     host.link.catchUp();
     // It may have trapped, or a state that came before has introduced it.
@@ -82,20 +73,24 @@ export class State extends Part {
   enter(state: unknown) {
     const host = this.host;
     host.settings.settle();
-    const end = performance.now() + LONGEST_WORK;
     const present = host.snapshot();
     const given = object('state', state, Object.keys(present), ({ widget, version }) => {
       word('state.widget', widget, [host.localName]);
       if (version !== VERSION) throw refusal('state.version', version, String(VERSION));
     });
-    const whole = { ...present, ...host.completed(present, given) };
+    const whole: Values = { ...present, ...host.completed(present, given) };
     const machine = orFree(host.createMachine(host.motion, whole), (made) => {
       const markable = whole.playing ? made.config.samples : whole.shown;
       for (const [name, { check }] of Object.entries(this.#owned)) {
         whole[name] = check(`state.${name}`, whole[name], made, markable);
       }
+      host.complete(made, whole);
     });
-    host.settings.prepare(machine, this.#entering(machine, whole), (error) => host.runtime.report(error), end);
+    for (const name of Object.keys(this.own)) this.own[name] = whole[name];
+    host.runtime.replace(machine);
+    host.settings.reset();
+    host.machineChanged();
+    this.#introduce(whole);
     host.settings.show();
   }
 
@@ -115,20 +110,6 @@ export class State extends Part {
     });
   }
 
-  /**
-   * @param machine in a state
-   * @param whole the state
-   */
-  *#entering(machine: any, whole: Values) {
-    const { host } = this;
-    yield* host.complete(machine, whole);
-    for (const name of Object.keys(this.own)) this.own[name] = whole[name];
-    host.runtime.replace(machine);
-    host.settings.arrive();
-    host.machineChanged();
-    this.#introduce(whole);
-  }
-
   /** @param state that the machine is in, if it is not the opening */
   #introduce(state?: Values) {
     const { host } = this;
@@ -143,8 +124,7 @@ export class State extends Part {
   /** Something of the element's own is to be another; it is checked. */
   assign(name: string, value: unknown) {
     const { settings, cloud, reflection, stage } = this.host;
-    // A state on its way has another value, and would come later.
-    settings.takeUp();
+    settings.settle();
     const { machine } = this.host;
     this.own[name] = this.#owned[name].check(name, value, machine, cloud?.markable ?? 0);
     reflection.tell();

@@ -33,6 +33,7 @@ export function prepareBet(form: HTMLFormElement, enter: (values: Record<string,
     event.preventDefault();
     await enter(JSON.parse(values));
     if (hides) figure.overlays = [...figure.overlays, hides];
+    await figure.settled;
     const number = answerIn(figure.stats, answer);
     const truth = number === null ? null : isShare ? 100 * number : number;
     form.style.setProperty('--bet', String((slider.valueAsNumber - min) / (max - min)));

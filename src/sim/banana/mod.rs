@@ -148,6 +148,9 @@ pub const MAX_CURVE_POINTS: u64 = 10_000;
 /// suits no other distance.
 pub const ADDITIVE_DEVIATION: f64 = 0.2;
 
+/// Samples of the first block, which takes a few milliseconds.
+const FIRST_BLOCK: usize = 50_000;
+
 /// Chords of an outline: at 128 the sagitta is 0.03 % of the radius, a fifth of a pixel on the largest screen.
 pub const OUTLINE_SEGMENTS: usize = 128;
 
@@ -162,92 +165,78 @@ pub struct BananaMachine {
 }
 
 impl BananaMachine {
-    /// A machine with its cloud complete.
+    /// Machine that shows all samples.
     ///
     /// # Errors
     /// [`SettingsError`] for the first setting out of range, or where memory does not suffice for the samples.
     pub fn new(settings: Settings) -> Result<Self, SettingsError> {
-        let mut machine = Self::empty(settings)?;
-        machine.grow(settings.samples);
-        Ok(machine)
+        Self::showing(settings, settings.samples)
     }
 
-    /// A machine that shows nothing yet: whoever lets the cloud grow need not wait for all of it first.
+    /// Machine that shows the first `count` samples.
     ///
     /// # Errors
     /// As [`BananaMachine::new`].
-    pub fn empty(settings: Settings) -> Result<Self, SettingsError> {
+    pub fn showing(settings: Settings, count: usize) -> Result<Self, SettingsError> {
         settings.check()?;
         let drive = settings.motion(settings.command).drive(&settings.command);
-        let mut cloud = Cloud::new(settings.seed, settings.noise, drive);
-        cloud.reserve(settings.samples).map_err(|_| SettingsError::no_memory(settings.samples))?;
-        Ok(Self { settings, cloud, figures: Figures::NONE, picture: Vec::new() })
+        let cloud = Cloud::new(settings.seed, settings.noise, drive);
+        let mut machine = Self { settings, cloud, figures: Figures::NONE, picture: Vec::new() };
+        machine.reserve(&settings)?;
+        machine.show(count.min(settings.samples));
+        Ok(machine)
     }
 
     pub fn settings(&self) -> &Settings {
         &self.settings
     }
 
-    /// Changes the settings. The same robots, with the same luck, drive under the new ones. A complete cloud stays
-    /// complete; one that is still growing keeps its count, as far as there are samples for it.
+    /// Changes the settings and shows all samples: the same robots, with the same luck, drive under the new settings.
     ///
     /// # Errors
     /// As [`BananaMachine::new`]; nothing has changed then.
     pub fn configure(&mut self, settings: Settings) -> Result<(), SettingsError> {
-        self.begin(settings)?;
-        self.finish();
+        self.configure_first(settings, settings.samples)?;
+        self.add_samples(settings.samples);
         Ok(())
     }
 
-    /// As [`BananaMachine::configure`], in slices: [`BananaMachine::advance`] is to be called until it says true. Until
-    /// then the figures are the former ones, and the samples partly so.
+    /// Changes the settings and shows the first block of `goal` samples. The others are for [`BananaMachine::add_samples`].
     ///
     /// # Errors
     /// As [`BananaMachine::configure`].
-    pub fn begin(&mut self, settings: Settings) -> Result<(), SettingsError> {
+    pub fn configure_first(&mut self, settings: Settings, goal: usize) -> Result<(), SettingsError> {
         settings.check()?;
-        let goal = self.cloud.goal();
-        let complete = goal == self.settings.samples;
-        let shown = if complete { settings.samples } else { goal.min(settings.samples) };
-        self.cloud.reserve(settings.samples).map_err(|_| SettingsError::no_memory(settings.samples))?;
+        self.reserve(&settings)?;
         self.settings = settings;
-        self.show(shown);
+        self.show(goal.min(settings.samples).min(FIRST_BLOCK));
         Ok(())
     }
 
-    /// Goes on with what was begun for about as many poses, of twice as many as are shown; whether all is done.
-    pub fn advance(&mut self, poses: usize) -> bool {
-        if let Some(figures) = self.cloud.advance(poses) {
-            self.figures = Figures::of(&figures, self.charted());
-        }
-        self.cloud.is_fresh()
+    fn reserve(&mut self, settings: &Settings) -> Result<(), SettingsError> {
+        self.cloud.reserve(settings.samples).map_err(|_| SettingsError::no_memory(settings.samples))
     }
 
-    fn show(&mut self, shown: usize) {
+    fn show(&mut self, count: usize) {
         let Settings { seed, noise, command, .. } = self.settings;
-        self.cloud.begin(seed, noise, self.settings.motion(command).drive(&command), shown);
-    }
-
-    fn finish(&mut self) {
-        while !self.advance(usize::MAX) {}
-    }
-
-    /// Takes every sample off the picture; the draws remain.
-    pub fn restart(&mut self) {
-        self.show(0);
-        self.finish();
+        let drive = self.settings.motion(command).drive(&command);
+        let figures = self.cloud.refresh(seed, noise, drive, count);
+        self.figures = Figures::of(&figures, self.charted());
     }
 
     /// Shows up to `count` samples more; returns how many are shown.
-    pub fn grow(&mut self, count: usize) -> usize {
-        self.begin_to_grow(count);
-        self.finish();
+    pub fn add_samples(&mut self, count: usize) -> usize {
+        let goal = self.shown().saturating_add(count).min(self.settings.samples);
+        if goal > self.shown() {
+            self.show(goal);
+        }
         self.shown()
     }
 
-    /// As [`BananaMachine::grow`], in slices like [`BananaMachine::begin`].
-    pub fn begin_to_grow(&mut self, count: usize) {
-        self.show(self.cloud.goal().saturating_add(count).min(self.settings.samples));
+    /// Number of samples that are added within a few milliseconds. All samples are summed again whenever some are added, so that each block is as
+    /// large as the cloud is.
+    pub fn block(&self) -> usize {
+        self.shown().max(FIRST_BLOCK)
     }
 
     /// The number of samples shown.

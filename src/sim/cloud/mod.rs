@@ -1,4 +1,4 @@
-//! A cloud of robots from the origin: their draws, where they end, and what they say, refreshed in slices.
+//! Cloud of robots from the origin: their draws, their ends, and their figures.
 
 pub(super) mod draws;
 pub(super) mod drive;
@@ -14,12 +14,13 @@ use crate::stats::fused::{CloudFigures, Shape, Spread};
 use draws::Draws;
 use drive::Drive;
 use std::collections::TryReserveError;
+use std::ops::Range;
 use wide::f64x4;
 
 /// Every robot of a cloud starts at the origin, heading along x.
 pub const START: SE2 = SE2::identity();
 
-/// Fours that are summed naively and worked on between looks at the clock: 256 poses. Fewer would make the compensation of
+/// Fours that are summed naively: 256 poses. Fewer would make the compensation of
 /// the sums felt, more would add to their rounding, which is proportional.
 const BLOCK: usize = 64;
 
@@ -30,29 +31,12 @@ pub struct Cloud {
     draws: Draws,
     drive: Drive,
     positions: Vec<[f64x4; 2]>,
-    /// Samples to show when the refresh is complete.
-    goal: usize,
-    pass: Pass,
-    /// The next four of the pass.
-    next: usize,
-}
-
-/// How far a refresh has come.
-#[derive(Clone, Debug)]
-enum Pass {
-    /// Whether the sums are counted from where the model expects the cloud, else from its own means.
-    Spread {
-        sums: Spread,
-        first: bool,
-    },
-    Shape(Shape),
-    Done,
+    shown: usize,
 }
 
 impl Cloud {
     pub fn new(seed: u64, noise: NoiseKind, drive: Drive) -> Self {
-        let draws = Draws::new(seed, noise);
-        Self { draws, drive, positions: Vec::new(), goal: 0, pass: Pass::Done, next: 0 }
+        Self { draws: Draws::new(seed, noise), drive, positions: Vec::new(), shown: 0 }
     }
 
     /// Makes room for `count` samples.
@@ -62,77 +46,48 @@ impl Cloud {
         self.positions.try_reserve_exact(fours.saturating_sub(self.positions.len()))
     }
 
-    /// Begins a refresh that is to show `shown` samples of these draws under this motion; there must be room for them.
-    pub fn begin(&mut self, seed: u64, noise: NoiseKind, drive: Drive, shown: usize) {
+    /// Drives the first `shown` samples of these draws under this motion and returns their figures. There must be room for
+    /// them.
+    pub fn refresh(&mut self, seed: u64, noise: NoiseKind, drive: Drive, shown: usize) -> CloudFigures {
         self.draws.restart(seed, noise);
-        self.drive = drive;
-        self.goal = shown;
+        (self.drive, self.shown) = (drive, shown);
+        // Sums are counted from the expected place of the cloud, and again from its mean if it lies elsewhere.
         let (reference, scale) = drive.nominal();
-        self.pass = Pass::Spread { sums: Spread::new(reference, scale), first: true };
-        self.next = 0;
-    }
-
-    /// Goes on with what [`Cloud::begin`] began, for about as many poses; their figures when they are complete. All of it
-    /// takes two passes.
-    pub fn advance(&mut self, poses: usize) -> Option<CloudFigures> {
-        for _ in 0..poses.div_ceil(BLOCK * LANES).max(1) {
-            let Self { draws, drive, positions, goal, pass, next } = self;
-            let fours = goal.div_ceil(LANES);
-            let block = *next..fours.min(*next + BLOCK);
-            let ended = block.end == fours;
-            *next = if ended { 0 } else { block.end };
-            // The last four may be fewer.
-            let rest = if ended { block.start.max(*goal / LANES)..block.end } else { block.end..block.end };
-            let full = block.start..rest.start;
-            let rest_mask = lanes(|lane| if lane < *goal % LANES { ALL } else { 0.0 });
-            match pass {
-                Pass::Spread { sums, first } => {
-                    draws.extend_to(block.end * LANES);
-                    draws.sum_to((*goal / LANES).min(block.end));
-                    if positions.len() < block.end {
-                        positions.resize(block.end, [f64x4::splat(0.0); 2]);
-                    }
-                    for (part, mask) in [(full, f64x4::splat(ALL)), (rest, rest_mask)] {
-                        spread(drive, &draws.fours()[part.clone()], &mut positions[part], mask, sums);
-                    }
-                    sums.close_block();
-                    if ended {
-                        let better = sums.better_reference(*goal).filter(|_| *first);
-                        *pass = match better {
-                            Some(reference) => {
-                                Pass::Spread { sums: Spread::new(reference, sums.scale()), first: false }
-                            }
-                            None => {
-                                let regular = drive.regular_sums(draws.pair_sums(*goal));
-                                Pass::Shape(Shape::new(sums.finish(*goal, regular), &START))
-                            }
-                        };
-                    }
-                }
-                Pass::Shape(sums) => {
-                    for (part, mask) in [(full, f64x4::splat(ALL)), (rest, rest_mask)] {
-                        shape(drive, &draws.fours()[part.clone()], &positions[part], mask, sums);
-                    }
-                    sums.close_block();
-                    if ended {
-                        let robots = draws.sample(*goal).map(|(noise, weights)| {
-                            let (poses, arcs) = drive.robots(noise);
-                            (poses, arcs, weights)
-                        });
-                        let figures = sums.finish(*goal, robots);
-                        *pass = Pass::Done;
-                        return Some(figures);
-                    }
-                }
-                Pass::Done => return None,
-            }
+        let mut sums = self.spread_all(Spread::new(reference, scale));
+        if let Some(better) = sums.better_reference(shown) {
+            sums = self.spread_all(Spread::new(better, sums.scale()));
         }
-        None
+        let regular = drive.regular_sums(self.draws.pair_sums(shown));
+        let mut shapes = Shape::new(sums.finish(shown, regular), &START);
+        for parts in blocks(shown) {
+            for (fours, mask) in parts {
+                shape(&drive, &self.draws.fours()[fours.clone()], &self.positions[fours], mask, &mut shapes);
+            }
+            shapes.close_block();
+        }
+        let robots = self.draws.sample(shown).map(|(noise, weights)| {
+            let (poses, arcs) = drive.robots(noise);
+            (poses, arcs, weights)
+        });
+        shapes.finish(shown, robots)
     }
 
-    /// Whether nothing is left of what was begun.
-    pub fn is_fresh(&self) -> bool {
-        matches!(self.pass, Pass::Done)
+    /// Draws and drives all samples, and adds them to the sums of the first pass.
+    fn spread_all(&mut self, mut sums: Spread) -> Spread {
+        let Self { draws, drive, positions, shown } = self;
+        for parts in blocks(*shown) {
+            let end = parts[1].0.end;
+            draws.extend_to(end * LANES);
+            draws.sum_to((*shown / LANES).min(end));
+            if positions.len() < end {
+                positions.resize(end, [f64x4::splat(0.0); 2]);
+            }
+            for (fours, mask) in parts {
+                spread(drive, &draws.fours()[fours.clone()], &mut positions[fours], mask, &mut sums);
+            }
+            sums.close_block();
+        }
+        sums
     }
 
     /// Standard deviation of the turn, rad.
@@ -145,14 +100,9 @@ impl Cloud {
         self.drive.arc_deviation()
     }
 
-    /// The number of samples there are to show: during a refresh perhaps not all yet.
+    /// Number of samples shown.
     pub fn shown(&self) -> usize {
-        self.goal.min(LANES * self.positions.len().min(self.draws.fours().len()))
-    }
-
-    /// The number of samples to show when the refresh is complete.
-    pub fn goal(&self) -> usize {
-        self.goal
+        self.shown
     }
 
     /// The unit noise of a sample.
@@ -192,6 +142,18 @@ impl Cloud {
             see(point(full).map(|points| there.bitselect(points, f64x4::splat(f64::INFINITY))));
         }
     }
+}
+
+/// Blocks of the fours of `count` samples, one at least. Each has the complete fours, and those that lack samples with the mask of the
+/// samples that are there.
+fn blocks(count: usize) -> impl Iterator<Item = [(Range<usize>, f64x4); 2]> {
+    let fours = count.div_ceil(LANES);
+    let there = lanes(|lane| if lane < count % LANES { ALL } else { 0.0 });
+    (0..fours.div_ceil(BLOCK).max(1)).map(move |i| {
+        let (start, end) = (BLOCK * i, fours.min(BLOCK * (i + 1)));
+        let full = start.max(end.min(count / LANES));
+        [(start..full, f64x4::splat(ALL)), (full..end, there)]
+    })
 }
 
 /// A lane that is counted: all bits set.

@@ -25,24 +25,16 @@ const OUTLINE_SEGMENTS: usize = 96;
 /// Chords of the commanded arc in a step, at most.
 const MOST_CHORDS: usize = 16;
 
+/// Robot steps in a block, which takes some milliseconds.
+const BLOCK_STEPS: usize = 200_000;
+
 /// The simulation behind the widget: settings, rollouts, and what recursions say of them.
 #[derive(Clone, Debug)]
 pub struct DeadReckoning {
     settings: Settings,
-    shown: Drive,
-    /// What is to take its place, until it is complete.
-    next: Option<Drive>,
-}
-
-/// Rollouts under some settings, and their figures.
-#[derive(Clone, Debug)]
-struct Drive {
-    settings: Settings,
     rollouts: Rollouts,
-    /// Robots that there are to be.
-    goal: usize,
-    /// Robots that the figures are of.
-    count: usize,
+    /// Number of robots driven.
+    shown: usize,
     /// By recursion.
     predicted: [Vec<Option<Matrix3<f64>>>; 3],
     measured: Vec<Measured>,
@@ -88,183 +80,137 @@ pub struct Outlines {
 }
 
 impl DeadReckoning {
-    /// A machine with all of its robots driven.
+    /// Machine with all of its robots driven.
     ///
     /// # Errors
     /// [`SettingsError`] for the first setting out of range, or where memory does not suffice.
     pub fn new(settings: Settings) -> Result<Self, SettingsError> {
-        let mut machine = Self::empty(settings)?;
-        machine.grow(settings.samples);
-        Ok(machine)
+        Self::showing(settings, settings.samples)
     }
 
-    /// A machine that has driven no robot yet.
+    /// Machine that has driven the first `count` robots.
     ///
     /// # Errors
     /// As [`DeadReckoning::new`].
-    pub fn empty(settings: Settings) -> Result<Self, SettingsError> {
+    pub fn showing(settings: Settings, count: usize) -> Result<Self, SettingsError> {
         settings.check()?;
-        Ok(Self { settings, shown: Drive::new(settings, 0)?, next: None })
+        let mut rollouts = Rollouts::new(&settings).map_err(|_| SettingsError {
+            field: "steps".to_owned(),
+            value: f64::from(settings.steps),
+            allowed: Allowed::LessMemory,
+        })?;
+        let predicted = RECURSIONS.map(|order| covariances(&settings, order));
+        let measured = rollouts.measured(0);
+        let compared = compare(&settings, &predicted, &measured);
+        let mut machine = Self { settings, rollouts, shown: 0, predicted, measured, compared };
+        machine.show(count.min(settings.samples));
+        Ok(machine)
     }
 
     pub fn settings(&self) -> &Settings {
         &self.settings
     }
 
-    /// Changes the settings. The same seed has the same luck, however long the path and however many the robots. A complete
-    /// cloud stays complete; one that is still growing keeps its count, as far as there are samples for it.
+    /// Changes the settings and drives all robots. The same seed has the same luck, however long the path and however many the robots.
     ///
     /// # Errors
     /// As [`DeadReckoning::new`]; nothing has changed then.
     pub fn configure(&mut self, settings: Settings) -> Result<(), SettingsError> {
-        self.begin(settings)?;
-        self.finish();
+        self.configure_first(settings, 0)?;
+        self.show(settings.samples);
         Ok(())
     }
 
-    /// As [`DeadReckoning::configure`], in slices: [`DeadReckoning::advance`] is to be called until it says true. Until
-    /// then the figures are the former ones. To look at another step or recursion takes none, and the former figures are
-    /// looked at from there too.
+    /// Changes the settings and drives the first block of `goal` robots. The others are for [`DeadReckoning::add_samples`]. Robots that
+    /// drive as before stay.
     ///
     /// # Errors
     /// As [`DeadReckoning::configure`].
-    pub fn begin(&mut self, settings: Settings) -> Result<(), SettingsError> {
+    pub fn configure_first(&mut self, settings: Settings, goal: usize) -> Result<(), SettingsError> {
         settings.check()?;
-        let goal = self.latest().goal;
-        let goal = if goal == self.settings.samples { settings.samples } else { goal.min(settings.samples) };
-        if !self.latest().settings.drives_as(&settings) {
-            // Back to what is shown, or on to something else.
-            let is_shown = self.shown.settings.drives_as(&settings);
-            self.next = if is_shown { None } else { Some(Drive::new(settings, goal)?) };
+        if self.settings.drives_as(&settings) {
+            self.settings = settings;
+        } else {
+            *self = Self::showing(settings, 0)?;
         }
-        self.latest_mut().goal = goal;
-        let Settings { step, compounding, .. } = settings;
-        (self.shown.settings.step, self.shown.settings.compounding) =
-            (step.min(self.shown.settings.steps), compounding);
-        self.settings = settings;
+        self.show(goal.min(settings.samples).min(self.block().max(self.shown)));
         Ok(())
     }
 
-    /// What was begun last, whether it is complete or not.
-    fn latest(&self) -> &Drive {
-        self.next.as_ref().unwrap_or(&self.shown)
-    }
-
-    fn latest_mut(&mut self) -> &mut Drive {
-        self.next.as_mut().unwrap_or(&mut self.shown)
-    }
-
-    /// Goes on with what was begun, for about as many robots' steps; whether all is done.
-    pub fn advance(&mut self, work: usize) -> bool {
-        if !self.latest_mut().advance(work) {
-            return false;
-        }
-        if let Some(next) = self.next.take() {
-            self.shown = next;
-        }
-        self.shown.settings = self.settings;
-        true
-    }
-
-    fn finish(&mut self) {
-        while !self.advance(usize::MAX) {}
-    }
-
-    /// How much is done of what was begun, from 0 to 1.
-    pub fn progress(&self) -> f64 {
-        let Drive { rollouts, goal, .. } = self.latest();
-        // More are driven than are wanted until they are begun again.
-        (rollouts.driven() as f64 / (*goal).max(1) as f64).min(1.0)
-    }
-
-    /// Gives up what was begun: settings and figures are the former ones, but for the step and the recursion that are looked at.
-    pub fn stop(&mut self) {
-        self.next = None;
-        self.shown.goal = self.shown.count;
-        self.settings = self.shown.settings;
-    }
-
-    /// Takes all robots off; the same come again.
-    pub fn restart(&mut self) {
-        if let Some(next) = self.next.take() {
-            self.shown = next;
-        }
-        self.shown.settings = self.settings;
-        self.shown.restart();
-    }
-
     /// Drives up to `count` robots more; returns how many are driven then.
-    pub fn grow(&mut self, count: usize) -> usize {
-        self.begin_to_grow(count);
-        self.finish();
-        self.shown()
+    pub fn add_samples(&mut self, count: usize) -> usize {
+        self.show(self.shown.saturating_add(count).min(self.settings.samples));
+        self.shown
     }
 
-    /// As [`DeadReckoning::grow`], in slices like [`DeadReckoning::begin`].
-    pub fn begin_to_grow(&mut self, count: usize) {
-        let most = self.settings.samples;
-        let latest = self.latest_mut();
-        latest.goal = latest.goal.saturating_add(count).min(most);
+    fn show(&mut self, count: usize) {
+        if count == self.shown {
+            return;
+        }
+        self.rollouts.drive_to(count);
+        self.shown = count;
+        self.measured = self.rollouts.measured(count);
+        self.compared = compare(&self.settings, &self.predicted, &self.measured);
     }
 
-    /// The number of robots that the figures are of.
+    /// Number of robots that are driven within a few milliseconds.
+    pub fn block(&self) -> usize {
+        (BLOCK_STEPS / self.settings.steps as usize).max(1)
+    }
+
+    /// Number of robots driven.
     pub fn shown(&self) -> usize {
-        self.shown.count
-    }
-
-    /// The settings of what is shown: during a change the former ones.
-    pub fn shown_settings(&self) -> &Settings {
-        &self.shown.settings
+        self.shown
     }
 
     /// What the robots say of each step, the first of which is step 1.
     pub fn measured(&self) -> &[Measured] {
-        &self.shown.measured
+        &self.measured
     }
 
     /// What a recursion says of each step; None from where on it leaves no covariance.
     pub fn predicted(&self, order: Compounding) -> &[Option<Matrix3<f64>>] {
-        &self.shown.predicted[place_of(order)]
+        &self.predicted[place_of(order)]
     }
 
     /// How that compares with the robots.
     pub fn compared(&self, order: Compounding) -> &Comparison {
-        &self.shown.compared[place_of(order)]
+        &self.compared[place_of(order)]
     }
 
     /// The commanded pose after each step.
     pub fn nominal(&self) -> &[SE2] {
-        self.shown.rollouts.nominal()
+        self.rollouts.nominal()
     }
 
     /// x, y (m) and θ (rad) of the robots in the picture, [`KEPT`] at most, after a step; empty where there is no such step.
     pub fn poses(&self, step: u32) -> &[[f64; 3]] {
-        let Drive { settings, rollouts, count, .. } = &self.shown;
+        let Self { settings, rollouts, shown, .. } = self;
         let is_driven = (1..=settings.steps).contains(&step);
-        if is_driven { rollouts.poses(step as usize, *count) } else { &[] }
+        if is_driven { rollouts.poses(step as usize, *shown) } else { &[] }
     }
 
     /// ξ = x_k ⊟ x̄_k of the robots in the picture after the step that is looked at: along, lateral (m), heading (rad).
     pub fn twists(&self) -> impl ExactSizeIterator<Item = [f64; 3]> {
-        let step = self.shown.settings.step;
+        let step = self.settings.step;
         let nominal = self.nominal()[step as usize - 1];
         self.poses(step).iter().map(move |[x, y, theta]| SE2::new(*x, *y, *theta).boxminus(&nominal).into())
     }
 
     /// x, y (m) and θ (rad) of one robot after each step; None where there is no such robot.
     pub fn rollout(&self, index: usize) -> Option<Vec<[f64; 3]>> {
-        (index < self.shown.count).then(|| self.shown.rollouts.rollout(index))
+        (index < self.shown).then(|| self.rollouts.rollout(index))
     }
 
     /// The robot in the picture that is nearest to a point (m) after the step that is looked at, and within `radius` of it.
     pub fn nearest(&self, target: [f64; 2], radius: f64) -> Option<usize> {
         let mut nearest = Nearest::new(target, [radius, radius]);
-        self.poses(self.shown.settings.step).iter().for_each(|[x, y, _]| nearest.see([*x, *y]));
+        self.poses(self.settings.step).iter().for_each(|[x, y, _]| nearest.see([*x, *y]));
         nearest.index()
     }
 
     pub fn stats(&self) -> Stats {
-        let step = self.shown.settings.step as usize - 1;
+        let step = self.settings.step as usize - 1;
         let Measured { mean, cov, .. } = self.measured()[step];
         Stats {
             n: self.shown(),
@@ -276,12 +222,12 @@ impl DeadReckoning {
 
     /// How the variances of a straight drive grow with its duration, under the noise of what is shown.
     pub fn straight(&self) -> Straight {
-        Straight::new(&self.shown.settings)
+        Straight::new(&self.settings)
     }
 
     /// The way that the command drives without noise, as x, y pairs from the start.
     pub fn commanded(&self) -> Vec<[f64; 2]> {
-        let Settings { command, steps, .. } = self.shown.settings;
+        let Settings { command, steps, .. } = self.settings;
         let twist = TangentNoiseModel::twist(&command);
         // A chord of a tenth of a radian is an eight-hundredth of its length off its arc.
         let chords = ((twist.z.abs() * 10.0).ceil() as usize).clamp(1, MOST_CHORDS);
@@ -295,7 +241,7 @@ impl DeadReckoning {
 
     /// The outlines of a step, by the recursion that is looked at; None where there is no such step.
     pub fn outlines(&self, step: u32) -> Option<Outlines> {
-        let Settings { steps, compounding, .. } = self.shown.settings;
+        let Settings { steps, compounding, .. } = self.settings;
         (1..=steps).contains(&step).then(|| self.outlines_at(step as usize - 1, compounding))
     }
 
@@ -317,44 +263,6 @@ impl DeadReckoning {
             predicted: floor_of_xi(&Vector3::zeros(), &cov),
             measured,
         }
-    }
-}
-
-impl Drive {
-    fn new(settings: Settings, goal: usize) -> Result<Self, SettingsError> {
-        let mut rollouts = Rollouts::new(&settings).map_err(|_| SettingsError {
-            field: "steps".to_owned(),
-            value: f64::from(settings.steps),
-            allowed: Allowed::LessMemory,
-        })?;
-        let predicted = RECURSIONS.map(|order| covariances(&settings, order));
-        let measured = rollouts.measured(0);
-        let compared = compare(&settings, &predicted, &measured);
-        Ok(Self { settings, rollouts, goal, count: 0, predicted, measured, compared })
-    }
-
-    fn advance(&mut self, work: usize) -> bool {
-        // Of robots that were added up none can be taken off.
-        if self.goal != self.count && self.goal < self.rollouts.driven() {
-            self.rollouts.restart();
-        }
-        let done = self.rollouts.advance(self.goal, work);
-        if done && self.count != self.goal {
-            self.summarize(self.goal);
-        }
-        done
-    }
-
-    fn summarize(&mut self, count: usize) {
-        self.count = count;
-        self.measured = self.rollouts.measured(count);
-        self.compared = compare(&self.settings, &self.predicted, &self.measured);
-    }
-
-    fn restart(&mut self) {
-        self.rollouts.restart();
-        self.goal = 0;
-        self.summarize(0);
     }
 }
 

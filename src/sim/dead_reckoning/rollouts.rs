@@ -153,33 +153,25 @@ impl Rollouts {
         })
     }
 
-    /// Drives on towards `goal` robots, for about `work` steps of them; whether only a last part of a block is left, which
-    /// [`Rollouts::measured`] drives.
-    pub fn advance(&mut self, goal: usize, work: usize) -> bool {
-        let blocks = work.div_ceil(BLOCK_ROLLOUTS * self.sums.len());
-        for _ in 0..blocks {
-            if self.driven + BLOCK_ROLLOUTS > goal {
-                return true;
-            }
+    /// Drives on towards `goal` robots, but for a last part of a block, which [`Rollouts::measured`] drives. Starts again if more
+    /// robots have been driven.
+    pub fn drive_to(&mut self, goal: usize) {
+        if goal < self.driven {
+            self.restart();
+        }
+        while self.driven + BLOCK_ROLLOUTS <= goal {
             let mut sums = std::mem::take(&mut self.sums);
             self.drive_next(BLOCK_ROLLOUTS, &mut sums);
             self.sums = sums;
             self.stream.jump();
             self.driven += BLOCK_ROLLOUTS;
         }
-        self.driven + BLOCK_ROLLOUTS > goal
     }
 
-    /// As if none had been driven yet.
-    pub fn restart(&mut self) {
+    fn restart(&mut self) {
         self.stream = Xoshiro256PlusPlus::seed_from_u64(self.seed);
         self.driven = 0;
         self.sums.fill(Sums::new());
-    }
-
-    /// Robots driven so far, in whole blocks.
-    pub fn driven(&self) -> usize {
-        self.driven
     }
 
     /// What `goal` robots say of each step, less than a block more than were driven.

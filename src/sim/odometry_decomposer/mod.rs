@@ -87,9 +87,17 @@ impl OdometryDecomposer {
     /// # Errors
     /// [`SettingsError`] for the first setting out of range.
     pub fn new(settings: Settings) -> Result<Self, SettingsError> {
+        Self::showing(settings, settings.samples)
+    }
+
+    /// Machine that shows the first `count` outcomes.
+    ///
+    /// # Errors
+    /// As [`OdometryDecomposer::new`].
+    pub fn showing(settings: Settings, count: usize) -> Result<Self, SettingsError> {
         settings.check()?;
         let draws = Draws::new(settings.seed, settings.noise);
-        let mut machine = Self { settings, draws, shown: settings.samples, poses: Vec::new() };
+        let mut machine = Self { settings, draws, shown: count.min(settings.samples), poses: Vec::new() };
         machine.refresh();
         Ok(machine)
     }
@@ -98,40 +106,41 @@ impl OdometryDecomposer {
         &self.settings
     }
 
-    /// Changes the settings; the draws stay the same. A complete cloud stays complete, one that is still growing keeps its count.
+    /// Changes the settings and shows all outcomes; the draws stay the same.
     ///
     /// # Errors
     /// As [`OdometryDecomposer::new`]; nothing has changed then.
     pub fn configure(&mut self, settings: Settings) -> Result<(), SettingsError> {
+        self.configure_first(settings, settings.samples)
+    }
+
+    /// Changes the settings and shows the first `goal` outcomes.
+    ///
+    /// # Errors
+    /// As [`OdometryDecomposer::configure`].
+    pub fn configure_first(&mut self, settings: Settings, goal: usize) -> Result<(), SettingsError> {
         settings.check()?;
-        let complete = self.shown == self.settings.samples;
-        self.shown = if complete { settings.samples } else { self.shown.min(settings.samples) };
+        self.shown = goal.min(settings.samples);
         self.settings = settings;
         self.refresh();
         Ok(())
     }
 
     /// Shows up to `count` outcomes more; returns how many are shown.
-    pub fn grow(&mut self, count: usize) -> usize {
+    pub fn add_samples(&mut self, count: usize) -> usize {
         self.shown = self.shown.saturating_add(count).min(self.settings.samples);
         self.refresh();
         self.shown
     }
 
-    /// As [`OdometryDecomposer::grow`], for callers of any machine.
-    pub fn begin_to_grow(&mut self, count: usize) {
-        self.grow(count);
+    /// Number of outcomes that are added within a few milliseconds: all of them.
+    pub fn block(&self) -> usize {
+        self.settings.samples
     }
 
     /// Number of outcomes shown.
     pub fn shown(&self) -> usize {
         self.shown
-    }
-
-    /// Shows none; the draws remain.
-    pub fn restart(&mut self) {
-        self.shown = 0;
-        self.refresh();
     }
 
     fn refresh(&mut self) {

@@ -37,10 +37,6 @@ pub struct MapSqueeze {
     settings: Settings,
     draws: Draws,
     shown: Shown,
-    /// As it was before what was begun, until that is complete.
-    former: Option<Former>,
-    /// Memory for attempts to come: they take turns.
-    spare: Vec<Attempt>,
     /// The latest picture, which the page looks at in place.
     picture: Vec<[u8; 4]>,
 }
@@ -49,56 +45,40 @@ pub struct MapSqueeze {
 #[derive(Clone, Debug, Default)]
 struct Shown {
     attempts: Vec<Attempt>,
-    /// Number of attempts that there are to be.
-    goal: usize,
     tally: Tally,
     gave_up: bool,
-}
-
-#[derive(Clone, Debug)]
-struct Former {
-    /// The former plan, if it was another one.
-    plan: Option<FloorPlan>,
-    settings: Settings,
-    shown: Shown,
 }
 
 /// Draws a part of a motion on average before the machine gives up: an acceptance of 5 % over all attempts. Fewer
 /// would give up where a patient filter still works; more would keep a page waiting for seconds.
 const PATIENCE: usize = 20;
 
-/// Work of a draw, and of a wall that is measured, in distances to a point.
-const DRAW: usize = 8;
-const WALL: usize = 32;
+/// Parts of motions in a block, which takes some milliseconds.
+const BLOCK_PARTS: usize = 4096;
 
 impl MapSqueeze {
-    /// A machine in the apartment, all of its samples attempted.
+    /// Machine in the apartment, all of its samples attempted.
     ///
     /// # Errors
     /// [`SettingsError`] for the first setting out of range, or where memory does not suffice for the samples.
     pub fn new(settings: Settings) -> Result<Self, SettingsError> {
-        let mut machine = Self::empty(settings)?;
-        machine.grow(settings.samples);
-        Ok(machine)
+        Self::showing(settings, settings.samples)
     }
 
-    /// A machine in the apartment that shows nothing yet: whoever puts the robot into another map need not wait for this
-    /// one first.
+    /// Machine in the apartment that shows the first `count` attempts.
     ///
     /// # Errors
     /// As [`MapSqueeze::new`].
-    pub fn empty(settings: Settings) -> Result<Self, SettingsError> {
+    pub fn showing(settings: Settings, count: usize) -> Result<Self, SettingsError> {
         let mut machine = Self {
             plan: FloorPlan::apartment(),
             settings,
             draws: Draws::new(settings.seed, NoiseKind::Normal),
             shown: Shown::default(),
-            former: None,
-            spare: Vec::new(),
             picture: Vec::new(),
         };
-        machine.begin(settings)?;
-        machine.former = None;
+        machine.configure_first(settings, 0)?;
+        machine.add_samples(count);
         Ok(machine)
     }
 
@@ -110,12 +90,13 @@ impl MapSqueeze {
         &self.plan
     }
 
-    /// Puts the robot into another map, where it stands and with the luck it has.
+    /// Puts the robot into another map, where it stands and with the luck it has. As many attempts are shown as before; all of
+    /// them if the machine had given up.
     pub fn set_plan(&mut self, plan: FloorPlan) {
         self.plan = plan;
-        let goal = self.goal_of(self.settings.samples);
-        self.restart();
-        self.grow(goal);
+        let count = if self.gave_up() { self.settings.samples } else { self.shown() };
+        self.clear();
+        self.add_samples(count);
     }
 
     /// Puts the robot into a grid, as [`MapSqueeze::set_plan`] does into a plan; what is unknown there is as the settings say.
@@ -127,29 +108,22 @@ impl MapSqueeze {
         Ok(())
     }
 
-    /// Number of attempts to show when there are `samples` from now on.
-    fn goal_of(&self, samples: usize) -> usize {
-        let Shown { goal, gave_up, .. } = self.shown;
-        if gave_up || goal == self.settings.samples { samples } else { goal.min(samples) }
-    }
-
-    /// Changes the settings; the draws stay the same. A complete cloud stays complete; one that is still growing keeps
-    /// its count, as far as there are samples for it.
+    /// Changes the settings and makes all attempts; the draws stay the same.
     ///
     /// # Errors
     /// As [`MapSqueeze::new`], and where the unknown cells of the map cannot be what they are to be; nothing has changed
     /// then.
     pub fn configure(&mut self, settings: Settings) -> Result<(), SettingsError> {
-        self.begin(settings)?;
-        self.finish();
+        self.configure_first(settings, 0)?;
+        self.add_samples(settings.samples);
         Ok(())
     }
 
-    /// As [`MapSqueeze::configure`], in slices: [`MapSqueeze::advance`] is to be called until it says true.
+    /// Changes the settings and makes the first block of `goal` attempts. The others are for [`MapSqueeze::add_samples`].
     ///
     /// # Errors
     /// As [`MapSqueeze::configure`].
-    pub fn begin(&mut self, settings: Settings) -> Result<(), SettingsError> {
+    pub fn configure_first(&mut self, settings: Settings, goal: usize) -> Result<(), SettingsError> {
         settings.check()?;
         let changed = self.plan.grid().filter(|_| settings.unknown != self.settings.unknown);
         let plan = changed.map(|grid| FloorPlan::from_grid(grid.clone().with_unknown(settings.unknown)));
@@ -162,106 +136,50 @@ impl MapSqueeze {
                 allowed: "free, as the cells of this map would have more than 20000 sides",
             },
         })?;
-        self.renew(plan, settings)
-    }
-
-    /// Begins anew with these settings, in another plan where there is one.
-    fn renew(&mut self, plan: Option<FloorPlan>, settings: Settings) -> Result<(), SettingsError> {
-        let attempts = std::mem::take(&mut self.spare);
-        let mut shown = Shown { attempts, goal: self.goal_of(settings.samples), ..Shown::default() };
         let no_memory = |_| SettingsError::no_memory(settings.samples);
-        shown.attempts.try_reserve_exact(settings.samples).map_err(no_memory)?;
+        let missing = settings.samples.saturating_sub(self.shown.attempts.len());
+        self.shown.attempts.try_reserve_exact(missing).map_err(no_memory)?;
         self.draws.reserve(settings.samples).map_err(no_memory)?;
-        let former = Former {
-            plan: plan.map(|plan| std::mem::replace(&mut self.plan, plan)),
-            settings: std::mem::replace(&mut self.settings, settings),
-            shown: std::mem::replace(&mut self.shown, shown),
-        };
-        match &mut self.former {
-            // A change that was begun before was not completed either.
-            Some(first) => first.plan = first.plan.take().or(former.plan),
-            None => self.former = Some(former),
+        if let Some(plan) = plan {
+            self.plan = plan;
         }
-        self.draw();
+        self.settings = settings;
+        self.clear();
+        self.add_samples(goal.min(self.block()));
         Ok(())
     }
 
-    /// The draws of the settings.
-    fn draw(&mut self) {
-        self.draws.restart(self.settings.seed, NoiseKind::Normal);
-        self.draws.extend_to(self.settings.samples);
+    fn clear(&mut self) {
+        self.shown.attempts.clear();
+        (self.shown.tally, self.shown.gave_up) = (Tally::default(), false);
     }
 
-    /// Goes on with what was begun, as far as `work` allows (about that many distances computed); whether all is done.
-    pub fn advance(&mut self, mut work: usize) -> bool {
+    /// Makes up to `count` attempts more; returns how many are shown. Stops for good where the robot is wedged.
+    pub fn add_samples(&mut self, count: usize) -> usize {
+        let goal = self.shown().saturating_add(count).min(self.settings.samples);
+        self.draws.restart(self.settings.seed, NoiseKind::Normal);
+        self.draws.extend_to(goal);
         let steps = self.settings.parts() as usize;
         let Self { plan, settings, draws, shown, .. } = self;
-        let Shown { attempts, goal, tally, gave_up, .. } = shown;
+        let Shown { attempts, tally, gave_up } = shown;
         let model = conditioned(settings, plan, settings.sampler);
         let driver = Driver::new(&model, settings, draws);
-        while attempts.len() < *goal && !*gave_up && work > 0 {
-            driver.drive_some(attempts.len()..*goal, |attempt, cost| {
+        while attempts.len() < goal && !*gave_up {
+            driver.drive_some(attempts.len()..goal, |attempt, cost| {
                 tally.draws += cost.draws;
                 tally.wall_tests += cost.wall_tests;
                 tally.accepted += usize::from(attempt.accepted);
                 tally.through_wall += usize::from(attempt.accepted && !attempt.path_free);
-                work = work.saturating_sub(DRAW * cost.draws + WALL * cost.wall_tests);
                 attempts.push(attempt);
             });
-            let parts = steps * attempts.len();
-            *gave_up = tally.draws > most_draws(parts);
+            *gave_up = tally.draws > most_draws(steps * attempts.len());
         }
-        let done = attempts.len() >= *goal || *gave_up;
-        if let Some(former) = self.former.take_if(|_| done) {
-            self.spare = former.shown.attempts;
-            self.spare.clear();
-        }
-        done
+        attempts.len()
     }
 
-    /// Makes all attempts that there are to be.
-    fn finish(&mut self) {
-        while !self.advance(usize::MAX) {}
-        self.former = None;
-    }
-
-    /// Share of the attempts that are made, from 0 to 1.
-    pub fn progress(&self) -> f64 {
-        let Shown { attempts, goal, .. } = &self.shown;
-        attempts.len() as f64 / (*goal).max(1) as f64
-    }
-
-    /// Gives up what was begun: all is as it was before.
-    pub fn stop(&mut self) {
-        let Some(Former { plan, settings, shown }) = self.former.take() else {
-            self.shown.goal = self.shown.attempts.len();
-            return;
-        };
-        if let Some(plan) = plan {
-            self.plan = plan;
-        }
-        (self.settings, self.shown) = (settings, shown);
-        self.draw();
-    }
-
-    /// Takes every attempt off the picture; the draws remain.
-    pub fn restart(&mut self) {
-        let mut attempts = std::mem::take(&mut self.shown.attempts);
-        attempts.clear();
-        self.shown = Shown { attempts, ..Shown::default() };
-        self.former = None;
-    }
-
-    /// Shows up to `count` attempts more; returns how many are shown. Stops for good where the robot is wedged.
-    pub fn grow(&mut self, count: usize) -> usize {
-        self.begin_to_grow(count);
-        self.finish();
-        self.shown()
-    }
-
-    /// As [`MapSqueeze::grow`], in slices like [`MapSqueeze::begin`].
-    pub fn begin_to_grow(&mut self, count: usize) {
-        self.shown.goal = self.shown.goal.saturating_add(count).min(self.settings.samples);
+    /// Number of attempts that are made within a few milliseconds.
+    pub fn block(&self) -> usize {
+        (BLOCK_PARTS / self.settings.parts() as usize).max(1)
     }
 
     /// The attempts shown, in sample order.

@@ -107,27 +107,23 @@ fn changed_settings_move_the_same_robots() {
 fn the_cloud_grows_in_batches() {
     for settings in models() {
         let whole = machine(settings);
-        let mut growing = machine(settings);
-        growing.restart();
+        let mut growing = BananaMachine::showing(settings, 0).unwrap();
         assert_eq!(growing.poses().len(), 0);
         assert!(growing.figures().cartesian.mean.x.is_nan());
         assert!(growing.contours().ellipse.is_empty() && !growing.contours().command.is_empty());
         assert!(growing.inspect(0).is_none());
-        assert_eq!(growing.grow(0), 0);
-        assert_eq!(growing.grow(1), 1);
-        assert_eq!(growing.grow(700), 701);
-        // A cloud that is growing keeps its count under a slider, a complete one stays complete.
-        growing
-            .configure(Settings { command: VelocityCmd { v: 0.5, omega: 0.1, dt: 1.0 }, ..settings })
-            .unwrap();
-        assert_eq!(growing.poses().len(), 701);
-        growing.configure(settings).unwrap();
+        assert_eq!([0, 1, 700].map(|count| growing.add_samples(count)), [0, 1, 701]);
         assert_eq!(poses(&growing), poses(&whole)[..701]);
-        assert_eq!(growing.grow(usize::MAX), 50_000);
-        assert_eq!(growing.grow(5), 50_000);
+        assert_eq!([usize::MAX, 5].map(|count| growing.add_samples(count)), [50_000; 2]);
         assert_eq!(picture(&growing), picture(&whole));
-        growing.configure(Settings { samples: 2500, ..settings }).unwrap();
-        assert_eq!(growing.poses().len(), 2500);
+        // A large cloud begins with a block, and ends as if all were shown at once.
+        let large = Settings { samples: 120_000, ..settings };
+        growing.configure_first(large, usize::MAX).unwrap();
+        assert_eq!(growing.shown(), 50_000);
+        while growing.shown() < large.samples {
+            growing.add_samples(growing.block());
+        }
+        assert_eq!(picture(&growing), picture(&machine(large)));
     }
 }
 

@@ -134,7 +134,7 @@ fn misses_are_reported_with_enough_robots_only() {
     assert_eq!(told(Settings::default()), [true; 3]);
     assert_eq!(told(few(5000)), [false; 3]);
     assert_eq!(told(Settings { alphas: [0.0; 6], ..few(20_000) }), [false; 3]);
-    let empty = DeadReckoning::empty(Settings::default()).expect("valid settings");
+    let empty = DeadReckoning::showing(Settings::default(), 0).expect("valid settings");
     assert!(
         empty.compared(Compounding::Chapter).misses.iter().all(|misses| !misses.told && misses.end.is_nan())
     );

@@ -47,16 +47,15 @@ fn common_random_numbers() {
     for (before, after) in before.iter().zip(excess(&machine)) {
         assert!((2.0 * before - after).abs() < 1e-14);
     }
-    // The first outcomes of a larger cloud are the smaller one; a complete one stays complete.
+    // The first outcomes of a larger cloud are the smaller one.
     machine.configure(Settings { samples: 900, ..alone(0.01) }).expect("a valid setting");
     let after = excess(&machine);
     assert_eq!((after.len(), &after[..500]), (900, &before[..]));
-    machine.restart();
+    machine.configure_first(alone(0.01), 0).expect("a valid setting");
     assert_eq!((machine.poses().len(), machine.stats().cross_track.is_nan()), (0, true));
-    machine.grow(700);
-    machine.configure(Settings { samples: 800, ..alone(0.01) }).expect("a valid setting");
-    assert_eq!(excess(&machine), after[..700], "one that is growing keeps its count");
-    assert_eq!(machine.grow(usize::MAX), 800);
+    machine.configure_first(Settings { samples: 800, ..alone(0.01) }, 700).expect("a valid setting");
+    assert_eq!(excess(&machine), after[..700]);
+    assert_eq!(machine.add_samples(usize::MAX), 800);
 }
 
 #[test]

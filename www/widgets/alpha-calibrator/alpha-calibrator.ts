@@ -168,7 +168,7 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
       if (log !== this.log) this.state.own.leg = null;
       this.#given = given;
       this.runtime.replace(machine);
-      this.settings.arrive();
+      this.settings.stale = true;
       this.settings.show();
     });
   }
@@ -177,7 +177,7 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
   async #follow() {
     const { log, service, progress } = this;
     if (!log || service.isBusy) return;
-    const work = { canStop: true, done: null, stop: () => this.#giveUp() };
+    const work = { stop: () => this.#giveUp() };
     const telling = setInterval(() => progress.tell(work), 100);
     try {
       await this.open(log);

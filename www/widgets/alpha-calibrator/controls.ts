@@ -67,7 +67,7 @@ export function modelControls(figure: Figure) {
   const { fit, settings: { model }, kinds, outliers } = words.calibrator;
   const show = (seconds: number) => (seconds > 0 ? `${typed(seconds, 2)} s` : NOTHING);
   const choose = (kind: import('./settings.ts').Kind) => figure.gesture.decide(settingsFor(kind));
-  return group(fit, html`${radioGroup(model.name, 'kind', kinds, kindOf(figure.settings.told as any), choose)}
+  return group(fit, html`${radioGroup(model.name, 'kind', kinds, kindOf(figure.settings.wanted as any), choose)}
     ${choices(figure, 'outliers', outliers)} ${slider(figure, 'duration', { show })}`, 'fit');
 }
 
@@ -79,7 +79,7 @@ export function predictionControls(figure: Figure) {
 
 /** Sliders of the length of a leg. */
 export function legLengths(figure: Figure) {
-  const off = figure.settings.told.duration > 0;
+  const off = figure.settings.wanted.duration > 0;
   return group(words.calibrator.leg.group, html`<div class="controls">${slider(figure, 'distance', { off })} ${slider(figure, 'angle', { off })}</div>`);
 }
 

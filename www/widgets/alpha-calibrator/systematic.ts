@@ -60,7 +60,7 @@ function intervalsOf(interval: SystematicError['interval']) {
 export function systematicTable(figure: Figure) {
   const { stats: { systematicErrors: errors }, truth } = figure.reading;
   const say = words.calibrator.systematic;
-  const told = figure.settings.told;
+  const told = figure.settings.wanted;
   return html`<table class="systematic" part="table">
     <thead>
       <tr>

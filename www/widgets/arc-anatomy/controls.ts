@@ -21,7 +21,7 @@ export const noiseControls = (figure: Figure) =>
 /** Returns the controls of the likelihood: the sign of the radius, and the heat map with the names of its contours. */
 export function likelihoodControls(figure: Figure) {
   const { likelihood, maps, printed } = words.anatomy;
-  const { map } = figure.settings.told;
+  const { map } = figure.settings.wanted;
   const contour = (name: 'prob' | 'density') =>
     html`<span>${swatch({ role: 'ink', width: 1, dash: CONTOURS[name] })} ${maps[name]}</span>`;
   return group(likelihood, html`${check(figure, 'printed', rich(printed))} ${choices(figure, 'map', maps)}

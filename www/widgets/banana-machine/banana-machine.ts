@@ -5,7 +5,7 @@
 
 import { html } from 'lit';
 import { object } from '../../figure/checks.ts';
-import { shownOf } from '../../figure/cloud.ts';
+import { enterCloud } from '../../figure/cloud.ts';
 import { canvas, cloudControls, disclosures, panel } from '../../figure/controls.ts';
 import { FigureElement } from '../../figure/figure.ts';
 import { reserve } from '../../figure/page/room.ts';
@@ -83,13 +83,12 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
     // Empty: the cloud grows before the reader's eyes, and nobody waits for what is not shown yet.
     const machine = motion.BananaMachine.empty();
     if (!state) return machine;
-    const { model, alphas, shown } = state;
+    const { model, alphas } = state;
     return orFree(machine, () => {
       // Each model keeps its own.
       const other = model === 'velocity' ? 'odometry' : 'velocity';
-      machine.configure({ model: other, alphas: alphas[other] });
-      machine.configure({ ...this.settings.declared(state), alphas: alphas[model] });
-      machine.beginToGrow(shownOf(machine, shown));
+      machine.configureFirst({ model: other, alphas: alphas[other] }, 0);
+      enterCloud(machine, { ...this.settings.declared(state), alphas: alphas[model] }, state.shown);
     });
   };
 

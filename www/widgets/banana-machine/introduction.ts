@@ -48,7 +48,7 @@ export class IntroducedCloud extends Cloud {
     const isAsked = host.presentation || Object.keys(host.kind.attributes).some((name) => host.hasAttribute(name));
     if (state || !this.playing || isAsked || host.machine.config.samples < ROBOTS || !isFirstSight()) return;
     this.#phase = 'driving';
-    host.machine.grow(ROBOTS);
+    this.show(ROBOTS);
     for (const event of ['pointerdown', 'keydown']) addEventListener(event, this.skip, { capture: true });
   }
 
@@ -67,9 +67,9 @@ export class IntroducedCloud extends Cloud {
     if (this.#phase === 'driving') {
       // It begins where the reader sees it.
       this.#began ??= performance.now();
-      if (performance.now() - this.#began < 2 * DRIVE) return true;
+      if (performance.now() - this.#began < 2 * DRIVE) return;
       this.#phase = 'asking';
     }
-    return super.grow();
+    super.grow();
   }
 }

@@ -28,7 +28,7 @@ function samePath({ command, steps: before, step }: Record<string, any>, steps: 
 
 /** Returns the selected step to be typed, the command, the noise and the samples. */
 export function moreControls(figure: Figure) {
-  const { steps, step, command: { dt } } = figure.settings.told;
+  const { steps, step, command: { dt } } = figure.settings.wanted;
   const { settings: { alphas }, walked, per } = words.reckoning;
   const effect = walked(fixed(step * dt, 2), fixed(steps * dt, 2));
   return html`<div class="controls">

@@ -1,7 +1,7 @@
 /** <dead-reckoning>: one command driven step after step, and how well its growing uncertainty is predicted. */
 
 import { html } from 'lit';
-import { Cloud, shownOf } from '../../figure/cloud.ts';
+import { Cloud, enterCloud } from '../../figure/cloud.ts';
 import { canvas, disclosures, panel } from '../../figure/controls.ts';
 import { FigureElement } from '../../figure/figure.ts';
 import { legend } from '../../figure/overlays.ts';
@@ -52,10 +52,7 @@ export class DeadReckoningElement extends FigureElement<Machine, Reading> {
     // Empty: the robots come before the reader's eyes, and nobody waits for those that are not shown yet.
     const machine = motion.DeadReckoning.empty();
     if (!state) return machine;
-    return orFree(machine, () => {
-      machine.configure(this.settings.declared(state));
-      machine.beginToGrow(shownOf(machine, state.shown));
-    });
+    return orFree(machine, () => enterCloud(machine, this.settings.declared(state), state.shown));
   };
 
   completed(present: Parameters<FigureElement<Machine, Reading>['completed']>[0], given: Parameters<FigureElement<Machine, Reading>['completed']>[1]) {

@@ -1,14 +1,13 @@
 /** <map-squeeze>: motion conditioned on a map, and what the condition cannot see. */
 
 import { html, nothing } from 'lit';
-import { Cloud, shownOf } from '../../figure/cloud.ts';
+import { Cloud, enterCloud } from '../../figure/cloud.ts';
 import { canvas, disclosures, panel } from '../../figure/controls.ts';
 import { FigureElement } from '../../figure/figure.ts';
 import { legend } from '../../figure/overlays.ts';
 import { reserve } from '../../figure/page/room.ts';
 import { define } from '../../figure/reflection.ts';
 import { orFree } from '../../figure/runtime.ts';
-import { LONGEST_WORK, advancing } from '../../figure/settings.ts';
 import { words } from '../../messages/registry.ts';
 import { verdict as bits } from '../../settings.js';
 import { PoseHandles } from '../shared/pose-handles.ts';
@@ -25,14 +24,11 @@ import { squeezeStyles } from './styles.ts';
 import { WallHandles } from './wall-handles.ts';
 import { contactOf } from './walls.ts';
 import { headlineOf, mapText, pictureText, verdictOf } from './words.ts';
-import type { Job } from '../../figure/settings.ts';
+import type { Values } from '../../figure/settings.ts';
 import type { Cells } from '../../scene/walls.ts';
 import type { MapData, MapSqueeze as Machine, Pose } from '../../types.d.ts';
 import type { OwnMap } from './maps/files.ts';
 import type { Reading } from './reading.ts';
-
-/** Largest number of samples that are judged in each frame of a drag of walls. */
-const MOST_LIVE = 2000;
 
 /**
  * Motion conditioned on a map, and what the condition cannot see.
@@ -62,37 +58,26 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
     say: () => words.squeeze.robot,
   });
   #wallHandles = new WallHandles(this);
-  /** True while the picture has walls that the machine does not have yet. */
-  #isAhead = false;
   /** What unknown cells are in the map of the picture. */
   #unknown = '';
   /** The grid of the machine that was asked for it last. */
   #grid: { of: Machine, grid: Cells | null } | undefined;
-  /** The machine in the making of a map that the page gave. */
-  #given: Machine | undefined;
   /** The reader's own map that was left last, and where the robot stood in it. */
   #left: { map: MapData, start: Pose } | null = null;
   /** Where the robot was put last in the open. */
   #open: Pose | undefined;
 
   createMachine: FigureElement<Machine, Reading>['createMachine'] = (motion, state) => {
-    if (!state) return new motion.MapSqueeze();
-    return orFree(motion.MapSqueeze.empty(), (machine) => {
-      machine.configure(this.settings.declared(state));
-      // Attempts wait for the map.
-      if (state.map === null) machine.beginToGrow(shownOf(machine, state.shown));
-    });
+    const machine = motion.MapSqueeze.empty();
+    return state ? orFree(machine, () => enterCloud(machine, this.settings.declared(state), state.shown)) : machine;
   };
 
-  *complete(machine: Parameters<FigureElement<Machine, Reading>['complete']>[0], state: Parameters<FigureElement<Machine, Reading>['complete']>[1]) {
-    // Of the opening there is none to be put in.
-    const { map } = 'map' in state ? state : { map: null };
-    if (map !== null) {
-      applyMap(machine, map);
-      machine.beginToGrow(shownOf(machine, state.shown));
-    }
-    yield* advancing(machine);
-    if (map !== null) state.map = mapData(machine, map.name ?? '', this.#gridOf(machine));
+  complete(machine: Machine, state: Values) {
+    const { map } = state;
+    if (!map) return;
+    applyMap(machine, map);
+    machine.configureFirst({}, state.shown);
+    state.map = mapData(machine, map.name ?? '', this.#gridOf(machine));
   }
 
   #gridOf(machine: Machine) {
@@ -106,7 +91,6 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
     const grid = this.#gridOf(machine);
     this.#opener.forgive();
     this.#meter.outdate();
-    this.#isAhead = false;
     this.#unknown = machine.config.unknown;
     this.picture = new FloorPicture(machine.plan, grid, this.picture);
     this.pictures = [this.picture];
@@ -114,8 +98,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
 
   read(machine: Machine) {
     const reading = readingOf(machine);
-    const isGivenUp = this.#isAhead && !this.settings.next && !this.gesture.pressed;
-    if (isGivenUp || (reading.config.unknown !== this.#unknown && this.picture.hasUnknown)) this.machineChanged();
+    if (reading.config.unknown !== this.#unknown && this.picture.hasUnknown) this.machineChanged();
     this.#meter.heed(reading.config, !this.cloud.playing && !this.gesture.pressed);
     return reading;
   }
@@ -182,16 +165,13 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
   }
 
   set map(map) {
-    // Not a file that the reader has opened meanwhile.
-    if (!map && this.#given && this.#given === this.settings.next) this.settings.abandon();
     const isNameless = typeof map === 'object' && map !== null && !Array.isArray(map) && map.name === undefined;
     this.reflection.give('map', isNameless ? { ...map, name: '' } : map, (given) => {
       if (given === null) {
         this.#leave();
         this.#findRoom();
       } else {
-        this.#enter(mapOf(given), () => this.reflection.tell(), (error) => this.runtime.report(error));
-        this.#given = this.settings.next;
+        this.#enter(mapOf(given));
       }
       this.reflection.tell();
       this.settings.show();
@@ -255,11 +235,11 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
   /** The reader wants the robot in a map of their own. */
   open(map: OwnMap & { start?: Pose }) {
     if (!this.machine) return;
-    this.runtime.attempt(() => this.#enter(map, () => {
+    this.runtime.attempt(() => {
+      this.#enter(map);
       this.gesture.step();
       this.gesture.commit();
-    }, (error) => this.#opener.refuse(error)));
-    this.stage.wake();
+    });
   }
 
   /**
@@ -269,14 +249,12 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
   moveWalls(walls: Float64Array) {
     this.picture = new FloorPicture({ bounds: this.picture.plan.bounds, walls }, null, this.picture);
     this.pictures = [this.picture];
-    this.#isAhead = true;
-    if (this.settings.present.samples <= MOST_LIVE) this.#judgeWalls();
+    this.#judgeWalls();
     this.stage.wake();
   }
 
   /** The walls that were moved have come to rest. */
   restWalls() {
-    if (this.#isAhead && !this.settings.next) this.#judgeWalls();
     this.gesture.commit();
   }
 
@@ -285,11 +263,10 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
     const { bounds, walls } = this.picture.plan;
     const name = this.map?.name ?? words.squeeze.edited;
     const apply: OwnMap['apply'] = (machine) => machine.setPlan({ bounds: [...bounds], walls });
-    this.runtime.attempt(() => this.#enter(
-      { name, apply, start: this.settings.wanted.start },
-      () => this.gesture.step(),
-      (error) => this.runtime.report(error),
-    ));
+    this.runtime.tolerate(() => {
+      this.#enter({ name, apply, start: this.settings.wanted.start });
+      this.gesture.step();
+    });
   }
 
   /** Leaves the reader's own map, if it is there. */
@@ -297,7 +274,6 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
     const { machine, map } = this;
     if (!machine) return;
     this.#opener.forgive();
-    this.settings.abandon();
     if (!map) return;
     this.#left = { map, start: this.settings.wanted.start };
     machine.setPlan(undefined);
@@ -306,38 +282,27 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
   }
 
   /**
-   * Puts the robot into another map. A machine of its own tries it: the present one stays as it is where
-   * the map, or the place in it, is refused, or the reader does not want to wait.
+   * Puts the robot into another map. Another machine tries it: the present one stays if the map, or the place in it, is refused.
    *
    * @param map with the place in it, where that is known
-   * @param arrived is called when it is there
-   * @param refuse is called where it is refused later than here
    */
-  #enter(map: OwnMap & { start?: Pose }, arrived: () => void, refuse: (error: unknown) => void) {
+  #enter({ name, start, apply }: OwnMap & { start?: Pose }) {
     const { motion, settings } = this;
     if (!motion) return;
-    const end = performance.now() + LONGEST_WORK;
+    settings.settle();
     const machine = motion.MapSqueeze.empty();
     orFree(machine, () => {
-      machine.configure(settings.declared(settings.wanted));
-      map.apply(machine);
+      machine.configureFirst(settings.declared(settings.wanted), 0);
+      apply(machine);
+      const isGrid = this.#gridOf(machine) !== null;
+      const place = start ?? (isGrid || !machine.startFree ? this.#putInTheOpen(machine) : undefined);
+      machine.configureFirst(place ? { start: place } : {}, this.cloud.asked);
     });
-    settings.prepare(machine, this.#entering(machine, map, arrived), refuse, end);
-  }
-
-  /** @param machine in another map */
-  *#entering(machine: Machine, { name, start }: OwnMap & { start?: Pose }, arrived: () => void): Job {
-    const isGrid = this.#gridOf(machine) !== null;
-    if (start) machine.configure({ start });
-    else if (isGrid || !machine.startFree) machine.configure({ start: this.#putInTheOpen(machine) });
-    machine.beginToGrow(this.cloud.asked);
-    yield* advancing(machine);
     const data = mapData(machine, name, this.#gridOf(machine));
     this.runtime.replace(machine);
-    this.settings.arrive();
+    settings.reset();
     this.#left = null;
     this.#moved(data);
-    arrived();
   }
 
   /** In the apartment the robot goes to where it opens if it has no room where it is. */

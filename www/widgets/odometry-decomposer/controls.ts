@@ -14,7 +14,7 @@ export type Figure = import('./odometry-decomposer.ts').OdometryDecomposerElemen
 export function rulesTable(figure: Figure) {
   const { rules: names, table: say, settings } = words.decomposer;
   const { rules } = figure.reading;
-  const present = figure.settings.told.rule;
+  const present = figure.settings.wanted.rule;
   const rows = rules.map(({ deviations, crossTrack, heading }) => [...deviations, crossTrack, heading].map((value) => fixed(value, 3)));
   return html`<div class="rules" role="radiogroup" aria-label=${settings.rule.name}>
     ${figureTable({

@@ -1,7 +1,7 @@
 /** <odometry-decomposer>: what odometry read as rotate, drive, rotate, and what localizers make of its noise. */
 
 import { html } from 'lit';
-import { Cloud, shownOf } from '../../figure/cloud.ts';
+import { Cloud, enterCloud } from '../../figure/cloud.ts';
 import { canvas, disclosures, panel } from '../../figure/controls.ts';
 import { FigureElement } from '../../figure/figure.ts';
 import { legend } from '../../figure/overlays.ts';
@@ -61,12 +61,7 @@ export class OdometryDecomposerElement extends FigureElement<Machine, Reading> {
   createMachine: FigureElement<Machine, Reading>['createMachine'] = (motion, state) => {
     const machine = new motion.OdometryDecomposer();
     if (!state) return machine;
-    return orFree(machine, () => {
-      machine.configure(this.settings.declared(state));
-      const shown = shownOf(machine, state.shown);
-      machine.restart();
-      machine.grow(shown);
-    });
+    return orFree(machine, () => enterCloud(machine, this.settings.declared(state), state.shown));
   };
 
   read(machine: Machine) {

@@ -13,7 +13,7 @@ export function presetButtons(figure: import('../../figure/figure.ts').Figure, m
   const { gesture, kind, machine, settings, stage } = figure;
   const { presets } = (words as any)[kind.vocabulary];
   const preset = kind.attributes.preset as import('../../figure/attributes.ts').Setting;
-  const present = { config: settings.told, machine };
+  const present = { config: settings.wanted, machine };
   const current = preset.get(present);
   const begin = (name: string) => {
     stage.release();

@@ -195,7 +195,7 @@ export const en = {
     copied: 'Copied.',
     json: 'Save all as JSON',
     none: 'No lines: Nav2 has no velocity model, or no α’s are recommended. JSON has everything.',
-    otherRule: 'Fitted by another rule than Nav2’s: choose “AMCL of Nav2” as the model, or --rule nav2',
+    otherRule: 'Fitted by another rule than Nav2’s: choose the model AMCL of Nav2 (rule nav2)',
     notIdentifiable: 'not identifiable from this log',
     zero: (most) => `not significantly different from 0, at most ${most}`,
     tooLarge: 'implausible (> 1): see the failed checks and the outliers',

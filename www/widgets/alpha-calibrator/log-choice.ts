@@ -33,8 +33,11 @@ export function choosers(opener: LogOpener) {
   const { chosen, say } = opener;
   if (!chosen || !say) return nothing;
   const { recordings, questions } = chosen;
-  const hasOptions = recordings.some((recording) => optionsOf(recording).length > 1);
-  const which = hasOptions ? ROLES.map((role) => seriesSelect(opener, chosen, role, say)) : recordings.length > 1 ? recordings.map((_, place) => roleSelect(opener, chosen, place, say)) : [];
+  const isSingle = (recording: Recording) => optionsOf(recording).length === 1;
+  const which = [
+    ...(recordings.every(isSingle) ? [] : ROLES.map((role) => seriesSelect(opener, chosen, role, say))),
+    ...(recordings.length > 1 ? recordings.flatMap((recording, place) => (isSingle(recording) ? [roleSelect(opener, chosen, place, say)] : [])) : []),
+  ];
   return html`<div class="choosers">
     ${which.length ? html`<div class="topics">${which}</div>` : nothing}
     ${questions.map((asked) => questionOf(opener, chosen, asked, say))}
@@ -74,7 +77,7 @@ function roleSelect(opener: LogOpener, { recordings, roles, plan }: Chosen, plac
     const role = value as Role;
     const changed = new Map(roles).set(place, role);
     // Of two files, the other one has the other role.
-    if (recordings.length === 2) changed.set(1 - place, role === 'odometry' ? 'reference' : 'odometry');
+    if (recordings.length === 2 && optionsOf(recordings[1 - place]).length === 1) changed.set(1 - place, role === 'odometry' ? 'reference' : 'odometry');
     opener.change({ roles: changed });
   }, say.open);
 }
@@ -122,8 +125,8 @@ const idOf = ({ file, ask: { what } }: Asked) => `log-${what}-${file.replaceAll(
 /** Moves the focus to the chooser of a question, unless it is in one. Returns whether there is one. */
 export function focusOn({ renderRoot }: Figure, asked: Asked): boolean {
   const { what, role = 'odometry' }: Question = asked.ask;
-  const ids = { series: `log-${role}`, frames: `log-${role}`, roles: 'log-role-0' } as Partial<Record<Question['what'], string>>;
-  const chooser = renderRoot.querySelector<HTMLElement>(`#${CSS.escape(ids[what] ?? idOf(asked))}`);
+  const places = { series: `#log-${role}`, frames: `#log-${role}`, roles: '[id^=log-role-]' } as Partial<Record<Question['what'], string>>;
+  const chooser = renderRoot.querySelector<HTMLElement>(places[what] ?? `#${idOf(asked)}`);
   const control = chooser?.matches('select') ? chooser : chooser?.querySelector<HTMLElement>('select, input');
   if (!control) return false;
   if (!control.closest('.choosers')?.contains((renderRoot as ShadowRoot).activeElement)) control.focus();

@@ -17,8 +17,9 @@ const [WIDTH, HEIGHT, MARGIN] = [220, 150, 4];
 const POINTS = 1500;
 
 /** Returns what was read of each drive, before it is used and beside the result. */
-export function summaryOf({ chosen, say }: LogOpener) {
-  if (!chosen?.drives || !say) return nothing;
+export function summaryOf({ chosen, say, host }: LogOpener) {
+  // The page may have given another log since.
+  if (!chosen?.drives || !say || (chosen.log && chosen.log !== host.log)) return nothing;
   const { drives } = chosen;
   return html`<details class="found" open>
     <summary>${say.found.labels.title}</summary>

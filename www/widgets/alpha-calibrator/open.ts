@@ -9,6 +9,7 @@ import { referenceNoise } from './controls.ts';
 import { isStopped } from './log-service.ts';
 import type { Drive, Plan, Role, Wishes } from '../../logs/drives.ts';
 import type { OpenOptions, Question, Recording } from '../../logs/log.ts';
+import type { CalibrationLog } from '../../types.d.ts';
 import type { LogFailure } from './log-service.ts';
 
 export type Figure = import('./alpha-calibrator.ts').AlphaCalibratorElement;
@@ -36,6 +37,8 @@ export interface Chosen {
   /** Undefined where it is not clear what is to be read. */
   plan?: Plan;
   drives?: Drive[];
+  /** Log that the figure has taken. */
+  log?: CalibrationLog;
 }
 
 /** Extensions that the file dialog offers. */
@@ -79,7 +82,7 @@ export class LogOpener extends Part<Figure> {
   /** Reads the files again where another model prefers another odometry of them. */
   hostUpdated() {
     const { chosen } = this;
-    if (!chosen?.drives || this.share !== undefined || this.#preferred === this.kind) return;
+    if (!chosen?.log || chosen.log !== this.host.log || this.share !== undefined || this.#preferred === this.kind) return;
     const before = choicesOf(chosen.plan);
     this.#attempt(async (reader) => {
       const plan = planOf(reader, chosen, this.kind);
@@ -120,7 +123,8 @@ export class LogOpener extends Part<Figure> {
   }
 
   choose(files: File[]) {
-    if (files.length > 0) this.#open({ files, recordings: [], answers: {}, questions: [], wishes: {}, roles: new Map() });
+    const logs = files.filter(isLog);
+    if (files.length > 0) this.#open({ files: logs.length ? logs : files, recordings: [], answers: {}, questions: [], wishes: {}, roles: new Map() });
   }
 
   /** Takes an answer to a question, which files are opened with. */
@@ -136,7 +140,7 @@ export class LogOpener extends Part<Figure> {
   }
 
   #open(chosen: Chosen) {
-    this.chosen = { ...chosen, plan: undefined, drives: undefined };
+    this.chosen = { ...chosen, plan: undefined, drives: undefined, log: undefined };
     const now = this.chosen;
     this.#attempt(async (reader) => {
       if (now.recordings.length === 0) now.recordings = await this.host.service.open(now.files, now.answers);
@@ -155,9 +159,11 @@ export class LogOpener extends Part<Figure> {
     // What was read is shown before it is used.
     chosen.drives = drives;
     this.host.requestUpdate();
-    await this.host.open({ name: nameOf(plan, reader), ...reader.logOf(drives) }, ({ count }) => {
+    const log = { name: nameOf(plan, reader), ...reader.logOf(drives) };
+    await this.host.open(log, ({ count }) => {
       if (count === 0) throw new RangeError(words.calibrator.none);
     });
+    chosen.log = log;
     this.#commit();
   }
 
@@ -190,6 +196,9 @@ export class LogOpener extends Part<Figure> {
     if (number === this.#latest) this.#rest();
   }
 }
+
+/** Tells whether a file may be a log: a folder has others beside them. */
+const isLog = ({ name, path }: File & { path?: string }) => path === undefined || name === 'metadata.yaml' || EXTENSIONS.slice(0, -1).some((extension) => name.endsWith(extension));
 
 function planOf(reader: Reader, { recordings, wishes, roles }: Chosen, kind: 'commands' | undefined): Plan {
   return reader.planDrives(recordings, { ...wishes, kind, roles: new Map([...roles].map(([place, role]) => [recordings[place], role])) });

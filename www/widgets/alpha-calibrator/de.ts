@@ -225,7 +225,7 @@ export const de: typeof import('./en.ts').en = {
     copied: 'Kopiert.',
     json: 'Alles als JSON speichern',
     none: 'Keine Zeilen: Nav2 hat kein Geschwindigkeitsmodell, oder es werden keine α’s empfohlen. In JSON steht alles.',
-    otherRule: 'Nach einer anderen Regel als der von Nav2 angepasst: das Modell AMCL von Nav2 wählen (Regel nav2)',
+    otherRule: 'Nach einer anderen Regel als der von Nav2 angepasst: das Modell „Nav2“ wählen (Regel nav2)',
     notIdentifiable: 'von dieser Aufzeichnung nicht bestimmt',
     zero: (most) => `nicht signifikant von 0 verschieden, höchstens ${most}`,
     tooLarge: 'unplausibel (> 1): Prüfungen und Ausreißer ansehen',

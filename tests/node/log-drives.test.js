@@ -109,6 +109,8 @@ test('several recordings are drives of their own, or give one log each', () => {
   assert.equal(planDrives([both, both]).drives.length, 2);
   const { loose } = planDrives([recording({ '/mocap': 'pose' }), recording({ '/odom': 'odometry', '/cmd_vel': 'twist' })]);
   assert.deepEqual([loose.odometry[0].choice.series, loose.reference[0].choice.series], ['/odom', '/mocap']);
+  const { drives, loose: { odometry: [ofBag] } } = planDrives([both, recording({ '': 'columns' }, { name: 'truth.csv', format: 'csv' })]);
+  assert.deepEqual([drives.length, ofBag.choice.series], [0, '/odom']);
   const tables = (/** @type {string[]} */ ...names) => {
     const plan = planDrives(names.map((name) => recording({ '': 'columns' }, { name, format: 'csv' })));
     return [plan.loose.odometry, plan.loose.reference].map((parts) => parts.map(({ recording: { name } }) => name));

@@ -50,6 +50,9 @@ export function planDrives(recordings: Recording[], wishes: Wishes = {}): Plan {
     if (!role) throw new LogError({ file: recording.name }, (say) => say.noRole, { what: 'roles', choices: [] });
     plan.loose[role].push({ recording, choice: choose(recording, role, wishes) });
   }
+  // A reference of its own beside a bag takes the place of the one in the bag.
+  const lacking = odometry.length < reference.length ? 'odometry' : 'reference';
+  if (plan.drives.length === Math.abs(odometry.length - reference.length)) plan.loose[lacking].push(...plan.drives.splice(0).map((drive) => drive[lacking]));
   if (odometry.length !== reference.length) {
     const [first] = odometry.length > reference.length ? odometry : reference;
     throw new LogError({ file: first.recording.name }, (say) => say.unpaired(odometry.length, reference.length));

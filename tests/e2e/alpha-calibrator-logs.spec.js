@@ -20,7 +20,7 @@ test('two tables of the reader’s own take the place of the simulated log, and 
   await settled(widget);
   expect(await widget.evaluate((element) => /** @type {AlphaCalibratorElement} */ (element).machine.truth)).toBeNull();
   await expect(widget.locator('.drop-zone .present')).toHaveText('Log: odom.csv, truth.csv.');
-  // What was read stays beside the result.
+  // The summary stays beside the result.
   await expect(widget.getByRole('row', { name: /^rows used \d+ of/ })).toBeVisible();
   await expect(widget.getByRole('img', { name: /^Paths from above: .* m by .* m\.$/ })).toBeVisible();
   // Their names say which is which, whatever the reader does.

@@ -76,7 +76,7 @@ function roleSelect(opener: LogOpener, { recordings, roles, plan }: Chosen, plac
   return select(`log-role-${place}`, name, present ?? '', ROLES.map((role) => [role, say.roles[role]]), (value) => {
     const role = value as Role;
     const changed = new Map(roles).set(place, role);
-    // Of two files, the other one has the other role.
+    // The other one of two files has the other role.
     if (recordings.length === 2 && optionsOf(recordings[1 - place]).length === 1) changed.set(1 - place, role === 'odometry' ? 'reference' : 'odometry');
     opener.change({ roles: changed });
   }, say.open);

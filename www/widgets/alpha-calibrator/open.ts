@@ -156,7 +156,7 @@ export class LogOpener extends Part<Figure> {
       this.share = share;
       this.host.requestUpdate();
     });
-    // What was read is shown before it is used.
+    // Logs are shown before they are used.
     chosen.drives = drives;
     this.host.requestUpdate();
     const log = { name: nameOf(plan, reader), ...reader.logOf(drives) };

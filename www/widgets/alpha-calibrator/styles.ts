@@ -82,6 +82,11 @@ const own = css`
     outline-offset: 2px;
   }
 
+  /* The figure fills the screen. */
+  :host([presentation]) :is(.choosers, .found) {
+    display: none;
+  }
+
   .drive {
     display: flex;
     flex-wrap: wrap;

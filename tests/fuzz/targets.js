@@ -137,7 +137,8 @@ function unchecked(bytes) {
 
 /** Recordings that other libraries wrote. @param {string[]} names */
 function fixtures(...names) {
-  return names.map((name) => gunzipSync(readFileSync(new URL(`../reference/logs/${name}.gz`, import.meta.url))));
+  const files = JSON.parse(readFileSync(new URL('../reference/logs/recordings.json', import.meta.url), 'utf8'));
+  return names.map((name) => gunzipSync(Buffer.from(files[name], 'base64')));
 }
 
 /** Topics and frames that are read from a recording. */

@@ -1,7 +1,7 @@
 // One drive in all formats of recordings, as their own libraries wrote it (tests/reference/logs/generate.py), and one input for each silent error.
 
 import assert from 'node:assert/strict';
-import { readFileSync, readdirSync } from 'node:fs';
+import { readFileSync } from 'node:fs';
 import { test } from 'node:test';
 import { gunzipSync } from 'node:zlib';
 import { log as german } from '../../www/logs/de.ts';
@@ -12,17 +12,18 @@ import { openRecordings } from '../../www/logs/open.ts';
 import { summarize } from '../../www/logs/summary.ts';
 import { odometry, poseOf, recordingOf, stampOf, transform, type Message } from '../mcap.js';
 
-const FOLDER = new URL('../reference/logs/', import.meta.url);
+/** Compressed files by name. */
+const FILES: Record<string, string> = JSON.parse(readFileSync(new URL('../reference/logs/recordings.json', import.meta.url), 'utf8'));
 
-const bytesOf = (name: string) => gunzipSync(readFileSync(new URL(`${name}.gz`, FOLDER)));
+const bytesOf = (name: string) => gunzipSync(Buffer.from(FILES[name], 'base64'));
 
 const fileOf = (bytes: Uint8Array | string, name: string, path?: string): Source => Object.assign(new File([bytes as BlobPart], name), path ? { path } : {});
 
 /** Files of a rosbag2 folder, whose names it prefixes. */
 const folderOf = (name: string): Source[] =>
-  readdirSync(FOLDER).filter((file) => file.startsWith(`${name}-metadata`) || file.startsWith(`${name}-${name}.`)).map((file) => {
-    const plain = file.slice(name.length + 1, -'.gz'.length);
-    return fileOf(bytesOf(file.slice(0, -'.gz'.length)), plain, `${name}/${plain}`);
+  Object.keys(FILES).filter((file) => file.startsWith(`${name}-metadata`) || file.startsWith(`${name}-${name}.`)).map((file) => {
+    const plain = file.slice(name.length + 1);
+    return fileOf(bytesOf(file), plain, `${name}/${plain}`);
   });
 
 async function open(...sources: Source[]): Promise<Recording> {

@@ -3,10 +3,12 @@
 
     pip install rosbags mcap mcap-ros1-support mcap-ros2-support && python3 generate.py
 
-Numbers are multiples of 2⁻¹², so that the files are small. They are compressed by gzip. Running the script again gives the same rows.
+Numbers are multiples of 2⁻¹², so that the files are small. They are compressed by gzip, and kept as base64 in one file. Running the script again gives the same rows.
 """
 
+import base64
 import gzip
+import json
 import math
 import pathlib
 import random
@@ -220,12 +222,10 @@ def table(path, column):
     path.write_text('\n'.join(rows) + '\n')
 
 
-def keep(path):
-    """Compresses a file into this folder, under the name of its folder if it is in one."""
+def packed(path):
+    """Returns the name of a file, after that of its folder if it is in one, and its compressed contents."""
     name = path.name if path.parent == WORK else f'{path.parent.name}-{path.name}'
-    data = gzip.compress(path.read_bytes(), 9, mtime=0)
-    (HERE / f'{name}.gz').write_bytes(data)
-    print(f'{name}: {len(data)} bytes')
+    return name, base64.b64encode(gzip.compress(path.read_bytes(), 9, mtime=0)).decode()
 
 
 with tempfile.TemporaryDirectory() as folder:
@@ -253,5 +253,5 @@ with tempfile.TemporaryDirectory() as folder:
     mcap_ros1(WORK / 'ros1-support.mcap', ROS1.logs())
     for half in (0, 1):
         rosbag2(WORK / f'split{half}', list(ROS2.logs())[ROWS * half:ROWS * (half + 1)], StoragePlugin.MCAP)
-    for path in sorted(path for path in WORK.rglob('*') if path.is_file()):
-        keep(path)
+    files = dict(sorted(packed(path) for path in WORK.rglob('*') if path.is_file()))
+    (HERE / 'recordings.json').write_text(json.dumps(files, indent=0) + '\n')

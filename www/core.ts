@@ -11,7 +11,7 @@ export { startWorker } from '../build/motion.wasm';
 /** Module as bytes, as an address, or compiled. */
 export type Source = BufferSource | URL | string | WebAssembly.Module;
 
-/** What the first to name a source named. */
+/** Source that the first caller named. */
 let wanted: Source | undefined;
 /** Carrier of a module and its glue. */
 export type Carrier = typeof carried.motion;

@@ -5,7 +5,7 @@ import { html } from 'lit';
 export class Announcer {
   #due = false;
   #text = '';
-  /** Where that is said of an outcome, which holds as long as there is no other. */
+  /** Sentence about an outcome, which holds until another comes. */
   #outcome: string | undefined;
 
   /** Something has come to rest: its outcome is worth a sentence. */

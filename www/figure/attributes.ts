@@ -14,7 +14,7 @@ export interface Kind {
   print: (value: any) => string | null;
 }
 
-/** What a setting is read of, and changed from. */
+/** State that a setting is read from and changed in. */
 export interface Present {
   /** The machine's settings, with changes that wait for it. */
   config: Record<string, any>;
@@ -27,7 +27,7 @@ export interface Setting {
   get: (present: Present) => unknown;
   /** The settings to make of it. */
   change: (value: any, present: Present) => Record<string, unknown>;
-  /** What the core calls it, where that is not its own name. */
+  /** Name in the core, if it differs. */
   path?: string;
 }
 
@@ -56,7 +56,7 @@ export type Table = Record<string, { type: string, readonly?: true, sentence: st
 export interface Documentation {
   /** Properties that have no attribute. */
   properties?: Table;
-  /** What is otherwise in states. */
+  /** Other fields of states. */
   state?: Table;
 }
 
@@ -76,13 +76,13 @@ const TRUTH: Kind = {
 /** Words with spaces between them. */
 export const WORDS: Kind = { parse: (text) => text.split(/\s/).filter(Boolean), print: (value) => value.join(' ') };
 
-/** Of the types that fit into an attribute. */
+/** Conversions of the types that fit into an attribute. */
 const KINDS: Record<string, Kind> = { number: NUMBER, whole: NUMBER, word: WORD, boolean: TRUTH };
 
-/** Of headings in HTML. */
+/** Levels of headings in HTML. */
 export const HEADING_LEVELS = ['1', '2', '3', '4', '5', '6'] as const;
 
-/** What every figure heeds besides. One that is not there says the first of its words, unless it may be null. */
+/** Attributes of every figure. One that is missing stands for the first of its words, unless it may be null. */
 export const COMMON: Record<string, { words?: readonly string[], nullable?: true, property?: string }> = {
   theme: { words: THEMES },
   share: {},

@@ -174,12 +174,12 @@ export class Cloud extends Part {
     });
   }
 
-  /** Whether the marked sample is among those shown. */
+  /** True if the marked sample is shown. */
   get isMarked() {
     return this.index >= 0 && this.index < this.#machine.shown;
   }
 
-  /** Whether the marked sample is there, or comes. */
+  /** True if the marked sample is shown or will be. */
   get #isWanted() {
     return this.index >= 0 && this.index < this.markable;
   }
@@ -298,7 +298,7 @@ export function enterCloud(machine: Growing, settings: Values, shown: number) {
   machine.configureFirst({}, wholeNumber('state.shown', shown, 0, machine.config.samples));
 }
 
-/** What of the state of an element with a cloud is its own. */
+/** State of an element with a cloud that is not its machine's. */
 export const cloudState: Record<string, import('./state.ts').Owned> = {
   marked: {
     opening: null,

@@ -11,7 +11,7 @@ import { exportButtons } from './takeaway/export.ts';
 import type { Setting } from './attributes.ts';
 import type { Figure } from './figure.ts';
 
-/** What the eye needs of a setting that is a number. */
+/** Appearance of a numeric setting. */
 export interface Look {
   /** Symbol as in the book, in the marks of messages. */
   symbol?: string;

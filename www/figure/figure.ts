@@ -89,13 +89,13 @@ export class FigureElement<Machine extends { free(): void, stats: object, config
 
   /** The widget's settings, as declared. */
   static declared: import('../settings.js').Declaration[];
-  /** How those look that have a slider. */
+  /** Appearance of the settings that have a slider. */
   static looks: Record<string, import('./controls.ts').Look> = {};
   /** The key of its words in the catalogues. */
   static vocabulary: string;
   /** Its attributes. */
   static attributes: import('./attributes.ts').Attributes = {};
-  /** What of its state is the element's and not the machine's. */
+  /** State of the element that is not its machine's. */
   static own: Record<string, import('./state.ts').Owned> = {};
   /** The settings whose values decide what others open with. */
   static basis: string[] = [];
@@ -115,15 +115,15 @@ export class FigureElement<Machine extends { free(): void, stats: object, config
   focusing = new Focus(this);
   lettering = new Lettering(this);
   presenting = new Presentation(this);
-  /** Of a figure with samples. */
+  /** Cloud of a figure with samples. */
   cloud: import('./cloud.ts').Cloud | undefined;
-  /** Of a figure that plays what a slider sets: told of each frame, it says whether there is more. */
+  /** Player of a figure that animates a slider. Called in each frame, it returns true if there is more. */
   player: { advance(elapsed: number): boolean } | undefined;
   /** The first is the one that is taken along, unless there is a plate. */
   pictures: import('../scene/picture.ts').Picture<any>[] = [];
-  /** What is taken along in the place of a picture, of a size of its own. */
+  /** Picture for export, of a size of its own. */
   plate: import('../scene/picture.ts').Picture<any> & { size: { width: number, height: number } } | undefined;
-  /** What the machine said when it was last asked; undefined before that. */
+  /** Latest reading of the machine; undefined before the first. */
   reading: Reading = undefined as any;
   #highlight: string | null = null;
   #updating: boolean | undefined;
@@ -153,7 +153,7 @@ export class FigureElement<Machine extends { free(): void, stats: object, config
     throw new Error('A widget reads its own machine.');
   }
 
-  /** What the pictures are of, with every change so far in effect. */
+  /** Scene of the pictures, with every change so far in effect. */
   get scene(): any {
     return this.fresh;
   }
@@ -163,12 +163,12 @@ export class FigureElement<Machine extends { free(): void, stats: object, config
     return nothing;
   }
 
-  /** What there is to take along, with every change so far in effect. */
+  /** Content for export, with every change so far in effect. */
   get takeaway(): import('./takeaway/export.ts').Takeaway {
     throw new Error('A widget says what is taken along.');
   }
 
-  /** What is announced after a change has come to rest. */
+  /** Announcement after a change has come to rest. */
   announcement(_reading: Reading) {
     return '';
   }
@@ -213,7 +213,7 @@ export class FigureElement<Machine extends { free(): void, stats: object, config
     this.dispatchEvent(new CustomEvent('stats', { detail: machine.stats, bubbles: true, composed: true }));
   }
 
-  /** What the machine says, with every change so far in effect. */
+  /** Reading of the machine, with every change so far in effect. */
   get fresh(): Reading {
     if (!this.machine) throw new Error('There is no figure yet: it is there from the load event on.');
     speak(this);

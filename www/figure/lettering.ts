@@ -21,7 +21,7 @@ export class Lettering extends Part {
     return this.#slot('caption', null, false);
   }
 
-  /** What the page has put into a slot. */
+  /** Content that the page has put into a slot. */
   #given(name: string) {
     return [...this.host.children].filter(({ slot }) => slot === name);
   }

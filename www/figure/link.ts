@@ -33,7 +33,7 @@ export class Link extends Part {
     void this.follow();
   };
 
-  /** Whether a part of the address is this figure's. */
+  /** Checks whether a part of the address is this figure's. */
   #isOf(part: string | undefined) {
     return part?.startsWith(`${keyOf(this.host)}=`);
   }

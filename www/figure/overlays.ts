@@ -6,7 +6,7 @@ import { rich, toggle } from '../ui/controls.ts';
 import { WORDS } from './attributes.ts';
 import { subset } from './checks.ts';
 
-/** How something is drawn, in the picture and in the legend. */
+/** Style of a line or mark, in the picture and in the legend. */
 export interface LineStyle {
   role: keyof import('../ui/theme.ts').Palette;
   /** CSS pixels. */

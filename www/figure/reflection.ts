@@ -18,7 +18,7 @@ export class Reflection extends Part {
   #order;
   /** The settings whose values decide what others open with. */
   #basis;
-  /** What the page asked for before there was a machine, first by attributes. */
+  /** Attributes that the page gave before there was a machine. */
   #early: Map<string, string | null> = new Map();
   /** By their properties; whole states under keys of their own. */
   #wishes: Map<unknown, { value?: unknown, take: () => void }> = new Map();
@@ -100,7 +100,7 @@ export class Reflection extends Part {
     }
   }
 
-  /** What a property will be that was given before there was a machine; undefined if it was not. */
+  /** Value of a property that was given before there was a machine; undefined if none was. */
   wished(name: string) {
     return this.#wishes.get(name)?.value;
   }
@@ -154,7 +154,7 @@ export class Reflection extends Part {
     return { config: this.host.settings.wanted, machine: this.host.machine };
   }
 
-  /** What a property is when the widget opens. */
+  /** Opening value of a property. */
   #usual(name: string) {
     const entry = this.#entries[name];
     if (entry && isSetting(entry)) return this.#opening((opening) => entry.get(opening), this.#basis.includes(name) ? [] : this.#basis);

@@ -38,7 +38,7 @@ export class Stage extends Part {
   #canvases: HTMLCanvasElement[] | undefined;
   /** Whether the words of the first picture have come. */
   #told = false;
-  /** Whether there is something to draw, as soon as it is in sight. */
+  /** True if there is something to draw, as soon as it is in sight. */
   #due: boolean | undefined;
   /** When the first picture was drawn whose words have not come yet. */
   #owedSince: number | undefined;
@@ -134,7 +134,7 @@ export class Stage extends Part {
     return this.host.machine !== undefined && !this.#told && this.inSight && !document.hidden;
   }
 
-  /** What of a figure is not its pictures: it comes with the frame after the first, so that they are seen at once. */
+  /** Content below the pictures. It comes with the frame after the first, so that the pictures are seen at once. */
   later(content: () => unknown) {
     return this.opening ? nothing : content();
   }

@@ -10,9 +10,9 @@ export type Values = Record<string, any>;
 
 /** Something in the state that is the element's and not its machine's. */
 export interface Owned {
-  /** What it is when the widget opens. */
+  /** Opening value. */
   opening: unknown;
-  /** What is taken of a value, of a figure with so many samples that can be marked; throws. */
+  /** Checks a value for a figure with so many samples that can be marked; throws. */
   check: (field: string, value: any, machine: any, markable: number) => any;
 }
 
@@ -24,7 +24,7 @@ export class State extends Part {
   kept: Values | undefined;
   /** Whole state that the figure opened with. */
   #opened: Values | undefined;
-  /** What is the element's own, by name. */
+  /** State that is the element's own, by name. */
   own: Values;
   #owned;
 
@@ -34,7 +34,7 @@ export class State extends Part {
     this.own = Object.fromEntries(Object.keys(owned).map((name) => [name, this.opening(name)]));
   }
 
-  /** What something of the element's own is when the widget opens. */
+  /** Opening value of something that is the element's own. */
   opening(name: string) {
     return this.#owned[name]?.opening;
   }

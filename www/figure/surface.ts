@@ -25,7 +25,7 @@ export function surface(figure: Figure) {
   `;
 }
 
-/** What was shown stays while there is no machine: it is made again after a trap, or the element is not on the page. */
+/** Former content stays while there is no machine: it is made again after a trap, or the element is not on the page. */
 function contentOf(figure: Figure) {
   const { failure } = figure.runtime;
   if (failure !== undefined) return html`<p class="failure" role="alert">${words.failure(failure)}</p>`;

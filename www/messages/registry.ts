@@ -12,7 +12,7 @@ export type Message = string | ((...values: any[]) => string) | Message[] | { [k
 /** `WidgetWords`: see widgets/words.d.ts. */
 export type Messages = typeof import('./en.ts').en & WidgetWords;
 
-/** What all scripts of a page share: a language may come in a file of its own. */
+/** Catalogues that all scripts of a page share: a language may come in a file of its own. */
 export interface Shared {
   /** What the elements say where nobody has given them other words. */
   english: object;

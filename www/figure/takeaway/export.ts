@@ -7,7 +7,7 @@ import { SvgContext, escaped, short } from '../../scene/svg.ts';
 import { button } from '../../ui/controls.ts';
 import type { Figure } from '../figure.ts';
 
-/** What there is to take along, besides the picture. */
+/** Content for export besides the picture. */
 export interface Takeaway {
   title: string;
   /** Description of the picture. */
@@ -19,7 +19,7 @@ export interface Takeaway {
   row: (i: number) => number[];
   /** Count of the samples. */
   count: number;
-  /** What attributes cannot carry, in a sentence. */
+  /** Sentence about the state that attributes cannot carry. */
   notInCode?: string;
 }
 

@@ -130,7 +130,7 @@ const SHIFTED = {
   ascii: /(?<=\0)\d/g,
 };
 
-/** What takes the place of www/address.ts, where a bundle is not the very script that the page names. */
+/** Replacements of www/address.ts for bundles that are not the script named by the page. */
 const ADDRESS = {
   /** Only while it is evaluated; in the middle of a page it has none. */
   classic: "export const address = globalThis.document?.currentScript?.src ?? ''; export const classic = true;",

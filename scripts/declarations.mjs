@@ -29,7 +29,7 @@ import { importTypeScript } from './typescript.mjs';
 /** Of the settings that are no words and no groups. @type {Record<string, string>} */
 const TYPES = { number: 'number', whole: 'number', boolean: 'boolean', numbers: 'number[]' };
 
-/** What every element with a cloud has besides. @type {import('../www/figure/attributes.ts').Documentation} */
+/** Properties and state of every element with a cloud. @type {import('../www/figure/attributes.ts').Documentation} */
 const OF_CLOUDS = {
   properties: {
     marked: { type: 'number | null', sentence: 'The sample that is marked, counted from 0.' },

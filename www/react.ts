@@ -39,7 +39,7 @@ class Figure {
     this.names = names;
   }
 
-  /** What the attribute of a prop says; null for none. */
+  /** Text of a prop's attribute; null for none. */
   text(name: string, { [name]: value = null }: Props) {
     if (value === null || (value === false && this.names.flags.includes(name))) return null;
     return Array.isArray(value) ? value.join(' ') : value === true ? '' : String(value);

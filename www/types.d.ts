@@ -30,7 +30,7 @@ export type MapData =
   | Readonly<{ name?: string; bounds: readonly number[]; walls: readonly (readonly number[])[] }>
   | Readonly<{ name?: string; columns: number; rows: number; resolution: number; origin: readonly number[]; occupied: string; unknown?: string }>;
 
-/** What a robot's wheels said, and where it really was: of one drive, or of several in arrays. */
+/** Odometry of a robot and a reference of its true poses: of one drive, or of several in arrays. */
 export interface CalibrationLog extends Pick<CalibrationOptions, 'odometry' | 'reference'> {
   name?: string;
 }

@@ -156,8 +156,8 @@ function angleUnit(kind: LogKind, { t, a, b, c }: Columns, stated: Units['angle'
 }
 
 /**
- * Returns the unit in which the heading follows the direction of the path, forwards or backwards at a constant angle; undefined where
- * both do, as on a straight path, or none, as of a robot that drives sideways.
+ * Returns the unit in which the heading follows the direction of the path, forwards or backwards at a constant angle. Undefined if
+ * both units fit, as on a straight path, or neither, as for a robot that drives sideways.
  */
 function unitOfPath(t: Float64Array, x: Float64Array, y: Float64Array, heading: Float64Array): AngleUnit | undefined {
   const stride = Math.max(2, Math.ceil(STEP / quantile(sample(t.length - 1, (i) => t[i + 1] - t[i]), 0.5)));

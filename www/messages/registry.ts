@@ -14,9 +14,9 @@ export type Messages = typeof import('./en.ts').en & WidgetWords;
 
 /** Catalogues that all scripts of a page share: a language may come in a file of its own. */
 export interface Shared {
-  /** What the elements say where nobody has given them other words. */
+  /** Default words of the elements. */
   english: object;
-  /** What was given, by language. */
+  /** Catalogues that pages gave, by language. */
   catalogues: Record<string, Record<string, object>>;
   /** Called when words or languages change. */
   listeners: Set<() => void>;

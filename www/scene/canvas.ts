@@ -1,6 +1,6 @@
 /** Canvases, and what pictures are painted on them with. */
 
-/** What pictures are drawn on: a canvas, or what stands for one. */
+/** Surfaces that pictures are drawn on: canvases and their substitutes. */
 
 export interface Surface {
   /** Pixels. */
@@ -13,7 +13,10 @@ export interface Surface {
   getContext: (kind: '2d') => CanvasRenderingContext2D | null;
 }
 
-/** What a picture is painted with, in the view's pixels: CSS pixels where the letters have 13 of them, and more in proportion, so that everything grows with the letters. */
+/**
+ * Context, view and colours that a picture is painted with. A pixel of the view is a CSS pixel where letters have 13 of them, and
+ * grows in proportion to the letters.
+ */
 export interface Brush {
   context: CanvasRenderingContext2D;
   view: import('./view.ts').View;
@@ -61,8 +64,8 @@ export function pointOn(element: Element, view: import('./view.ts').View, { clie
 }
 
 /**
- * Of a canvas that is copied to those that are seen. The processor draws it: a graphics card may lose what it has, and this
- * would not be back when those are drawn again.
+ * Context of a hidden canvas that is copied to visible ones. The processor draws it: a graphics card may lose its contents, and
+ * they would be missing when the visible canvases are drawn again.
  */
 export function hiddenContext(canvas: OffscreenCanvas) {
   return canvas.getContext('2d', { willReadFrequently: true }) as OffscreenCanvasRenderingContext2D;

@@ -192,7 +192,7 @@ export function lineStyles<Name extends string>({ palette, highlight }: Pick<Bru
   return Object.fromEntries(styles) as Record<Name, { colour: string, width: number, dash: number[] }>;
 }
 
-/** Whether an outline has any length: that of robots at one place has none but of rounding. */
+/** Checks whether an outline has any length. That of robots at one place has none but of rounding. */
 export const hasLength = (points: Float64Array) => points.some((value, i) => Math.abs(value - points[i % 2]) > 1e-9);
 
 /**

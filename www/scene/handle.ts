@@ -3,12 +3,12 @@
 import { html, nothing } from 'lit';
 import { length, pointOn } from './canvas.ts';
 
-/** What a handle acts on; lengths in metres. */
+/** Target of a handle; lengths in metres. */
 export interface Hooks {
   view: () => import('./view.ts').View;
   /** X and y of what is held by a pointer that is there; the middle of the handle where it is left out. */
   at?: (pointer: number[]) => number[];
-  /** What is held is wanted there. */
+  /** Moves the held thing to a point. */
   drag: (x: number, y: number) => void;
   /** True if the key is one that moved it. */
   key: (event: KeyboardEvent) => boolean;

@@ -22,7 +22,7 @@ const LADDER = [1, 1.12, 1.25, 1.4, 1.6, 1.8, 2, 2.25, 2.5, 2.8, 3.2, 3.6, 4, 4.
 
 /** One view's window on the world. */
 export class View {
-  /** What is shown now, possibly on its way to `#target` */
+  /** Extent that is shown now, possibly on its way to `#target`. */
   extent: Extent = { xMin: -1, yMin: -1, xMax: 1, yMax: 1 };
   #target: Extent | undefined;
   /** Part of the world that the view covers in whatever size it has. */

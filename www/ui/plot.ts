@@ -142,7 +142,7 @@ export interface Curve {
   /** Dash which tells it from others without colours. */
   dash?: string;
   x: ArrayLike<number>;
-  /** What is no number leaves a gap; nothing is drawn beyond the axes. */
+  /** NaN leaves a gap; nothing is drawn beyond the axes. */
   y: ArrayLike<number>;
   /** Half the height of a band around it. */
   error?: ArrayLike<number>;
@@ -169,7 +169,7 @@ export interface Mark {
 }
 
 export interface Plot {
-  /** What a screen reader says of it: what it shows, in a sentence. */
+  /** Description for screen readers, a sentence. */
   label: string;
   x: Axis;
   y: Axis;

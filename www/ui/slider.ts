@@ -246,7 +246,7 @@ export function sliderRow(row: { id: string; symbol?: unknown; name: unknown; va
   `;
 }
 
-/** What a thumb is moved on. A finger that goes up or down over it scrolls the page. */
+/** Track that a thumb is moved on. A finger that goes up or down over it scrolls the page. */
 export function track({ id, name, min, max, step, value, text, describedBy, keydown, input, commit }: { id: string; name?: string; min: number; max: number; step: number; value: number; text: string; describedBy?: string; keydown?: (event: KeyboardEvent) => void; input: (value: number) => void; commit: () => void }) {
   // A browser sets a slider as soon as a finger comes down on it: until the finger taps or scrolls, a rendering leaves that value.
   const set = (event: Event) => {

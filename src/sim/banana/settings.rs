@@ -25,8 +25,8 @@ impl Words for NoiseKind {
 /// Ten million poses take 400 MB; a browser's page may have 4 GB.
 pub const MAX_SAMPLES: usize = 10_000_000;
 
-/// As many as are still moved in slices of a single frame on a device four times slower than a laptop, with room for the
-/// pictures. As the figure opens they tell the skew to ±0.007.
+/// Number that still moves within a frame on a device four times slower than a laptop, with room for the pictures. It gives the
+/// opening skew to ±0.007.
 const OPENING_SAMPLES: usize = 50_000;
 
 /// Seed, of 0 to 99, whose opening cloud has the area ratio and the gain nearest to the exact ones: the first sight should not be

@@ -3,7 +3,10 @@
 import { css } from 'lit';
 import { channels } from '../../ui/theme.ts';
 
-/** `shade` is the share of black that colours for white paper need on the ground: on a darker one they stand out as far as on white; `strength` is the share of the text's colour that what is muted needs to be legible; without `text` it is the figure's own. */
+/**
+ * Colours around a figure. `shade` is the share of black that colours for white paper need to stand out as far on this ground.
+ * `strength` is the share of the text's colour that muted text needs to be legible. Without `text` the figure's own colour holds.
+ */
 export type Surroundings = { ground: string, text: string, shade: string, strength: string, scheme: 'light' | 'dark' };
 
 export const THEMES = ['auto', 'light', 'dark'] as const;

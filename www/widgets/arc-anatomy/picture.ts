@@ -43,7 +43,7 @@ const ARROW = 9;
 /** From one line of letters to the next, CSS pixels. */
 const LINE = 17;
 
-/** What each line of Table 5.1 constructs. */
+/** Constructions of each line of Table 5.1. */
 const LIT: Record<number, string[]> = {
   1: ['bisector'],
   2: ['bisector', 'centre'],
@@ -280,7 +280,7 @@ function drawTwist({ context, view }: Brush, ticks: Float64Array, colour: string
   });
 }
 
-/** What the lit line of the table constructs. */
+/** Draws the construction of the lit line of the table. */
 function drawLit(brush: Brush, { config: { start, next }, stats: { inverted, lastTurn }, table: { middle }, paths, line }: Scene) {
   const lit = LIT[line] ?? [];
   const { context, view, palette: { accent } } = brush;

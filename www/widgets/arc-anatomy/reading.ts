@@ -1,4 +1,4 @@
-/** What Arc Anatomy shows of its machine. */
+/** View model of Arc Anatomy. */
 
 import type { ArcAnatomy } from '../../types.d.ts';
 

@@ -10,7 +10,7 @@ export const CONTOURS = { prob: [5, 4], density: [] };
 
 export class SurfaceLayer {
   #pixels = new OffscreenCanvas(1, 1);
-  /** What the machine was asked for last. */
+  /** Latest answer of the machine, with its question. */
   #last: { settings: object, box: string, surface: AnatomySurface } | undefined;
   /** It in colours, and whose they are. */
   #image: { surface: AnatomySurface, palette: Palette, pixels: Uint8ClampedArray<ArrayBuffer> } | undefined;

@@ -28,7 +28,7 @@ export const densityText = (density: number) => (isTiny(density) ? powerText(den
 
 const SYMBOLS = ['v̂', 'ω̂', 'γ̂'];
 
-/** Which factor kills p, in a sentence. */
+/** Returns a sentence about the factor that makes p small. */
 export function verdictOf({ config, stats: { factors, weakest, share, driven, inverted } }: Reading) {
   const say = words.anatomy.verdict;
   const { deviations, share: kept, deviation } = factors[weakest];

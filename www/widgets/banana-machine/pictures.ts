@@ -31,7 +31,10 @@ import type { BananaMachine, Moments } from '../../types.d.ts';
 import type { Brush } from '../../scene/canvas.ts';
 import type { Outlines } from './morph.ts';
 
-/** What both pictures are of; outlines, callouts and the `rings` that these keep clear of are at the morph, the ellipse is `reached` at its end. */
+/**
+ * Scene of both pictures. Outlines, callouts and the `rings` that the callouts keep clear of are at the morph; the ellipse is
+ * `reached` at its end.
+ */
 export type Scene = import('./reading.ts').Reading & { machine: BananaMachine, overlays: Record<import('./settings.ts').LineName, boolean>, marked: import('../../types.d.ts').Inspection | undefined, morph: number, pinned: import('./reading.ts').Reading | undefined, driving: { robots: number, share: number } | undefined, outlinesOf: (reading: import('./reading.ts').Reading) => Outlines, callouts: [number, number][], rings: Float64Array[], reached: Float64Array, };
 
 /** A larger cloud is drawn as a density: dots would be one blot, and cost more than a frame. */

@@ -89,7 +89,7 @@ function bendText({ stats: { crossTrackSkew: skew, crossTrackSkewError: error, a
   return exactSkew < 0 ? say.right(measured) : say.left(measured);
 }
 
-/** What stands under the view of the floor. */
+/** Returns the caption of the view of the floor. */
 export function captionOf(reading: Reading) {
   const { note, stats } = reading;
   return note || (stats.n === 0 ? words.banana.noRobots : bendText(reading) || words.banana.fewRobots);

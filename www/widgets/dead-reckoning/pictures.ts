@@ -10,7 +10,7 @@ import { lineKey } from '../shared/line-key.ts';
 import { OUTLINES } from './settings.ts';
 import type { Brush } from '../../scene/canvas.ts';
 
-/** What both pictures are of, with the poses of the robot that is marked after each step. */
+/** Scene of both pictures, with the poses of the marked robot after each step. */
 export type Scene = import('./reading.ts').Reading & { marked: Float64Array | undefined, overlays: string[] };
 
 /** Standard deviations of a cloud that a view makes room for. */
@@ -74,7 +74,7 @@ export class PathPicture extends SamplesPicture<Scene> {
 /** Half the size of the mark where the command is, CSS pixels. */
 const PLACE = 4;
 
-/** Where the command is after the step: small, so that the cloud is seen around it. */
+/** Marks the end of the command after the step: small, so that the cloud is seen around it. */
 function drawPlace({ context, view, palette }: Brush, [x, y]: Float64Array) {
   context.beginPath();
   context.arc(view.toPixelX(x), view.toPixelY(y), PLACE, 0, 2 * Math.PI);

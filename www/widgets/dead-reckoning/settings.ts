@@ -37,7 +37,7 @@ const { attribute, state } = overlaysOf(OVERLAYS);
 
 export const own: Record<string, import('../../figure/state.ts').Owned> = { ...cloudState, overlays: state };
 
-/** Of what each step is. */
+/** Sliders of the command of a step. */
 export const COMMAND: Record<string, import('../../figure/controls.ts').Look> = commandLooks(1);
 
 export const NOISE = alphaLooks(6);

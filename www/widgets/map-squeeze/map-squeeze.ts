@@ -64,7 +64,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
   #grid: { of: Machine, grid: Cells | null } | undefined;
   /** The reader's own map that was left last, and where the robot stood in it. */
   #left: { map: MapData, start: Pose } | null = null;
-  /** Where the robot was put last in the open. */
+  /** Latest place in the open that the robot was put at. */
   #open: Pose | undefined;
 
   createMachine: FigureElement<Machine, Reading>['createMachine'] = (motion, state) => {
@@ -372,7 +372,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
   }
 }
 
-/** What is there as data. */
+/** Map from plain data. */
 const mapOf = (map: MapData): OwnMap => ({
   name: map.name ?? '',
   apply: (machine) => applyMap(machine, map),

@@ -17,7 +17,7 @@ import type { Brush } from '../../scene/canvas.ts';
 
 export type LineName = keyof typeof LINES;
 
-/** What both pictures are of, with the names of the lines that are shown. */
+/** Scene of both pictures, with the names of the lines that are shown. */
 export type Scene = import('./reading.ts').Reading & { marked: Float64Array | undefined, overlays: string[] };
 
 /** Radius of the robot, m. */

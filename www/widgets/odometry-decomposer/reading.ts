@@ -1,4 +1,4 @@
-/** What the Odometry Decomposer shows of its machine. */
+/** View model of the Odometry Decomposer. */
 
 import type { OdometryDecomposer, OdometryDecomposerSettings, RuleFigures } from '../../types.d.ts';
 

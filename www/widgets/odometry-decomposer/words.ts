@@ -11,7 +11,7 @@ addEnglish({ decomposer: en });
 /** Readings shorter than this are jitter for those who look at it, m. */
 const JITTER = 0.01;
 
-/** What stands below the pictures. */
+/** Returns the caption below the pictures. */
 export function captionOf({ config: { rule, alphas }, rules, legs, deviations, stats }: Reading) {
   const say = words.decomposer.caption;
   const [{ legs: { rot1, trans } }] = rules;
@@ -28,7 +28,7 @@ export function captionOf({ config: { rule, alphas }, rules, legs, deviations, s
   return say.lever(fixed(deviations.rot1, 2), fixed(trans, 2), fixed(stats.exactCrossTrack, 2));
 }
 
-/** How far the odometry's own pose is from where the robot is predicted, m. */
+/** Returns the distance between the odometry's own pose and the predicted pose, m. */
 export function apart({ drifted, linkage }: Reading) {
   const [own, predicted] = [poseIn(drifted.poses, 2), poseIn(linkage, 3)];
   return Math.hypot(own.x - predicted.x, own.y - predicted.y);

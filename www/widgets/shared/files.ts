@@ -5,7 +5,7 @@ import { inputOf } from '../../ui/controls.ts';
 
 export type Figure = import('../../figure/figure.ts').Figure;
 
-/** What browsers say beside the button is that there is no file, whatever the figure has taken: it is not shown. */
+/** Styles of a file input. The browser's text beside the button says that there is no file, even after one was taken: it is hidden. */
 export const fileStyles = css`
   input[type='file'] {
     max-width: 100%;
@@ -65,7 +65,7 @@ export class FileDrop {
     if (!event.dataTransfer?.types.includes('Files')) return;
     // The browser would leave the page for the file.
     event.preventDefault();
-    // What becomes of the file is said in there.
+    // The disclosure says what becomes of the file.
     if (this.#place instanceof HTMLDetailsElement) this.#place.open = true;
     filesOf(event.dataTransfer).then((files) => this.take(files, true));
   };

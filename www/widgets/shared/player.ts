@@ -16,7 +16,7 @@ export interface Played {
 }
 
 export class Player<Key extends string> extends Part {
-  /** What is played. */
+  /** Key of the setting that is played. */
   #key: Key | undefined;
   #played;
   /** What was gone and not put, where only whole steps are. */

@@ -8,7 +8,7 @@ import { fixed } from '../../ui/format.ts';
 import { turnDistance } from './robot.ts';
 import type { Pose } from '../../types.d.ts';
 
-/** What is under the hand. */
+/** Pose that the handles hold. */
 export interface Held {
   /** View of its picture. */
   view: () => import('../../scene/view.ts').View;

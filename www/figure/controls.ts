@@ -6,7 +6,7 @@ import { words } from '../messages/registry.ts';
 import { group, inputOf, radioGroup, rich, toggle } from '../ui/controls.ts';
 import { fold } from '../ui/fold.ts';
 import { counted, limit, numberIn, typed } from '../ui/format.ts';
-import { sliderRow } from '../ui/slider.ts';
+import { sliderRow, type SliderRow } from '../ui/slider.ts';
 import { exportButtons } from './takeaway/export.ts';
 import type { Setting } from './attributes.ts';
 import type { Figure } from './figure.ts';
@@ -28,9 +28,7 @@ export interface Look {
 }
 
 /** Row with the most that is allowed, where that is less than declared. */
-export type Row = Partial<Parameters<typeof sliderRow>[0]> & { most?: number };
-
-export type WholeRow = Parameters<typeof sliderRow>[0];
+export type Row = Partial<SliderRow> & { most?: number };
 
 /**
  * @param key of a setting
@@ -64,7 +62,7 @@ export function slider(figure: Figure, key: string, otherwise?: Row) {
  * @param row with the values at which the slider ends, where it has others than these inside, and the most that is allowed, where that is less than declared
  * @param take a value that was typed
  */
-function typeable(figure: Figure, key: string, symbol: string, row: Omit<WholeRow, 'keys' | 'type' | 'refusal' | 'forget'> & { ends?: number[], most?: number }, take: (number: number) => void = row.input, print: (number: number) => string = row.show) {
+function typeable(figure: Figure, key: string, symbol: string, row: Omit<SliderRow, 'keys' | 'type' | 'refusal' | 'forget'> & { ends?: number[], most?: number }, take: (number: number) => void = row.input, print: (number: number) => string = row.show) {
   const { min, max: declared, type, unit } = declarationOf(figure, key);
   const max = row.most ?? declared;
   const [first, last] = row.ends ?? [row.min, row.max];
@@ -127,8 +125,19 @@ export function check(figure: Figure, key: string, label: unknown) {
   return toggle({ label, checked: figure.settings.wanted[key], change: (on) => figure.gesture.decide({ [key]: on }) });
 }
 
+interface Disclosures {
+  /** Controls that are needed less often than those in sight. */
+  controls: () => unknown;
+  /** Tables and charts. */
+  numbers: () => unknown;
+  /** Part of file names that distinguishes states. */
+  mark?: string | number;
+  /** Description of a CSV file that has no samples. */
+  csvTitle?: string;
+}
+
 /** Returns the two disclosures below a figure, and the buttons that copy a link to it and present it. */
-export function disclosures(figure: Figure, { controls, numbers, mark = figure.reading.config.seed, csvTitle }: { controls: () => unknown; numbers: () => unknown; mark?: string | number; csvTitle?: string }) {
+export function disclosures(figure: Figure, { controls, numbers, mark = figure.reading.config.seed, csvTitle }: Disclosures) {
   return html`<div class="folds">
     ${fold(words.moreControls, controls, 'more')}
     ${fold(words.numbersAndData, () => html`${numbers()} ${exportButtons(figure, mark, csvTitle)} ${figure.copies.codeButton()}`, 'numbers')}
@@ -195,8 +204,19 @@ export function cloudControls(figure: Figure & { cloud: import('./cloud.ts').Clo
     ${figure.cloud.buttons()}`, 'cloud');
 }
 
+interface MarkedField {
+  id: string;
+  label: string;
+  /** Number of samples shown. */
+  shown: number;
+  /** Text about the marked sample; nothing if none is marked. */
+  told: unknown;
+  /** Text if none is marked. */
+  hint: string;
+}
+
 /** Field with the number of the marked sample. It keeps what was typed and is refused until it is right or left. */
-export function markedField({ cloud, typing }: Figure & { cloud: import('./cloud.ts').Cloud }, { id, label, shown, told, hint }: { id: string; label: string; shown: number; told: unknown; hint: string }) {
+export function markedField({ cloud, typing }: Figure & { cloud: import('./cloud.ts').Cloud }, { id, label, shown, told, hint }: MarkedField) {
   const refusal = typing.refusalOf('marked');
   const type = (event: Event) => {
     const text = inputOf(event).value;

@@ -24,13 +24,20 @@ const LENGTH_COST = 0.2;
 /** Middle and half of its sides, pixels. */
 export type Box = { x: number, y: number, across: number, down: number };
 
+interface Surroundings {
+  /** Middle that the sentences keep away from. */
+  from: [number, number];
+  /** Lines that they do not cover: x, y pairs. */
+  lines: Float64Array[];
+}
+
 /**
  * Draws sentences about points of something round, outside of it, where they cover least of the picture. The cost of a place is continuous
  * in all points, so that a sentence seldom jumps.
  *
  * @param callouts texts with line breaks, and the points that they are about, in the view's world
  */
-export function drawCallouts({ context, view, palette, font }: Brush, callouts: { text: string, at: [number, number] }[], { from, lines }: { from: [number, number]; lines: Float64Array[] }) {
+export function drawCallouts({ context, view, palette, font }: Brush, callouts: { text: string, at: [number, number] }[], { from, lines }: Surroundings) {
   context.font = font;
   const pixels = ({ 0: x, 1: y }: ArrayLike<number>) => [view.toPixelX(x), view.toPixelY(y)];
   const [fromX, fromY] = pixels(from);

@@ -130,7 +130,17 @@ export function readoutList(rows: [name: string, value: string, ...details: (str
   </dl>`;
 }
 
-export function figureTable({ caption, columns, rows, outdated = false }: { caption: unknown; columns: unknown[]; rows: unknown[][]; outdated?: boolean }) {
+interface Table {
+  caption: unknown;
+  /** Names of the columns, that of the rows' names first. */
+  columns: unknown[];
+  /** Cells of the rows, the name of each first. A single cell after the name takes the place of all. */
+  rows: unknown[][];
+  /** True if other figures are on their way. */
+  outdated?: boolean;
+}
+
+export function figureTable({ caption, columns, rows, outdated = false }: Table) {
   const cells = ([first, ...others]: unknown[]) =>
     others.length === 0
       ? html`<td colspan=${columns.length - 1}>${symbols(first)}</td>`

@@ -224,7 +224,7 @@ const BEGINS_A_NUMBER = /^[\d.,+\-\u2212]$/;
  * A slider row. Its value is a field as well: what is typed there may lie beyond the slider. Tab passes the field by;
  * Enter or the first digit leads from the slider into it, Enter and Escape lead back.
  */
-export function sliderRow(row: { id: string; symbol?: unknown; name: unknown; value: number; min: number; max: number; step: number; show: (value: number) => string; effect: unknown; role: 'prior' | 'prediction' | 'truth'; off?: boolean; pick?: unknown; keys: 'decimal' | 'numeric' | 'text'; type: (text: string) => string | undefined; refusal?: string; forget: () => void; input: (value: number) => void; commit: () => void }) {
+export function sliderRow(row: SliderRow) {
   const states = {
     off: row.off,
     refused: row.refusal,
@@ -246,8 +246,55 @@ export function sliderRow(row: { id: string; symbol?: unknown; name: unknown; va
   `;
 }
 
+/** Range of a slider and its events. */
+interface Range {
+  /** Id that is unique in the widget. */
+  id: string;
+  value: number;
+  min: number;
+  max: number;
+  step: number;
+  /** Called while the thumb moves. */
+  input: (value: number) => void;
+  /** Called when the thumb comes to rest. */
+  commit: () => void;
+}
+
+export interface SliderRow extends Range {
+  /** Symbol before the name. */
+  symbol?: unknown;
+  name: unknown;
+  /** Returns a value with its unit. */
+  show: (value: number) => string;
+  /** Effect of the parameter on the picture, in words. */
+  effect: unknown;
+  role: 'prior' | 'prediction' | 'truth';
+  /** True if the value has no effect at present. */
+  off?: boolean;
+  /** Control in front of the label. */
+  pick?: unknown;
+  /** Keyboard of a phone for typing the value. */
+  keys: 'decimal' | 'numeric' | 'text';
+  /** Takes a typed text and returns it as it is shown from now on; undefined if it is refused. */
+  type: (text: string) => string | undefined;
+  /** Sentence about a refused text. */
+  refusal?: string;
+  /** Called when something else matters more than the refused text. */
+  forget: () => void;
+}
+
+export interface Track extends Range {
+  /** Name where the label is a symbol. */
+  name?: string;
+  /** Value in words. */
+  text: string;
+  /** Id of the element that tells more. */
+  describedBy?: string;
+  keydown?: (event: KeyboardEvent) => void;
+}
+
 /** Track that a thumb is moved on. A finger that goes up or down over it scrolls the page. */
-export function track({ id, name, min, max, step, value, text, describedBy, keydown, input, commit }: { id: string; name?: string; min: number; max: number; step: number; value: number; text: string; describedBy?: string; keydown?: (event: KeyboardEvent) => void; input: (value: number) => void; commit: () => void }) {
+export function track({ id, name, min, max, step, value, text, describedBy, keydown, input, commit }: Track) {
   // A browser sets a slider as soon as a finger comes down on it: until the finger taps or scrolls, a rendering leaves that value.
   const set = (event: Event) => {
     if (!finger.waits) input(inputOf(event).valueAsNumber);
@@ -296,7 +343,7 @@ const untilTyped = directive(
 );
 
 /** The value of a slider as a field to type into. */
-function field({ id, keys, type, forget }: Pick<Parameters<typeof sliderRow>[0], 'id' | 'keys' | 'type' | 'forget'>, shown: string) {
+function field({ id, keys, type, forget }: Pick<SliderRow, 'id' | 'keys' | 'type' | 'forget'>, shown: string) {
   /** @returns whether what stands there is the value now */
   const take = (input: HTMLInputElement): boolean => {
     // By default it has what stood there when the reader came.

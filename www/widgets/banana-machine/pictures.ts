@@ -27,15 +27,28 @@ import { drawLattice } from './lattice.ts';
 import { MorphView, placeOf } from './morph.ts';
 import { deviation } from './reading.ts';
 import { LINES } from './settings.ts';
-import type { BananaMachine, Moments } from '../../types.d.ts';
+import type { BananaMachine, Inspection, Moments } from '../../types.d.ts';
 import type { Brush } from '../../scene/canvas.ts';
 import type { Outlines } from './morph.ts';
+import type { Reading } from './reading.ts';
+import type { LineName } from './settings.ts';
 
 /**
  * Scene of both pictures. Outlines, callouts and the `rings` that the callouts keep clear of are at the morph; the ellipse is
  * `reached` at its end.
  */
-export type Scene = import('./reading.ts').Reading & { machine: BananaMachine, overlays: Record<import('./settings.ts').LineName, boolean>, marked: import('../../types.d.ts').Inspection | undefined, morph: number, pinned: import('./reading.ts').Reading | undefined, driving: { robots: number, share: number } | undefined, outlinesOf: (reading: import('./reading.ts').Reading) => Outlines, callouts: [number, number][], rings: Float64Array[], reached: Float64Array, };
+export interface Scene extends Reading {
+  machine: BananaMachine;
+  overlays: Record<LineName, boolean>;
+  marked: Inspection | undefined;
+  morph: number;
+  pinned: Reading | undefined;
+  driving: { robots: number, share: number } | undefined;
+  outlinesOf: (reading: Reading) => Outlines;
+  callouts: [number, number][];
+  rings: Float64Array[];
+  reached: Float64Array;
+}
 
 /** A larger cloud is drawn as a density: dots would be one blot, and cost more than a frame. */
 const MAX_DOTS = 1000;

@@ -17,6 +17,7 @@ import { headline, markedRobot, missTable, ratioPlot, straightPlot } from './rea
 import { OUTLINES, RECURSIONS, attributes, declared, looks, own, vocabulary } from './settings.ts';
 import { reckoningStyles } from './styles.ts';
 import { announcementOf, captionOf, planeText, stepText } from './words.ts';
+import type { Values } from '../../figure/settings.ts';
 import type { DeadReckoning as Machine } from '../../types.d.ts';
 import type { Reading } from './reading.ts';
 
@@ -55,7 +56,7 @@ export class DeadReckoningElement extends FigureElement<Machine, Reading> {
     return orFree(machine, () => enterCloud(machine, this.settings.declared(state), state.shown));
   };
 
-  completed(present: Parameters<FigureElement<Machine, Reading>['completed']>[0], given: Parameters<FigureElement<Machine, Reading>['completed']>[1]) {
+  completed(present: Values, given: Values) {
     // A path that becomes shorter than what is looked at is looked at where it ends.
     const { steps = present.steps } = given;
     return { step: Math.min(present.step, steps), ...super.completed(present, given) };

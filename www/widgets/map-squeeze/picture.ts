@@ -14,8 +14,13 @@ import { LINES } from './settings.ts';
 import type { MapSqueeze, Plan } from '../../types.d.ts';
 import type { Brush } from '../../scene/canvas.ts';
 import type { Cells } from '../../scene/walls.ts';
+import type { Reading } from './reading.ts';
 
-export type Scene = ReturnType<typeof import('./reading.ts').readingOf> & { machine: MapSqueeze, overlays: string[], marked: { pose: Float64Array, path: Float64Array, contact: number[] | undefined } | undefined, };
+export interface Scene extends Reading {
+  machine: MapSqueeze;
+  overlays: string[];
+  marked: { pose: Float64Array, path: Float64Array, contact: number[] | undefined } | undefined;
+}
 
 /** Half a cross, CSS pixels. */
 const CROSS = 2.6;

@@ -105,11 +105,11 @@ export class DeadReckoningElement extends FigureElement<Machine, Reading> {
       <section class="machine" aria-label=${this.lettering.name}>
         <div class="views">
           ${panel(say.chart, html`<div class="chart">${ratioPlot(this, reading)}</div>`, 'ratios')}
-          ${this.stage.later(() => html`<div class="said">
+          <div class="said">
             ${headline(reading, overlays)}
             <p part="caption" class="caption ${condition !== 'told' && 'note'}">${captionOf(reading, overlays)}</p>
             ${recursionChoice(this)}
-          </div>`)}
+          </div>
           ${panel(say.floor, html`<div class="stage" part="picture">${canvas(this, this.#floor, planeText(reading))}</div>`, 'floor')}
           ${panel(say.atStepTitle(step), html`<div class="stage">${canvas(this, this.#step, stepText(reading))}</div>`, 'step')}
         </div>

@@ -1,8 +1,8 @@
 import { spawnSync } from 'node:child_process';
 import { expect, test as anyway } from '@playwright/test';
 import { recordingOf, transform } from '../mcap.js';
-import { caption, choose, example, openCalibrator, recordingWith, rows, settled, stats, tablesOf } from './calibrator-support.js';
-import { STILL, heard, stateOf, test, unfold } from './support.js';
+import { caption, choose, example, openCalibrator, recordingWith, rows, stats, tablesOf } from './calibrator-support.js';
+import { STILL, heard, settled, stateOf, test, unfold } from './support.js';
 
 /**
  * @typedef {import('@playwright/test').Locator} Locator
@@ -16,8 +16,8 @@ test('two tables of the reader’s own take the place of the simulated log, and 
   const widget = await openCalibrator(page);
   const tables = await tablesOf(widget);
   await choose(widget, { 'truth.csv': tables.reference, 'odom.csv': tables.odometry });
-  await expect(caption(widget)).toHaveText(/ \d+ legs of odom\.csv, truth\.csv[.,]/);
   await settled(widget);
+  expect(await caption(widget).innerText()).toMatch(/ \d+ legs of odom\.csv, truth\.csv[.,]/);
   expect(await widget.evaluate((element) => /** @type {AlphaCalibratorElement} */ (element).machine.truth)).toBeNull();
   await expect(widget.locator('.drop-zone .present')).toHaveText('Log: odom.csv, truth.csv.');
   // The summary stays beside the result.

@@ -1,8 +1,8 @@
 import { readFileSync } from 'node:fs';
 import { expect } from '@playwright/test';
 import { isZero } from '../../www/widgets/alpha-calibrator/lines.ts';
-import { caption, openCalibrator, rows, section, settled, stats } from './calibrator-support.js';
-import { STILL, frames, pixelsOf, stateOf, test, unfold } from './support.js';
+import { caption, openCalibrator, rows, section, stats } from './calibrator-support.js';
+import { STILL, frames, pixelsOf, stateOf, settled, test, unfold } from './support.js';
 
 /** @typedef {import('./calibrator-support.js').AlphaCalibratorElement} AlphaCalibratorElement */
 

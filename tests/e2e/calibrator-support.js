@@ -6,7 +6,7 @@
 
 import { readFileSync } from 'node:fs';
 import { odometry, poseOf, recordingOf, stampOf, twistOf } from '../mcap.js';
-import { frames, mount } from './support.js';
+import { mount, settled } from './support.js';
 
 /**
  * @typedef {import('@playwright/test').Page} Page
@@ -22,15 +22,6 @@ export async function openCalibrator(page, attributes) {
   });
   await settled(widget);
   return widget;
-}
-
-/** Waits until all is fitted and shown. @param {Locator} widget */
-export async function settled(widget) {
-  await widget.evaluate(async (element) => {
-    const figure = /** @type {AlphaCalibratorElement} */ (element);
-    while (figure.settings.stale || figure.service.isBusy || figure.machine.isPending) await new Promise(requestAnimationFrame);
-  });
-  await frames(widget.page());
 }
 
 export const caption = (/** @type {Locator} */ widget) => widget.locator('p[part=caption]');

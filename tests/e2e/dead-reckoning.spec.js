@@ -1,5 +1,5 @@
 import { expect } from '@playwright/test';
-import { STILL, detail, dragSlider, frames, mount, pictureOf, pixelsOf, readout, test, unfold, valueField } from './support.js';
+import { STILL, detail, dragSlider, frames, mount, pictureOf, pixelsOf, readout, settled, test, unfold, valueField } from './support.js';
 
 /**
  * @typedef {import('@playwright/test').Page} Page
@@ -15,15 +15,6 @@ async function openReckoning(page, attributes) {
   const widget = await mount(page, 'dead-reckoning', { attributes });
   await settled(widget);
   return widget;
-}
-
-/** Waits until all robots are driven and shown. @param {Locator} widget */
-async function settled(widget) {
-  await widget.evaluate(async (element) => {
-    const isSettled = (/** @type {any} */ { machine, settings }) => !settings.stale && machine.shown === machine.config.samples && machine.stats.n === machine.shown;
-    while (!isSettled(/** @type {any} */ (element))) await new Promise(requestAnimationFrame);
-  });
-  await frames(widget.page());
 }
 
 /** @param {Locator} widget */

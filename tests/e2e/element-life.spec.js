@@ -112,6 +112,19 @@ test('a cloud that is out of sight asks for no frames, and goes on growing where
   await expect.poll(shown, { timeout: 20_000 }).toBe(samples);
 });
 
+test('settled waits for the figure and all of its samples, in sight and far from the window', async ({ page, cloud }) => {
+  await page.emulateMedia({ reducedMotion: 'no-preference' });
+  for (const height of [0, 6000]) {
+    await show(page, `<div style="height: ${height}px"></div><${cloud}></${cloud}>`);
+    const [shown, samples, playing] = await page.locator(cloud).evaluate(async (element) => {
+      const figure = /** @type {any} */ (element);
+      await figure.settled;
+      return [figure.machine.shown, figure.samples, figure.playing];
+    });
+    expect([shown, playing]).toEqual([samples, false]);
+  }
+});
+
 test('a figure in a hidden tab asks for no frames, and shows afterwards what was set meanwhile', async ({ page, figure }) => {
   await count(page);
   const widget = await mount(page, figure);

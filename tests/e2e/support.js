@@ -442,3 +442,9 @@ export function numberIn(text) {
   const exponent = power.replace('⁻', '-').replace(/[⁰¹²³⁴⁵⁶⁷⁸⁹]/g, (digit) => String('⁰¹²³⁴⁵⁶⁷⁸⁹'.indexOf(digit)));
   return Number(mantissa) * 10 ** Number(exponent);
 }
+
+/** Waits until all is calculated and shown. @param {Locator} widget */
+export async function settled(widget) {
+  await widget.evaluate((element) => /** @type {AnyElement} */ (element).settled);
+  await frames(widget.page());
+}

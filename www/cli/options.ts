@@ -14,8 +14,8 @@ export const HELP = `motion-widgets: the α's of a robot's motion model, from lo
       lists what is in a recording or table, what could be odometry or reference, and the command to go on with
   motion-widgets calibrate --recording run.bag --rule nav2
       calibrates from a bag, folder or MCAP file that has both, for Nav2's AMCL
-  motion-widgets calibrate --odometry odom.csv --reference mocap.csv --rule nav2 --yaml >> nav2_params.yaml
-      calibrates from two files, and appends the lines for Nav2
+  motion-widgets calibrate --odometry odom.csv --reference mocap.csv --rule nav2 --yaml > alphas.yaml
+      calibrates from two files, and writes the lines for Nav2
 
 Logs: ROS 1 bags, rosbag2 (MCAP, SQLite, folders), CSV and other tables, TUM.
   --recording PATH           file or folder with odometry and reference
@@ -50,7 +50,7 @@ Fit:
 
 Output:
   --json                     everything, as JSON
-  --yaml                     only the lines for nav2_params.yaml
+  --yaml                     only the lines for nav2_params.yaml, to merge into its amcl:
   --plot FILE.svg            a picture of both paths, the legs and the outliers
   --help, --version
 

@@ -35,8 +35,6 @@ export class Cloud extends Part {
   /** Number of samples that are to be shown; Infinity for all. */
   #goal = Infinity;
   #gaveUp;
-  /** Resolves the promises of those who wait for all samples. */
-  #waiting: (() => void)[] = [];
 
   /** @param gaveUp tells whether the machine has stopped short of its samples for good */
   constructor(host: Figure, gaveUp: (machine: any) => boolean = () => false) {
@@ -68,12 +66,9 @@ export class Cloud extends Part {
     return this.complete ? this.#samples : this.#goal;
   }
 
-  /** Promise that all samples that are to be shown are. */
-  get settled(): Promise<void> {
-    return new Promise((resolve) => {
-      this.#waiting.push(resolve);
-      this.host.settings.show();
-    });
+  /** True if all samples that are to be shown are. */
+  get isSettled(): boolean {
+    return !this.playing && (this.#machine.shown >= this.asked || this.#gaveUp(this.#machine));
   }
 
   /**
@@ -128,7 +123,6 @@ export class Cloud extends Part {
       shown = machine.addSamples(Math.min(this.asked - shown, machine.block));
       this.host.settings.stale = true;
     }
-    if (!this.playing) for (const resolve of this.#waiting.splice(0)) resolve();
     return true;
   }
 

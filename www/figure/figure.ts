@@ -126,6 +126,8 @@ export class FigureElement<Machine extends { free(): void, stats: object, config
   /** Latest reading of the machine; undefined before the first. */
   reading: Reading = undefined as any;
   #highlight: string | null = null;
+  /** Resolves the promises of `settled`. */
+  #waiting: (() => void)[] = [];
   #updating: boolean | undefined;
 
   /** The class of the widget, with what it says of all of its kind. */
@@ -248,13 +250,35 @@ export class FigureElement<Machine extends { free(): void, stats: object, config
   }
 
   /**
-   * Promise that every change is in effect and all samples are shown.
+   * Promise that the figure is ready, every change is in effect, all samples are shown and no log is read. It starts a figure that is far
+   * from the window. Growth that the reader sees is waited for.
    *
    * @public
    */
   get settled(): Promise<void> {
-    this.settings.settle();
-    return this.cloud && this.machine ? this.cloud.settled : Promise.resolve();
+    return new Promise((resolve) => {
+      this.#waiting.push(resolve);
+      if (this.isConnected) void this.runtime.hasten();
+      this.settings.show();
+    });
+  }
+
+  /** True while a widget calculates something elsewhere. */
+  get isBusy() {
+    return false;
+  }
+
+  /** True if somebody waits for `settled`. */
+  get isAwaited() {
+    return this.#waiting.length > 0;
+  }
+
+  /** Resolves `settled` if the figure is. A figure that cannot run is. */
+  tellSettled() {
+    if (!this.isAwaited) return;
+    const { machine, cloud, settings, runtime } = this;
+    const isSettled = machine ? !this.isBusy && !settings.isWaiting && (cloud?.isSettled ?? true) : runtime.failure !== undefined;
+    if (isSettled) for (const resolve of this.#waiting.splice(0)) resolve();
   }
 
   /** Light, dark, or as the surroundings are. */

@@ -35,6 +35,11 @@ export class Settings extends Part {
     return { ...this.present, ...this.#pending };
   }
 
+  /** True if changes are not in effect or not read yet. */
+  get isWaiting() {
+    return this.stale || Object.keys(this.#pending).length > 0;
+  }
+
   /** Changes settings with the next frame, for the reader: a drag costs one configuration a frame. */
   want(change: Values | ((wanted: Values) => Values)) {
     this.host.runtime.attempt(() => {
@@ -103,10 +108,13 @@ export class Settings extends Part {
       const { machine, cloud } = this.host;
       if (!machine) return;
       this.settle();
+      // Nobody sees it grow.
+      if (this.host.isAwaited) cloud?.finish();
       if (cloud && !cloud.refine()) {
         this.#isShowing = true;
         setTimeout(this.#showUnseen);
       } else if (this.stale) this.host.refresh();
+      this.host.tellSettled();
     });
   };
 }

@@ -78,6 +78,7 @@ export class Stage extends Part {
   }
 
   hostUpdated() {
+    this.host.tellSettled();
     if (!this.#canvases) this.recolour();
     if (!this.host.machine || this.#canvases) return;
     this.#canvases = [...this.host.renderRoot.querySelectorAll('canvas')];
@@ -111,6 +112,7 @@ export class Stage extends Part {
   sight(inSight: boolean) {
     if (!inSight && (this.opening || this.#owedSince !== undefined)) this.#tell();
     this.inSight = inSight;
+    if (!inSight && this.host.isAwaited) this.host.settings.show();
     // Of what was skipped nothing tells that its colours changed.
     if (inSight) this.recolour();
   }
@@ -185,6 +187,7 @@ export class Stage extends Part {
       this.#owedSince ??= began;
       wake(this);
     }
+    host.tellSettled();
     const playing = host.player?.advance(elapsed);
     if (playing || moving.includes(true) || host.cloud?.playing) this.wake();
   }

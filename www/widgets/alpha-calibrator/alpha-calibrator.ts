@@ -79,6 +79,11 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
     return readingOf(machine, this.log, this.reading);
   }
 
+  /** True while a log is read or fitted. */
+  get isBusy() {
+    return this.service.isBusy || this.#opener.share !== undefined || this.machine?.isPending === true;
+  }
+
   disconnectedCallback() {
     super.disconnectedCallback();
     this.service.end();

@@ -12,7 +12,10 @@ import { TRUTH } from '../../scripts/example-log.mjs';
 import { HELP } from '../../www/cli/options.ts';
 import { textOf } from '../../www/cli/report.ts';
 import { run } from '../../www/cli/run.ts';
+import { hasLocalizer } from '../../www/logs/pairs.ts';
 import { en } from '../../www/widgets/alpha-calibrator/en.ts';
+import { speak } from '../../www/messages/registry.ts';
+import { judgementOf } from '../../www/widgets/alpha-calibrator/words.ts';
 import { odometry, poseOf, recordingOf, stampOf, transform, twistOf } from '../mcap.js';
 
 const CLI = fileURLToPath(new URL('../../dist/cli.js', import.meta.url));
@@ -279,9 +282,16 @@ test('an unusable log has a sentence and no lines for Nav2', async () => {
   assert.doesNotMatch(out, /amcl:|not identifiable: /);
 });
 
-test('the report warns of a localizer as reference', async () => {
-  const { out } = await outputOf([...FILES.slice(0, 3), file('amcl_pose.csv', readFileSync(example('reference')))]);
-  assert.match(out, new RegExp(`^Consistent: .*\\n${en.nav2.localizer}\\n`, 'm'));
+test('the report, the lines for Nav2 and the figure’s verdict agree whether the reference is a localizer’s', async () => {
+  speak(/** @type {any} */ ({ closest: () => ({ getAttribute: () => 'en' }) }));
+  for (const [name, isLocalizer] of /** @type {const} */ ([['slam_pose', true], ['cartographer', true], ['truth_amcl', false]])) {
+    const args = [...FILES.slice(0, 3), file(`${name}.csv`, readFileSync(example('reference')))];
+    const [{ out }, { out: json }] = [await outputOf(args), await outputOf([...args, '--json'])];
+    const { logs, ...stats } = JSON.parse(json);
+    const { rating } = judgementOf(/** @type {any} */ ({ stats, legs: stats.legs, fitted: stats.systematicErrors }), hasLocalizer(logs));
+    const found = [new RegExp(`^Consistent: .*\\n${en.nav2.localizer}\\n`, 'm').test(out), out.includes(`# ${en.nav2.localizer}`), rating === 'questionable'];
+    assert.deepEqual(found, [isLocalizer, isLocalizer, isLocalizer], name);
+  }
 });
 
 test('the report says what failed, what is lost, and what to drive', async () => {

@@ -41,7 +41,7 @@ function usesOf(recording: Recording, name: string): string {
   const [odometry, commands, reference] = [choices('odometry'), choices('odometry', 'commands'), choices('reference')];
   return [
     ...(odometry.length ? [`odometry${frames(odometry)}`] : commands.length ? ['odometry (commands)'] : []),
-    ...(reference.length ? [`reference${frames(reference)}${isLocalizer(name) || frames(reference).startsWith(' map ') ? ' (a localizer)' : ''}`] : []),
+    ...(reference.length ? [`reference${frames(reference)}${isLocalizer(name, reference[0].frames) ? ' (a localizer)' : ''}`] : []),
   ].join(' or ');
 }
 

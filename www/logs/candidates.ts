@@ -29,8 +29,8 @@ const NAME_OF_ODOMETRY = /odom|wheel|encoder|cmd/i;
 /** Checks whether a recording is a table, which has groups of columns in the place of topics. */
 export const isTable = ({ format }: Recording): boolean => !['mcap', 'rosbag', 'sqlite'].includes(format);
 
-/** Checks whether a log is by its name the estimate of a localizer, or of a filter over the odometry. */
-export const isLocalizer = (name: string): boolean => (LOCALIZED.test(name) || FILTERED.test(name)) && !MEASURED.test(name);
+/** Checks whether a log is by its name or frames the estimate of a localizer, or of a filter over the odometry. */
+export const isLocalizer = (name: string, frames?: Frames): boolean => frames?.parent === 'map' || ((LOCALIZED.test(name) || FILTERED.test(name)) && !MEASURED.test(name));
 
 /** Returns the role that the name of a file says; undefined where it says none. */
 export function roleByName(name: string): Role | undefined {

@@ -63,11 +63,14 @@ export function pairLogs(odometry: Log, reference: Log): Drive {
   const notes: Note[] = [
     ...reliable.summary.notes,
     ...(isSwapped ? [{ name: 'swapped' as const, values: [odometry.name] }] : []),
-    ...(isLocalizer(reference.name) || reference.summary.frames?.parent === 'map' ? [{ name: 'localizer' as const, values: [] }] : []),
+    ...(isLocalizer(reference.name, reference.summary.frames) ? [{ name: 'localizer' as const, values: [] }] : []),
     ...(overlap(odometry, reference) < 0 ? [{ name: 'apart' as const, values: [odometry.name, printed(reference), printed(odometry)] }] : []),
   ];
   return { odometry: first, reference: { ...reliable, summary: { ...reliable.summary, notes } }, start };
 }
+
+/** Checks whether a localizer's own estimate is among the references of logs. */
+export const hasLocalizer = (logs: Pick<Log, 'summary'>[]): boolean => logs.some(({ summary: { notes } }) => notes.some(({ name }) => name === 'localizer'));
 
 /** Moves times to another start. */
 export function after(start: number, log: Log): Log {

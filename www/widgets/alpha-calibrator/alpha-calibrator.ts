@@ -33,6 +33,8 @@ import type { Reading } from './reading.ts';
 /** Log of the reader or of the page, with the fit that the service has made, and the settings of the fit. */
 interface Given {
   log: CalibrationLog;
+  /** True if the reference is a localizer's own estimate. */
+  hasLocalizer: boolean;
   config: Machine['config'];
   fit: Uint8Array;
 }
@@ -150,7 +152,7 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
     this.reflection.give('log', log, (given) => {
       if (given !== null) object('log', given, KEYS);
       this.service.stop();
-      this.open(given).then(() => this.reflection.tell(), this.#report);
+      this.open(given, false).then(() => this.reflection.tell(), this.#report);
     });
   }
 
@@ -161,11 +163,12 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
   /**
    * Replaces the log once it is fitted; a log that is refused leaves the present one. The simulated log comes at once.
    *
+   * @param hasLocalizer true if the reference is a localizer's own estimate
    * @param check throws if the log is refused
    */
-  async open(log: CalibrationLog | null, check?: (machine: Machine) => void) {
+  async open(log: CalibrationLog | null, hasLocalizer: boolean, check?: (machine: Machine) => void) {
     const config = this.settings.declared(this.settings.present) as Machine['config'];
-    const given = log && { log, config, fit: await this.service.calibrate(config, log) };
+    const given = log && { log, hasLocalizer, config, fit: await this.service.calibrate(config, log) };
     this.runtime.attempt(() => {
       if (!this.machine) return;
       const machine = this.#machineOf(this.motion, this.settings.declared(this.settings.present), given);
@@ -185,7 +188,7 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
     const work = { stop: () => this.#giveUp() };
     const telling = setInterval(() => progress.tell(work), 100);
     try {
-      await this.open(log);
+      await this.open(log, this.hasLocalizer);
     } catch (error) {
       if (!isStopped(error)) this.#giveUp();
       this.#report(error);
@@ -206,6 +209,11 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
     });
   }
 
+  /** True if the reference of the log is a localizer's own estimate. */
+  get hasLocalizer() {
+    return this.#given?.hasLocalizer ?? false;
+  }
+
   /** Name of the log. */
   get logName() {
     const { log } = this.reading;
@@ -218,7 +226,7 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
     const poses = (whose: string) => ['from', 'to'].flatMap((end) => ['x_m', 'y_m', 'theta_rad'].map((name) => `${whose}_${end}_${name}`));
     return {
       title: this.lettering.name,
-      description: [wayText(this.reading, this.chosen), ...alphaTexts(this.reading).map((text) => `${text}.`), captionOf(this.reading, this.logName), reasonOf(this.reading), ...systematicTexts(this.reading)].join(' '),
+      description: [wayText(this.reading, this.chosen), ...alphaTexts(this.reading).map((text) => `${text}.`), captionOf(this), reasonOf(this.reading), ...systematicTexts(this.reading)].join(' '),
       settings: { element: this.localName, log: this.log?.name ?? null, ...fitted },
       columns: [
         'begins_s', 'ends_s', ...poses('odometry'), ...poses('reference'), 'reading_1', 'reading_2', 'reading_3',
@@ -234,7 +242,7 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
   }
 
   announcement(reading: Reading) {
-    return captionOf(reading, this.logName);
+    return captionOf({ reading, hasLocalizer: this.hasLocalizer, logName: this.logName });
   }
 
   content(reading: Reading) {

@@ -12,6 +12,8 @@ export interface Fitted {
   legs: { distance?: number, angle?: number, duration?: number };
   /** Names of odometry and reference. */
   log: string;
+  /** True if the reference is a localizer's own estimate. */
+  hasLocalizer: boolean;
   date: string;
 }
 
@@ -36,12 +38,6 @@ const NONE = '–';
 
 /** Plugins of Nav2 by model. */
 const NAV2: Record<string, string> = { odometry: 'nav2_amcl::DifferentialMotionModel', omnidirectional: 'nav2_amcl::OmniMotionModel' };
-
-/** Names of topics and files that a localizer publishes its own estimate by. */
-const LOCALIZER = /amcl|locali[sz]|odometry[/_]filtered/i;
-
-/** Checks whether a log is by its name the estimate of a localizer. */
-export const isLocalizer = (log: string) => LOCALIZER.test(log);
 
 /** Rules of Nav2's models. */
 const ITS_RULES = ['nav2', 'omni'];
@@ -103,7 +99,7 @@ export function neededFor(model: string, index: number): 'insufficient-rotation'
  *
  * @returns none if Nav2 has no such model, or no α's are recommended
  */
-export function nav2Lines({ calibration, count, model, rule, legs, log, date }: Fitted, say: Words): string[] {
+export function nav2Lines({ calibration, count, model, rule, legs, log, hasLocalizer, date }: Fitted, say: Words): string[] {
   const { alphas, intervals, recommended, systematicErrors, diagnostics: { checks, windows: [window] } } = calibration;
   if (!Object.hasOwn(NAV2, model) || recommended === null) return [];
   const { inflation } = recommended;
@@ -115,7 +111,7 @@ export function nav2Lines({ calibration, count, model, rule, legs, log, date }: 
     ...(model !== 'odometry' || ITS_RULES.includes(rule) ? [] : [say.otherRule]),
     ...correctionOf(systematicErrors).map((errors) => say.corrected(errors)),
     ...(failed ? [say.failed(failed)] : []),
-    ...(isLocalizer(log) ? [say.localizer] : []),
+    ...(hasLocalizer ? [say.localizer] : []),
   ];
   const lines = alphas.map((alpha: number | null, i: number) => {
     const interval = intervals[i];
@@ -134,7 +130,7 @@ export function nav2Lines({ calibration, count, model, rule, legs, log, date }: 
 }
 
 /** Checks that failed. */
-export const failedOf = (checks: { name: string, passed: boolean, message: string }[]) => checks.filter(({ passed }) => !passed);
+export const failedOf = <Check extends { name: string, passed: boolean, message: string }>(checks: Check[]) => checks.filter(({ passed }) => !passed);
 
 /**
  * Lists the systematic errors that were corrected: the odometry of the robot still has them.

@@ -94,7 +94,7 @@ export class LogOpener extends Part<Figure> {
   leave() {
     this.#end();
     this.chosen = this.#complaint = undefined;
-    this.host.open(null).then(() => this.#commit());
+    this.host.open(null, false).then(() => this.#commit());
   }
 
   /** Stops reading. */
@@ -160,7 +160,7 @@ export class LogOpener extends Part<Figure> {
     chosen.drives = drives;
     this.host.requestUpdate();
     const log = { name: nameOf(plan, reader), ...reader.logOf(drives) };
-    await this.host.open(log, ({ count }) => {
+    await this.host.open(log, reader.hasLocalizer(drives.map(({ reference }) => reference)), ({ count }) => {
       if (count === 0) throw new RangeError(words.calibrator.none);
     });
     chosen.log = log;

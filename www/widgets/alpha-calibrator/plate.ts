@@ -33,7 +33,7 @@ export class Plate extends Picture<Scene> {
   }
 
   draw(surface: Parameters<Picture<Scene>['draw']>[0], scene: Parameters<Picture<Scene>['draw']>[1], palette: Parameters<Picture<Scene>['draw']>[2]) {
-    const { reading, logName } = this.#figure;
+    const { reading } = this.#figure;
     const brush = { ...brushOn(surface, this.view, palette), exported: true };
     const way = this.#way;
     way.view.resize(WAY.width, WAY.height);
@@ -51,7 +51,7 @@ export class Plate extends Picture<Scene> {
     let y = 2;
     for (const text of [`${words.calibrator.alphas.caption}:`, ...alphaTexts(reading)]) y = write(context, text, beside, y, WIDTH - beside) + LINE / 3;
     y = Math.max(WAY.height, y) + LINE;
-    for (const text of [captionOf(reading, logName), reasonOf(reading), ...systematicTexts(reading)]) y = write(context, text, 2, y, WIDTH - 2);
+    for (const text of [captionOf(this.#figure), reasonOf(reading), ...systematicTexts(reading)]) y = write(context, text, 2, y, WIDTH - 2);
     return false;
   }
 }

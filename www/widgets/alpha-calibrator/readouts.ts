@@ -21,8 +21,8 @@ const MOST_DECADES = 4;
 const ICONS = { consistent: '✓', questionable: '!', unusable: '✕' };
 
 /** Returns the badge of the α's, with the verdict, the next step and the legs. */
-export function verdictLine({ reading, logName }: Figure) {
-  const { rating, badge, finding, next } = judgementOf(reading, logName);
+export function verdictLine({ reading, logName, hasLocalizer }: Figure) {
+  const { rating, badge, finding, next } = judgementOf(reading, hasLocalizer);
   return html`<span class="badge ${rating}"><span aria-hidden="true">${ICONS[rating]}</span> ${badge}</span>
     <strong>${finding}</strong> ${next} <span class="muted">${legsText(reading, logName)}</span>`;
 }

@@ -3,12 +3,14 @@
 import { addEnglish, words } from '../../messages/registry.ts';
 import { counted, fixed, percent, powerOfTen } from '../../ui/format.ts';
 import { en } from './en.ts';
-import { isLocalizer } from './lines.ts';
+import { failedOf } from './lines.ts';
 import { uncorrectedText } from './systematic.ts';
 import type { CalibrationCheck, LegView } from '../../types.d.ts';
 import type { Reading } from './reading.ts';
 
 addEnglish({ calibrator: en });
+
+type Figure = Pick<import('./alpha-calibrator.ts').AlphaCalibratorElement, 'reading' | 'hasLocalizer' | 'logName'>;
 
 /** Printed checks that are a count, and those that are a fraction; the others are plain numbers. */
 const COUNTS = ['enough-legs'];
@@ -18,16 +20,16 @@ const FRACTIONS = ['legs-lost', 'outliers-few', 'holdout-covered', 'window-1m-co
  * Returns the rating of the α's, with the first failed check, warnings and the next step as sentences. A warning makes consistent α's
  * questionable.
  *
- * @param log name
+ * @param hasLocalizer true if the reference is a localizer's own estimate
  */
-export function judgementOf(reading: Reading, log: string): { rating: Reading['stats']['diagnostics']['verdict'], badge: string, finding: string, next: string } {
+export function judgementOf(reading: Reading, hasLocalizer: boolean): { rating: Reading['stats']['diagnostics']['verdict'], badge: string, finding: string, next: string } {
   const { stats: { diagnostics: { verdict, checks } }, legs } = reading;
   const say = words.calibrator;
-  const warnings = [uncorrectedText(reading), isLocalizer(log) ? say.nav2.localizer : ''].filter(Boolean);
+  const warnings = [uncorrectedText(reading), hasLocalizer ? say.nav2.localizer : ''].filter(Boolean);
   const rating = verdict === 'consistent' && warnings.length > 0 ? 'questionable' : verdict;
   const result = (finding: string, next: string) => ({ rating, badge: say.badges[rating], finding: [finding, ...warnings].join(' '), next });
   if (legs.count === 0) return result(say.none, say.longer);
-  const failed = checks.filter(({ passed }) => !passed);
+  const failed = failedOf(checks);
   if (failed.length > 0) return result(say.failed(say.checks.names[failed[0].name], counted(failed.length), counted(checks.length)), messageOf(failed[0]));
   return verdict === 'unusable' ? result(say.noAlpha, '') : result(say.passed(counted(checks.length)), rating === 'consistent' ? say.use : '');
 }
@@ -92,9 +94,9 @@ export function legsText({ legs }: Reading, log: string) {
 }
 
 /** Returns the caption of the pictures: the judgement and the legs. */
-export function captionOf(reading: Reading, log: string) {
-  const { badge, finding, next } = judgementOf(reading, log);
-  return [`${badge}.`, finding, next, legsText(reading, log)].filter(Boolean).join(' ');
+export function captionOf({ reading, hasLocalizer, logName }: Figure) {
+  const { badge, finding, next } = judgementOf(reading, hasLocalizer);
+  return [`${badge}.`, finding, next, legsText(reading, logName)].filter(Boolean).join(' ');
 }
 
 /** The text equivalent of the way. */

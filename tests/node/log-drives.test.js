@@ -64,7 +64,7 @@ const CLEAR = [
   [{ '/tf': 'tf' }, '/tf r1/odom r1/base_link', '/tf map r1/base_link', ['r1/odom r1/base_link', 'map r1/base_link']],
   [{ '/odom': 'odometry', '/slam': 'pose', '/mocap': 'pose' }, '/odom', '/slam', [], { reference: { series: '/slam' } }],
   [{ '/odom': 'odometry', '/mocap': 'pose' }, '/mocap', '/odom', [], { odometry: { series: '/mocap' }, reference: { series: '/odom' } }],
-  [{ '/tf': 'tf', '/mocap': 'pose' }, '/tf odom base', '/mocap', [], { odometry: { frames: { parent: 'odom', child: 'base' } } }],
+  [{ '/ecstatic/tf': 'tf', '/mocap': 'pose' }, '/ecstatic/tf odom base', '/mocap', [], { odometry: { frames: { parent: 'odom', child: 'base' } } }],
 ];
 
 test('odometry and reference are guessed by types, names and frames', () => {

@@ -99,7 +99,7 @@ function stated(recording: Recording, role: Role, wishes: Wishes): Choice {
   const kind = role === 'reference' ? 'poses' : wishes.kind;
   const bare = (name: string) => name.replace(/[/_.]+$/, '');
   const found = series === undefined
-    ? recording.series.find(({ name, kind: its }) => its === 'transforms' && !/static/.test(name))
+    ? recording.series.find((each) => each.frames)
     : (recording.series.find(({ name }) => name === series) ?? recording.series.find(({ name }) => bare(name) === bare(series)));
   const useful = usefulSeries(recording);
   if (!found) {
@@ -130,7 +130,7 @@ function guessed(recording: Recording, role: Role, wishes: Wishes, other?: Choic
   const useful = usefulSeries(recording);
   if (useful.length === 0) throw new LogError({ file }, (say) => say.noTopics(described(recording.series)));
   const transforms = useful.filter(({ kind }) => kind === 'transforms');
-  if (transforms.length === useful.length) throw framesError(recording, transforms.find(({ name }) => !/static/.test(name)) ?? transforms[0], role);
+  if (transforms.length === useful.length) throw framesError(recording, transforms.find((each) => each.frames) ?? transforms[0], role);
   if (role === 'reference' && useful.every(({ kind }) => kind === 'commands')) throw new LogError({ file }, (say) => say.noPoses(described(useful)));
   const isAlone = useful.length === 1;
   throw new LogError(

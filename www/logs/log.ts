@@ -17,7 +17,7 @@ export interface Series {
   hasCommands?: boolean;
   /** Messages; 0 for a table, whose rows are not counted yet. */
   count: number;
-  /** Ends of chains of transforms that may be poses of the robot. */
+  /** Ends of chains of transforms that may be poses of the robot; undefined for static transforms. */
   frames?: Frames[];
 }
 

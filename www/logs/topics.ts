@@ -14,7 +14,7 @@ const MESSAGES_OF_FRAMES = 2000;
 const MAX_TURNS = 2;
 
 /** Checks for a topic of transforms that never change. */
-const isStatic = ({ topic, type }: Channel) => kindOf(type) === 'transforms' && /(^|\/)tf_static$/.test(topic);
+const isStatic = ({ topic, type }: Pick<Channel, 'topic' | 'type'>) => kindOf(type) === 'transforms' && /(^|\/)tf_static$/.test(topic);
 
 /** Returns the recording that a container holds. */
 export async function recordingOf(name: string, container: Container, options: OpenOptions): Promise<Recording> {
@@ -45,8 +45,8 @@ async function seriesOf(container: Container): Promise<Series[]> {
     const count = (readable.length ? readable : channels).reduce((sum, channel) => sum + channel.count, 0);
     return { name: topic, type: [...types].join(', '), kind: readable.length && types.size === 1 ? kindOf([...types][0]) : null, count };
   });
-  const transforms = series.filter(({ name, kind }) => kind === 'transforms' && !/(^|\/)tf_static$/.test(name));
-  for (const each of transforms) {
+  for (const each of series) {
+    if (each.kind !== 'transforms' || isStatic({ topic: each.name, type: each.type })) continue;
     const tree = new FrameTree();
     let messages = 0;
     const take = ({ channel, data }: Message) => {

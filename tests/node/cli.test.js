@@ -41,11 +41,11 @@ async function outputOf(args, core = load) {
   return { code, out, err };
 }
 
-/** Returns what the core is called with. @param {string[]} args @returns {Promise<any>} */
+/** Returns what the core is called with, with logs in arrays. @param {string[]} args @returns {Promise<any>} */
 async function callOf(args) {
   /** @type {any} */
   let call;
-  const { err } = await outputOf(args, async () => ({ calibrate(/** @type {any} */ options) { call = options; throw new RangeError('stop'); } }));
+  const { err } = await outputOf(args, async () => ({ calibrate(/** @type {any} */ options) { call = { ...options, odometry: [options.odometry].flat(), reference: [options.reference].flat() }; throw new RangeError('stop'); } }));
   assert.ok(call, err);
   return call;
 }

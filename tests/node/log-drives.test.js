@@ -148,10 +148,10 @@ test('logs of several drives are paired by their times, their names, or their or
 test('two logs get one start, and none in common is noted', async () => {
   const own = 't,x,y,yaw\n1700000000.25,0,0,0\n1700000009.5,0,0,0';
   const [both] = await drivesOf({ 'odom.csv': own, 'truth.csv': 't,x,y,yaw\n1700000003.125,0,0,0\n1700000008.5,0,0,0' });
-  assert.equal(both.start, 1_700_000_000);
+  assert.equal(both.odometry.start, 1_700_000_000);
   assert.deepEqual([[...both.odometry.data.t], [...both.reference.data.t]], [[0.25, 9.5], [3.125, 8.5]]);
   const [other] = await drivesOf({ 'odom.csv': own, 'truth.csv': 't,x,y,yaw\n0,0,0,0\n1,0,0,0' });
-  assert.deepEqual([other.start, [...other.odometry.data.t]], [0, [1_700_000_000.25, 1_700_000_009.5]]);
+  assert.deepEqual([other.odometry.start, [...other.odometry.data.t]], [0, [1_700_000_000.25, 1_700_000_009.5]]);
   assert.match(summarize(other.reference, english.found).at(-1) ?? '', /^no time in common with odom\.csv \(0\.00 s to 1\.00 s, and 1700000000\.25 s to 1700000009\.50 s\): /);
   assert.equal(summarize(other.reference, german.found).length, summarize(both.reference, german.found).length + 1);
 });

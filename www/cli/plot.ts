@@ -3,7 +3,6 @@
 import { bisectLeft, extent, ticks } from 'd3-array';
 import type { Drive } from '../logs/drives.ts';
 import type { Commands, Poses } from '../logs/log.ts';
-import { after } from '../logs/pairs.ts';
 
 type Point = [x: number, y: number];
 
@@ -20,10 +19,9 @@ const COLORS = { reference: '#1f6fb2', odometry: '#d97a00', outlier: '#c8102e', 
 
 /** Returns the picture, with a panel for each drive. */
 export function plotOf(drives: Drive[], calibration: any): string {
-  const [{ start }] = drives;
   let top = 0;
   const panels = drives.map((drive) => {
-    const { svg, height } = panelOf(drive, start, calibration);
+    const { svg, height } = panelOf(drive, calibration);
     top += height;
     return `<g transform="translate(0 ${top - height})">${svg}</g>`;
   });
@@ -34,8 +32,7 @@ ${panels.join('\n')}
 `;
 }
 
-function panelOf(drive: Drive, start: number, { legs, systematicErrors }: any): { svg: string; height: number } {
-  const [odometry, reference] = [after(start, drive.odometry), after(start, drive.reference)];
+function panelOf({ odometry, reference }: Drive, { legs, systematicErrors }: any): { svg: string; height: number } {
   const truth = pathOf(reference.data);
   // Legs have the times of the odometry.
   const offset = systematicErrors.clockOffset.value ?? 0;
@@ -78,7 +75,7 @@ function panelOf(drive: Drive, start: number, { legs, systematicErrors }: any): 
   }).join('');
   const key = ([['reference, with the ends of legs', 'reference'], ['odometry, aligned', 'odometry'], ...(outliers.length ? [['outliers', 'outlier'] as const] : [])] as const)
     .map(([label, color], i) => `<path d="M${MARGIN.left + 260 * i} 46h24" stroke="${COLORS[color]}" stroke-width="${color === 'outlier' ? 4 : 2}"/><text x="${MARGIN.left + 260 * i + 30}" y="50" fill="#222">${label}</text>`);
-  const title = `${drive.odometry.name} and ${drive.reference.name}: ${its.length} legs, ${outliers.length} ${outliers.length === 1 ? 'outlier' : 'outliers'}`;
+  const title = `${odometry.name} and ${reference.name}: ${its.length} legs, ${outliers.length} ${outliers.length === 1 ? 'outlier' : 'outliers'}`;
   const svg = `<title>${escaped(title)}</title>
 <text x="${MARGIN.left}" y="26" font-size="16" fill="#222">${escaped(title)}</text>
 ${key.join('')}

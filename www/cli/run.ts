@@ -4,7 +4,7 @@ import { writeFile } from 'node:fs/promises';
 import { planDrives, readDrives, type Drive } from '../logs/drives.ts';
 import { log as words } from '../logs/en.ts';
 import { LogError, cut } from '../logs/log-error.ts';
-import { after } from '../logs/pairs.ts';
+import { logOf } from '../logs/pairs.ts';
 import { summarize } from '../logs/summary.ts';
 import { recordingsOf } from './files.ts';
 import { inspect } from './inspect.ts';
@@ -69,7 +69,7 @@ async function calibrate({ inputs, wishes, fit, output, plot }: Calibrate, { loa
   if (recordings.length === 0) throw new UsageError('there are no logs in the folder.');
   const drives = await readDrives(planDrives(recordings, { ...wishes, roles }), onProgress);
   onProgress?.(undefined);
-  const [{ start }] = drives;
+  const [{ odometry: { start } }] = drives;
   const logs = drives.flatMap(({ odometry, reference }) => [odometry, reference]).map(({ name, ...log }) => ({ name, summary: log.summary, sentences: summarize({ name, ...log }, words.found) }));
   // The summary is shown even if the fit is refused.
   if (output === 'text') print(readOf(logs));
@@ -95,10 +95,8 @@ async function save(path: string, text: string): Promise<void> {
 }
 
 function fitted(motion: any, fit: Calibrate['fit'], drives: Drive[]): any {
-  const [{ start }] = drives;
-  const dataOf = (role: 'odometry' | 'reference') => drives.map(({ [role]: log }) => after(start, log).data);
   try {
-    return motion.calibrate({ ...fit, odometry: dataOf('odometry'), reference: dataOf('reference') });
+    return motion.calibrate({ ...fit, ...logOf(drives) });
   } catch (error) {
     if (!(error instanceof RangeError || error instanceof TypeError)) throw error;
     const names = drives.flatMap(({ odometry, reference }) => [odometry.name, reference.name]);

@@ -3,7 +3,7 @@
 import { candidates, isTable, roleByName, usefulSeries, type Role } from './candidates.ts';
 import { LogError, listed } from './log-error.ts';
 import type { Choice, Frames, Log, LogKind, Recording, Series } from './log.ts';
-import { after, isSamePath, pairLogs, pairedByTime, type Drive } from './pairs.ts';
+import { isSamePath, pairLogs, pairedByTime, withStart, type Drive } from './pairs.ts';
 
 export type { Drive, Role };
 
@@ -140,7 +140,7 @@ function guessed(recording: Recording, role: Role, wishes: Wishes, other?: Choic
   );
 }
 
-/** Reads the logs of a plan, and pairs them; rejects with a LogError. */
+/** Reads the logs of a plan, and pairs them, with the times of all after one start; rejects with a LogError. */
 export async function readDrives({ drives, loose }: Plan, onProgress?: (share: number) => void): Promise<Drive[]> {
   const reads = [...drives.map((drive) => [drive.odometry, drive.reference]), ...[...loose.odometry, ...loose.reference].map((part) => [part])];
   const logs: Log[] = [];
@@ -153,9 +153,11 @@ export async function readDrives({ drives, loose }: Plan, onProgress?: (share: n
     ...drives.map((_, i): [Log, Log] => [logs[2 * i], logs[2 * i + 1]]),
     ...pairedByTime(others.slice(0, loose.odometry.length), others.slice(loose.odometry.length)),
   ];
-  const result = pairs.map(([odometry, reference]) => pairLogs(odometry, reference));
+  const paired = pairs.map(([odometry, reference]) => pairLogs(odometry, reference));
+  const [{ odometry: { start } }] = paired;
+  const result = paired.map(({ odometry, reference }) => ({ odometry: withStart(odometry, start), reference: withStart(reference, start) }));
   for (const [i, { odometry }] of result.entries()) {
-    const twin = result.slice(0, i).find((other) => isSamePath(after(odometry.start, other.odometry), odometry));
+    const twin = result.slice(0, i).find((other) => isSamePath(other.odometry, odometry));
     if (twin) throw new LogError({ file: odometry.name }, (say) => say.sameDrive(twin.odometry.name));
   }
   return result;

@@ -8,7 +8,7 @@ import { LogError } from './log-error.ts';
 import type { Log, Note, Poses } from './log.ts';
 
 /** Two logs of one drive, with times after the same start. */
-export interface Drive { odometry: Log; reference: Log; start: number }
+export interface Drive { odometry: Log; reference: Log }
 
 /** Share of the shorter log that two logs of one drive have in common. */
 const COMMON = 0.5;
@@ -55,7 +55,7 @@ export function pairLogs(odometry: Log, reference: Log): Drive {
   const place = { file: reference.name };
   if (reference.kind === 'commands') throw new LogError(place, (say) => say.noColumns('poses', 't, v, omega'));
   const start = Math.min(odometry.start, reference.start);
-  const [first, second] = [after(start, odometry), after(start, reference)];
+  const [first, second] = [withStart(odometry, start), withStart(reference, start)];
   if (isSamePath(first, second)) throw new LogError(place, (say) => say.same(odometry.name));
   const reliable = withoutFrozenPoses(second, first);
   if (reliable.data.t.length < 2) throw new LogError(place, (say) => say.held);
@@ -66,14 +66,14 @@ export function pairLogs(odometry: Log, reference: Log): Drive {
     ...(isLocalizer(reference.name, reference.summary.frames) ? [{ name: 'localizer' as const, values: [] }] : []),
     ...(overlap(odometry, reference) < 0 ? [{ name: 'apart' as const, values: [odometry.name, printed(reference), printed(odometry)] }] : []),
   ];
-  return { odometry: first, reference: { ...reliable, summary: { ...reliable.summary, notes } }, start };
+  return { odometry: first, reference: { ...reliable, summary: { ...reliable.summary, notes } } };
 }
 
 /** Checks whether a localizer's own estimate is among the references of logs. */
 export const hasLocalizer = (logs: Pick<Log, 'summary'>[]): boolean => logs.some(({ summary: { notes } }) => notes.some(({ name }) => name === 'localizer'));
 
-/** Moves times to another start. */
-export function after(start: number, log: Log): Log {
+/** Returns a log with its times in seconds after another start. */
+export function withStart(log: Log, start: number): Log {
   const later = log.start - start;
   return later === 0 ? log : { ...log, start, data: { ...log.data, t: log.data.t.map((each) => each + later) } };
 }

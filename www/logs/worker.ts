@@ -11,7 +11,7 @@ import { log as english } from './en.ts';
 import { LogError } from './log-error.ts';
 import type { OpenOptions, Question, Recording, Source } from './log.ts';
 import { openRecordings } from './open.ts';
-import { after, logOf } from './pairs.ts';
+import { logOf } from './pairs.ts';
 
 /** Recording as the page has it: with its place among the opened ones, but `read` stays here. */
 export type Opened = Recording & { place: number };
@@ -53,7 +53,7 @@ export class LogKeeper {
     return this.#recordings.map(({ name, format, series }, place) => ({ name, format, series, place }) as Opened);
   }
 
-  /** Reads the logs of a plan that the page has made, with times after one start. These drives are then those to calibrate. */
+  /** Reads the logs of a plan that the page has made. These drives are then those to calibrate. */
   async read(onProgress: OnProgress, { drives, loose }: Plan): Promise<Drive[]> {
     const held = ({ recording, choice }: Part) => ({ recording: this.#recordings[(recording as Opened).place], choice });
     const plan = {
@@ -61,10 +61,8 @@ export class LogKeeper {
       loose: { odometry: loose.odometry.map(held), reference: loose.reference.map(held) },
     };
     const read = await readDrives(plan, onProgress);
-    const [{ start }] = read;
-    const aligned = read.map(({ odometry, reference }) => ({ odometry: after(start, odometry), reference: after(start, reference), start }));
-    this.#take(logOf(aligned));
-    return aligned;
+    this.#take(logOf(read));
+    return read;
   }
 
   /** Returns the fit to the log, or to another that it takes, for `AlphaCalibrator.restored`. */

@@ -71,7 +71,7 @@ export async function instantiateFor(name: string): Promise<Motion> {
       { cause: error },
     );
   }
-  for (const { prototype } of (Object.values(motion) as any[])) if (prototype?.free) makeDisposable(prototype);
+  for (const [name, { prototype }] of Object.entries<any>(motion)) if (prototype?.free) makeDisposable(name, prototype);
   return motion;
 }
 
@@ -217,14 +217,17 @@ function fileAt(source: URL | string): Promise<BufferSource> | undefined {
 
 /**
  * Makes a class of the generated glue disposable: `free()` may be called again, which does nothing, and so may
- * `[Symbol.dispose]()`, in engines without that symbol too.
- *
- * @param prototype of the class
+ * `[Symbol.dispose]()`, in engines without that symbol too. Any other use after that throws a TypeError.
  */
-function makeDisposable(prototype: any) {
+function makeDisposable(name: string, prototype: any) {
   if (!Symbol.dispose) Object.defineProperty(Symbol, 'dispose', { value: Symbol('Symbol.dispose') });
   const { free } = prototype;
   prototype.free = prototype[Symbol.dispose] = function () {
-    if (this.__wbg_ptr) free.call(this);
+    if (!Object.getOwnPropertyDescriptor(this, '__wbg_ptr')?.value) return;
+    free.call(this);
+    const refuse = () => {
+      throw new TypeError(`this ${name} was freed; create a new one.`);
+    };
+    Object.defineProperty(this, '__wbg_ptr', { get: refuse });
   };
 }

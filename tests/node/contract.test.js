@@ -84,7 +84,8 @@ test('a machine computes, refuses by class and message, and is freed', async () 
   assert.throws(() => invertArc({ x: 0, y: 0 }), { name: 'TypeError', message: 'start.theta is undefined; allowed is a number' });
   assert.equal(machine.stats.n, 100);
   machine.free();
-  assert.throws(() => machine.stats, Error);
+  machine.free();
+  assert.throws(() => machine.stats, { name: 'TypeError', message: 'this BananaMachine was freed; create a new one.' });
 });
 
 test('calibrate takes all coordinates that readers of logs take, and no larger ones', async () => {

@@ -104,6 +104,7 @@ test('what is missing or damaged is said, and the rest is read', async () => {
   assert.equal(odometry.data.t.length, 50);
   assert.match(sentences(odometry), /the files split0\.mcap of the recording are missing/);
   assert.match(await refusalOf(openRecordings(split())), /^drive\/metadata\.yaml: it describes a recording in split0\.mcap, split1\.mcap; give that file too/);
+  assert.match(await refusalOf(openRecordings([fileOf(SPLIT, 'metadata.yaml', '')])), /^metadata\.yaml: it describes/);
 
   const readOf = async (bytes: Uint8Array, name: string) => (await open(fileOf(bytes, name))).read([{ series: '/odom' }]);
   for (const [name, share, rows] of [['lz4.bag', 0.8, 100], ['zstd.mcap', 0.4, 38], ['unchunked.mcap', 0.4, 40], ['sqlite-sqlite.db3', 0.8, 72]] as const) {

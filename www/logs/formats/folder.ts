@@ -21,7 +21,7 @@ const nameOf = (path: string) => path.replace(/^.*\//, '');
 
 /** Finds the files that a description lists, beside it. */
 export async function filesOf(metadata: Source, sources: Source[]): Promise<Folder> {
-  const place = { file: metadata.path ?? metadata.name };
+  const place = { file: metadata.path || metadata.name };
   const names: string[] = [];
   try {
     const text = new TextDecoder().decode(await bytesOf(metadata, 0, Math.min(metadata.size, MAX_METADATA)));

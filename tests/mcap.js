@@ -26,7 +26,6 @@ const DEFINITIONS = {
   TwistWithCovariance: [...of('Twist', 'twist'), covariance],
   'nav_msgs/msg/Odometry': [...of('Header', 'header'), ...of('string', 'child_frame_id'), ...of('PoseWithCovariance', 'pose'), ...of('TwistWithCovariance', 'twist')],
   'geometry_msgs/msg/PoseStamped': [...of('Header', 'header'), ...of('Pose', 'pose')],
-  'geometry_msgs/msg/PoseWithCovarianceStamped': [...of('Header', 'header'), ...of('PoseWithCovariance', 'pose')],
   'geometry_msgs/msg/Twist': of('Vector3', 'linear', 'angular'),
   'geometry_msgs/msg/TwistStamped': [...of('Header', 'header'), ...of('Twist', 'twist')],
   Transform: [...of('Vector3', 'translation'), ...of('Quaternion', 'rotation')],
@@ -80,6 +79,7 @@ const COMPRESSION = {
  * @property {string} [schema] name of another type that is recorded for it
  * @property {any} message
  * @property {number} t when it was recorded, in seconds
+ * @property {string} [node] that publishes it
  *
  * @param {Iterable<Message>} messages
  * @param {object} [options]
@@ -111,15 +111,16 @@ export async function recordingOf(messages, { compression = 'none', index = true
   /** @type {Map<string, { id: number, writer: MessageWriter }>} */
   const channels = new Map();
   let sequence = 0;
-  for (const { topic, type, schema = type, message, t } of messages) {
-    let channel = channels.get(topic);
+  for (const { topic, type, schema = type, message, t, node = '' } of messages) {
+    const key = [topic, type, node].join(' ');
+    let channel = channels.get(key);
     if (!channel) {
       const schemaId = await writer.registerSchema({ name: schema, encoding: 'ros2msg', data: Buffer.from(`# ${schema}`) });
-      const id = await writer.registerChannel({ topic, schemaId, messageEncoding: encoding, metadata: new Map() });
+      const id = await writer.registerChannel({ topic, schemaId, messageEncoding: encoding, metadata: new Map(node ? [['callerid', node]] : []) });
       const all = Object.entries(DEFINITIONS).map(([name, definitions]) => ({ name, definitions }));
       const first = all.find(({ name }) => name === type);
       channel = { id, writer: new MessageWriter(first ? [first, ...all] : all) };
-      channels.set(topic, channel);
+      channels.set(key, channel);
     }
     const logTime = BigInt(Math.round(t * 1e3)) * 1_000_000n;
     await writer.addMessage({ channelId: channel.id, sequence: sequence++, logTime, publishTime: logTime, data: channel.writer.writeMessage(message) });

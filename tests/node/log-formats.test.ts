@@ -4,13 +4,12 @@ import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { test } from 'node:test';
 import { gunzipSync } from 'node:zlib';
-import { log as german } from '../../www/logs/de.ts';
-import { log as english } from '../../www/logs/en.ts';
-import { LogError } from '../../www/logs/log-error.ts';
-import type { Choice, Log, Recording, Source } from '../../www/logs/log.ts';
+import { OTHERS, log as english } from '../../www/logs/en.ts';
+import type { Choice, Commands, Log, Poses, Recording, Source } from '../../www/logs/log.ts';
 import { openRecordings } from '../../www/logs/open.ts';
 import { summarize } from '../../www/logs/summary.ts';
 import { odometry, poseOf, recordingOf, stampOf, transform, type Message } from '../mcap.js';
+import { refusalOf, sentenceOf } from './log-support.js';
 
 /** Compressed files by name. */
 const FILES: Record<string, string> = JSON.parse(readFileSync(new URL('../reference/logs/recordings.json', import.meta.url), 'utf8'));
@@ -33,13 +32,6 @@ async function open(...sources: Source[]): Promise<Recording> {
 }
 
 const sentences = (log: Log) => summarize(log, english.found).join('. ');
-
-async function refusalOf(reading: Promise<unknown>): Promise<string> {
-  const error = await reading.then(() => undefined, (reason) => reason);
-  assert.ok(error instanceof LogError, String(error));
-  assert.notEqual(error.sentence(german), error.message);
-  return error.message;
-}
 
 /** Odometry and reference of the drive, from its tables. */
 const tables = (await openRecordings(['odometry.csv', 'reference.csv'].map((name) => fileOf(bytesOf(name), name)))).map((table) => table.read([{ series: '' }]));
@@ -77,67 +69,106 @@ for (const [name, sources] of Object.entries(FORMS)) {
   });
 }
 
+/** Returns the rows of the drive that a log has, and compares their poses. Headings may differ by the error. */
+function rowsOf({ start, data }: Log, error = 0): number[] {
+  const [read, all] = [data, wheels.data] as Poses[];
+  const rows = Array.from(read.t, (t) => Math.round(20 * (start - wheels.start + t - all.t[0])));
+  for (const field of ['x', 'y'] as const) assert.deepEqual([...read[field]], rows.map((row) => all[field][row]));
+  for (const [i, row] of rows.entries()) assert.ok(Math.abs(read.theta[i] - all.theta[row]) <= error, `${read.theta[i]}, not ${all.theta[row]}`);
+  return rows;
+}
+
+const range = (from: number, to: number) => Array.from({ length: to - from }, (_, i) => from + i);
+
 for (const name of ['types.bag', 'types.mcap']) {
   test(`${name}: poses and commands of all types`, async () => {
     const recording = await open(fileOf(bytesOf(name), name));
-    const { x, y, theta } = wheels.data as { x: Float64Array; y: Float64Array; theta: Float64Array };
-    const expected = { x: x.slice(0, 40), y: y.slice(0, 40), theta: theta.slice(0, 40) };
     const frames = { parent: 'odom', child: 'base_link' };
-    const logs = await recording.read([...['/fused', '/vicon', '/pose2d'].map((series) => ({ series })), { series: '/tf', frames }]);
-    for (const { name: its, data } of logs) {
-      assert.deepEqual([...(data as typeof expected).x], [...expected.x], its);
-      // Pose2D has a heading, which was computed from the quaternion elsewhere.
-      for (const [i, theta] of expected.theta.entries()) assert.ok(Math.abs((data as typeof expected).theta[i] - theta) <= (/pose2d/.test(its) ? 1e-15 : 0), its);
-    }
-    const [plain, stamped] = await recording.read([{ series: '/cmd_vel' }, { series: '/cmd_stamped' }]);
-    assert.deepEqual(plain.data, stamped.data);
-    assert.equal(plain.summary.clock, 'log time');
+    const poses = await recording.read([...['/fused', '/vicon', '/pose2d'].map((series) => ({ series })), { series: '/tf', frames }]);
+    // Pose2D has a heading, which was computed from the quaternion elsewhere.
+    for (const log of poses) assert.deepEqual(rowsOf(log, log === poses[2] ? 1e-15 : 0), range(0, 40), log.name);
+    // Formulas of generate.py.
+    const coarse = (value: number) => Math.round(4096 * value) / 4096;
+    const commands = [range(0, 40).map((i) => coarse(0.5 + 0.2 * Math.sin(i / 9))), range(0, 40).map((i) => coarse(0.8 * Math.sin(i / 23)))];
+    const logs = await recording.read(['/cmd_vel', '/cmd_stamped', '/cmd_fused'].map((series) => ({ series })));
+    for (const { data, name: its } of logs) assert.deepEqual([[...(data as Commands).v], [...(data as Commands).omega]], commands, its);
+    assert.equal(logs[0].summary.clock, 'log time');
     // Joints only turn, and a base that is fixed to the moving frame is one too.
     const { frames: ends } = recording.series.find(({ name: its }) => its === '/tf') as Recording['series'][number];
     assert.deepEqual(ends?.map(({ parent, child }) => `${parent} → ${child}`), ['odom → base_link', 'odom → base_footprint']);
   });
 }
 
-test('what is missing or damaged is said, and the rest is read', async () => {
-  const second = await open(...split(1));
-  const [odometry] = await second.read(BOTH);
-  assert.equal(odometry.data.t.length, 50);
+test('files that are missing are noted, and the rest is read', async () => {
+  const [odometry] = await (await open(...split(1))).read(BOTH);
+  assert.deepEqual(rowsOf(odometry), range(50, 100));
   assert.match(sentences(odometry), /the files split0\.mcap of the recording are missing/);
-  assert.match(await refusalOf(openRecordings(split())), /^drive\/metadata\.yaml: it describes a recording in split0\.mcap, split1\.mcap; give that file too/);
-  assert.match(await refusalOf(openRecordings([fileOf(SPLIT, 'metadata.yaml', '')])), /^metadata\.yaml: it describes/);
+  assert.match(await sentenceOf(openRecordings(split())), /^drive\/metadata\.yaml: it describes a recording in split0\.mcap, split1\.mcap; give that file too/);
+  assert.match(await sentenceOf(openRecordings([fileOf(SPLIT, 'metadata.yaml', '')])), /^metadata\.yaml: it describes/);
+});
 
-  const readOf = async (bytes: Uint8Array, name: string) => (await open(fileOf(bytes, name))).read([{ series: '/odom' }]);
-  for (const [name, share, rows] of [['lz4.bag', 0.8, 100], ['zstd.mcap', 0.4, 38], ['unchunked.mcap', 0.4, 40], ['sqlite-sqlite.db3', 0.8, 72]] as const) {
-    const whole = bytesOf(name);
-    const [log] = await readOf(whole.subarray(0, share * whole.length), name);
-    assert.equal(log.data.t.length, rows, name);
-    assert.match(sentences(log), /the file ends in the middle of a row or record/);
-  }
-  /** Reads a file in which some bytes are overwritten. */
-  const damaged = (name: string, share: number) => {
-    const bytes = bytesOf(name);
-    const from = Math.floor(share * bytes.length);
-    return readOf(bytes.fill(0xff, from, from + 40), name);
-  };
-  for (const [name, share, rows] of [['zstd.mcap', 0.1, 81], ['unindexed.mcap', 0.3, 81], ['sqlite-sqlite.db3', 0.5, 96]] as const) {
-    const [log] = await damaged(name, share);
-    assert.equal(log.data.t.length, rows, name);
-    assert.match(sentences(log), /1 damaged block skipped \(.+\)/);
-  }
-  const [messages] = await damaged('mcap-messages-mcap-messages.mcap', 0.1);
-  assert.deepEqual(messages.summary.dropped, { damaged: { count: 1, first: 3 } });
-  for (const name of ['lz4.bag', 'bz2.bag', 'sqlite-file-sqlite-file.db3.zstd']) assert.match(await refusalOf(damaged(name, 0.5)), /none of its messages can be read \(.+\); expected/);
+/** Reads the odometry of a file. */
+const readFrom = async (bytes: Uint8Array, name: string) => (await (await open(fileOf(bytes, name))).read([{ series: '/odom' }]))[0];
+
+/** Reads the odometry of a file in which some bytes are overwritten. */
+const readDamaged = (name: string, at: number) => readFrom(bytesOf(name).fill(0xff, at, at + 40), name);
+
+const placesOf = (bytes: Buffer, text: string) => Array.from(bytes.toString('latin1').matchAll(RegExp(text, 'g')), ({ index }) => index);
+
+/** Returns positions in the chunks of a file, by a field in the header of each. */
+const chunks = (field: string) => (bytes: Buffer) => placesOf(bytes, field).map((at) => at + 60);
+
+/** Positions in the blocks that have messages of the odometry. In an MCAP file, chunk indexes have the field of chunks too. */
+const BLOCKS: Record<string, (bytes: Buffer) => number[]> = {
+  'bz2.bag': chunks('compression='), 'lz4.bag': chunks('compression='), 'zstd.mcap': chunks('zstd'), 'lz4.mcap': chunks('lz4'),
+  'sqlite-sqlite.db3': (bytes) => [...new Set(placesOf(bytes, 'base_link').map((at) => at - (at % 4096)))],
+};
+
+for (const [name, positionsOf] of Object.entries(BLOCKS)) {
+  test(`${name}: a damaged block loses its own rows, and a file that breaks off those from there on`, async () => {
+    const lost: number[] = [];
+    for (const at of positionsOf(bytesOf(name))) {
+      const log = await readDamaged(name, at);
+      const rows = rowsOf(log);
+      const block = range(0, 100).filter((row) => !rows.includes(row));
+      if (block.length > 0) assert.match(sentences(log), /1 damaged block skipped \(.+\)$/);
+      const cut = readFrom(bytesOf(name).subarray(0, at), name);
+      if (lost.length === 0) await refusalOf(cut);
+      else {
+        assert.deepEqual(rowsOf(await cut), lost);
+        if (block.length > 0) assert.match(sentences(await cut), /\. the file ends in the middle of a row or record$/);
+      }
+      assert.ok(block.length < 50);
+      lost.push(...block);
+    }
+    assert.deepEqual(lost, range(0, 100));
+  });
+}
+
+test('a damaged message is dropped, and a compressed file that is damaged is refused', async () => {
+  const name = 'mcap-messages-mcap-messages.mcap';
+  // Frames of Zstandard, of the odometry and the reference in turns.
+  const log = await readDamaged(name, placesOf(bytesOf(name), '\\(\xb5/\xfd')[6] + 20);
+  assert.deepEqual([rowsOf(log), log.summary.dropped], [[...range(0, 3), ...range(4, 100)], { damaged: { count: 1, first: 4 } }]);
+  assert.match(await sentenceOf(readDamaged('sqlite-file-sqlite-file.db3.zstd', 4000)), /none of its messages can be read \(.+\); expected/);
 });
 
 test('formats that are not read are refused with the cure, by their contents', async () => {
-  for (const [start, sentence] of [
-    ['#ROSBAG V1.2\n', 'a ROS bag of version 1.2; convert it with “rosbag reindex”.'],
-    ['ULog\x01\x12\x35', 'a PX4 log (ULog); convert it with “ulog2csv”, and give two of the tables.'],
-    ['PK\x03\x04', 'a zip archive; unzip it, and give the files in it.'],
-    ['\x1f\x8b\x08', 'compressed by gzip; decompress it with “gunzip”, and give the result.'],
-    ['\xd4\xc3\xb2\xa1', 'a network capture; expected is a recording of “ros2 bag record” or “rosbag record”.'],
-  ]) assert.equal(await refusalOf(openRecordings([fileOf(Buffer.from(start, 'latin1'), 'run.mcap')])), `run.mcap: it is ${sentence}`);
-  assert.match(await refusalOf(openRecordings([fileOf('SQLite format 3\0', 'run.db3')])), /without the tables “topics” and “messages” of rosbag2; expected/);
+  const starts: [keyof typeof OTHERS, string][] = [
+    ['rosbag1', '#ROSBAG V1.2\n'], ['ulog', 'ULog\x01\x12\x35'], ['dataflash', '\xa3\x95\x80'], ['pcap', '\xd4\xc3\xb2\xa1'], ['wal', '\x37\x7f\x06\x82'], ['zip', 'PK\x03\x04'],
+    ['gzip', '\x1f\x8b\x08'], ['bzip2', 'BZh9'], ['xz', '\xfd7zXZ\0'], ['lz4', '\x04\x22\x4d\x18'], ['hdf5', '\x89HDF\r\n\x1a\n'], ['parquet', 'PAR1'],
+  ];
+  for (const [format, start] of starts) assert.equal(await sentenceOf(openRecordings([fileOf(Buffer.from(start, 'latin1'), 'run.mcap')])), `run.mcap: it is ${OTHERS[format]}`);
+  assert.deepEqual(starts.map(([format]) => format).toSorted(), Object.keys(OTHERS).toSorted());
+});
+
+test('files that are no recording are refused', async () => {
+  assert.match(await sentenceOf(openRecordings([fileOf('SQLite format 3\0', 'run.db3')])), /without the tables “topics” and “messages” of rosbag2; expected/);
+  assert.match(await sentenceOf(openRecordings([fileOf('t,x,y,yaw\n', 'split0.mcap', 'drive/split0.mcap'), ...split()])), /^split0\.mcap: it is listed in the metadata\.yaml of a recording, and is none;/);
+  const large = { name: 'run.db3', size: 2 ** 30 + 1, slice: () => new Blob(['\x28\xb5\x2f\xfd'].map((text) => Buffer.from(text, 'latin1'))) };
+  assert.match(await sentenceOf(openRecordings([large])), /^run\.db3: it has more than 1073741824 bytes when it is decompressed; decompress it with “zstd -d”/);
+  const small = await open(...bag('small.db3'));
+  assert.match(await sentenceOf(small.read([{ series: '/pose' }])), /^small\.db3, topic \/pose: there are no messages on it;/);
 });
 
 const TF = 'tf2_msgs/msg/TFMessage';
@@ -151,24 +182,38 @@ const drive = (i: number) => transform(at(i), 'odom', 'base_footprint', i / 50, 
 
 test('a transform that never changes is no log', async () => {
   const messages = each((i) => tf(i, transform(at(i), 'odom', 'base_link', 1, 2, 0), transform(at(i), 'map', 'robot', i / 50, 0, 0)));
-  assert.equal(await refusalOf(read(messages, BASE)), 'run.mcap, topic /tf: the transform odom → base_link never changes, so it is no path of a robot; expected are frames that move, as map → robot.');
+  assert.equal(await sentenceOf(read(messages, BASE)), 'run.mcap, topic /tf: the transform odom → base_link never changes, so it is no path of a robot; expected are frames that move, as map → robot.');
 });
 
 test('a constant transform that is published more often than the moving one adds no rows', async () => {
   const messages = each((i) => [tf(i, drive(i)), ...[0.3, 0.6].map((part) => tf(i + part, transform(at(i + part), 'base_footprint', 'base_link', 0.5, 0, 0)))]).flat();
   const [{ data }] = await read(messages, BASE);
   assert.deepEqual([...data.t].map((t) => Math.round(20 * t)), [...Array(count).keys()]);
+  assert.deepEqual([...(data as Poses).x], each((i) => i / 50 + 0.5));
 });
 
 test('a static transform holds for what was recorded before it', async () => {
   const late: Message = { topic: '/tf_static', type: TF, t: at(count), message: { transforms: [transform(at(0), 'base_footprint', 'base_link', 0.5, 0, 0)] } };
   const [{ data }] = await read([...each((i) => tf(i, drive(i))), late], BASE);
-  assert.deepEqual([...(data as { x: Float64Array }).x], each((i) => i / 50 + 0.5));
+  assert.deepEqual([...(data as Poses).x], each((i) => i / 50 + 0.5));
 });
 
-test('two nodes that publish a topic at the same time are refused; two types too', async () => {
-  const nodes = await open(fileOf(bytesOf('nodes.bag'), 'nodes.bag'));
-  assert.equal(await refusalOf(nodes.read(BOTH)), 'nodes.bag, topic /odom: several nodes publish it in turns (/base, /simulator); expected is one: rename the topic of one node, and record again.');
+/** Messages of nodes that publish one topic after the other. @param nodes a letter each */
+const turns = (nodes: string): Message[] => [...nodes].flatMap((node, turn) => each((i) => {
+  const t = at(count * turn + i);
+  return { topic: '/odom', type: 'nav_msgs/msg/Odometry', node, t, message: odometry(t, i / 50, 0, 0) };
+}));
+
+test('nodes that publish a topic in turns are refused, and one that is started again is not', async () => {
+  const nodes = await open(...bag('nodes.bag'));
+  assert.match(await sentenceOf(nodes.read(BOTH)), /^nodes\.bag, topic \/odom: several nodes publish it in turns \(\/base, \/simulator\);/);
+  assert.equal((await read(turns('abab'), { series: '/odom' }))[0].data.t.length, 4 * count);
+  assert.match(await sentenceOf(read(turns('ababa'), { series: '/odom' })), /in turns \(a, b\);/);
+});
+
+test('a topic of two types is refused', async () => {
+  const messages = turns('ab').map((message) => (message.node === 'b' ? { ...message, schema: 'geometry_msgs/msg/PoseStamped' } : message));
+  assert.match(await sentenceOf(read(messages, { series: '/odom' })), /^run\.mcap, topic \/odom: its messages have the types nav_msgs\/msg\/Odometry, geometry_msgs\/msg\/PoseStamped;/);
 });
 
 test('messages without a stamp among others are dropped, and the times of recording are used if most have none', async () => {
@@ -179,7 +224,7 @@ test('messages without a stamp among others are dropped, and the times of record
   assert.deepEqual([most.summary.clock, most.data.t.length], ['log time', count]);
 });
 
-test('one damaged message is skipped and counted', async () => {
+test('a message with a value out of range is dropped and counted', async () => {
   const messages: Message[] = each((i) => ({ topic: '/pose', type: 'geometry_msgs/msg/PoseStamped', t: at(i), message: { header: { stamp: stampOf(at(i)), frame_id: 'map' }, pose: poseOf(i === 7 ? 1e300 : i / 50, 0, 0) } }));
   const [{ data, summary }] = await read(messages, { series: '/pose' });
   assert.deepEqual([data.t.length, summary.dropped.damaged], [count - 1, { count: 1, first: 8 }]);

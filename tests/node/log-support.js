@@ -1,3 +1,6 @@
+import assert from 'node:assert/strict';
+import { log as german } from '../../www/logs/de.ts';
+import { LogError } from '../../www/logs/log-error.ts';
 import { openRecordings } from '../../www/logs/open.ts';
 
 /**
@@ -11,3 +14,14 @@ export async function readLog(source, choice) {
   const [log] = await recording.read([{ series: '', ...choice }]);
   return log;
 }
+
+/** Returns the error of a log that is refused, which has a German sentence too. @param {Promise<unknown>} reading @returns {Promise<LogError>} */
+export async function refusalOf(reading) {
+  const error = await reading.then(() => undefined, (reason) => reason);
+  assert.ok(error instanceof LogError, String(error));
+  assert.notEqual(error.sentence(german), error.message);
+  return error;
+}
+
+/** Returns the sentence of a log that is refused. @param {Promise<unknown>} reading */
+export const sentenceOf = async (reading) => (await refusalOf(reading)).message;

@@ -104,6 +104,8 @@ class Messages:
             yield '/pose2d', 'geometry_msgs/msg/Pose2D', self('geometry_msgs/msg/Pose2D', row[1], row[2], 2 * math.atan2(row[3], row[4])), stamp
             yield '/cmd_vel', 'geometry_msgs/msg/Twist', self.twist(row), stamp
             yield '/cmd_stamped', 'geometry_msgs/msg/TwistStamped', self('geometry_msgs/msg/TwistStamped', self.header(i, stamp, ''), self.twist(row)), stamp
+            twist = self('geometry_msgs/msg/TwistWithCovariance', self.twist(row), covariance)
+            yield '/cmd_fused', 'geometry_msgs/msg/TwistWithCovarianceStamped', self('geometry_msgs/msg/TwistWithCovarianceStamped', self.header(i, stamp, ''), twist), stamp
             wheel = self.transform(i, [stamp, 0.0, 0.1, coarse(math.sin(i)), coarse(math.cos(i))], 'base_link', 'wheel')
             yield '/tf', 'tf2_msgs/msg/TFMessage', self('tf2_msgs/msg/TFMessage', [self.transform(i, row, 'odom', 'base_footprint'), wheel]), stamp
         fixed = self.transform(0, [stamp, 0.0, 0.0, 0.0, 1.0], 'base_footprint', 'base_link')
@@ -115,6 +117,7 @@ ROS1, ROS2 = Messages(get_typestore(Stores.ROS1_NOETIC)), Messages(get_typestore
 
 def bag(path, messages, compression=None, nodes=('/base',)):
     writer = Bag(path)
+    writer.chunk_threshold = 16384
     if compression:
         writer.set_compression(compression)
     with writer:
@@ -202,12 +205,12 @@ def small_bag(path):
 
 
 def small_database(path):
-    """Messages of the reference in pages of 512 bytes."""
+    """Messages of the reference in pages of 512 bytes, and a topic without messages."""
     database = sqlite3.connect(path)
     database.execute('PRAGMA page_size = 512')
     database.execute('CREATE TABLE topics(id INTEGER PRIMARY KEY, name TEXT, type TEXT, serialization_format TEXT)')
     database.execute('CREATE TABLE messages(id INTEGER PRIMARY KEY, topic_id INTEGER, timestamp INTEGER, data BLOB)')
-    database.execute("INSERT INTO topics VALUES (1, '/odom', 'geometry_msgs/msg/PoseStamped', 'cdr')")
+    database.execute("INSERT INTO topics VALUES (1, '/odom', 'geometry_msgs/msg/PoseStamped', 'cdr'), (2, '/pose', 'geometry_msgs/msg/PoseStamped', 'cdr')")
     for _, kind, message, time in list(ROS2.logs())[1:12:2]:
         database.execute('INSERT INTO messages(topic_id, timestamp, data) VALUES (1, ?, ?)', (time, bytes(ROS2.store.serialize_cdr(message, kind))))
     database.commit()

@@ -145,8 +145,9 @@ class Rosbag2 implements Container {
           this.damage.set(number, reasonOf(error));
         }
       }
-      if (below.length * this.#pageSize > 2 * size) break;
-      level = below;
+      // A file that was cut short has no pages behind its end.
+      level = below.filter((number) => number * this.#pageSize <= size);
+      if (level.length * this.#pageSize > 2 * size) break;
     }
     return [];
   }

@@ -2,12 +2,8 @@
 
 import { bisectLeft, extent, ticks } from 'd3-array';
 import type { Drive } from '../logs/drives.ts';
-import type { Commands, Poses } from '../logs/log.ts';
-
-type Point = [x: number, y: number];
-
-/** Path with times. */
-interface Path { t: ArrayLike<number>; points: Point[]; breaks: ReadonlySet<number> }
+import { pathOf, type Path, type Point } from '../logs/path.ts';
+import { escaped } from '../scene/svg.ts';
 
 /** Width of a panel, its greatest height, and its margins for title and axes, in pixels. */
 const [WIDTH, HEIGHT, MARGIN] = [800, 800, { top: 64, right: 24, bottom: 56, left: 64 }];
@@ -89,26 +85,6 @@ ${key.join('')}
 <path d="${marked}" stroke="${COLORS.outlier}" stroke-width="4"/>
 </g>`;
   return { svg, height };
-}
-
-const escaped = (text: string) => text.replaceAll(/[&<>"]/g, (sign) => `&#${sign.charCodeAt(0)};`);
-
-/** Returns the path of poses, or that of commands from the origin. */
-function pathOf(data: Poses | Commands): Path {
-  const { t, breaks } = data;
-  const path = { t, breaks: new Set(breaks) };
-  if (!('v' in data)) return { ...path, points: Array.from(t, (_, i) => [data.x[i], data.y[i]]) };
-  let [x, y, theta] = [0, 0, 0];
-  const points: Point[] = [[0, 0]];
-  for (let i = 1; i < t.length; i++) {
-    const dt = t[i] - t[i - 1];
-    const turn = data.omega[i - 1] * dt;
-    x += data.v[i - 1] * dt * Math.cos(theta + turn / 2);
-    y += data.v[i - 1] * dt * Math.sin(theta + turn / 2);
-    theta += turn;
-    points.push([x, y]);
-  }
-  return { ...path, points };
 }
 
 /** Interpolates a path; undefined outside of its times. */

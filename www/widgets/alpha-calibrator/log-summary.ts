@@ -3,12 +3,11 @@
 import { bisectLeft } from 'd3-array';
 import { html, nothing, svg } from 'lit';
 import type { Drive } from '../../logs/drives.ts';
-import { LOG_TIME, type Cause, type Commands, type Log, type Poses } from '../../logs/log.ts';
+import { LOG_TIME, type Cause, type Log } from '../../logs/log.ts';
+import { pathOf, type Path, type Point } from '../../logs/path.ts';
 import { notesOf } from '../../logs/summary.ts';
 import { counted, fixed } from '../../ui/format.ts';
 import type { LogOpener, LogWords } from './open.ts';
-
-type Point = [x: number, y: number, theta: number];
 
 /** Size of the picture, CSS pixels, and its margin for the width of lines. */
 const [WIDTH, HEIGHT, MARGIN] = [220, 150, 4];
@@ -62,7 +61,7 @@ function tableOf({ odometry, reference }: Drive, caption: string, say: LogWords)
 
 /** Returns a picture of both paths. The odometry begins at the pose of the reference, so that its drift is seen. */
 function pathsOf({ odometry, reference }: Drive, { found: { labels } }: LogWords) {
-  const [driven, truth] = [odometry.data, reference.data].map((data) => pathOf(data));
+  const [driven, truth] = [odometry.data, reference.data].map((data) => pathOf(data, Math.ceil(data.t.length / POINTS)));
   const begin = Math.max(odometry.data.t[0], reference.data.t[0]);
   const turned = moved(driven.points, poseAt(driven, begin), poseAt(truth, begin));
   const all = [...turned, ...truth.points];
@@ -81,35 +80,15 @@ function pathsOf({ odometry, reference }: Drive, { found: { labels } }: LogWords
   </figure>`;
 }
 
-interface Path { t: number[]; points: Point[]; breaks: Set<number> }
+type Pose = [...Point, theta: number];
 
-/** Returns some points of the path of poses, or of that of commands from the origin. */
-function pathOf(data: Poses | Commands): Path {
-  const { t, breaks: all } = data;
-  const every = Math.ceil(t.length / POINTS);
-  const path: Path = { t: [], points: [], breaks: new Set() };
-  let [x, y, theta, next] = [0, 0, 0, 0];
-  for (let i = 0; i < t.length; i++) {
-    if ('x' in data) [x, y, theta] = [data.x[i], data.y[i], data.theta[i]];
-    else if (i > 0) {
-      const dt = t[i] - t[i - 1];
-      const turn = data.omega[i - 1] * dt;
-      x += data.v[i - 1] * dt * Math.cos(theta + turn / 2);
-      y += data.v[i - 1] * dt * Math.sin(theta + turn / 2);
-      theta += turn;
-    }
-    if (i % every !== 0 && i < t.length - 1) continue;
-    for (; next < all.length && all[next] <= i; next++) path.breaks.add(path.points.length);
-    path.t.push(t[i]);
-    path.points.push([x, y, theta]);
-  }
-  return path;
+function poseAt({ t, points, headings }: Path, time: number): Pose {
+  const i = Math.min(bisectLeft(t, time), points.length - 1);
+  return [...points[i], headings[i]];
 }
 
-const poseAt = ({ t, points }: Path, time: number): Point => points[Math.min(bisectLeft(t, time), points.length - 1)];
-
 /** Moves points so that one pose comes to lie on another. */
-function moved(points: Point[], [x0, y0, theta0]: Point, [toX, toY, to]: Point): Point[] {
+function moved(points: Point[], [x0, y0, theta0]: Pose, [toX, toY, to]: Pose): Point[] {
   const [cos, sin] = [Math.cos(to - theta0), Math.sin(to - theta0)];
-  return points.map(([x, y, theta]) => [toX + cos * (x - x0) - sin * (y - y0), toY + sin * (x - x0) + cos * (y - y0), theta + to - theta0]);
+  return points.map(([x, y]) => [toX + cos * (x - x0) - sin * (y - y0), toY + sin * (x - x0) + cos * (y - y0)]);
 }

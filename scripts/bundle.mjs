@@ -140,7 +140,7 @@ const ADDRESS = {
 
 /** What the scripts of the elements export. */
 const DECLARATIONS = `export * from './core.js';
-/** Gives the elements words: those of messages/en.js, or some of them, in a language (a BCP 47 tag). */
+/** Gives the elements words: those of messages/en.ts, or some of them, in a language (a BCP 47 tag). */
 export declare function setMessages(lang: string, messages: object): void;
 `;
 

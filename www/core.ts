@@ -14,7 +14,7 @@ export type Source = BufferSource | URL | string | WebAssembly.Module;
 /** Source that the first caller named. */
 let wanted: Source | undefined;
 /** Carrier of a module and its glue. */
-export type Carrier = typeof carried.motion;
+type Carrier = typeof carried.motion;
 
 /** Modules, by what carries them. */
 const compiling: Map<Carrier, Promise<WebAssembly.Module>> = new Map();

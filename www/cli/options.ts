@@ -100,7 +100,7 @@ export interface Calibrate {
   plot: string | undefined;
 }
 
-export interface Inspect { command: 'inspect'; inputs: Input[] }
+interface Inspect { command: 'inspect'; inputs: Input[] }
 
 /** Parses the arguments; throws a UsageError. */
 export function optionsOf(args: string[]): Calibrate | Inspect | 'help' | 'version' {

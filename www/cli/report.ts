@@ -9,7 +9,7 @@ import { adviceOf, alphaOrBound, between, failedOf, fixed, nav2Lines, percent, s
 type Interval = [number, number] | null;
 
 /** Log with its summary, as numbers and as sentences. */
-export interface ReadLog { name: string; summary: Summary; sentences: string[] }
+interface ReadLog { name: string; summary: Summary; sentences: string[] }
 
 export interface Result {
   /** Result of the core. */

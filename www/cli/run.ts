@@ -12,7 +12,7 @@ import { HELP, UsageError, optionsOf, withOption, type Calibrate } from './optio
 import { plotOf } from './plot.ts';
 import { jsonOf, readOf, textOf, yamlOf, type Result } from './report.ts';
 
-export interface Environment {
+interface Environment {
   /** Loads the core. */
   load(): Promise<any>;
   print(text: string): void;

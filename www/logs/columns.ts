@@ -5,7 +5,7 @@ import type { AngleUnit, LengthUnit, LogKind, Series, TimeUnit, Question } from 
 
 export type Field = 't' | 'seconds' | 'nanoseconds' | 'x' | 'y' | 'z' | 'yaw' | 'qx' | 'qy' | 'qz' | 'qw' | 'v' | 'omega' | 'frame' | 'child';
 
-export interface Column {
+interface Column {
   /** Index, from 0. */
   at: number;
   name: string;

@@ -14,7 +14,7 @@ const MIN_OVERLAP = 3;
 /** Fates of a row. */
 export const [KEPT, LATE, STRAY, SET_BACK] = [0, 1, 2, 3];
 
-export interface Order {
+interface Order {
   /** Kept rows by their times; rows of the same time in the order of the file. */
   order: Uint32Array;
   /** Fate of each row. A late one is kept, at its time. */

@@ -1,6 +1,6 @@
 /** Quaternions of recorded poses. */
 
-export interface Vector { x: number; y: number; z: number }
+interface Vector { x: number; y: number; z: number }
 export interface Quaternion extends Vector { w: number }
 
 /** Largest deviation from length 1 that rounding explains. */

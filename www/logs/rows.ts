@@ -8,7 +8,7 @@ import { distanceOf } from './summary.ts';
 import { type Units, judgeUnits } from './units.ts';
 
 /** Decisions about a log that its reader makes. */
-export interface Decisions {
+interface Decisions {
   /** Units that a name or the format states. */
   units: Units;
   /** Name of the clock of the rows, and of the other clock if there is one. */

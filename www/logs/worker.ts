@@ -38,7 +38,7 @@ export interface Request {
 export type Answer = { number: number } & ({ progress: number } | { result: unknown } | { failure: Failure });
 
 /** Keeper of the opened recordings, and of the log that was read last. */
-export class LogKeeper {
+class LogKeeper {
   #motion: Motion;
   #recordings: Recording[] = [];
   #machine: AlphaCalibrator;

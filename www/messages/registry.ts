@@ -4,7 +4,7 @@
  *
  * An element speaks the language of its nearest `lang` attribute as far as there are words in it, and
  * English otherwise. `speak` makes that language the present one before anything is rendered or
- * drawn, all of which happens at once: `words` and the numbers of ui/format.js are in it then.
+ * drawn, all of which happens at once: `words` and the numbers of ui/format.ts are in it then.
  */
 
 export type Message = string | ((...values: any[]) => string) | Message[] | { [key: string]: Message };
@@ -13,7 +13,7 @@ export type Message = string | ((...values: any[]) => string) | Message[] | { [k
 export type Messages = typeof import('./en.ts').en & WidgetWords;
 
 /** Catalogues that all scripts of a page share: a language may come in a file of its own. */
-export interface Shared {
+interface Shared {
   /** Default words of the elements. */
   english: object;
   /** Catalogues that pages gave, by language. */

@@ -22,7 +22,7 @@ const TURN_COST = 2;
 const LENGTH_COST = 0.2;
 
 /** Middle and half of its sides, pixels. */
-export type Box = { x: number, y: number, across: number, down: number };
+type Box = { x: number, y: number, across: number, down: number };
 
 interface Surroundings {
   /** Middle that the sentences keep away from. */

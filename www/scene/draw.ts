@@ -11,8 +11,6 @@ import { drawLabel } from './labels.ts';
 import type { Brush } from './canvas.ts';
 import type { Palette } from '../ui/theme.ts';
 
-export type Context = CanvasRenderingContext2D;
-
 /**
  * Heading ticks that are stroked at once. More is faster; but those of one stroke do not darken
  * where they cross, so many more would flatten the crowd.

@@ -4,7 +4,7 @@ import { html, nothing } from 'lit';
 import { length, pointOn } from './canvas.ts';
 
 /** Target of a handle; lengths in metres. */
-export interface Hooks {
+interface Hooks {
   view: () => import('./view.ts').View;
   /** X and y of what is held by a pointer that is there; the middle of the handle where it is left out. */
   at?: (pointer: number[]) => number[];

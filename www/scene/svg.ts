@@ -1,6 +1,6 @@
 /**
  * A stand-in for a canvas that writes down what is drawn on it as SVG: the pictures are drawn once and
- * for both. It knows what scene/draw.js and the pictures use of a canvas, and no more.
+ * for both. It knows what scene/draw.ts and the pictures use of a canvas, and no more.
  */
 
 /** What XML has no way to write. */

@@ -206,7 +206,7 @@ const FORMULA = new RegExp(`((?:${PIECES})+)`);
 /**
  * A message with its formulas.
  *
- * @param message as messages/en.js has it; \\* is a star
+ * @param message as messages/en.ts has it; \\* is a star
  */
 export function rich(message: string) {
   // Every second part is a formula.

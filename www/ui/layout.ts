@@ -136,7 +136,7 @@ const layout = css`
     display: block;
     width: 100%;
     touch-action: pan-y pinch-zoom;
-    /* The pictures' own unit: what they are drawn in, too, is in proportion to the letters. See scene/canvas.js. */
+    /* The pictures' own unit: what they are drawn in, too, is in proportion to the letters. See scene/canvas.ts. */
     font-size: 0.8125em;
     cursor: crosshair;
   }

@@ -123,7 +123,7 @@ export const plotStyles = css`
   }
 `;
 
-export interface Axis {
+interface Axis {
   /** Name with its unit. */
   name: string;
   from: number;
@@ -162,7 +162,7 @@ export interface Point {
 }
 
 /** A line across the plot, at an x or at a y. */
-export interface Mark {
+interface Mark {
   x?: number;
   y?: number;
   text: string;

@@ -283,7 +283,7 @@ export interface SliderRow extends Range {
   forget: () => void;
 }
 
-export interface Track extends Range {
+interface Track extends Range {
   /** Name where the label is a symbol. */
   name?: string;
   /** Value in words. */

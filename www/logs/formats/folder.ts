@@ -9,7 +9,7 @@ import type { Channel, Container, Message } from './container.ts';
 const MAX_METADATA = 2 ** 24;
 
 /** Files of a recording. */
-export interface Folder {
+interface Folder {
   name: string;
   /** In the order of recording. */
   found: Source[];

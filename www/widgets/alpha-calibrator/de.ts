@@ -1,4 +1,4 @@
-/** The Alpha Calibrator in German; see messages/en.js. */
+/** The Alpha Calibrator in German; see messages/en.ts. */
 
 /** @param more what its plural ends in */
 const parts = (count: string, more: string = 'n') => `${count} Etappe${count === '1' ? '' : more}`;

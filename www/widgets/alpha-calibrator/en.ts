@@ -1,4 +1,4 @@
-/** The Alpha Calibrator in English; see messages/en.js. */
+/** The Alpha Calibrator in English; see messages/en.ts. */
 
 const of = (count: string, word: string) => `${count} ${word}${count === '1' ? '' : 's'}`;
 

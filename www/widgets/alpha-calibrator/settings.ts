@@ -58,7 +58,7 @@ export const documentation: import('../../figure/attributes.ts').Documentation =
 };
 
 /** Models with their rules: two settings, but one choice. */
-export const KINDS = ['thrun', 'nav2', 'beluga', 'omni', 'velocity'] as const;
+const KINDS = ['thrun', 'nav2', 'beluga', 'omni', 'velocity'] as const;
 
 /** Legs of the simulated log: those that the element opens with. */
 export const SIMULATED = { distance: 0.25, angle: 0.2 };

@@ -10,7 +10,7 @@ import type { Reading } from './reading.ts';
 
 export type Figure = import('./alpha-calibrator.ts').AlphaCalibratorElement;
 
-export type SystematicError = Reading['stats']['systematicErrors']['mountYaw' | 'leverArm'];
+type SystematicError = Reading['stats']['systematicErrors']['mountYaw' | 'leverArm'];
 
 /** Most decimals of a systematic error: a micrometre. */
 const MOST_DECIMALS = 6;

@@ -1,4 +1,4 @@
-/** Arc Anatomy in German; see messages/en.js. */
+/** Arc Anatomy in German; see messages/en.ts. */
 
 export const de: typeof import('./en.ts').en = {
   title: 'Arc Anatomy: was ein Bogen verrät',

@@ -1,4 +1,4 @@
-/** Arc Anatomy in English; see messages/en.js. */
+/** Arc Anatomy in English; see messages/en.ts. */
 
 export const en = {
   title: 'Arc Anatomy',

@@ -1,4 +1,4 @@
-/** The Banana Machine in German; see messages/en.js. */
+/** The Banana Machine in German; see messages/en.ts. */
 
 export const de: typeof import('./en.ts').en = {
   title: 'Die Bananenmaschine',

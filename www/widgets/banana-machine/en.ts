@@ -1,4 +1,4 @@
-/** The Banana Machine in English; see messages/en.js. */
+/** The Banana Machine in English; see messages/en.ts. */
 
 import { plural } from '../../messages/en.ts';
 

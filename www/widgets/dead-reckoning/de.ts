@@ -1,4 +1,4 @@
-/** Dead Reckoning in German; see messages/en.js. */
+/** Dead Reckoning in German; see messages/en.ts. */
 
 const stepsOf = (steps: string) => (steps === '1' ? '1 Schritt' : `${steps} Schritte`);
 

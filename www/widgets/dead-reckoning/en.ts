@@ -1,4 +1,4 @@
-/** Dead Reckoning in English; see messages/en.js. */
+/** Dead Reckoning in English; see messages/en.ts. */
 
 const robotsOf = (robots: string) => (robots === '1' ? '1 robot' : `${robots} robots`);
 const stepsOf = (steps: string) => (steps === '1' ? '1 step' : `${steps} steps`);

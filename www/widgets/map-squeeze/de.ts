@@ -1,4 +1,4 @@
-/** Map Squeeze in German; see messages/en.js. */
+/** Map Squeeze in German; see messages/en.ts. */
 
 export const de: typeof import('./en.ts').en = {
   title: 'Map Squeeze: mit Karte durch die Wand',

@@ -1,4 +1,4 @@
-/** Map Squeeze in English; see messages/en.js. */
+/** Map Squeeze in English; see messages/en.ts. */
 
 import { plural } from '../../messages/en.ts';
 

@@ -1,4 +1,4 @@
-/** The Odometry Decomposer in German; see messages/en.js. */
+/** The Odometry Decomposer in German; see messages/en.ts. */
 
 export const de: typeof import('./en.ts').en = {
   title: 'Der Odometrie-Zerleger',

@@ -1,4 +1,4 @@
-/** The Odometry Decomposer in English; see messages/en.js. */
+/** The Odometry Decomposer in English; see messages/en.ts. */
 
 export const en = {
   title: 'The Odometry Decomposer',

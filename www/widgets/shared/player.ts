@@ -6,7 +6,7 @@ import { isCalm } from '../../figure/stage.ts';
 import { words } from '../../messages/registry.ts';
 import { button } from '../../ui/controls.ts';
 
-export interface Played {
+interface Played {
   from: number;
   to: number;
   /** Duration from one to the other, milliseconds. */

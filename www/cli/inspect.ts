@@ -4,11 +4,9 @@ import { candidates, isLocalizer, isTable, usefulSeries } from '../logs/candidat
 import { planDrives } from '../logs/drives.ts';
 import { log as words } from '../logs/en.ts';
 import { LogError } from '../logs/log-error.ts';
-import type { Choice, Log, Recording } from '../logs/log.ts';
+import { ROLES, type Choice, type Log, type Recording, type Role } from '../logs/log.ts';
 import { summarize } from '../logs/summary.ts';
 import { aligned } from './report.ts';
-
-const ROLES = ['odometry', 'reference'] as const;
 
 /** Names of the formats. */
 const FORMATS: Partial<Record<Recording['format'], string>> = { mcap: 'MCAP recording', rosbag: 'ROS 1 bag', sqlite: 'rosbag2 SQLite recording', csv: 'table', tum: 'TUM table' };
@@ -36,7 +34,7 @@ export async function inspect(recording: Recording, path: string, onProgress?: (
 
 /** Says what a series could be. */
 function usesOf(recording: Recording, name: string): string {
-  const choices = (role: (typeof ROLES)[number], kind?: 'commands') => candidates(recording, role, { kind }).flat().filter((choice) => choice.series === name && (!kind || choice.kind === kind));
+  const choices = (role: Role, kind?: 'commands') => candidates(recording, role, { kind }).flat().filter((choice) => choice.series === name && (!kind || choice.kind === kind));
   const frames = ([first]: Choice[]) => (first.frames ? ` ${first.frames.parent} → ${first.frames.child}` : '');
   const [odometry, commands, reference] = [choices('odometry'), choices('odometry', 'commands'), choices('reference')];
   return [
@@ -65,7 +63,7 @@ async function read(recording: Recording, names: string[], onProgress?: (share: 
 /** Returns the command that calibrates from the recording. */
 function commandOf(recording: Recording, path: string): string[] {
   const quoted = (text: string) => (/^[\w./,@%+=:-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`);
-  const optionsOf = (role: (typeof ROLES)[number], { series, frames }: Choice) => [
+  const optionsOf = (role: Role, { series, frames }: Choice) => [
     ...(series ? [`--${role}-topic ${quoted(series)}`] : []),
     ...(frames ? [`--${role}-frames ${quoted(`${frames.parent},${frames.child}`)}`] : []),
   ];

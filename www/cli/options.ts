@@ -3,7 +3,8 @@
 import { parseArgs } from 'node:util';
 import type { Wishes } from '../logs/drives.ts';
 import { cut } from '../logs/log-error.ts';
-import type { Frames, OpenOptions } from '../logs/log.ts';
+import { UNITS, type Frames, type OpenOptions, type Role } from '../logs/log.ts';
+import { SYSTEMATIC } from '../widgets/alpha-calibrator/lines.ts';
 
 /** Error about the options; its message is a sentence. */
 export class UsageError extends Error {}
@@ -69,11 +70,6 @@ const OPTIONS = {
   help: { ...flag, short: 'h' }, version: flag,
 } as const;
 
-const UNITS = { time: ['s', 'ms', 'us', 'ns'], length: ['m', 'cm', 'mm'], angle: ['rad', 'deg'] } as const;
-
-/** Systematic errors that can be corrected before the α's are fitted. */
-const SYSTEMATIC = ['clockOffset', 'mountYaw', 'leverArm', 'distanceScale', 'turnScale'];
-
 /** Options by the fields of `calibrate`. */
 const BY_FIELD: Record<string, string> = {
   'legs.distance': 'update-min-d', 'legs.angle': 'update-min-a', 'legs.duration': 'duration',
@@ -108,7 +104,7 @@ export function optionsOf(args: string[]): Calibrate | Inspect | 'help' | 'versi
   if (values.version) return 'version';
   if (values.help || args.length === 0) return 'help';
   const columns = (name: 'columns' | 'odometry-columns' | 'reference-columns') => values[name]?.split(',').map((each) => each.trim());
-  const open = (role: 'odometry' | 'reference' = 'odometry', names = columns('columns')): OpenOptions => ({ ...unitsOf(values, role), ...(names && { columns: names }) });
+  const open = (role: Role = 'odometry', names = columns('columns')): OpenOptions => ({ ...unitsOf(values, role), ...(names && { columns: names }) });
   if (command === 'inspect') {
     const all = [...paths, ...(values.recording ?? []), ...(values.odometry ?? []), ...(values.reference ?? [])];
     if (all.length === 0) throw new UsageError('inspect needs a file or folder: motion-widgets inspect run.bag');
@@ -135,8 +131,8 @@ export function optionsOf(args: string[]): Calibrate | Inspect | 'help' | 'versi
   }
   if (odometry.length !== reference.length) throw new UsageError(`there are ${odometry.length} logs of odometry and ${reference.length} of the reference; give one of each for a drive.`);
   if (recording.length + odometry.length === 0) throw new UsageError('no logs are given; give --recording, or --odometry and --reference.');
-  const wish = (role: 'odometry' | 'reference') => defined({ series: values[`${role}-topic`], frames: framesOf(`${role}-frames`, values[`${role}-frames`]) });
-  const inputs = (all: string[], role?: 'odometry' | 'reference') => all.map((path) => ({ path, open: open(role, role && columns(`${role}-columns`)) }));
+  const wish = (role: Role) => defined({ series: values[`${role}-topic`], frames: framesOf(`${role}-frames`, values[`${role}-frames`]) });
+  const inputs = (all: string[], role?: Role) => all.map((path) => ({ path, open: open(role, role && columns(`${role}-columns`)) }));
   return {
     command,
     inputs: { recording: inputs(recording), odometry: inputs(odometry, 'odometry'), reference: inputs(reference, 'reference') },
@@ -156,13 +152,13 @@ export function optionsOf(args: string[]): Calibrate | Inspect | 'help' | 'versi
 }
 
 /** Returns the units that are stated for a log: one for both, or one for each. */
-function unitsOf(values: { [name in `${keyof typeof UNITS}-unit`]?: string }, role: 'odometry' | 'reference'): OpenOptions {
+function unitsOf(values: { [name in 'time-unit' | 'length-unit' | 'angle-unit']?: string }, role: Role): OpenOptions {
   return Object.fromEntries((['time', 'length', 'angle'] as const).flatMap((of) => {
     const stated = values[`${of}-unit`];
     if (stated === undefined) return [];
     const units = stated.split(',').map((unit) => unit.trim());
-    if (units.length > 2 || !units.every((unit) => (UNITS[of] as readonly string[]).includes(unit))) {
-      throw new UsageError(`--${of}-unit must be ${listOf(UNITS[of])}, or two of these for odometry and reference (got “${cut(stated)}”).`);
+    if (units.length > 2 || !units.every((unit) => (UNITS[`${of}Unit`] as readonly string[]).includes(unit))) {
+      throw new UsageError(`--${of}-unit must be ${listOf(UNITS[`${of}Unit`])}, or two of these for odometry and reference (got “${cut(stated)}”).`);
     }
     return [[`${of}Unit`, role === 'odometry' ? units[0] : units.at(-1)]];
   }));
@@ -183,7 +179,7 @@ function correctOf(left?: string, corrected?: string): Record<string, boolean> |
 
 function namesOf(option: string, value?: string): string[] {
   const names = value?.split(',').map((name) => name.trim()) ?? [];
-  const unknown = names.find((name) => name !== 'all' && !SYSTEMATIC.includes(name));
+  const unknown = names.find((name) => name !== 'all' && !(SYSTEMATIC as readonly string[]).includes(name));
   if (unknown === undefined) return names;
   throw new UsageError(`--${option} must be all, or names of ${SYSTEMATIC.join(', ')} (got “${cut(unknown)}”).`);
 }

@@ -1,8 +1,6 @@
 /** Series that could be odometry or reference, by their types and names. */
 
-import type { Choice, Frames, LogKind, Recording, Series } from './log.ts';
-
-export type Role = 'odometry' | 'reference';
+import type { Choice, Frames, LogKind, Recording, Role, Series } from './log.ts';
 
 /** Names of odometry and of commands, the likeliest first. */
 const ODOMETRY = [/(^|[/_.])odom(etry)?[/_.]?$/i, /odom|wheel|encoder/i];

@@ -1,7 +1,7 @@
 /** Columns of a table: groups with a common prefix, from the names that people and recorders give them. */
 
 import { LogError, cut, listed, type Place } from './log-error.ts';
-import type { AngleUnit, LengthUnit, LogKind, Series, TimeUnit, Question } from './log.ts';
+import { UNITS, type AngleUnit, type LengthUnit, type LogKind, type Question, type Series, type TimeUnit } from './log.ts';
 
 export type Field = 't' | 'seconds' | 'nanoseconds' | 'x' | 'y' | 'z' | 'yaw' | 'qx' | 'qy' | 'qz' | 'qw' | 'v' | 'omega' | 'frame' | 'child';
 
@@ -258,7 +258,8 @@ export function layoutOf(group: Group | undefined, names: string[], place: Place
   const read = fields.map((field) => columns[field] as Column);
   const [length, ...others] = new Set((takesCommands ? read.slice(0, 1) : read.slice(0, 2)).map(({ unit }) => unit));
   const angle = takesCommands ? columns.omega?.unit : heading[0] === 'yaw' ? columns.yaw?.unit : undefined;
-  const [unknown] = [...[length, ...others].filter((unit) => unit !== undefined && !['m', 'cm', 'mm'].includes(unit)), ...(angle === undefined || ['rad', 'deg'].includes(angle) ? [] : [angle])];
+  const isUnknown = (unit: string | undefined, known: readonly string[]) => unit !== undefined && !known.includes(unit);
+  const unknown = [length, ...others].find((unit) => isUnknown(unit, UNITS.lengthUnit)) ?? (isUnknown(angle, UNITS.angleUnit) ? angle : undefined);
   if (unknown !== undefined) throw new LogError(place, (say) => say.unknownUnit(cut(unknown)));
   if (others.length > 0) throw new LogError(place, (say) => say.unknownUnit([length, ...others].map((unit) => unit ?? '–').join(', ')));
   return {

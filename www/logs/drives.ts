@@ -1,11 +1,11 @@
 /** Drives: odometry and reference of one drive, from the recordings that have them. */
 
-import { candidates, isTable, roleByName, usefulSeries, type Role } from './candidates.ts';
+import { candidates, isTable, roleByName, usefulSeries } from './candidates.ts';
 import { LogError, listed } from './log-error.ts';
-import type { Choice, Frames, Log, LogKind, Recording, Series } from './log.ts';
+import { ROLES, type Choice, type Frames, type Log, type LogKind, type Recording, type Role, type Series } from './log.ts';
 import { isSamePath, pairLogs, pairedByTime, withStart, type Drive } from './pairs.ts';
 
-export type { Drive, Role };
+export type { Drive };
 
 /** Choice of a recording for one role. */
 export interface Part { recording: Recording; choice: Choice }
@@ -44,7 +44,7 @@ export function planDrives(recordings: Recording[], wishes: Wishes = {}): Plan {
   const { odometry, reference } = plan.loose;
   for (const [i, recording] of unnamed.entries()) {
     // Names that say nothing leave the other half of the files, or the order of two.
-    const role = odometry.length + reference.length + unnamed.length === 2 && unnamed.length === 2 ? (['odometry', 'reference'] as const)[i]
+    const role = odometry.length + reference.length + unnamed.length === 2 && unnamed.length === 2 ? ROLES[i]
       : 2 * odometry.length >= recordings.length ? 'reference'
         : 2 * reference.length >= recordings.length ? 'odometry' : undefined;
     if (!role) throw new LogError({ file: recording.name }, (say) => say.noRole, { what: 'roles', choices: [] });
@@ -72,7 +72,7 @@ function onlyRole(recording: Recording, wishes: Wishes): Role | 'both' | undefin
     }
   };
   if (works(() => bothOf(recording, wishes))) return 'both';
-  const [isOdometry, isReference] = (['odometry', 'reference'] as const).map((role) => works(() => choose(recording, role, wishes)));
+  const [isOdometry, isReference] = ROLES.map((role) => works(() => choose(recording, role, wishes)));
   if (isOdometry !== isReference) return isOdometry ? 'odometry' : 'reference';
   return isOdometry ? roleByName(recording.name) : 'both';
 }

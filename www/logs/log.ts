@@ -5,6 +5,11 @@ export type Source = Pick<File, 'name' | 'size' | 'slice'> & { path?: string };
 
 export type LogKind = 'poses' | 'commands';
 
+/** Roles of the two logs of a drive. */
+export const ROLES = ['odometry', 'reference'] as const;
+
+export type Role = (typeof ROLES)[number];
+
 /** Part of a recording that one log can be read from: a topic, or a group of columns with a common prefix. */
 export interface Series {
   /** Topic, or prefix of the columns ("gt_", "/odom"); empty where a table has one group only. */
@@ -46,9 +51,12 @@ export interface Recording {
   read(choices: Choice[], onProgress?: (share: number) => void): Promise<Log[]>;
 }
 
-export type TimeUnit = 's' | 'ms' | 'us' | 'ns';
-export type LengthUnit = 'm' | 'cm' | 'mm';
-export type AngleUnit = 'rad' | 'deg';
+/** Units that logs may have, by the option that states them. */
+export const UNITS = { timeUnit: ['s', 'ms', 'us', 'ns'], lengthUnit: ['m', 'cm', 'mm'], angleUnit: ['rad', 'deg'] } as const;
+
+export type TimeUnit = (typeof UNITS.timeUnit)[number];
+export type LengthUnit = (typeof UNITS.lengthUnit)[number];
+export type AngleUnit = (typeof UNITS.angleUnit)[number];
 
 /** Answers to questions about a file that its contents leave open. */
 export interface OpenOptions {
@@ -61,9 +69,9 @@ export interface OpenOptions {
 
 /** Question of an error: the option that answers it, and the answers. */
 export interface Question {
-  what: 'timeUnit' | 'lengthUnit' | 'angleUnit' | 'series' | 'columns' | 'frames' | 'roles';
+  what: keyof typeof UNITS | 'series' | 'columns' | 'frames' | 'roles';
   /** Log that a choice of series or frames is for. */
-  role?: 'odometry' | 'reference';
+  role?: Role;
   choices: string[];
   /** Columns of the table: their names, or the cells of its first row. */
   columns?: string[];

@@ -2,10 +2,10 @@
 
 import { bisectLeft } from 'd3-array';
 import type { CalibrationLog } from '../types.d.ts';
-import { isLocalizer, roleByName, type Role } from './candidates.ts';
+import { isLocalizer, roleByName } from './candidates.ts';
 import { withoutFrozenPoses } from './frozen-pose.ts';
 import { LogError } from './log-error.ts';
-import type { Log, Note, Poses } from './log.ts';
+import type { Log, Note, Poses, Role } from './log.ts';
 
 /** Two logs of one drive, with times after the same start. */
 export interface Drive { odometry: Log; reference: Log }

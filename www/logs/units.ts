@@ -1,7 +1,7 @@
 /** Units of a log, judged by two signs that know nothing of each other. Where they disagree, the log is refused with a question. */
 
 import { LogError, type Place } from './log-error.ts';
-import type { AngleUnit, LengthUnit, LogKind, OpenOptions, Question, Summary, TimeUnit } from './log.ts';
+import { UNITS, type AngleUnit, type LogKind, type OpenOptions, type Question, type Summary, type TimeUnit } from './log.ts';
 import { quantile, sample } from './quantile.ts';
 
 export type Units = Summary['units'];
@@ -89,7 +89,7 @@ type Ask = (what: 'timeUnit' | 'lengthUnit' | 'angleUnit', value: number, unit: 
 function timeUnit(kind: LogKind, { t, a, b, c }: Columns, { time: stated, length, angle }: Units, options: OpenOptions, ask: Ask): Units['time'] {
   if (stated.by === 'format' || stated.by === 'option') return stated;
   const step = quantile(sample(t.length - 1, (i) => t[i + 1] - t[i]), 0.5);
-  const units = Object.keys(POWERS) as TimeUnit[];
+  const units = UNITS.timeUnit;
   const rate = (unit: TimeUnit) => 10 ** (POWERS[unit] - POWERS[stated.unit]) / step;
   if (stated.by !== 'usage') {
     if (isWithin(rate(stated.unit), RATES)) return stated;
@@ -120,7 +120,7 @@ function checkLength(kind: LogKind, { t, a, b }: Columns, { unit, by }: Units['l
   const step = quantile(sample(t.length - 1, (i) => t[i + 1] - t[i]), 0.5);
   const speed = kind === 'poses' ? speedOf(t, a, b, step) : quantile(sample(a.length, (i) => Math.abs(a[i])), 0.9);
   const inMetres = speed * METRES[unit];
-  const others = (Object.keys(METRES) as LengthUnit[]).filter((each) => isWithin(speed * METRES[each], [SLOWEST, FASTEST]));
+  const others = UNITS.lengthUnit.filter((each) => isWithin(speed * METRES[each], [SLOWEST, FASTEST]));
   // A name is doubted where the robot would creep in its unit, and drive as robots do in another.
   if (inMetres > FASTEST || (by === 'name' && unit !== 'm' && inMetres < SLOWEST && speed > 0.1 && others.includes('m'))) {
     ask('lengthUnit', inMetres, unit, others.includes(unit) ? others : [...others, unit]);
@@ -129,7 +129,7 @@ function checkLength(kind: LogKind, { t, a, b }: Columns, { unit, by }: Units['l
 
 /** Judges headings and turn rates by their name and size, by the turn rate, and by the direction of the path. */
 function angleUnit(kind: LogKind, { t, a, b, c }: Columns, stated: Units['angle'], ask: Ask): Units['angle'] {
-  const choices = ['rad', 'deg'];
+  const choices = [...UNITS.angleUnit];
   if (kind === 'commands') {
     const turn = quantile(sample(b.length, (i) => Math.abs(b[i])), 0.9) * RADIANS[stated.unit as AngleUnit];
     return turn > FASTEST ? ask('angleUnit', turn, stated.unit, choices) : stated;
@@ -167,7 +167,7 @@ function unitOfPath(t: Float64Array, x: Float64Array, y: Float64Array, heading: 
     const [dx, dy] = [x[i + stride] - x[i], y[i + stride] - y[i]];
     if (Math.hypot(dx, dy) < MIN_STEP) continue;
     count += 1;
-    for (const unit of ['rad', 'deg'] as const) {
+    for (const unit of UNITS.angleUnit) {
       const angle = 2 * (Math.atan2(dy, dx) - heading[i + (stride >> 1)] * RADIANS[unit]);
       sums[unit][0] += Math.cos(angle);
       sums[unit][1] += Math.sin(angle);

@@ -55,3 +55,8 @@ export function readAhead(source: Source): (from: number, to: number) => Promise
 }
 
 export const viewOf = ({ buffer, byteOffset, byteLength }: Uint8Array) => new DataView(buffer, byteOffset, byteLength);
+
+const SECOND = 1_000_000_000n;
+
+/** Splits a time in nanoseconds. */
+export const stampOf = (time: bigint) => ({ seconds: Number(time / SECOND), nanoseconds: Number(time % SECOND) });

@@ -4,7 +4,7 @@ import { crc32 } from '@foxglove/crc';
 import { McapIndexedReader, McapStreamReader } from '@mcap/core';
 import { LogError, bytesOf, reasonOf } from '../log-error.ts';
 import type { Source } from '../log.ts';
-import { MAX_BLOCK, readAhead, viewOf, type Channel, type Container, type Message } from './container.ts';
+import { MAX_BLOCK, readAhead, stampOf, viewOf, type Channel, type Container, type Message } from './container.ts';
 import { unlz4 } from './lz4.ts';
 import { loadZstd, unzstd } from './zstd.ts';
 
@@ -14,8 +14,6 @@ const HEAD = 9;
 
 /** Bytes before the first record. */
 const MAGIC = 8;
-
-const SECOND = 1_000_000_000n;
 
 /** Opens a recording: by its index, or without one from its start as far as it goes. */
 export async function openMcap(source: Source): Promise<Container> {
@@ -135,7 +133,7 @@ class Mcap implements Container {
         const channel = this.#channels.get(view.getUint16(at + HEAD, true));
         if (channel && isWanted(channel)) {
           const time = view.getBigUint64(at + HEAD + 6, true);
-          each({ channel, seconds: Number(time / SECOND), nanoseconds: Number(time % SECOND), data: bytes.subarray(at + HEAD + 22, next) });
+          each({ channel, ...stampOf(time), data: bytes.subarray(at + HEAD + 22, next) });
         }
       } else {
         const reader = new McapStreamReader({ noMagicPrefix: true });

@@ -39,6 +39,9 @@ const NONE = '–';
 /** Plugins of Nav2 by model. */
 const NAV2: Record<string, string> = { odometry: 'nav2_amcl::DifferentialMotionModel', omnidirectional: 'nav2_amcl::OmniMotionModel' };
 
+/** Systematic errors that can be corrected before the α's are fitted, in the order of tables. */
+export const SYSTEMATIC = ['clockOffset', 'mountYaw', 'leverArm', 'distanceScale', 'turnScale'] as const;
+
 /** Rules of Nav2's models. */
 const ITS_RULES = ['nav2', 'omni'];
 

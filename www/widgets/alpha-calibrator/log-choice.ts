@@ -2,15 +2,10 @@
 
 import { html, nothing } from 'lit';
 import { live } from 'lit/directives/live.js';
-import { candidates, usefulSeries, type Role } from '../../logs/candidates.ts';
-import type { Choice, Question, Recording } from '../../logs/log.ts';
+import { candidates, usefulSeries } from '../../logs/candidates.ts';
+import { ROLES, UNITS, type Choice, type Question, type Recording, type Role } from '../../logs/log.ts';
 import { radioGroup } from '../../ui/controls.ts';
 import type { Asked, Chosen, Figure, LogOpener, LogWords } from './open.ts';
-
-const ROLES = ['odometry', 'reference'] as const;
-
-/** Units that may be chosen where no sign excludes one. */
-const UNITS = { timeUnit: ['s', 'ms', 'us', 'ns'], lengthUnit: ['m', 'cm', 'mm'], angleUnit: ['rad', 'deg'] };
 
 /** Fields of a table. */
 const FIELDS = ['t', 'x', 'y', 'yaw', 'qx', 'qy', 'qz', 'qw', 'v', 'omega'] as const;

@@ -3,7 +3,7 @@
 import { bisectLeft } from 'd3-array';
 import { html, nothing, svg } from 'lit';
 import type { Drive } from '../../logs/drives.ts';
-import { LOG_TIME, type Cause, type Log } from '../../logs/log.ts';
+import { LOG_TIME, ROLES, type Cause, type Log } from '../../logs/log.ts';
 import { pathOf, type Path, type Point } from '../../logs/path.ts';
 import { notesOf } from '../../logs/summary.ts';
 import { counted, fixed } from '../../ui/format.ts';
@@ -40,7 +40,7 @@ function tableOf({ odometry, reference }: Drive, caption: string, say: LogWords)
   return html`<table>
     ${caption ? html`<caption>${caption}</caption>` : nothing}
     <thead>
-      <tr><td></td>${(['odometry', 'reference'] as const).map((role, i) => html`<th scope="col">${say.choose.roles[role]}: ${logs[i].name}</th>`)}</tr>
+      <tr><td></td>${ROLES.map((role, i) => html`<th scope="col">${say.choose.roles[role]}: ${logs[i].name}</th>`)}</tr>
     </thead>
     <tbody>
       ${row(labels.rows, ({ summary: { used, rows } }) => labels.ofRows(counted(used), counted(rows)))}

@@ -7,8 +7,8 @@ import { button } from '../../ui/controls.ts';
 import { FileDrop, fileInput } from '../shared/files.ts';
 import { referenceNoise } from './controls.ts';
 import { isStopped } from './log-service.ts';
-import type { Drive, Plan, Role, Wishes } from '../../logs/drives.ts';
-import type { OpenOptions, Question, Recording } from '../../logs/log.ts';
+import type { Drive, Plan, Wishes } from '../../logs/drives.ts';
+import type { OpenOptions, Question, Recording, Role } from '../../logs/log.ts';
 import type { CalibrationLog } from '../../types.d.ts';
 import type { LogFailure } from './log-service.ts';
 

@@ -83,9 +83,6 @@ export const COMPONENTS = {
   velocity: ['v', 'omega', 'gamma'],
 } as const;
 
-/** Systematic errors in the order of the table. */
-export const SYSTEMATIC = ['clockOffset', 'mountYaw', 'leverArm', 'distanceScale', 'turnScale'] as const;
-
 export const looks: Record<string, import('../../figure/controls.ts').Look> = {
   distance: { symbol: '*d*', role: 'prior', min: 0.05, max: 1, step: 0.01, decimals: 2 },
   angle: { symbol: '*φ*', role: 'prior', min: 0.05, max: 1, step: 0.01, decimals: 2 },

@@ -4,7 +4,7 @@ import { html, nothing } from 'lit';
 import { words } from '../../messages/registry.ts';
 import { toggle } from '../../ui/controls.ts';
 import { fixed } from '../../ui/format.ts';
-import { SYSTEMATIC } from './settings.ts';
+import { SYSTEMATIC } from './lines.ts';
 import type { Interval } from '../../types.d.ts';
 import type { Reading } from './reading.ts';
 

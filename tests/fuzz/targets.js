@@ -50,8 +50,8 @@ const machines = [
 /** Largest length of a sentence: long quotations are cut. */
 const LONGEST = 700;
 
-/** Pattern of every refusal. */
-const SENTENCE = /; [a-z]/;
+/** Pattern of every refusal: the values that are taken, or what to do. */
+const SENTENCE = /; (allowed|expected) (is|are) |; (add|choose|convert|decompress|export|give|keep|name|open|split|state|unzip|write) /;
 
 /** @param {string} sentence */
 function look(sentence) {

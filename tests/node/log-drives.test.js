@@ -5,9 +5,10 @@ import { test } from 'node:test';
 import { log as german } from '../../www/logs/de.ts';
 import { planDrives, readDrives } from '../../www/logs/drives.ts';
 import { log as english } from '../../www/logs/en.ts';
-import { LogError } from '../../www/logs/log-error.ts';
 import { openRecordings } from '../../www/logs/open.ts';
+import { pairLogs } from '../../www/logs/pairs.ts';
 import { summarize } from '../../www/logs/summary.ts';
+import { refusalOf, sentenceOf } from './log-support.js';
 
 /** @import { Recording, Series } from '../../www/logs/log.ts' */
 
@@ -38,30 +39,20 @@ const recording = (series, more, frames = []) => ({
 /** @param {{ series: string, frames?: { parent: string, child: string } }} choice */
 const printed = ({ series, frames }) => (frames ? `${series} ${frames.parent} ${frames.child}` : series);
 
-/** @param {() => unknown} work @returns {LogError} */
-function refusalOf(work) {
-  try {
-    work();
-  } catch (error) {
-    assert.ok(error instanceof LogError, String(error));
-    assert.ok(error.sentence(german).length > 20);
-    return error;
-  }
-  throw new assert.AssertionError({ message: 'nothing was refused' });
-}
+/** Plans drives, as a promise of which refusals are taken. @param {Recording[]} recordings @param {import('../../www/logs/drives.ts').Wishes} [wishes] */
+const planned = async (recordings, wishes) => planDrives(recordings, wishes);
 
 /** Series of a recording, the expected odometry and reference, frames of transforms and wishes. @type {[Parameters<typeof recording>[0], string, string, string[]?, any?][]} */
 const CLEAR = [
   [{ '/odom': 'odometry', '/vrpn_client_node/robot/pose': 'pose', '/amcl_pose': 'pose', '/cmd_vel': 'twist' }, '/odom', '/vrpn_client_node/robot/pose'],
   [{ '/odom': 'odometry', '/vicon/robot': 'pose', '/cmd_vel': 'twist' }, '/cmd_vel', '/vicon/robot', [], { kind: 'commands' }],
   [{ '/odom': 'odometry', '/vicon/robot': 'pose' }, '/odom', '/vicon/robot', [], { kind: 'commands' }],
-  [{ '/odom': 'odometry', '/amcl_pose': 'pose', '/goal_pose': 'pose' }, '/odom', '/amcl_pose'],
   [{ '/robot1/wheel_odometry': 'odometry', '/base_pose_ground_truth': 'odometry' }, '/robot1/wheel_odometry', '/base_pose_ground_truth'],
   [{ '/odom': 'odometry', '/odometry/filtered': 'odometry', '/leica/position': 'point' }, '/odom', '/leica/position'],
   [{ '/odom': 'odometry', '/leica/position': 'point', '/pose': 'pose' }, '/odom', '/pose'],
   [{ '/odom': 'odometry', '/tf': 'tf' }, '/odom', '/tf map base_footprint', ['odom base_footprint', 'map base_footprint', 'odom base_link', 'map base_link']],
   [{ '/tf': 'tf', '/mocap': 'pose' }, '/tf odom base_link', '/mocap', ['odom base_link', 'map base_link']],
-  [{ '/tf': 'tf' }, '/tf r1/odom r1/base_link', '/tf map r1/base_link', ['r1/odom r1/base_link', 'map r1/base_link']],
+  [{ '/tf': 'tf' }, '/tf r1/odom r1/base_link', '/tf map r1/base_link', ['r1/odom r1/base_link', 'map r2/base_link', 'map r1/base_link']],
   [{ '/odom': 'odometry', '/slam': 'pose', '/mocap': 'pose' }, '/odom', '/slam', [], { reference: { series: '/slam' } }],
   [{ '/odom': 'odometry', '/mocap': 'pose' }, '/mocap', '/odom', [], { odometry: { series: '/mocap' }, reference: { series: '/odom' } }],
   [{ '/ecstatic/tf': 'tf', '/mocap': 'pose' }, '/ecstatic/tf odom base', '/mocap', [], { odometry: { frames: { parent: 'odom', child: 'base' } } }],
@@ -85,11 +76,13 @@ test('groups of columns are guessed as topics are, and may be named without a se
   }
 });
 
-test('what is not clear is asked', () => {
+test('what is not clear is asked', async () => {
   for (const [series, sentence, what, role, choices, frames, wishes] of /** @type {[Parameters<typeof recording>[0], string, string?, string?, string[]?, string[]?, any?][]} */ ([
     [{ '/odom': 'odometry', '/a': 'pose', '/b': 'pose' }, 'it is not clear what the reference is: /odom (Odometry), /a (PoseStamped), /b (PoseStamped).', 'series', 'reference', ['/odom', '/a', '/b']],
     [{ '/odom': 'odometry', '/wheel/odometry': 'odometry', '/mocap': 'pose' }, 'it is not clear what the odometry is: ', 'series', 'odometry'],
     [{ '/odom': 'odometry', '/odometry/filtered': 'odometry' }, 'it is not clear what the reference is: ', 'series', 'reference'],
+    [{ '/odom': 'odometry', '/goal_pose': 'pose' }, 'it is not clear what the reference is: ', 'series', 'reference'],
+    [{ '/odom': 'odometry' }, 'it has no transforms between frames; it has /odom (Odometry).', 'series', 'odometry', ['/odom'], [], { odometry: { frames: { parent: 'odom', child: 'base' } } }],
     [{ '/tf': 'tf' }, 'give a parent and a child frame, connected by base_link,laser.', 'frames', 'odometry', ['base_link,laser'], ['base_link laser']],
     [{ '/odom': 'odometry' }, 'it has one log only, /odom (Odometry); give odometry and reference.'],
     [{ '/cmd_vel': 'twist' }, 'it has commands only, /cmd_vel (Twist); a reference needs poses.', undefined, undefined, undefined, [], { kind: 'commands' }],
@@ -97,29 +90,29 @@ test('what is not clear is asked', () => {
     [{ '/odom': 'odometry', '/mocap': 'pose' }, 'there is no such topic; ', 'series', 'reference', ['/odom', '/mocap'], [], { reference: { series: '/moc' } }],
     [{ '/odom': 'odometry', '/mocap': 'pose' }, 'it has the same motion as run.mcap; ', undefined, undefined, undefined, [], { odometry: { series: '/odom' }, reference: { series: '/odom' } }],
   ])) {
-    const { message, ask } = refusalOf(() => planDrives([recording(series, {}, frames)], wishes));
+    const { message, ask } = await refusalOf(planned([recording(series, {}, frames)], wishes));
     assert.ok(message.startsWith('run.mcap') && message.includes(`: ${sentence}`), message);
     assert.deepEqual([ask?.what, ask?.role], [what, role], message);
     if (choices) assert.deepEqual(ask?.choices, choices);
   }
 });
 
-test('several recordings are drives of their own, or give one log each', () => {
+test('several recordings are drives of their own, or give one log each', async () => {
   const both = recording({ '/odom': 'odometry', '/mocap': 'pose' });
   assert.equal(planDrives([both, both]).drives.length, 2);
   const { loose } = planDrives([recording({ '/mocap': 'pose' }), recording({ '/odom': 'odometry', '/cmd_vel': 'twist' })]);
   assert.deepEqual([loose.odometry[0].choice.series, loose.reference[0].choice.series], ['/odom', '/mocap']);
   const { drives, loose: { odometry: [ofBag] } } = planDrives([both, recording({ '': 'columns' }, { name: 'truth.csv', format: 'csv' })]);
   assert.deepEqual([drives.length, ofBag.choice.series], [0, '/odom']);
-  const tables = (/** @type {string[]} */ ...names) => {
+  const tables = async (/** @type {string[]} */ ...names) => {
     const plan = planDrives(names.map((name) => recording({ '': 'columns' }, { name, format: 'csv' })));
     return [plan.loose.odometry, plan.loose.reference].map((parts) => parts.map(({ recording: { name } }) => name));
   };
-  assert.deepEqual(tables('truth.csv', 'a.csv'), [['a.csv'], ['truth.csv']]);
-  assert.deepEqual(tables('a.csv', 'b.csv'), [['a.csv'], ['b.csv']]);
-  assert.deepEqual(tables('odom1.csv', 'x.csv', 'y.csv', 'odom2.csv'), [['odom1.csv', 'odom2.csv'], ['x.csv', 'y.csv']]);
-  assert.match(refusalOf(() => tables('a.csv', 'b.csv', 'c.csv', 'd.csv')).message, /^a\.csv: its name does not say whether it is odometry or reference; /);
-  assert.match(refusalOf(() => tables('odom1.csv', 'odom2.csv', 'truth.csv')).message, /^odom1\.csv: there are 2 logs of odometry and 1 of the reference; /);
+  assert.deepEqual(await tables('truth.csv', 'a.csv'), [['a.csv'], ['truth.csv']]);
+  assert.deepEqual(await tables('a.csv', 'b.csv'), [['a.csv'], ['b.csv']]);
+  assert.deepEqual(await tables('odom1.csv', 'x.csv', 'y.csv', 'odom2.csv'), [['odom1.csv', 'odom2.csv'], ['x.csv', 'y.csv']]);
+  assert.match(await sentenceOf(tables('a.csv', 'b.csv', 'c.csv', 'd.csv')), /^a\.csv: its name does not say whether it is odometry or reference; /);
+  assert.match(await sentenceOf(tables('odom1.csv', 'odom2.csv', 'truth.csv')), /^odom1\.csv: there are 2 logs of odometry and 1 of the reference; /);
 });
 
 /** Reads drives from tables by their names. @param {Record<string, string>} files @param {import('../../www/logs/drives.ts').Wishes} [wishes] */
@@ -130,13 +123,6 @@ const table = (count, row) => ['t,x,y,yaw', ...Array.from({ length: count }, (_,
 
 /** Poses along x at 20 Hz. @param {(i: number) => number} x @param {number} [start] */
 const along = (x, start = 0) => table(400, (i) => [start + i / 20, x(i), 0, 0]);
-
-/** @param {Promise<unknown>} reading @returns {Promise<string>} */
-async function sentenceOf(reading) {
-  const error = await reading.then(() => undefined, (reason) => reason);
-  assert.ok(error instanceof LogError, String(error));
-  return error.message;
-}
 
 test('logs of several drives are paired by their times, their names, or their order', async () => {
   const pairs = async (/** @type {Record<string, number>} */ starts) => (await drivesOf(Object.fromEntries(Object.entries(starts).map(([name, start], k) => [name, along((i) => (i * (k + 1)) / 100, start)])))).map(({ odometry, reference }) => [odometry.name, reference.name]);
@@ -164,6 +150,9 @@ test('names of a localizer, and swapped ones, are noted', async () => {
   };
   assert.deepEqual(await notes('truth.csv', 'wheels.csv'), ['swapped']);
   assert.deepEqual(await notes('odom.csv', 'amcl_pose.csv'), ['localizer']);
+  const [{ odometry, reference }] = await drivesOf({ 'odom.csv': along((i) => i / 90), 'truth.csv': along((i) => i / 80) });
+  const noted = (/** @type {string} */ parent) => pairLogs(odometry, { ...reference, summary: { ...reference.summary, frames: { parent, child: 'base_link' } } }).reference.summary.notes;
+  assert.deepEqual([noted('mocap'), noted('map')], [[], [{ name: 'localizer', values: [] }]]);
   for (const [one, other] of [['wheels.csv', 'truth.csv'], ['odom.csv', 'reference-by-odom.csv'], ['a.csv', 'b.csv']]) assert.deepEqual(await notes(one, other), [], one);
 });
 
@@ -195,6 +184,12 @@ test('a frozen reference is left out while the odometry moves on, and kept while
   const { data, summary } = await pair(lost);
   assert.deepEqual([data.t.length, [...data.breaks], summary.used, summary.dropped], [301, [201], 301, { held: { count: 99, first: 0 } }]);
   assert.equal(await sentenceOf(pair(along(() => 7))), 'truth.csv: its pose stands while the odometry moves on: it has lost the robot; give one that follows the robot.');
+  // Standing for two seconds, or while the odometry moves by five centimetres, is no loss.
+  const stands = async (/** @type {number} */ seconds, /** @type {number} */ speed) => {
+    const own = (/** @type {number} */ i) => (speed * i) / 20;
+    return (await pair(along((i) => 1.01 * own(i >= 200 && i <= 200 + 20 * seconds ? 200 : i)), along(own))).summary.dropped.held?.count;
+  };
+  assert.deepEqual([await stands(2, 0.4), await stands(2.2, 0.4), await stands(7, 0.0095), await stands(7, 0.0105)], [undefined, 44, undefined, 140]);
   // Commands tell too that the robot moves.
   const commands = ['t,v,omega', ...Array.from({ length: 400 }, (_, i) => `${i / 20},${i < 100 ? 0 : 0.4},0`)].join('\n');
   assert.equal((await pair(lost, commands)).summary.dropped.held?.count, 99);

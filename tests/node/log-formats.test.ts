@@ -145,11 +145,13 @@ for (const [name, positionsOf] of Object.entries(BLOCKS)) {
   });
 }
 
-test('a damaged message is dropped, and a compressed file that is damaged is refused', async () => {
+test('a damaged message is dropped, and a file of damaged headers or compression is refused', async () => {
   const name = 'mcap-messages-mcap-messages.mcap';
   // Frames of Zstandard, of the odometry and the reference in turns.
   const log = await readDamaged(name, placesOf(bytesOf(name), '\\(\xb5/\xfd')[6] + 20);
   assert.deepEqual([rowsOf(log), log.summary.dropped], [[...range(0, 3), ...range(4, 100)], { damaged: { count: 1, first: 4 } }]);
+  const headers = Buffer.from(bytesOf('none.bag').toString('latin1').replaceAll('topic=', 'topic-'), 'latin1');
+  assert.match(await sentenceOf(readFrom(headers, 'none.bag')), /none of its messages can be read \(a record has no field topic\); expected/);
   assert.match(await sentenceOf(readDamaged('sqlite-file-sqlite-file.db3.zstd', 4000)), /none of its messages can be read \(.+\); expected/);
 });
 

@@ -4,24 +4,14 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { openRecordings } from '../../www/logs/open.ts';
 import { log as german } from '../../www/logs/de.ts';
-import { LogError } from '../../www/logs/log-error.ts';
+import { Rows } from '../../www/logs/rows.ts';
+import { refusalOf, sentenceOf } from './log-support.js';
 
 /** @param {string | Uint8Array<ArrayBuffer>} text @param {import('../../www/logs/log.ts').OpenOptions} [options] @param {string} [series] */
 async function read(text, options, series = '') {
   const [recording] = await openRecordings([new File([text], 'run.csv')], options);
   const [log] = await recording.read([{ series }]);
   return { ...log, data: /** @type {any} */ (log.data) };
-}
-
-/** @param {Promise<unknown>} reading @returns {Promise<LogError>} */
-async function refusalOf(reading) {
-  try {
-    await reading;
-  } catch (error) {
-    assert.ok(error instanceof LogError, String(error));
-    return error;
-  }
-  throw new assert.AssertionError({ message: 'nothing was refused' });
 }
 
 /** Drive on circles of 1 m at 0.5 m/s with 20 rows a second: time, x, y, heading. */
@@ -80,7 +70,7 @@ test('a clock that was set back leaves the larger part, and halves are refused',
   }
   const end = await read(straight([...steps(60), ...steps(140, 4.03)]));
   assert.deepEqual([end.data.t.length, end.data.x[0], end.summary.dropped.setBack], [140, 60 / 50, { count: 60, first: 2 }]);
-  assert.match((await refusalOf(read(straight([...steps(100), ...steps(100, 5)])))).message, /^run\.csv, line 102: times go back by 4\.90 s and repeat those before; split the file there/);
+  assert.match(await sentenceOf(read(straight([...steps(100), ...steps(100, 5)]))), /^run\.csv, line 102: times go back by 4\.90 s and repeat those before; split the file there/);
 });
 
 test('stamps of 0 drop their rows, and are no choice of the clock for the others', async () => {
@@ -98,10 +88,13 @@ test('poses that a table repeats at the rate of another log are taken once', asy
 });
 
 test('pauses and jumps are found, and a heading that wraps is no jump', async () => {
-  const rows = Array.from({ length: 400 }, (_, i) => [i / 20 + (i >= 100 ? 3 : 0), i / 100 + (i >= 200 ? 1 : 0), 0, i / 500 + (i >= 300 ? 1.5 : 0)].join(','));
+  // Five usual steps are no pause, and eight times the usual speed is no jump.
+  const late = (/** @type {number} */ i) => (i >= 50 ? 0.19 : 0) + (i >= 60 ? 0.21 : 0) + (i >= 100 ? 3 : 0);
+  const far = (/** @type {number} */ i) => (i >= 150 ? 0.34 : 0) + (i >= 200 ? 0.36 : 0);
+  const rows = Array.from({ length: 400 }, (_, i) => [i / 20 + late(i), i / 20 + far(i), 0, i / 500 + (i >= 300 ? 1.5 : 0)].join(','));
   const { summary, data } = await read(`t,x,y,yaw\n${rows.join('\n')}`);
-  assert.deepEqual(summary.gaps, { count: 1, longest: 3.05, first: 99 / 20 });
-  assert.deepEqual([summary.jumps, [...data.breaks]], [{ count: 2, first: 13 }, [200, 300]]);
+  assert.deepEqual(summary.gaps, { count: 2, longest: 3.05, first: 59 / 20 + 0.19 });
+  assert.deepEqual([summary.jumps, [...data.breaks]], [{ count: 2, first: 13.4 }, [200, 300]]);
   assert.equal((await read(circles())).summary.jumps.count, 0);
 });
 
@@ -127,25 +120,27 @@ test('units are taken by two signs', async () => {
   }
 });
 
-/** Questions, and the option that answers each. @type {[string, string, RegExp, import('../../www/logs/log.ts').OpenOptions][]} */
+/** Questions, the option that answers each, and a value of row 9 then. @type {[string, string, RegExp, import('../../www/logs/log.ts').OpenOptions, [string, number]][]} */
 const QUESTIONS = [
-  ['millimetres', circles(([t, x, y, yaw]) => [t, 1000 * x, 1000 * y, yaw]), /in m, the robot would drive at \d+ m\/s; .*: cm or mm or m\.$/, { lengthUnit: 'mm' }],
-  ['metres that a name has as millimetres', circles(undefined, 't,x_mm,y_mm,yaw'), /in mm, the robot .*: m or mm\.$/, { lengthUnit: 'm' }],
-  ['commands in milliseconds', ['t,v,omega', ...steps(50).map((t) => `${1000 * t},0.5,0.5`)].join('\n'), /in s, the times would mean 0\.01\d* rows a second; state their unit/, { timeUnit: 'ms' }],
-  ['seconds that a name has as nanoseconds', circles(undefined, 't_ns,x,y,yaw'), /in ns, the times would mean/, { timeUnit: 's' }],
-  ['degrees of a robot that drives straight on', circles(([t]) => [t, t / 2, 0, 20 * Math.sin(t / 9)]), /headings in rad .*: rad or deg\.$/, { angleUnit: 'deg' }],
-  ['radians that a name has as degrees', circles(undefined, 't,x,y,yaw_deg'), /headings in deg .*: rad or deg\.$/, { angleUnit: 'rad' }],
-  ['turn rates in degrees', ['t,v,omega', ...steps(50).map((t) => `${t},0.5,30`)].join('\n'), /headings in rad would turn at 30\.0 rad\/s/, { angleUnit: 'deg' }],
+  ['millimetres', circles(([t, x, y, yaw]) => [t, 1000 * x, 1000 * y, yaw]), /in m, the robot would drive at \d+ m\/s; .*: cm or mm or m\.$/, { lengthUnit: 'mm' }, ['x', CIRCLES[9][1]]],
+  ['metres that a name has as millimetres', circles(undefined, 't,x_mm,y_mm,yaw'), /in mm, the robot .*: m or mm\.$/, { lengthUnit: 'm' }, ['x', CIRCLES[9][1]]],
+  ['commands in milliseconds', ['t,v,omega', ...steps(50).map((t) => `${1000 * t},0.5,0.5`)].join('\n'), /in s, the times would mean 0\.01\d* rows a second; state their unit/, { timeUnit: 'ms' }, ['t', 0.9]],
+  ['seconds that a name has as nanoseconds', circles(undefined, 't_ns,x,y,yaw'), /in ns, the times would mean/, { timeUnit: 's' }, ['t', CIRCLES[9][0]]],
+  ['degrees of a robot that drives straight on', circles(([t]) => [t, t / 2, 0, 20 * Math.sin(t / 9)]), /headings in rad .*: rad or deg\.$/, { angleUnit: 'deg' }, ['theta', (Math.sin(0.05) * Math.PI) / 9]],
+  ['radians that a name has as degrees', circles(undefined, 't,x,y,yaw_deg'), /headings in deg .*: rad or deg\.$/, { angleUnit: 'rad' }, ['theta', CIRCLES[9][3]]],
+  ['turn rates in degrees', ['t,v,omega', ...steps(50).map((t) => `${t},0.5,30`)].join('\n'), /headings in rad would turn at 30\.0 rad\/s/, { angleUnit: 'deg' }, ['omega', Math.PI / 6]],
 ];
 
-for (const [name, text, sentence, options] of QUESTIONS) {
+for (const [name, text, sentence, options, [field, value]] of QUESTIONS) {
   test(`asks about ${name}`, async () => {
     const error = await refusalOf(read(text));
     assert.match(error.message, sentence);
     const [[what, answer]] = Object.entries(options);
     assert.equal(error.ask?.what, what);
     assert.ok(error.ask.choices.includes(answer), String(error.ask.choices));
-    await read(text, options);
+    const { data, summary: { units } } = await read(text, options);
+    assert.deepEqual(units[/** @type {'time' | 'length' | 'angle'} */ (what.replace('Unit', ''))], { unit: answer, by: 'option' });
+    assert.ok(Math.abs(data[field][9] - value) < 1e-12, `${data[field][9]}, not ${value}`);
   });
 }
 
@@ -158,6 +153,7 @@ const REFUSED = [
   ['comments alone', '# t,x,y,yaw\n\n', /there is nothing in it;/],
   ['a header alone', 't,x,y,yaw\n', /0 of 0 rows can be used;/],
   ['bytes', Uint8Array.of(1, 2, 0, 4), /it is neither text nor/],
+  ['one number a line', '1\n2\n', /, line 1: the first row is “1”; expected is a header/],
   ['no header', '1,2,3,4\n2,3,4,5\n', /^run\.csv, line 1: the table has no header, and its first row is “1,2,3,4”; name its 4 columns\.$/],
   ['no time', 'x,y,yaw\n0,0,0\n', /, line 1: none of the columns x, y, yaw is the time;/],
   ['a count of rows as times', ',x,y,yaw\n0,0,0,0\n1,0,0,0\n', /is the time;/],
@@ -197,10 +193,16 @@ for (const [name, contents, sentence, options] of REFUSED) {
   });
 }
 
+test('more rows than those of a day at 100 Hz are refused', async () => {
+  const rows = Object.assign(new Rows({ file: 'run.csv' }), { count: 1e7 - 1 });
+  const add = async () => rows.add(0, 0, 0, 0, 0, 1);
+  await add();
+  assert.equal(await sentenceOf(add()), 'run.csv: there are more rows; expected are at most 10000000.');
+});
+
 test('a file that has been moved is refused', async () => {
   const gone = { name: `${'n'.repeat(50)}.csv`, size: 5, slice: () => ({ arrayBuffer: () => Promise.reject(new DOMException('', 'NotFoundError')) }) };
-  const { message } = await refusalOf(openRecordings([/** @type {any} */ (gone)]));
-  assert.equal(message, `${'n'.repeat(40)}…: the file cannot be read (NotFoundError); expected is one that exists and may be read.`);
+  assert.equal(await sentenceOf(openRecordings([/** @type {any} */ (gone)])), `${'n'.repeat(40)}…: the file cannot be read (NotFoundError); expected is one that exists and may be read.`);
 });
 
 test('lines across the pieces of a large file are read whole', async () => {

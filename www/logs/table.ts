@@ -42,7 +42,7 @@ export async function openTable(source: Source, options: OpenOptions = {}): Prom
   // A table that cannot be read says why when it is opened.
   if (readable.length === 0) layoutOf(format.groups.toSorted((a, b) => Object.keys(b.columns).length - Object.keys(a.columns).length)[0], format.names, place, undefined);
   const seriesOf = (group: Group): Series => ({
-    name: readable.length === 1 ? '' : group.name || listed(columnNames(group)),
+    name: readable.length === 1 && group.kind !== null ? '' : group.name || listed(columnNames(group)),
     type: listed(columnNames(group)),
     kind: group.kind,
     hasCommands: group.hasCommands,

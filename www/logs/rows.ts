@@ -183,6 +183,13 @@ export class Rows {
     return this.#seconds(row) === 0 && this.#rest(row) === 0;
   }
 
+  /** Checks whether two rows have the same values. */
+  #isSame(one: number, other: number): boolean {
+    const numbers = this.#numbers;
+    const [i, j] = [WIDTH * one, WIDTH * other];
+    return numbers[i + A] === numbers[j + A] && numbers[i + B] === numbers[j + B] && numbers[i + C] === numbers[j + C];
+  }
+
   /** Returns the rows that are kept by their times, each time once, and the number of those that were late. */
   #inOrder(kind: LogKind): { start: number; t: Float64Array; rows: Uint32Array; late: number } {
     // A stamp of 0 among times since 1970 was never set.
@@ -196,9 +203,7 @@ export class Rows {
     const base = Math.floor(this.#seconds(stamped[0]));
     const times = new Float64Array(count);
     for (let i = 0; i < count; i++) times[i] = this.#seconds(stamped[i]) - base + this.#rest(stamped[i]);
-    const isSame = (one: number, other: number) =>
-      [A, B, C].every((column) => this.#numbers[WIDTH * stamped[one] + column] === this.#numbers[WIDTH * stamped[other] + column]);
-    const { order, fates, setBack, most } = sortRows(times, isSame);
+    const { order, fates, setBack, most } = sortRows(times, (one, other) => this.#isSame(stamped[one], stamped[other]));
     if (setBack >= 0 && most < MIN_SHARE * times.length) {
       const line = this.#line(stamped[setBack]);
       throw new LogError(this.#at(line), (say) => say.setBack(times[setBack - 1] - times[setBack], this.#message(line)));
@@ -214,7 +219,7 @@ export class Rows {
       const time = this.#seconds(row) - start + this.#rest(row);
       if (used > 0 && time <= t[used - 1]) {
         isDropped.set(row, 'duplicate');
-        if (!isSame(order[i - 1], order[i])) different += 1;
+        if (!this.#isSame(stamped[order[i - 1]], row)) different += 1;
         continue;
       }
       rows[used] = row;
@@ -225,7 +230,7 @@ export class Rows {
       const line = this.#line([...isDropped.keys()].reduce((first, row) => Math.min(first, row)));
       throw new LogError(this.#at(line), (say) => say.sameTimes(different, order.length, this.#message(line)));
     }
-    const isRepeated = (i: number) => [A, B, C].every((column) => this.#numbers[WIDTH * rows[i] + column] === this.#numbers[WIDTH * rows[i - 1] + column]);
+    const isRepeated = (i: number) => this.#isSame(rows[i - 1], rows[i]);
     const hold = kind === 'poses' ? holdOf(t.subarray(0, used), isRepeated) : 1;
     if (hold > 1) {
       const repeats = Array.from({ length: used }, (_, i) => i > 0 && isRepeated(i));

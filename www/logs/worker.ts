@@ -89,6 +89,9 @@ function buffersOf(result: unknown): ArrayBuffer[] {
   return typeof result === 'object' && result ? [...new Set(Object.values(result).flatMap(buffersOf))] : [];
 }
 
+/** Milliseconds between messages of progress: a page renders the figure after each. */
+const PROGRESS_INTERVAL = 50;
+
 /** Answers the requests that come by a port, after a first message with the core. */
 export function serve(port: Pick<MessagePort, 'onmessage' | 'postMessage'>) {
   let keeper: LogKeeper;
@@ -97,7 +100,13 @@ export function serve(port: Pick<MessagePort, 'onmessage' | 'postMessage'>) {
     const { core, number = 0, method, parameters } = data;
     try {
       if (core) keeper = new LogKeeper(await instantiateShared(core));
-      const onProgress = (progress: number) => answer({ number, progress });
+      let next = 0;
+      const onProgress = (progress: number) => {
+        const now = performance.now();
+        if (now < next) return;
+        next = now + PROGRESS_INTERVAL;
+        answer({ number, progress });
+      };
       const result = core ? null : await (keeper[method] as (...all: unknown[]) => unknown).call(keeper, onProgress, ...parameters);
       answer({ number, result }, buffersOf(result));
     } catch (error) {

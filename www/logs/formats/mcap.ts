@@ -75,11 +75,12 @@ class Mcap implements Container {
     if (!this.#chunks) return this.#readFromStart(isWanted, each, onProgress);
     const wanted = new Set([...this.#channels].filter(([, channel]) => isWanted(channel)).map(([id]) => id));
     const chunks = this.#chunks.filter(({ messageIndexOffsets }) => [...messageIndexOffsets.keys()].some((id) => wanted.has(id)));
+    const bytesAt = readAhead(this.#source);
     for (const [i, { chunkStartOffset, chunkLength }] of chunks.entries()) {
       const from = Number(chunkStartOffset);
       await this.#attempt(from, async () => {
         if (chunkLength > MAX_BLOCK) throw new RangeError(`a chunk of ${chunkLength} bytes`);
-        const bytes = await bytesOf(this.#source, from, from + Number(chunkLength));
+        const bytes = await bytesAt(from, from + Number(chunkLength));
         if (bytes[0] !== CHUNK) throw new RangeError('no chunk is there');
         this.#readRecords(contentsOf(bytes.subarray(HEAD)), isWanted, each);
       });

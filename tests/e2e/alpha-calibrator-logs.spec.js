@@ -225,12 +225,12 @@ test('a log is read and fitted in a worker, and the page stays free', async ({ p
   const began = await chooseLong(widget);
   await expect(caption(widget)).toHaveText(/of odom\.csv, truth\.csv[.,]/);
   expect(page.workers().map((worker) => new URL(worker.url()).pathname)).toEqual(['/chunks/log-worker.js']);
-  const busy = await page.evaluate((since) => {
+  const longest = await page.evaluate((since) => {
     const all = /** @type {PerformanceEntry[]} */ (Reflect.get(window, 'tasks'));
-    const during = all.filter(({ startTime }) => startTime > since).reduce((sum, { duration }) => sum + duration, 0);
-    return during / (performance.now() - since);
+    return Math.max(0, ...all.filter(({ startTime }) => startTime > since).map(({ duration }) => duration));
   }, began);
-  expect(busy).toBeLessThan(0.5);
+  // Tasks take below 50 ms where nothing else runs; reading or fitting here would take a second.
+  expect(longest).toBeLessThan(300);
   // A setting has the log fitted again; the former fit is shown until then.
   const { alphas } = await stats(widget);
   const changed = await widget.evaluate((element) => {

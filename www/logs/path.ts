@@ -16,8 +16,7 @@ export function pathOf(data: Poses | Commands, every = 1): Path {
   const path: Path = { t: [], points: [], headings: [], breaks: new Set() };
   let [x, y, theta, next] = [0, 0, 0, 0];
   for (let i = 0; i < t.length; i++) {
-    if ('x' in data) [x, y, theta] = [data.x[i], data.y[i], data.theta[i]];
-    else if (i > 0) {
+    if ('v' in data && i > 0) {
       const dt = t[i] - t[i - 1];
       const turn = data.omega[i - 1] * dt;
       x += data.v[i - 1] * dt * Math.cos(theta + turn / 2);
@@ -25,6 +24,7 @@ export function pathOf(data: Poses | Commands, every = 1): Path {
       theta += turn;
     }
     if (i % every !== 0 && i < t.length - 1) continue;
+    if ('x' in data) [x, y, theta] = [data.x[i], data.y[i], data.theta[i]];
     for (; next < breaks.length && breaks[next] <= i; next++) path.breaks.add(path.points.length);
     path.t.push(t[i]);
     path.points.push([x, y]);

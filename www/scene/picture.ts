@@ -38,9 +38,10 @@ export class Picture<Scene, Name extends string = string> {
   /** Aims the view. */
   fit(_scene: Scene) {}
 
-  paint(_brush: Brush, _scene: Scene) {}
+  /** @returns true if the next frame has more to paint */
+  paint(_brush: Brush, _scene: Scene): boolean | void {}
 
-  /** @returns whether the view is still moving */
+  /** @returns whether the view is still moving, or there is more to paint */
   draw(surface: HTMLCanvasElement | Surface, scene: Scene, palette: Palette, { elapsed = 0, still = false, atOnce = false, former, highlight, exported = false, handles = exported }: How = {}): boolean {
     const { view } = this;
     const brush = brushOn(surface, view, palette);
@@ -50,8 +51,8 @@ export class Picture<Scene, Name extends string = string> {
     }
     if (!still || !view.aimed) this.fit(scene);
     const moving = view.ease(elapsed, atOnce);
-    this.paint({ ...brush, highlight, exported, handles, former: view.widened && !exported ? former : undefined }, scene);
-    return moving;
+    const isMore = this.paint({ ...brush, highlight, exported, handles, former: view.widened && !exported ? former : undefined }, scene);
+    return moving || isMore === true;
   }
 
   /**

@@ -2,10 +2,12 @@
 
 import { bisectLeft } from 'd3-array';
 import { html, nothing, svg } from 'lit';
+import { guard } from 'lit/directives/guard.js';
 import type { Drive } from '../../logs/drives.ts';
 import { LOG_TIME, ROLES, type Cause, type Log } from '../../logs/log.ts';
 import { pathOf, type Path, type Point } from '../../logs/path.ts';
 import { notesOf } from '../../logs/summary.ts';
+import { language } from '../../messages/registry.ts';
 import { counted, fixed } from '../../ui/format.ts';
 import type { LogOpener, LogWords } from './open.ts';
 
@@ -22,10 +24,10 @@ export function summaryOf({ chosen, say, host }: LogOpener) {
   const { drives } = chosen;
   return html`<details class="found" open>
     <summary>${say.found.labels.title}</summary>
-    ${drives.map((drive, i) => html`<div class="drive">
+    ${guard([drives, say, language], () => drives.map((drive, i) => html`<div class="drive">
       ${tableOf(drive, drives.length > 1 ? say.found.labels.drive(i + 1) : '', say)}
       ${pathsOf(drive, say)}
-    </div>`)}
+    </div>`))}
   </details>`;
 }
 

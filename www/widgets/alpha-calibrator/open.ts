@@ -156,13 +156,14 @@ export class LogOpener extends Part<Figure> {
       this.share = share;
       this.host.requestUpdate();
     });
-    // Logs are shown before they are used.
-    chosen.drives = drives;
-    this.host.requestUpdate();
     const log = { name: nameOf(plan, reader), ...reader.logOf(drives) };
-    await this.host.open(log, reader.hasLocalizer(drives.map(({ reference }) => reference)), ({ count }) => {
+    const fitted = this.host.open(log, reader.hasLocalizer(drives.map(({ reference }) => reference)), ({ count }) => {
       if (count === 0) throw new RangeError(words.calibrator.none);
     });
+    // Logs are shown while they are fitted.
+    chosen.drives = drives;
+    this.host.requestUpdate();
+    await fitted;
     chosen.log = log;
     this.#commit();
   }

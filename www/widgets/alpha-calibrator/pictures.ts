@@ -31,6 +31,8 @@ export class WayPicture extends SamplesPicture<Scene> {
     const box = extentAround(reference, 3);
     this.view.release();
     this.view.fit(extentOf(reference.length > 0 ? [box.xMin, box.yMin, box.xMax, box.yMax] : [0, 0], 1));
+    // Easing would draw all legs in each frame.
+    this.view.ease(0, true);
   }
 
   paint: Picture<Scene>['paint'] = (brush, { legs, classes, chosen, overlays }) => {
@@ -41,13 +43,15 @@ export class WayPicture extends SamplesPicture<Scene> {
       return name === 'outlier' ? { ...entry, draw: (x: number, y: number, length: number) => drawRings(brush, [[x + length / 2, y]]) } : entry;
     });
     drawAxes(brush, { x: 'x (m)', y: 'y (m)' }, key);
+    let isMore = false;
     clipped(brush, () => {
-      this.#layer.draw(brush, legs, classes, overlays);
+      isMore = this.#layer.draw(brush, legs, classes, overlays);
       if (chosen < 0) return;
       const [fromX, fromY, , x, y, heading] = legs.reference.subarray(6 * chosen);
       drawOutline(brush, Float64Array.of(fromX, fromY, x, y), { colour: palette.ink, width: 3.25, dash: [] });
       drawMark(brush, { x, y, heading }, palette.ink);
     });
+    return isMore;
   };
 }
 

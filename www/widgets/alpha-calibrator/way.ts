@@ -20,6 +20,9 @@ const LEGS_A_STROKE = 500;
 /** Legs that are drawn without a layer, which takes memory. */
 const FEW_LEGS = 2000;
 
+/** Strokes of a new log in a frame: 10 to 20 ms. */
+const STROKES_A_FRAME = 6;
+
 /** Side of the squares in each of which one step is drawn that is shorter, CSS pixels: nobody sees the others. */
 const FINE = 1;
 
@@ -57,36 +60,52 @@ export class WayLayer {
   #key = '';
   /** Legs of the layer. */
   #legs: CalibrationLegs | undefined;
+  /** Rest of the drawing. */
+  #strokes: Iterator<void> = [].values();
 
   /**
+   * Draws the legs. Many legs of another log take several frames; another view of them, and paper, have all at once.
+   *
    * @param classes of the legs, the most usual first
    * @param overlays lines that are shown
+   * @returns whether the next frame has more to draw
    */
-  draw(brush: Brush, legs: CalibrationLegs, classes: Uint8Array, overlays: LineName[]) {
-    const { context, view, palette, ratio, highlight } = brush;
-    if ('vector' in context || legs.count <= FEW_LEGS) return drawWay(brush, legs, classes, overlays);
+  draw(brush: Brush, legs: CalibrationLegs, classes: Uint8Array, overlays: LineName[]): boolean {
+    const { context, view, palette, ratio, highlight, handles } = brush;
+    if ('vector' in context || legs.count <= FEW_LEGS) return advance(drawWay(brush, legs, classes, overlays), Infinity);
     const { extent, frame, width, height } = view;
     const key = JSON.stringify([extent, frame, width, height, palette, ratio, highlight, overlays]);
-    if (key !== this.#key || legs !== this.#legs) {
+    const isOther = legs !== this.#legs;
+    if (key !== this.#key || isOther) {
       this.#key = key;
       this.#legs = legs;
       this.#layer = new OffscreenCanvas(Math.round(width * ratio), Math.round(height * ratio));
       const layer = hiddenContext(this.#layer);
       layer.scale(ratio, ratio);
-      drawWay({ context: layer, view, palette, ratio, highlight }, legs, classes, overlays);
+      this.#strokes = drawWay({ context: layer, view, palette, ratio, highlight }, legs, classes, overlays);
+      if (!isOther) advance(this.#strokes, Infinity);
     }
+    const isMore = advance(this.#strokes, handles ? Infinity : STROKES_A_FRAME);
     context.drawImage(this.#layer, 0, 0, width, height);
+    return isMore;
   }
 }
 
-function drawWay(brush: Painter, legs: CalibrationLegs, classes: Uint8Array, overlays: LineName[]) {
-  if (overlays.includes('odometry')) drawOdometry(brush, legs);
+/** Goes on with a drawing for some strokes. @returns whether there are more */
+function advance(strokes: Iterator<void>, count: number): boolean {
+  for (; count > 0; count--) if (strokes.next().done) return false;
+  return true;
+}
+
+/** Draws the legs, stroke by stroke. */
+function* drawWay(brush: Painter, legs: CalibrationLegs, classes: Uint8Array, overlays: LineName[]) {
+  if (overlays.includes('odometry')) yield* drawOdometry(brush, legs);
   // Widths fall continuously from one layer of legs to two, so that nothing jumps when a plot is resized.
   const extra = Math.max(0, Math.min(1, 2 - layersOf(brush.view, legs.reference)));
   for (const [place, name] of CLASSES.entries()) {
     if (!overlays.includes(name)) continue;
     const style = styleOf(brush, name);
-    drawLegs(brush, legs.reference, (leg) => classes[leg] === place, { ...style, width: HAIR + extra * (style.width - HAIR) });
+    yield* drawLegs(brush, legs.reference, (leg) => classes[leg] === place, { ...style, width: HAIR + extra * (style.width - HAIR) });
   }
   if (overlays.includes('outlier')) drawRings(brush, outlierEnds(brush, legs));
 }
@@ -131,7 +150,7 @@ function layersOf(view: Painter['view'], reference: Float64Array) {
 }
 
 /** Draws the odometry from the first pose of the reference on: it drifts away, and each leg is compared by itself. */
-function drawOdometry({ context, view, ...brush }: Painter, { count, odometry, reference }: CalibrationLegs) {
+function* drawOdometry({ context, view, ...brush }: Painter, { count, odometry, reference }: CalibrationLegs) {
   if (count === 0) return;
   const turn = reference[2] - odometry[2];
   const [cos, sin] = [Math.cos(turn), Math.sin(turn)];
@@ -150,6 +169,7 @@ function drawOdometry({ context, view, ...brush }: Painter, { count, odometry, r
     points += 1;
     if (points <= LEGS_A_STROKE) continue;
     stroke(context, style);
+    yield;
     points = 1;
     context.beginPath();
     context.moveTo(x, y);
@@ -162,7 +182,7 @@ function drawOdometry({ context, view, ...brush }: Painter, { count, odometry, r
  *
  * @param reference both ends of each leg
  */
-function drawLegs({ context, view }: Painter, reference: Float64Array, isDrawn: (leg: number) => boolean, style: Style) {
+function* drawLegs({ context, view }: Painter, reference: Float64Array, isDrawn: (leg: number) => boolean, style: Style) {
   const drawn: Set<number> = new Set();
   let begun = 0;
   for (let leg = 0; leg < reference.length / 6; leg++) {
@@ -179,7 +199,9 @@ function drawLegs({ context, view }: Painter, reference: Float64Array, isDrawn: 
     context.moveTo(x, y);
     context.lineTo(toX, toY);
     begun = (begun + 1) % LEGS_A_STROKE;
-    if (begun === 0) stroke(context, style);
+    if (begun > 0) continue;
+    stroke(context, style);
+    yield;
   }
   if (begun > 0) stroke(context, style);
 }

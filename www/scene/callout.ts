@@ -3,7 +3,7 @@
 import { least } from 'd3-array';
 import { clamp } from '../ui/clamp.ts';
 import { drawLeader } from './labels.ts';
-import type { Brush } from './canvas.ts';
+import type { Box, Brush } from './canvas.ts';
 
 /** Length of the shortest line, distance of two lines of text, and room around them: pixels. */
 const LINE = 22;
@@ -18,11 +18,15 @@ const TURNS = Array.from({ length: 24 }, (_, i) => (Math.PI * (i - 12)) / 12);
 const LENGTHS = [1, 2, 3];
 
 /** Cost of a turn of 1 rad and of the length of a line, in pixels of a sentence that cover something. */
-const TURN_COST = 2;
-const LENGTH_COST = 0.2;
+const TURN_COST = 1;
+const LENGTH_COST = 0.1;
 
-/** Middle and half of its sides, pixels. */
-type Box = { x: number, y: number, across: number, down: number };
+/** Sentence with line breaks, the point that it is about, in the view's world, and its colour if it is not that of ink. */
+export interface Callout {
+  text: string;
+  at: [number, number];
+  colour?: string;
+}
 
 interface Surroundings {
   /** Middle that the sentences keep away from. */
@@ -34,10 +38,8 @@ interface Surroundings {
 /**
  * Draws sentences about points of something round, outside of it, where they cover least of the picture. The cost of a place is continuous
  * in all points, so that a sentence seldom jumps.
- *
- * @param callouts texts with line breaks, and the points that they are about, in the view's world
  */
-export function drawCallouts({ context, view, palette, font }: Brush, callouts: { text: string, at: [number, number] }[], { from, lines }: Surroundings) {
+export function drawCallouts({ context, view, palette, font, placed }: Brush, callouts: Callout[], { from, lines }: Surroundings) {
   context.font = font;
   const pixels = ({ 0: x, 1: y }: ArrayLike<number>) => [view.toPixelX(x), view.toPixelY(y)];
   const [fromX, fromY] = pixels(from);
@@ -45,9 +47,8 @@ export function drawCallouts({ context, view, palette, font }: Brush, callouts: 
   for (const line of lines) {
     for (let i = 0; i + 3 < line.length; i += 2) kept.push(...pointsBetween(pixels(line.subarray(i)), pixels(line.subarray(i + 2))));
   }
-  const others: Box[] = [];
   const { left, right, top, bottom } = view.frame;
-  for (const { text, at } of callouts) {
+  for (const { text, at, colour = palette.ink } of callouts) {
     const rows = text.split('\n');
     const across = Math.max(...rows.map((row) => context.measureText(row).width)) / 2 + ROOM;
     const down = (LEADING * rows.length) / 2 + ROOM;
@@ -60,19 +61,19 @@ export function drawCallouts({ context, view, palette, font }: Brush, callouts: 
         y: clamp(wantedY, top + down, Math.max(top + down, bottom - down)),
         across, down,
       };
-      return { ...box, cost: TURN_COST * Math.abs(turn) + LENGTH_COST * length * LINE + coveredBy(box, kept, others) };
+      return { ...box, cost: TURN_COST * Math.abs(turn) + LENGTH_COST * length * LINE + coveredBy(box, kept, placed) };
     }));
     const place = least(places, ({ cost }) => cost) as Box;
     const begin = [clamp(x, place.x - across, place.x + across), clamp(y, place.y - down, place.y + down)];
-    others.push(place);
+    placed.push(place);
     kept.push(...pointsBetween(begin, [x, y]));
 
-    drawLeader(context, [begin, [x, y]], palette.ink);
+    drawLeader(context, [begin, [x, y]], colour);
     context.fillStyle = palette.paper;
     context.globalAlpha = 0.85;
     context.fillRect(place.x - across, place.y - down, 2 * across, 2 * down);
     context.globalAlpha = 1;
-    context.fillStyle = palette.ink;
+    context.fillStyle = colour;
     context.textAlign = 'center';
     context.textBaseline = 'middle';
     rows.forEach((row, i) => context.fillText(row, place.x, place.y + (i - (rows.length - 1) / 2) * LEADING));

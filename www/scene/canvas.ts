@@ -13,6 +13,9 @@ export interface Surface {
   getContext: (kind: '2d') => CanvasRenderingContext2D | null;
 }
 
+/** Box of a text in a picture: its middle, and half of its sides, pixels. */
+export type Box = { x: number, y: number, across: number, down: number };
+
 /**
  * Context, view and colours that a picture is painted with. A pixel of the view is a CSS pixel where letters have 13 of them, and
  * grows in proportion to the letters.
@@ -25,6 +28,8 @@ export interface Brush {
   ratio: number;
   /** Font of the canvas's style. */
   font: string;
+  /** Boxes of the texts drawn so far, which further texts keep clear of. */
+  placed: Box[];
   /** True if a file is drawn: a picture on the page has its key beside it. */
   exported?: boolean;
   /** True if handles are painted: on the screen they are elements over the picture. */
@@ -81,5 +86,5 @@ export function brushOn(canvas: HTMLCanvasElement | Surface, view: import('./vie
   context.clearRect(0, 0, view.width, view.height);
   // Numbers with signs, in whatever language the page is.
   context.direction = 'ltr';
-  return { context, view, palette, ratio, font: `${LETTERS}px ${fontFamily}` };
+  return { context, view, palette, ratio, font: `${LETTERS}px ${fontFamily}`, placed: [] as Box[] };
 }

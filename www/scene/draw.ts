@@ -8,6 +8,7 @@ import { limits } from '../settings.js';
 import { channels } from '../ui/theme.ts';
 import { hiddenContext } from './canvas.ts';
 import { drawLabel } from './labels.ts';
+import type { Callout } from './callout.ts';
 import type { Brush } from './canvas.ts';
 import type { Palette } from '../ui/theme.ts';
 
@@ -233,20 +234,22 @@ function strokeLines(brush: Brush, lines: Outline[]) {
 const GHOST = 0.35;
 
 /**
- * Draws earlier outlines, and names them where they are furthest from the present cloud.
+ * Draws earlier outlines.
  *
- * @param from middle of the cloud: x, y
+ * @param from places of what there is at present: x, y
+ * @returns a callout that names them at their point in sight that is furthest from those places; none where nothing is in sight
  */
-export function drawGhosts(brush: Brush, outlines: Outline[], { 0: fromX, 1: fromY }: ArrayLike<number>, text: string) {
+export function drawGhosts(brush: Brush, outlines: Outline[], from: ArrayLike<number>[], text: string): Callout[] {
   const { context, view, palette } = brush;
   const drawn = outlines.filter(({ points }) => hasLength(points));
   context.globalAlpha = GHOST;
   strokeLines(brush, drawn);
   context.globalAlpha = 1;
-  const [x, y] = [view.toPixelX(fromX), view.toPixelY(fromY)];
-  const places = drawn.flatMap(({ points }) => Array.from({ length: points.length / 2 }, (_, i) => [view.toPixelX(points[2 * i]), view.toPixelY(points[2 * i + 1])]));
-  const place = greatest(places, ([atX, atY]) => Math.hypot(atX - x, atY - y));
-  if (place) drawLabel(brush, { x: place[0], y: place[1], towards: Math.sign(place[0] - x), text, colour: palette.muted });
+  const { xMin, xMax, yMin, yMax } = view.extent;
+  const seen = drawn.flatMap(({ points }) => Array.from({ length: points.length / 2 }, (_, i): [number, number] => [points[2 * i], points[2 * i + 1]]))
+    .filter(([x, y]) => x > xMin && x < xMax && y > yMin && y < yMax);
+  const at = greatest(seen, ([x, y]) => Math.min(...from.map((place) => Math.hypot(view.scaleX * (x - place[0]), view.scaleY * (y - place[1])))));
+  return at ? [{ text, at, colour: palette.muted }] : [];
 }
 
 /** A single one of them. */

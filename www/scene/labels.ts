@@ -10,6 +10,9 @@ const DROP = 3;
 /** Half the height of a label's ground, pixels, and its opacity. */
 const GROUND = { half: 9, alpha: 0.9 };
 
+/** Heights at which a label finds room, in heights of its ground away from its own. */
+const SHIFTS = [0, 1, -1, 2, -2, 3, -3];
+
 /** Distance from row to row of labels above a picture, and gap between two of one row, pixels. */
 const ROW = 17;
 const GAP = 12;
@@ -27,21 +30,25 @@ export interface Text {
 }
 
 /**
- * Draws a label on a ground of its own, inside of the axes.
+ * Draws a label on a ground of its own, inside of the axes, above or below where another text is in its place.
  *
  * @param label with its place in pixels, and the side of it that has room, from −1 for the left to 1 for the right
  */
 export function drawLabel(brush: Brush, { x, y, towards, colour, ...text }: Text & { x: number, y: number, towards: number, colour: string }) {
-  const { context, view, palette } = brush;
+  const { context, view, palette, placed } = brush;
   const parts = measured(brush, text);
   if (parts.length === 0) return;
   const width = widthOf(parts);
   const { left, right, top, bottom } = view.frame;
   const at = clamp(x - (0.5 - 0.5 * towards) * width, left + 3, Math.max(left + 3, right - width - 3));
-  const line = clamp(y, top + 10, bottom - 10);
+  const [across, down] = [width / 2 + 2, GROUND.half];
+  const lines = SHIFTS.map((shift) => clamp(y + 2 * down * shift, top + 10, bottom - 10));
+  const isFree = (height: number) => placed.every((other) => Math.abs(other.x - at - width / 2) >= other.across + across || Math.abs(other.y - height) >= other.down + down);
+  const line = lines.find(isFree) ?? lines[0];
+  placed.push({ x: at + width / 2, y: line, across, down });
   context.fillStyle = palette.paper;
   context.globalAlpha = GROUND.alpha;
-  context.fillRect(at - 2, line - GROUND.half, width + 4, 2 * GROUND.half);
+  context.fillRect(at - 2, line - down, 2 * across, 2 * down);
   context.globalAlpha = 1;
   write(brush, parts, at, line, colour);
 }

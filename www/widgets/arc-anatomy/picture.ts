@@ -40,9 +40,6 @@ const CROSS = 4;
 /** Length of the arrow towards a centre that is out of sight, CSS pixels. */
 const ARROW = 9;
 
-/** From one line of letters to the next, CSS pixels. */
-const LINE = 17;
-
 /** Constructions of each line of Table 5.1. */
 const LIT: Record<number, string[]> = {
   1: ['bisector'],
@@ -174,10 +171,10 @@ function drawCircle(brush: Brush, start: Pose, { center, end, turn, arcLength }:
   stroke(context, colour, 1.5, [], () => context.arc(x, y, radius, first, first - turn, turn > 0));
   // Behind the robot, where nothing of the arc is; along it where it is so flat that a picture ends behind the robot.
   const beside = Math.sign(arcLength) * (seen === 1 ? -1 : 1);
-  const tell = (text: string, share: number, below = 0) => {
+  const tell = (text: string, share: number) => {
     const at = [fromX + share * (x - fromX) + 10 * beside * ahead.x, fromY + share * (y - fromY) + 10 * beside * ahead.y];
     const towards = beside * ahead.x;
-    drawLabel(brush, { x: at[0], y: at[1] + below, towards: Math.abs(towards) < 0.3 ? 0 : Math.sign(towards), text, colour });
+    drawLabel(brush, { x: at[0], y: at[1], towards: Math.abs(towards) < 0.3 ? 0 : Math.sign(towards), text, colour });
   };
   tell(signed, seen / 2);
   if (seen === 1) {
@@ -186,8 +183,7 @@ function drawCircle(brush: Brush, start: Pose, { center, end, turn, arcLength }:
   }
   drawArrow(context, colour, [fromX + seen * (x - fromX), fromY + seen * (y - fromY)], Math.atan2(y - fromY, x - fromX));
   const distance = significant(Math.hypot(center[0] - start.x, center[1] - start.y), 2);
-  // Inside of the border, and of two in one place each in a line of its own.
-  tell(`${words.anatomy.centreAt(distance)}, ${angle}`, seen, Math.sign(fromY - y) * LINE * (side < 0 ? 0.6 : 1.6));
+  tell(`${words.anatomy.centreAt(distance)}, ${angle}`, seen);
 }
 
 /** @param way that it points, rad, downwards from the right */

@@ -118,7 +118,7 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
       morph,
       outlinesOf: (of: Reading) => outlinesAt(motion, of, morph),
       callouts,
-      rings: callouts.length > 0 ? ringsAt(motion, reading, morph) : [],
+      ringsOf: () => ringsAt(motion, reading, morph),
       pinned: this.#pinned,
       driving: this.cloud.driving,
       reached: morph > 0 ? carrying(motion, reading, 1)(reading.contours.ellipse) : reading.contours.ellipse,

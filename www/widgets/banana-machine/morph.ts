@@ -54,7 +54,8 @@ export function outlinesAt(motion: Motion, reading: Reading, morph: number): Out
 const RINGS = [0.5, 1, 1.5];
 
 /** Returns outlines of the Gaussian in exponential coordinates, with nearly the whole cloud inside of the largest, carried to a morph. */
-export function ringsAt(motion: Motion, { stats: { exponential: { mean, cov } } }: Reading, morph: number) {
+export function ringsAt(motion: Motion, { stats: { exponential: { mean, cov } }, contours }: Reading, morph: number) {
+  if (contours.exponential.length === 0) return [];
   return RINGS.map((size) => motion.unbendGaussian(Float64Array.from([...mean, ...cov.flat().map((each) => size ** 2 * each)]), morph));
 }
 

@@ -28,13 +28,14 @@ import { MorphView, placeOf } from './morph.ts';
 import { deviation } from './reading.ts';
 import { LINES } from './settings.ts';
 import type { BananaMachine, Inspection, Moments } from '../../types.d.ts';
+import type { Callout } from '../../scene/callout.ts';
 import type { Brush } from '../../scene/canvas.ts';
 import type { Outlines } from './morph.ts';
 import type { Reading } from './reading.ts';
 import type { LineName } from './settings.ts';
 
 /**
- * Scene of both pictures. Outlines, callouts and the `rings` that the callouts keep clear of are at the morph; the ellipse is
+ * Scene of both pictures. Outlines, callouts and the rings that the callouts keep clear of are at the morph; the ellipse is
  * `reached` at its end.
  */
 export interface Scene extends Reading {
@@ -46,7 +47,7 @@ export interface Scene extends Reading {
   driving: { robots: number, share: number } | undefined;
   outlinesOf: (reading: Reading) => Outlines;
   callouts: [number, number][];
-  rings: Float64Array[];
+  ringsOf: () => Float64Array[];
   reached: Float64Array;
 }
 
@@ -181,6 +182,10 @@ export class PlanePicture extends CloudPicture {
       if (there > 0) drawAxes({ ...brush, view: of }, names, brush.exported ? key : [], of === twist && morph < 1 ? 0 : undefined);
     }
     context.globalAlpha = 1;
+    const middle = middleOf(scene, morph);
+    const lines = (of: Outlines) => PAINTED.filter(drawn).map((name) => ({ points: of[name], ...styles[name] }));
+    const ghosts = ghostsOf(brush, scene).map(({ reading, text }) => ({ earlier: lines(scene.outlinesOf(reading)), text }));
+    const callouts: Callout[] = overlays.ellipse && overlays.exponential ? scene.callouts.map((at, i) => ({ text: words.banana.callouts[i], at })) : [];
     clipped(brush, () => {
       if (morph > 0 && morph < 1) drawLattice(brush, twist, morph);
       if (scene.driving) {
@@ -195,8 +200,7 @@ export class PlanePicture extends CloudPicture {
         this.paintCloud(brush, machine, 4 * Math.PI * area * view.scaleX * view.scaleY);
       }
       drawRobot(brush, { x: 0, y: 0, heading: 0, colour: palette.truth });
-      const lines = (of: Outlines) => PAINTED.filter(drawn).map((name) => ({ points: of[name], ...styles[name] }));
-      for (const { reading, text } of ghostsOf(brush, scene)) drawGhosts(brush, lines(scene.outlinesOf(reading)), placeOf(scene.stats.exponential.mean, morph), text);
+      for (const { earlier, text } of ghosts) callouts.push(...drawGhosts(brush, earlier, [middle, [0, 0]], text));
       drawOutlines(brush, lines(outlines));
       if (overlays.command && scene.reading && morph === 0) drawReading(brush, scene.reading, end);
       if (heaped && machine.shown > 0) drawHeap(brush, heapOf(machine));
@@ -209,16 +213,15 @@ export class PlanePicture extends CloudPicture {
         drawMark(brush, { x, y, heading: morph < 1 ? (1 - morph) * pose[2] : null });
       }
     });
-    if (!overlays.ellipse || !overlays.exponential) return;
-    const callouts = scene.callouts.map((at, i) => ({ text: words.banana.callouts[i], at }));
-    const lines = [outlines.command, outlines.ellipse, ...scene.rings];
-    drawCallouts(brush, callouts, { from: placeOf(scene.stats.exponential.mean, morph), lines });
+    if (callouts.length === 0) return;
+    const earlier = ghosts.flatMap((ghost) => ghost.earlier.map(({ points }) => points));
+    drawCallouts(brush, callouts, { from: middle, lines: [outlines.command, outlines.ellipse, ...scene.ringsOf(), ...earlier] });
   };
 }
 
 /** Returns the readings whose outlines stay in the picture, with their names. */
 const ghostsOf = ({ former }: Brush, { pinned }: Scene) =>
-  [{ reading: former, text: words.before }, { reading: pinned, text: words.banana.pinned }].filter(({ reading }) => reading);
+  [{ reading: former === pinned ? undefined : former, text: words.before }, { reading: pinned, text: words.banana.pinned }].filter(({ reading }) => reading);
 
 /** Draws robots that are on their way, with the way that they have behind them. */
 function drawDriving(brush: Brush, machine: BananaMachine, { robots, share }: { robots: number, share: number }) {
@@ -314,6 +317,9 @@ function twistMoments({ config, stats, table }: Scene): Moments[] {
   return [{ mean: [v * dt, 0, omega * dt], cov: [[along, 0, 0], [0, 0, 0], [0, 0, cov[2][2]]] }];
 }
 
+/** Returns the place of the middle of the cloud at a morph. */
+const middleOf = (scene: Scene, morph: number) => placeOf(twistMoments(scene)[0].mean, morph);
+
 /** Returns points around what there is to see in exponential coordinates. */
 function pointsOfTwists(scene: Scene) {
   const { v, omega, dt } = scene.config.command;
@@ -347,12 +353,14 @@ export class TwistPicture extends CloudPicture {
     const { exponential, command } = lineStyles(brush, LINES);
     const key = overlays.exponential && hasLength(contours.twistEllipse) ? [lineKey(brush, words.banana.overlays.exponential, exponential)] : [];
     drawAxes(brush, { x: words.banana.axisAlong, y: words.banana.axisHeading }, brush.exported ? key : []);
+    const middle = middleOf(scene, 1);
+    const ghosts = ghostsOf(brush, scene);
+    const callouts: Callout[] = [];
     clipped(brush, () => {
       if (scene.driving) return;
       this.paintCloud(brush, machine, 4 * Math.PI * areaOfTwists(scene) * view.scaleX * view.scaleY);
       if (overlays.exponential) {
-        const { mean } = scene.stats.exponential;
-        for (const { reading, text } of ghostsOf(brush, scene)) drawGhosts(brush, [{ points: reading.contours.twistEllipse, ...exponential }], [mean[0], mean[2]], text);
+        for (const { reading, text } of ghosts) callouts.push(...drawGhosts(brush, [{ points: reading.contours.twistEllipse, ...exponential }], [middle], text));
         drawOutline(brush, contours.twistEllipse, exponential);
       }
       if (overlays.command) {
@@ -367,5 +375,6 @@ export class TwistPicture extends CloudPicture {
       }
       if (marked) drawMark(brush, { x: marked.twist[0], y: marked.twist[2], heading: null });
     });
+    drawCallouts(brush, callouts, { from: middle, lines: [contours.twistEllipse, Float64Array.of(...middle), ...ghosts.map(({ reading }) => reading.contours.twistEllipse)] });
   };
 }

@@ -2,12 +2,14 @@
 
 import { words } from '../../messages/registry.ts';
 import { clipped, drawAxes } from '../../scene/axes.ts';
+import { drawCallouts } from '../../scene/callout.ts';
 import { drawDots, drawGhosts, drawMark, drawOutlines, drawRobot, lineStyles, trace } from '../../scene/draw.ts';
 import { Picture, SamplesPicture } from '../../scene/picture.ts';
 import { View, extentAround, extentOf } from '../../scene/view.ts';
 import { significant } from '../../ui/format.ts';
 import { lineKey } from '../shared/line-key.ts';
 import { OUTLINES } from './settings.ts';
+import type { Callout } from '../../scene/callout.ts';
 import type { Brush } from '../../scene/canvas.ts';
 
 /** Scene of both pictures, with the poses of the marked robot after each step. */
@@ -46,6 +48,7 @@ export class PathPicture extends SamplesPicture<Scene> {
     const predictions = drawn(['ellipse', 'exponential']) as ('ellipse' | 'exponential')[];
     drawAxes(brush, { x: 'x (m)', y: 'y (m)' }, keyOf(brush, drawn(['ellipse', 'exponential', 'command'])));
     const styled = (of: Scene['outlines']) => predictions.map((name) => ({ points: of[name], ...styles[name] }));
+    const ghosts: Callout[] = [];
     clipped(brush, () => {
       for (const milestone of milestones) drawPassed(brush, milestone.poses);
       drawDots(brush, poses, { x: 0, y: 1, heading: null });
@@ -53,7 +56,7 @@ export class PathPicture extends SamplesPicture<Scene> {
         ...drawn(['command']).map((name) => ({ points: commanded, ...styles[name] })),
         ...milestones.flatMap(({ outlines: passed }) => styled(passed).map((outline) => ({ ...outline, width: 1 }))),
       ]);
-      if (brush.former) drawGhosts(brush, styled(brush.former.outlines), pose, words.before);
+      if (brush.former) ghosts.push(...drawGhosts(brush, styled(brush.former.outlines), [pose, [0, 0]], words.before));
       drawOutlines(brush, styled(outlines));
       drawRobot(brush, { x: 0, y: 0, heading: 0, colour: palette.truth });
       drawPlace(brush, pose);
@@ -68,6 +71,7 @@ export class PathPicture extends SamplesPicture<Scene> {
       const [x, y, heading] = marked.subarray(3 * (step - 1));
       drawMark(brush, { x, y, heading });
     });
+    drawCallouts(brush, ghosts, { from: [pose[0], pose[1]], lines: [commanded, outlines.ellipse, outlines.exponential] });
   };
 }
 
@@ -120,11 +124,13 @@ export class StepPicture extends Picture<Scene> {
     const drawn = (['exponential', 'measured'] as ('exponential' | 'measured')[]).filter((name) => overlays.includes(name));
     drawAxes(brush, axesOf(this.view), keyOf(brush, drawn));
     const points = { exponential: predicted, measured };
+    const ghosts: Callout[] = [];
     clipped(brush, () => {
       drawDots(brush, twists, { x: 0, y: 1, heading: null });
-      if (brush.former && overlays.includes('exponential')) drawGhosts(brush, [{ points: brush.former.outlines.predicted, ...styles.exponential }], [0, 0], words.before);
+      if (brush.former && overlays.includes('exponential')) ghosts.push(...drawGhosts(brush, [{ points: brush.former.outlines.predicted, ...styles.exponential }], [[0, 0]], words.before));
       drawOutlines(brush, drawn.map((name) => ({ points: points[name], ...styles[name] })));
     });
+    drawCallouts(brush, ghosts, { from: [0, 0], lines: [predicted, measured] });
   };
 }
 

@@ -108,9 +108,9 @@ test('a recording has both logs, by topics and frames that are clear or named', 
   for (const [args, sentence] of /** @type {const} */ ([
     [
       await recorded('unclear.mcap', '/odom', '/other', '/third'),
-      'unclear.mcap: it is not clear what the reference is: /odom (Odometry), /other (PoseStamped), /third (PoseStamped). Choose with --reference-topic, as in --reference-topic /odom.\n',
+      'unclear.mcap: it is not clear what the reference is: /odom (Odometry), /other (PoseStamped), /third (PoseStamped). Choose with --reference-topic, as in --reference-topic /other.\n',
     ],
-    [await recorded('alone.mcap', '/odom'), 'alone.mcap: it has one log only, /odom (Odometry); give odometry and reference.\n'],
+    [await recorded('alone.mcap', '/odom'), 'alone.mcap: it has the odometry only, /odom (Odometry); give the reference too. Name both, with --odometry FILE and --reference FILE.\n'],
   ])) assert.equal((await outputOf(args)).err, sentence);
 });
 
@@ -132,9 +132,9 @@ test('bad input has the exit code 2 and a sentence', async () => {
     [[...FILES, '--time-unit', 'min'], '--time-unit must be s, ms, us, or ns, or two of these for odometry and reference (got “min”).'],
     [[...FILES, '--reference-frames', 'map,base_link'], 'reference.csv: it is a table, and no group of its columns has this name; it has t, x, y, yaw.'],
     [[...FILES, '--odometry-topic', '/odom'], 'odometry.csv, topic /odom: it is a table, and no group of its columns has this name; it has t, x, y, yaw.'],
-    [['--recording', FILES[1]], 'odometry.csv: it has one log only, t, x, y, yaw; give odometry and reference.'],
-    [['--recording', FILES[1], '--recording', FILES[1]], 'odometry.csv: there are 2 logs of odometry and 0 of the reference; give one of each for a drive.'],
-    [['--odometry', FILES[1], '--reference', FILES[1]], 'odometry.csv: it has the same motion as odometry.csv; give two independent measurements of one drive.'],
+    [['--recording', FILES[1]], 'odometry.csv: it has the odometry only, t, x, y, yaw; give the reference too. Name both, with --odometry FILE and --reference FILE.'],
+    [['--recording', FILES[1], '--recording', FILES[1]], 'odometry.csv: it is given twice; give two independent measurements of one drive, odometry and reference.'],
+    [['--odometry', FILES[1], '--reference', FILES[1]], 'odometry.csv: it is given twice; give two independent measurements of one drive, odometry and reference.'],
     [[...FILES.slice(0, 2), '--reference', join(folder, 'no.csv')], 'no.csv: there is no such file or folder.'],
     [[...FILES, '--plot', join(folder, 'no', 'plot.svg')], '--plot '],
     // Errors of the core, by the names of options and files.
@@ -219,7 +219,7 @@ test('a folder gives its logs, and other files are skipped', async () => {
   writeFileSync(join(path, 'README.md'), '# A drive\n\nwith words, and no numbers\n');
   const { code, out, err } = await outputOf(['--recording', path]);
   assert.deepEqual([code, out.match(/^.*\.csv(?=:)/gm)], [0, ['odom.csv', 'truth.csv']]);
-  assert.match(err, /^skipped: README\.md, line 3: .*\n$/);
+  assert.match(err, /^skipped: README\.md: it does not look like a log, .*\n$/);
 });
 
 test('--yaml prints the lines for Nav2 alone, or none of an unusable log', async () => {

@@ -54,7 +54,7 @@ const CLEAR = [
   [{ '/tf': 'tf', '/mocap': 'pose' }, '/tf odom base_link', '/mocap', ['odom base_link', 'map base_link']],
   [{ '/tf': 'tf' }, '/tf r1/odom r1/base_link', '/tf map r1/base_link', ['r1/odom r1/base_link', 'map r2/base_link', 'map r1/base_link']],
   [{ '/odom': 'odometry', '/slam': 'pose', '/mocap': 'pose' }, '/odom', '/slam', [], { reference: { series: '/slam' } }],
-  [{ '/odom': 'odometry', '/mocap': 'pose' }, '/mocap', '/odom', [], { odometry: { series: '/mocap' }, reference: { series: '/odom' } }],
+  [{ '/odom': 'odometry', '/mocap': 'pose' }, '/mocap', '/odom', [], { odometry: { series: 'mocap/' }, reference: { series: '/odom' } }],
   [{ '/ecstatic/tf': 'tf', '/mocap': 'pose' }, '/ecstatic/tf odom base', '/mocap', [], { odometry: { frames: { parent: 'odom', child: 'base' } } }],
 ];
 
@@ -78,17 +78,18 @@ test('groups of columns are guessed as topics are, and may be named without a se
 
 test('what is not clear is asked', async () => {
   for (const [series, sentence, what, role, choices, frames, wishes] of /** @type {[Parameters<typeof recording>[0], string, string?, string?, string[]?, string[]?, any?][]} */ ([
-    [{ '/odom': 'odometry', '/a': 'pose', '/b': 'pose' }, 'it is not clear what the reference is: /odom (Odometry), /a (PoseStamped), /b (PoseStamped).', 'series', 'reference', ['/odom', '/a', '/b']],
+    [{ '/odom': 'odometry', '/a': 'pose', '/b': 'pose' }, 'it is not clear what the reference is: /odom (Odometry), /a (PoseStamped), /b (PoseStamped).', 'series', 'reference', ['/a', '/b']],
     [{ '/odom': 'odometry', '/wheel/odometry': 'odometry', '/mocap': 'pose' }, 'it is not clear what the odometry is: ', 'series', 'odometry'],
-    [{ '/odom': 'odometry', '/odometry/filtered': 'odometry' }, 'it is not clear what the reference is: ', 'series', 'reference'],
-    [{ '/odom': 'odometry', '/goal_pose': 'pose' }, 'it is not clear what the reference is: ', 'series', 'reference'],
+    [{ '/odom': 'odometry', '/odometry/filtered': 'odometry' }, 'by its names and types it has no reference, but /odom (Odometry), ', 'series', 'reference', ['/odometry/filtered']],
+    [{ '/odom': 'odometry', '/goal_pose': 'pose' }, 'by its names and types it has no reference, but ', 'series', 'reference'],
     [{ '/odom': 'odometry' }, 'it has no transforms between frames; it has /odom (Odometry).', 'series', 'odometry', ['/odom'], [], { odometry: { frames: { parent: 'odom', child: 'base' } } }],
     [{ '/tf': 'tf' }, 'give a parent and a child frame, connected by base_link,laser.', 'frames', 'odometry', ['base_link,laser'], ['base_link laser']],
-    [{ '/odom': 'odometry' }, 'it has one log only, /odom (Odometry); give odometry and reference.'],
+    [{ '/odom': 'odometry' }, 'it has the odometry only, /odom (Odometry); give the reference too.', 'other'],
+    [{ '/mocap': 'pose' }, 'it has the reference only, /mocap (PoseStamped); give the odometry too.', 'other'],
     [{ '/cmd_vel': 'twist' }, 'it has commands only, /cmd_vel (Twist); a reference needs poses.', undefined, undefined, undefined, [], { kind: 'commands' }],
     [{ '/rosout': 'text' }, 'the topics are /rosout (String); '],
-    [{ '/odom': 'odometry', '/mocap': 'pose' }, 'there is no such topic; ', 'series', 'reference', ['/odom', '/mocap'], [], { reference: { series: '/moc' } }],
-    [{ '/odom': 'odometry', '/mocap': 'pose' }, 'it has the same motion as run.mcap; ', undefined, undefined, undefined, [], { odometry: { series: '/odom' }, reference: { series: '/odom' } }],
+    [{ '/odom': 'odometry', '/mocap': 'pose' }, 'there is no such topic; expected is one of /mocap, /odom.', 'series', 'reference', ['/mocap', '/odom'], [], { reference: { series: '/moc' } }],
+    [{ '/odom': 'odometry', '/mocap': 'pose' }, 'it is given twice; ', undefined, undefined, undefined, [], { odometry: { series: '/odom' }, reference: { series: '/odom' } }],
   ])) {
     const { message, ask } = await refusalOf(planned([recording(series, {}, frames)], wishes));
     assert.ok(message.startsWith('run.mcap') && message.includes(`: ${sentence}`), message);
@@ -165,7 +166,7 @@ test('one path given as both logs is refused, in another frame and in other file
   assert.equal(same, 'truth.csv: it has the same motion as odom.csv; give two independent measurements of one drive.');
   const commands = ['t,x,y,yaw,v,omega', ...Array.from({ length: 99 }, (_, i) => `${i / 20},${i / 40},0,0,0.5,0`)].join('\n');
   const [one, other] = await openRecordings([new File([commands], 'log.csv'), new File([commands], 'log.csv')]);
-  assert.match(await sentenceOf(readDrives(planDrives([one, other], { kind: 'commands', roles: new Map([[one, 'odometry'], [other, 'reference']]) }))), /same motion/);
+  assert.match(await sentenceOf(readDrives(planDrives([one, other], { kind: 'commands', roles: new Map([[one, 'odometry'], [other, 'reference']]) }))), /^log\.csv: it is given twice;/);
   assert.equal(
     await sentenceOf(drivesOf({ 'odom1.csv': table(400, (i) => curve(i)), 'odom2.csv': table(400, (i) => curve(i)), 'truth1.csv': along((i) => i / 90), 'truth2.csv': along((i) => i / 80) })),
     'odom2.csv: it is the drive of odom1.csv; give each drive once.',
@@ -201,6 +202,6 @@ test('a summary has the distance driven, units and how they were judged, dropped
   assert.equal(reference.summary.distance.toFixed(1), '2.0');
   assert.deepEqual(summarize(reference, english.found), [
     '199 of 200 rows, 12.9 s at 20.0 Hz, 2.0 m driven', 'columns t, x, y, yaw_deg; time in ms (by size), lengths in m, yaw in degrees (by name)',
-    'left out 1 row, from line 11 on: no finite number', '1 gap, the first at 1700000005.00 s, the longest of 3.05 s',
+    'left out 1 row, from line 11 on: no finite number', '1 gap, the first 5.00 s after the start, the longest of 3.05 s',
   ]);
 });

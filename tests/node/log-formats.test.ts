@@ -136,7 +136,7 @@ for (const [name, positionsOf] of Object.entries(BLOCKS)) {
       if (lost.length === 0) await refusalOf(cut);
       else {
         assert.deepEqual(rowsOf(await cut), lost);
-        if (block.length > 0) assert.match(sentences(await cut), /\. the file ends in the middle of a row or record$/);
+        if (block.length > 0) assert.match(sentences(await cut), /\. the file is incomplete: it ends in the middle of a row or record$/);
       }
       assert.ok(block.length < 50);
       lost.push(...block);
@@ -164,13 +164,23 @@ test('formats that are not read are refused with the cure, by their contents', a
   assert.deepEqual(starts.map(([format]) => format).toSorted(), Object.keys(OTHERS).toSorted());
 });
 
+test('a recording without one whole message is incomplete, and the tool that repairs it is named', async () => {
+  for (const [name, tool] of [['none.bag', 'rosbag reindex'], ['unindexed.mcap', 'mcap recover'], ['sqlite-sqlite.db3', 'sqlite3 FILE .recover']]) {
+    for (const size of [20, 200]) {
+      const sentence = await sentenceOf(openRecordings([fileOf(bytesOf(name).slice(0, size), name)]));
+      assert.ok(sentence.startsWith(`${name}: it is incomplete`) && sentence.includes(`“${tool}”`), sentence);
+    }
+  }
+});
+
 test('files that are no recording are refused', async () => {
-  assert.match(await sentenceOf(openRecordings([fileOf('SQLite format 3\0', 'run.db3')])), /without the tables “topics” and “messages” of rosbag2; expected/);
+  const database = Uint8Array.from({ length: 4096 }, (_, i) => 'SQLite format 3\0\x10'.charCodeAt(i) || 0);
+  assert.match(await sentenceOf(openRecordings([fileOf(database, 'run.db3')])), /without the tables “topics” and “messages” of rosbag2; expected/);
   assert.match(await sentenceOf(openRecordings([fileOf('t,x,y,yaw\n', 'split0.mcap', 'drive/split0.mcap'), ...split()])), /^split0\.mcap: it is listed in the metadata\.yaml of a recording, and is none;/);
   const large = { name: 'run.db3', size: 2 ** 30 + 1, slice: () => new Blob(['\x28\xb5\x2f\xfd'].map((text) => Buffer.from(text, 'latin1'))) };
   assert.match(await sentenceOf(openRecordings([large])), /^run\.db3: it has more than 1073741824 bytes when it is decompressed; decompress it with “zstd -d”/);
   const small = await open(...bag('small.db3'));
-  assert.match(await sentenceOf(small.read([{ series: '/pose' }])), /^small\.db3, topic \/pose: there are no messages on it;/);
+  assert.match(await sentenceOf(small.read([{ series: '/pose' }])), /^small\.db3, topic \/pose: it has fewer than 2 messages;/);
 });
 
 const TF = 'tf2_msgs/msg/TFMessage';

@@ -116,7 +116,7 @@ const CASES = [
   { name: 'ros2 topic echo --csv of poses', start: EPOCH, text: table('', (row) => [...seconds(row.t), 'map', ...pose(row)]).slice(1) },
   { name: 'ros2 topic echo --csv of commands', start: EPOCH, kind: 'commands', text: table('', ({ t, v, omega }) => [...seconds(t), 'base', v, 0, 0, 0, 0, omega]).slice(1) },
   { name: 'PlotJuggler, a topic of two', start: EPOCH, series: ['/odom', '/mocap', '/imu'], choice: { series: '/odom' }, text: plotjuggler },
-  { name: 'a prefix', series: ['gt_', 'odom_'], choice: { series: 'odom' }, text: table('t,gt_x,gt_y,gt_yaw,odom_x,odom_y,odom_yaw', ({ t, x, y, theta }) => [t, 7, 8, 9, x, y, theta]) },
+  { name: 'a prefix', series: ['gt_', 'odom_'], choice: { series: 'odom_' }, text: table('t,gt_x,gt_y,gt_yaw,odom_x,odom_y,odom_yaw', ({ t, x, y, theta }) => [t, 7, 8, 9, x, y, theta]) },
   { name: 'a suffix', series: ['_gt', '_odom'], choice: { series: '_gt' }, text: table('t,x_gt,y_gt,theta_gt,x_odom,y_odom,theta_odom', ({ t, x, y, theta }) => [t, x, y, theta, 7, 8, 9]) },
   { name: 'an own message before one that it contains', text: table('time,object.pose.position.x,pose.position.x,pose.position.y,pose.yaw', ({ t, x, y, theta }) => [t, 9, x, y, theta]), series: ['', 'object'] },
   { name: 'Motive in metres, Y up', text: motive('Meters', true), says: /Y is the vertical axis/ },

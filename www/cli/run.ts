@@ -51,6 +51,7 @@ export async function run(args: string[], environment: Environment): Promise<num
 function adviceOf({ ask, message }: LogError): string {
   if (!ask || message.includes(' --')) return '';
   const { what, role = 'odometry', choices } = ask;
+  if (what === 'other') return ' Name both, with --odometry FILE and --reference FILE.';
   const option = { series: `--${role}-topic`, frames: `--${role}-frames`, columns: '--columns', timeUnit: '--time-unit', lengthUnit: '--length-unit', angleUnit: '--angle-unit', roles: '--odometry and --reference' }[what];
   const [first] = choices.filter(Boolean);
   return ` Choose with ${option}${first === undefined ? '' : `, as in ${option} ${cut(first)}`}.`;

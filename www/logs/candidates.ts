@@ -39,6 +39,18 @@ export function roleByName(name: string): Role | undefined {
 /** Returns the series that can be read. A topic needs two messages. */
 export const usefulSeries = (recording: Recording): Series[] => recording.series.filter(({ kind, count }) => kind !== null && (isTable(recording) || count > 1));
 
+/** Returns the series of a name, which may be typed without the separators at its ends. */
+export function seriesNamed(series: Series[], wanted: string): Series | undefined {
+  const bare = (name: string) => name.replaceAll(/^[/_.]+|[/_.]+$/g, '');
+  return series.find(({ name }) => name === wanted) ?? series.find(({ name }) => bare(name) !== '' && bare(name) === bare(wanted));
+}
+
+/** Returns the names of the series that can be a role, the likeliest first. */
+export function namesFor(recording: Recording, role: Role): string[] {
+  const useful = usefulSeries(recording).filter(({ kind }) => role === 'odometry' || kind !== 'commands');
+  return [...new Set([...candidates(recording, role).flat().map(({ series }) => series), ...useful.map(({ name }) => name)])];
+}
+
 /** Returns the choices for a role in tiers, the likeliest first. A tier of several is ambiguous. */
 export function candidates(recording: Recording, role: Role, { kind }: { kind?: LogKind } = {}): Choice[][] {
   const isOfTable = isTable(recording);

@@ -1,5 +1,6 @@
 /** Sentences about logs, in German. */
 
+import { REPAIRS } from './en.ts';
 import type { Words } from './log-error.ts';
 import type { Basis, Cause, Summary } from './log.ts';
 
@@ -17,10 +18,12 @@ const OF_POSES = 'nav_msgs/Odometry, geometry_msgs/PoseStamped, PoseWithCovarian
 const OF_COMMANDS = 'geometry_msgs/Twist, TwistStamped oder TwistWithCovarianceStamped';
 const TYPES = { poses: OF_POSES, either: `${OF_POSES}, oder ${OF_COMMANDS}`, transforms: 'tf2_msgs/TFMessage, worin Koordinatensysteme sind' };
 
+const ROLES = { odometry: 'Odometrie', reference: 'Referenz' };
+
 const times = (count: number, one: string, more: string) => `${count} ${count === 1 ? one : more}`;
 const comma = (value: number, digits: number) => value.toFixed(digits).replace('.', ',');
 
-const BY: Record<Basis, string> = { name: ' (nach dem Namen)', size: ' (nach der Größe)', rate: ' (nach Rate und Geschwindigkeit)', format: '', option: ' (wie angegeben)', usage: '' };
+const BY: Record<Basis, string> = { name: ' (nach dem Namen)', size: ' (nach der Größe)', rate: ' (nach Rate und Geschwindigkeit)', format: '', date: ' (aus Datumsangaben)', option: ' (wie angegeben)', usage: '' };
 
 const ANGLES: Record<Summary['units']['angle']['unit'], string> = { rad: 'Richtung in rad', deg: 'Richtung in Grad', quaternion: 'Richtung aus einem Quaternion', none: '' };
 
@@ -59,7 +62,7 @@ export const log: Words = {
     empty: 'es steht nichts darin; erwartet wird ein Log von Posen oder Befehlen.',
     binary: 'das ist weder Text noch eine bekannte Aufzeichnung; erwartet wird eine ROS-Bag, rosbag2, MCAP, oder eine Tabelle als CSV oder TUM.',
     longLine: (most) => `die Zeile hat mehr als ${most} Bytes; erwartet wird eine Zeile je Zeitpunkt.`,
-    header: (value) => `die erste Zeile ist „${value}“; erwartet wird eine Kopfzeile mit Namen wie t, x, y und yaw.`,
+    noLog: 'sie sieht nicht wie ein Log aus, denn sie hat keine Zeilen mit Zahlen; erwartet wird eine Tabelle mit einer Kopfzeile wie „t,x,y,yaw“ und darunter einer Zeile je Zeitpunkt, oder eine Aufzeichnung von ROS.',
     noTime: (columns) =>
       `keine der Spalten ${columns} ist die Zeit; erwartet wird eine mit dem Namen t, time, timestamp oder stamp, oder zwei mit sec und nanosec, oder eine Auswahl der Spalten.`,
     noColumns: (wanted, columns) => `die Spalten sind ${columns}; erwartet werden darunter ${NEEDED[wanted]}, oder eine Auswahl der Spalten.`,
@@ -95,15 +98,18 @@ export const log: Words = {
     angleUnit: (turn, unit, choices) =>
       `Richtungen in ${unit} drehten sich mit ${turn.toPrecision(3)} rad/s und passen nicht zur Bahn oder zu ihrem Bereich; ihre Einheit angeben: ${choices.join(' oder ')}.`,
     damaged: (reason) => `keine der Nachrichten lässt sich lesen (${reason}); erwartet wird eine unbeschädigte Aufzeichnung.`,
+    incomplete: (format) => `sie ist unvollständig und endet vor ihrem ersten ganzen Block von Nachrichten; noch einmal vom Roboter kopieren, oder „${REPAIRS[format]}“ versuchen, wenn sie auch dort so endet.`,
     largeFile: (command, most) => `sie hat dekomprimiert mehr als ${most} Bytes; mit „${command}“ dekomprimieren und das Ergebnis angeben.`,
     noRosbag2: 'das ist eine SQLite-Datenbank ohne die Tabellen „topics“ und „messages“ von rosbag2; erwartet wird eine Aufzeichnung von „ros2 bag record“.',
     notRosbag2: 'sie steht in der metadata.yaml einer Aufzeichnung und ist keine; erwartet wird eine MCAP- oder .db3-Datei.',
     notRead: (format) => `das ist ${OTHERS[format]}`,
     noFiles: (files) => `sie beschreibt eine Aufzeichnung in ${files}; auch diese Datei angeben, oder den ganzen Ordner.`,
-    noTopic: (topics) => `dieses Topic gibt es nicht; erwartet wird eines von ${topics || 'keinen: sie hat keine Nachrichten'}.`,
-    noTopics: (topics) => `die Topics sind ${topics || 'keine'}; erwartet wird eines vom Typ ${TYPES.either}.`,
-    alone: (series) => `es ist nur ein Log darin, ${series}; gebraucht werden Odometrie und Referenz.`,
-    choose: (role, series) => `es ist nicht klar, was die ${role === 'odometry' ? 'Odometrie' : 'Referenz'} ist: ${series}.`,
+    noTopic: (topics) => `dieses Topic gibt es nicht; erwartet wird eines von ${topics}.`,
+    noTopics: (topics) => `die Topics sind ${topics}; erwartet wird eines vom Typ ${TYPES.either}.`,
+    alone: (series, role) =>
+      `es ist nur ${role ? `die ${ROLES[role]}` : 'ein Log'} darin, ${series}; gebraucht ${role ? `wird auch die ${ROLES[role === 'odometry' ? 'reference' : 'odometry']}` : 'werden Odometrie und Referenz'}.`,
+    lacks: (role, series) => `nach Namen und Typen ist keine ${ROLES[role]} darin, sondern ${series}; eines davon auswählen, oder auch eine Datei mit der ${ROLES[role]} angeben.`,
+    choose: (role, series) => `es ist nicht klar, was die ${ROLES[role]} ist: ${series}.`,
     type: (type, wanted) => `sein Typ ist „${type}“; erwartet wird ${TYPES[wanted]}.`,
     encoding: (value) => `seine Nachrichten sind als „${value}“ kodiert; erwartet wird cdr von ROS 2, oder ros1.`,
     types: (types) => `seine Nachrichten haben die Typen ${types}; erwartet wird einer: das Topic eines Knotens umbenennen und neu aufzeichnen.`,
@@ -114,8 +120,9 @@ export const log: Words = {
       `keine Transformationen führen entlang ${frames}; erwartet werden verbundene Frames, aus ${known || 'keinen'}.`,
     constant: (frames, others) =>
       `die Transformation ${frames} ändert sich nie und ist daher keine Bahn eines Roboters; erwartet werden Frames, die sich bewegen${others ? `, wie ${others}` : ''}.`,
-    noMessages: 'es gibt keine Nachrichten darauf; erwartet werden mindestens 2.',
+    noMessages: 'es sind weniger als 2 Nachrichten; ein Log braucht mindestens 2.',
     same: (other) => `sie hat dieselbe Bewegung wie ${other}; gebraucht werden zwei unabhängige Messungen einer Fahrt.`,
+    givenTwice: 'sie ist zweimal angegeben; gebraucht werden zwei unabhängige Messungen einer Fahrt, Odometrie und Referenz.',
     held: 'ihre Pose steht, während die Odometrie weitergeht: Sie hat den Roboter verloren; gebraucht wird eine, die ihm folgt.',
     noRole: 'ihr Name sagt nicht, ob sie Odometrie oder Referenz ist; Namen wie odom1.csv, truth1.csv, odom2.csv, … sagen es, oder eine Auswahl.',
     unpaired: (odometry, reference) => `es sind ${odometry} Logs der Odometrie und ${reference} der Referenz; gebraucht wird je eines für eine Fahrt.`,
@@ -125,7 +132,7 @@ export const log: Words = {
     noTransforms: (series) => `es gibt keine Transformationen zwischen Frames; es gibt ${series}.`,
   },
   choose: {
-    roles: { odometry: 'Odometrie', reference: 'Referenz' },
+    roles: ROLES,
     open: 'auswählen',
     timeUnit: (file) => `Einheit der Zeiten in ${file}`,
     lengthUnit: (file) => `Einheit der Längen in ${file}`,
@@ -166,13 +173,13 @@ export const log: Words = {
       `Zeit in ${time.unit}${BY[time.by]}, Längen in ${length.unit}${BY[length.by]}${ANGLES[angle.unit] ? `, ${ANGLES[angle.unit]}${BY[angle.by]}` : ''}`,
     leftOut: (reason, count, line) =>
       `ausgelassen ${times(count, 'Zeile', 'Zeilen')}${line ? ` ab Zeile ${line}` : ''}: ${REASONS[reason]}`,
-    gaps: (count, first, longest) => `${times(count, 'Lücke', 'Lücken')}, die erste bei ${comma(first, 2)} s, die längste von ${comma(longest, 2)} s`,
-    jumps: (count, first) => `${times(count, 'Sprung', 'Sprünge')}, der erste bei ${comma(first, 2)} s`,
+    gaps: (count, first, longest) => `${times(count, 'Lücke', 'Lücken')}, die erste ${comma(first, 2)} s nach dem Start, die längste von ${comma(longest, 2)} s`,
+    jumps: (count, first) => `${times(count, 'Sprung', 'Sprünge')}, der erste ${comma(first, 2)} s nach dem Start`,
     logTimes: 'Zeiten der Aufzeichnung, da die Köpfe der Nachrichten keine haben',
     notes: {
       missing: (files) => `die Dateien ${files} der Aufzeichnung fehlen`,
       damaged: (count, reason) => `${times(count, 'beschädigter Block', 'beschädigte Blöcke')} übersprungen (${reason})`,
-      cutShort: 'die Datei endet mitten in einer Zeile oder einem Record',
+      cutShort: 'die Datei ist unvollständig: Sie endet mitten in einer Zeile oder einem Record',
       noZone: 'Datumsangaben ohne Zeitzone gelten als UTC',
       upAxis: (axis) => `${axis} ist die senkrechte Achse`,
       sorted: (count) => `${times(count, 'verspätete Zeile', 'verspätete Zeilen')} nach der Zeit sortiert`,

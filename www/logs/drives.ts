@@ -1,6 +1,6 @@
 /** Drives: odometry and reference of one drive, from the recordings that have them. */
 
-import { candidates, isTable, roleByName, usefulSeries } from './candidates.ts';
+import { candidates, isTable, namesFor, roleByName, seriesNamed, usefulSeries } from './candidates.ts';
 import { LogError, listed } from './log-error.ts';
 import { ROLES, type Choice, type Frames, type Log, type LogKind, type Recording, type Role, type Series } from './log.ts';
 import { isSamePath, pairLogs, pairedByTime, withStart, type Drive } from './pairs.ts';
@@ -55,7 +55,8 @@ export function planDrives(recordings: Recording[], wishes: Wishes = {}): Plan {
   if (plan.drives.length === Math.abs(odometry.length - reference.length)) plan.loose[lacking].push(...plan.drives.splice(0).map((drive) => drive[lacking]));
   if (odometry.length !== reference.length) {
     const [first] = odometry.length > reference.length ? odometry : reference;
-    throw new LogError({ file: first.recording.name }, (say) => say.unpaired(odometry.length, reference.length));
+    const isRepeated = recordings.length === 2 && recordings[0].name === recordings[1].name;
+    throw new LogError({ file: first.recording.name }, (say) => (isRepeated ? say.givenTwice : say.unpaired(odometry.length, reference.length)));
   }
   return plan;
 }
@@ -84,7 +85,7 @@ function bothOf(recording: Recording, wishes: Wishes): Record<Role, Part> {
   const stated = series !== undefined || frames ? choose(recording, 'reference', wishes) : undefined;
   const odometry = choose(recording, 'odometry', wishes, stated);
   const reference = stated ?? choose(recording, 'reference', wishes, odometry);
-  if (isSame(odometry, reference)) throw new LogError({ file: recording.name, topic: reference.series }, (say) => say.same(recording.name));
+  if (isSame(odometry, reference)) throw new LogError({ file: recording.name, topic: reference.series }, (say) => say.givenTwice);
   return { odometry: { recording, choice: odometry }, reference: { recording, choice: reference } };
 }
 
@@ -97,16 +98,15 @@ function choose(recording: Recording, role: Role, wishes: Wishes, other?: Choice
 function stated(recording: Recording, role: Role, wishes: Wishes): Choice {
   const { series, frames } = wishes[role] ?? {};
   const kind = role === 'reference' ? 'poses' : wishes.kind;
-  const bare = (name: string) => name.replace(/[/_.]+$/, '');
   const found = series === undefined
     ? recording.series.find((each) => each.frames)
-    : (recording.series.find(({ name }) => name === series) ?? recording.series.find(({ name }) => bare(name) === bare(series)));
-  const useful = usefulSeries(recording);
+    : seriesNamed(recording.series, series);
   if (!found) {
+    const names = namesFor(recording, role);
     throw new LogError(
       { file: recording.name, topic: series },
-      (say) => (isTable(recording) ? say.noGroup(described(recording.series)) : series === undefined ? say.noTransforms(described(useful)) : say.noTopic(listed(recording.series.map(({ name }) => name)))),
-      { what: 'series', role, choices: useful.map(({ name }) => name) },
+      (say) => (isTable(recording) ? say.noGroup(described(recording.series)) : series === undefined ? say.noTransforms(described(usefulSeries(recording))) : say.noTopic(listed(names))),
+      { what: 'series', role, choices: names },
     );
   }
   if (found.kind !== 'transforms' || frames) return { series: found.name, ...(kind && { kind }), ...(frames && { frames }) };
@@ -128,16 +128,25 @@ function guessed(recording: Recording, role: Role, wishes: Wishes, other?: Choic
   if (best.length === 1) return best[0];
   const file = recording.name;
   const useful = usefulSeries(recording);
-  if (useful.length === 0) throw new LogError({ file }, (say) => say.noTopics(described(recording.series)));
+  if (useful.length === 0) {
+    const short = recording.series.find(({ kind }) => kind !== null);
+    throw new LogError({ file, topic: short?.name }, (say) => (short ? say.noMessages : say.noTopics(described(recording.series))));
+  }
   const transforms = useful.filter(({ kind }) => kind === 'transforms');
   if (transforms.length === useful.length) throw framesError(recording, transforms.find((each) => each.frames) ?? transforms[0], role);
   if (role === 'reference' && useful.every(({ kind }) => kind === 'commands')) throw new LogError({ file }, (say) => say.noPoses(described(useful)));
-  const isAlone = useful.length === 1;
+  if (useful.every(({ kind }) => kind === 'positions')) throw new LogError({ file }, (say) => say.positions(listed(useful.map(({ type }) => type))));
+  if (useful.length === 1) throw new LogError({ file }, (say) => say.alone(described(useful), knownRole(recording, useful[0])), { what: 'other', choices: [] });
   throw new LogError(
     { file },
-    (say) => (isAlone ? say.alone(described(useful)) : say.choose(role, described(useful))),
-    isAlone ? undefined : { what: 'series', role, choices: useful.map(({ name }) => name) },
+    (say) => (best.length > 0 ? say.choose : say.lacks)(role, described(useful)),
+    { what: 'series', role, choices: namesFor(recording, role).filter((name) => name !== other?.series) },
   );
+}
+
+/** Returns the role of the only series of a recording, by its name or type; undefined where neither says it. */
+function knownRole({ name: file }: Recording, { name, type, kind }: Series): Role | undefined {
+  return roleByName(name || file) ?? (kind === 'commands' || /Odometry$/.test(type) ? 'odometry' : undefined);
 }
 
 /** Reads the logs of a plan, and pairs them, with the times of all after one start; rejects with a LogError. */

@@ -1,6 +1,6 @@
 /** Sentences about logs, in English. */
 
-import type { Basis, Cause, Summary } from './log.ts';
+import type { Basis, Cause, Recording, Role, Summary } from './log.ts';
 
 /** Fields of a table, as a sentence names them. */
 const FIELDS: Record<string, string> = {
@@ -18,7 +18,7 @@ const OF_COMMANDS = 'geometry_msgs/Twist, TwistStamped or TwistWithCovarianceSta
 const TYPES = { poses: OF_POSES, either: `${OF_POSES}, or ${OF_COMMANDS}`, transforms: 'tf2_msgs/TFMessage, which has frames' };
 
 /** Bases of decisions about units. */
-const BY: Record<Basis, string> = { name: ' (by name)', size: ' (by size)', rate: ' (by rate and speed)', format: '', option: ' (as stated)', usage: '' };
+const BY: Record<Basis, string> = { name: ' (by name)', size: ' (by size)', rate: ' (by rate and speed)', format: '', date: ' (from dates)', option: ' (as stated)', usage: '' };
 
 /** Units of angles. */
 const ANGLES: Record<Summary['units']['angle']['unit'], string> = { rad: 'yaw in rad', deg: 'yaw in degrees', quaternion: 'yaw from a quaternion', none: '' };
@@ -53,6 +53,9 @@ export const OTHERS = {
   parquet: 'a Parquet table; export it as CSV.',
 };
 
+/** Tools that repair a recording. */
+export const REPAIRS: Record<Recording['format'], string> = { mcap: 'mcap recover', rosbag: 'rosbag reindex', sqlite: 'sqlite3 FILE .recover', csv: '', tum: '' };
+
 export const log = {
   place: (file: string, line: number, topic: string) =>
     `${file}${line ? `, line ${line}` : ''}${topic ? `, topic ${topic}` : ''}`,
@@ -62,7 +65,7 @@ export const log = {
     empty: 'there is nothing in it; expected is a log of poses or commands.',
     binary: 'it is neither text nor a known recording; expected is a ROS bag, rosbag2, MCAP, or a table as CSV or TUM.',
     longLine: (most: number) => `the line has more than ${most} bytes; expected is one row a line.`,
-    header: (value: string) => `the first row is “${value}”; expected is a header with names such as t, x, y and yaw.`,
+    noLog: 'it does not look like a log, as it has no rows of numbers; expected is a table with a header such as “t,x,y,yaw” and below it one row a time, or a recording of ROS.',
     noTime: (columns: string) =>
       `none of the columns ${columns} is the time; expected is one named t, time, timestamp or stamp, or two named sec and nanosec, or a choice of columns.`,
     noColumns: (wanted: keyof typeof NEEDED, columns: string) =>
@@ -103,15 +106,18 @@ export const log = {
       `headings in ${unit} would turn at ${turn.toPrecision(3)} rad/s, and do not agree with the path or with their range; state their unit: ${choices.join(' or ')}.`,
     /** Errors of recordings. */
     damaged: (reason: string) => `none of its messages can be read (${reason}); expected is an undamaged recording.`,
+    incomplete: (format: Recording['format']) => `it is incomplete and ends before its first whole block of messages; copy it again from the robot, or try “${REPAIRS[format]}” if it ends there too.`,
     largeFile: (command: string, most: number) => `it has more than ${most} bytes when it is decompressed; decompress it with “${command}”, and give the result.`,
     noRosbag2: 'it is an SQLite database without the tables “topics” and “messages” of rosbag2; expected is a recording of “ros2 bag record”.',
     notRosbag2: 'it is listed in the metadata.yaml of a recording, and is none; expected is an MCAP or .db3 file.',
     notRead: (format: keyof typeof OTHERS) => `it is ${OTHERS[format]}`,
     noFiles: (files: string) => `it describes a recording in ${files}; give that file too, or the whole folder.`,
-    noTopic: (topics: string) => `there is no such topic; expected is one of ${topics || 'none: it has no messages'}.`,
-    noTopics: (topics: string) => `the topics are ${topics || 'none'}; expected is one of type ${TYPES.either}.`,
-    alone: (series: string) => `it has one log only, ${series}; give odometry and reference.`,
-    choose: (role: import('./log.ts').Role, series: string) => `it is not clear what the ${role} is: ${series}.`,
+    noTopic: (topics: string) => `there is no such topic; expected is one of ${topics}.`,
+    noTopics: (topics: string) => `the topics are ${topics}; expected is one of type ${TYPES.either}.`,
+    alone: (series: string, role: Role | undefined) =>
+      `it has ${role ? `the ${role}` : 'one log'} only, ${series}; give ${role ? `the ${role === 'odometry' ? 'reference' : 'odometry'} too` : 'odometry and reference'}.`,
+    lacks: (role: Role, series: string) => `by its names and types it has no ${role}, but ${series}; choose one of these, or give a file with the ${role} too.`,
+    choose: (role: Role, series: string) => `it is not clear what the ${role} is: ${series}.`,
     type: (type: string, wanted: keyof typeof TYPES) => `its type is “${type}”; expected is ${TYPES[wanted]}.`,
     encoding: (value: string) => `its messages are encoded as “${value}”; expected is cdr of ROS 2, or ros1.`,
     types: (types: string) => `its messages have the types ${types}; expected is one: rename the topic of one node, and record again.`,
@@ -123,9 +129,10 @@ export const log = {
       `no transforms lead along ${frames}; expected are frames that are connected, of ${known || 'none'}.`,
     constant: (frames: string, others: string) =>
       `the transform ${frames} never changes, so it is no path of a robot; expected are frames that move${others ? `, as ${others}` : ''}.`,
-    noMessages: 'there are no messages on it; expected are at least 2.',
+    noMessages: 'it has fewer than 2 messages; a log needs at least 2.',
     /** Errors of two logs. */
     same: (other: string) => `it has the same motion as ${other}; give two independent measurements of one drive.`,
+    givenTwice: 'it is given twice; give two independent measurements of one drive, odometry and reference.',
     held: 'its pose stands while the odometry moves on: it has lost the robot; give one that follows the robot.',
     /** Errors of several recordings. */
     noRole: 'its name does not say whether it is odometry or reference; call the files odom1.csv, truth1.csv, odom2.csv, … or state which is which.',
@@ -157,7 +164,7 @@ export const log = {
       rows: 'rows used',
       ofRows: (used: string, rows: string) => `${used} of ${rows}`,
       leftOut: 'rows left out',
-      dropped: (reason: import('./log.ts').Cause, count: string, line: number) => `${count}: ${REASONS[reason]}${line ? ` (first in line ${line})` : ''}`,
+      dropped: (reason: Cause, count: string, line: number) => `${count}: ${REASONS[reason]}${line ? ` (first in line ${line})` : ''}`,
       duration: 'duration',
       at: (seconds: string, rate: string) => `${seconds} s at ${rate} Hz`,
       distance: 'distance driven',
@@ -181,13 +188,13 @@ export const log = {
     leftOut: (reason: Cause, count: number, line: number) =>
       `left out ${count} ${count === 1 ? 'row' : 'rows'}${line ? `, from line ${line} on` : ''}: ${REASONS[reason]}`,
     gaps: (count: number, first: number, longest: number) =>
-      `${count} ${count === 1 ? 'gap' : 'gaps'}, the first at ${first.toFixed(2)} s, the longest of ${longest.toFixed(2)} s`,
-    jumps: (count: number, first: number) => `${count} ${count === 1 ? 'jump' : 'jumps'}, the first at ${first.toFixed(2)} s`,
+      `${count} ${count === 1 ? 'gap' : 'gaps'}, the first ${first.toFixed(2)} s after the start, the longest of ${longest.toFixed(2)} s`,
+    jumps: (count: number, first: number) => `${count} ${count === 1 ? 'jump' : 'jumps'}, the first ${first.toFixed(2)} s after the start`,
     logTimes: 'times at which messages were recorded, as their headers have none',
     notes: {
       missing: (files: string) => `the files ${files} of the recording are missing`,
       damaged: (count: number, reason: string) => `${count} damaged ${count === 1 ? 'block' : 'blocks'} skipped (${reason})`,
-      cutShort: 'the file ends in the middle of a row or record',
+      cutShort: 'the file is incomplete: it ends in the middle of a row or record',
       noZone: 'dates without a time zone are taken as UTC',
       upAxis: (axis: string) => `${axis} is the vertical axis`,
       sorted: (count: number) => `${count} late ${count === 1 ? 'row' : 'rows'} sorted by time`,

@@ -53,7 +53,7 @@ const CARMEN: [tag: string, series: string, names: string[]][] = [
 const [KITTI, TWISTS] = [12, 6];
 
 /** First lines of text that is no table. */
-const NO_TABLE: [RegExp, string][] = [[/^\s*[[{]/, 'JSON'], [/^(---|header:|pose:|transforms:|- header:)\s*$/, 'YAML']];
+const NO_TABLE: [RegExp, string][] = [[/^\s*(\{\s*("|$)|\[\s*([-\d"[{]|$))/, 'JSON'], [/^(---|header:|pose:|transforms:|- header:)\s*$/, 'YAML']];
 
 /** Splits a line. A separator in quotes separates nothing. */
 export function cellsOf(line: string, separator: string, needed?: number): string[] {
@@ -121,11 +121,14 @@ export function formatOf(lines: string[], file: string, columns: string[] | unde
   const width = Math.max(0, ...rows.map((row) => row.length - (row.at(-1)?.trim() === '' ? 1 : 0)));
   const common = { name: 'csv' as const, separator, hasCommas, firstLine: first?.number ?? (filled.at(-1)?.number ?? 0) + 1, isSparse: false };
   const place = { file, line: first?.number ?? filled[0].number };
+  const noLog = () => new LogError({ file }, (say) => say.noLog);
 
   if (columns) {
     if (first && columns.length !== width) throw new LogError(place, (say) => say.given(width, columns.length));
     return { ...common, names: columns, groups: grouped(columns, rows[0]) };
   }
+  // Prose has single rows of numbers too.
+  if (2 * rows.filter(isRow).length < rows.length) throw noLog();
   const above = filled.filter(({ number }) => number < common.firstLine);
   const motive = above.length > 0 && /^"?Format Version/.test(above[0].line) ? motiveFormat(above.map(({ line }) => cells(line)), place) : undefined;
   if (motive) return { ...common, ...motive };
@@ -136,9 +139,10 @@ export function formatOf(lines: string[], file: string, columns: string[] | unde
     // A decimal comma in each number nearly doubles the cells.
     if (width > names.length) throw new LogError({ file, line: first?.number }, (say) => say.wide(width, names.length, number));
     const groups = grouped(names, rows[0]);
+    if (!first && groups.every(({ kind }) => kind === null)) throw noLog();
     return { ...common, names, header: lines[number - 1], groups, isSparse: groups.length > 1 || names.some((name) => name.trim() === '__time') };
   }
-  if (!first) throw new LogError(place, (say) => say.header(cut(filled[0].line.trim())), { what: 'columns', choices: [] });
+  if (!first) throw noLog();
   const names = withoutHeader(rows);
   if (names) return { ...common, name: names === TUM ? 'tum' : 'csv', names, groups: grouped(names, rows[0]) };
   if (width === KITTI) throw new LogError(place, (say) => say.kitti);

@@ -69,7 +69,7 @@ export interface OpenOptions {
 
 /** Question of an error: the option that answers it, and the answers. */
 export interface Question {
-  what: keyof typeof UNITS | 'series' | 'columns' | 'frames' | 'roles';
+  what: keyof typeof UNITS | 'series' | 'columns' | 'frames' | 'roles' | 'other';
   /** Log that a choice of series or frames is for. */
   role?: Role;
   choices: string[];
@@ -103,8 +103,8 @@ export interface Log {
 /** Cause for dropping a row. */
 export type Cause = 'damaged' | 'notFinite' | 'noRotation' | 'noStamp' | 'short' | 'duplicate' | 'repeated' | 'stray' | 'setBack' | 'held';
 
-/** Basis of a decision about a unit: a name, the size of the numbers, rate and speed, the format's definition, an option, or usage without another sign. */
-export type Basis = 'name' | 'size' | 'rate' | 'format' | 'option' | 'usage';
+/** Basis of a decision about a unit: a name, the size of the numbers, rate and speed, the format's definition, dates, an option, or usage without another sign. */
+export type Basis = 'name' | 'size' | 'rate' | 'format' | 'date' | 'option' | 'usage';
 
 /** Sentence about a log: name of a word in `found.notes`, and the values in it. */
 export interface Note {
@@ -125,9 +125,9 @@ export interface Summary {
   rate: number;
   /** Length of the path in m; NaN where there is none. */
   distance: number;
-  /** Gaps of more than five usual steps, in s; `first` is a time. */
+  /** Gaps of more than five usual steps, in s; `first` is after the first row. */
   gaps: { count: number; longest: number; first: number };
-  /** Steps that are much faster than the others. */
+  /** Steps that are much faster than the others; `first` is in s after the first row. */
   jumps: { count: number; first: number };
   units: {
     time: { unit: TimeUnit; by: Basis };

@@ -56,7 +56,7 @@ export function pairLogs(odometry: Log, reference: Log): Drive {
   if (reference.kind === 'commands') throw new LogError(place, (say) => say.noColumns('poses', 't, v, omega'));
   const start = Math.min(odometry.start, reference.start);
   const [first, second] = [withStart(odometry, start), withStart(reference, start)];
-  if (isSamePath(first, second)) throw new LogError(place, (say) => say.same(odometry.name));
+  if (isSamePath(first, second)) throw new LogError(place, (say) => (reference.name === odometry.name ? say.givenTwice : say.same(odometry.name)));
   const reliable = withoutFrozenPoses(second, first);
   if (reliable.data.t.length < 2) throw new LogError(place, (say) => say.held);
   const isSwapped = roleByName(odometry.name) !== 'odometry' && roleByName(reference.name) === 'odometry';

@@ -132,7 +132,7 @@ export class Rows {
     const columns = { ...times, a, b, c };
     const units = judgeUnits(this.#place, kind, columns, stated, options);
     const { start, t } = columns;
-    const { breaks, ...found } = this.#events(kind, start, [t, a, b, c], rows);
+    const { breaks, ...found } = this.#events(kind, [t, a, b, c], rows);
     const data = { t, ...(kind === 'poses' ? { x: a, y: b, theta: c } : { v: a, omega: b }), breaks } as Log['data'];
     const notes = late > 0 ? [...decisions.notes, { name: 'sorted' as const, values: [late] }] : decisions.notes;
     const seconds = t[t.length - 1] - t[0];
@@ -270,7 +270,7 @@ export class Rows {
   }
 
   /** Returns the rate, the gaps, the jumps, and the rows before which the path is unknown. */
-  #events(kind: LogKind, start: number, [t, a, b, c]: Float64Array[], rows: Uint32Array) {
+  #events(kind: LogKind, [t, a, b, c]: Float64Array[], rows: Uint32Array) {
     const step = quantile(sample(t.length - 1, (i) => t[i + 1] - t[i]), 0.5);
     const gaps = { count: 0, longest: 0, first: NaN };
     const jumps = { count: 0, first: NaN };
@@ -279,12 +279,12 @@ export class Rows {
     for (let i = 1; i < t.length; i++) {
       const pause = t[i] - t[i - 1];
       if (pause > STEPS_OF_A_GAP * step) {
-        if (gaps.count === 0) gaps.first = start + t[i - 1];
+        if (gaps.count === 0) gaps.first = t[i - 1] - t[0];
         gaps.count += 1;
         gaps.longest = Math.max(gaps.longest, pause);
       }
       if (isJump(i)) {
-        if (jumps.count === 0) jumps.first = start + t[i];
+        if (jumps.count === 0) jumps.first = t[i] - t[0];
         jumps.count += 1;
         breaks.push(i);
       } else if (this.#broken.has(rows[i])) breaks.push(i);

@@ -3,7 +3,7 @@
 import { type Clock, type Group, type Layout, layoutOf } from './columns.ts';
 import { type Format, carmenCells, cellsOf, formatOf } from './format.ts';
 import { LogError, bytesOf, cut, listed, type Place } from './log-error.ts';
-import type { Choice, Log, Note, OpenOptions, Recording, Series, Source, TimeUnit } from './log.ts';
+import type { Basis, Choice, Log, Note, OpenOptions, Recording, Series, Source, TimeUnit } from './log.ts';
 import { type Time, dateOf, numberOf, timeOf } from './numbers.ts';
 import { quantile, sample } from './quantile.ts';
 import { headingOf, isRotation } from './quaternion.ts';
@@ -55,7 +55,7 @@ export async function openTable(source: Source, options: OpenOptions = {}): Prom
     series,
     async read(choices, onProgress) {
       const readers = choices.map((choice) => {
-        const chosen = readable.length === 1 && choice.series === '' ? readable[0] : format.groups[series.findIndex(({ name }) => isNamed(name, choice.series))];
+        const chosen = readable.length === 1 && choice.series === '' ? readable[0] : format.groups[series.findIndex(({ name }) => name === choice.series)];
         if (!chosen) throw ambiguous(source.name, format.groups.map(seriesOf), choice);
         const layout = layoutOf(chosen, format.names, place, choice.kind);
         return new LogReader(readable.length === 1 ? source.name : `${source.name}, ${seriesOf(chosen).name}`, { file: source.name }, format, chosen, layout, options);
@@ -69,9 +69,6 @@ export async function openTable(source: Source, options: OpenOptions = {}): Prom
 }
 
 const columnNames = ({ columns }: Group) => Object.values(columns).toSorted((a, b) => a.at - b.at).map(({ name }) => name);
-
-/** Checks the name of a series, which may be typed without the separator at its end. */
-const isNamed = (name: string, wanted: string) => name === wanted || (wanted !== '' && name.replaceAll(/^[_/.]|[_/.]$/g, '') === wanted.replaceAll(/^[_/.]|[_/.]$/g, ''));
 
 function ambiguous(file: string, series: Series[], { series: wanted }: Choice): LogError {
   const names = series.filter(({ kind }) => kind !== null).map(({ name }) => name);
@@ -150,8 +147,8 @@ class LogReader {
   #values: Float64Array;
   #readTimes: ((cells: string[]) => Time | undefined)[] = [];
   #units: TimeUnit[] = [];
-  /** True where the size of the first time states its unit. */
-  #isSized = false;
+  /** Basis of the unit of times that no name or option states. */
+  #basis: Basis = 'usage';
   #notes: Note[] = [];
   #frames = new Set<string>();
   /** Cosines of the angle between the vertical axes of robot and map: Z, and Y. */
@@ -255,7 +252,7 @@ class LogReader {
     const date = dateOf(cell);
     if (date) {
       this.#units.push('s');
-      this.#isSized = true;
+      if (isFirst) this.#basis = 'date';
       if (isFirst && !date.hasZone) this.#notes.push({ name: 'noZone', values: [] });
       return (cells) => dateOf(cells[at])?.time;
     }
@@ -269,7 +266,7 @@ class LogReader {
         // A first stamp of 0 says nothing about the unit.
         if (size !== undefined && size !== 0 && Number.isFinite(size)) {
           this.#units[index] = unitOfSize(size) ?? 's';
-          if (isFirst) this.#isSized = unitOfSize(size) !== undefined;
+          if (isFirst && unitOfSize(size) !== undefined) this.#basis = 'size';
           power = POWERS[this.#units[index]];
         }
       }
@@ -288,7 +285,7 @@ class LogReader {
     const { timeUnit } = this.#options;
     return (upright ?? this.#rows).end(this.#name, kind, {
       units: {
-        time: { unit: this.#units[0] ?? 's', by: timeUnit ? 'option' : clocks[0].unit ? 'name' : this.#isSized ? 'size' : 'usage' },
+        time: { unit: this.#units[0] ?? 's', by: this.#basis === 'date' ? 'date' : timeUnit ? 'option' : clocks[0].unit ? 'name' : this.#basis },
         length: { unit: length ?? 'm', by: length ? 'name' : 'usage' },
         angle: isQuaternion ? { unit: 'quaternion', by: 'format' } : { unit: angle ?? 'rad', by: angle ? 'name' : 'usage' },
       },

@@ -18,8 +18,11 @@ const isStatic = ({ topic, type }: Pick<Channel, 'topic' | 'type'>) => kindOf(ty
 
 /** Returns the recording that a container holds. */
 export async function recordingOf(name: string, container: Container, options: OpenOptions): Promise<Recording> {
+  const { format, cutShort, damage, channels } = container;
+  const [reason] = damage.values();
+  if (channels.every(({ count }) => count === 0)) throw new LogError({ file: name }, (say) => (cutShort ? say.incomplete(format) : reason ? say.damaged(reason) : say.noMessages));
   const series = await seriesOf(container);
-  return { name, format: container.format, series, read };
+  return { name, format, series, read };
 
   /** Reads several logs in one pass. */
   async function read(choices: Choice[], onProgress?: (share: number) => void): Promise<Log[]> {
@@ -109,8 +112,7 @@ class TopicReader {
     const { series, kind: wanted, frames } = this.#choice;
     const all = this.#container.channels;
     const channels = all.filter(({ topic }) => topic === series);
-    const reason = [...this.#container.damage.values(), ...(this.#container.cutShort ? ['it ends before the first of them'] : [])][0];
-    if (channels.length === 0) this.#refuse((say) => reason && all.length === 0 ? say.damaged(reason) : say.noTopic(listed([...new Set(all.map(({ topic }) => topic))])));
+    if (channels.length === 0) this.#refuse((say) => say.noTopic(listed([...new Set(all.map(({ topic }) => topic))])));
     const isWanted = ({ type }: Channel) => {
       const kind = kindOf(type);
       return frames ? kind === 'transforms' : kind !== null && !(wanted === 'poses' && kind === 'commands');

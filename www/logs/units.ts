@@ -87,7 +87,7 @@ type Ask = (what: 'timeUnit' | 'lengthUnit' | 'angleUnit', value: number, unit: 
 
 /** Judges times by their size or name, and by the rate and the speed that they imply. */
 function timeUnit(kind: LogKind, { t, a, b, c }: Columns, { time: stated, length, angle }: Units, options: OpenOptions, ask: Ask): Units['time'] {
-  if (stated.by === 'format' || stated.by === 'option') return stated;
+  if (['format', 'date', 'option'].includes(stated.by)) return stated;
   const step = quantile(sample(t.length - 1, (i) => t[i + 1] - t[i]), 0.5);
   const units = UNITS.timeUnit;
   const rate = (unit: TimeUnit) => 10 ** (POWERS[unit] - POWERS[stated.unit]) / step;

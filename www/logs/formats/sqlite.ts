@@ -66,7 +66,8 @@ class Rosbag2 implements Container {
   async open(): Promise<void> {
     const view = viewOf(await bytesOf(this.#source, 0, HEADER));
     const refuse = () => new LogError({ file: this.#source.name }, (say) => say.noRosbag2);
-    if (view.byteLength < HEADER) throw refuse();
+    this.cutShort = view.byteLength < HEADER;
+    if (this.cutShort) return;
     this.#pageSize = view.getUint16(16) === 1 ? 65536 : view.getUint16(16);
     this.#usable = this.#pageSize - view.getUint8(20);
     if (this.#usable < 480) throw refuse();
@@ -79,7 +80,10 @@ class Rosbag2 implements Container {
       tables.set(textOf(name), { root: Number(root), columns });
     });
     const [topics, messages] = ['topics', 'messages'].map((name) => tables.get(name));
-    if (!topics || !messages) throw refuse();
+    if (!topics || !messages) {
+      if (this.cutShort) return;
+      throw refuse();
+    }
     this.#messages = messages;
     await this.#eachRow(topics, async (row) => {
       const bytes = await this.#whole(row);
@@ -111,6 +115,7 @@ class Rosbag2 implements Container {
   async #eachRow({ root }: Table, each: (row: Row) => void | Promise<void>, onProgress?: (share: number) => boolean | void): Promise<void> {
     const leaves = await this.#leavesOf(root);
     for (const [i, number] of leaves.entries()) {
+      if (!this.#has(number)) continue;
       try {
         const page = await this.#page(number);
         for (const cell of cellsOf(page, number, LEAF)) {
@@ -131,7 +136,7 @@ class Rosbag2 implements Container {
     let level = [root];
     for (let depth = 0; depth < MAX_DEPTH; depth++) {
       const below: number[] = [];
-      for (const number of level) {
+      for (const number of level.filter((each) => this.#has(each))) {
         // Single pages, far from each other.
         const page = await bytesOf(this.#source, (number - 1) * this.#pageSize, number * this.#pageSize);
         if (page.length === this.#pageSize && page[number === 1 ? HEADER : 0] === LEAF && below.length === 0) return level;
@@ -148,6 +153,13 @@ class Rosbag2 implements Container {
       if (level.length * this.#pageSize > 2 * size) break;
     }
     return [];
+  }
+
+  /** Checks whether the file has a page; one without it is cut short. */
+  #has(number: number): boolean {
+    const isThere = number * this.#pageSize <= this.#source.size;
+    this.cutShort ||= !isThere;
+    return isThere;
   }
 
   async #page(number: number): Promise<Uint8Array> {

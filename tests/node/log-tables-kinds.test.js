@@ -153,7 +153,7 @@ const REFUSED = [
   ['comments alone', '# t,x,y,yaw\n\n', /there is nothing in it;/],
   ['a header alone', 't,x,y,yaw\n', /0 of 0 rows can be used;/],
   ['bytes', Uint8Array.of(1, 2, 0, 4), /it is neither text nor/],
-  ['one number a line', '1\n2\n', /, line 1: the first row is “1”; expected is a header/],
+  ['one number a line', '1\n2\n', /^run\.csv: it does not look like a log, as it has no rows of numbers;/],
   ['no header', '1,2,3,4\n2,3,4,5\n', /^run\.csv, line 1: the table has no header, and its first row is “1,2,3,4”; name its 4 columns\.$/],
   ['no time', 'x,y,yaw\n0,0,0\n', /, line 1: none of the columns x, y, yaw is the time;/],
   ['a count of rows as times', ',x,y,yaw\n0,0,0,0\n1,0,0,0\n', /is the time;/],

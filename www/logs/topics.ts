@@ -20,7 +20,7 @@ const isStatic = ({ topic, type }: Pick<Channel, 'topic' | 'type'>) => kindOf(ty
 export async function recordingOf(name: string, container: Container, options: OpenOptions): Promise<Recording> {
   const { format, cutShort, damage, channels } = container;
   const [reason] = damage.values();
-  if (channels.every(({ count }) => count === 0)) throw new LogError({ file: name }, (say) => (cutShort ? say.incomplete(format) : reason ? say.damaged(reason) : say.noMessages));
+  if (channels.every(({ count }) => count === 0)) throw new LogError({ file: name }, (say) => (reason ? say.damaged(reason) : cutShort ? say.incomplete(format) : say.noMessages));
   const series = await seriesOf(container);
   return { name, format, series, read };
 

@@ -160,11 +160,12 @@ class Rosbag implements Container {
         let head = await bytesAt(at, Math.min(at + HEADER, size));
         const length = viewOf(head).getUint32(0, true);
         if (length > MAX_BLOCK) throw new RangeError('a header is damaged');
+        // The last record of a bag that was not closed.
+        if (at + length + 8 > size && !chunks) return;
         if (length + 8 > head.length) head = await bytesAt(at, Math.min(at + length + 8, size));
         const bytes = viewOf(head).getUint32(4 + length, true);
         const from = at + 8 + length;
         at = from + bytes;
-        // The last record of a bag that was not closed.
         if (at > size && !chunks) return;
         const fields = new Fields(head.subarray(4, 4 + length));
         const op = fields.byte('op');

@@ -94,7 +94,8 @@ fn minorized(parameters: &Parameters, expansion: &Expansion, free: &Free) -> Par
     })
 }
 
-/// Inverse of the information on the free parameters above 0, and on `parameter` in any case; those at 0 are held there.
+/// Returns the inverse of the information matrix over the free parameters above 0 and `parameter`. Other parameters at 0 are fixed
+/// there: their rows and columns are 0.
 pub(super) fn conditional_inverse(
     expansion: &Expansion,
     parameters: &Parameters,

@@ -24,7 +24,7 @@ macro_rules! configured {
                 Ok(Self($machine::new($crate::wasm::fields::read_opening(options)?)?))
             }
 
-            /// Changes the settings that are named. A cloud is complete then.
+            /// Changes the given settings; the others stay. All samples are drawn again before it returns.
             pub fn configure(
                 &mut self,
                 #[wasm_bindgen(unchecked_param_type = $options)] settings: &JsValue,

@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { de } from '../../www/widgets/alpha-calibrator/de.ts';
 import { en } from '../../www/widgets/alpha-calibrator/en.ts';
-import { between as ends, fixed, nav2Lines, short } from '../../www/widgets/alpha-calibrator/lines.ts';
+import { formatInterval as ends, fixed, nav2Lines, short } from '../../www/widgets/alpha-calibrator/lines.ts';
 import { classesOf, truthHolds } from '../../www/widgets/alpha-calibrator/reading.ts';
 import { SIMULATED } from '../../www/widgets/alpha-calibrator/settings.ts';
 import { localized } from '../../www/widgets/alpha-calibrator/words.ts';

@@ -101,13 +101,13 @@ test('what is not clear is asked', async () => {
 test('several recordings are drives of their own, or give one log each', async () => {
   const both = recording({ '/odom': 'odometry', '/mocap': 'pose' });
   assert.equal(planDrives([both, both]).drives.length, 2);
-  const { loose } = planDrives([recording({ '/mocap': 'pose' }), recording({ '/odom': 'odometry', '/cmd_vel': 'twist' })]);
-  assert.deepEqual([loose.odometry[0].choice.series, loose.reference[0].choice.series], ['/odom', '/mocap']);
-  const { drives, loose: { odometry: [ofBag] } } = planDrives([both, recording({ '': 'columns' }, { name: 'truth.csv', format: 'csv' })]);
+  const { unpaired } = planDrives([recording({ '/mocap': 'pose' }), recording({ '/odom': 'odometry', '/cmd_vel': 'twist' })]);
+  assert.deepEqual([unpaired.odometry[0].choice.series, unpaired.reference[0].choice.series], ['/odom', '/mocap']);
+  const { drives, unpaired: { odometry: [ofBag] } } = planDrives([both, recording({ '': 'columns' }, { name: 'truth.csv', format: 'csv' })]);
   assert.deepEqual([drives.length, ofBag.choice.series], [0, '/odom']);
   const tables = async (/** @type {string[]} */ ...names) => {
     const plan = planDrives(names.map((name) => recording({ '': 'columns' }, { name, format: 'csv' })));
-    return [plan.loose.odometry, plan.loose.reference].map((parts) => parts.map(({ recording: { name } }) => name));
+    return [plan.unpaired.odometry, plan.unpaired.reference].map((parts) => parts.map(({ recording: { name } }) => name));
   };
   assert.deepEqual(await tables('truth.csv', 'a.csv'), [['a.csv'], ['truth.csv']]);
   assert.deepEqual(await tables('a.csv', 'b.csv'), [['a.csv'], ['b.csv']]);

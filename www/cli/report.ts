@@ -4,7 +4,7 @@ import type { Summary } from '../logs/log.ts';
 import { hasLocalizer } from '../logs/pairs.ts';
 import { en as shared } from '../messages/en.ts';
 import { en } from '../widgets/alpha-calibrator/en.ts';
-import { adviceOf, alphaOrBound, between, failedOf, fixed, nav2Lines, percent, short } from '../widgets/alpha-calibrator/lines.ts';
+import { adviceOf, alphaOrBound, formatInterval, failedOf, fixed, nav2Lines, percent, short } from '../widgets/alpha-calibrator/lines.ts';
 
 type Interval = [number, number] | null;
 
@@ -43,8 +43,8 @@ const DECISIVE = ['reference-matches', 'enough-legs', 'inflation-bounded'];
 /** Number of outliers that are listed. */
 const LISTED = 5;
 
-/** Returns what was read, a section of its own. */
-export const readOf = (logs: ReadLog[]): string => logs.map(({ name, sentences: [first, ...more] }) => `${[`${name}: ${first}`, ...more].join('\n  ')}\n`).join('');
+/** Returns the summaries of the logs, a paragraph for each, without the result of the fit. */
+export const logSummaries = (logs: ReadLog[]): string => logs.map(({ name, sentences: [first, ...more] }) => `${[`${name}: ${first}`, ...more].join('\n  ')}\n`).join('');
 
 /** Returns the report after the summary of the logs. */
 export function textOf({ calibration, options, logs, start, date }: Result, isColored = false): string {
@@ -102,7 +102,7 @@ function alphasOf({ alphas, intervals, notIdentifiable, recommended, diagnostics
   const rows = alphas.map((alpha: number | null, i: number) => [
     `alpha${i + 1}`,
     alpha === null ? 'not identifiable' : alphaOrBound(alpha, intervals[i]),
-    between(intervals[i]),
+    formatInterval(intervals[i]),
     recommended && alpha !== null ? alphaOrBound(alpha, intervals[i], recommended.inflation) : '–',
     shared.alphas[model === 'velocity' ? 'velocity' : 'odometry'][i],
   ]);
@@ -121,7 +121,7 @@ function noiseRows({ referenceNoise }: any, options: Result['options']): string[
   const row = (name: string, key: 'positionStd' | 'yawStd', unit: string) => {
     const { value, interval } = referenceNoise[key];
     const isStated = options[key] !== undefined;
-    return [name, `${fixed(value, interval)} ${unit}`, isStated ? '' : between(interval), isStated ? 'as stated' : 'estimated'];
+    return [name, `${fixed(value, interval)} ${unit}`, isStated ? '' : formatInterval(interval), isStated ? 'as stated' : 'estimated'];
   };
   return [row('reference position σ', 'positionStd', 'm'), row('reference yaw σ', 'yawStd', 'rad')];
 }
@@ -134,13 +134,13 @@ function systematicRow([key, name, unit]: [string, string, string], { systematic
   return [
     name,
     list((one, its) => fixed(one, its) + (unit && ` ${unit}`)),
-    list((_, its) => between(its)),
+    list((_, its) => formatInterval(its)),
     `${corrected ? 'corrected' : 'not corrected'}${constant ? '' : ', not a constant'}`,
   ];
 }
 
 function persistenceRow({ persistence: { correlation: { value, interval }, length } }: any): string[] {
-  return ['correlation of neighbouring legs', fixed(value, interval), between(interval), length > 0 ? `errors persist over ${short(length, 2)} m` : ''];
+  return ['correlation of neighbouring legs', fixed(value, interval), formatInterval(interval), length > 0 ? `errors persist over ${short(length, 2)} m` : ''];
 }
 
 function checkRow({ name, value, expected: [low, high], passed }: any): string[] {

@@ -10,7 +10,7 @@ import { recordingsOf } from './files.ts';
 import { inspect } from './inspect.ts';
 import { HELP, UsageError, optionsOf, withOption, type Calibrate } from './options.ts';
 import { plotOf } from './plot.ts';
-import { jsonOf, readOf, textOf, yamlOf, type Result } from './report.ts';
+import { jsonOf, logSummaries, textOf, yamlOf, type Result } from './report.ts';
 
 interface Environment {
   /** Loads the core. */
@@ -73,8 +73,8 @@ async function calibrate({ inputs, wishes, fit, output, plot }: Calibrate, { loa
   const [{ odometry: { start } }] = drives;
   const logs = drives.flatMap(({ odometry, reference }) => [odometry, reference]).map(({ name, ...log }) => ({ name, summary: log.summary, sentences: summarize({ name, ...log }, words.found) }));
   // The summary is shown even if the fit is refused.
-  if (output === 'text') print(readOf(logs));
-  if (output === 'yaml') complain(readOf(logs));
+  if (output === 'text') print(logSummaries(logs));
+  if (output === 'yaml') complain(logSummaries(logs));
   const calibration = fitted(await load(), fit, drives);
   const result: Result = { calibration, options: fit, logs, start, date: now.toISOString().slice(0, 10) };
   if (plot !== undefined) await save(plot, plotOf(drives, calibration));

@@ -67,8 +67,8 @@ export const NUMBER: Kind = {
 
 export const WORD: Kind = { parse: (text) => text, print: (value) => value };
 
-/** Without a text it is true, as boolean attributes of HTML are; but "false" is false. */
-const TRUTH: Kind = {
+/** Boolean attribute: true without a value, as in HTML. The value "false" makes it false, and another one is refused. */
+const BOOLEAN: Kind = {
   parse: (text) => text !== 'false' && (text === '' || text === 'true' || text),
   print: String,
 };
@@ -77,7 +77,7 @@ const TRUTH: Kind = {
 export const WORDS: Kind = { parse: (text) => text.split(/\s/).filter(Boolean), print: (value) => value.join(' ') };
 
 /** Conversions of the types that fit into an attribute. */
-const KINDS: Record<string, Kind> = { number: NUMBER, whole: NUMBER, word: WORD, boolean: TRUTH };
+const KINDS: Record<string, Kind> = { number: NUMBER, whole: NUMBER, word: WORD, boolean: BOOLEAN };
 
 /** Levels of headings in HTML. */
 export const HEADING_LEVELS = ['1', '2', '3', '4', '5', '6'] as const;

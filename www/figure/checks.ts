@@ -6,9 +6,9 @@ export function refusal(field: string, value: unknown, allowed: string, Kind = R
 }
 
 /**
- * The error of a refused change, in the name by which it was asked for.
+ * Replaces the field at the start of an error's message by the name that the caller used.
  *
- * @param path what it is called where it was refused, if not so
+ * @param path name of the field in the message; default: the same name
  */
 export function renamed(error: unknown, name: string, path: string = name) {
   if (error instanceof Error && error.message.startsWith(path)) {
@@ -78,7 +78,7 @@ export function subset(field: string, value: unknown, allowed: readonly string[]
   return allowed.filter((name) => names.includes(name));
 }
 
-/** Tells whether a value has every part of another one; parts that the other one lacks do not count. */
+/** Returns true if all fields of `given` have the same values in `present`, which may have more fields. Objects are compared deeply. */
 export function has(present: any, given: any): boolean {
   if (Object.is(present, given)) return true;
   if (typeof present !== 'object' || typeof given !== 'object' || !present || !given || present.length !== given.length) return false;

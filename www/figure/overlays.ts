@@ -54,7 +54,7 @@ export function legend(figure: import('./figure.ts').Figure, styles: Record<stri
   </div>`;
 }
 
-/** Returns a sample of how something is drawn. */
+/** Returns the symbol of a legend item: a line, dot, ring or area in its style. */
 export function swatch({ role, dash, width = 2.25, mark = 'line' }: LineStyle) {
   const shapes = {
     line: svg`<line x1="1" x2="29" y1="6" y2="6" stroke-width=${width} stroke-dasharray=${dash?.join(' ') ?? nothing} />`,

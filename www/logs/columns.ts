@@ -117,10 +117,10 @@ function pathOf(name: string): string {
   return parts.replaceAll(/[^\p{L}\p{N}°]+/gu, '.').replaceAll(/^\.+|\.+$/g, '');
 }
 
-interface Reading { field: Field; rank: number; prefix: string; unit?: string }
+interface ColumnMeaning { field: Field; rank: number; prefix: string; unit?: string }
 
 /** Returns the field of a column, or undefined for another quantity. */
-function readName(name: string): Reading | undefined {
+function readName(name: string): ColumnMeaning | undefined {
   const [bracketed, inside] = BRACKETS.exec(name) ?? [];
   if (bracketed !== undefined && inside !== undefined && !NO_UNIT.test(inside.trim())) {
     const unit = unitOf(inside);
@@ -149,7 +149,7 @@ function fits(field: Field, unit: Unit | undefined): boolean {
   return unit === undefined || (unit.of === of && unit.isRate === isRate);
 }
 
-function fieldOf(path: string): Reading | undefined {
+function fieldOf(path: string): ColumnMeaning | undefined {
   for (const { field, rank, pattern } of PATTERNS) {
     const [found, prefix = ''] = pattern.exec(path) ?? [];
     if (found === undefined) continue;
@@ -169,7 +169,7 @@ export function groupsOf(names: string[], isTime: (at: number) => boolean = () =
   const groups = new Map<string, Group>();
   for (const [at, name] of names.entries()) {
     const isIndex = /^\s*(|unnamed: \d+|index)\s*$/i.test(name);
-    const reading: Reading | undefined = isIndex ? (isTime(at) ? { field: 't', rank: 9, prefix: '' } : undefined) : readName(name);
+    const reading: ColumnMeaning | undefined = isIndex ? (isTime(at) ? { field: 't', rank: 9, prefix: '' } : undefined) : readName(name);
     if (!reading) continue;
     const { field, rank, prefix, unit } = reading;
     const group = groups.get(prefix) ?? { name: prefix, kind: null, hasCommands: false, columns: {}, twice: {}, times: [], clocks: [] };

@@ -11,7 +11,7 @@ export type { Drive };
 export interface Part { recording: Recording; choice: Choice }
 
 /** Drives, and parts of other recordings that are paired by their times. */
-export interface Plan { drives: Record<Role, Part>[]; loose: Record<Role, Part[]> }
+export interface Plan { drives: Record<Role, Part>[]; unpaired: Record<Role, Part[]> }
 
 /** Answers of a user; what is missing is guessed. */
 export interface Wishes {
@@ -33,26 +33,26 @@ const isSame = (one: Choice, other?: Choice) => one.series === other?.series && 
 
 /** Plans which parts of recordings make which drives; throws a LogError, with a question where something is not clear. */
 export function planDrives(recordings: Recording[], wishes: Wishes = {}): Plan {
-  const plan: Plan = { drives: [], loose: { odometry: [], reference: [] } };
+  const plan: Plan = { drives: [], unpaired: { odometry: [], reference: [] } };
   const unnamed: Recording[] = [];
   for (const recording of recordings) {
     const role = wishes.roles?.get(recording) ?? (recordings.length > 1 ? onlyRole(recording, wishes) : 'both');
     if (role === 'both') plan.drives.push(bothOf(recording, wishes));
-    else if (role) plan.loose[role].push({ recording, choice: choose(recording, role, wishes) });
+    else if (role) plan.unpaired[role].push({ recording, choice: choose(recording, role, wishes) });
     else unnamed.push(recording);
   }
-  const { odometry, reference } = plan.loose;
+  const { odometry, reference } = plan.unpaired;
   for (const [i, recording] of unnamed.entries()) {
     // Names that say nothing leave the other half of the files, or the order of two.
     const role = odometry.length + reference.length + unnamed.length === 2 && unnamed.length === 2 ? ROLES[i]
       : 2 * odometry.length >= recordings.length ? 'reference'
         : 2 * reference.length >= recordings.length ? 'odometry' : undefined;
     if (!role) throw new LogError({ file: recording.name }, (say) => say.noRole, { what: 'roles', choices: [] });
-    plan.loose[role].push({ recording, choice: choose(recording, role, wishes) });
+    plan.unpaired[role].push({ recording, choice: choose(recording, role, wishes) });
   }
   // A reference of its own beside a bag takes the place of the one in the bag.
   const lacking = odometry.length < reference.length ? 'odometry' : 'reference';
-  if (plan.drives.length === Math.abs(odometry.length - reference.length)) plan.loose[lacking].push(...plan.drives.splice(0).map((drive) => drive[lacking]));
+  if (plan.drives.length === Math.abs(odometry.length - reference.length)) plan.unpaired[lacking].push(...plan.drives.splice(0).map((drive) => drive[lacking]));
   if (odometry.length !== reference.length) {
     const [first] = odometry.length > reference.length ? odometry : reference;
     const isRepeated = recordings.length === 2 && recordings[0].name === recordings[1].name;
@@ -63,7 +63,7 @@ export function planDrives(recordings: Recording[], wishes: Wishes = {}): Plan {
 
 /** Returns the role of a recording among several; undefined where it has one log and no telling name. */
 function onlyRole(recording: Recording, wishes: Wishes): Role | 'both' | undefined {
-  const works = (work: () => unknown) => {
+  const succeeds = (work: () => unknown) => {
     try {
       work();
       return true;
@@ -72,8 +72,8 @@ function onlyRole(recording: Recording, wishes: Wishes): Role | 'both' | undefin
       throw error;
     }
   };
-  if (works(() => bothOf(recording, wishes))) return 'both';
-  const [isOdometry, isReference] = ROLES.map((role) => works(() => choose(recording, role, wishes)));
+  if (succeeds(() => bothOf(recording, wishes))) return 'both';
+  const [isOdometry, isReference] = ROLES.map((role) => succeeds(() => choose(recording, role, wishes)));
   if (isOdometry !== isReference) return isOdometry ? 'odometry' : 'reference';
   return isOdometry ? roleByName(recording.name) : 'both';
 }
@@ -150,8 +150,8 @@ function knownRole({ name: file }: Recording, { name, type, kind }: Series): Rol
 }
 
 /** Reads the logs of a plan, and pairs them, with the times of all after one start; rejects with a LogError. */
-export async function readDrives({ drives, loose }: Plan, onProgress?: (share: number) => void): Promise<Drive[]> {
-  const reads = [...drives.map((drive) => [drive.odometry, drive.reference]), ...[...loose.odometry, ...loose.reference].map((part) => [part])];
+export async function readDrives({ drives, unpaired }: Plan, onProgress?: (share: number) => void): Promise<Drive[]> {
+  const reads = [...drives.map((drive) => [drive.odometry, drive.reference]), ...[...unpaired.odometry, ...unpaired.reference].map((part) => [part])];
   const logs: Log[] = [];
   for (const [i, parts] of reads.entries()) {
     const [{ recording }] = parts;
@@ -160,7 +160,7 @@ export async function readDrives({ drives, loose }: Plan, onProgress?: (share: n
   const others = logs.splice(2 * drives.length);
   const pairs: [Log, Log][] = [
     ...drives.map((_, i): [Log, Log] => [logs[2 * i], logs[2 * i + 1]]),
-    ...pairedByTime(others.slice(0, loose.odometry.length), others.slice(loose.odometry.length)),
+    ...pairedByTime(others.slice(0, unpaired.odometry.length), others.slice(unpaired.odometry.length)),
   ];
   const paired = pairs.map(([odometry, reference]) => pairLogs(odometry, reference));
   const [{ odometry: { start } }] = paired;

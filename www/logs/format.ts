@@ -85,7 +85,7 @@ function isRow(cells: string[]): boolean {
   return numbers >= 2 && 2 * numbers >= filled.length;
 }
 
-/** Returns the separator under which most cells of the lines are numbers, and names where there are no rows. */
+/** Returns the separator that splits the lines into most cells with numbers. Without any numbers, that which splits them into most cells. */
 function separatorOf(lines: string[]): string {
   const stated = lines.map((line) => /^"?sep=(.)"?$/i.exec(line)?.[1]).find((each) => each !== undefined);
   if (stated) return stated;

@@ -2,7 +2,7 @@
 
 import type { Message } from './formats/container.ts';
 import type { Frames } from './log.ts';
-import { poseOf, withoutSlash, type Edge, type Reading, type Transform } from './messages.ts';
+import { poseOf, withoutSlash, type Edge, type Sample, type Transform } from './messages.ts';
 import { product, rotated } from './quaternion.ts';
 
 /** Most different frames: a robot has some dozens. */
@@ -82,7 +82,7 @@ export class FrameTree {
 }
 
 /** Transform of a chain at the time of its message. */
-interface Sample {
+interface TimedEdge {
   link: string;
   edge: Edge;
   message: Omit<Message, 'data'>;
@@ -96,9 +96,9 @@ export class Chain {
   /** Names of the links, from the first to the last. */
   #links: string[] = [];
   /** Samples in the order of their messages; at first the latest ones of each link when the chain was connected. */
-  #samples: Sample[] = [];
+  #samples: TimedEdge[] = [];
   /** Latest samples of links, while the chain is not connected. */
-  #waiting = new Map<string, Sample>();
+  #waiting = new Map<string, TimedEdge>();
 
   constructor({ parent, child }: Frames) {
     this.#ends = { parent: withoutSlash(parent), child: withoutSlash(child) };
@@ -114,7 +114,7 @@ export class Chain {
     }
     this.#waiting.set(sample.link, sample);
     this.#links = (this.tree.chain(this.#ends) ?? []).map(nameOf);
-    for (const link of this.#links) this.#samples.push(this.#waiting.get(link) as Sample);
+    for (const link of this.#links) this.#samples.push(this.#waiting.get(link) as TimedEdge);
   }
 
   get isConnected(): boolean {
@@ -126,7 +126,7 @@ export class Chain {
    *
    * @returns false if no transform ever changes
    */
-  poses(each: (reading: Reading, sample: Sample) => void): boolean {
+  poses(each: (reading: Sample, sample: TimedEdge) => void): boolean {
     const latest = new Map<string, Transform>();
     const moving = new Set<string>();
     for (const { link, edge: { transform } } of this.#samples) {
@@ -136,7 +136,7 @@ export class Chain {
     }
     const nearest = this.#links.findLast((link) => moving.has(link));
     if (nearest === undefined) return false;
-    const timeOf = ({ message: { seconds, nanoseconds } }: Sample) => seconds + nanoseconds / 1e9;
+    const timeOf = ({ message: { seconds, nanoseconds } }: TimedEdge) => seconds + nanoseconds / 1e9;
     for (const sample of this.#samples.toSorted((one, other) => timeOf(one) - timeOf(other))) {
       latest.set(sample.link, sample.edge.transform);
       if (sample.link !== nearest) continue;

@@ -11,7 +11,7 @@ export interface Stamp {
   nanoseconds: number;
 }
 
-export interface Reading extends Stamp {
+export interface Sample extends Stamp {
   /** x, or v. */
   a: number;
   /** y, or omega. */
@@ -106,11 +106,11 @@ function transform(reader: Reader): Transform {
   return [reader.float64(), reader.float64(), reader.float64(), reader.float64(), reader.float64(), reader.float64(), reader.float64()];
 }
 
-export function poseOf({ seconds, nanoseconds }: Stamp, [x, y, , qx, qy, qz, qw]: Transform): Reading {
+export function poseOf({ seconds, nanoseconds }: Stamp, [x, y, , qx, qy, qz, qw]: Transform): Sample {
   return { seconds, nanoseconds, a: x, b: y, c: headingOf(qx, qy, qz, qw), isRotation: isRotation(qx, qy, qz, qw) };
 }
 
-function twist({ seconds, nanoseconds }: Stamp, reader: Reader): Reading {
+function twist({ seconds, nanoseconds }: Stamp, reader: Reader): Sample {
   const v = reader.float64();
   // The other speeds, and the turn rates about the other axes.
   reader.seek(4 * 8);
@@ -118,7 +118,7 @@ function twist({ seconds, nanoseconds }: Stamp, reader: Reader): Reading {
 }
 
 /** Returns stamp and pose of a frame in another. */
-function child(reader: Reader): Reading {
+function child(reader: Reader): Sample {
   const stamp = header(reader);
   skipString(reader);
   return poseOf(stamp, transform(reader));
@@ -127,7 +127,7 @@ function child(reader: Reader): Reading {
 const stamped = (reader: Reader) => poseOf(header(reader), transform(reader));
 
 /** Readers of poses and commands by message type. */
-const POSES: Record<string, (reader: Reader) => Reading> = {
+const POSES: Record<string, (reader: Reader) => Sample> = {
   'nav_msgs/Odometry': child,
   'geometry_msgs/TransformStamped': child,
   'geometry_msgs/PoseStamped': stamped,
@@ -164,7 +164,7 @@ function readerOf(encoding: string, data: Uint8Array): Reader {
 }
 
 /** Returns a reader of poses or commands, which throws an error if the bytes are no such message. */
-export function poseReader({ type, encoding }: Channel): (data: Uint8Array) => Reading {
+export function poseReader({ type, encoding }: Channel): (data: Uint8Array) => Sample {
   const read = POSES[plainType(type)] ?? COMMANDS[plainType(type)];
   return (data) => read(readerOf(encoding, data));
 }

@@ -100,7 +100,7 @@ const MIN_HELD = 0.8;
  *
  * @param isRepeated checks whether a row has the pose of the row before
  */
-export function holdOf(t: Float64Array, isRepeated: (i: number) => boolean): number {
+export function repeatFactor(t: Float64Array, isRepeated: (i: number) => boolean): number {
   const lengths: number[] = [];
   let [single, held] = [0, 0];
   for (let from = 0, to; from < t.length; from = to) {

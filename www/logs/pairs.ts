@@ -13,10 +13,10 @@ export interface Drive { odometry: Log; reference: Log }
 /** Share of the shorter log that two logs of one drive have in common. */
 const COMMON = 0.5;
 
-/** Rows that are compared to find one log in two files, and fewest that show it. */
+/** Number of rows that are compared to find the same log in two files, and least number that proves it. */
 const [COMPARED, ENOUGH] = [500, 10];
 
-/** Largest difference in m and rad of two paths that are one: the rounding of six digits. */
+/** Largest difference in m and rad between copies of one path: the rounding to six digits. */
 const SAME = 1e-5;
 
 /** Least motion in m and rad of paths that are compared. */

@@ -2,7 +2,7 @@
 
 import { LogError, type Place } from './log-error.ts';
 import type { Cause, Log, LogKind, Note, OpenOptions, Summary } from './log.ts';
-import { KEPT, LATE, STRAY, holdOf, sortRows } from './order.ts';
+import { KEPT, LATE, STRAY, repeatFactor, sortRows } from './order.ts';
 import { quantile, sample } from './quantile.ts';
 import { distanceOf } from './summary.ts';
 import { type Units, judgeUnits } from './units.ts';
@@ -231,14 +231,14 @@ export class Rows {
       throw new LogError(this.#at(line), (say) => say.sameTimes(different, order.length, this.#message(line)));
     }
     const isRepeated = (i: number) => this.#isSame(rows[i - 1], rows[i]);
-    const hold = kind === 'poses' ? holdOf(t.subarray(0, used), isRepeated) : 1;
-    if (hold > 1) {
+    const factor = kind === 'poses' ? repeatFactor(t.subarray(0, used), isRepeated) : 1;
+    if (factor > 1) {
       const repeats = Array.from({ length: used }, (_, i) => i > 0 && isRepeated(i));
       let kept = 0;
       for (let i = 0, run = 0; i < used; i++) {
         run = repeats[i] ? run + 1 : 0;
-        // A standing robot keeps rows at the rate of the others.
-        if (run % hold !== 0) {
+        // Every `factor`-th of repeated poses is kept: the log of a standing robot has the rate of a moving one.
+        if (run % factor !== 0) {
           isDropped.set(rows[i], 'repeated');
           continue;
         }

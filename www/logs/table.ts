@@ -151,9 +151,9 @@ class LogReader {
   #basis: Basis = 'usage';
   #notes: Note[] = [];
   #frames = new Set<string>();
-  /** Cosines of the angle between the vertical axes of robot and map: Z, and Y. */
+  /** Cosines of the robot's tilt, if the vertical axis is Z, and if it is Y: near 1 for the right one. */
   #tilts: [number[], number[]] = [[], []];
-  /** Coordinates along Y and Z. */
+  /** Heights, if the vertical axis is Z, and if it is Y: nearly constant for the right one. */
   #heights: [number[], number[]] = [[], []];
 
   constructor(name: string, place: Place, format: Format, group: Group, layout: Layout, options: OpenOptions) {

@@ -4,7 +4,7 @@ import type { Channel, Container, Message } from './formats/container.ts';
 import { Chain, FrameTree, nameOf } from './frames.ts';
 import { LogError, cut, listed, reasonOf, type Words } from './log-error.ts';
 import { LOG_TIME, type Choice, type Log, type Note, type OpenOptions, type Question, type Recording, type Series } from './log.ts';
-import { edgesOf, isReadable, kindOf, poseReader, type Reading } from './messages.ts';
+import { edgesOf, isReadable, kindOf, poseReader, type Sample } from './messages.ts';
 import { MAX_VALUE, Rows } from './rows.ts';
 
 /** Messages of transforms after which all frames are taken to be known. */
@@ -82,9 +82,11 @@ class TopicReader {
   #reason = '';
   /** Readers by channel. */
   #readers = new Map<Channel, (message: Message) => void>();
-  /** Nodes in the order of their first messages, and the number of times that one followed which had published before. */
+  /** Nodes in the order of their first messages. */
   #publishers: string[] = [];
+  /** Node of the latest message. */
   #publisher = '';
+  /** Number of times that a node published again after another one. */
   #turns = 0;
 
   constructor(file: string, container: Container, choice: Choice, series: Series[]) {
@@ -154,7 +156,7 @@ class TopicReader {
     };
   }
 
-  #add({ seconds, nanoseconds, a, b, c, isRotation }: Reading, recorded: Omit<Message, 'data'>, number: number): void {
+  #add({ seconds, nanoseconds, a, b, c, isRotation }: Sample, recorded: Omit<Message, 'data'>, number: number): void {
     if (Math.max(Math.abs(a), Math.abs(b), Math.abs(c)) > MAX_VALUE) return this.#drop(number, 'a value is out of range');
     if (!isRotation) return this.#rows.leaveOut('noRotation', number);
     this.#rows.add(seconds, nanoseconds / 1e9, a, b, c, number, recorded.seconds, recorded.nanoseconds / 1e9);

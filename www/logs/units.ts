@@ -58,7 +58,7 @@ export const unitOfSize = (time: number): TimeUnit | undefined => SIZES.find(([,
 /**
  * Judges the units, and converts the columns to s, m and rad.
  *
- * @param stated units by a name, the size of the times, the format or usage, in which the columns are
+ * @param stated units of the columns, as names, the size of the times, the format or usage tell
  * @param options answers to questions, which are not doubted
  * @throws {LogError} with a question, where the signs disagree
  */

@@ -27,7 +27,7 @@ export interface Failure {
 
 export type OnProgress = (share: number) => void;
 
-/** Request: a method of `LogKeeper`, and what it is given. */
+/** Request: a method of `LogSession`, and what it is given. */
 export interface Request {
   number: number;
   method: 'open' | 'read' | 'calibrate';
@@ -37,8 +37,8 @@ export interface Request {
 /** Answer to the request of that number: progress, and then the result or the failure. */
 export type Answer = { number: number } & ({ progress: number } | { result: unknown } | { failure: Failure });
 
-/** Keeper of the opened recordings, and of the log that was read last. */
-class LogKeeper {
+/** Opened recordings, and the log that was read last. */
+class LogSession {
   #motion: Motion;
   #recordings: Recording[] = [];
   #machine: AlphaCalibrator;
@@ -53,12 +53,12 @@ class LogKeeper {
     return this.#recordings.map(({ name, format, series }, place) => ({ name, format, series, place }) as Opened);
   }
 
-  /** Reads the logs of a plan that the page has made. These drives are then those to calibrate. */
-  async read(onProgress: OnProgress, { drives, loose }: Plan): Promise<Drive[]> {
+  /** Reads the logs of a plan that the page has made. `calibrate` without a log fits them. */
+  async read(onProgress: OnProgress, { drives, unpaired }: Plan): Promise<Drive[]> {
     const held = ({ recording, choice }: Part) => ({ recording: this.#recordings[(recording as Opened).place], choice });
     const plan = {
       drives: drives.map(({ odometry, reference }) => ({ odometry: held(odometry), reference: held(reference) })),
-      loose: { odometry: loose.odometry.map(held), reference: loose.reference.map(held) },
+      unpaired: { odometry: unpaired.odometry.map(held), reference: unpaired.reference.map(held) },
     };
     const read = await readDrives(plan, onProgress);
     this.#take(logOf(read));
@@ -94,12 +94,12 @@ const PROGRESS_INTERVAL = 50;
 
 /** Answers the requests that come by a port, after a first message with the core. */
 export function serve(port: Pick<MessagePort, 'onmessage' | 'postMessage'>) {
-  let keeper: LogKeeper;
+  let session: LogSession;
   const answer = (message: Answer, buffers: ArrayBuffer[] = []) => port.postMessage(message, buffers);
   port.onmessage = async ({ data }: MessageEvent<Request & { core?: SharedCore }>) => {
     const { core, number = 0, method, parameters } = data;
     try {
-      if (core) keeper = new LogKeeper(await instantiateShared(core));
+      if (core) session = new LogSession(await instantiateShared(core));
       let next = 0;
       const onProgress = (progress: number) => {
         const now = performance.now();
@@ -107,7 +107,7 @@ export function serve(port: Pick<MessagePort, 'onmessage' | 'postMessage'>) {
         next = now + PROGRESS_INTERVAL;
         answer({ number, progress });
       };
-      const result = core ? null : await (keeper[method] as (...all: unknown[]) => unknown).call(keeper, onProgress, ...parameters);
+      const result = core ? null : await (session[method] as (...all: unknown[]) => unknown).call(session, onProgress, ...parameters);
       answer({ number, result }, buffersOf(result));
     } catch (error) {
       answer({ number, failure: failureOf(error) });

@@ -132,7 +132,7 @@ impl AlphaCalibrator {
 
     /// Tells whether the settings need another fit, which only the machine with the log can make.
     pub fn is_pending(&self) -> bool {
-        !self.fit.settings.fits_as(&self.settings)
+        !self.fit.settings.has_same_fit(&self.settings)
     }
 
     /// Changes the settings.
@@ -143,7 +143,7 @@ impl AlphaCalibrator {
         settings.check()?;
         let is_same_log = !matches!(self.source, Source::Simulated) || self.settings.seed == settings.seed;
         self.settings = settings;
-        self.fit.settings.predict_as(&settings);
+        self.fit.settings.copy_prediction_settings(&settings);
         if !is_same_log || self.is_pending() {
             self.invalidate();
         }

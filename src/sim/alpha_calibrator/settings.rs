@@ -112,16 +112,16 @@ impl Settings {
         &mut self.yaw_std
     }
 
-    /// Takes the settings of the prediction from others: inflation, distribution and seed.
-    pub(super) fn predict_as(&mut self, other: &Self) {
+    /// Copies the settings of the predicted cloud from others: inflation, distribution and seed. The fit does not depend on them.
+    pub(super) fn copy_prediction_settings(&mut self, other: &Self) {
         let Self { inflation, noise, seed, .. } = *other;
         *self = Self { inflation, noise, seed, ..*self };
     }
 
-    /// Tells whether the fit to a log is the same under other settings.
-    pub(super) fn fits_as(&self, other: &Self) -> bool {
+    /// Returns true if other settings differ in those of the predicted cloud only, so that the fit to a log is the same.
+    pub(super) fn has_same_fit(&self, other: &Self) -> bool {
         let mut predicting = *self;
-        predicting.predict_as(other);
+        predicting.copy_prediction_settings(other);
         predicting == *other
     }
 }

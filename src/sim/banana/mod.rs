@@ -191,7 +191,7 @@ impl BananaMachine {
         &self.settings
     }
 
-    /// Changes the settings and shows all samples: the same robots, with the same luck, drive under the new settings.
+    /// Changes the settings, and draws all samples again from the same random numbers.
     ///
     /// # Errors
     /// As [`BananaMachine::new`]; nothing has changed then.

@@ -154,7 +154,7 @@ impl MapSqueeze {
         (self.shown.tally, self.shown.gave_up) = (Tally::default(), false);
     }
 
-    /// Makes up to `count` attempts more; returns how many are shown. Stops for good where the robot is wedged.
+    /// Draws up to `count` more samples; returns the number of all. Gives up where nearly every draw collides: further calls draw none.
     pub fn add_samples(&mut self, count: usize) -> usize {
         let goal = self.shown().saturating_add(count).min(self.settings.samples);
         self.draws.restart(self.settings.seed, NoiseKind::Normal);

@@ -1,4 +1,4 @@
-//! Plans with many walls in one place: verdicts measure few walls.
+//! Plans with many walls in one place: a collision check measures the distance to few of them.
 
 use crate::common::{seeded, uniform};
 use motion::geom::arc::Arc;

@@ -19,11 +19,14 @@ const MAX_ROW = 2 ** 28;
 
 type Value = number | bigint | Uint8Array;
 
-/** Row of a table: its bytes on the page of the table, those in all, and the page with the next ones. */
+/** Row of a table. */
 interface Row {
   id: number;
+  /** Bytes that are on the page of the table. */
   bytes: Uint8Array;
+  /** Number of all bytes. */
   length: number;
+  /** Number of the page with the bytes that overflow; 0 if there are none. */
   next: number;
 }
 

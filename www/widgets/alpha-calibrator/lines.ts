@@ -51,7 +51,7 @@ export const short = (value: number | null, digits = DIGITS) => (value !== null 
 const pointed = (number: string) => number.replace(/^(-?\d)e/, '$1.0e');
 
 /** Adds decimals to a whole number, which Nav2 refuses for its doubles. */
-const double = (number: string) => (number.includes('.') ? number : `${number}.0`);
+const withDecimals = (number: string) => (number.includes('.') ? number : `${number}.0`);
 
 /** Prints the decimals that an interval leaves meaning to. */
 export function fixed(value: number | null, interval: Interval | undefined) {
@@ -64,7 +64,7 @@ export function fixed(value: number | null, interval: Interval | undefined) {
 }
 
 /** Prints an interval; empty if an end is not finite. */
-export const between = (interval: Interval | undefined) => (interval?.every(Number.isFinite) ? interval.map((end) => fixed(end, interval)).join(' to ') : '');
+export const formatInterval = (interval: Interval | undefined) => (interval?.every(Number.isFinite) ? interval.map((end) => fixed(end, interval)).join(' to ') : '');
 
 /** Checks whether an α is 0 in the digits of its interval. A printed zero would look like a result. */
 export const isZero = (alpha: number | null, interval: Interval | undefined) => alpha !== null && Number(fixed(alpha, interval)) === 0;
@@ -122,12 +122,12 @@ export function nav2Lines({ calibration, count, model, rule, legs, log, hasLocal
     if (isZero(alpha, interval)) return `# alpha${i + 1}: ${say.zero(mostOf(scaled(interval, inflation)))}`;
     const value = fixed(inflation * alpha, scaled(interval, inflation));
     if (inflation * alpha > MOST) return `# alpha${i + 1}: ${value}, ${say.tooLarge}`;
-    return `alpha${i + 1}: ${double(value)}  # ${say.fitted(fixed(alpha, interval), between(interval))}`;
+    return `alpha${i + 1}: ${withDecimals(value)}  # ${say.fitted(fixed(alpha, interval), formatInterval(interval))}`;
   });
   // A line break in a file's name would end the comment.
   const comments = notes.map((note) => `# ${note.replaceAll(/\s+/g, ' ')}`);
   const fifth = alphas.length < 5 ? [`# ${say.fifth}`] : [];
-  const triggers = duration === undefined ? [`update_min_d: ${double(short(distance ?? null))}`, `update_min_a: ${double(short(angle ?? null))}`] : [];
+  const triggers = duration === undefined ? [`update_min_d: ${withDecimals(short(distance ?? null))}`, `update_min_a: ${withDecimals(short(angle ?? null))}`] : [];
   const all = [...comments, `robot_model_type: "${NAV2[model]}"`, ...lines, ...fifth, ...triggers];
   return ['amcl:', '  ros__parameters:', ...all.map((line) => `    ${line}`)];
 }

@@ -51,7 +51,7 @@ function select(id: string, label: string, value: string, options: [value: strin
 
 function seriesSelect(opener: LogOpener, { recordings, wishes, plan }: Chosen, role: Role, { choose: say }: LogWords) {
   const options = new Map(recordings.flatMap((recording) => optionsOf(recording, role)));
-  const [planned] = plan ? [...plan.drives.map((drive) => drive[role]), ...plan.loose[role]] : [];
+  const [planned] = plan ? [...plan.drives.map((drive) => drive[role]), ...plan.unpaired[role]] : [];
   const present = (wishes[role] as Choice | undefined) ?? planned?.choice ?? guessOf(recordings[0], role, opener.kind);
   return select(`log-${role}`, say.roles[role], present ? labelOf(present) || (planned?.recording ?? recordings[0]).name : '', [...options.keys()].map((label) => [label, label]), (label) => {
     const choice = options.get(label);
@@ -67,7 +67,7 @@ function guessOf(recording: Recording, role: Role, kind: 'commands' | undefined)
 
 function roleSelect(opener: LogOpener, { recordings, roles, plan }: Chosen, place: number, { choose: say }: LogWords) {
   const { name } = recordings[place];
-  const present = roles.get(place) ?? ROLES.find((role) => plan?.loose[role].some(({ recording }) => recording === recordings[place]));
+  const present = roles.get(place) ?? ROLES.find((role) => plan?.unpaired[role].some(({ recording }) => recording === recordings[place]));
   return select(`log-role-${place}`, name, present ?? '', ROLES.map((role) => [role, say.roles[role]]), (value) => {
     const role = value as Role;
     const changed = new Map(roles).set(place, role);

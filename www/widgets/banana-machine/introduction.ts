@@ -27,6 +27,7 @@ function isFirstSight() {
 export class IntroducedCloud extends Cloud {
   /** When the first robot started. */
   #began: number | undefined;
+  /** Robots drive; then the ring of the handle asks to be dragged, while the cloud grows. */
   #phase: 'none' | 'driving' | 'asking' = 'none';
 
   /** True while the ring asks to be dragged. */

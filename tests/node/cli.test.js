@@ -10,6 +10,7 @@ import { fileURLToPath } from 'node:url';
 import { load } from '../../dist/core.js';
 import { TRUTH } from '../../scripts/example-log.mjs';
 import { HELP } from '../../www/cli/options.ts';
+import { plotOf } from '../../www/cli/plot.ts';
 import { textOf } from '../../www/cli/report.ts';
 import { run } from '../../www/cli/run.ts';
 import { hasLocalizer } from '../../www/logs/pairs.ts';
@@ -69,7 +70,7 @@ test('systematic errors are corrected or left in by name, all of them or single 
   assert.deepEqual(await correctOf('--correct clockOffset --no-correct all'), { ...none, clockOffset: true });
 });
 
-test('several drives are calibrated together, with times after one start', async () => {
+test('several drives reach the core together, with times after one start', async () => {
   const drives = ['2', '3'].flatMap((digit) => ['odometry', 'reference'].flatMap((role) => {
     const rows = Array.from({ length: 40 }, (_, i) => `${digit}00.${10 + i},${role === 'odometry' ? i / 10 : i / 9},0,0`);
     return [`--${role}`, file(`${role}${digit}.csv`, ['t,x,y,yaw', ...rows].join('\n'))];
@@ -216,6 +217,7 @@ test('a folder gives its logs, and other files are skipped', async () => {
   const path = join(folder, 'drive');
   mkdirSync(path);
   for (const [name, from] of [['odom.csv', 'odometry'], ['truth.csv', 'reference']]) writeFileSync(join(path, name), readFileSync(example(from)));
+  writeFileSync(join(path, '._odom.csv'), readFileSync(example('odometry')));
   writeFileSync(join(path, 'README.md'), '# A drive\n\nwith words, and no numbers\n');
   const { code, out, err } = await outputOf(['--recording', path]);
   assert.deepEqual([code, out.match(/^.*\.csv(?=:)/gm)], [0, ['odom.csv', 'truth.csv']]);
@@ -233,12 +235,29 @@ test('--yaml prints the lines for Nav2 alone, or none of an unusable log', async
   assert.match(refused.err, /^No lines for nav2_params\.yaml: the log is unusable\.$/m);
 });
 
-test('--plot writes both paths, with axes, a title and a panel for each drive', async () => {
+test('--plot writes a panel for each drive, with both paths aligned, and the ends of legs at the times of the reference', async () => {
   const path = join(folder, 'plot.svg');
   assert.equal((await outputOf([...FILES, '--plot', path])).code, 0);
-  const svg = readFileSync(path, 'utf8');
-  for (const part of [/^<svg xmlns=/, /<title>odometry\.csv and reference\.csv: 585 legs, 0 outliers<\/title>/, />x \(m\)</, />y \(m\)</, />odometry, aligned</]) assert.match(svg, part);
-  assert.doesNotMatch(svg, /NaN|undefined|Infinity/);
+  assert.match(readFileSync(path, 'utf8'), /^<svg xmlns=/);
+  /** Drive of ten seconds along x, which the odometry has along y, half a second early. @returns {any} */
+  const drive = (/** @type {number} */ start) => {
+    const way = Float64Array.from({ length: 101 }, (_, i) => i / 10);
+    const log = (/** @type {string} */ role, /** @type {number} */ late, /** @type {Float64Array} */ x, /** @type {Float64Array} */ y) => ({ name: `${role}${start}.csv`, data: { t: way.map((t) => start + t + late), x, y, theta: way, breaks: [] } });
+    return { odometry: log('odom', 0, way.map(() => 7), way), reference: log('truth', 0.5, way, way.map(() => 2)) };
+  };
+  const legs = { count: 3, times: [1, 3, 4, 6, 21, 23], outliers: [0, 1, 0] };
+  const svg = plotOf([drive(0), drive(20)], { legs, systematicErrors: { clockOffset: { value: 0.5 } } });
+  const [, ...panels] = svg.split('<title>');
+  assert.deepEqual(panels.map((panel) => panel.split('<')[0]), ['odom0.csv and truth0.csv: 2 legs, 1 outlier', 'odom20.csv and truth20.csv: 1 legs, 0 outliers']);
+  for (const panel of panels) {
+    for (const part of [/>x \(m\)</, />y \(m\)</, />odometry, aligned</]) assert.match(panel, part);
+    // Pixels of marks of the axis, and of the ends of paths.
+    const [left, right] = ['0', '10'].map((mark) => Number(RegExp(`d="M([\\d.]+) [^>]*><text [^>]*>${mark}<`).exec(panel)?.[1]));
+    const paths = Array.from(panel.matchAll(/d="M([\d.]+) [^"]*L([\d.]+) [^"]*" stroke="([^"]*)" stroke-width="1.5"/g), ([, from, to, color]) => ({ ends: [Number(from), Number(to)], color }));
+    assert.deepEqual(paths.map(({ ends }) => ends), [[left, right], [left, right]]);
+    assert.notEqual(paths[0].color, paths[1].color);
+    assert.ok(Math.abs(Number(/d="M([\d.]+) [\d.]+h0/.exec(panel)?.[1]) - (left + 0.3 * (right - left))) < 0.1);
+  }
 });
 
 test('a terminal gets colours', async () => {
@@ -260,12 +279,15 @@ test('inspect lists what is in a file, and the command to go on with', async () 
       { topic: '/odom', type: 'nav_msgs/msg/Odometry', t, message: odometry(t, i, 1, 0) },
       { topic: '/vicon/robot 1', type: 'geometry_msgs/msg/PoseStamped', t, message: { header, pose: poseOf(i, 2, 0) } },
       { topic: '/chatter', type: 'std_msgs/msg/String', t, message: { data: '' } },
+      { topic: '/lost', type: 'geometry_msgs/msg/PoseStamped', t, message: { header, pose: poseOf(NaN, 2, 0) } },
+      { topic: '/tf', type: 'tf2_msgs/msg/TFMessage', t, message: { transforms: [transform(t, 'map', 'base_link', i, 2, 0)] } },
     ];
   }).flat();
   const listed = await inspected(file('run.mcap', await recordingOf(messages, { compression: 'zstd' })));
   for (const line of [
     /^run\.mcap: MCAP recording$/m, /^ {2}\/chatter +std_msgs\/msg\/String +40$/m, /^ {2}\/odom +nav_msgs\/msg\/Odometry +40 +20\.0 Hz +odometry$/m,
     /^ {2}\/vicon\/robot 1 +geometry_msgs\/msg\/PoseStamped +40 +20\.0 Hz +reference$/m,
+    /^ {2}\/tf +tf2_msgs\/msg\/TFMessage +40 +reference map → base_link \(a localizer\)$/m, /^run\.mcap, topic \/lost: 0 of 40 rows can be used/m,
     /^ {2}motion-widgets calibrate --recording DIR\/run\.mcap --odometry-topic \/odom --reference-topic '\/vicon\/robot 1' --rule nav2$/m,
   ]) assert.match(listed, line);
   assert.match(await inspected(example('odometry')), /^ {2}motion-widgets calibrate --odometry \S+ --reference FILE --rule nav2$/m);

@@ -124,6 +124,7 @@ test('bad input has the exit code 2 and a sentence', async () => {
     [['--update-min-d', '--json'], "Option '--update-min-d' argument is ambiguous."],
     [['--json'], 'no logs are given; give --recording, or --odometry and --reference.'],
     [['--odometry', example('odometry')], '--reference is missing; give a file or folder, or --recording with both.'],
+    [[...FILES, '--plot', 'x.png'], '--plot writes SVG; the name must end in .svg (got “x.png”).'],
     [[...FILES, '--json', '--yaml'], '--json excludes --yaml: give one or the other.'],
     [[...FILES, '--update-min-d', '0,25'], '--update-min-d must be a number with a decimal point, 0.25 (got “0,25”).'],
     [[...FILES, '--update-min-a', 'wide'], '--update-min-a must be a number (got “wide”).'],
@@ -191,7 +192,7 @@ test('the report of the example, from the verdict to the lines for Nav2', async 
     /^\d+ legs of 0\.25 m or 0\.2 rad; model odometry, rule nav2$/m, /^ +fitted +95 % +recommended$/m,
     /^alpha1 +0\.0\d+ +\S+ to \S+ +0\.0\d+ +rotation noise from rotation$/m, /^The fit covers .* held-out windows of 1 m/m,
     /^reference position σ +\S+ m +\S+ to \S+ +estimated$/m, /^reference yaw σ +0 rad +as stated$/m, /^mount yaw +0\.0\d+ rad +\S+ to \S+ +corrected$/m,
-    /^correlation of neighbouring legs +0\.0/m, /^enough-legs +\d+ +≥ 100 +ok$/m, /^tails-normal +\S+ +1 to 3\.5 +ok$/m, /^outliers: 1 of \d+ legs, at \d+\.\d\d s$/m,
+    /^correlation of neighbouring legs +0\.0/m, /^enough-legs +\d+ +≥ 100 +ok$/m, /^tails-normal +\S+ +1 to 3\.5 +ok$/m, /^outliers: 1 of \d+ legs, at \d+\.\d\d s after the start$/m,
     /^of 1 m +\d+ +\d\S* % +\d\.\d+$/m, /^# nav2_params\.yaml\namcl:$/m, /2026-01-02$/m, /^ {4}alpha1: 0\.\d+ {2}# fitted 0\.\d+, 95 % /m, /^ {4}update_min_a: 0\.2$/m,
   ];
   const places = parts.map((part) => out.search(part));
@@ -267,9 +268,9 @@ test('a terminal gets colours', async () => {
 });
 
 test('inspect lists what is in a file, and the command to go on with', async () => {
-  const inspected = async (/** @type {string} */ path) => {
+  const inspected = async (/** @type {string[]} */ ...args) => {
     let out = '';
-    assert.equal(await run(['inspect', path], { load, print: (text) => (out += text), complain: assert.fail }), 0);
+    assert.equal(await run(['inspect', ...args], { load, print: (text) => (out += text), complain: assert.fail }), 0);
     return out.replaceAll(folder, 'DIR');
   };
   const messages = Array.from({ length: 40 }, (_, i) => {
@@ -290,7 +291,11 @@ test('inspect lists what is in a file, and the command to go on with', async () 
     /^ {2}\/tf +tf2_msgs\/msg\/TFMessage +40 +reference map → base_link \(a localizer\)$/m, /^run\.mcap, topic \/lost: 0 of 40 rows can be used/m,
     /^ {2}motion-widgets calibrate --recording DIR\/run\.mcap --odometry-topic \/odom --reference-topic '\/vicon\/robot 1' --rule nav2$/m,
   ]) assert.match(listed, line);
-  assert.match(await inspected(example('odometry')), /^ {2}motion-widgets calibrate --odometry \S+ --reference FILE --rule nav2$/m);
+  assert.match(await inspected(example('odometry')), /; give the reference too\.\n\n {2}motion-widgets calibrate --odometry \S+ --reference FILE --rule nav2$/m);
+  const positions = file('positions.csv', ['t,odom_x,odom_y,odom_yaw,gt_x,gt_y', ...Array.from({ length: 40 }, (_, i) => `${i / 20},${i / 40},0,0,${i / 40},1`)].join('\n'));
+  const [contents] = JSON.parse(await inspected(positions, '--json'));
+  assert.deepEqual(contents.series.map((/** @type {any} */ { name, rows, uses, summary }) => [name, rows, uses, summary?.seconds]), [['odom_', 40, ['odometry'], 1.95], ['gt_', 0, [], undefined]]);
+  assert.deepEqual([contents.missing.split(';')[0], contents.command], ['positions.csv: gt_x, gt_y are positions without a heading', undefined]);
 });
 
 test('an unusable log has a sentence and no lines for Nav2', async () => {
@@ -320,13 +325,15 @@ test('the report says what failed, what is lost, and what to drive', async () =>
   const { odometry: own, reference, ...options } = await callOf(FILES);
   const calibration = /** @type {any} */ (await load()).calibrate({ ...options, odometry: own, reference });
   const { diagnostics, lost, persistence, systematicErrors } = calibration;
-  const printed = (/** @type {any} */ change, other = {}) => textOf({ calibration: { ...calibration, ...change }, options: { ...options, ...other }, logs: [], start: 0, date: '' });
+  const printed = (/** @type {any} */ change, other = {}) => textOf({ calibration: { ...calibration, ...change }, options: { ...options, ...other }, logs: [], start: 0, begins: [10, 1000], date: '' });
   const checks = [{ name: 'enough-legs', value: 20, expected: [100, Infinity], passed: false, message: 'Drive on.' }];
   const failed = printed({ diagnostics: { ...diagnostics, verdict: 'questionable', checks } });
   assert.match(failed, /^\nQuestionable: one check failed\. .*\n[^]*^enough-legs +20 +≥ 100 +FAILED\nenough-legs: Drive on\.$/m);
   assert.match(printed({ recommended: null, diagnostics: { ...diagnostics, verdict: 'unusable' } }), /^\nUnusable: .* It does not identify any α: /);
   const uncovered = [{ name: 'inflation-bounded', value: Infinity, expected: [1, 30], passed: false, message: 'Find the cause.' }];
   assert.match(printed({ recommended: null, diagnostics: { ...diagnostics, verdict: 'unusable', checks: uncovered } }), /^\nUnusable: .* Find the cause\.\n/);
+  const twoOutliers = { count: 3, times: [12, 13, 14, 15, 1005, 1006], outliers: [1, 0, 1] };
+  assert.match(printed({ legs: twoOutliers }), /^outliers: 2 of 3 legs, at 2\.00 s of drive 1, 5\.00 s of drive 2 after the start$/m);
   assert.match(printed({ lost: { ...lost, withoutReference: 3, standing: 7 } }), /^lost legs: 3 without reference, 7 of a standing robot$/m);
   assert.match(printed({ persistence: { ...persistence, length: 0.987 } }), /^correlation of neighbouring legs .*errors persist over 0\.99 m$/m);
   assert.match(printed({ systematicErrors: { ...systematicErrors, turnScale: { value: 0.9, interval: [0.88, 0.92], constant: false, corrected: false } } }), /^turn scale .*not corrected, not a constant$/m);

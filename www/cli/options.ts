@@ -50,7 +50,7 @@ Fit:
   --correct NAMES            systematic errors that are corrected even if they are not constant
 
 Output:
-  --json                     everything, as JSON
+  --json                     everything, as JSON; of inspect too
   --yaml                     only the lines for nav2_params.yaml, to merge into its amcl:
   --plot FILE.svg            a picture of both paths, the legs and the outliers
   --help, --version
@@ -69,6 +69,9 @@ const OPTIONS = {
   'no-correct': text, correct: text, 'reference-position-std': text, 'reference-yaw-std': text, json: flag, yaml: flag, plot: text,
   help: { ...flag, short: 'h' }, version: flag,
 } as const;
+
+/** Options of the command `inspect`. */
+const OF_INSPECT = ['recording', 'odometry', 'reference', 'columns', 'time-unit', 'length-unit', 'angle-unit', 'json'];
 
 /** Options by the fields of `calibrate`. */
 const BY_FIELD: Record<string, string> = {
@@ -96,7 +99,7 @@ export interface Calibrate {
   plot: string | undefined;
 }
 
-interface Inspect { command: 'inspect'; inputs: Input[] }
+interface Inspect { command: 'inspect'; inputs: Input[]; isJson: boolean }
 
 /** Parses the arguments; throws a UsageError. */
 export function optionsOf(args: string[]): Calibrate | Inspect | 'help' | 'version' {
@@ -108,7 +111,9 @@ export function optionsOf(args: string[]): Calibrate | Inspect | 'help' | 'versi
   if (command === 'inspect') {
     const all = [...paths, ...(values.recording ?? []), ...(values.odometry ?? []), ...(values.reference ?? [])];
     if (all.length === 0) throw new UsageError('inspect needs a file or folder: motion-widgets inspect run.bag');
-    return { command, inputs: all.map((path) => ({ path, open: open() })) };
+    const other = Object.keys(values).find((name) => !OF_INSPECT.includes(name));
+    if (other !== undefined) throw new UsageError(`--${other} is an option of calibrate; inspect has ${listOf(OF_INSPECT.map((name) => `--${name}`))}.`);
+    return { command, inputs: all.map((path) => ({ path, open: open() })), isJson: values.json ?? false };
   }
   if (command !== 'calibrate') throw new UsageError(`the command must be calibrate or inspect (got “${cut(command ?? '')}”); --help has examples.`);
   const [stray] = paths;
@@ -124,6 +129,7 @@ export function optionsOf(args: string[]): Calibrate | Inspect | 'help' | 'versi
   };
   const [distance, angle, duration] = [number('update-min-d'), number('update-min-a'), number('duration')];
   if (duration !== undefined && (distance ?? angle) !== undefined) throw new UsageError('--duration excludes --update-min-d and --update-min-a: give one or the other.');
+  if (values.plot !== undefined && !/\.svg$/i.test(values.plot)) throw new UsageError(`--plot writes SVG; the name must end in .svg (got “${cut(values.plot)}”).`);
   if (values.json && values.yaml) throw new UsageError('--json excludes --yaml: give one or the other.');
   const { recording = [], odometry = [], reference = [] } = values;
   for (const [one, other] of [[odometry, 'reference'], [reference, 'odometry']] as const) {

@@ -11,7 +11,13 @@ const [WIDTH, HEIGHT, MARGIN] = [800, 800, { top: 64, right: 24, bottom: 56, lef
 /** Shortest step of a line in pixels. */
 const STEP = 0.5;
 
-const COLORS = { reference: '#1f6fb2', odometry: '#d97a00', outlier: '#c8102e', axis: '#444' };
+/** Distance of the paths from the axes, in pixels. */
+const INSET = 12;
+
+/** Lines in the colours of ink, prior and accent on the page. */
+const LINES = { reference: 'stroke="#1f1e1b" stroke-width="1.5"', odometry: 'stroke="#0b61b0" stroke-width="1.5" stroke-dasharray="4 2"', outlier: 'stroke="#7a1560" stroke-width="4"' };
+
+const [INK, MUTED] = ['#1f1e1b', '#57564f'];
 
 /** Returns the picture, with a panel for each drive. */
 export function plotOf(drives: Drive[], calibration: any): string {
@@ -40,10 +46,10 @@ function panelOf({ odometry, reference }: Drive, { legs, systematicErrors }: any
   const all = [...truth.points, ...own.points];
   const [[left, right], [bottom, ceiling]] = [0, 1].map((axis) => extent(all, (point) => point[axis]) as [number, number]);
   const [spanX, spanY] = [Math.max(right - left, 0.1), Math.max(ceiling - bottom, 0.1)];
-  const scale = Math.min((WIDTH - MARGIN.left - MARGIN.right) / spanX, (HEIGHT - MARGIN.top - MARGIN.bottom) / spanY);
-  const height = Math.round(MARGIN.top + MARGIN.bottom + spanY * scale);
-  const x = (value: number) => MARGIN.left + (value - left) * scale;
-  const y = (value: number) => height - MARGIN.bottom - (value - bottom) * scale;
+  const scale = Math.min((WIDTH - MARGIN.left - MARGIN.right - 2 * INSET) / spanX, (HEIGHT - MARGIN.top - MARGIN.bottom - 2 * INSET) / spanY);
+  const height = Math.round(MARGIN.top + MARGIN.bottom + 2 * INSET + spanY * scale);
+  const x = (value: number) => MARGIN.left + INSET + (value - left) * scale;
+  const y = (value: number) => height - MARGIN.bottom - INSET - (value - bottom) * scale;
   const pixel = (value: number) => value.toFixed(1);
   const line = ({ points, breaks }: Pick<Path, 'points' | 'breaks'>) => {
     let d = '';
@@ -66,23 +72,23 @@ function panelOf({ odometry, reference }: Drive, { legs, systematicErrors }: any
   const axis = (isX: boolean) => ticks(isX ? left : bottom, isX ? right : ceiling, 6).map((value) => {
     const [at, label] = [isX ? x(value) : y(value), String(Number(value.toPrecision(6))).replace('-', '−')];
     return isX
-      ? `<path d="M${pixel(at)} ${height - MARGIN.bottom}v5" stroke="${COLORS.axis}"/><text x="${pixel(at)}" y="${height - MARGIN.bottom + 19}" text-anchor="middle">${label}</text>`
-      : `<path d="M${MARGIN.left} ${pixel(at)}h-5" stroke="${COLORS.axis}"/><text x="${MARGIN.left - 9}" y="${pixel(at + 4)}" text-anchor="end">${label}</text>`;
+      ? `<path d="M${pixel(at)} ${height - MARGIN.bottom}v5" stroke="${MUTED}"/><text x="${pixel(at)}" y="${height - MARGIN.bottom + 19}" text-anchor="middle">${label}</text>`
+      : `<path d="M${MARGIN.left} ${pixel(at)}h-5" stroke="${MUTED}"/><text x="${MARGIN.left - 9}" y="${pixel(at + 4)}" text-anchor="end">${label}</text>`;
   }).join('');
   const key = ([['reference, with the ends of legs', 'reference'], ['odometry, aligned', 'odometry'], ...(outliers.length ? [['outliers', 'outlier'] as const] : [])] as const)
-    .map(([label, color], i) => `<path d="M${MARGIN.left + 260 * i} 46h24" stroke="${COLORS[color]}" stroke-width="${color === 'outlier' ? 4 : 2}"/><text x="${MARGIN.left + 260 * i + 30}" y="50" fill="#222">${label}</text>`);
+    .map(([label, name], i) => `<path d="M${MARGIN.left + 260 * i} 46h24" ${LINES[name]}/><text x="${MARGIN.left + 260 * i + 30}" y="50" fill="${INK}">${label}</text>`);
   const title = `${odometry.name} and ${reference.name}: ${its.length} legs, ${outliers.length} ${outliers.length === 1 ? 'outlier' : 'outliers'}`;
   const svg = `<title>${escaped(title)}</title>
-<text x="${MARGIN.left}" y="26" font-size="16" fill="#222">${escaped(title)}</text>
+<text x="${MARGIN.left}" y="26" font-size="16" fill="${INK}">${escaped(title)}</text>
 ${key.join('')}
-<g fill="${COLORS.axis}"><g fill="none" stroke="${COLORS.axis}"><path d="M${MARGIN.left} ${MARGIN.top}V${height - MARGIN.bottom}H${WIDTH - MARGIN.right}"/></g>${axis(true)}${axis(false)}
+<g fill="${MUTED}"><g fill="none" stroke="${MUTED}"><path d="M${MARGIN.left} ${MARGIN.top}V${height - MARGIN.bottom}H${WIDTH - MARGIN.right}"/></g>${axis(true)}${axis(false)}
 <text x="${(MARGIN.left + WIDTH - MARGIN.right) / 2}" y="${height - 14}" text-anchor="middle">x (m)</text>
 <text transform="translate(18 ${(MARGIN.top + height - MARGIN.bottom) / 2}) rotate(-90)" text-anchor="middle">y (m)</text></g>
 <g fill="none" stroke-linejoin="round">
-<path d="${line(own)}" stroke="${COLORS.odometry}" stroke-width="1.5"/>
-<path d="${line(truth)}" stroke="${COLORS.reference}" stroke-width="1.5"/>
-<path d="${dots}" stroke="${COLORS.reference}" stroke-width="4" stroke-linecap="round"/>
-<path d="${marked}" stroke="${COLORS.outlier}" stroke-width="4"/>
+<path d="${line(own)}" ${LINES.odometry}/>
+<path d="${line(truth)}" ${LINES.reference}/>
+<path d="${dots}" stroke="${INK}" stroke-width="4" stroke-linecap="round"/>
+<path d="${marked}" ${LINES.outlier}/>
 </g>`;
   return { svg, height };
 }

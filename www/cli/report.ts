@@ -20,6 +20,8 @@ export interface Result {
   logs: ReadLog[];
   /** Whole seconds that were subtracted from all times. */
   start: number;
+  /** Times of the odometry's first row in each drive. */
+  begins: number[];
   date: string;
 }
 
@@ -47,7 +49,7 @@ const LISTED = 5;
 export const logSummaries = (logs: ReadLog[]): string => logs.map(({ name, sentences: [first, ...more] }) => `${[`${name}: ${first}`, ...more].join('\n  ')}\n`).join('');
 
 /** Returns the report after the summary of the logs. */
-export function textOf({ calibration, options, logs, start, date }: Result, isColored = false): string {
+export function textOf({ calibration, options, logs, start, begins, date }: Result, isColored = false): string {
   const { legs, lost, diagnostics: { checks, windows } } = calibration;
   const { model = 'odometry', rule = 'thrun' } = options;
   const failed = failedOf(checks);
@@ -67,10 +69,10 @@ export function textOf({ calibration, options, logs, start, date }: Result, isCo
     ...failed.map(({ name, message }) => `${name}: ${message}`),
     '',
     ...(causes.length ? [`lost legs: ${causes.join(', ')}`] : []),
-    ...outliersOf(legs, start),
+    ...outliersOf(legs, begins),
     ...aligned([['held-out windows', 'number', 'covered', 'NEES'], ...windows.map(windowRow)]),
     '',
-    ...nav2Of({ calibration, options, logs, start, date }),
+    ...nav2Of({ calibration, options, logs, start, begins, date }),
     '',
   ].join('\n');
   return isColored ? text.replaceAll(/^Consistent|\bok$/gm, painted(GREEN)).replace(/^Questionable/m, painted(YELLOW)).replaceAll(/^Unusable|\bFAILED$/gm, painted(RED)) : text;
@@ -152,11 +154,14 @@ function windowRow({ length, count, coverage, nees }: any): string[] {
   return [`of ${short(length)} m`, String(count), percent(coverage), short(nees)];
 }
 
-/** Lists outliers by the times of the logs. */
-function outliersOf({ count, times, outliers }: any, start: number): string[] {
+/** Lists outliers by their times after the start of the odometry. */
+function outliersOf({ count, times, outliers }: any, begins: number[]): string[] {
   const found = Array.from({ length: count }, (_, leg) => leg).filter((leg) => outliers[leg] === 1);
-  const list = found.slice(0, LISTED).map((leg) => `${(start + times[2 * leg]).toFixed(2)} s`).join(', ');
-  return found.length ? [`outliers: ${found.length} of ${count} legs, at ${list}${found.length > LISTED ? ', …' : ''}`] : [];
+  const list = found.slice(0, LISTED).map((leg) => {
+    const begin = Math.max(...begins.filter((each) => each <= times[2 * leg]));
+    return `${(times[2 * leg] - begin).toFixed(2)} s${begins.length > 1 ? ` of drive ${begins.indexOf(begin) + 1}` : ''}`;
+  }).join(', ');
+  return found.length ? [`outliers: ${found.length} of ${count} legs, at ${list}${found.length > LISTED ? ', …' : ''} after the start`] : [];
 }
 
 function nav2Of(result: Result): string[] {

@@ -7,7 +7,7 @@ import { LogError, cut } from '../logs/log-error.ts';
 import { logOf } from '../logs/pairs.ts';
 import { summarize } from '../logs/summary.ts';
 import { recordingsOf } from './files.ts';
-import { inspect } from './inspect.ts';
+import { inspect, textOfContents, type Inspected } from './inspect.ts';
 import { HELP, UsageError, optionsOf, withOption, type Calibrate } from './options.ts';
 import { plotOf } from './plot.ts';
 import { jsonOf, logSummaries, textOf, yamlOf, type Result } from './report.ts';
@@ -36,7 +36,15 @@ export async function run(args: string[], environment: Environment): Promise<num
     if (options === 'help') print(HELP);
     else if (options === 'version') print(`${environment.version}\n`);
     else if (options.command === 'inspect') {
-      for (const input of options.inputs) for (const recording of await recordingsOf(input, onSkip)) print(await inspect(recording, input.path, onProgress));
+      const all: Inspected[] = [];
+      for (const input of options.inputs) {
+        for (const recording of await recordingsOf(input, onSkip)) {
+          const contents = await inspect(recording, input.path, onProgress);
+          all.push(contents);
+          if (!options.isJson) print(textOfContents(contents));
+        }
+      }
+      if (options.isJson) print(`${JSON.stringify(all, undefined, 1)}\n`);
     } else return await calibrate(options, environment, onSkip);
     return SUCCESS;
   } catch (error) {
@@ -76,7 +84,7 @@ async function calibrate({ inputs, wishes, fit, output, plot }: Calibrate, { loa
   if (output === 'text') print(logSummaries(logs));
   if (output === 'yaml') complain(logSummaries(logs));
   const calibration = fitted(await load(), fit, drives);
-  const result: Result = { calibration, options: fit, logs, start, date: now.toISOString().slice(0, 10) };
+  const result: Result = { calibration, options: fit, logs, start, begins: drives.map(({ odometry }) => odometry.data.t[0]), date: now.toISOString().slice(0, 10) };
   if (plot !== undefined) await save(plot, plotOf(drives, calibration));
   const isUnusable = calibration.recommended === null;
   if (output === 'yaml') {

@@ -25,7 +25,7 @@ const FIXED = { odometry: [/(^|[/_])odom(etry)?$/], reference: [/mocap|vicon|opt
 const NAME_OF_ODOMETRY = /odom|wheel|encoder|cmd/i;
 
 /** Checks whether a recording is a table, which has groups of columns in the place of topics. */
-export const isTable = ({ format }: Recording): boolean => !['mcap', 'rosbag', 'sqlite'].includes(format);
+export const isTable = ({ format }: Pick<Recording, 'format'>): boolean => !['mcap', 'rosbag', 'sqlite'].includes(format);
 
 /** Checks whether a log is by its name or frames the estimate of a localizer, or of a filter over the odometry. */
 export const isLocalizer = (name: string, frames?: Frames): boolean => frames?.parent === 'map' || ((LOCALIZED.test(name) || FILTERED.test(name)) && !MEASURED.test(name));
@@ -58,10 +58,8 @@ export function candidates(recording: Recording, role: Role, { kind }: { kind?: 
   const paths = useful.filter((each) => each.kind === 'poses');
   const chains = useful.flatMap(({ name, frames = [] }) => likeliest(frames, role).map((each) => ({ series: name, frames: each })));
   if (role === 'reference') {
-    // Positions are refused with a reason, if there is nothing else.
-    const positions = choices(useful.filter((each) => each.kind === 'positions'), 'poses');
     const others = paths.filter(({ name }) => !FILTERED.test(name) && !ODOMETRY[0].test(name));
-    return [...tiers(paths, [MEASURED, LOCALIZED], 'poses'), choices(others, 'poses'), ...(isOfTable && useful.length === 1 ? [choices(paths, 'poses')] : []), chains, positions];
+    return [...tiers(paths, [MEASURED, LOCALIZED], 'poses'), choices(others, 'poses'), ...(isOfTable && useful.length === 1 ? [choices(paths, 'poses')] : []), chains];
   }
   // A message says by its type that it is odometry.
   const wheels = paths.filter(({ name, type }) => !MEASURED.test(name) && !LOCALIZED.test(name) && (isOfTable || /Odometry$/.test(type)));

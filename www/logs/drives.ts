@@ -135,7 +135,10 @@ function guessed(recording: Recording, role: Role, wishes: Wishes, other?: Choic
   const transforms = useful.filter(({ kind }) => kind === 'transforms');
   if (transforms.length === useful.length) throw framesError(recording, transforms.find((each) => each.frames) ?? transforms[0], role);
   if (role === 'reference' && useful.every(({ kind }) => kind === 'commands')) throw new LogError({ file }, (say) => say.noPoses(described(useful)));
-  if (useful.every(({ kind }) => kind === 'positions')) throw new LogError({ file }, (say) => say.positions(listed(useful.map(({ type }) => type))));
+  const positions = useful.filter(({ kind }) => kind === 'positions');
+  if (positions.length === useful.length || (role === 'reference' && best.length === 0 && positions.length > 0)) {
+    throw new LogError({ file }, (say) => say.positions(listed(positions.map(({ type }) => type))));
+  }
   if (useful.length === 1) throw new LogError({ file }, (say) => say.alone(described(useful), knownRole(recording, useful[0])), { what: 'other', choices: [] });
   throw new LogError(
     { file },

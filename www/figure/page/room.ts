@@ -3,20 +3,20 @@
 import { css, unsafeCSS } from 'lit';
 import { likedWidth } from '../../ui/width.ts';
 
-/** Least widths of the width classes, em: at these figures put their pictures side by side, or their controls. */
-const WIDTHS = [0, 30, 38, 56];
+/** Bounds of the width classes, em: at these figures put their pictures side by side, or their controls. */
+const WIDTHS = [20, 30, 38, 56, 80];
 
 /**
- * Heights by the tag and the width class: in the middle of those measured as the figures open, up to a width of 80 em, in a usual
- * font. A number is in em.
+ * Heights by the tag and the width class, at both bounds of the class: a line as low as it can be above the heights measured as the
+ * figures open, in a usual font and in a window 900 px high. A number is in em.
  */
-const HEIGHTS: Record<string, (number | string)[]> = {
-  'banana-machine': [82.5, 64, 51, 51.5],
-  'map-squeeze': [76, 76.5, 43, 44.5],
-  'arc-anatomy': [73, 68, 45, 46],
-  'odometry-decomposer': [104, 92, 'clamp(44.5em, 100svh - 0.5em, 55.5em)', 'clamp(43.5em, 100svh - 1em, 51.5em)'],
-  'dead-reckoning': [101, 52, 46, 38.5],
-  'alpha-calibrator': [89, 89, 44.5, 39],
+const HEIGHTS: Record<string, ([number, number] | string)[]> = {
+  'banana-machine': [[85.9, 86.1], [70.9, 63.5], [51.7, 54], [50.2, 55.5]],
+  'map-squeeze': [[81.7, 85], [79.7, 78.9], [43.2, 48.8], [50.3, 44.1]],
+  'arc-anatomy': [[80.8, 70.7], [73.8, 68.2], [42.2, 56.5], [50.9, 47.9]],
+  'odometry-decomposer': [[104.5, 108.5], [94.4, 95], 'clamp(44.8em, 100svh - 0.3em, 56.3em)', 'clamp(44.7em, 100svh - 0.4em, 51.7em)'],
+  'dead-reckoning': [[95.8, 111.4], [58.4, 52.6], [51.4, 50.7], [38.7, 42.8]],
+  'alpha-calibrator': [[88.7, 104.6], [100.9, 92.6], [46.8, 52.5], [36.4, 45.1]],
 };
 
 /**
@@ -25,10 +25,13 @@ const HEIGHTS: Record<string, (number | string)[]> = {
  * @param unit a hundredth of the figure's width
  */
 function heightOf(tag: string, unit: '%' | 'cqi') {
-  const heights = HEIGHTS[tag].map((height, i) => {
+  const heights = HEIGHTS[tag].map((height, i, { length }) => {
     const [least, next] = [WIDTHS[i], WIDTHS[i + 1]];
-    const above = next ? ` - 1e6*max(0em,100${unit} - ${next - 0.001}em)` : '';
-    return `${typeof height === 'number' ? `${height}em` : height} - 1e6*max(0em,${least}em - 100${unit})${above}`;
+    const width = `min(100${unit},${next}em)`;
+    const line = (from: number, to: number) => `${from}em + ${((to - from) / (next - least)).toFixed(3)}*(${width} - ${least}em)`;
+    const below = i > 0 ? ` - 1e6*max(0em,${least}em - 100${unit})` : '';
+    const above = i === length - 1 ? '' : ` - 1e6*max(0em,100${unit} - ${next - 0.001}em)`;
+    return `${typeof height === 'string' ? height : line(...height)}${below}${above}`;
   });
   return `max(${heights})`;
 }

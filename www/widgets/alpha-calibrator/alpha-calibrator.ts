@@ -287,7 +287,8 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
             ${group(say.panels.title, panels(this))}
             ${group(say.nav2.title, nav2(this))}`,
           csvTitle: say.csvTitle,
-        })}`)}
+        })}
+        ${this.#opener.reader?.summaryOf(this.#opener)}`)}
       </section>
     `;
   }

@@ -17,7 +17,7 @@ const [WIDTH, HEIGHT, MARGIN] = [220, 150, 4];
 /** Most points of a path: a pixel has several. */
 const POINTS = 1500;
 
-/** Returns what was read of each drive, before it is used and beside the result. */
+/** Returns what was read of each drive, shown while it is fitted and below the result. */
 export function summaryOf({ chosen, say, host }: LogOpener) {
   // The page may have given another log since.
   if (!chosen?.drives || !say || (chosen.log && chosen.log !== host.log)) return nothing;

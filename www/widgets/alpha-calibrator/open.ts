@@ -224,7 +224,7 @@ async function loadReader() {
   return { ...candidates, ...drives, ...pairs, ...choice, ...summary, en, de };
 }
 
-/** Returns the line that logs are dropped on, and below it what becomes of a log: progress, choices, why it is refused, and what was read. */
+/** Returns the line that logs are dropped on, and below it what becomes of a log: progress or its name, choices, and why it is refused. */
 export function dropZone(figure: Figure, opener: LogOpener) {
   const say = words.calibrator.own;
   const { complaint, share, reader } = opener;
@@ -232,11 +232,12 @@ export function dropZone(figure: Figure, opener: LogOpener) {
     <p title=${say.dropTitle}>
       ${say.drop}
       <label class="files"><span>${say.files}</span>${fileInput('log-files', EXTENSIONS, (files) => opener.dropped.take(files))}</label>
-      ${figure.log ? html`<span class="present">${say.present(figure.logName)}</span> ${button(say.leave, () => opener.leave())}` : nothing}
     </p>
-    ${share === undefined ? nothing : html`<p><progress aria-label=${say.reading} .value=${share}></progress> ${button(words.progress.stop, () => opener.stop())}</p>`}
+    ${share !== undefined
+      ? html`<p><progress aria-label=${say.reading} .value=${share}></progress> ${button(words.progress.stop, () => opener.stop())}</p>`
+      : figure.log ? html`<p><span class="present">${say.present(figure.logName)}</span> ${button(say.leave, () => opener.leave())}</p>` : nothing}
     <p class="note" id="refusal" role=${figure.notice.isShown ? nothing : 'alert'} ?hidden=${complaint === ''}>${complaint}</p>
-    ${reader?.choosers(opener)} ${reader?.summaryOf(opener)}
+    ${reader?.choosers(opener)}
   </div>`;
 }
 

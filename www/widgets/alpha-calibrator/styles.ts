@@ -156,6 +156,7 @@ const own = css`
     background: var(--prediction);
     color: var(--paper);
     font-weight: bold;
+    line-height: 1;
   }
 
   .badge.consistent {
@@ -372,7 +373,7 @@ const own = css`
   }
 
   @media print {
-    .drop-zone {
+    :is(.drop-zone, .found) {
       display: none;
     }
   }

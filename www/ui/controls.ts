@@ -19,7 +19,8 @@ export const controlStyles = css`
     line-height: 1.25;
   }
 
-  :is(button, input, textarea, summary, .handle, .reserved):focus-visible {
+  :is(button, input, select, textarea, summary, .handle, .reserved):focus-visible,
+  :is(.options .choice, .files):has(:focus-visible) {
     outline: 2px solid var(--accent);
     outline-offset: 2px;
   }
@@ -148,11 +149,6 @@ export const controlStyles = css`
     background: var(--ink);
     border-color: var(--ink);
     color: var(--paper);
-  }
-
-  .options .choice:has(:focus-visible) {
-    outline: 2px solid var(--accent);
-    outline-offset: 2px;
   }
 
   .marked {

@@ -135,6 +135,7 @@ const layout = css`
   canvas {
     display: block;
     width: 100%;
+    aspect-ratio: 5 / 4;
     touch-action: pan-y pinch-zoom;
     /* The pictures' own unit: what they are drawn in, too, is in proportion to the letters. See scene/canvas.ts. */
     font-size: 0.8125em;
@@ -190,6 +191,21 @@ const layout = css`
 
   .handle:hover::after {
     background: var(--prior);
+  }
+
+  /* A robot is drawn in the picture: its body's handle has no look of its own. */
+  .handle.body::after {
+    content: none;
+  }
+
+  .handle.turn {
+    width: 1.75em;
+    height: 1.75em;
+  }
+
+  .handle.turn::after {
+    inset: 0.45em;
+    border-width: 2.5px;
   }
 
   .handle[data-hint]::before {

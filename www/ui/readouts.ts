@@ -12,6 +12,10 @@ export const readoutStyles = css`
     margin: 0.1em 0 0.5em;
   }
 
+  .said .readouts {
+    margin: 0;
+  }
+
   /* A longer value moves no neighbour. */
   .readouts > div {
     min-width: 5em;

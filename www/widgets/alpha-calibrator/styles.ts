@@ -6,10 +6,6 @@ import { plotStyles } from '../../ui/plot.ts';
 import { fileStyles } from '../shared/files.ts';
 
 const own = css`
-  canvas {
-    aspect-ratio: 5 / 4;
-  }
-
   .drop-zone {
     margin-bottom: 0.4em;
     padding: 0.25em 0.6em;
@@ -54,11 +50,6 @@ const own = css`
     box-shadow: inset 0 0 0 1px var(--ink);
   }
 
-  .files:has(:focus-visible) {
-    outline: 2px solid var(--accent);
-    outline-offset: 2px;
-  }
-
   .choosers .topics {
     display: flex;
     flex-wrap: wrap;
@@ -75,11 +66,6 @@ const own = css`
     background: var(--paper);
     color: var(--ink);
     font: inherit;
-  }
-
-  .choosers select:focus-visible {
-    outline: 2px solid var(--accent);
-    outline-offset: 2px;
   }
 
   /* The figure fills the screen. */

@@ -3,13 +3,8 @@
 import { css } from 'lit';
 import { layoutStyles } from '../../ui/layout.ts';
 import { plotStyles } from '../../ui/plot.ts';
-import { poseHandleStyles } from '../shared/styles.ts';
 
 const own = css`
-  canvas {
-    aspect-ratio: 5 / 4;
-  }
-
   .headline {
     margin: 0 0 0.5em;
     line-height: 1.25;
@@ -170,4 +165,4 @@ const own = css`
   }
 `;
 
-export const anatomyStyles = [...layoutStyles, plotStyles, poseHandleStyles, own];
+export const anatomyStyles = [...layoutStyles, plotStyles, own];

@@ -5,10 +5,6 @@ import { layoutStyles } from '../../ui/layout.ts';
 import { plotStyles } from '../../ui/plot.ts';
 
 const own = css`
-  canvas {
-    aspect-ratio: 5 / 4;
-  }
-
   @container (min-width: 30em) {
     .views {
       grid-template-columns: 1fr 1fr;

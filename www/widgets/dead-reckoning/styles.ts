@@ -5,10 +5,6 @@ import { layoutStyles } from '../../ui/layout.ts';
 import { plotStyles } from '../../ui/plot.ts';
 
 const own = css`
-  canvas {
-    aspect-ratio: 5 / 4;
-  }
-
   .chart .plotted {
     max-width: calc(60svh * 1.52);
     margin-inline: auto;
@@ -18,10 +14,6 @@ const own = css`
   .chart input {
     --thumb: var(--accent);
     cursor: ew-resize;
-  }
-
-  .said .readouts {
-    margin: 0;
   }
 
   .ratios {

@@ -3,13 +3,8 @@
 import { css } from 'lit';
 import { layoutStyles } from '../../ui/layout.ts';
 import { fileStyles } from '../shared/files.ts';
-import { poseHandleStyles } from '../shared/styles.ts';
 
 const own = css`
-  canvas {
-    aspect-ratio: 5 / 4;
-  }
-
   .handle:is(.jamb, .side) {
     width: 1.75em;
     height: 1.75em;
@@ -198,4 +193,4 @@ const own = css`
   }
 `;
 
-export const squeezeStyles = [...layoutStyles, poseHandleStyles, fileStyles, own];
+export const squeezeStyles = [...layoutStyles, fileStyles, own];

@@ -3,20 +3,11 @@
 import { css } from 'lit';
 import { layoutStyles } from '../../ui/layout.ts';
 import { plotStyles } from '../../ui/plot.ts';
-import { poseHandleStyles } from '../shared/styles.ts';
 
 const own = css`
-  canvas {
-    aspect-ratio: 5 / 4;
-  }
-
   /* On a phone, handles of two robots need room beside each other. */
   .legs canvas {
     aspect-ratio: 1;
-  }
-
-  .said .readouts {
-    margin: 0;
   }
 
   @container (30em <= width < 38em) {
@@ -139,4 +130,4 @@ const own = css`
   }
 `;
 
-export const decomposerStyles = [...layoutStyles, plotStyles, poseHandleStyles, own];
+export const decomposerStyles = [...layoutStyles, plotStyles, own];

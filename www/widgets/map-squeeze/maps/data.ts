@@ -20,15 +20,6 @@ const MAX_WALLS = 20_000;
 /** Shades of a cell in the image that a grid is handed over as, white being occupied; what is brighter counts as white. */
 const [OCCUPIED, UNKNOWN] = [2, 1];
 
-/** Four cells, a byte each, of four bits: a grid has millions, and goes from one to the other in a few milliseconds so. */
-const FOURS = Uint32Array.from({ length: 16 }, (_, bits) => {
-  const cells = Uint8Array.of(bits >> 3, (bits >> 2) & 1, (bits >> 1) & 1, bits & 1);
-  return new Uint32Array(cells.buffer)[0];
-});
-
-/** Times four cells, all four bits are the highest of 28, in their order. */
-const GATHER = 0x08040201;
-
 /** The grid of a machine, if it has one: to ask for it takes long where it is large. */
 export function cellsOf({ grid }: MapSqueeze): Cells | null {
   return grid && { ...grid, unknown: grid.unknown.includes(1) ? grid.unknown : undefined };
@@ -87,79 +78,41 @@ export function applyMap(machine: MapSqueeze, data: unknown) {
   const rows = wholeNumber('map.rows', map.rows, 1, Math.floor(limits.cells / columns));
   const count = columns * rows;
   const occupied = bitsOf('map.occupied', map.occupied, count);
-  const unknown = map.unknown === undefined ? undefined : bitsOf('map.unknown', map.unknown, count);
+  const unknown = map.unknown === undefined ? new Uint8Array(occupied.length) : bitsOf('map.unknown', map.unknown, count);
   const description = { resolution: map.resolution, origin: map.origin, negate: 1 };
-  const fours = new Uint32Array(2 * Math.ceil(count / 8));
-  shade(fours, occupied, OCCUPIED);
-  if (unknown) shade(fours, unknown, UNKNOWN);
-  const image = imageOf(columns, new Uint8Array(fours.buffer, 0, count));
+  const image = imageOf(columns, rows, occupied, unknown);
   renamingFields(GRID_KEYS, () => machine.setGrid(description, image));
 }
 
-/**
- * Lets the machine take fields of a map.
- *
- * @param keys of the fields
- * @throws {TypeError | RangeError} that names the field as one of the map's
- */
+/** Lets the machine take fields of a map. An error of the machine then names the field as one of the map's. */
 function renamingFields(keys: string[], take: () => void) {
   try {
     take();
-  } catch (error) {
-    throw ofMap(keys, renamed(error, 'occupied', 'image'));
+  } catch (refused) {
+    const error = renamed(refused, 'occupied', 'image');
+    const key = keys.find((each) => error instanceof Error && error.message.startsWith(each));
+    throw key === undefined ? error : renamed(error, `map.${key}`, key);
   }
 }
 
-/**
- * Has a refusal name the field as one of the map's.
- *
- * @param keys of the fields
- */
-function ofMap(keys: string[], error: unknown) {
-  const key = keys.find((each) => error instanceof Error && error.message.startsWith(each));
-  return key === undefined ? error : renamed(error, `map.${key}`, key);
-}
-
-/**
- * Shades as a PGM file.
- *
- * @param cells row by row from the bottom
- */
-function imageOf(columns: number, cells: Uint8Array) {
-  const header = new TextEncoder().encode(`P5 ${columns} ${cells.length / columns} ${OCCUPIED}\n`);
-  const image = new Uint8Array(header.length + cells.length);
+/** Returns cells as a PGM image. Rows of an image begin at the top, those of a grid at the bottom; negated, white is occupied. */
+function imageOf(columns: number, rows: number, occupied: Uint8Array, unknown: Uint8Array) {
+  const header = new TextEncoder().encode(`P5 ${columns} ${rows} ${OCCUPIED}\n`);
+  const image = new Uint8Array(header.length + columns * rows);
   image.set(header);
-  // Rows of an image are counted from the top; negated, white is what is occupied.
-  for (let at = 0; at < cells.length; at += columns) {
-    image.set(cells.subarray(at, at + columns), image.length - columns - at);
+  const bit = (bits: Uint8Array, i: number) => (bits[i >> 3] >> (7 - (i & 7))) & 1;
+  for (let row = 0, i = 0; row < rows; row++) {
+    const start = image.length - columns * (row + 1);
+    for (let at = start; at < start + columns; at++, i++) image[at] = OCCUPIED * bit(occupied, i) + UNKNOWN * bit(unknown, i);
   }
   return image;
 }
 
-/**
- * @param cells one a byte, 0 or 1
- * @returns base64 of eight a byte, the first one highest
- */
+/** Returns cells of 0 or 1 as base64 of eight a byte, the first one highest. */
 function packBits(cells: Uint8Array): string {
   const bytes = new Uint8Array(Math.ceil(cells.length / 8));
-  const padded = new Uint8Array(8 * bytes.length);
-  padded.set(cells);
-  const fours = new Uint32Array(padded.buffer);
-  const bits = (four: number) => (Math.imul(four, GATHER) >>> 24) & 15;
-  for (let i = 0; i < bytes.length; i++) bytes[i] = (bits(fours[2 * i]) << 4) | bits(fours[2 * i + 1]);
+  for (let i = 0; i < cells.length; i++) bytes[i >> 3] |= cells[i] << (7 - (i & 7));
   return toBase64(bytes);
-}
-
-/**
- * Adds a shade to the cells whose bits are set.
- *
- * @param fours of cells
- */
-function shade(fours: Uint32Array, bits: Uint8Array, shade: number) {
-  for (let i = 0; i < bits.length; i++) {
-    fours[2 * i] += FOURS[bits[i] >> 4] * shade;
-    fours[2 * i + 1] += FOURS[bits[i] & 15] * shade;
-  }
 }
 
 function bitsOf(field: string, text: unknown, count: number) {

@@ -9,9 +9,8 @@ import { openRecordings } from '../logs/open.ts';
 import type { Input } from './options.ts';
 
 /**
- * Opens a file or a folder; rejects with a LogError. In a folder without metadata.yaml, other files than logs are skipped.
- *
- * @param onSkip is called with the reason
+ * Opens a file or a folder; rejects with a LogError. In a folder without metadata.yaml other files than logs are skipped, each with a call
+ * of `onSkip`.
  */
 export async function recordingsOf({ path, open }: Input, onSkip: (reason: string) => void): Promise<Recording[]> {
   const sources = await sourcesOf(path);

@@ -1,7 +1,6 @@
 /**
- * The words that all widgets share, in English; those of each are in its folder. A message with values in
- * it is a function of them; numbers come printed, save where their size decides on the words. *Stars* make
- * italics, subscript digits and _{braces} subscripts, where HTML is shown.
+ * Words that all widgets share, in English. A message with values is a function of them; numbers come printed, except where their size
+ * decides on the words. *Stars* make italics, subscript digits and _{braces} subscripts, where HTML is shown.
  */
 
 export const plural = (count: number, word: string) => `${word}${count === 1 ? '' : 's'}`;

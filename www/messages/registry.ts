@@ -36,11 +36,7 @@ export let language = 'en';
 const voices: Map<string, { words: Messages, language: string }> = new Map();
 shared.listeners.add(() => voices.clear());
 
-/**
- * Adds the elements' own words. They are in English, and say which messages there are.
- *
- * @param messages an empty catalogue stands for one that comes later
- */
+/** Adds the elements' own words in English, which say what messages there are. An empty catalogue stands for one that comes later. */
 export function addEnglish(messages: { [key: string]: Message }) {
   shared.english = merge(shared.english, messages);
   // What a page gave before these came has not been checked.
@@ -146,11 +142,7 @@ function tellAll() {
   for (const listener of shared.listeners) listener();
 }
 
-/**
- * Calls back when an element may have to speak again: on other words, or another language.
- *
- * @param signal that ends it
- */
+/** Calls back until the signal when an element may have to speak again: on other words, or another language. */
 export function onLanguage(element: Element, listener: () => void, signal: AbortSignal) {
   const { listeners } = shared;
   observer ??= new MutationObserver(tellAll);

@@ -2,12 +2,7 @@
 
 import type { Figure } from '../page.ts';
 
-/**
- * Returns the number that the figure answers with.
- *
- * @param path keys with dots between them
- * @returns null for none
- */
+/** Returns the number at a path of keys with dots between them; null for none. */
 const answerIn = (stats: Record<string, any>, path: string): number | null => path.split('.').reduce((part: any, key) => part?.[key], stats) ?? null;
 
 /**

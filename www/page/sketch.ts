@@ -18,18 +18,10 @@ const NONE = 1e-6;
 
 const pixel = ([x, y]: Point) => [START.x + SCALE * x, START.y - SCALE * y] as Point;
 
-/**
- * Returns a path through points.
- *
- * @param points in pixels
- */
+/** Returns a path through points in pixels. */
 const pathOf = (points: Point[], closed: boolean = false) => (points.length ? `M${points.map(([x, y]) => `${x.toFixed(1)} ${y.toFixed(1)}`).join('L')}${closed ? 'Z' : ''}` : '');
 
-/**
- * Returns points of the commanded arc.
- *
- * @param turned error of the turn rate, rad/s
- */
+/** Returns points of the commanded arc, with an error of the turn rate in rad/s. */
 function arcOf({ v, omega, dt }: { v: number, omega: number, dt: number }, turned: number = 0) {
   const rate = omega + turned || 1e-9;
   return Array.from({ length: 25 }, (_, i) => {
@@ -57,12 +49,7 @@ const SHAPES: Record<string, (command: { v: number, omega: number, dt: number })
 const ringAround = ([x, y]: Point, radiusX: number, radiusY: number) =>
   Array.from({ length: 37 }, (_, i) => [x + radiusX * Math.cos((i * Math.PI) / 18), y + radiusY * Math.sin((i * Math.PI) / 18)] as Point);
 
-/**
- * Says where the robots stop.
- *
- * @param poses x, y, θ of one robot after the other
- * @param guess shape that was chosen; none for a drawing
- */
+/** Says where robots stop, by x, y, θ of one after the other, and whether a chosen shape is right; a drawing has none. */
 function outcomeOf(poses: Float64Array, guess: string | undefined) {
   const of = (axis: number) => spreadOf([...poses].filter((_, i) => i % 3 === axis)).deviation;
   const [place, heading] = [Math.hypot(of(0), of(1)), of(2)];

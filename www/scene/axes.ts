@@ -14,11 +14,8 @@ const TICK_SPACING = { x: 60, y: 48 };
 const KEY = { gap: 0.8, sample: 1.5, space: 0.35, line: 1.4 };
 
 /**
- * Hairline axes with ticks at the left and the bottom, a faint grid, and above it the name of what runs upwards and a key.
- *
- * @param names with their units in brackets
- * @param key the most important first: as many as there is room for, in as many lines as the view keeps free
- * @param grid its opacity
+ * Draws axes with ticks at the left and the bottom, a faint grid, and above it the name of the vertical axis and a key. Names have their
+ * units in brackets. The key has its most important entries first: as many as there is room for.
  */
 export function drawAxes(brush: Brush, names: { x: string, y: string }, key: KeyEntry[], grid: number = 0.5) {
   const { context, view, palette, font } = brush;

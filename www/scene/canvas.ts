@@ -43,35 +43,20 @@ export interface Brush {
 /** Height of a picture's letters, pixels of its view; those of the figure have 16: see the style of canvases. */
 const LETTERS = 13;
 
-/**
- * A length in the figure's own style.
- *
- * @param pixels of a view
- */
+/** Returns a length in pixels of a view, in em of the figure's style. */
 export const length = (pixels: number) => `${pixels / 16}em`;
 
-/**
- * A size in pixels of a view, in CSS pixels.
- *
- * @param canvas with letters in its style
- */
+/** Returns a size in pixels of a view, in CSS pixels of a canvas with letters in its style. */
 export const inCss = ({ width, height }: { width: number, height: number }, canvas: Element) => [width, height].map((each) => (each * parseFloat(getComputedStyle(canvas).fontSize)) / LETTERS);
 
-/**
- * A point of the window in the pixels of a view, which what is around it may enlarge.
- *
- * @param element as wide as the view
- */
+/** Returns a point of the window in the pixels of a view, which is as wide as the element. The page may enlarge the element. */
 export function pointOn(element: Element, view: import('./view.ts').View, { clientX, clientY }: { clientX: number, clientY: number }) {
   const { left, top, width } = element.getBoundingClientRect();
   const zoom = width / view.width;
   return [(clientX - left) / zoom, (clientY - top) / zoom];
 }
 
-/**
- * Context of a hidden canvas that is copied to visible ones. The processor draws it: a graphics card may lose its contents, and
- * they would be missing when the visible canvases are drawn again.
- */
+/** Returns the context of a hidden canvas that is copied to visible ones. The processor draws it: a graphics card may lose its contents. */
 export function hiddenContext(canvas: OffscreenCanvas) {
   return canvas.getContext('2d', { willReadFrequently: true }) as OffscreenCanvasRenderingContext2D;
 }

@@ -1,7 +1,4 @@
-/**
- * What pictures are made of: robots, densities, outlines and marks. Every function takes the
- * brush, which knows the view's transform and the colours, and none keeps anything.
- */
+/** Marks of pictures: robots, densities, outlines and rings. Every function takes the brush, and none keeps anything. */
 
 import { greatest } from 'd3-array';
 import { limits } from '../settings.js';
@@ -12,16 +9,12 @@ import type { Callout } from './callout.ts';
 import type { Brush } from './canvas.ts';
 import type { Palette } from '../ui/theme.ts';
 
-/**
- * Heading ticks that are stroked at once. More is faster; but those of one stroke do not darken
- * where they cross, so many more would flatten the crowd.
- */
+/** Number of heading ticks that are stroked at once. Those of one stroke do not darken where they cross: more would flatten the crowd. */
 const TICKS_A_STROKE = 25;
 
 /**
- * Samples as dots. Overlapping dots darken, so that a crowd looks like one.
- *
- * @param layout which of the three numbers are drawn, and the length of the heading's line as a share of the usual one
+ * Draws samples as dots. Overlapping dots darken, so that a crowd looks like one. `layout` has the indices of the numbers that are drawn,
+ * and the length of the heading's line as a share of the usual one.
  */
 export function drawDots(brush: Brush, triples: Float64Array, layout: { x: number, y: number, heading: number | null, ahead?: number }) {
   const { context, view, palette } = brush;
@@ -54,13 +47,7 @@ export function drawDots(brush: Brush, triples: Float64Array, layout: { x: numbe
   context.globalAlpha = 1;
 }
 
-/**
- * Adds a line from a point in a direction of the world to the path.
- *
- * @param x CSS pixels
- * @param heading radians
- * @param length CSS pixels
- */
+/** Adds a line to the path, from a point in CSS pixels in a direction of the world (rad), with a length in CSS pixels. */
 function headingTick({ context, view }: Brush, x: number, y: number, heading: number, length: number) {
   const ahead = view.direction(heading);
   context.moveTo(x, y);
@@ -90,9 +77,8 @@ export function drawHeap(brush: Brush, { x, y, headings, label }: { x: number, y
 }
 
 /**
- * The colours of a density by the share of its fullest cell: ink of the role's colour, thinner where there is less.
- *
- * @returns red, green, blue and alpha of each
+ * Returns the colours of a density by the share of its fullest cell, as red, green, blue and alpha: ink of the role's colour, thinner where
+ * there is less.
  */
 export function densityRamp(palette: Palette): Uint8Array {
   const cloud = channels(palette.cloud);
@@ -108,11 +94,8 @@ export function densityRamp(palette: Palette): Uint8Array {
 }
 
 /**
- * An image that covers the inside of the axes. Only the part with ink is drawn: of a density most is empty, and to stretch it
- * costs more than all the rest of a picture.
- *
- * @param grid what the pixels go through to be stretched
- * @param pixels row 0 at the top
+ * Draws an image over the inside of the axes, row 0 at the top, stretched through a hidden canvas. Only the part with ink is drawn: to
+ * stretch the empty part costs more than all the rest of a picture.
  */
 export function drawPixels({ context, view }: Brush, grid: OffscreenCanvas, pixels: Uint8ClampedArray<ArrayBuffer>, columns: number) {
   const rows = pixels.length / (4 * columns);
@@ -129,12 +112,7 @@ export function drawPixels({ context, view }: Brush, grid: OffscreenCanvas, pixe
   context.drawImage(grid, x, y, width, height, left + across * x, top + down * y, across * width, down * height);
 }
 
-/**
- * Draws a density over the inside of the axes.
- *
- * @param grid as for `drawPixels`
- * @param cell CSS pixels
- */
+/** Draws a density over the inside of the axes, with cells of so many CSS pixels, through a hidden canvas as in `drawPixels`. */
 export function drawDensity(brush: Brush, grid: OffscreenCanvas, cell: number, pixelsOf: (...view: [xMin: number, yMin: number, xMax: number, yMax: number, columns: number, rows: number]) => Uint8ClampedArray<ArrayBuffer>) {
   const { left, right, top, bottom } = brush.view.frame;
   const { xMin, yMin, xMax, yMax } = brush.view.extent;
@@ -195,10 +173,8 @@ export function lineStyles<Name extends string>({ palette, highlight }: Pick<Bru
 export const hasLength = (points: Float64Array) => points.some((value, i) => Math.abs(value - points[i % 2]) > 1e-9);
 
 /**
- * Polylines with halos of paper, so that they read on top of the cloud. The halos are below all of them: where two nearly
- * coincide, both are seen.
- *
- * @param outlines the last one on top
+ * Draws polylines with halos of paper, the last one on top, so that they read on top of the cloud. The halos are below all of them: where
+ * two nearly coincide, both are seen.
  */
 export function drawOutlines(brush: Brush, outlines: Outline[]) {
   const { context, palette } = brush;
@@ -234,10 +210,8 @@ function strokeLines(brush: Brush, lines: Outline[]) {
 const GHOST = 0.35;
 
 /**
- * Draws earlier outlines.
- *
- * @param from places of what there is at present: x, y
- * @returns a callout that names them at their point in sight that is furthest from those places; none where nothing is in sight
+ * Draws earlier outlines. Returns a callout that names them at their point in sight that is furthest from the places of the present ones;
+ * none where nothing is in sight.
  */
 export function drawGhosts(brush: Brush, outlines: Outline[], from: ArrayLike<number>[], text: string): Callout[] {
   const { context, view, palette } = brush;
@@ -272,11 +246,7 @@ export function drawRobot(brush: Brush, { x, y, heading, colour }: { x: number, 
   context.stroke();
 }
 
-/**
- * Paints a handle where no element stands for it: in files and on paper.
- *
- * @param handle pixels
- */
+/** Paints a handle, in pixels, where no element stands for it: in files and on paper. */
 export function drawHandle({ context, palette, handles }: Brush, { x, y, radius, colour }: { x: number, y: number, radius: number, colour: string }) {
   if (!handles) return;
   context.beginPath();
@@ -288,11 +258,7 @@ export function drawHandle({ context, palette, handles }: Brush, { x, y, radius,
   context.stroke();
 }
 
-/**
- * The ring and cross hairs of the marked sample.
- *
- * @param accent its colour
- */
+/** Draws the ring and cross hairs of the marked sample in a colour. */
 export function drawMark(brush: Brush, { x, y, heading }: { x: number, y: number, heading: number | null }, accent: string = brush.palette.accent) {
   const { context, view, palette } = brush;
   const px = view.toPixelX(x);

@@ -105,11 +105,7 @@ export class Handle {
     ></div>`;
   }
 
-  /**
-   * @param root that it was rendered into
-   * @param x of its middle, pixels of the view: its style has that at 0
-   * @param size its width and height; that of its style where it is left out
-   */
+  /** Places the element below a root: its middle at a point in pixels of the view, with a size if that is not the one of its style. */
   place(root: ParentNode, x: number, y: number, size?: number) {
     const handle = root.querySelector(`.handle.${this.#part.replace(' ', '.')}`) as HTMLElement | null;
     if (!handle) return;
@@ -118,19 +114,13 @@ export class Handle {
     handle.style.translate = `${length(x)} ${length(y)}`;
   }
 
-  /**
-   * @param point pixels of the view
-   * @returns the same in metres
-   */
+  /** Returns a point in pixels of the view in metres. */
   #world([x, y]: number[]): number[] {
     const view = this.#hooks.view();
     return [view.toWorldX(x), view.toWorldY(y)];
   }
 
-  /**
-   * @param event on the handle
-   * @returns where the pointer is, metres
-   */
+  /** Returns the place of the pointer in metres. */
   #pointer(event: PointerEvent): number[] {
     const { parentElement } = event.currentTarget as Element;
     return this.#world(pointOn(parentElement as Element, this.#hooks.view(), event));

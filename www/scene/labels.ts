@@ -30,9 +30,8 @@ export interface Text {
 }
 
 /**
- * Draws a label on a ground of its own, inside of the axes, above or below where another text is in its place.
- *
- * @param label with its place in pixels, and the side of it that has room, from −1 for the left to 1 for the right
+ * Draws a label at a place in pixels, on a ground of its own inside of the axes, or above or below where another text is. `towards` is the
+ * side that has room, from −1 for the left to 1 for the right.
  */
 export function drawLabel(brush: Brush, { x, y, towards, colour, ...text }: Text & { x: number, y: number, towards: number, colour: string }) {
   const { context, view, palette, placed } = brush;
@@ -54,11 +53,8 @@ export function drawLabel(brush: Brush, { x, y, towards, colour, ...text }: Text
 }
 
 /**
- * Draws labels above a picture, each with a leader to what it names. From left to right they stand in two rows by turns, so that a leader
- * of the upper row passes between two labels of the lower one.
- *
- * @param brush of a view with {@link LABELS_ABOVE} at its top
- * @param labels with their anchors in pixels
+ * Draws labels above a picture, each with a leader to its anchor in pixels. They stand in two rows by turns, so that a leader of the upper
+ * row passes between two labels of the lower one. The view has {@link LABELS_ABOVE} at its top.
  */
 export function drawLabelsAbove(brush: Brush, labels: (Text & { x: number, y: number, colour: string })[]) {
   const { context, view, palette } = brush;
@@ -95,11 +91,7 @@ export function drawLabelsAbove(brush: Brush, labels: (Text & { x: number, y: nu
   });
 }
 
-/**
- * Draws a leader: a thin line from a text to a point, with a dot at the point.
- *
- * @param line its points, x and y in pixels; the dot is at the last
- */
+/** Draws a leader: a thin line through points in pixels, from a text to a point, with a dot at the point. */
 export function drawLeader(context: CanvasRenderingContext2D, line: number[][], colour: string) {
   context.strokeStyle = context.fillStyle = colour;
   context.lineWidth = 1;
@@ -128,12 +120,7 @@ function measured({ context, font }: Brush, { symbol = '', sub = '', text = '' }
 
 const widthOf = (parts: { width: number }[]) => parts.reduce((sum, { width }) => sum + width, 0);
 
-/**
- * Writes parts one after the other, with a halo of paper.
- *
- * @param x of the left end, pixels
- * @param y of the middle
- */
+/** Writes parts one after the other, with a halo of paper, from the left end at the height of their middle, in pixels. */
 function write({ context, palette }: Brush, parts: ReturnType<typeof measured>, x: number, y: number, colour: string) {
   context.save();
   context.textAlign = 'left';

@@ -55,20 +55,12 @@ export class Picture<Scene, Name extends string = string> {
     return moving || isMore === true;
   }
 
-  /**
-   * Index of the sample nearest to a point; −1 for none.
-   *
-   * @param _x CSS pixels of the canvas
-   */
+  /** Returns the index of the sample nearest to a point in CSS pixels; −1 for none. */
   nearest(_machine: any, _x: number, _y: number) {
     return -1;
   }
 
-  /**
-   * @param x CSS pixels of the canvas
-   * @param reach CSS pixels
-   * @returns the surroundings of a point, in the view's world
-   */
+  /** Returns a point and its surroundings, CSS pixels, in the view's world. */
   around(x: number, y: number, reach: number): [x: number, y: number, radiusX: number, radiusY: number] {
     const { view } = this;
     return [view.toWorldX(x), view.toWorldY(y), reach / view.scaleX, reach / view.scaleY];

@@ -1,7 +1,4 @@
-/**
- * A stand-in for a canvas that writes down what is drawn on it as SVG: the pictures are drawn once and
- * for both. It knows what scene/draw.ts and the pictures use of a canvas, and no more.
- */
+/** Substitute for the context of a canvas that writes SVG. It has the methods that scene/draw.ts and the pictures use, and no others. */
 
 /** What XML has no way to write. */
 const UNWRITABLE = /[^\t\n\r\u0020-\ud7ff\ue000-\ufffd\u{10000}-\u{10ffff}]/gu;

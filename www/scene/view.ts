@@ -1,6 +1,6 @@
 /**
- * The transform between a view's world (metres, radians; y up) and its canvas (CSS pixels; y down),
- * and the choice of the part of the world that a view shows. The only place where y flips.
+ * Transform between a view's world (metres, radians; y up) and its canvas (CSS pixels; y down), and choice of the part that a view shows.
+ * The only place where y flips.
  */
 
 import { clamp } from '../ui/clamp.ts';
@@ -106,18 +106,12 @@ export class View {
     return this.extent.yMin + (this.frame.bottom - pixel) / this.scaleY;
   }
 
-  /**
-   * @param heading radians, in a view of equal aspect
-   * @returns a step of one pixel that way
-   */
+  /** Returns a step of one pixel in the direction of a heading (rad), in a view of equal aspect. */
   direction(heading: number): { x: number, y: number } {
     return { x: Math.cos(heading), y: -Math.sin(heading) };
   }
 
-  /**
-   * Aims the view at what has to be seen. The view stays while that is inside, and only zooms out otherwise; a released view may
-   * also close in and recenter.
-   */
+  /** Aims the view at an extent. The view stays while that is inside, and only zooms out otherwise; a released view may also close in. */
   fit(needed: Extent) {
     const [kept, released] = [this.#target, this.#released];
     this.#released = false;
@@ -129,13 +123,7 @@ export class View {
     if (!kept) this.extent = this.#target;
   }
 
-  /**
-   * Moves the extent towards its aim.
-   *
-   * @param elapsed milliseconds since the last call
-   * @param atOnce without easing
-   * @returns whether there is still a way to go
-   */
+  /** Moves the extent towards its aim by the milliseconds since the last call, or at once. Returns true if it has not arrived. */
   ease(elapsed: number, atOnce: boolean): boolean {
     const target = this.#target;
     if (!target || target === this.extent) return false;
@@ -200,11 +188,7 @@ function niceSize(size: number): number {
 /** The extent of nothing, which any point widens. */
 const NOWHERE: Readonly<Extent> = { xMin: Infinity, yMin: Infinity, xMax: -Infinity, yMax: -Infinity };
 
-/**
- * The smallest extent around another and points.
- *
- * @param numbers of which the first two of each `stride` are x and y
- */
+/** Returns the smallest extent around another and points, whose x and y are the first two of each `stride` numbers. */
 export function extentAround(numbers: ArrayLike<number>, stride: number, around: Extent = NOWHERE) {
   const box = { ...around };
   for (let i = 0; i < numbers.length; i += stride) {
@@ -216,12 +200,7 @@ export function extentAround(numbers: ArrayLike<number>, stride: number, around:
   return box;
 }
 
-/**
- * The smallest extent around points.
- *
- * @param points x, y pairs
- * @param smallest least width and height, so that a single point still has surroundings
- */
+/** Returns the smallest extent around points, x, y pairs, with a least width and height. */
 export function extentOf(points: number[], smallest: number) {
   const box = extentAround(points, 2);
   const growX = Math.max(0, smallest - (box.xMax - box.xMin)) / 2;

@@ -109,12 +109,7 @@ function hatch(context: Painter['context'], { width, height }: View, colour: str
   context.globalAlpha = 1;
 }
 
-/**
- * Range of the cells that a view shows, in whole squares.
- *
- * @param side of a square, in cells
- * @returns first column and row, and those after the last
- */
+/** Returns the range of the cells that a view shows, in whole squares of so many cells: first column and row, and those after the last. */
 function cellsIn({ extent: { xMin, xMax, yMin, yMax } }: View, { columns, rows, resolution, origin: [x, y, yaw] }: Cells, side: number): number[] {
   const [along, up] = [Math.cos(yaw) / resolution, Math.sin(yaw) / resolution];
   const corners = [xMin - x, xMax - x].flatMap((dx) => [yMin - y, yMax - y].map((dy) => [dx * along + dy * up, dy * along - dx * up]));
@@ -132,10 +127,8 @@ export function cornerOf({ resolution, origin: [x, y, yaw] }: Cells, column: num
 }
 
 /**
- * Fills the cells of a kind. A view of a whole building has many cells a pixel: squares of them are drawn, each as soon as one
- * of its cells is of the kind, so that thin walls stay visible.
- *
- * @param cells 1 for those of the kind
+ * Fills the cells of a kind, which are 1. Where cells are smaller than a pixel, squares of them are drawn as soon as one of their cells is
+ * of the kind: thin walls stay visible.
  */
 function fillCells({ context, view, ratio }: Painter, grid: Cells, cells: Uint8Array, colour: string) {
   const side = Math.max(1, Math.floor(1 / (grid.resolution * view.scaleX * ratio)));

@@ -199,11 +199,7 @@ const PIECES = String.raw`\*(?:\\\*|[^*])+\*|[₀-₉]|_\{[^}]+\}`;
 const PIECE = new RegExp(PIECES, 'g');
 const FORMULA = new RegExp(`((?:${PIECES})+)`);
 
-/**
- * A message with its formulas.
- *
- * @param message as messages/en.ts has it; \\* is a star
- */
+/** Returns a message with its formulas in HTML; \\* is a star. */
 export function rich(message: string) {
   // Every second part is a formula.
   return message.split(FORMULA).map((part, i) => (i % 2 ? symbols(part.match(PIECE)?.map(printed)) : part));
@@ -217,11 +213,7 @@ function printed(piece: string) {
 /** A value or formula: it has a direction of its own among words, and page translators leave it as it is. */
 export const symbols = (content: unknown) => html`<bdi translate="no" class="notranslate">${content}</bdi>`;
 
-/**
- * Returns controls that belong together, under their heading.
- *
- * @param name class
- */
+/** Returns a group of controls under its heading. */
 export function group(heading: unknown, controls: unknown, name?: string) {
   return html`<fieldset class=${name ?? nothing}>
     <legend>${heading}</legend>
@@ -229,11 +221,7 @@ export function group(heading: unknown, controls: unknown, name?: string) {
   </fieldset>`;
 }
 
-/**
- * One of a group of radio buttons.
- *
- * @param option with a name for screen readers where it has no label
- */
+/** Returns one of a group of radio buttons, with a name for screen readers where it has no label. */
 export function choice({ group, label, name, checked, choose }: { group: string, label?: unknown, name?: string, checked: boolean, choose: () => void }) {
   return html`<label class="choice">
     <input type="radio" name=${group} aria-label=${name ?? nothing} .checked=${live(checked)} @change=${choose} />
@@ -271,11 +259,7 @@ export function inputOf(event: Event) {
   return event.target as HTMLInputElement;
 }
 
-/**
- * Radio buttons in a row under one name.
- *
- * @param labels in the order shown
- */
+/** Returns radio buttons in a row under one name, in the order of the labels. */
 export function radioGroup<Name extends string>(label: string, group: string, labels: Record<Name, string>, current: Name, choose: (name: Name) => void) {
   const names = Object.keys(labels) as Name[];
   return html`<div class="choices" role="radiogroup" aria-label=${label}>

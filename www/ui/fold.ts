@@ -3,11 +3,7 @@
 import { html, noChange, nothing } from 'lit';
 import { Directive, directive } from 'lit/directive.js';
 
-/**
- * What is folded away until it is asked for: nothing of it is made before, nor while it is closed again.
- *
- * @param id where something else than the reader opens it too
- */
+/** Returns a disclosure whose content is rendered only while it is open. An id is for scripts that open it. */
 export function fold(name: string, content: () => unknown, id?: string) {
   return html`<details part="fold" id=${id ?? nothing} @toggle=${renderHost}>
     <summary>${name}</summary>

@@ -1,7 +1,4 @@
-/**
- * Numbers as they are printed in the present language: a true minus sign, thin spaces between
- * thousands, and a dash where there is no number.
- */
+/** Numbers in the present language: a true minus sign, thin spaces between thousands, and a dash where there is no number. */
 
 import { language } from '../messages/registry.ts';
 
@@ -36,24 +33,15 @@ export function fixed(value: number, decimals: number): string {
 /** Decimals beyond the usual ones that a short number is shown with. */
 const FEW_MORE = 2;
 
-/**
- * A value as it was typed: with more decimals than usual where few more say all of it.
- *
- * @param decimals usual ones
- * @returns "0.0525" with 3, and "0.052" for 0.05210987
- */
+/** Prints a value as it was typed: with up to two decimals more than usual if they say all of it. "0.0525" with 3, and "0.052" for 0.05210987. */
 export function typed(value: number, decimals: number): string {
   const all = String(value).split('.')[1]?.length ?? 0;
   return fixed(value, all > decimals && all <= decimals + FEW_MORE ? all : decimals);
 }
 
 /**
- * A number that was typed in the present language, or with a decimal point.
- *
- * @param text "−0,301", "1.5 m/s", "2 000", "2,000"
- * @param unit that may follow it
- * @param whole whether only whole numbers are meant
- * @returns NaN where it is none
+ * Parses a number in the present language, or with a decimal point: "−0,301", "1.5 m/s", "2 000", "2,000"; NaN where it is none. In English
+ * a comma may separate groups of three; elsewhere a point may, if a whole number is meant.
  */
 export function numberIn(text: string, unit: string = '', whole: boolean = false): number {
   const plain = text.replace(/\s/g, '').replace(MINUS, '-');
@@ -78,10 +66,7 @@ const MAX_DECIMALS = 5;
 
 const SUPERSCRIPTS = '⁰¹²³⁴⁵⁶⁷⁸⁹';
 
-/**
- * @param digits significant ones
- * @returns "0.0070020"; from 0.0001 downwards "1.2500·10⁻⁵"
- */
+/** Prints a number with significant digits: "0.0070020"; from 0.0001 downwards "1.2500·10⁻⁵". */
 export function significant(value: number, digits: number): string {
   const size = Math.abs(value);
   if (size < NOTHING_BELOW) return '0';
@@ -91,19 +76,12 @@ export function significant(value: number, digits: number): string {
   return `${print(Number(mantissa), options)}·${powerOfTen(Number(exponent))}`;
 }
 
-/**
- * @param exponent a whole number
- * @returns "10⁻⁵"
- */
+/** Prints a power of ten: "10⁻⁵". */
 export function powerOfTen(exponent: number): string {
   return `10${String(exponent).replace('-', '⁻').replace(/\d/g, (digit) => SUPERSCRIPTS[Number(digit)])}`;
 }
 
-/**
- * @param value above 0
- * @param digits significant ones
- * @returns "0.47", "12", "1 200"
- */
+/** Prints a positive number rounded to significant digits: "0.47", "12", "1 200". */
 export function rounded(value: number, digits: number): string {
   const near = Number(value.toPrecision(digits));
   const decimals = digits - 1 - Math.floor(Math.log10(near));
@@ -116,19 +94,12 @@ export function counted(count: number): string {
   return print(count, { maximumFractionDigits: 0, useGrouping: true });
 }
 
-/**
- * @param share between 0 and 1
- * @returns "86.5 %"
- */
+/** Prints a share from 0 to 1 in percent: "86.5 %". */
 export function percent(share: number): string {
   return Number.isNaN(share) ? NOTHING : `${fixed(100 * share, 1)}${THIN_SPACE}%`;
 }
 
-/**
- * @param error its standard error
- * @param decimals at least: a small error has as many as show its first digit
- * @returns "−0.412 ± 0.031"; "∞" and "—" have no error
- */
+/** Prints a value with its standard error: "−0.412 ± 0.031"; "∞" and "—" have none. A small error has as many decimals as show its first digit. */
 export function withError(value: number, error: number, decimals: number): string {
   if (!Number.isFinite(value)) return fixed(value, 0);
   const needed = error > 0 ? Math.max(decimals, Math.min(MAX_DECIMALS, -Math.floor(Math.log10(error)))) : decimals;

@@ -1,6 +1,6 @@
 /**
- * The page of a widget, from above: its pictures side by side, the sentence that they say, the figures that matter, the
- * controls in compact rows, and folds with everything else. So much is seen without scrolling in a column of 700 pixels.
+ * Layout of a widget from above: pictures side by side, their sentence, the figures that matter, controls in compact rows, and disclosures.
+ * So much is seen without scrolling in a column of 700 pixels.
  */
 
 import { css } from 'lit';

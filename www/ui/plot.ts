@@ -1,7 +1,4 @@
-/**
- * A chart in SVG: curves with bands, points with error bars, and marks, over linear or logarithmic axes. A slider may lie
- * over it, which sets an x.
- */
+/** Chart in SVG: curves with bands, points with error bars, and marks, over linear or logarithmic axes. A slider may lie over it, which sets an x. */
 
 import { ticks } from 'd3-array';
 import { css, html, nothing, svg, unsafeCSS } from 'lit';
@@ -233,12 +230,7 @@ function keyOf(curves: Curve[]) {
   </ul>`;
 }
 
-/**
- * Turns values into pixels.
- *
- * @param first pixel
- * @returns NaN for NaN alone: what a logarithmic axis has not, is far below it
- */
+/** Returns a function that turns values into pixels; NaN only for NaN. Values that a logarithmic axis does not have are far below it. */
 function placing({ from, to, logarithmic }: Axis, first: number, last: number): (value: number) => number {
   const scale = logarithmic ? (value: number) => Math.log10(Math.max(value, 0)) : Number;
   const [start, end] = [scale(from), scale(to)];

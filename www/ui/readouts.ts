@@ -118,10 +118,7 @@ export const readoutStyles = css`
   }
 `;
 
-/**
- * @param rows each with optional details in smaller print
- * @param headline index of the row that is the figure's message
- */
+/** Returns a list of readouts, each with optional details in smaller print. One of them may be the headline of the figure. */
 export function readoutList(rows: [name: string, value: string, ...details: (string | undefined)[]][], headline?: number) {
   return html`<dl class="readouts" part="readouts">
     ${rows.map(

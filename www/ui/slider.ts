@@ -221,8 +221,8 @@ const finger = {
 const BEGINS_A_NUMBER = /^[\d.,+\-\u2212]$/;
 
 /**
- * A slider row. Its value is a field as well: what is typed there may lie beyond the slider. Tab passes the field by;
- * Enter or the first digit leads from the slider into it, Enter and Escape lead back.
+ * Returns a slider row. Its value is a field as well: a typed value may lie beyond the slider. Tab passes the field by; Enter or the first
+ * digit leads from the slider into it, Enter and Escape lead back.
  */
 export function sliderRow(row: SliderRow) {
   const states = {

@@ -10,8 +10,8 @@ import { css, unsafeCSS } from 'lit';
 import { likedWidth } from './width.ts';
 
 /**
- * Roles that the canvas needs as resolved colours; each is a custom property of the same name. A cloud is a
- * prediction too, but a mass of dots rather than a line or text.
+ * Roles whose resolved colours the canvas needs; each is a custom property of the same name. A cloud is a prediction too, but a mass of
+ * dots rather than a line or text.
  */
 const ROLES = 
   ['paper', 'ink', 'muted', 'rule', 'prior', 'prediction', 'cloud', 'truth', 'posterior', 'accent'] as const
@@ -244,10 +244,7 @@ export function resolvePalette(surface: HTMLElement) {
 
 let pixel: OffscreenCanvasRenderingContext2D | undefined;
 
-/**
- * @param colours in any form that the browser knows, a page may have named them; each covers those before
- * @returns red, green, blue, 0 to 255
- */
+/** Returns red, green and blue, 0 to 255, of colours in any notation of the browser. Each covers those before. */
 export function channels(...colours: string[]): [number, number, number] {
   // As browsers hand most colours out.
   const plain = colours.at(-1)?.match(/^rgb\((\d+), (\d+), (\d+)\)$/);

@@ -107,22 +107,14 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
     return { ...reading, chosen: this.chosen, leg: this.predicted, overlays: this.state.own.overlays };
   }
 
-  /**
-   * Shows a leg while the reader moves between legs.
-   *
-   * @param leg from 0
-   */
+  /** Shows a leg, counted from 0, while the reader moves between legs. */
   look(leg: number) {
     this.state.own.leg = leg;
     this.gesture.step();
     this.stage.wake();
   }
 
-  /**
-   * Shows a leg that the reader has chosen.
-   *
-   * @param leg from 0
-   */
+  /** Shows a leg, counted from 0, that the reader has chosen. */
   choose(leg: number) {
     this.look(leg);
     this.gesture.commit();
@@ -161,10 +153,8 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
   };
 
   /**
-   * Replaces the log once it is fitted; a log that is refused leaves the present one. The simulated log comes at once.
-   *
-   * @param hasLocalizer true if the reference is a localizer's own estimate
-   * @param check throws if the log is refused
+   * Replaces the log once it is fitted. A log that `check` refuses by an error leaves the present one. Null is the simulated log.
+   * `hasLocalizer` is true if the reference is a localizer's own estimate.
    */
   async open(log: CalibrationLog | null, hasLocalizer: boolean, check?: (machine: Machine) => void) {
     const config = this.settings.declared(this.settings.present) as Machine['config'];

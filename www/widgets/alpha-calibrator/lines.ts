@@ -87,20 +87,15 @@ export function adviceOf(lacking: typeof import('./en.ts').en.alphas.lacking, mo
   return { lack, drive: model === 'velocity' ? byCommands : drive };
 }
 
-/**
- * Returns the reason whose advice would distinguish an α from 0.
- *
- * @param index of the α, from 0
- */
+/** Returns the reason whose advice would distinguish an α, counted from 0, from zero. */
 export function neededFor(model: string, index: number): 'insufficient-rotation' | 'insufficient-translation' {
   const isOfRotation = model === 'velocity' ? index % 2 === 1 : index === 0 || index === 3;
   return isOfRotation ? 'insufficient-rotation' : 'insufficient-translation';
 }
 
 /**
- * Lines with the recommended α's; the fitted ones stand in comments.
- *
- * @returns none if Nav2 has no such model, or no α's are recommended
+ * Returns the lines with the recommended α's, and the fitted ones in comments. There are none if Nav2 has no such model, or no α's are
+ * recommended.
  */
 export function nav2Lines({ calibration, count, model, rule, legs, log, hasLocalizer, date }: Fitted, say: Words): string[] {
   const { alphas, intervals, recommended, systematicErrors, diagnostics: { checks, windows: [window] } } = calibration;
@@ -135,11 +130,7 @@ export function nav2Lines({ calibration, count, model, rule, legs, log, hasLocal
 /** Checks that failed. */
 export const failedOf = <Check extends { name: string, passed: boolean, message: string }>(checks: Check[]) => checks.filter(({ passed }) => !passed);
 
-/**
- * Lists the systematic errors that were corrected: the odometry of the robot still has them.
- *
- * @returns one, or none
- */
+/** Lists the systematic errors that were corrected, in one text or none: the odometry of the robot still has them. */
 function correctionOf(systematicErrors: any): string[] {
   const corrected = Object.entries<any>(systematicErrors).filter(([, each]) => each.corrected);
   const list = corrected.map(([name, { value, interval }]) => `${name} ${[value].flat().map((one, i) => fixed(one, Array.isArray(value) ? interval[i] : interval)).join(', ')}`);

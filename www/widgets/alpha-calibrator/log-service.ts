@@ -52,11 +52,7 @@ export class LogService {
     return this.#fail !== undefined;
   }
 
-  /**
-   * Opens files, and gives up what is being done.
-   *
-   * @param answers options by the names of files
-   */
+  /** Opens files with the options of each name, and gives up what is being done. */
   async open(files: Source[], answers: Record<string, OpenOptions>): Promise<Opened[]> {
     this.stop();
     // A copy of a file has no path.

@@ -10,11 +10,7 @@ import { legsOf } from './settings.ts';
 
 export type Figure = import('./alpha-calibrator.ts').AlphaCalibratorElement;
 
-/**
- * Lines for nav2_params.yaml.
- *
- * @returns empty if Nav2 has no such model, or no α's are recommended
- */
+/** Returns the lines for nav2_params.yaml; empty if Nav2 has no such model, or no α's are recommended. */
 function yamlOf({ reading, logName, hasLocalizer }: Figure): string {
   const { fitted: config, stats, legs: { count } } = reading;
   const { model, rule } = config;

@@ -56,11 +56,7 @@ export class Plate extends Picture<Scene> {
   }
 }
 
-/**
- * Writes a text in lines that are not longer than the width.
- *
- * @returns where the next one may begin
- */
+/** Writes a text in lines that are not longer than the width, and returns the y of the next line. */
 function write(context: CanvasRenderingContext2D, text: string, x: number, y: number, width: number): number {
   let line = '';
   for (const word of text.split(' ')) {

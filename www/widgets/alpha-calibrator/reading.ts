@@ -24,11 +24,7 @@ export interface Reading {
   opening: number;
 }
 
-/**
- * Reads the machine for pictures and readouts, once a change.
- *
- * @param before latest reading, whose copies are used again if they are of the same fit
- */
+/** Reads the machine for pictures and readouts, once a change. Copies of the reading before are used again if the fit is the same. */
 export function readingOf(machine: Machine, log: CalibrationLog | null, before: Reading | undefined): Reading {
   const { config, fittedConfig: fitted, fits } = machine;
   if (before?.machine === machine && before.fits === fits) return { ...before, log, config, fitted };
@@ -77,11 +73,8 @@ function worstOf({ squared }: Pick<CalibrationLegs, 'squared'>) {
 }
 
 /**
- * Returns the driven leg with the largest residual that is no outlier. An outlier is no evidence against the model, and a turn on the
- * spot shows no cloud.
- *
- * @param distance least length of the leg
- * @returns −1 where there is none
+ * Returns the leg with the largest residual that is no outlier and as long as `distance`; −1 where there is none. An outlier is no evidence
+ * against the model, and a turn on the spot shows no cloud.
  */
 function openingOf({ squared, outliers, odometry }: CalibrationLegs, distance: number): number {
   const isDriven = (leg: number) => Math.hypot(odometry[6 * leg + 3] - odometry[6 * leg], odometry[6 * leg + 4] - odometry[6 * leg + 1]) >= distance;

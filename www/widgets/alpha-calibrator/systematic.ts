@@ -23,11 +23,7 @@ export function systematicTexts({ stats: { systematicErrors: errors } }: Reading
   return [...(corrected ? [say.removed(corrected)] : []), ...(left ? [say.left(left)] : [])];
 }
 
-/**
- * Names the systematic errors that differ from 0, or a scale from 1, but are not to be corrected.
- *
- * @returns empty if there are none
- */
+/** Names the systematic errors that differ from 0, or a scale from 1, but are not to be corrected; empty if there are none. */
 export function uncorrectedText({ stats: { systematicErrors: errors }, fitted }: Reading): string {
   const say = words.calibrator.systematic;
   const uncorrected = SYSTEMATIC.filter((key) => !fitted[key] && matters(key, errors[key])).flatMap((key) => textOf(key, errors[key]));
@@ -40,11 +36,7 @@ function matters(key: string, { interval }: SystematicError) {
   return intervalsOf(interval).some((ends) => ends && (ends[0] > neutral || ends[1] < neutral));
 }
 
-/**
- * Prints an error with its name.
- *
- * @returns one text, or none if it is unknown
- */
+/** Prints an error with its name; none if it is unknown. */
 function textOf(key: typeof SYSTEMATIC[number], error: SystematicError): string[] {
   const { values, halves } = digitsOf(error);
   return values.length ? [`${words.calibrator.systematic.names[key]} ${values.map((value, i) => `${value} ± ${halves[i]}`).join(', ')}`] : [];
@@ -97,9 +89,5 @@ function digitsOf({ value, interval }: SystematicError) {
   };
 }
 
-/**
- * Decimals of an error: three, or more if it is known better than to a thousandth.
- *
- * @param half of an interval
- */
+/** Returns the decimals of an error: three, or more if half of its interval is below a thousandth. */
 const decimalsOf = (half: number | null | undefined) => (half ? Math.min(MOST_DECIMALS, Math.max(3, -Math.floor(Math.log10(2 * half)))) : 3);

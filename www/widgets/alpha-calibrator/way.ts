@@ -1,6 +1,6 @@
 /**
- * The path of the robot, leg by leg. There may be a hundred thousand legs, which change only with the log, the view or the colours: they
- * are drawn on a layer of their own.
+ * Path of the robot, leg by leg. A hundred thousand legs change only with the log, the view or the colours: they are drawn on a layer of
+ * their own.
  */
 
 import { hiddenContext } from '../../scene/canvas.ts';
@@ -29,11 +29,7 @@ const FINE = 1;
 /** Side of the squares in which overlapping legs are counted, CSS pixels. */
 const COARSE = 8;
 
-/**
- * Number of a square.
- *
- * @param x CSS pixels
- */
+/** Returns the number of the square that has a point, CSS pixels. */
 const squareOf = (x: number, y: number, side: number = FINE) => Math.round(x / side) + 2 ** 26 * Math.round(y / side);
 
 /** Radius of the rings around outliers, CSS pixels. */
@@ -64,11 +60,8 @@ export class WayLayer {
   #strokes: Iterator<void> = [].values();
 
   /**
-   * Draws the legs. Many legs of another log take several frames; another view of them, and paper, have all at once.
-   *
-   * @param classes of the legs, the most usual first
-   * @param overlays lines that are shown
-   * @returns whether the next frame has more to draw
+   * Draws the legs, the most usual classes first. Returns true if the next frame has more to draw: many legs of another log take several
+   * frames. Another view of them, and paper, have all at once.
    */
   draw(brush: Brush, legs: CalibrationLegs, classes: Uint8Array, overlays: LineName[]): boolean {
     const { context, view, palette, ratio, highlight, handles } = brush;
@@ -116,11 +109,7 @@ function outlierEnds({ view }: Painter, { outliers, reference }: CalibrationLegs
   return all.map((leg) => [view.toPixelX(reference[6 * leg + 3]), view.toPixelY(reference[6 * leg + 4])]);
 }
 
-/**
- * Draws the rings that mark outliers.
- *
- * @param points CSS pixels
- */
+/** Draws rings around outliers at points in CSS pixels. */
 export function drawRings(brush: Painter, points: [number, number][]) {
   const { context } = brush;
   context.beginPath();
@@ -132,10 +121,8 @@ export function drawRings(brush: Painter, points: [number, number][]) {
 }
 
 /**
- * Returns how many times usual legs cover the squares that they are in. Where that is more than once, wide lines would hide the
- * others, while as hairs each class covers its share of the legs.
- *
- * @param reference both ends of each leg
+ * Returns how many times usual legs, by both ends of each, cover the squares that they are in. Above 1 wide lines would hide the others,
+ * while as hairs each class covers its share of the legs.
  */
 function layersOf(view: Painter['view'], reference: Float64Array) {
   const squares: Set<number> = new Set();
@@ -177,11 +164,7 @@ function* drawOdometry({ context, view, ...brush }: Painter, { count, odometry, 
   stroke(context, style);
 }
 
-/**
- * Draws some legs of the reference.
- *
- * @param reference both ends of each leg
- */
+/** Draws some legs by both ends of each. */
 function* drawLegs({ context, view }: Painter, reference: Float64Array, isDrawn: (leg: number) => boolean, style: Style) {
   const drawn: Set<number> = new Set();
   let begun = 0;

@@ -17,10 +17,8 @@ const COUNTS = ['enough-legs'];
 const FRACTIONS = ['legs-lost', 'outliers-few', 'holdout-covered', 'window-1m-covered', 'window-2m-covered', 'window-5m-covered'];
 
 /**
- * Returns the rating of the α's, with the first failed check, warnings and the next step as sentences. A warning makes consistent α's
- * questionable.
- *
- * @param hasLocalizer true if the reference is a localizer's own estimate
+ * Returns the rating of the α's, with the first failed check, warnings and the next step as sentences. A warning, as that of a localizer as
+ * reference, makes consistent α's questionable.
  */
 export function judgementOf(reading: Reading, hasLocalizer: boolean): { rating: Reading['stats']['diagnostics']['verdict'], badge: string, finding: string, next: string } {
   const { stats: { diagnostics: { verdict, checks } }, legs } = reading;
@@ -62,31 +60,19 @@ export function reasonOf({ stats: { recommended, diagnostics: { checks, windows 
 /** Returns the names of the noises of a model. */
 export const noiseNames = (model: Reading['config']['model']) => words.alphas[model === 'velocity' ? 'velocity' : 'odometry'];
 
-/**
- * The subscript of an α.
- *
- * @param index from 0
- */
+/** Returns the subscript of an α, counted from 0. */
 export const alphaName = (index: number) => String.fromCharCode(0x2081 + index);
 
 /** Prints a number that is in the format of files, as 1.5e-7. */
 export const localized = (number: string) => number.replace('.', fixed(0.5, 1)[1]).replace(/e(-?\d+)$/, (_, exponent) => `·${powerOfTen(Number(exponent))}`);
 
-/**
- * Scales small numbers by a power of 1000, as they have no room beside an axis.
- *
- * @returns the unit is empty where it is 1
- */
+/** Scales small numbers by a power of 1000, as they have no room beside an axis. The unit is empty where the power is 1. */
 export function thousandths(highest: number): { scaled: (value: number) => number, unit: string } {
   const exponent = Math.min(0, 3 * Math.floor(Math.log10(highest) / 3));
   return { scaled: (value) => value * 10 ** -exponent, unit: exponent < 0 ? powerOfTen(exponent) : '' };
 }
 
-/**
- * Returns the legs and outliers of the log in a sentence; empty if there are none.
- *
- * @param log name
- */
+/** Returns the number of legs and outliers of the named log in a sentence; empty if there are no legs. */
 export function legsText({ legs }: Reading, log: string) {
   if (legs.count === 0) return '';
   const outliers = legs.outliers.reduce((sum, is) => sum + is, 0);

@@ -90,11 +90,7 @@ export class ArcAnatomyElement extends FigureElement<Machine, Reading> {
 
   announcement = verdictOf;
 
-  /**
-   * The robot goes by whole per cents, each of which is a step that a page hears of.
-   *
-   * @param at per cent of the way
-   */
+  /** Moves the robot to a share of the path in per cent: by whole per cents, each of which is a step that a page hears of. */
   #drive(at: number) {
     const { own } = this.state;
     if (Math.floor(at) === own.underway) return;

@@ -140,9 +140,8 @@ function stroke(context: Brush['context'], colour: string, width: number, dash: 
 }
 
 /**
- * The centre of an arc, both radii and the turn between them.
- *
- * @param style with the side to which the first radius makes room for another on the same line, and its labels
+ * Draws the centre of an arc, both radii and the turn between them. `side` is that to which the first radius makes room for another on the
+ * same line.
  */
 function drawCircle(brush: Brush, start: Pose, { center, end, turn, arcLength }: Bend, { colour, dash, side, angle, radius: signed }: { colour: string, dash: number[], side: number, angle: string, radius: string }) {
   if (!center) return;
@@ -196,11 +195,7 @@ function drawArrow(context: Brush['context'], colour: string, [x, y]: number[], 
   });
 }
 
-/**
- * How much of the way to a place is in sight, as a share.
- *
- * @param from in sight
- */
+/** Returns the share of the way from a place in sight to another that is in sight. */
 function shareSeen({ left, right, top, bottom }: import('../../scene/view.ts').View['frame'], [fromX, fromY]: [x: number, y: number], [x, y]: [x: number, y: number]) {
   const along = (start: number, end: number, least: number, most: number) =>
     end >= least && end <= most ? 1 : (clamp(end, least, most) - start) / (end - start);
@@ -214,11 +209,7 @@ function drawChord({ context, view }: Brush, start: Pose, next: Pose, { colour, 
   });
 }
 
-/**
- * What the arc leaves of the final heading.
- *
- * @param turn rad, the last of it
- */
+/** Draws the last turn in radians, by which the final heading differs from that of the arc. */
 function drawWedge({ context, view }: Brush, next: Pose, turn: number, colour: string) {
   const [x, y] = [view.toPixelX(next.x), view.toPixelY(next.y)];
   context.beginPath();
@@ -237,12 +228,7 @@ function drawWedge({ context, view }: Brush, next: Pose, turn: number, colour: s
   });
 }
 
-/**
- * Where the wedge has its label.
- *
- * @param turn rad
- * @returns CSS pixels
- */
+/** Returns the place of the wedge's label, CSS pixels. */
 function besideWedge({ view }: Brush, next: Pose, turn: number): { x: number, y: number, towards: number } {
   const ahead = view.direction(next.theta - turn / 2);
   return { x: view.toPixelX(next.x) + (WEDGE + 8) * ahead.x, y: view.toPixelY(next.y) + (WEDGE + 10) * ahead.y, towards: 0 };

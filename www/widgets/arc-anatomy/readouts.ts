@@ -28,11 +28,7 @@ export function headline({ stats: { share } }: Reading) {
   return html`<p class="headline" part="readouts"><strong>${shareText(share)}</strong> ${isTiny(share) ? say.times : say.share}</p>`;
 }
 
-/**
- * Returns the three residuals in standard deviations, each with its factor as a share of the peak.
- *
- * @param line of the table that is lit
- */
+/** Returns the three residuals in standard deviations, each with its factor as a share of the peak. The last line of the table highlights them. */
 export function factorBars({ stats: { factors, weakest, share } }: Reading, line: number) {
   const say = words.anatomy.bars;
   return html`<ul part="readouts" class="factors ${line === TABLE_LINES ? 'lit' : ''}" aria-label=${say.label}>
@@ -87,11 +83,7 @@ const FORMULAS = [
 
 const UNITS = ['', ' m', ' m', ' m', ' rad', ' m/s', ' rad/s', ' rad/s', ''];
 
-/**
- * A line of the table with its value.
- *
- * @param line from 1
- */
+/** Returns a line of the table, counted from 1, with its value. */
 export function lineText({ table: { lines }, config: { printed } }: Reading, line: number) {
   const value = lines[line - 1];
   const formula = printed ? FORMULAS[line - 1].replace('±', '') : FORMULAS[line - 1];
@@ -99,11 +91,7 @@ export function lineText({ table: { lines }, config: { printed } }: Reading, lin
   return `${line}. ${formula} = ${number}${UNITS[line - 1]}`;
 }
 
-/**
- * All of them.
- *
- * @param lit from 1
- */
+/** Returns all lines of the table, one of them highlighted. */
 export function tableOf(reading: Reading, lit: number) {
   const say = words.anatomy.table;
   return html`<ol class="lines" part="table">

@@ -1,7 +1,4 @@
-/**
- * <banana-machine>: one command, thousands of outcomes, and the coordinates in which they are close
- * to an ordinary Gaussian.
- */
+/** <banana-machine>: one command, thousands of outcomes, and the coordinates in which they are nearly a Gaussian. */
 
 import { html } from 'lit';
 import { object } from '../../figure/checks.ts';
@@ -203,21 +200,15 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
     return this.cloud.isMarked ? this.machine?.inspect(this.cloud.index) : undefined;
   }
 
-  /**
-   * Leaves one α alone in effect.
-   *
-   * @param number from 1
-   */
+  /** Isolates an α, counted from 1: all others have no effect. */
   leaveAlone(number: number) {
     this.state.own.isolateChoice = number;
     this.gesture.decide({ isolate: number });
   }
 
   /**
-   * Sets the command to the arc that ends at a point, as far as the sliders go: of the many that do,
-   * the one nearest to the present one, so that nothing leaps.
-   *
-   * @param x in the view's world
+   * Sets the command to an arc that ends at a point of the view's world, as far as the sliders go. Of several arcs it is the nearest to the
+   * present one.
    */
   reach(x: number, y: number) {
     this.settings.want(({ command }) => {

@@ -36,10 +36,7 @@ export function alphaControls(figure: Figure) {
   return group(words.noise, alphas.map((_, index) => slider(index)), 'alphas');
 }
 
-/**
- * @param number from 1
- * @param effect the noise that the α feeds, and what that does to the picture
- */
+/** Returns the slider of an α, counted from 1, with the noise that it feeds and the effect on the picture. */
 function alphaSlider(figure: Figure, key: string, number: number, name: string, [path, picture]: string[]) {
   const { isolate } = figure.reading.config;
   const off = isolate !== null && isolate !== number;

@@ -9,11 +9,7 @@ import type { View } from '../../scene/view.ts';
 const LINES = 7;
 const CHORDS = 32;
 
-/**
- * Draws the grid of exponential coordinates as a morph has it.
- *
- * @param end window on exponential coordinates
- */
+/** Draws the grid of exponential coordinates at a morph. `end` is the view at the end of the morph. */
 export function drawLattice({ context, view, palette }: Brush, { extent: { xMin, xMax, yMin, yMax } }: View, morph: number) {
   context.strokeStyle = palette.rule;
   context.lineWidth = 1;

@@ -18,11 +18,7 @@ export const DURATION = 5000;
 /** Step of the slider. */
 const STEP = 0.01;
 
-/**
- * Returns the place of a twist at a morph: `geom::unbend` of the core.
- *
- * @param twist along and lateral (m), heading (rad)
- */
+/** Returns the place of a twist (m, m, rad) at a morph: `geom::unbend` of the core. */
 export function placeOf({ 0: along, 1: lateral, 2: heading }: ArrayLike<number>, morph: number): [number, number] {
   const half = ((1 - morph) * heading) / 2;
   const sinc = half === 0 ? 1 : Math.sin(half) / half;

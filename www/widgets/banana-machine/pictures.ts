@@ -78,11 +78,7 @@ class CloudPicture extends Picture<Scene, import('../../types.d.ts').ViewName> {
     return this.name === 'plane' ? 0 : 1;
   }
 
-  /**
-   * The robot nearest to the pointer; −1 for none.
-   *
-   * @param x CSS pixels of the canvas
-   */
+  /** Returns the robot nearest to a point in CSS pixels; −1 for none. */
   nearest(machine: BananaMachine, x: number, y: number) {
     return machine.nearest(this.morph, ...this.around(x, y, REACH));
   }
@@ -111,11 +107,7 @@ function placesOf(twists: Float64Array, morph: number) {
   return places;
 }
 
-/**
- * Cells of the density, CSS pixels: fine when there are robots enough to fill them.
- *
- * @param area that the cloud covers, square pixels
- */
+/** Returns the size of the density's cells in CSS pixels, for a cloud of so many square pixels: fine when there are robots enough to fill them. */
 function cellSize(area: number, count: number) {
   return Math.min(7, Math.max(2, Math.round(Math.sqrt((3 * area) / count))));
 }
@@ -244,11 +236,7 @@ function drawDriving(brush: Brush, machine: BananaMachine, { robots, share }: { 
 const TURN_RADIUS = 26;
 const TURN_LINE = 38;
 
-/**
- * What odometry reads of the command: turn, drive, turn.
- *
- * @param end metres
- */
+/** Draws the odometry's reading of the command: turn, drive, turn. It ends at a place in metres. */
 function drawReading(brush: Brush, { rot1, trans, rot2 }: import('../../types.d.ts').Legs, [x, y]: [number, number]) {
   const { context, view, palette } = brush;
   const [fromX, fromY, toX, toY] = [view.toPixelX(0), view.toPixelY(0), view.toPixelX(x), view.toPixelY(y)];
@@ -280,11 +268,7 @@ function drawReading(brush: Brush, { rot1, trans, rot2 }: import('../../types.d.
   }
 }
 
-/**
- * @param x CSS pixels
- * @param from heading, rad
- * @param by rad; positive to the left
- */
+/** Draws a turn at a point in CSS pixels, from a heading by an angle in radians, positive to the left. */
 function turn(context: Brush['context'], x: number, y: number, from: number, by: number) {
   context.beginPath();
   // On the screen y runs down.
@@ -302,10 +286,8 @@ function heapOf(machine: BananaMachine) {
 }
 
 /**
- * What is known of the cloud in exponential coordinates: the model's own moments and the sample's;
- * where there are neither, the spread in the plane around the command.
- *
- * @returns one at least
+ * Returns the moments in exponential coordinates: the model's and the sample's. Without both, those of the spread in the plane around the
+ * command.
  */
 function twistMoments({ config, stats, table }: Scene): Moments[] {
   const known = [table.tangent, stats.exponential].filter((moments) => moments !== null);

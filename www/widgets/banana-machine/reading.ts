@@ -9,10 +9,7 @@ export type Reading = ReturnType<typeof readingOf>;
 /** Below this, metres or radians, a spread is none: rounding of the quadrature, not noise. */
 const NO_SPREAD = 1e-9;
 
-/**
- * Points of the chart's curve. Fewer would draw the fall of the skew across ω = 0 as a kinked line;
- * more than a pixel each would be wasted.
- */
+/** Number of points of the chart's curve: fewer would draw the fall of the skew across ω = 0 as a kinked line. */
 const CURVE_POINTS = 241;
 
 /** The skew against ω, which costs milliseconds and which only some of the settings alter. */
@@ -53,8 +50,8 @@ export function readingOf(machine: Machine) {
 }
 
 /**
- * The gain of the Gaussian in the coordinates that bend with the cloud. Where its covariance is singular, the gain over
- * (x, y, θ) is unbounded; then it is that of the arc's own coordinates over (x, y).
+ * Returns the gain of the Gaussian in exponential coordinates. Where its covariance is singular, the gain over (x, y, θ) is unbounded: then
+ * it is the gain of the arc's own coordinates over (x, y).
  */
 function gainOf({ n, likelihoodGain, likelihoodGainError }: Stats, { exact }: Table) {
   const unbounded = exact.likelihoodGain.pose === Infinity;
@@ -63,8 +60,8 @@ function gainOf({ n, likelihoodGain, likelihoodGainError }: Stats, { exact }: Ta
 }
 
 /**
- * Whether the noise of the length is that of the turn above all, and so large beside the length that is commanded that the
- * robots end on both sides of the start; if so, what says it.
+ * Returns the commanded length and its deviation where robots end on both sides of the start: the noise of the turn makes most of the
+ * deviation, which is larger than the length. Null otherwise.
  */
 function bowTieOf({ model, command: { v, omega, dt }, alphas, isolate, reverseAware }: Settings) {
   const [a1, a2, a3, a4] = alphas.map((alpha, i) => (isolate === null || isolate === i + 1 ? alpha : 0));
@@ -91,11 +88,7 @@ export function alphaName(index: number) {
 /** What the α's of each model have multiplied by their squares: the speed, or the turn rate. */
 const CAUSES = { velocity: [...'vωvωvω'], odometry: [...'ωvvω'] } as const;
 
-/**
- * A sentence on an α that has nothing to multiply.
- *
- * @param index of the α, from 0
- */
+/** Returns a sentence on an α, counted from 0, that has nothing to multiply. */
 function silenceOf(model: Settings['model'], index: number) {
   const { alphaIsSilent, nothingToMultiply, settings } = words.banana;
   const cause = CAUSES[model][index] as 'v' | 'ω';
@@ -107,21 +100,15 @@ export function deviation(variance: number) {
   return Math.sqrt(Math.max(0, variance));
 }
 
-/**
- * What kind of spread the cloud has, by the exact covariance.
- *
- * @returns one pose; one place but many headings; or a spread
- */
+/** Returns the kind of spread by the exact covariance: one pose, one place with many headings, or a cloud. */
 export function spreadOf({ exact: { cov } }: Table): 'point' | 'headings' | 'cloud' {
   if (deviation(Math.max(cov[0][0], cov[1][1])) > NO_SPREAD) return 'cloud';
   return deviation(cov[2][2]) > NO_SPREAD ? 'headings' : 'point';
 }
 
 /**
- * A sentence on a cloud that is not what a reader expects, from the settings that made it so.
- *
- * @param chartHolds whether exponential coordinates reach as far as the robots turn
- * @returns empty for an ordinary cloud
+ * Returns a sentence on a cloud that is not what a reader expects, with the settings that made it so; empty for an ordinary cloud.
+ * `chartHolds` is false if robots turn farther than exponential coordinates reach.
  */
 function noteOn({ model, command, alphas, isolate, reverseAware }: Settings, table: Table, stats: Stats, chartHolds: boolean): string {
   const { notes, alphaIsZero } = words.banana;

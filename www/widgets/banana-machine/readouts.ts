@@ -59,11 +59,7 @@ export function otherReadouts({ config, stats, table }: Reading) {
   ]);
 }
 
-/**
- * The marked robot, with the arc that reaches its place.
- *
- * @param inspection of it, if there is one
- */
+/** Returns the field of the marked robot, with the arc that reaches its place if a robot is marked. */
 export function markedRobot(figure: import('./banana-machine.ts').BananaMachineElement, inspection: Inspection | undefined): import('lit').TemplateResult {
   const { robot, markHint } = words.banana;
   const { shown } = figure.reading;

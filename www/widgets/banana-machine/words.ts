@@ -1,7 +1,4 @@
-/**
- * What the Banana Machine says when, in the words of the present language: sentences about degenerate
- * clouds, and the text that stands for the pictures.
- */
+/** Texts of the Banana Machine in the present language: sentences about degenerate clouds, and text equivalents of the pictures. */
 
 import { addEnglish, words } from '../../messages/registry.ts';
 import { counted, fixed, percent, withError } from '../../ui/format.ts';
@@ -21,11 +18,7 @@ export function announcementOf({ config, stats, note }: Reading) {
   return announcement(counted(stats.n), commandText(config.command), note || outcome);
 }
 
-/**
- * The text equivalent of the view of the floor.
- *
- * @param overlays names of the outlines that are shown
- */
+/** Returns the text equivalent of the view of the floor, with the names of the outlines that are shown. */
 export function planeText(reading: Reading, overlays: string[], morph: number) {
   const { config, stats, table, note } = reading;
   const { plane, between, noRobots, mean, onePlace, spread, drawnOver } = words.banana;
@@ -69,10 +62,7 @@ export function floorTitle({ stats, table: { exact: { areaRatio, likelihoodGain 
   return `${floor}: ${ellipseIs[fit]}`;
 }
 
-/**
- * What the cloud looks like: to which side it leans is the model's to decide, and the robots' to show. Figures are those of
- * the readouts beside it.
- */
+/** Returns a sentence on the lean of the cloud. The exact skew tells the side, and the sample whether it shows. */
 function bendText({ stats: { crossTrackSkew: skew, crossTrackSkewError: error, areaRatio }, exactSkew, bowTie, table, gain }: Pick<Reading, 'stats' | 'exactSkew' | 'bowTie' | 'table' | 'gain'>) {
   if (Number.isNaN(skew)) return '';
   const say = words.banana.bend;
@@ -100,10 +90,7 @@ export function skewText(skew: number) {
   return Number.isNaN(skew) ? words.banana.noExactSkew : words.banana.exactSkew(fixed(skew, 3));
 }
 
-/**
- * What stands under the view in exponential coordinates: how Gaussian they make this cloud, unless
- * there is something else to note about it.
- */
+/** Returns the caption of the view in exponential coordinates: how Gaussian they make the cloud, or another note about it. */
 export function twistCaption({ config: { model, noise, alphas, isolate }, note }: Reading) {
   const { twist, twistIs } = words.banana;
   if (note) return `${twist}.`;

@@ -50,9 +50,8 @@ function curveOf(ratios: Float64Array, relativeErrors: Float64Array, axis: numbe
 }
 
 /**
- * What keeps ratios from being told.
- *
- * @returns no robots; no spread at all; no covariance at the end; too few robots
+ * Returns the condition that keeps ratios from being told: no robots, no spread at all, no covariance at the end, or too few robots; 'told'
+ * if nothing does.
  */
 function conditionOf({ compounding }: DeadReckoningSettings, { n, predicted, measured, misses }: Machine['stats'], ratios: Float64Array): 'none' | 'still' | 'lost' | 'few' | 'told' {
   if (n === 0) return 'none';

@@ -114,11 +114,7 @@ export function missTable({ stats: { misses } }: Reading, overlays: string[]) {
   });
 }
 
-/**
- * The marked robot, and where it is at the step.
- *
- * @param marked its poses after each step
- */
+/** Returns the field of the marked robot, with its place at the step if a robot is marked. */
 export function markedRobot(figure: import('./dead-reckoning.ts').DeadReckoningElement, marked: Float64Array | undefined): import('lit').TemplateResult {
   const { robot, markHint, markedAt } = words.reckoning;
   const { config: { step }, shown } = figure.reading;

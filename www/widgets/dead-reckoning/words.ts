@@ -37,10 +37,7 @@ export function captionOf({ config: { compounding }, stats: { misses, n }, condi
   return far === worst ? `${say.wrong(end, where)} ${say.begins(of, list)}` : say.worse(end, where, of, list);
 }
 
-/**
- * @param misses of which NaN is none
- * @returns the place of the greatest
- */
+/** Returns the index of the greatest miss, of which NaN is none. */
 const furthest = (misses: number[]): number => misses.reduce((most, miss, i) => (miss > (misses[most] || 0) ? i : most), 0);
 
 /** Returns the first ratios, in words. */

@@ -52,11 +52,7 @@ export function motionControls(figure: Figure) {
     ${group(words.noise, slider(figure, 'noise'), 'single')} ${cloudControls(figure, SAMPLE_COUNTS)}`;
 }
 
-/**
- * Returns what is changed less often.
- *
- * @param hasUnknown whether there are cells of which the map says nothing
- */
+/** Returns the controls that are changed less often, with that of unknown cells if the map has any. */
 export function robotAndMap(figure: Figure, hasUnknown: boolean) {
   const { robotAndMap: heading, condition, settings, unknown, views } = words.squeeze;
   return group(heading, html`${slider(figure, 'clearance')} ${check(figure, 'conditioned', condition)}

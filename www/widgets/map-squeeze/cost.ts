@@ -22,12 +22,7 @@ const LONG_ENOUGH = 12;
 /** Runs of which the median is told. */
 const RUNS = 5;
 
-/**
- * Measures a run at a time: the page goes on between two of them.
- *
- * @param parts of the command
- * @returns the cost, or why there is none
- */
+/** Measures a run at a time, so that the page goes on between two runs. Returns the cost, or the reason why there is none. */
 function* measuring(machine: MapSqueeze, sampler: SamplerName, parts: number): Generator<undefined, Cost | 'wedged' | 'few'> {
   const most = Math.floor(limits.trial / parts);
   let count = 1;
@@ -80,11 +75,7 @@ export class CostMeter extends Part {
     this.current = false;
   }
 
-  /**
-   * Measures once these settings have been at rest for a while.
-   *
-   * @param atRest whether nothing moves at present
-   */
+  /** Measures once these settings have been at rest for a while, and nothing moves. */
   heed(config: object, atRest: boolean) {
     const settings = JSON.stringify(config);
     if (atRest || settings !== this.#settings) this.outdate();

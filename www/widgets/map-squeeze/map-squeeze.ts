@@ -212,8 +212,8 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
   }
 
   /**
-   * Where the robot is put that comes into a map: in an occupancy grid also where it has room, for what is unknown there
-   * may be free, so that a place which is free may lie outside of everything that was mapped.
+   * Returns a pose in the open for a robot that comes into a map. In an occupancy grid it is used even where the robot has room: a free
+   * place may lie outside of all that was mapped.
    */
   #putInTheOpen({ openPlace, config, plan }: Machine): Pose {
     const [left, bottom, right, top] = plan.bounds;
@@ -242,10 +242,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
     });
   }
 
-  /**
-   * Moves walls. The picture shows them at once; the samples follow in the same frame where they are few, otherwise when the
-   * walls have come to rest.
-   */
+  /** Moves walls. The picture shows them at once. Few samples follow in the same frame, many when the walls have come to rest. */
   moveWalls(walls: Float64Array) {
     this.picture = new FloorPicture({ bounds: this.picture.plan.bounds, walls }, null, this.picture);
     this.pictures = [this.picture];
@@ -282,9 +279,8 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
   }
 
   /**
-   * Puts the robot into another map. Another machine tries it: the present one stays if the map, or the place in it, is refused.
-   *
-   * @param map with the place in it, where that is known
+   * Puts the robot into another map, at a place if that is known. Another machine tries it: the present one stays if the map, or the place
+   * in it, is refused.
    */
   #enter({ name, start, apply }: OwnMap & { start?: Pose }) {
     const { motion, settings } = this;

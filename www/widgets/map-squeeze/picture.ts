@@ -191,11 +191,7 @@ function knownCorners(grid: Cells, unknown: Uint8Array) {
   return [left, right].flatMap((column) => [bottom, top].flatMap((row) => cornerOf(grid, column, row)));
 }
 
-/**
- * Draws what a path did to a wall, with a leader to the place.
- *
- * @param contact metres
- */
+/** Draws the contact of a path with a wall, a point in metres, with a leader to it. */
 function drawContact(brush: Brush, contact: number[]) {
   const { context, view, palette } = brush;
   const [x, y] = [view.toPixelX(contact[0]), view.toPixelY(contact[1])];

@@ -52,21 +52,15 @@ export function kindOf(verdict: number) {
 }
 
 /**
- * Returns how many of the accepted motions went through a wall, with the interval of their share. There is none where the
- * sampler excludes it, or where the machine gave up: where that ends is chance too.
- *
- * @param certain whether the sampler excludes it
+ * Returns how many of the accepted motions went through a wall, with the interval of their share. There is none where the sampler excludes
+ * it (`certain`), or where the machine gave up: that is chance too.
  */
 export function throughText({ throughWall, throughWallRate, throughWallInterval: [low, high], gaveUp }: Pick<SqueezeStats, 'throughWall' | 'throughWallRate' | 'throughWallInterval' | 'gaveUp'>, certain: boolean) {
   const interval = certain || gaveUp ? '' : `${fixed(100 * low, 1)}\u2060–\u2060${percent(high)}`;
   return words.squeeze.throughOf(throughWall, counted(throughWall), percent(throughWallRate), interval);
 }
 
-/**
- * A sentence on a robot that gets nowhere.
- *
- * @returns empty for an ordinary cloud
- */
+/** Returns a sentence on a robot that gets nowhere; empty for an ordinary cloud. */
 function noteOn(config: SqueezeSettings, stats: SqueezeStats, startFree: boolean): string {
   const { wedged, nothing, noRoom } = words.squeeze;
   const { accepted } = stats;

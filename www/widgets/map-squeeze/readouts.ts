@@ -1,6 +1,4 @@
-/**
- * Map Squeeze's readouts: the tally of the samples, the marked one, and what each sampler costs.
- */
+/** Map Squeeze's readouts: the tally of the samples, the marked one, and the cost of each sampler. */
 
 import { html } from 'lit';
 import { markedField } from '../../figure/controls.ts';

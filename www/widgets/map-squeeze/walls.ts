@@ -13,11 +13,7 @@ const GAP = 0.05;
 const LEAST_REACH = 0.02;
 const STEPS_A_REACH = 4;
 
-/**
- * Returns the point of a wall nearest to another point, with the distance.
- *
- * @param k index of the first number of the wall
- */
+/** Returns the point of a wall that is nearest to another point, with the distance. `k` is the index of the wall's first number. */
 function nearestOn(walls: ArrayLike<number>, k: number, x: number, y: number) {
   const [x0, y0] = [walls[k], walls[k + 1]];
   const [dx, dy] = [walls[k + 2] - x0, walls[k + 3] - y0];
@@ -27,12 +23,7 @@ function nearestOn(walls: ArrayLike<number>, k: number, x: number, y: number) {
   return { point, distance: Math.hypot(x - point[0], y - point[1]) };
 }
 
-/**
- * Returns the point of a wall that a robot touches first on a path; undefined for none.
- *
- * @param path x, y pairs
- * @param radius of the robot
- */
+/** Returns the point of a wall that a robot of a radius touches first on a path of x, y pairs; undefined for none. */
 export function contactOf(path: ArrayLike<number>, walls: Float64Array, radius: number) {
   const reach = Math.max(radius, LEAST_REACH);
   const box = extentAround(path, 2);
@@ -66,10 +57,8 @@ export interface Grip {
 }
 
 /**
- * Returns the grips of a plan: of each wall its two ends, which can be moved where they touch no other wall, and its side. The
- * shell has none.
- *
- * @returns three a wall, in the order of the walls
+ * Returns three grips of each wall, in the order of the walls: two ends, which can be moved where they touch no other wall, and the side.
+ * The shell has none.
  */
 export function gripsOf({ bounds, walls }: Plan): (Grip | undefined)[] {
   const grips = [];
@@ -123,11 +112,7 @@ function roomAhead(walls: Float64Array, wall: number, [x, y]: readonly number[],
   return room;
 }
 
-/**
- * Returns the walls with one of them moved. Walls that end on one that moves across follow it where that only lengthens them.
- *
- * @param distance along its axis
- */
+/** Returns the walls with one of them moved along its axis. Walls that end on one that moves across follow it where that only lengthens them. */
 export function movedWalls(walls: Float64Array, { wall, part, axis: [ux, uy] }: Grip, distance: number) {
   const moved = walls.slice();
   const move = (at: number) => {

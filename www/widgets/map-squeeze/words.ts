@@ -1,7 +1,4 @@
-/**
- * What Map Squeeze says when, in the words of the present language: verdicts, sentences about robots
- * that cannot move, and the text that stands for the picture.
- */
+/** Texts of Map Squeeze in the present language: verdicts, sentences about robots that cannot move, and the text equivalent of the picture. */
 
 import { addEnglish, words } from '../../messages/registry.ts';
 import { verdict as bits } from '../../settings.js';
@@ -72,11 +69,7 @@ export function mapText(name: string, { bounds, walls }: Plan) {
   return words.squeeze.mapText(name, fixed(right - left, 1), fixed(top - bottom, 1), count, counted(count));
 }
 
-/**
- * The text equivalent of the picture.
- *
- * @param map as `mapText` has it
- */
+/** Returns the text equivalent of the picture, with the map as `mapText` has it. */
 export function pictureText({ config, stats, sorted, note }: Reading, map: string) {
   const { x, y, theta } = config.start;
   const { attempts, accepted, drawn, throughWall } = stats;

@@ -9,13 +9,7 @@ const HEAD = { half: 4, length: 9 };
 /** Steps of the chord that an arc is drawn by, radians. */
 const STEP = 0.1;
 
-/**
- * Points of an arc about a place of the world.
- *
- * @param centre from whose heading it begins
- * @param turn radians
- * @param radius pixels
- */
+/** Returns the points of an arc about a pose, from its heading by a turn in radians, with a radius in pixels. */
 export function arcOf({ view }: Pick<Brush, 'view'>, { x, y, theta }: Pose, turn: number, radius: number) {
   const count = Math.max(1, Math.ceil(Math.abs(turn) / STEP));
   return Array.from({ length: count + 1 }, (_, i) => {
@@ -30,12 +24,7 @@ function path(context: Brush['context'], points: number[][]) {
   points.forEach(([x, y], i) => (i ? context.lineTo(x, y) : context.moveTo(x, y)));
 }
 
-/**
- * A turn from a pose's heading, as an arc with an arrow.
- *
- * @param turn radians
- * @param radius pixels
- */
+/** Draws a turn in radians from a pose's heading, as an arc with an arrow, with a radius in pixels. */
 export function drawTurn(brush: Brush, from: Pose, turn: number, radius: number, colour: string) {
   const { context, view } = brush;
   const points = arcOf(brush, from, turn, radius);
@@ -56,12 +45,7 @@ export function drawTurn(brush: Brush, from: Pose, turn: number, radius: number,
   context.fill();
 }
 
-/**
- * A standard deviation either side of a heading, as a fan.
- *
- * @param deviation radians
- * @param radius pixels
- */
+/** Draws a standard deviation (rad) to either side of a heading, as a fan with a radius in pixels. */
 export function drawFan(brush: Brush, middle: Pose, deviation: number, radius: number, colour: string) {
   const half = Math.min(deviation, Math.PI);
   if (half === 0) return;
@@ -80,12 +64,7 @@ export function drawFan(brush: Brush, middle: Pose, deviation: number, radius: n
   context.globalAlpha = 1;
 }
 
-/**
- * A standard deviation either side of a place, as a bar with ends.
- *
- * @param middle along whose heading it lies
- * @param deviation metres
- */
+/** Draws a standard deviation (m) to either side of a place along its heading, as a bar with ends. */
 export function drawBar({ context, view }: Brush, { x, y, theta }: Pose, deviation: number, colour: string) {
   if (deviation === 0) return;
   const ahead = view.direction(theta);

@@ -80,11 +80,7 @@ export class OdometryDecomposerElement extends FigureElement<Machine, Reading> {
     return { ...reading, overlays: this.state.own.overlays, marked: isMarked ? reading.poses.subarray(3 * index) : undefined };
   }
 
-  /**
-   * A setting, to be played from one end of its slider to the other.
-   *
-   * @param duration milliseconds
-   */
+  /** Returns a setting that is played from one end of its slider to the other, in so many milliseconds. */
   #played(key: keyof typeof looks, duration: number) {
     const { min, max } = looks[key];
     return {

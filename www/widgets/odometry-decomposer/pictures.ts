@@ -56,11 +56,7 @@ function keyOf(brush: Brush, { overlays }: Scene, names: LineName[]) {
   return brush.exported ? names.filter((name) => overlays.includes(name)).map((name) => lineKey(brush, say[name].replaceAll('*', ''), styles[name])) : [];
 }
 
-/**
- * Corners of where the outcomes are, as far as a picture makes room for them.
- *
- * @returns x, y pairs
- */
+/** Returns the corners of the outcomes' surroundings as x, y pairs, as far as a picture makes room for them. */
 function surroundings({ linkage, legs, deviations, stats }: Scene): number[] {
   const [{ x, y }, driven] = [poseIn(linkage, 0), poseIn(linkage, 2)];
   const along = Math.min(ROOM.deviations * deviations.trans, legs.trans + 2);
@@ -148,11 +144,7 @@ export class LegsPicture extends OutcomesPicture {
     if (overlays.includes('legs')) drawLabelsAbove(brush, this.#labels(brush, scene, first, second));
   };
 
-  /**
-   * Returns the labels of the legs that are seen, with their values and deviations.
-   *
-   * @param first radius of the arc of the first turn, pixels
-   */
+  /** Returns the labels of the legs that are seen, with their values and deviations. The arcs of both turns have radii in pixels. */
   #labels({ view, palette: { prior: colour } }: Brush, { linkage, legs, deviations }: Scene, first: number, second: number) {
     const [start, driven] = [0, 2].map((index) => poseIn(linkage, index));
     const label = (sub: 'rot1' | 'trans' | 'rot2', unit: string, place: { x: number, y: number }) => ({

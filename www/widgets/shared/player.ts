@@ -50,12 +50,7 @@ export class Player<Key extends string> extends Part {
     this.host.requestUpdate();
   }
 
-  /**
-   * To be called in each frame.
-   *
-   * @param elapsed milliseconds since the one before
-   * @returns whether there is more to play
-   */
+  /** Plays on in each frame, by the milliseconds since the frame before. Returns true if there is more to play. */
   advance(elapsed: number): boolean {
     if (!this.#key) return false;
     const { from, to, duration, at, put } = this.#played[this.#key];
@@ -68,11 +63,7 @@ export class Player<Key extends string> extends Part {
     return false;
   }
 
-  /**
-   * Plays and pauses. Nothing for who wants less motion: the slider is there to be moved.
-   *
-   * @param label of the button, which names what is played
-   */
+  /** Returns the button that plays and pauses, labelled by what is played. Readers who want less motion have none, but the slider. */
   button(key: Key, label: string) {
     return isCalm() ? nothing : button(this.#key === key ? words.pause : label, () => this.#toggle(key));
   }

@@ -99,11 +99,7 @@ export class PoseHandles extends Part<import('../../figure/figure.ts').Figure> {
     ];
   }
 
-  /**
-   * Puts the handles where the robot is drawn.
-   *
-   * @param radius metres
-   */
+  /** Puts the handles where the robot of a radius in metres is drawn. */
   place(pose: Pose, radius: number) {
     const view = this.#of.view();
     const root = this.host.renderRoot;
@@ -115,10 +111,7 @@ export class PoseHandles extends Part<import('../../figure/figure.ts').Figure> {
     this.#turn.place(root, inside(x + distance * ahead.x, view.width), inside(y + distance * ahead.y, view.height));
   }
 
-  /**
-   * @param steps along x and y
-   * @returns whether there are any
-   */
+  /** Moves the robot by steps along x and y; returns false if there are none. */
   #moveBy(steps?: [number, number]): boolean {
     if (!steps) return false;
     const { x, y } = this.#pose;
@@ -126,10 +119,7 @@ export class PoseHandles extends Part<import('../../figure/figure.ts').Figure> {
     return true;
   }
 
-  /**
-   * @param steps counter-clockwise; infinitely many for half a turn from 0
-   * @returns whether there are any
-   */
+  /** Turns the robot by steps counter-clockwise, or to half a turn for infinitely many; returns false if there are none. */
   #turnBy(steps?: number): boolean {
     if (!steps) return false;
     this.#turnTo(Number.isFinite(steps) ? this.#pose.theta + KEY_TURN * steps : Math.sign(steps) * Math.PI);

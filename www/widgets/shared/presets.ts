@@ -4,11 +4,7 @@ import { html, nothing } from 'lit';
 import { words } from '../../messages/registry.ts';
 import { button } from '../../ui/controls.ts';
 
-/**
- * Returns a button for each preset, the present one pressed, and the one to start over.
- *
- * @param more buttons after them
- */
+/** Returns a button for each preset, the present one pressed, then more buttons, and the one to start over. */
 export function presetButtons(figure: import('../../figure/figure.ts').Figure, more: unknown = nothing) {
   const { gesture, kind, machine, settings, stage } = figure;
   const { presets } = (words as any)[kind.vocabulary];

@@ -11,21 +11,12 @@ const SMALLEST = 3;
 /** Radius of the ring that turns it, pixels. */
 const TURN = 5.5;
 
-/**
- * How far ahead of the robot's centre the handle is that turns it.
- *
- * @param radius metres
- * @returns CSS pixels
- */
+/** Returns the distance in CSS pixels from the centre of a robot to the handle ahead that turns it. The radius is in metres. */
 export function turnDistance(view: Pick<View, 'scaleX'>, radius: number): number {
   return Math.max(34, radius * view.scaleX + 22);
 }
 
-/**
- * The robot that the reader has in hand.
- *
- * @param radius metres
- */
+/** Draws the robot that the reader has in hand, with a radius in metres. */
 export function drawHeldRobot(brush: Brush, { x, y, theta }: Pose, radius: number, colour: string) {
   const { context, view, palette } = brush;
   const [atX, atY] = [view.toPixelX(x), view.toPixelY(y)];
@@ -43,12 +34,7 @@ export function drawHeldRobot(brush: Brush, { x, y, theta }: Pose, radius: numbe
   drawHandle(brush, { x: atX + reach * ahead.x, y: atY + reach * ahead.y, radius: TURN, colour });
 }
 
-/**
- * The dashed outline of a robot that is not there: where a command would bring it.
- *
- * @param x metres
- * @param radius metres
- */
+/** Draws the dashed outline of a robot where a command would bring it; lengths in metres. */
 export function drawRobotOutline({ context, view }: Brush, x: number, y: number, radius: number, colour: string) {
   context.strokeStyle = colour;
   context.lineWidth = 1.5;
@@ -59,10 +45,7 @@ export function drawRobotOutline({ context, view }: Brush, x: number, y: number,
   context.setLineDash([]);
 }
 
-/**
- * @param radius metres
- * @returns CSS pixels
- */
+/** Returns the radius of a robot, metres, in CSS pixels. */
 function radiusOn(view: View, radius: number): number {
   return Math.max(SMALLEST, radius * view.scaleX);
 }

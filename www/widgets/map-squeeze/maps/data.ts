@@ -25,11 +25,7 @@ export function cellsOf({ grid }: MapSqueeze): Cells | null {
   return grid && { ...grid, unknown: grid.unknown.includes(1) ? grid.unknown : undefined };
 }
 
-/**
- * The map that a machine has, frozen: a page may look at what an element has, and changes that by another one.
- *
- * @param grid of the machine
- */
+/** Returns the map of a machine, frozen: a page that changes it gives another map. */
 export function mapData(machine: MapSqueeze, name: string, grid: Cells | null): MapData {
   if (grid) {
     const { columns, rows, resolution, origin } = grid;
@@ -43,10 +39,7 @@ export function mapData(machine: MapSqueeze, name: string, grid: Cells | null): 
   return frozen({ name, bounds: frozen([...bounds]), walls: frozen(listed) });
 }
 
-/**
- * The walls of a floor plan as the core reads them soonest, one after the other; as they are where they are something else
- * than such a list, of which the core says what is wrong.
- */
+/** Flattens the walls of a floor plan, which the core reads soonest. Other values stay as they are, and the core refuses them with a reason. */
 function inOneList(walls: unknown) {
   if (!Array.isArray(walls) || walls.length > MAX_WALLS) return walls;
   const numbers = new Float64Array(4 * walls.length);
@@ -57,12 +50,7 @@ function inOneList(walls: unknown) {
   return numbers;
 }
 
-/**
- * Puts a map into a machine.
- *
- * @param data to be MapData
- * @throws {TypeError | RangeError} with the machine's present map left as it is
- */
+/** Puts a map into a machine. Throws a TypeError or RangeError that names the field, and leaves the present map. */
 export function applyMap(machine: MapSqueeze, data: unknown) {
   if (typeof data !== 'object' || data === null || Array.isArray(data)) {
     throw refusal('map', data, `a plan, an object of ${PLAN_KEYS.join(', ')}, or a grid, one of ${GRID_KEYS.join(', ')}`, TypeError);

@@ -18,10 +18,7 @@ export interface OwnMap {
 export class MapFileError extends Error {
   sentence: (say: Refused) => string;
 
-  /**
-   * @param file its name
-   * @param sentence in the words of the time when it is shown
-   */
+  /** Takes the name of the file, and a sentence in the words of the time when it is shown. */
   constructor(file: string, sentence: (say: Refused, file: string) => string) {
     super('The map is refused.');
     this.sentence = (say: Refused) => sentence(say, quoted(file));
@@ -34,10 +31,7 @@ const PLAN_BYTES = 2_000_000;
 /** Bytes at most of what says how an image is to be read. */
 const DESCRIPTION_BYTES = 100_000;
 
-/**
- * Characters of a plan at most that is read although it is not quite JSON: what is written by hand is shorter, and a longer
- * one would take seconds.
- */
+/** Most characters of a plan that is read although it is not quite JSON: a longer one would take seconds. */
 const FORGIVEN = 200_000;
 
 /** Characters of a name or a value that a sentence quotes. */
@@ -49,11 +43,7 @@ const PNG = [0x89, 0x50, 0x4e, 0x47];
 /** Form of a floor plan. */
 const PLAN_FORM = '{"bounds": [x0, y0, x1, y1], "walls": [[x0, y0, x1, y1], …]}';
 
-/**
- * The map that files hold.
- *
- * @throws {MapFileError}
- */
+/** Reads the map in files; rejects with a MapFileError. */
 export async function readMapFiles(files: File[], decodePng: DecodePng): Promise<OwnMap> {
   const named = (pattern: RegExp) => files.filter(({ name }) => pattern.test(name));
   const [plans, descriptions, images] = [named(/\.json$/i), named(/\.ya?ml$/i), named(/\.(pgm|png)$/i)];
@@ -71,11 +61,7 @@ export async function readMapFiles(files: File[], decodePng: DecodePng): Promise
   throw new MapFileError(images[0]?.name ?? '', (say, image) => say.alone(image || say.noFile));
 }
 
-/**
- * Contents of a file: it may have gone, or be forbidden, since it was chosen.
- *
- * @param part of the file or all of it
- */
+/** Reads bytes of a file, which may have gone since it was chosen. */
 async function bytesOf(part: Blob, name: string) {
   try {
     return await part.arrayBuffer();
@@ -91,10 +77,7 @@ async function textOf(file: File, most: number) {
   return new TextDecoder().decode(await bytesOf(file, file.name));
 }
 
-/**
- * @param name of a file
- * @param size in bytes, before they are read
- */
+/** Checks the size of a file in bytes before it is read. */
 function checkSize(name: string, size: number, most: number) {
   if (size > most) throw new MapFileError(name, (say, file) => say.long(file, size, most));
 }
@@ -104,12 +87,7 @@ function quoted(text: string) {
   return text.length > QUOTED ? `${text.slice(0, QUOTED)}…` : text;
 }
 
-/**
- * A floor plan from JSON.
- *
- * @param name of the file
- * @throws {MapFileError}
- */
+/** Reads a floor plan from the JSON of a file; rejects with a MapFileError. */
 export async function readPlan(name: string, text: string): Promise<OwnMap> {
   checkSize(name, text.length, PLAN_BYTES);
   const plan = await planOf(name, text);
@@ -120,11 +98,7 @@ export async function readPlan(name: string, text: string): Promise<OwnMap> {
   };
 }
 
-/**
- * What a plan says, the browser reads in a fiftieth of the time that a library takes, which is asked where it is not quite JSON.
- *
- * @param name of the file
- */
+/** Parses a plan. The browser reads JSON fifty times as fast as the library, which is asked where a text is not quite JSON. */
 async function planOf(name: string, text: string) {
   try {
     return JSON.parse(text);
@@ -140,11 +114,8 @@ function isObject(value: unknown): value is Record<string, unknown> {
 }
 
 /**
- * Parses a text. JSON is YAML too: the one parser forgives a trailing comma or a comment in a plan
- * written by hand, and knows the line of a mistake, which JSON.parse says in some browsers only. It is
- * as long as both widgets together, and loaded when the first map is opened.
- *
- * @param name of the file
+ * Parses a text by the library for YAML, which reads JSON too. It forgives a trailing comma or a comment in a plan written by hand, and
+ * knows the line of a mistake. It is loaded with the first map that needs it.
  */
 async function parsed(name: string, text: string, language: 'JSON' | 'YAML') {
   const { YAMLException, parseYaml } = await import('./yaml.ts');
@@ -199,11 +170,7 @@ function unquoted(value: unknown): unknown {
   return typeof value === 'string' && value.trim() !== '' && Number.isFinite(Number(value)) ? Number(value) : value;
 }
 
-/**
- * Parses a description as leniently as map_server does.
- *
- * @param name of the file
- */
+/** Parses a description as leniently as map_server does. */
 async function readDescription(name: string, text: string) {
   // YAML forbids tabs as indentation, and the fields have none.
   const description = await parsed(name, text.replaceAll(/^\t+/gm, '').replaceAll('\t', ' '), 'YAML');
@@ -226,21 +193,14 @@ async function readPng(name: string, bytes: Uint8Array, decodePng: DecodePng) {
   }
 }
 
-/**
- * @param description name of the YAML file
- * @param image name of the image file
- */
+/** Returns the sentence about a grid that the core refuses, with the name of the YAML file or of the image. */
 function gridComplaint(say: Refused, description: string, image: string, reason: string) {
   const line = /^line (\d+): (.*)$/.exec(reason);
   if (line) return say.line(image, line[1], line[2]);
   return `${reason.startsWith('image') ? image : description}: ${reason}.`;
 }
 
-/**
- * Lets the core take a map, and explains why it refuses one.
- *
- * @param name of the file that holds the map
- */
+/** Lets the core take the map of a file, and explains why it refuses one. */
 function explaining(name: string, take: () => void, sentence: (say: Refused, file: string, reason: string) => string) {
   try {
     take();

@@ -1,7 +1,4 @@
-/**
- * Reading YAML. In a file of its own, so that it can be loaded when it is first needed, and without
- * the other half of the library, which writes.
- */
+/** Reader of YAML, in a file of its own to be loaded when it is first needed, and without the library's writer. */
 
 import { YAMLException, load } from 'js-yaml';
 

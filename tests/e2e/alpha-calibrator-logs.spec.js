@@ -31,6 +31,15 @@ test('two tables of the reader’s own take the place of the simulated log, and 
   await expect(hint).toBeVisible();
   await widget.getByRole('button', { name: 'Back to the simulated log' }).click();
   await expect(caption(widget)).toHaveText(/of the simulated log/);
+  // A file alone waits for the other one.
+  const alert = widget.getByRole('alert');
+  await choose(widget, { 'odom.csv': tables.odometry });
+  await expect(alert).toHaveText(/^odom\.csv: it has the odometry only, .*; give the reference too\. Drop or choose the other file too,/);
+  await expect(widget.getByText('The result below is still that of the simulated log.')).toBeVisible();
+  await choose(widget, { 'odom.csv': tables.odometry });
+  await expect(alert).toHaveText(/^odom\.csv: it is given twice;/);
+  await choose(widget, { 'truth.csv': tables.reference });
+  await expect(caption(widget)).toHaveText(/of odom\.csv, truth\.csv[.,]/);
 });
 
 test('results are those of the command line, to the last bit', async ({ page }) => {
@@ -175,9 +184,9 @@ test('files that are no log are refused in a sentence, and all stays as it was',
   await choose(widget, { 'odom.csv': 't,x,y,yaw\n0,0,0,0\n1,one,0,0\n', 'truth.csv': 't,x,y,yaw\n0,0,0,0\n' });
   await expect(alert).toHaveText(/^odom\.csv, line 3: x is “one”; expected is a number\.$/);
   await choose(widget, { 'alone.csv': 't,x,y,yaw\n0,0,0,0\n' });
-  await expect(alert).toHaveText(/^alone\.csv: it has one log only, t, x, y, yaw; give odometry and reference\.$/);
+  await expect(alert).toHaveText(/^alone\.csv: it has one log only, t, x, y, yaw; give odometry and reference\. Drop or choose the other file too, or both at once\.$/);
   await choose(widget, { 'notes.mcap': 'no recording' });
-  await expect(alert).toHaveText(/^notes\.mcap, line 1: the columns are no, recording/);
+  await expect(alert).toHaveText(/^notes\.mcap: it does not look like a log,/);
   const buffer = await recordingOf([{ topic: '/rosout', type: 'rcl_interfaces/msg/Log', t: 1, message: {} }], {});
   await widget.locator('#log-files').setInputFiles({ name: 'words.mcap', mimeType: 'application/octet-stream', buffer });
   await expect(alert).toHaveText(/^words\.mcap: the topics are \/rosout \(Log\); expected is one of type nav_msgs\/Odometry/);

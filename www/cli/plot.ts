@@ -15,7 +15,7 @@ const STEP = 0.5;
 const INSET = 12;
 
 /** Lines in the colours of ink, prior and accent on the page. */
-const LINES = { reference: 'stroke="#1f1e1b" stroke-width="1.5"', odometry: 'stroke="#0b61b0" stroke-width="1.5" stroke-dasharray="4 2"', outlier: 'stroke="#7a1560" stroke-width="4"' };
+const LINES = { reference: 'stroke="#1f1e1b" stroke-width="1.5"', odometry: 'stroke="#0b61b0" stroke-width="1.5" stroke-dasharray="4 2"', outlier: 'stroke="#7a1560" stroke-width="5" stroke-linecap="round"' };
 
 const [INK, MUTED] = ['#1f1e1b', '#57564f'];
 

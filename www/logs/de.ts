@@ -143,6 +143,7 @@ export const log: Words = {
     fields: { t: 'Zeit', x: 'x', y: 'y', yaw: 'Gierwinkel', qx: 'qx', qy: 'qy', qz: 'qz', qw: 'qw', v: 'Geschwindigkeit v', omega: 'Drehrate ω' },
     none: 'keine',
     read: 'Lesen',
+    other: 'Die andere Datei auch hierher ziehen oder wählen, oder beide zugleich.',
   },
   found: {
     labels: {

@@ -155,6 +155,7 @@ export const log = {
     fields: { t: 'time', x: 'x', y: 'y', yaw: 'yaw', qx: 'qx', qy: 'qy', qz: 'qz', qw: 'qw', v: 'speed v', omega: 'turn rate ω' },
     none: 'none',
     read: 'Read',
+    other: 'Drop or choose the other file too, or both at once.',
   },
   /** Summary of a log. */
   found: {

@@ -23,7 +23,7 @@ import { LegPicture, WayPicture } from './pictures.ts';
 import { Plate } from './plate.ts';
 import { legOf, readingOf } from './reading.ts';
 import { alphaTable, alphaTexts, verdictLine } from './readouts.ts';
-import { COMPONENTS, LINES, attributes, declared, looks, own, vocabulary } from './settings.ts';
+import { COMPONENTS, LINES, attributes, declared, kindOf, looks, own, vocabulary } from './settings.ts';
 import { calibratorStyles } from './styles.ts';
 import { systematicTable, systematicTexts } from './systematic.ts';
 import { captionOf, legText, reasonOf, wayText } from './words.ts';
@@ -257,7 +257,7 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
           ${this.stage.later(() => html`
           <div class="fitted" part="readouts">
             <div class="buttons told">
-              <p class="panel-title">${say.alphas.title}</p>
+              <p class="panel-title">${say.alphas.title(say.kinds[kindOf(reading.fitted)])}</p>
               ${copyButton(this, this.#copied)} ${startOverButton(this)}
             </div>
             ${alphaTable(reading)}

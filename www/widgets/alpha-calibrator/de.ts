@@ -110,7 +110,7 @@ export const de: typeof import('./en.ts').en = {
       `Empfohlen: angepasst × ${inflation}. Im Bereich der Anpassung liegen nur ${coverage} von ${count} zurückgehaltenen Fenstern von 1 m (NEES, quadrierter Fehler durch vorhergesagte Varianz, ${nees}: richtig ist 1).`,
   },
   alphas: {
-    title: 'Angepasste Rauschparameter',
+    title: (kind) => `Angepasste Rauschparameter (${kind})`,
     caption: 'Restringierte Maximum Likelihood mit 95-%-Intervallen',
     alpha: '*α*',
     noise: 'Rauschen',
@@ -217,6 +217,7 @@ export const de: typeof import('./en.ts').en = {
     present: (name) => `Aufzeichnung: ${name}.`,
     reading: 'Wird gelesen',
     refused: (message) => `Aufzeichnung abgelehnt: ${message}`,
+    still: (log) => `Das Ergebnis darunter gilt noch für: ${log}.`,
   },
   nav2: {
     title: 'Für Nav2',

@@ -80,7 +80,7 @@ export const en = {
       `Recommended: fitted × ${inflation}. The fit covers only ${coverage} of ${count} held-out windows of 1 m (NEES, squared error over predicted variance, ${nees}: 1 is right).`,
   },
   alphas: {
-    title: 'Fitted noise parameters',
+    title: (kind) => `Fitted noise parameters (${kind})`,
     caption: 'Restricted maximum likelihood, with 95 % intervals',
     alpha: '*α*',
     noise: 'noise',
@@ -187,6 +187,7 @@ export const en = {
     present: (name) => `Log: ${name}.`,
     reading: 'Reading',
     refused: (message) => `Log refused: ${message}`,
+    still: (log) => `The result below is still that of ${log}.`,
   },
   nav2: {
     title: 'For Nav2',

@@ -55,6 +55,8 @@ export class LogOpener extends Part<Figure> {
   /** Why the latest log was refused. */
   #complaint: (() => string) | undefined;
   chosen: Chosen | undefined;
+  /** Files with one log of a drive, which the next file may have the other log of. */
+  #lone: Chosen | undefined;
   /** Module that reads and shows logs, and its words; undefined until a file is chosen. */
   reader: Reader | undefined;
   /** Share of the files that has been read; undefined while none is being read. */
@@ -93,7 +95,7 @@ export class LogOpener extends Part<Figure> {
   /** Returns to the simulated log. */
   leave() {
     this.#end();
-    this.chosen = this.#complaint = undefined;
+    this.chosen = this.#lone = this.#complaint = undefined;
     this.host.open(null, false).then(() => this.#commit());
   }
 
@@ -144,8 +146,24 @@ export class LogOpener extends Part<Figure> {
     const now = this.chosen;
     this.#attempt(async (reader) => {
       if (now.recordings.length === 0) now.recordings = await this.host.service.open(now.files, now.answers);
-      await this.#read(now, planOf(reader, now, this.kind), reader);
+      await this.#read(now, await this.#plan(now, reader), reader);
     });
+  }
+
+  /** Plans what is read. A file with one log is paired with the file before it, if that has one log too. */
+  async #plan(chosen: Chosen, reader: Reader): Promise<Plan> {
+    try {
+      return planOf(reader, chosen, this.kind);
+    } catch (error) {
+      const before = this.#lone;
+      const isLone = chosen.recordings.length === 1 && (error as LogError).ask !== undefined;
+      if (isLone) this.#lone = { ...chosen };
+      if (!isLone || !before || before.files === chosen.files) throw error;
+      const [files, questions] = [[...before.files, ...chosen.files], [...before.questions, ...chosen.questions]];
+      Object.assign(chosen, { files, questions, answers: { ...before.answers, ...chosen.answers } });
+      chosen.recordings = await this.host.service.open(files, chosen.answers);
+      return planOf(reader, chosen, this.kind);
+    }
   }
 
   async #read(chosen: Chosen, plan: Plan, reader: Reader) {
@@ -165,13 +183,15 @@ export class LogOpener extends Part<Figure> {
     this.host.requestUpdate();
     await fitted;
     chosen.log = log;
+    this.#lone = undefined;
     this.#commit();
   }
 
   /** Shows why a log was refused, and what to choose. */
   async #refuse(error: unknown) {
     const { message, sentence, sentences, ask, file, place } = error as Error & Partial<LogError & LogFailure>;
-    this.#complaint = () => sentences?.[language === 'de' ? 'de' : 'en'] ?? (sentence && this.say ? sentence(this.say) : words.calibrator.own.refused(message));
+    const complain = () => sentences?.[language === 'de' ? 'de' : 'en'] ?? (sentence && this.say ? sentence(this.say) : words.calibrator.own.refused(message));
+    this.#complaint = () => [complain(), ...(ask?.what === 'other' && this.say ? [this.say.choose.other] : [])].join(' ');
     const { chosen } = this;
     const asked = ask && chosen && { file: file ?? place?.file ?? '', ask };
     if (asked && !chosen.questions.some((each) => each.file === asked.file && each.ask.what === ask.what)) chosen.questions.push(asked);
@@ -237,6 +257,7 @@ export function dropZone(figure: Figure, opener: LogOpener) {
       ? html`<p><progress aria-label=${say.reading} .value=${share}></progress> ${button(words.progress.stop, () => opener.stop())}</p>`
       : figure.log ? html`<p><span class="present">${say.present(figure.logName)}</span> ${button(say.leave, () => opener.leave())}</p>` : nothing}
     <p class="note" id="refusal" role=${figure.notice.isShown ? nothing : 'alert'} ?hidden=${complaint === ''}>${complaint}</p>
+    ${complaint ? html`<p class="muted">${say.still(figure.logName)}</p>` : nothing}
     ${reader?.choosers(opener)}
   </div>`;
 }

@@ -87,7 +87,8 @@ const own = css`
   }
 
   .found :is(thead, tbody) :is(th, td) {
-    padding-block: 0;
+    padding: 0;
+    padding-inline-end: 0.8em;
     font-weight: normal;
     text-align: start;
     vertical-align: top;

@@ -5,10 +5,11 @@ import { readFileSync } from 'node:fs';
 import { test } from 'node:test';
 import { gunzipSync } from 'node:zlib';
 import { OTHERS, log as english } from '../../www/logs/en.ts';
+import { unlz4 } from '../../www/logs/formats/lz4.ts';
 import type { Choice, Commands, Log, Poses, Recording, Source } from '../../www/logs/log.ts';
 import { openRecordings } from '../../www/logs/open.ts';
 import { summarize } from '../../www/logs/summary.ts';
-import { odometry, poseOf, recordingOf, stampOf, transform, type Message } from '../mcap.js';
+import { odometry, recordingOf, transform, type Message } from '../mcap.js';
 import { refusalOf, sentenceOf } from './log-support.js';
 
 /** Compressed files by name. */
@@ -51,9 +52,9 @@ const FORMS: Record<string, Source[]> = {
   'none.bag': bag('none.bag'), 'bz2.bag': bag('bz2.bag'), 'lz4.bag': bag('lz4.bag'),
   'none.mcap': bag('none.mcap'), 'lz4.mcap': bag('lz4.mcap'), 'zstd.mcap': bag('zstd.mcap'), 'unindexed.mcap': bag('unindexed.mcap'),
   'unchunked.mcap': bag('unchunked.mcap'), 'ros1-support.mcap': bag('ros1-support.mcap'), 'ros2-support.mcap': bag('ros2-support.mcap'),
-  'a database alone': bag('sqlite-sqlite.db3'), 'a compressed database alone': bag('sqlite-file-sqlite-file.db3.zstd'),
+  'a compressed database alone': bag('sqlite-file-sqlite-file.db3.zstd'),
   sqlite: folderOf('sqlite'), 'sqlite-messages': folderOf('sqlite-messages'), 'sqlite-file': folderOf('sqlite-file'),
-  mcap: folderOf('mcap'), 'mcap-messages': folderOf('mcap-messages'), 'mcap-file': folderOf('mcap-file'),
+  'mcap-messages': folderOf('mcap-messages'), 'mcap-file': folderOf('mcap-file'),
   'split files': split(0, 1), 'split files in another order': split(1, 0),
 };
 
@@ -155,6 +156,29 @@ test('a damaged message is dropped, and a file of damaged headers or compression
   assert.match(await sentenceOf(readDamaged('sqlite-file-sqlite-file.db3.zstd', 4000)), /none of its messages can be read \(.+\); expected/);
 });
 
+test('LZ4 frames of another size are refused, and damaged ones give an error or the stated size, never another exception', () => {
+  const bytes = bytesOf('lz4.mcap');
+  // Header of the first chunk: the size of its records, a checksum, the compression, the size of the frame.
+  const at = bytes.indexOf('lz4');
+  const [size, length] = [at - 16, at + 3].map((from) => Number(bytes.readBigUInt64LE(from)));
+  const frame = bytes.subarray(at + 11, at + 11 + length);
+  const records = unlz4(frame, size);
+  for (const other of [size - 1, size + 1]) assert.throws(() => unlz4(frame, other), RangeError);
+  // A block of the frame may have a checksum.
+  const flagged = Buffer.concat([frame.subarray(0, -4), Buffer.alloc(4, 1), frame.subarray(-4)]);
+  flagged[4] |= 0x10;
+  assert.deepEqual(unlz4(flagged, size), records);
+  for (let i = 0; i < length; i++) {
+    const damaged = Buffer.from(frame);
+    damaged[i] ^= 17;
+    try {
+      unlz4(damaged, size);
+    } catch (error) {
+      assert.ok(error instanceof RangeError, String(error));
+    }
+  }
+});
+
 test('formats that are not read are refused with the cure, by their contents', async () => {
   const starts: [keyof typeof OTHERS, string][] = [
     ['rosbag1', '#ROSBAG V1.2\n'], ['ulog', 'ULog\x01\x12\x35'], ['dataflash', '\xa3\x95\x80'], ['pcap', '\xd4\xc3\xb2\xa1'], ['wal', '\x37\x7f\x06\x82'], ['zip', 'PK\x03\x04'],
@@ -204,12 +228,6 @@ test('a constant transform that is published more often than the moving one adds
   assert.deepEqual([...(data as Poses).x], each((i) => i / 50 + 0.5));
 });
 
-test('a static transform holds for what was recorded before it', async () => {
-  const late: Message = { topic: '/tf_static', type: TF, t: at(count), message: { transforms: [transform(at(0), 'base_footprint', 'base_link', 0.5, 0, 0)] } };
-  const [{ data }] = await read([...each((i) => tf(i, drive(i))), late], BASE);
-  assert.deepEqual([...(data as Poses).x], each((i) => i / 50 + 0.5));
-});
-
 /** Messages of nodes that publish one topic after the other. @param nodes a letter each */
 const turns = (nodes: string): Message[] => [...nodes].flatMap((node, turn) => each((i) => {
   const t = at(count * turn + i);
@@ -226,18 +244,4 @@ test('nodes that publish a topic in turns are refused, and one that is started a
 test('a topic of two types is refused', async () => {
   const messages = turns('ab').map((message) => (message.node === 'b' ? { ...message, schema: 'geometry_msgs/msg/PoseStamped' } : message));
   assert.match(await sentenceOf(read(messages, { series: '/odom' })), /^run\.mcap, topic \/odom: its messages have the types nav_msgs\/msg\/Odometry, geometry_msgs\/msg\/PoseStamped;/);
-});
-
-test('messages without a stamp among others are dropped, and the times of recording are used if most have none', async () => {
-  const message = (i: number, stamp: number): Message => ({ topic: '/odom', type: 'nav_msgs/msg/Odometry', t: at(i) + 0.01, message: odometry(stamp, i / 50, 0, 0) });
-  const [some] = await read(each((i) => message(i, i < 2 ? 0 : at(i))), { series: '/odom' });
-  assert.deepEqual([some.summary.clock, some.data.t.length, some.summary.dropped.noStamp?.count], ['header.stamp', count - 2, 2]);
-  const [most] = await read(each((i) => message(i, i < count - 2 ? 0 : at(i))), { series: '/odom' });
-  assert.deepEqual([most.summary.clock, most.data.t.length], ['log time', count]);
-});
-
-test('a message with a value out of range is dropped and counted', async () => {
-  const messages: Message[] = each((i) => ({ topic: '/pose', type: 'geometry_msgs/msg/PoseStamped', t: at(i), message: { header: { stamp: stampOf(at(i)), frame_id: 'map' }, pose: poseOf(i === 7 ? 1e300 : i / 50, 0, 0) } }));
-  const [{ data, summary }] = await read(messages, { series: '/pose' });
-  assert.deepEqual([data.t.length, summary.dropped.damaged], [count - 1, { count: 1, first: 8 }]);
 });

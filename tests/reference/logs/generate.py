@@ -244,7 +244,6 @@ with tempfile.TemporaryDirectory() as folder:
     rosbag2(WORK / 'sqlite', ROS2.logs(), StoragePlugin.SQLITE3)
     rosbag2(WORK / 'sqlite-messages', ROS2.logs(), StoragePlugin.SQLITE3, CompressionMode.MESSAGE)
     rosbag2(WORK / 'sqlite-file', ROS2.logs(), StoragePlugin.SQLITE3, CompressionMode.FILE)
-    rosbag2(WORK / 'mcap', ROS2.logs(), StoragePlugin.MCAP)
     rosbag2(WORK / 'mcap-messages', ROS2.logs(), StoragePlugin.MCAP, CompressionMode.MESSAGE)
     rosbag2(WORK / 'mcap-file', ROS2.logs(), StoragePlugin.MCAP, CompressionMode.FILE)
     for compression in CompressionType:

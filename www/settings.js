@@ -7,6 +7,7 @@
  * @property {string} key its name, as attribute, property and in states
  * @property {string} [in] the group or list that it is a part of
  * @property {string} [of] the setting that it is another way to say
+ * @property {number[]} [weights] the shares of it that the last numbers of that setting have
  * @property {string} [field] its name in that group, where another group has one of the same
  * @property {number} [index] its place in that list, from 0
  * @property {'word' | 'number' | 'whole' | 'boolean' | 'numbers' | 'group'} type
@@ -51,7 +52,7 @@ export const settings = {
     { key: 'omega', in: 'command', type: 'number', unit: 'rad/s', min: -1000000, max: 1000000, default: 0, sentence: 'Commanded turn rate; positive to the left.' },
     { key: 'dt', in: 'command', type: 'number', unit: 's', min: 0.000001, max: 1000000, default: 2, sentence: 'Duration of the command.' },
     { key: 'alphas', type: 'numbers', min: 0, max: 1000000, default: [0.12, 0.12, 0.12, 0.12, 0.03, 0.03], sentence: 'Noise parameters, the six of the velocity model.' },
-    { key: 'noise', of: 'alphas', type: 'number', nullable: true, min: 0, max: 1000000, default: 0.12, sentence: 'Level n: the first four noise parameters are n, the others n/4; null where they are not those of a level.' },
+    { key: 'noise', of: 'alphas', weights: [1.0, 1.0, 1.0, 1.0, 0.25, 0.25], type: 'number', nullable: true, min: 0, max: 1000000, default: 0.12, sentence: 'Level n: the first four noise parameters are n, the others n/4; null where they are not those of a level.' },
     { key: 'clearance', type: 'number', unit: 'm', min: 0, max: 10, default: 0.13, sentence: 'Radius of the robot.' },
     { key: 'conditioned', type: 'boolean', default: true, sentence: 'Whether draws are judged by the map at all; where not, all of them are accepted.' },
     { key: 'unknown', type: 'word', words: ['free', 'blocked'], default: 'free', sentence: 'What cells of which the map says nothing are for the robot.' },
@@ -121,7 +122,7 @@ export const settings = {
     { key: 'alpha4', in: 'alphas', index: 3, type: 'number', min: 0, max: 1000000, default: 0.02, sentence: 'Noise parameter of the velocity model.' },
     { key: 'alpha5', in: 'alphas', index: 4, type: 'number', min: 0, max: 1000000, default: 0.005, sentence: 'Noise parameter of the velocity model.' },
     { key: 'alpha6', in: 'alphas', index: 5, type: 'number', min: 0, max: 1000000, default: 0.005, sentence: 'Noise parameter of the velocity model.' },
-    { key: 'headingNoise', of: 'alphas', type: 'number', nullable: true, min: 0, max: 1000000, default: 0.02, sentence: 'Level h of the heading noise: α₃ and α₄ are h, α₅ and α₆ are h/4; null where they are not those of a level.' },
+    { key: 'headingNoise', of: 'alphas', weights: [1.0, 1.0, 0.25, 0.25], type: 'number', nullable: true, min: 0, max: 1000000, default: 0.02, sentence: 'Level h of the heading noise: α₃ and α₄ are h, α₅ and α₆ are h/4; null where they are not those of a level.' },
     { key: 'per', type: 'word', words: ['step', 'path'], default: 'step', sentence: 'Whether the noise parameters are for each step or for the whole path as one command, of whose variance each step has its share.' },
     { key: 'compounding', type: 'word', words: ['chapter', 'first-order', 'fourth-order'], default: 'chapter', sentence: 'How the covariance that is shown was carried from step to step.' },
     { key: 'samples', type: 'whole', min: 1, max: 1000000, default: 50000, sentence: 'Rollouts of the whole path.' },

@@ -20,6 +20,10 @@ impl<const N: usize> Level for NoiseLevel<'_, N> {
     fn set(&mut self, level: f64) {
         *self.0 = alphas_of_noise(level);
     }
+
+    fn weights(&self) -> Vec<f64> {
+        alphas_of_noise::<N>(1.0).to_vec()
+    }
 }
 
 impl<const N: usize> Settable for NoiseLevel<'_, N> {

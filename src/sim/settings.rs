@@ -166,6 +166,8 @@ pub trait Level {
     /// The level; None where the others are not those of any.
     fn get(&self) -> Option<f64>;
     fn set(&mut self, level: f64);
+    /// Shares of the level that the numbers have, the last of the whole list.
+    fn weights(&self) -> Vec<f64>;
 }
 
 /// An enum whose values have words: in settings, attributes and states.

@@ -80,6 +80,19 @@ impl JsAlphaCalibrator {
         self.0.saved()
     }
 
+    /// Settings and the number of the fit, at once: `stats` and `legs` are others only if that is.
+    #[wasm_bindgen(
+        unchecked_return_type = "Pick<AlphaCalibrator, 'config' | 'fittedConfig' | 'fits' | 'isPending'>"
+    )]
+    pub fn read(&self) -> JsValue {
+        object(&[
+            ("config", self.config()),
+            ("fittedConfig", self.fitted_config()),
+            ("fits", self.fits().into()),
+            ("isPending", self.is_pending().into()),
+        ])
+    }
+
     /// Settings of the fit; those of `config` unless they are pending.
     #[wasm_bindgen(getter, js_name = fittedConfig, unchecked_return_type = "AlphaCalibratorSettings")]
     pub fn fitted_config(&self) -> JsValue {

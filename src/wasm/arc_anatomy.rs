@@ -157,6 +157,17 @@ impl JsArcAnatomy {
         ])
     }
 
+    /// All that is shown besides the surface, at once.
+    #[wasm_bindgen(unchecked_return_type = "Pick<ArcAnatomy, 'config' | 'stats' | 'table' | 'paths'>")]
+    pub fn read(&self) -> Result<JsValue, JsValue> {
+        Ok(object(&[
+            ("config", self.config()),
+            ("stats", self.stats()?),
+            ("table", self.table()?),
+            ("paths", self.paths()),
+        ]))
+    }
+
     #[wasm_bindgen(getter, unchecked_return_type = "AnatomyStats")]
     pub fn stats(&self) -> Result<JsValue, JsValue> {
         plain(&self.0.stats())

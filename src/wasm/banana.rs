@@ -146,7 +146,14 @@ configured!(
     "BananaMachineSettings",
     "Partial<BananaMachineSettings>"
 );
-cloud!(JsBananaMachine, BananaMachine, "BananaMachine", "Partial<BananaMachineSettings>", MAX_SAMPLES);
+cloud!(
+    JsBananaMachine,
+    BananaMachine,
+    "BananaMachine",
+    "BananaMachineSettings",
+    "Partial<BananaMachineSettings>",
+    MAX_SAMPLES
+);
 
 #[wasm_bindgen(js_class = BananaMachine)]
 impl JsBananaMachine {
@@ -162,6 +169,25 @@ impl JsBananaMachine {
             ])
         };
         PRESETS.into_iter().map(preset).collect()
+    }
+
+    /// All that is shown besides the robots, at once.
+    #[wasm_bindgen(
+        unchecked_return_type = "Pick<BananaMachine, 'config' | 'shown' | 'block' | 'stats' | 'contours' | 'gaps' | 'table' | 'chartHolds' | 'alphasOfModels' | 'reading'>"
+    )]
+    pub fn read(&self) -> Result<JsValue, JsValue> {
+        Ok(object(&[
+            ("config", self.config()),
+            ("shown", self.shown().into()),
+            ("block", self.block().into()),
+            ("stats", self.stats()?),
+            ("contours", self.contours()),
+            ("gaps", self.gaps().into()),
+            ("table", self.table()?),
+            ("chartHolds", self.chart_holds().into()),
+            ("alphasOfModels", self.alphas_of_models()),
+            ("reading", self.reading()),
+        ]))
     }
 
     /// The noise parameters that each model has, or will have when it is chosen again.

@@ -6,7 +6,7 @@ use super::pictures::index_of;
 use super::values::{flat, floats, group_to_js, list, number_or_null, object, plain};
 use crate::models::Compounding;
 use crate::sim::dead_reckoning::{
-    DeadReckoning, MAX_SAMPLES, MAX_STEPS, Measured, Outlines, PRESETS, Preset, Straight,
+    DeadReckoning, MAX_SAMPLES, MAX_STEPS, Measured, Outlines, PRESETS, Preset, Settings, Straight,
 };
 use crate::sim::settings::Words;
 use js_sys::{Array, Float64Array};
@@ -56,6 +56,13 @@ export interface StepOutlines {
   measured: Float64Array;
 }
 
+/** Robots and outlines after a quarter of the path. */
+export interface Milestone {
+  /** As `posesAfter` has them. */
+  poses: Float64Array;
+  outlines: StepOutlines;
+}
+
 /** Variances of one straight command by its duration, m². */
 export interface StraightGrowth {
   /** Δt, s, at even steps of its logarithm. */
@@ -84,6 +91,7 @@ cloud!(
     JsDeadReckoning,
     DeadReckoning,
     "DeadReckoning",
+    "DeadReckoningSettings",
     "Partial<DeadReckoningSettings> & { headingNoise?: number }",
     MAX_SAMPLES
 );
@@ -102,6 +110,33 @@ impl JsDeadReckoning {
             ])
         };
         PRESETS.into_iter().map(preset).collect()
+    }
+
+    /// All that is shown, at once. `milestones` are the other quarters of the path.
+    #[wasm_bindgen(
+        unchecked_return_type = "Pick<DeadReckoning, 'config' | 'shown' | 'block' | 'stats' | 'ratios' | 'relativeErrors' | 'commanded' | 'nominal' | 'poses' | 'twists'> & { outlines: StepOutlines; milestones: Milestone[] }"
+    )]
+    pub fn read(&self) -> Result<JsValue, JsValue> {
+        let Settings { step, steps, .. } = *self.0.settings();
+        let milestone = |after: u32| {
+            let (poses, outlines) = (self.poses_after(after.into())?, self.outlines(after.into())?);
+            Ok(object(&[("poses", poses.into()), ("outlines", outlines)]))
+        };
+        let milestones = quarters_of(steps).filter(|after| *after != step).map(milestone);
+        Ok(object(&[
+            ("config", self.config()),
+            ("shown", self.shown().into()),
+            ("block", self.block().into()),
+            ("stats", self.stats()?),
+            ("ratios", self.ratios()),
+            ("relativeErrors", self.relative_errors().into()),
+            ("commanded", self.commanded().into()),
+            ("nominal", self.nominal().into()),
+            ("poses", self.poses().into()),
+            ("twists", self.twists().into()),
+            ("outlines", self.outlines(step.into())?),
+            ("milestones", milestones.collect::<Result<Array, JsValue>>()?.into()),
+        ]))
     }
 
     /// Level h of the heading noise; null where α₃ to α₆ are not those of a level.
@@ -215,6 +250,14 @@ impl JsDeadReckoning {
             ])
         }))
     }
+}
+
+/// Steps that end the quarters of a path; fewer where a path has fewer steps.
+fn quarters_of(steps: u32) -> impl Iterator<Item = u32> {
+    let mut ends: Vec<_> =
+        (1..=4).map(|quarter| ((f64::from(quarter * steps) / 4.0).round() as u32).max(1)).collect();
+    ends.dedup();
+    ends.into_iter()
 }
 
 fn vectors(vectors: impl Iterator<Item = Vector3<f64>>) -> Float64Array {

@@ -24,13 +24,15 @@ macro_rules! configured {
                 Ok(Self($machine::new($crate::wasm::fields::read_opening(options)?)?))
             }
 
-            /// Changes the given settings; the others stay. All samples are drawn again before it returns.
+            /// Changes the given settings; the others stay. All samples are drawn again before it returns. Returns all settings.
+            #[wasm_bindgen(unchecked_return_type = $settings)]
             pub fn configure(
                 &mut self,
                 #[wasm_bindgen(unchecked_param_type = $options)] settings: &JsValue,
-            ) -> Result<(), JsValue> {
+            ) -> Result<JsValue, JsValue> {
                 let settings = $crate::wasm::fields::read_settings(self.0.settings(), settings)?;
-                Ok(self.0.configure(settings)?)
+                self.0.configure(settings)?;
+                Ok(self.config())
             }
 
             /// A copy; changing it changes nothing.
@@ -44,7 +46,7 @@ macro_rules! configured {
 
 /// Methods of a class whose machine shows a cloud of at most `$most` samples.
 macro_rules! cloud {
-    ($class:ident, $machine:ident, $name:literal, $options:literal, $most:expr) => {
+    ($class:ident, $machine:ident, $name:literal, $settings:literal, $options:literal, $most:expr) => {
         #[wasm_bindgen(js_class = $name)]
         impl $class {
             /// Largest `samples`.
@@ -66,17 +68,18 @@ macro_rules! cloud {
                 self.0.shown()
             }
 
-            /// Changes the settings that are named, and shows the first block of `goal` samples, Infinity for all, within a few
-            /// milliseconds. The others are for `addSamples`.
-            #[wasm_bindgen(js_name = configureFirst)]
+            /// Changes the settings that are named, returns all, and shows the first block of `goal` samples, Infinity for all,
+            /// within a few milliseconds. The others are for `addSamples`.
+            #[wasm_bindgen(js_name = configureFirst, unchecked_return_type = $settings)]
             pub fn configure_first(
                 &mut self,
                 #[wasm_bindgen(unchecked_param_type = $options)] settings: &JsValue,
                 goal: f64,
-            ) -> Result<(), JsValue> {
+            ) -> Result<JsValue, JsValue> {
                 let settings = $crate::wasm::fields::read_settings(self.0.settings(), settings)?;
                 // The cast saturates: infinity stands for all samples.
-                Ok(self.0.configure_first(settings, goal as usize)?)
+                self.0.configure_first(settings, goal as usize)?;
+                Ok(self.config())
             }
 
             /// Shows up to `count` samples more. Returns how many are shown then.

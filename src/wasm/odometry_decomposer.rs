@@ -67,6 +67,7 @@ cloud!(
     JsOdometryDecomposer,
     OdometryDecomposer,
     "OdometryDecomposer",
+    "OdometryDecomposerSettings",
     "Partial<OdometryDecomposerSettings>",
     MAX_SAMPLES
 );
@@ -79,6 +80,25 @@ impl JsOdometryDecomposer {
             object(&[("name", name.into()), ("from", group_to_js(&mut from)), ("to", group_to_js(&mut to))])
         };
         PRESETS.into_iter().map(preset).collect()
+    }
+
+    /// All that is shown, at once. `ghosts` are the linkages of the first outcomes.
+    #[wasm_bindgen(
+        unchecked_return_type = "Pick<OdometryDecomposer, 'config' | 'shown' | 'block' | 'stats' | 'rules' | 'poses' | 'linkage' | 'robot' | 'drifted'> & { ghosts: Float64Array }"
+    )]
+    pub fn read(&self) -> Result<JsValue, JsValue> {
+        Ok(object(&[
+            ("config", self.config()),
+            ("shown", self.shown().into()),
+            ("block", self.block().into()),
+            ("stats", self.stats()?),
+            ("rules", self.rules().into()),
+            ("poses", self.poses().into()),
+            ("linkage", self.linkage().into()),
+            ("robot", self.robot()),
+            ("drifted", self.drifted()),
+            ("ghosts", self.ghosts(GHOSTS)?.into()),
+        ]))
     }
 
     /// x, y (m), θ (rad) of each outcome shown, in the frame of the odometry; a copy.
@@ -146,6 +166,9 @@ impl JsOdometryDecomposer {
         index_of(x, y, radius, |target, radius| self.0.nearest(target, radius))
     }
 }
+
+/// Linkages shown beside the one of the reading: more would hide it.
+const GHOSTS: f64 = 12.0;
 
 fn numbers(pose: &SE2) -> [f64; 3] {
     [pose.x(), pose.y(), pose.theta()]

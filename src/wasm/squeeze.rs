@@ -68,6 +68,7 @@ cloud!(
     JsMapSqueeze,
     MapSqueeze,
     "MapSqueeze",
+    "MapSqueezeSettings",
     "Partial<MapSqueezeSettings> & { noise?: number }",
     MAX_SAMPLES
 );
@@ -80,6 +81,27 @@ impl JsMapSqueeze {
             object(&[("name", name.into()), ("start", group_to_js(&mut start))])
         };
         PRESETS.into_iter().map(preset).collect()
+    }
+
+    /// All that is shown besides the map, at once. `paths` are the first ones that are accepted through a wall.
+    #[wasm_bindgen(
+        unchecked_return_type = "Pick<MapSqueeze, 'config' | 'shown' | 'block' | 'stats' | 'verdicts' | 'poses' | 'commanded' | 'startFree'> & { paths: Float64Array[] }"
+    )]
+    pub fn read(&self) -> Result<JsValue, JsValue> {
+        let attempts = self.0.attempts().iter().enumerate();
+        let through = attempts.filter(|(_, attempt)| attempt.is_through_wall()).take(MAX_PATHS);
+        let paths = through.map(|(index, _)| self.path(index as f64));
+        Ok(object(&[
+            ("config", self.config()),
+            ("shown", self.shown().into()),
+            ("block", self.block().into()),
+            ("stats", self.stats()?),
+            ("verdicts", Uint8Array::from(&self.verdicts()[..]).into()),
+            ("poses", self.poses().into()),
+            ("commanded", self.commanded().into()),
+            ("startFree", self.start_free().into()),
+            ("paths", paths.collect::<Result<Array, JsValue>>()?.into()),
+        ]))
     }
 
     /// The noise parameters of level n, 0 to 1e6: the first four are n, the others n/4.
@@ -234,6 +256,9 @@ impl JsMapSqueeze {
         index_of(x, y, radius, |target, radius| self.0.nearest(target, radius))
     }
 }
+
+/// Most paths shown: more would be one blot, and cost more than a frame.
+const MAX_PATHS: usize = 150;
 
 /// Decodes a PNG image into red, green, blue and opacity of its pixels: for the core of a figure, which has no decoder.
 #[cfg(not(widget))]

@@ -72,3 +72,24 @@ fn the_largest_cloud_fits_in_the_largest_plan() {
     machine.set_plan(plan);
     assert!(machine.tally().accepted > tally.accepted, "the other walls are gone");
 }
+
+#[wasm_bindgen_test]
+fn a_reading_has_what_the_members_of_its_names_have() {
+    for name in [
+        "BananaMachine",
+        "ArcAnatomy",
+        "DeadReckoning",
+        "OdometryDecomposer",
+        "MapSqueeze",
+        "AlphaCalibrator",
+    ] {
+        let it = Object::new(&format!("new motion.{name}()"));
+        it.assert("Object.keys(it.read()).length > 3");
+        let others: Vec<String> = it.get(
+            "Object.entries(it.read())
+                .filter(([key, value]) => typeof it[key] !== 'function' && key in it && JSON.stringify(value) !== JSON.stringify(it[key]))
+                .map(([key]) => key)",
+        );
+        assert_eq!(others, Vec::<String>::new(), "{name}");
+    }
+}

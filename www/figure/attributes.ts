@@ -14,19 +14,15 @@ export interface Kind {
   print: (value: any) => string | null;
 }
 
-/** State that a setting is read from and changed in. */
-export interface Present {
-  /** The machine's settings, with changes that wait for it. */
-  config: Record<string, any>;
-  machine: any;
-}
+/** Settings of a machine, with changes that wait for it. */
+export type Config = Record<string, any>;
 
 /** Setting of the machine. */
 export interface Setting {
   /** Null for none. */
-  get: (present: Present) => unknown;
+  get: (config: Config) => unknown;
   /** The settings to make of it. */
-  change: (value: any, present: Present) => Record<string, unknown>;
+  change: (value: any, config: Config) => Config;
   /** Name in the core, if it differs. */
   path?: string;
 }
@@ -104,29 +100,36 @@ function settingsIn(declared: Declaration[], are: (setting: Declaration) => bool
   return Object.fromEntries(declared.filter(are).map((setting) => [setting.key, settingOf(setting)]));
 }
 
-function settingOf({ key, in: group, field = key, index, of, type }: Declaration): Attribute & Setting {
+function settingOf({ key, in: group, field = key, index, of, weights = [], type }: Declaration): Attribute & Setting {
   const kind = KINDS[type];
-  // One of several that stand for a setting of another form, which the machine makes of it.
-  if (of) return { kind, get: ({ machine }) => machine[key], change: (value) => ({ [key]: value }) };
-  if (!group) return { kind, get: ({ config }) => config[key], change: (value) => ({ [key]: value }) };
+  // The machine makes several numbers of it.
+  if (of) return { kind, get: (config) => levelOf(config[of], weights), change: (value) => ({ [key]: value }) };
+  if (!group) return { kind, get: (config) => config[key], change: (value) => ({ [key]: value }) };
   if (index === undefined) {
     return {
       kind,
       path: field === key ? undefined : `${group}.${field}`,
-      get: ({ config }) => config[group][field],
-      change: (value, { config }) => ({ [group]: { ...config[group], [field]: value } }),
+      get: (config) => config[group][field],
+      change: (value, config) => ({ [group]: { ...config[group], [field]: value } }),
     };
   }
   return {
     kind,
     path: `${group}[${index}]`,
-    get: ({ config }) => config[group][index] ?? null,
-    change: (value, { config }) => {
+    get: (config) => config[group][index] ?? null,
+    change: (value, config) => {
       const { length } = config[group];
       if (index < length) return { [group]: config[group].with(index, value) };
       throw refusal(key, value, `none, as the last one at present is ${key.replace(/\d/, '')}${length}`);
     },
   };
+}
+
+/** Returns the number that the last of several are shares of; null where they are of none. */
+function levelOf(numbers: number[], weights: number[]): number | null {
+  const last = numbers.slice(-weights.length);
+  const level = last[0] / weights[0];
+  return last.every((number, i) => number === level * weights[i]) ? level : null;
 }
 
 /** Settings that presets leave as they are. */
@@ -162,7 +165,7 @@ export function presetsOf(presets: readonly ({ name: string } & Record<string, a
     kind: WORD,
     covers: () => covered,
     words,
-    get: ({ config }) => words[settings.findIndex((each) => has(config, each))] ?? null,
+    get: (config) => words[settings.findIndex((each) => has(config, each))] ?? null,
     change: (name) => settings[words.indexOf(word('preset', name, words))],
   };
 }

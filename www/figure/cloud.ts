@@ -12,14 +12,18 @@ import { isCalm } from './stage.ts';
 import type { Figure } from './figure.ts';
 import type { Values } from './state.ts';
 
-/** A machine with a cloud. */
-export interface Growing {
-  config: { samples: number, seed: number };
+/** Number of samples of a machine or a reading. */
+interface Count {
   shown: number;
   /** Number of samples that are added within a few milliseconds. */
   block: number;
-  /** Changes settings and shows the first block of `goal` samples. */
-  configureFirst: (settings: Values, goal: number) => void;
+}
+
+/** A machine with a cloud. */
+export interface Growing extends Count {
+  config: { samples: number, seed: number };
+  /** Changes settings and shows the first block of `goal` samples. Returns all settings. */
+  configureFirst: (settings: Values, goal: number) => Values;
   /** Returns how many are shown then. */
   addSamples: (count: number) => number;
 }
@@ -36,8 +40,8 @@ export class Cloud extends Part {
   #goal = Infinity;
   #gaveUp;
 
-  /** @param gaveUp tells whether the machine has stopped short of its samples for good */
-  constructor(host: Figure, gaveUp: (machine: any) => boolean = () => false) {
+  /** @param gaveUp tells of a reading or a machine whether it has stopped short of its samples for good */
+  constructor(host: Figure, gaveUp: (latest: any) => boolean = () => false) {
     super(host);
     this.#gaveUp = gaveUp;
   }
@@ -46,9 +50,14 @@ export class Cloud extends Part {
     return this.host.machine as Growing;
   }
 
+  /** Latest reading, or the machine if that has changed since. */
+  get #latest(): Count {
+    return this.host.settings.stale ? this.#machine : this.host.reading;
+  }
+
   /** True if it will not grow any more. */
   get complete() {
-    return this.#goal >= this.#samples || this.#gaveUp(this.#machine);
+    return this.#goal >= this.#samples || this.#gaveUp(this.#latest);
   }
 
   /** Number of samples of the complete cloud. */
@@ -68,7 +77,7 @@ export class Cloud extends Part {
 
   /** True if all samples that are to be shown are. */
   get isSettled(): boolean {
-    return !this.playing && (this.#machine.shown >= this.asked || this.#gaveUp(this.#machine));
+    return !this.playing && (this.#latest.shown >= this.asked || this.#gaveUp(this.#latest));
   }
 
   /**
@@ -83,9 +92,9 @@ export class Cloud extends Part {
     if (isCalm()) this.finish();
   }
 
-  /** Changes settings: a block of samples is shown at once, and the others in later frames. */
-  configure(values: Values) {
-    this.#machine.configureFirst(values, this.#goal);
+  /** Changes settings: a block of samples is shown at once, and the others in later frames. Returns all settings. */
+  configure(values: Values): Values {
+    return this.#machine.configureFirst(values, this.#goal);
   }
 
   #restart() {
@@ -115,12 +124,17 @@ export class Cloud extends Part {
    * @returns true if all of them are shown
    */
   refine(limit = FRAME_WORK): boolean {
-    const machine = this.#machine;
+    const { asked } = this;
     const end = performance.now() + limit;
-    let { shown } = machine;
-    while (shown < this.asked && !this.#gaveUp(machine)) {
+    const latest = this.#latest;
+    const { block } = latest;
+    let { shown } = latest;
+    while (shown < asked) {
       if (performance.now() > end) return false;
-      shown = machine.addSamples(Math.min(this.asked - shown, machine.block));
+      const before = shown;
+      shown = this.#machine.addSamples(Math.min(asked - shown, block));
+      // It has given up.
+      if (shown === before) break;
       this.host.settings.stale = true;
     }
     return true;
@@ -170,7 +184,7 @@ export class Cloud extends Part {
 
   /** True if the marked sample is shown. */
   get isMarked() {
-    return this.index >= 0 && this.index < this.#machine.shown;
+    return this.index >= 0 && this.index < this.#latest.shown;
   }
 
   /** True if the marked sample is shown or will be. */
@@ -191,19 +205,16 @@ export class Cloud extends Part {
   /**
    * Adds samples in a frame. A change is answered with one block, so that a drag of a large cloud is as quick as one of a small cloud.
    *
-   * @param isChanged tells whether the settings have changed since the frame before
    * @param isLast tells whether no frame will follow, as on paper
-   * @returns true if more are to come
    */
-  advance(isChanged: boolean, isLast: boolean): boolean {
+  advance(isLast: boolean) {
     if (this.playing) this.grow();
-    else if (isLast || !isChanged) this.refine(isLast ? Infinity : FRAME_WORK);
-    return this.#machine.shown < this.asked && !this.#gaveUp(this.#machine);
+    else if (isLast || !this.host.settings.stale) this.refine(isLast ? Infinity : FRAME_WORK);
   }
 
   /** Adds a step to a cloud that grows. */
   grow() {
-    this.show(this.#machine.shown + this.#batch);
+    this.show(this.#latest.shown + this.#batch);
     if (!this.complete) return;
     this.#goal = Infinity;
     this.playing = false;
@@ -221,7 +232,7 @@ export class Cloud extends Part {
   }
 
   step() {
-    this.#turn(false, () => this.show(this.#machine.shown + this.#batch));
+    this.#turn(false, () => this.show(this.#latest.shown + this.#batch));
   }
 
   clear() {
@@ -244,6 +255,7 @@ export class Cloud extends Part {
       this.playing = playing;
       this.host.gesture.step();
       this.host.gesture.commit();
+      this.host.stage.wake();
     });
   }
 

@@ -46,7 +46,7 @@ export function slider(figure: Figure, key: string, otherwise?: Row) {
     id: key,
     symbol: symbol && rich(symbol),
     name: rich(name),
-    value: value ? value(config) : (setting.get({ config, machine: figure.machine }) as number),
+    value: value ? value(config) : (setting.get(config) as number),
     show: (shown) => typed(shown, decimals) + (unit ? ` ${unit}` : ''),
     effect: effect && rich(effect),
     input: (number) => want(figure, key, number),
@@ -148,9 +148,9 @@ export function disclosures(figure: Figure, { controls, numbers, mark = figure.r
 }
 
 /** Returns the noise parameters with their values, for paper. */
-function noiseOf({ kind: { attributes, looks }, machine, settings: { wanted: config } }: Figure) {
+function noiseOf({ kind: { attributes, looks }, settings: { wanted: config } }: Figure) {
   return Object.entries(looks).filter(([, { alpha }]) => alpha).flatMap(([key, { symbol = '', decimals }]) => {
-    const value = (attributes[key] as Setting).get({ config, machine }) as number | null;
+    const value = (attributes[key] as Setting).get(config) as number | null;
     return value === null ? [] : html`<span>${rich(`${symbol}\u00a0=\u00a0${typed(value, decimals)}`)}</span> `;
   });
 }
@@ -250,7 +250,7 @@ export function markedField({ cloud, typing }: Figure & { cloud: import('./cloud
 /** The reader wants another value of a setting, and may go on. */
 function want(figure: Figure, key: string, value: unknown) {
   const setting = figure.kind.attributes[key] as Setting;
-  figure.settings.want((wanted) => setting.change(value, { config: wanted, machine: figure.machine }));
+  figure.settings.want((wanted) => setting.change(value, wanted));
 }
 
 /** @param key of a setting that is a number */

@@ -84,7 +84,7 @@ addEnglish(en);
  * @cssprop --motion-sticky-bottom - Height of text below the figure beside which the picture still stays in sight. The text
  *   needs a `position` to be above the figure.
  */
-export class FigureElement<Machine extends { free(): void, stats: object, config: Values, configure(settings: Values): void }, Reading extends { config: Values }> extends LitElement {
+export class FigureElement<Machine extends { free(): void, stats: object, config: Values, configure(settings: Values): Values }, Reading extends { config: Values, stats: object }> extends LitElement {
   static styles = [theme, schemeStyles, presentationStyles, progressStyles, noticeStyles];
 
   /** The widget's settings, as declared. */
@@ -210,9 +210,14 @@ export class FigureElement<Machine extends { free(): void, stats: object, config
     speak(this);
     this.reading = this.read(machine);
     this.settings.stale = false;
+    this.rest();
+    this.dispatchEvent(new CustomEvent('stats', { detail: this.reading.stats, bubbles: true, composed: true }));
+  }
+
+  /** Keeps the state and announces what has come to rest, as of the latest reading. */
+  rest() {
     this.announcer.say(() => this.announcement(this.reading));
     this.state.keep();
-    this.dispatchEvent(new CustomEvent('stats', { detail: machine.stats, bubbles: true, composed: true }));
   }
 
   /** Reading of the machine, with every change so far in effect. */

@@ -54,12 +54,15 @@ export class Gesture extends Part {
 
   /** What the reader changed has come to rest: put it into effect and say what it led to. */
   commit() {
-    const { runtime, settings, announcer, stage } = this.host;
-    runtime.attempt(() => settings.settle());
-    announcer.expect();
-    settings.stale = true;
+    const { host } = this;
+    host.runtime.attempt(() => host.settings.settle());
+    host.announcer.expect();
     this.#rest();
-    stage.wake();
+    if (host.settings.stale) host.stage.wake();
+    else if (host.machine) {
+      host.rest();
+      host.requestUpdate();
+    }
   }
 
   /** The reader has decided on other settings. */

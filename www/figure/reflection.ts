@@ -4,7 +4,7 @@ import { COMMON, groupsOf, isSetting } from './attributes.ts';
 import { has, renamed, word } from './checks.ts';
 import { cloudProperties } from './cloud.ts';
 import { Part } from './part.ts';
-import type { Attributes, Present, Setting } from './attributes.ts';
+import type { Attributes, Config, Setting } from './attributes.ts';
 import type { Figure } from './figure.ts';
 
 /** Texts of attributes; null for none. */
@@ -18,6 +18,8 @@ export class Reflection extends Part {
   #order;
   /** The settings whose values decide what others open with. */
   #basis;
+  /** Settings that the widget opens with, by those of the basis. */
+  #openings: Map<string, Config> = new Map();
   /** Attributes that the page gave before there was a machine. */
   #early: Map<string, string | null> = new Map();
   /** By their properties; whole states under keys of their own. */
@@ -87,7 +89,7 @@ export class Reflection extends Part {
     const taken = () => {
       const wanted = given ?? this.#usual(name) ?? null;
       const setting = entry && isSetting(entry) ? entry : undefined;
-      const present = setting ? setting.get(this.#present) : Reflect.get(this.host, name);
+      const present = setting ? setting.get(this.host.settings.wanted) : Reflect.get(this.host, name);
       // A part of a setting's group leaves the others as they are; of the element's own a part is another whole.
       if (!has(present, wanted) || (!setting && !has(wanted, present))) take(wanted);
     };
@@ -144,37 +146,41 @@ export class Reflection extends Part {
    */
   assign(name: string, setting: Setting, value: unknown) {
     try {
-      this.host.settings.assign(setting.change(value, this.#present));
+      this.host.settings.assign(setting.change(value, this.host.settings.wanted));
     } catch (error) {
       throw renamed(error, name, setting.path);
     }
   }
 
-  get #present(): Present {
-    return { config: this.host.settings.wanted, machine: this.host.machine };
-  }
-
   /** Opening value of a property. */
   #usual(name: string) {
     const entry = this.#entries[name];
-    if (entry && isSetting(entry)) return this.#opening((opening) => entry.get(opening), this.#basis.includes(name) ? [] : this.#basis);
+    if (entry && isSetting(entry)) return entry.get(this.#opening(this.#basis.includes(name) ? [] : this.#basis));
     return entry?.opening ?? this.host.state.opening(name);
   }
 
+  /** Learns the settings that the widget opens with, of a machine that has just opened. */
+  learn(opening: Config) {
+    for (const basis of [[], this.#basis]) this.#openings.set(partOf(opening, basis), opening);
+  }
+
   /**
-   * Asks something of how the widget opens.
+   * Returns the settings that the widget opens with.
    *
-   * @param basis the settings that are as they are at present, for what depends on them
+   * @param basis settings that are as they are at present, and that others depend on
    */
-  #opening<Answer>(question: (opening: Present) => Answer, basis: string[] = this.#basis) {
-    const { wanted } = this.host.settings;
-    const machine = this.host.createMachine(this.host.motion);
-    try {
-      machine.configure(Object.fromEntries(basis.map((key) => [key, wanted[key]])));
-      return question({ config: machine.config, machine });
-    } finally {
-      machine.free();
-    }
+  #opening(basis: string[]): Config {
+    const { settings, motion } = this.host;
+    const part = partOf(settings.wanted, basis);
+    const known = this.#openings.get(part);
+    if (known) return known;
+    const machine = this.host.createMachine(motion);
+    const given = JSON.parse(part);
+    // Nobody sees its samples.
+    const opening = this.host.cloud ? machine.configureFirst(given, 0) : machine.configure(given);
+    machine.free();
+    this.#openings.set(part, opening);
+    return opening;
   }
 
   /**
@@ -182,17 +188,17 @@ export class Reflection extends Part {
    *
    * @param own what the element itself has by that name
    */
-  #texts(present: Present, own: (name: string) => unknown) {
+  #texts(config: Config, own: (name: string) => unknown) {
     return new Map(
       Object.entries(this.#attributes).map(([name, entry]) => {
-        const value = isSetting(entry) ? entry.get(present) : own(name);
+        const value = isSetting(entry) ? entry.get(config) : own(name);
         return [name, entry.kind.print(value ?? null)];
       }),
     );
   }
 
   get #now() {
-    return this.#texts(this.#present, (name) => Reflect.get(this.host, name));
+    return this.#texts(this.host.settings.wanted, (name) => Reflect.get(this.host, name));
   }
 
   /** Lets the attributes say what has changed. The first time nothing has: so the element opens. */
@@ -224,7 +230,7 @@ export class Reflection extends Part {
 
   /** Texts of the attributes when the widget opens. */
   get #usualTexts() {
-    const usual = this.#opening((opening) => this.#texts(opening, (name) => this.#usual(name)));
+    const usual = this.#texts(this.#opening(this.#basis), (name) => this.#usual(name));
     for (const name of this.#basis) usual.set(name, this.#attributes[name].kind.print(this.#usual(name)));
     return usual;
   }
@@ -245,6 +251,9 @@ export class Reflection extends Part {
   }
 }
 
+/** Returns some of the settings as JSON. */
+const partOf = (config: Config, keys: string[]) => JSON.stringify(Object.fromEntries(keys.map((key) => [key, config[key]])));
+
 /**
  * Gives a widget's class the properties of its settings, and of what is the element's own and has an attribute, and
  * defines it, unless the page has it already: it may carry the script twice.
@@ -262,8 +271,7 @@ export function define(tag: string, Widget: typeof import('./figure.ts').FigureE
           // That is known before anything is computed with it.
           return this.runtime.attempt(() => {
             this.settings.settle();
-            const { machine } = this;
-            return machine && entry.get({ config: machine.config, machine });
+            return this.machine && entry.get(this.settings.present);
           }) ?? null;
         },
         set(value) {

@@ -8,6 +8,8 @@ export type Values = Record<string, any>;
 export class Settings extends Part {
   /** True if the machine has changed since it was read. */
   stale: boolean | undefined;
+  /** Settings in effect, as the machine gave them; undefined for a machine that was not asked yet. */
+  #present: Values | undefined;
   /** Changes of the reader that wait for the next frame. */
   #pending: Values = {};
   #isShowing = false;
@@ -15,6 +17,7 @@ export class Settings extends Part {
   /** Forgets the changes that wait, for another machine. */
   reset() {
     this.stale = true;
+    this.#present = undefined;
     this.#pending = {};
   }
 
@@ -24,10 +27,11 @@ export class Settings extends Part {
     return Object.fromEntries(keys.map((key) => [key, values[key]]));
   }
 
-  /** Settings in effect. The machine is asked only if it has changed, because its copy takes long. */
+  /** Settings in effect. */
   get present(): Values {
     const { machine, reading } = this.host;
-    return this.stale && machine ? machine.config : reading.config;
+    if (machine) this.#present ??= machine.config as Values;
+    return this.#present ?? reading.config;
   }
 
   /** Settings in effect with the changes that wait. */
@@ -71,24 +75,18 @@ export class Settings extends Part {
     });
   }
 
-  /**
-   * Puts the changes that wait into effect. A change that is refused is reported and forgotten.
-   *
-   * @returns true if there were any
-   */
-  settle(): boolean {
+  /** Puts the changes that wait into effect. A change that is refused is reported and forgotten. */
+  settle() {
     const pending = this.#pending;
-    if (Object.keys(pending).length === 0) return false;
+    if (Object.keys(pending).length === 0) return;
     this.#pending = {};
     this.host.runtime.tolerate(() => this.#configure(pending));
-    return true;
   }
 
   #configure(values: Values) {
     const { machine, cloud } = this.host;
     if (!machine) return;
-    if (cloud) cloud.configure(values);
-    else machine.configure(values);
+    this.#present = Object.freeze(cloud ? cloud.configure(values) : machine.configure(values));
     this.stale = true;
   }
 

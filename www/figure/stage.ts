@@ -169,10 +169,10 @@ export class Stage extends Part {
   #draw(elapsed: number) {
     const host = this.host;
     const began = performance.now();
-    const isChanged = host.settings.settle();
+    host.settings.settle();
     // It has trapped: the next picture is that of the core in its place.
     if (!host.machine) return;
-    if (host.cloud?.advance(isChanged, this.#printing)) this.wake();
+    host.cloud?.advance(this.#printing);
     const { scene } = host;
     const { pressed: still, former } = host.gesture;
     const how = { elapsed, still, atOnce: this.#printing || isCalm(), former, highlight: host.highlight, handles: this.#printing };
@@ -189,7 +189,7 @@ export class Stage extends Part {
     }
     host.tellSettled();
     const playing = host.player?.advance(elapsed);
-    if (playing || moving.includes(true) || host.cloud?.playing) this.wake();
+    if (playing || moving.includes(true) || host.cloud?.isSettled === false) this.wake();
   }
 
   /** Has the words rendered of what was drawn last, and the attributes say it. */

@@ -58,6 +58,7 @@ export class State extends Part {
     const { host } = this;
     host.settings.reset();
     if (this.kept) host.complete(host.machine, this.kept);
+    else host.reflection.learn(host.settings.present);
     host.machineChanged();
     host.reflection.catchUp();
     host.link.catchUp();

@@ -3,7 +3,6 @@
 import { greatest } from 'd3-array';
 import { limits } from '../settings.js';
 import { channels } from '../ui/theme.ts';
-import { hiddenContext } from './canvas.ts';
 import { drawLabel } from './labels.ts';
 import type { Callout } from './callout.ts';
 import type { Brush } from './canvas.ts';
@@ -91,49 +90,6 @@ export function densityRamp(palette: Palette): Uint8Array {
     ramp[4 * i + 3] = 255 * (0.15 + 0.85 * shade);
   }
   return ramp;
-}
-
-/**
- * Draws an image over the inside of the axes, row 0 at the top, stretched through a hidden canvas. Only the part with ink is drawn: to
- * stretch the empty part costs more than all the rest of a picture.
- */
-export function drawPixels({ context, view }: Brush, grid: OffscreenCanvas, pixels: Uint8ClampedArray<ArrayBuffer>, columns: number) {
-  const rows = pixels.length / (4 * columns);
-  if (grid.width !== columns) grid.width = columns;
-  if (grid.height !== rows) grid.height = rows;
-  const inked = inkedPart(pixels, columns, rows);
-  if (!inked) return;
-  const [x, y, width, height] = inked;
-  // All of them: where they are stretched, those around the part shine through its edges.
-  hiddenContext(grid).putImageData(new ImageData(pixels, columns, rows), 0, 0);
-  const { left, right, top, bottom } = view.frame;
-  const [across, down] = [(right - left) / columns, (bottom - top) / rows];
-  context.imageSmoothingEnabled = true;
-  context.drawImage(grid, x, y, width, height, left + across * x, top + down * y, across * width, down * height);
-}
-
-/** Draws a density over the inside of the axes, with cells of so many CSS pixels, through a hidden canvas as in `drawPixels`. */
-export function drawDensity(brush: Brush, grid: OffscreenCanvas, cell: number, pixelsOf: (...view: [xMin: number, yMin: number, xMax: number, yMax: number, columns: number, rows: number]) => Uint8ClampedArray<ArrayBuffer>) {
-  const { left, right, top, bottom } = brush.view.frame;
-  const { xMin, yMin, xMax, yMax } = brush.view.extent;
-  const [columns, rows] = [right - left, bottom - top].map((length) => Math.max(1, Math.round(length / cell)));
-  drawPixels(brush, grid, pixelsOf(xMin, yMin, xMax, yMax, columns, rows), columns);
-}
-
-/** The box of the pixels with ink and a pixel around it, into which they fade where they are stretched. */
-function inkedPart(pixels: Uint8ClampedArray<ArrayBuffer>, columns: number, rows: number): [x: number, y: number, width: number, height: number] | undefined {
-  const cells = new Uint32Array(pixels.buffer, pixels.byteOffset, columns * rows);
-  let [left, right, first, last] = [columns, 0, -1, -1];
-  for (let i = 0; i < cells.length; i++) {
-    if (cells[i] === 0) continue;
-    if (first < 0) first = i;
-    last = i;
-    left = Math.min(left, i % columns);
-    right = Math.max(right, i % columns);
-  }
-  if (first < 0) return undefined;
-  const [x, y] = [Math.max(0, left - 1), Math.max(0, Math.floor(first / columns) - 1)];
-  return [x, y, Math.min(columns, right + 2) - x, Math.min(rows, Math.floor(last / columns) + 2) - y];
 }
 
 /** Adds a polyline through x, y pairs to the path. */

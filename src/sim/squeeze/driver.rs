@@ -32,6 +32,11 @@ impl Attempt {
             + PATH_FREE * u8::from(self.path_free)
             + ACCEPTED * u8::from(self.accepted)
     }
+
+    /// Checks whether the attempt is accepted although its path is not free.
+    pub fn is_through_wall(&self) -> bool {
+        self.accepted && !self.path_free
+    }
 }
 
 /// Makes attempts, each from its own noise.

@@ -169,7 +169,7 @@ impl MapSqueeze {
                 tally.draws += cost.draws;
                 tally.wall_tests += cost.wall_tests;
                 tally.accepted += usize::from(attempt.accepted);
-                tally.through_wall += usize::from(attempt.accepted && !attempt.path_free);
+                tally.through_wall += usize::from(attempt.is_through_wall());
                 attempts.push(attempt);
             });
             *gave_up = tally.draws > most_draws(steps * attempts.len());

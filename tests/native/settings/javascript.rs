@@ -108,6 +108,7 @@ const HEAD: &str = "\
  * @property {string} key its name, as attribute, property and in states
  * @property {string} [in] the group or list that it is a part of
  * @property {string} [of] the setting that it is another way to say
+ * @property {number[]} [weights] the shares of it that the last numbers of that setting have
  * @property {string} [field] its name in that group, where another group has one of the same
  * @property {number} [index] its place in that list, from 0
  * @property {'word' | 'number' | 'whole' | 'boolean' | 'numbers' | 'group'} type
@@ -183,7 +184,11 @@ fn describe(
         }
         Setting::Level(level, allowed) => {
             let value = level.get().map_or("null".to_owned(), |level| level.to_string());
-            line(format!("type: 'number', nullable: true, {unit}{}, default: {value}", range(&allowed)));
+            let weights = level.weights();
+            line(format!(
+                "weights: {weights:?}, type: 'number', nullable: true, {unit}{}, default: {value}",
+                range(&allowed)
+            ));
         }
         Setting::Numbers(values, allowed) => {
             line(format!("type: 'numbers', {}, default: {values:?}", range(&allowed)));

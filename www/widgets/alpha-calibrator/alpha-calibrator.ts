@@ -10,6 +10,7 @@ import { define } from '../../figure/reflection.ts';
 import { orFree } from '../../figure/runtime.ts';
 import { words } from '../../messages/registry.ts';
 import { pointOn } from '../../scene/canvas.ts';
+import { Memo } from '../../scene/memo.ts';
 import { group } from '../../ui/controls.ts';
 import { counted } from '../../ui/format.ts';
 import { startOverButton } from '../shared/presets.ts';
@@ -27,7 +28,7 @@ import { COMPONENTS, LINES, attributes, declared, kindOf, looks, own, vocabulary
 import { calibratorStyles } from './styles.ts';
 import { systematicTable, systematicTexts } from './systematic.ts';
 import { captionOf, legText, reasonOf, wayText } from './words.ts';
-import type { AlphaCalibrator as Machine, CalibrationLog, Motion } from '../../types.d.ts';
+import type { AlphaCalibrator as Machine, CalibrationLog, CalibrationPanel, LegView, Motion } from '../../types.d.ts';
 import type { Reading } from './reading.ts';
 
 /** Log of the reader or of the page, with the fit that the service has made, and the settings of the fit. */
@@ -65,6 +66,8 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
   #opener = new LogOpener(this);
   #copied = new Copied(this);
   service = new LogService('alpha-calibrator');
+  #leg: Memo<LegView | null> = new Memo();
+  #panels: Memo<CalibrationPanel[]> = new Memo();
   /** Null for the simulated log. */
   #given: Given | null = null;
 
@@ -77,13 +80,14 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
   }
 
   read(machine: Machine) {
-    if (machine.isPending) this.#follow();
-    return readingOf(machine, this.log, this.reading);
+    const reading = readingOf(machine, this.log, this.reading);
+    if (reading.isPending) this.#follow();
+    return reading;
   }
 
   /** True while a log is read or fitted. */
   get isBusy() {
-    return this.service.isBusy || this.#opener.share !== undefined || this.machine?.isPending === true;
+    return this.service.isBusy || this.#opener.share !== undefined || this.reading?.isPending;
   }
 
   disconnectedCallback() {
@@ -98,8 +102,14 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
 
   /** Prediction and end of that leg, as of the latest fit that is complete. */
   get predicted() {
-    const { chosen } = this;
-    return chosen < 0 ? null : (this.machine?.leg(chosen) ?? null);
+    const { chosen, machine, reading: { config } } = this;
+    return chosen < 0 || !machine ? null : this.#leg.of([config, chosen], () => machine.leg(chosen));
+  }
+
+  /** Squared residuals against what was chosen to drive them; none without legs. */
+  get panels() {
+    const { machine, reading: { stats, legs }, state: { own: { driver } } } = this;
+    return legs.count > 0 && machine ? this.#panels.of([stats, driver], () => machine.panels(driver)) : [];
   }
 
   get scene() {
@@ -191,12 +201,7 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
   /** Returns to the settings of the fit that is shown. */
   #giveUp() {
     this.service.stop();
-    this.runtime.attempt(() => {
-      this.machine?.configure(this.machine.fittedConfig);
-      this.settings.stale = true;
-      this.reflection.tell();
-      this.settings.show();
-    });
+    this.settings.assign(this.reading.fitted);
   }
 
   /** True if the reference of the log is a localizer's own estimate. */

@@ -33,10 +33,9 @@ export function panels(figure: Figure) {
 }
 
 /** Panels with their plots; none without legs. */
-function panelsOf({ machine, reading: { fitted, legs }, state: { own: { driver } } }: Figure) {
+function panelsOf({ panels: all, reading: { fitted }, state: { own: { driver } } }: Figure) {
   const say = words.calibrator.panels;
   const axes = fitted.model === 'velocity' ? { turn: say.turnRate, way: say.speed } : { turn: say.turn, way: say.way };
-  const all = legs.count > 0 ? (machine?.panels(driver) ?? []) : [];
   return all.map((panel, i) => {
     const kind = say.kinds[COMPONENTS[fitted.model][i]];
     return { panel, plot: panelPlot(panel, kind, axes[(driver as 'turn' | 'way')]) };

@@ -13,6 +13,8 @@ export interface Reading {
   fitted: Machine['config'];
   /** Number of the fit. */
   fits: number;
+  /** True while the settings need another fit. */
+  isPending: boolean;
   stats: Machine['stats'];
   legs: CalibrationLegs;
   truth: Machine['truth'];
@@ -26,8 +28,8 @@ export interface Reading {
 
 /** Reads the machine for pictures and readouts, once a change. Copies of the reading before are used again if the fit is the same. */
 export function readingOf(machine: Machine, log: CalibrationLog | null, before: Reading | undefined): Reading {
-  const { config, fittedConfig: fitted, fits } = machine;
-  if (before?.machine === machine && before.fits === fits) return { ...before, log, config, fitted };
+  const { config, fittedConfig: fitted, fits, isPending } = machine.read();
+  if (before?.machine === machine && before.fits === fits) return { ...before, log, config, fitted, isPending };
   const { stats, legs, truth } = machine;
   return {
     machine,
@@ -35,6 +37,7 @@ export function readingOf(machine: Machine, log: CalibrationLog | null, before: 
     config,
     fitted,
     fits,
+    isPending,
     stats,
     legs,
     truth,

@@ -5,6 +5,4 @@ import type { ArcAnatomy } from '../../types.d.ts';
 export type Reading = ReturnType<typeof readingOf>;
 
 /** Everything that the picture and the readouts need of the machine, asked once a change. */
-export function readingOf({ config, stats, table, paths }: ArcAnatomy) {
-  return { config, stats, table, paths };
-}
+export const readingOf = (machine: ArcAnatomy) => machine.read();

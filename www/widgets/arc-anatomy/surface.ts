@@ -1,6 +1,8 @@
 /** The map below the arcs: p or the density of the sampler over positions, as an image and by contours of both. */
 
-import { densityRamp, drawPixels, trace } from '../../scene/draw.ts';
+import { densityRamp, trace } from '../../scene/draw.ts';
+import { Memo } from '../../scene/memo.ts';
+import { Pixels } from '../../scene/pixels.ts';
 import type { AnatomySurface, ArcAnatomy } from '../../types.d.ts';
 import type { Brush } from '../../scene/canvas.ts';
 import type { Palette } from '../../ui/theme.ts';
@@ -9,28 +11,18 @@ import type { Palette } from '../../ui/theme.ts';
 export const CONTOURS = { prob: [5, 4], density: [] };
 
 export class SurfaceLayer {
-  #pixels = new OffscreenCanvas(1, 1);
-  /** Latest answer of the machine, with its question. */
-  #last: { settings: object, box: string, surface: AnatomySurface } | undefined;
-  /** It in colours, and whose they are. */
-  #image: { surface: AnatomySurface, palette: Palette, pixels: Uint8ClampedArray<ArrayBuffer> } | undefined;
+  #pixels = new Pixels();
+  #surface: Memo<AnatomySurface | null> = new Memo();
+  #coloured: Memo<void> = new Memo();
 
   /** @param config as it was read: another object after every change */
   draw(brush: Brush, machine: ArcAnatomy, config: import('../../types.d.ts').ArcAnatomySettings) {
-    const { xMin, yMin, xMax, yMax } = brush.view.extent;
-    const box = `${xMin} ${yMin} ${xMax} ${yMax}`;
-    if (this.#last?.settings !== config || this.#last.box !== box) {
-      const surface = machine.surface(xMin, yMin, xMax, yMax);
-      this.#last = surface ? { settings: config, box, surface } : undefined;
-    }
-    if (!this.#last) return;
-    const { surface } = this.#last;
-    const { palette } = brush;
-    if (this.#image?.surface !== surface || this.#image.palette !== palette) {
-      this.#image = { surface, palette, pixels: coloured(surface.shades, palette) };
-    }
-    const { columns, prob, density } = surface;
-    drawPixels(brush, this.#pixels, this.#image.pixels, columns);
+    const { palette, view: { extent: { xMin, yMin, xMax, yMax } } } = brush;
+    const surface = this.#surface.of([config, xMin, yMin, xMax, yMax], () => machine.surface(xMin, yMin, xMax, yMax));
+    if (!surface) return;
+    const { columns, shades, prob, density } = surface;
+    this.#coloured.of([surface, palette], () => this.#pixels.put(coloured(shades, palette), columns));
+    this.#pixels.draw(brush);
     this.#contour(brush, prob, CONTOURS.prob);
     this.#contour(brush, density, CONTOURS.density);
   }

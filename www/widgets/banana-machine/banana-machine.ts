@@ -12,6 +12,7 @@ import { orFree } from '../../figure/runtime.ts';
 import { words } from '../../messages/registry.ts';
 import { openingAlphas } from '../../settings.js';
 import { hasLength } from '../../scene/draw.ts';
+import { Memo } from '../../scene/memo.ts';
 import { clamp } from '../../ui/clamp.ts';
 import { button, rich } from '../../ui/controls.ts';
 import { fixed } from '../../ui/format.ts';
@@ -23,12 +24,12 @@ import { ArcHandle } from './handle.ts';
 import { IntroducedCloud } from './introduction.ts';
 import { DURATION, carrying, gapsAt, morphControl, outlinesAt, placeOf, ringsAt } from './morph.ts';
 import { PlanePicture, TwistPicture } from './pictures.ts';
-import { CurveMemo, readingOf } from './reading.ts';
+import { Curve, readingOf } from './reading.ts';
 import { markedRobot, otherReadouts, readouts, twistTable, workedExample } from './readouts.ts';
 import { LINES, OVERLAYS, SAMPLE_COUNTS, attributes, declared, looks, own, vocabulary } from './settings.ts';
 import { bananaStyles } from './styles.ts';
 import { announcementOf, captionOf, floorTitle, planeText, skewText, twistCaption, twistText } from './words.ts';
-import type { BananaMachine as Machine } from '../../types.d.ts';
+import type { BananaMachine as Machine, Inspection } from '../../types.d.ts';
 import type { Values } from '../../figure/state.ts';
 import type { Reading } from './reading.ts';
 
@@ -63,7 +64,8 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
   static basis = ['model'];
 
   cloud = new IntroducedCloud(this);
-  #curve = new CurveMemo();
+  #inspected: Memo<Inspection> = new Memo();
+  #curve = new Curve();
   #plane = new PlanePicture();
   #twist = new TwistPicture();
   pictures = [this.#plane, this.#twist];
@@ -156,7 +158,7 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
   announcement = announcementOf;
 
   snapshot() {
-    return { ...super.snapshot(), alphas: this.machine?.alphasOfModels };
+    return { ...super.snapshot(), alphas: this.settings.stale ? this.machine?.alphasOfModels : this.reading.alphasOfModels };
   }
 
   completed(present: Values, given: Values) {
@@ -197,7 +199,8 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
 
   /** The marked robot, if it is among those shown. */
   get #inspection() {
-    return this.cloud.isMarked ? this.machine?.inspect(this.cloud.index) : undefined;
+    const { machine, reading, cloud: { isMarked, index } } = this;
+    return isMarked && machine ? this.#inspected.of([reading.stats, index], () => machine.inspect(index)) : undefined;
   }
 
   /** Isolates an α, counted from 1: all others have no effect. */
@@ -279,9 +282,10 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
   }
 
   /** The skew against ω; a slider over it sets ω. */
-  #chart({ config: { command: { omega } }, stats, exactSkew }: Reading) {
+  #chart({ config, stats, exactSkew }: Reading) {
+    const { omega } = config.command;
     const say = words.banana;
-    const curve = this.#curve.of(this.machine as Machine);
+    const curve = this.#curve.of(this.machine as Machine, config);
     const { min, max, step } = looks.omega;
     const peak = curve.reduce((most, value) => Math.max(most, Math.abs(value) || 0), 0);
     const height = SKEWS.find((each) => each >= peak) ?? peak;

@@ -47,7 +47,7 @@ export class IntroducedCloud extends Cloud {
     super.introduce(state);
     const { host } = this;
     const isAsked = host.presentation || Object.keys(host.kind.attributes).some((name) => host.hasAttribute(name));
-    if (state || !this.playing || isAsked || host.machine.config.samples < ROBOTS || !isFirstSight()) return;
+    if (state || !this.playing || isAsked || host.settings.present.samples < ROBOTS || !isFirstSight()) return;
     this.#phase = 'driving';
     this.show(ROBOTS);
     for (const event of ['pointerdown', 'keydown']) addEventListener(event, this.skip, { capture: true });

@@ -5,7 +5,6 @@ import { clipped, drawAxes } from '../../scene/axes.ts';
 import { drawCallouts } from '../../scene/callout.ts';
 import {
   densityRamp,
-  drawDensity,
   drawDots,
   drawGhosts,
   drawHandle,
@@ -18,7 +17,9 @@ import {
   lineStyles,
 } from '../../scene/draw.ts';
 import { drawLabel } from '../../scene/labels.ts';
+import { Memo } from '../../scene/memo.ts';
 import { Picture } from '../../scene/picture.ts';
+import { Density } from '../../scene/pixels.ts';
 import { View, extentOf } from '../../scene/view.ts';
 import { clamp } from '../../ui/clamp.ts';
 import { counted } from '../../ui/format.ts';
@@ -71,7 +72,8 @@ const REACH = 14;
 
 /** A picture of the robots: as dots, or as a density. */
 class CloudPicture extends Picture<Scene, import('../../types.d.ts').ViewName> {
-  #grid = new OffscreenCanvas(1, 1);
+  #density = new Density();
+  #places: Memo<Float64Array> = new Memo();
 
   /** Share of the way from the floor to exponential coordinates that is shown. */
   get morph(): number {
@@ -83,18 +85,23 @@ class CloudPicture extends Picture<Scene, import('../../types.d.ts').ViewName> {
     return machine.nearest(this.morph, ...this.around(x, y, REACH));
   }
 
+  /** Returns the place of each robot, with the heading that the morph leaves of it. */
+  places({ machine, stats }: Scene): Float64Array {
+    const { morph } = this;
+    return this.#places.of([stats, morph], () => (morph === 0 ? machine.poses : placesOf(machine.twists, morph)));
+  }
+
   /** @param area that the robots cover, square pixels */
-  paintCloud(brush: Brush, machine: BananaMachine, area: number) {
+  paintCloud(brush: Brush, scene: Scene, area: number) {
     const { morph } = this;
     const { palette } = brush;
-    if (machine.shown <= MAX_DOTS) {
+    const { machine, shown, stats } = scene;
+    if (shown <= MAX_DOTS) {
       // The heading goes with the turn.
-      if (morph === 0) drawDots(brush, machine.poses, { x: 0, y: 1, heading: 2 });
-      else drawDots(brush, placesOf(machine.twists, morph), { x: 0, y: 1, heading: morph < 1 ? 2 : null, ahead: 1 - morph });
+      drawDots(brush, this.places(scene), { x: 0, y: 1, heading: morph < 1 ? 2 : null, ahead: 1 - morph });
       return;
     }
-    const ramp = densityRamp(palette);
-    drawDensity(brush, this.#grid, cellSize(area, machine.shown), (...part) => machine.picture(morph, ...part, ramp));
+    this.#density.draw(brush, cellSize(area, shown), [stats, morph, palette], (...part) => machine.picture(morph, ...part, densityRamp(palette)));
   }
 }
 
@@ -189,13 +196,13 @@ export class PlanePicture extends CloudPicture {
       if (!heaped) {
         const determinant = Math.max(0, cov[0][0] * cov[1][1] - cov[0][1] * cov[1][0]);
         const area = Math.sqrt(determinant) + morph * (areaOfTwists(scene) - Math.sqrt(determinant));
-        this.paintCloud(brush, machine, 4 * Math.PI * area * view.scaleX * view.scaleY);
+        this.paintCloud(brush, scene, 4 * Math.PI * area * view.scaleX * view.scaleY);
       }
       drawRobot(brush, { x: 0, y: 0, heading: 0, colour: palette.truth });
       for (const { earlier, text } of ghosts) callouts.push(...drawGhosts(brush, earlier, [middle, [0, 0]], text));
       drawOutlines(brush, lines(outlines));
       if (overlays.command && scene.reading && morph === 0) drawReading(brush, scene.reading, end);
-      if (heaped && machine.shown > 0) drawHeap(brush, heapOf(machine));
+      if (heaped && scene.shown > 0) drawHeap(brush, heapOf(this.places(scene)));
       const [endX, endY] = outlines.command.slice(-2);
       drawHandle(brush, { x: view.toPixelX(endX), y: view.toPixelY(endY), radius: RING, colour: palette.prior });
       if (marked) {
@@ -277,12 +284,11 @@ function turn(context: Brush['context'], x: number, y: number, from: number, by:
 }
 
 /** Robots that are all in one place. */
-function heapOf(machine: BananaMachine) {
-  const stride = Math.ceil(machine.shown / MAX_RAYS);
-  const headings = [];
-  for (let i = 0; i < machine.shown; i += stride) headings.push(machine.heading(i));
-  const [x, y] = machine.inspect(0).pose;
-  return { x, y, headings, label: words.banana.robotsHere(machine.shown, counted(machine.shown)) };
+function heapOf(poses: Float64Array) {
+  const shown = poses.length / 3;
+  const stride = Math.ceil(shown / MAX_RAYS);
+  const headings = poses.filter((_, i) => i % (3 * stride) === 2);
+  return { x: poses[0], y: poses[1], headings: [...headings], label: words.banana.robotsHere(shown, counted(shown)) };
 }
 
 /**
@@ -331,7 +337,7 @@ export class TwistPicture extends CloudPicture {
 
   paint: Picture<Scene>['paint'] = (brush, scene) => {
     const { context, view, palette } = brush;
-    const { machine, config, contours, overlays, marked } = scene;
+    const { config, contours, overlays, marked } = scene;
     const { exponential, command } = lineStyles(brush, LINES);
     const key = overlays.exponential && hasLength(contours.twistEllipse) ? [lineKey(brush, words.banana.overlays.exponential, exponential)] : [];
     drawAxes(brush, { x: words.banana.axisAlong, y: words.banana.axisHeading }, brush.exported ? key : []);
@@ -340,7 +346,7 @@ export class TwistPicture extends CloudPicture {
     const callouts: Callout[] = [];
     clipped(brush, () => {
       if (scene.driving) return;
-      this.paintCloud(brush, machine, 4 * Math.PI * areaOfTwists(scene) * view.scaleX * view.scaleY);
+      this.paintCloud(brush, scene, 4 * Math.PI * areaOfTwists(scene) * view.scaleX * view.scaleY);
       if (overlays.exponential) {
         for (const { reading, text } of ghosts) callouts.push(...drawGhosts(brush, [{ points: reading.contours.twistEllipse, ...exponential }], [middle], text));
         drawOutline(brush, contours.twistEllipse, exponential);

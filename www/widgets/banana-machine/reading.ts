@@ -1,6 +1,7 @@
 /** What the Banana Machine shows of its machine. */
 
 import { words } from '../../messages/registry.ts';
+import { Memo } from '../../scene/memo.ts';
 import { looks } from './settings.ts';
 import type { BananaMachine as Machine, Settings, Stats, Table } from '../../types.d.ts';
 
@@ -12,38 +13,28 @@ const NO_SPREAD = 1e-9;
 /** Number of points of the chart's curve: fewer would draw the fall of the skew across ω = 0 as a kinked line. */
 const CURVE_POINTS = 241;
 
-/** The skew against ω, which costs milliseconds and which only some of the settings alter. */
-export class CurveMemo {
-  #curve: Float64Array = new Float64Array();
-  #holdsFor = '';
+/** The skew against ω, which only some of the settings alter. */
+export class Curve {
+  #memo: Memo<Float64Array> = new Memo();
 
-  of(machine: Machine) {
-    const { model, noise, command, alphas, isolate } = machine.config;
-    const wanted = JSON.stringify([model, noise, command.v, command.dt, alphas, isolate]);
-    if (wanted !== this.#holdsFor) {
-      this.#holdsFor = wanted;
-      this.#curve = machine.skewCurve(looks.omega.min, looks.omega.max, CURVE_POINTS);
-    }
-    return this.#curve;
+  of(machine: Machine, { model, noise, command, alphas, isolate }: Settings) {
+    const question = JSON.stringify([model, noise, command.v, command.dt, alphas, isolate]);
+    return this.#memo.of([question], () => machine.skewCurve(looks.omega.min, looks.omega.max, CURVE_POINTS));
   }
 }
 
 /** Everything that the pictures and readouts need of the machine, asked once a change. */
 export function readingOf(machine: Machine) {
-  const { config, shown, stats, contours, gaps, table, chartHolds } = machine;
+  const reading = machine.read();
+  const { config, stats, contours, table, chartHolds } = reading;
   return {
-    config,
-    shown,
-    stats,
-    contours,
-    gaps,
-    table,
+    ...reading,
     note: noteOn(config, table, stats, chartHolds),
     exactSkew: table.exact.crossTrackSkew,
     gain: gainOf(stats, table),
     bowTie: bowTieOf(config),
     /** The command as odometry reads it; null under the velocity model. */
-    reading: config.model === 'odometry' ? machine.reading : null,
+    reading: config.model === 'odometry' ? reading.reading : null,
     /** The end of the commanded arc, metres. */
     end: [...contours.command.slice(-2)] as [number, number],
   };

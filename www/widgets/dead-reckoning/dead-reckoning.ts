@@ -9,6 +9,7 @@ import { reserve } from '../../figure/page/room.ts';
 import { define } from '../../figure/reflection.ts';
 import { orFree } from '../../figure/runtime.ts';
 import { words } from '../../messages/registry.ts';
+import { Memo } from '../../scene/memo.ts';
 import { presetButtons } from '../shared/presets.ts';
 import { moreControls, pathControls, recursionChoice } from './controls.ts';
 import { PathPicture, StepPicture } from './pictures.ts';
@@ -48,6 +49,9 @@ export class DeadReckoningElement extends FigureElement<Machine, Reading> {
   #floor = new PathPicture();
   #step = new StepPicture();
   pictures = [this.#floor, this.#step];
+
+  #rollout: Memo<Float64Array> = new Memo();
+  #straight: Memo<Machine['straight']> = new Memo();
 
   createMachine: FigureElement<Machine, Reading>['createMachine'] = (motion, state) => {
     // Empty: the robots come before the reader's eyes, and nobody waits for those that are not shown yet.
@@ -94,7 +98,8 @@ export class DeadReckoningElement extends FigureElement<Machine, Reading> {
 
   /** The poses of the marked robot after each step, if it is among those driven. */
   get #marked() {
-    return this.cloud.isMarked ? this.machine?.rollout(this.cloud.index) : undefined;
+    const { machine, reading, cloud: { isMarked, index } } = this;
+    return isMarked && machine ? this.#rollout.of([reading.stats, index], () => machine.rollout(index)) : undefined;
   }
 
   content(reading: Reading) {
@@ -117,7 +122,7 @@ export class DeadReckoningElement extends FigureElement<Machine, Reading> {
         ${legend(this, OUTLINES)} ${presetButtons(this)} ${pathControls(this)}
         ${disclosures(this, {
           controls: () => moreControls(this),
-          numbers: () => html`${missTable(reading, overlays)} ${markedRobot(this, this.#marked)} ${straightPlot((this.machine as Machine).straight)}`,
+          numbers: () => html`${missTable(reading, overlays)} ${markedRobot(this, this.#marked)} ${straightPlot(this.#straight.of([reading.stats], () => (this.machine as Machine).straight))}`,
         })}`)}
       </section>
     `;

@@ -1,45 +1,26 @@
 /** What Dead Reckoning shows of its machine. */
 
-import type { DeadReckoning as Machine, DeadReckoningSettings, StepOutlines } from '../../types.d.ts';
+import type { DeadReckoning as Machine, DeadReckoningSettings } from '../../types.d.ts';
 
 export type Reading = ReturnType<typeof readingOf>;
 
 /** The components of ξ, in the order of every triple. */
 export const COMPONENTS = ['along', 'lateral', 'heading'] as const;
 
-/** Where else on the way clouds and outlines are shown: at so many places, the last of them its end. */
-const MILESTONES = 4;
-
 /** Everything that the pictures and readouts need of the machine, asked once a change. */
 export function readingOf(machine: Machine) {
-  const { config, shown, stats, ratios, relativeErrors, commanded, nominal, poses, twists } = machine;
-  const { step, steps, compounding } = config;
-  const outlines = machine.outlines(step) as StepOutlines;
-  const milestones = placesOn(steps).filter((place) => place !== step).map((place) => ({
-    poses: machine.posesAfter(place),
-    outlines: machine.outlines(place) as StepOutlines,
-  }));
+  const reading = machine.read();
+  const { config, stats, ratios, relativeErrors, nominal } = reading;
+  const { step, compounding } = config;
   const ratio = ratios[compounding];
   return {
-    config,
-    shown,
-    stats,
+    ...reading,
     /** Of each component, by step from 1. */
     curves: COMPONENTS.map((_, axis) => curveOf(ratio, relativeErrors, axis)),
-    commanded,
     /** The commanded pose after the step. */
     pose: nominal.subarray(3 * (step - 1), 3 * step),
-    poses,
-    twists,
-    outlines,
-    milestones,
     condition: conditionOf(config, stats, ratio),
   };
-}
-
-function placesOn(steps: number) {
-  const places = Array.from({ length: MILESTONES }, (_, i) => Math.max(1, Math.round(((i + 1) * steps) / MILESTONES)));
-  return [...new Set(places)];
 }
 
 /** @param ratios three a step */

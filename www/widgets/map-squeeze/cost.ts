@@ -3,7 +3,7 @@
 import { Part } from '../../figure/part.ts';
 import { limits } from '../../settings.js';
 import { SAMPLERS } from './settings.ts';
-import type { MapSqueeze, SamplerName } from '../../types.d.ts';
+import type { MapSqueeze, SamplerName, SqueezeSettings } from '../../types.d.ts';
 
 /** Cost of one accepted sample. */
 export interface Cost {
@@ -72,23 +72,24 @@ export class CostMeter extends Part {
   /** The costs are no longer those of the present settings. */
   outdate() {
     clearTimeout(this.#timer);
+    this.#timer = undefined;
     this.current = false;
   }
 
   /** Measures once these settings have been at rest for a while, and nothing moves. */
-  heed(config: object, atRest: boolean) {
+  heed(config: SqueezeSettings, atRest: boolean) {
     const settings = JSON.stringify(config);
-    if (atRest || settings !== this.#settings) this.outdate();
+    if (settings !== this.#settings) this.outdate();
     this.#settings = settings;
-    if (atRest) this.#measureSoon();
+    if (atRest && !this.current && this.#timer === undefined) this.#measureSoon(config.steps);
   }
 
-  #measureSoon() {
+  #measureSoon(steps: number) {
     const { host } = this;
     const measured = host.machine;
     if (!measured) return;
     const measurements = SAMPLERS.map((sampler) =>
-      measuring(measured, sampler, sampler === 'sub-stepped' ? measured.config.steps : 1),
+      measuring(measured, sampler, sampler === 'sub-stepped' ? steps : 1),
     );
     const next = (index: number) => {
       // The element may have gone, and its machine with it.

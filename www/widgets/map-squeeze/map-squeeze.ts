@@ -10,6 +10,7 @@ import { define } from '../../figure/reflection.ts';
 import { orFree } from '../../figure/runtime.ts';
 import { words } from '../../messages/registry.ts';
 import { verdict as bits } from '../../settings.js';
+import { Memo } from '../../scene/memo.ts';
 import { PoseHandles } from '../shared/pose-handles.ts';
 import { motionControls, ownMap, placeControls, robotAndMap, samplerControls } from './controls.ts';
 import { CostMeter } from './cost.ts';
@@ -60,6 +61,8 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
   #wallHandles = new WallHandles(this);
   /** What unknown cells are in the map of the picture. */
   #unknown = '';
+  /** Path of the marked sample. */
+  #path: Memo<Float64Array> = new Memo();
   /** The grid of the machine that was asked for it last. */
   #grid: { of: Machine, grid: Cells | null } | undefined;
   /** The reader's own map that was left last, and where the robot stood in it. */
@@ -91,7 +94,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
     const grid = this.#gridOf(machine);
     this.#opener.forgive();
     this.#meter.outdate();
-    this.#unknown = machine.config.unknown;
+    this.#unknown = this.settings.present.unknown;
     this.picture = new FloorPicture(machine.plan, grid, this.picture);
     this.pictures = [this.picture];
   }
@@ -99,12 +102,12 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
   read(machine: Machine) {
     const reading = readingOf(machine);
     if (reading.config.unknown !== this.#unknown && this.picture.hasUnknown) this.machineChanged();
-    this.#meter.heed(reading.config, !this.cloud.playing && !this.gesture.pressed);
     return reading;
   }
 
   get scene() {
     const { fresh } = this;
+    this.#meter.heed(fresh.config, !this.cloud.playing && !this.gesture.pressed);
     const { index, isMarked } = this.cloud;
     this.picture.close = this.state.own.view === 'close';
     return { ...fresh, machine: this.machine, overlays: this.state.own.overlays, marked: isMarked ? this.#marked(index) : undefined };
@@ -113,7 +116,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
   /** Returns the marked sample, with the point where an accepted one went through a wall. */
   #marked(index: number) {
     const { poses, verdicts, config } = this.fresh;
-    const path = (this.machine as Machine).path(index);
+    const path = this.#path.of([poses, index], () => (this.machine as Machine).path(index));
     const isThrough = kindOf(verdicts[index]) === 2;
     return { pose: poses.subarray(3 * index), path, contact: isThrough ? contactOf(path, this.picture.plan.walls, config.clearance) : undefined };
   }
@@ -144,12 +147,12 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
   /** The place in the apartment that the robot starts from; null elsewhere. */
   get preset(): string | null {
     if (!this.machine) return (this.reflection.wished('preset') as string | undefined) ?? null;
-    return (this.map ? null : PRESET.get({ config: this.settings.wanted, machine: this.machine })) as string | null;
+    return (this.map ? null : PRESET.get(this.settings.wanted)) as string | null;
   }
 
   set preset(name) {
     this.reflection.give('preset', name, (given) => {
-      const settings = PRESET.change(given, { config: {}, machine: this.machine });
+      const settings = PRESET.change(given, {});
       this.#leave();
       this.settings.assign(settings);
     });

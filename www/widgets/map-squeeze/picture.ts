@@ -2,7 +2,8 @@
 
 import { words } from '../../messages/registry.ts';
 import { clipped, drawAxes } from '../../scene/axes.ts';
-import { densityRamp, drawDensity, drawMark, drawOutline, lineStyles, trace } from '../../scene/draw.ts';
+import { densityRamp, drawMark, drawOutline, lineStyles, trace } from '../../scene/draw.ts';
+import { Density } from '../../scene/pixels.ts';
 import { drawLabel, drawLeader } from '../../scene/labels.ts';
 import { SamplesPicture } from '../../scene/picture.ts';
 import { View, extentAround } from '../../scene/view.ts';
@@ -61,7 +62,7 @@ export class FloorPicture extends SamplesPicture<Scene> {
   #walls;
   /** Corners of what the map knows: what is around it may be much more. */
   #known: ArrayLike<number>;
-  #pixels = new OffscreenCanvas(1, 1);
+  #density = new Density();
   #outline = '';
 
   /** @param former the picture whose place it takes: where the map is as large, the views stay where they are */
@@ -169,7 +170,7 @@ export class FloorPicture extends SamplesPicture<Scene> {
     const roles = [['rejected', palette.truth], ['accepted', palette.cloud], ['through', palette.accent]] as const;
     const ramps = roles.flatMap(([name, cloud]) => [...(overlays.includes(name) ? densityRamp({ ...palette, cloud }) : HIDDEN)]);
     const cell = clamp(CELL.most * Math.sqrt(CELL.samples / stats.attempts) / 2, CELL.least, CELL.most);
-    drawDensity(brush, this.#pixels, cell, (...part) => machine.picture(...part, Uint8Array.from(ramps)));
+    this.#density.draw(brush, cell, [stats, palette, overlays], (...part) => machine.picture(...part, Uint8Array.from(ramps)));
   }
 }
 

@@ -7,39 +7,24 @@ import type { MapSqueeze, SqueezeSettings, SqueezeStats } from '../../types.d.ts
 
 export type Reading = ReturnType<typeof readingOf>;
 
-/** Most paths that are drawn: more would be one blot, and cost more than a frame. */
-const MAX_PATHS = 150;
-
 /** A larger cloud is drawn as a density: dots would be one blot, and cost more than a frame. */
 export const MAX_DOTS = 1500;
 
 /** Everything that the picture and the readouts need of the machine, asked once a change. */
 export function readingOf(machine: MapSqueeze) {
-  const { config, stats, verdicts, poses, commanded, startFree } = machine;
-  const through = first(verdicts, MAX_PATHS, (verdict) => kindOf(verdict) === 2);
+  const reading = machine.read();
+  const { config, stats, verdicts, poses, startFree } = reading;
   return {
-    config,
-    stats,
-    verdicts,
-    poses,
-    commanded,
+    ...reading,
     sorted: stats.attempts > MAX_DOTS ? undefined : sort(poses, verdicts),
-    paths: through.map((index) => machine.path(index)),
     note: noteOn(config, stats, startFree),
   };
-}
-
-/** @returns the first indices for which it holds */
-function first(verdicts: Uint8Array, most: number, holds: (verdict: number) => boolean): number[] {
-  const indices = [];
-  for (let i = 0; i < verdicts.length && indices.length < most; i++) if (holds(verdicts[i])) indices.push(i);
-  return indices;
 }
 
 /** Sorts draws by what became of them. */
 function sort(poses: Float64Array, verdicts: Uint8Array) {
   const posesOf = (wanted: number) => {
-    const some = first(verdicts, verdicts.length, (verdict) => kindOf(verdict) === wanted);
+    const some = [...verdicts.keys()].filter((i) => kindOf(verdicts[i]) === wanted);
     return Float64Array.from(some.flatMap((i) => [poses[3 * i], poses[3 * i + 1], poses[3 * i + 2]]));
   };
   return { rejected: posesOf(0), free: posesOf(1), through: posesOf(2) };

@@ -11,6 +11,7 @@ import { orFree } from '../../figure/runtime.ts';
 import { words } from '../../messages/registry.ts';
 import { rich } from '../../ui/controls.ts';
 import { fixed } from '../../ui/format.ts';
+import { Memo } from '../../scene/memo.ts';
 import { Player } from '../shared/player.ts';
 import { PoseHandles } from '../shared/pose-handles.ts';
 import { presetButtons } from '../shared/presets.ts';
@@ -63,6 +64,10 @@ export class OdometryDecomposerElement extends FigureElement<Machine, Reading> {
     if (!state) return machine;
     return orFree(machine, () => enterCloud(machine, this.settings.declared(state), state.shown));
   };
+
+  #curve: Memo<Float64Array> = new Memo();
+  #curveOf = (longest: number, points: number) =>
+    this.#curve.of([this.reading.stats, longest, points], () => (this.machine as Machine).curve(longest, points));
 
   read(machine: Machine) {
     this.cloud.unmark();
@@ -130,7 +135,7 @@ export class OdometryDecomposerElement extends FigureElement<Machine, Reading> {
         <div class="plays" part="controls">${playable(this, 'phase', say.path)} ${playable(this, 'drift', say.drift)}</div>
         ${disclosures(this, {
           controls: () => noiseControls(this),
-          numbers: () => html`${readouts(reading)} ${this.machine && spreads(this.machine, reading)}`,
+          numbers: () => html`${readouts(reading)} ${spreads(this.#curveOf, reading)}`,
         })}`)}
       </section>
     `;

@@ -4,13 +4,10 @@ import type { OdometryDecomposer, OdometryDecomposerSettings, RuleFigures } from
 
 export type Reading = ReturnType<typeof readingOf>;
 
-/** Linkages that are drawn beside the one that was read: more would hide it. */
-const GHOSTS = 12;
-
 /** Everything that the pictures and the readouts need of the machine, asked once a change. */
 export function readingOf(machine: OdometryDecomposer) {
-  const { config, stats, rules, poses, linkage, robot, drifted } = machine;
-  return { config, stats, rules, poses, linkage, robot, drifted, ghosts: machine.ghosts(GHOSTS), ...partsOf(rules, config) };
+  const reading = machine.read();
+  return { ...reading, ...partsOf(reading.rules, reading.config) };
 }
 
 /** The present rule's figures, with a name for each deviation. */

@@ -6,7 +6,6 @@ import { rich } from '../../ui/controls.ts';
 import { fixed, withError } from '../../ui/format.ts';
 import { plot } from '../../ui/plot.ts';
 import { readoutList } from '../../ui/readouts.ts';
-import type { OdometryDecomposer } from '../../types.d.ts';
 import type { Reading } from './reading.ts';
 
 /** @param value m */
@@ -35,10 +34,10 @@ export function readouts({ stats }: Reading) {
 const POINTS = 121;
 
 /** The spreads against the length of the drive. */
-export function spreads(machine: OdometryDecomposer, { legs, stats }: Reading) {
+export function spreads(curveOf: (longest: number, points: number) => Float64Array, { legs, stats }: Reading) {
   const say = words.decomposer.plot;
   const longest = Math.max(1, 2 * legs.trans);
-  const rows = machine.curve(longest, POINTS);
+  const rows = curveOf(longest, POINTS);
   const column = (index: number) => Float64Array.from({ length: POINTS }, (_, i) => rows[4 * i + index]);
   const [x, crossTrack, lever, along] = [0, 1, 2, 3].map(column);
   const highest = Math.max(0.1, ...crossTrack, ...along, stats.crossTrack + stats.crossTrackError || 0);

@@ -6,14 +6,13 @@ import { button } from '../../ui/controls.ts';
 
 /** Returns a button for each preset, the present one pressed, then more buttons, and the one to start over. */
 export function presetButtons(figure: import('../../figure/figure.ts').Figure, more: unknown = nothing) {
-  const { gesture, kind, machine, settings, stage } = figure;
+  const { gesture, kind, settings, stage } = figure;
   const { presets } = (words as any)[kind.vocabulary];
   const preset = kind.attributes.preset as import('../../figure/attributes.ts').Setting;
-  const present = { config: settings.wanted, machine };
-  const current = preset.get(present);
+  const current = preset.get(settings.wanted);
   const begin = (name: string) => {
     stage.release();
-    gesture.decide(preset.change(name, present));
+    gesture.decide(preset.change(name, settings.wanted));
   };
   return html`<div class="buttons presets" role="group" aria-label=${words.presets}>
     ${Object.entries(presets).map(([name, label]) =>

@@ -1,0 +1,15 @@
+/** Answer that is kept while its question is the same. */
+
+export class Memo<Answer> {
+  #question: unknown[] = [];
+  #answer: Answer | undefined;
+
+  /** @param question what the answer follows from, compared by identity */
+  of(question: unknown[], ask: () => Answer): Answer {
+    if (question.length !== this.#question.length || question.some((part, i) => part !== this.#question[i])) {
+      this.#answer = ask();
+      this.#question = question;
+    }
+    return this.#answer as Answer;
+  }
+}

@@ -1,0 +1,69 @@
+/** Images that cover the inside of the axes. */
+
+import { hiddenContext } from './canvas.ts';
+import { Memo } from './memo.ts';
+import type { Brush } from './canvas.ts';
+
+/** Image of pixels. Only the part with ink is drawn: most of a density is empty, and to stretch that costs more than all the rest of a picture. */
+export class Pixels {
+  #grid = new OffscreenCanvas(1, 1);
+  #inked: ReturnType<typeof inkedPart>;
+
+  /**
+   * Takes other pixels.
+   *
+   * @param pixels row 0 at the top
+   */
+  put(pixels: Uint8ClampedArray<ArrayBuffer>, columns: number) {
+    const rows = pixels.length / (4 * columns);
+    if (this.#grid.width !== columns) this.#grid.width = columns;
+    if (this.#grid.height !== rows) this.#grid.height = rows;
+    this.#inked = inkedPart(pixels, columns, rows);
+    // All of them: where they are stretched, those around the part shine through its edges.
+    if (this.#inked) hiddenContext(this.#grid).putImageData(new ImageData(pixels, columns, rows), 0, 0);
+  }
+
+  draw({ context, view }: Brush) {
+    if (!this.#inked) return;
+    const [x, y, width, height] = this.#inked;
+    const { left, right, top, bottom } = view.frame;
+    const [across, down] = [(right - left) / this.#grid.width, (bottom - top) / this.#grid.height];
+    context.imageSmoothingEnabled = true;
+    context.drawImage(this.#grid, x, y, width, height, left + across * x, top + down * y, across * width, down * height);
+  }
+}
+
+/** Density of a cloud. */
+export class Density {
+  #pixels = new Pixels();
+  #memo: Memo<void> = new Memo();
+
+  /**
+   * @param cell side in CSS pixels
+   * @param question what the pixels follow from besides the view
+   * @param pixelsOf machine's picture of a part of the plane
+   */
+  draw(brush: Brush, cell: number, question: unknown[], pixelsOf: (...view: [xMin: number, yMin: number, xMax: number, yMax: number, columns: number, rows: number]) => Uint8ClampedArray<ArrayBuffer>) {
+    const { left, right, top, bottom } = brush.view.frame;
+    const { xMin, yMin, xMax, yMax } = brush.view.extent;
+    const [columns, rows] = [right - left, bottom - top].map((length) => Math.max(1, Math.round(length / cell)));
+    this.#memo.of([...question, xMin, yMin, xMax, yMax, columns, rows], () => this.#pixels.put(pixelsOf(xMin, yMin, xMax, yMax, columns, rows), columns));
+    this.#pixels.draw(brush);
+  }
+}
+
+/** The box of the pixels with ink and a pixel around it, into which they fade where they are stretched. */
+function inkedPart(pixels: Uint8ClampedArray<ArrayBuffer>, columns: number, rows: number): [x: number, y: number, width: number, height: number] | undefined {
+  const cells = new Uint32Array(pixels.buffer, pixels.byteOffset, columns * rows);
+  let [left, right, first, last] = [columns, 0, -1, -1];
+  for (let i = 0; i < cells.length; i++) {
+    if (cells[i] === 0) continue;
+    if (first < 0) first = i;
+    last = i;
+    left = Math.min(left, i % columns);
+    right = Math.max(right, i % columns);
+  }
+  if (first < 0) return undefined;
+  const [x, y] = [Math.max(0, left - 1), Math.max(0, Math.floor(first / columns) - 1)];
+  return [x, y, Math.min(columns, right + 2) - x, Math.min(rows, Math.floor(last / columns) + 2) - y];
+}

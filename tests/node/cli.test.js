@@ -268,9 +268,9 @@ test('a terminal gets colours', async () => {
 });
 
 test('inspect lists what is in a file, and the command to go on with', async () => {
-  const inspected = async (/** @type {string[]} */ ...args) => {
+  const inspected = async (/** @type {string[]} */ args, expected = 0) => {
     let out = '';
-    assert.equal(await run(['inspect', ...args], { load, print: (text) => (out += text), complain: assert.fail }), 0);
+    assert.equal(await run(['inspect', ...args], { load, print: (text) => (out += text), complain: assert.fail }), expected);
     return out.replaceAll(folder, 'DIR');
   };
   const messages = Array.from({ length: 40 }, (_, i) => {
@@ -284,16 +284,16 @@ test('inspect lists what is in a file, and the command to go on with', async () 
       { topic: '/tf', type: 'tf2_msgs/msg/TFMessage', t, message: { transforms: [transform(t, 'map', 'base_link', i, 2, 0)] } },
     ];
   }).flat();
-  const listed = await inspected(file('run.mcap', await recordingOf(messages, { compression: 'zstd' })));
+  const listed = await inspected([file('run.mcap', await recordingOf(messages, { compression: 'zstd' }))]);
   for (const line of [
     /^run\.mcap: MCAP recording$/m, /^ {2}\/chatter +std_msgs\/msg\/String +40$/m, /^ {2}\/odom +nav_msgs\/msg\/Odometry +40 +20\.0 Hz +odometry$/m,
     /^ {2}\/vicon\/robot 1 +geometry_msgs\/msg\/PoseStamped +40 +20\.0 Hz +reference$/m,
     /^ {2}\/tf +tf2_msgs\/msg\/TFMessage +40 +reference map → base_link \(a localizer\)$/m, /^run\.mcap, topic \/lost: 0 of 40 rows can be used/m,
     /^ {2}motion-widgets calibrate --recording DIR\/run\.mcap --odometry-topic \/odom --reference-topic '\/vicon\/robot 1' --rule nav2$/m,
   ]) assert.match(listed, line);
-  assert.match(await inspected(example('odometry')), /; give the reference too\.\n\n {2}motion-widgets calibrate --odometry \S+ --reference FILE --rule nav2$/m);
+  assert.match(await inspected([example('odometry')]), /; give the reference too\.\n\n {2}motion-widgets calibrate --odometry \S+ --reference FILE --rule nav2$/m);
   const positions = file('positions.csv', ['t,odom_x,odom_y,odom_yaw,gt_x,gt_y', ...Array.from({ length: 40 }, (_, i) => `${i / 20},${i / 40},0,0,${i / 40},1`)].join('\n'));
-  const [contents] = JSON.parse(await inspected(positions, '--json'));
+  const [contents] = JSON.parse(await inspected([positions, '--json'], 2));
   assert.deepEqual(contents.series.map((/** @type {any} */ { name, rows, uses, summary }) => [name, rows, uses, summary?.seconds]), [['odom_', 40, ['odometry'], 1.95], ['gt_', 0, [], undefined]]);
   assert.deepEqual([contents.missing.split(';')[0], contents.command], ['positions.csv: gt_x, gt_y are positions without a heading', undefined]);
 });

@@ -20,7 +20,7 @@ export interface Inspected {
   refused: string[];
   /** Sentence about what a calibration still needs. */
   missing?: string;
-  /** Command to go on with. */
+  /** Command to go on with; undefined where nothing can be used. */
   command?: string;
 }
 
@@ -96,6 +96,7 @@ function nextOf(recording: Recording, path: string): Pick<Inspected, 'command' |
     const [role] = ROLES.filter((each) => candidates(recording, each).some(({ length }) => length > 0));
     if (error.ask?.what === 'other' && role) return { missing, command: command(`--${role} ${quoted(path)}`, role === 'odometry' ? '--reference FILE' : '--odometry FILE') };
     if (error.ask?.what === 'series') return { missing, command: command(`--recording ${quoted(path)}`, '--odometry-topic NAME', '--reference-topic NAME') };
+    if (error.ask?.what === 'frames') return { missing, command: command(`--recording ${quoted(path)}`, '--odometry-frames PARENT,CHILD', '--reference-frames PARENT,CHILD') };
     return { missing };
   }
 }

@@ -45,6 +45,7 @@ export async function run(args: string[], environment: Environment): Promise<num
         }
       }
       if (options.isJson) print(`${JSON.stringify(all, undefined, 1)}\n`);
+      if (all.some(({ command }) => command === undefined)) return BAD_INPUT;
     } else return await calibrate(options, environment, onSkip);
     return SUCCESS;
   } catch (error) {
@@ -61,7 +62,7 @@ function adviceOf({ ask, message }: LogError): string {
   const { what, role = 'odometry', choices } = ask;
   if (what === 'other') return ' Name both, with --odometry FILE and --reference FILE.';
   const option = { series: `--${role}-topic`, frames: `--${role}-frames`, columns: '--columns', timeUnit: '--time-unit', lengthUnit: '--length-unit', angleUnit: '--angle-unit', roles: '--odometry and --reference' }[what];
-  const [first] = choices.filter(Boolean);
+  const [first] = choices.length > 0 ? choices.filter(Boolean) : what === 'columns' ? ['t,x,y,yaw'] : [];
   return ` Choose with ${option}${first === undefined ? '' : `, as in ${option} ${cut(first)}`}.`;
 }
 

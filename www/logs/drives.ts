@@ -143,7 +143,7 @@ function guessed(recording: Recording, role: Role, wishes: Wishes, other?: Choic
   throw new LogError(
     { file },
     (say) => (best.length > 0 ? say.choose : say.lacks)(role, described(useful)),
-    { what: 'series', role, choices: namesFor(recording, role).filter((name) => name !== other?.series) },
+    { what: 'series', role, choices: best.length > 0 ? namesFor(recording, role).filter((name) => name !== other?.series) : [] },
   );
 }
 

@@ -23,7 +23,7 @@ import { summarize } from '../../www/logs/summary.ts';
  */
 
 /** Rows of a robot that drives on a circle: time, x, y, heading, speed, turn rate. */
-const ROWS = Array.from({ length: 60 }, (_, i) => {
+const ROWS = Array.from({ length: 24 }, (_, i) => {
   const [t, r, theta] = [i / 16, 1.25, i / 32 - 0.75];
   return { i, t, x: r * Math.sin(theta), y: -r * Math.cos(theta), theta, v: 0.625, omega: 0.5, qz: Math.sin(theta / 2), qw: Math.cos(theta / 2) };
 });

@@ -15,7 +15,7 @@ HERE = pathlib.Path(__file__).parent
 START = 1_718_000_000
 
 rows = []
-for i in range(60):
+for i in range(24):
     theta = i / 32 - 0.75
     rows.append({"t": i / 16, "x": 1.25 * math.sin(theta), "y": -1.25 * math.cos(theta), "yaw": theta})
 drive = pd.DataFrame(rows)

@@ -32,8 +32,8 @@ test('opens off the arc, and says which factor is the worst', async ({ page }) =
   const { config, stats } = await told(widget);
   expect(config).toMatchObject({ start: { x: 0, y: 0, theta: 0 }, next: { x: 1.1, y: 0.5, theta: 1.1 }, command: { v: 1, omega: 0.5, dt: 1 } });
   await expect(widget.getByRole('button', { name: 'Left turn' })).toHaveAttribute('aria-pressed', 'true');
-  await expect(verdict(widget)).toContainText('γ̂ fits worst, 2.2 standard deviations off');
-  await expect(widget.locator('.headline')).toHaveText(`${(100 * stats.share).toFixed(1)}\u202f% as likely as the best`);
+  await expect(verdict(widget)).toContainText('The last turn γ̂ fits worst: 2.2 standard deviations off');
+  await expect(widget.locator('.headline')).toHaveText(`${(100 * stats.share).toFixed(1)}\u202f% as likely as the best pose`);
   const rows = widget.locator('.factors li');
   await expect(rows).toHaveCount(3);
   await expect(rows.nth(2)).toHaveClass(/weakest/);
@@ -225,7 +225,7 @@ test('exercise 1 is plotted: three forms, the crossover and the chapter’s thre
 
 test('without noise it says so, and draws no map', async ({ page }) => {
   const widget = await open(page, 'map="density" alpha5="0" alpha6="0"');
-  await expect(verdict(widget)).toHaveText('γ̂ has zero variance but a non-zero residual, so p = 0.');
+  await expect(verdict(widget)).toHaveText('The last turn γ̂ has zero variance but a non-zero residual, so p = 0.');
   await unfold(widget);
   await expect(readout(widget, 'density')).toHaveText('none: a variance is 0');
   await expect(widget.locator('.lines li')).toHaveCount(9);

@@ -1,5 +1,5 @@
 import { expect } from '@playwright/test';
-import { STILL, detail, dragSlider, frames, mount, pictureOf, pixelsOf, readout, settled, test, unfold, valueField } from './support.js';
+import { STILL, dragSlider, frames, mount, pictureOf, pixelsOf, readout, settled, test, unfold, valueField } from './support.js';
 
 /**
  * @typedef {import('@playwright/test').Page} Page
@@ -39,10 +39,9 @@ test('opens with the lateral miss that the chapter’s 6 % hides', async ({ page
     command: { v: 1, omega: 0.5, dt: 0.2 }, steps: 20, step: 2, alphas: [0.02, 0.02, 0.02, 0.02, 0.005, 0.005], compounding: 'chapter', samples: 50_000,
   });
   await expect(caption(widget)).toHaveText(
-    'The −6.1\u202f% along the track at the end hides a worse miss: of the lateral variance it predicts 0.00 at step 1, 0.44 at step 2, 0.77 at step 5.',
+    'The predicted lateral variance is 0.00 (step 1), 0.44 (step 2), 0.77 (step 5) of the measured one. At the end the along-track variance is off most, by −6.1\u202f%.',
   );
-  await expect(readout(widget, /At step 2 the prediction has/)).toHaveText('0.44');
-  await expect(detail(widget, /At step 2/)).toHaveText('of the lateral variance');
+  await expect(readout(widget, 'predicted lateral variance')).toHaveText('0.44');
   expect(await missed(widget)).toEqual(['steps 15–20', 'steps 1–15', 'never']);
   await expect(widget.getByRole('row', { name: 'along, at the end' }).locator('td').first()).toHaveText('−6.1 ± 0.6\u202f%');
   await expect(plotOf(widget)).toHaveAttribute('aria-label', /At step 2: along 1.009 ± 0.006, lateral 0.445 ± 0.003, heading/);
@@ -105,7 +104,7 @@ test('with J_r, and to fourth order, every component is right', async ({ page })
 
 test('entries of the legends hide curves and outlines', async ({ page }) => {
   const widget = await openReckoning(page, 'overlays="lateral tolerance measured exponential"');
-  await expect(widget.locator('[part=caption]')).toHaveText(/^[−+][\d.]+\s% laterally at the end\. Of the lateral variance /);
+  await expect(widget.locator('[part=caption]')).toHaveText(/^The predicted lateral variance is .*, and off by [−+][\d.]+\s% at the end\.$/);
   await expect(plotOf(widget).locator('path.curve')).toHaveCount(2);
   const twist = await pictureOf(widget.locator('canvas.twist'));
   await widget.getByRole('checkbox', { name: 'measured' }).uncheck();

@@ -34,12 +34,12 @@ export const plotStyles = css`
     max-width: 26em;
   }
 
-  /* Inside of the axes; a slider's thumb is half a thumb away from its ends. */
+  /* Inside of the axes; a slider's thumb is half a thumb away from its ends. It is a grip on a line: a dot would look like data. */
   .plotted input {
     position: absolute;
     top: ${unsafeCSS((100 * TOP) / HEIGHT)}%;
-    left: calc(${unsafeCSS((100 * LEFT) / WIDTH)}% - 0.525em);
-    width: calc(${unsafeCSS((100 * (RIGHT - LEFT)) / WIDTH)}% + 1.05em);
+    left: calc(${unsafeCSS((100 * LEFT) / WIDTH)}% - 0.275em);
+    width: calc(${unsafeCSS((100 * (RIGHT - LEFT)) / WIDTH)}% + 0.55em);
     height: ${unsafeCSS((100 * (BOTTOM - TOP)) / HEIGHT)}%;
     --thumb: var(--prior);
   }
@@ -50,6 +50,19 @@ export const plotStyles = css`
 
   .plotted input::-moz-range-track {
     background: none;
+  }
+
+  .plotted input::-webkit-slider-thumb {
+    width: 0.55em;
+    height: 1.9em;
+    margin-top: calc(1px - 0.95em);
+    border-radius: 0.3em;
+  }
+
+  .plotted input::-moz-range-thumb {
+    width: 0.55em;
+    height: 1.9em;
+    border-radius: 0.3em;
   }
 
   .plot text {

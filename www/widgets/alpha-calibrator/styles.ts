@@ -140,6 +140,7 @@ const own = css`
     padding: 0.1em 0.6em;
     border: 1px solid var(--paper);
     border-radius: 3px;
+    line-height: 1;
     background: var(--prediction);
     color: var(--paper);
     font-weight: bold;

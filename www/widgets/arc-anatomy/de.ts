@@ -15,7 +15,7 @@ export const de: typeof import('./en.ts').en = {
     alpha5: { effect: 'Varianz von *γ̂* durch *v*².' },
     alpha6: { effect: 'Varianz von *γ̂* durch *ω*².' },
   },
-  floor: 'Auf dem Boden',
+  floor: 'Auf dem Boden: ein Bogen, eine letzte Drehung',
   overlays: {
     commanded: 'befohlener Bogen',
     inverted: 'der eine Bogen zum Roboter',
@@ -50,10 +50,10 @@ export const de: typeof import('./en.ts').en = {
   headline: { share: 'so wahrscheinlich wie die beste Pose', times: 'mal so wahrscheinlich wie die beste Pose' },
   likelihoods: { prob: '*p* der Tabellen', density: 'Dichte der Ziehung (m⁻² rad⁻¹)', none: 'keine: eine Varianz ist 0', xi: '*ξ* (m, m, rad)' },
   verdict: {
-    off: (symbol, deviations, kept, share) =>
-      `${symbol} passt am schlechtesten, um ${deviations} Standardabweichungen daneben: Sein Faktor liegt bei ${kept} seines Maximums, das Produkt aller drei bei ${share}.`,
+    off: (estimate, deviations, kept, share) =>
+      `Die ${estimate} passt am schlechtesten: ${deviations} Standardabweichungen daneben. Ihr Faktor liegt bei ${kept} seines Maximums, das Produkt aller drei bei ${share}.`,
     peak: 'Der Roboter ist, wohin der Befehl ohne Rauschen führt: p hat sein Maximum.',
-    noiseless: (symbol) => `${symbol} hat die Varianz 0, aber ein Residuum ungleich 0: p = 0.`,
+    noiseless: (estimate) => `Die ${estimate} hat die Varianz 0, aber ein Residuum ungleich 0: p = 0.`,
     printed: (v, share) =>
       `Wie gedruckt hat der Radius kein Vorzeichen: v̂ = ${v} m/s hat das falsche, und p liegt bei ${share} seines Maximums.`,
   },

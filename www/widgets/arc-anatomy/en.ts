@@ -15,7 +15,7 @@ export const en = {
     alpha5: { effect: 'Variance of *γ̂* from *v*².' },
     alpha6: { effect: 'Variance of *γ̂* from *ω*².' },
   },
-  floor: 'On the floor',
+  floor: 'On the floor: one arc, one last turn',
   overlays: {
     commanded: 'commanded arc',
     inverted: 'the one arc to the robot',
@@ -47,13 +47,13 @@ export const en = {
     names: ['speed', 'turn rate', 'last turn'],
     factor: (share) => `factor: ${share} of its peak`,
   },
-  headline: { share: 'as likely as the best', times: 'times as likely as the best' },
+  headline: { share: 'as likely as the best pose', times: 'times as likely as the best pose' },
   likelihoods: { prob: '*p* of the tables', density: 'density of the sampler (m⁻² rad⁻¹)', none: 'none: a variance is 0', xi: '*ξ* (m, m, rad)' },
   verdict: {
-    off: (symbol, deviations, kept, share) =>
-      `${symbol} fits worst, ${deviations} standard deviations off: its factor is at ${kept} of its peak, the product of all three at ${share}.`,
+    off: (estimate, deviations, kept, share) =>
+      `The ${estimate} fits worst: ${deviations} standard deviations off. Its factor is ${kept} of its peak, the product of all three ${share}.`,
     peak: 'The robot is where the command leads without noise: p is at its peak.',
-    noiseless: (symbol) => `${symbol} has zero variance but a non-zero residual, so p = 0.`,
+    noiseless: (estimate) => `The ${estimate} has zero variance but a non-zero residual, so p = 0.`,
     printed: (v, share) =>
       `As printed, the radius has no sign: v̂ = ${v} m/s has the wrong sign, and p is ${share} of its peak.`,
   },

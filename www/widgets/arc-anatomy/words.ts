@@ -32,11 +32,11 @@ const SYMBOLS = ['v̂', 'ω̂', 'γ̂'];
 export function verdictOf({ config, stats: { factors, weakest, share, driven, inverted } }: Reading) {
   const say = words.anatomy.verdict;
   const { deviations, share: kept, deviation } = factors[weakest];
-  const symbol = SYMBOLS[weakest];
+  const estimate = `${words.anatomy.bars.names[weakest]} ${SYMBOLS[weakest]}`;
   if (config.printed && driven.arcLength !== inverted.arcLength) return say.printed(fixed(factors[0].estimate, 2), shareText(share));
   if (share === 1) return say.peak;
-  if (deviation === 0) return say.noiseless(symbol);
-  return say.off(symbol, fixed(Math.abs(deviations), 1), shareText(kept), shareText(share));
+  if (deviation === 0) return say.noiseless(estimate);
+  return say.off(estimate, fixed(Math.abs(deviations), 1), shareText(kept), shareText(share));
 }
 
 const poseText = ({ x, y, theta }: Pose) => words.anatomy.pose(fixed(x, 2), fixed(y, 2), fixed(theta, 2));

@@ -52,7 +52,7 @@ export const de: typeof import('./en.ts').en = {
     silent: 'Jedes α ist 0: gar kein Rauschen, also hält jeder Roboter genau da, wo er soll.',
     unfed: 'Kein α über 0 hat in diesem Befehl etwas zu vervielfachen: gar kein Rauschen.',
     headings: 'Nur γ̂ rauscht: Alle Roboter halten am selben Punkt, und nur ihre Richtungen fächern sich auf.',
-    circle: 'Manche Roboter drehen sich fast im Kreis. Dort enden die Exponentialkoordinaten und ihre Zahlen.',
+    circle: 'Manche Roboter drehen sich um fast 2π. Dort ist der Logarithmus nicht eindeutig, und Statistiken in ξ sind nicht definiert.',
     backwards: 'Die Odometrie liest Rückwärtsfahren als zwei halbe Drehungen und berechnet für beide Rauschen.',
     line: 'Nur ein Rauschen bleibt: Die Roboter liegen auf einer Linie, und ein Umriss ohne Fläche enthält keinen Anteil.',
   },

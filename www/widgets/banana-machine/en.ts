@@ -55,7 +55,7 @@ export const en = {
     silent: 'Every α is 0: no noise at all, so every robot stops exactly where it was told to.',
     unfed: 'No α that is above 0 has anything to multiply in this command: no noise at all.',
     headings: 'Only γ̂ is noisy: every robot stops at the same point, and only the headings fan out.',
-    circle: 'Some robots turn nearly a full circle. Exponential coordinates end there, and their figures with them.',
+    circle: 'Some robots turn by nearly 2π. The logarithm is not unique there, so statistics in ξ are undefined.',
     backwards: 'Odometry reads backing up as two half turns, and the table charges noise for both.',
     line: 'Only one noise is left: the robots lie on a line, and an outline without area holds no share of them.',
   },

@@ -45,20 +45,18 @@ export const en = {
   /** An axis that is drawn on a larger scale than the other one. */
   stretched: (axis, factor) => `${axis} ×${factor}`,
   components: { along: 'along', lateral: 'lateral', heading: 'heading' },
-  where: { along: 'along the track', lateral: 'laterally', heading: 'in heading' },
   of: { along: 'along-track', lateral: 'lateral', heading: 'heading' },
   ratioAxis: 'predicted / measured variance',
   stepAxis: 'step',
   atStepMark: (step) => `step ${step}`,
   /** Before the ratio, and after it. */
-  predictionHas: (step) => `At step ${step} the prediction has`,
-  ofVariance: (component) => `of the ${component} variance`,
+  predicted: (component) => `predicted ${component} variance`,
+  ofMeasured: (step) => `of the measured, at step ${step}`,
   ratioText: (recursion, step, ratios) =>
     `Predicted over measured variance by step; recursion: ${recursion}. At step ${step}: ${ratios}.`,
-  atStep: (ratio, step) => `${ratio} at step ${step}`,
-  wrong: (end, where) => `${end} ${where} at the end.`,
-  worse: (end, where, worst, list) => `The ${end} ${where} at the end hides a worse miss: of the ${worst} variance it predicts ${list}.`,
-  begins: (worst, list) => `Of the ${worst} variance it predicts ${list}.`,
+  atStep: (ratio, step) => `${ratio} (step ${step})`,
+  wrong: (worst, list, end) => `The predicted ${worst} variance is ${list} of the measured one, and off by ${end} at the end.`,
+  worse: (worst, list, end, far) => `The predicted ${worst} variance is ${list} of the measured one. At the end the ${far} variance is off most, by ${end}.`,
   right: (robots) => `Within 5 % of what ${robots} robots do, in every component at every step.`,
   conditions: {
     none: 'No robots yet.',

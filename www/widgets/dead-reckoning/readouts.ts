@@ -64,7 +64,7 @@ function lookOf(name: keyof typeof CURVES, highlight: string | null) {
 export function headline(reading: Reading, overlays: string[]) {
   const say = words.reckoning;
   const { ratio, component } = worstAt(reading, overlays);
-  return readoutList([[say.predictionHas(reading.config.step), fixed(ratio, 2), say.ofVariance(say.of[component])]], 0);
+  return readoutList([[say.predicted(say.of[component]), fixed(ratio, 2), say.ofMeasured(reading.config.step)]], 0);
 }
 
 /** Logarithmic axes that hold what sliders can make of it: the variances of an opening and of a tenth and ten times of it. */

@@ -54,12 +54,20 @@ const own = css`
     }
 
     .said .caption {
+      min-height: 5lh;
       font-size: 0.95em;
       line-height: 1.25;
     }
 
     .said .choices {
       grid-area: choices;
+    }
+  }
+
+  /* The chart is larger than its letters. */
+  @container (min-width: 44em) {
+    .chart .plot text {
+      font-size: 10.8px;
     }
   }
 
@@ -77,14 +85,13 @@ const own = css`
       grid-template-columns: repeat(2, minmax(0, 1fr));
     }
 
-    /* The chart is larger than its letters. */
-    .chart .plot text {
-      font-size: 10.5px;
-    }
-
     .said {
       grid-template: 'headline caption choices' / auto 1fr auto;
       column-gap: 2em;
+    }
+
+    .said .caption {
+      min-height: 3lh;
     }
   }
 

@@ -33,8 +33,8 @@ export function captionOf({ config: { compounding }, stats: { misses, n }, condi
   const far = furthest(ofAll.map(({ end }, axis) => ifShown(Math.abs(end), axis)));
   const worst = furthest(curves.map(({ ratio }, axis) => ifShown(ratio.reduce((most, value) => Math.max(most, Math.abs(value - 1) || 0), 0), axis)));
   const list = listOf(Array.from(curves[worst].ratio));
-  const [end, where, of] = [signed(ofAll[far].end), say.where[COMPONENTS[far]], say.of[COMPONENTS[worst]]];
-  return far === worst ? `${say.wrong(end, where)} ${say.begins(of, list)}` : say.worse(end, where, of, list);
+  const [end, of] = [signed(ofAll[far].end), say.of[COMPONENTS[worst]]];
+  return far === worst ? say.wrong(of, list, end) : say.worse(of, list, end, say.of[COMPONENTS[far]]);
 }
 
 /** Returns the index of the greatest miss, of which NaN is none. */

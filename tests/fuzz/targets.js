@@ -51,7 +51,7 @@ const machines = [
 const LONGEST = 700;
 
 /** Pattern of every refusal: the values that are taken, or what to do. */
-const SENTENCE = /; (allowed|expected) (is|are) |; (add|choose|convert|decompress|export|give|keep|name|open|split|state|unzip|write) /;
+const SENTENCE = /; (allowed|expected) (is|are) |; (add|choose|convert|copy|decompress|export|give|keep|name|open|split|state|unzip|write) /;
 
 /** @param {string} sentence */
 function look(sentence) {

@@ -145,7 +145,7 @@ test('other recordings are refused', async () => {
   const read = async (/** @type {Parameters<typeof recordingOf>[1]} */ options, messages = drive()) => sentenceOf(readLog(file(await recordingOf(messages, options)), { series: '/odom' }));
   assert.equal(await read({ compression: 'odd' }), 'run.mcap, topic /odom: none of its messages can be read (compression by snappy, not by zstd or lz4); expected is an undamaged recording.');
   assert.equal(await read({ encoding: 'json' }), 'run.mcap, topic /odom: its messages are encoded as “json”; expected is cdr of ROS 2, or ros1.');
-  assert.equal(await read({}, []), 'run.mcap: it has fewer than 2 messages; a log needs at least 2.');
+  assert.equal(await read({}, []), 'run.mcap: it has fewer than 2 messages; expected are at least 2.');
   assert.equal(await read({}, drive().slice(0, 6)), 'run.mcap, topic /odom: 1 of 1 rows can be used; expected are at least 2.');
   // Shorter messages under the name of odometry.
   const short = wheels(3, () => ({ data: 'x' })).map((message) => ({ ...message, type: 'std_msgs/msg/String', schema: ODOMETRY }));

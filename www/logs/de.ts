@@ -120,7 +120,7 @@ export const log: Words = {
       `keine Transformationen führen entlang ${frames}; erwartet werden verbundene Frames, aus ${known || 'keinen'}.`,
     constant: (frames, others) =>
       `die Transformation ${frames} ändert sich nie und ist daher keine Bahn eines Roboters; erwartet werden Frames, die sich bewegen${others ? `, wie ${others}` : ''}.`,
-    noMessages: 'es sind weniger als 2 Nachrichten; ein Log braucht mindestens 2.',
+    noMessages: 'es sind weniger als 2 Nachrichten; erwartet werden mindestens 2.',
     same: (other) => `sie hat dieselbe Bewegung wie ${other}; gebraucht werden zwei unabhängige Messungen einer Fahrt.`,
     givenTwice: 'sie ist zweimal angegeben; gebraucht werden zwei unabhängige Messungen einer Fahrt, Odometrie und Referenz.',
     held: 'ihre Pose steht, während die Odometrie weitergeht: Sie hat den Roboter verloren; gebraucht wird eine, die ihm folgt.',

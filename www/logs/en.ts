@@ -129,7 +129,7 @@ export const log = {
       `no transforms lead along ${frames}; expected are frames that are connected, of ${known || 'none'}.`,
     constant: (frames: string, others: string) =>
       `the transform ${frames} never changes, so it is no path of a robot; expected are frames that move${others ? `, as ${others}` : ''}.`,
-    noMessages: 'it has fewer than 2 messages; a log needs at least 2.',
+    noMessages: 'it has fewer than 2 messages; expected are at least 2.',
     /** Errors of two logs. */
     same: (other: string) => `it has the same motion as ${other}; give two independent measurements of one drive.`,
     givenTwice: 'it is given twice; give two independent measurements of one drive, odometry and reference.',

@@ -247,9 +247,8 @@ export const targets = {
       if (!isSetting(attribute)) return false;
       // Millions of samples would take too much memory.
       if (/^(samples|steps)$/.test(name) && Number(rest.join('=')) > 1e5) return false;
-      const present = () => ({ config: machine.config, machine });
-      if (!isTaken(() => machine.configure(attribute.change(attribute.kind.parse(rest.join('=')), present())))) return false;
-      assert.equal(typeof attribute.kind.print(attribute.get(present())), 'string');
+      if (!isTaken(() => machine.configure(attribute.change(attribute.kind.parse(rest.join('=')), machine.config)))) return false;
+      assert.equal(typeof attribute.kind.print(attribute.get(machine.config)), 'string');
       machine.configure(opening);
       return true;
     },

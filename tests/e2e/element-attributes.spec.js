@@ -134,8 +134,8 @@ test('attributes that are refused are reported in the words of the core, and the
   expect(await values()).toEqual([0.06, 1.5, 'velocity', 50000]);
 });
 
-test('elements in the table of doc/embedding.md have the attributes that it shows', async ({ page, figure }) => {
-  const document = readFileSync(new URL('../../doc/embedding.md', import.meta.url), 'utf8');
+test('elements in the table of doc/embedding/figures.md have the attributes that it shows', async ({ page, figure }) => {
+  const document = readFileSync(new URL('../../doc/embedding/figures.md', import.meta.url), 'utf8');
   const examples = [...document.matchAll(/^\| [^|]* \| `<([a-z-]+)( [^`]*)>` \|$/gm)].map(([, name, attributes]) => ({ name, attributes }));
   expect(new Set(examples.map(({ name }) => name)).size).toBe(ALL.length);
   await show(page, examples.map(({ name, attributes }) => `<${name} class="example" ${attributes}></${name}>`).join(''));

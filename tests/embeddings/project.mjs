@@ -16,7 +16,7 @@ import { CACHE } from '../../scripts/toolchain.mjs';
  * What is particular to an engine: the default export of a file beside this one.
  *
  * @typedef {object} Engine
- * @property {string} heading of its section in doc/embedding.md, and its name in the table there
+ * @property {string} heading of its section in doc/embedding/, and its name in the table of doc/embedding.md
  * @property {() => string} versions for the table, as the files of the example pin them
  * @property {boolean} [python] whether it takes the Python package
  * @property {number} [node] the major version of Node that it needs, where the package needs less

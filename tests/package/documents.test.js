@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import { spawnSync } from 'node:child_process';
 import { existsSync, readFileSync } from 'node:fs';
-import { dirname, join } from 'node:path';
+import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { ROOT } from '../../scripts/process.mjs';
 import { installed } from './support.js';
@@ -22,16 +22,6 @@ after(() => project?.remove());
 
 const read = (/** @type {string} */ document) => readFileSync(join(root, document), 'utf8');
 const isMissing = (/** @type {string} */ path) => !existsSync(join(root, path));
-
-test('the documents link to nothing that the package leaves out', () => {
-  for (const document of ['README.md', 'CHANGELOG.md', 'doc/embedding.md']) {
-    const prose = read(document).replaceAll(/^```.*?^```/gms, '');
-    const links = [...prose.matchAll(/\]\(([^)#\s]+)[^)]*\)/g)].map(([, link]) => link).filter((link) => !/^https?:/.test(link));
-    assert.deepEqual(links.filter((link) => isMissing(join(dirname(document), link))), [], document);
-    const examples = [...prose.matchAll(/`(examples\/[\w-]+)`/g)].map(([, path]) => path);
-    assert.deepEqual(examples.filter(isMissing), [], document);
-  }
-});
 
 test('package.json names no file that the package leaves out', () => {
   const { bin, exports, main, types, unpkg, jsdelivr, customElements } = JSON.parse(read('package.json'));

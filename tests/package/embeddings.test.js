@@ -1,4 +1,4 @@
-// doc/embedding.md has the lines of the examples that `npm run test:embeddings` opens, and their versions.
+// The documents on embedding have the lines of the examples that `npm run test:embeddings` opens, and their versions.
 
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
@@ -8,7 +8,7 @@ import { filesOf } from '../../scripts/bundle.mjs';
 import { ROOT } from '../../scripts/process.mjs';
 import { engine, engines } from '../embeddings/project.mjs';
 
-const document = readFileSync(join(ROOT, 'doc/embedding.md'), 'utf8');
+const document = filesOf('doc').filter((path) => /embedding.*\.md$/.test(path)).map((path) => readFileSync(join(ROOT, path), 'utf8')).join('\n');
 const linesOf = (/** @type {string} */ text) => text.split('\n').map((line) => line.trim()).filter((line) => line !== '');
 
 /** @param {string} path @returns {string[]} the lines of a file; of a notebook, those of its cells */

@@ -43,6 +43,6 @@ test('what a page loads does not grow', () => {
 
 test('doc/embedding.md says these limits', () => {
   const document = readFileSync(new URL('../../doc/embedding.md', import.meta.url), 'utf8');
-  const said = document.slice(document.indexOf('## What it weighs')).match(/(?<=^\|.*)\d+(?= kB)/gm);
+  const said = document.slice(document.indexOf('## Sizes')).match(/(?<=^\|.*)\d+(?= kB)/gm);
   assert.deepEqual(said?.map(Number), Object.values(LIMITS));
 });

@@ -6,7 +6,7 @@ export default defineConfig({
   vue: {
     template: {
       compilerOptions: {
-        isCustomElement: (tag) => tag === 'banana-machine' || tag === 'map-squeeze',
+        isCustomElement: (tag) => /^(banana-machine|map-squeeze|arc-anatomy|odometry-decomposer|dead-reckoning|alpha-calibrator)$/.test(tag),
       },
     },
   },

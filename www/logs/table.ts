@@ -3,7 +3,7 @@
 import { type Clock, type Group, type Layout, layoutOf } from './columns.ts';
 import { type Format, carmenCells, cellsOf, formatOf } from './format.ts';
 import { LogError, bytesOf, cut, listed, type Place } from './log-error.ts';
-import type { Basis, Choice, Log, Note, OpenOptions, Recording, Series, Source, TimeUnit } from './log.ts';
+import type { Basis, Log, Note, OpenOptions, Recording, Series, Source, TimeUnit } from './log.ts';
 import { type Time, dateOf, numberOf, timeOf } from './numbers.ts';
 import { quantile, sample } from './quantile.ts';
 import { headingOf, isRotation } from './quaternion.ts';
@@ -56,7 +56,6 @@ export async function openTable(source: Source, options: OpenOptions = {}): Prom
     async read(choices, onProgress) {
       const readers = choices.map((choice) => {
         const chosen = readable.length === 1 && choice.series === '' ? readable[0] : format.groups[series.findIndex(({ name }) => name === choice.series)];
-        if (!chosen) throw ambiguous(source.name, format.groups.map(seriesOf), choice);
         const layout = layoutOf(chosen, format.names, place, choice.kind);
         return new LogReader(readable.length === 1 ? source.name : `${source.name}, ${seriesOf(chosen).name}`, { file: source.name }, format, chosen, layout, options);
       });
@@ -69,11 +68,6 @@ export async function openTable(source: Source, options: OpenOptions = {}): Prom
 }
 
 const columnNames = ({ columns }: Group) => Object.values(columns).toSorted((a, b) => a.at - b.at).map(({ name }) => name);
-
-function ambiguous(file: string, series: Series[], { series: wanted }: Choice): LogError {
-  const names = series.filter(({ kind }) => kind !== null).map(({ name }) => name);
-  return new LogError({ file }, (say) => (wanted === '' ? say.several(listed(names)) : say.noTopic(listed(names))), { what: 'series', choices: names });
-}
 
 /** Returns the encoding of a text, by its byte order mark, the zeros of UTF-16, or bytes that UTF-8 does not have. */
 async function encodingOf(source: Source): Promise<string> {

@@ -109,12 +109,10 @@ class TopicReader {
     return channel.topic === this.#choice.series || (this.#choice.frames !== undefined && isStatic(channel));
   }
 
-  /** Checks that there is such a topic, and that it has one type that can be read. */
+  /** Checks that the topic has one type that can be read. */
   #checkTypes(): Series['kind'] {
     const { series, kind: wanted, frames } = this.#choice;
-    const all = this.#container.channels;
-    const channels = all.filter(({ topic }) => topic === series);
-    if (channels.length === 0) this.#refuse((say) => say.noTopic(listed([...new Set(all.map(({ topic }) => topic))])));
+    const channels = this.#container.channels.filter(({ topic }) => topic === series);
     const isWanted = ({ type }: Channel) => {
       const kind = kindOf(type);
       return frames ? kind === 'transforms' : kind !== null && !(wanted === 'poses' && kind === 'commands');

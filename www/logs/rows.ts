@@ -209,7 +209,9 @@ export class Rows {
       throw new LogError(this.#at(line), (say) => say.setBack(times[setBack - 1] - times[setBack], this.#message(line)));
     }
 
-    const start = base + Math.floor(times[order[0]]);
+    // The first row in the file may be too far away for a difference to the whole second.
+    const [seconds, rest] = [this.#seconds(stamped[order[0]]), this.#rest(stamped[order[0]])];
+    const start = Math.floor(seconds) + Math.floor(seconds - Math.floor(seconds) + rest);
     const t = new Float64Array(order.length);
     const rows = new Uint32Array(order.length);
     const isDropped = new Map<number, Cause>();

@@ -2,7 +2,7 @@
 
 import { ticks } from 'd3-array';
 import { powerOfTen, tick } from '../ui/format.ts';
-import type { Brush } from './canvas.ts';
+import { strokeLine, type Brush, type LineStroke } from './canvas.ts';
 
 /** Ticks nearer to each other are told as multiples of a power of ten: their zeros have no room beside the axis. */
 const NEAREST_TICKS = 9e-4;
@@ -65,6 +65,9 @@ export interface KeyEntry {
   /** A sample, from its left to its right in the middle of the line; CSS pixels. */
   draw: (x: number, y: number, width: number) => void;
 }
+/** Returns an entry of a key with a sample of a line. */
+export const lineKey = ({ context }: Brush, name: string, style: LineStroke): KeyEntry => ({ name, draw: (x, y, width) => strokeLine(context, [[x, y], [x + width, y]], style) });
+
 function drawKey({ context, view, palette, font }: Brush, before: string, entries: KeyEntry[]) {
   const size = parseFloat(font);
   const [width, line] = [KEY.sample * size, KEY.line * size];

@@ -73,3 +73,37 @@ export function brushOn(canvas: HTMLCanvasElement | Surface, view: import('./vie
   context.direction = 'ltr';
   return { context, view, palette, ratio, font: `${LETTERS}px ${fontFamily}`, placed: [] as Box[] };
 }
+
+type Context = Brush['context'];
+
+/** Style of a line; dashes in pixels. */
+export interface LineStroke { colour: string, width: number, dash?: number[] }
+
+/** Strokes a path in pixels. */
+export function stroke(context: Context, { colour, width, dash = [] }: LineStroke, path: () => void) {
+  context.strokeStyle = colour;
+  context.lineWidth = width;
+  context.setLineDash(dash);
+  context.beginPath();
+  path();
+  context.stroke();
+  context.setLineDash([]);
+}
+
+/** Adds a line through points in pixels to the path. */
+export const addLine = (context: Context, points: number[][]) => points.forEach(([x, y], i) => (i ? context.lineTo(x, y) : context.moveTo(x, y)));
+
+/** Strokes a line through points in pixels. */
+export const strokeLine = (context: Context, points: number[][], style: LineStroke) => stroke(context, style, () => addLine(context, points));
+
+/** Draws a disc in pixels, filled, with an edge, or both. */
+export function drawDisc(context: Context, [x, y]: number[], radius: number, fill?: string, edge?: LineStroke) {
+  const circle = () => context.arc(x, y, radius, 0, 2 * Math.PI);
+  if (fill) {
+    context.fillStyle = fill;
+    context.beginPath();
+    circle();
+    context.fill();
+  }
+  if (edge) stroke(context, edge, circle);
+}

@@ -3,9 +3,9 @@
 import { greatest } from 'd3-array';
 import { limits } from '../settings.js';
 import { channels } from '../ui/theme.ts';
+import { addLine, drawDisc, stroke, type Brush, type LineStroke } from './canvas.ts';
 import { drawLabel } from './labels.ts';
 import type { Callout } from './callout.ts';
-import type { Brush } from './canvas.ts';
 import type { Palette } from '../ui/theme.ts';
 
 /** Number of heading ticks that are stroked at once. Those of one stroke do not darken where they cross: more would flatten the crowd. */
@@ -67,11 +67,8 @@ export function drawHeap(brush: Brush, { x, y, headings, label }: { x: number, y
     context.stroke();
   }
   context.globalAlpha = 1;
-  context.fillStyle = palette.prediction;
-  context.beginPath();
   // Large enough to show around the handle, which is often in the same place.
-  context.arc(px, py, 14, 0, 2 * Math.PI);
-  context.fill();
+  drawDisc(context, [px, py], 14, palette.prediction);
   drawLabel(brush, { x: px + 14, y: py + 27, towards: 1, text: label, colour: palette.prediction });
 }
 
@@ -100,13 +97,9 @@ export function trace({ context, view }: Brush, points: Float64Array) {
   }
 }
 
-export interface Outline {
+export interface Outline extends LineStroke {
   /** X, y pairs. */
   points: Float64Array;
-  colour: string;
-  /** CSS pixels. */
-  width: number;
-  dash: number[];
 }
 
 /** Width of a highlighted line, times its own. */
@@ -137,29 +130,14 @@ export function drawOutlines(brush: Brush, outlines: Outline[]) {
   const drawn = outlines.filter(({ points }) => hasLength(points));
   context.lineJoin = 'round';
   context.globalAlpha = 0.7;
-  context.strokeStyle = palette.paper;
-  for (const { points, width } of drawn) {
-    context.beginPath();
-    trace(brush, points);
-    context.lineWidth = width + 2.5;
-    context.stroke();
-  }
+  strokeLines(brush, drawn.map(({ points, width }) => ({ points, colour: palette.paper, width: width + 2.5, dash: [] })));
   context.globalAlpha = 1;
   strokeLines(brush, drawn);
 }
 
 /** Draws lines in their own styles. */
-function strokeLines(brush: Brush, lines: Outline[]) {
-  const { context } = brush;
-  for (const { points, colour, width, dash } of lines) {
-    context.beginPath();
-    trace(brush, points);
-    context.strokeStyle = colour;
-    context.lineWidth = width;
-    context.setLineDash(dash);
-    context.stroke();
-  }
-  context.setLineDash([]);
+export function strokeLines(brush: Brush, lines: Outline[]) {
+  for (const { points, ...style } of lines) stroke(brush.context, style, () => trace(brush, points));
 }
 
 /** Opacity of outlines as they were. */
@@ -192,26 +170,16 @@ export function drawRobot(brush: Brush, { x, y, heading, colour }: { x: number, 
   const { context, view, palette } = brush;
   const px = view.toPixelX(x);
   const py = view.toPixelY(y);
-  context.beginPath();
-  context.arc(px, py, 8, 0, 2 * Math.PI);
-  context.fillStyle = palette.paper;
-  context.fill();
-  headingTick(brush, px, py, heading, 14);
-  context.strokeStyle = colour;
-  context.lineWidth = 2;
-  context.stroke();
+  drawDisc(context, [px, py], 8, palette.paper);
+  stroke(context, { colour, width: 2 }, () => {
+    context.arc(px, py, 8, 0, 2 * Math.PI);
+    headingTick(brush, px, py, heading, 14);
+  });
 }
 
 /** Paints a handle, in pixels, where no element stands for it: in files and on paper. */
 export function drawHandle({ context, palette, handles }: Brush, { x, y, radius, colour }: { x: number, y: number, radius: number, colour: string }) {
-  if (!handles) return;
-  context.beginPath();
-  context.arc(x, y, radius, 0, 2 * Math.PI);
-  context.fillStyle = palette.paper;
-  context.fill();
-  context.strokeStyle = colour;
-  context.lineWidth = 3;
-  context.stroke();
+  if (handles) drawDisc(context, [x, y], radius, palette.paper, { colour, width: 3 });
 }
 
 /** Draws the ring and cross hairs of the marked sample in a colour. */
@@ -223,15 +191,10 @@ export function drawMark(brush: Brush, { x, y, heading }: { x: number, y: number
     [palette.paper, 5],
     [accent, 2],
   ] as const)) {
-    context.strokeStyle = colour;
-    context.lineWidth = width;
-    context.beginPath();
-    context.arc(px, py, 7, 0, 2 * Math.PI);
-    for (const [dx, dy] of [[1, 0], [0, 1], [-1, 0], [0, -1]]) {
-      context.moveTo(px + 7 * dx, py + 7 * dy);
-      context.lineTo(px + 12 * dx, py + 12 * dy);
-    }
-    if (heading !== null) headingTick(brush, px, py, heading, 24);
-    context.stroke();
+    stroke(context, { colour, width }, () => {
+      context.arc(px, py, 7, 0, 2 * Math.PI);
+      for (const [dx, dy] of [[1, 0], [0, 1], [-1, 0], [0, -1]]) addLine(context, [[px + 7 * dx, py + 7 * dy], [px + 12 * dx, py + 12 * dy]]);
+      if (heading !== null) headingTick(brush, px, py, heading, 24);
+    });
   }
 }

@@ -1,7 +1,7 @@
 /** Labels in pictures: a symbol with its subscript, and a text. */
 
 import { clamp } from '../ui/clamp.ts';
-import type { Brush } from './canvas.ts';
+import { drawDisc, strokeLine, type Brush } from './canvas.ts';
 
 /** Size of a subscript, as a share of the letters, and its distance below the line, pixels. */
 const SUBSCRIPT = 0.78;
@@ -93,15 +93,8 @@ export function drawLabelsAbove(brush: Brush, labels: (Text & { x: number, y: nu
 
 /** Draws a leader: a thin line through points in pixels, from a text to a point, with a dot at the point. */
 export function drawLeader(context: CanvasRenderingContext2D, line: number[][], colour: string) {
-  context.strokeStyle = context.fillStyle = colour;
-  context.lineWidth = 1;
-  context.beginPath();
-  for (const [x, y] of line) context.lineTo(x, y);
-  context.stroke();
-  const [x, y] = line[line.length - 1];
-  context.beginPath();
-  context.arc(x, y, 2.5, 0, 2 * Math.PI);
-  context.fill();
+  strokeLine(context, line, { colour, width: 1 });
+  drawDisc(context, line[line.length - 1], 2.5, colour);
 }
 
 /** Returns the parts of a text with their widths. */

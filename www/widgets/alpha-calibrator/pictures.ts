@@ -1,11 +1,10 @@
 /** Pictures of the Alpha Calibrator: the path of the robot, and one leg in the frame of its start. */
 
 import { words } from '../../messages/registry.ts';
-import { clipped, drawAxes } from '../../scene/axes.ts';
+import { clipped, drawAxes, lineKey } from '../../scene/axes.ts';
 import { drawDots, drawMark, drawOutline, drawOutlines } from '../../scene/draw.ts';
 import { Picture, SamplesPicture } from '../../scene/picture.ts';
 import { View, extentAround, extentOf } from '../../scene/view.ts';
-import { lineKey } from '../shared/line-key.ts';
 import { CLASSES, LINES } from './settings.ts';
 import { WayLayer, drawRings, styleOf } from './way.ts';
 import type { LegView } from '../../types.d.ts';

@@ -1,19 +1,18 @@
 /** Arc Anatomy's picture: the commanded arc, the arc that leads to the robot, and what they are constructed of. */
 
 import { words } from '../../messages/registry.ts';
-import { clipped, drawAxes } from '../../scene/axes.ts';
-import { drawOutlines, drawRobot, lineStyles } from '../../scene/draw.ts';
+import { clipped, drawAxes, lineKey } from '../../scene/axes.ts';
+import { drawOutlines, drawRobot, lineStyles, strokeLines, trace } from '../../scene/draw.ts';
 import { drawLabel } from '../../scene/labels.ts';
 import { Picture } from '../../scene/picture.ts';
 import { View, extentAround } from '../../scene/view.ts';
 import { clamp } from '../../ui/clamp.ts';
 import { fixed, significant } from '../../ui/format.ts';
-import { lineKey } from '../shared/line-key.ts';
 import { drawHeldRobot, drawRobotOutline } from '../shared/robot.ts';
 import { LINES } from './settings.ts';
 import { CONTOURS, SurfaceLayer } from './surface.ts';
 import type { ArcAnatomy, Bend, Pose } from '../../types.d.ts';
-import type { Brush } from '../../scene/canvas.ts';
+import { addLine, drawDisc, stroke, strokeLine, type Brush } from '../../scene/canvas.ts';
 import type { LineName } from './settings.ts';
 import type { Reading } from './reading.ts';
 
@@ -90,7 +89,7 @@ export class ArcPicture extends Picture<Scene> {
           radius: `r* = ${printed ? fixed(Math.abs(inverted.radius), 2) : signedText(inverted.radius)} m`,
         });
       }
-      if (shows('chord')) drawChord(brush, start, next, styles.chord);
+      if (shows('chord')) strokeLines(brush, [{ points: Float64Array.of(start.x, start.y, next.x, next.y), ...styles.chord }]);
       if (shows('wedge')) drawWedge(brush, next, lastTurn, styles.wedge.colour);
       if (shows('twist')) drawTwist(brush, paths.ticks, styles.twist.colour);
       drawOutlines(brush, [
@@ -128,17 +127,6 @@ function keyOf(brush: Brush, { overlays, config: { map } }: Scene) {
   ];
 }
 
-/** @param width CSS pixels */
-function stroke(context: Brush['context'], colour: string, width: number, dash: number[], path: () => void) {
-  context.strokeStyle = colour;
-  context.lineWidth = width;
-  context.setLineDash(dash);
-  context.beginPath();
-  path();
-  context.stroke();
-  context.setLineDash([]);
-}
-
 /**
  * Draws the centre of an arc, both radii and the turn between them. `side` is that to which the first radius makes room for another on the
  * same line.
@@ -152,22 +140,18 @@ function drawCircle(brush: Brush, start: Pose, { center, end, turn, arcLength }:
   const ahead = view.direction(start.theta);
   const [offX, offY] = [1.5 * side * ahead.x, 1.5 * side * ahead.y];
   const seen = shareSeen(view.frame, [fromX, fromY], [x, y]);
-  stroke(context, colour, 1.25, dash, () => {
-    context.moveTo(fromX + offX, fromY + offY);
-    context.lineTo(x + offX, y + offY);
-    context.moveTo(x, y);
-    context.lineTo(toX, toY);
+  stroke(context, { colour, width: 1.25, dash }, () => {
+    addLine(context, [[fromX + offX, fromY + offY], [x + offX, y + offY]]);
+    addLine(context, [[x, y], [toX, toY]]);
   });
-  stroke(context, colour, 2, [], () => {
-    context.moveTo(x - CROSS, y);
-    context.lineTo(x + CROSS, y);
-    context.moveTo(x, y - CROSS);
-    context.lineTo(x, y + CROSS);
+  stroke(context, { colour, width: 2 }, () => {
+    addLine(context, [[x - CROSS, y], [x + CROSS, y]]);
+    addLine(context, [[x, y - CROSS], [x, y + CROSS]]);
   });
   const first = Math.atan2(fromY - y, fromX - x);
   const radius = Math.min(ANGLE, 0.4 * Math.hypot(fromX - x, fromY - y));
   // Pixels count downwards: to the left is backwards.
-  stroke(context, colour, 1.5, [], () => context.arc(x, y, radius, first, first - turn, turn > 0));
+  stroke(context, { colour, width: 1.5 }, () => context.arc(x, y, radius, first, first - turn, turn > 0));
   // Behind the robot, where nothing of the arc is; along it where it is so flat that a picture ends behind the robot.
   const beside = Math.sign(arcLength) * (seen === 1 ? -1 : 1);
   const tell = (text: string, share: number) => {
@@ -187,11 +171,8 @@ function drawCircle(brush: Brush, start: Pose, { center, end, turn, arcLength }:
 
 /** @param way that it points, rad, downwards from the right */
 function drawArrow(context: Brush['context'], colour: string, [x, y]: number[], way: number) {
-  stroke(context, colour, 2.25, [], () => {
-    for (const wing of [2.6, -2.6]) {
-      context.moveTo(x + ARROW * Math.cos(way + wing), y + ARROW * Math.sin(way + wing));
-      context.lineTo(x, y);
-    }
+  stroke(context, { colour, width: 2.25 }, () => {
+    for (const wing of [2.6, -2.6]) addLine(context, [[x + ARROW * Math.cos(way + wing), y + ARROW * Math.sin(way + wing)], [x, y]]);
   });
 }
 
@@ -200,13 +181,6 @@ function shareSeen({ left, right, top, bottom }: import('../../scene/view.ts').V
   const along = (start: number, end: number, least: number, most: number) =>
     end >= least && end <= most ? 1 : (clamp(end, least, most) - start) / (end - start);
   return Math.min(along(fromX, x, left, right), along(fromY, y, top, bottom));
-}
-
-function drawChord({ context, view }: Brush, start: Pose, next: Pose, { colour, width, dash }: { colour: string, width: number, dash: number[] }) {
-  stroke(context, colour, width, dash, () => {
-    context.moveTo(view.toPixelX(start.x), view.toPixelY(start.y));
-    context.lineTo(view.toPixelX(next.x), view.toPixelY(next.y));
-  });
 }
 
 /** Draws the last turn in radians, by which the final heading differs from that of the arc. */
@@ -222,10 +196,7 @@ function drawWedge({ context, view }: Brush, next: Pose, turn: number, colour: s
   context.globalAlpha = 1;
   // The heading at the end of the arc.
   const before = view.direction(next.theta - turn);
-  stroke(context, colour, 1.25, [], () => {
-    context.moveTo(x, y);
-    context.lineTo(x + WEDGE * before.x, y + WEDGE * before.y);
-  });
+  strokeLine(context, [[x, y], [x + WEDGE * before.x, y + WEDGE * before.y]], { colour, width: 1.25 });
 }
 
 /** Returns the place of the wedge's label, CSS pixels. */
@@ -236,10 +207,8 @@ function besideWedge({ view }: Brush, next: Pose, turn: number): { x: number, y:
 
 function drawHeading({ context, view }: Brush, { x, y, theta }: Pose, colour: string) {
   const ahead = view.direction(theta);
-  stroke(context, colour, 1.5, [], () => {
-    context.moveTo(view.toPixelX(x), view.toPixelY(y));
-    context.lineTo(view.toPixelX(x) + 24 * ahead.x, view.toPixelY(y) + 24 * ahead.y);
-  });
+  const [px, py] = [view.toPixelX(x), view.toPixelY(y)];
+  strokeLine(context, [[px, py], [px + 24 * ahead.x, py + 24 * ahead.y]], { colour, width: 1.5 });
 }
 
 /** Draws the robot at one time on each path that is shown. */
@@ -253,46 +222,35 @@ function drawUnderway(brush: Brush, { underway, overlays }: Scene) {
 }
 
 /** The way sideways of the constant twist. */
-function drawTwist({ context, view }: Brush, ticks: Float64Array, colour: string) {
-  stroke(context, colour, 1.25, [], () => {
-    for (let i = 0; i < ticks.length; i += 4) {
-      context.moveTo(view.toPixelX(ticks[i]), view.toPixelY(ticks[i + 1]));
-      context.lineTo(view.toPixelX(ticks[i + 2]), view.toPixelY(ticks[i + 3]));
-    }
+function drawTwist(brush: Brush, ticks: Float64Array, colour: string) {
+  stroke(brush.context, { colour, width: 1.25 }, () => {
+    for (let i = 0; i < ticks.length; i += 4) trace(brush, ticks.subarray(i, i + 4));
   });
 }
 
 /** Draws the construction of the lit line of the table. */
-function drawLit(brush: Brush, { config: { start, next }, stats: { inverted, lastTurn }, table: { middle }, paths, line }: Scene) {
-  const lit = LIT[line] ?? [];
+function drawLit(brush: Brush, { config: { start, next }, stats: { inverted, lastTurn }, table: { middle }, paths, line: number }: Scene) {
+  const lit = LIT[number] ?? [];
   const { context, view, palette: { accent } } = brush;
-  const at = ([x, y]: number[]) => [view.toPixelX(x), view.toPixelY(y)] as [number, number];
+  const at = ([x, y]: number[]) => [view.toPixelX(x), view.toPixelY(y)];
+  const line = (width: number, ...points: number[][]) => strokeLine(context, points, { colour: accent, width });
   const from = at([start.x, start.y]);
   const to = at([next.x, next.y]);
-  const lineTo = (one: [number, number], other: [number, number]) => {
-    context.moveTo(...one);
-    context.lineTo(...other);
-  };
   if (lit.includes('arc')) drawOutlines(brush, [{ points: paths.driven, colour: accent, width: 5, dash: [] }]);
   if (lit.includes('wedge')) drawWedge(brush, next, lastTurn, accent);
   if (!inverted.center) return;
   const centre = at(inverted.center);
   if (lit.includes('bisector')) {
-    stroke(context, accent, 2.5, [6, 4], () => lineTo(at(middle), centre));
-    stroke(context, accent, 2.5, [], () => lineTo(from, centre));
-    stroke(context, accent, 2.5, [], () => lineTo(from, to));
+    strokeLine(context, [at(middle), centre], { colour: accent, width: 2.5, dash: [6, 4] });
+    line(2.5, from, centre);
+    line(2.5, from, to);
   }
-  if (lit.includes('radius')) stroke(context, accent, 3, [], () => (lineTo(from, centre), lineTo(centre, to)));
-  if (lit.includes('centre')) {
-    stroke(context, accent, 3, [], () => {
-      context.moveTo(centre[0] + 8, centre[1]);
-      context.arc(...centre, 8, 0, 2 * Math.PI);
-    });
-  }
+  if (lit.includes('radius')) line(3, from, centre, to);
+  if (lit.includes('centre')) drawDisc(context, centre, 8, undefined, { colour: accent, width: 3 });
   if (lit.includes('angle')) {
     const first = Math.atan2(from[1] - centre[1], from[0] - centre[0]);
     const radius = Math.min(ANGLE, 0.4 * Math.hypot(from[0] - centre[0], from[1] - centre[1]));
-    stroke(context, accent, 4, [], () => context.arc(...centre, radius, first, first - inverted.turn, inverted.turn > 0));
+    stroke(context, { colour: accent, width: 4 }, () => context.arc(centre[0], centre[1], radius, first, first - inverted.turn, inverted.turn > 0));
   }
 }
 

@@ -4,7 +4,7 @@ import { densityRamp, trace } from '../../scene/draw.ts';
 import { Memo } from '../../scene/memo.ts';
 import { Pixels } from '../../scene/pixels.ts';
 import type { AnatomySurface, ArcAnatomy } from '../../types.d.ts';
-import type { Brush } from '../../scene/canvas.ts';
+import { stroke, type Brush } from '../../scene/canvas.ts';
 import type { Palette } from '../../ui/theme.ts';
 
 /** Dashes of the contours, CSS pixels: the same whichever of the two is the image. */
@@ -29,14 +29,10 @@ export class SurfaceLayer {
 
   #contour(brush: Brush, lines: Float64Array[], dash: number[]) {
     const { context, palette } = brush;
-    context.strokeStyle = palette.ink;
-    context.lineWidth = 1;
     context.globalAlpha = 0.7;
-    context.setLineDash(dash);
-    context.beginPath();
-    for (const line of lines) trace(brush, line);
-    context.stroke();
-    context.setLineDash([]);
+    stroke(context, { colour: palette.ink, width: 1, dash }, () => {
+      for (const line of lines) trace(brush, line);
+    });
     context.globalAlpha = 1;
   }
 }

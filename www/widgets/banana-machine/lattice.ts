@@ -2,7 +2,7 @@
 
 import { ticks } from 'd3-array';
 import { placeOf } from './morph.ts';
-import type { Brush } from '../../scene/canvas.ts';
+import { addLine, stroke, type Brush } from '../../scene/canvas.ts';
 import type { View } from '../../scene/view.ts';
 
 /** Lines of either kind, about; chords of a line. */
@@ -11,21 +11,16 @@ const CHORDS = 32;
 
 /** Draws the grid of exponential coordinates at a morph. `end` is the view at the end of the morph. */
 export function drawLattice({ context, view, palette }: Brush, { extent: { xMin, xMax, yMin, yMax } }: View, morph: number) {
-  context.strokeStyle = palette.rule;
-  context.lineWidth = 1;
   // It comes soon, and goes where the straight one of the axes is.
   context.globalAlpha = 0.7 * Math.min(1, 5 * morph);
-  const line = (at: (share: number) => [along: number, heading: number]) => {
-    for (let i = 0; i <= CHORDS; i++) {
-      const [along, heading] = at(i / CHORDS);
-      const [x, y] = placeOf([along, 0, heading], morph);
-      if (i === 0) context.moveTo(view.toPixelX(x), view.toPixelY(y));
-      else context.lineTo(view.toPixelX(x), view.toPixelY(y));
-    }
-  };
-  context.beginPath();
-  for (const along of ticks(xMin, xMax, LINES)) line((share) => [along, yMin + share * (yMax - yMin)]);
-  for (const heading of ticks(yMin, yMax, LINES)) line((share) => [xMin + share * (xMax - xMin), heading]);
-  context.stroke();
+  const line = (at: (share: number) => [along: number, heading: number]) => addLine(context, Array.from({ length: CHORDS + 1 }, (_, i) => {
+    const [along, heading] = at(i / CHORDS);
+    const [x, y] = placeOf([along, 0, heading], morph);
+    return [view.toPixelX(x), view.toPixelY(y)];
+  }));
+  stroke(context, { colour: palette.rule, width: 1 }, () => {
+    for (const along of ticks(xMin, xMax, LINES)) line((share) => [along, yMin + share * (yMax - yMin)]);
+    for (const heading of ticks(yMin, yMax, LINES)) line((share) => [xMin + share * (xMax - xMin), heading]);
+  });
   context.globalAlpha = 1;
 }

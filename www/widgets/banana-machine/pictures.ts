@@ -1,7 +1,7 @@
 /** The Banana Machine's two pictures of the same robots: the floor from above, and exponential coordinates. */
 
 import { words } from '../../messages/registry.ts';
-import { clipped, drawAxes } from '../../scene/axes.ts';
+import { clipped, drawAxes, lineKey } from '../../scene/axes.ts';
 import { drawCallouts } from '../../scene/callout.ts';
 import {
   densityRamp,
@@ -23,14 +23,13 @@ import { Density } from '../../scene/pixels.ts';
 import { View, extentOf } from '../../scene/view.ts';
 import { clamp } from '../../ui/clamp.ts';
 import { counted } from '../../ui/format.ts';
-import { lineKey } from '../shared/line-key.ts';
 import { drawLattice } from './lattice.ts';
 import { MorphView, placeOf } from './morph.ts';
 import { deviation } from './reading.ts';
 import { LINES } from './settings.ts';
 import type { BananaMachine, Inspection, Moments } from '../../types.d.ts';
 import type { Callout } from '../../scene/callout.ts';
-import type { Brush } from '../../scene/canvas.ts';
+import { addLine, drawDisc, stroke, type Brush } from '../../scene/canvas.ts';
 import type { Outlines } from './morph.ts';
 import type { Reading } from './reading.ts';
 import type { LineName } from './settings.ts';
@@ -248,21 +247,18 @@ function drawReading(brush: Brush, { rot1, trans, rot2 }: import('../../types.d.
   const { context, view, palette } = brush;
   const [fromX, fromY, toX, toY] = [view.toPixelX(0), view.toPixelY(0), view.toPixelX(x), view.toPixelY(y)];
   const ahead = view.direction(rot1);
-  context.lineWidth = 1.5;
-  context.strokeStyle = palette.prior;
-  context.beginPath();
-  // Straight ahead from the start, the drive, and on from its end.
-  context.moveTo(fromX + TURN_LINE, fromY);
-  context.lineTo(fromX, fromY);
-  context.lineTo(toX, toY);
-  context.lineTo(toX + TURN_LINE * ahead.x, toY + TURN_LINE * ahead.y);
-  context.moveTo(toX, toY);
   const last = view.direction(rot1 + rot2);
-  context.lineTo(toX + TURN_LINE * last.x, toY + TURN_LINE * last.y);
-  context.stroke();
-  turn(context, fromX, fromY, 0, rot1);
-  turn(context, toX, toY, rot1, rot2);
   const colour = palette.prior;
+  const style = { colour, width: 1.5 };
+  stroke(context, style, () => {
+    // Straight ahead from the start, the drive, and on from its end.
+    addLine(context, [[fromX + TURN_LINE, fromY], [fromX, fromY], [toX, toY], [toX + TURN_LINE * ahead.x, toY + TURN_LINE * ahead.y]]);
+    addLine(context, [[toX, toY], [toX + TURN_LINE * last.x, toY + TURN_LINE * last.y]]);
+  });
+  // On the screen y runs down.
+  const turn = (x: number, y: number, from: number, by: number) => stroke(context, style, () => context.arc(x, y, TURN_RADIUS, -from, -from - by, by > 0));
+  turn(fromX, fromY, 0, rot1);
+  turn(toX, toY, rot1, rot2);
   const turned = (sub: string, atX: number, atY: number, heading: number) => {
     const out = view.direction(heading);
     drawLabel(brush, { x: atX + (TURN_LINE + 6) * out.x, y: atY + (TURN_LINE + 6) * out.y, towards: out.x < 0 ? -1 : 1, symbol: 'δ', sub, colour });
@@ -273,14 +269,6 @@ function drawReading(brush: Brush, { rot1, trans, rot2 }: import('../../types.d.
     const [atX, atY] = [(fromX + toX) / 2 + 10 * ahead.y, (fromY + toY) / 2 - 10 * ahead.x + 6];
     drawLabel(brush, { x: atX, y: atY, towards: 1, symbol: 'δ', sub: 'trans', colour });
   }
-}
-
-/** Draws a turn at a point in CSS pixels, from a heading by an angle in radians, positive to the left. */
-function turn(context: Brush['context'], x: number, y: number, from: number, by: number) {
-  context.beginPath();
-  // On the screen y runs down.
-  context.arc(x, y, TURN_RADIUS, -from, -from - by, by > 0);
-  context.stroke();
 }
 
 /** Robots that are all in one place. */
@@ -353,13 +341,7 @@ export class TwistPicture extends CloudPicture {
       }
       if (overlays.command) {
         const { v, omega, dt } = config.command;
-        context.beginPath();
-        context.arc(view.toPixelX(v * dt), view.toPixelY(omega * dt), 5, 0, 2 * Math.PI);
-        context.fillStyle = palette.paper;
-        context.fill();
-        context.strokeStyle = command.colour;
-        context.lineWidth = command.width;
-        context.stroke();
+        drawDisc(context, [view.toPixelX(v * dt), view.toPixelY(omega * dt)], 5, palette.paper, { ...command, dash: [] });
       }
       if (marked) drawMark(brush, { x: marked.twist[0], y: marked.twist[2], heading: null });
     });

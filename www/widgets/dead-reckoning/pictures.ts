@@ -1,16 +1,15 @@
 /** Dead Reckoning's two pictures: the floor with the path, and the step that is looked at in exponential coordinates. */
 
 import { words } from '../../messages/registry.ts';
-import { clipped, drawAxes } from '../../scene/axes.ts';
+import { clipped, drawAxes, lineKey } from '../../scene/axes.ts';
 import { drawCallouts } from '../../scene/callout.ts';
-import { drawDots, drawGhosts, drawMark, drawOutlines, drawRobot, lineStyles, trace } from '../../scene/draw.ts';
+import { drawDots, drawGhosts, drawMark, drawOutlines, drawRobot, lineStyles, strokeLines } from '../../scene/draw.ts';
 import { Picture, SamplesPicture } from '../../scene/picture.ts';
 import { View, extentAround, extentOf } from '../../scene/view.ts';
 import { significant } from '../../ui/format.ts';
-import { lineKey } from '../shared/line-key.ts';
 import { OUTLINES } from './settings.ts';
 import type { Callout } from '../../scene/callout.ts';
-import type { Brush } from '../../scene/canvas.ts';
+import { drawDisc, type Brush } from '../../scene/canvas.ts';
 
 /** Scene of both pictures, with the poses of the marked robot after each step. */
 export type Scene = import('./reading.ts').Reading & { marked: Float64Array | undefined, overlays: string[] };
@@ -42,7 +41,7 @@ export class PathPicture extends SamplesPicture<Scene> {
   }
 
   paint: Picture<Scene>['paint'] = (brush, { commanded, outlines, milestones, poses, pose, marked, overlays, config: { step } }) => {
-    const { context, palette } = brush;
+    const { palette } = brush;
     const styles = lineStyles(brush, OUTLINES);
     const drawn = (names: OutlineName[]) => names.filter((name) => overlays.includes(name));
     const predictions = drawn(['ellipse', 'exponential']) as ('ellipse' | 'exponential')[];
@@ -61,13 +60,7 @@ export class PathPicture extends SamplesPicture<Scene> {
       drawRobot(brush, { x: 0, y: 0, heading: 0, colour: palette.truth });
       drawPlace(brush, pose);
       if (!marked) return;
-      context.strokeStyle = palette.accent;
-      context.lineWidth = 1.25;
-      context.setLineDash([6, 2]);
-      context.beginPath();
-      trace(brush, Float64Array.from([0, 0, ...marked.filter((_, i) => i % 3 < 2)]));
-      context.stroke();
-      context.setLineDash([]);
+      strokeLines(brush, [{ points: Float64Array.from([0, 0, ...marked.filter((_, i) => i % 3 < 2)]), colour: palette.accent, width: 1.25, dash: [6, 2] }]);
       const [x, y, heading] = marked.subarray(3 * (step - 1));
       drawMark(brush, { x, y, heading });
     });
@@ -80,13 +73,7 @@ const PLACE = 4;
 
 /** Marks the end of the command after the step: small, so that the cloud is seen around it. */
 function drawPlace({ context, view, palette }: Brush, [x, y]: Float64Array) {
-  context.beginPath();
-  context.arc(view.toPixelX(x), view.toPixelY(y), PLACE, 0, 2 * Math.PI);
-  context.fillStyle = palette.prior;
-  context.strokeStyle = palette.paper;
-  context.lineWidth = 1.5;
-  context.fill();
-  context.stroke();
+  drawDisc(context, [view.toPixelX(x), view.toPixelY(y)], PLACE, palette.prior, { colour: palette.paper, width: 1.5 });
 }
 
 /** Robots where they were at another step. */

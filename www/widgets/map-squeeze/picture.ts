@@ -2,7 +2,7 @@
 
 import { words } from '../../messages/registry.ts';
 import { clipped, drawAxes } from '../../scene/axes.ts';
-import { densityRamp, drawMark, drawOutline, lineStyles, trace } from '../../scene/draw.ts';
+import { densityRamp, drawMark, drawOutline, lineStyles, strokeLines } from '../../scene/draw.ts';
 import { Density } from '../../scene/pixels.ts';
 import { drawLabel, drawLeader } from '../../scene/labels.ts';
 import { SamplesPicture } from '../../scene/picture.ts';
@@ -13,7 +13,7 @@ import { clamp } from '../../ui/clamp.ts';
 import { drawHeldRobot, drawRobotOutline } from '../shared/robot.ts';
 import { LINES } from './settings.ts';
 import type { MapSqueeze, Plan } from '../../types.d.ts';
-import type { Brush } from '../../scene/canvas.ts';
+import { addLine, stroke, type Brush } from '../../scene/canvas.ts';
 import type { Cells } from '../../scene/walls.ts';
 import type { Reading } from './reading.ts';
 
@@ -224,32 +224,22 @@ function keyOf({ context, palette }: Brush, { overlays, sorted }: Scene): import
 
 /** @param x CSS pixels */
 function cross(context: Brush['context'], x: number, y: number) {
-  context.moveTo(x - CROSS, y - CROSS);
-  context.lineTo(x + CROSS, y + CROSS);
-  context.moveTo(x - CROSS, y + CROSS);
-  context.lineTo(x + CROSS, y - CROSS);
+  addLine(context, [[x - CROSS, y - CROSS], [x + CROSS, y + CROSS]]);
+  addLine(context, [[x - CROSS, y + CROSS], [x + CROSS, y - CROSS]]);
 }
 
 function drawCrosses({ context, view }: Brush, triples: Float64Array, colour: string) {
-  context.beginPath();
-  for (let i = 0; i < triples.length; i += 3) cross(context, view.toPixelX(triples[i]), view.toPixelY(triples[i + 1]));
-  context.strokeStyle = colour;
-  context.lineWidth = 1;
   context.globalAlpha = 0.5;
-  context.stroke();
+  stroke(context, { colour, width: 1 }, () => {
+    for (let i = 0; i < triples.length; i += 3) cross(context, view.toPixelX(triples[i]), view.toPixelY(triples[i + 1]));
+  });
   context.globalAlpha = 1;
 }
 
 function drawPaths(brush: Brush, paths: Float64Array[], colour: string) {
   const { context } = brush;
-  context.strokeStyle = colour;
-  context.lineWidth = 1;
   context.globalAlpha = 0.3;
-  for (const path of paths) {
-    context.beginPath();
-    trace(brush, path);
-    context.stroke();
-  }
+  strokeLines(brush, paths.map((points) => ({ points, colour, width: 1 })));
   context.globalAlpha = 1;
 }
 

@@ -1,7 +1,7 @@
 /** Marks of both pictures: turns as arcs with an arrow, and fans of uncertainty. */
 
 import type { Pose } from '../../types.d.ts';
-import type { Brush } from '../../scene/canvas.ts';
+import { addLine, stroke, strokeLine, type Brush } from '../../scene/canvas.ts';
 
 /** Half the width and the length of an arrow's head, pixels. */
 const HEAD = { half: 4, length: 9 };
@@ -18,20 +18,11 @@ export function arcOf({ view }: Pick<Brush, 'view'>, { x, y, theta }: Pose, turn
   });
 }
 
-/** @param points pixels */
-function path(context: Brush['context'], points: number[][]) {
-  context.beginPath();
-  points.forEach(([x, y], i) => (i ? context.lineTo(x, y) : context.moveTo(x, y)));
-}
-
 /** Draws a turn in radians from a pose's heading, as an arc with an arrow, with a radius in pixels. */
 export function drawTurn(brush: Brush, from: Pose, turn: number, radius: number, colour: string) {
   const { context, view } = brush;
   const points = arcOf(brush, from, turn, radius);
-  context.strokeStyle = context.fillStyle = colour;
-  context.lineWidth = 1.75;
-  path(context, points);
-  context.stroke();
+  strokeLine(context, points, { colour, width: 1.75 });
   // A small turn has no room for a whole head.
   const length = Math.min(HEAD.length, radius * Math.abs(turn));
   const tip = points[points.length - 1];
@@ -41,7 +32,9 @@ export function drawTurn(brush: Brush, from: Pose, turn: number, radius: number,
     const reach = radius + side * share * HEAD.half;
     return [view.toPixelX(from.x) + reach * back.x, view.toPixelY(from.y) + reach * back.y];
   };
-  path(context, [tip, foot(1), foot(-1)]);
+  context.fillStyle = colour;
+  context.beginPath();
+  addLine(context, [tip, foot(1), foot(-1)]);
   context.fill();
 }
 
@@ -51,16 +44,17 @@ export function drawFan(brush: Brush, middle: Pose, deviation: number, radius: n
   if (half === 0) return;
   const { context, view } = brush;
   const rim = arcOf(brush, { ...middle, theta: middle.theta - half }, 2 * half, radius);
-  path(context, [[view.toPixelX(middle.x), view.toPixelY(middle.y)], ...rim]);
-  context.closePath();
-  context.fillStyle = context.strokeStyle = colour;
+  const fan = () => {
+    addLine(context, [[view.toPixelX(middle.x), view.toPixelY(middle.y)], ...rim]);
+    context.closePath();
+  };
+  context.fillStyle = colour;
   context.globalAlpha = 0.14;
+  context.beginPath();
+  fan();
   context.fill();
   context.globalAlpha = 0.75;
-  context.lineWidth = 1;
-  context.setLineDash([5, 3]);
-  context.stroke();
-  context.setLineDash([]);
+  stroke(context, { colour, width: 1, dash: [5, 3] }, fan);
   context.globalAlpha = 1;
 }
 
@@ -70,15 +64,11 @@ export function drawBar({ context, view }: Brush, { x, y, theta }: Pose, deviati
   const ahead = view.direction(theta);
   const reach = deviation * view.scaleX;
   const [px, py] = [view.toPixelX(x), view.toPixelY(y)];
-  context.beginPath();
-  for (const side of [-reach, reach]) {
-    const [endX, endY] = [px + side * ahead.x, py + side * ahead.y];
-    context.moveTo(px, py);
-    context.lineTo(endX, endY);
-    context.moveTo(endX - HEAD.half * ahead.y, endY + HEAD.half * ahead.x);
-    context.lineTo(endX + HEAD.half * ahead.y, endY - HEAD.half * ahead.x);
-  }
-  context.strokeStyle = colour;
-  context.lineWidth = 1.75;
-  context.stroke();
+  stroke(context, { colour, width: 1.75 }, () => {
+    for (const side of [-reach, reach]) {
+      const [endX, endY] = [px + side * ahead.x, py + side * ahead.y];
+      addLine(context, [[px, py], [endX, endY]]);
+      addLine(context, [[endX - HEAD.half * ahead.y, endY + HEAD.half * ahead.x], [endX + HEAD.half * ahead.y, endY - HEAD.half * ahead.x]]);
+    }
+  });
 }

@@ -1,19 +1,18 @@
 /** The Odometry Decomposer's two pictures: the three legs in the frame of the odometry, and the same in the world. */
 
 import { words } from '../../messages/registry.ts';
-import { clipped, drawAxes } from '../../scene/axes.ts';
-import { drawDots, drawMark, lineStyles } from '../../scene/draw.ts';
+import { clipped, drawAxes, lineKey } from '../../scene/axes.ts';
+import { drawDots, drawMark, lineStyles, strokeLines } from '../../scene/draw.ts';
 import { LABELS_ABOVE, drawLabelsAbove } from '../../scene/labels.ts';
 import { SamplesPicture } from '../../scene/picture.ts';
 import { View, extentOf } from '../../scene/view.ts';
 import { fixed } from '../../ui/format.ts';
-import { lineKey } from '../shared/line-key.ts';
 import { drawHeldRobot, drawRobotOutline, turnDistance } from '../shared/robot.ts';
 import { arcOf, drawBar, drawFan, drawTurn } from './marks.ts';
 import { poseIn } from './reading.ts';
 import { LINES } from './settings.ts';
 import type { Pose } from '../../types.d.ts';
-import type { Brush } from '../../scene/canvas.ts';
+import { addLine, drawDisc, stroke, strokeLine, type Brush, type LineStroke } from '../../scene/canvas.ts';
 
 export type LineName = keyof typeof LINES;
 
@@ -171,16 +170,11 @@ export class LegsPicture extends OutcomesPicture {
 
   /** The linkages of some outcomes. */
   #paintGhosts({ context, view, palette }: Brush, { ghosts }: Scene) {
-    context.strokeStyle = palette.cloud;
-    context.lineWidth = 1;
+    const point = (index: number) => [view.toPixelX(ghosts[3 * index]), view.toPixelY(ghosts[3 * index + 1])];
     context.globalAlpha = 0.5;
-    context.beginPath();
-    for (let i = 0; i < ghosts.length / 3; i++) {
-      const { x, y } = poseIn(ghosts, i);
-      if (i % 4 === 0) context.moveTo(view.toPixelX(x), view.toPixelY(y));
-      else context.lineTo(view.toPixelX(x), view.toPixelY(y));
-    }
-    context.stroke();
+    stroke(context, { colour: palette.cloud, width: 1 }, () => {
+      for (let i = 0; i < ghosts.length / 3; i += 4) addLine(context, [0, 1, 2, 3].map((k) => point(i + k)));
+    });
     context.globalAlpha = 1;
   }
 
@@ -189,17 +183,9 @@ export class LegsPicture extends OutcomesPicture {
     const { context, view, palette } = brush;
     const ahead = view.direction(theta);
     const [px, py, size] = [view.toPixelX(x), view.toPixelY(y), Math.max(7, 0.7 * RADIUS * view.scaleX)];
-    context.fillStyle = palette.accent;
-    context.strokeStyle = palette.paper;
-    context.lineWidth = 2;
-    context.beginPath();
-    context.arc(px, py, size, 0, 2 * Math.PI);
-    context.fill();
-    context.stroke();
-    context.beginPath();
-    context.moveTo(px, py);
-    context.lineTo(px + size * ahead.x, py + size * ahead.y);
-    context.stroke();
+    const edge = { colour: palette.paper, width: 2 };
+    drawDisc(context, [px, py], size, palette.accent, edge);
+    strokeLine(context, [[px, py], [px + size * ahead.x, py + size * ahead.y]], edge);
   }
 }
 
@@ -246,15 +232,8 @@ export class WorldPicture extends OutcomesPicture {
   /** The axes of the frame that the odometry is told in. */
   #paintFrame({ context, view, palette }: Brush, { x, y, theta }: Pose) {
     const [px, py, reach] = [view.toPixelX(x), view.toPixelY(y), AXIS * view.scaleX];
-    context.strokeStyle = palette.prior;
-    context.lineWidth = 1.25;
-    context.beginPath();
-    for (const turn of [0, Math.PI / 2]) {
-      const ahead = view.direction(theta + turn);
-      context.moveTo(px, py);
-      context.lineTo(px + reach * ahead.x, py + reach * ahead.y);
-    }
-    context.stroke();
+    const ends = [theta + Math.PI / 2, theta].map((heading) => view.direction(heading)).map((ahead) => [px + reach * ahead.x, py + reach * ahead.y]);
+    strokeLine(context, [ends[0], [px, py], ends[1]], { colour: palette.prior, width: 1.25 });
   }
 
   #paintOdometry(brush: Brush, { x, y, theta }: Pose) {
@@ -262,10 +241,7 @@ export class WorldPicture extends OutcomesPicture {
     drawRobotOutline(brush, x, y, RADIUS, palette.prior);
     const ahead = view.direction(theta);
     const [px, py, reach] = [view.toPixelX(x), view.toPixelY(y), RADIUS * view.scaleX + 8];
-    context.beginPath();
-    context.moveTo(px, py);
-    context.lineTo(px + reach * ahead.x, py + reach * ahead.y);
-    context.stroke();
+    strokeLine(context, [[px, py], [px + reach * ahead.x, py + reach * ahead.y]], { colour: palette.prior, width: 1.5 });
   }
 
   /** Returns the labels of the poses before and after; the former where these are two places. */
@@ -281,13 +257,4 @@ export class WorldPicture extends OutcomesPicture {
   }
 }
 
-function drawSegment({ context, view }: Brush, from: Pose, to: Pose, { colour, width, dash }: { colour: string, width: number, dash: number[] }) {
-  context.strokeStyle = colour;
-  context.lineWidth = width;
-  context.setLineDash(dash);
-  context.beginPath();
-  context.moveTo(view.toPixelX(from.x), view.toPixelY(from.y));
-  context.lineTo(view.toPixelX(to.x), view.toPixelY(to.y));
-  context.stroke();
-  context.setLineDash([]);
-}
+const drawSegment = (brush: Brush, from: Pose, to: Pose, style: LineStroke) => strokeLines(brush, [{ points: Float64Array.of(from.x, from.y, to.x, to.y), ...style }]);

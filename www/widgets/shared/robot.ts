@@ -2,7 +2,7 @@
 
 import { drawHandle } from '../../scene/draw.ts';
 import type { Pose } from '../../types.d.ts';
-import type { Brush } from '../../scene/canvas.ts';
+import { drawDisc, strokeLine, type Brush } from '../../scene/canvas.ts';
 import type { View } from '../../scene/view.ts';
 
 /** In a view of much it is drawn no smaller than this, CSS pixels. */
@@ -22,27 +22,15 @@ export function drawHeldRobot(brush: Brush, { x, y, theta }: Pose, radius: numbe
   const [atX, atY] = [view.toPixelX(x), view.toPixelY(y)];
   const ahead = view.direction(theta);
   const reach = turnDistance(view, radius);
-  context.strokeStyle = colour;
-  context.fillStyle = palette.paper;
-  context.lineWidth = 2.25;
-  context.beginPath();
-  context.arc(atX, atY, radiusOn(view, radius), 0, 2 * Math.PI);
-  context.fill();
-  context.moveTo(atX, atY);
-  context.lineTo(atX + reach * ahead.x, atY + reach * ahead.y);
-  context.stroke();
+  const edge = { colour, width: 2.25 };
+  drawDisc(context, [atX, atY], radiusOn(view, radius), palette.paper, edge);
+  strokeLine(context, [[atX, atY], [atX + reach * ahead.x, atY + reach * ahead.y]], edge);
   drawHandle(brush, { x: atX + reach * ahead.x, y: atY + reach * ahead.y, radius: TURN, colour });
 }
 
 /** Draws the dashed outline of a robot where a command would bring it; lengths in metres. */
 export function drawRobotOutline({ context, view }: Brush, x: number, y: number, radius: number, colour: string) {
-  context.strokeStyle = colour;
-  context.lineWidth = 1.5;
-  context.setLineDash([3, 3]);
-  context.beginPath();
-  context.arc(view.toPixelX(x), view.toPixelY(y), radiusOn(view, radius), 0, 2 * Math.PI);
-  context.stroke();
-  context.setLineDash([]);
+  drawDisc(context, [view.toPixelX(x), view.toPixelY(y)], radiusOn(view, radius), undefined, { colour, width: 1.5, dash: [3, 3] });
 }
 
 /** Returns the radius of a robot, metres, in CSS pixels. */

@@ -32,14 +32,14 @@ export let words: Messages;
 /** The present language as a BCP 47 tag, for numbers. */
 export let language = 'en';
 
-/** By what the page asks for */
+/** Words by the language that the page asks for. */
 const voices: Map<string, { words: Messages, language: string }> = new Map();
 shared.listeners.add(() => voices.clear());
 
 /** Adds the elements' own words in English, which say what messages there are. An empty catalogue stands for one that comes later. */
 export function addEnglish(messages: { [key: string]: Message }) {
   shared.english = merge(shared.english, messages);
-  // What a page gave before these came has not been checked.
+  // Messages that a page gave before these came have not been checked.
   for (const [lang, given] of Object.entries(shared.catalogues)) {
     for (const key of Object.keys(messages).filter((key) => Object.hasOwn(given, key))) {
       try {
@@ -72,7 +72,7 @@ export function setMessages(lang: string, messages: object) {
   tellAll();
 }
 
-/** @param known empty where it is not there yet: then anything is accepted */
+/** Throws a TypeError for messages that are not in the English catalogue. An empty catalogue has not come yet: then anything is accepted. */
 function check(known: any, given: any, path: string) {
   if (Object.keys(known).length === 0) return;
   for (const [key, message] of Object.entries(given)) {
@@ -124,7 +124,7 @@ function isTag(text: unknown) {
   }
 }
 
-/** @returns the nearest language, through shadow roots; lower case, empty where there is none */
+/** Returns the nearest language through shadow roots in lower case; empty where there is none. */
 function languageOf(element: Element): string {
   for (let at = element as Element | undefined; at; ) {
     const bearer = at.closest('[lang]') as Element | null;

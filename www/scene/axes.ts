@@ -1,4 +1,4 @@
-/** What surrounds a picture: axes with their ticks and names, a key, and the edge of what is inside. */
+/** Surroundings of a picture: axes with their ticks and names, a key, and the edge of the inside. */
 
 import { ticks } from 'd3-array';
 import { powerOfTen, tick } from '../ui/format.ts';
@@ -58,7 +58,7 @@ export function drawAxes(brush: Brush, names: { x: string, y: string }, key: Key
   drawKey(brush, yName, key);
 }
 
-/** @param before the name that it begins after */
+/** Draws a key after the name of an axis. */
 
 export interface KeyEntry {
   name: string;
@@ -96,14 +96,14 @@ function drawKey({ context, view, palette, font }: Brush, before: string, entrie
   }
 }
 
-/** @param count of ticks, about */
+/** Returns about so many ticks, with the factor of their unit and their labels. */
 function ticksOf(from: number, to: number, count: number) {
   const values = ticks(from, to, Math.max(2, Math.floor(count)));
   const step = values.length > 1 ? values[1] - values[0] : 1;
   const exponent = step < NEAREST_TICKS ? Math.floor(Math.log10(step) + 1e-9) : 0;
   return {
     values,
-    /** What stands before the unit of the axis. */
+    /** Factor before the unit of the axis. */
     unit: exponent < 0 ? `${powerOfTen(exponent)} ` : '',
     text: (value: number) => tick(value / 10 ** exponent, step / 10 ** exponent),
   };

@@ -8,7 +8,7 @@ export interface Surface {
   height: number;
   /** CSS pixels. */
   clientWidth: number;
-  /** Those of its style for an element. */
+  /** Font of the style, for an element. */
   letters: { fontFamily: string, fontSize: string };
   getContext: (kind: '2d') => CanvasRenderingContext2D | null;
 }

@@ -65,24 +65,24 @@ export class Handle {
   #hooks;
   /** The pointer that holds it, and its element. */
   #hold: { id: number, by: Element } | undefined;
-  /** From the pointer to what is held, metres: taken by its edge it does not jump. */
+  /** Vector from the pointer to the thing that is held, metres: taken by its edge it does not jump. */
   #grip = [0, 0];
-  /** Where its middle was placed, pixels of the view: on the screen it is rounded. */
+  /** Place of its middle in pixels of the view, which are rounded on the screen. */
   #middle = [0, 0];
 
-  /** @param part classes of its element */
+  /** Takes the classes of its element. */
   constructor(part: string, hooks: Hooks) {
     this.#part = part;
     this.#hooks = hooks;
   }
 
-  /** Whether a pointer holds it: a browser lets go of what leaves the page, and tells nobody. */
+  /** True while a pointer holds it: a browser releases an element that leaves the page without an event. */
   get held() {
     return this.#hold?.by.hasPointerCapture(this.#hold.id) ?? false;
   }
 
   element({ name, keys, title, range, now, text, stop, hint }: Said) {
-    // What stops it stands beside it, towards the middle of the picture.
+    // The text about its limit stands towards the middle of the picture.
     const side = 2 * this.#middle[0] > this.#hooks.view().width ? 'right' : '';
     return html`<div
       class="handle ${this.#part} ${side} ${this.held ? 'held' : ''}"

@@ -38,10 +38,10 @@ export class Picture<Scene, Name extends string = string> {
   /** Aims the view. */
   fit(_scene: Scene) {}
 
-  /** @returns true if the next frame has more to paint */
+  /** Paints the scene. Returns true if the next frame has more to paint. */
   paint(_brush: Brush, _scene: Scene): boolean | void {}
 
-  /** @returns whether the view is still moving, or there is more to paint */
+  /** Draws the scene. Returns true if the view is still moving, or there is more to paint. */
   draw(surface: HTMLCanvasElement | Surface, scene: Scene, palette: Palette, { elapsed = 0, still = false, atOnce = false, former, highlight, exported = false, handles = exported }: How = {}): boolean {
     const { view } = this;
     const brush = brushOn(surface, view, palette);

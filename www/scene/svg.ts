@@ -1,12 +1,12 @@
 /** Substitute for the context of a canvas that writes SVG. It has the methods that scene/draw.ts and the pictures use, and no others. */
 
-/** What XML has no way to write. */
+/** Characters that XML cannot have. */
 const UNWRITABLE = /[^\t\n\r\u0020-\ud7ff\ue000-\ufffd\u{10000}-\u{10ffff}]/gu;
 
 export const escaped = (text: string) =>
   text.replace(UNWRITABLE, '\ufffd').replaceAll('&', '&amp;').replaceAll('<', '&lt;').replaceAll('>', '&gt;').replaceAll('"', '&quot;');
 
-/** @param length CSS pixels: a hundredth of one is finer than any printer */
+/** Prints a length in CSS pixels to a hundredth, which is finer than any printer. */
 export const short = (length: number) => String(Math.round(100 * length) / 100);
 
 /** Moves a text down from where the canvas has its baseline, in its own height. */
@@ -36,17 +36,17 @@ export class SvgContext {
   #name;
   #ruler = new OffscreenCanvas(1, 1).getContext('2d') as OffscreenCanvasRenderingContext2D;
 
-  /** @param name that the ids begin with: several figures may stand on one page */
+  /** Takes the prefix of ids: several figures may stand on one page. */
   constructor(name: string) {
     this.#name = name;
   }
 
-  /** What was drawn, as elements of SVG. */
+  /** Drawing as elements of SVG. */
   get markup() {
     return this.#marks.join('\n');
   }
 
-  // What was cleared is not there, and the unit is the CSS pixel anyhow.
+  // There is nothing to clear, and the unit is the CSS pixel.
   setTransform() {}
   clearRect() {}
 
@@ -154,7 +154,7 @@ export class SvgContext {
     this.#marks.push(`<text ${place} style="font:${escaped(this.font)}"${paint}>${escaped(text)}</text>`);
   }
 
-  /** @param place x, y, width and height; before them those of the part of the image, where it is not all of it */
+  /** Draws an image at x, y, with width and height. Four numbers before them are a part of the image. */
   drawImage(image: CanvasImageSource & { width: number, height: number }, ...place: number[]) {
     const [x, y, width, height] = place.slice(-4).map(short);
     const [fromX, fromY, columns, rows] = place.length > 4 ? place : [0, 0, image.width, image.height];

@@ -33,7 +33,7 @@ export class View {
   widened = false;
   /** Limits that the extent is moved into, or around where it is larger. */
   within: Extent | undefined;
-  /** Whether a metre is as long in y as in x. */
+  /** True if a metre is as long in y as in x. */
   #equal;
   /** True for an extent of what is needed alone, without a margin. */
   #snug;
@@ -50,7 +50,7 @@ export class View {
     this.#inset = { left, right, top, bottom };
   }
 
-  /** @param width CSS pixels */
+  /** Sets the size in CSS pixels. */
   resize(width: number, height: number) {
     if (width === this.width && height === this.height) return;
     this.width = width;
@@ -178,7 +178,7 @@ function withMargin({ xMin, xMax, yMin, yMax }: Extent): Extent {
   return { xMin: xMin - x, xMax: xMax + x, yMin: yMin - y, yMax: yMax + y };
 }
 
-/** @returns the next size of the ladder */
+/** Returns the next size of the ladder. */
 function niceSize(size: number): number {
   const decade = 10 ** Math.floor(Math.log10(size));
   const step = LADDER.find((candidate) => candidate * decade >= size * (1 - 1e-9)) ?? 10;

@@ -31,13 +31,13 @@ export class WallLayer {
   /** View and colours that the layer was painted with. */
   #shown = '';
 
-  /** @param grid the cells that are drawn instead of the walls, if the map is a grid */
+  /** Takes a plan, and the cells that are drawn instead of its walls if the map is a grid. */
   constructor(plan: Plan, grid: Cells | null) {
     this.#plan = plan;
     this.#grid = grid;
   }
 
-  /** @param unknown whether unknown cells are hatched */
+  /** Draws the walls or cells; unknown cells are hatched if they are shown. */
   draw(brush: Brush, unknown: boolean) {
     const { context, view, palette, ratio } = brush;
     const { extent, frame, width, height } = view;

@@ -240,7 +240,7 @@ export function toggle({ label, checked, change }: { label: unknown, checked: bo
   </label>`;
 }
 
-/** @param state with a class */
+/** Returns a button, with a class as its name. */
 export function button(label: unknown, press: () => void, { pressed, disabled = false, title, name }: { pressed?: boolean, disabled?: boolean, title?: string, name?: string } = {}) {
   return html`<button
     type="button"

@@ -1,4 +1,4 @@
-/** What is folded away. */
+/** Disclosures, whose content is rendered while they are open. */
 
 import { html, noChange, nothing } from 'lit';
 import { Directive, directive } from 'lit/directive.js';

@@ -6,7 +6,7 @@ const MINUS = '\u2212';
 const THIN_SPACE = '\u202f';
 export const NOTHING = '\u2014';
 
-/** By language and options: to make one costs more than a frame can spare */
+/** Formatters by language and options: to make one takes longer than a frame. */
 const formats: Map<string, Intl.NumberFormat> = new Map();
 
 function print(value: number, options: Intl.NumberFormatOptions) {
@@ -20,7 +20,7 @@ function print(value: number, options: Intl.NumberFormatOptions) {
     .join('');
 }
 
-/** @returns "−0.301"; "0.000" rather than "−0.000"; "—" for NaN */
+/** Prints a number with decimals: "−0.301"; "0.000" rather than "−0.000"; "—" for NaN. */
 export function fixed(value: number, decimals: number): string {
   // Rounded here, as the number is in binary: ties of its shortest decimals are none.
   const digits = value.toFixed(decimals);
@@ -53,7 +53,7 @@ export function numberIn(text: string, unit: string = '', whole: boolean = false
   return bare === '' ? NaN : Number(ungrouped.replace(decimal, '.'));
 }
 
-/** @returns "1 000 000"; "1·10⁻⁶" */
+/** Prints a limit: "1 000 000"; "1·10⁻⁶". */
 export function limit(value: number): string {
   return Number.isInteger(value) ? counted(value) : significant(value, 1);
 }
@@ -88,7 +88,7 @@ export function rounded(value: number, digits: number): string {
   return decimals > 0 ? fixed(near, decimals) : counted(near);
 }
 
-/** @returns "100 000" */
+/** Prints a count: "100 000". */
 export function counted(count: number): string {
   if (language === 'en' && Math.abs(count) < 1e21) return fixed(count, 0).replace(/\B(?=(\d{3})+$)/g, THIN_SPACE);
   return print(count, { maximumFractionDigits: 0, useGrouping: true });

@@ -270,7 +270,7 @@ function line({ x, y }: Curve, toX: (value: number) => number, toY: (value: numb
   return path;
 }
 
-/** @param curve with a band */
+/** Returns the outline of a curve's band as a path. */
 function band({ x, y, error = [] }: Curve, toX: (value: number) => number, toY: (value: number) => number) {
   const there = Array.from(x, (_, i) => i).filter((i) => !Number.isNaN(toX(x[i]) + toY(y[i]) + toY(error[i])));
   const edge = (side: number) => there.map((i) => `${toX(x[i]).toFixed(2)},${toY(y[i] + side * error[i]).toFixed(2)}`);
@@ -278,7 +278,7 @@ function band({ x, y, error = [] }: Curve, toX: (value: number) => number, toY: 
   return outline.length > 0 ? `M${outline.join('L')}Z` : '';
 }
 
-/** @param row that its text stands in, so that neighbours do not touch */
+/** Returns a mark with its text in a row, so that neighbours do not touch. */
 function markOf({ x, y, text }: Mark, row: number, toX: (value: number) => number, toY: (value: number) => number) {
   if (x !== undefined) {
     const at = toX(x);

@@ -204,7 +204,7 @@ const finger = {
     if (across > SLOP && across > along) down = undefined;
   },
 
-  /** @returns whether it only tapped */
+  /** Ends a touch. Returns true if the finger only tapped. */
   goes(): boolean {
     const tapped = down !== undefined;
     down = undefined;
@@ -217,7 +217,7 @@ const finger = {
   },
 };
 
-/** What begins a number, typed where a slider has the focus. */
+/** First character of a number that is typed on a slider. */
 const BEGINS_A_NUMBER = /^[\d.,+\-\u2212]$/;
 
 /**
@@ -324,7 +324,7 @@ export function track({ id, name, min, max, step, value, text, describedBy, keyd
   />`;
 }
 
-/** What a field shows while nobody types in it: a picture that takes long is drawn after the reader has gone on. */
+/** Keeps the text of a field while the reader types: a picture that takes long is drawn after the reader has gone on. */
 const untilTyped = directive(
   class extends Directive {
     render(shown: string) {
@@ -344,9 +344,9 @@ const untilTyped = directive(
 
 /** The value of a slider as a field to type into. */
 function field({ id, keys, type, forget }: Pick<SliderRow, 'id' | 'keys' | 'type' | 'forget'>, shown: string) {
-  /** @returns whether what stands there is the value now */
+  /** Takes the typed text. Returns true if it is the value now. */
   const take = (input: HTMLInputElement): boolean => {
-    // By default it has what stood there when the reader came.
+    // The default is the text from when the reader came.
     if (input.value === input.defaultValue) return true;
     const now = type(input.value);
     input.value = input.defaultValue = now ?? input.defaultValue;
@@ -396,7 +396,7 @@ function leadIntoField(event: KeyboardEvent) {
   (row.querySelector('.typed') as HTMLInputElement).focus();
 }
 
-/** @param input the field of its value */
+/** Returns the slider beside the field of its value. */
 function sliderBeside(input: Element) {
   const row = input.closest('.slider') as Element;
   return row.querySelector('input[type=range]') as HTMLInputElement;

@@ -246,7 +246,7 @@ let pixel: OffscreenCanvasRenderingContext2D | undefined;
 
 /** Returns red, green and blue, 0 to 255, of colours in any notation of the browser. Each covers those before. */
 export function channels(...colours: string[]): [number, number, number] {
-  // As browsers hand most colours out.
+  // Browsers hand out most colours in this notation.
   const plain = colours.at(-1)?.match(/^rgb\((\d+), (\d+), (\d+)\)$/);
   if (plain) return [Number(plain[1]), Number(plain[2]), Number(plain[3])];
   const context = (pixel ??= (

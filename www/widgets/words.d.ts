@@ -1,4 +1,4 @@
-/** What each widget says, by the key that its messages stand under. */
+/** Words of each widget by the key of its messages. */
 interface WidgetWords {
   banana: typeof import('./banana-machine/en.ts').en;
   squeeze: typeof import('./map-squeeze/en.ts').en;

@@ -1,6 +1,6 @@
 /** The Alpha Calibrator in German; see messages/en.ts. */
 
-/** @param more what its plural ends in */
+/** Prints a count with a word, and the ending of its plural. */
 const parts = (count: string, more: string = 'n') => `${count} Etappe${count === '1' ? '' : more}`;
 
 /** Messages of failed checks. */

@@ -27,7 +27,7 @@ const TINY = 1e-6;
 
 const MOST_DECIMALS = 12;
 
-/** From it on whole numbers have an exponent: times since 1970 have none. */
+/** Least size of whole numbers with an exponent: times since 1970 are below. */
 const LONG = 1e15;
 
 /** Largest plausible α: an error as large as the motion, or of a radian a metre. */

@@ -21,7 +21,7 @@ const WIDTH = 2.25;
 export class WayPicture extends SamplesPicture<Scene> {
   #layer = new WayLayer();
 
-  /** @param top room above the picture, CSS pixels */
+  /** Takes the height above the picture, CSS pixels. */
   constructor(top?: number) {
     super('plane', new View({ top }));
   }

@@ -21,7 +21,7 @@ import { pictureText, verdictOf } from './words.ts';
 import type { ArcAnatomy as Machine } from '../../types.d.ts';
 import type { Reading } from './reading.ts';
 
-/** Where both poses can be dragged, m. */
+/** Bounds of both poses, m. */
 const BOUNDS = [-REACH, -REACH, REACH, REACH];
 
 /**

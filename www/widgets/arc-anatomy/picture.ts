@@ -18,7 +18,7 @@ import type { Reading } from './reading.ts';
 
 export type Scene = Reading & { machine: ArcAnatomy, overlays: LineName[], line: number, underway: Float64Array | undefined };
 
-/** Of the robots, m. */
+/** Radius of the robots, m. */
 export const RADIUS = 0.06;
 
 /** A centre is shown that is no further away than so many times the way, and so many metres. */
@@ -169,7 +169,7 @@ function drawCircle(brush: Brush, start: Pose, { center, end, turn, arcLength }:
   tell(`${words.anatomy.centreAt(distance)}, ${angle}`, seen);
 }
 
-/** @param way that it points, rad, downwards from the right */
+/** Draws an arrow at a point in a direction (rad), downwards from the right. */
 function drawArrow(context: Brush['context'], colour: string, [x, y]: number[], way: number) {
   stroke(context, { colour, width: 2.25 }, () => {
     for (const wing of [2.6, -2.6]) addLine(context, [[x + ARROW * Math.cos(way + wing), y + ARROW * Math.sin(way + wing)], [x, y]]);
@@ -254,5 +254,5 @@ function drawLit(brush: Brush, { config: { start, next }, stats: { inverted, las
   }
 }
 
-/** With its sign, which is that of the side. */
+/** Prints a radius with its sign, which is that of the side. */
 const signedText = (radius: number) => (radius > 0 ? `+${fixed(radius, 2)}` : fixed(radius, 2));

@@ -58,5 +58,5 @@ export const ALPHAS = alphaLooks(6);
 
 export const looks: Record<string, import('../../figure/controls.ts').Look> = { ...COMMAND, ...ALPHAS };
 
-/** How far the poses can be dragged from the origin, m. */
+/** Largest coordinates of a pose that is dragged, m. */
 export const REACH = 4;

@@ -15,7 +15,7 @@ export class SurfaceLayer {
   #surface: Memo<AnatomySurface | null> = new Memo();
   #coloured: Memo<void> = new Memo();
 
-  /** @param config as it was read: another object after every change */
+  /** Draws the surface for a configuration, which is another object after every change. */
   draw(brush: Brush, machine: ArcAnatomy, config: import('../../types.d.ts').ArcAnatomySettings) {
     const { palette, view: { extent: { xMin, yMin, xMax, yMax } } } = brush;
     const surface = this.#surface.of([config, xMin, yMin, xMax, yMax], () => machine.surface(xMin, yMin, xMax, yMax));
@@ -39,7 +39,7 @@ export class SurfaceLayer {
 
 function coloured(shades: Uint8Array, palette: Palette) {
   const colours = new Uint32Array(densityRamp(palette).buffer);
-  // Where there is next to nothing, there is nothing.
+  // The lowest shade is transparent.
   colours[0] = 0;
   return new Uint8ClampedArray(Uint32Array.from(shades, (shade) => colours[shade]).buffer);
 }

@@ -1,4 +1,4 @@
-/** What Arc Anatomy says when, in the words of the present language. */
+/** Texts of Arc Anatomy in the present language. */
 
 import { addEnglish, words } from '../../messages/registry.ts';
 import { fixed, percent, powerOfTen, significant } from '../../ui/format.ts';
@@ -12,7 +12,7 @@ addEnglish({ anatomy: en });
 /** Smaller numbers are printed as powers of ten: p is a product of three densities, and spans many decades. */
 const SMALL = 0.0005;
 
-/** @param value above 0 */
+/** Prints a positive value as a power of ten. */
 function powerText(value: number) {
   const [mantissa, exponent] = value.toExponential(1).split('e').map(Number);
   return `${fixed(mantissa, 1)}·${powerOfTen(exponent)}`;
@@ -21,7 +21,7 @@ function powerText(value: number) {
 /** Checks whether a number is printed as a power of ten. */
 export const isTiny = (value: number) => value > 0 && value < SMALL;
 
-/** @param share from 0 to 1 */
+/** Prints a share from 0 to 1. */
 export const shareText = (share: number) => (isTiny(share) ? powerText(share) : percent(share));
 
 export const densityText = (density: number) => (isTiny(density) ? powerText(density) : significant(density, 3));

@@ -33,7 +33,7 @@ import type { BananaMachine as Machine, Inspection } from '../../types.d.ts';
 import type { Values } from '../../figure/state.ts';
 import type { Reading } from './reading.ts';
 
-/** Of each robot in a table: where it ended, its exponential coordinates, and what it executed to get there. */
+/** Columns of a robot in a table: its end, its exponential coordinates, and the executed command. */
 const POSE_COLUMNS = ['x_m', 'y_m', 'theta_rad'];
 const TWIST_COLUMNS = ['xi_along_m', 'xi_lateral_m', 'xi_heading_rad'];
 const EXECUTED_COLUMNS = {
@@ -234,7 +234,7 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
     return Object.fromEntries(lost.map(([name]) => [name, words.banana.notCarried]));
   }
 
-  /** What the floor shows, in words. */
+  /** Text equivalent of the floor. */
   get #description() {
     const { overlays } = this.state.own as { overlays: (typeof OVERLAYS)[number][] };
     const drawn = overlays.filter((name) => hasLength(this.reading.contours[name]));

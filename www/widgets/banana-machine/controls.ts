@@ -17,7 +17,7 @@ export function commandControls(figure: Figure) {
 export function modelControls(figure: Figure) {
   const { model, alphas, isolate } = figure.reading.config;
   const say = words.banana;
-  // From 1; the other model may have fewer.
+  // The index of the α begins at 1; the other model may have fewer.
   const chosen = Math.min(figure.state.own.isolateChoice, alphas.length);
   return group(say.modelGroup, html`${choices(figure, 'model', say.models)} ${choices(figure, 'noise', say.noises)}
     ${model === 'odometry' ? check(figure, 'reverseAware', say.reverseAware) : nothing}

@@ -62,7 +62,7 @@ export const en = {
   alphaIsZero: (alpha) => `${alpha} is alone and 0: no noise at all. Turn it up.`,
   alphaIsSilent: (alpha, factor, cause, picture) =>
     `${alpha} multiplies ${factor}: no noise at all. Turn ${cause} up a little and watch it ${picture}.`,
-  /** What an α multiplies where that is 0, by what the command lacks then. */
+  /** Factor of an α that is 0, by the speed that the command lacks. */
   nothingToMultiply: {
     velocity: { v: 'v², and v is 0', ω: 'ω², and ω is 0' },
     odometry: { v: 'the squared distance, and it is 0', ω: 'the squared rotations, and they are 0' },
@@ -120,7 +120,7 @@ export const en = {
     twist: 'exponential coordinates',
     text: (share) => `${share} of the way to exponential coordinates`,
   },
-  /** In the picture, in lines. */
+  /** Texts in the picture, with line breaks. */
   callouts: ['only the ellipse\ncovers this floor', 'no robot\nstops here'],
   handle: 'End of the commanded arc',
   handleKeys: 'Arrow keys move it over the floor, with Shift by larger steps; Page Up and Page Down move it far in y, Home and End to the ends along x',

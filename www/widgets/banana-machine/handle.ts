@@ -27,7 +27,7 @@ export class ArcHandle extends Handle {
     });
   }
 
-  /** @param isAsking whether it asks to be dragged */
+  /** Renders the handle, which may ask to be dragged. */
   render({ v, omega }: import('../../types.d.ts').Command, isAsking: boolean) {
     const say = words.banana;
     const { min, max } = looks.omega;

@@ -25,7 +25,7 @@ function isFirstSight() {
 
 /** Cloud whose growth waits for the introduction. */
 export class IntroducedCloud extends Cloud {
-  /** When the first robot started. */
+  /** Time at which the first robot started, ms. */
   #began: number | undefined;
   /** Robots drive; then the ring of the handle asks to be dragged, while the cloud grows. */
   #phase: 'none' | 'driving' | 'asking' = 'none';

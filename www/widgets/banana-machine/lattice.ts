@@ -11,7 +11,7 @@ const CHORDS = 32;
 
 /** Draws the grid of exponential coordinates at a morph. `end` is the view at the end of the morph. */
 export function drawLattice({ context, view, palette }: Brush, { extent: { xMin, xMax, yMin, yMax } }: View, morph: number) {
-  // It comes soon, and goes where the straight one of the axes is.
+  // It appears early in the morph, and ends as the straight grid of the axes.
   context.globalAlpha = 0.7 * Math.min(1, 5 * morph);
   const line = (at: (share: number) => [along: number, heading: number]) => addLine(context, Array.from({ length: CHORDS + 1 }, (_, i) => {
     const [along, heading] = at(i / CHORDS);

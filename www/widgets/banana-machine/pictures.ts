@@ -66,7 +66,7 @@ const ROOM = 3.2;
 /** Radius of the ring at the end of the arc, pixels. */
 const RING = 7.5;
 
-/** How near to a robot the pointer must be to mark it, CSS pixels. */
+/** Largest distance from the pointer to a robot that it marks, CSS pixels. */
 const REACH = 14;
 
 /** A picture of the robots: as dots, or as a density. */
@@ -90,7 +90,7 @@ class CloudPicture extends Picture<Scene, import('../../types.d.ts').ViewName> {
     return this.#places.of([stats, morph], () => (morph === 0 ? machine.poses : placesOf(machine.twists, morph)));
   }
 
-  /** @param area that the robots cover, square pixels */
+  /** Draws the robots, which cover an area in square pixels. */
   paintCloud(brush: Brush, scene: Scene, area: number) {
     const { morph } = this;
     const { palette } = brush;

@@ -1,4 +1,4 @@
-/** What the Banana Machine shows of its machine. */
+/** View model of the Banana Machine. */
 
 import { words } from '../../messages/registry.ts';
 import { Memo } from '../../scene/memo.ts';
@@ -71,12 +71,12 @@ function bowTieOf({ model, command: { v, omega, dt }, alphas, isolate, reverseAw
   return turning > straight && deviation > length ? { model, length, deviation } : null;
 }
 
-/** @param index from 0 */
+/** Returns the name of an α, counted from 0. */
 export function alphaName(index: number) {
   return `α${String.fromCharCode(0x2081 + index)}`;
 }
 
-/** What the α's of each model have multiplied by their squares: the speed, or the turn rate. */
+/** Factors of the α's of each model, which are squared: the speed, or the turn rate. */
 const CAUSES = { velocity: [...'vωvωvω'], odometry: [...'ωvvω'] } as const;
 
 /** Returns a sentence on an α, counted from 0, that has nothing to multiply. */
@@ -86,7 +86,7 @@ function silenceOf(model: Settings['model'], index: number) {
   return alphaIsSilent(alphaName(index), nothingToMultiply[model][cause], cause, settings.alphas.effects[model][index][2]);
 }
 
-/** @param variance whose quadrature may round to less than 0 */
+/** Returns the standard deviation of a variance, which may round to less than 0. */
 export function deviation(variance: number) {
   return Math.sqrt(Math.max(0, variance));
 }

@@ -1,4 +1,4 @@
-/** What the Banana Machine's page has of its own. */
+/** Styles of the Banana Machine. */
 
 import { css } from 'lit';
 import { layoutStyles } from '../../ui/layout.ts';

@@ -85,7 +85,7 @@ export function captionOf(reading: Reading) {
   return note || (stats.n === 0 ? words.banana.noRobots : bendText(reading) || words.banana.fewRobots);
 }
 
-/** @param skew exact */
+/** Returns the text of the exact skew. */
 export function skewText(skew: number) {
   return Number.isNaN(skew) ? words.banana.noExactSkew : words.banana.exactSkew(fixed(skew, 3));
 }

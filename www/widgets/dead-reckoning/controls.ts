@@ -21,7 +21,7 @@ export function pathControls(figure: Figure) {
   </div>`;
 }
 
-/** The same way in another number of steps, seen from the same place on it. */
+/** Returns the settings of the same path in another number of steps, with the selected step at the same place. */
 function samePath({ command, steps: before, step }: Record<string, any>, steps: number) {
   return { steps, step: Math.max(1, Math.round((step * steps) / before)), command: { ...command, dt: (command.dt * before) / steps } };
 }

@@ -35,7 +35,7 @@ export class PathPicture extends SamplesPicture<Scene> {
   fit({ commanded, outlines, milestones, poses }: Scene) {
     const all = [outlines, ...milestones.map((milestone) => milestone.outlines)].flatMap(({ ellipse, exponential }) => [...ellipse, ...exponential]);
     const points = [...commanded, ...all];
-    // Where nothing is predicted, the robots themselves.
+    // Without a prediction the view shows the robots.
     const box = extentAround(poses, 3, extentAround(points, 2));
     this.view.fit(extentOf(all.length > 0 ? points : [box.xMin, box.yMin, box.xMax, box.yMax], 0.4));
   }

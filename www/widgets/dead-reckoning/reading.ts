@@ -1,4 +1,4 @@
-/** What Dead Reckoning shows of its machine. */
+/** View model of Dead Reckoning. */
 
 import type { DeadReckoning as Machine, DeadReckoningSettings } from '../../types.d.ts';
 
@@ -15,7 +15,7 @@ export function readingOf(machine: Machine) {
   const ratio = ratios[compounding];
   return {
     ...reading,
-    /** Of each component, by step from 1. */
+    /** Curve of each component by step, from 1. */
     curves: COMPONENTS.map((_, axis) => curveOf(ratio, relativeErrors, axis)),
     /** The commanded pose after the step. */
     pose: nominal.subarray(3 * (step - 1), 3 * step),
@@ -23,7 +23,7 @@ export function readingOf(machine: Machine) {
   };
 }
 
-/** @param ratios three a step */
+/** Returns the curve of a component; ratios are three a step. */
 function curveOf(ratios: Float64Array, relativeErrors: Float64Array, axis: number) {
   const ofAxis = (triples: Float64Array) => triples.filter((_, i) => i % 3 === axis);
   const ratio = ofAxis(ratios);
@@ -36,7 +36,7 @@ function curveOf(ratios: Float64Array, relativeErrors: Float64Array, axis: numbe
  */
 function conditionOf({ compounding }: DeadReckoningSettings, { n, predicted, measured, misses }: Machine['stats'], ratios: Float64Array): 'none' | 'still' | 'lost' | 'few' | 'told' {
   if (n === 0) return 'none';
-  // Of a single one there is no variance.
+  // A single robot has no variance.
   if (n === 1) return 'few';
   if (measured.cov.every((row) => row.every((entry) => Math.abs(entry) < Number.EPSILON ** 2))) return 'still';
   // One component alone may have no variance, as the heading without noise of its own.

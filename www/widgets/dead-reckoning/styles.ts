@@ -1,4 +1,4 @@
-/** What Dead Reckoning's page has of its own. */
+/** Styles of Dead Reckoning. */
 
 import { css } from 'lit';
 import { layoutStyles } from '../../ui/layout.ts';

@@ -1,4 +1,4 @@
-/** What Dead Reckoning says when, in the words of the present language. */
+/** Texts of Dead Reckoning in the present language. */
 
 import { addEnglish, words } from '../../messages/registry.ts';
 import { NOTHING, counted, fixed, withError } from '../../ui/format.ts';

@@ -60,7 +60,7 @@ export function robotAndMap(figure: Figure, hasUnknown: boolean) {
     ${radioGroup(settings.view.name, 'view', views, figure.state.own.view, (view) => figure.gesture.choose('view', view))}`);
 }
 
-/** @param map the present one, with its size */
+/** Returns the controls for a map of the reader's own, with the name and size of the present map. */
 export function ownMap(figure: Figure, opener: import('./maps/open.ts').MapOpener, map: string) {
   const say = words.squeeze.own;
   const paste = () => {

@@ -1,4 +1,4 @@
-/** What each sampler costs on this device, measured. */
+/** Measured cost of each sampler on this device. */
 
 import { Part } from '../../figure/part.ts';
 import { limits } from '../../settings.js';
@@ -61,9 +61,9 @@ const REST = 300;
 
 /** Measures the samplers one after the other when things have come to rest, and tells of each. */
 export class CostMeter extends Part {
-  /** As last measured, or why there is none */
+  /** Latest costs, or the reasons why there are none. */
   costs: Partial<Record<SamplerName, Cost | 'wedged' | 'few'>> = {};
-  /** Whether the costs are those of the present settings. */
+  /** True if the costs are those of the present settings. */
   current = false;
   /** The settings that were measured, or are to be. */
   #settings = '';

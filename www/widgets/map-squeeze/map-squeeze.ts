@@ -49,7 +49,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
 
   cloud = new Cloud(this, (machine: Machine) => machine.stats.gaveUp);
 
-  /** Of the map that the robot is in. */
+  /** Picture of the map that the robot is in. */
   picture = new FloorPicture({ bounds: new Float64Array(4), walls: new Float64Array() }, null);
   #meter = new CostMeter(this);
   #opener = new MapOpener(this);
@@ -59,7 +59,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
     say: () => words.squeeze.robot,
   });
   #wallHandles = new WallHandles(this);
-  /** What unknown cells are in the map of the picture. */
+  /** Treatment of unknown cells in the picture. */
   #unknown = '';
   /** Path of the marked sample. */
   #path: Memo<Float64Array> = new Memo();
@@ -208,7 +208,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
     });
   }
 
-  /** Whether the robot is where it was put last in the open. */
+  /** True if the robot is where it was put last in the open. */
   get inTheOpen() {
     const { x, y, theta } = this.reading.config.start;
     return this.#open?.x === x && this.#open.y === y && this.#open.theta === theta;
@@ -304,13 +304,13 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
     this.#moved(data);
   }
 
-  /** In the apartment the robot goes to where it opens if it has no room where it is. */
+  /** Puts the robot at its opening place in the apartment if it has no room where it is. */
   #findRoom() {
     const { machine } = this;
     if (machine && !machine.startFree) this.settings.assign({ start: OPENING_START });
   }
 
-  /** @param map that the machine has now */
+  /** Takes the map that the machine has now. */
   #moved(map: MapData | null) {
     this.state.own.map = map;
     this.machineChanged();
@@ -324,7 +324,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
     return mapText(this.map ? this.map.name || pasted : apartment, this.picture.plan);
   }
 
-  /** What the picture shows, in words. */
+  /** Text equivalent of the picture. */
   get #description() {
     return pictureText(this.reading, this.#mapText);
   }

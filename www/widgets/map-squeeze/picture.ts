@@ -53,7 +53,7 @@ const HIDDEN = new Uint8Array(4 * limits.ramp);
 
 export class FloorPicture extends SamplesPicture<Scene> {
   plan;
-  /** Whether there are cells of which the map says nothing. */
+  /** True if the map has unknown cells. */
   hasUnknown;
   /** False for a grid, whose walls outline its cells and cannot be moved. */
   movable;
@@ -65,7 +65,7 @@ export class FloorPicture extends SamplesPicture<Scene> {
   #density = new Density();
   #outline = '';
 
-  /** @param former the picture whose place it takes: where the map is as large, the views stay where they are */
+  /** Takes the views of a former picture if its map is as large. */
   constructor(plan: Plan, grid: Cells | null, former?: FloorPicture) {
     super('plane', new View({ snug: true }));
     this.plan = plan;
@@ -88,7 +88,7 @@ export class FloorPicture extends SamplesPicture<Scene> {
     return this.#outline;
   }
 
-  /** Whether the view is of the robot's surroundings only. */
+  /** True if the view is of the robot's surroundings only. */
   get close() {
     return this.view === this.#near;
   }
@@ -137,7 +137,7 @@ export class FloorPicture extends SamplesPicture<Scene> {
     const { accepted, through, rejected, commanded: command } = lineStyles(brush, LINES);
     drawAxes(brush, { x: 'x (m)', y: 'y (m)' }, brush.exported ? keyOf(brush, scene) : []);
     clipped(brush, () => {
-      // What passes through a wall must not hide it.
+      // Paths through a wall must not hide it.
       if (sorted) {
         if (has('through')) drawPaths(brush, paths, through.colour);
         if (has('accepted')) drawSamples(brush, sorted.free, accepted.colour);
@@ -222,7 +222,7 @@ function keyOf({ context, palette }: Brush, { overlays, sorted }: Scene): import
   }));
 }
 
-/** @param x CSS pixels */
+/** Adds a cross at a point in CSS pixels to the path. */
 function cross(context: Brush['context'], x: number, y: number) {
   addLine(context, [[x - CROSS, y - CROSS], [x + CROSS, y + CROSS]]);
   addLine(context, [[x - CROSS, y + CROSS], [x + CROSS, y - CROSS]]);

@@ -1,4 +1,4 @@
-/** What Map Squeeze shows of its machine. */
+/** View model of Map Squeeze. */
 
 import { words } from '../../messages/registry.ts';
 import { verdict as bits } from '../../settings.js';

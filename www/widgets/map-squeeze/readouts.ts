@@ -34,7 +34,7 @@ export function markedDraw(figure: import('./map-squeeze.ts').MapSqueezeElement)
   return markedField(figure, { id: 'sample', label: sample, hint: markHint, shown: stats.attempts, told });
 }
 
-/** @param steps parts of the sub-stepped sampler */
+/** Returns the table of costs, for so many sub-steps. */
 export function costTable({ costs, current }: CostMeter, steps: number) {
   const { samplers, costs: say } = words.squeeze;
   const row = (sampler: SamplerName) => {

@@ -62,5 +62,5 @@ export const SAMPLERS =
 /** Sample counts of the slider. The machine takes more, but they would be slow to follow a slider. */
 export const SAMPLE_COUNTS = [1, 2, 5, 10, 20, 50, 100, 200, 300, 600, 1000, 2000, 5000, 10_000, 20_000, 50_000, 100_000];
 
-/** In one step; as many fewer in several. */
+/** Most samples of a command in one step; sub-steps divide them. */
 export const MOST_SAMPLES = declared.find(({ key }) => key === 'samples')?.max ?? 0;

@@ -135,7 +135,7 @@ export class WallHandles extends Part<import('./map-squeeze.ts').MapSqueezeEleme
     this.#place(this.host.picture.view);
   }
 
-  /** @param distanceOf wanted movement along the axis */
+  /** Moves a grip along its axis by the wanted distance, as far as its range goes. Returns false if the grip or distance is none. */
   #move(grip: Grip, distanceOf: (point: number[], axis: number[]) => number) {
     if (!grip) return false;
     this.#current = nameOf(grip);

@@ -12,7 +12,7 @@ import type { Reading } from './reading.ts';
 
 addEnglish({ squeeze: en });
 
-/** @param verdict see `verdict` of settings.js */
+/** Returns the text of a verdict, whose bits are in `verdict` of settings.js. */
 export function verdictText(verdict: number, config: Settings) {
   const is = (bit: number) => (verdict & bit) !== 0;
   const { overlays, verdict: reasons } = words.squeeze;

@@ -25,7 +25,7 @@ import { apart, captionOf, legsText, worldText } from './words.ts';
 import type { OdometryDecomposer as Machine } from '../../types.d.ts';
 import type { Reading } from './reading.ts';
 
-/** Where the handles take the poses: left, bottom, right and top, m. */
+/** Bounds of both poses: left, bottom, right and top, m. */
 const FLOOR = [-4, -4, 4, 4];
 
 /**

@@ -25,7 +25,7 @@ export const RADIUS = 0.11;
 /** Room around the robots, and around a standard deviation of the outcomes. */
 const ROOM = { metres: 0.3, deviations: 2.4 };
 
-/** With more outcomes their headings would be one blot. */
+/** Most outcomes with headings: more would be one blot. */
 const MAX_TICKS = 1000;
 
 /** Between the handle that turns a robot and the arc of a turn about it, and between the two arcs, CSS pixels. */
@@ -45,7 +45,7 @@ const ANCHORS = [0.5, 0.3, 0.7, 0.1, 0.9];
 
 const AXES = { x: 'x (m)', y: 'y (m)' };
 
-/** How long the axes of the odometry's frame are drawn, m. */
+/** Length of the axes of the odometry's frame, m. */
 const AXIS = 0.35;
 
 /** Returns the key of an exported picture: on the page the legend stands beside it. */
@@ -178,7 +178,7 @@ export class LegsPicture extends OutcomesPicture {
     context.globalAlpha = 1;
   }
 
-  /** On its way. */
+  /** Draws the robot on its path. */
   #paintRobot(brush: Brush, { x, y, theta }: Pose) {
     const { context, view, palette } = brush;
     const ahead = view.direction(theta);

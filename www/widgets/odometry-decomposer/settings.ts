@@ -27,7 +27,7 @@ export const attributes: import('../../figure/attributes.ts').Attributes = { pre
 
 export const own: Record<string, import('../../figure/state.ts').Owned> = { ...cloudState, overlays: state };
 
-/** Of the noise. */
+/** Sliders of the noise. */
 export const NOISE = {
   ...alphaLooks(5, 'odometry'),
   correlation: { symbol: '*ρ*', role: 'prediction' as const, min: -1, max: 1, step: 0.05, decimals: 2 },

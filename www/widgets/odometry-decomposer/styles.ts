@@ -1,4 +1,4 @@
-/** What the Odometry Decomposer's page has of its own. */
+/** Styles of the Odometry Decomposer. */
 
 import { css } from 'lit';
 import { layoutStyles } from '../../ui/layout.ts';

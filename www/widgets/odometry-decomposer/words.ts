@@ -1,4 +1,4 @@
-/** What the Odometry Decomposer says when, in the words of the present language. */
+/** Texts of the Odometry Decomposer in the present language. */
 
 import { addEnglish, words } from '../../messages/registry.ts';
 import { counted, fixed } from '../../ui/format.ts';

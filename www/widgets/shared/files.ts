@@ -22,7 +22,7 @@ export class FileDrop {
   #choose;
   #isDropped = false;
 
-  /** @param id of the element that says what becomes of the files; a disclosure opens */
+  /** Takes the id of the element that describes the files; a disclosure opens on a drop. */
   constructor(host: Figure, id: string, choose: (files: File[]) => void) {
     this.#host = host;
     this.#id = id;
@@ -93,7 +93,7 @@ async function inside(folder: FileSystemDirectoryEntry): Promise<File[]> {
   return files.flat();
 }
 
-/** @param extensions what the names of files may end in */
+/** Returns a file input for files with some extensions. */
 export const fileInput = (id: string, extensions: string[], choose: (files: File[]) => void) => html`<input
   id=${id}
   type="file"

@@ -19,7 +19,7 @@ export class Player<Key extends string> extends Part {
   /** Key of the setting that is played. */
   #key: Key | undefined;
   #played;
-  /** What was gone and not put, where only whole steps are. */
+  /** Movement that was not applied yet, if a setting has whole steps only. */
   #beyond = 0;
 
   constructor(host: import('../../figure/figure.ts').Figure, played: Record<Key, Played>) {

@@ -29,7 +29,7 @@ export interface Said {
   ends?: string;
 }
 
-/** What a key moves the robot by, metres, and turns it by, radians. */
+/** Movement of the robot by a key, metres, and turn by a key, radians. */
 const KEY_STEP = 0.05;
 const KEY_TURN = Math.PI / 36;
 
@@ -45,7 +45,7 @@ export class PoseHandles extends Part<import('../../figure/figure.ts').Figure> {
   #body;
   #turn;
 
-  /** @param setting which is the pose */
+  /** Takes the setting that is the pose. */
   constructor(host: import('../../figure/figure.ts').Figure, setting: string, of: Held) {
     super(host);
     this.#setting = setting;
@@ -69,7 +69,7 @@ export class PoseHandles extends Part<import('../../figure/figure.ts').Figure> {
     });
   }
 
-  /** As it is wanted so far. */
+  /** Requested pose. */
   get #pose(): Pose {
     return this.host.settings.wanted[this.#setting];
   }
@@ -126,13 +126,13 @@ export class PoseHandles extends Part<import('../../figure/figure.ts').Figure> {
     return true;
   }
 
-  /** @param x metres */
+  /** Moves the robot to a point in metres, within its bounds. */
   #moveTo(x: number, y: number) {
     const [left, bottom, right, top] = this.#of.bounds();
     this.#want({ ...this.#pose, x: clamp(x, left, right), y: clamp(y, bottom, top) });
   }
 
-  /** @param theta radians */
+  /** Turns the robot to a heading in radians. */
   #turnTo(theta: number) {
     // Into (−π, π], without sines: in their last digits engines differ, and the same keys are to be the same heading.
     this.#want({ ...this.#pose, theta: theta - 2 * Math.PI * Math.ceil(theta / (2 * Math.PI) - 0.5) });

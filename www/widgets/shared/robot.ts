@@ -5,7 +5,7 @@ import type { Pose } from '../../types.d.ts';
 import { drawDisc, strokeLine, type Brush } from '../../scene/canvas.ts';
 import type { View } from '../../scene/view.ts';
 
-/** In a view of much it is drawn no smaller than this, CSS pixels. */
+/** Smallest radius of a robot that is drawn, CSS pixels. */
 const SMALLEST = 3;
 
 /** Radius of the ring that turns it, pixels. */

@@ -71,7 +71,7 @@ async function bytesOf(part: Blob, name: string) {
   }
 }
 
-/** @param most bytes */
+/** Reads the text of a file of so many bytes at most. */
 async function textOf(file: File, most: number) {
   checkSize(file.name, file.size, most);
   return new TextDecoder().decode(await bytesOf(file, file.name));
@@ -82,7 +82,7 @@ function checkSize(name: string, size: number, most: number) {
   if (size > most) throw new MapFileError(name, (say, file) => say.long(file, size, most));
 }
 
-/** As much of a text as a sentence quotes. */
+/** Shortens a text that a sentence quotes. */
 function quoted(text: string) {
   return text.length > QUOTED ? `${text.slice(0, QUOTED)}…` : text;
 }
@@ -130,7 +130,7 @@ async function parsed(name: string, text: string, language: 'JSON' | 'YAML') {
   }
 }
 
-/** @param file YAML */
+/** Reads a grid from a YAML file and its image. */
 async function readGrid(file: File, images: File[], decodePng: DecodePng): Promise<OwnMap> {
   const description = await readDescription(file.name, await textOf(file, DESCRIPTION_BYTES));
   const { image: path } = description;

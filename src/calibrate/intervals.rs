@@ -160,7 +160,7 @@ impl Blocks {
 }
 
 /// Quantile 0.975 of Student's t, by the expansion of Fisher and Cornish.
-pub(super) fn student_95(freedom: f64) -> f64 {
+fn student_95(freedom: f64) -> f64 {
     let (z, z3) = (NORMAL_95, NORMAL_95.powi(3));
     z + (z3 + z) / (4.0 * freedom)
         + (5.0 * NORMAL_95.powi(5) + 16.0 * z3 + 3.0 * z) / (96.0 * freedom * freedom)

@@ -163,7 +163,7 @@ impl Residuals {
     }
 
     /// Variances of the wheels' noise in one leg.
-    pub fn wheel_variances(&self, coefficients: &[[f64; 2]; 3], parameters: &Parameters) -> Vector3<f64> {
+    fn wheel_variances(&self, coefficients: &[[f64; 2]; 3], parameters: &Parameters) -> Vector3<f64> {
         Vector3::from_fn(|component, _| {
             let [first, second] = self.alphas[component];
             let [by_first, by_second] = coefficients[component];
@@ -394,7 +394,7 @@ fn reference_covariance(parameters: &Parameters) -> Matrix3<f64> {
 }
 
 /// Returns the inverse of the rows and columns in the mask, 0 elsewhere, and the logarithm of their determinant.
-pub(super) fn masked_inverse(information: &ErrorMatrix, mask: &ErrorMask) -> (ErrorMatrix, f64) {
+fn masked_inverse(information: &ErrorMatrix, mask: &ErrorMask) -> (ErrorMatrix, f64) {
     let (mut inverse, mut log_det) = (*information, 0.0);
     for pivot in (0..ERRORS).filter(|pivot| mask[*pivot]) {
         log_det += libm::log(inverse[(pivot, pivot)].max(f64::MIN_POSITIVE));

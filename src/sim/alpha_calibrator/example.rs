@@ -19,7 +19,7 @@ use std::f64::consts::TAU;
 pub const ALPHAS: [f64; 4] = [0.05, 0.008, 0.004, 0.003];
 
 /// The legs that they belong to: AMCL's triggers as it comes, m and rad.
-pub const DISTANCE: f64 = 0.25;
+const DISTANCE: f64 = 0.25;
 pub const ANGLE: f64 = 0.2;
 
 /// What the reference says of the odometry, beside the noise.
@@ -30,7 +30,7 @@ pub const DISTANCE_SCALE: f64 = 1.02;
 pub const TURN_SCALE: f64 = 0.97;
 
 /// How far the reference jumps (m), for how many rows, and how often: it spoils a hundredth of the legs or so.
-pub const JUMP: f64 = 0.5;
+const JUMP: f64 = 0.5;
 const JUMP_ROWS: usize = 25;
 const JUMPS_A_ROW: f64 = 4e-4;
 

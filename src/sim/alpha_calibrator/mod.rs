@@ -17,7 +17,7 @@ use panels::panels;
 use std::cell::OnceCell;
 
 /// Outcomes that are drawn of a leg.
-pub const OUTCOMES: usize = 400;
+const OUTCOMES: usize = 400;
 
 /// Chords of the outline of a leg's cloud.
 const OUTLINE_SEGMENTS: usize = 64;

@@ -1,8 +1,5 @@
-/**
- * Where the script that defines the elements came from, in full; a bundle has its own way to know. Empty where nothing
- * says it.
- */
+/** Address of the script that defines the elements; a bundle knows it in another way. Empty where it is unknown. */
 export const address = import.meta.url;
 
-/** Whether it is a classic script. */
+/** True for a classic script. */
 export const classic = false;

@@ -1,10 +1,8 @@
 /**
- * The elements for notebooks and books that show widgets as anywidget has them. A model says by its trait `widget` which
- * element it is, and by others, called as the attributes, the properties, or those in Python's spelling, what that shows.
- *
- * Traits that the model has not are left alone, but for a change that comes later. What the figure shows goes back to those
- * that it has: as it opens, and where the reader or the model has changed it. `stats` get the statistics, `error` the last
- * refusal.
+ * Elements for notebooks and books that show widgets as anywidget has them. The trait `widget` of a model names the element. Others, called
+ * as attributes, properties, or in Python's spelling, set its values. Traits that the model does not have are left alone until they come.
+ * The figure writes its values back: as it opens, and after changes of the reader or the model. `stats` get the statistics, `error` the
+ * last refusal.
  */
 
 import './de.ts';
@@ -111,10 +109,7 @@ function render({ model, el }: { model: Model, el: HTMLElement }): (() => void) 
   };
 }
 
-/**
- * Where a page has a model without a kernel behind it, as MyST does, nothing is kept, and nobody is there to be told: its
- * methods throw.
- */
+/** Does work that needs a kernel. Models without one, as in MyST, throw: then nothing is kept, and nobody has to be told. */
 function withoutKernel(work: () => void) {
   try {
     work();

@@ -49,11 +49,7 @@ export function instantiate(source?: Source): Promise<Motion> {
   return instantiateFor('motion');
 }
 
-/**
- * As `instantiate`, for a widget. In external.js its module has no other's machine, as long as the page has met no other.
- *
- * @param name of the widget, its tag
- */
+/** As `instantiate`, for the widget of a tag. In external.js its module has no other's machine, as long as the page has met no other. */
 export async function instantiateFor(name: string): Promise<Motion> {
   if (typeof WebAssembly === 'undefined') {
     throw new Error('WebAssembly is not available here, and motion-widgets needs it.');
@@ -94,10 +90,7 @@ export async function instantiateShared({ module, glue }: SharedCore): Promise<M
   return makeCore(module);
 }
 
-/**
- * Forgets a machine of a core that has trapped: what is left in its memory is not to be trusted, not
- * even to free the machine, as would happen when its handle is collected.
- */
+/** Forgets a machine of a core that has trapped. Its memory is damaged: even to free the machine, when its handle is collected, is not safe. */
 export function abandon(machine: { free(): void }) {
   (machine as unknown as { __destroy_into_raw(): number }).__destroy_into_raw();
 }
@@ -105,11 +98,7 @@ export function abandon(machine: { free(): void }) {
 /** True once the file of a module was asked for in vain. */
 let unreachable = false;
 
-/**
- * A module and its glue; the embedded ones where there is no file, or it cannot be had.
- *
- * @param name of a widget, or of the whole core
- */
+/** Returns the module and glue of a widget, or of the whole core; the embedded ones where there is no file, or it cannot be had. */
 async function found(name: string): Promise<[WebAssembly.Module, Awaited<ReturnType<Carrier['glue']>>]> {
   const named = wanted;
   const carrier = carrierOf(name);
@@ -127,11 +116,7 @@ async function found(name: string): Promise<[WebAssembly.Module, Awaited<ReturnT
   }
 }
 
-/**
- * The carrier of one module for all widgets of a page, which is less than one for each.
- *
- * @param name of a widget, or of the whole core
- */
+/** Returns the carrier of a widget's module, or of the whole core: one for all widgets of a page is less than one for each. */
 function carrierOf(name: string) {
   const own = carried[name];
   const carrier = own && (compiling.has(own) || (wanted === undefined && expected.size < 2)) ? own : carried.motion;
@@ -171,7 +156,7 @@ async function compile(given: Source | Promise<BufferSource> | undefined) {
   );
 }
 
-/** Whether not even an empty module may run here: WebKit forbids that alone, others to compile it. */
+/** Checks whether not even an empty module may run here: WebKit forbids that alone, others to compile it. */
 function forbidden() {
   try {
     return !new WebAssembly.Instance(new WebAssembly.Module(Uint8Array.of(0, 0x61, 0x73, 0x6d, 1, 0, 0, 0)));
@@ -180,10 +165,7 @@ function forbidden() {
   }
 }
 
-/**
- * A module compiled while it is still arriving, or afterwards where the server calls it something
- * else than application/wasm.
- */
+/** Compiles a module while it is still arriving, or afterwards where the server calls it something else than application/wasm. */
 async function streamed(source: URL | string) {
   const response = await fetch(source).catch((error) => {
     throw new Error(
@@ -203,11 +185,7 @@ async function streamed(source: URL | string) {
   }
 }
 
-/**
- * Node's `fetch` refuses file: addresses and paths, so there the file is read.
- *
- * @returns undefined where `fetch` is the way
- */
+/** Reads a file in Node, whose `fetch` refuses file: addresses and paths. Undefined where `fetch` works. */
 function fileAt(source: URL | string): Promise<BufferSource> | undefined {
   if (/^(https?|data|blob):/.test(String(source))) return undefined;
   // No import: bundlers for browsers would stumble over it.

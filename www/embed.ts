@@ -7,11 +7,7 @@
 import './de.ts';
 import { GLOBAL, elementNamed, sorry } from './named.ts';
 
-/**
- * The widget that a query describes.
- *
- * @throws {Error} with a sentence that names the parameter and what is allowed
- */
+/** Returns the widget that a query describes. Throws an error that names the parameter and what is allowed. */
 function widgetOf(query: URLSearchParams) {
   const widget = elementNamed(query.get('widget'));
   const name = widget.localName;

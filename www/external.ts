@@ -1,6 +1,6 @@
 /**
- * As motion-widgets.js, with the WebAssembly module in a file of its own and each widget in another, which is
- * loaded when its tag is met: in the document, or in an open shadow root.
+ * Elements as in motion-widgets.js, with the WebAssembly module in a file of its own and each widget in another, which is loaded when its
+ * tag is met: in the document, or in an open shadow root.
  */
 
 import { vocabularies, widgets } from '../build/widgets.js';
@@ -27,7 +27,7 @@ function meet(root: ParentNode) {
       expected.add(localName);
       widgets[localName]();
     }
-    // What a widget shows has no widget in it.
+    // The contents of a widget have no other widgets.
     else if (localName in widgets) continue;
     else if (element.shadowRoot) watch(element.shadowRoot);
     else if (!element.matches(':defined')) customElements.whenDefined(localName).then(() => element.shadowRoot && watch(element.shadowRoot));
@@ -53,7 +53,7 @@ function watch(root: Document | ShadowRoot) {
   meet(root);
 }
 
-// Where there is no DOM, as in Node, no tag is met.
+// Without a DOM, as in Node, no tag is met.
 if (observer) {
   // Nothing is to move when they come.
   const sheet = new CSSStyleSheet();

@@ -18,9 +18,8 @@ const openings: WeakMap<Element, Record<string, any>> = new WeakMap();
 export const figureOf = (element: Element): Figure => element.closest('article')?.querySelector('.stand > :first-child') as Figure;
 
 /**
- * Puts a figure into the state that it opened with, with some values changed.
- *
- * @param values by property, or by field of its state where no property has that name; a preset comes first
+ * Puts a figure into the state that it opened with, with some values changed: by property, or by field of its state where no property has
+ * that name. A preset comes first.
  */
 export async function enter(figure: Figure, values: Record<string, unknown>) {
   if (!openings.has(figure)) await new Promise((resolve) => figure.addEventListener('load', resolve, { once: true }));

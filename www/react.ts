@@ -24,10 +24,9 @@ const onServer = typeof document === 'undefined';
 const useLayout = onServer ? useEffect : useLayoutEffect;
 
 /**
- * What a component of React says to its element: a prop when it says something else than before, not at every rendering, as
- * a list that is written in JSX would undo what the reader drags. React itself writes the attributes on a server alone: on
- * the page it would give properties to an element or not, depending on its version, on who sent the element, and on
- * whether that is defined yet.
+ * Writer of the props of a React component to its element, when one says something else than before. At every rendering, a list that is
+ * written in JSX would undo what the reader drags. React itself writes the attributes on a server alone: on the page it would choose
+ * attributes or properties by its version, and by whether the element is defined yet.
  */
 class Figure {
   element: any;

@@ -1,6 +1,6 @@
 /**
- * What a server component of React gets instead of the elements: it runs on the server alone, and what it imports for its
- * effects never comes to a browser.
+ * Substitute for the elements in a server component of React: that runs on the server alone, and what it imports for its effects never
+ * comes to a browser.
  */
 throw new Error(
   "motion-widgets is imported by a server component, and no browser would get it: import the elements from 'motion-widgets/react', " +

@@ -1,6 +1,6 @@
 /**
- * What libraries and elements ask for while they are being imported. Where there is no DOM, as in
- * Node, a page generator may import the elements all the same, and nothing is defined.
+ * Substitutes for globals that libraries and elements ask for while they are imported. Where there is no DOM, as in Node, a page generator
+ * may import the elements, and nothing is defined.
  */
 
 const { HTMLElement = class {}, customElements = { get: () => true }, document = { createTreeWalker() {} } } =

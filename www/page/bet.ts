@@ -6,10 +6,8 @@ import type { Figure } from '../page.ts';
 const answerIn = (stats: Record<string, any>, path: string): number | null => path.split('.').reduce((part: any, key) => part?.[key], stats) ?? null;
 
 /**
- * Prepares a form with one slider. `data-try` has the values to reveal, `data-answer` the path of the answer in `stats`, and
- * `data-hides` the overlay that the figure shows from the first bet on.
- *
- * @param enter puts the figure into a state
+ * Prepares a form with one slider. `enter` puts the figure into the state of `data-try`. `data-answer` is the path of the answer in
+ * `stats`, and `data-hides` the overlay that the figure shows from the first bet on.
  */
 export function prepareBet(form: HTMLFormElement, enter: (values: Record<string, unknown>) => Promise<void>, figure: Figure) {
   const { try: values = '{}', answer = '', unit = '', hides } = form.dataset;

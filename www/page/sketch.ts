@@ -1,5 +1,6 @@
 /** Sketch of a cloud: the reader draws the one expected, and the robots of the figure appear below the drawing. */
 
+import { deviation } from 'd3-array';
 import type { Figure } from '../page.ts';
 
 /** Point in metres on the floor, or in pixels of the pad. */
@@ -30,12 +31,6 @@ function arcOf({ v, omega, dt }: { v: number, omega: number, dt: number }, turne
   });
 }
 
-/** Returns the mean and the standard deviation of numbers. */
-function spreadOf(values: number[]) {
-  const mean = values.reduce((sum, value) => sum + value, 0) / values.length;
-  return { mean, deviation: Math.sqrt(values.reduce((sum, value) => sum + (value - mean) ** 2, 0) / values.length) };
-}
-
 /** Outlines that can be chosen instead of drawn, by name. */
 const SHAPES: Record<string, (command: { v: number, omega: number, dt: number }) => Point[]> = {
   point: (command) => ringAround(pixel(arcOf(command)[24]), 7, 7),
@@ -51,7 +46,7 @@ const ringAround = ([x, y]: Point, radiusX: number, radiusY: number) =>
 
 /** Says where robots stop, by x, y, θ of one after the other, and whether a chosen shape is right; a drawing has none. */
 function outcomeOf(poses: Float64Array, guess: string | undefined) {
-  const of = (axis: number) => spreadOf([...poses].filter((_, i) => i % 3 === axis)).deviation;
+  const of = (axis: number) => deviation(poses.filter((_, i) => i % 3 === axis)) ?? 0;
   const [place, heading] = [Math.hypot(of(0), of(1)), of(2)];
   const verdict = guess === undefined ? '' : guess === (place > NONE ? 'fan' : 'point') ? 'Right. ' : 'Not what you chose. ';
   if (place > NONE) return `${verdict}The robots spread by ${place.toFixed(2)}\u00a0m (1σ), their headings by ${heading.toFixed(2)}\u00a0rad.`;
@@ -59,11 +54,7 @@ function outcomeOf(poses: Float64Array, guess: string | undefined) {
   return `${verdict}Every robot stops at the same point, with the same heading. There is no cloud.`;
 }
 
-/**
- * Prepares a form with a pad to draw on. The values of its radio buttons `case` are the states to reveal.
- *
- * @param enter puts the figure into a state
- */
+/** Prepares a form with a pad to draw on. `enter` puts the figure into the state of the chosen radio button `case`. */
 export function prepareSketch(form: HTMLFormElement, enter: (values: Record<string, unknown>) => Promise<void>, figure: Figure) {
   const part = (name: string) => form.querySelector(`svg .${name}`) as SVGElement;
   const pad = form.querySelector('svg') as SVGSVGElement;

@@ -168,20 +168,23 @@ const layout = css`
     border-radius: 50%;
   }
 
-  /* What stops a handle, while it is held or moved from the keyboard. */
-  .handle[data-stop]:is(.held, :focus-visible)::before {
-    content: attr(data-stop);
+  .handle::before {
     position: absolute;
-    top: 50%;
-    left: calc(100% + 0.35em);
-    translate: 0 -50%;
     padding: 0.12em 0.6em;
-    background: var(--ink);
     border-radius: 3px;
     color: var(--paper);
     font-size: 0.85em;
     white-space: nowrap;
     pointer-events: none;
+  }
+
+  /* The limit of a handle, while it is held or moved from the keyboard. */
+  .handle[data-stop]:is(.held, :focus-visible)::before {
+    content: attr(data-stop);
+    top: 50%;
+    left: calc(100% + 0.35em);
+    translate: 0 -50%;
+    background: var(--ink);
   }
 
   .handle.right[data-stop]:is(.held, :focus-visible)::before {
@@ -210,17 +213,10 @@ const layout = css`
 
   .handle[data-hint]::before {
     content: attr(data-hint);
-    position: absolute;
     top: 100%;
     left: 50%;
     translate: -50% 0;
-    padding: 0.12em 0.6em;
     background: var(--prior);
-    border-radius: 3px;
-    color: var(--paper);
-    font-size: 0.85em;
-    white-space: nowrap;
-    pointer-events: none;
     animation: hinted 2.4s ease-in-out both;
   }
 

@@ -75,12 +75,8 @@ function noteOf({ alpha, slope, interval }: CalibrationPanel, { fitted: { model 
 }
 
 /**
- * Range of an axis of squares: all bins and the line, and half as much again of their bars. The bar of a single leg would leave the
- * others no room.
- *
- * @param squares of bins
- * @param error of each
- * @param line its highest square
+ * Returns the range of an axis of squares: all bins, the highest square of the line, and half as much again for error bars. The bar of a
+ * single leg would leave the others no room.
  */
 function axisOfSquares(squares: number[], error: number[], line: number): { from: number, to: number } {
   const [lowest, highest] = [Math.min(0, ...squares), Math.max(0, line, ...squares)];

@@ -319,8 +319,11 @@ const own = css`
     grid-template-columns: minmax(min-content, 1fr) auto;
   }
 
-  .looked .slider {
+  :is(.looked, [part='controls']) .slider {
     grid-template: 'name value' auto 'track track' auto / 1fr auto;
+  }
+
+  .looked .slider {
     padding-bottom: 0.2em;
   }
 
@@ -331,10 +334,6 @@ const own = css`
   [part='controls'] .controls {
     grid-template-columns: repeat(auto-fit, minmax(min(100%, 13em), 1fr));
     column-gap: 1.5em;
-  }
-
-  [part='controls'] .slider {
-    grid-template: 'name value' auto 'track track' auto / 1fr auto;
   }
 
   .panels {

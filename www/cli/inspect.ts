@@ -4,7 +4,7 @@ import { candidates, isLocalizer, isTable, usefulSeries } from '../logs/candidat
 import { planDrives } from '../logs/drives.ts';
 import { log as words } from '../logs/en.ts';
 import { LogError } from '../logs/log-error.ts';
-import { ROLES, type Choice, type Log, type Recording, type Role, type Summary } from '../logs/log.ts';
+import { ROLES, framesOption, framesText, type Choice, type Log, type Recording, type Role, type Summary } from '../logs/log.ts';
 import { summarize } from '../logs/summary.ts';
 import { aligned } from './report.ts';
 
@@ -54,7 +54,7 @@ export function textOfContents({ name, format, series, refused, missing, command
 /** Says what a series could be. */
 function usesOf(recording: Recording, name: string): string[] {
   const choices = (role: Role, kind?: 'commands') => candidates(recording, role, { kind }).flat().filter((choice) => choice.series === name && (!kind || choice.kind === kind));
-  const frames = ([first]: Choice[]) => (first.frames ? ` ${first.frames.parent} → ${first.frames.child}` : '');
+  const frames = ([first]: Choice[]) => (first.frames ? ` ${framesText(first.frames)}` : '');
   const [odometry, commands, reference] = [choices('odometry'), choices('odometry', 'commands'), choices('reference')];
   return [
     ...(odometry.length ? [`odometry${frames(odometry)}`] : commands.length ? ['odometry (commands)'] : []),
@@ -84,7 +84,7 @@ function nextOf(recording: Recording, path: string): Pick<Inspected, 'command' |
   const quoted = (text: string) => (/^[\w./,@%+=:-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`);
   const optionsOf = (role: Role, { series, frames }: Choice) => [
     ...(series ? [`--${role}-topic ${quoted(series)}`] : []),
-    ...(frames ? [`--${role}-frames ${quoted(`${frames.parent},${frames.child}`)}`] : []),
+    ...(frames ? [`--${role}-frames ${quoted(framesOption(frames))}`] : []),
   ];
   const command = (...options: string[]) => ['motion-widgets calibrate', ...options, '--rule nav2'].join(' ');
   try {

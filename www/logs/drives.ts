@@ -2,7 +2,7 @@
 
 import { candidates, isTable, namesFor, roleByName, seriesNamed, usefulSeries } from './candidates.ts';
 import { LogError, listed } from './log-error.ts';
-import { ROLES, type Choice, type Frames, type Log, type LogKind, type Recording, type Role, type Series } from './log.ts';
+import { ROLES, framesOption, type Choice, type Frames, type Log, type LogKind, type Recording, type Role, type Series } from './log.ts';
 import { isSamePath, pairLogs, pairedByTime, withStart, type Drive } from './pairs.ts';
 
 export type { Drive };
@@ -26,8 +26,6 @@ export interface Wishes {
 
 /** Series with their types, for a sentence. */
 const described = (series: Series[]) => listed(series.map(({ name, type }) => (name ? `${name} (${type.replace(/^.*\//, '')})` : type)));
-
-const linked = ({ parent, child }: Frames) => `${parent},${child}`;
 
 const isSame = (one: Choice, other?: Choice) => one.series === other?.series && one.frames?.parent === other.frames?.parent && one.frames?.child === other.frames?.child;
 
@@ -116,7 +114,7 @@ function stated(recording: Recording, role: Role, wishes: Wishes): Choice {
 }
 
 function framesError({ name: file }: Recording, { name: topic, frames = [] }: Series, role: Role): LogError {
-  const known = frames.map(linked);
+  const known = frames.map(framesOption);
   return new LogError({ file, topic }, (say) => say.frames(listed(known)), { what: 'frames', role, choices: known });
 }
 

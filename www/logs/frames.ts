@@ -1,7 +1,7 @@
 /** Chains of transforms between frames. */
 
 import type { Message } from './formats/container.ts';
-import type { Frames } from './log.ts';
+import { framesText, type Frames } from './log.ts';
 import { poseOf, withoutSlash, type Edge, type Sample, type Transform } from './messages.ts';
 import { product, rotated } from './quaternion.ts';
 
@@ -21,20 +21,18 @@ interface Link extends Frames {
   travelled: number;
 }
 
-export const nameOf = ({ parent, child }: Frames) => `${parent} → ${child}`;
-
 /** Links between frames. A frame may have several parents, as one in the map and one in the odometry. */
 export class FrameTree {
   #links = new Map<string, Link>();
   #above = new Map<string, Link[]>();
 
   take({ parent, child, transform }: Edge, isStatic: boolean): void {
-    const link = this.#links.get(nameOf({ parent, child }));
+    const link = this.#links.get(framesText({ parent, child }));
     if (link) {
       link.travelled = Math.max(link.travelled, Math.hypot(transform[0] - link.origin[0], transform[1] - link.origin[1]));
     } else if (this.#links.size < MAX_FRAMES) {
       const added = { parent, child, isStatic, origin: transform, travelled: 0 };
-      this.#links.set(nameOf(added), added);
+      this.#links.set(framesText(added), added);
       this.#above.set(child, [...(this.#above.get(child) ?? []), added]);
     }
   }
@@ -107,13 +105,13 @@ export class Chain {
   /** Takes a transform, static ones before all others: they hold at all times. */
   take(edge: Edge, isStatic: boolean, { channel, seconds, nanoseconds }: Message, number: number): void {
     this.tree.take(edge, isStatic);
-    const sample = { link: nameOf(edge), edge, message: { channel, seconds, nanoseconds }, number };
+    const sample = { link: framesText(edge), edge, message: { channel, seconds, nanoseconds }, number };
     if (this.isConnected) {
       if (this.#links.includes(sample.link)) this.#samples.push(sample);
       return;
     }
     this.#waiting.set(sample.link, sample);
-    this.#links = (this.tree.chain(this.#ends) ?? []).map(nameOf);
+    this.#links = (this.tree.chain(this.#ends) ?? []).map(framesText);
     for (const link of this.#links) this.#samples.push(this.#waiting.get(link) as TimedEdge);
   }
 

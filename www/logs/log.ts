@@ -31,6 +31,12 @@ export interface Frames {
   child: string;
 }
 
+/** Prints frames for a reader. */
+export const framesText = ({ parent, child }: Frames) => `${parent} → ${child}`;
+
+/** Prints frames as an option states them. */
+export const framesOption = ({ parent, child }: Frames) => `${parent},${child}`;
+
 /** Choice of a log. */
 export interface Choice {
   /** Name of the series. */

@@ -1,9 +1,9 @@
 /** Logs of the topics of a recording. */
 
 import type { Channel, Container, Message } from './formats/container.ts';
-import { Chain, FrameTree, nameOf } from './frames.ts';
+import { Chain, FrameTree } from './frames.ts';
 import { LogError, cut, listed, reasonOf, type Words } from './log-error.ts';
-import { LOG_TIME, type Choice, type Log, type Note, type OpenOptions, type Question, type Recording, type Series } from './log.ts';
+import { LOG_TIME, framesOption, framesText, type Choice, type Log, type Note, type OpenOptions, type Question, type Recording, type Series } from './log.ts';
 import { edgesOf, isReadable, kindOf, poseReader, type Sample } from './messages.ts';
 import { MAX_VALUE, Rows } from './rows.ts';
 
@@ -98,8 +98,8 @@ class TopicReader {
     if (this.#kind !== 'transforms') return;
     const candidates = series.find(({ name }) => name === choice.series)?.frames ?? [];
     if (!choice.frames) {
-      const ask = { what: 'frames' as const, choices: candidates.map(({ parent, child }) => `${parent},${child}`) };
-      this.#refuse((say) => say.frames(listed(candidates.map(nameOf))), ask);
+      const ask = { what: 'frames' as const, choices: candidates.map(framesOption) };
+      this.#refuse((say) => say.frames(listed(candidates.map(framesText))), ask);
     }
     this.#chain = new Chain(choice.frames);
   }
@@ -182,7 +182,7 @@ class TopicReader {
       ...(damage.size ? [{ name: 'damaged' as const, values: [damage.size, reason] }] : []),
       ...(cutShort ? [{ name: 'cutShort' as const, values: [] }] : []),
     ];
-    return this.#rows.end(`${this.#file}, ${series}${frames ? ` (${nameOf(frames)})` : ''}`, kind, {
+    return this.#rows.end(`${this.#file}, ${series}${frames ? ` (${framesText(frames)})` : ''}`, kind, {
       units: { time: { unit: 'ns', by: 'format' }, length: { unit: 'm', by: 'format' }, angle: { unit: kind === 'poses' ? 'quaternion' : 'none', by: 'format' } },
       clocks: ['header.stamp', LOG_TIME],
       ...(frames && { frames }),
@@ -193,9 +193,9 @@ class TopicReader {
   #addPoses(chain: Chain): void {
     const frames = this.#choice.frames as NonNullable<Choice['frames']>;
     if (this.#damaged === this.#number) return;
-    if (!chain.isConnected) this.#refuse((say) => say.noChain(nameOf(frames), listed(chain.tree.links.map(nameOf))));
+    if (!chain.isConnected) this.#refuse((say) => say.noChain(framesText(frames), listed(chain.tree.links.map(framesText))));
     const changes = chain.poses((pose, { message, number }) => this.#add(pose, message, number));
-    if (!changes) this.#refuse((say) => say.constant(nameOf(frames), listed(chain.tree.candidates().map(nameOf))));
+    if (!changes) this.#refuse((say) => say.constant(framesText(frames), listed(chain.tree.candidates().map(framesText))));
   }
 
   #refuse(reason: (say: Words['refused']) => string, ask?: Question): never {

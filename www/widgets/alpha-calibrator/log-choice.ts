@@ -3,7 +3,7 @@
 import { html, nothing } from 'lit';
 import { live } from 'lit/directives/live.js';
 import { candidates, usefulSeries } from '../../logs/candidates.ts';
-import { ROLES, UNITS, type Choice, type Question, type Recording, type Role } from '../../logs/log.ts';
+import { ROLES, UNITS, framesText, type Choice, type Question, type Recording, type Role } from '../../logs/log.ts';
 import { radioGroup } from '../../ui/controls.ts';
 import type { Asked, Chosen, Figure, LogOpener, LogWords } from './open.ts';
 
@@ -14,7 +14,7 @@ const FIELDS = ['t', 'x', 'y', 'yaw', 'qx', 'qy', 'qz', 'qw', 'v', 'omega'] as c
 const CELL = 16;
 
 /** Returns the name of a choice: its series, with the frames of transforms. */
-export const labelOf = ({ series, frames }: Choice) => (frames ? `${series}: ${frames.parent} → ${frames.child}` : series);
+export const labelOf = ({ series, frames }: Choice) => (frames ? `${series}: ${framesText(frames)}` : series);
 
 /** Returns all that a role may be read from; each chain of transforms is an option of its own. */
 function optionsOf(recording: Recording, role?: Role): [label: string, Choice][] {

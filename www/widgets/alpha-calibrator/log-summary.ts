@@ -4,7 +4,7 @@ import { bisectLeft } from 'd3-array';
 import { html, nothing, svg } from 'lit';
 import { guard } from 'lit/directives/guard.js';
 import type { Drive } from '../../logs/drives.ts';
-import { LOG_TIME, ROLES, type Cause, type Log } from '../../logs/log.ts';
+import { LOG_TIME, ROLES, framesText, type Cause, type Log } from '../../logs/log.ts';
 import { pathOf, type Path, type Point } from '../../logs/path.ts';
 import { notesOf } from '../../logs/summary.ts';
 import { language } from '../../messages/registry.ts';
@@ -53,7 +53,7 @@ function tableOf({ odometry, reference }: Drive, caption: string, say: LogWords)
       ${row(labels.gaps, ({ summary: { gaps } }) => (gaps.count ? labels.longest(fixed(gaps.longest, 2), counted(gaps.count)) : labels.none))}
       ${row(labels.jumps, ({ summary: { jumps } }) => (jumps.count ? counted(jumps.count) : ''))}
       ${row(labels.units, ({ summary: { units } }) => say.found.units(units))}
-      ${row(labels.frames, ({ summary: { frames } }) => (frames ? `${frames.parent} → ${frames.child}` : ''))}
+      ${row(labels.frames, ({ summary: { frames } }) => (frames ? framesText(frames) : ''))}
       ${row(labels.columns, ({ summary: { columns } }) => (columns ? Object.values(columns).join(', ') : ''))}
       ${row(labels.clock, ({ summary: { clock, columns } }) => (columns ? '' : clock === LOG_TIME ? labels.recorded : clock))}
       ${row(labels.notes, (log) => lines(notesOf(log, say.found)))}

@@ -38,21 +38,30 @@ const [CDR, CDR_2] = [[0, 1], [6, 7, 16, 17]];
 /** Bytes of the header of CDR, from whose end values are aligned. */
 const CDR_HEADER = 4;
 
+/** View of the buffer of the latest message. The messages of a block share it: a view takes as long as reading a message. */
+let latest: DataView = new DataView(new ArrayBuffer(0));
+
 /** Reader of the values of a message: packed in ROS 1, aligned to their size in ROS 2. */
 class Reader {
   #view;
-  #at = 0;
+  #at;
+  #end;
+  /** Position from which values are aligned. */
+  #start;
   #isLittle = true;
   #alignment = 1;
 
-  constructor(encoding: string, data: Uint8Array) {
-    this.#view = viewOf(data);
+  constructor(encoding: string, { buffer, byteOffset, byteLength }: Uint8Array) {
+    if (latest.buffer !== buffer) latest = new DataView(buffer);
+    this.#view = latest;
+    this.#at = this.#start = byteOffset;
+    this.#end = byteOffset + byteLength;
     if (encoding === 'ros1') return;
-    const kind = this.#view.getUint8(1);
+    this.#start += CDR_HEADER;
+    const kind = this.#view.getUint8(this.#next(CDR_HEADER) + 1);
     if (!CDR.includes(kind) && !CDR_2.includes(kind)) throw new RangeError(`CDR of kind ${kind}`);
     this.#isLittle = kind % 2 === 1;
     this.#alignment = CDR.includes(kind) ? 8 : 4;
-    this.#at = CDR_HEADER;
   }
 
   /** Stamp of a header, which in ROS 1 comes after a number. */
@@ -61,8 +70,10 @@ class Reader {
     return { seconds: this.#view.getInt32(this.#next(4), this.#isLittle), nanoseconds: this.uint32() };
   }
 
+  /** Goes on behind some bytes. */
   seek(bytes: number): void {
     this.#at += bytes;
+    if (this.#at > this.#end) throw new RangeError('the message is too short');
   }
 
   uint32(): number {
@@ -75,16 +86,15 @@ class Reader {
 
   string(): string {
     const length = this.uint32();
-    this.#at += length;
-    const { buffer, byteOffset } = this.#view;
-    return new TextDecoder().decode(new Uint8Array(buffer, byteOffset + this.#at - length, length)).replace(/\0$/, '');
+    this.seek(length);
+    return new TextDecoder().decode(new Uint8Array(this.#view.buffer, this.#at - length, length)).replace(/\0$/, '');
   }
 
   /** Returns the position of a value, and goes on behind it. */
   #next(size: number): number {
     const alignment = Math.min(size, this.#alignment);
-    const at = this.#at + ((CDR_HEADER - this.#at) & (alignment - 1));
-    this.#at = at + size;
+    const at = this.#at + ((this.#start - this.#at) & (alignment - 1));
+    this.seek(at + size - this.#at);
     return at;
   }
 }

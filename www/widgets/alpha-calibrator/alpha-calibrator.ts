@@ -247,6 +247,7 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
       <section
         class="machine"
         aria-label=${this.lettering.name}
+        @dragenter=${this.#opener.prepare}
         @dragover=${this.#opener.dropped.over}
         @dragleave=${this.#opener.dropped.away}
         @drop=${this.#opener.dropped.drop}

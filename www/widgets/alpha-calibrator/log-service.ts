@@ -52,6 +52,15 @@ export class LogService {
     return this.#fail !== undefined;
   }
 
+  /** Starts the worker before it is needed. A request says why it does not start. */
+  start() {
+    this.#connected.catch(() => {});
+  }
+
+  get #connected() {
+    return (this.#link ??= connect(this.#tag));
+  }
+
   /** Opens files with the options of each name, and gives up what is being done. */
   async open(files: Source[], answers: Record<string, OpenOptions>): Promise<Opened[]> {
     this.stop();
@@ -108,7 +117,7 @@ export class LogService {
     const asked = new Promise<Result>((resolve, reject) => {
       this.#fail = reject;
       const post = async () => {
-        const { port } = await (this.#link ??= connect(this.#tag));
+        const { port } = await this.#connected;
         if (number !== this.#number) return;
         port.onmessage = ({ data }: MessageEvent<Answer>) => {
           if (data.number !== this.#number) return;

@@ -124,6 +124,12 @@ export class LogOpener extends Part<Figure> {
     this.host.gesture.commit();
   }
 
+  /** Loads what reads logs, while the reader chooses files or drags them here. */
+  prepare = () => {
+    loadReader().catch(() => {});
+    this.host.service.start();
+  };
+
   choose(files: File[]) {
     const logs = files.filter(isLog);
     if (files.length > 0) this.#open({ files: logs.length ? logs : files, recordings: [], answers: {}, questions: [], wishes: {}, roles: new Map() });
@@ -251,7 +257,7 @@ export function dropZone(figure: Figure, opener: LogOpener) {
   return html`<div class="drop-zone" id=${ZONE} part="drop">
     <p title=${say.dropTitle}>
       ${say.drop}
-      <label class="files"><span>${say.files}</span>${fileInput('log-files', EXTENSIONS, (files) => opener.dropped.take(files))}</label>
+      <label class="files" @click=${opener.prepare}><span>${say.files}</span>${fileInput('log-files', EXTENSIONS, (files) => opener.dropped.take(files))}</label>
     </p>
     ${share !== undefined
       ? html`<p><progress aria-label=${say.reading} .value=${share}></progress> ${button(words.progress.stop, () => opener.stop())}</p>`

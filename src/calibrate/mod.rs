@@ -2,7 +2,7 @@
 //!
 //! [`calibrate`] cuts the log into [`Leg`]s as long as the updates of the filter that is to use the α's. Each gives residuals whose variances
 //! are linear in the α's ([`Observation`]). α's, the noise of the reference and the systematic errors are those of the largest restricted
-//! likelihood. Checks tell whether to trust them, and windows of a metre by how much to inflate them. `doc/calibration.md` has the formulas.
+//! likelihood. Checks tell whether to trust them, and windows of a metre by how much to inflate them. `doc/calibration-method.md` has the formulas.
 
 mod alignment;
 mod checks;

@@ -1,9 +1,11 @@
-// The limits of the pages in doc/model.md: where a picture or a sentence becomes another one; and the tests that
-// doc/reliability.md names.
+// Documents: their links and lengths, the limits of the pages in doc/model.md and doc/statistics.md, and the tests that doc/reliability.md names.
 
 import assert from 'node:assert/strict';
 import { existsSync, readFileSync } from 'node:fs';
+import { dirname, join } from 'node:path';
 import { test } from 'node:test';
+import { filesOf } from '../../scripts/bundle.mjs';
+import { ROOT } from '../../scripts/process.mjs';
 
 const read = (/** @type {string} */ path) => readFileSync(new URL(`../../${path}`, import.meta.url), 'utf8');
 
@@ -11,13 +13,13 @@ const read = (/** @type {string} */ path) => readFileSync(new URL(`../../${path}
 const LIMITS = [
   ['www/widgets/banana-machine/pictures.ts', 'MAX_DOTS', /Up to (\S+) robots are drawn as dots/],
   ['www/widgets/map-squeeze/reading.ts', 'MAX_DOTS', /more than (\S+) motions are drawn as cells/],
-  ['www/widgets/banana-machine/words.ts', 'HARDLY', /leans to neither side, below (\S+) hardly/],
-  ['www/widgets/banana-machine/words.ts', 'TOO_LARGE', /where the ellipse has more than (\S+) times the area/],
-  ['www/widgets/banana-machine/words.ts', 'BENT', /or else the gain is more than (\S+) nats a robot/],
+  ['www/widgets/banana-machine/words.ts', 'HARDLY', /exact skew is below (\S+) \| the cloud hardly leans/],
+  ['www/widgets/banana-machine/words.ts', 'TOO_LARGE', /if the ellipse has more than (\S+) times the area/],
+  ['www/widgets/banana-machine/words.ts', 'BENT', /or if the gain is more than (\S+) nats a robot/],
 ];
 
-test('doc/model.md has the limits of the pages', () => {
-  const told = read('doc/model.md').replace(/\s+/g, ' ');
+test('doc/model.md and doc/statistics.md have the limits of the pages', () => {
+  const told = `${read('doc/model.md')}${read('doc/statistics.md')}`.replace(/\s+/g, ' ');
   for (const [file, name, sentence] of LIMITS) {
     const [, set] = read(file).match(new RegExp(`const ${name} = ([\\d._]+);`)) ?? [];
     assert.ok(set, `${name} of ${file}`);
@@ -34,4 +36,38 @@ test('doc/reliability.md names files and commands that are there', () => {
   const files = [...told.matchAll(/`((?:tests|src|scripts|fuzz|www)\/[\w./-]*)`/g)].map(([, path]) => path);
   assert.ok(files.length > 15, files.join(', '));
   for (const path of files) assert.ok(existsSync(new URL(`../../${path}`, import.meta.url)), path);
+});
+
+/** Text of each document without its listings. */
+const DOCUMENTS = new Map(['README.md', ...filesOf('doc').filter((path) => path.endsWith('.md'))]
+  .map((path) => [path, read(path).replaceAll(/^```.*?^```/gms, '')]));
+
+/** Returns the anchors of headings, as GitHub makes them. */
+const anchorsOf = (/** @type {string} */ text, level = '#+') =>
+  [...text.matchAll(new RegExp(`^${level} (.*)$`, 'gm'))].map(([, heading]) => heading.toLowerCase().replace(/[^\p{L}\p{N} _-]/gu, '').replaceAll(' ', '-'));
+
+/** Returns the relative links of a text, as path and anchor. */
+const linksOf = (/** @type {string} */ text) =>
+  [...text.matchAll(/\]\((?!https?:)([^)#\s]*)#?([^)\s]*)\)/g)].map(([, path, anchor]) => ({ path, anchor }));
+
+test('links of the documents lead to files and headings that exist', () => {
+  for (const [document, text] of DOCUMENTS) {
+    for (const { path, anchor } of linksOf(text)) {
+      const target = path === '' ? document : join(dirname(document), path);
+      assert.ok(existsSync(join(ROOT, target)), `${document}: ${path}`);
+      if (anchor !== '') assert.ok(anchorsOf(DOCUMENTS.get(target) ?? '').includes(anchor), `${document}: ${path}#${anchor}`);
+    }
+  }
+});
+
+test('documents are short, and long ones have a table of contents', () => {
+  const index = linksOf(DOCUMENTS.get('doc/README.md') ?? '').map(({ path }) => join('doc', path));
+  for (const [document, text] of DOCUMENTS) {
+    const lines = read(document).trimEnd().split('\n').length;
+    assert.ok(lines <= (document === 'README.md' ? 150 : 350), `${document} has ${lines} lines`);
+    if (document.startsWith('doc/') && document !== 'doc/README.md') assert.ok(index.includes(document), `${document} is not in doc/README.md`);
+    const headings = anchorsOf(text, '##');
+    const contents = linksOf(text).filter(({ path }) => path === '').map(({ anchor }) => anchor);
+    if (headings.length > 6) assert.deepEqual(headings.filter((heading) => !contents.includes(heading)), [], `contents of ${document}`);
+  }
 });

@@ -1,4 +1,4 @@
-//! Figures of the Banana Machine on the page and in doc/model.md, read there and computed.
+//! Figures of the Banana Machine on the page and in doc/statistics.md, read there and computed.
 
 use crate::common::told::{Number, Told};
 use crate::common::{SIGMAS, preset, winds_around};
@@ -14,7 +14,7 @@ fn page() -> Told {
 }
 
 fn document() -> Told {
-    Told::in_document(include_str!("../../../doc/model.md"))
+    Told::in_document(include_str!("../../../doc/statistics.md"))
 }
 
 #[test]

@@ -1,4 +1,4 @@
-/** The morph that carries the floor continuously to exponential coordinates: see doc/model.md. */
+/** The morph that carries the floor continuously to exponential coordinates: see doc/statistics.md. */
 
 import { html } from 'lit';
 import { words } from '../../messages/registry.ts';

@@ -88,6 +88,11 @@ const own = css`
     align-items: center;
   }
 
+  /* The button takes room from the track. */
+  .playable > .slider:not(:has(> .choice)) {
+    grid-template: 'name value' auto 'track track' auto / 1fr auto;
+  }
+
   .playable > button {
     min-width: 5em;
     /* Beside the track, not beside the hint below it. */

@@ -1,0 +1,54 @@
+// Picture of README: the morph of the Banana Machine. `node scripts/morph.mjs` retakes it.
+
+import { mkdtempSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { CHROME_ARGUMENTS, ensureBrowser } from './browser.mjs';
+import { build } from './build.mjs';
+import { ROOT, findProgram, mustRun, runAsScript } from './process.mjs';
+import { serve } from './serve.mjs';
+import { aptInstall } from './toolchain.mjs';
+
+/** Width of the figure, which shows one picture, and size of its letters, pixels. */
+const WIDTH = 690;
+const LETTERS = 24;
+
+/** Pictures of the morph, the duration of one, and that of the first and last, ms. */
+const FRAMES = 24;
+const DURATIONS = { each: 100, end: 1600 };
+
+const WEBP = 'img2webp is missing: install the package webp.';
+
+await runAsScript(import.meta.url, async () => {
+  await build({ local: true });
+  const { chromium } = await import('@playwright/test');
+  const browser = await chromium.launch({ executablePath: (await ensureBrowser()).chrome, args: CHROME_ARGUMENTS });
+  const { address, close } = await serve(join(ROOT, 'dist'), { port: 0 });
+  const frames = mkdtempSync(join(tmpdir(), 'morph-'));
+  try {
+    if (findProgram('img2webp') === undefined) await aptInstall(['webp'], WEBP);
+    const page = await browser.newPage({ viewport: { width: WIDTH, height: 1350 } });
+    await page.goto(`${address}embed.html?widget=banana-machine`);
+    await page.addStyleTag({ content: `body { margin: 0; font-size: ${LETTERS}px }` });
+    const figure = page.locator('banana-machine');
+    await figure.locator('.folds').waitFor();
+    await page.waitForFunction(() => !(/** @type {any} */ (document.querySelector('banana-machine')).playing));
+    await page.waitForTimeout(1500);
+    const { y, height } = (await figure.locator('.morphing').boundingBox()) ?? { y: 0, height: 0 };
+    const clip = { x: 0, y: 0, width: WIDTH, height: y + height };
+    const listed = [];
+    for (let i = 0; i <= FRAMES; i++) {
+      const share = (1 - Math.cos((Math.PI * i) / FRAMES)) / 2;
+      await figure.evaluate((element, morph) => element.setAttribute('morph', String(morph)), share);
+      await page.waitForTimeout(100);
+      const path = join(frames, `${i}.png`);
+      await page.screenshot({ path, clip });
+      listed.push('-d', String(i % FRAMES === 0 ? DURATIONS.end : DURATIONS.each), path);
+    }
+    await mustRun(WEBP, 'img2webp', ['-loop', '0', '-lossy', '-q', '50', '-m', '6', ...listed, '-o', join(ROOT, 'doc/morph.webp')]);
+  } finally {
+    await browser.close();
+    close();
+    rmSync(frames, { recursive: true });
+  }
+});

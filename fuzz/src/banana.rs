@@ -5,7 +5,9 @@ use super::laws;
 use super::settings::{allowed, changed};
 use motion::geom::se2::SE2;
 use motion::sim::View;
-use motion::sim::banana::{BananaMachine, Column, Contours, Executed, Figures, Settings, command_reaching};
+use motion::sim::banana::{
+    BananaMachine, Contours, Executed, Figures, Settings, TableColumn, command_reaching,
+};
 use motion::sim::picture::RAMP;
 use motion::sim::settings::QUANTITY;
 use motion::sim::views::{EXTENT, Grid};
@@ -195,7 +197,7 @@ fn contours(machine: &BananaMachine) {
 fn table(machine: &BananaMachine) {
     let table = machine.table();
     for (what, column) in [("linearized", &table.linearized), ("exact", &table.exact)] {
-        let Column { mean, cov, cross_track_skew, likelihood_gain, area_ratio } = column;
+        let TableColumn { mean, cov, cross_track_skew, likelihood_gain, area_ratio } = column;
         laws::moments(what, mean, cov);
         laws::finite_or_none(what, &[*cross_track_skew]);
         assert!(

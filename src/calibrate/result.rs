@@ -42,6 +42,7 @@ pub struct Options {
 
 /// Estimate with its 95 % interval.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 pub struct Estimate {
     pub value: f64,
     pub interval: [f64; 2],

@@ -25,6 +25,7 @@ pub(super) struct Window {
 
 /// Coverage of windows of one length.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 pub struct WindowCoverage {
     /// Least distance driven, m.
     pub length: f64,

@@ -18,7 +18,7 @@ use wide::f64x4;
 /// Infinite where the cloud fills no volume in the coordinates that bend with it, but does in the plain ones: there the
 /// bent Gaussian is infinitely narrow. NaN where it fills none in the plain ones, or where there are too few poses.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(target_arch = "wasm32", derive(serde::Serialize))]
+#[cfg_attr(target_arch = "wasm32", derive(serde::Serialize, tsify::Tsify))]
 pub struct LikelihoodGain {
     /// Of exponential coordinates ξ over (x, y, θ), as densities over dx dy dθ = sinc²(ξ_ω/2) dξ:
     /// ½(ln det Σ_xyθ − ln det Σ_ξ) − mean of ln sinc²(ξ_ω/2).

@@ -12,31 +12,6 @@ use wasm_bindgen::prelude::*;
 
 #[wasm_bindgen(typescript_custom_section)]
 const TYPES: &str = r#"
-/** The true values of the simulated log. */
-export interface CalibrationTruth {
-  /** Of the rule `thrun` on legs of 0.25 m or 0.2 rad. */
-  alphas: number[];
-  clockOffset: number;
-  mountYaw: number;
-  leverArm: number[];
-  distanceScale: number;
-  turnScale: number;
-}
-
-/** The squared residuals of one noise against what drives it, in bins. */
-export interface CalibrationPanel {
-  /** The α that is the slope, from 0. */
-  alpha: number;
-  /** Means of the bins. */
-  x: number[];
-  /** Mean squared residuals, less what the other α answers for. */
-  y: number[];
-  /** Standard errors of `y`. */
-  error: number[];
-  slope: number | null;
-  interval: [number, number] | null;
-}
-
 /** One leg in the frame of the robot at its beginning, m and rad. */
 export interface LegView {
   /** x, y, θ of where it may have ended under the fitted α's times the inflation. */

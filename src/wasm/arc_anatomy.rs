@@ -13,69 +13,6 @@ use wasm_bindgen::prelude::*;
 
 #[wasm_bindgen(typescript_custom_section)]
 const TYPES: &str = r#"
-/** An arc with its circle. */
-export interface Bend {
-  /** m; negative in reverse. */
-  arcLength: number;
-  /** rad, positive to the left. */
-  turn: number;
-  /** m; positive with the center to the left of the heading, infinite where the arc is straight. */
-  radius: number;
-  /** m; null where the arc is straight. */
-  center: [number, number] | null;
-  /** x, y (m) and θ (rad) where it ends. */
-  end: [number, number, number];
-}
-
-/** One of the three factors of p. */
-export interface Factor {
-  /** v̂, ω̂ or γ̂ (m/s, rad/s). */
-  estimate: number;
-  /** v − v̂, ω − ω̂ or γ̂. */
-  residual: number;
-  /** Standard deviation of its noise. */
-  deviation: number;
-  /** residual/deviation: without noise 0 where the residual is 0 to rounding, and infinite elsewhere. */
-  deviations: number;
-  /** The density of the noise at the residual. */
-  value: number;
-  /** That over the density at 0, from 0 to 1. */
-  share: number;
-}
-
-/** What the inversion finds, and how likely that is. */
-export interface AnatomyStats {
-  commanded: Bend;
-  /** The arc to the final position. */
-  inverted: Bend;
-  /** The arc that v̂ and ω̂ drive: the inverted one, unless the radius is as printed. */
-  driven: Bend;
-  /** γ̂Δt, rad. */
-  lastTurn: number;
-  /** Of v̂, ω̂ and γ̂. */
-  factors: [Factor, Factor, Factor];
-  /** Which of them is the most deviations off, from 0. */
-  weakest: number;
-  /** p, the product of the three. */
-  prob: number;
-  /** p over that of the pose without noise, from 0 to 1. */
-  share: number;
-  /** The density of the sampler over dx dy dθ; null where a variance is 0. */
-  density: number | null;
-  /** Along (m), lateral (m), heading (rad). */
-  xi: [number, number, number];
-}
-
-/** Table 5.1 line by line. */
-export interface AnatomyTable {
-  /** μ, x* and y* (m), r* (m), Δθ (rad), v̂ (m/s), ω̂ and γ̂ (rad/s), p. */
-  lines: number[];
-  /** The middle between both positions, from which the center is μ times `normal` away, m. */
-  middle: [number, number];
-  /** The displacement turned by a quarter to the left, m. */
-  normal: [number, number];
-}
-
 /** Root mean square errors of the end of a motion at 1 m/s for 0.1 s, m, over all headings, by the turn rate. */
 export interface FormErrors {
   /** rad/s. */

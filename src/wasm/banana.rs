@@ -38,17 +38,6 @@ export interface Moments {
   cov: number[][];
 }
 
-/**
- * Mean log-likelihood of a robot under a Gaussian in coordinates that bend with the cloud, less that under one in plain
- * ones, each with the moments of the cloud; in nats a robot. Infinity where the cloud fills no volume in the bent ones.
- */
-export interface LikelihoodGain {
-  /** Of exponential coordinates over (x, y, θ). */
-  pose: number;
-  /** Of length and turn of the arc that ends there over (x, y). */
-  floor: number;
-}
-
 /** All over the samples shown; NaN where undefined. */
 export interface Stats {
   /** Samples shown. */
@@ -88,31 +77,11 @@ export interface Contours {
   exponential: Float64Array;
   /** The same in (ξ along, ξ heading), m and rad. */
   twistEllipse: Float64Array;
-  /** 2σ of noise added to the pose: a circle of 0.4 m around the noise-free end, whatever the command and the noise. */
+  /** 2σ, of noise added to the pose: a circle of 0.4 m around the noise-free end, whatever the command and the noise. */
   additive: Float64Array;
 }
 
-export interface TableColumn extends Moments {
-  crossTrackSkew: number;
-  /** Of the linearization 0. */
-  likelihoodGain: LikelihoodGain;
-  /** Of the linearization 1. */
-  areaRatio: number;
-}
-
-/** Moments of the pose three ways, and of its exponential coordinates. */
-export interface Table {
-  /** Noise-free end, and covariance to first order in the noise. */
-  linearized: TableColumn;
-  /** By quadrature. */
-  exact: TableColumn;
-  /** On the samples shown. */
-  measured: TableColumn;
-  /** The commanded twist and its noise; null for the odometry model, whose noise has no such form. */
-  tangent: Moments | null;
-}
-
-/** The legs of the odometry model: turn (rad), drive (m), turn (rad). */
+  /** The legs of the odometry model: turn (rad), drive (m), turn (rad). */
 export interface Legs {
   rot1: number;
   trans: number;

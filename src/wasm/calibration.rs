@@ -12,12 +12,6 @@ const TYPES: &str = r#"
 /** An interval that holds the true value in 95 of 100 logs. */
 export type Interval = [number, number];
 
-/** An estimate with its 95 % interval. */
-export interface Estimate {
-  value: number;
-  interval: Interval;
-}
-
 /** A systematic error. Null where the log does not identify it. */
 export interface SystematicValue {
   value: number | null;
@@ -40,17 +34,6 @@ export interface CalibrationCheck {
   passed: boolean;
   /** What the value means for the α's and what to do; empty where it passed. */
   message: string;
-}
-
-/** Coverage of held-out windows of several legs by the fitted α's. */
-export interface WindowCoverage {
-  /** Distance driven, m. */
-  length: number;
-  count: number;
-  /** Fraction inside of the 95 % ellipsoid; NaN of no windows. */
-  coverage: number;
-  /** Mean squared Mahalanobis distance over 3; 1 if the α's hold. */
-  nees: number;
 }
 
 /** Result of a calibration. */

@@ -15,35 +15,6 @@ use wasm_bindgen::prelude::*;
 
 #[wasm_bindgen(typescript_custom_section)]
 const TYPES: &str = r#"
-/** By the recursion that is compared with the robots. */
-export type ByRecursion<T> = Record<DeadReckoningSettings['compounding'], T>;
-
-/** Where a ratio of variances is off by more than 5 %. */
-export interface Misses {
-  /** Whether there is a spread, and robots are many enough to tell. */
-  told: boolean;
-  /** The first such step; null where there is none, or none can be told. */
-  first: number | null;
-  /** The last. */
-  last: number | null;
-  /** The ratio after the last step, less 1; NaN where there is none. */
-  end: number;
-  /** Its standard error. */
-  error: number;
-}
-
-/** All over the robots driven; NaN where undefined. Components are along, lateral (m) and heading (rad). */
-export interface ReckoningStats {
-  /** Robots driven. */
-  n: number;
-  /** Of ξ about the commanded pose, after the step that is looked at. */
-  measured: Moments;
-  /** Predicted covariance after that step; null where the recursion leaves none. */
-  predicted: ByRecursion<number[][] | null>;
-  /** Of each component. */
-  misses: ByRecursion<Misses[]>;
-}
-
 /** 2σ, as x, y pairs in m, the first point repeated at the end; empty where undefined. */
 export interface StepOutlines {
   /** Of the predicted Gaussian in (x, y). */

@@ -27,25 +27,6 @@ export interface RuleFigures {
   heading: number;
 }
 
-/** What the outcomes shown say, beside what is exact; NaN without any. */
-export interface DecomposerStats {
-  n: number;
-  /** Root mean square of the distance from the measured bearing, m. */
-  crossTrack: number;
-  /** Standard error of `crossTrack`, m. */
-  crossTrackError: number;
-  exactCrossTrack: number;
-  /** How far the first rotation's standard deviation moves the end of the drive, m. */
-  lever: number;
-  /** Root mean square of the turn made but for the measured one, rad. */
-  heading: number;
-  /** Standard error of `heading`, rad. */
-  headingError: number;
-  exactHeading: number;
-  /** `exactHeading` if the two rotations were independent. */
-  independentHeading: number;
-}
-
 /** The odometry in the world, where its frame has drifted. */
 export interface Drifted {
   /** Poses x, y (m), θ (rad) of the frame, and in the world of the two odometry poses, one after the other. */

@@ -16,24 +16,6 @@ use wasm_bindgen::prelude::*;
 
 #[wasm_bindgen(typescript_custom_section)]
 const TYPES: &str = r#"
-/** All over the attempts shown; NaN where undefined. */
-export interface SqueezeStats {
-  attempts: number;
-  /** Draws of the model; of its shorter motions, for the sub-stepped sampler. */
-  drawn: number;
-  accepted: number;
-  acceptanceRate: number;
-  throughWall: number;
-  throughWallRate: number;
-  /** 95 %. */
-  throughWallInterval: [number, number];
-  drawsPerAccepted: number;
-  /** Walls whose distance was computed; most verdicts need none. */
-  wallTestsPerAccepted: number;
-  /** Whether the machine stopped short of its samples. */
-  gaveUp: boolean;
-}
-
 /** As read, in m: least x, least y, greatest x, greatest y; x0, y0, x1, y1 of one wall after the other. */
 export interface Plan {
   bounds: Float64Array;

@@ -36,10 +36,16 @@ pub enum RestoreError {
     Bytes,
 }
 
-/// What is known of the log that the widget opens with.
+/// The true values of the simulated log.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(target_arch = "wasm32", derive(serde::Serialize), serde(rename_all = "camelCase"))]
+#[cfg_attr(
+    target_arch = "wasm32",
+    derive(serde::Serialize, tsify::Tsify),
+    serde(rename_all = "camelCase"),
+    tsify(rename = "CalibrationTruth")
+)]
 pub struct Truth {
+    /// Noise parameters of the rule of Table 5.6, on legs of 0.25 m or 0.2 rad.
     pub alphas: [f64; 4],
     pub clock_offset: f64,
     pub mount_yaw: f64,

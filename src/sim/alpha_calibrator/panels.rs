@@ -26,16 +26,22 @@ const LEAST: usize = 5;
 /// Squared innovations of one noise component against what drives it, less what the other α and the reference explain: their expectation
 /// is α·x.
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(target_arch = "wasm32", derive(serde::Serialize))]
+#[cfg_attr(
+    target_arch = "wasm32",
+    derive(serde::Serialize, tsify::Tsify),
+    tsify(rename = "CalibrationPanel", missing_as_null)
+)]
 pub struct Panel {
     /// The α that is the slope, from 0.
     pub alpha: usize,
-    /// Means of the bins: of what drives it, of the squares, and the standard errors of these: by how they scatter or by what the
-    /// model says of it, the larger. Of a bin in which one leg may be further out than all others, the scatter alone says too little.
+    /// Means of the bins.
     pub x: Vec<f64>,
+    /// Mean squared residuals, less the part of the other α.
     pub y: Vec<f64>,
+    /// Standard errors of `y`: by how the squares scatter or by what the model says of that, the larger. Of a bin in which one leg may be
+    /// further out than all others, the scatter alone says too little.
     pub error: Vec<f64>,
-    /// The slope and its interval; None where the log does not determine it.
+    /// Slope; null (None) where the log does not identify it, as its interval.
     pub slope: Option<f64>,
     pub interval: Option<[f64; 2]>,
 }

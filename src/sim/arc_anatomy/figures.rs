@@ -8,15 +8,20 @@ use crate::noise::{NoiseKind, Variance, joint};
 
 /// An arc with its circle.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(target_arch = "wasm32", derive(serde::Serialize), serde(rename_all = "camelCase"))]
+#[cfg_attr(
+    target_arch = "wasm32",
+    derive(serde::Serialize, tsify::Tsify),
+    serde(rename_all = "camelCase"),
+    tsify(missing_as_null)
+)]
 pub struct Bend {
     /// m; negative in reverse.
     pub arc_length: f64,
     /// rad, positive to the left.
     pub turn: f64,
-    /// m; positive with the centre to the left of the heading, infinite where the arc is straight.
+    /// m; positive with the center to the left of the heading, infinite where the arc is straight.
     pub radius: f64,
-    /// m; None where the arc is straight.
+    /// m; null (None) where the arc is straight.
     #[cfg_attr(target_arch = "wasm32", serde(rename = "center"))]
     pub centre: Option<[f64; 2]>,
     /// x, y (m) and θ (rad) where it ends.
@@ -45,7 +50,7 @@ impl Bend {
 
 /// One of the three factors of p.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(target_arch = "wasm32", derive(serde::Serialize), serde(rename_all = "camelCase"))]
+#[cfg_attr(target_arch = "wasm32", derive(serde::Serialize, tsify::Tsify), serde(rename_all = "camelCase"))]
 pub struct Factor {
     /// v̂, ω̂ or γ̂ (m/s, rad/s).
     pub estimate: f64,
@@ -76,7 +81,12 @@ impl Factor {
 
 /// Everything that is read beside the picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(target_arch = "wasm32", derive(serde::Serialize), serde(rename_all = "camelCase"))]
+#[cfg_attr(
+    target_arch = "wasm32",
+    derive(serde::Serialize, tsify::Tsify),
+    serde(rename_all = "camelCase"),
+    tsify(rename = "AnatomyStats", missing_as_null)
+)]
 pub struct Stats {
     pub commanded: Bend,
     /// The arc to the final position.
@@ -93,7 +103,7 @@ pub struct Stats {
     pub prob: f64,
     /// p over that of the pose without noise, from 0 to 1.
     pub share: f64,
-    /// The density of the sampler over dx dy dθ; None where a variance is 0.
+    /// The density of the sampler over dx dy dθ; null (None) where a variance is 0.
     pub density: Option<f64>,
     /// ξ = next ⊟ start: along (m), lateral (m), heading (rad).
     pub xi: [f64; 3],

@@ -8,7 +8,12 @@ use crate::geom::arc::ArcInversion;
 ///
 /// Where the displacement is parallel to the heading μ, the centre and r* are infinite, and where there is none μ is NaN.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(target_arch = "wasm32", derive(serde::Serialize), serde(rename_all = "camelCase"))]
+#[cfg_attr(
+    target_arch = "wasm32",
+    derive(serde::Serialize, tsify::Tsify),
+    serde(rename_all = "camelCase"),
+    tsify(rename = "AnatomyTable")
+)]
 pub struct Table {
     /// μ, x* (m), y* (m), r* (m), Δθ (rad), v̂ (m/s), ω̂ (rad/s), γ̂ (rad/s) and p.
     pub lines: [f64; 9],

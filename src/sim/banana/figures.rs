@@ -130,28 +130,39 @@ impl serde::Serialize for Stats {
 
 /// Moments of the pose, in m and rad, and the measures of its banana.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(target_arch = "wasm32", derive(serde::Serialize), serde(rename_all = "camelCase"))]
-pub struct Column {
-    #[cfg_attr(target_arch = "wasm32", serde(serialize_with = "crate::stats::plain::vector"))]
+#[cfg_attr(target_arch = "wasm32", derive(serde::Serialize, tsify::Tsify), serde(rename_all = "camelCase"))]
+pub struct TableColumn {
+    #[cfg_attr(
+        target_arch = "wasm32",
+        serde(serialize_with = "crate::stats::plain::vector"),
+        tsify(type = "number[]")
+    )]
     pub mean: Vector3<f64>,
-    #[cfg_attr(target_arch = "wasm32", serde(serialize_with = "crate::stats::plain::matrix"))]
+    #[cfg_attr(
+        target_arch = "wasm32",
+        serde(serialize_with = "crate::stats::plain::matrix"),
+        tsify(type = "number[][]")
+    )]
     pub cov: Matrix3<f64>,
     pub cross_track_skew: f64,
+    /// Of the linearization 0.
     pub likelihood_gain: LikelihoodGain,
+    /// Of the linearization 1.
     pub area_ratio: f64,
 }
 
 /// Moments of the pose three ways, and of its exponential coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(target_arch = "wasm32", derive(serde::Serialize))]
+#[cfg_attr(target_arch = "wasm32", derive(serde::Serialize, tsify::Tsify), tsify(missing_as_null))]
 pub struct Table {
     /// The noise-free end, and the covariance to first order in the noise.
-    pub linearized: Column,
+    pub linearized: TableColumn,
     /// By quadrature.
-    pub exact: Column,
+    pub exact: TableColumn,
     /// Of the samples shown.
-    pub measured: Column,
-    /// The commanded twist and its noise; None where the noise has no such form.
+    pub measured: TableColumn,
+    /// The commanded twist and its noise; null (None) where the noise has no such form.
+    #[cfg_attr(target_arch = "wasm32", tsify(type = "Moments | null"))]
     pub tangent: Option<ExponentialMoments>,
 }
 

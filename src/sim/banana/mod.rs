@@ -5,7 +5,7 @@ mod gaps;
 mod settings;
 
 use figures::Charted;
-pub use figures::{Column, Contours, Executed, Figures, Sample, Stats, Table};
+pub use figures::{Contours, Executed, Figures, Sample, Stats, Table, TableColumn};
 pub use settings::*;
 
 use super::cloud::drive::Drive;
@@ -333,7 +333,7 @@ impl BananaMachine {
         let Figures { cartesian, cross_track, gain, area_ratio, .. } = self.figures;
         Table {
             // A Gaussian in (x, y), whatever its moments, has no skew, and to first order none in other coordinates differs.
-            linearized: Column {
+            linearized: TableColumn {
                 mean: linearized.mean,
                 cov: linearized.cov,
                 cross_track_skew: 0.0,
@@ -341,7 +341,7 @@ impl BananaMachine {
                 area_ratio: 1.0,
             },
             exact: self.exact_column(),
-            measured: Column {
+            measured: TableColumn {
                 mean: cartesian.mean,
                 cov: cartesian.cov,
                 cross_track_skew: cross_track.skew,
@@ -353,12 +353,12 @@ impl BananaMachine {
     }
 
     #[inline(never)]
-    fn exact_column(&self) -> Column {
+    fn exact_column(&self) -> TableColumn {
         let (ExactMoments { mean, cov, cross_track_skew }, gain) = (self.exact(), self.exact_gain());
         let ellipse = Ellipse::from_moments(&CartesianMoments { mean, cov });
         let contour = ExponentialContour::new(&gain.exponential, &START);
         let area_ratio = contour.area_ratio(&ellipse, OUTLINE_SEGMENTS);
-        Column { mean, cov, cross_track_skew, likelihood_gain: gain.value, area_ratio }
+        TableColumn { mean, cov, cross_track_skew, likelihood_gain: gain.value, area_ratio }
     }
 
     /// The exact cross-track skew at `points` rotational velocities spread evenly from `first` to `last` (rad/s), all

@@ -27,17 +27,19 @@ pub struct Comparison {
     pub misses: [Misses; 3],
 }
 
-/// Where the ratio of one component is off by more than [`TOLERANCE`].
+/// Where the ratio of one component is off by more than 5 %, see [`TOLERANCE`].
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(target_arch = "wasm32", derive(serde::Serialize))]
+#[cfg_attr(target_arch = "wasm32", derive(serde::Serialize, tsify::Tsify), tsify(missing_as_null))]
 pub struct Misses {
     /// Whether there is a spread, and robots are many enough to tell.
     pub told: bool,
-    /// The first step with a miss, and the last; None where there is none, or none can be told.
+    /// The first step with a miss; null (None) where there is none, or none can be told.
     pub first: Option<u32>,
+    /// The last step with a miss.
     pub last: Option<u32>,
-    /// The ratio after the last step, less 1, and its standard error; NaN where there is none.
+    /// The ratio after the last step, less 1; NaN where there is none.
     pub end: f64,
+    /// Standard error of `end`.
     pub error: f64,
 }
 

@@ -43,12 +43,15 @@ pub struct DeadReckoning {
 
 /// What the robots driven say, and how the recursions compare. Figures without meaning are NaN.
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(target_arch = "wasm32", derive(serde::Serialize))]
+#[cfg_attr(target_arch = "wasm32", derive(serde::Serialize, tsify::Tsify), tsify(rename = "ReckoningStats"))]
 pub struct Stats {
+    /// Number of robots driven.
     pub n: usize,
-    /// After the step that is looked at.
+    /// Moments of ξ (m, m, rad) about the commanded pose, after the step that is looked at.
+    #[cfg_attr(target_arch = "wasm32", tsify(type = "Moments"))]
     pub measured: ExponentialMoments,
-    /// After that step; None where the recursion leaves no covariance.
+    /// Covariance after that step; null (None) where the recursion leaves none.
+    #[cfg_attr(target_arch = "wasm32", tsify(type = "ByRecursion<number[][] | null>"))]
     pub predicted: ByRecursion<Option<Covariance>>,
     /// Of along, lateral and heading.
     pub misses: ByRecursion<[Misses; 3]>,
@@ -56,7 +59,7 @@ pub struct Stats {
 
 /// Something of each of [`RECURSIONS`].
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(target_arch = "wasm32", derive(serde::Serialize), serde(rename_all = "kebab-case"))]
+#[cfg_attr(target_arch = "wasm32", derive(serde::Serialize, tsify::Tsify), serde(rename_all = "kebab-case"))]
 pub struct ByRecursion<T> {
     pub chapter: T,
     pub first_order: T,

@@ -33,20 +33,27 @@ pub struct RuleFigures {
 
 /// What the outcomes shown say, beside what is exact under the present rule. NaN without any.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(target_arch = "wasm32", derive(serde::Serialize), serde(rename_all = "camelCase"))]
+#[cfg_attr(
+    target_arch = "wasm32",
+    derive(serde::Serialize, tsify::Tsify),
+    serde(rename_all = "camelCase"),
+    tsify(rename = "DecomposerStats")
+)]
 pub struct Stats {
     pub n: usize,
-    /// Root mean square of the distance from the measured bearing, m, and its standard error.
+    /// Root mean square of the distance from the measured bearing, m.
     pub cross_track: f64,
+    /// Standard error of the cross track, m.
     pub cross_track_error: f64,
     pub exact_cross_track: f64,
     /// How far the first rotation's standard deviation moves the end of the drive: δ_trans·σ_rot1, m.
     pub lever: f64,
-    /// Root mean square of the turn made but for the measured one, rad, and its standard error.
+    /// Root mean square of the turn made but for the measured one, rad.
     pub heading: f64,
+    /// Standard error of the heading, rad.
     pub heading_error: f64,
     pub exact_heading: f64,
-    /// The same if the two rotations were independent.
+    /// Exact heading if the two rotations were independent.
     pub independent_heading: f64,
 }
 

@@ -44,7 +44,12 @@ pub(super) fn share(part: usize, all: usize) -> f64 {
 
 /// Statistics of the attempts shown. Shares of nothing are NaN.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(target_arch = "wasm32", derive(serde::Serialize), serde(rename_all = "camelCase"))]
+#[cfg_attr(
+    target_arch = "wasm32",
+    derive(serde::Serialize, tsify::Tsify),
+    serde(rename_all = "camelCase"),
+    tsify(rename = "SqueezeStats")
+)]
 pub struct Stats {
     pub attempts: usize,
     /// Draws of the model; for the sub-stepped sampler, of its shorter motions.
@@ -53,9 +58,10 @@ pub struct Stats {
     pub acceptance_rate: f64,
     pub through_wall: usize,
     pub through_wall_rate: f64,
-    /// 95 %.
+    /// 95 % interval of the rate.
     pub through_wall_interval: [f64; 2],
     pub draws_per_accepted: f64,
+    /// Walls whose distance was computed; most verdicts need none.
     pub wall_tests_per_accepted: f64,
     /// True if the machine stopped short of its samples.
     pub gave_up: bool,

@@ -6,7 +6,7 @@ use motion::geom::arc::ArcInversion;
 use motion::geom::se2::SE2;
 use motion::sim::View;
 use motion::sim::banana::{
-    BananaMachine, Column, Executed, Figures, PRESETS, Sample, Settings, Stats, Table, command_reaching,
+    BananaMachine, Executed, Figures, PRESETS, Sample, Settings, Stats, Table, TableColumn, command_reaching,
 };
 use motion::stats::{CartesianMoments, ExponentialMoments, LikelihoodGain};
 use motion::{OdomDelta, VelocityCmd};
@@ -139,7 +139,7 @@ impl Told for Stats {
     }
 }
 
-impl Told for Column {
+impl Told for TableColumn {
     fn tell(&self, bytes: &mut Vec<u8>) {
         self.mean.tell(bytes);
         self.cov.tell(bytes);

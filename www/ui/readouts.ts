@@ -35,7 +35,7 @@ export const readoutStyles = css`
   }
 
   .readouts .headline dd:not(.detail) {
-    font-size: 1.9em;
+    font-size: 2em;
     line-height: 1.1;
   }
 

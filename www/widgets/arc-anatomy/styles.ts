@@ -12,7 +12,7 @@ const own = css`
 
   .headline strong {
     display: block;
-    font-size: 1.8em;
+    font-size: 2em;
     line-height: 1.15;
   }
 

@@ -40,7 +40,7 @@ const own = css`
 
   .headline {
     margin: 0.15em 0 0;
-    font-size: 1.75em;
+    font-size: 2em;
     line-height: 1.15;
     text-wrap: balance;
   }

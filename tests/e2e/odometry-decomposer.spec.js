@@ -44,7 +44,7 @@ test('opens on Reverse, and presets set the reading', async ({ page }) => {
   const { config, shown } = await told(widget);
   expect(shown).toBe(config.samples);
   await expect(widget).toHaveJSProperty('preset', 'reverse');
-  await expect(widget.locator('[part=caption]')).toContainText('two rotations near π');
+  await expect(widget.locator('[part=caption]')).toContainText('two rotations beyond π/2');
   await expect(readout(widget, 'standard deviation across the path')).toHaveText('± 0.626 m');
   await widget.getByRole('button', { name: 'Turn, drive, turn' }).click();
   const forward = await told(widget);

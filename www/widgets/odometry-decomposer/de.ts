@@ -66,7 +66,7 @@ export const de: typeof import('./en.ts').en = {
   caption: {
     lever: (deviation, trans, lever) =>
       `Das erste Gelenk hat den Hebel: Aus ± ${deviation} rad am Anfang werden nach ${trans} m ± ${lever} m quer zum Weg.`,
-    reverse: 'Rückwärtsfahren zerfällt in zwei Drehungen nahe π. Tabelle 5.6 gibt Rauschen für beide; die anderen nehmen min(|\u2060δ\u2060|,\u00a0π\u00a0−\u00a0|\u2060δ\u2060|).',
+    reverse: 'Rückwärtsfahren zerfällt in zwei Drehungen über π/2. Tabelle 5.6 gibt Rauschen für beide; die anderen nehmen min(|\u2060δ\u2060|,\u00a0π\u00a0−\u00a0|\u2060δ\u2060|).',
     rest: (trans, rot1) =>
       `Die Räder stehen, ihre Geber zittern um ${trans} mm. Tabelle 5.6 hält das für eine Drehung um ${rot1} rad und gibt Rauschen dafür.`,
     restSpin: (trans) => `Weniger als ein Zentimeter: ${trans} mm haben in diesem Rauschmodell keine Richtung, es gibt fast kein Rauschen.`,

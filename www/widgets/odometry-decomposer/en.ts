@@ -66,7 +66,7 @@ export const en = {
   caption: {
     lever: (deviation, trans, lever) =>
       `The first hinge has the lever: ± ${deviation} rad at the start become ± ${lever} m across the path after ${trans} m.`,
-    reverse: 'Reverse driving decomposes into two rotations near π. Table 5.6 adds noise for both; the others use min(|\u2060δ\u2060|,\u00a0π\u00a0−\u00a0|\u2060δ\u2060|).',
+    reverse: 'Reverse driving decomposes into two rotations beyond π/2. Table 5.6 adds noise for both; the others use min(|\u2060δ\u2060|,\u00a0π\u00a0−\u00a0|\u2060δ\u2060|).',
     rest: (trans, rot1) =>
       `The wheels stand still and their encoders jitter by ${trans} mm. Table 5.6 takes it for a rotation of ${rot1} rad, and adds noise for that.`,
     restSpin: (trans) => `Less than a centimetre: ${trans} mm has no direction in this noise model, so there is nearly no noise.`,

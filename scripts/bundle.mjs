@@ -265,7 +265,7 @@ export async function bundle({ tags = WIDGETS, changed = (_, script) => script }
   const types = { core: 'www/types.d.ts', machines: 'build/machines.d.ts', elements: 'build/elements.d.ts', react: 'build/react.d.ts' };
   for (const [name, path] of Object.entries(types)) write(at(`dist/${name}.d.ts`), besideEachOther(readFileSync(at(path), 'utf8')));
   for (const name of ['motion-widgets', 'external']) write(at(`dist/${name}.d.ts`), DECLARATIONS);
-  for (const name of ['de', 'motion-widgets.iife']) write(at(`dist/${name}.d.ts`), 'export {};\n');
+  for (const name of ['de', 'motion-widgets.iife', 'motion-widgets.css']) write(at(`dist/${name}.d.ts`), 'export {};\n');
   write(at('dist/anywidget.d.ts'), ANYWIDGET);
   chmodSync(at('dist/cli.js'), 0o755);
   write(at('dist/classroom.html'), inOneFile('index.html'));

@@ -105,6 +105,7 @@ test('TypeScript knows the elements, the components of React and the core, howev
   writeFileSync(
     join(project.directory, 'typed.ts'),
     `import 'motion-widgets';
+     import 'motion-widgets/motion-widgets.css';
      import { load, type Stats } from 'motion-widgets/core';
      import { load as loadExternal } from 'motion-widgets/external';
      const omega: number | undefined = document.querySelector('banana-machine')?.omega;

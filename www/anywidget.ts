@@ -8,7 +8,7 @@
 import './de.ts';
 import './widgets/index.ts';
 import { COMMON, groupsOf } from './figure/attributes.ts';
-import { has } from './figure/checks.ts';
+import { includesFields } from './figure/checks.ts';
 import { GLOBAL, elementNamed, sorry } from './named.ts';
 
 /** Model as anywidget's. */
@@ -38,7 +38,7 @@ function render({ model, el }: { model: Model, el: HTMLElement }): (() => void) 
   let unsaved = false;
   const put = (trait: string, value: unknown) => {
     const present = model.get(trait);
-    if (present === undefined || has(present, value)) return;
+    if (present === undefined || includesFields(present, value)) return;
     unsaved = true;
     model.set(trait, value);
   };

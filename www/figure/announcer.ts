@@ -9,12 +9,12 @@ export class Announcer {
   #outcome: string | undefined;
 
   /** Something has come to rest: its outcome is worth a sentence. */
-  expect() {
+  announceNext() {
     this.#due = true;
   }
 
   /** @param sentence of the outcome, asked for only where one is expected or was said */
-  say(sentence: () => string) {
+  setOutcome(sentence: () => string) {
     if (!this.#due && !this.#outcome) return;
     const text = sentence();
     // Of what the page changes it says itself what there is to say.
@@ -23,7 +23,7 @@ export class Announcer {
   }
 
   /** @param text that is worth saying now */
-  tell(text: string) {
+  announce(text: string) {
     this.#outcome = undefined;
     this.#text = text;
   }

@@ -3,7 +3,7 @@
  * and how a text becomes a value and the other way round.
  */
 
-import { has, refusal, word } from './checks.ts';
+import { includesFields, refusal, word } from './checks.ts';
 import { THEMES } from './page/scheme.ts';
 import type { Declaration } from '../settings.js';
 
@@ -165,7 +165,7 @@ export function presetsOf(presets: readonly ({ name: string } & Record<string, a
     kind: WORD,
     covers: () => covered,
     words,
-    get: (config) => words[settings.findIndex((each) => has(config, each))] ?? null,
+    get: (config) => words[settings.findIndex((each) => includesFields(config, each))] ?? null,
     change: (name) => settings[words.indexOf(word('preset', name, words))],
   };
 }

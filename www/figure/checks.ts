@@ -31,16 +31,16 @@ function beginning(text: string) {
 
 /**
  * @param keys that it may have
- * @param heed what matters more than its keys
+ * @param checkFirst what matters more than its keys
  */
-export function object(field: string, value: unknown, keys: readonly string[], heed?: (value: Record<string, unknown>) => void) {
+export function object(field: string, value: unknown, keys: readonly string[], checkFirst?: (value: Record<string, unknown>) => void) {
   if (typeof value !== 'object' || value === null || Array.isArray(value)) {
     throw refusal(field, value, `an object with keys from ${keys.join(', ')}`, TypeError);
   }
-  heed?.(value as Record<string, unknown>);
-  const stranger = Object.keys(value).find((key) => !keys.includes(key));
-  if (stranger !== undefined) {
-    throw new TypeError(`${field}.${beginning(stranger)} is an unknown key; allowed are ${keys.join(', ')}`);
+  checkFirst?.(value as Record<string, unknown>);
+  const unknown = Object.keys(value).find((key) => !keys.includes(key));
+  if (unknown !== undefined) {
+    throw new TypeError(`${field}.${beginning(unknown)} is an unknown key; allowed are ${keys.join(', ')}`);
   }
   return value as Record<string, unknown>;
 }
@@ -52,7 +52,7 @@ export function word<Word extends string>(field: string, value: unknown, allowed
   throw refusal(field, value, allowed.map((each) => JSON.stringify(each)).join(' or '), Kind);
 }
 
-export function truth(field: string, value: unknown) {
+export function boolean(field: string, value: unknown) {
   if (typeof value === 'boolean') return value;
   throw refusal(field, value, 'true or false', TypeError);
 }
@@ -79,8 +79,8 @@ export function subset(field: string, value: unknown, allowed: readonly string[]
 }
 
 /** Returns true if all fields of `given` have the same values in `present`, which may have more fields. Objects are compared deeply. */
-export function has(present: any, given: any): boolean {
+export function includesFields(present: any, given: any): boolean {
   if (Object.is(present, given)) return true;
   if (typeof present !== 'object' || typeof given !== 'object' || !present || !given || present.length !== given.length) return false;
-  return Object.keys(given).every((key) => Object.hasOwn(present, key) && has(present[key], given[key]));
+  return Object.keys(given).every((key) => Object.hasOwn(present, key) && includesFields(present[key], given[key]));
 }

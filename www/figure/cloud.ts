@@ -6,7 +6,7 @@ import { words } from '../messages/registry.ts';
 import { pointOn } from '../scene/canvas.ts';
 import { button, inputOf } from '../ui/controls.ts';
 import { counted } from '../ui/format.ts';
-import { truth, wholeNumber } from './checks.ts';
+import { boolean, wholeNumber } from './checks.ts';
 import { Part } from './part.ts';
 import { isCalm } from './stage.ts';
 import type { Figure } from './figure.ts';
@@ -151,7 +151,7 @@ export class Cloud extends Part {
    */
   completed(present: Values, given: Values): Values {
     const { samples, playing } = { ...present, ...given };
-    truth('state.playing', playing);
+    boolean('state.playing', playing);
     const { shown = present.shown === present.samples ? samples : Math.min(present.shown, samples) } = given;
     // None is less than any number, and stays none.
     const marked = present.marked < (playing ? samples : shown) ? present.marked : null;
@@ -167,7 +167,7 @@ export class Cloud extends Part {
   mark(index: number) {
     if (index === this.index) return;
     this.host.state.own.marked = index < 0 ? null : index;
-    this.host.stage.wake();
+    this.host.stage.requestFrame();
   }
 
   /** The pointer is over a picture, or was pressed there: marks the nearest sample. */
@@ -189,11 +189,11 @@ export class Cloud extends Part {
 
   /** True if the marked sample is shown or will be. */
   get #isWanted() {
-    return this.index >= 0 && this.index < this.markable;
+    return this.index >= 0 && this.index < this.selectableCount;
   }
 
   /** Number of samples that can be marked: also one that is to come. */
-  get markable() {
+  get selectableCount() {
     return this.playing ? this.#samples : this.asked;
   }
 
@@ -218,7 +218,7 @@ export class Cloud extends Part {
     if (!this.complete) return;
     this.#goal = Infinity;
     this.playing = false;
-    this.host.announcer.expect();
+    this.host.announcer.announceNext();
   }
 
   pause() {
@@ -226,17 +226,17 @@ export class Cloud extends Part {
   }
 
   play() {
-    this.#turn(!this.playing, () => {
+    this.#control(!this.playing, () => {
       if (!this.playing && this.complete) this.#restart();
     });
   }
 
   step() {
-    this.#turn(false, () => this.show(this.#latest.shown + this.#batch));
+    this.#control(false, () => this.show(this.#latest.shown + this.#batch));
   }
 
   clear() {
-    this.#turn(false, () => this.#restart());
+    this.#control(false, () => this.#restart());
   }
 
   reseed() {
@@ -248,14 +248,14 @@ export class Cloud extends Part {
    * @param playing from now on
    * @param act the reader's, on the growth of the cloud
    */
-  #turn(playing: boolean, act: () => void) {
+  #control(playing: boolean, act: () => void) {
     this.host.runtime.attempt(() => {
       if (!this.host.machine) return;
       act();
       this.playing = playing;
       this.host.gesture.step();
       this.host.gesture.commit();
-      this.host.stage.wake();
+      this.host.stage.requestFrame();
     });
   }
 
@@ -308,7 +308,7 @@ export function enterCloud(machine: Growing, settings: Values, shown: number) {
 export const cloudState: Record<string, import('./state.ts').Owned> = {
   marked: {
     opening: null,
-    check: (field, marked, machine, markable) => (marked === null ? null : wholeNumber(field, marked, 0, markable - 1)),
+    check: (field, marked, machine, selectableCount) => (marked === null ? null : wholeNumber(field, marked, 0, selectableCount - 1)),
   },
 };
 
@@ -324,7 +324,7 @@ export const cloudProperties: PropertyDescriptorMap & ThisType<Figure> = {
       return this.state.own.marked;
     },
     set(marked) {
-      this.reflection.give('marked', marked, (given: unknown) => this.state.assign('marked', given));
+      this.reflection.setProperty('marked', marked, (given: unknown) => this.state.assign('marked', given));
     },
   },
   poses: {

@@ -102,7 +102,7 @@ export function canvas(figure: Figure, picture: import('../scene/picture.ts').Pi
     aria-label=${description}
     @pointermove=${point}
     @click=${point}
-    @contextrestored=${() => figure.stage.wake()}
+    @contextrestored=${() => figure.stage.requestFrame()}
   ></canvas>`;
 }
 

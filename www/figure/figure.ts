@@ -98,14 +98,14 @@ export class FigureElement<Machine extends { free(): void, stats: object, config
   /** State of the element that is not its machine's. */
   static own: Record<string, import('./state.ts').Owned> = {};
   /** The settings whose values decide what others open with. */
-  static basis: string[] = [];
+  static defaultsDependOn: string[] = [];
 
   runtime = new Runtime(this);
   stage = new Stage(this);
   gesture = new Gesture(this);
   settings = new Settings(this);
   state = new State(this, this.kind.own);
-  reflection = new Reflection(this, this.kind.attributes, this.kind.basis);
+  reflection = new Reflection(this, this.kind.attributes, this.kind.defaultsDependOn);
   link = new Link(this);
   announcer = new Announcer();
   progress = new Progress(this);
@@ -210,13 +210,13 @@ export class FigureElement<Machine extends { free(): void, stats: object, config
     speak(this);
     this.reading = this.read(machine);
     this.settings.stale = false;
-    this.rest();
+    this.finishChange();
     this.dispatchEvent(new CustomEvent('stats', { detail: this.reading.stats, bubbles: true, composed: true }));
   }
 
   /** Keeps the state and announces what has come to rest, as of the latest reading. */
-  rest() {
-    this.announcer.say(() => this.announcement(this.reading));
+  finishChange() {
+    this.announcer.setOutcome(() => this.announcement(this.reading));
     this.state.keep();
   }
 
@@ -263,7 +263,7 @@ export class FigureElement<Machine extends { free(): void, stats: object, config
   get settled(): Promise<void> {
     return new Promise((resolve) => {
       this.#waiting.push(resolve);
-      if (this.isConnected) void this.runtime.hasten();
+      if (this.isConnected) void this.runtime.start();
       this.settings.show();
     });
   }
@@ -279,7 +279,7 @@ export class FigureElement<Machine extends { free(): void, stats: object, config
   }
 
   /** Resolves `settled` if the figure is. A figure that cannot run is. */
-  tellSettled() {
+  resolveSettled() {
     if (!this.isAwaited) return;
     const { machine, cloud, settings, runtime } = this;
     const isSettled = machine ? !this.isBusy && !settings.isWaiting && (cloud?.isSettled ?? true) : runtime.failure !== undefined;
@@ -292,7 +292,7 @@ export class FigureElement<Machine extends { free(): void, stats: object, config
   }
 
   set theme(theme) {
-    this.reflection.say('theme', theme);
+    this.reflection.setAttribute('theme', theme);
   }
 
   /** Whether the page's address carries the state. */
@@ -324,7 +324,7 @@ export class FigureElement<Machine extends { free(): void, stats: object, config
 
   set highlight(name) {
     this.#highlight = name;
-    this.stage.wake();
+    this.stage.requestFrame();
   }
 
   /** The level of the heading that the title is; null where it is none. */
@@ -333,7 +333,7 @@ export class FigureElement<Machine extends { free(): void, stats: object, config
   }
 
   set headingLevel(level) {
-    this.reflection.say('heading-level', level);
+    this.reflection.setAttribute('heading-level', level);
   }
 
   /**
@@ -413,7 +413,7 @@ export class FigureElement<Machine extends { free(): void, stats: object, config
   attributeChangedCallback(name: string, old: string | null, text: string | null) {
     super.attributeChangedCallback(name, old, text);
     if (old === text) return;
-    this.reflection.hear(name, text);
+    this.reflection.attributeChanged(name, text);
     if (!(name in COMMON)) return;
     this.requestUpdate();
     this.presenting.follow();

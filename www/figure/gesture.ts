@@ -10,7 +10,7 @@ export class Gesture extends Part {
   #step = false;
   #end: boolean | undefined;
   /** Whether a step was told without its end. */
-  #open = false;
+  #isOpen = false;
   /** Ends listening for the end of a press. */
   #press: AbortController | undefined;
   /** Reading before the present gesture, or the last. */
@@ -35,18 +35,18 @@ export class Gesture extends Part {
   #release() {
     this.#press?.abort();
     this.#press = undefined;
-    this.host.stage.wake();
+    this.host.stage.requestFrame();
   }
 
   /** What leaves the page is let go of. */
   hostDisconnected() {
     this.#release();
-    if (this.#open || this.#step) this.commit();
+    if (this.#isOpen || this.#step) this.commit();
   }
 
   /** Something has changed, and it may go on. */
   step() {
-    if (!this.#open && !this.#step) this.former = this.host.reading;
+    if (!this.#isOpen && !this.#step) this.former = this.host.reading;
     this.#step = true;
     this.#end = false;
     this.#queue();
@@ -56,11 +56,11 @@ export class Gesture extends Part {
   commit() {
     const { host } = this;
     host.runtime.attempt(() => host.settings.settle());
-    host.announcer.expect();
-    this.#rest();
-    if (host.settings.stale) host.stage.wake();
+    host.announcer.announceNext();
+    this.#finish();
+    if (host.settings.stale) host.stage.requestFrame();
     else if (host.machine) {
-      host.rest();
+      host.finishChange();
       host.requestUpdate();
     }
   }
@@ -75,11 +75,11 @@ export class Gesture extends Part {
   choose(name: string, value: unknown) {
     this.host.state.own[name] = value;
     this.step();
-    this.#rest();
-    this.host.stage.wake();
+    this.#finish();
+    this.host.stage.requestFrame();
   }
 
-  #rest() {
+  #finish() {
     this.#end = true;
     this.#queue();
   }
@@ -89,18 +89,18 @@ export class Gesture extends Part {
     queueMicrotask(() => {
       const [step, end] = [this.#step, this.#end];
       this.#step = this.#end = false;
-      this.#open ||= step;
-      if (step) this.#tell('input');
-      if (!end || !this.#open) return;
-      this.#open = false;
-      this.host.reflection.tell();
-      this.#tell('change');
+      this.#isOpen ||= step;
+      if (step) this.#dispatch('input');
+      if (!end || !this.#isOpen) return;
+      this.#isOpen = false;
+      this.host.reflection.updateAttributes();
+      this.#dispatch('change');
       this.host.link.write();
     });
   }
 
   /** @param name of the event */
-  #tell(name: string) {
+  #dispatch(name: string) {
     this.host.dispatchEvent(new Event(name, { bubbles: true, composed: true }));
   }
 }

@@ -9,18 +9,18 @@ import { Part } from './part.ts';
 
 export class Link extends Part {
   /** A state from the address that waits for the machine. */
-  #waiting: unknown;
+  #pending: unknown;
   /** The latest look at the address, and the latest text for it: an earlier one that is ready later is void. */
-  #looking = {};
-  #writing = {};
+  #latestRead = {};
+  #latestWrite = {};
 
   hostConnected() {
     addEventListener('hashchange', this.#changed);
-    arrive();
+    scrollToAnchor();
     // The reader may have gone elsewhere before it came.
     if (linked === parts()[0] && this.#isOf(linked)) {
       linked = undefined;
-      this.#goTo();
+      this.#scrollHere();
     }
   }
 
@@ -29,7 +29,7 @@ export class Link extends Part {
   }
 
   #changed = () => {
-    if (this.#isOf(parts()[0])) this.#goTo();
+    if (this.#isOf(parts()[0])) this.#scrollHere();
     void this.follow();
   };
 
@@ -39,7 +39,7 @@ export class Link extends Part {
   }
 
   /** Who follows a link to this figure is to see it. */
-  #goTo() {
+  #scrollHere() {
     const { host } = this;
     // It has its room then.
     void host.updateComplete.then(() => host.scrollIntoView());
@@ -51,23 +51,23 @@ export class Link extends Part {
   }
 
   /** Enters the state that waited for the machine. */
-  catchUp() {
-    const waiting = this.#waiting;
-    this.#waiting = undefined;
-    if (waiting !== undefined) this.host.runtime.tolerate(() => this.host.setState(waiting as any));
+  applyPending() {
+    const pending = this.#pending;
+    this.#pending = undefined;
+    if (pending !== undefined) this.host.runtime.attemptOrReport(() => this.host.setState(pending as any));
   }
 
   /** The page's address may carry another state. */
   follow = async () => {
-    const looking = (this.#looking = {});
-    const state = await this.#look();
-    if (looking !== this.#looking) return;
-    this.#waiting = state;
-    if (this.host.machine) this.catchUp();
+    const request = (this.#latestRead = {});
+    const state = await this.#read();
+    if (request !== this.#latestRead) return;
+    this.#pending = state;
+    if (this.host.machine) this.applyPending();
   };
 
   /** @returns undefined where the address has no state */
-  async #look(): Promise<unknown> {
+  async #read(): Promise<unknown> {
     const key = `${keyOf(this.host)}=`;
     const text = parts().find((part) => part.startsWith(key))?.slice(key.length);
     if (text === undefined) return undefined;
@@ -84,9 +84,9 @@ export class Link extends Part {
    */
   async write() {
     if (!this.host.share && !parts().some((part) => this.#isOf(part))) return;
-    const writing = (this.#writing = {});
+    const request = (this.#latestWrite = {});
     const text = await this.#pack();
-    if (writing !== this.#writing || !this.host.isConnected) return;
+    if (request !== this.#latestWrite || !this.host.isConnected) return;
     const address = addressWith(keyOf(this.host), text);
     if (address === location.href) return;
     try {
@@ -139,7 +139,7 @@ function parts() {
 
 const isAnchor = (part: string | undefined) => part !== undefined && !part.includes('=');
 
-let arrived = false;
+let hasScrolled = false;
 
 /** The part of the link by which the reader came that is to be gone to, until it is. */
 let linked: string | undefined;
@@ -148,9 +148,9 @@ let linked: string | undefined;
  * Goes to the page's own anchor, once: a browser looks for the whole fragment, states included, and does
  * not find it.
  */
-function arrive() {
-  if (arrived) return;
-  arrived = true;
+function scrollToAnchor() {
+  if (hasScrolled) return;
+  hasScrolled = true;
   // On a reload the browser goes back to where the reader was.
   const [navigation] = performance.getEntriesByType('navigation') as PerformanceNavigationTiming[];
   if (navigation?.type !== 'navigate') return;

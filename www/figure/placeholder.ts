@@ -5,13 +5,13 @@ import { stopsIn } from './focus.ts';
 import type { Figure } from './figure.ts';
 
 export function placeholder(figure: Figure) {
-  const reach = ({ relatedTarget }: FocusEvent) => void goInto(figure, relatedTarget);
-  return html`<div class="reserved" tabindex="0" role="group" aria-label=${figure.lettering.name} @focus=${reach}></div>`;
+  const enter = ({ relatedTarget }: FocusEvent) => void moveFocusInto(figure, relatedTarget);
+  return html`<div class="reserved" tabindex="0" role="group" aria-label=${figure.lettering.name} @focus=${enter}></div>`;
 }
 
 /** @param origin what had the focus before */
-async function goInto(figure: Figure, origin: EventTarget | null) {
-  await figure.runtime.hasten();
+async function moveFocusInto(figure: Figure, origin: EventTarget | null) {
+  await figure.runtime.start();
   // What there is to stop at follows the first picture.
   while (figure.stage.opening) await new Promise(requestAnimationFrame);
   await figure.updateComplete;

@@ -74,18 +74,18 @@ export class Progress extends Part {
   };
 
   /** Tells of work that goes on. */
-  tell(work: Work) {
+  update(work: Work) {
     this.#work = work;
     const now = performance.now();
     this.#since ??= now;
     if (now - this.#since < PATIENCE) return;
-    if (!this.#shown) this.host.announcer.tell(words.progress.begins);
+    if (!this.#shown) this.host.announcer.announce(words.progress.begins);
     this.#shown = true;
     this.host.requestUpdate();
   }
 
   /** All is done. */
-  rest(work: Work) {
+  end(work: Work) {
     if (work !== this.#work) return;
     this.#since = undefined;
     if (!this.#shown) return;
@@ -94,7 +94,7 @@ export class Progress extends Part {
   }
 
   #stop() {
-    this.host.announcer.tell(words.progress.stopped);
+    this.host.announcer.announce(words.progress.stopped);
     this.#work?.stop();
   }
 

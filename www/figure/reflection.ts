@@ -1,7 +1,7 @@
 /** The element's attributes and properties: taken from the page, and kept saying what the settings are. */
 
 import { COMMON, groupsOf, isSetting } from './attributes.ts';
-import { has, renamed, word } from './checks.ts';
+import { includesFields, renamed, word } from './checks.ts';
 import { cloudProperties } from './cloud.ts';
 import { Part } from './part.ts';
 import type { Attributes, Config, Setting } from './attributes.ts';
@@ -17,28 +17,28 @@ export class Reflection extends Part {
   /** Names in the order of the table, a group before its parts. */
   #order;
   /** The settings whose values decide what others open with. */
-  #basis;
+  #defaultsDependOn;
   /** Settings that the widget opens with, by those of the basis. */
-  #openings: Map<string, Config> = new Map();
+  #defaultConfigs: Map<string, Config> = new Map();
   /** Attributes that the page gave before there was a machine. */
-  #early: Map<string, string | null> = new Map();
+  #pendingAttributes: Map<string, string | null> = new Map();
   /** By their properties; whole states under keys of their own. */
-  #wishes: Map<unknown, { value?: unknown, take: () => void }> = new Map();
+  #pendingProperties: Map<unknown, { value?: unknown, take: () => void }> = new Map();
   /** Whether the attributes are being written, and a change of one is no news. */
-  #writing = false;
+  #isWriting = false;
   /** The attribute that is being read: what it says is not written over. */
-  #hearing: string | undefined;
+  #incoming: string | undefined;
   /** As the attributes tell it, or would. */
-  #told: Texts | undefined;
+  #written: Texts | undefined;
 
-  constructor(host: Figure, attributes: Attributes, basis: string[]) {
+  constructor(host: Figure, attributes: Attributes, defaultsDependOn: string[]) {
     super(host);
     this.#attributes = attributes;
     this.#entries = { ...groupsOf(host.kind.declared), ...attributes };
     // A preset leaves a map, a map puts the robot somewhere, and a sample is marked of as many as there are; a log
     // takes long, and whatever comes while it does would wait for it.
     this.#order = ['preset', 'map', ...host.kind.declared.map(({ key }) => key), ...Object.keys(attributes), 'marked', 'log'];
-    this.#basis = basis;
+    this.#defaultsDependOn = defaultsDependOn;
   }
 
   /** Takes up the properties that were set before the element was one. */
@@ -56,26 +56,26 @@ export class Reflection extends Part {
   }
 
   /** Takes up what the page asked for before there was a machine. */
-  catchUp() {
+  applyPending() {
     // In the order of the table: what others depend on comes first.
     for (const name of Object.keys(this.#attributes)) {
-      const text = this.#early.get(name);
-      if (text !== undefined) this.#take(name, text);
+      const text = this.#pendingAttributes.get(name);
+      if (text !== undefined) this.#apply(name, text);
     }
-    this.#early.clear();
+    this.#pendingAttributes.clear();
     // Properties too, in whatever order they were given; but a state is entered when it came.
     let since = 0;
-    const wishes = [...this.#wishes].map(([name, { take }]) =>
+    const pending = [...this.#pendingProperties].map(([name, { take }]) =>
       ({ take, when: typeof name === 'string' ? since + this.#order.indexOf(name) : (since += this.#order.length) }));
-    this.#wishes.clear();
-    wishes.sort((one, other) => one.when - other.when);
-    for (const { take } of wishes) this.host.runtime.tolerate(take);
+    this.#pendingProperties.clear();
+    pending.sort((one, other) => one.when - other.when);
+    for (const { take } of pending) this.host.runtime.attemptOrReport(take);
   }
 
   /** Enters a state, now or as soon as there is a machine. */
   whenReady(enter: () => void) {
     if (this.host.machine) this.host.runtime.attempt(enter);
-    else this.#wishes.set({}, { take: enter });
+    else this.#pendingProperties.set({}, { take: enter });
   }
 
   /**
@@ -83,36 +83,36 @@ export class Reflection extends Part {
    * with. What it has already changes nothing, so that a page may give it again and again. What is refused is reported, and
    * the last good value stays.
    */
-  give(name: string, value: any, take: (value: any) => void) {
+  setProperty(name: string, value: any, take: (value: any) => void) {
     const entry = this.#entries[name];
     const given = typeof value === 'string' && entry?.kind ? entry.kind.parse(value) : value;
     const taken = () => {
-      const wanted = given ?? this.#usual(name) ?? null;
+      const wanted = given ?? this.#defaultOf(name) ?? null;
       const setting = entry && isSetting(entry) ? entry : undefined;
       const present = setting ? setting.get(this.host.settings.wanted) : Reflect.get(this.host, name);
       // A part of a setting's group leaves the others as they are; of the element's own a part is another whole.
-      if (!has(present, wanted) || (!setting && !has(wanted, present))) take(wanted);
+      if (!includesFields(present, wanted) || (!setting && !includesFields(wanted, present))) take(wanted);
     };
     if (this.host.machine) {
-      this.host.runtime.tolerate(taken);
+      this.host.runtime.attemptOrReport(taken);
     } else {
       // The latest is the last: what others depend on may have been given meanwhile.
-      this.#wishes.delete(name);
-      this.#wishes.set(name, { value: given, take: taken });
+      this.#pendingProperties.delete(name);
+      this.#pendingProperties.set(name, { value: given, take: taken });
     }
   }
 
   /** Value of a property that was given before there was a machine; undefined if none was. */
-  wished(name: string) {
-    return this.#wishes.get(name)?.value;
+  pendingValue(name: string) {
+    return this.#pendingProperties.get(name)?.value;
   }
 
   /** Says a property that every figure has by its attribute, or by none. */
-  say(attribute: string, value: unknown) {
+  setAttribute(attribute: string, value: unknown) {
     const { host } = this;
     const { words, property = attribute } = COMMON[attribute] as { words: readonly string[], property?: string };
     if (value === null || value === undefined) host.removeAttribute(attribute);
-    else host.runtime.tolerate(() => host.setAttribute(attribute, word(property, typeof value === 'number' ? String(value) : value, words)));
+    else host.runtime.attemptOrReport(() => host.setAttribute(attribute, word(property, typeof value === 'number' ? String(value) : value, words)));
   }
 
   /**
@@ -120,21 +120,21 @@ export class Reflection extends Part {
    *
    * @param attribute in lower case
    */
-  hear(attribute: string, text: string | null) {
+  attributeChanged(attribute: string, text: string | null) {
     const { words } = COMMON[attribute] ?? {};
-    if (words && text !== null) this.host.runtime.tolerate(() => word(attribute, text, words));
+    if (words && text !== null) this.host.runtime.attemptOrReport(() => word(attribute, text, words));
     const name = Object.keys(this.#attributes).find((key) => key.toLowerCase() === attribute);
-    if (this.#writing || name === undefined) return;
-    if (this.host.machine) this.#take(name, text);
-    else this.#early.set(name, text);
+    if (this.#isWriting || name === undefined) return;
+    if (this.host.machine) this.#apply(name, text);
+    else this.#pendingAttributes.set(name, text);
   }
 
-  #take(name: string, text: string | null) {
-    this.#hearing = name;
+  #apply(name: string, text: string | null) {
+    this.#incoming = name;
     try {
       Reflect.set(this.host, name, text);
     } finally {
-      this.#hearing = undefined;
+      this.#incoming = undefined;
     }
   }
 
@@ -153,15 +153,15 @@ export class Reflection extends Part {
   }
 
   /** Opening value of a property. */
-  #usual(name: string) {
+  #defaultOf(name: string) {
     const entry = this.#entries[name];
-    if (entry && isSetting(entry)) return entry.get(this.#opening(this.#basis.includes(name) ? [] : this.#basis));
+    if (entry && isSetting(entry)) return entry.get(this.#defaultConfig(this.#defaultsDependOn.includes(name) ? [] : this.#defaultsDependOn));
     return entry?.opening ?? this.host.state.opening(name);
   }
 
   /** Learns the settings that the widget opens with, of a machine that has just opened. */
-  learn(opening: Config) {
-    for (const basis of [[], this.#basis]) this.#openings.set(partOf(opening, basis), opening);
+  rememberDefaults(opening: Config) {
+    for (const basis of [[], this.#defaultsDependOn]) this.#defaultConfigs.set(partOf(opening, basis), opening);
   }
 
   /**
@@ -169,17 +169,17 @@ export class Reflection extends Part {
    *
    * @param basis settings that are as they are at present, and that others depend on
    */
-  #opening(basis: string[]): Config {
+  #defaultConfig(basis: string[]): Config {
     const { settings, motion } = this.host;
     const part = partOf(settings.wanted, basis);
-    const known = this.#openings.get(part);
+    const known = this.#defaultConfigs.get(part);
     if (known) return known;
     const machine = this.host.createMachine(motion);
     const given = JSON.parse(part);
     // Nobody sees its samples.
     const opening = this.host.cloud ? machine.configureFirst(given, 0) : machine.configure(given);
     machine.free();
-    this.#openings.set(part, opening);
+    this.#defaultConfigs.set(part, opening);
     return opening;
   }
 
@@ -197,54 +197,54 @@ export class Reflection extends Part {
     );
   }
 
-  get #now() {
+  get #currentTexts() {
     return this.#texts(this.host.settings.wanted, (name) => Reflect.get(this.host, name));
   }
 
   /** Lets the attributes say what has changed. The first time nothing has: so the element opens. */
-  tell() {
+  updateAttributes() {
     this.host.runtime.attempt(() => {
-      if (this.host.machine) this.#tell(this.#now);
+      if (this.host.machine) this.#write(this.#currentTexts);
     });
   }
 
-  #tell(texts: Texts) {
-    const told = this.#told;
-    this.#told = texts;
-    if (!told) return;
-    const changed = new Set([...texts.keys()].filter((name) => texts.get(name) !== told.get(name)));
+  #write(texts: Texts) {
+    const written = this.#written;
+    this.#written = texts;
+    if (!written) return;
+    const changed = new Set([...texts.keys()].filter((name) => texts.get(name) !== written.get(name)));
     for (const [name, entry] of Object.entries(this.#attributes)) {
       if (!entry.covers || texts.get(name) !== null || !changed.has(name)) continue;
-      const usual = this.#usualTexts;
-      for (const covered of entry.covers(null)) if (texts.get(covered) !== usual.get(covered)) changed.add(covered);
+      const defaults = this.#defaultTexts;
+      for (const covered of entry.covers(null)) if (texts.get(covered) !== defaults.get(covered)) changed.add(covered);
     }
-    this.#writing = true;
+    this.#isWriting = true;
     for (const name of changed) {
-      if (name === this.#hearing) continue;
+      if (name === this.#incoming) continue;
       const text = texts.get(name) ?? null;
       if (text === null) this.host.removeAttribute(name);
       else this.host.setAttribute(name, text);
     }
-    this.#writing = false;
+    this.#isWriting = false;
   }
 
   /** Texts of the attributes when the widget opens. */
-  get #usualTexts() {
-    const usual = this.#texts(this.#opening(this.#basis), (name) => this.#usual(name));
-    for (const name of this.#basis) usual.set(name, this.#attributes[name].kind.print(this.#usual(name)));
-    return usual;
+  get #defaultTexts() {
+    const defaults = this.#texts(this.#defaultConfig(this.#defaultsDependOn), (name) => this.#defaultOf(name));
+    for (const name of this.#defaultsDependOn) defaults.set(name, this.#attributes[name].kind.print(this.#defaultOf(name)));
+    return defaults;
   }
 
   /** The attributes that a figure needs which opens otherwise. */
-  needed(): [string, string][] {
-    const texts = this.#now;
-    const usual = this.#usualTexts;
+  nonDefaultAttributes(): [string, string][] {
+    const texts = this.#currentTexts;
+    const defaults = this.#defaultTexts;
     const covered: Set<string> = new Set();
     const needed: [string, string][] = [];
     for (const [name, entry] of Object.entries(this.#attributes)) {
       const text = texts.get(name) ?? null;
       if (text === null) continue;
-      if (text !== usual.get(name) && !covered.has(name)) needed.push([name, text]);
+      if (text !== defaults.get(name) && !covered.has(name)) needed.push([name, text]);
       entry.covers?.(text).forEach((each) => covered.add(each));
     }
     return needed;
@@ -267,7 +267,7 @@ export function define(tag: string, Widget: typeof import('./figure.ts').FigureE
     if (isSetting(entry)) {
       property(name, {
         get() {
-          if (!this.machine) return this.reflection.wished(name);
+          if (!this.machine) return this.reflection.pendingValue(name);
           // That is known before anything is computed with it.
           return this.runtime.attempt(() => {
             this.settings.settle();
@@ -275,16 +275,16 @@ export function define(tag: string, Widget: typeof import('./figure.ts').FigureE
           }) ?? null;
         },
         set(value) {
-          this.reflection.give(name, value, (given: unknown) => this.reflection.assign(name, entry, given));
+          this.reflection.setProperty(name, value, (given: unknown) => this.reflection.assign(name, entry, given));
         },
       });
     } else if (name in own) {
       property(name, {
         get() {
-          return this.reflection.wished(name) ?? this.state.copy(name);
+          return this.reflection.pendingValue(name) ?? this.state.copy(name);
         },
         set(value) {
-          this.reflection.give(name, value, (given: unknown) => this.state.assign(name, given));
+          this.reflection.setProperty(name, value, (given: unknown) => this.state.assign(name, given));
         },
       });
     }

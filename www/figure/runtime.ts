@@ -4,7 +4,7 @@
  */
 
 import { abandon, instantiateFor } from '../core.ts';
-import { look, unwatch, watch } from './page/sight.ts';
+import { checkNow, unwatch, watch } from './page/sight.ts';
 import { Part } from './part.ts';
 import { isTrap } from './trap.ts';
 
@@ -24,22 +24,22 @@ export class Runtime extends Part {
 
   hostConnected() {
     watch(this.host, {
-      approach: () => void this.hasten(),
-      sight: (inSight) => this.host.stage.sight(inSight),
+      onNear: () => void this.start(),
+      onVisible: (inSight) => this.host.stage.setVisible(inSight),
     });
-    this.#look();
+    this.#checkVisibility();
   }
 
   /** The room for the figure is there, so that it has its place on the page. */
-  async #look() {
+  async #checkVisibility() {
     await this.host.updateComplete;
-    look(this.host);
+    checkNow(this.host);
   }
 
   /** The reader is near, or there: starts what has not started. */
-  async hasten() {
+  async start() {
     this.#near = true;
-    await this.#start();
+    await this.#startIfNear();
   }
 
   hostDisconnected() {
@@ -48,7 +48,7 @@ export class Runtime extends Part {
       if (this.host.isConnected) return;
       unwatch(this.host);
       this.#near = false;
-      this.host.stage.sight(false);
+      this.host.stage.setVisible(false);
       this.#stop();
     });
   }
@@ -68,7 +68,7 @@ export class Runtime extends Part {
     try {
       return work();
     } catch (error) {
-      if (!this.#mend(error)) throw error;
+      if (!this.#recover(error)) throw error;
     }
   }
 
@@ -82,7 +82,7 @@ export class Runtime extends Part {
   };
 
   /** @param work what may refuse: an error is reported, and all is as it was */
-  tolerate(work: () => void) {
+  attemptOrReport(work: () => void) {
     try {
       this.attempt(work);
     } catch (error) {
@@ -92,7 +92,7 @@ export class Runtime extends Part {
   }
 
   /** A picture was drawn, so that the present core is taken for a sound one. */
-  prove() {
+  confirmHealthy() {
     this.#hasTrapped = false;
   }
 
@@ -117,12 +117,12 @@ export class Runtime extends Part {
    *
    * @returns whether it was one that this mends
    */
-  #mend(error: unknown): boolean {
+  #recover(error: unknown): boolean {
     if (!isTrap(error) || this.#hasTrapped) return false;
     this.#hasTrapped = true;
     this.#abandon();
     this.report(error);
-    this.#start();
+    this.#startIfNear();
     return true;
   }
 
@@ -133,7 +133,7 @@ export class Runtime extends Part {
   }
 
   /** @returns that ends when it has started, or cannot */
-  #start(): Promise<void> {
+  #startIfNear(): Promise<void> {
     if (!this.machine && this.#near) this.#starting ??= this.#make();
     return this.#starting ?? Promise.resolve();
   }
@@ -152,7 +152,7 @@ export class Runtime extends Part {
       this.#starting = undefined;
     }
     // It went and came back meanwhile, or trapped again.
-    if (this.failure === undefined) this.#start();
+    if (this.failure === undefined) this.#startIfNear();
   }
 
   async #show() {
@@ -160,7 +160,7 @@ export class Runtime extends Part {
     await this.host.updateComplete;
     // It may have trapped or failed, also while it was rendered, and the element may have gone.
     if (!this.machine) return;
-    this.host.stage.wake();
+    this.host.stage.requestFrame();
     if (this.#loaded) return;
     this.#loaded = true;
     this.host.dispatchEvent(new Event('load', { bubbles: true, composed: true }));
@@ -181,7 +181,7 @@ export class Runtime extends Part {
 }
 
 /** Does something with a machine that is not in its place yet: it is freed where that is refused. */
-export function orFree<Machine extends { free(): void }>(machine: Machine, work: (machine: Machine) => void) {
+export function freeOnError<Machine extends { free(): void }>(machine: Machine, work: (machine: Machine) => void) {
   try {
     work(machine);
     return machine;

@@ -56,7 +56,7 @@ export class Settings extends Part {
       if (this.host.kind.declared.some(({ key, of }) => of && (both(key, of) || both(of, key)))) this.settle();
       Object.assign(this.#pending, values());
       this.host.gesture.step();
-      this.host.stage.wake();
+      this.host.stage.requestFrame();
     });
   }
 
@@ -69,7 +69,7 @@ export class Settings extends Part {
     this.host.runtime.attempt(() => {
       this.settle();
       this.#configure(values);
-      this.host.reflection.tell();
+      this.host.reflection.updateAttributes();
       this.host.stage.release();
       this.show();
     });
@@ -80,7 +80,7 @@ export class Settings extends Part {
     const pending = this.#pending;
     if (Object.keys(pending).length === 0) return;
     this.#pending = {};
-    this.host.runtime.tolerate(() => this.#configure(pending));
+    this.host.runtime.attemptOrReport(() => this.#configure(pending));
   }
 
   #configure(values: Values) {
@@ -92,7 +92,7 @@ export class Settings extends Part {
 
   /** Shows a change of the page, also to a listener while the element is out of sight. */
   show() {
-    this.host.stage.wake();
+    this.host.stage.requestFrame();
     if (this.#isShowing) return;
     this.#isShowing = true;
     queueMicrotask(this.#showUnseen);
@@ -112,7 +112,7 @@ export class Settings extends Part {
         this.#isShowing = true;
         setTimeout(this.#showUnseen);
       } else if (this.stale) this.host.refresh();
-      this.host.tellSettled();
+      this.host.resolveSettled();
     });
   };
 }

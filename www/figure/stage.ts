@@ -37,11 +37,11 @@ export class Stage extends Part {
   /** Once there is something to draw. */
   #canvases: HTMLCanvasElement[] | undefined;
   /** Whether the words of the first picture have come. */
-  #told = false;
+  #isDescribed = false;
   /** True if there is something to draw, as soon as it is in sight. */
-  #due: boolean | undefined;
+  #needsDrawing: boolean | undefined;
   /** When the first picture was drawn whose words have not come yet. */
-  #owedSince: number | undefined;
+  #undescribedSince: number | undefined;
   #printing = false;
   /** Words of other heights would change the sizes that are being told of: they wait for the next frame. */
   #resizing: boolean | undefined;
@@ -58,12 +58,12 @@ export class Stage extends Part {
     const media = matchMedia('print');
     media.addEventListener('change', () => this.#print(media.matches), { signal });
     this.#followPixels(signal);
-    onLanguage(this.host, () => this.#speakAgain(), signal);
+    onLanguage(this.host, () => this.#languageChanged(), signal);
     // What the text around says at once, a background that fades says when it has arrived.
-    const faded = ({ target, propertyName }: TransitionEvent) => {
+    const backgroundChanged = ({ target, propertyName }: TransitionEvent) => {
       if (propertyName === 'background-color' && ancestors(this.host).includes(target as Element)) this.recolour();
     };
-    document.addEventListener('transitionend', faded, { signal });
+    document.addEventListener('transitionend', backgroundChanged, { signal });
   }
 
   hostDisconnected() {
@@ -71,20 +71,20 @@ export class Stage extends Part {
   }
 
   /** The words or the language may be others. */
-  #speakAgain() {
+  #languageChanged() {
     this.host.settings.stale = true;
     this.host.requestUpdate();
-    this.wake();
+    this.requestFrame();
   }
 
   hostUpdated() {
-    this.host.tellSettled();
+    this.host.resolveSettled();
     if (!this.#canvases) this.recolour();
     if (!this.host.machine || this.#canvases) return;
     this.#canvases = [...this.host.renderRoot.querySelectorAll('canvas')];
     this.#sizes = new ResizeObserver((entries) => this.#resize(entries));
     this.#measure();
-    this.wake();
+    this.requestFrame();
   }
 
   /** Measures again when the window moves to a screen of other pixels: in WebKit the observer reports CSS pixels alone. */
@@ -109,8 +109,8 @@ export class Stage extends Part {
     }
   }
 
-  sight(inSight: boolean) {
-    if (!inSight && (this.opening || this.#owedSince !== undefined)) this.#tell();
+  setVisible(inSight: boolean) {
+    if (!inSight && (this.opening || this.#undescribedSince !== undefined)) this.#describe();
     this.inSight = inSight;
     if (!inSight && this.host.isAwaited) this.host.settings.show();
     // Of what was skipped nothing tells that its colours changed.
@@ -123,8 +123,8 @@ export class Stage extends Part {
   }
 
   /** Asks for one drawing in the next frame, when there is somebody to see it. */
-  wake() {
-    this.#due = true;
+  requestFrame() {
+    this.#needsDrawing = true;
     if (this.host.machine && this.inSight) wake(this);
   }
 
@@ -133,7 +133,7 @@ export class Stage extends Part {
    * cannot see it.
    */
   get opening() {
-    return this.host.machine !== undefined && !this.#told && this.inSight && !document.hidden;
+    return this.host.machine !== undefined && !this.#isDescribed && this.inSight && !document.hidden;
   }
 
   /** Content below the pictures. It comes with the frame after the first, so that the pictures are seen at once. */
@@ -146,23 +146,23 @@ export class Stage extends Part {
     sleep(this);
     this.#sizes?.disconnect();
     for (const canvas of this.#canvases ?? []) canvas.width = canvas.height = 0;
-    this.#sizes = this.#canvases = this.#palette = this.#owedSince = undefined;
+    this.#sizes = this.#canvases = this.#palette = this.#undescribedSince = undefined;
   }
 
   /** @param elapsed milliseconds since the frame before */
   frame(elapsed: number) {
-    if (this.#due) this.#drawNow(elapsed);
-    else this.#tell();
+    if (this.#needsDrawing) this.#drawNow(elapsed);
+    else this.#describe();
   }
 
   /** @param elapsed milliseconds since the frame before */
   #drawNow(elapsed: number) {
     if (!this.host.machine || !this.#hasSize) return;
-    this.#due = false;
+    this.#needsDrawing = false;
     this.host.runtime.attemptOrFail(() => {
       this.#draw(elapsed);
       // Not where what was on its way has trapped.
-      if (this.host.machine) this.host.runtime.prove();
+      if (this.host.machine) this.host.runtime.confirmHealthy();
     });
   }
 
@@ -180,23 +180,23 @@ export class Stage extends Part {
     const moving = shown.map((picture) => picture.draw(this.canvasOf(picture), scene, this.palette, how));
     host.placeHandles(scene);
     const now = performance.now();
-    const since = this.#owedSince;
+    const since = this.#undescribedSince;
     // With the first picture there comes nothing else.
-    if (this.opening ? since : !this.#resizing && (now - began < QUICK || now - (since ?? now) > LATEST_WORDS)) this.#tell();
+    if (this.opening ? since : !this.#resizing && (now - began < QUICK || now - (since ?? now) > LATEST_WORDS)) this.#describe();
     else {
-      this.#owedSince ??= began;
+      this.#undescribedSince ??= began;
       wake(this);
     }
-    host.tellSettled();
+    host.resolveSettled();
     const playing = host.player?.advance(elapsed);
-    if (playing || moving.includes(true) || host.cloud?.isSettled === false) this.wake();
+    if (playing || moving.includes(true) || host.cloud?.isSettled === false) this.requestFrame();
   }
 
   /** Has the words rendered of what was drawn last, and the attributes say it. */
-  #tell() {
-    this.#told = true;
-    this.#owedSince = undefined;
-    this.host.reflection.tell();
+  #describe() {
+    this.#isDescribed = true;
+    this.#undescribedSince = undefined;
+    this.host.reflection.updateAttributes();
     this.host.requestUpdate();
   }
 
@@ -239,20 +239,20 @@ export class Stage extends Part {
 
   /** The colours as they are now. */
   get palette() {
-    return (this.#palette ??= resolvePalette(this.#probe('.surface')));
+    return (this.#palette ??= resolvePalette(this.#find('.surface')));
   }
 
   /** The page's colours may be others, or the figure is to have other ones. */
   recolour() {
     this.#colour();
-    this.wake();
+    this.requestFrame();
   }
 
   /** Paper and ink of the surroundings, or the figure's own where it is to be light and they are not, or dark. */
   #colour() {
-    const style = this.#probe('.surface')?.style;
+    const style = this.#find('.surface')?.style;
     if (!style) return;
-    const { scheme, ...around } = surroundings(this.#probe('.scheme-probe'));
+    const { scheme, ...around } = surroundings(this.#find('.scheme-probe'));
     // Forced colours are those of every theme.
     const theme = matchMedia('(forced-colors: active)').matches ? 'auto' : this.host.theme;
     style.colorScheme = this.#printing ? 'light' : theme === 'auto' ? scheme : theme;
@@ -270,24 +270,24 @@ export class Stage extends Part {
     const { machine, cloud } = this.host;
     if (!machine) {
       // The printer waits for no frame, but microtasks pass, and a module that another figure has needs no more.
-      if (printing) void this.#hasten();
+      if (printing) void this.#startAndPrint();
       return;
     }
     if (printing) cloud?.finish();
     else this.#measure();
     this.#drawResized();
-    this.#tell();
+    this.#describe();
   }
 
   /** Makes a figure ready that is far from the window, and prints it. */
-  async #hasten() {
-    await this.host.runtime.hasten();
+  async #startAndPrint() {
+    await this.host.runtime.start();
     await this.host.updateComplete;
     if (this.host.machine) this.#print(this.#printing);
   }
 
   /** @param selector of what is there once the figure was rendered */
-  #probe(selector: string) {
+  #find(selector: string) {
     return this.host.renderRoot?.querySelector(selector) as HTMLElement;
   }
 }

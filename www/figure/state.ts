@@ -2,7 +2,7 @@
 
 import { object, refusal, word } from './checks.ts';
 import { Part } from './part.ts';
-import { orFree } from './runtime.ts';
+import { freeOnError } from './runtime.ts';
 import type { Figure } from './figure.ts';
 
 /** Plain data; which fields, the widget says. */
@@ -13,7 +13,7 @@ export interface Owned {
   /** Opening value. */
   opening: unknown;
   /** Checks a value for a figure with so many samples that can be marked; throws. */
-  check: (field: string, value: any, machine: any, markable: number) => any;
+  check: (field: string, value: any, machine: any, selectableCount: number) => any;
 }
 
 /** Version of the states that `getState` gives; `setState` refuses any other. */
@@ -58,10 +58,10 @@ export class State extends Part {
     const { host } = this;
     host.settings.reset();
     if (this.kept) host.complete(host.machine, this.kept);
-    else host.reflection.learn(host.settings.present);
+    else host.reflection.rememberDefaults(host.settings.present);
     host.machineChanged();
-    host.reflection.catchUp();
-    host.link.catchUp();
+    host.reflection.applyPending();
+    host.link.applyPending();
     // It may have trapped, or a state that came before has introduced it.
     if (host.machine && host.settings.stale) this.#introduce(this.kept);
   }
@@ -80,10 +80,10 @@ export class State extends Part {
       if (version !== VERSION) throw refusal('state.version', version, String(VERSION));
     });
     const whole: Values = { ...present, ...host.completed(present, given) };
-    const machine = orFree(host.createMachine(host.motion, whole), (made) => {
-      const markable = whole.playing ? made.config.samples : whole.shown;
+    const machine = freeOnError(host.createMachine(host.motion, whole), (made) => {
+      const selectableCount = whole.playing ? made.config.samples : whole.shown;
       for (const [name, { check }] of Object.entries(this.#owned)) {
-        whole[name] = check(`state.${name}`, whole[name], made, markable);
+        whole[name] = check(`state.${name}`, whole[name], made, selectableCount);
       }
       host.complete(made, whole);
     });
@@ -118,7 +118,7 @@ export class State extends Part {
     host.cloud?.introduce(state);
     this.#opened ??= { ...host.snapshot(), ...(host.cloud && { shown: 0, playing: true }) };
     host.refresh();
-    host.reflection.tell();
+    host.reflection.updateAttributes();
     host.settings.show();
   }
 
@@ -127,8 +127,8 @@ export class State extends Part {
     const { settings, cloud, reflection, stage } = this.host;
     settings.settle();
     const { machine } = this.host;
-    this.own[name] = this.#owned[name].check(name, value, machine, cloud?.markable ?? 0);
-    reflection.tell();
-    stage.wake();
+    this.own[name] = this.#owned[name].check(name, value, machine, cloud?.selectableCount ?? 0);
+    reflection.updateAttributes();
+    stage.requestFrame();
   }
 }

@@ -2,8 +2,8 @@
 
 export interface Watcher {
   /** The element is near enough to be made ready. */
-  approach: () => void;
-  sight: (inSight: boolean) => void;
+  onNear: () => void;
+  onVisible: (inSight: boolean) => void;
 }
 
 /**
@@ -16,31 +16,31 @@ const watchers: WeakMap<Element, Watcher> = new WeakMap();
 /** Those that are near, and have been told. */
 const near: WeakSet<Element> = new WeakSet();
 // Both are there as soon as an element is watched.
-let nearness: IntersectionObserver;
-let presence: IntersectionObserver;
+let nearObserver: IntersectionObserver;
+let visibleObserver: IntersectionObserver;
 
 const watcherOf = (watched: Element) => watchers.get(watched) as Watcher;
 
 /** Tells when an element comes near and, from now on, whether it is in sight. */
 export function watch(element: Element, watcher: Watcher) {
   watchers.set(element, watcher);
-  const see = (entries: IntersectionObserverEntry[]) => {
-    for (const { target, isIntersecting } of entries) watcherOf(target).sight(isIntersecting);
+  const report = (entries: IntersectionObserverEntry[]) => {
+    for (const { target, isIntersecting } of entries) watcherOf(target).onVisible(isIntersecting);
   };
-  presence ??= new IntersectionObserver(see);
-  nearness ??= new IntersectionObserver(
+  visibleObserver ??= new IntersectionObserver(report);
+  nearObserver ??= new IntersectionObserver(
     (entries) => {
       // Both have looked by now, and browsers call them in any order: what is made ready has to know whether it is seen.
-      see(presence.takeRecords());
+      report(visibleObserver.takeRecords());
       for (const { target, isIntersecting } of entries) {
-        if (isIntersecting) approach(target);
+        if (isIntersecting) markNear(target);
         else near.delete(target);
       }
     },
     { rootMargin: AHEAD },
   );
-  nearness.observe(element);
-  presence.observe(element);
+  nearObserver.observe(element);
+  visibleObserver.observe(element);
 }
 
 /**
@@ -48,23 +48,23 @@ export function watch(element: Element, watcher: Watcher) {
  *
  * @param element that is watched
  */
-export function look(element: Element) {
+export function checkNow(element: Element) {
   const { top, bottom } = element.getBoundingClientRect();
   // What has gone meanwhile has no box, and so its bottom is at 0.
   if (top >= innerHeight || bottom <= 0) return;
-  watcherOf(element).sight(true);
-  approach(element);
+  watcherOf(element).onVisible(true);
+  markNear(element);
 }
 
 /** Once for each time that it comes near, whoever sees it first. */
-function approach(element: Element) {
+function markNear(element: Element) {
   if (near.has(element)) return;
   near.add(element);
-  watcherOf(element).approach();
+  watcherOf(element).onNear();
 }
 
 export function unwatch(element: Element) {
-  nearness.unobserve(element);
-  presence.unobserve(element);
+  nearObserver.unobserve(element);
+  visibleObserver.unobserve(element);
   near.delete(element);
 }

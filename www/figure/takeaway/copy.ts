@@ -66,7 +66,7 @@ const PUBLISHED = 'https://cdn.jsdelivr.net/npm/motion-widgets@0.1/dist/motion-w
  */
 export function embedding(figure: import('../figure.ts').Figure) {
   const given = ['theme', 'lang', 'dir'].map((name) => [name, figure.getAttribute(name) ?? ''] as [string, string]);
-  const needed = figure.machine ? figure.reflection.needed() : [];
+  const needed = figure.machine ? figure.reflection.nonDefaultAttributes() : [];
   // A file on a disk, or a script inside of the page, is nothing to others.
   const known = /^https?:/.test(address);
   const kind = (known && classic ? ['defer', ''] : ['type', 'module']) as [string, string];

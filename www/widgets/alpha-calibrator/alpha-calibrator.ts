@@ -7,7 +7,7 @@ import { FigureElement } from '../../figure/figure.ts';
 import { legend } from '../../figure/overlays.ts';
 import { reserve } from '../../figure/page/room.ts';
 import { define } from '../../figure/reflection.ts';
-import { orFree } from '../../figure/runtime.ts';
+import { freeOnError } from '../../figure/runtime.ts';
 import { words } from '../../messages/registry.ts';
 import { pointOn } from '../../scene/canvas.ts';
 import { Memo } from '../../scene/memo.ts';
@@ -76,7 +76,7 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
 
   #machineOf({ AlphaCalibrator }: Motion, requested: Partial<Machine['config']>, given: Given | null): Machine {
     if (!given) return new AlphaCalibrator(requested);
-    return orFree(AlphaCalibrator.restored(given.config, given.fit), (machine) => machine.configure(requested));
+    return freeOnError(AlphaCalibrator.restored(given.config, given.fit), (machine) => machine.configure(requested));
   }
 
   read(machine: Machine) {
@@ -121,7 +121,7 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
   look(leg: number) {
     this.state.own.leg = leg;
     this.gesture.step();
-    this.stage.wake();
+    this.stage.requestFrame();
   }
 
   /** Shows a leg, counted from 0, that the reader has chosen. */
@@ -151,10 +151,10 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
   }
 
   set log(log) {
-    this.reflection.give('log', log, (given) => {
+    this.reflection.setProperty('log', log, (given) => {
       if (given !== null) object('log', given, KEYS);
       this.service.stop();
-      this.open(given, false).then(() => this.reflection.tell(), this.#report);
+      this.open(given, false).then(() => this.reflection.updateAttributes(), this.#report);
     });
   }
 
@@ -172,7 +172,7 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
     this.runtime.attempt(() => {
       if (!this.machine) return;
       const machine = this.#machineOf(this.motion, this.settings.declared(this.settings.present), given);
-      orFree(machine, () => check?.(machine));
+      freeOnError(machine, () => check?.(machine));
       if (log !== this.log) this.state.own.leg = null;
       this.#given = given;
       this.runtime.replace(machine);
@@ -186,7 +186,7 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
     const { log, service, progress } = this;
     if (!log || service.isBusy) return;
     const work = { stop: () => this.#giveUp() };
-    const telling = setInterval(() => progress.tell(work), 100);
+    const telling = setInterval(() => progress.update(work), 100);
     try {
       await this.open(log, this.hasLocalizer);
     } catch (error) {
@@ -194,7 +194,7 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
       this.#report(error);
     } finally {
       clearInterval(telling);
-      progress.rest(work);
+      progress.end(work);
     }
   }
 

@@ -115,7 +115,7 @@ export class LogOpener extends Part<Figure> {
   #rest() {
     this.share = undefined;
     this.host.settings.stale = true;
-    this.host.stage.wake();
+    this.host.stage.requestFrame();
     this.host.requestUpdate();
   }
 

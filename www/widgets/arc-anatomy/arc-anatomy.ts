@@ -96,7 +96,7 @@ export class ArcAnatomyElement extends FigureElement<Machine, Reading> {
     if (Math.floor(at) === own.underway) return;
     own.underway = Math.floor(at);
     this.gesture.step();
-    this.stage.wake();
+    this.stage.requestFrame();
   }
 
   placeHandles({ config: { start, next } }: Reading) {

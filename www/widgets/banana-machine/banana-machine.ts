@@ -8,7 +8,7 @@ import { FigureElement } from '../../figure/figure.ts';
 import { reserve } from '../../figure/page/room.ts';
 import { legend } from '../../figure/overlays.ts';
 import { define } from '../../figure/reflection.ts';
-import { orFree } from '../../figure/runtime.ts';
+import { freeOnError } from '../../figure/runtime.ts';
 import { words } from '../../messages/registry.ts';
 import { openingAlphas } from '../../settings.js';
 import { hasLength } from '../../scene/draw.ts';
@@ -61,7 +61,7 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
   static own = own;
   static looks = looks;
   static vocabulary = vocabulary;
-  static basis = ['model'];
+  static defaultsDependOn = ['model'];
 
   cloud = new IntroducedCloud(this);
   #inspected: Memo<Inspection> = new Memo();
@@ -83,7 +83,7 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
     const machine = motion.BananaMachine.empty();
     if (!state) return machine;
     const { model, alphas } = state;
-    return orFree(machine, () => {
+    return freeOnError(machine, () => {
       // Each model keeps its own.
       const other = model === 'velocity' ? 'odometry' : 'velocity';
       machine.configureFirst({ model: other, alphas: alphas[other] }, 0);
@@ -131,7 +131,7 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
   /** Keeps the outlines and the numbers to compare with, or lets go of those that are kept. */
   #pin() {
     this.#pinned = this.#pinned ? undefined : this.fresh;
-    this.stage.wake();
+    this.stage.requestFrame();
     this.requestUpdate();
   }
 
@@ -139,7 +139,7 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
   #carry(morph: number) {
     this.state.own.morph = morph;
     this.gesture.step();
-    this.stage.wake();
+    this.stage.requestFrame();
   }
 
   get takeaway() {

@@ -7,7 +7,7 @@ import { FigureElement } from '../../figure/figure.ts';
 import { legend } from '../../figure/overlays.ts';
 import { reserve } from '../../figure/page/room.ts';
 import { define } from '../../figure/reflection.ts';
-import { orFree } from '../../figure/runtime.ts';
+import { freeOnError } from '../../figure/runtime.ts';
 import { words } from '../../messages/registry.ts';
 import { Memo } from '../../scene/memo.ts';
 import { presetButtons } from '../shared/presets.ts';
@@ -43,7 +43,7 @@ export class DeadReckoningElement extends FigureElement<Machine, Reading> {
   static own = own;
   static looks = looks;
   static vocabulary = vocabulary;
-  static basis = ['steps'];
+  static defaultsDependOn = ['steps'];
 
   cloud = new Cloud(this);
   #floor = new PathPicture();
@@ -57,7 +57,7 @@ export class DeadReckoningElement extends FigureElement<Machine, Reading> {
     // Empty: the robots come before the reader's eyes, and nobody waits for those that are not shown yet.
     const machine = motion.DeadReckoning.empty();
     if (!state) return machine;
-    return orFree(machine, () => enterCloud(machine, this.settings.declared(state), state.shown));
+    return freeOnError(machine, () => enterCloud(machine, this.settings.declared(state), state.shown));
   };
 
   completed(present: Values, given: Values) {

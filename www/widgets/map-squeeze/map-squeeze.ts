@@ -7,7 +7,7 @@ import { FigureElement } from '../../figure/figure.ts';
 import { legend } from '../../figure/overlays.ts';
 import { reserve } from '../../figure/page/room.ts';
 import { define } from '../../figure/reflection.ts';
-import { orFree } from '../../figure/runtime.ts';
+import { freeOnError } from '../../figure/runtime.ts';
 import { words } from '../../messages/registry.ts';
 import { verdict as bits } from '../../settings.js';
 import { Memo } from '../../scene/memo.ts';
@@ -72,7 +72,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
 
   createMachine: FigureElement<Machine, Reading>['createMachine'] = (motion, state) => {
     const machine = motion.MapSqueeze.empty();
-    return state ? orFree(machine, () => enterCloud(machine, this.settings.declared(state), state.shown)) : machine;
+    return state ? freeOnError(machine, () => enterCloud(machine, this.settings.declared(state), state.shown)) : machine;
   };
 
   complete(machine: Machine, state: Values) {
@@ -146,12 +146,12 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
 
   /** The place in the apartment that the robot starts from; null elsewhere. */
   get preset(): string | null {
-    if (!this.machine) return (this.reflection.wished('preset') as string | undefined) ?? null;
+    if (!this.machine) return (this.reflection.pendingValue('preset') as string | undefined) ?? null;
     return (this.map ? null : PRESET.get(this.settings.wanted)) as string | null;
   }
 
   set preset(name) {
-    this.reflection.give('preset', name, (given) => {
+    this.reflection.setProperty('preset', name, (given) => {
       const settings = PRESET.change(given, {});
       this.#leave();
       this.settings.assign(settings);
@@ -169,14 +169,14 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
 
   set map(map) {
     const isNameless = typeof map === 'object' && map !== null && !Array.isArray(map) && map.name === undefined;
-    this.reflection.give('map', isNameless ? { ...map, name: '' } : map, (given) => {
+    this.reflection.setProperty('map', isNameless ? { ...map, name: '' } : map, (given) => {
       if (given === null) {
         this.#leave();
         this.#findRoom();
       } else {
         this.#enter(mapOf(given));
       }
-      this.reflection.tell();
+      this.reflection.updateAttributes();
       this.settings.show();
     });
   }
@@ -250,7 +250,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
     this.picture = new FloorPicture({ bounds: this.picture.plan.bounds, walls }, null, this.picture);
     this.pictures = [this.picture];
     this.#judgeWalls();
-    this.stage.wake();
+    this.stage.requestFrame();
   }
 
   /** The walls that were moved have come to rest. */
@@ -263,7 +263,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
     const { bounds, walls } = this.picture.plan;
     const name = this.map?.name ?? words.squeeze.edited;
     const apply: OwnMap['apply'] = (machine) => machine.setPlan({ bounds: [...bounds], walls });
-    this.runtime.tolerate(() => {
+    this.runtime.attemptOrReport(() => {
       this.#enter({ name, apply, start: this.settings.wanted.start });
       this.gesture.step();
     });
@@ -290,7 +290,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
     if (!motion) return;
     settings.settle();
     const machine = motion.MapSqueeze.empty();
-    orFree(machine, () => {
+    freeOnError(machine, () => {
       machine.configureFirst(settings.declared(settings.wanted), 0);
       apply(machine);
       const isGrid = this.#gridOf(machine) !== null;

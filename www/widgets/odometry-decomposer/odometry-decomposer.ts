@@ -7,7 +7,7 @@ import { FigureElement } from '../../figure/figure.ts';
 import { legend } from '../../figure/overlays.ts';
 import { reserve } from '../../figure/page/room.ts';
 import { define } from '../../figure/reflection.ts';
-import { orFree } from '../../figure/runtime.ts';
+import { freeOnError } from '../../figure/runtime.ts';
 import { words } from '../../messages/registry.ts';
 import { rich } from '../../ui/controls.ts';
 import { fixed } from '../../ui/format.ts';
@@ -62,7 +62,7 @@ export class OdometryDecomposerElement extends FigureElement<Machine, Reading> {
   createMachine: FigureElement<Machine, Reading>['createMachine'] = (motion, state) => {
     const machine = new motion.OdometryDecomposer();
     if (!state) return machine;
-    return orFree(machine, () => enterCloud(machine, this.settings.declared(state), state.shown));
+    return freeOnError(machine, () => enterCloud(machine, this.settings.declared(state), state.shown));
   };
 
   #curve: Memo<Float64Array> = new Memo();

@@ -46,7 +46,7 @@ export class Player<Key extends string> extends Part {
     if (playing && at() >= to) put(from);
     this.#key = playing ? key : undefined;
     this.#beyond = 0;
-    stage.wake();
+    stage.requestFrame();
     this.host.requestUpdate();
   }
 

@@ -39,7 +39,7 @@ export class MapOpener extends Part<import('../map-squeeze.ts').MapSqueezeElemen
   async choose(files: File[]) {
     if (files.reduce((sum, { size }) => sum + size, 0) > LARGE) {
       this.isReading = true;
-      this.host.announcer.tell(words.squeeze.own.reading);
+      this.host.announcer.announce(words.squeeze.own.reading);
       this.host.requestUpdate();
       // Two frames: the message is on the screen when the first has been drawn.
       for (let frame = 0; frame < 2; frame++) await new Promise(requestAnimationFrame);

@@ -37,6 +37,9 @@ const WITH_LOGS = ['alpha-calibrator'];
 /** Path of the worker's script in dist/. */
 const LOG_WORKER = 'chunks/log-worker.js';
 
+/** Place of dist/chunks/, as the scripts see it that share the bytes of the core. */
+const PLACE_OF_CHUNKS = { core: './chunks/', external: './' };
+
 /**
  * Script of the function that starts the worker. Within dist/ the script is found by its place; a page of another origin starts it by a
  * script of its own.
@@ -83,6 +86,8 @@ const MODULE = {
     const glue = ['motion', ...tags].map((tag, i) => [`import * as glue${i} from './${tag}.js';`, `'${tag}': { glue: async () => glue${i} }`]);
     return `${glue.map(([imported]) => imported).join('')} export default { ${glue.map(([, entry]) => entry).join(', ')} }; export function startWorker() {}`;
   },
+  /** The core alone: its bytes are in a script of their own, which external.js shares. */
+  core: () => `import * as motion from './motion.js'; export default { motion: { glue: async () => motion, source: async () => (await import('${BYTES}')).default() } }; export function startWorker() {}`,
   /** @param {boolean} isClassic */
   inlined: (isClassic) => `import source from '${BYTES}'; import * as motion from './motion.js'; export default { motion: { glue: async () => motion, source } };${isClassic ? 'export function startWorker() {}' : startWorker('./')}`,
   /**
@@ -116,10 +121,18 @@ const MODULE = {
  *
  * @param {string} tag
  */
-function moduleOf(tag) {
-  const contents = readFileSync(at(`build/${tag}.wasm`));
+const moduleOf = (tag) => named(tag, '.wasm', readFileSync(at(`build/${tag}.wasm`)));
+
+/**
+ * Returns a file of dist/chunks/ whose name tells versions apart.
+ *
+ * @param {string} name
+ * @param {string} extension
+ * @param {string | Uint8Array} contents
+ */
+function named(name, extension, contents) {
   const hash = createHash('sha256').update(contents).digest('hex').slice(0, 8);
-  return { path: `dist/chunks/${tag}-${hash}.wasm`, contents };
+  return { path: `dist/chunks/${name}-${hash}${extension}`, contents };
 }
 
 /** Which characters of an inlined module stand higher, so that whoever bundles or shortens it once more has no way to spoil it. */
@@ -144,12 +157,6 @@ const DECLARATIONS = `export * from './core.js';
 export declare function setMessages(lang: string, messages: object): void;
 `;
 
-/** What notebooks import. */
-const ANYWIDGET = `/** As anywidget has it: shows the figure that the traits of a model describe. */
-declare const widget: { render(view: { model: object; el: HTMLElement }): (() => void) | undefined };
-export default widget;
-`;
-
 /**
  * Bundles everything anew.
  *
@@ -163,10 +170,11 @@ export async function bundle({ tags = WIDGETS, changed = (_, script) => script }
   await writeComponents();
   writeFileSync(at('build/widgets.js'), await chunks());
   const wasm = readFileSync(at('build/motion.wasm'));
+  const bytes = named('motion-bytes', '.js', MODULE.bytes(wasm, SHIFTED.utf8));
   const { build, transformSync } = await import('esbuild');
   /**
    * @param {Record<string, string>} entryPoints by the name of the product, from www/
-   * @param {'external' | 'inlined' | 'worker'} form
+   * @param {keyof typeof PLACE_OF_CHUNKS | 'inlined' | 'worker'} form
    * @param {import('esbuild').BuildOptions} options
    */
   const bundled = (entryPoints, form, options) =>
@@ -176,7 +184,8 @@ export async function bundle({ tags = WIDGETS, changed = (_, script) => script }
       outdir: at('dist'),
       bundle: true,
       minify: true,
-      sourcemap: true,
+      // The published package has none.
+      sourcemap: tags.length === 0,
       format: 'esm',
       target: 'es2022',
       charset: 'utf8',
@@ -188,14 +197,20 @@ export async function bundle({ tags = WIDGETS, changed = (_, script) => script }
           name: 'wasm',
           setup({ onLoad, onResolve }) {
             const carriers = {
+              core: MODULE.core,
               external: () => MODULE.external(tags),
               worker: () => MODULE.worker(tags.filter((tag) => WITH_LOGS.includes(tag))),
               inlined: () => MODULE.inlined(options.format === 'iife'),
             };
             onLoad({ filter: /\.wasm$/ }, () => ({ contents: carriers[form](), loader: 'js' }));
             if (options.platform === 'node') onResolve({ filter: /^\.\/core\.ts$/ }, () => ({ path: './core.js', external: true }));
-            onResolve({ filter: new RegExp(`^${BYTES}$`) }, ({ path }) => ({ path, namespace: 'core' }));
+            const chunks = form === 'core' || form === 'external' ? PLACE_OF_CHUNKS[form] : undefined;
+            onResolve({ filter: new RegExp(`^${BYTES}$`) }, ({ path }) => (
+              chunks ? { path: `${chunks}${basename(bytes.path)}`, external: true } : { path, namespace: 'core' }
+            ));
             onLoad({ filter: /./, namespace: 'core' }, () => ({ contents: MODULE.bytes(wasm, SHIFTED[options.charset === 'ascii' ? 'ascii' : 'utf8']) }));
+            // A page without workers runs the worker's script itself.
+            if (form === 'external') onResolve({ filter: /\/logs\/worker\.ts$/ }, () => ({ path: `./${basename(LOG_WORKER)}`, external: true }));
             onLoad({ filter: /[/\\]www[/\\]settings\.js$/ }, () => ({ contents: ofDeclarations(), loader: 'js' }));
             onLoad({ filter: /[/\\]www[/\\]address\.ts$/ }, ({ path }) => ({
               contents: options.format === 'iife' ? ADDRESS.classic : options.splitting ? ADDRESS.chunk : readFileSync(path, 'utf8'),
@@ -221,7 +236,7 @@ export async function bundle({ tags = WIDGETS, changed = (_, script) => script }
       write: false,
     });
   const results = await Promise.all([
-    bundled({ core: 'core.ts' }, 'inlined', { inject: [] }),
+    bundled({ core: 'core.ts' }, 'core', { inject: [] }),
     bundled({ 'motion-widgets': 'motion-widgets.ts' }, 'inlined', {}),
     // It travels as a text, without what would stand beside it.
     bundled({ anywidget: 'anywidget.ts' }, 'inlined', { sourcemap: false }),
@@ -261,12 +276,11 @@ export async function bundle({ tags = WIDGETS, changed = (_, script) => script }
   const kept = `@media (scripting:enabled){\n${roomBefore()}\n}`;
   appendFileSync(at('dist/motion-widgets.css'), `\n:where(${WIDGETS}){margin-block:1em}\n${kept}\n`);
   write(at('dist/motion.wasm'), wasm);
-  for (const { path, contents } of tags.map(moduleOf)) write(at(path), contents);
+  for (const { path, contents } of [bytes, ...tags.map(moduleOf)]) write(at(path), contents);
   const types = { core: 'www/types.d.ts', machines: 'build/machines.d.ts', elements: 'build/elements.d.ts', react: 'build/react.d.ts' };
   for (const [name, path] of Object.entries(types)) write(at(`dist/${name}.d.ts`), besideEachOther(readFileSync(at(path), 'utf8')));
-  for (const name of ['motion-widgets', 'external']) write(at(`dist/${name}.d.ts`), DECLARATIONS);
-  for (const name of ['de', 'motion-widgets.iife', 'motion-widgets.css']) write(at(`dist/${name}.d.ts`), 'export {};\n');
-  write(at('dist/anywidget.d.ts'), ANYWIDGET);
+  write(at('dist/external.d.ts'), DECLARATIONS);
+  for (const name of ['de', 'motion-widgets.css']) write(at(`dist/${name}.d.ts`), 'export {};\n');
   chmodSync(at('dist/cli.js'), 0o755);
   write(at('dist/classroom.html'), inOneFile('index.html'));
   write(at('dist/custom-elements.json'), `${JSON.stringify(documentation, null, 1)}\n`);

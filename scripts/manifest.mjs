@@ -27,7 +27,7 @@ export async function manifest() {
     const name = `${widget.machine}Element`;
     return elementOf(widget, name, classes.get(name));
   });
-  const path = 'dist/motion-widgets.js';
+  const path = 'dist/external.js';
   const exports = declarations.map(({ name, tagName }) => ({ kind: 'custom-element-definition', name: tagName, declaration: { name, module: path } }));
   return { schemaVersion, modules: [{ kind: 'javascript-module', path, declarations, exports }] };
 }

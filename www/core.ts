@@ -138,7 +138,7 @@ function compiled(carrier: Carrier): Promise<WebAssembly.Module> {
 
 /** Advice to an author whose site has no module. */
 const CURE =
-  "Copy motion.wasm from the package's dist/ into the site and give its address to load(), or import 'motion-widgets/inlined', which has it inside.";
+  "Copy motion.wasm from the package's dist/ into the site and give its address to load(), or leave the address out.";
 
 /** Characters of an address that are quoted: one with data in it has millions. */
 const LONGEST = 200;

@@ -1,4 +1,4 @@
-/** German words for the elements: load it beside motion-widgets.js, before or after it. */
+/** German words for the elements: load it beside the elements, before or after it. */
 
 import { de } from './messages/de.ts';
 import { setMessages } from './messages/registry.ts';

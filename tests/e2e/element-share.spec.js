@@ -269,7 +269,7 @@ test('the code to embed has the published script where that of the page is nothi
     await import(URL.createObjectURL(script));
     return document.createElement('banana-machine').embedCode();
   });
-  expect(code).toBe('<script type="module" src="https://cdn.jsdelivr.net/npm/motion-widgets@0.1/dist/motion-widgets.js"></script>\n<banana-machine></banana-machine>\n');
+  expect(code).toBe('<script type="module" src="https://cdn.jsdelivr.net/npm/motion-widgets@0.1/dist/external.js"></script>\n<banana-machine></banana-machine>\n');
 });
 
 test('a frame shows the figure of its address, sends its height, and names a parameter that is unknown', async ({ page, figure }) => {

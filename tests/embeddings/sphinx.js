@@ -2,7 +2,8 @@
 
 import { copyFileSync, mkdirSync } from 'node:fs';
 import { join } from 'node:path';
-import { besidePython, pinned, pythonInstall, pythonProgram } from './project.mjs';
+import { ROOT } from '../../scripts/process.mjs';
+import { pinned, pythonInstall, pythonProgram } from './project.mjs';
 import { files } from './serving.mjs';
 
 /** Themes with a switch between light and dark, and one without. @type {Record<string, import('./project.mjs').Engine['dark']>} */
@@ -26,12 +27,11 @@ export default {
   versions: () => pinned('sphinx', 'sphinx', ...names.map((theme) => theme.replaceAll('_', '-'))),
   async install(directory, tools) {
     await pythonInstall(directory, tools, []);
-    await tools.run('tar', ['-xzf', tools.tarball, '-C', besidePython(directory)]);
   },
   async build(directory, { run }) {
     mkdirSync(join(directory, '_static'), { recursive: true });
     for (const name of ['motion-widgets.iife.js', 'motion-widgets.css']) {
-      copyFileSync(join(besidePython(directory), 'package/dist', name), join(directory, '_static', name));
+      copyFileSync(join(ROOT, 'dist', name), join(directory, '_static', name));
     }
     for (const theme of names) {
       const options = ['--fail-on-warning', '--quiet', '--define', `html_theme=${theme}`];

@@ -37,7 +37,7 @@ test('doc/calibration.md tells every option of the command that the package inst
   assert.equal(status, 0);
   const options = new Set(stdout.match(/--[a-z-]+/g));
   assert.ok(options.size > 15, [...options].join(' '));
-  const document = read('doc/calibration.md');
+  const document = readFileSync(join(ROOT, 'doc/calibration.md'), 'utf8');
   assert.deepEqual([...options].filter((option) => option !== '--help' && !document.includes(`\`${option}`) && !document.includes(` ${option}`)), []);
 });
 

@@ -2,7 +2,7 @@
 
 import assert from 'node:assert/strict';
 import { execFileSync, spawnSync } from 'node:child_process';
-import { mkdtempSync, readFileSync, readdirSync, rmSync } from 'node:fs';
+import { mkdtempSync, readFileSync, rmSync, statSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
@@ -26,6 +26,11 @@ before(() => {
 
 after(() => rmSync(directory, { recursive: true, force: true }));
 
+test('the package has at most 1.5 MB', () => {
+  const { size } = statSync(tarball);
+  assert.ok(size <= 1_500_000, `${size} bytes`);
+});
+
 test('publint finds nothing', async () => {
   const { buffer } = readFileSync(tarball);
   const { messages } = await publint({ pack: { tarball: /** @type {ArrayBuffer} */ (buffer) }, strict: true });
@@ -45,8 +50,8 @@ test('Are the types wrong? finds nothing', () => {
 
 test('whoever wrote what the bundles carry is named, with the licence', () => {
   const listed = readFileSync(join(ROOT, 'dist/LICENSE-third-party.txt'), 'utf8');
-  const maps = readdirSync(join(ROOT, 'dist'), { recursive: true, encoding: 'utf8' }).filter((path) => path.endsWith('.map'));
-  const sources = maps.flatMap((path) => JSON.parse(readFileSync(join(ROOT, 'dist', path), 'utf8')).sources);
+  const outputs = JSON.parse(readFileSync(join(ROOT, 'build/outputs.json'), 'utf8'));
+  const sources = Object.values(outputs).flatMap(({ inputs }) => Object.keys(inputs).filter((path) => inputs[path].bytesInOutput > 0));
   const packages = sources.flatMap((path) => path.match(/(?<=node_modules\/)(?:@[^/]+\/)?[^/]+/) ?? []);
   const [, crates] = readFileSync(join(ROOT, 'Cargo.toml'), 'utf8').match(/\n\[dependencies\]\n(.*?)\n\n/s) ?? [];
   const named = [...new Set(packages), ...[...(crates ?? '').matchAll(/^[\w-]+/gm)].map(String)];

@@ -15,6 +15,9 @@ import { CHROME_ARGUMENTS, findChrome } from '../../scripts/browser.mjs';
 import { ROOT } from '../../scripts/process.mjs';
 import { serve } from '../../scripts/serve.mjs';
 
+/** Files that a release has beside the package. */
+const SINGLE_FILES = ['motion-widgets.iife.js', 'motion-widgets.css', 'embed.html', 'embed.css', 'embed.js'];
+
 /**
  * @returns {{ directory: string, remove: () => void }} a copy of each example, with the packed and
  *   installed package as all that they have
@@ -34,6 +37,9 @@ export function installed() {
   const { peerDependencies } = JSON.parse(readFileSync(join(ROOT, 'package.json'), 'utf8'));
   for (const name of Object.keys(peerDependencies)) cpSync(join(ROOT, 'node_modules', name), join(modules, name), { recursive: true });
   cpSync(join(ROOT, 'examples'), directory, { recursive: true });
+  for (const name of SINGLE_FILES) {
+    for (const example of ['classic-script', 'iframe']) cpSync(join(ROOT, 'dist', name), join(directory, example, name));
+  }
   for (const entry of readdirSync(join(ROOT, 'examples'), { withFileTypes: true })) {
     if (entry.isDirectory()) symlinkSync(modules, join(directory, entry.name, 'node_modules'));
   }

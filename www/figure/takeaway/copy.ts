@@ -58,7 +58,7 @@ export class CopyMenu extends Part {
 }
 
 /** Where the script is for everybody, if it is not known from where it came. */
-const PUBLISHED = 'https://cdn.jsdelivr.net/npm/motion-widgets@0.1/dist/motion-widgets.js';
+const PUBLISHED = 'https://cdn.jsdelivr.net/npm/motion-widgets@0.1/dist/external.js';
 
 /**
  * HTML for any page: the script that defined the element, from where it came, and the tag with the attributes

@@ -51,6 +51,15 @@ const ROUNDING: f64 = 1e-7;
 const SQRT_6: f64 = 2.449_489_742_783_178;
 
 /// The shape of a zero-mean noise.
+///
+/// ```
+/// use motion::{NoiseKind, Variance};
+///
+/// let variance = Variance::new(0.04)?;
+/// assert!(NoiseKind::Normal.prob(0.0, variance) > NoiseKind::Normal.prob(0.2, variance));
+/// assert_eq!(NoiseKind::Triangular.prob(0.5, variance), 0.0);
+/// # Ok::<(), motion::NegativeVariance>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NoiseKind {
     /// Gaussian.

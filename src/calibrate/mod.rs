@@ -39,6 +39,28 @@ use result::NORMAL_95;
 ///
 /// # Errors
 /// [`CalibrateError`] where odometry and reference have nothing in common, or there are fewer than [`MIN_LEGS`] legs.
+///
+/// ```
+/// use motion::calibrate::{CalibrateError, Drive, LegLength, Model, Options, Outliers, Trajectory, calibrate};
+/// use motion::geom::se2::SE2;
+/// use motion::models::OdometryRule;
+///
+/// let samples = (0..10).map(|i| (0.1 * f64::from(i), SE2::new(0.1 * f64::from(i), 0.0, 0.0)));
+/// let odometry = Trajectory::new(samples.clone())?;
+/// let reference = Trajectory::new(samples)?;
+/// let options = Options {
+///     model: Model::Odometry(OdometryRule::Nav2),
+///     legs: LegLength::AMCL,
+///     outliers: Outliers::Reject,
+///     correct: Default::default(),
+///     position_std: None,
+///     yaw_std: None,
+/// };
+/// // Ten samples are too short a log.
+/// let result = calibrate(&[Drive { odometry: &odometry, reference: &reference }], &options);
+/// assert!(matches!(result, Err(CalibrateError::TooFewLegs { .. })));
+/// # Ok::<(), motion::calibrate::TrajectoryError>(())
+/// ```
 pub fn calibrate(drives: &[Drive], options: &Options) -> Result<Calibration, CalibrateError> {
     let log = Log::new(drives)?;
     let systematic = fit_systematic(&log, options)?;

@@ -58,6 +58,14 @@ impl ArcInversion {
 /// Without displacement every arc of length 0 serves; the turn on the spot that leaves γ̂ = 0 is taken.
 ///
 /// `dt` > 0. Frames: both poses in the same frame; the result does not depend on which.
+///
+/// ```
+/// use motion::{geom::se2::SE2, invert_arc};
+///
+/// let arc = invert_arc(&SE2::identity(), &SE2::new(1.0, 1.0, 2.0), 1.0);
+/// assert!((arc.radius() - 1.0).abs() < 1e-12);
+/// assert!((arc.omega_hat + arc.gamma_hat - 2.0).abs() < 1e-12);
+/// ```
 pub fn invert_arc(x: &SE2, x_next: &SE2, dt: f64) -> ArcInversion {
     let step = x.inverse() * *x_next;
     let distance = libm::hypot(step.x(), step.y());

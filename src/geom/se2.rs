@@ -12,6 +12,16 @@ pub use super::angle::wrap_angle;
 use super::sinc::{chord_factors, sinc};
 
 /// A pose: position (x, y) in metres and heading θ in (−π, π] radians, of a body frame in a reference frame.
+///
+/// ```
+/// use motion::geom::se2::SE2;
+/// use nalgebra::Vector3;
+///
+/// let start = SE2::new(1.0, 2.0, 0.5);
+/// let end = start.boxplus(Vector3::new(1.0, 0.0, 0.5));
+/// assert!((end.boxminus(&start) - Vector3::new(1.0, 0.0, 0.5)).norm() < 1e-12);
+/// assert!((start.inverse() * end).log().y.abs() < 1e-12);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SE2 {
     x: f64,

@@ -2,7 +2,9 @@
 //!
 //! With D = diag(1, 1 − μ, 1 − μ), the twist ξ has at the morph μ the place
 //!
-//!     F_μ(ξ) = position of exp(D·ξ) + (0, μ·ξ_heading)
+//! ```text
+//! F_μ(ξ) = position of exp(D·ξ) + (0, μ·ξ_heading)
+//! ```
 //!
 //! F₀ is the position of exp ξ, and F₁ is (ξ_along, ξ_heading). In between each arc keeps its length and has lost the share
 //! μ of its curvature. On arcs (ξ_lateral = 0) F_μ is one-to-one for lengths above 0 and turns below π/(1 − μ).

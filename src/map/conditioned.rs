@@ -36,6 +36,21 @@ impl Sampler {
 }
 
 /// The velocity model in a floor plan, for a round robot of radius `clearance` (m).
+///
+/// ```
+/// use motion::geom::se2::SE2;
+/// use motion::map::{FloorPlan, MapConditioned, Sampler};
+/// use motion::{NoiseKind, VelocityAlphas, VelocityCmd, VelocityModel};
+/// use rand::{SeedableRng, rngs::SmallRng};
+///
+/// let plan = FloorPlan::new(Vec::new(), [-2.0, -2.0, 2.0, 2.0])?;
+/// let model = VelocityModel { alphas: VelocityAlphas([0.02; 6]), noise: NoiseKind::Normal };
+/// let conditioned = MapConditioned { model, plan: &plan, clearance: 0.2, sampler: Sampler::WholeArc };
+/// let command = VelocityCmd { v: 1.0, omega: 0.5, dt: 1.0 };
+/// let accepted = conditioned.sample(&command, &SE2::identity(), &mut SmallRng::seed_from_u64(7));
+/// assert!(accepted.is_ok_and(|accepted| accepted.path_free));
+/// # Ok::<(), motion::map::FloorPlanError>(())
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct MapConditioned<'a> {
     pub model: VelocityModel,

@@ -46,6 +46,16 @@ impl OdomDelta {
 pub struct OdomAlphas(pub [f64; 4]);
 
 /// The three legs of the reading, each with independent noise.
+///
+/// ```
+/// use motion::geom::se2::SE2;
+/// use motion::{MotionModel, NoiseKind, OdomAlphas, OdomDelta, OdometryModel};
+///
+/// let (start, end) = (SE2::identity(), SE2::new(1.0, 0.5, 0.8));
+/// let reading = OdomDelta::from_poses(&start, &end);
+/// let model = OdometryModel { alphas: OdomAlphas([0.02; 4]), noise: NoiseKind::Normal };
+/// assert!(model.prob(&end, &reading, &start) > model.prob(&SE2::new(1.2, 0.5, 0.8), &reading, &start));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OdometryModel {
     pub alphas: OdomAlphas,

@@ -15,6 +15,19 @@ use std::fmt;
 ///
 /// R is 3 × 3 in the order (along, lateral, heading), m², m·rad, rad², in the body frame of x_{t−1} (right
 /// perturbation). It may be singular: a wheelset has no lateral noise.
+///
+/// ```
+/// use motion::{Compounding, NoiseKind, TangentNoiseModel, VelocityAlphas, VelocityCmd, VelocityModel};
+/// use nalgebra::Matrix3;
+///
+/// let command = VelocityCmd { v: 1.0, omega: 0.5, dt: 1.0 };
+/// let velocity = VelocityModel { alphas: VelocityAlphas([0.02; 6]), noise: NoiseKind::Normal };
+/// let model = TangentNoiseModel::from_velocity(&velocity, &command)?;
+/// let step = |sigma| model.propagate(&sigma, &TangentNoiseModel::twist(&command), Compounding::FirstOrder);
+/// let after_two = step(step(Matrix3::zeros()));
+/// assert!(after_two.trace() > 2.0 * model.r.trace());
+/// # Ok::<(), motion::TangentNoiseError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TangentNoiseModel {
     /// R, to be read: a model with another R is made by [`TangentNoiseModel::new`], which factors it.

@@ -21,6 +21,18 @@ pub struct VelocityCmd {
 pub struct VelocityAlphas(pub [f64; 6]);
 
 /// The robot executes (v̂, ω̂) instead of (v, ω) along an exact arc, then turns on the spot by γ̂Δt.
+///
+/// ```
+/// use motion::geom::se2::SE2;
+/// use motion::{MotionModel, NoiseKind, VelocityAlphas, VelocityCmd, VelocityModel};
+/// use rand::{SeedableRng, rngs::SmallRng};
+///
+/// let model = VelocityModel { alphas: VelocityAlphas([0.02, 0.02, 0.02, 0.02, 0.01, 0.01]), noise: NoiseKind::Normal };
+/// let command = VelocityCmd { v: 1.0, omega: 0.5, dt: 1.0 };
+/// let end = model.sample(&command, &SE2::identity(), &mut SmallRng::seed_from_u64(7));
+/// assert!(model.prob(&end, &command, &SE2::identity()) > 0.0);
+/// assert!(model.pose_density(&end, &command, &SE2::identity()).is_some());
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VelocityModel {
     pub alphas: VelocityAlphas,

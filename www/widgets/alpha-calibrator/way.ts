@@ -20,8 +20,8 @@ const LEGS_A_STROKE = 500;
 /** Legs that are drawn without a layer, which takes memory. */
 const FEW_LEGS = 2000;
 
-/** Strokes of a new log in a frame: 10 to 20 ms. */
-const STROKES_A_FRAME = 6;
+/** Strokes of a new log in a frame: about 10 ms. */
+const STROKES_A_FRAME = 4;
 
 /** Side of the squares in each of which one step is drawn that is shorter, CSS pixels: nobody sees the others. */
 const FINE = 1;

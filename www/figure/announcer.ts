@@ -1,28 +1,28 @@
-/** What a screen reader is told once a change has come to rest. */
+/** Announcements for screen readers after completed changes. */
 
 import { html } from 'lit';
 
 export class Announcer {
   #due = false;
   #text = '';
-  /** Sentence about an outcome, which holds until another comes. */
+  /** Latest announced outcome. */
   #outcome: string | undefined;
 
-  /** Something has come to rest: its outcome is worth a sentence. */
+  /** Requests an announcement of the next outcome. */
   announceNext() {
     this.#due = true;
   }
 
-  /** @param sentence of the outcome, asked for only where one is expected or was said */
+  /** Announces an outcome if one was requested; the sentence is computed only if needed. */
   setOutcome(sentence: () => string) {
     if (!this.#due && !this.#outcome) return;
     const text = sentence();
-    // Of what the page changes it says itself what there is to say.
+    // Changes by the page are not announced.
     this.#text = this.#outcome = this.#due || text === this.#outcome ? text : '';
     this.#due = false;
   }
 
-  /** @param text that is worth saying now */
+  /** Announces a text now. */
   announce(text: string) {
     this.#outcome = undefined;
     this.#text = text;

@@ -1,48 +1,44 @@
-/**
- * Attributes and the properties of the same names: those that follow from a widget's declared settings,
- * and how a text becomes a value and the other way round.
- */
+/** Attributes and properties derived from a widget's settings, and their conversion from and to text. */
 
 import { includesFields, refusal, word } from './checks.ts';
 import { THEMES } from './page/scheme.ts';
 import type { Declaration } from '../settings.js';
 
 export interface Kind {
-  /** A text that means nothing is returned as it is, for whoever knows what is allowed to refuse. */
+  /** Returns an invalid text unchanged; the check of the value refuses it. */
   parse: (text: string) => unknown;
-  /** Null for no attribute. */
+  /** Returns null for no attribute. */
   print: (value: any) => string | null;
 }
 
-/** Settings of a machine, with changes that wait for it. */
+/** Settings of a machine, with pending changes. */
 export type Config = Record<string, any>;
 
 /** Setting of the machine. */
 export interface Setting {
-  /** Null for none. */
   get: (config: Config) => unknown;
-  /** The settings to make of it. */
+  /** Returns the settings to configure. */
   change: (value: any, config: Config) => Config;
-  /** Name in the core, if it differs. */
+  /** Name in the core, if different. */
   path?: string;
 }
 
-/** Something of the element itself, which has a property of that name. */
+/** Property of the element itself. */
 export interface Own {
   own: true;
-  /** Opening where it is no part of the state. */
+  /** Default, if the property is no part of the state. */
   opening?: unknown;
 }
 
 export interface Attribute {
   kind: Kind;
-  /** Attributes that say what this one says by a text, and take over where it says nothing. */
+  /** Attributes whose values follow from this one; they are written where this one has no text. */
   covers?: (text: string | null) => string[];
-  /** Those that are allowed, where no declaration says it. */
+  /** Allowed words, if no declaration lists them. */
   words?: readonly string[];
 }
 
-/** Attributes by name; what others depend on comes first. */
+/** Attributes by name, in the order in which they are applied. */
 export type Attributes = Record<string, Attribute & (Setting | Own)>;
 
 /** Table by name, with types in TypeScript. */
@@ -69,7 +65,7 @@ const BOOLEAN: Kind = {
   print: String,
 };
 
-/** Words with spaces between them. */
+/** Words separated by spaces. */
 export const WORDS: Kind = { parse: (text) => text.split(/\s/).filter(Boolean), print: (value) => value.join(' ') };
 
 /** Conversions of the types that fit into an attribute. */
@@ -78,7 +74,7 @@ const KINDS: Record<string, Kind> = { number: NUMBER, whole: NUMBER, word: WORD,
 /** Levels of headings in HTML. */
 export const HEADING_LEVELS = ['1', '2', '3', '4', '5', '6'] as const;
 
-/** Attributes of every figure. One that is missing stands for the first of its words, unless it may be null. */
+/** Attributes of every figure. A missing one stands for its first word, or for null if `nullable`. */
 export const COMMON: Record<string, { words?: readonly string[], nullable?: true, property?: string }> = {
   theme: { words: THEMES },
   share: {},
@@ -86,23 +82,20 @@ export const COMMON: Record<string, { words?: readonly string[], nullable?: true
   'heading-level': { words: HEADING_LEVELS, nullable: true, property: 'headingLevel' },
 };
 
-export function isSetting(entry: Setting | Own): entry is Setting {
-  return !('own' in entry);
-}
+export const isSetting = (entry: Setting | Own): entry is Setting => !('own' in entry);
 
-/** The attributes of a widget's settings. */
+/** Returns the attributes of a widget's settings. */
 export const attributesOf = (declared: Declaration[]) => settingsIn(declared, ({ type }) => type in KINDS);
 
-/** The settings that are objects or arrays, and have a property alone. */
+/** Returns the settings that are objects or arrays, which have no attribute. */
 export const groupsOf = (declared: Declaration[]) => settingsIn(declared, ({ type }) => !(type in KINDS));
 
-function settingsIn(declared: Declaration[], are: (setting: Declaration) => boolean) {
-  return Object.fromEntries(declared.filter(are).map((setting) => [setting.key, settingOf(setting)]));
-}
+const settingsIn = (declared: Declaration[], includes: (setting: Declaration) => boolean) =>
+  Object.fromEntries(declared.filter(includes).map((setting) => [setting.key, settingOf(setting)]));
 
 function settingOf({ key, in: group, field = key, index, of, weights = [], type }: Declaration): Attribute & Setting {
   const kind = KINDS[type];
-  // The machine makes several numbers of it.
+  // One number scales several of the machine's.
   if (of) return { kind, get: (config) => levelOf(config[of], weights), change: (value) => ({ [key]: value }) };
   if (!group) return { kind, get: (config) => config[key], change: (value) => ({ [key]: value }) };
   if (index === undefined) {
@@ -125,7 +118,7 @@ function settingOf({ key, in: group, field = key, index, of, weights = [], type 
   };
 }
 
-/** Returns the number that the last of several are shares of; null where they are of none. */
+/** Returns the common factor of the last numbers and their weights; null if there is none. */
 function levelOf(numbers: number[], weights: number[]): number | null {
   const last = numbers.slice(-weights.length);
   const level = last[0] / weights[0];
@@ -145,11 +138,7 @@ function openingConfig(declared: Declaration[]) {
   return config;
 }
 
-/**
- * Returns the attribute of a figure's presets. A preset sets every setting but the samples and the seed: what it does not list gets its default.
- *
- * @param presets each with a name and some settings, by keys of the declarations
- */
+/** Returns the attribute of a figure's presets. A preset sets all settings but samples and seed, to defaults where it lists none. */
 export function presetsOf(presets: readonly ({ name: string } & Record<string, any>)[], declared: Declaration[]): Attribute & Setting {
   const words = presets.map(({ name }) => name);
   const settings = presets.map(({ name: _, ...given }) => {

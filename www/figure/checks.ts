@@ -1,19 +1,12 @@
-/** Refusals in the words of the core, of what the page gives to the element itself. */
+/** Checks of values from the page, with error messages like the core's. */
 
-/** @returns a TypeError where the kind of value is wrong */
 export function refusal(field: string, value: unknown, allowed: string, Kind = RangeError): TypeError | RangeError {
   return new Kind(`${field} is ${described(value)}; allowed is ${allowed}`);
 }
 
-/**
- * Replaces the field at the start of an error's message by the name that the caller used.
- *
- * @param path name of the field in the message; default: the same name
- */
+/** Replaces the field at the start of an error's message (`path`, by default `name`) by `name`. */
 export function renamed(error: unknown, name: string, path: string = name) {
-  if (error instanceof Error && error.message.startsWith(path)) {
-    error.message = name + error.message.slice(path.length);
-  }
+  if (error instanceof Error && error.message.startsWith(path)) error.message = name + error.message.slice(path.length);
   return error;
 }
 
@@ -23,16 +16,13 @@ function described(value: unknown) {
   return ['function', 'symbol', 'bigint'].includes(typeof value) ? `a ${typeof value}` : String(value);
 }
 
-/** The first characters of a text, whole ones: enough to recognize it. */
+/** Returns the first characters of a text, without splitting a surrogate pair. */
 function beginning(text: string) {
   const first = String(/.{0,40}/su.exec(text));
   return first === text ? text : `${first}…`;
 }
 
-/**
- * @param keys that it may have
- * @param checkFirst what matters more than its keys
- */
+/** Returns an object after a check of its keys; `checkFirst` runs before it. */
 export function object(field: string, value: unknown, keys: readonly string[], checkFirst?: (value: Record<string, unknown>) => void) {
   if (typeof value !== 'object' || value === null || Array.isArray(value)) {
     throw refusal(field, value, `an object with keys from ${keys.join(', ')}`, TypeError);
@@ -71,7 +61,7 @@ export function numberWithin(field: string, value: unknown, least: number, most:
   return value;
 }
 
-/** @returns those of them that it names, in their own order */
+/** Returns the allowed names that the array contains, in the order of `allowed`. */
 export function subset(field: string, value: unknown, allowed: readonly string[]): string[] {
   if (!Array.isArray(value)) throw refusal(field, value, `an array of ${allowed.join(', ')}`, TypeError);
   const names = value.map((name, i) => word(`${field}[${i}]`, name, allowed));

@@ -1,4 +1,4 @@
-/** A cloud of samples that grows before the reader's eyes: for figures that have one. */
+/** Cloud of samples that grows in steps. */
 
 import { html, noChange, nothing } from 'lit';
 import { live } from 'lit/directives/live.js';
@@ -15,7 +15,7 @@ import type { Values } from './state.ts';
 /** Number of samples of a machine or a reading. */
 interface Count {
   shown: number;
-  /** Number of samples that are added within a few milliseconds. */
+  /** Number of samples that take a few milliseconds. */
   block: number;
 }
 
@@ -24,23 +24,23 @@ export interface Growing extends Count {
   config: { samples: number, seed: number };
   /** Changes settings and shows the first block of `goal` samples. Returns all settings. */
   configureFirst: (settings: Values, goal: number) => Values;
-  /** Returns how many are shown then. */
+  /** Returns the number of samples shown. */
   addSamples: (count: number) => number;
 }
 
-/** Steps that a cloud grows in. */
+/** Number of steps of growth. */
 const BATCHES = 150;
 
-/** Time in a frame for adding samples, ms: with the pictures it stays below 50. */
+/** Time for adding samples in a frame, ms; with the pictures it stays below 50. */
 const FRAME_WORK = 12;
 
 export class Cloud extends Part {
   playing = false;
-  /** Number of samples that are to be shown; Infinity for all. */
+  /** Number of samples to show; Infinity for all. */
   #goal = Infinity;
   #gaveUp;
 
-  /** @param gaveUp tells of a reading or a machine whether it has stopped short of its samples for good */
+  /** Creates the cloud; `gaveUp` returns true for a reading or machine that will not reach its samples. */
   constructor(host: Figure, gaveUp: (latest: any) => boolean = () => false) {
     super(host);
     this.#gaveUp = gaveUp;
@@ -50,12 +50,12 @@ export class Cloud extends Part {
     return this.host.machine as Growing;
   }
 
-  /** Latest reading, or the machine if that has changed since. */
+  /** Latest reading, or the machine if it has changed since. */
   get #latest(): Count {
     return this.host.settings.stale ? this.#machine : this.host.reading;
   }
 
-  /** True if it will not grow any more. */
+  /** True if no samples are to be added. */
   get complete() {
     return this.#goal >= this.#samples || this.#gaveUp(this.#latest);
   }
@@ -70,21 +70,17 @@ export class Cloud extends Part {
     return Math.ceil(this.#samples / BATCHES);
   }
 
-  /** Number of samples that are to be shown: all of them where the machine has given up before. */
+  /** Number of samples to show; all of them if the machine has given up. */
   get asked() {
     return this.complete ? this.#samples : this.#goal;
   }
 
-  /** True if all samples that are to be shown are. */
+  /** True if all samples to show are shown. */
   get isSettled(): boolean {
     return !this.playing && (this.#latest.shown >= this.asked || this.#gaveUp(this.#latest));
   }
 
-  /**
-   * Starts the show: the cloud grows, or is complete for readers who want less motion.
-   *
-   * @param state that the machine is in, if it is not the opening
-   */
+  /** Starts the growth, or shows a state; readers who prefer reduced motion see the complete cloud. */
   introduce(state?: Values) {
     this.playing = state ? state.playing : true;
     this.#goal = state && state.shown < this.#samples ? state.shown : Infinity;
@@ -92,7 +88,7 @@ export class Cloud extends Part {
     if (isCalm()) this.finish();
   }
 
-  /** Changes settings: a block of samples is shown at once, and the others in later frames. Returns all settings. */
+  /** Changes settings and shows one block of samples; later frames add the others. Returns all settings. */
   configure(values: Values): Values {
     return this.#machine.configureFirst(values, this.#goal);
   }
@@ -103,26 +99,20 @@ export class Cloud extends Part {
     this.host.settings.stale = true;
   }
 
-  /** Completes a cloud that grows. */
+  /** Completes a growing cloud. */
   finish() {
     if (!this.playing) return;
-    this.pause();
+    this.playing = false;
     this.#goal = Infinity;
     this.refine(Infinity);
   }
 
-  /** Shows so many samples. */
   show(count: number) {
     this.#goal = Math.min(count, this.#samples);
     this.refine(Infinity);
   }
 
-  /**
-   * Adds samples that are to be shown, as many as a frame has time for.
-   *
-   * @param limit milliseconds
-   * @returns true if all of them are shown
-   */
+  /** Adds samples for `limit` milliseconds; returns true if all are shown. */
   refine(limit = FRAME_WORK): boolean {
     const { asked } = this;
     const end = performance.now() + limit;
@@ -133,48 +123,45 @@ export class Cloud extends Part {
       if (performance.now() > end) return false;
       const before = shown;
       shown = this.#machine.addSamples(Math.min(asked - shown, block));
-      // It has given up.
+      // The machine has given up.
       if (shown === before) break;
       this.host.settings.stale = true;
     }
     return true;
   }
 
-  /** @returns its part of the state */
+  /** Returns the cloud's part of the state. */
   snapshot(): Values {
     return { shown: this.asked, playing: this.playing, marked: this.#isWanted ? this.index : null };
   }
 
-  /**
-   * @returns what follows for fields that are left out
-   * @throws {TypeError} where it is not said whether it grows
-   */
+  /** Returns values that follow from a partial state; throws a TypeError if `playing` is not a boolean. */
   completed(present: Values, given: Values): Values {
     const { samples, playing } = { ...present, ...given };
     boolean('state.playing', playing);
     const { shown = present.shown === present.samples ? samples : Math.min(present.shown, samples) } = given;
-    // None is less than any number, and stays none.
+    // Comparisons with undefined are false, so none stays null.
     const marked = present.marked < (playing ? samples : shown) ? present.marked : null;
     return { shown, marked };
   }
 
-  /** The sample that is marked; −1 for none. */
+  /** Index of the selected sample; −1 for none. */
   get index(): number {
     return this.host.state.own.marked ?? -1;
   }
 
-  /** @param index −1 for none */
+  /** Selects a sample; −1 for none. */
   mark(index: number) {
     if (index === this.index) return;
     this.host.state.own.marked = index < 0 ? null : index;
     this.host.stage.requestFrame();
   }
 
-  /** The pointer is over a picture, or was pressed there: marks the nearest sample. */
+  /** Selects the sample nearest to the pointer. */
   point(picture: import('../scene/picture.ts').Picture<any>, event: PointerEvent) {
     this.host.runtime.attempt(() => {
       const { machine, gesture } = this.host;
-      // A finger that moves scrolls the page; one that taps comes as a click.
+      // A moving finger scrolls; a tap is a click.
       if (!machine || gesture.pressed || (event.pointerType === 'touch' && event.type !== 'click')) return;
       const [x, y] = pointOn(event.currentTarget as Element, picture.view, event);
       const index = picture.nearest(machine, x, y);
@@ -182,47 +169,39 @@ export class Cloud extends Part {
     });
   }
 
-  /** True if the marked sample is shown. */
+  /** True if the selected sample is shown. */
   get isMarked() {
     return this.index >= 0 && this.index < this.#latest.shown;
   }
 
-  /** True if the marked sample is shown or will be. */
+  /** True if the selected sample is shown or will be. */
   get #isWanted() {
     return this.index >= 0 && this.index < this.selectableCount;
   }
 
-  /** Number of samples that can be marked: also one that is to come. */
+  /** Number of selectable samples, with those to come. */
   get selectableCount() {
     return this.playing ? this.#samples : this.asked;
   }
 
-  /** A mark of what is not there, and does not come, goes. */
+  /** Clears the selection of a sample that does not exist. */
   unmark() {
     if (!this.#isWanted) this.mark(-1);
   }
 
-  /**
-   * Adds samples in a frame. A change is answered with one block, so that a drag of a large cloud is as quick as one of a small cloud.
-   *
-   * @param isLast tells whether no frame will follow, as on paper
-   */
+  /** Adds samples in a frame. A change shows one block, for quick drags. No frame follows the last, as in print. */
   advance(isLast: boolean) {
     if (this.playing) this.grow();
     else if (isLast || !this.host.settings.stale) this.refine(isLast ? Infinity : FRAME_WORK);
   }
 
-  /** Adds a step to a cloud that grows. */
+  /** Adds one step of growth. */
   grow() {
     this.show(this.#latest.shown + this.#batch);
     if (!this.complete) return;
     this.#goal = Infinity;
     this.playing = false;
     this.host.announcer.announceNext();
-  }
-
-  pause() {
-    this.playing = false;
   }
 
   play() {
@@ -244,10 +223,7 @@ export class Cloud extends Part {
     this.host.gesture.commit();
   }
 
-  /**
-   * @param playing from now on
-   * @param act the reader's, on the growth of the cloud
-   */
+  /** Runs an action of the reader on the growth, and sets `playing`. */
   #control(playing: boolean, act: () => void) {
     this.host.runtime.attempt(() => {
       if (!this.host.machine) return;
@@ -294,17 +270,13 @@ export class Cloud extends Part {
   }
 }
 
-/**
- * Puts a machine into a state, with the first block of the samples that it shows.
- *
- * @throws {TypeError | RangeError}
- */
+/** Sets a machine to a state, with the first block of its samples; throws a TypeError or RangeError. */
 export function enterCloud(machine: Growing, settings: Values, shown: number) {
   machine.configureFirst(settings, 0);
   machine.configureFirst({}, wholeNumber('state.shown', shown, 0, machine.config.samples));
 }
 
-/** State of an element with a cloud that is not its machine's. */
+/** Own state of an element with a cloud. */
 export const cloudState: Record<string, import('./state.ts').Owned> = {
   marked: {
     opening: null,
@@ -312,13 +284,9 @@ export const cloudState: Record<string, import('./state.ts').Owned> = {
   },
 };
 
-/** The properties of an element with a cloud. */
+/** Properties of an element with a cloud. */
 export const cloudProperties: PropertyDescriptorMap & ThisType<Figure> = {
-  playing: {
-    get() {
-      return (this.cloud as Cloud).playing;
-    },
-  },
+  playing: { get() { return (this.cloud as Cloud).playing; } },
   marked: {
     get() {
       return this.state.own.marked;
@@ -327,9 +295,5 @@ export const cloudProperties: PropertyDescriptorMap & ThisType<Figure> = {
       this.reflection.setProperty('marked', marked, (given: unknown) => this.state.assign('marked', given));
     },
   },
-  poses: {
-    get() {
-      return this.ask((machine) => machine.poses);
-    },
-  },
+  poses: { get() { return this.ask((machine) => machine.poses); } },
 };

@@ -1,4 +1,4 @@
-/** A setting's control, made of its declaration, of how it looks, and of the words for it. */
+/** Controls of settings, made from declarations, appearance and words. */
 
 import { html, noChange, nothing } from 'lit';
 import { live } from 'lit/directives/live.js';
@@ -13,27 +13,24 @@ import type { Figure } from './figure.ts';
 
 /** Appearance of a numeric setting. */
 export interface Look {
-  /** Symbol as in the book, in the marks of messages. */
+  /** Symbol of the book, in the markup of messages. */
   symbol?: string;
   role: 'prior' | 'prediction' | 'truth';
-  /** Min of the slider, within what is allowed. */
+  /** Minimum of the slider, within the allowed values. */
   min: number;
   max: number;
   step: number;
   decimals: number;
-  /** Value where several may be shown as one. */
+  /** Value of a slider that shows several settings as one. */
   value?: (config: any) => number;
-  /** Noise parameter whose words it has. */
+  /** Noise parameter that gives the words. */
   alpha?: [model: 'velocity' | 'odometry', index: number];
 }
 
-/** Row with the most that is allowed, where that is less than declared. */
+/** Row whose `most` limits the value further than the declaration. */
 export type Row = Partial<SliderRow> & { most?: number };
 
-/**
- * @param key of a setting
- * @param otherwise what is not as in every row
- */
+/** Returns the slider of a setting; `otherwise` replaces parts of its row. */
 export function slider(figure: Figure, key: string, otherwise?: Row) {
   const { looks, attributes } = figure.kind;
   const { symbol, decimals, value, ...look } = looks[key];
@@ -55,19 +52,13 @@ export function slider(figure: Figure, key: string, otherwise?: Row) {
   });
 }
 
-/**
- * A slider whose value can be typed too, as far as the core goes.
- *
- * @param key of its setting
- * @param row with the values at which the slider ends, where it has others than these inside, and the most that is allowed, where that is less than declared
- * @param take a value that was typed
- */
+/** Returns a slider whose value can be typed within the core's bounds. `ends` are the values at the ends of a slider over indices. */
 function typeable(figure: Figure, key: string, symbol: string, row: Omit<SliderRow, 'keys' | 'type' | 'refusal' | 'forget'> & { ends?: number[], most?: number }, take: (number: number) => void = row.input, print: (number: number) => string = row.show) {
   const { min, max: declared, type, unit } = declarationOf(figure, key);
   const max = row.most ?? declared;
   const [first, last] = row.ends ?? [row.min, row.max];
   const whole = type === 'whole';
-  // Some sliders begin or end where the core does.
+  // The words name the end of a slider that ends within the core's bounds.
   const end = row.value >= row.max && last < max ? last : row.value <= row.min && first > min ? first : undefined;
   return sliderRow({
     ...row,
@@ -88,11 +79,7 @@ function typeable(figure: Figure, key: string, symbol: string, row: Omit<SliderR
   });
 }
 
-/**
- * A picture's canvas, on which the pointer marks samples. It gets its pixels when it is known how many the screen has there.
- *
- * @param description what it shows, in words
- */
+/** Returns a picture's canvas, on which the pointer selects samples. The stage sets its size. */
 export function canvas(figure: Figure, picture: import('../scene/picture.ts').Picture<any>, description: string) {
   const point = (event: PointerEvent) => figure.cloud?.point(picture, event);
   return html`<canvas
@@ -106,37 +93,28 @@ export function canvas(figure: Figure, picture: import('../scene/picture.ts').Pi
   ></canvas>`;
 }
 
-/** A slider for each of several settings. */
-export function sliders(figure: Figure, looks: Record<string, Look>) {
-  return Object.keys(looks).map((key) => slider(figure, key));
-}
+export const sliders = (figure: Figure, looks: Record<string, Look>) => Object.keys(looks).map((key) => slider(figure, key));
 
-/**
- * Radio buttons for a setting that is a word.
- *
- * @param labels of its words
- */
-export function choices(figure: Figure, key: string, labels: Record<string, string>) {
-  return radioGroup(wordsFor(figure, key).name, key, labels, figure.settings.wanted[key], (word) => figure.gesture.decide({ [key]: word }));
-}
+/** Returns radio buttons for a setting that is a word, with labels by word. */
+export const choices = (figure: Figure, key: string, labels: Record<string, string>) =>
+  radioGroup(wordsFor(figure, key).name, key, labels, figure.settings.wanted[key], (word) => figure.gesture.decide({ [key]: word }));
 
-/** @param key of a setting that is true or false */
-export function check(figure: Figure, key: string, label: unknown) {
-  return toggle({ label, checked: figure.settings.wanted[key], change: (on) => figure.gesture.decide({ [key]: on }) });
-}
+/** Returns the checkbox of a setting that is true or false. */
+export const check = (figure: Figure, key: string, label: unknown) =>
+  toggle({ label, checked: figure.settings.wanted[key], change: (on) => figure.gesture.decide({ [key]: on }) });
 
 interface Disclosures {
-  /** Controls that are needed less often than those in sight. */
+  /** Less common controls. */
   controls: () => unknown;
   /** Tables and charts. */
   numbers: () => unknown;
-  /** Part of file names that distinguishes states. */
+  /** Part of the names of exported files. */
   mark?: string | number;
   /** Description of a CSV file that has no samples. */
   csvTitle?: string;
 }
 
-/** Returns the two disclosures below a figure, and the buttons that copy a link to it and present it. */
+/** Returns the two disclosures below a figure, and the buttons that copy a link and present the figure. */
 export function disclosures(figure: Figure, { controls, numbers, mark = figure.reading.config.seed, csvTitle }: Disclosures) {
   return html`<div class="folds">
     ${fold(words.moreControls, controls, 'more')}
@@ -147,7 +125,7 @@ export function disclosures(figure: Figure, { controls, numbers, mark = figure.r
   <p class="on-paper">${noiseOf(figure)}</p>`;
 }
 
-/** Returns the noise parameters with their values, for paper. */
+/** Returns the noise parameters with their values, for print. */
 function noiseOf({ kind: { attributes, looks }, settings: { wanted: config } }: Figure) {
   return Object.entries(looks).filter(([, { alpha }]) => alpha).flatMap(([key, { symbol = '', decimals }]) => {
     const value = (attributes[key] as Setting).get(config) as number | null;
@@ -155,12 +133,7 @@ function noiseOf({ kind: { attributes, looks }, settings: { wanted: config } }: 
   });
 }
 
-/**
- * Returns a picture of the figure, with its title above.
- *
- * @param picture canvas with its handles
- * @param name classes
- */
+/** Returns a picture with its handles, below a title. */
 export function panel(title: unknown, picture: unknown, name?: string) {
   return html`<figure class="panel ${name ?? ''}">
     <p class="panel-title">${title}</p>
@@ -168,11 +141,7 @@ export function panel(title: unknown, picture: unknown, name?: string) {
   </figure>`;
 }
 
-/**
- * Growth, seed and size of the cloud.
- *
- * @param counts the sizes that the slider offers
- */
+/** Returns the controls of growth, seed and size of the cloud; the slider offers `counts`. */
 export function cloudControls(figure: Figure & { cloud: import('./cloud.ts').Cloud }, counts: readonly number[]) {
   const { samples } = figure.settings.wanted;
   const { name, effect } = wordsFor(figure, 'samples');
@@ -186,7 +155,7 @@ export function cloudControls(figure: Figure & { cloud: import('./cloud.ts').Clo
         id: 'samples',
         symbol: html`<i>N</i>`,
         name,
-        // Beyond the last there is no index, and the thumb says so.
+        // A larger count than the last is shown by an index past the end.
         value: nearest < 0 ? last + 1 : nearest,
         min: 0,
         max: last,
@@ -209,13 +178,13 @@ interface MarkedField {
   label: string;
   /** Number of samples shown. */
   shown: number;
-  /** Text about the marked sample; nothing if none is marked. */
+  /** Text about the selected sample, if any. */
   told: unknown;
-  /** Text if none is marked. */
+  /** Text if none is selected. */
   hint: string;
 }
 
-/** Field with the number of the marked sample. It keeps what was typed and is refused until it is right or left. */
+/** Returns the field with the number of the selected sample. Refused text stays until it is corrected or left. */
 export function markedField({ cloud, typing }: Figure & { cloud: import('./cloud.ts').Cloud }, { id, label, shown, told, hint }: MarkedField) {
   const refusal = typing.refusalOf('marked');
   const type = (event: Event) => {
@@ -247,24 +216,19 @@ export function markedField({ cloud, typing }: Figure & { cloud: import('./cloud
   </p>`;
 }
 
-/** The reader wants another value of a setting, and may go on. */
+/** Requests another value of a setting. */
 function want(figure: Figure, key: string, value: unknown) {
   const setting = figure.kind.attributes[key] as Setting;
   figure.settings.want((wanted) => setting.change(value, wanted));
 }
 
-/** @param key of a setting that is a number */
-function declarationOf(figure: Figure, key: string): import('../settings.js').Declaration & { min: number, max: number } {
-  return figure.kind.declared.find((setting) => setting.key === key) as any;
-}
+/** Returns the declaration of a numeric setting. */
+const declarationOf = (figure: Figure, key: string): import('../settings.js').Declaration & { min: number, max: number } =>
+  figure.kind.declared.find((setting) => setting.key === key) as any;
 
-function wordsOf(figure: Figure) {
-  return (words as any)[figure.kind.vocabulary];
-}
-
-/** @returns what has no effect explains itself */
+/** Returns the name of a setting, and its effect, if it has one. */
 function wordsFor(figure: Figure, key: string): { name: string, effect?: string } {
   const [model, index] = figure.kind.looks[key]?.alpha ?? [];
   const ofAlpha = model && { name: words.alphas[model][(index as number)] };
-  return { ...(words.settings as any)[key], ...ofAlpha, ...wordsOf(figure).settings[key] };
+  return { ...(words.settings as any)[key], ...ofAlpha, ...(words as any)[figure.kind.vocabulary].settings[key] };
 }

@@ -1,7 +1,4 @@
-/**
- * What every figure is: one simulation of a core of its own, pictures of it on canvases, and a state that
- * a page can read and set. Each of the parts that a figure is composed of has a file of its own.
- */
+/** Base class of all figures: a simulation of the core, canvases, and a state that a page can read and set. */
 
 import { LitElement, nothing } from 'lit';
 import { en } from '../messages/en.ts';
@@ -30,82 +27,78 @@ import { Typing } from './typing.ts';
 import type { FigureState, Motion } from '../types.d.ts';
 import type { Values } from './state.ts';
 
-/** Figure of whatever widget. */
+/** Figure of any widget. */
 export type Figure = FigureElement<any, any>;
 
 addEnglish(en);
 
 /**
- * A figure over one simulation object of a core. A widget says how its machine is made, what is asked of
- * it, what pictures and HTML show that, and what a reader may take along.
+ * Figure with one simulation object of the core. A widget defines its machine, readings, pictures, HTML and export.
  *
- * Attributes and properties say what the figure shows, whoever has changed it, and take the same: a property takes texts too.
- * What is out of range is refused by an `error` event that names the field, the value and what is allowed, and the last good
- * value stays; `setState` throws.
+ * Attributes and properties have the values that the figure shows, after changes of the reader too, and set them; properties accept texts.
+ * A value out of range causes an `error` event that names the field, the value and what is allowed, and the last valid value stays;
+ * `setState` throws.
  *
- * @attr theme - Colours for a light page or a dark one; auto is as the surroundings are.
- * @attr share - Keeps the state in the fragment of the page’s address. A state that it carries is opened, and kept up to date, in any case.
- * @attr presentation - Fills the screen, or the window, with pictures and figures for an audience: C shows the controls,
- *   Escape leaves.
+ * @attr theme - Colours for a light or a dark page; auto follows the surroundings.
+ * @attr share - Keeps the state in the fragment of the page’s address. A state in the address is opened and kept up to date in any case.
+ * @attr presentation - Fills the screen, or the window, with pictures and numbers for an audience: C shows the controls, Escape leaves.
  * @attr heading-level - Makes the slot `title` a heading of this level; the property is `headingLevel`.
- * @slot title - The title above the figure, with its number; the figure’s name for screen readers too.
- * @slot caption - What stands below it.
+ * @slot title - Title above the figure, with its number; also the figure’s name for screen readers.
+ * @slot caption - Caption below the figure.
  * @fires load - The figure is ready.
- * @fires {ErrorEvent} error - Something was refused, or the core failed and was started again, or the figure cannot run;
- *   `message` says why. It does not bubble; where nothing prevents its default, the console says it too.
- * @fires input - The reader has changed something, and may go on.
- * @fires change - What the reader changed has come to rest.
- * @fires {CustomEvent} stats - There are fresh statistics; `detail` has them.
- * @csspart picture - A canvas with its handles.
- * @csspart caption - The sentences below a picture.
- * @csspart legend - What the lines and dots are, and which are shown.
+ * @fires {ErrorEvent} error - A value was refused, the core failed and was restarted, or the figure cannot run; `message` gives the
+ *   reason. The event does not bubble; unless its default is prevented, the console shows the message too.
+ * @fires input - The reader has changed something, and may continue.
+ * @fires change - A change by the reader is complete.
+ * @fires {CustomEvent} stats - The statistics have changed; `detail` has them.
+ * @csspart picture - Canvas with its handles.
+ * @csspart caption - Sentences below a picture.
+ * @csspart legend - Legend, which also hides and shows lines and dots.
  * @csspart controls - All controls.
- * @csspart slider - A slider with its name, value and effect.
- * @csspart button - A button.
- * @csspart readouts - The figures about the cloud.
- * @csspart table - A table of figures.
- * @csspart fold - What is folded away, with its name.
- * @csspart progress - The button that stops a long calculation.
- * @csspart exports - Pictures and data to take along.
- * @csspart copies - HTML to copy.
- * @cssprop --motion-paper - The ground of everything; without it, that of what is around the figure.
- * @cssprop --motion-ink - Text, and curves of charts; without it, the colour of the text around.
- * @cssprop --motion-muted - What explains: captions, axes, tracks.
+ * @csspart slider - Slider with its name, value and effect.
+ * @csspart button - Button.
+ * @csspart readouts - Statistics of the samples.
+ * @csspart table - Table of numbers.
+ * @csspart fold - Disclosure, with its name.
+ * @csspart progress - Button that stops a long calculation.
+ * @csspart exports - Buttons that save pictures and data.
+ * @csspart copies - Button that copies HTML.
+ * @cssprop --motion-paper - Background; default: that of the surroundings.
+ * @cssprop --motion-ink - Text, and curves of charts; default: the colour of the text around.
+ * @cssprop --motion-muted - Captions, axes, tracks.
  * @cssprop --motion-rule - Hairlines and grids.
- * @cssprop --motion-prior - What was commanded.
- * @cssprop --motion-prediction - What the model predicts: lines and text.
- * @cssprop --motion-cloud - The samples.
- * @cssprop --motion-truth - What is so, apart from any model: walls, the robot at its start.
- * @cssprop --motion-posterior - What exponential coordinates, or the map, make of it.
- * @cssprop --motion-accent - What is marked or noted, and the focus.
- * @cssprop --motion-font - The family of all text; without it, that of the text around.
- * @cssprop --motion-sticky-top - How much of the window’s top a header of the site covers: the picture that stays in sight on
- *   a phone keeps clear of it.
- * @cssprop --motion-sticky-bottom - Height of text below the figure beside which the picture still stays in sight. The text
- *   needs a `position` to be above the figure.
+ * @cssprop --motion-prior - Commanded motion.
+ * @cssprop --motion-prediction - Predictions of the model: lines and text.
+ * @cssprop --motion-cloud - Samples.
+ * @cssprop --motion-truth - Facts independent of any model: walls, the robot at its start.
+ * @cssprop --motion-posterior - Results of exponential coordinates or the map.
+ * @cssprop --motion-accent - Selection, notes, and the focus.
+ * @cssprop --motion-font - Font family of all text; default: that of the text around.
+ * @cssprop --motion-sticky-top - Height of the site’s header at the window’s top, which a picture that sticks on a phone keeps clear of.
+ * @cssprop --motion-sticky-bottom - Height of text below the figure beside which the picture still sticks. The text needs a `position` to
+ *   be above the figure.
  */
 export class FigureElement<Machine extends { free(): void, stats: object, config: Values, configure(settings: Values): Values }, Reading extends { config: Values, stats: object }> extends LitElement {
   static styles = [theme, schemeStyles, presentationStyles, progressStyles, noticeStyles];
 
-  /** The widget's settings, as declared. */
+  /** Declared settings of the widget. */
   static declared: import('../settings.js').Declaration[];
   /** Appearance of the settings that have a slider. */
   static looks: Record<string, import('./controls.ts').Look> = {};
-  /** The key of its words in the catalogues. */
+  /** Key of the widget's words in the catalogues. */
   static vocabulary: string;
-  /** Its attributes. */
   static attributes: import('./attributes.ts').Attributes = {};
-  /** State of the element that is not its machine's. */
+  /** State of the element that the machine does not have. */
   static own: Record<string, import('./state.ts').Owned> = {};
-  /** The settings whose values decide what others open with. */
+  /** Settings on whose values the defaults of others depend. */
   static defaultsDependOn: string[] = [];
 
   runtime = new Runtime(this);
   stage = new Stage(this);
   gesture = new Gesture(this);
   settings = new Settings(this);
-  state = new State(this, this.kind.own);
-  reflection = new Reflection(this, this.kind.attributes, this.kind.defaultsDependOn);
+  state = new State(this);
+  reflection = new Reflection(this);
   link = new Link(this);
   announcer = new Announcer();
   progress = new Progress(this);
@@ -117,79 +110,74 @@ export class FigureElement<Machine extends { free(): void, stats: object, config
   presenting = new Presentation(this);
   /** Cloud of a figure with samples. */
   cloud: import('./cloud.ts').Cloud | undefined;
-  /** Player of a figure that animates a slider. Called in each frame, it returns true if there is more. */
+  /** Player of a figure that animates a slider. `advance` returns true while it plays. */
   player: { advance(elapsed: number): boolean } | undefined;
-  /** The first is the one that is taken along, unless there is a plate. */
+  /** Pictures on the canvases; the first is exported unless there is a plate. */
   pictures: import('../scene/picture.ts').Picture<any>[] = [];
-  /** Picture for export, of a size of its own. */
+  /** Picture for export, with its own size. */
   plate: import('../scene/picture.ts').Picture<any> & { size: { width: number, height: number } } | undefined;
   /** Latest reading of the machine; undefined before the first. */
   reading: Reading = undefined as any;
   #highlight: string | null = null;
-  /** Resolves the promises of `settled`. */
+  /** Functions that resolve the promises of `settled`. */
   #waiting: (() => void)[] = [];
   #updating: boolean | undefined;
 
-  /** The class of the widget, with what it says of all of its kind. */
+  /** Class of the widget. */
   get kind() {
     return this.constructor as typeof FigureElement;
   }
 
-  // What a widget says of itself; the first five, every widget does.
+  // Members that widgets override; every widget has the first five.
 
-  /**
-   * Makes a machine.
-   *
-   * @param _state that it is in; that of the opening where there is none
-   * @throws {TypeError | RangeError} and there is none then
-   */
+  /** Creates a machine in a state, or in the default one; throws a TypeError or RangeError. */
   createMachine(_motion: Motion, _state?: Values): Machine {
-    throw new Error('A widget makes its own machine.');
+    throw new Error('A widget creates its own machine.');
   }
 
-  /** Completes a machine that was made of a state, and the state, where it takes more than settings. */
+  /** Applies the parts of a state that are no settings to a new machine, and completes the state. */
   complete(_machine: Machine, _state: Values) {}
 
-  /** Everything that pictures and HTML need of the machine, asked once a change. */
+  /** Reads everything that pictures and HTML need, once a change. */
   read(_machine: Machine): Reading {
     throw new Error('A widget reads its own machine.');
   }
 
-  /** Scene of the pictures, with every change so far in effect. */
+  /** Scene of the pictures, up to date with every change. */
   get scene(): any {
     return this.fresh;
   }
 
-  /** The figure in HTML. */
+  /** Returns the HTML of the figure. */
   content(_reading: Reading): unknown {
     return nothing;
   }
 
-  /** Content for export, with every change so far in effect. */
+  /** Content for export, up to date with every change. */
   get takeaway(): import('./takeaway/export.ts').Takeaway {
-    throw new Error('A widget says what is taken along.');
+    throw new Error('A widget defines its own export.');
   }
 
-  /** Announcement after a change has come to rest. */
+  /** Returns the announcement for screen readers after a completed change. */
   announcement(_reading: Reading) {
     return '';
   }
 
-  /** Another machine has taken its place, and nothing of it is shown yet. */
+  /** Runs after the machine was replaced. */
   machineChanged() {}
 
-  /** Lets go of what is no part of the state: the figure is to be as it opened. */
+  /** Resets what is no part of the state, when the figure starts over. */
   startedOver() {}
 
-  /** Puts the handles where the pictures have them now. */
+  /** Moves the handles to their places in the pictures. */
   placeHandles(_scene: any) {}
 
-  /** Everything that a reader can change, as the machine and the element have it. */
+  /** Returns the whole state. */
   snapshot(): Values {
     return { ...this.state.common, ...this.settings.declared(this.settings.present), ...this.cloud?.snapshot() };
   }
 
-  /** A state that is given in part, with what follows of it for fields that are left out. */
+  /** Returns a partial state with values that follow from it for missing fields. */
   completed(present: Values, given: Values): Values {
     return { ...this.cloud?.completed(present, given), ...given };
   }
@@ -202,8 +190,6 @@ export class FigureElement<Machine extends { free(): void, stats: object, config
     return this.runtime.motion as Motion;
   }
 
-  // What is wanted, and what is shown.
-
   refresh() {
     const { machine } = this;
     if (!machine) return;
@@ -214,13 +200,13 @@ export class FigureElement<Machine extends { free(): void, stats: object, config
     this.dispatchEvent(new CustomEvent('stats', { detail: this.reading.stats, bubbles: true, composed: true }));
   }
 
-  /** Keeps the state and announces what has come to rest, as of the latest reading. */
+  /** Stores the state and announces the outcome of a change. */
   finishChange() {
     this.announcer.setOutcome(() => this.announcement(this.reading));
     this.state.keep();
   }
 
-  /** Reading of the machine, with every change so far in effect. */
+  /** Reading of the machine, up to date with every change. */
   get fresh(): Reading {
     if (!this.machine) throw new Error('There is no figure yet: it is there from the load event on.');
     speak(this);
@@ -229,25 +215,18 @@ export class FigureElement<Machine extends { free(): void, stats: object, config
     return this.reading;
   }
 
-  /**
-   * Asks the machine, with every change so far in effect.
-   *
-   * @returns null where there is no machine
-   */
+  /** Queries the machine after every change is in effect; null if there is no machine. */
   ask<Answer>(question: (machine: Machine) => Answer): Answer | null {
-    const answer = this.runtime.attempt(() => {
+    return this.runtime.attempt(() => {
       this.settings.settle();
       return this.machine && question(this.machine);
-    });
-    return answer ?? null;
+    }) ?? null;
   }
 
-  // What a page has of every figure.
+  // Public properties and methods.
 
   /**
-   * Statistics of the samples shown, which say how many these are; null before there are any. A large cloud is complete a few frames
-   * after a change: see `settled`.
-   *
+   * Statistics of the samples shown, with their number; null before there are any. A large cloud takes a few frames to complete: see `settled`.
    * @public
    */
   get stats(): Machine['stats'] | null {
@@ -255,9 +234,8 @@ export class FigureElement<Machine extends { free(): void, stats: object, config
   }
 
   /**
-   * Promise that the figure is ready, every change is in effect, all samples are shown and no log is read. It starts a figure that is far
-   * from the window. Growth that the reader sees is waited for.
-   *
+   * Promise that resolves when the figure is ready, all changes are in effect, all samples are shown and no log is being read. It starts a
+   * figure far from the window, and waits for the growth of a visible cloud.
    * @public
    */
   get settled(): Promise<void> {
@@ -268,17 +246,17 @@ export class FigureElement<Machine extends { free(): void, stats: object, config
     });
   }
 
-  /** True while a widget calculates something elsewhere. */
+  /** True while a widget calculates in the background. */
   get isBusy() {
     return false;
   }
 
-  /** True if somebody waits for `settled`. */
+  /** True if a promise of `settled` is pending. */
   get isAwaited() {
     return this.#waiting.length > 0;
   }
 
-  /** Resolves `settled` if the figure is. A figure that cannot run is. */
+  /** Resolves `settled` if the figure is settled or cannot run. */
   resolveSettled() {
     if (!this.isAwaited) return;
     const { machine, cloud, settings, runtime } = this;
@@ -286,7 +264,7 @@ export class FigureElement<Machine extends { free(): void, stats: object, config
     if (isSettled) for (const resolve of this.#waiting.splice(0)) resolve();
   }
 
-  /** Light, dark, or as the surroundings are. */
+  /** Colours: light, dark, or auto for those of the surroundings. */
   get theme() {
     return THEMES.find((theme) => theme === this.getAttribute('theme')) ?? THEMES[0];
   }
@@ -295,7 +273,7 @@ export class FigureElement<Machine extends { free(): void, stats: object, config
     this.reflection.setAttribute('theme', theme);
   }
 
-  /** Whether the page's address carries the state. */
+  /** True if the page's address carries the state. */
   get share() {
     return this.hasAttribute('share');
   }
@@ -304,7 +282,7 @@ export class FigureElement<Machine extends { free(): void, stats: object, config
     this.toggleAttribute('share', share || share === '');
   }
 
-  /** Whether it is shown to an audience. */
+  /** True while the figure is presented to an audience. */
   get presentation() {
     return this.hasAttribute('presentation');
   }
@@ -314,8 +292,7 @@ export class FigureElement<Machine extends { free(): void, stats: object, config
   }
 
   /**
-   * Name of the line that the pictures highlight, a word of `overlays`; null for none. No part of the state.
-   *
+   * Name of the highlighted line, a word of `overlays`; null for none. No part of the state.
    * @public
    */
   get highlight(): string | null {
@@ -327,7 +304,7 @@ export class FigureElement<Machine extends { free(): void, stats: object, config
     this.stage.requestFrame();
   }
 
-  /** The level of the heading that the title is; null where it is none. */
+  /** Heading level of the title; null if it is no heading. */
   get headingLevel() {
     return HEADING_LEVELS.find((level) => level === this.getAttribute('heading-level')) ?? null;
   }
@@ -337,9 +314,8 @@ export class FigureElement<Machine extends { free(): void, stats: object, config
   }
 
   /**
-   * Everything that a reader can change, as plain data for `setState` and JSON. Of an element that is not
-   * on the page, as it was when it left; null before it has come near the reader for the first time.
-   *
+   * The whole state as plain data for `setState` and JSON. After the element was removed, the last state; null before it was first near the
+   * window.
    * @public
    */
   getState(): Values | null {
@@ -347,10 +323,9 @@ export class FigureElement<Machine extends { free(): void, stats: object, config
   }
 
   /**
-   * Puts the element into a state, which names its `widget` and `version`; what else is left out stays as it is. Throws a
-   * TypeError or RangeError that names the field, the value and what is allowed, and changes nothing then. What takes long comes
-   * frame by frame; that the cells of a large grid have too many sides is told by an `error` event.
-   *
+   * Applies a state, which names its `widget` and `version`; other missing fields keep their values. Throws a TypeError or RangeError that
+   * names the field, the value and what is allowed, and then changes nothing. Long work is spread over frames; a grid whose cells have too
+   * many sides is reported by an `error` event.
    * @public
    */
   setState(state: Partial<Values> & FigureState) {
@@ -358,8 +333,7 @@ export class FigureElement<Machine extends { free(): void, stats: object, config
   }
 
   /**
-   * The picture with twice the pixels of the screen, image/png. As the next two, throws before `load`.
-   *
+   * Returns the picture with two pixels a CSS pixel, image/png. Throws before `load`, as the next two do.
    * @public
    */
   async toPNG(): Promise<Blob> {
@@ -367,8 +341,7 @@ export class FigureElement<Machine extends { free(): void, stats: object, config
   }
 
   /**
-   * The picture as vector graphics, with a title and a description.
-   *
+   * Returns the picture as SVG, with a title and a description.
    * @public
    */
   toSVG(): string {
@@ -376,8 +349,7 @@ export class FigureElement<Machine extends { free(): void, stats: object, config
   }
 
   /**
-   * Every sample shown, after a line with the settings and the seed.
-   *
+   * Returns the samples shown as CSV, after a line with the settings and the seed.
    * @public
    */
   toCSV(): string {
@@ -385,8 +357,7 @@ export class FigureElement<Machine extends { free(): void, stats: object, config
   }
 
   /**
-   * The address of this page with the present state.
-   *
+   * Returns the address of this page with the present state.
    * @public
    */
   async shareLink(): Promise<string> {
@@ -394,19 +365,15 @@ export class FigureElement<Machine extends { free(): void, stats: object, config
   }
 
   /**
-   * HTML that shows the figure as it is now, on another page. What no attribute says, a map of one's own among it, is
-   * not in it.
-   *
+   * Returns HTML that shows the figure in its present state on another page, without what no attribute carries, such as the reader's map.
    * @public
    */
   embedCode(): string {
     return embedding(this);
   }
 
-  // The element's life.
-
   static get observedAttributes() {
-    // HTML has attributes in lower case, whatever their properties are called.
+    // Attributes are in lower case in HTML.
     return [...super.observedAttributes, ...Object.keys({ ...this.attributes, ...COMMON }).map((name) => name.toLowerCase())];
   }
 
@@ -420,9 +387,9 @@ export class FigureElement<Machine extends { free(): void, stats: object, config
     this.stage.recolour();
   }
 
-  /** LitElement does not hear of another update that is asked for while there is one. */
+  /** Postpones a request that comes during an update, which LitElement would lose. */
   requestUpdate(...change: Parameters<LitElement['requestUpdate']>) {
-    // It asks for the first before there is anything of a figure.
+    // LitElement requests the first update before the fields exist.
     if (#updating in this && this.#updating) this.updateComplete.then(() => this.requestUpdate());
     else super.requestUpdate(...change);
   }
@@ -434,10 +401,10 @@ export class FigureElement<Machine extends { free(): void, stats: object, config
     };
     this.#updating = true;
     try {
-      // At once: what was shown before a trap stays, and in the place of what failed comes the sentence.
+      // A trap keeps the former content, and a failure shows its message.
       if (!this.runtime.attemptOrFail(rendered)) rendered();
     } catch {
-      // No template can be rendered here, now or later.
+      // Templates cannot be rendered here at all.
       this.shouldUpdate = () => false;
       this.renderRoot.textContent = words.failure(this.runtime.failure ?? '');
     } finally {

@@ -1,23 +1,23 @@
-/** Keyboard focus: it stays in the figure when the control that has it goes, is disabled or hidden. */
+/** Keyboard focus, which stays in the figure when its control is removed, disabled or hidden. */
 
 import { Part } from './part.ts';
 
 /** Stops of the Tab key. */
 const STOPS = ':is(button, input, select, textarea):enabled:not([tabindex]), summary, [tabindex="0"]';
 
-/** Returns the stops of the Tab key that are shown. */
+/** Returns the visible stops of the Tab key. */
 export function stopsIn(root: ParentNode): HTMLElement[] {
   return ([...root.querySelectorAll(STOPS)] as HTMLElement[]).filter((stop) => stop.checkVisibility());
 }
 
 export class Focus extends Part {
-  /** The control that has the focus and what is around it, the nearest first. */
+  /** Focused control and its ancestors, the nearest first. */
   #held: Element[] = [];
 
   hostUpdate() {
     this.#held = [];
     const control = (this.host.renderRoot as ShadowRoot | undefined)?.activeElement;
-    // The placeholder has a way of its own into the figure.
+    // The placeholder moves the focus itself.
     if (!control || control.matches('.reserved')) return;
     for (let at = control as Element | null; at; at = at.parentElement) this.#held.push(at);
   }

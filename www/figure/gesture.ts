@@ -1,7 +1,4 @@
-/**
- * What the reader does, and what a page hears of it: `input` for each step and `change` where it ends, once each,
- * however many settings a step changed.
- */
+/** Events of the reader's changes: one `input` for each step and one `change` at the end, whatever the number of settings. */
 
 import { Part } from './part.ts';
 import type { Values } from './settings.ts';
@@ -9,26 +6,26 @@ import type { Values } from './settings.ts';
 export class Gesture extends Part {
   #step = false;
   #end: boolean | undefined;
-  /** Whether a step was told without its end. */
+  /** True between an `input` event and its `change`. */
   #isOpen = false;
-  /** Ends listening for the end of a press. */
+  /** Removes the listeners of a press. */
   #press: AbortController | undefined;
-  /** Reading before the present gesture, or the last. */
+  /** Reading before the present or latest gesture. */
   former: any;
 
-  /** True while a pointer is down on the figure: the views keep still under it. */
+  /** True while a pointer is down on the figure, where the views stay as they are. */
   get pressed() {
     return this.#press !== undefined;
   }
 
-  /** A pointer comes down on the figure. */
+  /** Begins a press. */
   press({ button }: PointerEvent) {
     if (button !== 0) return;
     this.#release();
     this.#press = new AbortController();
     const { signal } = this.#press;
     for (const end of ['pointerup', 'pointercancel']) addEventListener(end, () => this.#release(), { capture: true, signal });
-    // A list or a dialog of the browser may have taken the end.
+    // The browser's lists and dialogs may take the `pointerup`.
     addEventListener('pointermove', ({ buttons }) => buttons === 0 && this.#release(), { capture: true, signal });
   }
 
@@ -38,13 +35,13 @@ export class Gesture extends Part {
     this.host.stage.requestFrame();
   }
 
-  /** What leaves the page is let go of. */
+  /** Ends the gesture when the figure is removed. */
   hostDisconnected() {
     this.#release();
     if (this.#isOpen || this.#step) this.commit();
   }
 
-  /** Something has changed, and it may go on. */
+  /** Records a step of a change that may continue. */
   step() {
     if (!this.#isOpen && !this.#step) this.former = this.host.reading;
     this.#step = true;
@@ -52,7 +49,7 @@ export class Gesture extends Part {
     this.#queue();
   }
 
-  /** What the reader changed has come to rest: put it into effect and say what it led to. */
+  /** Ends a change: applies it and announces the outcome. */
   commit() {
     const { host } = this;
     host.runtime.attempt(() => host.settings.settle());
@@ -65,13 +62,13 @@ export class Gesture extends Part {
     }
   }
 
-  /** The reader has decided on other settings. */
+  /** Changes settings in one step, with its end. */
   decide(change: Values | ((wanted: Values) => Values)) {
     this.host.settings.want(change);
     this.commit();
   }
 
-  /** The reader chooses something of the element's own. */
+  /** Changes an own field of the element in one step, with its end. */
   choose(name: string, value: unknown) {
     this.host.state.own[name] = value;
     this.step();
@@ -84,7 +81,7 @@ export class Gesture extends Part {
     this.#queue();
   }
 
-  /** After the handler that is running: it may take several steps, which are told once. */
+  /** Fires the events after the running handler, which may take several steps. */
   #queue() {
     queueMicrotask(() => {
       const [step, end] = [this.#step, this.#end];
@@ -99,7 +96,6 @@ export class Gesture extends Part {
     });
   }
 
-  /** @param name of the event */
   #dispatch(name: string) {
     this.host.dispatchEvent(new Event(name, { bubbles: true, composed: true }));
   }

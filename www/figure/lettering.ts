@@ -1,17 +1,17 @@
-/** What the page writes around a figure, in its slots: a title, which names it, and a caption. */
+/** Title and caption of a figure, from the page's slots. */
 
 import { html, nothing } from 'lit';
 import { words } from '../messages/registry.ts';
 import { Part } from './part.ts';
 
 export class Lettering extends Part {
-  /** The figure's name: the title that the page gives it, or the widget's own. */
+  /** Name of the figure: the page's title, or the widget's own. */
   get name() {
     const title = this.#given('title').map(({ textContent }) => textContent).join(' ').replace(/\s+/g, ' ').trim();
     return title || (words as any)[this.host.kind.vocabulary].title;
   }
 
-  /** A heading where the page says of which level. An audience sees the figure's own name where the page gives none. */
+  /** Returns the title, a heading of the page's level. In a presentation the figure's name replaces a missing title. */
   title() {
     const { presentation, headingLevel } = this.host;
     return this.#slot('title', headingLevel, presentation && this.name);
@@ -21,12 +21,12 @@ export class Lettering extends Part {
     return this.#slot('caption', null, false);
   }
 
-  /** Content that the page has put into a slot. */
+  /** Returns the page's elements in a slot. */
   #given(name: string) {
     return [...this.host.children].filter(({ slot }) => slot === name);
   }
 
-  /** @param otherwise text where the page has put nothing into it */
+  /** Returns a slot, with a text for an empty one. */
   #slot(name: string, level: string | null, otherwise: string | false) {
     return html`<div
       class="${name}-slot"

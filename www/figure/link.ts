@@ -1,23 +1,22 @@
 /**
- * The state in the page's address: each element has a part of the fragment of its own, and leaves all
- * others as they are: `#plain-anchor&banana-machine.1=…&map-squeeze:my-id=…`. Every element opens what
- * is there for it, so that a link which was copied works, and keeps it up to date. One that is shared writes there in any case.
+ * State in the page's address. Each figure has a part of the fragment: `#plain-anchor&banana-machine.1=…&map-squeeze:my-id=…`.
+ * A figure opens its part and keeps it up to date; with `share`, it adds one.
  */
 
 import { pack, unpack } from './packing.ts';
 import { Part } from './part.ts';
 
 export class Link extends Part {
-  /** A state from the address that waits for the machine. */
+  /** State from the address that waits for the machine. */
   #pending: unknown;
-  /** The latest look at the address, and the latest text for it: an earlier one that is ready later is void. */
+  /** Latest read and write of the address: an earlier one that ends later is dropped. */
   #latestRead = {};
   #latestWrite = {};
 
   hostConnected() {
     addEventListener('hashchange', this.#changed);
     scrollToAnchor();
-    // The reader may have gone elsewhere before it came.
+    // The reader may have followed another link meanwhile.
     if (linked === parts()[0] && this.#isOf(linked)) {
       linked = undefined;
       this.#scrollHere();
@@ -33,31 +32,31 @@ export class Link extends Part {
     void this.follow();
   };
 
-  /** Checks whether a part of the address is this figure's. */
+  /** Returns true for this figure's part of the address. */
   #isOf(part: string | undefined) {
     return part?.startsWith(`${keyOf(this.host)}=`);
   }
 
-  /** Who follows a link to this figure is to see it. */
+  /** Scrolls to the figure that a link names. */
   #scrollHere() {
     const { host } = this;
-    // It has its room then.
+    // The figure has its height then.
     void host.updateComplete.then(() => host.scrollIntoView());
   }
 
-  /** Looks for a state to open in: the first time only, as the address says where the figure began. */
+  /** Reads the state to open with, before the first machine. */
   async prepare() {
     if (!this.host.state.kept) await this.follow();
   }
 
-  /** Enters the state that waited for the machine. */
+  /** Applies the state that waited for the machine. */
   applyPending() {
     const pending = this.#pending;
     this.#pending = undefined;
     if (pending !== undefined) this.host.runtime.attemptOrReport(() => this.host.setState(pending as any));
   }
 
-  /** The page's address may carry another state. */
+  /** Applies the state in the page's address. */
   follow = async () => {
     const request = (this.#latestRead = {});
     const state = await this.#read();
@@ -66,7 +65,7 @@ export class Link extends Part {
     if (this.host.machine) this.applyPending();
   };
 
-  /** @returns undefined where the address has no state */
+  /** Returns the state in the address, if any. */
   async #read(): Promise<unknown> {
     const key = `${keyOf(this.host)}=`;
     const text = parts().find((part) => part.startsWith(key))?.slice(key.length);
@@ -78,10 +77,7 @@ export class Link extends Part {
     }
   }
 
-  /**
-   * Puts the state into the page's address, where that is shared or has a state of the figure. The page does not move, and
-   * going back does not lead through it.
-   */
+  /** Writes the state into a shared address or one that has the figure's state, without scrolling or a step of history. */
   async write() {
     if (!this.host.share && !parts().some((part) => this.#isOf(part))) return;
     const request = (this.#latestWrite = {});
@@ -92,11 +88,11 @@ export class Link extends Part {
     try {
       history.replaceState(history.state, document.title, address);
     } catch {
-      // A page that was put together by a script has no address to write.
+      // A page made by a script may have no address.
     }
   }
 
-  /** @returns the address of this page with the present state, which is gone to unless the page's own anchor is */
+  /** Returns the address of this page with the state; the figure comes first unless the page's anchor does. */
   async address(): Promise<string> {
     return addressWith(keyOf(this.host), await this.#pack(), !isAnchor(parts()[0]));
   }
@@ -106,10 +102,7 @@ export class Link extends Part {
   }
 }
 
-/**
- * Name of an element's part: its id, or without one, its place among its kind on the page. In a shadow root it is the place there,
- * after the name of the host.
- */
+/** Returns the name of an element's part: id, or index among its kind in its root, after the names of shadow hosts. */
 function keyOf(element: Element): string {
   const { localName, id } = element;
   const root = element.getRootNode() as any;
@@ -119,39 +112,31 @@ function keyOf(element: Element): string {
   return `${name}.${kind.indexOf(element) + 1}`;
 }
 
-/**
- * @param first whether it is before all others
- * @returns the page's address with it
- */
+/** Returns the page's address with a part, which may be `first`. */
 function addressWith(key: string, text: string, first: boolean = false): string {
   const part = `${key}=${text}`;
   const all = parts();
   const at = all.findIndex((each) => each.startsWith(`${key}=`));
   const others = all.filter((_, i) => i !== at);
   const next = first ? [part, ...others] : at < 0 ? [...all, part] : all.with(at, part);
-  // In full: a base element of the page does not matter then.
+  // A full address is independent of a base element.
   return `${location.href.replace(/#.*/, '')}#${next.join('&')}`;
 }
 
-function parts() {
-  return location.hash.slice(1).split('&').filter((part) => part !== '');
-}
+const parts = () => location.hash.slice(1).split('&').filter((part) => part !== '');
 
 const isAnchor = (part: string | undefined) => part !== undefined && !part.includes('=');
 
 let hasScrolled = false;
 
-/** The part of the link by which the reader came that is to be gone to, until it is. */
+/** Part of the fragment that the reader's link names, until the page has scrolled to it. */
 let linked: string | undefined;
 
-/**
- * Goes to the page's own anchor, once: a browser looks for the whole fragment, states included, and does
- * not find it.
- */
+/** Scrolls to the page's own anchor, once: browsers look for the whole fragment, with the states. */
 function scrollToAnchor() {
   if (hasScrolled) return;
   hasScrolled = true;
-  // On a reload the browser goes back to where the reader was.
+  // On a reload the browser restores the scroll position.
   const [navigation] = performance.getEntriesByType('navigation') as PerformanceNavigationTiming[];
   if (navigation?.type !== 'navigate') return;
   const [first, second] = parts();

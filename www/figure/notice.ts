@@ -1,11 +1,10 @@
-/** A sentence over the lower edge of the figure or of the window, which the reader closes. Nothing moves for it. */
+/** Notice over the lower edge of the figure or the window, which the reader closes. It moves no content. */
 
 import { css, html, nothing } from 'lit';
 import { words } from '../messages/registry.ts';
 import { button } from '../ui/controls.ts';
 import { Part } from './part.ts';
 
-/** The place is that of progress. */
 export const noticeStyles = css`
   .progress > .notice {
     width: max-content;
@@ -21,7 +20,7 @@ export class Notice extends Part {
     return this.#sentence !== '';
   }
 
-  /** @param sentence empty for none */
+  /** Shows a sentence; an empty one hides the notice. */
   show(sentence: string) {
     this.#sentence = sentence;
     this.host.requestUpdate();

@@ -1,4 +1,4 @@
-/** Lines and marks of a picture that a reader can hide: their state, and the legend whose entries are their toggles. */
+/** Lines and marks that a reader can hide: their state, and the legend that toggles them. */
 
 import { html, nothing, svg } from 'lit';
 import { words } from '../messages/registry.ts';
@@ -9,19 +9,15 @@ import { subset } from './checks.ts';
 /** Style of a line or mark, in the picture and in the legend. */
 export interface LineStyle {
   role: keyof import('../ui/theme.ts').Palette;
-  /** CSS pixels. */
+  /** Lengths, CSS pixels. */
   dash?: number[];
   /** CSS pixels. */
   width?: number;
-  /** A line by default. */
+  /** Default: line. */
   mark?: 'line' | 'dot' | 'ring' | 'area' | 'cross';
 }
 
-/**
- * Returns the attribute and the state of what can be hidden.
- *
- * @param opening names of what is shown when the figure opens
- */
+/** Returns the attribute and the state of overlays; `opening` are shown by default. */
 export function overlaysOf(names: readonly string[], opening: readonly string[] = names): { attribute: import('./attributes.ts').Attribute & import('./attributes.ts').Own, state: import('./state.ts').Owned } {
   return {
     attribute: { kind: WORDS, own: true, words: names },
@@ -29,12 +25,7 @@ export function overlaysOf(names: readonly string[], opening: readonly string[] 
   };
 }
 
-/**
- * Returns the legend of a figure's pictures. The words are those of `overlays` in the catalogue.
- *
- * @param styles in the order of the entries; what they leave out stays as it is
- * @param notes reasons why lines are not in the picture, by name: the entries keep their size
- */
+/** Returns the legend of a figure's pictures, with the catalogue's `overlays` as words. `notes` say why lines are missing. */
 export function legend(figure: import('./figure.ts').Figure, styles: Record<string, LineStyle>, notes: Record<string, string> = {}) {
   const { overlays } = figure.state.own;
   const { overlays: names } = (words as any)[figure.kind.vocabulary];

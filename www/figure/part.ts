@@ -1,9 +1,8 @@
-/** A part of a figure: it knows the element that it is a part of, and the other parts through it. */
+/** Base class of a figure's reactive controllers. */
 
 import type { Figure } from './figure.ts';
 
 export class Part<Host extends Figure = Figure> {
-  /** Figure, which calls the part's `hostConnected` and its kin. */
   host: Host;
 
   constructor(host: Host) {

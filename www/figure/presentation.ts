@@ -8,20 +8,20 @@ import { Part } from './part.ts';
 /** Key that shows and hides the controls. */
 const KEY = 'c';
 
-/** Key that brings back the state in which the presentation began. */
+/** Key that restores the state at the beginning of the presentation. */
 const BACK = '0';
 
 export class Presentation extends Part {
   /** Whether the controls are shown. */
   #controls = false;
-  /** Whole state at the beginning; undefined where the figure opened in the presentation. */
+  /** State at the beginning; undefined if the figure opened in a presentation. */
   #prepared: import('./state.ts').Values | undefined;
   /** Stops listening to keys; undefined while the figure is not presented. */
   #listening: AbortController | undefined;
 
   hostConnected() {
     this.follow();
-    // The browser leaves full screen by keys of its own.
+    // The browser ends full screen by its own keys.
     this.host.addEventListener('fullscreenchange', this.#left);
   }
 
@@ -29,7 +29,7 @@ export class Presentation extends Part {
     void this.#end();
   }
 
-  /** Begins or ends the presentation, as the attribute says. */
+  /** Begins or ends the presentation to match the attribute. */
   follow() {
     const { host } = this;
     if (!host.isConnected || host.presentation === (this.#listening !== undefined)) return;
@@ -45,10 +45,10 @@ export class Presentation extends Part {
     addEventListener('keydown', this.#key, { signal: this.#listening.signal });
     const keyed = host.renderRoot?.querySelector('.to-present:focus-visible');
     await host.updateComplete;
-    // After a click, a ring around a button would stay before the audience.
+    // A click should leave no focus ring in the presentation.
     this.#focus(keyed ? '.presenting button' : '.presenting');
     try {
-      // The browser asks for a key press or a click. Without full screen the figure fills the window, by its styles.
+      // Full screen needs a key press or a click. Without it the styles fill the window.
       if (navigator.userActivation.isActive) await host.requestFullscreen();
     } catch {
       return;
@@ -63,7 +63,7 @@ export class Presentation extends Part {
     this.#controls = false;
     await this.#exit();
     await this.host.updateComplete;
-    // The page has its layout back, and scrolls to the button.
+    // The page has its layout again, and scrolls to the button.
     this.#focus('.to-present');
   }
 
@@ -87,7 +87,7 @@ export class Presentation extends Part {
     else this.#choose(this.host.kind.attributes.preset?.words?.[Number(key) - 1]);
   };
 
-  /** Sets the figure to a preset, as its button does. */
+  /** Applies a preset, as its button does. */
   #choose(preset?: string) {
     if (preset === undefined || !this.host.machine) return;
     Object.assign(this.host, { preset });
@@ -109,13 +109,13 @@ export class Presentation extends Part {
     return this.#controls ? 'with-controls' : '';
   }
 
-  /** Button that begins the presentation. */
+  /** Returns the button that begins the presentation. */
   button() {
     const say = words.presentation;
     return button(say.begin, () => (this.host.presentation = true), { title: say.title, name: 'to-present' });
   }
 
-  /** Buttons that show the controls, bring back the beginning and end the presentation, with their keys. */
+  /** Returns the buttons of a presentation, with their keys. */
   render() {
     if (!this.#listening) return nothing;
     const say = words.presentation;

@@ -1,14 +1,14 @@
-/** What a reader sees of work that takes longer than a moment, and how they stop it. */
+/** Progress of long work, with a button that stops it. */
 
 import { css, html, nothing } from 'lit';
 import { words } from '../messages/registry.ts';
 import { button } from '../ui/controls.ts';
 import { Part } from './part.ts';
 
-/** So long work goes on unseen, milliseconds: what flashes up tells nobody anything. */
+/** Delay before the progress is shown, ms. */
 const PATIENCE = 200;
 
-/** At the lower edge of the figure or of the window, and over what is there: nothing moves. */
+/** Styles that place the progress over the lower edge of the figure or the window, without moving content. */
 export const progressStyles = css`
   .progress {
     position: sticky;
@@ -44,18 +44,16 @@ export const progressStyles = css`
 `;
 
 /** Work that can be stopped. */
-export interface Work {
-  stop(): void;
-}
+export type Work = { stop(): void };
 
 export class Progress extends Part {
   #work: Work | undefined;
-  /** When the work was first told of. */
+  /** Start of the work. */
   #since: number | undefined;
   #shown = false;
 
   hostConnected() {
-    // Before the page or the figure takes it for something else.
+    // Captured before the page or the figure uses the key.
     document.addEventListener('keydown', this.#key, { capture: true });
   }
 
@@ -64,16 +62,15 @@ export class Progress extends Part {
   }
 
   #key = (event: KeyboardEvent) => {
-    // One for each press.
     if (event.key !== 'Escape' || !this.#shown || event.defaultPrevented) return;
-    // What has the focus is the figure, or nothing: a file was dropped, or what had it is gone.
+    // The focus is in the figure, or nowhere, as after a drop of files.
     if (event.target !== document.body && !event.composedPath().includes(this.host)) return;
     event.preventDefault();
     event.stopPropagation();
     this.#stop();
   };
 
-  /** Tells of work that goes on. */
+  /** Updates the progress of work that continues. */
   update(work: Work) {
     this.#work = work;
     const now = performance.now();
@@ -84,7 +81,7 @@ export class Progress extends Part {
     this.host.requestUpdate();
   }
 
-  /** All is done. */
+  /** Ends the progress of work. */
   end(work: Work) {
     if (work !== this.#work) return;
     this.#since = undefined;

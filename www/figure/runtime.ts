@@ -1,25 +1,20 @@
-/**
- * A core of the figure's own: made when the figure comes near the reader, freed when it goes, abandoned
- * at a trap and made again from the last good state.
- */
+/** Core of a figure: created near the viewport, freed on removal, replaced after a trap from the last valid state. */
 
 import { abandon, instantiateFor } from '../core.ts';
 import { checkNow, unwatch, watch } from './page/sight.ts';
 import { Part } from './part.ts';
-import { isTrap } from './trap.ts';
 
 export class Runtime extends Part {
-  /** The core, once it runs. */
   motion: import('../types.d.ts').Motion | undefined;
-  /** The simulation, which owns all of its state. */
+  /** Simulation object of the core. */
   machine: any;
-  /** The reason why it cannot run. */
+  /** Message of the error that stops the figure. */
   failure: string | undefined;
-  /** Whether the page was told that it is ready: not once more after a trap. */
+  /** True once the `load` event was fired. */
   #loaded = false;
   #near: boolean | undefined;
   #starting: Promise<void> | undefined;
-  /** True if a core has trapped and no picture was drawn since. */
+  /** True from a trap to the next picture. */
   #hasTrapped = false;
 
   hostConnected() {
@@ -27,23 +22,18 @@ export class Runtime extends Part {
       onNear: () => void this.start(),
       onVisible: (inSight) => this.host.stage.setVisible(inSight),
     });
-    this.#checkVisibility();
+    // The figure has its layout then.
+    void this.host.updateComplete.then(() => checkNow(this.host));
   }
 
-  /** The room for the figure is there, so that it has its place on the page. */
-  async #checkVisibility() {
-    await this.host.updateComplete;
-    checkNow(this.host);
-  }
-
-  /** The reader is near, or there: starts what has not started. */
-  async start() {
+  /** Starts the core, if it is not running. */
+  start() {
     this.#near = true;
-    await this.#startIfNear();
+    return this.#startIfNear();
   }
 
   hostDisconnected() {
-    // An element that is being moved is back in the document by the time the microtasks run.
+    // A moved element is connected again by then.
     queueMicrotask(() => {
       if (this.host.isConnected) return;
       unwatch(this.host);
@@ -53,17 +43,13 @@ export class Runtime extends Part {
     });
   }
 
-  /** @param machine that takes the place of the present one */
+  /** Replaces the machine and frees the present one. */
   replace(machine: any) {
     this.machine.free();
     this.machine = machine;
   }
 
-  /**
-   * Does what may trap: a trap is mended, anything else is thrown on.
-   *
-   * @returns undefined where it trapped
-   */
+  /** Runs work and recovers from a trap, with undefined as the result; throws other errors. */
   attempt<Result>(work: () => Result): Result | undefined {
     try {
       return work();
@@ -72,7 +58,7 @@ export class Runtime extends Part {
     }
   }
 
-  /** As `attempt`, where nobody would hear of an error: it ends in the sentence. */
+  /** Runs work as `attempt` does; an error ends the figure with a message. */
   attemptOrFail: Runtime['attempt'] = (work) => {
     try {
       return this.attempt(work);
@@ -81,7 +67,7 @@ export class Runtime extends Part {
     }
   };
 
-  /** @param work what may refuse: an error is reported, and all is as it was */
+  /** Runs work as `attempt` does; an error is reported. */
   attemptOrReport(work: () => void) {
     try {
       this.attempt(work);
@@ -91,19 +77,19 @@ export class Runtime extends Part {
     }
   }
 
-  /** A picture was drawn, so that the present core is taken for a sound one. */
+  /** Ends the recovery from a trap: a picture was drawn. */
   confirmHealthy() {
     this.#hasTrapped = false;
   }
 
-  /** Tells the page of what went wrong; the console too, where no listener takes care of it. */
+  /** Fires an `error` event, and warns on the console if no listener prevents that. */
   report(error: unknown) {
     const message = messageOf(error);
     const unattended = this.host.dispatchEvent(new ErrorEvent('error', { error, message, cancelable: true }));
     if (unattended) console.warn(message, this.host);
   }
 
-  /** Shows a sentence in the figure's place and tells the page. */
+  /** Shows an error in the figure's place and fires it. */
   fail(error: unknown) {
     if (isTrap(error)) this.#abandon();
     this.#stop();
@@ -111,12 +97,7 @@ export class Runtime extends Part {
     this.report(error);
   }
 
-  /**
-   * After a trap, takes a new core and the last good state: the old core's memory may be damaged, and
-   * nothing of it is used again. What is shown stays until then. A second trap before a picture is not mended.
-   *
-   * @returns whether it was one that this mends
-   */
+  /** Replaces the core after a trap: its memory may be damaged. Returns false for other errors and a second trap before a picture. */
   #recover(error: unknown): boolean {
     if (!isTrap(error) || this.#hasTrapped) return false;
     this.#hasTrapped = true;
@@ -132,7 +113,7 @@ export class Runtime extends Part {
     this.machine = this.motion = undefined;
   }
 
-  /** @returns that ends when it has started, or cannot */
+  /** Resolves when the core has started or failed. */
   #startIfNear(): Promise<void> {
     if (!this.machine && this.#near) this.#starting ??= this.#make();
     return this.#starting ?? Promise.resolve();
@@ -151,14 +132,14 @@ export class Runtime extends Part {
     } finally {
       this.#starting = undefined;
     }
-    // It went and came back meanwhile, or trapped again.
+    // The element was moved meanwhile, or the core has trapped again.
     if (this.failure === undefined) this.#startIfNear();
   }
 
   async #show() {
     this.host.requestUpdate();
     await this.host.updateComplete;
-    // It may have trapped or failed, also while it was rendered, and the element may have gone.
+    // Rendering may have trapped, and the element may be removed.
     if (!this.machine) return;
     this.host.stage.requestFrame();
     if (this.#loaded) return;
@@ -180,7 +161,7 @@ export class Runtime extends Part {
   }
 }
 
-/** Does something with a machine that is not in its place yet: it is freed where that is refused. */
+/** Runs work with a new machine, which is freed if that throws. */
 export function freeOnError<Machine extends { free(): void }>(machine: Machine, work: (machine: Machine) => void) {
   try {
     work(machine);
@@ -191,7 +172,10 @@ export function freeOnError<Machine extends { free(): void }>(machine: Machine, 
   }
 }
 
-/** Remedy where Trusted Types refuse the figure's templates. */
+/** Returns true for a trap, and for the error of a machine used after one: see writeGlue in scripts/build.mjs. */
+const isTrap = (error: unknown) => typeof WebAssembly !== 'undefined' && error instanceof WebAssembly.RuntimeError;
+
+/** Message where Trusted Types refuse the figure's templates. */
 const NO_POLICY = "This page's Content-Security-Policy forbids the figure's templates: its trusted-types directive lacks motion-widgets.";
 
 function messageOf(error: unknown) {

@@ -1,4 +1,4 @@
-/** Settings of the machine: those in effect, and the reader's changes that wait for the next frame. */
+/** Settings of the machine: those in effect, and changes that wait for the next frame. */
 
 import { Part } from './part.ts';
 
@@ -14,14 +14,14 @@ export class Settings extends Part {
   #pending: Values = {};
   #isShowing = false;
 
-  /** Forgets the changes that wait, for another machine. */
+  /** Drops pending changes, for another machine. */
   reset() {
     this.stale = true;
     this.#present = undefined;
     this.#pending = {};
   }
 
-  /** Values of the machine's declared settings among others. */
+  /** Returns the declared settings among other values. */
   declared(values: Values) {
     const keys = this.host.kind.declared.filter((setting) => !setting.in && !setting.of).map(({ key }) => key);
     return Object.fromEntries(keys.map((key) => [key, values[key]]));
@@ -34,17 +34,17 @@ export class Settings extends Part {
     return this.#present ?? reading.config;
   }
 
-  /** Settings in effect with the changes that wait. */
+  /** Settings in effect with the pending changes. */
   get wanted(): Values {
     return { ...this.present, ...this.#pending };
   }
 
-  /** True if changes are not in effect or not read yet. */
+  /** True if changes are pending or not read yet. */
   get isWaiting() {
     return this.stale || Object.keys(this.#pending).length > 0;
   }
 
-  /** Changes settings with the next frame, for the reader: a drag costs one configuration a frame. */
+  /** Changes settings with the next frame, so that a drag costs one configuration a frame. */
   want(change: Values | ((wanted: Values) => Values)) {
     this.host.runtime.attempt(() => {
       if (!this.host.machine) return;
@@ -52,7 +52,7 @@ export class Settings extends Part {
       const values = () => (typeof change === 'function' ? change(this.wanted) : change);
       const given = values();
       const both = (key: string, other: string) => key in given && other in this.#pending;
-      // A setting and the group that it is a part of are two changes, one after the other.
+      // A setting and the group that has it are applied one after the other.
       if (this.host.kind.declared.some(({ key, of }) => of && (both(key, of) || both(of, key)))) this.settle();
       Object.assign(this.#pending, values());
       this.host.gesture.step();
@@ -60,11 +60,7 @@ export class Settings extends Part {
     });
   }
 
-  /**
-   * Changes settings at once, for the page.
-   *
-   * @throws {TypeError | RangeError} and nothing is changed
-   */
+  /** Changes settings at once, for the page; throws a TypeError or RangeError and changes nothing then. */
   assign(values: Values) {
     this.host.runtime.attempt(() => {
       this.settle();
@@ -75,7 +71,7 @@ export class Settings extends Part {
     });
   }
 
-  /** Puts the changes that wait into effect. A change that is refused is reported and forgotten. */
+  /** Applies pending changes. A refused one is reported and dropped. */
   settle() {
     const pending = this.#pending;
     if (Object.keys(pending).length === 0) return;
@@ -90,7 +86,7 @@ export class Settings extends Part {
     this.stale = true;
   }
 
-  /** Shows a change of the page, also to a listener while the element is out of sight. */
+  /** Shows a change of the page, also while the element is out of the viewport. */
   show() {
     this.host.stage.requestFrame();
     if (this.#isShowing) return;
@@ -106,7 +102,7 @@ export class Settings extends Part {
       const { machine, cloud } = this.host;
       if (!machine) return;
       this.settle();
-      // Nobody sees it grow.
+      // Growth is not visible.
       if (this.host.isAwaited) cloud?.finish();
       if (cloud && !cloud.refine()) {
         this.#isShowing = true;

@@ -1,7 +1,4 @@
-/**
- * What the figure is drawn on: canvases that match the screen's pixels, frames while it is in sight, and
- * colours that follow the page, the theme and paper.
- */
+/** Canvases of a figure: sizes in device pixels, frames while the figure is visible, and colours of page, theme and paper. */
 
 import { nothing } from 'lit';
 import { onLanguage } from '../messages/registry.ts';
@@ -10,43 +7,39 @@ import { sleep, wake } from './page/frames.ts';
 import { ancestors, surroundings } from './page/scheme.ts';
 import { Part } from './part.ts';
 
-/**
- * A picture that took no longer, milliseconds, has its words in the same frame: to lay them out takes about as long again.
- * After a longer one they follow in the next frame, so that neither takes longer than one.
- */
+/** Drawing time, ms, up to which the text is laid out in the same frame; otherwise it follows in the next one. */
 const QUICK = 5;
 
-/** Longest that words wait while every frame has a picture, milliseconds: what comes later is no answer to the hand. */
+/** Longest delay of the text while frames draw pictures, ms. */
 const LATEST_WORDS = 100;
 
-/** Pixels of paper a CSS pixel: as fine as in a file. */
+/** Pixels per CSS pixel in print. */
 const PAPER_RATIO = 2;
 
 let calm: MediaQueryList | undefined;
 
-/** Whether the reader has asked for less motion. */
+/** Returns true if the reader prefers reduced motion. */
 export const isCalm = () => (calm ??= matchMedia('(prefers-reduced-motion: reduce)')).matches;
 
-/** Returns whether a canvas has room: a narrow figure may leave one out. */
+/** Returns true if a canvas has a size: a narrow figure may hide one. */
 const isShown = ({ clientWidth, clientHeight }: HTMLCanvasElement) => Math.min(clientWidth, clientHeight) > 0;
 
 export class Stage extends Part {
-  /** Whether the reader can see it. */
+  /** True while the figure is in the viewport. */
   inSight = false;
   #palette: import('../ui/theme.ts').Palette | undefined;
-  /** Once there is something to draw. */
   #canvases: HTMLCanvasElement[] | undefined;
-  /** Whether the words of the first picture have come. */
+  /** True once the text of the first picture was rendered. */
   #isDescribed = false;
-  /** True if there is something to draw, as soon as it is in sight. */
+  /** True if a drawing is requested. */
   #needsDrawing: boolean | undefined;
-  /** When the first picture was drawn whose words have not come yet. */
+  /** Time of the first picture since the text was rendered last; undefined if the text is up to date. */
   #undescribedSince: number | undefined;
   #printing = false;
-  /** Words of other heights would change the sizes that are being told of: they wait for the next frame. */
+  /** True while the size observer reports: rendering the text now could change sizes again. */
   #resizing: boolean | undefined;
   #sizes: ResizeObserver | undefined;
-  /** Ends listening for the printer and for other words. */
+  /** Removes the listeners. */
   #listening = new AbortController();
 
   hostConnected() {
@@ -54,12 +47,12 @@ export class Stage extends Part {
     const { signal } = this.#listening;
     addEventListener('beforeprint', () => this.#print(true), { signal });
     addEventListener('afterprint', () => this.#print(false), { signal });
-    // Some browsers have only the one, others tell too late by the other.
+    // Some browsers lack the events, others fire them too late.
     const media = matchMedia('print');
     media.addEventListener('change', () => this.#print(media.matches), { signal });
     this.#followPixels(signal);
     onLanguage(this.host, () => this.#languageChanged(), signal);
-    // What the text around says at once, a background that fades says when it has arrived.
+    // A background with a transition has its colour at the end.
     const backgroundChanged = ({ target, propertyName }: TransitionEvent) => {
       if (propertyName === 'background-color' && ancestors(this.host).includes(target as Element)) this.recolour();
     };
@@ -70,7 +63,6 @@ export class Stage extends Part {
     this.#listening.abort();
   }
 
-  /** The words or the language may be others. */
   #languageChanged() {
     this.host.settings.stale = true;
     this.host.requestUpdate();
@@ -87,7 +79,7 @@ export class Stage extends Part {
     this.requestFrame();
   }
 
-  /** Measures again when the window moves to a screen of other pixels: in WebKit the observer reports CSS pixels alone. */
+  /** Measures again after a change of the pixel ratio: in WebKit the observer reports CSS pixels alone. */
   #followPixels(signal: AbortSignal) {
     const changed = () => {
       this.#measure();
@@ -96,7 +88,7 @@ export class Stage extends Part {
     matchMedia(`(resolution:${devicePixelRatio}dppx)`).addEventListener('change', changed, { once: true, signal });
   }
 
-  /** Observes the sizes of the canvases, beginning with the present ones. */
+  /** Observes the sizes of the canvases, which reports the present ones too. */
   #measure() {
     if (!this.#sizes || !this.#canvases) return;
     this.#sizes.disconnect();
@@ -113,35 +105,32 @@ export class Stage extends Part {
     if (!inSight && (this.opening || this.#undescribedSince !== undefined)) this.#describe();
     this.inSight = inSight;
     if (!inSight && this.host.isAwaited) this.host.settings.show();
-    // Of what was skipped nothing tells that its colours changed.
+    // No events report changes of colours while the figure is out of the viewport.
     if (inSight) this.recolour();
   }
 
-  /** Lets the views close in and recenter: the reader, or the page, has chosen to see something else. */
+  /** Allows the views to zoom in and recenter, for a scene that the reader or the page has chosen. */
   release() {
     for (const { view } of this.host.pictures) view.release();
   }
 
-  /** Asks for one drawing in the next frame, when there is somebody to see it. */
+  /** Requests one drawing in the next frame, if the figure is visible. */
   requestFrame() {
     this.#needsDrawing = true;
     if (this.host.machine && this.inSight) wake(this);
   }
 
-  /**
-   * Whether the first picture is still on its way to the reader, who sees it before anything else. Nobody waits for it who
-   * cannot see it.
-   */
+  /** True until a visible figure has drawn its first picture and rendered its text. */
   get opening() {
     return this.host.machine !== undefined && !this.#isDescribed && this.inSight && !document.hidden;
   }
 
-  /** Content below the pictures. It comes with the frame after the first, so that the pictures are seen at once. */
+  /** Renders content one frame after the first picture, which is drawn sooner so. */
   later(content: () => unknown) {
     return this.opening ? nothing : content();
   }
 
-  /** There is nothing to draw any more: the canvases keep their places, and no pixels. */
+  /** Releases the pixels of the canvases, which keep their size in the layout. */
   clear() {
     sleep(this);
     this.#sizes?.disconnect();
@@ -161,7 +150,6 @@ export class Stage extends Part {
     this.#needsDrawing = false;
     this.host.runtime.attemptOrFail(() => {
       this.#draw(elapsed);
-      // Not where what was on its way has trapped.
       if (this.host.machine) this.host.runtime.confirmHealthy();
     });
   }
@@ -170,7 +158,7 @@ export class Stage extends Part {
     const host = this.host;
     const began = performance.now();
     host.settings.settle();
-    // It has trapped: the next picture is that of the core in its place.
+    // A trap has removed the machine.
     if (!host.machine) return;
     host.cloud?.advance(this.#printing);
     const { scene } = host;
@@ -181,7 +169,7 @@ export class Stage extends Part {
     host.placeHandles(scene);
     const now = performance.now();
     const since = this.#undescribedSince;
-    // With the first picture there comes nothing else.
+    // The first picture is drawn without text.
     if (this.opening ? since : !this.#resizing && (now - began < QUICK || now - (since ?? now) > LATEST_WORDS)) this.#describe();
     else {
       this.#undescribedSince ??= began;
@@ -192,7 +180,7 @@ export class Stage extends Part {
     if (playing || moving.includes(true) || host.cloud?.isSettled === false) this.requestFrame();
   }
 
-  /** Has the words rendered of what was drawn last, and the attributes say it. */
+  /** Renders the text of the latest picture and writes the attributes. */
   #describe() {
     this.#isDescribed = true;
     this.#undescribedSince = undefined;
@@ -205,13 +193,13 @@ export class Stage extends Part {
     return canvases.find(({ className }) => className === name) as HTMLCanvasElement;
   }
 
-  /** Whether there is something to draw on: not before a canvas has its pixels, nor inside a closed tab, where everything has size 0. */
+  /** True if each visible canvas has pixels; a closed disclosure gives everything size 0. */
   get #hasSize() {
     const shown = this.#canvases?.filter(isShown) ?? [];
     return shown.length > 0 && shown.every(({ width, height }) => Math.min(width, height) > 0);
   }
 
-  /** Gives each canvas as many pixels as the screen has under it. */
+  /** Sets each canvas to the size of its device pixels. */
   #resize(entries: ResizeObserverEntry[]) {
     for (const { target, contentRect, devicePixelContentBoxSize } of entries) {
       const canvas = target as HTMLCanvasElement;
@@ -229,47 +217,45 @@ export class Stage extends Part {
         Object.assign(canvas, { width: PAPER_RATIO * clientWidth, height: PAPER_RATIO * clientHeight });
       }
     }
-    // Inside a closed tab neither.
     this.#colour();
-    // At once: a canvas that was resized is blank, and the next frame is too late to hide that.
+    // Resizing clears a canvas: the next frame would be too late.
     this.#resizing = true;
     this.#drawNow(0);
     this.#resizing = false;
   }
 
-  /** The colours as they are now. */
   get palette() {
     return (this.#palette ??= resolvePalette(this.#find('.surface')));
   }
 
-  /** The page's colours may be others, or the figure is to have other ones. */
+  /** Updates the colours from the page and the theme, and draws. */
   recolour() {
     this.#colour();
     this.requestFrame();
   }
 
-  /** Paper and ink of the surroundings, or the figure's own where it is to be light and they are not, or dark. */
+  /** Sets the colours of the surroundings, or the figure's own where its theme differs from theirs. */
   #colour() {
     const style = this.#find('.surface')?.style;
     if (!style) return;
     const { scheme, ...around } = surroundings(this.#find('.scheme-probe'));
-    // Forced colours are those of every theme.
+    // Forced colours override the theme.
     const theme = matchMedia('(forced-colors: active)').matches ? 'auto' : this.host.theme;
     style.colorScheme = this.#printing ? 'light' : theme === 'auto' ? scheme : theme;
     const own = this.#printing || style.colorScheme !== scheme;
     for (const [name, colour] of Object.entries(around)) style.setProperty(`--${name}`, own ? '' : colour);
     style.setProperty('--back', own ? 'var(--paper)' : '');
-    // What the stylesheet takes from the page is for the page's own ground.
+    // Colours that the stylesheet derives from the page fit the page's background alone.
     for (const name of ['muted', 'rule']) style.setProperty(`--mw-${name}`, own ? 'initial' : '');
     this.#palette = undefined;
   }
 
-  /** Paper is light, whatever the screen is, and has every figure of the page, complete and as fine as in a file. */
+  /** Draws for print, in light colours and with all samples, or for the screen again. */
   #print(printing: boolean) {
     this.#printing = printing;
     const { machine, cloud } = this.host;
     if (!machine) {
-      // The printer waits for no frame, but microtasks pass, and a module that another figure has needs no more.
+      // The printer waits for microtasks, and another figure may have loaded the module.
       if (printing) void this.#startAndPrint();
       return;
     }
@@ -279,14 +265,14 @@ export class Stage extends Part {
     this.#describe();
   }
 
-  /** Makes a figure ready that is far from the window, and prints it. */
+  /** Starts a figure that is far from the viewport, and draws it for print. */
   async #startAndPrint() {
     await this.host.runtime.start();
     await this.host.updateComplete;
     if (this.host.machine) this.#print(this.#printing);
   }
 
-  /** @param selector of what is there once the figure was rendered */
+  /** Returns an element of the rendered figure. */
   #find(selector: string) {
     return this.host.renderRoot?.querySelector(selector) as HTMLElement;
   }

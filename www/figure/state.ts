@@ -1,50 +1,46 @@
-/** The whole state as plain data: given, taken, and kept over a removal and a trap. */
+/** State of the figure as plain data: read, applied, and kept over a removal and a trap. */
 
 import { object, refusal, word } from './checks.ts';
 import { Part } from './part.ts';
 import { freeOnError } from './runtime.ts';
-import type { Figure } from './figure.ts';
 
-/** Plain data; which fields, the widget says. */
+/** Plain data with the fields of the widget. */
 export type Values = Record<string, any>;
 
-/** Something in the state that is the element's and not its machine's. */
+/** Field of the state that the machine does not have. */
 export interface Owned {
-  /** Opening value. */
+  /** Default. */
   opening: unknown;
-  /** Checks a value for a figure with so many samples that can be marked; throws. */
+  /** Returns a checked value, for so many selectable samples; throws. */
   check: (field: string, value: any, machine: any, selectableCount: number) => any;
 }
 
-/** Version of the states that `getState` gives; `setState` refuses any other. */
+/** Version of the states. */
 const VERSION = 1;
 
 export class State extends Part {
-  /** The last good one. */
+  /** Last valid state. */
   kept: Values | undefined;
-  /** Whole state that the figure opened with. */
+  /** State that the figure opened with. */
   #opened: Values | undefined;
-  /** State that is the element's own, by name. */
-  own: Values;
-  #owned;
+  /** State that the machine does not have, by name. */
+  own: Values = Object.fromEntries(Object.keys(this.#owned).map((name) => [name, this.opening(name)]));
 
-  constructor(host: Figure, owned: Record<string, Owned>) {
-    super(host);
-    this.#owned = owned;
-    this.own = Object.fromEntries(Object.keys(owned).map((name) => [name, this.opening(name)]));
+  get #owned() {
+    return this.host.kind.own;
   }
 
-  /** Opening value of something that is the element's own. */
+  /** Returns the default of an own field. */
   opening(name: string) {
     return this.#owned[name]?.opening;
   }
 
-  /** The part that every widget's state has. */
+  /** Fields that every widget's state has. */
   get common(): Values {
     return { widget: this.host.localName, version: VERSION, ...this.own };
   }
 
-  /** Something of the element's own, for the page. */
+  /** Returns a copy of an own field for the page. */
   copy(name: string) {
     return structuredClone(this.own[name]);
   }
@@ -53,7 +49,7 @@ export class State extends Part {
     if (this.host.machine) this.kept = this.host.snapshot();
   }
 
-  /** Goes on with a machine that was made of the last good state, and with the wishes of the page meanwhile. */
+  /** Continues with a new machine that has the last valid state, and applies pending changes of the page. */
   resume() {
     const { host } = this;
     host.settings.reset();
@@ -62,15 +58,11 @@ export class State extends Part {
     host.machineChanged();
     host.reflection.applyPending();
     host.link.applyPending();
-    // It may have trapped, or a state that came before has introduced it.
+    // A trap may have removed it, or a pending state was shown already.
     if (host.machine && host.settings.stale) this.#introduce(this.kept);
   }
 
-  /**
-   * Puts the element into a state, which names its widget and version. What else is left out stays as it is.
-   *
-   * @throws {TypeError | RangeError} that names the field, the value and what is allowed; nothing is changed then
-   */
+  /** Applies a state with its widget and version. Missing fields keep their values; an error changes nothing. */
   enter(state: unknown) {
     const host = this.host;
     host.settings.settle();
@@ -82,9 +74,7 @@ export class State extends Part {
     const whole: Values = { ...present, ...host.completed(present, given) };
     const machine = freeOnError(host.createMachine(host.motion, whole), (made) => {
       const selectableCount = whole.playing ? made.config.samples : whole.shown;
-      for (const [name, { check }] of Object.entries(this.#owned)) {
-        whole[name] = check(`state.${name}`, whole[name], made, selectableCount);
-      }
+      for (const [name, { check }] of Object.entries(this.#owned)) whole[name] = check(`state.${name}`, whole[name], made, selectableCount);
       host.complete(made, whole);
     });
     for (const name of Object.keys(this.own)) this.own[name] = whole[name];
@@ -95,13 +85,13 @@ export class State extends Part {
     host.settings.show();
   }
 
-  /** Brings back the settings, the seed and everything else as the figure opened. */
+  /** Restores the state that the figure opened with. */
   startOver() {
     this.goBack(this.#opened);
     this.host.startedOver();
   }
 
-  /** Brings back a whole state, as a step of the reader. */
+  /** Restores a state, as a change by the reader. */
   goBack(state: Values | undefined = this.#opened) {
     const { gesture, runtime } = this.host;
     runtime.attempt(() => {
@@ -111,7 +101,7 @@ export class State extends Part {
     });
   }
 
-  /** @param state that the machine is in, if it is not the opening */
+  /** Shows the machine's state; without one, as when the figure opens. */
   #introduce(state?: Values) {
     const { host } = this;
     host.stage.release();
@@ -122,7 +112,7 @@ export class State extends Part {
     host.settings.show();
   }
 
-  /** Something of the element's own is to be another; it is checked. */
+  /** Changes an own field, after a check. */
   assign(name: string, value: unknown) {
     const { settings, cloud, reflection, stage } = this.host;
     settings.settle();

@@ -1,14 +1,14 @@
-/** What is seen of a figure: all of it, or in its place the way to it, or the sentence why it cannot run. */
+/** HTML of a figure: its content, or its placeholder, or the message of a failure. */
 
 import { html, noChange } from 'lit';
 import { language, speak, words } from '../messages/registry.ts';
 import { placeholder } from './placeholder.ts';
 import type { Figure } from './figure.ts';
 
-/** Languages that are written from right to left. */
+/** Languages written from right to left. */
 const RIGHT_TO_LEFT = /^(ar|ckb|dv|fa|he|ps|sd|ug|ur|yi)\b/i;
 
-/** The figure's words have a language and a direction of their own: those of the page may be others. */
+/** Returns the HTML of a figure, whose language and direction may differ from the page's. */
 export function surface(figure: Figure) {
   speak(figure);
   const { gesture, lettering, notice, presenting, progress, stage } = figure;
@@ -25,7 +25,7 @@ export function surface(figure: Figure) {
   `;
 }
 
-/** Former content stays while there is no machine: it is made again after a trap, or the element is not on the page. */
+/** Keeps the former content while there is no machine, as after a trap or a removal. */
 function contentOf(figure: Figure) {
   const { failure } = figure.runtime;
   if (failure !== undefined) return html`<p class="failure" role="alert">${words.failure(failure)}</p>`;
@@ -33,16 +33,13 @@ function contentOf(figure: Figure) {
   return figure.reading ? noChange : placeholder(figure);
 }
 
-/** Fields take every key. */
+/** Fields that use every key. */
 const FIELD = 'textarea, input:not([type=range], [type=radio], [type=checkbox])';
 
-/** Sliders and radio buttons take those that move them. */
+/** Keys that move sliders and radio buttons. */
 const MOVES = /Arrow|Page|Home|End/;
 
-/**
- * Stops a key that the figure has used. A book that turns its page by arrow keys would use it again: outside of the shadow root the
- * key comes from the element, not from a field or slider.
- */
+/** Stops a key that the figure has used: outside of the shadow root, a book that turns pages would not see the field. */
 function keepUsed(event: KeyboardEvent) {
   const { key, ctrlKey, altKey, metaKey, defaultPrevented } = event;
   const target = event.target as Element;
@@ -50,7 +47,5 @@ function keepUsed(event: KeyboardEvent) {
   if (defaultPrevented || (native && !ctrlKey && !altKey && !metaKey)) event.stopPropagation();
 }
 
-/** The native controls' own events stay inside: the element has one of its own for each gesture. */
-function stop(event: Event) {
-  event.stopPropagation();
-}
+/** Stops the events of native controls: the element fires its own. */
+const stop = (event: Event) => event.stopPropagation();

@@ -1,22 +1,22 @@
-/** What the reader typed and the figure refused. */
+/** Text that the reader typed and the figure refused. */
 
 import { Part } from './part.ts';
 
 export class Typing extends Part {
   #refused: { key: string, complaint: string } | undefined;
 
-  /** @param key of the setting */
+  /** Refuses the text typed for a setting. */
   refuse(key: string, complaint: string) {
     this.#refused = { key, complaint };
     this.host.requestUpdate();
   }
 
-  /** @returns what is said of it */
+  /** Returns the message about a setting's refused text. */
   refusalOf(key: string): string | undefined {
     return this.#refused?.key === key ? this.#refused.complaint : undefined;
   }
 
-  /** There is something else of interest. */
+  /** Clears the refusal. */
   forget() {
     if (!this.#refused) return;
     this.#refused = undefined;

@@ -1,19 +1,16 @@
-/**
- * One animation-frame loop for every figure of the page. It runs while some figure has asked for
- * a frame and the page is in sight, and stops when none has.
- */
+/** Animation-frame loop of all figures on the page. It runs while a figure has requested a frame and the page is visible. */
 
 export type Animated = { frame(elapsed: number): void };
 
-/** Longest step that an animation is told of, milliseconds: a page left for a while does not leap. */
+/** Longest reported time step, ms, so that animations do not jump after a pause. */
 const LONGEST_STEP = 100;
 
 const waiting: Set<Animated> = new Set();
 let previous = 0;
-/** Whether a frame is asked for, or will be when the page is in sight. */
+/** True while a frame is requested, or waits for a visible page. */
 let running = false;
 
-/** Calls `animated.frame` at the next animation frame, once however often it is asked. */
+/** Requests a call of `animated.frame` in the next animation frame. */
 export function wake(animated: Animated) {
   waiting.add(animated);
   if (running) return;
@@ -22,9 +19,7 @@ export function wake(animated: Animated) {
   request();
 }
 
-export function sleep(animated: Animated) {
-  waiting.delete(animated);
-}
+export const sleep = (animated: Animated) => waiting.delete(animated);
 
 function request() {
   if (document.hidden) document.addEventListener('visibilitychange', request, { once: true });
@@ -40,7 +35,7 @@ function run(now: number) {
     try {
       animated.frame(elapsed);
     } catch (error) {
-      // The others' frames go on.
+      // Other figures continue.
       reportError(error);
     }
   }

@@ -1,15 +1,12 @@
-/** Heights that are kept free for figures, so that the text below one stays in its place while the figure loads. */
+/** Heights reserved for figures, so that the text below does not move when they load. */
 
 import { css, unsafeCSS } from 'lit';
 import { likedWidth } from '../../ui/width.ts';
 
-/** Bounds of the width classes, em: at these figures put their pictures side by side, or their controls. */
+/** Bounds of the width classes, em, where the layout changes. */
 const WIDTHS = [20, 30, 38, 56, 80];
 
-/**
- * Heights by the tag and the width class, at both bounds of the class: a line as low as it can be above the heights measured as the
- * figures open, in a usual font and in a window 900 px high. A number is in em.
- */
+/** Heights by tag and width class, at both bounds of the class, in em: lines just above measurements in a window 900 px high. */
 const HEIGHTS: Record<string, ([number, number] | string)[]> = {
   'banana-machine': [[85.9, 86.1], [70.9, 63.5], [51.7, 54], [50.2, 55.5]],
   'map-squeeze': [[81.7, 85], [79.7, 78.9], [43.2, 48.8], [50.3, 44.1]],
@@ -19,11 +16,7 @@ const HEIGHTS: Record<string, ([number, number] | string)[]> = {
   'alpha-calibrator': [[88.7, 104.6], [100.9, 92.6], [46.8, 52.5], [36.4, 45.1]],
 };
 
-/**
- * Height for whatever width. Outside of its class a height loses a million times the distance to it, so that the class decides.
- *
- * @param unit a hundredth of the figure's width
- */
+/** Returns the height for any width, as a maximum to which each class adds −10⁶ times the distance outside of it. */
 function heightOf(tag: string, unit: '%' | 'cqi') {
   const heights = HEIGHTS[tag].map((height, i, { length }) => {
     const [least, next] = [WIDTHS[i], WIDTHS[i + 1]];
@@ -36,7 +29,7 @@ function heightOf(tag: string, unit: '%' | 'cqi') {
   return `max(${heights})`;
 }
 
-/** Returns the style of a figure that is as high as the room that was kept for it. */
+/** Returns the style that reserves the height of a figure. */
 export const reserve = (tag: string) => {
   const height = heightOf(tag, 'cqi');
   return css`
@@ -44,7 +37,7 @@ export const reserve = (tag: string) => {
   `;
 };
 
-/** Style sheet of a page: the room for elements before their script has defined them. */
+/** Returns the style sheet that reserves heights until the elements are defined. */
 export function roomBefore() {
   const tags = Object.keys(HEIGHTS);
   const waiting = (each: string | string[]) => `:is(${each}):not(:defined)`;

@@ -1,20 +1,17 @@
-/** Light or dark: what the element was told, else what its surroundings are. */
+/** Colours of a figure's surroundings, and whether they are light or dark. */
 
 import { css } from 'lit';
 import { channels } from '../../ui/theme.ts';
 
 /**
- * Colours around a figure. `shade` is the share of black that colours for white paper need to stand out as far on this ground.
- * `strength` is the share of the text's colour that muted text needs to be legible. Without `text` the figure's own colour holds.
+ * Colours around a figure. `shade` darkens colours for this background; `strength` is the share of the text's colour in muted text.
+ * An empty `text` keeps the figure's own colour.
  */
 export type Surroundings = { ground: string, text: string, shade: string, strength: string, scheme: 'light' | 'dark' };
 
 export const THEMES = ['auto', 'light', 'dark'] as const;
 
-/**
- * The probe stands outside of the surface: its colours are those that the page hands down, and the
- * transition makes every change of them an event.
- */
+/** Styles of an element with the page's inherited colours, whose transition makes changes of them events. */
 export const schemeStyles = css`
   .scheme-probe {
     position: absolute;
@@ -24,16 +21,16 @@ export const schemeStyles = css`
   }
 `;
 
-/** Of text on a page that paints no ground, as where it is an image, and says nothing by `color-scheme`. */
+/** Background on a page without one, as around an image, whose text is light and which sets no `color-scheme`. */
 const DARK = '#121212';
 
-/** Shares of the text's colour in what is muted, hundredths: the least that is legible. On most pages that is the first. */
+/** Shares of the text's colour in muted text, percent; the first legible one is used. */
 const STRENGTHS = [75, 80, 85, 90, 95];
 
-/** Least contrast of text by WCAG 2, level AA, is 4.5; a screen rounds colours. */
+/** Minimum contrast of text: 4.5 by WCAG 2, level AA, and a margin for rounding. */
 const LEGIBLE = 4.55;
 
-/** @returns itself and what is around it, across shadow roots, the nearest first */
+/** Returns a node's element and its ancestors across shadow roots, the nearest first. */
 export function ancestors(node: Node): Element[] {
   const all = [];
   let at: any = node;
@@ -41,10 +38,7 @@ export function ancestors(node: Node): Element[] {
   return all;
 }
 
-/**
- * The ground on which the figure stands, with the text there. They are dark where the ground is darker than the text:
- * so it is also with a page whose own switch changes colours alone. Text that is illegible on the ground is not taken.
- */
+/** Returns the surroundings: dark if the background is darker than the text. Illegible text is ignored. */
 export function surroundings(probe: Element): Surroundings {
   const { color, borderTopColor: canvas, colorScheme } = getComputedStyle(probe);
   const ink = channels(color);
@@ -54,22 +48,21 @@ export function surroundings(probe: Element): Surroundings {
   const light = lightness(ground);
   const isLegible = contrast(ink, ground) >= LEGIBLE;
   const scheme = light < (isLegible ? lightness(ink) : 0.5) ? 'dark' : 'light';
-  // By luminance, of which a light of 0.5 has some 0.5 ** 2.2. What is nearly white needs none.
+  // The shade follows luminance; nearly white backgrounds need none.
   const shade = scheme === 'light' && light < 0.97 ? `${100 * (1 - light ** 2.2)}%` : '';
   const muted = (share: number) => ground.map((channel, i) => channel + (share / 100) * (ink[i] - channel));
   const strength = isLegible ? `${STRENGTHS.find((share) => contrast(muted(share), ground) >= LEGIBLE) ?? 100}%` : '';
   return { ground: `rgb(${ground})`, text: isLegible ? color : '', shade, strength, scheme };
 }
 
-/** WCAG 2's. */
+/** Returns the contrast by WCAG 2. */
 function contrast(one: number[], other: number[]) {
   const linear = (channel: number) => (channel > 10 ? ((channel / 255 + 0.055) / 1.055) ** 2.4 : channel / 3294.6);
   const [low, high] = [one, other].map((colour) => lightness(colour.map((channel) => 255 * linear(channel)))).sort((a, b) => a - b);
   return (high + 0.05) / (low + 0.05);
 }
 
-/** @returns from 0, black, to 1 */
+/** Returns the lightness from 0, black, to 1, with the weights of Rec. 709. */
 function lightness([red, green, blue]: number[]): number {
-  // Rec. 709 weights.
   return (0.2126 * red + 0.7152 * green + 0.0722 * blue) / 255;
 }

@@ -1,27 +1,24 @@
-/** Which elements are in sight, and which are near enough to be made ready: two observers for all of a page. */
+/** Visibility of elements, by two observers for the whole page: near the viewport, and in it. */
 
 export interface Watcher {
-  /** The element is near enough to be made ready. */
+  /** Called when the element comes near the viewport. */
   onNear: () => void;
   onVisible: (inSight: boolean) => void;
 }
 
-/**
- * How far from the window a figure is made ready. Less would show readers who scroll fast an empty
- * frame; more would compute what few of them get to.
- */
+/** Distance from the viewport at which a figure starts. Less would show empty frames; more would start unseen figures. */
 const AHEAD = '600px';
 
 const watchers: WeakMap<Element, Watcher> = new WeakMap();
-/** Those that are near, and have been told. */
+/** Elements that are near. */
 const near: WeakSet<Element> = new WeakSet();
-// Both are there as soon as an element is watched.
+// The first watched element creates both.
 let nearObserver: IntersectionObserver;
 let visibleObserver: IntersectionObserver;
 
 const watcherOf = (watched: Element) => watchers.get(watched) as Watcher;
 
-/** Tells when an element comes near and, from now on, whether it is in sight. */
+/** Observes an element: when it comes near, and whether it is visible. */
 export function watch(element: Element, watcher: Watcher) {
   watchers.set(element, watcher);
   const report = (entries: IntersectionObserverEntry[]) => {
@@ -30,7 +27,7 @@ export function watch(element: Element, watcher: Watcher) {
   visibleObserver ??= new IntersectionObserver(report);
   nearObserver ??= new IntersectionObserver(
     (entries) => {
-      // Both have looked by now, and browsers call them in any order: what is made ready has to know whether it is seen.
+      // Browsers call observers in any order, and a start depends on the visibility.
       report(visibleObserver.takeRecords());
       for (const { target, isIntersecting } of entries) {
         if (isIntersecting) markNear(target);
@@ -43,20 +40,16 @@ export function watch(element: Element, watcher: Watcher) {
   visibleObserver.observe(element);
 }
 
-/**
- * Looks at once where an element is: what a page opens with need not wait for the observers, which look once a frame.
- *
- * @param element that is watched
- */
+/** Checks the position of a watched element now, as observers report a frame later. */
 export function checkNow(element: Element) {
   const { top, bottom } = element.getBoundingClientRect();
-  // What has gone meanwhile has no box, and so its bottom is at 0.
+  // A removed element has its bottom at 0.
   if (top >= innerHeight || bottom <= 0) return;
   watcherOf(element).onVisible(true);
   markNear(element);
 }
 
-/** Once for each time that it comes near, whoever sees it first. */
+/** Reports an element that comes near, once until it leaves. */
 function markNear(element: Element) {
   if (near.has(element)) return;
   near.add(element);

@@ -1,4 +1,4 @@
-/** Buttons with which a reader copies a link to the figure as it is, or the HTML that embeds it. */
+/** Buttons that copy a link to the figure, or its HTML. */
 
 import { html, nothing } from 'lit';
 import { address, classic } from '../../address.ts';
@@ -9,31 +9,31 @@ import { Part } from '../part.ts';
 
 export type Kind = 'link' | 'code';
 
-/** Buttons that copy, each with its answer: what was copied last, or what to copy by hand. */
+/** Buttons that copy, each with a message, or the text to copy by hand. */
 export class CopyMenu extends Part {
   #copied: { kind: Kind, text: string, done?: boolean, missing: string } | undefined;
 
-  /** @param missing what of the figure is not in it, in a sentence */
+  /** Copies a text; `missing` is a sentence about what it lacks. */
   async #copy(kind: Kind, text: string, missing: string = '') {
-    // Refused in a frame without the permission, and absent where the page came without encryption.
+    // The clipboard is refused in frames without permission, and absent on pages without encryption.
     const done = await Promise.resolve(navigator.clipboard?.writeText(text).then(() => true)).catch(() => undefined);
     this.#copied = { kind, text, done, missing };
     this.host.requestUpdate();
   }
 
-  /** Takes the answer away. */
+  /** Clears the message. */
   forget() {
     this.#copied = undefined;
     this.host.requestUpdate();
   }
 
-  /** Returns the button that copies a link to the figure as it is. */
+  /** Returns the button that copies a link. */
   linkButton() {
     const say = words.copies;
     return button(say.link, async () => this.#copy('link', await this.host.shareLink()), { title: say.linkTitle });
   }
 
-  /** Returns the button that copies the code to embed, with its answer. */
+  /** Returns the button that copies the HTML, with its message. */
   codeButton() {
     const say = words.copies;
     const { host } = this;
@@ -46,7 +46,7 @@ export class CopyMenu extends Part {
     </fieldset>`;
   }
 
-  /** Returns the answer to a button. */
+  /** Returns the message of a button. */
   answer(kind: Kind) {
     const say = words.copies;
     const copied = this.#copied?.kind === kind ? this.#copied : undefined;
@@ -57,17 +57,14 @@ export class CopyMenu extends Part {
   }
 }
 
-/** Where the script is for everybody, if it is not known from where it came. */
+/** Published address of the script, if its own is unknown. */
 const PUBLISHED = 'https://cdn.jsdelivr.net/npm/motion-widgets@0.1/dist/external.js';
 
-/**
- * HTML for any page: the script that defined the element, from where it came, and the tag with the attributes
- * that the figure needs to open as it is now.
- */
+/** Returns HTML for any page: the script, and the tag with the attributes that differ from the defaults. */
 export function embedding(figure: import('../figure.ts').Figure) {
   const given = ['theme', 'lang', 'dir'].map((name) => [name, figure.getAttribute(name) ?? ''] as [string, string]);
   const needed = figure.machine ? figure.reflection.nonDefaultAttributes() : [];
-  // A file on a disk, or a script inside of the page, is nothing to others.
+  // Addresses of local files and inline scripts are useless elsewhere.
   const known = /^https?:/.test(address);
   const kind = (known && classic ? ['defer', ''] : ['type', 'module']) as [string, string];
   const script = tag('script', [kind, ['src', known ? address : PUBLISHED]]);

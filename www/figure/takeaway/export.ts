@@ -1,4 +1,4 @@
-/** A figure to take along: its picture as PNG or SVG, and its samples as CSV. */
+/** Export of a figure: its picture as PNG or SVG, and its samples as CSV. */
 
 import { html } from 'lit';
 import { words } from '../../messages/registry.ts';
@@ -13,27 +13,23 @@ export interface Takeaway {
   /** Description of the picture. */
   description: string;
   settings: object;
-  /** Columns of the samples, with their units in their names. */
+  /** Names of the columns, with units. */
   columns: string[];
-  /** Row of a sample. */
+  /** Returns the row of a sample. */
   row: (i: number) => number[];
-  /** Count of the samples. */
+  /** Number of samples. */
   count: number;
-  /** Sentence about the state that attributes cannot carry. */
+  /** Sentence about state that attributes cannot carry. */
   notInCode?: string;
 }
 
-/** Pixels of a PNG image a CSS pixel: as fine as a page in print wants a figure. */
+/** Pixels of a PNG image per CSS pixel, fine enough for print. */
 const PNG_RATIO = 2;
 
-/** CSS pixels of a figure that has no size, as in a closed tab. */
+/** Size in CSS pixels of a figure without layout, as in a closed tab. */
 const SIZE = { width: 720, height: 432 };
 
-/**
- * Draws the picture once more, as large as it is on the page and in its font.
- *
- * @param ratio pixels a CSS pixel
- */
+/** Draws the picture in its size and font on the page, with `ratio` pixels per CSS pixel. */
 function drawOn({ scene, pictures: [first], plate, stage }: Figure, ratio: number, makeContext: (size: { width: number, height: number }) => unknown) {
   const picture = plate ?? first;
   const canvas = stage.canvasOf(first);
@@ -46,7 +42,7 @@ function drawOn({ scene, pictures: [first], plate, stage }: Figure, ratio: numbe
   return { context, view: picture.view, ...size };
 }
 
-/** @returns with the paper that it is on */
+/** Returns a PNG image with the background. */
 export async function pngOf(element: Figure): Promise<Blob> {
   const image = document.createElement('canvas');
   const { context, width, height } = drawOn(element, PNG_RATIO, (size) => Object.assign(image, size).getContext('2d'));
@@ -59,7 +55,7 @@ export async function pngOf(element: Figure): Promise<Blob> {
   });
 }
 
-/** Tells figures apart whose ids would clash on one page, and is the same for the same figure. */
+/** Returns a hash that makes ids unique on a page, and equal for equal figures. */
 function hash(text: string) {
   let value = 7;
   for (let i = 0; i < text.length; i++) value = (Math.imul(value, 31) + text.charCodeAt(i)) >>> 0;
@@ -80,29 +76,21 @@ ${svg.markup}
 `;
 }
 
-/**
- * A line of settings behind a #, with the seed among them; a line of names; and a line a sample, with
- * as many digits as bring the same numbers back. Arrays print themselves with commas.
- */
+/** Returns CSV: a line of settings and seed behind a #, a line of names, and a line a sample with round-trip digits. */
 export function csvOf({ takeaway: { settings, columns, row, count } }: Figure) {
   const lines = [`# ${JSON.stringify(settings)}`, columns, ...Array.from({ length: count }, (_, i) => row(i))];
   return `${lines.join('\n')}\n`;
 }
 
-/** Hands the reader a file. */
+/** Downloads a file. */
 export function save(name: string, blob: Blob) {
   const link = Object.assign(document.createElement('a'), { href: URL.createObjectURL(blob), download: name });
   link.click();
-  // The browser has taken it by then.
+  // The download has started by then.
   setTimeout(() => URL.revokeObjectURL(link.href), 60_000);
 }
 
-/**
- * Returns the buttons that save the figure.
- *
- * @param mark that tells its files from those of another state
- * @param csvTitle what is in a CSV file, where that is no samples
- */
+/** Returns the buttons that save the figure; `mark` distinguishes file names of states. */
 export function exportButtons(element: Figure, mark: string | number, csvTitle: string = words.exports.csvTitle) {
   const say = words.exports;
   const name = `${element.localName}-${mark}`;

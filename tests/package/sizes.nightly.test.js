@@ -34,7 +34,7 @@ test('what a page loads does not grow', () => {
     within(tag, paths, 1000 * page);
     within(`module of ${tag}`, paths.filter((path) => path.endsWith('.wasm')), 1000 * module);
   }
-  within('scripts of all widgets', loadedByAll().filter((path) => path.endsWith('.js')), 124_000);
+  within('scripts of all widgets', loadedByAll().filter((path) => path.endsWith('.js')), 126_000);
   within('module', ['dist/motion.wasm'], 1000 * LIMITS.module);
   within('module for notebooks', ['dist/anywidget.js'], 1000 * LIMITS.notebook);
   within('classic script', ['dist/motion-widgets.iife.js'], 1000 * LIMITS.classicScript);

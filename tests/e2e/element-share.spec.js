@@ -105,7 +105,7 @@ test('a link leads to the figure that it was copied from, once; a reload leads n
     const other = await context.newPage();
     await show(other, body, { fragment });
     await ready(figure(other, i));
-    await expect.poll(async () => (await tops(other))[i]).toBe(0);
+    await expect.poll(async () => (await tops(other))[i]).toBeCloseTo(0);
     // One more of them, and the reader is elsewhere.
     const moved = await other.evaluate(async () => {
       scrollTo(0, 100);
@@ -120,7 +120,7 @@ test('a link leads to the figure that it was copied from, once; a reload leads n
   // One that is followed on the page.
   await page.evaluate(() => scrollTo(0, 0));
   await page.evaluate((hash) => (location.hash = hash), links[0]);
-  await expect.poll(async () => (await tops(page))[0]).toBe(0);
+  await expect.poll(async () => (await tops(page))[0]).toBeCloseTo(0);
   await page.evaluate(() => scrollTo(0, 700));
   await page.reload();
   await expect(page.locator('banana-machine:defined')).toHaveCount(2);

@@ -11,13 +11,13 @@ export function renamed(error: unknown, name: string, path: string = name) {
 }
 
 function described(value: unknown) {
-  if (typeof value === 'string') return JSON.stringify(beginning(value));
+  if (typeof value === 'string') return JSON.stringify(shortened(value));
   if (typeof value === 'object' && value !== null) return Array.isArray(value) ? 'an array' : 'an object';
   return ['function', 'symbol', 'bigint'].includes(typeof value) ? `a ${typeof value}` : String(value);
 }
 
 /** Returns the first characters of a text, without splitting a surrogate pair. */
-function beginning(text: string) {
+function shortened(text: string) {
   const first = String(/.{0,40}/su.exec(text));
   return first === text ? text : `${first}…`;
 }
@@ -30,7 +30,7 @@ export function object(field: string, value: unknown, keys: readonly string[], c
   checkFirst?.(value as Record<string, unknown>);
   const unknown = Object.keys(value).find((key) => !keys.includes(key));
   if (unknown !== undefined) {
-    throw new TypeError(`${field}.${beginning(unknown)} is an unknown key; allowed are ${keys.join(', ')}`);
+    throw new TypeError(`${field}.${shortened(unknown)} is an unknown key; allowed are ${keys.join(', ')}`);
   }
   return value as Record<string, unknown>;
 }

@@ -29,7 +29,7 @@ export interface Growing extends Count {
 }
 
 /** Number of steps of growth. */
-const BATCHES = 150;
+const STEPS = 150;
 
 /** Time for adding samples in a frame, ms; with the pictures it stays below 50. */
 const FRAME_WORK = 12;
@@ -67,7 +67,7 @@ export class Cloud extends Part {
 
   /** Number of samples that a step adds. */
   get #batch() {
-    return Math.ceil(this.#samples / BATCHES);
+    return Math.ceil(this.#samples / STEPS);
   }
 
   /** Number of samples to show; all of them if the machine has given up. */

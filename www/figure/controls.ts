@@ -30,15 +30,15 @@ export interface Look {
 /** Row whose `most` limits the value further than the declaration. */
 export type Row = Partial<SliderRow> & { most?: number };
 
-/** Returns the slider of a setting; `otherwise` replaces parts of its row. */
-export function slider(figure: Figure, key: string, otherwise?: Row) {
+/** Returns the slider of a setting; `overrides` replaces parts of its row. */
+export function slider(figure: Figure, key: string, overrides?: Row) {
   const { looks, attributes } = figure.kind;
   const { symbol, decimals, value, ...look } = looks[key];
   const { name, effect } = wordsFor(figure, key);
   const { unit } = declarationOf(figure, key);
   const config = figure.settings.wanted;
   const setting = attributes[key] as Setting;
-  return typeable(figure, key, symbol ?? name, {
+  return editableSlider(figure, key, symbol ?? name, {
     ...look,
     id: key,
     symbol: symbol && rich(symbol),
@@ -48,12 +48,12 @@ export function slider(figure: Figure, key: string, otherwise?: Row) {
     effect: effect && rich(effect),
     input: (number) => want(figure, key, number),
     commit: () => figure.gesture.commit(),
-    ...otherwise,
+    ...overrides,
   });
 }
 
 /** Returns a slider whose value can be typed within the core's bounds. `ends` are the values at the ends of a slider over indices. */
-function typeable(figure: Figure, key: string, symbol: string, row: Omit<SliderRow, 'keys' | 'type' | 'refusal' | 'forget'> & { ends?: number[], most?: number }, take: (number: number) => void = row.input, print: (number: number) => string = row.show) {
+function editableSlider(figure: Figure, key: string, symbol: string, row: Omit<SliderRow, 'keys' | 'type' | 'refusal' | 'forget'> & { ends?: number[], most?: number }, take: (number: number) => void = row.input, print: (number: number) => string = row.show) {
   const { min, max: declared, type, unit } = declarationOf(figure, key);
   const max = row.most ?? declared;
   const [first, last] = row.ends ?? [row.min, row.max];
@@ -147,7 +147,7 @@ export function cloudControls(figure: Figure & { cloud: import('./cloud.ts').Clo
   const { name, effect } = wordsFor(figure, 'samples');
   const last = counts.length - 1;
   const nearest = counts.findIndex((count) => count >= samples);
-  return group(words.samples, html`${typeable(
+  return group(words.samples, html`${editableSlider(
       figure,
       'samples',
       'N',

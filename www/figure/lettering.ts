@@ -7,7 +7,7 @@ import { Part } from './part.ts';
 export class Lettering extends Part {
   /** Name of the figure: the page's title, or the widget's own. */
   get name() {
-    const title = this.#given('title').map(({ textContent }) => textContent).join(' ').replace(/\s+/g, ' ').trim();
+    const title = this.#slotted('title').map(({ textContent }) => textContent).join(' ').replace(/\s+/g, ' ').trim();
     return title || (words as any)[this.host.kind.vocabulary].title;
   }
 
@@ -22,19 +22,19 @@ export class Lettering extends Part {
   }
 
   /** Returns the page's elements in a slot. */
-  #given(name: string) {
+  #slotted(name: string) {
     return [...this.host.children].filter(({ slot }) => slot === name);
   }
 
   /** Returns a slot, with a text for an empty one. */
-  #slot(name: string, level: string | null, otherwise: string | false) {
+  #slot(name: string, level: string | null, fallback: string | false) {
     return html`<div
       class="${name}-slot"
       role=${level ? 'heading' : nothing}
       aria-level=${level ?? nothing}
-      ?hidden=${!otherwise && this.#given(name).length === 0}
+      ?hidden=${!fallback && this.#slotted(name).length === 0}
     >
-      <slot name=${name} @slotchange=${() => this.host.requestUpdate()}>${otherwise || nothing}</slot>
+      <slot name=${name} @slotchange=${() => this.host.requestUpdate()}>${fallback || nothing}</slot>
     </div>`;
   }
 }

@@ -33,13 +33,13 @@ export async function unpack(text: string): Promise<unknown> {
 }
 
 /** Number of arguments that every engine accepts. */
-const ARGUMENTS = 4096;
+const MAX_ARGUMENTS = 4096;
 
 export function toBase64(bytes: Uint8Array & { toBase64?: () => string }) {
   // A hundred times faster, where the browser has it.
   if (bytes.toBase64) return bytes.toBase64();
   let text = '';
-  for (let at = 0; at < bytes.length; at += ARGUMENTS) text += String.fromCharCode(...bytes.subarray(at, at + ARGUMENTS));
+  for (let at = 0; at < bytes.length; at += MAX_ARGUMENTS) text += String.fromCharCode(...bytes.subarray(at, at + MAX_ARGUMENTS));
   return btoa(text);
 }
 

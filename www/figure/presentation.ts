@@ -15,14 +15,14 @@ export class Presentation extends Part {
   /** Whether the controls are shown. */
   #controls = false;
   /** State at the beginning; undefined if the figure opened in a presentation. */
-  #prepared: import('./state.ts').Values | undefined;
+  #stateAtBegin: import('./state.ts').Values | undefined;
   /** Stops listening to keys; undefined while the figure is not presented. */
   #listening: AbortController | undefined;
 
   hostConnected() {
     this.follow();
     // The browser ends full screen by its own keys.
-    this.host.addEventListener('fullscreenchange', this.#left);
+    this.host.addEventListener('fullscreenchange', this.#fullScreenChanged);
   }
 
   hostDisconnected() {
@@ -39,7 +39,7 @@ export class Presentation extends Part {
 
   async #begin() {
     const { host } = this;
-    this.#prepared = host.machine && host.snapshot();
+    this.#stateAtBegin = host.machine && host.snapshot();
     host.copies.forget();
     this.#listening = new AbortController();
     addEventListener('keydown', this.#key, { signal: this.#listening.signal });
@@ -71,7 +71,7 @@ export class Presentation extends Part {
     if (this.host.matches(':fullscreen')) await document.exitFullscreen().catch(() => {});
   }
 
-  #left = () => {
+  #fullScreenChanged = () => {
     if (!this.host.matches(':fullscreen')) this.host.presentation = false;
   };
 
@@ -83,7 +83,7 @@ export class Presentation extends Part {
     if (defaultPrevented || ctrlKey || altKey || metaKey) return;
     if (key === 'Escape') this.host.presentation = false;
     else if (key.toLowerCase() === KEY) this.#toggle();
-    else if (key === BACK) this.#goBack();
+    else if (key === BACK) this.#restore();
     else this.#choose(this.host.kind.attributes.preset?.words?.[Number(key) - 1]);
   };
 
@@ -95,8 +95,8 @@ export class Presentation extends Part {
     this.host.gesture.commit();
   }
 
-  #goBack() {
-    if (this.host.machine) this.host.state.goBack(this.#prepared);
+  #restore() {
+    if (this.host.machine) this.host.state.goBack(this.#stateAtBegin);
   }
 
   #toggle() {
@@ -122,7 +122,7 @@ export class Presentation extends Part {
     const keyed = (key: string, label: string) => html`<kbd>${key}</kbd> ${label}`;
     return html`<div class="presenting" role="group" tabindex="-1" aria-label=${say.begin}>
       ${button(keyed(KEY.toUpperCase(), say.controls), () => this.#toggle(), { pressed: this.#controls })}
-      ${button(keyed(BACK, say.back), () => this.#goBack(), { title: say.backTitle })}
+      ${button(keyed(BACK, say.back), () => this.#restore(), { title: say.backTitle })}
       ${button(keyed('Esc', say.end), () => (this.host.presentation = false))}
     </div>`;
   }

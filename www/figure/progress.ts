@@ -6,7 +6,7 @@ import { button } from '../ui/controls.ts';
 import { Part } from './part.ts';
 
 /** Delay before the progress is shown, ms. */
-const PATIENCE = 200;
+const DELAY = 200;
 
 /** Styles that place the progress over the lower edge of the figure or the window, without moving content. */
 export const progressStyles = css`
@@ -75,7 +75,7 @@ export class Progress extends Part {
     this.#work = work;
     const now = performance.now();
     this.#since ??= now;
-    if (now - this.#since < PATIENCE) return;
+    if (now - this.#since < DELAY) return;
     if (!this.#shown) this.host.announcer.announce(words.progress.begins);
     this.#shown = true;
     this.host.requestUpdate();

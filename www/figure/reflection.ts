@@ -23,7 +23,7 @@ export class Reflection extends Part {
   /** Attributes that were set before there was a machine. */
   #pendingAttributes: Map<string, string | null> = new Map();
   /** Properties that were set before there was a machine, by name; whole states have an object as key. */
-  #pendingProperties: Map<unknown, { value?: unknown, take: () => void }> = new Map();
+  #pendingProperties: Map<unknown, { value?: unknown, apply: () => void }> = new Map();
   /** True while this class writes attributes. */
   #isWriting = false;
   /** Attribute that is being applied; its text is not overwritten. */
@@ -54,36 +54,36 @@ export class Reflection extends Part {
     this.#pendingAttributes.clear();
     // Properties are sorted by dependency; a state stays at its place in time.
     let since = 0;
-    const pending = [...this.#pendingProperties].map(([name, { take }]) =>
-      ({ take, when: typeof name === 'string' ? since + this.#order.indexOf(name) : (since += this.#order.length) }));
+    const pending = [...this.#pendingProperties].map(([name, { apply }]) =>
+      ({ apply, when: typeof name === 'string' ? since + this.#order.indexOf(name) : (since += this.#order.length) }));
     this.#pendingProperties.clear();
     pending.sort((one, other) => one.when - other.when);
-    for (const { take } of pending) this.host.runtime.attemptOrReport(take);
+    for (const { apply } of pending) this.host.runtime.attemptOrReport(apply);
   }
 
   /** Applies a state, now or as soon as there is a machine. */
   whenReady(enter: () => void) {
     if (this.host.machine) this.host.runtime.attempt(enter);
-    else this.#pendingProperties.set({}, { take: enter });
+    else this.#pendingProperties.set({}, { apply: enter });
   }
 
   /** Sets a property, also by a text; null or undefined sets the default. An equal value changes nothing; a refused one is reported. */
-  setProperty(name: string, value: any, take: (value: any) => void) {
+  setProperty(name: string, value: any, apply: (value: any) => void) {
     const entry = this.#entries[name];
     const given = typeof value === 'string' && entry?.kind ? entry.kind.parse(value) : value;
-    const taken = () => {
+    const applyIfChanged = () => {
       const wanted = given ?? this.#defaultOf(name) ?? null;
       const setting = entry && isSetting(entry) ? entry : undefined;
       const present = setting ? setting.get(this.host.settings.wanted) : Reflect.get(this.host, name);
       // A group accepts some of its fields; a value of the element itself is replaced as a whole.
-      if (!includesFields(present, wanted) || (!setting && !includesFields(wanted, present))) take(wanted);
+      if (!includesFields(present, wanted) || (!setting && !includesFields(wanted, present))) apply(wanted);
     };
     if (this.host.machine) {
-      this.host.runtime.attemptOrReport(taken);
+      this.host.runtime.attemptOrReport(applyIfChanged);
     } else {
       // The latest assignment is applied last.
       this.#pendingProperties.delete(name);
-      this.#pendingProperties.set(name, { value: given, take: taken });
+      this.#pendingProperties.set(name, { value: given, apply: applyIfChanged });
     }
   }
 

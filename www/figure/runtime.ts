@@ -85,8 +85,8 @@ export class Runtime extends Part {
   /** Fires an `error` event, and warns on the console if no listener prevents that. */
   report(error: unknown) {
     const message = messageOf(error);
-    const unattended = this.host.dispatchEvent(new ErrorEvent('error', { error, message, cancelable: true }));
-    if (unattended) console.warn(message, this.host);
+    const isUnhandled = this.host.dispatchEvent(new ErrorEvent('error', { error, message, cancelable: true }));
+    if (isUnhandled) console.warn(message, this.host);
   }
 
   /** Shows an error in the figure's place and fires it. */
@@ -115,11 +115,11 @@ export class Runtime extends Part {
 
   /** Resolves when the core has started or failed. */
   #startIfNear(): Promise<void> {
-    if (!this.machine && this.#near) this.#starting ??= this.#make();
+    if (!this.machine && this.#near) this.#starting ??= this.#create();
     return this.#starting ?? Promise.resolve();
   }
 
-  async #make() {
+  async #create() {
     try {
       const [motion] = await Promise.all([instantiateFor(this.host.localName), this.host.link.prepare()]);
       if (!this.#near) return;

@@ -8,13 +8,13 @@ import { ancestors, surroundings } from './page/scheme.ts';
 import { Part } from './part.ts';
 
 /** Drawing time, ms, up to which the text is laid out in the same frame; otherwise it follows in the next one. */
-const QUICK = 5;
+const SAME_FRAME_TIME = 5;
 
 /** Longest delay of the text while frames draw pictures, ms. */
-const LATEST_WORDS = 100;
+const MAX_TEXT_DELAY = 100;
 
 /** Pixels per CSS pixel in print. */
-const PAPER_RATIO = 2;
+const PRINT_RATIO = 2;
 
 let calm: MediaQueryList | undefined;
 
@@ -163,14 +163,14 @@ export class Stage extends Part {
     host.cloud?.advance(this.#printing);
     const { scene } = host;
     const { pressed: still, former } = host.gesture;
-    const how = { elapsed, still, atOnce: this.#printing || isCalm(), former, highlight: host.highlight, handles: this.#printing };
+    const options = { elapsed, still, atOnce: this.#printing || isCalm(), former, highlight: host.highlight, handles: this.#printing };
     const shown = host.pictures.filter((picture) => isShown(this.canvasOf(picture)));
-    const moving = shown.map((picture) => picture.draw(this.canvasOf(picture), scene, this.palette, how));
+    const moving = shown.map((picture) => picture.draw(this.canvasOf(picture), scene, this.palette, options));
     host.placeHandles(scene);
     const now = performance.now();
     const since = this.#undescribedSince;
     // The first picture is drawn without text.
-    if (this.opening ? since : !this.#resizing && (now - began < QUICK || now - (since ?? now) > LATEST_WORDS)) this.#describe();
+    if (this.opening ? since : !this.#resizing && (now - began < SAME_FRAME_TIME || now - (since ?? now) > MAX_TEXT_DELAY)) this.#describe();
     else {
       this.#undescribedSince ??= began;
       wake(this);
@@ -214,7 +214,7 @@ export class Stage extends Part {
     if (this.#printing) {
       for (const canvas of this.#canvases ?? []) {
         const { clientWidth, clientHeight } = canvas;
-        Object.assign(canvas, { width: PAPER_RATIO * clientWidth, height: PAPER_RATIO * clientHeight });
+        Object.assign(canvas, { width: PRINT_RATIO * clientWidth, height: PRINT_RATIO * clientHeight });
       }
     }
     this.#colour();

@@ -25,10 +25,10 @@ export const schemeStyles = css`
 const DARK = '#121212';
 
 /** Shares of the text's colour in muted text, percent; the first legible one is used. */
-const STRENGTHS = [75, 80, 85, 90, 95];
+const MUTED_SHARES = [75, 80, 85, 90, 95];
 
 /** Minimum contrast of text: 4.5 by WCAG 2, level AA, and a margin for rounding. */
-const LEGIBLE = 4.55;
+const MIN_CONTRAST = 4.55;
 
 /** Returns a node's element and its ancestors across shadow roots, the nearest first. */
 export function ancestors(node: Node): Element[] {
@@ -42,16 +42,16 @@ export function ancestors(node: Node): Element[] {
 export function surroundings(probe: Element): Surroundings {
   const { color, borderTopColor: canvas, colorScheme } = getComputedStyle(probe);
   const ink = channels(color);
-  const unsaid = colorScheme === 'normal' && lightness(ink) > 0.5;
+  const isDarkByDefault = colorScheme === 'normal' && lightness(ink) > 0.5;
   const grounds = ancestors(probe).map((each) => getComputedStyle(each).backgroundColor);
-  const ground = channels(...[...grounds, unsaid ? DARK : canvas].reverse());
+  const ground = channels(...[...grounds, isDarkByDefault ? DARK : canvas].reverse());
   const light = lightness(ground);
-  const isLegible = contrast(ink, ground) >= LEGIBLE;
+  const isLegible = contrast(ink, ground) >= MIN_CONTRAST;
   const scheme = light < (isLegible ? lightness(ink) : 0.5) ? 'dark' : 'light';
   // The shade follows luminance; nearly white backgrounds need none.
   const shade = scheme === 'light' && light < 0.97 ? `${100 * (1 - light ** 2.2)}%` : '';
   const muted = (share: number) => ground.map((channel, i) => channel + (share / 100) * (ink[i] - channel));
-  const strength = isLegible ? `${STRENGTHS.find((share) => contrast(muted(share), ground) >= LEGIBLE) ?? 100}%` : '';
+  const strength = isLegible ? `${MUTED_SHARES.find((share) => contrast(muted(share), ground) >= MIN_CONTRAST) ?? 100}%` : '';
   return { ground: `rgb(${ground})`, text: isLegible ? color : '', shade, strength, scheme };
 }
 

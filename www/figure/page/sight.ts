@@ -7,7 +7,7 @@ export interface Watcher {
 }
 
 /** Distance from the viewport at which a figure starts. Less would show empty frames; more would start unseen figures. */
-const AHEAD = '600px';
+const NEAR_MARGIN = '600px';
 
 const watchers: WeakMap<Element, Watcher> = new WeakMap();
 /** Elements that are near. */
@@ -34,7 +34,7 @@ export function watch(element: Element, watcher: Watcher) {
         else near.delete(target);
       }
     },
-    { rootMargin: AHEAD },
+    { rootMargin: NEAR_MARGIN },
   );
   nearObserver.observe(element);
   visibleObserver.observe(element);

@@ -201,6 +201,20 @@ for (const name of ALL) {
   });
 }
 
+test('a list that a server wrote as text is taken up, and other text is reported', async ({ page }) => {
+  await show(page, '');
+  const refused = await page.evaluate(async () => {
+    const box = document.createElement('div');
+    document.body.prepend(box);
+    /** @type {Promise<string>} */
+    const message = new Promise((resolve) => box.addEventListener('error', ({ message }) => resolve(message), true));
+    box.innerHTML = '<banana-machine alphas="0.1,0.2,0.1,0.1,0,0" command="[object Object]"></banana-machine>';
+    return message;
+  });
+  expect(refused).toMatch(/^command is "\[object Object\]"; allowed is an object/);
+  await expect(page.locator('banana-machine')).toHaveJSProperty('alphas', [0.1, 0.2, 0.1, 0.1, 0, 0]);
+});
+
 test('properties that were set before the element was defined are taken up, in any order', async ({ page }) => {
   await show(page, '', { script: '' });
   const told = await page.evaluate(async () => {

@@ -24,6 +24,8 @@ export class Reflection extends Part {
   #pendingAttributes: Map<string, string | null> = new Map();
   /** Properties that were set before there was a machine, by name; whole states have an object as key. */
   #pendingProperties: Map<unknown, { value?: unknown, apply: () => void }> = new Map();
+  /** True from the first connection on: a figure that is moved keeps its settings. */
+  #hasConnected = false;
   /** True while this class writes attributes. */
   #isWriting = false;
   /** Attribute that is being applied; its text is not overwritten. */
@@ -31,9 +33,11 @@ export class Reflection extends Part {
   /** Texts as last written. */
   #written: Texts | undefined;
 
-  /** Applies properties that were set before the element was upgraded. */
+  /** Applies properties that were set before the element was upgraded, or that a server wrote as text. */
   hostConnected() {
     const host = this.host as unknown as Record<string, unknown>;
+    if (!this.#hasConnected) this.#takeUpLists(host);
+    this.#hasConnected = true;
     for (const name of Object.keys(host)) {
       for (let at = Object.getPrototypeOf(host); at !== HTMLElement.prototype; at = Object.getPrototypeOf(at)) {
         if (!Object.getOwnPropertyDescriptor(at, name)?.set) continue;
@@ -42,6 +46,16 @@ export class Reflection extends Part {
         host[name] = value;
         break;
       }
+    }
+  }
+
+  /** Takes lists from text as servers write it, such as `alphas="0.1,0.2"`. The property refuses and reports any other text. */
+  #takeUpLists(host: Record<string, unknown>) {
+    for (const name of Object.keys(this.#entries)) {
+      const text = name in this.#attributes ? null : this.host.getAttribute(name);
+      if (text === null || Object.hasOwn(host, name)) continue;
+      const numbers = text.split(/[\s,]+/).map(Number);
+      host[name] = numbers.every(Number.isFinite) ? numbers : text;
     }
   }
 

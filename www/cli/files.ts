@@ -2,7 +2,7 @@
 
 import { openAsBlob } from 'node:fs';
 import { readdir, stat } from 'node:fs/promises';
-import { basename, dirname, join, resolve } from 'node:path';
+import { basename, dirname, join, relative, resolve } from 'node:path';
 import { LogError } from '../logs/log-error.ts';
 import type { Recording, Source } from '../logs/log.ts';
 import { openRecordings } from '../logs/open.ts';
@@ -36,7 +36,7 @@ async function sourcesOf(path: string): Promise<Source[]> {
     const found = await readdir(path, { withFileTypes: true, recursive: true });
     const files = found.filter((entry) => entry.isFile() && !entry.name.startsWith('.')).map((entry) => join(entry.parentPath, entry.name)).toSorted();
     if (files.length === 0) throw Object.assign(new Error(), { code: 'an empty folder' });
-    return await Promise.all(files.map((file) => sourceOf(file, basename(file), join(name, file.slice(join(path, '/').length)).replaceAll('\\', '/'))));
+    return await Promise.all(files.map((file) => sourceOf(file, basename(file), join(name, relative(path, file)).replaceAll('\\', '/'))));
   } catch (error) {
     const { code } = error as NodeJS.ErrnoException;
     if (error instanceof LogError || code === undefined) throw error;

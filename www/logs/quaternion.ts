@@ -6,9 +6,13 @@ export interface Quaternion extends Vector { w: number }
 /** Largest deviation from length 1 that rounding explains. */
 const TOLERANCE = 0.1;
 
+/** Steps of a heading in a radian. */
+const STEPS = 1e12;
+
 /** Returns the angle about the vertical axis, for quaternions of any length. */
 export function headingOf(qx: number, qy: number, qz: number, qw: number): number {
-  return Math.atan2(2 * (qw * qz + qx * qy), qw * qw + qx * qx - qy * qy - qz * qz);
+  // Engines differ in the last bits of the arc tangent, and one bit can decide where a leg of a simulated log ends.
+  return Math.round(Math.atan2(2 * (qw * qz + qx * qy), qw * qw + qx * qx - qy * qy - qz * qz) * STEPS) / STEPS;
 }
 
 /** Checks that a quaternion has length 1. One with NaN passes: its row is dropped as not finite. */

@@ -39,6 +39,22 @@ test('the views have room for the arcs of the turns and for nearly every outcome
   expect(outside.below).toBeGreaterThan(64);
 });
 
+test('the scale of the legs depends on the size of the window alone', async ({ page }) => {
+  const size = { width: 375, height: 740 };
+  await page.setViewportSize(size);
+  const widget = await open(page);
+  const scale = async () => {
+    await frames(page);
+    return widget.evaluate((element) => /** @type {any} */ (element).pictures[0].view.scaleX);
+  };
+  const first = await scale();
+  for (const other of [{ width: 375, height: 1700 }, { width: 740, height: 375 }, size]) {
+    await page.setViewportSize(other);
+    await scale();
+  }
+  await expect.poll(scale).toBeCloseTo(first, 6);
+});
+
 test('opens on Reverse, and presets set the reading', async ({ page }) => {
   const widget = await open(page);
   const { config, shown } = await told(widget);

@@ -35,8 +35,10 @@ export class View {
   within: Extent | undefined;
   /** True if a metre is as long in y as in x. */
   #equal;
-  /** True for an extent of what is needed alone, without a margin. */
+  /** True for an extent of what is needed alone, without a margin. What is needed may depend on the size: a fit in a new size chooses anew. */
   #snug;
+  /** Canvas size at the last fit, CSS pixels. */
+  #fitted = { width: 1, height: 1 };
   /** Canvas size, CSS pixels. */
   width = 1;
   height = 1;
@@ -113,7 +115,10 @@ export class View {
 
   /** Aims the view at an extent. The view stays while that is inside, and only zooms out otherwise; a released view may also close in. */
   fit(needed: Extent) {
-    const [kept, released] = [this.#target, this.#released];
+    const { width, height } = this;
+    const isResized = this.#snug && (width !== this.#fitted.width || height !== this.#fitted.height);
+    const [kept, released] = [isResized ? undefined : this.#target, this.#released];
+    this.#fitted = { width, height };
     this.#released = false;
     if (kept && (released ? this.#suits(kept, needed) : isInside(needed, kept))) return;
     this.widened = kept !== undefined && !released;

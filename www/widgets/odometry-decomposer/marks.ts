@@ -9,11 +9,16 @@ const HEAD = { half: 4, length: 9 };
 /** Steps of the chord that an arc is drawn by, radians. */
 const STEP = 0.1;
 
-/** Returns the points of an arc about a pose, from its heading by a turn in radians, with a radius in pixels. */
-export function arcOf({ view }: Pick<Brush, 'view'>, { x, y, theta }: Pose, turn: number, radius: number) {
+/** Returns the directions, rad, from a heading to its turn by some radians. */
+export function directionsOf(heading: number, turn: number) {
   const count = Math.max(1, Math.ceil(Math.abs(turn) / STEP));
-  return Array.from({ length: count + 1 }, (_, i) => {
-    const ahead = view.direction(theta + (turn * i) / count);
+  return Array.from({ length: count + 1 }, (_, i) => heading + (turn * i) / count);
+}
+
+/** Returns the points of an arc about a pose, from its heading by a turn in radians, with a radius in pixels. */
+function arcOf({ view }: Brush, { x, y, theta }: Pose, turn: number, radius: number) {
+  return directionsOf(theta, turn).map((heading) => {
+    const ahead = view.direction(heading);
     return [view.toPixelX(x) + radius * ahead.x, view.toPixelY(y) + radius * ahead.y];
   });
 }

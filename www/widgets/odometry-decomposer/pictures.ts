@@ -8,7 +8,7 @@ import { SamplesPicture } from '../../scene/picture.ts';
 import { View, extentOf } from '../../scene/view.ts';
 import { fixed } from '../../ui/format.ts';
 import { drawHeldRobot, drawRobotOutline, turnDistance } from '../shared/robot.ts';
-import { arcOf, drawBar, drawFan, drawTurn } from './marks.ts';
+import { directionsOf, drawBar, drawFan, drawTurn } from './marks.ts';
 import { poseIn } from './reading.ts';
 import { LINES } from './settings.ts';
 import type { Pose } from '../../types.d.ts';
@@ -31,8 +31,11 @@ const MAX_TICKS = 1000;
 /** Between the handle that turns a robot and the arc of a turn about it, and between the two arcs, CSS pixels. */
 const GAP = { handle: 14, arcs: 16 };
 
-/** Rounds in which a view finds the scale at which it has room for arcs, whose size is in pixels. */
-const ROUNDS = 4;
+/** Most that the view makes room for around a turn, as a share of the frame's shorter side: the world keeps half of the frame. */
+const ARC_SHARE = 0.25;
+
+/** Halvings of the interval in which the view's scale is. */
+const HALVINGS = 12;
 
 /** A shorter drive is not seen as one, CSS pixels: there is no label for it. */
 const SEEN = 24;
@@ -97,18 +100,30 @@ export class LegsPicture extends OutcomesPicture {
     const { view } = this;
     const { linkage, legs, overlays } = scene;
     const room = surroundings(scene);
-    let box = extentOf(room, 1.2);
-    for (let round = 0; overlays.includes('legs') && round < ROUNDS; round++) {
-      const scale = view.scaleFor(box);
+    if (!overlays.includes('legs')) {
+      view.fit(extentOf(room, 1.2));
+      return;
+    }
+    const { left, right, top, bottom } = view.frame;
+    const most = ARC_SHARE * Math.min(right - left, bottom - top);
+    const boxAt = (scale: number) => {
       const reaches = reachesAt({ scaleX: scale });
       const arcs = [legs.rot1, legs.rot2].flatMap((by, i) => {
         const centre = poseIn(linkage, 2 * i);
-        const [x, y] = [view.toPixelX(centre.x), view.toPixelY(centre.y)];
-        return arcOf({ view }, centre, by, reaches[i]).flatMap(([atX, atY]) => [centre.x + (atX - x) / scale, centre.y - (atY - y) / scale]);
+        const reach = Math.min(reaches[i], most) / scale;
+        return directionsOf(centre.theta, by).flatMap((theta) => [centre.x + reach * Math.cos(theta), centre.y + reach * Math.sin(theta)]);
       });
-      box = extentOf([...room, ...arcs], 1.2);
+      return extentOf([...room, ...arcs], 1.2);
+    };
+    // The arcs, whose size is in pixels, fit at half the scale of the world alone.
+    let high = view.scaleFor(extentOf(room, 1.2));
+    let low = high / 2;
+    for (let i = 0; i < HALVINGS; i++) {
+      const scale = (low + high) / 2;
+      if (view.scaleFor(boxAt(scale)) < scale) high = scale;
+      else low = scale;
     }
-    view.fit(box);
+    view.fit(boxAt(low));
   }
 
   paint: SamplesPicture<Scene>['paint'] = (brush, scene) => {

@@ -72,7 +72,7 @@ export const log = {
       `the columns are ${columns}; expected are ${NEEDED[wanted]} among them, or a choice of columns.`,
     twice: (field: string, one: string, other: string) =>
       `both “${one}” and “${other}” may be ${FIELDS[field]}; expected is one of them.`,
-    cells: (count: number, needed: number) => `the row has ${count} cells; expected are at least ${needed}.`,
+    cells: (count: number, needed: number) => `the row has ${count} ${count === 1 ? 'cell' : 'cells'}; expected are at least ${needed}.`,
     wide: (count: number, needed: number, header: number) =>
       `the row has ${count} cells, and the header in line ${header} ${needed}; expected are as many, with decimal points in numbers, or semicolons between cells.`,
     given: (count: number, given: number) => `the row has ${count} cells, and --columns names ${given}; name each column in order, with - for those to skip.`,

@@ -145,9 +145,9 @@ pub struct TableColumn {
     )]
     pub cov: Matrix3<f64>,
     pub cross_track_skew: f64,
-    /// Of the linearization 0.
+    /// Gain, 0 of the linearization.
     pub likelihood_gain: LikelihoodGain,
-    /// Of the linearization 1.
+    /// Ratio of the areas, 1 of the linearization.
     pub area_ratio: f64,
 }
 

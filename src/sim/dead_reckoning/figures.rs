@@ -27,7 +27,7 @@ pub struct Comparison {
     pub misses: [Misses; 3],
 }
 
-/// Where the ratio of one component is off by more than 5 %, see [`TOLERANCE`].
+/// Steps at which the ratio of one component is off by more than 5 % ([`TOLERANCE`]).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(target_arch = "wasm32", derive(serde::Serialize, tsify::Tsify), tsify(missing_as_null))]
 pub struct Misses {

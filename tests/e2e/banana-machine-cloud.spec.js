@@ -217,7 +217,7 @@ test('few robots do not show the lean; the Pivot’s bow-tie has its reason', as
 test('a cloud that turns a full circle has no exponential coordinates, and says so', async ({ page }) => {
   const widget = await openWhole(page);
   await set(widget, { omega: 2, dt: 3 });
-  await expect(widget.locator('.note')).toContainText('Exponential coordinates end there');
+  await expect(widget.locator('.note')).toContainText('statistics in ξ are undefined');
   await expect(readout(widget, 'predicts')).toHaveText('—');
   await expect(detail(widget, 'area covered')).toHaveText(/^inside: [\d.]+\u202f% and —$/);
   for (const name of ['area covered', 'log-likelihood gain', 'exact area']) await expect(readout(widget, name)).toHaveText('—');

@@ -126,7 +126,7 @@ const table = (count, row) => ['t,x,y,yaw', ...Array.from({ length: count }, (_,
 const along = (x, start = 0) => table(400, (i) => [start + i / 20, x(i), 0, 0]);
 
 test('logs of several drives are paired by their times, their names, or their order', async () => {
-  const pairs = async (/** @type {Record<string, number>} */ starts) => (await drivesOf(Object.fromEntries(Object.entries(starts).map(([name, start], k) => [name, along((i) => (i * (k + 1)) / 100, start)])))).map(({ odometry, reference }) => [odometry.name, reference.name]);
+  const pairs = async (/** @type {Record<string, number>} */ starts) => (await drivesOf(Object.fromEntries(Object.entries(starts).map(([name, start], k) => [name, along((i) => (i * (10 + k)) / 1000, start)])))).map(({ odometry, reference }) => [odometry.name, reference.name]);
   assert.deepEqual(await pairs({ 'odom1.csv': 100, 'odom2.csv': 500, 'truth_a.csv': 501, 'truth_b.csv': 99 }), [['odom1.csv', 'truth_b.csv'], ['odom2.csv', 'truth_a.csv']]);
   assert.deepEqual(await pairs({ 'odom1.csv': 0, 'odom2.csv': 0, 'truth2.csv': 0, 'truth1.csv': 0 }), [['odom1.csv', 'truth1.csv'], ['odom2.csv', 'truth2.csv']]);
   assert.deepEqual(await pairs({ 'odom1.csv': 0, 'odom2.csv': 0, 'truth_a.csv': 0, 'truth_b.csv': 0 }), [['odom1.csv', 'truth_a.csv'], ['odom2.csv', 'truth_b.csv']]);
@@ -194,6 +194,30 @@ test('a frozen reference is left out while the odometry moves on, and kept while
   // Commands tell too that the robot moves.
   const commands = ['t,v,omega', ...Array.from({ length: 400 }, (_, i) => `${i / 20},${i < 100 ? 0 : 0.4},0`)].join('\n');
   assert.equal((await pair(lost, commands)).summary.dropped.held?.count, 99);
+});
+
+test('a log that does not follow the other one names the correction that makes it follow', async () => {
+  const headings = Array.from({ length: 1200 }, (_, i) => 2 * Math.sin(i / 60) + Math.cos(i / 23) + i / 300);
+  const path = [[0, 0]];
+  for (const [i, heading] of headings.entries()) path.push([path[i][0] + Math.cos(heading) / 40, path[i][1] + Math.sin(heading) / 40]);
+  const driven = (/** @type {(row: number[]) => number[]} */ change) => table(1200, (i) => change([i / 20, ...path[i], headings[i]]).map((value) => Number(value.toFixed(6))));
+  const noisy = (/** @type {number[]} */ [t, x, y, yaw]) => [t + 0.2, 1.02 * x + 3, 1.02 * y, 1.01 * yaw];
+  const degree = Math.PI / 180;
+  for (const [change, sentence, what] of /** @type {[(row: number[]) => number[], RegExp, string?][]} */ ([
+    [([t, x, y, yaw]) => [t, x, -y, yaw], /its y axis is mirrored against its heading and against /],
+    [([t, x, y, yaw]) => [t, -x, y, yaw], /its x axis is mirrored /],
+    [([t, x, y, yaw]) => [t, x, y, -yaw], /its heading has the wrong sign /],
+    [([t, x, y, yaw]) => [t, y, x, yaw], /its x and y are swapped;/],
+    [([t, x, y, yaw]) => [t, x, -y, -yaw], /it turns left where \S+ turns right: /],
+    [([t, x, y, yaw]) => [t, x, y, yaw * degree], /its headings are radians and were read as degrees;/, 'angleUnit'],
+    [([t, x, y, yaw]) => [t, 10 * x, 10 * y, yaw], /its lengths times 0\.10 are /, 'lengthUnit'],
+  ])) {
+    const wrong = await refusalOf(drivesOf({ 'odom.csv': driven((row) => row), 'truth.csv': driven((row) => change(noisy(row))) }));
+    assert.match(wrong.message, sentence);
+    assert.match(wrong.message, /^truth\.csv: .*\. The motions then agree \(correlation (1\.00|0\.9\d)\)\.$/);
+    assert.equal(wrong.ask?.what, what);
+  }
+  assert.match(await sentenceOf(drivesOf({ 'odom.csv': driven(([t, x, y, yaw]) => [t, x, -y, yaw]), 'truth.csv': driven(noisy) })), /^odom\.csv: its y axis is mirrored/);
 });
 
 test('a summary has the distance driven, units and how they were judged, dropped rows and gaps', async () => {

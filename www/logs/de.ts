@@ -1,5 +1,6 @@
 /** Sentences about logs, in German. */
 
+import type { Correction } from './corrections.ts';
 import { REPAIRS } from './en.ts';
 import type { Words } from './log-error.ts';
 import type { Basis, Cause, Summary } from './log.ts';
@@ -53,6 +54,17 @@ const OTHERS: typeof import('./en.ts').OTHERS = {
   lz4: 'mit LZ4 komprimiert; mit „unlz4“ dekomprimieren und das Ergebnis angeben.',
   hdf5: 'eine HDF5- oder MATLAB-Datei; Zeiten und Posen als CSV exportieren.',
   parquet: 'eine Parquet-Tabelle; als CSV exportieren.',
+};
+
+const CORRECTIONS: Record<Correction['name'], (other: string, factor: number) => string> = {
+  mirroredX: (other) => `ihre x-Achse ist gespiegelt, gegenüber ihrer Richtung und ${other}; x negieren`,
+  mirroredY: (other) => `ihre y-Achse ist gespiegelt, gegenüber ihrer Richtung und ${other}; y negieren`,
+  mirroredYaw: (other) => `ihre Richtung hat das falsche Vorzeichen, gegenüber ihrer Bahn und ${other}; die Richtung negieren, denn sie wächst gegen den Uhrzeigersinn`,
+  swappedAxes: () => 'ihr x und y sind vertauscht; die beiden Spalten tauschen',
+  leftHanded: (other) => `sie dreht nach links, wo ${other} nach rechts dreht: eine der beiden hat Z nach unten oder ein linkshändiges Koordinatensystem; y und Richtung dieser einen negieren`,
+  degrees: () => 'ihre Richtungen sind in Grad und wurden als Radiant gelesen; die Einheit angeben',
+  radians: () => 'ihre Richtungen sind in Radiant und wurden als Grad gelesen; die Einheit angeben',
+  lengths: (other, factor) => `ihre Längen mal ${factor.toPrecision(2).replace('.', ',')} sind die von ${other}; die Einheit von beiden angeben`,
 };
 
 export const log: Words = {
@@ -122,6 +134,8 @@ export const log: Words = {
     noMessages: 'es sind weniger als 2 Nachrichten; erwartet werden mindestens 2.',
     same: (other) => `sie hat dieselbe Bewegung wie ${other}; gebraucht werden zwei unabhängige Messungen einer Fahrt.`,
     givenTwice: 'sie ist zweimal angegeben; gebraucht werden zwei unabhängige Messungen einer Fahrt, Odometrie und Referenz.',
+    ownChain: (frames) => `${frames} ist die Transformation der Odometrie selbst; gebraucht wird eine Referenz, die nicht von den Rädern kommt, wie Motion-Capture oder Scan-Matching.`,
+    correction: (name, other, score, factor) => `${CORRECTIONS[name](other, factor)}. Damit stimmen die Bewegungen überein (Korrelation ${comma(score, 2)}).`,
     held: 'ihre Pose steht, während die Odometrie weitergeht: Sie hat den Roboter verloren; gebraucht wird eine, die ihm folgt.',
     noRole: 'ihr Name sagt nicht, ob sie Odometrie oder Referenz ist; Namen wie odom1.csv, truth1.csv, odom2.csv, … sagen es, oder eine Auswahl.',
     unpaired: (odometry, reference) => `es sind ${odometry} Logs der Odometrie und ${reference} der Referenz; gebraucht wird je eines für eine Fahrt.`,
@@ -183,7 +197,8 @@ export const log: Words = {
       noZone: 'Datumsangaben ohne Zeitzone gelten als UTC',
       upAxis: (axis) => `${axis} ist die senkrechte Achse`,
       sorted: (count) => `${times(count, 'verspätete Zeile', 'verspätete Zeilen')} nach der Zeit sortiert`,
-      swapped: (odometry) => `sie heißt wie eine Odometrie, und ${odometry} nicht: Sind die beiden vertauscht?`,
+      swapped: (odometry, by) =>
+        `${by === 'name' ? `sie heißt wie eine Odometrie, und ${odometry} nicht` : `sie wiederholt im Stand ihre Pose wie Räder, und ${odometry} nicht`}: Ist die Odometrie als Referenz angegeben?`,
       apart: (name, one, other) => `keine Zeit gemeinsam mit ${name} (${one}, und ${other}): Die Uhren werden nach den Drehungen des Roboters gestellt`,
       localizer: 'die Schätzung eines Lokalisierers, deren Fehler der Odometrie folgen: Die Referenz muss unabhängig gemessen sein',
     },

@@ -1,5 +1,6 @@
 /** Sentences about logs, in English. */
 
+import type { Correction } from './corrections.ts';
 import type { Basis, Cause, Recording, Role, Summary } from './log.ts';
 
 /** Fields of a table, as a sentence names them. */
@@ -35,6 +36,18 @@ const REASONS = {
   stray: 'a time far from all others',
   setBack: 'times of a clock that was set back',
   held: 'the pose stands while the odometry moves on',
+};
+
+/** Errors of a log and their corrections, found by comparing it with the other log. */
+const CORRECTIONS: Record<Correction['name'], (other: string, factor: number) => string> = {
+  mirroredX: (other) => `its x axis is mirrored against its heading and against ${other}; negate x`,
+  mirroredY: (other) => `its y axis is mirrored against its heading and against ${other}; negate y`,
+  mirroredYaw: (other) => `its heading has the wrong sign against its path and against ${other}; negate it, as headings grow counterclockwise`,
+  swappedAxes: () => 'its x and y are swapped; swap the two columns',
+  leftHanded: (other) => `it turns left where ${other} turns right: one of the two has Z down or a left-handed frame; negate y and the heading of that one`,
+  degrees: () => 'its headings are degrees and were read as radians; state the unit',
+  radians: () => 'its headings are radians and were read as degrees; state the unit',
+  lengths: (other, factor) => `its lengths times ${factor.toPrecision(2)} are those of ${other}; state the unit of both`,
 };
 
 /** Formats that are known and not read, each with the cure. */
@@ -132,6 +145,8 @@ export const log = {
     /** Errors of two logs. */
     same: (other: string) => `it has the same motion as ${other}; give two independent measurements of one drive.`,
     givenTwice: 'it is given twice; give two independent measurements of one drive, odometry and reference.',
+    ownChain: (frames: string) => `${frames} is the odometry’s own transform; give a reference that does not come from the wheels, such as motion capture or scan matching.`,
+    correction: (name: Correction['name'], other: string, score: number, factor: number) => `${CORRECTIONS[name](other, factor)}. The motions then agree (correlation ${score.toFixed(2)}).`,
     held: 'its pose stands while the odometry moves on: it has lost the robot; give one that follows the robot.',
     /** Errors of several recordings. */
     noRole: 'its name does not say whether it is odometry or reference; call the files odom1.csv, truth1.csv, odom2.csv, … or state which is which.',
@@ -198,7 +213,8 @@ export const log = {
       noZone: 'dates without a time zone are taken as UTC',
       upAxis: (axis: string) => `${axis} is the vertical axis`,
       sorted: (count: number) => `${count} late ${count === 1 ? 'row' : 'rows'} sorted by time`,
-      swapped: (odometry: string) => `its name is that of odometry, and ${odometry} is not: are the two swapped?`,
+      swapped: (odometry: string, by: 'name' | 'rest') =>
+        `${by === 'name' ? `its name is that of odometry, and ${odometry} is not` : `at rest it repeats its pose as wheels do, and ${odometry} does not`}: was the odometry given as the reference?`,
       apart: (name: string, one: string, other: string) =>
         `no time in common with ${name} (${one}, and ${other}): the clocks are aligned by the turns of the robot`,
       localizer: 'a localizer’s own estimate, whose errors follow the odometry: measure the reference independently',

@@ -3,9 +3,10 @@
 import { bisectLeft } from 'd3-array';
 import type { CalibrationLog } from '../types.d.ts';
 import { isLocalizer, roleByName } from './candidates.ts';
+import { correctionOf } from './corrections.ts';
 import { withoutFrozenPoses } from './frozen-pose.ts';
 import { LogError } from './log-error.ts';
-import type { Log, Note, Poses, Role } from './log.ts';
+import { framesText, type Log, type Note, type Poses, type Role } from './log.ts';
 
 /** Two logs of one drive, with times after the same start. */
 export interface Drive { odometry: Log; reference: Log }
@@ -21,6 +22,9 @@ const SAME = 1e-5;
 
 /** Least motion in m and rad of paths that are compared. */
 const MOVED = 0.1;
+
+/** Share of rows with the pose of the row before: least of wheels that rest at times, and most of a measurement, whose noise changes it. */
+const [RESTS, JITTERS] = [0.02, 0.001];
 
 /** Absolute times of the first and the last row. */
 const spanOf = ({ start, data: { t } }: Log): [number, number] => [start + t[0], start + t[t.length - 1]];
@@ -54,19 +58,34 @@ export function pairedByTime(odometry: Log[], reference: Log[]): [Log, Log][] {
 export function pairLogs(odometry: Log, reference: Log): Drive {
   const place = { file: reference.name };
   if (reference.kind === 'commands') throw new LogError(place, (say) => say.noColumns('poses', 't, v, omega'));
+  const { frames } = reference.summary;
+  if (frames?.parent === 'odom') throw new LogError(place, (say) => say.ownChain(framesText(frames)));
   const start = Math.min(odometry.start, reference.start);
   const [first, second] = [withStart(odometry, start), withStart(reference, start)];
   if (isSamePath(first, second)) throw new LogError(place, (say) => (reference.name === odometry.name ? say.givenTwice : say.same(odometry.name)));
   const reliable = withoutFrozenPoses(second, first);
   if (reliable.data.t.length < 2) throw new LogError(place, (say) => say.held);
-  const isSwapped = roleByName(odometry.name) !== 'odometry' && roleByName(reference.name) === 'odometry';
+  const wrong = correctionOf(first, reliable);
+  if (wrong) {
+    const [log, other] = wrong.at === 'odometry' ? [odometry, reference] : [reference, odometry];
+    throw new LogError({ file: log.name }, (say) => say.correction(wrong.name, other.name, wrong.score, wrong.factor), wrong.ask && { what: wrong.ask, choices: [] });
+  }
+  const swapped = swappedBy(first, second);
   const notes: Note[] = [
     ...reliable.summary.notes,
-    ...(isSwapped ? [{ name: 'swapped' as const, values: [odometry.name] }] : []),
+    ...(swapped ? [{ name: 'swapped' as const, values: [odometry.name, swapped] }] : []),
     ...(isLocalizer(reference.name, reference.summary.frames) ? [{ name: 'localizer' as const, values: [] }] : []),
     ...(overlap(odometry, reference) < 0 ? [{ name: 'apart' as const, values: [odometry.name, printed(reference), printed(odometry)] }] : []),
   ];
   return { odometry: first, reference: { ...reliable, summary: { ...reliable.summary, notes } } };
+}
+
+/** Returns the sign by which the logs are swapped: names, or poses that repeat at rest in the reference only, as those of wheels do. */
+function swappedBy(odometry: Log, reference: Log): 'name' | 'rest' | undefined {
+  const roles = [odometry, reference].map(({ name }) => roleByName(name));
+  if (roles[0] !== 'odometry' && roles[1] === 'odometry') return 'name';
+  const rests = ({ data }: Log) => ('x' in data ? data.x.reduce((count, x, i) => count + Number(x === data.x[i - 1] && data.y[i] === data.y[i - 1] && data.theta[i] === data.theta[i - 1]), 0) / data.x.length : 1);
+  return roles.every((role) => role === undefined) && rests(reference) > RESTS && rests(odometry) < JITTERS ? 'rest' : undefined;
 }
 
 /** Checks whether a localizer's own estimate is among the references of logs. */

@@ -156,26 +156,27 @@ function angleUnit(kind: LogKind, { t, a, b, c }: Columns, stated: Units['angle'
 }
 
 /**
- * Returns the unit in which the heading follows the direction of the path, forwards or backwards at a constant angle. Undefined if
- * both units fit, as on a straight path, or neither, as for a robot that drives sideways.
+ * Returns the unit in which the heading follows the direction of the path or of its mirror image, forwards or backwards at a constant
+ * angle. Undefined if both units fit, as on a straight path, or neither, as for a robot that drives sideways.
  */
 function unitOfPath(t: Float64Array, x: Float64Array, y: Float64Array, heading: Float64Array): AngleUnit | undefined {
   const stride = Math.max(2, Math.ceil(STEP / quantile(sample(t.length - 1, (i) => t[i + 1] - t[i]), 0.5)));
-  const sums = { rad: [0, 0], deg: [0, 0] };
+  // A mirrored axis has headings that turn against the path.
+  const candidates = UNITS.angleUnit.flatMap((unit) => [1, -1].map((sign) => ({ unit, factor: sign * RADIANS[unit], cosine: 0, sine: 0 })));
   let count = 0;
   for (let i = 0; i + stride < t.length; i += stride) {
     const [dx, dy] = [x[i + stride] - x[i], y[i + stride] - y[i]];
     if (Math.hypot(dx, dy) < MIN_STEP) continue;
     count += 1;
-    for (const unit of UNITS.angleUnit) {
-      const angle = 2 * (Math.atan2(dy, dx) - heading[i + (stride >> 1)] * RADIANS[unit]);
-      sums[unit][0] += Math.cos(angle);
-      sums[unit][1] += Math.sin(angle);
+    for (const candidate of candidates) {
+      const angle = 2 * (Math.atan2(dy, dx) - heading[i + (stride >> 1)] * candidate.factor);
+      candidate.cosine += Math.cos(angle);
+      candidate.sine += Math.sin(angle);
     }
   }
   if (count < MIN_STEPS) return undefined;
   // Mean resultant lengths: 1 of directions that are all the same, 0 of random ones.
-  const [rad, deg] = [sums.rad, sums.deg].map(([cosine, sine]) => Math.hypot(cosine, sine) / count);
+  const [rad, deg] = UNITS.angleUnit.map((unit) => Math.max(...candidates.filter((each) => each.unit === unit).map(({ cosine, sine }) => Math.hypot(cosine, sine) / count)));
   if (Math.max(rad, deg) < 0.8 || Math.abs(rad - deg) < 0.3) return undefined;
   return rad > deg ? 'rad' : 'deg';
 }

@@ -1,0 +1,147 @@
+/** Corrections of a log that does not follow the other one of its drive: each is tried, and the one that explains the difference is named. */
+
+import { bisectLeft } from 'd3-array';
+import { ROLES, type Log, type Question, type Role } from './log.ts';
+import { pathOf } from './path.ts';
+
+type Pose = [x: number, y: number, heading: number];
+
+/** Motion in a step in the frame of the robot, in m and rad. */
+type Motion = [forward: number, left: number, turn: number];
+
+const DEGREE = Math.PI / 180;
+
+/** Corrections of poses by their names in sentences. */
+const CORRECTIONS = {
+  mirroredX: ([x, y, heading]: Pose): Pose => [-x, y, heading],
+  mirroredY: ([x, y, heading]: Pose): Pose => [x, -y, heading],
+  mirroredYaw: ([x, y, heading]: Pose): Pose => [x, y, -heading],
+  swappedAxes: ([x, y, heading]: Pose): Pose => [y, x, heading],
+  leftHanded: ([x, y, heading]: Pose): Pose => [x, -y, -heading],
+  degrees: ([x, y, heading]: Pose): Pose => [x, y, heading * DEGREE],
+  radians: ([x, y, heading]: Pose): Pose => [x, y, heading / DEGREE],
+};
+
+/** Correction that makes two logs of a drive agree. */
+export interface Correction {
+  name: keyof typeof CORRECTIONS | 'lengths';
+  /** Log that needs it. */
+  at: Role;
+  /** Correlation of the motions with it. */
+  score: number;
+  /** Scale of lengths, or 1. */
+  factor: number;
+  /** Unit that corrects it if it is stated. */
+  ask?: Question['what'];
+}
+
+/** Steps in the drive at most, their least duration in s, and number that a comparison needs. */
+const [STEPS, STEP, ENOUGH] = [4000, 0.25, 40];
+
+/** Largest offset of the clocks in s that is tried, as in the first scan of the core. */
+const OFFSET = 10;
+
+/** Agreement of logs of one drive, agreement that a correction must reach, and the least gain by it. */
+const [AGREES, EXPLAINS, GAIN] = [0.7, 0.8, 0.3];
+
+/** Scales that no wheel has, as in the core. */
+const isScale = (scale: number) => scale >= 0.5 && scale <= 2;
+
+/** Motion that counts as none, in m or rad in the mean of a step. */
+const STANDS = 1e-4;
+
+/** Motion beyond which a step is a jump, in units of the 90 % quantile. */
+const JUMP = 4;
+
+/** Fit of two logs: correlation of their motions, from −1 to 1, and the scales of the reference that fit best. */
+interface Agreement { score: number; length: number; angle: number }
+
+/** Returns the correction that makes two logs of a drive agree; undefined where they agree, or none does. */
+export function correctionOf(odometry: Log, reference: Log): Correction | undefined {
+  const logs = { odometry, reference };
+  const spans = ROLES.map((role) => logs[role].data.t);
+  const [from, to] = [Math.max(...spans.map((t) => t[0])), Math.min(...spans.map((t) => t[t.length - 1]))];
+  const step = Math.max(STEP, (to - from) / STEPS, ...ROLES.map((role) => 2 / logs[role].summary.rate));
+  const count = Math.floor((to - from) / step);
+  if (!(count >= ENOUGH)) return undefined;
+  const plain = { odometry: motionsOf(odometry, from, step, count), reference: motionsOf(reference, from, step, count) };
+  const found = agreement(plain, step);
+  const { score, length, angle } = found;
+  if (score >= AGREES) {
+    if (!isScale(length)) return { name: 'lengths', at: 'reference', score, factor: length, ask: 'lengthUnit' };
+    return isScale(angle) ? undefined : { name: 'degrees', at: angle < 1 ? 'reference' : 'odometry', score, factor: 1, ask: 'angleUnit' };
+  }
+  const tried = (Object.keys(CORRECTIONS) as (keyof typeof CORRECTIONS)[]).flatMap((name) => (['reference', 'odometry'] as const).map((at) => {
+    const corrected = { ...plain, [at]: motionsOf(logs[at], from, step, count, CORRECTIONS[name]) };
+    const fit = agreement(corrected, step);
+    const explains = fit.score >= Math.max(EXPLAINS, score + GAIN) && isScale(fit.length) && isScale(fit.angle);
+    // A correction of the wrong log makes both wrong in the same way: neither robot then drives straight ahead.
+    return { name, at, score: fit.score, factor: 1, rank: explains ? fit.score + straightness(corrected.odometry) + straightness(corrected.reference) : -Infinity };
+  }));
+  const { rank, ...best } = tried.sort((one, other) => other.rank - one.rank)[0];
+  return rank === -Infinity ? undefined : { ...best, ...(best.name === 'degrees' || best.name === 'radians' ? { ask: 'angleUnit' as const } : {}) };
+}
+
+/** Returns the motions of a log in steps after a time. */
+function motionsOf({ data }: Log, from: number, step: number, count: number, correct = (pose: Pose) => pose): Motion[] {
+  const { t, points, headings } = pathOf(data, Math.max(1, Math.floor(data.t.length / (4 * STEPS))));
+  const poseAt = (time: number): Pose => {
+    const next = Math.min(Math.max(bisectLeft(t, time), 1), t.length - 1);
+    const share = (time - t[next - 1]) / (t[next] - t[next - 1]);
+    const [one, other] = [next - 1, next].map((i) => correct([...points[i], headings[i]]));
+    const turn = wrapped(other[2] - one[2]);
+    return [one[0] + share * (other[0] - one[0]), one[1] + share * (other[1] - one[1]), one[2] + share * turn];
+  };
+  const poses = Array.from({ length: count + 1 }, (_, i) => poseAt(from + i * step));
+  return poses.slice(1).map(([x, y, heading], i) => {
+    const [dx, dy, turn] = [x - poses[i][0], y - poses[i][1], wrapped(heading - poses[i][2])];
+    const middle = poses[i][2] + turn / 2;
+    return [dx * Math.cos(middle) + dy * Math.sin(middle), dy * Math.cos(middle) - dx * Math.sin(middle), turn];
+  });
+}
+
+const wrapped = (angle: number) => angle - 2 * Math.PI * Math.round(angle / (2 * Math.PI));
+
+/** Returns the agreement of two logs at the offset of their clocks where it is largest. */
+function agreement({ odometry, reference }: Record<Role, Motion[]>, step: number): Agreement {
+  const most = Math.round(OFFSET / step);
+  const limits = [odometry, reference].map((motions) => [(motion: Motion) => Math.hypot(motion[0], motion[1]), (motion: Motion) => Math.abs(motion[2])].map((size) =>
+    JUMP * Math.max(STANDS, motions.map(size).sort((one, other) => one - other)[Math.floor(0.9 * motions.length)])));
+  const isSteady = ([forward, left, turn]: Motion, [drive, spin]: number[]) => Math.hypot(forward, left) <= drive && Math.abs(turn) <= spin;
+  let best: Agreement = { score: -1, length: 1, angle: 1 };
+  for (let lag = -most; lag <= most; lag++) {
+    // Sums of products: of drives with the odometry's, with each other, with the reference's; and of turns.
+    const sums = [0, 0, 0, 0, 0, 0];
+    let common = 0;
+    for (let i = Math.max(0, -lag); i < odometry.length && i + lag < reference.length; i++) {
+      const [own, its] = [odometry[i], reference[i + lag]];
+      if (!isSteady(own, limits[0]) || !isSteady(its, limits[1])) continue;
+      common += 1;
+      sums[0] += own[0] ** 2 + own[1] ** 2;
+      sums[1] += own[0] * its[0] + own[1] * its[1];
+      sums[2] += its[0] ** 2 + its[1] ** 2;
+      sums[3] += own[2] ** 2;
+      sums[4] += own[2] * its[2];
+      sums[5] += its[2] ** 2;
+    }
+    if (2 * common < odometry.length - most) continue;
+    // A robot that only drives straight on or turns on the spot shows one of the two.
+    const [drives, turns] = [sums.slice(0, 3), sums.slice(3)].map(([own, both, its]) => {
+      const isStanding = Math.sqrt(Math.max(own, its) / common) < STANDS;
+      return isStanding ? { correlation: 1, scale: 1 } : { correlation: both / Math.sqrt(own * its || 1), scale: own / both };
+    });
+    const score = Math.min(drives.correlation, turns.correlation);
+    if (score > best.score) best = { score, length: drives.scale, angle: turns.scale };
+  }
+  return best;
+}
+
+/** Returns by how much a robot drives straight ahead or back: 1 along its heading, 0 in all directions. */
+function straightness(motions: Motion[]): number {
+  let [along, all] = [0, 0];
+  for (const [forward, left] of motions) {
+    along += forward ** 2 - left ** 2;
+    all += forward ** 2 + left ** 2;
+  }
+  return all === 0 ? 1 : along / all;
+}

@@ -210,7 +210,7 @@ test('a log that does not follow the other one names the correction that makes i
     [([t, x, y, yaw]) => [t, y, x, yaw], /its x and y are swapped;/],
     [([t, x, y, yaw]) => [t, x, -y, -yaw], /it turns left where \S+ turns right: /],
     [([t, x, y, yaw]) => [t, x, y, yaw * degree], /its headings are radians and were read as degrees;/, 'angleUnit'],
-    [([t, x, y, yaw]) => [t, 10 * x, 10 * y, yaw], /its lengths times 0\.10 are /, 'lengthUnit'],
+    [([t, x, y, yaw]) => [t, 10 * x, 10 * y, yaw], /its lengths times 0\.098 are /, 'lengthUnit'],
   ])) {
     const wrong = await refusalOf(drivesOf({ 'odom.csv': driven((row) => row), 'truth.csv': driven((row) => change(noisy(row))) }));
     assert.match(wrong.message, sentence);

@@ -43,10 +43,10 @@ test('numbers are the nearest doubles', async () => {
 });
 
 test('rows that cannot be used are dropped with the first line of each cause, and break the path', async () => {
-  const rows = ['0,0,0,0', '1,nan,0,0', '2,,0,0', '3,0,0,0', '3,1,0,0', '4,0,0,0', '5,0,inf,0', 'NaN,0,0,0', '6,0,0,0', '7,0'];
+  const rows = ['0,0,0,0', '1,nan,0,0', '2,,0,0', '3,0,0,0', '3,1,0,0', '4,0,0,0', '5,0,inf,0', 'NaN,0,0,0', '6,0,0,0', '7,0', ...steps(90, 8).map((t) => `${t},0,0,0`), '17,0', '17.1,0,0.0.1,0', '18,0,0,0', '19,0'];
   const { data, summary: { dropped, rows: count, notes } } = await read(`t,x,y,yaw\n${rows.join('\n')}`);
-  assert.deepEqual([[...data.t], [...data.breaks]], [[0, 3, 4, 6], [1, 3]]);
-  assert.deepEqual(dropped, { notFinite: { count: 4, first: 3 }, short: { count: 1, first: 11 }, duplicate: { count: 1, first: 6 } });
+  assert.deepEqual([[...data.t], [...data.breaks]], [[0, 3, 4, 6, ...steps(90, 8), 18], [1, 3, 4, 94]]);
+  assert.deepEqual(dropped, { notFinite: { count: 4, first: 3 }, short: { count: 3, first: 11 }, text: { count: 1, first: 103 }, duplicate: { count: 1, first: 6 } });
   assert.deepEqual([count, notes], [rows.length, [{ name: 'cutShort', values: [] }]]);
 });
 

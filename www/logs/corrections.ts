@@ -41,8 +41,8 @@ const [STEPS, STEP, ENOUGH] = [4000, 0.25, 40];
 /** Largest offset of the clocks in s that is tried, as in the first scan of the core. */
 const OFFSET = 10;
 
-/** Agreement of logs of one drive, agreement that a correction must reach, and the least gain by it. */
-const [AGREES, EXPLAINS, GAIN] = [0.7, 0.8, 0.3];
+/** Agreement of logs that need no correction, agreement that a correction must reach, and the share of the disagreement that it may leave. */
+const [AGREES, EXPLAINS, LEFT] = [0.9, 0.8, 0.3];
 
 /** Scales that no wheel has, as in the core. */
 const isScale = (scale: number) => scale >= 0.5 && scale <= 2;
@@ -67,19 +67,20 @@ export function correctionOf(odometry: Log, reference: Log): Correction | undefi
   const plain = { odometry: motionsOf(odometry, from, step, count), reference: motionsOf(reference, from, step, count) };
   const found = agreement(plain, step);
   const { score, length, angle } = found;
-  if (score >= AGREES) {
-    if (!isScale(length)) return { name: 'lengths', at: 'reference', score, factor: length, ask: 'lengthUnit' };
-    return isScale(angle) ? undefined : { name: 'degrees', at: angle < 1 ? 'reference' : 'odometry', score, factor: 1, ask: 'angleUnit' };
-  }
-  const tried = (Object.keys(CORRECTIONS) as (keyof typeof CORRECTIONS)[]).flatMap((name) => (['reference', 'odometry'] as const).map((at) => {
+  const tried = score >= AGREES ? [] : (Object.keys(CORRECTIONS) as (keyof typeof CORRECTIONS)[]).flatMap((name) => (['reference', 'odometry'] as const).map((at) => {
     const corrected = { ...plain, [at]: motionsOf(logs[at], from, step, count, CORRECTIONS[name]) };
     const fit = agreement(corrected, step);
-    const explains = fit.score >= Math.max(EXPLAINS, score + GAIN) && isScale(fit.length) && isScale(fit.angle);
+    const explains = fit.score >= Math.max(EXPLAINS, 1 - LEFT * (1 - score)) && isScale(fit.length) && isScale(fit.angle);
     // A correction of the wrong log makes both wrong in the same way: neither robot then drives straight ahead.
-    return { name, at, score: fit.score, factor: 1, rank: explains ? fit.score + straightness(corrected.odometry) + straightness(corrected.reference) : -Infinity };
-  }));
-  const { rank, ...best } = tried.sort((one, other) => other.rank - one.rank)[0];
-  return rank === -Infinity ? undefined : { ...best, ...(best.name === 'degrees' || best.name === 'radians' ? { ask: 'angleUnit' as const } : {}) };
+    return { name, at, explains, score: fit.score, rank: fit.score + straightness(corrected.odometry) + straightness(corrected.reference) };
+  })).filter(({ explains }) => explains);
+  if (tried.length > 0) {
+    const best = tried.reduce((one, other) => (other.rank > one.rank ? other : one));
+    return { name: best.name, at: best.at, score: best.score, factor: 1, ...((best.name === 'degrees' || best.name === 'radians') && { ask: 'angleUnit' as const }) };
+  }
+  if (score < EXPLAINS) return undefined;
+  if (!isScale(length)) return { name: 'lengths', at: 'reference', score, factor: length, ask: 'lengthUnit' };
+  return isScale(angle) ? undefined : { name: 'degrees', at: angle < 1 ? 'reference' : 'odometry', score, factor: 1, ask: 'angleUnit' };
 }
 
 /** Returns the motions of a log in steps after a time. */

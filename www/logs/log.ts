@@ -107,7 +107,7 @@ export interface Log {
 }
 
 /** Cause for dropping a row. */
-export type Cause = 'damaged' | 'notFinite' | 'noRotation' | 'noStamp' | 'short' | 'duplicate' | 'repeated' | 'stray' | 'setBack' | 'held';
+export type Cause = 'damaged' | 'notFinite' | 'noRotation' | 'noStamp' | 'short' | 'text' | 'duplicate' | 'repeated' | 'stray' | 'setBack' | 'held';
 
 /** Basis of a decision about a unit: a name, the size of the numbers, rate and speed, the format's definition, dates, an option, or usage without another sign. */
 export type Basis = 'name' | 'size' | 'rate' | 'format' | 'date' | 'option' | 'usage';

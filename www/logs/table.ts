@@ -19,6 +19,11 @@ const HEAD = 2 ** 18;
 /** Most characters of a line: a row of a thousand columns. */
 const LONGEST = 2 ** 16;
 
+/** Share of damaged rows above which a table is refused: it is read in the wrong way, or comes from a broken disk. */
+const MAX_BAD = 0.1;
+
+type Reason = ConstructorParameters<typeof LogError>[1];
+
 /** Most different frames that a sentence lists. */
 const MOST_FRAMES = 4;
 
@@ -144,6 +149,9 @@ class LogReader {
   /** Basis of the unit of times that no name or option states. */
   #basis: Basis = 'usage';
   #notes: Note[] = [];
+  /** Number of damaged rows, and the line and the reason of the first. */
+  #bad = 0;
+  #firstBad: [number, Reason] | undefined;
   #frames = new Set<string>();
   /** Cosines of the robot's tilt, if the vertical axis is Z, and if it is Y: near 1 for the right one. */
   #tilts: [number[], number[]] = [[], []];
@@ -178,7 +186,7 @@ class LogReader {
     if (line === this.#format.header) return this.#leaveOut('notFinite', number);
     const cells = tag === undefined ? cellsOf(line, separator, this.#needed) : carmenCells(line);
     if (cells.length < this.#needed) {
-      if (!isOpen) this.#refuse(number, (say) => say.cells(cells.length, this.#needed));
+      if (!isOpen) return this.#leaveOutBad('short', number, (say) => say.cells(cells.length, this.#needed));
       this.#notes.push({ name: 'cutShort', values: [] });
       return this.#leaveOut('short', number);
     }
@@ -189,17 +197,18 @@ class LogReader {
 
   #add(cells: string[], line: number): void {
     if (this.#readTimes.length === 0 && !this.#startClocks(cells)) return this.#leaveOut('notFinite', line);
-    const times = this.#readTimes.map((read, i) => {
+    const times: Time[] = [];
+    for (const [i, read] of this.#readTimes.entries()) {
       const time = read(cells);
-      if (!time) this.#refuseNumber(line, this.#layout.clocks[i].name, cells[this.#layout.clocks[i].columns[0].at]);
-      return time as Time;
-    });
+      if (!time) return this.#leaveOutText(line, this.#layout.clocks[i].name, cells[this.#layout.clocks[i].columns[0].at]);
+      times.push(time);
+    }
     const values = this.#values;
     const { hasCommas } = this.#format;
     for (let i = 0; i < values.length; i++) {
       const cell = cells[this.#at[i]];
       const value = numberOf(hasCommas ? withPoint(cell) : cell);
-      if (value === undefined) return this.#refuseNumber(line, this.#layout.columns[i]?.name ?? 'z', cell);
+      if (value === undefined) return this.#leaveOutText(line, this.#layout.columns[i]?.name ?? 'z', cell);
       values[i] = value;
     }
     const [[seconds, rest], [otherSeconds, otherRest] = [0, 0]] = times;
@@ -220,9 +229,20 @@ class LogReader {
     this.#upright.add(seconds, rest, z, x, headingOf(qz, qx, qy, qw), line, otherSeconds, otherRest);
   }
 
-  #leaveOut(cause: 'short' | 'noRotation' | 'notFinite', line: number): void {
+  #leaveOut(cause: 'short' | 'text' | 'noRotation' | 'notFinite', line: number): void {
     this.#rows.leaveOut(cause, line);
     this.#upright?.leaveOut(cause, line);
+  }
+
+  /** Leaves out a damaged row. The log is refused for the reason of the first if there are many. */
+  #leaveOutBad(cause: 'short' | 'text', line: number, reason: Reason): void {
+    this.#bad += 1;
+    this.#firstBad ??= [line, reason];
+    this.#leaveOut(cause, line);
+  }
+
+  #leaveOutText(line: number, name: string, cell: string): void {
+    this.#leaveOutBad('text', line, (say) => say.number(cut(name), cut(cell.trim())));
   }
 
   /** Chooses how times are read, by the first row that has one. @returns false where the cell is empty */
@@ -271,6 +291,7 @@ class LogReader {
   end(): Log {
     const { clocks, columns, fields, kind, length, angle } = this.#layout;
     if (kind === 'positions') throw new LogError(this.#place, (say) => say.positions(listed(columns.map(({ name }) => name))));
+    if (this.#firstBad && this.#bad > MAX_BAD * this.#rows.count) this.#refuse(...this.#firstBad);
     if (this.#frames.size > 1) throw new LogError(this.#place, (say) => say.mixed(listed([...this.#frames])));
     const upright = this.#upright && this.#hasYUp() ? this.#upright : undefined;
     if (this.#upright) this.#notes.push({ name: 'upAxis', values: [upright ? 'Y' : 'Z'] });
@@ -297,11 +318,7 @@ class LogReader {
     return isTurning[0] || (!isTurning[1] && y <= z);
   }
 
-  #refuseNumber(line: number, name: string, cell: string): never {
-    return this.#refuse(line, (say) => say.number(cut(name), cut(cell.trim())));
-  }
-
-  #refuse(line: number, reason: ConstructorParameters<typeof LogError>[1]): never {
+  #refuse(line: number, reason: Reason): never {
     throw new LogError({ ...this.#place, line }, reason);
   }
 }

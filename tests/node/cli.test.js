@@ -298,9 +298,11 @@ test('inspect lists what is in a file, and the command to go on with', async () 
     /^ {2}motion-widgets calibrate --recording DIR\/run\.mcap --odometry-topic \/odom --reference-topic '\/vicon\/robot 1' --rule nav2$/m,
   ]) assert.match(listed, line);
   assert.match(await inspected([example('odometry')]), /; give the reference too\.\n\n {2}motion-widgets calibrate --odometry \S+ --reference FILE --rule nav2$/m);
+  const [a, b] = [['b', 'reference'], ['a', 'odometry']].map(([name, from]) => file(`${name}.csv`, readFileSync(example(from))));
+  assert.match(await inspected([a, b]), /\n\n {2}motion-widgets calibrate --odometry DIR\/b\.csv --reference DIR\/a\.csv --rule nav2$/m);
   const positions = file('positions.csv', ['t,odom_x,odom_y,odom_yaw,gt_x,gt_y', ...Array.from({ length: 40 }, (_, i) => `${i / 20},${i / 40},0,0,${i / 40},1`)].join('\n'));
-  const [contents] = JSON.parse(await inspected([positions, '--json'], 2));
-  assert.deepEqual(contents.series.map((/** @type {any} */ { name, rows, uses, summary }) => [name, rows, uses, summary?.seconds]), [['odom_', 40, ['odometry'], 1.95], ['gt_', 0, [], undefined]]);
+  const { recordings: [{ series }], ...contents } = JSON.parse(await inspected([positions, '--json'], 2));
+  assert.deepEqual(series.map((/** @type {any} */ { name, rows, uses, summary }) => [name, rows, uses, summary?.seconds]), [['odom_', 40, ['odometry'], 1.95], ['gt_', 0, [], undefined]]);
   assert.deepEqual([contents.missing.split(';')[0], contents.command], ['positions.csv: gt_x, gt_y are positions without a heading', undefined]);
 });
 

@@ -89,7 +89,8 @@ test('what is not clear is asked', async () => {
     [{ '/odom': 'odometry', '/leica/position': 'point' }, 'geometry_msgs/msg/PointStamped are positions without a heading; '],
     [{ '/rosout': 'text' }, 'the topics are /rosout (String); '],
     [{ '/odom': 'odometry', '/mocap': 'pose' }, 'there is no such topic; expected is one of /mocap, /odom.', 'series', 'reference', ['/mocap', '/odom'], [], { reference: { series: '/moc' } }],
-    [{ '/odom': 'odometry', '/mocap': 'pose' }, 'it is given twice; ', undefined, undefined, undefined, [], { odometry: { series: '/odom' }, reference: { series: '/odom' } }],
+    [{ '/odom': 'odometry', '/mocap': 'pose' }, '/odom is the odometry itself; ', 'series', 'reference', ['/mocap'], [], { reference: { series: '/odom' } }],
+    [{ '/tf': 'tf' }, 'odom → base is the odometry itself; ', 'series', 'reference', [], ['odom base', 'mocap robot'], { reference: { frames: { parent: 'odom', child: 'base' } } }],
   ])) {
     const { message, ask } = await refusalOf(planned([recording(series, {}, frames)], wishes));
     assert.ok(message.startsWith('run.mcap') && message.includes(`: ${sentence}`), message);

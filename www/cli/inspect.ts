@@ -1,7 +1,7 @@
-/** Command `inspect`: the contents of a recording, and the command to go on with. */
+/** Command `inspect`: the contents of recordings, and the command to go on with. */
 
 import { candidates, isLocalizer, isTable, usefulSeries } from '../logs/candidates.ts';
-import { planDrives } from '../logs/drives.ts';
+import { planDrives, type Part } from '../logs/drives.ts';
 import { log as words } from '../logs/en.ts';
 import { LogError } from '../logs/log-error.ts';
 import { ROLES, framesOption, framesText, type Choice, type Log, type Recording, type Role, type Summary } from '../logs/log.ts';
@@ -12,43 +12,54 @@ import { aligned } from './report.ts';
 const FORMATS: Partial<Record<Recording['format'], string>> = { mcap: 'MCAP recording', rosbag: 'ROS 1 bag', sqlite: 'rosbag2 SQLite recording', csv: 'table', tum: 'TUM table' };
 
 /** Contents of a recording. */
-export interface Inspected {
+export interface Contents {
   name: string;
   format: Recording['format'];
   series: { name: string; type: string; rows: number; uses: string[]; summary?: Summary; sentences?: string[] }[];
   /** Sentences about series that cannot be read. */
   refused: string[];
+}
+
+/** Contents of all recordings that are given together. */
+export interface Inspected {
+  recordings: Contents[];
   /** Sentence about what a calibration still needs. */
   missing?: string;
   /** Command to go on with; undefined where nothing can be used. */
   command?: string;
 }
 
-/** Returns the contents of a recording, with the logs that could be odometry or reference. */
-export async function inspect(recording: Recording, path: string, onProgress?: (share: number | undefined) => void): Promise<Inspected> {
+/** Recording with the path that a command names it by. */
+export interface Given { recording: Recording; path: string }
+
+/** Returns the contents of recordings, with the logs that could be odometry or reference. */
+export async function inspect(given: Given[], onProgress?: (share: number | undefined) => void): Promise<Inspected> {
+  const recordings: Contents[] = [];
+  for (const { recording } of given) recordings.push(await contentsOf(recording, onProgress));
+  onProgress?.(undefined);
+  const isRefused = recordings.some(({ series, refused }) => refused.length > 0 && !series.some(({ summary }) => summary));
+  return { recordings, ...(isRefused ? {} : nextOf(given)) };
+}
+
+async function contentsOf(recording: Recording, onProgress?: (share: number | undefined) => void): Promise<Contents> {
   const { name, format } = recording;
   const uses = new Map(recording.series.map(({ name: its }) => [its, usesOf(recording, its)]));
   const { logs, reasons } = await read(recording, usefulSeries(recording).filter(({ name: its, kind }) => kind !== 'transforms' && uses.get(its)?.length).map(({ name: its }) => its), onProgress);
-  onProgress?.(undefined);
   const series = recording.series.map(({ name: its, type, count }) => {
     const log = logs.get(its);
     return { name: its, type, rows: log?.summary.rows ?? count, uses: uses.get(its) ?? [], ...(log && { summary: log.summary, sentences: summarize(log, words.found) }) };
   });
-  return { name, format, series, refused: reasons, ...(reasons.length > 0 && logs.size === 0 ? {} : nextOf(recording, path)) };
+  return { name, format, series, refused: reasons };
 }
 
 /** Returns the contents as text. */
-export function textOfContents({ name, format, series, refused, missing, command }: Inspected): string {
-  const rows = series.map(({ name: its, type, rows: count, uses, summary }) => [its || '(all columns)', type, String(count || ''), summary ? `${summary.rate.toPrecision(3)} Hz` : '', uses.join(' or ')]);
-  const found = series.flatMap(({ name: its, sentences = [] }) => sentences.map((line, i) => (i > 0 ? `  ${line}` : its ? `${its}: ${line}` : line)));
-  return [
-    `${name}: ${FORMATS[format] ?? format}`,
-    ...[...aligned([[isTable({ format }) ? 'columns' : 'topic', 'type', 'rows', 'rate', 'could be'], ...rows]), ...found].map((line) => `  ${line}`),
-    ...refused,
-    ...(missing ? [missing] : []),
-    ...(command ? ['', `  ${command}`] : []),
-    '',
-  ].join('\n');
+export function textOf({ recordings, missing, command }: Inspected): string {
+  const lines = recordings.flatMap(({ name, format, series, refused }) => {
+    const rows = series.map(({ name: its, type, rows: count, uses, summary }) => [its || '(all columns)', type, String(count || ''), summary ? `${summary.rate.toPrecision(3)} Hz` : '', uses.join(' or ')]);
+    const found = series.flatMap(({ name: its, sentences = [] }) => sentences.map((line, i) => (i > 0 ? `  ${line}` : its ? `${its}: ${line}` : line)));
+    return [`${name}: ${FORMATS[format] ?? format}`, ...[...aligned([[isTable({ format }) ? 'columns' : 'topic', 'type', 'rows', 'rate', 'could be'], ...rows]), ...found].map((line) => `  ${line}`), ...refused];
+  });
+  return [...lines, ...(missing ? [missing] : []), ...(command ? ['', `  ${command}`] : []), ''].join('\n');
 }
 
 /** Says what a series could be. */
@@ -79,24 +90,28 @@ async function read(recording: Recording, names: string[], onProgress?: (share: 
   return { logs, reasons };
 }
 
-/** Returns the command that calibrates from the recording, or what it lacks. */
-function nextOf(recording: Recording, path: string): Pick<Inspected, 'command' | 'missing'> {
+/** Returns the command that calibrates from the recordings, or what they lack. */
+function nextOf(given: Given[]): Pick<Inspected, 'command' | 'missing'> {
   const quoted = (text: string) => (/^[\w./,@%+=:-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`);
-  const optionsOf = (role: Role, { series, frames }: Choice) => [
-    ...(series ? [`--${role}-topic ${quoted(series)}`] : []),
-    ...(frames ? [`--${role}-frames ${quoted(framesOption(frames))}`] : []),
-  ];
-  const command = (...options: string[]) => ['motion-widgets calibrate', ...options, '--rule nav2'].join(' ');
+  const pathOf = ({ recording }: Pick<Part, 'recording'>) => quoted(given.find((each) => each.recording === recording)?.path ?? recording.name);
+  const command = (...options: string[]) => ['motion-widgets calibrate', ...new Set(options), '--rule nav2'].join(' ');
+  const all = given.map(({ recording }) => `--recording ${pathOf({ recording })}`);
   try {
-    const { drives: [drive] } = planDrives([recording]);
-    return { command: command(`--recording ${quoted(path)}`, ...ROLES.flatMap((role) => optionsOf(role, drive[role].choice))) };
+    const { drives, unpaired } = planDrives(given.map(({ recording }) => recording));
+    const choices = ROLES.flatMap((role) => [...drives.map((drive) => drive[role]), ...unpaired[role]].flatMap(({ choice: { series, frames } }) => [
+      ...(series ? [`--${role}-topic ${quoted(series)}`] : []),
+      ...(frames ? [`--${role}-frames ${quoted(framesOption(frames))}`] : []),
+    ]));
+    return { command: command(...drives.map(({ odometry }) => `--recording ${pathOf(odometry)}`), ...ROLES.flatMap((role) => unpaired[role].map((part) => `--${role} ${pathOf(part)}`)), ...choices) };
   } catch (error) {
     if (!(error instanceof LogError)) throw error;
     const missing = error.message;
-    const [role] = ROLES.filter((each) => candidates(recording, each).some(({ length }) => length > 0));
-    if (error.ask?.what === 'other' && role) return { missing, command: command(`--${role} ${quoted(path)}`, role === 'odometry' ? '--reference FILE' : '--odometry FILE') };
-    if (error.ask?.what === 'series') return { missing, command: command(`--recording ${quoted(path)}`, '--odometry-topic NAME', '--reference-topic NAME') };
-    if (error.ask?.what === 'frames') return { missing, command: command(`--recording ${quoted(path)}`, '--odometry-frames PARENT,CHILD', '--reference-frames PARENT,CHILD') };
-    return { missing };
+    const [role] = ROLES.filter((each) => given.some(({ recording }) => candidates(recording, each).some(({ length }) => length > 0)));
+    switch (error.ask?.what) {
+      case 'other': return { missing, ...(role && { command: command(`--${role} ${pathOf(given[0])}`, role === 'odometry' ? '--reference FILE' : '--odometry FILE') }) };
+      case 'series': return { missing, command: command(...all, '--odometry-topic NAME', '--reference-topic NAME') };
+      case 'frames': return { missing, command: command(...all, '--odometry-frames PARENT,CHILD', '--reference-frames PARENT,CHILD') };
+      default: return { missing };
+    }
   }
 }

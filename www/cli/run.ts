@@ -7,7 +7,7 @@ import { LogError, cut } from '../logs/log-error.ts';
 import { logOf } from '../logs/pairs.ts';
 import { summarize } from '../logs/summary.ts';
 import { recordingsOf } from './files.ts';
-import { inspect, textOfContents, type Inspected } from './inspect.ts';
+import { inspect, textOf as textOfContents, type Given } from './inspect.ts';
 import { HELP, UsageError, optionsOf, withOption, type Calibrate } from './options.ts';
 import { plotOf } from './plot.ts';
 import { jsonOf, logSummaries, textOf, yamlOf, type Result } from './report.ts';
@@ -36,16 +36,11 @@ export async function run(args: string[], environment: Environment): Promise<num
     if (options === 'help') print(HELP);
     else if (options === 'version') print(`${environment.version}\n`);
     else if (options.command === 'inspect') {
-      const all: Inspected[] = [];
-      for (const input of options.inputs) {
-        for (const recording of await recordingsOf(input, onSkip)) {
-          const contents = await inspect(recording, input.path, onProgress);
-          all.push(contents);
-          if (!options.isJson) print(textOfContents(contents));
-        }
-      }
-      if (options.isJson) print(`${JSON.stringify(all, undefined, 1)}\n`);
-      if (all.some(({ command }) => command === undefined)) return BAD_INPUT;
+      const given: Given[] = [];
+      for (const input of options.inputs) for (const recording of await recordingsOf(input, onSkip)) given.push({ recording, path: input.path });
+      const contents = await inspect(given, onProgress);
+      print(options.isJson ? `${JSON.stringify(contents, undefined, 1)}\n` : textOfContents(contents));
+      if (contents.command === undefined) return BAD_INPUT;
     } else return await calibrate(options, environment, onSkip);
     return SUCCESS;
   } catch (error) {

@@ -2,7 +2,7 @@
 
 import { candidates, isTable, namesFor, roleByName, seriesNamed, usefulSeries } from './candidates.ts';
 import { LogError, listed } from './log-error.ts';
-import { ROLES, framesOption, type Choice, type Frames, type Log, type LogKind, type Recording, type Role, type Series } from './log.ts';
+import { ROLES, framesOption, framesText, type Choice, type Frames, type Log, type LogKind, type Recording, type Role, type Series } from './log.ts';
 import { isSamePath, pairLogs, pairedByTime, withStart, type Drive } from './pairs.ts';
 
 export type { Drive };
@@ -59,21 +59,22 @@ export function planDrives(recordings: Recording[], wishes: Wishes = {}): Plan {
   return plan;
 }
 
-/** Returns the role of a recording among several; undefined where it has one log and no telling name. */
+/** Returns the role of a recording among several; undefined where it has one log, and neither its name nor speeds of its own tell. */
 function onlyRole(recording: Recording, wishes: Wishes): Role | 'both' | undefined {
-  const succeeds = (work: () => unknown) => {
-    try {
-      work();
-      return true;
-    } catch (error) {
-      if (error instanceof LogError) return false;
-      throw error;
-    }
-  };
-  if (succeeds(() => bothOf(recording, wishes))) return 'both';
-  const [isOdometry, isReference] = ROLES.map((role) => succeeds(() => choose(recording, role, wishes)));
+  if (attempted(() => bothOf(recording, wishes))) return 'both';
+  const [isOdometry, isReference] = ROLES.map((role) => attempted(() => choose(recording, role, wishes)) !== undefined);
   if (isOdometry !== isReference) return isOdometry ? 'odometry' : 'reference';
-  return isOdometry ? roleByName(recording.name) : 'both';
+  return isOdometry ? roleByName(recording.name) ?? (recording.series.some(({ hasCommands }) => hasCommands) ? 'odometry' : undefined) : 'both';
+}
+
+/** Returns what a function returns, or undefined where it throws a LogError. */
+function attempted<Result>(work: () => Result): Result | undefined {
+  try {
+    return work();
+  } catch (error) {
+    if (error instanceof LogError) return undefined;
+    throw error;
+  }
 }
 
 /** Chooses both logs of one recording. */
@@ -81,9 +82,12 @@ function bothOf(recording: Recording, wishes: Wishes): Record<Role, Part> {
   // A stated choice is not guessed for the other role.
   const { series, frames } = wishes.reference ?? {};
   const stated = series !== undefined || frames ? choose(recording, 'reference', wishes) : undefined;
-  const odometry = choose(recording, 'odometry', wishes, stated);
+  const odometry = attempted(() => choose(recording, 'odometry', wishes, stated)) ?? choose(recording, 'odometry', wishes);
   const reference = stated ?? choose(recording, 'reference', wishes, odometry);
-  if (isSame(odometry, reference)) throw new LogError({ file: recording.name, topic: reference.series }, (say) => say.givenTwice);
+  if (isSame(odometry, reference)) {
+    const ask = { what: 'series' as const, role: 'reference' as const, choices: namesFor(recording, 'reference').filter((name) => name !== reference.series) };
+    throw new LogError({ file: recording.name, topic: reference.series }, (say) => say.ownReference(reference.frames ? framesText(reference.frames) : reference.series), ask);
+  }
   return { odometry: { recording, choice: odometry }, reference: { recording, choice: reference } };
 }
 
@@ -145,9 +149,10 @@ function guessed(recording: Recording, role: Role, wishes: Wishes, other?: Choic
   );
 }
 
-/** Returns the role of the only series of a recording, by its name or type; undefined where neither says it. */
-function knownRole({ name: file }: Recording, { name, type, kind }: Series): Role | undefined {
-  return roleByName(name || file) ?? (kind === 'commands' || /Odometry$/.test(type) ? 'odometry' : undefined);
+/** Returns the role of the only series of a recording, by its contents, or else by the name of the file; undefined where neither says it. */
+function knownRole({ name: file }: Recording, { name, type, kind, hasCommands }: Series): Role | undefined {
+  if (kind === 'commands') return 'odometry';
+  return roleByName(name) ?? (hasCommands || /Odometry$/.test(type) ? 'odometry' : roleByName(file));
 }
 
 /** Reads the logs of a plan, and pairs them, with the times of all after one start; rejects with a LogError. */

@@ -146,7 +146,7 @@ export const log = {
     /** Errors of two logs. */
     same: (other: string) => `it has the same motion as ${other}; give two independent measurements of one drive.`,
     givenTwice: 'it is given twice; give two independent measurements of one drive, odometry and reference.',
-    ownChain: (frames: string) => `${frames} is the odometry’s own transform; give a reference that does not come from the wheels, such as motion capture or scan matching.`,
+    ownReference: (name: string) => `${name} is the odometry itself; choose a reference that does not come from the wheels, such as motion capture or scan matching.`,
     correction: (name: Correction['name'], other: string, score: number, factor: number) => `${CORRECTIONS[name](other, factor)}. The motions then agree (correlation ${score.toFixed(2)}).`,
     held: 'its pose stands while the odometry moves on: it has lost the robot; give one that follows the robot.',
     /** Errors of several recordings. */

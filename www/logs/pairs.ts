@@ -59,7 +59,7 @@ export function pairLogs(odometry: Log, reference: Log): Drive {
   const place = { file: reference.name };
   if (reference.kind === 'commands') throw new LogError(place, (say) => say.noColumns('poses', 't, v, omega'));
   const { frames } = reference.summary;
-  if (frames?.parent === 'odom') throw new LogError(place, (say) => say.ownChain(framesText(frames)));
+  if (frames?.parent === 'odom') throw new LogError(place, (say) => say.ownReference(framesText(frames)));
   const start = Math.min(odometry.start, reference.start);
   const [first, second] = [withStart(odometry, start), withStart(reference, start)];
   if (isSamePath(first, second)) throw new LogError(place, (say) => (reference.name === odometry.name ? say.givenTwice : say.same(odometry.name)));

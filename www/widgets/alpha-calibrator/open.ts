@@ -234,12 +234,12 @@ function planOf(reader: Reader, { recordings, wishes, roles }: Chosen, kind: 'co
 /** Returns what a plan reads, as a text that can be compared. */
 const choicesOf = (plan: Plan | undefined) => JSON.stringify(plan && [plan.drives, plan.unpaired]);
 
-/** Returns the files of a log, and the topic of its reference where one recording has both. */
+/** Returns the files of a log, and the topics of both where one recording has them. */
 function nameOf({ drives, unpaired }: Plan, reader: Reader) {
   const parts = [...drives.map(({ odometry }) => odometry), ...unpaired.odometry, ...unpaired.reference];
   const names = parts.map(({ recording }) => recording.name);
   const [only] = parts.length === 1 ? drives : [];
-  return [...names.slice(0, MOST_NAMES), ...(names.length > MOST_NAMES ? ['…'] : []), ...(only ? [reader.labelOf(only.reference.choice)] : [])].join(', ');
+  return [...names.slice(0, MOST_NAMES), ...(names.length > MOST_NAMES ? ['…'] : []), ...(only ? [only.odometry, only.reference].map(({ choice }) => reader.labelOf(choice)) : [])].filter(Boolean).join(', ');
 }
 
 /** Loads what plans drives and shows them. */

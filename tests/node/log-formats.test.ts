@@ -4,6 +4,7 @@ import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { test } from 'node:test';
 import { gunzipSync } from 'node:zlib';
+import xxhash from 'xxhash-wasm';
 import { OTHERS, log as english } from '../../www/logs/en.ts';
 import { unlz4 } from '../../www/logs/formats/lz4.ts';
 import type { Choice, Commands, Log, Poses, Recording, Source } from '../../www/logs/log.ts';
@@ -156,26 +157,25 @@ test('a damaged message is dropped, and a file of damaged headers or compression
   assert.match(await sentenceOf(readDamaged('sqlite-file-sqlite-file.db3.zstd', 4000)), /none of its messages can be read \(.+\); expected/);
 });
 
-test('LZ4 frames of another size are refused, and damaged ones give an error or the stated size, never another exception', () => {
+test('LZ4 frames of another size are refused, and any damage to one with checksums', async () => {
   const bytes = bytesOf('lz4.mcap');
   // Header of the first chunk: the size of its records, a checksum, the compression, the size of the frame.
   const at = bytes.indexOf('lz4');
   const [size, length] = [at - 16, at + 3].map((from) => Number(bytes.readBigUInt64LE(from)));
   const frame = bytes.subarray(at + 11, at + 11 + length);
-  const records = unlz4(frame, size);
-  for (const other of [size - 1, size + 1]) assert.throws(() => unlz4(frame, other), RangeError);
-  // A block of the frame may have a checksum.
-  const flagged = Buffer.concat([frame.subarray(0, -4), Buffer.alloc(4, 1), frame.subarray(-4)]);
-  flagged[4] |= 0x10;
-  assert.deepEqual(unlz4(flagged, size), records);
-  for (let i = 0; i < length; i++) {
-    const damaged = Buffer.from(frame);
+  const records = await unlz4(frame, size);
+  for (const other of [size - 1, size + 1]) await assert.rejects(unlz4(frame, other), RangeError);
+  // The only block and the contents have a checksum each.
+  const { h32Raw } = await xxhash();
+  const checksum = (part: Uint8Array) => Buffer.from(Uint32Array.of(h32Raw(part)).buffer);
+  const from = frame[4] & 0x08 ? 15 : 7;
+  const flagged = Buffer.concat([frame.subarray(0, -4), checksum(frame.subarray(from + 4, -4)), frame.subarray(-4), checksum(records)]);
+  flagged[4] |= 0x14;
+  assert.deepEqual(await unlz4(flagged, size), records);
+  for (let i = from + 4; i < flagged.length; i++) {
+    const damaged = Buffer.from(flagged);
     damaged[i] ^= 17;
-    try {
-      unlz4(damaged, size);
-    } catch (error) {
-      assert.ok(error instanceof RangeError, String(error));
-    }
+    await assert.rejects(unlz4(damaged, size), RangeError);
   }
 });
 

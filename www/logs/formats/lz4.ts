@@ -3,7 +3,7 @@
 const MAGIC = 0x184d2204;
 
 /** Bits of the flags. */
-const [VERSION, VERSION_1, BLOCK_CHECKSUMS, CONTENT_SIZE, DICTIONARY] = [0xc0, 0x40, 0x10, 0x08, 0x01];
+const [VERSION, VERSION_1, BLOCK_CHECKSUMS, CONTENT_SIZE, CHECKSUM, DICTIONARY] = [0xc0, 0x40, 0x10, 0x08, 0x04, 0x01];
 
 /** Bit in the length of a block that is not compressed. */
 const PLAIN = 0x80000000;
@@ -15,17 +15,25 @@ function check(condition: boolean): void {
   if (!condition) throw new RangeError('a damaged LZ4 frame');
 }
 
-/** Decompresses a frame; throws a RangeError if it is damaged, or its contents have another size. Checksums are not checked. */
-export function unlz4(bytes: Uint8Array, size: number): Uint8Array<ArrayBuffer> {
+/** Hash of checksums, loaded with the first frame that has one. */
+let hash: ((bytes: Uint8Array) => number) | undefined;
+
+/** Decompresses a frame; rejects with a RangeError if it is damaged, its contents have another size, or a checksum is wrong. */
+export async function unlz4(bytes: Uint8Array, size: number): Promise<Uint8Array<ArrayBuffer>> {
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
   const flags = view.getUint8(4);
   check(view.getUint32(0, true) === MAGIC && (flags & VERSION) === VERSION_1 && !(flags & DICTIONARY));
+  if (flags & (BLOCK_CHECKSUMS | CHECKSUM)) hash ??= (await (await import('xxhash-wasm')).default()).h32Raw;
+  const verify = (part: Uint8Array, at: number) => check(hash?.(part) === view.getUint32(at, true));
   const out = new Uint8Array(size);
   let filled = 0;
   // Magic number, two bytes of flags, the size if there is one, and a checksum come first.
   for (let at = 7 + (flags & CONTENT_SIZE ? 8 : 0); ; ) {
     const word = view.getUint32(at, true);
-    if (word === 0) break;
+    if (word === 0) {
+      if (flags & CHECKSUM) verify(out, at + 4);
+      break;
+    }
     const from = at + 4;
     const to = from + (word & ~PLAIN);
     check(to <= bytes.length);
@@ -35,6 +43,7 @@ export function unlz4(bytes: Uint8Array, size: number): Uint8Array<ArrayBuffer> 
     } else {
       filled = decompressBlock(bytes.subarray(from, to), out, filled);
     }
+    if (flags & BLOCK_CHECKSUMS) verify(bytes.subarray(from, to), to);
     at = to + (flags & BLOCK_CHECKSUMS ? 4 : 0);
   }
   check(filled === size);

@@ -82,7 +82,7 @@ class Mcap implements Container {
         if (chunkLength > MAX_BLOCK) throw new RangeError(`a chunk of ${chunkLength} bytes`);
         const bytes = await bytesAt(from, from + Number(chunkLength));
         if (bytes[0] !== CHUNK) throw new RangeError('no chunk is there');
-        this.#readRecords(contentsOf(bytes.subarray(HEAD)), isWanted, each);
+        this.#readRecords(await contentsOf(bytes.subarray(HEAD)), isWanted, each);
       });
       if (onProgress?.((i + 1) / chunks.length)) return;
     }
@@ -105,7 +105,7 @@ class Mcap implements Container {
         await this.#attempt(at, async () => {
           if (length > MAX_BLOCK) throw new RangeError(`a record of ${length} bytes`);
           const record = await bytesAt(at, next);
-          this.#readRecords(head[0] === CHUNK ? contentsOf(record.subarray(HEAD)) : record, isWanted, each);
+          this.#readRecords(head[0] === CHUNK ? await contentsOf(record.subarray(HEAD)) : record, isWanted, each);
         });
       }
       at = next;
@@ -148,8 +148,8 @@ class Mcap implements Container {
   }
 }
 
-/** Returns the records of a chunk; throws an error if it is damaged, or its compression is unknown. */
-function contentsOf(chunk: Uint8Array): Uint8Array {
+/** Returns the records of a chunk; rejects if it is damaged, or its compression is unknown. */
+async function contentsOf(chunk: Uint8Array): Promise<Uint8Array> {
   const view = viewOf(chunk);
   const [size, crc, length] = [view.getBigUint64(16, true), view.getUint32(24, true), view.getUint32(28, true)];
   if (size > MAX_BLOCK) throw new RangeError(`a chunk of ${size} bytes`);
@@ -157,7 +157,7 @@ function contentsOf(chunk: Uint8Array): Uint8Array {
   const bytes = chunk.subarray(40 + length);
   const decompress = { '': () => bytes, zstd: () => unzstd(bytes, Number(size)), lz4: () => unlz4(bytes, Number(size)) }[compression];
   if (!decompress) throw new RangeError(`compression by ${compression}, not by zstd or lz4`);
-  const contents = decompress();
+  const contents = await decompress();
   if (crc !== 0 && crc32(contents) !== crc) throw new RangeError('the checksum of a chunk is wrong');
   return contents;
 }

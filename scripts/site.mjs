@@ -1,0 +1,150 @@
+// `npm run build:site`: gallery, reference, documents and rustdoc as static files, in build/site/. Examples in HTML are live below
+// their text.
+
+import { cpSync, mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { join, posix } from 'node:path';
+import { build } from './build.mjs';
+import { WIDGETS, filesOf } from './bundle.mjs';
+import { Missing, ROOT, mustRun, progress, runAsScript } from './process.mjs';
+import { ensurePackages, nativeRust } from './toolchain.mjs';
+
+const SITE = join(ROOT, 'build/site');
+const { homepage } = JSON.parse(readFileSync(join(ROOT, 'package.json'), 'utf8'));
+const SOURCES = homepage.replace('#readme', '/blob/main/');
+
+/** Links at the top of every page, by their address from the root of the site. */
+const TOP = {
+  'index.html': 'Figures',
+  'start.html': 'Start',
+  'doc/exercises.html': 'Exercises',
+  'doc/embedding.html': 'Embedding',
+  'reference.html': 'Elements',
+  'doc/programming.html': 'JavaScript and Rust',
+  'rust/motion/index.html': 'Crate',
+  'doc/index.html': 'Documents',
+};
+
+/** A figure with its content. */
+const FIGURE = new RegExp(`<(${WIDGETS.join('|')})[^>]*>.*?</\\1>`, 'gs');
+
+/** Returns the address of the page of a document. */
+const pageOf = (/** @type {string} */ path) => path.replace(/^README\.md$/, 'start.md').replace(/\bREADME\.md$/, 'index.md').replace(/md$/, 'html');
+
+/** Returns a relative link from one page to another. */
+const between = (/** @type {string} */ page, /** @type {string} */ target) => '../'.repeat(page.split('/').length - 1) + target;
+
+const escaped = (text = '') => text.replaceAll('&', '&amp;').replaceAll('<', '&lt;').replaceAll('"', '&quot;');
+
+/** Returns the anchor of a heading, as GitHub makes it. */
+const anchorOf = (/** @type {string} */ heading) => heading.toLowerCase().replace(/[^\p{L}\p{N} _-]/gu, '').replaceAll(' ', '-');
+
+/** @param {string} page */
+const navigation = (page) => {
+  const links = Object.entries(TOP).map(([to, name]) => `<a href="${between(page, to)}"${to === page ? ' aria-current="page"' : ''}>${name}</a>`);
+  return `<nav class="site" aria-label="Site">${links.join('\n')}\n<a href="${homepage}">Source</a></nav>`;
+};
+
+/** Returns the address of the page that a code in a sentence or a table stands for: a frame with a figure, for its tag. */
+function addressOf(/** @type {string} */ code) {
+  if (code in TOP) return code;
+  const [, widget, rest] = code.match(/^<([a-z-]+)((?: [a-z-]+(?:="[^"]*")?)+)>$/) ?? [];
+  if (!WIDGETS.includes(widget)) return undefined;
+  const attributes = [...rest.matchAll(/([a-z-]+)(?:="([^"]*)")?/g)].map(([, name, value = '']) => [name, value]);
+  return `embed.html?${new URLSearchParams([['widget', widget], ...attributes])}`;
+}
+
+/**
+ * @param {typeof import('marked')} marked
+ * @param {string} document
+ * @param {string[]} documents
+ * @returns {string} its page
+ */
+function rendered({ Marked }, document, documents) {
+  const page = pageOf(document);
+  const linkOf = (/** @type {string} */ href) => {
+    if (/^(https?:|#)/.test(href)) return href;
+    const [path, anchor] = href.split('#');
+    const target = posix.join(posix.dirname(document), path);
+    return (documents.includes(target) ? between(page, pageOf(target)) : SOURCES + target) + (anchor ? `#${anchor}` : '');
+  };
+  const seen = new Set();
+  const text = readFileSync(join(ROOT, document), 'utf8');
+  const html = new Marked({
+    walkTokens: (token) => void (token.type === 'link' && (token.href = linkOf(token.href))),
+    renderer: {
+      heading({ tokens, depth }) {
+        const words = this.parser.parseInline(tokens);
+        return `<h${depth} id="${anchorOf(this.parser.parseInline(tokens, this.parser.textRenderer))}">${words}</h${depth}>\n`;
+      },
+      image: ({ href, text }) => `<img src="${escaped(href)}" alt="${escaped(text)}">`,
+      codespan({ text }) {
+        const address = addressOf(text);
+        const code = `<code>${escaped(text)}</code>`;
+        return address ? `<a href="${between(page, escaped(address))}">${code}</a>` : code;
+      },
+      code({ text, lang }) {
+        const figures = lang === 'html' ? (text.match(FIGURE) ?? []).filter((figure) => !figure.includes('[') && !seen.has(figure)) : [];
+        for (const figure of figures) seen.add(figure);
+        return `<pre><code>${escaped(text)}</code></pre>\n${figures.join('\n')}\n`;
+      },
+    },
+  }).parse(text, { async: false });
+  return `<!doctype html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<title>${escaped(text.match(/^# (.*)$/m)?.[1])}</title>
+<link rel="icon" href="data:,">
+<link rel="stylesheet" href="${between(page, '')}page.css">
+<link rel="stylesheet" href="${between(page, '')}motion-widgets.css">
+<link rel="stylesheet" href="${between(page, '')}site.css">
+${seen.size > 0 ? `<script type="module" src="${between(page, '')}external.js"></script>` : ''}
+</head>
+<body>
+${navigation(page)}
+<main class="document">
+${html.replaceAll('<table>', '<div class="table"><table>').replaceAll('</table>', '</table></div>')}</main>
+</body>
+</html>
+`;
+}
+
+/** Throws when a page links to a file or a heading that is not there. */
+function checkLinks() {
+  const files = new Set(filesOf('build/site'));
+  const own = [...files].filter((path) => /^build\/site\/(?!rust|classroom).*html$/.test(path));
+  const pages = new Map(own.map((path) => [path, readFileSync(join(ROOT, path), 'utf8')]));
+  const links = /\s(?:href|src)="(?!https?:|data:)([^"?#]*)[^"#]*#?([^"]*)"/g;
+  const missing = [...pages].flatMap(([page, text]) => [...text.matchAll(links)].flatMap(([, path, anchor]) => {
+    const target = path === '' ? page : posix.join(posix.dirname(page), path);
+    const found = files.has(target) && (anchor === '' || !pages.has(target) || pages.get(target)?.includes(`id="${decodeURIComponent(anchor)}"`));
+    return found ? [] : [`${page}: ${path}${anchor && `#${anchor}`}`];
+  }));
+  if (missing.length > 0) throw new Missing(`Links lead nowhere:\n${missing.join('\n')}`);
+}
+
+await runAsScript(import.meta.url, async () => {
+  await build();
+  await ensurePackages('scripts');
+  const rust = await nativeRust();
+  progress('Documenting the crate');
+  const options = ['--quiet', '--locked', '--no-deps', '--lib', '--target-dir', join(ROOT, 'build/rustdoc')];
+  await mustRun('The crate is not documented: see above.', join(rust.bin, 'cargo'), ['doc', ...options], { env: rust.env });
+  progress('Rendering the documents');
+  rmSync(SITE, { recursive: true, force: true });
+  cpSync(join(ROOT, 'dist'), SITE, { recursive: true, filter: (path) => !/(\.d\.ts|\.map|cli\.js|motion-widgets\.js)$/.test(path) });
+  cpSync(join(ROOT, 'build/rustdoc/doc'), join(SITE, 'rust'), { recursive: true });
+  cpSync(join(ROOT, 'scripts/site.css'), join(SITE, 'site.css'));
+  for (const path of ['index.html', 'reference.html']) {
+    const text = readFileSync(join(SITE, path), 'utf8').replace('src="./motion-widgets.js"', 'src="./external.js"');
+    writeFileSync(join(SITE, path), text.replace('</head>', '<link rel="stylesheet" href="./site.css" />\n</head>').replace(/<body[^>]*>/, `$&\n${navigation(path)}`));
+  }
+  const marked = await import('marked');
+  const documents = ['README.md', ...filesOf('doc').filter((path) => path.endsWith('.md'))];
+  mkdirSync(join(SITE, 'doc/embedding'), { recursive: true });
+  for (const document of documents) writeFileSync(join(SITE, pageOf(document)), rendered(marked, document, documents));
+  cpSync(join(ROOT, 'doc/morph.webp'), join(SITE, 'doc/morph.webp'));
+  checkLinks();
+  console.log('\nThe site is in build/site/.');
+});

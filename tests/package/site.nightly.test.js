@@ -1,0 +1,44 @@
+// The site that `npm run build:site` writes: each page on a phone, and the figures on it. The script itself checks the links.
+
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { join } from 'node:path';
+import { after, before, test } from 'node:test';
+import { filesOf } from '../../scripts/bundle.mjs';
+import { ROOT } from '../../scripts/process.mjs';
+import { serve } from '../../scripts/serve.mjs';
+import { launch, listen } from './support.js';
+
+/** @type {import('@playwright/test').Browser} */
+let browser;
+/** @type {Awaited<ReturnType<typeof serve>>} */
+let server;
+
+before(async () => {
+  execFileSync(process.execPath, [join(ROOT, 'scripts/site.mjs')], { stdio: 'inherit' });
+  server = await serve(join(ROOT, 'build/site'), { port: 0, base: '/book/' });
+  browser = await launch();
+});
+
+after(async () => {
+  await browser?.close();
+  server?.close();
+});
+
+test('pages fit a phone, load without complaints, and start their figures', async () => {
+  const page = await browser.newPage({ viewport: { width: 375, height: 800 } });
+  const complaints = listen(page);
+  const paths = filesOf('build/site').map((path) => path.slice('build/site/'.length)).filter((path) => /^(?!rust|classroom|embed\.).*html$/.test(path));
+  let figures = 0;
+  for (const path of paths) {
+    await page.goto(server.address + path);
+    assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), `${path} is too wide`);
+    for (const figure of await page.locator('.stand > *, .document > :is(banana-machine, map-squeeze)').all()) {
+      await figure.evaluate((element) => element.scrollIntoView());
+      await figure.locator('canvas').first().waitFor();
+      figures++;
+    }
+  }
+  assert.ok(figures >= 10, `${figures} figures`);
+  assert.deepEqual(complaints, []);
+});

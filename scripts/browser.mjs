@@ -5,7 +5,8 @@ import { join } from 'node:path';
 import { Missing, ROOT, findProgram, mustRun, progress, run } from './process.mjs';
 import { CACHE, aptInstall } from './toolchain.mjs';
 
-const CHROME_NAMES = ['chromium', 'google-chrome', 'google-chrome-stable', 'chrome', 'chromium-browser'];
+/** First the one without windows, which takes a third less of the processor. */
+const CHROME_NAMES = ['chromium-headless-shell', 'chromium', 'google-chrome', 'google-chrome-stable', 'chrome', 'chromium-browser'];
 const CHROME_OF_MACOS = '/Applications/Google Chrome.app/Contents/MacOS';
 const SENTENCE =
   'Chromium and a chromedriver of the same version are missing: install both ' +
@@ -20,6 +21,8 @@ export const CHROME_ARGUMENTS = [
   '--disable-background-networking',
   '--disable-component-update',
   '--disable-sync',
+  // Without it, the Chromium without windows dies of an access outside of a module's memory, which a page can catch.
+  '--enable-crash-reporter',
 ];
 
 /** @typedef {{ chrome: string, driver: string, version: string }} Browser */
@@ -81,7 +84,7 @@ async function versionOf(program) {
 }
 
 async function debian() {
-  await aptInstall(['chromium', 'chromium-driver'], SENTENCE);
+  await aptInstall(['chromium-headless-shell', 'chromium-driver'], SENTENCE);
   return usablePair(findChrome(), findProgram('chromedriver'));
 }
 

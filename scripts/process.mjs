@@ -2,7 +2,8 @@
 
 import { AsyncLocalStorage } from 'node:async_hooks';
 import { spawn } from 'node:child_process';
-import { accessSync, constants, realpathSync, statSync } from 'node:fs';
+import { accessSync, constants as files, realpathSync, statSync } from 'node:fs';
+import { constants, setPriority } from 'node:os';
 import { delimiter, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 
@@ -135,6 +136,7 @@ export function hasEnded(group) {
  * @property {string} [cwd] the directory to run it in, instead of the repository's root
  * @property {number} [seconds] the time after which the program and all its children are killed
  * @property {boolean} [quiet] shows nothing
+ * @property {boolean} [patient] runs only where nothing else wants the processor
  */
 
 /**
@@ -146,7 +148,7 @@ export function hasEnded(group) {
  * @returns {Promise<{ ok: boolean, timedOut: boolean, stdout: string, output: string }>} `output` is stdout and
  *   stderr in order of arrival; a program that cannot be started is not ok
  */
-export function run(command, args, { env = {}, cwd = ROOT, seconds, quiet = false } = {}) {
+export function run(command, args, { env = {}, cwd = ROOT, seconds, quiet = false, patient = false } = {}) {
   return new Promise((resolve) => {
     // A program with a time limit leads its own process group, so that its children can be ended with it.
     const child = spawn(command, args, {
@@ -155,6 +157,7 @@ export function run(command, args, { env = {}, cwd = ROOT, seconds, quiet = fals
       stdio: ['ignore', 'pipe', 'pipe'],
       detached: seconds !== undefined,
     });
+    if (patient && child.pid !== undefined) setPriority(child.pid, constants.priority.PRIORITY_LOW);
     let stdout = '';
     let output = '';
     let timedOut = false;
@@ -218,7 +221,7 @@ export function findProgram(name, moreDirectories = []) {
 /** @param {string} path */
 export function isProgram(path) {
   try {
-    accessSync(path, constants.X_OK);
+    accessSync(path, files.X_OK);
     return statSync(path).isFile();
   } catch {
     return false;

@@ -1,8 +1,8 @@
 // `npm test`: the checks of every change. `npm run test:all`: those and the nightly ones, which take longer. `npm test -- PART`
 // runs one part and gives the remaining arguments to its program. A part that fails does not keep the others from running.
 //
-// Nightly tests are marked where they stand: `#[ignore = "nightly: …"]` in Rust, `*.nightly.test.js` for Node, `@nightly` in the
-// title of a browser test.
+// Nightly tests are marked where they stand: `#[ignore = "nightly: …"]` in Rust, `@nightly` in the title of a test in JavaScript,
+// `*.nightly.test.js` for whole files.
 
 import { existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { availableParallelism } from 'node:os';
@@ -68,9 +68,10 @@ const browser = once(async () => {
 /**
  * @param {string[]} command
  * @param {Record<string, string>} [env]
+ * @param {boolean} [patient] leaves the processor to the tests in browsers, which watch frames and time
  * @returns {Job}
  */
-const program = ([name, ...args], env) => () => run(name, args, { env, seconds: LIMIT });
+const program = ([name, ...args], env, patient) => () => run(name, args, { env, seconds: LIMIT, patient });
 
 /**
  * @param {string} path of a script in node_modules
@@ -87,7 +88,7 @@ const script = (path) => program([process.execPath, at(path)]);
  * @param {string[]} args
  * @param {Record<string, string>} [env]
  */
-const cargo = ({ bin, env: environment }, args, env) => program([join(bin, 'cargo'), ...args], { ...environment, ...env });
+const cargo = ({ bin, env: environment }, args, env) => program([join(bin, 'cargo'), ...args], { ...environment, ...env }, true);
 
 /**
  * @param {import('./toolchain.mjs').Rust} rust
@@ -96,7 +97,7 @@ const cargo = ({ bin, env: environment }, args, env) => program([join(bin, 'carg
  */
 async function lint(rust, name, args) {
   await ensureLints(rust);
-  return program([join(rust.bin, `cargo-${name}`), name, ...args], rust.env);
+  return program([join(rust.bin, `cargo-${name}`), name, ...args], rust.env, true);
 }
 
 const LINT_RULES = ['--', '-D', 'warnings'];
@@ -176,19 +177,14 @@ const PARTS = {
 };
 
 /**
- * What runs at a time, so that no core is idle while a linker, a download or a test waits. In a lane one part follows
- * the other, and uses what it left in cargo's directories, which cargo locks: everything in the second is of the
- * release profile.
+ * What runs at a time, so that no core is idle while a linker, a download, a frame or a test waits. In a lane one part follows
+ * the other, and uses what it left in cargo's directories, which cargo locks.
  */
 const LANES = [
-  ['rustfmt', 'clippy', 'rust', ...(ALL ? ['docs'] : [])],
-  // The link of the WebAssembly tests has one core: not at the end, when nobody uses the other.
-  ['build', 'wasm', ...(ALL ? ['clippy-wasm'] : [])],
+  ['build', 'browser', ...(ALL ? ['engines', 'embeddings'] : [])],
+  ['rustfmt', 'wasm', 'clippy', 'rust', ...(ALL ? ['clippy-wasm', 'docs'] : [])],
   ['oxlint', 'tsc', 'node', 'package'],
 ];
-
-/** Alone, for they watch frames and time; they use all cores by themselves. */
-const LAST = ALL ? ['browser', 'engines', 'embeddings'] : ['browser'];
 
 /**
  * @param {string[]} args of the command line
@@ -212,7 +208,6 @@ async function test(args) {
       for (const name of names) outcomes.push(await inOnePiece(() => outcomeOf(name, [])));
     }),
   );
-  for (const name of LAST) outcomes.push(await outcomeOf(name, []));
   return summarize(outcomes);
 }
 
@@ -269,8 +264,9 @@ function nodeTests(directory, more) {
   const files = filesOf(directory).filter((path) => /\.test\.[jt]s$/.test(path) && (ALL || !path.endsWith('.nightly.test.js')));
   const named = files.filter((path) => more.some((each) => !each.startsWith('-') && path.includes(each)));
   const options = more.filter((each) => !named.some((path) => path.includes(each)));
+  const tier = ALL ? [] : ['--test-name-pattern', '/^(?!.*@nightly)/'];
   // By itself it leaves a core idle.
-  return [process.execPath, '--import', 'tsx', '--test', '--test-reporter', 'tap', '--test-concurrency', `${availableParallelism()}`, ...options, ...(named.length > 0 ? named : files)];
+  return [process.execPath, '--import', 'tsx', '--test', '--test-reporter', 'tap', '--test-concurrency', `${availableParallelism()}`, ...tier, ...options, ...(named.length > 0 ? named : files)];
 }
 
 /**

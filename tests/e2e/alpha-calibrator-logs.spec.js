@@ -82,7 +82,7 @@ test('a recording has both, and where it is not clear which topic is which, the 
   }
 });
 
-test('of files with poses and commands the velocity model takes the commands, and the others the poses', async ({ page }) => {
+test('of files with poses and commands the velocity model takes the commands, and the others the poses @nightly', async ({ page }) => {
   const widget = await openCalibrator(page, 'model="velocity"');
   await unfold(widget);
   const keys = () => widget.evaluate((element) => Object.keys(/** @type {AlphaCalibratorElement} */ (element).log?.odometry ?? {}));
@@ -115,7 +115,7 @@ test('of files with poses and commands the velocity model takes the commands, an
   await model('velocity', 'omega');
 });
 
-test('of transforms the reader chooses among the chains that the recording has', async ({ page }) => {
+test('of transforms the reader chooses among the chains that the recording has @nightly', async ({ page }) => {
   const widget = await openCalibrator(page);
   const rows = (/** @type {'odometry' | 'reference'} */ name) => example(name).trim().split('\n').slice(1).map((line) => line.split(',').map(Number));
   const messages = (/** @type {'odometry' | 'reference'} */ name, /** @type {string} */ parent, /** @type {string} */ child) =>
@@ -132,7 +132,7 @@ test('of transforms the reader chooses among the chains that the recording has',
   await expect(caption(widget)).toHaveText(/of tf\.mcap, .*\/tf: map → base_link[.,]/);
 });
 
-test('of several drives all files are read at once, and those without a telling name are given a role', async ({ page }) => {
+test('of several drives all files are read at once, and those without a telling name are given a role @nightly', async ({ page }) => {
   const widget = await openCalibrator(page);
   const halves = (/** @type {'odometry' | 'reference'} */ name) => {
     const [header, ...all] = example(name).trim().split('\n');
@@ -162,7 +162,7 @@ test('what a table leaves open is asked, and the answer holds for that file', as
   await expect(caption(widget)).toHaveText(/of odom\.csv, truth\.csv[.,]/);
 });
 
-test('the files of a dropped folder are one recording', async ({ page }) => {
+test('the files of a dropped folder are one recording @nightly', async ({ page }) => {
   const widget = await openCalibrator(page);
   const bytes = [...(await recordingWith(['/mocap/pose']))];
   await widget.locator('section.machine').evaluate((section, content) => {
@@ -261,7 +261,7 @@ test('a log is read and fitted in a worker, and the page stays free', async ({ p
   expect((await stats(widget)).alphas).not.toEqual(alphas);
 });
 
-anyway('where the page’s policy forbids workers, a log is read all the same', async ({ page }) => {
+anyway('where the page’s policy forbids workers, a log is read all the same @nightly', async ({ page }) => {
   await page.route('**/bare.html', (route) => route.fulfill({
     contentType: 'text/html',
     headers: { 'content-security-policy': "worker-src 'none'" },
@@ -324,7 +324,7 @@ test('a log that a page gives is fitted, and is in no state; one that is refused
   await expect(caption(widget)).toHaveText(opened);
 });
 
-test('a log without legs says so', async ({ page }) => {
+test('a log without legs says so @nightly', async ({ page }) => {
   const widget = await openCalibrator(page);
   await widget.evaluate((element) => {
     const still = { t: [0, 1, 2, 3], x: [0, 0, 0, 0], y: [0, 0, 0, 0], theta: [0, 0, 0, 0] };

@@ -42,7 +42,7 @@ test('the true α’s are shown where the fit is of their rule and legs, and now
   expect(await stateOf(widget)).toMatchObject({ model: 'omnidirectional', rule: 'omni' });
 });
 
-test('the meaning of each α stands beside it in one line, also on a phone and in German', async ({ page }) => {
+test('the meaning of each α stands beside it in one line, also on a phone and in German @nightly', async ({ page }) => {
   await page.setViewportSize({ width: 375, height: 900 });
   const widget = await openCalibrator(page, 'lang="de"');
   await expect(rows(widget).locator('.of')).toHaveText(['Drehrauschen durch Drehen', 'Drehrauschen durch Fahren', 'Streckenrauschen durch Fahren', 'Streckenrauschen durch Drehen']);
@@ -128,7 +128,7 @@ test('a leg is chosen in the picture, by its slider, and from one large residual
   await expect(widget.locator('canvas.leg')).toHaveAttribute('aria-label', new RegExp(`^Leg ${at.leg + 1} `));
 });
 
-test('inflation multiplies the predictions alone', async ({ page }) => {
+test('inflation multiplies the predictions alone @nightly', async ({ page }) => {
   const widget = await openCalibrator(page);
   await unfold(widget);
   const yaml = await widget.locator('textarea.yaml').inputValue();
@@ -143,7 +143,7 @@ test('inflation multiplies the predictions alone', async ({ page }) => {
   await expect(widget.locator('textarea.yaml')).toHaveValue(yaml);
 });
 
-test('an export as a picture has the key, the α’s with their intervals, and the verdict', async ({ page }) => {
+test('an export as a picture has the key, the α’s with their intervals, and the verdict @nightly', async ({ page }) => {
   const widget = await openCalibrator(page);
   await unfold(widget);
   await widget.getByRole('checkbox', { name: 'mount yaw (rad)' }).uncheck();
@@ -229,7 +229,7 @@ test('legs of a time, and how well the reference is known, are set by their slid
   expect(Number((await stats(widget)).alphas[3])).toBeLessThan(0.9 * Number(before.alphas[3]));
 });
 
-test('an α that a log does not tell from 0 is no result of 0', async ({ page }) => {
+test('an α that a log does not tell from 0 is no result of 0 @nightly', async ({ page }) => {
   // Few legs: what turning adds is not seen beside what driving does.
   const widget = await openCalibrator(page, 'model="velocity" distance="1" angle="1.5"');
   const { alphas, intervals } = await stats(widget);
@@ -242,7 +242,7 @@ test('an α that a log does not tell from 0 is no result of 0', async ({ page })
   }
 });
 
-test('of an α that a log does not determine it says why, and what to add', async ({ page }) => {
+test('of an α that a log does not determine it says why, and what to add @nightly', async ({ page }) => {
   const widget = await openCalibrator(page);
   await widget.evaluate((element) => {
     const count = 2000;

@@ -89,7 +89,7 @@ test('the robot moves and turns by keyboard, and stops where the floor ends', as
   await expect(body(widget)).toHaveAttribute('aria-valuetext', /Limit reached$/);
 });
 
-test('the start moves and turns, the commanded arc with it, and the robot stays where it is found', async ({ page }) => {
+test('the start moves and turns, the commanded arc with it, and the robot stays where it is found @nightly', async ({ page }) => {
   const widget = await open(page);
   const [start, ahead] = ['Start', 'Heading at the start'].map((name) => widget.getByRole('slider', { name, exact: true }));
   const before = await told(widget);
@@ -105,7 +105,7 @@ test('the start moves and turns, the commanded arc with it, and the robot stays 
   expect((await told(widget)).config.start.theta).toBe(Math.PI / 36);
 });
 
-test('a centre out of sight is pointed to, with its distance', async ({ page }) => {
+test('a centre out of sight is pointed to, with its distance @nightly', async ({ page }) => {
   const widget = await open(page);
   const svg = () => widget.evaluate((element) => /** @type {ArcAnatomyElement} */ (element).toSVG());
   expect(await svg()).not.toContain('>centre ');
@@ -192,7 +192,7 @@ test('entries of the legend are the toggles of the lines', async ({ page }) => {
   await expect(widget).toHaveAttribute('overlays', 'chord');
 });
 
-test('a robot is drawn on each arc at the time that is chosen', async ({ page }) => {
+test('a robot is drawn on each arc at the time that is chosen @nightly', async ({ page }) => {
   const widget = await open(page);
   const whole = await pictureOf(picture(widget));
   const slider = widget.getByRole('slider', { name: 'time along the arc' });
@@ -223,7 +223,7 @@ test('exercise 1 is plotted: three forms, the crossover and the chapter’s thre
   await expect(plot.locator('.marked')).toHaveText(['2·10⁻⁸/Δt', '10⁻⁶']);
 });
 
-test('without noise it says so, and draws no map', async ({ page }) => {
+test('without noise it says so, and draws no map @nightly', async ({ page }) => {
   const widget = await open(page, 'map="density" alpha5="0" alpha6="0"');
   await expect(verdict(widget)).toHaveText('The last turn γ̂ has zero variance but a non-zero residual, so p = 0.');
   await unfold(widget);

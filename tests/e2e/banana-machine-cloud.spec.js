@@ -115,7 +115,7 @@ test('each overlay has a toggle', async ({ page }) => {
   expect(await pixelsOf(twist, 'posterior')).toBe(0);
 });
 
-test('a density leaves nothing of a larger one behind', async ({ page }) => {
+test('a density leaves nothing of a larger one behind @nightly', async ({ page }) => {
   const widget = await open(page, 'preset="banana"');
   const plane = widget.locator('canvas.plane');
   const { x, y } = await centreOf(widget.locator('.handle'));
@@ -195,7 +195,7 @@ test('the sentence says what the model decides and the robots show', async ({ pa
   await expect(sentence(widget)).toHaveText(/^The cloud leans to neither side: skew [^.]*\.\d+\s±\s[\d.]+, exactly 0 by symmetry\.$/);
 });
 
-test('few robots do not show the lean; the Pivot’s bow-tie has its reason', async ({ page }) => {
+test('few robots do not show the lean; the Pivot’s bow-tie has its reason @nightly', async ({ page }) => {
   const widget = await openWhole(page);
   await widget.getByRole('button', { name: 'Pivot' }).click();
   const { table, config } = await state(widget);
@@ -214,7 +214,7 @@ test('few robots do not show the lean; the Pivot’s bow-tie has its reason', as
   await expect(sentence(widget)).toHaveText(new RegExp(`^Too few robots to show the lean: .*exactly −${Math.abs(few.exact.crossTrackSkew).toFixed(3)}\\.$`));
 });
 
-test('a cloud that turns a full circle has no exponential coordinates, and says so', async ({ page }) => {
+test('a cloud that turns a full circle has no exponential coordinates, and says so @nightly', async ({ page }) => {
   const widget = await openWhole(page);
   await set(widget, { omega: 2, dt: 3 });
   await expect(widget.locator('.note')).toContainText('statistics in ξ are undefined');
@@ -229,7 +229,7 @@ test('a cloud that turns a full circle has no exponential coordinates, and says 
   await expect(measured).not.toHaveText('—');
 });
 
-test('two robots have no skew', async ({ page }) => {
+test('two robots have no skew @nightly', async ({ page }) => {
   const widget = await openWhole(page);
   await set(widget, { samples: 0 });
   await widget.getByRole('button', { name: 'Clear' }).click();
@@ -241,7 +241,7 @@ test('two robots have no skew', async ({ page }) => {
   await expect(readout(widget, 'cross-track skew')).toHaveText(/^−?\d\.\d{3} ± \d\.\d{3}$/);
 });
 
-test('figures without meaning are a dash: α₅ alone leaves all robots in one place', async ({ page }) => {
+test('figures without meaning are a dash: α₅ alone leaves all robots in one place @nightly', async ({ page }) => {
   const widget = await openWhole(page);
   await widget.getByLabel('Isolate one').check();
   await widget.getByRole('radio', { name: 'Only α₅' }).check();
@@ -294,7 +294,7 @@ test('what is said depends on the model and its noise', async ({ page }) => {
   await expect(widget.locator('.note')).toHaveCount(0);
 });
 
-test('the marked robot and Step follow the size of the cloud', async ({ page }) => {
+test('the marked robot and Step follow the size of the cloud @nightly', async ({ page }) => {
   const widget = await openWhole(page);
   const field = widget.getByRole('spinbutton', { name: 'Robot' });
   const step = widget.getByRole('button', { name: 'Step' });

@@ -28,7 +28,7 @@ test('Play carries the floor all the way', async ({ page }) => {
   for (const [i, value] of values.entries()) expect(value).toBeGreaterThan(values[i - 1] ?? 0);
 });
 
-test('the end of the arc is moved where the morph shows it', async ({ page }) => {
+test('the end of the arc is moved where the morph shows it @nightly', async ({ page }) => {
   const widget = await open(page, 'morph="1"');
   const handle = widget.locator('.handle');
   await handle.press('ArrowUp');
@@ -85,14 +85,14 @@ test('an outline that the morph cannot carry is struck through in the legend, wh
   expect(await boxOf(legend)).toEqual(before);
 });
 
-test('the buttons that play have the names of what they play', async ({ page }) => {
+test('the buttons that play have the names of what they play @nightly', async ({ page }) => {
   await page.emulateMedia({ reducedMotion: 'no-preference' });
   const widget = await open(page, 'samples="100"');
   await expect(widget.getByRole('button', { name: 'Play the morph' })).toHaveCount(1);
   await expect(widget.getByRole('button', { name: 'Draw samples' })).toHaveCount(1);
 });
 
-test('callouts are hidden while the cloud is dragged under them', async ({ page }) => {
+test('callouts are hidden while the cloud is dragged under them @nightly', async ({ page }) => {
   const widget = await open(page);
   const callouts = () => widget.evaluate((element) => /** @type {any} */ (element).scene.callouts.length);
   const { x, y } = await centreOf(widget.locator('.handle'));
@@ -130,7 +130,7 @@ test.describe('at first sight', () => {
     expect(await driving()).toBeUndefined();
   });
 
-  test('robots do not drive for a figure that a page has set', FRESH, async ({ page }) => {
+  test('robots do not drive for a figure that a page has set @nightly', FRESH, async ({ page }) => {
     await page.emulateMedia({ reducedMotion: 'no-preference' });
     const widget = await open(page, 'preset="gentle"');
     expect(await widget.evaluate((element) => /** @type {any} */ (element).cloud.driving)).toBeUndefined();

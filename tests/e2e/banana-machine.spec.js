@@ -58,7 +58,7 @@ test('Home and End move the end of the arc to the ends of v, and no key scrolls 
   expect(await page.evaluate(() => scrollY)).toBe(100);
 });
 
-test('the handle does not leap to another arc with the same end', async ({ page }) => {
+test('the handle does not leap to another arc with the same end @nightly', async ({ page }) => {
   const widget = await open(page);
   const handle = widget.locator('.handle');
   // Turns beyond half a circle, and in reverse: the shortest way there would be another.
@@ -133,7 +133,7 @@ test('a dragged α moves the same robots, once a frame', async ({ page }) => {
   expect((await state(widget)).config.alphas[0]).toBe(0.09);
 });
 
-test('each model keeps its own α’s', async ({ page }) => {
+test('each model keeps its own α’s @nightly', async ({ page }) => {
   const widget = await openWhole(page, GENTLE);
   await widget.getByRole('slider', { name: 'α1' }).fill('0.123');
   await widget.getByLabel('odometry').check();

@@ -62,12 +62,12 @@ test('a figure has a Trusted Types policy of its own beside that of the page\'s 
 });
 
 // What the browser says of the policy in the console is what these are about.
-anyway('a Trusted Types policy that is named as that of Lit is enough', async ({ page }) => {
+anyway('a Trusted Types policy that is named as that of Lit is enough @nightly', async ({ page }) => {
   await openUnder(page, trusting('lit-html'), 'embed.html?widget=banana-machine');
   await expect(page.locator('banana-machine canvas').first()).toBeVisible();
 });
 
-anyway('where no Trusted Types policy may be made, a sentence names the one that is missing', async ({ page }) => {
+anyway('where no Trusted Types policy may be made, a sentence names the one that is missing @nightly', async ({ page }) => {
   const warned = page.waitForEvent('console', (message) => message.type() === 'warning' && message.text().includes('lacks'));
   await openUnder(page, trusting("'none'"), 'embed.html?widget=banana-machine');
   const sentence = "This page's Content-Security-Policy forbids the figure's templates: its trusted-types directive lacks motion-widgets.";
@@ -104,7 +104,7 @@ anyway('where there is no WebAssembly, a sentence says that it cannot run, in th
   expect(colours).toEqual(Array(2).fill(['dark', 'rgb(17,34,51)']));
 });
 
-anyway('where the module in a file of its own is forbidden, the embedded one is used, and a warning names the directive', async ({ page }) => {
+anyway('where the module in a file of its own is forbidden, the embedded one is used, and a warning names the directive @nightly', async ({ page }) => {
   const html = '<script type="module" src="./external.js"></script><banana-machine></banana-machine>';
   await page.route('**/external.html', (route) =>
     route.fulfill({ contentType: 'text/html', headers: { 'content-security-policy': STRICT }, body: html }),
@@ -115,7 +115,7 @@ anyway('where the module in a file of its own is forbidden, the embedded one is 
   expect((await warned).text()).toMatch(/\.wasm cannot be fetched .*connect-src/);
 });
 
-anyway('where WebAssembly may be compiled and not run, as in WebKit, so does one', async ({ page }) => {
+anyway('where WebAssembly may be compiled and not run, as in WebKit, so does one @nightly', async ({ page }) => {
   await page.addInitScript(() => {
     const refuse = () => {
       throw new WebAssembly.CompileError("Refused to create a WebAssembly object because 'unsafe-eval' or 'wasm-unsafe-eval' is not allowed");

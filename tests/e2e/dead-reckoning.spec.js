@@ -73,7 +73,7 @@ test('the line of the chart walks along the path, from the keyboard too, and dri
   expect((await config(widget)).step).toBe(10);
 });
 
-test('a step beyond the last is refused where it is typed', async ({ page }) => {
+test('a step beyond the last is refused where it is typed @nightly', async ({ page }) => {
   const widget = await openReckoning(page, 'samples="1000"');
   await unfold(widget);
   const [row, field] = [widget.locator('.slider:has(#step)'), valueField(widget, 'step')];
@@ -148,7 +148,7 @@ test('more steps are shorter ones of the same path, seen from the same place', a
   expect(Math.hypot(atX - x, atY - y)).toBeLessThan(1e-12);
 });
 
-test('too few robots tell nothing, and none at all say so', async ({ page }) => {
+test('too few robots tell nothing, and none at all say so @nightly', async ({ page }) => {
   const widget = await openReckoning(page, 'samples="1000"');
   await expect(caption(widget)).toHaveText('Too few robots to tell 5 %: the bands are wider than that.');
   expect(await missed(widget)).toEqual(['too few', 'too few', 'too few']);
@@ -161,7 +161,7 @@ test('too few robots tell nothing, and none at all say so', async ({ page }) => 
   expect(await widget.evaluate((element) => /** @type {DeadReckoningElement} */ (element).machine.shown)).toBe(7);
 });
 
-test('no noise has no ratio, and a fourth order without a covariance neither', async ({ page }) => {
+test('no noise has no ratio, and a fourth order without a covariance neither @nightly', async ({ page }) => {
   const widget = await openReckoning(page, 'samples="500" alpha1="0" alpha2="0" alpha3="0" alpha4="0" alpha5="0" alpha6="0"');
   await expect(caption(widget)).toHaveText(/^No noise:/);
   await expect(plotOf(widget)).toHaveAttribute('aria-label', /along —/);

@@ -80,7 +80,7 @@ test('attributes stay as written until a setting changes, and then reflect it', 
   expect(await attributes(squeeze)).toEqual({ x: '3.3', conditioned: 'false' });
 });
 
-test('boolean attributes may be empty or "true", and lists may have any space', async ({ page }) => {
+test('boolean attributes may be empty or "true", and lists may have any space @nightly', async ({ page }) => {
   await show(page, '<banana-machine overlays=" linearized\n  command "></banana-machine><map-squeeze conditioned="true"></map-squeeze>');
   const [banana, squeeze] = NAMES.map((name) => page.locator(name));
   await ready(banana);
@@ -251,7 +251,7 @@ test('properties that were set before the element was defined are taken up, in a
   expect(await heard(page, ['error'])).toEqual([]);
 });
 
-test('properties that are null or undefined are the defaults', async ({ page, figure }) => {
+test('properties that are null or undefined are the defaults @nightly', async ({ page, figure }) => {
   const widget = await mount(page, figure);
   const [opening, ...again] = await widget.evaluate((element, state) => {
     const figure = /** @type {any} */ (element);
@@ -269,7 +269,7 @@ test('properties that are null or undefined are the defaults', async ({ page, fi
   expect(await heard(page, ['error'])).toEqual([]);
 });
 
-test('properties that are assigned their own value change nothing', async ({ page, figure }) => {
+test('properties that are assigned their own value change nothing @nightly', async ({ page, figure }) => {
   const widget = await mount(page, figure);
   await widget.evaluate((element, state) => /** @type {any} */ (element).setState(state), /** @type {any} */ (anyOf(2)[figure]));
   await heard(page, ['stats']);

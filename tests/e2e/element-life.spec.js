@@ -86,7 +86,7 @@ test('figures within six hundred pixels of the window start, and others do not',
   expect(await property(widgets.nth(1), 'machine')).toBe(undefined);
 });
 
-test('a cloud that is out of sight asks for no frames, and goes on growing where it was', async ({ page, cloud }) => {
+test('a cloud that is out of sight asks for no frames, and goes on growing where it was @nightly', async ({ page, cloud }) => {
   await page.emulateMedia({ reducedMotion: 'no-preference' });
   await count(page);
   await show(page, `<${cloud}></${cloud}><div style="height: 6000px"></div>`);
@@ -149,7 +149,7 @@ test('a figure in a hidden tab asks for no frames, and shows afterwards what was
   await expect.poll(() => pictureOf(canvas)).toBe(wanted);
 });
 
-test('a cloud that is half grown stays so over a move and over a removal', async ({ page, cloud }) => {
+test('a cloud that is half grown stays so over a move and over a removal @nightly', async ({ page, cloud }) => {
   await show(page, `<div id="a"><${cloud}></${cloud}></div><div id="b"></div>`);
   const widget = page.locator(cloud);
   await ready(widget);
@@ -181,7 +181,7 @@ test('a cloud that is half grown stays so over a move and over a removal', async
   await expect.poll(() => pictureOf(widget.locator('canvas.plane'))).toBe(picture);
 });
 
-test('folds, fields and height of a figure stay over a move and over a removal', async ({ page, figure }) => {
+test('folds, fields and height of a figure stay over a move and over a removal @nightly', async ({ page, figure }) => {
   await show(page, `<div id="a"><${figure}></${figure}></div><div id="b"></div>`);
   const widget = page.locator(figure);
   await ready(widget);
@@ -214,7 +214,7 @@ test('folds, fields and height of a figure stay over a move and over a removal',
   expect(heights).toEqual([height, height]);
 });
 
-test('a figure keeps what the reader did in the moment before it was removed', async ({ page, figure }) => {
+test('a figure keeps what the reader did in the moment before it was removed @nightly', async ({ page, figure }) => {
   const { slider, at, values: [value] } = KNOWN[figure];
   const widget = await mount(page, figure);
   const kept = await widget.evaluate(async (element, [id, to]) => {
@@ -228,7 +228,7 @@ test('a figure keeps what the reader did in the moment before it was removed', a
   expect(kept).toHaveProperty(at, value);
 });
 
-test('a figure that is moved while a handle is held lets go of it, and fits its picture', async ({ page, handled }) => {
+test('a figure that is moved while a handle is held lets go of it, and fits its picture @nightly', async ({ page, handled }) => {
   await show(page, `<div id="a" style="width: 1100px"><${handled}></${handled}></div><div id="b" style="width: 500px"></div>`);
   const widget = page.locator(handled);
   await ready(widget);
@@ -269,7 +269,7 @@ test('a canvas that has got its context back is drawn again', async ({ page, fig
   expect(await pictureOf(canvas)).toBe(before);
 });
 
-test('a figure that was not displayed shows what was set meanwhile', async ({ page, figure }) => {
+test('a figure that was not displayed shows what was set meanwhile @nightly', async ({ page, figure }) => {
   await show(page, `<div id="box"><${figure}></${figure}></div>`);
   const widget = page.locator(figure);
   await ready(widget);

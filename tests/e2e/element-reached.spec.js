@@ -46,7 +46,7 @@ for (const [way, origin, key] of /** @type {const} */ ([['above', '#before', 'Ta
   });
 }
 
-test('a figure that starts when the reader has gone on leaves the focus where it is', async ({ page, figure }) => {
+test('a figure that starts when the reader has gone on leaves the focus where it is @nightly', async ({ page, figure }) => {
   let arrive = () => {};
   const arrived = new Promise((resolve) => (arrive = () => resolve(undefined)));
   await page.route('**/*.wasm', async (route) => {

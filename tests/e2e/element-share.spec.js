@@ -60,7 +60,7 @@ test('two widgets and an anchor share the fragment, and the link shows what was 
   expect(await heard(other, ['error', 'input', 'change'])).toEqual([]);
 });
 
-test('figures in shadow roots, closed ones too, have parts of their own in the fragment', FRESH, async ({ page }) => {
+test('figures in shadow roots, closed ones too, have parts of their own in the fragment @nightly', FRESH, async ({ page }) => {
   await page.addInitScript(() => {
     for (const [name, mode] of [['open-host', 'open'], ['closed-host', 'closed']]) {
       customElements.define(name, class extends HTMLElement {
@@ -82,7 +82,7 @@ test('figures in shadow roots, closed ones too, have parts of their own in the f
   ]);
 });
 
-test('a link leads to the figure that it was copied from, once; a reload leads nowhere', FRESH, async ({ page, context }) => {
+test('a link leads to the figure that it was copied from, once; a reload leads nowhere @nightly', FRESH, async ({ page, context }) => {
   const gap = '<p style="margin: 2000px 0">Between</p>';
   const body = `${gap}<banana-machine></banana-machine>${gap}<banana-machine></banana-machine>${gap}`;
   await show(page, body);
@@ -128,7 +128,7 @@ test('a link leads to the figure that it was copied from, once; a reload leads n
   expect(await page.evaluate(() => scrollY)).toBe(700);
 });
 
-test('an anchor that is not there, or that the reader has left, scrolls nothing', FRESH, async ({ page }) => {
+test('an anchor that is not there, or that the reader has left, scrolls nothing @nightly', FRESH, async ({ page }) => {
   await show(page, '<banana-machine></banana-machine><p id="low" style="margin: 3000px 0">Low</p>', { fragment: '#nowhere&theme=a' });
   await ready(page.locator('banana-machine'));
   expect(await page.evaluate(() => scrollY)).toBe(0);
@@ -155,7 +155,7 @@ test('a link that is broken is reported, and the figure opens as its attributes 
   }
 });
 
-test('a page with a base of its own keeps its address', async ({ page }) => {
+test('a page with a base of its own keeps its address @nightly', async ({ page }) => {
   const widget = await mount(page, 'map-squeeze', { attributes: 'share', head: '<base href="/somewhere/else/">' });
   const address = () => page.evaluate(() => location.href);
   await widget.getByRole('button', { name: 'Facing a wall' }).click();
@@ -235,7 +235,7 @@ test('copies a link, and the code to embed with the address of the script', asyn
   expect(await clipboard()).toContain(`<script type="module" src="${origin}/motion-widgets.js"></script>`);
 });
 
-test('says that the code to embed is without the own map', async ({ page }) => {
+test('says that the code to embed is without the own map @nightly', async ({ page }) => {
   const widget = await mount(page, 'map-squeeze');
   await widget.getByText('Numbers and data').click();
   await widget.getByRole('button', { name: 'Copy embed code' }).click();
@@ -247,7 +247,7 @@ test('says that the code to embed is without the own map', async ({ page }) => {
 });
 });
 
-test('the menu shows what the clipboard does not take', async ({ page }) => {
+test('the menu shows what the clipboard does not take @nightly', async ({ page }) => {
   await page.addInitScript(() => Object.defineProperty(navigator, 'clipboard', { value: undefined }));
   const widget = await mount(page, 'map-squeeze', { attributes: 'seed="4"' });
   await widget.getByText('Numbers and data').click();
@@ -262,7 +262,7 @@ test('the code to embed names the script that defined the element', FRESH, async
   expect(code).toContain(`<script defer src="${new URL(page.url()).origin}/motion-widgets.iife.js"></script>`);
 });
 
-test('the code to embed has the published script where that of the page is nothing to others', async ({ page }) => {
+test('the code to embed has the published script where that of the page is nothing to others @nightly', async ({ page }) => {
   await show(page, '', { script: '' });
   const code = await page.evaluate(async () => {
     const script = new Blob([await (await fetch('/motion-widgets.js')).text()], { type: 'text/javascript' });

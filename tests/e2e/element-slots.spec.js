@@ -25,7 +25,7 @@ test('a figure has the title above and the caption below that the page gives it'
   await expect(widget.getByRole('heading')).toHaveCount(0);
 });
 
-test('a heading has one of six levels', async ({ page }) => {
+test('a heading has one of six levels @nightly', async ({ page }) => {
   const widget = await mount(page, 'map-squeeze', { attributes: 'heading-level="9"' });
   expect((await heard(page, ['error'])).map(({ message }) => message)).toEqual(['heading-level is "9"; allowed is "1" or "2" or "3" or "4" or "5" or "6"']);
   expect(await assign(widget, 'headingLevel', 7)).toContain('RangeError: headingLevel is "7"');

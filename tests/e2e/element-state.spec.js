@@ -94,7 +94,7 @@ test('a part of a state leaves the rest, and both models keep their noise', asyn
   expect(await stateOf(widget)).toEqual(after);
 });
 
-test('a property set right after a state holds, however long the state takes', async ({ page }) => {
+test('a property set right after a state holds, however long the state takes @nightly', async ({ page }) => {
   const widget = await mount(page, 'banana-machine');
   await widget.evaluate((element) => {
     const figure = /** @type {any} */ (element);
@@ -105,7 +105,7 @@ test('a property set right after a state holds, however long the state takes', a
   await expect.poll(() => stateOf(widget)).toMatchObject({ samples: 3e6, morph: 0.5 });
 });
 
-test('a state that comes while a slider plays is what is shown from then on', async ({ page }) => {
+test('a state that comes while a slider plays is what is shown from then on @nightly', async ({ page }) => {
   await page.emulateMedia({ reducedMotion: 'no-preference' });
   const widget = await mount(page, 'odometry-decomposer');
   await widget.evaluate((element) => element.addEventListener('input', () => {
@@ -118,7 +118,7 @@ test('a state that comes while a slider plays is what is shown from then on', as
   expect(/** @type {any} */ (await stateOf(widget)).phase).toBe(1);
 });
 
-test('a state in part keeps the share of samples that are shown, and the mark that is among them', async ({ page, cloud }) => {
+test('a state in part keeps the share of samples that are shown, and the mark that is among them @nightly', async ({ page, cloud }) => {
   const widget = await mount(page, cloud, { attributes: 'samples="300"' });
   const states = await widget.evaluate((element) => {
     const figure = /** @type {AnyElement} */ (element);

@@ -134,7 +134,7 @@ test('a figure on the ground of any theme has its ink and letters, and enough co
   expect(svg).toContain('<rect width="100%" height="100%" fill="rgb(244, 236, 216)"/>');
 });
 
-test('the ground is the nearest, through shadow roots and what is half transparent', async ({ page }) => {
+test('the ground is the nearest, through shadow roots and what is half transparent @nightly', async ({ page }) => {
   await show(page, '<div id="card" style="background: rgb(0 0 0 / 50%)"></div>', {
     head: '<style>body { background: rgb(200 100 50); color: white }</style>',
   });
@@ -151,7 +151,7 @@ test('the ground is the nearest, through shadow roots and what is half transpare
   await expect.poll(() => paperOf(widget)).toBe('#eeeeee');
 });
 
-test('a ground that fades arrives where the page does, also where the text has come before', async ({ page }) => {
+test('a ground that fades arrives where the page does, also where the text has come before @nightly', async ({ page }) => {
   await show(page, '<banana-machine></banana-machine>', {
     head: '<style>body { background: white; color: #222; transition: background-color 0.4s } .night body { background: #101418; color: #ddd }</style>',
   });
@@ -163,7 +163,7 @@ test('a ground that fades arrives where the page does, also where the text has c
   }
 });
 
-test('a light text on an image of the page asks for dark paper', async ({ page }) => {
+test('a light text on an image of the page asks for dark paper @nightly', async ({ page }) => {
   const widget = await mount(page, 'banana-machine', { head: '<style>body { background: linear-gradient(#222, #333); color: #eee }</style>' });
   expect((await coloursOf(widget, ['paper']))[0]).toEqual([18, 18, 18]);
 });
@@ -190,7 +190,7 @@ for (const [what, media, style] of BLACK_ON_DARK) {
   });
 }
 
-test('a theme other than that of the page gives a figure its own paper and ink', async ({ page }) => {
+test('a theme other than that of the page gives a figure its own paper and ink @nightly', async ({ page }) => {
   const style = 'body { background: #fff; color: #333; --color-foreground-muted: #112233; --color-background-border: #445566 }';
   const widget = await mount(page, 'banana-machine', { attributes: 'theme="dark"', head: `<style>${style}</style><link rel="stylesheet" href="/motion-widgets.css">` });
   expect(await surfaceOf(widget)).toMatchObject({ backgroundColor: 'rgb(22, 24, 27)', color: 'rgb(235, 233, 227)', colorScheme: 'dark' });
@@ -232,7 +232,7 @@ test('the stylesheet adopts muted text, hairlines and header height of a theme, 
   expect(await look()).toEqual(['#010203', '#040506', 7]);
 });
 
-test('a figure has the paper and ink of --motion-paper and --motion-ink', async ({ page, figure }) => {
+test('a figure has the paper and ink of --motion-paper and --motion-ink @nightly', async ({ page, figure }) => {
   const widget = await mount(page, figure, { attributes: 'style="--motion-paper: #102030; --motion-ink: #f0f0f0"', head: '<style>body { background: #fff; color: #000 }</style>' });
   // Light letters on dark paper: hues of the dark.
   expect(await surfaceOf(widget)).toMatchObject({ backgroundColor: 'rgb(16, 32, 48)', color: 'rgb(240, 240, 240)', colorScheme: 'dark' });

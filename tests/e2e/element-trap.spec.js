@@ -61,7 +61,7 @@ test('a core that traps is restarted with the same state and picture, and no oth
   expect(await heard(page, ['error', 'load'])).toHaveLength(1);
 });
 
-test('a core that traps twice without a picture between ends in a sentence', async ({ page }) => {
+test('a core that traps twice without a picture between ends in a sentence @nightly', async ({ page }) => {
   const widget = await mount(page, 'banana-machine');
   await heard(page);
   await widget.evaluate((element) => {

@@ -98,7 +98,7 @@ test('presets keep the map of the reader, and buttons lead to the apartment and 
   await expect(widget.getByRole('button', { name: 'Back to room.json' })).toHaveCount(0);
 });
 
-test('unknown cells are hatched, and free or blocked as the reader chooses', async ({ page }) => {
+test('unknown cells are hatched, and free or blocked as the reader chooses @nightly', async ({ page }) => {
   const widget = await openSqueeze(page);
   await expect(widget.getByRole('radiogroup', { name: 'Unknown cells' })).toHaveCount(0);
   // A corridor of 4 m × 1 m, of which the right half is unknown.
@@ -164,7 +164,7 @@ test('a map_server pair can be dropped on the widget', async ({ page }) => {
   expect(await pixelsOf(widget.locator('canvas.plane'), 'truth')).toBeGreaterThan(1000);
 });
 
-test('why a dropped map is refused is said in sight of the drop, until it is closed', async ({ page }) => {
+test('why a dropped map is refused is said in sight of the drop, until it is closed @nightly', async ({ page }) => {
   await page.setViewportSize({ width: 375, height: 812 });
   const widget = await openSqueeze(page);
   const before = await squeezed(widget);
@@ -182,7 +182,7 @@ test('why a dropped map is refused is said in sight of the drop, until it is clo
   await expect(present(widget)).toContainText('The apartment');
 });
 
-test('an occupancy grid has its yaw and its mode, and its image may be a PNG in a directory', async ({ page }) => {
+test('an occupancy grid has its yaw and its mode, and its image may be a PNG in a directory @nightly', async ({ page }) => {
   const widget = await openSqueeze(page);
   const grids = /** @type {[MapFile[], number[], number][]} */ ([
     [
@@ -258,7 +258,7 @@ test('a map that a page gives is taken; the same again changes nothing, and one 
   ]);
 });
 
-test('the map survives the element’s removal', async ({ page }) => {
+test('the map survives the element’s removal @nightly', async ({ page }) => {
   const widget = await openSqueeze(page);
   await choose(widget, [file('room.json', JSON.stringify(ROOM))]);
   await expect(present(widget)).toContainText('room.json');

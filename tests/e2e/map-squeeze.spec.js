@@ -112,7 +112,7 @@ test('the robot stays inside the map, and says so to the eye and to the ear', as
   expect((await squeezed(widget)).config.start.x).toBe(0);
 });
 
-test('a robot that a key led into a wall is reported', async ({ page }) => {
+test('a robot that a key led into a wall is reported @nightly', async ({ page }) => {
   const widget = await openSqueeze(page);
   await widget.evaluate((element) => void Reflect.set(element, 'start', { x: 4.2, y: 2.6, theta: 0 }));
   expect((await squeezed(widget)).startFree).toBe(true);
@@ -226,7 +226,7 @@ test('every cost is that of the sampler, and a core’s share follows from it', 
   }
 });
 
-test('a wedged robot is said to be one, with the draws that were tried', async ({ page }) => {
+test('a wedged robot is said to be one, with the draws that were tried @nightly', async ({ page }) => {
   const widget = await openSqueeze(page);
   const note = widget.locator('.verdict.note');
   await expect(note).toHaveCount(0);
@@ -291,7 +291,7 @@ test('a sample pointed at, or named, shows its verdict', async ({ page }) => {
   await expect(field).toHaveValue(String(last + 1));
 });
 
-test('a marked motion that went through a wall has a leader to it, and no other has', async ({ page }) => {
+test('a marked motion that went through a wall has a leader to it, and no other has @nightly', async ({ page }) => {
   const widget = await openSqueeze(page);
   const { verdicts } = await squeezed(widget);
   const labelled = (/** @type {number | null} */ index) => widget.evaluate((element, marked) => {

@@ -39,7 +39,7 @@ test('the views have room for the arcs of the turns and for nearly every outcome
   expect(outside.below).toBeGreaterThan(64);
 });
 
-test('the scale of the legs depends on the size of the window alone', async ({ page }) => {
+test('the scale of the legs depends on the size of the window alone @nightly', async ({ page }) => {
   const size = { width: 375, height: 740 };
   await page.setViewportSize(size);
   const widget = await open(page);
@@ -101,7 +101,7 @@ test('a rule is chosen in the table, which has the deviations of each rule', asy
   await expect(widget.locator('p[role=status]')).toContainText('The first hinge has the lever');
 });
 
-test('on paper every rule has its name, and the chosen one stands out', async ({ page }) => {
+test('on paper every rule has its name, and the chosen one stands out @nightly', async ({ page }) => {
   const widget = await open(page);
   const name = (/** @type {string} */ rule) => widget.locator('.rules th').getByText(rule, { exact: true });
   await page.emulateMedia({ media: 'print' });
@@ -117,7 +117,7 @@ test('on paper every rule has its name, and the chosen one stands out', async ({
   await expect(widget.getByText('triangular', { exact: true })).toBeHidden();
 });
 
-test('the frame drifts, and no outcome moves', async ({ page }) => {
+test('the frame drifts, and no outcome moves @nightly', async ({ page }) => {
   const widget = await open(page);
   const before = await told(widget);
   const legs = await pictureOf(widget.locator('canvas.plane'));

@@ -112,7 +112,7 @@ for (const name of ALL) {
   test(`Tab leads to every handle and control of ${name} @nightly`, ({ page }) => expectTabStops(page, name));
 }
 
-test('the focus stays near a control that goes or is disabled by its own action', async ({ page }) => {
+test('the focus stays near a control that goes or is disabled by its own action @nightly', async ({ page }) => {
   const focused = (/** @type {Locator} */ widget) => widget.evaluate(({ shadowRoot }) => shadowRoot?.activeElement?.closest('.presets, .lines, section')?.className);
   await show(page, '<map-squeeze></map-squeeze><arc-anatomy></arc-anatomy>');
   const map = page.locator('map-squeeze');
@@ -222,7 +222,7 @@ test.describe('a finger', () => {
     }
   });
 
-  test('that taps sets the chart and marks a robot', async ({ page }) => {
+  test('that taps sets the chart and marks a robot @nightly', async ({ page }) => {
     const widget = await unfolded(page, 'banana-machine');
     const chart = widget.locator('#chart-omega');
     await lower(chart);
@@ -275,7 +275,7 @@ test('paper has the figure and its settings, in light colours, and nothing to pr
   for (const value of ['1.00 m/s', '2.00 s']) await expect(widget.getByText(value, { exact: true }).first()).toBeVisible();
 });
 
-test('paper has figures that were far from the window, with their pictures', async ({ page }) => {
+test('paper has figures that were far from the window, with their pictures @nightly', async ({ page }) => {
   await show(page, '<banana-machine></banana-machine><div style="height: 3000px"></div><map-squeeze></map-squeeze>');
   await ready(page.locator('banana-machine'));
   const far = page.locator('map-squeeze');
@@ -291,7 +291,7 @@ test('paper has figures that were far from the window, with their pictures', asy
   expect(await page.evaluate(() => Reflect.get(window, 'inked'))).toBe(true);
 });
 
-test('paper has the folds of a figure that the reader opened, and nothing to press', async ({ page, figure }) => {
+test('paper has the folds of a figure that the reader opened, and nothing to press @nightly', async ({ page, figure }) => {
   const widget = await mount(page, figure);
   const { at, part } = KNOWN[figure].paper;
   const fold = widget.locator('.folds details').nth(at);
@@ -335,7 +335,7 @@ for (const name of ALL) {
   });
 }
 
-test('the help of a slider covers no slider of its group, and no outline crosses it', async ({ page, figure }) => {
+test('the help of a slider covers no slider of its group, and no outline crosses it @nightly', async ({ page, figure }) => {
   const widget = await unfolded(page, figure);
   for (const [width, lang] of /** @type {const} */ ([[320, 'en'], [700, 'de']])) {
     await page.setViewportSize({ width, height: 812 });

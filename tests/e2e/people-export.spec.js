@@ -143,7 +143,7 @@ for (const [tag, own] of Object.entries(presets)) {
 });
 }
 
-test('PNG of a figure has twice the pixels and opaque paper', async ({ page, figure }) => {
+test('PNG of a figure has twice the pixels and opaque paper @nightly', async ({ page, figure }) => {
   await page.emulateMedia({ colorScheme: 'dark' });
   const widget = await mount(page, figure);
   const png = await widget.evaluate(async (element) => {
@@ -186,7 +186,7 @@ const HOSTILE = ']]> --> <!-- <![CDATA[ </svg><script>alert(1)</script> & &amp; 
 // oxlint-disable-next-line no-control-regex
 const harmless = (text) => text.replace(/[\0-\x08\x0b\x0c\x1f\ufffe\uffff\p{Cs}]/gu, '\ufffd');
 
-test('SVG is well-formed whatever the names of a page are', async ({ page }) => {
+test('SVG is well-formed whatever the names of a page are @nightly', async ({ page }) => {
   const widget = await openSqueeze(page);
   await widget.evaluate(async (element, json) => {
     // JSON keeps halves of surrogate pairs.

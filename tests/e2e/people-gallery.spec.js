@@ -148,7 +148,7 @@ for (const path of ['/', '/reference.html']) {
   });
 }
 
-test('two figures of a kind on a page share nothing', async ({ page }) => {
+test('two figures of a kind on a page share nothing @nightly', async ({ page }) => {
   await show(page, '<banana-machine></banana-machine><banana-machine></banana-machine>');
   const [first, second] = [0, 1].map((i) => page.locator('banana-machine').nth(i));
   await ready(first);

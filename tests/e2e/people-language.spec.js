@@ -150,7 +150,7 @@ test('a page may replace words and add languages; a message of another shape is 
   await expect(widget.locator('p[part=caption]')).toHaveText('À droite.');
 });
 
-test('a page from right to left has the same picture, and nothing beside its figure', async ({ page, figure }) => {
+test('a page from right to left has the same picture, and nothing beside its figure @nightly', async ({ page, figure }) => {
   const widget = await mount(page, figure);
   const canvas = widget.locator('canvas.plane');
   const before = await pictureOf(canvas);
@@ -197,7 +197,7 @@ test('signs stand left of their numbers on a page from right to left, also among
   }
 });
 
-test('a page translator that replaces every text freezes none', async ({ page, figure }) => {
+test('a page translator that replaces every text freezes none @nightly', async ({ page, figure }) => {
   // A figure out of sight waits to be drawn: both are in sight.
   await page.setViewportSize({ width: 1280, height: 4000 });
   await show(page, `<${figure} id="translated"></${figure}><${figure} id="other"></${figure}>`);

@@ -90,7 +90,7 @@ test('the key 0 brings back the state in which the presentation began', async ({
   await expect(widget.getByRole('status').filter({ hasText: 'ω = 0.70 rad/s' })).toHaveCount(1);
 });
 
-test('a figure that opens in the presentation goes back to its opening', async ({ page }) => {
+test('a figure that opens in the presentation goes back to its opening @nightly', async ({ page }) => {
   const widget = await mount(page, 'banana-machine', { attributes: 'preset="pivot" presentation' });
   await page.keyboard.press('1');
   await expect(widget).toHaveAttribute('preset', 'straight');
@@ -104,7 +104,7 @@ test('Map Squeeze has its places and samplers before an audience', async ({ page
   await expect(widget.getByRole('radio', { name: 'Whole arc' })).toBeInViewport();
 });
 
-test('the browser ends the presentation by a key of its own', async ({ page }) => {
+test('the browser ends the presentation by a key of its own @nightly', async ({ page }) => {
   const widget = await mount(page, 'banana-machine');
   await widget.getByRole('button', { name: 'Present' }).click();
   await expect.poll(() => page.evaluate(() => document.fullscreenElement?.localName)).toBe('banana-machine');

@@ -104,7 +104,7 @@ test('a value that is refused is reported with the allowed range, and the last g
   }
 });
 
-test('a number that no sample has is refused and kept until it is right or left', async ({ page }) => {
+test('a number that no sample has is refused and kept until it is right or left @nightly', async ({ page }) => {
   const widget = await widgetOf(page, 'banana-machine');
   const field = widget.locator('#robot');
   const said = widget.locator('.marked [role=alert]');
@@ -145,7 +145,7 @@ for (const name of NAMES) {
   });
 }
 
-test('a change by the page leaves what is being typed', async ({ page }) => {
+test('a change by the page leaves what is being typed @nightly', async ({ page }) => {
   const widget = await widgetOf(page, 'banana-machine');
   const field = valueField(widget, 'alpha1');
   const set = (/** @type {number} */ value) => widget.evaluate(async (element, value) => {

@@ -183,7 +183,7 @@ test('what is refused is said by the trait error, and the trait has the last goo
   await page.close();
 });
 
-test('in a book whose models keep nothing the figure is as live, and what is taken away leaves nothing', async () => {
+test('in a book whose models keep nothing the figure is as live, and what is taken away leaves nothing @nightly', async () => {
   for (const kind of /** @type {const} */ (['book', 'notebook'])) {
     const { page, complaints } = await shown({ widget: 'map-squeeze', preset: 'corridor', samples: '300', view: 'whole' }, kind);
     await complete(page);
@@ -208,7 +208,7 @@ test('in a book whose models keep nothing the figure is as live, and what is tak
   }
 });
 
-test('a model of no widget says what is allowed in the place of the figure', async () => {
+test('a model of no widget says what is allowed in the place of the figure @nightly', async () => {
   for (const [widget, said] of [[undefined, 'missing'], ['banana', '"banana"']]) {
     const { page } = await shown({ widget }, 'book');
     await page.getByText(`This cell shows no figure: widget is ${said}; allowed is banana-machine or map-squeeze or arc-anatomy or odometry-decomposer or dead-reckoning or alpha-calibrator.`).waitFor();

@@ -227,7 +227,7 @@ test('external.js loads a widget when its tag is met, with the words that the pa
   await page.close();
 });
 
-test('two copies of the bundle on a page get along', async () => {
+test('two copies of the bundle on a page get along @nightly', async () => {
   const classic = '<script defer src="/iframe/motion-widgets.iife.js"></script>';
   for (const other of [classic, script('external.js?copy')]) {
     const { complaints } = await pageWith(script('external.js') + other);
@@ -235,7 +235,7 @@ test('two copies of the bundle on a page get along', async () => {
   }
 });
 
-test('the address of the external module can be set by the script that imports it', async () => {
+test('the address of the external module can be set by the script that imports it @nightly', async () => {
   const address = `${DIST}motion.wasm?mine`;
   const { complaints, modules } = await pageWith(
     `<script type="module">import { load } from '${DIST}external.js'; load('${address}');</script>`,
@@ -268,7 +268,7 @@ test('where the file of a module cannot be had, the embedded one is used, and a 
   await page.close();
 });
 
-test('an address that has no module is refused with the cure', async () => {
+test('an address that has no module is refused with the cure @nightly', async () => {
   const { page } = await withoutModules('');
   const refused = page.evaluate(async (address) => (await import(address)).load('/none.wasm'), `${DIST}external.js`);
   await assert.rejects(refused, (/** @type {Error} */ { message }) => message.includes('/none.wasm answers with text/html') && message.includes(CURE));

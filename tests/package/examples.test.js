@@ -39,7 +39,7 @@ test('a frame that takes the height of its widget', async () => {
   await page.close();
 });
 
-test('a frame names what is wrong with its address', async () => {
+test('a frame names what is wrong with its address @nightly', async () => {
   const page = await project.browser.newPage();
   for (const [query, sentence] of [
     ['', /widget is missing; allowed is banana-machine or map-squeeze/],
@@ -91,7 +91,7 @@ const BUILDS = {
 };
 
 for (const [name, bundle] of Object.entries(BUILDS)) {
-  test(`${name}: a figure is live from the embedded module, and no file is asked for in vain`, async () => {
+  test(`${name}: a figure is live from the embedded module, and no file is asked for in vain${name.includes('chunks') ? '' : ' @nightly'}`, async () => {
     const path = name.replaceAll(/\W+/g, '-');
     const directory = join(project.directory, path);
     mkdirSync(directory);

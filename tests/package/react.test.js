@@ -169,7 +169,7 @@ test('a list in JSX, and a page that is rendered at every figure, leave what the
   assert.deepEqual(complaints, []);
 });
 
-test('a prop that is refused is told, one that goes leaves the element as it opens', async () => {
+test('a prop that is refused is told, one that goes leaves the element as it opens @nightly', async () => {
   await open('index.html');
   await page.evaluate(() => /** @type {any} */ (globalThis).show({ omega: 0.8, marked: 7, conditioned: false }));
   await whole();

@@ -95,6 +95,7 @@ test('pauses and jumps are found, and a heading that wraps is no jump', async ()
   const { summary, data } = await read(`t,x,y,yaw\n${rows.join('\n')}`);
   assert.deepEqual(summary.gaps, { count: 2, longest: 3.05, first: 59 / 20 + 0.19 });
   assert.deepEqual([summary.jumps, [...data.breaks]], [{ count: 2, first: 13.4 }, [200, 300]]);
+  assert.ok(summary.distance > 20 && summary.distance < 20.3, `${summary.distance}`);
   assert.equal((await read(circles())).summary.jumps.count, 0);
 });
 

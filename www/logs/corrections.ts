@@ -3,6 +3,7 @@
 import { bisectLeft } from 'd3-array';
 import { ROLES, type Log, type Question, type Role } from './log.ts';
 import { pathOf } from './path.ts';
+import { quantile } from './quantile.ts';
 
 type Pose = [x: number, y: number, heading: number];
 
@@ -103,38 +104,44 @@ function motionsOf({ data }: Log, from: number, step: number, count: number, cor
 
 const wrapped = (angle: number) => angle - 2 * Math.PI * Math.round(angle / (2 * Math.PI));
 
-/** Returns the agreement of two logs at the offset of their clocks where it is largest. */
+/** Returns the agreement of two logs at the offset of their clocks where it is largest, or at the nearest one where they agree. */
 function agreement({ odometry, reference }: Record<Role, Motion[]>, step: number): Agreement {
   const most = Math.round(OFFSET / step);
-  const limits = [odometry, reference].map((motions) => [(motion: Motion) => Math.hypot(motion[0], motion[1]), (motion: Motion) => Math.abs(motion[2])].map((size) =>
-    JUMP * Math.max(STANDS, motions.map(size).sort((one, other) => one - other)[Math.floor(0.9 * motions.length)])));
-  const isSteady = ([forward, left, turn]: Motion, [drive, spin]: number[]) => Math.hypot(forward, left) <= drive && Math.abs(turn) <= spin;
+  const [own, its] = [steady(odometry), steady(reference)];
   let best: Agreement = { score: -1, length: 1, angle: 1 };
-  for (let lag = -most; lag <= most; lag++) {
-    // Sums of products: of drives with the odometry's, with each other, with the reference's; and of turns.
-    const sums = [0, 0, 0, 0, 0, 0];
-    let common = 0;
-    for (let i = Math.max(0, -lag); i < odometry.length && i + lag < reference.length; i++) {
-      const [own, its] = [odometry[i], reference[i + lag]];
-      if (!isSteady(own, limits[0]) || !isSteady(its, limits[1])) continue;
-      common += 1;
-      sums[0] += own[0] ** 2 + own[1] ** 2;
-      sums[1] += own[0] * its[0] + own[1] * its[1];
-      sums[2] += its[0] ** 2 + its[1] ** 2;
-      sums[3] += own[2] ** 2;
-      sums[4] += own[2] * its[2];
-      sums[5] += its[2] ** 2;
-    }
-    if (2 * common < odometry.length - most) continue;
-    // A robot that only drives straight on or turns on the spot shows one of the two.
-    const [drives, turns] = [sums.slice(0, 3), sums.slice(3)].map(([own, both, its]) => {
-      const isStanding = Math.sqrt(Math.max(own, its) / common) < STANDS;
-      return isStanding ? { correlation: 1, scale: 1 } : { correlation: both / Math.sqrt(own * its || 1), scale: own / both };
-    });
-    const score = Math.min(drives.correlation, turns.correlation);
-    if (score > best.score) best = { score, length: drives.scale, angle: turns.scale };
+  for (let i = 0; i <= 2 * most && best.score < AGREES; i++) {
+    const found = agreementAt(own, its, i % 2 === 0 ? i / 2 : -(i + 1) / 2, own.length - most);
+    if (found.score > best.score) best = found;
   }
   return best;
+}
+
+/** Returns motions without jumps: a jump is a standing robot. */
+function steady(motions: Motion[]): Motion[] {
+  const limitOf = (size: (motion: Motion) => number) => JUMP * Math.max(STANDS, quantile(Float64Array.from(motions, size), 0.9));
+  const [drive, spin] = [limitOf(([forward, left]) => Math.hypot(forward, left)), limitOf(([, , turn]) => Math.abs(turn))];
+  return motions.map((motion) => (Math.hypot(motion[0], motion[1]) <= drive && Math.abs(motion[2]) <= spin ? motion : [0, 0, 0]));
+}
+
+/** Returns the agreement at an offset of so many steps, for at least half of `count`. */
+function agreementAt(odometry: Motion[], reference: Motion[], lag: number, count: number): Agreement {
+  // Sums of products, of drives and of turns: of the odometry with itself, of both, of the reference with itself.
+  let [drives, bothDrives, itsDrives, turns, bothTurns, itsTurns] = [0, 0, 0, 0, 0, 0];
+  const [first, end] = [Math.max(0, -lag), Math.min(odometry.length, reference.length - lag)];
+  for (let i = first; i < end; i++) {
+    const [own, its] = [odometry[i], reference[i + lag]];
+    drives += own[0] * own[0] + own[1] * own[1];
+    bothDrives += own[0] * its[0] + own[1] * its[1];
+    itsDrives += its[0] * its[0] + its[1] * its[1];
+    turns += own[2] * own[2];
+    bothTurns += own[2] * its[2];
+    itsTurns += its[2] * its[2];
+  }
+  if (2 * (end - first) < count) return { score: -1, length: 1, angle: 1 };
+  // A robot that only drives straight on or turns on the spot shows one of the two.
+  const [drive, turn] = [[drives, bothDrives, itsDrives], [turns, bothTurns, itsTurns]].map(([own, both, its]) =>
+    (Math.sqrt(Math.max(own, its) / (end - first)) < STANDS ? { correlation: 1, scale: 1 } : { correlation: both / Math.sqrt(own * its || 1), scale: own / both }));
+  return { score: Math.min(drive.correlation, turn.correlation), length: drive.scale, angle: turn.scale };
 }
 
 /** Returns by how much a robot drives straight ahead or back: 1 along its heading, 0 in all directions. */

@@ -132,12 +132,12 @@ export class Rows {
     const columns = { ...times, a, b, c };
     const units = judgeUnits(this.#place, kind, columns, stated, options);
     const { start, t } = columns;
-    const { breaks, ...found } = this.#events(kind, [t, a, b, c], rows);
+    const { breaks, jumped, ...found } = this.#events(kind, [t, a, b, c], rows);
     const data = { t, ...(kind === 'poses' ? { x: a, y: b, theta: c } : { v: a, omega: b }), breaks } as Log['data'];
     const notes = late > 0 ? [...decisions.notes, { name: 'sorted' as const, values: [late] }] : decisions.notes;
     const seconds = t[t.length - 1] - t[0];
     const summary = {
-      rows: count, used: t.length, dropped: this.#dropped, seconds, distance: distanceOf(data), ...found,
+      rows: count, used: t.length, dropped: this.#dropped, seconds, distance: distanceOf(data, jumped), ...found,
       ...decisions, units, clock: clocks[usesOther ? 1 : 0] ?? '', notes,
     };
     return { name, kind, start, data, summary };
@@ -276,7 +276,7 @@ export class Rows {
     const step = quantile(sample(t.length - 1, (i) => t[i + 1] - t[i]), 0.5);
     const gaps = { count: 0, longest: 0, first: NaN };
     const jumps = { count: 0, first: NaN };
-    const breaks: number[] = [];
+    const [breaks, jumped]: number[][] = [[], []];
     const isJump = kind === 'poses' ? jumpTest(t, a, b, c) : () => false;
     for (let i = 1; i < t.length; i++) {
       const pause = t[i] - t[i - 1];
@@ -288,10 +288,11 @@ export class Rows {
       if (isJump(i)) {
         if (jumps.count === 0) jumps.first = t[i] - t[0];
         jumps.count += 1;
+        jumped.push(i);
         breaks.push(i);
       } else if (this.#broken.has(rows[i])) breaks.push(i);
     }
-    return { rate: 1 / step, gaps, jumps, breaks: Uint32Array.from(breaks) };
+    return { rate: 1 / step, gaps, jumps, jumped, breaks: Uint32Array.from(breaks) };
   }
 
   #at(line: number): Place {

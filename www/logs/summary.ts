@@ -6,8 +6,8 @@ import { LOG_TIME, type Cause, type Commands, type Log, type Poses } from './log
 /** Path between two points in m that counts as driven: the noise of poses at rest adds up to nothing. */
 const STEP = 0.05;
 
-/** Returns the distance driven, in m. */
-export function distanceOf(data: Poses | Commands): number {
+/** Returns the distance driven, in m, without the jumps before some rows. */
+export function distanceOf(data: Poses | Commands, jumps: number[]): number {
   const { t } = data;
   let distance = 0;
   if ('v' in data) {
@@ -15,10 +15,12 @@ export function distanceOf(data: Poses | Commands): number {
     return distance;
   }
   const { x, y } = data;
-  for (let i = 1, last = 0; i < t.length; i++) {
+  for (let i = 1, last = 0, next = 0; i < t.length; i++) {
     const step = Math.hypot(x[i] - x[last], y[i] - y[last]);
-    if (step < STEP) continue;
-    distance += step;
+    const isJump = jumps[next] === i;
+    if (isJump) next += 1;
+    else if (step < STEP) continue;
+    else distance += step;
     last = i;
   }
   return distance;

@@ -56,7 +56,16 @@ export function readAhead(source: Source): (from: number, to: number) => Promise
 
 export const viewOf = ({ buffer, byteOffset, byteLength }: Uint8Array) => new DataView(buffer, byteOffset, byteLength);
 
-const SECOND = 1_000_000_000n;
+/** Returns a number of eight bytes that is below 2^53. */
+export const uint53 = (view: DataView, at: number) => view.getUint32(at, true) + 2 ** 32 * view.getUint32(at + 4, true);
 
-/** Splits a time in nanoseconds. */
-export const stampOf = (time: bigint) => ({ seconds: Number(time / SECOND), nanoseconds: Number(time % SECOND) });
+/** Splits a time in nanoseconds, in digits of 16 bits: a BigInt takes as long as all the rest of a message. */
+export function stampAt(view: DataView, at: number) {
+  let [seconds, rest] = [0, view.getUint32(at + 4, true)];
+  for (const from of [at + 2, at]) {
+    rest = rest * 2 ** 16 + view.getUint16(from, true);
+    seconds = seconds * 2 ** 16 + Math.floor(rest / 1e9);
+    rest %= 1e9;
+  }
+  return { seconds, nanoseconds: rest };
+}

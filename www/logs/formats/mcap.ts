@@ -4,7 +4,7 @@ import { crc32 } from '@foxglove/crc';
 import { McapIndexedReader, McapStreamReader } from '@mcap/core';
 import { LogError, bytesOf, reasonOf } from '../log-error.ts';
 import type { Source } from '../log.ts';
-import { MAX_BLOCK, readAhead, stampOf, viewOf, type Channel, type Container, type Message } from './container.ts';
+import { MAX_BLOCK, readAhead, stampAt, uint53, viewOf, type Channel, type Container, type Message } from './container.ts';
 import { unlz4 } from './lz4.ts';
 import { loadZstd, unzstd } from './zstd.ts';
 
@@ -94,8 +94,8 @@ class Mcap implements Container {
     this.cutShort = true;
     for (let at = MAGIC, reported = 0; at + HEAD <= size; ) {
       const head = await bytesAt(at, at + HEAD);
-      const length = viewOf(head).getBigUint64(1, true);
-      const next = at + HEAD + Number(length);
+      const length = uint53(viewOf(head), 1);
+      const next = at + HEAD + length;
       if (next > size) return;
       if (head[0] === DATA_END) {
         this.cutShort = false;
@@ -128,13 +128,12 @@ class Mcap implements Container {
   #readRecords(bytes: Uint8Array, isWanted: Wanted, each: Each): void {
     const view = viewOf(bytes);
     for (let at = 0; at < bytes.length; ) {
-      const next = at + HEAD + Number(view.getBigUint64(at + 1, true));
+      const next = at + HEAD + uint53(view, at + 1);
       if (next > bytes.length) throw new RangeError('a record is cut short');
       if (bytes[at] === MESSAGE) {
         const channel = this.#channels.get(view.getUint16(at + HEAD, true));
         if (channel && isWanted(channel)) {
-          const time = view.getBigUint64(at + HEAD + 6, true);
-          each({ channel, ...stampOf(time), data: bytes.subarray(at + HEAD + 22, next) });
+          each({ channel, ...stampAt(view, at + HEAD + 6), data: bytes.subarray(at + HEAD + 22, next) });
         }
       } else {
         const reader = new McapStreamReader({ noMagicPrefix: true });
@@ -151,11 +150,11 @@ class Mcap implements Container {
 /** Returns the records of a chunk; rejects if it is damaged, or its compression is unknown. */
 async function contentsOf(chunk: Uint8Array): Promise<Uint8Array> {
   const view = viewOf(chunk);
-  const [size, crc, length] = [view.getBigUint64(16, true), view.getUint32(24, true), view.getUint32(28, true)];
+  const [size, crc, length] = [uint53(view, 16), view.getUint32(24, true), view.getUint32(28, true)];
   if (size > MAX_BLOCK) throw new RangeError(`a chunk of ${size} bytes`);
   const compression = new TextDecoder().decode(chunk.subarray(32, 32 + length));
   const bytes = chunk.subarray(40 + length);
-  const decompress = { '': () => bytes, zstd: () => unzstd(bytes, Number(size)), lz4: () => unlz4(bytes, Number(size)) }[compression];
+  const decompress = { '': () => bytes, zstd: () => unzstd(bytes, size), lz4: () => unlz4(bytes, size) }[compression];
   if (!decompress) throw new RangeError(`compression by ${compression}, not by zstd or lz4`);
   const contents = await decompress();
   if (crc !== 0 && crc32(contents) !== crc) throw new RangeError('the checksum of a chunk is wrong');

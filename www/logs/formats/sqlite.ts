@@ -2,7 +2,7 @@
 
 import { LogError, bytesOf, reasonOf } from '../log-error.ts';
 import type { Source } from '../log.ts';
-import { readAhead, stampOf, viewOf, type Channel, type Container, type Message } from './container.ts';
+import { readAhead, viewOf, type Channel, type Container, type Message } from './container.ts';
 import { loadZstd } from './zstd.ts';
 
 /** Types of the pages of a table. */
@@ -16,6 +16,9 @@ const MAX_DEPTH = 20;
 
 /** Most bytes of a row: the largest messages are point clouds and images. */
 const MAX_ROW = 2 ** 28;
+
+/** Nanoseconds. */
+const SECOND = 1_000_000_000n;
 
 type Value = number | bigint | Uint8Array;
 
@@ -105,7 +108,7 @@ class Rosbag2 implements Container {
     const [topicId, timestamp, data] = ['topic_id', 'timestamp', 'data'].map((column) => this.#messages.columns.indexOf(column));
     const take = (channel: Channel, bytes: Uint8Array) => {
       const time = BigInt(valueOf(bytes, timestamp) as bigint);
-      each({ channel, ...stampOf(time), data: valueOf(bytes, data) as Uint8Array });
+      each({ channel, seconds: Number(time / SECOND), nanoseconds: Number(time % SECOND), data: valueOf(bytes, data) as Uint8Array });
     };
     await this.#eachRow(this.#messages, (row) => {
       const channel = wanted.get(valueOf(row.bytes, topicId));

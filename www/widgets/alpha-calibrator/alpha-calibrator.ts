@@ -27,7 +27,7 @@ import { alphaTable, alphaTexts, verdictLine } from './readouts.ts';
 import { COMPONENTS, LINES, attributes, declared, kindOf, looks, own, vocabulary } from './settings.ts';
 import { calibratorStyles } from './styles.ts';
 import { systematicTable, systematicTexts } from './systematic.ts';
-import { captionOf, legText, reasonOf, wayText } from './words.ts';
+import { captionOf, judgementOf, legText, reasonOf, wayText } from './words.ts';
 import type { AlphaCalibrator as Machine, CalibrationLog, CalibrationPanel, LegView, Motion } from '../../types.d.ts';
 import type { Reading } from './reading.ts';
 
@@ -273,6 +273,7 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
         ${this.stage.later(() => html`
         ${legend(this, LINES)}
         <div part="controls">${legLengths(this)}</div>
+        <p class="meaning">${judgementOf(reading, this.hasLocalizer).meaning}</p>
         ${disclosures(this, {
           controls: () => html`${modelControls(this)}
             ${group(say.systematic.title, systematicTable(this))}

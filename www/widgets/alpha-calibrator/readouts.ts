@@ -20,7 +20,7 @@ const MOST_DECADES = 4;
 /** Icons of the ratings. */
 const ICONS = { consistent: '✓', questionable: '!', unusable: '✕' };
 
-/** Returns the badge of the α's, with the verdict, the next step and the legs. */
+/** Returns the badge of the α's, with the verdict, a short next step and the legs: two lines at most on a wide page. */
 export function verdictLine({ reading, logName, hasLocalizer }: Figure) {
   const { rating, badge, finding, next } = judgementOf(reading, hasLocalizer);
   return html`<span class="badge ${rating}"><span aria-hidden="true">${ICONS[rating]}</span> ${badge}</span>

@@ -304,6 +304,10 @@ const own = css`
     line-height: 1.3;
   }
 
+  .meaning {
+    margin: 0;
+  }
+
   .systematic :is(th, td) {
     padding-block: 0;
   }

@@ -16,20 +16,27 @@ type Figure = Pick<import('./alpha-calibrator.ts').AlphaCalibratorElement, 'read
 const COUNTS = ['enough-legs'];
 const FRACTIONS = ['legs-lost', 'outliers-few', 'holdout-covered', 'window-1m-covered', 'window-2m-covered', 'window-5m-covered'];
 
-/**
- * Returns the rating of the α's, with the first failed check, warnings and the next step as sentences. A warning, as that of a localizer as
- * reference, makes consistent α's questionable.
- */
-export function judgementOf(reading: Reading, hasLocalizer: boolean): { rating: Reading['stats']['diagnostics']['verdict'], badge: string, finding: string, next: string } {
+/** Rating of the α's, with sentences. The meaning is long, and stands where it moves no picture. */
+interface Judgement {
+  rating: Reading['stats']['diagnostics']['verdict'];
+  badge: string;
+  finding: string;
+  next: string;
+  meaning: string;
+}
+
+/** Returns the judgement of the α's. A warning, as that of a localizer as reference, makes consistent α's questionable. */
+export function judgementOf(reading: Reading, hasLocalizer: boolean): Judgement {
   const { stats: { diagnostics: { verdict, checks } }, legs } = reading;
   const say = words.calibrator;
   const warnings = [uncorrectedText(reading), hasLocalizer ? say.nav2.localizer : ''].filter(Boolean);
   const rating = verdict === 'consistent' && warnings.length > 0 ? 'questionable' : verdict;
-  const result = (finding: string, next: string) => ({ rating, badge: say.badges[rating], finding: [finding, ...warnings].join(' '), next });
-  if (legs.count === 0) return result(say.none, say.longer);
+  const result = (finding: string, next: string, ...meaning: string[]) => ({ rating, badge: say.badges[rating], finding, next, meaning: meaning.join(' ') });
+  if (legs.count === 0) return result(say.none, say.longer, ...warnings);
   const failed = failedOf(checks);
-  if (failed.length > 0) return result(say.failed(say.checks.names[failed[0].name], counted(failed.length), counted(checks.length)), messageOf(failed[0]));
-  return verdict === 'unusable' ? result(say.noAlpha, '') : result(say.passed(counted(checks.length)), rating === 'consistent' ? say.use : '');
+  if (failed.length > 0) return result(say.failed(say.checks.names[failed[0].name], counted(failed.length), counted(checks.length)), '', ...warnings, messageOf(failed[0]));
+  if (verdict === 'unusable') return result(say.noAlpha, '', ...warnings);
+  return warnings.length > 0 ? result(warnings[0], '', ...warnings.slice(1)) : result(say.passed(counted(checks.length)), say.use);
 }
 
 /** Returns what a failed check means and what to do. */
@@ -81,8 +88,8 @@ export function legsText({ legs }: Reading, log: string) {
 
 /** Returns the caption of the pictures: the judgement and the legs. */
 export function captionOf({ reading, hasLocalizer, logName }: Figure) {
-  const { badge, finding, next } = judgementOf(reading, hasLocalizer);
-  return [`${badge}.`, finding, next, legsText(reading, logName)].filter(Boolean).join(' ');
+  const { badge, finding, next, meaning } = judgementOf(reading, hasLocalizer);
+  return [`${badge}.`, finding, next, legsText(reading, logName), meaning].filter(Boolean).join(' ');
 }
 
 /** The text equivalent of the way. */

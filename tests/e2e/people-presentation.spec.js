@@ -68,8 +68,10 @@ test('the keys 1 to 9 choose presets, and entering from the keyboard leads to a 
   await expect(widget.getByRole('button', { name: 'C Controls' })).toBeFocused();
   const words = await widget.evaluate((element) => /** @type {any} */ (element).kind.attributes.preset.words);
   for (const i of [1, 2, 0]) {
+    await widget.evaluate((element) => void Object.assign(element, { morph: 0.5 }));
     await page.keyboard.press(String(i + 1));
     await expect(widget).toHaveAttribute('preset', words[i]);
+    await expect(widget).toHaveAttribute('morph', '0');
   }
   // No preset has this key.
   await page.keyboard.press('9');

@@ -111,7 +111,7 @@ export class FigureElement<Machine extends { free(): void, stats: object, config
   /** Cloud of a figure with samples. */
   cloud: import('./cloud.ts').Cloud | undefined;
   /** Player of a figure that animates a slider. `advance` returns true while it plays. */
-  player: { advance(elapsed: number): boolean } | undefined;
+  player: { advance(elapsed: number): boolean, stop(): void } | undefined;
   /** Pictures on the canvases; the first is exported unless there is a plate. */
   pictures: import('../scene/picture.ts').Picture<any>[] = [];
   /** Picture for export, with its own size. */

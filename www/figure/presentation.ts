@@ -87,12 +87,8 @@ export class Presentation extends Part {
     else this.#choose(this.host.kind.attributes.preset?.words?.[Number(key) - 1]);
   };
 
-  /** Applies a preset, as its button does. */
   #choose(preset?: string) {
-    if (preset === undefined || !this.host.machine) return;
-    Object.assign(this.host, { preset });
-    this.host.gesture.step();
-    this.host.gesture.commit();
+    if (preset !== undefined && this.host.machine) this.host.state.choosePreset(preset);
   }
 
   #restore() {

@@ -11,6 +11,8 @@ export type Values = Record<string, any>;
 export interface Owned {
   /** Default. */
   opening: unknown;
+  /** True if a preset sets it to its default. */
+  ofPreset?: true;
   /** Returns a checked value, for so many selectable samples; throws. */
   check: (field: string, value: any, machine: any, selectableCount: number) => any;
 }
@@ -83,6 +85,18 @@ export class State extends Part {
     host.machineChanged();
     this.#introduce(whole);
     host.settings.show();
+  }
+
+  /** Applies a preset, as a change by the reader. */
+  choosePreset(preset: string) {
+    const { host } = this;
+    host.player?.stop();
+    host.typing.forget();
+    host.stage.release();
+    for (const [name, { ofPreset }] of Object.entries(this.#owned)) if (ofPreset) this.own[name] = this.opening(name);
+    Object.assign(host, { preset });
+    host.gesture.step();
+    host.gesture.commit();
   }
 
   /** Restores the state that the figure opened with. */

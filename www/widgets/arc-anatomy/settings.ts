@@ -41,8 +41,8 @@ export const attributes: import('../../figure/attributes.ts').Attributes = {
 
 export const own: Record<string, import('../../figure/state.ts').Owned> = {
   overlays: state,
-  line: { opening: 0, check: (field, line) => wholeNumber(field, line, 0, TABLE_LINES) },
-  underway: { opening: WHOLE, check: (field, share) => wholeNumber(field, share, 0, WHOLE) },
+  line: { opening: 0, ofPreset: true, check: (field, line) => wholeNumber(field, line, 0, TABLE_LINES) },
+  underway: { opening: WHOLE, ofPreset: true, check: (field, share) => wholeNumber(field, share, 0, WHOLE) },
 };
 
 export const documentation: import('../../figure/attributes.ts').Documentation = {

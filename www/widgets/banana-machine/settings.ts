@@ -40,7 +40,7 @@ export const own: Record<string, import('../../figure/state.ts').Owned> = {
   isolateChoice: { opening: 4, check: (field, number) => wholeNumber(field, number, 1, openingAlphas.velocity.length) },
   overlays: state,
   /** Share of the way from the floor to exponential coordinates. */
-  morph: { opening: 0, check: (field, morph) => numberWithin(field, morph, 0, 1) },
+  morph: { opening: 0, ofPreset: true, check: (field, morph) => numberWithin(field, morph, 0, 1) },
 };
 
 export const documentation: import('../../figure/attributes.ts').Documentation = {

@@ -6,17 +6,13 @@ import { button } from '../../ui/controls.ts';
 
 /** Returns a button for each preset, the present one pressed, then more buttons, and the one to start over. */
 export function presetButtons(figure: import('../../figure/figure.ts').Figure, more: unknown = nothing) {
-  const { gesture, kind, settings, stage } = figure;
+  const { kind, settings, state } = figure;
   const { presets } = (words as any)[kind.vocabulary];
   const preset = kind.attributes.preset as import('../../figure/attributes.ts').Setting;
   const current = preset.get(settings.wanted);
-  const begin = (name: string) => {
-    stage.release();
-    gesture.decide(preset.change(name, settings.wanted));
-  };
   return html`<div class="buttons presets" role="group" aria-label=${words.presets}>
     ${Object.entries(presets).map(([name, label]) =>
-      button(label, () => begin(name), { pressed: name === current, name: 'preset' }))}
+      button(label, () => state.choosePreset(name), { pressed: name === current, name: 'preset' }))}
     ${more} ${startOverButton(figure)}
   </div>`;
 }

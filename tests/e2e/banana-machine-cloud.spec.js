@@ -56,11 +56,9 @@ test('opens with the whole cloud of the opening command, and shows the numbers o
   const [gain, gainError] = (await shown('log-likelihood gain')).split(' ± ').map(numberIn);
   expect(gain).toBeCloseTo(stats.likelihoodGain.pose, 3);
   expect(gainError).toBeCloseTo(stats.likelihoodGainError.pose, 3);
-  const [ratio, ratioError] = (await shown('area covered')).replace(' ×', '').split(' ± ').map(numberIn);
-  expect(ratio).toBeCloseTo(stats.areaRatio, 2);
-  expect(ratioError).toBeCloseTo(stats.areaRatioError, 2);
+  expect(await shown('area covered')).toBe(`${stats.areaRatio.toFixed(2)} ×`);
   const shares = [stats.coverage.ellipse, stats.coverage.exponential].map((share) => `${(100 * share).toFixed(1)}\u202f%`);
-  await expect(detail(widget, 'area covered')).toHaveText(`inside: ${shares.join(' and ')}`);
+  await expect(detail(widget, 'area covered')).toHaveText(`± ${stats.areaRatioError.toPrecision(1)}; robots inside: ${shares.join(' and ')}`);
   await expect(detail(widget, 'log-likelihood gain')).toHaveText(`exactly ${table.exact.likelihoodGain.pose.toFixed(3)}; 1 nat: a factor of e`);
   const row = widget.locator('tr').filter({ has: page.getByRole('rowheader', { name: 'Σxx', exact: true }) });
   const cells = (await row.getByRole('cell').allTextContents()).map(numberIn);
@@ -184,15 +182,15 @@ test('the sentence says what the model decides and the robots show', async ({ pa
   // The sentence has the number of the readout.
   const [ratio] = (await readout(widget, 'area covered').innerText()).split(' ');
   await expect(sentence(widget)).toHaveText(
-    new RegExp(`^The cloud leans to neither side: skew −?0\\.\\d+\\s±\\s0\\.\\d+, exactly 0 by symmetry\\. Yet it is bent: its ellipse covers ${ratio} times the floor of the ξ outline\\.$`),
+    new RegExp(`^The cloud is bent: its ellipse covers ${ratio} times the floor of the ξ outline\\. Both sides are alike: skew −?0\\.\\d+\\s±\\s0\\.\\d+, exactly 0 by symmetry\\.$`),
   );
   // Nearly symmetric, and as bent.
   await widget.locator('#omega').fill('0.02');
-  await expect(sentence(widget)).toHaveText(/^The cloud hardly leans to either side: skew −?0\.\d+\s±\s0\.\d+, exactly −?0\.0\d+\. Yet it is bent: its ellipse covers/);
+  await expect(sentence(widget)).toHaveText(/^The cloud is bent: its ellipse covers .* Both sides are nearly alike: skew −?0\.\d+\s±\s0\.\d+, exactly −?0\.0\d+\.$/);
   await widget.locator('#omega').fill('0');
   // Hardly any noise in the turn: nothing is bent.
   for (const id of ['alpha3', 'alpha4']) await widget.locator(`#${id}`).fill('0.001');
-  await expect(sentence(widget)).toHaveText(/^The cloud leans to neither side: skew [^.]*\.\d+\s±\s[\d.]+, exactly 0 by symmetry\.$/);
+  await expect(sentence(widget)).toHaveText(/^Both sides are alike: skew [^.]*\.\d+\s±\s[\d.]+, exactly 0 by symmetry\.$/);
 });
 
 test('few robots do not show the lean; the Pivot’s bow-tie has its reason @nightly', async ({ page }) => {
@@ -219,7 +217,7 @@ test('a cloud that turns a full circle has no exponential coordinates, and says 
   await set(widget, { omega: 2, dt: 3 });
   await expect(widget.locator('.note')).toContainText('statistics in ξ are undefined');
   await expect(readout(widget, 'predicts')).toHaveText('—');
-  await expect(detail(widget, 'area covered')).toHaveText(/^inside: [\d.]+\u202f% and —$/);
+  await expect(detail(widget, 'area covered')).toHaveText(/; robots inside: [\d.]+\u202f% and —$/);
   for (const name of ['area covered', 'log-likelihood gain', 'exact area']) await expect(readout(widget, name)).toHaveText('—');
   await expect(readout(widget, 'cross-track skew')).not.toHaveText('—');
   const measured = widget.getByRole('row', { name: 'mean ξ along' }).getByRole('cell').last();

@@ -3,7 +3,9 @@ import { FRESH, STILL, boxOf, centreOf, open, pictureOf, played, property, reado
 
 test.use(STILL);
 
-test('one slider carries the floor to exponential coordinates and back', async ({ page }) => {
+const calloutsOf = (/** @type {import('@playwright/test').Locator} */ widget) => widget.evaluate((element) => /** @type {any} */ (element).scene.callouts.length);
+
+test('one slider carries the floor to exponential coordinates and back, and callouts are on the floor alone', async ({ page }) => {
   const widget = await open(page);
   const plane = widget.locator('canvas.plane');
   const slider = widget.getByRole('slider', { name: 'From the floor' });
@@ -14,9 +16,19 @@ test('one slider carries the floor to exponential coordinates and back', async (
     expect(/** @type {any} */ (await stateOf(widget)).morph).toBe(Number(morph));
     await expect(widget).toHaveAttribute('morph', morph);
     await expect(widget.locator('.panel-title').first()).toContainText(title);
+    expect(await calloutsOf(widget)).toBe(morph === '0' ? 2 : 0);
   }
   expect(new Set(pictures).size).toBe(3);
   expect(pictures[3]).toBe(pictures[0]);
+});
+
+test('a preset brings back the floor, also the present one', async ({ page }) => {
+  const widget = await open(page);
+  for (const name of ['Hard arc', 'Hard arc']) {
+    await widget.getByRole('slider', { name: 'From the floor' }).fill('1');
+    await widget.getByRole('button', { name }).click();
+    await expect(widget).toHaveAttribute('morph', '0');
+  }
 });
 
 test('Play carries the floor all the way', async ({ page }) => {
@@ -55,6 +67,12 @@ test('Pin keeps the numbers and outlines to compare with, and lets go of them', 
   await expect(pin).toHaveAttribute('aria-pressed', 'true');
   await widget.getByRole('button', { name: 'Hard arc' }).click();
   await expect(area).toContainText(`pinned: ${before}`);
+  const outside = await widget.evaluate((element) => {
+    const { scene, pictures } = /** @type {any} */ (element);
+    const { xMin, xMax, yMin, yMax } = pictures[0].view.extent;
+    return scene.pinnedAt(0).filter((/** @type {number} */ at, /** @type {number} */ i) => (i % 2 ? at < yMin || at > yMax : at < xMin || at > xMax));
+  });
+  expect(outside).toEqual([]);
   const withGhost = await pictureOf(widget.locator('canvas.plane'));
   await pin.click();
   await expect(area).not.toContainText('pinned');
@@ -70,7 +88,7 @@ test('the title of the floor agrees with the fit of the ellipse', async ({ page 
   for (const [preset, fit, gaps] of /** @type {const} */ ([['banana', 'no ellipse fits', 2], ['gentle', 'the ellipse nearly fits', 0], ['pivot', 'the ellipse has the size, not the shape', 0]])) {
     await widget.evaluate((element, preset) => void Reflect.set(element, 'preset', preset), preset);
     await expect(title).toHaveText(`On the floor: ${fit}`);
-    expect(await widget.evaluate((element) => /** @type {any} */ (element).scene.callouts.length)).toBe(gaps);
+    expect(await calloutsOf(widget)).toBe(gaps);
   }
 });
 
@@ -94,7 +112,7 @@ test('the buttons that play have the names of what they play @nightly', async ({
 
 test('callouts are hidden while the cloud is dragged under them @nightly', async ({ page }) => {
   const widget = await open(page);
-  const callouts = () => widget.evaluate((element) => /** @type {any} */ (element).scene.callouts.length);
+  const callouts = () => calloutsOf(widget);
   const { x, y } = await centreOf(widget.locator('.handle'));
   await page.mouse.move(x, y);
   await page.mouse.down();

@@ -6,6 +6,7 @@ import { dirname, join } from 'node:path';
 import { test } from 'node:test';
 import { filesOf } from '../../scripts/bundle.mjs';
 import { ROOT } from '../../scripts/process.mjs';
+import { presets } from '../../www/settings.js';
 
 const read = (/** @type {string} */ path) => readFileSync(new URL(`../../${path}`, import.meta.url), 'utf8');
 
@@ -13,7 +14,7 @@ const read = (/** @type {string} */ path) => readFileSync(new URL(`../../${path}
 const LIMITS = [
   ['www/widgets/banana-machine/pictures.ts', 'MAX_DOTS', /Up to (\S+) robots are drawn as dots/],
   ['www/widgets/map-squeeze/reading.ts', 'MAX_DOTS', /more than (\S+) motions are drawn as cells/],
-  ['www/widgets/banana-machine/words.ts', 'HARDLY', /exact skew is below (\S+) \| the cloud hardly leans/],
+  ['www/widgets/banana-machine/words.ts', 'HARDLY', /exact skew is below (\S+) \| both sides are nearly alike/],
   ['www/widgets/banana-machine/words.ts', 'TOO_LARGE', /if the ellipse has more than (\S+) times the area/],
   ['www/widgets/banana-machine/words.ts', 'BENT', /or if the gain is more than (\S+) nats a robot/],
 ];
@@ -24,6 +25,13 @@ test('doc/model.md and doc/statistics.md have the limits of the pages', () => {
     const [, set] = read(file).match(new RegExp(`const ${name} = ([\\d._]+);`)) ?? [];
     assert.ok(set, `${name} of ${file}`);
     assert.equal(told.match(sentence)?.[1], set, `${name} of ${file}`);
+  }
+});
+
+test('README.md has the presets of each figure', () => {
+  const listed = read('README.md').replace(/\s+/g, ' ');
+  for (const [tag, all] of Object.entries(presets)) {
+    if (all.length > 0) assert.ok(listed.includes(`\`${tag}\` ${all.map(({ name }) => name).join(', ')}`), tag);
   }
 });
 

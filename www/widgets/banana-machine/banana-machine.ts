@@ -22,13 +22,13 @@ import { alphaControls, commandControls, modelControls } from './controls.ts';
 import { presetButtons } from '../shared/presets.ts';
 import { ArcHandle } from './handle.ts';
 import { IntroducedCloud } from './introduction.ts';
-import { DURATION, carrying, gapsAt, morphControl, outlinesAt, placeOf, ringsAt } from './morph.ts';
+import { DURATION, carrying, morphControl, outlinesAt, placeOf, ringsOf } from './morph.ts';
 import { PlanePicture, TwistPicture } from './pictures.ts';
 import { Curve, readingOf } from './reading.ts';
 import { markedRobot, otherReadouts, readouts, twistTable, workedExample } from './readouts.ts';
 import { LINES, OVERLAYS, SAMPLE_COUNTS, attributes, declared, looks, own, vocabulary } from './settings.ts';
 import { bananaStyles } from './styles.ts';
-import { announcementOf, captionOf, floorTitle, planeText, skewText, twistCaption, twistText } from './words.ts';
+import { announcementOf, calloutsOf, captionOf, floorTitle, planeText, skewText, twistCaption, twistText } from './words.ts';
 import type { BananaMachine as Machine, Inspection } from '../../types.d.ts';
 import type { Values } from '../../figure/state.ts';
 import type { Reading } from './reading.ts';
@@ -104,11 +104,13 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
   get scene() {
     const reading = this.fresh;
     const { motion } = this;
+    const pinned = this.#pinned;
     const { overlays, morph } = this.state.own;
     const shown = Object.fromEntries(OVERLAYS.map((name) => [name, overlays.includes(name)]));
-    // Outlines wander while a cloud grows or is dragged, under a view that holds still.
+    // Outlines wander while a cloud grows or is dragged, under a view that holds still. Away from the floor the callouts are not true.
     const isMoving = this.cloud.playing || (this.gesture.pressed && reading !== this.gesture.former);
-    const callouts = isMoving ? [] : gapsAt(motion, reading, morph);
+    const others = OVERLAYS.filter((name) => name !== 'command' && shown[name] && hasLength(reading.contours[name]));
+    const callouts = isMoving || morph > 0 || others.join() !== 'ellipse,exponential' ? [] : calloutsOf(reading);
     return {
       ...reading,
       machine: this.machine,
@@ -117,8 +119,10 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
       morph,
       outlinesOf: (of: Reading) => outlinesAt(motion, of, morph),
       callouts,
-      ringsOf: () => ringsAt(motion, reading, morph),
-      pinned: this.#pinned,
+      ringsOf: () => ringsOf(motion, reading),
+      pinned,
+      pinnedAt: (at: number) =>
+        pinned ? Object.entries(outlinesAt(motion, pinned, at)).flatMap(([name, line]) => (shown[name] ? [...line] : [])) : [],
       driving: this.cloud.driving,
       reached: morph > 0 ? carrying(motion, reading, 1)(reading.contours.ellipse) : reading.contours.ellipse,
     };

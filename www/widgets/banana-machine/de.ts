@@ -76,10 +76,10 @@ export const de: typeof import('./en.ts').en = {
   spread: (x, y) => `Standardabweichungen ${x} m in x und ${y} m in y.`,
   bend: {
     unsure: (skew, exactly) => `Zu wenige Roboter, um die Neigung zu zeigen: Schiefe ${skew}, genau ${exactly}.`,
-    hardly: (skew, exactly) => `Die Wolke neigt kaum zu einer Seite: Schiefe ${skew}, genau ${exactly}.`,
-    neither: (skew) => `Die Wolke neigt zu keiner Seite: Schiefe ${skew}, genau 0 (Symmetrie).`,
-    wide: (ratio) => `Doch sie ist krumm: Ihre Ellipse bedeckt ${ratio}-mal so viel Boden wie der ξ-Umriss.`,
-    gains: (gain) => `Doch sie ist krumm, mit einem Gewinn von ${gain} Nat je Roboter.`,
+    hardly: (skew, exactly) => `Beide Seiten sind fast gleich: Schiefe ${skew}, genau ${exactly}.`,
+    neither: (skew) => `Beide Seiten sind gleich: Schiefe ${skew}, genau 0 (Symmetrie).`,
+    wide: (ratio) => `Die Wolke ist krumm: Ihre Ellipse bedeckt ${ratio}-mal so viel Boden wie der ξ-Umriss.`,
+    gains: (gain) => `Die Wolke ist leicht krumm: Die Ellipse ist etwa so groß wie der ξ-Umriss, hat aber nicht seine Form; die gewinnt ${gain} Nat je Roboter.`,
     bowTie: {
       velocity: (speed, deviation, skew) =>
         `Eine Fliege: Das Drehen bringt Rauschen α₂ω² ins Tempo. v̂ ist ${speed}\u00a0±\u00a0${deviation}\u00a0m/s, also halten Roboter vor und hinter dem Start. Schiefe ${skew}.`,
@@ -96,7 +96,7 @@ export const de: typeof import('./en.ts').en = {
   twist: 'Dieselben Roboter in Exponentialkoordinaten ξ',
   twistIs: {
     odometry:
-      'nur ungefähr eine Gauß-Verteilung. Das Rauschen der Odometrie tritt an drei Gelenken ein, nicht einen Bogen entlang, und die vorhergesagte Schiefe trifft nicht.',
+      'nur ungefähr eine Gauß-Verteilung. Das Rauschen der Odometrie tritt beim Drehen, Fahren und Drehen ein, nicht einen Bogen entlang, und die vorhergesagte Schiefe trifft nicht.',
     triangular: 'nicht mehr krumm, wenn auch Dreiecksrauschen nicht gaußisch ist.',
     turned: 'fast eine Gauß-Verteilung. Daran hindert sie γ̂, das den Roboter nach seinem Bogen dreht.',
     exact: 'genau eine Gauß-Verteilung, deren Umriss eine Ellipse ist.',
@@ -135,14 +135,14 @@ export const de: typeof import('./en.ts').en = {
   readouts: {
     skew: 'Schiefe quer zur Fahrt',
     exactly: (value) => `genau ${value}`,
-    unwrapped: (value) => `genau ${value}, wenn Richtungen nicht umliefen`,
+    unwrapped: (value) => `genau ${value} ohne den Sprung der Richtungen bei ±π`,
     gain: 'Log-Likelihood-Gewinn in *ξ* (Nat je Roboter)',
     gainOnFloor: 'Log-Likelihood-Gewinn am Boden (Nat je Roboter)',
     nat: '1 Nat: ein Faktor *e*',
     withoutLimit: 'in *ξ* ohne Grenze, da ohne *γ̂*',
     onLine: 'keine Grenze: in *ξ* alle auf einer Linie',
     area: 'bedeckte Fläche: Ellipse / *ξ*-Umriss',
-    areaDetail: (ellipse, exponential) => `darin ${ellipse} und ${exponential}`,
+    areaDetail: (error, ellipse, exponential) => `± ${error}; Roboter darin: ${ellipse} und ${exponential}`,
     gaussian: 'Schiefe, die der Gauß in *ξ* vorhersagt',
     rho: 'Korrelation *ρ* von Querlage und Richtung',
     robots: 'Roboter gezeigt, *n* von *N*',

@@ -80,11 +80,11 @@ export const en = {
   spread: (x, y) => `Standard deviations ${x} m in x and ${y} m in y.`,
   bend: {
     unsure: (skew, exactly) => `Too few robots to show the lean: skew ${skew}, exactly ${exactly}.`,
-    hardly: (skew, exactly) => `The cloud hardly leans to either side: skew ${skew}, exactly ${exactly}.`,
-    neither: (skew) => `The cloud leans to neither side: skew ${skew}, exactly 0 by symmetry.`,
-    /** After what is said of its lean. */
-    wide: (ratio) => `Yet it is bent: its ellipse covers ${ratio} times the floor of the ξ outline.`,
-    gains: (gain) => `Yet it is bent, with a gain of ${gain} nats a robot.`,
+    hardly: (skew, exactly) => `Both sides are nearly alike: skew ${skew}, exactly ${exactly}.`,
+    neither: (skew) => `Both sides are alike: skew ${skew}, exactly 0 by symmetry.`,
+    /** Before what is said of its lean. */
+    wide: (ratio) => `The cloud is bent: its ellipse covers ${ratio} times the floor of the ξ outline.`,
+    gains: (gain) => `The cloud is slightly bent: the ellipse has about the size of the ξ outline, not its shape, which gains ${gain} nats a robot.`,
     bowTie: {
       velocity: (speed, deviation, skew) =>
         `A bow-tie: turning adds noise α₂ω² to the speed. v̂ is ${speed}\u00a0±\u00a0${deviation}\u00a0m/s, so robots end ahead of the start and behind it. Skew ${skew}.`,
@@ -101,7 +101,7 @@ export const en = {
   twist: 'The same robots in exponential coordinates ξ',
   twistIs: {
     odometry:
-      'only roughly a Gaussian. Odometry noise enters at three hinges, not along one arc, and the predicted skew misses.',
+      'only roughly a Gaussian. Odometry noise enters in a turn, a drive and a turn, not along one arc, and the predicted skew misses.',
     triangular: 'no longer bent, though triangular noise is not Gaussian.',
     turned: 'nearly a Gaussian. What keeps it from being one is γ̂, which turns a robot after its arc.',
     exact: 'exactly a Gaussian, whose outline is an ellipse.',
@@ -141,14 +141,14 @@ export const en = {
   readouts: {
     skew: 'cross-track skew',
     exactly: (value) => `exactly ${value}`,
-    unwrapped: (value) => `exactly ${value}, were headings not wrapped`,
+    unwrapped: (value) => `exactly ${value} without the jump of headings at ±π`,
     gain: 'log-likelihood gain in *ξ* (nats per robot)',
     gainOnFloor: 'log-likelihood gain on the floor (nats per robot)',
     nat: '1 nat: a factor of *e*',
     withoutLimit: 'in *ξ* without limit, as there is no *γ̂*',
     onLine: 'no limit: in *ξ* all on one line',
     area: 'area covered: ellipse / *ξ* outline',
-    areaDetail: (ellipse, exponential) => `inside: ${ellipse} and ${exponential}`,
+    areaDetail: (error, ellipse, exponential) => `± ${error}; robots inside: ${ellipse} and ${exponential}`,
     gaussian: 'skew that the Gaussian in *ξ* predicts',
     rho: 'correlation *ρ* of lateral place and heading',
     robots: 'robots shown, *n* of *N*',

@@ -49,10 +49,10 @@ export function outlinesAt(motion: Motion, reading: Reading, morph: number): Out
 /** Sizes of the rings, in outlines of two standard deviations. */
 const RINGS = [0.5, 1, 1.5];
 
-/** Returns outlines of the Gaussian in exponential coordinates, with nearly the whole cloud inside of the largest, carried to a morph. */
-export function ringsAt(motion: Motion, { stats: { exponential: { mean, cov } }, contours }: Reading, morph: number) {
+/** Returns outlines on the floor of the Gaussian in exponential coordinates, with nearly the whole cloud inside of the largest. */
+export function ringsOf(motion: Motion, { stats: { exponential: { mean, cov } }, contours }: Reading) {
   if (contours.exponential.length === 0) return [];
-  return RINGS.map((size) => motion.unbendGaussian(Float64Array.from([...mean, ...cov.flat().map((each) => size ** 2 * each)]), morph));
+  return RINGS.map((size) => motion.unbendGaussian(Float64Array.from([...mean, ...cov.flat().map((each) => size ** 2 * each)]), 0));
 }
 
 /** Returns the commanded arc at a morph. */
@@ -60,12 +60,6 @@ function commandAt({ config: { command: { v, omega, dt } }, contours }: Reading,
   const chords = contours.command.length / 2 - 1;
   const part = (i: number) => placeOf([(i / chords) * v * dt, 0, (i / chords) * omega * dt], morph);
   return Float64Array.from(Array.from({ length: chords + 1 }, (_, i) => part(i)).flat());
-}
-
-/** Returns the places of the gaps of a reading at a morph. */
-export function gapsAt(motion: Motion, reading: Reading, morph: number): [number, number][] {
-  const places = carrying(motion, reading, morph)(reading.gaps);
-  return Array.from({ length: places.length / 2 }, (_, i) => [places[2 * i], places[2 * i + 1]]);
 }
 
 /** Window on the world at a morph: between that on the floor and that on exponential coordinates, each of which is aimed alone. */

@@ -35,8 +35,8 @@ import type { Reading } from './reading.ts';
 import type { LineName } from './settings.ts';
 
 /**
- * Scene of both pictures. Outlines, callouts and the rings that the callouts keep clear of are at the morph; the ellipse is
- * `reached` at its end.
+ * Scene of both pictures. Outlines are at the morph; the ellipse is `reached` at its end. Callouts, and the rings that they keep
+ * clear of, are on the floor.
  */
 export interface Scene extends Reading {
   machine: BananaMachine;
@@ -44,9 +44,11 @@ export interface Scene extends Reading {
   marked: Inspection | undefined;
   morph: number;
   pinned: Reading | undefined;
+  /** Points of the pinned outlines that are shown, at a morph. */
+  pinnedAt: (morph: number) => number[];
   driving: { robots: number, share: number } | undefined;
   outlinesOf: (reading: Reading) => Outlines;
-  callouts: [number, number][];
+  callouts: Callout[];
   ringsOf: () => Float64Array[];
   reached: Float64Array;
 }
@@ -145,13 +147,13 @@ export class PlanePicture extends CloudPicture {
 
   fit(scene: Scene) {
     this.#fitFloor(scene);
-    if (scene.morph > 0) this.view.fitEnd(extentOf([...pointsOfTwists(scene), ...(scene.overlays.ellipse ? scene.reached : [])], 0.1), 1);
+    if (scene.morph > 0) this.view.fitEnd(extentOf([...pointsOfTwists(scene), ...(scene.overlays.ellipse ? scene.reached : []), ...scene.pinnedAt(1)], 0.1), 1);
   }
 
-  #fitFloor({ contours, table, end, overlays }: Scene) {
+  #fitFloor({ contours, table, end, overlays, pinnedAt }: Scene) {
     const { mean, cov } = table.exact;
     const [sx, sy] = [ROOM * deviation(cov[0][0]), ROOM * deviation(cov[1][1])];
-    const points = [mean[0] - sx, mean[1] - sy, mean[0] + sx, mean[1] + sy, ...contours.command];
+    const points = [mean[0] - sx, mean[1] - sy, mean[0] + sx, mean[1] + sy, ...contours.command, ...pinnedAt(0)];
     // The only outline that may be much larger than the cloud.
     if (overlays.additive) points.push(...contours.additive);
     const box = extentOf(points, 0.4);
@@ -182,8 +184,9 @@ export class PlanePicture extends CloudPicture {
     context.globalAlpha = 1;
     const middle = middleOf(scene, morph);
     const lines = (of: Outlines) => PAINTED.filter(drawn).map((name) => ({ points: of[name], ...styles[name] }));
-    const ghosts = ghostsOf(brush, scene).map(({ reading, text }) => ({ earlier: lines(scene.outlinesOf(reading)), text }));
-    const callouts: Callout[] = overlays.ellipse && overlays.exponential ? scene.callouts.map((at, i) => ({ text: words.banana.callouts[i], at })) : [];
+    const ghost = ghostOf(brush, scene);
+    const earlier = ghost ? lines(scene.outlinesOf(ghost)) : [];
+    const callouts = [...scene.callouts];
     clipped(brush, () => {
       if (morph > 0 && morph < 1) drawLattice(brush, twist, morph);
       if (scene.driving) {
@@ -198,7 +201,7 @@ export class PlanePicture extends CloudPicture {
         this.paintCloud(brush, scene, 4 * Math.PI * area * view.scaleX * view.scaleY);
       }
       drawRobot(brush, { x: 0, y: 0, heading: 0, colour: palette.truth });
-      for (const { earlier, text } of ghosts) callouts.push(...drawGhosts(brush, earlier, [middle, [0, 0]], text));
+      callouts.push(...drawGhosts(brush, earlier, [middle, [0, 0]], ghostName(scene)));
       drawOutlines(brush, lines(outlines));
       if (overlays.command && scene.reading && morph === 0) drawReading(brush, scene.reading, end);
       if (heaped && scene.shown > 0) drawHeap(brush, heapOf(this.places(scene)));
@@ -212,14 +215,15 @@ export class PlanePicture extends CloudPicture {
       }
     });
     if (callouts.length === 0) return;
-    const earlier = ghosts.flatMap((ghost) => ghost.earlier.map(({ points }) => points));
-    drawCallouts(brush, callouts, { from: middle, lines: [outlines.command, outlines.ellipse, ...scene.ringsOf(), ...earlier] });
+    const rings = morph > 0 ? [outlines.exponential] : scene.ringsOf();
+    drawCallouts(brush, callouts, { from: middle, lines: [outlines.command, outlines.ellipse, ...rings, ...earlier.map(({ points }) => points)] });
   };
 }
 
-/** Returns the readings whose outlines stay in the picture, with their names. */
-const ghostsOf = ({ former }: Brush, { pinned }: Scene) =>
-  [{ reading: former === pinned ? undefined : former, text: words.before }, { reading: pinned, text: words.banana.pinned }].filter(({ reading }) => reading);
+/** Returns the reading whose outlines stay in the picture: the pinned one, or that before the latest change. */
+const ghostOf = ({ former }: Brush, { pinned }: Scene): Reading | undefined => pinned ?? former;
+
+const ghostName = ({ pinned }: Scene) => (pinned ? words.banana.pinned : words.before);
 
 /** Draws robots that are on their way, with the way that they have behind them. */
 function drawDriving(brush: Brush, machine: BananaMachine, { robots, share }: { robots: number, share: number }) {
@@ -320,7 +324,7 @@ export class TwistPicture extends CloudPicture {
   }
 
   fit(scene: Scene) {
-    this.view.fit(extentOf(pointsOfTwists(scene), 0.1));
+    this.view.fit(extentOf([...pointsOfTwists(scene), ...(scene.pinned?.contours.twistEllipse ?? [])], 0.1));
   }
 
   paint: Picture<Scene>['paint'] = (brush, scene) => {
@@ -330,13 +334,13 @@ export class TwistPicture extends CloudPicture {
     const key = overlays.exponential && hasLength(contours.twistEllipse) ? [lineKey(brush, words.banana.overlays.exponential, exponential)] : [];
     drawAxes(brush, { x: words.banana.axisAlong, y: words.banana.axisHeading }, brush.exported ? key : []);
     const middle = middleOf(scene, 1);
-    const ghosts = ghostsOf(brush, scene);
+    const ghost = ghostOf(brush, scene);
     const callouts: Callout[] = [];
     clipped(brush, () => {
       if (scene.driving) return;
       this.paintCloud(brush, scene, 4 * Math.PI * areaOfTwists(scene) * view.scaleX * view.scaleY);
       if (overlays.exponential) {
-        for (const { reading, text } of ghosts) callouts.push(...drawGhosts(brush, [{ points: reading.contours.twistEllipse, ...exponential }], [middle], text));
+        if (ghost) callouts.push(...drawGhosts(brush, [{ points: ghost.contours.twistEllipse, ...exponential }], [middle], ghostName(scene)));
         drawOutline(brush, contours.twistEllipse, exponential);
       }
       if (overlays.command) {
@@ -345,6 +349,6 @@ export class TwistPicture extends CloudPicture {
       }
       if (marked) drawMark(brush, { x: marked.twist[0], y: marked.twist[2], heading: null });
     });
-    drawCallouts(brush, callouts, { from: middle, lines: [contours.twistEllipse, Float64Array.of(...middle), ...ghosts.map(({ reading }) => reading.contours.twistEllipse)] });
+    drawCallouts(brush, callouts, { from: middle, lines: [contours.twistEllipse, Float64Array.of(...middle), ...(ghost ? [ghost.contours.twistEllipse] : [])] });
   };
 }

@@ -18,12 +18,12 @@ const NOMINAL = 1 - Math.exp(-2);
  */
 export function readouts(reading: Reading, pinned?: Reading) {
   const say = words.banana.readouts;
-  const { stats: { coverage }, exactSkew, gain } = reading;
+  const { stats: { coverage, areaRatioError }, exactSkew, gain } = reading;
   const values = valuesOf(reading);
   const before = pinned && valuesOf(pinned).map((value) => `${words.banana.pinned}: ${value}`);
   const shares = [coverage.ellipse, coverage.exponential];
   return readoutList([
-    [say.area, values[0], shares.every(Number.isNaN) ? NOTHING : say.areaDetail(percent(shares[0]), percent(shares[1])), before?.[0]],
+    [say.area, values[0], shares.every(Number.isNaN) ? NOTHING : say.areaDetail(significant(areaRatioError, 1), percent(shares[0]), percent(shares[1])), before?.[0]],
     [gain.unbounded ? say.gainOnFloor : say.gain, values[1], gainText(gain), before?.[1]],
     [say.skew, values[2], Number.isNaN(exactSkew) ? NOTHING : say.exactly(fixed(exactSkew, 3)), before?.[2]],
   ], 0);
@@ -32,7 +32,7 @@ export function readouts(reading: Reading, pinned?: Reading) {
 /** Returns the area ratio, the gain and the skew as they are printed. */
 function valuesOf({ stats, gain }: Reading) {
   return [
-    Number.isNaN(stats.areaRatio) ? NOTHING : `${withError(stats.areaRatio, stats.areaRatioError, 2)} ×`,
+    Number.isNaN(stats.areaRatio) ? NOTHING : `${fixed(stats.areaRatio, 2)} ×`,
     withError(gain.value, gain.error, 3),
     withError(stats.crossTrackSkew, stats.crossTrackSkewError, 3),
   ];
@@ -43,7 +43,8 @@ function gainText({ unbounded, value, exact, wraps }: Reading['gain']) {
   const { withoutLimit, onLine, exactly, unwrapped, nat } = words.banana.readouts;
   if (Number.isNaN(value)) return NOTHING;
   if (value === Infinity) return onLine;
-  return unbounded ? withoutLimit : `${(wraps ? unwrapped : exactly)(fixed(exact, 3))}; ${nat}`;
+  if (unbounded) return withoutLimit;
+  return Number.isNaN(exact) ? nat : `${(wraps ? unwrapped : exactly)(fixed(exact, 3))}; ${nat}`;
 }
 
 /** The others. */

@@ -5,6 +5,7 @@ import { counted, fixed, percent, withError } from '../../ui/format.ts';
 import { commandText } from '../shared/command.ts';
 import { en } from './en.ts';
 import { deviation, spreadOf } from './reading.ts';
+import type { Callout } from '../../scene/callout.ts';
 import type { Reading } from './reading.ts';
 
 addEnglish({ banana: en });
@@ -62,6 +63,10 @@ export function floorTitle({ stats, table: { exact: { areaRatio, likelihoodGain 
   return `${floor}: ${ellipseIs[fit]}`;
 }
 
+/** Returns the callouts of the floor, at places that the ellipse alone covers. */
+export const calloutsOf = ({ gaps }: Reading): Callout[] =>
+  words.banana.callouts.slice(0, gaps.length / 2).map((text, i) => ({ text, at: [gaps[2 * i], gaps[2 * i + 1]] }));
+
 /** Returns a sentence on the lean of the cloud. The exact skew tells the side, and the sample whether it shows. */
 function bendText({ stats: { crossTrackSkew: skew, crossTrackSkewError: error, areaRatio }, exactSkew, bowTie, table, gain }: Pick<Reading, 'stats' | 'exactSkew' | 'bowTie' | 'table' | 'gain'>) {
   if (Number.isNaN(skew)) return '';
@@ -72,8 +77,8 @@ function bendText({ stats: { crossTrackSkew: skew, crossTrackSkewError: error, a
   if (bowTie) return say.bowTie[bowTie.model](fixed(bowTie.length, 2), fixed(bowTie.deviation, 2), measured);
   if (Math.abs(exactSkew) < HARDLY) {
     const lean = Math.abs(exactSkew) < NO_SKEW ? say.neither(measured) : say.hardly(measured, exactly);
-    if (Math.min(areaRatio, table.exact.areaRatio) > TOO_LARGE) return `${lean} ${say.wide(fixed(areaRatio, 2))}`;
-    return Math.min(gain.value, gain.exact) > BENT ? `${lean} ${say.gains(unbroken(withError(gain.value, gain.error, 3)))}` : lean;
+    if (Math.min(areaRatio, table.exact.areaRatio) > TOO_LARGE) return `${say.wide(fixed(areaRatio, 2))} ${lean}`;
+    return Math.min(gain.value, gain.exact) > BENT ? `${say.gains(unbroken(withError(gain.value, gain.error, 3)))} ${lean}` : lean;
   }
   if (Math.abs(skew) < 2 * error || skew * exactSkew < 0) return say.unsure(measured, exactly);
   return exactSkew < 0 ? say.right(measured) : say.left(measured);

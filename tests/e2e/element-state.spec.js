@@ -113,7 +113,7 @@ test('a state that comes while a slider plays is what is shown from then on @nig
   }, { once: true }));
   await widget.locator('.playable.phase').getByRole('button').click();
   await expect.poll(async () => /** @type {any} */ (await stateOf(widget)).phase).toBe(1);
-  await expect(widget.locator('.playable.phase').getByRole('button')).toHaveText('Drive the legs');
+  await expect(widget.locator('.playable.phase').getByRole('button')).toHaveText('Play the motion');
   await frames(page);
   expect(/** @type {any} */ (await stateOf(widget)).phase).toBe(1);
 });

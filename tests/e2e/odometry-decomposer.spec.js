@@ -98,7 +98,7 @@ test('a rule is chosen in the table, which has the deviations of each rule', asy
   const after = await told(widget);
   expect(after.config).toEqual({ ...before.config, rule: 'nav2' });
   expect(after.stats.exactCrossTrack).toBeLessThan(before.stats.exactCrossTrack / 3);
-  await expect(widget.locator('p[role=status]')).toContainText('The first hinge has the lever');
+  await expect(widget.locator('p[role=status]')).toContainText('The first rotation has the long lever');
 });
 
 test('on paper every rule has its name, and the chosen one stands out @nightly', async ({ page }) => {
@@ -157,11 +157,11 @@ test('the path is scrubbed, and is played to its end and again from its beginnin
   expect(label).toBe('Pause');
   expect(rest[0]).toBeGreaterThan(2.8);
   expect(rest.at(-1)).toBe(3);
-  await expect(play).toHaveText('Drive the legs');
+  await expect(play).toHaveText('Play the motion');
   const { values: beginning } = await played(other, 'phase', 3);
   expect(beginning[0]).toBe(0);
   expect(beginning[2]).toBeGreaterThan(beginning[1]);
-  await expect(play).toHaveText('Drive the legs');
+  await expect(play).toHaveText('Play the motion');
   const { config: { phase } } = await told(other);
   expect(phase).toBe(beginning[2]);
   await frames(page);

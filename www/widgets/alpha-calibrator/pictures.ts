@@ -2,7 +2,7 @@
 
 import { words } from '../../messages/registry.ts';
 import { clipped, drawAxes, lineKey } from '../../scene/axes.ts';
-import { drawDots, drawMark, drawOutline, drawOutlines } from '../../scene/draw.ts';
+import { drawDots, drawMark, drawOutline, drawOutlines, drawRobot } from '../../scene/draw.ts';
 import { Picture, SamplesPicture } from '../../scene/picture.ts';
 import { View, extentAround, extentOf } from '../../scene/view.ts';
 import { CLASSES, LINES } from './settings.ts';
@@ -64,7 +64,7 @@ export class LegPicture extends Picture<Scene> {
     if (!leg) return;
     const { outline, read, ended } = leg;
     this.view.release();
-    this.view.fit(extentOf([...outline, read[0], read[1], ended[0], ended[1]], 0.05));
+    this.view.fit(extentOf([0, 0, ...outline, read[0], read[1], ended[0], ended[1]], 0.05));
   }
 
   paint: Picture<Scene>['paint'] = (brush, { leg, overlays }) => {
@@ -84,6 +84,7 @@ export class LegPicture extends Picture<Scene> {
         ...line('odometry', Float64Array.of(0, 0, read[0], read[1])),
         ...line('reference', Float64Array.of(0, 0, ended[0], ended[1])),
       ]);
+      drawRobot(brush, { x: 0, y: 0, heading: 0, colour: palette.truth });
       if (shows('odometry')) drawMark(brush, { x: read[0], y: read[1], heading: read[2] }, palette.prior);
       if (shows('reference')) drawMark(brush, { x: ended[0], y: ended[1], heading: ended[2] }, palette.ink);
     });

@@ -12,7 +12,7 @@ import type { Reading } from './reading.ts';
 export type Figure = import('./alpha-calibrator.ts').AlphaCalibratorElement;
 
 /** Size of a whisker's row. */
-const CHART = { width: 200, height: 24, middle: 18.5, inset: 12 };
+const CHART = { width: 200, height: 24, middle: 12, inset: 12 };
 
 /** Most decades between labels of the axis. */
 const MOST_DECADES = 4;
@@ -43,14 +43,14 @@ export function alphaTable(reading: Reading) {
         <th scope="row">${rich(`*α*${alphaName(i)}`)}</th>
         ${alpha === null
           ? html`<td colspan="3"><div class="of">${noises[i]}</div><span class="unknown">${lackOf(reading, i)}</span></td>`
-          : html`<td class="chart"><div class="of">${noises[i]}</div>${whisker(place, alpha, intervals[i], truth?.[i])}</td>
-            <td class="roomy" data-room=${say.between('0.0000', '0.0000')}><div class="fitted-value">${fittedOf(reading, i)}</div><div class="between">${betweenOf(reading, i)}</div></td>
+          : html`<td class="chart"><div class="line"><div class="of">${noises[i]}</div>${whisker(place, alpha, intervals[i], truth?.[i])}</div></td>
+            <td><div class="line"><div class="fitted-value roomy" data-room="0.0000">${fittedOf(reading, i)}</div><div class="between roomy" data-room=${say.between('0.0000', '0.0000')}>${betweenOf(reading, i)}</div></div></td>
             <td class="roomy recommended" data-room="0.0000">${recommendedOf(reading, i)}</td>`}
       </tr>`)}
       <tr class="axis" aria-hidden="true">
         <td></td>
         <td class="chart">
-          <div class="scale">${place.decades.map((decade) => html`<span .style=${`left: ${(100 * place.at(decade)) / CHART.width}%`}>${decade < 5e-4 ? powerOfTen(Math.round(Math.log10(decade))) : tick(decade, decade)}</span>`)}</div>
+          <div class="line"><div class="of"></div><div class="scale">${place.decades.map((decade) => html`<span .style=${`left: ${(100 * place.at(decade)) / CHART.width}%`}>${decade < 5e-4 ? powerOfTen(Math.round(Math.log10(decade))) : tick(decade, decade)}</span>`)}</div></div>
         </td>
         <td colspan="2"></td>
       </tr>
@@ -113,12 +113,11 @@ function axisOf(values: (number | null)[]) {
   return { at, decades: Array.from({ length: Math.floor((to - from) / step) + 1 }, (_, i) => 10 ** (from + i * step)) };
 }
 
-function whisker({ at, decades }: ReturnType<typeof axisOf>, value: number, interval: [number, number] | null, truth: number | undefined) {
+function whisker({ at }: ReturnType<typeof axisOf>, value: number, interval: [number, number] | null, truth: number | undefined) {
   const { width, height, middle } = CHART;
   const [low, high] = (interval ?? [value, value]).map(at);
   return html`<svg viewBox="0 0 ${width} ${height}" preserveAspectRatio="none" aria-hidden="true">
-    ${decades.map((decade) => svg`<path class="grid" d="M${at(decade)} 0V${height}" />`)}
-    ${truth === undefined ? nothing : svg`<path class="true" d="M${at(truth)} ${middle - 5}V${height}" />`}
+    ${truth === undefined ? nothing : svg`<path class="true" d="M${at(truth)} 2V${height - 2}" />`}
     <path class="whisker" d="M${low} ${middle}H${high}M${low} ${middle - 4}v8M${high} ${middle - 4}v8" />
     <path class="dot" d="M${at(value)} ${middle}h0" />
   </svg>`;

@@ -204,16 +204,13 @@ const own = css`
     padding: 0 0 0 0.6em;
     line-height: 1.2;
     white-space: nowrap;
-    vertical-align: bottom;
+    vertical-align: middle;
   }
 
   /* Rows of 32 px, beside letters of 16 px. */
   .alphas tbody tr:not(.axis) {
     height: calc(2em / 0.84);
-  }
-
-  .alphas :is(thead, tbody) th {
-    vertical-align: middle;
+    border-top: 1px solid var(--rule);
   }
 
   .alphas thead th:nth-child(2) {
@@ -222,7 +219,6 @@ const own = css`
 
   .alphas .chart {
     width: 100%;
-    padding-bottom: 0.1em;
   }
 
   /* A longer name goes on above the value. */
@@ -251,10 +247,6 @@ const own = css`
     vector-effect: non-scaling-stroke;
   }
 
-  .alphas .grid {
-    stroke: var(--rule);
-  }
-
   .alphas .true {
     stroke: var(--truth);
     stroke-width: 3;
@@ -273,6 +265,7 @@ const own = css`
 
   .alphas .scale {
     position: relative;
+    flex: 1;
     height: 1.1em;
     color: var(--muted);
     font-size: 0.84em;
@@ -408,6 +401,24 @@ const own = css`
 
     .one canvas {
       aspect-ratio: 9 / 4;
+    }
+  }
+
+  /* Each α in one line, while its table has the width of the figure. */
+  @container (38em <= width < 56em) {
+    .alphas .line {
+      display: flex;
+      align-items: center;
+      gap: 0.8em;
+    }
+
+    .alphas .of {
+      flex: 0 0 16em;
+    }
+
+    .alphas svg {
+      flex: 1;
+      min-width: 0;
     }
   }
 

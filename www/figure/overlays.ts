@@ -14,7 +14,7 @@ export interface LineStyle {
   /** CSS pixels. */
   width?: number;
   /** Default: line. */
-  mark?: 'line' | 'dot' | 'ring' | 'area' | 'cross';
+  mark?: 'line' | 'dot' | 'ring' | 'area' | 'cross' | 'box';
 }
 
 /** Returns the attribute and the state of overlays; `opening` are shown by default. */
@@ -25,8 +25,8 @@ export function overlaysOf(names: readonly string[], opening: readonly string[] 
   };
 }
 
-/** Returns the legend of a figure's pictures, with the catalogue's `overlays` as words. `notes` say why lines are missing. */
-export function legend(figure: import('./figure.ts').Figure, styles: Record<string, LineStyle>, notes: Record<string, string> = {}) {
+/** Returns the legend of a figure's pictures, with the catalogue's `overlays` as words. `notes` say why lines are missing; `more` has no toggle. */
+export function legend(figure: import('./figure.ts').Figure, styles: Record<string, LineStyle>, notes: Record<string, string> = {}, more: unknown = nothing) {
   const { overlays } = figure.state.own;
   const { overlays: names } = (words as any)[figure.kind.vocabulary];
   const all = Object.keys(styles);
@@ -42,6 +42,7 @@ export function legend(figure: import('./figure.ts').Figure, styles: Record<stri
         change: (shown) => choose(name, shown),
       })}
     </span>`)}
+    ${more}
   </div>`;
 }
 
@@ -52,6 +53,7 @@ export function swatch({ role, dash, width = 2.25, mark = 'line' }: LineStyle) {
     dot: svg`<circle class="filled" cx="15" cy="6" r="3" />`,
     ring: svg`<circle cx="15" cy="6" r="4" stroke-width=${width} />`,
     area: svg`<rect class="filled" x="4" y="1" width="22" height="10" opacity="0.4" />`,
+    box: svg`<rect x="9" y="2" width="12" height="8" rx="2" stroke-width=${width} />`,
     cross: svg`<path d="M11 2l8 8m0 -8l-8 8" stroke-width=${width} />`,
   };
   return html`<svg class="swatch" viewBox="0 0 30 12" aria-hidden="true" data-role=${role}>${shapes[mark]}</svg>`;

@@ -88,6 +88,7 @@ export const de: typeof import('./en.ts').en = {
     jambTitle: 'Zieh die Türkante',
     wall: 'Wand',
     wallTitle: 'Zieh die Wand',
+    legend: 'Griffe: Wände und Türkanten ziehen',
     keys: 'Pfeiltasten bewegen sie, mit Umschalt in größeren Schritten; Komma und Punkt oder [ und ] führen zu den anderen Wänden',
   },
   tally: {

@@ -88,6 +88,7 @@ export const en = {
     jambTitle: 'Drag the edge of the doorway',
     wall: 'Wall',
     wallTitle: 'Drag the wall',
+    legend: 'handles: drag walls and edges of doorways',
     keys: 'Arrow keys move it, with Shift by larger steps; comma and period, or [ and ], go to the other walls',
   },
   tally: {

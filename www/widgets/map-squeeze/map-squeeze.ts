@@ -349,7 +349,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
               ${this.#handles.render()}
             </div>
             ${this.stage.later(() => html`<div>
-              ${legend(this, hasUnknown ? { ...marks, unknown } : marks)}
+              ${legend(this, hasUnknown ? { ...marks, unknown } : marks, {}, this.#wallHandles.legend())}
               ${sorted ? nothing : html`<p class="about">${density}</p>`}
             </div>`)}`)}
           ${this.stage.later(() => html`<div class="aside">

@@ -21,6 +21,17 @@ const own = css`
     transform-origin: 0 0;
   }
 
+  /* The name of a handle of a wall, along the wall and towards the middle of the picture. */
+  .handle:is(.jamb, .side):is(:hover, :focus-visible):not(.held)::before {
+    content: attr(title);
+    top: 100%;
+    background: var(--ink);
+  }
+
+  .handle.right:is(.jamb, .side)::before {
+    right: 0;
+  }
+
   .handle.side::after {
     inset: 0.625em 0.2em;
     border: 1.5px solid var(--truth);

@@ -1,6 +1,7 @@
 /** Walls under the reader's hand: the edges of doorways along their walls, and walls across, by pointer and by keyboard. */
 
-import { nothing } from 'lit';
+import { html, nothing } from 'lit';
+import { swatch } from '../../figure/overlays.ts';
 import { Part } from '../../figure/part.ts';
 import { words } from '../../messages/registry.ts';
 import { Handle, stepsOf, turnsOf } from '../../scene/handle.ts';
@@ -64,6 +65,12 @@ export class WallHandles extends Part<import('./map-squeeze.ts').MapSqueezeEleme
     });
   }
 
+  /** Returns the entry of the handles in the legend. */
+  legend() {
+    if (this.#present.every((grip) => !grip)) return nothing;
+    return html`<span class="toggle">${swatch({ role: 'truth', mark: 'box', width: 1.5 })}${words.squeeze.walls.legend}</span>`;
+  }
+
   /** Places new elements: they come after the picture. */
   hostUpdated() {
     if (this.#hasNew) this.#place(this.host.picture.view);
@@ -87,7 +94,7 @@ export class WallHandles extends Part<import('./map-squeeze.ts').MapSqueezeEleme
       const isShown = at !== undefined && at[0] > left && at[0] < right && at[1] > top && at[1] < bottom;
       if (element) {
         element.style.visibility = isShown ? '' : 'hidden';
-        if (grip.part === 'side') element.style.rotate = `${Math.atan2(grip.axis[0], grip.axis[1])}rad`;
+        if (grip.part === 'side') element.style.rotate = `${Math.atan(grip.axis[0] / grip.axis[1])}rad`;
       }
       if (isShown) this.#handleOf(grip).place(root, at[0], at[1]);
       return { name: nameOf(grip), element: isShown ? element : null };

@@ -16,15 +16,18 @@ export function turnDistance(view: Pick<View, 'scaleX'>, radius: number): number
   return Math.max(34, radius * view.scaleX + 22);
 }
 
-/** Draws the robot that the reader has in hand, with a radius in metres. */
+/** Draws the robot that the reader has in hand, with a radius in metres. Later labels keep clear of it. */
 export function drawHeldRobot(brush: Brush, { x, y, theta }: Pose, radius: number, colour: string) {
-  const { context, view, palette } = brush;
+  const { context, view, palette, placed } = brush;
   const [atX, atY] = [view.toPixelX(x), view.toPixelY(y)];
   const ahead = view.direction(theta);
   const reach = turnDistance(view, radius);
   const edge = { colour, width: 2.25 };
   drawDisc(context, [atX, atY], radiusOn(view, radius), palette.paper, edge);
   strokeLine(context, [[atX, atY], [atX + reach * ahead.x, atY + reach * ahead.y]], edge);
+  const body = radiusOn(view, radius);
+  const ring = TURN + 3;
+  placed.push({ x: atX, y: atY, across: body, down: body }, { x: atX + reach * ahead.x, y: atY + reach * ahead.y, across: ring, down: ring });
   drawHandle(brush, { x: atX + reach * ahead.x, y: atY + reach * ahead.y, radius: TURN, colour });
 }
 

@@ -26,11 +26,8 @@ export async function enter(figure: Figure, values: Record<string, unknown>) {
   const opening = openings.get(figure) ?? {};
   // The whole cloud at once: what the item says is to be seen now.
   const grown = 'shown' in opening ? { shown: opening.samples, playing: false } : {};
-  // A line that a bet hides stays in sight once it is shown.
-  const bets = [...(figure.closest('article')?.querySelectorAll('[data-hides]') ?? [])] as HTMLElement[];
-  const bared = bets.map(({ dataset }) => dataset.hides).filter((name) => figure.overlays.includes(name));
-  const { widget, version, overlays } = opening;
-  figure.setState({ ...opening, ...grown, ...(overlays && { overlays: [...overlays, ...bared] }) });
+  const { widget, version } = opening;
+  figure.setState({ ...opening, ...grown });
   for (const [key, value] of Object.entries(values)) {
     if (key in figure) figure[key] = value;
     else figure.setState({ widget, version, [key]: value });

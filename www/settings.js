@@ -114,7 +114,7 @@ export const settings = {
     { key: 'omega', in: 'command', type: 'number', unit: 'rad/s', min: -1000000, max: 1000000, default: 0.5, sentence: 'Commanded turn rate; positive to the left.' },
     { key: 'dt', in: 'command', type: 'number', unit: 's', min: 0.000001, max: 1000000, default: 0.2, sentence: 'Duration of the command.' },
     { key: 'steps', type: 'whole', min: 1, max: 200, default: 20, sentence: 'Steps driven one after the other.' },
-    { key: 'step', type: 'whole', min: 1, max: 200, default: 2, sentence: 'The step that is looked at.' },
+    { key: 'step', type: 'whole', min: 1, max: 200, default: 20, sentence: 'The step that is looked at.' },
     { key: 'alphas', type: 'numbers', min: 0, max: 1000000, default: [0.02, 0.02, 0.02, 0.02, 0.005, 0.005], sentence: 'Noise parameters, the six of the velocity model.' },
     { key: 'alpha1', in: 'alphas', index: 0, type: 'number', min: 0, max: 1000000, default: 0.02, sentence: 'Noise parameter of the velocity model.' },
     { key: 'alpha2', in: 'alphas', index: 1, type: 'number', min: 0, max: 1000000, default: 0.02, sentence: 'Noise parameter of the velocity model.' },
@@ -178,10 +178,10 @@ export const presets = {
     { name: 'rest', from: { x: 0, y: 0, theta: 0 }, to: { x: -0.004, y: 0.003, theta: 0.001 } },
   ],
   'dead-reckoning': [
-    { name: 'chapter', command: { v: 1, omega: 0.5, dt: 0.2 }, steps: 20, step: 2, alphas: [0.02, 0.02, 0.02, 0.02, 0.005, 0.005] },
-    { name: 'doubled', command: { v: 1, omega: 0.5, dt: 0.2 }, steps: 20, step: 2, alphas: [0.02, 0.02, 0.08, 0.08, 0.02, 0.02] },
-    { name: 'fine', command: { v: 1, omega: 0.5, dt: 0.02 }, steps: 200, step: 20, alphas: [0.02, 0.02, 0.02, 0.02, 0.005, 0.005] },
-    { name: 'straight', command: { v: 1, omega: 0, dt: 0.2 }, steps: 20, step: 2, alphas: [0.02, 0.02, 0.02, 0.02, 0.005, 0.005] },
+    { name: 'chapter', command: { v: 1, omega: 0.5, dt: 0.2 }, steps: 20, step: 20, alphas: [0.02, 0.02, 0.02, 0.02, 0.005, 0.005] },
+    { name: 'doubled', command: { v: 1, omega: 0.5, dt: 0.2 }, steps: 20, step: 20, alphas: [0.02, 0.02, 0.08, 0.08, 0.02, 0.02] },
+    { name: 'fine', command: { v: 1, omega: 0.5, dt: 0.02 }, steps: 200, step: 200, alphas: [0.02, 0.02, 0.02, 0.02, 0.005, 0.005] },
+    { name: 'straight', command: { v: 1, omega: 0, dt: 0.2 }, steps: 20, step: 20, alphas: [0.02, 0.02, 0.02, 0.02, 0.005, 0.005] },
   ],
   'alpha-calibrator': [],
 };

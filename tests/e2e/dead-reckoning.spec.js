@@ -33,18 +33,18 @@ async function missed(widget, recursion = 0) {
   return Promise.all([0, 2, 4].map((row) => widget.locator('.folds tbody tr').nth(row).locator('td').nth(recursion).textContent()));
 }
 
-test('opens with the lateral miss that the chapter’s 6 % hides', async ({ page }) => {
+test('opens with the chapter’s 6 % along the track, and says that the lateral variance misses more before', async ({ page }) => {
   const widget = await openReckoning(page);
   expect(await config(widget)).toMatchObject({
-    command: { v: 1, omega: 0.5, dt: 0.2 }, steps: 20, step: 2, alphas: [0.02, 0.02, 0.02, 0.02, 0.005, 0.005], compounding: 'chapter', samples: 50_000,
+    command: { v: 1, omega: 0.5, dt: 0.2 }, steps: 20, step: 20, alphas: [0.02, 0.02, 0.02, 0.02, 0.005, 0.005], compounding: 'chapter', samples: 50_000,
   });
   await expect(caption(widget)).toHaveText(
-    'The predicted lateral variance is 0.00 (step 1), 0.44 (step 2), 0.77 (step 5) of the measured one. At the end the along-track variance is off most, by −6.1\u202f%.',
+    'At the end the predicted along-track variance is off by −6.1\u202f%. Before, the lateral variance is off more: it is 0.00 (step 1), 0.44 (step 2), 0.77 (step 5) of the measured one.',
   );
-  await expect(readout(widget, 'predicted lateral variance')).toHaveText('0.44');
+  await expect(readout(widget, 'predicted along-track variance')).toHaveText('0.94');
   expect(await missed(widget)).toEqual(['steps 15–20', 'steps 1–15', 'never']);
   await expect(widget.getByRole('row', { name: 'along, at the end' }).locator('td').first()).toHaveText('−6.1 ± 0.6\u202f%');
-  await expect(plotOf(widget)).toHaveAttribute('aria-label', /At step 2: along 1.009 ± 0.006, lateral 0.445 ± 0.003, heading/);
+  await expect(plotOf(widget)).toHaveAttribute('aria-label', /At step 20: along 0.939 ± 0.006, lateral 0.970 ± 0.006, heading/);
   for (const [canvas, role] of [['plane', 'prior'], ['plane', 'posterior'], ['twist', 'posterior'], ['twist', 'truth']]) {
     expect(await pixelsOf(widget.locator(`canvas.${canvas}`), role), `${role} in ${canvas}`).toBeGreaterThan(10);
   }
@@ -56,14 +56,14 @@ test('the line of the chart walks along the path, from the keyboard too, and dri
   const before = await widget.evaluate((element) => /** @type {DeadReckoningElement} */ (element).machine.measured);
   const pictures = () => Promise.all(['plane', 'twist'].map((name) => pictureOf(widget.locator(`canvas.${name}`))));
   const [plane, twist] = await pictures();
-  await slider.press('End');
+  await slider.press('ArrowLeft');
   await frames(page);
-  expect((await config(widget)).step).toBe(20);
-  const [planeAtEnd, twistAtEnd] = await pictures();
-  expect(planeAtEnd).not.toBe(plane);
-  expect(twistAtEnd).not.toBe(twist);
+  expect((await config(widget)).step).toBe(19);
+  const [planeBefore, twistBefore] = await pictures();
+  expect(planeBefore).not.toBe(plane);
+  expect(twistBefore).not.toBe(twist);
   expect(await widget.evaluate((element) => /** @type {DeadReckoningElement} */ (element).machine.measured)).toEqual(before);
-  await expect(slider).toHaveAttribute('aria-valuetext', 'step 20');
+  await expect(slider).toHaveAttribute('aria-valuetext', 'step 19');
   await slider.press('Home');
   await frames(page);
   await expect(widget.locator('canvas.twist')).toHaveAttribute('aria-label', /measured 0.0316 m and 0.0035 m, predicted 0.0316 m and 0.0000 m/);
@@ -82,13 +82,13 @@ test('a step beyond the last is refused where it is typed @nightly', async ({ pa
     await field.press('Enter');
     await expect(row.getByRole('alert')).toHaveText(`k must be a whole number between 1 and 20 (got ${typed}).`);
     await expect(row.getByRole('alert')).toBeVisible();
-    await expect(field).toHaveValue('2');
-    await expect(widget.locator('#step')).toHaveValue('2');
+    await expect(field).toHaveValue('20');
+    await expect(widget.locator('#step')).toHaveValue('20');
   }
-  await field.fill('20');
+  await field.fill('2');
   await field.press('Enter');
   await frames(page);
-  expect((await config(widget)).step).toBe(20);
+  expect((await config(widget)).step).toBe(2);
 });
 
 test('with J_r, and to fourth order, every component is right', async ({ page }) => {
@@ -104,7 +104,7 @@ test('with J_r, and to fourth order, every component is right', async ({ page })
 
 test('entries of the legends hide curves and outlines', async ({ page }) => {
   const widget = await openReckoning(page, 'overlays="lateral tolerance measured exponential"');
-  await expect(widget.locator('[part=caption]')).toHaveText(/^The predicted lateral variance is .*, and off by [−+][\d.]+\s% at the end\.$/);
+  await expect(widget.locator('[part=caption]')).toHaveText(/^At the end the predicted lateral variance is off by [−+][\d.]+\s%\. Before, it is /);
   await expect(plotOf(widget).locator('path.curve')).toHaveCount(2);
   const twist = await pictureOf(widget.locator('canvas.twist'));
   await widget.getByRole('checkbox', { name: 'measured' }).uncheck();

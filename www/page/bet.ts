@@ -5,12 +5,9 @@ import type { Figure } from '../page.ts';
 /** Returns the number at a path of keys with dots between them; null for none. */
 const answerIn = (stats: Record<string, any>, path: string): number | null => path.split('.').reduce((part: any, key) => part?.[key], stats) ?? null;
 
-/**
- * Prepares a form with one slider. `enter` puts the figure into the state of `data-try`. `data-answer` is the path of the answer in
- * `stats`, and `data-hides` the overlay that the figure shows from the first bet on.
- */
+/** Prepares a form with one slider. `enter` puts the figure into the state of `data-try`. `data-answer` is the path of the answer in `stats`. */
 export function prepareBet(form: HTMLFormElement, enter: (values: Record<string, unknown>) => Promise<void>, figure: Figure) {
-  const { try: values = '{}', answer = '', unit = '', hides } = form.dataset;
+  const { try: values = '{}', answer = '', unit = '' } = form.dataset;
   const slider = form.querySelector('input') as HTMLInputElement;
   const shown = form.querySelector('.value') as HTMLElement;
   const button = form.querySelector('button') as HTMLButtonElement;
@@ -25,7 +22,6 @@ export function prepareBet(form: HTMLFormElement, enter: (values: Record<string,
   form.addEventListener('submit', async (event) => {
     event.preventDefault();
     await enter(JSON.parse(values));
-    if (hides) figure.overlays = [...figure.overlays, hides];
     await figure.settled;
     const number = answerIn(figure.stats, answer);
     const truth = number === null ? null : isShare ? 100 * number : number;

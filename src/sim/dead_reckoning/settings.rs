@@ -40,7 +40,7 @@ settings! {
         /// Steps driven one after the other.
         steps: u32 = 20, in 1..=MAX_STEPS;
         /// The step that is looked at.
-        step: u32 = 2, in 1..=MAX_STEPS;
+        step: u32 = 20, in 1..=MAX_STEPS;
         /// Noise parameters, the six of the velocity model.
         alphas: [f64; 6] = [0.02, 0.02, 0.02, 0.02, 0.005, 0.005], in ALPHA;
         /// Level h of the heading noise: α₃ and α₄ are h, α₅ and α₆ are h/4; null where they are not those of a level.
@@ -115,7 +115,7 @@ pub struct Preset {
     pub name: &'static str,
     pub command: VelocityCmd,
     pub steps: u32,
-    /// Selected step: the same place of the path in each preset.
+    /// Selected step: the last one.
     pub step: u32,
     pub alphas: [f64; 6],
 }
@@ -123,16 +123,16 @@ pub struct Preset {
 /// The chapter's twenty steps; the same with the heading's deviation doubled, as exercise 7 asks; the same path in two hundred
 /// steps, in each of which J_r is nearly 1; and straight ahead, where noise in the turn shows alone.
 pub const PRESETS: [Preset; 4] = [
-    preset("chapter", [1.0, 0.5, 0.2], [20, 2], 0.02),
-    preset("doubled", [1.0, 0.5, 0.2], [20, 2], 0.08),
-    preset("fine", [1.0, 0.5, 0.02], [200, 20], 0.02),
-    preset("straight", [1.0, 0.0, 0.2], [20, 2], 0.02),
+    preset("chapter", [1.0, 0.5, 0.2], 20, 0.02),
+    preset("doubled", [1.0, 0.5, 0.2], 20, 0.08),
+    preset("fine", [1.0, 0.5, 0.02], 200, 0.02),
+    preset("straight", [1.0, 0.0, 0.2], 20, 0.02),
 ];
 
 const fn preset(
     name: &'static str,
     [v, omega, dt]: [f64; 3],
-    [steps, step]: [u32; 2],
+    steps: u32,
     heading: f64,
 ) -> Preset {
     let [h, last] = [heading, heading / 4.0];
@@ -140,7 +140,7 @@ const fn preset(
         name,
         command: VelocityCmd { v, omega, dt },
         steps,
-        step,
+        step: steps,
         alphas: [0.02, 0.02, h, h, last, last],
     }
 }

@@ -5,8 +5,10 @@ use motion::sim::dead_reckoning::{DeadReckoning, NoisePer, PRESETS, RECURSIONS, 
 use motion::{Compounding, NoiseKind, TangentNoiseModel, VelocityAlphas, VelocityCmd, VelocityModel};
 use nalgebra::{Matrix3, Vector3};
 
+/// The selected step is the last one where the path is shorter.
 fn machine(settings: Settings) -> DeadReckoning {
-    DeadReckoning::new(settings).expect("valid settings")
+    let step = settings.step.min(settings.steps);
+    DeadReckoning::new(Settings { step, ..settings }).expect("valid settings")
 }
 
 /// Settings as the widget opens, with fewer robots.

@@ -41,7 +41,7 @@ export const de: typeof import('./en.ts').en = {
   },
   axisAlong: 'ξ längs (m)',
   axisLateral: 'ξ quer (m)',
-  stretched: (axis, factor) => `${axis} ×${factor}`,
+  stretched: (axis, factor) => `${axis}, ${factor}-fach vergrößert`,
   components: { along: 'längs', lateral: 'quer', heading: 'Richtung' },
   of: { along: 'längs', lateral: 'quer', heading: 'in der Richtung' },
   ratioAxis: 'vorhergesagte / gemessene Varianz',
@@ -52,8 +52,8 @@ export const de: typeof import('./en.ts').en = {
   ratioText: (recursion, step, ratios) =>
     `Vorhergesagte durch gemessene Varianz je Schritt; Rekursion: ${recursion}. Bei Schritt ${step}: ${ratios}.`,
   atStep: (ratio, step) => `das ${ratio}-Fache (Schritt ${step})`,
-  wrong: (worst, list, end) => `Die vorhergesagte Varianz ${worst} ist ${list} der gemessenen und weicht am Ende um ${end} ab.`,
-  worse: (worst, list, end, far) => `Die vorhergesagte Varianz ${worst} ist ${list} der gemessenen. Am Ende weicht die Varianz ${far} am meisten ab, um ${end}.`,
+  wrong: (worst, list, end) => `Am Ende weicht die vorhergesagte Varianz ${worst} um ${end} ab. Davor ist sie ${list} der gemessenen.`,
+  worse: (worst, list, end, far) => `Am Ende weicht die vorhergesagte Varianz ${far} um ${end} ab. Davor weicht die Varianz ${worst} stärker ab: Sie ist ${list} der gemessenen.`,
   right: (robots) => `Höchstens 5 % neben dem, was ${robots} Roboter tun, in jeder Komponente bei jedem Schritt.`,
   conditions: {
     none: 'Noch keine Roboter.',

@@ -43,7 +43,7 @@ export const en = {
   axisAlong: 'ξ along (m)',
   axisLateral: 'ξ lateral (m)',
   /** An axis that is drawn on a larger scale than the other one. */
-  stretched: (axis, factor) => `${axis} ×${factor}`,
+  stretched: (axis, factor) => `${axis}, enlarged ${factor} times`,
   components: { along: 'along', lateral: 'lateral', heading: 'heading' },
   of: { along: 'along-track', lateral: 'lateral', heading: 'heading' },
   ratioAxis: 'predicted / measured variance',
@@ -55,8 +55,8 @@ export const en = {
   ratioText: (recursion, step, ratios) =>
     `Predicted over measured variance by step; recursion: ${recursion}. At step ${step}: ${ratios}.`,
   atStep: (ratio, step) => `${ratio} (step ${step})`,
-  wrong: (worst, list, end) => `The predicted ${worst} variance is ${list} of the measured one, and off by ${end} at the end.`,
-  worse: (worst, list, end, far) => `The predicted ${worst} variance is ${list} of the measured one. At the end the ${far} variance is off most, by ${end}.`,
+  wrong: (worst, list, end) => `At the end the predicted ${worst} variance is off by ${end}. Before, it is ${list} of the measured one.`,
+  worse: (worst, list, end, far) => `At the end the predicted ${far} variance is off by ${end}. Before, the ${worst} variance is off more: it is ${list} of the measured one.`,
   right: (robots) => `Within 5 % of what ${robots} robots do, in every component at every step.`,
   conditions: {
     none: 'No robots yet.',

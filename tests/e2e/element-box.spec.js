@@ -103,3 +103,19 @@ test('the picture of a figure stays in sight on a phone, below the header of the
   expect(y).toBeCloseTo(56, 0);
   expect((await boxOf(widget.locator('.slider input[type=range]').nth(1))).y).toBeGreaterThanOrEqual(y + height);
 });
+
+for (const name of ['map-squeeze', 'dead-reckoning']) {
+  test(`at 200 % zoom the picture of ${name} stays in sight and covers no slider`, async ({ page }) => {
+    await page.setViewportSize({ width: 640, height: 400 });
+    const widget = await mount(page, name, { after: '<div style="height: 2000px"></div>' });
+    for (const slider of await widget.locator('.slider input[type=range]').all()) {
+      await slider.evaluate((element) => element.scrollIntoView({ block: 'start' }));
+      await frames(page);
+      expect(await slider.evaluate((element) => {
+        const { left, top, width, height } = element.getBoundingClientRect();
+        return /** @type {ShadowRoot} */ (element.getRootNode()).elementFromPoint(left + width / 2, top + height / 2) === element;
+      })).toBe(true);
+      await expect(widget.locator('.plotted, .stage[part=picture]').first()).toBeInViewport({ ratio: 0.9 });
+    }
+  });
+}

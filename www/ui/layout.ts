@@ -8,6 +8,28 @@ import { controlStyles } from './controls.ts';
 import { readoutStyles } from './readouts.ts';
 import { sliderStyles } from './slider.ts';
 
+/** Style of a figure whose first picture alone stays in sight: all of them would leave no room for the controls. */
+export const pictureAlone = css`
+  .stage[part='picture'] {
+    position: sticky;
+    top: var(--top);
+    z-index: 2;
+    background: var(--paper);
+    box-shadow: var(--fade);
+  }
+
+  .views,
+  .panel:has([part='picture']) {
+    display: contents;
+  }
+
+  /* Clear of the fade. */
+  .stage[part='picture'] + *,
+  .panel:has([part='picture']) + * {
+    margin-top: 0.7em;
+  }
+`;
+
 const layout = css`
   /* The pictures stay in sight for as long as this reaches, behind text of the page. */
   .machine {
@@ -354,31 +376,21 @@ const layout = css`
       .views {
         position: sticky;
         top: var(--top);
-        z-index: 1;
+        z-index: 2;
         background: var(--paper);
         box-shadow: var(--fade);
       }
     }
 
     @container (width < 30em) {
-      .stage[part='picture'] {
-        position: sticky;
-        top: var(--top);
-        z-index: 1;
-        background: var(--paper);
-        box-shadow: var(--fade);
-      }
+      ${pictureAlone}
+    }
+  }
 
-      .views,
-      .panel:has([part='picture']) {
-        display: contents;
-      }
-
-      /* Clear of the fade. */
-      .stage[part='picture'] + *,
-      .panel:has([part='picture']) + * {
-        margin-top: 0.7em;
-      }
+  /* A window at 200 % zoom. */
+  @media (22em <= height < 40em) {
+    @container (width < 38em) {
+      ${pictureAlone}
     }
   }
 `;

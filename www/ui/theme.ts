@@ -179,7 +179,7 @@ export const theme = css`
       aspect-ratio: auto !important;
     }
 
-    :is(button, input, textarea, summary, .handle, .effect, .marked, .visually-hidden),
+    :is(button, input, textarea, summary, .handle, .grips, .end, .effect, .marked, .visually-hidden),
     :not(th) > label:has(input:not(:checked)) {
       display: none !important;
     }

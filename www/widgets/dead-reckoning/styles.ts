@@ -1,8 +1,36 @@
 /** Styles of Dead Reckoning. */
 
 import { css } from 'lit';
-import { layoutStyles } from '../../ui/layout.ts';
+import { layoutStyles, pictureAlone } from '../../ui/layout.ts';
 import { plotStyles } from '../../ui/plot.ts';
+
+/** Style of the chart that stays in sight, as its line is what is dragged. */
+const chartAlone = css`
+  .ratios,
+  .chart {
+    display: contents;
+  }
+
+  .chart .plotted {
+    position: sticky;
+    top: var(--top);
+    z-index: 2;
+    max-width: none;
+    box-sizing: border-box;
+    background: var(--paper);
+    border-inline: max(0px, (100cqi - 45svh * 1.52) / 2) solid var(--paper);
+    box-shadow:
+      -0.5em 0 var(--paper),
+      0.5em 0 var(--paper),
+      0 0.5em 0.5em var(--paper);
+  }
+
+  .floor .stage[part='picture'] {
+    position: relative;
+    z-index: auto;
+    box-shadow: none;
+  }
+`;
 
 const own = css`
   .chart .plotted {
@@ -95,31 +123,15 @@ const own = css`
     }
   }
 
-  /* The chart stays in sight, as its line is what is dragged. */
   @media (min-height: 22em) {
     @container (width < 30em) {
-      .ratios,
-      .chart {
-        display: contents;
-      }
+      ${chartAlone}
+    }
+  }
 
-      .chart .plotted {
-        position: sticky;
-        top: var(--top);
-        z-index: 2;
-        max-width: calc(45svh * 1.52);
-        background: var(--paper);
-        box-shadow:
-          -0.5em 0 var(--paper),
-          0.5em 0 var(--paper),
-          0 0.5em 0.5em var(--paper);
-      }
-
-      .floor .stage[part='picture'] {
-        position: relative;
-        z-index: auto;
-        box-shadow: none;
-      }
+  @media (22em <= height < 40em) {
+    @container (width < 56em) {
+      ${pictureAlone} ${chartAlone}
     }
   }
 `;

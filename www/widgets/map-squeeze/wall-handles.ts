@@ -68,7 +68,7 @@ export class WallHandles extends Part<import('./map-squeeze.ts').MapSqueezeEleme
   /** Returns the entry of the handles in the legend. */
   legend() {
     if (this.#present.every((grip) => !grip)) return nothing;
-    return html`<span class="toggle">${swatch({ role: 'truth', mark: 'box', width: 1.5 })}${words.squeeze.walls.legend}</span>`;
+    return html`<span class="toggle grips">${swatch({ role: 'truth', mark: 'box', width: 1.5 })}${words.squeeze.walls.legend}</span>`;
   }
 
   /** Places new elements: they come after the picture. */

@@ -107,7 +107,9 @@ test('the picture of a figure stays in sight on a phone, below the header of the
 for (const name of ['map-squeeze', 'dead-reckoning']) {
   test(`at 200 % zoom the picture of ${name} stays in sight and covers no slider`, async ({ page }) => {
     await page.setViewportSize({ width: 640, height: 400 });
-    const widget = await mount(page, name, { after: '<div style="height: 2000px"></div>' });
+    await show(page, `<${name}></${name}><div style="height: 2000px"></div>`);
+    const widget = page.locator(name);
+    await ready(widget);
     for (const slider of await widget.locator('.slider input[type=range]').all()) {
       await slider.evaluate((element) => element.scrollIntoView({ block: 'start' }));
       await frames(page);

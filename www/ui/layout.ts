@@ -9,7 +9,7 @@ import { readoutStyles } from './readouts.ts';
 import { sliderStyles } from './slider.ts';
 
 /** Style of a figure whose first picture alone stays in sight: all of them would leave no room for the controls. */
-export const pictureAlone = css`
+const pictureAlone = css`
   .stage[part='picture'] {
     position: sticky;
     top: var(--top);
@@ -389,7 +389,7 @@ const layout = css`
 
   /* A window at 200 % zoom. */
   @media (22em <= height < 40em) {
-    @container (width < 38em) {
+    @container (width < 56em) {
       ${pictureAlone}
     }
   }

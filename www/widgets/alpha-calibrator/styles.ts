@@ -1,7 +1,7 @@
 /** Styles of the Alpha Calibrator. */
 
 import { css } from 'lit';
-import { layoutStyles, pictureAlone } from '../../ui/layout.ts';
+import { layoutStyles } from '../../ui/layout.ts';
 import { plotStyles } from '../../ui/plot.ts';
 import { fileStyles } from '../shared/files.ts';
 
@@ -419,12 +419,6 @@ const own = css`
     .alphas svg {
       flex: 1;
       min-width: 0;
-    }
-  }
-
-  @media (22em <= height < 40em) {
-    @container (width < 56em) {
-      ${pictureAlone}
     }
   }
 

@@ -1,7 +1,7 @@
 /** Styles of Dead Reckoning. */
 
 import { css } from 'lit';
-import { layoutStyles, pictureAlone } from '../../ui/layout.ts';
+import { layoutStyles } from '../../ui/layout.ts';
 import { plotStyles } from '../../ui/plot.ts';
 
 /** Style of the chart that stays in sight, as its line is what is dragged. */
@@ -131,7 +131,7 @@ const own = css`
 
   @media (22em <= height < 40em) {
     @container (width < 56em) {
-      ${pictureAlone} ${chartAlone}
+      ${chartAlone}
     }
   }
 `;

@@ -106,7 +106,7 @@ const ACTS = {
     ['recursion', (widget) => widget.locator('input[name=compounding]').nth(1).check()],
     ['noise of the path', (widget) => widget.locator('input[name=per]').nth(1).check()],
     ['slider by key', (widget) => widget.locator('#headingNoise').press('ArrowRight')],
-    ['step by key', (widget) => widget.locator('#step').press('ArrowRight')],
+    ['step by key', (widget) => widget.locator('#step').press('ArrowLeft')],
     ['steps by key', (widget) => widget.locator('#steps').press('ArrowLeft')],
     ['seed', (widget) => widget.getByRole('button', { name: 'New seed' }).click()],
     ['clear', (widget) => widget.getByRole('button', { name: 'Clear' }).click()],

@@ -157,7 +157,7 @@ export function run(command, args, { env = {}, cwd = ROOT, seconds, quiet = fals
       stdio: ['ignore', 'pipe', 'pipe'],
       detached: seconds !== undefined,
     });
-    if (patient && child.pid !== undefined) setPriority(child.pid, constants.priority.PRIORITY_LOW);
+    if (patient && child.pid !== undefined) setPriority(child.pid, constants.priority.PRIORITY_BELOW_NORMAL);
     let stdout = '';
     let output = '';
     let timedOut = false;

@@ -24,7 +24,7 @@ test('two tables of the reader’s own take the place of the simulated log, and 
   await expect(widget.getByRole('row', { name: /^rows used \d+ of/ })).toBeVisible();
   await expect(widget.getByRole('img', { name: /^Paths from above: .* m by .* m\.$/ })).toBeVisible();
   // Their names say which is which, whatever the reader does.
-  const hint = widget.getByText('its name is that of odometry, and truth.csv is not: are the two swapped?');
+  const hint = widget.getByText('its name is that of odometry, and truth.csv is not: was the odometry given as the reference?');
   await expect(hint).toHaveCount(0);
   await widget.getByLabel('odom.csv').selectOption('Reference');
   await expect(caption(widget)).toHaveText(/of truth\.csv, odom\.csv[.,]/);
@@ -74,7 +74,7 @@ test('a recording has both, and where it is not clear which topic is which, the 
       await expect(widget.getByRole('alert')).toHaveText(/^run-2\.mcap: it is not clear what the reference is: .*\/vicon\/pose \(PoseStamped\)\.$/);
       await widget.getByLabel('Reference', { exact: true }).selectOption('/mocap/pose');
     }
-    await expect(caption(widget)).toHaveText(new RegExp(`of ${name}, /mocap/pose[.,]`));
+    await expect(caption(widget)).toHaveText(new RegExp(`of ${name}, /odom, /mocap/pose[.,]`));
     await settled(widget);
     const read = await stats(widget);
     // Quaternions round the headings.
@@ -174,7 +174,7 @@ test('the files of a dropped folder are one recording @nightly', async ({ page }
     const dataTransfer = { types: ['Files'], items: [{ kind: 'file', webkitGetAsEntry: () => entry, getAsFile: () => null }] };
     section.dispatchEvent(Object.defineProperty(new Event('drop'), 'dataTransfer', { value: dataTransfer }));
   }, bytes);
-  await expect(caption(widget)).toHaveText(/of run, \/mocap\/pose[.,]/);
+  await expect(caption(widget)).toHaveText(/of run, \/odom, \/mocap\/pose[.,]/);
 });
 
 test('files that are no log are refused in a sentence, and all stays as it was', async ({ page }) => {

@@ -22,6 +22,29 @@ const SECONDS = /^\s*(\d+)(?:[.,](\d+))?\s*s(?:ec(?:onds?)?)?\s*$/i;
 /** Duration as of pandas ("0 days 00:00:01.5") and MATLAB ("00:00:01.5"). */
 const DURATION = /^\s*(?:(\d+) days? )?\+?(\d+):(\d{2}):(\d{2})(?:[.,](\d+))?\s*$/;
 
+/** Powers of ten that are exact. */
+const POWERS_OF_TEN = Array.from({ length: 23 }, (_, i) => 10 ** i);
+
+/**
+ * Parses digits with at most one point in a part of a line, without a string of its own: most cells are such, and a long table has millions.
+ * The number is the nearest one. Returns NaN for any other text, and for more digits than a number has.
+ */
+export function decimalAt(line: string, from: number, to: number): number {
+  const isNegative = line.charCodeAt(from) === 45;
+  let [value, point] = [0, -1];
+  const first = isNegative ? from + 1 : from;
+  for (let at = first; at < to; at++) {
+    const digit = line.charCodeAt(at) - 48;
+    if (digit >= 0 && digit <= 9) value = value * 10 + digit;
+    else if (digit === -2 && point < 0) point = at;
+    else return NaN;
+  }
+  if (value > Number.MAX_SAFE_INTEGER || first + (point < 0 ? 0 : 1) >= to) return NaN;
+  // Of two exact numbers, the quotient is rounded once.
+  if (point >= 0) value /= POWERS_OF_TEN[to - point - 1];
+  return isNegative ? -value : value;
+}
+
 /** Returns NaN for an empty cell or a word for no number, and undefined for any other text. */
 export function numberOf(cell: string): number | undefined {
   const value = Number(cell);

@@ -4,7 +4,7 @@ import { type Clock, type Group, type Layout, layoutOf } from './columns.ts';
 import { type Format, carmenCells, cellsOf, formatOf } from './format.ts';
 import { LogError, bytesOf, cut, listed, type Place } from './log-error.ts';
 import type { Basis, Log, Note, OpenOptions, Recording, Series, Source, TimeUnit } from './log.ts';
-import { type Time, dateOf, numberOf, timeOf } from './numbers.ts';
+import { type Time, dateOf, decimalAt, numberOf, timeOf } from './numbers.ts';
 import { quantile, sample } from './quantile.ts';
 import { headingOf, isRotation } from './quaternion.ts';
 import { Rows } from './rows.ts';
@@ -146,6 +146,11 @@ class LogReader {
   #values: Float64Array;
   #readTimes: ((cells: string[]) => Time | undefined)[] = [];
   #units: TimeUnit[] = [];
+  /** Columns of a plain row: index of the value, or −1 − that of the clock; undefined for other columns. */
+  #plain: (number | undefined)[] = [];
+  /** Powers of ten that a second has of the units of clocks; undefined while unknown, and for dates and the like. */
+  #powers: (number | undefined)[] = [];
+  #times = new Float64Array(4);
   /** Basis of the unit of times that no name or option states. */
   #basis: Basis = 'usage';
   #notes: Note[] = [];
@@ -174,10 +179,15 @@ class LogReader {
     const { frame, child } = group.columns;
     const all = [...this.#at, ...layout.clocks.flatMap(({ columns }) => columns.map(({ at }) => at)), ...[frame, child].map((column) => column?.at ?? 0)];
     this.#needed = Math.max(...all) + 1;
+    const { separator, hasCommas, isSparse } = format;
+    if (separator === ' ' || hasCommas || isSparse || frame || child) return;
+    for (const [i, at] of this.#at.entries()) this.#plain[at] = i;
+    for (const [i, { columns: [{ at }] }] of layout.clocks.entries()) this.#plain[at] = -1 - i;
   }
 
   take(line: string, number: number, isOpen: boolean): void {
     if (line.length > LONGEST) this.#refuse(number, (say) => say.longLine(LONGEST));
+    if (this.#takePlain(line, number)) return;
     const { separator, isSparse } = this.#format;
     const { tag } = this.#group;
     if (tag !== undefined && !line.startsWith(`${tag} `)) return;
@@ -211,9 +221,47 @@ class LogReader {
       if (value === undefined) return this.#leaveOutText(line, this.#layout.columns[i]?.name ?? 'z', cell);
       values[i] = value;
     }
-    const [[seconds, rest], [otherSeconds, otherRest] = [0, 0]] = times;
     const { columns } = this.#group;
     if (this.#frames.size <= MOST_FRAMES && (columns.child || columns.frame)) this.#frames.add([columns.frame, columns.child].flatMap((column) => (column ? [cells[column.at].trim()] : [])).join(' to '));
+    this.#addRow(times[0][0], times[0][1], times[1]?.[0] ?? 0, times[1]?.[1] ?? 0, line);
+  }
+
+  /** Takes a row of plain numbers in one pass, and returns false where any cell is not one. */
+  #takePlain(line: string, number: number): boolean {
+    if (this.#plain.length === 0 || this.#powers.length === 0 || line.includes('"')) return false;
+    const { separator } = this.#format;
+    const end = line.endsWith('\r') ? line.length - 1 : line.length;
+    this.#times.fill(0);
+    for (let column = 0, at = 0, to = 0; column < this.#needed; column++, at = to + 1) {
+      to = line.indexOf(separator, at);
+      if (to < 0) to = end;
+      if (at > to) return false;
+      const place = this.#plain[column];
+      if (place === undefined) continue;
+      if (place >= 0) {
+        const value = decimalAt(line, at, to);
+        this.#values[place] = value === value ? value : numberOf(line.slice(at, to)) ?? NaN;
+        if (!Number.isFinite(this.#values[place])) return false;
+        continue;
+      }
+      const power = this.#powers[-1 - place];
+      if (power === undefined) return false;
+      const point = line.indexOf('.', at);
+      const hasPoint = point >= 0 && point < to;
+      // A time in other units than seconds is split between digits, if it has no point.
+      const split = power === 0 ? (hasPoint ? point : to) : hasPoint ? -1 : to - power;
+      if (split <= at) return false;
+      const [seconds, rest] = [decimalAt(line, at, split), split === to ? 0 : power === 0 ? decimalAt(line, split, to) : decimalAt(line, split, to) / 10 ** power];
+      if (!(seconds >= 0 && rest >= 0)) return false;
+      this.#times[-2 - 2 * place] = seconds;
+      this.#times[-1 - 2 * place] = rest;
+    }
+    this.#addRow(this.#times[0], this.#times[1], this.#times[2], this.#times[3], number);
+    return true;
+  }
+
+  #addRow(seconds: number, rest: number, otherSeconds: number, otherRest: number, line: number): void {
+    const values = this.#values;
     const [x, y] = values;
     const { fields } = this.#layout;
     if (fields.at(-1) !== 'qw') return this.#rows.add(seconds, rest, x, y, values.length > 2 ? values[2] : 0, line, otherSeconds, otherRest);
@@ -271,20 +319,21 @@ class LogReader {
       return (cells) => dateOf(cells[at])?.time;
     }
     const stated = (isFirst ? this.#options.timeUnit : undefined) ?? unit;
-    let power = stated === undefined ? undefined : POWERS[stated];
     const index = this.#units.push(stated ?? 's') - 1;
+    const powers = this.#powers;
+    powers[index] = stated === undefined ? undefined : POWERS[stated];
     return (cells) => {
       const trimmed = text(cells);
-      if (power === undefined) {
+      if (powers[index] === undefined) {
         const size = numberOf(trimmed);
         // A first stamp of 0 says nothing about the unit.
         if (size !== undefined && size !== 0 && Number.isFinite(size)) {
           this.#units[index] = unitOfSize(size) ?? 's';
           if (isFirst && unitOfSize(size) !== undefined) this.#basis = 'size';
-          power = POWERS[this.#units[index]];
+          powers[index] = POWERS[this.#units[index]];
         }
       }
-      return timeOf(trimmed, power ?? 0);
+      return timeOf(trimmed, powers[index] ?? 0);
     };
   }
 

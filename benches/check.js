@@ -7,7 +7,7 @@
 import { Baseline } from './baseline.js';
 import { ALPHAS, RAMP, VIEW, command, figures, picture } from './scene.js';
 
-/** Largest difference of a figure, in metres, radians or shares: sums are added up in another order. */
+/** Largest accepted difference (m, rad or a fraction) between both implementations, which add in different orders. */
 const TOLERANCE = 1e-9;
 
 /**

@@ -1,6 +1,6 @@
 /**
- * Time of one step of a drag, at the opening sizes and with a processor four times slower. Measured are the frame with the
- * picture (JavaScript, WebAssembly, style, layout and paint), the time until the words follow, and the time between frames.
+ * Time of one step of a drag, at the initial sample counts and with a processor four times slower. There are three times: of the
+ * frame that paints the picture (JavaScript, WebAssembly, style, layout and paint), until the text is updated, and between frames.
  *
  * @module
  */

@@ -30,7 +30,7 @@ export async function race(contenders, { seconds, most = 60 }) {
   };
   const batches = names.map((name) => {
     let [events, spent, last] = [0, 0, 0];
-    // A contender that takes long has been compiled by fewer events.
+    // Warm-up. The functions of a slow contender have been optimized by V8 after fewer events.
     while (events < WARM_UP && (spent < 500 || events < 2)) {
       last = time(name, 1);
       spent += last;

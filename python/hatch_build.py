@@ -4,11 +4,11 @@ from pathlib import Path
 
 from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 
-MADE = ["src/motion_widgets/_elements.py", "src/motion_widgets/anywidget.js", "LICENSE-MIT", "LICENSE-APACHE", "LICENSE-third-party.txt"]
+GENERATED = ["src/motion_widgets/_elements.py", "src/motion_widgets/anywidget.js", "LICENSE-MIT", "LICENSE-APACHE", "LICENSE-third-party.txt"]
 
 
-class Made(BuildHookInterface):
+class CheckGeneratedFiles(BuildHookInterface):
     def initialize(self, version, build_data):
-        missing = [path for path in MADE if not (Path(self.root) / path).exists()]
+        missing = [path for path in GENERATED if not (Path(self.root) / path).exists()]
         if missing:
             raise FileNotFoundError(f"{' and '.join(missing)} are missing in python/: `npm run build` in the directory above makes them.")

@@ -21,15 +21,14 @@ export const CHROME_ARGUMENTS = [
   '--disable-background-networking',
   '--disable-component-update',
   '--disable-sync',
-  // Without it, the Chromium without windows dies of an access outside of a module's memory, which a page can catch.
+  // Without it, headless Chromium crashes on an out-of-bounds access in WebAssembly, which should be a catchable error.
   '--enable-crash-reporter',
 ];
 
 /** @typedef {{ chrome: string, driver: string, version: string }} Browser */
 
 /**
- * What pages ask for by name, and as wide letters as they are laid out for: where a machine has nothing but DejaVu, all text is a
- * tenth wider.
+ * Installs a font as wide as Arial, which the pages are laid out for. With DejaVu as the only font all text is a tenth wider.
  */
 async function ensureFonts() {
   if (findProgram('fc-match') === undefined || findProgram('apt-get') === undefined) return;

@@ -116,8 +116,8 @@ async function buildCores(names, local) {
  */
 async function compileCore(rust, name, local) {
   const cargo = join(rust.bin, 'cargo');
-  // By `cargo build`, which makes the library for Rust as well, nothing would be optimized across crates.
-  // The places of panics name files: not those of this machine, where the module is published.
+  // `cargo build` also makes a Rust library, and then cannot optimize across crates. `cargo rustc` makes the module only.
+  // Panic locations contain paths. In a published module the paths of this machine are removed.
   const sources = join(process.env.CARGO_HOME ?? join(homedir(), '.cargo'), 'registry/src');
   const remapped = `target.wasm32-unknown-unknown.rustflags=["--remap-path-prefix=${sources}="]`;
   const profile = local ? 'web' : 'release';
@@ -199,7 +199,7 @@ async function optimize(path, passes = PASSES) {
  * @property {[name: string, short: string][]} exports
  */
 
-/** The names as wasm-bindgen gives them. @param {string} name of the core @returns {Names} */
+/** Returns the names that wasm-bindgen has given to imports and exports. @param {string} name of the core @returns {Names} */
 function boundNames(name) {
   const module = new WebAssembly.Module(readFileSync(at(`build/${name}.wasm`)));
   return {
@@ -228,7 +228,7 @@ async function writeGlue(name, between) {
     // For all classes; www/core.ts does it.
     [/^if \(Symbol\.dispose\) .*$/gm, ''],
     [/new FinalizationRegistry\(/g, '/* @__PURE__ */ $&'],
-    // A namespace is filled bit by bit, as if that had effects.
+    // wasm-bindgen adds the members of a namespace one by one. Bundlers take that for side effects, and keep unused namespaces.
     [/^export const (\w+) = \{\};\n((?:\1\.\w+ = \w+;\n)+)/gm, 'export const $1 = /* @__PURE__ */ (($1) => {\n$2return $1;\n})({});\n'],
   ]);
   const script = readFileSync(at(`build/bound/${name}/motion_bg.js`), 'utf8');

@@ -78,7 +78,7 @@ const MODULE = {
     );
   },
   /**
-   * Glue without modules: the page has compiled one already.
+   * Glue of the worker, without the WebAssembly modules: the page sends a compiled one.
    *
    * @param {string[]} tags of the figures with logs that have a module of their own
    */

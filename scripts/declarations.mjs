@@ -54,7 +54,7 @@ export function typeOf({ key, type, words, nullable }) {
 }
 
 /**
- * What a setting is, and what it may be.
+ * Returns the description of a setting: its meaning, its allowed values and its default.
  *
  * @param {Declaration} declaration
  * @param {string} [opening]
@@ -113,7 +113,7 @@ export function widgets() {
  */
 async function widget(tag) {
   // They import libraries, which a bare clone does not have yet.
-  const { COMMON, WORDS } = await importTypeScript('www/figure/attributes.ts');
+  const { COMMON, WORD_LIST } = await importTypeScript('www/figure/attributes.ts');
   const { attributes, declared, documentation, own } = await importTypeScript(`www/widgets/${tag}/settings.ts`);
   /** @type {import('../www/figure/attributes.ts').Documentation[]} */
   const documents = [...('marked' in own ? [OF_CLOUDS] : []), ...(documentation ? [documentation] : [])];
@@ -138,7 +138,7 @@ async function widget(tag) {
     const { words, covers, kind, property } = entry;
     const nullable = covers || entry.nullable;
     const opening = entry.opening ?? own[name]?.opening ?? (covers ? openingPreset(tag) : nullable ? undefined : words?.[0]);
-    const type = words === undefined ? 'boolean' : kind === WORDS ? `(${union(words)})[]` : union(words);
+    const type = words === undefined ? 'boolean' : kind === WORD_LIST ? `(${union(words)})[]` : union(words);
     const text = Array.isArray(opening) ? opening.join(' ') : opening;
     const description = describe({ ...entry, sentence: sentences[name] }, text);
     return { name, property, type: nullable ? `${type} | null` : type, description, opening: text, told: description };

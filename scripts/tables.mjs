@@ -12,7 +12,7 @@ const TABLES = {
   attributes: (_, widgets) =>
     widgets
       .map(({ tag, attributes }) => {
-        const rows = attributes.map((each) => [code(each.name), valuesOf(each), prose(each.told)]);
+        const rows = attributes.map((each) => [code(each.name), valuesOf(each), proseHtml(each.told)]);
         return table(tag, 'attribute', code(`<${tag}>`), ['attribute', 'values', 'description'], rows);
       })
       .join('\n\n'),
@@ -53,7 +53,7 @@ function shared(elements, kind, caption, heads, items) {
   const rows = [...all.values()].map(({ name, description }) => {
     const of = bearers(name);
     const only = of.length < elements.length ? ` Only ${of.map(({ tagName }) => code(`<${tagName}>`)).join(' and ')}.` : '';
-    return [code(name), prose(description) + only];
+    return [code(name), proseHtml(description) + only];
   });
   return table('both', kind, caption, heads, rows);
 }
@@ -83,12 +83,12 @@ function valuesOf({ type, allowed }) {
   return words.length ? words.join(', ') : (allowed ?? type);
 }
 
-/** @param {string} [text] in which what stands between backticks is code */
-function prose(text = '') {
+/** Returns text as HTML, with code between backticks marked up. @param {string} [text] */
+function proseHtml(text = '') {
   return escaped(text).replaceAll(/`([^`]+)`/g, '<code>$1</code>');
 }
 
-/** @param {string} text */
+/** Returns text as an HTML code element. @param {string} text */
 function code(text) {
   return `<code>${escaped(text)}</code>`;
 }

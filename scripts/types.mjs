@@ -1,5 +1,5 @@
-// Types that follow from what is declared: build/machines.d.ts of the core, and build/elements.d.ts of the elements.
-// What is left is in www/types.d.ts, which has them all.
+// Generates TypeScript types from the declarations: build/machines.d.ts of the core, and build/elements.d.ts of the elements.
+// www/types.d.ts exports both, and contains the types that are written by hand.
 
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
@@ -12,7 +12,7 @@ import { importTypeScript } from './typescript.mjs';
 
 const HEAD = '// Generated from the declarations: not to be edited.\n';
 
-/** What frees a machine has a name that not every project has been told of. */
+/** Declaration of `Symbol.dispose`, which the `lib` setting of a project may lack. */
 const DISPOSABLE = '/// <reference lib="esnext.disposable" />\n';
 
 /** Writes both. */
@@ -23,7 +23,7 @@ export async function writeTypes() {
   writeFileSync(join(ROOT, 'build/elements.d.ts'), [HEAD, imported(all), await figureType(all), ...(await Promise.all(all.map(elementTypes))), tagNames(all)].join('\n'));
 }
 
-/** Groups of the same name are the same in all widgets. */
+/** Returns the interfaces of groups. A group of one name has to be equal in all widgets. */
 function groupTypes() {
   /** @type {Map<string, string>} */
   const groups = new Map();

@@ -57,15 +57,15 @@ function render({ model, el }: { model: Model, el: HTMLElement }): (() => void) 
     telling = true;
     queueMicrotask(() => {
       telling = false;
-      // It is on no page: what it showed last was told.
+      // The element was removed. The model already has the values that it showed last.
       if (!element.machine) return;
       const ours = traits.filter(([, property]) => !GLOBAL.includes(property));
       const told = ours.map(([trait, property]) => [trait, plain(element[property])] as [string, unknown]);
-      // What is none follows from the others, where another view hears of both.
+      // Nulls come last: a null (no preset, for example) follows from the other values, and another view applies them in this order.
       writing = true;
       for (const none of [false, true]) for (const [trait, value] of told) if ((value === null) === none) put(trait, value);
       writing = false;
-      // Of one moment, and of which: what a kernel has asked for since is later, however long this is on its way.
+      // All values of one moment, with the number of the last request that was applied: the kernel can tell which requests are newer.
       put('_shown', { heard: model.get('_asked'), settings: Object.fromEntries(told.filter(([trait]) => model.get(trait) !== undefined)) });
       save();
     });

@@ -4,7 +4,7 @@ use super::input::{Input, turn_of};
 use super::laws;
 use super::settings::{allowed, changed};
 use motion::sim::dead_reckoning::{
-    DeadReckoning, KEPT, Measured, Misses, Outlines, RECURSIONS, Settings, Stats, Straight,
+    DeadReckoning, KEPT, Measured, Misses, Outlines, RECURSIONS, Settings, Stats, StraightGrowth,
 };
 use nalgebra::Matrix3;
 
@@ -199,8 +199,8 @@ fn are_misses(misses: &Misses, steps: usize) {
 }
 
 fn straight(machine: &DeadReckoning) {
-    let Straight { durations, along, across, along_first_order, across_first_order, crossing } =
-        machine.straight();
+    let StraightGrowth { durations, along, across, along_first_order, across_first_order, crossing } =
+        machine.straight_growth();
     for curve in [&durations, &along, &across, &along_first_order, &across_first_order] {
         laws::finite("straight", curve);
         assert!(curve.len() == durations.len() && curve.iter().all(|variance| *variance >= 0.0), "{curve:?}");

@@ -65,7 +65,7 @@ pub fn allowed<S: Rules>(settings: &S) -> bool {
     false
 }
 
-/// Every number is of its range.
+/// Asserts that every number is in its range.
 fn holds_all<S: Rules>(settings: &S) {
     let mut settings = *settings;
     let _: Result<(), ()> = settings.try_each(|declaration, setting| {

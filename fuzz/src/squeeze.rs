@@ -101,7 +101,7 @@ fn configure(machine: &mut MapSqueeze, input: &mut Input) {
     assert_eq!(machine.attempts(), attempts);
 }
 
-/// Blocks lead to what one call leads to.
+/// Asserts that attempts made in several blocks equal the attempts of one call.
 fn in_blocks(machine: &mut MapSqueeze, input: &mut Input) {
     let settings = few(changed(machine.settings(), input), false);
     if !allowed(&settings) {

@@ -156,7 +156,7 @@ const MAX_STD_ERRORS: f64 = 3.0;
 const NEGLIGIBLE_CORRELATION: f64 = 0.1;
 const NEGLIGIBLE_KURTOSIS: f64 = 0.5;
 
-/// Coverage that is as good as 95 % in a long log.
+/// Difference of the coverage from 95 % that is too small to matter in a long log.
 const NEGLIGIBLE_COVERAGE: f64 = 0.015;
 
 /// Number of legs that are enough, and that make a log usable at all.

@@ -22,7 +22,7 @@ pub struct Circle {
     pub cos: f64x4,
 }
 
-/// What the logarithm of SE(2) needs of a heading, told by its half h = ω/2.
+/// Terms of the SE(2) logarithm that depend on the heading, as functions of the half heading h = ω/2.
 #[derive(Clone, Copy)]
 pub struct HalfTurn {
     /// h less whole half circles, within a quarter circle of the one that was asked for.
@@ -89,15 +89,15 @@ impl Trigonometry {
         }
     }
 
-    /// What the logarithm needs of half headings (rad) within a quarter turn of 0 and of the branch that is asked for.
+    /// Returns the terms of the SE(2) logarithm for half headings (rad) within a quarter turn of 0, which are on the wanted branch.
     #[inline(always)]
     pub fn half_turn(&self, half: f64x4) -> HalfTurn {
         let (sinc, cos) = self.sinc_cos(half * half);
         HalfTurn { half, cotangent: cos / sinc, sinc, sin: half * sinc, cos }
     }
 
-    /// What the logarithm needs of any half headings (rad), on the branch of the logarithm nearest to the half heading `near` (rad). A lane that is near
-    /// gets the bits of [`Trigonometry::half_turn`].
+    /// Returns the terms of the SE(2) logarithm for any half headings (rad), on the branch nearest to the half heading `near` (rad).
+    /// Half headings on that branch get the same bits as from [`Trigonometry::half_turn`].
     #[inline(never)]
     pub fn any_half_turn(&self, half: f64x4, near: f64) -> HalfTurn {
         let mut wrapped = without_half_circles(half, whole_half_circles(half - near));

@@ -310,7 +310,7 @@ struct Sweep<'a> {
     field: &'a DistanceField,
     arc: &'a Arc,
     clearance: f64,
-    /// The arc as walls are measured to it, once there is one to measure.
+    /// Form of the arc for distances to walls, computed for the first such wall.
     unrolled: OnceCell<Unrolled>,
     wall_tests: usize,
 }
@@ -331,7 +331,7 @@ impl Sweep<'_> {
         if field.most(least) <= self.clearance - course.error {
             return false;
         }
-        // To divide a shorter piece would tell less about it than is known about its walls.
+        // A piece shorter than the cells of the field is not divided: the distances to its walls are more precise.
         let divisible = reach > field.radius();
         let [x, y] = middles.map(|lanes| lanes.to_array());
         (0..LANES).all(|i| {
@@ -340,14 +340,14 @@ impl Sweep<'_> {
                     let first = from + (2 * i) as f64 * reach;
                     self.free(course, first, first + 2.0 * reach)
                 } else {
-                    self.measure([x[i], y[i]], reach + course.error, course.error)
+                    self.walls_keep_clear([x[i], y[i]], reach + course.error, course.error)
                 }
         })
     }
 
-    /// Tests whether the walls around a piece are all clear of the arc. They are measured to the middle of the piece first, which
-    /// decides on most.
-    fn measure(&mut self, middle: [f64; 2], reach: f64, error: f64) -> bool {
+    /// Tests whether all walls near a piece of the arc keep the clearance. For most walls the distance to the middle of the
+    /// piece decides already.
+    fn walls_keep_clear(&mut self, middle: [f64; 2], reach: f64, error: f64) -> bool {
         let (arc, clearance) = (self.arc, self.clearance);
         let unrolled = || self.unrolled.get_or_init(|| arc.unrolled());
         let (near, touching) = (reach + clearance, (clearance - error).max(0.0));
@@ -357,7 +357,7 @@ impl Sweep<'_> {
             &mut self.wall_tests,
             |node| {
                 node.is_beyond(middle, near)
-                    // Worth it where the walls of a node are more alike than what can be told by the piece.
+                    // Pays only if the walls of the node are closer to one line than the piece is long.
                     || node.thickness < reach
                         && node.line().distance_to_unrolled(unrolled()) - node.thickness > clearance
             },

@@ -179,7 +179,7 @@ impl<'a> Reader<'a> {
     }
 
     fn error(&self, field: &'static str, token: &[u8], allowed: String) -> PgmError {
-        // Bytes that are no letters may be anything, the pixels of another kind of image among it.
+        // Other bytes may be pixels of another image format. A message cannot show them.
         let readable = |byte: &u8| {
             if byte.is_ascii_graphic() { char::from(*byte) } else { char::REPLACEMENT_CHARACTER }
         };

@@ -8,7 +8,7 @@ pub fn alphas_of_noise<const N: usize>(n: f64) -> [f64; N] {
     std::array::from_fn(|i| if i + 2 < N { n } else { n / 4.0 })
 }
 
-/// The level of α's that may be those of one.
+/// α's seen as one noise level. They have a level only if they equal [`alphas_of_noise`] of it.
 pub struct NoiseLevel<'a, const N: usize>(pub &'a mut [f64; N]);
 
 impl<const N: usize> Level for NoiseLevel<'_, N> {

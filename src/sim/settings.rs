@@ -306,7 +306,7 @@ pub trait Declared: Copy + Default {
 
 /// Rules across the settings of a widget.
 pub trait Rules: Declared {
-    /// Called after those that are `named` were set one by one.
+    /// Adjusts other settings after the `named` ones were set one by one.
     fn settle(&mut self, _before: &Self, _named: &[&str]) {}
 
     /// Called when each setting is known to be in its range.

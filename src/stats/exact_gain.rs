@@ -145,7 +145,7 @@ impl Legs {
     fn arc(&self) -> (Moments, f64) {
         let ([bearing, deviation], near) = (self.bearing, 0.5 * self.turn[0]);
         let (mut moments, mut logs) = (RayMoments::default(), MeanLog::default());
-        // A cloud has the arc of the nearest turn, which may lead there the other way round.
+        // Cloud statistics use the arc whose turn is nearest to the command. Beyond half a turn that arc leads there in reverse.
         let breaks = [-0.5 * PI, 0.5 * PI].map(|aside| (near + aside - bearing) / deviation);
         for node in self.nodes(deviation, breaks) {
             let driven = bearing + deviation * node.value;

@@ -1,8 +1,8 @@
-//! The figures of a large cloud from two passes over its poses, four at a time.
+//! Statistics of a large cloud in two passes over its poses, four at a time.
 //!
-//! The first pass finds means and covariances, the second what is counted from them: higher moments across the track, and
-//! the shares inside the contours. Sums are of differences from a point near the mean, and compensated, so that ten
-//! million poses add up to 1e-13 of what they are.
+//! The first pass finds means and covariances. The second needs them: it finds higher moments across the track, and the
+//! fractions inside the contours. Sums are compensated and contain differences from a point near the mean, so that the
+//! relative error of ten million poses is about 1e-13.
 
 use super::contour::{Ellipse, ExponentialContour};
 use super::cross_track::{CrossTrack, TrackMoments};
@@ -16,7 +16,7 @@ use nalgebra::{Matrix2, Matrix3, Vector3};
 use std::f64::consts::{LN_2, PI, TAU};
 use wide::{f64x2, f64x4};
 
-/// Four poses: where they are, their logarithms, and the sine and cosine of half the heading (both of either sign).
+/// Four poses: positions, logarithms, and the sine and cosine of half the heading. Both may have the opposite sign.
 #[derive(Clone, Copy)]
 pub struct FourPoses {
     pub x: f64x4,
@@ -40,13 +40,13 @@ pub struct FourArcs {
     pub sinc: f64x4,
 }
 
-/// What differences are counted from: x, y, along, lateral, half heading; length and half turn of the arc.
+/// Origin of the differences that are summed: x, y, along, lateral, half heading; length and half turn of the arc.
 pub type Reference = [f64; 7];
 
-/// What brings sinc(ξ_ω/2) and |s|·sinc²(φ/2) to the order of 1, so that many of them can be multiplied.
+/// Factors that bring sinc(ξ_ω/2) and |s|·sinc²(φ/2) to the order of 1, so that many of them can be multiplied.
 pub type Scale = [f64; 2];
 
-/// The first pass.
+/// First pass: accumulates means, covariances and the mean logarithms of the Jacobians.
 #[derive(Clone, Debug)]
 pub struct Spread {
     reference: Reference,
@@ -201,7 +201,7 @@ impl Spread {
     }
 }
 
-/// What the first pass found.
+/// Result of the first pass.
 #[derive(Clone, Copy, Debug)]
 pub struct SpreadMoments {
     position: [f64; 2],
@@ -217,9 +217,9 @@ pub struct SpreadMoments {
     log_jacobians: [f64; 2],
 }
 
-/// The second pass.
+/// Second pass: accumulates moments across the track and counts poses inside the contours.
 #[derive(Clone, Debug)]
-pub struct Shape {
+pub struct CloudShape {
     spread: SpreadMoments,
     /// Sine and cosine of the mean heading.
     heading: (f64, f64),
@@ -228,7 +228,7 @@ pub struct Shape {
     sums: Sums<17>,
 }
 
-/// All that is known of a cloud.
+/// Statistics of a cloud from both passes.
 #[derive(Clone, Copy, Debug)]
 pub struct CloudFigures {
     pub cartesian: CartesianMoments,
@@ -242,8 +242,8 @@ pub struct CloudFigures {
     pub log_area_error: f64,
 }
 
-impl Shape {
-    /// Over the poses that `spread` was found of, driven from `start`.
+impl CloudShape {
+    /// Starts the second pass over the same poses, which were driven from `start`.
     pub fn new(spread: SpreadMoments, start: &SE2) -> Self {
         let [xx, xy, yy] = spread.position_cov;
         Self {
@@ -296,7 +296,7 @@ impl Shape {
         self.sums.close_block();
     }
 
-    /// The figures of `count` poses; the errors of the gains are those that `sample` has, each with its weight.
+    /// Returns the statistics of `count` poses. The weighted poses in `sample` give the standard errors of the gains.
     pub fn finish(
         &self,
         count: usize,

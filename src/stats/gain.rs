@@ -85,10 +85,10 @@ impl MeasuredGain {
     }
 }
 
-/// Four robots in all coordinates.
+/// End poses of four robots in each of the coordinates.
 #[derive(Clone, Copy)]
 pub(super) struct FourRobots {
-    /// x and y (m), and the heading from the mean one (rad).
+    /// x and y (m), and the heading relative to the mean heading (rad).
     pub plain: [f64x4; 3],
     pub twist: [f64x4; 3],
     /// Length (m) and turn (rad) of the arc that ends at x, y, and 0.

@@ -33,11 +33,11 @@ export interface FormErrors {
 export interface AnatomySurface {
   columns: number;
   rows: number;
-  /** What is mapped over its highest value, in 255ths: cell by cell, row by row from the top. All 0 where a noise has no variance. */
+  /** Mapped value relative to its maximum, from 0 to 255, row by row from the top. All 0 if a noise has no variance. */
   shades: Uint8Array;
   /** Contours of p, at a half, a tenth and a hundredth of its highest value; x, y pairs, m. */
   prob: Float64Array[];
-  /** The same of the density of the sampler. */
+  /** Contours of the sampler's density at the same fractions of its maximum. */
   density: Float64Array[];
 }
 
@@ -46,7 +46,7 @@ export interface AnatomyPaths {
   commanded: Float64Array;
   inverted: Float64Array;
   driven: Float64Array;
-  /** Of constant twist. */
+  /** Path of the constant twist ξ. */
   lie: Float64Array;
   /** From points of that, each x, y, to where its lateral velocity alone would lead in the whole time, x, y. */
   ticks: Float64Array;

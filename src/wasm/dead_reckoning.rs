@@ -6,7 +6,7 @@ use super::pictures::index_of;
 use super::values::{flat, floats, group_to_js, list, number_or_null, object, plain};
 use crate::models::Compounding;
 use crate::sim::dead_reckoning::{
-    DeadReckoning, MAX_SAMPLES, MAX_STEPS, Measured, Outlines, PRESETS, Preset, Settings, Straight,
+    DeadReckoning, MAX_SAMPLES, MAX_STEPS, Measured, Outlines, PRESETS, Preset, Settings, StraightGrowth,
 };
 use crate::sim::settings::Words;
 use js_sys::{Array, Float64Array};
@@ -44,7 +44,7 @@ export interface StraightGrowth {
   alongFirstOrder: Float64Array;
   /** ¼α₃v⁴Δt⁴. */
   acrossFirstOrder: Float64Array;
-  /** Where these two are equal, s; null where they never are. */
+  /** Duration (s) at which these two are equal; null if they never are. */
   crossing: number | null;
 }
 "#;
@@ -83,7 +83,7 @@ impl JsDeadReckoning {
         PRESETS.into_iter().map(preset).collect()
     }
 
-    /// All that is shown, at once. `milestones` are the other quarters of the path.
+    /// Returns everything that is shown, in one call. `milestones` are after each quarter of the path other than the current step.
     #[wasm_bindgen(
         unchecked_return_type = "Pick<DeadReckoning, 'config' | 'shown' | 'block' | 'stats' | 'ratios' | 'relativeErrors' | 'commanded' | 'nominal' | 'poses' | 'twists'> & { outlines: StepOutlines; milestones: Milestone[] }"
     )]
@@ -156,11 +156,11 @@ impl JsDeadReckoning {
         flat(&self.0.commanded())
     }
 
-    /// Growth of the variances of a straight drive at this speed and noise with its duration, each as one command.
-    #[wasm_bindgen(getter, unchecked_return_type = "StraightGrowth")]
-    pub fn straight(&self) -> JsValue {
-        let Straight { durations, along, across, along_first_order, across_first_order, crossing } =
-            self.0.straight();
+    /// Variances of a straight drive as functions of its duration, at this speed and noise. Each drive is one command.
+    #[wasm_bindgen(getter, js_name = straightGrowth, unchecked_return_type = "StraightGrowth")]
+    pub fn straight_growth(&self) -> JsValue {
+        let StraightGrowth { durations, along, across, along_first_order, across_first_order, crossing } =
+            self.0.straight_growth();
         object(&[
             ("durations", floats(&durations)),
             ("along", floats(&along)),

@@ -65,7 +65,7 @@ impl JsMapSqueeze {
         PRESETS.into_iter().map(preset).collect()
     }
 
-    /// All that is shown besides the map, at once. `paths` are the first ones that are accepted through a wall.
+    /// Returns everything that is shown besides the map, in one call. `paths` are of the first samples accepted through a wall.
     #[wasm_bindgen(
         unchecked_return_type = "Pick<MapSqueeze, 'config' | 'shown' | 'block' | 'stats' | 'verdicts' | 'poses' | 'commanded' | 'startFree'> & { paths: Float64Array[] }"
     )]

@@ -116,7 +116,7 @@ export const widgets = {
         nearest: machine.nearest(config.command.v * config.command.dt * config.step, 0.1, 0.5),
       },
       outlines: machine.outlines(config.step),
-      straight: machine.straight,
+      straight: machine.straightGrowth,
     };
     machine.free();
     return told;

@@ -231,7 +231,7 @@ test('legs of a time, and how well the reference is known, are set by their slid
 });
 
 test('an α that a log does not tell from 0 is no result of 0 @nightly', async ({ page }) => {
-  // Few legs: what turning adds is not seen beside what driving does.
+  // With few legs, the noise from rotation cannot be told from 0 next to the larger noise from translation.
   const widget = await openCalibrator(page, 'model="velocity" distance="1" angle="1.5"');
   const { alphas, intervals } = await stats(widget);
   const zeros = alphas.flatMap((alpha, i) => (alpha !== null && isZero(alpha, intervals[i]) ? [i] : []));

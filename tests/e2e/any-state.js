@@ -70,7 +70,7 @@ export function anyOf(seed) {
       alphas: alphas(6),
       clearance: real(0, 0.2),
       conditioned: one([true, false]),
-      // One after the other, and none of them gives up.
+      // Settings of the whole-arc sampler are valid one at a time, and it always finds accepted samples.
       sampler: 'whole-arc',
       steps: whole(1, 64),
       unknown: one(['free', 'blocked']),

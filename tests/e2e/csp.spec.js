@@ -53,7 +53,7 @@ test('a figure asks for nothing that a strict policy forbids', async ({ page, fi
 const trusting = (names) => `${STRICT}; require-trusted-types-for 'script'; trusted-types ${names}`;
 
 test('a figure has a Trusted Types policy of its own beside that of the page\'s Lit', async ({ page, figure }) => {
-  // As a copy of Lit does that comes before the figures.
+  // A copy of Lit that the page loads before the figures makes this policy.
   await page.addInitScript(() => void Reflect.get(window, 'trustedTypes').createPolicy('lit-html', { createHTML: (/** @type {string} */ text) => text }));
   const violations = await openUnder(page, trusting('lit-html motion-widgets'), `embed.html?widget=${figure}`);
   await ready(page.locator(figure));

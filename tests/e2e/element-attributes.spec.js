@@ -322,7 +322,7 @@ test('properties that are refused fire an error event that does not bubble, and 
     return at;
   });
   expect(told).toEqual(['command.omega is NaN; allowed is a number from -1000000 to 1000000']);
-  // One where nobody listens.
+  // On a page without listeners, the error is printed as a warning.
   const other = await page.context().newPage();
   await other.goto('/embed.html?widget=banana-machine');
   const unheard = other.waitForEvent('console', (message) => message.type() === 'warning');

@@ -99,7 +99,7 @@ test('a cloud that is out of sight asks for no frames, and goes on growing where
     /** @type {AnyElement} */ (element).setState({ widget: element.localName, version: 1, shown: 0, playing: true });
     await moved;
     scrollTo(0, 6000);
-    // Observers look in the same frame.
+    // Wait for an observer of our own: the figure's observer reports in the same frame.
     await new Promise((resolve) => new IntersectionObserver(([{ isIntersecting }]) => isIntersecting || resolve(undefined)).observe(element));
   });
   expect(await property(widget, 'playing')).toBe(true);

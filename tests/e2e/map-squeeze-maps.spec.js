@@ -59,7 +59,7 @@ test('a JSON floor plan takes the apartment’s place, and the robot finds room 
   const { bounds, walls, startFree, openPlace, config, shown } = await squeezed(widget);
   expect(bounds).toEqual(ROOM.bounds);
   expect(walls).toEqual(ROOM.walls.flat());
-  // (1.4, 4.4) is outside of it.
+  // The start in the corridor, (1.4, 4.4), is outside this room.
   expect(startFree).toBe(true);
   expect(config.start).toEqual(openPlace);
   expect(shown).toBe(config.samples);
@@ -136,7 +136,7 @@ test('a floor plan can be written on the page', async ({ page }) => {
   await unfold(widget, 'More controls');
   const field = widget.getByLabel('Or a floor plan here');
   const use = widget.getByRole('button', { name: 'Use this plan' });
-  // The example in the field is one.
+  // The text field opens with an example of a floor plan.
   await use.click();
   await expect(present(widget)).toHaveText('Pasted plan: 6.0 m × 4.0 m, 6 walls.');
   await field.fill('{"bounds": [0, 0, 3, 3],\n"walls": [[0, 0, 3, 3]}');

@@ -108,10 +108,10 @@ const CHECKS = {
     assert.deepEqual(await shows(page, ['preset', 'omega', 'dt']), { preset: null, omega: 0.2, dt: 1.4 });
     await python(page, 'setattr(machine, "omega", None)');
     await comesTo(page, 'machine.omega', 0.5);
-    // How many there are, only the figure knows.
+    // Only the figure knows the number of α's of a model, so it refuses a wrong length.
     await python(page, 'setattr(machine, "alphas", [1, 2, 3])');
     await comesTo(page, '[machine.alphas, "alphas" in machine.error]', [ORIGINAL.alphas, true]);
-    // What the declaration knows, Python refuses by itself.
+    // Ranges are in the declaration, so Python refuses the value without asking the figure.
     const refused = await python(page, `[exec("try: machine.omega = 2e6\\nexcept Exception as error: said = str(error)"), said][1]`);
     assert.equal(refused, 'omega is 2000000.0; allowed is a number from -1000000 to 1000000, or None');
   },

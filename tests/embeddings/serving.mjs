@@ -12,7 +12,7 @@ import { serve } from '../../scripts/serve.mjs';
 const PATIENCE = 120;
 
 /**
- * What a build has written, by a server that knows nothing but files.
+ * Serves the files that a build has written, with a plain file server.
  *
  * @param {string} output its directory, from the copy of the example
  * @param {string} [base] the path that the site is told to have, with a slash at both ends
@@ -61,7 +61,7 @@ function freePort() {
 
 /**
  * @param {string} url
- * @returns {Promise<void>} resolved when it is a page
+ * @returns {Promise<void>} resolved when the server answers with status 200
  */
 async function answered(url) {
   const last = Date.now() + PATIENCE * 1000;
@@ -69,7 +69,7 @@ async function answered(url) {
     const status = await fetch(url, { signal: AbortSignal.timeout(PATIENCE * 1000) }).then(({ status }) => status, String);
     if (status === 200) return;
     if (Date.now() > last) throw new Error(`${url} has not answered for ${PATIENCE} s; the last was ${status}.`);
-    // Nobody tells when a port is listened to.
+    // No event tells when a server begins to listen.
     await new Promise((resolve) => setTimeout(resolve, 200));
   }
 }

@@ -22,7 +22,7 @@ async function outcomeOf(name, address) {
     const engine = await engines[name]();
     version = engine.version;
     try {
-      // It imports what is built.
+      // Imported only here, because checks.mjs imports dist/, which has to be built first.
       const { check } = await import('./checks.mjs');
       return { version, ...(await check(name, engine, address)) };
     } finally {

@@ -1,6 +1,5 @@
 /**
- * The page of `npm start` as it is, with one script more that notes what goes wrong, and the tests beside it for what the page
- * is asked.
+ * Builds a copy of the page of `npm start` with two more scripts: one records errors, the other has functions that tests call.
  *
  * @module
  */

@@ -38,7 +38,7 @@ test('numbers of files: as many digits as the interval has a meaning in, with an
   assert.deepEqual([ends([0, Infinity]), ends([-Infinity, Infinity]), ends(null)], ['', '', '']);
 });
 
-/** Result of a calibration with two α's, changed. @param {object} [change] @returns {any} */
+/** Returns the result of a calibration of two α's. @param {object} [change] replaces fields @returns {any} */
 const calibration = (change) => ({
   alphas: [0.03, 0.008],
   intervals: [[0.024, 0.036], [0.007, 0.0091]],

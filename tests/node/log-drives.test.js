@@ -42,7 +42,7 @@ const printed = ({ series, frames }) => (frames ? `${series} ${frames.parent} ${
 /** Plans drives, as a promise of which refusals are taken. @param {Recording[]} recordings @param {import('../../www/logs/drives.ts').Wishes} [wishes] */
 const planned = async (recordings, wishes) => planDrives(recordings, wishes);
 
-/** Series of a recording, the expected odometry and reference, frames of transforms and wishes. @type {[Parameters<typeof recording>[0], string, string, string[]?, any?][]} */
+/** Cases with one answer: the series of a recording, the expected odometry and reference, the frames in /tf, the user's options. @type {[Parameters<typeof recording>[0], string, string, string[]?, any?][]} */
 const CLEAR = [
   [{ '/odom': 'odometry', '/vrpn_client_node/robot/pose': 'pose', '/amcl_pose': 'pose', '/cmd_vel': 'twist' }, '/odom', '/vrpn_client_node/robot/pose'],
   [{ '/odom': 'odometry', '/vicon/robot': 'pose', '/cmd_vel': 'twist' }, '/cmd_vel', '/vicon/robot', [], { kind: 'commands' }],

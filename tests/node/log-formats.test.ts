@@ -20,7 +20,7 @@ const bytesOf = (name: string) => gunzipSync(Buffer.from(FILES[name], 'base64'))
 
 const fileOf = (bytes: Uint8Array | string, name: string, path?: string): Source => Object.assign(new File([bytes as BlobPart], name), path ? { path } : {});
 
-/** Files of a rosbag2 folder, whose names it prefixes. */
+/** Returns the files of a rosbag2 folder. In recordings.json the folder's name is the prefix of their names. */
 const folderOf = (name: string): Source[] =>
   Object.keys(FILES).filter((file) => file.startsWith(`${name}-metadata`) || file.startsWith(`${name}-${name}.`)).map((file) => {
     const plain = file.slice(name.length + 1);

@@ -78,7 +78,7 @@ test('a plan that is not quite JSON is forgiven as long as it may be written by 
   /** @param {number} count */
   const plan = (count) => file('plan.json', `{"bounds": [0, 0, 9, 9], "walls": [${'[0, 0, 1.5, 1.5],'.repeat(count)}]}`);
   assert.equal((await opened(plan(1000))).plan.walls.length, 4000);
-  // The library that forgives takes seconds for as many walls as are allowed; what is JSON, it is not asked for.
+  // The tolerant parser would take seconds for the largest allowed plan. It is used for small files, and never for valid JSON.
   assert.match(await refusalOf([plan(20_000)]), /^plan\.json: this is not JSON \(.+\); expected is \{"bounds"/);
   const whole = JSON.stringify({ bounds: [0, 0, 9, 9], walls: Array(20_000).fill([0, 0, 1.5, 1.5]) });
   assert.equal((await opened(file('plan.json', whole))).plan.walls.length, 80_000);

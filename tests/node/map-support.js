@@ -1,4 +1,4 @@
-// Map files as a reader hands them over, and what becomes of them.
+// Helpers for tests that open map files: files as a browser gives them, and the result of reading them.
 
 import { load } from '../../dist/core.js';
 import { de } from '../../www/widgets/map-squeeze/de.ts';

@@ -49,7 +49,7 @@ test('a server component is told that no browser would get the elements', () => 
   writeFileSync(path, "import 'motion-widgets';");
   const { stderr } = spawnSync(process.execPath, ['--conditions=react-server', path], { encoding: 'utf8' });
   assert.match(stderr, /Error: motion-widgets is imported by a server component.*'motion-widgets\/react'/);
-  // The simulations run anywhere.
+  // The core has no elements, and can be imported on a server.
   writeFileSync(path, "import { load } from 'motion-widgets/core'; console.log(typeof load);");
   assert.equal(execFileSync(process.execPath, ['--conditions=react-server', path], { encoding: 'utf8' }), 'function\n');
 });

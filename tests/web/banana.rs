@@ -60,7 +60,7 @@ fn the_canonical_example_has_its_figures() {
     assert_near([it.get("it.stats.coverage.exponential")], [share], 4.5 * (share * (1.0 - share) / n).sqrt());
     let [ellipse, rho]: [f64; 2] = it.get("[it.stats.coverage.ellipse, it.stats.rhoCrossHeading]");
     assert!((0.85..0.89).contains(&ellipse) && (0.7..0.95).contains(&rho), "{ellipse} {rho}");
-    // The cloud is a surface: no density, and a gain without limit.
+    // Without γ̂ noise all poses lie on a surface. The sampler has no density there, and the gain is infinite.
     it.assert("it.stats.likelihoodGain.pose === Infinity && Number.isNaN(it.stats.likelihoodGainError.pose)");
 }
 

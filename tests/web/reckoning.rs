@@ -77,10 +77,10 @@ fn robots_and_outlines_are_those_of_a_step() {
     assert_eq!(it.get::<Vec<String>>(outlines), ["ellipse", "exponential", "predicted", "measured"]);
     assert_eq!(it.get::<(Option<()>, usize)>("[it.outlines(21), it.posesAfter(21).length]"), (None, 0));
     // α₁v²Δt² is ¼α₃v⁴Δt⁴ where Δt is 2/v √(α₁/α₃).
-    assert_near([it.get("it.straight.crossing")], [2.0], 1e-12);
+    assert_near([it.get("it.straightGrowth.crossing")], [2.0], 1e-12);
     it.assert(
         "['durations', 'along', 'across', 'alongFirstOrder', 'acrossFirstOrder'].every((key) =>
-        it.straight[key].length === it.straight.durations.length)",
+        it.straightGrowth[key].length === it.straightGrowth.durations.length)",
     );
 }
 

@@ -165,12 +165,12 @@ function outliersOf({ count, times, outliers }: any, begins: number[]): string[]
 }
 
 function nav2Of(result: Result): string[] {
-  const { yaml, reason } = yamlOf(result);
+  const { yaml, reason } = nav2YamlOf(result);
   return reason ? [reason] : ['# nav2_params.yaml', yaml.trimEnd()];
 }
 
 /** Returns the lines for nav2_params.yaml, or the reason why there are none. */
-export function yamlOf({ calibration, options: { model = 'odometry', rule = 'thrun', legs }, logs, date }: Result): { yaml: string; reason?: string } {
+export function nav2YamlOf({ calibration, options: { model = 'odometry', rule = 'thrun', legs }, logs, date }: Result): { yaml: string; reason?: string } {
   if (calibration.recommended === null) return { yaml: '', reason: 'No lines for nav2_params.yaml: the log is unusable.' };
   const log = new Intl.ListFormat('en').format(new Set(logs.map(({ name }) => name)));
   const lines = nav2Lines({ calibration, count: calibration.legs.count, model, rule, legs, log, hasLocalizer: hasLocalizer(logs), date }, en.nav2);

@@ -10,7 +10,7 @@ import { recordingsOf } from './files.ts';
 import { inspect, textOf as textOfContents, type Given } from './inspect.ts';
 import { HELP, UsageError, optionsOf, withOption, type Calibrate } from './options.ts';
 import { plotOf } from './plot.ts';
-import { jsonOf, logSummaries, textOf, yamlOf, type Result } from './report.ts';
+import { jsonOf, logSummaries, textOf, nav2YamlOf, type Result } from './report.ts';
 
 interface Environment {
   /** Loads the core. */
@@ -84,7 +84,7 @@ async function calibrate({ inputs, wishes, fit, output, plot }: Calibrate, { loa
   if (plot !== undefined) await save(plot, plotOf(drives, calibration));
   const isUnusable = calibration.recommended === null;
   if (output === 'yaml') {
-    const { yaml, reason } = yamlOf(result);
+    const { yaml, reason } = nav2YamlOf(result);
     if (reason) complain(`${reason}\n`);
     print(yaml);
     return isUnusable ? UNUSABLE : yaml ? SUCCESS : BAD_INPUT;

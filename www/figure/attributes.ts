@@ -48,7 +48,7 @@ export type Table = Record<string, { type: string, readonly?: true, sentence: st
 export interface Documentation {
   /** Properties that have no attribute. */
   properties?: Table;
-  /** Other fields of states. */
+  /** Fields of the state that are neither settings nor attributes. */
   state?: Table;
 }
 
@@ -66,7 +66,7 @@ const BOOLEAN: Kind = {
 };
 
 /** Words separated by spaces. */
-export const WORDS: Kind = { parse: (text) => text.split(/\s/).filter(Boolean), print: (value) => value.join(' ') };
+export const WORD_LIST: Kind = { parse: (text) => text.split(/\s/).filter(Boolean), print: (value) => value.join(' ') };
 
 /** Conversions of the types that fit into an attribute. */
 const KINDS: Record<string, Kind> = { number: NUMBER, whole: NUMBER, word: WORD, boolean: BOOLEAN };

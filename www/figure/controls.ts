@@ -30,7 +30,7 @@ export interface Look {
 /** Row whose `most` limits the value further than the declaration. */
 export type Row = Partial<SliderRow> & { most?: number };
 
-/** Returns the slider of a setting; `overrides` replaces parts of its row. */
+/** Returns the slider of a setting; `overrides` replaces fields of its slider row. */
 export function slider(figure: Figure, key: string, overrides?: Row) {
   const { looks, attributes } = figure.kind;
   const { symbol, decimals, value, ...look } = looks[key];
@@ -173,7 +173,7 @@ export function cloudControls(figure: Figure & { cloud: import('./cloud.ts').Clo
     ${figure.cloud.buttons()}`, 'cloud');
 }
 
-interface MarkedField {
+interface SampleFieldOptions {
   id: string;
   label: string;
   /** Number of samples shown. */
@@ -185,7 +185,7 @@ interface MarkedField {
 }
 
 /** Returns the field with the number of the selected sample. Refused text stays until it is corrected or left. */
-export function markedField({ cloud, typing }: Figure & { cloud: import('./cloud.ts').Cloud }, { id, label, shown, told, hint }: MarkedField) {
+export function sampleField({ cloud, typing }: Figure & { cloud: import('./cloud.ts').Cloud }, { id, label, shown, told, hint }: SampleFieldOptions) {
   const refusal = typing.refusalOf('marked');
   const type = (event: Event) => {
     const text = inputOf(event).value;

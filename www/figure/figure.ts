@@ -314,8 +314,8 @@ export class FigureElement<Machine extends { free(): void, stats: object, config
   }
 
   /**
-   * The whole state as plain data for `setState` and JSON. After the element was removed, the last state; null before it was first near the
-   * window.
+   * Returns the whole state as plain data for `setState` and JSON. After the element is removed, that is its last state. Returns null until
+   * the element first comes near the viewport.
    * @public
    */
   getState(): Values | null {

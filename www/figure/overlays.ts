@@ -3,7 +3,7 @@
 import { html, nothing, svg } from 'lit';
 import { words } from '../messages/registry.ts';
 import { rich, toggle } from '../ui/controls.ts';
-import { WORDS } from './attributes.ts';
+import { WORD_LIST } from './attributes.ts';
 import { subset } from './checks.ts';
 
 /** Style of a line or mark, in the picture and in the legend. */
@@ -20,7 +20,7 @@ export interface LineStyle {
 /** Returns the attribute and the state of overlays; `opening` are shown by default. */
 export function overlaysOf(names: readonly string[], opening: readonly string[] = names): { attribute: import('./attributes.ts').Attribute & import('./attributes.ts').Own, state: import('./state.ts').Owned } {
   return {
-    attribute: { kind: WORDS, own: true, words: names },
+    attribute: { kind: WORD_LIST, own: true, words: names },
     state: { opening, check: (field, overlays) => subset(field, overlays, names) },
   };
 }

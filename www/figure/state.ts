@@ -32,7 +32,7 @@ export class State extends Part {
     return this.host.kind.own;
   }
 
-  /** Returns the default of an own field. */
+  /** Returns the default of a field of the state that is not a setting of the machine. */
   opening(name: string) {
     return this.#owned[name]?.opening;
   }

@@ -15,7 +15,7 @@ export interface Plan { drives: Record<Role, Part>[]; unpaired: Record<Role, Par
 
 /** Answers of a user; what is missing is guessed. */
 export interface Wishes {
-  /** Name of a series, or of a prefix without its separator, and frames. */
+  /** `series` is the name of a series, or a prefix of names without the separator that follows. `frames` selects among transforms. */
   odometry?: { series?: string; frames?: Frames };
   reference?: { series?: string; frames?: Frames };
   /** Preferred odometry: commands are taken if there are any. */

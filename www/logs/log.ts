@@ -22,7 +22,7 @@ export interface Series {
   hasCommands?: boolean;
   /** Messages; 0 for a table, whose rows are not counted yet. */
   count: number;
-  /** Ends of chains of transforms that may be poses of the robot; undefined for static transforms. */
+  /** Pairs of frames whose chain of transforms may be a pose of the robot; undefined for static transforms. */
   frames?: Frames[];
 }
 

@@ -45,10 +45,10 @@ export function decimalAt(line: string, from: number, to: number): number {
   return isNegative ? -value : value;
 }
 
-/** Returns NaN for an empty cell or a word for no number, and undefined for any other text. */
+/** Parses a number. Returns NaN for an empty cell or a word such as "nan", and undefined for any other text. */
 export function numberOf(cell: string): number | undefined {
   const value = Number(cell);
-  // Number also takes empty cells and hexadecimal digits, both as whole numbers, which parseFloat does not.
+  // `Number` reads an empty cell as 0 and takes hexadecimal digits. `parseFloat` disagrees with both of these whole numbers.
   if (value === value && (Math.trunc(value) !== value || value === parseFloat(cell))) return value;
   return NOT_FINITE.test(cell.trim()) ? NaN : undefined;
 }

@@ -47,7 +47,7 @@ const MIN_STEP = 0.02;
 /** Least number of steps with a direction. */
 const MIN_STEPS = 20;
 
-/** Turn in degrees of a step across the end of a full circle. */
+/** Range (degrees) of the difference of two headings in degrees between which the heading wraps. */
 const WRAPS = [330, 390] as const;
 
 const isWithin = (value: number, [low, high]: readonly [number, number]) => value >= low && value <= high;

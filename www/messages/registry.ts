@@ -124,7 +124,7 @@ function isTag(text: unknown) {
   }
 }
 
-/** Returns the nearest language through shadow roots in lower case; empty where there is none. */
+/** Returns the nearest `lang` attribute of an element and its ancestors across shadow roots, in lower case, or an empty string. */
 function languageOf(element: Element): string {
   for (let at = element as Element | undefined; at; ) {
     const bearer = at.closest('[lang]') as Element | null;

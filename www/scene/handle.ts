@@ -6,7 +6,7 @@ import { length, pointOn } from './canvas.ts';
 /** Target of a handle; lengths in metres. */
 interface Hooks {
   view: () => import('./view.ts').View;
-  /** X and y of what is held by a pointer that is there; the middle of the handle where it is left out. */
+  /** Returns the x and y of the point that a pointer at `pointer` grasps; by default the middle of the handle. */
   at?: (pointer: number[]) => number[];
   /** Moves the held thing to a point. */
   drag: (x: number, y: number) => void;

@@ -40,7 +40,7 @@ export class Density {
 
   /**
    * @param cell side in CSS pixels
-   * @param question what the pixels follow from besides the view
+   * @param question values, besides the view, that the pixels depend on; the pixels are cached until one changes
    * @param pixelsOf machine's picture of a part of the plane
    */
   draw(brush: Brush, cell: number, question: unknown[], pixelsOf: (...view: [xMin: number, yMin: number, xMax: number, yMax: number, columns: number, rows: number]) => Uint8ClampedArray<ArrayBuffer>) {

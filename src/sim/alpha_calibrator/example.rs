@@ -117,7 +117,7 @@ pub fn example(seed: u64) -> Log {
             open = Open { odometry: pose, truth: end, rows: vec![(time, SE2::identity())] };
         }
     }
-    // What is left has no noise.
+    // The rows after the last complete leg get no noise.
     truth.extend(open.rows.iter().skip(1).map(|(time, driven)| (*time, open.truth * *driven)));
     let trajectory = |samples| {
         // Times rise.

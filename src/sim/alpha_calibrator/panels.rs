@@ -41,7 +41,7 @@ pub struct Panel {
     /// Standard errors of `y`: by how the squares scatter or by what the model says of that, the larger. Of a bin in which one leg may be
     /// further out than all others, the scatter alone says too little.
     pub error: Vec<f64>,
-    /// Slope; null (None) where the log does not identify it, as its interval.
+    /// Slope. Like its interval null (None) where the log does not identify it.
     pub slope: Option<f64>,
     pub interval: Option<[f64; 2]>,
 }

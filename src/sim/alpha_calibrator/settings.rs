@@ -1,11 +1,11 @@
-//! What a user sets of the Alpha Calibrator.
+//! Settings of the Alpha Calibrator.
 
 use crate::calibrate::{self, ERRORS, LegLength, Options, Outliers};
 use crate::models::OdometryRule;
 use crate::noise::NoiseKind;
 use crate::sim::settings::{Allowed, MAX_SEED, Rules, SettingsError, Word, Words, settings};
 
-/// Whose α's are sought.
+/// Motion model whose α's are calibrated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Model {
     /// Four, by the rule that is set.

@@ -56,13 +56,13 @@ pub struct Factor {
     pub estimate: f64,
     /// v − v̂, ω − ω̂ or γ̂: what the table gives to `prob`.
     pub residual: f64,
-    /// The standard deviation of its noise, σ.
+    /// Standard deviation σ of the noise.
     pub deviation: f64,
-    /// residual/σ: without noise 0 where the residual is 0 to rounding, and infinite elsewhere.
+    /// Residual over σ. Without noise it is 0 if the residual is 0 up to rounding, and infinite otherwise.
     pub deviations: f64,
     /// `prob` of the residual.
     pub value: f64,
-    /// `prob` of the residual over that of none, from 0 to 1.
+    /// Ratio of `prob` at the residual to `prob` at 0, from 0 to 1.
     pub share: f64,
 }
 
@@ -112,7 +112,7 @@ pub struct Stats {
 /// The arc to the final position, with a signed radius.
 pub(super) fn inverted(settings: &Settings) -> ArcInversion {
     let executed = invert_arc(&settings.start(), &settings.next(), settings.command.dt);
-    // A straight way back turns by −0, which is no news to anybody.
+    // A straight drive in reverse has the turn rate −0. Adding 0 makes it 0, so that no minus is shown.
     ArcInversion { omega_hat: executed.omega_hat + 0.0, ..executed }
 }
 

@@ -23,17 +23,17 @@ const HEADINGS: u32 = 24;
 pub struct FormErrors {
     /// rad/s.
     pub omega: Vec<f64>,
-    /// Of x − (v/ω) sin θ + (v/ω) sin(θ + ωΔt), and the like for y.
+    /// Error (m) of x − (v/ω) sin θ + (v/ω) sin(θ + ωΔt), and y likewise.
     pub arc: Vec<f64>,
-    /// Of x + vΔt cos θ, and the like for y.
+    /// Error (m) of x + vΔt cos θ, and y likewise.
     pub straight: Vec<f64>,
-    /// Of the distance vΔt sinc(ωΔt/2) on the bearing θ + ωΔt/2.
+    /// Error (m) of the chord: the distance vΔt sinc(ωΔt/2) in the direction θ + ωΔt/2.
     pub chord: Vec<f64>,
-    /// √(2ε)/Δt, where arc and straight line are estimated to be equally bad, rad/s.
+    /// Turn rate √(2ε)/Δt (rad/s) at which the errors of arc and straight line are estimated to be equal.
     pub estimated_crossover: f64,
 }
 
-/// The errors of the three forms, against the same motion in twice the digits.
+/// Returns the errors of the three forms, relative to the same motion in double-double arithmetic.
 pub fn form_errors() -> FormErrors {
     let [first, last] = DECADES.map(|decade| decade * A_DECADE);
     let omega: Vec<f64> = (first..=last).map(|i| libm::exp10(f64::from(i) / f64::from(A_DECADE))).collect();

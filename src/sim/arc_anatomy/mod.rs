@@ -33,7 +33,7 @@ pub struct Paths {
     /// The way of a body that moves by the constant twist ξ: start · exp(tξ), t from 0 to 1. Where γ̂ ≠ 0 it is not the arc
     /// that was driven, and has a lateral velocity, which no wheel allows.
     pub lie: Vec<[f64; 2]>,
-    /// From points of that way to where its lateral velocity alone would lead in the whole time.
+    /// Lines from points of the path `lie`, each along the displacement that its lateral velocity alone would make in Δt.
     pub ticks: Vec<[f64; 4]>,
 }
 

@@ -285,8 +285,8 @@ impl BananaMachine {
         Charted { pose: holds(self.cloud.turn_deviation()), arc: holds(self.cloud.arc_deviation()) }
     }
 
-    /// R_u and τ: mean and covariance in exponential coordinates as the model has them, the variance of the turn after
-    /// the arc added to the heading. None for the odometry model, whose noise is not additive there.
+    /// Returns the model's mean τ and covariance R_u in exponential coordinates. The variance of the final turn is added
+    /// to that of the heading. None for the odometry model, whose noise is not additive there.
     pub fn tangent(&self) -> Option<ExponentialMoments> {
         match self.settings.motion(self.settings.command) {
             Motion::Velocity(model, command) => {

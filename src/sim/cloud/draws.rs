@@ -15,12 +15,12 @@ use wide::f64x4;
 const FAR: f64 = 13.0;
 const FARTHEST: f64 = 20.0;
 
-/// How many fours the near ones are taken from, the far ones, and the farthest: all of the first 2048 robots, of the first
-/// 65 536 the far ones, and the farthest wherever they are. A smaller sample would show in the first digit of a standard
-/// error and in how often 1.96 of it hold what is exact, more would be felt at every event.
+/// Number of leading groups of four from which a group enters the sample, by the distance of its draws from 0. All groups of the
+/// first 2048 robots are in the sample, far ones of the first 65 536, and the farthest of all. With fewer, standard errors would be
+/// wrong in the first digit and intervals would not cover; with more, every event would take noticeably longer.
 const REACH: [usize; 3] = [512, 16_384, usize::MAX];
 
-/// The number of fours from which those as far as this one are taken.
+/// Returns the entry of [`REACH`] for a group of four draws.
 #[inline(never)]
 fn reach([a, b, c]: &[f64x4; 3]) -> usize {
     let squares = *a * *a + *b * *b + *c * *c;

@@ -10,7 +10,7 @@ pub use views::View;
 use crate::geom::lanes::{LANES, lanes};
 use crate::geom::se2::SE2;
 use crate::noise::NoiseKind;
-use crate::stats::fused::{CloudFigures, Shape, Spread};
+use crate::stats::fused::{CloudFigures, CloudShape, Spread};
 use draws::Draws;
 use drive::Drive;
 use std::collections::TryReserveError;
@@ -58,7 +58,7 @@ impl Cloud {
             sums = self.spread_all(Spread::new(better, sums.scale()));
         }
         let regular = drive.regular_sums(self.draws.pair_sums(shown));
-        let mut shapes = Shape::new(sums.finish(shown, regular), &START);
+        let mut shapes = CloudShape::new(sums.finish(shown, regular), &START);
         for parts in blocks(shown) {
             for (fours, mask) in parts {
                 shape(&drive, &self.draws.fours()[fours.clone()], &self.positions[fours], mask, &mut shapes);
@@ -182,7 +182,7 @@ fn spread(drive: &Drive, noise: &[[f64x4; 3]], ends: &mut [[f64x4; 2]], mask: f6
 
 /// Adds the robots that [`spread`] drove to the sums of the second pass.
 #[inline(never)]
-fn shape(drive: &Drive, noise: &[[f64x4; 3]], ends: &[[f64x4; 2]], mask: f64x4, sums: &mut Shape) {
+fn shape(drive: &Drive, noise: &[[f64x4; 3]], ends: &[[f64x4; 2]], mask: f64x4, sums: &mut CloudShape) {
     for (noise, ends) in noise.iter().zip(ends) {
         sums.add(&drive.poses(&drive.motions(noise), ends), mask);
     }

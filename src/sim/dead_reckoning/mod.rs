@@ -8,7 +8,7 @@ mod straight;
 pub use figures::{Comparison, Misses, RECURSIONS, TOLERANCE};
 pub use rollouts::{KEPT, Measured};
 pub use settings::*;
-pub use straight::Straight;
+pub use straight::StraightGrowth;
 
 use super::cloud::views::Nearest;
 use super::settings::{Allowed, Rules, SettingsError};
@@ -223,9 +223,9 @@ impl DeadReckoning {
         }
     }
 
-    /// How the variances of a straight drive grow with its duration, under the noise of what is shown.
-    pub fn straight(&self) -> Straight {
-        Straight::new(&self.settings)
+    /// Returns the variances of a straight drive as functions of its duration, with the noise of the current settings.
+    pub fn straight_growth(&self) -> StraightGrowth {
+        StraightGrowth::new(&self.settings)
     }
 
     /// The way that the command drives without noise, as x, y pairs from the start.

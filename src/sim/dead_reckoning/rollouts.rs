@@ -1,4 +1,4 @@
-//! One command driven again and again by many robots, four at a time: what they say of each step.
+//! Monte Carlo rollouts: many robots drive one command repeatedly, four at a time. Sums after each step give mean and covariance.
 
 use super::settings::Settings;
 use crate::geom::lanes::{Circle, HalfTurn, LANES, Trigonometry, any, lanes};
@@ -79,7 +79,7 @@ pub struct Rollouts {
     stream: Xoshiro256PlusPlus,
     /// Robots in whole blocks that were driven.
     driven: usize,
-    /// Of those, at each step.
+    /// Sums over these robots after each step.
     sums: Vec<Sums<QUANTITIES>>,
     /// The commanded pose after each step.
     nominal: Vec<SE2>,

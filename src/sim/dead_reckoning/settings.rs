@@ -10,10 +10,10 @@ impl Words for Compounding {
         &[("chapter", Self::Chapter), ("first-order", Self::FirstOrder), ("fourth-order", Self::FourthOrder)];
 }
 
-/// What the α's tell the noise of.
+/// Motion to which the α's apply: each step, or the whole path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NoisePer {
-    /// Each step by itself, as the chapter has it: more and shorter steps of one path make less noise in all.
+    /// Each step, as in the chapter. More and shorter steps along the same path add less noise in total.
     Step,
     /// The whole path driven as one command; each of n steps has an n-th of its variance.
     Path,

@@ -1,17 +1,17 @@
-//! How the two variances of a straight drive grow with its duration (exercise 2).
+//! Variances of a straight drive as functions of its duration (exercise 2).
 
 use super::settings::Settings;
 use crate::models::{VelocityAlphas, VelocityCmd, VelocityModel};
 use crate::noise::NoiseKind;
 use crate::stats::ExactMoments;
 
-/// Durations from a tenth of a second to ten, in tenths of a decade: about where sliders put the crossing. In finer steps the
-/// curves would look no smoother.
+/// First and last duration, as tenths of a decade: 0.1 s to 10 s. Crossings at common settings are in this range. Finer steps
+/// would not make the curves look smoother.
 const DURATIONS: [i32; 2] = [-10, 10];
 
 /// Variances of one straight command by its duration.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Straight {
+pub struct StraightGrowth {
     /// Δt, s.
     pub durations: Vec<f64>,
     /// Variances along the track and across it, m², by quadrature.
@@ -20,12 +20,12 @@ pub struct Straight {
     /// The same to first order in the noise: α₁v²Δt² and ¼α₃v⁴Δt⁴.
     pub along_first_order: Vec<f64>,
     pub across_first_order: Vec<f64>,
-    /// Where these two are equal, (2/|v|)·√(α₁/α₃), s; None where they never are.
+    /// Duration (s) at which these two are equal, (2/|v|)·√(α₁/α₃); None if they never are.
     pub crossing: Option<f64>,
 }
 
-impl Straight {
-    /// Of the speed and the noise of some settings, each duration as one command.
+impl StraightGrowth {
+    /// Computes the variances at the speed and noise of the settings. Each duration is one command.
     pub fn new(settings: &Settings) -> Self {
         let v = settings.command.v;
         let [alpha1, _, alpha3, ..] = settings.alphas;

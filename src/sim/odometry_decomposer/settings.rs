@@ -22,11 +22,11 @@ impl From<OdometryPose> for SE2 {
 }
 
 group!(OdometryPose as OdometryPose([x, y, theta]) => {
-    /// Where odometry has the robot.
+    /// Position x that odometry reports.
     x: "m", in QUANTITY;
-    /// Where odometry has the robot.
+    /// Position y that odometry reports.
     y: "m", in QUANTITY;
-    /// The heading that odometry has the robot at.
+    /// Heading that odometry reports.
     theta: "rad", in QUANTITY;
 });
 

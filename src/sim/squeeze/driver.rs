@@ -52,7 +52,7 @@ impl<'a> Driver<'a> {
         Self { model, judging: model.judging(&settings.command, &settings.start()), settings, draws }
     }
 
-    /// The first of these attempts, or up to four where they are judged once.
+    /// Makes the first of these attempts. With a sampler that checks each attempt once, makes up to four at a time.
     #[inline(always)]
     pub fn drive_some(&self, indices: Range<usize>, mut see: impl FnMut(Attempt, Cost)) {
         if let Sampler::SubStepped(steps) = self.settings.sampler {

@@ -111,8 +111,8 @@ impl MapSqueeze {
     /// Changes the settings and makes all attempts; the draws stay the same.
     ///
     /// # Errors
-    /// As [`MapSqueeze::new`], and where the unknown cells of the map cannot be what they are to be; nothing has changed
-    /// then.
+    /// As [`MapSqueeze::new`], and if the map cannot be built with unknown cells as `settings.unknown` says. Nothing has
+    /// changed then.
     pub fn configure(&mut self, settings: Settings) -> Result<(), SettingsError> {
         self.configure_first(settings, 0)?;
         self.add_samples(settings.samples);
@@ -217,8 +217,9 @@ impl MapSqueeze {
         }
     }
 
-    /// Paints where the attempts shown end, a pixel a cell: each in the colours of the kind that most of those in it
-    /// are, ramp[255·√(count/most)] for a count of all of them, transparent where there is nobody.
+    /// Paints a density map of the ends of the attempts shown, one pixel for each cell of the grid. The most frequent kind of
+    /// attempt in a cell selects the ramp. The colour is ramp[255·√(count/most)], where `count` is the number of attempts in
+    /// the cell and `most` the largest such number. Empty cells are transparent.
     pub fn paint(&mut self, grid: &Grid, ramps: &[Ramp; KINDS]) -> &[[u8; 4]] {
         self.picture = picture::paint(&self.shown.attempts, grid, ramps);
         &self.picture

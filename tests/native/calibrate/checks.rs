@@ -161,7 +161,7 @@ fn heavy_tails_are_reported() {
     }
 }
 
-/// One half leaves a third of the legs of the other outside, and covers all of those in the reverse.
+/// Noise that grows in the second half: the fit of one half covers two thirds of the legs of the other half, the opposite fit all.
 #[test]
 fn noise_that_changes_is_not_covered_by_the_other_half() {
     let later: fn(f64) -> f64 = |course| if course < 0.5 { 1.0 } else { 1.5 };

@@ -24,8 +24,8 @@ fn trajectory(samples: impl IntoIterator<Item = (f64, SE2)>) -> Trajectory {
     Trajectory::new(samples.into_iter().collect::<Vec<_>>()).expect("times rise")
 }
 
-/// An error may be off by four of its standard errors: one of sixteen thousand is. Below a millimetre, a millisecond or a milliradian the
-/// products of the noises matter too.
+/// Asserts that an estimated error is within four standard errors of the truth; by chance one in sixteen thousand is not. The standard
+/// error is taken as 1e-3 at least, because products of noises are not in it.
 fn recovers(calibration: &Calibration, error: SystematicError, truth: f64) {
     let std = calibration.systematic_stds[error as usize].expect("identifiable");
     let off = wrap_angle(calibration.systematic.get(error) - truth).abs();

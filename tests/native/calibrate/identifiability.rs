@@ -19,13 +19,13 @@ const STRAIGHT: [f64; 2] = [0.3, 0.0];
 const SPIN: [f64; 2] = [0.0, 0.6];
 const BEND: [f64; 2] = [0.2, 0.8];
 
-/// Drive that lacks something, with the reason for each α.
+/// Drive that does not identify all α's, with the reason for each.
 struct Lacking {
     name: &'static str,
     drive: Drive,
     odometry: [Option<NotIdentifiable>; 5],
     velocity: [Option<NotIdentifiable>; 6],
-    /// Drive with fifty legs of what it lacks. The velocity model sees no executed turn rate in a turn on the spot.
+    /// Drives that add fifty legs of the missing motion, for each model. The velocity model gets no turn rate from a turn on the spot.
     complete: [Drive; 2],
 }
 
@@ -70,7 +70,7 @@ const LACKING: [Lacking; 3] = [
             |leg| [SPIN, STRAIGHT, BEND, STRAIGHT, BEND, STRAIGHT, BEND, BEND][leg % 8],
         ],
     },
-    // One radius but for a few hundredths.
+    // Radii that differ by a few percent only.
     Lacking {
         name: "one bend",
         drive: |leg| [0.3, if leg.is_multiple_of(2) { 0.29 } else { 0.31 }],

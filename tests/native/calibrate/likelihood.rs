@@ -43,7 +43,7 @@ fn rotations(motion: &Vector3<f64>) -> Vector3<f64> {
     Vector3::new(first, libm::hypot(motion.x, motion.y), wrap_angle(motion.z - first))
 }
 
-/// Jacobian of the residuals at the reading.
+/// Returns the Jacobian of (rot1, trans, rot2) by the motion, at the expected motion.
 fn by_motion(leg: &Leg, corrected: &Systematic) -> Matrix3<f64> {
     let expected = numbers(&expected(leg, corrected));
     derivative(|off| rotations(&(expected + off)))

@@ -46,8 +46,8 @@ fn legs_end_as_amcl_ends_them() {
     assert_eq!(timed.len(), 8);
 }
 
-/// Five steps make a leg. A pause of six steps after the first one of a leg makes one of 0.44 m, after the fourth one of 0.63 m, more than
-/// twice as long as asked for.
+/// A leg normally has five steps. With a pause of six steps after its first step a leg is 0.44 m long. With the pause after the fourth
+/// step it is 0.63 m, more than twice the requested length.
 #[test]
 fn a_leg_leads_across_a_pause_if_it_stays_short_enough() {
     let whole = straight(101, 0.0625);

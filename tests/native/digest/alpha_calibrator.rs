@@ -37,7 +37,7 @@ pub fn parts(configuration: &Configuration) -> Vec<Part> {
         Part::new("leg", &[&leg]),
         Part::new("nearest", &[&nearest]),
     ];
-    // Where legs begin is a log too.
+    // The poses at which legs begin are used as a log of their own.
     let log = (calibration.legs.len() > 1).then(|| begins(calibration));
     log.into_iter().for_each(|log| machine.set_log(vec![log]));
     let Calibration { alphas, intervals, .. } = machine.calibration();
@@ -56,7 +56,7 @@ fn begins(calibration: &Calibration) -> Log {
     }
 }
 
-/// What was told already: the values of an object, which has no length.
+/// Bytes of several values that are digested without their number, as the fields of an object are.
 struct Values(Vec<u8>);
 
 impl Values {

@@ -3,7 +3,7 @@
 use super::configuration::Configuration;
 use super::told::{Part, Told};
 use motion::sim::dead_reckoning::{
-    DeadReckoning, Misses, Outlines, PRESETS, RECURSIONS, Settings, Stats, Straight,
+    DeadReckoning, Misses, Outlines, PRESETS, RECURSIONS, Settings, Stats, StraightGrowth,
 };
 use nalgebra::Vector3;
 
@@ -40,7 +40,7 @@ pub fn parts(configuration: &Configuration) -> Vec<Part> {
         Part::new("poses", &[&flat(machine.poses(step)), &twists, &flat(machine.poses(1))]),
         Part::new("rollouts", &[&driven, &nearest]),
         Part::new("outlines", &[&points(ellipse), &points(exponential), &points(of_xi), &points(of_robots)]),
-        Part::new("straight", &[&machine.straight()]),
+        Part::new("straight", &[&machine.straight_growth()]),
     ]
 }
 
@@ -52,7 +52,7 @@ fn opening(configuration: &Configuration) -> Settings {
     Settings { command: preset.command, steps: preset.steps, alphas: preset.alphas, ..opening }
 }
 
-/// Values of an object, which has no length.
+/// Values that are digested without their number, as the fields of an object are.
 struct Plain<T, const N: usize>([T; N]);
 
 impl<T: Told, const N: usize> Told for Plain<T, N> {
@@ -87,7 +87,7 @@ impl Told for Stats {
     }
 }
 
-impl Told for Straight {
+impl Told for StraightGrowth {
     fn tell(&self, bytes: &mut Vec<u8>) {
         let Self { durations, along, across, along_first_order, across_first_order, crossing } = self;
         let values: [&dyn Told; 6] =

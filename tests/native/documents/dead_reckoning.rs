@@ -67,7 +67,8 @@ fn the_six_per_cent_and_the_lateral_miss_are_those_of_the_machine() {
     }
 }
 
-/// On the page and in doc/exercises.md. A ratio of variances of n robots has the error √(2/n), more where tails are heavier.
+/// Checks the numbers on the page and in doc/exercises.md. A ratio of variances of n robots has the standard error √(2/n), and a
+/// larger one if the tails are heavy.
 #[test]
 fn ratios_and_crossings_are_those_of_exercise_7() {
     let document = Told::in_document(include_str!("../../../doc/exercises.md"));
@@ -105,7 +106,7 @@ fn the_crossing_times_are_those_on_the_page() {
     let [usual, sharper]: [Number; 2] =
         page().numbers("They cross after # s; with the heading σ doubled, after # s.");
     let opening = machine(Settings { samples: 1, ..Settings::default() });
-    let growth = opening.straight();
+    let growth = opening.straight_growth();
     usual.assert(growth.crossing.expect("a crossing"), 0.0);
     let last = growth.durations.len() - 1;
     let power = |of: &[f64]| (of[last] / of[0]).ln() / (growth.durations[last] / growth.durations[0]).ln();
@@ -114,7 +115,7 @@ fn the_crossing_times_are_those_on_the_page() {
     let h = 4.0 * opening.settings().heading_noise().expect("a level");
     let alphas = [0.02, 0.02, h, h, h / 4.0, h / 4.0];
     let doubled = machine(Settings { alphas, samples: 1, ..Settings::default() });
-    sharper.assert(doubled.straight().crossing.expect("a crossing"), 0.0);
+    sharper.assert(doubled.straight_growth().crossing.expect("a crossing"), 0.0);
 }
 
 #[test]

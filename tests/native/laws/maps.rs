@@ -6,10 +6,10 @@ use motion::map::{FloorPlan, FloorPlanError, Pixel, read_pgm};
 use proptest::collection::vec;
 use proptest::prelude::*;
 
-/// The side of the place that walls and motions are put in, m.
+/// Side of the square that contains the walls and motions, m.
 const SIDE: f64 = 20.0;
 
-/// What neither side can tell of a distance here: a thousand units in the last place of a place this wide.
+/// Rounding error of a distance in both computations: about a thousand units in the last place of a coordinate (m).
 const ROUNDING: f64 = 1e-12;
 
 fn points() -> impl Strategy<Value = [f64; 2]> {

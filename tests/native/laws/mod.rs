@@ -1,4 +1,4 @@
-//! The laws of the mathematics and of the edges, held to any doubles that they are for. Where a law does not hold over all
+//! Property tests of mathematical laws and of the limits of inputs, with arbitrary doubles. Where a law does not hold for all
 //! doubles, its test says for which ones it does, and why.
 
 pub mod doubles;

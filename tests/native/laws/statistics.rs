@@ -176,7 +176,7 @@ fn cloud_start() -> SE2 {
     SE2::identity()
 }
 
-/// To the rounding of a cloud that reaches 20 m from the origin.
+/// Asserts that moments are equal up to the rounding errors of a cloud that reaches 20 m from the origin.
 fn same_moments(
     (mean, cov): (&Vector3<f64>, &Matrix3<f64>),
     (other, other_cov): (&Vector3<f64>, &Matrix3<f64>),

@@ -71,7 +71,7 @@ fn zero_variance_is_certainty() {
         for excluded in [1e-6, -1e-6, 0.1, -3.0, f64::INFINITY] {
             assert_eq!(kind.prob(excluded, Variance(0.0)), 0.0);
         }
-        // Next to zero the density is a very tall one, not a certainty.
+        // With a tiny variance `prob` is a density with a high peak. Only with variance 0 it is 0 or 1.
         assert!(kind.prob(0.0, Variance(1e-20)) > 1e9);
         assert_eq!(kind.prob(1.0, Variance(1e-20)), 0.0);
     }

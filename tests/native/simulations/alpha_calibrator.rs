@@ -1,4 +1,5 @@
-//! The Alpha Calibrator's machine: its simulated log by what it was simulated with, its panels and its legs by another route.
+//! The Alpha Calibrator's machine. The result for the simulated log is compared with the simulated α's and errors. Panels and legs
+//! are compared with an independent computation.
 
 use motion::OdomDelta;
 use motion::calibrate::{Calibration, Leg, SystematicError, Trajectory, Verdict};

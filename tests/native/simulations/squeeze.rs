@@ -150,7 +150,7 @@ fn the_commanded_path_and_the_room_at_its_start() {
     assert!(!machine.start_free());
 }
 
-/// Where nothing fits the machine stops after a bounded number of draws, says so, and goes on in better times.
+/// If no motion fits, the machine stops after a bounded number of draws and reports it. It goes on once the settings let the robot move.
 #[test]
 fn the_machine_stops_after_a_bounded_number_of_draws() {
     let wedged = Settings { start: [2.1, 2.1, 0.0], sampler: Sampler::SubStepped(4), ..Settings::default() };

@@ -131,7 +131,7 @@ fn a_map_of_nothing_is_none_and_one_without_noise_is_empty() {
     let noiseless = Settings { alphas: [0.0; 6], map: Mapped::Prob, ..Settings::default() };
     let Surface { shades, prob, density, .. } = surface(noiseless);
     assert!(shades.iter().all(|shade| *shade == 0) && prob.is_empty() && density.is_empty());
-    // Nobody is frozen by noise that turns the robot round many times, nor by a rectangle without an area.
+    // The size of the map stays bounded with noise that turns the robot many times, and for a rectangle without area.
     let wild = Settings { alphas: [1e6; 6], map: Mapped::Density, ..Settings::default() };
     let Surface { shades, .. } = surface(wild);
     assert!((100..1000).contains(&shades.len()));

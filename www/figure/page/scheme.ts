@@ -21,7 +21,7 @@ export const schemeStyles = css`
   }
 `;
 
-/** Background on a page without one, as around an image, whose text is light and which sets no `color-scheme`. */
+/** Background assumed on a page that has light text, but neither a background nor a `color-scheme`. */
 const DARK = '#121212';
 
 /** Shares of the text's colour in muted text, percent; the first legible one is used. */

@@ -87,7 +87,7 @@ function questionOf(opener: LogOpener, { answers }: Chosen, asked: Asked, { choo
   </div>`;
 }
 
-/** Returns a select of a column for each field. */
+/** Returns a form with one `<select>` for each column, which assigns a field to it. */
 function columnsForm(opener: LogOpener, asked: Asked, answer: string[] | undefined, say: LogWords['choose']) {
   const { file, ask: { choices: [usual = ''], columns = [] } } = asked;
   const present = answer ?? usual.split(',');

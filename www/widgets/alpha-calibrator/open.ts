@@ -111,7 +111,7 @@ export class LogOpener extends Part<Figure> {
     this.#rest();
   }
 
-  /** Shows that nothing is being read, and lets the figure go on with what was waiting for that. */
+  /** Shows that no log is being read, and lets the figure apply the changes that waited for the end of reading. */
   #rest() {
     this.share = undefined;
     this.host.settings.stale = true;

@@ -36,7 +36,7 @@ function matters(key: string, { interval }: SystematicError) {
   return intervalsOf(interval).some((ends) => ends && (ends[0] > neutral || ends[1] < neutral));
 }
 
-/** Prints an error with its name; none if it is unknown. */
+/** Returns an error as text, with its name; an empty array if the error is not identifiable. */
 function textOf(key: typeof SYSTEMATIC[number], error: SystematicError): string[] {
   const { values, halves } = digitsOf(error);
   return values.length ? [`${words.calibrator.systematic.names[key]} ${values.map((value, i) => `${value} ± ${halves[i]}`).join(', ')}`] : [];

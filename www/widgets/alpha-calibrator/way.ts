@@ -17,7 +17,7 @@ export type Style = { colour: string, width: number, dash: number[] };
 /** Legs in one stroke: browsers take far longer for one path of many. */
 const LEGS_A_STROKE = 500;
 
-/** Legs that are drawn without a layer, which takes memory. */
+/** Number of legs up to which they are drawn directly. More legs are kept in a canvas of their own, which takes memory. */
 const FEW_LEGS = 2000;
 
 /** Strokes of a new log in a frame: about 10 ms. */
@@ -121,8 +121,8 @@ export function drawRings(brush: Painter, points: [number, number][]) {
 }
 
 /**
- * Returns how many times usual legs, by both ends of each, cover the squares that they are in. Above 1 wide lines would hide the others,
- * while as hairs each class covers its share of the legs.
+ * Returns the average number of legs that cover an occupied square. If it is above 1, wide lines would hide each other. Hairlines then
+ * let each class cover an area in proportion to its number of legs.
  */
 function layersOf(view: Painter['view'], reference: Float64Array) {
   const squares: Set<number> = new Set();

@@ -27,7 +27,7 @@ const BOUNDS = [-REACH, -REACH, REACH, REACH];
 /**
  * The arc between two poses, and how likely it is after a command.
  *
- * @attr preset - A command from the origin, and a final pose off its arc; none otherwise.
+ * @attr preset - A command from the origin, and a final pose beside its arc; null if the settings match no preset.
  * @attr overlays - The lines that are drawn; in the attribute with spaces between.
  * @csspart chart - The plot of three forms of the arc near straight.
  */

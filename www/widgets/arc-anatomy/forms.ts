@@ -10,7 +10,7 @@ import type { FormErrors, Motion } from '../../types.d.ts';
 /** Errors that the plot shows, m: from below the last digit of the way to beyond it. */
 const ERRORS = { from: 1e-18, to: 1 };
 
-/** Errors of the forms, which are always the same. */
+/** Cache of the rounding errors of the forms. They depend on no setting. */
 let errors: FormErrors | undefined;
 
 export function formsPlot({ ArcAnatomy }: Motion) {

@@ -1,4 +1,4 @@
-/** Arc Anatomy's settings as attributes, in its state, and as the eye sees them. */
+/** Arc Anatomy's settings: their attributes, their part of the state, and their sliders. */
 
 import { attributesOf, presetsOf } from '../../figure/attributes.ts';
 import { wholeNumber } from '../../figure/checks.ts';

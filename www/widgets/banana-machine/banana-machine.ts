@@ -47,7 +47,7 @@ const SKEWS = [0.25, 0.5, 1, 2, 4, 8];
 /**
  * One command, thousands of outcomes, and the coordinates in which they are close to an ordinary Gaussian.
  *
- * @attr preset - A command worth starting from; none where the command is another.
+ * @attr preset - A command to start from; null if the settings match no preset.
  * @attr overlays - The outlines that are drawn; in the attribute with spaces between.
  * @attr morph - Share of the way that the floor has been carried to exponential coordinates, from 0 to 1.
  * @csspart figures - Readouts, chart and table.

@@ -13,7 +13,7 @@ export const en = {
     noise: { name: 'Noise' },
     alphas: {
       name: 'Noise parameters',
-      /** One line for each α: the noise it feeds, what that does to the picture, and what can be watched as it begins. */
+      /** One line for each α: the noise it adds to, its effect on the cloud, and the motion to watch for while it is raised from 0. */
       effects: {
         velocity: [
           ['v² into v̂', 'smears the cloud along the arc', 'smear along the arc'],

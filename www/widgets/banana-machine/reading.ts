@@ -7,7 +7,7 @@ import type { BananaMachine as Machine, Settings, Stats, Table } from '../../typ
 
 export type Reading = ReturnType<typeof readingOf>;
 
-/** Below this, metres or radians, a spread is none: rounding of the quadrature, not noise. */
+/** Standard deviation (m or rad) below which there is no noise: the quadrature rounds by as much. */
 const NO_SPREAD = 1e-9;
 
 /** Number of points of the chart's curve: fewer would draw the fall of the skew across ω = 0 as a kinked line. */

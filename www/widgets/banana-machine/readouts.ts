@@ -1,7 +1,7 @@
 /** The Banana Machine's readouts: the statistics of the cloud, the marked robot, and the tables of moments. */
 
 import { html } from 'lit';
-import { markedField } from '../../figure/controls.ts';
+import { sampleField } from '../../figure/controls.ts';
 import { words } from '../../messages/registry.ts';
 import { rich } from '../../ui/controls.ts';
 import { NOTHING, counted, fixed, percent, significant, withError } from '../../ui/format.ts';
@@ -73,7 +73,7 @@ export function markedRobot(figure: import('./banana-machine.ts').BananaMachineE
         quantity('ω̂', inspection.omegaHat, 'rad/s'),
         quantity('γ̂', inspection.gammaHat, 'rad/s'),
       ]);
-  return markedField(figure, { id: 'robot', label: robot, hint: markHint, shown, told });
+  return sampleField(figure, { id: 'robot', label: robot, hint: markHint, shown, told });
 }
 
 /** The noise of each hinge: what was read less what was driven, as Table 5.6 subtracts it. */

@@ -31,7 +31,7 @@ const columnsOf = (quantity: string) => COMPONENTS.map((name) => `${quantity}_${
 /**
  * One command driven step after step, and how well its growing uncertainty is predicted.
  *
- * @attr preset - A path worth starting from; none where the path is another.
+ * @attr preset - A path to start from; null if the settings match no preset.
  * @attr overlays - Curves and outlines that are drawn; in the attribute with spaces between.
  * @csspart chart - The plot of predicted over measured variance.
  */
@@ -51,7 +51,7 @@ export class DeadReckoningElement extends FigureElement<Machine, Reading> {
   pictures = [this.#floor, this.#step];
 
   #rollout: Memo<Float64Array> = new Memo();
-  #straight: Memo<Machine['straight']> = new Memo();
+  #straight: Memo<Machine['straightGrowth']> = new Memo();
 
   createMachine: FigureElement<Machine, Reading>['createMachine'] = (motion, state) => {
     // Empty: the robots come before the reader's eyes, and nobody waits for those that are not shown yet.
@@ -122,7 +122,7 @@ export class DeadReckoningElement extends FigureElement<Machine, Reading> {
         ${legend(this, OUTLINES)} ${presetButtons(this)} ${pathControls(this)}
         ${disclosures(this, {
           controls: () => moreControls(this),
-          numbers: () => html`${missTable(reading, overlays)} ${markedRobot(this, this.#marked)} ${straightPlot(this.#straight.of([reading.stats], () => (this.machine as Machine).straight))}`,
+          numbers: () => html`${missTable(reading, overlays)} ${markedRobot(this, this.#marked)} ${straightPlot(this.#straight.of([reading.stats], () => (this.machine as Machine).straightGrowth))}`,
         })}`)}
       </section>
     `;

@@ -1,7 +1,7 @@
 /** Dead Reckoning's figures: ratios by step, and where they are off. */
 
 import { html } from 'lit';
-import { markedField } from '../../figure/controls.ts';
+import { sampleField } from '../../figure/controls.ts';
 import { legend } from '../../figure/overlays.ts';
 import { words } from '../../messages/registry.ts';
 import { rich } from '../../ui/controls.ts';
@@ -120,5 +120,5 @@ export function markedRobot(figure: import('./dead-reckoning.ts').DeadReckoningE
   const { config: { step }, shown } = figure.reading;
   const pose = marked?.subarray(3 * (step - 1), 3 * step);
   const told = pose && [markedAt(fixed(pose[0], 3), fixed(pose[1], 3), fixed(pose[2], 3))];
-  return markedField(figure, { id: 'robot', label: robot, hint: markHint, shown, told });
+  return sampleField(figure, { id: 'robot', label: robot, hint: markHint, shown, told });
 }

@@ -34,7 +34,7 @@ import type { Reading } from './reading.ts';
 /**
  * Motion conditioned on a map, and what the condition cannot see.
  *
- * @attr preset - A place in the apartment to start from; none elsewhere.
+ * @attr preset - A place in the apartment to start from; null if the settings match no preset.
  * @attr view - The whole map, or what is near the robot.
  * @attr overlays - The marks and lines that are drawn; in the attribute with spaces between.
  */
@@ -195,20 +195,20 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
     return this.#left?.map ?? null;
   }
 
-  /** The reader wants the robot at a place in the present map, or in the apartment. */
+  /** Moves the robot to a pose in the current map, as the reader asked. */
   go(start: Pose) {
     this.stage.release();
     this.gesture.decide({ start });
   }
 
-  /** The reader wants the robot in the open. */
+  /** Moves the robot to free space, as the reader asked. */
   goToOpen() {
     this.runtime.attempt(() => {
       if (this.machine) this.go(this.#putInTheOpen(this.machine));
     });
   }
 
-  /** True if the robot is where it was put last in the open. */
+  /** True if the robot is still at the free pose where it was last put. */
   get inTheOpen() {
     const { x, y, theta } = this.reading.config.start;
     return this.#open?.x === x && this.#open.y === y && this.#open.theta === theta;

@@ -1,7 +1,7 @@
 /** Map Squeeze's readouts: the tally of the samples, the marked one, and the cost of each sampler. */
 
 import { html } from 'lit';
-import { markedField } from '../../figure/controls.ts';
+import { sampleField } from '../../figure/controls.ts';
 import { words } from '../../messages/registry.ts';
 import { counted, fixed, percent, rounded } from '../../ui/format.ts';
 import { figureTable, readoutList } from '../../ui/readouts.ts';
@@ -31,7 +31,7 @@ export function markedDraw(figure: import('./map-squeeze.ts').MapSqueezeElement)
   const { cloud, reading: { config, stats, verdicts } } = figure;
   const { sample, markHint } = words.squeeze;
   const told = cloud.isMarked ? verdictText(verdicts[cloud.index], config) : '';
-  return markedField(figure, { id: 'sample', label: sample, hint: markHint, shown: stats.attempts, told });
+  return sampleField(figure, { id: 'sample', label: sample, hint: markHint, shown: stats.attempts, told });
 }
 
 /** Returns the table of costs, for so many sub-steps. */

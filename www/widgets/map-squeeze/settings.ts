@@ -1,4 +1,4 @@
-/** Map Squeeze's settings as attributes, in its state, and as the eye sees them. */
+/** Map Squeeze's settings: their attributes, their part of the state, and their sliders. */
 
 import { WORD, attributesOf, presetsOf } from '../../figure/attributes.ts';
 import { word } from '../../figure/checks.ts';

@@ -1,4 +1,4 @@
-/** Styles of Map Squeeze's own: its headline, the overview, and room for maps of the reader's. */
+/** Styles that only Map Squeeze has: of the headline, the overview, and the controls that open a map. */
 
 import { css } from 'lit';
 import { layoutStyles } from '../../ui/layout.ts';

@@ -142,7 +142,7 @@ export class WallHandles extends Part<import('./map-squeeze.ts').MapSqueezeEleme
     this.#place(this.host.picture.view);
   }
 
-  /** Moves a grip along its axis by the wanted distance, as far as its range goes. Returns false if the grip or distance is none. */
+  /** Moves a grip along its axis by the wanted distance, within its range. Returns false if the grip is undefined or the distance is NaN. */
   #move(grip: Grip, distanceOf: (point: number[], axis: number[]) => number) {
     if (!grip) return false;
     this.#current = nameOf(grip);

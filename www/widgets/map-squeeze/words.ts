@@ -27,7 +27,7 @@ export function verdictText(verdict: number, config: Settings) {
 /** Denominators of the fractions of a headline, by preference. */
 const DENOMINATORS = [2, 3, 4, 5, 6, 7, 8, 9, 10];
 
-/** Shares told as one in some number, and shares told as nearly all. */
+/** Fraction below which the headline says "1 in n", and fraction above which it says "nearly all". */
 const FEW = 0.075;
 const MOST = 0.95;
 

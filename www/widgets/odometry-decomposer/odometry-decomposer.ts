@@ -31,7 +31,7 @@ const FLOOR = [-4, -4, 4, 4];
 /**
  * What odometry read as rotate, drive, rotate, and what localizers make of its noise.
  *
- * @attr preset - A reading worth starting from; none where it is another.
+ * @attr preset - A reading to start from; null if the settings match no preset.
  * @attr overlays - Lines and marks that are drawn; in the attribute with spaces between.
  * @csspart chart - The plot of the deviation across the way.
  */

@@ -71,7 +71,7 @@ async function bytesOf(part: Blob, name: string) {
   }
 }
 
-/** Reads the text of a file of so many bytes at most. */
+/** Reads the text of a file; throws if it has more than `most` bytes. */
 async function textOf(file: File, most: number) {
   checkSize(file.name, file.size, most);
   return new TextDecoder().decode(await bytesOf(file, file.name));

@@ -1,4 +1,4 @@
-//! What a cloud of the Banana Machine says, as the widget shows it.
+//! Statistics of a cloud of the Banana Machine, as the widget shows them.
 
 use super::OUTLINE_SEGMENTS;
 use crate::geom::arc::ArcInversion;
@@ -12,36 +12,37 @@ use crate::stats::{
 };
 use nalgebra::{ArrayStorage, Matrix3, Vector3};
 
-/// What the shown samples say. Figures without meaning (no spread, too few samples) are NaN.
+/// Statistics of the shown samples. They are NaN if undefined (no spread, or too few samples).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Figures {
     pub cartesian: CartesianMoments,
     pub exponential: ExponentialMoments,
     pub cross_track: CrossTrack,
-    /// The cross-track skew of the Gaussian with the exponential moments.
+    /// Cross-track skew of the Gaussian that has the exponential moments.
     pub gaussian_skew: f64,
-    /// Shares of the samples inside the two 2σ contours.
+    /// Fractions of the samples inside the two 2σ contours.
     pub inside_ellipse: f64,
     pub inside_exponential: f64,
-    /// How much likelier a robot is under a Gaussian in exponential coordinates, or in those of its arc.
+    /// Gain in mean log-likelihood of a Gaussian in exponential coordinates, or in arc coordinates, over one in (x, y,
+    /// θ).
     pub gain: MeasuredGain,
-    /// How many times the 2σ outline in exponential coordinates fits into the 2σ ellipse in (x, y), on the floor.
+    /// Area of the 2σ ellipse in (x, y) over the area of the 2σ outline of exponential coordinates on the floor.
     pub area_ratio: f64,
     /// Standard error of `area_ratio`.
     pub area_ratio_error: f64,
 }
 
-/// Which coordinates reach as far as the robots of a cloud turn.
+/// Coordinates that are defined for all turns of a cloud.
 #[derive(Clone, Copy, Debug)]
 pub struct Charted {
-    /// Exponential ones.
+    /// True for exponential coordinates.
     pub pose: bool,
-    /// Those of the arc that ends where the robot does.
+    /// True for the length and turn of the arc that ends at the robot.
     pub arc: bool,
 }
 
 impl Figures {
-    /// The figures of a cloud without samples.
+    /// Returns the statistics of a cloud without samples.
     pub const NONE: Self = {
         let (mean, cov) = (
             Vector3::new(f64::NAN, f64::NAN, f64::NAN),
@@ -60,7 +61,7 @@ impl Figures {
         }
     };
 
-    /// The figures of a cloud; where coordinates do not reach, nothing is said in them.
+    /// Returns the statistics of a cloud. Those in coordinates that are undefined for the cloud are NaN.
     pub fn of(cloud: &CloudFigures, charted: Charted) -> Self {
         let CloudFigures {
             cartesian,
@@ -75,7 +76,8 @@ impl Figures {
         let mut figures = Self { cartesian, cross_track, inside_ellipse, gain, ..Self::NONE };
         if charted.pose {
             figures.exponential = exponential;
-            // One point has no shape, nor an inside, for all that its headings do to its exponential coordinates.
+            // If all positions coincide the shape is undefined, although headings may spread the exponential
+            // coordinates.
             if !ellipse.is_point() {
                 figures.gaussian_skew = predicted_cross_track_skew(&exponential.mean, &exponential.cov);
                 figures.inside_exponential = inside_exponential;
@@ -93,7 +95,7 @@ impl Figures {
     }
 }
 
-/// The figures, and the number of samples that are shown.
+/// Returns the statistics, and the number of samples shown.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stats {
     pub n: usize,
@@ -145,23 +147,23 @@ pub struct TableColumn {
     )]
     pub cov: Matrix3<f64>,
     pub cross_track_skew: f64,
-    /// Gain, 0 of the linearization.
+    /// Gain; 0 for the linearization.
     pub likelihood_gain: LikelihoodGain,
-    /// Ratio of the areas, 1 of the linearization.
+    /// Ratio of the areas; 1 for the linearization.
     pub area_ratio: f64,
 }
 
-/// Moments of the pose three ways, and of its exponential coordinates.
+/// Moments of the pose by three methods, and moments of its exponential coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(target_arch = "wasm32", derive(serde::Serialize, tsify::Tsify), tsify(missing_as_null))]
 pub struct Table {
-    /// The noise-free end, and the covariance to first order in the noise.
+    /// Noise-free end, and covariance to first order in the noise.
     pub linearized: TableColumn,
-    /// By quadrature.
+    /// Moments by quadrature.
     pub exact: TableColumn,
-    /// Of the samples shown.
+    /// Moments of the samples shown.
     pub measured: TableColumn,
-    /// The commanded twist and its noise; null (None) where the noise has no such form.
+    /// Commanded twist and covariance of its noise; null (None) if the model has no such form.
     #[cfg_attr(target_arch = "wasm32", tsify(type = "Moments | null"))]
     pub tangent: Option<ExponentialMoments>,
 }
@@ -170,33 +172,33 @@ pub struct Table {
 /// where fewer than two samples are shown, or without a chart to be drawn in.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Contours {
-    /// The arc of the command, open.
+    /// Commanded arc, not closed.
     pub command: Vec<[f64; 2]>,
     pub ellipse: Vec<[f64; 2]>,
-    /// The 2σ ellipse of an EKF.
+    /// 2σ ellipse of an EKF.
     pub linearized: Vec<[f64; 2]>,
     pub exponential: Vec<[f64; 2]>,
-    /// The 2σ ellipse of the exponential moments in (along, heading).
+    /// 2σ ellipse of the exponential moments in (along, heading).
     pub twist_ellipse: Vec<[f64; 2]>,
     /// The 2σ circle of noise that is added to the pose: see [`super::BananaMachine::additive`].
     pub additive: Vec<[f64; 2]>,
 }
 
-/// One sample, explained.
+/// One sample in detail.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sample {
     pub pose: SE2,
     pub twist: Vector3<f64>,
     pub executed: Executed,
-    /// Where it drove, as (x, y) in m.
+    /// Driven path, as (x, y) in m.
     pub path: Vec<[f64; 2]>,
 }
 
-/// What a robot did instead of what it was told.
+/// Motion that a robot executed instead of the command.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Executed {
-    /// An arc and a last turn, both of duration `dt` (s).
+    /// Arc and final turn, both of duration `dt` (s).
     Arc { arc: ArcInversion, dt: f64 },
-    /// The three legs of the odometry model, which knows no arc.
+    /// Three legs of the odometry model, which has no arc.
     Legs(OdomDelta),
 }

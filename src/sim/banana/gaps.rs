@@ -1,4 +1,4 @@
-//! Floor that only the ellipse in (x, y) covers.
+//! Parts of the floor that only the ellipse in (x, y) covers.
 
 use super::{BananaMachine, OUTLINE_SEGMENTS};
 use crate::geom::arc::arc_near;
@@ -6,13 +6,13 @@ use crate::geom::se2::SE2;
 use crate::sim::cloud::START;
 use crate::stats::{Ellipse, ExponentialContour};
 
-/// Least area ratio at which there is floor to point at: below it the outlines nearly coincide.
+/// Minimum area ratio at which such parts are shown. Below it the outlines nearly coincide.
 const LEAST_RATIO: f64 = 1.15;
 
-/// Least distance from the mean in exponential coordinates, standard deviations. Beyond it stops one robot in 900, anywhere.
+/// Minimum distance (standard deviations) from the mean in exponential coordinates. One robot in 900 stops beyond it.
 const NOBODY: f64 = 3.7;
 
-/// Share of the way from the centre of the ellipse to its boundary: a point there is seen to be inside.
+/// Fraction of the way from the centre of the ellipse to its boundary: a point there is clearly inside.
 const INSIDE: f64 = 0.95;
 
 impl BananaMachine {

@@ -1,4 +1,4 @@
-//! The Banana Machine: one command from the origin, thousands of outcomes.
+//! The Banana Machine: samples of the end pose after one command from the origin.
 
 mod figures;
 mod gaps;
@@ -30,7 +30,7 @@ use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::TAU;
 
 impl Settings {
-    /// The model in effect, with its control for a command.
+    /// Returns the current model, with its control for a command.
     fn motion(&self, command: VelocityCmd) -> Motion {
         match self.model {
             ModelKind::Velocity => {
@@ -47,7 +47,7 @@ impl Settings {
     }
 }
 
-/// The odometry model as it is set.
+/// Returns the odometry model with the current settings.
 struct Wheels {
     model: OdometryModel,
     reverse_aware: bool,
@@ -67,7 +67,7 @@ impl Hinges for Wheels {
     }
 }
 
-/// A model with its control.
+/// Model with its control.
 enum Motion {
     Velocity(VelocityModel, VelocityCmd),
     Odometry(Wheels, OdomDelta),
@@ -114,16 +114,16 @@ impl Motion {
     }
 }
 
-/// The command whose arc ends at (x, y), with the duration of `near` and, of the arcs that lead there (forward or in
-/// reverse, round the circle or not), the one whose turn is nearest to that of `near`.
+/// Returns the command whose arc ends at (x, y), with the duration of `near`. Several arcs lead there, forward or in
+/// reverse and with more turns; the one whose turn is nearest to that of `near` is taken.
 pub fn command_reaching(x: f64, y: f64, near: &VelocityCmd) -> VelocityCmd {
     let dt = near.dt;
     let (length, turn) = arc_near(&START, &SE2::new(x, y, 0.0), near.omega * dt);
     VelocityCmd { v: length / dt, omega: turn / dt, dt }
 }
 
-/// Returns the command whose end is seen at (x, y) at a morph, with the duration of `near` and found from it; `near` itself where
-/// there is none. On the floor, at 0, it is [`command_reaching`].
+/// Returns the command whose end is drawn at (x, y) at a morph, with the duration of `near`. The search starts at
+/// `near`, and returns it if there is no solution. At morph 0, the floor, the result is [`command_reaching`].
 pub fn command_seen_at([x, y]: [f64; 2], near: &VelocityCmd, morph: f64) -> VelocityCmd {
     let VelocityCmd { v, omega, dt } = *near;
     if morph == 0.0 {
@@ -137,15 +137,16 @@ fn command_end(command: &VelocityCmd) -> SE2 {
     SE2::exp(&TangentNoiseModel::twist(command))
 }
 
-/// Standard deviations of the turn that must keep short of a whole circle for exponential coordinates to make sense.
-/// There ξ runs to infinity; with fewer, single samples of a large cloud would already spoil its moments.
+/// Number of standard deviations by which the turn must stay below a full circle for exponential coordinates to be
+/// usable. At a full circle ξ diverges. With a smaller number, single samples of a large cloud would dominate its
+/// moments.
 const CHART_SIGMAS: f64 = 4.0;
 
-/// Points of a skew curve at most; each costs some ten microseconds.
+/// Maximum number of points of a skew curve. Each takes about ten microseconds.
 pub const MAX_CURVE_POINTS: u64 = 10_000;
 
-/// Standard deviation of noise that is added to the pose, m: √(½ tr Σ) of x and y on the gentle arc, rounded. Tuned there, it
-/// suits no other distance.
+/// Standard deviation (m) of noise that is added to the pose: √(½ tr Σ) of x and y on the gentle arc, rounded. It fits
+/// no other distance.
 pub const ADDITIVE_DEVIATION: f64 = 0.2;
 
 /// Samples of the first block, which takes a few milliseconds.
@@ -154,13 +155,13 @@ const FIRST_BLOCK: usize = 50_000;
 /// Chords of an outline: at 128 the sagitta is 0.03 % of the radius, a fifth of a pixel on the largest screen.
 pub const OUTLINE_SEGMENTS: usize = 128;
 
-/// The simulation behind the widget: settings, draws, and the cloud shown.
+/// Simulation of the widget: settings, draws, and the cloud shown.
 #[derive(Clone, Debug)]
 pub struct BananaMachine {
     settings: Settings,
     cloud: Cloud,
     figures: Figures,
-    /// The latest picture, which the page looks at in place.
+    /// Latest picture. The page reads it in place.
     picture: Vec<[u8; 4]>,
 }
 
@@ -233,8 +234,8 @@ impl BananaMachine {
         self.shown()
     }
 
-    /// Number of samples that are added within a few milliseconds. All samples are summed again whenever some are added, so that each block is as
-    /// large as the cloud is.
+    /// Returns the number of samples that can be added within a few milliseconds. All samples are summed again with
+    /// each block, so that a block is as large as the cloud.
     pub fn block(&self) -> usize {
         self.shown().max(FIRST_BLOCK)
     }
@@ -273,8 +274,8 @@ impl BananaMachine {
         Stats { n: self.shown(), figures: self.figures }
     }
 
-    /// Whether the robots keep short of turning a whole circle, where exponential coordinates end. Where not, every
-    /// figure and contour in them is undefined.
+    /// Tells whether the robots turn by less than a full circle, so that exponential coordinates are defined. Otherwise
+    /// statistics and contours in them are undefined.
     pub fn chart_holds(&self) -> bool {
         self.charted().pose
     }
@@ -299,7 +300,7 @@ impl BananaMachine {
         }
     }
 
-    /// Mean and covariance by the linearization that an EKF uses: the noise-free end, and J·Σ·Jᵀ.
+    /// Returns mean and covariance by an EKF's linearization: the noise-free end, and J·Σ·Jᵀ.
     pub fn linearized(&self) -> CartesianMoments {
         let end = command_end(&self.settings.command);
         CartesianMoments {
@@ -308,31 +309,31 @@ impl BananaMachine {
         }
     }
 
-    /// What the chapter argues against: the noise-free end x̄ with noise added to the pose, x_t = x̄ + ε with
-    /// ε ~ N(0, [`ADDITIVE_DEVIATION`]²·I) over x and y, whatever was commanded and whatever the α's are.
+    /// Returns the model that the chapter argues against: noise added to the noise-free end x̄. x_t = x̄ + ε with ε ~
+    /// N(0, [`ADDITIVE_DEVIATION`]²·I) in x and y, independent of the command and the α's.
     pub fn additive(&self) -> CartesianMoments {
         let variance = ADDITIVE_DEVIATION * ADDITIVE_DEVIATION;
         let cov = Matrix3::from_diagonal(&Vector3::new(variance, variance, 0.0));
         CartesianMoments { cov, ..self.linearized() }
     }
 
-    /// The model's own moments, by quadrature.
+    /// Returns the exact moments of the model, by quadrature.
     pub fn exact(&self) -> ExactMoments {
         self.settings.motion(self.settings.command).exact()
     }
 
-    /// What the model says of its exponential coordinates, by quadrature.
+    /// Returns the exact moments of the exponential coordinates, by quadrature.
     pub fn exact_gain(&self) -> ExactGain {
         let Settings { command, .. } = self.settings;
         self.settings.motion(command).exact_gain(&command)
     }
 
-    /// The moments of the pose in three ways, and those of its exponential coordinates as the model has them.
+    /// Returns the moments of the pose by three methods, and the model's moments of its exponential coordinates.
     pub fn table(&self) -> Table {
         let linearized = self.linearized();
         let Figures { cartesian, cross_track, gain, area_ratio, .. } = self.figures;
         Table {
-            // A Gaussian in (x, y), whatever its moments, has no skew, and to first order none in other coordinates differs.
+            // A Gaussian in (x, y) has no skew. To first order, Gaussians in other coordinates are equal to it.
             linearized: TableColumn {
                 mean: linearized.mean,
                 cov: linearized.cov,
@@ -361,8 +362,8 @@ impl BananaMachine {
         TableColumn { mean, cov, cross_track_skew, likelihood_gain: gain.value, area_ratio }
     }
 
-    /// The exact cross-track skew at `points` rotational velocities spread evenly from `first` to `last` (rad/s), all
-    /// else as set.
+    /// Returns the exact cross-track skew at `points` evenly spaced rotational velocities from `first` to `last`
+    /// (rad/s), with all other settings as they are.
     pub fn skew_curve(&self, first: f64, last: f64, points: usize) -> Vec<f64> {
         let step = (last - first) / (points.max(2) - 1) as f64;
         (0..points)
@@ -373,7 +374,7 @@ impl BananaMachine {
             .collect()
     }
 
-    /// The curves over the cloud.
+    /// Returns the curves that are drawn over the cloud.
     pub fn contours(&self) -> Contours {
         let Figures { cartesian, exponential, .. } = &self.figures;
         let if_any = |holds: bool, outline: Vec<[f64; 2]>| if holds { outline } else { Vec::new() };
@@ -391,7 +392,7 @@ impl BananaMachine {
         }
     }
 
-    /// Sample `index` of those shown.
+    /// Returns sample `index` of the samples shown.
     pub fn inspect(&self, index: usize) -> Option<Sample> {
         let pose = self.pose(index)?;
         let executed = self.settings.motion(self.settings.command).executed(self.cloud.unit_noise(index));
@@ -412,7 +413,7 @@ impl BananaMachine {
         })
     }
 
-    /// What odometry without noise reads when the command is carried out.
+    /// Returns the noise-free odometry reading of the command.
     pub fn reading(&self) -> OdomDelta {
         OdomDelta::from_poses(&START, &command_end(&self.settings.command))
     }

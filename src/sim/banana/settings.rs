@@ -1,14 +1,14 @@
-//! What a user sets of the Banana Machine.
+//! Settings of the Banana Machine.
 
 use crate::models::VelocityCmd;
 use crate::noise::NoiseKind;
 use crate::sim::settings::{ALPHA, MAX_SEED, Rules, Words, settings};
 
-/// Which of the chapter's models the machine runs.
+/// Motion model of the machine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ModelKind {
     Velocity,
-    /// Fed with the reading that noise-free wheels would give for the command.
+    /// Odometry model; its input is the reading of noise-free wheels for the command.
     Odometry,
 }
 
@@ -22,15 +22,15 @@ impl Words for NoiseKind {
         &[("normal", Self::Normal), ("triangular", Self::Triangular)];
 }
 
-/// Ten million poses take 400 MB; a browser's page may have 4 GB.
+/// Ten million poses take 400 MB; a page in a browser may have 4 GB.
 pub const MAX_SAMPLES: usize = 10_000_000;
 
-/// Number that still moves within a frame on a device four times slower than a laptop, with room for the pictures. It gives the
-/// opening skew to ±0.007.
+/// Number of samples that moves within a frame on a device four times slower than a laptop, together with the pictures.
+/// The standard error of the initial skew is 0.007.
 const OPENING_SAMPLES: usize = 50_000;
 
-/// Seed, of 0 to 99, whose opening cloud has the area ratio and the gain nearest to the exact ones: the first sight should not be
-/// a stroke of luck.
+/// Seed from 0 to 99 whose initial cloud has the area ratio and gain nearest to the exact values, so that the first
+/// picture is typical.
 const OPENING_SEED: u64 = 87;
 
 settings! {
@@ -53,7 +53,7 @@ settings! {
         /// The same seed is the same robots.
         seed: u64 = OPENING_SEED, in 0..=MAX_SEED;
         kept {
-            /// Each model keeps its own α's, so that switching back and forth loses nothing.
+            /// Each model keeps its own α's, so that switching between models loses nothing.
             velocity_alphas: [f64; 6] = BANANA.alphas;
             odometry_alphas: [f64; 4] = [0.05, 0.05, 0.05, 0.05];
             /// The setting `reverseAware`.
@@ -94,7 +94,7 @@ impl Settings {
         self.alphas().len() as u64
     }
 
-    /// The α's in effect: those of the given ones that are not silenced by another's isolation.
+    /// Returns the α's in effect: all of them, or 0 for all but the isolated one.
     pub(super) fn effective<const N: usize>(&self, alphas: [f64; N]) -> [f64; N] {
         std::array::from_fn(
             |i| if self.isolate.is_none_or(|number| number == i + 1) { alphas[i] } else { 0.0 },
@@ -104,14 +104,14 @@ impl Settings {
 
 impl Rules for Settings {
     fn settle(&mut self, before: &Self, named: &[&str]) {
-        // α numbers mean other things in the other model.
+        // The numbers of the α's mean other noises in the other model.
         if self.model != before.model && !named.contains(&"isolate") {
             self.isolate = None;
         }
     }
 }
 
-/// A command worth starting from, with its noise.
+/// Command of a preset, with its noise.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Preset {
     pub name: &'static str,
@@ -124,7 +124,7 @@ const fn preset(name: &'static str, [v, omega, dt]: [f64; 3], alphas: [f64; 6]) 
     Preset { name, command: VelocityCmd { v, omega, dt }, alphas }
 }
 
-/// Noise parameters of the presets whose point is the command.
+/// Noise parameters of presets that differ in the command.
 const USUAL_ALPHAS: [f64; 6] = [0.05, 0.05, 0.05, 0.09, 0.01, 0.01];
 
 /// Straight drive with much noise in the turn and little along the way. By symmetry its cloud has no skew, and yet no ellipse

@@ -9,9 +9,10 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 use std::collections::TryReserveError;
 use wide::f64x4;
 
-/// What is long to compute is computed of a sample of the fours: the farther, the more of them, as a few robots far off may
-/// have most of a variance. A four is as far as the farthest of its robots: by the sum of its squared noises near, far or
-/// farthest. Of Gaussian noise 1.8 % of the fours are far and 0.07 % farthest; of triangular noise none are farthest.
+/// Standard errors are expensive, and computed from a weighted subset of the groups of four robots. A few distant
+/// robots may contribute most of a variance, so more of the distant groups are used. The distance of a group is the
+/// largest sum of squared unit noises of its robots: near, far or farthest. With Gaussian noise 1.8 % of the groups are
+/// far and 0.07 % farthest; with triangular noise none is farthest.
 const FAR: f64 = 13.0;
 const FARTHEST: f64 = 20.0;
 
@@ -36,9 +37,9 @@ pub struct Draws {
     noise: NoiseKind,
     /// Xoshiro256++ by name: the same stream on every target, which `SmallRng` does not promise.
     rng: Xoshiro256PlusPlus,
-    /// Four samples an entry.
+    /// Draws in groups of four samples.
     unit_noise: Vec<[f64x4; 3]>,
-    /// Over the first `summed` entries, whole blocks of them. They stay when a slider moves the robots.
+    /// Sums over the first `summed` groups, in complete blocks. They stay valid while a slider moves the robots.
     sums: PairSums,
     summed: usize,
     /// The farthest of those entries, in ascending order, but for those among which the far ones are found.
@@ -59,12 +60,12 @@ impl Draws {
         }
     }
 
-    /// Makes room for the draws of `count` samples.
+    /// Reserves memory for the draws of `count` samples.
     pub fn reserve(&mut self, count: usize) -> Result<(), TryReserveError> {
         self.unit_noise.try_reserve_exact(count.div_ceil(LANES).saturating_sub(self.unit_noise.len()))
     }
 
-    /// Makes these the draws of a seed and kind.
+    /// Discards the draws if seed or kind differ from these.
     pub fn restart(&mut self, seed: u64, noise: NoiseKind) {
         if self.seed != seed || self.noise != noise {
             let unit_noise = std::mem::take(&mut self.unit_noise);
@@ -73,7 +74,7 @@ impl Draws {
         }
     }
 
-    /// Draws what is missing of `count` samples, for which there must be room.
+    /// Draws until there are `count` samples, for which memory must be reserved.
     pub fn extend_to(&mut self, count: usize) {
         let Self { noise, rng, unit_noise, .. } = self;
         let (first, end) = (unit_noise.len(), count.div_ceil(LANES));
@@ -100,7 +101,8 @@ impl Draws {
         }
     }
 
-    /// The sums of the first two noises, their squares and product over `count` samples that have been drawn.
+    /// Returns the sums of the first two noises, of their squares and of their product over `count` samples, which must
+    /// have been drawn.
     #[inline(never)]
     pub fn pair_sums(&mut self, count: usize) -> [f64; 5] {
         let fours = count / LANES;

@@ -1,4 +1,4 @@
-//! Either model as one formula, from the start pose at the origin: a length driven on a bearing, and a heading.
+//! Common form of both models for a start at the origin: a distance in a direction, and a final heading.
 
 use crate::geom::lanes::{Circle, HalfTurn, Trigonometry, any};
 use crate::models::{Hinges, OdomDelta, VelocityCmd, VelocityModel};
@@ -6,7 +6,7 @@ use crate::stats::fused::{FourArcs, FourPoses, Reference, Scale};
 use std::f64::consts::FRAC_PI_2;
 use wide::f64x4;
 
-/// A number of the motion as mean + deviation · unit noise.
+/// Affine function of a unit noise: mean + deviation · noise.
 type Affine = [f64; 2];
 
 /// A motion under given settings; its three unit noises are in the order of the model's draws.
@@ -16,22 +16,22 @@ type Affine = [f64; 2];
 /// and both headings are affine in the noises.
 #[derive(Clone, Copy, Debug)]
 pub struct Drive {
-    /// Whether the length is that of an arc, whose chord is shorter.
+    /// True if the length is that of an arc, whose chord is shorter.
     is_arc: bool,
-    /// m.
+    /// Length, m.
     length: Affine,
-    /// rad.
+    /// Bearing of the end, rad.
     bearing: Affine,
     /// Half of the heading is `share` · bearing + half_rest, rad.
     share: f64,
     half_rest: Affine,
-    /// Half of the commanded turn, rad: where the branches of the logarithm and of the arc are.
+    /// Half of the commanded turn (rad), which selects the branches of logarithm and arc.
     near: f64,
     near_half: [f64; 2],
     trigonometry: Trigonometry,
 }
 
-/// Four motions.
+/// Motions of four robots.
 #[derive(Clone, Copy)]
 pub struct Motions {
     length: f64x4,
@@ -56,7 +56,7 @@ impl Drive {
         }
     }
 
-    /// `turn` is that of the command which the reading came from, rad.
+    /// Creates the drive of a reading; `turn` (rad) is that of the command from which the reading was made.
     pub fn of_odometry(model: &impl Hinges, u: &OdomDelta, turn: f64) -> Self {
         let [rot1, trans, rot2] = model.variances(u).map(|variance| variance.0.sqrt());
         Self {
@@ -109,7 +109,7 @@ impl Drive {
         [distance * circle.cos, distance * circle.sin]
     }
 
-    /// What noise adds to the length and half the turn of regular arcs.
+    /// Returns the deviations that noise adds to the length and half turn of regular arcs.
     #[inline(always)]
     pub fn regular(&self, unit_noise: &[f64x4; 3]) -> [f64x4; 2] {
         let of = if self.is_arc { [self.length[1], self.bearing[1]] } else { [0.0; 2] };
@@ -125,7 +125,7 @@ impl Drive {
         [a * s, b * t, aa * (s * s), ab * (s * t), bb * (t * t)]
     }
 
-    /// The arcs that lead to `ends`, which lie on the lines of these bearings.
+    /// Returns the arcs that lead to `ends`, which lie in the directions of these bearings.
     #[inline(never)]
     fn other_arcs(&self, bearing: f64x4, [x, y]: [f64x4; 2]) -> FourArcs {
         let HalfTurn { half, sinc, sin, cos, .. } = self.trigonometry.any_half_turn(bearing, self.near);
@@ -153,7 +153,7 @@ impl Drive {
         [along * cos - lateral * sin, along * sin + lateral * cos + half * (2.0 * morph)]
     }
 
-    /// Whether an angle leaves the range of the short formulas.
+    /// Tests whether an angle is outside the range of the short formulas.
     #[inline(always)]
     fn is_far(&self, motions: &Motions) -> bool {
         let [middle, reach] = self.near_half;
@@ -177,11 +177,11 @@ impl Drive {
         let mut parts = [poses.x, poses.y, poses.along, poses.lateral, poses.half, arcs.length, arcs.half]
             .map(|lanes| lanes.to_array()[0]);
         if self.is_arc {
-            // As regular arcs have them, to the bit.
+            // The same bits as for regular arcs.
             [parts[5], parts[6]] = [self.length[0], self.bearing[0]];
         }
         let [chart, arc] = [poses.sinc, arcs.sinc].map(|lanes| lanes.to_array()[0].abs());
-        // Of the length as it is with noise: the command may be to stay.
+        // Includes the noise of the length, because the command may be 0.
         let length = libm::hypot(self.length[0], self.length[1]);
         (parts, [1.0 / chart, 1.0 / (length * arc * arc)])
     }

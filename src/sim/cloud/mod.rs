@@ -1,4 +1,4 @@
-//! Cloud of robots from the origin: their draws, their ends, and their figures.
+//! Cloud of robots that start at the origin: draws, end poses, and statistics.
 
 pub(super) mod draws;
 pub(super) mod drive;
@@ -20,8 +20,8 @@ use wide::f64x4;
 /// Every robot of a cloud starts at the origin, heading along x.
 pub const START: SE2 = SE2::identity();
 
-/// Fours that are summed naively: 256 poses. Fewer would make the compensation of
-/// the sums felt, more would add to their rounding, which is proportional.
+/// Number of groups of four that are summed without compensation: 256 poses. With fewer, compensation would take
+/// noticeable time; with more, the rounding error would grow in proportion.
 const BLOCK: usize = 64;
 
 /// Structure of arrays, four samples an entry: 24 bytes of noise and 16 of position a sample. Headings are affine in the
@@ -51,7 +51,8 @@ impl Cloud {
     pub fn refresh(&mut self, seed: u64, noise: NoiseKind, drive: Drive, shown: usize) -> CloudFigures {
         self.draws.restart(seed, noise);
         (self.drive, self.shown) = (drive, shown);
-        // Sums are counted from the expected place of the cloud, and again from its mean if it lies elsewhere.
+        // Differences are summed from the expected mean of the cloud. If the mean turns out to be far from it, they are
+        // summed again.
         let (reference, scale) = drive.nominal();
         let mut sums = self.spread_all(Spread::new(reference, scale));
         if let Some(better) = sums.better_reference(shown) {
@@ -95,7 +96,7 @@ impl Cloud {
         self.drive.turn_deviation()
     }
 
-    /// That of the turn of the arc that ends where the robot does, rad.
+    /// Standard deviation (rad) of the turn of the arc that ends at the robot.
     pub fn arc_deviation(&self) -> f64 {
         self.drive.arc_deviation()
     }
@@ -119,7 +120,8 @@ impl Cloud {
         SE2::new(x, y, 2.0 * half.to_array()[lane])
     }
 
-    /// Shows each four of a view to `see`; of the last, those that are not there are infinitely far away.
+    /// Calls `see` with each group of four in a view. In the last group, lanes without a sample are infinitely far
+    /// away.
     #[inline(always)]
     pub fn each_four(&self, view: View, mut see: impl FnMut([f64x4; 2])) {
         let shown = self.shown();
@@ -156,10 +158,10 @@ fn blocks(count: usize) -> impl Iterator<Item = [(Range<usize>, f64x4); 2]> {
     })
 }
 
-/// A lane that is counted: all bits set.
+/// Mask of a lane that counts: all bits set.
 const ALL: f64 = f64::from_bits(u64::MAX);
 
-/// Drives four robots after the other and adds them to the sums of the first pass.
+/// Drives the robots, four at a time, and adds them to the sums of the first pass.
 #[inline(never)]
 fn spread(drive: &Drive, noise: &[[f64x4; 3]], ends: &mut [[f64x4; 2]], mask: f64x4, sums: &mut Spread) {
     let is_whole = mask.all();

@@ -4,13 +4,14 @@ use super::Cloud;
 use super::views::{Grid, View};
 use crate::geom::lanes::LANES;
 
-/// Colours by the share of the fullest cell, from next to nothing to all: RGBA, each a byte.
+/// Colour ramp by the count of a cell relative to the fullest cell: RGBA, one byte each.
 pub type Ramp = [[u8; 4]; RAMP];
 
-/// Steps of a ramp: what a byte of alpha can tell apart.
+/// Number of steps of a ramp, one for each value of a byte.
 pub const RAMP: usize = 256;
 
-/// Counts the shown samples in each cell, row by row from the top (greatest second coordinate). Those outside count nowhere.
+/// Counts the shown samples in each cell, row by row from the top (largest second coordinate). Samples outside are not
+/// counted.
 pub fn density(cloud: &Cloud, view: View, grid: &Grid) -> Vec<u32> {
     let Grid { min, max, columns, rows } = *grid;
     let mut counts = vec![0; columns * rows];
@@ -28,8 +29,8 @@ pub fn density(cloud: &Cloud, view: View, grid: &Grid) -> Vec<u32> {
     counts
 }
 
-/// Paints a density, a pixel a cell: ramp[255·√(count/most)], transparent where there is nobody. The square root keeps the
-/// thin ends of a cloud visible beside its crowded middle.
+/// Paints a density, one pixel for each cell: ramp[255·√(count/most)], transparent for empty cells. With the square
+/// root the sparse ends of a cloud stay visible.
 pub fn paint(counts: &[u32], ramp: &Ramp) -> Vec<[u8; 4]> {
     let most = counts.iter().copied().max().unwrap_or(0);
     counts.iter().map(|count| if *count == 0 { [0; 4] } else { ramp[shade(*count, most)] }).collect()

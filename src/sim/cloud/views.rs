@@ -1,9 +1,9 @@
-//! Pictures of a cloud, and what is asked of them: where is it dense, which sample is nearest.
+//! Views of a cloud, with density and nearest sample.
 
 use crate::sim::settings::Words;
 use std::ops::RangeInclusive;
 
-/// A picture of the cloud.
+/// Coordinates in which the cloud is drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum View {
     /// Positions (x, y), m.
@@ -15,7 +15,7 @@ pub enum View {
 }
 
 impl View {
-    /// Returns the view at a morph. At the ends it is the plane and the twists, without rounding.
+    /// Returns the view at a morph. At 0 and 1 it is exactly the plane and the twists.
     pub fn at(morph: f64) -> Self {
         match morph {
             0.0 => Self::Plane,
@@ -29,30 +29,30 @@ impl Words for View {
     const WORDS: &'static [(&'static str, Self)] = &[("plane", Self::Plane), ("twist", Self::Twist)];
 }
 
-/// Shares of the way from the plane to the twists.
+/// Range of the morph, from the plane to the twists.
 pub const MORPH: RangeInclusive<f64> = 0.0..=1.0;
 
-/// Coordinates that a rectangle of a view may reach: as far as the fastest robot gets in the longest step, and some.
+/// Range of the coordinates of a view. It includes every position that the largest settings reach.
 pub const EXTENT: RangeInclusive<f64> = -1e18..=1e18;
 
 /// Largest number of cells of a [`Grid`], beyond any screen. They take 64 MB.
 pub const MAX_CELLS: u64 = 1 << 24;
 
-/// Cells of a side of a [`Grid`] at most: more than a browser's canvas may have on some devices. Longer rows or columns would
-/// have a frame around them, a cell wide, that takes more memory than they do.
+/// Maximum number of rows or columns of a [`Grid`], more than a browser's canvas may have on some devices. Margins of
+/// one cell around a longer grid would take more memory than the grid.
 pub const MAX_SIDE: u64 = 1 << 14;
 
 /// A rectangle of a view divided into cells of equal size.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Grid {
-    /// Least and greatest coordinates, finite, each least below its greatest.
+    /// Smallest and largest coordinates, finite, each smallest below its largest.
     pub min: [f64; 2],
     pub max: [f64; 2],
     pub columns: usize,
     pub rows: usize,
 }
 
-/// Finds, among points shown to it one after the other, the nearest to a target.
+/// Search for the point nearest to a target among points that are given one by one.
 #[derive(Clone, Copy, Debug)]
 pub struct Nearest {
     target: [f64; 2],
@@ -63,7 +63,7 @@ pub struct Nearest {
 }
 
 impl Nearest {
-    /// Looks for the nearest of the points inside the ellipse of the given radii around the target, distances counted in those radii.
+    /// Starts a search inside an ellipse with the given radii around the target. Distances are in units of those radii.
     pub fn new(target: [f64; 2], radii: [f64; 2]) -> Self {
         Self { target, radii, least: 1.0, seen: 0, index: None }
     }
@@ -79,7 +79,7 @@ impl Nearest {
         self.seen += 1;
     }
 
-    /// The number of the nearest, from 0 in the order of showing.
+    /// Returns the index of the nearest point, in the order in which points were given.
     pub fn index(&self) -> Option<usize> {
         self.index
     }

@@ -1,28 +1,28 @@
-//! What the recursions predict of each step, and how that compares with what the robots did.
+//! Predicted covariances of the recursions after each step, compared with the covariance of the robots.
 
 use super::rollouts::Measured;
 use super::settings::Settings;
 use crate::models::{Compounding, TangentNoiseModel, covariance_root};
 use nalgebra::{Matrix3, Vector3};
 
-/// The recursions that are compared, in the order in which they are told.
+/// Recursions that are compared, in the order in which they are listed.
 pub const RECURSIONS: [Compounding; 3] =
     [Compounding::Chapter, Compounding::FirstOrder, Compounding::FourthOrder];
 
-/// A ratio of variances that is further from 1 is a miss.
+/// Relative error of a variance above which a step counts as a miss.
 pub const TOLERANCE: f64 = 0.05;
 
-/// Relative standard error up to which rollouts can tell a miss: a quarter of the tolerance. Of the dozens of ratios of a
-/// figure some are off by three errors, hardly any by four.
+/// Largest relative standard error at which rollouts can establish a miss: a quarter of the tolerance. Among dozens of
+/// ratios some are off by three standard errors, hardly any by four.
 const TELLING: f64 = TOLERANCE / 4.0;
 
-/// Deviations below this share of the path, or radians, are rounding and no spread.
+/// Standard deviation, relative to the path or in radians, below which a spread is only rounding.
 const NO_SPREAD: f64 = 1e-12;
 
-/// How a recursion compares with the robots.
+/// Comparison of a recursion with the robots.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Comparison {
-    /// Predicted over measured variance of along, lateral and heading after each step; NaN where there is none of either.
+    /// Predicted over measured variance of along, lateral and heading after each step; NaN if either is missing.
     pub ratios: Vec<Vector3<f64>>,
     pub misses: [Misses; 3],
 }
@@ -31,13 +31,13 @@ pub struct Comparison {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(target_arch = "wasm32", derive(serde::Serialize, tsify::Tsify), tsify(missing_as_null))]
 pub struct Misses {
-    /// Whether there is a spread, and robots are many enough to tell.
+    /// True if there is a spread, and enough robots to establish a miss.
     pub told: bool,
-    /// The first step with a miss; null (None) where there is none, or none can be told.
+    /// First step with a miss; null (None) if there is none, or if it cannot be established.
     pub first: Option<u32>,
     /// The last step with a miss.
     pub last: Option<u32>,
-    /// The ratio after the last step, less 1; NaN where there is none.
+    /// Ratio after the last step, minus 1; NaN if undefined.
     pub end: f64,
     /// Standard error of `end`.
     pub error: f64,
@@ -59,11 +59,11 @@ impl Comparison {
     }
 }
 
-/// The covariance of ξ after each step from a known start, by a recursion, the first of which is step 1; None from where on
-/// it is no covariance any more, which the fourth order's corrections may leave.
+/// Returns the covariance of ξ after each step (step 1 first) from a known start, by a recursion. None from the step at
+/// which the result is no covariance, which the fourth-order terms can cause.
 pub fn covariances(settings: &Settings, order: Compounding) -> Vec<Option<Matrix3<f64>>> {
     let twist = TangentNoiseModel::twist(&settings.command);
-    // Every setting that is allowed makes finite variances of 0 or more.
+    // Every allowed setting gives finite variances of 0 or more.
     let noise = TangentNoiseModel::from_velocity(&settings.model(), &settings.command).ok();
     let mut sigma = Some(Matrix3::zeros());
     (0..settings.steps)
@@ -77,7 +77,7 @@ pub fn covariances(settings: &Settings, order: Compounding) -> Vec<Option<Matrix
         .collect()
 }
 
-/// Deviations of ξ (m, m, rad) up to here are none.
+/// Returns the standard deviations of ξ (m, m, rad) that count as 0.
 fn smallest_spread(settings: &Settings) -> Vector3<f64> {
     let u = &settings.command;
     let length = NO_SPREAD * (u.v * u.dt).abs() * f64::from(settings.steps);

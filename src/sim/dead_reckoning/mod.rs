@@ -1,4 +1,4 @@
-//! Dead Reckoning: one command driven step after step, how uncertainty grows on the way, and how well it is predicted.
+//! Dead Reckoning: one command driven repeatedly, the growth of uncertainty along the path, and predictions of it.
 
 mod figures;
 mod rollouts;
@@ -19,45 +19,45 @@ use figures::covariances;
 use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 use rollouts::Rollouts;
 
-/// Chords of an outline. Fewer would show corners, more would be below a pixel.
+/// Number of chords of an outline. With fewer, corners would be visible; more would be shorter than a pixel.
 const OUTLINE_SEGMENTS: usize = 96;
 
-/// Chords of the commanded arc in a step, at most.
+/// Maximum number of chords of the commanded arc in a step.
 const MOST_CHORDS: usize = 16;
 
-/// Robot steps in a block, which takes some milliseconds.
+/// Number of robot steps in a block, which takes some milliseconds.
 const BLOCK_STEPS: usize = 200_000;
 
-/// The simulation behind the widget: settings, rollouts, and what recursions say of them.
+/// Simulation of the widget: settings, rollouts, and predictions of the recursions.
 #[derive(Clone, Debug)]
 pub struct DeadReckoning {
     settings: Settings,
     rollouts: Rollouts,
     /// Number of robots driven.
     shown: usize,
-    /// By recursion.
+    /// Predictions by recursion.
     predicted: [Vec<Option<Matrix3<f64>>>; 3],
     measured: Vec<Measured>,
     compared: [Comparison; 3],
 }
 
-/// What the robots driven say, and how the recursions compare. Figures without meaning are NaN.
+/// Statistics of the robots driven, and comparison with the recursions. They are NaN if undefined.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(target_arch = "wasm32", derive(serde::Serialize, tsify::Tsify), tsify(rename = "ReckoningStats"))]
 pub struct Stats {
     /// Number of robots driven.
     pub n: usize,
-    /// Moments of ξ (m, m, rad) about the commanded pose, after the step that is looked at.
+    /// Moments of ξ (m, m, rad) about the commanded pose, after the selected step.
     #[cfg_attr(target_arch = "wasm32", tsify(type = "Moments"))]
     pub measured: ExponentialMoments,
-    /// Covariance after that step; null (None) where the recursion leaves none.
+    /// Predicted covariance after that step; null (None) if the recursion has none.
     #[cfg_attr(target_arch = "wasm32", tsify(type = "ByRecursion<number[][] | null>"))]
     pub predicted: ByRecursion<Option<Covariance>>,
-    /// Of along, lateral and heading.
+    /// Misses of along, lateral and heading.
     pub misses: ByRecursion<[Misses; 3]>,
 }
 
-/// Something of each of [`RECURSIONS`].
+/// One value for each of [`RECURSIONS`].
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(target_arch = "wasm32", derive(serde::Serialize, tsify::Tsify), serde(rename_all = "kebab-case"))]
 pub struct ByRecursion<T> {
@@ -69,16 +69,16 @@ pub struct ByRecursion<T> {
 /// Rows of a symmetric matrix.
 pub type Covariance = [[f64; 3]; 3];
 
-/// 2σ outlines of a step as x, y pairs, closed; empty where the recursion has no covariance left there.
+/// 2σ outlines after a step as x, y pairs, closed; empty if the recursion has no covariance there.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outlines {
-    /// Of the predicted Gaussian in (x, y), m: what the covariance is to a filter that has no other coordinates.
+    /// Outline of the predicted Gaussian in (x, y), m, as a filter without other coordinates has it.
     pub ellipse: Vec<[f64; 2]>,
-    /// Of the predicted Gaussian in exponential coordinates about the commanded pose, on the floor, m.
+    /// Outline of the predicted Gaussian in exponential coordinates about the commanded pose, on the floor, m.
     pub exponential: Vec<[f64; 2]>,
-    /// The same in (ξ along, ξ lateral), m.
+    /// Outline of the predicted Gaussian in (ξ along, ξ lateral), m.
     pub predicted: Vec<[f64; 2]>,
-    /// That of the robots' own covariance there.
+    /// Outline of the robots' covariance in (ξ along, ξ lateral), m.
     pub measured: Vec<[f64; 2]>,
 }
 
@@ -166,22 +166,22 @@ impl DeadReckoning {
         self.shown
     }
 
-    /// What the robots say of each step, the first of which is step 1.
+    /// Returns the moments of the robots after each step; the first is of step 1.
     pub fn measured(&self) -> &[Measured] {
         &self.measured
     }
 
-    /// What a recursion says of each step; None from where on it leaves no covariance.
+    /// Returns the covariance that a recursion predicts after each step; None from the step at which it has none.
     pub fn predicted(&self, order: Compounding) -> &[Option<Matrix3<f64>>] {
         &self.predicted[place_of(order)]
     }
 
-    /// How that compares with the robots.
+    /// Returns the comparison of a recursion with the robots.
     pub fn compared(&self, order: Compounding) -> &Comparison {
         &self.compared[place_of(order)]
     }
 
-    /// The commanded pose after each step.
+    /// Returns the commanded pose after each step.
     pub fn nominal(&self) -> &[SE2] {
         self.rollouts.nominal()
     }
@@ -193,19 +193,19 @@ impl DeadReckoning {
         if is_driven { rollouts.poses(step as usize, *shown) } else { &[] }
     }
 
-    /// ξ = x_k ⊟ x̄_k of the robots in the picture after the step that is looked at: along, lateral (m), heading (rad).
+    /// Returns ξ = x_k ⊟ x̄_k of the robots in the picture after the selected step: along, lateral (m), heading (rad).
     pub fn twists(&self) -> impl ExactSizeIterator<Item = [f64; 3]> {
         let step = self.settings.step;
         let nominal = self.nominal()[step as usize - 1];
         self.poses(step).iter().map(move |[x, y, theta]| SE2::new(*x, *y, *theta).boxminus(&nominal).into())
     }
 
-    /// x, y (m) and θ (rad) of one robot after each step; None where there is no such robot.
+    /// Returns x, y (m) and θ (rad) of one robot after each step; None if the index is too large.
     pub fn rollout(&self, index: usize) -> Option<Vec<[f64; 3]>> {
         (index < self.shown).then(|| self.rollouts.rollout(index))
     }
 
-    /// The robot in the picture that is nearest to a point (m) after the step that is looked at, and within `radius` of it.
+    /// Returns the robot in the picture that is nearest to a point (m) after the selected step, within `radius`.
     pub fn nearest(&self, target: [f64; 2], radius: f64) -> Option<usize> {
         let mut nearest = Nearest::new(target, [radius, radius]);
         self.poses(self.settings.step).iter().for_each(|[x, y, _]| nearest.see([*x, *y]));
@@ -228,11 +228,11 @@ impl DeadReckoning {
         StraightGrowth::new(&self.settings)
     }
 
-    /// The way that the command drives without noise, as x, y pairs from the start.
+    /// Returns the noise-free path of the command, as x, y pairs from the start.
     pub fn commanded(&self) -> Vec<[f64; 2]> {
         let Settings { command, steps, .. } = self.settings;
         let twist = TangentNoiseModel::twist(&command);
-        // A chord of a tenth of a radian is an eight-hundredth of its length off its arc.
+        // A chord of 0.1 rad deviates from its arc by 1/800 of its length.
         let chords = ((twist.z.abs() * 10.0).ceil() as usize).clamp(1, MOST_CHORDS);
         (0..=chords * steps as usize)
             .map(|i| {
@@ -242,7 +242,7 @@ impl DeadReckoning {
             .collect()
     }
 
-    /// The outlines of a step, by the recursion that is looked at; None where there is no such step.
+    /// Returns the outlines after a step, by the selected recursion; None if there is no such step.
     pub fn outlines(&self, step: u32) -> Option<Outlines> {
         let Settings { steps, compounding, .. } = self.settings;
         (1..=steps).contains(&step).then(|| self.outlines_at(step as usize - 1, compounding))
@@ -282,7 +282,7 @@ fn by_recursion<T>(of: impl Fn(Compounding) -> T) -> ByRecursion<T> {
     ByRecursion { chapter, first_order, fourth_order }
 }
 
-/// The place of a recursion among [`RECURSIONS`].
+/// Returns the index of a recursion in [`RECURSIONS`].
 fn place_of(order: Compounding) -> usize {
     RECURSIONS.iter().position(|each| *each == order).unwrap_or_default()
 }

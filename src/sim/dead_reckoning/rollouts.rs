@@ -14,38 +14,38 @@ use std::collections::TryReserveError;
 use std::f64::consts::FRAC_PI_2;
 use wide::f64x4;
 
-/// Fours that are driven from the first step to the last before the next are: 256 rollouts, whose draws and poses are 8 kB.
-/// Fewer would make the compensation of the sums felt, more would leave the nearest cache.
+/// Number of groups of four that are driven through all steps together: 256 rollouts, whose draws and poses take 8 kB.
+/// With fewer, compensated sums would take noticeable time; more would not fit into the first-level cache.
 const BLOCK: usize = 64;
 const BLOCK_ROLLOUTS: usize = BLOCK * LANES;
 
 /// Powers and products of ξ = (a, l, h) that are summed: a, l, h; their squares, cubes and fourth powers; al, ah, lh.
 const QUANTITIES: usize = 15;
 
-/// A lane that is counted: all bits set.
+/// Mask of a lane that counts: all bits set.
 const ALL: f64 = f64::from_bits(u64::MAX);
 
 /// A quarter turn, less a margin for rounding.
 const NEAR: f64 = FRAC_PI_2 * (1.0 - 1e-12);
 
-/// One step as every robot drives it, in exponential coordinates about the commanded pose. With e = x̄⁻¹·x the error as a
-/// pose, e_k = exp(−τ)·e_{k−1}·exp(τ + w)·(a turn by γ̂Δt): nothing grows with the length of the path.
+/// One step of a robot, in exponential coordinates about the commanded pose. With the error pose e = x̄⁻¹·x, e_k =
+/// exp(−τ)·e_{k−1}·exp(τ + w)·(a turn by γ̂Δt). No number grows with the length of the path.
 #[derive(Clone, Copy, Debug)]
 struct Step {
-    /// Length of the arc, m, and half its turn, rad: mean and deviation.
+    /// Mean and deviation of the length of the arc (m) and of half its turn (rad).
     length: [f64; 2],
     half_turn: [f64; 2],
     /// Deviation of half the turn after the arc, rad.
     half_last: f64,
-    /// Where the step ends that is driven without noise, m.
+    /// End of the noise-free step, m.
     end: [f64x4; 2],
-    /// Sine and cosine of its turn.
+    /// Sine and cosine of the noise-free turn.
     sin: f64,
     cos: f64,
     trigonometry: Trigonometry,
 }
 
-/// Four robots, by their error.
+/// Error poses of four robots.
 #[derive(Clone, Copy)]
 struct Four {
     x: f64x4,
@@ -55,18 +55,19 @@ struct Four {
     cos: f64x4,
 }
 
-/// What the robots said of one step.
+/// Moments of the robots after one step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Measured {
     /// Mean of ξ = x_k ⊟ x̄_k in the order (along, lateral, heading): m, m, rad.
     pub mean: Vector3<f64>,
     /// Its sample covariance, 3 × 3.
     pub cov: Matrix3<f64>,
-    /// Standard errors of the three variances as shares of them, by the fourth moments: √((κ − 1)/n). NaN without a variance.
+    /// Relative standard errors of the three variances, from the fourth moments: √((κ − 1)/n). NaN for a variance of 0.
     pub relative_error: Vector3<f64>,
 }
 
-/// Robots that are kept for the picture, at most: more dots would be one blot. A step of one takes 24 bytes.
+/// Maximum number of robots that are kept for the picture, in which more dots would not be distinguishable. Each step
+/// of a robot takes 24 bytes.
 pub const KEPT: usize = 600;
 
 /// Rollouts, as many as have been asked for so far.
@@ -74,10 +75,10 @@ pub const KEPT: usize = 600;
 pub struct Rollouts {
     step: Step,
     seed: u64,
-    /// Where the draws of the next block come from. A block has a stream of its own, of which a longer path takes more: the
-    /// first steps of the first robots are the same in every figure of that seed.
+    /// Random stream of the next block. Each block has its own stream, and a longer path only takes more of it: the
+    /// first steps of the first robots depend on the seed alone.
     stream: Xoshiro256PlusPlus,
-    /// Robots in whole blocks that were driven.
+    /// Number of robots driven in complete blocks.
     driven: usize,
     /// Sums over these robots after each step.
     sums: Vec<Sums<QUANTITIES>>,
@@ -107,14 +108,14 @@ impl Step {
         }
     }
 
-    /// Drives four robots on, and their ξ.
+    /// Drives four robots by one step, and returns their ξ.
     #[inline(always)]
     fn drive(&self, four: &mut Four, [first, second, third]: &[f64x4; 3]) -> [f64x4; 3] {
         let length = *first * self.length[1] + self.length[0];
         let more = *second * self.half_turn[1];
         let Circle { sinc, sin, cos } = self.trigonometry.near_or_any_circle(more + self.half_turn[0]);
         let chord = length * sinc;
-        // The chord's bearing is the robot's heading and half the turn of its arc.
+        // Bearing of the chord: the heading of the robot plus half the turn of its arc.
         let head_sin = 2.0 * four.sin * four.cos;
         let head_cos = 1.0 - 2.0 * four.sin * four.sin;
         let x = four.x + chord * (head_cos * cos - head_sin * sin) - self.end[0];
@@ -153,7 +154,7 @@ impl Rollouts {
         })
     }
 
-    /// Drives on towards `goal` robots, but for a last part of a block, which [`Rollouts::measured`] drives. Starts again if more
+    /// Drives complete blocks towards `goal` robots. [`Rollouts::measured`] drives the rest. Starts again if more
     /// robots have been driven.
     pub fn drive_to(&mut self, goal: usize) {
         if goal < self.driven {
@@ -174,7 +175,7 @@ impl Rollouts {
         self.sums.fill(Sums::new());
     }
 
-    /// What `goal` robots say of each step, less than a block more than were driven.
+    /// Returns the moments of `goal` robots after each step. They may be up to one block more than the robots driven.
     pub fn measured(&mut self, goal: usize) -> Vec<Measured> {
         let of = |sums: &[Sums<QUANTITIES>]| {
             sums.iter().map(|sums| measured(&sums.finish(), goal as f64)).collect()
@@ -244,12 +245,12 @@ impl Four {
     }
 }
 
-/// Robots that are driven from step to step together.
+/// Robots that are driven through all steps together.
 struct Block {
     rng: Xoshiro256PlusPlus,
-    /// By their errors.
+    /// Error poses of the robots.
     fours: [Four; BLOCK],
-    /// Draws of a step, and then the ξ that they led to.
+    /// Draws of a step, replaced by the resulting ξ.
     threes: [[f64x4; 3]; BLOCK],
 }
 
@@ -284,7 +285,7 @@ fn sum(sums: &mut Sums<QUANTITIES>, [a, l, h]: [f64x4; 3]) {
     add(&mut sums.block, terms);
 }
 
-/// From so many robots on their own kurtosis tells how well their variance is known.
+/// Number of robots from which their kurtosis is good enough for standard errors of variances.
 const FEW: f64 = 30.0;
 
 fn measured(sums: &[f64; QUANTITIES], n: f64) -> Measured {
@@ -300,7 +301,8 @@ fn measured(sums: &[f64; QUANTITIES], n: f64) -> Measured {
         let m4 = fourth - 4.0 * m * cube + 6.0 * m * m * square - 3.0 * m * m * m * m;
         let kurtosis = if m2 > 0.0 { m4 / (m2 * m2) } else { f64::NAN };
         let own = no_less_than_none(kurtosis - 1.0) / n;
-        // A few have no kurtosis to speak of, two always 1: as of normal ones then, at least. Not by `f64::max`, which takes NaN for the lesser.
+        // The kurtosis of a few robots is unreliable (of two it is always 1): at least that of a normal distribution is
+        // taken. `f64::max` would ignore NaN.
         let least = if n < FEW { 2.0 / (n - 1.0) } else { 0.0 };
         if own < least { least.sqrt() } else { own.sqrt() }
     });

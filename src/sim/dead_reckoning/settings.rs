@@ -1,4 +1,4 @@
-//! What a user sets of Dead Reckoning.
+//! Settings of Dead Reckoning.
 
 use crate::models::{Compounding, VelocityAlphas, VelocityCmd, VelocityModel};
 use crate::noise::NoiseKind;
@@ -15,7 +15,7 @@ impl Words for Compounding {
 pub enum NoisePer {
     /// Each step, as in the chapter. More and shorter steps along the same path add less noise in total.
     Step,
-    /// The whole path driven as one command; each of n steps has an n-th of its variance.
+    /// The whole path, driven as one command. Each of n steps has 1/n of its variance.
     Path,
 }
 
@@ -71,7 +71,7 @@ impl Settings {
         self.heading_level().get()
     }
 
-    /// The noise of one step.
+    /// Returns the noise of one step.
     pub fn model(&self) -> VelocityModel {
         let share = match self.per {
             NoisePer::Step => 1.0,
@@ -84,7 +84,8 @@ impl Settings {
         }
     }
 
-    /// Whether rollouts under these settings are those under others, to the last bit, however many there are and whatever is looked at.
+    /// Tells whether rollouts under both settings are equal to the last bit. Numbers of robots and the selected step do
+    /// not matter.
     pub(super) fn drives_as(&self, other: &Self) -> bool {
         let Self { step, compounding, samples, .. } = *other;
         // A zero that is negative equals one that is not, and leads to other zeros.
@@ -97,7 +98,7 @@ impl Settings {
 }
 
 impl Rules for Settings {
-    /// A path that becomes shorter than what is looked at is looked at where it ends.
+    /// If the path gets shorter than the selected step, its last step is selected.
     fn settle(&mut self, _: &Self, named: &[&str]) {
         if !named.contains(&"step") {
             self.step = self.step.min(self.steps);
@@ -109,7 +110,7 @@ impl Rules for Settings {
     }
 }
 
-/// Settings worth starting from, by name: what the path is made of.
+/// Named settings of the path.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Preset {
     pub name: &'static str,
@@ -129,12 +130,7 @@ pub const PRESETS: [Preset; 4] = [
     preset("straight", [1.0, 0.0, 0.2], 20, 0.02),
 ];
 
-const fn preset(
-    name: &'static str,
-    [v, omega, dt]: [f64; 3],
-    steps: u32,
-    heading: f64,
-) -> Preset {
+const fn preset(name: &'static str, [v, omega, dt]: [f64; 3], steps: u32, heading: f64) -> Preset {
     let [h, last] = [heading, heading / 4.0];
     Preset {
         name,

@@ -42,7 +42,7 @@ impl StraightGrowth {
             along,
             across,
             along_first_order: durations.iter().map(|dt| alpha1 * v * v * dt * dt).collect(),
-            // A turn by φ at half the way of an arc puts its end ½vΔt·φ aside.
+            // A turn by φ at half the way of an arc displaces its end sideways by ½vΔt·φ.
             across_first_order: (durations.iter())
                 .map(|dt| alpha3 * v * v * dt * dt * (0.5 * v * dt) * (0.5 * v * dt))
                 .collect(),

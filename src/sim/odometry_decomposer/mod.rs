@@ -11,19 +11,18 @@ use crate::geom::se2::SE2;
 use crate::models::{ExecutedLegs, LegVariances, OdomDelta, OdometryRule};
 use nalgebra::Vector3;
 
-/// How the frame of the odometry moves in the world: slowly and along a bend, as wheels of not quite the size that they are
-/// taken for let it (m/s, m/s, rad/s).
+/// Velocity of the odometry frame in the world (m/s, m/s, rad/s): a slow bend, as with slightly wrong wheel diameters.
 const DRIFT_TWIST: [f64; 3] = [0.015, 0.008, -0.01];
 
-/// Points of a curve at most; each costs a microsecond.
+/// Maximum number of points of a curve. Each takes a microsecond.
 pub const MAX_CURVE_POINTS: u64 = 10_000;
 
-/// What one rule makes of the reading: its legs, and the standard deviations of their noises.
+/// Legs of the reading under one rule, and the standard deviations of their noises.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RuleFigures {
     pub rule: OdometryRule,
     pub legs: OdomDelta,
-    /// rad, m, rad, m: of the three legs, and across the second.
+    /// Standard deviations of the three legs, and across the second: rad, m, rad, m.
     pub deviations: [f64; 4],
     /// Standard deviation across the measured bearing, m.
     pub cross_track: f64,
@@ -31,7 +30,7 @@ pub struct RuleFigures {
     pub heading: f64,
 }
 
-/// What the outcomes shown say, beside what is exact under the present rule. NaN without any.
+/// Statistics of the outcomes shown, and exact values under the current rule. NaN without outcomes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(
     target_arch = "wasm32",
@@ -46,18 +45,18 @@ pub struct Stats {
     /// Standard error of the cross track, m.
     pub cross_track_error: f64,
     pub exact_cross_track: f64,
-    /// How far the first rotation's standard deviation moves the end of the drive: δ_trans·σ_rot1, m.
+    /// Standard deviation (m) of the end of the drive due to the first rotation: δ_trans·σ_rot1.
     pub lever: f64,
-    /// Root mean square of the turn made but for the measured one, rad.
+    /// Root mean square of the difference between the turn made and the measured one, rad.
     pub heading: f64,
     /// Standard error of the heading, rad.
     pub heading_error: f64,
     pub exact_heading: f64,
-    /// Exact heading if the two rotations were independent.
+    /// Exact standard deviation of the heading if the two rotations were independent.
     pub independent_heading: f64,
 }
 
-/// The odometry in the world, whose frame has drifted, and the legs that are read of it there.
+/// Odometry poses in the world, where their frame has drifted, and the legs computed from them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Drifted {
     pub frame: SE2,
@@ -66,20 +65,20 @@ pub struct Drifted {
     pub legs: OdomDelta,
 }
 
-/// A point of the curves against the length of the drive.
+/// Point of the curves of standard deviations against the length of the drive.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CurvePoint {
-    /// m.
+    /// Length of the drive, m.
     pub trans: f64,
     /// Standard deviation across the bearing, m.
     pub cross_track: f64,
-    /// The lever alone, m.
+    /// Contribution of the first rotation alone, m.
     pub lever: f64,
     /// Standard deviation of the drive's length, m.
     pub along: f64,
 }
 
-/// The simulation behind the widget: settings, draws, and the outcomes shown.
+/// Simulation of the widget: settings, draws, and the outcomes shown.
 #[derive(Clone, Debug)]
 pub struct OdometryDecomposer {
     settings: Settings,
@@ -140,7 +139,7 @@ impl OdometryDecomposer {
         self.shown
     }
 
-    /// Number of outcomes that are added within a few milliseconds: all of them.
+    /// Returns the number of outcomes that can be added within a few milliseconds: all of them.
     pub fn block(&self) -> usize {
         self.settings.samples
     }
@@ -157,12 +156,12 @@ impl OdometryDecomposer {
         self.poses = self.executed(self.shown).map(|executed| executed.poses(&start)[3]).collect();
     }
 
-    /// What odometry read: the motion from one of its poses to the other.
+    /// Returns the odometry reading: the motion from the first odometry pose to the second.
     pub fn reading(&self) -> OdomDelta {
         OdomDelta::from_poses(&self.start(), &self.settings.to.into())
     }
 
-    /// The legs of the reading under the present rule.
+    /// Returns the legs of the reading under the current rule.
     pub fn legs(&self) -> OdomDelta {
         self.settings.rule.legs(&self.reading())
     }
@@ -175,7 +174,7 @@ impl OdometryDecomposer {
         self.settings.rule.variances(&self.reading(), &self.settings.alphas)
     }
 
-    /// What happened in each of the first `count` outcomes.
+    /// Returns the executed legs of each of the first `count` outcomes.
     fn executed(&self, count: usize) -> impl Iterator<Item = ExecutedLegs> + Clone + '_ {
         let rho = self.settings.correlation;
         let (legs, variances) = (self.legs(), self.variances());
@@ -186,12 +185,13 @@ impl OdometryDecomposer {
         })
     }
 
-    /// Where each outcome shown ends, in sample order.
+    /// Returns the end pose of each outcome shown, in sample order.
     pub fn poses(&self) -> &[SE2] {
         &self.poses
     }
 
-    /// The legs without noise: the start, the robot turned, at the end of its drive, and turned again.
+    /// Returns the poses of the noise-free legs: at the start, after the first rotation, after the drive, after the
+    /// second rotation.
     pub fn linkage(&self) -> [SE2; 4] {
         ExecutedLegs { legs: self.legs(), strafe: 0.0 }.poses(&self.start())
     }
@@ -202,7 +202,7 @@ impl OdometryDecomposer {
         self.executed(count.min(self.shown)).map(|executed| executed.poses(&start)).collect()
     }
 
-    /// The robot on its way, in the phase that is set.
+    /// Returns the pose of the robot at the selected phase of the motion.
     pub fn robot(&self) -> SE2 {
         let share = |before: f64| (self.settings.phase - before).clamp(0.0, 1.0);
         let OdomDelta { rot1, trans, rot2 } = self.legs();
@@ -210,7 +210,7 @@ impl OdometryDecomposer {
         legs.apply(&self.start())
     }
 
-    /// What each rule makes of the reading, with the present α's.
+    /// Returns the legs and noises of the reading under each rule, with the current α's.
     pub fn rules(&self) -> [RuleFigures; 4] {
         let Settings { alphas, noise, correlation, .. } = self.settings;
         let reading = self.reading();
@@ -253,7 +253,8 @@ impl OdometryDecomposer {
         }
     }
 
-    /// The spreads against the length of the drive, from 0 to `longest` (m), both rotations as they were measured.
+    /// Returns the standard deviations for lengths of the drive from 0 to `longest` (m), with both rotations as
+    /// measured.
     pub fn curve(&self, longest: f64, count: usize) -> Vec<CurvePoint> {
         let Settings { rule, alphas, noise, .. } = self.settings;
         let reading = self.reading();
@@ -272,14 +273,14 @@ impl OdometryDecomposer {
             .collect()
     }
 
-    /// The odometry poses in the world, where their frame has moved by exp(t·d) in the time t of the drift.
+    /// Returns the odometry poses in the world. Their frame has moved by exp(t·d) in the drift time t.
     pub fn drifted(&self) -> Drifted {
         let frame = SE2::exp(&(Vector3::from(DRIFT_TWIST) * self.settings.drift));
         let (from, to) = (frame * self.start(), frame * SE2::from(self.settings.to));
         Drifted { frame, from, to, legs: self.settings.rule.legs(&OdomDelta::from_poses(&from, &to)) }
     }
 
-    /// The outcome shown that ends nearest to a point (m) and within `radius` of it.
+    /// Returns the outcome shown that ends nearest to a point (m), within `radius`.
     pub fn nearest(&self, target: [f64; 2], radius: f64) -> Option<usize> {
         let mut nearest = Nearest::new(target, [radius, radius]);
         self.poses.iter().for_each(|pose| nearest.see([pose.x(), pose.y()]));
@@ -287,7 +288,8 @@ impl OdometryDecomposer {
     }
 }
 
-/// Root mean square of what has the mean 0, and its standard error by the delta method: √((m₄ − m₂²)/n)/(2√m₂).
+/// Returns the root mean square of values with mean 0, and its standard error by the delta method: √((m₄ −
+/// m₂²)/n)/(2√m₂).
 fn spread(values: impl Iterator<Item = f64>, count: usize) -> [f64; 2] {
     if count == 0 {
         return [f64::NAN; 2];

@@ -1,4 +1,4 @@
-//! What a user sets of the Odometry Decomposer.
+//! Settings of the Odometry Decomposer.
 
 use crate::geom::se2::SE2;
 use crate::models::{OdometryRule, RuleAlphas};
@@ -11,7 +11,7 @@ impl Words for OdometryRule {
         &[("thrun", Self::Table), ("nav2", Self::Nav2), ("beluga", Self::Beluga), ("omni", Self::Omni)];
 }
 
-/// A pose in the frame of the odometry.
+/// Pose in the odometry frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OdometryPose(pub [f64; 3]);
 
@@ -37,16 +37,16 @@ impl Settable for RuleAlphas {
     }
 }
 
-/// All of them are moved within a frame, and drawn one by one: more would be one blot.
+/// Maximum number of outcomes. All of them move within a frame, and more dots would not be distinguishable.
 pub const MAX_SAMPLES: u64 = 5000;
 
-/// Up to minus and plus one.
+/// Range of the correlation.
 const CORRELATION: RangeInclusive<f64> = -1.0..=1.0;
 
-/// From the start to the end of the three legs.
+/// Range of the phase, from the start to the end of the three legs.
 const PHASE: RangeInclusive<f64> = 0.0..=3.0;
 
-/// Up to eleven days, as of other durations.
+/// Range of the drift time, up to eleven days like other durations.
 const DRIFT: RangeInclusive<f64> = 0.0..=1e6;
 
 settings! {
@@ -83,7 +83,7 @@ pub const ALPHA_SENTENCES: [&str; 5] =
 
 impl Rules for Settings {}
 
-/// A reading worth starting from.
+/// Reading of a preset.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Preset {
     pub name: &'static str,
@@ -95,13 +95,14 @@ const fn preset(name: &'static str, to: [f64; 3]) -> Preset {
     Preset { name, from: OdometryPose([0.0; 3]), to: OdometryPose(to) }
 }
 
-/// Driving backwards, which the rules disagree about: the reading at the opening.
+/// Drive in reverse, on which the rules disagree. This is the initial reading.
 pub const REVERSE: Preset = preset("reverse", [-1.2, -0.3, 0.1]);
 
-/// All three legs, then one or two of them, and readings that the rules disagree about: driving backwards, and jitter of half a centimetre.
+/// Readings with all three legs, with one or two of them, and readings on which the rules disagree: a drive in reverse,
+/// and jitter of half a centimetre.
 pub const PRESETS: [Preset; 6] = [
     preset("all", [1.2, 1.0, 1.2]),
-    // Along (4, 3), by the angle of that triangle.
+    // Heading of the direction (4, 3).
     preset("turn-drive", [1.2, 0.9, 0.6435]),
     preset("drive-turn", [1.5, 0.0, 1.0]),
     REVERSE,

@@ -15,7 +15,7 @@ use std::ops::Range;
 pub struct Attempt {
     pub pose: SE2,
     pub accepted: bool,
-    /// True if the robot fits where it ends; and all along the way.
+    /// True if the robot collides with nothing at its end pose, and along the whole path.
     pub end_free: bool,
     pub path_free: bool,
 }
@@ -75,7 +75,7 @@ impl<'a> Driver<'a> {
         });
     }
 
-    /// The arcs driven in an attempt.
+    /// Returns the arcs that are driven in an attempt.
     pub fn arcs(&self, index: usize) -> Vec<Arc> {
         let Sampler::SubStepped(steps) = self.settings.sampler else {
             return vec![self.judging.arc(self.draws.of(index))];
@@ -88,7 +88,8 @@ impl<'a> Driver<'a> {
     fn drive_parts(&self, index: usize, steps: u32, along: &mut dyn FnMut(&Arc)) -> (Attempt, Cost) {
         let Settings { command, conditioned, seed, .. } = *self.settings;
         let start = self.settings.start();
-        // How many numbers an attempt uses depends on the walls, so that each has a stream of its own.
+        // The walls determine how many random numbers an attempt uses. Each attempt has its own stream, so that the
+        // others do not change.
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed ^ (index as u64).rotate_left(32));
         if !conditioned {
             let (end, path_free) = self.model.sample_unconditioned(&command, &start, &mut rng, along);

@@ -1,4 +1,4 @@
-//! Map Squeeze: motion conditioned on a floor plan, and what the condition cannot see.
+//! Map Squeeze: motion conditioned on a floor plan, and paths through walls that the condition misses.
 
 mod driver;
 mod picture;
@@ -27,17 +27,18 @@ use rand::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
 use tally::share;
 
-/// Accepted samples of a trial, times parts: enough to time, few enough not to freeze a page.
+/// Number of accepted samples, times parts, in a timing trial: long enough to measure, short enough not to block the
+/// page.
 pub const MAX_TRIAL: u64 = 100_000;
 
-/// The simulation behind the widget: a map, settings, draws, and the attempts shown.
+/// Simulation of the widget: a map, settings, draws, and the attempts shown.
 #[derive(Clone, Debug)]
 pub struct MapSqueeze {
     plan: FloorPlan,
     settings: Settings,
     draws: Draws,
     shown: Shown,
-    /// The latest picture, which the page looks at in place.
+    /// Latest picture. The page reads it in place.
     picture: Vec<[u8; 4]>,
 }
 
@@ -49,11 +50,11 @@ struct Shown {
     gave_up: bool,
 }
 
-/// Draws a part of a motion on average before the machine gives up: an acceptance of 5 % over all attempts. Fewer
-/// would give up where a patient filter still works; more would keep a page waiting for seconds.
+/// Average number of draws for a part of a motion at which the machine gives up: an acceptance of 5 %. With a smaller
+/// limit it would stop where a filter still works; with a larger one a page would wait for seconds.
 const PATIENCE: usize = 20;
 
-/// Parts of motions in a block, which takes some milliseconds.
+/// Number of parts of motions in a block, which takes some milliseconds.
 const BLOCK_PARTS: usize = 4096;
 
 impl MapSqueeze {
@@ -90,8 +91,8 @@ impl MapSqueeze {
         &self.plan
     }
 
-    /// Puts the robot into another map, where it stands and with the luck it has. As many attempts are shown as before; all of
-    /// them if the machine had given up.
+    /// Replaces the map, and keeps the start pose and the draws. The number of attempts stays, or becomes the full
+    /// number if the machine had given up.
     pub fn set_plan(&mut self, plan: FloorPlan) {
         self.plan = plan;
         let count = if self.gave_up() { self.settings.samples } else { self.shown() };
@@ -127,7 +128,7 @@ impl MapSqueeze {
         settings.check()?;
         let changed = self.plan.grid().filter(|_| settings.unknown != self.settings.unknown);
         let plan = changed.map(|grid| FloorPlan::from_grid(grid.clone().with_unknown(settings.unknown)));
-        // The only way in which a grid that was accepted can be refused.
+        // This is the only reason for which an accepted grid can be refused.
         let plan = plan.transpose().map_err(|_| SettingsError {
             field: "unknown".to_owned(),
             value: f64::NAN,
@@ -154,7 +155,8 @@ impl MapSqueeze {
         (self.shown.tally, self.shown.gave_up) = (Tally::default(), false);
     }
 
-    /// Draws up to `count` more samples; returns the number of all. Gives up where nearly every draw collides: further calls draw none.
+    /// Draws up to `count` more samples, and returns the total. If nearly every draw collides, the machine gives up,
+    /// and further calls draw none.
     pub fn add_samples(&mut self, count: usize) -> usize {
         let goal = self.shown().saturating_add(count).min(self.settings.samples);
         self.draws.restart(self.settings.seed, NoiseKind::Normal);
@@ -262,7 +264,7 @@ impl MapSqueeze {
         Ok(total)
     }
 
-    /// A pose in the open, see [`FloorPlan::open_place`].
+    /// Returns a free pose, see [`FloorPlan::open_place`].
     pub fn open_place(&self) -> Option<SE2> {
         self.plan.open_place(self.settings.clearance)
     }
@@ -273,19 +275,19 @@ impl MapSqueeze {
         self.plan.point_free([x, y], self.settings.clearance).free
     }
 
-    /// The arc that the command drives without noise.
+    /// Returns the noise-free arc of the command.
     pub fn commanded(&self) -> Arc {
         let VelocityCmd { v, omega, dt } = self.settings.command;
         Arc { start: self.settings.start(), length: v * dt, turn: omega * dt }
     }
 }
 
-/// Draws at most for so many parts of motions, before the machine gives up.
+/// Returns the maximum number of draws for this many parts of motions, after which the machine gives up.
 pub fn most_draws(parts: usize) -> usize {
     MAX_DRAWS + PATIENCE * parts
 }
 
-/// The model under these settings in a plan, by a sampler.
+/// Returns the conditioned model with these settings in a plan, by a sampler.
 fn conditioned<'a>(settings: &Settings, plan: &'a FloorPlan, sampler: Sampler) -> MapConditioned<'a> {
     let model = VelocityModel { alphas: VelocityAlphas(settings.alphas), noise: NoiseKind::Normal };
     MapConditioned { model, plan, clearance: settings.clearance, sampler }

@@ -1,16 +1,16 @@
-//! Many attempts as a density, by what became of them.
+//! Density map of attempts, coloured by their outcome.
 
 use super::driver::Attempt;
 use crate::sim::cloud::picture::{Ramp, shade};
 use crate::sim::cloud::views::Grid;
 
-/// Fate of an attempt in the picture. Of kinds that are as many in a cell, the last one shows.
+/// Outcome of an attempt in the picture. If several kinds are equally frequent in a cell, the last one is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     Rejected,
-    /// Accepted, and the way there was free.
+    /// Accepted, and the path was free.
     Free,
-    /// Accepted although the way there was not free.
+    /// Accepted, although the path was blocked.
     ThroughWall,
 }
 
@@ -27,7 +27,7 @@ impl Attempt {
     }
 }
 
-/// Paints where attempts end, row by row from the top.
+/// Paints the ends of attempts, row by row from the top.
 pub fn paint(attempts: &[Attempt], grid: &Grid, ramps: &[Ramp; KINDS]) -> Vec<[u8; 4]> {
     let Grid { min, max, columns, rows } = *grid;
     let mut cells = vec![[0u32; KINDS]; columns * rows];

@@ -1,4 +1,4 @@
-//! What a user sets of Map Squeeze, but for the map.
+//! Settings of Map Squeeze, except for the map.
 
 use crate::geom::se2::SE2;
 use crate::map::{Sampler, Unknown};
@@ -15,7 +15,7 @@ impl Words for Sampler {
     const WORDS: &'static [(&'static str, Self)] = &[
         ("endpoint", Self::Endpoint),
         ("whole-arc", Self::WholeArc),
-        // Its parts are those of the setting `steps`.
+        // Sub-stepped sampler. The setting `steps` is its number of parts.
         ("sub-stepped", Self::SubStepped(1)),
     ];
 }
@@ -40,13 +40,14 @@ impl Settable for [f64; 6] {
     }
 }
 
-/// Where the presets start, in the apartment.
+/// Start positions of the presets in the apartment.
 pub const PRESETS: [(&str, [f64; 3]); 3] =
     [("doorway", [2.05, 2.6, FRAC_PI_2]), ("wall", [3.3, 2.6, FRAC_PI_2]), ("corridor", [1.4, 4.4, 0.0])];
 
-/// A million attempts take 56 MB, and some seconds where the map is hard.
+/// A million attempts take 56 MB, and some seconds in a difficult map.
 pub const MAX_SAMPLES: usize = 1_000_000;
-/// Parts of a command: at a thousand the sampler is as good as judging the arc, and a thousand times as dear.
+/// Maximum number of parts of a command. With a thousand the sampler is as exact as checking the arc, and a thousand
+/// times slower.
 pub const MAX_STEPS: u64 = 1000;
 
 settings! {
@@ -88,7 +89,7 @@ impl Settings {
         self.noise_level().get()
     }
 
-    /// The parts that an attempt is made of.
+    /// Returns the number of parts of an attempt.
     pub fn parts(&self) -> u32 {
         self.sampler.parts()
     }
@@ -100,7 +101,7 @@ impl Settings {
 }
 
 impl Rules for Settings {
-    /// `steps` is kept while another sampler is in use.
+    /// `steps` keeps its value while another sampler is selected.
     fn settle(&mut self, _: &Self, _: &[&str]) {
         self.sampler = self.sampler.in_parts(self.steps);
     }

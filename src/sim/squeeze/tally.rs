@@ -9,12 +9,12 @@ pub struct Tally {
     pub draws: usize,
     pub wall_tests: usize,
     pub accepted: usize,
-    /// Accepted although the way there was blocked.
+    /// Number of attempts accepted although the path was blocked.
     pub through_wall: usize,
 }
 
 impl Tally {
-    /// The share of accepted draws: of an attempt of k parts, k draws are accepted.
+    /// Returns the fraction of accepted draws. In an accepted attempt of k parts, k draws were accepted.
     pub fn acceptance_rate(&self, steps: u32) -> f64 {
         share(self.accepted * steps as usize, self.draws)
     }
@@ -23,26 +23,26 @@ impl Tally {
         share(self.through_wall, self.accepted)
     }
 
-    /// The 95 % interval of the share through a wall (Wilson, 1927): right also for shares of 0 and 1.
+    /// Returns the 95 % Wilson interval of the fraction through a wall, which is also valid at 0 and 1.
     pub fn through_wall_interval(&self) -> [f64; 2] {
         let (n, p) = (self.accepted as f64, self.through_wall_rate());
         // The normal quantile of 97.5 %.
         let z = NoiseKind::Normal.quantile(0.475);
         let (middle, scale) = (p + z * z / (2.0 * n), 1.0 + z * z / n);
         let half = z * (p * (1.0 - p) / n + z * z / (4.0 * n * n)).sqrt();
-        // At shares of 0 and 1 the interval ends there, which rounding would miss.
+        // At 0 and 1 the interval ends exactly there; rounding would miss it.
         let low = if self.through_wall == 0 { 0.0 } else { (middle - half) / scale };
         let high = if self.through_wall == self.accepted { 1.0 } else { (middle + half) / scale };
         if n > 0.0 { [low, high] } else { [0.0, 1.0] }
     }
 }
 
-/// A share, NaN of nothing.
+/// Returns a quotient, or NaN if the denominator is 0.
 pub(super) fn share(part: usize, all: usize) -> f64 {
     part as f64 / all as f64
 }
 
-/// Statistics of the attempts shown. Shares of nothing are NaN.
+/// Statistics of the attempts shown. Fractions of 0 attempts are NaN.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(
     target_arch = "wasm32",
@@ -61,7 +61,7 @@ pub struct Stats {
     /// 95 % interval of the rate.
     pub through_wall_interval: [f64; 2],
     pub draws_per_accepted: f64,
-    /// Walls whose distance was computed; most verdicts need none.
+    /// Number of walls whose distance was computed; most collision checks need none.
     pub wall_tests_per_accepted: f64,
     /// True if the machine stopped short of its samples.
     pub gave_up: bool,

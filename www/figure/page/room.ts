@@ -4,16 +4,16 @@ import { css, unsafeCSS } from 'lit';
 import { likedWidth } from '../../ui/width.ts';
 
 /** Bounds of the width classes, em, where the layout changes. */
-const WIDTHS = [20, 30, 38, 56, 80];
+const WIDTHS = [20, 30, 38, 46, 56, 80];
 
 /** Heights by tag and width class, at both bounds of the class, in em: lines just above measurements in a window 900 px high. */
 const HEIGHTS: Record<string, ([number, number] | string)[]> = {
-  'banana-machine': [[85.9, 86.1], [70.9, 63.5], [51.7, 54], [50.2, 55.5]],
-  'map-squeeze': [[81.7, 85], [79.7, 78.9], [43.2, 48.8], [50.3, 44.1]],
-  'arc-anatomy': [[80.8, 70.7], [73.8, 68.2], [42.2, 56.5], [50.9, 47.9]],
-  'odometry-decomposer': [[104.5, 108.5], [94.4, 95], 'clamp(44.8em, 100svh - 0.3em, 56.3em)', 'clamp(44.7em, 100svh - 0.4em, 51.7em)'],
-  'dead-reckoning': [[95.8, 111.4], [58.4, 52.6], [51.4, 50.7], [38.7, 42.8]],
-  'alpha-calibrator': [[88.7, 104.6], [100.9, 92.6], [46.8, 52.5], [36.4, 45.1]],
+  'banana-machine': [[86, 86.2], [71.7, 64.3], [53.2, 50.3], [50.6, 54], [50.3, 55.6]],
+  'map-squeeze': [[83.9, 87], [80.8, 82.2], [44.1, 45], [46, 48.6], [50.3, 44.1]],
+  'arc-anatomy': [[81, 70.9], [73.9, 68.5], [42.2, 48.5], [50.9, 50.9], [50.9, 47.9]],
+  'odometry-decomposer': [[101.5, 112.9], [93.4, 96.5], 'clamp(44.9em, 100svh - 0.1em, 56.1em)', 'clamp(44.9em, 100svh - 0.1em, 56.1em)', 'clamp(45.1em, 100svh + 0.1em, 52.7em)'],
+  'dead-reckoning': [[95.9, 111.5], [63.8, 54.2], [53.8, 45.5], [45, 50.7], [41, 42.1]],
+  'alpha-calibrator': [[88.8, 104.7], [101.2, 92.4], [45.4, 49.6], [49.1, 50.9], [36.4, 45.1]],
 };
 
 /** Returns the height for any width, as a maximum to which each class adds −10⁶ times the distance outside of it. */

@@ -42,14 +42,14 @@ export const de: typeof import('./en.ts').en = {
     ends: 'Hier endet der Boden',
   },
   legsTitle: 'Was die Odometrie misst: drehen, fahren, drehen',
-  worldTitle: 'In der Welt: Das Odometriesystem driftet',
+  worldTitle: 'In der Welt: Die Odometrie driftet',
   overlays: {
     legs: 'Messung',
     deviation: '± *σ*',
     outcomes: 'Ausgänge',
     prediction: 'Vorhersage *x*',
     odometry: 'Odometrie *x̄*',
-    difference: 'Unterschied *x̄* − *x*',
+    difference: 'Drift *x̄* − *x*',
   },
   readouts: {
     lever: 'allein aus der ersten Drehung, *δ*_{trans} · *σ*(*δ*_{rot1})',
@@ -60,8 +60,8 @@ export const de: typeof import('./en.ts').en = {
     independent: (exact, independent) => `genau ${exact}; unabhängig wären es ${independent}`,
   },
   table: {
-    caption: 'Standardabweichungen des Rauschens jedes Teils und des Endes, mit denselben *α*. Fett auf Farbe: anders als in Tabelle 5.6 aus *Probabilistic Robotics*.',
-    columns: ['*δ*_{rot1} (rad)', '*δ*_{trans} (m)', '*δ*_{rot2} (rad)', 'seitwärts (m)', 'Ende, quer (m)', 'Ende, *θ* (rad)'],
+    caption: 'Standardabweichungen: des Rauschens jedes Teils, dann des Endes, quer zum Weg und in *θ*. Fett auf Farbe: anders als in Tabelle 5.6 aus *Probabilistic Robotics*.',
+    columns: ['*δ*_{rot1} (rad)', '*δ*_{trans} (m)', '*δ*_{rot2} (rad)', 'seitwärts (m)', 'quer (m)', '*θ* (rad)'],
   },
   caption: {
     lever: (deviation, trans, lever) =>
@@ -76,7 +76,7 @@ export const de: typeof import('./en.ts').en = {
     still: 'Ohne Rauschen ist jeder Ausgang die Messung.',
   },
   worldCaption: (distance) =>
-    `Das Odometriesystem driftet, die Vorhersage bleibt: Nur die Bewegung von *x̄*_{t−1} nach *x̄*_{t} geht ein. Als Ort ist *x̄*_{t} falsch: *x*_{t} ist ${distance} m entfernt.`,
+    `Nur die Bewegung von *x̄*_{t−1} nach *x̄*_{t} geht ein: Die Vorhersage driftet nicht. Der Ort *x̄*_{t} selbst ist um ${distance} m falsch.`,
   hinges:
     'Die Rauschmodelle ziehen beide Drehungen unabhängig. Eine Korrelation *ρ* lässt jeder ihr Rauschen und jedem Ausgang seinen Ort; die Richtungen streuen von der Differenz der beiden Abweichungen (*ρ* = −1) bis zu ihrer Summe (*ρ* = 1). Bei *ρ* = 0 sieht man beides nicht.',
   plot: {

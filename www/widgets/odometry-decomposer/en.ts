@@ -42,14 +42,14 @@ export const en = {
     ends: 'The floor ends here',
   },
   legsTitle: 'What odometry reads: turn, drive, turn',
-  worldTitle: 'In the world: the odometry frame drifts',
+  worldTitle: 'In the world: odometry drifts',
   overlays: {
     legs: 'reading',
     deviation: '± *σ*',
     outcomes: 'outcomes',
     prediction: 'prediction *x*',
     odometry: 'odometry *x̄*',
-    difference: 'difference *x̄* − *x*',
+    difference: 'drift *x̄* − *x*',
   },
   readouts: {
     lever: 'from the first rotation alone, *δ*_{trans} · *σ*(*δ*_{rot1})',
@@ -60,8 +60,8 @@ export const en = {
     independent: (exact, independent) => `exactly ${exact}; if independent ${independent}`,
   },
   table: {
-    caption: 'Standard deviations of each part’s noise, and of the end, with the same *α*. Bold on a tint: not as in Table 5.6 of *Probabilistic Robotics*.',
-    columns: ['*δ*_{rot1} (rad)', '*δ*_{trans} (m)', '*δ*_{rot2} (rad)', 'sideways (m)', 'end, across (m)', 'end, *θ* (rad)'],
+    caption: 'Standard deviations: of each part’s noise, then of the end, across the path and in *θ*. Bold on a tint: not as in Table 5.6 of *Probabilistic Robotics*.',
+    columns: ['*δ*_{rot1} (rad)', '*δ*_{trans} (m)', '*δ*_{rot2} (rad)', 'sideways (m)', 'across (m)', '*θ* (rad)'],
   },
   caption: {
     lever: (deviation, trans, lever) =>
@@ -76,7 +76,7 @@ export const en = {
     still: 'Without noise every outcome is the reading.',
   },
   worldCaption: (distance) =>
-    `The odometry frame drifts, the prediction stays: only the motion from *x̄*_{t−1} to *x̄*_{t} enters. As a place, *x̄*_{t} is wrong: it is ${distance} m from *x*_{t}.`,
+    `Only the motion from *x̄*_{t−1} to *x̄*_{t} enters: the prediction does not drift. The place *x̄*_{t} itself is off by ${distance} m.`,
   hinges:
     'The noise models draw both rotations independently. A correlation *ρ* leaves the noise of each as it is and every outcome in its place; the headings spread from the difference of the two deviations (*ρ* = −1) to their sum (*ρ* = 1). At *ρ* = 0 neither is seen.',
   plot: {

@@ -61,7 +61,7 @@ const own = css`
 
   @container (min-width: 56em) {
     :host(:not([presentation])) .stage {
-      height: clamp(17em, 100svh - 28em, min(45svh, 24em));
+      height: clamp(16.4em, 100svh - 28.6em, min(45svh, 24em));
     }
   }
 

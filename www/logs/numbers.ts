@@ -8,9 +8,6 @@ const NOT_FINITE = /^(?:[+-]?(?:nan|inf(?:inity)?)|null|none|nat|na|n\/a|-)?$/i;
 
 const DECIMAL = /^\s*([+-]?)(\d+)(?:\.(\d*))?(?:[eE]([+-]?\d{1,3}))?\s*$/;
 
-/** Digits, with a point or without. */
-const PLAIN = /^\d+(?:\.\d*)?$/;
-
 const DATE = /^\s*(\d{4})[-/](\d{1,2})[-/](\d{1,2})(?:[T\s]+(\d{1,2}):(\d{2})(?::(\d{2})(?:[.,](\d+))?)?\s*(Z|UTC|GMT|[+-]\d{2}(?::?\d{2})?)?)?\s*$/i;
 
 /** Date as of German spreadsheets; the order of day and month with slashes is not clear. */
@@ -40,7 +37,7 @@ export function decimalAt(line: string, from: number, to: number): number {
     else return NaN;
   }
   if (value > Number.MAX_SAFE_INTEGER || first + (point < 0 ? 0 : 1) >= to) return NaN;
-  // Of two exact numbers, the quotient is rounded once.
+  // Division of exact numbers rounds once.
   if (point >= 0) value /= POWERS_OF_TEN[to - point - 1];
   return isNegative ? -value : value;
 }
@@ -60,12 +57,6 @@ export function numberOf(cell: string): number | undefined {
  * @returns NaN or undefined as `numberOf`
  */
 export function timeOf(cell: string, power: number): Time | undefined {
-  if (PLAIN.test(cell)) {
-    // Most times: the digits are split where the seconds end.
-    const point = cell.indexOf('.');
-    if (power === 0 && point > 0) return [Number(cell.slice(0, point)), Number(`${cell.slice(point)}0`)];
-    if (point < 0 && cell.length > power) return power === 0 ? [Number(cell), 0] : [Number(cell.slice(0, -power)), Number(`.${cell.slice(-power)}`)];
-  }
   const decimal = DECIMAL.exec(cell);
   if (!decimal) {
     const number = numberOf(cell);

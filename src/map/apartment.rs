@@ -5,9 +5,9 @@ use crate::geom::segment::Segment;
 /// Least x, least y, greatest x, greatest y, m.
 pub(super) const BOUNDS: [f64; 4] = [0.0, 0.0, 12.0, 9.0];
 
-/// In memory as a plan has them: put there one by one, they would be twice the bytes.
+/// Walls in the memory layout of a plan. Code that adds them one by one would take twice the bytes.
 pub(super) static WALLS: [Segment; 18] = [
-    // The shell.
+    // Outer walls.
     wall(0.0, 0.0, 12.0, 0.0),
     wall(12.0, 0.0, 12.0, 9.0),
     wall(12.0, 9.0, 0.0, 9.0),
@@ -21,7 +21,7 @@ pub(super) static WALLS: [Segment; 18] = [
     wall(0.0, 5.0, 2.8, 5.0),
     wall(3.7, 5.0, 7.4, 5.0),
     wall(8.3, 5.0, 12.0, 5.0),
-    // Between the rooms below and those above.
+    // Walls between the rooms below and above the corridor.
     wall(4.0, 0.0, 4.0, 3.8),
     wall(8.0, 0.0, 8.0, 3.8),
     wall(6.0, 5.0, 6.0, 9.0),
@@ -32,7 +32,7 @@ pub(super) static WALLS: [Segment; 18] = [
     wall(9.6, 7.4, 10.9, 7.4),
 ];
 
-/// From end to end, m.
+/// Ends of each wall, m.
 const fn wall(x0: f64, y0: f64, x1: f64, y1: f64) -> Segment {
     Segment { from: [x0, y0], to: [x1, y1] }
 }

@@ -1,4 +1,4 @@
-//! Motion conditioned on a map by rejection (Table 5.7), and what the condition looks at.
+//! Motion conditioned on a map by rejection sampling (Table 5.7), with three acceptance tests.
 
 use super::floor_plan::{FloorPlan, Verdict};
 use crate::geom::arc::{Arc, Departure, Driven};
@@ -14,22 +14,22 @@ use wide::f64x4;
 /// Condition for accepting a draw.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sampler {
-    /// The last pose of the draw is free: Table 5.7, which cannot see how the robot got there.
+    /// The last pose of the draw is free, as in Table 5.7. The path may lead through a wall.
     Endpoint,
     /// The whole arc driven is free.
     WholeArc,
-    /// The command is split into this many shorter ones (1 or more), each drawn until its last pose is free. As the
-    /// model has it, each part has noise of its own, so that the spread of the whole shrinks with √steps.
+    /// The command is split into this many shorter ones (1 or more), and each is drawn until its last pose is free.
+    /// Each part has its own noise, so that the total spread shrinks with √steps.
     SubStepped(u32),
 }
 
 impl Sampler {
-    /// The parts that a motion is made of.
+    /// Returns the number of parts of a motion.
     pub fn parts(self) -> u32 {
         if let Self::SubStepped(parts) = self { parts } else { 1 }
     }
 
-    /// This sampler, with so many parts if it makes any.
+    /// Returns this sampler with another number of parts, if it has any.
     pub fn in_parts(self, parts: u32) -> Self {
         if let Self::SubStepped(_) = self { Self::SubStepped(parts) } else { self }
     }
@@ -59,38 +59,38 @@ pub struct MapConditioned<'a> {
     pub sampler: Sampler,
 }
 
-/// One draw of the model that knows no map, and both verdicts on it.
+/// Draw of the model without a map, and the result of both collision tests.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Draw {
     pub pose: SE2,
-    /// The arc driven, (v̂, ω̂); `pose` is its end turned by γ̂Δt.
+    /// Arc driven with (v̂, ω̂); `pose` is its end turned by γ̂Δt.
     pub arc: Arc,
-    /// Verdict on the pose where it ends.
+    /// Result for the end pose.
     pub end: Verdict,
-    /// Verdict on the whole arc.
+    /// Result for the whole arc.
     pub path: Verdict,
 }
 
-/// An accepted motion and what it took.
+/// Accepted motion and its cost.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Accepted {
     pub pose: SE2,
-    /// True if the way there was free too: never false with [`Sampler::WholeArc`].
+    /// True if the whole path was free, as it always is with [`Sampler::WholeArc`].
     pub path_free: bool,
     pub cost: Cost,
 }
 
-/// Cost of rejection.
+/// Cost of rejection sampling.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(target_arch = "wasm32", derive(serde::Serialize), serde(rename_all = "camelCase"))]
 pub struct Cost {
     /// Draws of the model, accepted or not.
     pub draws: usize,
-    /// Walls measured to decide on them, see [`Verdict`].
+    /// Number of wall distances computed for the tests, see [`Verdict`].
     pub wall_tests: usize,
 }
 
-/// The robot is wedged: none of [`MAX_DRAWS`] draws in a row was accepted, or too few of many.
+/// No motion was accepted: [`MAX_DRAWS`] draws in a row were rejected, or too many in total.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Wedged(pub Cost);
 
@@ -102,11 +102,11 @@ impl fmt::Display for Wedged {
 
 impl std::error::Error for Wedged {}
 
-/// Draws before a robot counts as wedged: a tenth of a second's worth. An acceptance below one in ten thousand is no
-/// use to a filter; more draws would freeze a page.
+/// Number of rejected draws in a row after which the robot counts as wedged, about a tenth of a second. An acceptance
+/// below one in ten thousand is useless to a filter; more draws would block a page.
 pub const MAX_DRAWS: usize = 10_000;
 
-/// [`MapConditioned::judge`] of draws that leave one pose under one command.
+/// Collision tests of draws from one pose under one command, see [`MapConditioned::judge`].
 #[derive(Clone, Copy, Debug)]
 pub struct Judging<'a> {
     conditioned: &'a MapConditioned<'a>,
@@ -208,7 +208,7 @@ impl MapConditioned<'_> {
         Ok(Accepted { pose, path_free, cost })
     }
 
-    /// Cost of one accepted motion to a filter that deploys the sampler: of each draw, just the verdict that decides.
+    /// Returns the cost of one accepted motion in a filter: for each draw only the test that decides is made.
     pub fn cost<R: Rng + ?Sized>(&self, u: &VelocityCmd, x: &SE2, rng: &mut R) -> Result<Cost, Wedged> {
         let mut cost = Cost::default();
         self.drive(u, x, rng, &mut cost, &mut |_, _| ())?;
@@ -299,7 +299,7 @@ impl MapConditioned<'_> {
         self.judging(u, x).judge(unit_noise)
     }
 
-    /// For many draws from one pose: what they share is computed once.
+    /// Prepares tests of many draws from one pose: common terms are computed once.
     pub fn judging(&self, u: &VelocityCmd, x: &SE2) -> Judging<'_> {
         self.judging_part(self.part(u), x)
     }
@@ -308,7 +308,7 @@ impl MapConditioned<'_> {
         Judging { conditioned: self, part, from: Departure::new(*x), trigonometry: Trigonometry::default() }
     }
 
-    /// The verdict that decides on a draw.
+    /// Returns the result of the test that decides on a draw.
     pub fn deciding(&self, draw: &Draw) -> Verdict {
         if self.sampler == Sampler::WholeArc { draw.path } else { draw.end }
     }

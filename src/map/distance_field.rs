@@ -1,4 +1,4 @@
-//! Approximate distance of the nearest wall from everywhere on a map.
+//! Approximate distance to the nearest wall from any point of a map.
 
 use super::occupancy::OccupancyGrid;
 use super::wall_tree::WallTree;
@@ -6,8 +6,8 @@ use crate::geom::lanes::{ROUND, lanes};
 use std::f64::consts::FRAC_1_SQRT_2;
 use wide::f64x4;
 
-/// Square cells over the bounds of a map, and for each the least distance that any of its points has to a wall. It
-/// decides most questions about room without looking at a wall, at the same price however many there are.
+/// Square cells over the bounds of a map, each with the smallest distance of its points to a wall. Most collision tests
+/// need no other distance, and take the same time for any number of walls.
 #[derive(Clone, Debug)]
 pub(super) struct DistanceField {
     /// Least x and y.
@@ -20,28 +20,29 @@ pub(super) struct DistanceField {
     radius: f64,
     /// Uncertainty of the distance from the middle of a cell, m.
     blur: f64,
-    /// Row by row from the bottom, m. Negative where a wall passes through the cell or its neighbour, −∞ where the cell is
-    /// inside of an occupied one, [`UNKNOWN`] where nothing is known.
+    /// Distances row by row from the bottom, m. Negative if a wall passes through the cell or its neighbour, −∞ if the
+    /// cell is inside an occupied one, [`UNKNOWN`] if not computed.
     least: Vec<f32>,
 }
 
-/// Cells a wall, and of a map at least and at most. Fewer would leave more to be measured, more would take longer to
-/// fill: the apartment's cells have sides of 4 cm and take a millisecond, 2²⁰ cells have 4 MB. Under a fuzzer, which fills
-/// millions of fields, a few cells do: verdicts are the same.
+/// Number of cells for each wall, and smallest and largest number for a map. Fewer cells decide less, more take longer
+/// to fill: the apartment's cells have sides of 4 cm and take a millisecond; 2²⁰ cells take 4 MB. A fuzzer fills
+/// millions of fields and uses a few cells, with the same results of the tests.
 const CELLS_A_WALL: f64 = MIN_CELLS;
 const MIN_CELLS: f64 = if cfg!(fuzzing) { 64.0 } else { 4096.0 };
 const MAX_CELLS: f64 = 1_048_576.0;
 
-/// Walls, or nodes of them, that may be measured for a block, and for each of its cells besides. Where more are near, as in
-/// the middle of a star, the field would take seconds to fill; nothing is known there instead, and the tree is asked.
+/// Maximum number of walls or nodes that are measured for a block, and for each of its cells in addition. Where more
+/// are near, as in the middle of a star, filling would take seconds. The distance is then [`UNKNOWN`], and the tree is
+/// searched.
 const WALLS_A_BLOCK: usize = 32;
 const WALLS_A_CELL: usize = 3;
 
-/// Uncertainty of the distance from a block where there is a tree, as a share of its radius: walls that
-/// lie closer together are measured as one.
+/// Accepted error of the distance from a block, as a fraction of its radius, if there is a tree. Walls closer together
+/// than that are measured as one.
 const BLUR: f64 = 0.125;
 
-/// The lower bound where nothing is known.
+/// Lower bound of a distance that was not computed.
 const UNKNOWN: f32 = f32::MIN;
 
 /// A block of cells is not divided further when the nearest wall is this many times its radius away.
@@ -58,7 +59,7 @@ impl DistanceField {
         filling.field
     }
 
-    /// Half the diagonal of a cell, m: how well the field knows where the walls are.
+    /// Returns half the diagonal of a cell, m: the resolution of the field.
     pub fn radius(&self) -> f64 {
         self.radius
     }
@@ -66,27 +67,27 @@ impl DistanceField {
     /// A lower bound (m) on the distance from a point inside the bounds to the nearest wall.
     #[inline(always)]
     pub fn least(&self, [x, y]: [f64; 2]) -> f64 {
-        // A point that rounding has put a little outside belongs to the nearest cell.
+        // Rounding can move a point slightly outside; it belongs to the nearest cell.
         let column = (((x - self.corner[0]) * self.cells_per_metre) as u32 as usize).min(self.columns - 1);
         let row = ((y - self.corner[1]) * self.cells_per_metre) as u32 as usize;
         f64::from(self.least.get(row * self.columns + column).copied().unwrap_or(UNKNOWN))
     }
 
-    /// [`DistanceField::least`] of four points, told by their x and y.
+    /// As [`DistanceField::least`] for four points, as their x and y.
     #[inline(always)]
     pub fn least_of_four(&self, points: &[f64x4; 2]) -> f64x4 {
         let zero = f64x4::splat(0.0);
-        // Between two cells either will do, so that it does not matter which of them rounding takes.
+        // On the border of two cells both are correct, so that rounding may select either.
         let [column, row] = [0, 1].map(|axis| {
             let cell = (points[axis] - self.corner[axis]) * self.cells_per_metre - 0.5;
             cell.fast_max(zero).fast_min(f64x4::splat(self.last[axis])) + ROUND - ROUND
         });
-        // A whole number that is added to it becomes the last bits of the sum.
+        // Adding this number to a small whole number puts that number into the last bits of the sum.
         let cells = (row * self.columns as f64 + column + ROUND).to_array();
         lanes(|i| f64::from(self.least.get(cells[i].to_bits() as u32 as usize).copied().unwrap_or(UNKNOWN)))
     }
 
-    /// The upper bound (m) that comes with a lower one; −∞ inside of an occupied cell.
+    /// Returns the upper bound (m) that belongs to a lower bound; −∞ inside an occupied cell.
     pub fn most(&self, least: f64) -> f64 {
         // With the middle of the cell at distance d from the wall, `least` is d − radius and the upper bound d + radius.
         // In a block that was not divided d is known to d/8: at most (1 + 1/8)/(1 − 1/8) times as far.
@@ -101,12 +102,12 @@ struct Filling {
     field: DistanceField,
     rows: usize,
     side: f64,
-    /// More than the rounding of any coordinate on the map, m.
+    /// Bound on the rounding error of any coordinate on the map, m.
     slack: f64,
-    /// Candidates for the nearest wall of the blocks that are to be filled, for one after the other.
+    /// Stack of candidates for the nearest wall, for the blocks that are still to be filled.
     near: Vec<Near>,
     blocks: Vec<Block>,
-    /// Candidates of the present block: those to be measured, and those that were.
+    /// Candidates of the current block: not yet measured, and measured.
     open: Vec<Near>,
     measured: Vec<(f64, Near)>,
 }
@@ -116,11 +117,11 @@ struct Filling {
 struct Block {
     first: [usize; 2],
     size: usize,
-    /// Range of its candidates in `near`.
+    /// Range of the candidates of the block in `near`.
     range: [usize; 2],
 }
 
-/// A wall, or all those of a node of the tree.
+/// Wall, or all walls of a node of the tree.
 #[derive(Clone, Copy, Debug)]
 enum Near {
     Wall(u32),
@@ -132,7 +133,7 @@ impl Filling {
         let [left, bottom, right, top] = bounds;
         let (width, height) = (right - left, top - bottom);
         let cells = (CELLS_A_WALL * tree.count() as f64).clamp(MIN_CELLS, MAX_CELLS);
-        // A narrow map must not have more cells than that in a single row.
+        // A narrow map could otherwise get more cells than that in a single row.
         let side = (width * height / cells).sqrt().max(width.max(height) / cells);
         let [columns, rows] = [width, height].map(|length| (length / side).ceil() as usize + 1);
         let radius = FRAC_1_SQRT_2 * side;
@@ -173,7 +174,7 @@ impl Filling {
         let centre = self.centre(block.first, size);
         let radius = size as f64 * self.field.radius;
         let blur = size as f64 * self.field.blur;
-        // Candidates of the blocks before are of no use to this one.
+        // Drops the candidates of earlier blocks.
         self.near.truncate(range[1]);
         let Some([least, most]) = self.measure(tree, centre, block, blur) else { return };
         if size > 1 && least <= FAR * radius + blur / BLUR {
@@ -187,26 +188,27 @@ impl Filling {
             }
             return;
         }
-        // No wall passes through the block where this holds, so that all of it is on one side of every outline.
+        // In this case no wall passes through the block, so that all of it is on one side of each outline.
         let buried = least > radius && solid.is_some_and(|solid| solid.holds(centre));
         for row in bottom..top {
             for column in left..right {
                 let [x, y] = self.centre([column, row], 1);
                 let off = self.field.radius
                     + ((x - centre[0]) * (x - centre[0]) + (y - centre[1]) * (y - centre[1])).sqrt();
-                // A millionth is more than a float rounds.
+                // A relative error of 1e-6 is larger than the rounding of an f32.
                 let least = if buried { f64::NEG_INFINITY } else { least * (1.0 - 1e-6) - off - self.slack };
                 self.field.least[row * self.field.columns + column] = least as f32;
             }
         }
     }
 
-    /// Between which two values the distance from the middle of a block to the nearest wall lies, at most `blur` apart (m);
-    /// None where too many walls are near. `measured` has what may be the nearest from there then.
+    /// Returns bounds on the distance from the middle of a block to the nearest wall, at most `blur` apart (m); None if
+    /// too many walls are near. Afterwards `measured` contains all walls that may be nearest to a point of the block.
     fn measure(&mut self, tree: &WallTree, point: [f64; 2], block: Block, blur: f64) -> Option<[f64; 2]> {
         let Self { near, open, measured, .. } = self;
         let Block { size, range: [from, to], .. } = block;
-        // A wall that is nearer to another point of the block than the one nearest to its middle is no further from there.
+        // A wall that is nearest to some point of the block is at most one diameter of the block further from the middle
+        // than the wall nearest to the middle.
         let reach = 2.0 * size as f64 * self.field.radius + self.slack;
         measured.clear();
         open.clear();
@@ -258,7 +260,7 @@ impl Filling {
     }
 }
 
-/// More than the rounding of any coordinate among these, m.
+/// Bound on the rounding error of these coordinates, m.
 #[inline(never)]
 pub(super) fn rounding(coordinates: &[f64]) -> f64 {
     1e-12 * coordinates.iter().fold(0.0, |most: f64, coordinate| most.max(coordinate.abs()))

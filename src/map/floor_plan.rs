@@ -1,4 +1,4 @@
-//! A floor plan, and whether a round robot fits.
+//! Floor plans, and collision tests of a round robot.
 
 use super::apartment;
 use super::distance_field::{DistanceField, rounding};
@@ -19,20 +19,21 @@ pub struct FloorPlan {
     walls: Vec<Segment>,
     /// Least x, least y, greatest x, greatest y, m.
     bounds: [f64; 4],
-    /// The cells that the walls outline, where they do: inside of one nobody is free, however far its sides.
+    /// Cells of a grid whose outlines are the walls, if the plan is from a grid. A point inside an occupied cell is not
+    /// free, however far its sides are.
     solid: Option<OccupancyGrid>,
-    /// Made when the first motion is judged.
+    /// Distance field, created when the first motion is tested.
     survey: OnceLock<Survey>,
 }
 
-/// Index in which verdicts are looked up.
+/// Search tree and distance field for collision tests.
 #[derive(Clone, Debug)]
 struct Survey {
     tree: WallTree,
     field: DistanceField,
 }
 
-/// Why a floor plan is refused.
+/// Reason why a floor plan is refused.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum FloorPlanError {
     /// A bound is beyond ±10⁶ m, or a side shorter than a centimetre or longer than 100 km.
@@ -41,9 +42,9 @@ pub enum FloorPlanError {
     BadWall { index: usize, end: [f64; 2] },
     /// More than [`FloorPlan::MAX_WALLS`] walls.
     TooManyWalls(usize),
-    /// The bounds of a grid's cells are none of a plan.
+    /// The bounds of a grid are outside the range of a plan.
     BadGrid([f64; 4]),
-    /// The cells of a grid that are in the way have more than [`FloorPlan::MAX_WALLS`] sides.
+    /// The outlines of the occupied cells of a grid have more than [`FloorPlan::MAX_WALLS`] sides.
     TooManySides(usize),
 }
 
@@ -85,8 +86,8 @@ impl fmt::Display for FloorPlanError {
 
 impl std::error::Error for FloorPlanError {}
 
-/// An answer, and how many walls were measured for it: those that what is known about the room around did not decide on.
-/// A wall that several pieces of a motion pass closely is measured for each of them.
+/// Result of a collision test, and the number of wall distances computed for it. Most tests are decided by the distance
+/// field alone. A wall that is close to several pieces of a motion counts for each.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Verdict {
     pub free: bool,
@@ -98,9 +99,9 @@ impl Verdict {
     const BLOCKED: Self = Self { free: false, wall_tests: 0 };
 }
 
-/// Range of bounds, m: as far out as a robot's coordinates may.
+/// Range of bounds, m: the range of a robot's coordinates.
 const COORDINATE: RangeInclusive<f64> = -1e6..=1e6;
-/// Range of the sides between bounds, m: what a screen can show.
+/// Range of the width and height of bounds, m.
 const SIDE: RangeInclusive<f64> = 0.01..=1e5;
 
 impl FloorPlan {
@@ -144,7 +145,7 @@ impl FloorPlan {
         if walls.len() > Self::MAX_WALLS {
             return Err(FloorPlanError::TooManyWalls(walls.len()));
         }
-        // Rounding may set the corner of a turned grid a little outside its own bounds.
+        // Rounding can move a corner of a turned grid slightly outside the grid's own bounds.
         let slack = rounding(&bounds);
         let inside = |[x, y]: [f64; 2]| {
             (left - slack..=right + slack).contains(&x) && (bottom - slack..=top + slack).contains(&y)
@@ -171,7 +172,7 @@ impl FloorPlan {
         self.bounds
     }
 
-    /// The cells that the walls outline, where they do.
+    /// Returns the cells of the grid, if the plan is from one.
     pub fn grid(&self) -> Option<&OccupancyGrid> {
         self.solid.as_ref()
     }
@@ -207,7 +208,7 @@ impl FloorPlan {
         self.path_free(&driven, self.point_free(driven.end, clearance), clearance)
     }
 
-    /// [`FloorPlan::arc_free`] of an arc whose end has been looked at, which counts as a part of this.
+    /// As [`FloorPlan::arc_free`], for an arc whose end pose has been tested already.
     pub(super) fn path_free(&self, driven: &Driven, end: Verdict, clearance: f64) -> Verdict {
         let start = [driven.arc.start.x(), driven.arc.start.y()];
         if !end.free || self.leaves_bounds(driven) || self.buried(start) {
@@ -271,7 +272,7 @@ impl FloorPlan {
         if !self.holds([arc.start.x(), arc.start.y()]) || !self.holds(driven.end) {
             return true;
         }
-        // Both ends are inside. An arc that touches an edge, or leaves from one, stays inside as far as anybody can tell.
+        // Both ends are inside. An arc that only touches an edge counts as inside, up to rounding.
         let corners = self.corners();
         let slack = rounding(corners.as_flattened());
         (0..4).any(|i| {
@@ -280,8 +281,8 @@ impl FloorPlan {
         })
     }
 
-    /// Tests whether every wall whose box comes within `reach` (m) of the point, by both coordinates, is `free`; but for those in
-    /// nodes of the tree that are known to be.
+    /// Tests whether every wall is `free` whose bounding box is within `reach` (m) of the point in both coordinates.
+    /// Nodes of the tree that are known to be free are skipped.
     fn walls_keep(
         &self,
         [x, y]: [f64; 2],
@@ -304,7 +305,7 @@ impl FloorPlan {
     }
 }
 
-/// A disc that is moved along an arc.
+/// Disc that moves along an arc.
 struct Sweep<'a> {
     plan: &'a FloorPlan,
     field: &'a DistanceField,

@@ -5,7 +5,7 @@ use crate::geom::se2::SE2;
 use crate::geom::segment::Segment;
 use std::ops::RangeInclusive;
 
-/// Rules that make cells of pixels, as `map_server` reads its YAML file.
+/// Rules that convert pixels to cells, as in the YAML file of `map_server`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Interpretation {
     pub mode: Mode,
@@ -29,8 +29,8 @@ impl Default for Interpretation {
 pub enum Mode {
     /// Dark pixels are occupied, light ones free, and those between the thresholds unknown.
     Trinary,
-    /// Transparent pixels are unknown; of the others the dark ones are occupied, and the rest is free: between the
-    /// thresholds `map_server` tells degrees of it.
+    /// Mode scale: transparent pixels are unknown, dark ones occupied, and all others free. In `map_server`, pixels
+    /// between the thresholds have intermediate values.
     Scale,
     /// Pixel values are occupancies from 0 to 100; 100 is occupied, and what is above it unknown.
     Raw,
@@ -48,19 +48,19 @@ pub enum Cell {
 /// Treatment of unknown cells.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Unknown {
-    /// It may be there, as particle filters have it.
+    /// Unknown cells are free, as in particle filters.
     #[default]
     Free,
-    /// They are in its way, as occupied ones are.
+    /// Unknown cells are obstacles like occupied ones.
     Blocked,
 }
 
-/// A picture of shades from 0 (black) to 1 (white), row by row from the top.
+/// Grey image with values from 0 (black) to 1 (white), row by row from the top.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Image<Pixels = Vec<Pixel>> {
     pub width: usize,
     pub height: usize,
-    /// width · height of them.
+    /// Pixels, width · height of them.
     pub pixels: Pixels,
 }
 
@@ -68,7 +68,7 @@ pub struct Image<Pixels = Vec<Pixel>> {
 pub struct Pixel {
     /// Mean of the colours.
     pub shade: f32,
-    /// From 0 (transparent) to 1.
+    /// Opacity from 0 (transparent) to 1.
     pub opacity: f32,
 }
 
@@ -84,7 +84,7 @@ impl Interpretation {
     pub fn cell(&self, pixel: Pixel) -> Cell {
         let Pixel { shade, opacity } = pixel;
         let occupancy = if self.negate { shade } else { 1.0 - shade };
-        // Rounded as the shade is, so that a pixel at a threshold is not beyond it.
+        // Rounded as the grey value is, so that a pixel at a threshold is not beyond it.
         let (occupied, free) = (self.occupied_thresh as f32, self.free_thresh as f32);
         // Rounding takes long where there is no instruction for it.
         let value = || (shade * 255.0).round();
@@ -103,7 +103,7 @@ impl Interpretation {
 /// Sides of a cell, m: from a millimetre to a hundred metres.
 pub const RESOLUTION: RangeInclusive<f64> = 1e-3..=100.0;
 
-/// Square cells. The occupied ones are in a robot's way, and the unknown ones where one decides so.
+/// Grid of square cells. Occupied ones are obstacles, and unknown ones depend on a setting.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OccupancyGrid {
     width: usize,
@@ -114,7 +114,7 @@ pub struct OccupancyGrid {
     origin: SE2,
     /// The plane in the frame of the origin.
     to_local: Departure,
-    /// Row by row from the bottom.
+    /// Cells row by row from the bottom.
     cells: Vec<Cell>,
     unknown: Unknown,
 }
@@ -141,7 +141,7 @@ impl OccupancyGrid {
         grid
     }
 
-    /// Makes cells of pixels; returns whether one of them is not opaque. `four_colours` counts opacity as a colour.
+    /// Converts pixels to cells; returns true if a pixel is not opaque. `four_colours` counts opacity as a colour.
     fn draw<P: Copy + PartialEq + Into<Pixel>>(
         &mut self,
         pixels: impl IntoIterator<Item = P>,
@@ -150,7 +150,7 @@ impl OccupancyGrid {
     ) -> bool {
         let mut pixels = pixels.into_iter();
         let mut is_transparent = false;
-        // Most pixels are like the one before them.
+        // Cached: most pixels equal the one before them.
         let mut last = None;
         // The first row of an image is its highest, the first of a grid its lowest.
         for row in self.cells.chunks_mut(self.width.max(1)).rev() {
@@ -172,7 +172,7 @@ impl OccupancyGrid {
         is_transparent
     }
 
-    /// The same cells, the unknown ones being this for a robot.
+    /// Returns the same cells with another treatment of unknown ones.
     #[must_use]
     pub fn with_unknown(self, unknown: Unknown) -> Self {
         Self { unknown, ..self }

@@ -195,14 +195,15 @@ impl ExponentialContour {
             }
         }
         let idle = principal_direction(&spread);
-        // Any two directions that span the circle: the axis furthest from k is well off it.
+        // Any two directions that span the circle. The coordinate axis least parallel to k gives a well-conditioned
+        // one.
         let aside = Matrix3::identity().column(idle.iamin()).into_owned();
         let first = (aside - idle * aside.dot(&idle)).normalize();
         let second = idle.cross(&first);
         unit_circle(segments).map(move |direction| at(&(first * direction.x + second * direction.y)))
     }
 
-    /// Whether the exponential coordinates of `pose` lie inside the ellipse.
+    /// Tells whether the exponential coordinates of `pose` lie inside the ellipse.
     pub fn contains(&self, pose: &SE2) -> bool {
         let twist = (self.start.inverse() * *pose).log_near(self.mean.z);
         self.ellipse.contains([twist.x, twist.z])
@@ -227,7 +228,7 @@ fn principal_direction(matrix: &Matrix3<f64>) -> Vector3<f64> {
 
 fn unit_circle(segments: usize) -> impl Iterator<Item = Vector2<f64>> {
     (0..=segments).map(move |i| {
-        // The last index comes round to the first, so that the outline closes to the bit.
+        // The last point has the index of the first, so that the outline is closed exactly.
         let (sin, cos) = libm::sincos(TAU * (i % segments) as f64 / segments as f64);
         Vector2::new(cos, sin)
     })

@@ -1,4 +1,4 @@
-//! The statistic that tells a banana from an ellipse: skewness across the track.
+//! Skewness across the track, which distinguishes a banana-shaped cloud from an ellipse.
 
 use super::moments::mean_heading;
 use crate::geom::se2::{SE2, wrap_angle};
@@ -16,20 +16,20 @@ pub struct CrossTrack {
     /// Standard error of `skew` by the delta method, from the sample's own moments up to the sixth, the uncertainty
     /// of the mean heading included.
     pub skew_error: f64,
-    /// Correlation of d with the heading; NaN also where the headings have no spread.
+    /// Correlation of d with the heading; NaN if either has no spread.
     pub rho_heading: f64,
 }
 
-/// A spread below this fraction of the cloud's extent and distance is rounding and counts as none. Doubles leave
-/// about 1e-16 of those a step; a larger bound would begin to call narrow clouds lines.
+/// Fraction of the cloud's extent and distance below which a spread is rounding and counts as 0. Rounding is about
+/// 1e-16 per step; a larger bound would take narrow clouds for lines.
 pub(super) const NO_SPREAD: f64 = 1e-12;
 
-/// A mean square (m²) below this counts as none as well: the sixth power of a spread of 10⁻⁵⁰ m is hardly a double, and
-/// its error would come out as 0.
+/// Mean square (m²) below which a spread counts as 0 as well: the sixth power of 10⁻⁵⁰ m nearly underflows, and the
+/// standard error would be 0.
 const LEAST_SQUARE: f64 = 1e-100;
 
 impl CrossTrack {
-    /// The figures of `poses`, all in one frame in which they are near the origin or spread around it.
+    /// Returns the statistics of `poses`, all in a frame whose origin they are near or spread around.
     pub fn from_poses(poses: &[SE2]) -> Self {
         let undefined = Self { skew: f64::NAN, skew_error: f64::NAN, rho_heading: f64::NAN };
         let [first, _, _, ..] = poses else { return undefined };
@@ -75,7 +75,7 @@ impl CrossTrack {
         Self::from_moments(poses.len(), &moments)
     }
 
-    /// The figures of `count` poses from their moments.
+    /// Returns the statistics of `count` poses from their moments.
     pub(super) fn from_moments(count: usize, moments: &TrackMoments) -> Self {
         let TrackMoments { d: [.., m2, m3, _, _, _], sin_d, .. } = moments;
         let (m2, m3) = (*m2, *m3);
@@ -84,11 +84,11 @@ impl CrossTrack {
         }
         let sd = m2.sqrt();
         let skew = m3 / (m2 * sd);
-        // Turning the axis by dh moves d by −along·dh, and the mean heading moves by sin(turn)/resultant.
+        // A turn of the axis by dh changes d by −along·dh. A pose changes the mean heading by sin(turn)/resultant.
         let by_heading =
             3.0 * (skew * moments.along_d / m2 - moments.along_d2 / (m2 * sd)) / moments.resultant;
-        // The influence of a pose is z³ − skew − 3z − 1.5·skew·(z² − 1) + by_heading·sin, z = d/sd: a polynomial, the
-        // mean of whose square is a sum over moments.
+        // The influence of a pose is z³ − skew − 3z − 1.5·skew·(z² − 1) + by_heading·sin, with z = d/sd. It is a
+        // polynomial, so that its mean square is a sum of moments.
         let influence = [0.5 * skew, -3.0 / sd, -1.5 * skew / m2, 1.0 / (m2 * sd)];
         let mut squared = by_heading * by_heading * moments.sin_sin;
         for (i, a) in influence.iter().enumerate() {
@@ -107,8 +107,8 @@ impl CrossTrack {
     }
 }
 
-/// Means over a cloud. d is the cross-track residual, along the one at right angles to it, turn the one of the heading,
-/// each from its mean.
+/// Means over a cloud: d is the cross-track residual, along the residual along the track, turn the residual of the
+/// heading, each relative to its mean.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct TrackMoments {
     /// Mean of the squared distance from the origin.

@@ -1,4 +1,4 @@
-//! Moments of a model itself instead of a cloud of it: one quadrature over the heading noise, everything else closed.
+//! Exact moments of a model: quadrature over the heading noise, closed form for the others.
 
 use super::cross_track::NO_SPREAD;
 use super::moments::no_less_than_none;
@@ -15,9 +15,9 @@ use nalgebra::{Matrix3, Vector3};
 pub struct ExactMoments {
     /// Mean position, and circular mean heading in (−π, π].
     pub mean: Vector3<f64>,
-    /// Covariance, 3 × 3, of positions and of the turn made (not wrapped).
+    /// Covariance, 3 × 3, of the position and of the turn made (not wrapped).
     pub cov: Matrix3<f64>,
-    /// The third standardized moment across the mean heading; NaN where there is no spread across it.
+    /// Third standardized moment across the mean heading; NaN if there is no spread across it.
     pub cross_track_skew: f64,
 }
 
@@ -25,14 +25,14 @@ pub struct ExactMoments {
 struct Ray {
     weight: f64,
     unit: [f64; 2],
-    /// How much further than expected the robot turned by this noise.
+    /// Excess of the turn over its mean at this noise.
     excess_turn: f64,
 }
 
-/// Weighted moments of a vector u and an excess turn; weights may sum to less than 1.
+/// Weighted moments of a vector u and an excess turn. The weights may sum to less than 1.
 #[derive(Default)]
 pub(super) struct RayMoments {
-    /// What u is counted from: its first value, so that little is lost where it varies little.
+    /// Origin of the differences of u that are summed: its first value, so that few digits are lost if u varies little.
     reference: Option<[f64; 2]>,
     total: f64,
     mean: Vector3<f64>,
@@ -62,7 +62,7 @@ impl RayMoments {
         let unit = [mean.x + x, mean.y + y, 0.0];
         let scale = [length, length, 1.0];
         let cov = Matrix3::from_fn(|i, j| {
-            // The length's own spread moves the place along u.
+            // The spread of the length moves the position along u.
             let along = if i < 2 && j < 2 { spread[(i, j)] + unit[i] * unit[j] } else { 0.0 };
             spread[(i, j)] * scale[i] * scale[j] + along * deviation * deviation
         });
@@ -99,7 +99,8 @@ impl ExactMoments {
         Self::of_rays(&rays.collect::<Vec<_>>(), u.trans, trans_variance, u.rot1 + u.rot2, rot2_variance)
     }
 
-    /// `length`: mean and variance of L; `turn`: mean of the heading, and the variance it has beside the rays'.
+    /// Combines moments. `length` has mean and variance of L; `turn` has the mean of the heading, and the variance that
+    /// is added to that of the nodes.
     #[inline(never)]
     fn of_rays(rays: &[Ray], length: f64, length_variance: f64, turn: f64, last_turn_variance: f64) -> Self {
         let mut moments = RayMoments::default();
@@ -158,7 +159,8 @@ struct Component {
     variance: f64,
 }
 
-/// Third standardized moment of the mixture; NaN where its spread is rounding beside `extent_squared`.
+/// Returns the third standardized moment of the mixture; NaN if its spread is only rounding relative to
+/// `extent_squared`.
 fn mixture_skew(components: impl Iterator<Item = Component> + Clone, extent_squared: f64) -> f64 {
     let centre: f64 = components.clone().map(|part| part.weight * part.mean).sum();
     let (mut m2, mut m3) = (0.0, 0.0);

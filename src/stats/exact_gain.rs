@@ -1,4 +1,4 @@
-//! The likelihood gain of a model itself: quadrature over the two noises that turn the robot; the rest is closed.
+//! Exact likelihood gain of a model: quadrature over the two noises that turn the robot, closed form for the rest.
 
 use super::exact::{ExactMoments, RayMoments};
 use super::gain::{Charts, LikelihoodGain, Moments};
@@ -21,12 +21,13 @@ use std::f64::consts::{LN_2, PI, TAU};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ExactGain {
     pub value: LikelihoodGain,
-    /// Mean and covariance of ξ, on the branch where the robot turned as far as it did.
+    /// Mean and covariance of ξ, on the branch of the turn that was made.
     pub exponential: ExponentialMoments,
 }
 
-/// Standard deviations of a normal turn that are integrated over. Ten million robots get to 5.3; fewer would show in the
-/// fourth digit, more would reach the whole circle under commands for which clouds have moments.
+/// Number of standard deviations of a normal turn that are integrated over. Ten million robots reach 5.3. A smaller
+/// number would change the fourth digit; a larger one would reach the full circle for commands whose clouds have
+/// moments.
 const REACH: f64 = 6.0;
 
 /// No breaks, see [`broken_nodes`].
@@ -35,18 +36,18 @@ const SMOOTH: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
 /// A length driven on a bearing, and two turns.
 struct Legs {
     noise: NoiseKind,
-    /// Whether the length is that of an arc, whose chord on the bearing φ/2 is shorter by sinc(φ/2).
+    /// True if the length is that of an arc, whose chord at the bearing φ/2 is shorter by the factor sinc(φ/2).
     is_arc: bool,
     /// Mean and standard deviation, m.
     length: [f64; 2],
-    /// Rad, on the branch of half the commanded turn.
+    /// Bearing, rad, on the branch of half the commanded turn.
     bearing: [f64; 2],
-    /// Mean, and the standard deviations by the noise of the bearing and by that after it, rad.
+    /// Mean of the turn, and its standard deviations due to the noise of the bearing and to the noise after it, rad.
     turn: [f64; 3],
 }
 
 impl ExactGain {
-    /// Of the velocity model.
+    /// Creates it from the velocity model.
     pub fn of_velocity(model: &VelocityModel, u: &VelocityCmd) -> Self {
         let [v, omega, gamma] = model.deviations(u).map(|deviation| deviation * u.dt);
         let turn = u.omega * u.dt;
@@ -60,10 +61,10 @@ impl ExactGain {
         legs.gain(&ExactMoments::of_velocity(model, u))
     }
 
-    /// Of the odometry model whose reading `u` came from a command that turns by `turn` (rad).
+    /// Creates it from the odometry model. The reading `u` comes from a command that turns by `turn` (rad).
     pub fn of_odometry(model: &impl Hinges, u: &OdomDelta, turn: f64) -> Self {
         let [rot1, trans, rot2] = model.variances(u).map(|variance| variance.0.sqrt());
-        // In reverse the reading faces away first.
+        // A reading in reverse first turns to face the other way.
         let half_circles = ((u.rot1 - 0.5 * turn) / PI).round();
         let ahead = if libm::remainder(half_circles, 2.0) == 0.0 { 1.0 } else { -1.0 };
         let legs = Legs {
@@ -104,7 +105,7 @@ impl Legs {
         broken_nodes(self.noise, self.reach(1.0, 0.0), breaks)
     }
 
-    /// How far the sum of two noises of these standard deviations goes.
+    /// Returns the integration limit of the sum of two noises with these standard deviations.
     fn reach(&self, one: f64, other: f64) -> f64 {
         match self.noise {
             NoiseKind::Normal => REACH * libm::hypot(one, other),
@@ -199,7 +200,7 @@ impl MeanLog {
 /// (m + Z)² is noncentral χ² of one degree of freedom: a Poisson mixture, of mean m²/2, of χ² with 1 + 2j degrees, whose
 /// logarithms have the means ln 2 + ψ(½ + j).
 fn normal_mean_log(m: f64) -> f64 {
-    /// From here on the fourth term of the asymptotic series is below 1e-10; far beyond, exp(−m²/2) is no double.
+    /// Mean from which the fourth term of the asymptotic series is below 1e-10. Far beyond it, exp(−m²/2) underflows.
     const FAR: f64 = 30.0;
     /// ψ(½) = −γ − 2 ln 2.
     const DIGAMMA_HALF: f64 = -1.963_510_026_021_423_5;
@@ -210,7 +211,7 @@ fn normal_mean_log(m: f64) -> f64 {
     }
     let rate = 0.5 * m * m;
     let (mut chance, mut digamma, mut sum) = (libm::exp(-rate), DIGAMMA_HALF, LN_2);
-    // Twelve standard deviations beyond the mean and more.
+    // The mean is twelve standard deviations or more from 0.
     for j in 0..720 {
         let j = f64::from(j);
         sum += chance * digamma;

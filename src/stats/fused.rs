@@ -52,10 +52,11 @@ pub struct Spread {
     reference: Reference,
     scale: Scale,
     sums: Sums<16>,
-    /// Of the arcs, what the unit noise does not say of them.
+    /// Sums over arcs that are not `regular`, which cannot be computed from sums of the unit noise.
     rest: PairSums,
-    /// sinc(ξ_ω/2) and |s|·sinc²(φ/2), scaled: the products over a block, and the sums of the logarithms of such products.
-    /// A logarithm a block costs next to nothing. On average the factors are above e⁻¹, a block of them above 1e-111.
+    /// Products of the scaled factors sinc(ξ_ω/2) and |s|·sinc²(φ/2) over a block, and sums of the logarithms of these
+    /// products. One logarithm for each block takes hardly any time. On average the factors are above e⁻¹, and the
+    /// product of a block is above 1e-111.
     products: [f64x2; 2],
     logs: [f64; 2],
 }
@@ -101,7 +102,7 @@ impl Spread {
         add(&mut self.sums.block, terms);
     }
 
-    /// Multiplies the Jacobians of four poses to those before.
+    /// Multiplies the products by the Jacobians of four poses.
     #[inline(always)]
     pub fn multiply(&mut self, poses: &FourPoses, arcs: &FourArcs) {
         let product = |of: f64x4| {
@@ -114,7 +115,7 @@ impl Spread {
         self.products[1] *= product(arcs.length) * (arc * arc) * (arc_scale * arc_scale);
     }
 
-    /// As [`Spread::multiply`], of those for which `mask` has all bits set; of the others, 1.
+    /// As [`Spread::multiply`] for the poses for which `mask` has all bits set; the others count as 1.
     #[inline(never)]
     pub fn multiply_some(&mut self, poses: &FourPoses, arcs: &FourArcs, mask: f64x4) {
         let counted = |of: f64x4| mask.bitselect(of, f64x4::splat(1.0));
@@ -122,8 +123,8 @@ impl Spread {
         self.multiply(&FourPoses { sinc: chart, ..*poses }, &FourArcs { length, sinc: arc, ..*arcs });
     }
 
-    /// As [`Spread::add`], where the length and half turn of the arcs are not as far from the reference as `regular`, which is
-    /// added up elsewhere.
+    /// As [`Spread::add`], for arcs whose length and half turn differ from the reference by more than `regular`. The
+    /// regular part is summed elsewhere.
     #[inline(never)]
     pub fn add_irregular(&mut self, arcs: &FourArcs, regular: [f64x4; 2], mask: f64x4) {
         let [.., length, half_turn] = self.reference;
@@ -141,8 +142,8 @@ impl Spread {
         }
     }
 
-    /// The moments of `count` poses; of the Cartesian covariance only the part of the position. `regular` are the sums of
-    /// the regular arcs, in the order of [`PairSums`].
+    /// Returns the moments of `count` poses; of the Cartesian covariance only the part of the position. `regular` are
+    /// the sums over regular arcs, in the order of [`PairSums`].
     pub fn finish(&self, count: usize, regular: [f64; 5]) -> SpreadMoments {
         let n = count as f64;
         let [x, y, a, l, h, xx, xy, yy, aa, al, ll, ah, lh, hh, sin_cos, sin_sin] = self.sums.finish();
@@ -158,14 +159,14 @@ impl Spread {
         let (sin, cos) = libm::sincos(2.0 * half);
         let (sum_sin, sum_cos) = (2.0 * sin_cos, n - 2.0 * sin_sin);
         let turned = (sum_sin * cos - sum_cos * sin, sum_cos * cos + sum_sin * sin);
-        // Equal headings have no spread, whatever rounding leaves of their sines.
+        // Equal headings have spread 0, although their sines may be rounded.
         let turn = if hh == 0.0 { 0.0 } else { libm::atan2(turned.0, turned.1) };
         let mean_turn = 2.0 * half + turn;
         let position = [variance(xx, x), cov(xy, x, y), variance(yy, y)];
         let [aa, al, ll] = [variance(aa, a), cov(al, a, l), variance(ll, l)];
         let [ah, lh, hh] = [2.0 * cov(ah, a, h), 2.0 * cov(lh, l, h), 4.0 * variance(hh, h)];
         let [ss, st, tt] = [variance(ss, s), 2.0 * cov(st, s, t), 4.0 * variance(tt, t)];
-        // The last four are scaled even where they are fewer.
+        // All four lanes are scaled, including those without a pose.
         let scaled = count.next_multiple_of(LANES) as f64;
         let [chart, floor] = [0, 1].map(|i| (self.logs[i] - scaled * libm::log(self.scale[i])) / n);
         SpreadMoments {
@@ -185,8 +186,8 @@ impl Spread {
         }
     }
 
-    /// A reference from which these sums would have lost fewer digits, if they lost more than two: the means. Small clouds
-    /// may lie far from where the model expects them, in their own measure.
+    /// Returns a better reference, the means, if the sums lost more than two digits by cancellation. A small cloud may
+    /// lie many of its own standard deviations away from the expected mean.
     pub fn better_reference(&self, count: usize) -> Option<Reference> {
         let n = count as f64;
         let sums = self.sums.finish();
@@ -234,7 +235,7 @@ pub struct CloudFigures {
     pub cartesian: CartesianMoments,
     pub exponential: ExponentialMoments,
     pub cross_track: CrossTrack,
-    /// Shares inside the two 2σ contours; NaN where one has no area.
+    /// Fractions inside the two 2σ contours; NaN for a contour without area.
     pub inside_ellipse: f64,
     pub inside_exponential: f64,
     pub gain: MeasuredGain,

@@ -1,5 +1,5 @@
-//! How much likelier a cloud is under a Gaussian in coordinates of its own than under one in (x, y, θ): the measure of a
-//! banana that also sees the ones which bend to neither side.
+//! Gain in log-likelihood of a Gaussian in exponential or arc coordinates over one in (x, y, θ). It detects bananas
+//! that bend symmetrically to both sides, which have no skew.
 
 use super::cross_track::NO_SPREAD;
 use super::moments::{mean_and_cov, mean_heading, no_less_than_none};
@@ -20,20 +20,20 @@ use wide::f64x4;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(target_arch = "wasm32", derive(serde::Serialize, tsify::Tsify))]
 pub struct LikelihoodGain {
-    /// Of exponential coordinates ξ over (x, y, θ), as densities over dx dy dθ = sinc²(ξ_ω/2) dξ:
-    /// ½(ln det Σ_xyθ − ln det Σ_ξ) − mean of ln sinc²(ξ_ω/2).
+    /// Gain of exponential coordinates ξ over (x, y, θ), as densities over dx dy dθ = sinc²(ξ_ω/2) dξ: ½(ln det Σ_xyθ −
+    /// ln det Σ_ξ) − mean of ln sinc²(ξ_ω/2).
     pub pose: f64,
-    /// Of the length s and turn φ of the arc that ends there over (x, y), as densities over
-    /// dx dy = |s|·sinc²(φ/2)/2 ds dφ: ½(ln det Σ_xy − ln det Σ_sφ) − mean of ln(|s|·sinc²(φ/2)/2).
+    /// Gain of length s and turn φ of the arc to the end over (x, y), as densities over dx dy = |s|·sinc²(φ/2)/2 ds dφ:
+    /// ½(ln det Σ_xy − ln det Σ_sφ) − mean of ln(|s|·sinc²(φ/2)/2).
     pub floor: f64,
 }
 
 impl LikelihoodGain {
-    /// Without meaning.
+    /// Undefined gains.
     pub const NONE: Self = Self { pose: f64::NAN, floor: f64::NAN };
 }
 
-/// A gain, and how far to trust it.
+/// Gain with its standard errors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MeasuredGain {
     pub value: LikelihoodGain,
@@ -72,7 +72,7 @@ impl MeasuredGain {
         let charts = Charts::new(moments(&plain), moments(&twist), moments(&arc), mean_logs);
         let mut differences = Differences::new(charts);
         for four in steps.chunks(LANES) {
-            // Those that a last four lacks are not counted.
+            // Lanes without a pose in the last group of four do not count.
             let each = |of: &dyn Fn(&SE2) -> Vector3<f64>| {
                 let points: [_; LANES] = std::array::from_fn(|lane| of(&four[lane % four.len()]));
                 std::array::from_fn(|i| lanes(|lane| points[lane][i]))
@@ -93,18 +93,18 @@ pub(super) struct FourRobots {
     pub twist: [f64x4; 3],
     /// Length (m) and turn (rad) of the arc that ends at x, y, and 0.
     pub arc: [f64x4; 3],
-    /// dx dy dθ over dξ, and dx dy over ds dφ.
+    /// Jacobian determinants: dx dy dθ over dξ, and dx dy over ds dφ.
     pub jacobians: [f64x4; 2],
 }
 
-/// The Gaussians that a cloud or a model has in each of the coordinates.
+/// Gaussian fitted to a cloud or model in each of the coordinates.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Charts {
     plain: Normal,
     twist: Normal,
     arc: Normal,
     gain: LikelihoodGain,
-    /// Geometric mean of dx dy over ds dφ.
+    /// Geometric mean of the Jacobian dx dy over ds dφ.
     jacobian: f64,
 }
 
@@ -112,13 +112,14 @@ pub(super) struct Charts {
 pub(super) type Moments = (Vector3<f64>, Matrix3<f64>);
 
 impl Charts {
-    /// From the moments of the coordinates of robots as in [`FourRobots`], and the mean logarithms of their Jacobians.
+    /// Creates the Gaussians from the moments of the coordinates in [`FourRobots`], and the mean logarithms of their
+    /// Jacobians.
     pub fn new(plain: Moments, twist: Moments, arc: Moments, log_jacobians: [f64; 2]) -> Self {
         let (plain, twist, arc) = (Normal::new(&plain, 2), Normal::new(&twist, 2), Normal::new(&arc, 1));
         let gain = |dimensions: usize, bent: &Normal| {
             let (plain, bent) = (plain.log_volumes[dimensions - 1], bent.log_volumes[dimensions - 1]);
             let gain = plain - bent - log_jacobians[3 - dimensions];
-            // Where the plain Gaussian is flat, or as narrow as doubles are told apart, there is nothing to gain on.
+            // If the Gaussian in (x, y, θ) has no extent, up to rounding, the gain is undefined.
             if gain > f64::NEG_INFINITY { gain } else { f64::NAN }
         };
         let gain = LikelihoodGain { pose: gain(3, &twist), floor: gain(2, &arc) };
@@ -130,13 +131,13 @@ impl Charts {
     }
 }
 
-/// The spread of the differences of two log-densities over a sample.
+/// Sums for the standard errors: differences of two log-densities over a sample.
 #[derive(Clone, Debug)]
 pub(super) struct Differences {
     charts: Charts,
     weights: f64x4,
-    /// Squares of the difference at a robot from the gain, for pose and floor. The mean difference is the gain, that of
-    /// all robots, so that their sum is not needed.
+    /// Squared deviations of the log-density difference from the gain, for pose and floor. The mean difference is the
+    /// gain of all robots, so that its own sum is not needed.
     squares: [f64x4; 2],
     /// Sums of u, u², h·u and h² for [`Differences::log_area_error`]. u is the Jacobian over its geometric mean, less 1. h is half
     /// the difference of the squared distances on the floor and in the arc's coordinates.
@@ -153,7 +154,7 @@ impl Differences {
         }
     }
 
-    /// Adds four robots, each of which stands for `weights` of them: for none, if it is not there.
+    /// Adds four robots with these weights; 0 for a lane without a robot.
     #[inline(never)]
     pub fn add(&mut self, robots: &FourRobots, weights: f64x4) {
         let Charts { plain, twist, arc, gain, jacobian } = &self.charts;
@@ -176,7 +177,7 @@ impl Differences {
         self.weights += weights;
     }
 
-    /// The gain of a cloud of `count` poses, of which those added are a fair sample.
+    /// Returns the gain of a cloud of `count` poses, of which the added ones are a weighted sample.
     pub fn finish(&self, count: usize) -> MeasuredGain {
         let degrees = self.weights.reduce_add() - 1.0;
         let [pose, floor] =
@@ -199,18 +200,18 @@ impl Differences {
     }
 }
 
-/// A Gaussian of up to three dimensions, each with those before it a Gaussian as well.
+/// Gaussian of up to three dimensions, with its leading marginals.
 #[derive(Clone, Copy, Debug)]
 struct Normal {
     mean: Vector3<f64>,
-    /// Lower triangular L with L·Lᵀ the covariance; on its diagonal the inverses, 0 for a direction without extent.
+    /// Lower triangular L with L·Lᵀ = covariance. The diagonal has the reciprocals, 0 for a direction without extent.
     root: Matrix3<f64>,
-    /// ½ ln det of the covariance of the first one, two and three coordinates; −∞ where it is 0 to rounding.
+    /// ½ ln det of the covariance of the first, the first two and all three coordinates; −∞ if it is 0 up to rounding.
     log_volumes: [f64; 3],
 }
 
 impl Normal {
-    /// Of the coordinates the first `lengths` are metres, the others rad.
+    /// Creates the Gaussian. The first `lengths` coordinates are in metres, the others in rad.
     #[inline(never)]
     fn new((mean, cov): &Moments, lengths: usize) -> Self {
         let extent: f64 = (0..lengths).map(|i| mean[i] * mean[i] + cov[(i, i)]).sum();
@@ -226,7 +227,7 @@ impl Normal {
         Self { mean: *mean, root, log_volumes }
     }
 
-    /// Squared Mahalanobis distances of four points in the first one, two and three coordinates.
+    /// Returns the squared Mahalanobis distances of four points in the first, the first two and all three coordinates.
     #[inline(never)]
     fn squared_distances(&self, points: &[f64x4; 3]) -> [f64x4; 3] {
         let mut offsets: [f64x4; 3] = std::array::from_fn(|j| points[j] - self.mean[j]);

@@ -1,6 +1,6 @@
-//! Where a field has a value: contour lines of what is known at the points of a grid.
+//! Contour lines of a field that is known at the points of a grid (marching squares).
 
-/// No edge of the grid.
+/// Marks a missing edge of the grid.
 const NONE: usize = usize::MAX;
 
 /// The lines on which a field has the value `level`, by marching squares: between neighbouring points the field is taken to be
@@ -10,8 +10,8 @@ const NONE: usize = usize::MAX;
 /// from its first point, (column, row). A line ends where it began, or at the rim of the grid.
 pub fn level_set(values: &[f64], columns: usize, level: f64) -> Vec<Vec<[f64; 2]>> {
     let rows = values.len() / columns.max(1);
-    // Edge 2i leads from point i to the next in its row, edge 2i + 1 to that in the next row. On each that a line crosses, where
-    // it comes from and where it goes.
+    // Edge 2i leads from point i to the next point in its row, edge 2i + 1 to the point in the next row. For each edge
+    // that a line crosses: the previous and the next edge of the line.
     let mut links = vec![[NONE; 2]; 2 * values.len()];
     let mut link = |one: usize, other: usize| {
         for (from, to) in [(one, other), (other, one)] {
@@ -22,7 +22,7 @@ pub fn level_set(values: &[f64], columns: usize, level: f64) -> Vec<Vec<[f64; 2]
     for row in 1..rows {
         for column in 1..columns {
             let i = (row - 1) * columns + column - 1;
-            // Round the cell: corner k lies between the edges k − 1 and k.
+            // Edges around the cell: corner k lies between the edges k − 1 and k.
             let corners = [i, i + 1, i + columns + 1, i + columns].map(|point| values[point]);
             let edges = [2 * i, 2 * i + 3, 2 * (i + columns), 2 * i + 1];
             let above = corners.map(|value| value > level);
@@ -49,7 +49,7 @@ pub fn level_set(values: &[f64], columns: usize, level: f64) -> Vec<Vec<[f64; 2]
     };
     let mut lines = Vec::new();
     let ends = (0..links.len()).filter(|edge| links[*edge][0] != NONE && links[*edge][1] == NONE);
-    // Those that end at the rim first: what is left is closed.
+    // Lines that end at the border are followed first. The remaining lines are closed.
     for first in ends.chain(0..links.len()).collect::<Vec<_>>() {
         if links[first][0] == NONE {
             continue;

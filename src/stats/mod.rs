@@ -1,4 +1,4 @@
-//! What a cloud of poses says: moments, cross-track skew, 2σ contours, and the same by quadrature for a model.
+//! Statistics of a cloud of poses: moments, cross-track skew, 2σ contours; and exact values for a model, by quadrature.
 
 mod contour;
 mod cross_track;

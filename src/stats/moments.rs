@@ -19,7 +19,7 @@ impl CartesianMoments {
     /// The moments of `poses`. NaN throughout without poses; a covariance of NaN for a single one.
     pub fn from_poses(poses: &[SE2]) -> Self {
         let heading = mean_heading(poses);
-        // Counted from the first pose, equal poses leave residuals of exactly 0.
+        // Differences from the first pose: equal poses leave residuals of exactly 0.
         let from_first = |pose: &SE2| {
             Vector3::new(pose.x() - poses[0].x(), pose.y() - poses[0].y(), wrap_angle(pose.theta() - heading))
         };
@@ -61,7 +61,7 @@ pub(super) fn mean_heading(poses: &[SE2]) -> f64 {
     let Some(first) = poses.first() else { return f64::NAN };
     let (mut sin, mut cos) = (0.0, 0.0);
     for pose in poses {
-        // Turned so that equal headings sum to exactly 0.
+        // Angles relative to the first heading, so that sines of equal headings sum to exactly 0.
         let (s, c) = libm::sincos(pose.theta() - first.theta());
         sin += s;
         cos += c;
@@ -69,7 +69,8 @@ pub(super) fn mean_heading(poses: &[SE2]) -> f64 {
     wrap_angle(first.theta() + libm::atan2(sin, cos))
 }
 
-/// A variance that was computed as a difference, of which rounding may leave less than nothing. NaN stays NaN.
+/// Clips a variance that was computed as a difference to 0 or more, because rounding can make it negative. NaN stays
+/// NaN.
 pub(crate) fn no_less_than_none(variance: f64) -> f64 {
     if variance < 0.0 { 0.0 } else { variance }
 }

@@ -7,7 +7,7 @@ pub fn vector<S: Serializer>(vector: &Vector3<f64>, serializer: S) -> Result<S::
     <[f64; 3]>::from(*vector).serialize(serializer)
 }
 
-/// Three arrays of three. They are columns and stand for rows: covariances are symmetric.
+/// Converts a symmetric matrix to three arrays of three. Its columns are equal to its rows.
 pub fn matrix<S: Serializer>(matrix: &Matrix3<f64>, serializer: S) -> Result<S::Ok, S::Error> {
     <[[f64; 3]; 3]>::from(*matrix).serialize(serializer)
 }

@@ -16,7 +16,7 @@ pub struct Node {
 /// For f of bounded frequency k (trigonometric functions of k·z times polynomials), correct to rounding as long as
 /// k is below 16: a heading spread of five radians in a third moment.
 pub fn nodes(noise: NoiseKind) -> &'static [Node] {
-    // Asked for at every event.
+    // Cached, because every event needs the nodes.
     static NORMAL: OnceLock<Vec<Node>> = OnceLock::new();
     static TRIANGULAR: OnceLock<Vec<Node>> = OnceLock::new();
     match noise {
@@ -59,11 +59,12 @@ fn triangular_nodes() -> Vec<Node> {
 /// Gauss–Legendre between them. Of the moments of a normal noise up to six standard deviations it misses 1e-10.
 #[inline(never)]
 pub(super) fn broken_nodes(noise: NoiseKind, end: f64, breaks: [f64; 2]) -> Vec<Node> {
-    /// Those of two noises are combined: more would cost their square, fewer would lose digits that are shown.
+    /// Number of nodes between breaks. Two noises are combined, so that the cost grows with its square; fewer nodes
+    /// would lose digits that are shown.
     const POINTS: usize = 16;
     let legendre = legendre_nodes(POINTS);
     let (mut nodes, mut from) = (Vec::with_capacity(4 * POINTS), -end);
-    // A triangle has a break of its own.
+    // The triangular density has another break at 0.
     for to in [breaks[0].max(-end).min(0.0), 0.0, breaks[1].max(0.0).min(end), end] {
         if to > from {
             let half = 0.5 * (to - from);

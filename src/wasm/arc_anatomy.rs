@@ -17,15 +17,15 @@ const TYPES: &str = r#"
 export interface FormErrors {
   /** rad/s. */
   omega: Float64Array;
-  /** By the arc’s radius. */
+  /** Errors (m) of the formula with the arc’s radius. */
   arc: Float64Array;
-  /** By the straight line. */
+  /** Errors (m) of the straight line. */
   straight: Float64Array;
-  /** By the chord. */
+  /** Errors (m) of the chord. */
   chord: Float64Array;
-  /** Where arc and straight line are estimated to be equally bad, rad/s. */
+  /** Turn rate (rad/s) at which the errors of arc and straight line are estimated to be equal. */
   estimatedCrossover: number;
-  /** Where the chapter’s code goes over to the straight line, rad/s. */
+  /** Turn rate (rad/s) below which the chapter’s code uses the straight line. */
   threshold: number;
 }
 
@@ -48,7 +48,10 @@ export interface AnatomyPaths {
   driven: Float64Array;
   /** Path of the constant twist ξ. */
   lie: Float64Array;
-  /** From points of that, each x, y, to where its lateral velocity alone would lead in the whole time, x, y. */
+  /**
+   * Lines from points of the path `lie`, each along the displacement that its lateral velocity alone would make in Δt:
+   * x, y, x, y.
+   */
   ticks: Float64Array;
 }
 "#;
@@ -94,7 +97,7 @@ impl JsArcAnatomy {
         ])
     }
 
-    /// All that is shown besides the surface, at once.
+    /// Returns everything that is shown besides the surface, in one call.
     #[wasm_bindgen(unchecked_return_type = "Pick<ArcAnatomy, 'config' | 'stats' | 'table' | 'paths'>")]
     pub fn read(&self) -> Result<JsValue, JsValue> {
         Ok(object(&[

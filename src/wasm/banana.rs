@@ -30,7 +30,7 @@ export type ViewName = 'plane' | 'twist';
 /** A view by its name, or by a morph from 0 (the plane) to 1 (the twists). */
 export type MorphedView = ViewName | number;
 
-/** Of (x, y, θ) in m, m, rad; in exponential coordinates of ξ along, lateral (m) and heading (rad). */
+/** Moments of (x, y, θ) in m, m, rad; in exponential coordinates, of ξ along, lateral (m) and heading (rad). */
 export interface Moments {
   /** Three numbers; θ is a circular mean. */
   mean: number[];
@@ -38,17 +38,20 @@ export interface Moments {
   cov: number[][];
 }
 
-/** All over the samples shown; NaN where undefined. */
+/** Statistics of the samples shown; NaN where undefined. */
 export interface Stats {
   /** Samples shown. */
   n: number;
-  /** Of the poses. */
+  /** Moments of the poses. */
   cartesian: Moments;
-  /** Of the poses in exponential coordinates about the start. NaN where the chart does not hold. */
+  /**
+   * Moments of the poses in exponential coordinates about the start; NaN if the coordinates are undefined for the
+   * cloud.
+   */
   exponential: Moments;
   /** Third standardized moment across the mean heading; positive with the longer tail at its left. */
   crossTrackSkew: number;
-  /** Its standard error. */
+  /** Standard error of `crossTrackSkew`. */
   crossTrackSkewError: number;
   /** The skew that the fitted Gaussian in exponential coordinates predicts. */
   gaussianSkew: number;
@@ -57,11 +60,11 @@ export interface Stats {
   /** Shares, 0 to 1, inside the 2σ outlines in (x, y) and in (ξ along, ξ heading). */
   coverage: { ellipse: number; exponential: number };
   likelihoodGain: LikelihoodGain;
-  /** Its standard errors. */
+  /** Standard errors of `likelihoodGain`. */
   likelihoodGainError: LikelihoodGain;
   /** Area of the 2σ ellipse in (x, y) over that of the 2σ outline of exponential coordinates on the floor, as drawn. */
   areaRatio: number;
-  /** Its standard error. */
+  /** Standard error of `areaRatio`. */
   areaRatioError: number;
 }
 
@@ -75,7 +78,7 @@ export interface Contours {
   linearized: Float64Array;
   /** 2σ, of the Gaussian fitted in exponential coordinates. */
   exponential: Float64Array;
-  /** The same in (ξ along, ξ heading), m and rad. */
+  /** 2σ ellipse in (ξ along, ξ heading), m and rad. */
   twistEllipse: Float64Array;
   /** 2σ, of noise added to the pose: a circle of 0.4 m around the noise-free end, whatever the command and the noise. */
   additive: Float64Array;
@@ -100,9 +103,9 @@ export interface Inspection {
   omegaHat: number;
   /** Turn rate after it, rad/s over the same duration. */
   gammaHat: number;
-  /** Its legs under the odometry model; null under the velocity model. */
+  /** Legs executed under the odometry model; null under the velocity model. */
   legs: Legs | null;
-  /** Its way as x, y pairs in m from the start. */
+  /** Path as x, y pairs in m from the start. */
   path: Float64Array;
 }
 "#;
@@ -140,7 +143,7 @@ impl JsBananaMachine {
         PRESETS.into_iter().map(preset).collect()
     }
 
-    /// All that is shown besides the robots, at once.
+    /// Returns everything that is shown besides the robots, in one call.
     #[wasm_bindgen(
         unchecked_return_type = "Pick<BananaMachine, 'config' | 'shown' | 'block' | 'stats' | 'contours' | 'gaps' | 'table' | 'chartHolds' | 'alphasOfModels' | 'reading'>"
     )]
@@ -306,8 +309,8 @@ impl JsBananaMachine {
         Ok(Uint32Array::from(&self.0.density(read_view(view)?, &grid)[..]))
     }
 
-    /// The same as RGBA pixels, each count c in the colour ramp[255·√(c/most)] of 256, transparent where there is nobody.
-    /// A view of the core's memory: to be used before the machine is asked for anything else.
+    /// Density of the samples as RGBA pixels: a count c has the colour ramp[255·√(c/most)] of 256, and empty cells are
+    /// transparent. A view of the core's memory, valid until the next call of the machine.
     #[expect(clippy::too_many_arguments, reason = "a view, a rectangle, a size and colours")]
     #[wasm_bindgen(unchecked_return_type = "Uint8ClampedArray<ArrayBuffer>")]
     pub fn picture(

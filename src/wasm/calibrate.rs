@@ -25,9 +25,12 @@ export interface CalibrationOptions {
   model?: 'odometry' | 'omnidirectional' | 'velocity';
   /** Rule by which the odometry model's variances are made: Table 5.6 as printed (default), Nav2's, Beluga's; "omni" goes with the omnidirectional model. */
   rule?: 'thrun' | 'nav2' | 'beluga' | 'omni';
-  /** Where a leg ends: as AMCL's `update_min_d` (m, default 0.25) and `update_min_a` (rad, default 0.2), or after a duration (s). */
+  /**
+   * Length of a leg: at AMCL's `update_min_d` (m, default 0.25) and `update_min_a` (rad, default 0.2), or a duration
+   * (s).
+   */
   legs?: { distance?: number; angle?: number } | { duration: number };
-  /** Whether legs outside of the gate are set aside (default) or fitted as noise. */
+  /** Treatment of legs outside the gate: excluded (default), or fitted as noise. */
   outliers?: 'reject' | 'keep';
   /**
    * Systematic errors that are corrected. By default those that the log identifies, but no scale that is not constant; true corrects that

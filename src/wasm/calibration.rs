@@ -16,9 +16,12 @@ export type Interval = [number, number];
 export interface SystematicValue {
   value: number | null;
   interval: Interval | null;
-  /** Whether it is the same on straight and turning legs, and in both halves of the log; only scales are compared. */
+  /**
+   * True if the error is the same on straight and turning legs, and in both halves of the log; only scales are
+   * compared.
+   */
   constant: boolean;
-  /** Whether it was corrected before the α's were fitted. */
+  /** True if the error was corrected before the α's were fitted. */
   corrected: boolean;
 }
 
@@ -32,7 +35,7 @@ export interface CalibrationCheck {
   /** Smallest and largest value that passes; ±Infinity where there is no bound. */
   expected: Interval;
   passed: boolean;
-  /** What the value means for the α's and what to do; empty where it passed. */
+  /** Meaning of the value for the α's, and what to do; empty if the check passed. */
   message: string;
 }
 

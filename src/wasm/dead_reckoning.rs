@@ -17,19 +17,19 @@ use wasm_bindgen::prelude::*;
 const TYPES: &str = r#"
 /** 2σ, as x, y pairs in m, the first point repeated at the end; empty where undefined. */
 export interface StepOutlines {
-  /** Of the predicted Gaussian in (x, y). */
+  /** Outline of the predicted Gaussian in (x, y). */
   ellipse: Float64Array;
-  /** Of the predicted Gaussian in exponential coordinates about the commanded pose, on the floor. */
+  /** Outline of the predicted Gaussian in exponential coordinates about the commanded pose, on the floor. */
   exponential: Float64Array;
-  /** The same in (ξ along, ξ lateral). */
+  /** Outline of the predicted Gaussian in (ξ along, ξ lateral). */
   predicted: Float64Array;
-  /** Of the robots’ own covariance there. */
+  /** Outline of the robots’ covariance in (ξ along, ξ lateral). */
   measured: Float64Array;
 }
 
 /** Robots and outlines after a quarter of the path. */
 export interface Milestone {
-  /** As `posesAfter` has them. */
+  /** Poses as in `posesAfter`. */
   poses: Float64Array;
   outlines: StepOutlines;
 }
@@ -184,7 +184,7 @@ impl JsDeadReckoning {
         flat(self.0.poses(self.0.settings().step))
     }
 
-    /// As `poses`, after another step, 1 to 200; empty where the path is shorter.
+    /// Poses as in `poses`, after another step from 1 to 200; empty if the path is shorter.
     #[wasm_bindgen(js_name = posesAfter)]
     pub fn poses_after(&self, step: f64) -> Result<Float64Array, JsValue> {
         Ok(flat(self.0.poses(whole("step", step, 1..=MAX_STEPS)? as u32)))

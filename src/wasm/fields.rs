@@ -132,7 +132,8 @@ fn read_numbers(field: &str, value: &JsValue, numbers: &mut [f64]) -> Result<(),
     Ok(())
 }
 
-/// All numbers of a group, their ranges not looked at: speeds without their duration would mean another motion.
+/// Reads all numbers of a group without checking ranges. A group has to be complete: speeds without their duration
+/// would mean another motion.
 fn read_group(field: &str, value: &JsValue, group: &mut dyn Group) -> Result<(), JsValue> {
     let keys: Vec<&str> = group.fields().iter().map(|field| field.declaration.key).collect();
     let prefix = format!("{field}.");

@@ -22,7 +22,7 @@ const TYPES: &str = r#"
 /** Speeds along the body's x (m/s or m) and y, and turn rate (rad/s or rad); as exponential coordinates along, lateral, heading. */
 export type Twist = ArrayLike<number>;
 
-/** What a velocity model is made with. */
+/** Options of a velocity model. */
 export interface VelocityModelOptions {
   /** α₁…α₆, variance coefficients. */
   alphas: ArrayLike<number>;
@@ -30,13 +30,16 @@ export interface VelocityModelOptions {
   noise?: 'normal' | 'triangular';
 }
 
-/** What an odometry model is made with. */
+/** Options of an odometry model. */
 export interface OdometryModelOptions {
   /** α₁…α₄, variance coefficients. */
   alphas: ArrayLike<number>;
   /** Opens with "normal". */
   noise?: 'normal' | 'triangular';
-  /** Whether a robot that backs up is charged for the turns it made instead of two half turns more; opens with false. */
+  /**
+   * True if a drive in reverse gets noise for the rotations that the robot made, and not for two additional half turns;
+   * default false.
+   */
   reverseAware?: boolean;
 }
 
@@ -52,11 +55,11 @@ export interface ArcInversion {
   center: { x: number; y: number } | null;
   /** Radius, m: positive with the centre to the left of the heading, negative to the right, Infinity where the arc is straight. */
   radius: number;
-  /** By how much the robot turns along the arc, rad, −π to π. */
+  /** Turn of the robot along the arc, rad, −π to π. */
   turn: number;
 }
 
-/** What `propagate` is asked. */
+/** Options of `propagate`. */
 export interface Propagation {
   /** Covariance of the first pose in exponential coordinates about its mean, three rows of three; 0 where it is left out. */
   sigma?: ArrayLike<ArrayLike<number>>;
@@ -65,7 +68,7 @@ export interface Propagation {
   alphas: ArrayLike<number>;
   /** Opens with "chapter". */
   compounding?: 'chapter' | 'first-order' | 'fourth-order';
-  /** How often the command is driven; opens with 1. */
+  /** Number of times the command is driven; default 1. */
   steps?: number;
 }
 "#;

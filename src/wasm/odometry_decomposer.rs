@@ -14,10 +14,10 @@ use wasm_bindgen::prelude::*;
 
 #[wasm_bindgen(typescript_custom_section)]
 const TYPES: &str = r#"
-/** What one rule makes of the reading. */
+/** Legs and noises of the reading under one rule. */
 export interface RuleFigures {
   rule: OdometryDecomposerSettings['rule'];
-  /** Where it takes a short reading for a spin, the second rotation has the whole turn. */
+  /** Legs. If the rule takes a short reading for a spin, the second rotation is the whole turn. */
   legs: Legs;
   /** Standard deviations of the three legs (rad, m, rad) and across the second (m). */
   deviations: Float64Array;
@@ -63,7 +63,7 @@ impl JsOdometryDecomposer {
         PRESETS.into_iter().map(preset).collect()
     }
 
-    /// All that is shown, at once. `ghosts` are the linkages of the first outcomes.
+    /// Returns everything that is shown, in one call. `ghosts` are the linkages of the first outcomes.
     #[wasm_bindgen(
         unchecked_return_type = "Pick<OdometryDecomposer, 'config' | 'shown' | 'block' | 'stats' | 'rules' | 'poses' | 'linkage' | 'robot' | 'drifted'> & { ghosts: Float64Array }"
     )]

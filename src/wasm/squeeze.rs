@@ -16,7 +16,7 @@ use wasm_bindgen::prelude::*;
 
 #[wasm_bindgen(typescript_custom_section)]
 const TYPES: &str = r#"
-/** As read, in m: least x, least y, greatest x, greatest y; x0, y0, x1, y1 of one wall after the other. */
+/** Map as it was read, in m: bounds as smallest x and y and largest x and y; walls as x0, y0, x1, y1 of each. */
 export interface Plan {
   bounds: Float64Array;
   walls: Float64Array;

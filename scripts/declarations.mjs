@@ -14,6 +14,7 @@ import { importTypeScript } from './typescript.mjs';
  * @property {string} type in TypeScript
  * @property {string} description
  * @property {true} [readonly]
+ * @property {boolean} [isText] true if it takes text too
  *
  * @typedef {Named & { property?: string, opening?: string, allowed?: string, told: string }} Attribute with its property,
  *   where that has another name, its text when the widget opens, the range of a number, and the description without that
@@ -113,7 +114,7 @@ export function widgets() {
  */
 async function widget(tag) {
   // They import libraries, which a bare clone does not have yet.
-  const { COMMON, WORD_LIST } = await importTypeScript('www/figure/attributes.ts');
+  const { COMMON, NUMBER, WORD_LIST } = await importTypeScript('www/figure/attributes.ts');
   const { attributes, declared, documentation, own } = await importTypeScript(`www/widgets/${tag}/settings.ts`);
   /** @type {import('../www/figure/attributes.ts').Documentation[]} */
   const documents = [...('marked' in own ? [OF_CLOUDS] : []), ...(documentation ? [documentation] : [])];
@@ -138,10 +139,10 @@ async function widget(tag) {
     const { words, covers, kind, property } = entry;
     const nullable = covers || entry.nullable;
     const opening = entry.opening ?? own[name]?.opening ?? (covers ? openingPreset(tag) : nullable ? undefined : words?.[0]);
-    const type = words === undefined ? 'boolean' : kind === WORD_LIST ? `(${union(words)})[]` : union(words);
+    const type = kind === NUMBER ? 'number' : words === undefined ? 'boolean' : kind === WORD_LIST ? `(${union(words)})[]` : union(words);
     const text = Array.isArray(opening) ? opening.join(' ') : opening;
     const description = describe({ ...entry, sentence: sentences[name] }, text);
-    return { name, property, type: nullable ? `${type} | null` : type, description, opening: text, told: description };
+    return { name, property, type: nullable ? `${type} | null` : type, description, opening: text, allowed: allowedIn(entry), told: description };
   };
   const told = (/** @type {[string, any]} */ [name, { sentence, ...rest }]) => ({ name, description: sentence, ...rest });
 

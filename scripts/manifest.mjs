@@ -60,7 +60,7 @@ function elementOf({ tag, machine, attributes, properties }, name, said) {
       type: { text: type.replace(' | null', '') },
       description,
       fieldName: property,
-      ...(opening !== undefined && { default: opening }),
+      ...(opening !== undefined && { default: `${opening}` }),
     })),
     members: [
       ...attributes.map(({ name, property = name, type, description }) => ({ kind: 'field', name: property, type: { text: type }, description, attribute: name, reflects: true })),

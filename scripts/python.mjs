@@ -61,12 +61,13 @@ export async function elements() {
 /**
  * The call that makes a trait.
  *
- * @param {Named} named
+ * @param {Named & { allowed?: string }} named
  * @param {string} tag
  */
-function traitOf({ name, type }, tag) {
+function traitOf({ name, type, allowed }, tag) {
   const declaration = settings[tag].find(({ key }) => key === name);
   if (declaration) return settingOf(declaration, tag);
+  if (type === 'number' && allowed) return `Number(${allowed.replace(' to ', ', ')})`;
   const words = [...type.matchAll(/'([^']+)'/g)].map(([, word]) => text(word)).join(', ');
   if (type.includes('[]')) return `Words(${words})`;
   if (words) return `Word(${words})`;

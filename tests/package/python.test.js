@@ -61,7 +61,7 @@ test('the wheel is imported, and a setting that is a keyword of Python has an un
   const lines = [
     'import json, motion_widgets as m',
     'figure = m.OdometryDecomposer(from_={"x": 1, "y": 2, "theta": 0.5})',
-    'm.BananaMachine(reverse_aware=True); m.MapSqueeze(steps=4)',
+    'm.BananaMachine(reverse_aware=True, morph=0.5); m.MapSqueeze(steps=4)',
     'print(json.dumps([m.__file__, figure.get_state(["widget", "from_"])]))',
   ];
   const [file, state] = JSON.parse(python(['-c', lines.join('\n')], path));

@@ -28,6 +28,9 @@ export interface Own {
   own: true;
   /** Default, if the property is no part of the state. */
   opening?: unknown;
+  /** Range of a number, for its documentation. */
+  min?: number;
+  max?: number;
 }
 
 export interface Attribute {

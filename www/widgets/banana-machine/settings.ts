@@ -31,7 +31,7 @@ export const attributes: import('../../figure/attributes.ts').Attributes = {
   preset: presetsOf(presets['banana-machine'], declared),
   ...attributesOf(declared),
   overlays: attribute,
-  morph: { kind: NUMBER, own: true },
+  morph: { kind: NUMBER, own: true, min: 0, max: 1 },
 };
 
 export const own: Record<string, import('../../figure/state.ts').Owned> = {

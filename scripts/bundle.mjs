@@ -155,6 +155,8 @@ const ADDRESS = {
 const DECLARATIONS = `export * from './core.js';
 /** Gives the elements words: those of messages/en.ts, or some of them, in a language (a BCP 47 tag). */
 export declare function setMessages(lang: string, messages: object): void;
+/** Whether a tag is one of the figures: for compilers of templates that ask which tags are custom elements. */
+export declare function isFigureTag(tag: string): boolean;
 `;
 
 /**
@@ -274,10 +276,12 @@ export async function bundle({ tags = WIDGETS, changed = (_, script) => script }
   // Its styles are Lit's, which a bare clone has not.
   const { roomBefore } = await importTypeScript('www/figure/page/room.ts');
   const kept = `@media (scripting:enabled){\n${roomBefore()}\n}`;
-  appendFileSync(at('dist/motion-widgets.css'), `\n:where(${WIDGETS}){margin-block:1em}\n${kept}\n`);
+  // Letters of slides are for sentences.
+  const slides = `:where(.reveal) :where(${WIDGETS}){font-size:.3em;text-align:start}`;
+  appendFileSync(at('dist/motion-widgets.css'), `\n:where(${WIDGETS}){margin-block:1em}\n${slides}\n${kept}\n`);
   write(at('dist/motion.wasm'), wasm);
   for (const { path, contents } of [bytes, ...tags.map(moduleOf)]) write(at(path), contents);
-  const types = { core: 'www/types.d.ts', machines: 'build/machines.d.ts', elements: 'build/elements.d.ts', react: 'build/react.d.ts' };
+  const types = { core: 'www/types.d.ts', machines: 'build/machines.d.ts', elements: 'build/elements.d.ts', react: 'build/react.d.ts', solid: 'build/solid.d.ts', svelte: 'build/svelte.d.ts' };
   for (const [name, path] of Object.entries(types)) write(at(`dist/${name}.d.ts`), besideEachOther(readFileSync(at(path), 'utf8')));
   write(at('dist/external.d.ts'), DECLARATIONS);
   for (const name of ['de', 'motion-widgets.css']) write(at(`dist/${name}.d.ts`), 'export {};\n');

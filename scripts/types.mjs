@@ -1,5 +1,5 @@
-// Generates TypeScript types from the declarations: build/machines.d.ts of the core, and build/elements.d.ts of the elements.
-// www/types.d.ts exports both, and contains the types that are written by hand.
+// Types that follow from what is declared: build/machines.d.ts of the core, build/elements.d.ts of the elements, and their tags in
+// templates. What is left is in www/types.d.ts, which has them all.
 
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
@@ -15,12 +15,32 @@ const HEAD = '// Generated from the declarations: not to be edited.\n';
 /** Declaration of `Symbol.dispose`, which the `lib` setting of a project may lack. */
 const DISPOSABLE = '/// <reference lib="esnext.disposable" />\n';
 
-/** Writes both. */
+/** Tags in templates of other frameworks: module, interface and attributes of any element there, and prefix of properties. */
+const TEMPLATES = {
+  solid: { module: 'solid-js', namespace: 'namespace JSX { interface IntrinsicElements extends Tags {} }', any: "import('solid-js').JSX.HTMLAttributes", prefix: 'prop:' },
+  svelte: { module: 'svelte/elements', namespace: 'interface SvelteHTMLElements extends Tags {}', any: "import('svelte/elements').HTMLAttributes", prefix: '' },
+};
+
+/** Writes all of them. */
 export async function writeTypes() {
   const all = await widgets();
   const core = readFileSync(join(ROOT, 'build/core.d.ts'), 'utf8');
   writeFileSync(join(ROOT, 'build/machines.d.ts'), [DISPOSABLE, HEAD, ...groupTypes(), ...Object.keys(settings).map(settingTypes), core].join('\n'));
   writeFileSync(join(ROOT, 'build/elements.d.ts'), [HEAD, imported(all), await figureType(all), ...(await Promise.all(all.map(elementTypes))), tagNames(all)].join('\n'));
+  for (const [name, { module, namespace, any, prefix }] of Object.entries(TEMPLATES)) {
+    writeFileSync(
+      join(ROOT, `build/${name}.d.ts`),
+      `${HEAD}
+import type { FigureTags } from '../build/elements.d.ts';
+
+type Own<Given> = Given & { [Name in keyof Given as \`${prefix}\${Name & string}\`]?: Given[Name] };
+type Tags = { [Tag in keyof FigureTags]: Omit<${any}<HTMLElementTagNameMap[Tag]>, keyof FigureTags[Tag]> & Own<FigureTags[Tag]> };
+
+declare module '${module}' {
+  ${namespace}
+}
+`);
+  }
 }
 
 /** Returns the interfaces of groups. A group of one name has to be equal in all widgets. */
@@ -108,7 +128,7 @@ async function elementTypes({ tag, machine, attributes, properties, state }) {
   const element = `FigureElement<${machine}State, ${machine}['stats']>`;
   const widget = { name: 'widget', type: `'${tag}'`, description: '' };
   // What every figure has is there already.
-  const own = attributes.filter(({ name }) => !(name in COMMON));
+  const own = attributes.filter(({ name }) => !(name in COMMON)).map((each) => ({ ...each, isText: true }));
   return (
     `${asInterface(`${machine}State`, [widget, ...state], 'FigureState')}\n` +
     `/** \`<${tag}>\`. Its attributes have the properties' names. */\n` +
@@ -127,7 +147,22 @@ function imported(all) {
 /** @param {import('./declarations.mjs').Widget[]} all */
 function tagNames(all) {
   const names = all.map(({ tag, machine }) => `    '${tag}': ${machine}Element;\n`);
-  return `declare global {\n  interface HTMLElementTagNameMap {\n${names.join('')}  }\n}\n`;
+  const given = all.map(({ tag, machine, attributes, properties }) => {
+    const fields = [...attributes.map(({ name, property = name }) => property), ...properties.filter(({ readonly }) => !readonly).map(({ name }) => name)];
+    return `  '${tag}': Given<${machine}Element, ${union(fields)}>;\n`;
+  });
+  return `/** What a template gives to an element: numbers and lists as text too, as attributes have them. */
+type Given<Element, Names extends keyof Element> = { [Name in Names]?: Element[Name] | string | null } & { 'heading-level'?: string };
+
+/** What templates give to each tag. */
+export interface FigureTags {
+${given.join('')}}
+
+declare global {
+  interface HTMLElementTagNameMap {
+${names.join('')}  }
+}
+`;
 }
 
 /**
@@ -136,8 +171,9 @@ function tagNames(all) {
  * @param {string} [base]
  */
 function asInterface(name, fields, base) {
-  const lines = fields.map(({ name: key, type, description, readonly }) => {
+  const lines = fields.map(({ name: key, type, description, readonly, isText }) => {
     const comment = description && `  /** ${description} */\n`;
+    if (isText) return `${comment}  get ${key}(): ${type};\n  set ${key}(value: ${type.replace(' | null', '')} | string | null | undefined);\n`;
     return `${comment}  ${readonly ? 'readonly ' : ''}${key}: ${type};\n`;
   });
   return `export interface ${name}${base ? ` extends ${base}` : ''} {\n${lines.join('')}}\n`;

@@ -66,6 +66,23 @@ for (const name of ALL) {
     expectRoom(page, name, [320, 375, 414, 480, 560, 640, 700, 760, 900, 1024, 1280]));
 }
 
+test('a title and a caption move nothing when the script comes', async ({ page }) => {
+  let come = () => {};
+  const coming = new Promise((resolve) => (come = () => resolve(undefined)));
+  await page.route('**/motion-widgets.js', async (route) => {
+    await coming;
+    await route.continue();
+  });
+  const lettered = '<banana-machine><span slot="title">Figure 9.3</span><p slot="caption">Drag the ring.</p></banana-machine><p id="after">After</p>';
+  const shown = show(page, lettered, { head: '<link rel="stylesheet" href="/motion-widgets.css">' });
+  const top = async () => (await boxOf(page.locator('#after'))).y;
+  const before = await top();
+  come();
+  await shown;
+  await ready(page.locator('banana-machine'));
+  expect(await top()).toBe(before);
+});
+
 test('a figure is at most 720 px high in the column of a book and on a screen', async ({ page }, { title }) => {
   // Arc Anatomy is higher: its table of factors stands below the picture.
   const figure = figureFor(title, ALL.filter((name) => name !== 'arc-anatomy'));

@@ -42,9 +42,13 @@ export function roomBefore() {
   const tags = Object.keys(HEIGHTS);
   const waiting = (each: string | string[]) => `:is(${each}):not(:defined)`;
   return [
-    `${waiting(tags)}{display:block;position:relative;min-width:0;max-width:100%}`,
+    `${waiting(tags)}{display:flow-root;position:relative;min-width:0;max-width:100%}`,
     `${waiting(tags)}::before{${likedWidth}}`,
     `${waiting(tags)}>:not([slot]){position:absolute;top:0;margin:0}`,
+    // As the slots of the figure have them.
+    `:where(${waiting(tags)}>[slot=title]){display:block;font-size:1.1em;line-height:1.4}`,
+    `:where(${waiting(tags)}:has(>[slot=title]))::before{margin-bottom:.297em}`,
+    `:where(${waiting(tags)}>[slot=caption]){font-size:.95em;line-height:1.4}`,
     ...tags.map((tag) => `${waiting(tag)}::before{padding-top:${heightOf(tag, '%')}}`),
   ].join('\n');
 }

@@ -253,10 +253,10 @@ test('events report changes alone, whatever is drawn and asked', async ({ page, 
   expect(await heard(page, ['stats'])).toHaveLength(1);
 });
 
-test('an arrow key that a control used goes no further; any other key does', async ({ page }) => {
+test('an arrow key or a space that a control used goes no further; any other key does', async ({ page }) => {
   const parts = {
     'arc-anatomy': ['.handle.body.start', '#omega', 'input[type=radio] >> nth=0'],
-    'banana-machine': ['#chart-omega'],
+    'banana-machine': ['#chart-omega', '.to-present'],
   };
   for (const [name, selectors] of Object.entries(parts)) {
     const widget = await mount(page, name);
@@ -268,7 +268,8 @@ test('an arrow key that a control used goes no further; any other key does', asy
     });
     for (const selector of selectors) {
       await widget.locator(selector).focus();
-      for (const key of ['ArrowRight', 'ArrowLeft', 's', '/', 'Escape']) await page.keyboard.press(key);
+      const used = selector === '.to-present' ? ['Space'] : ['ArrowRight', 'ArrowLeft'];
+      for (const key of [...used, 's', '/', 'Escape']) await page.keyboard.press(key);
       const passed = await page.evaluate(() => /** @type {string[]} */ (Reflect.get(window, 'keys')).splice(0));
       expect(passed, selector).toEqual(['s', '/', 'Escape']);
     }

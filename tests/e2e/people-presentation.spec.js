@@ -43,9 +43,11 @@ test('the button fills the screen, C shows the controls, and Escape leaves', asy
 test('without full screen the attribute fills the window, and the button leaves', async ({ page }) => {
   await page.addInitScript(() => (Element.prototype.requestFullscreen = () => Promise.reject(new TypeError('refused'))));
   const widget = await mount(page, 'banana-machine');
+  // Slides are scaled by a transform, which would be the window of a fixed box.
+  await page.evaluate(() => (document.body.style.transform = 'scale(0.5)'));
   const before = await boxOf(widget);
   await widget.evaluate((element) => void Object.assign(element, { presentation: true }));
-  expect(await boxOf(widget)).toEqual({ x: 0, y: 0, width: 1920, height: 1080 });
+  await expect.poll(() => boxOf(widget)).toEqual({ x: 0, y: 0, width: 1920, height: 1080 });
   // A handle stays under the pointer, whatever the size of the letters.
   const handle = widget.getByRole('slider', { name: 'End of the commanded arc' });
   await frames(page);

@@ -47,13 +47,14 @@ export class Presentation extends Part {
     await host.updateComplete;
     // A click should leave no focus ring in the presentation.
     this.#focus(keyed ? '.presenting button' : '.presenting');
-    try {
-      // Full screen needs a key press or a click. Without it the styles fill the window.
-      if (navigator.userActivation.isActive) await host.requestFullscreen();
-    } catch {
-      return;
-    }
+    // Full screen needs a key press or a click.
+    if (navigator.userActivation.isActive) await host.requestFullscreen().catch(() => {});
     if (!this.#listening) await this.#exit();
+    else if (!host.matches(':fullscreen')) {
+      // The top layer is the window, whatever transform the page has.
+      host.popover = 'manual';
+      host.showPopover?.();
+    }
   }
 
   async #end() {
@@ -68,6 +69,7 @@ export class Presentation extends Part {
   }
 
   async #exit() {
+    this.host.popover = null;
     if (this.host.matches(':fullscreen')) await document.exitFullscreen().catch(() => {});
   }
 

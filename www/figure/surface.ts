@@ -39,11 +39,15 @@ const FIELD = 'textarea, input:not([type=range], [type=radio], [type=checkbox])'
 /** Keys that move sliders and radio buttons. */
 const MOVES = /Arrow|Page|Home|End/;
 
-/** Stops a key that the figure has used: outside of the shadow root, a book that turns pages would not see the field. */
+/** Keys that press a button, a box or a summary. */
+const PRESSES = /^( |Enter)$/;
+
+/** Stops a key that the figure has used: outside of the shadow root, a book or a talk that turns pages would not see the control. */
 function keepUsed(event: KeyboardEvent) {
   const { key, ctrlKey, altKey, metaKey, defaultPrevented } = event;
   const target = event.target as Element;
-  const native = target.matches(FIELD) ? key !== 'Escape' : target.matches('input') && MOVES.test(key);
+  const isPress = PRESSES.test(key) && target.matches('button, input, summary');
+  const native = target.matches(FIELD) ? key !== 'Escape' : isPress || (target.matches('input') && MOVES.test(key));
   if (defaultPrevented || (native && !ctrlKey && !altKey && !metaKey)) event.stopPropagation();
 }
 

@@ -13,6 +13,9 @@ export const presentationStyles = css`
     height: 100% !important;
     margin: 0 !important;
     padding: 0 !important;
+    border: 0;
+    background: transparent;
+    color: inherit;
     font-size: max(1em, min(1.5em, 100vw / 44, 100vh / 36), min(100vw / 80, 100vh / 45)) !important;
   }
 

@@ -153,10 +153,21 @@ const EXPORTED = {
   },
 };
 
+/** @type {import('./project.mjs').Serving['checks']} */
+const SERVED = {
+  async 'live with a kernel'(page, site) {
+    // Icons of Voilà are on the network.
+    await page.route('**/font-awesome*/**', (route) => route.fulfill({ contentType: 'text/css', body: '' }));
+    await page.route('**/fontawesome-free*/**', (route) => route.fulfill({ contentType: 'text/css', body: '' }));
+    await page.goto(site.url);
+    await live(page, site);
+  },
+};
+
 /** @type {import('./project.mjs').Engine} */
 export default {
   heading: 'Jupyter',
-  versions: () => pinned('jupyter', 'jupyterlab', 'anywidget', 'nbconvert'),
+  versions: () => pinned('jupyter', 'jupyterlab', 'anywidget', 'nbconvert', 'voila'),
   python: true,
   async install(directory, { run: execute, start, wheel }) {
     const tools = besidePython(directory);
@@ -185,6 +196,11 @@ export default {
       },
       checks: CHECKS,
     },
+    {
+      name: 'Voilà',
+      serve: (directory, tools) => program((port) => [pythonProgram(directory, 'voila'), ['motion.ipynb', '--no-browser', '--port', port]])(directory, tools),
+      checks: SERVED,
+    },
     { name: 'exported by nbconvert', serve: files('_build'), checks: EXPORTED },
   ],
   pages: { first: 'motion.ipynb' },
@@ -193,6 +209,7 @@ export default {
     { selector: 'map-squeeze', properties: { preset: 'corridor', samples: 1000 } },
   ],
   allowed: [
+    { message: /^(Unsatisfied version|No satisfying version)/, reason: 'Voilà is built with another JupyterLab.' },
     { message: /^Plugin .* (?:is taking too long to activate|took .* to activate)/, reason: 'JupyterLab on a busy machine.' },
     { message: /^Connection lost, reconnecting/, reason: 'The kernel is started again.' },
     { message: /^WebSocket connection to .* closed before the connection is established/, reason: 'The page was left while it was starting.' },

@@ -61,9 +61,10 @@ const SILENT = {
 /** Of this clone alone: others may run at the same time. */
 const SCRATCH = join(CACHE, 'embeddings', createHash('sha256').update(ROOT).digest('hex').slice(0, 8));
 
-/** @returns {string[]} the engines that there are */
-export function engines() {
-  return readdirSync(join(ROOT, 'tests/embeddings')).flatMap((name) => name.match(/^(.+)\.js$/)?.slice(1) ?? []);
+/** @returns {Promise<string[]>} names of all engines */
+export async function engines() {
+  const { plain } = await import('./plain.mjs');
+  return [...Object.keys(plain), ...readdirSync(join(ROOT, 'tests/embeddings')).flatMap((name) => name.match(/^(.+)\.js$/)?.slice(1) ?? [])];
 }
 
 /**
@@ -71,7 +72,8 @@ export function engines() {
  * @returns {Promise<Engine>}
  */
 export async function engine(name) {
-  return (await import(`./${name}.js`)).default;
+  const { plain } = await import('./plain.mjs');
+  return plain[name] ?? (await import(`./${name}.js`)).default;
 }
 
 /**

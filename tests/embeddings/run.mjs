@@ -58,7 +58,7 @@ async function outcomesOf(browser, name) {
  * @returns {Promise<boolean>} whether all is well
  */
 async function test(wanted) {
-  const known = engines();
+  const known = await engines();
   const unknown = wanted.find((name) => !known.includes(name));
   if (unknown !== undefined) throw new Missing(`"${unknown}" is no engine that is tried; allowed are ${known.join(', ')}.`);
   await build();

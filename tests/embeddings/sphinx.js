@@ -1,8 +1,7 @@
 /** A book by Sphinx, made by a program and a classic script. Every link loads another document. */
 
-import { copyFileSync, mkdirSync } from 'node:fs';
 import { join } from 'node:path';
-import { ROOT } from '../../scripts/process.mjs';
+import { copySingleFiles } from './plain.mjs';
 import { pinned, pythonInstall, pythonProgram } from './project.mjs';
 import { files } from './serving.mjs';
 
@@ -29,10 +28,7 @@ export default {
     await pythonInstall(directory, tools, []);
   },
   async build(directory, { run }) {
-    mkdirSync(join(directory, '_static'), { recursive: true });
-    for (const name of ['motion-widgets.iife.js', 'motion-widgets.css']) {
-      copyFileSync(join(ROOT, 'dist', name), join(directory, '_static', name));
-    }
+    copySingleFiles(join(directory, '_static'));
     for (const theme of names) {
       const options = ['--fail-on-warning', '--quiet', '--define', `html_theme=${theme}`];
       await run(pythonProgram(directory, 'sphinx-build'), [...options, '.', `_build/${theme}`]);

@@ -17,7 +17,7 @@ function linesIn(path) {
   return linesOf(path.endsWith('.ipynb') ? JSON.parse(text).cells.map((/** @type {any} */ { source }) => source.join('')).join('\n') : text);
 }
 
-for (const name of engines()) {
+for (const name of await engines()) {
   const { heading, versions } = await engine(name);
 
   test(`${heading}: the document has lines of the example, and the versions that were tried`, () => {

@@ -1,14 +1,11 @@
+import { isFigureTag } from 'motion-widgets'
 import { defineConfig } from 'vitepress'
 
 export default defineConfig({
   title: 'Probable Motion',
   base: '/book/',
   vue: {
-    template: {
-      compilerOptions: {
-        isCustomElement: (tag) => /^(banana-machine|map-squeeze|arc-anatomy|odometry-decomposer|dead-reckoning|alpha-calibrator)$/.test(tag),
-      },
-    },
+    template: { compilerOptions: { isCustomElement: isFigureTag } },
   },
   vite: {
     optimizeDeps: { exclude: ['motion-widgets'] },

@@ -1,0 +1,3 @@
+import 'motion-widgets';
+
+export default defineNuxtPlugin(() => {});

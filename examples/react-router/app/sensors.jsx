@@ -1,0 +1,1 @@
+export default () => <p>No figure here.</p>;

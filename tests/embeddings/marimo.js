@@ -1,0 +1,33 @@
+import { live } from './checks.mjs';
+import { pinned, pythonInstall, pythonProgram } from './project.mjs';
+import { program } from './serving.mjs';
+
+/** @type {NonNullable<import('./project.mjs').Serving['checks']>} */
+const CHECKS = {
+  async 'what the reader changes comes to Python, and the other way'(page, site) {
+    await page.goto(site.url);
+    await live(page, site);
+    await page.locator('banana-machine').getByRole('slider', { name: /ω/ }).first().press('ArrowRight');
+    await page.getByText('turn rate 0.81 rad/s').waitFor();
+    await page.getByRole('button', { name: 'Hard arc' }).last().click();
+    await page.getByText('turn rate 1.2 rad/s').waitFor();
+  },
+};
+
+/** @type {import('./project.mjs').Engine} */
+export default {
+  heading: 'marimo',
+  versions: () => pinned('marimo', 'marimo', 'anywidget'),
+  python: true,
+  install: (directory, tools) => pythonInstall(directory, tools, [tools.wheel]),
+  servings: [
+    {
+      name: 'app',
+      serve: (directory, tools) =>
+        program((port) => [pythonProgram(directory, 'marimo'), ['run', 'motion.py', '--headless', '--no-token', '--port', port]])(directory, tools),
+      checks: CHECKS,
+    },
+  ],
+  pages: { first: '/' },
+  expected: [{ selector: 'banana-machine', properties: { omega: 0.8, samples: 20000 } }],
+};

@@ -1,0 +1,101 @@
+/**
+ * Engines that differ by data alone: `npm run build` writes their site, and `npm run dev` serves it for authors.
+ *
+ * @module
+ */
+
+import { copyFileSync, mkdirSync } from 'node:fs';
+import { join } from 'node:path';
+import { ROOT } from '../../scripts/process.mjs';
+import { npmInstall, pinned } from './project.mjs';
+import { files, program } from './serving.mjs';
+
+/** @typedef {import('./project.mjs').Engine} Engine */
+
+/**
+ * @typedef {object} Plain
+ * @property {string} heading
+ * @property {string[]} packages whose versions the table of the documents has
+ * @property {string} [output] directory of the site, from the example; without it, `npm start` serves the site at PORT
+ * @property {string} [base] path of the site
+ * @property {string} [devBase] path of the site for authors
+ * @property {string} [copies] directory into which an author copies the single files
+ * @property {boolean} [lists] whether the page sets a list
+ * @property {'development'} [only] serving that works
+ */
+
+/** Figure of the examples. */
+const FIGURE = { omega: 0.8, samples: 20000 };
+const ALPHAS = [0.1, 0.05, 0.05, 0.1, 0.01, 0.01];
+
+/** @type {Record<string, Plain & Partial<Engine>>} */
+const PLAIN = {
+  vite: { heading: 'Vite', packages: ['vite'], output: 'dist', base: '/book/', go: undefined },
+  angular: {
+    heading: 'Angular',
+    packages: ['@angular/core', '@angular/build'],
+    output: 'dist/browser',
+    base: '/book/',
+    lists: true,
+    // Its command line refuses older ones.
+    node: 24,
+    pages: { first: '/' },
+    go: (page, which) => page.getByRole('button', { name: which === 'second' ? 'Sensors' : 'Motion' }).first().click(),
+    allowed: [
+      { message: /\/vite-root\/motion\.wasm 404$/, reason: 'Its development server gives the module an address at which it has no file.' },
+      { message: /^motion-widgets: the module embedded in a script is used\. .*\/vite-root\//, reason: 'The same: the figure is live without it.' },
+    ],
+  },
+  vitepress: {
+    heading: 'VitePress',
+    packages: ['vitepress'],
+    output: '.vitepress/dist',
+    base: '/book/',
+    devBase: '/book/',
+    pages: { first: '/motion.html', second: '/sensors.html' },
+    go: (page, path) => page.locator(`.VPSidebar a[href$="${path}"]`).click(),
+    async dark(page, on) {
+      const html = page.locator('html');
+      if ((await html.getAttribute('class'))?.includes('dark') !== on) await page.locator('.VPNavBarAppearance .VPSwitchAppearance').click();
+    },
+    expected: [
+      { selector: 'banana-machine >> nth=0', properties: FIGURE },
+      { selector: 'banana-machine >> nth=1', properties: { omega: 0.3, samples: 5000, alphas: [0.1, 0.1, 0.1, 0.1, 0.01, 0.01] } },
+      { selector: 'map-squeeze', properties: { samples: 1000 } },
+    ],
+  },
+  sveltekit: { heading: 'SvelteKit', packages: ['@sveltejs/kit', 'svelte'], output: 'build', lists: true, node: 24 },
+  nuxt: { heading: 'Nuxt', packages: ['nuxt'], output: '.output/public', lists: true, node: 24 },
+  // Its production server answers 500 to every page, without figures too.
+  solidstart: { heading: 'SolidStart', packages: ['@solidjs/start', 'solid-js'], lists: true, node: 24, only: 'development' },
+  'react-router': { heading: 'React Router', packages: ['react-router'], lists: true, node: 24 },
+  eleventy: { heading: 'Eleventy', packages: ['@11ty/eleventy'], output: '_site', base: '/book/', pages: { first: '/', second: '/sensors/' } },
+  observable: { heading: 'Observable Framework', packages: ['@observablehq/framework'], output: 'dist', base: '/book/', copies: 'src' },
+};
+
+/** Copies the single files of a release into a directory. @param {string} directory */
+export function copySingleFiles(directory) {
+  mkdirSync(directory, { recursive: true });
+  for (const name of ['motion-widgets.iife.js', 'motion-widgets.css']) copyFileSync(join(ROOT, 'dist', name), join(directory, name));
+}
+
+/** @type {[string, Engine][]} */
+const all = Object.entries(PLAIN).map(([name, { packages, output, base, devBase, copies, lists, only, ...more }]) => [name, {
+  versions: () => pinned(name, ...packages),
+  install: npmInstall,
+  async build(directory, { run }) {
+    if (copies) copySingleFiles(join(directory, copies));
+    await run('npm', ['run', 'build']);
+  },
+  servings: [
+    { name: 'production', serve: output ? files(output, base) : program((port) => ['npm', ['start'], { PORT: port }]) },
+    { name: 'development', serve: program((port) => ['npm', ['run', 'dev', '--', '--port', port]], devBase) },
+  ].filter(({ name: serving }) => !only || serving === only),
+  pages: { first: '/', second: '/sensors' },
+  go: (page, path) => page.getByRole('link', { name: path === '/' ? 'Motion' : 'Sensors' }).first().click(),
+  expected: [{ selector: 'banana-machine', properties: { ...FIGURE, ...(lists && { alphas: ALPHAS }) } }],
+  ...more,
+}]);
+
+/** By the name of the example. */
+export const plain = Object.fromEntries(all);

@@ -155,7 +155,7 @@ const ADDRESS = {
 const DECLARATIONS = `export * from './core.js';
 /** Gives the elements words: those of messages/en.ts, or some of them, in a language (a BCP 47 tag). */
 export declare function setMessages(lang: string, messages: object): void;
-/** Whether a tag is one of the figures: for compilers of templates that ask which tags are custom elements. */
+/** Returns true for the tag of a figure. Compilers of templates ask which tags are custom elements. */
 export declare function isFigureTag(tag: string): boolean;
 `;
 

@@ -151,10 +151,10 @@ function tagNames(all) {
     const fields = [...attributes.map(({ name, property = name }) => property), ...properties.filter(({ readonly }) => !readonly).map(({ name }) => name)];
     return `  '${tag}': Given<${machine}Element, ${union(fields)}>;\n`;
   });
-  return `/** What a template gives to an element: numbers and lists as text too, as attributes have them. */
+  return `/** Values that a template gives to an element: numbers and lists also as text, as attributes have them. */
 type Given<Element, Names extends keyof Element> = { [Name in Names]?: Element[Name] | string | null } & { 'heading-level'?: string };
 
-/** What templates give to each tag. */
+/** Values that templates give to each tag. */
 export interface FigureTags {
 ${given.join('')}}
 

@@ -15,7 +15,7 @@ export { setMessages } from './messages/registry.ts';
 // The page may give a widget words before it has come.
 addEnglish({ ...en, ...Object.fromEntries(vocabularies.map((key) => [key, {}])) });
 
-/** Whether a tag is one of the figures: for compilers of templates that ask which tags are custom elements. */
+/** Returns true for the tag of a figure. Compilers of templates ask which tags are custom elements. */
 export const isFigureTag = (tag: string) => tag in widgets;
 
 /** Those that were not met yet. */

@@ -1,5 +1,5 @@
-// Types that follow from what is declared: build/machines.d.ts of the core, build/elements.d.ts of the elements, and their tags in
-// templates. What is left is in www/types.d.ts, which has them all.
+// Generates TypeScript types from the declarations: build/machines.d.ts of the core, build/elements.d.ts of the elements, and the tags in
+// templates of Solid and Svelte. www/types.d.ts exports the first two, and contains the types that are written by hand.
 
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';

@@ -11,7 +11,7 @@ export default {
   install: (directory, tools) => pythonInstall(directory, tools, []),
   async build(directory, { run }) {
     copySingleFiles(join(directory, 'static'));
-    await run(pythonProgram(directory, 'hugo'), ['--baseURL', 'http://localhost/book/']);
+    await run(pythonProgram(directory, 'hugo'), []);
   },
   servings: [
     { name: 'production', serve: files('public', '/book/') },

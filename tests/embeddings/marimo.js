@@ -8,9 +8,9 @@ const CHECKS = {
     await page.goto(site.url);
     await live(page, site);
     await page.locator('banana-machine').getByRole('slider', { name: /ω/ }).first().press('ArrowRight');
-    await page.getByText('turn rate 0.81 rad/s').waitFor();
+    await page.getByText('turn rate 0.81 rad/s').first().waitFor();
     await page.getByRole('button', { name: 'Hard arc' }).last().click();
-    await page.getByText('turn rate 1.2 rad/s').waitFor();
+    await page.getByText('turn rate 1.2 rad/s').first().waitFor();
   },
 };
 

@@ -15,7 +15,7 @@ const at = (/** @type {string} */ path) => join(ROOT, path);
 
 const PAGE_SCRIPTS = ['bundle', 'declarations', 'manifest', 'names', 'python', 'react', 'tables', 'types', 'typescript'].map((name) => `scripts/${name}.mjs`);
 
-/** What scripts/bundle.mjs gives to who imports the module. */
+/** Declarations of the module that scripts/bundle.mjs puts in the place of `motion.wasm`. */
 const CARRIED = `type Bytes = Uint8Array<ArrayBuffer>;
 type Carried = { glue(): Promise<typeof import('./motion.js')>; source(): Bytes | URL | Promise<Bytes> | undefined };
 declare const cores: { motion: Carried; [tag: string]: Carried | undefined };
@@ -223,7 +223,7 @@ async function shortNames(name) {
  */
 async function writeGlue(name, between) {
   const changes = /** @type {[RegExp, string][]} */ ([
-    // What it throws by itself is the end of a core, as a trap is; plain errors are the page's own, thrown where a core reads.
+    // Errors of wasm-bindgen itself end a core as a trap does; plain errors come from callbacks of the page.
     [/throw new Error\((?=getStringFromWasm)/g, 'throw new WebAssembly.RuntimeError('],
     // For all classes; www/core.ts does it.
     [/^if \(Symbol\.dispose\) .*$/gm, ''],

@@ -16,7 +16,7 @@ import { importTypeScript } from './typescript.mjs';
 
 const at = (/** @type {string} */ path) => join(ROOT, path);
 
-/** What is copied as it is; index.html becomes classroom.html as well. */
+/** Files that are copied unchanged; index.html becomes classroom.html as well. */
 const COPIED = /\.(html|css)$/;
 
 /** Their tags. */
@@ -135,7 +135,7 @@ function named(name, extension, contents) {
   return { path: `dist/chunks/${name}-${hash}${extension}`, contents };
 }
 
-/** Which characters of an inlined module stand higher, so that whoever bundles or shortens it once more has no way to spoil it. */
+/** Characters of an inlined module that are shifted up by 256, so that another bundler or minifier cannot damage it. */
 const SHIFTED = {
   /** All that are ever written with a backslash. */
   utf8: /[^ -~\x80-\xff]|["$'\\`]/g,
@@ -145,13 +145,13 @@ const SHIFTED = {
 
 /** Replacements of www/address.ts for bundles that are not the script named by the page. */
 const ADDRESS = {
-  /** Only while it is evaluated; in the middle of a page it has none. */
+  /** Address of a classic script, which is known only while the script is evaluated. */
   classic: "export const address = globalThis.document?.currentScript?.src ?? ''; export const classic = true;",
-  /** Of the script that a chunk belongs to. */
+  /** Address of the script that a chunk belongs to. */
   chunk: "export const address = (import.meta.url ?? '').replace(/chunks\\/[^/]*$/, 'external.js'); export const classic = false;",
 };
 
-/** What the scripts of the elements export. */
+/** Declarations of the exports of the scripts with elements. */
 const DECLARATIONS = `export * from './core.js';
 /** Gives the elements words: those of messages/en.ts, or some of them, in a language (a BCP 47 tag). */
 export declare function setMessages(lang: string, messages: object): void;

@@ -1,4 +1,4 @@
-// What the widgets declare of themselves, as scripts/manifest.mjs and scripts/types.mjs tell it: from the settings of
+// Declarations of the widgets for scripts/manifest.mjs and scripts/types.mjs: from the settings of
 // the core, from each widget's settings.js, and from the comments of the elements' classes.
 
 import { presets, settings } from '../www/settings.js';
@@ -27,7 +27,7 @@ import { importTypeScript } from './typescript.mjs';
  * @property {Named[]} state without what every state has
  */
 
-/** Of the settings that are no words and no groups. @type {Record<string, string>} */
+/** Types in TypeScript of settings other than words and groups. @type {Record<string, string>} */
 const TYPES = { number: 'number', whole: 'number', boolean: 'boolean', numbers: 'number[]' };
 
 /** Properties and state of every element with a cloud. @type {import('../www/figure/attributes.ts').Documentation} */
@@ -84,7 +84,7 @@ function number(value) {
 /** @type {Promise<{ schemaVersion: string, classes: Map<string, any> }> | undefined} */
 let analyzed;
 
-/** What the comments of the elements' classes say, as the analyzer reads them, by the classes' names. */
+/** Returns the comments of the elements' classes by the names of the classes. */
 export function comments() {
   return (analyzed ??= analyze());
 }

@@ -24,8 +24,8 @@ const [START, DURATION, STEP, ROW] = [10, 225, 0.005, 0.05];
 const STEPS = Math.round(ROW / STEP);
 
 /**
- * The reference goes on for so long before and after. But for the clocks it has its rows when the odometry does: a turn of a
- * leg takes five rows, and what lies between two of them would be known to some hundredths of its error.
+ * Time in s by which the reference begins earlier and ends later than the odometry. Both have their rows at the same times but for the
+ * offset of the clocks: a turn takes five rows only, so that interpolation would err by a few per cent.
  */
 const AROUND = 1;
 

@@ -6,7 +6,7 @@ import { ROOT } from './process.mjs';
 
 /** @typedef {{ name: string, version: string, licence: string, directory: string }} Package */
 
-/** What no registry has. A toolchain may be installed without its documents. */
+/** Licence of the standard library, which is no package. A toolchain may be installed without its documents. */
 const STANDARD_LIBRARY = 'The standard library of Rust (MIT OR Apache-2.0), copyright The Rust Project contributors: see rust-lang.org.';
 
 /**
@@ -48,7 +48,7 @@ export function licences(packages) {
   const holders = new Map();
   for (const { name, version, licence, directory } of packages) {
     const texts = readdirSync(directory).filter((file) => /^(licen[cs]e|copying)/i.test(file));
-    // Of several to choose from, the shortest.
+    // MIT is the shortest licence of several to choose from.
     const file = texts.find((each) => /mit/i.test(each)) ?? texts[0];
     if (file === undefined) throw new Error(`${name} ${version} (${licence}) comes without the text of its licence.`);
     const text = readFileSync(join(directory, file), 'utf8').replaceAll('\r', '').trim();

@@ -126,7 +126,7 @@ export function endWithUs(group) {
 /** Forgets a process group that has ended. @param {number} group */
 export function hasEnded(group) {
   groups.delete(group);
-  // Who runs nothing keeps the signals' own meaning.
+  // Signals have their usual meaning while no program runs.
   if (groups.size === 0) for (const signal of ['SIGINT', 'SIGTERM']) process.off(signal, interrupted);
 }
 

@@ -1,5 +1,5 @@
-// What `pip` takes of the bundles: python/src/motion_widgets gets the script, and a class for each element, whose traits
-// follow from what is declared.
+// Sources of the Python package: python/src/motion_widgets gets the script, and a class for each element with a trait for
+// each declared setting.
 
 import { copyFileSync, readdirSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
@@ -96,13 +96,13 @@ function settingOf({ key, type, words = [], fields = [], min, max }, tag) {
   }
 }
 
-/** What a trait of words takes, as a sentence. @param {string} trait */
+/** Returns the words that a trait takes, as a sentence. @param {string} trait */
 function wordsOf(trait) {
   const words = trait.match(/^(Words?)\((.+)\)$/);
   return words ? ` ${words[1] === 'Word' ? 'One' : 'Some'} of ${words[2]}.` : '';
 }
 
-/** What is called otherwise in Python. @type {Record<string, string>} */
+/** Constants of JavaScript that have other names in Python. @type {Record<string, string>} */
 const WORDS = { null: 'None', true: 'True', false: 'False' };
 
 /** @param {string} description in which what stands between backticks may be a property */

@@ -37,7 +37,7 @@ function imported(all) {
   );
 }
 
-const COMMON = `/** What a prop takes: numbers and lists of words as text too, as attributes have them. */
+const COMMON = `/** Type of a prop: numbers and lists of words also as text, as in attributes. */
 type Given<Value> = Value extends number
   ? Value | \`\${number}\`
   : Value extends string[]
@@ -63,7 +63,7 @@ type OwnProps<Element extends FigureElement<any, any>, Names extends keyof Eleme
 type Props<Element extends FigureElement<any, any>, Names extends keyof Element> = OwnProps<Element, Names> &
   Omit<HTMLAttributes<Element>, keyof OwnProps<Element, Names>>;
 
-/** What an attribute says. React gives a tag properties only where its element is defined already, which nobody knows. */
+/** Type of an attribute. React sets properties of a tag only if its element is defined already, which cannot be relied on. */
 type Said<Value> = Value extends boolean
   ? true | \`\${Value}\`
   : Value extends number

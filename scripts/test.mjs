@@ -177,8 +177,8 @@ const PARTS = {
 };
 
 /**
- * What runs at a time, so that no core is idle while a linker, a download, a frame or a test waits. In a lane one part follows
- * the other, and uses what it left in cargo's directories, which cargo locks.
+ * Lanes of parts that run side by side, so that no core is idle while a linker, a download, a frame or a test waits. Parts of one
+ * lane run one after the other: cargo locks the directories that they share.
  */
 const LANES = [
   ['build', 'browser', ...(ALL ? ['engines', 'embeddings'] : [])],
@@ -236,7 +236,7 @@ async function outcomeOf(name, more) {
 }
 
 /**
- * What makes `cargo test` run its WebAssembly tests in the browser.
+ * Returns the environment in which `cargo test` runs its WebAssembly tests in the browser.
  *
  * @param {string} runner of wasm-bindgen
  * @param {import('./browser.mjs').Browser} browser

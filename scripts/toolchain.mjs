@@ -1,5 +1,5 @@
-// What the build and the tests need, found or installed: npm packages, Rust, its WebAssembly target, lints. Each is
-// looked for once, and several may be at a time.
+// Tools of the build and of the tests, found or installed: npm packages, Rust, its WebAssembly target, lints. Each is
+// looked for once; several may be installed at the same time.
 // Node built-ins only: this runs in a bare clone.
 
 import { createHash } from 'node:crypto';
@@ -12,7 +12,7 @@ const TARGET = 'wasm32-unknown-unknown';
 const RUSTUP_BIN = join(process.env.CARGO_HOME ?? join(homedir(), '.cargo'), 'bin');
 const DEBIAN_BIN = '/usr/bin';
 
-/** Where tools that are built or downloaded once stay, for all clones of this user. */
+/** Directory of tools that are built or downloaded once for all clones of this user. */
 export const CACHE = join(
   process.env.XDG_CACHE_HOME ||
     join(homedir(), process.platform === 'darwin' ? 'Library/Caches' : '.cache'),
@@ -88,7 +88,7 @@ async function aptInstallNow(packages, sentence) {
   progress(`Installing ${packages.join(' ')} by apt`);
   const [command, ...before] = [...asRoot, 'env', 'DEBIAN_FRONTEND=noninteractive', 'apt-get'];
   await run(command, [...before, 'update', '-qq'], { seconds: 300 });
-  // Nothing that is installed gives way, above all no other Rust.
+  // Apt must not remove an installed package, above all no other Rust.
   const options = ['-y', '-qq', '--no-remove', '--no-install-recommends', '-o', 'DPkg::Lock::Timeout=300'];
   await mustRun(sentence, command, [...before, 'install', ...options, ...packages], { seconds: 900 });
 }
@@ -166,7 +166,7 @@ export const wasmRust = once(/** @returns {Promise<Rust>} */ async () => {
 });
 
 /**
- * Whether the target's standard library is there, after asking rustup for it if need be.
+ * Returns whether the target's standard library is there. Asks rustup for it where it is missing.
  *
  * @param {Rust} native
  * @returns {Promise<boolean>}
@@ -195,14 +195,14 @@ async function hasTarget({ bin, env }) {
 }
 
 /**
- * Whether where rustup downloads from does not answer a small request at all. A satellite's four round trips and three
- * lost packets, each waited for twice as long, are 10 seconds; the 20 MB that rustup wants need far more on such a line.
+ * Returns whether rustup's server leaves a small request without an answer. Even by satellite, with three lost packets, an
+ * answer takes 10 s; a line that is slower could not carry the 20 MB of the target.
  *
  * @returns {Promise<boolean>} false without curl to ask by
  */
 async function isSilent() {
   const server = process.env.RUSTUP_DIST_SERVER ?? 'https://static.rust-lang.org';
-  // What it says, and by which certificate, does not matter.
+  // Any answer will do, also one with an unknown certificate.
   const request = ['--silent', '--head', '--insecure', '--output', '/dev/null', `${server}/dist/channel-rust-stable.toml.sha256`];
   return (await run('curl', request, { seconds: 15, quiet: true })).timedOut;
 }

@@ -52,7 +52,7 @@ export function chunk(type, data) {
   return framed;
 }
 
-/** What is deflated. @param {Image} image */
+/** Returns the raster of an image before compression. @param {Image} image */
 export function rasterOf({ width, height, depth = 8, colour = 0, interlaced = false, sample, filter = () => 0 }) {
   const passes = interlaced
     ? [[0, 0, 8, 8], [4, 0, 8, 8], [0, 4, 4, 8], [2, 0, 4, 4], [0, 2, 2, 4], [1, 0, 2, 2], [0, 1, 1, 2]]

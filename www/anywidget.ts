@@ -92,7 +92,7 @@ function render({ model, el }: { model: Model, el: HTMLElement }): (() => void) 
     const take = () => {
       if (writing) return;
       put('error', '');
-      // What every element has is a text, and none is the empty one.
+      // Global attributes are texts, and a missing one is the empty text.
       element[property] = model.get(trait) ?? (GLOBAL.includes(property) ? '' : null);
       tell();
     };

@@ -23,13 +23,11 @@ export const expected: Set<string> = new Set();
 let loading: Promise<Motion> | undefined;
 
 /**
- * The core, ready to use. Later calls get the same core, and a call after a failed one tries again.
+ * Returns the core, ready to use. Later calls get the same core, and a call after a failed one tries again.
  *
- * `source` is the module as bytes, an address, or compiled. Where it is left out it is the one that
- * the bundle carries, or, in external.js, the file `motion.wasm` beside that, or the copy embedded in a script
- * where that file cannot be had. The first to name one
- * decides for the page: a script that imports the elements and names a source at once comes early
- * enough, though the elements on the page have asked before it.
+ * `source` is the module as bytes, an address, or compiled. Without it the module is the one in the bundle. For external.js that is the
+ * file `motion.wasm` beside it, or where that cannot be fetched, the copy embedded in a script. The first caller to name a source decides
+ * for the page. A script that imports the elements and names a source at once is early enough.
  */
 export function load(source?: Source): Promise<Motion> {
   wanted ??= source;

@@ -25,7 +25,7 @@ function widgetOf(query: URLSearchParams) {
 
 function tellHeight() {
   const height = Math.ceil(document.body.getBoundingClientRect().height);
-  // Whoever shows the frame may know how high it is.
+  // Any page may learn the height of a frame that it shows.
   parent.postMessage({ type: 'motion-widgets:height', height }, '*');
 }
 

@@ -1,6 +1,6 @@
 /**
- * Elements as in motion-widgets.js, with the WebAssembly module in a file of its own and each widget in another, which is loaded when its
- * tag is met: in the document, or in an open shadow root.
+ * Elements as in motion-widgets.js, with the WebAssembly module in a file of its own. Each widget has a script of its own, which is loaded
+ * when its tag is met: in the document, or in an open shadow root.
  */
 
 import { vocabularies, widgets } from '../build/widgets.js';
@@ -58,7 +58,7 @@ function watch(root: Document | ShadowRoot) {
 
 // Without a DOM, as in Node, no tag is met.
 if (observer) {
-  // Nothing is to move when they come.
+  // Room is reserved, so that nothing moves when the elements come.
   const sheet = new CSSStyleSheet();
   sheet.replaceSync(roomBefore());
   document.adoptedStyleSheets.push(sheet);

@@ -51,7 +51,7 @@ class Figure {
     if (!before && element.stats) this.catchUp(element, props);
     for (const [name, attribute] of Object.entries(this.names.attributes)) {
       const text = this.text(name, props);
-      // What the server has sent stands at first: the reader may have gone on from there.
+      // Attributes sent by the server stay at first: the reader may have changed the figure since.
       if (before ? text === this.text(name, before) : text === null || element.hasAttribute(attribute)) continue;
       if (text === null) element.removeAttribute(attribute);
       else element.setAttribute(attribute, text);
@@ -65,7 +65,7 @@ class Figure {
     element.dispatchEvent(new CustomEvent('stats', { detail: element.stats }));
     for (const [name, attribute] of Object.entries(this.names.attributes)) {
       const text = this.text(name, props);
-      // What was refused as an attribute still stands there, and is refused once more.
+      // A refused attribute is still there: set as a property, it is refused and reported again.
       if (text !== null && element.getAttribute(attribute) === text) element[name] = props[name];
     }
   }

@@ -9,12 +9,12 @@ export type * from '../build/elements.d.ts';
 /** The JavaScript face of the core, as `load()` returns it. Metres, radians, seconds throughout. */
 export type Motion = typeof import('../build/machines.d.ts');
 
-/** What core.js exports: see there. */
+/** Export of core.js: see there. */
 export declare function load(source?: BufferSource | URL | string | WebAssembly.Module): Promise<Motion>;
 /** As `load`, with a memory of its own each time. */
 export declare function instantiate(source?: BufferSource | URL | string | WebAssembly.Module): Promise<Motion>;
 
-/** What every state has, also one given in part. */
+/** Fields of every state, also of one given in part. */
 export interface FigureState {
   /** The tag of the element. */
   widget: string;
@@ -48,7 +48,7 @@ export type SamplerName = SqueezeSettings['sampler'];
 export type OverlayName = BananaMachineElement['overlays'][number];
 export type BananaState = BananaMachineState;
 export type SqueezeState = MapSqueezeState;
-/** What the elements with a command and a cloud have in common. */
+/** Common members of the elements with a command and a cloud. */
 export type WidgetElement<State extends FigureState, Stats> = FigureElement<State, Stats> &
   Pick<BananaMachineElement, 'v' | 'omega' | 'dt' | 'command' | 'alphas' | 'samples' | 'seed' | 'marked' | 'poses'>;
 export type WidgetState = Pick<BananaState, 'version' | 'command' | 'samples' | 'seed' | 'shown' | 'playing' | 'marked'>;

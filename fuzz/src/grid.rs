@@ -119,7 +119,7 @@ pub fn read(input: &mut Input) -> Option<(OccupancyGrid, Unknown)> {
     Some((OccupancyGrid::new(&image, &interpretation, resolution, SE2::new(x, y, yaw)), unknown))
 }
 
-/// What a pixel says, as `map_server` documents it; at a threshold, to the rounding of a float, either will do.
+/// Checks the cell of a pixel against the documentation of `map_server`. Within rounding of a threshold both states are right.
 fn told(interpretation: &Interpretation, pixel: Pixel) {
     let Interpretation { mode, negate, occupied_thresh, free_thresh } = *interpretation;
     let shade = f64::from(pixel.shade);

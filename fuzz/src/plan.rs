@@ -94,7 +94,7 @@ pub fn verdict(plan: &FloorPlan, input: &mut Input) {
     let tolerance = rounding(plan, &arc, clearance);
     let depth = |x: f64, y: f64| depth(plan, [x, y]);
 
-    // How far inside the map the way stays at least, and at most.
+    // Least and largest distance of the path from the edge of the map.
     const CHORDS: u32 = 16;
     let least = (0..=CHORDS).fold(f64::INFINITY, |least, i| {
         let f = f64::from(i) / f64::from(CHORDS);
@@ -130,7 +130,7 @@ pub fn verdict(plan: &FloorPlan, input: &mut Input) {
     }
 }
 
-/// How far inside the map a point is, m.
+/// Distance in m of a point inside the map from its edge.
 fn depth(plan: &FloorPlan, [x, y]: [f64; 2]) -> f64 {
     let ([x, y], [left, bottom, right, top]) = match plan.grid() {
         None => ([x, y], plan.bounds()),
@@ -143,8 +143,8 @@ fn depth(plan: &FloorPlan, [x, y]: [f64; 2]) -> f64 {
     (x - left).min(right - x).min(y - bottom).min(top - y)
 }
 
-/// What is left to rounding, m: as much as `FloorPlan` itself leaves to it at the edge of a map, some thousand units in the
-/// last place of the largest number.
+/// Tolerance for rounding in m, as `FloorPlan` has it at the edge of a map: some thousand units in the last place of the
+/// largest number.
 fn rounding(plan: &FloorPlan, arc: &Arc, clearance: f64) -> f64 {
     let furthest = plan.bounds().iter().fold(0.0, |most: f64, bound| most.max(bound.abs()));
     1e-12 * (furthest + arc.length.abs() + clearance)

@@ -1,5 +1,5 @@
 /**
- * What machines of the JavaScript face tell, to the last bit: tests/native/digest asks the same of the simulations themselves. It imports
+ * Results of machines by their JavaScript interface, to the last bit; tests/native/digest takes the same of the simulations. It imports
  * nothing, so that it runs in Node and in any page.
  *
  * @module
@@ -19,7 +19,7 @@
 /** The NaN that stands for every NaN: tests/native/digest/told.rs says why. */
 const NAN = 0x7ff8_0000_0000_0000n;
 
-/** What is asked of a machine of each widget, by parts. @type {Record<string, (motion: Motion, all: Configurations, configuration: Configuration) => Record<string, Told>>} */
+/** Results of the machine of each widget, by parts. @type {Record<string, (motion: Motion, all: Configurations, configuration: Configuration) => Record<string, Told>>} */
 export const widgets = {
   'banana-machine'({ BananaMachine, commandReaching }, all, { preset, bounds = all.widgets['banana-machine'].bounds, settings }) {
     const machine = new BananaMachine({ ...commandOf(BananaMachine.presets, preset), ...settings });
@@ -141,7 +141,7 @@ export const widgets = {
       leg: machine.leg(5),
       nearest: machine.nearest(0.5, 1, 3),
     };
-    // Where legs begin is a log too.
+    // Poses at which legs begin are logs of their own.
     const { count, times, odometry, reference } = legs;
     const column = (/** @type {Float64Array} */ values, /** @type {number} */ size, /** @type {number} */ place) =>
       Float64Array.from({ length: count }, (_, leg) => values[size * leg + place]);

@@ -1,5 +1,5 @@
 /**
- * What the tests of the Alpha Calibrator share: the element on its page, its parts, and logs.
+ * Helpers of the tests of the Alpha Calibrator: the element on its page, its parts, and logs.
  *
  * @module
  */

@@ -61,7 +61,7 @@ test('a figure has a Trusted Types policy of its own beside that of the page\'s 
   expect(await violations()).toEqual([]);
 });
 
-// What the browser says of the policy in the console is what these are about.
+// These tests expect the browser's own messages in the console.
 anyway('a Trusted Types policy that is named as that of Lit is enough @nightly', async ({ page }) => {
   await openUnder(page, trusting('lit-html'), 'embed.html?widget=banana-machine');
   await expect(page.locator('banana-machine canvas').first()).toBeVisible();

@@ -99,7 +99,7 @@ test('a link leads to the figure that it was copied from, once; a reload leads n
     await page.evaluate((hash) => history.replaceState(null, '', hash), links[i]);
   }
   expect(links[1]).toMatch(/^#banana-machine\.2=.*&banana-machine\.1=/);
-  // Of a figure that is in the address already, it has one part.
+  // The fragment has one part of a figure that is in the address already.
   expect(await fragmentOf(figure(page, 1))).toBe(links[1]);
   for (const [i, fragment] of links.entries()) {
     const other = await context.newPage();

@@ -22,7 +22,7 @@ const SEED = Number(process.env.MONKEY_SEED ?? 1);
 /** Events between two looks at what they led to. */
 const ROUND = 250;
 
-/** What is clicked and dragged of a widget. */
+/** Parts of a widget that are clicked and dragged. */
 const PARTS = 'button, summary, input, .handle, canvas, textarea, label';
 
 const NUMBERS = ['0', '1', '0.5', '-3', '\u22120.25', '1,5', '1e-300', '1e9', '12345678901', '100', '7', 'NaN', 'Infinity', '', ' ', 'abc', '2 m', '0x10', '1e'];
@@ -203,12 +203,12 @@ const DEEDS = {
   },
 };
 
-/** How often each comes, against the others. @type {Record<string, number>} */
+/** Relative frequencies of the actions. @type {Record<string, number>} */
 const SHARES = { click: 12, tap: 3, drag: 12, key: 8, type: 6, wheel: 3, attribute: 6, resize: 1, media: 1, language: 1, hash: 1, files: 1, state: 2, few: 4, move: 1 };
 const DRAWN = Object.entries(SHARES).flatMap(([name, share]) => Array(share).fill(name));
 
 /**
- * What there is to complain of in a widget: what it shows, and whether its state brings the same machine again.
+ * Returns faults of a widget: in its picture and words, and where its state does not bring back the same machine.
  *
  * @param {Page} page
  * @param {string} name
@@ -235,7 +235,7 @@ function complaintsAbout(page, name) {
       const hash = [...new Uint8Array(await crypto.subtle.digest('SHA-256', bytes))].join();
       return JSON.stringify([one.getState(), one.stats, hash], (_, value) => (Number.isFinite(value) || typeof value !== 'number' ? value : String(value)));
     };
-    // What grows would be further on in the next moment.
+    // A cloud that grows would have more samples in the next moment.
     element.setState({ ...element.getState(), playing: false });
     const before = await told(element);
     const state = element.getState();

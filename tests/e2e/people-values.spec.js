@@ -182,7 +182,7 @@ test('German has a decimal comma, and takes a point too', async ({ page }) => {
     expect(await property(widget, 'alpha1')).toBe(value);
   }
   await expect(valueField(widget, 'alpha1')).toHaveValue('0,450');
-  // Of robots there are whole ones: a point before three digits is no decimal one.
+  // Robots are counted in whole numbers: a point before three digits groups thousands.
   await widget.locator('#samples').focus();
   await page.keyboard.type('20.000');
   await page.keyboard.press('Enter');

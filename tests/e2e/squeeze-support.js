@@ -44,7 +44,7 @@ export async function unfold(widget, name) {
 }
 
 /**
- * What the machine behind the widget says now.
+ * Returns the present results of the machine behind the widget.
  *
  * @param {Locator} widget
  */

@@ -361,7 +361,7 @@ export async function pictureOf(canvas) {
 }
 
 /**
- * How many pixels of a canvas have a role's colour.
+ * Returns the number of pixels of a canvas that have a role's colour.
  *
  * @param {Locator} canvas
  * @param {string} role name of the custom property
@@ -406,7 +406,7 @@ export function readout(widget, name) {
 }
 
 /**
- * What stands below a readout, in smaller print.
+ * Returns the small print below a readout.
  *
  * @param {Locator} widget
  * @param {string | RegExp} name

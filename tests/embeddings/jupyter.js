@@ -10,7 +10,7 @@ import { files, program } from './serving.mjs';
 /** @typedef {import('@playwright/test').Page} Page */
 /** @typedef {import('./checks.mjs').Site} Site */
 
-/** What nbconvert's page loads from the network, by addresses that it leads to, and where that is in packages of npm. */
+/** Addresses that nbconvert's page loads, each with its file in packages of npm. */
 const LOADED = {
   '**/require.js/*/require.min.js': 'requirejs/require.js',
   '**/@jupyter-widgets/html-manager@*/dist/embed-amd.js': '@jupyter-widgets/html-manager/dist/embed-amd.js',
@@ -18,7 +18,7 @@ const LOADED = {
 };
 const PACKAGES = ['requirejs@2.3.8', '@jupyter-widgets/html-manager@1.0.15', 'anywidget@0.11.0'];
 
-/** Where they are, for whoever serves them to the page. */
+/** Directory of these packages. */
 let packages = '';
 
 const ORIGINAL = { omega: 0.8, samples: 20000, alphas: [0.1, 0.1, 0.1, 0.1, 0.01, 0.01], overlays: ['command', 'exponential'] };
@@ -189,7 +189,7 @@ export default {
       name: 'JupyterLab',
       serve(directory, tools) {
         const options = ['--no-browser', '--allow-root', '--IdentityProvider.token=', '--ServerApp.port_retries=0'];
-        // What others have configured, and how they left it, is no part of it.
+        // A configuration of its own keeps the settings of this user out of the test.
         const own = (/** @type {string} */ name) => join(besidePython(directory), 'own', name);
         const env = { JUPYTER_CONFIG_DIR: own('config'), JUPYTERLAB_SETTINGS_DIR: own('settings'), JUPYTERLAB_WORKSPACES_DIR: own('workspaces') };
         return program((port) => [pythonProgram(directory, 'jupyter'), ['lab', ...options, '--port', port], env])(directory, tools);

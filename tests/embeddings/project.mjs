@@ -13,7 +13,7 @@ import { start } from './start.mjs';
 import { CACHE } from '../../scripts/toolchain.mjs';
 
 /**
- * What is particular to an engine: the default export of a file beside this one.
+ * Particulars of an engine: the default export of a file beside this one.
  *
  * @typedef {object} Engine
  * @property {string} heading of its section in doc/embedding/, and its name in the table of doc/embedding.md
@@ -58,7 +58,7 @@ const SILENT = {
   FORCE_COLOR: '0',
 };
 
-/** Of this clone alone: others may run at the same time. */
+/** Directory of this clone alone: other clones may run at the same time. */
 const SCRATCH = join(CACHE, 'embeddings', createHash('sha256').update(ROOT).digest('hex').slice(0, 8));
 
 /** @returns {Promise<string[]>} names of all engines */
@@ -177,7 +177,7 @@ function toolsIn(directory, env) {
   };
 }
 
-/** What stays between runs. */
+/** Files that are kept between runs. */
 const INSTALLED = ['node_modules', '.venv', '.installed'];
 
 /**

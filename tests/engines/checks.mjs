@@ -1,5 +1,5 @@
 /**
- * What has to be so in every engine: the bits, and the page under a reader's hand.
+ * Checks of every browser engine: the bits of the results, and the reactions of the page to a reader.
  *
  * @module
  */
@@ -18,7 +18,7 @@ import { machineState } from './inside.js';
 /** Steps that a drag takes: a hand does not jump. */
 const STEPS = 8;
 
-/** What the colours of a picture are told from blank paper by: lines, letters and a cloud have many between them. */
+/** Number of colours from which a picture is not blank: lines, letters and a cloud have many shades. */
 const COLOURS = 16;
 
 const read = (/** @type {string} */ path) => readFileSync(join(ROOT, path), 'utf8');
@@ -125,7 +125,7 @@ async function bits(page) {
 }
 
 /**
- * What a figure tells is what its settings mean, to the last bit, in Node.
+ * Compares the results of a figure with those of a machine of the same settings in Node, to the last bit.
  *
  * @param {Page} page
  * @param {string} tag

@@ -1,5 +1,5 @@
 /**
- * What is asked of a page, and runs in it: everything but `machineState`, which runs in Node too.
+ * Functions that run in the page; `machineState` runs in Node too.
  *
  * @module
  */
@@ -63,7 +63,7 @@ export async function machineState({ config, poses = null, stats, verdicts = nul
 }
 
 /**
- * Where a handle is, and how much a pixel of the window is there.
+ * Returns the position of a handle, and the size of a pixel of the window there.
  *
  * @param {{ tag: string, handle: string, to: number[] }} given `to` is a place in the picture, m
  * @returns {{ from: Point, to: Point, pixel: number }} in pixels of the window; `pixel` in m

@@ -11,7 +11,7 @@ const FIREFOX_SENTENCE =
 const WEBKIT_SENTENCE =
   'WebKit is missing, or what shows and drives it: on Debian and Ubuntu `sudo apt-get install webkit2gtk-driver xvfb`.';
 
-/** Where distributions keep MiniBrowser: by architecture, and by the version of its interface. */
+/** Directories in which distributions keep MiniBrowser, in a folder by architecture and version. */
 const LIBRARIES = ['/usr/lib', '/usr/libexec', '/usr/lib64'];
 
 /** @returns {Promise<{ firefox: string, driver: string }>} its programs */

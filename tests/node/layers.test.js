@@ -1,4 +1,4 @@
-// Who imports whom in www/, as doc/implementation-notes.md has it.
+// Imports between the folders of www/, as doc/implementation-notes.md allows them.
 
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';

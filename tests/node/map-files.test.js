@@ -1,4 +1,4 @@
-// What a reader's map files may say, and how much of them is read.
+// Contents and sizes of map files that are read, and sentences about those that are not.
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';

@@ -15,7 +15,7 @@ const decodePng = async (/** @type {Uint8Array} */ bytes) => motion.readMapImage
  */
 export const file = (name, contents) => new File([contents], name);
 
-/** What describes an image, with these fields besides. @param {Record<string, unknown>} [fields] */
+/** Returns the YAML file that describes an image, with fields replaced or added. @param {Record<string, unknown>} [fields] */
 export function description(fields) {
   const all = { image: 'map.png', resolution: 0.05, origin: '[0, 0, 0]', ...fields };
   return file('map.yaml', Object.entries(all).map(([key, value]) => `${key}: ${value}\n`).join(''));
@@ -32,11 +32,11 @@ export async function opened(...files) {
   return machine;
 }
 
-/** Where maps are tried that nobody asks of afterwards. */
+/** Machine that maps are tried on, one after the other. */
 const machine = new motion.MapSqueeze({ samples: 1 });
 
 /**
- * Why files are refused; empty where they are not. Whatever else is thrown is not caught.
+ * Returns the sentence with which files are refused, or an empty text. Other errors are thrown on.
  *
  * @param {File[]} files
  * @param {'en' | 'de'} [language]

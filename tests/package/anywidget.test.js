@@ -108,7 +108,7 @@ const change = async (page, changes) => {
   await frames(page);
 };
 
-/** What stands in a notebook's model besides: all traits of a class are there, most of them none. */
+/** Other traits of a notebook's model, which has all traits of its class; most of them are null. */
 const KERNEL = { stats: null, error: '', _asked: 0, _shown: {} };
 
 test('traits become what the figure shows, by whichever of their names, and those without a value what it shows', async () => {

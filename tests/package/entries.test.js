@@ -1,4 +1,4 @@
-// What the entries of the package promise to who imports them: Node, TypeScript, and pages that have several.
+// Entries of the package as Node, TypeScript, and pages with several of them import them.
 
 import assert from 'node:assert/strict';
 import { execFileSync, spawnSync } from 'node:child_process';

@@ -1,4 +1,4 @@
-// What others' checks say of the package as npm would publish it.
+// Checks by tools of npm of the package as it would be published.
 
 import assert from 'node:assert/strict';
 import { execFileSync, spawnSync } from 'node:child_process';
@@ -19,7 +19,7 @@ let tarball;
 
 before(() => {
   directory = mkdtempSync(join(tmpdir(), 'motion-widgets-'));
-  // What is packed has been built already.
+  // The package has been built already.
   const packed = execFileSync('npm', ['pack', ROOT, '--ignore-scripts', '--json', '--pack-destination', directory], { encoding: 'utf8' });
   tarball = join(directory, JSON.parse(packed)[0].filename);
 });
@@ -38,7 +38,7 @@ test('publint finds nothing', async () => {
 });
 
 test('Are the types wrong? finds nothing', () => {
-  // What is no script has no types.
+  // Only scripts have types.
   const others = Object.keys(manifest.exports).filter((name) => /\.(css|wasm|json)$/.test(name));
   const cli = join(ROOT, 'node_modules/@arethetypeswrong/cli/dist/index.js');
   // All of it is modules: `require` is not promised, nor what resolved packages before they had `exports`.

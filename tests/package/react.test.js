@@ -14,7 +14,7 @@ const project = served(prepare);
 const at = (/** @type {string} */ name) => new URL(`react/${name}`, project.address).href;
 /** @type {import('@playwright/test').Page} */
 let page;
-/** What the console said. @type {string[]} */
+/** Messages of the console. @type {string[]} */
 let complaints;
 
 /** A page whose props a test changes, with what it heard. */
@@ -157,7 +157,7 @@ test('a list in JSX, and a page that is rendered at every figure, leave what the
   await set({ omega: 0.3 });
   await page.waitForFunction(() => /** @type {any} */ (document.querySelector('banana-machine')).omega === 0.3);
   assert.notEqual(await property('v'), 1);
-  // Nothing goes round and round.
+  // Properties and events do not cause each other without end.
   const renderings = await page.evaluate(async () => {
     const { page } = /** @type {any} */ (globalThis);
     for (let i = 0; i < 10; i++) await new Promise(requestAnimationFrame);

@@ -1,4 +1,4 @@
-// What a page loads before anyone touches the widgets on it.
+// Bytes that a page loads before anyone touches the widgets on it.
 
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
@@ -24,7 +24,7 @@ const LIMITS = {
   page: 118, moduleOfWidget: 56, pageOfCalibrator: 160, moduleOfCalibrator: 92, module: 224, classicScript: 440, notebook: 444,
 };
 
-/** What it carries that the others do not is all of motion::calibrate. */
+/** Widget whose module also has all of motion::calibrate. */
 const CALIBRATOR = 'alpha-calibrator';
 
 test('what a page loads does not grow', () => {

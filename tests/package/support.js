@@ -24,7 +24,7 @@ const SINGLE_FILES = ['motion-widgets.iife.js', 'motion-widgets.css', 'embed.htm
  */
 export function installed() {
   const directory = mkdtempSync(join(tmpdir(), 'motion-widgets-'));
-  // What is packed has been built already.
+  // The package has been built already.
   execFileSync('npm', ['pack', ROOT, '--ignore-scripts', '--silent', '--pack-destination', directory]);
   const tarball = readdirSync(directory).find((name) => name.endsWith('.tgz'));
   assert.ok(tarball, 'npm pack makes a tarball');
@@ -33,7 +33,7 @@ export function installed() {
   execFileSync('tar', ['-xzf', tarball, '-C', modules], { cwd: directory });
   renameSync(join(modules, 'package'), join(modules, 'motion-widgets'));
   writeFileSync(join(directory, 'package.json'), '{ "private": true }');
-  // What a page brings along.
+  // Peer dependencies, which a page brings along.
   const { peerDependencies } = JSON.parse(readFileSync(join(ROOT, 'package.json'), 'utf8'));
   for (const name of Object.keys(peerDependencies)) cpSync(join(ROOT, 'node_modules', name), join(modules, name), { recursive: true });
   cpSync(join(ROOT, 'examples'), directory, { recursive: true });

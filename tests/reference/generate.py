@@ -365,7 +365,7 @@ def likelihood_gains(kind, alphas, v, omega, dt):
     """Gain of pose and floor, and the ratio of areas, by their definitions: moments and mean logarithms by sums over all
     combinations of noises, Jacobians by differences."""
     sv, sw, sg = (dt * math.sqrt(alphas[i] * v * v + alphas[i + 1] * omega * omega) for i in (0, 2, 4))
-    # Of the length only two moments count, which three points have.
+    # Three points have the first two moments of the length, and only those count.
     lengths = [(v * dt + z * sv, w) for z, w in ((-math.sqrt(3), 1 / 6), (0.0, 2 / 3), (math.sqrt(3), 1 / 6))]
     reach = 6 * math.hypot(sw, sg) if kind == "normal" else math.inf
     flat, bent, log_chart, total, places = [], [], 0.0, 0.0, []

@@ -12,7 +12,7 @@ const KEY = 'c';
 const BACK = '0';
 
 export class Presentation extends Part {
-  /** Whether the controls are shown. */
+  /** True while the controls are shown. */
   #controls = false;
   /** State at the beginning; undefined if the figure opened in a presentation. */
   #stateAtBegin: import('./state.ts').Values | undefined;

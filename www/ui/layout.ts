@@ -100,7 +100,7 @@ const layout = css`
     }
   }
 
-  /* What is needed less often, one beside the other; an open one has the whole width. */
+  /* Disclosures of less frequent controls stand side by side; an open one has the whole width. */
   .folds {
     display: flex;
     flex-wrap: wrap;

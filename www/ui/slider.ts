@@ -96,7 +96,7 @@ export const sliderStyles = css`
     visibility: visible;
   }
 
-  /* What was refused is said until something else is of interest. */
+  /* The sentence about a refused value stays until another control has the focus. */
   .slider.refused .effect {
     visibility: visible;
     color: var(--accent);

@@ -1,7 +1,7 @@
 /**
  * The palette: one colour a role, the same in every view, for light and dark paper. Paper and ink are those of the
- * surroundings, and what explains is between them; the hues are Okabe and Ito's, with lightness spread so that the roles
- * stay apart under every common form of colour blindness; each role also has a dash or a shape of its own. Text on the
+ * surroundings, and explaining text is between them. The hues are Okabe and Ito's, with lightness spread so that the roles
+ * stay apart under every common form of colour blindness. Each role also has a dash or a shape of its own. Text on the
  * paper keeps a contrast of at least 4.5, and lines at least 3. A page may give each role a colour of its own, by a
  * custom property that begins with --motion.
  */

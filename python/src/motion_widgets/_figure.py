@@ -30,7 +30,7 @@ class Figure(anywidget.AnyWidget):
         "", read_only=True, help="Why the figure refused the last change, in a sentence; empty where it did not."
     ).tag(sync=True)
 
-    # How many things Python has asked for; and what the figure shows since it had heard of so many of them.
+    # Number of requests by Python, and the settings shown by the figure with the number of requests it had heard then.
     _asked = t.Int(0).tag(sync=True)
     _shown = t.Dict({"heard": 0, "settings": {}}).tag(sync=True)
 

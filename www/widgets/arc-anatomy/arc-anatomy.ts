@@ -53,7 +53,7 @@ export class ArcAnatomyElement extends FigureElement<Machine, Reading> {
   );
 
   player: Player<'underway'> = new Player(this, {
-    // Whatever the command: its time is told beside.
+    // Every arc is played in the same time; the time of the command is written beside it.
     underway: { from: 0, to: WHOLE, duration: 2000, at: () => this.state.own.underway, put: (at) => this.#drive(at) },
   });
 

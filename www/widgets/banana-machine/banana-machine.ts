@@ -192,7 +192,7 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
   }
 
   /**
-   * What each robot shown executed: v̂ (m/s), ω̂, γ̂ (rad/s), or under the odometry model its legs δ̂_rot1 (rad), δ̂_trans (m),
+   * Executed motion of each robot shown: v̂ (m/s), ω̂, γ̂ (rad/s), or under the odometry model its legs δ̂_rot1 (rad), δ̂_trans (m),
    * δ̂_rot2 (rad); a copy.
    *
    * @public

@@ -18,7 +18,7 @@ import type { Role } from '../../ui/plot.ts';
 /** Heights that the plot may have, so that it holds still while a slider is dragged. */
 const HEIGHTS = [1.2, 1.6, 2, 3, 5, 10];
 
-/** What counts as right. */
+/** Relative error of a predicted variance that counts as right. */
 const TOLERANCE = 0.05;
 
 /** Returns the chart of predicted over measured variance, whose line at the selected step is a slider. */

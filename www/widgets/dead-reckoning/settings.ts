@@ -52,7 +52,7 @@ export const looks: Record<string, import('../../figure/controls.ts').Look> = {
   headingNoise: {
     ...ALPHA,
     step: 0.005,
-    // Where they are not those of a level, the first of them stands for all.
+    // The slider shows α₃ also where the other three have another ratio to it.
     value: ({ alphas, headingNoise = alphas[2] }) => headingNoise,
   },
 };

@@ -29,7 +29,7 @@ export function captionOf({ config: { compounding }, stats: { misses, n }, condi
   const shown = componentsOf(overlays);
   const ifShown = (miss: number, axis: number) => (shown.includes(COMPONENTS[axis]) ? miss : NaN);
   if (ofAll.every(({ first }) => first === null)) return say.right(counted(n));
-  // Whose ratio is furthest from 1, at the end and anywhere.
+  // Components whose ratio is furthest from 1, at the end and at any step.
   const far = furthest(ofAll.map(({ end }, axis) => ifShown(Math.abs(end), axis)));
   const worst = furthest(curves.map(({ ratio }, axis) => ifShown(ratio.reduce((most, value) => Math.max(most, Math.abs(value - 1) || 0), 0), axis)));
   const list = listOf(Array.from(curves[worst].ratio));

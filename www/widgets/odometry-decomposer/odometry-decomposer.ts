@@ -29,7 +29,7 @@ import type { Reading } from './reading.ts';
 const FLOOR = [-4, -4, 4, 4];
 
 /**
- * What odometry read as rotate, drive, rotate, and what localizers make of its noise.
+ * Odometry read as rotate, drive, rotate, with the noise that localizers add to each part.
  *
  * @attr preset - A reading to start from; null if the settings match no preset.
  * @attr overlays - Lines and marks that are drawn; in the attribute with spaces between.

@@ -1,4 +1,4 @@
-//! What `cargo test` runs WebAssembly tests with.
+//! Runner with which `cargo test` runs WebAssembly tests in a browser.
 
 fn main() -> impl std::process::Termination {
     env_logger::init();

@@ -1,7 +1,7 @@
 // Generated from the declarations in src/sim by `UPDATE_SETTINGS=1 cargo test --test native settings`: not to be edited.
 
 /**
- * What is said of a setting where it is declared.
+ * Declaration of a setting.
  *
  * @typedef {object} Declaration
  * @property {string} key its name, as attribute, property and in states
@@ -148,7 +148,7 @@ export const settings = {
   ],
 };
 
-/** What the widgets may open with, by their tags. */
+/** Presets of the widgets, by their tags. */
 export const presets = {
   'banana-machine': [
     { name: 'straight', v: 1, omega: 0, dt: 2, alphas: [0.05, 0.05, 0.05, 0.09, 0.01, 0.01] },
@@ -190,7 +190,7 @@ export const presets = {
 export const openingAlphas = { velocity: [0.002, 0.002, 0.1, 0.1, 0.002, 0.002], odometry: [0.05, 0.05, 0.05, 0.05] };
 
 /**
- * What the core takes at most: `cells` of a grid or pixels of an image, `bytes` of its file, `trial` samples times parts in
+ * Limits of the core: `cells` of a grid or pixels of an image, `bytes` of its file, `trial` samples times parts in
  * `trial`, and the number of colours that a `ramp` has.
  */
 export const limits = { cells: 33554432, bytes: 201330688, trial: 100000, ramp: 256 };

@@ -45,7 +45,7 @@ export const settings = {{
 {}  ],
 }};
 
-/** What the widgets may open with, by their tags. */
+/** Presets of the widgets, by their tags. */
 export const presets = {{
   'banana-machine': [
 {}  ],
@@ -64,7 +64,7 @@ export const presets = {{
 export const openingAlphas = {{ velocity: {velocity_alphas:?}, odometry: {odometry_alphas:?} }};
 
 /**
- * What the core takes at most: `cells` of a grid or pixels of an image, `bytes` of its file, `trial` samples times parts in
+ * Limits of the core: `cells` of a grid or pixels of an image, `bytes` of its file, `trial` samples times parts in
  * `trial`, and the number of colours that a `ramp` has.
  */
 export const limits = {{ cells: {MAX_PIXELS}, bytes: {MAX_BYTES}, trial: {MAX_TRIAL}, ramp: {RAMP} }};
@@ -102,7 +102,7 @@ const HEAD: &str = "\
 // Generated from the declarations in src/sim by `UPDATE_SETTINGS=1 cargo test --test native settings`: not to be edited.
 
 /**
- * What is said of a setting where it is declared.
+ * Declaration of a setting.
  *
  * @typedef {object} Declaration
  * @property {string} key its name, as attribute, property and in states

@@ -15,7 +15,7 @@ export const binder = once(() => built('bind', []));
 
 /** The program that runs WebAssembly tests in a browser, built once. */
 export const testRunner = once(async () => {
-  // Most of it is compiled with the other.
+  // Most of its crates are compiled for the other program already.
   await binder();
   return built('test-runner', ['--features', 'test-runner']);
 });
@@ -35,7 +35,7 @@ async function built(name, features) {
   const { bin, env } = await nativeRust();
   progress(`Building ${name} of wasm-bindgen ${version}, once`);
   const args = ['install', '--quiet', '--debug', '--path', CRATE, '--bin', name, ...features, '--root', root, '--no-track', '--force'];
-  // Cargo lets nobody else into a directory that it builds in.
+  // Cargo locks its directory while it builds, so this build has its own.
   const options = { env: { ...env, CARGO_TARGET_DIR: join(ROOT, 'target/bind') }, seconds: 1200 };
   const locked = await run(join(bin, 'cargo'), [...args, '--locked'], { ...options, quiet: true });
   // A mirror may lack a crate of the lock file.

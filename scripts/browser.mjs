@@ -1,18 +1,18 @@
-// The Chromium and the chromedriver of its version that the tests drive: those of this machine, or installed.
+// The Chromium and matching chromedriver that the tests use, found on this machine or installed.
 
 import { existsSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { Missing, ROOT, findProgram, mustRun, progress, run } from './process.mjs';
 import { CACHE, aptInstall } from './toolchain.mjs';
 
-/** First the one without windows, which takes a third less of the processor. */
+/** Headless Chromium is preferred: it takes a third less processor time. */
 const CHROME_NAMES = ['chromium-headless-shell', 'chromium', 'google-chrome', 'google-chrome-stable', 'chrome', 'chromium-browser'];
 const CHROME_OF_MACOS = '/Applications/Google Chrome.app/Contents/MacOS';
 const SENTENCE =
   'Chromium and a chromedriver of the same version are missing: install both ' +
   '(on Debian `sudo apt-get install chromium chromium-driver`), or set CHROME and CHROMEDRIVER to their paths.';
 
-/** No sandbox inside containers, no graphics card, and nothing asked of the network. */
+/** Runs without a sandbox (in containers), without a graphics card, and without background network requests. */
 export const CHROME_ARGUMENTS = [
   '--no-sandbox',
   '--disable-gpu',
@@ -116,7 +116,7 @@ async function download(directory, what) {
   return ok ? stdout.trim().split('\n').pop() : undefined;
 }
 
-/** A downloaded Chrome does not bring the system's libraries that it is linked with. */
+/** A downloaded Chrome does not include the system libraries that it is linked with. */
 async function installLibraries() {
   await mustRun(
     'Libraries that Chrome needs are missing: run `npx playwright install-deps chromium` and start again.',

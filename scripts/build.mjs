@@ -1,4 +1,4 @@
-// `npm run build`: src/ to build/ (WebAssembly and its glue), then www/ to dist/. What is up to date is left alone.
+// `npm run build`: compiles src/ to build/ (WebAssembly and its glue), then bundles www/ to dist/. Skips what is up to date.
 
 import { createHash } from 'node:crypto';
 import { copyFileSync, existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
@@ -20,11 +20,11 @@ const CARRIED = `type Bytes = Uint8Array<ArrayBuffer>;
 type Carried = { glue(): Promise<typeof import('./motion.js')>; source(): Bytes | URL | Promise<Bytes> | undefined };
 declare const cores: { motion: Carried; [tag: string]: Carried | undefined };
 export default cores;
-/** Starts the worker of logs; undefined where the bundle does not know its script. */
+/** Starts the worker that reads logs; returns undefined if the bundle does not know its script. */
 export function startWorker(): Worker | undefined;
 `;
 
-/** Files that decide what the compiled cores are. */
+/** Files on which the compiled cores depend. */
 const CORE = [
   'src', '.cargo', 'Cargo.toml', 'Cargo.lock', 'scripts/package.json',
   ...['build', 'bindgen', 'licences'].map((name) => `scripts/${name}.mjs`), 'scripts/bind',
@@ -97,7 +97,7 @@ async function buildCores(names, local) {
   progress(`Compiling the core to WebAssembly (${rust.description}): ${names.join(', ')}`);
   const finished = [];
   for (const name of names) {
-    // Cargo puts all of them in one place: each is bound before the next is compiled, and finished meanwhile.
+    // Cargo writes all of them to one path: each is bound before the next is compiled. The rest of its work runs meanwhile.
     const [wasm, bind] = await together([compileCore(rust, name, local), binding, packages]);
     await mustRun('wasm-bindgen failed: see above.', bind, [wasm, at(`build/bound/${name}`)]);
     finished.push(finish(name, local));
@@ -150,12 +150,12 @@ async function shrink(path) {
 }
 
 /**
- * Makes every panic a bare trap. In a browser nobody sees the message, and what would compose it is 2 kB on the wire.
+ * Replaces every panic by a bare trap. Browsers do not show the message, and the code that formats it takes 2 kB on the wire.
  *
  * @param {string} path of the module, with the names of its functions
  */
 async function silencePanics(path) {
-  // Installed for full builds alone: a constant name would have its types looked for in every check.
+  // Resolved at runtime: the package is installed for full builds only, and a constant name would make the type checker look for it.
   const library = 'binaryen';
   const { default: binaryen } = await import(library);
   const module = binaryen.readBinary(readFileSync(at(path)));
@@ -174,7 +174,7 @@ async function silencePanics(path) {
   module.dispose();
 }
 
-/** After the usual ones, variables that hold the same share a place once more. */
+/** After the usual passes, merges variables with equal values once more. */
 const PASSES = ['-O3', '--converge', '--rse', '--vacuum', '--coalesce-locals', '--reorder-locals'];
 
 /**
@@ -183,7 +183,7 @@ const PASSES = ['-O3', '--converge', '--rse', '--vacuum', '--coalesce-locals', '
  * @returns {Promise<string>} what is printed
  */
 async function optimize(path, passes = PASSES) {
-  // The features that rustc's default for this target has, and SIMD of .cargo/config.toml.
+  // Features that rustc enables for this target by default, and SIMD from .cargo/config.toml.
   const features = ['bulk-memory', 'multivalue', 'mutable-globals', 'nontrapping-float-to-int', 'reference-types', 'sign-ext', 'simd'];
   const { stdout } = await mustRun('wasm-opt failed: see above.', process.execPath, [
     at('node_modules/binaryen/bin/wasm-opt'), ...passes, ...features.map((name) => `--enable-${name}`), at(path), '-o', at(path),
@@ -215,8 +215,8 @@ async function shortNames(name) {
 }
 
 /**
- * Makes of wasm-bindgen's glue a module that exports a function which instantiates the core once more: as it is, the glue
- * would be there once, and one instance with it. What nobody asks for is left out.
+ * Converts wasm-bindgen's glue to a module that exports a function, which creates a further instance of the core. The original glue has
+ * exactly one instance. Exports that nobody imports are left out.
  *
  * @param {string} name of the core
  * @param {Names} between the module and its glue
@@ -225,7 +225,7 @@ async function writeGlue(name, between) {
   const changes = /** @type {[RegExp, string][]} */ ([
     // Errors of wasm-bindgen itself end a core as a trap does; plain errors come from callbacks of the page.
     [/throw new Error\((?=getStringFromWasm)/g, 'throw new WebAssembly.RuntimeError('],
-    // For all classes; www/core.ts does it.
+    // Removed here, because www/core.ts does it for all classes.
     [/^if \(Symbol\.dispose\) .*$/gm, ''],
     [/new FinalizationRegistry\(/g, '/* @__PURE__ */ $&'],
     // wasm-bindgen adds the members of a namespace one by one. Bundlers take that for side effects, and keep unused namespaces.

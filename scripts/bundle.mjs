@@ -1,4 +1,4 @@
-// www/ to dist/: what a page, a bundler, an iframe, a disk and Node each take. doc/embedding.md says which is for whom.
+// Bundles www/ to dist/: variants for a page, a bundler, an iframe, a local file and Node. doc/embedding.md describes them.
 
 import { createHash } from 'node:crypto';
 import { appendFileSync, chmodSync, mkdirSync, readFileSync, readdirSync, rmSync, statSync, writeFileSync } from 'node:fs';
@@ -19,15 +19,15 @@ const at = (/** @type {string} */ path) => join(ROOT, path);
 /** Files that are copied unchanged; index.html becomes classroom.html as well. */
 const COPIED = /\.(html|css)$/;
 
-/** Their tags. */
+/** Tags of the elements. */
 export const WIDGETS = Object.keys(declared.settings);
 
 /** Name by which a bundle imports the bytes of the whole core, as a function that returns them. */
 const BYTES = 'motion.bytes';
 
 /**
- * Stands for the name of the chunk that `MODULE.external` is in, and is as long, so that source maps stay true. Within dist/
- * the chunk's address ends with it; in the output of a bundler it does not.
+ * Placeholder for the name of the chunk that contains `MODULE.external`. It has the same length, so that source maps stay valid. Within
+ * dist/ the chunk's address ends with that name; in the output of a bundler it does not.
  */
 const OWN_NAME = 'chunk-________.js';
 
@@ -37,7 +37,7 @@ const WITH_LOGS = ['alpha-calibrator'];
 /** Path of the worker's script in dist/. */
 const LOG_WORKER = 'chunks/log-worker.js';
 
-/** Place of dist/chunks/, as the scripts see it that share the bytes of the core. */
+/** Path of dist/chunks/ from the scripts that share the bytes of the core. */
 const PLACE_OF_CHUNKS = { core: './chunks/', external: './' };
 
 /**
@@ -58,7 +58,7 @@ const startWorker = (place, otherwise = '') =>
   `  ${otherwise} ` +
   '}';
 
-/** Scripts that a bundle finds where it imports the WebAssembly module: functions that return modules and their glue. */
+/** Scripts that a bundle gets where it imports the WebAssembly module: functions that return modules and their glue. */
 const MODULE = {
   /**
    * The bytes as characters, one each; of a character's number, an array of bytes takes the lowest eight bits. Brotli and
@@ -72,7 +72,7 @@ const MODULE = {
     const text = Buffer.from(bytes).toString('latin1').replaceAll(shifted, (one) => String.fromCharCode(one.charCodeAt(0) + 256));
     return (
       `const text = ${JSON.stringify(text)};` +
-      // Not Uint8Array.from: going through the characters one by one, as its iterator does, takes ten times as long.
+      // `Uint8Array.from` would take ten times as long, because it uses the string's iterator.
       'export default () => { const bytes = new Uint8Array(text.length);' +
       'for (let i = 0; i < bytes.length; i++) bytes[i] = text.charCodeAt(i); return bytes; };'
     );
@@ -86,7 +86,7 @@ const MODULE = {
     const glue = ['motion', ...tags].map((tag, i) => [`import * as glue${i} from './${tag}.js';`, `'${tag}': { glue: async () => glue${i} }`]);
     return `${glue.map(([imported]) => imported).join('')} export default { ${glue.map(([, entry]) => entry).join(', ')} }; export function startWorker() {}`;
   },
-  /** The core alone: its bytes are in a script of their own, which external.js shares. */
+  /** The core alone: its bytes are in a separate script, which external.js shares. */
   core: () => `import * as motion from './motion.js'; export default { motion: { glue: async () => motion, source: async () => (await import('${BYTES}')).default() } }; export function startWorker() {}`,
   /** @param {boolean} isClassic */
   inlined: (isClassic) => `import source from '${BYTES}'; import * as motion from './motion.js'; export default { motion: { glue: async () => motion, source } };${isClassic ? 'export function startWorker() {}' : startWorker('./')}`,
@@ -124,7 +124,7 @@ const MODULE = {
 const moduleOf = (tag) => named(tag, '.wasm', readFileSync(at(`build/${tag}.wasm`)));
 
 /**
- * Returns a file of dist/chunks/ whose name tells versions apart.
+ * Returns a file of dist/chunks/ with a hash of its contents in the name.
  *
  * @param {string} name
  * @param {string} extension
@@ -137,9 +137,9 @@ function named(name, extension, contents) {
 
 /** Characters of an inlined module that are shifted up by 256, so that another bundler or minifier cannot damage it. */
 const SHIFTED = {
-  /** All that are ever written with a backslash. */
+  /** Characters that are ever written with a backslash. */
   utf8: /[^ -~\x80-\xff]|["$'\\`]/g,
-  /** Digits after a zero, with which some make an octal escape of it. All others too would make the script twice as long. */
+  /** Digits, which could become part of an octal escape after a zero. Shifting all other characters too would double the size. */
   ascii: /(?<=\0)\d/g,
 };
 
@@ -153,7 +153,7 @@ const ADDRESS = {
 
 /** Declarations of the exports of the scripts with elements. */
 const DECLARATIONS = `export * from './core.js';
-/** Gives the elements words: those of messages/en.ts, or some of them, in a language (a BCP 47 tag). */
+/** Sets the words of the elements (those of messages/en.ts, or some of them) in a language (a BCP 47 tag). */
 export declare function setMessages(lang: string, messages: object): void;
 /** Returns true for the tag of a figure. Compilers of templates ask which tags are custom elements. */
 export declare function isFigureTag(tag: string): boolean;
@@ -186,13 +186,13 @@ export async function bundle({ tags = WIDGETS, changed = (_, script) => script }
       outdir: at('dist'),
       bundle: true,
       minify: true,
-      // The published package has none.
+      // The published package has no source maps.
       sourcemap: tags.length === 0,
       format: 'esm',
       target: 'es2022',
       charset: 'utf8',
       inject: [at('www/without-dom.ts')],
-      // A module is strict without being told, a classic script is not.
+      // Modules are always strict; a classic script needs the directive.
       tsconfigRaw: { compilerOptions: { alwaysStrict: options.format === 'iife' } },
       plugins: [
         {
@@ -240,14 +240,14 @@ export async function bundle({ tags = WIDGETS, changed = (_, script) => script }
   const results = await Promise.all([
     bundled({ core: 'core.ts' }, 'core', { inject: [] }),
     bundled({ 'motion-widgets': 'motion-widgets.ts' }, 'inlined', {}),
-    // It travels as a text, without what would stand beside it.
+    // Jupyter sends this module as text, without a source map next to it.
     bundled({ anywidget: 'anywidget.ts' }, 'inlined', { sourcemap: false }),
     bundled({ external: 'external.ts' }, 'external', { splitting: true, chunkNames: 'chunks/[name]-[hash]' }),
     bundled({ [LOG_WORKER.replace('.js', '')]: 'logs/worker.ts' }, 'worker', { inject: [] }),
     bundled({ 'motion-widgets.iife': 'motion-widgets.ts' }, 'inlined', { format: 'iife', charset: 'ascii', sourcemap: false }),
     bundled({ react: '../build/react.js' }, 'inlined', { external: ['react', 'motion-widgets'], inject: [] }),
     bundled({ de: 'de.ts', page: 'page.ts', 'server-component': 'server-component.ts' }, 'inlined', { inject: [] }),
-    // The core is the file beside it.
+    // Loads the core from the file in the same directory.
     bundled({ cli: 'cli.ts' }, 'inlined', { platform: 'node', sourcemap: false, inject: [] }),
     bundled({ embed: 'embed.ts' }, 'inlined', { format: 'iife', sourcemap: false, inject: [] }),
   ]).catch(() => []);
@@ -288,7 +288,7 @@ export async function bundle({ tags = WIDGETS, changed = (_, script) => script }
   chmodSync(at('dist/cli.js'), 0o755);
   write(at('dist/classroom.html'), inOneFile('index.html'));
   write(at('dist/custom-elements.json'), `${JSON.stringify(documentation, null, 1)}\n`);
-  // Sizes of products: read by tests/package/sizes.mjs.
+  // Sizes of products, which tests/package/sizes.mjs reads.
   const outputs = Object.assign({}, ...results.map(({ metafile }) => metafile.outputs));
   write(at('build/outputs.json'), JSON.stringify(outputs));
   const crates = JSON.parse(readFileSync(at('build/crates.json'), 'utf8'));
@@ -297,7 +297,7 @@ export async function bundle({ tags = WIDGETS, changed = (_, script) => script }
 }
 
 /**
- * A script with its styles as short as other scripts are: as templates are texts, a bundler leaves them as they stand.
+ * Minifies the styles in a script. Bundlers do not, because they are template strings.
  *
  * @param {string} script
  * @param {typeof import('esbuild').transformSync} transform
@@ -308,8 +308,8 @@ function withShortStyles(script, transform) {
 }
 
 /**
- * A script that means the same in whatever encoding it is read: a classic one has that of its page. What stands in tagged
- * templates, and in regular expressions, the bundler leaves as it is.
+ * Escapes non-ASCII characters in a script: a classic script is read in the encoding of its page. The bundler does not escape them in
+ * tagged templates and regular expressions.
  *
  * @param {string} script
  */
@@ -330,7 +330,7 @@ export function filesOf(path) {
 }
 
 /**
- * Loaders of the widgets that external.js meets, and the keys of the messages that come with them.
+ * Loaders of the widgets for external.js, and the keys of the messages that they need.
  *
  * @returns {Promise<string>} a module
  */
@@ -344,7 +344,7 @@ async function chunks() {
   );
 }
 
-/** Returns the declarations without what documents them alone: no page shows it. Presets need the defaults. */
+/** Returns the declarations without their documentation, which no page shows. Presets need the defaults. */
 function ofDeclarations() {
   const left = ['sentence', 'nullable'];
   const plain = (/** @type {unknown} */ value) => JSON.stringify(value, (key, each) => (left.includes(key) ? undefined : each));
@@ -354,8 +354,8 @@ function ofDeclarations() {
 }
 
 /**
- * A library whose constants are left out where nothing uses them. They are half of what only writes YAML, and what only
- * blurs and shuffles arrays: that computing them has no effect, a bundler cannot know.
+ * Marks the constants of a library as pure, so that unused ones are dropped. They are half of the code that only writes YAML, or only blurs
+ * and shuffles arrays. A bundler cannot know that computing them has no effect.
  *
  * @param {string} library with each constant at the start of a line
  */
@@ -367,25 +367,26 @@ function withoutEffects(library) {
 
 /** Passages of libraries that are replaced, by the names of the libraries' files. */
 const REPLACED = {
-  // The module is a text in the library. Strict security policies forbid the fetch that reads it.
+  // The library contains the module as text. Strict content security policies forbid the fetch that reads it.
   'zstddec-stream.mjs': [
     ['typeof fetch !== "undefined"', 'false'],
     ['Buffer.from(wasm, "base64")', 'Uint8Array.from(atob(wasm), (each) => each.charCodeAt(0))'],
   ],
   'lit-html.js': [
-    // A policy has a name of its own: the page may have a Lit that needs the other. Without a policy only rendering fails.
+    // The Trusted Types policy gets its own name, because the page may have a Lit that needs Lit's. Without a policy only rendering fails.
     [
       's.createPolicy("lit-html",{createHTML:t=>t})',
       '((...names)=>{for(const name of names)try{return s.createPolicy(name,{createHTML:t=>t})}catch{}})("motion-widgets","lit-html")',
     ],
-    // Page translators replace text nodes. No part ends at a text of its template, and a text that is gone is made again.
+    // Page translators replace text nodes. Therefore no part may end at a text node of its template, and a missing text node is created
+    // again.
     ['r=`<${n}>`', 'r=`<${n}><!---->`'],
     ['a(this._$AH)?', 'a(this._$AH)&&3===this._$AA.nextSibling?.nodeType?'],
   ],
 };
 
 /**
- * A library with some passages replaced.
+ * Replaces some passages of a library.
  *
  * @param {string} library
  * @param {keyof typeof REPLACED} name of its file
@@ -398,7 +399,7 @@ function withReplaced(library, name) {
 }
 
 /**
- * Types that name each other where they are published, side by side.
+ * Adapts import paths in types to the published directory, which has all of them side by side.
  *
  * @param {string} types
  */
@@ -407,7 +408,7 @@ function besideEachOther(types) {
 }
 
 /**
- * A map of sources that leaves out a quarter of a million characters which serve nobody.
+ * Removes the sources from a source map that are of no use to readers: a quarter of a million characters.
  *
  * @param {string} text
  */
@@ -418,8 +419,8 @@ function withoutModule(text) {
 }
 
 /**
- * A page of dist/ with its styles and scripts inside. Opened from a disk, browsers refuse scripts of type "module" in
- * files of their own, but not in the page.
+ * Inlines styles and scripts into a page of dist/. In a page that is opened from a disk, browsers refuse external scripts of type "module",
+ * but not inline ones.
  *
  * @param {string} name
  * @returns {string}
@@ -433,7 +434,7 @@ function inOneFile(name) {
   if (left) throw new Missing(`${name}: ${left[0]} cannot be put into one file; expected is "./" and a file of www/.`);
   const inline = (/** @type {string} */ path) =>
     `<script type="module">${read(path).replaceAll(/<(?=\/script|!--)/gi, '\\x3C')}</script>`;
-  // Other pages are not beside it.
+  // Replaces links to other pages by their text: a copied file does not have them next to it.
   return page
     .replaceAll(/<a href="\.\/[^"]*">([^<]*)<\/a>/g, '$1')
     .replace(style, (_, path) => `<style>\n${read(path)}</style>`)

@@ -42,7 +42,7 @@ const OF_CLOUDS = {
   },
 };
 
-/** The name of the class or type that belongs to a tag or key. @param {string} name */
+/** Returns the name of the class or type for a tag or key. @param {string} name */
 export const pascal = (name) => scriptName(name.replaceAll(/(?:^|-)(.)/g, (_, letter) => letter.toUpperCase()));
 
 /** @param {readonly string[]} words */

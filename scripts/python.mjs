@@ -16,7 +16,7 @@ import { importTypeScript } from './typescript.mjs';
 
 const PYTHON = join(ROOT, 'python');
 
-/** Writes what is generated, and copies the rest: pip looks nowhere but in its own directory. */
+/** Writes the generated files, and copies the others: pip reads only its own directory. */
 export async function writePython() {
   const sources = join(PYTHON, 'src/motion_widgets');
   writeFileSync(join(sources, '_elements.py'), await elements());
@@ -59,7 +59,7 @@ export async function elements() {
 }
 
 /**
- * The call that makes a trait.
+ * Returns the call that creates a trait.
  *
  * @param {Named & { allowed?: string }} named
  * @param {string} tag

@@ -1,5 +1,5 @@
-// The elements as components for React, and their tags in its JSX, as they follow from what is declared: build/react.js and
-// build/react.d.ts. What all of them have in common is in www/react.ts, and here in types.
+// Generates React components for the elements, and their tags in JSX, from the declarations: build/react.js and build/react.d.ts. Common
+// code is in www/react.ts; common types are written here.
 
 import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
@@ -10,7 +10,7 @@ import { ROOT } from './process.mjs';
 
 const HEAD = '// Generated from the declarations: not to be edited.\n';
 
-/** Writes both. */
+/** Writes both files. */
 export async function writeComponents() {
   const all = await widgets();
   writeFileSync(join(ROOT, 'build/react.js'), `'use client';\n${HEAD}\nimport { component } from '../www/react.ts';\n\n${all.map(componentOf).join('')}`);
@@ -21,7 +21,7 @@ export async function writeComponents() {
 function componentOf({ tag, machine, attributes, properties }) {
   const names = {
     attributes: Object.fromEntries(attributes.map(({ name, property = name }) => [property, name])),
-    // The others say which of both they are, and open with one of them.
+    // A boolean attribute without a default is true if it is present. The others are written as true or false.
     flags: attributes.filter(({ type, opening }) => type === 'boolean' && opening === undefined).map(({ name }) => name),
     properties: properties.filter(({ readonly }) => !readonly).map(({ name }) => name),
   };
@@ -50,7 +50,7 @@ type Settings<Element, Names extends keyof Element> = { [Name in keyof Pick<Elem
 
 type Events<Element extends FigureElement<any, any>> = FigureEvents<NonNullable<Element['stats']>>;
 
-/** Takes an event of its element. */
+/** Handler of an event of the element. */
 type Handler<Element, Its> = (event: Its & { readonly currentTarget: Element }) => void;
 
 type Handlers<Element extends FigureElement<any, any>> = {
@@ -59,7 +59,7 @@ type Handlers<Element extends FigureElement<any, any>> = {
 
 type OwnProps<Element extends FigureElement<any, any>, Names extends keyof Element> = Settings<Element, Names> & Handlers<Element>;
 
-/** Props of a component: the element's own, and what every element of HTML takes. */
+/** Props of a component: those of the element, and those of every HTML element. */
 type Props<Element extends FigureElement<any, any>, Names extends keyof Element> = OwnProps<Element, Names> &
   Omit<HTMLAttributes<Element>, keyof OwnProps<Element, Names>>;
 

@@ -1,5 +1,4 @@
-// `npm start`: builds what is stale and serves dist/ on this machine alone. PORT asks for one port; otherwise it is
-// the first free one from 4173 on.
+// `npm start`: builds stale files and serves dist/ on this machine only. PORT selects a port; the default is the first free one from 4173.
 
 import { createReadStream, statSync } from 'node:fs';
 import { createServer } from 'node:http';

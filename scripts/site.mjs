@@ -110,7 +110,7 @@ ${html.replaceAll('<table>', '<div class="table"><table>').replaceAll('</table>'
 `;
 }
 
-/** Throws when a page links to a file or a heading that is not there. */
+/** Throws if a page links to a missing file or heading. */
 function checkLinks() {
   const files = new Set(filesOf('build/site'));
   const own = [...files].filter((path) => /^build\/site\/(?!rust|classroom).*html$/.test(path));

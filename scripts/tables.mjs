@@ -1,5 +1,4 @@
-// Tables of reference.html that document the elements, from their declarations and their manifest. A comment in the page stands
-// for each.
+// Tables of reference.html that document the elements, from their declarations and their manifest. Each replaces a comment in the page.
 
 /**
  * @typedef {import('./declarations.mjs').Widget} Widget
@@ -7,7 +6,7 @@
  * @typedef {import('./manifest.mjs').Item} Item
  */
 
-/** Tables by the name in their comment. @type {Record<string, (elements: Element[], widgets: Widget[]) => string>} */
+/** Functions that make a table, by the name in its comment. @type {Record<string, (elements: Element[], widgets: Widget[]) => string>} */
 const TABLES = {
   attributes: (_, widgets) =>
     widgets
@@ -39,7 +38,7 @@ export function withTables(page, elements, widgets) {
 }
 
 /**
- * A table of what the elements have in common, and of what only some have.
+ * Returns a table of the items of all elements, followed by those of some.
  *
  * @param {Element[]} elements
  * @param {string} kind

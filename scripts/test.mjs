@@ -34,17 +34,17 @@ import { ensureLints, ensurePackages, nativeRust, wasmRust } from './toolchain.m
 /** Runs the nightly tests as well. */
 const ALL = process.argv.includes('--all');
 
-/** Seconds that a part may take, so that a test that hangs does not hang the run. */
+/** Time limit of a part, s, so that a hanging test does not stop the run. */
 const LIMIT = ALL ? 3600 : 1200;
 
 const at = (/** @type {string} */ path) => join(ROOT, path);
 /** @type {('tests' | 'tests/package' | 'tests/engines')[]} workspaces of package.json that the tests need */
 const PACKAGES = ALL ? ['tests', 'tests/package', 'tests/engines'] : ['tests'];
 
-/** The quick tier tests the whole core in all figures; the modules of single figures are built for the nightly one. */
+/** The quick tier tests the whole core in all figures. The nightly one also builds the modules of single figures. */
 const built = once(() => together([build({ local: !ALL }), ...PACKAGES.map((name) => ensurePackages(name))]));
 
-/** Versions of the tools that the parts ran with. */
+/** Versions of the tools that the parts used. */
 const versions = new Set([`Node ${process.versions.node}`]);
 
 async function native() {
@@ -119,7 +119,7 @@ const PARTS = {
   tsc: {
     async prepare(more) {
       await built();
-      // The nightly packages are the engines' and those of tests/package.
+      // The nightly tier also needs the packages of the engines and of tests/package.
       return npmProgram('typescript/bin/tsc', ['-p', ALL ? 'tests/types.json' : '.', ...more]);
     },
   },
@@ -129,7 +129,7 @@ const PARTS = {
   'clippy-wasm': {
     async prepare(more) {
       const rust = await wasm();
-      // In the profile of the tests, whose macros are compiled already.
+      // Uses the profile of the tests, in which the macros are compiled already.
       const options = ['--locked', '--profile', 'web', '--lib', '--test', 'web', ...rust.target];
       return lint(rust, 'clippy', [...options, ...more, ...LINT_RULES]);
     },
@@ -199,7 +199,7 @@ async function test(args) {
   mkdirSync(at('test-results'));
   if (only !== undefined) return summarize([await outcomeOf(only, more)]);
 
-  // Some lanes come to them late. Who needs one says that it is missing.
+  // Installation starts now, because some lanes need the tools late. A part that needs a missing one reports it.
   for (const tool of [browser, testRunner]) tool().catch(() => {});
   /** @type {Outcome[]} */
   const outcomes = [];
@@ -255,7 +255,7 @@ function inBrowser(runner, { chrome, driver }) {
 }
 
 /**
- * Returns the command that runs the tests of a directory, or of it those files that are named.
+ * Returns the command that runs the tests of a directory, or the named files of it.
  *
  * @param {string} directory
  * @param {string[]} more files or options
@@ -265,7 +265,7 @@ function nodeTests(directory, more) {
   const named = files.filter((path) => more.some((each) => !each.startsWith('-') && path.includes(each)));
   const options = more.filter((each) => !named.some((path) => path.includes(each)));
   const tier = ALL ? [] : ['--test-name-pattern', '/^(?!.*@nightly)/'];
-  // By itself it leaves a core idle.
+  // With its default number of processes a core stays idle.
   return [process.execPath, '--import', 'tsx', '--test', '--test-reporter', 'tap', '--test-concurrency', `${availableParallelism()}`, ...tier, ...options, ...(named.length > 0 ? named : files)];
 }
 
@@ -292,7 +292,7 @@ function tapTally(output) {
   return { passed: last('pass'), failed: last('fail') + last('cancelled'), skipped: last('skipped') + last('todo') };
 }
 
-/** Characters of an error in the summary: what was expected and what was there, without what follows. */
+/** Maximum length of an error in the summary: enough for the expected and the actual value. */
 const ERROR = 1500;
 
 /**
@@ -335,7 +335,7 @@ function summarize(outcomes) {
     if (note !== undefined) counts.push(note);
     console.log(`${ok ? 'ok    ' : 'FAILED'} ${name.padEnd(12)} ${seconds.toFixed(0).padStart(4)} s  ${counts.join(', ')}`);
     passed += tally?.passed ?? 0;
-    // A check that fails without a failed test to show for it counts as one.
+    // A part that fails without a failed test counts as one failed test.
     failed += ok ? 0 : Math.max(1, tally?.failed ?? 0);
   }
   for (const complaint of outcomes.flatMap(({ tally }) => tally?.complaints ?? [])) console.log(`\n${complaint}`);

@@ -66,11 +66,11 @@ async function installPackages(key) {
   writeFileSync(stamp, lock);
 }
 
-/** Neither waits for another of its kind in all that it does. */
+/** Locks of apt and of rustup, so that neither runs twice at the same time. */
 const [apt, rustup] = [queue(), queue()];
 
 /**
- * Installs packages by apt where that is possible without asking for a password.
+ * Installs packages by apt, if that is possible without a password.
  *
  * @param {string[]} packages
  * @param {string} sentence thrown as `Missing` otherwise
@@ -93,7 +93,7 @@ async function aptInstallNow(packages, sentence) {
   await mustRun(sentence, command, [...before, 'install', ...options, ...packages], { seconds: 900 });
 }
 
-/** Makes sure of Python and its pip, which the Python package is built by. */
+/** Ensures that Python and its pip are installed, which build the Python package. */
 export async function ensurePip() {
   if ((await run('python3', ['-m', 'pip', '--version'], { quiet: true })).ok) return;
   await aptInstall(['python3', 'python3-pip'], 'Python 3 or its pip is missing: install them as python.org says and start again.');
@@ -107,7 +107,7 @@ export async function ensurePip() {
  * @property {string} description
  */
 
-/** Rust for this machine, installed where there is none: by rustup, or from Debian where rustup is out of reach. */
+/** Finds or installs Rust for this machine: by rustup, or from Debian if rustup's server cannot be reached. */
 export const nativeRust = once(/** @returns {Promise<Rust>} */ async () => {
   let cargo = findProgram('cargo', [RUSTUP_BIN]);
   if (cargo === undefined) {
@@ -154,7 +154,7 @@ export const wasmRust = once(/** @returns {Promise<Rust>} */ async () => {
   if (![...parts, '/usr/lib/rustlib/src/rust/library/Cargo.lock'].every(existsSync)) {
     await aptInstall(['rustc-web', 'cargo-web', 'rust-web-src', 'lld'], sentence);
   }
-  // Tests that abort on panic, like what ships, share the library that was compiled for it.
+  // Tests abort on panic like the published module, and so share its compiled library.
   const env = { ...debianEnvironment(), CARGO_UNSTABLE_PANIC_ABORT_TESTS: 'true' };
   const version = await requireVersion(DEBIAN_BIN, env, 'run `sudo apt-get update && sudo apt-get install rustc-web`');
   return {
@@ -176,8 +176,8 @@ async function hasTarget({ bin, env }) {
   if (existsSync(join(sysroot.stdout.trim(), 'lib/rustlib', TARGET))) return true;
   const program = findProgram('rustup', [bin]);
   if (program === undefined) return false;
-  // Behind some firewalls rustup waits for ever. That is found out once a day, and more patiently where Debian's
-  // packages cannot stand in.
+  // Behind some firewalls rustup never returns. A probe, once a day, finds that out; it waits longer if Debian's packages cannot replace
+  // it.
   const unreachable = join(CACHE, 'rustup-unreachable');
   const canFallBack = findProgram('apt-get') !== undefined;
   const aDay = 24 * 3600 * 1000;
@@ -207,7 +207,7 @@ async function isSilent() {
   return (await run('curl', request, { seconds: 15, quiet: true })).timedOut;
 }
 
-/** Debian's stable compiler, with the feature gates open that `-Zbuild-std` stands behind. */
+/** Debian's stable compiler, with the unstable features enabled that `-Zbuild-std` needs. */
 function debianEnvironment() {
   return {
     ...searchFirst(DEBIAN_BIN),
@@ -218,7 +218,7 @@ function debianEnvironment() {
 }
 
 /**
- * The environment in which the programs of `bin` find each other first. cargo-clippy runs what CARGO names.
+ * Returns the environment in which the programs of `bin` come first. cargo-clippy runs the program in CARGO.
  *
  * @param {string} bin
  */
@@ -244,7 +244,7 @@ async function requireVersion(bin, env, remedy) {
 }
 
 /**
- * Makes sure of rustfmt and clippy beside a cargo.
+ * Ensures that rustfmt and clippy are installed for a cargo.
  *
  * @param {Rust} rust
  */
@@ -276,5 +276,5 @@ export function manifestValue(file, pattern) {
   return found[1];
 }
 
-// `node scripts/toolchain.mjs WORKSPACE` installs what another script imports at once.
+// `node scripts/toolchain.mjs WORKSPACE` installs packages that another script imports statically.
 await runAsScript(import.meta.url, () => ensurePackages(/** @type {Workspace} */ (process.argv[2])));

@@ -1,10 +1,10 @@
-// Modules of www/ in scripts: Node itself does not run TypeScript.
+// Imports modules of www/ into scripts: Node itself does not run TypeScript.
 
 import { join } from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { once, ROOT } from './process.mjs';
 
-/** Installs the loader. A bare clone does not have it before its packages are there. */
+/** Installs the loader. A bare clone has it only after the packages are installed. */
 const loader = once(async () => (await import('tsx/esm/api')).register());
 
 /**

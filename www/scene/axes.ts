@@ -1,16 +1,16 @@
-/** Surroundings of a picture: axes with their ticks and names, a key, and the edge of the inside. */
+/** Axes of a picture with ticks and names, a key, and the clipping of the plot area. */
 
 import { ticks } from 'd3-array';
 import { powerOfTen, tick } from '../ui/format.ts';
 import { strokeLine, type Brush, type LineStroke } from './canvas.ts';
 
-/** Ticks nearer to each other are told as multiples of a power of ten: their zeros have no room beside the axis. */
+/** Distance of ticks below which labels are multiples of a power of ten: their zeros would not fit next to the axis. */
 const NEAREST_TICKS = 9e-4;
 
-/** Least distances between two ticks, CSS pixels. */
+/** Minimum distances between two ticks, CSS pixels. */
 const TICK_SPACING = { x: 60, y: 48 };
 
-/** Gap between entries of a key, width of a sample in one, and from line to line: shares of the size of its type. */
+/** Gap between entries of a key, width of a line sample, and line height, relative to the font size. */
 const KEY = { gap: 0.8, sample: 1.5, space: 0.35, line: 1.4 };
 
 /**
@@ -27,7 +27,7 @@ export function drawAxes(brush: Brush, names: { x: string, y: string }, key: Key
   context.fillStyle = palette.muted;
 
   const xTicks = ticksOf(xMin, xMax, (right - left) / TICK_SPACING.x);
-  // The axis has its name where its last tick would be.
+  // The name of the axis takes the place of the last tick label.
   const xName = names.x.replace('(', `(${xTicks.unit}`);
   const free = right - context.measureText(xName).width - 10;
   context.textAlign = 'center';
@@ -62,7 +62,7 @@ export function drawAxes(brush: Brush, names: { x: string, y: string }, key: Key
 
 export interface KeyEntry {
   name: string;
-  /** A sample, from its left to its right in the middle of the line; CSS pixels. */
+  /** Draws a line sample, from left to right in the middle of the text line; CSS pixels. */
   draw: (x: number, y: number, width: number) => void;
 }
 /** Returns an entry of a key with a sample of a line. */
@@ -78,13 +78,13 @@ function drawKey({ context, view, palette, font }: Brush, before: string, entrie
   const placed = [];
   for (const entry of entries) {
     const length = (KEY.gap + KEY.space) * size + width + context.measureText(entry.name).width;
-    // A line of its own begins without a gap.
+    // The first entry of a line has no gap before it.
     if (x + length > view.width && row < last) [x, row] = [2 - KEY.gap * size, row + 1];
     if (x + length > view.width) break;
     placed.push({ ...entry, from: x + KEY.gap * size, row });
     x += length;
   }
-  // The last line stands next to the picture.
+  // The last line is nearest to the picture.
   y -= row * line;
   context.font = `italic ${font}`;
   context.fillText(before, 2, y);
@@ -96,7 +96,7 @@ function drawKey({ context, view, palette, font }: Brush, before: string, entrie
   }
 }
 
-/** Returns about so many ticks, with the factor of their unit and their labels. */
+/** Returns about this many ticks, with the factor of their unit and their labels. */
 function ticksOf(from: number, to: number, count: number) {
   const values = ticks(from, to, Math.max(2, Math.floor(count)));
   const step = values.length > 1 ? values[1] - values[0] : 1;
@@ -119,7 +119,7 @@ function line(context: CanvasRenderingContext2D, [x1, y1, x2, y2]: number[], alp
   context.globalAlpha = globalAlpha;
 }
 
-/** Confines what `paint` draws to the inside of the axes. */
+/** Clips what `paint` draws to the plot area. */
 export function clipped({ context, view }: Brush, paint: () => void) {
   const { left, right, top, bottom } = view.frame;
   context.save();

@@ -1,11 +1,11 @@
-/** Sentences in a picture, each with a line to what it is about. */
+/** Callouts: sentences in a picture, each with a line to the point that it is about. */
 
 import { least } from 'd3-array';
 import { clamp } from '../ui/clamp.ts';
 import { drawLeader } from './labels.ts';
 import type { Box, Brush } from './canvas.ts';
 
-/** Length of the shortest line, distance of two lines of text, and room around them: pixels. */
+/** Minimum length of the leader, line height, and margin around the text: pixels. */
 const LINE = 22;
 const LEADING = 15;
 const ROOM = 4;
@@ -13,11 +13,14 @@ const ROOM = 4;
 /** Distance that a sentence keeps from lines and other sentences, pixels. */
 const CLEAR = 9;
 
-/** Turns of a sentence out of the direction away from the middle, rad, and lengths of its line, in shortest ones. */
+/**
+ * Candidate positions of a sentence: angles (rad) relative to the direction away from the centre, and lengths of the leader in units of the
+ * minimum.
+ */
 const TURNS = Array.from({ length: 24 }, (_, i) => (Math.PI * (i - 12)) / 12);
 const LENGTHS = [1, 2, 3];
 
-/** Cost of a turn of 1 rad and of the length of a line, in pixels of a sentence that cover something. */
+/** Costs of an angle of 1 rad and of the length of a leader, in the unit of overlap, pixels. */
 const TURN_COST = 1;
 const LENGTH_COST = 0.1;
 
@@ -29,14 +32,14 @@ export interface Callout {
 }
 
 interface Surroundings {
-  /** Middle that the sentences keep away from. */
+  /** Centre that the sentences keep away from. */
   from: [number, number];
   /** Lines that they do not cover: x, y pairs. */
   lines: Float64Array[];
 }
 
 /**
- * Draws sentences about points of something round, outside of it, where they cover least of the picture. The cost of a place is continuous
+ * Draws sentences about points on a round shape, outside of it, where they cover least of the picture. The cost of a position is continuous
  * in all points, so that a sentence seldom jumps.
  */
 export function drawCallouts({ context, view, palette, font, placed }: Brush, callouts: Callout[], { from, lines }: Surroundings) {
@@ -80,7 +83,7 @@ export function drawCallouts({ context, view, palette, font, placed }: Brush, ca
   }
 }
 
-/** Returns the first of two points, and points between them that no sentence passes through, pixels. */
+/** Returns the first of two points, and points between them that a sentence must not cover, pixels. */
 function pointsBetween([x, y]: number[], [toX, toY]: number[]) {
   const count = Math.ceil(Math.hypot(toX - x, toY - y) / (2 * CLEAR)) || 1;
   return Array.from({ length: count }, (_, i) => [x + (i / count) * (toX - x), y + (i / count) * (toY - y)]);

@@ -1,14 +1,14 @@
-/** Canvases, and what pictures are painted on them with. */
+/** Canvases, and the context that pictures are drawn with. */
 
-/** Surfaces that pictures are drawn on: canvases and their substitutes. */
+/** Surfaces for drawing: canvases and their substitutes. */
 
 export interface Surface {
-  /** Pixels. */
+  /** Size in pixels. */
   width: number;
   height: number;
-  /** CSS pixels. */
+  /** Size in CSS pixels. */
   clientWidth: number;
-  /** Font of the style, for an element. */
+  /** Style that determines the font, if it is an element's. */
   letters: { fontFamily: string, fontSize: string };
   getContext: (kind: '2d') => CanvasRenderingContext2D | null;
 }
@@ -17,30 +17,30 @@ export interface Surface {
 export type Box = { x: number, y: number, across: number, down: number };
 
 /**
- * Context, view and colours that a picture is painted with. A pixel of the view is a CSS pixel where letters have 13 of them, and
- * grows in proportion to the letters.
+ * Context, view and colours that a picture is drawn with. A pixel of the view is a CSS pixel if the font size is 13 px, and scales with the
+ * font size.
  */
 export interface Brush {
   context: CanvasRenderingContext2D;
   view: import('./view.ts').View;
   palette: import('../ui/theme.ts').Palette;
-  /** Device pixels a pixel of the view. */
+  /** Device pixels per pixel of the view. */
   ratio: number;
   /** Font of the canvas's style. */
   font: string;
   /** Boxes of the texts drawn so far, which further texts keep clear of. */
   placed: Box[];
-  /** True if a file is drawn: a picture on the page has its key beside it. */
+  /** True if a file is drawn, which needs its own key. */
   exported?: boolean;
-  /** True if handles are painted: on the screen they are elements over the picture. */
+  /** True if handles are drawn: on the screen they are elements over the picture. */
   handles?: boolean;
-  /** Name of the line that is drawn thicker, and all others faint. */
+  /** Name of the highlighted line. It is drawn thicker, and all others faint. */
   highlight?: string | null;
-  /** Earlier reading whose outlines stay as a ghost. */
+  /** Earlier reading whose outlines stay visible for comparison. */
   former?: any;
 }
 
-/** Height of a picture's letters, pixels of its view; those of the figure have 16: see the style of canvases. */
+/** Font size of a picture in pixels of its view. The text of the figure has 16: see the style of canvases. */
 const LETTERS = 13;
 
 /** Returns a length in pixels of a view, in em of the figure's style. */
@@ -69,7 +69,7 @@ export function brushOn(canvas: HTMLCanvasElement | Surface, view: import('./vie
   const context = canvas.getContext('2d') as CanvasRenderingContext2D;
   context.setTransform(ratio, 0, 0, ratio, 0, 0);
   context.clearRect(0, 0, view.width, view.height);
-  // Numbers with signs, in whatever language the page is.
+  // Numbers keep their order in languages that are written from right to left.
   context.direction = 'ltr';
   return { context, view, palette, ratio, font: `${LETTERS}px ${fontFamily}`, placed: [] as Box[] };
 }

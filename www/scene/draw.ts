@@ -1,4 +1,4 @@
-/** Marks of pictures: robots, densities, outlines and rings. Every function takes the brush, and none keeps anything. */
+/** Drawing of robots, densities, outlines and rings. All functions are stateless. */
 
 import { greatest } from 'd3-array';
 import { limits } from '../settings.js';
@@ -8,7 +8,10 @@ import { drawLabel } from './labels.ts';
 import type { Callout } from './callout.ts';
 import type { Palette } from '../ui/theme.ts';
 
-/** Number of heading ticks that are stroked at once. Those of one stroke do not darken where they cross: more would flatten the crowd. */
+/**
+ * Number of heading ticks that are stroked at once. Ticks of one stroke do not darken where they cross, so that a larger number would hide
+ * the density.
+ */
 const TICKS_A_STROKE = 25;
 
 /**
@@ -19,7 +22,7 @@ export function drawDots(brush: Brush, triples: Float64Array, layout: { x: numbe
   const { context, view, palette } = brush;
   const count = triples.length / 3;
   const few = count < 400;
-  // Smaller in a small picture, where as many robots share less room.
+  // Dots are smaller in a small picture, where the robots have less space.
   const size = Math.min(1, Math.max(0.7, view.width / 720));
   const radius = size * (few ? 2.4 : 1.8);
   const x = (i: number) => view.toPixelX(triples[3 * i + layout.x]);
@@ -53,7 +56,7 @@ function headingTick({ context, view }: Brush, x: number, y: number, heading: nu
   context.lineTo(x + length * ahead.x, y + length * ahead.y);
 }
 
-/** Many robots at one place: a single marker, and every heading as a ray of a fan. */
+/** Draws many robots in one place: a single marker, and every heading as a ray of a fan. */
 export function drawHeap(brush: Brush, { x, y, headings, label }: { x: number, y: number, headings: number[], label: string }) {
   const { context, view, palette } = brush;
   const px = view.toPixelX(x);
@@ -67,7 +70,7 @@ export function drawHeap(brush: Brush, { x, y, headings, label }: { x: number, y
     context.stroke();
   }
   context.globalAlpha = 1;
-  // Large enough to show around the handle, which is often in the same place.
+  // Larger than the handle, which is often in the same place.
   drawDisc(context, [px, py], 14, palette.prediction);
   drawLabel(brush, { x: px + 14, y: py + 27, towards: 1, text: label, colour: palette.prediction });
 }
@@ -102,13 +105,13 @@ export interface Outline extends LineStroke {
   points: Float64Array;
 }
 
-/** Width of a highlighted line, times its own. */
+/** Factor of the width of a highlighted line. */
 const THICK = 1.9;
 
-/** Ink of the lines that are not highlighted. */
+/** Opacity of the lines that are not highlighted. */
 const FAINT = 0.3;
 
-/** Returns how lines are drawn by name: in the colours of their roles, the highlighted one thicker and all others faint. */
+/** Returns the line styles by name, in the colours of their roles. The highlighted line is thicker, and all others are faint. */
 export function lineStyles<Name extends string>({ palette, highlight }: Pick<Brush, 'palette' | 'highlight'>, lines: Record<Name, import('../figure/overlays.ts').LineStyle>) {
   const isLit = Object.keys(lines).some((name) => name === highlight);
   const styles = Object.entries(lines as Record<string, import('../figure/overlays.ts').LineStyle>).map(([name, { role, width = 2.25, dash = [] }]) => {
@@ -118,7 +121,7 @@ export function lineStyles<Name extends string>({ palette, highlight }: Pick<Bru
   return Object.fromEntries(styles) as Record<Name, { colour: string, width: number, dash: number[] }>;
 }
 
-/** Checks whether an outline has any length. That of robots at one place has none but of rounding. */
+/** Checks whether an outline has a length. If all robots are in one place, it has none except for rounding. */
 export const hasLength = (points: Float64Array) => points.some((value, i) => Math.abs(value - points[i % 2]) > 1e-9);
 
 /**
@@ -140,7 +143,7 @@ export function strokeLines(brush: Brush, lines: Outline[]) {
   for (const { points, ...style } of lines) stroke(brush.context, style, () => trace(brush, points));
 }
 
-/** Opacity of outlines as they were. */
+/** Opacity of earlier outlines. */
 const GHOST = 0.35;
 
 /**
@@ -160,12 +163,12 @@ export function drawGhosts(brush: Brush, outlines: Outline[], from: ArrayLike<nu
   return at ? [{ text, at, colour: palette.muted }] : [];
 }
 
-/** A single one of them. */
+/** Draws a single outline. */
 export function drawOutline(brush: Brush, points: Float64Array, style: Omit<Outline, 'points'>) {
   drawOutlines(brush, [{ points, ...style }]);
 }
 
-/** A robot seen from above: a disc with a line to the front. */
+/** Draws a robot seen from above: a disc with a line to the front. */
 export function drawRobot(brush: Brush, { x, y, heading, colour }: { x: number, y: number, heading: number, colour: string }) {
   const { context, view, palette } = brush;
   const px = view.toPixelX(x);
@@ -182,7 +185,7 @@ export function drawHandle({ context, palette, handles }: Brush, { x, y, radius,
   if (handles) drawDisc(context, [x, y], radius, palette.paper, { colour, width: 3 });
 }
 
-/** Draws the ring and cross hairs of the marked sample in a colour. */
+/** Draws the ring and cross hairs of the selected sample in a colour. */
 export function drawMark(brush: Brush, { x, y, heading }: { x: number, y: number, heading: number | null }, accent: string = brush.palette.accent) {
   const { context, view, palette } = brush;
   const px = view.toPixelX(x);

@@ -1,22 +1,22 @@
-/** Something in a picture under the reader's hand: dragged by pointer, moved from the keyboard. */
+/** Handle in a picture that the reader drags with a pointer or moves with keys. */
 
 import { html, nothing } from 'lit';
 import { length, pointOn } from './canvas.ts';
 
-/** Target of a handle; lengths in metres. */
+/** Callbacks of a handle; lengths in metres. */
 interface Hooks {
   view: () => import('./view.ts').View;
   /** Returns the x and y of the point that a pointer at `pointer` grasps; by default the middle of the handle. */
   at?: (pointer: number[]) => number[];
-  /** Moves the held thing to a point. */
+  /** Moves the target to a point. */
   drag: (x: number, y: number) => void;
-  /** True if the key is one that moved it. */
+  /** Handles a key; returns true if it moved the target. */
   key: (event: KeyboardEvent) => boolean;
-  /** Commit it has come to rest. */
+  /** Commits the change at the end of a movement. */
   commit: () => void;
 }
 
-/** Said of a handle. */
+/** Texts of a handle. */
 export interface Said {
   name: string;
   keys: string;
@@ -24,15 +24,15 @@ export interface Said {
   /** Range from and to. */
   range: number[];
   now: number;
-  /** The value in words. */
+  /** Value in words. */
   text: string;
-  /** A few words on what it has come up against, if it has. */
+  /** Text on the limit that the handle has reached, if any. */
   stop?: string | false;
-  /** A few words to one who has not seen it yet, while it pulses once. */
+  /** Hint for a reader who has not used it yet, shown while it pulses once. */
   hint?: string | false;
 }
 
-/** Steps of keys, x and y up: Home and End go to the ends of the range along x. */
+/** Steps of keys along x and y (up): Home and End go to the ends of the range along x. */
 const STEPS: Record<string, [number, number]> = {
   ArrowRight: [1, 0],
   ArrowLeft: [-1, 0],
@@ -54,7 +54,7 @@ export function stepsOf({ key, shiftKey, ctrlKey, metaKey, altKey }: KeyboardEve
   return [LONG_STEP * steps[0], LONG_STEP * steps[1]];
 }
 
-/** Turns by keys, the first two for keyboards on which brackets need a modifier. */
+/** Turns by key. The first two are for keyboards on which brackets need a modifier. */
 const TURNS: Record<string, number> = { ',': 1, '.': -1, '[': 1, ']': -1 };
 
 /** Returns the steps to the left, or back, that a key turns something by; undefined for other keys. */
@@ -63,26 +63,26 @@ export const turnsOf = ({ key, metaKey }: KeyboardEvent): number | undefined => 
 export class Handle {
   #part;
   #hooks;
-  /** The pointer that holds it, and its element. */
+  /** Pointer that drags the handle, and its element. */
   #hold: { id: number, by: Element } | undefined;
-  /** Vector from the pointer to the thing that is held, metres: taken by its edge it does not jump. */
+  /** Vector (m) from the pointer to the target, so that a target that is grasped at its edge does not jump. */
   #grip = [0, 0];
-  /** Place of its middle in pixels of the view, which are rounded on the screen. */
+  /** Position of the middle in pixels of the view, before it is rounded on the screen. */
   #middle = [0, 0];
 
-  /** Takes the classes of its element. */
+  /** Creates the handle; its element gets these classes. */
   constructor(part: string, hooks: Hooks) {
     this.#part = part;
     this.#hooks = hooks;
   }
 
-  /** True while a pointer holds it: a browser releases an element that leaves the page without an event. */
+  /** True while a pointer drags it. A browser releases the pointer of a removed element without an event. */
   get held() {
     return this.#hold?.by.hasPointerCapture(this.#hold.id) ?? false;
   }
 
   element({ name, keys, title, range, now, text, stop, hint }: Said) {
-    // The text about its limit stands towards the middle of the picture.
+    // The text on its limit is on the side of the middle of the picture.
     const side = 2 * this.#middle[0] > this.#hooks.view().width ? 'right' : '';
     return html`<div
       class="handle ${this.#part} ${side} ${this.held ? 'held' : ''}"

@@ -3,21 +3,21 @@
 import { clamp } from '../ui/clamp.ts';
 import { drawDisc, strokeLine, type Brush } from './canvas.ts';
 
-/** Size of a subscript, as a share of the letters, and its distance below the line, pixels. */
+/** Font size of a subscript relative to the text, and its offset below the baseline, pixels. */
 const SUBSCRIPT = 0.78;
 const DROP = 3;
 
-/** Half the height of a label's ground, pixels, and its opacity. */
+/** Half the height of a label's background, pixels, and its opacity. */
 const GROUND = { half: 9, alpha: 0.9 };
 
-/** Heights at which a label finds room, in heights of its ground away from its own. */
+/** Candidate positions of a label: offsets in heights of its background. */
 const SHIFTS = [0, 1, -1, 2, -2, 3, -3];
 
-/** Distance from row to row of labels above a picture, and gap between two of one row, pixels. */
+/** Distance between rows of labels above a picture, and gap between two labels of a row, pixels. */
 const ROW = 17;
 const GAP = 12;
 
-/** Room that two rows of labels need above a picture, beside the name of its axis, pixels. */
+/** Height that two rows of labels need above a picture, in addition to the name of its axis, pixels. */
 export const LABELS_ABOVE = 24 + ROW;
 
 export interface Text {
@@ -66,7 +66,7 @@ export function drawLabelsAbove(brush: Brush, labels: (Text & { x: number, y: nu
     .map((label, i) => ({ ...label, row: i % 2, from: label.x - label.width / 2 }));
   for (const row of [0, 1]) {
     const inRow = placed.filter((label) => label.row === row);
-    // Each keeps clear of the one before it; then the last ones make room at the right.
+    // Each label keeps clear of the one before it. Then the last ones are moved to the left, inside the picture.
     let free = left;
     for (const label of inRow) {
       label.from = Math.max(label.from, free);

@@ -1,4 +1,4 @@
-/** Answer that is kept while its question is the same. */
+/** Cache of one result, valid while its dependencies are the same. */
 
 export class Memo<Answer> {
   #question: unknown[] = [];

@@ -1,4 +1,4 @@
-/** A picture: what a canvas shows of a machine, through a view of its own. */
+/** Picture: a canvas that shows a machine through its own view. */
 
 import { brushOn } from './canvas.ts';
 import type { Brush, Surface } from './canvas.ts';
@@ -6,27 +6,27 @@ import type { View } from './view.ts';
 import type { Palette } from '../ui/theme.ts';
 
 export interface How {
-  /** Milliseconds since the frame before. */
+  /** Milliseconds since the previous frame. */
   elapsed?: number;
-  /** True if the view stays aimed at what it is aimed at. */
+  /** True if the view keeps its target. */
   still?: boolean;
-  /** True if the view goes there without easing. */
+  /** True if the view moves there without an animation. */
   atOnce?: boolean;
-  /** Reading before the present gesture: a view that zooms out after it shows its outlines too. */
+  /** Reading before the current gesture. If the view zooms out after the gesture, it shows those outlines too. */
   former?: any;
   /** Name of the line that is highlighted. */
   highlight?: string | null;
-  /** True if it is drawn for a file, which has no page around it. */
+  /** True if it is drawn for a file, without the page around it. */
   exported?: boolean;
   /** True if handles are painted. */
   handles?: boolean;
 }
 
 export class Picture<Scene, Name extends string = string> {
-  /** Reading before the gesture that the view last zoomed out after, or may yet. */
+  /** Reading before the gesture after which the view last zoomed out, or may do so yet. */
   #former: any;
 
-  /** Class of its canvas. */
+  /** Class of the canvas. */
   name: Name;
   view: View;
 
@@ -35,7 +35,7 @@ export class Picture<Scene, Name extends string = string> {
     this.view = view;
   }
 
-  /** Aims the view. */
+  /** Sets the target of the view. */
   fit(_scene: Scene) {}
 
   /** Paints the scene. Returns true if the next frame has more to paint. */
@@ -60,17 +60,17 @@ export class Picture<Scene, Name extends string = string> {
     return -1;
   }
 
-  /** Returns a point and its surroundings, CSS pixels, in the view's world. */
+  /** Returns a point and its neighbourhood, given in CSS pixels, in the view's world. */
   around(x: number, y: number, reach: number): [x: number, y: number, radiusX: number, radiusY: number] {
     const { view } = this;
     return [view.toWorldX(x), view.toWorldY(y), reach / view.scaleX, reach / view.scaleY];
   }
 }
 
-/** Greatest distance from the pointer to a sample that it marks, CSS pixels. */
+/** Greatest distance from the pointer to a sample that it selects, CSS pixels. */
 const REACH = 14;
 
-/** Picture of samples that the pointer can mark, in an equal view. */
+/** Picture of samples that the pointer can select, with the same scale on both axes. */
 export class SamplesPicture<Scene> extends Picture<Scene> {
   nearest: Picture<any>['nearest'] = (machine, x, y) => machine.nearest(...this.around(x, y, REACH).slice(0, 3));
 }

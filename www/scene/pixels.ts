@@ -1,10 +1,13 @@
-/** Images that cover the inside of the axes. */
+/** Images that cover the plot area. */
 
 import { hiddenContext } from './canvas.ts';
 import { Memo } from './memo.ts';
 import type { Brush } from './canvas.ts';
 
-/** Image of pixels. Only the part with ink is drawn: most of a density is empty, and to stretch that costs more than all the rest of a picture. */
+/**
+ * Image of pixels. Only the part that is not transparent is drawn: most of a density is empty, and scaling that would take longer than the
+ * rest of a picture.
+ */
 export class Pixels {
   #grid = new OffscreenCanvas(1, 1);
   #inked: ReturnType<typeof inkedPart>;
@@ -19,7 +22,7 @@ export class Pixels {
     if (this.#grid.width !== columns) this.#grid.width = columns;
     if (this.#grid.height !== rows) this.#grid.height = rows;
     this.#inked = inkedPart(pixels, columns, rows);
-    // All of them: where they are stretched, those around the part shine through its edges.
+    // All pixels: scaling blends the edges of the part with those around it.
     if (this.#inked) hiddenContext(this.#grid).putImageData(new ImageData(pixels, columns, rows), 0, 0);
   }
 
@@ -52,7 +55,7 @@ export class Density {
   }
 }
 
-/** The box of the pixels with ink and a pixel around it, into which they fade where they are stretched. */
+/** Returns the box of the pixels that are not transparent, with a border of one pixel, into which they fade when scaled. */
 function inkedPart(pixels: Uint8ClampedArray<ArrayBuffer>, columns: number, rows: number): [x: number, y: number, width: number, height: number] | undefined {
   const cells = new Uint32Array(pixels.buffer, pixels.byteOffset, columns * rows);
   let [left, right, first, last] = [columns, 0, -1, -1];

@@ -14,7 +14,7 @@ const BASELINES = { top: '0.8em', middle: '0.33em' } as Record<string, string>;
 const ANCHORS = { center: 'middle', right: 'end' } as Record<string, string>;
 
 export class SvgContext {
-  /** Tells those who draw pixels for speed that here are none. */
+  /** True for a context that writes vectors: callers that draw pixels for speed draw shapes instead. */
   vector = true;
   strokeStyle = '';
   fillStyle = '';
@@ -36,7 +36,7 @@ export class SvgContext {
   #name;
   #ruler = new OffscreenCanvas(1, 1).getContext('2d') as OffscreenCanvasRenderingContext2D;
 
-  /** Takes the prefix of ids: several figures may stand on one page. */
+  /** Creates the context with a prefix of ids, because several figures may be on one page. */
   constructor(name: string) {
     this.#name = name;
   }
@@ -72,7 +72,7 @@ export class SvgContext {
   };
 
   lineTo: CanvasPath['lineTo'] = (x, y) => {
-    // A canvas begins a path so, too.
+    // A canvas begins a path in the same way.
     this.#path += `${this.#path ? 'L' : 'M'}${short(x)},${short(y)}`;
   };
 

@@ -8,10 +8,10 @@ import { clamp } from '../ui/clamp.ts';
 /** Axis-aligned part of a view's world. */
 export type Extent = { xMin: number, yMin: number, xMax: number, yMax: number };
 
-/** Share of a released view that what is shown has to fill: a view that suits stays where it is. */
+/** Fraction of a view that its content has to fill after a gesture. Otherwise the view zooms in. */
 const LOOSEST_FIT = 0.45;
 
-/** Room left around what is shown when a view is chosen, as a share of its size. */
+/** Margin around the content of a view, relative to its size. */
 const MARGIN = 0.06;
 
 /** Time constant of the eased change from one extent to the next, in milliseconds. */

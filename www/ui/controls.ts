@@ -39,12 +39,12 @@ export const controlStyles = css`
     color: var(--ink);
   }
 
-  /* A browser gives controls letters of a size of its own. */
+  /* Browsers have their own font size for controls. */
   input {
     font-size: inherit;
   }
 
-  /* As high and as wide about its letters, however small these are. */
+  /* Padding in proportion to the font size. */
   button,
   ::file-selector-button {
     --size: 1;
@@ -85,7 +85,7 @@ export const controlStyles = css`
     }
   }
 
-  /* Text with room for a longer one, which nobody sees. */
+  /* Text that reserves the width of a longer one, which is invisible. */
   .roomy::after {
     content: attr(data-room);
     display: block;
@@ -123,7 +123,7 @@ export const controlStyles = css`
     margin-bottom: 0.5em;
   }
 
-  /* Segments: the whole label is pressed, and the chosen one filled. */
+  /* Segmented control: the whole label can be pressed, and the selected one is filled. */
   .options {
     gap: 2px;
   }
@@ -210,7 +210,7 @@ function printed(piece: string) {
   return html`<sub>${piece[0] === '_' ? piece.slice(2, -1) : piece.charCodeAt(0) - 0x2080}</sub>`;
 }
 
-/** A value or formula: it has a direction of its own among words, and page translators leave it as it is. */
+/** Value or formula. It has its own writing direction, and page translators leave it unchanged. */
 export const symbols = (content: unknown) => html`<bdi translate="no" class="notranslate">${content}</bdi>`;
 
 /** Returns a group of controls under its heading. */
@@ -221,7 +221,7 @@ export function group(heading: unknown, controls: unknown, name?: string) {
   </fieldset>`;
 }
 
-/** Returns one of a group of radio buttons, with a name for screen readers where it has no label. */
+/** Returns one of a group of radio buttons, with a name for screen readers if it has no label. */
 export function choice({ group, label, name, checked, choose }: { group: string, label?: unknown, name?: string, checked: boolean, choose: () => void }) {
   return html`<label class="choice">
     <input type="radio" name=${group} aria-label=${name ?? nothing} .checked=${live(checked)} @change=${choose} />

@@ -1,4 +1,4 @@
-/** Disclosures, whose content is rendered while they are open. */
+/** Disclosures, whose content is rendered only while they are open. */
 
 import { html, noChange, nothing } from 'lit';
 import { Directive, directive } from 'lit/directive.js';
@@ -11,7 +11,7 @@ export function fold(name: string, content: () => unknown, id?: string) {
   </details>`;
 }
 
-/** Lit calls listeners with the element that has rendered them. */
+/** Lit calls listeners with the element that has rendered them as `this`. */
 function renderHost(this: import('lit').LitElement) {
   this.requestUpdate();
 }

@@ -1,4 +1,4 @@
-/** Numbers in the present language: a true minus sign, thin spaces between thousands, and a dash where there is no number. */
+/** Numbers in the current language: a true minus sign, thin spaces between thousands, and a dash for NaN. */
 
 import { language } from '../messages/registry.ts';
 
@@ -6,7 +6,7 @@ const MINUS = '\u2212';
 const THIN_SPACE = '\u202f';
 export const NOTHING = '\u2014';
 
-/** Formatters by language and options: to make one takes longer than a frame. */
+/** Cache of formatters by language and options: creating one takes longer than a frame. */
 const formats: Map<string, Intl.NumberFormat> = new Map();
 
 function print(value: number, options: Intl.NumberFormatOptions) {
@@ -22,18 +22,20 @@ function print(value: number, options: Intl.NumberFormatOptions) {
 
 /** Prints a number with decimals: "−0.301"; "0.000" rather than "−0.000"; "—" for NaN. */
 export function fixed(value: number, decimals: number): string {
-  // Rounded here, as the number is in binary: ties of its shortest decimals are none.
+  // Rounds the binary number. The formatter would round the shortest decimals, and find ties that are none.
   const digits = value.toFixed(decimals);
   const rounded = Number(digits);
-  // English needs no formatter, whose making costs more than the rest of a first frame.
+  // English needs no formatter, which would take longer to create than the rest of the first frame.
   if (language === 'en' && Math.abs(rounded) < 1e21) return rounded < 0 ? MINUS + digits.slice(1) : digits.replace('-', '');
   return print(rounded, { minimumFractionDigits: decimals, maximumFractionDigits: decimals, useGrouping: false });
 }
 
-/** Decimals beyond the usual ones that a short number is shown with. */
+/** Maximum number of additional decimals of a short number. */
 const FEW_MORE = 2;
 
-/** Prints a value as it was typed: with up to two decimals more than usual if they say all of it. "0.0525" with 3, and "0.052" for 0.05210987. */
+/**
+ * Prints a value as it was typed: with up to two more decimals than usual, if these are all. "0.0525" with 3, and "0.052" for 0.05210987.
+ */
 export function typed(value: number, decimals: number): string {
   const all = String(value).split('.')[1]?.length ?? 0;
   return fixed(value, all > decimals && all <= decimals + FEW_MORE ? all : decimals);
@@ -47,7 +49,7 @@ export function numberIn(text: string, unit: string = '', whole: boolean = false
   const plain = text.replace(/\s/g, '').replace(MINUS, '-');
   const bare = unit && plain.endsWith(unit) ? plain.slice(0, -unit.length) : plain;
   const [, decimal] = fixed(0.5, 1);
-  // In English a comma stands between whole groups of three, or nowhere; where it is for decimals a point may, if there are none.
+  // In English, commas separate complete groups of three digits. Where the comma is the decimal separator, points may.
   const groups = decimal === '.' ? /^-?[1-9]\d{0,2}(,\d{3})+$/ : whole && /^-?[1-9]\d{0,2}(\.\d{3})+$/;
   const ungrouped = groups && groups.test(bare) ? bare.replace(/[,.]/g, '') : bare;
   return bare === '' ? NaN : Number(ungrouped.replace(decimal, '.'));
@@ -58,10 +60,10 @@ export function limit(value: number): string {
   return Number.isInteger(value) ? counted(value) : significant(value, 1);
 }
 
-/** Below this a number is taken for a 0 that rounding has passed over. */
+/** Magnitude below which a number counts as 0 that is rounded. */
 const NOTHING_BELOW = 1e-13;
 
-/** Most decimals of a standard error: ten million robots leave one of 0.0008. */
+/** Maximum number of decimals of a standard error: ten million robots have one of 0.0008. */
 const MAX_DECIMALS = 5;
 
 const SUPERSCRIPTS = '⁰¹²³⁴⁵⁶⁷⁸⁹';
@@ -106,7 +108,7 @@ export function withError(value: number, error: number, decimals: number): strin
   return `${fixed(value, needed)} ± ${fixed(error, needed)}`;
 }
 
-/** The label of an axis tick, with as many decimals as the step between ticks needs. */
+/** Prints the label of an axis tick, with as many decimals as the step between ticks needs. */
 export function tick(value: number, step: number) {
   return fixed(value, Math.max(0, -Math.floor(Math.log10(step) + 1e-9)));
 }

@@ -8,7 +8,7 @@ import { controlStyles } from './controls.ts';
 import { readoutStyles } from './readouts.ts';
 import { sliderStyles } from './slider.ts';
 
-/** Style of a figure whose first picture alone stays in sight: all of them would leave no room for the controls. */
+/** Style of a figure in which only the first picture stays visible while scrolling: all of them would leave no space for the controls. */
 const pictureAlone = css`
   .stage[part='picture'] {
     position: sticky;
@@ -23,7 +23,7 @@ const pictureAlone = css`
     display: contents;
   }
 
-  /* Clear of the fade. */
+  /* Margin for the fade. */
   .stage[part='picture'] + *,
   .panel:has([part='picture']) + * {
     margin-top: 0.7em;
@@ -31,7 +31,7 @@ const pictureAlone = css`
 `;
 
 const layout = css`
-  /* The pictures stay in sight for as long as this reaches, behind text of the page. */
+  /* The pictures stay visible within this box, behind text of the page. */
   .machine {
     margin-bottom: calc(-1 * var(--motion-sticky-bottom, 0px));
   }
@@ -61,7 +61,7 @@ const layout = css`
     }
   }
 
-  /* A single slider has the samples below it, beside the command. */
+  /* A single slider shares a row with the number of samples. */
   @container (min-width: 56em) {
     .controls > fieldset:has(+ .single) {
       grid-row: span 2;
@@ -126,7 +126,7 @@ const layout = css`
     margin-inline-start: auto;
   }
 
-  /* An answer has a line of its own. */
+  /* An answer has its own line. */
   .folds > :is(output, textarea) {
     flex: 1 0 100%;
     text-align: end;
@@ -150,7 +150,7 @@ const layout = css`
 
   .stage {
     position: relative;
-    /* Handles stand where the former width had them until the next frame. */
+    /* After a change of the width, handles stay in their old places until the next frame. */
     overflow-x: clip;
   }
 
@@ -159,7 +159,7 @@ const layout = css`
     width: 100%;
     aspect-ratio: 5 / 4;
     touch-action: pan-y pinch-zoom;
-    /* The pictures' own unit: what they are drawn in, too, is in proportion to the letters. See scene/canvas.ts. */
+    /* Unit of the pictures, in proportion to the font size. See scene/canvas.ts. */
     font-size: 0.8125em;
     cursor: crosshair;
   }
@@ -200,7 +200,7 @@ const layout = css`
     pointer-events: none;
   }
 
-  /* The limit of a handle, while it is held or moved from the keyboard. */
+  /* Text on the limit of a handle, while it is dragged or moved with keys. */
   .handle[data-stop]:is(.held, :focus-visible)::before {
     content: attr(data-stop);
     top: 50%;
@@ -218,7 +218,7 @@ const layout = css`
     background: var(--prior);
   }
 
-  /* A robot is drawn in the picture: its body's handle has no look of its own. */
+  /* A robot is drawn in the picture: the handle of its body is invisible. */
   .handle.body::after {
     content: none;
   }
@@ -264,7 +264,7 @@ const layout = css`
     }
   }
 
-  /* Two lines, however short the sentence is: nothing moves when another one comes. */
+  /* Height of two lines even for a short sentence, so that nothing moves when it changes. */
   .caption {
     min-height: 2lh;
     margin: 0;
@@ -357,7 +357,7 @@ const layout = css`
     font-size: 0.92em;
   }
 
-  /* The pictures stay in sight while the controls below them are used. */
+  /* The pictures stay visible while the controls below them are used. */
   @media (min-height: 22em) {
     .stage canvas {
       max-height: 45svh;
@@ -367,7 +367,7 @@ const layout = css`
       scroll-margin-top: calc(45svh + 2em + var(--top));
     }
 
-    /* Covers handles that stick out at the sides, and fades text that goes below. */
+    /* Covers handles that overlap the sides, and fades text that scrolls below. */
     .machine {
       --fade: -0.5em 0 var(--paper), 0.5em 0 var(--paper), 0 0.4em 0.4em var(--paper);
     }
@@ -387,7 +387,7 @@ const layout = css`
     }
   }
 
-  /* A window at 200 % zoom. */
+  /* Window at 200 % zoom. */
   @media (22em <= height < 40em) {
     @container (width < 56em) {
       ${pictureAlone}

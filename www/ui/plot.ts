@@ -14,13 +14,13 @@ const RIGHT = WIDTH - 12;
 const TOP = 22;
 const BOTTOM = HEIGHT - 34;
 
-/** Labels along an axis, at most: more of them touch. */
+/** Maximum number of labels along an axis: more of them touch. */
 const MOST_LABELS = { x: 6, y: 7 };
 
-/** Beyond every plot, and within what paths take. */
+/** Coordinate outside every plot, and within the range of SVG paths. */
 const FAR = 10_000;
 
-/** Half the width of an error bar's ends. */
+/** Half the width of the ends of an error bar. */
 const SERIF = 4;
 
 export const plotStyles = css`
@@ -34,7 +34,7 @@ export const plotStyles = css`
     max-width: 26em;
   }
 
-  /* Inside of the axes; a slider's thumb is half a thumb away from its ends. It is a grip on a line: a dot would look like data. */
+  /* Plot area. A slider's thumb is half a thumb away from its ends. It looks like a grip on a line, because a dot would look like data. */
   .plotted input {
     position: absolute;
     top: ${unsafeCSS((100 * TOP) / HEIGHT)}%;
@@ -137,9 +137,9 @@ interface Axis {
   /** Name with its unit. */
   name: string;
   from: number;
-  /** Above `from`. */
+  /** End of the axis, greater than `from`. */
   to: number;
-  /** Both ends are above 0 then. */
+  /** True for a logarithmic axis, whose ends are both above 0. */
   logarithmic?: boolean;
 }
 
@@ -149,29 +149,29 @@ export interface Curve {
   /** Name in the key; *stars* make italics. */
   name: string;
   role: Role;
-  /** Dash which tells it from others without colours. */
+  /** Dash pattern, which distinguishes the curve without colours. */
   dash?: string;
   x: ArrayLike<number>;
-  /** NaN leaves a gap; nothing is drawn beyond the axes. */
+  /** Values; NaN leaves a gap, and nothing is drawn outside the axes. */
   y: ArrayLike<number>;
-  /** Half the height of a band around it. */
+  /** Half the height of a band around the curve. */
   error?: ArrayLike<number>;
-  /** True if the band is all there is of it. */
+  /** True if there is only the band. */
   area?: boolean;
-  /** True where it is highlighted, false where another one is. */
+  /** True if it is highlighted, false if another curve is. */
   lit?: boolean;
 }
 
-/** A measured value, with its standard error either way. */
+/** Measured value with its standard error. */
 export interface Point {
   role: Role;
   x: number;
-  /** NaN where there is none. */
+  /** Standard error; NaN if there is none. */
   y: number;
   error: number;
 }
 
-/** A line across the plot, at an x or at a y. */
+/** Line across the plot, at an x or at a y. */
 interface Mark {
   x?: number;
   y?: number;
@@ -186,9 +186,9 @@ export interface Plot {
   curves: Curve[];
   points?: Point[];
   marks?: Mark[];
-  /** Over the whole of the x axis. */
+  /** Slider over the whole x axis. */
   slider?: Omit<Parameters<typeof track>[0], 'min' | 'max'>;
-  /** Legend in the place of the key. */
+  /** Legend that replaces the key. */
   legend?: unknown;
 }
 
@@ -282,7 +282,7 @@ function band({ x, y, error = [] }: Curve, toX: (value: number) => number, toY: 
 function markOf({ x, y, text }: Mark, row: number, toX: (value: number) => number, toY: (value: number) => number) {
   if (x !== undefined) {
     const at = toX(x);
-    // Beside the line, on the side that has room.
+    // Text next to the line, on the side that has space.
     const [shift, anchor] = 2 * at > LEFT + RIGHT ? [-5, 'end'] : [5, 'start'];
     return svg`<line class="mark" x1=${at} x2=${at} y1=${TOP} y2=${BOTTOM} />
       <text class="marked" x=${at + shift} y=${TOP + 13 + 16 * row} text-anchor=${anchor}>${text}</text>`;

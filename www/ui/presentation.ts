@@ -1,9 +1,9 @@
-/** Styles of a figure before an audience: it fills the screen, with letters in proportion to it. */
+/** Styles of a figure in a presentation: it fills the screen, with a larger font. */
 
 import { css } from 'lit';
 
 export const presentationStyles = css`
-  /* Letters half again as large as the page's, larger on a large screen, and smaller where a small one has no room for them. */
+  /* Font 1.5 times as large as the page's, larger on a large screen, and smaller on a small one. */
   :host([presentation]) {
     position: fixed !important;
     inset: 0 !important;
@@ -19,7 +19,7 @@ export const presentationStyles = css`
     font-size: max(1em, min(1.5em, 100vw / 44, 100vh / 36), min(100vw / 80, 100vh / 45)) !important;
   }
 
-  /* The controls need more room. */
+  /* The controls need more space. */
   :host([presentation]) .with-controls {
     font-size: max(0.6em, min(1em, 100vw / 84, 100vh / 48));
   }
@@ -44,7 +44,7 @@ export const presentationStyles = css`
     min-height: 0;
   }
 
-  /* The pictures take the room that is left. */
+  /* The pictures take the remaining space. */
   :host([presentation]) .views {
     flex: 1 0 auto;
     display: grid;
@@ -76,13 +76,13 @@ export const presentationStyles = css`
     min-height: 0;
   }
 
-  /* The buttons stand beside the title. */
+  /* Buttons in the row of the title. */
   :host([presentation]) .title-slot {
     margin-top: -1.55em;
     padding-inline-end: 10em;
   }
 
-  /* A phone has the pictures one below the other, and is scrolled. */
+  /* On a phone the pictures are below each other, and the page scrolls. */
   @media (max-width: 30em) or (max-height: 30em) {
     :host([presentation]) .title-slot {
       margin-top: 0;
@@ -134,7 +134,7 @@ export const presentationStyles = css`
     background: var(--ink);
   }
 
-  /* The key of a preset stands in its button. */
+  /* The key of a preset is shown in its button. */
   :host([presentation]) .presets {
     counter-reset: key;
     margin: 0.2em 0 0;

@@ -1,10 +1,10 @@
-/** Figures in print: a list of readouts, and tables. */
+/** Numbers as text: a list of readouts, and tables. */
 
 import { css, html, nothing } from 'lit';
 import { rich, symbols } from './controls.ts';
 
 export const readoutStyles = css`
-  /* A name above its figure, side by side. */
+  /* Name above its number, side by side. */
   .readouts {
     display: flex;
     flex-wrap: wrap;
@@ -16,7 +16,7 @@ export const readoutStyles = css`
     margin: 0;
   }
 
-  /* A longer value moves no neighbour. */
+  /* Reserved width, so that a longer value moves no neighbour. */
   .readouts > div {
     min-width: 5em;
   }
@@ -88,7 +88,7 @@ export const readoutStyles = css`
     text-align: end;
   }
 
-  /* The name of a row above its numbers, which have the whole width then. */
+  /* Name of a row above its numbers, which then have the whole width. */
   @container (width < 26em) {
     table {
       font-size: 0.82em;
@@ -137,7 +137,7 @@ interface Table {
   columns: unknown[];
   /** Cells of the rows, the name of each first. A single cell after the name takes the place of all. */
   rows: unknown[][];
-  /** True if other figures are on their way. */
+  /** True if other numbers are being computed. */
   outdated?: boolean;
 }
 

@@ -1,4 +1,4 @@
-/** A slider with its label, its value, which can be typed too, and one line that says what it does to the picture. */
+/** Slider with its label, an editable value, and one line about its effect on the picture. */
 
 import { css, html, noChange, nothing } from 'lit';
 import { Directive, directive } from 'lit/directive.js';
@@ -6,7 +6,7 @@ import { live } from 'lit/directives/live.js';
 import { inputOf } from './controls.ts';
 
 export const sliderStyles = css`
-  /* Name and value above the track; below it the room for a line of help. */
+  /* Name and value above the track, and space for a line of help below it. */
   .slider {
     position: relative;
     display: grid;
@@ -15,7 +15,7 @@ export const sliderStyles = css`
     padding-bottom: 1.1em;
   }
 
-  /* In wide figures all in one row, in columns that every group shares. */
+  /* In wide figures all of it is in one row, in columns that every group shares. */
   @container (min-width: 56em) {
     .slider {
       grid-template: 'pick name track value' auto / auto 14em 1fr 5.5em;
@@ -55,7 +55,7 @@ export const sliderStyles = css`
     white-space: nowrap;
   }
 
-  /* The value lies over its print, which keeps the room for it and is what paper has. */
+  /* The field lies over its printed value, which reserves the space and is shown on paper. */
   .printed {
     visibility: hidden;
   }
@@ -80,7 +80,7 @@ export const sliderStyles = css`
     border-color: var(--muted);
   }
 
-  /* A text of more lines covers what stands below. */
+  /* A text of more lines covers the content below. */
   .slider .effect {
     position: absolute;
     top: calc(100% - 1.3em);
@@ -159,7 +159,7 @@ export const sliderStyles = css`
     box-shadow: 0 0 0 3px var(--paper);
   }
 
-  /* Around the thumb alone: around all of the slider it would cut into the rows above and below. */
+  /* Focus ring around the thumb only: around the slider it would overlap the rows above and below. */
   input[type='range']:focus-visible {
     outline: none;
   }
@@ -180,12 +180,12 @@ export const sliderStyles = css`
   }
 `;
 
-/* A finger that goes up or down over a slider scrolls the page and sets nothing; one that goes across or taps sets it. */
+/* Touch on a slider: a vertical movement scrolls the page and changes nothing; a horizontal one or a tap sets the slider. */
 
-/** A finger that has moved less than this, CSS pixels, may be going anywhere. */
+/** Movement (CSS pixels) below which the direction of a touch is undecided. */
 const SLOP = 8;
 
-/** Position of a finger that may still scroll or set. */
+/** Position of a touch whose direction is undecided. */
 let down: { clientX: number, clientY: number } | undefined;
 
 const forget = () => (down = undefined);
@@ -193,7 +193,7 @@ const forget = () => (down = undefined);
 const finger = {
   comes({ pointerType, clientX, clientY }: PointerEvent) {
     down = pointerType === 'touch' ? { clientX, clientY } : undefined;
-    // The element under the finger may leave the page, and then hears no pointerup.
+    // An element that is removed during a touch gets no pointerup.
     addEventListener('pointerup', forget);
     addEventListener('pointercancel', forget);
   },
@@ -211,7 +211,7 @@ const finger = {
     return tapped;
   },
 
-  /** True while the finger may still scroll the page. */
+  /** True while the touch may still scroll the page. */
   get waits() {
     return down !== undefined;
   },
@@ -288,14 +288,14 @@ interface Track extends Range {
   name?: string;
   /** Value in words. */
   text: string;
-  /** Id of the element that tells more. */
+  /** Id of the element with the description. */
   describedBy?: string;
   keydown?: (event: KeyboardEvent) => void;
 }
 
 /** Track that a thumb is moved on. A finger that goes up or down over it scrolls the page. */
 export function track({ id, name, min, max, step, value, text, describedBy, keydown, input, commit }: Track) {
-  // A browser sets a slider as soon as a finger comes down on it: until the finger taps or scrolls, a rendering leaves that value.
+  // A browser sets a slider as soon as it is touched. Rendering keeps that value until the touch is a tap or scrolls.
   const set = (event: Event) => {
     if (!finger.waits) input(inputOf(event).valueAsNumber);
   };
@@ -324,7 +324,7 @@ export function track({ id, name, min, max, step, value, text, describedBy, keyd
   />`;
 }
 
-/** Keeps the text of a field while the reader types: a picture that takes long is drawn after the reader has gone on. */
+/** Keeps the text of a field while the reader types, because a slow picture is drawn after further keys. */
 const untilTyped = directive(
   class extends Directive {
     render(shown: string) {
@@ -342,11 +342,11 @@ const untilTyped = directive(
   },
 );
 
-/** The value of a slider as a field to type into. */
+/** Value of a slider as an input field. */
 function field({ id, keys, type, forget }: Pick<SliderRow, 'id' | 'keys' | 'type' | 'forget'>, shown: string) {
-  /** Takes the typed text. Returns true if it is the value now. */
+  /** Takes the typed text; returns true if it became the value. */
   const take = (input: HTMLInputElement): boolean => {
-    // The default is the text from when the reader came.
+    // The default is the text at the time of focus.
     if (input.value === input.defaultValue) return true;
     const now = type(input.value);
     input.value = input.defaultValue = now ?? input.defaultValue;
@@ -356,7 +356,7 @@ function field({ id, keys, type, forget }: Pick<SliderRow, 'id' | 'keys' | 'type
     const input = inputOf(event);
     if (event.key === 'Escape') input.value = input.defaultValue = shown;
     else if (event.key !== 'Enter') return;
-    // Escape does nothing else here.
+    // Prevents other effects of Escape.
     event.preventDefault();
     if (take(input)) sliderBeside(input).focus();
     else input.select();
@@ -383,12 +383,12 @@ function field({ id, keys, type, forget }: Pick<SliderRow, 'id' | 'keys' | 'type
   />`;
 }
 
-/** Goes on in the field beside a slider: it takes the key that was pressed, and all of its text is selected. */
+/** Moves the focus from a slider to its field, with the pressed key; all of its text is selected. */
 function leadIntoField(event: KeyboardEvent) {
   const { key, ctrlKey, altKey, metaKey } = event;
   if (ctrlKey || altKey || metaKey || (key !== 'Enter' && !BEGINS_A_NUMBER.test(key))) return;
   const slider = inputOf(event);
-  // Digits are keys of a presentation.
+  // Digits select presets in a presentation.
   if (/\d/.test(key) && (slider.getRootNode() as any).host?.presentation) return;
   if (key === 'Enter') event.preventDefault();
   event.stopPropagation();
@@ -396,7 +396,7 @@ function leadIntoField(event: KeyboardEvent) {
   (row.querySelector('.typed') as HTMLInputElement).focus();
 }
 
-/** Returns the slider beside the field of its value. */
+/** Returns the slider of a field. */
 function sliderBeside(input: Element) {
   const row = input.closest('.slider') as Element;
   return row.querySelector('input[type=range]') as HTMLInputElement;

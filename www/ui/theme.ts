@@ -17,7 +17,7 @@ const ROLES =
   ['paper', 'ink', 'muted', 'rule', 'prior', 'prediction', 'cloud', 'truth', 'posterior', 'accent'] as const
 ;
 
-/** Resolved CSS colours. */
+/** Resolved CSS colours by role. */
 export type Palette = Record<(typeof ROLES)[number], string>;
 
 export const theme = css`
@@ -36,8 +36,10 @@ export const theme = css`
     ${unsafeCSS(likedWidth)}
   }
 
-  /* --ground and --text are what is found around the figure, --shade how far the ground is
-     from white, and --strength how much ink what is muted needs: see Stage. */
+  /*
+   * Set by Stage: --ground and --text are background and text colour of the page, --shade how far the background is from white, and
+   * --strength the percentage of the text colour in muted text.
+   */
   .scheme-probe,
   .surface {
     --paper: var(--motion-paper, var(--ground, light-dark(#fffefb, #16181b)));
@@ -53,14 +55,14 @@ export const theme = css`
     --top: var(--motion-sticky-top, var(--mw-top, 0px));
   }
 
-  /* In a style sheet, as extensions that darken pages rewrite no custom properties of elements. */
+  /* In a style sheet, because extensions that darken pages do not rewrite custom properties of elements. */
   ${unsafeCSS(ROLES.map((role) => `[data-role='${role}'] { --role: var(--${role}); }`).join('\n'))}
 
   :host([hidden]) {
     display: none;
   }
 
-  /* Paper and ink are the reader's own then, and the roles keep their hues on it. */
+  /* In forced colours, background and text are the reader's, and the roles keep their hues. */
   @media (forced-colors: active) {
     .scheme-probe,
     .surface {
@@ -71,7 +73,7 @@ export const theme = css`
     }
   }
 
-  /* A change of any role is an event: see schemeStyles. */
+  /* A change of any role fires an event: see schemeStyles. */
   .scheme-probe {
     background: var(--motion-paper, transparent);
     color: var(--motion-ink);
@@ -91,7 +93,7 @@ export const theme = css`
     color: var(--ink);
   }
 
-  /* The probe and the surface have no colour of the page then: some of those would be forced, and others not. */
+  /* Probe and surface have no colours of the page: some of those would be forced, and others not. */
   @media (forced-colors: active) {
     .scheme-probe,
     .surface {
@@ -104,7 +106,7 @@ export const theme = css`
     display: contents;
   }
 
-  /* A page translator may have words of another direction. */
+  /* A page translator may insert words with another writing direction. */
   .spoken :is(p, li, dt, dd, th, td, caption, figcaption, legend, label, summary, button, output) {
     unicode-bidi: plaintext;
   }
@@ -138,9 +140,9 @@ export const theme = css`
     display: none;
   }
 
-  /* On paper: the figure and what it was made with, and nothing that wants to be pressed. */
+  /* In print: the figure and its settings, without buttons. */
   @media print {
-    /* Values whose sliders are in a closed disclosure. */
+    /* Values of settings whose sliders are in a closed disclosure. */
     .folds:not(:has(> #more[open])) + .on-paper {
       display: block;
       margin: 0.4em 0;
@@ -152,7 +154,7 @@ export const theme = css`
       white-space: nowrap;
     }
 
-    /* Browsers print no ground behind letters. */
+    /* Browsers print no background behind text. */
     .options .choice:has(:checked) {
       padding: 0;
       background: none !important;
@@ -172,7 +174,7 @@ export const theme = css`
       min-height: 0 !important;
     }
 
-    /* The printed page has another width than the window that it was drawn for. */
+    /* The printed page has another width than the window. */
     .stage canvas {
       height: auto !important;
       max-height: none !important;
@@ -184,7 +186,7 @@ export const theme = css`
       display: none !important;
     }
 
-    /* A row that may be chosen keeps its name. */
+    /* The name of a row that can be selected is kept. */
     th > label:has(input:checked) {
       font-weight: bold;
     }
@@ -221,21 +223,21 @@ export const theme = css`
   }
 `;
 
-/** The palette as the element sees it now. */
+/** Returns the palette of an element with its current style. */
 export function resolvePalette(surface: HTMLElement) {
-  // One for each role: all are there before the first is asked, so that the browser styles them once.
+  // One probe for each role. All are created before the first is read, so that the browser computes styles once.
   const swatches = ROLES.map((role) => {
     const swatch = document.createElement('span');
     swatch.hidden = true;
     swatch.style.color = `var(--${role})`;
-    // In forced colours too, the roles keep their hues.
+    // In forced colours, too, the roles keep their hues.
     swatch.style.forcedColorAdjust = 'none';
     return swatch;
   });
   surface.append(...swatches);
   const colours = swatches.map((swatch, i) => {
     const { color } = getComputedStyle(swatch);
-    // Mixed ones are told in notations that few programs read.
+    // Mixed colours are serialized in notations that few programs read.
     return [ROLES[i], /^rgb/.test(color) ? color : `rgb(${channels(color)})`];
   });
   for (const swatch of swatches) swatch.remove();
@@ -244,9 +246,9 @@ export function resolvePalette(surface: HTMLElement) {
 
 let pixel: OffscreenCanvasRenderingContext2D | undefined;
 
-/** Returns red, green and blue, 0 to 255, of colours in any notation of the browser. Each covers those before. */
+/** Returns red, green and blue from 0 to 255 of colours in any CSS notation, each painted over the previous ones. */
 export function channels(...colours: string[]): [number, number, number] {
-  // Browsers hand out most colours in this notation.
+  // Browsers serialize most colours in this notation.
   const plain = colours.at(-1)?.match(/^rgb\((\d+), (\d+), (\d+)\)$/);
   if (plain) return [Number(plain[1]), Number(plain[2]), Number(plain[3])];
   const context = (pixel ??= (

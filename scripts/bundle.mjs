@@ -78,7 +78,7 @@ const MODULE = {
     );
   },
   /**
-   * Glue of the worker, without the WebAssembly modules: the page sends a compiled one.
+   * Glue of the worker, without WebAssembly modules: the page sends it a compiled module.
    *
    * @param {string[]} tags of the figures with logs that have a module of their own
    */

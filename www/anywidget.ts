@@ -109,7 +109,7 @@ function render({ model, el }: { model: Model, el: HTMLElement }): (() => void) 
   };
 }
 
-/** Does work that needs a kernel. Models without one, as in MyST, throw: then nothing is kept, and nobody has to be told. */
+/** Does work that needs a kernel, and ignores errors. Models without a kernel, as in MyST, throw. */
 function withoutKernel(work: () => void) {
   try {
     work();

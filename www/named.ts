@@ -1,4 +1,4 @@
-/** Elements for hosts that say by a word which they want: frames and notebooks. */
+/** Creates elements by name, for frames and notebooks. */
 
 import { settings } from './settings.js';
 

@@ -20,7 +20,7 @@ const HANDLERS = { load: 'onLoad', error: 'onError', input: 'onInput', change: '
 const EVENTS = Object.keys(HANDLERS) as (keyof typeof HANDLERS)[];
 
 const onServer = typeof document === 'undefined';
-/** A server lays nothing out, and React 18 complains of who wants it there. */
+/** On a server there is no layout, and React 18 warns of `useLayoutEffect` there. */
 const useLayout = onServer ? useEffect : useLayoutEffect;
 
 /**
@@ -59,7 +59,7 @@ class Figure {
     for (const name of this.names.properties) if (differ(before?.[name], props[name])) element[name] = props[name];
   }
 
-  /** The server has sent the element, and it was there before React came to it: nobody has heard of it yet. */
+  /** Repeats events and properties for an element that the server sent: it was running before React attached the listeners. */
   catchUp(element: any, props: Props) {
     element.dispatchEvent(new Event('load'));
     element.dispatchEvent(new CustomEvent('stats', { detail: element.stats }));

@@ -149,7 +149,7 @@ impl CheckName {
     }
 }
 
-/// Standard errors by which a check that is a statistic of the sample may be off: all together fail on few logs that the model made.
+/// Number of standard errors by which a sample statistic may be off. With it, few logs that are simulated by the model fail any check.
 const MAX_STD_ERRORS: f64 = 3.0;
 
 /// Correlation of neighbours, and excess kurtosis, that is too small to matter in a long log.
@@ -253,12 +253,12 @@ pub(super) fn residual_checks(sample: &Sample, fits: &[LegFit], correlation: f64
     ]
 }
 
-/// Check of coverage by the fit to the other half; `scale_std` is the standard error of a half's variances, relative, in the mean.
+/// Check of coverage by the fit to the other half. `scale_std` is the mean relative standard error of a half's variances.
 pub(super) fn holdout_check(coverage: f64, count: usize, scale_std: f64) -> Check {
     check(CheckName::HoldoutCovered, coverage, coverage_range(count, scale_std))
 }
 
-/// Range of coverage on logs that the model made. A relative error of the variances moves it by 0.14 times as much: that is the density of
+/// Range of coverage on logs that are simulated by the model. A relative error of the variances moves it by 0.14 times as much: that is the density of
 /// ln χ² with 3 degrees of freedom at its quantile 0.95.
 fn coverage_range(count: usize, scale_std: f64) -> [f64; 2] {
     let binomial = 0.95 * 0.05 / count as f64;

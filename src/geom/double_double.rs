@@ -1,4 +1,4 @@
-//! Numbers of twice the digits of a double: what formulas in doubles are compared with.
+//! Double-double arithmetic: numbers with twice the digits of a double, with which formulas in doubles are compared.
 //!
 //! A number is the sum of two doubles, of which the second is at most half a unit in the last place of the first: 106 bits.
 //! Sums and products by the error-free transformations of Dekker (Numerische Mathematik 18, 1971) and Knuth.

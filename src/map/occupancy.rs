@@ -260,8 +260,8 @@ impl OccupancyGrid {
     pub fn outlines(&self, most: usize) -> Result<Vec<Segment>, usize> {
         let [columns, rows] = self.size();
         let (mut sides, mut upright) = (Vec::new(), Vec::new());
-        // Between cells on either side of a grid line there is an outline where just one is in the way. For each line between
-        // columns: the row where its present outline began.
+        // An outline separates an obstacle cell from one that is none. `began` has, for each grid line between columns, the
+        // row at which the current outline began.
         let mut began = vec![None; columns + 1];
         for row in 0..=rows {
             let here = self.row(row);

@@ -74,13 +74,13 @@ impl fmt::Display for TangentNoiseError {
 
 impl std::error::Error for TangentNoiseError {}
 
-/// How far from symmetric or semidefinite R may be, relative to its largest entry: what sums and products of doubles
-/// leave. A smaller bound would refuse computed covariances, a larger one would let mistakes pass.
+/// Tolerance for symmetry and positive semidefiniteness of R, relative to its largest entry. A smaller one would refuse
+/// computed covariances because of rounding; a larger one would accept mistakes.
 const ROUNDING: f64 = 1e-12;
 
-/// What [`TangentNoiseModel::log_prob`] adds to the diagonal of R, in m² and rad², so that an R without lateral noise
-/// has a density to speak of: a lateral standard deviation of a micrometre. More would blur what a robot can measure,
-/// less would leave nothing of a residual that is rounded.
+/// Variance (m² and rad²) that [`TangentNoiseModel::log_prob`] adds to the diagonal of R, so that a singular R has a
+/// density: a lateral standard deviation of a micrometre. A larger one would change measurable densities; with a smaller
+/// one, rounding errors of a residual would give density 0.
 const PADDING: f64 = 1e-12;
 
 impl TangentNoiseModel {
@@ -195,7 +195,7 @@ fn small_adjoint(twist: &Vector3<f64>) -> Matrix3<f64> {
     Matrix3::new(0.0, -twist.z, twist.y, twist.z, 0.0, -twist.x, 0.0, 0.0, 0.0)
 }
 
-/// log N(residual; 0, cov) for a positive definite `cov`; −∞ where rounding left it none.
+/// log N(residual; 0, cov) for a positive definite `cov`; −∞ if `cov` is not positive definite after rounding.
 fn log_normal(residual: &Vector3<f64>, cov: &Matrix3<f64>) -> f64 {
     let Some(root) = cov.cholesky().map(|cholesky| cholesky.unpack()) else { return f64::NEG_INFINITY };
     let log_det: f64 = (0..3).map(|i| 2.0 * libm::log(root[(i, i)])).sum();

@@ -137,7 +137,7 @@ impl JsAlphaCalibrator {
         calibration_to_js(self.0.calibration(), None)
     }
 
-    /// The legs, as `calibrate` tells them; copies.
+    /// Copies of the legs, in the form that `calibrate` returns.
     #[wasm_bindgen(getter, unchecked_return_type = "CalibrationLegs")]
     pub fn legs(&self) -> JsValue {
         columns_to_js(self.0.calibration())

@@ -212,10 +212,10 @@ impl JsMapSqueeze {
         plain(&cost)
     }
 
-    /// Ends of the attempts shown, as RGBA pixels of a grid, row by row from the top. Each cell has the colour of what most
-    /// of those in it are, rejected, accepted or accepted through a wall, for which there are 256 colours each one after
-    /// the other: of them number 255·√(c/most) for a count c of all in the cell. Transparent where there is nobody. A view
-    /// of the core's memory: to be used before the machine is asked for anything else.
+    /// Density of the ends of the attempts shown, as RGBA pixels of a grid, row by row from the top. The colours are three
+    /// ramps of 256: for rejected attempts, accepted ones, and those accepted through a wall. The most frequent kind in a
+    /// cell selects the ramp, and the count c of all attempts in the cell the colour 255·√(c/most) in it. Empty cells are
+    /// transparent. A view of the core's memory, valid until the next call of the machine.
     #[expect(clippy::too_many_arguments, reason = "a rectangle, a size and colours")]
     #[wasm_bindgen(unchecked_return_type = "Uint8ClampedArray<ArrayBuffer>")]
     pub fn picture(

@@ -26,7 +26,7 @@ const CORRECTIONS = {
 /** Correction that makes two logs of a drive agree. */
 export interface Correction {
   name: keyof typeof CORRECTIONS | 'lengths';
-  /** Log that needs it. */
+  /** Role of the log that needs the correction. */
   at: Role;
   /** Correlation of the motions with it. */
   score: number;

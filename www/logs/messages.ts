@@ -70,7 +70,7 @@ class Reader {
     return { seconds: this.#view.getInt32(this.#next(4), this.#isLittle), nanoseconds: this.uint32() };
   }
 
-  /** Goes on behind some bytes. */
+  /** Skips bytes; throws a RangeError at the end of the message. */
   seek(bytes: number): void {
     this.#at += bytes;
     if (this.#at > this.#end) throw new RangeError('the message is too short');

@@ -21,7 +21,7 @@ interface Order {
   fates: Uint8Array;
   /** Row before which the clock was set back first, or -1. */
   setBack: number;
-  /** Rows under the setting of the clock that most rows are of. */
+  /** Number of rows in the largest part of the log between resets of the clock. */
   most: number;
 }
 

@@ -6,7 +6,7 @@ export interface Quaternion extends Vector { w: number }
 /** Largest deviation from length 1 that rounding explains. */
 const TOLERANCE = 0.1;
 
-/** Steps of a heading in a radian. */
+/** Number of steps in a radian to which headings are rounded. */
 const STEPS = 1e12;
 
 /** Returns the angle about the vertical axis, for quaternions of any length. */

@@ -262,7 +262,7 @@ export class Rows {
     return { start, t: t.slice(0, used), rows: rows.slice(0, used), late };
   }
 
-  /** Drops rows that were added. The path is known there, but for rows under another setting of the clock. */
+  /** Drops rows that were added. The path stays continuous across them, except across rows from before a reset of the clock. */
   #drop(rows: Map<number, Cause>): void {
     for (const row of [...rows.keys()].sort((one, other) => one - other)) {
       const cause = rows.get(row) as Cause;

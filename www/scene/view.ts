@@ -150,7 +150,7 @@ export class View {
     return isInside(needed, shown) && fill >= LOOSEST_FIT;
   }
 
-  /** Returns the extent of the view's shape around some room. */
+  /** Returns the smallest extent with the aspect ratio of the view that contains another extent. */
   #cover(room: Extent) {
     const { left, right, top, bottom } = this.frame;
     const size = this.#snug ? (needed: number) => needed : niceSize;

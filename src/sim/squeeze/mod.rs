@@ -100,7 +100,7 @@ impl MapSqueeze {
         self.add_samples(count);
     }
 
-    /// Puts the robot into a grid, as [`MapSqueeze::set_plan`] does into a plan; what is unknown there is as the settings say.
+    /// Replaces the map by a grid, as [`MapSqueeze::set_plan`] does by a plan. Unknown cells are treated as the settings say.
     ///
     /// # Errors
     /// As [`FloorPlan::from_grid`]; nothing has changed then.

@@ -106,7 +106,7 @@ fn a_log_that_no_inflation_covers_is_unusable() {
     assert_eq!((calibration.diagnostics.verdict, calibration.recommended), (Verdict::Unusable, None));
 }
 
-/// Steps of the odometry, each scaled by how the robot drives there and by when.
+/// Calibrates with scaled steps of the odometry. `scale` gets the time as a fraction of the log, and the velocity.
 fn rescaled(made: &Simulation, scale: impl Fn(f64, &Vector3<f64>) -> [f64; 2]) -> Calibration {
     let [odometry, reference] = made.log();
     let rows: Vec<(f64, SE2)> = odometry.samples().collect();

@@ -49,7 +49,7 @@ fn the_changelog_names_the_digest() {
     let digest = hex(&Sha256::digest(&golden));
     let changelog =
         std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/CHANGELOG.md")).expect("a changelog");
-    // The newest stands first.
+    // The newest digest comes first.
     let told = changelog.split(|c: char| !c.is_ascii_hexdigit()).find(|word| word.len() == digest.len());
     assert_eq!(
         told,

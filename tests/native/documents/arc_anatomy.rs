@@ -50,7 +50,7 @@ fn the_printed_table_loses_p_for_centres_to_the_right() {
         // In reverse it is the command that goes the other way.
         v.assert(-factors[0].estimate.abs(), 0.0);
         assert!(factors[0].estimate * printed.command.v < 0.0);
-        // All that is left is about the start: where it is shaded, and where it would be with a sign.
+        // With the unsigned radius the contours are near the start only; with a sign they reach further.
         let furthest = |settings: Settings| {
             let surface = ArcAnatomy::new(Settings { map: Mapped::Prob, ..settings })
                 .expect("valid settings")

@@ -97,7 +97,7 @@ proptest! {
         same_pose(&(pose * SE2::exp(&twist)), &(SE2::exp(&moved) * pose), UNITS, sizes)?;
     }
 
-    /// The inverse grows without bound towards a whole turn: up to half of one.
+    /// The inverse Jacobian diverges at a full turn. This law is tested up to half a turn.
     #[test]
     fn jacobians_have_inverses(twist in twists(PI)) {
         let (jacobian, inverse) = (SE2::right_jacobian(&twist), SE2::right_jacobian_inverse(&twist));

@@ -234,10 +234,10 @@ fn the_open_place_has_the_most_room() {
         let way = Arc { start: place, length: 0.5, turn: 0.0 };
         assert!(plan.arc_free(&way, 0.0).free && place.theta().abs() < 0.5, "{place:?}");
     }
-    // Where the robot just fits, there is no way at all.
+    // A robot that just fits cannot move: the heading is then 0.
     let shut = FloorPlan::from_grid(drawn(&["###", "#.#", "###"], Unknown::Free)).expect("a small grid");
     assert_eq!(shut.open_place(0.0499).expect("there is room").theta(), 0.0);
-    // Nothing is known, but something is free; or nothing is.
+    // All cells are unknown: free or blocked, as the setting says.
     let unknown = drawn(&["???", "???", "???"], Unknown::Free);
     let place = FloorPlan::from_grid(unknown).expect("no walls").open_place(0.1).expect("there is room");
     assert!((place.x() - 0.05).abs() + (place.y() - 0.05).abs() < 1e-12, "the first: {place:?}");

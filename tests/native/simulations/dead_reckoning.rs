@@ -298,7 +298,7 @@ fn variances_of_a_straight_drive_cross_where_the_formula_says() {
             let middle = f64::sqrt(low * high);
             if exact(middle) < 1.0 { low = middle } else { high = middle }
         }
-        // To first order in the noise: the rest is of its own size, 1e-6 times a few.
+        // The formula is exact to first order in the noise. Its relative error is a few times the variances, 1e-6.
         assert!((told / low - 1.0).abs() < 1e-4, "{told}, found {low}");
         // The exact variances follow the first order while headings stay small: up to three seconds within 0.01 rad.
         for (first_order, of) in

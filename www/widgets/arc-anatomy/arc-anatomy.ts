@@ -61,7 +61,7 @@ export class ArcAnatomyElement extends FigureElement<Machine, Reading> {
 
   read = readingOf;
 
-  /** In a state that came, or came back, nothing is played. */
+  /** Stops the animation: a state that is set or restored does not play. */
   machineChanged() {
     this.player.stop();
   }

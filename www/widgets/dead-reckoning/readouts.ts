@@ -67,7 +67,7 @@ export function headline(reading: Reading, overlays: string[]) {
   return readoutList([[say.predicted(say.of[component]), fixed(ratio, 2), say.ofMeasured(reading.config.step)]], 0);
 }
 
-/** Logarithmic axes that hold what sliders can make of it: the variances of an opening and of a tenth and ten times of it. */
+/** Ranges of the logarithmic axes. They contain the curves of the default variances, and of a tenth and ten times of these. */
 const GROWTH = { durations: [0.1, 10], variances: [1e-6, 100] };
 
 /** Exercise 2: variances against the duration. */

@@ -37,7 +37,7 @@ export function captionOf({ config: { compounding }, stats: { misses, n }, condi
   return far === worst ? say.wrong(of, list, end) : say.worse(of, list, end, say.of[COMPONENTS[far]]);
 }
 
-/** Returns the index of the greatest miss, of which NaN is none. */
+/** Returns the index of the greatest miss; NaN is not a miss. */
 const furthest = (misses: number[]): number => misses.reduce((most, miss, i) => (miss > (misses[most] || 0) ? i : most), 0);
 
 /** Returns the first ratios, in words. */

@@ -21,7 +21,7 @@ const EXAMPLE = `{
   ]
 }`;
 
-/** Returns the places of the present map; the apartment's are not offered in another, which they would make the reader leave. */
+/** Returns the buttons of start positions in the current map. The presets are in the apartment, and are offered there only. */
 export function placeControls(figure: Figure) {
   const { map, left } = figure;
   const { own, pasted } = words.squeeze;

@@ -61,7 +61,7 @@ export class Baseline {
       const l00 = Math.sqrt(cov[0][0]);
       const l10 = cov[0][j] / l00;
       const l11 = Math.sqrt(cov[j][j] - l10 * l10);
-      // Two standard deviations have length 1.
+      // Scaled so that two standard deviations have length 1.
       return [0.5 / l00, (-0.5 * l10) / (l00 * l11), 0.5 / l11];
     };
     const centre = [mean.x, mean.y, mean.l, mean.t];

@@ -10,12 +10,12 @@
 /** α's of the preset Gentle arc: none of the six is 0. */
 export const ALPHAS = [0.05, 0.05, 0.05, 0.09, 0.01, 0.01];
 
-/** 400 pixels a metre around the whole cloud. */
+/** View with 400 pixels per metre around the whole cloud. */
 export const VIEW = { xMin: -0.2, yMin: -0.6, xMax: 2.2, yMax: 1.2, columns: 960, rows: 720 };
 
 /** @typedef {typeof VIEW} Picture */
 
-/** 256 colours as red, green, blue, opacity: from thin to dense, as the widget inks its cloud. */
+/** Ramp of 256 colours (red, green, blue, opacity) from sparse to dense, as in the widget. */
 export const RAMP = Uint8Array.from({ length: 1024 }, (_, i) => {
   const shade = (i >> 2) / 255;
   const ink = 0.6 * Math.max(0, shade - 0.5);
@@ -34,7 +34,7 @@ export function command(event) {
 }
 
 /**
- * The density's pixels from the core.
+ * Returns the pixels of the density from the core.
  *
  * @param {BananaMachine} machine
  * @param {Picture} [picture]
@@ -45,7 +45,7 @@ export function picture(machine, { xMin, yMin, xMax, yMax, columns, rows } = VIE
 }
 
 /**
- * All that a page reads after an event, but for the picture.
+ * Reads everything that a page needs after an event, except for the picture.
  *
  * @param {BananaMachine} machine
  * @param {number} event

@@ -33,7 +33,7 @@ export async function timeStart(browser, address, loads) {
   /** @type {number[][]} */
   const marks = [];
   for (let load = 0; load < loads; load++) {
-    // Its own process, its own caches.
+    // A new process with its own caches.
     const context = await browser.newContext({ viewport: { width: 1280, height: 900 } });
     const page = await context.newPage();
     await page.addInitScript(markStages);

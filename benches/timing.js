@@ -7,11 +7,11 @@
 
 /** @typedef {{ median: number, lower: number, upper: number, turns: number }} Spread median, quartiles, how many */
 
-/** A turn lasts this long at least, ms: 5 µs, the clock's step in an isolated page, are then half a per cent of it. */
+/** Minimum duration of a turn, ms: the clock's step in an isolated page, 5 µs, is half a per cent of it. */
 const TURN = 1;
-/** Events before the first turn: V8 has compiled by then what it will. */
+/** Number of warm-up events: afterwards V8 compiles nothing more. */
 const WARM_UP = 8;
-/** Fewer would leave no quartiles to speak of. */
+/** Minimum number of turns: fewer have no meaningful quartiles. */
 const MIN_TURNS = 5;
 
 /**
@@ -36,7 +36,7 @@ export async function race(contenders, { seconds, most = 60 }) {
       spent += last;
       events += 1;
     }
-    // Many more of the short ones.
+    // Fast contenders are timed over many events.
     if (last < TURN) last = time(name, 200) / 200;
     return Math.max(1, Math.ceil(TURN / Math.max(last, 1e-4)));
   });
@@ -44,7 +44,7 @@ export async function race(contenders, { seconds, most = 60 }) {
   const turns = Object.fromEntries(names.map((name) => [name, []]));
   const end = performance.now() + 1000 * seconds;
   for (let turn = 0; turn < most && (turn < MIN_TURNS || performance.now() < end); turn++) {
-    // Each turn begins with another one, and a page gets a breath.
+    // Each turn begins with the next contender, and the page can handle events in between.
     await new Promise((resolve) => setTimeout(resolve));
     names.forEach((_, k) => {
       const index = (k + turn) % names.length;

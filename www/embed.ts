@@ -25,7 +25,7 @@ function widgetOf(query: URLSearchParams) {
 
 function tellHeight() {
   const height = Math.ceil(document.body.getBoundingClientRect().height);
-  // Any page may learn the height of a frame that it shows.
+  // Any page may know the height of a frame that it embeds.
   parent.postMessage({ type: 'motion-widgets:height', height }, '*');
 }
 

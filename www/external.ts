@@ -12,13 +12,13 @@ import { addEnglish } from './messages/registry.ts';
 export { load } from './core.ts';
 export { setMessages } from './messages/registry.ts';
 
-// The page may give a widget words before it has come.
+// A page may set the words of a widget before its script is loaded.
 addEnglish({ ...en, ...Object.fromEntries(vocabularies.map((key) => [key, {}])) });
 
 /** Returns true for the tag of a figure. Compilers of templates ask which tags are custom elements. */
 export const isFigureTag = (tag: string) => tag in widgets;
 
-/** Those that were not met yet. */
+/** Tags that the page has not contained yet. */
 const waiting = new Set(Object.keys(widgets).filter((tag) => !customElements.get(tag)));
 
 /** @param root a document, a shadow root, or an element with all that is in it */
@@ -58,7 +58,7 @@ function watch(root: Document | ShadowRoot) {
 
 // Without a DOM, as in Node, no tag is met.
 if (observer) {
-  // Room is reserved, so that nothing moves when the elements come.
+  // Space is reserved, so that nothing moves when the elements are defined.
   const sheet = new CSSStyleSheet();
   sheet.replaceSync(roomBefore());
   document.adoptedStyleSheets.push(sheet);

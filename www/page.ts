@@ -24,7 +24,7 @@ export const figureOf = (element: Element): Figure => element.closest('article')
 export async function enter(figure: Figure, values: Record<string, unknown>) {
   if (!openings.has(figure)) await new Promise((resolve) => figure.addEventListener('load', resolve, { once: true }));
   const opening = openings.get(figure) ?? {};
-  // The whole cloud at once: what the item says is to be seen now.
+  // Shows the whole cloud at once, because the item refers to it.
   const grown = 'shown' in opening ? { shown: opening.samples, playing: false } : {};
   const { widget, version } = opening;
   figure.setState({ ...opening, ...grown });

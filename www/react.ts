@@ -5,13 +5,13 @@ import 'motion-widgets';
 
 export type Props = Record<string, any>;
 
-/** Names of the props that are an element's own. */
+/** Names of the props of an element. */
 export interface Names {
   /** Attributes by their props. */
   attributes: Record<string, string>;
-  /** Props of attributes that are there or not, whatever they say. */
+  /** Props of boolean attributes, which are present or absent. */
   flags: string[];
-  /** Those that have no attribute. */
+  /** Props of properties without an attribute. */
   properties: string[];
 }
 
@@ -31,7 +31,7 @@ const useLayout = onServer ? useEffect : useLayoutEffect;
 class Figure {
   element: any;
   names: Names;
-  /** As they were said last. */
+  /** Props of the previous rendering. */
   props: Props | undefined;
 
   constructor(names: Names) {
@@ -51,7 +51,7 @@ class Figure {
     if (!before && element.stats) this.catchUp(element, props);
     for (const [name, attribute] of Object.entries(this.names.attributes)) {
       const text = this.text(name, props);
-      // Attributes sent by the server stay at first: the reader may have changed the figure since.
+      // Attributes sent by the server are kept at first: the reader may have changed the figure since.
       if (before ? text === this.text(name, before) : text === null || element.hasAttribute(attribute)) continue;
       if (text === null) element.removeAttribute(attribute);
       else element.setAttribute(attribute, text);

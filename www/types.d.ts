@@ -1,4 +1,4 @@
-/** All types. Those of settings, machines and elements follow from what is declared: scripts/types.mjs writes them. */
+/** All types. Types of settings, machines and elements are generated from the declarations by scripts/types.mjs. */
 
 import type { BananaMachinePreset, BananaMachineSettings, CalibrationOptions, MapSqueezeSettings, Start } from '../build/machines.d.ts';
 import type { BananaMachineElement, BananaMachineState, FigureElement, MapSqueezeState } from '../build/elements.d.ts';
@@ -6,17 +6,17 @@ import type { BananaMachineElement, BananaMachineState, FigureElement, MapSqueez
 export type * from '../build/machines.d.ts';
 export type * from '../build/elements.d.ts';
 
-/** The JavaScript face of the core, as `load()` returns it. Metres, radians, seconds throughout. */
+/** JavaScript interface of the core, as `load()` returns it. Units are metres, radians and seconds. */
 export type Motion = typeof import('../build/machines.d.ts');
 
-/** Export of core.js: see there. */
+/** Returns the core, see core.ts. */
 export declare function load(source?: BufferSource | URL | string | WebAssembly.Module): Promise<Motion>;
-/** As `load`, with a memory of its own each time. */
+/** Returns the core, with its own memory in each call. */
 export declare function instantiate(source?: BufferSource | URL | string | WebAssembly.Module): Promise<Motion>;
 
-/** Fields of every state, also of one given in part. */
+/** Fields of every state, also of a partial one. */
 export interface FigureState {
-  /** The tag of the element. */
+  /** Tag of the element. */
   widget: string;
   version: 1;
 }

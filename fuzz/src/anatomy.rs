@@ -7,7 +7,7 @@ use motion::geom::se2::SE2;
 use motion::sim::arc_anatomy::{ArcAnatomy, Bend, Mapped, Paths, Settings, Stats, Surface, Table};
 use motion::sim::views::Grid;
 
-/// Calls of a run at most.
+/// Maximum number of calls in a run.
 const CALLS: usize = 4;
 
 pub fn run(bytes: &[u8]) {
@@ -30,11 +30,11 @@ pub fn run(bytes: &[u8]) {
         }
     }
     shows_sense(&machine);
-    // Paths have a thousand points, each with its sine and cosine.
+    // Paths are checked rarely: they have a thousand points, each with a sine and a cosine.
     if with_paths && turn_of(4, bytes) {
         paths(&machine);
     }
-    // A map takes as long as hundreds of other calls.
+    // Maps are checked rarely: one takes as long as hundreds of other calls.
     if turn_of(256, bytes) {
         surface(&machine, &mut input);
     }
@@ -51,7 +51,7 @@ fn configure(machine: &mut ArcAnatomy, input: &mut Input) {
     assert_eq!(*machine.settings(), before);
 }
 
-/// Everything shown is a number, or as documented where it has no meaning.
+/// Asserts that all results are finite, or as documented where they are undefined.
 fn shows_sense(machine: &ArcAnatomy) {
     let settings = machine.settings();
     let Stats { commanded, inverted, driven, last_turn, factors, weakest, prob, share, density, xi } =
@@ -78,7 +78,7 @@ fn shows_sense(machine: &ArcAnatomy) {
     let size =
         [start.x(), start.y(), next.x(), next.y()].iter().fold(0.0, |most: f64, at| most.max(at.abs()));
     let off = |[x, y]: [f64; 2]| (x - next.x()).hypot(y - next.y());
-    // With a signed radius, what was found leads to where the robot is found, and so does the constant twist.
+    // Asserts that, with a signed radius, the inverted arc leads to the final pose, and so does the constant twist.
     let ends = [[inverted.end[0], inverted.end[1]], underway(machine, 1.0)];
     let allowed = laws::ROUNDING * size + f64::MIN_POSITIVE;
     assert!(ends.iter().all(|end| off(*end) <= allowed), "{ends:?} for {settings:?}");
@@ -124,14 +124,14 @@ fn is_bend(what: &str, bend: &Bend) {
     laws::finite(what, &bend.centre.unwrap_or_default());
 }
 
-/// Position on the path of constant twist after a share of the time.
+/// Returns the position on the path of constant twist after a fraction of the time.
 fn underway(machine: &ArcAnatomy, share: f64) -> [f64; 2] {
     let poses = machine.underway(share);
     poses.iter().for_each(|pose| laws::pose("underway", pose));
     [poses[2].x(), poses[2].y()]
 }
 
-/// Contours are of finite points inside of the rectangle.
+/// Asserts that contours have finite points inside the rectangle.
 fn surface(machine: &ArcAnatomy, input: &mut Input) {
     let Grid { min, max, .. } = banana::grid(input);
     let surface = machine.surface(min, max);

@@ -12,7 +12,7 @@ use motion::sim::picture::RAMP;
 use motion::sim::settings::QUANTITY;
 use motion::sim::views::{EXTENT, Grid};
 
-/// Samples and calls of a run at most: enough for every branch, few enough for many runs.
+/// Maximum number of samples and calls in a run: enough for every branch, few enough for many runs.
 const SAMPLES: usize = 12;
 const CALLS: usize = 4;
 
@@ -44,7 +44,7 @@ pub fn run(bytes: &[u8]) {
     }
 }
 
-/// The same settings with few enough samples.
+/// Returns the same settings with fewer samples.
 fn few(settings: Settings) -> Settings {
     Settings { samples: settings.samples.min(SAMPLES), ..settings }
 }
@@ -71,7 +71,7 @@ fn call(machine: &mut BananaMachine, input: &mut Input) {
             let [x, y] = [0; 2].map(|_| input.within(QUANTITY));
             let near = machine.settings().command;
             let reaching = command_reaching(x, y, &near);
-            // A circle that is nearly straight is too long for a double.
+            // The circle of a nearly straight arc is so long that a double overflows.
             assert!(!reaching.v.is_nan() && reaching.omega.is_finite(), "{reaching:?} to {x}, {y}");
         }
     }
@@ -89,7 +89,7 @@ fn configure(machine: &mut BananaMachine, input: &mut Input) {
     laws::same("after a refusal", &numbers(machine), &shown);
 }
 
-/// Blocks lead to what one call leads to.
+/// Asserts that samples added in blocks equal the samples of one call.
 fn in_blocks(machine: &mut BananaMachine, input: &mut Input) {
     let settings = changed(machine.settings(), input);
     if !allowed(&settings) {
@@ -105,7 +105,7 @@ fn in_blocks(machine: &mut BananaMachine, input: &mut Input) {
     laws::same("in blocks", &numbers(machine), &numbers(&other));
 }
 
-/// A machine is what its settings are, whatever came before.
+/// Asserts that a machine depends on its settings only, and not on earlier calls.
 fn as_if_new(machine: &BananaMachine) {
     let mut other = BananaMachine::showing(*machine.settings(), 0).expect("allowed");
     if machine.shown() > 0 {
@@ -114,7 +114,7 @@ fn as_if_new(machine: &BananaMachine) {
     }
 }
 
-/// All that is shown, but for curves.
+/// Everything shown, except for curves.
 fn numbers(machine: &BananaMachine) -> Vec<f64> {
     let mut numbers: Vec<f64> = machine.poses().flat_map(|pose| [pose.x(), pose.y(), pose.theta()]).collect();
     let Figures {
@@ -136,7 +136,7 @@ fn numbers(machine: &BananaMachine) -> Vec<f64> {
     numbers
 }
 
-/// Everything shown is finite, or NaN where it has no meaning.
+/// Asserts that all results are finite, or NaN where they are undefined.
 fn shows_sense(machine: &BananaMachine) {
     let (n, figures) = (machine.shown(), machine.figures());
     machine.poses().for_each(|pose| laws::pose("a pose", &pose));
@@ -159,7 +159,7 @@ fn shows_sense(machine: &BananaMachine) {
     }
     let track = figures.cross_track;
     laws::finite_or_none("skew", &[track.skew, track.skew_error]);
-    // No sample of n has more skew than n − 1 alike and one elsewhere.
+    // The largest skew of n samples is that of n − 1 equal samples and one different.
     let most = (n as f64 - 2.0) / (n as f64 - 1.0).sqrt();
     assert!(track.skew.is_nan() || track.skew.abs() <= most * (1.0 + 1e-9), "{track:?} of {n}");
     assert!(track.skew_error.is_nan() || track.skew_error >= 0.0, "{track:?}");
@@ -193,7 +193,7 @@ fn contours(machine: &BananaMachine) {
     assert_eq!(exponential.is_empty(), machine.shown() < 2 || !machine.chart_holds());
 }
 
-/// Every column of the table, which quadrature makes slow.
+/// Checks every column of the table. Quadrature makes this slow.
 fn table(machine: &BananaMachine) {
     let table = machine.table();
     for (what, column) in [("linearized", &table.linearized), ("exact", &table.exact)] {
@@ -224,7 +224,7 @@ fn inspect(machine: &BananaMachine, index: usize) {
         laws::finite("legs", &[legs.rot1, legs.trans, legs.rot2]);
     }
     let [x, y] = *sample.path.last().expect("a path has an end");
-    // A path is of the scalar functions, a pose of those for four, which agree to 2e-15 of the length.
+    // Paths use the scalar functions, poses the SIMD functions. They agree to 2e-15 of the length.
     let length = sample.path.windows(2).map(|ends| distance(ends[0], ends[1])).sum::<f64>();
     let command = machine.settings().command;
     let commanded = (command.v * command.dt).abs();
@@ -233,7 +233,7 @@ fn inspect(machine: &BananaMachine, index: usize) {
         Executed::Legs(legs) => legs.trans.abs(),
     };
     assert!(length <= most * (1.0 + 1e-9) + 1e-9, "{length}, {most}");
-    // Noise that takes nearly all of a command away leaves the rounding of that.
+    // If the noise nearly cancels the command, the rounding error of the command remains.
     let turned = 1.0 + (command.omega * command.dt).abs();
     let rounding = 1e-14 * (most * turned + commanded) + f64::MIN_POSITIVE;
     assert!(
@@ -247,7 +247,7 @@ fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
     (a[0] - b[0]).hypot(a[1] - b[1])
 }
 
-/// A rectangle of a view, with few cells.
+/// Returns a rectangle of a view with few cells.
 pub fn grid(input: &mut Input) -> Grid {
     let min = [0; 2].map(|_| input.within(EXTENT));
     let max = min.map(|least| input.within(least..=*EXTENT.end()));
@@ -271,7 +271,7 @@ fn nearest(machine: &BananaMachine, input: &mut Input) {
     let Some(index) = machine.nearest(View::Plane, target, radii) else { return };
     let found: SE2 = machine.pose(index).expect("a sample that is shown");
     let away = |pose: &SE2| ((pose.x() - target[0]) / radii[0]).hypot((pose.y() - target[1]) / radii[1]);
-    // A square of a distance below 1e-154 is 0.
+    // The square of a distance below 1e-154 underflows to 0.
     let least = machine.poses().map(|pose| away(&pose)).fold(f64::INFINITY, f64::min);
     assert!(away(&found) <= least * (1.0 + 1e-9) + 1e-150, "{target:?} {radii:?}: {index}");
 }

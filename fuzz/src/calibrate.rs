@@ -12,7 +12,8 @@ use nalgebra::Vector3;
 use rand::{RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 
-/// Parts of a drive, and rows of each, at most: of most drives a few, for what a calibration takes grows with them.
+/// Maximum number of parts of a drive, and of rows of each. Most drives have few, because the time of a calibration
+/// grows with them.
 const PARTS: usize = 6;
 const FEW_ROWS: usize = 12;
 const ROWS: usize = 64;
@@ -66,14 +67,14 @@ fn options(input: &mut Input) -> Options {
     }
 }
 
-/// Length of a leg in m, rad or s.
+/// Returns the length of a leg in m, rad or s.
 fn length(input: &mut Input) -> f64 {
     if input.truth() { input.of(&[0.1, 0.2, 0.25, 0.5]) } else { input.within(1e-6..=1e6) }
 }
 
 type Row = (f64, SE2);
 
-/// Mostly one of these.
+/// Returns one of the usual values in most cases.
 fn usually(choices: &[f64], input: &mut Input) -> f64 {
     let choice = input.choice(choices.len() + 1);
     choices.get(choice).copied().unwrap_or_else(|| input.within(-1e9..=1e9))
@@ -93,7 +94,7 @@ fn driven(input: &mut Input, rows_of_a_part: usize) -> Vec<Row> {
     rows
 }
 
-/// The drive as it was, which is off by some part of each step, and jumps now and then.
+/// Returns the reference: the odometry with an error in each step, and with occasional jumps.
 fn seen(driven: &[Row], input: &mut Input) -> Vec<Row> {
     let offset = usually(&[0.0, 0.12, -3.0, 50.0], input);
     let mount = SE2::new(0.1 * f64::from(input.choice(3) as u8), 0.0, usually(&[0.0, 0.07, 3.0], input));
@@ -114,7 +115,7 @@ fn seen(driven: &[Row], input: &mut Input) -> Vec<Row> {
     rows
 }
 
-/// Some rows are others than they were, or are missing.
+/// Changes or removes some rows.
 fn edit(rows: &mut Vec<Row>, input: &mut Input) {
     for _ in 0..input.choice(4) {
         let at = usize::from(u16::from_le_bytes(input.bytes())) % rows.len();
@@ -137,7 +138,7 @@ fn edit(rows: &mut Vec<Row>, input: &mut Input) {
 /// Returns the trajectory of the rows with breaks before some, or None if a row is refused.
 fn trajectory(rows: &[Row], input: &mut Input) -> Option<Trajectory> {
     let read = match input.choice(4) {
-        // Their coordinates as commands.
+        // Returns coordinates as commands.
         0 => Trajectory::from_commands(rows.iter().map(|(time, pose)| (*time, pose.x(), pose.theta()))),
         _ => Trajectory::new(rows.iter().copied()),
     };
@@ -154,7 +155,7 @@ fn trajectory(rows: &[Row], input: &mut Input) -> Option<Trajectory> {
             assert!(sample > 0 && rows[sample].0 <= before && rows[sample - 1].0 == before);
             None
         }
-        // Commands may lead further than numbers go.
+        // Poses after large commands may overflow.
         Err(TrajectoryError { sample, fault: TrajectoryFault::NotFinite }) => {
             assert!(sample < rows.len());
             None

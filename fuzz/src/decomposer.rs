@@ -8,7 +8,7 @@ use motion::models::{OdomDelta, SPIN_BELOW};
 use motion::sim::odometry_decomposer::{Drifted, OdometryDecomposer, Settings, Stats};
 use motion::sim::settings::QUANTITY;
 
-/// Outcomes, points of a curve and calls of a run at most.
+/// Maximum number of outcomes, points of a curve and calls in a run.
 const SAMPLES: usize = 12;
 const POINTS: usize = 6;
 const CALLS: usize = 4;
@@ -30,7 +30,7 @@ pub fn run(bytes: &[u8]) {
     shows_sense(&machine);
 }
 
-/// The same settings with few enough outcomes.
+/// Returns the same settings with fewer outcomes.
 fn few(settings: Settings) -> Settings {
     Settings { samples: settings.samples.min(SAMPLES), ..settings }
 }
@@ -87,12 +87,12 @@ fn nearest(machine: &OdometryDecomposer, input: &mut Input) {
     let Some(index) = machine.nearest(target, radius) else { return };
     let away = |pose: &SE2| ((pose.x() - target[0]) / radius).hypot((pose.y() - target[1]) / radius);
     let least = machine.poses().iter().map(away).fold(f64::INFINITY, f64::min);
-    // A square of a distance below 1e-154 of the radius is 0.
+    // The square of a distance below 1e-154 of the radius underflows to 0.
     let found = away(&machine.poses()[index]);
     assert!(found <= least * (1.0 + 1e-9) + 1e-150 && found <= 1.0 + 1e-9, "{target:?} {radius}: {index}");
 }
 
-/// Everything shown is finite, or NaN where there are no outcomes.
+/// Asserts that all results are finite, or NaN without outcomes.
 fn shows_sense(machine: &OdometryDecomposer) {
     let settings = machine.settings();
     machine.poses().iter().for_each(|pose| laws::pose("an outcome", pose));
@@ -136,14 +136,14 @@ fn shows_sense(machine: &OdometryDecomposer) {
         }
     }
 
-    // Without noise the robot ends where odometry has it, but for the jitter that a spin leaves out.
+    // Without noise the robot ends at the odometry pose, except for the translation that a spin ignores.
     let [x, y, _] = settings.to.0;
     let [.., end] = machine.linkage();
     let off = (end.x() - x).hypot(end.y() - y);
     let size = settings.from.0.iter().chain(&settings.to.0).fold(0.0, |most: f64, at| most.max(at.abs()));
     assert!(off <= 2.0 * SPIN_BELOW + 1e-14 * size, "{end:?} for {settings:?}: {off}");
 
-    // A machine is what its settings are, whatever came before.
+    // Asserts that a machine depends on its settings only, and not on earlier calls.
     let mut other = OdometryDecomposer::new(*settings).expect("allowed");
     if n < settings.samples {
         other.configure_first(*settings, 0).expect("allowed");

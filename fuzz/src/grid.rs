@@ -1,4 +1,4 @@
-//! Grids of any cells, thresholds, resolution and origin.
+//! Grids with arbitrary cells, thresholds, resolution and origin.
 
 use super::input::Input;
 use super::plan;
@@ -9,7 +9,7 @@ use motion::map::{
 };
 use motion::sim::settings::QUANTITY;
 
-/// Cells along a side at most, and arcs that are judged among them.
+/// Maximum number of cells along a side, and of arcs that are tested.
 const ARCS: usize = 3;
 const SIDE: usize = 3;
 
@@ -18,7 +18,7 @@ pub fn run(bytes: &[u8]) {
     let Some((grid, unknown)) = read(&mut input) else { return };
     let [columns, rows] = grid.size();
     assert_eq!(grid.cells().len(), columns * rows);
-    // The field of a plan takes a hundred times as long as all else.
+    // The distance field of a plan takes a hundred times as long as everything else.
     if input.choice(16) != 1 {
         outlined(&grid.with_unknown(unknown), unknown);
         return;
@@ -41,7 +41,8 @@ pub fn run(bytes: &[u8]) {
     }
 }
 
-/// The middle of each cell, and whether the cell is in the way; none where coordinates hardly tell cells apart.
+/// Returns the middle of each cell, and whether the cell is an obstacle; None if the coordinates are too large to
+/// distinguish cells.
 fn middles(grid: &OccupancyGrid, unknown: Unknown) -> Vec<([f64; 2], bool)> {
     let ([columns, rows], origin, side) = (grid.size(), grid.origin(), grid.resolution());
     let size = origin.x().abs().max(origin.y().abs()) + (columns + rows) as f64 * side;
@@ -59,8 +60,8 @@ fn middles(grid: &OccupancyGrid, unknown: Unknown) -> Vec<([f64; 2], bool)> {
     cells.map(|(i, cell)| (middle(i), blocks(cell))).collect()
 }
 
-/// Cells hold their middles, and outlines are all around those in the way: as long as the sides of cells between what is in
-/// the way and what is not.
+/// Asserts that each cell contains its middle, and that outlines separate obstacle cells from others: their total
+/// length is that of the sides between them.
 fn outlined(grid: &OccupancyGrid, unknown: Unknown) {
     let middles = middles(grid, unknown);
     for (middle, blocks) in &middles {

@@ -69,13 +69,13 @@ impl<'a> Fields<'a> {
         if value.is_undefined() { Ok(None) } else { read(&self.path(key), &value).map(Some) }
     }
 
-    /// A number that must be there; its range is not looked at.
+    /// Reads a required number without checking its range.
     pub fn number(&self, key: &str) -> Result<f64, JsValue> {
         number(&self.path(key), &self.value(key)?)
     }
 }
 
-/// A number, any number.
+/// Reads any number.
 pub fn number(field: &str, value: &JsValue) -> Result<f64, JsValue> {
     value.as_f64().ok_or_else(|| type_error(field, value, "a number"))
 }
@@ -91,13 +91,13 @@ pub fn whole(field: &str, number: f64, allowed: RangeInclusive<u64>) -> Result<u
     Ok(check_whole(field, number, &allowed)?)
 }
 
-/// The refusal of the number of a sample that is not shown.
+/// Returns the error for the index of a sample that is not shown.
 pub fn not_shown(index: usize, shown: usize) -> JsValue {
     let allowed = format!("one of the {shown} samples shown, counted from 0");
     RangeError::new(&format!("index is {index}; allowed is {allowed}")).into()
 }
 
-/// One of the words of an enum.
+/// Reads one of the words of an enum.
 pub fn word<T: Words>(field: &str, value: &JsValue) -> Result<T, JsValue> {
     let mut result = T::WORDS[0].1;
     read_word(field, value, &mut result)?;
@@ -113,7 +113,7 @@ fn read_word(field: &str, value: &JsValue, word: &mut dyn Word) -> Result<(), Js
     Err(RangeError::new(&format!("{field} is {}; allowed is {}", describe(value), allowed(word))).into())
 }
 
-/// An array (or typed array) of exactly N numbers, their ranges not looked at.
+/// Reads an array (or typed array) of exactly N numbers without checking ranges.
 pub fn numbers<const N: usize>(field: &str, value: &JsValue) -> Result<[f64; N], JsValue> {
     let mut result = [0.0; N];
     read_numbers(field, value, &mut result)?;
@@ -144,18 +144,18 @@ fn read_group(field: &str, value: &JsValue, group: &mut dyn Group) -> Result<(),
     Ok(())
 }
 
-/// [`read_group`], with each number in its range.
+/// As [`read_group`], with each number in its range.
 pub fn group_in_range(field: &str, value: &JsValue, group: &mut dyn Group) -> Result<(), JsValue> {
     read_group(field, value, group)?;
     Ok(check_group(field, group)?)
 }
 
-/// The settings that a machine opens with: the default ones but for those that `options` names, if there are any.
+/// Returns the initial settings of a machine: the defaults, with the values in `options`.
 pub fn read_opening<S: Rules>(options: &JsValue) -> Result<S, JsValue> {
     if options.is_undefined() { Ok(S::default()) } else { read_settings(&S::default(), options) }
 }
 
-/// The present settings with those that `options` names. Ranges of doubles are left to the simulation.
+/// Returns the current settings with the values in `options`. The simulation checks ranges of doubles.
 pub fn read_settings<S: Rules>(present: &S, options: &JsValue) -> Result<S, JsValue> {
     let fields = Fields::new("options", "", options, S::KEYS)?;
     let (mut settings, mut named) = (*present, Vec::new());
@@ -187,7 +187,7 @@ fn read_setting(field: &str, value: &JsValue, setting: Setting) -> Result<(), Js
         Setting::Truth(slot) => *slot = boolean(field, value)?,
         Setting::Word(slot) => read_word(field, value, slot)?,
         Setting::Numbers(slots, _) => read_numbers(field, value, slots)?,
-        // Once it is taken apart, nobody could say that it was the level that is out of range.
+        // Checked here: once a level is split into its numbers, an error could not name it.
         Setting::Level(slot, allowed) => slot.set(in_range(field, number(field, value)?, &allowed)?),
         Setting::Group(group) => read_group(field, value, group)?,
     }
@@ -198,7 +198,7 @@ pub fn boolean(field: &str, value: &JsValue) -> Result<bool, JsValue> {
     value.as_bool().ok_or_else(|| type_error(field, value, "true or false"))
 }
 
-/// The length of an array or typed array.
+/// Returns the length of an array or typed array.
 pub fn length(field: &str, value: &JsValue, expected: &str) -> Result<usize, JsValue> {
     if !value.is_object() {
         return Err(type_error(field, value, expected));
@@ -208,7 +208,7 @@ pub fn length(field: &str, value: &JsValue, expected: &str) -> Result<usize, JsV
     Ok(check_whole(&format!("{field}.length"), length, &(0..=u64::from(u32::MAX)))? as usize)
 }
 
-/// Item `index` of an array.
+/// Returns item `index` of an array.
 pub fn item(value: &JsValue, index: usize) -> Result<JsValue, JsValue> {
     Reflect::get_u32(value, index as u32)
 }
@@ -217,16 +217,16 @@ pub fn type_error(field: &str, value: &JsValue, allowed: &str) -> JsValue {
     TypeError::new(&format!("{field} is {}; allowed is {allowed}", describe(value))).into()
 }
 
-/// A number as JavaScript prints it.
+/// Returns a number as JavaScript prints it.
 pub fn printed(number: f64) -> String {
-    // Only another radix could throw.
+    // Cannot throw with radix 10.
     Number::from(number).to_string_with_radix(10).map_or_else(|_| String::new(), String::from)
 }
 
-/// Characters of a text that are quoted: enough to recognize it, and more than any key or word has.
+/// Maximum number of quoted characters: enough to recognize a text, and more than any key or word has.
 const MAX_CHARACTERS: usize = 40;
 
-/// Shortens a text to what a sentence can hold.
+/// Shortens a text for quotation in a sentence.
 fn shortened(text: &str) -> String {
     let mut characters = text
         .chars()
@@ -238,7 +238,7 @@ fn shortened(text: &str) -> String {
     shown
 }
 
-/// A text between quotation marks. Not as `Debug` has it, which knows all of Unicode and takes a twentieth of the module.
+/// Returns a text in quotation marks. `Debug` would include Unicode tables, a twentieth of the module.
 pub fn quoted(text: &str) -> String {
     let mut result = String::from('"');
     for character in text.chars() {
@@ -251,7 +251,7 @@ pub fn quoted(text: &str) -> String {
     result
 }
 
-/// Describes a value as a sentence can hold it.
+/// Describes a value for a sentence.
 fn describe(value: &JsValue) -> String {
     if let Some(text) = value.as_string() {
         return quoted(&shortened(&text));

@@ -1,4 +1,4 @@
-//! The chapter's models, its inversion and SE(2) for JavaScript: what homework is done and checked with.
+//! The chapter's models, its inversion and SE(2) for JavaScript, for exercises.
 
 use super::fields::{Fields, boolean, group_in_range, in_range, item, length, number, numbers, whole, word};
 use super::values::{flat, group_to_js, list, number_or_null, object};
@@ -26,7 +26,7 @@ export type Twist = ArrayLike<number>;
 export interface VelocityModelOptions {
   /** α₁…α₆, variance coefficients. */
   alphas: ArrayLike<number>;
-  /** Opens with "normal". */
+  /** Default: "normal". */
   noise?: 'normal' | 'triangular';
 }
 
@@ -34,7 +34,7 @@ export interface VelocityModelOptions {
 export interface OdometryModelOptions {
   /** α₁…α₄, variance coefficients. */
   alphas: ArrayLike<number>;
-  /** Opens with "normal". */
+  /** Default: "normal". */
   noise?: 'normal' | 'triangular';
   /**
    * True if a drive in reverse gets noise for the rotations that the robot made, and not for two additional half turns;
@@ -43,17 +43,19 @@ export interface OdometryModelOptions {
   reverseAware?: boolean;
 }
 
-/** The arc that leaves one pose along its heading and reaches the position of another. */
+/** Arc that leaves one pose along its heading and reaches the position of another. */
 export interface ArcInversion {
   /** Speed along the arc, m/s; negative in reverse. */
   vHat: number;
   /** Turn rate along the arc, rad/s. */
   omegaHat: number;
-  /** Rate of the turn that is left after the arc, rad/s over the same time. */
+  /** Rate of the final turn that the arc leaves, rad/s over the same time. */
   gammaHat: number;
-  /** Centre of the arc's circle, m; null where the arc is straight. */
+  /** Centre of the arc's circle, m; null for a straight arc. */
   center: { x: number; y: number } | null;
-  /** Radius, m: positive with the centre to the left of the heading, negative to the right, Infinity where the arc is straight. */
+  /**
+   * Radius, m: positive with the centre to the left of the heading, negative to the right, Infinity for a straight arc.
+   */
   radius: number;
   /** Turn of the robot along the arc, rad, −π to π. */
   turn: number;
@@ -61,19 +63,19 @@ export interface ArcInversion {
 
 /** Options of `propagate`. */
 export interface Propagation {
-  /** Covariance of the first pose in exponential coordinates about its mean, three rows of three; 0 where it is left out. */
+  /** Covariance of the first pose in exponential coordinates about its mean, three rows of three; default 0. */
   sigma?: ArrayLike<ArrayLike<number>>;
   command: Command;
   /** α₁…α₆ of the velocity model. */
   alphas: ArrayLike<number>;
-  /** Opens with "chapter". */
+  /** Default: "chapter". */
   compounding?: 'chapter' | 'first-order' | 'fourth-order';
   /** Number of times the command is driven; default 1. */
   steps?: number;
 }
 "#;
 
-/// Steps of `propagate` at most: a fraction of a second.
+/// Maximum number of steps of `propagate`, which take a fraction of a second.
 const MAX_STEPS: u64 = 100_000;
 
 /// The velocity motion model: noise on speed and turn rate, and a turn after the arc.
@@ -90,8 +92,8 @@ impl JsVelocityModel {
         Ok(Self(VelocityModel { alphas: VelocityAlphas(alphas(&fields)?), noise: noise(&fields)? }))
     }
 
-    /// The scoring function of Table 5.1, with a signed radius: of the arc that turns by half a circle at most. A noise of
-    /// variance 0 counts as 1 where its residual is 0 to rounding (1e-7), and as 0 elsewhere.
+    /// Scoring function of Table 5.1, with a signed radius, for the arc that turns by at most half a circle. A noise of
+    /// variance 0 has the factor 1 if its residual is 0 up to rounding (1e-7), and 0 otherwise.
     pub fn prob(
         &self,
         #[wasm_bindgen(unchecked_param_type = "Start")] next: &JsValue,
@@ -101,7 +103,7 @@ impl JsVelocityModel {
         Ok(self.0.prob(&pose("next", next)?, &velocity_command(command)?, &pose("start", start)?))
     }
 
-    /// The density of the sampler over dx dy dθ; null where a variance is 0, infinite where the robot has not moved at all.
+    /// Density of the sampler over dx dy dθ; null if a variance is 0, infinite if the robot has not moved at all.
     #[wasm_bindgen(js_name = poseDensity, unchecked_return_type = "number | null")]
     pub fn pose_density(
         &self,
@@ -113,7 +115,7 @@ impl JsVelocityModel {
         Ok(number_or_null(self.0.pose_density(&next, &command, &start)))
     }
 
-    /// Draws of the pose after the command, as x, y, θ triples. The same seed, a whole number, gives the same.
+    /// Samples the pose after the command, as x, y, θ triples. Equal seeds (whole numbers) give equal samples.
     pub fn sample(
         &self,
         #[wasm_bindgen(unchecked_param_type = "Command")] command: &JsValue,
@@ -143,8 +145,8 @@ impl JsOdometryModel {
         Ok(Self { model, reverse_aware: fields.optional("reverseAware", boolean)?.unwrap_or(false) })
     }
 
-    /// The scoring function of Table 5.5, of which the variances are those of the hypothesis. A noise of variance 0 counts as 1
-    /// where its residual is 0 to rounding (1e-7), and as 0 elsewhere.
+    /// Scoring function of Table 5.5, with the variances of the hypothesis. A noise of variance 0 has the factor 1 if
+    /// its residual is 0 up to rounding (1e-7), and 0 otherwise.
     pub fn prob(
         &self,
         #[wasm_bindgen(unchecked_param_type = "Start")] next: &JsValue,
@@ -158,7 +160,7 @@ impl JsOdometryModel {
         })
     }
 
-    /// The density of the sampler over dx dy dθ; null where a variance is 0, infinite where the robot has not moved at all.
+    /// Density of the sampler over dx dy dθ; null if a variance is 0, infinite if the robot has not moved at all.
     #[wasm_bindgen(js_name = poseDensity, unchecked_return_type = "number | null")]
     pub fn pose_density(
         &self,
@@ -173,7 +175,7 @@ impl JsOdometryModel {
         }))
     }
 
-    /// Draws of the pose after the reading, as x, y, θ triples. The same seed, a whole number, gives the same.
+    /// Samples the pose after the reading, as x, y, θ triples. Equal seeds (whole numbers) give equal samples.
     pub fn sample(
         &self,
         #[wasm_bindgen(unchecked_param_type = "Legs")] control: &JsValue,
@@ -189,8 +191,8 @@ impl JsOdometryModel {
     }
 }
 
-/// The arc that leaves `start` along its heading and reaches the position of `next` in `dt` seconds (Table 5.1, with a signed
-/// radius). Of the arcs on that circle, the one that turns by half a circle at most.
+/// Arc that leaves `start` along its heading and reaches the position of `next` in `dt` seconds (Table 5.1, with a
+/// signed radius). Of the arcs on that circle, the one that turns by at most half a circle is returned.
 #[wasm_bindgen(js_name = invertArc, unchecked_return_type = "ArcInversion")]
 pub fn inverted(
     #[wasm_bindgen(unchecked_param_type = "Start")] start: &JsValue,
@@ -199,7 +201,7 @@ pub fn inverted(
 ) -> Result<JsValue, JsValue> {
     let (start, next, dt) = (pose("start", start)?, pose("next", next)?, in_range("dt", dt, &DURATION)?);
     let inversion = invert_arc(&start, &next, dt);
-    // A straight way back turns by −0, which is no news to anybody.
+    // A straight drive in reverse has the turn rate −0. Adding 0 makes it 0.
     let omega_hat = inversion.omega_hat + 0.0;
     let center = match inversion.centre(&start) {
         Some([x, y]) => object(&[("x", x.into()), ("y", y.into())]),
@@ -224,8 +226,8 @@ pub fn decompose(
     Ok(group_to_js(&mut OdomDelta::from_poses(&pose("start", start)?, &pose("next", next)?)))
 }
 
-/// The covariance, in exponential coordinates about the noise-free pose, after a command was driven a number of times. The
-/// fourth order is an expansion: noise may be too large for it, which is refused.
+/// Covariance, in exponential coordinates about the noise-free pose, after a command was driven several times. The
+/// fourth order is an expansion; noise that is too large for it is refused.
 #[wasm_bindgen(unchecked_return_type = "number[][]")]
 pub fn propagate(
     #[wasm_bindgen(unchecked_param_type = "Propagation")] options: &JsValue,
@@ -239,14 +241,14 @@ pub fn propagate(
     let steps = fields
         .optional("steps", |field, value| whole(field, number(field, value)?, 1..=MAX_STEPS))?
         .unwrap_or(1);
-    // Arguments in range give no variance that is negative or too large.
+    // Arguments in range cannot give a negative or infinite variance.
     let noise = TangentNoiseModel::from_velocity(&model, &command)
         .map_err(|error| RangeError::new(&error.to_string()))?;
     let twist = TangentNoiseModel::twist(&command);
     let mut last = sigma;
     for step in 0..steps {
         last = noise.propagate(&last, &twist, order);
-        // The other two are sums of covariances, but for rounding.
+        // The other two methods give sums of covariances, up to rounding.
         if order == Compounding::FourthOrder && covariance_root(&last).is_err() {
             let message = format!(
                 "steps is {steps}; allowed are at most {step} here: the next leaves no covariance, for the noise is too large"
@@ -257,13 +259,13 @@ pub fn propagate(
     Ok(rows(&last))
 }
 
-/// The pose that a twist leads to from the origin in a unit of time.
+/// Exponential map: the pose to which a twist leads from the origin in one unit of time.
 #[wasm_bindgen(js_namespace = se2, unchecked_return_type = "Start")]
 pub fn exp(#[wasm_bindgen(unchecked_param_type = "Twist")] twist: &JsValue) -> Result<JsValue, JsValue> {
     Ok(pose_to_js(SE2::exp(&read_twist("twist", twist)?)))
 }
 
-/// The twist that leads from the origin to a pose in a unit of time, turning by half a circle at most.
+/// Logarithm: the twist that leads from the origin to a pose in one unit of time, with a turn of at most half a circle.
 #[wasm_bindgen(js_namespace = se2, unchecked_return_type = "number[]")]
 pub fn log(
     #[wasm_bindgen(js_name = pose, unchecked_param_type = "Start")] of: &JsValue,
@@ -271,7 +273,7 @@ pub fn log(
     Ok(list(pose("pose", of)?.log().as_slice()))
 }
 
-/// a · b: `b`, told in the frame of `a`, in the frame that `a` is told in.
+/// a · b: the pose `b`, given in the frame of `a`, in the reference frame of `a`.
 #[wasm_bindgen(js_namespace = se2, unchecked_return_type = "Start")]
 pub fn compose(
     #[wasm_bindgen(unchecked_param_type = "Start")] a: &JsValue,
@@ -280,7 +282,7 @@ pub fn compose(
     Ok(pose_to_js(pose("a", a)? * pose("b", b)?))
 }
 
-/// The origin in the frame of a pose.
+/// Inverse: the origin in the frame of a pose.
 #[wasm_bindgen(js_namespace = se2, unchecked_return_type = "Start")]
 pub fn inverse(
     #[wasm_bindgen(js_name = pose, unchecked_param_type = "Start")] of: &JsValue,
@@ -306,7 +308,7 @@ pub fn boxminus(
     Ok(list(pose("a", a)?.boxminus(&pose("b", b)?).as_slice()))
 }
 
-/// Ad of a pose, three rows of three.
+/// Adjoint of a pose, three rows of three.
 #[wasm_bindgen(js_namespace = se2, unchecked_return_type = "number[][]")]
 pub fn adjoint(
     #[wasm_bindgen(js_name = pose, unchecked_param_type = "Start")] of: &JsValue,
@@ -314,7 +316,7 @@ pub fn adjoint(
     Ok(rows(&pose("pose", of)?.adjoint()))
 }
 
-/// J_r of a twist, three rows of three: exp(τ + δ) is exp(τ) · exp(J_r δ) to first order.
+/// Right Jacobian J_r of a twist, three rows of three: exp(τ + δ) is exp(τ) · exp(J_r δ) to first order.
 #[wasm_bindgen(js_namespace = se2, js_name = rightJacobian, unchecked_return_type = "number[][]")]
 pub fn right_jacobian(
     #[wasm_bindgen(unchecked_param_type = "Twist")] twist: &JsValue,
@@ -373,7 +375,7 @@ fn read_twist(field: &str, value: &JsValue) -> Result<Vector3<f64>, JsValue> {
     Ok(Vector3::from(quantities(field, value)?))
 }
 
-/// Three numbers of a size that the models are made for.
+/// Reads three numbers in the range of the models.
 fn quantities(field: &str, value: &JsValue) -> Result<[f64; 3], JsValue> {
     let numbers = numbers(field, value)?;
     for (i, number) in numbers.iter().enumerate() {
@@ -382,7 +384,7 @@ fn quantities(field: &str, value: &JsValue) -> Result<[f64; 3], JsValue> {
     Ok(numbers)
 }
 
-/// Three rows of three that are a covariance.
+/// Reads a covariance, three rows of three.
 fn covariance(field: &str, value: &JsValue) -> Result<Matrix3<f64>, JsValue> {
     let allowed = "three rows of three numbers, symmetric, of no negative variance";
     let count = length(field, value, allowed)?;

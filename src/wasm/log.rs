@@ -17,7 +17,10 @@ export interface LoggedPoses {
   x: ArrayLike<number>;
   y: ArrayLike<number>;
   theta: ArrayLike<number>;
-  /** The places, rising, of poses before which nothing is known of the way, besides those after a pause: where rows are missing, or it jumps. */
+  /**
+   * Indices, rising, of poses before which the path is unknown, in addition to those after a pause: where rows are
+   * missing, or the path jumps.
+   */
   breaks?: ArrayLike<number>;
 }
 
@@ -26,18 +29,18 @@ export interface LoggedCommands {
   t: ArrayLike<number>;
   v: ArrayLike<number>;
   omega: ArrayLike<number>;
-  /** As of poses. */
+  /** Indices of breaks, as of poses. */
   breaks?: ArrayLike<number>;
 }
 "#;
 
-/// Samples of a trajectory at most: a day at 100 Hz.
+/// Maximum number of samples of a trajectory: a day at 100 Hz.
 const MAX_ROWS: usize = 10_000_000;
 
-/// Times, s: those of any clock.
+/// Range of times, s, of any clock.
 const TIME: RangeInclusive<f64> = -1e12..=1e12;
 
-/// Coordinates, m, and what else a log has: those of any map of a country.
+/// Range of coordinates (m) and other values: those of any national map grid.
 const COORDINATE: RangeInclusive<f64> = -1e9..=1e9;
 
 /// Reads one drive, or arrays of both logs of several drives.
@@ -54,7 +57,7 @@ pub fn read_logs(odometry: &JsValue, reference: &JsValue) -> Result<Vec<Log>, Js
     Ok(odometry.into_iter().zip(reference).map(|(odometry, reference)| Log { odometry, reference }).collect())
 }
 
-/// One trajectory, or an array of them.
+/// Reads one trajectory, or an array of them.
 fn drives(
     field: &str,
     value: &JsValue,
@@ -70,7 +73,7 @@ fn drives(
     (0..count).map(|i| read(&format!("{field}[{i}]"), &item(value, i)?)).collect()
 }
 
-/// Poses or commands.
+/// Reads poses or commands.
 fn read_odometry(field: &str, value: &JsValue) -> Result<Trajectory, JsValue> {
     let prefix = format!("{field}.");
     if !value.is_object() {
@@ -88,7 +91,7 @@ fn read_odometry(field: &str, value: &JsValue) -> Result<Trajectory, JsValue> {
     trajectory(&fields, Trajectory::from_commands(commands))
 }
 
-/// Poses.
+/// Reads poses.
 fn read_poses(field: &str, value: &JsValue) -> Result<Trajectory, JsValue> {
     let prefix = format!("{field}.");
     poses(&Fields::new(field, &prefix, value, &["t", "x", "y", "theta", "breaks"])?)
@@ -101,7 +104,8 @@ fn poses(fields: &Fields) -> Result<Trajectory, JsValue> {
     trajectory(fields, Trajectory::new(t.iter().copied().zip(poses)))
 }
 
-/// With its breaks. Errors are in the words of [`TrajectoryError`], whose numbers Rust would print: that is a twentieth of a module.
+/// Adds the breaks to a trajectory. Errors are formatted here, because formatting numbers by Rust would take a
+/// twentieth of a module.
 fn trajectory(fields: &Fields, read: Result<Trajectory, TrajectoryError>) -> Result<Trajectory, JsValue> {
     let read = read.map_err(|TrajectoryError { sample, fault }| {
         let what = match fault {
@@ -119,7 +123,7 @@ fn trajectory(fields: &Fields, read: Result<Trajectory, TrajectoryError>) -> Res
     broken(fields, read)
 }
 
-/// With gaps where the caller says that there are some.
+/// Adds the breaks that the caller states.
 fn broken(fields: &Fields, mut trajectory: Trajectory) -> Result<Trajectory, JsValue> {
     let (field, breaks) = (fields.path("breaks"), fields.value("breaks")?);
     if breaks.is_undefined() {
@@ -139,7 +143,7 @@ fn broken(fields: &Fields, mut trajectory: Trajectory) -> Result<Trajectory, JsV
     Ok(trajectory)
 }
 
-/// Arrays of numbers, as long as the first of them, which has times.
+/// Reads arrays of numbers of the same length as the first one, the times.
 fn columns<const N: usize>(fields: &Fields, keys: [&str; N]) -> Result<[Vec<f64>; N], JsValue> {
     let mut columns = [const { Vec::new() }; N];
     for (i, key) in keys.into_iter().enumerate() {

@@ -30,8 +30,8 @@ impl From<ImageError> for JsValue {
     }
 }
 
-/// { bounds: [x, y, x, y], walls: [[x, y, x, y], …] }, as a JSON floor plan has them, or with the walls in one
-/// Float64Array, as a machine tells them.
+/// Floor plan { bounds: [x, y, x, y], walls: [[x, y, x, y], …] }, as in JSON. The walls may also be one Float64Array,
+/// as a machine returns them.
 pub fn read_plan(plan: &JsValue) -> Result<FloorPlan, JsValue> {
     let fields = Fields::new("plan", "", plan, &["bounds", "walls"])?;
     let bounds = numbers("bounds", &fields.value("bounds")?)?;
@@ -55,8 +55,8 @@ pub fn read_plan(plan: &JsValue) -> Result<FloorPlan, JsValue> {
     Ok(FloorPlan::new(segments.collect::<Result<_, JsValue>>()?, bounds)?)
 }
 
-/// Reads the map that `map_server` would make of an image, the bytes of a file or pixels, and the fields of its YAML file, with
-/// its defaults.
+/// Reads a map as `map_server` does: from an image (the bytes of a file, or pixels), and the fields of its YAML file
+/// with their defaults.
 pub fn read_map(description: &JsValue, image: &JsValue) -> Result<OccupancyGrid, JsValue> {
     let fields = Fields::open("description", "", description)?;
     let resolution = in_range("resolution", fields.number("resolution")?, &RESOLUTION)?;
@@ -95,8 +95,8 @@ pub fn read_map(description: &JsValue, image: &JsValue) -> Result<OccupancyGrid,
     Ok(OccupancyGrid::new(&Image { width, height, pixels }, &interpretation, resolution, origin))
 }
 
-/// Reads width, height, and red, green, blue and opacity of each pixel of an ImageData or of what has its properties: in Node
-/// there is no such class.
+/// Reads width, height, and red, green, blue and opacity of each pixel of an ImageData, or of an object with its
+/// properties, because Node has no such class.
 fn read_pixels(image: &JsValue) -> Result<(usize, usize, Vec<u8>), JsValue> {
     let fields = Fields::open("image", "image.", image)?;
     let width = whole("image.width", fields.number("width")?, 1..=MAX_PIXELS as u64)? as usize;

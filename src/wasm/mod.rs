@@ -1,6 +1,7 @@
-//! The JavaScript face of the crate: nothing but reading arguments, calling the simulation and handing back copies.
+//! JavaScript interface of the crate: reads arguments, calls the simulation and returns copies.
 
-// A page with one widget loads a module without the others: that is compiled with the widget's tag as its cfg `widget`.
+// A page with one widget loads a module without the others, which is compiled with the widget's tag as its cfg
+// `widget`.
 #![cfg_attr(widget, allow(dead_code, reason = "what the other widgets read and make"))]
 
 #[cfg(any(not(widget), widget = "alpha-calibrator"))]

@@ -29,15 +29,15 @@ export interface RuleFigures {
 
 /** The odometry in the world, where its frame has drifted. */
 export interface Drifted {
-  /** Poses x, y (m), θ (rad) of the frame, and in the world of the two odometry poses, one after the other. */
+  /** Poses x, y (m), θ (rad) of the frame, and of the two odometry poses in the world, one after the other. */
   poses: Float64Array;
-  /** The legs that are read of them there. */
+  /** Legs that are computed from these poses. */
   legs: Legs;
 }
 "#;
 
 configured!(
-    /// An odometry reading as rotate, drive, rotate, and what noise makes of it under the rules of several localizers.
+    /// An odometry reading as rotate, drive, rotate, and its noise under the rules of several localizers.
     JsOdometryDecomposer,
     OdometryDecomposer,
     "OdometryDecomposer",
@@ -82,31 +82,32 @@ impl JsOdometryDecomposer {
         ]))
     }
 
-    /// x, y (m), θ (rad) of each outcome shown, in the frame of the odometry; a copy.
+    /// x, y (m), θ (rad) of each outcome shown, in the odometry frame; a copy.
     #[wasm_bindgen(getter)]
     pub fn poses(&self) -> Float64Array {
         flat(&self.0.poses().iter().map(numbers).collect::<Vec<_>>())
     }
 
-    /// The reading without noise, as four poses x, y, θ: the start, turned, at the end of the drive, and turned again.
+    /// Noise-free reading as four poses x, y, θ: at the start, after the first rotation, after the drive, after the
+    /// second rotation.
     #[wasm_bindgen(getter)]
     pub fn linkage(&self) -> Float64Array {
         flat(&self.0.linkage().map(|pose| numbers(&pose)))
     }
 
-    /// The linkages of the first `count` outcomes shown, one after the other as `linkage` has it.
+    /// Linkages of the first `count` outcomes shown, one after the other in the form of `linkage`.
     pub fn ghosts(&self, count: f64) -> Result<Float64Array, JsValue> {
         let ghosts = self.0.ghosts(whole("count", count, 0..=MAX_SAMPLES)? as usize);
         Ok(flat(&ghosts.as_flattened().iter().map(numbers).collect::<Vec<_>>()))
     }
 
-    /// Pose of the robot on its way.
+    /// Pose of the robot at the selected phase.
     #[wasm_bindgen(getter, unchecked_return_type = "Start")]
     pub fn robot(&self) -> JsValue {
         group_to_js(&mut numbers(&self.0.robot()))
     }
 
-    /// Figures of the reading by each rule.
+    /// Legs and noises of the reading by each rule.
     #[wasm_bindgen(getter, unchecked_return_type = "RuleFigures[]")]
     pub fn rules(&self) -> Array {
         let figures = |RuleFigures { rule, mut legs, deviations, cross_track, heading }: RuleFigures| {
@@ -126,8 +127,9 @@ impl JsOdometryDecomposer {
         plain(&self.0.stats())
     }
 
-    /// Against the length of the drive, from 0 to `longest` m: that length, the standard deviation across the bearing, the lever
-    /// alone, and the standard deviation of the length, all in m, for each of `count` points.
+    /// Standard deviations for lengths of the drive from 0 to `longest` m. For each of `count` points: the length, the
+    /// standard deviation across the bearing, the contribution of the first rotation, and the standard deviation of the
+    /// length, all in m.
     pub fn curve(&self, longest: f64, count: f64) -> Result<Float64Array, JsValue> {
         let longest = in_range("longest", longest, &(0.0..=*QUANTITY.end()))?;
         let count = whole("count", count, 1..=MAX_CURVE_POINTS)? as usize;
@@ -148,7 +150,7 @@ impl JsOdometryDecomposer {
     }
 }
 
-/// Linkages shown beside the one of the reading: more would hide it.
+/// Maximum number of linkages shown: more would hide the linkage of the reading.
 const GHOSTS: f64 = 12.0;
 
 fn numbers(pose: &SE2) -> [f64; 3] {

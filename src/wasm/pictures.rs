@@ -1,4 +1,4 @@
-//! Densities for JavaScript: the arguments of pictures, and pixels as a view of the core's memory.
+//! Densities for JavaScript: arguments of pictures, and pixels as a view of the core's memory.
 
 use super::fields::{in_range, whole};
 use crate::sim::picture::{RAMP, Ramp};
@@ -7,7 +7,7 @@ use js_sys::{RangeError, Uint8ClampedArray, WebAssembly};
 use std::ops::RangeInclusive;
 use wasm_bindgen::prelude::*;
 
-/// Radii around a point; NaN is none.
+/// Allowed radii around a point. NaN is refused.
 pub const RADIUS: RangeInclusive<f64> = 0.0..=f64::INFINITY;
 
 /// Makes a view of pixels in the core's memory.
@@ -18,7 +18,7 @@ pub fn view_of(pixels: &[[u8; 4]]) -> Uint8ClampedArray {
         Uint8ClampedArray::new_with_byte_offset_and_length(&memory.buffer(), start, length)
     };
     let first = view();
-    // The handle of the view itself may have made the memory grow, which empties all views of it; it does so once.
+    // Creating the view may have grown the memory, which detaches all views of it. That happens at most once.
     if first.length() == length { first } else { view() }
 }
 

@@ -30,9 +30,9 @@ export interface Grid {
   resolution: number;
   /** x, y (m) and yaw (rad) of the lower left corner. */
   origin: Float64Array;
-  /** 1 where occupied. */
+  /** Bits of the cells: 1 if occupied. */
   occupied: Uint8Array;
-  /** 1 where the map says nothing. */
+  /** Bits of the cells: 1 if unknown. */
   unknown: Uint8Array;
 }
 "#;
@@ -105,7 +105,7 @@ impl JsMapSqueeze {
         object(&[("bounds", floats(&self.0.plan().bounds())), ("walls", flat(&walls).into())])
     }
 
-    /// The cells that the walls of the plan outline; null for a plan of walls alone.
+    /// Cells of the map; null for a plan of walls.
     #[wasm_bindgen(getter, unchecked_return_type = "Grid | null")]
     pub fn grid(&self) -> JsValue {
         let Some(grid) = self.0.plan().grid() else { return JsValue::NULL };
@@ -146,21 +146,21 @@ impl JsMapSqueeze {
         Ok(self.0.set_grid(read_map(description, image)?)?)
     }
 
-    /// A start in the open: in the middle of the largest square that is known to be free, heading where the way is known
-    /// to be free for longest. Where the robot does not fit there, where it does; null where that is nowhere.
+    /// Free start pose: in the middle of the largest square that is known to be free, heading where the path is free
+    /// for longest. If the robot does not fit there, another pose where it fits; null if there is none.
     #[wasm_bindgen(getter, js_name = openPlace, unchecked_return_type = "Start | null")]
     pub fn open_place(&self) -> JsValue {
         let place = self.0.open_place();
         place.map_or(JsValue::NULL, |place| group_to_js(&mut [place.x(), place.y(), place.theta()]))
     }
 
-    /// True if the robot fits where it starts.
+    /// True if the robot collides with nothing at its start pose.
     #[wasm_bindgen(getter, js_name = startFree)]
     pub fn start_free(&self) -> bool {
         self.0.start_free()
     }
 
-    /// The way that the command drives without noise, as x, y pairs.
+    /// Noise-free path of the command, as x, y pairs.
     #[wasm_bindgen(getter)]
     pub fn commanded(&self) -> Float64Array {
         flat(&self.0.commanded().points())
@@ -173,13 +173,14 @@ impl JsMapSqueeze {
         flat(&poses.collect::<Vec<_>>())
     }
 
-    /// A byte an attempt: 1 where its end is free, 2 where its path is, 4 where it is accepted, added up.
+    /// Result of each attempt as one byte, the sum of 1 if its end is free, 2 if its path is free, and 4 if it is
+    /// accepted.
     #[wasm_bindgen(getter)]
     pub fn verdicts(&self) -> Vec<u8> {
         self.0.attempts().iter().map(Attempt::verdict).collect()
     }
 
-    /// The path driven in an attempt, as x, y pairs; empty where it is not shown.
+    /// Path driven in an attempt, as x, y pairs; empty if the attempt is not shown.
     pub fn path(&self, index: f64) -> Result<Float64Array, JsValue> {
         let arcs = self.0.arcs(whole("index", index, 0..=MAX_SAMPLES as u64)? as usize);
         Ok(flat(&arcs.iter().flat_map(|arc| arc.points()).collect::<Vec<_>>()))
@@ -239,10 +240,10 @@ impl JsMapSqueeze {
     }
 }
 
-/// Most paths shown: more would be one blot, and cost more than a frame.
+/// Maximum number of paths shown: more would be indistinguishable, and take longer than a frame.
 const MAX_PATHS: usize = 150;
 
-/// Decodes a PNG image into red, green, blue and opacity of its pixels: for the core of a figure, which has no decoder.
+/// Decodes a PNG image to red, green, blue and opacity of its pixels, for the core of a figure, which has no decoder.
 #[cfg(not(widget))]
 #[wasm_bindgen(
     js_name = readMapImage,

@@ -5,13 +5,13 @@ use js_sys::{Array, Float64Array, Object};
 use serde::Serialize;
 use wasm_bindgen::prelude::*;
 
-/// Makes a plain JavaScript value, in which None is null.
+/// Converts a value to a plain JavaScript value, in which None is null.
 pub fn plain<T: Serialize>(value: &T) -> Result<JsValue, JsValue> {
     let serializer = serde_wasm_bindgen::Serializer::new().serialize_missing_as_null(true);
     Ok(value.serialize(&serializer)?)
 }
 
-/// Makes an object of the settings of a widget; those that are another way to say one of them are left out.
+/// Makes an object of the settings of a widget, without settings that are alternative forms of others.
 pub fn settings_to_js<S: Declared>(settings: &S) -> JsValue {
     let (mut entries, mut settings) = (Vec::new(), *settings);
     let _ = settings.try_each(|declaration, setting| {

@@ -1,4 +1,4 @@
-/** The words that all widgets share, in German; see en.ts. */
+/** Words that all widgets share, in German; see en.ts. */
 
 export const de: typeof import('./en.ts').en = {
   failure: (reason) => `Diese interaktive Abbildung läuft hier nicht. ${reason}`,

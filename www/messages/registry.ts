@@ -1,6 +1,6 @@
 /**
- * The words of the elements, by language. English and German come with the project; a page adds or
- * replaces others with `setMessages`. What a widget alone says stands under a key of its own.
+ * Words of the elements, by language. English and German are included; a page adds or replaces others with `setMessages`. The words of a
+ * single widget have their own key.
  *
  * An element speaks the language of its nearest `lang` attribute as far as there are words in it, and
  * English otherwise. `speak` makes that language the present one before anything is rendered or
@@ -12,7 +12,7 @@ export type Message = string | ((...values: any[]) => string) | Message[] | { [k
 /** `WidgetWords`: see widgets/words.d.ts. */
 export type Messages = typeof import('./en.ts').en & WidgetWords;
 
-/** Catalogues that all scripts of a page share: a language may come in a file of its own. */
+/** Catalogues that all scripts of a page share, because a language may be in its own file. */
 interface Shared {
   /** Default words of the elements. */
   english: object;
@@ -26,10 +26,10 @@ const KEY = Symbol.for('motion-widgets.messages');
 
 const shared: Shared = ((globalThis as any)[KEY] ??= { english: {}, catalogues: {}, listeners: new Set() });
 
-/** The words of the present language. */
+/** Words of the current language. */
 export let words: Messages;
 
-/** The present language as a BCP 47 tag, for numbers. */
+/** Current language as a BCP 47 tag, for numbers. */
 export let language = 'en';
 
 /** Words by the language that the page asks for. */
@@ -101,7 +101,7 @@ function merge(base: any, over: any) {
   return merged;
 }
 
-/** Makes the language of an element the present one. */
+/** Makes the language of an element the current one. */
 export function speak(element: Element) {
   const wanted = languageOf(element);
   let voice = voices.get(wanted);
@@ -137,7 +137,7 @@ function languageOf(element: Element): string {
 
 let observer: MutationObserver | undefined;
 
-/** No closure of `onLanguage`: the observer would hold that one's element for as long as the page lives. */
+/** Defined outside of `onLanguage`: a closure would keep the element of that call alive for as long as the page lives. */
 function tellAll() {
   for (const listener of shared.listeners) listener();
 }

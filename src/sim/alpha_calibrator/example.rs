@@ -15,52 +15,53 @@ use rand::{RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use std::f64::consts::TAU;
 
-/// The α's that it is simulated with, under the table's rule.
+/// True α's of the simulation, with the rule of Table 5.6.
 pub const ALPHAS: [f64; 4] = [0.05, 0.008, 0.004, 0.003];
 
-/// The legs that they belong to: AMCL's triggers as it comes, m and rad.
+/// Leg length of these α's: the defaults of AMCL's update triggers, m and rad.
 const DISTANCE: f64 = 0.25;
 pub const ANGLE: f64 = 0.2;
 
-/// What the reference says of the odometry, beside the noise.
+/// Systematic errors of odometry and reference.
 pub const CLOCK_OFFSET: f64 = 0.15;
 pub const MOUNT_YAW: f64 = 0.07;
 pub const LEVER_ARM: [f64; 2] = [0.12, 0.0];
 pub const DISTANCE_SCALE: f64 = 1.02;
 pub const TURN_SCALE: f64 = 0.97;
 
-/// How far the reference jumps (m), for how many rows, and how often: it spoils a hundredth of the legs or so.
+/// Jumps of the reference: their size (m), their number of rows, and their interval. They make about one leg in a
+/// hundred an outlier.
 const JUMP: f64 = 0.5;
 const JUMP_ROWS: usize = 25;
 const JUMPS_A_ROW: f64 = 4e-4;
 
-/// s between two rows, and how many.
+/// Time between two rows, s, and number of rows.
 const STEP: f64 = 0.02;
 const ROWS: usize = 9000;
 
-/// m/s and rad/s.
+/// Speed, m/s, and turn rate, rad/s.
 const SPEED: f64 = 0.6;
 const TURN_RATE: f64 = 0.8;
 
-/// s between two looks around.
+/// Time between two turns on the spot, s.
 const DRIVES: f64 = 20.0;
 
-/// Where the robot heads for at a phase (rad), m: a rosette, which crosses the hall in all directions.
+/// Returns the target of the robot (m) at a phase (rad): a rosette, which crosses the hall in all directions.
 fn aim(phase: f64) -> [f64; 2] {
     let radius = 2.1 + 1.1 * libm::cos(2.4 * phase);
     [1.35 * radius * libm::cos(phase), radius * libm::sin(phase)]
 }
 
-/// A robot on its way.
+/// Controller of the simulated robot.
 struct Robot {
     phase: f64,
-    /// How much is still to be turned while it looks around, rad.
+    /// Remaining angle of the turn on the spot, rad.
     turning: f64,
     next_look: f64,
 }
 
 impl Robot {
-    /// The speeds (m/s, rad/s) at a time and where it takes itself to be.
+    /// Returns the speeds (m/s, rad/s) at a time and estimated pose.
     fn drive(&mut self, time: f64, pose: &SE2, rng: &mut Xoshiro256PlusPlus) -> [f64; 2] {
         if time >= self.next_look {
             self.next_look += DRIVES;
@@ -71,7 +72,7 @@ impl Robot {
             self.turning -= turn;
             return [0.0, turn / STEP];
         }
-        // The carrot stays ahead.
+        // The target moves ahead of the robot.
         let mut ahead = aim(self.phase);
         while libm::hypot(ahead[0] - pose.x(), ahead[1] - pose.y()) < 0.7 {
             self.phase += 0.002;
@@ -84,14 +85,14 @@ impl Robot {
     }
 }
 
-/// Rows of a leg that has not ended: times, and the motion since it began without noise.
+/// Rows of the current leg: times, and the noise-free motion since its start.
 struct Open {
     odometry: SE2,
     truth: SE2,
     rows: Vec<(f64, SE2)>,
 }
 
-/// The log of a seed.
+/// Returns the simulated log of a seed.
 pub fn example(seed: u64) -> Log {
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
     let [x, y] = aim(0.0);
@@ -146,7 +147,7 @@ fn close(open: &Open, truth: &mut Vec<(f64, SE2)>, rng: &mut Xoshiro256PlusPlus)
     open.truth * end
 }
 
-/// The truth as the reference tells it.
+/// Returns the true trajectory as the reference measures it.
 fn seen(truth: &[(f64, SE2)], rng: &mut Xoshiro256PlusPlus) -> Vec<(f64, SE2)> {
     let mut jump = SE2::identity();
     let mut left = 0;

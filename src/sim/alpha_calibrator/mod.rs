@@ -1,4 +1,4 @@
-//! The Alpha Calibrator: the α's of a log, how well they are known, and whether the model is any good.
+//! The Alpha Calibrator: fits α's to a log, with confidence intervals and goodness of fit.
 
 pub mod example;
 mod panels;
@@ -16,13 +16,13 @@ use crate::stats::{CartesianMoments, Ellipse};
 use panels::panels;
 use std::cell::OnceCell;
 
-/// Outcomes that are drawn of a leg.
+/// Number of predicted end poses of a leg.
 const OUTCOMES: usize = 400;
 
 /// Chords of the outline of a leg's cloud.
 const OUTLINE_SEGMENTS: usize = 64;
 
-/// What a robot's wheels said, and where it really was.
+/// Odometry and reference of one drive.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Log {
     pub odometry: Trajectory,
@@ -54,26 +54,26 @@ pub struct Truth {
     pub turn_scale: f64,
 }
 
-/// One leg in the frame of the robot at its beginning, m and rad.
+/// One leg in the frame of the robot at its start, m and rad.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LegView {
-    /// Where it may have ended under the fitted α's.
+    /// Predicted end poses under the fitted α's.
     pub outcomes: Vec<[f64; 3]>,
-    /// The 2σ ellipse of these; empty where there is no noise.
+    /// 2σ ellipse of the predicted ends; empty without noise.
     pub outline: Vec<[f64; 2]>,
-    /// Where the odometry says that it ended.
+    /// End pose by the odometry.
     pub read: [f64; 3],
-    /// Where it ended.
+    /// End pose by the reference.
     pub ended: [f64; 3],
 }
 
-/// The simulation behind the widget: settings, a log, and the fit to it, which is made when it is asked for first.
+/// Simulation of the widget: settings, a log, and its fit, which is computed on first use.
 #[derive(Clone, Debug)]
 pub struct AlphaCalibrator {
     settings: Settings,
     source: Source,
     fit: Fit,
-    /// Number of the fit.
+    /// Number of fits so far.
     fits: u32,
 }
 
@@ -87,7 +87,7 @@ enum Source {
     Elsewhere,
 }
 
-/// Calibration, and the settings that it is made under.
+/// Calibration, and its settings.
 #[derive(Clone, Debug)]
 struct Fit {
     settings: Settings,
@@ -156,7 +156,7 @@ impl AlphaCalibrator {
         Ok(())
     }
 
-    /// Puts another log in the place of the present one: one of each drive.
+    /// Replaces the log, which has an entry for each drive.
     pub fn set_log(&mut self, logs: Vec<Log>) {
         self.source = Source::Own(logs);
         self.invalidate();
@@ -169,12 +169,12 @@ impl AlphaCalibrator {
         }
     }
 
-    /// Number of the fit: another one has another number.
+    /// Returns the number of the fit, which changes with each fit.
     pub fn fits(&self) -> u32 {
         self.fits
     }
 
-    /// The fit. A log with too few legs has a calibration without legs.
+    /// Returns the fit. For a log with too few legs it has none.
     pub fn calibration(&self) -> &Calibration {
         self.fit.calibration.get_or_init(|| {
             let Settings { seed, .. } = self.fit.settings;
@@ -193,7 +193,7 @@ impl AlphaCalibrator {
         })
     }
 
-    /// The true values, where the log is simulated; the α's belong to the legs and to the rule that it was simulated with.
+    /// Returns the true values, if the log is simulated. The α's belong to the leg length and rule of the simulation.
     pub fn truth(&self) -> Option<Truth> {
         matches!(self.source, Source::Simulated).then_some(Truth {
             alphas: example::ALPHAS,
@@ -209,12 +209,12 @@ impl AlphaCalibrator {
         &self.calibration().legs
     }
 
-    /// Squared residuals against what drives them.
+    /// Returns the panels of squared residuals against their regressors.
     pub fn panels(&self, driver: Driver) -> [Panel; 3] {
         panels(self.fit.settings.model(), self.calibration(), driver)
     }
 
-    /// One leg from its beginning; None where there is no such leg.
+    /// Returns one leg in the frame of its start; None if the index is too large.
     pub fn leg(&self, index: usize) -> Option<LegView> {
         let leg = self.legs().get(index)?;
         let reading = self.calibration().observations[index].reading;
@@ -231,7 +231,7 @@ impl AlphaCalibrator {
         Some(LegView { outcomes, outline, read: numbers(read), ended: numbers(ended) })
     }
 
-    /// Where a leg ends with such noise.
+    /// Returns the end of a leg with this unit noise.
     fn outcome(&self, reading: &[f64; 3], unit_noise: [f64; 3]) -> SE2 {
         let (settings, calibration) = (&self.fit.settings, self.calibration());
         // An α that the log does not identify adds nothing.
@@ -251,7 +251,7 @@ impl AlphaCalibrator {
         end
     }
 
-    /// The leg whose way is nearest to a point (m) and within `radius` of it.
+    /// Returns the leg whose path is nearest to a point (m), within `radius`.
     pub fn nearest(&self, [x, y]: [f64; 2], radius: f64) -> Option<usize> {
         let corrected = &self.calibration().corrected;
         let distance = |leg: &Leg| {

@@ -1,15 +1,15 @@
-//! Squared residuals against what drives them: the line through them is an α.
+//! Regression panels: squared residuals against squared distance or rotation. The slope of the line is an α.
 
 use crate::calibrate::{Calibration, Model};
 use crate::models::OdometryRule;
 use crate::sim::settings::Words;
 
-/// What a variance is made of: in each, one α is for the turn and one for the way.
+/// Regressor of a variance: each variance has one α for the rotation and one for the distance.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Driver {
-    /// The square of the way driven, or of the speed.
+    /// Squared distance, or squared speed.
     Way,
-    /// That of the turn, or of its rate; of both turns, where noise is charged for both.
+    /// Squared rotation, or squared turn rate; the sum for both rotations if both add noise.
     Turn,
 }
 
@@ -17,14 +17,14 @@ impl Words for Driver {
     const WORDS: &'static [(&'static str, Self)] = &[("way", Self::Way), ("turn", Self::Turn)];
 }
 
-/// Bins of a panel, with about as many legs each; those that are driven alike are in one.
+/// Number of bins of a panel, with about equal numbers of legs. Legs with equal motions are in one bin.
 pub const BINS: usize = 8;
 
-/// Legs of a bin at least: the error of a mean of fewer says nothing.
+/// Minimum number of legs of a bin: the standard error of fewer is meaningless.
 const LEAST: usize = 5;
 
-/// Squared innovations of one noise component against what drives it, less what the other α and the reference explain: their expectation
-/// is α·x.
+/// Squared residuals of one noise component against a regressor x, less the parts of the other α and of the reference.
+/// Their expectation is α·x.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(
     target_arch = "wasm32",
@@ -32,14 +32,14 @@ const LEAST: usize = 5;
     tsify(rename = "CalibrationPanel", missing_as_null)
 )]
 pub struct Panel {
-    /// The α that is the slope, from 0.
+    /// Index of the α that is the slope, from 0.
     pub alpha: usize,
     /// Means of the bins.
     pub x: Vec<f64>,
     /// Mean squared residuals, less the part of the other α.
     pub y: Vec<f64>,
-    /// Standard errors of `y`: by how the squares scatter or by what the model says of that, the larger. Of a bin in which one leg may be
-    /// further out than all others, the scatter alone says too little.
+    /// Standard errors of `y`: from the scatter of the squares, or from the model, whichever is larger. In a bin with
+    /// one dominating leg the scatter is too small.
     pub error: Vec<f64>,
     /// Slope. Like its interval null (None) where the log does not identify it.
     pub slope: Option<f64>,
@@ -56,7 +56,7 @@ fn way_first(model: Model, kind: usize) -> bool {
     }
 }
 
-/// A panel for each of the three noises.
+/// Returns the panels of the three noises.
 pub fn panels(model: Model, calibration: &Calibration, driver: Driver) -> [Panel; 3] {
     [0, 1, 2].map(|kind| panel(model, calibration, kind, driver))
 }
@@ -76,13 +76,13 @@ fn panel(model: Model, calibration: &Calibration, kind: usize, driver: Driver) -
             let variance = fit.stds[kind] * fit.stds[kind];
             let explained = variance - slope.unwrap_or(0.0) * coefficient;
             let square = fit.standardized[kind] * fit.standardized[kind] * variance;
-            // The square of a normal number of variance v has variance 2v².
+            // The square of a normal variate of variance v has variance 2v².
             [coefficient, square - explained, 1.0, 2.0 * variance * variance]
         })
         .collect();
     let mut panel =
         Panel { alpha, x: Vec::new(), y: Vec::new(), error: Vec::new(), slope, interval: intervals[alpha] };
-    // Of legs that hardly turn there is nothing to see against the turn.
+    // Without rotations in the legs there is no panel against the rotation.
     if panel.slope.is_none() {
         return panel;
     }

@@ -8,11 +8,11 @@ use crate::sim::settings::{Allowed, MAX_SEED, Rules, SettingsError, Word, Words,
 /// Motion model whose α's are calibrated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Model {
-    /// Four, by the rule that is set.
+    /// Odometry model with four α's, by the selected rule.
     Odometry,
-    /// Five, of a robot that can drive sideways: [`OdometryRule::Omni`].
+    /// Odometry model with five α's of a robot that can drive sideways: [`OdometryRule::Omni`].
     Omnidirectional,
-    /// Six, of the commands.
+    /// Velocity model with six α's, of commands.
     Velocity,
 }
 
@@ -127,7 +127,7 @@ impl Settings {
 }
 
 impl Rules for Settings {
-    /// Of the model and the rule, the one that is named takes the other along.
+    /// Model and rule have to match: setting one of them changes the other.
     fn settle(&mut self, _: &Self, named: &[&str]) {
         let fits = self.omnidirectional() == (self.rule == OdometryRule::Omni);
         match [named.contains(&"model"), named.contains(&"rule")] {

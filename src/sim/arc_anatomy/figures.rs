@@ -1,4 +1,4 @@
-//! What the inversion finds, and how likely that is.
+//! Result of the inversion, and its likelihood.
 
 use super::Settings;
 use crate::geom::arc::{Arc, ArcInversion, invert_arc};
@@ -15,21 +15,21 @@ use crate::noise::{NoiseKind, Variance, joint};
     tsify(missing_as_null)
 )]
 pub struct Bend {
-    /// m; negative in reverse.
+    /// Length, m; negative in reverse.
     pub arc_length: f64,
-    /// rad, positive to the left.
+    /// Turn, rad, positive to the left.
     pub turn: f64,
-    /// m; positive with the center to the left of the heading, infinite where the arc is straight.
+    /// Radius, m; positive with the centre to the left of the heading, infinite for a straight arc.
     pub radius: f64,
-    /// m; null (None) where the arc is straight.
+    /// Centre, m; null (None) for a straight arc.
     #[cfg_attr(target_arch = "wasm32", serde(rename = "center"))]
     pub centre: Option<[f64; 2]>,
-    /// x, y (m) and θ (rad) where it ends.
+    /// End pose: x, y (m) and θ (rad).
     pub end: [f64; 3],
 }
 
 impl Bend {
-    /// The first part of the arc, a share of all of it, from its start.
+    /// Returns the first part of the arc, a fraction of all of it.
     pub(super) fn arc(&self, start: SE2, share: f64) -> Arc {
         Arc { start, length: self.arc_length * share, turn: self.turn * share }
     }
@@ -52,9 +52,9 @@ impl Bend {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(target_arch = "wasm32", derive(serde::Serialize, tsify::Tsify), serde(rename_all = "camelCase"))]
 pub struct Factor {
-    /// v̂, ω̂ or γ̂ (m/s, rad/s).
+    /// Estimated v̂, ω̂ or γ̂ (m/s, rad/s).
     pub estimate: f64,
-    /// v − v̂, ω − ω̂ or γ̂: what the table gives to `prob`.
+    /// Residual v − v̂, ω − ω̂ or γ̂: the argument of `prob` in the table.
     pub residual: f64,
     /// Standard deviation σ of the noise.
     pub deviation: f64,
@@ -79,7 +79,7 @@ impl Factor {
     }
 }
 
-/// Everything that is read beside the picture.
+/// All readouts next to the picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(
     target_arch = "wasm32",
@@ -89,35 +89,35 @@ impl Factor {
 )]
 pub struct Stats {
     pub commanded: Bend,
-    /// The arc to the final position.
+    /// Arc to the final position.
     pub inverted: Bend,
-    /// The arc that v̂ and ω̂ drive: the inverted one, unless the radius is as printed.
+    /// Arc that v̂ and ω̂ drive: the inverted one, unless the radius is unsigned as printed.
     pub driven: Bend,
-    /// γ̂Δt, the last turn, rad.
+    /// Final turn γ̂Δt, rad.
     pub last_turn: f64,
-    /// Of v̂, ω̂ and γ̂.
+    /// Factors of v̂, ω̂ and γ̂.
     pub factors: [Factor; 3],
-    /// Which of them is the most deviations off, from 0.
+    /// Index of the factor whose residual is the most standard deviations from 0.
     pub weakest: usize,
-    /// p, the product of the three.
+    /// p, the product of the three factors.
     pub prob: f64,
-    /// p over that of the pose without noise, from 0 to 1.
+    /// p relative to the p of the noise-free pose, from 0 to 1.
     pub share: f64,
-    /// The density of the sampler over dx dy dθ; null (None) where a variance is 0.
+    /// Density of the sampler over dx dy dθ; null (None) if a variance is 0.
     pub density: Option<f64>,
     /// ξ = next ⊟ start: along (m), lateral (m), heading (rad).
     pub xi: [f64; 3],
 }
 
-/// The arc to the final position, with a signed radius.
+/// Returns the arc to the final position, with a signed radius.
 pub(super) fn inverted(settings: &Settings) -> ArcInversion {
     let executed = invert_arc(&settings.start(), &settings.next(), settings.command.dt);
     // A straight drive in reverse has the turn rate −0. Adding 0 makes it 0, so that no minus is shown.
     ArcInversion { omega_hat: executed.omega_hat + 0.0, ..executed }
 }
 
-/// As [`inverted`], or with the radius as Table 5.1 prints it, r* ≥ 0: v̂ = Δθ/Δt · r* has the sign of Δθ then, which is wrong
-/// where the centre lies to the right of the heading.
+/// As [`inverted`], or with the unsigned radius r* of Table 5.1: v̂ = Δθ/Δt · r* then has the sign of Δθ, which is
+/// wrong if the centre is to the right of the heading.
 pub(super) fn estimated(settings: &Settings) -> ArcInversion {
     let executed = inverted(settings);
     let ArcInversion { v_hat, omega_hat, .. } = executed;
@@ -127,7 +127,7 @@ pub(super) fn estimated(settings: &Settings) -> ArcInversion {
     ArcInversion { v_hat: v_hat.abs().copysign(omega_hat), ..executed }
 }
 
-/// What one of the three noises would have to explain.
+/// Residual that one of the three noises has to explain.
 struct Residual {
     estimate: f64,
     residual: f64,
@@ -145,7 +145,7 @@ fn residuals(settings: &Settings, estimates: &ArcInversion) -> [Residual; 3] {
     ]
 }
 
-/// p of the final pose.
+/// Returns p of the final pose.
 pub(super) fn prob(settings: &Settings) -> f64 {
     joint(
         residuals(settings, &estimated(settings))

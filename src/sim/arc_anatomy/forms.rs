@@ -1,27 +1,27 @@
-//! Exercise 1: what the arc, the straight line and the chord lose where the turn rate is small.
+//! Exercise 1: rounding and truncation errors of the arc, the straight line and the chord at small turn rates.
 
 use crate::geom::arc::chord;
 use crate::geom::double_double::DoubleDouble;
 use std::f64::consts::TAU;
 
-/// Of the exercise: speed, m/s, and duration, s.
+/// Speed, m/s, and duration, s, of the exercise.
 const SPEED: f64 = 1.0;
 const DURATION: f64 = 0.1;
 
-/// Below this |ω̂|, rad/s, the chapter's code takes the straight line.
+/// Turn rate |ω̂| (rad/s) below which the chapter's code uses the straight line.
 pub const CHAPTERS_THRESHOLD: f64 = 1e-6;
 
-/// From 10⁻¹² to 10 rad/s, so many turn rates a decade.
+/// Turn rates from 10⁻¹² to 10 rad/s, and their number for each factor of ten.
 const DECADES: [i32; 2] = [-12, 1];
 const A_DECADE: i32 = 8;
 
-/// Headings that the error is the root mean square of: it jumps about from one to the next.
+/// Number of headings over which the error is averaged (root mean square), because it varies from one to the next.
 const HEADINGS: u32 = 24;
 
-/// The root mean square error of the end of the exercise's motion over all headings, m, by the turn rate.
+/// Root mean square error (m) of the end of the exercise's motion over all headings, by the turn rate.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FormErrors {
-    /// rad/s.
+    /// Turn rates, rad/s.
     pub omega: Vec<f64>,
     /// Error (m) of x − (v/ω) sin θ + (v/ω) sin(θ + ωΔt), and y likewise.
     pub arc: Vec<f64>,
@@ -48,11 +48,11 @@ pub fn form_errors() -> FormErrors {
     }
 }
 
-/// Of the arc, the straight line and the chord.
+/// Returns the errors of the arc, the straight line and the chord.
 fn root_mean_squares(omega: f64) -> [f64; 3] {
     let mut squares = [0.0; 3];
     for i in 0..HEADINGS {
-        // None of them is along an axis, where one of the coordinates would be exact.
+        // No heading is along an axis, where one of the coordinates would be exact.
         let theta = TAU * (f64::from(i) + 0.37) / f64::from(HEADINGS) - 0.5 * TAU;
         let truth = reference(theta, omega);
         let forms = [arc_form(theta, omega), straight_form(theta), chord_form(theta, omega)];

@@ -70,7 +70,7 @@ const PLAIN = {
   solidstart: { heading: 'SolidStart', packages: ['@solidjs/start', 'solid-js'], lists: true, node: 24, only: 'development' },
   'react-router': { heading: 'React Router', packages: ['react-router'], lists: true, node: 24 },
   eleventy: { heading: 'Eleventy', packages: ['@11ty/eleventy'], output: '_site', base: '/book/', pages: { first: '/', second: '/sensors/' } },
-  observable: { heading: 'Observable Framework', packages: ['@observablehq/framework'], output: 'dist', base: '/book/', copies: 'src' },
+  observable: { heading: 'Observable Framework', packages: ['@observablehq/framework'], output: 'dist', base: '/book/', copies: 'src', pages: { first: '/', second: '/sensors.html' } },
 };
 
 /** Copies the single files of a release into a directory. @param {string} directory */

@@ -104,7 +104,7 @@ ${seen.size > 0 ? `<script type="module" src="${between(page, '')}external.js"><
 <body>
 ${navigation(page)}
 <main class="document">
-${html.replaceAll('<table>', '<div class="table"><table>').replaceAll('</table>', '</table></div>')}</main>
+${html.replaceAll('<table>', '<table class="api">')}</main>
 </body>
 </html>
 `;

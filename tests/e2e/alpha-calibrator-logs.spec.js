@@ -20,10 +20,10 @@ test('two tables of the reader’s own take the place of the simulated log, and 
   expect(await caption(widget).innerText()).toMatch(/ \d+ legs of odom\.csv, truth\.csv[.,]/);
   expect(await widget.evaluate((element) => /** @type {AlphaCalibratorElement} */ (element).machine.truth)).toBeNull();
   await expect(widget.locator('.drop-zone .present')).toHaveText('Log: odom.csv, truth.csv.');
-  // The summary stays beside the result.
+  // The summary stays visible next to the result.
   await expect(widget.getByRole('row', { name: /^rows used \d+ of/ })).toBeVisible();
   await expect(widget.getByRole('img', { name: /^Paths from above: .* m by .* m\.$/ })).toBeVisible();
-  // Their names say which is which, whatever the reader does.
+  // Their names decide the roles, not the order in which they are chosen.
   const hint = widget.getByText('its name is that of odometry, and truth.csv is not: was the odometry given as the reference?');
   await expect(hint).toHaveCount(0);
   await widget.getByLabel('odom.csv').selectOption('Reference');
@@ -77,7 +77,7 @@ test('a recording has both, and where it is not clear which topic is which, the 
     await expect(caption(widget)).toHaveText(new RegExp(`of ${name}, /odom, /mocap/pose[.,]`));
     await settled(widget);
     const read = await stats(widget);
-    // Quaternions round the headings.
+    // Conversion to quaternions rounds the headings.
     alphas.forEach((alpha, i) => expect(Number(read.alphas[i]) / Number(alpha)).toBeCloseTo(1, 9));
   }
 });
@@ -104,7 +104,7 @@ test('of files with poses and commands the velocity model takes the commands, an
   expect((await stats(widget)).alphas).toHaveLength(6);
   await model('Table 5.6', 'theta');
   await model('velocity', 'omega');
-  // A recording has the commands in a topic of their own.
+  // The recording has the commands in a separate topic.
   const buffer = await recordingWith(['/mocap/pose'], undefined, true);
   const topic = widget.getByLabel('Odometry', { exact: true });
   await widget.locator('#log-files').setInputFiles({ name: 'run.mcap', mimeType: 'application/octet-stream', buffer });
@@ -245,11 +245,11 @@ test('a log is read and fitted in a worker, and the page stays free', async ({ p
     const tasks = all.filter(({ entryType }) => entryType === 'longtask').map(({ duration }) => duration);
     return { longest: Math.max(0, ...tasks) / (performance.now() - since), shifts: all.flatMap(({ value, hadRecentInput }) => (value && !hadRecentInput ? value : [])) };
   }, began);
-  // In the page's thread the reading of a log would be one task of a third of the time.
+  // In the page's thread, reading a log would be one task that takes a third of the time.
   expect(longest).toBeLessThan(0.2);
   // From 0.1 on the Web Vitals say that a layout is not stable.
   expect(shifts.reduce((sum, shift) => sum + shift, 0)).toBeLessThan(0.1);
-  // A setting has the log fitted again; the former fit is shown until then.
+  // A changed setting starts another fit; the previous result is shown meanwhile.
   const { alphas } = await stats(widget);
   const changed = await widget.evaluate((element) => {
     const figure = /** @type {any} */ (element);

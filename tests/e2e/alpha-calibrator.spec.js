@@ -70,7 +70,7 @@ test('outliers are ringed, and decide the fit where they are not set aside', asy
   await widget.getByRole('radio', { name: 'fit as noise' }).check();
   await settled(widget);
   const after = await stats(widget);
-  // As the page says.
+  // Numbers from the text of the page.
   for (const alpha of [1, 2]) expect(Math.floor(Number(after.alphas[alpha]) / Number(before.alphas[alpha]))).toBe(16);
   expect(readFileSync(new URL('../../www/index.html', import.meta.url), 'utf8')).toContain('some sixteen times as large, and five checks fail');
   await expect(caption(widget)).toHaveText(/^✕ Do not use\s+Failed check: inflation that windows of 1 m need \(5 of 13 failed\)\..* \d+ legs of the simulated log\.$/);
@@ -85,7 +85,7 @@ test('a systematic error that is not corrected is named in the advice', async ({
   const after = await stats(widget);
   expect(after.systematicErrors.mountYaw.corrected).toBe(false);
   expect(after.systematicErrors.mountYaw.value).toBeCloseTo(0.07, 2);
-  // As the page says.
+  // Numbers from the text of the page.
   const [from, to] = [before, after].map(({ referenceNoise: { yawStd } }) => yawStd.value.toFixed(3));
   expect(readFileSync(new URL('../../www/index.html', import.meta.url), 'utf8')).toContain(`goes from ${from} to ${to}&nbsp;rad`);
   await expect(caption(widget)).toHaveText(/^! Caution\s+Failed check: correlation of neighbouring legs \(1 of 13 failed\)\.\s+\d+ legs /);
@@ -113,7 +113,7 @@ test('a leg is chosen in the picture, by its slider, and from one large residual
   expect(await stateOf(widget)).toMatchObject({ leg: worst[0] });
   await button.click();
   expect(await stateOf(widget)).toMatchObject({ leg: worst[1] });
-  // Its thumb is where the button has put it with the next picture.
+  // The thumb moves with the next picture.
   await frames(page);
   await widget.locator('#leg').press('ArrowRight');
   expect(await stateOf(widget)).toMatchObject({ leg: worst[1] + 1 });
@@ -221,7 +221,7 @@ test('legs of a time, and how well the reference is known, are set by their slid
   await time.locator('#duration').fill('0');
   await settled(widget);
   expect((await stats(widget)).alphas).toEqual(before.alphas);
-  // Noise of the reference is no noise of the wheels.
+  // Noise of the reference is not noise of the wheels.
   await expect(widget.locator('.slider:has(#positionStd) .typed')).toHaveValue('estimated');
   await widget.getByRole('slider', { name: /reference position σ/ }).fill('0.004');
   await widget.getByRole('slider', { name: /reference yaw σ/ }).fill('0.003');

@@ -1,5 +1,5 @@
 /**
- * States of the elements that a seed chooses.
+ * Random states of the elements, from a seed.
  *
  * @module
  */

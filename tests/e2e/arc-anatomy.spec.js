@@ -45,7 +45,7 @@ test('opens off the arc, and says which factor is the worst', async ({ page }) =
   await unfold(widget);
   expect(numberIn(await readout(widget, 'p of the tables').textContent())).toBeCloseTo(stats.prob, 3);
   expect(numberIn(await readout(widget, 'density').textContent())).toBeCloseTo(stats.density ?? NaN, 3);
-  // An entry of the legend under the pointer would highlight its line.
+  // The pointer must not be on an entry of the legend, which would highlight its line.
   await page.mouse.move(0, 0);
   for (const role of ['prior', 'prediction', 'accent', 'truth']) expect(await pixelsOf(picture(widget), role), role).toBeGreaterThan(role === 'accent' ? 10 : 20);
 });
@@ -151,9 +151,9 @@ test('each line of the table highlights its construction, and tells its value', 
     pictures.push(await pictureOf(picture(widget)));
   }
   await expect(on).toBeDisabled();
-  // The last line is what the bars are of.
+  // The last row is the product that the bars are factors of.
   await expect(widget.locator('.factors')).toHaveClass(/lit/);
-  // x* and y* are one centre.
+  // x* and y* are the coordinates of the centre.
   expect(new Set(pictures.slice(0, 9)).size).toBe(8);
   expect(pictures[2]).toBe(pictures[3]);
   expect(pictures[9]).toBe(pictures[0]);

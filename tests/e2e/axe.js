@@ -9,7 +9,7 @@ import axe from 'axe-core';
  * @param {string} [where] a selector
  */
 export async function expectAccessible(page, when, where = ':root') {
-  // Its wrapper for Playwright looks into frames as well, which there are none of, and takes twice as long.
+  // Its wrapper for Playwright also checks frames, which takes twice as long. The pages have no frames.
   if (!(await page.evaluate(() => 'axe' in globalThis))) await page.evaluate(axe.source);
   const violations = await page.evaluate(async (selector) => {
     const values = ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa', 'best-practice'];

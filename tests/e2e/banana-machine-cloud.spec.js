@@ -35,7 +35,7 @@ test('the cloud grows by itself, pauses, and goes on', async ({ page }) => {
   await play.click();
   await expect.poll(async () => (await state(widget)).shown, { timeout: 20_000 }).toBe(paused.config.samples);
   await expect(play).toBeVisible();
-  // The robots of the paused cloud are the first of the complete one.
+  // The robots of the paused cloud are the first robots of the complete one.
   expect((await posesOf(widget)).slice(0, first.length)).toEqual(first);
 });
 
@@ -122,7 +122,7 @@ test('a density leaves nothing of a larger one behind @nightly', async ({ page }
   for (const [dx, dy] of [[0, -150], [150, 0], [0, 150]]) await page.mouse.move(x + dx, y + dy, { steps: 6 });
   await page.mouse.up();
   const after = await pictureOf(plane);
-  // Another width takes another grid of cells.
+  // At another width the grid has other cells.
   for (const width of ['700px', '']) {
     await widget.evaluate((element, to) => void (element.style.width = to), width);
     await frames(page);
@@ -173,7 +173,7 @@ test('the sentence says what the model decides and the robots show', async ({ pa
   await widget.locator('#omega').fill('-0.5');
   await expect(sentence(widget)).toHaveText(/tail to the left/);
 
-  // Symmetric: exactly no skew, however many robots there are, and the ellipse covers twice the floor.
+  // Symmetric: the skew is exactly 0 for any number of robots, and the ellipse has twice the area.
   await press('Banana');
   await frames(page);
   const { table } = await state(widget);
@@ -184,11 +184,11 @@ test('the sentence says what the model decides and the robots show', async ({ pa
   await expect(sentence(widget)).toHaveText(
     new RegExp(`^The cloud is bent: its ellipse covers ${ratio} times the floor of the ξ outline\\. Both sides are alike: skew −?0\\.\\d+\\s±\\s0\\.\\d+, exactly 0 by symmetry\\.$`),
   );
-  // Nearly symmetric, and as bent.
+  // Nearly symmetric, but as strongly bent.
   await widget.locator('#omega').fill('0.02');
   await expect(sentence(widget)).toHaveText(/^The cloud is bent: its ellipse covers .* Both sides are nearly alike: skew −?0\.\d+\s±\s0\.\d+, exactly −?0\.0\d+\.$/);
   await widget.locator('#omega').fill('0');
-  // Hardly any noise in the turn: nothing is bent.
+  // Little noise in the turn: the cloud is not bent.
   for (const id of ['alpha3', 'alpha4']) await widget.locator(`#${id}`).fill('0.001');
   await expect(sentence(widget)).toHaveText(/^Both sides are alike: skew [^.]*\.\d+\s±\s[\d.]+, exactly 0 by symmetry\.$/);
 });

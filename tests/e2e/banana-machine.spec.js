@@ -37,7 +37,7 @@ test('a drag keeps the scale, and the view zooms out after it', async ({ page })
   expect(after.yMin).toBeLessThanOrEqual(before.yMin);
   expect(after.xMax).toBeGreaterThanOrEqual(before.xMax);
   expect(after.yMax).toBeGreaterThanOrEqual(before.yMax);
-  // A small cloud does not bring the view closer, a preset does.
+  // A small cloud does not zoom in, but a preset does.
   await dragSlider(widget.locator('#dt'), 0.05);
   await frames(page);
   expect(await extent()).toEqual(after);
@@ -61,7 +61,7 @@ test('Home and End move the end of the arc to the ends of v, and no key scrolls 
 test('the handle does not leap to another arc with the same end @nightly', async ({ page }) => {
   const widget = await open(page);
   const handle = widget.locator('.handle');
-  // Turns beyond half a circle, and in reverse: the shortest way there would be another.
+  // Turns beyond half a circle, and in reverse, where the shortest arc would be another one.
   for (const command of [{ v: 1, omega: 1.8, dt: 2.5 }, { v: -1, omega: 0.4, dt: 1 }]) {
     await set(widget, command);
     const before = await state(widget);
@@ -117,7 +117,7 @@ test('a dragged α moves the same robots, once a frame', async ({ page }) => {
   expect(after.shown).toBe(before.shown);
   expect(await pictureOf(widget.locator('canvas.plane'))).not.toBe(picture);
   expect(await readout(widget, 'cross-track skew').textContent()).not.toBe(skew);
-  // Several inputs between two frames are one change of the statistics.
+  // Several inputs between two frames cause one change of the statistics.
   const told = await widget.evaluate(async (element) => {
     let count = 0;
     element.addEventListener('stats', () => count++);
@@ -159,7 +159,7 @@ test('Isolate leaves one α in effect, shows the others as off, and lets go agai
     expect(omegaHat).toBeCloseTo(0.5, 9);
     expect(gammaHat).toBeCloseTo(0, 9);
   }
-  // Taking hold of another α selects it.
+  // Moving the slider of another α selects that α.
   await widget.getByRole('slider', { name: 'α3' }).fill('0.06');
   const { config } = await state(widget);
   expect(config).toMatchObject({ isolate: 3, alphas: before.config.alphas.with(2, 0.06) });

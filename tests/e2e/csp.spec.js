@@ -1,4 +1,4 @@
-// The elements under the strictest Content-Security-Policy that lets them run, and under one that does not.
+// Elements under the strictest Content-Security-Policy that allows them, and under one that does not.
 
 import { fileURLToPath } from 'node:url';
 import { expect, test as anyway } from '@playwright/test';
@@ -91,7 +91,7 @@ anyway('where there is no WebAssembly, a sentence says that it cannot run, in th
   await expect(widget.getByRole('alert')).toContainText('This interactive figure cannot run here.');
   expect(errors).toEqual([]);
   const colours = await widget.evaluate(async (element) => {
-    // One that nobody sees yet, too.
+    // The same for a figure that is not visible yet.
     const other = /** @type {HTMLElement} */ (element.cloneNode());
     other.style.marginTop = '5000px';
     document.body.append(other);

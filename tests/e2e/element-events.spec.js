@@ -33,7 +33,7 @@ test('a drag fires input at each step and one change at its end, composed, with 
   await dragSlider(widget.locator('#v'), 0.75);
   await frames(page);
   const all = await take();
-  // One listener hears all of them, each from the element itself, whatever native controls are inside.
+  // One listener gets all events, each from the element itself and not from native controls inside it.
   for (const [, origin, , bubbles, composed] of [...opening, ...all]) expect([origin, bubbles, composed]).toEqual(['banana-machine', true, true]);
   const gestures = all.filter(([name]) => name !== 'stats');
   expect(gestures.length).toBeGreaterThan(3);
@@ -153,7 +153,7 @@ async function expectFewCalls(page, name) {
     };
     next();
   });
-  // Members of the machine that were called since, a list a frame.
+  // Methods of the machine that were called, as one list for each frame.
   const asked = async () => {
     await settled(widget);
     return widget.evaluate((element) => /** @type {string[][]} */ (Reflect.get(element, 'calls')).splice(0, Infinity, []));
@@ -208,7 +208,7 @@ test('a handle that is dragged fires input at each step and one change', async (
   expect(names(await heard(page))).toEqual(Array(4).fill('input'));
   await page.mouse.up();
   expect(names(await heard(page))).toEqual(['change']);
-  // Taken and let go: nothing has changed.
+  // A handle is taken and released without a change.
   await page.mouse.down();
   await page.mouse.up();
   expect(names(await heard(page))).toEqual([]);

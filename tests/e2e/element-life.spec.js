@@ -56,7 +56,7 @@ test('figures far from the window fetch and compute nothing, and one module serv
   await show(page, `<div style="height: 5000px"></div>${NAMES.map((name) => `<${name}></${name}>`).join('')}`, {
     script: '<script type="module" src="/external.js"></script>',
   });
-  // Not by polling, which asks for frames.
+  // Polling is avoided, because it requests frames.
   await page.evaluate((tags) => Promise.all(tags.map((tag) => customElements.whenDefined(tag))).then(() => true), [...NAMES]);
   await pass(page);
   expect(await counted(page)).toEqual({ frames: 0, compiled: 0, instances: 0 });
@@ -210,7 +210,7 @@ test('folds, fields and height of a figure stay over a move and over a removal @
   expect(await open()).toEqual(before);
   await expect(field).toHaveValue(fold.value);
   await expect(folds.nth(fold.at).locator('.folded')).not.toBeEmpty();
-  // All the while it takes the room that it took.
+  // The height of the figure does not change meanwhile.
   expect(heights).toEqual([height, height]);
 });
 
@@ -259,7 +259,7 @@ test('a canvas that has got its context back is drawn again', async ({ page, fig
   const before = await pictureOf(canvas);
   const blank = await canvas.evaluate((element) => {
     const canvas = /** @type {HTMLCanvasElement} */ (element);
-    // As a browser does it.
+    // Events as a browser fires them.
     canvas.getContext('2d')?.reset();
     const blank = canvas.toDataURL();
     canvas.dispatchEvent(new Event('contextrestored'));

@@ -13,7 +13,7 @@ const UNLISTED = /** @type {const} */ ({
 });
 
 for (const [name, [key, usual, other]] of Object.entries(UNLISTED)) {
-  // All of them share the code of one.
+  // All figures share the code, so that one is enough.
   const tier = name === 'map-squeeze' ? '' : ' @nightly';
   test(`a preset of ${name} sets every setting but samples and seed, and is marked while all hold${tier}`, async ({ page }) => {
     const widget = await mount(page, name, { attributes: 'samples="50" seed="4"' });

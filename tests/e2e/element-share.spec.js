@@ -21,7 +21,7 @@ const THREE = `<banana-machine share></banana-machine>
 
 test('two widgets and an anchor share the fragment, and the link shows what was there', FRESH, async ({ page, context }) => {
   await show(page, THREE, { fragment: '#what-to-try&theme=a%20b' });
-  // The anchor is found though the fragment has more in it.
+  // The browser finds the anchor although the fragment has further parts.
   await expect.poll(() => page.evaluate(() => scrollY)).toBeGreaterThan(1000);
   const [first, second, third] = [0, 1, 2].map((i) => page.locator('banana-machine').nth(i));
   await first.scrollIntoViewIfNeeded();
@@ -94,19 +94,19 @@ test('a link leads to the figure that it was copied from, once; a reload leads n
   for (const i of [0, 1]) {
     await figure(page, i).scrollIntoViewIfNeeded();
     await ready(figure(page, i));
-    // The address has the first one's state when the second one is copied.
+    // The address contains the state of this figure when the link to the next one is copied.
     links.push(await fragmentOf(figure(page, i)));
     await page.evaluate((hash) => history.replaceState(null, '', hash), links[i]);
   }
   expect(links[1]).toMatch(/^#banana-machine\.2=.*&banana-machine\.1=/);
-  // The fragment has one part of a figure that is in the address already.
+  // A figure that is in the address already gets no second part.
   expect(await fragmentOf(figure(page, 1))).toBe(links[1]);
   for (const [i, fragment] of links.entries()) {
     const other = await context.newPage();
     await show(other, body, { fragment });
     await ready(figure(other, i));
     await expect.poll(async () => (await tops(other))[i]).toBeCloseTo(0);
-    // One more of them, and the reader is elsewhere.
+    // Elements that are added or moved later do not scroll the page.
     const moved = await other.evaluate(async () => {
       scrollTo(0, 100);
       document.body.append(document.createElement('banana-machine'));
@@ -117,7 +117,7 @@ test('a link leads to the figure that it was copied from, once; a reload leads n
     expect(moved).toBe(100);
     await other.close();
   }
-  // One that is followed on the page.
+  // A link that is followed on the page.
   await page.evaluate(() => scrollTo(0, 0));
   await page.evaluate((hash) => (location.hash = hash), links[0]);
   await expect.poll(async () => (await tops(page))[0]).toBeCloseTo(0);
@@ -160,7 +160,7 @@ test('a page with a base of its own keeps its address @nightly', async ({ page }
   const address = () => page.evaluate(() => location.href);
   await widget.getByRole('button', { name: 'Facing a wall' }).click();
   await expect.poll(address).toMatch(/\/bare\.html#map-squeeze\.1=[\w-]+$/);
-  // A later state takes the place of the former.
+  // A later state replaces the earlier one.
   const former = await address();
   await widget.getByRole('button', { name: 'Open corridor' }).click();
   await expect.poll(address).not.toBe(former);
@@ -181,7 +181,7 @@ test('a figure without share leaves the address alone, and opens its part of a l
   await ready(other.locator(figure));
   const opened = await stateOf(other.locator(figure));
   expect(opened).toEqual(await stateOf(widget));
-  // From there on the address shows what is on the screen, and going back leaves the page.
+  // From then on the address follows the figure, and "back" leaves the page.
   const entries = await other.evaluate(() => history.length);
   await other.locator(figure).locator(`#${slider}`).fill(String(values[1]));
   await expect.poll(async () => (await other.evaluate(() => location.hash)) === (await fragmentOf(other.locator(figure)))).toBe(true);
@@ -207,7 +207,7 @@ test('a figure with share keeps its state in the address, and follows it', async
   expect(await stateOf(widget)).not.toEqual(state);
   await page.evaluate((fragment) => (location.hash = fragment), former);
   await expect.poll(() => stateOf(widget)).toEqual(state);
-  // A plain anchor sets nothing.
+  // An anchor without a state changes nothing.
   await page.evaluate(() => (location.hash = '#end'));
   await frames(page);
   expect(await page.evaluate(() => document.querySelector(':target')?.id)).toBe('end');

@@ -82,7 +82,7 @@ test('a part of a state leaves the rest, and both models keep their noise', asyn
   await widget.evaluate((element) => /** @type {AnyElement} */ (element).setState({ widget: 'banana-machine', version: 1, model: 'velocity', samples: 500 }));
   expect(await stateOf(widget)).toEqual({ ...before, model: 'velocity', samples: 500, shown: 500 });
   expect(await widget.evaluate((element) => /** @type {AnyElement} */ (element).alphas[0])).toBe(0.15);
-  // Over a removal too.
+  // The state survives a removal too.
   const after = await stateOf(widget);
   await widget.evaluate(async (element) => {
     const parent = /** @type {Element} */ (element.parentElement);

@@ -5,7 +5,7 @@ import { STILL, frames, mount, pixelsOf, ready, show, test, unfold } from './sup
 
 test.use(STILL);
 
-/** Ground and text colours of themes of books and documentation sites, as a browser computes them. */
+/** Background and text colours of themes of books and documentation sites, as computed by a browser. */
 const THEMES = {
   'mdBook, light': ['#ffffff', '#000000'],
   'mdBook, rust': ['#e1e1db', '#262625'],
@@ -27,7 +27,7 @@ const THEMES = {
   sepia: ['#f4ecd8', '#5b4636'],
 };
 
-/** Least contrast with the ground, of text, lines and dots. */
+/** Minimum contrast with the background of text, lines and dots. */
 const CONTRAST = { ink: 4.5, muted: 4.5, prior: 4.5, prediction: 4.5, posterior: 4.5, accent: 4.5, cloud: 3, truth: 3 };
 
 /**
@@ -95,7 +95,7 @@ for (const [what, head, to] of SETTINGS) {
     for (const scheme of /** @type {const} */ (['dark', 'light'])) {
       await page.evaluate(to(scheme));
       await expect.poll(() => lookOf(widget)).toBe(scheme);
-      // The canvas has the colours of the present look.
+      // The canvas has the colours of the current theme.
       await expect.poll(() => pixelsOf(widget.locator('canvas.plane'), 'prior')).toBeGreaterThan(50);
     }
   });
@@ -129,7 +129,7 @@ test('a figure on the ground of any theme has its ink and letters, and enough co
     }
   }
   expect(await pixelsOf(widget.locator('canvas.plane'), 'prior')).toBeGreaterThan(50);
-  // An export has the ground of the page.
+  // An exported picture has the background of the page.
   const svg = await widget.evaluate((element) => /** @type {any} */ (element).toSVG());
   expect(svg).toContain('<rect width="100%" height="100%" fill="rgb(244, 236, 216)"/>');
 });
@@ -168,7 +168,7 @@ test('a light text on an image of the page asks for dark paper @nightly', async 
   expect((await coloursOf(widget, ['paper']))[0]).toEqual([18, 18, 18]);
 });
 
-/** Pages with black text on a dark ground: by the system's forced colours, and by a scheme of theirs. */
+/** Pages with black text on a dark background, by forced colours of the system and by their own scheme. */
 const BLACK_ON_DARK = /** @type {[string, Parameters<import('@playwright/test').Page['emulateMedia']>[0], string][]} */ ([
   ['black text in forced dark colours', { forcedColors: 'active', colorScheme: 'dark' }, 'body { background: white; color: black }'],
   ['black text in a dark scheme', { colorScheme: 'dark' }, ':root { color-scheme: light dark } body { color: #000 }'],
@@ -194,7 +194,7 @@ test('a theme other than that of the page gives a figure its own paper and ink @
   const style = 'body { background: #fff; color: #333; --color-foreground-muted: #112233; --color-background-border: #445566 }';
   const widget = await mount(page, 'banana-machine', { attributes: 'theme="dark"', head: `<style>${style}</style><link rel="stylesheet" href="/motion-widgets.css">` });
   expect(await surfaceOf(widget)).toMatchObject({ backgroundColor: 'rgb(22, 24, 27)', color: 'rgb(235, 233, 227)', colorScheme: 'dark' });
-  // Neither do the page's other colours fit that paper.
+  // The other colours of the page do not fit that background either.
   const ofPage = ['#112233', '#445566'];
   for (const colour of (await coloursOf(widget, ['muted', 'rule'])).map(hex)) expect(ofPage).not.toContain(colour);
   await widget.evaluate((element) => element.setAttribute('theme', 'light'));
@@ -202,7 +202,7 @@ test('a theme other than that of the page gives a figure its own paper and ink @
   expect((await coloursOf(widget, ['muted', 'rule'])).map(hex)).toEqual(ofPage);
 });
 
-/** Names that themes have for muted text, hairlines and the height of the header, which the stylesheet adopts. */
+/** Custom properties of themes for muted text, hairlines and the height of the header, which the stylesheet uses. */
 const NAMES_OF_THEMES = {
   Docusaurus: ['--ifm-color-emphasis-700', '--ifm-color-emphasis-300', '--ifm-navbar-height'],
   VitePress: ['--vp-c-text-2', '--vp-c-border', '--vp-nav-height'],
@@ -234,7 +234,7 @@ test('the stylesheet adopts muted text, hairlines and header height of a theme, 
 
 test('a figure has the paper and ink of --motion-paper and --motion-ink @nightly', async ({ page, figure }) => {
   const widget = await mount(page, figure, { attributes: 'style="--motion-paper: #102030; --motion-ink: #f0f0f0"', head: '<style>body { background: #fff; color: #000 }</style>' });
-  // Light letters on dark paper: hues of the dark.
+  // Light text on a dark background: the dark palette.
   expect(await surfaceOf(widget)).toMatchObject({ backgroundColor: 'rgb(16, 32, 48)', color: 'rgb(240, 240, 240)', colorScheme: 'dark' });
   expect(await widget.locator('.slider .effect').first().evaluate((element) => getComputedStyle(element).backgroundColor)).toBe('rgb(16, 32, 48)');
 });

@@ -17,7 +17,7 @@ function trap(widget, slider) {
   return widget.evaluate((element, id) => {
     const { machine, shadowRoot } = /** @type {AnyElement} */ (element);
     Object.assign(window, { trapped: machine });
-    // An address that is outside of the memory.
+    // Address outside of the memory.
     machine.__wbg_ptr = 0x7ffffff0;
     shadowRoot?.querySelector(`#${id}`)?.dispatchEvent(new Event('input', { bubbles: true, composed: true }));
   }, slider);
@@ -54,7 +54,7 @@ test('a core that traps is restarted with the same state and picture, and no oth
   // The figure goes on.
   await widget.locator(`#${slider}`).fill(String(values[1]));
   await expect(widget).toHaveAttribute(slider, String(values[1]));
-  // After a picture, another trap is mended too.
+  // After the next picture, the figure recovers from another trap too.
   await frames(page);
   await trap(widget, slider);
   await restarted(widget);

@@ -75,7 +75,7 @@ test('presets keep the map of the reader, and buttons lead to the apartment and 
   const widget = await openSqueeze(page);
   await choose(widget, [file('room.json', JSON.stringify(ROOM))]);
   await expect(present(widget)).toContainText('room.json');
-  // The places of the apartment are the apartment's.
+  // The presets are positions in the apartment, and are not offered here.
   for (const name of ['Facing a doorway', 'Facing a wall', 'Open corridor']) {
     await expect(widget.getByRole('button', { name })).toHaveCount(0);
   }
@@ -101,11 +101,11 @@ test('presets keep the map of the reader, and buttons lead to the apartment and 
 test('unknown cells are hatched, and free or blocked as the reader chooses @nightly', async ({ page }) => {
   const widget = await openSqueeze(page);
   await expect(widget.getByRole('radiogroup', { name: 'Unknown cells' })).toHaveCount(0);
-  // A corridor of 4 m × 1 m, of which the right half is unknown.
+  // A corridor of 4 m × 1 m, whose right half is unknown.
   const image = png('map.png', 80, 20, () => false, (column) => column >= 40);
   await choose(widget, [yaml('map.yaml', { ...FIELDS, image: 'map.png', mode: 'scale' }), image]);
   await expect(present(widget)).toContainText('map.yaml');
-  // In the left half, of which something is known.
+  // In the left half, which is known.
   expect((await squeezed(widget)).config.start.x).toBeLessThan(2);
   await widget.evaluate((element) => Object.assign(element, { theta: 0 }));
   const canvas = widget.locator('canvas.plane');
@@ -122,7 +122,7 @@ test('unknown cells are hatched, and free or blocked as the reader chooses @nigh
   expect(await pictureOf(canvas)).not.toBe(free);
   await expect(widget.locator('.legend').getByLabel('unknown cells')).toBeChecked();
 
-  // A state has both, and brings both back.
+  // A state contains both, and restores both.
   const state = await widget.evaluate((element) => JSON.stringify(/** @type {any} */ (element).getState()));
   await widget.getByRole('button', { name: 'Back to the apartment' }).click();
   await expect(choice).toHaveCount(0);
@@ -157,7 +157,7 @@ test('a map_server pair can be dropped on the widget', async ({ page }) => {
   await expect(present(widget)).toBeVisible();
   const { bounds, walls, startFree, config, openPlace } = await squeezed(widget);
   expect(bounds.map((bound) => Number(bound.toFixed(12)))).toEqual([0, 0, 3, 2]);
-  // The outside of the border and its inside.
+  // The outer and the inner outline of the border.
   expect(walls).toHaveLength(8 * 4);
   expect(startFree).toBe(true);
   expect(config.start).toEqual(openPlace);
@@ -173,7 +173,7 @@ test('why a dropped map is refused is said in sight of the drop, until it is clo
   await drop(widget.locator('.stage'), [file('room.txt', 'a room')]);
   const alert = widget.getByRole('alert');
   await expect(alert).toHaveText(/^room\.txt: this kind of file is not read/);
-  // Edges within a pixel of the screen's count for less than all of it.
+  // Rounding to device pixels makes the visible ratio slightly smaller than 1.
   await expect(alert).toBeInViewport({ ratio: 0.99 });
   expect(await page.evaluate(() => scrollY)).toBe(place);
   expect(await squeezed(widget)).toEqual(before);
@@ -190,7 +190,7 @@ test('an occupancy grid has its yaw and its mode, and its image may be a PNG in 
       [1 - 0.03 * ROWS, 2, 1, 2 + 0.03 * COLUMNS], 8,
     ],
     [
-      // The border is a bracket that is open to the left, where nothing is known.
+      // The border is open to the left, where the map is unknown.
       [yaml('scale.yml', { ...FIELDS, image: 'maps/room.png', mode: 'scale' }), png('room.png', COLUMNS, ROWS, border, (column) => column < 30)],
       [0, 0, 3, 2], 8,
     ],

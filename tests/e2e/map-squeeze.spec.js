@@ -98,7 +98,7 @@ test('the robot stays inside the map, and says so to the eye and to the ear', as
   expect(await stop()).toBe('none');
   expect((await squeezed(widget)).config.start.x).toBe(0);
 
-  // From the keyboard: it is told where it stands, and why no further.
+  // With the keyboard, the position and the obstacle are announced.
   const told = /^x = 0\.00 m, y = \d\.\d\d m\. The map ends here$/;
   await expect(body(widget)).toHaveAttribute('aria-valuetext', told);
   await body(widget).press('ArrowRight');
@@ -206,7 +206,7 @@ test('every cost is that of the sampler, and a core’s share follows from it', 
   const widget = await openSqueeze(page);
   await widget.getByRole('button', { name: 'Facing a wall' }).click();
   await unfold(widget, 'Numbers and data');
-  // From then on the figures before are out of date.
+  // From then on the previous numbers are out of date.
   await frames(page);
   const table = widget.locator('.table');
   await expect(table).toHaveAttribute('aria-busy', 'false');
@@ -215,7 +215,7 @@ test('every cost is that of the sampler, and a core’s share follows from it', 
   );
   expect(rows).toHaveLength(3);
   const [endpoint, wholeArc, subStepped] = rows.map((row) => row.map(numberIn));
-  // Accepted are 83 % of the draws at the end, and 11 % on the way; four parts take four draws and more.
+  // At the end pose 83 % of the draws are accepted, along the path 11 %; with four parts there are four draws or more.
   expect(endpoint[0]).toBeCloseTo(1.2, 1);
   expect(wholeArc[0]).toBeGreaterThan(7);
   expect(subStepped[0]).toBeGreaterThan(4);
@@ -238,7 +238,7 @@ test('a wedged robot is said to be one, with the draws that were tried @nightly'
   expect(stats.gaveUp).toBe(true);
   await expect(note).toContainText('The robot is wedged');
   const tried = ((await note.textContent()) ?? '').replaceAll('\u202f', '');
-  // No other sentence counts the same motions in another way.
+  // No other sentence contains another count of the same motions.
   const through = stats.throughWall === 0 ? 'none of them' : `${stats.throughWall} of them, ${(100 * stats.throughWallRate).toFixed(1)}%,`;
   const ended = `only ${stats.accepted} of ${config.samples} motions were completed; ${through} went through a wall`;
   expect(tried.trim()).toBe(`The robot is wedged: of ${stats.drawn} sub-steps drawn, ${stats.accepted === 0 ? 'none completed a motion' : ended}.`);
@@ -246,7 +246,7 @@ test('a wedged robot is said to be one, with the draws that were tried @nightly'
   expect(described).toContain(`${stats.drawn} sub-steps drawn; ${stats.accepted} motions accepted`);
   expect(described.includes('crosses')).toBe(stats.accepted < stats.attempts);
 
-  // Into the wall: no way from there is free.
+  // Start in the wall, from which no path is free.
   await widget.getByLabel('Whole arc').check();
   const { x, y } = await centreOf(body(widget));
   const up = 1.2 * (await pixelsPerMetre(widget));
@@ -282,7 +282,7 @@ test('a sample pointed at, or named, shows its verdict', async ({ page }) => {
   await field.fill('');
   expect(await pictureOf(canvas)).toBe(plain);
 
-  // The sample furthest to the right, where no other is nearer.
+  // The sample furthest to the right, which has no near neighbour.
   let last = 0;
   for (let i = 0; i < verdicts.length; i++) if (poses[3 * i] > poses[3 * last]) last = i;
   const { x, y } = await centreOf(body(widget));
@@ -314,7 +314,7 @@ test('the edge of a doorway and a wall are dragged, and Back to the apartment un
     await page.mouse.up();
     return squeezed(widget);
   };
-  // The left edge of the doorway that the robot faces, at x = 1.6 m, as far as it goes: the right one is at 2.5 m.
+  // The left edge of the doorway ahead, from x = 1.6 m to its limit: the right edge is at 2.5 m.
   const narrow = await drag(widget.locator('.handle.to-4'), 300, 40);
   expect(narrow.walls.slice(16, 20)).toEqual([0, 3.8, expect.closeTo(2.45, 9), 3.8]);
   expect(narrow.stats.throughWall).toBeGreaterThan(before.stats.throughWall);
@@ -325,7 +325,7 @@ test('the edge of a doorway and a wall are dragged, and Back to the apartment un
   expect(y0).toBeGreaterThan(5);
   expect(y1).toBe(y0);
   await expect(widget.locator('canvas.plane')).toHaveAttribute('aria-label', /Edited apartment/);
-  // Many samples are judged when the walls have come to rest.
+  // The full number of samples is tested after the walls have stopped moving.
   await widget.evaluate((element) => Object.assign(element, { samples: 5000 }));
   const many = await drag(widget.locator('.handle.side-8'), 0, -20);
   expect(many.walls[33]).toBeGreaterThan(y0 + 0.1);
@@ -364,7 +364,7 @@ test('the picture and the announcements have words', async ({ page }) => {
   const said = `${after.accepted} of 600 motions keep clear of walls all the way and are accepted; none of them went through a wall.`;
   await expect(status).toHaveText(said);
   await expect(widget.locator('.verdict')).toHaveText(said);
-  // Without the map all are accepted.
+  // Without the condition all samples are accepted.
   await unfold(widget, 'More controls');
   await widget.getByLabel('Check samples against the map').uncheck();
   const { throughWall } = (await squeezed(widget)).stats;
@@ -418,7 +418,7 @@ test('many samples are a density, those through a wall in a colour of their own'
   await widget.evaluate((element) => Object.assign(element, { samples: 20_000 }));
   await expect(about).toContainText('Density');
   expect((await squeezed(widget)).stats.throughWall).toBeGreaterThan(4000);
-  // Behind the wall at y = 5 all came through one; between the posts of the doorway, hardly one did.
+  // All samples behind the wall at y = 5 passed through one; between the posts of the doorway hardly any did.
   const [behind, between] = await widget.evaluate((element) => {
     const { picture: { view }, renderRoot } = /** @type {any} */ (element);
     const canvas = renderRoot.querySelector('canvas.plane');

@@ -19,7 +19,7 @@ import { NAMES } from './figures.js';
 const EVENTS = Number(process.env.MONKEY_EVENTS ?? 600);
 const SEED = Number(process.env.MONKEY_SEED ?? 1);
 
-/** Events between two looks at what they led to. */
+/** Number of events between two checks of the page. */
 const ROUND = 250;
 
 /** Parts of a widget that are clicked and dragged. */
@@ -32,7 +32,7 @@ const LANGUAGES = ['en', 'de', 'de-AT', 'fr', '', 'constructor', 'x'];
 const SIZES = [[1280, 720], [375, 667], [320, 480], [800, 400], [1920, 1080], [600, 900]];
 
 const HALL = pgm('hall.pgm', 30, 20, (column, row) => column % 29 === 0 || row % 19 === 0);
-/** Files as they come, the first of them a map. */
+/** Files that readers may drop, the first of them a map. */
 const FILES = [
   [yaml('hall.yaml', { image: 'hall.pgm', resolution: 0.1, origin: '[0, 0, 0]', negate: 0, occupied_thresh: 0.65, free_thresh: 0.2 }), HALL],
   [file('plan.json', JSON.stringify({ bounds: [0, 0, 5, 4], walls: [[0, 0, 5, 0], [5, 0, 5, 4], [5, 4, 0, 4], [0, 4, 0, 0]] }))],
@@ -92,7 +92,7 @@ const DEEDS = {
     await page.mouse.move(part.x, part.y);
     await page.mouse.down();
     await page.mouse.move(part.x + by[0], part.y + by[1], { steps: 4 });
-    // Now and then something else comes along while it is held.
+    // Sometimes another event happens during a drag.
     if (luck.below(4) > 0) await page.mouse.up();
     return `${part.what} by ${by}`;
   },
@@ -180,7 +180,7 @@ const DEEDS = {
       return `${name} ${choice === 0 ? `${field}: ${JSON.stringify(text)}` : 'a former state'}`;
     }, [name, choice, key, text]);
   },
-  /** In a cloud of millions everything else would take its time. */
+  /** Sets a small number of samples: with millions everything else would be slow. */
   async few(page, luck) {
     const [name, samples] = [luck.one(NAMES), luck.one([1, 20, 300, 2000])];
     return page.evaluate(([name, samples]) => {
@@ -235,7 +235,7 @@ function complaintsAbout(page, name) {
       const hash = [...new Uint8Array(await crypto.subtle.digest('SHA-256', bytes))].join();
       return JSON.stringify([one.getState(), one.stats, hash], (_, value) => (Number.isFinite(value) || typeof value !== 'number' ? value : String(value)));
     };
-    // A cloud that grows would have more samples in the next moment.
+    // A growing cloud would have more samples a moment later.
     element.setState({ ...element.getState(), playing: false });
     const before = await told(element);
     const state = element.getState();
@@ -257,7 +257,7 @@ test('random actions leave every figure sound @nightly', FRESH, async ({ page })
   page.on('dialog', (dialog) => dialog.dismiss());
   await page.addInitScript(() => {
     Object.assign(window, { kept: [], trouble: [] });
-    // Refusals are told by an event, and are no trouble: what else goes wrong is.
+    // A refused value fires an `error` event, which is expected. Other errors are not.
     addEventListener('error', (event) => {
       const { error } = event;
       event.preventDefault();

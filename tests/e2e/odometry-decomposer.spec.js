@@ -31,7 +31,7 @@ test('the views have room for the arcs of the turns and for nearly every outcome
     const { pictures, scene } = /** @type {any} */ (element);
     const lost = pictures.map((/** @type {any} */ { view: { extent } }) => Array.from({ length: scene.poses.length / 3 }, (_, i) => scene.poses.subarray(3 * i, 3 * i + 2))
       .filter(([x, y]) => x < extent.xMin || x > extent.xMax || y < extent.yMin || y > extent.yMax).length);
-    // Half a turn below the end of the drive, whose radius is some 64 pixels.
+    // Space below the end of the drive, where the ring of half a turn has a radius of some 64 pixels.
     const { view } = pictures[0];
     return { lost, below: view.frame.bottom - view.toPixelY(scene.linkage[7]) };
   });
@@ -90,7 +90,7 @@ test('a rule is chosen in the table, which has the deviations of each rule', asy
   await expect(row('Table 5.6').locator('td')).toHaveText(['0.517', '0.602', '0.534', '0.000', '0.626', '0.743']);
   await expect(row('AMCL of Nav2').locator('td')).toHaveText(['0.131', '0.130', '0.126', '0.000', '0.161', '0.182']);
   await expect(row('AMCL, omnidirectional').locator('td')).toHaveText(['0.000', '0.124', '0.125', '0.124', '0.124', '0.125']);
-  // Cells that differ from the printed table stand out.
+  // Cells that differ from the printed table are marked.
   await expect(row('Table 5.6').locator('strong')).toHaveCount(0);
   await expect(row('AMCL of Nav2').locator('strong')).toHaveText(['0.131', '0.130', '0.126', '0.161', '0.182']);
   const before = await told(widget);
@@ -109,7 +109,7 @@ test('on paper every rule has its name, and the chosen one stands out @nightly',
   await expect(widget.locator('.rules input').first()).toBeHidden();
   await expect(name('Table 5.6')).toHaveCSS('font-weight', '700');
   await expect(name('Beluga 2')).not.toHaveCSS('font-weight', '700');
-  // Elsewhere what is not chosen stays off it.
+  // Of other radio buttons, paper shows the selected one only.
   await page.emulateMedia({ media: 'screen' });
   await unfold(widget);
   await page.emulateMedia({ media: 'print' });

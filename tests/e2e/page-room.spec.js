@@ -9,7 +9,7 @@ import { FRESH, STILL, boxOf, frames, mount, ready, show, test } from './support
 
 test.use(STILL);
 
-/** Greatest difference between the room that is kept and the room that a figure takes, in any font and at any width up to 80 em, em. */
+/** Greatest difference between the reserved height and the height of a figure, em, in any font and at any width up to 80 em. */
 const TOLERANCE = 8;
 
 /**
@@ -50,7 +50,7 @@ async function expectRoom(page, name, widths) {
     expect(after).toBeGreaterThanOrEqual(before[i]);
     expect(after - before[i]).toBeLessThan(TOLERANCE);
   }
-  // Not much is left empty below the figure.
+  // Little space is left empty below the figure.
   const emptied = await widget.evaluate((element) => {
     const [machine, folds] = ['.machine', '.folds'].map((part) => element.shadowRoot?.querySelector(part)?.getBoundingClientRect().bottom ?? NaN);
     return (machine - folds) / 16;

@@ -63,7 +63,7 @@ test('a figure keeps its roles, its tracks and its pressed button in forced colo
   const [pressed, other] = await Promise.all(['Banana', 'Straight'].map((name) =>
     widget.getByRole('button', { name }).evaluate((button) => getComputedStyle(button).backgroundColor)));
   expect(pressed).not.toBe(other);
-  // The right end of a slider near its left end shows the track alone.
+  // The right end of a slider in its leftmost position shows the track only.
   await unfold(widget);
   const slider = widget.locator('#alpha5');
   const withTrack = await slider.screenshot();
@@ -78,7 +78,7 @@ async function expectTabStops(page, name) {
     const root = /** @type {ShadowRoot} */ (element.shadowRoot);
     const stops = [...root.querySelectorAll('button, input, select, textarea, summary, a[href], .handle')].filter((each) => {
       const { type, name, checked } = /** @type {HTMLInputElement} */ (each);
-      // The field of a slider's value is reached from the slider, the others of a group from the one that is chosen.
+      // The field of a slider is reached from the slider, and other radio buttons of a group from the selected one.
       if (each.matches(':disabled, .typed, [tabindex="-1"]') || !each.checkVisibility({ visibilityProperty: true })) return false;
       return type !== 'radio' || checked || !root.querySelector(`input[name="${name}"]:checked`);
     });
@@ -215,7 +215,7 @@ test.describe('a finger', () => {
       const before = await stateOf(widget);
       const { x, y, width, height } = await boxOf(part);
       const scrolled = await page.evaluate(() => scrollY);
-      // No thumb is at a third of the width.
+      // No thumb is at a third of the width, so that the track is visible there.
       await swipe(page, { x: x + 0.3 * width, y: y + height / 2 });
       await expect.poll(() => page.evaluate(() => scrollY)).toBeGreaterThan(scrolled + 60);
       expect(await stateOf(widget), selector).toEqual(before);
@@ -253,7 +253,7 @@ test('paper has the figure and its settings, in light colours, and nothing to pr
   await page.emulateMedia({ colorScheme: 'light' });
   const widget = await mount(page, 'banana-machine', { head: '<style>:root { color-scheme: light dark }</style>' });
   const canvas = widget.locator('canvas.plane');
-  // At once: no frame comes between.
+  // Synchronously, without a frame in between.
   const print = () => canvas.evaluate((element) => {
     dispatchEvent(new Event('beforeprint'));
     const printed = /** @type {HTMLCanvasElement} */ (element).toDataURL();
@@ -312,7 +312,7 @@ test('paper has the folds of a figure that the reader opened, and nothing to pre
 async function expectNarrow(page, name, lang) {
   await page.setViewportSize({ width: 320, height: 812 });
   const widget = await unfolded(page, name, { attributes: `lang="${lang}"` });
-  /** Parts that are right of the window, other than those that can be scrolled to. */
+  /** Elements beyond the right edge of the window, except for those that can be scrolled to. */
   const beyond = () => widget.evaluate((element) => {
     const { body } = document;
     const isReached = (/** @type {Element} */ part) => {
@@ -347,7 +347,7 @@ test('the help of a slider covers no slider of its group, and no outline crosses
         const slider = /** @type {HTMLInputElement} */ (row.querySelector('input[type=range]'));
         slider.focus();
         const help = /** @type {Element} */ (row.querySelector('.effect')).getBoundingClientRect();
-        // The outline of a thumb is 4 px about it, and a thumb 0.525 rem about its middle.
+        // The outline of a thumb is 4 px wide, and a thumb has the radius 0.525 rem.
         return [.../** @type {Element} */ (row.closest('fieldset, .controls')).querySelectorAll('.slider input[type=range]')]
           .map((each) => each.getBoundingClientRect())
           .filter(({ top, bottom }) => (top + bottom) / 2 + 0.525 * 16 + 4 > help.top && (top + bottom) / 2 < help.bottom)

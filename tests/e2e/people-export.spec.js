@@ -70,7 +70,7 @@ test('CSV of the Banana Machine has the samples, their skew, and the settings th
     ...['v_hat_m_per_s', 'omega_hat_rad_per_s', 'gamma_hat_rad_per_s'],
   ]);
   expect(rows).toHaveLength(shown);
-  // Every digit comes back.
+  // Numbers keep every digit.
   expect(rows.flatMap((row) => row.slice(0, 3))).toEqual(poses);
   const skew = crossTrackSkew(rows);
   expect(skew).toBeCloseTo(stats.crossTrackSkew, 9);
@@ -114,7 +114,7 @@ test('SVG is vectors with a title and a description: dots while they are few, el
   expect(few.texts).toBeGreaterThan(8);
   const drawn = await svgOf(widget);
   for (const name of ['Gaussian in (x, y)', 'Gaussian in ξ', 'command']) expect(drawn).toContain(`>${name}`);
-  // A ring stands for the handle, which is an element on the page.
+  // The handle, an element on the page, is exported as a ring.
   expect(drawn).toMatch(/<path[^>]*a7\.5,7\.5[^>]*stroke-width="3"/);
   await widget.locator('#samples').fill('9');
   await frames(page);
@@ -135,7 +135,7 @@ for (const [tag, own] of Object.entries(presets)) {
     await assign(widget, 'preset', name);
     const { title, texts, paths, size } = await elementsOf(page, await svgOf(widget));
     expect(title).not.toBe('');
-    // The axes at least, and what the lines are called.
+    // At least the axes and the names of the lines are drawn.
     expect(texts, name).toBeGreaterThan(6);
     expect(paths, name).toBeGreaterThan(10);
     expect(Math.min(...size), name).toBeGreaterThan(100);

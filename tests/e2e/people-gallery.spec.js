@@ -12,7 +12,7 @@ test('examples of the reference start when they are opened, and are what their c
   for (const example of await examples.all()) {
     const element = example.locator('banana-machine, map-squeeze');
     expect(await element.evaluate((each) => Reflect.get(each, 'machine') === undefined)).toBe(true);
-    // The figure names more of them where they are no preset's.
+    // Read before the figure starts, which writes further attributes if the settings match no preset.
     const given = await element.evaluate((each) => Object.fromEntries([...each.attributes].map(({ name, value }) => [name, value])));
     await example.locator('summary').first().click();
     await element.locator('canvas').first().scrollIntoViewIfNeeded();
@@ -29,7 +29,7 @@ test('examples of the reference start when they are opened, and are what their c
   }
 });
 
-/** Values of items that leave a preset what it is. */
+/** Settings of items that do not change the preset. */
 const OUTSIDE_PRESETS = ['preset', 'samples', 'overlays', 'line', 'morph'];
 
 /**
@@ -46,7 +46,7 @@ async function expectItems(page, name) {
   await ready(figure);
   const buttons = await article.locator('button[data-try]').all();
   const press = async (/** @type {import('@playwright/test').Locator} */ button) => {
-    // Those in a closed disclosure, too.
+    // Clicked by script, because some buttons are in a closed disclosure.
     await button.evaluate((element) => /** @type {HTMLElement} */ (element).click());
     await expect(button).toHaveAttribute('aria-current', 'true');
     await frames(page);
@@ -55,7 +55,7 @@ async function expectItems(page, name) {
       const state = /** @type {any} */ (element).getState();
       return [state, Object.fromEntries(keys.map((key) => [key, key in element ? Reflect.get(element, key) : Reflect.get(state, key)]))];
     }, Object.keys(values));
-    // A preset that something was changed of is none.
+    // After a change no preset is selected.
     const preset = Object.keys(values).every((key) => OUTSIDE_PRESETS.includes(key)) ? values.preset : properties.preset;
     expect(properties).toEqual({ ...values, ...(values.preset && { preset }) });
     return state;

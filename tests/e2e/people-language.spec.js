@@ -198,7 +198,7 @@ test('signs stand left of their numbers on a page from right to left, also among
 });
 
 test('a page translator that replaces every text freezes none @nightly', async ({ page, figure }) => {
-  // A figure out of sight waits to be drawn: both are in sight.
+  // A figure outside the viewport is not drawn: both have to be visible.
   await page.setViewportSize({ width: 1280, height: 4000 });
   await show(page, `<${figure} id="translated"></${figure}><${figure} id="other"></${figure}>`);
   const [translated, other] = ['#translated', '#other'].map((id) => page.locator(id));

@@ -15,7 +15,7 @@ test('the button fills the screen, C shows the controls, and Escape leaves', asy
   await widget.getByRole('button', { name: 'Present' }).click();
   await expect.poll(() => page.evaluate(() => document.fullscreenElement?.localName)).toBe('banana-machine');
   const controls = widget.getByRole('button', { name: 'C Controls' });
-  // After a click, no ring is before the audience; what has the focus is beside the buttons.
+  // After a click no focus ring is visible to the audience.
   await expect(widget.locator('.presenting')).toBeFocused();
   await expect(widget.locator('.presenting')).toHaveCSS('outline-style', 'none');
   await expect(widget.locator('.title-slot')).toBeVisible();
@@ -43,12 +43,12 @@ test('the button fills the screen, C shows the controls, and Escape leaves', asy
 test('without full screen the attribute fills the window, and the button leaves', async ({ page }) => {
   await page.addInitScript(() => (Element.prototype.requestFullscreen = () => Promise.reject(new TypeError('refused'))));
   const widget = await mount(page, 'banana-machine');
-  // Slides are scaled by a transform, which would be the window of a fixed box.
+  // Slides are scaled by a transform, to which fixed boxes would be relative.
   await page.evaluate(() => (document.body.style.transform = 'scale(0.5)'));
   const before = await boxOf(widget);
   await widget.evaluate((element) => void Object.assign(element, { presentation: true }));
   await expect.poll(() => boxOf(widget)).toEqual({ x: 0, y: 0, width: 1920, height: 1080 });
-  // A handle stays under the pointer, whatever the size of the letters.
+  // A handle stays under the pointer at any font size.
   const handle = widget.getByRole('slider', { name: 'End of the commanded arc' });
   await frames(page);
   const from = await centreOf(handle);
@@ -85,7 +85,7 @@ test('the key 0 brings back the state in which the presentation began', async ({
   await widget.evaluate((element) => void Object.assign(element, { preset: 'hard', omega: 0.7 }));
   const prepared = await stateOf(widget);
   await widget.getByRole('button', { name: 'Present' }).click();
-  // A slider that has the focus leaves digits to the presentation.
+  // While a slider has the focus, digits select presets of the presentation.
   await page.keyboard.press('c');
   await widget.getByRole('slider', { name: 'speed' }).press('ArrowUp');
   expect(await stateOf(widget)).not.toEqual(prepared);

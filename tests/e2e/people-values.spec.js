@@ -29,18 +29,18 @@ test('a digit on a slider leads into its value, Enter back, and the value may li
   await expect(slider).toBeFocused();
   expect(await property(widget, 'alpha1')).toBe(0.4);
   expect((await heard(page, ['input', 'change'])).map(({ name }) => name)).toEqual(['input', 'change']);
-  // The thumb stands at its end.
+  // The thumb is at the end of the slider.
   await expect(slider).toHaveValue('0.2');
   await expect(slider).toHaveAttribute('aria-valuetext', '0.400');
   await expect(help(widget, 'alpha1')).toHaveText('The slider ends at 0.200; values beyond can be typed.');
   await expect(help(widget, 'alpha1')).toBeVisible();
-  // Back on the slider, it goes on from its end.
+  // From the field back to the slider, which continues from its end.
   await page.keyboard.press('ArrowLeft');
   expect(await property(widget, 'alpha1')).toBeLessThan(0.2);
-  // At its end, values beyond can be typed.
+  // Values beyond the end of the slider can be typed.
   await page.keyboard.press('End');
   await expect(help(widget, 'alpha1')).toHaveText('The slider ends at 0.200; values beyond can be typed.');
-  // Below its least value, none is allowed.
+  // The minimum of this slider is the minimum of the setting.
   await page.keyboard.press('Home');
   await expect(help(widget, 'alpha1')).not.toContainText('The slider ends');
 });
@@ -61,7 +61,7 @@ test('a value is typed with its unit, a true minus and few more decimals, and Es
   await expect(widget.locator('#v')).toBeFocused();
   await expect(field).toHaveValue('\u22122.125 m/s');
   expect(await property(widget, 'v')).toBe(-2.125);
-  // From the slider by Enter, and nothing is changed by that alone.
+  // Enter leads from the slider to the field, and changes nothing by itself.
   await heard(page);
   await page.keyboard.press('Enter');
   await expect(field).toBeFocused();
@@ -91,12 +91,12 @@ test('a value that is refused is reported with the allowed range, and the last g
     expect(await property(widget, key)).toBe(before);
     expect(await heard(page)).toEqual([]);
     if (key === 'samples') await expectAccessible(page, undefined, 'banana-machine');
-    // The sentence goes when something else is typed.
+    // The message disappears when the text changes.
     await page.keyboard.type('1');
     await expect(widget.locator('[role=alert]')).toHaveCount(0);
     await page.keyboard.press('Escape');
   }
-  // Groups of digits are taken as English and as the page print them.
+  // Thousands separators are accepted in the English form and in the form of the page.
   for (const text of ['2,000', '3\u202f000']) {
     await valueField(widget, 'samples').fill(text);
     await page.keyboard.press('Enter');
@@ -160,7 +160,7 @@ test('a change by the page leaves what is being typed @nightly', async ({ page }
   await page.keyboard.type('2');
   await page.keyboard.press('Enter');
   expect(await property(widget, 'alpha1')).toBe(0.12);
-  // Escape leads back to the value that is there now.
+  // Escape leads back to the slider, with the current value.
   await field.focus();
   await page.keyboard.type('9');
   await set(0.17);
@@ -182,7 +182,7 @@ test('German has a decimal comma, and takes a point too', async ({ page }) => {
     expect(await property(widget, 'alpha1')).toBe(value);
   }
   await expect(valueField(widget, 'alpha1')).toHaveValue('0,450');
-  // Robots are counted in whole numbers: a point before three digits groups thousands.
+  // Numbers of robots are integers: a point before three digits separates thousands.
   await widget.locator('#samples').focus();
   await page.keyboard.type('20.000');
   await page.keyboard.press('Enter');

@@ -50,12 +50,12 @@ export const test = base.extend({
   },
 });
 
-/** Runs in the page before any script of its own: the session has seen what a figure shows at first sight. */
+/** Runs in the page before any script of its own, and marks the introduction of a figure as seen. */
 function skipIntroduction() {
   try {
     sessionStorage.setItem('motion-widgets.introduced', 'yes');
   } catch {
-    // A page without storage has no introduction.
+    // A page without storage shows no introduction.
   }
 }
 
@@ -81,7 +81,7 @@ export async function show(page, body, { head = '', fragment = '', script = '<sc
         const target = /** @type {Element} */ (event.target);
         if (!(target instanceof Element) || !target.localName.includes('-')) return;
         const { message = '' } = /** @type {ErrorEvent} */ (event);
-        // Keeps the figure from a warning in the console.
+        // Listens to errors, so that the figure prints no warning.
         event.preventDefault();
         const value = /** @type {AnyElement} */ (target).v;
         heard.push({ name, target: target.localName, message, path: event.composedPath().length, value });
@@ -378,7 +378,7 @@ export async function pixelsOf(canvas, role) {
     copy.width = target.width;
     copy.height = target.height;
     const context = /** @type {CanvasRenderingContext2D} */ (copy.getContext('2d', { willReadFrequently: true }));
-    // In whatever notation it is told.
+    // Colours in any notation.
     context.fillStyle = getComputedStyle(probe).color;
     probe.remove();
     context.fillRect(0, 0, 1, 1);

@@ -5,14 +5,14 @@ use super::simulated::{ALPHAS, MODELS, Simulation, Unlike};
 use motion::NoiseKind;
 use motion::calibrate::{ERRORS as ERROR_COUNT, Model, Systematic, SystematicError};
 
-/// Legs of a log.
+/// Number of legs of a log.
 const LEGS: usize = 600;
 
 /// Kind of log.
 struct Scenario {
     name: &'static str,
     change: fn(&mut Simulation),
-    /// Tolerance of medians beside that of chance.
+    /// Tolerance of medians in addition to chance.
     bias: f64,
 }
 
@@ -35,7 +35,8 @@ const ERRORS: Systematic = Systematic {
     turn_scale: 0.97,
 };
 
-/// Part (s, m, rad) of a systematic error that does not count: products of the noises, and of noise and clock offset within a row of 50 ms.
+/// Part (s, m, rad) of a systematic error that is accepted: products of the noises, and of noise and clock offset
+/// within a row of 50 ms.
 const RESOLUTION: f64 = 1e-3;
 
 /// Results of calibrations of many logs.
@@ -105,19 +106,19 @@ fn median_std(sorted: &[f64]) -> f64 {
     1.25 * 0.5 * (high - low) / (count as f64).sqrt()
 }
 
-/// Tolerance of a share of `logs` by chance: three binomial standard errors.
+/// Returns the tolerance of a fraction of `logs`: three binomial standard errors.
 fn chance(share: f64, logs: usize) -> f64 {
     3.0 * (share * (1.0 - share) / logs as f64).sqrt()
 }
 
-/// Complains of a number of 95 % intervals that is outside of 92 to 98 % by more than chance.
+/// Reports a number of 95 % intervals that is outside of 92 to 98 % by more than chance.
 fn coverage(what: &str, held: usize, logs: usize) -> Option<String> {
     let share = held as f64 / logs as f64;
     let allowed = 0.92 - chance(0.92, logs)..=0.98 + chance(0.98, logs);
     (!allowed.contains(&share)).then(|| format!("{held} of {logs} intervals hold {what}"))
 }
 
-/// Complains of α's whose medians are off by more than the bias and three standard errors, and of their intervals.
+/// Reports α's whose medians are off by more than the bias and three standard errors, and their intervals.
 fn complaints(model: Model, scenario: &Scenario, study: &Study) -> Vec<String> {
     let of = |alpha: usize| {
         let (ratios, name) = (&study.ratios[alpha], format!("α{}", alpha + 1));
@@ -144,7 +145,7 @@ fn every_model(scenario: &Scenario, more: impl Fn(&Study) -> Vec<String>) {
     assert!(found.is_empty(), "{}", found.join("\n"));
 }
 
-/// Complains of a standard deviation of the reference that is off by more than 10 % and three standard errors.
+/// Reports a standard deviation of the reference that is off by more than 10 % and three standard errors.
 fn std_complaints(study: &Study, which: usize, true_std: f64) -> Vec<String> {
     let middle = median(&study.stds[which]);
     let allowed = 0.1 * true_std + 3.0 * median_std(&study.stds[which]);
@@ -168,7 +169,7 @@ fn alphas_are_right_with_an_exact_reference() {
     every_model(&EXACT, |_| Vec::new());
 }
 
-/// Two milliradians are a tenth of what the wheels turn wrong on a leg: the log tells no more than a bound of them.
+/// Two milliradians are a tenth of the error of the wheels' rotation on a leg: the log gives only an upper bound.
 #[test]
 #[ignore = "nightly: 500 calibrations"]
 fn alphas_are_right_with_an_unstated_noise_of_5_mm_and_2_mrad() {

@@ -1,4 +1,4 @@
-//! Checks: each fails on a log that was made for it, and all pass on good ones.
+//! Checks of a calibration: each fails on a log that violates it, and all pass on good logs.
 
 use super::simulated::{MODELS, Simulation, Unlike};
 use super::{calibrated, calibrated_log};
@@ -68,7 +68,7 @@ fn few_legs_are_questionable_and_fewer_unusable() {
     assert_eq!((few.diagnostics.verdict, few.recommended), (Verdict::Unusable, None));
 }
 
-/// A reference that is gone for every third half minute.
+/// A reference that is missing in every third half minute.
 #[test]
 fn lost_legs_are_reported() {
     let made = good(600, 4);
@@ -78,7 +78,7 @@ fn lost_legs_are_reported() {
     fails(LegsLost, &calibrated_log(&[odometry, there], &made.options()));
 }
 
-/// A row each two seconds.
+/// A log with one row every two seconds.
 #[test]
 fn legs_that_are_longer_than_asked_for_are_reported() {
     let made = good(600, 5);
@@ -92,7 +92,7 @@ fn many_outliers_are_reported() {
     fails(OutliersFew, &calibrated(&Simulation { jumps: 0.1, ..good(600, 6) }));
 }
 
-/// One jump of 10 m that is fitted as noise, far beyond what the half without it predicts.
+/// One jump of 10 m that is fitted as noise. The fit of the half without it predicts much less noise.
 #[test]
 fn a_log_that_no_inflation_covers_is_unusable() {
     let made = good(600, 12);
@@ -153,7 +153,7 @@ fn errors_that_persist_are_correlated_and_leave_windows_uncovered() {
     assert!(calibration.recommended.expect("usable").inflation > 1.5);
 }
 
-/// Kurtoses are unbounded with four degrees of freedom, and 9 with five.
+/// The kurtosis of Student's t is infinite with four degrees of freedom, and 9 with five.
 #[test]
 fn heavy_tails_are_reported() {
     for freedom in [4, 5] {

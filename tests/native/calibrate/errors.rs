@@ -1,4 +1,4 @@
-//! Systematic errors: found, corrected where they are constant, and no reason for other α's.
+//! Systematic errors: estimated, corrected if they are constant, and without effect on the α's.
 
 use super::simulated::{ALPHAS, MODELS, Simulation};
 use super::{calibrated, calibrated_log, options_of};
@@ -41,7 +41,7 @@ fn a_mount_yaw_of_any_size_and_a_lever_arm_are_found() {
             recovers(&calibration, SystematicError::MountYaw, yaw);
             recovers(&calibration, SystematicError::LeverArmAhead, 0.3);
             recovers(&calibration, SystematicError::LeverArmLeft, -0.2);
-            // The worst known α has a standard error of 13 %, of which four are allowed.
+            // The most uncertain α has a standard error of 13 %; four standard errors are allowed.
             for (alpha, truth) in calibration.alphas.iter().zip(ALPHAS) {
                 let ratio = alpha.expect("identifiable") / truth;
                 assert!((ratio - 1.0).abs() < 0.5, "{model:?} {yaw}: {:?}", calibration.alphas);
@@ -60,8 +60,8 @@ fn clocks_with_any_offset_are_aligned() {
     }
 }
 
-/// A reference that begins anew every twenty seconds with another heading, one that sees a third of the time, and one that was there for a
-/// fifth of the drive.
+/// References that restart every twenty seconds with another heading, that are visible a third of the time, and that
+/// exist for a fifth of the drive.
 #[test]
 fn clocks_are_aligned_by_the_turns_of_a_broken_reference() {
     let errors = Systematic { clock_offset: 3.2, ..Systematic::NONE };
@@ -94,7 +94,7 @@ fn trajectories_without_a_common_time_are_refused() {
     let [odometry, _] = Simulation::of(NAV2, NoiseKind::Normal, 500, 6).log();
     let [_, of_another] = Simulation::of(NAV2, NoiseKind::Normal, 500, 7).log();
     assert_eq!(refused(&odometry, &later(&of_another, 1e6)), Err(CalibrateError::Apart));
-    // Two that lead straight on are taken as they are, if they overlap at all.
+    // For two straight drives the clocks are taken as they are, if they overlap at all.
     let straight = |from: f64| {
         trajectory(
             (0..1000).map(|row| (from + 0.1 * f64::from(row), SE2::new(0.05 * f64::from(row), 0.0, 0.0))),
@@ -129,7 +129,7 @@ fn an_error_that_is_not_corrected_is_noise_of_the_wheels_or_of_the_reference() {
     assert!((0.7..1.5).contains(&ratio), "{ratio}");
     let yaw = estimated.reference_noise[1].value;
     assert!((yaw / 0.07 - 1.0).abs() < 0.1, "{yaw}");
-    // It is reported all the same.
+    // The error is reported nevertheless.
     assert_eq!(
         exact.interval_of(SystematicError::MountYaw),
         corrected.interval_of(SystematicError::MountYaw)
@@ -149,8 +149,8 @@ fn an_error_that_the_log_does_not_identify_is_not_corrected() {
     }
 }
 
-/// Wheels that do not err show all errors but for rounding, also to a reference with fewer rows, and with rows between those of the
-/// odometry.
+/// Odometry without noise gives all errors up to rounding, also with fewer rows in the reference, or with rows between
+/// those of the odometry.
 #[test]
 fn errors_of_a_robot_without_noise_are_exact() {
     const OFFSET: f64 = 0.123;
@@ -203,14 +203,14 @@ fn four_drives_tell_as_much_as_one_that_is_as_long() {
         };
         let ratio = width(&four) / width(&one);
         assert!((ratio - 1.0).abs() < 0.3, "α{}: {ratio}", alpha + 1);
-        // Standard errors are at most 9 %, of which four are allowed.
+        // Standard errors are at most 9 %; four of them are allowed.
         let fitted = four.alphas[alpha].expect("identifiable") / truth;
         assert!((fitted - 1.0).abs() < 0.36, "α{}: {fitted}", alpha + 1);
     }
 }
 
-/// Encoders tremble by 3 mm and 3 mrad, half of the time where the robot stands: legs of half a second do not tell that the wheels turn
-/// without the robot.
+/// The encoders jitter by 3 mm and 3 mrad, and the robot stands half of the time. Legs of half a second then do not
+/// show that wheels turn while the robot stands.
 #[test]
 fn standing_robots_whose_encoders_tremble_do_not_change_the_turn_scale() {
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(5);
@@ -238,11 +238,11 @@ fn standing_robots_whose_encoders_tremble_do_not_change_the_turn_scale() {
     recovers(&calibration, SystematicError::DistanceScale, 1.0);
 }
 
-/// A reference with one row a leg has the ends of legs at its rows. Its α's are those of all rows: of the same legs or so, so that they differ
-/// by less than their standard errors of 8 %.
+/// With one row of the reference for each leg, legs end at these rows. The α's equal those of all rows up to their
+/// standard errors of 8 %, because the legs are nearly the same.
 #[test]
 fn one_row_a_leg_is_enough_for_the_reference() {
-    // Legs of a second: the noise of each ends where the row is.
+    // Legs of a second, so that each leg ends at a row.
     let legs = LegLength::Duration { duration: 1.0 };
     let simulation = Simulation { legs, ..Simulation::of(NAV2, NoiseKind::Normal, 800, 3) };
     let [odometry, reference] = simulation.log();

@@ -110,7 +110,7 @@ fn each_drive_has_its_reason_and_a_complete_one_identifies_all_alphas() {
     assert!(share > 0.95 - 3.0 * 0.026, "{share}");
 }
 
-/// Errors of 100 m and 100 rad, as the options have it: an α of 1 makes a leg err by 0.3 m and 0.3 rad.
+/// Standard deviations of 100 m and 100 rad, as in the options. An α of 1 adds noise of 0.3 m and 0.3 rad to a leg.
 #[test]
 fn a_reference_that_hides_the_noise_of_the_wheels_is_too_noisy() {
     let made = Simulation::of(Model::Odometry(OdometryRule::Nav2), NoiseKind::Normal, 400, 32);

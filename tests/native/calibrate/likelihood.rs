@@ -12,7 +12,7 @@ use std::time::Instant;
 
 const NAV2: Model = Model::Odometry(OdometryRule::Nav2);
 
-/// Bends in both directions: a model without special cases.
+/// Bends in both directions, without special cases for the model.
 fn bends(count: usize) -> Simulation {
     Simulation {
         drive: Some(|leg| [0.3, [0.3, -0.2, 0.1][leg / 3 % 3]]),
@@ -21,7 +21,7 @@ fn bends(count: usize) -> Simulation {
     }
 }
 
-/// Central differences of a motion or of residuals by three numbers.
+/// Returns central differences of a motion or of residuals by three numbers.
 fn derivative(value: impl Fn(Vector3<f64>) -> Vector3<f64>) -> Matrix3<f64> {
     const H: f64 = 1e-6;
     let column = |axis: usize| {
@@ -37,7 +37,7 @@ fn numbers(pose: &SE2) -> Vector3<f64> {
     Vector3::new(pose.x(), pose.y(), pose.theta())
 }
 
-/// rot1, trans, rot2 of a motion.
+/// Returns rot1, trans, rot2 of a motion.
 fn rotations(motion: &Vector3<f64>) -> Vector3<f64> {
     let first = libm::atan2(motion.y, motion.x);
     Vector3::new(first, libm::hypot(motion.x, motion.y), wrap_angle(motion.z - first))
@@ -49,7 +49,7 @@ fn by_motion(leg: &Leg, corrected: &Systematic) -> Matrix3<f64> {
     derivative(|off| rotations(&(expected + off)))
 }
 
-/// Motion that the odometry read, with both scales corrected.
+/// Returns the motion that the odometry read, with both scales corrected.
 fn expected(leg: &Leg, corrected: &Systematic) -> SE2 {
     let twist = leg.odometry[1].boxminus(&leg.odometry[0]);
     SE2::exp(&Vector3::new(
@@ -59,7 +59,7 @@ fn expected(leg: &Leg, corrected: &Systematic) -> SE2 {
     ))
 }
 
-/// Jacobian of the residuals by the error of the reference at one end of a leg.
+/// Returns the Jacobian of the residuals by the error of the reference at one end of a leg.
 fn by_pose(leg: &Leg, corrected: &Systematic, end: usize) -> Matrix3<f64> {
     let motion = |error: Vector3<f64>| {
         let mut poses = leg.reference;
@@ -70,14 +70,14 @@ fn by_pose(leg: &Leg, corrected: &Systematic, end: usize) -> Matrix3<f64> {
     by_motion(leg, corrected) * derivative(motion)
 }
 
-/// Derivative of the residuals by a systematic error, for a leg that went as it was read.
+/// Returns the derivative of the residuals by a systematic error, for a leg without noise.
 fn by_error(leg: &Leg, corrected: &Systematic, error: SystematicError) -> Vector3<f64> {
     const H: f64 = 1e-6;
     let read = expected(leg, corrected);
     let off = |step: f64| {
         let mut changed = *corrected;
         changed.set(error, changed.get(error) + step);
-        // A reference that saw exactly what was read.
+        // Returns a reference that equals the odometry.
         let mount = |of: &Systematic| SE2::new(of.lever_arm[0], of.lever_arm[1], of.mount_yaw);
         let seen = mount(corrected).inverse() * read * mount(corrected);
         let motion = changed.base(&SE2::identity()).inverse() * changed.base(&seen);
@@ -133,7 +133,7 @@ fn dense(calibration: &Calibration, errors: &[SystematicError]) -> f64 {
     -0.5 * deviance
 }
 
-/// Jacobians by central differences are right to a billionth, and there are 120 residuals.
+/// The relative error of Jacobians by central differences is 1e-9, and there are 120 residuals.
 #[test]
 fn the_recursion_gives_the_likelihood_of_the_dense_covariance() {
     let made = bends(40);
@@ -168,7 +168,7 @@ fn an_interval_ends_where_the_profile_likelihood_has_fallen() {
     };
     let calibration = calibrated_log(&made.log(), &stated);
     let n = calibration.legs.len() as f64;
-    // Translation and strafe, each driven by the distance alone.
+    // The noise of translation and strafe grows with the distance only.
     for (component, alpha) in [(1, 2), (2, 4)] {
         let ratio = |observation: &motion::calibrate::Observation| {
             observation.residuals[component].powi(2) / observation.coefficients[component][0]
@@ -179,7 +179,8 @@ fn an_interval_ends_where_the_profile_likelihood_has_fallen() {
         for end in calibration.intervals[alpha].expect("identifiable") {
             let s = end / mean;
             let fall = n * (libm::log(s) + 1.0 / s - 1.0);
-            // Intervals may be longer where squares of neighbours are alike, by chance a tenth.
+            // Intervals may be longer if squared residuals of neighbouring legs are correlated, by chance up to a
+            // tenth.
             assert!((3.7..5.2).contains(&fall), "{fall}");
         }
     }
@@ -218,7 +219,8 @@ fn alphas_and_their_intervals_scale_with_the_noise() {
     }
 }
 
-/// The noise of the reference that is estimated is a maximum: stated, it gives the same likelihood, and any other a smaller one.
+/// The estimated noise of the reference maximizes the likelihood: stated as an option it gives the same likelihood, and
+/// any other value a smaller one.
 #[test]
 fn the_noise_of_the_reference_maximizes_the_likelihood() {
     let made = Simulation { reference_stds: [0.02, 0.02], ..Simulation::of(NAV2, NoiseKind::Normal, 400, 5) };

@@ -1,4 +1,4 @@
-//! Trajectories, and the legs that they are cut into.
+//! Trajectories, and how they are split into legs.
 
 use motion::calibrate::{Leg, LegLength, LostLegs, Trajectory, split_into_legs};
 use motion::geom::se2::SE2;
@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 
 const QUARTER: LegLength = LegLength::Displacement { distance: 0.25, angle: 0.2 };
 
-/// Robot that drives straight on, a row each 0.1 s.
+/// Returns the trajectory of a robot that drives straight ahead, with a row every 0.1 s.
 fn straight(rows: usize, step: f64) -> Trajectory {
     trajectory((0..rows).map(|row| (0.1 * row as f64, SE2::new(step * row as f64, 0.0, 0.0))))
 }
@@ -28,17 +28,17 @@ fn times(trajectory: &Trajectory) -> Vec<f64> {
 fn legs_end_as_amcl_ends_them() {
     let odometry = straight(41, 0.0625);
     let (legs, lost) = split_into_legs(&odometry, &odometry, QUARTER, 0.0);
-    // At exactly a quarter of a metre not yet: five steps each.
+    // A leg ends beyond a quarter of a metre, and not at exactly that distance: after five steps each.
     assert_eq!((legs.len(), lost), (8, LostLegs::default()));
     for (i, leg) in legs.iter().enumerate() {
         assert_eq!(leg.odometry[1].x() - leg.odometry[0].x(), 0.3125);
         assert_eq!(leg.times[0], times(&odometry)[5 * i]);
         assert_eq!(leg.follows, i > 0);
     }
-    // Each axis by itself: 0.24 m along both is no leg, though it is 0.34 m away.
+    // The limit is for each axis: 0.24 m along both is not enough, although the distance is 0.34 m.
     let diagonal = trajectory([(0.0, 0.0), (0.1, 0.24), (0.2, 0.26)].map(|(t, x)| (t, SE2::new(x, x, 0.0))));
     assert_eq!(split_into_legs(&diagonal, &diagonal, QUARTER, 0.0).0[0].times, [0.0, 0.2]);
-    // Across the half turn the angle is small.
+    // Headings on both sides of π differ by a small angle.
     let turning = [(0.0, 3.1), (0.1, -3.1), (0.2, -2.9)].map(|(t, theta)| (t, SE2::new(0.0, 0.0, theta)));
     let turning = trajectory(turning);
     assert_eq!(split_into_legs(&turning, &turning, QUARTER, 0.0).0[0].times, [0.0, 0.2]);
@@ -62,7 +62,7 @@ fn a_leg_leads_across_a_pause_if_it_stays_short_enough() {
         let after = legs.iter().find(|leg| leg.times[0] == times(&whole)[ends]).expect("it goes on");
         assert_eq!(after.follows, across_pauses == 0);
     }
-    // Both ends are known though the reference is not there on the way.
+    // Both ends have a reference, although there is none in between.
     let (legs, lost) = split_into_legs(&whole, &without(&whole, 30, 35), QUARTER, 0.0);
     assert_eq!((legs, lost), split_into_legs(&whole, &whole, QUARTER, 0.0));
 }
@@ -71,7 +71,7 @@ fn a_leg_leads_across_a_pause_if_it_stays_short_enough() {
 fn lost_legs_are_counted_by_cause() {
     let whole = straight(101, 0.05);
     let all = split_into_legs(&whole, &whole, QUARTER, 0.0).0;
-    // A reference of the rows from 12 to 66: it begins after two of sixteen legs and ends before the last five.
+    // A reference with the rows from 12 to 66: it begins after two of sixteen legs and ends before the last five.
     let shorter = trajectory(whole.samples().skip(12).take(55));
     let (legs, lost) = split_into_legs(&whole, &shorter, QUARTER, 0.0);
     assert_eq!(
@@ -79,7 +79,7 @@ fn lost_legs_are_counted_by_cause() {
         all[2..11].iter().map(|leg| leg.times).collect::<Vec<_>>()
     );
     assert!(lost.without_reference >= 4 && lost.total() == lost.without_reference, "{lost:?}");
-    // It stands for 4 s, four legs of a second.
+    // The robot stands for 4 s, four legs of a second.
     let standing = trajectory(whole.samples().map(|(time, pose)| {
         (time, SE2::new(if time < 3.0 { pose.x() } else { 1.5 + (pose.x() - 3.5).max(0.0) }, 0.0, 0.0))
     }));
@@ -99,11 +99,11 @@ fn no_leg_leads_across_a_break() {
         breaks.into_iter().any(across)
     };
     let kept: Vec<[f64; 2]> = all.iter().filter(|leg| !spans(leg)).map(|leg| leg.times).collect();
-    // A break of the reference takes the legs across it, and no others.
+    // A break of the reference removes the legs across it, and no others.
     let (legs, lost) = split_into_legs(&whole, &broken, QUARTER, 0.0);
     assert_eq!(legs.iter().map(|leg| leg.times).collect::<Vec<_>>(), kept);
     assert_eq!(lost, LostLegs { across_breaks: all.len() - kept.len(), ..LostLegs::default() });
-    // A leg after a break of the odometry begins there.
+    // After a break of the odometry a leg begins at the break.
     let (legs, lost) = split_into_legs(&broken, &whole, QUARTER, 0.0);
     assert!(legs.len() > 25 && !legs.iter().any(spans));
     assert_eq!(lost, LostLegs { across_breaks: 4, ..LostLegs::default() });
@@ -121,7 +121,7 @@ fn a_declared_jump_is_in_no_velocity() {
     let rows =
         rows.samples().enumerate().map(|(row, (time, pose))| (time, SE2::new(pose.x(), jumps(row), 0.0)));
     let jumping = trajectory(rows).with_breaks_before([40, 43]);
-    // Some legs are the three rows between the jumps.
+    // Some legs consist of the three rows between the jumps.
     let length = LegLength::Displacement { distance: 0.15, angle: 0.2 };
     let legs = split_into_legs(&jumping, &jumping, length, 0.0).0;
     assert!(legs.len() > 45 && legs.iter().any(|leg| leg.odometry[0].y() == 5.0));
@@ -160,7 +160,7 @@ fn a_leg_ends_at_a_sample_of_the_sparser_trajectory() {
             assert_eq!(leg.odometry, leg.reference);
         }
         assert!(legs.windows(2).all(|pair| pair[0].times[1] == pair[1].times[0]));
-        // An odometry with fewer samples has the ends at its own.
+        // If the odometry has fewer samples, legs end at these.
         let legs = split_into_legs(&sparse, &whole, length, 0.01).0;
         assert!(legs.len() > 100 && legs.iter().all(|leg| leg.times.iter().all(|time| has(&sparse, *time))));
     }
@@ -196,7 +196,8 @@ fn commands_are_integrated_along_arcs() {
     let driven =
         Trajectory::from_commands([(0.0, 1.0, 0.0), (1.0, 0.5, 1.0), (3.0, 0.0, -2.0), (4.0, 9.0, 9.0)]);
     let driven = driven.expect("times rise");
-    // A metre ahead; an arc of a metre that turns by 2 rad, of radius ½; a turn on the spot, back to the first heading.
+    // Commands: a metre straight ahead; an arc of a metre that turns by 2 rad, with radius ½; a turn on the spot back
+    // to the first heading.
     let arc = SE2::new(1.0 + 0.5 * libm::sin(2.0), 0.5 * (1.0 - libm::cos(2.0)), 2.0);
     let expected = [SE2::identity(), SE2::new(1.0, 0.0, 0.0), arc, SE2::new(arc.x(), arc.y(), 0.0)];
     for (time, expected) in [0.0, 1.0, 3.0, 4.0].into_iter().zip(expected) {
@@ -205,7 +206,8 @@ fn commands_are_integrated_along_arcs() {
     }
 }
 
-/// A command that is held for 20 s has no row of its own for 40 legs. Steps of a tenth of a second are 5 cm, half as much again at most.
+/// A command that is held for 20 s has no rows during 40 legs. The trajectory gets steps of a tenth of a second, 5 cm
+/// each, and at most 7.5 cm.
 #[test]
 fn a_held_command_is_cut_between_its_rows() {
     let held =

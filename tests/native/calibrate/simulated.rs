@@ -21,22 +21,22 @@ pub const MODELS: [Model; 5] = [
     Model::Velocity,
 ];
 
-/// How the noise of a leg, of variance 1, differs from what the model takes it for.
+/// Difference between the noise of a leg and the model's noise; both have variance 1.
 #[derive(Clone, Copy, Debug)]
 pub enum Unlike {
-    /// Not at all.
+    /// No difference.
     Nothing,
-    /// Student's t with so many degrees of freedom.
+    /// Student's t distribution with this number of degrees of freedom.
     Tails(usize),
-    /// That of a leg is this share of that of the one before, and otherwise its own.
+    /// Autocorrelated noise: this fraction of the noise of the previous leg, plus independent noise.
     Autoregressive(f64),
-    /// Its deviation is this many times as large.
+    /// Standard deviation larger by this factor.
     Times(f64),
-    /// Its deviation is another one in the course of the log, from 0 to 1.
+    /// Standard deviation that depends on the position in the log, from 0 to 1.
     Changing(fn(f64) -> f64),
 }
 
-/// What a log is made with.
+/// Parameters of a simulated log.
 #[derive(Clone, Copy, Debug)]
 pub struct Simulation {
     pub model: Model,
@@ -44,14 +44,14 @@ pub struct Simulation {
     pub legs: LegLength,
     pub count: usize,
     pub errors: Systematic,
-    /// Of legs in which the reference jumps by half a metre and stays there.
+    /// Fraction of legs in which the reference jumps by half a metre and stays there.
     pub jumps: f64,
-    /// Whether the robot backs up now and then.
+    /// True if the robot sometimes drives in reverse.
     pub reverses: bool,
-    /// v and ω in a leg, by its number; at random unless said.
+    /// v and ω of a leg by its number; random by default.
     pub drive: Option<fn(usize) -> [f64; 2]>,
     pub unlike: Unlike,
-    /// The share of the log in which it drives straight on, before anything else.
+    /// Fraction of the log at its beginning in which the robot drives straight ahead.
     pub straight: f64,
     pub seed: u64,
     /// Standard deviations of the reference, m and rad.
@@ -77,7 +77,7 @@ impl Simulation {
         }
     }
 
-    /// Options of a calibration of its log.
+    /// Returns the options for a calibration of the log.
     pub fn options(&self) -> Options {
         let Self { model, legs, .. } = *self;
         Options {
@@ -90,7 +90,7 @@ impl Simulation {
         }
     }
 
-    /// What the odometry says, and what the reference does.
+    /// Returns odometry and reference.
     pub fn log(&self) -> [Trajectory; 2] {
         const STEP: f64 = 0.05;
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(self.seed);
@@ -99,7 +99,7 @@ impl Simulation {
         let mut odometry = vec![(0.0, SE2::identity())];
         let mut base = vec![(0.0, SE2::new(1.0, 2.0, 0.5))];
         let (mut speeds, mut left, mut began) = ([0.3, 0.0], 40, 0);
-        // What was driven since the leg began, by what the odometry would say without its errors.
+        // Motion since the start of the leg, as the odometry reads it without its systematic errors.
         let (mut driven, mut inside) = (SE2::identity(), Vec::new());
         let (mut legs, mut unit_noise) = (0, [0.0; 3]);
         while legs < self.count {
@@ -125,7 +125,7 @@ impl Simulation {
             let from = base.last().expect("some").1;
             unit_noise = self.unit_noise(legs as f64 / self.count as f64, unit_noise, &mut rng);
             let to = self.executed(&from, &driven, time - start_time, unit_noise);
-            // Where it ends beyond what was read comes evenly on the way.
+            // The noise of a leg is distributed evenly over its rows.
             let off = (driven.inverse() * from.inverse() * to).log();
             let ahead = |time: f64| (time - start_time) / (inside.len() as f64 * STEP);
             base.extend(inside.iter().map(|(t, pose)| (*t, from * pose.boxplus(off * ahead(*t)))));
@@ -153,7 +153,7 @@ impl Simulation {
         [Trajectory::new(odometry).expect("times rise"), Trajectory::new(reference).expect("times rise")]
     }
 
-    /// Straight on, a bend, a turn on the spot or, where it may, back.
+    /// Returns a straight drive, a bend, a turn on the spot or, if allowed, a drive in reverse.
     fn speeds(&self, rng: &mut impl Rng) -> [f64; 2] {
         let [v, bend] = [rng.random_range(0.2..0.6), rng.random_range(-0.5..0.5)];
         match rng.random_range(0..6) {
@@ -199,7 +199,7 @@ impl Simulation {
     }
 }
 
-/// As `LegLength` says it, in words of its own.
+/// Tests the end of a leg as `LegLength` documents it, with independent code.
 fn ends(legs: LegLength, lasted: f64, start: &SE2, reading: &SE2) -> bool {
     match legs {
         LegLength::Displacement { distance, angle } => {

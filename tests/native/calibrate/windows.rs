@@ -1,4 +1,4 @@
-//! Recommended α's: windows of a metre of another log of the same robot.
+//! Recommended α's, tested on windows of a metre of another log of the same robot.
 
 use super::calibrated;
 use super::simulated::{MODELS, Simulation, Unlike};
@@ -52,7 +52,8 @@ fn is_covered(model: Model, alphas: &[f64], legs: &[Leg], rng: &mut Xoshiro256Pl
     off.dot(&(inverse * off)) < CHI2_95
 }
 
-/// Numbers of windows of a metre that are covered, and of all of them, in logs that the fits have not seen.
+/// Returns the numbers of windows of a metre that are covered, and of all windows, in logs that were not used for the
+/// fit.
 fn coverage(model: Model, unlike: Unlike, logs: u64) -> [usize; 2] {
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(logs);
     let mut counts = [0; 2];
@@ -77,11 +78,12 @@ fn coverage(model: Model, unlike: Unlike, logs: u64) -> [usize; 2] {
     counts
 }
 
-/// Complains of a coverage outside of 93 to 97 % by more than three standard errors.
+/// Reports a coverage outside of 93 to 97 % by more than three standard errors.
 fn complaint(model: Model, unlike: Unlike, logs: u64) -> Option<String> {
     let [covered, count] = coverage(model, unlike, logs);
     let share = covered as f64 / count as f64;
-    // The α's of a log scatter by 5 %, and its inflation by as much: together they move the coverage by 0.14 times 7 %.
+    // The standard errors of a log's α's and of its inflation are 5 % each. Together they change the coverage by 0.14
+    // times 7 %.
     let std = (0.93 * 0.07 / count as f64 + 0.01_f64.powi(2) / logs as f64).sqrt();
     let holds = (0.93 - 3.0 * std..=0.97 + 3.0 * std).contains(&share);
     (!holds).then(|| format!("{model:?}, {unlike:?}: {covered} of {count} windows are covered"))

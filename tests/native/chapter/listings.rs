@@ -1,4 +1,5 @@
-//! A reader's own models, written to the trait as the chapter prints it: two methods and a type, in the chapter's names.
+//! A reader's own models, which implement the trait as the chapter prints it: two methods and a type, with the
+//! chapter's names.
 
 use motion::geom::se2::{SE2, wrap_angle};
 use motion::{
@@ -8,7 +9,7 @@ use motion::{
 use nalgebra::{Matrix3, Vector3};
 use rand::{Rng, SeedableRng, rngs::SmallRng};
 
-/// The velocity model by centre and radius, as a first solution of exercise 1 has it.
+/// Velocity model by centre and radius, as in a first solution of exercise 1.
 struct ByRadius {
     alphas: VelocityAlphas,
     noise: NoiseKind,
@@ -51,7 +52,7 @@ impl MotionModel for ByRadius {
     }
 }
 
-/// The odometry model, with nothing but what the trait asks for.
+/// Odometry model with only the required items of the trait.
 struct Rotations {
     alphas: OdomAlphas,
 }

@@ -25,7 +25,7 @@ fn cloud_of(model: &VelocityModel) -> Vec<SE2> {
     (0..SAMPLES).map(|_| model.sample(&U, &SE2::identity(), &mut rng)).collect()
 }
 
-/// Equal to a printed figure of this many decimals.
+/// Asserts that a value equals a printed one with this many decimals.
 fn assert_printed(value: f64, printed: f64, decimals: i32, what: &str) {
     let half_unit = 0.5 * 10f64.powi(-decimals) * (1.0 + 1e-9);
     assert!((value - printed).abs() <= half_unit, "{what}: {value}, printed {printed}");
@@ -60,7 +60,8 @@ fn the_linearized_table() {
         assert_relative_eq!(cov[entry], cov[(entry.1, entry.0)], epsilon = 1e-17);
     }
     assert_printed(cov[(1, 2)] / (cov[(1, 1)] * cov[(2, 2)]).sqrt(), 0.887, 3, "ρyθ");
-    // Its two columns: the arc differentiated by v and by ω. One α at a time leaves √α times one of them.
+    // Columns of the Jacobian: the arc differentiated by v and by ω. With a single α the covariance has √α times one of
+    // them as its root.
     let column = |alphas: [f64; 6]| {
         let model = VelocityModel { alphas: VelocityAlphas(alphas), noise: NoiseKind::Normal };
         model.cartesian_cov(&U, &SE2::identity())
@@ -89,7 +90,7 @@ fn the_exact_table() {
     assert_printed(opening.cross_track_skew, -0.43093, 5, "skew of the opening command");
 }
 
-/// The chapter's column of 200 000 samples, and the exact value where there is one.
+/// The chapter's column of 200 000 samples, and the exact value if there is one.
 #[test]
 fn the_measured_table() {
     let cloud = cloud_of(&MODEL);
@@ -125,7 +126,8 @@ fn the_measured_table() {
     assert!(lateral.mean.y.abs() < 1e-15 && lateral.cov[(1, 1)] < 1e-30, "printed 0.0000 and 0.00000");
 }
 
-/// γ̂ folded into R_u: the heading variance comes out right, and a little leaks into the lateral coordinate.
+/// With γ̂ included in R_u the heading variance is correct, and the lateral coordinate gets a small additional
+/// variance.
 #[test]
 fn a_last_turn_leaks_into_the_lateral_coordinate() {
     let model = VelocityModel { alphas: VelocityAlphas([0.02, 0.02, 0.02, 0.02, 0.005, 0.005]), ..MODEL };

@@ -32,7 +32,7 @@ pub struct Grid {
 }
 
 impl Grid {
-    /// The box around the pose `middle` that reaches `half` to either side.
+    /// Returns the box around the pose `middle` that extends by `half` to either side.
     pub fn new(start: &SE2, middle: &SE2, slope: f64, half: [f64; 3], cells: [usize; 3]) -> Self {
         let (dx, dy) = (middle.x() - start.x(), middle.y() - start.y());
         let bearing = if dx.hypot(dy) > 0.0 { dy.atan2(dx) } else { start.theta() };
@@ -41,7 +41,7 @@ impl Grid {
         Self { start: *start, slope, centre, step, cells }
     }
 
-    /// Every pose within `radius` of the start.
+    /// Returns the box of all poses within `radius` of the start.
     pub fn everything(start: &SE2, slope: f64, radius: f64, cells: [usize; 3]) -> Self {
         Self::new(start, start, slope, [radius, PI / 2.0, PI], cells)
     }
@@ -56,12 +56,12 @@ impl Grid {
         [distance, bearing, self.centre[2] + turned]
     }
 
-    /// Low edge of a cell.
+    /// Returns the lower bound of a cell.
     fn edge(&self, axis: usize, index: usize) -> f64 {
         self.centre[axis] + (index as f64 - 0.5 * self.cells[axis] as f64) * self.step[axis]
     }
 
-    /// The mass that `density` gives to each cell, by an 8 × 8 × 8 Gauss rule in each.
+    /// Returns the probability mass of each cell, by an 8 × 8 × 8 Gauss rule in each.
     pub fn masses(&self, density: impl Fn(&SE2) -> f64) -> Vec<f64> {
         let nodes = |axis: usize, index: usize| {
             let (edge, step) = (self.edge(axis, index), self.step[axis]);
@@ -91,7 +91,7 @@ impl Grid {
         masses
     }
 
-    /// The integral over the whole box.
+    /// Returns the integral over the whole box.
     pub fn integral(&self, density: impl Fn(&SE2) -> f64) -> f64 {
         self.masses(density).iter().sum()
     }
@@ -129,7 +129,7 @@ impl Grid {
         assert!(large.len() > 100, "{} cells test little", large.len());
         assert!(rest.1 > -1e-4 * n, "the density has more mass than 1: {} poses remain", rest.1);
         let term = |(observed, expected): &(f64, f64)| (observed - expected).powi(2) / expected;
-        // A remainder of a few poses is within the rounding of the quadrature and is left out.
+        // A remainder of a few poses is within the error of the quadrature and is left out.
         let remainder = if rest.1 >= 20.0 { term(&rest) } else { 0.0 };
         (large.iter().map(term).sum::<f64>() + remainder, chi_square_limit(large.len() + 1))
     }

@@ -1,11 +1,11 @@
-//! The distance between an arc and a wall by halving: a reference that knows nothing of circles' equations.
+//! Distance between an arc and a wall by bisection: an independent reference without the equation of a circle.
 
 use motion::geom::arc::Arc;
 use motion::geom::segment::Segment;
 
 pub type Point = [f64; 2];
 
-/// Where the arc is after the share `f` of it, relative to its start.
+/// Returns the position after a fraction `f` of the arc, relative to its start.
 pub fn along(arc: &Arc, f: f64) -> Point {
     let (length, turn) = (f * arc.length, f * arc.turn);
     let (forward, left) = if turn == 0.0 {

@@ -16,10 +16,10 @@ pub const KINDS: [NoiseKind; 2] = [NoiseKind::Normal, NoiseKind::Triangular];
 /// Sample size of the distribution tests.
 pub const SAMPLES: usize = 100_000;
 
-/// How many standard errors a seeded estimate may be off. A fresh seed would fail one comparison in 150 000.
+/// Number of standard errors by which an estimate may be off. With random seeds one comparison in 150 000 would fail.
 pub const SIGMAS: f64 = 4.5;
 
-/// The seed is part of the test: the same robots on every run.
+/// Returns the random numbers of a fixed seed, which gives the same robots in every run.
 pub fn seeded(seed: u64) -> Xoshiro256PlusPlus {
     Xoshiro256PlusPlus::seed_from_u64(seed)
 }
@@ -35,7 +35,7 @@ pub fn signed_log_uniform(rng: &mut impl Rng, low: f64, high: f64) -> f64 {
     if rng.next_u64() >> 63 == 0 { magnitude } else { -magnitude }
 }
 
-/// The largest difference in x, y and heading (on the circle).
+/// Returns the largest difference in x, y and heading (on the circle).
 pub fn pose_distance(a: &SE2, b: &SE2) -> f64 {
     let turn = (a.theta() - b.theta()).sin().atan2((a.theta() - b.theta()).cos());
     (a.x() - b.x()).abs().max((a.y() - b.y()).abs()).max(turn.abs())
@@ -61,7 +61,7 @@ pub fn preset(name: &str) -> Settings {
     Settings { command: preset.command, velocity_alphas: preset.alphas, ..Settings::default() }
 }
 
-/// Whether a closed outline winds around a point.
+/// Tells whether a closed outline winds around a point.
 pub fn winds_around(outline: &[[f64; 2]], [x, y]: [f64; 2]) -> bool {
     let turns: i32 = outline
         .windows(2)
@@ -125,7 +125,7 @@ impl Row<'_> {
         }
     }
 
-    /// How far `computed` is from a reference told as its nearest double and the rest, free of the double's rounding.
+    /// Returns the distance of `computed` from a reference that consists of its nearest double and the rest.
     pub fn error(&self, column: &str, computed: f64) -> f64 {
         ((computed - self.get(column)) - self.get(&format!("{column}_lo"))).abs()
     }

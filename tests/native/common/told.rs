@@ -1,9 +1,9 @@
-//! What a page or a document tells the reader, so that a test reads the numbers it computes where they are told.
+//! Numbers in the text of a page or a document, which tests compare with computed ones.
 
-/// The words of a page or a document, in one line.
+/// Text of a page or a document in one line.
 pub struct Told(String);
 
-/// A number as it is told.
+/// Number as it is printed.
 #[derive(Clone, Copy, Debug)]
 pub struct Number {
     pub value: f64,
@@ -12,7 +12,7 @@ pub struct Number {
 }
 
 impl Number {
-    /// Told of what was computed, to within `error`.
+    /// Asserts that the printed number equals a computed one, to within `error`.
     pub fn assert(&self, computed: f64, error: f64) {
         let off = (computed - self.value).abs();
         assert!(
@@ -22,21 +22,21 @@ impl Number {
         );
     }
 
-    /// Told of a share in per cent.
+    /// Asserts that a printed percentage equals a computed fraction.
     pub fn assert_percent(&self, share: f64, error: f64) {
         self.assert(100.0 * share, 100.0 * error);
     }
 }
 
-/// Between the thousands of a number.
+/// Separator of thousands.
 const THIN_SPACE: char = '\u{202f}';
 
 impl Told {
-    /// What a page shows, without its markup.
+    /// Returns the text of a page without its markup.
     pub fn on_page(html: &str) -> Self {
         let mut text = String::new();
         for part in html.split('<') {
-            // The first has no markup before it.
+            // The first part has no markup before it.
             text.push_str(part.split_once('>').map_or(part, |(_, text)| text));
         }
         for (entity, character) in [("&nbsp;", " "), ("&#8239;", "\u{202f}"), ("&lt;", "<"), ("&gt;", ">")] {
@@ -49,7 +49,7 @@ impl Told {
         Self(text.split([' ', '\n', '\t']).filter(|word| !word.is_empty()).collect::<Vec<_>>().join(" "))
     }
 
-    /// The numbers that stand in a sentence where it has a `#` here. The sentence stands in the text once.
+    /// Returns the numbers of a sentence that has `#` in their places here. The sentence has to occur exactly once.
     pub fn numbers<const N: usize>(&self, sentence: &str) -> [Number; N] {
         let parts: Vec<&str> = sentence.split('#').collect();
         assert_eq!(parts.len(), N + 1, "numbers in: {sentence}");
@@ -59,7 +59,7 @@ impl Told {
         std::array::from_fn(|i| found[0][i])
     }
 
-    /// Told of what was computed, number by number.
+    /// Asserts that the printed numbers equal computed ones.
     pub fn assert<const N: usize>(&self, sentence: &str, computed: [f64; N]) {
         self.numbers::<N>(sentence)
             .iter()
@@ -67,7 +67,7 @@ impl Told {
             .for_each(|(told, computed)| told.assert(computed, 0.0));
     }
 
-    /// The text says so, once.
+    /// Asserts that the text contains this exactly once.
     pub fn says(&self, sentence: &str) {
         let [] = self.numbers(sentence);
     }
@@ -78,7 +78,7 @@ fn is_thousands(word: &str) -> bool {
     digits.len() == 3 && digits.chars().all(|c| c.is_ascii_digit())
 }
 
-/// The numbers between the parts, if the text begins with these.
+/// Returns the numbers between the parts, if the text begins with these.
 fn numbers_in(text: &str, parts: &[&str]) -> Option<Vec<Number>> {
     let mut rest = text.strip_prefix(parts[0])?;
     parts[1..]
@@ -86,11 +86,11 @@ fn numbers_in(text: &str, parts: &[&str]) -> Option<Vec<Number>> {
         .map(|part| {
             let in_number = |c: char| c.is_ascii_digit() || ['−', '.', THIN_SPACE].contains(&c);
             let mut end = rest.find(|c| !in_number(c)).unwrap_or(rest.len());
-            // Documents have a plain space between thousands.
+            // Documents separate thousands by a plain space.
             if rest[end..].starts_with(' ') && rest[end + 1..].split(' ').next().is_some_and(is_thousands) {
                 end += 4;
             }
-            // The end of a sentence is no decimal point.
+            // The period at the end of a sentence is not a decimal point.
             end -= usize::from(rest[..end].ends_with('.'));
             let digits: String = rest[..end].replace('−', "-").replace([THIN_SPACE, ' '], "");
             let decimals = digits.split_once('.').map_or(0, |(_, decimals)| decimals.len() as i32);

@@ -1,4 +1,4 @@
-//! What the Alpha Calibrator tells, in the order in which digest.js asks for it.
+//! Digested values of the Alpha Calibrator, in the order of digest.js.
 
 use super::configuration::Configuration;
 use super::told::{Part, Told};
@@ -85,7 +85,7 @@ fn window(WindowCoverage { length, count, coverage, nees }: &WindowCoverage) -> 
     Values::of(&[length, count, coverage, nees])
 }
 
-/// Of the five, the lever arm has two coordinates.
+/// The lever arm, one of the five errors, has two coordinates.
 fn systematic(calibration: &Calibration) -> Vec<Values> {
     let value = |error: SystematicError| {
         calibration.systematic_stds[error as usize].is_some().then(|| calibration.systematic.get(error))

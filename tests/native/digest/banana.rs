@@ -1,4 +1,4 @@
-//! What a Banana Machine tells, in the order in which digest.js asks for it.
+//! Digested values of a Banana Machine, in the order of digest.js.
 
 use super::configuration::{Configuration, ramp};
 use super::told::{Part, Told};
@@ -67,7 +67,7 @@ fn opening(configuration: &Configuration) -> Settings {
     Settings { command: preset.command, ..opening }
 }
 
-/// Numbers of an object, which has no length.
+/// Numbers that are digested without their count, as the fields of an object are.
 struct Plain<const N: usize>([f64; N]);
 
 impl<const N: usize> Told for Plain<N> {

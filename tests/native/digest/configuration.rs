@@ -1,4 +1,4 @@
-//! configurations.json: what machines are made of, and what is asked of them.
+//! configurations.json: settings of machines, and the arguments of the methods that are digested.
 
 use motion::sim::picture::{RAMP, Ramp};
 use motion::sim::settings::{Rules, Setting};
@@ -19,7 +19,7 @@ pub fn list() -> Value {
     serde_json::from_str(CONFIGURATIONS).expect("configurations.json is JSON")
 }
 
-/// What is said of each widget.
+/// Arguments for each widget.
 pub fn each(all: &Value) -> impl Iterator<Item = Configuration<'_>> {
     let widgets = all["widgets"].as_object().expect("widgets");
     widgets.iter().flat_map(move |(widget, said)| {
@@ -29,7 +29,7 @@ pub fn each(all: &Value) -> impl Iterator<Item = Configuration<'_>> {
 }
 
 impl Configuration<'_> {
-    /// These settings with those that the configuration names.
+    /// Returns the settings with the values of the configuration.
     pub fn settings<S: Rules>(&self, opening: S) -> S {
         let given = self.value["settings"].as_object().expect("settings");
         let unknown = given.keys().find(|key| !S::KEYS.contains(&key.as_str()));
@@ -83,7 +83,7 @@ pub fn numbers<const N: usize>(value: &Value) -> [f64; N] {
     std::array::from_fn(|i| number(&value[i]))
 }
 
-/// Colours of which no two are alike, as digest.js makes them.
+/// Returns distinct colours, as digest.js does.
 pub fn ramp(which: usize) -> Ramp {
     std::array::from_fn(|i| [i as u8, (RAMP - 1 - i) as u8, 85 * which as u8, 255])
 }

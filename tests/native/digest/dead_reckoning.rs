@@ -1,4 +1,4 @@
-//! What Dead Reckoning tells, in the order in which digest.js asks for it.
+//! Digested values of Dead Reckoning, in the order of digest.js.
 
 use super::configuration::Configuration;
 use super::told::{Part, Told};
@@ -44,7 +44,7 @@ pub fn parts(configuration: &Configuration) -> Vec<Part> {
     ]
 }
 
-/// As the widget opens, with the preset that is named.
+/// Returns the initial settings of the widget, with the configuration's preset.
 fn opening(configuration: &Configuration) -> Settings {
     let opening = Settings::default();
     let Some(name) = configuration.value.get("preset") else { return opening };

@@ -42,7 +42,7 @@ fn the_same_seed_gives_the_same_bits() {
     );
 }
 
-/// A change of the bits reaches readers: their seeds show other clouds.
+/// A change of the digest affects readers: their seeds give other clouds.
 #[test]
 fn the_changelog_names_the_digest() {
     let golden = std::fs::read(format!("{DIRECTORY}/golden.txt")).expect("golden.txt");
@@ -58,7 +58,7 @@ fn the_changelog_names_the_digest() {
     );
 }
 
-/// What is not the same, a line for each configuration.
+/// Returns the differences, one line for each configuration.
 fn differences(golden: &str, computed: &str) -> Vec<String> {
     let table = |text: &str| -> BTreeMap<String, Vec<String>> {
         text.lines()

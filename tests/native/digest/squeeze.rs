@@ -1,4 +1,4 @@
-//! What Map Squeeze tells, in the order in which digest.js asks for it.
+//! Digested values of Map Squeeze, in the order of digest.js.
 
 use super::configuration::{Configuration, number, numbers, ramp};
 use super::told::{Part, Told};
@@ -59,7 +59,7 @@ pub fn parts(configuration: &Configuration) -> Vec<Part> {
     ]
 }
 
-/// As the widget opens, where the preset that is named starts.
+/// Returns the initial settings of the widget, at the start of the configuration's preset.
 fn opening(configuration: &Configuration) -> Settings {
     let opening = Settings::default();
     let Some(wanted) = configuration.value.get("preset") else { return opening };

@@ -1,4 +1,4 @@
-//! What is told of a machine, as bytes: the same that digest.js makes of what the JavaScript face tells.
+//! Digest of a machine's results: the same bytes as digest.js makes of the JavaScript results.
 
 use motion::geom::se2::SE2;
 use nalgebra::{Matrix3, Vector3};
@@ -9,8 +9,8 @@ use sha2::{Digest, Sha256};
 /// that is not told so by chance.
 const NAN: u64 = 0x7ff8_0000_0000_0000;
 
-/// What can be told as doubles, each in eight bytes, the lowest first. A list is preceded by its length; what is not
-/// there is NaN.
+/// Values that can be written as doubles, in eight bytes each, the lowest byte first. A list is preceded by its length;
+/// a missing value is NaN.
 pub trait Told {
     fn tell(&self, bytes: &mut Vec<u8>);
 }
@@ -85,7 +85,7 @@ impl Told for SE2 {
     }
 }
 
-/// A part of what a machine tells: its name, and its hash.
+/// Named part of a machine's results, with its hash.
 pub struct Part(pub &'static str, pub String);
 
 impl Part {

@@ -1,4 +1,4 @@
-//! Numbers of Arc Anatomy on the page, read there and computed.
+//! Numbers of Arc Anatomy on the page, compared with computed ones.
 
 use crate::common::told::{Number, Told};
 use motion::sim::arc_anatomy::{ArcAnatomy, FinalPose, Mapped, PRESETS, Settings, Stats};
@@ -16,7 +16,7 @@ fn stats(settings: Settings) -> Stats {
     ArcAnatomy::new(settings).expect("valid settings").stats()
 }
 
-/// As the robot is turned until the wedge is gone.
+/// The final pose after the robot is turned until the wedge disappears.
 fn without_wedge(settings: Settings) -> Settings {
     let theta = stats(settings).driven.end[2];
     Settings { next: FinalPose { theta, ..settings.next }, ..settings }

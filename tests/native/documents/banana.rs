@@ -1,4 +1,4 @@
-//! Figures of the Banana Machine on the page and in doc/statistics.md, read there and computed.
+//! Numbers of the Banana Machine on the page and in doc/statistics.md, compared with computed ones.
 
 use crate::common::told::{Number, Told};
 use crate::common::{SIGMAS, preset, winds_around};
@@ -33,7 +33,8 @@ fn the_presets_are_those_in_the_document() {
     }
 }
 
-/// The rows of the table, and the sentences of the page on the same presets; shares to 4.5 standard errors.
+/// The rows of the table, and the sentences of the page on the same presets; fractions are compared to 4.5 standard
+/// errors.
 #[test]
 fn figures_are_those_told() {
     const ROBOTS: usize = 300_000;
@@ -90,7 +91,8 @@ fn figures_are_those_told() {
     );
 }
 
-/// The robots a square metre in what only one of the outlines encloses: of 300,000, known to a fiftieth.
+/// Density of robots (1/m²) in the area that only one of the outlines encloses; from 300,000 robots, with a relative
+/// error of 2 %.
 #[test]
 fn the_ellipse_covers_floor_where_few_robots_stop() {
     page().says("where it alone lies, robots stop a seventh as densely as where the outline alone does.");

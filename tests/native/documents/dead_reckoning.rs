@@ -1,4 +1,4 @@
-//! Numbers of Dead Reckoning on the page, read there and computed.
+//! Numbers of Dead Reckoning on the page, compared with computed ones.
 
 use crate::common::SIGMAS;
 use crate::common::told::{Number, Told};
@@ -19,7 +19,7 @@ fn preset(name: &str) -> DeadReckoning {
     machine(Settings { command, steps, alphas, samples: 50_000, ..Settings::default() })
 }
 
-/// Ratios against the fourth order, which is right to some thousandths: without the robots' luck.
+/// Returns ratios to the fourth order, which is accurate to a few thousandths and free of sampling noise.
 fn exact(machine: &DeadReckoning, order: Compounding, axis: usize) -> Vec<f64> {
     let covs =
         |order| machine.predicted(order).iter().map(move |cov| cov.expect("a covariance")[(axis, axis)]);

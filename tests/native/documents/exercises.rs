@@ -1,4 +1,4 @@
-//! Numbers of doc/exercises.md, read there and computed; those of exercise 7 in `dead_reckoning.rs`.
+//! Numbers of doc/exercises.md, compared with computed ones; those of exercise 7 are in `dead_reckoning.rs`.
 
 use crate::common::told::{Number, Told};
 use crate::common::{derivative, preset, seeded, unit_cdf};
@@ -23,8 +23,8 @@ fn velocity(alphas: [f64; 6]) -> VelocityModel {
     VelocityModel { alphas: VelocityAlphas(alphas), noise: NoiseKind::Normal }
 }
 
-/// Root mean square error (m) of the arc form over all headings, at v = 1 m/s. Where the turn is small the end is known by
-/// its series, to the last digit.
+/// Returns the root mean square error (m) of the arc form over all headings, at v = 1 m/s. For small turns the exact
+/// end is computed by its series.
 fn error_of_arc_form(omega: f64, dt: f64) -> f64 {
     let (radius, phi) = (1.0 / omega, omega * dt);
     let (ahead, aside) = (dt * (1.0 - phi * phi / 6.0), dt * phi * (0.5 - phi * phi / 24.0));
@@ -44,7 +44,7 @@ fn error_of_arc_form(omega: f64, dt: f64) -> f64 {
 fn exercise_1_the_straight_line_branch() {
     let dt = 0.1;
     let straight = |omega: f64| 0.5 * omega * dt * dt;
-    // The error jumps about with ω: over a tenth of a decade it is what one would call it there.
+    // The error varies strongly with ω. Its mean over a tenth of a decade is compared.
     let ratio = |omega: f64| {
         let near = (0..20).map(|i| omega * 10f64.powf(f64::from(i) / 200.0 - 0.05));
         (near.map(|omega| (error_of_arc_form(omega, dt) / straight(omega)).ln()).sum::<f64>() / 20.0).exp()
@@ -89,7 +89,7 @@ fn exercise_2_why_bananas_bend() {
     }
 }
 
-/// Exercise 3. The determinant by differences, of an error of the square of the step.
+/// Exercise 3. The determinant is computed by differences, whose error is the square of the step.
 #[test]
 fn exercise_3_the_unpaid_jacobian() {
     let model = velocity([0.02, 0.02, 0.02, 0.02, 0.01, 0.01]);
@@ -142,7 +142,7 @@ fn exercise_4_each_alpha() {
     assert_eq!(blur.cov.fixed_rows::<2>(0).amax(), 0.0);
 }
 
-/// Exercise 5: the same seed is the same motions, so that shares are those of the table, to a digit.
+/// Exercise 5: equal seeds give equal motions, so that the fractions equal those of the table to a digit.
 #[test]
 fn exercise_5_poses_through_walls() {
     let settings = |n: f64, omega: f64, sampler: Sampler| {
@@ -186,7 +186,7 @@ fn exercise_5_poses_through_walls() {
     left.assert_percent(quarters.through_wall_rate, 0.0);
     eight.assert(eighths.draws_per_accepted, 0.0);
     let [a_second]: [Number; 1] = document().numbers("at 20 Hz that is # draws a second");
-    // Told in thousands.
+    // Printed in thousands.
     assert!((a_second.value - 2000.0 * 20.0 * whole.draws_per_accepted).abs() <= 500.0);
 }
 

@@ -1,4 +1,4 @@
-//! Numbers of the Odometry Decomposer on the page and of the rules in doc/model.md, read there and computed.
+//! Numbers of the Odometry Decomposer on the page and of the rules in doc/model.md, compared with computed ones.
 
 use crate::common::told::Told;
 use motion::models::OdometryRule::{self, Beluga, Nav2, Omni, Table};
@@ -27,7 +27,7 @@ fn figures(settings: Settings, rule: OdometryRule) -> RuleFigures {
 
 #[test]
 fn the_lever_grows_faster_than_the_drive() {
-    // What the figure itself says: by the exact curve, of which the lever alone is the tangent.
+    // Numbers that the figure shows: from the exact curve, whose tangent is the contribution of the first rotation.
     let [deviation, across, times] = page().numbers(
         "the noise of the first rotation: ± # rad at the start are ± # m across at the end. Twice as far it is # times as much",
     );
@@ -67,7 +67,8 @@ fn correlation_changes_the_heading_deviation_from_difference_to_sum() {
     }
 }
 
-/// The table of doc/model.md: deviations of the first rotation, the drive and the second rotation of its three readings.
+/// Table of doc/model.md: standard deviations of the first rotation, the drive and the second rotation of its three
+/// readings.
 #[test]
 fn the_variances_of_the_rules_are_those_in_the_document() {
     let presets = [("reverse", "reverse"), ("spin", "spin"), ("rest", "at rest")];

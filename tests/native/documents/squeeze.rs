@@ -1,4 +1,4 @@
-//! Shares of Map Squeeze on the page and in doc/model.md, read there and computed.
+//! Fractions of Map Squeeze on the page and in doc/model.md, compared with computed ones.
 
 use crate::common::told::{Number, Told};
 use crate::common::{SIGMAS, seeded};
@@ -9,12 +9,12 @@ use motion::noise::centred_uniform;
 use motion::sim::squeeze::{MapSqueeze, PRESETS, Settings, alphas_of_noise};
 use motion::{NoiseKind, VelocityAlphas, VelocityCmd, VelocityModel};
 
-/// Which of the presets.
+/// Indices of the presets.
 const DOORWAY: usize = 0;
 const WALL: usize = 1;
 const CORRIDOR: usize = 2;
 
-/// The opening, elsewhere, with another sampler and another turn rate.
+/// Returns the initial settings with another start, sampler and turn rate.
 fn settings(place: usize, sampler: Sampler, omega: f64) -> Settings {
     let command = VelocityCmd { omega, ..Settings::default().command };
     let steps = sampler.parts();
@@ -26,12 +26,12 @@ fn machine(settings: Settings) -> MapSqueeze {
     MapSqueeze::new(settings).expect("valid settings")
 }
 
-/// The share through a wall, and its standard error.
+/// Returns the fraction through a wall, and its standard error.
 fn through(settings: Settings) -> (f64, f64) {
     let machine = machine(settings);
     assert!(!machine.gave_up(), "{settings:?}");
     let (share, count) = (machine.tally().through_wall_rate(), machine.tally().accepted as f64);
-    // Of a share of 0, that of one in all.
+    // If the fraction is 0, the standard error of one sample in all is taken.
     (share, ((share * (1.0 - share)).max(1.0 / count) / count).sqrt())
 }
 
@@ -39,7 +39,7 @@ fn in_parts(place: usize, parts: u32, omega: f64) -> (f64, f64) {
     through(settings(place, Sampler::SubStepped(parts), omega))
 }
 
-/// A share that is told in per cent.
+/// Asserts that a printed percentage equals a computed fraction.
 fn assert_told((share, error): (f64, f64), told: Number) {
     told.assert_percent(share, SIGMAS * error);
 }
@@ -52,7 +52,7 @@ fn document() -> Told {
     Told::in_document(include_str!("../../../doc/model.md"))
 }
 
-/// Beyond the errors of both.
+/// Beyond the standard errors of both.
 fn assert_less(one: (f64, f64), other: (f64, f64), what: &str) {
     assert!(other.0 - one.0 > SIGMAS * one.1.hypot(other.1), "{what}: {one:?} is not less than {other:?}");
 }
@@ -68,7 +68,7 @@ fn most_accepted_samples_lie_behind_the_wall() {
         let machine = machine(settings(WALL, sampler, 0.0));
         let accepted: Vec<f64> =
             machine.attempts().iter().filter(|a| a.accepted).map(|a| a.pose.y()).collect();
-        // The wall ahead stands at y = 3.8; those who turn aside end before it too.
+        // The wall ahead is at y = 3.8; robots that turn aside end before it too.
         accepted.iter().filter(|y| **y > 3.8).count() as f64 / accepted.len() as f64
     };
     assert!(behind(Sampler::Endpoint) > 0.8);
@@ -140,7 +140,7 @@ fn more_substeps_facing_the_wall_send_more_samples_through_it() {
     }
 }
 
-/// Judged by the geodesic instead of the arc.
+/// Returns the fraction if collisions are checked along the geodesic instead of the arc.
 #[test]
 #[ignore = "nightly: clouds of 100,000"]
 fn judging_the_geodesic_changes_the_documented_share_of_verdicts() {

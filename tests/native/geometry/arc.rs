@@ -1,4 +1,4 @@
-//! The distance between a driven arc and a wall, against a reference that knows nothing of circles' equations.
+//! Distance between a driven arc and a wall, compared with an independent reference without the equation of a circle.
 
 use crate::common::distance::{Point, along, by_halving, minus, norm, scale};
 use crate::common::{seeded, signed_log_uniform, uniform};
@@ -44,7 +44,7 @@ fn world(arc: &Arc, local: Point) -> Point {
     [arc.start.x() + local[0], arc.start.y() + local[1]]
 }
 
-/// A wall along the arc's tangent somewhere, moved off it by next to nothing.
+/// Returns a wall along a tangent of the arc, at a tiny distance.
 fn tangent_wall(rng: &mut impl Rng, arc: &Arc) -> Segment {
     let f = uniform(rng, 0.0, 1.0);
     let heading = arc.start.theta() + f * arc.turn;
@@ -58,7 +58,7 @@ fn tangent_wall(rng: &mut impl Rng, arc: &Arc) -> Segment {
     Segment { from: end(), to: end() }
 }
 
-/// A wall that ends almost where the arc does, or goes on past it.
+/// Returns a wall that ends near the end of the arc, or extends beyond it.
 fn wall_by_the_end(rng: &mut impl Rng, arc: &Arc) -> Segment {
     let [x, y] = along(arc, f64::from(rng.next_u32() % 2));
     let mut off = || signed_log_uniform(rng, 1e-15, 1e-1);
@@ -72,7 +72,7 @@ fn wall_by_the_end(rng: &mut impl Rng, arc: &Arc) -> Segment {
     Segment { from, to }
 }
 
-/// A wall with an end almost at the centre of the arc's circle: everywhere on the circle is as near.
+/// Returns a wall with an end near the centre of the arc's circle, where all points of the circle are equally near.
 fn wall_from_the_centre(rng: &mut impl Rng, arc: &Arc) -> Segment {
     let (radius, theta) = (arc.length / arc.turn, arc.start.theta());
     let mut off = || signed_log_uniform(rng, 1e-16, 1e-1);
@@ -82,7 +82,7 @@ fn wall_from_the_centre(rng: &mut impl Rng, arc: &Arc) -> Segment {
     Segment { from, to: [from[0] + reach * heading.cos(), from[1] + reach * heading.sin()] }
 }
 
-/// A wall that is a point.
+/// Returns a wall of length 0.
 fn point_wall(rng: &mut impl Rng, _: &Arc) -> Segment {
     let from = point(rng, 8.0);
     Segment { from, to: from }
@@ -99,7 +99,7 @@ const ON_THE_SPOT: MakeArc = |rng| {
     let turn = uniform(rng, -TAU, TAU);
     arc(rng, 0.0, turn)
 };
-/// Up to a kilometre round a circle of any radius.
+/// Returns an arc of up to a kilometre around a circle of any radius.
 const FAR: MakeArc = |rng| {
     let (length, turn) = (signed_log_uniform(rng, 1.0, 1e3), signed_log_uniform(rng, 1e-6, 30.0));
     arc(rng, length, turn)
@@ -164,7 +164,7 @@ fn the_bounding_box_holds_the_arc_and_its_points_lie_on_it() {
                     && (bottom - slack..=top + slack).contains(&y);
                 assert!(held, "{name}: ({x}, {y}) of {arc:?}");
             }
-            // A box that holds everything would be no help.
+            // The box may not be much larger than needed.
             let reach = arc.length.abs().min(4.0 * (arc.length / arc.turn).abs());
             assert!(right - left <= reach + slack && top - bottom <= reach + slack, "{name}: {arc:?}");
             for [x, y] in arc.points().into_iter().step_by(7) {

@@ -35,7 +35,7 @@ fn sine_cosine_and_sinc_match_fifty_digit_references() {
     assert_eq!(DoubleDouble::from(0.0).sinc().to_f64(), 1.0);
 }
 
-/// Exact by whole numbers of 128 bits.
+/// Compared with exact arithmetic of 128-bit integers.
 #[test]
 fn sums_and_products_lose_nothing() {
     let mut rng = seeded(31);
@@ -45,7 +45,7 @@ fn sums_and_products_lose_nothing() {
         let product = DoubleDouble::product(a, b);
         assert_eq!(product.high as i128 + product.low as i128, a as i128 * b as i128);
         let sum = DoubleDouble::from(a) + DoubleDouble::from(b / 1024.0);
-        // In 1024ths both are whole.
+        // Multiplied by 1024 both are integers.
         assert_eq!((sum.high * 1024.0) as i128 + (sum.low * 1024.0) as i128, a as i128 * 1024 + b as i128);
         assert!(sum.low.abs() <= 0.5 * sum.high.abs() * f64::EPSILON);
     }
@@ -54,20 +54,20 @@ fn sums_and_products_lose_nothing() {
 #[test]
 fn errors_of_the_three_arc_forms_grow_as_their_formulas_say() {
     let FormErrors { omega, arc, straight, chord, estimated_crossover } = form_errors();
-    // The chord loses nothing anywhere: the last digit of a tenth of a metre, from its product and two sums.
+    // The chord loses no digits: its error is the rounding of a product and two sums.
     assert!(chord.iter().all(|error| *error < 3e-17), "{chord:?}");
     for (i, omega) in omega.iter().enumerate() {
         let bend = 0.5 * omega * 0.01;
         if (1e-9..1e-2).contains(omega) {
             assert!((straight[i] / bend - 1.0).abs() < 1e-3, "{omega} {}", straight[i]);
         }
-        // ε/ω but for luck.
+        // The error is about ε/ω.
         let ratio = arc[i] / (f64::EPSILON / omega);
         if (1e-11..0.1).contains(omega) {
             assert!((0.05..3.0).contains(&ratio), "{omega} {ratio}");
         }
     }
-    // The two meet where ½ωΔt² = ε/ω.
+    // Both errors are equal where ½ωΔt² = ε/ω.
     assert!((estimated_crossover / ((2.0 * f64::EPSILON).sqrt() / 0.1) - 1.0).abs() < 1e-9);
     assert_eq!(CHAPTERS_THRESHOLD, 1e-6);
 }

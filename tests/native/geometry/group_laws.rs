@@ -10,14 +10,14 @@ use std::f64::consts::{PI, TAU};
 
 const LAW: f64 = 32.0 * f64::EPSILON;
 
-/// What exp, log and both Jacobians are to keep for |ω| ≤ π, times the size of the twist where that exceeds 1.
+/// Maximum error of exp, log and both Jacobians for |ω| ≤ π, relative to the size of the twist if that exceeds 1.
 const ACCURACY: f64 = 4e-16;
 
 fn assert_same(a: &SE2, b: &SE2, tolerance: f64, law: &str) {
     assert!(pose_distance(a, b) <= tolerance, "{law}: {a:?} and {b:?} differ by more than {tolerance:e}");
 }
 
-/// The formula that a reader would write down, so that no law above is satisfied by a wrong group.
+/// The textbook formula of composition: the other laws could hold in another group as well.
 #[test]
 fn composition_places_the_second_pose_in_the_frame_of_the_first() {
     let quarter = SE2::new(2.0, 1.0, PI / 2.0);
@@ -31,7 +31,8 @@ fn composition_places_the_second_pose_in_the_frame_of_the_first() {
     );
 }
 
-/// On the branch of a known turn the logarithm undoes exp beyond half a turn; its coordinates grow towards a whole one.
+/// On the branch of a known turn the logarithm inverts exp beyond half a turn. Its coordinates grow towards a full
+/// turn.
 #[test]
 fn the_logarithm_near_a_turn_uses_the_branch_of_that_turn() {
     let mut rng = seeded(6);
@@ -41,7 +42,7 @@ fn the_logarithm_near_a_turn_uses_the_branch_of_that_turn() {
         let pose = SE2::exp(&twist);
         let turn = twist.z + draw(3.0);
         let back = pose.log_near(turn);
-        // 1/sinc(ω/2) magnifies the rounding of the pose, up to 20 times at 0.3 rad from a whole turn.
+        // The factor 1/sinc(ω/2) amplifies the rounding of the pose, up to 20 times at 0.3 rad from a full turn.
         assert!(
             (back - twist).amax() < 20.0 * LAW * twist.norm().max(1.0),
             "log_near({turn}) of exp({twist}) = {back}"

@@ -1,4 +1,4 @@
-//! Sine and cosine in lanes: their accuracy over the whole range, and that a lane does not depend on its neighbours.
+//! Sine and cosine of four angles: accuracy over the whole range, and independence of the lanes.
 
 use crate::common::seeded;
 use motion::geom::lanes::{ACCURACY, Trigonometry};
@@ -15,7 +15,7 @@ fn angles() -> Vec<f64> {
         let size = libm::pow(10.0, rng.random_range(-17.0..15.0));
         angles.push(if rng.random() { size } else { -size });
         angles.push(rng.random_range(-2.0 * PI..2.0 * PI));
-        // Multiples of a quarter turn, and a little beside.
+        // Multiples of a quarter turn, and angles next to them.
         let quarter = f64::from(rng.random_range(-2000..2000)) * FRAC_PI_2;
         angles.push(quarter + libm::pow(10.0, rng.random_range(-16.0..0.0)));
     }
@@ -50,7 +50,8 @@ fn half_turns_lie_on_the_requested_branch() {
             let turn = trigonometry.any_half_turn(f64x4::splat(half), near);
             let expected = near + 0.5 * wrap_angle(2.0 * (half - near));
             let found = first(turn.half);
-            // Half circles taken off cost half of theirs in digits; where the branch ends, either side will do.
+            // The reduction by half circles rounds in proportion to their number. At the end of the branch either side
+            // is correct.
             let digits = ACCURACY * (1.0 + half.abs());
             let beside = (found - expected).abs().min(((found - expected).abs() - PI).abs());
             assert!(beside <= digits, "{half} near {near}: {found} is not {expected}");
@@ -59,7 +60,7 @@ fn half_turns_lie_on_the_requested_branch() {
             assert!((first(turn.sin).abs() - sin.abs()).abs() <= digits);
             assert!((first(turn.sin) * first(turn.cos) - sin * cos).abs() <= 2.0 * digits);
             let cotangent = if found == 0.0 { 1.0 } else { found * cos / sin };
-            // As the error of the sine, divided by it twice.
+            // The error of the sine, divided by the sine twice.
             let tolerance =
                 4.0 * digits * (1.0 + found.abs()) / (sin * sin / (found * found).min(1.0)).max(1e-300);
             assert!(
@@ -70,7 +71,7 @@ fn half_turns_lie_on_the_requested_branch() {
     }
 }
 
-/// The short formulas and those for any angle give the same bits, beside whatever neighbours.
+/// The formulas for small angles and for any angles give the same bits, whatever the other lanes contain.
 #[test]
 fn a_lane_does_not_depend_on_its_neighbours() {
     let trigonometry = Trigonometry::default();

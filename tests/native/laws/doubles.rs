@@ -1,4 +1,4 @@
-//! Doubles, poses and twists of any size, and how often a law is tried.
+//! Doubles, poses and twists of any size, and the number of cases of a law.
 
 use motion::geom::se2::SE2;
 use nalgebra::Vector3;
@@ -7,8 +7,8 @@ use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-/// The same cases on every run, so that what passes here passes everywhere. Nothing is written where one fails: it fails
-/// again, and is to be a test of its own.
+/// Cases from a fixed seed, so that results are the same on every machine. Failing cases are not stored: each becomes a
+/// test of its own.
 pub fn cases(cases: u32) -> ProptestConfig {
     ProptestConfig {
         cases,
@@ -20,7 +20,7 @@ pub fn cases(cases: u32) -> ProptestConfig {
     }
 }
 
-/// Doubles of any bits, with those at which something begins or ends.
+/// Doubles with arbitrary bits, with a preference for limits of ranges.
 pub fn any_double() -> impl Strategy<Value = f64> {
     prop_oneof![
         2 => any::<u64>().prop_map(f64::from_bits),
@@ -29,7 +29,7 @@ pub fn any_double() -> impl Strategy<Value = f64> {
     ]
 }
 
-/// Finite doubles: of any exponent, of everyday sizes, and edges.
+/// Finite doubles: with any exponent, of common sizes, and limits.
 pub fn finite() -> impl Strategy<Value = f64> {
     prop_oneof![
         3 => POSITIVE | NEGATIVE | NORMAL | SUBNORMAL | ZERO,
@@ -76,7 +76,7 @@ pub fn up_to(most: f64) -> impl Strategy<Value = f64> {
     ]
 }
 
-/// Coordinates whose sums, and products with an angle, are doubles.
+/// Coordinates whose sums, and products with an angle, do not overflow.
 pub const LARGE: f64 = 1e300;
 
 pub fn poses() -> impl Strategy<Value = SE2> {
@@ -88,12 +88,12 @@ pub fn twists(most: f64) -> impl Strategy<Value = Vector3<f64>> {
     (up_to(LARGE), up_to(LARGE), up_to(most)).prop_map(|(x, y, turn)| Vector3::new(x, y, turn))
 }
 
-/// The size of what a pose is made of.
+/// Returns the size of a pose's coordinates.
 pub fn size(pose: &SE2) -> f64 {
     pose.x().abs() + pose.y().abs()
 }
 
-/// The same position to `units` units in the last place of `size`, the same heading to as many of a circle.
+/// Asserts equal positions to `units` units in the last place of `size`, and equal headings to as many of a circle.
 pub fn same_pose(a: &SE2, b: &SE2, units: f64, size: f64) -> Result<(), TestCaseError> {
     let room = units * f64::EPSILON * size + f64::MIN_POSITIVE;
     let turn = libm::remainder(a.theta() - b.theta(), TAU).abs();

@@ -8,7 +8,7 @@ use motion::stats::CrossTrack;
 use motion::{MotionModel, NoiseKind, TangentNoiseModel, VelocityAlphas, VelocityCmd, VelocityModel};
 use std::f64::consts::PI;
 
-/// Sixth powers of residuals underflowed, and the error of the skew came out as 0.
+/// Sixth powers of residuals underflowed, and the standard error of the skew was 0.
 #[test]
 fn a_cloud_too_small_for_its_powers_has_no_skew() {
     for (unit, has_any) in [(1.0, true), (1e-48, true), (1e-52, false), (1e-60, false), (1e-110, false)] {
@@ -24,7 +24,7 @@ fn a_cloud_too_small_for_its_powers_has_no_skew() {
     assert!(figures.cross_track.skew.is_nan() && figures.cross_track.skew_error.is_nan(), "{figures:?}");
 }
 
-/// The direction of a chord was a division by a number whose inverse is no double, and nobody could stand there.
+/// The direction of a chord was computed with a reciprocal that overflowed, and no point was free.
 #[test]
 fn an_arc_of_subnormal_length_is_judged() {
     let plan = FloorPlan::apartment();
@@ -41,7 +41,7 @@ fn model(alphas: [f64; 6]) -> VelocityModel {
     VelocityModel { alphas: VelocityAlphas(alphas), noise: NoiseKind::Normal }
 }
 
-/// 0 · ∞: a circle too long for a double, at a speed that is impossible.
+/// 0 · ∞: the circumference of a circle overflowed, at a speed of probability 0.
 #[test]
 fn a_circle_too_long_for_a_double_is_not_driven() {
     let model = model([0.0, 0.55, 0.0, 0.29, 0.0, 0.41]);
@@ -50,7 +50,7 @@ fn a_circle_too_long_for_a_double_is_not_driven() {
     assert_eq!(model.pose_density(&next, &u, &x), Some(0.0));
 }
 
-/// 0 / 0: a displacement whose square is no double is none.
+/// 0 / 0: a displacement whose square underflows counts as 0.
 #[test]
 fn a_displacement_with_a_subnormal_square_counts_as_none() {
     let model = model([0.0, 0.73, 0.06, 0.0, 0.0, 0.33]);
@@ -59,7 +59,7 @@ fn a_displacement_with_a_subnormal_square_counts_as_none() {
     assert_eq!(model.pose_density(&next, &u, &x), model.pose_density(&x, &u, &x));
 }
 
-/// 0 · ∞ again, in solving twice for what is divided by a variance below any normal number.
+/// 0 · ∞ in a double solve, which divided by a variance below any normal number.
 #[test]
 fn a_last_turn_with_a_tiny_variance_has_a_finite_density() {
     let u = VelocityCmd { v: 56.0, omega: 0.0, dt: 1e-6 };
@@ -69,7 +69,7 @@ fn a_last_turn_with_a_tiny_variance_has_a_finite_density() {
     assert!(logarithm < 0.0, "{logarithm}");
 }
 
-/// A plan more than 256 times as long as wide had no square at all to look at.
+/// A plan more than 256 times as long as wide had no squares to search.
 #[test]
 fn a_narrow_plan_has_an_open_place() {
     for bounds in [[0.0, 0.0, 100.0, 0.3], [0.0, 0.0, 0.01, 100.0], [-1e6, 5.0, -9e5, 5.02]] {

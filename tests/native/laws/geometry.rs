@@ -15,7 +15,7 @@ const UNITS: f64 = 32.0;
 proptest! {
     #![proptest_config(cases(400))]
 
-    /// The remainder towards 0 is exact, and so is a turn taken off it.
+    /// The remainder is exact, and so is subtracting a full turn.
     #[test]
     fn wrapped_angles_are_remainders(angle in finite()) {
         let wrapped = wrap_angle(angle);
@@ -35,7 +35,7 @@ proptest! {
         prop_assert_eq!(value.to_bits(), sinc(-t).to_bits());
         let most = if t == 0.0 { 1.0 } else { (1.0 / t.abs()).min(1.0) };
         prop_assert!(value.abs() <= most * (1.0 + f64::EPSILON), "{}", value);
-        // Below 10⁻⁸ the next term of its series is rounding.
+        // Below 10⁻⁸ the next term of the series is below rounding.
         prop_assert!(t.abs() > 1e-8 || value == 1.0);
     }
 
@@ -50,7 +50,7 @@ proptest! {
         prop_assert_eq!(a * SE2::identity(), a);
     }
 
-    /// For any turn: beyond half a one the heading is rounded by 10⁻¹⁶ of it, and the arc as much shorter.
+    /// Any turn: beyond half a turn the heading is rounded by 10⁻¹⁶ of it, and the arc changes as much.
     #[test]
     fn a_twist_and_its_reverse_cancel(twist in twists(f64::MAX)) {
         let there = SE2::exp(&twist);
@@ -65,7 +65,7 @@ proptest! {
         same_pose(&SE2::exp(&twist), &pose, UNITS, 2.0 * size(&pose))?;
     }
 
-    /// On the principal branch; the last coordinate to rounding, whatever the others are.
+    /// The principal branch. The last coordinate is exact to rounding, whatever the others are.
     #[test]
     fn exponentials_lead_back(twist in twists(3.1)) {
         let back = SE2::exp(&twist).log();
@@ -119,7 +119,7 @@ proptest! {
 
 }
 
-/// Equal to rounding: turns to that of 1, places to that of the `size` of what they are made of.
+/// Asserts equality up to rounding: of turns relative to 1, of positions relative to the `size` of their terms.
 fn close(a: &Matrix3<f64>, b: &Matrix3<f64>, size: f64) -> Result<(), TestCaseError> {
     for i in 0..3 {
         for j in 0..3 {

@@ -57,7 +57,7 @@ proptest! {
     }
 }
 
-/// What may stand between two words of a header.
+/// Returns allowed separators between two words of a header.
 fn gaps() -> impl Strategy<Value = String> {
     prop_oneof![
         "[ \t\r\n]{1,3}",
@@ -69,7 +69,7 @@ fn gaps() -> impl Strategy<Value = String> {
 proptest! {
     #![proptest_config(cases(250))]
 
-    /// The same picture, however its file is laid out.
+    /// The result does not depend on the layout of the file.
     #[test]
     fn pgm_headers_may_have_any_white_space_and_comments(
         (width, height) in (1..6usize, 1..6usize), greatest in 1..=65_535u32, seeds in vec(any::<u32>(), 36),
@@ -92,7 +92,7 @@ proptest! {
         for (pixel, value) in image.pixels.zip(&values) {
             prop_assert_eq!(Pixel::from(pixel).shade, *value as f32 / greatest as f32);
         }
-        // Cut anywhere, a binary file is refused; a plain one too, unless the cut is in or behind its last number.
+        // A truncated binary file is refused; a plain one too, unless the cut is in or after its last number.
         prop_assert!(read_pgm(&binary[..cut % binary.len()]).is_err());
         let last = plain.trim_end_matches(|c: char| c.is_ascii_digit()).len();
         prop_assert!(read_pgm(&plain.as_bytes()[..cut % (last + 1)]).is_err());

@@ -1,4 +1,4 @@
-//! Noise, and how likely the models hold what happened.
+//! Noises, and probabilities of poses under the models.
 
 use super::doubles::{any_double, cases, finite, up_to};
 use motion::geom::se2::SE2;
@@ -14,7 +14,7 @@ fn kinds() -> impl Strategy<Value = NoiseKind> {
     prop_oneof![Just(NoiseKind::Normal), Just(NoiseKind::Triangular)]
 }
 
-/// Numbers of a range of settings, its ends among them.
+/// Numbers in the range of a setting, including its ends.
 fn within(range: std::ops::RangeInclusive<f64>) -> impl Strategy<Value = f64> {
     let [low, high] = [*range.start(), *range.end()];
     up_to(high).prop_map(move |number| if low >= 0.0 { number.abs().max(low) } else { number })
@@ -25,7 +25,7 @@ fn alphas<const N: usize>() -> impl Strategy<Value = [f64; N]> {
         .prop_map(|alphas| std::array::from_fn(|i| alphas[i]))
 }
 
-/// As far as settings let a robot go.
+/// Commands in the range of the settings.
 fn commands() -> impl Strategy<Value = VelocityCmd> {
     (up_to(1e6), up_to(1e6), within(DURATION)).prop_map(|(v, omega, dt)| VelocityCmd { v, omega, dt })
 }
@@ -42,7 +42,7 @@ fn deltas() -> impl Strategy<Value = OdomDelta> {
     })
 }
 
-/// All the odd multiples of 2⁻⁵⁴ that a draw can be, the outermost and innermost often.
+/// Possible values of a draw, odd multiples of 2⁻⁵⁴; the outermost and innermost ones often.
 fn uniforms() -> impl Strategy<Value = f64> {
     let scale = 1.0 / (1u64 << 53) as f64;
     prop_oneof![
@@ -55,7 +55,7 @@ fn uniforms() -> impl Strategy<Value = f64> {
     .prop_map(move |whole| (whole as f64 + 0.5) * scale)
 }
 
-/// Φ by the complementary error function, of which src/ knows nothing; relative to its tail.
+/// Φ by the complementary error function, an implementation independent of src/. Accurate relative to its tail.
 fn normal_tail(z: f64) -> f64 {
     0.5 * libm::erfc(z.abs() / 2f64.sqrt())
 }
@@ -69,13 +69,13 @@ proptest! {
         prop_assert_eq!(of(-a).to_bits(), (-of(a)).to_bits());
         let edge = if kind == NoiseKind::Normal { 8.5 } else { 6f64.sqrt() };
         prop_assert!(of(a).abs() <= edge && (of(a) > 0.0) == (a > 0.0), "{}", of(a));
-        // Neighbours may be the wrong way round by the error of the approximation.
+        // Neighbouring quantiles may be in the wrong order by the error of the approximation.
         let [low, high] = [a.min(b), a.max(b)].map(of);
         prop_assert!(low <= high + 2e-15 * high.abs(), "{} {}", low, high);
     }
 
-    /// The probability beyond a quantile is what it was asked for, to its own rounding and that of the quantile, which a
-    /// tail magnifies by z².
+    /// The probability beyond a quantile is the requested one, up to rounding of both. A tail amplifies the rounding of
+    /// the quantile by z².
     #[test]
     fn quantiles_undo_the_distribution(q in uniforms()) {
         let z = NoiseKind::Normal.quantile(q);
@@ -84,11 +84,11 @@ proptest! {
         prop_assert!((normal_tail(z) - tail).abs() <= rounding * tail, "{} {}", normal_tail(z), tail);
         let t = NoiseKind::Triangular.quantile(q).abs();
         let room = 6f64.sqrt() - t;
-        // What is left to the edge is a difference.
+        // The distance to the edge of the support is a difference, with its rounding.
         prop_assert!((room * room / 12.0 - tail).abs() <= 2e-15 * (room + tail), "{} {}", room, tail);
     }
 
-    /// For any residual and any variance of which six are a double.
+    /// Any residual, and any variance that does not overflow when multiplied by six.
     #[test]
     fn densities_are_numbers(kind in kinds(), a in finite(), b2 in up_to(1e307)) {
         let b2 = b2.abs();
@@ -125,8 +125,8 @@ proptest! {
         }
     }
 
-    /// In all four quadrants of (v, ω), forward and in reverse, to the left and to the right. Beyond half a turn another arc
-    /// leads to the same place.
+    /// All four quadrants of (v, ω): forward and in reverse, to the left and to the right. Beyond half a turn another
+    /// arc leads to the same place.
     #[test]
     fn the_noise_free_pose_is_the_likeliest(
         kind in kinds(), alphas in proptest::array::uniform6(1e-3..1.0), u in (-50.0..50.0, -3.0..3.0),
@@ -135,17 +135,17 @@ proptest! {
         let model = VelocityModel { alphas: VelocityAlphas(alphas), noise: kind };
         let u = VelocityCmd { v: u.0, omega: u.1, dt: 1.0 };
         let x = SE2::new(x.0, x.1, x.2);
-        // So slow that the bearing of its way is lost in the digits of the start.
+        // The drive is so short that rounding of the start position dominates its bearing.
         prop_assume!(u.v.abs() > 1e-3);
         let (peak, other) = (model.apply_noise(&u, &x, [0.0; 3]), model.apply_noise(&u, &x, unit_noise));
         let [peak, other] = [peak, other].map(|next| model.prob(&next, &u, &x));
         prop_assert!(peak >= other * (1.0 - 1e-6), "{} {}", peak, other);
-        // What the three densities are where nothing has gone otherwise than commanded.
+        // Product of the three densities at residual 0.
         let most: f64 = model.variances(&u).iter().map(|variance| kind.prob(0.0, *variance)).product();
         prop_assert!((peak - most).abs() <= 1e-6 * most, "{} {}", peak, most);
     }
 
-    /// Whatever the α's, commands and luck, a robot is somewhere.
+    /// For any α's, commands and noise, the pose is finite.
     #[test]
     fn samples_are_poses(kind in kinds(), alphas in alphas(), u in commands(), x in places(), q in proptest::array::uniform3(uniforms())) {
         let noise = q.map(|q| kind.quantile(q));

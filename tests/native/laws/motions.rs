@@ -17,7 +17,7 @@ fn durations() -> impl Strategy<Value = f64> {
 proptest! {
     #![proptest_config(cases(400))]
 
-    /// Whatever the two poses are, the controls that an inversion finds lead from the one to the other.
+    /// For any two poses, the inverted controls lead from one to the other.
     #[test]
     fn an_inverted_arc_ends_at_the_given_pose(x in poses(), next in poses(), dt in durations()) {
         let found = invert_arc(&x, &next, dt);
@@ -29,28 +29,29 @@ proptest! {
         same_pose(&reached, &next, UNITS, size(&x) + size(&next))?;
     }
 
-    /// From the origin, where no digit is lost in the coordinates of the start. Half a turn is driven forward or in reverse
-    /// as rounding will have it.
+    /// The start is the origin, whose coordinates add no rounding. Half a turn is driven forward or in reverse,
+    /// depending on rounding.
     #[test]
     fn inverting_a_driven_arc_returns_its_controls(length in up_to(1e300), turn in up_to(3.1), last in up_to(3.1), dt in durations()) {
         let (forward, left) = chord(length, turn);
-        // Shorter chords lose the digits of their bearing.
+        // The bearing of a shorter chord is inaccurate.
         prop_assume!(forward.hypot(left) > 1e-290 && forward.hypot(left) < 1e290);
         let found = invert_arc(&SE2::identity(), &SE2::new(forward, left, turn + last), dt);
         let rounding = UNITS * f64::EPSILON;
         prop_assert!((found.v_hat * dt - length).abs() <= rounding * length.abs(), "{:?}", found);
-        // Beside the chord, a turn that is smaller yet cannot be told.
+        // A smaller turn is lost in the rounding of the chord.
         let sideways = f64::MIN_POSITIVE * (1.0 + 1.0 / forward.hypot(left));
         prop_assert!((found.omega_hat * dt - turn).abs() <= rounding * turn.abs() + sideways, "{:?}", found);
         prop_assert!((found.gamma_hat * dt - last).abs() <= rounding * PI, "{:?}", found);
     }
 
-    /// Round the circle as often as one likes, the arc ends at the same place.
+    /// With any number of additional full turns the arc ends at the same place.
     #[test]
     fn wound_arcs_end_at_the_same_place(x in -50.0..50.0, y in -50.0..50.0, near in -300.0..300.0) {
         let next = SE2::new(x, y, 0.0);
         let (length, turn) = arc_near(&SE2::identity(), &next, near);
-        // On a straight line there is no circle; on a nearly straight one it is longer than its end can be told on.
+        // A straight line has no circle. The circle of a nearly straight one is so long that its end cannot be
+        // represented.
         prop_assume!(length.abs() < 1e6);
         prop_assert!(turn == 0.0 || (turn - near).abs() <= PI * (1.0 + 1e-12), "{}", turn);
         let end = Arc { start: SE2::identity(), length, turn }.end();
@@ -58,7 +59,7 @@ proptest! {
         prop_assert!(apart <= UNITS * f64::EPSILON * (length.abs() + size(&next)), "{:e}", apart);
     }
 
-    /// A displacement below a nanometre is none for an odometry reading.
+    /// A displacement below a nanometre counts as 0 in an odometry reading.
     #[test]
     fn an_odometry_reading_leads_to_the_second_pose(prev in poses(), curr in poses()) {
         let reading = OdomDelta::from_poses(&prev, &curr);
@@ -68,13 +69,14 @@ proptest! {
         same_pose(&reading.apply(&prev), &curr, UNITS, sizes + if reading.trans == 0.0 { spin } else { 0.0 })?;
     }
 
-    /// The reading is of the odometry frame's poses alone: turned and moved with their frame they read the same.
+    /// The reading depends on the relative pose only: it is the same if both poses are moved and turned with their
+    /// frame.
     #[test]
     fn an_odometry_reading_does_not_depend_on_the_frame(x in -1e3..1e3, y in -1e3..1e3, theta in -3.0..3.0, frame in (-1e3..1e3, -1e3..1e3, -3.0..3.0)) {
         let (prev, curr) = (SE2::new(1.0, 2.0, 0.5), SE2::new(x, y, theta));
         let frame = SE2::new(frame.0, frame.1, frame.2);
         let (here, there) = (OdomDelta::from_poses(&prev, &curr), OdomDelta::from_poses(&(frame * prev), &(frame * curr)));
-        // Bearings of a displacement lose what it is shorter than the coordinates.
+        // The bearing of a displacement that is small relative to the coordinates loses digits.
         prop_assume!(here.trans > 1.0);
         let rounding = UNITS * f64::EPSILON * 1e4;
         prop_assert!((here.trans - there.trans).abs() <= rounding);

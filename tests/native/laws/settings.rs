@@ -1,4 +1,4 @@
-//! Settings of every widget: a number is taken, or refused by name together with what is allowed.
+//! Settings of every widget: a number is accepted, or refused with the name and the allowed range.
 
 use super::doubles::{any_double, cases};
 use motion::map::Sampler;
@@ -7,13 +7,13 @@ use motion::sim::{alpha_calibrator, arc_anatomy, banana, dead_reckoning, odometr
 use proptest::prelude::*;
 use std::ops::RangeInclusive;
 
-/// A number among settings: its name, and what it may be.
+/// Number among settings: name and range.
 struct Place {
     name: String,
     allowed: RangeInclusive<f64>,
 }
 
-/// Puts a number where settings have their `index`th double; None past the last.
+/// Sets the `index`th double of the settings; returns None past the last.
 fn put<S: Rules>(settings: &mut S, index: usize, value: f64) -> Option<Place> {
     let (mut place, mut next) = (None, 0);
     let mut here = |name: String, slot: &mut f64, allowed: &RangeInclusive<f64>| {
@@ -49,7 +49,7 @@ fn places<S: Rules>() -> usize {
     (0..).take_while(|index| put(&mut S::default(), *index, 0.0).is_some()).count()
 }
 
-/// A number in its range is taken; any other is refused with its name, its value and the range.
+/// A number in its range is accepted; any other is refused with its name, its value and the range.
 fn taken_or_named<S: Rules>(settings: &S, place: &Place, value: f64) -> Result<(), TestCaseError> {
     let Place { name, allowed } = place;
     let Err(error) = settings.check() else {
@@ -70,7 +70,7 @@ fn taken_or_named<S: Rules>(settings: &S, place: &Place, value: f64) -> Result<(
     Ok(())
 }
 
-/// Puts a number into one place of the settings of a widget, and checks what is said of it.
+/// Sets one number of the settings of a widget, and checks the error message.
 fn number<S: Rules>(place: usize, value: f64) -> Result<(), TestCaseError> {
     let mut settings = S::default();
     let place = put(&mut settings, place % places::<S>(), value).expect("a place");
@@ -92,7 +92,7 @@ proptest! {
         }
     }
 
-    /// Counts and seeds, and how many samples there may be of how many parts.
+    /// Counts and seeds, and the product of samples and parts.
     #[test]
     fn whole_numbers_are_accepted_or_refused_by_name(samples in wholes(), seed in wholes(), steps in wholes(), parts in any::<bool>(), isolate in proptest::option::of(wholes())) {
         let count = usize::try_from(samples).expect("64 bits");
@@ -131,7 +131,7 @@ proptest! {
     }
 }
 
-/// Of several that are out of range the first is named.
+/// If several numbers are out of range, the error names the first one.
 fn named_in_order<S: Rules>(settings: &S, good: &[(&str, bool)]) -> Result<(), TestCaseError> {
     let first = good.iter().find(|(_, good)| !good).map(|(key, _)| (*key).to_owned());
     prop_assert_eq!(settings.check().err().map(|error| error.field), first);

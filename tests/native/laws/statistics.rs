@@ -1,4 +1,4 @@
-//! Moments, skew, gains and contours: of a cloud in any order, any unit and any frame.
+//! Moments, skew, gains and contours do not depend on the order, unit and frame of a cloud.
 
 use super::doubles::{any_double, cases};
 use motion::geom::se2::SE2;
@@ -10,10 +10,10 @@ use proptest::collection::vec;
 use proptest::prelude::*;
 use std::f64::consts::PI;
 
-/// Sums of fifty terms, each right to a few units in the last place.
+/// Relative error of sums of fifty terms, in units in the last place.
 const ROUNDING: f64 = 256.0 * f64::EPSILON;
 
-/// Robots around a place, all within a quarter turn of a heading, which has a mean therefore.
+/// Robots around a place with headings within a quarter turn, so that the mean heading is well defined.
 fn clouds() -> impl Strategy<Value = Vec<SE2>> {
     let robot = (-1.0..1.0, -1.0..1.0, -1.5..1.5);
     (vec(robot, 1..50), (-5.0..5.0, -5.0..5.0, -PI..PI)).prop_map(|(robots, (x, y, theta))| {
@@ -26,7 +26,7 @@ fn frames() -> impl Strategy<Value = SE2> {
     (-10.0..10.0, -10.0..10.0, -PI..PI).prop_map(|(x, y, theta)| SE2::new(x, y, theta))
 }
 
-/// A covariance of everyday size, of full rank or less, as L·Lᵀ.
+/// A covariance of common size, of full or lower rank, as L·Lᵀ.
 fn covariances() -> impl Strategy<Value = Matrix3<f64>> {
     vec(prop_oneof![3 => -1.0..1.0, 1 => Just(0.0)], 6).prop_map(|l| {
         let root = Matrix3::new(l[0], 0.0, 0.0, l[1], l[2], 0.0, l[3], l[4], l[5]);
@@ -38,16 +38,16 @@ fn close(a: f64, b: f64, scale: f64) -> bool {
     a == b || (a.is_nan() && b.is_nan()) || (a - b).abs() <= ROUNDING * scale
 }
 
-/// Narrower clouds than this (of those that are 1 m across) are left out: their shape is mostly rounding.
+/// Minimum width of a cloud relative to its size: the shape of narrower ones is mostly rounding.
 const NARROW: f64 = 1e-3;
 
-/// In any direction on the floor, and of the heading.
+/// Width in each direction on the floor, and of the heading.
 fn is_wide(moments: &CartesianMoments) -> bool {
     let floor = moments.cov.fixed_view::<2, 2>(0, 0).into_owned();
     floor.symmetric_eigenvalues().min().min(moments.cov[(2, 2)]) > NARROW
 }
 
-/// No robot is farther from the origin in any frame, m.
+/// Maximum distance of a robot from the origin in any frame, m.
 const REACH: f64 = 20.0;
 
 proptest! {
@@ -64,7 +64,7 @@ proptest! {
         same_moments((&a.mean, &a.cov), (&b.mean, &b.cov))?;
     }
 
-    /// Told in another frame, a cloud has its mean there and the same spread, turned.
+    /// In another frame the cloud has the transformed mean and the same covariance, rotated.
     #[test]
     fn moments_transform_with_the_frame(cloud in clouds(), frame in frames()) {
         let moved: Vec<SE2> = cloud.iter().map(|pose| frame * *pose).collect();
@@ -74,14 +74,14 @@ proptest! {
         let cov = turned * here.cov * turned.transpose();
         same_moments((&Vector3::new(mean.x(), mean.y(), mean.theta()), &cov), (&there.mean, &there.cov))?;
         let [a, b] = [(&cloud, cloud_start()), (&moved, frame)].map(|(cloud, start)| ExponentialMoments::from_poses(cloud, &start));
-        // Near a whole turn coordinates run to infinity; and a mean heading at half a turn may be taken for either.
+        // Near a full turn coordinates diverge, and near half a turn the mean heading is ambiguous.
         if cloud.iter().all(|pose| pose.theta().abs() < 2.0) {
             same_moments((&a.mean, &a.cov), (&b.mean, &b.cov))?;
         }
     }
 
-    /// A unit that is a power of two times another changes no bit of what has none, from 10⁻³⁰ m to 10³⁰ m, and a mirror but
-    /// the sign.
+    /// A change of the unit by a power of two, from 10⁻³⁰ m to 10³⁰ m, changes no bit of dimensionless results. A
+    /// mirror image changes their sign only.
     #[test]
     fn cross_track_figures_do_not_depend_on_the_unit(cloud in clouds(), power in -100..100i32, left in any::<bool>()) {
         let (unit, side) = (2f64.powi(power), if left { 1.0 } else { -1.0 });
@@ -93,7 +93,7 @@ proptest! {
         }
     }
 
-    /// One robot many times is a point: it has no skew and no gain, and not an error of 0 either.
+    /// Equal poses are a point: skew and gain are undefined, and so are their standard errors.
     #[test]
     fn a_point_has_no_shape(pose in frames(), count in 1..20usize) {
         let cloud = vec![pose; count];
@@ -105,11 +105,11 @@ proptest! {
         prop_assert!(CartesianMoments::from_poses(&cloud).cov.iter().all(|entry| close(*entry, expected, 0.0)));
     }
 
-    /// Neither metres nor feet: both Gaussians are over the same measure.
+    /// The gain has no unit: both Gaussians are densities over the same measure.
     #[test]
     fn gains_have_no_unit(cloud in clouds(), power in -60..60i32) {
         prop_assume!(cloud.len() > 4 && is_wide(&CartesianMoments::from_poses(&cloud)));
-        // Where turns are far from a whole one, and no robot stands where it began.
+        // Turns far from a full one, and no robot at the start position.
         prop_assume!(cloud.iter().all(|pose| pose.theta().abs() < 2.0 && pose.x().hypot(pose.y()) > 0.1));
         let unit = 2f64.powi(power);
         let scaled: Vec<SE2> = cloud.iter().map(|pose| SE2::new(unit * pose.x(), unit * pose.y(), pose.theta())).collect();
@@ -124,7 +124,8 @@ proptest! {
         prop_assert!(a.error.pose >= 0.0);
     }
 
-    /// Two deviations from the centre in every direction, in whatever unit: just inside it holds, just outside not.
+    /// Points two standard deviations from the centre in any direction and unit: slightly inside is inside, slightly
+    /// outside is outside.
     #[test]
     fn ellipses_hold_what_is_inside(a in 0.01..10.0f64, b in 0.01..10.0f64, rho in -0.99..0.99f64, power in -300..300i32, centre in (-9.0..9.0, -9.0..9.0)) {
         let unit = 2f64.powi(power);
@@ -142,7 +143,7 @@ proptest! {
         }
     }
 
-    /// Covariances grow step by step, and stay covariances.
+    /// Propagated covariances stay covariances, and grow.
     #[test]
     fn propagated_covariances_stay_positive_semidefinite(sigma in covariances(), r in covariances(), tau in (-5.0..5.0, -5.0..5.0, -3.0..3.0)) {
         let model = TangentNoiseModel::new(r).expect("a covariance");

@@ -1,4 +1,4 @@
-//! Motion conditioned on a map: the published shares, and the three samplers.
+//! Motion conditioned on a map: the published fractions, and the three samplers.
 
 use crate::common::{SIGMAS, seeded};
 use motion::geom::arc::Arc;
@@ -62,7 +62,7 @@ fn the_published_shares() {
     }
 }
 
-/// The path judged is the arc of (v̂, ω̂); γ̂ turns the robot afterwards and moves it nowhere.
+/// The path tested is the arc of (v̂, ω̂). γ̂ turns the robot afterwards, and does not move it.
 #[test]
 fn the_last_turn_is_not_part_of_the_path() {
     let plan = FloorPlan::apartment();
@@ -85,8 +85,8 @@ fn the_last_turn_is_not_part_of_the_path() {
 
 // --------------------------------------------------------------------------------------------------- the samplers
 
-/// Table 5.7 by hand: draw from the model until a look at the plan finds the end (or the whole path) free. The same
-/// random numbers give the same poses, after the same number of draws.
+/// Table 5.7 written out: draws from the model until the end (or the whole path) is free. Equal random numbers give
+/// equal poses, after the same number of draws.
 #[test]
 fn rejection_is_rejection() {
     let plan = FloorPlan::apartment();
@@ -135,7 +135,8 @@ fn a_wedged_robot_is_an_error_that_counts_its_draws() {
         assert_eq!(wedged.0.draws, MAX_DRAWS);
         assert_eq!(wedged.to_string(), "the robot is wedged: 10000 draws were tried and too few accepted");
     }
-    // The first part of two leads into a dead end: all draws count. A drive of 1 m ± 1 mm, between two far walls.
+    // The first of two parts leads into a dead end, and all draws count. The drive is 1 m ± 1 mm, between two distant
+    // walls.
     let dead_end = FloorPlan::new(vec![Segment { from: [1.5, 0.0], to: [1.5, 2.0] }], [0.0, 0.0, 2.0, 2.0])
         .expect("a valid plan");
     let exact =

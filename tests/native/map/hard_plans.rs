@@ -73,10 +73,10 @@ fn some_arc(rng: &mut impl Rng) -> Arc {
     Arc { start: SE2::new(x, y, uniform(rng, -PI, PI)), length, turn: uniform(rng, -1.0, 1.0) }
 }
 
-/// Largest mean number of walls that are measured for an arc: one in two hundred of those that a loop would measure.
+/// Largest mean number of walls that are measured for an arc: one in two hundred of all walls.
 const MEASURED: usize = FloorPlan::MAX_WALLS / 200;
 
-/// As many walls as are allowed: judging measures so few of them.
+/// With the maximum number of walls, collision tests measure so few of them.
 #[test]
 fn hard_plans_are_no_harder_than_one_can_wait_for() {
     for (name, walls) in hard_plans(FloorPlan::MAX_WALLS) {

@@ -1,4 +1,4 @@
-//! Occupancy grids: exact distances to their cells, outlines, what is unknown, and where a robot is put.
+//! Occupancy grids: exact distances to cells, outlines, unknown cells, and free poses.
 
 use crate::common::{seeded, uniform};
 use motion::geom::arc::Arc;
@@ -15,11 +15,11 @@ const TRINARY: Interpretation =
 const BLACK: Pixel = Pixel { shade: 0.0, opacity: 1.0 };
 const WHITE: Pixel = Pixel { shade: 1.0, opacity: 1.0 };
 
-/// A grid of which the tests know every cell.
+/// Grid with known cells.
 struct Cells {
     width: usize,
     height: usize,
-    /// Row by row from the top, as in the image.
+    /// Cells row by row from the top, as in the image.
     occupied: Vec<bool>,
     resolution: f64,
     /// x, y and yaw of the lower left corner.
@@ -43,13 +43,13 @@ impl Cells {
         OccupancyGrid::new(&image, &TRINARY, self.resolution, SE2::new(x, y, yaw))
     }
 
-    /// Where a point of the grid's own axes, in cells, stands in the map.
+    /// Returns the position in the map of a point in the grid's own axes, in cells.
     fn in_map(&self, column: f64, row: f64) -> [f64; 2] {
         let ([x, y, yaw], (u, v)) = (self.origin, (column * self.resolution, row * self.resolution));
         [x + u * yaw.cos() - v * yaw.sin(), y + u * yaw.sin() + v * yaw.cos()]
     }
 
-    /// The distance to the nearest occupied cell, each measured as a square; 0 inside of one.
+    /// Returns the distance to the nearest occupied cell, each measured as a square; 0 inside of one.
     fn distance(&self, [x, y]: [f64; 2]) -> f64 {
         let ([x0, y0, yaw], size) = (self.origin, self.resolution);
         let u = (x - x0) * yaw.cos() + (y - y0) * yaw.sin();
@@ -67,7 +67,7 @@ impl Cells {
 
 // ----------------------------------------------------------------------------------------------------- distances
 
-/// The walls made of a grid are as far from everyone outside the occupied cells as the cells themselves.
+/// For points outside the occupied cells, the distances to the walls of a grid equal those to the cells.
 #[test]
 fn the_walls_are_as_far_as_the_cells() {
     let mut rng = seeded(9900);
@@ -101,7 +101,7 @@ fn the_walls_are_as_far_as_the_cells() {
     assert!(inside > 1000 && outside > 1000, "{inside} {outside}");
 }
 
-/// Neighbouring sides are one wall, sides between two occupied cells are none, and corners touch.
+/// Neighbouring sides form one wall, there are none between two occupied cells, and corners touch.
 #[test]
 fn outlines_are_joined() {
     let picture = ["##.", "#..", "..#"];
@@ -146,7 +146,7 @@ fn a_grid_of_too_many_walls_is_refused() {
     assert_eq!(message, "image has cells in the way with 20001 sides or more; allowed are at most 20000");
 }
 
-/// Of a grid in fields that it has.
+/// A grid that is given by its fields.
 #[test]
 fn a_grid_that_reaches_too_far_is_refused() {
     let grid = |resolution, origin| {
@@ -163,7 +163,8 @@ fn a_grid_that_reaches_too_far_is_refused() {
 
 // -------------------------------------------------------------------------------------------------- what is unknown
 
-/// A grid of ones of `#` (occupied), `?` (unknown) and `.` (free), the first row at the top, cells of 10 cm.
+/// Returns a grid drawn with `#` (occupied), `?` (unknown) and `.` (free), the first row at the top, with cells of 10
+/// cm.
 fn drawn(rows: &[&str], unknown: Unknown) -> OccupancyGrid {
     let shade = |cell| match cell {
         '#' => 0.0,
@@ -176,7 +177,7 @@ fn drawn(rows: &[&str], unknown: Unknown) -> OccupancyGrid {
     OccupancyGrid::new(&image, &TRINARY, 0.1, SE2::identity()).with_unknown(unknown)
 }
 
-/// Blocked, an unknown cell is to a robot what an occupied one is; free, it is what a free one is.
+/// As "blocked" unknown cells equal occupied ones; as "free" they equal free ones.
 #[test]
 fn unknown_cells_are_free_or_blocked_as_set() {
     let mut rng = seeded(31_415);
@@ -212,7 +213,8 @@ fn unknown_cells_are_free_or_blocked_as_set() {
 
 // ------------------------------------------------------------------------------------------------ a place to start
 
-/// In the middle of the largest square that is known to be free, heading along the longest way known to be free.
+/// The pose is in the middle of the largest square that is known to be free, heading along the longest path known to be
+/// free.
 #[test]
 fn the_open_place_has_the_most_room() {
     let rows = [

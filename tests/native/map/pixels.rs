@@ -1,4 +1,4 @@
-//! How pixels become cells: `map_server`'s reading of them, and PGM files good and bad.
+//! Conversion of pixels to cells, as in `map_server`, and valid and invalid PGM files.
 
 use motion::geom::se2::SE2;
 use motion::map::{Cell, Image, Interpretation, MAX_PIXELS, Mode, OccupancyGrid, Pixel, Shades, read_pgm};
@@ -8,7 +8,7 @@ const TRINARY: Interpretation =
 
 // -------------------------------------------------------------------------------------------- map_server's pixels
 
-/// As `map_server` reads them: occupied where the occupancy is above the threshold, not where it is at it.
+/// As in `map_server`, a cell is occupied if the occupancy is above the threshold, and not if it is equal.
 #[test]
 fn pixels_are_read_as_map_server_reads_them() {
     let pixel = |value: u8| Pixel { shade: f32::from(value) / 255.0, opacity: 1.0 };
@@ -66,16 +66,16 @@ fn pgm_rasters_may_hold_any_bytes() {
     // The first byte of the raster may look like white space or a comment.
     assert_eq!(shades(&read_pgm(b"P5 2 1 255\n\n#").expect("two pixels")), [10.0 / 255.0, 35.0 / 255.0]);
     assert_eq!(shades(&read_pgm(b"P5 1 1 100\n\xff").expect("a pixel too bright")), [1.0]);
-    // Editors of Windows end the lines of a header with two characters.
+    // Editors on Windows end the lines of a header with two characters.
     for header in ["P5\r\n2 1\r\n5\r\n", "P5\r\n# by hand\r\n2 1 5\r\n", "P5 2 1 5\r\n"] {
         let file = [header.as_bytes(), &[0, 5]].concat();
         assert_eq!(shades(&read_pgm(&file).expect("a header of Windows")), [0.0, 1.0], "{header:?}");
     }
-    // Without a byte to spare the line feed is the first pixel.
+    // If the file has exactly the expected length, the line feed is the first pixel.
     assert_eq!(shades(&read_pgm(b"P5 2 1 255\r\n#").expect("two pixels")), [10.0 / 255.0, 35.0 / 255.0]);
 }
 
-/// A sentence that names the line, the field, its value and what is allowed.
+/// Returns the error message, with line, field, value and what is allowed.
 #[test]
 fn malformed_pgm_files_are_explained() {
     let cases: [(&[u8], &str); 13] = [

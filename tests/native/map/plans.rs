@@ -1,4 +1,4 @@
-//! Floor plans: what is one, the apartment, and that no wall is overlooked for speed.
+//! Floor plans: validity, the apartment, and collision tests that skip no wall.
 
 use crate::common::{seeded, signed_log_uniform, uniform};
 use motion::geom::arc::Arc;
@@ -18,7 +18,7 @@ fn in_box([left, bottom, right, top]: [f64; 4], rng: &mut impl Rng) -> [f64; 2] 
     [uniform(rng, left, right), uniform(rng, bottom, top)]
 }
 
-/// Straight, curved, long, short, forward and in reverse.
+/// Returns a straight or curved, long or short arc, forward or in reverse.
 fn arc_from(start: [f64; 2], rng: &mut impl Rng) -> Arc {
     let turn = match rng.next_u32() % 3 {
         0 => signed_log_uniform(rng, 1e-18, 1e-3),
@@ -29,7 +29,7 @@ fn arc_from(start: [f64; 2], rng: &mut impl Rng) -> Arc {
     Arc { start: SE2::new(start[0], start[1], uniform(rng, -PI, PI)), length, turn }
 }
 
-/// Walls of at most `size` m, a third of them along the axes.
+/// Returns walls of at most `size` m, a third of them along the axes.
 fn scattered(count: usize, size: f64, bounds: [f64; 4], rng: &mut impl Rng) -> Vec<Segment> {
     let [left, bottom, right, top] = bounds;
     (0..count)
@@ -67,8 +67,8 @@ fn a_plan_is_checked() {
 
 // ------------------------------------------------------------------------------------------------------ verdicts
 
-/// The verdicts are those of a plain loop over all walls, in the apartment, among long slanted walls close together, and
-/// in a grid that is turned; for arcs of up to two circles, of every size and of robots of every size.
+/// Results equal those of a plain loop over all walls: in the apartment, among long slanted walls close together, and
+/// in a rotated grid; for arcs of up to two circles of every size, and robots of every size.
 #[test]
 fn verdicts_are_those_of_a_loop_over_all_walls() {
     let mut rng = seeded(9650);
@@ -171,7 +171,7 @@ fn the_open_place_has_the_most_room() {
     assert!(plan_with_a_slit().open_place(0.3).is_none());
 }
 
-/// Walls half a metre apart throughout.
+/// Walls everywhere, half a metre apart.
 fn plan_with_a_slit() -> FloorPlan {
     let walls = (0..=20).map(|i| wall(0.0, 0.5 * f64::from(i), 10.0, 0.5 * f64::from(i))).collect();
     FloorPlan::new(walls, ROOM).expect("a valid plan")

@@ -1,4 +1,4 @@
-//! PNG images: every kind is read sample for sample, and what is damaged or too large is refused.
+//! PNG images: every colour type is read exactly, and damaged or too large images are refused.
 
 use crate::common::seeded;
 use motion::geom::se2::SE2;
@@ -6,7 +6,7 @@ use motion::map::{ImageError, Interpretation, MAX_PIXELS, PngError, read_grid, r
 use png::{BitDepth, ColorType, Encoder, Filter};
 use rand::Rng;
 
-/// An image of one kind.
+/// Image of one colour type and depth.
 struct Kind {
     color: ColorType,
     bits: u32,
@@ -32,7 +32,7 @@ fn encoded(kind: &Kind, width: u32, samples: &[u16]) -> Vec<u8> {
     encoder.set_color(kind.color);
     encoder.set_depth(BitDepth::from_u8(kind.bits as u8).expect("a depth"));
     encoder.set_filter(Filter::Adaptive);
-    // A gamma that browsers would change shades by.
+    // A gamma chunk, with which browsers would change shades.
     encoder.set_source_gamma(png::ScaledFloat::new(0.3));
     if let Some(palette) = &kind.palette {
         encoder.set_palette(palette.clone());
@@ -109,7 +109,7 @@ fn every_kind_of_image_is_read_sample_for_sample() {
     }
 }
 
-/// A map is the same whichever format its image has.
+/// The map does not depend on the format of its image.
 #[test]
 fn a_png_is_the_map_that_a_pgm_is() {
     let mut rng = seeded(9912);
@@ -141,7 +141,7 @@ fn an_image_that_is_cut_short_is_refused() {
     );
 }
 
-/// The header tells: a small file may hold an enormous image.
+/// The header has the size: a small file may contain an enormous image.
 #[test]
 fn an_image_that_is_too_large_is_refused_unread() {
     let mut file = Vec::new();

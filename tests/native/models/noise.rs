@@ -1,4 +1,4 @@
-//! `sample(b²)` and `prob(a, b²)`: both kinds of noise against their exact distributions.
+//! `sample(b²)` and `prob(a, b²)`: both kinds of noise compared with their exact distributions.
 
 use crate::common::{KINDS, KOLMOGOROV, SAMPLES, Table, kolmogorov_smirnov, seeded, unit_cdf};
 use motion::{NoiseKind, Variance};

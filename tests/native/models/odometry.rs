@@ -28,14 +28,14 @@ fn readings() -> [OdomDelta; 6] {
     ]
 }
 
-/// The variances of the table, for a size of rotation.
+/// Returns the variances of the table; `size` defines the size of a rotation.
 fn variances(of: &OdomDelta, size: impl Fn(f64) -> f64) -> [f64; 3] {
     let [a1, a2, a3, a4] = ALPHAS.0;
     let [r1, t, r2] = [size(of.rot1).powi(2), of.trans.powi(2), size(of.rot2).powi(2)];
     [a1 * r1 + a2 * t, a3 * t + a4 * (r1 + r2), a1 * r2 + a2 * t]
 }
 
-/// atan2 of two zeros is no direction of travel: the whole turn goes to the second rotation.
+/// For a reading without translation atan2 gives no bearing: the whole turn is the second rotation.
 #[test]
 fn a_spin_on_the_spot_is_charged_to_the_second_rotation() {
     for turn in [0.0, 0.4, -2.9, PI] {

@@ -16,7 +16,7 @@ export type Figure = import('./alpha-calibrator.ts').AlphaCalibratorElement;
 export function legControls(figure: Figure) {
   const { reading: { legs, worst }, chosen } = figure;
   const say = words.calibrator.leg;
-  // The leg that is shown may be one of them.
+  // If the selected leg is one of them, the button selects the next one.
   const next = worst[(worst.indexOf(figure.state.own.leg) + 1) % Math.max(1, worst.length)];
   const take = (number: number) => figure.look(number - 1);
   return html`<fieldset class="leg">

@@ -22,15 +22,15 @@ export type Words = typeof import('./en.ts').en.nav2;
 /** Significant digits of an interval's width, and of what has no interval. */
 const [OF_WIDTH, DIGITS] = [2, 3];
 
-/** Below it values have an exponent. */
+/** Magnitude below which values are printed with an exponent. */
 const TINY = 1e-6;
 
 const MOST_DECIMALS = 12;
 
-/** Least size of whole numbers with an exponent: times since 1970 are below. */
+/** Smallest magnitude of whole numbers with an exponent: times since 1970 are below. */
 const LONG = 1e15;
 
-/** Largest plausible α: an error as large as the motion, or of a radian a metre. */
+/** Largest plausible α: an error as large as the motion, or of one radian per metre. */
 const MOST = 1;
 
 /** Placeholder for a missing number. */

@@ -1,4 +1,4 @@
-/** Choosers of what is read: which log is which, and answers to questions that files leave open. Loaded with the first log. */
+/** Forms that ask what to read: roles of files, and answers to questions that files leave open. Loaded with the first log. */
 
 import { html, nothing } from 'lit';
 import { live } from 'lit/directives/live.js';
@@ -10,7 +10,7 @@ import type { Asked, Chosen, Figure, LogOpener, LogWords } from './open.ts';
 /** Fields of a table. */
 const FIELDS = ['t', 'x', 'y', 'yaw', 'qx', 'qy', 'qz', 'qw', 'v', 'omega'] as const;
 
-/** Most characters of a cell beside the number of its column. */
+/** Maximum number of characters of a cell next to the number of its column. */
 const CELL = 16;
 
 /** Returns the name of a choice: its series, with the frames of transforms. */

@@ -1,4 +1,4 @@
-/** Reading and calibration of logs, in a worker or, where the page may have none, in the page's thread. */
+/** Reading and calibration of logs, in a worker or, if the page cannot start one, in the page's thread. */
 
 import { sharedCore, startWorker, type SharedCore } from '../../core.ts';
 import type { Drive, Plan } from '../../logs/drives.ts';
@@ -8,7 +8,7 @@ import type { AlphaCalibratorSettings, CalibrationLog } from '../../types.d.ts';
 
 type Trajectory = Exclude<CalibrationLog['odometry'], unknown[]>;
 
-/** Way to the worker, or to the same module in the page's thread. */
+/** Connection to the worker, or to the same module in the page's thread. */
 interface Link {
   port: Worker | MessagePort;
   end(): void;
@@ -43,7 +43,7 @@ export class LogService {
   /** Odometry of the drives that the worker has. */
   #held: Trajectory[] | undefined;
 
-  /** Takes the tag whose module the worker shares. */
+  /** Creates the service for a tag. The worker shares the module of that tag. */
   constructor(tag: string) {
     this.#tag = tag;
   }
@@ -52,7 +52,7 @@ export class LogService {
     return this.#fail !== undefined;
   }
 
-  /** Starts the worker before it is needed. A request says why it does not start. */
+  /** Starts the worker before it is needed. If it does not start, a later request reports the reason. */
   start() {
     this.#connected.catch(() => {});
   }
@@ -64,7 +64,7 @@ export class LogService {
   /** Opens files with the options of each name, and gives up what is being done. */
   async open(files: Source[], answers: Record<string, OpenOptions>): Promise<Opened[]> {
     this.stop();
-    // A copy of a file has no path.
+    // A copied `File` has no path.
     this.#sources = files.map((file) => ({ file, path: file.path ?? '' }));
     this.#answers = answers;
     return this.#openAgain();
@@ -98,12 +98,12 @@ export class LogService {
     return fit;
   }
 
-  /** Gives up what is being done: its request rejects. */
+  /** Cancels the current request, which rejects. */
   stop() {
     if (this.isBusy) this.end();
   }
 
-  /** Lets go of the worker and all that it has. */
+  /** Stops the worker and drops its logs. */
   end() {
     this.#link?.then(({ end }) => end(), () => {});
     this.#link = this.#held = undefined;

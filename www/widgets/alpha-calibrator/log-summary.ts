@@ -14,7 +14,7 @@ import type { LogOpener, LogWords } from './open.ts';
 /** Size of the picture, CSS pixels, and its margin for the width of lines. */
 const [WIDTH, HEIGHT, MARGIN] = [220, 150, 4];
 
-/** Most points of a path: a pixel has several. */
+/** Maximum number of points of a path: several for each pixel. */
 const POINTS = 1500;
 
 /** Returns what was read of each drive, shown while it is fitted and below the result. */
@@ -89,7 +89,7 @@ function poseAt({ t, points, headings }: Path, time: number): Pose {
   return [...points[i], headings[i]];
 }
 
-/** Moves points so that one pose comes to lie on another. */
+/** Moves points by the rigid motion that takes one pose to another. */
 function moved(points: Point[], [x0, y0, theta0]: Pose, [toX, toY, to]: Pose): Point[] {
   const [cos, sin] = [Math.cos(to - theta0), Math.sin(to - theta0)];
   return points.map(([x, y]) => [toX + cos * (x - x0) - sin * (y - y0), toY + sin * (x - x0) + cos * (y - y0)]);

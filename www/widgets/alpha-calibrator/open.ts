@@ -1,4 +1,4 @@
-/** Logs of the reader's own: chosen or dropped, and read. */
+/** Logs of the reader: chosen or dropped files, and reading them. */
 
 import { html, nothing } from 'lit';
 import { Part } from '../../figure/part.ts';
@@ -32,9 +32,9 @@ export interface Chosen {
   questions: Asked[];
   /** Choices of the reader; what is missing is guessed. */
   wishes: Pick<Wishes, Role>;
-  /** Roles of recordings with one log, by their places. */
+  /** Roles of recordings with one log, by index. */
   roles: Map<number, Role>;
-  /** Undefined where it is not clear what is to be read. */
+  /** Plan of what is read; undefined while a question is open. */
   plan?: Plan;
   drives?: Drive[];
   /** Log that the figure has taken. */
@@ -47,7 +47,7 @@ const EXTENSIONS = ['.csv', '.txt', '.tum', '.log', '.mcap', '.bag', '.db3', '.z
 /** Id of the drop zone. */
 const ZONE = 'log';
 
-/** Most files that the name of a log lists. */
+/** Maximum number of files in the name of a log. */
 const MOST_NAMES = 4;
 
 export class LogOpener extends Part<Figure> {
@@ -55,11 +55,11 @@ export class LogOpener extends Part<Figure> {
   /** Why the latest log was refused. */
   #complaint: (() => string) | undefined;
   chosen: Chosen | undefined;
-  /** Files with one log of a drive, which the next file may have the other log of. */
+  /** Files with only one log of a drive. The next file may contain the other log. */
   #lone: Chosen | undefined;
   /** Module that reads and shows logs, and its words; undefined until a file is chosen. */
   reader: Reader | undefined;
-  /** Share of the files that has been read; undefined while none is being read. */
+  /** Fraction of the files that has been read; undefined if no file is being read. */
   share: number | undefined;
   /** Number of the latest attempt to read files. */
   #latest = 0;
@@ -71,7 +71,7 @@ export class LogOpener extends Part<Figure> {
     return this.#complaint?.() ?? '';
   }
 
-  /** Odometry that the model prefers where a log has both: the velocity model takes commands. */
+  /** Preferred odometry if a log has both: the velocity model prefers commands. */
   get kind(): 'commands' | undefined {
     return this.host.reading.config.model === 'velocity' ? 'commands' : undefined;
   }
@@ -124,7 +124,7 @@ export class LogOpener extends Part<Figure> {
     this.host.gesture.commit();
   }
 
-  /** Loads what reads logs, while the reader chooses files or drags them here. */
+  /** Loads the module that reads logs, while the reader chooses files or drags them here. */
   prepare = () => {
     loadReader().catch(() => {});
     this.host.service.start();
@@ -135,14 +135,14 @@ export class LogOpener extends Part<Figure> {
     if (files.length > 0) this.#open({ files: logs.length ? logs : files, recordings: [], answers: {}, questions: [], wishes: {}, roles: new Map() });
   }
 
-  /** Takes an answer to a question, which files are opened with. */
+  /** Stores an answer to a question, and opens the files with it. */
   answer({ file }: Asked, answer: OpenOptions) {
     if (!this.chosen) return;
     const { answers } = this.chosen;
     this.#open({ ...this.chosen, recordings: [], answers: { ...answers, [file]: { ...answers[file], ...answer } } });
   }
 
-  /** Takes a choice of what is read. */
+  /** Stores a choice of logs. */
   change(change: Pick<Chosen, 'wishes'> | Pick<Chosen, 'roles'>) {
     if (this.chosen) this.#open({ ...this.chosen, ...change });
   }
@@ -184,7 +184,7 @@ export class LogOpener extends Part<Figure> {
     const fitted = this.host.open(log, reader.hasLocalizer(drives.map(({ reference }) => reference)), ({ count }) => {
       if (count === 0) throw new RangeError(words.calibrator.none);
     });
-    // Logs are shown while they are fitted.
+    // The summary of logs is shown while they are fitted.
     chosen.drives = drives;
     this.host.requestUpdate();
     await fitted;
@@ -206,7 +206,7 @@ export class LogOpener extends Part<Figure> {
     if (!(asked && this.reader?.focusOn(this.host, asked))) await this.dropped.showRefusal(this.complaint);
   }
 
-  /** Gives up the reading that is under way, and starts another. */
+  /** Cancels reading, and starts again. */
   async #attempt(work: (reader: Reader) => Promise<void>) {
     const number = ++this.#latest;
     this.host.service.stop();
@@ -242,7 +242,7 @@ function nameOf({ drives, unpaired }: Plan, reader: Reader) {
   return [...names.slice(0, MOST_NAMES), ...(names.length > MOST_NAMES ? ['…'] : []), ...(only ? [only.odometry, only.reference].map(({ choice }) => reader.labelOf(choice)) : [])].filter(Boolean).join(', ');
 }
 
-/** Loads what plans drives and shows them. */
+/** Loads the module that plans drives and shows them. */
 async function loadReader() {
   const [candidates, drives, pairs, choice, summary, { log: en }, { log: de }] = await Promise.all([
     import('../../logs/candidates.ts'), import('../../logs/drives.ts'), import('../../logs/pairs.ts'), import('./log-choice.ts'), import('./log-summary.ts'), import('../../logs/en.ts'), import('../../logs/de.ts'),

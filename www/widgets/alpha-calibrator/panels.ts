@@ -1,4 +1,4 @@
-/** Squared residuals of the Alpha Calibrator against what drives them: the slope is an α. */
+/** Regression panels of the Alpha Calibrator: squared residuals against squared distance or rotation. The slope is an α. */
 
 import { html } from 'lit';
 import { words } from '../../messages/registry.ts';
@@ -13,10 +13,10 @@ import type { Curve } from '../../ui/plot.ts';
 
 export type Figure = import('./alpha-calibrator.ts').AlphaCalibratorElement;
 
-/** Least square of a way or turn: a millimetre, or a thousandth of a radian. */
+/** Smallest squared distance or rotation: of a millimetre, or a thousandth of a radian. */
 const DRIVEN = 1e-6;
 
-/** Squared residuals of the three noises against what drives them. */
+/** Squared residuals of the three noises against their regressors. */
 export function panels(figure: Figure) {
   const { reading, state: { own: { driver } }, gesture } = figure;
   const say = words.calibrator.panels;
@@ -45,7 +45,7 @@ function panelsOf({ panels: all, reading: { fitted }, state: { own: { driver } }
 function panelPlot({ alpha, x, y, error, slope, interval }: CalibrationPanel, kind: string, axis: string): import('../../ui/plot.ts').Plot {
   const say = words.calibrator.panels;
   const furthest = Math.max(0, ...x);
-  // A log without turns or without ways has an empty axis.
+  // A log without rotation or without translation has an empty axis.
   const last = furthest > DRIVEN ? 1.06 * furthest : 1;
   const { from, to } = axisOfSquares(y, error, (slope ?? 0) * last);
   const highest = 1.1 * Math.max(x.length ? 1e-12 : 1, to);
@@ -66,7 +66,7 @@ function panelPlot({ alpha, x, y, error, slope, interval }: CalibrationPanel, ki
   };
 }
 
-/** Note on an α that is not determined or not told from 0. */
+/** Note on an α that is not identifiable, or not distinguishable from 0. */
 function noteOf({ alpha, slope, interval }: CalibrationPanel, { fitted: { model } }: import('./reading.ts').Reading) {
   const { panels: say, alphas: { lacking } } = words.calibrator;
   if (slope !== null && !isZero(slope, interval)) return '';

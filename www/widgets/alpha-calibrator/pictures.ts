@@ -21,7 +21,7 @@ const WIDTH = 2.25;
 export class WayPicture extends SamplesPicture<Scene> {
   #layer = new WayLayer();
 
-  /** Takes the height above the picture, CSS pixels. */
+  /** Creates the picture with a margin at the top, CSS pixels. */
   constructor(top?: number) {
     super('plane', new View({ top }));
   }
@@ -30,7 +30,7 @@ export class WayPicture extends SamplesPicture<Scene> {
     const box = extentAround(reference, 3);
     this.view.release();
     this.view.fit(extentOf(reference.length > 0 ? [box.xMin, box.yMin, box.xMax, box.yMax] : [0, 0], 1));
-    // Easing would draw all legs in each frame.
+    // No animation, which would draw all legs in each frame.
     this.view.ease(0, true);
   }
 

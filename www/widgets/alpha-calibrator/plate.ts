@@ -12,14 +12,14 @@ import type { Scene } from './pictures.ts';
 
 export type Figure = import('./alpha-calibrator.ts').AlphaCalibratorElement;
 
-/** Pixels: the path at the left, the α's beside it, and sentences below them. */
+/** Layout in pixels: the path at the left, the α's next to it, and sentences below. */
 const [WIDTH, HEIGHT] = [720, 560];
 const WAY = { width: 430, height: 344 };
 
 /** Room for a key in two lines, CSS pixels. */
 const TWO_LINES = 42;
 
-/** Distance of lines. */
+/** Line height. */
 const LINE = 18;
 
 export class Plate extends Picture<Scene> {

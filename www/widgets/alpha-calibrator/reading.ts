@@ -5,7 +5,7 @@ import type { AlphaCalibrator as Machine, CalibrationLegs, CalibrationLog } from
 
 export interface Reading {
   machine: Machine;
-  /** Null for the simulated one. */
+  /** Name of the log; null for the simulated one. */
   log: CalibrationLog | null;
   /** Requested settings. */
   config: Machine['config'];
@@ -18,7 +18,7 @@ export interface Reading {
   stats: Machine['stats'];
   legs: CalibrationLegs;
   truth: Machine['truth'];
-  /** Classes of the legs, the most usual first. */
+  /** Classes of the legs, in the order of decreasing probability. */
   classes: Uint8Array;
   /** Legs with the largest residuals, the largest first. */
   worst: number[];
@@ -47,7 +47,7 @@ export function readingOf(machine: Machine, log: CalibrationLog | null, before: 
   };
 }
 
-/** Least length of a leg with a direction, m. */
+/** Minimum length of a leg with a direction, m. */
 const SHORTEST = 0.01;
 
 /** Number of the largest residuals that are listed. */

@@ -14,7 +14,7 @@ export type Figure = import('./alpha-calibrator.ts').AlphaCalibratorElement;
 /** Size of a whisker's row. */
 const CHART = { width: 200, height: 24, middle: 12, inset: 12 };
 
-/** Most decades between labels of the axis. */
+/** Maximum number of decades between labels of the axis. */
 const MOST_DECADES = 4;
 
 /** Icons of the ratings. */
@@ -105,7 +105,7 @@ function axisOf(values: (number | null)[]) {
   const { width, inset } = CHART;
   const at = (value: number) => {
     const share = (Math.log10(Math.max(value, 0)) - from) / (to - from);
-    // A mark beyond the axis stays whole at its edge.
+    // A mark outside the axis is drawn at its edge.
     return Math.max(inset / 3, Math.min(width - inset / 3, inset + share * (width - 2 * inset)));
   };
   // More labels would touch.

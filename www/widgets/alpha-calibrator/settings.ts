@@ -1,4 +1,4 @@
-/** The Alpha Calibrator's settings as attributes, in its state, and as the eye sees them. */
+/** The Alpha Calibrator's settings: their attributes, their part of the state, and their sliders. */
 
 import { attributesOf } from '../../figure/attributes.ts';
 import { wholeNumber, word } from '../../figure/checks.ts';
@@ -35,7 +35,7 @@ const { attribute: overlays, state } = overlaysOf(Object.keys(LINES));
 
 export const attributes = { ...attributesOf(declared), overlays };
 
-/** Motions whose squares a variance is made of. */
+/** Regressors of a variance. */
 const DRIVERS = ['turn', 'way'] as const;
 
 export type Driver = (typeof DRIVERS)[number];

@@ -21,7 +21,7 @@ const own = css`
     margin: 0.3em 0;
   }
 
-  /* The button of the browser speaks its own language: it lies, unseen, on one in that of the figure. */
+  /* The browser's own button is in the language of the browser. It is transparent, above a button in the figure's language. */
   .files {
     position: relative;
     display: inline-block;
@@ -166,7 +166,7 @@ const own = css`
     grid-template-rows: auto 1fr;
   }
 
-  /* The picture of the leg takes the room that is left. */
+  /* The picture of the leg takes the remaining space. */
   :host([presentation]) .one {
     display: flex;
     flex-direction: column;
@@ -207,7 +207,7 @@ const own = css`
     vertical-align: middle;
   }
 
-  /* Rows of 32 px, beside letters of 16 px. */
+  /* Rows of 32 px at a font size of 16 px. */
   .alphas tbody tr:not(.axis) {
     height: calc(2em / 0.84);
     border-top: 1px solid var(--rule);
@@ -221,7 +221,7 @@ const own = css`
     width: 100%;
   }
 
-  /* A longer name goes on above the value. */
+  /* A longer name continues above the value. */
   .alphas .of {
     width: 0;
     color: var(--muted);

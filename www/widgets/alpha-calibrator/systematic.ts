@@ -12,7 +12,7 @@ export type Figure = import('./alpha-calibrator.ts').AlphaCalibratorElement;
 
 type SystematicError = Reading['stats']['systematicErrors']['mountYaw' | 'leverArm'];
 
-/** Most decimals of a systematic error: a micrometre. */
+/** Maximum number of decimals of a systematic error: a micrometre. */
 const MOST_DECIMALS = 6;
 
 /** Returns the systematic errors in two sentences: those that were corrected, and those that the α's include. */
@@ -77,7 +77,7 @@ export function systematicTable(figure: Figure) {
   </table>`;
 }
 
-/** One below the other. */
+/** Values below each other. */
 const lines = (texts: string[]) => texts.map((text) => html`<div>${text}</div>`);
 
 /** Prints an error as far as it is determined: its values, two for a lever arm, and half the width of each interval. */

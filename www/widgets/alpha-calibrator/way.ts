@@ -14,16 +14,16 @@ import type { LineName } from './settings.ts';
 
 export type Style = { colour: string, width: number, dash: number[] };
 
-/** Legs in one stroke: browsers take far longer for one path of many. */
+/** Number of legs in one stroke: browsers take far longer for one path of many legs. */
 const LEGS_A_STROKE = 500;
 
 /** Number of legs up to which they are drawn directly. More legs are kept in a canvas of their own, which takes memory. */
 const FEW_LEGS = 2000;
 
-/** Strokes of a new log in a frame: about 10 ms. */
+/** Number of strokes of a new log in a frame, which take about 10 ms. */
 const STROKES_A_FRAME = 4;
 
-/** Side of the squares in each of which one step is drawn that is shorter, CSS pixels: nobody sees the others. */
+/** Side of squares (CSS pixels) in each of which only one of the shorter steps is drawn, because others would not be visible. */
 const FINE = 1;
 
 /** Side of the squares in which overlapping legs are counted, CSS pixels. */
@@ -84,7 +84,7 @@ export class WayLayer {
   }
 }
 
-/** Goes on with a drawing for some strokes. @returns whether there are more */
+/** Continues a drawing with some strokes. @returns whether there are more @returns whether there are more */
 function advance(strokes: Iterator<void>, count: number): boolean {
   for (; count > 0; count--) if (strokes.next().done) return false;
   return true;
@@ -93,7 +93,7 @@ function advance(strokes: Iterator<void>, count: number): boolean {
 /** Draws the legs, stroke by stroke. */
 function* drawWay(brush: Painter, legs: CalibrationLegs, classes: Uint8Array, overlays: LineName[]) {
   if (overlays.includes('odometry')) yield* drawOdometry(brush, legs);
-  // Widths fall continuously from one layer of legs to two, so that nothing jumps when a plot is resized.
+  // The line width falls continuously between one and two legs for each square, so that nothing jumps when a plot is resized.
   const extra = Math.max(0, Math.min(1, 2 - layersOf(brush.view, legs.reference)));
   for (const [place, name] of CLASSES.entries()) {
     if (!overlays.includes(name)) continue;
@@ -130,7 +130,7 @@ function layersOf(view: Painter['view'], reference: Float64Array) {
   for (let at = 0; at < reference.length; at += 6) {
     const [x, y] = [view.toPixelX(reference[at + 3]), view.toPixelY(reference[at + 4])];
     squares.add(squareOf(x, y, COARSE));
-    // No more of a longer leg is in the square in which it ends.
+    // Only one square's length of a leg counts for the square in which it ends.
     length += Math.min(COARSE, Math.hypot(x - view.toPixelX(reference[at]), y - view.toPixelY(reference[at + 1])));
   }
   return (length * LINES.likely.width) / (squares.size * COARSE ** 2);

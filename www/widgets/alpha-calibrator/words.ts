@@ -1,4 +1,4 @@
-/** Texts of the Alpha Calibrator in the present language. */
+/** Texts of the Alpha Calibrator in the current language. */
 
 import { addEnglish, words } from '../../messages/registry.ts';
 import { counted, fixed, percent, powerOfTen } from '../../ui/format.ts';
@@ -92,14 +92,14 @@ export function captionOf({ reading, hasLocalizer, logName }: Figure) {
   return [`${badge}.`, finding, next, legsText(reading, logName), meaning].filter(Boolean).join(' ');
 }
 
-/** The text equivalent of the way. */
+/** Returns the text equivalent of the path. */
 export function wayText({ legs, classes }: Reading, chosen: number) {
   if (chosen < 0) return words.calibrator.noWay;
   const far = classes.reduce((sum, place) => sum + Number(place > 1), 0);
   return words.calibrator.way(counted(legs.count), counted(far), counted(chosen + 1));
 }
 
-/** The text equivalent of a leg. */
+/** Returns the text equivalent of a leg. */
 export function legText(leg: LegView | null, chosen: number) {
   if (!leg) return words.calibrator.noLeg;
   const [readX, readY, endX, endY] = [leg.read[0], leg.read[1], leg.ended[0], leg.ended[1]];

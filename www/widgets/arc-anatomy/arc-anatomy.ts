@@ -42,7 +42,7 @@ export class ArcAnatomyElement extends FigureElement<Machine, Reading> {
 
   #picture = new ArcPicture();
   pictures = [this.#picture];
-  /** The final one on top, where both poses are at one place. */
+  /** The final pose is on top if both poses are in one place. */
   #handles: PoseHandles[] = (['start', 'next'] as const).map(
     (setting) =>
       new PoseHandles(this, setting, {
@@ -90,7 +90,7 @@ export class ArcAnatomyElement extends FigureElement<Machine, Reading> {
 
   announcement = verdictOf;
 
-  /** Moves the robot to a share of the path in per cent: by whole per cents, each of which is a step that a page hears of. */
+  /** Moves the robot to a percentage of the path, in whole per cents. Each is a change with an `input` event. */
   #drive(at: number) {
     const { own } = this.state;
     if (Math.floor(at) === own.underway) return;

@@ -1,4 +1,4 @@
-/** Exercise 1: what three forms of the same motion lose where the turn rate is small. */
+/** Exercise 1: errors of three forms of the same motion at small turn rates. */
 
 import { html } from 'lit';
 import { words } from '../../messages/registry.ts';
@@ -7,7 +7,7 @@ import { powerOfTen } from '../../ui/format.ts';
 import { plot } from '../../ui/plot.ts';
 import type { FormErrors, Motion } from '../../types.d.ts';
 
-/** Errors that the plot shows, m: from below the last digit of the way to beyond it. */
+/** Range of errors in the plot, m: from below the last digit of the distance to more than all of it. */
 const ERRORS = { from: 1e-18, to: 1 };
 
 /** Cache of the rounding errors of the forms. They depend on no setting. */

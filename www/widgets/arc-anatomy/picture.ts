@@ -1,4 +1,4 @@
-/** Arc Anatomy's picture: the commanded arc, the arc that leads to the robot, and what they are constructed of. */
+/** Arc Anatomy's picture: the commanded arc, the arc that leads to the robot, and their construction. */
 
 import { words } from '../../messages/registry.ts';
 import { clipped, drawAxes, lineKey } from '../../scene/axes.ts';
@@ -21,13 +21,13 @@ export type Scene = Reading & { machine: ArcAnatomy, overlays: LineName[], line:
 /** Radius of the robots, m. */
 export const RADIUS = 0.06;
 
-/** A centre is shown that is no further away than so many times the way, and so many metres. */
+/** Maximum distance at which a centre is shown: a multiple of the length of the path, plus some metres. */
 const CENTRE = { ways: 3, metres: 1.5 };
 
-/** Room around everything, m. */
+/** Margin around everything, m. */
 const AROUND = 0.15;
 
-/** Radius of the arcs that mark angles, CSS pixels at most. */
+/** Maximum radius of the arcs that mark angles, CSS pixels. */
 const ANGLE = 40;
 
 /** Radius of the wedge, CSS pixels. */
@@ -36,7 +36,7 @@ const WEDGE = 64;
 /** Half of the cross at a centre, CSS pixels. */
 const CROSS = 4;
 
-/** Length of the arrow towards a centre that is out of sight, CSS pixels. */
+/** Length of the arrow towards a centre outside the picture, CSS pixels. */
 const ARROW = 9;
 
 /** Constructions of each line of Table 5.1. */
@@ -150,7 +150,7 @@ function drawCircle(brush: Brush, start: Pose, { center, end, turn, arcLength }:
   });
   const first = Math.atan2(fromY - y, fromX - x);
   const radius = Math.min(ANGLE, 0.4 * Math.hypot(fromX - x, fromY - y));
-  // Pixels count downwards: to the left is backwards.
+  // In pixels y points down, so that a turn to the left is negative.
   stroke(context, { colour, width: 1.5 }, () => context.arc(x, y, radius, first, first - turn, turn > 0));
   // Behind the robot, where nothing of the arc is; along it where it is so flat that a picture ends behind the robot.
   const beside = Math.sign(arcLength) * (seen === 1 ? -1 : 1);
@@ -221,7 +221,7 @@ function drawUnderway(brush: Brush, { underway, overlays }: Scene) {
   }
 }
 
-/** The way sideways of the constant twist. */
+/** Draws the lateral displacement of the constant twist. */
 function drawTwist(brush: Brush, ticks: Float64Array, colour: string) {
   stroke(brush.context, { colour, width: 1.25 }, () => {
     for (let i = 0; i < ticks.length; i += 4) trace(brush, ticks.subarray(i, i + 4));

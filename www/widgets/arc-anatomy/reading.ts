@@ -4,5 +4,5 @@ import type { ArcAnatomy } from '../../types.d.ts';
 
 export type Reading = ReturnType<typeof readingOf>;
 
-/** Everything that the picture and the readouts need of the machine, asked once a change. */
+/** Reads everything that the picture and the readouts need of the machine, once for each change. */
 export const readingOf = (machine: ArcAnatomy) => machine.read();

@@ -11,7 +11,7 @@ import { densityText, isTiny, shareText } from './words.ts';
 import type { Factor } from '../../types.d.ts';
 import type { Reading } from './reading.ts';
 
-/** Scale of the bars: deviations to either side, and pixels each. */
+/** Scale of the bars: standard deviations to either side, and pixels for each. */
 const SCALE = { most: 4, pixels: 22 };
 const MIDDLE = SCALE.most * SCALE.pixels + 4;
 
@@ -68,7 +68,7 @@ export function likelihoods({ stats: { prob, density, xi } }: Reading) {
   ]);
 }
 
-/** The lines of Table 5.1, in the marks of messages. */
+/** Lines of Table 5.1, in the markup of messages. */
 const FORMULAS = [
   '*μ* = ½ · [(*x* − *x*′) cos *θ* + (*y* − *y*′) sin *θ*] / [(*y* − *y*′) cos *θ* − (*x* − *x*′) sin *θ*]',
   '*x\\** = (*x* + *x*′)/2 + *μ*(*y* − *y*′)',

@@ -11,7 +11,7 @@ export type Settings = import('../../types.d.ts').ArcAnatomySettings;
 
 export const declared = settings['arc-anatomy'];
 
-/** The key of its words in the catalogues. */
+/** Key of the words in the catalogues. */
 export const vocabulary = 'anatomy';
 
 /** Number of lines of Table 5.1. */

@@ -74,7 +74,7 @@ const own = css`
     line-height: 1.25;
   }
 
-  /* Below the picture the bars stand side by side. */
+  /* Below the picture the bars are side by side. */
   @container (22em <= width < 38em) {
     .factors {
       grid-template-columns: repeat(3, minmax(0, 1fr));
@@ -86,7 +86,7 @@ const own = css`
     }
   }
 
-  /* The likelihood beside the picture. */
+  /* Likelihood next to the picture. */
   @container (min-width: 38em) {
     .views {
       grid-template-columns: minmax(0, 1fr) 16em;

@@ -1,4 +1,4 @@
-/** The map below the arcs: p or the density of the sampler over positions, as an image and by contours of both. */
+/** Map below the arcs: p, or the density of the sampler over positions, as an image; and contours of both. */
 
 import { densityRamp, trace } from '../../scene/draw.ts';
 import { Memo } from '../../scene/memo.ts';
@@ -7,7 +7,7 @@ import type { AnatomySurface, ArcAnatomy } from '../../types.d.ts';
 import { stroke, type Brush } from '../../scene/canvas.ts';
 import type { Palette } from '../../ui/theme.ts';
 
-/** Dashes of the contours, CSS pixels: the same whichever of the two is the image. */
+/** Dashes of the contours, CSS pixels. They do not depend on which of the two is the image. */
 export const CONTOURS = { prob: [5, 4], density: [] };
 
 export class SurfaceLayer {

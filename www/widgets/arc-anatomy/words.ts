@@ -1,4 +1,4 @@
-/** Texts of Arc Anatomy in the present language. */
+/** Texts of Arc Anatomy in the current language. */
 
 import { addEnglish, words } from '../../messages/registry.ts';
 import { fixed, percent, powerOfTen, significant } from '../../ui/format.ts';
@@ -9,7 +9,7 @@ import type { Reading } from './reading.ts';
 
 addEnglish({ anatomy: en });
 
-/** Smaller numbers are printed as powers of ten: p is a product of three densities, and spans many decades. */
+/** Limit below which numbers are printed as powers of ten: p is a product of three densities, and spans many decades. */
 const SMALL = 0.0005;
 
 /** Prints a positive value as a power of ten. */
@@ -41,7 +41,7 @@ export function verdictOf({ config, stats: { factors, weakest, share, driven, in
 
 const poseText = ({ x, y, theta }: Pose) => words.anatomy.pose(fixed(x, 2), fixed(y, 2), fixed(theta, 2));
 
-/** The text equivalent of the picture. */
+/** Returns the text equivalent of the picture. */
 export function pictureText(reading: Reading) {
   const { config, stats: { inverted, factors } } = reading;
   const say = words.anatomy.picture;

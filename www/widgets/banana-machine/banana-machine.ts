@@ -41,7 +41,7 @@ const EXECUTED_COLUMNS = {
   odometry: ['delta_hat_rot1_rad', 'delta_hat_trans_m', 'delta_hat_rot2_rad'],
 };
 
-/** Heights that the chart of the skew may have, so that it holds still while a slider is dragged. */
+/** Allowed heights of the skew chart, so that its axis does not change with every step of a drag. */
 const SKEWS = [0.25, 0.5, 1, 2, 4, 8];
 
 /**
@@ -71,7 +71,7 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
   pictures = [this.#plane, this.#twist];
   #handle = new ArcHandle(this);
 
-  /** Reading that the present cloud is compared with. */
+  /** Reading that the current cloud is compared with. */
   #pinned: Reading | undefined;
 
   player: Player<'morph'> = new Player(this, {
@@ -79,12 +79,12 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
   });
 
   createMachine: FigureElement<Machine, Reading>['createMachine'] = (motion, state) => {
-    // Empty: the cloud grows before the reader's eyes, and nobody waits for what is not shown yet.
+    // The machine starts empty: the cloud grows visibly, and the first frame need not wait for samples.
     const machine = motion.BananaMachine.empty();
     if (!state) return machine;
     const { model, alphas } = state;
     return freeOnError(machine, () => {
-      // Each model keeps its own.
+      // Each model keeps its own α's.
       const other = model === 'velocity' ? 'odometry' : 'velocity';
       machine.configureFirst({ model: other, alphas: alphas[other] }, 0);
       enterCloud(machine, { ...this.settings.declared(state), alphas: alphas[model] }, state.shown);
@@ -96,7 +96,7 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
     return readingOf(machine);
   }
 
-  /** In a state that came, or came back, nothing is played. */
+  /** Stops the animation: a state that is set or restored does not play. */
   machineChanged() {
     this.player.stop();
   }
@@ -107,7 +107,8 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
     const pinned = this.#pinned;
     const { overlays, morph } = this.state.own;
     const shown = Object.fromEntries(OVERLAYS.map((name) => [name, overlays.includes(name)]));
-    // Outlines wander while a cloud grows or is dragged, under a view that holds still. Away from the floor the callouts are not true.
+    // There are no callouts while a cloud grows or is dragged, because outlines move, nor away from the floor, where their sentences are
+    // wrong.
     const isMoving = this.cloud.playing || (this.gesture.pressed && reading !== this.gesture.former);
     const others = OVERLAYS.filter((name) => name !== 'command' && shown[name] && hasLength(reading.contours[name]));
     const callouts = isMoving || morph > 0 || others.join() !== 'ellipse,exponential' ? [] : calloutsOf(reading);
@@ -132,14 +133,14 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
     this.#pinned = undefined;
   }
 
-  /** Keeps the outlines and the numbers to compare with, or lets go of those that are kept. */
+  /** Pins the outlines and numbers for comparison, or removes those that are pinned. */
   #pin() {
     this.#pinned = this.#pinned ? undefined : this.fresh;
     this.stage.requestFrame();
     this.requestUpdate();
   }
 
-  /** Carries the floor so far to exponential coordinates. */
+  /** Sets the morph between the floor and exponential coordinates. */
   #carry(morph: number) {
     this.state.own.morph = morph;
     this.gesture.step();
@@ -201,7 +202,7 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
     return this.ask((machine) => machine.executed);
   }
 
-  /** The marked robot, if it is among those shown. */
+  /** Selected robot, if it is among those shown. */
   get #inspection() {
     const { machine, reading, cloud: { isMarked, index } } = this;
     return isMarked && machine ? this.#inspected.of([reading.stats, index], () => machine.inspect(index)) : undefined;
@@ -214,8 +215,8 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
   }
 
   /**
-   * Sets the command to an arc that ends at a point of the view's world, as far as the sliders go. Of several arcs it is the nearest to the
-   * present one.
+   * Sets the command to an arc that ends at a point of the view's world, within the range of the sliders. Of several arcs it takes the one
+   * nearest to the current arc.
    */
   reach(x: number, y: number) {
     this.settings.want(({ command }) => {
@@ -225,7 +226,7 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
     });
   }
 
-  /** Title of the picture that the morph carries along. */
+  /** Title of the picture with the morph. */
   get #title() {
     const { morph } = this.state.own;
     return morph === 0 ? floorTitle(this.reading) : morph === 1 ? words.banana.twist : words.banana.morph.title;

@@ -62,7 +62,7 @@ export const en = {
   alphaIsZero: (alpha) => `${alpha} is alone and 0: no noise at all. Turn it up.`,
   alphaIsSilent: (alpha, factor, cause, picture) =>
     `${alpha} multiplies ${factor}: no noise at all. Turn ${cause} up a little and watch it ${picture}.`,
-  /** Factor of an α that is 0, by the speed that the command lacks. */
+  /** Factor of an α that has no effect, because the command lacks this speed. */
   nothingToMultiply: {
     velocity: { v: 'v², and v is 0', ω: 'ω², and ω is 0' },
     odometry: { v: 'the squared distance, and it is 0', ω: 'the squared rotations, and they are 0' },
@@ -82,7 +82,7 @@ export const en = {
     unsure: (skew, exactly) => `Too few robots to show the lean: skew ${skew}, exactly ${exactly}.`,
     hardly: (skew, exactly) => `Both sides are nearly alike: skew ${skew}, exactly ${exactly}.`,
     neither: (skew) => `Both sides are alike: skew ${skew}, exactly 0 by symmetry.`,
-    /** Before what is said of its lean. */
+    /** Text before the sentence on the skew. */
     wide: (ratio) => `The cloud is bent: its ellipse covers ${ratio} times the floor of the ξ outline.`,
     gains: (gain) => `The cloud is slightly bent: the ellipse has about the size of the ξ outline, not its shape, which gains ${gain} nats a robot.`,
     bowTie: {

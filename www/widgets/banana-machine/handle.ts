@@ -1,4 +1,4 @@
-/** The ring at the end of the commanded arc, dragged by pointer or moved from the keyboard. */
+/** Ring at the end of the commanded arc, which is dragged with a pointer or moved with keys. */
 
 import { words } from '../../messages/registry.ts';
 import { Handle, stepsOf } from '../../scene/handle.ts';
@@ -18,7 +18,7 @@ export class ArcHandle extends Handle {
         const steps = stepsOf(event);
         if (!steps) return false;
         const [x, y] = figure.runtime.attempt(() => figure.machine && figure.seenEnd) ?? [0, 0];
-        // No arc ends farther away than the straight one.
+        // The straight arc reaches furthest.
         const farthest = looks.v.max * figure.settings.wanted.command.dt;
         figure.reach(clamp(x + KEY_STEP * steps[0], -farthest, farthest), y + KEY_STEP * steps[1]);
         return true;
@@ -27,7 +27,7 @@ export class ArcHandle extends Handle {
     });
   }
 
-  /** Renders the handle, which may ask to be dragged. */
+  /** Renders the handle, with a hint to drag it if the introduction asks for that. */
   render({ v, omega }: import('../../types.d.ts').Command, isAsking: boolean) {
     const say = words.banana;
     const { min, max } = looks.omega;

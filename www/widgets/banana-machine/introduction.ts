@@ -1,14 +1,14 @@
-/** First sight of the figure: one robot drives, then ten, then the cloud grows while the ring asks to be dragged. */
+/** Introduction of the figure: one robot drives, then ten, then the cloud grows while the ring pulses. */
 
 import { Cloud } from '../../figure/cloud.ts';
 
-/** Duration of the drive of one robot, and of that of all of them: ms. With the growth of the cloud it is less than four seconds. */
+/** Duration of the drive of one robot, and of the drive of all, ms. With the growth of the cloud they take less than four seconds. */
 const DRIVE = 650;
 
-/** Robots that drive. */
+/** Number of robots that drive. */
 const ROBOTS = 10;
 
-/** Key of the session's storage that tells that the reader has seen it. */
+/** Key in the session's storage that marks the introduction as seen. */
 const SEEN = 'motion-widgets.introduced';
 
 /** Returns whether this session has not had it; from now on it has. */
@@ -18,7 +18,7 @@ function isFirstSight() {
     sessionStorage.setItem(SEEN, 'yes');
     return seen === null;
   } catch {
-    // A page without storage would show it again and again.
+    // Without storage it would be shown again and again.
     return false;
   }
 }
@@ -27,7 +27,7 @@ function isFirstSight() {
 export class IntroducedCloud extends Cloud {
   /** Time at which the first robot started, ms. */
   #began: number | undefined;
-  /** Robots drive; then the ring of the handle asks to be dragged, while the cloud grows. */
+  /** Phases: robots drive; then the ring of the handle pulses, while the cloud grows. */
   #phase: 'none' | 'driving' | 'asking' = 'none';
 
   /** True while the ring asks to be dragged. */
@@ -35,7 +35,7 @@ export class IntroducedCloud extends Cloud {
     return this.#phase === 'asking';
   }
 
-  /** Robots on their way, and the share of it that they have behind them. */
+  /** Driving robots, and the completed fraction of their path. */
   get driving(): { robots: number, share: number } | undefined {
     if (this.#phase !== 'driving') return undefined;
     const elapsed = performance.now() - (this.#began ?? performance.now());
@@ -53,7 +53,7 @@ export class IntroducedCloud extends Cloud {
     for (const event of ['pointerdown', 'keydown']) addEventListener(event, this.skip, { capture: true });
   }
 
-  /** Ends what is left of the introduction: the reader has seen it, or has something else in mind. */
+  /** Ends the introduction: it is over, or the reader does something else. */
   skip = () => {
     this.#phase = 'none';
     for (const event of ['pointerdown', 'keydown']) removeEventListener(event, this.skip, { capture: true });
@@ -66,7 +66,7 @@ export class IntroducedCloud extends Cloud {
 
   grow() {
     if (this.#phase === 'driving') {
-      // It begins where the reader sees it.
+      // It starts when the figure is visible.
       this.#began ??= performance.now();
       if (performance.now() - this.#began < 2 * DRIVE) return;
       this.#phase = 'asking';

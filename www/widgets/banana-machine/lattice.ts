@@ -1,17 +1,17 @@
-/** The lines of equal length and of equal turn, which bend on the floor and are straight in exponential coordinates. */
+/** Grid lines of equal length and of equal turn, which are bent on the floor and straight in exponential coordinates. */
 
 import { ticks } from 'd3-array';
 import { placeOf } from './morph.ts';
 import { addLine, stroke, type Brush } from '../../scene/canvas.ts';
 import type { View } from '../../scene/view.ts';
 
-/** Lines of either kind, about; chords of a line. */
+/** Approximate number of lines of either kind, and number of chords of a line. */
 const LINES = 7;
 const CHORDS = 32;
 
 /** Draws the grid of exponential coordinates at a morph. `end` is the view at the end of the morph. */
 export function drawLattice({ context, view, palette }: Brush, { extent: { xMin, xMax, yMin, yMax } }: View, morph: number) {
-  // It appears early in the morph, and ends as the straight grid of the axes.
+  // It becomes visible early in the morph, and ends as the straight grid of the axes.
   context.globalAlpha = 0.7 * Math.min(1, 5 * morph);
   const line = (at: (share: number) => [along: number, heading: number]) => addLine(context, Array.from({ length: CHORDS + 1 }, (_, i) => {
     const [along, heading] = at(i / CHORDS);

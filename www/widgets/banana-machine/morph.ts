@@ -1,4 +1,4 @@
-/** The morph that carries the floor continuously to exponential coordinates: see doc/statistics.md. */
+/** Morph that transforms the floor continuously to exponential coordinates: see doc/statistics.md. */
 
 import { html } from 'lit';
 import { words } from '../../messages/registry.ts';
@@ -9,10 +9,10 @@ import type { Motion } from '../../types.d.ts';
 import type { Extent } from '../../scene/view.ts';
 import type { Reading } from './reading.ts';
 
-/** Lines on the floor, or where a morph has carried them. */
+/** Lines on the floor, or their images under the morph. */
 export type Outlines = Omit<Reading['contours'], 'twistEllipse'>;
 
-/** Duration of the morph when it is played, ms. */
+/** Duration of the animated morph, ms. */
 export const DURATION = 5000;
 
 /** Step of the slider. */
@@ -46,7 +46,7 @@ export function outlinesAt(motion: Motion, reading: Reading, morph: number): Out
   };
 }
 
-/** Sizes of the rings, in outlines of two standard deviations. */
+/** Sizes of the rings, relative to outlines of two standard deviations. */
 const RINGS = [0.5, 1, 1.5];
 
 /** Returns outlines on the floor of the Gaussian in exponential coordinates, with nearly the whole cloud inside of the largest. */
@@ -62,9 +62,11 @@ function commandAt({ config: { command: { v, omega, dt } }, contours }: Reading,
   return Float64Array.from(Array.from({ length: chords + 1 }, (_, i) => part(i)).flat());
 }
 
-/** Window on the world at a morph: between that on the floor and that on exponential coordinates, each of which is aimed alone. */
+/**
+ * View during a morph: an interpolation between the views of the floor and of exponential coordinates, each of which has its own target.
+ */
 export class MorphView extends View {
-  /** Share of the way from the floor (0) to exponential coordinates (1). */
+  /** Morph, from the floor (0) to exponential coordinates (1). */
   morph = 0;
   /** Windows at both ends. */
   ends;
@@ -91,7 +93,7 @@ export class MorphView extends View {
     return this.ends[this.morph > 0 ? 1 : 0].aimed;
   }
 
-  /** Aims the window at an end. */
+  /** Sets the target of the view at an end of the morph. */
   fitEnd(needed: Extent, end: 0 | 1) {
     const view = this.ends[end];
     view.widened = false;

@@ -53,30 +53,30 @@ export interface Scene extends Reading {
   reached: Float64Array;
 }
 
-/** A larger cloud is drawn as a density: dots would be one blot, and cost more than a frame. */
+/** Number of robots above which a cloud is drawn as a density: dots would be indistinguishable, and take longer than a frame. */
 const MAX_DOTS = 1000;
 
-/** Rays of a fan of headings: more look no different. */
+/** Number of rays of a fan of headings: more look no different. */
 const MAX_RAYS = 400;
 
-/** A cloud whose standard deviation is below this many pixels is drawn as one place. */
+/** Standard deviation (pixels) below which a cloud is drawn as one place. */
 const ONE_PLACE = 0.6;
 
-/** Standard deviations around the mean that a view makes room for. */
+/** Number of standard deviations around the mean that a view shows. */
 const ROOM = 3.2;
 
 /** Radius of the ring at the end of the arc, pixels. */
 const RING = 7.5;
 
-/** Largest distance from the pointer to a robot that it marks, CSS pixels. */
+/** Largest distance from the pointer to a robot that it selects, CSS pixels. */
 const REACH = 14;
 
-/** A picture of the robots: as dots, or as a density. */
+/** Picture of the robots: as dots, or as a density. */
 class CloudPicture extends Picture<Scene, import('../../types.d.ts').ViewName> {
   #density = new Density();
   #places: Memo<Float64Array> = new Memo();
 
-  /** Share of the way from the floor to exponential coordinates that is shown. */
+  /** Morph that is shown, from the floor to exponential coordinates. */
   get morph(): number {
     return this.name === 'plane' ? 0 : 1;
   }
@@ -120,7 +120,7 @@ function cellSize(area: number, count: number) {
   return Math.min(7, Math.max(2, Math.round(Math.sqrt((3 * area) / count))));
 }
 
-/** Outline name in the order that they are painted in, and that the key names them in. */
+/** Names of the outlines, in the order of painting and of the key. */
 export type OutlineName = import('./settings.ts').LineName;
 const PAINTED = ['additive', 'linearized', 'ellipse', 'exponential', 'command'] as const satisfies OutlineName[];
 const NAMED = ['ellipse', 'exponential', 'linearized', 'additive', 'command'] as const satisfies OutlineName[];
@@ -128,7 +128,7 @@ const NAMED = ['ellipse', 'exponential', 'linearized', 'additive', 'command'] as
 /** Insets of the views, CSS pixels. */
 const INSET = { left: 46, right: 10 };
 
-/** The floor from above, and what a morph makes of it on the way to exponential coordinates. */
+/** The floor from above, and its transformation to exponential coordinates by a morph. */
 export class PlanePicture extends CloudPicture {
   view: MorphView = new MorphView(INSET);
 
@@ -154,10 +154,10 @@ export class PlanePicture extends CloudPicture {
     const { mean, cov } = table.exact;
     const [sx, sy] = [ROOM * deviation(cov[0][0]), ROOM * deviation(cov[1][1])];
     const points = [mean[0] - sx, mean[1] - sy, mean[0] + sx, mean[1] + sy, ...contours.command, ...pinnedAt(0)];
-    // The only outline that may be much larger than the cloud.
+    // Only this outline may be much larger than the cloud.
     if (overlays.additive) points.push(...contours.additive);
     const box = extentOf(points, 0.4);
-    // Around the end there is room for a fan of headings, which may be all there is to see.
+    // Space for a fan of headings around the end, which may be all that is visible.
     const fan = 0.2 * (box.xMax - box.xMin);
     const [x, y] = end;
     this.view.fitEnd(extentOf([...points, x - fan, y - fan, x + fan, y + fan], 0.4), 0);
@@ -170,7 +170,7 @@ export class PlanePicture extends CloudPicture {
     const styles = lineStyles(brush, LINES);
     const drawn = (name: OutlineName) => overlays[name] && hasLength(outlines[name]);
     const key = NAMED.filter(drawn).map((name) => lineKey(brush, words.banana.overlays[name], styles[name]));
-    // One pair of axes goes before the other comes.
+    // One pair of axes fades out before the other fades in.
     const [floor, twist] = this.view.ends;
     const axes = [
       { view: floor, there: 1 - 2 * morph, names: { x: 'x (m)', y: 'y (m)' } },
@@ -230,7 +230,7 @@ function drawDriving(brush: Brush, machine: BananaMachine, { robots, share }: { 
   const { palette } = brush;
   for (let i = 0; i < robots; i++) {
     const { path, pose } = machine.inspect(i);
-    // The first has arrived when the others start.
+    // The first robot has arrived when the others start.
     const chords = path.length / 2 - 1;
     const at = (i === 0 && robots > 1 ? 1 : share) * chords;
     const begin = Math.min(Math.floor(at), chords - 1);
@@ -242,7 +242,7 @@ function drawDriving(brush: Brush, machine: BananaMachine, { robots, share }: { 
   }
 }
 
-/** Radius of the arcs that show a turn, CSS pixels, and how far beyond the end the second one's line goes on. */
+/** Radius of the arcs that show a turn, CSS pixels, and length of the line beyond the end that the second turn starts from. */
 const TURN_RADIUS = 26;
 const TURN_LINE = 38;
 
@@ -259,7 +259,7 @@ function drawReading(brush: Brush, { rot1, trans, rot2 }: import('../../types.d.
     addLine(context, [[fromX + TURN_LINE, fromY], [fromX, fromY], [toX, toY], [toX + TURN_LINE * ahead.x, toY + TURN_LINE * ahead.y]]);
     addLine(context, [[toX, toY], [toX + TURN_LINE * last.x, toY + TURN_LINE * last.y]]);
   });
-  // On the screen y runs down.
+  // On the screen y points down.
   const turn = (x: number, y: number, from: number, by: number) => stroke(context, style, () => context.arc(x, y, TURN_RADIUS, -from, -from - by, by > 0));
   turn(fromX, fromY, 0, rot1);
   turn(toX, toY, rot1, rot2);
@@ -275,7 +275,7 @@ function drawReading(brush: Brush, { rot1, trans, rot2 }: import('../../types.d.
   }
 }
 
-/** Robots that are all in one place. */
+/** Draws robots that are all in one place. */
 function heapOf(poses: Float64Array) {
   const shown = poses.length / 3;
   const stride = Math.ceil(shown / MAX_RAYS);
@@ -317,7 +317,7 @@ function areaOfTwists(scene: Scene) {
   return deviation(cov[0][0]) * deviation(cov[2][2]);
 }
 
-/** The same robots in exponential coordinates. */
+/** Picture of the same robots in exponential coordinates. */
 export class TwistPicture extends CloudPicture {
   constructor() {
     super('twist', new View({ ...INSET, equal: false }));

@@ -13,7 +13,7 @@ const NO_SPREAD = 1e-9;
 /** Number of points of the chart's curve: fewer would draw the fall of the skew across ω = 0 as a kinked line. */
 const CURVE_POINTS = 241;
 
-/** The skew against ω, which only some of the settings alter. */
+/** Skew as a function of ω, which depends on some of the settings only. */
 export class Curve {
   #memo: Memo<Float64Array> = new Memo();
 
@@ -23,7 +23,7 @@ export class Curve {
   }
 }
 
-/** Everything that the pictures and readouts need of the machine, asked once a change. */
+/** Reads everything that the pictures and readouts need of the machine, once for each change. */
 export function readingOf(machine: Machine) {
   const reading = machine.read();
   const { config, stats, contours, table, chartHolds } = reading;
@@ -33,9 +33,9 @@ export function readingOf(machine: Machine) {
     exactSkew: table.exact.crossTrackSkew,
     gain: gainOf(stats, table),
     bowTie: bowTieOf(config),
-    /** The command as odometry reads it; null under the velocity model. */
+    /** Command as an odometry reading; null under the velocity model. */
     reading: config.model === 'odometry' ? reading.reading : null,
-    /** The end of the commanded arc, metres. */
+    /** End of the commanded arc, metres. */
     end: [...contours.command.slice(-2)] as [number, number],
   };
 }
@@ -63,8 +63,7 @@ function bowTieOf({ model, command: { v, omega, dt }, alphas, isolate, reverseAw
   }
   const turn = omega * dt;
   const length = Math.abs(v * dt * (turn === 0 ? 1 : Math.sin(turn / 2) / (turn / 2)));
-  // It turns by half of it before the drive and by half of it after; in reverse, as the table has it, by that much less
-  // than half a turn.
+  // Half of the turn is before the drive and half after it. In reverse, by the table, each is half a turn minus that.
   const rotation = v < 0 && !reverseAware ? Math.PI - Math.abs(turn) / 2 : turn / 2;
   const [straight, turning] = [a3 * length * length, 2 * a4 * rotation * rotation];
   const deviation = Math.sqrt(straight + turning);

@@ -9,7 +9,7 @@ import { figureTable, readoutList } from '../../ui/readouts.ts';
 import type { Inspection, Moments, Table } from '../../types.d.ts';
 import type { Reading } from './reading.ts';
 
-/** Share of a Gaussian in the plane inside its 2σ ellipse, 1 − e⁻². */
+/** Fraction of a Gaussian in the plane inside its 2σ ellipse, 1 − e⁻². */
 const NOMINAL = 1 - Math.exp(-2);
 
 /**
@@ -76,7 +76,7 @@ export function markedRobot(figure: import('./banana-machine.ts').BananaMachineE
   return sampleField(figure, { id: 'robot', label: robot, hint: markHint, shown, told });
 }
 
-/** The noise of each hinge: what was read less what was driven, as Table 5.6 subtracts it. */
+/** Returns the noise of each leg: the reading minus the executed motion, as Table 5.6 subtracts it. */
 function legsOf(driven: import('../../types.d.ts').Legs, read: import('../../types.d.ts').Legs) {
   return ([['rot1', 'rad'], ['trans', 'm'], ['rot2', 'rad']] as const).map(([leg, unit]) => {
     const noise = read[leg] - driven[leg];
@@ -84,7 +84,7 @@ function legsOf(driven: import('../../types.d.ts').Legs, read: import('../../typ
   });
 }
 
-/** Digits of what is computed, as many as the book prints; and of what chance leaves uncertain. */
+/** Decimals of computed numbers, as in the book, and of numbers with a standard error. */
 const DIGITS = 5;
 const MEASURED_DIGITS = 3;
 
@@ -93,7 +93,7 @@ const sigma = (indices: string) => html`<i>Σ</i><sub><i>${indices}</i></sub>`;
 export function workedExample({ table: { linearized, exact, measured }, stats }: Reading) {
   const computed = [linearized, exact];
   const [skew, ...error] = withError(stats.crossTrackSkew, stats.crossTrackSkewError, 3).split(' ');
-  // Two lines, also while there is no error: the row keeps its height.
+  // Two lines, also without an error, so that the row keeps its height.
   const measuredSkew = html`${skew} <br />${error.join(' ') || '\u00a0'}`;
   const say = words.banana.table;
   const rows: [unknown, (column: Table['exact']) => number, unknown?][] = [

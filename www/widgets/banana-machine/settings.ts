@@ -1,4 +1,4 @@
-/** The Banana Machine's settings as attributes, in its state, and as the eye sees them. */
+/** The Banana Machine's settings: their attributes, their part of the state, and their sliders. */
 
 import { NUMBER, attributesOf, presetsOf } from '../../figure/attributes.ts';
 import { numberWithin, wholeNumber } from '../../figure/checks.ts';
@@ -10,7 +10,7 @@ import { alphaLooks } from '../shared/noise.ts';
 
 export const declared = settings['banana-machine'];
 
-/** The key of its words in the catalogues. */
+/** Key of the words in the catalogues. */
 export const vocabulary = 'banana';
 
 /** Styles of the lines in the pictures. */
@@ -36,10 +36,10 @@ export const attributes: import('../../figure/attributes.ts').Attributes = {
 
 export const own: Record<string, import('../../figure/state.ts').Owned> = {
   ...cloudState,
-  /** The α that Isolate leaves, from 1; remembered while Isolate is off. */
+  /** The α that remains under "Isolate", from 1; remembered while "Isolate" is off. */
   isolateChoice: { opening: 4, check: (field, number) => wholeNumber(field, number, 1, openingAlphas.velocity.length) },
   overlays: state,
-  /** Share of the way from the floor to exponential coordinates. */
+  /** Morph, from the floor (0) to exponential coordinates (1). */
   morph: { opening: 0, ofPreset: true, check: (field, morph) => numberWithin(field, morph, 0, 1) },
 };
 

@@ -24,7 +24,7 @@ const own = css`
     }
   }
 
-  /* A narrow figure has one picture: the one that shows both ends. */
+  /* A narrow figure has one picture: the one with the morph, which can show both. */
   @container (width < 30em) {
     .views > .twist {
       display: none;

@@ -66,7 +66,7 @@ export function correctionOf(odometry: Log, reference: Log): Correction | undefi
   const count = Math.floor((to - from) / step);
   if (!(count >= ENOUGH)) return undefined;
   const plain = { odometry: motionsOf(odometry, from, step, count), reference: motionsOf(reference, from, step, count) };
-  const found = agreement(plain, step);
+  const found = agreement(plain, step, true);
   const { score, length, angle } = found;
   const tried = score >= AGREES ? [] : (Object.keys(CORRECTIONS) as (keyof typeof CORRECTIONS)[]).flatMap((name) => (['reference', 'odometry'] as const).map((at) => {
     const corrected = { ...plain, [at]: motionsOf(logs[at], from, step, count, CORRECTIONS[name]) };
@@ -104,13 +104,17 @@ function motionsOf({ data }: Log, from: number, step: number, count: number, cor
 
 const wrapped = (angle: number) => angle - 2 * Math.PI * Math.round(angle / (2 * Math.PI));
 
-/** Returns the agreement of two logs at the offset of their clocks where it is largest, or at the nearest one where they agree. */
-function agreement({ odometry, reference }: Record<Role, Motion[]>, step: number): Agreement {
+/**
+ * Returns the agreement of two logs at the offset of their clocks where it is largest, or at the nearest one where they agree.
+ *
+ * @param anyYaw whether the reference may be mounted in any direction
+ */
+function agreement({ odometry, reference }: Record<Role, Motion[]>, step: number, anyYaw = false): Agreement {
   const most = Math.round(OFFSET / step);
   const [own, its] = [steady(odometry), steady(reference)];
   let best: Agreement = { score: -1, length: 1, angle: 1 };
   for (let i = 0; i <= 2 * most && best.score < AGREES; i++) {
-    const found = agreementAt(own, its, i % 2 === 0 ? i / 2 : -(i + 1) / 2, own.length - most);
+    const found = agreementAt(own, its, i % 2 === 0 ? i / 2 : -(i + 1) / 2, own.length - most, anyYaw);
     if (found.score > best.score) best = found;
   }
   return best;
@@ -124,14 +128,15 @@ function steady(motions: Motion[]): Motion[] {
 }
 
 /** Returns the agreement at an offset of so many steps, for at least half of `count`. */
-function agreementAt(odometry: Motion[], reference: Motion[], lag: number, count: number): Agreement {
-  // Sums of products, of drives and of turns: of the odometry with itself, of both, of the reference with itself.
-  let [drives, bothDrives, itsDrives, turns, bothTurns, itsTurns] = [0, 0, 0, 0, 0, 0];
+function agreementAt(odometry: Motion[], reference: Motion[], lag: number, count: number, anyYaw: boolean): Agreement {
+  // Sums of products, of drives and of turns: of the odometry with itself, of both (and across), of the reference with itself.
+  let [drives, bothDrives, across, itsDrives, turns, bothTurns, itsTurns] = [0, 0, 0, 0, 0, 0, 0];
   const [first, end] = [Math.max(0, -lag), Math.min(odometry.length, reference.length - lag)];
   for (let i = first; i < end; i++) {
     const [own, its] = [odometry[i], reference[i + lag]];
     drives += own[0] * own[0] + own[1] * own[1];
     bothDrives += own[0] * its[0] + own[1] * its[1];
+    across += own[0] * its[1] - own[1] * its[0];
     itsDrives += its[0] * its[0] + its[1] * its[1];
     turns += own[2] * own[2];
     bothTurns += own[2] * its[2];
@@ -139,7 +144,7 @@ function agreementAt(odometry: Motion[], reference: Motion[], lag: number, count
   }
   if (2 * (end - first) < count) return { score: -1, length: 1, angle: 1 };
   // A robot that only drives straight on or turns on the spot shows one of the two.
-  const [drive, turn] = [[drives, bothDrives, itsDrives], [turns, bothTurns, itsTurns]].map(([own, both, its]) =>
+  const [drive, turn] = [[drives, anyYaw ? Math.hypot(bothDrives, across) : bothDrives, itsDrives], [turns, bothTurns, itsTurns]].map(([own, both, its]) =>
     (Math.sqrt(Math.max(own, its) / (end - first)) < STANDS ? { correlation: 1, scale: 1 } : { correlation: both / Math.sqrt(own * its || 1), scale: own / both }));
   return { score: Math.min(drive.correlation, turn.correlation), length: drive.scale, angle: turn.scale };
 }

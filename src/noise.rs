@@ -13,8 +13,8 @@ use std::f64::consts::{PI, TAU};
 use std::fmt;
 use wide::f64x4;
 
-/// A variance b², in the square of the unit of what is perturbed; a type so that nobody hands over a standard
-/// deviation. The field is public as in the chapter; [`Variance::new`] is the checked way in.
+/// A variance b², in the square of the unit of the perturbed quantity. It is a type of its own, so that no standard
+/// deviation is passed by mistake. The field is public as in the chapter; [`Variance::new`] checks the value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Variance(pub f64);
 
@@ -64,7 +64,7 @@ const SQRT_6: f64 = 2.449_489_742_783_178;
 pub enum NoiseKind {
     /// Gaussian.
     Normal,
-    /// Symmetric triangle on ±√6·b: bounded, so that no draw is ever absurd.
+    /// Symmetric triangle on ±√6·b: bounded, so that there are no extreme draws.
     Triangular,
 }
 

@@ -6,7 +6,7 @@ use motion::geom::se2::SE2;
 use motion::geom::segment::Segment;
 use motion::map::{FloorPlan, FloorPlanError};
 
-/// Walls of a plan at most, each of which makes its field larger, and arcs that are judged in it.
+/// Maximum number of walls of a plan, whose distance field grows with it, and number of arcs that are tested.
 const WALLS: usize = 4;
 const ARCS: usize = 3;
 

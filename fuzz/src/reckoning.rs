@@ -8,8 +8,8 @@ use motion::sim::dead_reckoning::{
 };
 use nalgebra::Matrix3;
 
-/// Robots, steps and calls of a run at most. A block of 256 robots is driven whole for a single one: most runs have one block,
-/// some several.
+/// Maximum numbers of robots, steps and calls in a run. Robots are driven in blocks of 256, also for a single one: most runs
+/// have one block, some several.
 const FEW_SAMPLES: usize = 200;
 const SAMPLES: usize = 800;
 const STEPS: u32 = 5;

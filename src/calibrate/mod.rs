@@ -65,7 +65,7 @@ pub fn calibrate(drives: &[Drive], options: &Options) -> Result<Calibration, Cal
     let log = Log::new(drives)?;
     let systematic = fit_systematic(&log, options)?;
     let persistence = persistence(&systematic.sample, &systematic.innovations);
-    // Errors that persist are known as by fewer legs.
+    // Noise that is correlated between legs increases the standard errors, as fewer legs would.
     let correlation = persistence.correlation.value;
     let repeated = ((1.0 + correlation) / (1.0 - correlation)).sqrt();
     let systematic_stds = systematic.stds.map(|std| (std > 0.0).then_some(repeated * std));

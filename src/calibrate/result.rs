@@ -90,11 +90,11 @@ pub struct Calibration {
     pub systematic: Systematic,
     /// Standard errors of [`SystematicError::ALL`]; None of one that the log does not identify.
     pub systematic_stds: [Option<f64>; ERRORS],
-    /// True of each that is the same on straight and on turning legs, and in both halves of the log.
+    /// True for each systematic error that is equal on straight and turning legs, and in both halves of the log.
     pub is_constant: ErrorMask,
     /// Systematic errors that were corrected, 0 (scales 1) where one was not.
     pub corrected: Systematic,
-    /// True of each that was corrected.
+    /// True for each systematic error that was corrected.
     pub is_corrected: ErrorMask,
     /// Standard deviations of the reference: each coordinate (m) and heading (rad).
     pub reference_noise: [Estimate; 2],
@@ -150,7 +150,7 @@ pub(super) const NORMAL_95: f64 = 1.959_963_984_540_054;
 /// Reason for which a log cannot be fitted.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum CalibrateError {
-    /// Odometry and reference have no time in common, and turn alike at no offset of their clocks.
+    /// The times of odometry and reference do not overlap, and at no clock offset are their turn rates correlated.
     Apart,
     /// There are fewer than [`MIN_LEGS`] legs.
     TooFewLegs { legs: usize },

@@ -139,7 +139,7 @@ impl Arc {
         let (sin, cos) = libm::sincos(self.start.theta());
         let ahead = if self.length < 0.0 { -1.0 } else { 1.0 };
         let length = self.length.abs();
-        // Driving backwards is driving forwards in the mirror, with the turn reversed; then turn left likewise.
+        // A drive in reverse is mirrored into a forward drive with the opposite turn, and a right turn into a left turn.
         let turn = self.turn * ahead;
         let side = if turn < 0.0 { -1.0 } else { 1.0 };
         let turn = turn.abs();
@@ -321,8 +321,8 @@ impl Course {
     }
 }
 
-/// Turns below this (rad) count as straight: the arc then leaves the line by less than any double of its length can
-/// tell. Far larger values would show, far smaller ones would underflow in the curvature.
+/// Turn (rad) below which an arc counts as straight: it deviates from the line by less than rounding. A much larger
+/// limit would cause visible errors, a much smaller one underflow of the curvature.
 const MIN_TURN: f64 = 1e-30;
 
 /// Arcs below this length (m) count as points. The curvature of much shorter ones, times a square of kilometres, is no

@@ -103,10 +103,10 @@ pub struct Declaration {
     pub key: &'static str,
     /// The setting that this one is another way to say.
     pub of: Option<&'static str>,
-    // The module for browsers has neither the sentence nor the unit, which would weigh and tell nobody anything.
+    // The module for browsers has neither the sentence nor the unit: no page shows them, and they would make it larger.
     #[cfg(not(target_arch = "wasm32"))]
     pub sentence: &'static str,
-    /// "" where it has none.
+    /// Unit; "" for a number without one.
     #[cfg(not(target_arch = "wasm32"))]
     pub unit: &'static str,
 }

@@ -3,11 +3,11 @@
 /// Marks a missing edge of the grid.
 const NONE: usize = usize::MAX;
 
-/// The lines on which a field has the value `level`, by marching squares: between neighbouring points the field is taken to be
-/// linear, and a saddle is what the mean of its corners says.
+/// Returns the lines on which a field has the value `level`, by marching squares. Between neighbouring points the field is
+/// interpolated linearly. The mean of the four corners decides how a saddle is connected.
 ///
-/// `values`, all finite, are those at the points of a grid, row by row, `columns` in a row; points of lines are told in steps of the grid
-/// from its first point, (column, row). A line ends where it began, or at the rim of the grid.
+/// `values` are finite, at the points of a grid, row by row with `columns` in each row. Points of lines are (column, row) in steps of
+/// the grid, from its first point. A line ends where it began, or at the border of the grid.
 pub fn level_set(values: &[f64], columns: usize, level: f64) -> Vec<Vec<[f64; 2]>> {
     let rows = values.len() / columns.max(1);
     // Edge 2i leads from point i to the next point in its row, edge 2i + 1 to the point in the next row. For each edge

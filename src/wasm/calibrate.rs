@@ -33,8 +33,8 @@ export interface CalibrationOptions {
   /** Treatment of legs outside the gate: excluded (default), or fitted as noise. */
   outliers?: 'reject' | 'keep';
   /**
-   * Systematic errors that are corrected. By default those that the log identifies, but no scale that is not constant; true corrects that
-   * too, false none.
+   * Systematic errors that are corrected. The default is all errors that the log identifies, except for scales that are not constant.
+   * With true these are corrected too, with false none.
    */
   correct?: boolean | { [name in SystematicErrorName]?: boolean };
   /** Standard deviation of each coordinate of the reference, m; estimated unless stated. */

@@ -87,7 +87,7 @@ export function focus({ tag, selector }) {
   return rootOf(tag).activeElement === part;
 }
 
-/** From now on a figure is rendered between each step of the reader's and its frame, as anything may have it. @param {string} tag */
+/** Makes a figure render between each input event and its frame, as other events can do at any time. @param {string} tag */
 export function renderSteps(tag) {
   const figure = /** @type {any} */ (figureOf(tag));
   figure.addEventListener('input', () => figure.requestUpdate());

@@ -28,7 +28,7 @@ export function mutantOf(corpus, random) {
   const one = (/** @type {ArrayLike<any>} */ from) => from[below(from.length)];
   /** @type {Buffer<ArrayBuffer>} */
   let bytes = Buffer.from(one(corpus));
-  /** @param {Uint8Array} middle instead of what is between two places */
+  /** Replaces the bytes between two positions. @param {Uint8Array} middle */
   const put = (middle, from = below(bytes.length + 1), to = from) => {
     bytes = Buffer.concat([bytes.subarray(0, from), middle, bytes.subarray(to)]).subarray(0, LONGEST);
   };

@@ -1,4 +1,4 @@
-// Entries of the package as Node, TypeScript, and pages with several of them import them.
+// Entry points of the package, imported by Node, by TypeScript, and by pages that import several of them.
 
 import assert from 'node:assert/strict';
 import { execFileSync, spawnSync } from 'node:child_process';

@@ -14,7 +14,7 @@ export interface Format {
   /** Number of the first row's line, from 1. */
   firstLine: number;
   names: string[];
-  /** Line of the header, which a file that was put together repeats. */
+  /** Line of the header, which is repeated in a file that was concatenated from several. */
   header?: string;
   groups: Group[];
   /** True where empty cells are those of a sample of another topic. */

@@ -34,7 +34,8 @@ export function fixed(value: number, decimals: number): string {
 const FEW_MORE = 2;
 
 /**
- * Prints a value as it was typed: with up to two more decimals than usual, if these are all. "0.0525" with 3, and "0.052" for 0.05210987.
+ * Prints a value as it was typed: with up to two more decimals than usual, if it has no further ones. With 3 decimals 0.0525 is "0.0525",
+ * and 0.05210987 is "0.052".
  */
 export function typed(value: number, decimals: number): string {
   const all = String(value).split('.')[1]?.length ?? 0;

@@ -243,11 +243,10 @@ impl MapSqueeze {
         Driver::new(&model, &self.settings, &self.draws).arcs(index)
     }
 
-    /// Cost of `count` accepted samples of a sampler here and now, to be timed by the caller.
+    /// Draws `count` accepted samples with a sampler and returns their cost. The caller measures the time.
     ///
     /// # Errors
-    /// [`Wedged`] where one of them is not to be had, or where all of them take so many draws that the machine would give
-    /// up.
+    /// [`Wedged`] if no sample is accepted, or if all together take so many draws that the machine would give up.
     pub fn trial(&self, sampler: Sampler, count: usize) -> Result<Cost, Wedged> {
         let conditioned = conditioned(&self.settings, &self.plan, sampler);
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(self.settings.seed);

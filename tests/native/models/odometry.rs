@@ -115,7 +115,7 @@ fn the_pose_density_divides_by_the_jacobian() {
                 let [r1, t, r2] = [0, 1, 2].map(|leg| kind.prob(noise[leg], Variance(sizes[leg])));
                 let expected = r1 * t * r2 / hat.trans;
                 let density = model(kind).pose_density(&hat.apply(&x), &u, &x).unwrap();
-                // Facing away and reversing, and whole turns, add what is below a millionth at these sizes.
+                // Other legs lead to the same pose: in reverse, or with full turns. With this noise they add less than 1e-6.
                 assert!(
                     (density / expected - 1.0).abs() < 1e-6,
                     "{u:?} at {hat:?}: {density}, not {expected}"

@@ -21,7 +21,7 @@ export type Scene = Reading & { machine: ArcAnatomy, overlays: LineName[], line:
 /** Radius of the robots, m. */
 export const RADIUS = 0.06;
 
-/** Maximum distance at which a centre is shown: a multiple of the length of the path, plus some metres. */
+/** Maximum radius at which the centre is shown: a multiple of the length of the path, but at least some metres. */
 const CENTRE = { ways: 3, metres: 1.5 };
 
 /** Margin around everything, m. */

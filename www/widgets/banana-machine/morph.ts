@@ -27,7 +27,7 @@ export function placeOf({ 0: along, 1: lateral, 2: heading }: ArrayLike<number>,
   return [ahead * cos - aside * sin, ahead * sin + aside * cos + morph * heading];
 }
 
-/** Returns a function that carries a line of points of the floor to a morph. */
+/** Returns the function that transforms a line of points on the floor by a morph. */
 export const carrying = (motion: Motion, { config: { command } }: Reading, morph: number) => (line: Float64Array) =>
   morph === 0 ? line : motion.unbendLine(line, command.omega * command.dt, morph);
 

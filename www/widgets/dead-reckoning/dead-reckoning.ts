@@ -25,7 +25,7 @@ import type { Reading } from './reading.ts';
 /** Units of the components' variances. */
 const UNITS = { along: 'm2', lateral: 'm2', heading: 'rad2' };
 
-/** Columns of a quantity in a table, one a component. */
+/** Names of the columns of a quantity in a table, one for each component. */
 const columnsOf = (quantity: string) => COMPONENTS.map((name) => `${quantity}_${name}_${UNITS[name]}`);
 
 /**
@@ -54,14 +54,14 @@ export class DeadReckoningElement extends FigureElement<Machine, Reading> {
   #straight: Memo<Machine['straightGrowth']> = new Memo();
 
   createMachine: FigureElement<Machine, Reading>['createMachine'] = (motion, state) => {
-    // Empty: the robots come before the reader's eyes, and nobody waits for those that are not shown yet.
+    // The machine starts empty: robots appear visibly, and the first frame need not wait for them.
     const machine = motion.DeadReckoning.empty();
     if (!state) return machine;
     return freeOnError(machine, () => enterCloud(machine, this.settings.declared(state), state.shown));
   };
 
   completed(present: Values, given: Values) {
-    // A path that becomes shorter than what is looked at is looked at where it ends.
+    // If the path gets shorter than the selected step, its last step is selected.
     const { steps = present.steps } = given;
     return { step: Math.min(present.step, steps), ...super.completed(present, given) };
   }
@@ -96,7 +96,7 @@ export class DeadReckoningElement extends FigureElement<Machine, Reading> {
 
   announcement = (reading: Reading) => announcementOf(reading, this.state.own.overlays);
 
-  /** The poses of the marked robot after each step, if it is among those driven. */
+  /** Poses of the selected robot after each step, if it is among those driven. */
   get #marked() {
     const { machine, reading, cloud: { isMarked, index } } = this;
     return isMarked && machine ? this.#rollout.of([reading.stats, index], () => machine.rollout(index)) : undefined;

@@ -42,7 +42,7 @@ export const en = {
   },
   axisAlong: 'ξ along (m)',
   axisLateral: 'ξ lateral (m)',
-  /** An axis that is drawn on a larger scale than the other one. */
+  /** Note on an axis with a larger scale than the other one. */
   stretched: (axis, factor) => `${axis}, enlarged ${factor} times`,
   components: { along: 'along', lateral: 'lateral', heading: 'heading' },
   of: { along: 'along-track', lateral: 'lateral', heading: 'heading' },

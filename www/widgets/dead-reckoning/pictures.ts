@@ -1,4 +1,4 @@
-/** Dead Reckoning's two pictures: the floor with the path, and the step that is looked at in exponential coordinates. */
+/** Dead Reckoning's two pictures: the floor with the path, and the selected step in exponential coordinates. */
 
 import { words } from '../../messages/registry.ts';
 import { clipped, drawAxes, lineKey } from '../../scene/axes.ts';
@@ -11,13 +11,13 @@ import { OUTLINES } from './settings.ts';
 import type { Callout } from '../../scene/callout.ts';
 import { drawDisc, type Brush } from '../../scene/canvas.ts';
 
-/** Scene of both pictures, with the poses of the marked robot after each step. */
+/** Scene of both pictures, with the poses of the selected robot after each step. */
 export type Scene = import('./reading.ts').Reading & { marked: Float64Array | undefined, overlays: string[] };
 
-/** Standard deviations of a cloud that a view makes room for. */
+/** Number of standard deviations of a cloud that a view shows. */
 const ROOM = 3.2;
 
-/** Dots of a cloud that is not looked at, at most, and their radius and ink. */
+/** Clouds of other steps: maximum number of dots, their radius and opacity. */
 const PASSED = { most: 200, radius: 1.3, alpha: 0.4 };
 
 export type OutlineName = keyof typeof OUTLINES;
@@ -68,7 +68,7 @@ export class PathPicture extends SamplesPicture<Scene> {
   };
 }
 
-/** Half the size of the mark where the command is, CSS pixels. */
+/** Half the size of the mark at the commanded end, CSS pixels. */
 const PLACE = 4;
 
 /** Marks the end of the command after the step: small, so that the cloud is seen around it. */
@@ -76,7 +76,7 @@ function drawPlace({ context, view, palette }: Brush, [x, y]: Float64Array) {
   drawDisc(context, [view.toPixelX(x), view.toPixelY(y)], PLACE, palette.prior, { colour: palette.paper, width: 1.5 });
 }
 
-/** Robots where they were at another step. */
+/** Draws the robots after another step. */
 function drawPassed({ context, view, palette }: Brush, poses: Float64Array) {
   context.fillStyle = palette.cloud;
   context.globalAlpha = PASSED.alpha;
@@ -88,7 +88,7 @@ function drawPassed({ context, view, palette }: Brush, poses: Float64Array) {
   context.globalAlpha = 1;
 }
 
-/** ξ along and lateral about the commanded pose, each on a scale of its own: a lateral spread is small at first. */
+/** ξ along and lateral about the commanded pose, each with its own scale, because the lateral spread is small at first. */
 export class StepPicture extends Picture<Scene> {
   constructor() {
     super('twist', new View({ equal: false, left: 52, right: 10 }));
@@ -121,7 +121,7 @@ export class StepPicture extends Picture<Scene> {
   };
 }
 
-/** Stretch of one axis against the other that is not seen. */
+/** Ratio of the scales that is not noticeable. */
 const UNSEEN = 1.05;
 
 /** Returns the factors by which x and y are stretched against each other, as they are printed; empty where it is not seen. */

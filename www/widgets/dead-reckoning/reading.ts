@@ -4,10 +4,10 @@ import type { DeadReckoning as Machine, DeadReckoningSettings } from '../../type
 
 export type Reading = ReturnType<typeof readingOf>;
 
-/** The components of ξ, in the order of every triple. */
+/** Components of ξ, in the order of every triple. */
 export const COMPONENTS = ['along', 'lateral', 'heading'] as const;
 
-/** Everything that the pictures and readouts need of the machine, asked once a change. */
+/** Reads everything that the pictures and readouts need of the machine, once for each change. */
 export function readingOf(machine: Machine) {
   const reading = machine.read();
   const { config, stats, ratios, relativeErrors, nominal } = reading;
@@ -17,7 +17,7 @@ export function readingOf(machine: Machine) {
     ...reading,
     /** Curve of each component by step, from 1. */
     curves: COMPONENTS.map((_, axis) => curveOf(ratio, relativeErrors, axis)),
-    /** The commanded pose after the step. */
+    /** Commanded pose after the step. */
     pose: nominal.subarray(3 * (step - 1), 3 * step),
     condition: conditionOf(config, stats, ratio),
   };

@@ -1,4 +1,4 @@
-/** Dead Reckoning's figures: ratios by step, and where they are off. */
+/** Dead Reckoning's readouts: ratios by step, and steps with a miss. */
 
 import { html } from 'lit';
 import { sampleField } from '../../figure/controls.ts';
@@ -15,7 +15,7 @@ import type { Misses } from '../../types.d.ts';
 import type { Reading } from './reading.ts';
 import type { Role } from '../../ui/plot.ts';
 
-/** Heights that the plot may have, so that it holds still while a slider is dragged. */
+/** Allowed heights of the plot, so that its axis does not change with every step of a drag. */
 const HEIGHTS = [1.2, 1.6, 2, 3, 5, 10];
 
 /** Relative error of a predicted variance that counts as right. */

@@ -1,4 +1,4 @@
-/** Dead Reckoning's settings as attributes, in its state, and as the eye sees them. */
+/** Dead Reckoning's settings: their attributes, their part of the state, and their sliders. */
 
 import { attributesOf, presetsOf } from '../../figure/attributes.ts';
 import { cloudState } from '../../figure/cloud.ts';
@@ -10,10 +10,10 @@ import type { DeadReckoningSettings } from '../../types.d.ts';
 
 export const declared = settings['dead-reckoning'];
 
-/** The key of its words in the catalogues. */
+/** Key of the words in the catalogues. */
 export const vocabulary = 'reckoning';
 
-/** The recursions in the order in which they are offered. */
+/** Recursions in the order in which they are offered. */
 export const RECURSIONS = declared.find(({ key }) => key === 'compounding')?.words as DeadReckoningSettings['compounding'][];
 
 /** Styles of the ratios in the chart. */
@@ -52,10 +52,10 @@ export const looks: Record<string, import('../../figure/controls.ts').Look> = {
   headingNoise: {
     ...ALPHA,
     step: 0.005,
-    // The slider shows α₃ also where the other three have another ratio to it.
+    // The slider shows α₃, even if the other three are not in the usual ratio to it.
     value: ({ alphas, headingNoise = alphas[2] }) => headingNoise,
   },
 };
 
-/** Sample counts of the slider; a larger cloud is slow to follow one. */
+/** Sample counts of the slider; larger clouds would not follow the slider. */
 export const SAMPLE_COUNTS = [2, 3, 4].flatMap((decade) => [1, 2, 5].map((step) => step * 10 ** decade)).concat(100_000, 200_000);

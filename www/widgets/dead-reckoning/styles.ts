@@ -4,7 +4,7 @@ import { css } from 'lit';
 import { layoutStyles } from '../../ui/layout.ts';
 import { plotStyles } from '../../ui/plot.ts';
 
-/** Style of the chart that stays in sight, as its line is what is dragged. */
+/** The chart stays visible while scrolling, because its line is dragged. */
 const chartAlone = css`
   .ratios,
   .chart {
@@ -38,7 +38,7 @@ const own = css`
     margin-inline: auto;
   }
 
-  /* The line at the selected step is dragged where the pointer takes it. */
+  /* The line at the selected step follows the pointer. */
   .chart input {
     --thumb: var(--accent);
     cursor: ew-resize;

@@ -1,4 +1,4 @@
-/** Texts of Dead Reckoning in the present language. */
+/** Texts of Dead Reckoning in the current language. */
 
 import { addEnglish, words } from '../../messages/registry.ts';
 import { NOTHING, counted, fixed, withError } from '../../ui/format.ts';
@@ -9,7 +9,7 @@ import type { Reading } from './reading.ts';
 
 addEnglish({ reckoning: en });
 
-/** Steps at which the worst component is told. */
+/** Steps at which the text gives the ratio of the worst component. */
 const TOLD_STEPS = [1, 2, 5];
 
 /** A share in per cent, with a sign where it is more than none. */

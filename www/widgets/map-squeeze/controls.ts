@@ -1,4 +1,4 @@
-/** Map Squeeze's controls: places, command, noise, sampler, and maps of the reader's own. */
+/** Map Squeeze's controls: start positions, command, noise, sampler, and maps of the reader. */
 
 import { html, nothing } from 'lit';
 import { check, choices, cloudControls, slider, sliders } from '../../figure/controls.ts';
@@ -11,7 +11,7 @@ import { COMMAND, MOST_SAMPLES, SAMPLE_COUNTS } from './settings.ts';
 
 export type Figure = import('./map-squeeze.ts').MapSqueezeElement;
 
-/** A floor plan to start from: a room with a gap in its wall. */
+/** Example of a floor plan: a room with a gap in its wall. */
 const EXAMPLE = `{
   "bounds": [0, 0, 6, 4],
   "walls": [
@@ -36,7 +36,7 @@ export function placeControls(figure: Figure) {
 export function samplerControls(figure: Figure) {
   const { conditioned, sampler, samples, steps } = figure.reading.config;
   const { settings, samplers, samplerEffects } = words.squeeze;
-  // Sub-steps multiply the samples.
+  // With sub-steps each sample takes several draws.
   const most = (name: string) => (name === 'sub-stepped' ? Math.floor(MOST_SAMPLES / steps) : MOST_SAMPLES);
   const choose = (name: string) => figure.gesture.decide({ sampler: name, ...(samples > most(name) && { samples: most(name) }) });
   return html`<div class="judge">

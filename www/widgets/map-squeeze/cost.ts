@@ -13,16 +13,16 @@ export interface Cost {
   wallTests: number;
 }
 
-/** The particles and rate of the chapter's exercise: samples a second. */
+/** Number of particles and rate of the chapter's exercise, samples per second. */
 export const DEMAND = 2000 * 20;
 
-/** Milliseconds that a measurement lasts at least, and twice that at most: browsers' clocks are as coarse as 1 ms. */
+/** Minimum duration of a measurement, ms, and half of its maximum: clocks of browsers may have steps of 1 ms. */
 const LONG_ENOUGH = 12;
 
-/** Runs of which the median is told. */
+/** Number of runs, whose median is shown. */
 const RUNS = 5;
 
-/** Measures a run at a time, so that the page goes on between two runs. Returns the cost, or the reason why there is none. */
+/** Measures one run at a time, so that the page can handle events between two runs. Returns the cost, or the reason why there is none. */
 function* measuring(machine: MapSqueeze, sampler: SamplerName, parts: number): Generator<undefined, Cost | 'wedged' | 'few'> {
   const most = Math.floor(limits.trial / parts);
   let count = 1;
@@ -56,27 +56,27 @@ function* measuring(machine: MapSqueeze, sampler: SamplerName, parts: number): G
   }
 }
 
-/** Milliseconds of rest before measuring: a reader between two presses of a key is not kept waiting. */
+/** Idle time before measuring, ms, so that a reader who presses keys repeatedly does not wait. */
 const REST = 300;
 
-/** Measures the samplers one after the other when things have come to rest, and tells of each. */
+/** Measures the samplers one after the other when the figure is idle, and reports each. */
 export class CostMeter extends Part {
   /** Latest costs, or the reasons why there are none. */
   costs: Partial<Record<SamplerName, Cost | 'wedged' | 'few'>> = {};
   /** True if the costs are those of the present settings. */
   current = false;
-  /** The settings that were measured, or are to be. */
+  /** Settings that were measured, or will be. */
   #settings = '';
   #timer: ReturnType<typeof setTimeout> | undefined;
 
-  /** The costs are no longer those of the present settings. */
+  /** Marks the costs as out of date. */
   outdate() {
     clearTimeout(this.#timer);
     this.#timer = undefined;
     this.current = false;
   }
 
-  /** Measures once these settings have been at rest for a while, and nothing moves. */
+  /** Measures once these settings have not changed for a while, and nothing moves. */
   heed(config: SqueezeSettings, atRest: boolean) {
     const settings = JSON.stringify(config);
     if (settings !== this.#settings) this.outdate();
@@ -92,7 +92,7 @@ export class CostMeter extends Part {
       measuring(measured, sampler, sampler === 'sub-stepped' ? steps : 1),
     );
     const next = (index: number) => {
-      // The element may have gone, and its machine with it.
+      // The element, with its machine, may have been removed.
       if (host.machine !== measured) return;
       const { done, value } = measurements[index].next();
       if (done) {

@@ -127,7 +127,7 @@ export const en = {
     plan: 'Or a floor plan here, in metres',
     use: 'Use this plan',
   },
-  /** Why files are refused: the file, the line or field, and what was expected. */
+  /** Reasons why files are refused: the file, the line or field, and what was expected. */
   refused: {
     cannot: (reason) => `The map cannot be opened: ${reason}.`,
     kind: (name) =>

@@ -49,7 +49,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
 
   cloud = new Cloud(this, (machine: Machine) => machine.stats.gaveUp);
 
-  /** Picture of the map that the robot is in. */
+  /** Picture of the current map. */
   picture = new FloorPicture({ bounds: new Float64Array(4), walls: new Float64Array() }, null);
   #meter = new CostMeter(this);
   #opener = new MapOpener(this);
@@ -61,13 +61,13 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
   #wallHandles = new WallHandles(this);
   /** Treatment of unknown cells in the picture. */
   #unknown = '';
-  /** Path of the marked sample. */
+  /** Path of the selected sample. */
   #path: Memo<Float64Array> = new Memo();
-  /** The grid of the machine that was asked for it last. */
+  /** Cache of the machine's grid. */
   #grid: { of: Machine, grid: Cells | null } | undefined;
-  /** The reader's own map that was left last, and where the robot stood in it. */
+  /** The reader's map that was left last, with the start pose in it. */
   #left: { map: MapData, start: Pose } | null = null;
-  /** Latest place in the open that the robot was put at. */
+  /** Free pose at which the robot was put last. */
   #open: Pose | undefined;
 
   createMachine: FigureElement<Machine, Reading>['createMachine'] = (motion, state) => {
@@ -223,19 +223,19 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
     return (this.#open = openPlace ?? { ...config.start, x: (left + right) / 2, y: (bottom + top) / 2 });
   }
 
-  /** The reader wants to leave their map, which stays at hand. */
+  /** Leaves the reader's map, as the reader asked. It is kept for a return. */
   leaveMap() {
     this.runtime.attempt(() => this.#leave());
     this.go(OPENING_START);
   }
 
-  /** The reader wants to go back to their map, as they left it. */
+  /** Returns to the reader's map, as it was left. */
   returnToMap() {
     const left = this.#left;
     if (left) this.open({ ...mapOf(left.map), start: left.start });
   }
 
-  /** The reader wants the robot in a map of their own. */
+  /** Puts the robot into a map of the reader. */
   open(map: OwnMap & { start?: Pose }) {
     if (!this.machine) return;
     this.runtime.attempt(() => {
@@ -253,12 +253,12 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
     this.stage.requestFrame();
   }
 
-  /** The walls that were moved have come to rest. */
+  /** Ends a movement of walls. */
   restWalls() {
     this.gesture.commit();
   }
 
-  /** Makes the walls of the picture the reader's own map. */
+  /** Makes the walls of the picture a map of the reader. */
   #judgeWalls() {
     const { bounds, walls } = this.picture.plan;
     const name = this.map?.name ?? words.squeeze.edited;
@@ -269,7 +269,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
     });
   }
 
-  /** Leaves the reader's own map, if it is there. */
+  /** Leaves the reader's map, if there is one. */
   #leave() {
     const { machine, map } = this;
     if (!machine) return;
@@ -304,13 +304,13 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
     this.#moved(data);
   }
 
-  /** Puts the robot at its opening place in the apartment if it has no room where it is. */
+  /** Moves the robot to its initial pose in the apartment if it does not fit where it is. */
   #findRoom() {
     const { machine } = this;
     if (machine && !machine.startFree) this.settings.assign({ start: OPENING_START });
   }
 
-  /** Takes the map that the machine has now. */
+  /** Takes over the map of the machine. */
   #moved(map: MapData | null) {
     this.state.own.map = map;
     this.machineChanged();
@@ -318,7 +318,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
     this.cloud.mark(-1);
   }
 
-  /** The map that the robot is in, in words. */
+  /** Name of the current map. */
   get #mapText() {
     const { pasted, apartment } = words.squeeze;
     return mapText(this.map ? this.map.name || pasted : apartment, this.picture.plan);

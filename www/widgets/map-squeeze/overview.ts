@@ -2,7 +2,7 @@
 
 import { html, nothing } from 'lit';
 
-/** Largest share of the map's area that a close view shows with an overview beside it. */
+/** Largest fraction of the map's area in a close view that has an overview. */
 const MOST = 0.6;
 
 /** Returns the overview, or nothing where the picture shows most of the map. */

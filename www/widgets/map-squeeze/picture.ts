@@ -1,4 +1,4 @@
-/** Map Squeeze's picture: walls, the robot with its command, and what became of every draw. */
+/** Map Squeeze's picture: walls, the robot with its command, and the outcome of every draw. */
 
 import { words } from '../../messages/registry.ts';
 import { clipped, drawAxes } from '../../scene/axes.ts';
@@ -32,23 +32,23 @@ const DOT = { least: 2, most: 3, per: 240, alpha: 0.4 };
 /** Leader from a label to the wall that it is about, CSS pixels. */
 const LEADER = { x: 46, y: 30 };
 
-/** Surroundings shown around the end of the command: this many times its length, and at least so many metres. */
+/** Area shown around the end of the command: a multiple of its length, and at least some metres. */
 const SURROUNDINGS = 0.8;
 const MIN_SURROUNDINGS = 0.8;
 
-/** Room shown around the commanded way, metres. */
+/** Margin around the commanded path, metres. */
 const WAYSIDE = 0.45;
 
-/** Room shown around the map, as a share of its longer side. */
+/** Margin around the map, relative to its longer side. */
 const EDGE = 0.025;
 
-/** Cells of the density, CSS pixels, of many samples and of few, which need larger ones to be a density. */
+/** Cell sizes of the density, CSS pixels, for many samples and for few. */
 const CELL = { least: 2, most: 5, samples: 40_000 };
 
-/** Paths that a density is drawn with: more would hide it. */
+/** Maximum number of paths that are drawn over a density: more would hide it. */
 const PATHS_ON_DENSITY = 25;
 
-/** Colours of a kind of samples that is hidden in a density. */
+/** Transparent ramp for kinds of samples that are hidden in a density. */
 const HIDDEN = new Uint8Array(4 * limits.ramp);
 
 export class FloorPicture extends SamplesPicture<Scene> {
@@ -60,12 +60,12 @@ export class FloorPicture extends SamplesPicture<Scene> {
   #near = new View();
   #whole = this.view;
   #walls;
-  /** Corners of what the map knows: what is around it may be much more. */
+  /** Corners of the known part of the map, which may be much smaller than the map. */
   #known: ArrayLike<number>;
   #density = new Density();
   #outline = '';
 
-  /** Takes the views of a former picture if its map is as large. */
+  /** Keeps the views of the previous picture if its map has the same size. */
   constructor(plan: Plan, grid: Cells | null, former?: FloorPicture) {
     super('plane', new View({ snug: true }));
     this.plan = plan;
@@ -174,7 +174,7 @@ export class FloorPicture extends SamplesPicture<Scene> {
   }
 }
 
-/** The corners of the box of cells of which a grid says something, as x, y pairs. */
+/** Returns the corners of the bounding box of the known cells of a grid, as x, y pairs. */
 function knownCorners(grid: Cells, unknown: Uint8Array) {
   const { columns } = grid;
   const box = { left: Infinity, bottom: Infinity, right: -Infinity, top: -Infinity };

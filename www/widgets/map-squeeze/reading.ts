@@ -7,10 +7,10 @@ import type { MapSqueeze, SqueezeSettings, SqueezeStats } from '../../types.d.ts
 
 export type Reading = ReturnType<typeof readingOf>;
 
-/** A larger cloud is drawn as a density: dots would be one blot, and cost more than a frame. */
+/** Number of samples above which they are drawn as a density: dots would be indistinguishable, and take longer than a frame. */
 export const MAX_DOTS = 1500;
 
-/** Everything that the picture and the readouts need of the machine, asked once a change. */
+/** Reads everything that the picture and the readouts need of the machine, once for each change. */
 export function readingOf(machine: MapSqueeze) {
   const reading = machine.read();
   const { config, stats, verdicts, poses, startFree } = reading;
@@ -21,7 +21,7 @@ export function readingOf(machine: MapSqueeze) {
   };
 }
 
-/** Sorts draws by what became of them. */
+/** Sorts draws by their outcome. */
 function sort(poses: Float64Array, verdicts: Uint8Array) {
   const posesOf = (wanted: number) => {
     const some = [...verdicts.keys()].filter((i) => kindOf(verdicts[i]) === wanted);

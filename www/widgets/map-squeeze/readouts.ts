@@ -1,4 +1,4 @@
-/** Map Squeeze's readouts: the tally of the samples, the marked one, and the cost of each sampler. */
+/** Map Squeeze's readouts: counts of the samples, the selected one, and the cost of each sampler. */
 
 import { html } from 'lit';
 import { sampleField } from '../../figure/controls.ts';
@@ -26,7 +26,7 @@ export function tally({ stats, config: { conditioned, sampler }, paths: { length
   ]);
 }
 
-/** The marked draw, with the verdict on it. */
+/** Returns the readout of the selected sample, with its outcome. */
 export function markedDraw(figure: import('./map-squeeze.ts').MapSqueezeElement): import('lit').TemplateResult {
   const { cloud, reading: { config, stats, verdicts } } = figure;
   const { sample, markHint } = words.squeeze;

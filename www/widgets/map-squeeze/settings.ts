@@ -9,10 +9,10 @@ import { COMMAND_DASH, commandLooks } from '../shared/command.ts';
 
 export const declared = settings['map-squeeze'];
 
-/** The key of its words in the catalogues. */
+/** Key of the words in the catalogues. */
 export const vocabulary = 'squeeze';
 
-/** Places in the apartment, each with the settings that show what it is for. */
+/** Presets: positions in the apartment, with settings that show their effect. */
 export const PRESET = presetsOf(presets['map-squeeze'], declared);
 
 /** Pose of the robot where a map has been left. */
@@ -41,7 +41,7 @@ export const own: Record<string, import('../../figure/state.ts').Owned> = {
   ...cloudState,
   view: { opening: 'close', check: (field, view) => word(field, view, VIEWS) },
   overlays: overlays.state,
-  /** The reader's own; null for the apartment. A machine has looked at it. */
+  /** Map of the reader; null for the apartment. A machine has checked it. */
   map: { opening: null, check: (_, map) => map },
 };
 
@@ -54,13 +54,13 @@ export const looks: Record<string, import('../../figure/controls.ts').Look> = {
   steps: { role: 'prediction', min: 1, max: 64, step: 1, decimals: 0 },
 };
 
-/** The samplers in the order in which they are offered. */
+/** Samplers in the order in which they are offered. */
 export const SAMPLERS = 
   declared.find(({ key }) => key === 'sampler')?.words as ('endpoint' | 'whole-arc' | 'sub-stepped')[]
 ;
 
-/** Sample counts of the slider. The machine takes more, but they would be slow to follow a slider. */
+/** Sample counts of the slider. The machine accepts more, but they would not follow a slider. */
 export const SAMPLE_COUNTS = [1, 2, 5, 10, 20, 50, 100, 200, 300, 600, 1000, 2000, 5000, 10_000, 20_000, 50_000, 100_000];
 
-/** Most samples of a command in one step; sub-steps divide them. */
+/** Maximum number of samples for a command in one step; it is divided by the number of sub-steps. */
 export const MOST_SAMPLES = declared.find(({ key }) => key === 'samples')?.max ?? 0;

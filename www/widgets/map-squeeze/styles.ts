@@ -21,7 +21,7 @@ const own = css`
     transform-origin: 0 0;
   }
 
-  /* The name of a handle of a wall, along the wall and towards the middle of the picture. */
+  /* Name of a wall's handle, along the wall and towards the middle of the picture. */
   .handle:is(.jamb, .side):is(:hover, :focus-visible):not(.held)::before {
     content: attr(title);
     top: 100%;
@@ -42,7 +42,7 @@ const own = css`
     background: var(--truth);
   }
 
-  /* Marks of walls come with the pointer; fingers have none to come with. */
+  /* Handles of walls become visible under a pointer, and are always visible on touch screens. */
   @media (hover) {
     .stage:not(:hover) .handle.side:not(:focus-visible)::after {
       opacity: 0;
@@ -85,7 +85,7 @@ const own = css`
     margin-bottom: 0.5em;
   }
 
-  /* The picture, as high as it may be, with the sentence and what is chosen beside it. */
+  /* The picture as high as possible, with the sentence and the presets next to it. */
   @container (min-width: 38em) {
     .views {
       grid-template-columns: minmax(0, 60svh) minmax(16em, 1fr);
@@ -173,7 +173,7 @@ const own = css`
 
   .own-map .note {
     margin: 0.7em 0;
-    /* Scrolled to, it brings along which map is there. */
+    /* When it is scrolled into view, the name of the current map is visible too. */
     scroll-margin: 4em;
     overflow-wrap: anywhere;
   }

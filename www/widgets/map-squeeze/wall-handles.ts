@@ -1,4 +1,4 @@
-/** Walls under the reader's hand: the edges of doorways along their walls, and walls across, by pointer and by keyboard. */
+/** Handles of walls: edges of doorways are moved along their walls, and walls across, with the pointer or keys. */
 
 import { html, nothing } from 'lit';
 import { swatch } from '../../figure/overlays.ts';
@@ -12,7 +12,7 @@ import type { Plan } from '../../types.d.ts';
 import type { View } from '../../scene/view.ts';
 import type { Grip } from './walls.ts';
 
-/** Movement by a key, metres. */
+/** Distance that a key moves a wall, metres. */
 const KEY_STEP = 0.05;
 
 /** Largest number of walls with handles. */
@@ -28,7 +28,7 @@ export class WallHandles extends Part<import('./map-squeeze.ts').MapSqueezeEleme
   /** Plan of the grips. */
   #plan: Plan | undefined;
   #grips: (Grip | undefined)[] = [];
-  /** Plan whose handles were rendered, and whether they have not been placed. */
+  /** Plan whose handles were rendered, and whether they still have to be placed. */
   #rendered: Plan | undefined;
   #hasNew = false;
   /** Plan and view that the handles were placed in. */
@@ -77,7 +77,7 @@ export class WallHandles extends Part<import('./map-squeeze.ts').MapSqueezeEleme
     this.#hasNew = false;
   }
 
-  /** Puts the handles where the walls are drawn. */
+  /** Places the handles on the drawn walls. */
   place(view: View) {
     const shown = [this.host.picture.plan, view.extent, view.frame];
     if (shown.some((each, i) => each !== this.#shown[i])) this.#place(view);
@@ -128,7 +128,7 @@ export class WallHandles extends Part<import('./map-squeeze.ts').MapSqueezeEleme
     const steps = stepsOf(event);
     if (!steps) return false;
     const [dx, dy] = steps;
-    // Keys across the axis move along it too, as with every slider.
+    // Keys across the axis have the same effect as keys along it, as with every slider.
     return this.#move(grip, (_, [ux, uy]) => KEY_STEP * (dx * ux + dy * uy || (dx + dy) * (ux + uy)));
   }
 

@@ -6,7 +6,7 @@ import type { Plan } from '../../types.d.ts';
 /** Distance below which two walls touch. */
 const TOUCH = 1e-6;
 
-/** Opening that stays between the end of a wall and the next wall, and the shortest wall. */
+/** Smallest opening between the end of a wall and the next wall, and smallest length of a wall. */
 const GAP = 0.05;
 
 /** Least distance at which a path touches a wall, and the tested points of a path in such a distance. */
@@ -48,11 +48,11 @@ export function contactOf(path: ArrayLike<number>, walls: Float64Array, radius: 
 export interface Grip {
   /** Index of its first number. */
   wall: number;
-  /** A free end, or the whole wall, which moves across. */
+  /** An end of the wall, or the whole wall, which moves across its direction. */
   part: 'from' | 'to' | 'side';
   /** Unit vector. */
   axis: number[];
-  /** Least and greatest movement along the axis. */
+  /** Smallest and largest movement along the axis. */
   range: number[];
 }
 

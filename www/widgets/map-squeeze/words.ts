@@ -1,4 +1,6 @@
-/** Texts of Map Squeeze in the present language: verdicts, sentences about robots that cannot move, and the text equivalent of the picture. */
+/**
+ * Texts of Map Squeeze in the current language: outcomes, sentences about robots that cannot move, and the text equivalent of the picture.
+ */
 
 import { addEnglish, words } from '../../messages/registry.ts';
 import { verdict as bits } from '../../settings.js';
@@ -54,7 +56,7 @@ export function headlineOf({ attempts, accepted, throughWall }: Pick<Stats, 'att
 export function verdictOf({ config: { conditioned, sampler }, stats, note }: Reading) {
   const { accepted, attempts, gaveUp } = stats;
   const say = words.squeeze;
-  // The note counts all motions of a robot that is wedged.
+  // For a robot that cannot move, the note contains the number of motions.
   if (note && (accepted === 0 || gaveUp)) return note;
   if (attempts === 0) return `${say.headline.untried}.`;
   const tested = say.tested[conditioned ? sampler : 'off'](counted(accepted), counted(attempts));
@@ -62,7 +64,7 @@ export function verdictOf({ config: { conditioned, sampler }, stats, note }: Rea
   return note ? `${sentence} ${note}` : sentence;
 }
 
-/** The name of a map with its size. */
+/** Returns the name of a map with its size. */
 export function mapText(name: string, { bounds, walls }: Plan) {
   const [left, bottom, right, top] = bounds;
   const count = walls.length / 4;

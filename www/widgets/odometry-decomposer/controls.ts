@@ -1,4 +1,4 @@
-/** The Odometry Decomposer's controls: noise models side by side, sliders that can be played, and the noise. */
+/** The Odometry Decomposer's controls: noise models side by side, animated sliders, and the noise. */
 
 import { html } from 'lit';
 import { choices, cloudControls, slider, sliders } from '../../figure/controls.ts';
@@ -28,7 +28,7 @@ export function rulesTable(figure: Figure) {
   </div>`;
 }
 
-/** A slider that can be played; for who wants less motion it is only moved. */
+/** Returns a slider with a play button, which is left out for readers who prefer reduced motion. */
 export function playable(figure: Figure, key: 'phase' | 'drift', legend: string) {
   const { player } = figure;
   const { plays } = words.decomposer;

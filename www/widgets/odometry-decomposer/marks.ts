@@ -1,4 +1,4 @@
-/** Marks of both pictures: turns as arcs with an arrow, and fans of uncertainty. */
+/** Marks of both pictures: turns as arcs with an arrow, and sectors of uncertainty. */
 
 import type { Pose } from '../../types.d.ts';
 import { addLine, stroke, strokeLine, type Brush } from '../../scene/canvas.ts';
@@ -6,7 +6,7 @@ import { addLine, stroke, strokeLine, type Brush } from '../../scene/canvas.ts';
 /** Half the width and the length of an arrow's head, pixels. */
 const HEAD = { half: 4, length: 9 };
 
-/** Steps of the chord that an arc is drawn by, radians. */
+/** Angle of a chord of a drawn arc, radians. */
 const STEP = 0.1;
 
 /** Returns the directions, rad, from a heading to its turn by some radians. */
@@ -28,7 +28,7 @@ export function drawTurn(brush: Brush, from: Pose, turn: number, radius: number,
   const { context, view } = brush;
   const points = arcOf(brush, from, turn, radius);
   strokeLine(context, points, { colour, width: 1.75 });
-  // A small turn has no room for a whole head.
+  // The arrow head is smaller on a short arc.
   const length = Math.min(HEAD.length, radius * Math.abs(turn));
   const tip = points[points.length - 1];
   const back = view.direction(from.theta + turn - (Math.sign(turn) * length) / radius);

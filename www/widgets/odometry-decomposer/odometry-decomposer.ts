@@ -49,7 +49,7 @@ export class OdometryDecomposerElement extends FigureElement<Machine, Reading> {
   #legs = new LegsPicture();
   #world = new WorldPicture();
   pictures = [this.#legs, this.#world];
-  /** The later one on top, where both poses are at one place. */
+  /** The second pose is on top if both poses are in one place. */
   #handles: PoseHandles[] = (['from', 'to'] as const).map(
     (setting) =>
       new PoseHandles(this, setting, {
@@ -74,7 +74,7 @@ export class OdometryDecomposerElement extends FigureElement<Machine, Reading> {
     return readingOf(machine);
   }
 
-  /** In a state that came, or came back, nothing is played. */
+  /** Stops the animation: a state that is set or restored does not play. */
   machineChanged() {
     this.player.stop();
   }

@@ -1,4 +1,4 @@
-/** The Odometry Decomposer's two pictures: the three legs in the frame of the odometry, and the same in the world. */
+/** The Odometry Decomposer's two pictures: the three legs in the odometry frame, and the same in the world. */
 
 import { words } from '../../messages/registry.ts';
 import { clipped, drawAxes, lineKey } from '../../scene/axes.ts';
@@ -22,33 +22,33 @@ export type Scene = import('./reading.ts').Reading & { marked: Float64Array | un
 /** Radius of the robot, m. */
 export const RADIUS = 0.11;
 
-/** Room around the robots, and around a standard deviation of the outcomes. */
+/** Margins around the robots, and around a standard deviation of the outcomes. */
 const ROOM = { metres: 0.3, deviations: 2.4 };
 
-/** Most outcomes with headings: more would be one blot. */
+/** Maximum number of outcomes that are drawn with headings: more would be indistinguishable. */
 const MAX_TICKS = 1000;
 
-/** Between the handle that turns a robot and the arc of a turn about it, and between the two arcs, CSS pixels. */
+/** Gap between the handle that turns a robot and the arc of a turn around it, and between two arcs, CSS pixels. */
 const GAP = { handle: 14, arcs: 16 };
 
-/** Most that the view makes room for around a turn, as a share of the frame's shorter side: the world keeps half of the frame. */
+/** Maximum margin around a turn, as a fraction of the frame's shorter side, so that half of the frame remains for the motion. */
 const ARC_SHARE = 0.25;
 
-/** Halvings of the interval in which the view's scale is. */
+/** Number of bisections for the view's scale. */
 const HALVINGS = 12;
 
-/** A shorter drive is not seen as one, CSS pixels: there is no label for it. */
+/** Length of a drive, CSS pixels, below which it has no label. */
 const SEEN = 24;
 
-/** A smaller turn, rad, has no arc. */
+/** Turn, rad, below which it has no arc. */
 const NO_TURN = 0.005;
 
-/** Places along the arc of a turn that a leader may end at, as shares of it. */
+/** Candidate ends of a leader on the arc of a turn, as fractions of it. */
 const ANCHORS = [0.5, 0.3, 0.7, 0.1, 0.9];
 
 const AXES = { x: 'x (m)', y: 'y (m)' };
 
-/** Length of the axes of the odometry's frame, m. */
+/** Length of the axes of the odometry frame, m. */
 const AXIS = 0.35;
 
 /** Returns the key of an exported picture: on the page the legend stands beside it. */
@@ -62,7 +62,7 @@ function keyOf(brush: Brush, { overlays }: Scene, names: LineName[]) {
 function surroundings({ linkage, legs, deviations, stats }: Scene): number[] {
   const [{ x, y }, driven] = [poseIn(linkage, 0), poseIn(linkage, 2)];
   const along = Math.min(ROOM.deviations * deviations.trans, legs.trans + 2);
-  // No hinge turns a drive farther than to all sides.
+  // A sector has at most a full circle.
   const across = ROOM.deviations * stats.exactCrossTrack;
   const [dx, dy] = [Math.abs(Math.cos(driven.theta)), Math.abs(Math.sin(driven.theta))];
   const room = [ROOM.metres + along * dx + across * dy, ROOM.metres + along * dy + across * dx];
@@ -90,7 +90,7 @@ class OutcomesPicture extends SamplesPicture<Scene> {
 /** Returns the radii of the arcs of both turns, pixels. */
 const reachesAt = (view: Pick<View, 'scaleX'>) => [0, 1].map((arc) => turnDistance(view, RADIUS) + GAP.handle + arc * GAP.arcs);
 
-/** The frame of the odometry: the legs as a linkage, and what noise makes of it. */
+/** Picture in the odometry frame: the legs as a linkage, and the effect of noise on it. */
 export class LegsPicture extends OutcomesPicture {
   constructor() {
     super('plane');
@@ -204,7 +204,7 @@ export class LegsPicture extends OutcomesPicture {
   }
 }
 
-/** The world, in which the frame of the odometry drifts. */
+/** Picture of the world, in which the odometry frame drifts. */
 export class WorldPicture extends OutcomesPicture {
   constructor() {
     super('world');
@@ -244,7 +244,7 @@ export class WorldPicture extends OutcomesPicture {
     ]);
   };
 
-  /** The axes of the frame that the odometry is told in. */
+  /** Draws the axes of the odometry frame. */
   #paintFrame({ context, view, palette }: Brush, { x, y, theta }: Pose) {
     const [px, py, reach] = [view.toPixelX(x), view.toPixelY(y), AXIS * view.scaleX];
     const ends = [theta + Math.PI / 2, theta].map((heading) => view.direction(heading)).map((ahead) => [px + reach * ahead.x, py + reach * ahead.y]);

@@ -4,20 +4,20 @@ import type { OdometryDecomposer, OdometryDecomposerSettings, RuleFigures } from
 
 export type Reading = ReturnType<typeof readingOf>;
 
-/** Everything that the pictures and the readouts need of the machine, asked once a change. */
+/** Reads everything that the pictures and the readouts need of the machine, once for each change. */
 export function readingOf(machine: OdometryDecomposer) {
   const reading = machine.read();
   return { ...reading, ...partsOf(reading.rules, reading.config) };
 }
 
-/** The present rule's figures, with a name for each deviation. */
+/** Legs and standard deviations of the current rule. */
 function partsOf(rules: RuleFigures[], config: OdometryDecomposerSettings) {
   const present = rules.find(({ rule }) => rule === config.rule) as RuleFigures;
   const [rot1, trans, rot2, strafe] = present.deviations;
   return { legs: present.legs, deviations: { rot1, trans, rot2, strafe } };
 }
 
-/** One of several poses that stand in a row as triples. */
+/** Returns one of several poses in an array of x, y, θ triples. */
 export function poseIn(triples: Float64Array, index: number) {
   const [x, y, theta] = triples.subarray(3 * index, 3 * index + 3);
   return { x, y, theta };

@@ -1,4 +1,7 @@
-/** The Odometry Decomposer's readouts: what the outcomes measure beside what is exact, and spreads against the drive. */
+/**
+ * The Odometry Decomposer's readouts: statistics of the outcomes with exact values, and standard deviations against the length of the
+ * drive.
+ */
 
 import { html } from 'lit';
 import { words } from '../../messages/registry.ts';
@@ -17,7 +20,7 @@ export function headline({ config: { rule }, stats }: Reading) {
   return readoutList([[say.readouts.across, `± ${metres(stats.exactCrossTrack)}`, say.rules[rule]]], 0);
 }
 
-/** The lever beside what it does to the outcomes. */
+/** Returns the readouts: the contribution of the first rotation, and the standard deviations of the outcomes. */
 export function readouts({ stats }: Reading) {
   const say = words.decomposer.readouts;
   const { crossTrack, crossTrackError, exactCrossTrack, heading, headingError, exactHeading, independentHeading } = stats;
@@ -30,10 +33,10 @@ export function readouts({ stats }: Reading) {
   ]);
 }
 
-/** Points of the curves: a pixel each on a large screen. */
+/** Number of points of the curves, about one for each pixel on a large screen. */
 const POINTS = 121;
 
-/** The spreads against the length of the drive. */
+/** Returns the plot of standard deviations against the length of the drive. */
 export function spreads(curveOf: (longest: number, points: number) => Float64Array, { legs, stats }: Reading) {
   const say = words.decomposer.plot;
   const longest = Math.max(1, 2 * legs.trans);

@@ -1,4 +1,4 @@
-/** The Odometry Decomposer's settings as attributes, in its state, and as the eye sees them. */
+/** The Odometry Decomposer's settings: their attributes, their part of the state, and their sliders. */
 
 import { attributesOf, presetsOf } from '../../figure/attributes.ts';
 import { cloudState } from '../../figure/cloud.ts';
@@ -8,10 +8,10 @@ import { alphaLooks } from '../shared/noise.ts';
 
 export const declared = settings['odometry-decomposer'];
 
-/** The key of its words in the catalogues. */
+/** Key of the words in the catalogues. */
 export const vocabulary = 'decomposer';
 
-/** Styles of what the pictures show. */
+/** Styles of the lines and marks in the pictures. */
 export const LINES = {
   legs: { role: 'prior', width: 3, dash: [] },
   deviation: { role: 'prediction', width: 1.25, dash: [5, 3] },

@@ -5,7 +5,7 @@ import { layoutStyles } from '../../ui/layout.ts';
 import { plotStyles } from '../../ui/plot.ts';
 
 const own = css`
-  /* On a phone, handles of two robots need room beside each other. */
+  /* On a phone, the handles of two robots need space side by side. */
   .legs canvas {
     aspect-ratio: 1;
   }
@@ -16,14 +16,14 @@ const own = css`
     }
   }
 
-  /* The legs beside the world, each with what is said of it. */
+  /* The legs next to the world, each with its text. */
   @container (min-width: 38em) {
     .views {
       grid-template: 'legs world' 'said drifting' / minmax(0, 3fr) minmax(0, 2fr);
       column-gap: 1.5em;
     }
 
-    /* Both as high as the window has room for. */
+    /* Both as high as the window allows. */
     :host(:not([presentation])) .stage {
       height: clamp(12.5em, 100svh - 32.5em, min(45svh, 24em));
     }
@@ -88,14 +88,14 @@ const own = css`
     align-items: center;
   }
 
-  /* The button takes room from the track. */
+  /* The button takes space from the track. */
   .playable > .slider:not(:has(> .choice)) {
     grid-template: 'name value' auto 'track track' auto / 1fr auto;
   }
 
   .playable > button {
     min-width: 5em;
-    /* Beside the track, not beside the hint below it. */
+    /* Next to the track, and not next to the hint below it. */
     margin-bottom: 1em;
   }
 

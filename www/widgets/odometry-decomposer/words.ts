@@ -1,4 +1,4 @@
-/** Texts of the Odometry Decomposer in the present language. */
+/** Texts of the Odometry Decomposer in the current language. */
 
 import { addEnglish, words } from '../../messages/registry.ts';
 import { counted, fixed } from '../../ui/format.ts';
@@ -8,7 +8,7 @@ import type { Reading } from './reading.ts';
 
 addEnglish({ decomposer: en });
 
-/** Readings shorter than this are jitter for those who look at it, m. */
+/** Length of a reading, m, below which it is called jitter. */
 const JITTER = 0.01;
 
 /** Returns the caption below the pictures. */
@@ -34,7 +34,7 @@ export function apart({ drifted, linkage }: Reading) {
   return Math.hypot(own.x - predicted.x, own.y - predicted.y);
 }
 
-/** The text equivalent of the legs' picture. */
+/** Returns the text equivalent of the legs' picture. */
 export function legsText(reading: Reading) {
   const { legs: { rot1, trans, rot2 }, config: { to }, stats } = reading;
   const say = words.decomposer;
@@ -42,7 +42,7 @@ export function legsText(reading: Reading) {
   return `${say.picture(fixed(rot1, 2), fixed(trans, 2), fixed(rot2, 2), fixed(to.x, 2), fixed(to.y, 2))} ${outcomes} ${captionOf(reading)}`;
 }
 
-/** The text equivalent of the world's picture. */
+/** Returns the text equivalent of the world's picture. */
 export function worldText(reading: Reading) {
   const { x, y, theta } = poseIn(reading.drifted.poses, 0);
   return words.decomposer.worldPicture(fixed(x, 2), fixed(y, 2), fixed(theta, 2), fixed(apart(reading), 2));

@@ -1,9 +1,9 @@
-/** The velocity command, as every widget that sends one shows it. */
+/** Velocity command, common to all widgets that send one. */
 
 import { words } from '../../messages/registry.ts';
 import { fixed } from '../../ui/format.ts';
 
-/** The dash of the commanded way, CSS pixels. */
+/** Dash of the commanded path, CSS pixels. */
 export const COMMAND_DASH = [2.5, 3.5];
 
 const SPEED = { role: 'prior' as const, step: 0.01, decimals: 2 };
@@ -15,7 +15,7 @@ export const commandLooks = (longest: number) => ({
   dt: { ...SPEED, symbol: '*Δt*', min: 0.1, max: longest, step: 0.05 },
 });
 
-/** The command in words. */
+/** Returns the command in words. */
 export function commandText({ v, omega, dt }: import('../../types.d.ts').Command) {
   return words.commandText(fixed(v, 2), fixed(omega, 2), fixed(dt, 2));
 }

@@ -1,11 +1,13 @@
-/** Files of the reader, chosen or dropped on a figure. A fold says what becomes of them, and a notice why a drop was refused. */
+/** Files of the reader, chosen or dropped on a figure. A disclosure shows the result, and a notice why dropped files were refused. */
 
 import { css, html } from 'lit';
 import { inputOf } from '../../ui/controls.ts';
 
 export type Figure = import('../../figure/figure.ts').Figure;
 
-/** Styles of a file input. The browser's text beside the button says that there is no file, even after one was taken: it is hidden. */
+/**
+ * Styles of a file input. The browser's text next to the button is hidden, because it says that there is no file even after one was read.
+ */
 export const fileStyles = css`
   input[type='file'] {
     max-width: 100%;
@@ -22,26 +24,26 @@ export class FileDrop {
   #choose;
   #isDropped = false;
 
-  /** Takes the id of the element that describes the files; a disclosure opens on a drop. */
+  /** Creates it with the id of the element that describes the files; on a drop its disclosure opens. */
   constructor(host: Figure, id: string, choose: (files: File[]) => void) {
     this.#host = host;
     this.#id = id;
     this.#choose = choose;
   }
 
-  /** Element that says what becomes of the files, null until the figure has been drawn. */
+  /** Element with the result, null until the figure has been drawn. */
   get #place() {
     return this.#host.renderRoot.querySelector(`#${this.#id}`);
   }
 
-  /** Says why files were refused: dropped ones in sight of where they were dropped. */
+  /** Shows why files were refused; for dropped files, near the place of the drop. */
   async showRefusal(sentence: string) {
     if (this.#isDropped) this.#host.notice.show(sentence);
     await this.#host.updateComplete;
     if (!this.#isDropped) this.#place?.querySelector('.note')?.scrollIntoView({ block: 'nearest' });
   }
 
-  /** Takes files that the reader has chosen or dropped. */
+  /** Handles files that the reader has chosen or dropped. */
   take(files: File[], isDropped: boolean = false) {
     this.#isDropped = isDropped;
     this.#host.notice.show('');
@@ -63,9 +65,9 @@ export class FileDrop {
   drop = (event: DragEvent) => {
     (event.currentTarget as HTMLElement).classList.remove('dropping');
     if (!event.dataTransfer?.types.includes('Files')) return;
-    // The browser would leave the page for the file.
+    // The browser would otherwise navigate to the file.
     event.preventDefault();
-    // The disclosure says what becomes of the file.
+    // The disclosure shows the result.
     if (this.#place instanceof HTMLDetailsElement) this.#place.open = true;
     filesOf(event.dataTransfer).then((files) => this.take(files, true));
   };
@@ -73,7 +75,7 @@ export class FileDrop {
 
 /** Returns what was dropped, with the files of folders and their paths in them. */
 async function filesOf({ items }: DataTransfer): Promise<File[]> {
-  // All entries are taken at once: the list is empty afterwards.
+  // All entries are read synchronously: the list is empty afterwards.
   const dropped = [...items].filter(({ kind }) => kind === 'file').map((item) => ({ entry: item.webkitGetAsEntry(), file: item.getAsFile() }));
   const files = await Promise.all(dropped.map(({ entry, file }) => (entry?.isDirectory ? inside(entry as FileSystemDirectoryEntry) : file ? [file] : [])));
   return files.flat();
@@ -83,7 +85,7 @@ async function inside(folder: FileSystemDirectoryEntry): Promise<File[]> {
   const reader = folder.createReader();
   const entries: FileSystemEntry[] = [];
   const more = () => new Promise<FileSystemEntry[]>((resolve, reject) => reader.readEntries(resolve, reject));
-  // Browsers give a hundred entries at a time.
+  // Browsers return a hundred entries at a time.
   for (let some = await more(); some.length > 0; some = await more()) entries.push(...some);
   const files = await Promise.all(entries.filter(({ name }) => !name.startsWith('.')).map(async (entry) => {
     if (entry.isDirectory) return inside(entry as FileSystemDirectoryEntry);
@@ -102,7 +104,7 @@ export const fileInput = (id: string, extensions: string[], choose: (files: File
   @change=${(event: Event) => {
     const input = inputOf(event);
     choose([...(input.files ?? [])]);
-    // So that choosing the same file again, mended, is a change too.
+    // Reset, so that choosing the same file again after a correction fires an event.
     input.value = '';
   }}
 />`;

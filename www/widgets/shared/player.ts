@@ -1,4 +1,4 @@
-/** Plays what a slider sets: from where it stands, or from its beginning where it stands at its end. */
+/** Animation of a slider: from its current value, or from its beginning if it is at its end. */
 
 import { nothing } from 'lit';
 import { Part } from '../../figure/part.ts';
@@ -9,17 +9,17 @@ import { button } from '../../ui/controls.ts';
 interface Played {
   from: number;
   to: number;
-  /** Duration from one to the other, milliseconds. */
+  /** Duration from one end to the other, milliseconds. */
   duration: number;
   at: () => number;
   put: (value: number) => void;
 }
 
 export class Player<Key extends string> extends Part {
-  /** Key of the setting that is played. */
+  /** Key of the animated setting. */
   #key: Key | undefined;
   #played;
-  /** Movement that was not applied yet, if a setting has whole steps only. */
+  /** Movement that was not applied yet, for a setting with whole steps. */
   #beyond = 0;
 
   constructor(host: import('../../figure/figure.ts').Figure, played: Record<Key, Played>) {
@@ -27,12 +27,12 @@ export class Player<Key extends string> extends Part {
     this.#played = played;
   }
 
-  /** Another state has come. */
+  /** Stops, because another state was set. */
   stop() {
     this.#key = undefined;
   }
 
-  /** The reader takes over. */
+  /** Stops, because the reader moves the slider. */
   put(key: Key, value: number) {
     this.stop();
     this.#played[key].put(value);
@@ -50,7 +50,7 @@ export class Player<Key extends string> extends Part {
     this.host.requestUpdate();
   }
 
-  /** Plays on in each frame, by the milliseconds since the frame before. Returns true if there is more to play. */
+  /** Advances the animation by the milliseconds since the previous frame. Returns true if there is more to play. */
   advance(elapsed: number): boolean {
     if (!this.#key) return false;
     const { from, to, duration, at, put } = this.#played[this.#key];

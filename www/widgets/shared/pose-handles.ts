@@ -1,4 +1,4 @@
-/** A robot under the reader's hand: its body moves it, a handle ahead of it turns it, by pointer and by keyboard. */
+/** Handles of a robot: its body moves it, and a handle ahead of it turns it, with the pointer or keys. */
 
 import { Part } from '../../figure/part.ts';
 import { words } from '../../messages/registry.ts';
@@ -12,20 +12,20 @@ import type { Pose } from '../../types.d.ts';
 export interface Held {
   /** View of its picture. */
   view: () => import('../../scene/view.ts').View;
-  /** Left, bottom, right and top of where it may be, metres. */
+  /** Left, bottom, right and top of the allowed positions, metres. */
   bounds: () => number[] | Float64Array;
   say: () => Said;
 }
 
-/** Said of it. */
+/** Texts of the handles. */
 export interface Said {
   /** Robot its name. */
   robot: string;
   robotTitle: string;
-  /** The name of its heading. */
+  /** Name of the heading. */
   heading: string;
   headingTitle: string;
-  /** A few words where the bounds stop it. */
+  /** Text shown when the bounds stop the robot. */
   ends?: string;
 }
 
@@ -33,10 +33,10 @@ export interface Said {
 const KEY_STEP = 0.05;
 const KEY_TURN = Math.PI / 36;
 
-/** Least size of the body's handle, CSS pixels. */
+/** Minimum size of the body's handle, CSS pixels. */
 const MIN_BODY = 32;
 
-/** The handle that turns the robot stays this far inside of the picture, CSS pixels. */
+/** Minimum distance of the turning handle from the edge of the picture, CSS pixels. */
 const MARGIN = 12;
 
 export class PoseHandles extends Part<import('../../figure/figure.ts').Figure> {
@@ -45,7 +45,7 @@ export class PoseHandles extends Part<import('../../figure/figure.ts').Figure> {
   #body;
   #turn;
 
-  /** Takes the setting that is the pose. */
+  /** Creates the handles of a setting that is a pose. */
   constructor(host: import('../../figure/figure.ts').Figure, setting: string, of: Held) {
     super(host);
     this.#setting = setting;
@@ -99,7 +99,7 @@ export class PoseHandles extends Part<import('../../figure/figure.ts').Figure> {
     ];
   }
 
-  /** Puts the handles where the robot of a radius in metres is drawn. */
+  /** Places the handles on a robot with a radius in metres. */
   place(pose: Pose, radius: number) {
     const view = this.#of.view();
     const root = this.host.renderRoot;
@@ -134,7 +134,7 @@ export class PoseHandles extends Part<import('../../figure/figure.ts').Figure> {
 
   /** Turns the robot to a heading in radians. */
   #turnTo(theta: number) {
-    // Into (−π, π], without sines: in their last digits engines differ, and the same keys are to be the same heading.
+    // Wraps to (−π, π] without sines: engines differ in their last digits, and equal keys have to give equal headings.
     this.#want({ ...this.#pose, theta: theta - 2 * Math.PI * Math.ceil(theta / (2 * Math.PI) - 0.5) });
   }
 

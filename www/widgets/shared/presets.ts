@@ -1,4 +1,4 @@
-/** Buttons of the presets, and the one that brings back how the figure opened. */
+/** Buttons of the presets, and the button that restores the initial state. */
 
 import { html, nothing } from 'lit';
 import { words } from '../../messages/registry.ts';

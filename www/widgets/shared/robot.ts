@@ -1,4 +1,4 @@
-/** A robot from above: a disc, and a line from its middle to the handle that turns it. */
+/** A robot seen from above: a disc, and a line from its middle to the handle that turns it. */
 
 import { drawHandle } from '../../scene/draw.ts';
 import type { Pose } from '../../types.d.ts';

@@ -1,4 +1,4 @@
-/** Maps as plain data: what a state holds of a map of the reader's own. */
+/** Maps as plain data, the form in which a state contains a map of the reader. */
 
 import { object, refusal, renamed, wholeNumber } from '../../../figure/checks.ts';
 import { fromBase64, toBase64 } from '../../../figure/packing.ts';
@@ -14,13 +14,13 @@ const GRID_KEYS = ['name', 'columns', 'rows', 'resolution', 'origin', 'occupied'
 /** Keys that only a grid has. */
 const KEYS_OF_GRIDS_ALONE = GRID_KEYS.filter((key) => !PLAN_KEYS.includes(key));
 
-/** The most that the core takes. */
+/** Limits of the core. */
 const MAX_WALLS = 20_000;
 
-/** Shades of a cell in the image that a grid is handed over as, white being occupied; what is brighter counts as white. */
+/** Shades of cells in the image that passes a grid to the core: white is occupied, and brighter values count as white. */
 const [OCCUPIED, UNKNOWN] = [2, 1];
 
-/** The grid of a machine, if it has one: to ask for it takes long where it is large. */
+/** Returns the grid of a machine, if it has one. Copying a large grid takes long. */
 export function cellsOf({ grid }: MapSqueeze): Cells | null {
   return grid && { ...grid, unknown: grid.unknown.includes(1) ? grid.unknown : undefined };
 }
@@ -50,7 +50,7 @@ function inOneList(walls: unknown) {
   return numbers;
 }
 
-/** Puts a map into a machine. Throws a TypeError or RangeError that names the field, and leaves the present map. */
+/** Sets the map of a machine. Throws a TypeError or RangeError that names the field, and then changes nothing. */
 export function applyMap(machine: MapSqueeze, data: unknown) {
   if (typeof data !== 'object' || data === null || Array.isArray(data)) {
     throw refusal('map', data, `a plan, an object of ${PLAN_KEYS.join(', ')}, or a grid, one of ${GRID_KEYS.join(', ')}`, TypeError);
@@ -72,7 +72,7 @@ export function applyMap(machine: MapSqueeze, data: unknown) {
   renamingFields(GRID_KEYS, () => machine.setGrid(description, image));
 }
 
-/** Lets the machine take fields of a map. An error of the machine then names the field as one of the map's. */
+/** Calls a machine with fields of a map. In an error of the machine, the field gets its name in the map. */
 function renamingFields(keys: string[], take: () => void) {
   try {
     take();

@@ -1,40 +1,40 @@
-/** Maps of the reader's own: a JSON floor plan, or a pair of files as ROS map_server has them. */
+/** Map files of the reader: a JSON floor plan, or a pair of files as for ROS map_server. */
 
 import { limits } from '../../../settings.js';
 import type { MapSqueeze } from '../../../types.d.ts';
 
 export type Refused = import('../../../messages/registry.ts').Messages['squeeze']['refused'];
 
-/** Throws a RangeError for what is no PNG image. */
+/** Throws a RangeError if it is not a PNG image. */
 export type DecodePng = (bytes: Uint8Array) => Promise<Pick<ImageData, 'width' | 'height' | 'data'>>;
 
 export interface OwnMap {
   name: string;
-  /** Puts it into a machine, or throws a MapFileError and leaves the present map. */
+  /** Sets the map of a machine, or throws a MapFileError and changes nothing. */
   apply: (machine: MapSqueeze) => void;
 }
 
-/** One sentence that names the file, the line or field, and what was expected. */
+/** Error with one sentence that names the file, the line or field, and what was expected. */
 export class MapFileError extends Error {
   sentence: (say: Refused) => string;
 
-  /** Takes the name of the file, and a sentence in the words of the time when it is shown. */
+  /** Creates the error of a file; the sentence is made when it is shown, in the language of that time. */
   constructor(file: string, sentence: (say: Refused, file: string) => string) {
     super('The map is refused.');
     this.sentence = (say: Refused) => sentence(say, quoted(file));
   }
 }
 
-/** Largest size of a floor plan, in bytes: a hundred for each wall that the core takes. */
+/** Maximum size of a floor plan, in bytes: a hundred for each allowed wall. */
 const PLAN_BYTES = 2_000_000;
 
-/** Bytes at most of what says how an image is to be read. */
+/** Maximum size of a YAML file, in bytes. */
 const DESCRIPTION_BYTES = 100_000;
 
-/** Most characters of a plan that is read although it is not quite JSON: a longer one would take seconds. */
+/** Maximum length of a plan for the tolerant parser, which would take seconds for a longer one. */
 const FORGIVEN = 200_000;
 
-/** Characters of a name or a value that a sentence quotes. */
+/** Maximum number of quoted characters of a name or a value. */
 const QUOTED = 100;
 
 /** First bytes of a PNG image. */
@@ -158,7 +158,7 @@ async function readGrid(file: File, images: File[], decodePng: DecodePng): Promi
   };
 }
 
-/** Truth in words, which YAML 1.2 reads as strings and map_server as booleans. */
+/** Words for true and false, which are strings in YAML 1.2 and booleans for map_server. */
 const WORDS = new Map([['true', true], ['yes', true], ['on', true], ['false', false], ['no', false], ['off', false]]);
 
 /** Fields of numbers. map_server also reads numbers in quotes. */
@@ -200,7 +200,7 @@ function gridComplaint(say: Refused, description: string, image: string, reason:
   return `${reason.startsWith('image') ? image : description}: ${reason}.`;
 }
 
-/** Lets the core take the map of a file, and explains why it refuses one. */
+/** Calls the core with the map of a file, and explains why it is refused. */
 function explaining(name: string, take: () => void, sentence: (say: Refused, file: string, reason: string) => string) {
   try {
     take();

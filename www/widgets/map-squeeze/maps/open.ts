@@ -1,4 +1,4 @@
-/** Maps of the reader's own, chosen, dropped or pasted; and why the latest was refused. */
+/** Opening maps of the reader: chosen, dropped or pasted. Shows why the latest one was refused. */
 
 import { instantiate } from '../../../core.ts';
 import { Part } from '../../../figure/part.ts';
@@ -9,25 +9,25 @@ import type { OwnMap } from './files.ts';
 /** Extensions of map files. */
 export const EXTENSIONS = ['.json', '.yaml', '.yml', '.pgm', '.png'];
 
-/** The fold that says which map is there and why another was refused. */
+/** Id of the disclosure with the current map and the reason why another one was refused. */
 const FOLD = 'more';
 
-/** Files of more bytes take longer than a moment to read. */
+/** Size of a file in bytes above which a message is shown while it is read. */
 const LARGE = 1_000_000;
 
-/** Decodes by the whole core: that of the figure has no decoder. */
+/** Decodes a PNG image with the whole core, because the core of the figure has no decoder. */
 const decodePng: import('./files.ts').DecodePng = async (bytes) => (await instantiate()).readMapImage(bytes);
 
 export class MapOpener extends Part<import('../map-squeeze.ts').MapSqueezeElement> {
   dropped = new FileDrop(this.host, FOLD, (files) => this.choose(files));
   /** True while a large file is being read. */
   isReading = false;
-  /** Why the latest map was refused. */
+  /** Reason why the latest map was refused. */
   #complaint: (() => string) | undefined;
-  /** The latest attempt to read files: an earlier one that ends later is void. */
+  /** Number of the latest attempt to read files. Results of earlier ones are ignored. */
   #reading = 0;
 
-  /** Empty where there is nothing to complain of. */
+  /** Message on the latest refused map, or an empty string. */
   get complaint() {
     return this.#complaint?.() ?? '';
   }
@@ -63,7 +63,7 @@ export class MapOpener extends Part<import('../map-squeeze.ts').MapSqueezeElemen
     }
   }
 
-  /** Says why a map was refused. */
+  /** Stores the reason why a map was refused. */
   async refuse(error: unknown) {
     const { message, sentence } = error as Error & Partial<import('./files.ts').MapFileError>;
     this.#complaint = () => {

@@ -1,4 +1,4 @@
-/** Reader of YAML, in a file of its own to be loaded when it is first needed, and without the library's writer. */
+/** YAML parser, in a separate file that is loaded when it is first needed, and without the library's writer. */
 
 import { YAMLException, load } from 'js-yaml';
 
@@ -6,6 +6,6 @@ export { YAMLException };
 
 /** @throws {YAMLException} */
 export function parseYaml(text: string): unknown {
-  // No map repeats itself, and by repetition a short text says a billion things, or one that contains itself.
+  // Aliases are refused: no map needs them, and with them a short text can expand to billions of values, or contain itself.
   return load(text, { maxAliases: 0 });
 }

@@ -9,6 +9,10 @@ use crate::models::SPIN_BELOW;
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
+/// Relative tolerance on the length of a leg. Even steps reach a limit exactly, and text with six decimals or the arc tangent of an engine
+/// rounds by less than this.
+const ROUNDING: f64 = 1e-5;
+
 /// Condition on which a leg ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LegLength {
@@ -37,11 +41,12 @@ impl LegLength {
         }
     }
 
+    /// Returns whether a leg ends here: beyond the limit of a displacement, at that of a time, both up to [`ROUNDING`].
     fn ends(&self, ends: &[SE2; 2], lasted: f64) -> bool {
+        let beyond = self.ratio(ends, lasted) - 1.0;
         match self {
-            Self::Displacement { .. } => self.ratio(ends, lasted) > 1.0,
-            // Times are multiples of a period up to rounding.
-            Self::Duration { .. } => self.ratio(ends, lasted) >= 1.0 - 1e-9,
+            Self::Displacement { .. } => beyond > ROUNDING,
+            Self::Duration { .. } => beyond >= -ROUNDING,
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Trajectories, and how they are split into legs.
 
 use motion::calibrate::{Leg, LegLength, LostLegs, Trajectory, split_into_legs};
-use motion::geom::se2::SE2;
+use motion::geom::se2::{SE2, wrap_angle};
 use nalgebra::Vector3;
 
 const QUARTER: LegLength = LegLength::Displacement { distance: 0.25, angle: 0.2 };
@@ -44,6 +44,20 @@ fn legs_end_as_amcl_ends_them() {
     assert_eq!(split_into_legs(&turning, &turning, QUARTER, 0.0).0[0].times, [0.0, 0.2]);
     let timed = split_into_legs(&odometry, &odometry, LegLength::Duration { duration: 0.5 }, 0.0).0;
     assert_eq!(timed.len(), 8);
+}
+
+/// Ten steps of 0.02 rad are the limit of 0.2 rad exactly, but for rounding: by sums of doubles, and by text with six decimals.
+#[test]
+fn rounding_does_not_decide_where_a_leg_ends() {
+    let spin = |rounded: fn(f64) -> f64| {
+        let heading = |row: usize| rounded(wrap_angle(0.123_456_7 + 0.02 * row as f64));
+        let turning = trajectory((0..400).map(|row| (0.1 * row as f64, SE2::new(0.0, 0.0, heading(row)))));
+        split_into_legs(&turning, &turning, QUARTER, 0.0).0.iter().map(|leg| leg.times).collect::<Vec<_>>()
+    };
+    let exact = spin(|heading| heading);
+    // At exactly the limit not yet: eleven steps each.
+    assert_eq!(exact.len(), 36);
+    assert_eq!(spin(|heading| (heading * 1e6).round() / 1e6), exact);
 }
 
 /// A leg normally has five steps. With a pause of six steps after its first step a leg is 0.44 m long. With the pause after the fourth

@@ -199,13 +199,17 @@ impl Simulation {
     }
 }
 
+/// Relative tolerance: even steps reach a limit exactly, up to rounding.
+const ROUNDING: f64 = 1e-6;
+
 /// Tests the end of a leg as `LegLength` documents it, with independent code.
 fn ends(legs: LegLength, lasted: f64, start: &SE2, reading: &SE2) -> bool {
     match legs {
         LegLength::Displacement { distance, angle } => {
             let turned = motion::geom::se2::wrap_angle(reading.theta() - start.theta());
             let moved = [reading.x() - start.x(), reading.y() - start.y()];
-            moved.iter().any(|along| along.abs() > distance) || turned.abs() > angle
+            let longest = moved.iter().fold(0.0, |longest, along| f64::max(longest, along.abs()));
+            longest > distance * (1.0 + ROUNDING) || turned.abs() > angle * (1.0 + ROUNDING)
         }
         LegLength::Duration { duration } => lasted > duration - 1e-6,
     }

@@ -27,10 +27,10 @@ const NAME_OF_ODOMETRY = /odom|wheel|encoder|cmd/i;
 /** Checks whether a recording is a table, which has groups of columns in the place of topics. */
 export const isTable = ({ format }: Pick<Recording, 'format'>): boolean => !['mcap', 'rosbag', 'sqlite'].includes(format);
 
-/** Checks whether a log is by its name or frames the estimate of a localizer, or of a filter over the odometry. */
+/** Checks by name and frames whether a log is the estimate of a localizer, or of a filter over the odometry. */
 export const isLocalizer = (name: string, frames?: Frames): boolean => frames?.parent === 'map' || ((LOCALIZED.test(name) || FILTERED.test(name)) && !MEASURED.test(name));
 
-/** Returns the role that the name of a file says; undefined where it says none. */
+/** Returns the role that is in the name of a file; undefined if there is none. */
 export function roleByName(name: string): Role | undefined {
   if (MEASURED.test(name) || LOCALIZED.test(name)) return 'reference';
   return NAME_OF_ODOMETRY.test(name) ? 'odometry' : undefined;
@@ -61,7 +61,7 @@ export function candidates(recording: Recording, role: Role, { kind }: { kind?: 
     const others = paths.filter(({ name }) => !FILTERED.test(name) && !ODOMETRY[0].test(name));
     return [...tiers(paths, [MEASURED, LOCALIZED], 'poses'), choices(others, 'poses'), ...(isOfTable && useful.length === 1 ? [choices(paths, 'poses')] : []), chains];
   }
-  // A message says by its type that it is odometry.
+  // The type of the message is a sign that it is odometry.
   const wheels = paths.filter(({ name, type }) => !MEASURED.test(name) && !LOCALIZED.test(name) && (isOfTable || /Odometry$/.test(type)));
   const poses = [...tiers(wheels, ODOMETRY), choices(wheels), chains];
   const commands = useful.filter((each) => each.kind === 'commands' || (isOfTable && each.hasCommands));

@@ -28,17 +28,17 @@ export interface Group {
   kind: Series['kind'];
   hasCommands: boolean;
   columns: Partial<Record<Field, Column>>;
-  /** Second column of a field that is as good as the first. */
+  /** Second column that could equally well be the field. */
   twice: Partial<Record<Field, Column>>;
   /** Columns of times, best first. */
   times: Column[];
-  /** Clock of the rows, and another one that is used if the first stands at 0. */
+  /** Clock of the rows, and another one that is used if the first is always 0. */
   clocks: Clock[];
   /** First cell of its rows, in a file of rows of several kinds. */
   tag?: string;
 }
 
-/** Messages in which a field lies. */
+/** Messages that contain a field. */
 const POSE = '(?:(?:pose|transform|odometry)\\.)*';
 const TWIST = '(?:(?:twist|velocity|vel|cmd)\\.)*';
 const HEADER = '(?:header\\.)?';
@@ -65,7 +65,10 @@ const NAMES: [Field, string[]][] = [
   ['z', ['p\\..*\\.z', `${POSE}(?:position|translation|location|pos|loc|trans|[pt])\\.?z`, `${POSE}z`]],
 ];
 
-/** Patterns with the prefix first. The dot of a prefix is lazy, so that a message belongs to the field and not to the prefix. */
+/**
+ * Patterns that try the prefix first. The dot of a prefix is lazy, so that the name of a message belongs to the field and not to the
+ * prefix.
+ */
 const PATTERNS = NAMES.flatMap(([field, names]) => names.map((name, rank) => ({ field, rank, pattern: new RegExp(`^(?:(.*?)\\.)??(?:${name})$`, 'u') })));
 
 /** Field and a group after it: x_gt, yaw_odom, x1. */
@@ -91,10 +94,10 @@ const UNIT_WORDS: [RegExp, Unit['of'], Unit['unit']][] = [
 /** Division by a second: "m/s", "m s^-1", "m_s", "mps". */
 const PER_SECOND = /(\/|[ ._*]|p|per)\.?s(ec(ond)?)?(\^?-1)?$/;
 
-/** Units that numbers without one have. */
+/** Units of numbers without a stated unit. */
 const NO_UNIT = /^(|-|1|quat(ernion)?|unitless|none)$/;
 
-/** Unit at the end of a name, in brackets, or as MATLAB makes a name of "x [m]". */
+/** Unit at the end of a name: in brackets, or as MATLAB converts a name such as "x [m]". */
 const BRACKETS = /\s*[[({]([^\])}]*)[\])}]\s*$/;
 const LAST_PART = /[._ ]+((?:m|mm|cm|rad|deg)[._ /]s|[^._ /]+)_?$/;
 
@@ -143,7 +146,7 @@ function readName(name: string): ColumnMeaning | undefined {
   return fronted && suffix !== undefined && !OTHERS.test(suffix) ? { ...fronted, prefix: suffix } : undefined;
 }
 
-/** Checks that a field can have a unit. One that is not known is refused when the column is read. */
+/** Checks that a field can have a unit. An unknown unit is refused when the column is read. */
 function fits(field: Field, unit: Unit | undefined): boolean {
   const [of, isRate] = UNITS_OF[field] ?? [];
   return unit === undefined || (unit.of === of && unit.isRate === isRate);
@@ -174,7 +177,7 @@ export function groupsOf(names: string[], isTime: (at: number) => boolean = () =
     const { field, rank, prefix, unit } = reading;
     const group = groups.get(prefix) ?? { name: prefix, kind: null, hasCommands: false, columns: {}, twice: {}, times: [], clocks: [] };
     groups.set(prefix, group);
-    // Headings in radians are as recorded, and those in degrees beside them derived.
+    // If there are headings in radians and degrees, those in radians were recorded, and those in degrees are derived.
     const column = { at, name: name.trim(), rank: rank + (unit === 'deg' ? 0.5 : 0), ...(unit !== undefined && { unit }) };
     if (field === 't') group.times.push(column);
     const known = group.columns[field];
@@ -189,7 +192,7 @@ export function groupsOf(names: string[], isTime: (at: number) => boolean = () =
   const only = all.flatMap((group) => clocks.get(group) ?? []);
   for (const group of all) {
     group.clocks = [...new Set([...(clocks.get(group) ?? []), ...shared])].slice(0, 2);
-    // The only clock of a table is that of all of its rows.
+    // If a table has only one clock, all of its groups use it.
     if (group.clocks.length === 0 && only.length === 1) group.clocks = only;
     const has = (...fields: Field[]) => fields.every((field) => group.columns[field]);
     group.hasCommands = has('v', 'omega');

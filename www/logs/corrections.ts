@@ -36,7 +36,7 @@ export interface Correction {
   ask?: Question['what'];
 }
 
-/** Steps in the drive at most, their least duration in s, and number that a comparison needs. */
+/** Maximum number of steps of the drive, their minimum duration in s, and minimum number of steps for a comparison. */
 const [STEPS, STEP, ENOUGH] = [4000, 0.25, 40];
 
 /** Largest offset of the clocks in s that is tried, as in the first scan of the core. */
@@ -48,7 +48,7 @@ const [AGREES, EXPLAINS, LEFT] = [0.9, 0.8, 0.3];
 /** Scales that no wheel has, as in the core. */
 const isScale = (scale: number) => scale >= 0.5 && scale <= 2;
 
-/** Motion that counts as none, in m or rad in the mean of a step. */
+/** Mean motion of a step, m or rad, below which the robot counts as standing. */
 const STANDS = 1e-4;
 
 /** Motion beyond which a step is a jump, in units of the 90 % quantile. */
@@ -72,7 +72,7 @@ export function correctionOf(odometry: Log, reference: Log): Correction | undefi
     const corrected = { ...plain, [at]: motionsOf(logs[at], from, step, count, CORRECTIONS[name]) };
     const fit = agreement(corrected, step);
     const explains = fit.score >= Math.max(EXPLAINS, 1 - LEFT * (1 - score)) && isScale(fit.length) && isScale(fit.angle);
-    // A correction of the wrong log makes both wrong in the same way: neither robot then drives straight ahead.
+    // A correction that is applied to the wrong log can make both wrong in the same way. Then neither robot drives straight ahead.
     return { name, at, explains, score: fit.score, rank: fit.score + straightness(corrected.odometry) + straightness(corrected.reference) };
   })).filter(({ explains }) => explains);
   if (tried.length > 0) {
@@ -120,7 +120,7 @@ function agreement({ odometry, reference }: Record<Role, Motion[]>, step: number
   return best;
 }
 
-/** Returns motions without jumps: a jump is a standing robot. */
+/** Returns motions in which each jump is replaced by no motion. */
 function steady(motions: Motion[]): Motion[] {
   const limitOf = (size: (motion: Motion) => number) => JUMP * Math.max(STANDS, quantile(Float64Array.from(motions, size), 0.9));
   const [drive, spin] = [limitOf(([forward, left]) => Math.hypot(forward, left)), limitOf(([, , turn]) => Math.abs(turn))];
@@ -143,7 +143,7 @@ function agreementAt(odometry: Motion[], reference: Motion[], lag: number, count
     itsTurns += its[2] * its[2];
   }
   if (2 * (end - first) < count) return { score: -1, length: 1, angle: 1 };
-  // A robot that only drives straight on or turns on the spot shows one of the two.
+  // For a robot that only drives straight or only turns on the spot, one of the two correlations is undefined.
   const [drive, turn] = [[drives, anyYaw ? Math.hypot(bothDrives, across) : bothDrives, itsDrives], [turns, bothTurns, itsTurns]].map(([own, both, its]) =>
     (Math.sqrt(Math.max(own, its) / (end - first)) < STANDS ? { correlation: 1, scale: 1 } : { correlation: both / Math.sqrt(own * its || 1), scale: own / both }));
   return { score: Math.min(drive.correlation, turn.correlation), length: drive.scale, angle: turn.scale };

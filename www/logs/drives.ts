@@ -41,14 +41,14 @@ export function planDrives(recordings: Recording[], wishes: Wishes = {}): Plan {
   }
   const { odometry, reference } = plan.unpaired;
   for (const [i, recording] of unnamed.entries()) {
-    // Names that say nothing leave the other half of the files, or the order of two.
+    // If names give no roles, they follow from the other half of the files, or from the order of two.
     const role = odometry.length + reference.length + unnamed.length === 2 && unnamed.length === 2 ? ROLES[i]
       : 2 * odometry.length >= recordings.length ? 'reference'
         : 2 * reference.length >= recordings.length ? 'odometry' : undefined;
     if (!role) throw new LogError({ file: recording.name }, (say) => say.noRole, { what: 'roles', choices: [] });
     plan.unpaired[role].push({ recording, choice: choose(recording, role, wishes) });
   }
-  // A reference of its own beside a bag takes the place of the one in the bag.
+  // A separate reference file replaces the reference in a bag.
   const lacking = odometry.length < reference.length ? 'odometry' : 'reference';
   if (plan.drives.length === Math.abs(odometry.length - reference.length)) plan.unpaired[lacking].push(...plan.drives.splice(0).map((drive) => drive[lacking]));
   if (odometry.length !== reference.length) {
@@ -79,7 +79,7 @@ function attempted<Result>(work: () => Result): Result | undefined {
 
 /** Chooses both logs of one recording. */
 function bothOf(recording: Recording, wishes: Wishes): Record<Role, Part> {
-  // A stated choice is not guessed for the other role.
+  // A series that the user chose as the reference is not guessed as the odometry.
   const { series, frames } = wishes.reference ?? {};
   const stated = series !== undefined || frames ? choose(recording, 'reference', wishes) : undefined;
   const odometry = attempted(() => choose(recording, 'odometry', wishes, stated)) ?? choose(recording, 'odometry', wishes);

@@ -17,7 +17,7 @@ export interface Format {
   /** Line of the header, which is repeated in a file that was concatenated from several. */
   header?: string;
   groups: Group[];
-  /** True where empty cells are those of a sample of another topic. */
+  /** True if empty cells belong to samples of other topics. */
   isSparse: boolean;
   /** True where either Y or Z may be the vertical axis: coordinates of Motive. */
   hasUnknownAxis?: boolean;
@@ -26,7 +26,7 @@ export interface Format {
 /** Lines that the format is detected from. */
 const SAMPLED = 50;
 
-/** Columns of tables that have no header, by their number. */
+/** Columns of tables without a header, by their number. */
 const TUM = ['t', 'x', 'y', 'z', 'qx', 'qy', 'qz', 'qw'];
 const POSE = ['pose.position.x', 'pose.position.y', 'pose.position.z', 'pose.orientation.x', 'pose.orientation.y', 'pose.orientation.z', 'pose.orientation.w'];
 const TWIST = ['linear.x', 'linear.y', 'linear.z', 'angular.x', 'angular.y', 'angular.z'];
@@ -55,7 +55,7 @@ const [KITTI, TWISTS] = [12, 6];
 /** First lines of text that is no table. */
 const NO_TABLE: [RegExp, string][] = [[/^\s*(\{\s*("|$)|\[\s*([-\d"[{]|$))/, 'JSON'], [/^(---|header:|pose:|transforms:|- header:)\s*$/, 'YAML']];
 
-/** Splits a line. A separator in quotes separates nothing. */
+/** Splits a line into cells. A separator in quotes does not count. */
 export function cellsOf(line: string, separator: string, needed?: number): string[] {
   if (separator === ' ') return line.trim().split(/[ \t]+/);
   if (!line.includes('"')) return line.split(separator, needed);
@@ -127,7 +127,7 @@ export function formatOf(lines: string[], file: string, columns: string[] | unde
     if (first && columns.length !== width) throw new LogError(place, (say) => say.given(width, columns.length));
     return { ...common, names: columns, groups: grouped(columns, rows[0]) };
   }
-  // Prose has single rows of numbers too.
+  // Prose can also contain single rows of numbers.
   if (2 * rows.filter(isRow).length < rows.length) throw noLog();
   const above = filled.filter(({ number }) => number < common.firstLine);
   const motive = above.length > 0 && /^"?Format Version/.test(above[0].line) ? motiveFormat(above.map(({ line }) => cells(line)), place) : undefined;
@@ -165,7 +165,7 @@ function headerOf(above: { line: string; number: number }[], separator: string, 
     const text = line.trim().replace(/^\/\//, '');
     const isComment = /^#|^%(?!time)/.test(text) || text !== line.trim();
     const bare = text.replace(/^[#%]+\s*(?=[^,;])/, isComment ? '' : '$&');
-    // A commented header may be separated otherwise than the rows are.
+    // A commented header may have another separator than the rows.
     const splits = [cellsOf(bare, separator), ...(isComment ? [bare.split(/[\s,;]+(?![[(])/)] : [])];
     const names = splits.find((each) => each.length === width) ?? splits[0];
     if (!isHeader(names)) continue;

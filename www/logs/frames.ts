@@ -5,7 +5,7 @@ import { framesText, type Frames } from './log.ts';
 import { poseOf, withoutSlash, type Edge, type Sample, type Transform } from './messages.ts';
 import { product, rotated } from './quaternion.ts';
 
-/** Most different frames: a robot has some dozens. */
+/** Maximum number of different frames: a robot has some dozens. */
 const MAX_FRAMES = 10_000;
 
 /** Least motion in m of a frame that travels; joints only turn, and suspensions move less. */
@@ -102,7 +102,7 @@ export class Chain {
     this.#ends = { parent: withoutSlash(parent), child: withoutSlash(child) };
   }
 
-  /** Takes a transform, static ones before all others: they hold at all times. */
+  /** Adds a transform. Static ones have to come first, because they hold at all times. */
   take(edge: Edge, isStatic: boolean, { channel, seconds, nanoseconds }: Message, number: number): void {
     this.tree.take(edge, isStatic);
     const sample = { link: framesText(edge), edge, message: { channel, seconds, nanoseconds }, number };
@@ -144,7 +144,7 @@ export class Chain {
   }
 }
 
-/** Returns the transform of a second frame, which stands in the first. */
+/** Returns the transform of a second frame that is given in the first. */
 function composed([x, y, z, qx, qy, qz, qw]: Transform, [x2, y2, z2, qx2, qy2, qz2, qw2]: Transform): Transform {
   const rotation = { x: qx, y: qy, z: qz, w: qw };
   const moved = rotated(rotation, { x: x2, y: y2, z: z2 });

@@ -24,7 +24,7 @@ export function withoutFrozenPoses(reference: Log, odometry: Log): Log {
   }
   if (!isKept.includes(0)) return reference;
   const kept = (_: unknown, i: number) => isKept[i] === 1;
-  // Rows get other indices where earlier ones are removed.
+  // Indices of later rows change when earlier ones are removed.
   const indices = new Uint32Array(t.length + 1);
   for (let i = 0; i < t.length; i++) indices[i + 1] = indices[i] + isKept[i];
   const left = indices[t.length];

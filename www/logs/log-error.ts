@@ -36,7 +36,7 @@ export class LogError extends Error {
   }
 }
 
-/** Shortens a text to one line of so many characters that a sentence can quote. */
+/** Shortens a text to one line for quotation in a sentence. */
 export function cut(text: string, most = QUOTED): string {
   // oxlint-disable-next-line no-control-regex
   const line = text.slice(0, most + 1).replaceAll(/[\0-\x1f\x7f-\x9f\u2028\u2029]/g, '\ufffd');

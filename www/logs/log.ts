@@ -34,14 +34,14 @@ export interface Frames {
 /** Prints frames for a reader. */
 export const framesText = ({ parent, child }: Frames) => `${parent} → ${child}`;
 
-/** Prints frames as an option states them. */
+/** Returns frames in the form of an option. */
 export const framesOption = ({ parent, child }: Frames) => `${parent},${child}`;
 
 /** Choice of a log. */
 export interface Choice {
   /** Name of the series. */
   series: string;
-  /** Commands are read if there are any, poses if there are no commands. Default: as the series is, poses first. */
+  /** Kind to read: commands or poses, if there are any. By default poses come first. */
   kind?: LogKind;
   /** Ends of a chain of transforms. */
   frames?: Frames;
@@ -123,7 +123,7 @@ export interface Summary {
   /** Rows or messages. */
   rows: number;
   used: number;
-  /** Causes in the order of their sentences; `first` is a line or the number of a message, 0 where there is none. */
+  /** Causes in the order of their sentences; `first` is a line or the number of a message, 0 if there is none. */
   dropped: Partial<Record<Cause, { count: number; first: number }>>;
   /** Duration. */
   seconds: number;

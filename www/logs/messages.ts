@@ -90,7 +90,7 @@ class Reader {
     return new TextDecoder().decode(new Uint8Array(this.#view.buffer, this.#at - length, length)).replace(/\0$/, '');
   }
 
-  /** Returns the position of a value, and goes on behind it. */
+  /** Returns the position of a value, and moves past it. */
   #next(size: number): number {
     const alignment = Math.min(size, this.#alignment);
     const at = this.#at + ((this.#start - this.#at) & (alignment - 1));
@@ -122,7 +122,7 @@ export function poseOf({ seconds, nanoseconds }: Stamp, [x, y, , qx, qy, qz, qw]
 
 function twist({ seconds, nanoseconds }: Stamp, reader: Reader): Sample {
   const v = reader.float64();
-  // The other speeds, and the turn rates about the other axes.
+  // Speeds in other directions, and turn rates about other axes.
   reader.seek(4 * 8);
   return { seconds, nanoseconds, a: v, b: reader.float64(), c: 0, isRotation: true };
 }

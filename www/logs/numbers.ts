@@ -10,13 +10,13 @@ const DECIMAL = /^\s*([+-]?)(\d+)(?:\.(\d*))?(?:[eE]([+-]?\d{1,3}))?\s*$/;
 
 const DATE = /^\s*(\d{4})[-/](\d{1,2})[-/](\d{1,2})(?:[T\s]+(\d{1,2}):(\d{2})(?::(\d{2})(?:[.,](\d+))?)?\s*(Z|UTC|GMT|[+-]\d{2}(?::?\d{2})?)?)?\s*$/i;
 
-/** Date as of German spreadsheets; the order of day and month with slashes is not clear. */
+/** Date in German spreadsheets. Dates with slashes are not read, because the order of day and month is ambiguous. */
 const GERMAN_DATE = /^\s*(\d{1,2})\.(\d{1,2})\.(\d{4})(?=\s|$)/;
 
-/** Duration in seconds as of MATLAB ("1.5 sec"). */
+/** Duration in seconds, as MATLAB prints it ("1.5 sec"). */
 const SECONDS = /^\s*(\d+)(?:[.,](\d+))?\s*s(?:ec(?:onds?)?)?\s*$/i;
 
-/** Duration as of pandas ("0 days 00:00:01.5") and MATLAB ("00:00:01.5"). */
+/** Duration as printed by pandas ("0 days 00:00:01.5") and MATLAB ("00:00:01.5"). */
 const DURATION = /^\s*(?:(\d+) days? )?\+?(\d+):(\d{2}):(\d{2})(?:[.,](\d+))?\s*$/;
 
 /** Powers of ten that are exact. */

@@ -2,22 +2,22 @@
 
 import { quantile, sample } from './quantile.ts';
 
-/** Usual steps within which two times are near each other. */
+/** Number of median steps within which two times are near each other. */
 const NEAR = 5;
 
-/** Part of the usual step within which two rows are of the same time. */
+/** Fraction of the median step within which two rows have the same time. */
 const SAME = 0.75;
 
-/** Rows at times that earlier rows have too, which show a clock that was set back: of late rows there are fewer. */
+/** Minimum number of rows at times that earlier rows also have. They show that the clock was set back; late rows are fewer. */
 const MIN_OVERLAP = 3;
 
 /** Fates of a row. */
 export const [KEPT, LATE, STRAY, SET_BACK] = [0, 1, 2, 3];
 
 interface Order {
-  /** Kept rows by their times; rows of the same time in the order of the file. */
+  /** Kept rows, sorted by time; rows of equal time in the order of the file. */
   order: Uint32Array;
-  /** Fate of each row. A late one is kept, at its time. */
+  /** Result for each row. A late row is kept, at its time. */
   fates: Uint8Array;
   /** Row before which the clock was set back first, or -1. */
   setBack: number;
@@ -88,10 +88,10 @@ export function sortRows(t: Float64Array, isSame: (one: number, other: number) =
   return { order: sorted.filter((i) => fates[i] < STRAY), fates, setBack, most };
 }
 
-/** Rows that repeat a pose while the robot moves: runs of this duration in s at most, and at least this number of them. */
+/** Repeated poses of a moving robot: maximum duration in s of a run of equal rows, and minimum number of such runs. */
 const [LONGEST_HOLD, MIN_HOLDS] = [1, 20];
 
-/** Share of the rows of a moving robot in such runs, from which on poses are repeated by the recorder. */
+/** Fraction of a moving robot's rows in such runs from which the recorder is taken to repeat poses. */
 const MIN_HELD = 0.8;
 
 /**

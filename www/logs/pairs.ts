@@ -11,10 +11,10 @@ import { framesText, type Log, type Note, type Poses, type Role } from './log.ts
 /** Two logs of one drive, with times after the same start. */
 export interface Drive { odometry: Log; reference: Log }
 
-/** Share of the shorter log that two logs of one drive have in common. */
+/** Minimum fraction of the shorter log's time that two logs of one drive share. */
 const COMMON = 0.5;
 
-/** Number of rows that are compared to find the same log in two files, and least number that proves it. */
+/** Number of rows that are compared to find the same log in two files, and minimum number that proves it. */
 const [COMPARED, ENOUGH] = [500, 10];
 
 /** Largest difference in m and rad between copies of one path: the rounding to six digits. */
@@ -23,7 +23,10 @@ const SAME = 1e-5;
 /** Least motion in m and rad of paths that are compared. */
 const MOVED = 0.1;
 
-/** Share of rows with the pose of the row before: least of wheels that rest at times, and most of a measurement, whose noise changes it. */
+/**
+ * Fraction of rows that repeat the previous pose: minimum for wheels of a robot that rests at times, and maximum for a measurement, which
+ * has noise.
+ */
 const [RESTS, JITTERS] = [0.02, 0.001];
 
 /** Absolute times of the first and the last row. */

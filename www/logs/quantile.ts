@@ -1,6 +1,6 @@
 /** Quantiles of long columns. */
 
-/** Most items that a quantile is taken from. */
+/** Maximum number of items from which a quantile is computed. */
 const SAMPLED = 10_000;
 
 /** Evaluates many evenly spread items. */

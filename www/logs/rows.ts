@@ -24,13 +24,13 @@ const MAX_ROWS = 10_000_000;
 /** Largest coordinate or speed that the core accepts. */
 export const MAX_VALUE = 1e9;
 
-/** Usual steps in a gap, as in the core. */
+/** Number of median steps in a gap, as in the core. */
 const STEPS_OF_A_GAP = 5;
 
 /** Speed of a jump in units of the 90 % quantile of the moving steps. */
 const TIMES_FASTER = 8;
 
-/** Least length of a jump in metres and radians: the noise of a fast log is none. */
+/** Minimum length of a jump in metres and radians, above the noise of a fast log. */
 const [FAR, TURNED] = [0.1, 0.2];
 
 /** Speed in metres or radians a second below which a robot stands. */
@@ -39,7 +39,7 @@ const STANDS = 0.01;
 /** Times from here on count from 1970 and not from the start of a program: 1e8 s is the year 1973. */
 const EPOCH = 1e8;
 
-/** Least share of the rows that has to be left after a clock was set back, and that has to be of different times. */
+/** Minimum fraction of the rows that has to remain after a reset of the clock, and that has to have different times. */
 const MIN_SHARE = 0.6;
 
 /** Columns of the numbers of a row. The rest of a clock's time is behind its seconds. */
@@ -143,7 +143,7 @@ export class Rows {
     return { name, kind, start, data, summary };
   }
 
-  /** Puts the rows into the order of the other clock, that of recording, which a file of several blocks may not have. */
+  /** Sorts the rows by the other clock, that of recording. Blocks of a file may be out of order. */
   #sortByOtherClock(): void {
     const numbers = this.#numbers;
     const compare = (one: number, other: number) =>
@@ -158,7 +158,7 @@ export class Rows {
     this.#broken = new Set([...order.keys()].filter((rank) => broken.has(order[rank])));
   }
 
-  /** Takes the other clock if the first one mostly stands at 0. @returns whether it did */
+  /** Switches to the other clock if the first one is mostly 0. @returns whether it did @returns whether it did */
   #chooseClock(hasOther: boolean): boolean {
     let unset = 0;
     for (let row = 0; row < this.#added; row++) if (this.#isUnset(row)) unset += 1;
@@ -192,7 +192,7 @@ export class Rows {
 
   /** Returns the rows that are kept by their times, each time once, and the number of those that were late. */
   #inOrder(kind: LogKind): { start: number; t: Float64Array; rows: Uint32Array; late: number } {
-    // A stamp of 0 among times since 1970 was never set.
+    // A stamp of 0 among times since 1970 was not set.
     let first = Infinity;
     for (let row = 0; row < this.#added; row++) if (!this.#isUnset(row)) first = Math.min(first, this.#seconds(row));
     const isSince1970 = first > EPOCH && first < Infinity;
@@ -320,7 +320,7 @@ function jumpTest(t: Float64Array, x: Float64Array, y: Float64Array, theta: Floa
   const tests = ([[distance, FAR], [turn, TURNED]] as const).map(([length, least]) => {
     const rates = sample(t.length - 1, (i) => length(i + 1) / (t[i + 1] - t[i]));
     const limit = TIMES_FASTER * quantile(rates.filter((rate) => rate > STANDS), 0.9);
-    // A robot that never moves has no limit of its speed.
+    // For a robot that never moves the limit is NaN.
     return (i: number) => length(i) > Math.max(least, (limit || 0) * (t[i] - t[i - 1]));
   });
   return (i) => tests.some((test) => test(i));

@@ -3,7 +3,7 @@
 import type { Words } from './log-error.ts';
 import { LOG_TIME, type Cause, type Commands, type Log, type Poses } from './log.ts';
 
-/** Path between two points in m that counts as driven: the noise of poses at rest adds up to nothing. */
+/** Minimum distance in m between two points of the path, so that the noise of poses at rest does not add up. */
 const STEP = 0.05;
 
 /** Returns the distance driven, in m, without the jumps before some rows. */

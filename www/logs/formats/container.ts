@@ -27,17 +27,17 @@ export interface Message {
 export interface Container {
   format: Recording['format'];
   channels: Channel[];
-  /** Reasons by position of damaged blocks that were skipped. */
+  /** Reasons for skipping damaged blocks, by position. */
   damage: Map<number, string>;
-  /** True if the file ends before its end was written. */
+  /** True if the end of the file is missing. */
   cutShort: boolean;
-  /** Names of split files that belong to the recording and are not there. */
+  /** Names of missing split files of the recording. */
   missing: string[];
   /** Passes on the messages of channels, block by block. Stops after a block if `onProgress` returns true. */
   read(isWanted: (channel: Channel) => boolean, each: (message: Message) => void, onProgress?: (share: number) => boolean | void): Promise<void>;
 }
 
-/** Most bytes of a block: recorders write one to four million. */
+/** Maximum size of a block in bytes: recorders write one to four million. */
 export const MAX_BLOCK = 2 ** 26;
 
 /** Bytes that are read ahead. */

@@ -19,7 +19,7 @@ interface Folder {
 const folderOf = ({ path = '' }: Source) => path.replace(/[^/]*$/, '');
 const nameOf = (path: string) => path.replace(/^.*\//, '');
 
-/** Finds the files that a description lists, beside it. */
+/** Returns the files that a metadata.yaml lists, in its folder. */
 export async function filesOf(metadata: Source, sources: Source[]): Promise<Folder> {
   const place = { file: metadata.path || metadata.name };
   const names: string[] = [];
@@ -32,7 +32,7 @@ export async function filesOf(metadata: Source, sources: Source[]): Promise<Fold
     throw new LogError(place, (say) => say.damaged(reasonOf(error)));
   }
   const beside = sources.filter((source) => folderOf(source) === folderOf(metadata));
-  // The name of a file that was decompressed has lost its ending.
+  // A decompressed file has no ".zstd" at the end of its name.
   const files = names.map((name) => beside.find((source) => source.name === name || `${source.name}.zstd` === name));
   const found = files.filter((file) => file !== undefined);
   const missing = names.filter((_, i) => !files[i]);

@@ -177,7 +177,7 @@ class Rosbag implements Container {
       } catch (error) {
         if (error instanceof LogError) throw error;
         this.damage.set(position, reasonOf(error));
-        // Without an index, and without a length, nothing leads to the next record.
+        // Without an index and without a length, the next record cannot be found.
         if (at === position && !chunks) return;
       }
       if (onProgress?.(chunks ? (i + 1) / chunks.length : at / size)) return;

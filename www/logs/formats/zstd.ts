@@ -13,7 +13,7 @@ const MAX_FILE = 2 ** 30;
 /** Bytes that are decompressed at once. */
 const PIECE = 2 ** 20;
 
-/** Most successive parts without a byte: at the end of a piece or frame there is one. */
+/** Maximum number of successive parts without a byte. There is one at the end of each piece or frame. */
 const MAX_EMPTY = 100;
 
 /** Loads the decoder; the other functions need it. */
@@ -21,7 +21,7 @@ export const loadZstd = () => decoder.init();
 
 /** Decompresses a block of known size; throws a RangeError if it has another. */
 export function unzstd(bytes: Uint8Array, size: number): Uint8Array {
-  // The decoder would take a size of 0 for an unknown one.
+  // The decoder treats size 0 as unknown.
   const out = size === 0 ? new Uint8Array() : decoder.decode(bytes, size);
   if (out.length !== size) throw new RangeError('a compressed block is not what was written');
   return out;

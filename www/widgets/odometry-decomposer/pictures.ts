@@ -62,7 +62,7 @@ function keyOf(brush: Brush, { overlays }: Scene, names: LineName[]) {
 function surroundings({ linkage, legs, deviations, stats }: Scene): number[] {
   const [{ x, y }, driven] = [poseIn(linkage, 0), poseIn(linkage, 2)];
   const along = Math.min(ROOM.deviations * deviations.trans, legs.trans + 2);
-  // A sector has at most a full circle.
+  // The noise of the first rotation cannot move the end further across than the drive is long.
   const across = ROOM.deviations * stats.exactCrossTrack;
   const [dx, dy] = [Math.abs(Math.cos(driven.theta)), Math.abs(Math.sin(driven.theta))];
   const room = [ROOM.metres + along * dx + across * dy, ROOM.metres + along * dy + across * dx];

@@ -125,7 +125,7 @@ fn as_if_new(machine: &MapSqueeze) {
     assert_eq!(other.attempts(), machine.attempts());
 }
 
-/// The place in the open is one.
+/// Asserts that the robot fits at the free pose that the machine finds.
 fn in_the_open(machine: &MapSqueeze) {
     let Some(place) = machine.open_place() else { return };
     laws::pose("in the open", &place);

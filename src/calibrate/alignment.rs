@@ -1,4 +1,4 @@
-//! Offset of two clocks, found by when the robot turned.
+//! Offset of two clocks, by the correlation of turn rates.
 
 use super::trajectory::Trajectory;
 
@@ -17,7 +17,7 @@ const MAX_SAMPLES: f64 = 100_000.0;
 /// Correlation of two turn rates below which they do not match: unrelated ones reach it within a few seconds.
 const MIN_CORRELATION: f64 = 0.5;
 
-/// Correlation at which no other offset is looked for: turns of one robot agree to a few hundredths at the right one.
+/// Correlation at which the search for another offset ends. At the right offset it is 1 up to a few hundredths.
 const CONFIDENT_CORRELATION: f64 = 0.9;
 
 /// Excess of correlation that an offset beyond [`NEAR`] needs.

@@ -1,4 +1,4 @@
-//! Checks of a fit: whether the log is what it is taken for, and whether the model holds.
+//! Checks of a fit: validity of the log, and goodness of fit of the model.
 
 use super::fit::Sample;
 use super::legs::{LegLength, LostLegs, MIN_LEGS};
@@ -163,7 +163,7 @@ const NEGLIGIBLE_COVERAGE: f64 = 0.015;
 const ENOUGH_LEGS: f64 = 100.0;
 const USABLE_LEGS: f64 = 30.0;
 
-/// Relative difference above which half of the legs have nothing to do with the reference.
+/// Median relative difference of odometry and reference above which they do not belong together.
 const MAX_MISMATCH: f64 = 0.7;
 
 /// Scales that no wheel has: the reference has another unit.

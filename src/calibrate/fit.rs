@@ -38,13 +38,13 @@ pub(super) struct Fit {
     pub innovations: Vec<Standardized>,
 }
 
-/// Legs that are fitted at most, in blocks spread over the log: they tell an α to some three hundredths.
+/// Maximum number of legs that are fitted, in blocks spread over the log. They give an α to about 3 %.
 const MAX_LEGS: usize = 6_000;
 const BLOCK: usize = 100;
 
 const MAX_ROUNDS: usize = 15;
 
-/// Change of a systematic error, over its standard error, that counts as none.
+/// Change of a systematic error, relative to its standard error, below which the rounds end.
 const CONVERGED: f64 = 0.05;
 
 /// Factor of the outliers' gate (a squared distance) in the first round, whose variances are the initial guess.

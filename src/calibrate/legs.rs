@@ -110,7 +110,7 @@ pub const MIN_LEGS: usize = 8;
 /// Turn (rad) below which a leg that did not drive is one of a standing robot.
 const STANDING_TURN: f64 = 0.02;
 
-/// Length ratio above which a leg across a pause says nothing of legs of the asked length.
+/// Length ratio above which a leg across a pause is dropped, because it is too long for the requested length.
 const MAX_RATIO_ACROSS_PAUSE: f64 = 2.0;
 
 /// Ratio of periods above which the reference is the sparser trajectory.

@@ -1,4 +1,4 @@
-//! Calibration of a robot's α's, from a log of what its wheels read and of where it really went.
+//! Calibration of a robot's α's, from a log of its odometry and a reference of its true poses.
 //!
 //! [`calibrate`] cuts the log into [`Leg`]s as long as the updates of the filter that is to use the α's. Each gives residuals whose variances
 //! are linear in the α's ([`Observation`]). α's, the noise of the reference and the systematic errors are those of the largest restricted

@@ -11,7 +11,7 @@ const GATES: [f64; 3] = [15.137, 18.421, 21.108];
 /// Median of χ² with 3 degrees of freedom.
 const MEDIAN_CHI2: f64 = 2.366;
 
-/// Last round after which an outlier may turn out to be none: one next to the gate would come and go.
+/// Last round after which an outlier may become an inlier again; otherwise a leg at the gate would alternate in every round.
 const LAST_RETURN: usize = 2;
 
 impl Sample {

@@ -1,4 +1,4 @@
-//! Poses with times, as a log has them.
+//! Trajectories: poses with times.
 
 use crate::geom::se2::{SE2, wrap_angle};
 use nalgebra::Vector3;

@@ -89,7 +89,7 @@ impl Segment {
         })
     }
 
-    /// The distance of a segment in the frame of an arc from the arc that it does not cross.
+    /// Returns the distance between an arc and a segment that does not cross it, in the frame of the arc.
     fn distance_apart(&self, local: &Unrolled) -> f64 {
         let Self { from, to } = *self;
         let along = [to[0] - from[0], to[1] - from[1]];

@@ -259,7 +259,7 @@ test('a canvas that has got its context back is drawn again', async ({ page, fig
   const before = await pictureOf(canvas);
   const blank = await canvas.evaluate((element) => {
     const canvas = /** @type {HTMLCanvasElement} */ (element);
-    // Events as a browser fires them.
+    // A browser that restores a lost context leaves the canvas blank and fires this event.
     canvas.getContext('2d')?.reset();
     const blank = canvas.toDataURL();
     canvas.dispatchEvent(new Event('contextrestored'));

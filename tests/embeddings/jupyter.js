@@ -46,7 +46,7 @@ async function run(page, site) {
   await page.getByText('Python 3 (ipykernel) | Idle').waitFor();
   await choose(page, 'Kernel', 'Restart Kernel and Run All Cells…');
   await page.locator('.jp-Dialog .jp-mod-accept').click();
-  // It is numbered when it is done.
+  // The cell gets its number when it has run.
   await page.locator('.jp-CodeCell .jp-InputArea-prompt', { hasText: '[4]:' }).waitFor();
   await live(page, site);
 }

@@ -55,7 +55,7 @@ class Page {
     if (tag !== undefined) await this.settled(tag);
   }
 
-  /** One after the other, as they come from a hand that waits for no picture. @param {Parameters<Engine['press']>[0][]} keys */
+  /** Presses keys one after the other, without waiting for pictures. @param {Parameters<Engine['press']>[0][]} keys */
   async press(...keys) {
     for (const key of keys) await this.engine.press(key);
   }
@@ -146,7 +146,7 @@ async function opens(page, tag) {
 }
 
 /**
- * Within a pixel, what is held comes where it is dragged to.
+ * Checks that a dragged handle moves to the pointer, to within a pixel.
  *
  * @param {Page} page
  * @param {string} tag

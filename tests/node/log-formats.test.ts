@@ -1,4 +1,5 @@
-// One drive in all formats of recordings, as their own libraries wrote it (tests/reference/logs/generate.py), and one input for each silent error.
+// One drive in all formats of recordings, written by their own libraries (tests/reference/logs/generate.py). Further inputs would give a
+// wrong result without an error if a check were missing.
 
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';

@@ -19,8 +19,8 @@ import { serve } from '../../scripts/serve.mjs';
 const SINGLE_FILES = ['motion-widgets.iife.js', 'motion-widgets.css', 'embed.html', 'embed.css', 'embed.js'];
 
 /**
- * @returns {{ directory: string, remove: () => void }} a copy of each example, with the packed and
- *   installed package as all that they have
+ * @returns {{ directory: string, remove: () => void }} directory with a copy of each example, in which only the packed
+ *   package is installed
  */
 export function installed() {
   const directory = mkdtempSync(join(tmpdir(), 'motion-widgets-'));

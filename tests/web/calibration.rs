@@ -25,7 +25,7 @@ struct Columns {
     theta: Vec<f64>,
 }
 
-/// A drive of 400 legs of a second each, in ten rows; the reference follows a robot of these α's, seen under a yaw of 0.03.
+/// Returns a drive of 400 legs, each a second long with ten rows. The reference is simulated with these α's and a mount yaw of 0.03 rad.
 fn drive() -> Object {
     let model = OdometryModel { alphas: OdomAlphas(ALPHAS), noise: NoiseKind::Normal };
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(5);

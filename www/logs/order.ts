@@ -26,8 +26,8 @@ interface Order {
 }
 
 /**
- * Sorts rows by their times. A row that is late is put where it belongs. A single time far from all others is dropped, and so are all
- * rows but the largest part where the clock was set back: there, rows of one part repeat times of another.
+ * Sorts rows by their times, late rows too. Drops single times far from all others. A clock that was set back divides the rows into parts
+ * that repeat each other's times: only the largest part is kept.
  *
  * @param t in the order of the file
  * @param isSame checks whether two rows have the same values

@@ -20,7 +20,7 @@ const EASING = 90;
 /** Widths that a view may have, times powers of ten. */
 const LADDER = [1, 1.12, 1.25, 1.4, 1.6, 1.8, 2, 2.25, 2.5, 2.8, 3.2, 3.6, 4, 4.5, 5, 5.6, 6.4, 7.2, 8, 9];
 
-/** One view's window on the world. */
+/** Visible part of the world in a picture, with the transform to pixels. */
 export class View {
   /** Extent that is shown now, possibly on its way to `#target`. */
   extent: Extent = { xMin: -1, yMin: -1, xMax: 1, yMax: 1 };

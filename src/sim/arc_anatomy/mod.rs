@@ -99,8 +99,8 @@ impl ArcAnatomy {
         [commanded.arc(start, share).end(), driven.arc(start, share).end(), start.boxplus(xi * share)]
     }
 
-    /// What is mapped over the positions of a rectangle from `min` to `max` (m, each of `min` below that of `max`); None for
-    /// nothing.
+    /// Returns the map over positions in the rectangle from `min` to `max` (m, `min` below `max` in both coordinates); None if
+    /// no map is selected.
     pub fn surface(&self, min: [f64; 2], max: [f64; 2]) -> Option<Surface> {
         Surface::of(&self.settings, min, max)
     }

@@ -29,7 +29,7 @@ pub struct Surface {
 }
 
 impl Surface {
-    /// The map of a rectangle from `min` to `max`; None where nothing is to be mapped.
+    /// Returns the map of a rectangle from `min` to `max`; None if no map is selected.
     pub(super) fn of(settings: &Settings, min: [f64; 2], max: [f64; 2]) -> Option<Self> {
         if settings.map == Mapped::Nothing {
             return None;

@@ -88,8 +88,8 @@ impl Drive {
         }
     }
 
-    /// Where four motions end, x, y; the arcs that end there; and whether these are regular, so that length and half the
-    /// turn are as far from those without noise as [`Drive::regular`] says.
+    /// Returns the ends (x, y) of four motions, the arcs that lead there, and whether the arcs are regular. The length and
+    /// half turn of regular arcs differ from the noise-free ones by [`Drive::regular`].
     #[inline(always)]
     pub fn ends(&self, motions: &Motions) -> ([f64x4; 2], FourArcs, bool) {
         let Motions { length, bearing, .. } = *motions;

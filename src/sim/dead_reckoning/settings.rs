@@ -66,7 +66,7 @@ impl Settings {
         NoiseLevel(of_heading)
     }
 
-    /// The level of the heading noise; None where α₃ to α₆ are not those of one.
+    /// Returns the level of the heading noise; None if α₃ to α₆ are not in the ratios of a level.
     pub fn heading_noise(mut self) -> Option<f64> {
         self.heading_level().get()
     }

@@ -106,7 +106,7 @@ fn the_table_and_the_reversing_option_are_the_models_of_the_crate() {
     }
 }
 
-/// Whatever the rule, without noise the robot is where it was read, to within the jitter that a spin leaves out.
+/// Without noise, each rule gives the pose that was read, up to the small translation that a spin ignores.
 #[test]
 fn legs_of_every_rule_end_where_the_reading_does() {
     let mut rng = seeded(191);

@@ -31,7 +31,7 @@ const own = css`
     }
   }
 
-  /* Clear of the fade below the pictures. */
+  /* Margin for the fade below the pictures. */
   .morphing {
     display: grid;
     margin-top: 0.7em;

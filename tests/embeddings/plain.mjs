@@ -67,7 +67,14 @@ const PLAIN = {
   sveltekit: { heading: 'SvelteKit', packages: ['@sveltejs/kit', 'svelte'], output: 'build', lists: true, node: 24 },
   nuxt: { heading: 'Nuxt', packages: ['nuxt'], output: '.output/public', lists: true, node: 24 },
   // Its production server answers 500 to every page, without figures too.
-  solidstart: { heading: 'SolidStart', packages: ['@solidjs/start', 'solid-js'], lists: true, node: 24, only: 'development' },
+  solidstart: {
+    heading: 'SolidStart',
+    packages: ['@solidjs/start', 'solid-js'],
+    lists: true,
+    node: 24,
+    only: 'development',
+    allowed: [{ message: /@jridgewell\/resolve-uri/, reason: 'Its development server bundles this package late, and loads the page again.' }],
+  },
   'react-router': { heading: 'React Router', packages: ['react-router'], lists: true, node: 24 },
   eleventy: { heading: 'Eleventy', packages: ['@11ty/eleventy'], output: '_site', base: '/book/', pages: { first: '/', second: '/sensors/' } },
   observable: { heading: 'Observable Framework', packages: ['@observablehq/framework'], output: 'dist', base: '/book/', copies: 'src', pages: { first: '/', second: '/sensors.html' } },

@@ -334,7 +334,7 @@ test('the edge of a doorway and a wall are dragged, and Back to the apartment un
   expect((await squeezed(widget)).walls).toEqual(before.walls);
 });
 
-test('walls are moved by keyboard from one stop of Tab', async ({ page }) => {
+test('walls are moved by keyboard from one stop of Tab, and their handles are named', async ({ page }) => {
   const widget = await openSqueeze(page);
   const { walls } = await squeezed(widget);
   await body(widget).focus();
@@ -345,6 +345,8 @@ test('walls are moved by keyboard from one stop of Tab', async ({ page }) => {
   expect((await squeezed(widget)).walls[18]).toBeCloseTo(walls[18] + 0.05, 9);
   await page.keyboard.press(']');
   expect(await current()).toBe('side-4');
+  expect(await widget.evaluate(({ shadowRoot }) => getComputedStyle(/** @type {Element} */ (shadowRoot?.activeElement), '::before').content)).toBe('"Drag the wall"');
+  await expect(widget.locator('.legend')).toContainText('handles: drag walls and edges of doorways');
   await page.keyboard.press('Shift+ArrowDown');
   const moved = await squeezed(widget);
   expect(moved.walls[17]).toBeCloseTo(walls[17] - 0.25, 9);

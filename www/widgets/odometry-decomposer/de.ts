@@ -60,8 +60,8 @@ export const de: typeof import('./en.ts').en = {
     independent: (exact, independent) => `genau ${exact}; unabhängig wären es ${independent}`,
   },
   table: {
-    caption: 'Standardabweichungen: des Rauschens jedes Teils, dann des Endes, quer zum Weg und in *θ*. Fett auf Farbe: anders als in Tabelle 5.6 aus *Probabilistic Robotics*.',
-    columns: ['*δ*_{rot1} (rad)', '*δ*_{trans} (m)', '*δ*_{rot2} (rad)', 'seitwärts (m)', 'quer (m)', '*θ* (rad)'],
+    caption: 'Standardabweichungen: des Rauschens je Teil, dann des Endes, quer und in *θ*. Fett auf Farbe: anders als in Tabelle 5.6 (*Probabilistic Robotics*).',
+    columns: ['*δ*_{rot1} (rad)', '*δ*_{trans} (m)', '*δ*_{rot2} (rad)', 'Seite (m)', 'quer (m)', '*θ* (rad)'],
   },
   caption: {
     lever: (deviation, trans, lever) =>

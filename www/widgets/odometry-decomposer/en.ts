@@ -61,7 +61,7 @@ export const en = {
   },
   table: {
     caption: 'Standard deviations: of each part’s noise, then of the end, across the path and in *θ*. Bold on a tint: not as in Table 5.6 of *Probabilistic Robotics*.',
-    columns: ['*δ*_{rot1} (rad)', '*δ*_{trans} (m)', '*δ*_{rot2} (rad)', 'sideways (m)', 'across (m)', '*θ* (rad)'],
+    columns: ['*δ*_{rot1} (rad)', '*δ*_{trans} (m)', '*δ*_{rot2} (rad)', 'side (m)', 'across (m)', '*θ* (rad)'],
   },
   caption: {
     lever: (deviation, trans, lever) =>

@@ -217,7 +217,7 @@ test('a cloud that turns a full circle has no exponential coordinates, and says 
   await set(widget, { omega: 2, dt: 3 });
   await expect(widget.locator('.note')).toContainText('statistics in ξ are undefined');
   await expect(readout(widget, 'predicts')).toHaveText('—');
-  await expect(detail(widget, 'area covered')).toHaveText(/; robots inside: [\d.]+\u202f% and —$/);
+  await expect(detail(widget, 'area covered')).toHaveText(/robots inside: [\d.]+\u202f% and —$/);
   for (const name of ['area covered', 'log-likelihood gain', 'exact area']) await expect(readout(widget, name)).toHaveText('—');
   await expect(readout(widget, 'cross-track skew')).not.toHaveText('—');
   const measured = widget.getByRole('row', { name: 'mean ξ along' }).getByRole('cell').last();

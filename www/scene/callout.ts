@@ -83,9 +83,12 @@ export function drawCallouts({ context, view, palette, font, placed }: Brush, ca
   }
 }
 
+/** Most points between two others: a line that leaves the picture may be of any length. */
+const MOST_POINTS = 200;
+
 /** Returns the first of two points, and points between them that a sentence must not cover, pixels. */
 function pointsBetween([x, y]: number[], [toX, toY]: number[]) {
-  const count = Math.ceil(Math.hypot(toX - x, toY - y) / (2 * CLEAR)) || 1;
+  const count = Math.min(MOST_POINTS, Math.ceil(Math.hypot(toX - x, toY - y) / (2 * CLEAR)) || 1);
   return Array.from({ length: count }, (_, i) => [x + (i / count) * (toX - x), y + (i / count) * (toY - y)]);
 }
 

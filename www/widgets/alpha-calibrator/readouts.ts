@@ -24,7 +24,7 @@ const ICONS = { consistent: '✓', questionable: '!', unusable: '✕' };
 export function verdictLine({ reading, logName, hasLocalizer }: Figure) {
   const { rating, badge, finding, next } = judgementOf(reading, hasLocalizer);
   return html`<span class="badge ${rating}"><span aria-hidden="true">${ICONS[rating]}</span> ${badge}</span>
-    <strong>${finding}</strong> ${next} <span class="muted">${legsText(reading, logName)}</span>`;
+    <strong>${finding}</strong> ${next && `${next} `}<span class="muted">${legsText(reading, logName)}</span>`;
 }
 
 /** Table of the α's, each with its interval on a common axis. */

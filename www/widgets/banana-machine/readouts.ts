@@ -23,7 +23,7 @@ export function readouts(reading: Reading, pinned?: Reading) {
   const before = pinned && valuesOf(pinned).map((value) => `${words.banana.pinned}: ${value}`);
   const shares = [coverage.ellipse, coverage.exponential];
   return readoutList([
-    [say.area, values[0], shares.every(Number.isNaN) ? NOTHING : say.areaDetail(significant(areaRatioError, 1), percent(shares[0]), percent(shares[1])), before?.[0]],
+    [say.area, values[0], shares.every(Number.isNaN) ? NOTHING : say.areaDetail(Number.isNaN(areaRatioError) ? '' : significant(areaRatioError, 1), percent(shares[0]), percent(shares[1])), before?.[0]],
     [gain.unbounded ? say.gainOnFloor : say.gain, values[1], gainText(gain), before?.[1]],
     [say.skew, values[2], Number.isNaN(exactSkew) ? NOTHING : say.exactly(fixed(exactSkew, 3)), before?.[2]],
   ], 0);

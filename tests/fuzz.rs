@@ -13,7 +13,8 @@ use std::path::Path;
 
 type Target = fn(&[u8]);
 
-/// Tests of the targets: one input in so many of the corpus, and a number of mutations. Most take about a tenth of a second.
+/// Tests of the targets: every n-th input of the corpus, and a number of mutations. Most take about a tenth of a
+/// second.
 macro_rules! tests {
     ($($name:ident: $every:literal, $mutations:literal;)+) => {
         const NAMES: &[&str] = &[$(stringify!($name)),+];
@@ -110,7 +111,7 @@ fn pick<'a, T>(all: &'a [T], rng: &mut impl Rng) -> &'a T {
     &all[below(all.len(), rng)]
 }
 
-/// One of the changes that libFuzzer makes.
+/// Returns the input with one of the changes that libFuzzer makes.
 fn mutate(bytes: &mut Vec<u8>, corpus: &[Vec<u8>], rng: &mut impl Rng) {
     const BYTES: [u8; 9] = [0, 1, 16, 32, 48, 57, 127, 128, 255];
     let end = bytes.len();

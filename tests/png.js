@@ -67,7 +67,7 @@ export function rasterOf({ width, height, depth = 8, colour = 0, interlaced = fa
     const length = Math.ceil((columns * depth * samples) / 8);
     let above = Buffer.alloc(length);
     for (let row = y; row < height; row += dy) {
-      // Bit by bit: whatever the depth, it is one way to write.
+      // Written bit by bit, which works for every depth.
       let bits = '';
       for (let column = x; column < width; column += dx) {
         for (let part = 0; part < samples; part++) bits += sample(column, row, part).toString(2).padStart(depth, '0');

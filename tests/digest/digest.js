@@ -16,7 +16,7 @@
  * @property {Record<string, { bounds: number[], configurations: Record<string, Configuration> }>} widgets
  */
 
-/** The NaN that stands for every NaN: tests/native/digest/told.rs says why. */
+/** Bits that replace those of every NaN: tests/native/digest/told.rs gives the reason. */
 const NAN = 0x7ff8_0000_0000_0000n;
 
 /** Results of the machine of each widget, by parts. @type {Record<string, (motion: Motion, all: Configurations, configuration: Configuration) => Record<string, Told>>} */
@@ -75,7 +75,7 @@ export const widgets = {
         try {
           return machine.trial(sampler, 4, 50);
         } catch {
-          // The robot is wedged.
+          // The robot is wedged, and the trial throws.
           return null;
         }
       }),

@@ -11,7 +11,7 @@ import { ROOT } from '../../scripts/process.mjs';
 /** @typedef {import('@playwright/test').Page} Page */
 /** @typedef {{ name: string, definition: import('./project.mjs').Engine, serving: import('./project.mjs').Serving, url: string }} Site */
 
-/** Milliseconds: a development server compiles a page when it is first asked for it. */
+/** Time limit in milliseconds: a development server compiles a page at the first request. */
 const PATIENCE = 90_000;
 
 /**
@@ -63,18 +63,18 @@ function checksOf({ definition, serving }) {
  */
 function listen(page, messages) {
   page.on('console', (message) => {
-    // Failed requests come with their addresses below.
+    // The addresses of failed requests are listed below.
     if (/^Failed to load resource/.test(message.text())) return;
     if (['error', 'warning', 'assert'].includes(message.type())) messages.push(message.text());
   });
   page.on('pageerror', (error) => messages.push(String(error)));
   page.on('requestfailed', (request) => {
     const reason = request.failure()?.errorText;
-    // The page was left while it was asking.
+    // The page was left during the request.
     if (reason !== 'net::ERR_ABORTED') messages.push(`${request.url()} ${reason}`);
   });
   page.on('response', (response) => {
-    // A browser asks for the icon by itself.
+    // Browsers request the icon on their own.
     const icon = new URL(response.url()).pathname === '/favicon.ico';
     if (response.status() >= 400 && !icon) messages.push(`${response.url()} ${response.status()}`);
   });

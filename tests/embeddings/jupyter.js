@@ -37,7 +37,7 @@ async function choose(page, menu, ...path) {
 async function run(page, site) {
   await page.goto(new URL('lab/tree/motion.ipynb?reset', site.url).href);
   await page.locator('.jp-Notebook-ExecutionIndicator[data-status="idle"]').waitFor();
-  // It says so also before there is a kernel.
+  // The page says "Idle" even before there is a kernel.
   await page.waitForFunction(async () => {
     const sessions = await (await fetch('/api/sessions')).json();
     return sessions.some((/** @type {any} */ { kernel }) => kernel.connections > 0 && kernel.execution_state === 'idle');
@@ -102,7 +102,7 @@ const CHECKS = {
     await run(page, site);
     await comesTo(page, '[machine.stats["n"], machine.v, machine.preset, machine.error]', [20000, 1, null, '']);
     assert.ok((await python(page, 'len(skews)')) > 0);
-    // One after the other, without a look at what the first has led to.
+    // Two assignments without waiting for the result of the first.
     await python(page, '[setattr(machine, "preset", "hard"), setattr(machine, "omega", 0.2)]');
     await comesTo(page, '[machine.preset, machine.omega, machine.dt, machine.command]', [null, 0.2, 1.4, { v: 1, omega: 0.2, dt: 1.4 }]);
     assert.deepEqual(await shows(page, ['preset', 'omega', 'dt']), { preset: null, omega: 0.2, dt: 1.4 });
@@ -121,7 +121,7 @@ const CHECKS = {
     await slider.focus();
     const cells = await page.locator('.jp-Cell').count();
     for (const key of ['ArrowRight', 'ArrowRight', 'ArrowDown', 'ArrowUp']) await page.keyboard.press(key);
-    // Letters and digits with which JupyterLab inserts cells and makes text of them.
+    // Letters and digits that are shortcuts of JupyterLab, for inserting cells and changing their type.
     for (const key of ['b', 'a', 'm', '1', '2', 'Enter']) await page.keyboard.press(key);
     assert.equal(await page.locator('.jp-Cell').count(), cells);
     assert.equal(await page.locator('.jp-CodeCell').count(), cells - 3);
@@ -142,7 +142,7 @@ const CHECKS = {
 const EXPORTED = {
   async 'live without a kernel, as it was when it was run'(page, site) {
     for (const [address, path] of Object.entries(LOADED)) await page.route(address, (route) => route.fulfill({ path: join(packages, path) }));
-    // No formula is on the page.
+    // The page has no formulas.
     await page.route('**/mathjax/**', (route) => route.fulfill({ contentType: 'text/javascript', body: '' }));
     await page.goto(new URL('motion.html', site.url).href);
     await live(page, site);
@@ -156,7 +156,7 @@ const EXPORTED = {
 /** @type {import('./project.mjs').Serving['checks']} */
 const SERVED = {
   async 'live with a kernel'(page, site) {
-    // Icons of Voilà are on the network.
+    // Voilà loads its icons from the network.
     await page.route('**/font-awesome*/**', (route) => route.fulfill({ contentType: 'text/css', body: '' }));
     await page.route('**/fontawesome-free*/**', (route) => route.fulfill({ contentType: 'text/css', body: '' }));
     await page.goto(site.url);
@@ -173,7 +173,7 @@ export default {
     const tools = besidePython(directory);
     await pythonInstall(directory, { run: execute, start }, [wheel]);
     await execute('npm', ['install', '--prefix', tools, '--ignore-scripts', '--no-audit', '--no-fund', '--loglevel', 'error', ...PACKAGES]);
-    // It would ask whether it may ask.
+    // JupyterLab would ask for permission to fetch news.
     const settings = join(tools, 'share/jupyter/lab/settings');
     mkdirSync(settings, { recursive: true });
     writeFileSync(join(settings, 'overrides.json'), '{ "@jupyterlab/apputils-extension:notification": { "fetchNews": "false" } }');
@@ -189,7 +189,7 @@ export default {
       name: 'JupyterLab',
       serve(directory, tools) {
         const options = ['--no-browser', '--allow-root', '--IdentityProvider.token=', '--ServerApp.port_retries=0'];
-        // A configuration of its own keeps the settings of this user out of the test.
+        // A separate configuration directory, so that this user's settings do not affect the test.
         const own = (/** @type {string} */ name) => join(besidePython(directory), 'own', name);
         const env = { JUPYTER_CONFIG_DIR: own('config'), JUPYTERLAB_SETTINGS_DIR: own('settings'), JUPYTERLAB_WORKSPACES_DIR: own('workspaces') };
         return program((port) => [pythonProgram(directory, 'jupyter'), ['lab', ...options, '--port', port], env])(directory, tools);

@@ -33,7 +33,7 @@ export default {
   pages: { first: '/', second: '/sensors' },
   go: (page, path) => page.getByRole('link', { name: path === '/' ? 'Motion' : 'Sensors' }).click(),
   dark: (page, on) => page.emulateMedia({ colorScheme: on ? 'dark' : 'light' }),
-  // Next keeps pages that were left in the document, out of sight.
+  // Next keeps pages that were left in the document, hidden.
   expected: [
     { selector: 'main:visible banana-machine >> nth=0', properties: { omega: 0.8, samples: 20000, alphas: [0.1, 0.05, 0.05, 0.1, 0.01, 0.01] } },
     { selector: 'main:visible banana-machine >> nth=1', properties: { omega: 0.5, alphas: [0.1, 0.1, 0.1, 0.1, 0, 0] } },

@@ -1,5 +1,5 @@
 /**
- * Engines that differ by data alone: `npm run build` writes their site, and `npm run dev` serves it for authors.
+ * Engines that differ in data only: `npm run build` writes their site, and `npm run dev` serves it for authors.
  *
  * @module
  */
@@ -37,7 +37,7 @@ const PLAIN = {
     output: 'dist/browser',
     base: '/book/',
     lists: true,
-    // Its command line refuses older ones.
+    // Its command line refuses older versions of Node.
     node: 24,
     pages: { first: '/' },
     go: (page, which) => page.getByRole('button', { name: which === 'second' ? 'Sensors' : 'Motion' }).first().click(),

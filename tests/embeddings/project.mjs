@@ -47,7 +47,7 @@ import { CACHE } from '../../scripts/toolchain.mjs';
  *   a program in the copy that goes on
  */
 
-/** No engine asks its reader, or tells its makers, anything. */
+/** Telemetry and questions of the engines are turned off. */
 const SILENT = {
   ASTRO_TELEMETRY_DISABLED: '1',
   NEXT_TELEMETRY_DISABLED: '1',
@@ -58,7 +58,7 @@ const SILENT = {
   FORCE_COLOR: '0',
 };
 
-/** Directory of this clone alone: other clones may run at the same time. */
+/** Directory of this clone, because tests of other clones may run at the same time. */
 const SCRATCH = join(CACHE, 'embeddings', createHash('sha256').update(ROOT).digest('hex').slice(0, 8));
 
 /** @returns {Promise<string[]>} names of all engines */
@@ -127,7 +127,7 @@ export async function pythonInstall(directory, { run }, more) {
   const pip = pythonProgram(directory, 'pip');
   const options = ['install', '--quiet', '--disable-pip-version-check'];
   await run(pip, [...options, '--requirement', 'requirements.txt', ...more]);
-  // The package has another content under the same version.
+  // The package has changed under the same version.
   if (more.length > 0) await run(pip, [...options, '--force-reinstall', '--no-deps', ...more]);
 }
 

@@ -64,7 +64,7 @@ async function test(wanted) {
   await build();
   const { chrome, version } = await ensureBrowser();
   mkdirSync(join(ROOT, 'test-results/embeddings'), { recursive: true });
-  // Readers who go back come to a page that was kept as they left it.
+  // Going back leads to a page in the state in which it was left (back/forward cache).
   const browser = await chromium.launch({ executablePath: chrome, args: CHROME_ARGUMENTS, ignoreDefaultArgs: ['--disable-back-forward-cache'] });
   /** @type {Outcome[]} */
   const outcomes = [];

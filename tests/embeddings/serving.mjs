@@ -8,7 +8,7 @@ import { createServer } from 'node:net';
 import { join } from 'node:path';
 import { serve } from '../../scripts/serve.mjs';
 
-/** Seconds that a server may take until it answers. */
+/** Seconds until a server has to answer. */
 const PATIENCE = 120;
 
 /**
@@ -43,7 +43,7 @@ export const program = (command, base = '/') => async (_directory, { start }) =>
     await server.stop();
     throw error;
   }
-  // From here on it ends when it is told to.
+  // From here on its end is expected.
   ended.catch(() => {});
   return { url, stop: server.stop };
 };

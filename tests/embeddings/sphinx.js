@@ -9,7 +9,7 @@ import { files } from './serving.mjs';
 const THEMES = {
   async furo(page, on) {
     const chosen = page.locator(`[data-theme="${on ? 'dark' : 'light'}"]`);
-    // The button takes the next of light, dark, and what the system has.
+    // The button cycles through light, dark, and the system's scheme.
     for (let i = 0; i < 3 && (await chosen.count()) === 0; i++) await page.locator('.theme-toggle').filter({ visible: true }).click();
   },
   async pydata_sphinx_theme(page, on) {

@@ -106,7 +106,7 @@ async function inSession(url, capabilities, stop) {
     version: (await session.getCapabilities()).get('browserVersion'),
     open: (url) => session.get(url),
     async ask(work, given) {
-      // By a script of the page: Firefox runs those of WebDriver in a sandbox, whose arrays are not the page's.
+      // Run by a script of the page: Firefox runs scripts of WebDriver in a sandbox, whose arrays are not of the page's type.
       const run = `(async () => (${work})(${JSON.stringify(given) ?? 'undefined'}))().then((result) => [result], (error) => [null, \`\${error}\\n\${error.stack}\`])`;
       const answer = await session.executeAsyncScript(
         `const [run, done] = arguments;
@@ -121,7 +121,7 @@ async function inSession(url, capabilities, stop) {
       return result;
     },
     async drag([[x, y], ...way]) {
-      // One chain: a driver may let go of the button between two. Each move takes longer than a frame.
+      // One chain of actions: some drivers release the button between two chains. Each move takes longer than a frame.
       const hand = session.actions({ async: false }).move({ x, y, duration: 0 }).press();
       for (const [x, y] of way) hand.move({ x, y, duration: 40 });
       await hand.release().perform();

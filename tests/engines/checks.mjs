@@ -15,7 +15,7 @@ import { machineState } from './inside.js';
 
 /** @typedef {import('./browsers.mjs').Engine} Engine */
 
-/** Steps that a drag takes: a hand does not jump. */
+/** Number of steps of a drag, as a hand moves in steps. */
 const STEPS = 8;
 
 /** Number of colours from which a picture is not blank: lines, letters and a cloud have many shades. */
@@ -156,7 +156,7 @@ async function dragged(page, tag, { name, to, placeOf }) {
   await page.open(tag);
   const before = await page.ask('pixelsOf', tag);
   const places = await page.ask('placesOf', { tag, handle: name, to });
-  // Pointers come in whole pixels. Taken beside its middle, what is held stays beside the pointer.
+  // Pointer positions are whole pixels. A handle that is grasped beside its middle keeps that offset.
   const from = [Math.round(places.from.x), Math.round(places.from.y)];
   const way = [places.to.x - places.from.x, places.to.y - places.from.y];
   const at = (/** @type {number} */ share) => /** @type {[number, number]} */ (from.map((start, i) => Math.round(start + share * way[i])));

@@ -17,7 +17,7 @@ const rootOf = (/** @type {string} */ tag) => /** @type {ShadowRoot} */ (figureO
 const canvasOf = (/** @type {string} */ tag) => /** @type {HTMLCanvasElement} */ (rootOf(tag).querySelector('canvas'));
 const frame = () => new Promise(requestAnimationFrame);
 
-/** Frames for which nothing has moved, until nothing will. */
+/** Number of frames without a change after which a figure counts as settled. */
 const STILL = 10;
 
 /**
@@ -29,7 +29,7 @@ const STILL = 10;
 export async function settled(tag) {
   const end = performance.now() + 60_000;
   const figure = /** @type {any} */ (figureOf(tag));
-  // Out of sight it does not start.
+  // A figure outside the viewport does not start.
   figure.scrollIntoView({ block: 'start' });
   while (!(figure.shadowRoot && canvasOf(tag))) {
     if (performance.now() > end) throw new Error(`<${tag}> has no picture.`);
@@ -123,7 +123,7 @@ export function slidersOf(tag) {
     });
 }
 
-/** The digest of all configurations, by the core that ships. */
+/** Returns the digest of all configurations, by the published core. */
 export async function wholeDigest() {
   const [{ load }, list] = await Promise.all([
     import(new URL('/core.js', location.href).href),

@@ -1,4 +1,4 @@
-/** Notes what goes wrong in a page, where no protocol tells: WebKit's has no console. Runs before anything else there. */
+/** Records errors of a page, because WebKit's driver has no access to the console. Runs before other scripts there. */
 {
   const complaints = /** @type {string[]} */ ([]);
   Object.assign(globalThis, { complaints });

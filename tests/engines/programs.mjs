@@ -23,7 +23,7 @@ export async function ensureFirefox() {
   return { firefox, driver: await ensureGeckodriver() };
 }
 
-/** Looks for Firefox's driver, which no distribution has in a package of its own, and compiles it once where there is none. */
+/** Finds geckodriver, which no distribution packages, or compiles it once. */
 async function ensureGeckodriver() {
   const { GECKOWEBDRIVER } = process.env;
   const bin = join(CACHE, 'geckodriver/bin');

@@ -47,7 +47,7 @@ const machines = [
   { attributes: attributesOf(settings['alpha-calibrator']), machine: calibrator },
 ].map((each) => ({ ...each, opening: each.machine.config }));
 
-/** Largest length of a sentence: long quotations are cut. */
+/** Maximum length of a sentence: long quotations are shortened. */
 const LONGEST = 700;
 
 /** Pattern of every refusal: the values that are taken, or what to do. */
@@ -228,7 +228,7 @@ export const targets = {
         return false;
       }
       const { map = null, ...rest } = Object(state);
-      // The element checks this field before.
+      // The element itself checks this field.
       delete rest.widget;
       const before = mapOf(squeeze, '');
       const taken = map === null || isTaken(() => applyMap(squeeze, map));

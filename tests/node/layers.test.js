@@ -7,7 +7,7 @@ import { test } from 'node:test';
 import { build } from 'esbuild';
 import { settings } from '../../www/settings.js';
 
-/** From the top floor down: a file imports from its own floor and from those below. */
+/** Layers from top to bottom: a file imports from its own layer and from lower ones. */
 const FLOORS = ['www/widgets', 'www/figure', 'www/scene', 'www/ui', 'www/messages'];
 
 const { metafile } = await build({

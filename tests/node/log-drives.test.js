@@ -172,7 +172,7 @@ test('one path given as both logs is refused, in another frame and in other file
     await sentenceOf(drivesOf({ 'odom1.csv': table(400, (i) => curve(i)), 'odom2.csv': table(400, (i) => curve(i)), 'truth1.csv': along((i) => i / 90), 'truth2.csv': along((i) => i / 80) })),
     'odom2.csv: it is the drive of odom1.csv; give each drive once.',
   );
-  // A millimetre is a difference.
+  // A difference of a millimetre is enough.
   assert.equal((await drivesOf({ 'odom.csv': table(400, (i) => curve(i)), 'truth.csv': table(400, (i) => curve(i).with(1, curve(i)[1] + (i % 7) / 1000)) })).length, 1);
 });
 
@@ -186,13 +186,13 @@ test('a frozen reference is left out while the odometry moves on, and kept while
   const { data, summary } = await pair(lost);
   assert.deepEqual([data.t.length, [...data.breaks], summary.used, summary.dropped], [301, [201], 301, { held: { count: 99, first: 0 } }]);
   assert.equal(await sentenceOf(pair(along(() => 7))), 'truth.csv: its pose stands while the odometry moves on: it has lost the robot; give one that follows the robot.');
-  // Standing for two seconds, or while the odometry moves by five centimetres, is no loss.
+  // A pause of two seconds, or of five centimetres of the odometry, does not count as lost.
   const stands = async (/** @type {number} */ seconds, /** @type {number} */ speed) => {
     const own = (/** @type {number} */ i) => (speed * i) / 20;
     return (await pair(along((i) => 1.01 * own(i >= 200 && i <= 200 + 20 * seconds ? 200 : i)), along(own))).summary.dropped.held?.count;
   };
   assert.deepEqual([await stands(2, 0.4), await stands(2.2, 0.4), await stands(7, 0.0095), await stands(7, 0.0105)], [undefined, 44, undefined, 140]);
-  // Commands tell too that the robot moves.
+  // Speeds, too, show that the robot moves.
   const commands = ['t,v,omega', ...Array.from({ length: 400 }, (_, i) => `${i / 20},${i < 100 ? 0 : 0.4},0`)].join('\n');
   assert.equal((await pair(lost, commands)).summary.dropped.held?.count, 99);
 });
@@ -218,7 +218,7 @@ test('a log that does not follow the other one names the correction that makes i
     assert.match(wrong.message, /^truth\.csv: .*\. The motions then agree \(correlation (1\.00|0\.9\d)\)\.$/);
     assert.equal(wrong.ask?.what, what);
   }
-  // Markers that look backwards are no mirrored axis, even of a robot that hardly turns.
+  // A reference that is mounted backwards is not taken for a mirrored axis, even if the robot hardly turns.
   const back = await drivesOf({ 'odom.csv': table(400, (i) => [i / 20, i / 40, 0, Math.sin(i / 9) / 9]), 'truth.csv': table(400, (i) => [i / 20, i / 39, 0, Math.PI + Math.sin(i / 9) / 9]) });
   assert.equal(back.length, 1);
   assert.match(await sentenceOf(drivesOf({ 'odom.csv': driven(([t, x, y, yaw]) => [t, x, -y, yaw]), 'truth.csv': driven(noisy) })), /^odom\.csv: its y axis is mirrored/);

@@ -90,13 +90,13 @@ for (const name of ['types.bag', 'types.mcap']) {
     const poses = await recording.read([...['/fused', '/vicon', '/pose2d'].map((series) => ({ series })), { series: '/tf', frames }]);
     // Pose2D has a heading. Those of quaternions are rounded to steps of 1e-12.
     for (const log of poses) assert.deepEqual(rowsOf(log, log === poses[2] ? 0.5e-12 + Number.EPSILON : 0), range(0, 40), log.name);
-    // Formulas of generate.py.
+    // The same formulas as in generate.py.
     const coarse = (value: number) => Math.round(4096 * value) / 4096;
     const commands = [range(0, 40).map((i) => coarse(0.5 + 0.2 * Math.sin(i / 9))), range(0, 40).map((i) => coarse(0.8 * Math.sin(i / 23)))];
     const logs = await recording.read(['/cmd_vel', '/cmd_stamped', '/cmd_fused'].map((series) => ({ series })));
     for (const { data, name: its } of logs) assert.deepEqual([[...(data as Commands).v], [...(data as Commands).omega]], commands, its);
     assert.equal(logs[0].summary.clock, 'log time');
-    // Joints only turn, and a base that is fixed to the moving frame is one too.
+    // Joints only turn. A base that is fixed to the moving frame is a candidate too.
     const { frames: ends } = recording.series.find(({ name: its }) => its === '/tf') as Recording['series'][number];
     assert.deepEqual(ends?.map(({ parent, child }) => `${parent} → ${child}`), ['odom → base_link', 'odom → base_footprint']);
   });

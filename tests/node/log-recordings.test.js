@@ -98,12 +98,12 @@ test('a clock that begins at 0 has stamps; messages without stamps have the time
   };
   const simulated = await rows((i) => i / 10);
   assert.deepEqual([simulated.start, simulated.summary.rows, simulated.data.t[0], simulated.data.t[99]], [0, 100, 0, 9.9]);
-  // Most have none.
+  // Most messages have no stamp.
   const unstamped = await rows((i) => (i < 49 ? i : 0));
   assert.deepEqual([unstamped.start, unstamped.data.t.length, unstamped.data.t[20]], [1_700_000_000, 100, 1]);
   assert.match(unstamped.sentences, /times at which messages were recorded/);
   assert.doesNotMatch(simulated.sentences, /recorded/);
-  // A single stamp that is missing is far from all others.
+  // A single missing stamp is far from all other times.
   const missing = await rows((i) => (i === 50 ? 0 : 5 + i / 10));
   assert.deepEqual([missing.data.t.length, missing.summary.dropped.stray?.count], [99, 1]);
   assert.deepEqual((await rows((i) => 50 - i / 10)).data.t.length, 100);
@@ -146,7 +146,7 @@ test('other recordings are refused', async () => {
   assert.equal(await read({ encoding: 'json' }), 'run.mcap, topic /odom: its messages are encoded as “json”; expected is cdr of ROS 2, or ros1.');
   assert.equal(await read({}, []), 'run.mcap: it has fewer than 2 messages; expected are at least 2.');
   assert.equal(await read({}, drive().slice(0, 6)), 'run.mcap, topic /odom: 1 of 1 rows can be used; expected are at least 2.');
-  // Shorter messages under the name of odometry.
+  // Shorter messages that claim to be odometry.
   const short = wheels(3, () => ({ data: 'x' })).map((message) => ({ ...message, type: 'std_msgs/msg/String', schema: ODOMETRY }));
   assert.match(await read({}, short), /^run\.mcap, topic \/odom: message 1 cannot be read \(.+\); expected is one of the topic's type\.$/);
 });

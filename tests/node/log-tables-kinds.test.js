@@ -88,7 +88,7 @@ test('poses that a table repeats at the rate of another log are taken once', asy
 });
 
 test('pauses and jumps are found, and a heading that wraps is no jump', async () => {
-  // Five usual steps are no pause, and eight times the usual speed is no jump.
+  // Five median steps are not a pause, and eight times the usual speed is not a jump.
   const late = (/** @type {number} */ i) => (i >= 50 ? 0.19 : 0) + (i >= 60 ? 0.21 : 0) + (i >= 100 ? 3 : 0);
   const far = (/** @type {number} */ i) => (i >= 150 ? 0.34 : 0) + (i >= 200 ? 0.36 : 0);
   const rows = Array.from({ length: 400 }, (_, i) => [i / 20 + late(i), i / 20 + far(i), 0, i / 500 + (i >= 300 ? 1.5 : 0)].join(','));

@@ -51,7 +51,7 @@ const rostopic = (/** @type {(row: Row) => string | number} */ stamp) =>
 const bagpy = (/** @type {string} */ sec, /** @type {string} */ nsec) =>
   table(['Time', sec, nsec, ...ODOMETRY, ...VELOCITY].join(','), (row) => [EPOCH + row.t + 7, ...seconds(row.t), row.i, 'odom', 'base', ...pose(row), row.v, 9, 9, row.omega]);
 
-/** PlotJuggler's table of two topics, whose samples have rows of their own. */
+/** PlotJuggler's table of two topics, in which each sample of a topic has its own row. */
 const plotjuggler = [
   ['__time', ...['position/x', 'position/y', 'orientation/x', 'orientation/y', 'orientation/z', 'orientation/w'].flatMap((name) => [`/odom/pose/pose/${name}`, `/mocap/pose/${name}`]), '/imu/angular_velocity/z'].join(','),
   ...ROWS.flatMap(({ t, x, y, qz, qw }) => [

@@ -8,7 +8,7 @@ import { description, file, opened, refusalOf } from './map-support.js';
 
 const PGM = file('map.pgm', 'P5 2 1 255\n\x00\x7f');
 
-/** Milliseconds that a refusal may take: a thousand times what it takes, and a second is what a reader waits. */
+/** Time limit of a refusal in milliseconds: a thousand times the usual time, and about the patience of a reader. */
 const INSTANT = 1000;
 
 /**
@@ -43,7 +43,7 @@ test('what else YAML has beyond fields and values is refused at once', async () 
   await refused(`image: !${'x'.repeat(9e4)} y`, 'unknown scalar tag .{81}…');
   await refused('image: map.pgm\n---\nimage: map.pgm', 'expected a single document in the stream, but found more');
   await refused('image: *a', 'unidentified alias "a"|aliases exceeded maxAliases \\(0\\)');
-  // A key of any length, or that is the name of something else, is a field that nobody reads.
+  // A long key, or one with the name of a property of objects, is ignored like other unknown fields.
   for (const key of ['x'.repeat(9e4), '__proto__', 'constructor', 'toString', '<<']) {
     const { grid } = await opened(description({ image: 'map.pgm', [key]: '{resolution: 9, image: [1]}' }), PGM);
     assert.deepEqual([grid?.columns, grid?.rows, grid?.resolution], [2, 1, 0.05]);

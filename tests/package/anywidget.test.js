@@ -1,4 +1,4 @@
-// The module for notebooks, with models that notebooks and books give it.
+// Module for notebooks, with models as notebooks and books provide them.
 
 import assert from 'node:assert/strict';
 import { join } from 'node:path';
@@ -151,7 +151,7 @@ test('a change of the model reaches the figure, what follows of it the model, an
   const { traits: { _shown } } = await saidOf(page, ['_shown']);
   assert.deepEqual(_shown, { heard: 1, settings: { ...traits, samples: 100, isolate: null } });
 
-  // Several at once, as a kernel that holds them back sends them: none is told back as it was before.
+  // Several changes at once, as from a kernel that groups them: no earlier value is sent back.
   await page.evaluate(() => {
     const { state, heard } = /** @type {any} */ (globalThis).view;
     Object.assign(state, { omega: 0.2, v: 0.5 });
@@ -193,7 +193,7 @@ test('in a book whose models keep nothing the figure is as live, and what is tak
     await page.keyboard.press('ArrowRight');
     await page.keyboard.press('Tab');
     await frames(page);
-    // It has no traits but those that it was given.
+    // The model has only the traits that it was given.
     assert.deepEqual(Object.keys(await page.evaluate(() => /** @type {any} */ (globalThis).view.state)).sort(), ['preset', 'samples', 'view', 'widget']);
     assert.equal(traits.preset, 'corridor');
     const left = await page.evaluate(() => {

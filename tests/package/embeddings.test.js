@@ -24,7 +24,7 @@ for (const name of await engines()) {
     const row = document.split('\n').find((line) => line.startsWith(`| ${heading} |`));
     assert.ok(row?.includes(` ${versions()} `), `The row "${heading}" of what was tried has to say ${versions()}.`);
     const section = document.split(/^## /m).find((each) => each.startsWith(`${heading}\n`)) ?? '';
-    // Commands for a terminal are in no file.
+    // Shell commands are not in a file of the example.
     const blocks = [...section.matchAll(/^```(\w*)\n(.*?)^```$/gms)].filter(([, language]) => language !== 'sh');
     const lines = new Set(filesOf(join('examples', name)).flatMap(linesIn));
     const missing = blocks.flatMap(([, , block]) => linesOf(block)).filter((line) => !lines.has(line));

@@ -30,7 +30,7 @@ test('every script of the package can be imported in Node, and leaves no names b
     for (const address of ${JSON.stringify(addresses)}) await import(address);
     console.log(JSON.stringify(Object.getOwnPropertyNames(globalThis).filter((name) => !before.includes(name))));
   `);
-  // Lit keeps its notes there, which several copies of it share.
+  // Lit stores its version there, which several copies share.
   const ofLit = ['reactiveElementVersions', 'litHtmlVersions', 'litElementVersions', 'litPropertyMetadata'];
   assert.deepEqual(JSON.parse(printed).filter((/** @type {string} */ name) => !ofLit.includes(name)), []);
 });
@@ -113,7 +113,7 @@ test('TypeScript knows the elements, the components of React and the core, howev
   );
   writeFileSync(join(project.directory, 'typed.tsx'), REACT);
   for (const name of ['@types/react', 'csstype']) cpSync(join(ROOT, 'node_modules', name), join(project.directory, 'node_modules', name), { recursive: true });
-  // In the directory of a module, or top-level await is refused.
+  // The script has to be in the directory of a module, so that top-level await is allowed.
   writeFileSync(join(project.directory, 'package.json'), '{ "private": true, "type": "module" }');
   for (const [module, resolution] of [['esnext', 'bundler'], ['nodenext', 'nodenext']]) {
     const options = ['--noEmit', '--strict', '--jsx', 'react-jsx', '--target', 'es2023', '--lib', 'es2023,esnext.disposable,dom,dom.iterable', '--types', ''];
@@ -184,7 +184,7 @@ test('custom-elements.json says what the elements have', async () => {
       return { attributes: [...Class.observedAttributes], parts: parts.flatMap(({ part }) => [...part]), properties };
     }, tagName);
     const names = (/** @type {{ name: string }[]} */ list) => list.map(({ name }) => name).sort();
-    // HTML knows no capitals in them.
+    // HTML attributes have no capital letters.
     assert.deepEqual(names(attributes).map((name) => name.toLowerCase()).sort(), live.attributes.sort(), tagName);
     for (const name of names(members)) {
       const there = await page.evaluate(([tag, key]) => key in /** @type {Element} */ (document.querySelector(tag)), [tagName, name]);
@@ -192,7 +192,7 @@ test('custom-elements.json says what the elements have', async () => {
     }
     for (const { name, description } of [...attributes, ...members, ...events, ...cssParts, ...cssProperties]) assert.ok(description, `${name} of ${tagName}`);
     assert.deepEqual(names(events), ['change', 'error', 'input', 'load', 'stats']);
-    // The progress is there while there is some.
+    // The element exists only during progress.
     assert.deepEqual(names(cssParts), [...new Set([...live.parts, 'progress'])].sort(), `parts of ${tagName}`);
     assert.deepEqual(names(cssProperties), live.properties.sort(), `properties of ${tagName}`);
   }

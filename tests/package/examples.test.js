@@ -84,7 +84,7 @@ const BUILDS = {
   "esbuild in one file, as Hugo's js.Build": byEsbuild({ format: 'esm' }),
   'esbuild as a classic script': byEsbuild({ format: 'iife' }),
   async Rollup(dir) {
-    // It finds packages by a plugin alone.
+    // Rollup finds packages only with a plugin.
     const bundle = await rollup({ input: { main: join(project.directory, 'node_modules/motion-widgets/dist/external.js') } });
     await bundle.write({ dir });
   },

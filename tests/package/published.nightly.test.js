@@ -41,7 +41,7 @@ test('Are the types wrong? finds nothing', () => {
   // Only scripts have types.
   const others = Object.keys(manifest.exports).filter((name) => /\.(css|wasm|json)$/.test(name));
   const cli = join(ROOT, 'node_modules/@arethetypeswrong/cli/dist/index.js');
-  // All of it is modules: `require` is not promised, nor what resolved packages before they had `exports`.
+  // All scripts are modules: `require` is not supported, nor resolution without `exports`.
   const args = [cli, tarball, '--profile', 'esm-only', '--exclude-entrypoints', ...others];
   const { status, stdout } = spawnSync(process.execPath, args, { encoding: 'utf8' });
   assert.equal(status, 0, stdout);

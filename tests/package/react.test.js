@@ -1,4 +1,4 @@
-// motion-widgets/react as an application has it: its types, the server's HTML, and what the components do on a page.
+// motion-widgets/react in an application: its types, the server's HTML, and the behaviour of the components on a page.
 
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
@@ -17,7 +17,7 @@ let page;
 /** Messages of the console. @type {string[]} */
 let complaints;
 
-/** A page whose props a test changes, with what it heard. */
+/** Page whose props a test changes, with the events that it received. */
 const APPLICATION = `
   import { createElement, useRef, useState } from 'react';
   import { BananaMachine, MapSqueeze } from 'motion-widgets/react';
@@ -31,7 +31,7 @@ const APPLICATION = `
     const figure = useRef(null);
     Object.assign(page, { figure, setProps, renderings: (page.renderings ?? 0) + 1 });
     const hear = (name) => (event) => {
-      // The console would say it.
+      // Prevents the warning in the console.
       event.preventDefault();
       heard.push([name, event.currentTarget === figure.current, ...(event.message ? [event.message] : [])]);
     };
@@ -73,7 +73,7 @@ function prepare() {
   write('index.html', html(''));
   write('sent.html', html(sent({ omega: 0.8 })));
   const directory = join(project.directory, 'react');
-  // React says what is wrong while one develops.
+  // The development build of React reports errors.
   const define = { 'process.env.NODE_ENV': '"development"' };
   buildSync({ entryPoints: [join(directory, 'client.js')], bundle: true, format: 'esm', define, outfile: join(directory, 'bundle.js'), logLevel: 'silent' });
 }
@@ -110,7 +110,7 @@ function sent(props) {
   return execFileSync(process.execPath, [script], { encoding: 'utf8', env: { ...process.env, NODE_ENV: 'development' } }).trim();
 }
 
-/** Waits until the page has heard of all samples of the first figure. */
+/** Waits for the event with all samples of the first figure. */
 const whole = () => page.getByText('of 2000').waitFor();
 
 /** @param {string} name of the file */
@@ -157,7 +157,7 @@ test('a list in JSX, and a page that is rendered at every figure, leave what the
   await set({ omega: 0.3 });
   await page.waitForFunction(() => /** @type {any} */ (document.querySelector('banana-machine')).omega === 0.3);
   assert.notEqual(await property('v'), 1);
-  // Properties and events do not cause each other without end.
+  // Properties and events do not trigger each other endlessly.
   const renderings = await page.evaluate(async () => {
     const { page } = /** @type {any} */ (globalThis);
     for (let i = 0; i < 10; i++) await new Promise(requestAnimationFrame);

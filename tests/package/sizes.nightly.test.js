@@ -1,4 +1,4 @@
-// Bytes that a page loads before anyone touches the widgets on it.
+// Bytes that a page loads before the widgets on it are used.
 
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';

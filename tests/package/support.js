@@ -1,5 +1,5 @@
 /**
- * The package as npm would publish it, installed beside the examples in a directory of its own.
+ * Package as npm would publish it, installed next to the examples in a separate directory.
  *
  * @module
  */
@@ -15,7 +15,7 @@ import { CHROME_ARGUMENTS, findChrome } from '../../scripts/browser.mjs';
 import { ROOT } from '../../scripts/process.mjs';
 import { serve } from '../../scripts/serve.mjs';
 
-/** Files that a release has beside the package. */
+/** Files of a release that are not in the package. */
 const SINGLE_FILES = ['motion-widgets.iife.js', 'motion-widgets.css', 'embed.html', 'embed.css', 'embed.js'];
 
 /**
@@ -33,7 +33,7 @@ export function installed() {
   execFileSync('tar', ['-xzf', tarball, '-C', modules], { cwd: directory });
   renameSync(join(modules, 'package'), join(modules, 'motion-widgets'));
   writeFileSync(join(directory, 'package.json'), '{ "private": true }');
-  // Peer dependencies, which a page brings along.
+  // Peer dependencies, which the page provides.
   const { peerDependencies } = JSON.parse(readFileSync(join(ROOT, 'package.json'), 'utf8'));
   for (const name of Object.keys(peerDependencies)) cpSync(join(ROOT, 'node_modules', name), join(modules, name), { recursive: true });
   cpSync(join(ROOT, 'examples'), directory, { recursive: true });
@@ -52,7 +52,7 @@ export function served(prepare) {
   /** @type {(() => void)[]} */
   const ends = [];
   before(async () => {
-    // The file that calls this is evaluated to its end first.
+    // The calling file is evaluated completely first.
     await null;
     const { directory, remove } = installed();
     ends.push(remove);

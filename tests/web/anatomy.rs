@@ -43,7 +43,7 @@ fn the_inversion_and_the_score_are_those_of_the_model() {
     assert_near(bend.2, [0.958_851_077_208, 0.244_834_876_219, 0.5], 1e-12);
     assert_near([it.get("it.stats.weakest")], [2.0], 0.0);
     assert_near(it.get("it.stats.xi"), next.boxminus(&start).into(), 1e-12);
-    // As the book prints it, the radius loses its sign.
+    // As printed in the book, the radius loses its sign.
     it.run(
         "it.configure({ next: { x: 1.1, y: -0.5, theta: -1.1 }, command: { v: 1, omega: -0.5, dt: 1 },
         printed: true })",

@@ -1,4 +1,4 @@
-//! Models, arcs and SE(2): the functions that homework is done and checked with.
+//! Models, arcs and SE(2): functions for exercises.
 
 use crate::support::{Object, assert_near, get};
 use motion::geom::se2::SE2;
@@ -62,7 +62,7 @@ fn the_canonical_command_ends_at_its_nominal_pose() {
     assert_near(get("motion.se2.log(motion.se2.exp([1, 0, 0.5]))"), [1.0, 0.0, 0.5], 1e-15);
     let it = Object::new(VALUES);
     let nominal = "motion.se2.exp([1, 0, 0.5]), it.command, { x: 0, y: 0, theta: 0 }";
-    // All residuals are 0 there: p is the product of three densities at 0.
+    // At this pose all residuals are 0, and p is the product of three densities at 0.
     let triangle = |variance: f64| 1.0 / (6.0 * variance).sqrt();
     let p = triangle(0.02 + 0.03 / 4.0) * triangle(0.04 + 0.05 / 4.0) * triangle(0.01 + 0.02 / 4.0);
     assert_near([it.get::<f64>(&format!("it.velocity.prob({nominal})")) / p], [1.0], 1e-9);
@@ -147,7 +147,7 @@ fn models_score_and_draw_as_in_rust() {
     );
     assert_eq!(it.get::<Vec<f64>>("it.aware.sample(it.reverse, it.start, 5, 9)"), drawn(&reverse, &REVERSE));
     it.assert("it.aware.sample(it.reverse, it.start, 5, 9) instanceof Float64Array");
-    // A surface of poses has no density in space.
+    // The poses lie on a surface, and have no density in space.
     let flat = "new motion.VelocityModel({ alphas: [0.02, 0.02, 0.02, 0.02, 0, 0] })";
     assert_eq!(it.get::<Option<f64>>(&format!("{flat}.poseDensity(it.next, it.command, it.start)")), None);
 }

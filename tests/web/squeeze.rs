@@ -3,7 +3,8 @@
 use crate::support::{Object, assert_near, get};
 use wasm_bindgen_test::wasm_bindgen_test;
 
-/// Map of 4 × 3 cells of half a metre, the lower left one occupied: what its YAML file says, and its image as a PGM file.
+/// Map of 4 × 3 cells of half a metre, the lower left one occupied: the fields of its YAML file, and its image as a PGM
+/// file.
 const MAP: &str = "({ machine: new motion.MapSqueeze({ samples: 50, clearance: 0.1 }),
     yaml: { image: 'map.pgm', resolution: 0.5, origin: [1, 2, 0], negate: 0, occupied_thresh: 0.65, free_thresh: 0.196 },
     pgm: new TextEncoder().encode('P2\\n# by hand\\n4 3\\n255\\n255 255 255 255\\n255 255 255 255\\n0 255 255 255\\n'),
@@ -118,7 +119,7 @@ fn a_floor_plan_replaces_the_apartment_and_gives_way_to_it() {
     let plan: String = it.get("JSON.stringify(it.plan)");
     it.run("it.setPlan(it.plan)");
     assert_eq!(it.get::<String>("JSON.stringify(it.plan)"), plan);
-    // No room for the robot: it says so and does not wait.
+    // A robot that does not fit is reported, without a long search.
     it.run(
         "it.setPlan({ bounds: [2, 2, 2.2, 2.2], walls: [[2, 2, 2.2, 2], [2.2, 2, 2.2, 2.2], [2.2, 2.2,
         2, 2.2], [2, 2.2, 2, 2]] })",

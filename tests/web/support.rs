@@ -15,8 +15,8 @@ extern "C" {
     fn evaluated(expression: &str, it: &JsValue) -> Result<JsValue, JsValue>;
 }
 
-/// JavaScript value that expressions know as `it`. `motion` is the whole face, and `pick` gets some of an object's
-/// properties as an array.
+/// JavaScript value that expressions refer to as `it`. `motion` is the whole interface, and `pick` returns some of an
+/// object's properties as an array.
 pub struct Object(JsValue);
 
 impl Object {
@@ -40,7 +40,7 @@ impl Object {
         assert!(self.get::<bool>(expression), "{expression}");
     }
 
-    /// Class and message of the error that an expression throws.
+    /// Returns class and message of the error that an expression throws.
     pub fn error(&self, expression: &str) -> String {
         match evaluated(expression, &self.0) {
             Ok(value) => panic!("{expression} is {value:?} and throws nothing"),
@@ -84,7 +84,7 @@ pub fn get<T: DeserializeOwned>(expression: &str) -> T {
     Object(JsValue::UNDEFINED).get(expression)
 }
 
-/// Asserts that a number of JavaScript, or each of several, is as expected.
+/// Asserts that one or several numbers of JavaScript are as expected.
 pub fn assert_near<const N: usize>(actual: [f64; N], expected: [f64; N], tolerance: f64) {
     for (number, wanted) in actual.iter().zip(&expected) {
         assert!((number - wanted).abs() <= tolerance, "{actual:?} is not {expected:?} to {tolerance}");

@@ -22,9 +22,9 @@ export interface FigureState {
 }
 
 /**
- * A map as plain data. A floor plan of walls from one point to another, or square cells row by row from the
- * bottom: base64 of a bit each, the first of eight highest, 1 where occupied, and likewise where unknown. Lengths in m,
- * yaw in rad. That of an element is frozen: another one takes its place.
+ * A map as plain data: a floor plan of walls from one point to another, or square cells row by row from the bottom. The cells
+ * are base64 of one bit each, the first of eight highest: 1 if occupied, and likewise 1 if unknown. Lengths in m, yaw in rad.
+ * The map of an element is frozen; a change replaces it.
  */
 export type MapData =
   | Readonly<{ name?: string; bounds: readonly number[]; walls: readonly (readonly number[])[] }>

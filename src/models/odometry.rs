@@ -106,7 +106,7 @@ pub trait Hinges {
     }
 }
 
-/// The size of a rotation for which noise is charged.
+/// Function of a rotation to its size in the noise variances.
 pub(super) type Charge = fn(f64) -> f64;
 
 /// The variances of the three legs of `delta` (rad², m², rad²).

@@ -142,7 +142,7 @@ function tellAll() {
   for (const listener of shared.listeners) listener();
 }
 
-/** Calls back until the signal when an element may have to speak again: on other words, or another language. */
+/** Calls `listener` when the words or the language of an element may have changed, until the signal is aborted. */
 export function onLanguage(element: Element, listener: () => void, signal: AbortSignal) {
   const { listeners } = shared;
   observer ??= new MutationObserver(tellAll);

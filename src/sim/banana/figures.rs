@@ -95,7 +95,7 @@ impl Figures {
     }
 }
 
-/// Returns the statistics, and the number of samples shown.
+/// Statistics, and number of samples shown.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stats {
     pub n: usize,

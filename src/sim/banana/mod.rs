@@ -47,7 +47,7 @@ impl Settings {
     }
 }
 
-/// Returns the odometry model with the current settings.
+/// Odometry model with the current settings.
 struct Wheels {
     model: OdometryModel,
     reverse_aware: bool,

@@ -92,7 +92,7 @@ fn dense(calibration: &Calibration, errors: &[SystematicError]) -> f64 {
     let count = 3 * legs.len();
     let [position, yaw] = reference_noise.map(|std| std.value * std.value);
     let noise = Matrix3::from_diagonal(&Vector3::new(position, position, yaw));
-    // Poses of the reference: each leg ends at another one, and starts at the last one if it follows.
+    // Poses of the reference: each leg ends at a new one. It starts at the end of the previous leg if it follows that leg.
     let (mut by_poses, mut poses) = (DMatrix::zeros(count, 3 * (count + 3)), 0);
     let mut covariance = DMatrix::zeros(count, count);
     let mut residuals = DVector::zeros(count);

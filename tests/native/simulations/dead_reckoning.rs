@@ -233,7 +233,7 @@ fn the_level_of_heading_noise_is_that_of_four_alphas() {
     assert_eq!(Settings { alphas: [0.02, 0.02, 0.02, 0.02, 0.005, 0.0], ..few(1) }.heading_noise(), None);
 }
 
-/// The outlines: of both Gaussians at the commanded pose, with the ellipse turned as the robot is.
+/// Outlines of both Gaussians at the commanded pose. The ellipse is rotated by the robot's heading.
 #[test]
 fn outlines_are_those_of_the_covariance() {
     let settings = Settings { step: 20, compounding: Compounding::FirstOrder, ..few(300) };

@@ -268,7 +268,7 @@ export function dropZone(figure: Figure, opener: LogOpener) {
   </div>`;
 }
 
-/** Returns what log is shown, and the noise of its reference. */
+/** Returns the section with the name of the log, and the noise of its reference. */
 export function logSection(figure: Figure) {
   const say = words.calibrator.own;
   return html`<p>${figure.log ? say.present(figure.logName) : say.simulated}</p>

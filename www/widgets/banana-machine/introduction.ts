@@ -11,7 +11,7 @@ const ROBOTS = 10;
 /** Key in the session's storage that marks the introduction as seen. */
 const SEEN = 'motion-widgets.introduced';
 
-/** Returns whether this session has not had it; from now on it has. */
+/** Returns true if the introduction was not shown in this session, and marks it as shown. */
 function isFirstSight() {
   try {
     const seen = sessionStorage.getItem(SEEN);

@@ -63,7 +63,7 @@ export class Player<Key extends string> extends Part {
     return false;
   }
 
-  /** Returns the button that plays and pauses, labelled by what is played. Readers who want less motion have none, but the slider. */
+  /** Returns the button that plays and pauses, with a label for the animation. With reduced motion there is only the slider. */
   button(key: Key, label: string) {
     return isCalm() ? nothing : button(this.#key === key ? words.pause : label, () => this.#toggle(key));
   }

@@ -39,7 +39,7 @@ export function mapData(machine: MapSqueeze, name: string, grid: Cells | null): 
   return frozen({ name, bounds: frozen([...bounds]), walls: frozen(listed) });
 }
 
-/** Flattens the walls of a floor plan, which the core reads soonest. Other values stay as they are, and the core refuses them with a reason. */
+/** Flattens the walls of a floor plan, because the core reads one array fastest. Other values are unchanged, and the core refuses them. */
 function inOneList(walls: unknown) {
   if (!Array.isArray(walls) || walls.length > MAX_WALLS) return walls;
   const numbers = new Float64Array(4 * walls.length);

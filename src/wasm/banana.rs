@@ -170,6 +170,12 @@ impl JsBananaMachine {
     )]
     pub fn alphas_of_models(&self) -> JsValue {
         let Settings { velocity_alphas, odometry_alphas, .. } = self.0.settings();
+    /// The same of the first `count` samples, or of all if there are fewer.
+    #[wasm_bindgen(js_name = firstPoses)]
+    pub fn first_poses(&self, count: usize) -> Float64Array {
+        flat(&self.0.poses().take(count).map(|pose| [pose.x(), pose.y(), pose.theta()]).collect::<Vec<_>>())
+    }
+
         object(&[("velocity", list(velocity_alphas)), ("odometry", list(odometry_alphas))])
     }
 

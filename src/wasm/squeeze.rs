@@ -241,7 +241,7 @@ impl JsMapSqueeze {
 }
 
 /// Maximum number of paths shown: more would be indistinguishable, and take longer than a frame.
-const MAX_PATHS: usize = 150;
+const MAX_PATHS: usize = 60;
 
 /// Decodes a PNG image to red, green, blue and opacity of its pixels, for the core of a figure, which has no decoder.
 #[cfg(not(widget))]

@@ -1,5 +1,5 @@
 import { expect } from '@playwright/test';
-import { STILL, centreOf, dragSlider, frames, inspectFirst, open, openWhole, pictureOf, readout, state, test } from './support.js';
+import { STILL, centreOf, dragSlider, frames, inspectFirst, open, openWhole, pictureOf, readout, settled, state, test } from './support.js';
 
 /** @typedef {import('@playwright/test').Locator} Locator */
 
@@ -110,6 +110,7 @@ test('a dragged α moves the same robots, once a frame', async ({ page }) => {
   const picture = await pictureOf(widget.locator('canvas.plane'));
   const skew = await readout(widget, 'cross-track skew').textContent();
   await dragSlider(widget.getByRole('slider', { name: 'α4' }), 0.85);
+  await settled(widget);
   const after = await state(widget);
   const alpha = after.config.alphas[3];
   expect(alpha).toBeGreaterThan(0.16);
@@ -126,7 +127,7 @@ test('a dragged α moves the same robots, once a frame', async ({ page }) => {
       slider.value = value;
       slider.dispatchEvent(new Event('input', { bubbles: true, composed: true }));
     }
-    for (let i = 0; i < 3; i++) await new Promise(requestAnimationFrame);
+    await new Promise(requestAnimationFrame);
     return count;
   });
   expect(told).toBe(1);

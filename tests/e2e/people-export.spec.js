@@ -125,7 +125,7 @@ test('SVG is vectors with a title and a description: dots while they are few, el
 const map = await elementsOf(page, await svgOf(await openSqueeze(page)));
   expect(map.title).toBe('Map Squeeze');
   expect(map.images).toBe(0);
-  expect(map.paths).toBeGreaterThan(600);
+  expect(map.paths).toBeGreaterThan(400);
 });
 
 for (const [tag, own] of Object.entries(presets)) {

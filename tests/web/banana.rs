@@ -196,7 +196,7 @@ fn a_cloud_that_comes_in_blocks_ends_as_one_that_comes_at_once() {
     assert!(same());
     let change = "{ command: { v: 1, omega: 1.2, dt: 1.4 }, samples: 120_000, seed: 5 }";
     it.run(&format!("it.blocks.configureFirst({change}, Infinity)"));
-    it.assert("it.blocks.shown === 50_000 && it.blocks.stats.n === 50_000");
+    it.assert("it.blocks.shown === 25_000 && it.blocks.stats.n === 25_000");
     it.run("(() => { while (it.blocks.shown < 120_000) it.blocks.addSamples(it.blocks.block); })()");
     it.run(&format!("it.whole.configure({change})"));
     assert!(same());

@@ -259,8 +259,8 @@ export class FigureElement<Machine extends { free(): void, stats: object, config
   /** Resolves `settled` if the figure is settled or cannot run. */
   resolveSettled() {
     if (!this.isAwaited) return;
-    const { machine, cloud, settings, runtime } = this;
-    const isSettled = machine ? !this.isBusy && !settings.isWaiting && (cloud?.isSettled ?? true) : runtime.failure !== undefined;
+    const { machine, cloud, settings, runtime, stage } = this;
+    const isSettled = machine ? !this.isBusy && !settings.isWaiting && !stage.isBehind && (cloud?.isSettled ?? true) : runtime.failure !== undefined;
     if (isSettled) for (const resolve of this.#waiting.splice(0)) resolve();
   }
 

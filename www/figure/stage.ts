@@ -6,9 +6,15 @@ import { resolvePalette } from '../ui/theme.ts';
 import { sleep, wake } from './page/frames.ts';
 import { ancestors, surroundings } from './page/scheme.ts';
 import { Part } from './part.ts';
+import type { Surface } from '../scene/canvas.ts';
+
+type AnyPicture = import('../scene/picture.ts').Picture<any>;
 
 /** Drawing time, ms, up to which the text is laid out in the same frame; otherwise it follows in the next one. */
 const SAME_FRAME_TIME = 5;
+
+/** Time in a frame, ms, after which further pictures wait for the next one, so that a slow device shows more frames of a drag. */
+const PICTURES_TIME = 8;
 
 /** Longest delay of the text while frames draw pictures, ms. */
 const MAX_TEXT_DELAY = 100;
@@ -21,18 +27,22 @@ let calm: MediaQueryList | undefined;
 /** Returns true if the reader prefers reduced motion. */
 export const isCalm = () => (calm ??= matchMedia('(prefers-reduced-motion: reduce)')).matches;
 
-/** Returns true if a canvas has a size: a narrow figure may hide one. */
-const isShown = ({ clientWidth, clientHeight }: HTMLCanvasElement) => Math.min(clientWidth, clientHeight) > 0;
+/** Returns true if a canvas has pixels: a narrow figure may hide one. */
+const isShown = ({ width, height }: HTMLCanvasElement) => Math.min(width, height) > 0;
 
 export class Stage extends Part {
   /** True while the figure is in the viewport. */
   inSight = false;
   #palette: import('../ui/theme.ts').Palette | undefined;
   #canvases: HTMLCanvasElement[] | undefined;
+  /** Widths of the canvases in CSS pixels: reading them in a frame would lay out the page. */
+  #widths: WeakMap<HTMLCanvasElement, number> = new WeakMap();
   /** True once the text of the first picture was rendered. */
   #isDescribed = false;
-  /** True if a drawing is requested. */
-  #needsDrawing: boolean | undefined;
+  /** Pictures to draw, the one that has waited longest first. */
+  #undrawn: Set<AnyPicture> = new Set();
+  /** True if the latest frame left pictures to the next one. */
+  isBehind = false;
   /** Time of the first picture since the text was rendered last; undefined if the text is up to date. */
   #undescribedSince: number | undefined;
   #printing = false;
@@ -104,6 +114,7 @@ export class Stage extends Part {
   setVisible(inSight: boolean) {
     if (!inSight && (this.opening || this.#undescribedSince !== undefined)) this.#describe();
     this.inSight = inSight;
+    this.isBehind = false;
     if (!inSight && this.host.isAwaited) this.host.settings.show();
     // No events report changes of colours while the figure is out of the viewport.
     if (inSight) this.recolour();
@@ -114,9 +125,9 @@ export class Stage extends Part {
     for (const { view } of this.host.pictures) view.release();
   }
 
-  /** Requests one drawing in the next frame, if the figure is visible. */
+  /** Requests one drawing of all pictures in the next frame, if the figure is visible. */
   requestFrame() {
-    this.#needsDrawing = true;
+    this.#addPictures();
     if (this.host.machine && this.inSight) wake(this);
   }
 
@@ -140,14 +151,14 @@ export class Stage extends Part {
 
   /** @param elapsed milliseconds since the frame before */
   frame(elapsed: number) {
-    if (this.#needsDrawing) this.#drawNow(elapsed);
+    if (this.#undrawn.size > 0) this.#drawNow(elapsed);
     else this.#describe();
   }
 
   /** @param elapsed milliseconds since the frame before */
   #drawNow(elapsed: number) {
-    if (!this.host.machine || !this.#hasSize) return;
-    this.#needsDrawing = false;
+    // A closed disclosure gives everything size 0.
+    if (!this.host.machine || !this.#canvases?.some(isShown)) return;
     this.host.runtime.attemptOrFail(() => {
       this.#draw(elapsed);
       if (this.host.machine) this.host.runtime.confirmHealthy();
@@ -156,16 +167,27 @@ export class Stage extends Part {
 
   #draw(elapsed: number) {
     const host = this.host;
+    const { reading } = host;
     const began = performance.now();
     host.settings.settle();
     // A trap has removed the machine.
     if (!host.machine) return;
     host.cloud?.advance(this.#printing);
     const { scene } = host;
+    if (host.reading !== reading) this.#addPictures();
     const { pressed: still, former } = host.gesture;
     const options = { elapsed, still, atOnce: this.#printing || isCalm(), former, highlight: host.highlight, handles: this.#printing };
-    const shown = host.pictures.filter((picture) => isShown(this.canvasOf(picture)));
-    const moving = shown.map((picture) => picture.draw(this.canvasOf(picture), scene, this.palette, options));
+    let isMoving = false;
+    this.isBehind = false;
+    for (const picture of this.#undrawn) {
+      if (this.isBehind) break;
+      this.#undrawn.delete(picture);
+      const canvas = this.canvasOf(picture);
+      // A figure may have replaced its picture.
+      if (!host.pictures.includes(picture) || !isShown(canvas)) continue;
+      isMoving = picture.draw(this.#surfaceOf(canvas), scene, this.palette, options) || isMoving;
+      this.isBehind = this.#undrawn.size > 0 && !this.#resizing && performance.now() - began > PICTURES_TIME;
+    }
     host.placeHandles(scene);
     const now = performance.now();
     const since = this.#undescribedSince;
@@ -177,7 +199,8 @@ export class Stage extends Part {
     }
     host.resolveSettled();
     const playing = host.player?.advance(elapsed);
-    if (playing || moving.includes(true) || host.cloud?.isSettled === false) this.requestFrame();
+    if (this.isBehind) wake(this);
+    if (playing || isMoving || host.cloud?.isSettled === false) this.requestFrame();
   }
 
   /** Renders the text of the latest picture and writes the attributes. */
@@ -188,15 +211,19 @@ export class Stage extends Part {
     this.host.requestUpdate();
   }
 
-  canvasOf({ name }: import('../scene/picture.ts').Picture<any>) {
-    const canvases = this.#canvases as HTMLCanvasElement[];
-    return canvases.find(({ className }) => className === name) as HTMLCanvasElement;
+  #addPictures() {
+    for (const picture of this.host.pictures) this.#undrawn.add(picture);
   }
 
-  /** True if each visible canvas has pixels; a closed disclosure gives everything size 0. */
-  get #hasSize() {
-    const shown = this.#canvases?.filter(isShown) ?? [];
-    return shown.length > 0 && shown.every(({ width, height }) => Math.min(width, height) > 0);
+  #surfaceOf(canvas: HTMLCanvasElement): Surface {
+    const { width, height } = canvas;
+    const clientWidth = this.#widths.get(canvas) ?? canvas.clientWidth;
+    return { width, height, clientWidth, letters: getComputedStyle(canvas), getContext: (kind) => canvas.getContext(kind) };
+  }
+
+  canvasOf({ name }: AnyPicture) {
+    const canvases = this.#canvases as HTMLCanvasElement[];
+    return canvases.find(({ className }) => className === name) as HTMLCanvasElement;
   }
 
   /** Sets each canvas to the size of its device pixels. */
@@ -211,13 +238,13 @@ export class Stage extends Part {
   }
 
   #drawResized() {
-    if (this.#printing) {
-      for (const canvas of this.#canvases ?? []) {
-        const { clientWidth, clientHeight } = canvas;
-        Object.assign(canvas, { width: PRINT_RATIO * clientWidth, height: PRINT_RATIO * clientHeight });
-      }
+    for (const canvas of this.#canvases ?? []) {
+      const { clientWidth, clientHeight } = canvas;
+      this.#widths.set(canvas, clientWidth);
+      if (this.#printing) Object.assign(canvas, { width: PRINT_RATIO * clientWidth, height: PRINT_RATIO * clientHeight });
     }
     this.#colour();
+    this.#addPictures();
     // Resizing clears a canvas: the next frame would be too late.
     this.#resizing = true;
     this.#drawNow(0);

@@ -1,6 +1,5 @@
 /** Callouts: sentences in a picture, each with a line to the point that it is about. */
 
-import { least } from 'd3-array';
 import { clamp } from '../ui/clamp.ts';
 import { drawLeader } from './labels.ts';
 import type { Box, Brush } from './canvas.ts';
@@ -18,11 +17,15 @@ const CLEAR = 9;
  * minimum.
  */
 const TURNS = Array.from({ length: 24 }, (_, i) => (Math.PI * (i - 12)) / 12);
-const LENGTHS = [1, 2, 3];
+const LENGTHS = [LINE, 2 * LINE, 3 * LINE];
 
 /** Costs of an angle of 1 rad and of the length of a leader, in the unit of overlap, pixels. */
 const TURN_COST = 1;
 const LENGTH_COST = 0.1;
+
+/** Places of a sentence about its point, the cheapest first. */
+const PLACES = LENGTHS.flatMap((length) => TURNS.map((turn) => ({ turn, length, cost: TURN_COST * Math.abs(turn) + LENGTH_COST * length })))
+  .sort((one, other) => one.cost - other.cost);
 
 /** Sentence with line breaks, the point that it is about, in the view's world, and its colour if it is not that of ink. */
 export interface Callout {
@@ -57,16 +60,18 @@ export function drawCallouts({ context, view, palette, font, placed }: Brush, ca
     const down = (LEADING * rows.length) / 2 + ROOM;
     const [x, y] = pixels(at);
     const away = Math.atan2(y - fromY, x - fromX);
-    const places = LENGTHS.flatMap((length) => TURNS.map((turn) => {
-      const [wantedX, wantedY] = [x + (length * LINE + across) * Math.cos(away + turn), y + (length * LINE + down) * Math.sin(away + turn)];
+    let [place, least]: [Box, number] = [{ x, y, across, down }, Infinity];
+    for (const { turn, length, cost } of PLACES) {
+      if (cost >= least) break;
+      const [wantedX, wantedY] = [x + (length + across) * Math.cos(away + turn), y + (length + down) * Math.sin(away + turn)];
       const box = {
         x: clamp(wantedX, left + across, Math.max(left + across, right - across)),
         y: clamp(wantedY, top + down, Math.max(top + down, bottom - down)),
         across, down,
       };
-      return { ...box, cost: TURN_COST * Math.abs(turn) + LENGTH_COST * length * LINE + coveredBy(box, kept, placed) };
-    }));
-    const place = least(places, ({ cost }) => cost) as Box;
+      const sum = cost + coveredBy(box, kept, placed);
+      if (sum < least) [place, least] = [box, sum];
+    }
     const begin = [clamp(x, place.x - across, place.x + across), clamp(y, place.y - down, place.y + down)];
     placed.push(place);
     kept.push(...pointsBetween(begin, [x, y]));

@@ -1,7 +1,6 @@
 /** Canvases, and the context that pictures are drawn with. */
 
-/** Surfaces for drawing: canvases and their substitutes. */
-
+/** Surface for drawing: a canvas or its substitute. */
 export interface Surface {
   /** Size in pixels. */
   width: number;
@@ -62,8 +61,8 @@ export function hiddenContext(canvas: OffscreenCanvas) {
 }
 
 /** Clears a canvas, sets the view to the size of the canvas, and returns what pictures draw with. */
-export function brushOn(canvas: HTMLCanvasElement | Surface, view: import('./view.ts').View, palette: import('../ui/theme.ts').Palette) {
-  const { fontFamily, fontSize } = canvas instanceof HTMLElement ? getComputedStyle(canvas) : canvas.letters;
+export function brushOn(canvas: Surface, view: import('./view.ts').View, palette: import('../ui/theme.ts').Palette) {
+  const { fontFamily, fontSize } = canvas.letters;
   const ratio = ((canvas.width / Math.max(1, canvas.clientWidth)) * parseFloat(fontSize)) / LETTERS;
   view.resize(canvas.width / ratio, canvas.height / ratio);
   const context = canvas.getContext('2d') as CanvasRenderingContext2D;

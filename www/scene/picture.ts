@@ -42,7 +42,7 @@ export class Picture<Scene, Name extends string = string> {
   paint(_brush: Brush, _scene: Scene): boolean | void {}
 
   /** Draws the scene. Returns true if the view is still moving, or there is more to paint. */
-  draw(surface: HTMLCanvasElement | Surface, scene: Scene, palette: Palette, { elapsed = 0, still = false, atOnce = false, former, highlight, exported = false, handles = exported }: How = {}): boolean {
+  draw(surface: Surface, scene: Scene, palette: Palette, { elapsed = 0, still = false, atOnce = false, former, highlight, exported = false, handles = exported }: How = {}): boolean {
     const { view } = this;
     const brush = brushOn(surface, view, palette);
     if (former !== this.#former && !exported) {

@@ -150,7 +150,7 @@ pub const MAX_CURVE_POINTS: u64 = 10_000;
 pub const ADDITIVE_DEVIATION: f64 = 0.2;
 
 /// Samples of the first block, which takes a few milliseconds.
-const FIRST_BLOCK: usize = 50_000;
+const FIRST_BLOCK: usize = 25_000;
 
 /// Chords of an outline: at 128 the sagitta is 0.03 % of the radius, a fifth of a pixel on the largest screen.
 pub const OUTLINE_SEGMENTS: usize = 128;

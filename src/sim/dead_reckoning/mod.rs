@@ -17,7 +17,7 @@ use crate::models::{Compounding, TangentNoiseModel};
 use crate::stats::{Ellipse, ExponentialContour, ExponentialMoments};
 use figures::covariances;
 use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
-use rollouts::Rollouts;
+use rollouts::{BLOCK_ROLLOUTS, Rollouts};
 
 /// Number of chords of an outline. With fewer, corners would be visible; more would be shorter than a pixel.
 const OUTLINE_SEGMENTS: usize = 96;
@@ -25,7 +25,8 @@ const OUTLINE_SEGMENTS: usize = 96;
 /// Maximum number of chords of the commanded arc in a step.
 const MOST_CHORDS: usize = 16;
 
-/// Number of robot steps in a block, which takes some milliseconds.
+/// Number of robot steps in the first block, which a drag waits for, and in any other one, which takes some milliseconds.
+const FIRST_STEPS: usize = 80_000;
 const BLOCK_STEPS: usize = 200_000;
 
 /// Simulation of the widget: settings, rollouts, and predictions of the recursions.
@@ -136,7 +137,7 @@ impl DeadReckoning {
         } else {
             *self = Self::showing(settings, 0)?;
         }
-        self.show(goal.min(settings.samples).min(self.block().max(self.shown)));
+        self.show(goal.min(settings.samples).min(self.block_of(FIRST_STEPS).max(self.shown)));
         Ok(())
     }
 
@@ -158,7 +159,11 @@ impl DeadReckoning {
 
     /// Number of robots that are driven within a few milliseconds.
     pub fn block(&self) -> usize {
-        (BLOCK_STEPS / self.settings.steps as usize).max(1)
+        self.block_of(BLOCK_STEPS)
+    }
+
+    fn block_of(&self, steps: usize) -> usize {
+        (steps / self.settings.steps as usize).next_multiple_of(BLOCK_ROLLOUTS)
     }
 
     /// Number of robots driven.

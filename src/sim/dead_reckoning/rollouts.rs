@@ -17,7 +17,7 @@ use wide::f64x4;
 /// Number of groups of four that are driven through all steps together: 256 rollouts, whose draws and poses take 8 kB.
 /// With fewer, compensated sums would take noticeable time; more would not fit into the first-level cache.
 const BLOCK: usize = 64;
-const BLOCK_ROLLOUTS: usize = BLOCK * LANES;
+pub const BLOCK_ROLLOUTS: usize = BLOCK * LANES;
 
 /// Powers and products of ξ = (a, l, h) that are summed: a, l, h; their squares, cubes and fourth powers; al, ah, lh.
 const QUANTITIES: usize = 15;

@@ -119,7 +119,7 @@ fn the_cloud_grows_in_batches() {
         // A large cloud begins with a block, and ends as if all were shown at once.
         let large = Settings { samples: 120_000, ..settings };
         growing.configure_first(large, usize::MAX).unwrap();
-        assert_eq!(growing.shown(), 50_000);
+        assert_eq!(growing.shown(), 25_000);
         while growing.shown() < large.samples {
             growing.add_samples(growing.block());
         }

@@ -86,10 +86,10 @@ class CloudPicture extends Picture<Scene, import('../../types.d.ts').ViewName> {
     return machine.nearest(this.morph, ...this.around(x, y, REACH));
   }
 
-  /** Returns the place of each robot, with the heading that the morph leaves of it. */
+  /** Returns the places of the robots that are drawn as dots, with the headings that the morph leaves of them. */
   places({ machine, stats }: Scene): Float64Array {
     const { morph } = this;
-    return this.#places.of([stats, morph], () => (morph === 0 ? machine.poses : placesOf(machine.twists, morph)));
+    return this.#places.of([stats, morph], () => (morph === 0 ? machine.firstPoses(MAX_DOTS) : placesOf(machine.twists, morph)));
   }
 
   /** Draws the robots, which cover an area in square pixels. */
@@ -204,7 +204,7 @@ export class PlanePicture extends CloudPicture {
       callouts.push(...drawGhosts(brush, earlier, [middle, [0, 0]], ghostName(scene)));
       drawOutlines(brush, lines(outlines));
       if (overlays.command && scene.reading && morph === 0) drawReading(brush, scene.reading, end);
-      if (heaped && scene.shown > 0) drawHeap(brush, heapOf(this.places(scene)));
+      if (heaped && scene.shown > 0) drawHeap(brush, heapOf(this.places(scene), scene.shown));
       const [endX, endY] = outlines.command.slice(-2);
       drawHandle(brush, { x: view.toPixelX(endX), y: view.toPixelY(endY), radius: RING, colour: palette.prior });
       if (marked) {
@@ -275,12 +275,10 @@ function drawReading(brush: Brush, { rot1, trans, rot2 }: import('../../types.d.
   }
 }
 
-/** Draws robots that are all in one place. */
-function heapOf(poses: Float64Array) {
-  const shown = poses.length / 3;
-  const stride = Math.ceil(shown / MAX_RAYS);
-  const headings = poses.filter((_, i) => i % (3 * stride) === 2);
-  return { x: poses[0], y: poses[1], headings: [...headings], label: words.banana.robotsHere(shown, counted(shown)) };
+/** Returns robots that are all in one place, with the headings of the first. */
+function heapOf(poses: Float64Array, shown: number) {
+  const headings = [...poses.subarray(0, 3 * MAX_RAYS)].filter((_, i) => i % 3 === 2);
+  return { x: poses[0], y: poses[1], headings, label: words.banana.robotsHere(shown, counted(shown)) };
 }
 
 /**

@@ -53,7 +53,7 @@ export class PathPicture extends SamplesPicture<Scene> {
       drawDots(brush, poses, { x: 0, y: 1, heading: null });
       drawOutlines(brush, [
         ...drawn(['command']).map((name) => ({ points: commanded, ...styles[name] })),
-        ...milestones.flatMap(({ outlines: passed }) => styled(passed).map((outline) => ({ ...outline, width: 1 }))),
+        ...predictions.flatMap((name) => milestones.map(({ outlines: passed }) => ({ points: passed[name], ...styles[name], width: 1 }))),
       ]);
       if (brush.former) ghosts.push(...drawGhosts(brush, styled(brush.former.outlines), [pose, [0, 0]], words.before));
       drawOutlines(brush, styled(outlines));
@@ -132,6 +132,6 @@ export function stretchesOf({ scaleX, scaleY }: Pick<View, 'scaleX' | 'scaleY'>)
 /** Returns the names of the axes, with the factor by which one is stretched against the other. */
 function axesOf(view: View) {
   const { axisAlong, axisLateral, stretched } = words.reckoning;
-  const [x, y] = [axisAlong, axisLateral].map((name, i) => [name, stretchesOf(view)[i]]).map(([name, by]) => (by ? stretched(name, by) : name));
+  const [x, y] = stretchesOf(view).map((by, i) => (by ? stretched([axisAlong, axisLateral][i], by) : [axisAlong, axisLateral][i]));
   return { x, y };
 }

@@ -4,7 +4,7 @@
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { settings } from '../www/settings.js';
-import { comments, describe, oneLine, pascal, presetsOf, typeOf, union, widgets } from './declarations.mjs';
+import { comments, describe, oneLine, pascal, typeOf, widgets } from './declarations.mjs';
 import { ROOT } from './process.mjs';
 import { importTypeScript } from './typescript.mjs';
 
@@ -61,26 +61,7 @@ function groupTypes() {
 
 /** @param {string} tag */
 function settingTypes(tag) {
-  const machine = pascal(tag);
-  const whole = settings[tag].filter((declaration) => !declaration.in && !declaration.of).map(named);
-  const presets = presetsOf(tag);
-  if (!presets.length) return asInterface(`${machine}Settings`, whole);
-  const fields = Object.entries(presets[0]).map(([name, value]) => ({
-    name,
-    type: name === 'name' ? union(presets.map((preset) => preset.name)) : presetType(name, value, presets),
-    description: '',
-  }));
-  return `${asInterface(`${machine}Settings`, whole)}\n${asInterface(`${machine}Preset`, fields)}`;
-}
-
-/**
- * @param {string} name of something that presets set
- * @param {unknown} value
- * @param {Record<string, unknown>[]} presets
- */
-function presetType(name, value, presets) {
-  if (presets.some((preset) => Array.isArray(preset[name]))) return 'number[]';
-  return typeof value === 'object' ? pascal(name) : typeof value;
+  return asInterface(`${pascal(tag)}Settings`, settings[tag].filter((declaration) => !declaration.in && !declaration.of).map(named));
 }
 
 /** @param {import('../www/settings.js').Declaration} declaration */

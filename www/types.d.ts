@@ -1,7 +1,7 @@
 /** All types. Types of settings, machines and elements are generated from the declarations by scripts/types.mjs. */
 
-import type { BananaMachinePreset, BananaMachineSettings, CalibrationOptions, MapSqueezeSettings, Start } from '../build/machines.d.ts';
-import type { BananaMachineElement, BananaMachineState, FigureElement, MapSqueezeState } from '../build/elements.d.ts';
+import type { BananaMachineSettings, CalibrationOptions, MapSqueezeSettings, Start } from '../build/machines.d.ts';
+import type { BananaMachineElement, BananaMachineState, FigureElement } from '../build/elements.d.ts';
 
 export type * from '../build/machines.d.ts';
 export type * from '../build/elements.d.ts';
@@ -36,19 +36,10 @@ export interface CalibrationLog extends Pick<CalibrationOptions, 'odometry' | 'r
 }
 
 // Shorter names.
-export type BananaMachineClass = Motion['BananaMachine'];
-export type MapSqueezeClass = Motion['MapSqueeze'];
-export type Settings = BananaMachineSettings;
 export type SqueezeSettings = MapSqueezeSettings;
-export type Preset = BananaMachinePreset;
 export type Pose = Start;
-export type ModelName = Settings['model'];
-export type NoiseName = Settings['noise'];
 export type SamplerName = SqueezeSettings['sampler'];
-export type OverlayName = BananaMachineElement['overlays'][number];
-export type BananaState = BananaMachineState;
-export type SqueezeState = MapSqueezeState;
 /** Common members of the elements with a command and a cloud. */
 export type WidgetElement<State extends FigureState, Stats> = FigureElement<State, Stats> &
   Pick<BananaMachineElement, 'v' | 'omega' | 'dt' | 'command' | 'alphas' | 'samples' | 'seed' | 'marked' | 'poses'>;
-export type WidgetState = Pick<BananaState, 'version' | 'command' | 'samples' | 'seed' | 'shown' | 'playing' | 'marked'>;
+export type WidgetState = Pick<BananaMachineState, 'version' | 'command' | 'samples' | 'seed' | 'shown' | 'playing' | 'marked'>;

@@ -4,10 +4,7 @@ use super::face::configured;
 use super::fields::in_range;
 use super::pictures::read_bounds;
 use super::values::{flat, floats, object, plain};
-use crate::models::VelocityCmd;
-use crate::sim::arc_anatomy::{
-    ArcAnatomy, CHAPTERS_THRESHOLD, FormErrors, PRESETS, Paths, Preset, Surface, form_errors,
-};
+use crate::sim::arc_anatomy::{ArcAnatomy, CHAPTERS_THRESHOLD, FormErrors, Paths, Surface, form_errors};
 use js_sys::{Array, Float64Array, Uint8Array};
 use wasm_bindgen::prelude::*;
 
@@ -67,22 +64,6 @@ configured!(
 
 #[wasm_bindgen(js_class = ArcAnatomy)]
 impl JsArcAnatomy {
-    #[wasm_bindgen(getter, unchecked_return_type = "ArcAnatomyPreset[]")]
-    pub fn presets() -> Array {
-        let preset = |Preset { name, command: VelocityCmd { v, omega, dt }, next }: Preset| {
-            object(&[
-                ("name", name.into()),
-                ("v", v.into()),
-                ("omega", omega.into()),
-                ("dt", dt.into()),
-                ("nextX", next.x.into()),
-                ("nextY", next.y.into()),
-                ("nextTheta", next.theta.into()),
-            ])
-        };
-        PRESETS.into_iter().map(preset).collect()
-    }
-
     /// Errors of the forms of the arc at small turn rates: exercise 1.
     #[wasm_bindgen(js_name = formErrors, unchecked_return_type = "FormErrors")]
     pub fn form_errors() -> JsValue {

@@ -9,16 +9,14 @@ use super::values::{flat, floats, group_to_js, list, object, plain};
 use crate::geom::arc::ArcInversion;
 use crate::geom::se2::SE2;
 use crate::geom::unbend::unbend_line;
-use crate::models::VelocityCmd;
 use crate::sim::View;
 use crate::sim::banana::{
-    BananaMachine, Contours, Executed, MAX_CURVE_POINTS, MAX_SAMPLES, OUTLINE_SEGMENTS, PRESETS, Preset,
-    Sample, Settings,
+    BananaMachine, Contours, Executed, MAX_CURVE_POINTS, MAX_SAMPLES, OUTLINE_SEGMENTS, Sample, Settings,
 };
 use crate::sim::settings::QUANTITY;
 use crate::sim::views::MORPH;
 use crate::stats::{ExponentialContour, ExponentialMoments};
-use js_sys::{Array, Float64Array, RangeError, Uint8ClampedArray, Uint32Array};
+use js_sys::{Float64Array, RangeError, Uint8ClampedArray, Uint32Array};
 use nalgebra::{Matrix3, Vector3};
 use wasm_bindgen::prelude::*;
 
@@ -129,20 +127,6 @@ cloud!(
 
 #[wasm_bindgen(js_class = BananaMachine)]
 impl JsBananaMachine {
-    #[wasm_bindgen(getter, unchecked_return_type = "BananaMachinePreset[]")]
-    pub fn presets() -> Array {
-        let preset = |Preset { name, command: VelocityCmd { v, omega, dt }, alphas }| {
-            object(&[
-                ("name", name.into()),
-                ("v", v.into()),
-                ("omega", omega.into()),
-                ("dt", dt.into()),
-                ("alphas", list(&alphas)),
-            ])
-        };
-        PRESETS.into_iter().map(preset).collect()
-    }
-
     /// Returns everything that is shown besides the robots, in one call.
     #[wasm_bindgen(
         unchecked_return_type = "Pick<BananaMachine, 'config' | 'shown' | 'block' | 'stats' | 'contours' | 'gaps' | 'table' | 'chartHolds' | 'alphasOfModels' | 'reading'>"
@@ -170,12 +154,6 @@ impl JsBananaMachine {
     )]
     pub fn alphas_of_models(&self) -> JsValue {
         let Settings { velocity_alphas, odometry_alphas, .. } = self.0.settings();
-    /// The same of the first `count` samples, or of all if there are fewer.
-    #[wasm_bindgen(js_name = firstPoses)]
-    pub fn first_poses(&self, count: usize) -> Float64Array {
-        flat(&self.0.poses().take(count).map(|pose| [pose.x(), pose.y(), pose.theta()]).collect::<Vec<_>>())
-    }
-
         object(&[("velocity", list(velocity_alphas)), ("odometry", list(odometry_alphas))])
     }
 
@@ -190,6 +168,12 @@ impl JsBananaMachine {
     #[wasm_bindgen(getter)]
     pub fn poses(&self) -> Float64Array {
         flat(&self.0.poses().map(|pose| [pose.x(), pose.y(), pose.theta()]).collect::<Vec<_>>())
+    }
+
+    /// The same of the first `count` samples, or of all if there are fewer.
+    #[wasm_bindgen(js_name = firstPoses)]
+    pub fn first_poses(&self, count: usize) -> Float64Array {
+        flat(&self.0.poses().take(count).map(|pose| [pose.x(), pose.y(), pose.theta()]).collect::<Vec<_>>())
     }
 
     /// ξ along, lateral (m), heading (rad) of each sample shown; a copy.

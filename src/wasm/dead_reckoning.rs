@@ -3,10 +3,10 @@
 use super::face::{cloud, configured};
 use super::fields::{not_shown, whole};
 use super::pictures::index_of;
-use super::values::{flat, floats, group_to_js, list, number_or_null, object, plain};
+use super::values::{flat, floats, number_or_null, object, plain};
 use crate::models::Compounding;
 use crate::sim::dead_reckoning::{
-    DeadReckoning, MAX_SAMPLES, MAX_STEPS, Measured, Outlines, PRESETS, Preset, Settings, StraightGrowth,
+    DeadReckoning, MAX_SAMPLES, MAX_STEPS, Measured, Outlines, Settings, StraightGrowth,
 };
 use crate::sim::settings::Words;
 use js_sys::{Array, Float64Array};
@@ -69,20 +69,6 @@ cloud!(
 
 #[wasm_bindgen(js_class = DeadReckoning)]
 impl JsDeadReckoning {
-    #[wasm_bindgen(getter, unchecked_return_type = "DeadReckoningPreset[]")]
-    pub fn presets() -> Array {
-        let preset = |Preset { name, mut command, steps, step, alphas }| {
-            object(&[
-                ("name", name.into()),
-                ("command", group_to_js(&mut command)),
-                ("steps", steps.into()),
-                ("step", step.into()),
-                ("alphas", list(&alphas)),
-            ])
-        };
-        PRESETS.into_iter().map(preset).collect()
-    }
-
     /// Returns everything that is shown, in one call. `milestones` are after each quarter of the path other than the current step.
     #[wasm_bindgen(
         unchecked_return_type = "Pick<DeadReckoning, 'config' | 'shown' | 'block' | 'stats' | 'ratios' | 'relativeErrors' | 'commanded' | 'nominal' | 'poses' | 'twists'> & { outlines: StepOutlines; milestones: Milestone[] }"

@@ -49,12 +49,6 @@ macro_rules! cloud {
     ($class:ident, $machine:ident, $name:literal, $settings:literal, $options:literal, $most:expr) => {
         #[wasm_bindgen(js_class = $name)]
         impl $class {
-            /// Largest `samples`.
-            #[wasm_bindgen(getter, js_name = maxSamples)]
-            pub fn max_samples() -> f64 {
-                $most as f64
-            }
-
             /// A machine as the constructor makes it, which shows no samples yet.
             pub fn empty(
                 #[wasm_bindgen(unchecked_optional_param_type = $options)] options: &JsValue,

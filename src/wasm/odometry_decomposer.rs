@@ -6,7 +6,7 @@ use super::pictures::index_of;
 use super::values::{flat, floats, group_to_js, object, plain};
 use crate::geom::se2::SE2;
 use crate::sim::odometry_decomposer::{
-    CurvePoint, MAX_CURVE_POINTS, MAX_SAMPLES, OdometryDecomposer, PRESETS, Preset, RuleFigures,
+    CurvePoint, MAX_CURVE_POINTS, MAX_SAMPLES, OdometryDecomposer, RuleFigures,
 };
 use crate::sim::settings::{QUANTITY, Word};
 use js_sys::{Array, Float64Array};
@@ -55,14 +55,6 @@ cloud!(
 
 #[wasm_bindgen(js_class = OdometryDecomposer)]
 impl JsOdometryDecomposer {
-    #[wasm_bindgen(getter, unchecked_return_type = "OdometryDecomposerPreset[]")]
-    pub fn presets() -> Array {
-        let preset = |Preset { name, mut from, mut to }: Preset| {
-            object(&[("name", name.into()), ("from", group_to_js(&mut from)), ("to", group_to_js(&mut to))])
-        };
-        PRESETS.into_iter().map(preset).collect()
-    }
-
     /// Returns everything that is shown, in one call. `ghosts` are the linkages of the first outcomes.
     #[wasm_bindgen(
         unchecked_return_type = "Pick<OdometryDecomposer, 'config' | 'shown' | 'block' | 'stats' | 'rules' | 'poses' | 'linkage' | 'robot' | 'drifted'> & { ghosts: Float64Array }"

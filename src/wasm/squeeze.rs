@@ -1,16 +1,14 @@
 //! `MapSqueeze` for JavaScript.
 
 use super::face::{cloud, configured};
-use super::fields::{in_range, quoted, whole, word};
+use super::fields::{quoted, whole, word};
 use super::maps::{read_map, read_plan};
 use super::pictures::{index_of, read_grid, read_ramps, view_of};
 use super::values::{flat, floats, group_to_js, number_or_null, object, plain};
 use crate::geom::segment::Segment;
 use crate::map::{Cell, FloorPlan, MAX_DRAWS, Sampler};
-use crate::sim::settings::{ALPHA, Word};
-use crate::sim::squeeze::{
-    Attempt, MAX_SAMPLES, MAX_STEPS, MAX_TRIAL, MapSqueeze, PRESETS, alphas_of_noise, most_draws,
-};
+use crate::sim::settings::Word;
+use crate::sim::squeeze::{Attempt, MAX_SAMPLES, MAX_STEPS, MAX_TRIAL, MapSqueeze, most_draws};
 use js_sys::{Array, Float64Array, RangeError, Uint8Array, Uint8ClampedArray};
 use wasm_bindgen::prelude::*;
 
@@ -57,14 +55,6 @@ cloud!(
 
 #[wasm_bindgen(js_class = MapSqueeze)]
 impl JsMapSqueeze {
-    #[wasm_bindgen(getter, unchecked_return_type = "MapSqueezePreset[]")]
-    pub fn presets() -> Array {
-        let preset = |(name, mut start): (&str, [f64; 3])| {
-            object(&[("name", name.into()), ("start", group_to_js(&mut start))])
-        };
-        PRESETS.into_iter().map(preset).collect()
-    }
-
     /// Returns everything that is shown besides the map, in one call. `paths` are of the first samples accepted through a wall.
     #[wasm_bindgen(
         unchecked_return_type = "Pick<MapSqueeze, 'config' | 'shown' | 'block' | 'stats' | 'verdicts' | 'poses' | 'commanded' | 'startFree'> & { paths: Float64Array[] }"
@@ -84,12 +74,6 @@ impl JsMapSqueeze {
             ("startFree", self.start_free().into()),
             ("paths", paths.collect::<Result<Array, JsValue>>()?.into()),
         ]))
-    }
-
-    /// The noise parameters of level n, 0 to 1e6: the first four are n, the others n/4.
-    #[wasm_bindgen(js_name = alphasOfNoise)]
-    pub fn alphas_of_noise(n: f64) -> Result<Vec<f64>, JsValue> {
-        Ok(alphas_of_noise::<6>(in_range("n", n, &ALPHA)?).to_vec())
     }
 
     /// Level n of the noise parameters; null where they are not those of a level.

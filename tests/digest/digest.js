@@ -1,9 +1,11 @@
 /**
- * Results of machines by their JavaScript interface, to the last bit; tests/native/digest takes the same of the simulations. It imports
- * nothing, so that it runs in Node and in any page.
+ * Results of machines by their JavaScript interface, to the last bit; tests/native/digest takes the same of the simulations. It runs in
+ * Node and in any page.
  *
  * @module
  */
+
+import { presets } from '../../www/settings.js';
 
 /**
  * @typedef {import('../../www/types.d.ts').Motion} Motion
@@ -22,7 +24,7 @@ const NAN = 0x7ff8_0000_0000_0000n;
 /** Results of the machine of each widget, by parts. @type {Record<string, (motion: Motion, all: Configurations, configuration: Configuration) => Record<string, Told>>} */
 export const widgets = {
   'banana-machine'({ BananaMachine, commandReaching }, all, { preset, bounds = all.widgets['banana-machine'].bounds, settings }) {
-    const machine = new BananaMachine({ ...commandOf(BananaMachine.presets, preset), ...settings });
+    const machine = new BananaMachine({ ...commandOf(presets['banana-machine'], preset), ...settings });
     const { shown, config: { command } } = machine;
     const [xMin, yMin, xMax, yMax] = bounds;
     const { columns, rows } = all.picture;
@@ -53,7 +55,7 @@ export const widgets = {
   },
 
   'map-squeeze'({ MapSqueeze }, all, { preset, map, bounds = all.widgets['map-squeeze'].bounds, settings }) {
-    const start = MapSqueeze.presets.find(({ name }) => name === preset)?.start;
+    const start = presets['map-squeeze'].find(({ name }) => name === preset)?.start;
     const machine = new MapSqueeze({ start, ...settings });
     const { plan, description, image } = map === undefined ? {} : all.maps[map];
     if (plan) machine.setPlan(plan);
@@ -86,7 +88,7 @@ export const widgets = {
   },
 
   'arc-anatomy'({ ArcAnatomy }, all, { preset, bounds = all.widgets['arc-anatomy'].bounds, settings }) {
-    const { v, omega, dt, nextX, nextY, nextTheta } = ArcAnatomy.presets.find(({ name }) => name === (preset ?? 'left')) ?? ArcAnatomy.presets[0];
+    const { v, omega, dt, nextX, nextY, nextTheta } = presets['arc-anatomy'].find(({ name }) => name === (preset ?? 'left')) ?? presets['arc-anatomy'][0];
     const machine = new ArcAnatomy({ command: { v, omega, dt }, next: { x: nextX, y: nextY, theta: nextTheta }, ...settings });
     const [xMin, yMin, xMax, yMax] = bounds;
     const told = {
@@ -101,7 +103,7 @@ export const widgets = {
   },
 
   'dead-reckoning'({ DeadReckoning }, _, { preset, settings }) {
-    const { command, steps, alphas } = DeadReckoning.presets.find(({ name }) => name === preset) ?? {};
+    const { command, steps, alphas } = presets['dead-reckoning'].find(({ name }) => name === preset) ?? {};
     const machine = new DeadReckoning({ command, steps, alphas: alphas ?? undefined, ...settings });
     const { shown, config, headingNoise, stats } = machine;
     const told = {
@@ -153,7 +155,7 @@ export const widgets = {
   },
 
   'odometry-decomposer'({ OdometryDecomposer }, _, { preset, settings }) {
-    const { from, to } = OdometryDecomposer.presets.find(({ name }) => name === preset) ?? {};
+    const { from, to } = presets['odometry-decomposer'].find(({ name }) => name === preset) ?? {};
     const machine = new OdometryDecomposer({ from, to, ...settings });
     const { shown, stats, poses, linkage, robot, rules, drifted } = machine;
     const told = {
@@ -173,7 +175,7 @@ const VIEWS = /** @type {const} */ (['plane', 'twist']);
 const SAMPLERS = /** @type {const} */ (['endpoint', 'whole-arc', 'sub-stepped']);
 
 /**
- * @param {Motion['BananaMachine']['presets']} presets
+ * @param {{ name: string, v: number, omega: number, dt: number }[]} presets
  * @param {string} [wanted]
  */
 function commandOf(presets, wanted) {

@@ -16,8 +16,6 @@ fn it_opens_as_the_figure_does() {
             .to_owned()
             + r#""alphas":[0.05,0.05,0.05,0.09,0.01,0.01],"noise":"normal","printed":false,"map":"none"}"#
     );
-    assert_eq!(get::<String>("motion.ArcAnatomy.presets[0].name"), "left");
-    assert_eq!(get::<[f64; 2]>("pick(motion.ArcAnatomy.presets[1], 'omega', 'nextY')"), [-0.5, -0.5]);
 }
 
 #[wasm_bindgen_test]

@@ -3,7 +3,7 @@
 import { words } from '../../messages/registry.ts';
 import { Memo } from '../../scene/memo.ts';
 import { looks } from './settings.ts';
-import type { BananaMachine as Machine, Settings, Stats, Table } from '../../types.d.ts';
+import type { BananaMachine as Machine, BananaMachineSettings as Settings, Stats, Table } from '../../types.d.ts';
 
 export type Reading = ReturnType<typeof readingOf>;
 

@@ -116,6 +116,7 @@ fn samples_are_inspected_found_and_counted() {
     let it = Object::new("new motion.BananaMachine({ samples: 4000 })");
     let (pose, twist): ([f64; 3], [f64; 3]) = it.get("pick(it.inspect(17), 'pose', 'twist')");
     assert_eq!((pose, twist), it.get("[it.poses.slice(51, 54), it.twists.slice(51, 54)]"));
+    it.assert("it.firstPoses(18).join() === it.poses.slice(0, 54).join()");
     let arc: [f64; 3] = it.get("pick(it.inspect(17), 'vHat', 'omegaHat', 'gammaHat')");
     assert_eq!(arc, it.get::<[f64; 3]>("it.executed.slice(51, 54)"));
     assert_near([2.0 * (arc[1] + arc[2]), it.get("it.heading(17)")], [pose[2], pose[2]], 1e-12);

@@ -194,6 +194,7 @@ export class FigureElement<Machine extends { free(): void, stats: object, config
     const { machine } = this;
     if (!machine) return;
     speak(this);
+    this.cloud?.unmark();
     this.reading = this.read(machine);
     this.settings.stale = false;
     this.finishChange();

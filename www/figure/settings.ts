@@ -14,8 +14,9 @@ export class Settings extends Part {
   #pending: Values = {};
   #isShowing = false;
 
-  /** Drops pending changes, for another machine. */
+  /** Drops pending changes and stops the player, for another machine. */
   reset() {
+    this.host.player?.stop();
     this.stale = true;
     this.#present = undefined;
     this.#pending = {};

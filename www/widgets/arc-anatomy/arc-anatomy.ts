@@ -61,11 +61,6 @@ export class ArcAnatomyElement extends FigureElement<Machine, Reading> {
 
   read = readingOf;
 
-  /** Stops the animation: a state that is set or restored does not play. */
-  machineChanged() {
-    this.player.stop();
-  }
-
   get scene() {
     const { overlays, line, underway } = this.state.own;
     const reading = this.fresh;

@@ -91,15 +91,7 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
     });
   };
 
-  read(machine: Machine) {
-    this.cloud.unmark();
-    return readingOf(machine);
-  }
-
-  /** Stops the animation: a state that is set or restored does not play. */
-  machineChanged() {
-    this.player.stop();
-  }
+  read = readingOf;
 
   get scene() {
     const reading = this.fresh;

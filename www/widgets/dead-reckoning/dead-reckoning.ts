@@ -66,10 +66,7 @@ export class DeadReckoningElement extends FigureElement<Machine, Reading> {
     return { step: Math.min(present.step, steps), ...super.completed(present, given) };
   }
 
-  read(machine: Machine) {
-    this.cloud.unmark();
-    return readingOf(machine);
-  }
+  read = readingOf;
 
   get scene() {
     return { ...this.fresh, marked: this.#marked, overlays: this.state.own.overlays };

@@ -69,15 +69,7 @@ export class OdometryDecomposerElement extends FigureElement<Machine, Reading> {
   #curveOf = (longest: number, points: number) =>
     this.#curve.of([this.reading.stats, longest, points], () => (this.machine as Machine).curve(longest, points));
 
-  read(machine: Machine) {
-    this.cloud.unmark();
-    return readingOf(machine);
-  }
-
-  /** Stops the animation: a state that is set or restored does not play. */
-  machineChanged() {
-    this.player.stop();
-  }
+  read = readingOf;
 
   get scene() {
     const reading = this.fresh;

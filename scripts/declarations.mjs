@@ -187,6 +187,6 @@ function openingPreset(tag) {
  * @param {string} tag
  * @returns {(Record<string, unknown> & { name: string })[]}
  */
-export function presetsOf(tag) {
+function presetsOf(tag) {
   return /** @type {Record<string, any[]>} */ (presets)[tag] ?? [];
 }

@@ -4,7 +4,7 @@
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { settings } from '../www/settings.js';
-import { comments, describe, oneLine, pascal, typeOf, widgets } from './declarations.mjs';
+import { comments, describe, oneLine, pascal, typeOf, union, widgets } from './declarations.mjs';
 import { ROOT } from './process.mjs';
 import { importTypeScript } from './typescript.mjs';
 

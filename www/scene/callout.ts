@@ -12,10 +12,7 @@ const ROOM = 4;
 /** Distance that a sentence keeps from lines and other sentences, pixels. */
 const CLEAR = 9;
 
-/**
- * Candidate positions of a sentence: angles (rad) relative to the direction away from the centre, and lengths of the leader in units of the
- * minimum.
- */
+/** Candidate positions of a sentence: angles (rad) relative to the direction away from the centre, and lengths of the leader, pixels. */
 const TURNS = Array.from({ length: 24 }, (_, i) => (Math.PI * (i - 12)) / 12);
 const LENGTHS = [LINE, 2 * LINE, 3 * LINE];
 

@@ -28,7 +28,7 @@ impl Variance {
     }
 }
 
-/// What [`Variance::new`] refuses: a negative number or NaN.
+/// Error of [`Variance::new`]: a negative number or NaN.
 #[derive(Clone, Copy, Debug)]
 pub struct NegativeVariance(pub f64);
 

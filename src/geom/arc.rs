@@ -353,7 +353,7 @@ impl Unrolled {
         0.5 * self.curvature * (x * x + y * y) - y
     }
 
-    /// Whether the point of the circle nearest to `point` belongs to the arc.
+    /// True if the point of the circle nearest to `point` belongs to the arc.
     pub fn passes(&self, [x, y]: [f64; 2]) -> bool {
         if self.curvature == 0.0 {
             return (0.0..=self.length).contains(&x);

@@ -19,7 +19,7 @@ const SPLITTER: f64 = 134_217_729.0;
 /// 2⁻¹¹⁰ of the sum.
 const TERMS: i32 = 12;
 
-/// How often the angle is halved before the series, and doubled after it.
+/// Number of times that the angle is halved before the series, and doubled after it.
 const HALVINGS: i32 = 4;
 
 /// a + b = s + e, where |a| ≥ |b|.

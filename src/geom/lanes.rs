@@ -125,13 +125,13 @@ impl Trigonometry {
     }
 }
 
-/// Whether a lane is greater than `most` in size.
+/// True if a lane is greater than `most` in absolute value.
 #[inline(always)]
 fn beyond(x: f64x4, most: f64) -> bool {
     any(x.abs().simd_gt(f64x4::splat(most)))
 }
 
-/// Whether a lane of a mask is set.
+/// True if a lane of a mask is set.
 #[inline(always)]
 pub(crate) fn any(mask: f64x4) -> bool {
     let [low, high] = halves(mask);

@@ -1,10 +1,10 @@
-//! How localizers charge an odometry reading with noise: Table 5.6, and what is deployed.
+//! Rules by which localizers add noise to an odometry reading: Table 5.6, and those of deployed software.
 
 use super::odometry::{Charge, OdomAlphas, OdomDelta, charged_variances, turn_either_way};
 use crate::geom::se2::{SE2, wrap_angle};
 use crate::noise::{NoiseKind, Variance};
 
-/// Whose bookkeeping of the α's it is. Each takes the four α's of the table, the omnidirectional one a fifth.
+/// Rule that relates the α's to the variances. Each takes the four α's of the table, the omnidirectional one a fifth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum OdometryRule {
     /// Table 5.6 as it is printed.

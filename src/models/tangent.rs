@@ -38,7 +38,7 @@ pub struct TangentNoiseModel {
     root: Matrix3<f64>,
 }
 
-/// How the covariance of x_k ⊟ x̄_k is carried over one more step.
+/// Recursions that carry the covariance of x_k ⊟ x̄_k over one more step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Compounding {
     /// The chapter's recursion A·Σ·Aᵀ + R, A = Ad(exp(τ)⁻¹): takes exp(τ + w) for exp(τ)·exp(w).

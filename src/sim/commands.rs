@@ -1,4 +1,4 @@
-//! What a robot is told to do, and what it has done by its odometry, as settings.
+//! Commands and odometry readings of a robot, as settings.
 
 use super::settings::{DURATION, QUANTITY, group};
 use crate::models::{OdomDelta, VelocityCmd};

@@ -97,7 +97,7 @@ pub const DURATION: RangeInclusive<f64> = 1e-6..=1e6;
 /// The largest whole number up to which JavaScript's numbers are exact.
 pub const MAX_SEED: u64 = (1 << 53) - 1;
 
-/// What is said of a setting, beside its type and what it allows.
+/// Description of a setting beside its type and its range.
 #[derive(Clone, Copy, Debug)]
 pub struct Declaration {
     pub key: &'static str,
@@ -214,7 +214,7 @@ pub struct Field {
 
 /// Types that a setting may have.
 pub trait Settable {
-    /// What has to be declared to say which values are allowed.
+    /// Declarations of the values that are allowed.
     type Allowed;
     fn setting(&mut self, allowed: Self::Allowed) -> Setting<'_>;
 }
@@ -274,10 +274,10 @@ macro_rules! whole {
 }
 whole!(u32, u64, usize);
 
-/// What is shown a setting after the other, until it breaks.
+/// Visitor of one setting after the other, which may stop.
 pub type See<'a> = dyn FnMut(&'static Declaration, Setting) -> ControlFlow<()> + 'a;
 
-/// What `settings!` makes of a declaration: the settings of a widget one by one.
+/// Trait that `settings!` implements: the settings of a widget one by one.
 pub trait Declared: Copy + Default {
     const KEYS: &'static [&'static str];
 

@@ -64,7 +64,7 @@ impl Ellipse {
         PI * SIGMAS * SIGMAS * self.root[(0, 0)] * self.root[(1, 1)]
     }
 
-    /// Whether the Gaussian has no extent at all.
+    /// True if the Gaussian has no extent at all.
     pub fn is_point(&self) -> bool {
         self.root[(0, 0)] == 0.0 && self.root[(1, 1)] == 0.0
     }
@@ -84,7 +84,7 @@ impl Ellipse {
         (self.centre + (Vector2::new(x, y) - self.centre) * share).into()
     }
 
-    /// Whether a point lies inside.
+    /// True if a point lies inside.
     pub fn contains(&self, point: [f64; 2]) -> bool {
         let [first, second] = point.map(f64x4::splat);
         self.contains_four(first, second).any()
@@ -147,7 +147,7 @@ impl ExponentialContour {
         self.rim(segments, morph).map(|twist| unbend(&twist, morph)).collect()
     }
 
-    /// How many times the area of this outline, drawn as `segments` chords, fits into that of an `ellipse` in the plane,
+    /// Returns how many times the area of this outline, drawn as `segments` chords, fits into that of an `ellipse` in the plane,
     /// drawn alike. NaN where the ellipse, or the contour in (along, heading), has no area.
     ///
     /// Where the outline crosses itself because some of it was driven in reverse, the area is that of both of its loops.

@@ -11,7 +11,7 @@ use crate::noise::NoiseKind;
 use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::{LN_2, PI, TAU};
 
-/// What a model says of its exponential coordinates, for robots that start at the identity pose.
+/// Moments that a model predicts for its exponential coordinates, for robots that start at the identity pose.
 ///
 /// Those coordinates end where a robot turns a whole circle, and Gaussian noise reaches that with some probability: there
 /// the moments of ξ are infinite. Noise that turns the robot by more than `REACH` standard deviations is left out, which

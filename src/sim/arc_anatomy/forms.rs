@@ -86,7 +86,7 @@ fn chord_form(theta: f64, omega: f64) -> [f64; 2] {
     [cos * ahead - sin * left, sin * ahead + cos * left]
 }
 
-/// Where the motion of these doubles ends, in twice their digits.
+/// Returns the end of the motion of these doubles, in twice their digits.
 pub fn reference(theta: f64, omega: f64) -> [DoubleDouble; 2] {
     let half = DoubleDouble::product(0.5 * omega, DURATION);
     let distance = DoubleDouble::product(SPEED, DURATION) * half.sinc();

@@ -21,7 +21,7 @@ const LIE_CHORDS: usize = 64;
 /// Ticks on the Lie path, at equal times.
 const LIE_TICKS: usize = 8;
 
-/// What is drawn as lines: x, y of their points, m.
+/// Lines of the picture: x, y of their points in m.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Paths {
     /// The way that the command drives without noise.
@@ -90,7 +90,7 @@ impl ArcAnatomy {
         }
     }
 
-    /// Where the robot is on the commanded arc, on the one that v̂ and ω̂ drive, and on the way of constant twist, after a
+    /// Returns the poses of the robot on the commanded arc, on the one that v̂ and ω̂ drive, and on the way of constant twist, after a
     /// share of the time, from 0 to 1.
     pub fn underway(&self, share: f64) -> [SE2; 3] {
         let start = self.settings.start();

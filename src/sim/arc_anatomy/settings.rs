@@ -1,4 +1,4 @@
-//! What a user sets of Arc Anatomy.
+//! Settings of Arc Anatomy.
 
 use crate::geom::se2::SE2;
 use crate::models::{VelocityAlphas, VelocityCmd, VelocityModel};

@@ -20,7 +20,7 @@ pub const LEVELS: [f64; 3] = [0.5, 0.1, 0.01];
 pub struct Surface {
     pub columns: usize,
     pub rows: usize,
-    /// What is mapped over its highest value, in 255ths: cell by cell, row by row from the top. All 0 where a noise has no
+    /// Values of the heat map over its highest one, in 255ths: cell by cell, row by row from the top. All 0 where a noise has no
     /// variance.
     pub shades: Vec<u8>,
     /// Contours of p and of the density, of the outermost level last; x, y, m.
@@ -62,7 +62,7 @@ impl Surface {
         let shade = |value: &f64| if most > 0.0 { (255.0 * (value / most)).round() as u8 } else { 0 };
         let contours = |values: &[f64]| {
             let top = highest(values);
-            // Of the logarithms, which bend less between the cells.
+            // Lines are interpolated between logarithms, which bend less between the cells.
             let logs: Vec<f64> = values.iter().map(|value| libm::log(value.max(f64::MIN_POSITIVE))).collect();
             let levels = LEVELS.iter().filter(|_| top > 0.0).map(|share| libm::log(share * top));
             let lines = levels.flat_map(|level| level_set(&logs, columns, level));

@@ -4,7 +4,7 @@ use super::Settings;
 use super::figures::{Stats, estimated, inverted};
 use crate::geom::arc::ArcInversion;
 
-/// What the lines of Table 5.1 compute, in their order; line 4 is signed unless the settings ask for it as printed.
+/// Values of the lines of Table 5.1, in their order; line 4 is signed unless the settings ask for it as printed.
 ///
 /// Where the displacement is parallel to the heading μ, the centre and r* are infinite, and where there is none μ is NaN.
 #[derive(Clone, Copy, Debug, PartialEq)]

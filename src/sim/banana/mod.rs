@@ -403,7 +403,7 @@ impl BananaMachine {
         Some(Sample { pose, twist: self.twist(&pose), executed, path })
     }
 
-    /// What each of the samples shown executed: v̂ (m/s), ω̂ and γ̂ (rad/s), or under the odometry model δ̂_rot1 (rad),
+    /// Executed motions of the samples shown: v̂ (m/s), ω̂ and γ̂ (rad/s), or under the odometry model δ̂_rot1 (rad),
     /// δ̂_trans (m) and δ̂_rot2 (rad).
     pub fn executed(&self) -> impl ExactSizeIterator<Item = [f64; 3]> {
         let motion = self.settings.motion(self.settings.command);

@@ -28,7 +28,7 @@ pub const MAX_SAMPLES: usize = 1_000_000;
 /// Ten times the chapter's: more steps of a metre a second would show nothing that these do not.
 pub const MAX_STEPS: u64 = 200;
 
-/// Of the seeds 0 to 99 that cross 5 % at the step where the exact ratio does, the one whose ratios are nearest to the exact
+/// Seed: of the seeds 0 to 99 that cross 5 % at the step where the exact ratio does, the one whose ratios are nearest to the exact
 /// ones: what everybody sees first should not be a stroke of luck.
 const OPENING_SEED: u64 = 29;
 
@@ -75,7 +75,7 @@ impl Settings {
     pub fn model(&self) -> VelocityModel {
         let share = match self.per {
             NoisePer::Step => 1.0,
-            // Of a path of n steps: (nΔt)²σ²/n = Δt²·nσ².
+            // A path of n steps has (nΔt)²σ²/n = Δt²·nσ².
             NoisePer::Path => f64::from(self.steps),
         };
         VelocityModel {

@@ -70,7 +70,7 @@ settings! {
         phase: f64 = 3.0, in PHASE;
         /// Outcomes in the whole cloud.
         samples: usize = 500, in 1..=MAX_SAMPLES;
-        // Of the seeds 0 to 39, the one whose spreads are nearest to the exact ones at the opening.
+        // Seed: of the seeds 0 to 39, the one whose spreads are nearest to the exact ones at the opening.
         /// The same seed draws the same outcomes.
         seed: u64 = 25, in 0..=MAX_SEED;
     }

@@ -1,4 +1,4 @@
-//! What the tests share: reference tables, seeded randomness, and the arithmetic of statistical tolerances.
+//! Helpers of the tests: reference tables, seeded randomness, and the arithmetic of statistical tolerances.
 
 pub mod density;
 pub mod distance;

@@ -205,7 +205,7 @@ fn sampler_and_density_agree() {
     }
 }
 
-/// What the chapter says of the table: a scoring function whose shape is a few percent away from the density.
+/// Claim of the chapter on the table: a scoring function whose shape is a few percent away from the density.
 #[test]
 fn the_tables_prob_differs_from_the_density_by_a_few_percent() {
     let (u, x) = (command(1.0, 0.5, 1.0), SE2::identity());

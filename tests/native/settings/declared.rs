@@ -1,4 +1,4 @@
-//! What settings say of themselves, and what they take.
+//! Descriptions of settings, and the values that they take.
 
 use motion::sim::banana::{BananaMachine, Settings};
 use motion::sim::settings::{Declared, Setting};

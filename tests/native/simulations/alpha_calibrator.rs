@@ -13,7 +13,7 @@ fn machine(settings: Settings) -> AlphaCalibrator {
     AlphaCalibrator::new(settings).expect("allowed")
 }
 
-/// Whether the interval of each α, and then of each systematic error, holds what the log was simulated with.
+/// Returns whether the interval of each α, and then of each systematic error, holds what the log was simulated with.
 fn held(machine: &AlphaCalibrator) -> [bool; 10] {
     let calibration = machine.calibration();
     let truth = machine.truth().expect("a simulated log");
@@ -29,7 +29,7 @@ fn held(machine: &AlphaCalibrator) -> [bool; 10] {
     })
 }
 
-/// What everybody sees first holds all that is true.
+/// The intervals of the opening log hold all true values.
 #[test]
 fn the_opening_intervals_hold_the_true_values() {
     let machine = machine(Settings::default());
@@ -106,7 +106,7 @@ fn panels_are_means_of_squared_innovations() {
     assert!((0..8).map(off).sum::<f64>() < 26.1, "χ² of 8 is above that once in a thousand times");
 }
 
-/// Where the model is true no more of the bins are beyond two and three of their bars than normal errors would be, also of those that
+/// If the model is true, no more bins are beyond two and three of their bars than normal errors would be, also of those that
 /// one leg of much turn decides: bars by how squares scatter alone would leave out 1.7 % at three, six times as many.
 #[test]
 #[ignore = "nightly: 40 calibrations"]

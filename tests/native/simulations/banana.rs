@@ -238,7 +238,7 @@ fn both_views_find_the_nearest_sample() {
     }
 }
 
-/// What the machine says of each robot's way leads to where that robot is shown, under either model.
+/// The executed motion of each robot leads to the pose that is shown, under either model.
 #[test]
 fn the_executed_motion_leads_to_the_pose() {
     for settings in models() {

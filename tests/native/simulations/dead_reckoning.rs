@@ -38,7 +38,7 @@ fn all_kinds() -> Vec<Settings> {
     ]
 }
 
-/// Whether two poses are equal but for rounding at the scale of the path.
+/// Returns whether two poses are equal but for rounding at the scale of the path.
 fn assert_same([x, y, theta]: [f64; 3], expected: &SE2, scale: f64) {
     let apart = SE2::new(x, y, theta).boxminus(expected);
     assert!(apart.amax() < 1e-13 * scale, "({x}, {y}, {theta}), not {expected:?}: {apart}");
@@ -129,7 +129,7 @@ fn ratios_and_misses_are_counted() {
     }
 }
 
-/// What the chapter's recursion misses, and that nothing is said of it by too few robots, or of no spread.
+/// Misses of the chapter's recursion; too few robots, or robots without spread, have none.
 #[test]
 fn misses_are_reported_with_enough_robots_only() {
     let told = |settings| machine(settings).compared(Compounding::Chapter).misses.map(|misses| misses.told);
@@ -143,7 +143,7 @@ fn misses_are_reported_with_enough_robots_only() {
     assert_eq!(empty.stats().n, 0);
 }
 
-/// What has no variance has no error that were a share of it, and nothing is told by it, however small the numbers are.
+/// A component without variance has no relative error, however small the numbers are.
 #[test]
 fn a_zero_variance_has_no_relative_error() {
     let errors = |settings| machine(settings).measured()[1].relative_error;
@@ -204,7 +204,7 @@ fn a_seed_gives_the_same_draws() {
     assert_eq!(large.rollout(1500), None);
 }
 
-/// Of the whole path, each step has its share: the sum of the shares is the path's own variance, whatever the number of steps.
+/// Each step has its share of the whole path: the sum of the shares is the path's own variance, whatever the number of steps.
 #[test]
 fn noise_of_the_whole_path_is_shared_by_its_steps() {
     let whole = VelocityCmd { v: 1.0, omega: 0.5, dt: 4.0 };

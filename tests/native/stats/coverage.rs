@@ -33,7 +33,7 @@ fn assert_covered(what: &str, share: f64, repetitions: u64) {
     assert!((share - 0.95).abs() <= allowed, "{what}: {:.2} % hold the exact value", 100.0 * share);
 }
 
-/// How often the skew and the gains of poses and on the floor are within 1.96 of their errors.
+/// Shares of runs in which the skew and the gains of poses and on the floor are within 1.96 of their standard errors.
 fn shares_within_errors(settings: Settings, repetitions: u64) -> [f64; 3] {
     let mut machine = BananaMachine::new(settings).expect("valid settings");
     let (skew, gain) = (machine.exact().cross_track_skew, machine.exact_gain().value);
@@ -66,7 +66,7 @@ fn errors_of_clouds_of_a_tenth() {
     }
 }
 
-/// Where a few robots far off have most of the variance.
+/// Here a few robots far off have most of the variance.
 #[test]
 #[ignore = "nightly: thousands of clouds"]
 fn errors_of_the_finest_banana_as_it_opens() {
@@ -99,7 +99,7 @@ fn small_clouds_hold_the_exact_skew_as_often_as_told() {
     }
 }
 
-/// Of the motions under these settings whose end is free, the share whose way is not: a sum over the noises of speed and
+/// Share of motions whose path is blocked among those whose end is free, under these settings: a sum over the noises of speed and
 /// turn rate, as the turn after the arc moves nothing.
 fn share_through_walls(settings: &squeeze::Settings) -> f64 {
     const NODES: usize = 600;

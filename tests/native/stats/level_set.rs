@@ -46,7 +46,7 @@ fn a_saddle_is_parted_as_the_mean_of_its_corners_says() {
     }
 }
 
-/// Of a field of noise: each edge whose ends lie on two sides is crossed once, lines end where they began or at the rim, and no
+/// In a field of noise, each edge whose ends lie on two sides is crossed once, lines end where they began or at the rim, and no
 /// two points of a line are more than a cell apart.
 #[test]
 fn contours_of_noise_contain_every_crossing() {

@@ -70,7 +70,7 @@ function named(declaration) {
 }
 
 
-/** What every figure has, by what the comments of its class say is public. @param {import('./declarations.mjs').Widget[]} all */
+/** Returns the type of a figure with the public members of its class. @param {import('./declarations.mjs').Widget[]} all */
 async function figureType([{ attributes }]) {
   const { COMMON } = await importTypeScript('www/figure/attributes.ts');
   const { classes } = await comments();
@@ -88,8 +88,8 @@ async function figureType([{ attributes }]) {
     return { name, type: text === 'CustomEvent' ? `CustomEvent<${name[0].toUpperCase()}${name.slice(1)}>` : text, description: oneLine(description) };
   });
   return (
-    `/** What an element tells, by \`addEventListener\`; \`Stats\` are those of its machine. */\n${asInterface('FigureEvents<Stats>', events)}\n` +
-    '/** What every element has. */\n' +
+    `/** Events of an element for \`addEventListener\`; \`Stats\` are those of its machine. */\n${asInterface('FigureEvents<Stats>', events)}\n` +
+    '/** Members of every element. */\n' +
     asInterface('FigureElement<State extends FigureState, Stats>', [...common, ...fields, ...LISTENERS], 'HTMLElement')
   );
 }
@@ -108,7 +108,7 @@ async function elementTypes({ tag, machine, attributes, properties, state }) {
   const { COMMON } = await importTypeScript('www/figure/attributes.ts');
   const element = `FigureElement<${machine}State, ${machine}['stats']>`;
   const widget = { name: 'widget', type: `'${tag}'`, description: '' };
-  // What every figure has is there already.
+  // Members of every figure are in FigureElement.
   const own = attributes.filter(({ name }) => !(name in COMMON)).map((each) => ({ ...each, isText: true }));
   return (
     `${asInterface(`${machine}State`, [widget, ...state], 'FigureState')}\n` +

@@ -40,11 +40,11 @@ impl fmt::Display for NegativeVariance {
 
 impl std::error::Error for NegativeVariance {}
 
-/// With zero variance a residual up to this size counts as none (m/s or rad/s, or m or rad for odometry legs).
+/// Largest residual that counts as 0 for a noise of zero variance (m/s or rad/s, or m or rad for odometry legs).
 ///
-/// Inverting the arc of a hundredth of a second at 1 m/s, a kilometre from the origin, leaves up to 4e-9 of γ̂, more at
-/// lower speeds; a smaller bound would call a sampler's own poses impossible. No robot is driven to a tenth of a
-/// micrometre a second; a larger bound would begin to accept motions that did not follow the command.
+/// The inversion of an arc of 0.01 s at 1 m/s, a kilometre from the origin, errs by up to 4e-9 in γ̂, and by more at lower speeds. So
+/// a smaller bound would call a sampler's own poses impossible. No robot is controlled to 0.1 µm/s, so that this bound accepts no
+/// motion that did not follow the command.
 const ROUNDING: f64 = 1e-7;
 
 /// √6: the triangular density of variance b² lives on ±√6·b.

@@ -82,8 +82,8 @@ pub fn invert_arc(x: &SE2, x_next: &SE2, dt: f64) -> ArcInversion {
     }
 }
 
-/// Of the arcs that leave `x` along its heading and reach the position of `x_next` (forward or in reverse, round the
-/// circle or not), the one whose turn is nearest to `near` (rad): its signed length (m) and its turn (rad).
+/// Signed length (m) and turn (rad) of the arc from `x` along its heading to the position of `x_next` whose turn is nearest to
+/// `near` (rad). The arc may go forward or in reverse, and more than once round its circle.
 ///
 /// All of them lie on one circle, where the length driven is proportional to the turn. Without displacement the length
 /// is 0; along a straight line, which closes no circle, the turn is 0.

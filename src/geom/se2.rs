@@ -164,9 +164,9 @@ fn sinc_squared_half(turn: f64) -> f64 {
     root * root
 }
 
-/// Below this |ω| the series is used for the two quotients that cancel. From 1 on the closed forms lose up to four bits of
-/// quotients that are a sixth or less, which leaves the sums they enter exact to rounding; a smaller bound would let the
-/// loss grow with 1/|ω|, a larger one would need more terms.
+/// Least |ω| of the closed forms; below it the two quotients that cancel are computed by a series. From 1 on the closed forms lose
+/// up to four bits of quotients that are a sixth or less, and the sums of these stay exact to rounding. A smaller bound would let
+/// the loss grow with 1/|ω|; a larger one would need more terms.
 const SERIES_BELOW: f64 = 1.0;
 
 /// (ω − sin ω)/ω² = ω/3! − ω³/5! + ω⁵/7! − …

@@ -12,9 +12,8 @@ const HEADINGS: u32 = 72;
 const SQUARES: f64 = 256.0;
 
 impl FloorPlan {
-    /// A pose in the open for a disc of radius `clearance` (m): in the middle of the largest square that is known to be
-    /// free, heading where the way is known to be free for longest. Where the disc does not fit there, the first place
-    /// where it does; None where it fits nowhere.
+    /// Free pose for a disc of radius `clearance` (m): the centre of the largest square that is known to be free, in the heading
+    /// with the longest free path. If the disc does not fit there, the first place where it fits; None if it fits nowhere.
     pub fn open_place(&self, clearance: f64) -> Option<SE2> {
         let squares = Squares::of(self);
         let open = squares.middle_of_largest().map(|middle| squares.point(middle));

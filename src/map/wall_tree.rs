@@ -3,9 +3,9 @@
 use crate::geom::segment::Segment;
 use std::ops::Range;
 
-/// Walls by where they are and where they lead. Each node knows a capsule, all points within its thickness of one line,
-/// that holds its walls: long walls side by side are as few to look at as short ones in one place, walls that are nearly
-/// the same are looked at as one, and equal ones are one.
+/// Tree of walls by position and direction. Each node has a capsule, all points within its thickness of one line, that contains its
+/// walls. So long walls side by side need as few comparisons as short ones in one place. Walls that are nearly equal are compared as
+/// one, and equal walls are stored once.
 ///
 /// It is a full binary tree without pointers: the children of node i are 2i and 2i + 1, the root is 1.
 #[derive(Clone, Debug)]

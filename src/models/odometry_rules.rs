@@ -63,14 +63,14 @@ impl OdometryRule {
         OdomDelta { rot1: 0.0, trans: reading.trans, rot2: wrap_angle(reading.rot1 + reading.rot2) }
     }
 
-    /// The variances of the noises of `reading`, given as it was measured or as [`OdometryRule::legs`] has it:
+    /// Variances of the noises of `reading`, which may be a measured one or the legs of [`OdometryRule::legs`]:
     ///
     /// | rule | rot1 | trans | rot2 | strafe |
     /// |---|---|---|---|---|
     /// | the others | α₁c₁² + α₂t² | α₃t² + α₄(c₁² + c₂²) | α₁c₂² + α₂t² | 0 |
     /// | `Omni` | 0 | α₃t² + α₄δ² | α₁δ² + α₂t² | α₅t² + α₄δ² |
     ///
-    /// with t the length of the drive, cᵢ what rotation i is charged as, and δ = rot1 + rot2 the turn, wrapped.
+    /// with t the length of the drive, cᵢ the angle that rotation i counts as, and δ = rot1 + rot2 the turn, wrapped.
     pub fn variances(self, reading: &OdomDelta, alphas: &RuleAlphas) -> LegVariances {
         let [a1, a2, a3, a4, a5] = *alphas;
         let legs = self.legs(reading);
@@ -104,8 +104,8 @@ pub struct ExecutedLegs {
 }
 
 impl ExecutedLegs {
-    /// Where a robot is that starts from `x`: there, turned by the first leg, at the end of the second, and turned by the
-    /// third. In the frame of `x`'s reference.
+    /// Poses of a robot that starts from `x`: at the start, after the first turn, at the end of the drive, and after the second
+    /// turn. In the frame of `x`.
     pub fn poses(&self, x: &SE2) -> [SE2; 4] {
         let OdomDelta { rot1, trans, rot2 } = self.legs;
         let turned = *x * SE2::new(0.0, 0.0, rot1);
@@ -115,9 +115,9 @@ impl ExecutedLegs {
 }
 
 impl LegVariances {
-    /// `legs` as they are executed when the noises take `unit_noise` times their standard deviations: that which leads across
-    /// the drive (by the first rotation or by sliding; no rule has both), that of the drive, that of the second rotation. As
-    /// in Table 5.6, noise is subtracted.
+    /// Executed legs when the noises are `unit_noise` times their standard deviations. `across` is the noise of the first rotation or of
+    /// sliding (no rule has both), `along` that of the drive, `turn` that of the second rotation. As in Table 5.6, noise is
+    /// subtracted.
     pub fn executed(&self, legs: &OdomDelta, [across, along, turn]: [f64; 3]) -> ExecutedLegs {
         ExecutedLegs {
             legs: OdomDelta {

@@ -10,8 +10,8 @@ use rand::Rng;
 use std::f64::consts::PI;
 use std::fmt;
 
-/// x_t = x_{t−1} ⊞ (τ + w), w ~ N(0, R), then, where the model came from [`TangentNoiseModel::from_velocity`], a turn
-/// on the spot by N(0, Δt²(α₅v² + α₆ω²)).
+/// Motion x_t = x_{t−1} ⊞ (τ + w), w ~ N(0, R). A model made by [`TangentNoiseModel::from_velocity`] adds a turn on the spot by
+/// N(0, Δt²(α₅v² + α₆ω²)).
 ///
 /// R is 3 × 3 in the order (along, lateral, heading), m², m·rad, rad², in the body frame of x_{t−1} (right
 /// perturbation). It may be singular: a wheelset has no lateral noise.
@@ -124,11 +124,12 @@ impl TangentNoiseModel {
         x.boxplus(Self::twist(u) + w) * SE2::new(0.0, 0.0, last_turn)
     }
 
-    /// The logarithm of the density of ξ = x_t ⊟ x_{t−1}, over dξ in the order (along, lateral, heading).
+    /// Logarithm of the density of ξ = x_t ⊟ x_{t−1}, over dξ in the order (along, lateral, heading).
     ///
-    /// All noise inside the arc: log N(ξ; τ, R + 10⁻¹²·I). Times sinc⁻²(ξ_ω/2) it would be a density over dx dy dθ.
-    /// With a turn after the arc: that of the noises (v̂Δt, ω̂Δt, γ̂Δt) which lead to x_t by the arc of at most half a
-    /// turn, times sinc²(ξ_ω/2) over the determinant v̂Δt·sinc²(ω̂Δt/2)/2 of the map from noises to (x, y, θ).
+    /// Without a turn after the arc it is log N(ξ; τ, R + 10⁻¹²·I). Times sinc⁻²(ξ_ω/2) that would be a density over dx dy dθ.
+    /// With such a turn it is the density of the noises (v̂Δt, ω̂Δt, γ̂Δt) that lead to x_t by the arc of at most half a turn.
+    /// That density is multiplied by sinc²(ξ_ω/2) and divided by v̂Δt·sinc²(ω̂Δt/2)/2, the determinant of the map from noises to
+    /// (x, y, θ).
     pub fn log_prob(&self, x_next: &SE2, u: &VelocityCmd, x: &SE2) -> f64 {
         if self.last_turn == 0.0 {
             let padded = self.r + Matrix3::identity() * PADDING;
@@ -199,7 +200,7 @@ fn small_adjoint(twist: &Vector3<f64>) -> Matrix3<f64> {
 fn log_normal(residual: &Vector3<f64>, cov: &Matrix3<f64>) -> f64 {
     let Some(root) = cov.cholesky().map(|cholesky| cholesky.unpack()) else { return f64::NEG_INFINITY };
     let log_det: f64 = (0..3).map(|i| 2.0 * libm::log(root[(i, i)])).sum();
-    // Of the whitened residual: solving for it twice would divide by a variance that may be smaller than any double.
+    // The squared norm of the whitened residual avoids a division by a variance, which may underflow.
     let Some(whitened) = root.solve_lower_triangular(residual) else { return f64::NEG_INFINITY };
     -0.5 * (whitened.norm_squared() + log_det + 3.0 * libm::log(2.0 * PI))
 }

@@ -124,8 +124,8 @@ impl ExactMoments {
     }
 }
 
-/// The cross-track skew of exp(ξ), ξ ~ N(`mean`, `cov`) in the order (along, lateral, heading), about the mean
-/// heading: what a Gaussian in exponential coordinates says of the statistic that is 0 for every Gaussian in (x, y).
+/// Cross-track skew of exp(ξ), ξ ~ N(`mean`, `cov`) in the order (along, lateral, heading), about the mean heading. A Gaussian in
+/// (x, y) has a skew of 0; one in exponential coordinates has this.
 ///
 /// By quadrature over the heading: given it, the position is linear in the other two coordinates. `mean` in m, m, rad,
 /// `cov` 3 × 3 positive semidefinite. NaN where there is no spread across the track.

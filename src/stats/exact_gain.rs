@@ -221,7 +221,7 @@ fn normal_mean_log(m: f64) -> f64 {
     0.5 * sum
 }
 
-/// E ln|m + T| for T of the triangular density on ±`edge`, to 1e-14: by its moments where 0 is far, else a second
+/// E ln|m + T| for T of the triangular density on ±`edge`, to 1e-14. Far from 0 it is a series of moments. Elsewhere it is a second
 /// difference of the second antiderivative of the logarithm, because T is a sum of two uniform numbers.
 fn triangular_mean_log(m: f64, edge: f64) -> f64 {
     if edge < 0.5 * m {

@@ -44,9 +44,9 @@ pub fn random_seed() -> Result<f64, JsError> {
     Ok(f64::from(getrandom::u32()?))
 }
 
-/// The arc from the origin, heading along x, that ends at (x, y), in m, −1e6 to 1e6, in the time of a command; of the
-/// many, the one whose turn is nearest to that command's. With a morph from 0 (the default, the floor) to 1 (exponential coordinates),
-/// the arc whose end is seen there.
+/// Speeds of the arc from the origin, heading along x, that ends at (x, y), in m, −1e6 to 1e6, in the time of a command. Of the many
+/// such arcs it is the one whose turn is nearest to that command's. `morph` is the stage of the picture, from 0 (the default, the
+/// floor) to 1 (exponential coordinates), in which (x, y) is a point.
 #[wasm_bindgen(js_name = commandReaching, unchecked_return_type = "{ v: number; omega: number }")]
 pub fn speeds_reaching(
     x: f64,

@@ -1,9 +1,8 @@
 //! The log that the widget opens with: simulated, so that the true α's are known.
 //!
-//! A robot follows a curve through a hall and looks around now and then. Between the updates of a localizer its truth
-//! differs from what its wheels say by the noise of Table 5.6, as its sampler has it. The reference
-//! sees it from a lever arm, at a yaw, by a clock of its own, and jumps now and then; and the wheels are not quite of the
-//! size that they are taken for.
+//! A robot follows a curve through a hall and looks around now and then. Between two updates of a localizer, true motion and odometry
+//! differ by the noise of Table 5.6. The reference is mounted with a lever arm and a yaw, has a clock of its own, and jumps now and
+//! then. The wheels are not quite of their nominal size.
 
 use super::Log;
 use crate::calibrate::Trajectory;

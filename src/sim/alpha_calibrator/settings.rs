@@ -31,9 +31,9 @@ impl Words for Outliers {
 settings! {
     /// Everything that a user sets.
     pub struct Settings {
-        /// Whose α’s are sought: four of odometry, five of a robot that can drive sideways, six of commands.
+        /// Model whose α’s are sought: four of odometry, five of a robot that can drive sideways, six of commands.
         model: Model = Model::Odometry;
-        /// Whose bookkeeping of the odometry’s noise it is; omni goes with the omnidirectional model, and with no other.
+        /// Rule that relates the α’s to the odometry’s noise; omni goes with the omnidirectional model, and with no other.
         rule: OdometryRule = OdometryRule::Table;
         /// Distribution of the noise in the predicted outcomes of a leg; the variances are the same.
         noise: NoiseKind = NoiseKind::Normal;
@@ -43,7 +43,7 @@ settings! {
         distance: f64 = 0.25, "m", in 0.01..=100.0;
         /// A leg ends where the odometry has turned by more: `update_min_a` of AMCL.
         angle: f64 = 0.2, "rad", in 0.01..=3.0;
-        /// Where it is above 0, a leg ends after so long instead, whatever the odometry says.
+        /// Above 0, legs end after this time instead of by the odometry.
         duration: f64 = 0.0, "s", in 0.0..=1e3;
         /// Correction of the yaw at which the reference is mounted, if the log identifies it.
         mountYaw, by mount_yaw_mut;
@@ -59,7 +59,7 @@ settings! {
         positionStd, by position_std_mut, "m", in 0.0..=1e3;
         /// Standard deviation of the reference’s heading; 0: estimated.
         yawStd, by yaw_std_mut, "rad", in 0.0..=1e3;
-        /// What the α’s are multiplied by in what is predicted.
+        /// Factor of the α’s in predictions.
         inflation: f64 = 1.0, in 0.01..=100.0;
         // One whose intervals hold all of the true values: what everybody sees first should not be bad luck.
         /// Seed of the simulated log.

@@ -14,15 +14,15 @@ pub struct FinalPose {
 }
 
 group!(FinalPose as FinalPose { x, y, theta } => {
-    /// Where the robot is found.
+    /// Position at which the robot is found.
     x: "m", in QUANTITY;
-    /// Where the robot is found.
+    /// Position at which the robot is found.
     y: "m", in QUANTITY;
     /// The heading that it is found with.
     theta: "rad", in QUANTITY;
 });
 
-/// What is mapped over the positions of the final pose, its heading as it is.
+/// Quantity of the heat map over the positions of the final pose, at its heading.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mapped {
     Nothing,
@@ -64,20 +64,20 @@ settings! {
         start: [f64; 3] = [0.0; 3];
         /// The pose that the robot is found in after the command.
         next: FinalPose = PRESETS[0].next;
-        /// What the robot was told to do in between.
+        /// Command that the robot was given in between.
         command: VelocityCmd = PRESETS[0].command;
         /// Noise parameters, the six of the velocity model.
         alphas: [f64; 6] = [0.05, 0.05, 0.05, 0.09, 0.01, 0.01], in ALPHA;
         /// Distribution of the noise; the variances are the same.
         noise: NoiseKind = NoiseKind::Normal;
-        /// Whether the radius is never negative, as Table 5.1 prints it.
+        /// True for a radius without sign, as Table 5.1 prints it.
         printed: bool = false;
-        /// What is mapped over all positions, for the heading of the final pose.
+        /// Quantity of the heat map over all positions, at the heading of the final pose.
         map: Mapped = Mapped::Nothing;
     }
 }
 
-/// What is said of each noise parameter, which in a page is an attribute of its own.
+/// Description of each noise parameter, which in a page is an attribute of its own.
 #[cfg(not(target_arch = "wasm32"))]
 pub const ALPHA_SENTENCES: [&str; 6] = ["Noise parameter of the velocity model."; 6];
 

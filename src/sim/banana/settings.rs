@@ -36,7 +36,7 @@ const OPENING_SEED: u64 = 87;
 settings! {
     /// Everything that a user sets.
     pub struct Settings {
-        /// Whose noise it is; each model keeps its own alphas.
+        /// Model of the noise; each model keeps its own alphas.
         model: ModelKind = ModelKind::Velocity;
         /// Distribution of the noise; the variances are the same.
         noise: NoiseKind = NoiseKind::Normal;
@@ -44,7 +44,7 @@ settings! {
         command: VelocityCmd = BANANA.command;
         /// Noise parameters of the present model: six of the velocity model, four of the odometry model.
         alphas, by alphas_mut, in ALPHA;
-        /// Whether the odometry model charges a robot that backs up for the turns it made instead of two half turns more.
+        /// True if the odometry model charges a robot that backs up for the turns it made instead of two half turns more.
         reverseAware, by reverse_aware_mut;
         /// Number of the only noise parameter in effect; null for all of them.
         isolate: Option<usize> = None, in 1..=6, up to alpha_count;
@@ -62,7 +62,7 @@ settings! {
     }
 }
 
-/// What is said of each noise parameter, the first of which is α₁; in a page each is an attribute of its own.
+/// Description of each noise parameter, the first of which is α₁; in a page each is an attribute of its own.
 #[cfg(not(target_arch = "wasm32"))]
 pub const ALPHA_SENTENCES: [&str; 6] = {
     let (of_present, of_velocity) =

@@ -28,8 +28,8 @@ pub const MAX_SAMPLES: usize = 1_000_000;
 /// Ten times the chapter's: more steps of a metre a second would show nothing that these do not.
 pub const MAX_STEPS: u64 = 200;
 
-/// Seed: of the seeds 0 to 99 that cross 5 % at the step where the exact ratio does, the one whose ratios are nearest to the exact
-/// ones: what everybody sees first should not be a stroke of luck.
+/// Typical seed: among the seeds 0 to 99 that cross 5 % at the same step as the exact ratio, the one with ratios nearest to the exact
+/// ones.
 const OPENING_SEED: u64 = 29;
 
 settings! {
@@ -45,9 +45,9 @@ settings! {
         alphas: [f64; 6] = [0.02, 0.02, 0.02, 0.02, 0.005, 0.005], in ALPHA;
         /// Level h of the heading noise: α₃ and α₄ are h, α₅ and α₆ are h/4; null where they are not those of a level.
         headingNoise, by heading_level of alphas, in ALPHA;
-        /// Whether the noise parameters are for each step or for the whole path as one command, of whose variance each step has its share.
+        /// Scope of the noise parameters: each step, or the whole path as one command, of whose variance each step has its share.
         per: NoisePer = NoisePer::Step;
-        /// How the covariance that is shown was carried from step to step.
+        /// Recursion of the covariance that is shown.
         compounding: Compounding = Compounding::Chapter;
         /// Rollouts of the whole path.
         samples: usize = 50_000, in 1..=MAX_SAMPLES as u64;
@@ -56,7 +56,7 @@ settings! {
     }
 }
 
-/// What is said of each noise parameter, the first of which is α₁; in a page each is an attribute of its own.
+/// Description of each noise parameter, the first of which is α₁; in a page each is an attribute of its own.
 #[cfg(not(target_arch = "wasm32"))]
 pub const ALPHA_SENTENCES: [&str; 6] = ["Noise parameter of the velocity model."; 6];
 
@@ -121,8 +121,8 @@ pub struct Preset {
     pub alphas: [f64; 6],
 }
 
-/// The chapter's twenty steps; the same with the heading's deviation doubled, as exercise 7 asks; the same path in two hundred
-/// steps, in each of which J_r is nearly 1; and straight ahead, where noise in the turn shows alone.
+/// Presets: the chapter's twenty steps; the same with the heading's standard deviation doubled, as exercise 7 asks; the same path in
+/// two hundred steps, with J_r nearly 1 in each; and straight ahead, where only noise in the turn shows.
 pub const PRESETS: [Preset; 4] = [
     preset("chapter", [1.0, 0.5, 0.2], 20, 0.02),
     preset("doubled", [1.0, 0.5, 0.2], 20, 0.08),

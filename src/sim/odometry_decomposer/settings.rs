@@ -56,7 +56,7 @@ settings! {
         from: OdometryPose = REVERSE.from;
         /// The odometry pose after it.
         to: OdometryPose = REVERSE.to;
-        /// Whose bookkeeping of the noise it is.
+        /// Rule that relates the α’s to the noise.
         rule: OdometryRule = OdometryRule::Table;
         /// Noise parameters, the fifth of the omnidirectional rule alone.
         alphas: RuleAlphas = [0.03, 0.01, 0.01, 0.02, 0.01], in ALPHA;
@@ -66,7 +66,7 @@ settings! {
         correlation: f64 = 0.0, in CORRELATION;
         /// Time for which the frame of the odometry has drifted away from the world.
         drift: f64 = 40.0, "s", in DRIFT;
-        /// How far the robot is on its way: in the first rotation up to 1, in the drive up to 2, in the second rotation up to 3.
+        /// Progress of the robot: in the first rotation up to 1, in the drive up to 2, in the second rotation up to 3.
         phase: f64 = 3.0, in PHASE;
         /// Outcomes in the whole cloud.
         samples: usize = 500, in 1..=MAX_SAMPLES;
@@ -76,7 +76,7 @@ settings! {
     }
 }
 
-/// What is said of each noise parameter, which in a page is an attribute of its own.
+/// Description of each noise parameter, which in a page is an attribute of its own.
 #[cfg(not(target_arch = "wasm32"))]
 pub const ALPHA_SENTENCES: [&str; 5] =
     ["Noise parameter; the first four are every rule’s, the fifth the omnidirectional one’s."; 5];

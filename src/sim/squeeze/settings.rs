@@ -25,9 +25,9 @@ impl Words for Unknown {
 }
 
 group!([f64; 3] as [x, y, theta] => {
-    /// Where the robot starts.
+    /// Position at which the robot starts.
     x: "m", in QUANTITY;
-    /// Where the robot starts.
+    /// Position at which the robot starts.
     y: "m", in QUANTITY;
     /// Its heading at the start.
     theta: "rad", in QUANTITY;
@@ -63,11 +63,11 @@ settings! {
         noise, by noise_level of alphas, in ALPHA;
         /// Radius of the robot.
         clearance: f64 = 0.13, "m", in 0.0..=10.0;
-        /// Whether draws are judged by the map at all; where not, all of them are accepted.
+        /// True if draws are judged by the map; otherwise all are accepted.
         conditioned: bool = true;
-        /// What cells of which the map says nothing are for the robot.
+        /// State of unknown cells for the robot.
         unknown: Unknown = Unknown::Free;
-        /// How draws are judged.
+        /// Sampler that judges the draws.
         sampler: Sampler = Sampler::Endpoint;
         // Opens with the first number that shows the point.
         /// Parts of the command, for the sub-stepped sampler.

@@ -1,9 +1,8 @@
 //! Integrals of pose densities, and their agreement with samples.
 //!
 //! Both work in polar coordinates around the start of the motion: signed distance c, bearing β in a half circle, and
-//! the heading θ counted from `slope` · β, with dx dy dθ = |c| dc dβ dθ. A density that grows as 1/|c| towards the start,
-//! where a robot that hardly moved ends, is smooth there, and with a slope of 2 for arcs (which turn by twice their
-//! bearing) and 1 for odometry legs the cells lie along the cloud.
+//! the heading θ counted from `slope` · β, with dx dy dθ = |c| dc dβ dθ. A density that grows as 1/|c| towards the start is smooth in
+//! them. The slope is 2 for arcs, which turn by twice their bearing, and 1 for odometry legs; then the cells lie along the cloud.
 
 use super::chi_square_limit;
 use motion::geom::se2::{SE2, wrap_angle};
@@ -112,8 +111,8 @@ impl Grid {
         counts
     }
 
-    /// χ² of a sample against the density; cells that expect fewer than 20 poses are one cell together with everything
-    /// outside the box. Returns χ² and the limit that it passes with probability 1e-4.
+    /// Returns χ² of a sample against the density. Cells that expect fewer than 20 poses are one cell together with everything
+    /// outside the box. The second number is the limit that χ² passes with probability 1e-4.
     ///
     /// The Gauss rule is right to about 1e-3 of a cell's mass where a kink of the triangular density crosses it, and
     /// far better elsewhere: at 10⁶ samples that shifts χ² by about 1, next to a limit above 100.

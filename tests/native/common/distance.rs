@@ -58,10 +58,9 @@ pub fn line_to_line(p: [Point; 2], q: [Point; 2]) -> f64 {
         .fold(f64::INFINITY, f64::min)
 }
 
-/// Bounds of the distance by halving: a piece of arc of length l that turns by t strays from its chord by at most
-/// l·t/8, so that the distance to the chord brackets the distance to the piece. Pieces that cannot hold the least
-/// distance are dropped, the others halved until rounding is all that is left, or (about the centre of the circle, where
-/// no piece is nearer than another) until there are too many.
+/// Bounds of the distance by halving. A piece of arc of length l that turns by t strays from its chord by at most l·t/8, so that the
+/// distance to the chord brackets the distance to the piece. Pieces that cannot contain the nearest point are dropped, the others
+/// halved until only rounding is left. About the centre of the circle, where all pieces are as near, halving ends at a limit.
 pub fn by_halving(arc: &Arc, wall: &Segment) -> [f64; 2] {
     let start = [arc.start.x(), arc.start.y()];
     let ends = [minus(wall.from, start), minus(wall.to, start)];

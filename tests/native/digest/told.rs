@@ -4,9 +4,8 @@ use motion::geom::se2::SE2;
 use nalgebra::{Matrix3, Vector3};
 use sha2::{Digest, Sha256};
 
-/// Every NaN is written as this one. Sign and payload of a NaN that is computed are left open by IEEE 754 and by
-/// WebAssembly: processors, and engines that compile for the same processor, differ in them, and nothing can depend on them
-/// that is not told so by chance.
+/// Bits that are written for every NaN. IEEE 754 and WebAssembly leave sign and payload of a computed NaN open, and processors and
+/// engines differ in them.
 const NAN: u64 = 0x7ff8_0000_0000_0000;
 
 /// Values that can be written as doubles, in eight bytes each, the lowest byte first. A list is preceded by its length;

@@ -124,8 +124,8 @@ const FAMILIES: [(&str, MakeArc, MakeWall, u32); 14] = [
 
 // --------------------------------------------------------------------------------------------------------- tests
 
-/// The analytic distance and the reference each round coordinates of the figure a few times: eight units in the last
-/// place of its size are enough for both, which is a hundredth of a picometre in the apartment.
+/// The analytic distance and the reference each round coordinates a few times. Eight units in the last place of the size are enough
+/// for both; that is 0.01 pm in the apartment.
 #[test]
 fn the_distance_to_an_arc_matches_bisection() {
     let (mut pairs, mut touching, mut closed) = (0, 0, 0);

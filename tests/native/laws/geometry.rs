@@ -1,7 +1,7 @@
 //! Angles, sinc and SE(2).
 //!
-//! A law that composes n maps may be off by a few units in the last place for each; 32 are allowed, as in `group_laws.rs`,
-//! here of the size of what went in, which may be 10⁻³⁰⁸ or 10³⁰⁰.
+//! A law that composes n maps may be off by a few units in the last place for each. Allowed are 32, as in `group_laws.rs`, relative to
+//! the size of the arguments, which may be 10⁻³⁰⁸ or 10³⁰⁰.
 
 use super::doubles::{cases, finite, poses, same_pose, size, twists};
 use motion::geom::se2::{SE2, wrap_angle};

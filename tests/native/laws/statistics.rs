@@ -114,9 +114,8 @@ proptest! {
         let unit = 2f64.powi(power);
         let scaled: Vec<SE2> = cloud.iter().map(|pose| SE2::new(unit * pose.x(), unit * pose.y(), pose.theta())).collect();
         let [a, b] = [&cloud, &scaled].map(|cloud| MeasuredGain::from_poses(cloud, &cloud_start(), 0.0));
-        // But for logarithms all scales without rounding. None of them is above 50, that of 2⁶⁰ being 42: the mean of fifty
-        // errs by 25 ε of that, six of volumes and their sums by another 7 ε; and a robot's difference, of which the error is the
-        // root of a mean square, by one more.
+        // Only logarithms round when all is scaled. None is above 50, as ln 2⁶⁰ = 42. The mean of fifty errs by 25 ε of that, six
+        // logarithms of volumes and their sums by another 7 ε, and the difference of a robot by one more.
         let logarithms = 2.0 * 33.0 * 50.0 * f64::EPSILON / ROUNDING;
         for (a, b) in [(a.value, b.value), (a.error, b.error)] {
             prop_assert!(close(a.pose, b.pose, logarithms) && close(a.floor, b.floor, logarithms), "{:?} {:?}", a, b);

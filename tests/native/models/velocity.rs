@@ -128,9 +128,8 @@ fn the_pose_density_divides_by_the_jacobian() {
     }
 }
 
-/// A box around the noise-free pose, whose cells' edges meet the kinks of the triangular density where their numbers are
-/// multiples of four: they lie at multiples of √6 deviations (the turn changes the bearing by half). It reaches twice as
-/// far.
+/// Box around the noise-free pose. The triangular density has its kinks at multiples of √6 standard deviations; they lie on edges of
+/// cells if the numbers of cells are multiples of four. The box reaches twice as far.
 fn box_around(model: &VelocityModel, u: &VelocityCmd, x: &SE2, cells: [usize; 3]) -> Grid {
     let [v, omega, gamma] = model.variances(u).map(|b2| 2.0 * (6.0 * b2.0).sqrt() * u.dt);
     Grid::new(x, &noise_free(u, x), 2.0, [v, 0.5 * omega, gamma], cells)
@@ -153,8 +152,8 @@ fn the_pose_density_integrates_to_one_for_large_noise() {
             Grid::everything(&x, 2.0, radius, [cells; 3])
                 .integral(|pose| model.pose_density(pose, &u, &x).unwrap())
         };
-        // Arcs of a whole turn end near the start however long they are: a corner of the integrand where the
-        // error falls as the width of a cell, and two even numbers of cells give the limit.
+        // Arcs of a full turn end near the start. The integrand has a corner there, and the error is proportional to the width
+        // of a cell. Two numbers of cells give the limit.
         let total = 2.0 * integral(16) - integral(8);
         assert!((total - 1.0).abs() < allowed, "{kind:?} {u:?}: {total}");
     }

@@ -106,8 +106,8 @@ fn panels_are_means_of_squared_innovations() {
     assert!((0..8).map(off).sum::<f64>() < 26.1, "χ² of 8 is above that once in a thousand times");
 }
 
-/// If the model is true, no more bins are beyond two and three of their bars than normal errors would be, also of those that
-/// one leg of much turn decides: bars by how squares scatter alone would leave out 1.7 % at three, six times as many.
+/// If the model is true, no more bins are beyond two and three of their error bars than normal errors would be. That holds
+/// also for bins that one leg with a large turn decides. Bars from the scatter of the squares alone would miss 1.7 % at three.
 #[test]
 #[ignore = "nightly: 40 calibrations"]
 fn the_error_bars_of_panels_hold_the_fitted_lines() {

@@ -46,8 +46,8 @@ fn a_saddle_is_parted_as_the_mean_of_its_corners_says() {
     }
 }
 
-/// In a field of noise, each edge whose ends lie on two sides is crossed once, lines end where they began or at the rim, and no
-/// two points of a line are more than a cell apart.
+/// In a field of noise each edge with a sign change is crossed once. Lines are closed or end at the rim, and successive points are at
+/// most a cell apart.
 #[test]
 fn contours_of_noise_contain_every_crossing() {
     let mut rng = seeded(21);

@@ -116,9 +116,8 @@ fn the_exponential_contour_covers_two_deviations() {
     }
 }
 
-/// The outline of a full ellipsoid is the rim of its shadow as nearly as a great circle can be: of all ξ that lead to a
-/// point of it, whatever their heading, the nearest to the mean is two deviations away, or a little less. The nearest is
-/// found by brute force over headings.
+/// The outline of an ellipsoid is nearly the edge of its projection. Of all ξ that lead to a point of the outline, with any heading, the
+/// nearest to the mean is two standard deviations away, or a little less. It is found by brute force over headings.
 #[test]
 fn the_outline_is_nearly_the_shadow_of_the_ellipsoid() {
     let cases = [
@@ -242,8 +241,8 @@ fn degenerate_clouds_give_nan() {
     assert!(ExactMoments::of_velocity(&along, &VelocityCmd { omega: 0.0, ..U }).cross_track_skew.is_nan());
 }
 
-/// A breadth that is rounding beside the cloud's length counts as none, also where the robots drive to either side of the start
-/// and their mean is as good as there: the length of each is known to a thousandth of a metre, the turn to `turn`.
+/// A width of the size of rounding counts as 0, also if robots drive to both sides of the start and their mean is at the start. Lengths
+/// are known to a millimetre here, turns to `turn`.
 #[test]
 fn a_cloud_whose_breadth_is_rounding_is_a_line() {
     const SPEED: f64 = 1e-6;

@@ -107,7 +107,7 @@ const CHECKS = {
     await comesTo(page, '[machine.preset, machine.omega, machine.dt, machine.command]', [null, 0.2, 1.4, { v: 1, omega: 0.2, dt: 1.4 }]);
     assert.deepEqual(await shows(page, ['preset', 'omega', 'dt']), { preset: null, omega: 0.2, dt: 1.4 });
     await python(page, 'setattr(machine, "omega", None)');
-    await comesTo(page, 'machine.omega', 0.5);
+    await comesTo(page, 'machine.omega', 0);
     // Only the figure knows the number of α's of a model, so it refuses a wrong length.
     await python(page, 'setattr(machine, "alphas", [1, 2, 3])');
     await comesTo(page, '[machine.alphas, "alphas" in machine.error]', [ORIGINAL.alphas, true]);

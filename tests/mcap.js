@@ -88,18 +88,16 @@ const COMPRESSION = {
  * @param {boolean} [options.chunks]
  * @param {number} [options.chunkSize] bytes
  * @param {string} [options.encoding] of messages
- * @param {(bytes: Uint8Array) => void} [options.write] is given it piece by piece, in the place of the result
  * @returns {Promise<Buffer<ArrayBuffer>>}
  */
-export async function recordingOf(messages, { compression = 'none', index = true, chunks = index, chunkSize = 4096, encoding = 'cdr', write } = {}) {
+export async function recordingOf(messages, { compression = 'none', index = true, chunks = index, chunkSize = 4096, encoding = 'cdr' } = {}) {
   /** @type {Uint8Array[]} */
   const parts = [];
   let size = 0n;
   const writable = {
     position: () => size,
     write: async (/** @type {Uint8Array} */ bytes) => {
-      if (write) write(bytes);
-      else parts.push(bytes.slice());
+      parts.push(bytes.slice());
       size += BigInt(bytes.length);
     },
   };

@@ -104,7 +104,7 @@ export function png(name, columns, rows, occupied, transparent) {
     if (part) return transparent?.(column, row) ? 0 : 255;
     return occupied(column, row) ? 0 : 254;
   };
-  return file(name, pngOf({ width: columns, height: rows, colour: transparent ? 4 : 0, sample }));
+  return file(name, pngOf({ width: columns, height: rows, opacity: transparent !== undefined, sample }));
 }
 
 /**

@@ -16,7 +16,7 @@ import { openRecordings } from '../../www/logs/open.ts';
 import { applyMap, cellsOf, mapData } from '../../www/widgets/map-squeeze/maps/data.ts';
 import { odometry, poseOf, recordingOf, stampOf, transform, twistOf } from '../mcap.js';
 import { readLog } from '../node/log-support.js';
-import { description, file, refusalOf } from '../node/map-support.js';
+import { file, refusalOf } from '../node/map-support.js';
 
 /**
  * @typedef {object} Target
@@ -144,9 +144,6 @@ function fixtures(...names) {
 /** Topics and frames that are read from a recording. */
 const CHOICES = [{ series: '/odom' }, { series: '/pose' }, { series: '/cmd_vel' }, { series: '/tf', frames: { parent: 'map', child: 'base' } }];
 
-/** Description of an image in which few cells are occupied: walls are slow, and the core has its own targets. */
-const bare = (/** @type {string} */ image) => description({ image, negate: 1, occupied_thresh: 0.99 });
-
 /** Options of the fastest deflation. */
 const STORED = { level: 0, memLevel: 1 };
 
@@ -166,10 +163,6 @@ const PLANS = texts(
 
 /** @type {Record<string, Target>} */
 export const targets = {
-  pgm: {
-    corpus: texts('P2\n# by hand\n4 3\n255\n0 255 51 7\n102 153 204 8\n1 2 3 4\n', 'P5\n3 2\n255\nabcdef', 'P5 2 2 65535\nabcdefgh'),
-    run: (bytes) => filesAreTaken(bare('map.pgm'), file('map.pgm', bytes)),
-  },
   yaml: { corpus: YAMLS, run: (bytes) => filesAreTaken(file('map.yaml', bytes), file('map.pgm', 'P5 2 1 255\nab')) },
   plan: { corpus: PLANS, run: (bytes) => filesAreTaken(file('map.json', bytes)) },
   csv: {

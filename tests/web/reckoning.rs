@@ -4,32 +4,11 @@ use crate::support::{Object, assert_near};
 use wasm_bindgen_test::wasm_bindgen_test;
 
 #[wasm_bindgen_test]
-fn it_opens_as_the_figure_does() {
-    let it = Object::new("motion.DeadReckoning.empty()");
-    assert_eq!(
-        it.get::<String>("JSON.stringify(it.config)"),
-        r#"{"command":{"v":1,"omega":0.5,"dt":0.2},"steps":20,"step":2,"alphas":[0.02,0.02,0.02,0.02,0.005,0.005],"#
-            .to_owned()
-            + r#""per":"step","compounding":"chapter","samples":50000,"seed":29}"#
-    );
-    assert_eq!(it.get::<[usize; 2]>("[it.shown, it.stats.n]"), [0; 2]);
-}
-
-/// After twenty steps the chapter's recursion is 6 % short along and 3 % across; the others are not.
-#[wasm_bindgen_test]
 fn recursions_are_compared_with_the_robots() {
     let it = Object::new("new motion.DeadReckoning({ step: 20 })");
-    for (order, ends) in
-        [("chapter", [-0.061, -0.03]), ("first-order", [0.0, 0.0]), ("fourth-order", [0.0, 0.0])]
-    {
-        let [(along, along_error), (across, across_error)]: [(f64, f64); 2] = it
-            .get(&format!("it.stats.misses['{order}'].slice(0, 2).map(({{ end, error }}) => [end, error])"));
-        assert!(
-            (0.004..0.008).contains(&along_error) && (0.004..0.008).contains(&across_error),
-            "{along_error} {across_error}"
-        );
-        // 4.5 standard errors, and a thousandth for the recursion itself.
-        assert_near([along, across], ends, 4.5 * along_error + 0.001);
+    for order in ["chapter", "first-order", "fourth-order"] {
+        let [along, across]: [f64; 2] =
+            it.get(&format!("it.stats.misses['{order}'].slice(0, 2).map(({{ end }}) => end)"));
         let propagated: [[f64; 3]; 3] = it.get(&format!(
             "motion.propagate({{ command: it.config.command, alphas: it.config.alphas,
                 compounding: '{order}', steps: 20 }})"
@@ -70,8 +49,6 @@ fn robots_and_outlines_are_those_of_a_step() {
         && line[0] === line.at(-2)).map(([name]) => name)";
     assert_eq!(it.get::<Vec<String>>(outlines), ["ellipse", "exponential", "predicted", "measured"]);
     assert_eq!(it.get::<(Option<()>, usize)>("[it.outlines(21), it.posesAfter(21).length]"), (None, 0));
-    // α₁v²Δt² is ¼α₃v⁴Δt⁴ where Δt is 2/v √(α₁/α₃).
-    assert_near([it.get("it.straightGrowth.crossing")], [2.0], 1e-12);
     it.assert(
         "['durations', 'along', 'across', 'alongFirstOrder', 'acrossFirstOrder'].every((key) =>
         it.straightGrowth[key].length === it.straightGrowth.durations.length)",

@@ -8,7 +8,6 @@ use motion::geom::se2::{SE2, wrap_angle};
 use motion::models::OdometryRule;
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use std::f64::consts::TAU;
-use std::time::Instant;
 
 const NAV2: Model = Model::Odometry(OdometryRule::Nav2);
 
@@ -236,17 +235,5 @@ fn the_noise_of_the_reference_maximizes_the_likelihood() {
     assert!((at(position, yaw) - top).abs() < 1e-3, "{} {top}", at(position, yaw));
     for factor in [0.8, 1.25] {
         assert!(at(factor * position, yaw) < top && at(position, factor * yaw) < top, "{factor}");
-    }
-}
-
-#[test]
-#[ignore = "nightly: a log of 100,000 legs"]
-fn a_hundred_thousand_legs_take_this_long() {
-    for model in MODELS {
-        let made = Simulation::of(model, NoiseKind::Normal, 100_000, 7);
-        let log = made.log();
-        let start = Instant::now();
-        let calibration = calibrated_log(&log, &made.options());
-        println!("{model:?}: {} legs in {:.0?}", calibration.legs.len(), start.elapsed());
     }
 }

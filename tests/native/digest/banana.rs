@@ -2,14 +2,10 @@
 
 use super::configuration::{Configuration, ramp};
 use super::told::{Part, Told};
-use motion::geom::arc::ArcInversion;
-use motion::geom::se2::SE2;
+use motion::OdomDelta;
 use motion::sim::View;
-use motion::sim::banana::{
-    BananaMachine, Executed, Figures, PRESETS, Sample, Settings, Stats, Table, TableColumn, command_reaching,
-};
+use motion::sim::banana::{BananaMachine, Figures, PRESETS, Settings, Stats, Table, TableColumn};
 use motion::stats::{CartesianMoments, ExponentialMoments, LikelihoodGain};
-use motion::{OdomDelta, VelocityCmd};
 
 const VIEWS: [View; 2] = [View::Plane, View::Twist];
 
@@ -21,17 +17,6 @@ pub fn parts(configuration: &Configuration) -> Vec<Part> {
     let twists: Vec<f64> = machine.twists().flat_map(<[f64; 3]>::from).collect();
     let executed: Vec<f64> = machine.executed().flatten().collect();
     let contours = machine.contours();
-    let inspected: Vec<Inspected> = (0..shown)
-        .step_by(501)
-        .map(|index| Inspected(machine.inspect(index).expect("a sample that is shown")))
-        .collect();
-    let nearest =
-        VIEWS.map(|view| machine.nearest(view, [0.9, 0.2], [0.5, 0.3]).map_or(-1.0, |index| index as f64));
-    let reaching = [[1.0, 0.5], [-0.3, 0.8], [0.0, 0.0], [2.0, -1.5]].map(|[x, y]| {
-        let VelocityCmd { v, omega, .. } = command_reaching(x, y, &settings.command);
-        Plain([v, omega])
-    });
-    let densities = VIEWS.map(|view| machine.density(view, &grid));
     let mut pictures = VIEWS.map(|view| machine.paint(view, &grid, &ramp(0)).as_flattened().to_vec());
     let [plane, twist] = &mut pictures;
     vec![
@@ -51,9 +36,6 @@ pub fn parts(configuration: &Configuration) -> Vec<Part> {
                 &contours.additive.as_flattened().to_vec(),
             ],
         ),
-        Part::new("curve", &[&machine.skew_curve(-3.0, 3.0, 25)]),
-        Part::new("samples", &[&inspected, &nearest, &reaching]),
-        Part::new("densities", &[&densities]),
         Part::new("plane", &[plane]),
         Part::new("twist", &[twist]),
     ]
@@ -79,27 +61,6 @@ impl<const N: usize> Told for Plain<N> {
 impl Told for OdomDelta {
     fn tell(&self, bytes: &mut Vec<u8>) {
         Plain([self.rot1, self.trans, self.rot2]).tell(bytes);
-    }
-}
-
-struct Inspected(Sample);
-
-impl Told for Inspected {
-    fn tell(&self, bytes: &mut Vec<u8>) {
-        let Sample { pose, twist, executed, path } = &self.0;
-        let pose_of = |pose: &SE2| [pose.x(), pose.y(), pose.theta()];
-        pose_of(pose).tell(bytes);
-        twist.tell(bytes);
-        let (rates, legs) = match *executed {
-            Executed::Arc { arc: ArcInversion { v_hat, omega_hat, gamma_hat }, .. } => {
-                ([v_hat, omega_hat, gamma_hat], None)
-            }
-            Executed::Legs(legs) => ([f64::NAN; 3], Some(legs)),
-        };
-        Plain(rates).tell(bytes);
-        legs.tell(bytes);
-        path.as_flattened().tell(bytes);
-        pose.theta().tell(bytes);
     }
 }
 

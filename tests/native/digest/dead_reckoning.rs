@@ -2,16 +2,13 @@
 
 use super::configuration::Configuration;
 use super::told::{Part, Told};
-use motion::sim::dead_reckoning::{
-    DeadReckoning, Misses, Outlines, PRESETS, RECURSIONS, Settings, Stats, StraightGrowth,
-};
+use motion::sim::dead_reckoning::{DeadReckoning, Misses, Outlines, PRESETS, RECURSIONS, Settings, Stats};
 use nalgebra::Vector3;
 
 pub fn parts(configuration: &Configuration) -> Vec<Part> {
     let machine =
         DeadReckoning::new(configuration.settings(opening(configuration))).expect("a valid setting");
-    let Settings { command, step, .. } = *machine.settings();
-    let shown = machine.shown();
+    let step = machine.settings().step;
     let none = Vector3::repeat(f64::NAN);
     let of_each = |what: &dyn Fn(usize) -> Vector3<f64>| -> Vec<f64> {
         (0..machine.measured().len()).flat_map(|k| <[f64; 3]>::from(what(k))).collect()
@@ -22,25 +19,16 @@ pub fn parts(configuration: &Configuration) -> Vec<Part> {
     );
     let measured = of_each(&|k| machine.measured()[k].cov.diagonal());
     let errors = of_each(&|k| machine.measured()[k].relative_error);
-    let nominal: Vec<f64> =
-        machine.nominal().iter().flat_map(|pose| [pose.x(), pose.y(), pose.theta()]).collect();
     let flat = |poses: &[[f64; 3]]| poses.as_flattened().to_vec();
     let twists: Vec<f64> = machine.twists().flatten().collect();
-    let driven: Vec<Vec<f64>> =
-        (0..shown).step_by(501).map(|index| flat(&machine.rollout(index).expect("a robot"))).collect();
-    let ahead = command.v * command.dt * f64::from(step);
-    let nearest = machine.nearest([ahead, 0.1], 0.5).map_or(-1.0, |index| index as f64);
     let Outlines { ellipse, exponential, predicted: of_xi, measured: of_robots } =
         machine.outlines(step).expect("a step");
     let points = |outline: Vec<[f64; 2]>| outline.as_flattened().to_vec();
     vec![
-        Part::new("statistics", &[&shown, &machine.settings().heading_noise(), &machine.stats()]),
+        Part::new("statistics", &[&machine.shown(), &machine.settings().heading_noise(), &machine.stats()]),
         Part::new("steps", &[&ratios, &predicted, &measured, &errors]),
-        Part::new("ways", &[&machine.commanded().as_flattened().to_vec(), &nominal]),
         Part::new("poses", &[&flat(machine.poses(step)), &twists, &flat(machine.poses(1))]),
-        Part::new("rollouts", &[&driven, &nearest]),
         Part::new("outlines", &[&points(ellipse), &points(exponential), &points(of_xi), &points(of_robots)]),
-        Part::new("straight", &[&machine.straight_growth()]),
     ]
 }
 
@@ -83,15 +71,6 @@ impl Told for Stats {
             &misses.first_order,
             &misses.fourth_order,
         ];
-        values.iter().for_each(|value| value.tell(bytes));
-    }
-}
-
-impl Told for StraightGrowth {
-    fn tell(&self, bytes: &mut Vec<u8>) {
-        let Self { durations, along, across, along_first_order, across_first_order, crossing } = self;
-        let values: [&dyn Told; 6] =
-            [durations, along, across, along_first_order, across_first_order, crossing];
         values.iter().for_each(|value| value.tell(bytes));
     }
 }

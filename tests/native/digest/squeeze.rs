@@ -4,7 +4,7 @@ use super::configuration::{Configuration, number, numbers, ramp};
 use super::told::{Part, Told};
 use motion::geom::se2::SE2;
 use motion::geom::segment::Segment;
-use motion::map::{Cell, Cost, FloorPlan, Interpretation, Mode, OccupancyGrid, Sampler, Wedged, read_pgm};
+use motion::map::{Cell, FloorPlan, Interpretation, Mode, OccupancyGrid, read_pgm};
 use motion::sim::squeeze::{Attempt, MapSqueeze, PRESETS, Settings, Stats};
 use serde_json::Value;
 
@@ -28,14 +28,6 @@ pub fn parts(configuration: &Configuration) -> Vec<Part> {
     let plan = machine.plan();
     let walls: Vec<f64> =
         plan.walls().iter().flat_map(|Segment { from, to }| [from[0], from[1], to[0], to[1]]).collect();
-    let commanded = machine.commanded().points().as_flattened().to_vec();
-    let paths: Vec<Vec<f64>> = (0..shown)
-        .step_by(101)
-        .map(|index| machine.arcs(index).iter().flat_map(|arc| arc.points()).flatten().collect())
-        .collect();
-    let trials = [Sampler::Endpoint, Sampler::WholeArc, Sampler::SubStepped(4)]
-        .map(|sampler| machine.trial(sampler, 50).map_err(|Wedged(_)| ()).ok());
-    let nearest = machine.nearest([2.1, 2.4], 0.5).map_or(-1.0, |index| index as f64);
     let statistics = Part::new(
         "statistics",
         &[
@@ -53,8 +45,6 @@ pub fn parts(configuration: &Configuration) -> Vec<Part> {
         Part::new("poses", &[&poses]),
         Part::new("verdicts", &[&verdicts]),
         statistics,
-        Part::new("paths", &[&commanded, &paths, &nearest]),
-        Part::new("trials", &[&trials]),
         Part::new("picture", &[&pixels.as_flattened().to_vec()]),
     ]
 }
@@ -104,13 +94,6 @@ impl Told for &OccupancyGrid {
         for kind in [Cell::Occupied, Cell::Unknown] {
             self.cells().map(|cell| cell == kind).collect::<Vec<_>>().tell(bytes);
         }
-    }
-}
-
-impl Told for Cost {
-    fn tell(&self, bytes: &mut Vec<u8>) {
-        self.draws.tell(bytes);
-        self.wall_tests.tell(bytes);
     }
 }
 

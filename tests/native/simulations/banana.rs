@@ -294,14 +294,3 @@ fn additive_noise_does_not_depend_on_the_motion() {
     let rounded = (10.0 * (0.5 * (cov[(0, 0)] + cov[(1, 1)])).sqrt()).round() / 10.0;
     assert_eq!(rounded, ADDITIVE_DEVIATION);
 }
-
-/// The opening cloud shows the exact figures as well as is claimed.
-#[test]
-fn the_opening_cloud_shows_the_exact_figures() {
-    assert_eq!(Settings::default(), preset("banana"));
-    let machine = machine(Settings::default());
-    let (shown, exact) = (machine.figures(), machine.table().exact);
-    assert!((shown.cross_track.skew - exact.cross_track_skew).abs() < shown.cross_track.skew_error);
-    assert!((shown.area_ratio - exact.area_ratio).abs() < 0.005);
-    assert!((shown.gain.value.pose - exact.likelihood_gain.pose).abs() < 0.005);
-}

@@ -183,13 +183,6 @@ test('files that are no log are refused in a sentence, and all stays as it was',
   const alert = widget.getByRole('alert');
   await choose(widget, { 'odom.csv': 't,x,y,yaw\n0,0,0,0\n1,one,0,0\n', 'truth.csv': 't,x,y,yaw\n0,0,0,0\n' });
   await expect(alert).toHaveText(/^odom\.csv, line 3: x is “one”; expected is a number\.$/);
-  await choose(widget, { 'alone.csv': 't,x,y,yaw\n0,0,0,0\n' });
-  await expect(alert).toHaveText(/^alone\.csv: it has one log only, t, x, y, yaw; give odometry and reference\. Drop or choose the other file too, or both at once\.$/);
-  await choose(widget, { 'notes.mcap': 'no recording' });
-  await expect(alert).toHaveText(/^notes\.mcap: it does not look like a log,/);
-  const buffer = await recordingOf([{ topic: '/rosout', type: 'rcl_interfaces/msg/Log', t: 1, message: {} }], {});
-  await widget.locator('#log-files').setInputFiles({ name: 'words.mcap', mimeType: 'application/octet-stream', buffer });
-  await expect(alert).toHaveText(/^words\.mcap: the topics are \/rosout \(Log\); expected is one of type nav_msgs\/Odometry/);
   expect(await stateOf(widget)).toEqual(before);
   await expect(caption(widget)).toHaveText(/of the simulated log/);
 });

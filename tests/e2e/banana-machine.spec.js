@@ -1,18 +1,10 @@
 import { expect } from '@playwright/test';
-import { STILL, centreOf, dragSlider, frames, inspectFirst, open, openWhole, pictureOf, readout, settled, state, test } from './support.js';
-
-/** @typedef {import('@playwright/test').Locator} Locator */
+import { STILL, centreOf, dragSlider, frames, open, openWhole, pictureOf, readout, settled, set, state, test } from './support.js';
 
 test.use(STILL);
 
 /** Attribute for a bend, where every α has an effect. */
 const GENTLE = 'preset="gentle"';
-
-/** Sets sliders by their ids. @param {Locator} widget @param {Record<string, number>} values */
-async function set(widget, values) {
-  for (const [id, value] of Object.entries(values)) await widget.locator(`#${id}`).fill(String(value));
-  await frames(widget.page());
-}
 
 test('a drag keeps the scale, and the view zooms out after it', async ({ page }) => {
   const widget = await open(page, 'preset="banana"');
@@ -134,19 +126,6 @@ test('a dragged α moves the same robots, once a frame', async ({ page }) => {
   expect((await state(widget)).config.alphas[0]).toBe(0.09);
 });
 
-test('each model keeps its own α’s @nightly', async ({ page }) => {
-  const widget = await openWhole(page, GENTLE);
-  await widget.getByRole('slider', { name: 'α1' }).fill('0.123');
-  await widget.getByLabel('odometry').check();
-  let { config } = await state(widget);
-  expect(config.model).toBe('odometry');
-  expect(config.alphas).toHaveLength(4);
-  await expect(widget.locator('.alphas input[type=range]')).toHaveCount(4);
-  await widget.getByLabel('velocity').check();
-  ({ config } = await state(widget));
-  expect(config.alphas).toEqual([0.123, 0.05, 0.05, 0.09, 0.01, 0.01]);
-});
-
 test('Isolate leaves one α in effect, shows the others as off, and lets go again', async ({ page }) => {
   const widget = await openWhole(page, GENTLE);
   const before = await state(widget);
@@ -155,11 +134,6 @@ test('Isolate leaves one α in effect, shows the others as off, and lets go agai
   await expect(widget.locator('.alphas .value', { hasText: 'off' })).toHaveCount(5);
   await widget.getByRole('radio', { name: 'Only α₁' }).check();
   expect((await state(widget)).config.isolate).toBe(1);
-  // Only v̂ is noisy now.
-  for (const { omegaHat, gammaHat } of await inspectFirst(widget, 50)) {
-    expect(omegaHat).toBeCloseTo(0.5, 9);
-    expect(gammaHat).toBeCloseTo(0, 9);
-  }
   // Moving the slider of another α selects that α.
   await widget.getByRole('slider', { name: 'α3' }).fill('0.06');
   const { config } = await state(widget);

@@ -3,32 +3,17 @@ import { STILL, frames, mount, property, stateOf, test, unfold } from './support
 
 test.use(STILL);
 
-/** Figures with presets: a setting that no preset lists, its default, and another value. */
-const UNLISTED = /** @type {const} */ ({
-  'banana-machine': ['noise', 'normal', 'triangular'],
-  'map-squeeze': ['clearance', 0.13, 0.2],
-  'arc-anatomy': ['printed', false, true],
-  'odometry-decomposer': ['correlation', 0, 0.5],
-  'dead-reckoning': ['per', 'step', 'path'],
+test('a preset sets every setting but samples and seed, and is marked while all hold', async ({ page }) => {
+  const widget = await mount(page, 'map-squeeze', { attributes: 'samples="50" seed="4"' });
+  const button = widget.locator('.presets button').nth(1);
+  await button.click();
+  await expect(button).toHaveAttribute('aria-pressed', 'true');
+  await widget.evaluate((element) => void Reflect.set(element, 'clearance', 0.2));
+  await expect(button).toHaveAttribute('aria-pressed', 'false');
+  await button.click();
+  await expect(button).toHaveAttribute('aria-pressed', 'true');
+  expect(await Promise.all(['clearance', 'samples', 'seed'].map((key) => property(widget, key)))).toEqual([0.13, 50, 4]);
 });
-
-for (const [name, [key, usual, other]] of Object.entries(UNLISTED)) {
-  // All figures share the code, so that one is enough.
-  const tier = name === 'map-squeeze' ? '' : ' @nightly';
-  test(`a preset of ${name} sets every setting but samples and seed, and is marked while all hold${tier}`, async ({ page }) => {
-    const widget = await mount(page, name, { attributes: 'samples="50" seed="4"' });
-    const set = (/** @type {unknown} */ value) => widget.evaluate((element, [key, value]) => void Reflect.set(element, /** @type {string} */ (key), value), [key, value]);
-    const button = widget.locator('.presets button').nth(1);
-    await button.click();
-    await expect(button).toHaveAttribute('aria-pressed', 'true');
-    await set(other);
-    await expect(button).toHaveAttribute('aria-pressed', 'false');
-    await button.click();
-    await expect(button).toHaveAttribute('aria-pressed', 'true');
-    expect(await property(widget, key)).toBe(usual);
-    if (name !== 'arc-anatomy') expect([await property(widget, 'samples'), await property(widget, 'seed')]).toEqual([50, 4]);
-  });
-}
 
 test('Start over brings back the settings, the seed and the lines as the figure opened', async ({ page }) => {
   const widget = await mount(page, 'banana-machine', { attributes: 'preset="hard" samples="2000" seed="5" overlays="ellipse"' });

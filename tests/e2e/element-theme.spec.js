@@ -109,13 +109,6 @@ test('a figure follows the system where the page does', async ({ page, figure })
   await expect.poll(() => lookOf(widget)).toBe('light');
 });
 
-test('the theme of a figure overrides its surroundings', async ({ page, figure }) => {
-  const widget = await mount(page, figure, { attributes: 'theme="light"', head: '<style>:root { color-scheme: dark; color: white }</style>' });
-  expect(await lookOf(widget)).toBe('light');
-  await widget.evaluate((element) => element.removeAttribute('theme'));
-  await expect.poll(() => lookOf(widget)).toBe('dark');
-});
-
 test('a figure on the ground of any theme has its ink and letters, and enough contrast', async ({ page }) => {
   const widget = await mount(page, 'banana-machine', { head: "<style>body { font: 17px 'DejaVu Sans', sans-serif }</style>" });
   const { backgroundColor, fontFamily, fontSize } = await surfaceOf(widget);

@@ -182,36 +182,10 @@ test('why a dropped map is refused is said in sight of the drop, until it is clo
   await expect(present(widget)).toContainText('The apartment');
 });
 
-test('an occupancy grid has its yaw and its mode, and its image may be a PNG in a directory @nightly', async ({ page }) => {
-  const widget = await openSqueeze(page);
-  const grids = /** @type {[MapFile[], number[], number][]} */ ([
-    [
-      [yaml('turned.yaml', { ...FIELDS, resolution: 0.03, origin: `[1.0, 2.0, ${Math.PI / 2}]` }), pgm('room.pgm', COLUMNS, ROWS, border)],
-      [1 - 0.03 * ROWS, 2, 1, 2 + 0.03 * COLUMNS], 8,
-    ],
-    [
-      // The border is open to the left, where the map is unknown.
-      [yaml('scale.yml', { ...FIELDS, image: 'maps/room.png', mode: 'scale' }), png('room.png', COLUMNS, ROWS, border, (column) => column < 30)],
-      [0, 0, 3, 2], 8,
-    ],
-  ]);
-  for (const [files, bounds, walls] of grids) {
-    await choose(widget, files);
-    await expect(present(widget)).toContainText(files[0].name);
-    await expect(complaint(widget)).toBeHidden();
-    const now = await squeezed(widget);
-    now.bounds.forEach((bound, i) => expect(bound).toBeCloseTo(bounds[i], 9));
-    expect(now.walls).toHaveLength(4 * walls);
-    expect(now.startFree).toBe(true);
-    expect(now.stats.drawn).toBe(now.config.samples);
-  }
-});
-
 test('a map that is refused is reported in a sentence, and the present map stays', async ({ page }) => {
   const image = pgm('room.pgm', COLUMNS, ROWS, border);
   const good = yaml('room.yaml', FIELDS);
   const cases = /** @type {[MapFile[], RegExp][]} */ ([
-    [[file('plan.json', '{"bounds": [0, 0, 1, 1], "walls": [[0, 0, 2, 1]]}')], /^plan\.json: walls\[0\] ends at .*; allowed is a point inside the bounds/],
     [[good], /^room\.yaml: image names room\.pgm, which is not there; expected are both files/],
     [[good, file('room.pgm', 'P5\n60 40\n255\nabc')], /^room\.pgm.*(2400|60 × 40)/],
     [[good, image, file('plan.json', JSON.stringify(ROOM))], /^plan\.json, room\.yaml: these are 2 maps; expected is one at a time/],
@@ -256,23 +230,6 @@ test('a map that a page gives is taken; the same again changes nothing, and one 
   expect(told).toEqual([
     'name,bounds,walls', expect.stringMatching(/^map\.walls is undefined; /), 'name,columns,rows,resolution,origin,occupied', 0,
   ]);
-});
-
-test('the map survives the element’s removal @nightly', async ({ page }) => {
-  const widget = await openSqueeze(page);
-  await choose(widget, [file('room.json', JSON.stringify(ROOM))]);
-  await expect(present(widget)).toContainText('room.json');
-  const before = await squeezed(widget);
-  await widget.evaluate(async (element) => {
-    Object.assign(window, { kept: element });
-    element.remove();
-    await new Promise(requestAnimationFrame);
-  });
-  await page.evaluate(() => document.querySelector('main')?.append(Reflect.get(window, 'kept')));
-  await widget.scrollIntoViewIfNeeded();
-  await unfold(widget, 'More controls');
-  await expect(present(widget)).toContainText('room.json');
-  expect(await squeezed(widget)).toEqual(before);
 });
 
 test('a large map is opened with a message, and another map takes its place @nightly', async ({ page }) => {

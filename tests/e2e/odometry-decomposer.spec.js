@@ -1,11 +1,8 @@
 import { expect } from '@playwright/test';
 import { STILL, frames, mount, pictureOf, played, readout, test, unfold } from './support.js';
 
-/**
- * @typedef {import('@playwright/test').Page} Page
- * @typedef {import('@playwright/test').Locator} Locator
- * @typedef {HTMLElement & { machine: import('../../www/types.d.ts').OdometryDecomposer }} DecomposerElement
- */
+/** @import { Locator, Page } from '@playwright/test' */
+/** @typedef {HTMLElement & { machine: import('../../www/types.d.ts').OdometryDecomposer }} DecomposerElement */
 
 test.use(STILL);
 

@@ -4,9 +4,8 @@ import { ALL, KNOWN } from './figures.js';
 import { STILL, boxOf, centreOf, frames, mount, open, pictureOf, pixelsOf, ready, show, state, stateOf, test, unfold } from './support.js';
 
 /**
- * @typedef {import('@playwright/test').Page} Page
- * @typedef {import('@playwright/test').Locator} Locator
- * @typedef {import('./figures.js').Name} Name
+ * @import { Locator, Page } from '@playwright/test'
+ * @import { Name } from './figures.js'
  */
 
 test.use(STILL);

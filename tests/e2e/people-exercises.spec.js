@@ -1,10 +1,7 @@
 import { expect } from '@playwright/test';
 import { STILL, frames, ready, test } from './support.js';
 
-/**
- * @typedef {import('@playwright/test').Locator} Locator
- * @typedef {import('@playwright/test').Page} Page
- */
+/** @import { Locator, Page } from '@playwright/test' */
 
 // The chapter's exercises 4, 5 and 7 on the page, from the keyboard alone: predicted first, then revealed.
 test.use(STILL);

@@ -300,19 +300,10 @@ export async function posesOf(widget) {
   return [...(await widget.evaluate((element) => /** @type {BananaMachineElement} */ (element).machine.poses))];
 }
 
-/**
- * @param {Locator} widget
- * @param {number} count
- * @returns {Promise<{ vHat: number, omegaHat: number, gammaHat: number }[]>} the first robots
- */
-export function inspectFirst(widget, count) {
-  return widget.evaluate((element, length) => {
-    const { machine } = /** @type {BananaMachineElement} */ (element);
-    return Array.from({ length }, (_, i) => {
-      const { vHat, omegaHat, gammaHat } = machine.inspect(i);
-      return { vHat, omegaHat, gammaHat };
-    });
-  }, count);
+/** Sets sliders by their ids. @param {Locator} widget @param {Record<string, number>} values */
+export async function set(widget, values) {
+  for (const [id, value] of Object.entries(values)) await widget.locator(`#${id}`).fill(String(value));
+  await frames(widget.page());
 }
 
 /**

@@ -134,16 +134,12 @@ test('bad input has the exit code 2 and a sentence', async () => {
     [[...FILES, '--time-unit', 'min'], '--time-unit must be s, ms, us, or ns, or two of these for odometry and reference (got “min”).'],
     [[...FILES, '--reference-frames', 'map,base_link'], 'reference.csv: it is a table, and no group of its columns has this name; it has t, x, y, yaw.'],
     [[...FILES, '--odometry-topic', '/odom'], 'odometry.csv, topic /odom: it is a table, and no group of its columns has this name; it has t, x, y, yaw.'],
-    [['--recording', FILES[1]], 'odometry.csv: it has the odometry only, t, x, y, yaw; give the reference too. Name both, with --odometry FILE and --reference FILE.'],
-    [['--recording', FILES[1], '--recording', FILES[1]], 'odometry.csv: it is given twice; give two independent measurements of one drive, odometry and reference.'],
     [['--odometry', FILES[1], '--reference', FILES[1]], 'odometry.csv: it is given twice; give two independent measurements of one drive, odometry and reference.'],
     [[...FILES.slice(0, 2), '--reference', join(folder, 'no.csv')], 'no.csv: there is no such file or folder.'],
     [[...FILES, '--plot', join(folder, 'no', 'plot.svg')], '--plot '],
     // Errors of the core, by the names of options and files.
     [[...FILES, '--update-min-d=-1'], '--update-min-d is -1; allowed is '],
-    [[...FILES, '--outliers', 'some'], '--outliers is "some"; allowed is '],
     [[...FILES, '--reference-position-std=-1'], '--reference-position-std is -1; allowed is '],
-    [[...FILES, '--rule', 'amcl'], '--rule is "amcl"; allowed is '],
     [[...FILES.slice(0, 2), '--reference', straight], 'odometry.csv and straight.csv: odometry and reference have no time in common, and turn alike at no offset of their clocks; '],
   ])) {
     const { code, out, err } = await outputOf(args);

@@ -152,12 +152,6 @@ async function pageWith(scripts) {
 const DIST = '/node_modules/motion-widgets/dist/';
 const script = (/** @type {string} */ name) => `<script type="module" src="${DIST}${name}"></script>`;
 
-test('all elements of a page share one module', async () => {
-  const { complaints, modules } = await pageWith(script('external.js'));
-  assert.deepEqual(complaints, []);
-  assert.equal(modules.length, 1);
-});
-
 test('custom-elements.json says what the elements have', async () => {
   const path = join(project.directory, 'node_modules/motion-widgets/dist/custom-elements.json');
   const { modules } = JSON.parse(readFileSync(path, 'utf8'));

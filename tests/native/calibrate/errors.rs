@@ -1,7 +1,7 @@
 //! Systematic errors: estimated, corrected if they are constant, and without effect on the α's.
 
 use super::simulated::{ALPHAS, MODELS, Simulation};
-use super::{calibrated, calibrated_log, options_of};
+use super::{calibrated, calibrated_log, options_of, trajectory};
 use motion::NoiseKind;
 use motion::calibrate::{
     CalibrateError, Calibration, Drive, LegLength, Model, Options, Systematic, SystematicError, Trajectory,
@@ -18,10 +18,6 @@ const NAV2: Model = Model::Odometry(OdometryRule::Nav2);
 
 fn with_errors(model: Model, count: usize, errors: Systematic) -> Simulation {
     Simulation { errors, ..Simulation::of(model, NoiseKind::Normal, count, 77) }
-}
-
-fn trajectory(samples: impl IntoIterator<Item = (f64, SE2)>) -> Trajectory {
-    Trajectory::new(samples.into_iter().collect::<Vec<_>>()).expect("times rise")
 }
 
 /// Asserts that an estimated error is within four standard errors of the truth; by chance one in sixteen thousand is not. The standard

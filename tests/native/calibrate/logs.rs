@@ -1,5 +1,6 @@
 //! Trajectories, and how they are split into legs.
 
+use super::trajectory;
 use motion::calibrate::{Leg, LegLength, LostLegs, Trajectory, split_into_legs};
 use motion::geom::se2::{SE2, wrap_angle};
 use nalgebra::Vector3;
@@ -9,10 +10,6 @@ const QUARTER: LegLength = LegLength::Displacement { distance: 0.25, angle: 0.2 
 /// Returns the trajectory of a robot that drives straight ahead, with a row every 0.1 s.
 fn straight(rows: usize, step: f64) -> Trajectory {
     trajectory((0..rows).map(|row| (0.1 * row as f64, SE2::new(step * row as f64, 0.0, 0.0))))
-}
-
-fn trajectory(samples: impl IntoIterator<Item = (f64, SE2)>) -> Trajectory {
-    Trajectory::new(samples.into_iter().collect::<Vec<_>>()).expect("times rise")
 }
 
 /// Returns the trajectory without the rows between two of them.

@@ -11,6 +11,7 @@ mod windows;
 
 use motion::NoiseKind;
 use motion::calibrate::{Calibration, Drive, Model, Options, Trajectory, calibrate};
+use motion::geom::se2::SE2;
 use simulated::Simulation;
 
 /// Returns the calibration of a simulated log.
@@ -26,4 +27,9 @@ fn calibrated_log([odometry, reference]: &[Trajectory; 2], options: &Options) ->
 /// Default options.
 fn options_of(model: Model) -> Options {
     Simulation::of(model, NoiseKind::Normal, 0, 0).options()
+}
+
+/// Returns a trajectory of samples whose times rise.
+fn trajectory(samples: impl IntoIterator<Item = (f64, SE2)>) -> Trajectory {
+    Trajectory::new(samples.into_iter().collect::<Vec<_>>()).expect("times rise")
 }

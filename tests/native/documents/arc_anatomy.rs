@@ -1,20 +1,9 @@
 //! Numbers of Arc Anatomy on the page, compared with computed ones.
 
-use crate::common::told::{Number, Told};
-use motion::sim::arc_anatomy::{ArcAnatomy, FinalPose, Mapped, PRESETS, Settings, Stats};
-
-fn page() -> Told {
-    Told::on_page(include_str!("../../../www/index.html"))
-}
-
-fn preset(name: &str) -> Settings {
-    let preset = PRESETS.iter().find(|preset| preset.name == name).expect("a preset of that name");
-    Settings { command: preset.command, next: preset.next, ..Settings::default() }
-}
-
-fn stats(settings: Settings) -> Stats {
-    ArcAnatomy::new(settings).expect("valid settings").stats()
-}
+use super::page;
+use crate::common::told::Number;
+use crate::simulations::arc_anatomy::{preset, stats};
+use motion::sim::arc_anatomy::{ArcAnatomy, FinalPose, Mapped, Settings, Stats};
 
 /// The final pose after the robot is turned until the wedge disappears.
 fn without_wedge(settings: Settings) -> Settings {

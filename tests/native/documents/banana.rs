@@ -1,17 +1,11 @@
 //! Numbers of the Banana Machine on the page and in doc/statistics.md, compared with computed ones.
 
+use super::page;
 use crate::common::told::{Number, Told};
 use crate::common::{SIGMAS, preset, winds_around};
+use crate::simulations::banana::machine;
 use motion::VelocityCmd;
 use motion::sim::banana::{BananaMachine, ModelKind, Settings};
-
-fn machine(settings: Settings) -> BananaMachine {
-    BananaMachine::new(settings).expect("a valid setting")
-}
-
-fn page() -> Told {
-    Told::on_page(include_str!("../../../www/index.html"))
-}
 
 fn document() -> Told {
     Told::in_document(include_str!("../../../doc/statistics.md"))

@@ -1,17 +1,11 @@
 //! Numbers of Dead Reckoning on the page, compared with computed ones.
 
+use super::page;
 use crate::common::SIGMAS;
 use crate::common::told::{Number, Told};
+use crate::simulations::dead_reckoning::machine;
 use motion::Compounding;
 use motion::sim::dead_reckoning::{DeadReckoning, PRESETS, Settings, TOLERANCE};
-
-fn page() -> Told {
-    Told::on_page(include_str!("../../../www/index.html"))
-}
-
-fn machine(settings: Settings) -> DeadReckoning {
-    DeadReckoning::new(settings).expect("valid settings")
-}
 
 fn preset(name: &str) -> DeadReckoning {
     let preset = PRESETS.iter().find(|preset| preset.name == name).expect("a preset of that name");
@@ -99,23 +93,26 @@ fn ratios_and_crossings_are_those_of_exercise_7() {
     assert!(crossings[1] > crossings[0] / 2.0);
 }
 
+/// On the page and in doc/exercises.md.
 #[test]
-fn the_crossing_times_are_those_on_the_page() {
-    let [along, across]: [Number; 2] =
-        page().numbers("along the track with the power #, across it with the power #. They cross");
-    let [usual, sharper]: [Number; 2] =
-        page().numbers("They cross after # s; with the heading σ doubled, after # s.");
+fn the_crossing_times_are_those_of_exercise_2() {
     let opening = machine(Settings { samples: 1, ..Settings::default() });
     let growth = opening.straight_growth();
-    usual.assert(growth.crossing.expect("a crossing"), 0.0);
     let last = growth.durations.len() - 1;
     let power = |of: &[f64]| (of[last] / of[0]).ln() / (growth.durations[last] / growth.durations[0]).ln();
-    along.assert(power(&growth.along_first_order), 1e-12);
-    across.assert(power(&growth.across_first_order), 1e-12);
+    let powers = [&growth.along_first_order, &growth.across_first_order].map(|of| power(of));
     let h = 4.0 * opening.settings().heading_noise().expect("a level");
     let alphas = [0.02, 0.02, h, h, h / 4.0, h / 4.0];
     let doubled = machine(Settings { alphas, samples: 1, ..Settings::default() });
-    sharper.assert(doubled.straight_growth().crossing.expect("a crossing"), 0.0);
+    let times = [&growth, &doubled.straight_growth()].map(|growth| growth.crossing.expect("a crossing"));
+    let exercises = Told::in_document(include_str!("../../../doc/exercises.md"));
+    page().assert("along the track with the power #, across it with the power #. They cross", powers);
+    exercises.assert("grows with the power # of Δt, across it with #. ", powers);
+    page().assert("They cross after # s; with the heading σ doubled, after # s.", times);
+    exercises.assert(
+        "with α₁ = α₃ after # s, and with the heading's σ doubled (α₃ four times as large) after # s",
+        times,
+    );
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! Numbers of doc/exercises.md, compared with computed ones; those of exercise 7 are in `dead_reckoning.rs`.
+//! Numbers of doc/exercises.md, compared with computed ones; those of exercises 2 and 7 are in `dead_reckoning.rs`.
 
 use crate::common::told::{Number, Told};
 use crate::common::{derivative, preset, seeded, unit_cdf};
@@ -65,28 +65,6 @@ fn exercise_1_the_straight_line_branch() {
     document().says("up to half a micrometre where Δt is a second");
     let end = Arc { start: SE2::identity(), length: 1.0, turn: 1e-6 }.end();
     assert!(((end.x() - 1.0).hypot(end.y()) - 0.5e-6).abs() < 1e-12, "{end:?}");
-}
-
-/// Exercise 2.
-#[test]
-fn exercise_2_why_bananas_bend() {
-    let spread = |[along, turn]: [f64; 2], dt: f64| {
-        let cov = velocity([along, 0.0, turn, 0.0, 0.0, 0.0])
-            .cartesian_cov(&VelocityCmd { v: 1.0, omega: 0.0, dt }, &SE2::identity());
-        [cov[(0, 0)], cov[(1, 1)]]
-    };
-    let told: [Number; 2] = document().numbers("grows with the power # of Δt, across it with #. ");
-    let [short, long] = [1.0, 2.0].map(|dt| spread([1e-4, 1e-4], dt));
-    for (axis, told) in told.into_iter().enumerate() {
-        told.assert((long[axis] / short[axis]).log2(), 1e-12);
-    }
-    let told: [Number; 2] = document().numbers(
-        "with α₁ = α₃ after # s, and with the heading's σ doubled (α₃ four times as large) after # s",
-    );
-    for (told, alphas) in told.into_iter().zip([[0.02, 0.02], [0.02, 0.08]]) {
-        let [along, across] = spread(alphas, told.value);
-        assert!((along / across - 1.0).abs() < 1e-12, "{along} {across}");
-    }
 }
 
 /// Exercise 3. The determinant is computed by differences, whose error is the square of the step.

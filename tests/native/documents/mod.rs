@@ -6,3 +6,10 @@ mod dead_reckoning;
 mod exercises;
 mod odometry_decomposer;
 mod squeeze;
+
+use crate::common::told::Told;
+
+/// Returns the words of the page.
+fn page() -> Told {
+    Told::on_page(include_str!("../../../www/index.html"))
+}

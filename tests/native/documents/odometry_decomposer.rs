@@ -1,24 +1,13 @@
 //! Numbers of the Odometry Decomposer on the page and of the rules in doc/model.md, compared with computed ones.
 
+use super::page;
 use crate::common::told::Told;
+use crate::simulations::odometry_decomposer::{machine, of_preset};
 use motion::models::OdometryRule::{self, Beluga, Nav2, Omni, Table};
-use motion::sim::odometry_decomposer::{OdometryDecomposer, OdometryPose, PRESETS, RuleFigures, Settings};
-
-fn page() -> Told {
-    Told::on_page(include_str!("../../../www/index.html"))
-}
+use motion::sim::odometry_decomposer::{OdometryPose, RuleFigures, Settings};
 
 fn document() -> Told {
     Told::in_document(include_str!("../../../doc/model.md"))
-}
-
-fn of_preset(name: &str) -> Settings {
-    let preset = PRESETS.iter().find(|preset| preset.name == name).expect("a preset of that name");
-    Settings { from: preset.from, to: preset.to, ..Settings::default() }
-}
-
-fn machine(settings: Settings) -> OdometryDecomposer {
-    OdometryDecomposer::new(settings).expect("a valid setting")
 }
 
 fn figures(settings: Settings, rule: OdometryRule) -> RuleFigures {

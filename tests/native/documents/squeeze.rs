@@ -1,5 +1,6 @@
 //! Fractions of Map Squeeze on the page and in doc/model.md, compared with computed ones.
 
+use super::page;
 use crate::common::told::{Number, Told};
 use crate::common::{SIGMAS, seeded};
 use motion::geom::arc::Arc;
@@ -42,10 +43,6 @@ fn in_parts(place: usize, parts: u32, omega: f64) -> (f64, f64) {
 /// Asserts that a printed percentage equals a computed fraction.
 fn assert_told((share, error): (f64, f64), told: Number) {
     told.assert_percent(share, SIGMAS * error);
-}
-
-fn page() -> Told {
-    Told::on_page(include_str!("../../../www/index.html"))
 }
 
 fn document() -> Told {

@@ -1,96 +1,13 @@
-//! Settings of every widget: a number is accepted, or refused with the name and the allowed range.
+//! Whole numbers among settings: accepted, or refused with the name. `tests/fuzz.rs` holds the same for all numbers of all widgets.
 
-use super::doubles::{any_double, cases};
+use super::doubles::cases;
 use motion::map::Sampler;
-use motion::sim::settings::{Allowed, Rules, Setting, SettingsError};
-use motion::sim::{alpha_calibrator, arc_anatomy, banana, dead_reckoning, odometry_decomposer, squeeze};
+use motion::sim::settings::Rules;
+use motion::sim::{banana, dead_reckoning, odometry_decomposer, squeeze};
 use proptest::prelude::*;
-use std::ops::RangeInclusive;
-
-/// Number among settings: name and range.
-struct Place {
-    name: String,
-    allowed: RangeInclusive<f64>,
-}
-
-/// Sets the `index`th double of the settings; returns None past the last.
-fn put<S: Rules>(settings: &mut S, index: usize, value: f64) -> Option<Place> {
-    let (mut place, mut next) = (None, 0);
-    let mut here = |name: String, slot: &mut f64, allowed: &RangeInclusive<f64>| {
-        if next == index {
-            *slot = value;
-            place = Some(Place { name, allowed: allowed.clone() });
-        }
-        next += 1;
-    };
-    let _: Result<(), ()> = settings.try_each(|declaration, setting| {
-        let key = declaration.key;
-        match setting {
-            Setting::Number(slot, allowed) => here(key.to_owned(), slot, &allowed),
-            Setting::Numbers(slots, allowed) => {
-                slots
-                    .iter_mut()
-                    .enumerate()
-                    .for_each(|(i, slot)| here(format!("{key}[{i}]"), slot, &allowed));
-            }
-            Setting::Group(group) => {
-                for (i, field) in group.fields().iter().enumerate() {
-                    here(format!("{key}.{}", field.declaration.key), group.number(i), &field.allowed);
-                }
-            }
-            _ => {}
-        }
-        Ok(())
-    });
-    place
-}
-
-fn places<S: Rules>() -> usize {
-    (0..).take_while(|index| put(&mut S::default(), *index, 0.0).is_some()).count()
-}
-
-/// A number in its range is accepted; any other is refused with its name, its value and the range.
-fn taken_or_named<S: Rules>(settings: &S, place: &Place, value: f64) -> Result<(), TestCaseError> {
-    let Place { name, allowed } = place;
-    let Err(error) = settings.check() else {
-        prop_assert!(allowed.contains(&value), "{} is {}", name, value);
-        return Ok(());
-    };
-    prop_assert!(!allowed.contains(&value), "{}", error);
-    let message = error.to_string();
-    let SettingsError { field, value: told, allowed: range } = error;
-    prop_assert_eq!(&field, name);
-    prop_assert_eq!(told.to_bits(), value.to_bits());
-    prop_assert_eq!(range, Allowed::Real(allowed.clone()));
-    prop_assert!(
-        message.starts_with(&format!("{name} is ")) && message.contains("; allowed is a number from "),
-        "{}",
-        message
-    );
-    Ok(())
-}
-
-/// Sets one number of the settings of a widget, and checks the error message.
-fn number<S: Rules>(place: usize, value: f64) -> Result<(), TestCaseError> {
-    let mut settings = S::default();
-    let place = put(&mut settings, place % places::<S>(), value).expect("a place");
-    taken_or_named(&settings, &place, value)
-}
 
 proptest! {
     #![proptest_config(cases(1000))]
-
-    #[test]
-    fn every_number_is_accepted_or_refused_by_name(widget in 0..6usize, place in 0..100usize, value in any_double()) {
-        match widget {
-            0 => number::<banana::Settings>(place, value)?,
-            1 => number::<squeeze::Settings>(place, value)?,
-            2 => number::<arc_anatomy::Settings>(place, value)?,
-            3 => number::<odometry_decomposer::Settings>(place, value)?,
-            4 => number::<dead_reckoning::Settings>(place, value)?,
-            _ => number::<alpha_calibrator::Settings>(place, value)?,
-        }
-    }
 
     /// Counts and seeds, and the product of samples and parts.
     #[test]

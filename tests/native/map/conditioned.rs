@@ -10,8 +10,8 @@ use motion::sim::squeeze::{PRESETS, alphas_of_noise};
 use motion::{MotionModel, NoiseKind, VelocityAlphas, VelocityCmd, VelocityModel};
 use rand_xoshiro::Xoshiro256PlusPlus;
 
-const SAMPLERS: [Sampler; 3] = [Sampler::Endpoint, Sampler::WholeArc, Sampler::SubStepped(4)];
-const AHEAD: VelocityCmd = VelocityCmd { v: 1.0, omega: 0.0, dt: 2.0 };
+pub const SAMPLERS: [Sampler; 3] = [Sampler::Endpoint, Sampler::WholeArc, Sampler::SubStepped(4)];
+pub const AHEAD: VelocityCmd = VelocityCmd { v: 1.0, omega: 0.0, dt: 2.0 };
 
 fn model() -> VelocityModel {
     VelocityModel { alphas: VelocityAlphas(alphas_of_noise(0.12)), noise: NoiseKind::Normal }
@@ -142,7 +142,6 @@ fn a_wedged_robot_is_an_error_that_counts_its_draws() {
     let exact =
         VelocityModel { alphas: VelocityAlphas([1e-6, 0.0, 0.0, 0.0, 0.0, 0.0]), noise: NoiseKind::Normal };
     let sampler = MapConditioned { model: exact, ..conditioned(&dead_end, Sampler::SubStepped(2)) };
-    let command = VelocityCmd { v: 1.0, omega: 0.0, dt: 2.0 };
-    let wedged = sampler.sample(&command, &SE2::new(0.3, 1.0, 0.0), &mut seeded(13)).expect_err("a dead end");
+    let wedged = sampler.sample(&AHEAD, &SE2::new(0.3, 1.0, 0.0), &mut seeded(13)).expect_err("a dead end");
     assert_eq!(wedged.0.draws, MAX_DRAWS + 1);
 }

@@ -4,14 +4,10 @@ use crate::common::{seeded, uniform};
 use motion::geom::arc::Arc;
 use motion::geom::se2::SE2;
 use motion::geom::segment::Segment;
-use motion::map::{
-    Cell, FloorPlan, FloorPlanError, Image, Interpretation, Mode, OccupancyGrid, Pixel, Unknown,
-};
+use motion::map::{Cell, FloorPlan, FloorPlanError, Image, Interpretation, OccupancyGrid, Pixel, Unknown};
 use rand::Rng;
 use std::f64::consts::{FRAC_PI_2, PI};
 
-const TRINARY: Interpretation =
-    Interpretation { mode: Mode::Trinary, negate: false, occupied_thresh: 0.65, free_thresh: 0.196 };
 const BLACK: Pixel = Pixel { shade: 0.0, opacity: 1.0 };
 const WHITE: Pixel = Pixel { shade: 1.0, opacity: 1.0 };
 
@@ -40,7 +36,7 @@ impl Cells {
         let pixels = self.occupied.iter().map(|occupied| if *occupied { BLACK } else { WHITE });
         let image = Image { width: self.width, height: self.height, pixels };
         let [x, y, yaw] = self.origin;
-        OccupancyGrid::new(&image, &TRINARY, self.resolution, SE2::new(x, y, yaw))
+        OccupancyGrid::new(&image, &Interpretation::default(), self.resolution, SE2::new(x, y, yaw))
     }
 
     /// Returns the position in the map of a point in the grid's own axes, in cells.
@@ -174,7 +170,7 @@ fn drawn(rows: &[&str], unknown: Unknown) -> OccupancyGrid {
     let pixels =
         rows.iter().flat_map(|row| row.chars()).map(|cell| Pixel { shade: shade(cell), opacity: 1.0 });
     let image = Image { width: rows[0].len(), height: rows.len(), pixels };
-    OccupancyGrid::new(&image, &TRINARY, 0.1, SE2::identity()).with_unknown(unknown)
+    OccupancyGrid::new(&image, &Interpretation::default(), 0.1, SE2::identity()).with_unknown(unknown)
 }
 
 /// As "blocked" unknown cells equal occupied ones; as "free" they equal free ones.

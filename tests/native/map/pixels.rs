@@ -3,29 +3,27 @@
 use motion::geom::se2::SE2;
 use motion::map::{Cell, Image, Interpretation, MAX_PIXELS, Mode, OccupancyGrid, Pixel, Shades, read_pgm};
 
-const TRINARY: Interpretation =
-    Interpretation { mode: Mode::Trinary, negate: false, occupied_thresh: 0.65, free_thresh: 0.196 };
-
 // -------------------------------------------------------------------------------------------- map_server's pixels
 
 /// As in `map_server`, a cell is occupied if the occupancy is above the threshold, and not if it is equal.
 #[test]
 fn pixels_are_read_as_map_server_reads_them() {
+    let trinary = Interpretation::default();
     let pixel = |value: u8| Pixel { shade: f32::from(value) / 255.0, opacity: 1.0 };
     let clear = |value: u8| Pixel { opacity: 0.0, ..pixel(value) };
-    let scale = Interpretation { mode: Mode::Scale, ..TRINARY };
-    let raw = Interpretation { mode: Mode::Raw, ..TRINARY };
-    let at = |occupied_thresh| Interpretation { occupied_thresh, ..TRINARY };
+    let scale = Interpretation { mode: Mode::Scale, ..trinary };
+    let raw = Interpretation { mode: Mode::Raw, ..trinary };
+    let at = |occupied_thresh| Interpretation { occupied_thresh, ..trinary };
     let negated = |occupied_thresh| Interpretation { negate: true, ..at(occupied_thresh) };
-    let free_below = |free_thresh| Interpretation { free_thresh, ..TRINARY };
+    let free_below = |free_thresh| Interpretation { free_thresh, ..trinary };
     let cases = [
-        ("black", TRINARY, pixel(0), Cell::Occupied),
-        ("white", TRINARY, pixel(255), Cell::Free),
-        ("the grey that maps are saved with where nothing is known", TRINARY, pixel(205), Cell::Unknown),
-        ("occupancy 0.192", TRINARY, pixel(206), Cell::Free),
-        ("occupancy 0.651", TRINARY, pixel(89), Cell::Occupied),
-        ("occupancy 0.647", TRINARY, pixel(90), Cell::Unknown),
-        ("transparent black", TRINARY, clear(0), Cell::Occupied),
+        ("black", trinary, pixel(0), Cell::Occupied),
+        ("white", trinary, pixel(255), Cell::Free),
+        ("the grey that maps are saved with where nothing is known", trinary, pixel(205), Cell::Unknown),
+        ("occupancy 0.192", trinary, pixel(206), Cell::Free),
+        ("occupancy 0.651", trinary, pixel(89), Cell::Occupied),
+        ("occupancy 0.647", trinary, pixel(90), Cell::Unknown),
+        ("transparent black", trinary, clear(0), Cell::Occupied),
         ("black, negated", negated(0.65), pixel(0), Cell::Free),
         ("white, negated", negated(0.65), pixel(255), Cell::Occupied),
         ("at the threshold", at(0.6), pixel(102), Cell::Unknown),
@@ -121,12 +119,10 @@ fn malformed_pgm_files_are_explained() {
 /// `map_server` averages opacity in with the colours in mode trinary, if the image has transparency at all.
 #[test]
 fn transparency_counts_as_a_colour_in_trinary() {
-    let interpretation =
-        Interpretation { mode: Mode::Trinary, negate: false, occupied_thresh: 0.65, free_thresh: 0.196 };
     let occupied = |pixels: &[(f32, f32)]| -> Vec<bool> {
         let pixels: Vec<Pixel> = pixels.iter().map(|&(shade, opacity)| Pixel { shade, opacity }).collect();
         let image = Image { width: pixels.len(), height: 1, pixels };
-        let grid = OccupancyGrid::new(&image, &interpretation, 0.05, SE2::identity());
+        let grid = OccupancyGrid::new(&image, &Interpretation::default(), 0.05, SE2::identity());
         grid.cells().map(|cell| cell == Cell::Occupied).collect()
     };
     // Opaque black is (0 + 0 + 0 + 1)/4 = 0.25 of white then, dark grey 60/255 is 0.43 of it, clear white 0.75.

@@ -4,7 +4,7 @@ use crate::common::{seeded, signed_log_uniform, uniform};
 use motion::geom::arc::Arc;
 use motion::geom::se2::SE2;
 use motion::geom::segment::Segment;
-use motion::map::{FloorPlan, FloorPlanError, Image, Interpretation, Mode, OccupancyGrid, Pixel};
+use motion::map::{FloorPlan, FloorPlanError, Image, Interpretation, OccupancyGrid, Pixel};
 use rand::Rng;
 use std::f64::consts::{PI, TAU};
 
@@ -79,10 +79,8 @@ fn verdicts_are_those_of_a_loop_over_all_walls() {
     };
     let pixel = |dark: bool| Pixel { shade: if dark { 0.0 } else { 1.0 }, opacity: 1.0 };
     let pixels: Vec<_> = (0..1600).map(|_| pixel(rng.next_u32().is_multiple_of(40))).collect();
-    let interpretation =
-        Interpretation { mode: Mode::Trinary, negate: false, occupied_thresh: 0.65, free_thresh: 0.196 };
     let image = Image { width: 40, height: 40, pixels };
-    let grid = OccupancyGrid::new(&image, &interpretation, 0.25, SE2::new(3.0, -2.0, 0.4));
+    let grid = OccupancyGrid::new(&image, &Interpretation::default(), 0.25, SE2::new(3.0, -2.0, 0.4));
     let room = |walls| FloorPlan::new(walls, ROOM).expect("a valid plan");
     let long = scattered(12, 10.0, ROOM, &mut rng);
     let plans = [

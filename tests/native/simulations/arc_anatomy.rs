@@ -10,11 +10,11 @@ fn machine(settings: Settings) -> ArcAnatomy {
     ArcAnatomy::new(settings).expect("valid settings")
 }
 
-fn stats(settings: Settings) -> Stats {
+pub fn stats(settings: Settings) -> Stats {
     machine(settings).stats()
 }
 
-fn preset(name: &str) -> Settings {
+pub fn preset(name: &str) -> Settings {
     let preset = PRESETS.iter().find(|preset| preset.name == name).expect("a preset of that name");
     Settings { command: preset.command, next: preset.next, ..Settings::default() }
 }
@@ -73,27 +73,6 @@ fn the_printed_option_computes_the_lines_of_the_table() {
     }
 }
 
-#[test]
-fn the_inverted_controls_drive_to_the_final_pose() {
-    for settings in random(3).take(2000) {
-        let (_, next) = poses(&settings);
-        let Stats { driven, last_turn, .. } = stats(settings);
-        let [x, y, theta] = driven.end;
-        assert!(
-            (x - next.x()).hypot(y - next.y()) < 1e-13 * (10.0 + driven.arc_length.abs()),
-            "{settings:?}"
-        );
-        assert!(wrap_angle(theta + last_turn - next.theta()).abs() < 1e-13, "{settings:?}");
-        let paths = machine(settings).paths();
-        assert_eq!(paths.driven, paths.inverted);
-        assert_eq!(paths.driven.last(), Some(&[x, y]));
-        let [commanded, driven, slid] = machine(settings).underway(1.0);
-        assert_eq!([driven.x(), driven.y()], [x, y]);
-        assert_eq!(Some(&[commanded.x(), commanded.y()]), paths.commanded.last());
-        assert!((slid.x() - next.x()).hypot(slid.y() - next.y()) < 1e-12, "{settings:?}");
-    }
-}
-
 /// The table as printed is wrong where the centre lies to the right of the heading, and nowhere else: what it finds then
 /// drives to the mirror image of the final position.
 #[test]
@@ -143,16 +122,9 @@ fn p_is_the_product_of_the_factors_and_that_of_the_model() {
             let found = model.prob(&best, &settings.command, &start);
             assert!((found / peak - 1.0).abs() < 1e-9, "{settings:?}");
         }
-        let off = stats.factors.map(|factor| factor.deviations.abs());
-        assert!(off.iter().all(|each| *each <= off[stats.weakest]));
-        for factor in stats.factors {
-            let reach = if noise == NoiseKind::Triangular { 6f64.sqrt() } else { f64::INFINITY };
-            assert_eq!(factor.value > 0.0, factor.share > 0.0);
-            assert!(factor.share <= 1.0 && (factor.share == 0.0 || factor.deviations.abs() <= reach));
-            if noise == NoiseKind::Normal {
-                let expected = (-0.5 * factor.deviations.powi(2)).exp();
-                assert!((factor.share - expected).abs() < 1e-13);
-            }
+        for factor in stats.factors.iter().filter(|_| noise == NoiseKind::Normal) {
+            let expected = (-0.5 * factor.deviations.powi(2)).exp();
+            assert!((factor.share - expected).abs() < 1e-13);
         }
     }
 }

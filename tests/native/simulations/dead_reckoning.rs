@@ -6,7 +6,7 @@ use motion::{Compounding, NoiseKind, TangentNoiseModel, VelocityAlphas, Velocity
 use nalgebra::{Matrix3, Vector3};
 
 /// The selected step is the last one where the path is shorter.
-fn machine(settings: Settings) -> DeadReckoning {
+pub fn machine(settings: Settings) -> DeadReckoning {
     let step = settings.step.min(settings.steps);
     DeadReckoning::new(Settings { step, ..settings }).expect("valid settings")
 }

@@ -1,6 +1,7 @@
 //! Statistics of up to ten million robots, against sums in twice the precision.
 
 use crate::common::preset;
+use crate::simulations::banana::machine;
 use motion::geom::se2::{SE2, wrap_angle};
 use motion::sim::banana::{BananaMachine, Figures, MAX_SAMPLES, ModelKind, Settings};
 use motion::stats::Ellipse;
@@ -137,8 +138,4 @@ fn small_and_odd_clouds_agree_with_exact_sums() {
             }
         }
     }
-}
-
-fn machine(settings: Settings) -> BananaMachine {
-    BananaMachine::new(settings).expect("a valid setting")
 }

@@ -1,11 +1,11 @@
 //! The machine of each figure.
 
 mod alpha_calibrator;
-mod arc_anatomy;
-mod banana;
-mod dead_reckoning;
+pub mod arc_anatomy;
+pub mod banana;
+pub mod dead_reckoning;
 mod large_clouds;
 mod morph;
-mod odometry_decomposer;
+pub mod odometry_decomposer;
 mod pictures;
 mod squeeze;

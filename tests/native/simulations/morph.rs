@@ -1,19 +1,16 @@
 //! The morph from the floor to exponential coordinates.
 
 use crate::common::{preset, winds_around};
+use crate::simulations::banana::machine;
 use motion::VelocityCmd;
 use motion::geom::se2::SE2;
 use motion::geom::unbend::{arc_at, unbend, unbend_line};
 use motion::sim::View;
-use motion::sim::banana::{BananaMachine, ModelKind, OUTLINE_SEGMENTS, Settings};
+use motion::sim::banana::{ModelKind, OUTLINE_SEGMENTS, Settings};
 use motion::stats::ExponentialContour;
 use nalgebra::Vector3;
 
 const MORPHS: [f64; 5] = [0.0, 0.2, 0.5, 0.9, 1.0];
-
-fn machine(settings: Settings) -> BananaMachine {
-    BananaMachine::new(settings).expect("a valid setting")
-}
 
 fn distance(one: [f64; 2], other: [f64; 2]) -> f64 {
     (one[0] - other[0]).hypot(one[1] - other[1])

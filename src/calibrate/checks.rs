@@ -2,10 +2,8 @@
 
 use super::fit::Sample;
 use super::legs::{LegLength, LostLegs, MIN_LEGS};
-use super::result::LegFit;
 use super::systematic::{Systematic, SystematicError};
 use super::trajectory::median;
-use super::windows::{MAX_INFLATION, MIN_WINDOWS, WindowCoverage};
 use crate::geom::se2::SE2;
 use serde::{Deserialize, Serialize};
 
@@ -66,6 +64,31 @@ impl Check {
     pub fn message(&self) -> &'static str {
         if self.passed { "" } else { self.name.failure() }
     }
+}
+
+/// One leg under the fit.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct LegFit {
+    /// Standard deviations of the innovation's components.
+    pub stds: [f64; 3],
+    /// Innovation over its standard deviations.
+    pub standardized: [f64; 3],
+    /// Squared Mahalanobis distance of the innovation.
+    pub squared: f64,
+    pub is_outlier: bool,
+}
+
+/// Coverage of windows of one length.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+pub struct WindowCoverage {
+    /// Least distance driven, m.
+    pub length: f64,
+    pub count: usize,
+    /// Fraction of windows inside of the 95 % ellipsoid.
+    pub coverage: f64,
+    /// Mean squared Mahalanobis distance over its 3 degrees of freedom (NEES); 1 if the α's hold.
+    pub nees: f64,
 }
 
 /// Checks with the judgement that follows from them.
@@ -172,6 +195,12 @@ const SCALES: std::ops::RangeInclusive<f64> = 0.5..=2.0;
 /// Motion (m, rad) below which a leg is not compared with the reference.
 const DRIVES: f64 = 0.05;
 const TURNS: f64 = 0.1;
+
+/// Number of windows below which nothing is concluded from them.
+pub(super) const MIN_WINDOWS: usize = 20;
+
+/// Largest inflation: α's that need more do not describe the robot.
+pub(super) const MAX_INFLATION: f64 = 30.0;
 
 fn check(name: CheckName, value: f64, expected: [f64; 2]) -> Check {
     Check { name, value, expected, passed: value >= expected[0] && value <= expected[1] }

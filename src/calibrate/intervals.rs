@@ -3,9 +3,11 @@
 use super::likelihood::{ALPHAS, Expansion, Information, PARAMETERS, Parameters, Residuals};
 use super::optimizer::{Free, Maximum, conditional_information, conditional_inverse};
 use super::residuals::{Model, Observation};
-use super::result::NORMAL_95;
 use nalgebra::SVector;
 use serde::{Deserialize, Serialize};
+
+/// Quantile 0.975 of the standard normal distribution.
+pub(super) const NORMAL_95: f64 = 1.959_963_984_540_054;
 
 /// Steps of the search for an end of an interval; the root of the deviance is nearly linear.
 const MAX_STEPS: usize = 12;

@@ -12,6 +12,7 @@ mod intervals;
 mod legs;
 mod likelihood;
 mod optimizer;
+mod options;
 mod outliers;
 mod residuals;
 mod result;
@@ -19,21 +20,18 @@ mod systematic;
 mod trajectory;
 mod windows;
 
-pub use checks::{Check, CheckName, Diagnostics, Verdict};
+pub use checks::{Check, CheckName, Diagnostics, LegFit, Verdict, WindowCoverage};
 pub use intervals::NotIdentifiable;
 pub use legs::{Leg, LegLength, LostLegs, MIN_LEGS, split_into_legs};
+pub use options::{CalibrateError, Drive, Options, Outliers};
 pub use residuals::{Model, NoiseComponent, Observation};
-pub use result::{
-    CalibrateError, Calibration, Drive, Estimate, LegFit, Options, Outliers, Persistence, Recommended,
-};
+pub use result::{Calibration, Estimate, Persistence, Recommended};
 pub use systematic::{ERRORS, ErrorMask, Systematic, SystematicError};
 pub use trajectory::{Trajectory, TrajectoryError, TrajectoryFault};
-pub use windows::WindowCoverage;
 
 use fit::{Log, Sample, fit_corrected, fit_systematic, free_parameters};
-use intervals::{identifiability, intervals};
+use intervals::{NORMAL_95, identifiability, intervals};
 use likelihood::{POSITION, Standardized, YAW};
-use result::NORMAL_95;
 
 /// Calibrates the α's of a robot from one drive or several.
 ///

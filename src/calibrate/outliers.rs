@@ -2,7 +2,7 @@
 
 use super::fit::Sample;
 use super::likelihood::{Parameters, Residuals, Standardized};
-use super::result::Outliers;
+use super::options::Outliers;
 use super::trajectory::median;
 
 /// Quantiles 0.9999 of χ² with 1, 2 and 3 degrees of freedom.

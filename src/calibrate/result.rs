@@ -1,44 +1,11 @@
-//! Options of a calibration, and its result.
+//! Result of a calibration.
 
-use super::checks::Diagnostics;
-use super::intervals::NotIdentifiable;
-use super::legs::{Leg, LegLength, LostLegs, MIN_LEGS};
+use super::checks::{Diagnostics, LegFit};
+use super::intervals::{NORMAL_95, NotIdentifiable};
+use super::legs::{Leg, LostLegs};
 use super::residuals::{Model, Observation};
 use super::systematic::{ERRORS, ErrorMask, Systematic, SystematicError};
-use super::trajectory::Trajectory;
 use serde::{Deserialize, Serialize};
-use std::fmt;
-
-/// Odometry and reference of one drive.
-#[derive(Clone, Copy, Debug)]
-pub struct Drive<'a> {
-    pub odometry: &'a Trajectory,
-    pub reference: &'a Trajectory,
-}
-
-/// Treatment of legs outside of the gate.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Outliers {
-    /// They are set aside.
-    #[default]
-    Reject,
-    /// They are fitted as noise.
-    Keep,
-}
-
-/// Options of a calibration.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Options {
-    pub model: Model,
-    pub legs: LegLength,
-    pub outliers: Outliers,
-    /// Choice for each of [`SystematicError::ALL`]: corrected or not. None: corrected if it is identifiable and constant.
-    pub correct: [Option<bool>; ERRORS],
-    /// Standard deviation of each coordinate of the reference, m. None: estimated.
-    pub position_std: Option<f64>,
-    /// Standard deviation of the reference's heading, rad. None: estimated.
-    pub yaw_std: Option<f64>,
-}
 
 /// Estimate with its 95 % interval.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -55,18 +22,6 @@ pub struct Persistence {
     pub correlation: Estimate,
     /// Distance (m) over which the correlation falls to 1/e; 0 of independent legs.
     pub length: f64,
-}
-
-/// One leg under the fit.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct LegFit {
-    /// Standard deviations of the innovation's components.
-    pub stds: [f64; 3],
-    /// Innovation over its standard deviations.
-    pub standardized: [f64; 3],
-    /// Squared Mahalanobis distance of the innovation.
-    pub squared: f64,
-    pub is_outlier: bool,
 }
 
 /// α's that a filter can use.
@@ -143,31 +98,3 @@ impl Calibration {
         Some([value - NORMAL_95 * std, value + NORMAL_95 * std])
     }
 }
-
-/// Quantile 0.975 of the standard normal distribution.
-pub(super) const NORMAL_95: f64 = 1.959_963_984_540_054;
-
-/// Reason for which a log cannot be fitted.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum CalibrateError {
-    /// The times of odometry and reference do not overlap, and at no clock offset are their turn rates correlated.
-    Apart,
-    /// There are fewer than [`MIN_LEGS`] legs.
-    TooFewLegs { legs: usize },
-}
-
-impl fmt::Display for CalibrateError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Apart => f.write_str(
-                "odometry and reference have no time in common, and turn alike at no offset of their clocks; allowed are two logs of one drive",
-            ),
-            Self::TooFewLegs { legs } => write!(
-                f,
-                "the log has {legs} legs for which both trajectories are known; allowed are {MIN_LEGS} at least: shorter legs, a longer drive, or clocks that agree"
-            ),
-        }
-    }
-}
-
-impl std::error::Error for CalibrateError {}

@@ -2,7 +2,7 @@
 //!
 //! A filter needs α's that hold between two corrections, not over one leg: errors of real wheels persist.
 
-use super::checks::{Check, holdout_check, window_checks};
+use super::checks::{Check, MAX_INFLATION, MIN_WINDOWS, WindowCoverage, holdout_check, window_checks};
 use super::fit::{Fit, Sample, free_parameters};
 use super::legs::Leg;
 use super::likelihood::{POSITION, Parameters, YAW};
@@ -11,7 +11,6 @@ use super::residuals::Observation;
 use super::result::Recommended;
 use crate::geom::se2::SE2;
 use nalgebra::{Matrix3, Vector3};
-use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
 /// Error of the motion over a window in exponential coordinates, and what it is made of.
@@ -22,25 +21,6 @@ pub(super) struct Window {
     wheels: Matrix3<f64>,
     reference: Matrix3<f64>,
 }
-
-/// Coverage of windows of one length.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
-pub struct WindowCoverage {
-    /// Least distance driven, m.
-    pub length: f64,
-    pub count: usize,
-    /// Fraction of windows inside of the 95 % ellipsoid.
-    pub coverage: f64,
-    /// Mean squared Mahalanobis distance over its 3 degrees of freedom (NEES); 1 if the α's hold.
-    pub nees: f64,
-}
-
-/// Number of windows below which nothing is concluded from them.
-pub(super) const MIN_WINDOWS: usize = 20;
-
-/// Largest inflation: α's that need more do not describe the robot.
-pub(super) const MAX_INFLATION: f64 = 30.0;
 
 impl Window {
     fn squared(&self, inflation: f64) -> f64 {

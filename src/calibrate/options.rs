@@ -1,0 +1,63 @@
+//! Options of a calibration, and the errors that it returns.
+
+use super::legs::{LegLength, MIN_LEGS};
+use super::residuals::Model;
+use super::systematic::ERRORS;
+use super::trajectory::Trajectory;
+use std::fmt;
+
+/// Odometry and reference of one drive.
+#[derive(Clone, Copy, Debug)]
+pub struct Drive<'a> {
+    pub odometry: &'a Trajectory,
+    pub reference: &'a Trajectory,
+}
+
+/// Treatment of legs outside of the gate.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Outliers {
+    /// They are set aside.
+    #[default]
+    Reject,
+    /// They are fitted as noise.
+    Keep,
+}
+
+/// Options of a calibration.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Options {
+    pub model: Model,
+    pub legs: LegLength,
+    pub outliers: Outliers,
+    /// Choice for each of [`SystematicError::ALL`]: corrected or not. None: corrected if it is identifiable and constant.
+    pub correct: [Option<bool>; ERRORS],
+    /// Standard deviation of each coordinate of the reference, m. None: estimated.
+    pub position_std: Option<f64>,
+    /// Standard deviation of the reference's heading, rad. None: estimated.
+    pub yaw_std: Option<f64>,
+}
+
+/// Reason for which a log cannot be fitted.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum CalibrateError {
+    /// The times of odometry and reference do not overlap, and at no clock offset are their turn rates correlated.
+    Apart,
+    /// There are fewer than [`MIN_LEGS`] legs.
+    TooFewLegs { legs: usize },
+}
+
+impl fmt::Display for CalibrateError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Apart => f.write_str(
+                "odometry and reference have no time in common, and turn alike at no offset of their clocks; allowed are two logs of one drive",
+            ),
+            Self::TooFewLegs { legs } => write!(
+                f,
+                "the log has {legs} legs for which both trajectories are known; allowed are {MIN_LEGS} at least: shorter legs, a longer drive, or clocks that agree"
+            ),
+        }
+    }
+}
+
+impl std::error::Error for CalibrateError {}

@@ -55,7 +55,7 @@ export const settings = {
     { key: 'noise', of: 'alphas', weights: [1.0, 1.0, 1.0, 1.0, 0.25, 0.25], type: 'number', nullable: true, min: 0, max: 1000000, default: 0.12, sentence: 'Level n: the first four noise parameters are n, the others n/4; null where they are not those of a level.' },
     { key: 'clearance', type: 'number', unit: 'm', min: 0, max: 10, default: 0.13, sentence: 'Radius of the robot.' },
     { key: 'conditioned', type: 'boolean', default: true, sentence: 'True if draws are judged by the map; otherwise all are accepted.' },
-    { key: 'unknown', type: 'word', words: ['free', 'blocked'], default: 'free', sentence: 'State of unknown cells for the robot.' },
+    { key: 'unknown', type: 'word', words: ['free', 'blocked'], default: 'free', sentence: 'Treatment of unknown cells as free or blocked.' },
     { key: 'sampler', type: 'word', words: ['endpoint', 'whole-arc', 'sub-stepped'], default: 'endpoint', sentence: 'Sampler that judges the draws.' },
     { key: 'steps', type: 'whole', min: 1, max: 1000, default: 4, sentence: 'Parts of the command, for the sub-stepped sampler.' },
     { key: 'samples', type: 'whole', min: 1, max: 1000000, default: 600, sentence: 'Motions tried.' },

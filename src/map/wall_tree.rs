@@ -5,7 +5,7 @@ use std::ops::Range;
 
 /// Tree of walls by position and direction. Each node has a capsule, all points within its thickness of one line, that contains its
 /// walls. So long walls side by side need as few comparisons as short ones in one place. Walls that are nearly equal are compared as
-/// one, and equal walls are stored once.
+/// one, and a node of equal walls is measured once.
 ///
 /// It is a full binary tree without pointers: the children of node i are 2i and 2i + 1, the root is 1.
 #[derive(Clone, Debug)]

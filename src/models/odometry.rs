@@ -106,7 +106,7 @@ pub trait Hinges {
     }
 }
 
-/// Function of a rotation to its size in the noise variances.
+/// Function that gives the size at which a rotation counts in the noise variances.
 pub(super) type Charge = fn(f64) -> f64;
 
 /// The variances of the three legs of `delta` (rad², m², rad²).

@@ -63,7 +63,7 @@ impl OdometryRule {
         OdomDelta { rot1: 0.0, trans: reading.trans, rot2: wrap_angle(reading.rot1 + reading.rot2) }
     }
 
-    /// Variances of the noises of `reading`, which may be a measured one or the legs of [`OdometryRule::legs`]:
+    /// Returns the variances of the noises of `reading`, which may be a measured one or the legs of [`OdometryRule::legs`]:
     ///
     /// | rule | rot1 | trans | rot2 | strafe |
     /// |---|---|---|---|---|
@@ -104,8 +104,8 @@ pub struct ExecutedLegs {
 }
 
 impl ExecutedLegs {
-    /// Poses of a robot that starts from `x`: at the start, after the first turn, at the end of the drive, and after the second
-    /// turn. In the frame of `x`.
+    /// Returns the poses of a robot that starts from `x`: at the start, after the first turn, at the end of the drive, and after
+    /// the second turn. All are in the frame in which `x` is given.
     pub fn poses(&self, x: &SE2) -> [SE2; 4] {
         let OdomDelta { rot1, trans, rot2 } = self.legs;
         let turned = *x * SE2::new(0.0, 0.0, rot1);

@@ -6,7 +6,7 @@ use crate::geom::lanes::{LANES, any, lanes, log};
 use std::ops::{Add, Div, Mul};
 use wide::{bytemuck, f64x4};
 
-/// Probability at which the tails begin.
+/// Distance from the probability ½ at which the tails begin.
 const CENTRE: f64 = 0.425;
 
 /// Φ⁻¹(½ + q) by AS 241's PPND16: a rational function of degree 7 over 7 in each of three ranges.

@@ -99,8 +99,8 @@ impl ExactMoments {
         Self::of_rays(&rays.collect::<Vec<_>>(), u.trans, trans_variance, u.rot1 + u.rot2, rot2_variance)
     }
 
-    /// Combines moments. `length` has mean and variance of L; `turn` has the mean of the heading, and the variance that
-    /// is added to that of the nodes.
+    /// Combines the nodes with the mean and variance of L, and with the mean `turn` (rad). `last_turn_variance` is added
+    /// to the heading variance of the nodes.
     #[inline(never)]
     fn of_rays(rays: &[Ray], length: f64, length_variance: f64, turn: f64, last_turn_variance: f64) -> Self {
         let mut moments = RayMoments::default();
@@ -124,7 +124,7 @@ impl ExactMoments {
     }
 }
 
-/// Cross-track skew of exp(ξ), ξ ~ N(`mean`, `cov`) in the order (along, lateral, heading), about the mean heading. A Gaussian in
+/// Returns the cross-track skew of exp(ξ), ξ ~ N(`mean`, `cov`) in the order (along, lateral, heading), about the mean heading. A Gaussian in
 /// (x, y) has a skew of 0; one in exponential coordinates has this.
 ///
 /// By quadrature over the heading: given it, the position is linear in the other two coordinates. `mean` in m, m, rad,

@@ -146,7 +146,8 @@ impl Legs {
     fn arc(&self) -> (Moments, f64) {
         let ([bearing, deviation], near) = (self.bearing, 0.5 * self.turn[0]);
         let (mut moments, mut logs) = (RayMoments::default(), MeanLog::default());
-        // Cloud statistics use the arc whose turn is nearest to the command. Beyond half a turn that arc leads there in reverse.
+        // Cloud statistics use the arc whose turn is nearest to the command. If half the turn differs
+        // by more than π/2 from half the command's, that arc leads there in the other direction.
         let breaks = [-0.5 * PI, 0.5 * PI].map(|aside| (near + aside - bearing) / deviation);
         for node in self.nodes(deviation, breaks) {
             let driven = bearing + deviation * node.value;
@@ -200,7 +201,7 @@ impl MeanLog {
 /// (m + Z)² is noncentral χ² of one degree of freedom: a Poisson mixture, of mean m²/2, of χ² with 1 + 2j degrees, whose
 /// logarithms have the means ln 2 + ψ(½ + j).
 fn normal_mean_log(m: f64) -> f64 {
-    /// Mean from which the fourth term of the asymptotic series is below 1e-10. Far beyond it, exp(−m²/2) underflows.
+    /// Value of m from which the fourth term of the asymptotic series is below 1e-10. Far beyond it, exp(−m²/2) underflows.
     const FAR: f64 = 30.0;
     /// ψ(½) = −γ − 2 ln 2.
     const DIGAMMA_HALF: f64 = -1.963_510_026_021_423_5;
@@ -211,7 +212,7 @@ fn normal_mean_log(m: f64) -> f64 {
     }
     let rate = 0.5 * m * m;
     let (mut chance, mut digamma, mut sum) = (libm::exp(-rate), DIGAMMA_HALF, LN_2);
-    // The mean is twelve standard deviations or more from 0.
+    // Terms up to twelve standard deviations or more beyond the Poisson mean, which is at most 450.
     for j in 0..720 {
         let j = f64::from(j);
         sum += chance * digamma;

@@ -52,7 +52,7 @@ pub struct Spread {
     reference: Reference,
     scale: Scale,
     sums: Sums<16>,
-    /// Sums over arcs that are not `regular`, which cannot be computed from sums of the unit noise.
+    /// Sums over arcs that are not regular, minus the regular values that the sums of the unit noise count for them.
     rest: PairSums,
     /// Products of the scaled factors sinc(ξ_ω/2) and |s|·sinc²(φ/2) over a block, and sums of the logarithms of these
     /// products. One logarithm for each block takes hardly any time. On average the factors are above e⁻¹, and the
@@ -123,8 +123,8 @@ impl Spread {
         self.multiply(&FourPoses { sinc: chart, ..*poses }, &FourArcs { length, sinc: arc, ..*arcs });
     }
 
-    /// As [`Spread::add`], for arcs whose length and half turn differ from the reference by more than `regular`. The
-    /// regular part is summed elsewhere.
+    /// Corrects the sums for arcs whose length and half turn do not differ from the reference by `regular`. The values
+    /// `regular` are summed elsewhere, and are subtracted here.
     #[inline(never)]
     pub fn add_irregular(&mut self, arcs: &FourArcs, regular: [f64x4; 2], mask: f64x4) {
         let [.., length, half_turn] = self.reference;

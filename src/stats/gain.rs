@@ -1,5 +1,5 @@
-//! Gain in log-likelihood of a Gaussian in exponential or arc coordinates over one in (x, y, θ). It detects bananas
-//! that bend symmetrically to both sides, which have no skew.
+//! Gain in log-likelihood of a Gaussian in exponential or arc coordinates over one in (x, y, θ). It also
+//! detects bananas that bend symmetrically to both sides, which have no skew.
 
 use super::cross_track::NO_SPREAD;
 use super::moments::{mean_and_cov, mean_heading, no_less_than_none};
@@ -119,7 +119,7 @@ impl Charts {
         let gain = |dimensions: usize, bent: &Normal| {
             let (plain, bent) = (plain.log_volumes[dimensions - 1], bent.log_volumes[dimensions - 1]);
             let gain = plain - bent - log_jacobians[3 - dimensions];
-            // If the Gaussian in (x, y, θ) has no extent, up to rounding, the gain is undefined.
+            // If the Gaussian in (x, y, θ), or (x, y), has no volume, up to rounding, the gain is undefined.
             if gain > f64::NEG_INFINITY { gain } else { f64::NAN }
         };
         let gain = LikelihoodGain { pose: gain(3, &twist), floor: gain(2, &arc) };

@@ -28,9 +28,9 @@ export interface Grid {
   resolution: number;
   /** x, y (m) and yaw (rad) of the lower left corner. */
   origin: Float64Array;
-  /** Bits of the cells: 1 if occupied. */
+  /** One byte for each cell: 1 if occupied, 0 otherwise. */
   occupied: Uint8Array;
-  /** Bits of the cells: 1 if unknown. */
+  /** One byte for each cell: 1 if unknown, 0 otherwise. */
   unknown: Uint8Array;
 }
 "#;

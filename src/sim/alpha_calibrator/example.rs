@@ -28,8 +28,8 @@ pub const LEVER_ARM: [f64; 2] = [0.12, 0.0];
 pub const DISTANCE_SCALE: f64 = 1.02;
 pub const TURN_SCALE: f64 = 0.97;
 
-/// Jumps of the reference: their size (m), their number of rows, and their interval. They make about one leg in a
-/// hundred an outlier.
+/// Jumps of the reference: their size (m), the number of rows that each lasts, and the probability that one begins at a row.
+/// They make about one leg in a hundred an outlier.
 const JUMP: f64 = 0.5;
 const JUMP_ROWS: usize = 25;
 const JUMPS_A_ROW: f64 = 4e-4;

@@ -73,7 +73,7 @@ pub struct AlphaCalibrator {
     settings: Settings,
     source: Source,
     fit: Fit,
-    /// Number of fits so far.
+    /// Number of the fit: how often the log or the settings have made a new one necessary.
     fits: u32,
 }
 
@@ -174,7 +174,7 @@ impl AlphaCalibrator {
         self.fits
     }
 
-    /// Returns the fit. For a log with too few legs it has none.
+    /// Returns the fit. For a log with too few legs it has no legs.
     pub fn calibration(&self) -> &Calibration {
         self.fit.calibration.get_or_init(|| {
             let Settings { seed, .. } = self.fit.settings;

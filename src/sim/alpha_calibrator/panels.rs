@@ -20,10 +20,10 @@ impl Words for Driver {
 /// Number of bins of a panel, with about equal numbers of legs. Legs with equal motions are in one bin.
 pub const BINS: usize = 8;
 
-/// Minimum number of legs of a bin: the standard error of fewer is meaningless.
+/// Minimum number of legs of a bin: the standard error of a mean of fewer is meaningless.
 const LEAST: usize = 5;
 
-/// Squared residuals of one noise component against a regressor x, less the parts of the other α and of the reference.
+/// Squared innovations of one noise component against a regressor x, less the parts of the other α and of the reference.
 /// Their expectation is α·x.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(
@@ -82,7 +82,7 @@ fn panel(model: Model, calibration: &Calibration, kind: usize, driver: Driver) -
         .collect();
     let mut panel =
         Panel { alpha, x: Vec::new(), y: Vec::new(), error: Vec::new(), slope, interval: intervals[alpha] };
-    // Without rotations in the legs there is no panel against the rotation.
+    // A panel has no bins if its α is not identified, such as one of the rotation for legs that hardly turn.
     if panel.slope.is_none() {
         return panel;
     }

@@ -42,7 +42,7 @@ pub struct Charted {
 }
 
 impl Figures {
-    /// Returns the statistics of a cloud without samples.
+    /// Statistics of a cloud without samples.
     pub const NONE: Self = {
         let (mean, cov) = (
             Vector3::new(f64::NAN, f64::NAN, f64::NAN),

@@ -77,7 +77,7 @@ pub fn covariances(settings: &Settings, order: Compounding) -> Vec<Option<Matrix
         .collect()
 }
 
-/// Returns the standard deviations of ξ (m, m, rad) that count as 0.
+/// Returns the largest standard deviations of ξ (m, m, rad) that count as 0.
 fn smallest_spread(settings: &Settings) -> Vector3<f64> {
     let u = &settings.command;
     let length = NO_SPREAD * (u.v * u.dt).abs() * f64::from(settings.steps);

@@ -175,7 +175,7 @@ impl Rollouts {
         self.sums.fill(Sums::new());
     }
 
-    /// Returns the moments of `goal` robots after each step. They may be up to one block more than the robots driven.
+    /// Returns the moments of `goal` robots after each step: those driven, and less than a block of further ones.
     pub fn measured(&mut self, goal: usize) -> Vec<Measured> {
         let of = |sums: &[Sums<QUANTITIES>]| {
             sums.iter().map(|sums| measured(&sums.finish(), goal as f64)).collect()

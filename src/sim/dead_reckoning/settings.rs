@@ -84,8 +84,8 @@ impl Settings {
         }
     }
 
-    /// Tells whether rollouts under both settings are equal to the last bit. Numbers of robots and the selected step do
-    /// not matter.
+    /// Tells whether rollouts under both settings are equal to the last bit. The number of robots, the
+    /// selected step and the recursion do not matter.
     pub(super) fn drives_as(&self, other: &Self) -> bool {
         let Self { step, compounding, samples, .. } = *other;
         // A zero that is negative equals one that is not, and leads to other zeros.

@@ -15,8 +15,9 @@ use std::ops::Range;
 pub struct Attempt {
     pub pose: SE2,
     pub accepted: bool,
-    /// True if the robot collides with nothing at its end pose, and along the whole path.
+    /// True if the robot collides with nothing at its end pose.
     pub end_free: bool,
+    /// True if the robot collides with nothing along the whole path.
     pub path_free: bool,
 }
 

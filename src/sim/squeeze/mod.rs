@@ -246,7 +246,7 @@ impl MapSqueeze {
     /// Draws `count` accepted samples with a sampler and returns their cost. The caller measures the time.
     ///
     /// # Errors
-    /// [`Wedged`] if no sample is accepted, or if all together take so many draws that the machine would give up.
+    /// [`Wedged`] if one of the samples is not accepted, or if all together take so many draws that the machine would give up.
     pub fn trial(&self, sampler: Sampler, count: usize) -> Result<Cost, Wedged> {
         let conditioned = conditioned(&self.settings, &self.plan, sampler);
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(self.settings.seed);

@@ -40,7 +40,7 @@ impl Settable for [f64; 6] {
     }
 }
 
-/// Start positions of the presets in the apartment.
+/// Start poses x, y (m) and θ (rad) of the presets in the apartment.
 pub const PRESETS: [(&str, [f64; 3]); 3] =
     [("doorway", [2.05, 2.6, FRAC_PI_2]), ("wall", [3.3, 2.6, FRAC_PI_2]), ("corridor", [1.4, 4.4, 0.0])];
 
@@ -65,7 +65,7 @@ settings! {
         clearance: f64 = 0.13, "m", in 0.0..=10.0;
         /// True if draws are judged by the map; otherwise all are accepted.
         conditioned: bool = true;
-        /// State of unknown cells for the robot.
+        /// Treatment of unknown cells as free or blocked.
         unknown: Unknown = Unknown::Free;
         /// Sampler that judges the draws.
         sampler: Sampler = Sampler::Endpoint;

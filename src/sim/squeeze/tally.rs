@@ -23,7 +23,7 @@ impl Tally {
         share(self.through_wall, self.accepted)
     }
 
-    /// Returns the 95 % Wilson interval of the fraction through a wall, which is also valid at 0 and 1.
+    /// Returns the 95 % interval of the fraction through a wall (Wilson, 1927), which is also valid at 0 and 1.
     pub fn through_wall_interval(&self) -> [f64; 2] {
         let (n, p) = (self.accepted as f64, self.through_wall_rate());
         // The normal quantile of 97.5 %.
@@ -37,12 +37,12 @@ impl Tally {
     }
 }
 
-/// Returns a quotient, or NaN if the denominator is 0.
+/// Returns a quotient: NaN for 0/0, and infinity for another number over 0.
 pub(super) fn share(part: usize, all: usize) -> f64 {
     part as f64 / all as f64
 }
 
-/// Statistics of the attempts shown. Fractions of 0 attempts are NaN.
+/// Statistics of the attempts shown. Fractions of 0 attempts are NaN, and costs per accepted one infinite if none is accepted.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(
     target_arch = "wasm32",

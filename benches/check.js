@@ -22,14 +22,14 @@ export function differences(motion, samples) {
   const wrong = [];
   for (const event of [0, 30]) {
     const { stats } = figures(machine, event);
-    const ours = baseline.refresh(command(event), VIEW, RAMP);
-    const theirs = flat(stats);
-    for (const [name, value] of flat(ours.stats)) {
+    const ofBaseline = baseline.refresh(command(event), VIEW, RAMP);
+    const ofCore = flat(stats);
+    for (const [name, value] of flat(ofBaseline.stats)) {
       // NaN is a difference too.
-      if (!(Math.abs(value - Number(theirs.get(name))) <= TOLERANCE)) wrong.push(`${name}: ${value}, core ${theirs.get(name)}`);
+      if (!(Math.abs(value - Number(ofCore.get(name))) <= TOLERANCE)) wrong.push(`${name}: ${value}, core ${ofCore.get(name)}`);
     }
     const pixels = picture(machine);
-    const unequal = ours.pixels.filter((value, i) => value !== pixels[i]).length;
+    const unequal = ofBaseline.pixels.filter((value, i) => value !== pixels[i]).length;
     if (unequal > 0) wrong.push(`pixels: ${unequal} differ`);
   }
   machine.free();

@@ -190,8 +190,8 @@ export const presets = {
 export const openingAlphas = { velocity: [0.002, 0.002, 0.1, 0.1, 0.002, 0.002], odometry: [0.05, 0.05, 0.05, 0.05] };
 
 /**
- * Limits of the core: `cells` of a grid or pixels of an image, `bytes` of its file, `trial` samples times parts in
- * `trial`, and the number of colours that a `ramp` has.
+ * Limits of the core: `cells` of a grid or pixels of an image, `bytes` of its file, `trial` for samples times parts in one call of
+ * `MapSqueeze.trial`, and the number of colours of a `ramp`.
  */
 export const limits = { cells: 33554432, bytes: 201330688, trial: 100000, ramp: 256 };
 

@@ -8,7 +8,7 @@ const STEP: f64 = 0.05;
 /// Largest offset (s) of the first scan, that of the clocks of one network. Further away, a drive in circles would match its next round.
 const NEAR: f64 = 10.0;
 
-/// Offsets of a coarse scan, where the clocks have nothing in common: an hour of them is a second each.
+/// Number of offsets in the coarse scan of clocks without a common start: over an hour they are 1 s apart.
 const COARSE_OFFSETS: f64 = 4096.0;
 
 /// Samples of a scan at most.

@@ -174,7 +174,7 @@ impl Filling {
         let centre = self.centre(block.first, size);
         let radius = size as f64 * self.field.radius;
         let blur = size as f64 * self.field.blur;
-        // Drops the candidates of earlier blocks.
+        // Keeps the candidates of the block around this one; those after them belong to blocks that are done.
         self.near.truncate(range[1]);
         let Some([least, most]) = self.measure(tree, centre, block, blur) else { return };
         if size > 1 && least <= FAR * radius + blur / BLUR {

@@ -126,7 +126,8 @@ const ACTS = {
 };
 
 /**
- * Expects that a frame after an input event asks the core at most six times, and a release for views that close in alone.
+ * Expects that a frame after an input event calls the core at most six times. A release calls it only for pictures of a view that
+ * zooms in.
  *
  * @param {Page} page
  * @param {Name} name

@@ -14,7 +14,7 @@ import { load } from '../../dist/core.js';
  *   how far away it was dragged
  */
 
-/** By their tags; Dead Reckoning has none. @type {Record<string, { handles: Handle[] }>} */
+/** Handles of the figures by tag; Dead Reckoning has no handles. @type {Record<string, { handles: Handle[] }>} */
 export const figures = {
   'banana-machine': {
     handles: [{ name: 'end', to: [0.8, 0.4], placeOf: ({ contours }) => [...contours.command.slice(-2)] }],

@@ -115,7 +115,7 @@ const UNITS_OF: Partial<Record<Field, [Unit['of'], boolean]>> = {
 };
 
 /** Parts of a name in small letters, with dots between them. */
-function pathOf(name: string): string {
+function dottedName(name: string): string {
   const parts = name.replace(/^%/, '').replace(/^field\./, '').replaceAll(/(\p{Ll})(\p{Lu})/gu, '$1.$2').toLowerCase();
   return parts.replaceAll(/[^\p{L}\p{N}°]+/gu, '.').replaceAll(/^\.+|\.+$/g, '');
 }
@@ -127,11 +127,11 @@ function readName(name: string): ColumnMeaning | undefined {
   const [bracketed, inside] = BRACKETS.exec(name) ?? [];
   if (bracketed !== undefined && inside !== undefined && !NO_UNIT.test(inside.trim())) {
     const unit = unitOf(inside);
-    const reading = fieldOf(pathOf(name.slice(0, -bracketed.length)));
+    const reading = fieldOf(dottedName(name.slice(0, -bracketed.length)));
     return reading && fits(reading.field, unit) ? { ...reading, unit: unit?.unit ?? inside.trim() } : undefined;
   }
   const bare = bracketed === undefined ? name : name.slice(0, -bracketed.length);
-  const path = pathOf(bare);
+  const path = dottedName(bare);
   const whole = fieldOf(path);
   // Times of rostopic are nanoseconds, in a simulation too.
   if (whole?.field === 't' && /^%time|^field\..*stamp$/.test(name)) return { ...whole, unit: 'ns' };
@@ -139,7 +139,7 @@ function readName(name: string): ColumnMeaning | undefined {
   if (whole) return { ...whole, ...(/millis$/.test(path) ? { unit: 'ms' } : /micros$/.test(path) ? { unit: 'us' } : /nanos$/.test(path) ? { unit: 'ns' } : {}) };
   const [last, word] = LAST_PART.exec(bare) ?? [];
   const unit = word === undefined ? undefined : unitOf(word.replace(/[. ]/, '_'));
-  const reading = last !== undefined && unit ? fieldOf(pathOf(bare.slice(0, -last.length))) : undefined;
+  const reading = last !== undefined && unit ? fieldOf(dottedName(bare.slice(0, -last.length))) : undefined;
   if (reading && unit && fits(reading.field, unit)) return { ...reading, unit: unit.unit };
   const [, front, suffix] = SUFFIXED.exec(path) ?? [];
   const fronted = front === undefined ? undefined : fieldOf(front);
@@ -220,9 +220,9 @@ function nameOf({ name, columns }: Group, names: string[]): string {
   const [first] = [x, v, yaw, omega].filter((column) => column !== undefined);
   const raw = names[first?.at ?? 0].trim().replace(/^%?(field\.)?/, '');
   for (let end = 1; end < raw.length; end++) {
-    if (/[^\p{L}\p{N}]/u.test(raw[end]) && pathOf(raw.slice(0, end)) === name) return raw.slice(0, raw[end] === '_' ? end + 1 : end);
+    if (/[^\p{L}\p{N}]/u.test(raw[end]) && dottedName(raw.slice(0, end)) === name) return raw.slice(0, raw[end] === '_' ? end + 1 : end);
   }
-  for (let start = 1; start < raw.length; start++) if (pathOf(raw.slice(start)) === name) return raw.slice(start);
+  for (let start = 1; start < raw.length; start++) if (dottedName(raw.slice(start)) === name) return raw.slice(start);
   return name;
 }
 

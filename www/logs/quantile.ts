@@ -11,5 +11,5 @@ export function sample(count: number, value: (i: number) => number): Float64Arra
   return values;
 }
 
-/** Returns a quantile of values, which are sorted; NaN of none. */
+/** Sorts the values in place and returns a quantile of them; NaN of no values. */
 export const quantile = (values: Float64Array, share: number) => values.sort()[Math.floor(share * (values.length - 1))] ?? NaN;

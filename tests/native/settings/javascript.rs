@@ -64,8 +64,8 @@ export const presets = {{
 export const openingAlphas = {{ velocity: {velocity_alphas:?}, odometry: {odometry_alphas:?} }};
 
 /**
- * Limits of the core: `cells` of a grid or pixels of an image, `bytes` of its file, `trial` samples times parts in
- * `trial`, and the number of colours that a `ramp` has.
+ * Limits of the core: `cells` of a grid or pixels of an image, `bytes` of its file, `trial` for samples times parts in one call of
+ * `MapSqueeze.trial`, and the number of colours of a `ramp`.
  */
 export const limits = {{ cells: {MAX_PIXELS}, bytes: {MAX_BYTES}, trial: {MAX_TRIAL}, ramp: {RAMP} }};
 

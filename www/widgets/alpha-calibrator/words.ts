@@ -70,7 +70,7 @@ export const noiseNames = (model: Reading['config']['model']) => words.alphas[mo
 /** Returns the subscript of an α, counted from 0. */
 export const alphaName = (index: number) => String.fromCharCode(0x2081 + index);
 
-/** Prints a number that is in the format of files, as 1.5e-7. */
+/** Returns a number of a file, such as 1.5e-7, with the decimal sign of the language and a power of ten. */
 export const localized = (number: string) => number.replace('.', fixed(0.5, 1)[1]).replace(/e(-?\d+)$/, (_, exponent) => `·${powerOfTen(Number(exponent))}`);
 
 /** Scales small numbers by a power of 1000, as they have no room beside an axis. The unit is empty where the power is 1. */

@@ -98,7 +98,7 @@ class CloudPicture extends Picture<Scene, import('../../types.d.ts').ViewName> {
     const { palette } = brush;
     const { machine, shown, stats } = scene;
     if (shown <= MAX_DOTS) {
-      // The heading goes with the turn.
+      // Ticks for headings shrink during the morph: exponential coordinates show the turn as an axis.
       drawDots(brush, this.places(scene), { x: 0, y: 1, heading: morph < 1 ? 2 : null, ahead: 1 - morph });
       return;
     }

@@ -49,7 +49,7 @@ const CELL = { least: 2, most: 5, samples: 40_000 };
 const PATHS_ON_DENSITY = 25;
 
 /** Transparent ramp for kinds of samples that are hidden in a density. */
-const HIDDEN = new Uint8Array(4 * limits.ramp);
+const TRANSPARENT_RAMP = new Uint8Array(4 * limits.ramp);
 
 export class FloorPicture extends SamplesPicture<Scene> {
   plan;
@@ -168,7 +168,7 @@ export class FloorPicture extends SamplesPicture<Scene> {
   #drawDensity(brush: Brush, { machine, stats, overlays }: Scene) {
     const { palette } = brush;
     const roles = [['rejected', palette.truth], ['accepted', palette.cloud], ['through', palette.accent]] as const;
-    const ramps = roles.flatMap(([name, cloud]) => [...(overlays.includes(name) ? densityRamp({ ...palette, cloud }) : HIDDEN)]);
+    const ramps = roles.flatMap(([name, cloud]) => [...(overlays.includes(name) ? densityRamp({ ...palette, cloud }) : TRANSPARENT_RAMP)]);
     const cell = clamp(CELL.most * Math.sqrt(CELL.samples / stats.attempts) / 2, CELL.least, CELL.most);
     this.#density.draw(brush, cell, [stats, palette, overlays], (...part) => machine.picture(...part, Uint8Array.from(ramps)));
   }

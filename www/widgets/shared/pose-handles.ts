@@ -119,7 +119,7 @@ export class PoseHandles extends Part<import('../../figure/figure.ts').Figure> {
     return true;
   }
 
-  /** Turns the robot by steps counter-clockwise, or to half a turn for infinitely many; returns false if there are none. */
+  /** Turns the robot by steps counter-clockwise, or to a heading of ±π for ±∞ steps; returns false without steps. */
   #turnBy(steps?: number): boolean {
     if (!steps) return false;
     this.#turnTo(Number.isFinite(steps) ? this.#pose.theta + KEY_TURN * steps : Math.sign(steps) * Math.PI);

@@ -271,12 +271,11 @@ export async function bundle({ tags = WIDGETS, changed = (_, script) => script }
     const text = readFileSync(at(path), 'utf8');
     write(at(join('dist', relative('www', path))), path.endsWith('.html') ? withTables(text, elements, all) : text);
   }
-  // Before and after: a page that takes all margins away takes this too. Where scripts are off, nothing is to come, and what
-  // stands between the tags is shown.
-  // Its styles are Lit's, which a bare clone has not.
+  // `:where` has no specificity, so that any rule of a page replaces the margins. Without scripts no height is reserved.
+  // Imported here, because it needs Lit, which a bare clone does not have.
   const { roomBefore } = await importTypeScript('www/figure/page/room.ts');
   const kept = `@media (scripting:enabled){\n${roomBefore()}\n}`;
-  // Letters of slides are for sentences.
+  // Slides have a large font for sentences, which is too large for figures.
   const slides = `:where(.reveal) :where(${WIDGETS}){font-size:.3em;text-align:start}`;
   appendFileSync(at('dist/motion-widgets.css'), `\n:where(${WIDGETS}){margin-block:1em}\n${slides}\n${kept}\n`);
   write(at('dist/motion.wasm'), wasm);
@@ -408,7 +407,7 @@ function besideEachOther(types) {
 }
 
 /**
- * Removes the sources from a source map that are of no use to readers: a quarter of a million characters.
+ * Removes the text of the inlined module from a source map: a quarter of a million characters.
  *
  * @param {string} text
  */

@@ -70,7 +70,7 @@ export function anyOf(seed) {
       alphas: alphas(6),
       clearance: real(0, 0.2),
       conditioned: one([true, false]),
-      // Settings of the whole-arc sampler are valid one at a time, and it always finds accepted samples.
+      // The whole-arc sampler never gives up, and its settings are valid in any order.
       sampler: 'whole-arc',
       steps: whole(1, 64),
       unknown: one(['free', 'blocked']),

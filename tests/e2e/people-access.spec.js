@@ -346,7 +346,7 @@ test('the help of a slider covers no slider of its group, and no outline crosses
         const slider = /** @type {HTMLInputElement} */ (row.querySelector('input[type=range]'));
         slider.focus();
         const help = /** @type {Element} */ (row.querySelector('.effect')).getBoundingClientRect();
-        // The outline of a thumb is 4 px wide, and a thumb has the radius 0.525 rem.
+        // The outline of a thumb ends 4 px outside it, and a thumb has the radius 0.525 rem.
         return [.../** @type {Element} */ (row.closest('fieldset, .controls')).querySelectorAll('.slider input[type=range]')]
           .map((each) => each.getBoundingClientRect())
           .filter(({ top, bottom }) => (top + bottom) / 2 + 0.525 * 16 + 4 > help.top && (top + bottom) / 2 < help.bottom)

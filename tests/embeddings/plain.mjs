@@ -104,5 +104,5 @@ const all = Object.entries(PLAIN).map(([name, { packages, output, base, devBase,
   ...more,
 }]);
 
-/** By the name of the example. */
+/** Engines by the name of the example. */
 export const plain = Object.fromEntries(all);

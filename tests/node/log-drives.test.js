@@ -186,7 +186,7 @@ test('a frozen reference is left out while the odometry moves on, and kept while
   const { data, summary } = await pair(lost);
   assert.deepEqual([data.t.length, [...data.breaks], summary.used, summary.dropped], [301, [201], 301, { held: { count: 99, first: 0 } }]);
   assert.equal(await sentenceOf(pair(along(() => 7))), 'truth.csv: its pose stands while the odometry moves on: it has lost the robot; give one that follows the robot.');
-  // A pause of two seconds, or of five centimetres of the odometry, does not count as lost.
+  // A pause of two seconds, or one in which the odometry moves by five centimetres, does not count as lost.
   const stands = async (/** @type {number} */ seconds, /** @type {number} */ speed) => {
     const own = (/** @type {number} */ i) => (speed * i) / 20;
     return (await pair(along((i) => 1.01 * own(i >= 200 && i <= 200 + 20 * seconds ? 200 : i)), along(own))).summary.dropped.held?.count;

@@ -94,7 +94,7 @@ const UNIT_WORDS: [RegExp, Unit['of'], Unit['unit']][] = [
 /** Division by a second: "m/s", "m s^-1", "m_s", "mps". */
 const PER_SECOND = /(\/|[ ._*]|p|per)\.?s(ec(ond)?)?(\^?-1)?$/;
 
-/** Units of numbers without a stated unit. */
+/** Texts in brackets that name no unit. */
 const NO_UNIT = /^(|-|1|quat(ernion)?|unitless|none)$/;
 
 /** Unit at the end of a name: in brackets, or as MATLAB converts a name such as "x [m]". */

@@ -41,7 +41,7 @@ export const framesOption = ({ parent, child }: Frames) => `${parent},${child}`;
 export interface Choice {
   /** Name of the series. */
   series: string;
-  /** Kind to read: commands or poses, if there are any. By default poses come first. */
+  /** Kind to read: "commands" reads poses if there are no commands. By default poses come first. */
   kind?: LogKind;
   /** Ends of a chain of transforms. */
   frames?: Frames;

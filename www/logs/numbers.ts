@@ -23,8 +23,8 @@ const DURATION = /^\s*(?:(\d+) days? )?\+?(\d+):(\d{2}):(\d{2})(?:[.,](\d+))?\s*
 const POWERS_OF_TEN = Array.from({ length: 23 }, (_, i) => 10 ** i);
 
 /**
- * Parses digits with at most one point in a part of a line, without a string of its own: most cells are such, and a long table has millions.
- * The number is the nearest one. Returns NaN for any other text, and for more digits than a number has.
+ * Parses digits with at most one point in a part of a line, and rounds correctly. It makes no string, because a long table has millions of
+ * cells. Returns NaN for any other text, and for more digits than a number has.
  */
 export function decimalAt(line: string, from: number, to: number): number {
   const isNegative = line.charCodeAt(from) === 45;

@@ -115,7 +115,7 @@ export class Rows {
    * @param options answers to questions about units
    * @throws {LogError} if the rows that are left are no log, or their units are in doubt
    */
-  end(name: string, kind: LogKind, { units: stated, clocks, ...decisions }: Decisions, options: OpenOptions = {}): Log {
+  end(name: string, kind: LogKind, { units: assumed, clocks, ...decisions }: Decisions, options: OpenOptions = {}): Log {
     if (clocks[1] !== undefined) this.#sortByOtherClock();
     const usesOther = this.#chooseClock(clocks[1] !== undefined);
     const { rows, late, ...times } = this.#inOrder(kind);
@@ -130,7 +130,7 @@ export class Rows {
       throw new LogError(this.#at(dropped?.first ?? 0), (say) => say.few(rows.length, count, cause));
     }
     const columns = { ...times, a, b, c };
-    const units = judgeUnits(this.#place, kind, columns, stated, options);
+    const units = judgeUnits(this.#place, kind, columns, assumed, options);
     const { start, t } = columns;
     const { breaks, jumped, ...found } = this.#events(kind, [t, a, b, c], rows);
     const data = { t, ...(kind === 'poses' ? { x: a, y: b, theta: c } : { v: a, omega: b }), breaks } as Log['data'];
@@ -158,7 +158,7 @@ export class Rows {
     this.#broken = new Set([...order.keys()].filter((rank) => broken.has(order[rank])));
   }
 
-  /** Switches to the other clock if the first one is mostly 0. @returns whether it did @returns whether it did */
+  /** Switches to the other clock if the first one is mostly 0. @returns whether it did */
   #chooseClock(hasOther: boolean): boolean {
     let unset = 0;
     for (let row = 0; row < this.#added; row++) if (this.#isUnset(row)) unset += 1;
@@ -262,7 +262,7 @@ export class Rows {
     return { start, t: t.slice(0, used), rows: rows.slice(0, used), late };
   }
 
-  /** Drops rows that were added. The path stays continuous across them, except across rows from before a reset of the clock. */
+  /** Drops rows that were added. The path stays continuous across them, except where the clock was set back. */
   #drop(rows: Map<number, Cause>): void {
     for (const row of [...rows.keys()].sort((one, other) => one - other)) {
       const cause = rows.get(row) as Cause;

@@ -47,7 +47,7 @@ const MIN_STEP = 0.02;
 /** Least number of steps with a direction. */
 const MIN_STEPS = 20;
 
-/** Range (degrees) of the difference of two headings in degrees between which the heading wraps. */
+/** Range of the difference between two headings in degrees across the end of a full circle. */
 const WRAPS = [330, 390] as const;
 
 const isWithin = (value: number, [low, high]: readonly [number, number]) => value >= low && value <= high;
@@ -58,19 +58,19 @@ export const unitOfSize = (time: number): TimeUnit | undefined => SIZES.find(([,
 /**
  * Judges the units, and converts the columns to s, m and rad.
  *
- * @param stated units of the columns, as names, the size of the times, the format or usage tell
+ * @param assumed units of the columns by names, the size of the times, the format or usage
  * @param options answers to questions, which are not doubted
  * @throws {LogError} with a question, where the signs disagree
  */
-export function judgeUnits(place: Place, kind: LogKind, columns: Columns, stated: Units, options: OpenOptions): Units {
+export function judgeUnits(place: Place, kind: LogKind, columns: Columns, assumed: Units, options: OpenOptions): Units {
   const isJudged = columns.t.length >= MIN_ROWS;
   const ask = (what: 'timeUnit' | 'lengthUnit' | 'angleUnit', value: number, unit: string, choices: string[]): never => {
     throw new LogError(place, (say) => say[what](value, unit, choices), { what, choices } satisfies Question);
   };
-  const time = isJudged ? timeUnit(kind, columns, stated, options, ask) : stated.time;
-  convertTimes(columns, 10 ** (POWERS[time.unit] - POWERS[stated.time.unit]));
+  const time = isJudged ? timeUnit(kind, columns, assumed, options, ask) : assumed.time;
+  convertTimes(columns, 10 ** (POWERS[time.unit] - POWERS[assumed.time.unit]));
 
-  let { length, angle } = stated;
+  let { length, angle } = assumed;
   if (options.lengthUnit) length = { unit: options.lengthUnit, by: 'option' };
   else if (isJudged) checkLength(kind, columns, length, ask);
   const metres = METRES[length.unit];
@@ -86,15 +86,15 @@ export function judgeUnits(place: Place, kind: LogKind, columns: Columns, stated
 type Ask = (what: 'timeUnit' | 'lengthUnit' | 'angleUnit', value: number, unit: string, choices: string[]) => never;
 
 /** Judges times by their size or name, and by the rate and the speed that they imply. */
-function timeUnit(kind: LogKind, { t, a, b, c }: Columns, { time: stated, length, angle }: Units, options: OpenOptions, ask: Ask): Units['time'] {
-  if (['format', 'date', 'option'].includes(stated.by)) return stated;
+function timeUnit(kind: LogKind, { t, a, b, c }: Columns, { time: assumed, length, angle }: Units, options: OpenOptions, ask: Ask): Units['time'] {
+  if (['format', 'date', 'option'].includes(assumed.by)) return assumed;
   const step = quantile(sample(t.length - 1, (i) => t[i + 1] - t[i]), 0.5);
   const units = UNITS.timeUnit;
-  const rate = (unit: TimeUnit) => 10 ** (POWERS[unit] - POWERS[stated.unit]) / step;
-  if (stated.by !== 'usage') {
-    if (isWithin(rate(stated.unit), RATES)) return stated;
+  const rate = (unit: TimeUnit) => 10 ** (POWERS[unit] - POWERS[assumed.unit]) / step;
+  if (assumed.by !== 'usage') {
+    if (isWithin(rate(assumed.unit), RATES)) return assumed;
     // Seconds since 1970 may also be nanoseconds since the start of a simulation.
-    if (stated.by === 'name' || stated.unit !== 's') return ask('timeUnit', rate(stated.unit), stated.unit, units.filter((unit) => isWithin(rate(unit), RATES)));
+    if (assumed.by === 'name' || assumed.unit !== 's') return ask('timeUnit', rate(assumed.unit), assumed.unit, units.filter((unit) => isWithin(rate(unit), RATES)));
   }
   // Headings whose unit nothing states are not counted.
   const radians = RADIANS[options.angleUnit ?? (angle.unit === 'deg' ? 'deg' : 'rad')];
@@ -107,12 +107,12 @@ function timeUnit(kind: LogKind, { t, a, b, c }: Columns, { time: stated, length
     const speeds = [speed, turn].map((each) => each * rate(unit) * step);
     return isWithin(rate(unit), USUAL_RATES) && (!moves || (speeds.every((each) => each <= FASTEST) && [...speeds, raw * rate(unit) * step].some((each) => each >= SLOWEST)));
   };
-  if (fits(stated.unit)) return stated;
+  if (fits(assumed.unit)) return assumed;
   const [unit, ...others] = units.filter(fits);
   if (unit && others.length === 0 && moves) return { unit, by: 'rate' };
   // A robot that is too fast may have its lengths in another unit.
-  if (isWithin(rate(stated.unit), USUAL_RATES) && speed > FASTEST) return stated;
-  return ask('timeUnit', rate(stated.unit), stated.unit, units.filter((each) => isWithin(rate(each), USUAL_RATES)));
+  if (isWithin(rate(assumed.unit), USUAL_RATES) && speed > FASTEST) return assumed;
+  return ask('timeUnit', rate(assumed.unit), assumed.unit, units.filter((each) => isWithin(rate(each), USUAL_RATES)));
 }
 
 /** Checks lengths by the speed of the robot. */
@@ -128,17 +128,17 @@ function checkLength(kind: LogKind, { t, a, b }: Columns, { unit, by }: Units['l
 }
 
 /** Judges headings and turn rates by their name and size, by the turn rate, and by the direction of the path. */
-function angleUnit(kind: LogKind, { t, a, b, c }: Columns, stated: Units['angle'], ask: Ask): Units['angle'] {
+function angleUnit(kind: LogKind, { t, a, b, c }: Columns, assumed: Units['angle'], ask: Ask): Units['angle'] {
   const choices = [...UNITS.angleUnit];
   if (kind === 'commands') {
-    const turn = quantile(sample(b.length, (i) => Math.abs(b[i])), 0.9) * RADIANS[stated.unit as AngleUnit];
-    return turn > FASTEST ? ask('angleUnit', turn, stated.unit, choices) : stated;
+    const turn = quantile(sample(b.length, (i) => Math.abs(b[i])), 0.9) * RADIANS[assumed.unit as AngleUnit];
+    return turn > FASTEST ? ask('angleUnit', turn, assumed.unit, choices) : assumed;
   }
   const path = unitOfPath(t, a, b, c);
   const turn = turnOf(t, c);
-  if (stated.by !== 'usage') {
-    const isDoubted = path !== undefined && path !== stated.unit && (stated.unit === 'deg') !== turn > FASTEST;
-    return isDoubted ? ask('angleUnit', turn * RADIANS[stated.unit as AngleUnit], stated.unit, choices) : stated;
+  if (assumed.by !== 'usage') {
+    const isDoubted = path !== undefined && path !== assumed.unit && (assumed.unit === 'deg') !== turn > FASTEST;
+    return isDoubted ? ask('angleUnit', turn * RADIANS[assumed.unit as AngleUnit], assumed.unit, choices) : assumed;
   }
   let largest = 0;
   let wraps = 0;
@@ -151,8 +151,8 @@ function angleUnit(kind: LogKind, { t, a, b, c }: Columns, stated: Units['angle'
   // Headings in radians that are not wrapped grow beyond a full circle too.
   const isBeyond = largest > 2 * Math.PI + 0.1;
   if (path !== 'rad' && signs >= 2 && isBeyond) return { unit: 'deg', by: 'size' };
-  if (path === 'rad' ? turn > FASTEST && wraps > 0 : turn > FASTEST || isBeyond) return ask('angleUnit', turn, stated.unit, choices);
-  return stated;
+  if (path === 'rad' ? turn > FASTEST && wraps > 0 : turn > FASTEST || isBeyond) return ask('angleUnit', turn, assumed.unit, choices);
+  return assumed;
 }
 
 /**

@@ -58,16 +58,16 @@ export function drawAxes(brush: Brush, names: { x: string, y: string }, key: Key
   drawKey(brush, yName, key);
 }
 
-/** Draws a key after the name of an axis. */
-
 export interface KeyEntry {
   name: string;
   /** Draws a line sample, from left to right in the middle of the text line; CSS pixels. */
   draw: (x: number, y: number, width: number) => void;
 }
+
 /** Returns an entry of a key with a sample of a line. */
 export const lineKey = ({ context }: Brush, name: string, style: LineStroke): KeyEntry => ({ name, draw: (x, y, width) => strokeLine(context, [[x, y], [x + width, y]], style) });
 
+/** Draws a key after the name of an axis. */
 function drawKey({ context, view, palette, font }: Brush, before: string, entries: KeyEntry[]) {
   const size = parseFloat(font);
   const [width, line] = [KEY.sample * size, KEY.line * size];

@@ -5,9 +5,9 @@ export interface Surface {
   /** Size in pixels. */
   width: number;
   height: number;
-  /** Size in CSS pixels. */
+  /** Width in CSS pixels. */
   clientWidth: number;
-  /** Style that determines the font, if it is an element's. */
+  /** Font of the style. */
   letters: { fontFamily: string, fontSize: string };
   getContext: (kind: '2d') => CanvasRenderingContext2D | null;
 }

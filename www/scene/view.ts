@@ -8,7 +8,7 @@ import { clamp } from '../ui/clamp.ts';
 /** Axis-aligned part of a view's world. */
 export type Extent = { xMin: number, yMin: number, xMax: number, yMax: number };
 
-/** Fraction of a view that its content has to fill after a gesture. Otherwise the view zooms in. */
+/** Fraction of a released view that its content has to fill; otherwise the view zooms in. */
 const LOOSEST_FIT = 0.45;
 
 /** Margin around the content of a view, relative to its size. */
@@ -150,7 +150,7 @@ export class View {
     return isInside(needed, shown) && fill >= LOOSEST_FIT;
   }
 
-  /** Returns the smallest extent with the aspect ratio of the view that contains another extent. */
+  /** Returns an extent around another one, moved into the limits: of rounded size unless snug, and in the aspect ratio of an equal view. */
   #cover(room: Extent) {
     const { left, right, top, bottom } = this.frame;
     const size = this.#snug ? (needed: number) => needed : niceSize;

@@ -61,7 +61,7 @@ const layout = css`
     }
   }
 
-  /* A single slider shares a row with the number of samples. */
+  /* The number of samples is below a single slider, and both are next to the command. */
   @container (min-width: 56em) {
     .controls > fieldset:has(+ .single) {
       grid-row: span 2;

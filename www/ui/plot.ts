@@ -162,12 +162,13 @@ export interface Curve {
   lit?: boolean;
 }
 
-/** Measured value with its standard error. */
+/** Measured value. */
 export interface Point {
   role: Role;
   x: number;
-  /** Standard error; NaN if there is none. */
+  /** Value; NaN if there is none. */
   y: number;
+  /** Standard error. */
   error: number;
 }
 

@@ -96,7 +96,7 @@ export const sliderStyles = css`
     visibility: visible;
   }
 
-  /* The sentence about a refused value stays until another control has the focus. */
+  /* The sentence about a refused value stays until the reader types again or changes a setting. */
   .slider.refused .effect {
     visibility: visible;
     color: var(--accent);

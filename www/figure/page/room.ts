@@ -45,7 +45,7 @@ export function roomBefore() {
     `${waiting(tags)}{display:flow-root;position:relative;min-width:0;max-width:100%}`,
     `${waiting(tags)}::before{${likedWidth}}`,
     `${waiting(tags)}>:not([slot]){position:absolute;top:0;margin:0}`,
-    // As the slots of the figure have them.
+    // Styles of the figure's own slots.
     `:where(${waiting(tags)}>[slot=title]){display:block;font-size:1.1em;line-height:1.4}`,
     `:where(${waiting(tags)}:has(>[slot=title]))::before{margin-bottom:.297em}`,
     `:where(${waiting(tags)}>[slot=caption]){font-size:.95em;line-height:1.4}`,

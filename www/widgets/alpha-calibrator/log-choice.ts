@@ -31,7 +31,7 @@ export function choosers(opener: LogOpener) {
   const isSingle = (recording: Recording) => optionsOf(recording).length === 1;
   const which = [
     ...(recordings.every(isSingle) ? [] : ROLES.map((role) => seriesSelect(opener, chosen, role, say))),
-    ...(recordings.length > 1 ? recordings.flatMap((recording, place) => (isSingle(recording) ? [roleSelect(opener, chosen, place, say)] : [])) : []),
+    ...(recordings.length > 1 ? recordings.flatMap((recording, index) => (isSingle(recording) ? [roleSelect(opener, chosen, index, say)] : [])) : []),
   ];
   return html`<div class="choosers">
     ${which.length ? html`<div class="topics">${which}</div>` : nothing}
@@ -65,14 +65,14 @@ function guessOf(recording: Recording, role: Role, kind: 'commands' | undefined)
   return best?.length === 1 ? best[0] : undefined;
 }
 
-function roleSelect(opener: LogOpener, { recordings, roles, plan }: Chosen, place: number, { choose: say }: LogWords) {
-  const { name } = recordings[place];
-  const present = roles.get(place) ?? ROLES.find((role) => plan?.unpaired[role].some(({ recording }) => recording === recordings[place]));
-  return select(`log-role-${place}`, name, present ?? '', ROLES.map((role) => [role, say.roles[role]]), (value) => {
+function roleSelect(opener: LogOpener, { recordings, roles, plan }: Chosen, index: number, { choose: say }: LogWords) {
+  const { name } = recordings[index];
+  const present = roles.get(index) ?? ROLES.find((role) => plan?.unpaired[role].some(({ recording }) => recording === recordings[index]));
+  return select(`log-role-${index}`, name, present ?? '', ROLES.map((role) => [role, say.roles[role]]), (value) => {
     const role = value as Role;
-    const changed = new Map(roles).set(place, role);
+    const changed = new Map(roles).set(index, role);
     // The other one of two files has the other role.
-    if (recordings.length === 2 && optionsOf(recordings[1 - place]).length === 1) changed.set(1 - place, role === 'odometry' ? 'reference' : 'odometry');
+    if (recordings.length === 2 && optionsOf(recordings[1 - index]).length === 1) changed.set(1 - index, role === 'odometry' ? 'reference' : 'odometry');
     opener.change({ roles: changed });
   }, say.open);
 }
@@ -87,7 +87,7 @@ function questionOf(opener: LogOpener, { answers }: Chosen, asked: Asked, { choo
   </div>`;
 }
 
-/** Returns a form with one `<select>` for each column, which assigns a field to it. */
+/** Returns a form with one `<select>` for each field, which assigns a column to it. */
 function columnsForm(opener: LogOpener, asked: Asked, answer: string[] | undefined, say: LogWords['choose']) {
   const { file, ask: { choices: [usual = ''], columns = [] } } = asked;
   const present = answer ?? usual.split(',');

@@ -5,7 +5,7 @@ import type { AlphaCalibrator as Machine, CalibrationLegs, CalibrationLog } from
 
 export interface Reading {
   machine: Machine;
-  /** Name of the log; null for the simulated one. */
+  /** Log of the reader or the page; null for the simulated one. */
   log: CalibrationLog | null;
   /** Requested settings. */
   config: Machine['config'];
@@ -18,7 +18,7 @@ export interface Reading {
   stats: Machine['stats'];
   legs: CalibrationLegs;
   truth: Machine['truth'];
-  /** Classes of the legs, in the order of decreasing probability. */
+  /** Class of each leg, as an index of `CLASSES`. */
   classes: Uint8Array;
   /** Legs with the largest residuals, the largest first. */
   worst: number[];
@@ -60,8 +60,8 @@ const CHI2 = [[0, 0, 0], [0.455, 3.841, 10.828], [1.386, 5.991, 13.816], [2.366,
 export function classesOf({ count, squared, residuals }: Pick<CalibrationLegs, 'count' | 'squared' | 'residuals'>) {
   return Uint8Array.from({ length: count }, (_, leg) => {
     const quantiles = CHI2[observedOf(residuals, leg)];
-    const place = quantiles.findIndex((quantile) => squared[leg] <= quantile);
-    return place < 0 ? quantiles.length : place;
+    const index = quantiles.findIndex((quantile) => squared[leg] <= quantile);
+    return index < 0 ? quantiles.length : index;
   });
 }
 

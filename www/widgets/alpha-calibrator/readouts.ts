@@ -14,8 +14,8 @@ export type Figure = import('./alpha-calibrator.ts').AlphaCalibratorElement;
 /** Size of a whisker's row. */
 const CHART = { width: 200, height: 24, middle: 12, inset: 12 };
 
-/** Maximum number of decades between labels of the axis. */
-const MOST_DECADES = 4;
+/** Maximum number of intervals between labels of the axis. */
+const MOST_INTERVALS = 4;
 
 /** Icons of the ratings. */
 const ICONS = { consistent: '✓', questionable: '!', unusable: '✕' };
@@ -33,7 +33,7 @@ export function alphaTable(reading: Reading) {
   const say = words.calibrator.alphas;
   const noises = noiseNames(reading.fitted.model);
   const truth = truthHolds(reading) ? reading.truth?.alphas : undefined;
-  const place = axisOf([...alphas, ...intervals.flatMap((interval) => interval ?? []), ...(truth ?? [])]);
+  const axis = axisOf([...alphas, ...intervals.flatMap((interval) => interval ?? []), ...(truth ?? [])]);
   return html`<table class="alphas" part="table">
     <thead>
       <tr><th scope="col">${rich(say.alpha)}</th><th scope="col">${truth ? trueHead() : say.noise}</th><th scope="col">${say.value}</th><th scope="col">${say.recommended}</th></tr>
@@ -43,14 +43,14 @@ export function alphaTable(reading: Reading) {
         <th scope="row">${rich(`*α*${alphaName(i)}`)}</th>
         ${alpha === null
           ? html`<td colspan="3"><div class="of">${noises[i]}</div><span class="unknown">${lackOf(reading, i)}</span></td>`
-          : html`<td class="chart"><div class="line"><div class="of">${noises[i]}</div>${whisker(place, alpha, intervals[i], truth?.[i])}</div></td>
+          : html`<td class="chart"><div class="line"><div class="of">${noises[i]}</div>${whisker(axis, alpha, intervals[i], truth?.[i])}</div></td>
             <td><div class="line"><div class="fitted-value roomy" data-room="0.0000">${fittedOf(reading, i)}</div><div class="between roomy" data-room=${say.between('0.0000', '0.0000')}>${betweenOf(reading, i)}</div></div></td>
             <td class="roomy recommended" data-room="0.0000">${recommendedOf(reading, i)}</td>`}
       </tr>`)}
       <tr class="axis" aria-hidden="true">
         <td></td>
         <td class="chart">
-          <div class="line"><div class="of"></div><div class="scale">${place.decades.map((decade) => html`<span .style=${`left: ${(100 * place.at(decade)) / CHART.width}%`}>${decade < 5e-4 ? powerOfTen(Math.round(Math.log10(decade))) : tick(decade, decade)}</span>`)}</div></div>
+          <div class="line"><div class="of"></div><div class="scale">${axis.decades.map((decade) => html`<span .style=${`left: ${(100 * axis.at(decade)) / CHART.width}%`}>${decade < 5e-4 ? powerOfTen(Math.round(Math.log10(decade))) : tick(decade, decade)}</span>`)}</div></div>
         </td>
         <td colspan="2"></td>
       </tr>
@@ -109,7 +109,7 @@ function axisOf(values: (number | null)[]) {
     return Math.max(inset / 3, Math.min(width - inset / 3, inset + share * (width - 2 * inset)));
   };
   // More labels would touch.
-  const step = Math.ceil((to - from) / MOST_DECADES);
+  const step = Math.ceil((to - from) / MOST_INTERVALS);
   return { at, decades: Array.from({ length: Math.floor((to - from) / step) + 1 }, (_, i) => 10 ** (from + i * step)) };
 }
 

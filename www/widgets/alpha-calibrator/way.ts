@@ -84,7 +84,7 @@ export class WayLayer {
   }
 }
 
-/** Continues a drawing with some strokes. @returns whether there are more @returns whether there are more */
+/** Continues a drawing with some strokes. @returns whether there are more */
 function advance(strokes: Iterator<void>, count: number): boolean {
   for (; count > 0; count--) if (strokes.next().done) return false;
   return true;
@@ -93,12 +93,12 @@ function advance(strokes: Iterator<void>, count: number): boolean {
 /** Draws the legs, stroke by stroke. */
 function* drawWay(brush: Painter, legs: CalibrationLegs, classes: Uint8Array, overlays: LineName[]) {
   if (overlays.includes('odometry')) yield* drawOdometry(brush, legs);
-  // The line width falls continuously between one and two legs for each square, so that nothing jumps when a plot is resized.
+  // Lines get thinner continuously while the coverage grows from 1 to 2, so that nothing jumps when a plot is resized.
   const extra = Math.max(0, Math.min(1, 2 - layersOf(brush.view, legs.reference)));
-  for (const [place, name] of CLASSES.entries()) {
+  for (const [index, name] of CLASSES.entries()) {
     if (!overlays.includes(name)) continue;
     const style = styleOf(brush, name);
-    yield* drawLegs(brush, legs.reference, (leg) => classes[leg] === place, { ...style, width: HAIR + extra * (style.width - HAIR) });
+    yield* drawLegs(brush, legs.reference, (leg) => classes[leg] === index, { ...style, width: HAIR + extra * (style.width - HAIR) });
   }
   if (overlays.includes('outlier')) drawRings(brush, outlierEnds(brush, legs));
 }
@@ -121,8 +121,8 @@ export function drawRings(brush: Painter, points: [number, number][]) {
 }
 
 /**
- * Returns the average number of legs that cover an occupied square. If it is above 1, wide lines would hide each other. Hairlines then
- * let each class cover an area in proportion to its number of legs.
+ * Returns the coverage: the area of the legs at the usual line width, relative to that of the squares in which they end. Above 1 wide lines
+ * would hide each other, while as hairlines each class covers its share of the legs.
  */
 function layersOf(view: Painter['view'], reference: Float64Array) {
   const squares: Set<number> = new Set();

@@ -10,7 +10,7 @@ import type { FormErrors, Motion } from '../../types.d.ts';
 /** Range of errors in the plot, m: from below the last digit of the distance to more than all of it. */
 const ERRORS = { from: 1e-18, to: 1 };
 
-/** Cache of the rounding errors of the forms. They depend on no setting. */
+/** Cache of the errors of the forms, which depend on no setting. */
 let errors: FormErrors | undefined;
 
 export function formsPlot({ ArcAnatomy }: Motion) {

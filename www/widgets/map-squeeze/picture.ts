@@ -65,7 +65,7 @@ export class FloorPicture extends SamplesPicture<Scene> {
   #density = new Density();
   #outline = '';
 
-  /** Keeps the views of the previous picture if its map has the same size. */
+  /** Keeps the views of the previous picture if its map has the same bounds. */
   constructor(plan: Plan, grid: Cells | null, former?: FloorPicture) {
     super('plane', new View({ snug: true }));
     this.plan = plan;

@@ -42,7 +42,7 @@ const own = css`
     background: var(--truth);
   }
 
-  /* Handles of walls become visible under a pointer, and are always visible on touch screens. */
+  /* Handles of walls are visible while a pointer is over the picture, and always on touch screens. */
   @media (hover) {
     .stage:not(:hover) .handle.side:not(:focus-visible)::after {
       opacity: 0;

@@ -28,7 +28,7 @@ export function rulesTable(figure: Figure) {
   </div>`;
 }
 
-/** Returns a slider with a play button, which is left out for readers who prefer reduced motion. */
+/** Returns a slider, with a play button unless the reader prefers reduced motion. */
 export function playable(figure: Figure, key: 'phase' | 'drift', legend: string) {
   const { player } = figure;
   const { plays } = words.decomposer;

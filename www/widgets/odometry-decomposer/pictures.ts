@@ -62,7 +62,7 @@ function keyOf(brush: Brush, { overlays }: Scene, names: LineName[]) {
 function surroundings({ linkage, legs, deviations, stats }: Scene): number[] {
   const [{ x, y }, driven] = [poseIn(linkage, 0), poseIn(linkage, 2)];
   const along = Math.min(ROOM.deviations * deviations.trans, legs.trans + 2);
-  // The noise of the first rotation cannot move the end further across than the drive is long.
+  // No limit is needed here: a rotation moves the end across by at most the length of the drive.
   const across = ROOM.deviations * stats.exactCrossTrack;
   const [dx, dy] = [Math.abs(Math.cos(driven.theta)), Math.abs(Math.sin(driven.theta))];
   const room = [ROOM.metres + along * dx + across * dy, ROOM.metres + along * dy + across * dx];

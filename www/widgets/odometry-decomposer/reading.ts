@@ -10,7 +10,7 @@ export function readingOf(machine: OdometryDecomposer) {
   return { ...reading, ...partsOf(reading.rules, reading.config) };
 }
 
-/** Legs and standard deviations of the current rule. */
+/** Returns the legs and standard deviations of the current rule. */
 function partsOf(rules: RuleFigures[], config: OdometryDecomposerSettings) {
   const present = rules.find(({ rule }) => rule === config.rule) as RuleFigures;
   const [rot1, trans, rot2, strafe] = present.deviations;

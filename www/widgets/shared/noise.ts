@@ -1,6 +1,6 @@
 /** Noise parameters of a model, common to all widgets that have all of them. */
 
-/** Maximum of the sliders: a standard deviation of nearly half the command. */
+/** Slider of a noise parameter, up to a standard deviation of nearly half the command. */
 export const ALPHA = { role: 'prediction' as const, min: 0, max: 0.2, step: 0.001, decimals: 3 };
 
 /** Returns the sliders of a model's first noise parameters, by the names of their settings. */

@@ -27,12 +27,12 @@ export class Player<Key extends string> extends Part {
     this.#played = played;
   }
 
-  /** Stops, because another state was set. */
+  /** Stops the animation. */
   stop() {
     this.#key = undefined;
   }
 
-  /** Stops, because the reader moves the slider. */
+  /** Sets a value that the reader has chosen, and stops the animation. */
   put(key: Key, value: number) {
     this.stop();
     this.#played[key].put(value);

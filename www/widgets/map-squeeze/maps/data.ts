@@ -14,7 +14,7 @@ const GRID_KEYS = ['name', 'columns', 'rows', 'resolution', 'origin', 'occupied'
 /** Keys that only a grid has. */
 const KEYS_OF_GRIDS_ALONE = GRID_KEYS.filter((key) => !PLAN_KEYS.includes(key));
 
-/** Limits of the core. */
+/** Maximum number of walls in the core. */
 const MAX_WALLS = 20_000;
 
 /** Shades of cells in the image that passes a grid to the core: white is occupied, and brighter values count as white. */
@@ -30,8 +30,8 @@ export function mapData(machine: MapSqueeze, name: string, grid: Cells | null): 
   if (grid) {
     const { columns, rows, resolution, origin } = grid;
     const occupied = packBits(grid.occupied);
-    const unknown = grid.unknown && { unknown: packBits(grid.unknown) };
-    return frozen({ name, columns, rows, resolution, origin: frozen([...origin]), occupied, ...unknown });
+    const unknownField = grid.unknown && { unknown: packBits(grid.unknown) };
+    return frozen({ name, columns, rows, resolution, origin: frozen([...origin]), occupied, ...unknownField });
   }
   const { bounds, walls } = machine.plan;
   const listed = [];
@@ -65,10 +65,10 @@ export function applyMap(machine: MapSqueeze, data: unknown) {
   const columns = wholeNumber('map.columns', map.columns, 1, limits.cells);
   const rows = wholeNumber('map.rows', map.rows, 1, Math.floor(limits.cells / columns));
   const count = columns * rows;
-  const occupied = bitsOf('map.occupied', map.occupied, count);
-  const unknown = map.unknown === undefined ? new Uint8Array(occupied.length) : bitsOf('map.unknown', map.unknown, count);
+  const occupiedBits = bitsOf('map.occupied', map.occupied, count);
+  const unknownBits = map.unknown === undefined ? new Uint8Array(occupiedBits.length) : bitsOf('map.unknown', map.unknown, count);
   const description = { resolution: map.resolution, origin: map.origin, negate: 1 };
-  const image = imageOf(columns, rows, occupied, unknown);
+  const image = imageOf(columns, rows, occupiedBits, unknownBits);
   renamingFields(GRID_KEYS, () => machine.setGrid(description, image));
 }
 
@@ -84,14 +84,14 @@ function renamingFields(keys: string[], take: () => void) {
 }
 
 /** Returns cells as a PGM image. Rows of an image begin at the top, those of a grid at the bottom; negated, white is occupied. */
-function imageOf(columns: number, rows: number, occupied: Uint8Array, unknown: Uint8Array) {
+function imageOf(columns: number, rows: number, occupiedBits: Uint8Array, unknownBits: Uint8Array) {
   const header = new TextEncoder().encode(`P5 ${columns} ${rows} ${OCCUPIED}\n`);
   const image = new Uint8Array(header.length + columns * rows);
   image.set(header);
   const bit = (bits: Uint8Array, i: number) => (bits[i >> 3] >> (7 - (i & 7))) & 1;
   for (let row = 0, i = 0; row < rows; row++) {
     const start = image.length - columns * (row + 1);
-    for (let at = start; at < start + columns; at++, i++) image[at] = OCCUPIED * bit(occupied, i) + UNKNOWN * bit(unknown, i);
+    for (let at = start; at < start + columns; at++, i++) image[at] = OCCUPIED * bit(occupiedBits, i) + UNKNOWN * bit(unknownBits, i);
   }
   return image;
 }

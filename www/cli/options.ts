@@ -160,11 +160,11 @@ export function optionsOf(args: string[]): Calibrate | Inspect | 'help' | 'versi
 /** Returns the units that are stated for a log: one for both, or one for each. */
 function unitsOf(values: { [name in 'time-unit' | 'length-unit' | 'angle-unit']?: string }, role: Role): OpenOptions {
   return Object.fromEntries((['time', 'length', 'angle'] as const).flatMap((of) => {
-    const stated = values[`${of}-unit`];
-    if (stated === undefined) return [];
-    const units = stated.split(',').map((unit) => unit.trim());
+    const given = values[`${of}-unit`];
+    if (given === undefined) return [];
+    const units = given.split(',').map((unit) => unit.trim());
     if (units.length > 2 || !units.every((unit) => (UNITS[`${of}Unit`] as readonly string[]).includes(unit))) {
-      throw new UsageError(`--${of}-unit must be ${listOf(UNITS[`${of}Unit`])}, or two of these for odometry and reference (got “${cut(stated)}”).`);
+      throw new UsageError(`--${of}-unit must be ${listOf(UNITS[`${of}Unit`])}, or two of these for odometry and reference (got “${cut(given)}”).`);
     }
     return [[`${of}Unit`, role === 'odometry' ? units[0] : units.at(-1)]];
   }));

@@ -56,7 +56,7 @@ export function textOf({ calibration, options, logs, start, begins, date }: Resu
   const causes = Object.entries(LOST).filter(([cause]) => lost[cause] > 0).map(([cause, name]) => `${lost[cause]} ${name}`);
   const text = [
     '',
-    verdictOf(calibration),
+    verdictSentence(calibration),
     ...(hasLocalizer(logs) ? [en.nav2.localizer] : []),
     '',
     `${legs.count} legs ${lengthOf(options.legs)}; model ${model}${model === 'odometry' ? `, rule ${rule}` : ''}`,
@@ -83,8 +83,8 @@ const [RED, GREEN, YELLOW] = [31, 32, 33];
 
 const painted = (color: number) => (text: string) => `\x1b[${color}m${text}\x1b[0m`;
 
-/** Says the verdict and what to do. */
-function verdictOf({ diagnostics: { verdict, checks } }: any): string {
+/** Returns the verdict and what to do. */
+function verdictSentence({ diagnostics: { verdict, checks } }: any): string {
   const failed = failedOf(checks);
   if (verdict === 'consistent') return 'Consistent: all checks passed. Use the recommended α’s with legs of this length.';
   if (verdict === 'questionable') {

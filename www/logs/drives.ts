@@ -81,9 +81,9 @@ function attempted<Result>(work: () => Result): Result | undefined {
 function bothOf(recording: Recording, wishes: Wishes): Record<Role, Part> {
   // A series that the user chose as the reference is not guessed as the odometry.
   const { series, frames } = wishes.reference ?? {};
-  const stated = series !== undefined || frames ? choose(recording, 'reference', wishes) : undefined;
-  const odometry = attempted(() => choose(recording, 'odometry', wishes, stated)) ?? choose(recording, 'odometry', wishes);
-  const reference = stated ?? choose(recording, 'reference', wishes, odometry);
+  const chosenReference = series !== undefined || frames ? choose(recording, 'reference', wishes) : undefined;
+  const odometry = attempted(() => choose(recording, 'odometry', wishes, chosenReference)) ?? choose(recording, 'odometry', wishes);
+  const reference = chosenReference ?? choose(recording, 'reference', wishes, odometry);
   if (isSame(odometry, reference)) {
     const ask = { what: 'series' as const, role: 'reference' as const, choices: namesFor(recording, 'reference').filter((name) => name !== reference.series) };
     throw new LogError({ file: recording.name, topic: reference.series }, (say) => say.ownReference(reference.frames ? framesText(reference.frames) : reference.series), ask);
@@ -94,10 +94,10 @@ function bothOf(recording: Recording, wishes: Wishes): Record<Role, Part> {
 /** Chooses the log of a recording for a role, other than the one that the other role has. */
 function choose(recording: Recording, role: Role, wishes: Wishes, other?: Choice): Choice {
   const { series, frames } = wishes[role] ?? {};
-  return series !== undefined || frames ? stated(recording, role, wishes) : guessed(recording, role, wishes, other);
+  return series !== undefined || frames ? wishedChoice(recording, role, wishes) : guessedChoice(recording, role, wishes, other);
 }
 
-function stated(recording: Recording, role: Role, wishes: Wishes): Choice {
+function wishedChoice(recording: Recording, role: Role, wishes: Wishes): Choice {
   const { series, frames } = wishes[role] ?? {};
   const kind = role === 'reference' ? 'poses' : wishes.kind;
   const found = series === undefined
@@ -122,7 +122,7 @@ function framesError({ name: file }: Recording, { name: topic, frames = [] }: Se
   return new LogError({ file, topic }, (say) => say.frames(listed(known)), { what: 'frames', role, choices: known });
 }
 
-function guessed(recording: Recording, role: Role, wishes: Wishes, other?: Choice): Choice {
+function guessedChoice(recording: Recording, role: Role, wishes: Wishes, other?: Choice): Choice {
   const [best = []] = candidates(recording, role, wishes).map((tier) => tier.filter((choice) => !isSame(choice, other))).filter(({ length }) => length);
   // Both logs are about the same frame of the robot.
   const alike = best.filter(({ frames }) => frames && frames.child === other?.frames?.child);

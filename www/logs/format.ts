@@ -87,8 +87,8 @@ function isRow(cells: string[]): boolean {
 
 /** Returns the separator that splits the lines into most cells with numbers. Without any numbers, that which splits them into most cells. */
 function separatorOf(lines: string[]): string {
-  const stated = lines.map((line) => /^"?sep=(.)"?$/i.exec(line)?.[1]).find((each) => each !== undefined);
-  if (stated) return stated;
+  const declared = lines.map((line) => /^"?sep=(.)"?$/i.exec(line)?.[1]).find((each) => each !== undefined);
+  if (declared) return declared;
   const score = (separator: string) => {
     const all = lines.map((line) => cellsOf(line, separator));
     return all.filter(isRow).flat().filter(isNumber).length || all.flat().length / 1e6;

@@ -318,10 +318,10 @@ class LogReader {
       if (isFirst && !date.hasZone) this.#notes.push({ name: 'noZone', values: [] });
       return (cells) => dateOf(cells[at])?.time;
     }
-    const stated = (isFirst ? this.#options.timeUnit : undefined) ?? unit;
-    const index = this.#units.push(stated ?? 's') - 1;
+    const knownUnit = (isFirst ? this.#options.timeUnit : undefined) ?? unit;
+    const index = this.#units.push(knownUnit ?? 's') - 1;
     const powers = this.#powers;
-    powers[index] = stated === undefined ? undefined : POWERS[stated];
+    powers[index] = knownUnit === undefined ? undefined : POWERS[knownUnit];
     return (cells) => {
       const trimmed = text(cells);
       if (powers[index] === undefined) {

@@ -70,9 +70,9 @@ function pathsOf({ odometry, reference }: Drive, { found: { labels } }: LogWords
   const ends = ([0, 1] as const).map((axis) => [Math.min(...all.map((point) => point[axis])), Math.max(...all.map((point) => point[axis]))]);
   const [width, height] = ends.map(([low, high]) => high - low);
   const scale = Math.min((WIDTH - 2 * MARGIN) / Math.max(width, 0.1), (HEIGHT - 2 * MARGIN) / Math.max(height, 0.1));
-  const pixel = (value: number) => value.toFixed(1);
+  const coordinate = (value: number) => value.toFixed(1);
   const line = (points: Point[], breaks: Set<number>) => points.map(([x, y], i) =>
-    `${i === 0 || breaks.has(i) ? 'M' : 'L'}${pixel(MARGIN + (x - ends[0][0]) * scale)} ${pixel(HEIGHT - MARGIN - (y - ends[1][0]) * scale)}`).join('');
+    `${i === 0 || breaks.has(i) ? 'M' : 'L'}${coordinate(MARGIN + (x - ends[0][0]) * scale)} ${coordinate(HEIGHT - MARGIN - (y - ends[1][0]) * scale)}`).join('');
   const text = labels.paths(fixed(width, 1), fixed(height, 1));
   return html`<figure class="paths">
     <svg viewBox="0 0 ${WIDTH} ${HEIGHT}" role="img" aria-label=${text}>

@@ -228,7 +228,7 @@ export class LogOpener extends Part<Figure> {
 const isLog = ({ name, path }: File & { path?: string }) => path === undefined || name === 'metadata.yaml' || EXTENSIONS.slice(0, -1).some((extension) => name.endsWith(extension));
 
 function planOf(reader: Reader, { recordings, wishes, roles }: Chosen, kind: 'commands' | undefined): Plan {
-  return reader.planDrives(recordings, { ...wishes, kind, roles: new Map([...roles].map(([place, role]) => [recordings[place], role])) });
+  return reader.planDrives(recordings, { ...wishes, kind, roles: new Map([...roles].map(([index, role]) => [recordings[index], role])) });
 }
 
 /** Returns what a plan reads, as a text that can be compared. */

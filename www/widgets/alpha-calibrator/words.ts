@@ -95,7 +95,7 @@ export function captionOf({ reading, hasLocalizer, logName }: Figure) {
 /** Returns the text equivalent of the path. */
 export function wayText({ legs, classes }: Reading, chosen: number) {
   if (chosen < 0) return words.calibrator.noWay;
-  const far = classes.reduce((sum, place) => sum + Number(place > 1), 0);
+  const far = classes.reduce((sum, legClass) => sum + Number(legClass > 1), 0);
   return words.calibrator.way(counted(legs.count), counted(far), counted(chosen + 1));
 }
 

@@ -17,7 +17,7 @@ import { readingOf } from './reading.ts';
 import { factorBars, headline, likelihoods, tableOf } from './readouts.ts';
 import { LINES, REACH, WHOLE, attributes, declared, looks, own, vocabulary } from './settings.ts';
 import { anatomyStyles } from './styles.ts';
-import { pictureText, verdictOf } from './words.ts';
+import { captionOf, pictureText } from './words.ts';
 import type { ArcAnatomy as Machine } from '../../types.d.ts';
 import type { Reading } from './reading.ts';
 
@@ -83,7 +83,7 @@ export class ArcAnatomyElement extends FigureElement<Machine, Reading> {
     };
   }
 
-  announcement = verdictOf;
+  announcement = captionOf;
 
   /** Moves the robot to a percentage of the path, in whole per cents. Each is a change with an `input` event. */
   #drive(at: number) {
@@ -113,7 +113,7 @@ export class ArcAnatomyElement extends FigureElement<Machine, Reading> {
         </div>
         ${this.stage.later(() => html`
         ${legend(this, LINES)}
-        <p class="verdict caption" part="caption">${verdictOf(reading)}</p>
+        <p class="verdict caption" part="caption">${captionOf(reading)}</p>
         ${presetButtons(this)}
         <div class="controls" part="controls">${commandControls(this)} ${timeControl(this)}</div>
         ${disclosures(this, {

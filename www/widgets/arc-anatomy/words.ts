@@ -29,7 +29,7 @@ export const densityText = (density: number) => (isTiny(density) ? powerText(den
 const SYMBOLS = ['v̂', 'ω̂', 'γ̂'];
 
 /** Returns a sentence about the factor that makes p small. */
-export function verdictOf({ config, stats: { factors, weakest, share, driven, inverted } }: Reading) {
+export function captionOf({ config, stats: { factors, weakest, share, driven, inverted } }: Reading) {
   const say = words.anatomy.verdict;
   const { deviations, share: kept, deviation } = factors[weakest];
   const estimate = `${words.anatomy.bars.names[weakest]} ${SYMBOLS[weakest]}`;
@@ -50,6 +50,6 @@ export function pictureText(reading: Reading) {
     say.poses(poseText(config.start), commandText(config.command), poseText(config.next)),
     inverted.center === null ? say.straight : say.arc(fixed(inverted.radius, 2), inverted.radius > 0),
     say.estimates(v, omega, gamma),
-    verdictOf(reading),
+    captionOf(reading),
   ].join(' ');
 }

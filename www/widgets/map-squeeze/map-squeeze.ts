@@ -24,7 +24,7 @@ import { LINES, OPENING_START, PRESET, attributes, declared, looks, own, vocabul
 import { squeezeStyles } from './styles.ts';
 import { WallHandles } from './wall-handles.ts';
 import { contactOf } from './walls.ts';
-import { headlineOf, mapText, pictureText, verdictOf } from './words.ts';
+import { captionOf, headlineOf, mapText, pictureText } from './words.ts';
 import type { Values } from '../../figure/settings.ts';
 import type { Cells } from '../../scene/walls.ts';
 import type { MapData, MapSqueeze as Machine, Pose } from '../../types.d.ts';
@@ -137,7 +137,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
     };
   }
 
-  announcement = verdictOf;
+  announcement = captionOf;
 
   placeHandles({ config: { start, clearance } }: Reading) {
     this.#handles.place(start, clearance);
@@ -355,7 +355,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
           ${this.stage.later(() => html`<div class="aside">
             <div class="told">
               <p class="headline">${headlineOf(stats)}</p>
-              <p class="verdict caption ${note && 'note'}" part="caption">${verdictOf(reading)}</p>
+              <p class="verdict caption ${note && 'note'}" part="caption">${captionOf(reading)}</p>
             </div>
             ${placeControls(this)} ${samplerControls(this)} ${overview(this.picture, reading)}
           </div>`)}

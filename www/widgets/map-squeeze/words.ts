@@ -53,7 +53,7 @@ export function headlineOf({ attempts, accepted, throughWall }: Pick<Stats, 'att
 }
 
 /** Returns what the picture shows, in one sentence; and what keeps the robot from moving, if something does. */
-export function verdictOf({ config: { conditioned, sampler }, stats, note }: Reading) {
+export function captionOf({ config: { conditioned, sampler }, stats, note }: Reading) {
   const { accepted, attempts, gaveUp } = stats;
   const say = words.squeeze;
   // For a robot that cannot move, the note contains the number of motions.

@@ -136,7 +136,7 @@ fn shows_sense(machine: &OdometryDecomposer) {
         }
     }
 
-    // Without noise the robot ends at the odometry pose, except for the translation that a spin ignores.
+    // Without noise the robot ends at the odometry pose, except for the direction of a tiny translation, which a spin ignores.
     let [x, y, _] = settings.to.0;
     let [.., end] = machine.linkage();
     let off = (end.x() - x).hypot(end.y() - y);

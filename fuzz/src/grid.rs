@@ -41,7 +41,7 @@ pub fn run(bytes: &[u8]) {
     }
 }
 
-/// Returns the middle of each cell, and whether the cell is an obstacle; None if the coordinates are too large to
+/// Returns the middle of each cell, and whether the cell is an obstacle; empty if the coordinates are too large to
 /// distinguish cells.
 fn middles(grid: &OccupancyGrid, unknown: Unknown) -> Vec<([f64; 2], bool)> {
     let ([columns, rows], origin, side) = (grid.size(), grid.origin(), grid.resolution());

@@ -94,7 +94,8 @@ pub fn verdict(plan: &FloorPlan, input: &mut Input) {
     let tolerance = rounding(plan, &arc, clearance);
     let depth = |x: f64, y: f64| depth(plan, [x, y]);
 
-    // Least and largest distance of the path from the edge of the map.
+    // Upper bound of the least distance of the path from the edge of the map, by some of its points.
+    // `least - between` is a lower bound.
     const CHORDS: u32 = 16;
     let least = (0..=CHORDS).fold(f64::INFINITY, |least, i| {
         let f = f64::from(i) / f64::from(CHORDS);
@@ -130,7 +131,7 @@ pub fn verdict(plan: &FloorPlan, input: &mut Input) {
     }
 }
 
-/// Distance in m of a point inside the map from its edge.
+/// Returns the distance (m) of a point inside the map from its edge; negative outside.
 fn depth(plan: &FloorPlan, [x, y]: [f64; 2]) -> f64 {
     let ([x, y], [left, bottom, right, top]) = match plan.grid() {
         None => ([x, y], plan.bounds()),

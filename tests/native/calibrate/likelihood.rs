@@ -11,7 +11,7 @@ use std::f64::consts::TAU;
 
 const NAV2: Model = Model::Odometry(OdometryRule::Nav2);
 
-/// Bends in both directions, without special cases for the model.
+/// Log of bends in both directions, where no special case of the model applies.
 fn bends(count: usize) -> Simulation {
     Simulation {
         drive: Some(|leg| [0.3, [0.3, -0.2, 0.1][leg / 3 % 3]]),

@@ -21,7 +21,7 @@ pub const MODELS: [Model; 5] = [
     Model::Velocity,
 ];
 
-/// Difference between the noise of a leg and the model's noise; both have variance 1.
+/// Difference between the unit noise of a leg and that of the model, which has variance 1.
 #[derive(Clone, Copy, Debug)]
 pub enum Unlike {
     /// No difference.
@@ -30,9 +30,9 @@ pub enum Unlike {
     Tails(usize),
     /// Autocorrelated noise: this fraction of the noise of the previous leg, plus independent noise.
     Autoregressive(f64),
-    /// Standard deviation larger by this factor.
+    /// Standard deviation times this factor.
     Times(f64),
-    /// Standard deviation that depends on the position in the log, from 0 to 1.
+    /// Standard deviation as a function of the position in the log, from 0 to 1.
     Changing(fn(f64) -> f64),
 }
 

@@ -93,7 +93,7 @@ fn ratios_and_crossings_are_those_of_exercise_7() {
     assert!(crossings[1] > crossings[0] / 2.0);
 }
 
-/// On the page and in doc/exercises.md.
+/// Checks the numbers on the page and in doc/exercises.md.
 #[test]
 fn the_crossing_times_are_those_of_exercise_2() {
     let opening = machine(Settings { samples: 1, ..Settings::default() });

@@ -49,7 +49,7 @@ fn document() -> Told {
     Told::in_document(include_str!("../../../doc/model.md"))
 }
 
-/// Beyond the standard errors of both.
+/// Asserts that one fraction is less than the other, beyond the standard errors of both.
 fn assert_less(one: (f64, f64), other: (f64, f64), what: &str) {
     assert!(other.0 - one.0 > SIGMAS * one.1.hypot(other.1), "{what}: {one:?} is not less than {other:?}");
 }
@@ -137,7 +137,7 @@ fn more_substeps_facing_the_wall_send_more_samples_through_it() {
     }
 }
 
-/// Returns the fraction if collisions are checked along the geodesic instead of the arc.
+/// Fraction of other results if collisions are checked along the geodesic instead of the arc.
 #[test]
 #[ignore = "nightly: clouds of 100,000"]
 fn judging_the_geodesic_changes_the_documented_share_of_verdicts() {

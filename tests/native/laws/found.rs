@@ -59,7 +59,7 @@ fn a_displacement_with_a_subnormal_square_counts_as_none() {
     assert_eq!(model.pose_density(&next, &u, &x), model.pose_density(&x, &u, &x));
 }
 
-/// 0 · ∞ in a double solve, which divided by a variance below any normal number.
+/// 0 · ∞ in two solves with a root of the covariance, which divide by a variance below any normal number.
 #[test]
 fn a_last_turn_with_a_tiny_variance_has_a_finite_density() {
     let u = VelocityCmd { v: 56.0, omega: 0.0, dt: 1e-6 };

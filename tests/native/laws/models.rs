@@ -135,7 +135,7 @@ proptest! {
         let model = VelocityModel { alphas: VelocityAlphas(alphas), noise: kind };
         let u = VelocityCmd { v: u.0, omega: u.1, dt: 1.0 };
         let x = SE2::new(x.0, x.1, x.2);
-        // The drive is so short that rounding of the start position dominates its bearing.
+        // A slower drive is so short that rounding of the start position dominates its bearing.
         prop_assume!(u.v.abs() > 1e-3);
         let (peak, other) = (model.apply_noise(&u, &x, [0.0; 3]), model.apply_noise(&u, &x, unit_noise));
         let [peak, other] = [peak, other].map(|next| model.prob(&next, &u, &x));

@@ -10,7 +10,7 @@ use proptest::collection::vec;
 use proptest::prelude::*;
 use std::f64::consts::PI;
 
-/// Relative error of sums of fifty terms, in units in the last place.
+/// Relative error of sums of fifty terms, each exact to a few units in the last place.
 const ROUNDING: f64 = 256.0 * f64::EPSILON;
 
 /// Robots around a place with headings within a quarter turn, so that the mean heading is well defined.
@@ -38,10 +38,10 @@ fn close(a: f64, b: f64, scale: f64) -> bool {
     a == b || (a.is_nan() && b.is_nan()) || (a - b).abs() <= ROUNDING * scale
 }
 
-/// Minimum width of a cloud relative to its size: the shape of narrower ones is mostly rounding.
+/// Minimum variance (m² and rad²) of a cloud about 1 m across: the shape of narrower ones is mostly rounding.
 const NARROW: f64 = 1e-3;
 
-/// Width in each direction on the floor, and of the heading.
+/// Tests the variance in every direction on the floor, and that of the heading.
 fn is_wide(moments: &CartesianMoments) -> bool {
     let floor = moments.cov.fixed_view::<2, 2>(0, 0).into_owned();
     floor.symmetric_eigenvalues().min().min(moments.cov[(2, 2)]) > NARROW

@@ -142,7 +142,7 @@ fn a_grid_of_too_many_walls_is_refused() {
     assert_eq!(message, "image has cells in the way with 20001 sides or more; allowed are at most 20000");
 }
 
-/// A grid that is given by its fields.
+/// The error message names the origin, which is a field of the map.
 #[test]
 fn a_grid_that_reaches_too_far_is_refused() {
     let grid = |resolution, origin| {

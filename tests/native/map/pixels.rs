@@ -73,7 +73,7 @@ fn pgm_rasters_may_hold_any_bytes() {
     assert_eq!(shades(&read_pgm(b"P5 2 1 255\r\n#").expect("two pixels")), [10.0 / 255.0, 35.0 / 255.0]);
 }
 
-/// Returns the error message, with line, field, value and what is allowed.
+/// The error message names the line, the field, its value and what is allowed.
 #[test]
 fn malformed_pgm_files_are_explained() {
     let cases: [(&[u8], &str); 13] = [

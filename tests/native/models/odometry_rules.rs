@@ -106,7 +106,7 @@ fn the_table_and_the_reversing_option_are_the_models_of_the_crate() {
     }
 }
 
-/// Without noise, each rule gives the pose that was read, up to the small translation that a spin ignores.
+/// Without noise, each rule gives the pose that was read, except for the direction of a tiny translation, which a spin ignores.
 #[test]
 fn legs_of_every_rule_end_where_the_reading_does() {
     let mut rng = seeded(191);

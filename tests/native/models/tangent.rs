@@ -58,7 +58,7 @@ fn log_prob_is_a_gaussian_in_exponential_coordinates() {
     assert!(at(Vector3::new(0.0, 1e-3, 0.0)) < peak - 1e5);
 }
 
-/// The density of speed or turn without noise is a sheet of a micrometre or a microradian, and there is one.
+/// Without noise of speed or turn, or of both, the density is a sheet of a micrometre or a microradian, and is not undefined.
 /// A residual is rounded to 1e-16, a ten-billionth of that, and any other variance grows by 4e-11 of itself.
 #[test]
 fn no_noise_before_the_last_turn_has_a_thin_density() {

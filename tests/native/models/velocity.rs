@@ -129,7 +129,8 @@ fn the_pose_density_divides_by_the_jacobian() {
 }
 
 /// Box around the noise-free pose. The triangular density has its kinks at multiples of √6 standard deviations; they lie on edges of
-/// cells if the numbers of cells are multiples of four. The box reaches twice as far.
+/// cells if the numbers of cells are multiples of four. The box reaches twice as far. A turn changes
+/// the bearing by half of it.
 fn box_around(model: &VelocityModel, u: &VelocityCmd, x: &SE2, cells: [usize; 3]) -> Grid {
     let [v, omega, gamma] = model.variances(u).map(|b2| 2.0 * (6.0 * b2.0).sqrt() * u.dt);
     Grid::new(x, &noise_free(u, x), 2.0, [v, 0.5 * omega, gamma], cells)

@@ -68,7 +68,7 @@ fn the_noise_of_the_reference_is_stated_or_estimated() {
     assert!((position.0 - 0.004).abs() < 1e-12, "{position:?}");
 }
 
-/// Panels are compared with means of squared residuals, less the parts of the other α and the reference, in bins of this test.
+/// Panels are compared with means of squared innovations, less the parts of the other α and the reference, in bins of this test.
 #[test]
 fn panels_are_means_of_squared_innovations() {
     let machine = machine(Settings::default());

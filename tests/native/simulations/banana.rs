@@ -103,7 +103,7 @@ fn changed_settings_move_the_same_robots() {
     assert!(luck(&machine).iter().zip(&before).all(|(a, b)| a != b), "a new seed is new luck");
 }
 
-/// In blocks of 50,000. Smaller clouds grow in `tests/fuzz.rs`.
+/// Blocks of 25,000 and more. Smaller clouds grow in `tests/fuzz.rs`.
 #[test]
 fn a_large_cloud_grows_in_blocks() {
     for settings in models() {

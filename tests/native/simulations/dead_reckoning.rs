@@ -38,7 +38,7 @@ fn all_kinds() -> Vec<Settings> {
     ]
 }
 
-/// Returns whether two poses are equal but for rounding at the scale of the path.
+/// Asserts that two poses are equal up to rounding at the scale of the path.
 fn assert_same([x, y, theta]: [f64; 3], expected: &SE2, scale: f64) {
     let apart = SE2::new(x, y, theta).boxminus(expected);
     assert!(apart.amax() < 1e-13 * scale, "({x}, {y}, {theta}), not {expected:?}: {apart}");
@@ -129,7 +129,7 @@ fn ratios_and_misses_are_counted() {
     }
 }
 
-/// Misses of the chapter's recursion; too few robots, or robots without spread, have none.
+/// Misses of the chapter's recursion are established with enough robots that have a spread, and not otherwise.
 #[test]
 fn misses_are_reported_with_enough_robots_only() {
     let told = |settings| machine(settings).compared(Compounding::Chapter).misses.map(|misses| misses.told);

@@ -116,7 +116,7 @@ async function download(directory, what) {
   return ok ? stdout.trim().split('\n').pop() : undefined;
 }
 
-/** A downloaded Chrome does not include the system libraries that it is linked with. */
+/** Installs the system libraries that Chrome is linked with. A downloaded Chrome does not include them. */
 async function installLibraries() {
   await mustRun(
     'Libraries that Chrome needs are missing: run `npx playwright install-deps chromium` and start again.',

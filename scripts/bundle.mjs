@@ -41,7 +41,7 @@ const LOG_WORKER = 'chunks/log-worker.js';
 const PLACE_OF_CHUNKS = { core: './chunks/', external: './' };
 
 /**
- * Script of the function that starts the worker. Within dist/ the script is found by its place; a page of another origin starts it by a
+ * Returns the script of the function that starts the worker. Within dist/ the script is found by its place; a page of another origin starts it by a
  * script of its own.
  *
  * @param {string} place of dist/, as the bundle sees it
@@ -117,7 +117,7 @@ const MODULE = {
 };
 
 /**
- * The module that a widget needs, without the machines of others.
+ * Returns the module that a widget needs, without the machines of others.
  *
  * @param {string} tag
  */
@@ -329,7 +329,7 @@ export function filesOf(path) {
 }
 
 /**
- * Loaders of the widgets for external.js, and the keys of the messages that they need.
+ * Returns the loaders of the widgets for external.js, and the keys of the messages that they need.
  *
  * @returns {Promise<string>} a module
  */

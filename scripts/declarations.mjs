@@ -100,7 +100,7 @@ async function analyze() {
   return { schemaVersion, classes: new Map(declarations.map((each) => [each.name, each])) };
 }
 
-/** A description without the line ends of the comment that it stands in. @param {string} text */
+/** Returns a description without the line ends of its comment. @param {string} text */
 export const oneLine = (text) => text.replaceAll('\n', ' ');
 
 /** @returns {Promise<Widget[]>} */
@@ -169,7 +169,7 @@ function plain(declaration) {
 }
 
 /**
- * The preset that the widget opens with, if it is one.
+ * Returns the preset that the widget opens with, if there is one.
  *
  * @param {string} tag
  */

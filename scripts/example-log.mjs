@@ -74,11 +74,11 @@ function driven(motion) {
   return poses;
 }
 
-/** A pose as a log has it. @param {Pose} pose @returns {[number, number, number]} */
+/** Returns a pose with the digits of a log. @param {Pose} pose @returns {[number, number, number]} */
 const rounded = ({ x, y, theta }) => [Number(x.toFixed(4)), Number(y.toFixed(4)), Number(theta.toFixed(5))];
 
 /**
- * The ends of the legs that AMCL makes of an odometry: the first row that is further from the last of them than it waits for.
+ * Returns the ends of the legs that AMCL makes of an odometry: the first row that is further from the last of them than it waits for.
  *
  * @param {[number, number, number][]} rows
  */
@@ -93,7 +93,7 @@ function endsOf(rows) {
 }
 
 /**
- * True poses of the robot. The odometry model moves it leg by leg, and within a leg the error grows smoothly.
+ * Returns the true poses of the robot. The odometry model moves it leg by leg, and within a leg the error grows smoothly.
  *
  * @param {Motion} motion
  * @param {Pose[]} told poses of the odometry, one a row

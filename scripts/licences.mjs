@@ -10,7 +10,7 @@ import { ROOT } from './process.mjs';
 const STANDARD_LIBRARY = 'The standard library of Rust (MIT OR Apache-2.0), copyright The Rust Project contributors: see rust-lang.org.';
 
 /**
- * The crates that are compiled into the module.
+ * Returns the crates that are compiled into the module.
  *
  * @param {string} tree by `cargo tree`, a name and a version a line
  * @param {{ packages: any[] }} metadata by `cargo metadata`: of all crates that some target or feature would take
@@ -24,7 +24,7 @@ export function cratesOf(tree, { packages }) {
 }
 
 /**
- * The npm packages of which something is in a bundle.
+ * Returns the npm packages with code in a bundle.
  *
  * @param {Record<string, import('esbuild').Metafile['outputs'][string]>} outputs
  * @returns {Package[]}

@@ -38,7 +38,7 @@ export async function manifest() {
  * @param {any} said what the class's comments say
  */
 function elementOf({ tag, machine, attributes, properties }, name, said) {
-  /** In the comments of what all of them have, types are of no one machine. @param {string} type */
+  /** Replaces the general names of types in the common class by those of this machine. @param {string} type */
   const ours = (type) => ({ text: type.replace(/\bMachine\b/, machine).replace(/\bValues\b/, `${machine}State`) });
   const item = (/** @type {any} */ { name, type, description }) => ({ name, ...(type && { type: ours(type.text) }), description: description && oneLine(description) });
   const documented = (/** @type {any[]} */ items) => items.filter(({ description }) => description).map(item);

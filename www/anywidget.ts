@@ -11,9 +11,9 @@ import { COMMON, groupsOf } from './figure/attributes.ts';
 import { includesFields } from './figure/checks.ts';
 import { GLOBAL, elementNamed, sorry } from './named.ts';
 
-/** Model as anywidget's. */
+/** Model of anywidget. */
 export interface Model {
-  /** Undefined where it has no such trait. */
+  /** Returns the value of a trait; undefined if the model does not have it. */
   get: (name: string) => any;
   set: (name: string, value: unknown) => void;
   on: (event: string, listener: () => void) => void;
@@ -51,7 +51,7 @@ function render({ model, el }: { model: Model, el: HTMLElement }): (() => void) 
   const traits = traitsOf(element);
   let telling = false;
   let writing = false;
-  /** After all that the model changed at once. */
+  /** Writes the figure's values into the model, once after several changes. */
   const tell = () => {
     if (telling) return;
     telling = true;
@@ -118,7 +118,7 @@ function withoutKernel(work: () => void) {
   }
 }
 
-/** The traits that say a property, each by what it may be called; those that others depend on come first. */
+/** Returns all names of traits with their properties; those that others depend on come first. */
 function traitsOf(element: any): [trait: string, property: string][] {
   const { attributes, declared, own } = element.constructor;
   const names: Record<string, { property?: string }> = { ...attributes, ...groupsOf(declared), ...own, ...COMMON, ...Object.fromEntries(GLOBAL.map((name) => [name, {}])) };

@@ -39,8 +39,8 @@ export function load(source?: Source): Promise<Motion> {
 }
 
 /**
- * One more core from the same compiled module, with a memory of its own: a trap in it harms no other,
- * and all of its memory goes when nothing refers to it any more.
+ * Returns a further core from the same compiled module, with its own memory. A trap in it harms no other, and its memory is freed with
+ * the last reference to it.
  */
 export function instantiate(source?: Source): Promise<Motion> {
   wanted ??= source;

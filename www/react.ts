@@ -38,7 +38,7 @@ class Figure {
     this.names = names;
   }
 
-  /** Text of a prop's attribute; null for none. */
+  /** Returns the text of a prop's attribute, or null. */
   text(name: string, { [name]: value = null }: Props) {
     if (value === null || (value === false && this.names.flags.includes(name))) return null;
     return Array.isArray(value) ? value.join(' ') : value === true ? '' : String(value);

@@ -24,7 +24,7 @@ export interface Wishes {
   roles?: ReadonlyMap<Recording, Role>;
 }
 
-/** Series with their types, for a sentence. */
+/** Returns the series with their types, for a sentence. */
 const described = (series: Series[]) => listed(series.map(({ name, type }) => (name ? `${name} (${type.replace(/^.*\//, '')})` : type)));
 
 const isSame = (one: Choice, other?: Choice) => one.series === other?.series && one.frames?.parent === other.frames?.parent && one.frames?.child === other.frames?.child;

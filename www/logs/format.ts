@@ -189,7 +189,7 @@ function withoutHeader(rows: string[][]): string[] | undefined {
   });
 }
 
-/** Format of CARMEN: a group for each kind of record. */
+/** Returns the format of CARMEN: a group for each kind of record. */
 function carmenFormat(tags: typeof CARMEN, firstLine: number): Format {
   const groups = tags.flatMap(([tag, name, names]) => groupsOf(names).map((group) => ({ ...group, tag, name })));
   return { name: 'csv', separator: ' ', hasCommas: false, firstLine, names: tags.map(([tag]) => tag), groups, isSparse: false };

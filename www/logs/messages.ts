@@ -64,7 +64,7 @@ class Reader {
     this.#alignment = CDR.includes(kind) ? 8 : 4;
   }
 
-  /** Stamp of a header, which in ROS 1 comes after a number. */
+  /** Reads the stamp of a header. In ROS 1 a sequence number comes first. */
   stamp(): Stamp {
     if (this.#alignment === 1) this.seek(4);
     return { seconds: this.#view.getInt32(this.#next(4), this.#isLittle), nanoseconds: this.uint32() };
@@ -151,7 +151,7 @@ const COMMANDS: typeof POSES = {
 };
 const TRANSFORMS = ['tf2_msgs/TFMessage', 'tf/tfMessage'];
 
-/** Name of a type in ROS 1. */
+/** Returns the name of a type in ROS 1. */
 const plainType = (type: string) => type.replace('/msg/', '/');
 
 /** Returns what can be read from messages of a type. */
@@ -179,7 +179,7 @@ export function poseReader({ type, encoding }: Channel): (data: Uint8Array) => S
   return (data) => read(readerOf(encoding, data));
 }
 
-/** Name of a frame without the leading slash of the first tf. */
+/** Returns the name of a frame without the leading slash of the first tf. */
 export const withoutSlash = (name: string) => name.replace(/^\/+/, '');
 
 /** Reads transforms; throws an error if the bytes are no such message. */

@@ -29,18 +29,18 @@ const MOVED = 0.1;
  */
 const [RESTS, JITTERS] = [0.02, 0.001];
 
-/** Absolute times of the first and the last row. */
+/** Returns the absolute times of the first and the last row. */
 const spanOf = ({ start, data: { t } }: Log): [number, number] => [start + t[0], start + t[t.length - 1]];
 
 const printed = (log: Log) => spanOf(log).map((time) => `${time.toFixed(2)} s`).join(' to ');
 
-/** Duration that two logs have in common; negative for logs apart. */
+/** Returns the duration that two logs have in common; negative for logs apart. */
 function overlap(one: Log, other: Log): number {
   const [[a, b], [c, d]] = [spanOf(one), spanOf(other)];
   return Math.min(b, d) - Math.max(a, c);
 }
 
-/** Name of a file without its extension and the words for its role. */
+/** Returns the name of a file without its extension and the words for its role. */
 const stemOf = (name: string) => name.toLowerCase().replace(/\.\w+$/, '').replace(/odom(etry)?|wheels?|encoders?|cmd(_vel)?|(ground)?[_-]?truth|gt|reference|ref|mocap|vicon|optitrack|poses?/g, '').replace(/[^a-z0-9]+/g, '');
 
 /** Pairs logs of several drives: by their times, by the names of their files, or in their order. */

@@ -20,7 +20,7 @@ export function isRotation(qx: number, qy: number, qz: number, qw: number): bool
   return !(Math.abs(Math.sqrt(qx * qx + qy * qy + qz * qz + qw * qw) - 1) > TOLERANCE);
 }
 
-/** Hamilton product. */
+/** Returns the Hamilton product. */
 export const product = (a: Quaternion, b: Quaternion): Quaternion => ({
   x: a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
   y: a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x,

@@ -21,7 +21,7 @@ export interface Said {
   name: string;
   keys: string;
   title: string;
-  /** Range from and to. */
+  /** Minimum and maximum. */
   range: number[];
   now: number;
   /** Value in words. */

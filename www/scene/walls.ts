@@ -120,7 +120,7 @@ function cellsIn({ extent: { xMin, xMax, yMin, yMax } }: View, { columns, rows, 
   return [0, 1].flatMap((end) => ends.map((each) => each[end]));
 }
 
-/** Position of the corner of a cell, m. */
+/** Returns the position of the corner of a cell, m. */
 export function cornerOf({ resolution, origin: [x, y, yaw] }: Cells, column: number, row: number) {
   const [along, up] = [resolution * Math.cos(yaw), resolution * Math.sin(yaw)];
   return [x + column * along - row * up, y + column * up + row * along];

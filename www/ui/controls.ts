@@ -210,7 +210,7 @@ function printed(piece: string) {
   return html`<sub>${piece[0] === '_' ? piece.slice(2, -1) : piece.charCodeAt(0) - 0x2080}</sub>`;
 }
 
-/** Value or formula. It has its own writing direction, and page translators leave it unchanged. */
+/** Returns a value or formula with its own writing direction, which page translators leave unchanged. */
 export const symbols = (content: unknown) => html`<bdi translate="no" class="notranslate">${content}</bdi>`;
 
 /** Returns a group of controls under its heading. */

@@ -11,7 +11,7 @@ export function fold(name: string, content: () => unknown, id?: string) {
   </details>`;
 }
 
-/** Lit calls listeners with the element that has rendered them as `this`. */
+/** Renders the host. Lit calls a listener with its element as `this`. */
 function renderHost(this: import('lit').LitElement) {
   this.requestUpdate();
 }

@@ -293,7 +293,7 @@ interface Track extends Range {
   keydown?: (event: KeyboardEvent) => void;
 }
 
-/** Track that a thumb is moved on. A finger that goes up or down over it scrolls the page. */
+/** Returns the track of a slider. A finger that goes up or down over it scrolls the page. */
 export function track({ id, name, min, max, step, value, text, describedBy, keydown, input, commit }: Track) {
   // A browser sets a slider as soon as it is touched. Rendering keeps that value until the touch is a tap or scrolls.
   const set = (event: Event) => {
@@ -342,7 +342,7 @@ const untilTyped = directive(
   },
 );
 
-/** Value of a slider as an input field. */
+/** Returns the input field for the value of a slider. */
 function field({ id, keys, type, forget }: Pick<SliderRow, 'id' | 'keys' | 'type' | 'forget'>, shown: string) {
   /** Takes the typed text; returns true if it became the value. */
   const take = (input: HTMLInputElement): boolean => {

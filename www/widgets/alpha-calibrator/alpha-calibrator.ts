@@ -68,7 +68,7 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
   service = new LogService('alpha-calibrator');
   #leg: Memo<LegView | null> = new Memo();
   #panels: Memo<CalibrationPanel[]> = new Memo();
-  /** Null for the simulated log. */
+  /** Log that was given; null for the simulated one. */
   #given: Given | null = null;
 
   createMachine: FigureElement<Machine, Reading>['createMachine'] = (motion, state) =>

@@ -12,7 +12,7 @@ import { kindOf, settingsFor } from './settings.ts';
 
 export type Figure = import('./alpha-calibrator.ts').AlphaCalibratorElement;
 
-/** Slider of the leg that is shown. */
+/** Returns the slider of the leg that is shown. */
 export function legControls(figure: Figure) {
   const { reading: { legs, worst }, chosen } = figure;
   const say = words.calibrator.leg;
@@ -51,7 +51,7 @@ export function legControls(figure: Figure) {
     ${button(say.worst, () => figure.choose(next), { disabled: next === undefined, title: say.worstTitle })}`;
 }
 
-/** Readouts of the error of the leg that is shown. */
+/** Returns the readouts of the error of the leg that is shown. */
 export function legReadouts({ reading: { legs }, chosen, predicted: leg }: Figure) {
   const say = words.calibrator.leg;
   const off = leg ? Math.hypot(leg.ended[0] - leg.read[0], leg.ended[1] - leg.read[1]) : NaN;
@@ -62,7 +62,7 @@ export function legReadouts({ reading: { legs }, chosen, predicted: leg }: Figur
   ]);
 }
 
-/** The model with its rule, the treatment of outliers, and legs of a duration. */
+/** Returns the controls of the model with its rule, the treatment of outliers, and legs of a duration. */
 export function modelControls(figure: Figure) {
   const { fit, settings: { model }, kinds, outliers } = words.calibrator;
   const show = (seconds: number) => (seconds > 0 ? `${typed(seconds, 2)} s` : NOTHING);
@@ -71,19 +71,19 @@ export function modelControls(figure: Figure) {
     ${choices(figure, 'outliers', outliers)} ${slider(figure, 'duration', { show })}`, 'fit');
 }
 
-/** Distribution and inflation of the predicted cloud. */
+/** Returns the controls of the distribution and inflation of the predicted cloud. */
 export function predictionControls(figure: Figure) {
   const { prediction, noises } = words.calibrator;
   return group(prediction, html`${choices(figure, 'noise', noises)} ${slider(figure, 'inflation')}`, 'fit');
 }
 
-/** Sliders of the length of a leg. */
+/** Returns the sliders of the length of a leg. */
 export function legLengths(figure: Figure) {
   const off = figure.settings.wanted.duration > 0;
   return group(words.calibrator.leg.group, html`<div class="controls">${slider(figure, 'distance', { off })} ${slider(figure, 'angle', { off })}</div>`);
 }
 
-/** Sliders of the noise of the reference. */
+/** Returns the sliders of the noise of the reference. */
 export function referenceNoise(figure: Figure) {
   const row = (key: string, unit: string) =>
     slider(figure, key, { show: (std: number) => (std > 0 ? `${typed(std, 3)} ${unit}` : words.calibrator.estimated) });

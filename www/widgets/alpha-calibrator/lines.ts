@@ -72,7 +72,7 @@ export const isZero = (alpha: number | null, interval: Interval | undefined) => 
 /** Prints a fraction in percent. */
 export const percent = (fraction: number | null) => (fraction !== null && Number.isFinite(fraction) ? `${short(100 * fraction)} %` : NONE);
 
-/** Upper end of an interval. */
+/** Returns the upper end of an interval. */
 const mostOf = (interval: Interval | undefined) => short(interval?.[1] ?? null, OF_WIDTH);
 
 /** Multiplies an interval. */

@@ -19,7 +19,7 @@ function yamlOf({ reading, logName, hasLocalizer }: Figure): string {
   return nav2Lines(fitted, words.calibrator.nav2).map((line) => `${line}\n`).join('');
 }
 
-/** All results, with typed arrays as plain ones. */
+/** Returns all results as JSON, with typed arrays as plain ones. */
 function jsonOf({ reading: { fitted, stats, legs, truth }, logName }: Figure) {
   const all = { log: logName, date: new Date().toISOString(), settings: fitted, ...stats, ...(truth && { truth }), legs };
   return JSON.stringify(all, (_, value) => (ArrayBuffer.isView(value) ? [...(value as Float64Array)] : value), 1);

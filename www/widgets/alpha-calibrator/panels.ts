@@ -16,7 +16,7 @@ export type Figure = import('./alpha-calibrator.ts').AlphaCalibratorElement;
 /** Smallest squared distance or rotation: of a millimetre, or a thousandth of a radian. */
 const DRIVEN = 1e-6;
 
-/** Squared residuals of the three noises against their regressors. */
+/** Returns the plots of the squared residuals of the three noises against their regressors. */
 export function panels(figure: Figure) {
   const { reading, state: { own: { driver } }, gesture } = figure;
   const say = words.calibrator.panels;
@@ -32,7 +32,7 @@ export function panels(figure: Figure) {
     <p class="figcaption">${rich(say.caption)}</p>`;
 }
 
-/** Panels with their plots; none without legs. */
+/** Returns the panels with their plots; none without legs. */
 function panelsOf({ panels: all, reading: { fitted }, state: { own: { driver } } }: Figure) {
   const say = words.calibrator.panels;
   const axes = fitted.model === 'velocity' ? { turn: say.turnRate, way: say.speed } : { turn: say.turn, way: say.way };
@@ -66,7 +66,7 @@ function panelPlot({ alpha, x, y, error, slope, interval }: CalibrationPanel, ki
   };
 }
 
-/** Note on an α that is not identifiable, or not distinguishable from 0. */
+/** Returns a note on an α that is not identifiable, or not distinguishable from 0. */
 function noteOf({ alpha, slope, interval }: CalibrationPanel, { fitted: { model } }: import('./reading.ts').Reading) {
   const { panels: say, alphas: { lacking } } = words.calibrator;
   if (slope !== null && !isZero(slope, interval)) return '';

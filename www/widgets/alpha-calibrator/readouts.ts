@@ -27,7 +27,7 @@ export function verdictLine({ reading, logName, hasLocalizer }: Figure) {
     <strong>${finding}</strong> ${next && `${next} `}<span class="muted">${legsText(reading, logName)}</span>`;
 }
 
-/** Table of the α's, each with its interval on a common axis. */
+/** Returns the table of the α's, each with its interval on a common axis. */
 export function alphaTable(reading: Reading) {
   const { alphas, intervals } = reading.stats;
   const say = words.calibrator.alphas;
@@ -75,7 +75,7 @@ function lackOf({ stats: { notIdentifiable }, fitted: { model } }: Reading, inde
   return say.unknown(lack, drive);
 }
 
-/** All α's as texts, each with its interval. */
+/** Returns all α's as texts, each with its interval. */
 export function alphaTexts(reading: Reading) {
   const { stats: { alphas }, fitted } = reading;
   const { recommendedText } = words.calibrator.alphas;
@@ -97,7 +97,7 @@ function trueHead() {
   return html`${before}<svg class="sample" viewBox="0 0 6 12" aria-hidden="true"><path class="true" d="M3 1V11" /></svg>${after}`;
 }
 
-/** Logarithmic axis over the decades of some values. */
+/** Returns a logarithmic axis over the decades of some values. */
 function axisOf(values: (number | null)[]) {
   const logs = values.filter((value) => value !== null && value > 0 && Number.isFinite(value)).map((value) => Math.log10(value as number));
   const from = Math.floor(Math.min(0, ...(logs.length ? [Math.max(Math.min(...logs), Math.max(...logs) - 4)] : [-3])));

@@ -65,12 +65,12 @@ export const SIMULATED = { distance: 0.25, angle: 0.2 };
 
 export type Kind = (typeof KINDS)[number];
 
-/** Length of legs as an option of `calibrate`. */
+/** Returns the length of legs as an option of `calibrate`. */
 export const legsOf = ({ distance, angle, duration }: AlphaCalibratorSettings): { duration: number } | { distance: number, angle: number } => (duration > 0 ? { duration } : { distance, angle });
 
 export const kindOf = ({ model, rule }: AlphaCalibratorSettings): Kind => (model === 'velocity' ? 'velocity' : rule);
 
-/** The settings to make for one of them. */
+/** Returns the settings of a model with its rule. */
 export function settingsFor(kind: Kind) {
   if (kind === 'velocity') return { model: 'velocity', rule: 'thrun' };
   return { model: kind === 'omni' ? 'omnidirectional' : 'odometry', rule: kind };

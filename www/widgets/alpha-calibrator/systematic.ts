@@ -48,7 +48,7 @@ function intervalsOf(interval: SystematicError['interval']) {
   return (isPair ? interval : [interval]) as (Interval | null)[];
 }
 
-/** Table of the systematic errors, each with a box for its correction. */
+/** Returns the table of the systematic errors, each with a box for its correction. */
 export function systematicTable(figure: Figure) {
   const { stats: { systematicErrors: errors }, truth } = figure.reading;
   const say = words.calibrator.systematic;
@@ -77,7 +77,7 @@ export function systematicTable(figure: Figure) {
   </table>`;
 }
 
-/** Values below each other. */
+/** Returns texts below each other. */
 const lines = (texts: string[]) => texts.map((text) => html`<div>${text}</div>`);
 
 /** Prints an error as far as it is determined: its values, two for a lever arm, and half the width of each interval. */

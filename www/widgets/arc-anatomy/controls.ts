@@ -28,7 +28,7 @@ export function likelihoodControls(figure: Figure) {
     ${map === 'none' ? nothing : html`<p class="legend contours">${contour('prob')} ${contour('density')}</p>`}`);
 }
 
-/** An icon for readers who see it, and words for screen readers. */
+/** Returns an icon that screen readers replace by words. */
 const sign = (seen: string, heard: string) => html`<span aria-hidden="true">${seen}</span><span class="visually-hidden">${heard}</span>`;
 
 /** Returns the buttons that step through Table 5.1. Each line highlights its construction. */

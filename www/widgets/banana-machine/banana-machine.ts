@@ -278,7 +278,7 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
       </div>`;
   }
 
-  /** The skew against ω; a slider over it sets ω. */
+  /** Returns the chart of the skew against ω, with a slider that sets ω. */
   #chart({ config, stats, exactSkew }: Reading) {
     const { omega } = config.command;
     const say = words.banana;

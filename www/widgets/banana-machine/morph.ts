@@ -110,7 +110,7 @@ export class MorphView extends View {
   }
 }
 
-/** Slider from the floor to exponential coordinates, and the button that plays it. */
+/** Returns the slider from the floor to exponential coordinates, and the button that plays it. */
 export function morphControl({ player, gesture, state }: import('./banana-machine.ts').BananaMachineElement) {
   const say = words.banana.morph;
   const { morph } = state.own;

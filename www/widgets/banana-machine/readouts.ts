@@ -47,7 +47,7 @@ function gainText({ unbounded, value, exact, wraps }: Reading['gain']) {
   return Number.isNaN(exact) ? nat : `${(wraps ? unwrapped : exactly)(fixed(exact, 3))}; ${nat}`;
 }
 
-/** The others. */
+/** Returns the less important readouts. */
 export function otherReadouts({ config, stats, table }: Reading) {
   const say = words.banana.readouts;
   const { nOfAll } = words.banana;

@@ -55,7 +55,7 @@ const TOO_LARGE = 1.1;
 /** From this gain on the floor on, nats a robot, twenty robots tell the two Gaussians apart: by a factor of e and more. */
 const MISSHAPEN = 0.05;
 
-/** Title of the view of the floor: how the ellipse fits, by the exact figures. */
+/** Returns the title of the view of the floor: how the ellipse fits, by the exact figures. */
 export function floorTitle({ stats, table: { exact: { areaRatio, likelihoodGain } } }: Pick<Reading, 'stats' | 'table'>) {
   const { floor, ellipseIs } = words.banana;
   if (stats.n < 2 || Number.isNaN(areaRatio + stats.areaRatio)) return floor;
@@ -104,7 +104,7 @@ export function twistCaption({ config: { model, noise, alphas, isolate }, note }
   return `${twist}: ${twistIs[kind]}`;
 }
 
-/** The text equivalent of the view in exponential coordinates. */
+/** Returns the text equivalent of the view in exponential coordinates. */
 export function twistText({ stats: { n, exponential, coverage } }: Reading) {
   const { mean, cov } = exponential;
   const { twist, twistAxes, noRobots, oneRobot, twistMoments } = words.banana;

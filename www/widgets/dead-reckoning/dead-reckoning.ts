@@ -25,7 +25,7 @@ import type { Reading } from './reading.ts';
 /** Units of the components' variances. */
 const UNITS = { along: 'm2', lateral: 'm2', heading: 'rad2' };
 
-/** Names of the columns of a quantity in a table, one for each component. */
+/** Returns the names of the columns of a quantity in a table, one for each component. */
 const columnsOf = (quantity: string) => COMPONENTS.map((name) => `${quantity}_${name}_${UNITS[name]}`);
 
 /**

@@ -99,7 +99,7 @@ export class StepPicture extends Picture<Scene> {
     const [along, lateral] = [0, 1].map((axis) => ROOM * Math.sqrt(cov[axis][axis]));
     if (along + lateral > 0) points.push(mean[0] - along, mean[1] - lateral, mean[0] + along, mean[1] + lateral);
     const box = extentAround(points, 2);
-    // Equal scales would hide it; none at all has a scale too.
+    // Minimum ranges keep both scales finite; the lateral one is at least a thousandth of the other.
     const room = Math.max(1e-6, 1e-3 * (box.xMax - box.xMin));
     const lack = Math.max(0, room - (box.yMax - box.yMin)) / 2;
     const aside = Math.max(0, 1e-6 - (box.xMax - box.xMin)) / 2;

@@ -67,10 +67,10 @@ export function headline(reading: Reading, overlays: string[]) {
   return readoutList([[say.predicted(say.of[component]), fixed(ratio, 2), say.ofMeasured(reading.config.step)]], 0);
 }
 
-/** Ranges of the logarithmic axes. They contain the curves of the default variances, and of a tenth and ten times of these. */
+/** Fixed ranges of the logarithmic axes, so that a slider moves the curves. */
 const GROWTH = { durations: [0.1, 10], variances: [1e-6, 100] };
 
-/** Exercise 2: variances against the duration. */
+/** Returns the plot of exercise 2: variances against the duration. */
 export function straightPlot({ durations: x, along, across, alongFirstOrder, acrossFirstOrder, crossing }: import('../../types.d.ts').StraightGrowth) {
   const say = words.reckoning.straight;
   const [from, to] = GROWTH.durations;
@@ -85,7 +85,7 @@ export function straightPlot({ durations: x, along, across, alongFirstOrder, acr
       curves: [
         { name: say.along, role: 'ink', dash: '8 4', x, y: alongFirstOrder },
         { name: say.across, role: 'prediction', x, y: acrossFirstOrder },
-        // Both, with a gap between.
+        // Both exact curves, with a gap in between.
         { name: say.exact, role: 'truth', dash: '2 3', x: [...x, NaN, ...x], y: [...along, NaN, ...across] },
       ],
       marks: crossing !== null && crossing >= from && crossing <= to ? [{ x: crossing, text: say.mark(told) }] : [],
@@ -94,7 +94,7 @@ export function straightPlot({ durations: x, along, across, alongFirstOrder, acr
   </figure>`;
 }
 
-/** Steps with a miss. */
+/** Returns the steps with a miss, in words. */
 function missed({ told, first, last, end }: Misses) {
   const { never, unknown, from } = words.reckoning.misses;
   if (!told) return Number.isNaN(end) ? NOTHING : unknown;

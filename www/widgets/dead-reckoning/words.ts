@@ -12,7 +12,7 @@ addEnglish({ reckoning: en });
 /** Steps at which the text gives the ratio of the worst component. */
 const TOLD_STEPS = [1, 2, 5];
 
-/** A share in per cent, with a sign where it is more than none. */
+/** Prints a share in per cent, with a sign unless it rounds to 0. */
 function signed(share: number, printed: string = fixed(100 * share, 1)) {
   if (Number.isNaN(share)) return NOTHING;
   return `${100 * share >= 0.05 ? '+' : ''}${printed}\u202f%`;

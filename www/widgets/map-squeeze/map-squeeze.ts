@@ -371,7 +371,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
   }
 }
 
-/** Map from plain data. */
+/** Returns a map from plain data. */
 const mapOf = (map: MapData): OwnMap => ({
   name: map.name ?? '',
   apply: (machine) => applyMap(machine, map),

@@ -183,7 +183,7 @@ export class LegsPicture extends OutcomesPicture {
     ];
   }
 
-  /** The linkages of some outcomes. */
+  /** Draws the linkages of some outcomes. */
   #paintGhosts({ context, view, palette }: Brush, { ghosts }: Scene) {
     const point = (index: number) => [view.toPixelX(ghosts[3 * index]), view.toPixelY(ghosts[3 * index + 1])];
     context.globalAlpha = 0.5;

@@ -19,7 +19,7 @@ export interface Held {
 
 /** Texts of the handles. */
 export interface Said {
-  /** Robot its name. */
+  /** Name of the robot. */
   robot: string;
   robotTitle: string;
   /** Name of the heading. */

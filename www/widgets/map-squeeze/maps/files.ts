@@ -164,7 +164,7 @@ const WORDS = new Map([['true', true], ['yes', true], ['on', true], ['false', fa
 /** Fields of numbers. map_server also reads numbers in quotes. */
 const NUMBERS = ['resolution', 'origin', 'negate', 'occupied_thresh', 'free_thresh'];
 
-/** Number in quotes as a number; other values as they are. */
+/** Returns a number in quotes as a number, and other values unchanged. */
 function unquoted(value: unknown): unknown {
   if (Array.isArray(value)) return value.map(unquoted);
   return typeof value === 'string' && value.trim() !== '' && Number.isFinite(Number(value)) ? Number(value) : value;

@@ -186,7 +186,7 @@ const NEGLIGIBLE_COVERAGE: f64 = 0.015;
 const ENOUGH_LEGS: f64 = 100.0;
 const USABLE_LEGS: f64 = 30.0;
 
-/// Median relative difference of odometry and reference above which they do not belong together.
+/// Median difference of odometry and reference, relative to the median motion, above which they do not belong together.
 const MAX_MISMATCH: f64 = 0.7;
 
 /// Scales that no wheel has: the reference has another unit.
@@ -282,13 +282,13 @@ pub(super) fn residual_checks(sample: &Sample, fits: &[LegFit], correlation: f64
     ]
 }
 
-/// Check of coverage by the fit to the other half. `scale_std` is the mean relative standard error of a half's variances.
+/// Returns the check of coverage by the fit to the other half. `scale_std` is the mean relative standard error of a half's variances.
 pub(super) fn holdout_check(coverage: f64, count: usize, scale_std: f64) -> Check {
     check(CheckName::HoldoutCovered, coverage, coverage_range(count, scale_std))
 }
 
-/// Range of coverage on logs that are simulated by the model. A relative error of the variances moves it by 0.14 times as much: that is the density of
-/// ln χ² with 3 degrees of freedom at its quantile 0.95.
+/// Returns the range of coverage on logs that are simulated by the model. A relative error of the variances moves it by 0.14 times as
+/// much: that is the density of ln χ² with 3 degrees of freedom at its quantile 0.95.
 fn coverage_range(count: usize, scale_std: f64) -> [f64; 2] {
     let binomial = 0.95 * 0.05 / count as f64;
     let off = NEGLIGIBLE_COVERAGE.max(MAX_STD_ERRORS * (binomial + (0.14 * scale_std).powi(2)).sqrt());

@@ -45,7 +45,8 @@ pub struct Calibration {
     pub systematic: Systematic,
     /// Standard errors of [`SystematicError::ALL`]; None of one that the log does not identify.
     pub systematic_stds: [Option<f64>; ERRORS],
-    /// True for each systematic error that is equal on straight and turning legs, and in both halves of the log.
+    /// True for each systematic error that is the same on straight and turning legs, and in both halves of the log, up to its standard
+    /// error. Only scales are tested; the others count as constant.
     pub is_constant: ErrorMask,
     /// Systematic errors that were corrected, 0 (scales 1) where one was not.
     pub corrected: Systematic,

@@ -82,7 +82,7 @@ pub fn invert_arc(x: &SE2, x_next: &SE2, dt: f64) -> ArcInversion {
     }
 }
 
-/// Signed length (m) and turn (rad) of the arc from `x` along its heading to the position of `x_next` whose turn is nearest to
+/// Returns the signed length (m) and turn (rad) of the arc from `x` along its heading to the position of `x_next` whose turn is nearest to
 /// `near` (rad). The arc may go forward or in reverse, and more than once round its circle.
 ///
 /// All of them lie on one circle, where the length driven is proportional to the turn. Without displacement the length
@@ -353,7 +353,7 @@ impl Unrolled {
         0.5 * self.curvature * (x * x + y * y) - y
     }
 
-    /// True if the point of the circle nearest to `point` belongs to the arc.
+    /// Returns true if the point of the circle nearest to `point` belongs to the arc.
     pub fn passes(&self, [x, y]: [f64; 2]) -> bool {
         if self.curvature == 0.0 {
             return (0.0..=self.length).contains(&x);

@@ -97,7 +97,7 @@ impl Trigonometry {
     }
 
     /// Returns the terms of the SE(2) logarithm for any half headings (rad), on the branch nearest to the half heading `near` (rad).
-    /// Half headings on that branch get the same bits as from [`Trigonometry::half_turn`].
+    /// Half headings that [`Trigonometry::half_turn`] accepts get the same bits as from it.
     #[inline(never)]
     pub fn any_half_turn(&self, half: f64x4, near: f64) -> HalfTurn {
         let mut wrapped = without_half_circles(half, whole_half_circles(half - near));
@@ -125,13 +125,13 @@ impl Trigonometry {
     }
 }
 
-/// True if a lane is greater than `most` in absolute value.
+/// Returns true if a lane is greater than `most` in absolute value.
 #[inline(always)]
 fn beyond(x: f64x4, most: f64) -> bool {
     any(x.abs().simd_gt(f64x4::splat(most)))
 }
 
-/// True if a lane of a mask is set.
+/// Returns true if a lane of a mask is set.
 #[inline(always)]
 pub(crate) fn any(mask: f64x4) -> bool {
     let [low, high] = halves(mask);

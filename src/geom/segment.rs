@@ -47,7 +47,7 @@ impl Segment {
         if mirrored.crosses(local) { 0.0 } else { mirrored.distance_apart(local) }
     }
 
-    /// Distance in m by which an arc whose ends are to the left of the segment's line, or on it, gets to the right of it.
+    /// Returns the distance in m by which an arc whose ends are to the left of the segment's line, or on it, gets to the right of it.
     pub(crate) fn passed_by(&self, arc: &Arc) -> f64 {
         let along = [self.to[0] - self.from[0], self.to[1] - self.from[1]];
         let side = libm::hypot(along[0], along[1]);
@@ -69,7 +69,7 @@ impl Segment {
         Self { from: local.transform(self.from), to: local.transform(self.to) }
     }
 
-    /// True if a segment in the frame of an arc has a point in common with it.
+    /// Returns true if a segment in the frame of an arc has a point in common with it.
     fn crosses(&self, local: &Unrolled) -> bool {
         let Self { from, to } = *self;
         let along = [to[0] - from[0], to[1] - from[1]];

@@ -188,7 +188,7 @@ impl Filling {
             }
             return;
         }
-        // In this case no wall passes through the block, so that all of it is on one side of each outline.
+        // If `least > radius`, no wall passes through the block, so that all of it is on one side of each outline.
         let buried = least > radius && solid.is_some_and(|solid| solid.holds(centre));
         for row in bottom..top {
             for column in left..right {
@@ -203,7 +203,7 @@ impl Filling {
     }
 
     /// Returns bounds on the distance from the middle of a block to the nearest wall, at most `blur` apart (m); None if
-    /// too many walls are near. Afterwards `measured` contains all walls that may be nearest to a point of the block.
+    /// too many walls are near. Afterwards `measured` has all walls, or nodes, that may be nearest to a point of the block.
     fn measure(&mut self, tree: &WallTree, point: [f64; 2], block: Block, blur: f64) -> Option<[f64; 2]> {
         let Self { near, open, measured, .. } = self;
         let Block { size, range: [from, to], .. } = block;
@@ -260,7 +260,7 @@ impl Filling {
     }
 }
 
-/// Bound on the rounding error of these coordinates, m.
+/// Returns a bound on the rounding error of these coordinates, m.
 #[inline(never)]
 pub(super) fn rounding(coordinates: &[f64]) -> f64 {
     1e-12 * coordinates.iter().fold(0.0, |most: f64, coordinate| most.max(coordinate.abs()))

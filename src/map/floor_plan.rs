@@ -208,7 +208,7 @@ impl FloorPlan {
         self.path_free(&driven, self.point_free(driven.end, clearance), clearance)
     }
 
-    /// As [`FloorPlan::arc_free`], for an arc whose end pose has been tested already.
+    /// As [`FloorPlan::arc_free`], for an arc whose end has been tested already. That test counts as a part of this one.
     pub(super) fn path_free(&self, driven: &Driven, end: Verdict, clearance: f64) -> Verdict {
         let start = [driven.arc.start.x(), driven.arc.start.y()];
         if !end.free || self.leaves_bounds(driven) || self.buried(start) {
@@ -332,7 +332,7 @@ impl Sweep<'_> {
         if field.most(least) <= self.clearance - course.error {
             return false;
         }
-        // A piece shorter than the cells of the field is not divided: the distances to its walls are more precise.
+        // A piece no longer than the diagonal of a cell is not divided, because the field is too coarse. Its walls are measured.
         let divisible = reach > field.radius();
         let [x, y] = middles.map(|lanes| lanes.to_array());
         (0..LANES).all(|i| {

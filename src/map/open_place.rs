@@ -12,7 +12,7 @@ const HEADINGS: u32 = 72;
 const SQUARES: f64 = 256.0;
 
 impl FloorPlan {
-    /// Free pose for a disc of radius `clearance` (m): the centre of the largest square that is known to be free, in the heading
+    /// Returns a free pose for a disc of radius `clearance` (m): the centre of the largest square that is known to be free, in the heading
     /// with the longest free path. If the disc does not fit there, the first place where it fits; None if it fits nowhere.
     pub fn open_place(&self, clearance: f64) -> Option<SE2> {
         let squares = Squares::of(self);

@@ -115,9 +115,9 @@ impl ExecutedLegs {
 }
 
 impl LegVariances {
-    /// Executed legs when the noises are `unit_noise` times their standard deviations. `across` is the noise of the first rotation or of
-    /// sliding (no rule has both), `along` that of the drive, `turn` that of the second rotation. As in Table 5.6, noise is
-    /// subtracted.
+    /// Returns the executed legs when the noises are these multiples of their standard deviations. `across` is the noise of the first
+    /// rotation or of sliding (no rule has both), `along` that of the drive, `turn` that of the second rotation. As in Table 5.6,
+    /// noise is subtracted.
     pub fn executed(&self, legs: &OdomDelta, [across, along, turn]: [f64; 3]) -> ExecutedLegs {
         ExecutedLegs {
             legs: OdomDelta {

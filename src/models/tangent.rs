@@ -124,7 +124,7 @@ impl TangentNoiseModel {
         x.boxplus(Self::twist(u) + w) * SE2::new(0.0, 0.0, last_turn)
     }
 
-    /// Logarithm of the density of ξ = x_t ⊟ x_{t−1}, over dξ in the order (along, lateral, heading).
+    /// Returns the logarithm of the density of ξ = x_t ⊟ x_{t−1}, over dξ in the order (along, lateral, heading).
     ///
     /// Without a turn after the arc it is log N(ξ; τ, R + 10⁻¹²·I). Times sinc⁻²(ξ_ω/2) that would be a density over dx dy dθ.
     /// With such a turn it is the density of the noises (v̂Δt, ω̂Δt, γ̂Δt) that lead to x_t by the arc of at most half a turn.

@@ -51,7 +51,7 @@ impl VelocityModel {
         [Variance(a1 * v2 + a2 * omega2), Variance(a3 * v2 + a4 * omega2), Variance(a5 * v2 + a6 * omega2)]
     }
 
-    /// Motion that the robot executes when the noises of v̂, ω̂ and γ̂ take the values `unit_noise` times their standard
+    /// Returns the motion that the robot executes when the noises of v̂, ω̂ and γ̂ take the values `unit_noise` times their standard
     /// deviations. The same unit noise under another command or other α's is the same robot with the same luck.
     pub fn executed(&self, u: &VelocityCmd, unit_noise: [f64; 3]) -> ArcInversion {
         let [v_noise, omega_noise, gamma_noise] = self.deviations(u);
@@ -67,8 +67,8 @@ impl VelocityModel {
         self.variances(u).map(|variance| variance.0.sqrt())
     }
 
-    /// Number of circles either way that [`VelocityModel::pose_density`] sums over, about the turn that is nearest to the commanded
-    /// one.
+    /// Returns the number of circles either way that [`VelocityModel::pose_density`] sums over, about the turn that is nearest to
+    /// the commanded one.
     pub(crate) fn windings(&self, u: &VelocityCmd) -> i32 {
         let [_, omega_deviation, _] = self.deviations(u);
         (9.0 * omega_deviation * u.dt / TAU).ceil().min(MAX_WINDINGS) as i32

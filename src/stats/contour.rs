@@ -64,7 +64,7 @@ impl Ellipse {
         PI * SIGMAS * SIGMAS * self.root[(0, 0)] * self.root[(1, 1)]
     }
 
-    /// True if the Gaussian has no extent at all.
+    /// Returns true if the Gaussian has no extent at all.
     pub fn is_point(&self) -> bool {
         self.root[(0, 0)] == 0.0 && self.root[(1, 1)] == 0.0
     }
@@ -84,7 +84,7 @@ impl Ellipse {
         (self.centre + (Vector2::new(x, y) - self.centre) * share).into()
     }
 
-    /// True if a point lies inside.
+    /// Returns true if a point lies inside.
     pub fn contains(&self, point: [f64; 2]) -> bool {
         let [first, second] = point.map(f64x4::splat);
         self.contains_four(first, second).any()

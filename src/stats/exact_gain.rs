@@ -47,7 +47,7 @@ struct Legs {
 }
 
 impl ExactGain {
-    /// Creates it from the velocity model.
+    /// Returns the gain of the velocity model.
     pub fn of_velocity(model: &VelocityModel, u: &VelocityCmd) -> Self {
         let [v, omega, gamma] = model.deviations(u).map(|deviation| deviation * u.dt);
         let turn = u.omega * u.dt;
@@ -61,7 +61,7 @@ impl ExactGain {
         legs.gain(&ExactMoments::of_velocity(model, u))
     }
 
-    /// Creates it from the odometry model. The reading `u` comes from a command that turns by `turn` (rad).
+    /// Returns the gain of the odometry model. The reading `u` comes from a command that turns by `turn` (rad).
     pub fn of_odometry(model: &impl Hinges, u: &OdomDelta, turn: f64) -> Self {
         let [rot1, trans, rot2] = model.variances(u).map(|variance| variance.0.sqrt());
         // A reading in reverse first turns to face the other way.

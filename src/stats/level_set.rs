@@ -1,6 +1,6 @@
 //! Contour lines of a field that is known at the points of a grid (marching squares).
 
-/// Marks a missing edge of the grid.
+/// Index that stands for no edge of the grid.
 const NONE: usize = usize::MAX;
 
 /// Returns the lines on which a field has the value `level`, by marching squares. Between neighbouring points the field is

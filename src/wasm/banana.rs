@@ -170,7 +170,7 @@ impl JsBananaMachine {
         flat(&self.0.poses().map(|pose| [pose.x(), pose.y(), pose.theta()]).collect::<Vec<_>>())
     }
 
-    /// The same of the first `count` samples, or of all if there are fewer.
+    /// Poses as in `poses`, of the first `count` samples, or of all if there are fewer.
     #[wasm_bindgen(js_name = firstPoses)]
     pub fn first_poses(&self, count: usize) -> Float64Array {
         flat(&self.0.poses().take(count).map(|pose| [pose.x(), pose.y(), pose.theta()]).collect::<Vec<_>>())

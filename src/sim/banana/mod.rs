@@ -309,7 +309,7 @@ impl BananaMachine {
         }
     }
 
-    /// Returns the model that the chapter argues against: noise added to the noise-free end x̄. x_t = x̄ + ε with ε ~
+    /// Returns the moments of the model that the chapter argues against: noise added to the noise-free end x̄. x_t = x̄ + ε with ε ~
     /// N(0, [`ADDITIVE_DEVIATION`]²·I) in x and y, independent of the command and the α's.
     pub fn additive(&self) -> CartesianMoments {
         let variance = ADDITIVE_DEVIATION * ADDITIVE_DEVIATION;
@@ -403,7 +403,7 @@ impl BananaMachine {
         Some(Sample { pose, twist: self.twist(&pose), executed, path })
     }
 
-    /// Executed motions of the samples shown: v̂ (m/s), ω̂ and γ̂ (rad/s), or under the odometry model δ̂_rot1 (rad),
+    /// Returns the executed motions of the samples shown: v̂ (m/s), ω̂ and γ̂ (rad/s), or under the odometry model δ̂_rot1 (rad),
     /// δ̂_trans (m) and δ̂_rot2 (rad).
     pub fn executed(&self) -> impl ExactSizeIterator<Item = [f64; 3]> {
         let motion = self.settings.motion(self.settings.command);

@@ -171,7 +171,7 @@ impl Drive {
         (logarithms(&ends, turn), self.other_arcs(motions.bearing, ends))
     }
 
-    /// End of a motion without noise, in the parts that a cloud's sums are counted from, and the scale of its factors.
+    /// Returns the end of a motion without noise, in the parts that a cloud's sums are counted from, and the scale of its factors.
     pub fn nominal(&self) -> (Reference, Scale) {
         let (poses, arcs) = self.robots(&[f64x4::splat(0.0); 3]);
         let mut parts = [poses.x, poses.y, poses.along, poses.lateral, poses.half, arcs.length, arcs.half]

@@ -96,7 +96,7 @@ impl Cloud {
         self.drive.turn_deviation()
     }
 
-    /// Standard deviation (rad) of the turn of the arc that ends at the robot.
+    /// Returns the standard deviation (rad) of the turn of the arc that ends at the robot.
     pub fn arc_deviation(&self) -> f64 {
         self.drive.arc_deviation()
     }

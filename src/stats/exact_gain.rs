@@ -146,8 +146,8 @@ impl Legs {
     fn arc(&self) -> (Moments, f64) {
         let ([bearing, deviation], near) = (self.bearing, 0.5 * self.turn[0]);
         let (mut moments, mut logs) = (RayMoments::default(), MeanLog::default());
-        // Cloud statistics use the arc whose turn is nearest to the command. If half the turn differs
-        // by more than π/2 from half the command's, that arc leads there in the other direction.
+        // Cloud statistics use the arc whose turn is nearest to the commanded one. It leads there in the other direction if the
+        // bearing differs from half the commanded turn by more than π/2.
         let breaks = [-0.5 * PI, 0.5 * PI].map(|aside| (near + aside - bearing) / deviation);
         for node in self.nodes(deviation, breaks) {
             let driven = bearing + deviation * node.value;

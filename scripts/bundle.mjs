@@ -41,8 +41,8 @@ const LOG_WORKER = 'chunks/log-worker.js';
 const PLACE_OF_CHUNKS = { core: './chunks/', external: './' };
 
 /**
- * Returns the script of the function that starts the worker. Within dist/ the script is found by its place; a page of another origin starts it by a
- * script of its own.
+ * Returns the script of the function that starts the worker. Within dist/ the script is found by its place. A page of another origin
+ * starts it by a script of its own.
  *
  * @param {string} place of dist/, as the bundle sees it
  * @param {string} [otherwise] statement for where the bundle is in another one

@@ -11,7 +11,6 @@ import { COMMON, groupsOf } from './figure/attributes.ts';
 import { includesFields } from './figure/checks.ts';
 import { GLOBAL, elementNamed, sorry } from './named.ts';
 
-/** Model of anywidget. */
 export interface Model {
   /** Returns the value of a trait; undefined if the model does not have it. */
   get: (name: string) => any;

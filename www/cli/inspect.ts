@@ -8,7 +8,6 @@ import { ROLES, framesOption, framesText, type Choice, type Log, type Recording,
 import { summarize } from '../logs/summary.ts';
 import { aligned } from './report.ts';
 
-/** Names of the formats. */
 const FORMATS: Partial<Record<Recording['format'], string>> = { mcap: 'MCAP recording', rosbag: 'ROS 1 bag', sqlite: 'rosbag2 SQLite recording', csv: 'table', tum: 'TUM table' };
 
 /** Contents of a recording. */

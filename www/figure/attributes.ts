@@ -87,7 +87,6 @@ export const COMMON: Record<string, { words?: readonly string[], nullable?: true
 
 export const isSetting = (entry: Setting | Own): entry is Setting => !('own' in entry);
 
-/** Returns the attributes of a widget's settings. */
 export const attributesOf = (declared: Declaration[]) => settingsIn(declared, ({ type }) => type in KINDS);
 
 /** Returns the settings that are objects or arrays, which have no attribute. */

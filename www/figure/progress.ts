@@ -81,7 +81,6 @@ export class Progress extends Part {
     this.host.requestUpdate();
   }
 
-  /** Ends the progress of work. */
   end(work: Work) {
     if (work !== this.#work) return;
     this.#since = undefined;

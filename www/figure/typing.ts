@@ -5,7 +5,6 @@ import { Part } from './part.ts';
 export class Typing extends Part {
   #refused: { key: string, complaint: string } | undefined;
 
-  /** Refuses the text typed for a setting. */
   refuse(key: string, complaint: string) {
     this.#refused = { key, complaint };
     this.host.requestUpdate();

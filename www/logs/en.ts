@@ -21,7 +21,6 @@ const TYPES = { poses: OF_POSES, either: `${OF_POSES}, or ${OF_COMMANDS}`, trans
 /** Bases of decisions about units. */
 const BY: Record<Basis, string> = { name: ' (by name)', size: ' (by size)', rate: ' (by rate and speed)', format: '', date: ' (from dates)', option: ' (as stated)', usage: '' };
 
-/** Units of angles. */
 const ANGLES: Record<Summary['units']['angle']['unit'], string> = { rad: 'yaw in rad', deg: 'yaw in degrees', quaternion: 'yaw from a quaternion', none: '' };
 
 /** Reasons for leaving rows out. */

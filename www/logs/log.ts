@@ -37,7 +37,6 @@ export const framesText = ({ parent, child }: Frames) => `${parent} → ${child}
 /** Returns frames in the form of an option. */
 export const framesOption = ({ parent, child }: Frames) => `${parent},${child}`;
 
-/** Choice of a log. */
 export interface Choice {
   /** Name of the series. */
   series: string;

@@ -80,7 +80,6 @@ class TopicReader {
   /** Messages that cannot be read, and the reason for the first. */
   #damaged = 0;
   #reason = '';
-  /** Readers by channel. */
   #readers = new Map<Channel, (message: Message) => void>();
   /** Nodes in the order of their first messages. */
   #publishers: string[] = [];

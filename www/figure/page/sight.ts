@@ -10,7 +10,6 @@ export interface Watcher {
 const NEAR_MARGIN = '600px';
 
 const watchers: WeakMap<Element, Watcher> = new WeakMap();
-/** Elements that are near. */
 const near: WeakSet<Element> = new WeakSet();
 // The first watched element creates both.
 let nearObserver: IntersectionObserver;

@@ -27,7 +27,6 @@ export class CopyMenu extends Part {
     this.host.requestUpdate();
   }
 
-  /** Returns the button that copies a link. */
   linkButton() {
     const say = words.copies;
     return button(say.link, async () => this.#copy('link', await this.host.shareLink()), { title: say.linkTitle });

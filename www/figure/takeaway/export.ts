@@ -10,7 +10,6 @@ import type { Figure } from '../figure.ts';
 /** Content for export besides the picture. */
 export interface Takeaway {
   title: string;
-  /** Description of the picture. */
   description: string;
   settings: object;
   /** Names of the columns, with units. */

@@ -209,7 +209,6 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
     return this.#given?.hasLocalizer ?? false;
   }
 
-  /** Name of the log. */
   get logName() {
     const { log } = this.reading;
     return log ? log.name || words.calibrator.own.odometry : words.calibrator.simulated;

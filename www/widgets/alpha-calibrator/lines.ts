@@ -69,7 +69,6 @@ export const formatInterval = (interval: Interval | undefined) => (interval?.eve
 /** Checks whether an α is 0 in the digits of its interval. A printed zero would look like a result. */
 export const isZero = (alpha: number | null, interval: Interval | undefined) => alpha !== null && Number(fixed(alpha, interval)) === 0;
 
-/** Prints a fraction in percent. */
 export const percent = (fraction: number | null) => (fraction !== null && Number.isFinite(fraction) ? `${short(100 * fraction)} %` : NONE);
 
 /** Returns the upper end of an interval. */
@@ -127,7 +126,6 @@ export function nav2Lines({ calibration, count, model, rule, legs, log, hasLocal
   return ['amcl:', '  ros__parameters:', ...all.map((line) => `    ${line}`)];
 }
 
-/** Checks that failed. */
 export const failedOf = <Check extends { name: string, passed: boolean, message: string }>(checks: Check[]) => checks.filter(({ passed }) => !passed);
 
 /** Lists the systematic errors that were corrected, in one text or none: the odometry of the robot still has them. */

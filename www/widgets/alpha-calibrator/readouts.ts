@@ -58,12 +58,10 @@ export function alphaTable(reading: Reading) {
   </table>`;
 }
 
-/** Prints a recommended α. */
 function recommendedOf({ stats: { recommended, alphas, intervals } }: Reading, index: number) {
   return recommended && alphas[index] !== null ? localized(alphaOrBound(alphas[index], intervals[index], recommended.inflation)) : NOTHING;
 }
 
-/** Prints a fitted α. */
 const fittedOf = ({ stats: { alphas, intervals } }: Reading, index: number) => localized(alphaOrBound(alphas[index], intervals[index]));
 
 /** Says why an α is not determined, and the drive that would determine it. */
@@ -85,7 +83,6 @@ export function alphaTexts(reading: Reading) {
   });
 }
 
-/** Prints the interval of an α. */
 function betweenOf({ stats: { intervals } }: Reading, index: number) {
   const interval = intervals[index];
   return interval ? words.calibrator.alphas.between(localized(fixed(interval[0], interval)), localized(fixed(interval[1], interval))) : NOTHING;

@@ -38,7 +38,6 @@ const RING = 6;
 /** Width of the thinnest lines, CSS pixels. */
 const HAIR = 1;
 
-/** Returns the style of a line. */
 export function styleOf({ palette, highlight }: Pick<Brush, 'palette' | 'highlight'>, name: LineName): Style {
   const truth = name === 'plausible' ? between(palette.truth, palette.cloud) : palette.truth;
   return lineStyles({ palette: { ...palette, truth }, highlight }, LINES)[name];

@@ -64,7 +64,6 @@ export function reasonOf({ stats: { recommended, diagnostics: { checks, windows 
   return inflation === 1 ? say.covered(percent(coverage), counted(count)) : say.inflated(fixed(inflation, 2), percent(coverage), counted(count), fixed(nees, 2));
 }
 
-/** Returns the names of the noises of a model. */
 export const noiseNames = (model: Reading['config']['model']) => words.alphas[model === 'velocity' ? 'velocity' : 'odometry'];
 
 /** Returns the subscript of an α, counted from 0. */

@@ -9,7 +9,6 @@ import { COMMAND, NOISE, SAMPLE_COUNTS } from './settings.ts';
 
 export type Figure = import('./dead-reckoning.ts').DeadReckoningElement;
 
-/** Returns the choice of the recursion. */
 export function recursionChoice(figure: Figure) {
   return choices(figure, 'compounding', words.reckoning.recursions);
 }

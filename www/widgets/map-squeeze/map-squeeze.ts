@@ -49,7 +49,6 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
 
   cloud = new Cloud(this, (machine: Machine) => machine.stats.gaveUp);
 
-  /** Picture of the current map. */
   picture = new FloorPicture({ bounds: new Float64Array(4), walls: new Float64Array() }, null);
   #meter = new CostMeter(this);
   #opener = new MapOpener(this);
@@ -318,7 +317,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
     this.cloud.mark(-1);
   }
 
-  /** Name of the current map. */
+  /** Name and size of the current map. */
   get #mapText() {
     const { pasted, apartment } = words.squeeze;
     return mapText(this.map ? this.map.name || pasted : apartment, this.picture.plan);

@@ -23,7 +23,6 @@ const INWARD = 12;
 const MOST_INWARD = 1 / 6;
 
 export class WallHandles extends Part<import('./map-squeeze.ts').MapSqueezeElement> {
-  /** Handles by name. */
   #handles: Map<string, Handle> = new Map();
   /** Plan of the grips. */
   #plan: Plan | undefined;

@@ -11,7 +11,6 @@ import { plot } from '../../ui/plot.ts';
 import { readoutList } from '../../ui/readouts.ts';
 import type { Reading } from './reading.ts';
 
-/** Prints a value in metres. */
 const metres = (value: number) => `${fixed(value, 3)} m`;
 
 /** Returns the deviation across the path by the present noise model, as the message of the figure. */

@@ -10,7 +10,6 @@ import type { Pose } from '../../types.d.ts';
 
 /** Pose that the handles hold. */
 export interface Held {
-  /** View of its picture. */
   view: () => import('../../scene/view.ts').View;
   /** Left, bottom, right and top of the allowed positions, metres. */
   bounds: () => number[] | Float64Array;

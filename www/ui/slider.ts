@@ -356,7 +356,7 @@ function field({ id, keys, type, forget }: Pick<SliderRow, 'id' | 'keys' | 'type
     const input = inputOf(event);
     if (event.key === 'Escape') input.value = input.defaultValue = shown;
     else if (event.key !== 'Enter') return;
-    // Prevents other effects of Escape.
+    // Prevents other effects of the key.
     event.preventDefault();
     if (take(input)) sliderBeside(input).focus();
     else input.select();

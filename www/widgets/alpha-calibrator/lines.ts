@@ -71,7 +71,7 @@ export const isZero = (alpha: number | null, interval: Interval | undefined) => 
 
 export const percent = (fraction: number | null) => (fraction !== null && Number.isFinite(fraction) ? `${short(100 * fraction)} %` : NONE);
 
-/** Returns the upper end of an interval. */
+/** Prints the upper end of an interval. */
 const mostOf = (interval: Interval | undefined) => short(interval?.[1] ?? null, OF_WIDTH);
 
 /** Multiplies an interval. */

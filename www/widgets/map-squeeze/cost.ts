@@ -16,7 +16,7 @@ export interface Cost {
 /** Number of particles and rate of the chapter's exercise, samples per second. */
 export const DEMAND = 2000 * 20;
 
-/** Minimum duration of a measurement, ms, and half of its maximum: clocks of browsers may have steps of 1 ms. */
+/** Duration of a run, ms, that is long enough to measure: clocks of browsers may have steps of 1 ms. */
 const LONG_ENOUGH = 12;
 
 /** Number of runs, whose median is shown. */

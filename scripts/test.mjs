@@ -264,7 +264,8 @@ function nodeTests(directory, more) {
   const files = filesOf(directory).filter((path) => /\.test\.[jt]s$/.test(path) && (ALL || !path.endsWith('.nightly.test.js')));
   const named = files.filter((path) => more.some((each) => !each.startsWith('-') && path.includes(each)));
   const options = more.filter((each) => !named.some((path) => path.includes(each)));
-  const tier = ALL ? [] : ['--test-name-pattern', '/^(?!.*@nightly)/'];
+  // Node runs every test of a parent that matches, and the parent of all is called "<root>".
+  const tier = ALL ? [] : ['--test-name-pattern', '/^(?!<root>|.*@nightly)/'];
   // With its default number of processes a core stays idle.
   return [process.execPath, '--import', 'tsx', '--test', '--test-reporter', 'tap', '--test-concurrency', `${availableParallelism()}`, ...tier, ...options, ...(named.length > 0 ? named : files)];
 }

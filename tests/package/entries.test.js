@@ -108,7 +108,7 @@ test('TypeScript knows the elements, the components of React and the core, howev
      // @ts-expect-error
      document.createElement('map-squeeze').addEventListener('stats', ({ detail }) => detail.crossTrackSkew);
      // @ts-expect-error
-     document.createElement('banana-machine').omega = 'fast';
+     document.createElement('banana-machine').omega = true;
      export { omega, stats };`,
   );
   writeFileSync(join(project.directory, 'typed.tsx'), REACT);

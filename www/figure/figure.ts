@@ -201,9 +201,9 @@ export class FigureElement<Machine extends { free(): void, stats: object, config
     this.dispatchEvent(new CustomEvent('stats', { detail: this.reading.stats, bubbles: true, composed: true }));
   }
 
-  /** Stores the state and announces the outcome of a change. */
+  /** Stores the state and announces the outcome of a change, of a growing cloud when all samples are shown. */
   finishChange() {
-    this.announcer.setOutcome(() => this.announcement(this.reading));
+    if (this.cloud?.isSettled ?? true) this.announcer.setOutcome(() => this.announcement(this.reading));
     this.state.keep();
   }
 

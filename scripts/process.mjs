@@ -2,8 +2,7 @@
 
 import { AsyncLocalStorage } from 'node:async_hooks';
 import { spawn } from 'node:child_process';
-import { accessSync, constants as files, realpathSync, statSync } from 'node:fs';
-import { constants, setPriority } from 'node:os';
+import { accessSync, constants, realpathSync, statSync } from 'node:fs';
 import { delimiter, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 
@@ -136,7 +135,6 @@ export function hasEnded(group) {
  * @property {string} [cwd] the directory to run it in, instead of the repository's root
  * @property {number} [seconds] the time after which the program and all its children are killed
  * @property {boolean} [quiet] shows nothing
- * @property {boolean} [patient] runs only where nothing else wants the processor
  */
 
 /**
@@ -148,7 +146,7 @@ export function hasEnded(group) {
  * @returns {Promise<{ ok: boolean, timedOut: boolean, stdout: string, output: string }>} `output` is stdout and
  *   stderr in order of arrival; a program that cannot be started is not ok
  */
-export function run(command, args, { env = {}, cwd = ROOT, seconds, quiet = false, patient = false } = {}) {
+export function run(command, args, { env = {}, cwd = ROOT, seconds, quiet = false } = {}) {
   return new Promise((resolve) => {
     // A program with a time limit leads its own process group, so that its children can be ended with it.
     const child = spawn(command, args, {
@@ -157,7 +155,6 @@ export function run(command, args, { env = {}, cwd = ROOT, seconds, quiet = fals
       stdio: ['ignore', 'pipe', 'pipe'],
       detached: seconds !== undefined,
     });
-    if (patient && child.pid !== undefined) setPriority(child.pid, constants.priority.PRIORITY_BELOW_NORMAL);
     let stdout = '';
     let output = '';
     let timedOut = false;
@@ -221,7 +218,7 @@ export function findProgram(name, moreDirectories = []) {
 /** @param {string} path */
 export function isProgram(path) {
   try {
-    accessSync(path, files.X_OK);
+    accessSync(path, constants.X_OK);
     return statSync(path).isFile();
   } catch {
     return false;

@@ -68,10 +68,9 @@ const browser = once(async () => {
 /**
  * @param {string[]} command
  * @param {Record<string, string>} [env]
- * @param {boolean} [patient] leaves the processor to the tests in browsers, which watch frames and time
  * @returns {Job}
  */
-const program = ([name, ...args], env, patient) => () => run(name, args, { env, seconds: LIMIT, patient });
+const program = ([name, ...args], env) => () => run(name, args, { env, seconds: LIMIT });
 
 /**
  * @param {string} path of a script in node_modules
@@ -88,7 +87,7 @@ const script = (path) => program([process.execPath, at(path)]);
  * @param {string[]} args
  * @param {Record<string, string>} [env]
  */
-const cargo = ({ bin, env: environment }, args, env) => program([join(bin, 'cargo'), ...args], { ...environment, ...env }, true);
+const cargo = ({ bin, env: environment }, args, env) => program([join(bin, 'cargo'), ...args], { ...environment, ...env });
 
 /**
  * @param {import('./toolchain.mjs').Rust} rust
@@ -97,7 +96,7 @@ const cargo = ({ bin, env: environment }, args, env) => program([join(bin, 'carg
  */
 async function lint(rust, name, args) {
   await ensureLints(rust);
-  return program([join(rust.bin, `cargo-${name}`), name, ...args], rust.env, true);
+  return program([join(rust.bin, `cargo-${name}`), name, ...args], rust.env);
 }
 
 const LINT_RULES = ['--', '-D', 'warnings'];
@@ -182,7 +181,7 @@ const PARTS = {
  */
 const LANES = [
   ['build', 'browser', ...(ALL ? ['engines', 'embeddings'] : [])],
-  ['rustfmt', 'wasm', 'clippy', 'rust', ...(ALL ? ['clippy-wasm', 'docs'] : [])],
+  ['rustfmt', 'rust', 'wasm', 'clippy', ...(ALL ? ['clippy-wasm', 'docs'] : [])],
   ['oxlint', 'tsc', 'node', 'package'],
 ];
 

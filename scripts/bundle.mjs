@@ -271,11 +271,11 @@ export async function bundle({ tags = WIDGETS, changed = (_, script) => script }
     const text = readFileSync(at(path), 'utf8');
     write(at(join('dist', relative('www', path))), path.endsWith('.html') ? withTables(text, elements, all) : text);
   }
-  // `:where` has no specificity, so that any rule of a page replaces the margins. Without scripts no height is reserved.
-  // Imported here, because it needs Lit, which a bare clone does not have.
+  // The module needs Lit, which a bare clone lacks: a static import would fail there.
   const { roomBefore } = await importTypeScript('www/figure/page/room.ts');
+  // Without scripts no height is reserved.
   const kept = `@media (scripting:enabled){\n${roomBefore()}\n}`;
-  // Slides have a large font for sentences, which is too large for figures.
+  // Slides have a large font, which is too large for figures. `:where` has no specificity: any rule of a page takes precedence.
   const slides = `:where(.reveal) :where(${WIDGETS}){font-size:.3em;text-align:start}`;
   appendFileSync(at('dist/motion-widgets.css'), `\n:where(${WIDGETS}){margin-block:1em}\n${slides}\n${kept}\n`);
   write(at('dist/motion.wasm'), wasm);

@@ -63,7 +63,7 @@ impl OdometryRule {
         OdomDelta { rot1: 0.0, trans: reading.trans, rot2: wrap_angle(reading.rot1 + reading.rot2) }
     }
 
-    /// Returns the variances of the noises of `reading`, which may be a measured one or the legs of [`OdometryRule::legs`]:
+    /// Returns the variances of the noises of `reading`: of a measured one, or of the legs of [`OdometryRule::legs`].
     ///
     /// | rule | rot1 | trans | rot2 | strafe |
     /// |---|---|---|---|---|

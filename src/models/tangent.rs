@@ -10,8 +10,9 @@ use rand::Rng;
 use std::f64::consts::PI;
 use std::fmt;
 
-/// Motion x_t = x_{t−1} ⊞ (τ + w), w ~ N(0, R). A model made by [`TangentNoiseModel::from_velocity`] adds a turn on the spot by
-/// N(0, Δt²(α₅v² + α₆ω²)).
+/// Motion x_t = x_{t−1} ⊞ (τ + w) with w ~ N(0, R).
+///
+/// [`TangentNoiseModel::from_velocity`] adds the final turn γ̂Δt, whose variance is Δt²(α₅v² + α₆ω²).
 ///
 /// R is 3 × 3 in the order (along, lateral, heading), m², m·rad, rad², in the body frame of x_{t−1} (right
 /// perturbation). It may be singular: a wheelset has no lateral noise.

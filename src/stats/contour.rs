@@ -203,7 +203,7 @@ impl ExponentialContour {
         unit_circle(segments).map(move |direction| at(&(first * direction.x + second * direction.y)))
     }
 
-    /// Tells whether the exponential coordinates of `pose` lie inside the ellipse.
+    /// Returns true if the exponential coordinates of `pose` lie inside the ellipse.
     pub fn contains(&self, pose: &SE2) -> bool {
         let twist = (self.start.inverse() * *pose).log_near(self.mean.z);
         self.ellipse.contains([twist.x, twist.z])

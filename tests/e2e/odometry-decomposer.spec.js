@@ -106,7 +106,7 @@ test('on paper every rule has its name, and the chosen one stands out @nightly',
   await expect(widget.locator('.rules input').first()).toBeHidden();
   await expect(name('Table 5.6')).toHaveCSS('font-weight', '700');
   await expect(name('Beluga 2')).not.toHaveCSS('font-weight', '700');
-  // Of other radio buttons, paper shows the selected one only.
+  // Other groups of radio buttons print the selected one only.
   await page.emulateMedia({ media: 'screen' });
   await unfold(widget);
   await page.emulateMedia({ media: 'print' });

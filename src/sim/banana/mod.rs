@@ -274,7 +274,7 @@ impl BananaMachine {
         Stats { n: self.shown(), figures: self.figures }
     }
 
-    /// Tells whether the robots turn by less than a full circle, so that exponential coordinates are defined. Otherwise
+    /// Returns true if the robots turn by less than a full circle, so that exponential coordinates are defined. Otherwise
     /// statistics and contours in them are undefined.
     pub fn chart_holds(&self) -> bool {
         self.charted().pose

@@ -84,7 +84,7 @@ impl Settings {
         }
     }
 
-    /// Tells whether rollouts under both settings are equal to the last bit. The number of robots, the
+    /// Returns true if rollouts under both settings are equal to the last bit. The number of robots, the
     /// selected step and the recursion do not matter.
     pub(super) fn drives_as(&self, other: &Self) -> bool {
         let Self { step, compounding, samples, .. } = *other;
@@ -121,8 +121,8 @@ pub struct Preset {
     pub alphas: [f64; 6],
 }
 
-/// Presets: the chapter's twenty steps; the same with the heading's standard deviation doubled, as exercise 7 asks; the same path in
-/// two hundred steps, with J_r nearly 1 in each; and straight ahead, where only noise in the turn shows.
+/// Presets. The first is the chapter's path of twenty steps, and the second doubles the standard deviation of its heading (exercise 7).
+/// The third divides the path into two hundred steps, in each of which J_r is nearly 1. The fourth leads straight ahead.
 pub const PRESETS: [Preset; 4] = [
     preset("chapter", [1.0, 0.5, 0.2], 20, 0.02),
     preset("doubled", [1.0, 0.5, 0.2], 20, 0.08),

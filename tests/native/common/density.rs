@@ -111,8 +111,8 @@ impl Grid {
         counts
     }
 
-    /// Returns χ² of a sample against the density. Cells that expect fewer than 20 poses are one cell together with everything
-    /// outside the box. The second number is the limit that χ² passes with probability 1e-4.
+    /// Returns χ² of a sample against the density. Everything outside the box is one cell, and so
+    /// are the cells that expect fewer than 20 poses. The second number is the limit that χ² exceeds with probability 1e-4.
     ///
     /// The Gauss rule is right to about 1e-3 of a cell's mass where a kink of the triangular density crosses it, and
     /// far better elsewhere: at 10⁶ samples that shifts χ² by about 1, next to a limit above 100.

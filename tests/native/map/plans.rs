@@ -67,8 +67,8 @@ fn a_plan_is_checked() {
 
 // ------------------------------------------------------------------------------------------------------ verdicts
 
-/// Results equal those of a plain loop over all walls: in the apartment, among long slanted walls close together, and
-/// in a rotated grid; for arcs of up to two circles of every size, and robots of every size.
+/// Results equal those of a plain loop over all walls. Maps are the apartment, long slanted walls close together, and a rotated
+/// grid. Arcs of all sizes turn by up to two circles, and robots have all sizes.
 #[test]
 fn verdicts_are_those_of_a_loop_over_all_walls() {
     let mut rng = seeded(9650);

@@ -78,7 +78,7 @@ function driven(motion) {
 const rounded = ({ x, y, theta }) => [Number(x.toFixed(4)), Number(y.toFixed(4)), Number(theta.toFixed(5))];
 
 /**
- * Returns the ends of the legs that AMCL makes of an odometry: the first row that is further from the last of them than it waits for.
+ * Returns the rows at which AMCL would update. Each is the first one whose distance or turn from the previous update exceeds a limit.
  *
  * @param {[number, number, number][]} rows
  */

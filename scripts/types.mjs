@@ -21,7 +21,7 @@ const TEMPLATES = {
   svelte: { module: 'svelte/elements', namespace: 'interface SvelteHTMLElements extends Tags {}', any: "import('svelte/elements').HTMLAttributes", prefix: '' },
 };
 
-/** Writes all of them. */
+/** Writes all declaration files. */
 export async function writeTypes() {
   const all = await widgets();
   const core = readFileSync(join(ROOT, 'build/core.d.ts'), 'utf8');
@@ -69,14 +69,13 @@ function named(declaration) {
   return { name: declaration.field ?? declaration.key, type: typeOf(declaration), description: describe(declaration) };
 }
 
-
 /** Returns the type of a figure with the public members of its class. @param {import('./declarations.mjs').Widget[]} all */
 async function figureType([{ attributes }]) {
   const { COMMON } = await importTypeScript('www/figure/attributes.ts');
   const { classes } = await comments();
   /** @type {any[]} */
   const members = classes.get('FigureElement').members.filter((/** @type {any} */ { privacy }) => privacy === 'public');
-  /** @param {{ type: { text: string } }} [typed] what it is in TypeScript; in the comments it is of any widget */
+  /** Replaces the type of any widget by a type parameter. @param {{ type: { text: string } }} [typed] */
   const typeIn = (typed) => (typed?.type.text ?? 'void').replace(/\bMachine\['stats'\]/, 'Stats').replace(/\bValues\b/, 'State');
   const fields = members.map(({ kind, name, description, parameters = [], type, return: result, readonly }) => {
     const given = parameters.map((/** @type {any} */ parameter) => `${parameter.name}: ${typeIn(parameter)}`);

@@ -4,7 +4,7 @@ export default defineNuxtConfig({
   css: ['motion-widgets/motion-widgets.css'],
   vue: { compilerOptions: { isCustomElement: isFigureTag } },
   hooks: {
-    // Nuxt asks every page to prefetch all chunks and modules. Figures load theirs.
+    // Figures load their own chunks and modules.
     'build:manifest'(manifest) {
       for (const file of Object.values(manifest)) if (!file.isEntry) file.prefetch = false;
     },

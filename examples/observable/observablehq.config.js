@@ -2,8 +2,8 @@ export default {
   title: 'Motion',
   head: `<link rel="stylesheet" href="motion-widgets.css">
 <script type="module" src="motion-widgets.iife.js"></script>`,
-  // No request to a server of fonts.
+  // By default the pages load fonts from another server.
   globalStylesheets: [],
-  // Addresses that any server of files knows.
+  // Addresses of files, which any file server finds.
   preserveExtension: true,
 };

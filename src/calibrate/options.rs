@@ -50,11 +50,11 @@ impl fmt::Display for CalibrateError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Apart => f.write_str(
-                "odometry and reference have no time in common, and turn alike at no offset of their clocks; allowed are two logs of one drive",
+                "odometry and reference have no time in common, and their turn rates correlate at no clock offset; give two logs of one drive",
             ),
             Self::TooFewLegs { legs } => write!(
                 f,
-                "the log has {legs} legs for which both trajectories are known; allowed are {MIN_LEGS} at least: shorter legs, a longer drive, or clocks that agree"
+                "the log has {legs} legs for which both trajectories are known; at least {MIN_LEGS} are needed: choose shorter legs, drive longer, or check the clocks"
             ),
         }
     }

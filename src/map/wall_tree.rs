@@ -1,4 +1,4 @@
-//! The walls of a plan in a tree, so that few of them are looked at, wherever they are.
+//! Search tree of the walls of a plan.
 
 use crate::geom::segment::Segment;
 use std::ops::Range;
@@ -43,7 +43,7 @@ impl WallTree {
         let mut tree = Self {
             walls: walls.to_vec(),
             lines: Vec::new(),
-            // The root is looked at in any case, and there is nothing beside it.
+            // The root is always visited, and has no sibling.
             nodes: vec![Node { hull: Line::POINT, thickness: f64::INFINITY, is_one: false }; 2],
             depth: leaves.ilog2(),
             slack: 1e-9 * bounds.iter().fold(0.0, |most: f64, bound| most.max(bound.abs())),

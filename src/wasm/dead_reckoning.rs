@@ -164,7 +164,7 @@ impl JsDeadReckoning {
         flat(&poses.collect::<Vec<_>>())
     }
 
-    /// x, y (m), θ (rad) of the first robots after the step that is looked at, 600 at most; a copy.
+    /// x, y (m), θ (rad) of the first robots after the selected step, 600 at most; a copy.
     #[wasm_bindgen(getter)]
     pub fn poses(&self) -> Float64Array {
         flat(self.0.poses(self.0.settings().step))

@@ -176,7 +176,7 @@ test('the sentence says what the model decides and the robots show', async ({ pa
   // The sentence has the number of the readout.
   const [ratio] = (await readout(widget, 'area covered').innerText()).split(' ');
   await expect(sentence(widget)).toHaveText(
-    new RegExp(`^The cloud is bent: its ellipse covers ${ratio} times the floor of the ξ outline\\. Both sides are alike: skew −?0\\.\\d+\\s±\\s0\\.\\d+, exactly 0 by symmetry\\.$`),
+    new RegExp(`^The cloud is bent: its ellipse covers ${ratio} times the area of the ξ outline\\. Both sides are alike: skew −?0\\.\\d+\\s±\\s0\\.\\d+, exactly 0 by symmetry\\.$`),
   );
   // Nearly symmetric, but as strongly bent.
   await widget.locator('#omega').fill('0.02');

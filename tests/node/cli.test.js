@@ -140,7 +140,7 @@ test('bad input has the exit code 2 and a sentence', async () => {
     // Errors of the core, by the names of options and files.
     [[...FILES, '--update-min-d=-1'], '--update-min-d is -1; allowed is '],
     [[...FILES, '--reference-position-std=-1'], '--reference-position-std is -1; allowed is '],
-    [[...FILES.slice(0, 2), '--reference', straight], 'odometry.csv and straight.csv: odometry and reference have no time in common, and turn alike at no offset of their clocks; '],
+    [[...FILES.slice(0, 2), '--reference', straight], 'odometry.csv and straight.csv: odometry and reference have no time in common, and their turn rates correlate at no clock offset; '],
   ])) {
     const { code, out, err } = await outputOf(args);
     assert.deepEqual([code, out.replaceAll(/^.* rows, .*\n {2}columns .*\n/gm, '').replace(/^ {2}no time in common .*\n/m, '')], [2, ''], err);

@@ -205,13 +205,13 @@ test('a log that does not follow the other one names the correction that makes i
   const noisy = (/** @type {number[]} */ [t, x, y, yaw]) => [t + 0.2, 1.02 * x + 3, 1.02 * y, 1.01 * yaw];
   const degree = Math.PI / 180;
   for (const [change, sentence, what] of /** @type {[(row: number[]) => number[], RegExp, string?][]} */ ([
-    [([t, x, y, yaw]) => [t, x, -y, yaw], /its y axis is mirrored against its heading and against /],
+    [([t, x, y, yaw]) => [t, x, -y, yaw], /its y axis is mirrored relative to its heading and to /],
     [([t, x, y, yaw]) => [t, -x, y, yaw], /its x axis is mirrored /],
-    [([t, x, y, yaw]) => [t, x, y, -yaw], /its heading has the wrong sign /],
+    [([t, x, y, yaw]) => [t, x, y, -yaw], /its heading has the wrong sign,/],
     [([t, x, y, yaw]) => [t, y, x, yaw], /its x and y are swapped;/],
     [([t, x, y, yaw]) => [t, x, -y, -yaw], /it turns left where \S+ turns right: /],
-    [([t, x, y, yaw]) => [t, x, y, yaw * degree], /its headings are radians and were read as degrees;/, 'angleUnit'],
-    [([t, x, y, yaw]) => [t, 10 * x, 10 * y, yaw], /its lengths times 0\.098 are /, 'lengthUnit'],
+    [([t, x, y, yaw]) => [t, x, y, yaw * degree], /its headings are in radians and were read as degrees;/, 'angleUnit'],
+    [([t, x, y, yaw]) => [t, 10 * x, 10 * y, yaw], /: multiplied by 0\.098, its lengths match those of odom\.csv;/, 'lengthUnit'],
   ])) {
     const wrong = await refusalOf(drivesOf({ 'odom.csv': driven((row) => row), 'truth.csv': driven((row) => change(noisy(row))) }));
     assert.match(wrong.message, sentence);
@@ -230,6 +230,6 @@ test('a summary has the distance driven, units and how they were judged, dropped
   assert.equal(reference.summary.distance.toFixed(1), '2.0');
   assert.deepEqual(summarize(reference, english.found), [
     '199 of 200 rows, 12.9 s at 20.0 Hz, 2.0 m driven', 'columns t, x, y, yaw_deg; time in ms (by size), lengths in m, yaw in degrees (by name)',
-    'left out 1 row, from line 11 on: no finite number', '1 gap, the first 5.00 s after the start, the longest of 3.05 s',
+    'left out 1 row, from line 11 on: a value that is not finite', '1 gap, the first 5.00 s after the start, the longest of 3.05 s',
   ]);
 });

@@ -168,7 +168,7 @@ const REFUSED = [
   ['decimal commas between commas', 't,x,y,yaw\n0,5,1,25,2,5,0,1\n1,5,1,25,2,5,0,1\n', /has 8 cells, and the header in line 1 4;/],
   ['short rows', 't,x,y,yaw\n0,0,0,0\n0,0,0\n1,0,0,0\n', /, line 3: the row has 3 cells;/],
   ['a long line', `t,x,y,yaw\n0,0,0,0\n${'1'.repeat(400_000)}`, /, line 3: the line has more than 65536 bytes;/],
-  ['few rows', 't,x,y,yaw\nnan,0,0,0\n1,0,0,0', /, line 2: 1 of 2 rows can be used \(no finite number\);/],
+  ['few rows', 't,x,y,yaw\nnan,0,0,0\n1,0,0,0', /, line 2: 1 of 2 rows can be used \(a value that is not finite\);/],
   ['no rotations', '0 0 0 0 0 0 0 0\n1 0 0 0 0 0 0 0\n', /, line 1: 0 of 2 rows can be used \(a quaternion that is no rotation\);/],
   ['a large value', 't,x,y,yaw\n0,0,0,0\n1,0,1e300,0\n', /, line 3: a value is 1e\+300;/],
   ['two logs at the same times', circles((row, i) => row.with(0, CIRCLES[i - (i % 2)][0])), /, line 3: 400 of 800 rows, this one first, have the time of another row/],

@@ -186,8 +186,8 @@ fn what_is_refused_is_named_with_its_value_and_what_is_allowed() {
         motion.calibrate({ odometry: it.odometry, reference: { ...it.reference, breaks: [7, 7] } })
         RangeError: reference.breaks[1] is 7; allowed is more than 7, the one before it
         motion.calibrate({ odometry: it.few, reference: it.few })
-        RangeError: the log has 1 legs for which both trajectories are known; allowed are 8 at least: shorter legs,
-            a longer drive, or clocks that agree
+        RangeError: the log has 1 legs for which both trajectories are known; at least 8 are needed: choose shorter
+            legs, drive longer, or check the clocks
         motion.calibrate({ odometry: it.few, reference: it.few, model: 'banana' })
         RangeError: model is "banana"; allowed is "odometry" or "omnidirectional" or "velocity"
         motion.calibrate({ odometry: it.few, reference: it.few, model: 'velocity', rule: 'nav2' })

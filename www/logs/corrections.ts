@@ -1,7 +1,7 @@
-/** Corrections of a log that does not follow the other one of its drive: each is tried, and the one that explains the difference is named. */
+/** Search for the error of a log whose motion does not agree with that of the other log: each correction is tried. */
 
-import { bisectLeft } from 'd3-array';
-import { ROLES, type Log, type Question, type Role } from './log.ts';
+import { bisectLeft, cross, greatest } from 'd3-array';
+import { ROLES, type Log, type Role } from './log.ts';
 import { pathOf } from './path.ts';
 import { quantile } from './quantile.ts';
 
@@ -12,7 +12,7 @@ type Motion = [forward: number, left: number, turn: number];
 
 const DEGREE = Math.PI / 180;
 
-/** Corrections of poses by their names in sentences. */
+/** Corrections of poses. */
 const CORRECTIONS = {
   mirroredX: ([x, y, heading]: Pose): Pose => [-x, y, heading],
   mirroredY: ([x, y, heading]: Pose): Pose => [x, -y, heading],
@@ -28,28 +28,26 @@ export interface Correction {
   name: keyof typeof CORRECTIONS | 'lengths';
   /** Role of the log that needs the correction. */
   at: Role;
-  /** Correlation of the motions with it. */
+  /** Correlation of the corrected motions. */
   score: number;
-  /** Scale of lengths, or 1. */
+  /** Lengths of the odometry over those of the reference. */
   factor: number;
-  /** Unit that corrects it if it is stated. */
-  ask?: Question['what'];
 }
 
 /** Maximum number of steps of the drive, their minimum duration in s, and minimum number of steps for a comparison. */
-const [STEPS, STEP, ENOUGH] = [4000, 0.25, 40];
+const [MAX_STEPS, MIN_DURATION, MIN_STEPS] = [4000, 0.25, 40];
 
 /** Largest offset of the clocks in s that is tried, as in the first scan of the core. */
-const OFFSET = 10;
+const MAX_OFFSET = 10;
 
-/** Agreement of logs that need no correction, agreement that a correction must reach, and the share of the disagreement that it may leave. */
-const [AGREES, EXPLAINS, LEFT] = [0.9, 0.8, 0.3];
+/** Score of logs that need no correction, minimum score of a correction, and maximum share of the disagreement that it leaves. */
+const [AGREEMENT, MIN_SCORE, MAX_REST] = [0.9, 0.8, 0.3];
 
-/** Scales that no wheel has, as in the core. */
-const isScale = (scale: number) => scale >= 0.5 && scale <= 2;
+/** Returns true for a scale that wheels can have, as in the core. */
+const isPlausible = (scale: number) => scale >= 0.5 && scale <= 2;
 
 /** Mean motion of a step, m or rad, below which the robot counts as standing. */
-const STANDS = 1e-4;
+const STANDSTILL = 1e-4;
 
 /** Motion beyond which a step is a jump, in units of the 90 % quantile. */
 const JUMP = 4;
@@ -62,31 +60,27 @@ export function correctionOf(odometry: Log, reference: Log): Correction | undefi
   const logs = { odometry, reference };
   const spans = ROLES.map((role) => logs[role].data.t);
   const [from, to] = [Math.max(...spans.map((t) => t[0])), Math.min(...spans.map((t) => t[t.length - 1]))];
-  const step = Math.max(STEP, (to - from) / STEPS, ...ROLES.map((role) => 2 / logs[role].summary.rate));
+  const step = Math.max(MIN_DURATION, (to - from) / MAX_STEPS, ...ROLES.map((role) => 2 / logs[role].summary.rate));
   const count = Math.floor((to - from) / step);
-  if (!(count >= ENOUGH)) return undefined;
+  if (!(count >= MIN_STEPS)) return undefined;
   const plain = { odometry: motionsOf(odometry, from, step, count), reference: motionsOf(reference, from, step, count) };
-  const found = agreement(plain, step, true);
-  const { score, length, angle } = found;
-  const tried = score >= AGREES ? [] : (Object.keys(CORRECTIONS) as (keyof typeof CORRECTIONS)[]).flatMap((name) => (['reference', 'odometry'] as const).map((at) => {
+  const { score, length: factor, angle } = agreement(plain, step, true);
+  const tried = score >= AGREEMENT ? [] : cross(Object.keys(CORRECTIONS) as (keyof typeof CORRECTIONS)[], ['reference', 'odometry'] as const, (name, at) => {
     const corrected = { ...plain, [at]: motionsOf(logs[at], from, step, count, CORRECTIONS[name]) };
-    const fit = agreement(corrected, step);
-    const explains = fit.score >= Math.max(EXPLAINS, 1 - LEFT * (1 - score)) && isScale(fit.length) && isScale(fit.angle);
     // A correction that is applied to the wrong log can make both wrong in the same way. Then neither robot drives straight ahead.
-    return { name, at, explains, score: fit.score, rank: fit.score + straightness(corrected.odometry) + straightness(corrected.reference) };
-  })).filter(({ explains }) => explains);
-  if (tried.length > 0) {
-    const best = tried.reduce((one, other) => (other.rank > one.rank ? other : one));
-    return { name: best.name, at: best.at, score: best.score, factor: 1, ...((best.name === 'degrees' || best.name === 'radians') && { ask: 'angleUnit' as const }) };
-  }
-  if (score < EXPLAINS) return undefined;
-  if (!isScale(length)) return { name: 'lengths', at: 'reference', score, factor: length, ask: 'lengthUnit' };
-  return isScale(angle) ? undefined : { name: 'degrees', at: angle < 1 ? 'reference' : 'odometry', score, factor: 1, ask: 'angleUnit' };
+    return { name, at, factor, ...agreement(corrected, step), straight: straightness(corrected.odometry) + straightness(corrected.reference) };
+  });
+  const minimum = Math.max(MIN_SCORE, 1 - MAX_REST * (1 - score));
+  const best = greatest(tried.filter((each) => each.score >= minimum && isPlausible(each.length) && isPlausible(each.angle)), (each) => each.score + each.straight);
+  if (best) return best;
+  if (score < MIN_SCORE) return undefined;
+  if (!isPlausible(factor)) return { name: 'lengths', at: 'reference', score, factor };
+  return isPlausible(angle) ? undefined : { name: 'degrees', at: angle < 1 ? 'reference' : 'odometry', score, factor };
 }
 
 /** Returns the motions of a log in steps after a time. */
 function motionsOf({ data }: Log, from: number, step: number, count: number, correct = (pose: Pose) => pose): Motion[] {
-  const { t, points, headings } = pathOf(data, Math.max(1, Math.floor(data.t.length / (4 * STEPS))));
+  const { t, points, headings } = pathOf(data, Math.max(1, Math.floor(data.t.length / (4 * MAX_STEPS))));
   const poseAt = (time: number): Pose => {
     const next = Math.min(Math.max(bisectLeft(t, time), 1), t.length - 1);
     const share = (time - t[next - 1]) / (t[next] - t[next - 1]);
@@ -110,11 +104,11 @@ const wrapped = (angle: number) => angle - 2 * Math.PI * Math.round(angle / (2 *
  * @param anyYaw whether the reference may be mounted in any direction
  */
 function agreement({ odometry, reference }: Record<Role, Motion[]>, step: number, anyYaw = false): Agreement {
-  const most = Math.round(OFFSET / step);
+  const maxLag = Math.round(MAX_OFFSET / step);
   const [own, its] = [steady(odometry), steady(reference)];
   let best: Agreement = { score: -1, length: 1, angle: 1 };
-  for (let i = 0; i <= 2 * most && best.score < AGREES; i++) {
-    const found = agreementAt(own, its, i % 2 === 0 ? i / 2 : -(i + 1) / 2, own.length - most, anyYaw);
+  for (let i = 0; i <= 2 * maxLag && best.score < AGREEMENT; i++) {
+    const found = agreementAt(own, its, i % 2 === 0 ? i / 2 : -(i + 1) / 2, own.length - maxLag, anyYaw);
     if (found.score > best.score) best = found;
   }
   return best;
@@ -122,14 +116,14 @@ function agreement({ odometry, reference }: Record<Role, Motion[]>, step: number
 
 /** Returns motions in which each jump is replaced by no motion. */
 function steady(motions: Motion[]): Motion[] {
-  const limitOf = (size: (motion: Motion) => number) => JUMP * Math.max(STANDS, quantile(Float64Array.from(motions, size), 0.9));
+  const limitOf = (size: (motion: Motion) => number) => JUMP * Math.max(STANDSTILL, quantile(Float64Array.from(motions, size), 0.9));
   const [drive, spin] = [limitOf(([forward, left]) => Math.hypot(forward, left)), limitOf(([, , turn]) => Math.abs(turn))];
   return motions.map((motion) => (Math.hypot(motion[0], motion[1]) <= drive && Math.abs(motion[2]) <= spin ? motion : [0, 0, 0]));
 }
 
-/** Returns the agreement at an offset of so many steps, for at least half of `count`. */
+/** Returns the agreement at a clock offset of `lag` steps; its score is −1 where fewer than half of `count` steps overlap. */
 function agreementAt(odometry: Motion[], reference: Motion[], lag: number, count: number, anyYaw: boolean): Agreement {
-  // Sums of products, of drives and of turns: of the odometry with itself, of both (and across), of the reference with itself.
+  // Sums of products of the motions: odometry squared, odometry times reference (`across`: turned by 90°), reference squared.
   let [drives, bothDrives, across, itsDrives, turns, bothTurns, itsTurns] = [0, 0, 0, 0, 0, 0, 0];
   const [first, end] = [Math.max(0, -lag), Math.min(odometry.length, reference.length - lag)];
   for (let i = first; i < end; i++) {
@@ -145,11 +139,11 @@ function agreementAt(odometry: Motion[], reference: Motion[], lag: number, count
   if (2 * (end - first) < count) return { score: -1, length: 1, angle: 1 };
   // For a robot that only drives straight or only turns on the spot, one of the two correlations is undefined.
   const [drive, turn] = [[drives, anyYaw ? Math.hypot(bothDrives, across) : bothDrives, itsDrives], [turns, bothTurns, itsTurns]].map(([own, both, its]) =>
-    (Math.sqrt(Math.max(own, its) / (end - first)) < STANDS ? { correlation: 1, scale: 1 } : { correlation: both / Math.sqrt(own * its || 1), scale: own / both }));
+    (Math.sqrt(Math.max(own, its) / (end - first)) < STANDSTILL ? { correlation: 1, scale: 1 } : { correlation: both / Math.sqrt(own * its || 1), scale: own / both }));
   return { score: Math.min(drive.correlation, turn.correlation), length: drive.scale, angle: turn.scale };
 }
 
-/** Returns by how much a robot drives straight ahead or back: 1 along its heading, 0 in all directions. */
+/** Returns the degree to which a robot drives along its heading: 1 if always, 0 if in all directions. */
 function straightness(motions: Motion[]): number {
   let [along, all] = [0, 0];
   for (const [forward, left] of motions) {

@@ -58,14 +58,14 @@ const OTHERS: typeof import('./en.ts').OTHERS = {
 };
 
 const CORRECTIONS: Record<Correction['name'], (other: string, factor: number) => string> = {
-  mirroredX: (other) => `ihre x-Achse ist gespiegelt, gegenüber ihrer Richtung und ${other}; x negieren`,
-  mirroredY: (other) => `ihre y-Achse ist gespiegelt, gegenüber ihrer Richtung und ${other}; y negieren`,
-  mirroredYaw: (other) => `ihre Richtung hat das falsche Vorzeichen, gegenüber ihrer Bahn und ${other}; die Richtung negieren, denn sie wächst gegen den Uhrzeigersinn`,
+  mirroredX: (other) => `ihre x-Achse ist gegenüber ihrer Richtung und ${other} gespiegelt; x negieren`,
+  mirroredY: (other) => `ihre y-Achse ist gegenüber ihrer Richtung und ${other} gespiegelt; y negieren`,
+  mirroredYaw: (other) => `ihre Richtung hat das falsche Vorzeichen, verglichen mit ihrer Bahn und ${other}; die Richtung negieren: Sie wächst gegen den Uhrzeigersinn`,
   swappedAxes: () => 'ihr x und y sind vertauscht; die beiden Spalten tauschen',
   leftHanded: (other) => `sie dreht nach links, wo ${other} nach rechts dreht: eine der beiden hat Z nach unten oder ein linkshändiges Koordinatensystem; y und Richtung dieser einen negieren`,
-  degrees: () => 'ihre Richtungen sind in Grad und wurden als Radiant gelesen; die Einheit angeben',
-  radians: () => 'ihre Richtungen sind in Radiant und wurden als Grad gelesen; die Einheit angeben',
-  lengths: (other, factor) => `ihre Längen mal ${factor.toPrecision(2).replace('.', ',')} sind die von ${other}; die Einheit von beiden angeben`,
+  degrees: () => 'ihre Richtungen sind in Grad und wurden als Radiant gelesen; die Einheit der Winkel angeben',
+  radians: () => 'ihre Richtungen sind in Radiant und wurden als Grad gelesen; die Einheit der Winkel angeben',
+  lengths: (other, factor) => `multipliziert mit ${factor.toPrecision(2).replace('.', ',')} passen ihre Längen zu denen von ${other}; die Längeneinheit von beiden angeben`,
 };
 
 export const log: Words = {
@@ -199,7 +199,7 @@ export const log: Words = {
       upAxis: (axis) => `${axis} ist die senkrechte Achse`,
       sorted: (count) => `${times(count, 'verspätete Zeile', 'verspätete Zeilen')} nach der Zeit sortiert`,
       swapped: (odometry, by) =>
-        `${by === 'name' ? `sie heißt wie eine Odometrie, und ${odometry} nicht` : `sie wiederholt im Stand ihre Pose wie Räder, und ${odometry} nicht`}: Ist die Odometrie als Referenz angegeben?`,
+        `${by === 'name' ? `sie heißt wie eine Odometrie, und ${odometry} nicht` : `sie wiederholt im Stand genau ihre Pose, wie die Odometrie von Rädern, und ${odometry} nicht`}: Ist die Odometrie als Referenz angegeben?`,
       apart: (name, one, other) => `keine Zeit gemeinsam mit ${name} (${one}, und ${other}): Die Uhren werden nach den Drehungen des Roboters gestellt`,
       localizer: 'die Schätzung eines Lokalisierers, deren Fehler der Odometrie folgen: Die Referenz muss unabhängig gemessen sein',
     },

@@ -26,10 +26,10 @@ const ANGLES: Record<Summary['units']['angle']['unit'], string> = { rad: 'yaw in
 /** Reasons for leaving rows out. */
 const REASONS = {
   damaged: 'damaged messages',
-  notFinite: 'no finite number',
+  notFinite: 'a value that is not finite',
   noRotation: 'a quaternion that is no rotation',
   short: 'too few cells',
-  text: 'a cell that is no number',
+  text: 'a cell that is not a number',
   noStamp: 'a stamp of 0',
   duplicate: 'the time of the row before',
   repeated: 'a pose repeated at a higher rate than it was measured',
@@ -40,14 +40,14 @@ const REASONS = {
 
 /** Errors of a log and their corrections, found by comparing it with the other log. */
 const CORRECTIONS: Record<Correction['name'], (other: string, factor: number) => string> = {
-  mirroredX: (other) => `its x axis is mirrored against its heading and against ${other}; negate x`,
-  mirroredY: (other) => `its y axis is mirrored against its heading and against ${other}; negate y`,
-  mirroredYaw: (other) => `its heading has the wrong sign against its path and against ${other}; negate it, as headings grow counterclockwise`,
+  mirroredX: (other) => `its x axis is mirrored relative to its heading and to ${other}; negate x`,
+  mirroredY: (other) => `its y axis is mirrored relative to its heading and to ${other}; negate y`,
+  mirroredYaw: (other) => `its heading has the wrong sign, compared with its path and ${other}; negate it: headings increase counterclockwise`,
   swappedAxes: () => 'its x and y are swapped; swap the two columns',
   leftHanded: (other) => `it turns left where ${other} turns right: one of the two has Z down or a left-handed frame; negate y and the heading of that one`,
-  degrees: () => 'its headings are degrees and were read as radians; state the unit',
-  radians: () => 'its headings are radians and were read as degrees; state the unit',
-  lengths: (other, factor) => `its lengths times ${factor.toPrecision(2)} are those of ${other}; state the unit of both`,
+  degrees: () => 'its headings are in degrees and were read as radians; state the unit of angles',
+  radians: () => 'its headings are in radians and were read as degrees; state the unit of angles',
+  lengths: (other, factor) => `multiplied by ${factor.toPrecision(2)}, its lengths match those of ${other}; state the unit of lengths of both`,
 };
 
 /** Formats that are known and not read, each with the cure. */
@@ -214,7 +214,7 @@ export const log = {
       upAxis: (axis: string) => `${axis} is the vertical axis`,
       sorted: (count: number) => `${count} late ${count === 1 ? 'row' : 'rows'} sorted by time`,
       swapped: (odometry: string, by: 'name' | 'rest') =>
-        `${by === 'name' ? `its name is that of odometry, and ${odometry} is not` : `at rest it repeats its pose as wheels do, and ${odometry} does not`}: was the odometry given as the reference?`,
+        `${by === 'name' ? `its name is that of odometry, and ${odometry} is not` : `at rest it repeats its pose exactly, like wheel odometry, and ${odometry} does not`}: was the odometry given as the reference?`,
       apart: (name: string, one: string, other: string) =>
         `no time in common with ${name} (${one}, and ${other}): the clocks are aligned by the turns of the robot`,
       localizer: 'a localizer’s own estimate, whose errors follow the odometry: measure the reference independently',

@@ -3,7 +3,7 @@
 import { bisectLeft } from 'd3-array';
 import type { CalibrationLog } from '../types.d.ts';
 import { isLocalizer, roleByName } from './candidates.ts';
-import { correctionOf } from './corrections.ts';
+import { correctionOf, type Correction } from './corrections.ts';
 import { withoutFrozenPoses } from './frozen-pose.ts';
 import { LogError } from './log-error.ts';
 import { framesText, type Log, type Note, type Poses, type Role } from './log.ts';
@@ -28,6 +28,9 @@ const MOVED = 0.1;
  * has noise.
  */
 const [RESTS, JITTERS] = [0.02, 0.001];
+
+/** Units that correct a log if they are stated. */
+const UNIT_OF: { [Name in Correction['name']]?: 'angleUnit' | 'lengthUnit' } = { degrees: 'angleUnit', radians: 'angleUnit', lengths: 'lengthUnit' };
 
 /** Returns the absolute times of the first and the last row. */
 const spanOf = ({ start, data: { t } }: Log): [number, number] => [start + t[0], start + t[t.length - 1]];
@@ -70,8 +73,9 @@ export function pairLogs(odometry: Log, reference: Log): Drive {
   if (reliable.data.t.length < 2) throw new LogError(place, (say) => say.held);
   const wrong = correctionOf(first, reliable);
   if (wrong) {
+    const what = UNIT_OF[wrong.name];
     const [log, other] = wrong.at === 'odometry' ? [odometry, reference] : [reference, odometry];
-    throw new LogError({ file: log.name }, (say) => say.correction(wrong.name, other.name, wrong.score, wrong.factor), wrong.ask && { what: wrong.ask, choices: [] });
+    throw new LogError({ file: log.name }, (say) => say.correction(wrong.name, other.name, wrong.score, wrong.factor), what && { what, choices: [] });
   }
   const swapped = swappedBy(first, second);
   const notes: Note[] = [

@@ -150,6 +150,7 @@ class LogReader {
   #plain: (number | undefined)[] = [];
   /** Powers of ten that a second has of the units of clocks; undefined while unknown, and for dates and the like. */
   #powers: (number | undefined)[] = [];
+  /** Seconds and fraction of a second of each clock, in a plain row. */
   #times = new Float64Array(4);
   /** Basis of the unit of times that no name or option states. */
   #basis: Basis = 'usage';
@@ -226,7 +227,7 @@ class LogReader {
     this.#addRow(times[0][0], times[0][1], times[1]?.[0] ?? 0, times[1]?.[1] ?? 0, line);
   }
 
-  /** Takes a row of plain numbers in one pass, and returns false where any cell is not one. */
+  /** Adds a row of plain numbers in one pass, for speed; returns false for any other row. */
   #takePlain(line: string, number: number): boolean {
     if (this.#plain.length === 0 || this.#powers.length === 0 || line.includes('"')) return false;
     const { separator } = this.#format;
@@ -244,7 +245,8 @@ class LogReader {
         if (!Number.isFinite(this.#values[place])) return false;
         continue;
       }
-      const power = this.#powers[-1 - place];
+      const clock = -1 - place;
+      const power = this.#powers[clock];
       if (power === undefined) return false;
       const point = line.indexOf('.', at);
       const hasPoint = point >= 0 && point < to;
@@ -253,8 +255,8 @@ class LogReader {
       if (split <= at) return false;
       const [seconds, rest] = [decimalAt(line, at, split), split === to ? 0 : power === 0 ? decimalAt(line, split, to) : decimalAt(line, split, to) / 10 ** power];
       if (!(seconds >= 0 && rest >= 0)) return false;
-      this.#times[-2 - 2 * place] = seconds;
-      this.#times[-1 - 2 * place] = rest;
+      this.#times[2 * clock] = seconds;
+      this.#times[2 * clock + 1] = rest;
     }
     this.#addRow(this.#times[0], this.#times[1], this.#times[2], this.#times[3], number);
     return true;

@@ -14,9 +14,9 @@ pub struct FinalPose {
 }
 
 group!(FinalPose as FinalPose { x, y, theta } => {
-    /// Position at which the robot is found.
+    /// Position of the robot after the command.
     x: "m", in QUANTITY;
-    /// Position at which the robot is found.
+    /// Position of the robot after the command.
     y: "m", in QUANTITY;
     /// The heading that it is found with.
     theta: "rad", in QUANTITY;
@@ -37,7 +37,7 @@ impl Words for Mapped {
         &[("none", Self::Nothing), ("prob", Self::Prob), ("density", Self::Density)];
 }
 
-/// A command from the origin, and where the robot is found after it: off the commanded arc, so that residuals are seen.
+/// Command from the origin, and pose of the robot after it. The pose is off the commanded arc, so that no residual is 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Preset {
     pub name: &'static str,
@@ -62,9 +62,9 @@ settings! {
     pub struct Settings {
         /// The pose that the robot starts from.
         start: [f64; 3] = [0.0; 3];
-        /// The pose that the robot is found in after the command.
+        /// Pose of the robot after the command.
         next: FinalPose = PRESETS[0].next;
-        /// Command that the robot was given in between.
+        /// Command between the two poses.
         command: VelocityCmd = PRESETS[0].command;
         /// Noise parameters, the six of the velocity model.
         alphas: [f64; 6] = [0.05, 0.05, 0.05, 0.09, 0.01, 0.01], in ALPHA;

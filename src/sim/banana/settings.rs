@@ -44,7 +44,7 @@ settings! {
         command: VelocityCmd = BANANA.command;
         /// Noise parameters of the present model: six of the velocity model, four of the odometry model.
         alphas, by alphas_mut, in ALPHA;
-        /// True if the odometry model charges a robot that backs up for the turns it made instead of two half turns more.
+        /// True if a drive in reverse gets noise for the rotations that the robot made, and not for two additional half turns.
         reverseAware, by reverse_aware_mut;
         /// Number of the only noise parameter in effect; null for all of them.
         isolate: Option<usize> = None, in 1..=6, up to alpha_count;

@@ -39,7 +39,7 @@ settings! {
         command: VelocityCmd = VelocityCmd { v: 1.0, omega: 0.5, dt: 0.2 };
         /// Steps driven one after the other.
         steps: u32 = 20, in 1..=MAX_STEPS;
-        /// The step that is looked at.
+        /// Selected step.
         step: u32 = 20, in 1..=MAX_STEPS;
         /// Noise parameters, the six of the velocity model.
         alphas: [f64; 6] = [0.02, 0.02, 0.02, 0.02, 0.005, 0.005], in ALPHA;

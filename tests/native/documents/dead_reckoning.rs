@@ -33,8 +33,8 @@ fn the_six_per_cent_and_the_lateral_miss_are_those_of_the_machine() {
     told.assert_percent(-compared.misses[0].end, 0.0);
     told.assert_percent(1.0 - exact(&opening, Compounding::Chapter, 0)[19], 0.0);
     let [along, lateral]: [Number; 2] = page().numbers(
-        "it loses # % of the variance along the track that 50\u{202f}000 robots have. Sideways it has none of it at step 1, \
-         and lacks # % at the end.",
+        "After the chapter’s 20 steps the variance along the track is # % below that of 50\u{202f}000 robots. Across the track \
+         it is 0 after step 1, and # % too small at the end.",
     );
     for (lost, axis) in [(along, 0), (lateral, 1)] {
         lost.assert_percent(-compared.misses[axis].end, 0.0);

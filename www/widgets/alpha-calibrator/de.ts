@@ -107,7 +107,7 @@ export const de: typeof import('./en.ts').en = {
     few: (count) => `Empfohlen: die Anpassung selbst, da ${count} zurückgehaltene Fenster von 1 m sie nicht beurteilen können.`,
     covered: (coverage, count) => `Empfohlen: die Anpassung selbst. In ihrem Bereich liegen ${coverage} von ${count} zurückgehaltenen Fenstern von 1 m; richtig sind 95 %.`,
     inflated: (inflation, coverage, count, nees) =>
-      `Empfohlen: angepasst × ${inflation}. Im Bereich der Anpassung liegen ${coverage} von ${count} zurückgehaltenen Fenstern von 1 m (NEES, quadrierter Fehler durch vorhergesagte Varianz, ${nees}: richtig ist 1).`,
+      `Empfohlen: angepasst × ${inflation}. Im Bereich der Anpassung liegen ${coverage} von ${count} zurückgehaltenen Fenstern von 1 m. Quadrierter Fehler durch vorhergesagte Varianz (NEES): ${nees}, erwartet 1.`,
   },
   alphas: {
     title: (kind) => `Angepasste Rauschparameter (${kind})`,

@@ -77,7 +77,7 @@ export const en = {
     few: (count) => `Recommended: the fit itself, as ${of(count, 'held-out window')} of 1 m cannot judge it.`,
     covered: (coverage, count) => `Recommended: the fit itself. It covers ${coverage} of ${count} held-out windows of 1 m; 95 % is right.`,
     inflated: (inflation, coverage, count, nees) =>
-      `Recommended: fitted × ${inflation}. The fit covers ${coverage} of ${count} held-out windows of 1 m (NEES, squared error over predicted variance, ${nees}: 1 is right).`,
+      `Recommended: fitted × ${inflation}. The fit covers ${coverage} of ${count} held-out windows of 1 m. Squared error over predicted variance (NEES): ${nees}, expected 1.`,
   },
   alphas: {
     title: (kind) => `Fitted noise parameters (${kind})`,

@@ -78,8 +78,8 @@ export const de: typeof import('./en.ts').en = {
     unsure: (skew, exactly) => `Zu wenige Roboter, um die Neigung zu zeigen: Schiefe ${skew}, genau ${exactly}.`,
     hardly: (skew, exactly) => `Beide Seiten sind fast gleich: Schiefe ${skew}, genau ${exactly}.`,
     neither: (skew) => `Beide Seiten sind gleich: Schiefe ${skew}, genau 0 (Symmetrie).`,
-    wide: (ratio) => `Die Wolke ist krumm: Ihre Ellipse bedeckt ${ratio}-mal so viel Boden wie der ξ-Umriss.`,
-    gains: (gain) => `Die Wolke ist leicht krumm: Die Ellipse ist etwa so groß wie der ξ-Umriss, hat aber nicht seine Form; die gewinnt ${gain} Nat je Roboter.`,
+    wide: (ratio) => `Die Wolke ist krumm: Ihre Ellipse hat die ${ratio}-fache Fläche des ξ-Umrisses.`,
+    gains: (gain) => `Die Wolke ist leicht krumm: Die Ellipse ist etwa so groß wie der ξ-Umriss, der um ${gain} Nat je Roboter besser passt.`,
     bowTie: {
       velocity: (speed, deviation, skew) =>
         `Eine Fliege: Das Drehen bringt Rauschen α₂ω² ins Tempo. v̂ ist ${speed}\u00a0±\u00a0${deviation}\u00a0m/s, also halten Roboter vor und hinter dem Start. Schiefe ${skew}.`,

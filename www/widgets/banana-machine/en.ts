@@ -83,8 +83,8 @@ export const en = {
     hardly: (skew, exactly) => `Both sides are nearly alike: skew ${skew}, exactly ${exactly}.`,
     neither: (skew) => `Both sides are alike: skew ${skew}, exactly 0 by symmetry.`,
     /** Text before the sentence on the skew. */
-    wide: (ratio) => `The cloud is bent: its ellipse covers ${ratio} times the floor of the ξ outline.`,
-    gains: (gain) => `The cloud is slightly bent: the ellipse has about the size of the ξ outline, not its shape, which gains ${gain} nats a robot.`,
+    wide: (ratio) => `The cloud is bent: its ellipse covers ${ratio} times the area of the ξ outline.`,
+    gains: (gain) => `The cloud is slightly bent: the ellipse is about as large as the ξ outline, which fits better by ${gain} nats per robot.`,
     bowTie: {
       velocity: (speed, deviation, skew) =>
         `A bow-tie: turning adds noise α₂ω² to the speed. v̂ is ${speed}\u00a0±\u00a0${deviation}\u00a0m/s, so robots end ahead of the start and behind it. Skew ${skew}.`,

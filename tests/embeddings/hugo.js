@@ -17,7 +17,6 @@ export default {
     { name: 'production', serve: files('public', '/book/') },
     { name: 'development', serve: (directory, tools) => program((port) => [pythonProgram(directory, 'hugo'), ['server', '--port', port, '--baseURL', '/']])(directory, tools) },
   ],
-  pages: { first: '', second: 'sensors/' },
-  go: (page, path) => page.getByRole('link', { name: path === '' ? 'Motion' : 'Sensors' }).click(),
+  pages: { first: '' },
   expected: [{ selector: 'banana-machine', properties: { omega: 0.8, samples: 20000 } }],
 };

@@ -76,8 +76,8 @@ const PLAIN = {
     allowed: [{ message: /@jridgewell\/resolve-uri/, reason: 'Its development server bundles this package late, and loads the page again.' }],
   },
   'react-router': { heading: 'React Router', packages: ['react-router'], lists: true, node: 24 },
-  eleventy: { heading: 'Eleventy', packages: ['@11ty/eleventy'], output: '_site', base: '/book/', pages: { first: '/', second: '/sensors/' } },
-  observable: { heading: 'Observable Framework', packages: ['@observablehq/framework'], output: 'dist', base: '/book/', copies: 'src', pages: { first: '/', second: '/sensors.html' } },
+  eleventy: { heading: 'Eleventy', packages: ['@11ty/eleventy'], output: '_site', base: '/book/', go: undefined },
+  observable: { heading: 'Observable Framework', packages: ['@observablehq/framework'], output: 'dist', base: '/book/', copies: 'src', go: undefined },
 };
 
 /** Copies the single files of a release into a directory. @param {string} directory */

@@ -5,16 +5,73 @@
 )]
 
 mod calibrate;
-mod chapter;
+/// The chapter's listings and its worked example.
+mod chapter {
+    mod listings;
+    mod worked_example;
+}
 mod common;
 mod digest;
 mod documents;
 #[path = "../fuzz.rs"]
 mod fuzz;
-mod geometry;
-mod laws;
-mod map;
-mod models;
-mod settings;
-mod simulations;
-mod stats;
+/// Poses, arcs and the arithmetic beneath them.
+mod geometry {
+    mod arc;
+    mod double_double;
+    mod group_laws;
+    mod lanes;
+}
+/// Property tests of mathematical laws and of the limits of inputs, with arbitrary doubles. Where a law does not hold for all
+/// doubles, its test says for which ones it does, and why.
+mod laws {
+    pub mod doubles;
+    mod found;
+    mod geometry;
+    mod maps;
+    mod models;
+    mod motions;
+    mod settings;
+    mod statistics;
+}
+/// Floor plans, occupancy grids and motion that a map restricts.
+mod map {
+    pub mod conditioned;
+    mod hard_plans;
+    mod occupancy;
+    mod pixels;
+    mod plans;
+    mod png;
+}
+/// Noises and motion models.
+mod models {
+    mod noise;
+    mod odometry;
+    mod odometry_rules;
+    mod tangent;
+    mod velocity;
+}
+/// Declared settings and the schema generated from them.
+mod settings {
+    mod declared;
+    mod javascript;
+}
+/// The machine of each figure.
+mod simulations {
+    mod alpha_calibrator;
+    pub mod arc_anatomy;
+    pub mod banana;
+    pub mod dead_reckoning;
+    mod large_clouds;
+    mod morph;
+    pub mod odometry_decomposer;
+    mod pictures;
+    mod squeeze;
+}
+/// Statistics of clouds and exact figures of models.
+mod stats {
+    mod coverage;
+    mod gain;
+    mod level_set;
+    mod moments;
+}

@@ -1,4 +1,0 @@
-//! The chapter's listings and its worked example.
-
-mod listings;
-mod worked_example;

@@ -1,7 +1,0 @@
-//! Noises and motion models.
-
-mod noise;
-mod odometry;
-mod odometry_rules;
-mod tangent;
-mod velocity;

@@ -1,4 +1,0 @@
-//! Declared settings and the schema generated from them.
-
-mod declared;
-mod javascript;

@@ -5,8 +5,10 @@ import { join } from 'node:path';
 import { Missing, ROOT, findProgram, mustRun, progress, run } from './process.mjs';
 import { CACHE, aptInstall } from './toolchain.mjs';
 
-/** Headless Chromium is preferred: it takes a third less processor time. */
-const CHROME_NAMES = ['chromium-headless-shell', 'chromium', 'google-chrome', 'google-chrome-stable', 'chrome', 'chromium-browser'];
+/** Programs of the full Chromium, which alone has a back-forward cache. */
+export const FULL_CHROME = ['chromium', 'google-chrome', 'google-chrome-stable', 'chrome', 'chromium-browser'];
+/** Programs of Chromium. The headless one is preferred: it takes a third less processor time. */
+const CHROME_NAMES = ['chromium-headless-shell', ...FULL_CHROME];
 const CHROME_OF_MACOS = '/Applications/Google Chrome.app/Contents/MacOS';
 const SENTENCE =
   'Chromium and a chromedriver of the same version are missing: install both ' +
@@ -56,10 +58,13 @@ async function ensureChrome() {
   return installed;
 }
 
-/** @returns {string | undefined} */
-export function findChrome() {
+/**
+ * @param {string[]} [names] of programs, the preferred one first
+ * @returns {string | undefined}
+ */
+export function findChrome(names = CHROME_NAMES) {
   return (
-    CHROME_NAMES.map((name) => findProgram(name)).find((path) => path !== undefined) ??
+    names.map((name) => findProgram(name)).find((path) => path !== undefined) ??
     findProgram('Google Chrome', [CHROME_OF_MACOS])
   );
 }

@@ -1,5 +1,5 @@
 import { chromium, expect } from '@playwright/test';
-import { CHROME_ARGUMENTS, findChrome } from '../../scripts/browser.mjs';
+import { CHROME_ARGUMENTS, FULL_CHROME, findChrome } from '../../scripts/browser.mjs';
 import { ALL, CLOUDS, KNOWN, NAMES } from './figures.js';
 import { FRESH, STILL, assign, boxOf, centreOf, frames, heard, mount, pictureOf, property, ready, show, stateOf, test, unfold } from './support.js';
 
@@ -287,7 +287,7 @@ test('a figure that was not displayed shows what was set meanwhile @nightly', as
 
 test('a page that comes back from the back-forward cache is alive @nightly', async ({ baseURL }) => {
   const browser = await chromium.launch({
-    executablePath: process.env.CHROME ?? findChrome(), args: CHROME_ARGUMENTS, ignoreDefaultArgs: ['--disable-back-forward-cache'],
+    executablePath: findChrome(FULL_CHROME), args: CHROME_ARGUMENTS, ignoreDefaultArgs: ['--disable-back-forward-cache'],
   });
   const page = await browser.newPage({ baseURL, reducedMotion: 'reduce' });
   await show(page, ALL.map((name) => `<${name} share></${name}>`).join(''));

@@ -7,7 +7,7 @@ import { length, pointOn } from './canvas.ts';
 interface Hooks {
   view: () => import('./view.ts').View;
   /** Returns the x and y of the point that a pointer at `pointer` grasps; by default the middle of the handle. */
-  at?: (pointer: number[]) => number[];
+  at?: (pointer: number[]) => number[] | undefined;
   /** Moves the target to a point. */
   drag: (x: number, y: number) => void;
   /** Handles a key; returns true if it moved the target. */

@@ -105,12 +105,16 @@ export class WallHandles extends Part<import('./map-squeeze.ts').MapSqueezeEleme
 
   #handleOf(grip: Grip) {
     const name = nameOf(grip);
-    const present = () => this.#present.find((each) => each && nameOf(each) === name) as Grip;
+    // A new plan may lack the wall before its handle is removed.
+    const withGrip = <Result>(use: (present: Grip) => Result) => {
+      const present = this.#present.find((each) => each && nameOf(each) === name);
+      return present && use(present);
+    };
     const handle = this.#handles.get(name) ?? new Handle(`${grip.part === 'side' ? 'side' : 'jamb'} ${name}`, {
       view: () => this.host.picture.view,
-      at: () => this.#pointOf(present()),
-      drag: (x, y) => this.#move(present(), (point, axis) => (x - point[0]) * axis[0] + (y - point[1]) * axis[1]),
-      key: (event) => this.#key(event, present()),
+      at: () => withGrip((present) => this.#pointOf(present)),
+      drag: (x, y) => withGrip((present) => this.#move(present, (point, axis) => (x - point[0]) * axis[0] + (y - point[1]) * axis[1])),
+      key: (event) => withGrip((present) => this.#key(event, present)) ?? false,
       commit: () => this.host.restWalls(),
     });
     this.#handles.set(name, handle);
@@ -141,9 +145,8 @@ export class WallHandles extends Part<import('./map-squeeze.ts').MapSqueezeEleme
     this.#place(this.host.picture.view);
   }
 
-  /** Moves a grip along its axis by the wanted distance, within its range. Returns false if the grip is undefined or the distance is NaN. */
+  /** Moves a grip along its axis by the wanted distance, within its range. Returns false if the distance is NaN. */
   #move(grip: Grip, distanceOf: (point: number[], axis: number[]) => number) {
-    if (!grip) return false;
     this.#current = nameOf(grip);
     const distance = clamp(distanceOf(this.#pointOf(grip), grip.axis), grip.range[0], grip.range[1]);
     if (distance) this.host.moveWalls(movedWalls((this.#plan as Plan).walls, grip, distance));

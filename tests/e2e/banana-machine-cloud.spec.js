@@ -209,7 +209,7 @@ test('few robots do not show the lean; the Pivot’s bow-tie has its reason @nig
 test('a cloud that turns a full circle has no exponential coordinates, and says so @nightly', async ({ page }) => {
   const widget = await openWhole(page);
   await set(widget, { omega: 2, dt: 3 });
-  await expect(widget.locator('.note')).toContainText('statistics in ξ are undefined');
+  await expect(widget.locator('.note')).toContainText('there are no statistics in ξ');
   await expect(readout(widget, 'predicts')).toHaveText('—');
   await expect(detail(widget, 'area covered')).toHaveText(/robots inside: [\d.]+\u202f% and —$/);
   for (const name of ['area covered', 'log-likelihood gain', 'exact area']) await expect(readout(widget, name)).toHaveText('—');

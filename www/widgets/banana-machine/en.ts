@@ -55,7 +55,7 @@ export const en = {
     silent: 'Every α is 0: no noise at all, so every robot stops exactly where it was told to.',
     unfed: 'No α that is above 0 has anything to multiply in this command: no noise at all.',
     headings: 'Only γ̂ is noisy: every robot stops at the same point, and only the headings fan out.',
-    circle: 'Some robots turn by nearly 2π. The logarithm is not unique there, so statistics in ξ are undefined.',
+    circle: 'Some robots turn by nearly 2π. The logarithm is not unique there, so there are no statistics in ξ.',
     backwards: 'Odometry reads backing up as two half turns, and the table charges noise for both.',
     line: 'Only one noise is left: the robots lie on a line, and an outline without area holds no share of them.',
   },
@@ -69,7 +69,7 @@ export const en = {
   },
   announcement: (robots, command, outcome) => `${robots} robots, ${command}. ${outcome}`,
   skew: (skew) => `Cross-track skew ${skew}.`,
-  noSkew: 'Cross-track skew undefined.',
+  noSkew: 'No cross-track skew.',
   between: (share, command) => `${share} of the way from the floor to exponential coordinates. Commanded: ${command}.`,
   plane: (command) => `View of the floor from above, x to the right and y up. Commanded: ${command}.`,
   drawnOver: (overlays) => `Drawn over it: ${overlays}.`,
@@ -97,7 +97,7 @@ export const en = {
   fewRobots: 'Too few robots for a skew.',
   robotsHere: (count, printed) => `${printed} ${plural(count, 'robot')} here`,
   exactSkew: (skew) => `exact skew ${skew}`,
-  noExactSkew: 'exact skew undefined',
+  noExactSkew: 'no exact skew',
   twist: 'The same robots in exponential coordinates ξ',
   twistIs: {
     odometry:

@@ -92,8 +92,9 @@ function isCurrent(stamp, sources, products) {
  * @param {boolean} local
  */
 async function buildCores(names, local) {
-  const [binding, packages] = [binder(), ensurePackages(local ? undefined : 'scripts')];
+  // Without Rust nothing else is started, as its failure would end the process before that of Rust is shown.
   const rust = await wasmRust();
+  const [binding, packages] = [binder(), ensurePackages(local ? undefined : 'scripts')];
   progress(`Compiling the core to WebAssembly (${rust.description}): ${names.join(', ')}`);
   const finished = [];
   for (const name of names) {

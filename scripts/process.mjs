@@ -3,7 +3,7 @@
 import { AsyncLocalStorage } from 'node:async_hooks';
 import { spawn } from 'node:child_process';
 import { accessSync, constants, realpathSync, statSync } from 'node:fs';
-import { delimiter, join } from 'node:path';
+import { basename, delimiter, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 
 export const ROOT = fileURLToPath(new URL('..', import.meta.url));
@@ -129,6 +129,9 @@ export function hasEnded(group) {
   if (groups.size === 0) for (const signal of ['SIGINT', 'SIGTERM']) process.off(signal, interrupted);
 }
 
+/** Milliseconds of silence after which a program that runs is named. */
+const SILENCE = 30_000;
+
 /**
  * @typedef {object} RunOptions
  * @property {Record<string, string>} [env] added to the present environment
@@ -138,7 +141,7 @@ export function hasEnded(group) {
  */
 
 /**
- * Runs a program, showing its output as it comes.
+ * Runs a program, showing its output as it comes, and its name while it is silent.
  *
  * @param {string} command
  * @param {string[]} args
@@ -158,6 +161,10 @@ export function run(command, args, { env = {}, cwd = ROOT, seconds, quiet = fals
     let stdout = '';
     let output = '';
     let timedOut = false;
+    const began = Date.now();
+    const reminder = collected.getStore() ? undefined : setInterval(() => {
+      print(`  ${basename(command)} ${basename(args[0] ?? '')} has been running for ${Math.round((Date.now() - began) / 1000)} s\n`);
+    }, SILENCE);
     const group = seconds === undefined ? undefined : child.pid;
     /** @type {NodeJS.Timeout | undefined} */
     let timer;
@@ -171,14 +178,17 @@ export function run(command, args, { env = {}, cwd = ROOT, seconds, quiet = fals
     child.stdout.setEncoding('utf8').on('data', (text) => {
       stdout += text;
       output += text;
+      reminder?.refresh();
       if (!quiet) print(text);
     });
     child.stderr.setEncoding('utf8').on('data', (text) => {
       output += text;
+      reminder?.refresh();
       if (!quiet) print(text, process.stderr);
     });
     const finish = (/** @type {boolean} */ ok) => {
       clearTimeout(timer);
+      clearInterval(reminder);
       if (group !== undefined) hasEnded(group);
       resolve({ ok, timedOut, stdout, output });
     };

@@ -203,11 +203,14 @@ test('doc/calibration.md shows the report of the example', async () => {
 
 test('units are stated for both logs, or for each', async () => {
   const [header, ...rows] = readFileSync(example('odometry'), 'utf8').trim().split('\n');
-  const scaled = file('scaled.csv', [header, ...rows.map((row) => row.split(',').map((cell, i) => Number(cell) * [1000, 1000, 1000, 180 / Math.PI][i]).join(','))].join('\n'));
+  const scaledBy = (/** @type {number} */ scale) => file(`scaled-${scale}.csv`, [header, ...rows.map((row) => row.split(',').map((cell, i) => Number(cell) * [scale, scale, scale, 180 / Math.PI][i]).join(','))].join('\n'));
+  const scaled = scaledBy(1000);
   const units = ['--time-unit', 'ms,s', '--length-unit', 'mm,m', '--angle-unit', 'deg,rad'];
   const [plain, stated] = [await callOf(FILES), await callOf(['--odometry', scaled, ...FILES.slice(2), ...units])];
   assert.deepEqual(stated.reference, plain.reference);
   for (const name of ['t', 'x', 'theta']) assert.ok(Math.abs(stated.odometry[0][name][999] - plain.odometry[0][name][999]) < 1e-9, name);
+  const wrong = await outputOf(['--odometry', scaledBy(1), ...FILES.slice(2), '--angle-unit', 'rad']);
+  assert.match(wrong.err, /^scaled-1\.csv: its headings are in degrees and were read as radians; .* Choose with --angle-unit, as in --angle-unit deg, or --angle-unit rad,deg where/);
 });
 
 test('a folder gives its logs, and other files are skipped', async () => {
@@ -231,7 +234,7 @@ test('--yaml prints the lines for Nav2 alone, or none of an unusable log', async
   const { code, out, err } = await outputOf([...FILES, '--yaml', '--rule', 'nav2']);
   assert.equal(code, 0);
   assert.match(out, /^amcl:\n {2}ros__parameters:\n[^]*\n {4}update_min_a: 0\.2\n$/);
-  assert.match(err, /^odometry\.csv: \d+ of \d+ rows, /);
+  assert.match(err, /^odometry\.csv: \d+ of \d+ rows, [^]*^Consistent: /m);
   const other = backwards();
   const refused = await outputOf([...FILES.slice(0, 3), other, '--yaml']);
   assert.deepEqual([refused.code, refused.out], [3, '']);
@@ -291,11 +294,13 @@ test('inspect lists what is in a file, and the command to go on with', async () 
     /^run\.mcap: MCAP recording$/m, /^ {2}\/chatter +std_msgs\/msg\/String +40$/m, /^ {2}\/odom +nav_msgs\/msg\/Odometry +40 +20\.0 Hz +odometry$/m,
     /^ {2}\/vicon\/robot 1 +geometry_msgs\/msg\/PoseStamped +40 +20\.0 Hz +reference$/m,
     /^ {2}\/tf +tf2_msgs\/msg\/TFMessage +40 +reference map → base_link \(a localizer\)$/m, /^run\.mcap, topic \/lost: 0 of 40 rows can be used/m,
-    /^ {2}motion-widgets calibrate --recording DIR\/run\.mcap --odometry-topic \/odom --reference-topic '\/vicon\/robot 1' --rule nav2$/m,
+    /^ {2}npx motion-widgets calibrate --recording DIR\/run\.mcap --odometry-topic \/odom --reference-topic '\/vicon\/robot 1' --rule nav2$/m,
   ]) assert.match(listed, line);
-  assert.match(await inspected([example('odometry')]), /; give the reference too\.\n\n {2}motion-widgets calibrate --odometry \S+ --reference FILE --rule nav2$/m);
+  for (const [role, other] of [['odometry', 'reference'], ['reference', 'odometry']]) {
+    assert.match(await inspected([example(role)]), new RegExp(`; give the ${other} too\\.\\n\\n {2}npx motion-widgets calibrate --${role} \\S+ --${other} FILE --rule nav2$`, 'm'));
+  }
   const [a, b] = [['b', 'reference'], ['a', 'odometry']].map(([name, from]) => file(`${name}.csv`, readFileSync(example(from))));
-  assert.match(await inspected([a, b]), /\n\n {2}motion-widgets calibrate --odometry DIR\/b\.csv --reference DIR\/a\.csv --rule nav2$/m);
+  assert.match(await inspected([a, b]), /\n\n {2}npx motion-widgets calibrate --odometry DIR\/b\.csv --reference DIR\/a\.csv --rule nav2$/m);
   const positions = file('positions.csv', ['t,odom_x,odom_y,odom_yaw,gt_x,gt_y', ...Array.from({ length: 40 }, (_, i) => `${i / 20},${i / 40},0,0,${i / 40},1`)].join('\n'));
   const { recordings: [{ series }], ...contents } = JSON.parse(await inspected([positions, '--json'], 2));
   assert.deepEqual(series.map((/** @type {any} */ { name, rows, uses, summary }) => [name, rows, uses, summary?.seconds]), [['odom_', 40, ['odometry'], 1.95], ['gt_', 0, [], undefined]]);
@@ -332,7 +337,7 @@ test('the report says what failed, what is lost, and what to drive', async () =>
   const printed = (/** @type {any} */ change, other = {}) => textOf({ calibration: { ...calibration, ...change }, options: { ...options, ...other }, logs: [], start: 0, begins: [10, 1000], date: '' });
   const checks = [{ name: 'enough-legs', value: 20, expected: [100, Infinity], passed: false, message: 'Drive on.' }];
   const failed = printed({ diagnostics: { ...diagnostics, verdict: 'questionable', checks } });
-  assert.match(failed, /^\nQuestionable: one check failed\. .*\n[^]*^enough-legs +20 +≥ 100 +FAILED\nenough-legs: Drive on\.$/m);
+  assert.match(failed, /^\nQuestionable: one check failed \(enough-legs\)\. .*\n[^]*^enough-legs +20 +≥ 100 +FAILED\nenough-legs: Drive on\.$/m);
   assert.match(printed({ recommended: null, diagnostics: { ...diagnostics, verdict: 'unusable' } }), /^\nUnusable: .* It does not identify any α: /);
   const uncovered = [{ name: 'inflation-bounded', value: Infinity, expected: [1, 30], passed: false, message: 'Find the cause.' }];
   assert.match(printed({ recommended: null, diagnostics: { ...diagnostics, verdict: 'unusable', checks: uncovered } }), /^\nUnusable: .* Find the cause\.\n/);

@@ -83,8 +83,8 @@ test('what is not clear is asked', async () => {
     [{ '/odom': 'odometry', '/goal_pose': 'pose' }, 'by its names and types it has no reference, but ', 'series', 'reference'],
     [{ '/odom': 'odometry' }, 'it has no transforms between frames; it has /odom (Odometry).', 'series', 'odometry', ['/odom'], [], { odometry: { frames: { parent: 'odom', child: 'base' } } }],
     [{ '/tf': 'tf' }, 'give a parent and a child frame, connected by base_link,laser.', 'frames', 'odometry', ['base_link,laser'], ['base_link laser']],
-    [{ '/odom': 'odometry' }, 'it has the odometry only, /odom (Odometry); give the reference too.', 'other'],
-    [{ '/mocap': 'pose' }, 'it has the reference only, /mocap (PoseStamped); give the odometry too.', 'other'],
+    [{ '/odom': 'odometry' }, 'it has the odometry only, /odom (Odometry); give the reference too.', 'other', 'odometry'],
+    [{ '/mocap': 'pose' }, 'it has the reference only, /mocap (PoseStamped); give the odometry too.', 'other', 'reference'],
     [{ '/cmd_vel': 'twist' }, 'it has commands only, /cmd_vel (Twist); a reference needs poses.', undefined, undefined, undefined, [], { kind: 'commands' }],
     [{ '/odom': 'odometry', '/leica/position': 'point' }, 'geometry_msgs/msg/PointStamped are positions without a heading; '],
     [{ '/rosout': 'text' }, 'the topics are /rosout (String); '],
@@ -230,6 +230,6 @@ test('a summary has the distance driven, units and how they were judged, dropped
   assert.equal(reference.summary.distance.toFixed(1), '2.0');
   assert.deepEqual(summarize(reference, english.found), [
     '199 of 200 rows, 12.9 s at 20.0 Hz, 2.0 m driven', 'columns t, x, y, yaw_deg; time in ms (by size), lengths in m, yaw in degrees (by name)',
-    'left out 1 row, from line 11 on: a value that is not finite', '1 gap, the first 5.00 s after the start, the longest of 3.05 s',
+    'left out 1 row, line 11: a value that is not finite', '1 gap, the first 5.00 s after the start, the longest of 3.05 s',
   ]);
 });

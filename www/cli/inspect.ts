@@ -93,7 +93,7 @@ async function read(recording: Recording, names: string[], onProgress?: (share: 
 function nextOf(given: Given[]): Pick<Inspected, 'command' | 'missing'> {
   const quoted = (text: string) => (/^[\w./,@%+=:-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`);
   const pathOf = ({ recording }: Pick<Part, 'recording'>) => quoted(given.find((each) => each.recording === recording)?.path ?? recording.name);
-  const command = (...options: string[]) => ['motion-widgets calibrate', ...new Set(options), '--rule nav2'].join(' ');
+  const command = (...options: string[]) => ['npx motion-widgets calibrate', ...new Set(options), '--rule nav2'].join(' ');
   const all = given.map(({ recording }) => `--recording ${pathOf({ recording })}`);
   try {
     const { drives, unpaired } = planDrives(given.map(({ recording }) => recording));
@@ -105,7 +105,7 @@ function nextOf(given: Given[]): Pick<Inspected, 'command' | 'missing'> {
   } catch (error) {
     if (!(error instanceof LogError)) throw error;
     const missing = error.message;
-    const [role] = ROLES.filter((each) => given.some(({ recording }) => candidates(recording, each).some(({ length }) => length > 0)));
+    const role = error.ask?.role ?? ROLES.find((each) => given.some(({ recording }) => candidates(recording, each).some(({ length }) => length > 0)));
     switch (error.ask?.what) {
       case 'other': return { missing, ...(role && { command: command(`--${role} ${pathOf(given[0])}`, role === 'odometry' ? '--reference FILE' : '--odometry FILE') }) };
       case 'series': return { missing, command: command(...all, '--odometry-topic NAME', '--reference-topic NAME') };

@@ -11,11 +11,11 @@ export class UsageError extends Error {}
 
 export const HELP = `motion-widgets: the α's of a robot's motion model, from logs of its odometry and of a reference
 
-  motion-widgets inspect run.bag
+  npx motion-widgets inspect run.bag
       lists what is in a recording or table, what could be odometry or reference, and the command to go on with
-  motion-widgets calibrate --recording run.bag --rule nav2
+  npx motion-widgets calibrate --recording run.bag --rule nav2
       calibrates from a bag, folder or MCAP file that has both, for Nav2's AMCL
-  motion-widgets calibrate --odometry odom.csv --reference mocap.csv --rule nav2 --yaml > alphas.yaml
+  npx motion-widgets calibrate --odometry odom.csv --reference mocap.csv --rule nav2 --yaml > alphas.yaml
       calibrates from two files, and writes the lines for Nav2
 
 Logs: ROS 1 bags, rosbag2 (MCAP, SQLite, folders), CSV and other tables, TUM.
@@ -110,7 +110,7 @@ export function optionsOf(args: string[]): Calibrate | Inspect | 'help' | 'versi
   const open = (role: Role = 'odometry', names = columns('columns')): OpenOptions => ({ ...unitsOf(values, role), ...(names && { columns: names }) });
   if (command === 'inspect') {
     const all = [...paths, ...(values.recording ?? []), ...(values.odometry ?? []), ...(values.reference ?? [])];
-    if (all.length === 0) throw new UsageError('inspect needs a file or folder: motion-widgets inspect run.bag');
+    if (all.length === 0) throw new UsageError('inspect needs a file or folder: npx motion-widgets inspect run.bag');
     const other = Object.keys(values).find((name) => !OF_INSPECT.includes(name));
     if (other !== undefined) throw new UsageError(`--${other} is an option of calibrate; inspect has ${listOf(OF_INSPECT.map((name) => `--${name}`))}.`);
     return { command, inputs: all.map((path) => ({ path, open: open() })), isJson: values.json ?? false };

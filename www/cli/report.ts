@@ -84,12 +84,12 @@ const [RED, GREEN, YELLOW] = [31, 32, 33];
 const painted = (color: number) => (text: string) => `\x1b[${color}m${text}\x1b[0m`;
 
 /** Returns the verdict and what to do. */
-function verdictSentence({ diagnostics: { verdict, checks } }: any): string {
+export function verdictSentence({ diagnostics: { verdict, checks } }: any): string {
   const failed = failedOf(checks);
   if (verdict === 'consistent') return 'Consistent: all checks passed. Use the recommended α’s with legs of this length.';
   if (verdict === 'questionable') {
     const count = failed.length === 1 ? 'one check' : `${failed.length} of ${checks.length} checks`;
-    return `Questionable: ${count} failed. Read below what that means; if the log cannot be improved, use the recommended α’s.`;
+    return `Questionable: ${count} failed (${failed.map(({ name }) => name).join(', ')}). If the log cannot be improved, use the recommended α’s.`;
   }
   const message = failed.find(({ name }) => DECISIVE.includes(name))?.message ?? 'It does not identify any α: see below what to drive.';
   return `Unusable: no α’s are recommended from this log. ${message}`;

@@ -4,13 +4,14 @@ import { writeFile } from 'node:fs/promises';
 import { planDrives, readDrives, type Drive } from '../logs/drives.ts';
 import { log as words } from '../logs/en.ts';
 import { LogError, cut } from '../logs/log-error.ts';
+import { UNITS } from '../logs/log.ts';
 import { logOf } from '../logs/pairs.ts';
 import { summarize } from '../logs/summary.ts';
 import { recordingsOf } from './files.ts';
 import { inspect, textOf as textOfContents, type Given } from './inspect.ts';
 import { HELP, UsageError, optionsOf, withOption, type Calibrate } from './options.ts';
 import { plotOf } from './plot.ts';
-import { jsonOf, logSummaries, textOf, nav2YamlOf, type Result } from './report.ts';
+import { jsonOf, logSummaries, textOf, nav2YamlOf, verdictSentence, type Result } from './report.ts';
 
 interface Environment {
   /** Loads the core. */
@@ -57,6 +58,11 @@ function adviceOf({ ask, message }: LogError): string {
   const { what, role = 'odometry', choices } = ask;
   if (what === 'other') return ' Name both, with --odometry FILE and --reference FILE.';
   const option = { series: `--${role}-topic`, frames: `--${role}-frames`, columns: '--columns', timeUnit: '--time-unit', lengthUnit: '--length-unit', angleUnit: '--angle-unit', roles: '--odometry and --reference' }[what];
+  if (what in UNITS) {
+    const [usual, ...others] = UNITS[what as keyof typeof UNITS];
+    const unit = choices.find((each) => each !== usual) ?? others[others.length - 1];
+    return ` Choose with ${option}, as in ${option} ${unit}, or ${option} ${usual},${unit} where odometry and reference differ.`;
+  }
   const [first] = choices.length > 0 ? choices.filter(Boolean) : what === 'columns' ? ['t,x,y,yaw'] : [];
   return ` Choose with ${option}${first === undefined ? '' : `, as in ${option} ${cut(first)}`}.`;
 }
@@ -85,6 +91,7 @@ async function calibrate({ inputs, wishes, fit, output, plot }: Calibrate, { loa
   const isUnusable = calibration.recommended === null;
   if (output === 'yaml') {
     const { yaml, reason } = nav2YamlOf(result);
+    complain(`${verdictSentence(calibration)}\n`);
     if (reason) complain(`${reason}\n`);
     print(yaml);
     return isUnusable ? UNUSABLE : yaml ? SUCCESS : BAD_INPUT;

@@ -187,7 +187,7 @@ export const log: Words = {
     units: ({ time, length, angle }) =>
       `Zeit in ${time.unit}${BY[time.by]}, Längen in ${length.unit}${BY[length.by]}${ANGLES[angle.unit] ? `, ${ANGLES[angle.unit]}${BY[angle.by]}` : ''}`,
     leftOut: (reason, count, line) =>
-      `ausgelassen ${times(count, 'Zeile', 'Zeilen')}${line ? ` ab Zeile ${line}` : ''}: ${REASONS[reason]}`,
+      `ausgelassen ${times(count, 'Zeile', 'Zeilen')}${line ? ` ${count === 1 ? 'in' : 'ab'} Zeile ${line}` : ''}: ${REASONS[reason]}`,
     gaps: (count, first, longest) => `${times(count, 'Lücke', 'Lücken')}, die erste ${comma(first, 2)} s nach dem Start, die längste von ${comma(longest, 2)} s`,
     jumps: (count, first) => `${times(count, 'Sprung', 'Sprünge')}, der erste ${comma(first, 2)} s nach dem Start`,
     logTimes: 'Zeiten der Aufzeichnung, da die Köpfe der Nachrichten keine haben',

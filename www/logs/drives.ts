@@ -141,7 +141,10 @@ function guessedChoice(recording: Recording, role: Role, wishes: Wishes, other?:
   if (positions.length === useful.length || (role === 'reference' && best.length === 0 && positions.length > 0)) {
     throw new LogError({ file }, (say) => say.positions(listed(positions.map(({ type }) => type))));
   }
-  if (useful.length === 1) throw new LogError({ file }, (say) => say.alone(described(useful), knownRole(recording, useful[0])), { what: 'other', choices: [] });
+  if (useful.length === 1) {
+    const known = knownRole(recording, useful[0]);
+    throw new LogError({ file }, (say) => say.alone(described(useful), known), { what: 'other', role: known, choices: [] });
+  }
   throw new LogError(
     { file },
     (say) => (best.length > 0 ? say.choose : say.lacks)(role, described(useful)),

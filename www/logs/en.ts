@@ -201,7 +201,7 @@ export const log = {
     units: ({ time, length, angle }: Summary['units']) =>
       `time in ${time.unit}${BY[time.by]}, lengths in ${length.unit}${BY[length.by]}${ANGLES[angle.unit] ? `, ${ANGLES[angle.unit]}${BY[angle.by]}` : ''}`,
     leftOut: (reason: Cause, count: number, line: number) =>
-      `left out ${count} ${count === 1 ? 'row' : 'rows'}${line ? `, from line ${line} on` : ''}: ${REASONS[reason]}`,
+      `left out ${count} ${count === 1 ? 'row' : 'rows'}${line ? (count === 1 ? `, line ${line}` : `, from line ${line} on`) : ''}: ${REASONS[reason]}`,
     gaps: (count: number, first: number, longest: number) =>
       `${count} ${count === 1 ? 'gap' : 'gaps'}, the first ${first.toFixed(2)} s after the start, the longest of ${longest.toFixed(2)} s`,
     jumps: (count: number, first: number) => `${count} ${count === 1 ? 'jump' : 'jumps'}, the first ${first.toFixed(2)} s after the start`,

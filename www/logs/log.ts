@@ -75,7 +75,7 @@ export interface OpenOptions {
 /** Question of an error: the option that answers it, and the answers. */
 export interface Question {
   what: keyof typeof UNITS | 'series' | 'columns' | 'frames' | 'roles' | 'other';
-  /** Log that a choice of series or frames is for. */
+  /** Log that a choice of series or frames is for, or that is there. */
   role?: Role;
   choices: string[];
   /** Columns of the table: their names, or the cells of its first row. */

@@ -110,8 +110,8 @@ function timeUnit(kind: LogKind, { t, a, b, c }: Columns, { time: assumed, lengt
   if (fits(assumed.unit)) return assumed;
   const [unit, ...others] = units.filter(fits);
   if (unit && others.length === 0 && moves) return { unit, by: 'rate' };
-  // A robot that is too fast may have its lengths in another unit.
-  if (isWithin(rate(assumed.unit), USUAL_RATES) && speed > FASTEST) return assumed;
+  // A robot that is too fast may have its lengths or headings in another unit.
+  if (isWithin(rate(assumed.unit), USUAL_RATES) && Math.max(speed, turn) > FASTEST) return assumed;
   return ask('timeUnit', rate(assumed.unit), assumed.unit, units.filter((each) => isWithin(rate(each), USUAL_RATES)));
 }
 

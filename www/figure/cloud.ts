@@ -237,8 +237,9 @@ export class Cloud extends Part {
 
   buttons() {
     const say = words.cloud;
+    const [label, other] = this.playing ? [words.pause, say.play] : [say.play, words.pause];
     return html`<div class="buttons">
-      ${button(this.playing ? words.pause : say.play, () => this.play(), { title: say.playTitle })}
+      ${button(label, () => this.play(), { title: say.playTitle, other })}
       ${button(words.step, () => this.step(), { title: say.step(counted(this.#batch)), disabled: this.complete })}
       ${button(words.clear, () => this.clear(), { title: say.clear })}
       ${this.#seedField()} ${button(words.newSeed, () => this.reseed(), { title: say.reseed })}

@@ -55,6 +55,14 @@ export const controlStyles = css`
     cursor: pointer;
   }
 
+  button[data-other]::after {
+    content: attr(data-other);
+    display: block;
+    height: 0;
+    overflow: hidden;
+    visibility: hidden;
+  }
+
   button:disabled {
     border-color: var(--rule);
     color: var(--muted);
@@ -240,11 +248,12 @@ export function toggle({ label, checked, change }: { label: unknown, checked: bo
   </label>`;
 }
 
-/** Returns a button, with a class as its name. */
-export function button(label: unknown, press: () => void, { pressed, disabled = false, title, name }: { pressed?: boolean, disabled?: boolean, title?: string, name?: string } = {}) {
+/** Returns a button, with a class as its name. It is wide enough for its other label, so that nothing moves when the label changes. */
+export function button(label: unknown, press: () => void, { pressed, disabled = false, title, name, other }: { pressed?: boolean, disabled?: boolean, title?: string, name?: string, other?: string } = {}) {
   return html`<button
     type="button"
     class=${name ?? nothing}
+    data-other=${other ?? nothing}
     part="button"
     ?disabled=${disabled}
     title=${title ?? nothing}

@@ -65,6 +65,7 @@ export class Player<Key extends string> extends Part {
 
   /** Returns the button that plays and pauses, with a label for the animation. With reduced motion there is only the slider. */
   button(key: Key, label: string) {
-    return isCalm() ? nothing : button(this.#key === key ? words.pause : label, () => this.#toggle(key));
+    const [now, other] = this.#key === key ? [words.pause, label] : [label, words.pause];
+    return isCalm() ? nothing : button(now, () => this.#toggle(key), { other });
   }
 }

@@ -96,9 +96,11 @@ function drawKey({ context, view, palette, font }: Brush, before: string, entrie
   }
 }
 
-/** Returns about this many ticks, with the factor of their unit and their labels. */
+/** Returns about this many ticks, with the factor of their unit and their labels. One tick shows no scale: then it returns more. */
 function ticksOf(from: number, to: number, count: number) {
-  const values = ticks(from, to, Math.max(2, Math.floor(count)));
+  const most = Math.max(2, Math.floor(count));
+  const few = ticks(from, to, most);
+  const values = few.length > 1 ? few : ticks(from, to, 2 * most);
   const step = values.length > 1 ? values[1] - values[0] : 1;
   const exponent = step < NEAREST_TICKS ? Math.floor(Math.log10(step) + 1e-9) : 0;
   return {

@@ -199,10 +199,10 @@ function drawWedge({ context, view }: Brush, next: Pose, turn: number, colour: s
   strokeLine(context, [[x, y], [x + WEDGE * before.x, y + WEDGE * before.y]], { colour, width: 1.25 });
 }
 
-/** Returns the place of the wedge's label, CSS pixels. */
+/** Returns the place of the wedge's label, which covers nothing of the wedge, CSS pixels. */
 function besideWedge({ view }: Brush, next: Pose, turn: number): { x: number, y: number, towards: number } {
   const ahead = view.direction(next.theta - turn / 2);
-  return { x: view.toPixelX(next.x) + (WEDGE + 8) * ahead.x, y: view.toPixelY(next.y) + (WEDGE + 10) * ahead.y, towards: 0 };
+  return { x: view.toPixelX(next.x) + (WEDGE + 8) * ahead.x, y: view.toPixelY(next.y) + (WEDGE + 20) * ahead.y, towards: ahead.x };
 }
 
 function drawHeading({ context, view }: Brush, { x, y, theta }: Pose, colour: string) {

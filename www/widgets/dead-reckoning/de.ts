@@ -41,7 +41,7 @@ export const de: typeof import('./en.ts').en = {
   },
   axisAlong: 'ξ längs (m)',
   axisLateral: 'ξ quer (m)',
-  stretched: (axis, factor) => `${axis}, ${factor}-fach vergrößert`,
+  stretched: { along: (factor) => `ξ längs ${factor}-fach vergrößert`, lateral: (factor) => `${factor}-fach vergrößert` },
   components: { along: 'längs', lateral: 'quer', heading: 'Richtung' },
   of: { along: 'längs', lateral: 'quer', heading: 'in der Richtung' },
   ratioAxis: 'vorhergesagte / gemessene Varianz',

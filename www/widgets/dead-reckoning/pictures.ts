@@ -129,9 +129,10 @@ export function stretchesOf({ scaleX, scaleY }: Pick<View, 'scaleX' | 'scaleY'>)
   return [scaleX / scaleY, scaleY / scaleX].map((by) => (by > UNSEEN ? significant(by, by < 10 ? 2 : 1) : ''));
 }
 
-/** Returns the names of the axes, with the factor by which one is stretched against the other. */
+/** Returns the names of the axes. The upper one has the factor by which an axis is stretched: next to the lower one it would hide ticks. */
 function axesOf(view: View) {
-  const { axisAlong, axisLateral, stretched } = words.reckoning;
-  const [x, y] = stretchesOf(view).map((by, i) => (by ? stretched([axisAlong, axisLateral][i], by) : [axisAlong, axisLateral][i]));
-  return { x, y };
+  const { axisAlong: x, axisLateral, stretched } = words.reckoning;
+  const [along, lateral] = stretchesOf(view);
+  const factor = along ? stretched.along(along) : lateral && stretched.lateral(lateral);
+  return { x, y: factor ? `${axisLateral}, ${factor}` : axisLateral };
 }

@@ -16,13 +16,14 @@ const chartAlone = css`
     top: var(--top);
     z-index: 2;
     max-width: none;
+    margin-bottom: 0.5em;
     box-sizing: border-box;
     background: var(--paper);
     border-inline: max(0px, (100cqi - 45svh * 1.52) / 2) solid var(--paper);
     box-shadow:
       -0.5em 0 var(--paper),
       0.5em 0 var(--paper),
-      0 0.5em 0.5em var(--paper);
+      0 0.25em 0.25em var(--paper);
   }
 
   .floor .stage[part='picture'] {
@@ -82,7 +83,7 @@ const own = css`
     }
 
     .said .caption {
-      min-height: 5lh;
+      min-height: 6lh;
       font-size: 0.95em;
       line-height: 1.25;
     }
@@ -96,6 +97,10 @@ const own = css`
   @container (min-width: 44em) {
     .chart .plot text {
       font-size: 10.8px;
+    }
+
+    .said .caption {
+      min-height: 5lh;
     }
   }
 

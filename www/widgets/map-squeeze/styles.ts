@@ -102,8 +102,12 @@ const own = css`
 
   }
 
-  /* The samplers in one row. */
+  /* The samplers in one row, and any share in a headline of as many rows. */
   @container (38em <= width < 56em) {
+    .headline {
+      font-size: 1.85em;
+    }
+
     .judge .choices > span {
       flex: 1 0 100%;
     }
@@ -115,10 +119,6 @@ const own = css`
   }
 
   @container (min-width: 56em) {
-    .headline {
-      font-size: 2em;
-    }
-
     .verdict.caption {
       min-height: 2lh;
     }

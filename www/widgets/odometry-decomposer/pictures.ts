@@ -48,8 +48,8 @@ const ANCHORS = [0.5, 0.3, 0.7, 0.1, 0.9];
 
 const AXES = { x: 'x (m)', y: 'y (m)' };
 
-/** Length of the axes of the odometry frame, m. */
-const AXIS = 0.35;
+/** Length of the axes of the odometry frame, m: less than the margin, so that none is clipped. */
+const AXIS = 0.28;
 
 /** Returns the key of an exported picture: on the page the legend stands beside it. */
 function keyOf(brush: Brush, { overlays }: Scene, names: LineName[]) {

@@ -190,7 +190,7 @@ impl Differences {
     /// The areas are 4π√(det Σ_xy) and 4π√(det Σ_sφ) times the mean Jacobian over the ellipse. Uniform points of a 2σ ellipse have the
     /// Gaussian's own covariance, so that to third order this mean is that of the robots. The influence of a robot is then
     /// ½(z² − w²) − J/mean J, up to a constant, with z and w its two Mahalanobis distances. Also the error for the outline in ξ, which
-    /// is that of the arcs to first order.
+    /// is that of the arcs to first order. With the presets it is 0 to 14 % smaller than the spread of the ratio.
     pub fn log_area_error(&self, count: usize) -> f64 {
         let total = self.weights.reduce_add();
         let [u, uu, hu, hh] = self.areas.map(|sum| sum.reduce_add() / total);

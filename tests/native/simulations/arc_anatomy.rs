@@ -73,6 +73,19 @@ fn the_printed_option_computes_the_lines_of_the_table() {
     }
 }
 
+#[test]
+fn robots_end_where_their_arcs_do_and_the_last_turn_gives_the_final_heading() {
+    for settings in random(3).take(2000) {
+        let (_, next) = poses(&settings);
+        let Stats { commanded, driven, last_turn, .. } = stats(settings);
+        assert!(wrap_angle(driven.end[2] + last_turn - next.theta()).abs() < 1e-13, "{settings:?}");
+        let [as_commanded, as_driven, _] = machine(settings).underway(1.0);
+        for (robot, bend) in [(as_commanded, commanded), (as_driven, driven)] {
+            assert_eq!([robot.x(), robot.y()], bend.end[..2], "{settings:?}");
+        }
+    }
+}
+
 /// The table as printed is wrong where the centre lies to the right of the heading, and nowhere else: what it finds then
 /// drives to the mirror image of the final position.
 #[test]

@@ -47,6 +47,11 @@ fn common_random_numbers() {
     for (before, after) in before.iter().zip(excess(&machine)) {
         assert!((2.0 * before - after).abs() < 1e-14);
     }
+    // A larger cloud begins with the smaller one.
+    let more = Settings { samples: 900, ..alone(0.01) };
+    machine.configure_first(more, 700).expect("a valid setting");
+    assert_eq!((machine.poses().len(), &excess(&machine)[..500]), (700, &before[..]));
+    assert_eq!(machine.add_samples(usize::MAX), 900);
 }
 
 #[test]

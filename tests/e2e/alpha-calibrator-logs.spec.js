@@ -162,7 +162,7 @@ test('what a table leaves open is asked, and the answer holds for that file', as
   await expect(caption(widget)).toHaveText(/of odom\.csv, truth\.csv[.,]/);
 });
 
-test('the files of a dropped folder are one recording @nightly', async ({ page }) => {
+test('the files of a dropped folder are one recording', async ({ page }) => {
   const widget = await openCalibrator(page);
   const bytes = [...(await recordingWith(['/mocap/pose']))];
   await widget.locator('section.machine').evaluate((section, content) => {

@@ -212,7 +212,7 @@ test('an α that a log does not tell from 0 is no result of 0 @nightly', async (
   }
 });
 
-test('of an α that a log does not determine it says why, and what to add @nightly', async ({ page }) => {
+test('of an α that a log does not determine it says why, and what to add', async ({ page }) => {
   const widget = await openCalibrator(page);
   await widget.evaluate((element) => {
     const count = 2000;

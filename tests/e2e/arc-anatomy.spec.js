@@ -88,7 +88,7 @@ test('the robot moves and turns by keyboard, and stops where the floor ends', as
   await expect(body(widget)).toHaveAttribute('aria-valuetext', /Limit reached$/);
 });
 
-test('the start moves and turns, the commanded arc with it, and the robot stays where it is found @nightly', async ({ page }) => {
+test('the start moves and turns, the commanded arc with it, and the robot stays where it is found', async ({ page }) => {
   const widget = await open(page);
   const [start, ahead] = ['Start', 'Heading at the start'].map((name) => widget.getByRole('slider', { name, exact: true }));
   const before = await told(widget);

@@ -181,7 +181,7 @@ test('a cloud that is half grown stays so over a move and over a removal @nightl
   await expect.poll(() => pictureOf(widget.locator('canvas.plane'))).toBe(picture);
 });
 
-test('folds, fields and height of a figure stay over a move and over a removal @nightly', async ({ page, figure }) => {
+test('folds, fields and height of a figure stay over a move and over a removal', async ({ page, figure }) => {
   await show(page, `<div id="a"><${figure}></${figure}></div><div id="b"></div>`);
   const widget = page.locator(figure);
   await ready(widget);

@@ -82,7 +82,7 @@ test('figures in shadow roots, closed ones too, have parts of their own in the f
   ]);
 });
 
-test('a link leads to the figure that it was copied from, once; a reload leads nowhere @nightly', FRESH, async ({ page, context }) => {
+test('a link leads to the figure that it was copied from, once; a reload leads nowhere', FRESH, async ({ page, context }) => {
   const gap = '<p style="margin: 2000px 0">Between</p>';
   const body = `${gap}<banana-machine></banana-machine>${gap}<banana-machine></banana-machine>${gap}`;
   await show(page, body);

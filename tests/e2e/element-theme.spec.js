@@ -225,7 +225,7 @@ test('the stylesheet adopts muted text, hairlines and header height of a theme, 
   expect(await look()).toEqual(['#010203', '#040506', 7]);
 });
 
-test('a figure has the paper and ink of --motion-paper and --motion-ink @nightly', async ({ page, figure }) => {
+test('a figure has the paper and ink of --motion-paper and --motion-ink', async ({ page, figure }) => {
   const widget = await mount(page, figure, { attributes: 'style="--motion-paper: #102030; --motion-ink: #f0f0f0"', head: '<style>body { background: #fff; color: #000 }</style>' });
   // Light text on a dark background: the dark palette.
   expect(await surfaceOf(widget)).toMatchObject({ backgroundColor: 'rgb(16, 32, 48)', color: 'rgb(240, 240, 240)', colorScheme: 'dark' });

@@ -98,7 +98,7 @@ test('presets keep the map of the reader, and buttons lead to the apartment and 
   await expect(widget.getByRole('button', { name: 'Back to room.json' })).toHaveCount(0);
 });
 
-test('unknown cells are hatched, and free or blocked as the reader chooses @nightly', async ({ page }) => {
+test('unknown cells are hatched, and free or blocked as the reader chooses', async ({ page }) => {
   const widget = await openSqueeze(page);
   await expect(widget.getByRole('radiogroup', { name: 'Unknown cells' })).toHaveCount(0);
   // A corridor of 4 m × 1 m, whose right half is unknown.

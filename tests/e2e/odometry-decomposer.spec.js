@@ -114,7 +114,7 @@ test('on paper every rule has its name, and the chosen one stands out @nightly',
   await expect(widget.getByText('triangular', { exact: true })).toBeHidden();
 });
 
-test('the frame drifts, and no outcome moves @nightly', async ({ page }) => {
+test('the frame drifts, and no outcome moves', async ({ page }) => {
   const widget = await open(page);
   const before = await told(widget);
   const legs = await pictureOf(widget.locator('canvas.plane'));

@@ -111,7 +111,7 @@ for (const name of ALL) {
   test(`Tab leads to every handle and control of ${name} @nightly`, ({ page }) => expectTabStops(page, name));
 }
 
-test('the focus stays near a control that goes or is disabled by its own action @nightly', async ({ page }) => {
+test('the focus stays near a control that goes or is disabled by its own action', async ({ page }) => {
   const focused = (/** @type {Locator} */ widget) => widget.evaluate(({ shadowRoot }) => shadowRoot?.activeElement?.closest('.presets, .lines, section')?.className);
   await show(page, '<map-squeeze></map-squeeze><arc-anatomy></arc-anatomy>');
   const map = page.locator('map-squeeze');

@@ -106,7 +106,7 @@ const map = await elementsOf(page, await svgOf(await openSqueeze(page)));
   expect(map.paths).toBeGreaterThan(400);
 });
 
-test('PNG of a figure has twice the pixels and opaque paper @nightly', async ({ page, figure }) => {
+test('PNG of a figure has twice the pixels and opaque paper', async ({ page, figure }) => {
   await page.emulateMedia({ colorScheme: 'dark' });
   const widget = await mount(page, figure);
   const png = await widget.evaluate(async (element) => {

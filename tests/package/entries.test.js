@@ -221,6 +221,11 @@ test('external.js loads a widget when its tag is met, with the words that the pa
   await page.close();
 });
 
+test('the classic script is ASCII: it means the same, whatever encoding its page has', () => {
+  const bytes = readFileSync(join(ROOT, 'dist/motion-widgets.iife.js'));
+  assert.equal(bytes.find((byte) => byte > 127), undefined);
+});
+
 test('two copies of the bundle on a page get along @nightly', async () => {
   const classic = '<script defer src="/iframe/motion-widgets.iife.js"></script>';
   for (const other of [classic, script('external.js?copy')]) {
@@ -229,7 +234,7 @@ test('two copies of the bundle on a page get along @nightly', async () => {
   }
 });
 
-test('the address of the external module can be set by the script that imports it @nightly', async () => {
+test('the address of the external module can be set by the script that imports it', async () => {
   const address = `${DIST}motion.wasm?mine`;
   const { complaints, modules } = await pageWith(
     `<script type="module">import { load } from '${DIST}external.js'; load('${address}');</script>`,

@@ -129,6 +129,8 @@ const DEEDS = {
   },
   async resize(page, luck) {
     const [width, height] = luck.one(SIZES);
+    // The window of a full screen has one size.
+    await page.evaluate(() => document.fullscreenElement && document.exitFullscreen());
     await page.setViewportSize({ width, height });
     return `${width} × ${height}`;
   },
@@ -218,8 +220,8 @@ function complaintsAbout(page, name) {
     const element = /** @type {any} */ (document.querySelector(name));
     const there = async (/** @type {any} */ element) => {
       element.scrollIntoView({ block: 'start', behavior: 'instant' });
-      for (let i = 0; i < 600 && !element.machine && element.runtime.failure === undefined; i++) await new Promise(requestAnimationFrame);
-      for (let i = 0; i < 5; i++) await new Promise(requestAnimationFrame);
+      await element.settled;
+      await element.updateComplete;
     };
     element.hidden = false;
     await there(element);
@@ -237,6 +239,7 @@ function complaintsAbout(page, name) {
     };
     // A growing cloud would have more samples a moment later.
     element.setState({ ...element.getState(), playing: false });
+    await element.settled;
     const before = await told(element);
     const state = element.getState();
     const fresh = /** @type {any} */ (document.createElement(name));

@@ -87,6 +87,8 @@ export class Stage extends Part {
     this.#sizes = new ResizeObserver((entries) => this.#resize(entries));
     this.#measure();
     this.requestFrame();
+    this.#printing = matchMedia('print').matches;
+    if (this.#printing) this.#print(true);
   }
 
   /** Measures again after a change of the pixel ratio: in WebKit the observer reports CSS pixels alone. */
@@ -226,8 +228,9 @@ export class Stage extends Part {
     return canvases.find(({ className }) => className === name) as HTMLCanvasElement;
   }
 
-  /** Sets each canvas to the size of its device pixels. */
+  /** Sets each canvas to the size of its device pixels. In print its pixels give its proportions, so that new pixels would resize it again. */
   #resize(entries: ResizeObserverEntry[]) {
+    if (this.#printing) return;
     for (const { target, contentRect, devicePixelContentBoxSize } of entries) {
       const canvas = target as HTMLCanvasElement;
       const exact = devicePixelContentBoxSize?.[0];

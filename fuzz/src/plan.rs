@@ -53,13 +53,26 @@ pub fn read(input: &mut Input) -> Option<FloorPlan> {
             _ => Segment { from, to },
         });
     }
+    let are_good = bounds.iter().all(|bound| bound.abs() <= 1e6)
+        && [right - left, top - bottom].iter().all(|side| (0.01..=1e5).contains(side));
+    // The edge has a tolerance for rounding.
+    let edge = 1e-12 * bounds.iter().fold(0.0, |most: f64, bound| most.max(bound.abs()));
+    let is_outside = |[x, y]: [f64; 2]| {
+        !(left - edge..=right + edge).contains(&x) || !(bottom - edge..=top + edge).contains(&y)
+    };
     match FloorPlan::new(walls.clone(), bounds) {
-        Ok(plan) => Some(plan),
+        Ok(plan) => {
+            assert!(are_good && !walls.iter().any(|wall| is_outside(wall.from) || is_outside(wall.to)));
+            Some(plan)
+        }
         Err(error) => {
             let message = error.to_string();
             assert!(message.contains("; allowed is "), "{message}");
             match error {
-                FloorPlanError::BadBounds(which) => super::laws::same(&message, &which, &bounds),
+                FloorPlanError::BadBounds(which) => {
+                    assert!(!are_good, "{message}");
+                    super::laws::same(&message, &which, &bounds);
+                }
                 FloorPlanError::BadWall { index, end } => {
                     assert!(index < count, "{message}");
                     let [x, y] = end;

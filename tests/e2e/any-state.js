@@ -4,25 +4,9 @@
  * @module
  */
 
-/** @typedef {() => number} Random from 0 to 1 */
+import { generator } from '../random.js';
 
 export const SEEDS = [1, 2, 3, 4, 5, 6, 7, 8];
-
-/**
- * Marsaglia's xorshift, so that a state that fails can be had again.
- *
- * @param {number} seed
- * @returns {Random}
- */
-function randomOf(seed) {
-  let state = seed * 2654435761;
-  return () => {
-    state ^= state << 13;
-    state ^= state >>> 17;
-    state ^= state << 5;
-    return (state >>> 0) / 2 ** 32;
-  };
-}
 
 /**
  * A state of each element, by its tag, in which everything is said.
@@ -30,7 +14,7 @@ function randomOf(seed) {
  * @param {number} seed
  */
 export function anyOf(seed) {
-  const random = randomOf(seed);
+  const random = generator(seed);
   const real = (/** @type {number} */ least, /** @type {number} */ most) => least + (most - least) * random();
   const whole = (/** @type {number} */ least, /** @type {number} */ most) => Math.floor(real(least, most + 1));
   const one = (/** @type {unknown[]} */ of) => of[whole(0, of.length - 1)];

@@ -221,18 +221,6 @@ test('a cloud that turns a full circle has no exponential coordinates, and says 
   await expect(measured).not.toHaveText('—');
 });
 
-test('two robots have no skew @nightly', async ({ page }) => {
-  const widget = await openWhole(page);
-  await set(widget, { samples: 0 });
-  await widget.getByRole('button', { name: 'Clear' }).click();
-  for (let i = 0; i < 2; i++) await widget.getByRole('button', { name: 'Step' }).click();
-  expect((await state(widget)).shown).toBe(2);
-  await expect(readout(widget, 'cross-track skew')).toHaveText('—');
-  await expect(widget.locator('.caption')).toHaveText('Too few robots for a skew.');
-  await widget.getByRole('button', { name: 'Step' }).click();
-  await expect(readout(widget, 'cross-track skew')).toHaveText(/^−?\d\.\d{3} ± \d\.\d{3}$/);
-});
-
 test('the odometry model shows its reading, the hinge noises of a marked robot, and backs up as one likes', async ({ page }) => {
   const widget = await openWhole(page, 'preset="gentle"');
   await expect(widget.getByLabel('Reverse without half-turn noise')).toHaveCount(0);

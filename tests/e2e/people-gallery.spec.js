@@ -1,7 +1,7 @@
 import { expect, test as plain } from '@playwright/test';
 import { expectAccessible } from './axe.js';
 import { ALL } from './figures.js';
-import { STILL, boxOf, frames, mount, pictureOf, property, ready, show, test } from './support.js';
+import { STILL, boxOf, frames, mount, pictureOf, property, ready, test } from './support.js';
 
 test.use(STILL);
 
@@ -147,18 +147,6 @@ for (const path of ['/', '/reference.html']) {
     await expectAccessible(page, undefined, 'body > *');
   });
 }
-
-test('two figures of a kind on a page share nothing @nightly', async ({ page }) => {
-  await show(page, '<banana-machine></banana-machine><banana-machine></banana-machine>');
-  const [first, second] = [0, 1].map((i) => page.locator('banana-machine').nth(i));
-  await ready(first);
-  await second.scrollIntoViewIfNeeded();
-  await ready(second);
-  const opening = await property(first, 'omega');
-  await second.getByRole('button', { name: 'Pivot' }).click();
-  await frames(page);
-  expect([await property(second, 'omega'), await property(first, 'omega')]).toEqual([1.5, opening]);
-});
 
 plain('the gallery says what is missing without JavaScript', async ({ browser, baseURL }) => {
   const context = await browser.newContext({ javaScriptEnabled: false, baseURL });

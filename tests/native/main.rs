@@ -31,7 +31,6 @@ mod laws {
     mod maps;
     mod models;
     mod motions;
-    mod settings;
     mod statistics;
 }
 /// Floor plans, occupancy grids and motion that a map restricts.

@@ -94,10 +94,8 @@ test('how large files are is looked at before they are read', async () => {
   }
 });
 
-test('a PNG image is the map that a PGM image is, and a damaged one is refused by a sentence', async () => {
+test('a damaged or too large PNG image is refused by a sentence', async () => {
   const png = pngOf({ width: 2, height: 1, sample: (column) => [0, 127][column] });
-  const [ofPng, ofPgm] = [await opened(description({ image: 'maps/map.png' }), file('map.png', png)), await opened(description({ image: 'map.pgm' }), PGM)];
-  assert.deepEqual(ofPng.grid, ofPgm.grid);
   const sentence = await refusalOf([description(), file('map.png', png.subarray(0, 50))]);
   assert.match(sentence, /^map\.png: the PNG image is damaged or cut short before byte \d+ of 50; allowed is a complete one\.$/);
   const large = Buffer.concat([SIGNATURE, header({ width: 100_000, height: 100_000 })]);

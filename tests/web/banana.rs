@@ -5,32 +5,6 @@ use motion::geom::se2::SE2;
 use motion::stats::cross_track_skew;
 use wasm_bindgen_test::wasm_bindgen_test;
 
-/// The chapter's worked example by quadrature, and the statistics of its robots where they have keys of their own.
-#[wasm_bindgen_test]
-fn the_canonical_example_has_its_figures() {
-    let it = Object::new(
-        "new motion.BananaMachine({
-            model: 'velocity', noise: 'normal', command: { v: 1, omega: 0.5, dt: 1 },
-            alphas: [0.02, 0.02, 0.02, 0.02, 0, 0], samples: 20_000, seed: 7,
-        })",
-    );
-    let linearized = it.get("it.table.linearized.mean");
-    assert_near(linearized, [0.958_851_077_208, 0.244_834_876_219, 0.5], 1e-12);
-    let exact: [f64; 4] =
-        it.get("(({ exact: { mean, cov } }) => [mean[0], mean[1], cov[0][0], cov[1][1]])(it.table)");
-    assert_near(exact, [0.955_006_501, 0.243_321_663, 0.023_497_983, 0.007_057_304], 5.1e-10);
-    let exact_skew: f64 = it.get("it.table.exact.crossTrackSkew");
-    assert_near([exact_skew, it.get("it.table.linearized.crossTrackSkew")], [-0.30056, 0.0], 5.1e-6);
-
-    let [n, error]: [f64; 2] = it.get("pick(it.stats, 'n', 'crossTrackSkewError')");
-    assert_near([it.get("it.stats.crossTrackSkew")], [exact_skew], 4.5 * error);
-    assert_near([it.get("it.stats.cartesian.mean[0]")], [exact[0]], 4.5 * (exact[2] / n).sqrt());
-    let twist = it.get("[it.stats.exponential.mean[0], it.stats.exponential.mean[2]]");
-    assert_near(twist, [1.0, 0.5], 4.5 * (0.025 / n).sqrt());
-    // Without γ̂ noise all poses lie on a surface. The sampler has no density there, and the gain is infinite.
-    it.assert("it.stats.likelihoodGain.pose === Infinity && Number.isNaN(it.stats.likelihoodGainError.pose)");
-}
-
 #[wasm_bindgen_test]
 fn arrays_are_copies_of_the_samples() {
     let it = Object::new(

@@ -91,15 +91,13 @@ impl Table {
     pub fn parse(text: &'static str) -> Self {
         let mut lines = text.lines().map(|line| line.split(',').collect::<Vec<_>>());
         let columns = lines.next().expect("a header");
-        Self { columns, rows: lines.collect() }
+        let rows: Vec<_> = lines.collect();
+        assert!(!rows.is_empty(), "a table without rows");
+        Self { columns, rows }
     }
 
     pub fn rows(&self) -> impl Iterator<Item = Row<'_>> {
         self.rows.iter().map(|cells| Row { table: self, cells })
-    }
-
-    pub fn len(&self) -> usize {
-        self.rows.len()
     }
 }
 

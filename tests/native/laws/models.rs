@@ -55,11 +55,6 @@ fn uniforms() -> impl Strategy<Value = f64> {
     .prop_map(move |whole| (whole as f64 + 0.5) * scale)
 }
 
-/// Φ by the complementary error function, an implementation independent of src/. Accurate relative to its tail.
-fn normal_tail(z: f64) -> f64 {
-    0.5 * libm::erfc(z.abs() / 2f64.sqrt())
-}
-
 proptest! {
     #![proptest_config(cases(400))]
 
@@ -72,20 +67,6 @@ proptest! {
         // Neighbouring quantiles may be in the wrong order by the error of the approximation.
         let [low, high] = [a.min(b), a.max(b)].map(of);
         prop_assert!(low <= high + 2e-15 * high.abs(), "{} {}", low, high);
-    }
-
-    /// The probability beyond a quantile is the requested one, up to rounding of both. A tail amplifies the rounding of
-    /// the quantile by z².
-    #[test]
-    fn quantiles_undo_the_distribution(q in uniforms()) {
-        let z = NoiseKind::Normal.quantile(q);
-        let tail = 0.5 - q.abs();
-        let rounding = 4e-15 * (1.0 + z * z);
-        prop_assert!((normal_tail(z) - tail).abs() <= rounding * tail, "{} {}", normal_tail(z), tail);
-        let t = NoiseKind::Triangular.quantile(q).abs();
-        let room = 6f64.sqrt() - t;
-        // The distance to the edge of the support is a difference, with its rounding.
-        prop_assert!((room * room / 12.0 - tail).abs() <= 2e-15 * (room + tail), "{} {}", room, tail);
     }
 
     /// Any residual, and any variance that does not overflow when multiplied by six.
@@ -143,21 +124,6 @@ proptest! {
         // Product of the three densities at residual 0.
         let most: f64 = model.variances(&u).iter().map(|variance| kind.prob(0.0, *variance)).product();
         prop_assert!((peak - most).abs() <= 1e-6 * most, "{} {}", peak, most);
-    }
-
-    /// For any α's, commands and noise, the pose is finite.
-    #[test]
-    fn samples_are_poses(kind in kinds(), alphas in alphas(), u in commands(), x in places(), q in proptest::array::uniform3(uniforms())) {
-        let noise = q.map(|q| kind.quantile(q));
-        let model = VelocityModel { alphas: VelocityAlphas(alphas), noise: kind };
-        let next = model.apply_noise(&u, &x, noise);
-        prop_assert!(next.x().is_finite() && next.y().is_finite() && next.theta().abs() <= PI);
-        prop_assert!(model.cartesian_cov(&u, &x).iter().all(|entry| entry.is_finite()));
-        let [a, b, c, d, ..] = alphas;
-        let odometry = OdometryModel { alphas: OdomAlphas([a, b, c, d]), noise: kind };
-        let delta = OdomDelta::from_poses(&x, &next);
-        let again = odometry.apply_noise(&delta, &x, noise);
-        prop_assert!(again.x().is_finite() && again.y().is_finite() && again.theta().abs() <= PI);
     }
 
     #[test]

@@ -1,34 +1,6 @@
-//! Descriptions of settings, and the values that they take.
+//! Messages about refused settings.
 
 use motion::sim::banana::{BananaMachine, Settings};
-use motion::sim::settings::{Declared, Setting};
-use motion::sim::squeeze;
-use std::ops::ControlFlow;
-
-/// A setting takes each of its words and no other.
-#[test]
-fn a_word_setting_accepts_its_words_only() {
-    fn check(mut settings: impl Declared) -> usize {
-        let mut seen = 0;
-        let _ = settings.each(&mut |declaration, setting| {
-            if let Setting::Word(word) = setting {
-                for known in word.all() {
-                    assert!(word.set(known), "{} takes {known}", declaration.key);
-                    assert_eq!(word.get(), known);
-                    for other in ["", "Normal", "normal ", "toString"] {
-                        assert!(!word.set(other), "{} does not take {other}", declaration.key);
-                        assert_eq!(word.get(), known, "and stays as it was");
-                    }
-                    seen += 1;
-                }
-            }
-            ControlFlow::Continue(())
-        });
-        seen
-    }
-    assert!(check(Settings::default()) > 3);
-    assert!(check(squeeze::Settings::default()) > 2);
-}
 
 /// Numbers in messages are those of JavaScript, where most who read them are.
 #[test]

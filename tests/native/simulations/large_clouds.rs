@@ -109,7 +109,6 @@ fn check(machine: &BananaMachine) {
 #[test]
 #[ignore = "nightly: 10 million robots"]
 fn ten_million_agree_with_exact_sums() {
-    const { assert!(MAX_SAMPLES == 10_000_000) };
     let command = VelocityCmd { v: 1.0, omega: 1.2, dt: 1.4 };
     check(&machine(Settings { command, samples: MAX_SAMPLES, ..preset("gentle") }));
 }

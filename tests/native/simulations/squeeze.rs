@@ -4,6 +4,7 @@ use crate::common::seeded;
 use crate::map::conditioned::{AHEAD, SAMPLERS, cell};
 use motion::geom::se2::SE2;
 use motion::map::{FloorPlan, MAX_DRAWS, MapConditioned, Sampler};
+use motion::sim::settings::Rules;
 use motion::sim::squeeze::{Attempt, MapSqueeze, Settings, Tally};
 use motion::{NoiseKind, VelocityAlphas, VelocityCmd, VelocityModel};
 
@@ -119,6 +120,16 @@ fn the_commanded_path_and_the_room_at_its_start() {
     }
     machine.set_plan(cell());
     assert!(!machine.start_free());
+}
+
+#[test]
+fn the_product_of_samples_and_parts_is_limited() {
+    for (sampler, most) in [(Sampler::WholeArc, 1_000_000), (Sampler::SubStepped(4), 250_000)] {
+        let error = |samples| {
+            Settings { samples, sampler, ..Settings::default() }.check().err().map(|error| error.field)
+        };
+        assert_eq!([error(most), error(most + 1)], [None, Some("samples".to_owned())]);
+    }
 }
 
 /// If no motion fits, the machine stops after a bounded number of draws and reports it. It goes on once the settings let the robot move.

@@ -76,15 +76,6 @@ fn errors_of_the_finest_banana_as_it_opens() {
     }
 }
 
-/// Its gain of poses is infinite.
-#[test]
-#[ignore = "nightly: thousands of clouds"]
-fn errors_of_the_worked_example_as_it_opens() {
-    let [skew, _, floor] = shares_within_errors(preset("worked"), LARGE_REPETITIONS);
-    assert_covered("skew, worked example", skew, LARGE_REPETITIONS);
-    assert_covered("gain on the floor, worked example", floor, LARGE_REPETITIONS);
-}
-
 #[test]
 #[ignore = "nightly: thousands of clouds"]
 fn small_clouds_hold_the_exact_skew_as_often_as_told() {

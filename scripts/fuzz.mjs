@@ -1,4 +1,4 @@
-// `npm run test:fuzz -- RUNS SEED TARGETS`: runs targets of fuzz/fuzz_targets (default: all) with cargo-fuzz, RUNS inputs each.
+// `npm run test:fuzz -- RUNS SEED TARGETS`: runs targets of fuzz/src (default: all) with cargo-fuzz, RUNS inputs each.
 // Each run starts from the packed inputs in fuzz/corpus. `npm run test:fuzz -- keep TARGETS` adds inputs of build/fuzz to them
 // that reach new code.
 
@@ -8,7 +8,7 @@ import { join } from 'node:path';
 import { Missing, ROOT, mustRun, progress, run, runAsScript } from './process.mjs';
 import { nativeRust } from './toolchain.mjs';
 
-const TARGETS = readdirSync(join(ROOT, 'fuzz/fuzz_targets')).map((file) => file.replace(/\.rs$/, ''));
+const TARGETS = readdirSync(join(ROOT, 'fuzz/corpus')).map((file) => file.replace(/\.txt$/, ''));
 
 /** Limits of one input: seconds, allocated megabytes, and bytes. The program itself takes 30 MB. */
 const LIMITS = ['-timeout=1', '-malloc_limit_mb=256', '-rss_limit_mb=286', '-max_len=256'];
@@ -32,10 +32,11 @@ function unpack(target) {
   lines.forEach((line, i) => writeFileSync(join(known, String(i)), Buffer.from(line, 'hex')));
 }
 
-/** @param {string[]} args of cargo-fuzz */
-async function cargoFuzz(...args) {
+/** Runs a target with cargo-fuzz. @param {string} target @param {string[]} folders of inputs @param {string[]} options of libFuzzer */
+async function cargoFuzz(target, folders, options) {
   const { bin, env } = await nativeRust();
-  return run(join(bin, 'cargo'), ['+nightly', 'fuzz', ...args], { env, quiet: true });
+  const args = ['+nightly', 'fuzz', 'run', ...OPTIONS, 'target', ...folders, '--', ...options];
+  return run(join(bin, 'cargo'), args, { env: { ...env, FUZZ_TARGET: target }, quiet: true });
 }
 
 async function compile() {
@@ -51,7 +52,7 @@ async function compile() {
 async function fuzz(target, runs, seed) {
   unpack(target);
   const limits = [`-runs=${runs}`, `-seed=${seed}`, ...LIMITS, '-print_final_stats=1'];
-  const { ok, output } = await cargoFuzz('run', ...OPTIONS, target, folder(target, 'found'), folder(target, 'known'), '--', ...limits);
+  const { ok, output } = await cargoFuzz(target, [folder(target, 'found'), folder(target, 'known')], limits);
   if (!ok) console.error(output.split('\n').slice(-60).join('\n'));
   const last = (/** @type {string} */ pattern) => [...output.matchAll(new RegExp(pattern, 'g'))].pop()?.[1];
   const figures = [
@@ -72,7 +73,7 @@ async function keep(target) {
   mkdirSync(merged);
   // Hit counts of edges would keep five times as many inputs.
   const options = ['-set_cover_merge=1', '-use_counters=0', ...LIMITS];
-  const { ok, output } = await cargoFuzz('run', ...OPTIONS, target, merged, folder(target, 'known'), folder(target, 'found'), '--', ...options);
+  const { ok, output } = await cargoFuzz(target, [merged, folder(target, 'known'), folder(target, 'found')], options);
   if (!ok) throw new Missing(output);
   const lines = readdirSync(merged).map((name) => readFileSync(join(merged, name)).toString('hex'));
   writeFileSync(packed(target), lines.sort().map((line) => `${line}\n`).join(''));

@@ -1,6 +1,6 @@
 import { expect } from '@playwright/test';
 import { ALL, KNOWN } from './figures.js';
-import { STILL, frames, mount, numberIn, open, pictureOf, readout, ready, show, state, test, unfold } from './support.js';
+import { STILL, frames, mount, numberIn, open, pictureOf, readout, ready, settled, show, state, test, unfold } from './support.js';
 
 test.use(STILL);
 
@@ -224,11 +224,9 @@ test('a page translator that replaces every text freezes none @nightly', async (
   for (const value of values) {
     const before = await texts();
     for (const widget of [translated, other]) await widget.locator(`#${slider}`).fill(String(value));
-    // The figures are drawn one after the other.
-    await expect(async () => {
-      const [one, two] = await texts();
-      expect(two).not.toBe(before[1]);
-      expect(one).toBe(two);
-    }).toPass({ timeout: 5000 });
+    for (const widget of [translated, other]) await settled(widget);
+    const [one, two] = await texts();
+    expect(two).not.toBe(before[1]);
+    expect(one).toBe(two);
   }
 });

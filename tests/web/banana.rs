@@ -129,8 +129,6 @@ fn every_kind_of_bad_value_is_refused_and_changes_nothing() {
         TypeError: alphas[5] is "6"; allowed is a number
         it.configure({ command: { v: Infinity, omega: 0, dt: 1 } })
         RangeError: command.v is Infinity; allowed is a number from -1000000 to 1000000
-        it.configure({ command: { v: 1, omega: 0, dt: 0 } })
-        RangeError: command.dt is 0; allowed is a number from 0.000001 to 1000000
         it.configure({ command: { v: 1, omega: 0 } })
         TypeError: command.dt is undefined; allowed is a number
         it.configure({ command: { v: 1, omega: 0, dt: 1, w: 1 } })
@@ -139,8 +137,6 @@ fn every_kind_of_bad_value_is_refused_and_changes_nothing() {
         RangeError: samples is 0; allowed is a whole number from 1 to 10000000
         it.configure({ samples: 7n })
         TypeError: samples is a bigint; allowed is a number
-        it.configure({ seed: -1 })
-        RangeError: seed is -1; allowed is a whole number from 0 to 9007199254740991
         it.configure({ isolate: 7 })
         RangeError: isolate is 7; allowed is a whole number from 1 to 6
         it.configure({ model: 'Velocity' })
@@ -154,9 +150,6 @@ fn every_kind_of_bad_value_is_refused_and_changes_nothing() {
         it.configure()
         TypeError: options is undefined; allowed is an object with keys from model, noise, command, alphas, reverseAware,
             isolate, samples, seed
-        new motion.BananaMachine(7)
-        TypeError: options is 7; allowed is an object with keys from model, noise, command, alphas, reverseAware, isolate,
-            samples, seed
         new motion.BananaMachine({ model: 'x'.repeat(50) })
         RangeError: model is "xxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxx…"; allowed is "velocity" or "odometry"
         it.configureFirst({ samples: 0 }, 1)

@@ -49,15 +49,20 @@ const own = css`
     }
   }
 
+  /* Height of the longest headline and sentence, so that nothing moves when they change. */
+  .told {
+    min-height: 9em;
+  }
+
   .headline {
     margin: 0.15em 0 0;
-    font-size: 2em;
+    font-size: 1.7em;
     line-height: 1.15;
     text-wrap: balance;
   }
 
   .verdict.caption {
-    min-height: 3lh;
+    min-height: 0;
     margin-bottom: 0.3em;
     font-size: 0.92em;
   }
@@ -104,6 +109,10 @@ const own = css`
 
   /* The samplers in one row, and any share in a headline of as many rows. */
   @container (38em <= width < 56em) {
+    .told {
+      min-height: 12em;
+    }
+
     .headline {
       font-size: 1.85em;
     }
@@ -119,8 +128,8 @@ const own = css`
   }
 
   @container (min-width: 56em) {
-    .verdict.caption {
-      min-height: 2lh;
+    .headline {
+      font-size: 2em;
     }
 
     :host(:not([presentation])) .overview {

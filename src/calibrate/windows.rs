@@ -220,7 +220,7 @@ fn reason(window: &WindowCoverage, inflation: f64) -> String {
     }
     let [nees, inflation] = [nees, inflation].map(|number| decimal(number, 2));
     format!(
-        "The fit covers {percent} % of {count} held-out windows of 1 m (NEES {nees}, where 1 is right); times {inflation} it covers 95 %."
+        "The fit covers {percent} % of {count} held-out windows of 1 m (squared error over predicted variance {nees}, where 1 is right); times {inflation} it covers 95 %."
     )
 }
 

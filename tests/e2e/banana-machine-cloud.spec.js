@@ -47,13 +47,13 @@ test('opens with the whole cloud of the opening command, and shows the numbers o
   expect(numberIn(await shown('predicts'))).toBeCloseTo(stats.gaussianSkew, 3);
   expect(numberIn(await shown('ρ'))).toBeCloseTo(stats.rhoCrossHeading, 3);
   expect((await shown('robots shown')).split(' of ').map(numberIn)).toEqual([stats.n, config.samples]);
-  const [gain, gainError] = (await shown('log-likelihood gain')).split(' ± ').map(numberIn);
+  const [gain, gainError] = (await shown('gain in fit')).split(' ± ').map(numberIn);
   expect(gain).toBeCloseTo(stats.likelihoodGain.pose, 3);
   expect(gainError).toBeCloseTo(stats.likelihoodGainError.pose, 3);
   expect(await shown('area covered')).toBe(`${stats.areaRatio.toFixed(2)} ×`);
   const shares = [stats.coverage.ellipse, stats.coverage.exponential].map((share) => `${(100 * share).toFixed(1)}\u202f%`);
   await expect(detail(widget, 'area covered')).toHaveText(`± ${stats.areaRatioError.toPrecision(1)}; robots inside: ${shares.join(' and ')}`);
-  await expect(detail(widget, 'log-likelihood gain')).toHaveText(`exactly ${table.exact.likelihoodGain.pose.toFixed(3)}; 1 nat: a factor of e`);
+  await expect(detail(widget, 'gain in fit')).toHaveText(`exactly ${table.exact.likelihoodGain.pose.toFixed(3)}; 1 nat: a factor of e`);
   const row = widget.locator('tr').filter({ has: page.getByRole('rowheader', { name: 'Σxx', exact: true }) });
   const cells = (await row.getByRole('cell').allTextContents()).map(numberIn);
   for (const [i, column] of [table.linearized, table.exact, table.measured].entries()) expect(cells[i] / column.cov[0][0]).toBeCloseTo(1, 2);
@@ -212,7 +212,7 @@ test('a cloud that turns a full circle has no exponential coordinates, and says 
   await expect(widget.locator('.note')).toContainText('there are no statistics in ξ');
   await expect(readout(widget, 'predicts')).toHaveText('—');
   await expect(detail(widget, 'area covered')).toHaveText(/robots inside: [\d.]+\u202f% and —$/);
-  for (const name of ['area covered', 'log-likelihood gain', 'exact area']) await expect(readout(widget, name)).toHaveText('—');
+  for (const name of ['area covered', 'gain in fit', 'exact area']) await expect(readout(widget, name)).toHaveText('—');
   await expect(readout(widget, 'cross-track skew')).not.toHaveText('—');
   const measured = widget.getByRole('row', { name: 'mean ξ along' }).getByRole('cell').last();
   await expect(measured).toHaveText('—');

@@ -70,7 +70,7 @@ export function textOf({ calibration, options, logs, start, begins, date }: Resu
     '',
     ...(causes.length ? [`lost legs: ${causes.join(', ')}`] : []),
     ...outliersOf(legs, begins),
-    ...aligned([['held-out windows', 'number', 'covered', 'NEES'], ...windows.map(windowRow)]),
+    ...aligned([['held-out windows', 'number', 'covered', 'squared error / variance (NEES)'], ...windows.map(windowRow)]),
     '',
     ...nav2Of({ calibration, options, logs, start, begins, date }),
     '',

@@ -70,8 +70,8 @@ fn figures_are_those_told() {
     page().assert(
         "The ellipse covers # times the floor of the green outline: where it alone lies, robots stop a seventh as \
          densely as where the outline alone does. Both sides are alike, so the cross-track skew, the lopsidedness across the path, is #. The Gaussian in ξ \
-         gains a log-likelihood of # nats (natural units) a robot: more than on the gentle arc, #, and on the hard one, #.",
-        [banana.area_ratio, banana.cross_track_skew, banana_gain, gentle_gain, hard_gain],
+         fits better: a log-likelihood gain of # nats a robot (# nat is a factor of e), more than on the gentle arc, #, and on the hard one, #.",
+        [banana.area_ratio, banana.cross_track_skew, banana_gain, 1.0, gentle_gain, hard_gain],
     );
     assert_eq!(Settings::default(), preset("banana"));
     let opened = machine(Settings::default());

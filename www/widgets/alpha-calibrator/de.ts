@@ -183,7 +183,7 @@ export const de: typeof import('./en.ts').en = {
     length: 'Strecke',
     count: 'Fenster',
     coverage: 'innerhalb von 95 %',
-    nees: 'NEES, quadrierter Fehler durch vorhergesagte Varianz (erwartet 1)',
+    nees: 'quadrierter Fehler durch vorhergesagte Varianz (NEES, erwartet 1)',
   },
   noise: {
     title: 'Rauschen der Referenz und Persistenz',

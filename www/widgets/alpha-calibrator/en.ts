@@ -153,7 +153,7 @@ export const en = {
     length: 'distance driven',
     count: 'windows',
     coverage: 'within 95 %',
-    nees: 'NEES, squared error over predicted variance (expected 1)',
+    nees: 'squared error over predicted variance (NEES, expected 1)',
   },
   noise: {
     title: 'Reference noise and persistence',

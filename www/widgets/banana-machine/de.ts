@@ -130,14 +130,14 @@ export const de: typeof import('./en.ts').en = {
   chartText: (omega, skew) => `ω = ${omega} rad/s, ${skew}`,
   chartCaption:
     'Exakte Schiefe über dem befohlenen *ω*, und die der Roboter mit ihrem Standardfehler. Die gestrichelte Linie ist jede Gauß-Verteilung in *(x, y)*. ' +
-    'Bei *ω* = 0 ist sie der Symmetrie wegen 0, wie krumm die Wolke auch sei: siehe den Gewinn.',
+    'Bei *ω* = 0 ist sie der Symmetrie wegen 0, wie krumm die Wolke auch sei: siehe die Passung.',
   chartGaussian: 'jede Gaußverteilung in *(x, y)*',
   readouts: {
     skew: 'Schiefe quer zur Fahrt',
     exactly: (value) => `genau ${value}`,
     unwrapped: (value) => `genau ${value} ohne den Sprung der Richtungen bei ±π`,
-    gain: 'Log-Likelihood-Gewinn in *ξ* (Nat je Roboter)',
-    gainOnFloor: 'Log-Likelihood-Gewinn am Boden (Nat je Roboter)',
+    gain: 'bessere Passung in *ξ* (Nat je Roboter)',
+    gainOnFloor: 'bessere Passung am Boden (Nat je Roboter)',
     nat: '1 Nat: ein Faktor *e*',
     withoutLimit: 'in *ξ* ohne Grenze, da ohne *γ̂*',
     onLine: 'keine Grenze: in *ξ* alle auf einer Linie',
@@ -150,8 +150,8 @@ export const de: typeof import('./en.ts').en = {
     nominal: 'von jedem Gauß in seiner 2σ-Ellipse',
   },
   gainIs:
-    'Gewinn: um wie viele Nat glaubhafter die Roboter unter dem Gauß in *ξ* sind als unter dem in *(x, y, θ)*. ' +
-    'Gewinn am Boden: ohne *θ*; in Länge und Drehung des Bogens zu jedem Ort, gegen *(x, y)*.',
+    'Bessere Passung: um so viel ist die mittlere Log-Likelihood der Roboter unter dem Gauß in *ξ* höher als unter dem in *(x, y, θ)*. ' +
+    'Am Boden: ohne *θ*; in Länge und Drehung des Bogens zu jedem Ort, gegen *(x, y)*.',
   nOfAll: (n, all) => `${n} von ${all}`,
   robot: 'Roboter',
   markHint: 'Zeig in einer der Ansichten auf einen, um ihn in beiden zu markieren.',

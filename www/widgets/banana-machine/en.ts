@@ -136,14 +136,14 @@ export const en = {
   chartText: (omega, skew) => `ω = ${omega} rad/s, ${skew}`,
   chartCaption:
     'Exact skew against commanded *ω*, and the robots’ own with its standard error. The dashed line is any Gaussian in *(x, y)*. ' +
-    'At *ω* = 0 it is 0 by symmetry, however bent the cloud is: see the gain.',
+    'At *ω* = 0 it is 0 by symmetry, however bent the cloud is: see the gain in fit.',
   chartGaussian: 'any Gaussian in *(x, y)*',
   readouts: {
     skew: 'cross-track skew',
     exactly: (value) => `exactly ${value}`,
     unwrapped: (value) => `exactly ${value} without the jump of headings at ±π`,
-    gain: 'log-likelihood gain in *ξ* (nats per robot)',
-    gainOnFloor: 'log-likelihood gain on the floor (nats per robot)',
+    gain: 'gain in fit by *ξ* (nats per robot)',
+    gainOnFloor: 'gain in fit on the floor (nats per robot)',
     nat: '1 nat: a factor of *e*',
     withoutLimit: 'in *ξ* without limit, as there is no *γ̂*',
     onLine: 'no limit: in *ξ* all on one line',
@@ -156,8 +156,8 @@ export const en = {
     nominal: 'of any Gaussian inside its 2σ ellipse',
   },
   gainIs:
-    'Gain: how many nats likelier the robots are under the Gaussian in *ξ* than under the one in *(x, y, θ)*. ' +
-    'Gain on the floor: without *θ*; in length and turn of the arc to each place, against *(x, y)*.',
+    'Gain in fit: the robots’ mean log-likelihood under the Gaussian in *ξ*, less that under the one in *(x, y, θ)*. ' +
+    'On the floor: without *θ*; in length and turn of the arc to each place, against *(x, y)*.',
   nOfAll: (n, all) => `${n} of ${all}`,
   robot: 'Robot',
   markHint: 'Point at one in either view to mark it in both.',

@@ -45,7 +45,7 @@ export const de: typeof import('./en.ts').en = {
   bars: {
     label: 'Residuen in Standardabweichungen und Faktoren von p',
     names: ['Geschwindigkeit', 'Drehrate', 'letzte Drehung'],
-    factor: (share) => `Faktor: ${share} seines Maximums`,
+    factor: (share) => `Faktor: ${share} vom Maximum`,
   },
   headline: { share: 'so wahrscheinlich wie die beste Pose', times: 'mal so wahrscheinlich wie die beste Pose' },
   likelihoods: { prob: '*p* der Tabellen', density: 'Dichte der Ziehung (m⁻² rad⁻¹)', none: 'keine: eine Varianz ist 0', xi: '*ξ* (m, m, rad)' },

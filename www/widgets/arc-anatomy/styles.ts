@@ -28,13 +28,13 @@ const own = css`
     display: grid;
     grid-template: 'estimate estimate' 'bar bar' 'keeps off' / 1fr auto;
     align-content: start;
-    padding-left: 0.5em;
-    border-left: 3px solid transparent;
+    padding-left: calc(0.5em + 3px);
   }
 
   .factors.lit li,
   .factors .weakest {
-    border-color: var(--accent);
+    padding-left: 0.5em;
+    border-left: 3px solid var(--accent);
   }
 
   .factors .estimate {
@@ -135,12 +135,12 @@ const own = css`
   }
 
   .lines li {
-    padding: 0.1em 0.5em;
-    border-left: 3px solid transparent;
+    padding: 0.1em 0.5em 0.1em calc(0.5em + 3px);
   }
 
   .lines .lit {
-    border-color: var(--accent);
+    padding-left: 0.5em;
+    border-left: 3px solid var(--accent);
   }
 
   .about {

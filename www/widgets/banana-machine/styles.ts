@@ -33,16 +33,18 @@ const own = css`
 
   /* Margin for the fade below the pictures. */
   .morphing {
-    display: grid;
-    margin-top: 0.7em;
-    grid-template-columns: 1fr auto;
+    display: flex;
+    flex-wrap: wrap;
+    justify-content: end;
     align-items: start;
-    gap: 1em;
+    gap: 0.5em 1em;
+    margin-top: 0.7em;
   }
 
   /* The ends have their names below the track. */
   .morph {
     --thumb: var(--posterior);
+    flex: 1;
     display: grid;
     grid-template: 'play track track' auto 'play floor twist' auto / auto auto 1fr;
     align-items: start;

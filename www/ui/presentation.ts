@@ -57,11 +57,7 @@ export const presentationStyles = css`
 
   :host([presentation]) .stage {
     position: relative !important;
-    min-height: 40vh;
-  }
-
-  :host([presentation]) .with-controls .stage {
-    min-height: 31vh;
+    min-height: 30vh;
   }
 
   :host([presentation]) .stage canvas {

@@ -35,7 +35,7 @@ const chartAlone = css`
 
 const own = css`
   .chart .plotted {
-    max-width: calc(60svh * 1.52);
+    max-width: calc(var(--most, 60svh) * 1.52);
     margin-inline: auto;
   }
 
@@ -45,20 +45,12 @@ const own = css`
     cursor: ew-resize;
   }
 
-  .ratios {
-    grid-area: ratios;
+  :host([presentation]) .views {
+    --most: 41svh;
   }
 
-  .said {
-    grid-area: said;
-  }
-
-  .floor {
-    grid-area: floor;
-  }
-
-  .step {
-    grid-area: step;
+  :host([presentation]) .step .stage {
+    min-height: 20vh;
   }
 
   @container (min-width: 30em) {
@@ -68,6 +60,22 @@ const own = css`
 
     .step canvas {
       aspect-ratio: 2;
+    }
+
+    .ratios {
+      grid-area: ratios;
+    }
+
+    .said {
+      grid-area: said;
+    }
+
+    .floor {
+      grid-area: floor;
+    }
+
+    .step {
+      grid-area: step;
     }
 
     .views {

@@ -33,6 +33,7 @@ const pictureAlone = css`
 const layout = css`
   /* The pictures stay visible within this box, behind text of the page. */
   .machine {
+    text-wrap: pretty;
     margin-bottom: calc(-1 * var(--motion-sticky-bottom, 0px));
   }
 
@@ -89,6 +90,7 @@ const layout = css`
     .machine > .controls > .single + .cloud {
       grid-column: 2 / -1;
       grid-template-columns: minmax(0, 1fr) minmax(0, 1.7fr);
+      align-items: start;
     }
 
     .machine > .controls > fieldset > .buttons {

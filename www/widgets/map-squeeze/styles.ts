@@ -51,7 +51,7 @@ const own = css`
 
   /* Height of the longest headline and sentence, so that nothing moves when they change. */
   .told {
-    min-height: 9em;
+    min-height: calc(12.2em - 16.5cqi);
   }
 
   .headline {

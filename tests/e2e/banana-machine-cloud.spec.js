@@ -107,23 +107,6 @@ test('each overlay has a toggle', async ({ page }) => {
   expect(await pixelsOf(twist, 'posterior')).toBe(0);
 });
 
-test('a density leaves nothing of a larger one behind @nightly', async ({ page }) => {
-  const widget = await open(page, 'preset="banana"');
-  const plane = widget.locator('canvas.plane');
-  const { x, y } = await centreOf(widget.locator('.handle'));
-  await page.mouse.move(x, y);
-  await page.mouse.down();
-  for (const [dx, dy] of [[0, -150], [150, 0], [0, 150]]) await page.mouse.move(x + dx, y + dy, { steps: 6 });
-  await page.mouse.up();
-  const after = await pictureOf(plane);
-  // At another width the grid has other cells.
-  for (const width of ['700px', '']) {
-    await widget.evaluate((element, to) => void (element.style.width = to), width);
-    await frames(page);
-  }
-  expect((await pictureOf(plane)) === after).toBe(true);
-});
-
 test('a robot pointed at in one view is marked in both, with what it executed', async ({ page }) => {
   const widget = await openWhole(page, 'preset="gentle"');
   const plane = widget.locator('canvas.plane');

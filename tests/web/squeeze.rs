@@ -15,15 +15,6 @@ const STATE: &str =
     "[it.machine.config, it.machine.stats, it.machine.plan, it.machine.grid, [...it.machine.verdicts]]";
 
 #[wasm_bindgen_test]
-fn it_opens_in_the_apartment() {
-    let it = Object::new("new motion.MapSqueeze()");
-    assert_eq!(it.get::<[f64; 4]>("it.plan.bounds"), [0.0, 0.0, 12.0, 9.0]);
-    assert_eq!(it.get::<[usize; 2]>("[it.plan.walls.length, it.shown]"), [72, 600]);
-    it.assert("it.startFree && it.grid === null");
-    assert_near(it.get("it.commanded.slice(-2)"), [2.05, 4.6], 1e-12);
-}
-
-#[wasm_bindgen_test]
 fn statistics_count_the_verdicts() {
     let it = Object::new("new motion.MapSqueeze({ sampler: 'sub-stepped', samples: 2000 })");
     let verdicts: Vec<u8> = it.get("it.verdicts");

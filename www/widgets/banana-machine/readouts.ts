@@ -44,7 +44,8 @@ function gainText({ unbounded, value, exact, wraps }: Reading['gain']) {
   if (Number.isNaN(value)) return NOTHING;
   if (value === Infinity) return onLine;
   if (unbounded) return withoutLimit;
-  return Number.isNaN(exact) ? nat : `${(wraps ? unwrapped : exactly)(fixed(exact, 3))}; ${nat}`;
+  if (Number.isNaN(exact)) return nat;
+  return wraps ? unwrapped(fixed(exact, 3)) : `${exactly(fixed(exact, 3))}; ${nat}`;
 }
 
 /** Returns the less important readouts. */

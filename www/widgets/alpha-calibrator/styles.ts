@@ -292,6 +292,7 @@ const own = css`
   }
 
   .reason {
+    min-height: 2lh;
     margin: 0 0 0.3em;
     font-size: 0.84em;
     line-height: 1.3;

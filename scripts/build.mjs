@@ -16,9 +16,9 @@ const at = (/** @type {string} */ path) => join(ROOT, path);
 const PAGE_SCRIPTS = ['bundle', 'declarations', 'manifest', 'names', 'python', 'react', 'tables', 'types', 'typescript'].map((name) => `scripts/${name}.mjs`);
 
 /** Declarations of the module that scripts/bundle.mjs puts in the place of `motion.wasm`. */
-const CARRIED = `type Bytes = Uint8Array<ArrayBuffer>;
-type Carried = { glue(): Promise<typeof import('./motion.js')>; source(): Bytes | URL | Promise<Bytes> | undefined };
-declare const cores: { motion: Carried; [tag: string]: Carried | undefined };
+const BUNDLED = `type Bytes = Uint8Array<ArrayBuffer>;
+type BundledCore = { glue(): Promise<typeof import('./motion.js')>; source(): Bytes | URL | Promise<Bytes> | undefined };
+declare const cores: { motion: BundledCore; [tag: string]: BundledCore | undefined };
 export default cores;
 /** Starts the worker that reads logs; returns undefined if the bundle does not know its script. */
 export function startWorker(): Worker | undefined;
@@ -106,7 +106,7 @@ async function buildCores(names, local) {
   await together(finished);
   if (!names.includes('motion')) return;
   copyFileSync(at('build/bound/motion/motion.d.ts'), at('build/core.d.ts'));
-  writeFileSync(at('build/motion.wasm.d.ts'), CARRIED);
+  writeFileSync(at('build/motion.wasm.d.ts'), BUNDLED);
 }
 
 /**

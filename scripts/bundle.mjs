@@ -100,17 +100,17 @@ const MODULE = {
    */
   external: (tags) => {
     const files = [['motion', '../motion.wasm'], ...tags.map((tag) => [tag, `./${basename(moduleOf(tag).path)}`])];
-    const carried = files.map(([name, path]) => (
-      `'${name}': { glue: () => import('./${name}.js'), source: () => carriedAlong('${path}', () => new URL('${path}', import.meta.url)) }`
+    const cores = files.map(([name, path]) => (
+      `'${name}': { glue: () => import('./${name}.js'), source: () => bundledSource('${path}', () => new URL('${path}', import.meta.url)) }`
     ));
     return (
       'const here = import.meta.url;' +
-      'const carriedAlong = (path, written) => {' +
+      'const bundledSource = (path, written) => {' +
       '  const url = here && written();' +
       `  return url && (here.includes('${OWN_NAME}') || url.href !== new URL(path, here).href) ? url : undefined;` +
       '};' +
       `const embedded = { glue: () => import('./motion.js'), source: async () => (await import('${BYTES}')).default() };` +
-      `const all = { embedded, ${carried} }; export default all;` +
+      `const all = { embedded, ${cores} }; export default all;` +
       startWorker('../', `if (all.motion.source()) return new Worker(new URL('./${basename(LOG_WORKER)}', import.meta.url), { type: 'module' });`)
     );
   },
@@ -198,13 +198,13 @@ export async function bundle({ tags = WIDGETS, changed = (_, script) => script }
         {
           name: 'wasm',
           setup({ onLoad, onResolve }) {
-            const carriers = {
+            const contents = {
               core: MODULE.core,
               external: () => MODULE.external(tags),
               worker: () => MODULE.worker(tags.filter((tag) => WITH_LOGS.includes(tag))),
               inlined: () => MODULE.inlined(options.format === 'iife'),
             };
-            onLoad({ filter: /\.wasm$/ }, () => ({ contents: carriers[form](), loader: 'js' }));
+            onLoad({ filter: /\.wasm$/ }, () => ({ contents: contents[form](), loader: 'js' }));
             if (options.platform === 'node') onResolve({ filter: /^\.\/core\.ts$/ }, () => ({ path: './core.js', external: true }));
             const chunks = form === 'core' || form === 'external' ? PLACE_OF_CHUNKS[form] : undefined;
             onResolve({ filter: new RegExp(`^${BYTES}$`) }, ({ path }) => (

@@ -1,9 +1,9 @@
 /**
- * Loads the WebAssembly core; a page or process compiles a module once. The only file that touches generated glue.
- * Importing it runs nothing: no DOM, no network, no compilation before `load()`.
+ * Loader of the WebAssembly core, which a page or process compiles once. It is the only file that uses wasm-bindgen's glue.
+ * An import has no effects: it needs no DOM, and fetches and compiles nothing before `load()`.
  */
 
-import carried from '../build/motion.wasm';
+import bundled from '../build/motion.wasm';
 import type { Motion } from './types.d.ts';
 
 export { startWorker } from '../build/motion.wasm';
@@ -12,25 +12,25 @@ export { startWorker } from '../build/motion.wasm';
 export type Source = BufferSource | URL | string | WebAssembly.Module;
 
 /** Source that the first caller named. */
-let wanted: Source | undefined;
-/** Carrier of a module and its glue. */
-type Carrier = typeof carried.motion;
+let requestedSource: Source | undefined;
+/** Functions of a bundle that load a module, and the JavaScript that wasm-bindgen made for it (its glue). */
+type BundledCore = typeof bundled.motion;
 
-/** Modules, by what carries them. */
-const compiling: Map<Carrier, Promise<WebAssembly.Module>> = new Map();
-/** Tags of widgets that the page has met: external.js adds them. */
-export const expected: Set<string> = new Set();
+/** Modules that are compiled or compiling. */
+const compiling: Map<BundledCore, Promise<WebAssembly.Module>> = new Map();
+/** Tags of the widgets that external.js has found in the page. */
+export const knownTags: Set<string> = new Set();
 let loading: Promise<Motion> | undefined;
 
 /**
  * Returns the core, ready to use. Later calls get the same core, and a call after a failed one tries again.
  *
- * `source` is the module as bytes, an address, or compiled. Without it the module is the one in the bundle. For external.js that is the
- * file `motion.wasm` beside it, or where that cannot be fetched, the copy embedded in a script. The first caller to name a source decides
- * for the page. A script that imports the elements and names a source at once is early enough.
+ * `source` is the module as bytes, an address, or compiled. By default it is the module of the bundle. For external.js that is the file
+ * `motion.wasm` next to it, or if the file cannot be fetched, the copy embedded in a script. The first caller with a source decides for the
+ * page. A script may import the elements first if it then calls `load(source)` without waiting.
  */
 export function load(source?: Source): Promise<Motion> {
-  wanted ??= source;
+  requestedSource ??= source;
   loading ??= instantiate().catch((error) => {
     loading = undefined;
     throw error;
@@ -43,18 +43,18 @@ export function load(source?: Source): Promise<Motion> {
  * the last reference to it.
  */
 export function instantiate(source?: Source): Promise<Motion> {
-  wanted ??= source;
+  requestedSource ??= source;
   return instantiateFor('motion');
 }
 
-/** As `instantiate`, for the widget of a tag. In external.js its module has no other's machine, as long as the page has met no other. */
+/** Returns a core for the widget of a tag. external.js has a smaller module for each widget, and uses it while a page has one kind of widget. */
 export async function instantiateFor(name: string): Promise<Motion> {
   if (typeof WebAssembly === 'undefined') {
     throw new Error('WebAssembly is not available here, and motion-widgets needs it.');
   }
   let motion;
   try {
-    // Elements ask while they are being defined, before the script that imports them has had its say.
+    // Elements are defined before the script that imports them can call `load(source)`.
     await null;
     const [module, { default: makeCore }] = await found(name);
     motion = await makeCore(module);
@@ -69,41 +69,41 @@ export async function instantiateFor(name: string): Promise<Motion> {
   return motion;
 }
 
-/** Compiled module of a widget, and the name of its glue: a worker makes a core of them. */
+/** Compiled module of a widget, and the key of its glue in the bundle. A worker makes a core from both. */
 export interface SharedCore {
   module: WebAssembly.Module;
   glue: string;
 }
 
-/** Returns what another thread needs for the core of a widget, by its tag. */
+/** Returns the module and glue of a widget's core for another thread. */
 export async function sharedCore(name: string): Promise<SharedCore> {
   const [module] = await found(name);
-  const carrier = carrierOf(name);
-  return { module, glue: Object.keys(carried).find((key) => carried[key] === carrier) ?? 'motion' };
+  const core = bundledCoreOf(name);
+  return { module, glue: Object.keys(bundled).find((key) => bundled[key] === core) ?? 'motion' };
 }
 
-/** Makes a core of what another thread has compiled. */
+/** Returns a core from a module that another thread has compiled. */
 export async function instantiateShared({ module, glue }: SharedCore): Promise<Motion> {
-  const { default: makeCore } = await (carried[glue] ?? carried.motion).glue();
+  const { default: makeCore } = await (bundled[glue] ?? bundled.motion).glue();
   return makeCore(module);
 }
 
-/** Forgets a machine of a core that has trapped. Its memory is damaged: even to free the machine, when its handle is collected, is not safe. */
+/** Prevents the garbage collector from freeing a machine of a core that has trapped: the memory of the core may be damaged. */
 export function abandon(machine: { free(): void }) {
   (machine as unknown as { __destroy_into_raw(): number }).__destroy_into_raw();
 }
 
-/** True once the file of a module was asked for in vain. */
+/** True after a module could not be fetched. */
 let unreachable = false;
 
-/** Returns the module and glue of a widget, or of the whole core; the embedded ones where there is no file, or it cannot be had. */
-async function found(name: string): Promise<[WebAssembly.Module, Awaited<ReturnType<Carrier['glue']>>]> {
-  const named = wanted;
-  const carrier = carrierOf(name);
+/** Returns the compiled module and the glue for a widget, or the embedded ones if the module cannot be fetched. */
+async function found(name: string): Promise<[WebAssembly.Module, Awaited<ReturnType<BundledCore['glue']>>]> {
+  const named = requestedSource;
+  const core = bundledCoreOf(name);
   try {
-    return await Promise.all([compiled(carrier), carrier.glue()]);
+    return await Promise.all([compiled(core), core.glue()]);
   } catch (error) {
-    if (named !== undefined || !carried.embedded || carrier === carried.embedded || forbidden()) throw error;
+    if (named !== undefined || !bundled.embedded || core === bundled.embedded || forbidden()) throw error;
     unreachable = true;
     const embedded = await found(name).catch(() => {
       unreachable = false;
@@ -114,22 +114,22 @@ async function found(name: string): Promise<[WebAssembly.Module, Awaited<ReturnT
   }
 }
 
-/** Returns the carrier of a widget's module, or of the whole core: one for all widgets of a page is less than one for each. */
-function carrierOf(name: string) {
-  const own = carried[name];
-  const carrier = own && (compiling.has(own) || (wanted === undefined && expected.size < 2)) ? own : carried.motion;
-  return carried.embedded && wanted === undefined && (unreachable || !carrier.source()) ? carried.embedded : carrier;
+/** Returns the bundled core of a widget. Pages with several kinds of widgets use the core of all, which is smaller than one for each kind. */
+function bundledCoreOf(name: string) {
+  const own = bundled[name];
+  const core = own && (compiling.has(own) || (requestedSource === undefined && knownTags.size < 2)) ? own : bundled.motion;
+  return bundled.embedded && requestedSource === undefined && (unreachable || !core.source()) ? bundled.embedded : core;
 }
 
-function compiled(carrier: Carrier): Promise<WebAssembly.Module> {
-  let module = compiling.get(carrier);
+function compiled(core: BundledCore): Promise<WebAssembly.Module> {
+  let module = compiling.get(core);
   if (!module) {
-    module = compile(wanted ?? carrier.source()).catch((error) => {
-      wanted = undefined;
-      compiling.delete(carrier);
+    module = compile(requestedSource ?? core.source()).catch((error) => {
+      requestedSource = undefined;
+      compiling.delete(core);
       throw error;
     });
-    compiling.set(carrier, module);
+    compiling.set(core, module);
   }
   return module;
 }
@@ -138,7 +138,7 @@ function compiled(carrier: Carrier): Promise<WebAssembly.Module> {
 const CURE =
   "Copy motion.wasm from the package's dist/ into the site and give its address to load(), or leave the address out.";
 
-/** Characters of an address that are quoted: one with data in it has millions. */
+/** Maximum number of characters of an address in a message: a data URL has millions. */
 const LONGEST = 200;
 
 async function compile(given: Source | Promise<BufferSource> | undefined) {
@@ -154,7 +154,7 @@ async function compile(given: Source | Promise<BufferSource> | undefined) {
   );
 }
 
-/** Checks whether not even an empty module may run here: WebKit forbids that alone, others to compile it. */
+/** Checks whether a Content-Security-Policy forbids an empty module. WebKit then refuses to instantiate it, other browsers to compile it. */
 function forbidden() {
   try {
     return !new WebAssembly.Instance(new WebAssembly.Module(Uint8Array.of(0, 0x61, 0x73, 0x6d, 1, 0, 0, 0)));
@@ -163,7 +163,7 @@ function forbidden() {
   }
 }
 
-/** Compiles a module while it is still arriving, or afterwards where the server calls it something else than application/wasm. */
+/** Compiles a module while it downloads; after the download if its MIME type is not application/wasm. */
 async function streamed(source: URL | string) {
   const response = await fetch(source).catch((error) => {
     throw new Error(
@@ -183,17 +183,17 @@ async function streamed(source: URL | string) {
   }
 }
 
-/** Reads a file in Node, whose `fetch` refuses file: addresses and paths. Undefined where `fetch` works. */
+/** Reads a file in Node, whose `fetch` refuses file: addresses and paths. Returns undefined for addresses that `fetch` can read. */
 function fileAt(source: URL | string): Promise<BufferSource> | undefined {
   if (/^(https?|data|blob):/.test(String(source))) return undefined;
-  // No import: bundlers for browsers would stumble over it.
+  // An import of node:fs would fail in bundlers for browsers.
   const files = globalThis.process?.getBuiltinModule?.('node:fs/promises');
   return files?.readFile(String(source).startsWith('file:') ? new URL(source) : source);
 }
 
 /**
- * Makes a class of the generated glue disposable: `free()` may be called again, which does nothing, and so may
- * `[Symbol.dispose]()`, in engines without that symbol too. Any other use after that throws a TypeError.
+ * Makes a class of the generated glue disposable. `free()` and `[Symbol.dispose]()` can be called several times, also in engines without
+ * that symbol. Any other call after them throws a TypeError.
  */
 function makeDisposable(name: string, prototype: any) {
   if (!Symbol.dispose) Object.defineProperty(Symbol, 'dispose', { value: Symbol('Symbol.dispose') });

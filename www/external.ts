@@ -4,7 +4,7 @@
  */
 
 import { vocabularies, widgets } from '../build/widgets.js';
-import { expected } from './core.ts';
+import { knownTags } from './core.ts';
 import { roomBefore } from './figure/page/room.ts';
 import { en } from './messages/en.ts';
 import { addEnglish } from './messages/registry.ts';
@@ -27,7 +27,7 @@ function meet(root: ParentNode) {
     if (!(element instanceof Element)) continue;
     const { localName } = element;
     if (waiting.delete(localName)) {
-      expected.add(localName);
+      knownTags.add(localName);
       widgets[localName]();
     }
     // The contents of a widget have no other widgets.

@@ -5,7 +5,7 @@
  * @module
  */
 
-import { spread } from './timing.js';
+import { quartiles } from './timing.js';
 
 /** Factor by which Chromium slows the processor. */
 export const THROTTLE = 4;
@@ -14,14 +14,14 @@ export const THROTTLE = 4;
 const DRAGGED = '.slider input[type=range], .handle:not(.jamb, .side)';
 
 /**
- * @typedef {import('./timing.js').Spread} Spread
+ * @typedef {import('./timing.js').Quartiles} Quartiles
  *
  * @typedef {object} Drag times in ms
  * @property {string} widget
  * @property {string} what is dragged
- * @property {Spread} time from the frame after a step until a frame with its picture is handed over
- * @property {Spread} words from there to the frame with the words being handed over
- * @property {Spread} steady from frame to frame where each has a step
+ * @property {Quartiles} time from the frame after a step until a frame with its picture is handed over
+ * @property {Quartiles} words from there to the frame with the words being handed over
+ * @property {Quartiles} steady from frame to frame where each has a step
  *
  * @param {import('@playwright/test').Browser} browser
  * @param {string} address of drag.html
@@ -43,7 +43,7 @@ export async function timeDrags(browser, address, steps) {
     await session.send('Emulation.setCPUThrottlingRate', { rate: THROTTLE });
     for (let i = 0; i < count; i++) {
       const { what, time, words, steady } = await page.evaluate(drag, { widget, selector: DRAGGED, i, steps });
-      drags.push({ widget, what, time: spread(time), words: spread(words), steady: spread(steady) });
+      drags.push({ widget, what, time: quartiles(time), words: quartiles(words), steady: quartiles(steady) });
     }
     await session.send('Emulation.setCPUThrottlingRate', { rate: 1 });
   }

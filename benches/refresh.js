@@ -7,16 +7,16 @@
 import { Baseline } from './baseline.js';
 import { noiseOf } from './check.js';
 import { ALPHAS, RAMP, VIEW, command, figures, picture } from './scene.js';
-import { ratio, race, spread } from './timing.js';
+import { quartiles, race, ratio } from './timing.js';
 
 /**
- * @typedef {import('./timing.js').Spread} Spread
+ * @typedef {import('./timing.js').Quartiles} Quartiles
  *
  * @typedef {object} Refresh times in ms
  * @property {number} samples
- * @property {Spread} core
- * @property {Spread} baseline
- * @property {Spread} times time of the baseline over that of the core, turn by turn
+ * @property {Quartiles} core
+ * @property {Quartiles} baseline
+ * @property {Quartiles} times time of the baseline over that of the core, turn by turn
  */
 
 /**
@@ -38,5 +38,5 @@ export async function timeRefresh(motion, { samples, seconds }) {
     { seconds },
   );
   machine.free();
-  return { samples, core: spread(core), baseline: spread(baseline), times: ratio(baseline, core) };
+  return { samples, core: quartiles(core), baseline: quartiles(baseline), times: ratio(baseline, core) };
 }

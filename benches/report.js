@@ -8,7 +8,7 @@ import { THROTTLE } from './drag.js';
 
 /**
  * @typedef {import('./suite.js').Measured} Measured
- * @typedef {import('./timing.js').Spread} Spread
+ * @typedef {import('./timing.js').Quartiles} Quartiles
  *
  * @typedef {object} Results
  * @property {string} date
@@ -39,7 +39,7 @@ export function report(results) {
   const million = refreshOf(1e6);
   const atMost = (/** @type {number} */ bound) => (/** @type {number} */ value) => value <= bound;
   const atLeast = (/** @type {number} */ bound) => (/** @type {number} */ value) => value >= bound;
-  /** @type {[string, string, (Spread | undefined)[], string, (value: number) => boolean][]} */
+  /** @type {[string, string, (Quartiles | undefined)[], string, (value: number) => boolean][]} */
   const targets = [
     ['Refresh of 1 000 000 poses', '≤ 16.7 ms', million.map((row) => row?.core), 'ms', atMost(FRAME)],
     ['Refresh of 100 000 poses', '≤ 2 ms', refreshOf(1e5).map((row) => row?.core), 'ms', atMost(2)],
@@ -93,7 +93,7 @@ function dragged(drags) {
 }
 
 /**
- * @param {(Spread | undefined)[]} values in Node and in Chromium; undefined where nothing is measured
+ * @param {(Quartiles | undefined)[]} values in Node and in Chromium; undefined where nothing is measured
  * @param {(value: number) => boolean} reached
  */
 function verdict([node, chromium], reached) {
@@ -103,7 +103,7 @@ function verdict([node, chromium], reached) {
 }
 
 /**
- * @param {Spread | undefined} value
+ * @param {Quartiles | undefined} value
  * @param {string} [unit]
  */
 function cell(value, unit = '') {

@@ -4,7 +4,7 @@
  * @module
  */
 
-import { spread } from './timing.js';
+import { quartiles } from './timing.js';
 
 /** Marks in order, and the work that ends with each. */
 const STAGES = /** @type {const} */ ([
@@ -19,8 +19,8 @@ const STAGES = /** @type {const} */ ([
 /**
  * @typedef {object} Start times in ms
  * @property {number} loads
- * @property {import('./timing.js').Spread} total
- * @property {{ stage: string, time: import('./timing.js').Spread }[]} stages
+ * @property {import('./timing.js').Quartiles} total
+ * @property {{ stage: string, time: import('./timing.js').Quartiles }[]} stages
  */
 
 /**
@@ -50,9 +50,9 @@ export async function timeStart(browser, address, loads) {
     await context.close();
   }
   const stages = STAGES.slice(1).map(([, stage], i) => {
-    return { stage, time: spread(marks.map((times) => times[i + 1] - times[i])) };
+    return { stage, time: quartiles(marks.map((times) => times[i + 1] - times[i])) };
   });
-  return { loads, total: spread(marks.map((times) => times[times.length - 1] - times[0])), stages };
+  return { loads, total: quartiles(marks.map((times) => times[times.length - 1] - times[0])), stages };
 }
 
 /** Runs in the page before any script of its own. */

@@ -6,14 +6,14 @@
 
 import { differences } from './check.js';
 import { timeRefresh } from './refresh.js';
-import { race, spread } from './timing.js';
+import { race, quartiles } from './timing.js';
 
 /** @typedef {import('../www/types.d.ts').Motion} Motion */
 
 /**
  * @typedef {object} Measured
  * @property {import('./refresh.js').Refresh[]} refresh by the number of samples
- * @property {import('./timing.js').Spread} calibration of the example log, ms
+ * @property {import('./timing.js').Quartiles} calibration of the example log, ms
  */
 
 /**
@@ -37,7 +37,7 @@ export async function measure(motion, { quick, log, progress }) {
   progress('calibration');
   const [odometry, reference] = [log.odometry, log.reference].map(columns);
   const { calibration } = await race({ calibration: () => void motion.calibrate({ odometry, reference }) }, { seconds });
-  return { refresh, calibration: spread(calibration) };
+  return { refresh, calibration: quartiles(calibration) };
 }
 
 /** @param {string} csv */

@@ -5,7 +5,7 @@
  * @module
  */
 
-/** @typedef {{ median: number, lower: number, upper: number, turns: number }} Spread median, quartiles, how many */
+/** @typedef {{ median: number, lower: number, upper: number, turns: number }} Quartiles median, quartiles, how many */
 
 /** Minimum duration of a turn, ms: the clock's step in an isolated page, 5 µs, is half a per cent of it. */
 const TURN = 1;
@@ -54,8 +54,8 @@ export async function race(contenders, { seconds, most = 60 }) {
   return turns;
 }
 
-/** Returns median and quartiles. @param {number[]} values @returns {Spread} */
-export function spread(values) {
+/** Returns median and quartiles. @param {number[]} values @returns {Quartiles} */
+export function quartiles(values) {
   const sorted = [...values].sort((a, b) => a - b);
   const at = (/** @type {number} */ share) => {
     const position = share * (sorted.length - 1);
@@ -68,5 +68,5 @@ export function spread(values) {
 
 /** Returns the ratio of two times, turn by turn. @param {number[]} slow @param {number[]} fast */
 export function ratio(slow, fast) {
-  return spread(slow.map((value, turn) => value / fast[turn]));
+  return quartiles(slow.map((value, turn) => value / fast[turn]));
 }

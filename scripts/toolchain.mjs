@@ -233,12 +233,12 @@ function searchFirst(bin) {
  * @returns {Promise<string>} rustc's description of itself
  */
 async function requireVersion(bin, env, remedy) {
-  const needed = manifestValue('Cargo.toml', /^rust-version = "(.+)"$/m);
+  const required = manifestValue('Cargo.toml', /^rust-version = "(.+)"$/m);
   const { stdout } = await run(join(bin, 'rustc'), ['--version'], { env, quiet: true });
   const [, major, minor] = stdout.match(/^rustc (\d+)\.(\d+)/) ?? ['', '0', '0'];
-  const [neededMajor, neededMinor] = needed.split('.').map(Number);
-  if (Number(major) < neededMajor || (Number(major) === neededMajor && Number(minor) < neededMinor)) {
-    throw new Missing(`Rust ${needed} or newer is needed and ${join(bin, 'rustc')} is not: ${remedy} and start again.`);
+  const [minMajor, minMinor] = required.split('.').map(Number);
+  if (Number(major) < minMajor || (Number(major) === minMajor && Number(minor) < minMinor)) {
+    throw new Missing(`Rust ${required} or newer is needed and ${join(bin, 'rustc')} is not: ${remedy} and start again.`);
   }
   return stdout.split(' ').slice(0, 2).join(' ');
 }

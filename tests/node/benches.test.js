@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { differences } from '../../benches/check.js';
-import { ratio, spread } from '../../benches/timing.js';
+import { ratio, quartiles } from '../../benches/timing.js';
 import { freshModule } from './support.js';
 
 test('baseline has the statistics and the picture of the core', async () => {
@@ -23,9 +23,9 @@ test('comparison finds a core with another skew', async () => {
   assert.deepEqual([...new Set(wrong.map((text) => text.split(':')[0]))], ['crossTrackSkew']);
 });
 
-test('spread has median and quartiles, and a ratio is taken turn by turn', () => {
-  assert.deepEqual(spread([5, 1, 4, 2, 3]), { median: 3, lower: 2, upper: 4, turns: 5 });
-  assert.equal(spread([1, 2]).median, 1.5);
+test('quartiles has median and quartiles, and a ratio is taken turn by turn', () => {
+  assert.deepEqual(quartiles([5, 1, 4, 2, 3]), { median: 3, lower: 2, upper: 4, turns: 5 });
+  assert.equal(quartiles([1, 2]).median, 1.5);
   // The ratio of the medians would be 2.
   assert.equal(ratio([2, 30, 4], [1, 10, 1]).median, 3);
 });

@@ -1,8 +1,9 @@
 /**
- * Elements for notebooks and books that show widgets as anywidget has them. The trait `widget` of a model names the element. Others, called
- * as attributes, properties, or in Python's spelling, set its values. Traits that the model does not have are left alone until they come.
- * The figure writes its values back: as it opens, and after changes of the reader or the model. `stats` get the statistics, `error` the
- * last refusal.
+ * Elements as widgets of anywidget, for notebooks and books. The trait `widget` of a model is the tag of the element. Further traits set the
+ * values of the element: they have the names of its attributes or properties, in JavaScript's or Python's spelling.
+ *
+ * The figure writes its values into the model when it opens, and after each change. It writes its statistics into the trait `stats`, and its
+ * latest error message into `error`. It never adds a trait to the model.
  */
 
 import './de.ts';

@@ -18,8 +18,8 @@ const openings: WeakMap<Element, Record<string, any>> = new WeakMap();
 export const figureOf = (element: Element): Figure => element.closest('article')?.querySelector('.stand > :first-child') as Figure;
 
 /**
- * Puts a figure into the state that it opened with, with some values changed: by property, or by field of its state where no property has
- * that name. A preset comes first.
+ * Returns a figure to the state that it opened with, and then sets values in their order. Each is a property of the element, or else a field
+ * of its state. A preset has to be the first value, because it replaces the others.
  */
 export async function enter(figure: Figure, values: Record<string, unknown>) {
   if (!openings.has(figure)) await new Promise((resolve) => figure.addEventListener('load', resolve, { once: true }));

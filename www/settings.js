@@ -69,7 +69,7 @@ export const settings = {
     { key: 'next', type: 'group', fields: ['x', 'y', 'theta'], sentence: 'Pose of the robot after the command.' },
     { key: 'nextX', in: 'next', field: 'x', type: 'number', unit: 'm', min: -1000000, max: 1000000, default: 1.1, sentence: 'Position of the robot after the command.' },
     { key: 'nextY', in: 'next', field: 'y', type: 'number', unit: 'm', min: -1000000, max: 1000000, default: 0.5, sentence: 'Position of the robot after the command.' },
-    { key: 'nextTheta', in: 'next', field: 'theta', type: 'number', unit: 'rad', min: -1000000, max: 1000000, default: 1.1, sentence: 'The heading that it is found with.' },
+    { key: 'nextTheta', in: 'next', field: 'theta', type: 'number', unit: 'rad', min: -1000000, max: 1000000, default: 1.1, sentence: 'Heading of the robot after the command.' },
     { key: 'command', type: 'group', fields: ['v', 'omega', 'dt'], sentence: 'Command between the two poses.' },
     { key: 'v', in: 'command', type: 'number', unit: 'm/s', min: -1000000, max: 1000000, default: 1, sentence: 'Commanded speed; negative in reverse.' },
     { key: 'omega', in: 'command', type: 'number', unit: 'rad/s', min: -1000000, max: 1000000, default: 0.5, sentence: 'Commanded turn rate; positive to the left.' },

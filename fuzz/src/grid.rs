@@ -9,8 +9,9 @@ use motion::map::{
 };
 use motion::sim::settings::QUANTITY;
 
-/// Maximum number of cells along a side, and of arcs that are tested.
+/// Maximum number of arcs that are tested on a grid.
 const ARCS: usize = 3;
+/// Maximum number of cells along a side.
 const SIDE: usize = 3;
 
 pub fn run(bytes: &[u8]) {

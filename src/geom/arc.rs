@@ -1,8 +1,8 @@
 //! Circular arcs driven from a pose, in the chord form.
 //!
 //! A robot at the origin with heading 0 that drives the signed length `s` while turning by `φ` ends at distance
-//! s · sinc(φ/2) on the bearing φ/2. That is the chapter's arc update with the radius r = s/φ cancelled: it needs no
-//! straight-line branch and loses no digits as φ → 0, where the centre of the circle runs off to infinity.
+//! s · sinc(φ/2) on the bearing φ/2. The formula equals the arc update of Table 5.3 with the radius r = s/φ cancelled. It
+//! needs no branch for straight lines. It loses no digits as φ → 0, where the centre of the circle goes to infinity.
 
 use super::angle::wrap_angle;
 use super::lanes::{Circle, Trigonometry};

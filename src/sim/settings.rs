@@ -103,7 +103,7 @@ pub struct Declaration {
     pub key: &'static str,
     /// The setting that this one is another way to say.
     pub of: Option<&'static str>,
-    // The module for browsers has neither the sentence nor the unit: no page shows them, and they would make it larger.
+    // The module for browsers omits the sentence and the unit of settings: no page shows them, and they would make the module larger.
     #[cfg(not(target_arch = "wasm32"))]
     pub sentence: &'static str,
     /// Unit; "" for a number without one.

@@ -20,11 +20,12 @@ use wide::f64x4;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(target_arch = "wasm32", derive(serde::Serialize, tsify::Tsify))]
 pub struct LikelihoodGain {
-    /// Gain of exponential coordinates ξ over (x, y, θ), as densities over dx dy dθ = sinc²(ξ_ω/2) dξ: ½(ln det Σ_xyθ −
-    /// ln det Σ_ξ) − mean of ln sinc²(ξ_ω/2).
+    /// Gain of a Gaussian in exponential coordinates ξ over one in (x, y, θ): ½(ln det Σ_xyθ − ln det Σ_ξ) − mean of
+    /// ln sinc²(ξ_ω/2). Both are densities over dx dy dθ = sinc²(ξ_ω/2) dξ.
     pub pose: f64,
-    /// Gain of length s and turn φ of the arc to the end over (x, y), as densities over dx dy = |s|·sinc²(φ/2)/2 ds dφ:
-    /// ½(ln det Σ_xy − ln det Σ_sφ) − mean of ln(|s|·sinc²(φ/2)/2).
+    /// Gain of a Gaussian in arc coordinates over one in (x, y): ½(ln det Σ_xy − ln det Σ_sφ) − mean of
+    /// ln(|s|·sinc²(φ/2)/2). Arc coordinates are the length s and the turn φ of the arc to the end position. Both are
+    /// densities over dx dy = |s|·sinc²(φ/2)/2 ds dφ.
     pub floor: f64,
 }
 

@@ -46,8 +46,8 @@ export interface AnatomyPaths {
   /** Path of the constant twist ξ. */
   lie: Float64Array;
   /**
-   * Lines from points of the path `lie`, each along the displacement that its lateral velocity alone would make in Δt:
-   * x, y, x, y.
+   * Line segments that start on the path `lie`, as x, y, x, y in m. Each is the displacement that the lateral velocity at its start
+   * would cause within Δt.
    */
   ticks: Float64Array;
 }

@@ -1,6 +1,6 @@
 /**
- * Results of machines by their JavaScript interface, to the last bit; tests/native/digest takes the same of the simulations. It runs in
- * Node and in any page.
+ * Digests of the results that machines give through their JavaScript interface, to the last bit. Node and pages can run it. For the Rust
+ * simulations tests/native/digest computes the same digests.
  *
  * @module
  */

@@ -121,7 +121,7 @@ test('units are taken by two signs', async () => {
   }
 });
 
-/** Questions, the option that answers each, and a value of row 9 then. @type {[string, string, RegExp, import('../../www/logs/log.ts').OpenOptions, [string, number]][]} */
+/** Tables that lead to a question about a unit. Each has the option that answers it, and a field of row 9 with its value after the answer. @type {[string, string, RegExp, import('../../www/logs/log.ts').OpenOptions, [string, number]][]} */
 const QUESTIONS = [
   ['millimetres', circles(([t, x, y, yaw]) => [t, 1000 * x, 1000 * y, yaw]), /in m, the robot would drive at \d+ m\/s; .*: cm or mm or m\.$/, { lengthUnit: 'mm' }, ['x', CIRCLES[9][1]]],
   ['metres that a name has as millimetres', circles(undefined, 't,x_mm,y_mm,yaw'), /in mm, the robot .*: m or mm\.$/, { lengthUnit: 'm' }, ['x', CIRCLES[9][1]]],

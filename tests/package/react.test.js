@@ -110,7 +110,7 @@ function sent(props) {
   return execFileSync(process.execPath, [script], { encoding: 'utf8', env: { ...process.env, NODE_ENV: 'development' } }).trim();
 }
 
-/** Waits for the event with all samples of the first figure. */
+/** Waits until the page shows the 2000 samples that the last `stats` event of the first figure has. */
 const whole = () => page.getByText('of 2000').waitFor();
 
 /** @param {string} name of the file */

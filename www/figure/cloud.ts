@@ -12,7 +12,7 @@ import { isCalm } from './stage.ts';
 import type { Figure } from './figure.ts';
 import type { Values } from './state.ts';
 
-/** Number of samples of a machine or a reading. */
+/** Number of samples of a machine, or of a reading of it. */
 interface Count {
   shown: number;
   /** Number of samples that take a few milliseconds. */

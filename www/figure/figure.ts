@@ -116,7 +116,7 @@ export class FigureElement<Machine extends { free(): void, stats: object, config
   pictures: import('../scene/picture.ts').Picture<any>[] = [];
   /** Picture for export, with its own size. */
   plate: import('../scene/picture.ts').Picture<any> & { size: { width: number, height: number } } | undefined;
-  /** Latest reading of the machine; undefined before the first. */
+  /** Reading of the machine: all values that pictures, texts and tables show, read at one time. Undefined before the first frame. */
   reading: Reading = undefined as any;
   #highlight: string | null = null;
   /** Functions that resolve the promises of `settled`. */
@@ -207,7 +207,7 @@ export class FigureElement<Machine extends { free(): void, stats: object, config
     this.state.keep();
   }
 
-  /** Reading of the machine, up to date with every change. */
+  /** Reading of the machine after all pending changes are applied. */
   get fresh(): Reading {
     if (!this.machine) throw new Error('There is no figure yet: it is there from the load event on.');
     speak(this);

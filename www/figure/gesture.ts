@@ -10,7 +10,7 @@ export class Gesture extends Part {
   #isOpen = false;
   /** Removes the listeners of a press. */
   #press: AbortController | undefined;
-  /** Reading before the present or latest gesture. */
+  /** Reading of the machine (see Figure.reading) before the present or latest gesture. */
   former: any;
 
   /** True while a pointer is down on the figure, where the views stay as they are. */

@@ -74,8 +74,8 @@ const PATTERNS = NAMES.flatMap(([field, names]) => names.map((name, rank) => ({ 
 /** Field and a group after it: x_gt, yaw_odom, x1. */
 const SUFFIXED = /^((?:pos\.|position\.)?[xy]|yaw|theta|heading|q\.?[xyzw]|t|time|v|omega)\.?(\d+|(?<=\.)(?!rate|dot)\p{L}.*)$/u;
 
-/** Parts of names of other quantities: uncertainty, acceleration, and vectors of an IMU. */
-const OTHERS = /(^|\.)(cov(ariance)?|std(dev)?|sigma|var(iance)?|err(or)?|residual|acc(el(eration)?)?|force|torque|effort|bias|mag(netic)?|dot|linear|angular|lin|ang|vel(ocity)?|twist|goal|setpoint|euler|rpy)(\.|\d|$)|^[vabw]\./;
+/** Parts of column names that are no pose, velocity or time: uncertainty, acceleration, vectors of an IMU, goals. */
+const OTHER_QUANTITIES = /(^|\.)(cov(ariance)?|std(dev)?|sigma|var(iance)?|err(or)?|residual|acc(el(eration)?)?|force|torque|effort|bias|mag(netic)?|dot|linear|angular|lin|ang|vel(ocity)?|twist|goal|setpoint|euler|rpy)(\.|\d|$)|^[vabw]\./;
 
 type Unit = { of: 'time' | 'length' | 'angle'; unit: TimeUnit | LengthUnit | AngleUnit; isRate: boolean };
 
@@ -128,7 +128,7 @@ function readName(name: string): ColumnMeaning | undefined {
   if (bracketed !== undefined && inside !== undefined && !NO_UNIT.test(inside.trim())) {
     const unit = unitOf(inside);
     const reading = fieldOf(dottedName(name.slice(0, -bracketed.length)));
-    return reading && fits(reading.field, unit) ? { ...reading, unit: unit?.unit ?? inside.trim() } : undefined;
+    return reading && canHaveUnit(reading.field, unit) ? { ...reading, unit: unit?.unit ?? inside.trim() } : undefined;
   }
   const bare = bracketed === undefined ? name : name.slice(0, -bracketed.length);
   const path = dottedName(bare);
@@ -140,14 +140,14 @@ function readName(name: string): ColumnMeaning | undefined {
   const [last, word] = LAST_PART.exec(bare) ?? [];
   const unit = word === undefined ? undefined : unitOf(word.replace(/[. ]/, '_'));
   const reading = last !== undefined && unit ? fieldOf(dottedName(bare.slice(0, -last.length))) : undefined;
-  if (reading && unit && fits(reading.field, unit)) return { ...reading, unit: unit.unit };
+  if (reading && unit && canHaveUnit(reading.field, unit)) return { ...reading, unit: unit.unit };
   const [, front, suffix] = SUFFIXED.exec(path) ?? [];
   const fronted = front === undefined ? undefined : fieldOf(front);
-  return fronted && suffix !== undefined && !OTHERS.test(suffix) ? { ...fronted, prefix: suffix } : undefined;
+  return fronted && suffix !== undefined && !OTHER_QUANTITIES.test(suffix) ? { ...fronted, prefix: suffix } : undefined;
 }
 
 /** Checks that a field can have a unit. An unknown unit is refused when the column is read. */
-function fits(field: Field, unit: Unit | undefined): boolean {
+function canHaveUnit(field: Field, unit: Unit | undefined): boolean {
   const [of, isRate] = UNITS_OF[field] ?? [];
   return unit === undefined || (unit.of === of && unit.isRate === isRate);
 }
@@ -156,7 +156,7 @@ function fieldOf(path: string): ColumnMeaning | undefined {
   for (const { field, rank, pattern } of PATTERNS) {
     const [found, prefix = ''] = pattern.exec(path) ?? [];
     if (found === undefined) continue;
-    return OTHERS.test(prefix) || /^[vabw]\..*\.[xyzw]$/.test(path) ? undefined : { field, rank, prefix };
+    return OTHER_QUANTITIES.test(prefix) || /^[vabw]\..*\.[xyzw]$/.test(path) ? undefined : { field, rank, prefix };
   }
   return undefined;
 }

@@ -15,9 +15,9 @@ const NEEDED = {
   either: 'x, y und yaw (oder qx, qy, qz und qw), oder v und omega',
 };
 
-const OF_POSES = 'nav_msgs/Odometry, geometry_msgs/PoseStamped, PoseWithCovarianceStamped, TransformStamped, Pose2D oder tf2_msgs/TFMessage';
-const OF_COMMANDS = 'geometry_msgs/Twist, TwistStamped oder TwistWithCovarianceStamped';
-const TYPES = { poses: OF_POSES, either: `${OF_POSES}, oder ${OF_COMMANDS}`, transforms: 'tf2_msgs/TFMessage, worin Koordinatensysteme sind' };
+const POSE_TYPES = 'nav_msgs/Odometry, geometry_msgs/PoseStamped, PoseWithCovarianceStamped, TransformStamped, Pose2D oder tf2_msgs/TFMessage';
+const COMMAND_TYPES = 'geometry_msgs/Twist, TwistStamped oder TwistWithCovarianceStamped';
+const TYPES = { poses: POSE_TYPES, either: `${POSE_TYPES}, oder ${COMMAND_TYPES}`, transforms: 'tf2_msgs/TFMessage, worin Koordinatensysteme sind' };
 
 const ROLES = { odometry: 'Odometrie', reference: 'Referenz' };
 

@@ -14,9 +14,10 @@ const NEEDED = {
   either: 'x, y and yaw (or qx, qy, qz and qw), or v and omega',
 };
 
-const OF_POSES = 'nav_msgs/Odometry, geometry_msgs/PoseStamped, PoseWithCovarianceStamped, TransformStamped, Pose2D or tf2_msgs/TFMessage';
-const OF_COMMANDS = 'geometry_msgs/Twist, TwistStamped or TwistWithCovarianceStamped';
-const TYPES = { poses: OF_POSES, either: `${OF_POSES}, or ${OF_COMMANDS}`, transforms: 'tf2_msgs/TFMessage, which has frames' };
+/** ROS message types that a log of poses or commands can be read from. */
+const POSE_TYPES = 'nav_msgs/Odometry, geometry_msgs/PoseStamped, PoseWithCovarianceStamped, TransformStamped, Pose2D or tf2_msgs/TFMessage';
+const COMMAND_TYPES = 'geometry_msgs/Twist, TwistStamped or TwistWithCovarianceStamped';
+const TYPES = { poses: POSE_TYPES, either: `${POSE_TYPES}, or ${COMMAND_TYPES}`, transforms: 'tf2_msgs/TFMessage, which has frames' };
 
 /** Bases of decisions about units. */
 const BY: Record<Basis, string> = { name: ' (by name)', size: ' (by size)', rate: ' (by rate and speed)', format: '', date: ' (from dates)', option: ' (as stated)', usage: '' };

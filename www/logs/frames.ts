@@ -65,7 +65,7 @@ export class FrameTree {
       const ancestors = this.#ancestors(child);
       const isMoving = moving.has(child);
       const isInner = isMoving && children.some((other) => other !== child && moving.has(other) && this.#ancestors(other).includes(child));
-      // Frames between a base and the next moving frame are fixed to it.
+      // Number of ancestors of a base up to and with the nearest moving one: they move with the base, and so are no parents of its poses.
       const fixed = isMoving || !BASE.test(child) ? 0 : ancestors.findIndex((frame) => moving.has(frame)) + 1;
       return isInner || (!isMoving && fixed === 0) ? [] : ancestors.slice(fixed).map((parent) => ({ parent, child }));
     });

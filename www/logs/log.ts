@@ -1,8 +1,9 @@
 /** Logs of robots, the recordings that they are read from, and their summaries. */
 
-/** Bytes with a name; of a dropped folder, with the path within it. */
+/** File, or other bytes with a name. A file of a dropped folder has its path in the folder. */
 export type Source = Pick<File, 'name' | 'size' | 'slice'> & { path?: string };
 
+/** Contents of a log: poses of the robot, or velocity commands. */
 export type LogKind = 'poses' | 'commands';
 
 /** Roles of the two logs of a drive. */

@@ -115,7 +115,7 @@ export function logOf(drives: Drive[]): Pick<CalibrationLog, Role> {
 export function isSamePath(one: Log, two: Log): boolean {
   const [poses, other] = [one.data, two.data];
   const { t } = poses;
-  // Commands are not integrated: those of a table have the times of its poses.
+  // A log of commands has no poses to compare. Two logs from the same rows of a table have all times in common.
   if ('v' in poses || 'v' in other) {
     return (one.kind === two.kind || one.name === two.name) && t.length === other.t.length && t.every((time, i) => time === other.t[i]);
   }

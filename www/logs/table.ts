@@ -88,10 +88,10 @@ async function encodingOf(source: Source): Promise<string> {
   }
 }
 
-/** Returns the end of lines: of old spreadsheets it is a single carriage return. */
+/** Returns the character that ends lines: a line feed, or in files of old spreadsheets a carriage return. */
 const endOf = (text: string) => (text.includes('\n') || !text.includes('\r') ? '\n' : '\r');
 
-/** Calls back for each line from the first row on. The last one is open if no line feed ends it: the file may have been cut off there. */
+/** Calls `take` for each line from the number `from` on. `isOpen` is true for the text after the last line feed: the file may be cut off there. */
 async function readLines(source: Source, encoding: string, end: string, from: number, onProgress: ((share: number) => void) | undefined, take: (line: string, number: number, isOpen: boolean) => void) {
   // Whole lines are decoded at once: Node decodes streams into strings of twice the size.
   const decoder = new TextDecoder(encoding);
@@ -104,9 +104,9 @@ async function readLines(source: Source, encoding: string, end: string, from: nu
     const bytes = new Uint8Array(rest.length + piece.length);
     bytes.set(rest);
     bytes.set(piece, rest.length);
-    const cutAt = afterLast(bytes, end.charCodeAt(0), width);
-    const text = decoder.decode(bytes.subarray(0, cutAt));
-    rest = bytes.slice(cutAt);
+    const wholeLines = afterLast(bytes, end.charCodeAt(0), width);
+    const text = decoder.decode(bytes.subarray(0, wholeLines));
+    rest = bytes.slice(wholeLines);
     if (text.includes('\0')) throw new LogError({ file: source.name }, (say) => say.binary);
     const lines = text.split(end);
     lines.pop();

@@ -35,7 +35,7 @@ export interface Brush {
   handles?: boolean;
   /** Name of the highlighted line. It is drawn thicker, and all others faint. */
   highlight?: string | null;
-  /** Earlier reading whose outlines stay visible for comparison. */
+  /** Earlier reading of the machine, whose outlines stay visible for comparison. */
   former?: any;
 }
 

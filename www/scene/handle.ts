@@ -54,10 +54,10 @@ export function stepsOf({ key, shiftKey, ctrlKey, metaKey, altKey }: KeyboardEve
   return [LONG_STEP * steps[0], LONG_STEP * steps[1]];
 }
 
-/** Turns by key. The first two are for keyboards on which brackets need a modifier. */
+/** Steps of rotation by key, positive to the left. The first two are for keyboards on which brackets need a modifier. */
 const TURNS: Record<string, number> = { ',': 1, '.': -1, '[': 1, ']': -1 };
 
-/** Returns the steps to the left, or back, that a key turns something by; undefined for other keys. */
+/** Returns the steps by which a key turns something, positive to the left; undefined for other keys. */
 export const turnsOf = ({ key, metaKey }: KeyboardEvent): number | undefined => (metaKey ? undefined : TURNS[key]);
 
 export class Handle {

@@ -12,7 +12,7 @@ export interface How {
   still?: boolean;
   /** True if the view moves there without an animation. */
   atOnce?: boolean;
-  /** Reading before the current gesture. If the view zooms out after the gesture, it shows those outlines too. */
+  /** Reading of the machine before the current gesture. If the view zooms out after the gesture, it also shows the outlines of that reading. */
   former?: any;
   /** Name of the line that is highlighted. */
   highlight?: string | null;

@@ -264,17 +264,17 @@ function line({ x, y }: Curve, toX: (value: number) => number, toY: (value: numb
   let drawn = false;
   for (let i = 0; i < x.length; i++) {
     const [atX, atY] = [toX(x[i]), toY(y[i])];
-    const there = !Number.isNaN(atX + atY);
-    if (there) path += `${drawn ? 'L' : 'M'}${atX.toFixed(2)},${atY.toFixed(2)}`;
-    drawn = there;
+    const isDefined = !Number.isNaN(atX + atY);
+    if (isDefined) path += `${drawn ? 'L' : 'M'}${atX.toFixed(2)},${atY.toFixed(2)}`;
+    drawn = isDefined;
   }
   return path;
 }
 
 /** Returns the outline of a curve's band as a path. */
 function band({ x, y, error = [] }: Curve, toX: (value: number) => number, toY: (value: number) => number) {
-  const there = Array.from(x, (_, i) => i).filter((i) => !Number.isNaN(toX(x[i]) + toY(y[i]) + toY(error[i])));
-  const edge = (side: number) => there.map((i) => `${toX(x[i]).toFixed(2)},${toY(y[i] + side * error[i]).toFixed(2)}`);
+  const defined = Array.from(x, (_, i) => i).filter((i) => !Number.isNaN(toX(x[i]) + toY(y[i]) + toY(error[i])));
+  const edge = (side: number) => defined.map((i) => `${toX(x[i]).toFixed(2)},${toY(y[i] + side * error[i]).toFixed(2)}`);
   const outline = [...edge(1), ...edge(-1).reverse()];
   return outline.length > 0 ? `M${outline.join('L')}Z` : '';
 }

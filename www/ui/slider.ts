@@ -15,7 +15,7 @@ export const sliderStyles = css`
     padding-bottom: 1.1em;
   }
 
-  /* In wide figures all of it is in one row, in columns that every group shares. */
+  /* In wide figures the label, the track and the value are in one row. Fixed column widths align the sliders of all groups. */
   @container (min-width: 56em) {
     .slider {
       grid-template: 'pick name track value' auto / auto 14em 1fr 5.5em;

@@ -18,7 +18,7 @@ group!(FinalPose as FinalPose { x, y, theta } => {
     x: "m", in QUANTITY;
     /// Position of the robot after the command.
     y: "m", in QUANTITY;
-    /// The heading that it is found with.
+    /// Heading of the robot after the command.
     theta: "rad", in QUANTITY;
 });
 

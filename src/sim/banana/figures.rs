@@ -18,7 +18,7 @@ pub struct Figures {
     pub cartesian: CartesianMoments,
     pub exponential: ExponentialMoments,
     pub cross_track: CrossTrack,
-    /// Cross-track skew of the Gaussian that has the exponential moments.
+    /// Cross-track skew of the Gaussian with the moments of the samples in exponential coordinates.
     pub gaussian_skew: f64,
     /// Fractions of the samples inside the two 2σ contours.
     pub inside_ellipse: f64,
@@ -178,7 +178,7 @@ pub struct Contours {
     /// 2σ ellipse of an EKF.
     pub linearized: Vec<[f64; 2]>,
     pub exponential: Vec<[f64; 2]>,
-    /// 2σ ellipse of the exponential moments in (along, heading).
+    /// 2σ ellipse of the coordinates along the track (m) and heading (rad) of the samples' twists.
     pub twist_ellipse: Vec<[f64; 2]>,
     /// The 2σ circle of noise that is added to the pose: see [`super::BananaMachine::additive`].
     pub additive: Vec<[f64; 2]>,

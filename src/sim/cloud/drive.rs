@@ -177,7 +177,7 @@ impl Drive {
         let mut parts = [poses.x, poses.y, poses.along, poses.lateral, poses.half, arcs.length, arcs.half]
             .map(|lanes| lanes.to_array()[0]);
         if self.is_arc {
-            // The same bits as for regular arcs.
+            // The commanded length and half turn are exact. Inverting the end pose would change their last bits.
             [parts[5], parts[6]] = [self.length[0], self.bearing[0]];
         }
         let [chart, arc] = [poses.sinc, arcs.sinc].map(|lanes| lanes.to_array()[0].abs());

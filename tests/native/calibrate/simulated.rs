@@ -21,7 +21,7 @@ pub const MODELS: [Model; 5] = [
     Model::Velocity,
 ];
 
-/// Difference between the unit noise of a leg and that of the model, which has variance 1.
+/// Deviation of the simulated noise from the model's assumption of independent noise with variance 1.
 #[derive(Clone, Copy, Debug)]
 pub enum Unlike {
     /// No difference.

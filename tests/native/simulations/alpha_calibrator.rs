@@ -92,7 +92,7 @@ fn panels_are_means_of_squared_innovations() {
         .collect();
     points.sort_by(|one, other| one[0].total_cmp(&other[0]));
     let size = points.len().div_ceil(8);
-    // Those that turned as much as the last of a bin are in it.
+    // A bin of legs ends after all legs that turned exactly as much as its last one.
     let end =
         |i: usize| points.partition_point(|point| point[0] <= points[((i * size).min(points.len())) - 1][0]);
     for i in 0..8 {

@@ -107,7 +107,7 @@ fn the_printed_option_mirrors_centres_to_the_right() {
         assert_eq!(printed.driven.arc_length.signum(), printed.driven.turn.signum());
     }
     assert!(right > 500);
-    // On two presets the switch changes p to nearly 0; on the other two it changes nothing.
+    // The setting `printed` changes p to nearly 0 on two presets, and nothing on the other two.
     for (name, collapses) in [("left", false), ("right", true), ("reverse", true), ("straight", false)] {
         let (signed, printed) =
             (stats(preset(name)).share, stats(Settings { printed: true, ..preset(name) }).share);

@@ -38,7 +38,7 @@ export function ancestors(node: Node): Element[] {
   return all;
 }
 
-/** Returns the surroundings: dark if the background is darker than the text. Illegible text is ignored. */
+/** Returns the surroundings. They are dark if the background is darker than legible text, or than medium grey if the text is not legible. */
 export function surroundings(probe: Element): Surroundings {
   const { color, borderTopColor: canvas, colorScheme } = getComputedStyle(probe);
   const ink = channels(color);

@@ -62,11 +62,11 @@ export function legReadouts({ reading: { legs }, chosen, predicted: leg }: Figur
   ]);
 }
 
-/** Returns the controls of the model with its rule, the treatment of outliers, and legs of a duration. */
+/** Returns the controls of the model, the treatment of outliers, and the duration of a leg. */
 export function modelControls(figure: Figure) {
   const { fit, settings: { model }, kinds, outliers } = words.calibrator;
   const show = (seconds: number) => (seconds > 0 ? `${typed(seconds, 2)} s` : NOTHING);
-  const choose = (kind: import('./settings.ts').Kind) => figure.gesture.decide(settingsFor(kind));
+  const choose = (kind: import('./settings.ts').ModelRule) => figure.gesture.decide(settingsFor(kind));
   return group(fit, html`${radioGroup(model.name, 'kind', kinds, kindOf(figure.settings.wanted as any), choose)}
     ${choices(figure, 'outliers', outliers)} ${slider(figure, 'duration', { show })}`, 'fit');
 }

@@ -86,8 +86,8 @@ export function adviceOf(lacking: typeof import('./en.ts').en.alphas.lacking, mo
   return { lack, drive: model === 'velocity' ? byCommands : drive };
 }
 
-/** Returns the reason whose advice would distinguish an α, counted from 0, from zero. */
-export function neededFor(model: string, index: number): 'insufficient-rotation' | 'insufficient-translation' {
+/** Returns the motion of which a log has too little to distinguish an α from 0. The first α has index 0. */
+export function missingMotion(model: string, index: number): 'insufficient-rotation' | 'insufficient-translation' {
   const isOfRotation = model === 'velocity' ? index % 2 === 1 : index === 0 || index === 3;
   return isOfRotation ? 'insufficient-rotation' : 'insufficient-translation';
 }

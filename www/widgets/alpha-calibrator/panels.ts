@@ -5,7 +5,7 @@ import { words } from '../../messages/registry.ts';
 import { radioGroup, rich } from '../../ui/controls.ts';
 import { NOTHING } from '../../ui/format.ts';
 import { plot } from '../../ui/plot.ts';
-import { adviceOf, alphaOrBound, isZero, neededFor } from './lines.ts';
+import { adviceOf, alphaOrBound, isZero, missingMotion } from './lines.ts';
 import { COMPONENTS } from './settings.ts';
 import { alphaName, localized, thousandths } from './words.ts';
 import type { CalibrationPanel } from '../../types.d.ts';
@@ -71,7 +71,7 @@ function noteOf({ alpha, slope, interval }: CalibrationPanel, { fitted: { model 
   const { panels: say, alphas: { lacking } } = words.calibrator;
   if (slope !== null && !isZero(slope, interval)) return '';
   const name = alphaName(alpha);
-  return html`<p class="note">${rich(slope === null ? say.noSlope(name) : say.zero(name, adviceOf(lacking, model, neededFor(model, alpha)).drive))}</p>`;
+  return html`<p class="note">${rich(slope === null ? say.noSlope(name) : say.zero(name, adviceOf(lacking, model, missingMotion(model, alpha)).drive))}</p>`;
 }
 
 /**

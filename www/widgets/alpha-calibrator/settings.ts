@@ -58,20 +58,20 @@ export const documentation: import('../../figure/attributes.ts').Documentation =
 };
 
 /** Models with their rules: two settings, but one choice. */
-const KINDS = ['thrun', 'nav2', 'beluga', 'omni', 'velocity'] as const;
+const MODEL_RULES = ['thrun', 'nav2', 'beluga', 'omni', 'velocity'] as const;
 
 /** Legs of the simulated log: those that the element opens with. */
 export const SIMULATED = { distance: 0.25, angle: 0.2 };
 
-export type Kind = (typeof KINDS)[number];
+export type ModelRule = (typeof MODEL_RULES)[number];
 
 /** Returns the length of legs as an option of `calibrate`. */
 export const legsOf = ({ distance, angle, duration }: AlphaCalibratorSettings): { duration: number } | { distance: number, angle: number } => (duration > 0 ? { duration } : { distance, angle });
 
-export const kindOf = ({ model, rule }: AlphaCalibratorSettings): Kind => (model === 'velocity' ? 'velocity' : rule);
+export const kindOf = ({ model, rule }: AlphaCalibratorSettings): ModelRule => (model === 'velocity' ? 'velocity' : rule);
 
 /** Returns the settings of a model with its rule. */
-export function settingsFor(kind: Kind) {
+export function settingsFor(kind: ModelRule) {
   if (kind === 'velocity') return { model: 'velocity', rule: 'thrun' };
   return { model: kind === 'omni' ? 'omnidirectional' : 'odometry', rule: kind };
 }

@@ -50,12 +50,13 @@ function between(one: string, other: string) {
 }
 
 export class WayLayer {
+  /** Canvas that caches the drawing of the legs. */
   #layer = new OffscreenCanvas(1, 1);
-  /** View and colours of the layer. */
+  /** View, colours and overlays of the cached drawing, as text. */
   #key = '';
-  /** Legs of the layer. */
+  /** Legs of the cached drawing. */
   #legs: CalibrationLegs | undefined;
-  /** Rest of the drawing. */
+  /** Strokes that are not drawn yet. */
   #strokes: Iterator<void> = [].values();
 
   /**

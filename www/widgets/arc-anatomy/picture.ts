@@ -91,7 +91,7 @@ export class ArcPicture extends Picture<Scene> {
       }
       if (shows('chord')) strokeLines(brush, [{ points: Float64Array.of(start.x, start.y, next.x, next.y), ...styles.chord }]);
       if (shows('wedge')) drawWedge(brush, next, lastTurn, styles.wedge.colour);
-      if (shows('twist')) drawTwist(brush, paths.ticks, styles.twist.colour);
+      if (shows('twist')) drawTwistTicks(brush, paths.ticks, styles.twist.colour);
       drawOutlines(brush, [
         ...(shows('commanded') ? [{ points: paths.commanded, ...styles.commanded }] : []),
         ...(shows('twist') ? [{ points: paths.lie, ...styles.twist }] : []),
@@ -194,9 +194,9 @@ function drawWedge({ context, view }: Brush, next: Pose, turn: number, colour: s
   context.globalAlpha = 0.32;
   context.fill();
   context.globalAlpha = 1;
-  // The heading at the end of the arc.
-  const before = view.direction(next.theta - turn);
-  strokeLine(context, [[x, y], [x + WEDGE * before.x, y + WEDGE * before.y]], { colour, width: 1.25 });
+  // The side of the wedge that has the heading at the end of the arc.
+  const side = view.direction(next.theta - turn);
+  strokeLine(context, [[x, y], [x + WEDGE * side.x, y + WEDGE * side.y]], { colour, width: 1.25 });
 }
 
 /** Returns the place of the wedge's label, which covers nothing of the wedge, CSS pixels. */
@@ -221,8 +221,8 @@ function drawUnderway(brush: Brush, { underway, overlays }: Scene) {
   }
 }
 
-/** Draws the lateral displacement of the constant twist. */
-function drawTwist(brush: Brush, ticks: Float64Array, colour: string) {
+/** Draws the displacements by the lateral velocity of the constant twist, as short lines across its path. */
+function drawTwistTicks(brush: Brush, ticks: Float64Array, colour: string) {
   stroke(brush.context, { colour, width: 1.25 }, () => {
     for (let i = 0; i < ticks.length; i += 4) trace(brush, ticks.subarray(i, i + 4));
   });

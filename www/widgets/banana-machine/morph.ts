@@ -18,7 +18,10 @@ export const DURATION = 5000;
 /** Step of the slider. */
 const STEP = 0.01;
 
-/** Returns the place of a twist (m, m, rad) at a morph: `geom::unbend` of the core. */
+/**
+ * Returns the point to which a morph takes a twist (m, m, rad), as `geom::unbend` of the core does. The morph runs from 0, the floor, to 1,
+ * exponential coordinates.
+ */
 export function placeOf({ 0: along, 1: lateral, 2: heading }: ArrayLike<number>, morph: number): [number, number] {
   const half = ((1 - morph) * heading) / 2;
   const sinc = half === 0 ? 1 : Math.sin(half) / half;
@@ -31,7 +34,7 @@ export function placeOf({ 0: along, 1: lateral, 2: heading }: ArrayLike<number>,
 export const carrying = (motion: Motion, { config: { command } }: Reading, morph: number) => (line: Float64Array) =>
   morph === 0 ? line : motion.unbendLine(line, command.omega * command.dt, morph);
 
-/** Returns the outlines of a reading at a morph: those of its two Gaussians, carried along. */
+/** Returns the outlines after a morph. Those on the floor are transformed point by point, that in exponential coordinates is computed anew. */
 export function outlinesAt(motion: Motion, reading: Reading, morph: number): Outlines {
   const { contours, stats } = reading;
   if (morph === 0) return contours;

@@ -89,7 +89,7 @@ function legsOf(driven: import('../../types.d.ts').Legs, read: import('../../typ
 const DIGITS = 5;
 const MEASURED_DIGITS = 3;
 
-const sigma = (indices: string) => html`<i>Σ</i><sub><i>${indices}</i></sub>`;
+const covarianceName = (indices: string) => html`<i>Σ</i><sub><i>${indices}</i></sub>`;
 
 export function workedExample({ table: { linearized, exact, measured }, stats }: Reading) {
   const computed = [linearized, exact];
@@ -101,12 +101,12 @@ export function workedExample({ table: { linearized, exact, measured }, stats }:
     [rich(say.mean('*x*')), ({ mean }) => mean[0]],
     [rich(say.mean('*y*')), ({ mean }) => mean[1]],
     [rich(say.mean('*θ*')), ({ mean }) => mean[2]],
-    [sigma('xx'), ({ cov }) => cov[0][0]],
-    [sigma('yy'), ({ cov }) => cov[1][1]],
-    [sigma('xy'), ({ cov }) => cov[0][1]],
-    [sigma('xθ'), ({ cov }) => cov[0][2]],
-    [sigma('yθ'), ({ cov }) => cov[1][2]],
-    [sigma('θθ'), ({ cov }) => cov[2][2]],
+    [covarianceName('xx'), ({ cov }) => cov[0][0]],
+    [covarianceName('yy'), ({ cov }) => cov[1][1]],
+    [covarianceName('xy'), ({ cov }) => cov[0][1]],
+    [covarianceName('xθ'), ({ cov }) => cov[0][2]],
+    [covarianceName('yθ'), ({ cov }) => cov[1][2]],
+    [covarianceName('θθ'), ({ cov }) => cov[2][2]],
     [html`<i>ρ</i><sub><i>yθ</i></sub>`, ({ cov }) => cov[1][2] / Math.sqrt(cov[1][1] * cov[2][2])],
     [say.skew, ({ crossTrackSkew }) => crossTrackSkew, measuredSkew],
   ];

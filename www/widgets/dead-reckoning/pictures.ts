@@ -22,7 +22,7 @@ const PASSED = { most: 200, radius: 1.3, alpha: 0.4 };
 
 export type OutlineName = keyof typeof OUTLINES;
 
-/** Returns the key of an exported picture: on the page the legend stands beside it. */
+/** Returns the legend of an exported picture; none on the page, which has its own next to the picture. */
 const keyOf = (brush: Brush, names: OutlineName[]) =>
   brush.exported ? names.map((name) => lineKey(brush, words.reckoning.overlays[name], lineStyles(brush, OUTLINES)[name])) : [];
 
@@ -99,11 +99,11 @@ export class StepPicture extends Picture<Scene> {
     const [along, lateral] = [0, 1].map((axis) => ROOM * Math.sqrt(cov[axis][axis]));
     if (along + lateral > 0) points.push(mean[0] - along, mean[1] - lateral, mean[0] + along, mean[1] + lateral);
     const box = extentAround(points, 2);
-    // Minimum ranges keep both scales finite; the lateral one is at least a thousandth of the other.
+    // Minimum heights and widths of the box keep both scales finite. The height is at least a thousandth of the width.
     const room = Math.max(1e-6, 1e-3 * (box.xMax - box.xMin));
-    const lack = Math.max(0, room - (box.yMax - box.yMin)) / 2;
-    const aside = Math.max(0, 1e-6 - (box.xMax - box.xMin)) / 2;
-    this.view.fit({ xMin: box.xMin - aside, xMax: box.xMax + aside, yMin: box.yMin - lack, yMax: box.yMax + lack });
+    const addedHeight = Math.max(0, room - (box.yMax - box.yMin)) / 2;
+    const addedWidth = Math.max(0, 1e-6 - (box.xMax - box.xMin)) / 2;
+    this.view.fit({ xMin: box.xMin - addedWidth, xMax: box.xMax + addedWidth, yMin: box.yMin - addedHeight, yMax: box.yMax + addedHeight });
   }
 
   paint: Picture<Scene>['paint'] = (brush, { outlines: { predicted, measured }, overlays, twists }) => {
@@ -124,7 +124,7 @@ export class StepPicture extends Picture<Scene> {
 /** Ratio of the scales that is not noticeable. */
 const UNSEEN = 1.05;
 
-/** Returns the factors by which x and y are stretched against each other, as they are printed; empty where it is not seen. */
+/** Returns the text of the factors scale x : scale y and scale y : scale x. A factor that is too small to notice is the empty text. */
 export function stretchesOf({ scaleX, scaleY }: Pick<View, 'scaleX' | 'scaleY'>) {
   return [scaleX / scaleY, scaleY / scaleX].map((by) => (by > UNSEEN ? significant(by, by < 10 ? 2 : 1) : ''));
 }

@@ -91,7 +91,7 @@ export class CostMeter extends Part {
     const measurements = SAMPLERS.map((sampler) =>
       measuring(measured, sampler, sampler === 'sub-stepped' ? steps : 1),
     );
-    const next = (index: number) => {
+    const measurePart = (index: number) => {
       // The element, with its machine, may have been removed.
       if (host.machine !== measured) return;
       const { done, value } = measurements[index].next();
@@ -102,7 +102,7 @@ export class CostMeter extends Part {
       }
       if (!this.current) this.#timer = setTimeout(step, 0, done ? index + 1 : index);
     };
-    const step = (index: number) => host.runtime.attempt(() => next(index));
+    const step = (index: number) => host.runtime.attempt(() => measurePart(index));
     this.#timer = setTimeout(step, REST, 0);
   }
 }

@@ -31,8 +31,8 @@ const PLAN_BYTES = 2_000_000;
 /** Maximum size of a YAML file, in bytes. */
 const DESCRIPTION_BYTES = 100_000;
 
-/** Maximum length of a plan for the tolerant parser, which would take seconds for a longer one. */
-const FORGIVEN = 200_000;
+/** Maximum length of a plan that the tolerant YAML parser reads: it would take seconds for a longer one. */
+const MAX_TOLERANT_LENGTH = 200_000;
 
 /** Maximum number of quoted characters of a name or a value. */
 const QUOTED = 100;
@@ -98,12 +98,12 @@ export async function readPlan(name: string, text: string): Promise<OwnMap> {
   };
 }
 
-/** Parses a plan. The browser reads JSON fifty times as fast as the library, which is asked where a text is not quite JSON. */
+/** Parses a plan. The browser parses JSON fifty times as fast as the YAML library, which also reads text that is not quite JSON. */
 async function planOf(name: string, text: string) {
   try {
     return JSON.parse(text);
   } catch (error) {
-    if (text.length <= FORGIVEN) return parsed(name, text, 'JSON');
+    if (text.length <= MAX_TOLERANT_LENGTH) return parsed(name, text, 'JSON');
     const { message } = error as SyntaxError;
     throw new MapFileError(name, (say, file) => say.syntax(file, 0, 'JSON', quoted(message), say.planForm(PLAN_FORM)));
   }

@@ -10,7 +10,6 @@ use crate::geom::sinc::sinc;
 use crate::models::{LegVariances, OdomDelta, OdometryRule, RuleAlphas, SPIN_BELOW};
 use nalgebra::{Matrix3, RowVector3, Vector3};
 use serde::{Deserialize, Serialize};
-use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Model whose α's are fitted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -129,6 +128,12 @@ fn unit_variances(rule: OdometryRule, reading: &OdomDelta) -> [LegVariances; 5] 
     })
 }
 
+/// Returns whether a leg is long enough (m) to have a direction, by the reading and by the reference. `executed` is negative of a motion that
+/// leads backwards; a linear direction does not depend on it.
+fn has_direction(read: f64, executed: f64, is_linear: bool) -> bool {
+    read >= SPIN_BELOW && (is_linear || executed >= SPIN_BELOW)
+}
+
 fn differential(rule: OdometryRule, expected: &SE2, motion: &SE2, is_linear: bool) -> Observation {
     let read = OdomDelta::from_poses(&SE2::identity(), expected);
     let OdomDelta { rot1, trans, rot2 } = rule.legs(&read);
@@ -142,7 +147,7 @@ fn differential(rule: OdometryRule, expected: &SE2, motion: &SE2, is_linear: boo
     let turn = RowVector3::new(0.0, 0.0, 1.0);
     let turned = wrap_angle(motion.theta() - rot1 - rot2);
     let [ahead, left] = [cos * motion.x() + sin * motion.y(), cos * motion.y() - sin * motion.x()];
-    if read.trans < SPIN_BELOW {
+    if !has_direction(read.trans, ahead, is_linear) {
         let sum = [first[0] + second[0], first[1] + second[1]];
         let jacobian = Matrix3::from_rows(&[RowVector3::zeros(), forward, turn]);
         return Observation::of(
@@ -156,14 +161,7 @@ fn differential(rule: OdometryRule, expected: &SE2, motion: &SE2, is_linear: boo
     let (off, longer) = if is_linear {
         (left / trans, ahead - trans)
     } else {
-        let off = wrap_angle(libm::atan2(motion.y(), motion.x()) - rot1);
-        let distance = libm::hypot(motion.x(), motion.y());
-        // A motion that leads backwards is a negative drive, not two half turns.
-        if off.abs() > FRAC_PI_2 {
-            (wrap_angle(off - PI), -distance - trans)
-        } else {
-            (off, distance - trans)
-        }
+        (libm::atan2(left, ahead), libm::hypot(ahead, left) - trans)
     };
     let across = RowVector3::new(-sin, cos, 0.0) / trans;
     let jacobian = Matrix3::from_rows(&[across, forward, turn - across]);
@@ -209,7 +207,8 @@ fn velocity(dt: f64, read: &SE2, motion: &SE2, is_linear: bool) -> Observation {
     let [v2, omega2] = [v * v, omega * omega];
     let reading = [v, omega, dt];
     let ahead = (cos * motion.x() + sin * motion.y()) / sinc(half) / dt;
-    if length.abs() < SPIN_BELOW {
+    let executed = invert_arc(&SE2::identity(), motion, dt);
+    if !has_direction(length.abs(), length.signum() * executed.v_hat * dt, is_linear) {
         let jacobian = Matrix3::from_rows(&[forward / dt, RowVector3::zeros(), RowVector3::zeros()]);
         let coefficients = [[v2, omega2], [0.0; 2], [0.0; 2]];
         return Observation::of([ahead - v, f64::NAN, f64::NAN], coefficients, reading, expected, jacobian);
@@ -229,7 +228,6 @@ fn velocity(dt: f64, read: &SE2, motion: &SE2, is_linear: bool) -> Observation {
             );
         off.into()
     } else {
-        let executed = invert_arc(&SE2::identity(), motion, dt);
         [executed.v_hat - v, wrap_angle((executed.omega_hat - omega) * dt) / dt, executed.gamma_hat]
     };
     Observation::of(residuals, [[v2, omega2]; 3], reading, expected, jacobian)

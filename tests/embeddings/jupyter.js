@@ -109,8 +109,9 @@ const CHECKS = {
     await python(page, 'setattr(machine, "omega", None)');
     await comesTo(page, 'machine.omega', 0);
     // Only the figure knows the number of α's of a model, so it refuses a wrong length.
+    const alphas = await python(page, 'machine.alphas');
     await python(page, 'setattr(machine, "alphas", [1, 2, 3])');
-    await comesTo(page, '[machine.alphas, "alphas" in machine.error]', [ORIGINAL.alphas, true]);
+    await comesTo(page, '[machine.alphas, "alphas" in machine.error]', [alphas, true]);
     // Ranges are in the declaration, so Python refuses the value without asking the figure.
     const refused = await python(page, `[exec("try: machine.omega = 2e6\\nexcept Exception as error: said = str(error)"), said][1]`);
     assert.equal(refused, 'omega is 2000000.0; allowed is a number from -1000000 to 1000000, or None');

@@ -19,7 +19,7 @@ use wide::f64x4;
 pub struct Variance(pub f64);
 
 impl Variance {
-    /// A variance that is 0 or more.
+    /// Creates a variance that is 0 or more.
     ///
     /// # Errors
     /// [`NegativeVariance`] where `b2` is negative or not a number.
@@ -69,13 +69,13 @@ pub enum NoiseKind {
 }
 
 impl NoiseKind {
-    /// One draw of variance `b2`; 0 where the variance is 0, NaN where it is negative or NaN. Consumes one 64-bit
+    /// Returns a draw of variance `b2`; 0 where the variance is 0, NaN where it is negative or NaN. Consumes one 64-bit
     /// number of `rng`.
     pub fn sample<R: Rng + ?Sized>(self, b2: Variance, rng: &mut R) -> f64 {
         self.quantile(centred_uniform(rng)) * b2.0.sqrt()
     }
 
-    /// The density of the noise of variance `b2` at the residual `a`, in the inverse of a's unit.
+    /// Returns the density of the noise of variance `b2` at the residual `a`, in the inverse of a's unit.
     ///
     /// Zero variance leaves no density to speak of: the result is then 1 where `a` is 0 to rounding (1e-7) and 0
     /// elsewhere, so that a product of such factors scores the residuals that do carry noise.
@@ -93,8 +93,8 @@ impl NoiseKind {
         }
     }
 
-    /// E[sin² ε] of a noise ε of variance `b2` (rad²), which is (1 − E[cos 2ε])/2: for a Gaussian (1 − e^(−2b²))/2, for the
-    /// triangle (1 − sinc²(√6·b))/2. Relative error below 1e-10.
+    /// Returns E[sin² ε] of a noise ε of variance `b2` (rad²), which is (1 − E[cos 2ε])/2: for a Gaussian (1 −
+    /// e^(−2b²))/2, for the triangle (1 − sinc²(√6·b))/2. Relative error below 1e-10.
     pub fn mean_squared_sine(self, b2: Variance) -> f64 {
         let Variance(b2) = b2;
         match self {
@@ -126,7 +126,8 @@ impl NoiseKind {
         }
     }
 
-    /// The unit-variance variate below which lies the probability ½ + `q`, for q in (−½, ½). Odd and increasing in q.
+    /// Returns the unit-variance variate below which lies the probability ½ + `q`, for q in (−½, ½). Odd and increasing
+    /// in q.
     ///
     /// Normal: relative error below 1e-15 (Wichura, Algorithm AS 241, Applied Statistics 37, 1988).
     pub fn quantile(self, q: f64) -> f64 {
@@ -138,14 +139,14 @@ impl NoiseKind {
     }
 }
 
-/// The product of independent densities. 0 where one of them is 0, however narrow the others: a density may be too large for
-/// a double, and 0 · ∞ is no number.
+/// Returns the product of independent densities. 0 where one of them is 0, however narrow the others: a density may be
+/// too large for a double, and 0 · ∞ is no number.
 pub(crate) fn joint<const N: usize>(densities: [f64; N]) -> f64 {
     if densities.contains(&0.0) { 0.0 } else { densities.into_iter().product() }
 }
 
-/// The density at the angle `a` of noise of variance `b2` wrapped around the circle: Σₖ prob(a + 2πk), per radian.
-/// 1 or 0 as [`NoiseKind::prob`] where the variance is 0.
+/// Returns the density at the angle `a` of noise of variance `b2` wrapped around the circle: Σₖ prob(a + 2πk), per
+/// radian. 1 or 0 as [`NoiseKind::prob`] where the variance is 0.
 pub(crate) fn wrapped_prob(noise: NoiseKind, a: f64, b2: Variance) -> f64 {
     let a = wrap_angle(a);
     let sd = b2.0.sqrt();
@@ -171,8 +172,8 @@ pub(crate) fn wrapped_prob(noise: NoiseKind, a: f64, b2: Variance) -> f64 {
     }
 }
 
-/// A uniform number in (−½, ½): one of the 2⁵³ odd multiples of 2⁻⁵⁴ there, each equally likely, so that 0 and the
-/// ends (where a quantile is infinite) cannot come up and the distribution is exactly symmetric.
+/// Returns a uniform number in (−½, ½): one of the 2⁵³ odd multiples of 2⁻⁵⁴ there, each equally likely, so that 0 and
+/// the ends (where a quantile is infinite) cannot come up and the distribution is exactly symmetric.
 #[inline(always)]
 pub fn centred_uniform<R: Rng + ?Sized>(rng: &mut R) -> f64 {
     const SCALE: f64 = 1.0 / (1u64 << 53) as f64;

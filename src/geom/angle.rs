@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-/// The representative of `angle` in (−π, π], radians.
+/// Returns the representative of `angle` in (−π, π], radians.
 ///
 /// Exact for |angle| ≤ π; beyond that the remainder is taken against the double nearest to 2π, so that the result
 /// is off by about 1.2e-16 · |angle|. NaN and infinities give NaN.

@@ -12,8 +12,8 @@ use std::f64::consts::{PI, TAU};
 use std::ops::{Add, Mul};
 use wide::f64x4;
 
-/// The end (x, y) of an arc of signed length `length` (m) that turns by `turn` (rad), in the frame of its start:
-/// x forward, y left. (s·sin φ/φ, s·(1 − cos φ)/φ), with (1 − cos φ)/φ = sin(φ/2)·sinc(φ/2).
+/// Returns the end (x, y) of an arc of signed length `length` (m) that turns by `turn` (rad), in the frame of its
+/// start: x forward, y left. (s·sin φ/φ, s·(1 − cos φ)/φ), with (1 − cos φ)/φ = sin(φ/2)·sinc(φ/2).
 pub fn chord(length: f64, turn: f64) -> (f64, f64) {
     let (forward, left) = chord_factors(turn);
     (length * forward, length * left)
@@ -31,14 +31,14 @@ pub struct ArcInversion {
 }
 
 impl ArcInversion {
-    /// The signed radius v̂/ω̂ of the arc (m), with the centre to the left of the heading where it is positive; infinite where the
-    /// arc is straight.
+    /// Returns the signed radius v̂/ω̂ of the arc (m), with the centre to the left of the heading where it is positive;
+    /// infinite where the arc is straight.
     pub fn radius(&self) -> f64 {
         if self.omega_hat == 0.0 { f64::INFINITY } else { self.v_hat / self.omega_hat }
     }
 
-    /// The centre of the circle of an arc that leaves `x` (m, in the frame of `x`): (x − r·sin θ, y + r·cos θ). None where the arc
-    /// is straight, or its centre further away than a double can say.
+    /// Returns the centre of the circle of an arc that leaves `x` (m, in the frame of `x`): (x − r·sin θ, y + r·cos θ).
+    /// None where the arc is straight, or its centre further away than a double can say.
     pub fn centre(&self, x: &SE2) -> Option<[f64; 2]> {
         let radius = self.radius();
         let (sin, cos) = libm::sincos(x.theta());
@@ -47,8 +47,8 @@ impl ArcInversion {
     }
 }
 
-/// The arc that leaves `x` along its heading and reaches the position of `x_next` in `dt` seconds (Table 5.1, lines
-/// 1–8, with a signed radius).
+/// Returns the arc that leaves `x` along its heading and reaches the position of `x_next` in `dt` seconds (Table 5.1,
+/// lines 1–8, with a signed radius).
 ///
 /// With the displacement in the frame of `x` at distance d and bearing β, the arc turns by φ = 2β and
 /// v̂Δt = d / sinc(β). Of the arcs of that circle (it can be driven either way, and more than once round) this is the
@@ -107,14 +107,14 @@ pub struct Arc {
 }
 
 impl Arc {
-    /// The pose where it ends.
+    /// Returns the pose where it ends.
     pub fn end(&self) -> SE2 {
         let Driven { end: [x, y], heading, .. } = Departure::new(self.start).drive(self.length, self.turn);
         SE2::new(x, y, heading)
     }
 
-    /// The arc as chords of about a degree, up to two turns of it; the chords of a metre's arc of one radian then stray
-    /// by 0.05 mm.
+    /// Returns the arc as chords of about a degree, up to two turns of it; the chords of a metre's arc of one radian
+    /// then stray by 0.05 mm.
     pub fn points(&self) -> Vec<[f64; 2]> {
         let chords = (self.turn.abs() / 0.02).clamp(1.0, 640.0).ceil();
         (0..=chords as u32)
@@ -126,7 +126,7 @@ impl Arc {
             .collect()
     }
 
-    /// A box that holds the arc: least x, least y, greatest x, greatest y.
+    /// Returns a box that holds the arc: least x, least y, greatest x, greatest y.
     pub fn bounding_box(&self) -> [f64; 4] {
         // No point of the arc is further from its middle than half its length, or than the diameter of its circle.
         let middle = Self { length: 0.5 * self.length, turn: 0.5 * self.turn, ..*self }.end();
@@ -185,13 +185,13 @@ impl Departure {
         self.pose
     }
 
-    /// A point in the frame of the pose, told in the frame that the pose is in.
+    /// Returns a point in the frame of the pose, told in the frame that the pose is in.
     #[inline(always)]
     pub fn transform(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         [self.pose.x() + (self.cos * x - self.sin * y), self.pose.y() + (self.sin * x + self.cos * y)]
     }
 
-    /// The arc of [`chord`], composed with the pose.
+    /// Returns the arc of [`chord`], composed with the pose.
     #[inline(always)]
     pub fn drive(&self, length: f64, turn: f64) -> Driven {
         let half = 0.5 * turn;
@@ -227,8 +227,8 @@ impl Departure {
 }
 
 impl Driven {
-    /// The arc in courses of up to half a turn: one, or two of which the second ends after a full turn at the latest,
-    /// where the circle begins again.
+    /// Returns the arc in courses of up to half a turn: one, or two of which the second ends after a full turn at the
+    /// latest, where the circle begins again.
     pub fn courses(&self) -> impl Iterator<Item = Course> {
         let Arc { start, length, turn } = self.arc;
         let from = [start.x(), start.y()];
@@ -246,7 +246,7 @@ impl Driven {
             .flatten()
     }
 
-    /// A box that holds the arc: least x, least y, greatest x, greatest y.
+    /// Returns a box that holds the arc: least x, least y, greatest x, greatest y.
     pub fn bounding_box(&self) -> [f64; 4] {
         if self.arc.turn.abs() > PI {
             return self.arc.bounding_box();
@@ -312,7 +312,7 @@ impl Course {
         ]
     }
 
-    /// The points `s` metres after the middle: their x and y.
+    /// Returns the points `s` metres after the middle: their x and y.
     #[inline(always)]
     pub fn at(&self, s: f64x4) -> [f64x4; 2] {
         let [ahead, left] = self.local(s);
@@ -348,7 +348,7 @@ impl Unrolled {
         [dx * self.forward[0] + dy * self.forward[1], dx * self.left[0] + dy * self.left[1]]
     }
 
-    /// κ|p|²/2 − y: 0 on the circle (or line), positive outside (or to the right).
+    /// Returns κ|p|²/2 − y: 0 on the circle (or line), positive outside (or to the right).
     pub fn circle(&self, [x, y]: [f64; 2]) -> f64 {
         0.5 * self.curvature * (x * x + y * y) - y
     }
@@ -362,7 +362,7 @@ impl Unrolled {
         (if bearing < 0.0 { bearing + TAU } else { bearing }) <= self.turn
     }
 
-    /// The distance from a point to the arc.
+    /// Returns the distance from a point to the arc.
     pub fn distance(&self, point: [f64; 2]) -> f64 {
         let to_ends =
             libm::hypot(point[0], point[1]).min(libm::hypot(point[0] - self.end[0], point[1] - self.end[1]));

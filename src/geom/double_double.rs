@@ -28,14 +28,14 @@ fn quick_two_sum(a: f64, b: f64) -> DoubleDouble {
     DoubleDouble { high, low: b - (high - a) }
 }
 
-/// a + b without an error.
+/// Returns a + b without an error.
 fn two_sum(a: f64, b: f64) -> DoubleDouble {
     let high = a + b;
     let part = high - a;
     DoubleDouble { high, low: (a - (high - part)) + (b - part) }
 }
 
-/// a · b without an error, as long as nothing under- or overflows.
+/// Returns a · b without an error, as long as nothing under- or overflows.
 fn two_product(a: f64, b: f64) -> DoubleDouble {
     let split = |x: f64| {
         let big = SPLITTER * x;
@@ -87,12 +87,12 @@ impl Mul for DoubleDouble {
 }
 
 impl DoubleDouble {
-    /// The product of two doubles, exact.
+    /// Returns the product of two doubles, exact.
     pub fn product(a: f64, b: f64) -> Self {
         two_product(a, b)
     }
 
-    /// The nearest double.
+    /// Returns the nearest double.
     pub fn to_f64(self) -> f64 {
         self.high + self.low
     }
@@ -129,7 +129,7 @@ impl DoubleDouble {
         (sine, Self::from(1.0) - lack)
     }
 
-    /// sin(a)/a of an angle as [`DoubleDouble::sin_cos`] takes it; 1 at 0.
+    /// Returns sin(a)/a of an angle as [`DoubleDouble::sin_cos`] takes it; 1 at 0.
     pub fn sinc(self) -> Self {
         if self.high == 0.0 {
             return Self::from(1.0);

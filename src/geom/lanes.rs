@@ -50,20 +50,21 @@ impl Default for Trigonometry {
 }
 
 impl Trigonometry {
-    /// Sines and cosines of angles up to a quarter turn (rad).
+    /// Returns the sines and cosines of angles up to a quarter turn (rad).
     #[inline(always)]
     pub fn circle(&self, x: f64x4) -> Circle {
         let (sinc, cos) = self.sinc_cos(x * x);
         Circle { sinc, sin: x * sinc, cos }
     }
 
-    /// Sines and cosines of any finite angles (rad), quickest where all are up to a quarter turn.
+    /// Returns the sines and cosines of any finite angles (rad), quickest where all are up to a quarter turn.
     #[inline(always)]
     pub fn near_or_any_circle(&self, x: f64x4) -> Circle {
         if beyond(x, FRAC_PI_2) { self.any_circle(x) } else { self.circle(x) }
     }
 
-    /// Sines and cosines of any finite angles (rad). A lane up to a quarter turn gets the bits of [`Trigonometry::circle`].
+    /// Returns the sines and cosines of any finite angles (rad). A lane up to a quarter turn gets the bits of
+    /// [`Trigonometry::circle`].
     #[inline(never)]
     pub fn any_circle(&self, x: f64x4) -> Circle {
         let half_circles = whole_half_circles(x);
@@ -110,7 +111,7 @@ impl Trigonometry {
         HalfTurn { half: wrapped, cotangent: cos / sinc, sinc, sin, cos }
     }
 
-    /// (sin x/x, cos x) from z = x², for |x| up to a quarter turn. Exact at 0.
+    /// Returns (sin x/x, cos x) from z = x², for |x| up to a quarter turn. Exact at 0.
     ///
     /// By Estrin's scheme: as many operations as Horner's, in a chain half as long, which keeps a processor busier.
     #[inline(always)]
@@ -138,7 +139,7 @@ pub(crate) fn any(mask: f64x4) -> bool {
     (low | high).any()
 }
 
-/// The first two lanes and the last.
+/// Returns the first two lanes and the last.
 #[inline(always)]
 pub(crate) fn halves(lanes: f64x4) -> [f64x2; 2] {
     bytemuck::cast(lanes)
@@ -149,8 +150,8 @@ pub(crate) fn lanes(lane: impl FnMut(usize) -> f64) -> f64x4 {
     f64x4::new(std::array::from_fn(lane))
 }
 
-/// ln of positive normal numbers, operation for operation that of `libm::log` (FreeBSD's e_log.c, where the algorithm is
-/// explained).
+/// Returns ln of positive normal numbers, operation for operation that of `libm::log` (FreeBSD's e_log.c, where the
+/// algorithm is explained).
 #[inline(always)]
 pub(crate) fn log(x: f64x4) -> f64x4 {
     /// The upper half of √2/2; a mantissa is counted from there.
@@ -192,7 +193,7 @@ const PI_PARTS: [f64; 3] = [3.141_592_653_468_251_2, 1.215_420_101_260_793_2e-10
 /// Adding and taking it off again rounds to a whole number, twice of it to an even one.
 pub(crate) const ROUND: f64 = 6_755_399_441_055_744.0;
 
-/// The number of half circles to take off x for what is left to lie within a quarter circle of 0.
+/// Returns the number of half circles to take off x for what is left to lie within a quarter circle of 0.
 #[inline(always)]
 fn whole_half_circles(x: f64x4) -> f64x4 {
     // Within a quarter circle there are none, whatever rounding says at its ends.
@@ -200,7 +201,7 @@ fn whole_half_circles(x: f64x4) -> f64x4 {
     near.bitselect(f64x4::splat(0.0), x * FRAC_1_PI + ROUND - ROUND)
 }
 
-/// x − kπ.
+/// Returns x − kπ.
 #[inline(always)]
 fn without_half_circles(x: f64x4, half_circles: f64x4) -> f64x4 {
     PI_PARTS.iter().fold(x, |rest, part| rest - half_circles * *part)

@@ -30,12 +30,12 @@ pub struct SE2 {
 }
 
 impl SE2 {
-    /// The pose at (x, y) with heading `theta`, which may be any angle and is wrapped.
+    /// Creates the pose at (x, y) with heading `theta`, which may be any angle and is wrapped.
     pub fn new(x: f64, y: f64, theta: f64) -> Self {
         Self { x, y, theta: wrap_angle(theta) }
     }
 
-    /// The pose of a frame in itself.
+    /// Returns the pose of a frame in itself.
     pub const fn identity() -> Self {
         Self { x: 0.0, y: 0.0, theta: 0.0 }
     }
@@ -48,12 +48,12 @@ impl SE2 {
         self.y
     }
 
-    /// Heading in (−π, π], radians.
+    /// Returns the heading in (−π, π], radians.
     pub fn theta(&self) -> f64 {
         self.theta
     }
 
-    /// The exponential map (eq. 156): where a body that starts at the identity is after one unit of time at the
+    /// Returns the exponential map (eq. 156): where a body that starts at the identity is after one unit of time at the
     /// constant body velocity `twist` = (v_x, v_y, ω).
     ///
     /// Position V(ω)·(v_x, v_y) with V = [sin ω/ω, −(1 − cos ω)/ω; (1 − cos ω)/ω, sin ω/ω], heading ω wrapped.
@@ -64,16 +64,16 @@ impl SE2 {
         Self::new(a * twist.x - b * twist.y, b * twist.x + a * twist.y, twist.z)
     }
 
-    /// The logarithm (eq. 157), inverse of [`SE2::exp`]: the twist in (m, m, rad) with |ω| ≤ π.
+    /// Returns the logarithm (eq. 157), inverse of [`SE2::exp`]: the twist in (m, m, rad) with |ω| ≤ π.
     ///
     /// V⁻¹ = [h·cot h, h; −h, h·cot h] with h = θ/2. Discontinuous at heading π, as every logarithm of SE(2) is.
     pub fn log(&self) -> Vector3<f64> {
         self.log_of_turn(self.theta)
     }
 
-    /// The twist on the branch of the logarithm whose ω lies within half a turn of `turn` (rad): the motion of a body
-    /// known to have turned by about that much. Equal to [`SE2::log`] where both ω agree; grows without bound where
-    /// the body has turned by whole circles and is elsewhere than it began.
+    /// Returns the twist on the branch of the logarithm whose ω lies within half a turn of `turn` (rad): the motion of
+    /// a body known to have turned by about that much. Equal to [`SE2::log`] where both ω agree; grows without bound
+    /// where the body has turned by whole circles and is elsewhere than it began.
     pub fn log_near(&self, turn: f64) -> Vector3<f64> {
         self.log_of_turn(turn + wrap_angle(self.theta - turn))
     }
@@ -93,19 +93,20 @@ impl SE2 {
         (other.inverse() * *self).log()
     }
 
-    /// The inverse element: the reference frame seen from the body.
+    /// Returns the inverse element: the reference frame seen from the body.
     pub fn inverse(&self) -> Self {
         let (sin, cos) = libm::sincos(self.theta);
         Self::new(-cos * self.x - sin * self.y, sin * self.x - cos * self.y, -self.theta)
     }
 
-    /// The adjoint Ad (eq. 159), 3 × 3: x · exp(τ) = exp(Ad τ) · x, a body-frame twist told in the reference frame.
+    /// Returns the adjoint Ad (eq. 159), 3 × 3: x · exp(τ) = exp(Ad τ) · x, a body-frame twist told in the reference
+    /// frame.
     pub fn adjoint(&self) -> Matrix3<f64> {
         let (sin, cos) = libm::sincos(self.theta);
         Matrix3::new(cos, -sin, self.y, sin, cos, -self.x, 0.0, 0.0, 1.0)
     }
 
-    /// The right Jacobian J_r (eq. 163), 3 × 3: exp(τ + δ) = exp(τ) · exp(J_r(τ)·δ) to first order in δ.
+    /// Returns the right Jacobian J_r (eq. 163), 3 × 3: exp(τ + δ) = exp(τ) · exp(J_r(τ)·δ) to first order in δ.
     ///
     /// Each entry is off by at most 4e-16 · max(1, ‖τ‖) for |ω| ≤ π. det J_r = sinc²(ω/2).
     pub fn right_jacobian(twist: &Vector3<f64>) -> Matrix3<f64> {
@@ -114,8 +115,8 @@ impl SE2 {
         Matrix3::new(a, b, c * twist.x - d * twist.y, -b, a, d * twist.x + c * twist.y, 0.0, 0.0, 1.0)
     }
 
-    /// The inverse of the right Jacobian (eq. 164's counterpart, in closed form), 3 × 3:
-    /// log(exp(τ) · exp(δ)) = τ + J_r⁻¹(τ)·δ to first order in δ.
+    /// Returns the inverse of the right Jacobian (eq. 164's counterpart, in closed form), 3 × 3: log(exp(τ) · exp(δ)) =
+    /// τ + J_r⁻¹(τ)·δ to first order in δ.
     ///
     /// Same accuracy as [`SE2::right_jacobian`] for |ω| ≤ π; it grows without bound towards |ω| = 2π.
     pub fn right_jacobian_inverse(twist: &Vector3<f64>) -> Matrix3<f64> {
@@ -149,7 +150,8 @@ impl Mul for SE2 {
     }
 }
 
-/// h·cot h with h = ω/2. By series near 0, where the three roundings of the closed form would be the largest in log.
+/// Returns h·cot h with h = ω/2. By series near 0, where the three roundings of the closed form would be the largest in
+/// log.
 fn half_cotangent(turn: f64) -> f64 {
     if turn.abs() < SERIES_BELOW {
         return 1.0 - turn * cotangent_defect(turn);
@@ -158,7 +160,7 @@ fn half_cotangent(turn: f64) -> f64 {
     0.5 * turn * cos / sin
 }
 
-/// sinc²(ω/2) = 2(1 − cos ω)/ω², without the cancellation of 1 − cos ω.
+/// Returns sinc²(ω/2) = 2(1 − cos ω)/ω², without the cancellation of 1 − cos ω.
 fn sinc_squared_half(turn: f64) -> f64 {
     let root = sinc(0.5 * turn);
     root * root
@@ -169,7 +171,7 @@ fn sinc_squared_half(turn: f64) -> f64 {
 /// the loss grow with 1/|ω|; a larger one would need more terms.
 const SERIES_BELOW: f64 = 1.0;
 
-/// (ω − sin ω)/ω² = ω/3! − ω³/5! + ω⁵/7! − …
+/// Returns (ω − sin ω)/ω² = ω/3! − ω³/5! + ω⁵/7! − …
 fn sine_defect(turn: f64) -> f64 {
     if turn.abs() >= SERIES_BELOW {
         return (turn - libm::sin(turn)) / (turn * turn);
@@ -184,7 +186,7 @@ fn sine_defect(turn: f64) -> f64 {
     turn / 6.0 * sum
 }
 
-/// (1 − h·cot h)/ω with h = ω/2, = ω/12 + ω³/720 + ω⁵/30240 + …, coefficients |B₂ₖ|/(2k)!.
+/// Returns (1 − h·cot h)/ω with h = ω/2, = ω/12 + ω³/720 + ω⁵/30240 + …, coefficients |B₂ₖ|/(2k)!.
 fn cotangent_defect(turn: f64) -> f64 {
     if turn.abs() >= SERIES_BELOW {
         return (1.0 - half_cotangent(turn)) / turn;

@@ -11,13 +11,13 @@ pub struct Segment {
 }
 
 impl Segment {
-    /// The distance (m) from a point to the nearest point of the segment.
+    /// Returns the distance (m) from a point to the nearest point of the segment.
     pub fn distance_to_point(&self, point: [f64; 2]) -> f64 {
         let [x, y] = self.offset_of_point(point);
         libm::hypot(x, y)
     }
 
-    /// The square of the distance: without a root, but 0 below 10⁻¹⁶² m.
+    /// Returns the square of the distance: without a root, but 0 below 10⁻¹⁶² m.
     pub(crate) fn squared_distance_to_point(&self, point: [f64; 2]) -> f64 {
         let offset = self.offset_of_point(point);
         dot(offset, offset)
@@ -32,7 +32,7 @@ impl Segment {
         [offset[0] - t * along[0], offset[1] - t * along[1]]
     }
 
-    /// The distance (m) between the nearest points of the segment and of an arc; 0 where they cross.
+    /// Returns the distance (m) between the nearest points of the segment and of an arc; 0 where they cross.
     ///
     /// The nearest points are a crossing, or an end of one with the nearest point of the other, or a point inside both
     /// where the segment is parallel to the arc and outside its circle. Nothing else can be a minimum: from within the
@@ -64,7 +64,7 @@ impl Segment {
             .fold(0.0, f64::max)
     }
 
-    /// The segment in the frame of an arc.
+    /// Returns the segment in the frame of an arc.
     fn unrolled(&self, local: &Unrolled) -> Self {
         Self { from: local.transform(self.from), to: local.transform(self.to) }
     }

@@ -1,6 +1,6 @@
 //! The two quotients of the arc, without cancellation near 0.
 
-/// sinc(t) = sin(t)/t, with sinc(0) = 1. Correct to about 1.5 units in the last place for every t.
+/// Returns sinc(t) = sin(t)/t, with sinc(0) = 1. Correct to about 1.5 units in the last place for every t.
 pub fn sinc(t: f64) -> f64 {
     // At the smallest t the quotient is already exactly 1; only 0 itself cannot be divided by.
     if t == 0.0 { 1.0 } else { libm::sin(t) / t }

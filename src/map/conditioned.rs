@@ -132,7 +132,7 @@ impl Judging<'_> {
         Draw { pose, arc: driven.arc, end, path: plan.path_free(&driven, end, clearance) }
     }
 
-    /// The arc that is driven under these unit noises.
+    /// Returns the arc that is driven under these unit noises.
     pub fn arc(&self, unit_noise: [f64; 3]) -> Arc {
         let [length, turn, _] = self.part.executed(unit_noise);
         Arc { start: self.from.pose(), length, turn }
@@ -147,7 +147,7 @@ struct Part {
 }
 
 impl Part {
-    /// The pose under these unit noises, and the arc driven there.
+    /// Returns the pose under these unit noises, and the arc driven there.
     fn motion(&self, from: &Departure, unit_noise: [f64; 3]) -> (SE2, Driven) {
         let [length, turn, last] = self.executed(unit_noise);
         after(from.drive(length, turn), last)
@@ -176,14 +176,14 @@ impl Part {
     }
 }
 
-/// The pose where an arc ends, turned on the spot by `last` (rad).
+/// Returns the pose where an arc ends, turned on the spot by `last` (rad).
 fn after(driven: Driven, last: f64) -> (SE2, Driven) {
     let [x, y] = driven.end;
     (SE2::new(x, y, driven.heading + last), driven)
 }
 
 impl MapConditioned<'_> {
-    /// One accepted motion from `x`.
+    /// Returns an accepted motion from `x`.
     ///
     /// # Errors
     /// [`Wedged`] after [`MAX_DRAWS`] draws in vain.
@@ -215,8 +215,8 @@ impl MapConditioned<'_> {
         Ok(cost)
     }
 
-    /// The last part of a motion of as many parts as the sampler has, each accepted as it is drawn, and whether all of them
-    /// are free. Until the first rejection these are the draws of [`MapConditioned::sample_along`].
+    /// Returns the last part of a motion of as many parts as the sampler has, each accepted as it is drawn, and whether
+    /// all of them are free. Until the first rejection these are the draws of [`MapConditioned::sample_along`].
     pub fn sample_unconditioned<R: Rng + ?Sized>(
         &self,
         u: &VelocityCmd,
@@ -237,7 +237,7 @@ impl MapConditioned<'_> {
         (draw, path_free)
     }
 
-    /// The number of parts of a motion, and each of them.
+    /// Returns the number of parts of a motion, and each of them.
     fn parts(&self, u: &VelocityCmd) -> (u32, Part) {
         let steps = if let Sampler::SubStepped(steps) = self.sampler { steps.max(1) } else { 1 };
         (steps, self.part(&VelocityCmd { dt: u.dt / f64::from(steps), ..*u }))
@@ -269,7 +269,7 @@ impl MapConditioned<'_> {
         Ok(pose)
     }
 
-    /// The first draw that is accepted, and the verdict on its end.
+    /// Returns the first draw that is accepted, and the verdict on its end.
     fn one_step<R: Rng + ?Sized>(
         &self,
         part: &Part,
@@ -294,7 +294,7 @@ impl MapConditioned<'_> {
         Err(Wedged(*cost))
     }
 
-    /// The motion under these unit noises, with both verdicts.
+    /// Returns the motion under these unit noises, with both verdicts.
     pub fn judge(&self, u: &VelocityCmd, x: &SE2, unit_noise: [f64; 3]) -> Draw {
         self.judging(u, x).judge(unit_noise)
     }

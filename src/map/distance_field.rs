@@ -64,7 +64,7 @@ impl DistanceField {
         self.radius
     }
 
-    /// A lower bound (m) on the distance from a point inside the bounds to the nearest wall.
+    /// Returns a lower bound (m) on the distance from a point inside the bounds to the nearest wall.
     #[inline(always)]
     pub fn least(&self, [x, y]: [f64; 2]) -> f64 {
         // Rounding can move a point slightly outside; it belongs to the nearest cell.

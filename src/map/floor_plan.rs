@@ -49,7 +49,7 @@ pub enum FloorPlanError {
 }
 
 impl FloorPlanError {
-    /// The message, with numbers as `number` prints them.
+    /// Returns the message, with numbers as `number` prints them.
     pub fn message(&self, number: impl Fn(f64) -> String) -> String {
         let list = |numbers: &[f64]| numbers.iter().map(|x| number(*x)).collect::<Vec<_>>().join(", ");
         match self {
@@ -108,7 +108,7 @@ impl FloorPlan {
     /// Largest number of walls of a plan.
     pub const MAX_WALLS: usize = 20_000;
 
-    /// A plan of `walls` within `bounds` (least x, least y, greatest x, greatest y), m.
+    /// Creates a plan of `walls` within `bounds` (least x, least y, greatest x, greatest y), m.
     ///
     /// # Errors
     /// [`FloorPlanError`] for the first thing that is not as it says.
@@ -116,7 +116,8 @@ impl FloorPlan {
         Self::with_solid(walls, bounds, None)
     }
 
-    /// The plan of a grid: its walls are the outlines of the cells in a robot's way, its bounds those of the grid.
+    /// Returns the plan of a grid: its walls are the outlines of the cells in a robot's way, its bounds those of the
+    /// grid.
     ///
     /// # Errors
     /// [`FloorPlanError`] where there are too many walls, or the grid is too large or too small.
@@ -248,7 +249,7 @@ impl FloorPlan {
         (left..=right).contains(&x) && (bottom..=top).contains(&y)
     }
 
-    /// The corners of the map, in order around it.
+    /// Returns the corners of the map, in order around it.
     fn corners(&self) -> [[f64; 2]; 4] {
         let [left, bottom, right, top] = self.bounds;
         let of_bounds = [[left, bottom], [right, bottom], [right, top], [left, top]];

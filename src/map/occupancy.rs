@@ -120,8 +120,8 @@ pub struct OccupancyGrid {
 }
 
 impl OccupancyGrid {
-    /// The grid of an image whose lower left corner is at `origin`, with cells of `resolution` (m, positive). What is
-    /// unknown is free, see [`OccupancyGrid::with_unknown`].
+    /// Creates the grid of an image whose lower left corner is at `origin`, with cells of `resolution` (m, positive).
+    /// What is unknown is free, see [`OccupancyGrid::with_unknown`].
     ///
     /// As in `map_server`, opacity counts as a fourth colour in mode trinary if the image has transparency.
     pub fn new<P: Copy + PartialEq + Into<Pixel>, Pixels: Clone + IntoIterator<Item = P>>(
@@ -178,22 +178,22 @@ impl OccupancyGrid {
         Self { unknown, ..self }
     }
 
-    /// Columns and rows.
+    /// Returns the columns and rows.
     pub fn size(&self) -> [usize; 2] {
         [self.width, self.height]
     }
 
-    /// Side of a cell, m.
+    /// Returns the side of a cell, m.
     pub fn resolution(&self) -> f64 {
         self.resolution
     }
 
-    /// The lower left corner of the lower left cell, rows and columns along its axes.
+    /// Returns the lower left corner of the lower left cell, rows and columns along its axes.
     pub fn origin(&self) -> SE2 {
         self.origin
     }
 
-    /// State of each cell, row by row from the bottom.
+    /// Returns the state of each cell, row by row from the bottom.
     pub fn cells(&self) -> impl ExactSizeIterator<Item = Cell> + '_ {
         self.cells.iter().copied()
     }
@@ -215,7 +215,7 @@ impl OccupancyGrid {
         (0.0..=self.width as f64).contains(&column) && (0.0..=self.height as f64).contains(&row)
     }
 
-    /// The corners of the grid, counter-clockwise from the origin.
+    /// Returns the corners of the grid, counter-clockwise from the origin.
     pub fn corners(&self) -> [[f64; 2]; 4] {
         let (width, height) = (self.width, self.height);
         [(0, 0), (width, 0), (width, height), (0, height)].map(|(column, row)| self.corner(column, row))
@@ -225,14 +225,14 @@ impl OccupancyGrid {
         self.point([column as f64, row as f64])
     }
 
-    /// The point of the plane at these coordinates, counted in cells from the origin.
+    /// Returns the point of the plane at these coordinates, counted in cells from the origin.
     pub(super) fn point(&self, [column, row]: [f64; 2]) -> [f64; 2] {
         let (x, y) = (column * self.resolution, row * self.resolution);
         let point = self.origin * SE2::new(x, y, 0.0);
         [point.x(), point.y()]
     }
 
-    /// Coordinates of a point of the plane, in cells from the origin.
+    /// Returns the coordinates of a point of the plane, in cells from the origin.
     pub(super) fn cell_coordinates(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         self.to_local.transform([x, y]).map(|coordinate| coordinate / self.resolution)
     }
@@ -246,7 +246,7 @@ impl OccupancyGrid {
         }
     }
 
-    /// The cells of a row, counted from the bottom; none of a row off the grid.
+    /// Returns the cells of a row, counted from the bottom; none of a row off the grid.
     fn row(&self, row: usize) -> &[Cell] {
         let from = row.saturating_mul(self.width).min(self.cells.len());
         &self.cells[from..(from + self.width).min(self.cells.len())]

@@ -54,7 +54,7 @@ impl<'a> Squares<'a> {
         self.plan.grid()
     }
 
-    /// The point at these coordinates, in squares from the lower left corner.
+    /// Returns the point at these coordinates, in squares from the lower left corner.
     fn point(&self, at: [f64; 2]) -> [f64; 2] {
         let [left, bottom, ..] = self.plan.bounds();
         let on_plan = [left + at[0] * self.sides[0], bottom + at[1] * self.sides[1]];
@@ -78,8 +78,8 @@ impl<'a> Squares<'a> {
         is_inside && self.plan.field().least(middle) > 0.75 * self.longer_side()
     }
 
-    /// The middle of the largest square of free ones, in squares from the lower left corner; None where none is free. Of
-    /// several, that of the first upper right corner, row by row.
+    /// Returns the middle of the largest square of free ones, in squares from the lower left corner; None where none is
+    /// free. Of several, that of the first upper right corner, row by row.
     fn middle_of_largest(&self) -> Option<[f64; 2]> {
         let (mut largest, mut middle) = (0, None);
         // For each column, the row from which on it has been free so far.
@@ -110,7 +110,7 @@ impl<'a> Squares<'a> {
         middle
     }
 
-    /// The heading in which the robot gets furthest over free squares.
+    /// Returns the heading in which the robot gets furthest over free squares.
     fn longest_way(&self, [x, y]: [f64; 2], fits: impl Fn(&[f64; 2]) -> bool) -> f64 {
         let (mut longest, mut heading) = (0, 0.0);
         for i in 0..HEADINGS {

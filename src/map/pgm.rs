@@ -149,7 +149,7 @@ struct Reader<'a> {
 }
 
 impl<'a> Reader<'a> {
-    /// The next run of characters that are neither white space nor in a comment; empty at the end.
+    /// Returns the next run of characters that are neither white space nor in a comment; empty at the end.
     fn token(&mut self) -> &'a [u8] {
         let mut in_comment = false;
         while let Some(byte) = self.bytes.get(self.at) {

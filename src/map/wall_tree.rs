@@ -105,7 +105,7 @@ impl WallTree {
         Node { hull, thickness: furthest + self.slack, is_one: walls.iter().all(|wall| *wall == walls[0]) }
     }
 
-    /// Range of the walls of a node.
+    /// Returns the range of the walls of a node.
     fn range(&self, at: usize) -> Range<usize> {
         let depth = at.ilog2();
         let (count, place) = (self.walls.len() as u64, (at - (1 << depth)) as u64);
@@ -113,7 +113,7 @@ impl WallTree {
         end(place)..end(place + 1)
     }
 
-    /// The walls of a node by their numbers, equal ones once.
+    /// Returns the walls of a node by their numbers, equal ones once.
     pub fn members(&self, at: usize) -> Range<usize> {
         let range = self.range(at);
         if self.nodes[at].is_one { range.start..range.start + 1 } else { range }
@@ -127,7 +127,7 @@ impl WallTree {
         &self.nodes[at]
     }
 
-    /// Number of walls.
+    /// Returns the number of walls.
     pub fn count(&self) -> usize {
         self.walls.len()
     }
@@ -162,7 +162,7 @@ impl WallTree {
 }
 
 impl Node {
-    /// The line that the walls are around, to be measured as a wall is.
+    /// Returns the line that the walls are around, to be measured as a wall is.
     pub fn line(&self) -> Segment {
         let Line { from, along, .. } = self.hull;
         Segment { from, to: [from[0] + along[0], from[1] + along[1]] }
@@ -200,7 +200,7 @@ impl Line {
         Self { from: wall.from, along, per_square: if per_square.is_finite() { per_square } else { 0.0 } }
     }
 
-    /// The square of the distance to a point, m².
+    /// Returns the square of the distance to a point, m².
     #[inline(always)]
     pub fn square(&self, point: [f64; 2]) -> f64 {
         let Self { from, along, per_square } = *self;
@@ -250,7 +250,8 @@ fn part(walls: &mut [Segment], count: usize, axis: usize) {
 
 const ROUNDS: usize = 64;
 
-/// The lesser and the greater of two numbers, neither of which is NaN: `f64::min` and `f64::max` take several times as long.
+/// Returns the lesser and the greater of two numbers, neither of which is NaN: `f64::min` and `f64::max` take several
+/// times as long.
 #[inline(always)]
 fn lesser(one: f64, other: f64) -> f64 {
     if other < one { other } else { one }
@@ -261,8 +262,8 @@ fn greater(one: f64, other: f64) -> f64 {
     if other > one { other } else { one }
 }
 
-/// Coordinates of a wall among others: twice its middle, and the way from its left end to the right one. It does not
-/// matter which end is called the first.
+/// Returns the coordinates of a wall among others: twice its middle, and the way from its left end to the right one. It
+/// does not matter which end is called the first.
 fn place(wall: &Segment) -> [f64; 4] {
     let Segment { from: [x0, y0], to: [x1, y1] } = *wall;
     let (x, y) = (x1 - x0, y1 - y0);

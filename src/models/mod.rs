@@ -20,14 +20,14 @@ use rand::Rng;
 pub trait MotionModel {
     type Control: Copy;
 
-    /// The scoring function of Tables 5.1 and 5.5: the product of the three noise densities at the residuals that
-    /// explain `x_next`. Largest at the noise-free pose, but not a density over poses: see
+    /// Returns the scoring function of Tables 5.1 and 5.5: the product of the three noise densities at the residuals
+    /// that explain `x_next`. Largest at the noise-free pose, but not a density over poses: see
     /// [`MotionModel::pose_density`].
     fn prob(&self, x_next: &SE2, u: &Self::Control, x: &SE2) -> f64;
 
-    /// The density over dx dy dθ (1/(m²·rad)) from which [`MotionModel::sample`] draws: every combination of noises
-    /// that leads to `x_next`, each divided by the Jacobian determinant of the map from noises to poses. It integrates
-    /// to 1 over the plane and the circle, and is infinite where the robot has not moved at all.
+    /// Returns the density over dx dy dθ (1/(m²·rad)) from which [`MotionModel::sample`] draws: every combination of
+    /// noises that leads to `x_next`, each divided by the Jacobian determinant of the map from noises to poses. It
+    /// integrates to 1 over the plane and the circle, and is infinite where the robot has not moved at all.
     ///
     /// None where one of the three variances is 0: the poses then fill no volume and have no density. None too of a model that does
     /// not say it.
@@ -35,7 +35,7 @@ pub trait MotionModel {
         None
     }
 
-    /// One draw of x_t (Tables 5.3 and 5.6).
+    /// Returns a draw of x_t (Tables 5.3 and 5.6).
     fn sample<R: Rng + ?Sized>(&self, u: &Self::Control, x: &SE2, rng: &mut R) -> SE2;
 
     /// R_u, the covariance in exponential coordinates, where the noise is additive there; None elsewhere.

@@ -20,8 +20,8 @@ pub struct OdomDelta {
 const SPIN_BELOW: f64 = 1e-9;
 
 impl OdomDelta {
-    /// The decomposition of the motion between two poses of the odometry frame (Table 5.5, lines 2–4). A spin on the
-    /// spot is charged to `rot2` alone.
+    /// Returns the decomposition of the motion between two poses of the odometry frame (Table 5.5, lines 2–4). A spin
+    /// on the spot is charged to `rot2` alone.
     pub fn from_poses(prev: &SE2, curr: &SE2) -> Self {
         let (dx, dy) = (curr.x() - prev.x(), curr.y() - prev.y());
         let trans = libm::hypot(dx, dy);
@@ -33,7 +33,7 @@ impl OdomDelta {
         Self { rot1, trans, rot2: wrap_angle(turn - rot1) }
     }
 
-    /// The pose reached from `x` by exactly this motion.
+    /// Returns the pose reached from `x` by exactly this motion.
     pub fn apply(&self, x: &SE2) -> SE2 {
         let (sin, cos) = libm::sincos(self.rot1);
         *x * SE2::new(self.trans * cos, self.trans * sin, self.rot1 + self.rot2)
@@ -66,11 +66,11 @@ pub struct OdometryModel {
 pub trait Hinges {
     fn noise(&self) -> NoiseKind;
 
-    /// The variances of the three legs of `delta` (rad², m², rad²).
+    /// Returns the variances of the three legs of `delta` (rad², m², rad²).
     fn variances(&self, delta: &OdomDelta) -> [Variance; 3];
 
-    /// The legs driven when their noises take the values `unit_noise` times their standard deviations. As in Table 5.6,
-    /// noise is subtracted.
+    /// Returns the legs driven when their noises take the values `unit_noise` times their standard deviations. As in
+    /// Table 5.6, noise is subtracted.
     fn executed(&self, u: &OdomDelta, unit_noise: [f64; 3]) -> OdomDelta {
         let [rot1, trans, rot2] = self.variances(u).map(|variance| variance.0.sqrt());
         OdomDelta {
@@ -80,14 +80,14 @@ pub trait Hinges {
         }
     }
 
-    /// A draw of the pose after the reading: Table 5.6.
+    /// Returns a draw of the pose after the reading: Table 5.6.
     fn draw<R: Rng + ?Sized>(&self, u: &OdomDelta, x: &SE2, rng: &mut R) -> SE2 {
         let unit_noise = std::array::from_fn(|_| self.noise().quantile(centred_uniform(rng)));
         self.executed(u, unit_noise).apply(x)
     }
 
-    /// The covariance of (x, y, θ) that an EKF carries: the three legs linearized at the reading, 3 × 3, in the frame
-    /// of `x` (m², m·rad, rad²).
+    /// Returns the covariance of (x, y, θ) that an EKF carries: the three legs linearized at the reading, 3 × 3, in the
+    /// frame of `x` (m², m·rad, rad²).
     fn cartesian_cov(&self, u: &OdomDelta, x: &SE2) -> Matrix3<f64> {
         let (sin, cos) = libm::sincos(x.theta() + u.rot1);
         let jacobian = Matrix3::new(
@@ -109,7 +109,7 @@ pub trait Hinges {
 /// Function that gives the size at which a rotation counts in the noise variances.
 pub(super) type Charge = fn(f64) -> f64;
 
-/// The variances of the three legs of `delta` (rad², m², rad²).
+/// Returns the variances of the three legs of `delta` (rad², m², rad²).
 pub(super) fn charged_variances(alphas: OdomAlphas, delta: &OdomDelta, charge: Charge) -> [Variance; 3] {
     let [a1, a2, a3, a4] = alphas.0;
     let [rot1_sq, rot2_sq] = [delta.rot1, delta.rot2].map(|rotation| charge(rotation) * charge(rotation));
@@ -122,7 +122,7 @@ pub(super) fn charged_variances(alphas: OdomAlphas, delta: &OdomDelta, charge: C
 }
 
 impl OdometryModel {
-    /// The variances of the three legs of `delta` (rad², m², rad²).
+    /// Returns the variances of the three legs of `delta` (rad², m², rad²).
     pub fn variances(&self, delta: &OdomDelta) -> [Variance; 3] {
         self.charged_variances(delta, f64::abs)
     }
@@ -131,14 +131,14 @@ impl OdometryModel {
         charged_variances(self.alphas, delta, charge)
     }
 
-    /// The pose reached from `x` when the noises of the three legs take the values `unit_noise` times their standard
-    /// deviations: Table 5.6 after its three draws. As in the table, noise is subtracted.
+    /// Returns the pose reached from `x` when the noises of the three legs take the values `unit_noise` times their
+    /// standard deviations: Table 5.6 after its three draws. As in the table, noise is subtracted.
     pub fn apply_noise(&self, u: &OdomDelta, x: &SE2, unit_noise: [f64; 3]) -> SE2 {
         self.executed(u, unit_noise).apply(x)
     }
 
-    /// The covariance of (x, y, θ) that an EKF carries: the three legs linearized at the reading, 3 × 3, in the frame
-    /// of `x` (m², m·rad, rad²).
+    /// Returns the covariance of (x, y, θ) that an EKF carries: the three legs linearized at the reading, 3 × 3, in the
+    /// frame of `x` (m², m·rad, rad²).
     pub fn cartesian_cov(&self, u: &OdomDelta, x: &SE2) -> Matrix3<f64> {
         Hinges::cartesian_cov(self, u, x)
     }
@@ -223,7 +223,7 @@ impl MotionModel for OdometryModel {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ReverseAware(pub OdometryModel);
 
-/// The turn that a leg took if the robot may have driven it backwards.
+/// Returns the turn that a leg took if the robot may have driven it backwards.
 pub(super) fn turn_either_way(rotation: f64) -> f64 {
     let turn = rotation.abs();
     turn.min((PI - turn).abs())

@@ -49,8 +49,8 @@ pub struct LegVariances {
 }
 
 impl OdometryRule {
-    /// The legs that the rule makes of a reading: the same motion to within [`SPIN_BELOW`], with the whole turn in the
-    /// second rotation where the rule calls it a spin.
+    /// Returns the legs that the rule makes of a reading: the same motion to within [`SPIN_BELOW`], with the whole turn
+    /// in the second rotation where the rule calls it a spin.
     pub fn legs(self, reading: &OdomDelta) -> OdomDelta {
         let spin = match self {
             Self::Table | Self::Omni => false,
@@ -129,13 +129,13 @@ impl LegVariances {
         }
     }
 
-    /// The variance (m²) of where the robot is across the measured bearing, after a drive of `trans` metres, in closed form:
-    /// (t² + σ²_trans)·E[sin² ε_rot1] + σ²_strafe. Its mean is 0.
+    /// Returns the variance (m²) of where the robot is across the measured bearing, after a drive of `trans` metres, in
+    /// closed form: (t² + σ²_trans)·E[sin² ε_rot1] + σ²_strafe. Its mean is 0.
     pub fn cross_track(&self, trans: f64, noise: NoiseKind) -> f64 {
         (trans * trans + self.trans.0) * noise.mean_squared_sine(self.rot1) + self.strafe.0
     }
 
-    /// The variance (rad²) of the turn made, unwrapped, for a `correlation` of the noises of the two rotations:
+    /// Returns the variance (rad²) of the turn made, unwrapped, for a `correlation` of the noises of the two rotations:
     /// σ₁² + σ₂² + 2ρσ₁σ₂.
     pub fn heading(&self, correlation: f64) -> f64 {
         let [first, second] = [self.rot1, self.rot2].map(deviation);

@@ -85,7 +85,7 @@ const ROUNDING: f64 = 1e-12;
 const PADDING: f64 = 1e-12;
 
 impl TangentNoiseModel {
-    /// The model with all of its noise inside the arc.
+    /// Creates the model with all of its noise inside the arc.
     ///
     /// # Errors
     /// [`TangentNoiseError`] where `r` is not a covariance.
@@ -93,8 +93,8 @@ impl TangentNoiseModel {
         Self::with_last_turn(r, 0.0)
     }
 
-    /// The velocity model under one command, its γ̂ kept apart: R = R_u, and a turn of variance Δt²(α₅v² + α₆ω²) after
-    /// the arc. The noise is Gaussian whatever the velocity model's kind: only the variances are taken.
+    /// Returns the velocity model under one command, its γ̂ kept apart: R = R_u, and a turn of variance Δt²(α₅v² +
+    /// α₆ω²) after the arc. The noise is Gaussian whatever the velocity model's kind: only the variances are taken.
     ///
     /// # Errors
     /// [`TangentNoiseError`] where α's or command make a variance negative or not finite.
@@ -118,7 +118,7 @@ impl TangentNoiseModel {
         Vector3::new(u.v * u.dt, 0.0, u.omega * u.dt)
     }
 
-    /// One draw of x_t.
+    /// Returns a draw of x_t.
     pub fn sample<R: Rng + ?Sized>(&self, u: &VelocityCmd, x: &SE2, rng: &mut R) -> SE2 {
         let w = self.root * Vector3::from_fn(|_, _| NoiseKind::Normal.sample(Variance(1.0), rng));
         let last_turn = NoiseKind::Normal.sample(Variance(self.last_turn), rng);
@@ -151,9 +151,9 @@ impl TangentNoiseModel {
         self.propagate(sigma, tau, Compounding::Chapter)
     }
 
-    /// The covariance of x_k ⊟ x̄_k after a step by the twist `tau`, given `sigma`, that of x_{k−1} ⊟ x̄_{k−1}; both
-    /// 3 × 3 in the body frame of their pose. The turn after the arc adds to the heading alone, unturned by J_r: it
-    /// happens where the arc ends.
+    /// Returns the covariance of x_k ⊟ x̄_k after a step by the twist `tau`, given `sigma`, that of x_{k−1} ⊟ x̄_{k−1};
+    /// both 3 × 3 in the body frame of their pose. The turn after the arc adds to the heading alone, unturned by J_r:
+    /// it happens where the arc ends.
     pub fn propagate(&self, sigma: &Matrix3<f64>, tau: &Vector3<f64>, order: Compounding) -> Matrix3<f64> {
         let back = SE2::exp(tau).inverse().adjoint();
         let carried = back * sigma * back.transpose();
@@ -171,8 +171,8 @@ impl TangentNoiseModel {
     }
 }
 
-/// The fourth-order part of the covariance of log(exp(a)·exp(b)), a and b independent with covariances `a` and `b`:
-/// (𝒜_a·b + b·𝒜_aᵀ + 𝒜_b·a + a·𝒜_bᵀ)/12 + ℬ/4, with 𝒜_a = E[ad(a)²] and ℬ = E[ad(a)·b·ad(a)ᵀ].
+/// Returns the fourth-order part of the covariance of log(exp(a)·exp(b)), a and b independent with covariances `a` and
+/// `b`: (𝒜_a·b + b·𝒜_aᵀ + 𝒜_b·a + a·𝒜_bᵀ)/12 + ℬ/4, with 𝒜_a = E[ad(a)²] and ℬ = E[ad(a)·b·ad(a)ᵀ].
 fn fourth_order(a: &Matrix3<f64>, b: &Matrix3<f64>) -> Matrix3<f64> {
     let twice = |cov| expectation(cov, |left, right| left * right);
     let one_sided = twice(a) * b + twice(b) * a;
@@ -180,7 +180,8 @@ fn fourth_order(a: &Matrix3<f64>, b: &Matrix3<f64>) -> Matrix3<f64> {
     (one_sided + one_sided.transpose()) / 12.0 + two_sided / 4.0
 }
 
-/// E[f(ad(ξ), ad(ξ))] for a bilinear f and ξ of covariance `cov`: ad is linear, so it is a sum over the basis twists.
+/// Returns E[f(ad(ξ), ad(ξ))] for a bilinear f and ξ of covariance `cov`: ad is linear, so it is a sum over the basis
+/// twists.
 fn expectation(cov: &Matrix3<f64>, f: impl Fn(&Matrix3<f64>, &Matrix3<f64>) -> Matrix3<f64>) -> Matrix3<f64> {
     let generators = [Vector3::x(), Vector3::y(), Vector3::z()].map(|basis| small_adjoint(&basis));
     let mut sum = Matrix3::zeros();
@@ -192,12 +193,12 @@ fn expectation(cov: &Matrix3<f64>, f: impl Fn(&Matrix3<f64>, &Matrix3<f64>) -> M
     sum
 }
 
-/// ad(ξ), 3 × 3: ad(ξ)·ζ = [ξ, ζ].
+/// Returns ad(ξ), 3 × 3: ad(ξ)·ζ = [ξ, ζ].
 fn small_adjoint(twist: &Vector3<f64>) -> Matrix3<f64> {
     Matrix3::new(0.0, -twist.z, twist.y, twist.z, 0.0, -twist.x, 0.0, 0.0, 0.0)
 }
 
-/// log N(residual; 0, cov) for a positive definite `cov`; −∞ if `cov` is not positive definite after rounding.
+/// Returns log N(residual; 0, cov) for a positive definite `cov`; −∞ if `cov` is not positive definite after rounding.
 fn log_normal(residual: &Vector3<f64>, cov: &Matrix3<f64>) -> f64 {
     let Some(root) = cov.cholesky().map(|cholesky| cholesky.unpack()) else { return f64::NEG_INFINITY };
     let log_det: f64 = (0..3).map(|i| 2.0 * libm::log(root[(i, i)])).sum();
@@ -206,7 +207,7 @@ fn log_normal(residual: &Vector3<f64>, cov: &Matrix3<f64>) -> f64 {
     -0.5 * (whitened.norm_squared() + log_det + 3.0 * libm::log(2.0 * PI))
 }
 
-/// A lower triangular L with L·Lᵀ = cov, zero columns where the covariance has no extent.
+/// Returns a lower triangular L with L·Lᵀ = cov, zero columns where the covariance has no extent.
 pub(crate) fn covariance_root(cov: &Matrix3<f64>) -> Result<Matrix3<f64>, TangentNoiseError> {
     if cov.iter().any(|entry| !entry.is_finite()) {
         return Err(TangentNoiseError::NotFinite);

@@ -44,7 +44,7 @@ pub struct VelocityModel {
 const MAX_WINDINGS: f64 = 64.0;
 
 impl VelocityModel {
-    /// The variances of v̂ (m²/s²), ω̂ and γ̂ (rad²/s²) under the command.
+    /// Returns the variances of v̂ (m²/s²), ω̂ and γ̂ (rad²/s²) under the command.
     pub fn variances(&self, u: &VelocityCmd) -> [Variance; 3] {
         let [a1, a2, a3, a4, a5, a6] = self.alphas.0;
         let (v2, omega2) = (u.v * u.v, u.omega * u.omega);
@@ -62,7 +62,7 @@ impl VelocityModel {
         }
     }
 
-    /// The standard deviations of v̂, ω̂ and γ̂.
+    /// Returns the standard deviations of v̂, ω̂ and γ̂.
     pub(crate) fn deviations(&self, u: &VelocityCmd) -> [f64; 3] {
         self.variances(u).map(|variance| variance.0.sqrt())
     }
@@ -74,15 +74,15 @@ impl VelocityModel {
         (9.0 * omega_deviation * u.dt / TAU).ceil().min(MAX_WINDINGS) as i32
     }
 
-    /// The pose reached from `x` with these unit noises: Table 5.3 after its three draws.
+    /// Returns the pose reached from `x` with these unit noises: Table 5.3 after its three draws.
     pub fn apply_noise(&self, u: &VelocityCmd, x: &SE2, unit_noise: [f64; 3]) -> SE2 {
         let ArcInversion { v_hat, omega_hat, gamma_hat } = self.executed(u, unit_noise);
         let (forward, left) = chord(v_hat * u.dt, omega_hat * u.dt);
         *x * SE2::new(forward, left, (omega_hat + gamma_hat) * u.dt)
     }
 
-    /// The covariance of (x, y, θ) that an EKF carries: the arc linearized in (v̂, ω̂, γ̂) at the command, 3 × 3, in
-    /// the frame of `x` (m², m·rad, rad²). Independent of the shape of the noise.
+    /// Returns the covariance of (x, y, θ) that an EKF carries: the arc linearized in (v̂, ω̂, γ̂) at the command, 3 ×
+    /// 3, in the frame of `x` (m², m·rad, rad²). Independent of the shape of the noise.
     ///
     /// With R the rotation to the final heading, R·(J_r R_u J_rᵀ + diag(0, 0, Δt²(α₅v² + α₆ω²)))·Rᵀ.
     pub fn cartesian_cov(&self, u: &VelocityCmd, x: &SE2) -> Matrix3<f64> {

@@ -9,7 +9,7 @@ use wide::{bytemuck, f64x4};
 /// Distance from the probability ½ at which the tails begin.
 const CENTRE: f64 = 0.425;
 
-/// Φ⁻¹(½ + q) by AS 241's PPND16: a rational function of degree 7 over 7 in each of three ranges.
+/// Returns Φ⁻¹(½ + q) by AS 241's PPND16: a rational function of degree 7 over 7 in each of three ranges.
 #[inline(never)]
 pub(super) fn normal(q: f64) -> f64 {
     if q.abs() <= CENTRE {
@@ -70,7 +70,7 @@ fn tail_lanes(q: f64x4) -> f64x4 {
     rational(r - 1.6, &MIDDLE_NUMERATOR, &MIDDLE_DENOMINATOR).copysign(q)
 }
 
-/// p(r)/q(r), coefficients from the constant term up.
+/// Returns p(r)/q(r), coefficients from the constant term up.
 #[inline(always)]
 fn rational<T>(r: T, numerator: &[f64; 8], denominator: &[f64; 8]) -> T
 where

@@ -3,7 +3,7 @@
 use super::settings::{Level, Settable, Setting};
 use std::ops::RangeInclusive;
 
-/// The α's of a noise level n: those of γ̂, the last two, are n/4, and all before them n.
+/// Returns the α's of a noise level n: those of γ̂, the last two, are n/4, and all before them n.
 pub fn alphas_of_noise<const N: usize>(n: f64) -> [f64; N] {
     std::array::from_fn(|i| if i + 2 < N { n } else { n / 4.0 })
 }

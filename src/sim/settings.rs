@@ -25,13 +25,13 @@ pub enum Allowed {
 }
 
 impl SettingsError {
-    /// A sample count for which memory does not suffice.
+    /// Returns a sample count for which memory does not suffice.
     pub(crate) fn no_memory(samples: usize) -> Self {
         Self { field: "samples".to_owned(), value: samples as f64, allowed: Allowed::LessMemory }
     }
 
-    /// The message, with numbers as `number` prints them. WebAssembly leaves that to JavaScript: Rust's own printing of
-    /// floating point takes an eighth of the module.
+    /// Returns the message, with numbers as `number` prints them. WebAssembly leaves that to JavaScript: Rust's own
+    /// printing of floating point takes an eighth of the module.
     pub fn message(&self, number: impl Fn(f64) -> String) -> String {
         let allowed = match &self.allowed {
             Allowed::Word { is, allowed } => return format!("{} is {is}; allowed is {allowed}", self.field),
@@ -53,7 +53,7 @@ impl fmt::Display for SettingsError {
 
 impl std::error::Error for SettingsError {}
 
-/// A number as JavaScript would print it.
+/// Returns a number as JavaScript would print it.
 fn number(value: f64) -> String {
     if value.is_infinite() {
         return if value > 0.0 { "Infinity" } else { "-Infinity" }.to_owned();
@@ -73,7 +73,7 @@ pub(crate) fn check_real(
     Err(SettingsError { field: field.to_owned(), value, allowed: Allowed::Real(allowed.clone()) })
 }
 
-/// The whole number that a double is, of a range whose ends are exact as doubles.
+/// Returns the whole number that a double is, of a range whose ends are exact as doubles.
 pub(crate) fn check_whole(
     field: &str,
     value: f64,
@@ -163,10 +163,10 @@ pub trait Whole {
 
 /// A number that stands for several others, as a slider for all of them does.
 pub trait Level {
-    /// The level; None where the others are not those of any.
+    /// Returns the level; None where the others are not those of any.
     fn get(&self) -> Option<f64>;
     fn set(&mut self, level: f64);
-    /// Shares of the level that the numbers have, the last of the whole list.
+    /// Returns the shares of the level that the numbers have, the last of the whole list.
     fn weights(&self) -> Vec<f64>;
 }
 
@@ -202,7 +202,7 @@ impl<T: Words> Word for T {
 /// Numbers that only make sense together.
 pub trait Group {
     fn fields(&self) -> &'static [Field];
-    /// The number of a field by its place among them, from 0; panics past the last.
+    /// Returns the number of a field by its place among them, from 0; panics past the last.
     fn number(&mut self, index: usize) -> &mut f64;
 }
 

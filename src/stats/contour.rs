@@ -1,4 +1,4 @@
-//! 2σ contours: of a Gaussian in the plane, and of one in exponential coordinates, pushed through exp.
+//! 2σ contours of two Gaussians: one in the plane, and one in exponential coordinates, mapped to the plane by exp.
 
 use super::cross_track::NO_SPREAD;
 use super::moments::{CartesianMoments, ExponentialMoments};
@@ -10,11 +10,11 @@ use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 use std::f64::consts::{PI, TAU};
 use wide::f64x4;
 
-/// The contours are at two standard deviations: a Gaussian of the plane has 1 − exp(−2²/2) = 86.5 % of its mass inside.
+/// Mahalanobis distance of the contours. A Gaussian in the plane has 1 − exp(−2²/2) = 86.5 % of its mass inside.
 const SIGMAS: f64 = 2.0;
 
-/// The share of correlation that may be missing from ±1 before an ellipse has an area to speak of: what rounding
-/// leaves of 1 − ρ². A larger bound would call needles lines, a smaller one would invert rounding.
+/// Value of 1 − ρ² up to which an ellipse counts as a line, because rounding may be all of it. A larger bound would
+/// take narrow ellipses for lines. A smaller one would divide by rounding errors.
 const NO_AREA: f64 = 1e-12;
 
 /// The 2σ ellipse of a Gaussian in two coordinates.
@@ -28,7 +28,8 @@ pub struct Ellipse {
 }
 
 impl Ellipse {
-    /// The ellipse around `centre` with covariance `cov` (symmetric, 2 × 2, in the squared units of the coordinates).
+    /// Creates the ellipse around `centre` with covariance `cov` (symmetric, 2 × 2, in the squared units of the
+    /// coordinates).
     pub fn new(centre: Vector2<f64>, cov: Matrix2<f64>) -> Self {
         let rounding = NO_SPREAD * NO_SPREAD * (centre.norm_squared() + cov.trace());
         let root = |variance: f64, least: f64| if variance > least { variance.sqrt() } else { 0.0 };
@@ -49,17 +50,17 @@ impl Ellipse {
         }
     }
 
-    /// The ellipse of the position (x, y), m.
+    /// Returns the ellipse of the position (x, y), m.
     pub fn from_moments(moments: &CartesianMoments) -> Self {
         Self::new(moments.mean.xy(), moments.cov.fixed_view::<2, 2>(0, 0).into_owned())
     }
 
-    /// False where the Gaussian has no extent in some direction: a line or a point. Nothing is then inside.
+    /// Returns false if the ellipse is a line or a point. No point is then inside.
     pub fn has_area(&self) -> bool {
         self.root[(0, 0)] > 0.0 && self.root[(1, 1)] > 0.0
     }
 
-    /// Its area, in the product of the units of the coordinates; 0 without an extent in some direction.
+    /// Returns the area, in the product of the units of the coordinates; 0 for a line or a point.
     pub fn area(&self) -> f64 {
         PI * SIGMAS * SIGMAS * self.root[(0, 0)] * self.root[(1, 1)]
     }
@@ -69,7 +70,7 @@ impl Ellipse {
         self.root[(0, 0)] == 0.0 && self.root[(1, 1)] == 0.0
     }
 
-    /// The closed outline as `segments` chords: `segments` + 1 points, the last equal to the first.
+    /// Returns the closed outline as `segments` chords: `segments` + 1 points, the last equal to the first.
     pub fn boundary(&self, segments: usize) -> Vec<[f64; 2]> {
         unit_circle(segments).map(|direction| (self.centre + self.root * direction * SIGMAS).into()).collect()
     }
@@ -90,7 +91,7 @@ impl Ellipse {
         self.contains_four(first, second).any()
     }
 
-    /// [`Ellipse::contains`] of four points, as masks.
+    /// Returns [`Ellipse::contains`] for four points, as masks.
     #[inline(always)]
     pub(super) fn contains_four(&self, first: f64x4, second: f64x4) -> f64x4 {
         if !self.has_area() {
@@ -105,9 +106,9 @@ impl Ellipse {
 
 /// The 2σ contour of a Gaussian N(m, Σ) in exponential coordinates.
 ///
-/// In (along, heading) it is an ellipse, and there its content is counted. In the plane it is the rim of the shadow that
-/// the 2σ ellipsoid casts through exp, as nearly as one great circle of the ellipsoid can be that. Without γ̂ the ellipsoid
-/// is flat, and the outline is the image of its rim, which is that ellipse.
+/// Poses are counted inside the 2σ ellipse of the coordinates (along, heading). The outline in the plane approximates the
+/// boundary of the image of the 2σ ellipsoid under exp. It is the image of a great circle of the ellipsoid. Without γ̂ the
+/// ellipsoid is flat, and that circle is its edge.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ExponentialContour {
     start: SE2,
@@ -119,7 +120,8 @@ pub struct ExponentialContour {
 }
 
 impl ExponentialContour {
-    /// The contour of `moments`, whose chart is anchored at `start`; drawn in the frame of `start`'s coordinates.
+    /// Creates the contour of `moments`, whose chart is anchored at `start`; drawn in the frame of `start`'s
+    /// coordinates.
     pub fn new(moments: &ExponentialMoments, start: &SE2) -> Self {
         let ExponentialMoments { mean, cov } = *moments;
         let along_heading = Matrix2::new(cov[(0, 0)], cov[(0, 2)], cov[(2, 0)], cov[(2, 2)]);
@@ -131,12 +133,13 @@ impl ExponentialContour {
         }
     }
 
-    /// The contour in (along, heading): m, rad.
+    /// Returns the contour in (along, heading): m, rad.
     pub fn ellipse(&self) -> &Ellipse {
         &self.ellipse
     }
 
-    /// The closed outline in the plane as `segments` chords: `segments` + 1 points, the last equal to the first.
+    /// Returns the closed outline in the plane as `segments` chords: `segments` + 1 points, the last equal to the
+    /// first.
     pub fn boundary(&self, segments: usize) -> Vec<[f64; 2]> {
         self.outline(segments).map(|(_, point)| point).collect()
     }
@@ -147,16 +150,16 @@ impl ExponentialContour {
         self.rim(segments, morph).map(|twist| unbend(&twist, morph)).collect()
     }
 
-    /// Returns how many times the area of this outline, drawn as `segments` chords, fits into that of an `ellipse` in the plane,
-    /// drawn alike. NaN where the ellipse, or the contour in (along, heading), has no area.
+    /// Returns the area of an `ellipse` in the plane divided by that of this outline, both drawn as `segments` chords. NaN if
+    /// the ellipse, or the contour in (along, heading), has no area.
     ///
-    /// Where the outline crosses itself because some of it was driven in reverse, the area is that of both of its loops.
+    /// Motions in reverse make the outline cross itself. Its area is then the sum of both loops.
     #[inline(never)]
     pub fn area_ratio(&self, ellipse: &Ellipse, segments: usize) -> f64 {
         if !ellipse.has_area() || !self.ellipse.has_area() {
             return f64::NAN;
         }
-        // Twice the triangles from the start to each chord. What is driven in reverse goes round the other way.
+        // The sum of twice the areas of the triangles from the start to each chord. Motions in reverse have the other sign.
         let (mut twice, mut before) = (0.0, [0.0; 2]);
         for (i, (along, [x, y])) in self.outline(segments).enumerate() {
             let [x, y] = [x - self.start.x(), y - self.start.y()];
@@ -166,11 +169,11 @@ impl ExponentialContour {
             }
             before = [x, y];
         }
-        // A circle as so many chords has lost this share of its area.
+        // A circle drawn as n chords has sinc(2π/n) times its area.
         ellipse.area() * sinc(TAU / segments as f64) / (0.5 * twice.abs())
     }
 
-    /// Returns ξ along and the place of each point of the outline.
+    /// Returns the coordinate of ξ along the track (m), and the position, of each point of the outline.
     fn outline(&self, segments: usize) -> impl Iterator<Item = (f64, [f64; 2])> {
         self.rim(segments, 0.0).map(|twist| {
             let pose = self.start.boxplus(twist);
@@ -178,14 +181,14 @@ impl ExponentialContour {
         })
     }
 
-    /// Returns the twists on the rim of the ellipsoid as it is seen at a morph.
+    /// Returns the twists on the silhouette of the ellipsoid under a morph.
     ///
-    /// On the ellipsoid ξ = m + 2·G·u, |u| = 1, a shadow ends where u ⊥ k, with H(ξ)·G·k = 0 and H the Jacobian of
-    /// place by ξ: k is the way to move without leaving the place. It hardly turns over the ellipsoid, and the
-    /// rim is the great circle perpendicular to its principal direction.
+    /// The ellipsoid is ξ = m + 2·G·u with |u| = 1, and H(ξ) the Jacobian of the position by ξ. On the silhouette u is
+    /// perpendicular to the null vector k with H(ξ)·G·k = 0. The direction of k varies little over the ellipsoid. So the
+    /// great circle perpendicular to the principal direction of k approximates the silhouette.
     fn rim(&self, segments: usize, morph: f64) -> impl Iterator<Item = Vector3<f64>> {
         let at = move |u: &Vector3<f64>| self.mean + self.root * u * SIGMAS;
-        // At the six ends of the axes; where a place cannot be left without turning, k is short and counts for little.
+        // Samples k at the six ends of the axes. The cross product weights it by the area that H·G maps to the plane.
         let mut spread = Matrix3::zeros();
         for axis in [Vector3::x(), Vector3::y(), Vector3::z()] {
             for end in [axis, -axis] {
@@ -195,8 +198,7 @@ impl ExponentialContour {
             }
         }
         let idle = principal_direction(&spread);
-        // Any two directions that span the circle. The coordinate axis least parallel to k gives a well-conditioned
-        // one.
+        // Two directions that span the circle. The coordinate axis least parallel to k makes the first well-conditioned.
         let aside = Matrix3::identity().column(idle.iamin()).into_owned();
         let first = (aside - idle * aside.dot(&idle)).normalize();
         let second = idle.cross(&first);
@@ -210,8 +212,8 @@ impl ExponentialContour {
     }
 }
 
-/// The unit eigenvector of the largest eigenvalue of a symmetric, positive semidefinite matrix, by repeated squaring: the
-/// ratio of the eigenvalues grows to its 1024th power. The second axis for the zero matrix.
+/// Returns the unit eigenvector of the largest eigenvalue of a symmetric, positive semidefinite matrix; the second axis
+/// for the zero matrix. Ten squarings raise the ratio of the eigenvalues to its 1024th power.
 fn principal_direction(matrix: &Matrix3<f64>) -> Vector3<f64> {
     let mut power = *matrix;
     for _ in 0..10 {

@@ -3,28 +3,27 @@
 use super::moments::mean_heading;
 use crate::geom::se2::{SE2, wrap_angle};
 
-/// Cross-track skew of a cloud, how far to trust it, and how cross-track error and heading go together.
+/// Cross-track skew of a cloud with its standard error, and correlation of cross-track residual and heading.
 ///
-/// The cross-track residual of a pose is its distance to the left of the mean position, measured perpendicular to
-/// the circular mean heading h: d = −(x − x̄)·sin h + (y − ȳ)·cos h. Every figure is NaN where the cloud has no
-/// cross-track spread (all on one line along h), and for fewer than three poses, of which any two are alike in shape.
-/// Small samples understate skew: at ten poses by about half.
+/// The cross-track residual of a pose is its distance to the left of the mean position, perpendicular to the circular mean
+/// heading h: d = −(x − x̄)·sin h + (y − ȳ)·cos h. All values are NaN if the residuals are all equal, or for fewer than three
+/// poses. The skew of small samples is biased towards 0: of ten poses by about half.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CrossTrack {
-    /// m₃/m₂^1.5 with moments over n. 0 for every Gaussian in (x, y).
+    /// Skewness m₃/m₂^1.5, with central moments over n. It is 0 for every Gaussian in (x, y).
     pub skew: f64,
-    /// Standard error of `skew` by the delta method, from the sample's own moments up to the sixth, the uncertainty
-    /// of the mean heading included.
+    /// Standard error of `skew` by the delta method, from the moments of the sample up to the sixth. It includes the
+    /// uncertainty of the mean heading.
     pub skew_error: f64,
-    /// Correlation of d with the heading; NaN if either has no spread.
+    /// Correlation of d with the heading; NaN if one of them is constant.
     pub rho_heading: f64,
 }
 
-/// Fraction of the cloud's extent and distance below which a spread is rounding and counts as 0. Rounding is about
-/// 1e-16 per step; a larger bound would take narrow clouds for lines.
+/// Standard deviation, relative to the extent and distance of the cloud, below which it counts as 0. Rounding is about 1e-16
+/// per step. A larger bound would take narrow clouds for lines.
 pub(super) const NO_SPREAD: f64 = 1e-12;
 
-/// Mean square (m²) below which a spread counts as 0 as well: the sixth power of 10⁻⁵⁰ m nearly underflows, and the
+/// Variance (m²) below which a standard deviation also counts as 0. The sixth power of 10⁻⁵⁰ m nearly underflows, so that the
 /// standard error would be 0.
 const LEAST_SQUARE: f64 = 1e-100;
 
@@ -84,11 +83,11 @@ impl CrossTrack {
         }
         let sd = m2.sqrt();
         let skew = m3 / (m2 * sd);
-        // A turn of the axis by dh changes d by −along·dh. A pose changes the mean heading by sin(turn)/resultant.
+        // Rotating the axis by dh changes d by −along·dh. The influence of a pose on the mean heading is sin(turn)/resultant.
         let by_heading =
             3.0 * (skew * moments.along_d / m2 - moments.along_d2 / (m2 * sd)) / moments.resultant;
-        // The influence of a pose is z³ − skew − 3z − 1.5·skew·(z² − 1) + by_heading·sin, with z = d/sd. It is a
-        // polynomial, so that its mean square is a sum of moments.
+        // The influence of a pose on the skew is z³ − skew − 3z − 1.5·skew·(z² − 1) + by_heading·sin(turn), with z = d/sd. It
+        // is a polynomial in d, so that its mean square is a sum of moments.
         let influence = [0.5 * skew, -3.0 / sd, -1.5 * skew / m2, 1.0 / (m2 * sd)];
         let mut squared = by_heading * by_heading * moments.sin_sin;
         for (i, a) in influence.iter().enumerate() {
@@ -107,28 +106,27 @@ impl CrossTrack {
     }
 }
 
-/// Means over a cloud: d is the cross-track residual, along the residual along the track, turn the residual of the
-/// heading, each relative to its mean.
+/// Means over a cloud of products of residuals from the mean: `d` across the track, `along` along it, and `turn` of the heading.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct TrackMoments {
     /// Mean of the squared distance from the origin.
     pub extent_squared: f64,
     pub along_d: f64,
     pub along_d2: f64,
-    /// dᵏ for k = 0 … 6.
+    /// Means of dᵏ for k = 0 … 6.
     pub d: [f64; 7],
-    /// sin(turn)·dᵏ for k = 0 … 3.
+    /// Means of sin(turn)·dᵏ for k = 0 … 3.
     pub sin_d: [f64; 4],
     pub sin_sin: f64,
     pub turn: f64,
     pub turn_turn: f64,
     pub turn_d: f64,
-    /// cos(turn).
+    /// Mean of cos(turn).
     pub resultant: f64,
 }
 
 impl TrackMoments {
-    /// Means from sums.
+    /// Returns means from sums over `count` poses.
     fn divided_by(&self, count: f64) -> Self {
         Self {
             extent_squared: self.extent_squared / count,
@@ -145,7 +143,7 @@ impl TrackMoments {
     }
 }
 
-/// [`CrossTrack::skew`] of `poses`.
+/// Returns [`CrossTrack::skew`] of `poses`.
 pub fn cross_track_skew(poses: &[SE2]) -> f64 {
     CrossTrack::from_poses(poses).skew
 }

@@ -1,4 +1,4 @@
-//! Exact moments of a model: quadrature over the heading noise, closed form for the others.
+//! Exact moments of a model, by quadrature over the heading noise. The other noises have a closed form.
 
 use super::cross_track::NO_SPREAD;
 use super::moments::no_less_than_none;
@@ -9,8 +9,8 @@ use crate::models::{Hinges, OdomDelta, VelocityCmd, VelocityModel};
 use crate::noise::NoiseKind;
 use nalgebra::{Matrix3, Vector3};
 
-/// Mean and covariance of (x, y, θ) and the cross-track skew of the poses that a model draws from the identity pose:
-/// m, m, rad in the frame of the start.
+/// Mean and covariance of (x, y, θ), and cross-track skew, of a model's poses after a command from the identity pose; in m
+/// and rad.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ExactMoments {
     /// Mean position, and circular mean heading in (−π, π].
@@ -25,14 +25,14 @@ pub struct ExactMoments {
 struct Ray {
     weight: f64,
     unit: [f64; 2],
-    /// Excess of the turn over its mean at this noise.
+    /// Turn at this noise minus the mean turn, rad.
     excess_turn: f64,
 }
 
 /// Weighted moments of a vector u and an excess turn. The weights may sum to less than 1.
 #[derive(Default)]
 pub(super) struct RayMoments {
-    /// Origin of the differences of u that are summed: its first value, so that few digits are lost if u varies little.
+    /// First value of u. Sums contain differences from it, so that few digits are lost if u varies little.
     reference: Option<[f64; 2]>,
     total: f64,
     mean: Vector3<f64>,
@@ -46,11 +46,11 @@ impl RayMoments {
         let point = Vector3::new(unit[0] - x, unit[1] - y, excess_turn);
         self.total += weight;
         self.mean += point * weight;
-        // Weighted last, it is symmetric to the last bit.
+        // Multiplying by the weight last makes the matrix symmetric to the last bit.
         self.square += point * point.transpose() * weight;
     }
 
-    /// Mean and covariance of L·u and the turn, for an independent length L of this mean and standard deviation.
+    /// Returns the mean and covariance of L·u and the turn, with L independent of them. L has this mean and standard deviation.
     #[inline(never)]
     pub fn finish(&self, [length, deviation]: [f64; 2]) -> (Vector3<f64>, Matrix3<f64>) {
         let mean = self.mean / self.total;
@@ -71,7 +71,8 @@ impl RayMoments {
 }
 
 impl ExactMoments {
-    /// The moments of the velocity model. Given ω̂, the position is v̂Δt·(sin φ/φ, (1 − cos φ)/φ) with φ = ω̂Δt, linear in v̂.
+    /// Returns the moments of the velocity model. Given ω̂, the position is v̂Δt·(sin φ/φ, (1 − cos φ)/φ) with φ =
+    /// ω̂Δt, linear in v̂.
     pub fn of_velocity(model: &VelocityModel, u: &VelocityCmd) -> Self {
         let [v_variance, omega_variance, gamma_variance] = model.variances(u).map(|variance| variance.0);
         let rays = nodes(model.noise).iter().map(|node| {
@@ -88,7 +89,8 @@ impl ExactMoments {
         )
     }
 
-    /// The moments of the odometry model. Given the first rotation, the position is δ̂_trans along it, linear in δ̂_trans.
+    /// Returns the moments of the odometry model. Given the first rotation, the position is δ̂_trans along it, linear
+    /// in δ̂_trans.
     pub fn of_odometry(model: &impl Hinges, u: &OdomDelta) -> Self {
         let [rot1_variance, trans_variance, rot2_variance] = model.variances(u).map(|variance| variance.0);
         let rays = nodes(model.noise()).iter().map(|node| {
@@ -124,11 +126,11 @@ impl ExactMoments {
     }
 }
 
-/// Returns the cross-track skew of exp(ξ), ξ ~ N(`mean`, `cov`) in the order (along, lateral, heading), about the mean heading. A Gaussian in
-/// (x, y) has a skew of 0; one in exponential coordinates has this.
+/// Returns the cross-track skew of exp(ξ) for ξ ~ N(`mean`, `cov`), with ξ in the order along, lateral, heading (m, m, rad).
+/// NaN if there is no spread across the track.
 ///
-/// By quadrature over the heading: given it, the position is linear in the other two coordinates. `mean` in m, m, rad,
-/// `cov` 3 × 3 positive semidefinite. NaN where there is no spread across the track.
+/// The quadrature is over the heading. Given the heading, the position is linear in the other two coordinates. `cov` is a
+/// positive semidefinite 3 × 3 matrix.
 pub fn predicted_cross_track_skew(mean: &Vector3<f64>, cov: &Matrix3<f64>) -> f64 {
     let heading_variance = cov[(2, 2)];
     let regression = if heading_variance > 0.0 {

@@ -1,4 +1,5 @@
-//! Exact likelihood gain of a model: quadrature over the two noises that turn the robot, closed form for the rest.
+//! Exact likelihood gain of a model, by quadrature over the two noises that turn the robot. The noise of the length has
+//! a closed form.
 
 use super::exact::{ExactMoments, RayMoments};
 use super::gain::{Charts, LikelihoodGain, Moments};
@@ -11,13 +12,14 @@ use crate::noise::NoiseKind;
 use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::{LN_2, PI, TAU};
 
-/// Moments that a model predicts for its exponential coordinates, for robots that start at the identity pose.
+/// Exact gain of a model, and the moments of its exponential coordinates, for robots that start at the identity pose.
 ///
-/// Those coordinates end where a robot turns a whole circle, and Gaussian noise reaches that with some probability: there
-/// the moments of ξ are infinite. Noise that turns the robot by more than `REACH` standard deviations is left out, which
-/// changes a variance by 1e-7 of it; where a whole circle is nearer than that, the figures are NaN. Headings are not
-/// wrapped: where many robots turn more than half a circle further than commanded, which a cloud takes for turns the other
-/// way round, its `pose` is another.
+/// Exponential coordinates diverge at a turn of a full circle. Gaussian noise reaches it with some probability, so that the
+/// exact moments of ξ are infinite. Turns beyond `REACH` standard deviations are therefore omitted, which changes a variance
+/// by a fraction of 1e-7. The figures are NaN if a full circle is within `REACH`.
+///
+/// Turns are not wrapped here. In a cloud, turns of more than half a circle beyond the command are wrapped, so that its `pose`
+/// differs if many robots make them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ExactGain {
     pub value: LikelihoodGain,
@@ -25,15 +27,14 @@ pub struct ExactGain {
     pub exponential: ExponentialMoments,
 }
 
-/// Number of standard deviations of a normal turn that are integrated over. Ten million robots reach 5.3. A smaller
-/// number would change the fourth digit; a larger one would reach the full circle for commands whose clouds have
-/// moments.
+/// Limit of the integral over a normal turn, in standard deviations. The largest of ten million samples is at 5.3. A
+/// smaller limit would change the fourth digit. A larger one would reach a full circle for commands whose clouds do not.
 const REACH: f64 = 6.0;
 
-/// No breaks, see [`broken_nodes`].
+/// Breaks of a function that is smooth everywhere, see [`broken_nodes`].
 const SMOOTH: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
 
-/// A length driven on a bearing, and two turns.
+/// Motion of either model: a length in the direction of a bearing, and a turn.
 struct Legs {
     noise: NoiseKind,
     /// True if the length is that of an arc, whose chord at the bearing φ/2 is shorter by the factor sinc(φ/2).
@@ -97,7 +98,7 @@ impl Legs {
         }
     }
 
-    /// The nodes of a noise with this standard deviation.
+    /// Returns the quadrature nodes of a noise with this standard deviation.
     fn nodes(&self, deviation: f64, breaks: [f64; 2]) -> Vec<Node> {
         if deviation == 0.0 {
             return vec![Node { value: 0.0, weight: 1.0 }];
@@ -113,8 +114,8 @@ impl Legs {
         }
     }
 
-    /// Moments of ξ, and the mean of ln sinc²(ξ_ω/2). At the bearing β, the chord r is turned back by half of the
-    /// heading θ: ξ = r/sinc(θ/2) · (cos(β − θ/2), sin(β − θ/2)).
+    /// Returns the moments of ξ, and the mean of ln sinc²(ξ_ω/2). A chord r on the bearing β with the final heading θ
+    /// has ξ = r/sinc(θ/2) · (cos(β − θ/2), sin(β − θ/2)).
     fn twist(&self) -> (Moments, f64) {
         let ([bearing, deviation], [turn, by_bearing, after]) = (self.bearing, self.turn);
         let reach = self.reach(by_bearing, after);
@@ -141,13 +142,13 @@ impl Legs {
         ((mean + Vector3::z() * turn, cov), logs.finish())
     }
 
-    /// Moments of length and turn φ, in this order, of the arc that ends where the robot does; and the mean of ln|c·sinc²(φ/2)|, where that
-    /// arc is c times as long as the length driven.
+    /// Returns the moments of the length and turn φ of the arc that ends at the robot's final position. Also returns the
+    /// mean of ln|c·sinc²(φ/2)|, with c the length of that arc divided by the driven length.
     fn arc(&self) -> (Moments, f64) {
         let ([bearing, deviation], near) = (self.bearing, 0.5 * self.turn[0]);
         let (mut moments, mut logs) = (RayMoments::default(), MeanLog::default());
-        // Cloud statistics use the arc whose turn is nearest to the commanded one. It leads there in the other direction if the
-        // bearing differs from half the commanded turn by more than π/2.
+        // Statistics of a cloud use the arc whose turn is nearest to the commanded one. That arc is driven in the opposite
+        // direction if the bearing differs from half the commanded turn by more than π/2.
         let breaks = [-0.5 * PI, 0.5 * PI].map(|aside| (near + aside - bearing) / deviation);
         for node in self.nodes(deviation, breaks) {
             let driven = bearing + deviation * node.value;
@@ -164,7 +165,7 @@ impl Legs {
         ((Vector3::new(mean.x, mean.z + 2.0 * bearing, 0.0), cov), logs.finish())
     }
 
-    /// The mean of ln|length|.
+    /// Returns the mean of ln|driven length|.
     fn mean_log_length(&self) -> f64 {
         let [mean, deviation] = self.length.map(f64::abs);
         if deviation == 0.0 {
@@ -196,17 +197,17 @@ impl MeanLog {
     }
 }
 
-/// E ln|m + Z| for a standard normal Z, to 1e-10.
+/// Returns E ln|m + Z| for a standard normal Z, to 1e-10.
 ///
-/// (m + Z)² is noncentral χ² of one degree of freedom: a Poisson mixture, of mean m²/2, of χ² with 1 + 2j degrees, whose
-/// logarithms have the means ln 2 + ψ(½ + j).
+/// (m + Z)² is noncentral χ² with one degree of freedom. It is a mixture of χ² with 1 + 2j degrees of freedom, where j has
+/// a Poisson distribution of mean m²/2. The mean logarithm of χ² with 1 + 2j degrees is ln 2 + ψ(½ + j).
 fn normal_mean_log(m: f64) -> f64 {
     /// Value of m from which the fourth term of the asymptotic series is below 1e-10. Far beyond it, exp(−m²/2) underflows.
     const FAR: f64 = 30.0;
     /// ψ(½) = −γ − 2 ln 2.
     const DIGAMMA_HALF: f64 = -1.963_510_026_021_423_5;
     if m > FAR {
-        // E (Z/m)²ᵏ = (2k − 1)!!/m²ᵏ.
+        // Terms of the series use E (Z/m)²ᵏ = (2k − 1)!!/m²ᵏ.
         let square = 1.0 / (m * m);
         return libm::log(m) - square * (0.5 + square * (0.75 + square * 2.5));
     }
@@ -222,8 +223,8 @@ fn normal_mean_log(m: f64) -> f64 {
     0.5 * sum
 }
 
-/// E ln|m + T| for T of the triangular density on ±`edge`, to 1e-14. Far from 0 it is a series of moments. Elsewhere it is a second
-/// difference of the second antiderivative of the logarithm, because T is a sum of two uniform numbers.
+/// Returns E ln|m + T| to 1e-14, with T triangular on ±`edge`. Far from 0 it is a series of moments. Elsewhere it is a
+/// second difference of the second antiderivative of the logarithm, because T is a sum of two uniform numbers.
 fn triangular_mean_log(m: f64, edge: f64) -> f64 {
     if edge < 0.5 * m {
         let square = (edge / m) * (edge / m);

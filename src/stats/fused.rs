@@ -1,8 +1,8 @@
 //! Statistics of a large cloud in two passes over its poses, four at a time.
 //!
-//! The first pass finds means and covariances. The second needs them: it finds higher moments across the track, and the
-//! fractions inside the contours. Sums are compensated and contain differences from a point near the mean, so that the
-//! relative error of ten million poses is about 1e-13.
+//! The first pass computes means and covariances. The second pass needs them for higher moments across the track, and for
+//! the fractions inside the contours. Sums are compensated, and contain differences from a point near the mean. The
+//! relative error for ten million poses is about 1e-13.
 
 use super::contour::{Ellipse, ExponentialContour};
 use super::cross_track::{CrossTrack, TrackMoments};
@@ -16,7 +16,8 @@ use nalgebra::{Matrix2, Matrix3, Vector3};
 use std::f64::consts::{LN_2, PI, TAU};
 use wide::{f64x2, f64x4};
 
-/// Four poses: positions, logarithms, and the sine and cosine of half the heading. Both may have the opposite sign.
+/// Four poses: positions, logarithms, and the sine and cosine of half the heading. The signs of both may be reversed, which
+/// is the same heading.
 #[derive(Clone, Copy)]
 pub struct FourPoses {
     pub x: f64x4,
@@ -31,8 +32,8 @@ pub struct FourPoses {
     pub sinc: f64x4,
 }
 
-/// The arcs that end where four poses are, on the branch nearest to the command: signed length (m), half the turn φ
-/// (rad), and sinc(φ/2).
+/// Arcs that end at the positions of four poses: signed length (m), half the turn φ (rad), and sinc(φ/2). Of the arcs to a
+/// position, the one with the turn nearest to the command is used.
 #[derive(Clone, Copy)]
 pub struct FourArcs {
     pub length: f64x4,
@@ -40,10 +41,10 @@ pub struct FourArcs {
     pub sinc: f64x4,
 }
 
-/// Origin of the differences that are summed: x, y, along, lateral, half heading; length and half turn of the arc.
+/// Point whose coordinates are subtracted in all sums: x, y, along, lateral, half heading; length and half turn of the arc.
 pub type Reference = [f64; 7];
 
-/// Factors that bring sinc(ξ_ω/2) and |s|·sinc²(φ/2) to the order of 1, so that many of them can be multiplied.
+/// Factors that scale sinc(ξ_ω/2) and |s|·sinc²(φ/2) to about 1, so that a product of many does not underflow.
 pub type Scale = [f64; 2];
 
 /// First pass: accumulates means, covariances and the mean logarithms of the Jacobians.
@@ -52,7 +53,8 @@ pub struct Spread {
     reference: Reference,
     scale: Scale,
     sums: Sums<16>,
-    /// Sums over arcs that are not regular, minus the regular values that the sums of the unit noise count for them.
+    /// Sums over arcs that are not regular. The regular values of those arcs are subtracted, because the sums of the unit
+    /// noise include them.
     rest: PairSums,
     /// Products of the scaled factors sinc(ξ_ω/2) and |s|·sinc²(φ/2) over a block, and sums of the logarithms of these
     /// products. One logarithm for each block takes hardly any time. On average the factors are above e⁻¹, and the
@@ -73,7 +75,7 @@ impl Spread {
         }
     }
 
-    /// Adds those of the four poses for which `mask` has all bits set.
+    /// Adds the poses for which `mask` has all bits set.
     #[inline(always)]
     pub fn add(&mut self, poses: &FourPoses, mask: f64x4) {
         let [x, y, along, lateral, half, ..] = self.reference;
@@ -115,7 +117,7 @@ impl Spread {
         self.products[1] *= product(arcs.length) * (arc * arc) * (arc_scale * arc_scale);
     }
 
-    /// As [`Spread::multiply`] for the poses for which `mask` has all bits set; the others count as 1.
+    /// Multiplies the products by the Jacobians of the poses for which `mask` has all bits set.
     #[inline(never)]
     pub fn multiply_some(&mut self, poses: &FourPoses, arcs: &FourArcs, mask: f64x4) {
         let counted = |of: f64x4| mask.bitselect(of, f64x4::splat(1.0));
@@ -123,8 +125,8 @@ impl Spread {
         self.multiply(&FourPoses { sinc: chart, ..*poses }, &FourArcs { length, sinc: arc, ..*arcs });
     }
 
-    /// Corrects the sums for arcs whose length and half turn do not differ from the reference by `regular`. The values
-    /// `regular` are summed elsewhere, and are subtracted here.
+    /// Corrects the sums for arcs that are not regular: adds their values, and subtracts the values `regular`, which the sums
+    /// of the unit noise include.
     #[inline(never)]
     pub fn add_irregular(&mut self, arcs: &FourArcs, regular: [f64x4; 2], mask: f64x4) {
         let [.., length, half_turn] = self.reference;
@@ -142,14 +144,14 @@ impl Spread {
         }
     }
 
-    /// Returns the moments of `count` poses; of the Cartesian covariance only the part of the position. `regular` are
-    /// the sums over regular arcs, in the order of [`PairSums`].
+    /// Returns the moments of `count` poses. Of the Cartesian covariance it has only the position. `regular` are the sums
+    /// over regular arcs, in the order of [`PairSums`].
     pub fn finish(&self, count: usize, regular: [f64; 5]) -> SpreadMoments {
         let n = count as f64;
         let [x, y, a, l, h, xx, xy, yy, aa, al, ll, ah, lh, hh, sin_cos, sin_sin] = self.sums.finish();
         let rest = self.rest.finish();
         let [s, t, ss, st, tt] = std::array::from_fn(|i| regular[i] + rest[i]);
-        // Means of the differences, and of their products less those of the means.
+        // A covariance is the mean of the products minus the product of the means.
         let cov = |product: f64, first: f64, second: f64| {
             if count > 1 { (product - first * (second / n)) / (n - 1.0) } else { f64::NAN }
         };
@@ -186,8 +188,8 @@ impl Spread {
         }
     }
 
-    /// Returns a better reference, the means, if the sums lost more than two digits by cancellation. A small cloud may
-    /// lie many of its own standard deviations away from the expected mean.
+    /// Returns the means as a better reference if cancellation lost more than two digits of the sums. That happens if the
+    /// mean of a small cloud is many of its standard deviations away from the reference.
     pub fn better_reference(&self, count: usize) -> Option<Reference> {
         let n = count as f64;
         let sums = self.sums.finish();
@@ -206,15 +208,16 @@ impl Spread {
 #[derive(Clone, Copy, Debug)]
 pub struct SpreadMoments {
     position: [f64; 2],
-    /// xx, xy, yy.
+    /// Entries xx, xy and yy of the covariance.
     position_cov: [f64; 3],
     /// The circular mean of the headings, not wrapped.
     mean_turn: f64,
-    /// Length of the mean of the headings' unit vectors.
+    /// Length of the mean of the unit vectors in the directions of the headings.
     resultant: f64,
     pub exponential: ExponentialMoments,
-    /// For [`Charts`]: moments of the arcs, mean logarithms of the Jacobians.
+    /// Moments of the arcs.
     arc: Moments,
+    /// Mean logarithms of the Jacobians of [`FourRobots`].
     log_jacobians: [f64; 2],
 }
 
@@ -256,7 +259,7 @@ impl CloudShape {
         }
     }
 
-    /// As [`Spread::add`].
+    /// Adds the poses for which `mask` has all bits set.
     #[inline(always)]
     pub fn add(&mut self, poses: &FourPoses, mask: f64x4) {
         let ([mean_x, mean_y], (sin, cos)) = (self.spread.position, self.heading);
@@ -375,7 +378,7 @@ impl CloudShape {
     }
 }
 
-/// Differences of angles that are each within a turn of the other's branch, in [−π, π].
+/// Wraps differences of angles to [−π, π]. The differences must be within [−3π, 3π].
 #[inline(always)]
 fn wrapped(turn: f64x4) -> f64x4 {
     let far = turn.abs().simd_gt(f64x4::splat(PI));

@@ -45,8 +45,8 @@ pub struct MeasuredGain {
 }
 
 impl MeasuredGain {
-    /// The gain of `poses`, all driven from `start` under a command that turns by `turn` (rad): ξ and the arcs are taken
-    /// on the branches nearest to it.
+    /// Returns the gain of `poses`, all driven from `start` under a command that turns by `turn` (rad): ξ and the arcs
+    /// are taken on the branches nearest to it.
     pub fn from_poses(poses: &[SE2], start: &SE2, turn: f64) -> Self {
         let back = start.inverse();
         let steps: Vec<SE2> = poses.iter().map(|pose| back * *pose).collect();

@@ -10,8 +10,8 @@ const NONE: usize = usize::MAX;
 /// the grid, from its first point. A line ends where it began, or at the border of the grid.
 pub fn level_set(values: &[f64], columns: usize, level: f64) -> Vec<Vec<[f64; 2]>> {
     let rows = values.len() / columns.max(1);
-    // Edge 2i leads from point i to the next point in its row, edge 2i + 1 to the point in the next row. For each edge
-    // that a line crosses: the previous and the next edge of the line.
+    // The previous and the next edge of a line, for each edge of the grid that it crosses. Edge 2i leads from point i to the
+    // next point in its row, and edge 2i + 1 to the point in the next row.
     let mut links = vec![[NONE; 2]; 2 * values.len()];
     let mut link = |one: usize, other: usize| {
         for (from, to) in [(one, other), (other, one)] {
@@ -59,7 +59,7 @@ pub fn level_set(values: &[f64], columns: usize, level: f64) -> Vec<Vec<[f64; 2]
             let [one, other] = std::mem::replace(&mut links[at], [NONE; 2]);
             let next = if one != NONE && links[one][0] != NONE { one } else { other };
             if next == NONE || links[next][0] == NONE {
-                // Round and back, if the first edge is next to the last.
+                // The line is closed if its first and its last edge are linked.
                 if (one == first || other == first) && line.len() > 2 {
                     line.push(line[0]);
                 }

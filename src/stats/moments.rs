@@ -10,16 +10,16 @@ pub struct CartesianMoments {
     /// Arithmetic mean position and circular mean heading in (−π, π].
     #[cfg_attr(target_arch = "wasm32", serde(serialize_with = "super::plain::vector"))]
     pub mean: Vector3<f64>,
-    /// Sample covariance (over n − 1), headings taken as the shortest turn from the mean heading. 3 × 3.
+    /// Sample covariance (over n − 1), 3 × 3. A heading counts as its shortest turn from the mean heading.
     #[cfg_attr(target_arch = "wasm32", serde(serialize_with = "super::plain::matrix"))]
     pub cov: Matrix3<f64>,
 }
 
 impl CartesianMoments {
-    /// The moments of `poses`. NaN throughout without poses; a covariance of NaN for a single one.
+    /// Returns the moments of `poses`. All are NaN without poses. The covariance is NaN for a single pose.
     pub fn from_poses(poses: &[SE2]) -> Self {
         let heading = mean_heading(poses);
-        // Differences from the first pose: equal poses leave residuals of exactly 0.
+        // Subtracts the first pose, so that equal poses have residuals of exactly 0.
         let from_first = |pose: &SE2| {
             Vector3::new(pose.x() - poses[0].x(), pose.y() - poses[0].y(), wrap_angle(pose.theta() - heading))
         };
@@ -41,8 +41,8 @@ pub struct ExponentialMoments {
 }
 
 impl ExponentialMoments {
-    /// The moments of `poses` in the chart anchored at `start`, the pose from which all of them were driven. NaN as
-    /// for [`CartesianMoments::from_poses`].
+    /// Returns the moments of `poses` in the chart anchored at `start`, the pose from which all of them were driven.
+    /// NaN as for [`CartesianMoments::from_poses`].
     ///
     /// Each ξ is on the branch of the logarithm within half a turn of the mean heading, so that a cloud around a half turn stays in
     /// one piece. Usually that is x_t ⊟ x_{t−1} itself.
@@ -56,12 +56,12 @@ impl ExponentialMoments {
     }
 }
 
-/// The circular mean of the headings, atan2(Σ sin θ, Σ cos θ); NaN without poses.
+/// Returns the circular mean of the headings, atan2(Σ sin θ, Σ cos θ); NaN without poses.
 pub(super) fn mean_heading(poses: &[SE2]) -> f64 {
     let Some(first) = poses.first() else { return f64::NAN };
     let (mut sin, mut cos) = (0.0, 0.0);
     for pose in poses {
-        // Angles relative to the first heading, so that sines of equal headings sum to exactly 0.
+        // Angles are relative to the first heading, so that the sines of equal headings sum to exactly 0.
         let (s, c) = libm::sincos(pose.theta() - first.theta());
         sin += s;
         cos += c;
@@ -69,13 +69,12 @@ pub(super) fn mean_heading(poses: &[SE2]) -> f64 {
     wrap_angle(first.theta() + libm::atan2(sin, cos))
 }
 
-/// Clips a variance that was computed as a difference to 0 or more, because rounding can make it negative. NaN stays
-/// NaN.
+/// Replaces a negative variance by 0: rounding can make a difference negative. NaN stays NaN.
 pub(crate) fn no_less_than_none(variance: f64) -> f64 {
     if variance < 0.0 { 0.0 } else { variance }
 }
 
-/// Mean and covariance over n − 1, in two passes.
+/// Returns the mean and covariance over n − 1, in two passes.
 pub(super) fn mean_and_cov(
     vectors: impl Iterator<Item = Vector3<f64>> + Clone,
     count: usize,

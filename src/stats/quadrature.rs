@@ -1,20 +1,20 @@
-//! Expectations over one noise variable, to the accuracy of doubles.
+//! Quadrature rules for expectations over one noise, to the accuracy of doubles.
 
 use crate::noise::NoiseKind;
 use std::f64::consts::{PI, TAU};
 use std::sync::OnceLock;
 
-/// A value of a unit-variance noise and its weight; the weights of a rule sum to 1.
+/// Node of a rule: a value of a noise of variance 1, and its weight. The weights of a rule sum to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Node {
     pub value: f64,
     pub weight: f64,
 }
 
-/// A rule with E[f(z)] = Σ weight · f(value) for z of unit variance and the given kind.
+/// Returns a rule with E[f(z)] = Σ weight · f(value) for z of unit variance and the given kind.
 ///
-/// For f of bounded frequency k (trigonometric functions of k·z times polynomials), correct to rounding as long as
-/// k is below 16: a heading spread of five radians in a third moment.
+/// The rule is correct to rounding if f is a polynomial times trigonometric functions of k·z with k below 16. The third
+/// moment of headings with a standard deviation of five radians needs that frequency.
 pub fn nodes(noise: NoiseKind) -> &'static [Node] {
     // Cached, because every event needs the nodes.
     static NORMAL: OnceLock<Vec<Node>> = OnceLock::new();
@@ -25,12 +25,12 @@ pub fn nodes(noise: NoiseKind) -> &'static [Node] {
     }
 }
 
-/// The trapezoidal rule on the whole line converges faster than any power for a Gaussian weight: its error at the step
-/// h and frequency k is about exp(−(2π/h − k)²/2).
+/// Returns the trapezoidal rule for a Gaussian weight. Its error at the step h and the frequency k is about
+/// exp(−(2π/h − k)²/2).
 fn normal_nodes() -> Vec<Node> {
-    /// A quarter: the error stays below rounding up to k ≈ 16; twice that only up to 4, half would double the cost.
+    /// Step of the rule. The error stays below rounding up to k ≈ 16; with twice the step it would only up to 4.
     const STEP: f64 = 0.25;
-    /// Nine standard deviations: the density there is 1e-18 of its peak.
+    /// Number of steps on each side of 0: nine standard deviations, where the density is 1e-18 of its maximum.
     const HALF_COUNT: i32 = 36;
     (-HALF_COUNT..=HALF_COUNT)
         .map(|i| {
@@ -40,9 +40,9 @@ fn normal_nodes() -> Vec<Node> {
         .collect()
 }
 
-/// Gauss–Legendre on either half of the triangle, where its density is linear.
+/// Returns the Gauss–Legendre rule on both halves of the triangular density, which is linear on each.
 fn triangular_nodes() -> Vec<Node> {
-    /// 32 points are exact for polynomials of degree 63, which resolves k·√6 up to 60 or so over either half.
+    /// Number of points on each half. The rule is exact for polynomials of degree 63, which suffices for k·√6 up to about 60.
     const POINTS: usize = 32;
     let end = 6f64.sqrt();
     legendre_nodes(POINTS)
@@ -55,12 +55,12 @@ fn triangular_nodes() -> Vec<Node> {
         .collect()
 }
 
-/// As [`nodes`], but only up to ±`end`, for functions that are smooth but at two `breaks`, one either side of 0:
-/// Gauss–Legendre between them. Of the moments of a normal noise up to six standard deviations it misses 1e-10.
+/// Returns a rule from −`end` to `end` for a function with two `breaks`, one on each side of 0, which is smooth between
+/// them. It uses Gauss–Legendre between the breaks. Moments of normal noise up to six standard deviations are off by 1e-10.
 #[inline(never)]
 pub(super) fn broken_nodes(noise: NoiseKind, end: f64, breaks: [f64; 2]) -> Vec<Node> {
-    /// Number of nodes between breaks. Two noises are combined, so that the cost grows with its square; fewer nodes
-    /// would lose digits that are shown.
+    /// Number of nodes between breaks. Two noises are combined, so that the cost grows with its square. Fewer nodes would
+    /// make displayed digits wrong.
     const POINTS: usize = 16;
     let legendre = legendre_nodes(POINTS);
     let (mut nodes, mut from) = (Vec::with_capacity(4 * POINTS), -end);
@@ -82,7 +82,7 @@ pub(super) fn broken_nodes(noise: NoiseKind, end: f64, breaks: [f64; 2]) -> Vec<
     nodes
 }
 
-/// The Gauss–Legendre rule on (−1, 1): the roots of P_n by Newton's method.
+/// Returns the Gauss–Legendre rule on (−1, 1): the roots of P_n by Newton's method.
 fn legendre_nodes(points: usize) -> Vec<Node> {
     let n = points as f64;
     (0..points)

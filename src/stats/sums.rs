@@ -1,4 +1,4 @@
-//! Sums of millions of terms, four at a time: naive over a block of them and compensated over the blocks.
+//! Sums of millions of terms, four at a time. Plain sums of blocks of terms are added to a compensated total.
 
 use crate::geom::lanes::halves;
 use wide::{f64x2, f64x4};
@@ -6,7 +6,7 @@ use wide::{f64x2, f64x4};
 /// Sums of `N` quantities.
 #[derive(Clone, Debug)]
 pub struct Sums<const N: usize> {
-    /// Added to by [`add`].
+    /// Sums of the current block, to which [`add`] adds.
     pub block: [f64x2; N],
     total: [f64x2; N],
     lost: [f64x2; N],
@@ -45,7 +45,7 @@ fn whole(total: f64x2, lost: f64x2) -> f64 {
     (a + b) + (c + d)
 }
 
-/// A sum of four added to its block.
+/// Adds four values of each quantity to its block.
 #[inline(always)]
 pub fn add<const N: usize>(block: &mut [f64x2; N], terms: [f64x4; N]) {
     for i in 0..N {

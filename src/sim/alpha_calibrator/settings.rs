@@ -127,7 +127,7 @@ impl Settings {
 }
 
 impl Rules for Settings {
-    /// Model and rule have to match: setting one of them changes the other.
+    /// Changes the rule to one of a changed model, or the model to that of a changed rule.
     fn settle(&mut self, _: &Self, named: &[&str]) {
         let fits = self.omnidirectional() == (self.rule == OdometryRule::Omni);
         match [named.contains(&"model"), named.contains(&"rule")] {
@@ -153,7 +153,7 @@ impl Rules for Settings {
 }
 
 impl Settings {
-    /// The model with its rule.
+    /// Returns the model with its rule.
     pub fn model(&self) -> calibrate::Model {
         match self.model {
             Model::Odometry | Model::Omnidirectional => calibrate::Model::Odometry(self.rule),
@@ -161,7 +161,7 @@ impl Settings {
         }
     }
 
-    /// Options of the calibration.
+    /// Returns the options of the calibration.
     pub fn options(&self) -> Options {
         let Self { mount_yaw, lever_arm, distance_scale, turn_scale, clock_offset, .. } = *self;
         let corrected: [bool; ERRORS] =

@@ -166,7 +166,7 @@ pub struct BananaMachine {
 }
 
 impl BananaMachine {
-    /// Machine that shows all samples.
+    /// Creates a machine that shows all samples.
     ///
     /// # Errors
     /// [`SettingsError`] for the first setting out of range, or where memory does not suffice for the samples.
@@ -174,7 +174,7 @@ impl BananaMachine {
         Self::showing(settings, settings.samples)
     }
 
-    /// Machine that shows the first `count` samples.
+    /// Creates a machine that shows the first `count` samples.
     ///
     /// # Errors
     /// As [`BananaMachine::new`].
@@ -240,12 +240,12 @@ impl BananaMachine {
         self.shown().max(FIRST_BLOCK)
     }
 
-    /// The number of samples shown.
+    /// Returns the number of samples shown.
     pub fn shown(&self) -> usize {
         self.cloud.shown()
     }
 
-    /// The samples shown, in sample order.
+    /// Returns the samples shown, in sample order.
     pub fn poses(&self) -> impl ExactSizeIterator<Item = SE2> {
         (0..self.shown()).map(|index| self.cloud.pose(index))
     }
@@ -255,8 +255,8 @@ impl BananaMachine {
         (index < self.shown()).then(|| self.cloud.pose(index))
     }
 
-    /// The exponential coordinates of the samples shown (along, lateral, heading), on the branch of the logarithm that belongs to the
-    /// commanded turn.
+    /// Returns the exponential coordinates of the samples shown (along, lateral, heading), on the branch of the
+    /// logarithm that belongs to the commanded turn.
     pub fn twists(&self) -> impl ExactSizeIterator<Item = Vector3<f64>> {
         self.poses().map(|pose| self.twist(&pose))
     }
@@ -429,7 +429,7 @@ impl BananaMachine {
         &self.picture
     }
 
-    /// The shown sample nearest to a point of a view, inside the ellipse of the given radii around it.
+    /// Returns the shown sample nearest to a point of a view, inside the ellipse of the given radii around it.
     pub fn nearest(&self, view: View, target: [f64; 2], radii: [f64; 2]) -> Option<usize> {
         let mut nearest = Nearest::new(target, radii);
         self.cloud.each_four(view, |[x, y]| {
@@ -440,7 +440,7 @@ impl BananaMachine {
     }
 }
 
-/// The points of an arc from the start.
+/// Returns the points of an arc from the start.
 fn arc_points(length: f64, turn: f64) -> Vec<[f64; 2]> {
     Arc { start: START, length, turn }.points()
 }

@@ -71,7 +71,7 @@ pub const ALPHA_SENTENCES: [&str; 6] = {
 };
 
 impl Settings {
-    /// The α's of the present model as set, whether isolated or not.
+    /// Returns the α's of the present model as set, whether isolated or not.
     pub fn alphas(&self) -> &[f64] {
         match self.model {
             ModelKind::Velocity => &self.velocity_alphas,

@@ -125,8 +125,8 @@ impl Draws {
         &self.unit_noise
     }
 
-    /// A sample of the `count` robots that were summed last, in fours: their noise, and how many robots each of them stands
-    /// for, none if it is not there. Up to 2048 robots are all in it.
+    /// Returns a sample of the `count` robots that were summed last, in fours: their noise, and how many robots each of
+    /// them stands for, none if it is not there. Up to 2048 robots are all in it.
     pub fn sample(&self, count: usize) -> impl Iterator<Item = (&[f64x4; 3], f64x4)> {
         let fours = count.div_ceil(LANES);
         let late = self.farthest.iter().copied().chain(self.summed.max(REACH[1])..fours);
@@ -139,7 +139,7 @@ impl Draws {
         })
     }
 
-    /// The unit noise of one sample.
+    /// Returns the unit noise of one sample.
     pub fn of(&self, index: usize) -> [f64; 3] {
         self.unit_noise[index / LANES].map(|lanes| lanes.to_array()[index % LANES])
     }

@@ -71,7 +71,7 @@ impl Drive {
         }
     }
 
-    /// Standard deviation of the turn, rad.
+    /// Returns the standard deviation of the turn, rad.
     pub fn turn_deviation(&self) -> f64 {
         2.0 * libm::hypot(self.share * self.bearing[1], self.half_rest[1])
     }
@@ -116,7 +116,7 @@ impl Drive {
         [unit_noise[0] * of[0], unit_noise[1] * of[1]]
     }
 
-    /// The sums of [`Drive::regular`] from those of the unit noise.
+    /// Returns the sums of [`Drive::regular`] from those of the unit noise.
     pub fn regular_sums(&self, [a, b, aa, ab, bb]: [f64; 5]) -> [f64; 5] {
         if !self.is_arc {
             return [0.0; 5];
@@ -132,7 +132,8 @@ impl Drive {
         FourArcs { length: (x * cos + y * sin) / sinc, half, sinc }
     }
 
-    /// The poses of four motions that ended at `ends`, with their logarithms on the branch of the commanded turn.
+    /// Returns the poses of four motions that ended at `ends`, with their logarithms on the branch of the commanded
+    /// turn.
     #[inline(always)]
     pub fn poses(&self, motions: &Motions, ends: &[f64x4; 2]) -> FourPoses {
         let turn = if self.is_far(motions) {
@@ -186,13 +187,13 @@ impl Drive {
         (parts, [1.0 / chart, 1.0 / (length * arc * arc)])
     }
 
-    /// Standard deviation of the turn of the arc that ends where the robot does, rad.
+    /// Returns the standard deviation of the turn of the arc that ends where the robot does, rad.
     pub fn arc_deviation(&self) -> f64 {
         2.0 * self.bearing[1].abs()
     }
 }
 
-/// The poses at `ends` whose half headings are of `turn`, with their logarithms.
+/// Returns the poses at `ends` whose half headings are of `turn`, with their logarithms.
 #[inline(always)]
 fn logarithms(ends: &[f64x4; 2], turn: HalfTurn) -> FourPoses {
     let ([x, y], HalfTurn { half, cotangent, sinc, sin, cos }) = (*ends, turn);
@@ -203,7 +204,7 @@ fn logarithms(ends: &[f64x4; 2], turn: HalfTurn) -> FourPoses {
 /// A quarter turn, less a margin for rounding.
 const NEAR: f64 = FRAC_PI_2 * (1.0 - 1e-12);
 
-/// The half turns within a quarter turn of 0 and of `near`: their middle, and how far they reach from there.
+/// Returns the half turns within a quarter turn of 0 and of `near`: their middle, and how far they reach from there.
 fn near_half(near: f64) -> [f64; 2] {
     let (low, high) = ((near - NEAR).max(-NEAR), (near + NEAR).min(NEAR));
     [0.5 * (low + high), 0.5 * (high - low)]

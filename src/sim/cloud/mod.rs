@@ -91,7 +91,7 @@ impl Cloud {
         sums
     }
 
-    /// Standard deviation of the turn, rad.
+    /// Returns the standard deviation of the turn, rad.
     pub fn turn_deviation(&self) -> f64 {
         self.drive.turn_deviation()
     }
@@ -101,17 +101,17 @@ impl Cloud {
         self.drive.arc_deviation()
     }
 
-    /// Number of samples shown.
+    /// Returns the number of samples shown.
     pub fn shown(&self) -> usize {
         self.shown
     }
 
-    /// The unit noise of a sample.
+    /// Returns the unit noise of a sample.
     pub fn unit_noise(&self, index: usize) -> [f64; 3] {
         self.draws.of(index)
     }
 
-    /// A sample that is shown.
+    /// Returns a sample that is shown.
     #[inline(always)]
     pub fn pose(&self, index: usize) -> SE2 {
         let [four, lane] = [index / LANES, index % LANES];

@@ -84,7 +84,7 @@ pub struct Outlines {
 }
 
 impl DeadReckoning {
-    /// Machine with all of its robots driven.
+    /// Creates a machine with all of its robots driven.
     ///
     /// # Errors
     /// [`SettingsError`] for the first setting out of range, or where memory does not suffice.
@@ -92,7 +92,7 @@ impl DeadReckoning {
         Self::showing(settings, settings.samples)
     }
 
-    /// Machine that has driven the first `count` robots.
+    /// Creates a machine that has driven the first `count` robots.
     ///
     /// # Errors
     /// As [`DeadReckoning::new`].
@@ -157,7 +157,7 @@ impl DeadReckoning {
         self.compared = compare(&self.settings, &self.predicted, &self.measured);
     }
 
-    /// Number of robots that are driven within a few milliseconds.
+    /// Returns the number of robots that are driven within a few milliseconds.
     pub fn block(&self) -> usize {
         self.block_of(BLOCK_STEPS)
     }
@@ -166,7 +166,7 @@ impl DeadReckoning {
         (steps / self.settings.steps as usize).next_multiple_of(BLOCK_ROLLOUTS)
     }
 
-    /// Number of robots driven.
+    /// Returns the number of robots driven.
     pub fn shown(&self) -> usize {
         self.shown
     }
@@ -191,7 +191,8 @@ impl DeadReckoning {
         self.rollouts.nominal()
     }
 
-    /// x, y (m) and θ (rad) of the robots in the picture, [`KEPT`] at most, after a step; empty where there is no such step.
+    /// Returns x, y (m) and θ (rad) of the robots in the picture, [`KEPT`] at most, after a step; empty where there is
+    /// no such step.
     pub fn poses(&self, step: u32) -> &[[f64; 3]] {
         let Self { settings, rollouts, shown, .. } = self;
         let is_driven = (1..=settings.steps).contains(&step);
@@ -292,7 +293,7 @@ fn place_of(order: Compounding) -> usize {
     RECURSIONS.iter().position(|each| *each == order).unwrap_or_default()
 }
 
-/// The 2σ ellipse of ξ along and lateral.
+/// Returns the 2σ ellipse of ξ along and lateral.
 fn floor_of_xi(mean: &Vector3<f64>, cov: &Matrix3<f64>) -> Vec<[f64; 2]> {
     Ellipse::new(mean.xy(), cov.fixed_view::<2, 2>(0, 0).into_owned()).boundary(OUTLINE_SEGMENTS)
 }

@@ -212,17 +212,17 @@ impl Rollouts {
         }
     }
 
-    /// The commanded pose after each step.
+    /// Returns the commanded pose after each step.
     pub fn nominal(&self) -> &[SE2] {
         &self.nominal
     }
 
-    /// x, y (m) and θ (rad) of the first `count` robots, [`KEPT`] at most, after step `k`, counted from 1.
+    /// Returns x, y (m) and θ (rad) of the first `count` robots, [`KEPT`] at most, after step `k`, counted from 1.
     pub fn poses(&self, k: usize, count: usize) -> &[[f64; 3]] {
         &self.poses[(k - 1) * KEPT..][..count.min(KEPT)]
     }
 
-    /// x, y (m) and θ (rad) of one robot after each step.
+    /// Returns x, y (m) and θ (rad) of one robot after each step.
     pub fn rollout(&self, index: usize) -> Vec<[f64; 3]> {
         let mut stream = Xoshiro256PlusPlus::seed_from_u64(self.seed);
         (0..index / BLOCK_ROLLOUTS).for_each(|_| stream.jump());
@@ -237,7 +237,7 @@ impl Rollouts {
 }
 
 impl Four {
-    /// x, y (m) and θ (rad) of one of the four.
+    /// Returns x, y (m) and θ (rad) of one of the four.
     fn pose(&self, lane: usize, nominal: &SE2) -> [f64; 3] {
         let [x, y, half] = [self.x, self.y, self.half].map(|lanes| lanes.to_array()[lane]);
         let pose = *nominal * SE2::new(x, y, 2.0 * half);

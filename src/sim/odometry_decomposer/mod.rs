@@ -88,7 +88,7 @@ pub struct OdometryDecomposer {
 }
 
 impl OdometryDecomposer {
-    /// A machine with all of its outcomes.
+    /// Creates a machine with all of its outcomes.
     ///
     /// # Errors
     /// [`SettingsError`] for the first setting out of range.
@@ -96,7 +96,7 @@ impl OdometryDecomposer {
         Self::showing(settings, settings.samples)
     }
 
-    /// Machine that shows the first `count` outcomes.
+    /// Creates a machine that shows the first `count` outcomes.
     ///
     /// # Errors
     /// As [`OdometryDecomposer::new`].
@@ -144,7 +144,7 @@ impl OdometryDecomposer {
         self.settings.samples
     }
 
-    /// Number of outcomes shown.
+    /// Returns the number of outcomes shown.
     pub fn shown(&self) -> usize {
         self.shown
     }
@@ -196,7 +196,7 @@ impl OdometryDecomposer {
         ExecutedLegs { legs: self.legs(), strafe: 0.0 }.poses(&self.start())
     }
 
-    /// The linkages of the first outcomes shown, as [`OdometryDecomposer::linkage`].
+    /// Returns the linkages of the first outcomes shown, as [`OdometryDecomposer::linkage`].
     pub fn ghosts(&self, count: usize) -> Vec<[SE2; 4]> {
         let start = self.start();
         self.executed(count.min(self.shown)).map(|executed| executed.poses(&start)).collect()

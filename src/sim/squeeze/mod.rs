@@ -58,7 +58,7 @@ const PATIENCE: usize = 20;
 const BLOCK_PARTS: usize = 4096;
 
 impl MapSqueeze {
-    /// Machine in the apartment, all of its samples attempted.
+    /// Creates a machine in the apartment, all of its samples attempted.
     ///
     /// # Errors
     /// [`SettingsError`] for the first setting out of range, or where memory does not suffice for the samples.
@@ -66,7 +66,7 @@ impl MapSqueeze {
         Self::showing(settings, settings.samples)
     }
 
-    /// Machine in the apartment that shows the first `count` attempts.
+    /// Creates a machine in the apartment that shows the first `count` attempts.
     ///
     /// # Errors
     /// As [`MapSqueeze::new`].
@@ -179,17 +179,17 @@ impl MapSqueeze {
         attempts.len()
     }
 
-    /// Number of attempts that are made within a few milliseconds.
+    /// Returns the number of attempts that are made within a few milliseconds.
     pub fn block(&self) -> usize {
         (BLOCK_PARTS / self.settings.parts() as usize).max(1)
     }
 
-    /// The attempts shown, in sample order.
+    /// Returns the attempts shown, in sample order.
     pub fn attempts(&self) -> &[Attempt] {
         &self.shown.attempts
     }
 
-    /// Number of attempts shown.
+    /// Returns the number of attempts shown.
     pub fn shown(&self) -> usize {
         self.shown.attempts.len()
     }
@@ -227,14 +227,14 @@ impl MapSqueeze {
         &self.picture
     }
 
-    /// The attempt that ends nearest to a point (m) and within `radius` of it.
+    /// Returns the attempt that ends nearest to a point (m) and within `radius` of it.
     pub fn nearest(&self, target: [f64; 2], radius: f64) -> Option<usize> {
         let mut nearest = Nearest::new(target, [radius, radius]);
         self.shown.attempts.iter().for_each(|attempt| nearest.see([attempt.pose.x(), attempt.pose.y()]));
         nearest.index()
     }
 
-    /// The arcs driven in an attempt that is shown.
+    /// Returns the arcs driven in an attempt that is shown.
     pub fn arcs(&self, index: usize) -> Vec<Arc> {
         if index >= self.shown.attempts.len() {
             return Vec::new();

@@ -84,7 +84,7 @@ impl Settings {
         NoiseLevel(&mut self.alphas)
     }
 
-    /// The noise level whose α's these are; None where they are not those of a level.
+    /// Returns the noise level whose α's these are; None where they are not those of a level.
     pub fn noise(mut self) -> Option<f64> {
         self.noise_level().get()
     }

@@ -53,7 +53,7 @@ const calibration = (change) => ({
 
 /** Lines for Nav2 without their indentation. @param {object} [change] of the calibration @param {object} [other] options */
 const linesOf = (change, other) =>
-  nav2Lines({ calibration: calibration(change), count: 9, model: 'odometry', rule: 'nav2', legs: { distance: 0.25, angle: 0.2 }, log: 'a.csv and b.csv', hasLocalizer: false, date: '2026-01-02', ...other }, en.nav2)
+  nav2Lines({ calibration: calibration(change), count: 9, model: 'odometry', rule: 'nav2', legs: { distance: 0.25, angle: 0.2 }, log: 'a.csv and b.csv', warnings: [], date: '2026-01-02', ...other }, en.nav2)
     .map((line) => line.trim());
 
 test('lines for Nav2 have the recommended α’s, and the fitted ones in comments', () => {
@@ -84,7 +84,7 @@ test('lines for Nav2 warn of failed checks, of another rule, and of a localizer 
   assert.ok(linesOf({ diagnostics: { ...diagnostics, checks } }).includes('# failed checks: tails-normal, outliers-few'));
   for (const [warning, other] of /** @type {[string, object][]} */ ([
     [en.nav2.otherRule, { rule: 'thrun' }],
-    [en.nav2.localizer, { hasLocalizer: true }],
+    [en.nav2.localizer, { warnings: ['localizer'] }],
   ])) {
     assert.ok(linesOf({}, other).includes(`# ${warning}`));
     assert.ok(!linesOf().includes(`# ${warning}`));

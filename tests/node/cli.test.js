@@ -13,7 +13,7 @@ import { HELP } from '../../www/cli/options.ts';
 import { plotOf } from '../../www/cli/plot.ts';
 import { textOf } from '../../www/cli/report.ts';
 import { run } from '../../www/cli/run.ts';
-import { hasLocalizer } from '../../www/logs/pairs.ts';
+import { warningsOf } from '../../www/logs/pairs.ts';
 import { en } from '../../www/widgets/alpha-calibrator/en.ts';
 import { speak } from '../../www/messages/registry.ts';
 import { judgementOf } from '../../www/widgets/alpha-calibrator/words.ts';
@@ -324,7 +324,7 @@ test('the report, the lines for Nav2 and the figure’s verdict agree whether th
     const args = [...FILES.slice(0, 3), file(`${name}.csv`, readFileSync(example('reference')))];
     const [{ out }, { out: json }] = [await outputOf(args), await outputOf([...args, '--json'])];
     const { logs, ...stats } = JSON.parse(json);
-    const { rating } = judgementOf(/** @type {any} */ ({ stats, legs: stats.legs, fitted: stats.systematicErrors }), hasLocalizer(logs));
+    const { rating } = judgementOf(/** @type {any} */ ({ stats, legs: stats.legs, fitted: { ...stats.systematicErrors, model: 'odometry' } }), warningsOf(logs));
     const found = [new RegExp(`^Consistent: .*\\n${en.nav2.localizer}\\n`, 'm').test(out), out.includes(`# ${en.nav2.localizer}`), rating === 'questionable'];
     assert.deepEqual(found, [isLocalizer, isLocalizer, isLocalizer], name);
   }

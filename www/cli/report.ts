@@ -1,10 +1,10 @@
 /** Result as text and as JSON. */
 
 import type { Summary } from '../logs/log.ts';
-import { hasLocalizer } from '../logs/pairs.ts';
+import { warningsOf } from '../logs/pairs.ts';
 import { en as shared } from '../messages/en.ts';
 import { en } from '../widgets/alpha-calibrator/en.ts';
-import { adviceOf, alphaOrBound, formatInterval, failedOf, fixed, nav2Lines, percent, short } from '../widgets/alpha-calibrator/lines.ts';
+import { adviceOf, alphaOrBound, formatInterval, failedOf, fixed, nav2Lines, percent, short, warningTexts } from '../widgets/alpha-calibrator/lines.ts';
 
 type Interval = [number, number] | null;
 
@@ -57,7 +57,7 @@ export function textOf({ calibration, options, logs, start, begins, date }: Resu
   const text = [
     '',
     verdictSentence(calibration),
-    ...(hasLocalizer(logs) ? [en.nav2.localizer] : []),
+    ...warningTexts(warningsOf(logs), model, en.nav2),
     '',
     `${legs.count} legs ${lengthOf(options.legs)}; model ${model}${model === 'odometry' ? `, rule ${rule}` : ''}`,
     '',
@@ -173,7 +173,7 @@ function nav2Of(result: Result): string[] {
 export function nav2YamlOf({ calibration, options: { model = 'odometry', rule = 'thrun', legs }, logs, date }: Result): { yaml: string; reason?: string } {
   if (calibration.recommended === null) return { yaml: '', reason: 'No lines for nav2_params.yaml: the log is unusable.' };
   const log = new Intl.ListFormat('en').format(new Set(logs.map(({ name }) => name)));
-  const lines = nav2Lines({ calibration, count: calibration.legs.count, model, rule, legs, log, hasLocalizer: hasLocalizer(logs), date }, en.nav2);
+  const lines = nav2Lines({ calibration, count: calibration.legs.count, model, rule, legs, log, warnings: warningsOf(logs), date }, en.nav2);
   return lines.length ? { yaml: `${lines.join('\n')}\n` } : { yaml: '', reason: 'No lines for nav2_params.yaml: Nav2 has no velocity model.' };
 }
 

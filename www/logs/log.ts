@@ -112,9 +112,12 @@ export type Cause = 'damaged' | 'notFinite' | 'noRotation' | 'noStamp' | 'short'
 /** Basis of a decision about a unit: a name, the size of the numbers, rate and speed, the format's definition, dates, an option, or usage without another sign. */
 export type Basis = 'name' | 'size' | 'rate' | 'format' | 'date' | 'option' | 'usage';
 
+/** Notes that leave α's doubtful even if all checks pass. */
+export type Warning = Extract<Note['name'], 'localizer' | 'swapped' | 'sideways'>;
+
 /** Sentence about a log: name of a word in `found.notes`, and the values in it. */
 export interface Note {
-  name: 'cutShort' | 'damaged' | 'missing' | 'sorted' | 'noZone' | 'upAxis' | 'swapped' | 'apart' | 'localizer';
+  name: 'cutShort' | 'damaged' | 'missing' | 'sorted' | 'noZone' | 'upAxis' | 'swapped' | 'apart' | 'localizer' | 'sideways';
   values: (string | number)[];
 }
 

@@ -29,13 +29,14 @@ import { calibratorStyles } from './styles.ts';
 import { systematicTable, systematicTexts } from './systematic.ts';
 import { captionOf, judgementOf, legText, reasonOf, wayText } from './words.ts';
 import type { AlphaCalibrator as Machine, CalibrationLog, CalibrationPanel, LegView, Motion } from '../../types.d.ts';
+import type { Warning } from '../../logs/log.ts';
 import type { Reading } from './reading.ts';
 
 /** Log of the reader or of the page, with the fit that the service has made, and the settings of the fit. */
 interface Given {
   log: CalibrationLog;
-  /** True if the reference is a localizer's own estimate. */
-  hasLocalizer: boolean;
+  /** Notes of the logs that leave the α's doubtful. */
+  warnings: Warning[];
   config: Machine['config'];
   fit: Uint8Array;
 }
@@ -154,7 +155,7 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
     this.reflection.setProperty('log', log, (given) => {
       if (given !== null) object('log', given, KEYS);
       this.service.stop();
-      this.open(given, false).then(() => this.reflection.updateAttributes(), this.#report);
+      this.open(given, []).then(() => this.reflection.updateAttributes(), this.#report);
     });
   }
 
@@ -164,11 +165,11 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
 
   /**
    * Replaces the log once it is fitted. A log that `check` refuses by an error leaves the present one. Null is the simulated log.
-   * `hasLocalizer` is true if the reference is a localizer's own estimate.
+   * `warnings` are the notes of the logs that leave the α's doubtful.
    */
-  async open(log: CalibrationLog | null, hasLocalizer: boolean, check?: (machine: Machine) => void) {
+  async open(log: CalibrationLog | null, warnings: Warning[], check?: (machine: Machine) => void) {
     const config = this.settings.declared(this.settings.present) as Machine['config'];
-    const given = log && { log, hasLocalizer, config, fit: await this.service.calibrate(config, log) };
+    const given = log && { log, warnings, config, fit: await this.service.calibrate(config, log) };
     this.runtime.attempt(() => {
       if (!this.machine) return;
       const machine = this.#machineOf(this.motion, this.settings.declared(this.settings.present), given);
@@ -188,7 +189,7 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
     const work = { stop: () => this.#giveUp() };
     const telling = setInterval(() => progress.update(work), 100);
     try {
-      await this.open(log, this.hasLocalizer);
+      await this.open(log, this.warnings);
     } catch (error) {
       if (!isStopped(error)) this.#giveUp();
       this.#report(error);
@@ -204,9 +205,9 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
     this.settings.assign(this.reading.fitted);
   }
 
-  /** True if the reference of the log is a localizer's own estimate. */
-  get hasLocalizer() {
-    return this.#given?.hasLocalizer ?? false;
+  /** Notes of the logs that leave the α's doubtful. */
+  get warnings() {
+    return this.#given?.warnings ?? [];
   }
 
   get logName() {
@@ -236,7 +237,7 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
   }
 
   announcement(reading: Reading) {
-    return captionOf({ reading, hasLocalizer: this.hasLocalizer, logName: this.logName });
+    return captionOf({ reading, warnings: this.warnings, logName: this.logName });
   }
 
   content(reading: Reading) {
@@ -272,7 +273,7 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
         ${this.stage.later(() => html`
         ${legend(this, LINES)}
         <div part="controls">${legLengths(this)}</div>
-        <p class="meaning">${judgementOf(reading, this.hasLocalizer).meaning}</p>
+        <p class="meaning">${judgementOf(reading, this.warnings).meaning}</p>
         ${disclosures(this, {
           controls: () => html`${modelControls(this)}
             ${group(say.systematic.title, systematicTable(this))}

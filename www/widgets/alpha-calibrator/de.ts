@@ -237,6 +237,8 @@ export const de: typeof import('./en.ts').en = {
     fitted: (value, interval) => `angepasst ${value}${interval && `, 95 % ${interval}`}`,
     failed: (checks) => `nicht bestandene Prüfungen: ${checks}`,
     localizer: 'Warnung: Die Referenz ist die Schätzung eines Lokalisierers. Sie teilt Fehler mit der Odometrie, die α’s sind zu klein.',
+    swapped: 'Warnung: Die Referenz sieht wie Odometrie aus, die Odometrie nicht. Sind die beiden vertauscht, sind die α’s falsch.',
+    sideways: 'Warnung: Die Odometrie bewegt sich seitwärts: Sie rauscht, oder ihr Koordinatensystem liegt nicht auf der Achse. Die α’s der Drehung sind zu klein: Odometrie der Räder in der Mitte ihrer Achse verwenden.',
     corrected: (errors) => `nach Korrektur dieser systematischen Fehler: ${errors}`,
     fifth: 'alpha5 hat nur das omnidirektionale Modell',
   },

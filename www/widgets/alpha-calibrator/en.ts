@@ -207,6 +207,8 @@ export const en = {
     fitted: (value, interval) => `fitted ${value}${interval && `, 95 % ${interval}`}`,
     failed: (checks) => `failed checks: ${checks}`,
     localizer: 'Warning: the reference is a localizer’s own estimate. It shares errors with the odometry, so the α’s are too small.',
+    swapped: 'Warning: the reference looks like odometry, and the odometry does not. If the two are swapped, the α’s are wrong.',
+    sideways: 'Warning: the odometry moves sideways, by noise or a frame off the axle. The α’s of rotation are too small: use odometry of the wheels, at the middle of their axle.',
     corrected: (errors) => `with these systematic errors corrected: ${errors}`,
     fifth: 'alpha5 belongs to the omnidirectional model only',
   },

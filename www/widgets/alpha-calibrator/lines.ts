@@ -1,5 +1,7 @@
 /** Lines for nav2_params.yaml, with numbers in the format of files in every language. */
 
+import type { Warning } from '../../logs/log.ts';
+
 export type Interval = [number, number] | null;
 
 export interface Fitted {
@@ -12,8 +14,8 @@ export interface Fitted {
   legs: { distance?: number, angle?: number, duration?: number };
   /** Names of odometry and reference. */
   log: string;
-  /** True if the reference is a localizer's own estimate. */
-  hasLocalizer: boolean;
+  /** Notes of the logs that leave the α's doubtful. */
+  warnings: Warning[];
   date: string;
 }
 
@@ -92,11 +94,14 @@ export function missingMotion(model: string, index: number): 'insufficient-rotat
   return isOfRotation ? 'insufficient-rotation' : 'insufficient-translation';
 }
 
+/** Returns the sentences of warnings. Robots of the other models may move sideways. */
+export const warningTexts = (warnings: Warning[], model: string, say: Words) => warnings.filter((name) => model === 'odometry' || name !== 'sideways').map((name) => say[name]);
+
 /**
  * Returns the lines with the recommended α's, and the fitted ones in comments. There are none if Nav2 has no such model, or no α's are
  * recommended.
  */
-export function nav2Lines({ calibration, count, model, rule, legs, log, hasLocalizer, date }: Fitted, say: Words): string[] {
+export function nav2Lines({ calibration, count, model, rule, legs, log, warnings, date }: Fitted, say: Words): string[] {
   const { alphas, intervals, recommended, systematicErrors, diagnostics: { checks, windows: [window] } } = calibration;
   if (!Object.hasOwn(NAV2, model) || recommended === null) return [];
   const { inflation } = recommended;
@@ -108,7 +113,7 @@ export function nav2Lines({ calibration, count, model, rule, legs, log, hasLocal
     ...(model !== 'odometry' || ITS_RULES.includes(rule) ? [] : [say.otherRule]),
     ...correctionOf(systematicErrors).map((errors) => say.corrected(errors)),
     ...(failed ? [say.failed(failed)] : []),
-    ...(hasLocalizer ? [say.localizer] : []),
+    ...warningTexts(warnings, model, say),
   ];
   const lines = alphas.map((alpha: number | null, i: number) => {
     const interval = intervals[i];

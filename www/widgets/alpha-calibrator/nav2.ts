@@ -11,11 +11,11 @@ import { legsOf } from './settings.ts';
 export type Figure = import('./alpha-calibrator.ts').AlphaCalibratorElement;
 
 /** Returns the lines for nav2_params.yaml; empty if Nav2 has no such model, or no α's are recommended. */
-function yamlOf({ reading, logName, hasLocalizer }: Figure): string {
+function yamlOf({ reading, logName, warnings }: Figure): string {
   const { fitted: config, stats, legs: { count } } = reading;
   const { model, rule } = config;
   const date = new Date().toISOString().slice(0, 10);
-  const fitted = { calibration: stats, count, model, rule, legs: legsOf(config), log: logName, hasLocalizer, date };
+  const fitted = { calibration: stats, count, model, rule, legs: legsOf(config), log: logName, warnings, date };
   return nav2Lines(fitted, words.calibrator.nav2).map((line) => `${line}\n`).join('');
 }
 

@@ -96,7 +96,7 @@ export class LogOpener extends Part<Figure> {
   leave() {
     this.#end();
     this.chosen = this.#lone = this.#complaint = undefined;
-    this.host.open(null, false).then(() => this.#commit());
+    this.host.open(null, []).then(() => this.#commit());
   }
 
   /** Stops reading. */
@@ -181,7 +181,7 @@ export class LogOpener extends Part<Figure> {
       this.host.requestUpdate();
     });
     const log = { name: nameOf(plan, reader), ...reader.logOf(drives) };
-    const fitted = this.host.open(log, reader.hasLocalizer(drives.map(({ reference }) => reference)), ({ count }) => {
+    const fitted = this.host.open(log, reader.warningsOf(drives.flatMap(({ odometry, reference }) => [odometry, reference])), ({ count }) => {
       if (count === 0) throw new RangeError(words.calibrator.none);
     });
     // The summary of logs is shown while they are fitted.

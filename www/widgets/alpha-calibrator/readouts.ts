@@ -21,8 +21,8 @@ const MOST_INTERVALS = 4;
 const ICONS = { consistent: '✓', questionable: '!', unusable: '✕' };
 
 /** Returns the badge of the α's, with the verdict, a short next step and the legs: two lines at most on a wide page. */
-export function verdictLine({ reading, logName, hasLocalizer }: Figure) {
-  const { rating, badge, finding, next } = judgementOf(reading, hasLocalizer);
+export function verdictLine({ reading, logName, warnings }: Figure) {
+  const { rating, badge, finding, next } = judgementOf(reading, warnings);
   return html`<span class="badge ${rating}"><span aria-hidden="true">${ICONS[rating]}</span> ${badge}</span>
     <strong>${finding}</strong> ${next && `${next} `}<span class="muted">${legsText(reading, logName)}</span>`;
 }

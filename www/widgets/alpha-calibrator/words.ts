@@ -3,14 +3,15 @@
 import { addEnglish, words } from '../../messages/registry.ts';
 import { counted, fixed, percent, powerOfTen } from '../../ui/format.ts';
 import { en } from './en.ts';
-import { failedOf } from './lines.ts';
+import { failedOf, warningTexts } from './lines.ts';
 import { uncorrectedText } from './systematic.ts';
 import type { CalibrationCheck, LegView } from '../../types.d.ts';
+import type { Warning } from '../../logs/log.ts';
 import type { Reading } from './reading.ts';
 
 addEnglish({ calibrator: en });
 
-type Figure = Pick<import('./alpha-calibrator.ts').AlphaCalibratorElement, 'reading' | 'hasLocalizer' | 'logName'>;
+type Figure = Pick<import('./alpha-calibrator.ts').AlphaCalibratorElement, 'reading' | 'warnings' | 'logName'>;
 
 /** Printed checks that are a count, and those that are a fraction; the others are plain numbers. */
 const COUNTS = ['enough-legs'];
@@ -26,10 +27,10 @@ interface Judgement {
 }
 
 /** Returns the judgement of the α's. A warning, as that of a localizer as reference, makes consistent α's questionable. */
-export function judgementOf(reading: Reading, hasLocalizer: boolean): Judgement {
+export function judgementOf(reading: Reading, given: Warning[]): Judgement {
   const { stats: { diagnostics: { verdict, checks } }, legs } = reading;
   const say = words.calibrator;
-  const warnings = [uncorrectedText(reading), hasLocalizer ? say.nav2.localizer : ''].filter(Boolean);
+  const warnings = [uncorrectedText(reading), ...warningTexts(given, reading.fitted.model, say.nav2)].filter(Boolean);
   const rating = verdict === 'consistent' && warnings.length > 0 ? 'questionable' : verdict;
   const result = (finding: string, next: string, ...meaning: string[]) => ({ rating, badge: say.badges[rating], finding, next, meaning: meaning.join(' ') });
   if (legs.count === 0) return result(say.none, say.longer, ...warnings);
@@ -86,8 +87,8 @@ export function legsText({ legs }: Reading, log: string) {
 }
 
 /** Returns the caption of the pictures: the judgement and the legs. */
-export function captionOf({ reading, hasLocalizer, logName }: Figure) {
-  const { badge, finding, next, meaning } = judgementOf(reading, hasLocalizer);
+export function captionOf({ reading, warnings, logName }: Figure) {
+  const { badge, finding, next, meaning } = judgementOf(reading, warnings);
   return [`${badge}.`, finding, next, legsText(reading, logName), meaning].filter(Boolean).join(' ');
 }
 

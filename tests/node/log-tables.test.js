@@ -81,19 +81,21 @@ function motive(unit, isYUp) {
   ].join('\r\n');
 }
 
-/** Table that pandas wrote, by tests/reference/logs/tables.py. @param {string} name */
-const pandas = (name) => new Uint8Array(readFileSync(new URL(`../reference/logs/${name}`, import.meta.url)));
+/** Lines of tables that pandas wrote, by tests/reference/logs/tables.py. */
+const TABLES = JSON.parse(readFileSync(new URL('../reference/logs/tables.json', import.meta.url), 'utf8'));
+
+const pandas = (/** @type {string} */ name) => `${TABLES[name].join('\n')}\n`;
 
 /** @type {Case[]} */
 const CASES = [
-  { name: 'pandas: an index without a name', text: pandas('index.csv') },
-  { name: 'pandas: dates of UTC', start: EPOCH, text: pandas('utc.csv') },
-  { name: 'pandas: dates of Berlin', start: EPOCH, text: pandas('berlin.csv') },
-  { name: 'pandas: dates without a zone', start: EPOCH, text: pandas('naive.csv'), says: /UTC/ },
-  { name: 'pandas: durations', text: pandas('timedelta.csv') },
-  { name: 'pandas: decimal commas in UTF-16', text: pandas('german.csv') },
-  { name: 'pandas: nanoseconds in quotes', start: EPOCH, text: pandas('nanoseconds.tsv') },
-  { name: 'pandas: a log of two that are merged', series: ['odom_', 'gt_'], choice: { series: 'odom_' }, text: pandas('merged.csv') },
+  { name: 'pandas: an index without a name', text: pandas('index') },
+  { name: 'pandas: dates of UTC', start: EPOCH, text: pandas('utc') },
+  { name: 'pandas: dates of Berlin', start: EPOCH, text: pandas('berlin') },
+  { name: 'pandas: dates without a zone', start: EPOCH, text: pandas('naive'), says: /UTC/ },
+  { name: 'pandas: durations', text: pandas('timedelta') },
+  { name: 'pandas: decimal commas in UTF-16', text: utf16(pandas('german')) },
+  { name: 'pandas: nanoseconds in quotes', start: EPOCH, text: pandas('nanoseconds') },
+  { name: 'pandas: a log of two that are merged', series: ['odom_', 'gt_'], choice: { series: 'odom_' }, text: pandas('merged') },
   { name: 'comma', text: table('t,x,y,yaw', ({ t, x, y, theta }) => [t, x, y, theta]) },
   { name: 'blanks after commas, quoted names, units', text: table('"time [s]", "x [m]", "y [m]", "yaw [rad]"', ({ t, x, y, theta }) => [t, x, y, theta], ', ') },
   { name: 'tabs, columns in another order', text: table('heading\ttimestamp\tx\ty', ({ t, x, y, theta }) => [theta, t, x, y], '\t') },

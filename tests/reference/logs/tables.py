@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""Writes tables of one drive with pandas, as people save them, beside this file.
+"""Writes tables of one drive with pandas, as people save them, into tables.json.
 
     pip install pandas && python3 tables.py
 
 The drive is that of tests/node/log-tables.test.js: a circle of 1.25 m, 0.5 rad/s, 16 rows a second.
 """
 
+import json
 import math
 import pathlib
 
@@ -21,15 +22,18 @@ for i in range(24):
 drive = pd.DataFrame(rows)
 dates = pd.to_datetime(START * 10**9 + (drive["t"] * 1e9).astype("int64"))
 
-drive.to_csv(HERE / "index.csv")
-drive.assign(t=dates.dt.tz_localize("UTC")).to_csv(HERE / "utc.csv", index=False)
-drive.drop(columns="t").set_index(pd.DatetimeIndex(dates).tz_localize("UTC").tz_convert("Europe/Berlin")).to_csv(HERE / "berlin.csv")
-drive.drop(columns="t").set_index(pd.DatetimeIndex(dates)).to_csv(HERE / "naive.csv")
-drive.assign(t=pd.to_timedelta(drive["t"], unit="s")).to_csv(HERE / "timedelta.csv", index=False)
-drive.to_csv(HERE / "german.csv", sep=";", decimal=",", index=False, encoding="utf-16")
-drive.assign(t=dates.astype("int64").astype(str)).rename(columns={"t": "timestamp"}).to_csv(HERE / "nanoseconds.tsv", sep="\t", quoting=1)
-
 # Two logs whose rows alternate, merged by their times: cells of the other log are empty.
 other = drive.assign(t=drive["t"] + 0.03, x=drive["x"] + 4)
 odometry = drive.set_index("t").add_prefix("odom_")
-odometry.join(other.set_index("t").add_prefix("gt_"), how="outer").to_csv(HERE / "merged.csv")
+
+TABLES = {
+    "index": drive.to_csv(),
+    "utc": drive.assign(t=dates.dt.tz_localize("UTC")).to_csv(index=False),
+    "berlin": drive.drop(columns="t").set_index(pd.DatetimeIndex(dates).tz_localize("UTC").tz_convert("Europe/Berlin")).to_csv(),
+    "naive": drive.drop(columns="t").set_index(pd.DatetimeIndex(dates)).to_csv(),
+    "timedelta": drive.assign(t=pd.to_timedelta(drive["t"], unit="s")).to_csv(index=False),
+    "german": drive.to_csv(sep=";", decimal=",", index=False),
+    "nanoseconds": drive.assign(t=dates.astype("int64").astype(str)).rename(columns={"t": "timestamp"}).to_csv(sep="\t", quoting=1),
+    "merged": odometry.join(other.set_index("t").add_prefix("gt_"), how="outer").to_csv(),
+}
+(HERE / "tables.json").write_text(json.dumps({name: text.splitlines() for name, text in TABLES.items()}, indent=0) + "\n")

@@ -1,10 +1,12 @@
-// Documents: their links and lengths, the limits of the pages in doc/model.md and doc/statistics.md, and the tests that doc/reliability.md names.
+// Documents: their links and lengths, the limits of the pages in doc/model.md and doc/statistics.md, the true parameters of the example
+// log in its README, and the tests that doc/reliability.md names.
 
 import assert from 'node:assert/strict';
 import { existsSync, readFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { test } from 'node:test';
 import { filesOf } from '../../scripts/bundle.mjs';
+import { LEGS, TRUTH } from '../../scripts/example-log.mjs';
 import { ROOT } from '../../scripts/process.mjs';
 import { presets } from '../../www/settings.js';
 
@@ -32,6 +34,14 @@ test('README.md has the presets of each figure', () => {
   const listed = read('README.md').replace(/\s+/g, ' ');
   for (const [tag, all] of Object.entries(presets)) {
     if (all.length > 0) assert.ok(listed.includes(`\`${tag}\` ${all.map(({ name }) => name).join(', ')}`), tag);
+  }
+});
+
+test('README of the example log has its true parameters', () => {
+  const readme = read('examples/calibration/README.md');
+  const { alphas, mountYaw, clockOffset, distanceScale } = TRUTH;
+  for (const said of [`| ${alphas.join(', ')} |`, `| ${mountYaw} rad |`, `| ${clockOffset} s later |`, `| ${distanceScale} |`, `${LEGS.distance} m`, `${LEGS.angle} rad`]) {
+    assert.ok(readme.includes(said), said);
   }
 });
 

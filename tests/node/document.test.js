@@ -1,5 +1,5 @@
-// Documents: their links and lengths, the limits of the pages in doc/model.md and doc/statistics.md, the true parameters of the example
-// log in its README, and the tests that doc/reliability.md names.
+// Documents: their links and lengths, and that they have the limits of the pages, the presets, the true parameters of the example log
+// and names of tests that exist.
 
 import assert from 'node:assert/strict';
 import { existsSync, readFileSync } from 'node:fs';

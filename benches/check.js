@@ -23,10 +23,10 @@ export function differences(motion, samples) {
   for (const event of [0, 30]) {
     const { stats } = figures(machine, event);
     const ofBaseline = baseline.refresh(command(event), VIEW, RAMP);
-    const ofCore = flat(stats);
-    for (const [name, value] of flat(ofBaseline.stats)) {
+    for (const [name, value] of numbersIn(ofBaseline.stats)) {
+      const ofCore = name.split('.').reduce((part, key) => part[key], /** @type {any} */ (stats));
       // NaN is a difference too.
-      if (!(Math.abs(value - Number(ofCore.get(name))) <= TOLERANCE)) wrong.push(`${name}: ${value}, core ${ofCore.get(name)}`);
+      if (!(Math.abs(value - ofCore) <= TOLERANCE)) wrong.push(`${name}: ${value}, core ${ofCore}`);
     }
     const pixels = picture(machine);
     const unequal = ofBaseline.pixels.filter((value, i) => value !== pixels[i]).length;
@@ -46,16 +46,8 @@ export function noiseOf({ config: { command: { v, omega }, alphas: [a1, a2, a3, 
   return executed.map((value, i) => (value - [v, omega, 0][i % 3]) / deviations[i % 3]);
 }
 
-/**
- * @param {ReturnType<Baseline['refresh']>['stats']} stats
- * @returns {Map<string, number>} every number by its name
- */
-function flat({ n, cartesian, exponential, crossTrackSkew, coverage }) {
-  const numbers = new Map([['n', n], ['crossTrackSkew', crossTrackSkew]]);
-  for (const [name, { mean, cov }] of Object.entries({ cartesian, exponential })) {
-    mean.forEach((value, i) => numbers.set(`${name}.mean[${i}]`, value));
-    cov.flat().forEach((value, i) => numbers.set(`${name}.cov[${i}]`, value));
-  }
-  for (const [name, share] of Object.entries(coverage)) numbers.set(`coverage.${name}`, share);
-  return numbers;
+/** Returns every number by its path. @param {object | number} value @param {string[]} path @returns {[string, number][]} */
+function numbersIn(value, ...path) {
+  if (typeof value === 'number') return [[path.join('.'), value]];
+  return Object.entries(value).flatMap(([key, each]) => numbersIn(each, ...path, key));
 }

@@ -5,8 +5,6 @@
  * @module
  */
 
-import { quartiles } from './timing.js';
-
 /** Factor by which Chromium slows the processor. */
 export const THROTTLE = 4;
 
@@ -14,17 +12,15 @@ export const THROTTLE = 4;
 const DRAGGED = '.slider input[type=range], .handle:not(.jamb, .side)';
 
 /**
- * @typedef {import('./timing.js').Quartiles} Quartiles
- *
- * @typedef {object} Drag times in ms
+ * @typedef {object} Drag times in ms, step by step
  * @property {string} widget
  * @property {string} what is dragged
- * @property {Quartiles} time from the frame after a step until a frame with its picture is handed over
- * @property {Quartiles} words from there to the frame with the words being handed over
- * @property {Quartiles} steady from frame to frame where each has a step
+ * @property {number[]} picture from the frame after a step until a frame with its picture is handed over
+ * @property {number[]} words from there to the frame with the words being handed over
+ * @property {number[]} steady from frame to frame where each has a step
  *
  * @param {import('@playwright/test').Browser} browser
- * @param {string} address of drag.html
+ * @param {string} address of page.html
  * @param {number} steps of each drag
  * @returns {Promise<Drag[]>}
  */
@@ -32,6 +28,7 @@ export async function timeDrags(browser, address, steps) {
   const context = await browser.newContext({ viewport: { width: 1280, height: 900 }, reducedMotion: 'reduce' });
   const page = await context.newPage();
   await page.goto(address);
+  await page.evaluate(() => document.body.append(document.createElement('map-squeeze')));
   const session = await context.newCDPSession(page);
   /** @type {Drag[]} */
   const drags = [];
@@ -42,8 +39,7 @@ export async function timeDrags(browser, address, steps) {
     const count = await page.locator(widget).locator(DRAGGED).count();
     await session.send('Emulation.setCPUThrottlingRate', { rate: THROTTLE });
     for (let i = 0; i < count; i++) {
-      const { what, time, words, steady } = await page.evaluate(drag, { widget, selector: DRAGGED, i, steps });
-      drags.push({ widget, what, time: quartiles(time), words: quartiles(words), steady: quartiles(steady) });
+      drags.push({ widget, ...(await page.evaluate(drag, { widget, selector: DRAGGED, i, steps })) });
     }
     await session.send('Emulation.setCPUThrottlingRate', { rate: 1 });
   }
@@ -97,8 +93,8 @@ async function drag({ widget, selector, i, steps }) {
       target.dispatchEvent(new KeyboardEvent('keydown', { key: step % 2 ? 'ArrowLeft' : 'ArrowRight', bubbles: true, composed: true }));
     }
   };
-  /** @type {{ time: number[], words: number[], steady: number[] }} */
-  const times = { time: [], words: [], steady: [] };
+  /** @type {{ picture: number[], words: number[], steady: number[] }} */
+  const times = { picture: [], words: [], steady: [] };
   // The first steps compile what the others run.
   for (let step = -6; step < steps; step++) {
     await new Promise(requestAnimationFrame);
@@ -122,7 +118,7 @@ async function drag({ widget, selector, i, steps }) {
     }
     const told = await words;
     if (step < 0) continue;
-    times.time.push(shown - began);
+    times.picture.push(shown - began);
     times.words.push(Math.max(0, told - shown));
   }
   let last = 0;

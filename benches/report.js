@@ -4,24 +4,18 @@
  * @module
  */
 
+import { quantileSorted } from 'd3-array';
 import { THROTTLE } from './drag.js';
 
 /**
  * @typedef {import('./suite.js').Measured} Measured
- * @typedef {import('./timing.js').Quartiles} Quartiles
  *
  * @typedef {object} Results
- * @property {string} date
- * @property {string} commit
- * @property {string} processor
- * @property {number} cores
- * @property {string} nodeVersion
- * @property {string} chromiumVersion
- * @property {string} rustVersion
+ * @property {Record<string, string>} ranOn machine, versions and date
  * @property {boolean} quick
  * @property {Measured} node
  * @property {Measured} chromium
- * @property {import('./start.js').Start} start
+ * @property {Record<string, number[]>} start ms from the script's start to each stage, load by load
  * @property {import('./drag.js').Drag[]} drags
  */
 
@@ -32,102 +26,57 @@ const FRAME = 16.7;
  * @param {Results} results
  * @returns {string}
  */
-export function report(results) {
-  const { node, chromium, start, drags } = results;
-  const slowest = drags.reduce((most, drag) => (drag.time.median > most.time.median ? drag : most));
-  const refreshOf = (/** @type {number} */ samples) => [node, chromium].map(({ refresh }) => refresh.find((row) => row.samples === samples));
-  const million = refreshOf(1e6);
-  const atMost = (/** @type {number} */ bound) => (/** @type {number} */ value) => value <= bound;
-  const atLeast = (/** @type {number} */ bound) => (/** @type {number} */ value) => value >= bound;
-  /** @type {[string, string, (Quartiles | undefined)[], string, (value: number) => boolean][]} */
+export function report({ ranOn, quick, node, chromium, start, drags }) {
+  const slowest = drags.reduce((most, drag) => (median(drag.picture) > median(most.picture) ? drag : most));
+  const both = (/** @type {(measured: Measured) => number[]} */ of) => ({ Node: of(node), Chromium: of(chromium) });
+  const refreshOf = (/** @type {number} */ samples) => (/** @type {Measured} */ { refresh }) => refresh.find((row) => row.samples === samples) ?? refresh[0];
+  const ratio = (/** @type {Measured['refresh'][number]} */ { core, baseline }) => baseline.map((value, turn) => value / core[turn]);
+  const [million, thousands] = [1e6, 1e5].map(refreshOf);
+  /** @type {[string, '≤' | '≥', number, string, Record<string, number[]>][]} */
   const targets = [
-    ['Refresh of 1 000 000 poses', '≤ 16.7 ms', million.map((row) => row?.core), 'ms', atMost(FRAME)],
-    ['Refresh of 100 000 poses', '≤ 2 ms', refreshOf(1e5).map((row) => row?.core), 'ms', atMost(2)],
-    ['JavaScript takes longer, at 1 000 000 poses', '≥ 3 ×', million.map((row) => row?.times), '×', atLeast(3)],
-    ['Calibration of the example log', '≤ 1 s', [node.calibration, chromium.calibration], 'ms', atMost(1000)],
-    ['From script start to first cloud', '≤ 100 ms', [undefined, start.total], 'ms', atMost(100)],
-    [`Step of the slowest drag (${slowest.what}), processor ${THROTTLE} times slower`, '≤ 16.7 ms (a frame)', [undefined, slowest.time], 'ms', atMost(FRAME)],
+    ['Refresh of 1 000 000 poses', '≤', FRAME, 'ms', both((measured) => million(measured).core)],
+    ['Refresh of 100 000 poses', '≤', 2, 'ms', both((measured) => thousands(measured).core)],
+    ['JavaScript takes longer, at 1 000 000 poses', '≥', 3, '×', both((measured) => ratio(million(measured)))],
+    ['Calibration of the example log', '≤', 1000, 'ms', both(({ calibration }) => calibration)],
+    ['From script start to first cloud', '≤', 100, 'ms', { Chromium: Object.values(start).at(-1) ?? [] }],
+    [`Step of the slowest drag (${slowest.what}), processor ${THROTTLE} times slower`, '≤', FRAME, 'ms', { Chromium: slowest.picture }],
   ];
-  const rows = targets.map(([what, bound, values, unit, reached]) => [what, bound, ...values.map((value) => cell(value, unit)), verdict(values, reached)]);
+  const rows = targets.map(([what, order, bound, unit, { Node = [], Chromium = [] }]) => {
+    const reached = [Node, Chromium].filter(({ length }) => length > 0).map((values) => (order === '≤' ? median(values) <= bound : median(values) >= bound));
+    const verdict = reached.every(Boolean) ? 'yes' : !reached.some(Boolean) ? 'no' : `in ${reached[0] ? 'Node' : 'Chromium'} alone`;
+    return { '': what, target: `${order} ${bound} ${unit}`, Node: cell(Node, unit), Chromium: cell(Chromium, unit), reached: verdict };
+  });
+  const events = Object.entries({ Node: node, Chromium: chromium }).flatMap(([where, { refresh }]) => refresh.map((row) => (
+    { where, samples: digits(row.samples), 'refresh, ms': cell(row.core), 'JavaScript, ms': cell(row.baseline), ratio: cell(ratio(row)) }
+  )));
   return [
-    ranOn(results),
-    table(['', 'target', 'Node', 'Chromium', 'reached'], rows),
-    curve('Node', node),
-    curve('Chromium', chromium),
-    stages(start),
-    dragged(drags),
+    `${Object.entries(ranOn).map(([name, value]) => `${name} ${value}`).join('; ')}. Medians, with quartiles in brackets.${quick ? ' A quick run: too few turns to be quoted.' : ''}`,
+    table(rows),
+    `One event of the slider:\n\n${table(events)}`,
+    `First cloud, from the start of the script:\n\n${table(Object.entries(start).map(([until, times]) => ({ until, ms: cell(times) })))}`,
+    `Step of a drag, processor ${THROTTLE} times slower, opening sizes:\n\n${table(drags.map(({ widget, what, picture, words, steady }) => (
+      { widget, dragged: what, 'frame with the picture, ms': cell(picture), 'words after it, ms': cell(words), 'between frames, a step in each, ms': cell(steady) }
+    )))}`,
   ].join('\n\n');
 }
 
-/** @param {Results} results */
-function ranOn({ date, commit, processor, cores, nodeVersion, chromiumVersion, rustVersion, quick }) {
-  return (
-    `Measured on ${date.slice(0, 10)} at commit ${commit}, on ${processor} with ${cores} cores; ` +
-    `Node ${nodeVersion}, Chromium ${chromiumVersion}, ${rustVersion}. Medians, with quartiles in brackets.` +
-    (quick ? ' A quick run: too few turns to be quoted.' : '')
-  );
+/** Returns a quantile, by default the median. @param {number[]} values @param {number} [share] */
+function median(values, share = 0.5) {
+  return quantileSorted(values.toSorted((a, b) => a - b), share) ?? NaN;
 }
 
-/**
- * @param {string} where
- * @param {Measured} measured
- */
-function curve(where, { refresh }) {
-  const rows = refresh.map(({ samples, core, baseline, times }) => [
-    whole(samples), cell(core), digits((core.median / samples) * 1e6), cell(baseline), cell(times),
-  ]);
-  return `One event of the slider, ${where}:\n\n${table(['samples', 'refresh, ms', 'ns a sample', 'JavaScript, ms', 'ratio'], rows)}`;
-}
-
-/** @param {import('./start.js').Start} start */
-function stages({ loads, stages: parts }) {
-  const rows = parts.map(({ stage, time }) => [stage, cell(time)]);
-  return `First cloud, ${loads} loads in Chromium:\n\n${table(['until', 'ms'], rows)}`;
-}
-
-/** @param {import('./drag.js').Drag[]} drags */
-function dragged(drags) {
-  const rows = drags.map(({ widget, what, time, words, steady }) => [widget, what, cell(time), cell(words), cell(steady)]);
-  const heads = ['widget', 'dragged', 'frame with the picture, ms', 'words after it, ms', 'between frames, a step in each, ms'];
-  return `Step of a drag, processor ${THROTTLE} times slower, opening sizes:\n\n${table(heads, rows)}`;
-}
-
-/**
- * @param {(Quartiles | undefined)[]} values in Node and in Chromium; undefined where nothing is measured
- * @param {(value: number) => boolean} reached
- */
-function verdict([node, chromium], reached) {
-  const verdicts = [node, chromium].flatMap((value) => (value ? [reached(value.median)] : []));
-  if (verdicts.every(Boolean)) return 'yes';
-  return verdicts.some(Boolean) ? `in ${verdicts[0] ? 'Node' : 'Chromium'} alone` : 'no';
-}
-
-/**
- * @param {Quartiles | undefined} value
- * @param {string} [unit]
- */
-function cell(value, unit = '') {
-  if (value === undefined) return '';
-  const suffix = unit === '' ? '' : ` ${unit}`;
-  return `${digits(value.median)}${suffix} [${digits(value.lower)} to ${digits(value.upper)}]`;
+/** @param {number[]} values @param {string} [unit] */
+function cell(values, unit = '') {
+  const [lower, middle, upper] = [0.25, 0.5, 0.75].map((share) => digits(median(values, share)));
+  return values.length > 0 ? `${`${middle} ${unit}`.trim()} [${lower} to ${upper}]` : '';
 }
 
 /** Rounds to three significant digits. @param {number} value */
-function digits(value) {
-  if (Math.abs(value) >= 1000) return whole(Math.round(value));
-  return value === 0 ? '0' : String(Number(value.toPrecision(3)));
-}
+const digits = (value) => value.toLocaleString('en', { maximumSignificantDigits: 3 }).replaceAll(',', '\u202f');
 
-/** @param {number} value */
-function whole(value) {
-  return value.toLocaleString('en').replaceAll(',', '\u202f');
-}
-
-/**
- * @param {string[]} heads
- * @param {string[][]} rows
- */
-function table(heads, rows) {
-  const line = (/** @type {string[]} */ row) => `| ${row.join(' | ')} |`;
-  return [line(heads), line(heads.map(() => '---')), ...rows.map(line)].join('\n');
+/** Returns a table with a column for each key. @param {Record<string, string>[]} rows */
+function table(rows) {
+  const heads = Object.keys(rows[0]);
+  const lines = [heads, heads.map(() => '---'), ...rows.map(Object.values)];
+  return lines.map((cells) => `| ${cells.join(' | ')} |`).join('\n');
 }

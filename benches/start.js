@@ -4,34 +4,24 @@
  * @module
  */
 
-import { quartiles } from './timing.js';
-
-/** Marks in order, and the work that ends with each. */
-const STAGES = /** @type {const} */ ([
-  ['begin', ''],
-  ['evaluated', 'the script is evaluated'],
-  ['instantiating', 'the element asks for the module'],
-  ['instantiated', 'the module is compiled and instantiated'],
-  ['drawn', 'machine, first rendering, first samples drawn'],
-  ['shown', 'the frame is handed over'],
-]);
-
-/**
- * @typedef {object} Start times in ms
- * @property {number} loads
- * @property {import('./timing.js').Quartiles} total
- * @property {{ stage: string, time: import('./timing.js').Quartiles }[]} stages
- */
+/** Stages that end with each mark, in order. */
+const STAGES = /** @type {const} */ ({
+  evaluated: 'the script is evaluated',
+  instantiating: 'the element asks for the module',
+  instantiated: 'the module is compiled and instantiated',
+  drawn: 'machine, first rendering, first samples drawn',
+  shown: 'the frame is handed over',
+});
 
 /**
  * @param {import('@playwright/test').Browser} browser
- * @param {string} address of start.html
+ * @param {string} address of page.html
  * @param {number} loads
- * @returns {Promise<Start>}
+ * @returns {Promise<Record<string, number[]>>} ms from the start of the script to the end of each stage, load by load
  */
 export async function timeStart(browser, address, loads) {
-  /** @type {number[][]} */
-  const marks = [];
+  /** @type {Record<string, number[]>} */
+  const times = Object.fromEntries(Object.values(STAGES).map((stage) => [stage, []]));
   for (let load = 0; load < loads; load++) {
     // A new process with its own caches.
     const context = await browser.newContext({ viewport: { width: 1280, height: 900 } });
@@ -41,18 +31,12 @@ export async function timeStart(browser, address, loads) {
     await page.addInitScript(() => sessionStorage.setItem('motion-widgets.introduced', 'yes'));
     await page.goto(address);
     await page.waitForFunction(() => performance.getEntriesByName('shown').length > 0);
-    marks.push(
-      await page.evaluate(
-        (names) => names.map((name) => performance.getEntriesByName(name)[0].startTime),
-        STAGES.map(([name]) => name),
-      ),
-    );
+    for (const [mark, stage] of Object.entries(STAGES)) {
+      times[stage].push(await page.evaluate((name) => performance.measure('', 'begin', name).duration, mark));
+    }
     await context.close();
   }
-  const stages = STAGES.slice(1).map(([, stage], i) => {
-    return { stage, time: quartiles(marks.map((times) => times[i + 1] - times[i])) };
-  });
-  return { loads, total: quartiles(marks.map((times) => times[times.length - 1] - times[0])), stages };
+  return times;
 }
 
 /** Runs in the page before any script of its own. */

@@ -4,16 +4,17 @@
  * @module
  */
 
-import { differences } from './check.js';
-import { timeRefresh } from './refresh.js';
-import { race, quartiles } from './timing.js';
+import { Baseline } from './baseline.js';
+import { differences, noiseOf } from './check.js';
+import { ALPHAS, RAMP, VIEW, command, figures, picture } from './scene.js';
+import { race } from './timing.js';
 
 /** @typedef {import('../www/types.d.ts').Motion} Motion */
 
 /**
- * @typedef {object} Measured
- * @property {import('./refresh.js').Refresh[]} refresh by the number of samples
- * @property {import('./timing.js').Quartiles} calibration of the example log, ms
+ * @typedef {object} Measured ms, turn by turn
+ * @property {{ samples: number, core: number[], baseline: number[] }[]} refresh one event of the slider, by core and baseline
+ * @property {number[]} calibration of the example log
  */
 
 /**
@@ -21,23 +22,27 @@ import { race, quartiles } from './timing.js';
  * @param {object} options
  * @param {boolean} options.quick
  * @param {{ odometry: string, reference: string }} options.log CSV
- * @param {(text: string) => void} options.progress
  * @returns {Promise<Measured>}
  */
-export async function measure(motion, { quick, log, progress }) {
-  progress('comparison of the baseline with the core');
+export async function measure(motion, { quick, log }) {
   const wrong = differences(motion, 4000);
   if (wrong.length > 0) throw new Error(`The baseline does not compute what the core does:\n${wrong.join('\n')}`);
   const seconds = quick ? 0.2 : 2;
   const refresh = [];
   for (const samples of [1e4, 1e5, 1e6]) {
-    progress(`${samples.toLocaleString('en')} samples`);
-    refresh.push(await timeRefresh(motion, { samples, seconds }));
+    const machine = new motion.BananaMachine({ alphas: ALPHAS, samples, seed: 1, command: command(0) });
+    const contender = new Baseline(ALPHAS, noiseOf(machine));
+    const core = (/** @type {number} */ event) => {
+      figures(machine, event);
+      picture(machine);
+    };
+    const baseline = (/** @type {number} */ event) => void contender.refresh(command(event), VIEW, RAMP);
+    refresh.push({ samples, ...(await race({ core, baseline }, seconds)) });
+    machine.free();
   }
-  progress('calibration');
   const [odometry, reference] = [log.odometry, log.reference].map(columns);
-  const { calibration } = await race({ calibration: () => void motion.calibrate({ odometry, reference }) }, { seconds });
-  return { refresh, calibration: quartiles(calibration) };
+  const { calibration } = await race({ calibration: () => void motion.calibrate({ odometry, reference }) }, seconds);
+  return { refresh, calibration };
 }
 
 /** @param {string} csv */

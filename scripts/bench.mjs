@@ -1,7 +1,7 @@
 // `npm run bench`: the targets of doc/benchmarks.md, measured in Node and in headless Chromium. It prints tables in Markdown and
 // writes the measurements to build/bench.json. `-- --quick` takes fewer turns.
 
-import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
+import { readFileSync, writeFileSync } from 'node:fs';
 import { cpus } from 'node:os';
 import { join } from 'node:path';
 import { CHROME_ARGUMENTS, ensureBrowser } from './browser.mjs';
@@ -23,38 +23,30 @@ async function bench(quick) {
   await build();
   const [odometry, reference] = [EXAMPLE_LOGS.odometry, EXAMPLE_LOGS.reference].map((path) => readFileSync(join(ROOT, path), 'utf8'));
   const options = { quick, log: { odometry, reference } };
-  const machine = await describe();
   progress('Node');
-  const node = await inNode(options);
+  // Both exist only after the build.
+  const { measure } = await import('../benches/suite.js');
+  const { load } = await import('../dist/core.js');
+  const node = await measure(/** @type {import('../www/types.d.ts').Motion} */ (await load()), options);
   const browser = await ensureBrowser();
   progress('Chromium');
-  const results = { ...machine, chromiumVersion: browser.version, quick, node, ...(await inChromium(browser.chrome, options)) };
-  mkdirSync(join(ROOT, 'build'), { recursive: true });
+  const results = { ranOn: await describe(browser.version), quick, node, ...(await inChromium(browser.chrome, options)) };
   writeFileSync(join(ROOT, 'build/bench.json'), `${JSON.stringify(results, null, 2)}\n`);
   console.log(`\n${report(results)}\n\nbuild/bench.json has all measurements.`);
 }
 
-/** Describes the machine and the versions. */
-async function describe() {
+/** Describes the machine and the versions. @param {string} chromium */
+async function describe(chromium) {
   const commit = await run('git', ['describe', '--always', '--dirty'], { quiet: true });
   const { description } = await nativeRust();
   return {
-    date: new Date().toISOString(),
+    'Measured on': new Date().toISOString().slice(0, 10),
     commit: commit.ok ? commit.stdout.trim() : 'unknown',
-    processor: cpus()[0].model,
-    cores: cpus().length,
-    nodeVersion: process.versions.node,
-    rustVersion: description,
+    processor: `${cpus()[0].model}, ${cpus().length} cores`,
+    Node: process.versions.node,
+    Chromium: chromium,
+    Rust: description,
   };
-}
-
-/** @param {Options} options */
-async function inNode(options) {
-  // Both exist only after the build.
-  const { measure } = await import('../benches/suite.js');
-  const { load } = await import('../dist/core.js');
-  const motion = /** @type {import('../www/types.d.ts').Motion} */ (await load());
-  return measure(motion, { ...options, progress: (text) => console.log(text) });
 }
 
 /**
@@ -68,17 +60,22 @@ async function inChromium(executablePath, options) {
   const { timeStart } = await import('../benches/start.js');
   const { address, close } = await serve(ROOT.replace(/[\\/]$/, ''), { port: 0, headers: ISOLATED });
   const browser = await launcher.launch({ executablePath, args: CHROME_ARGUMENTS });
+  const figures = `${address}benches/page.html`;
   try {
-    console.log('first cloud');
-    const start = await timeStart(browser, `${address}benches/start.html`, options.quick ? 5 : 11);
-    console.log('drags');
-    const drags = await timeDrags(browser, `${address}benches/drag.html`, options.quick ? 10 : 40);
+    progress('First cloud');
+    const start = await timeStart(browser, figures, options.quick ? 5 : 11);
+    progress('Drags');
+    const drags = await timeDrags(browser, figures, options.quick ? 10 : 40);
+    progress('Refresh and calibration');
+    // A page without figures.
     const page = await browser.newPage();
-    page.on('console', (message) => console.log(message.text()));
-    await page.goto(`${address}benches/page.html`);
-    await page.waitForFunction(() => 'measurePage' in globalThis);
+    await page.route(`${address}empty`, (route) => route.fulfill({ headers: ISOLATED, contentType: 'text/html', body: '' }));
+    await page.goto(`${address}empty`);
     if (!(await page.evaluate('crossOriginIsolated'))) throw new Error('The page is not isolated, and its clock too coarse.');
-    const chromium = await page.evaluate((given) => /** @type {any} */ (globalThis).measurePage(given), options);
+    const chromium = await page.evaluate(async ({ modules: [core, suite], given }) => {
+      const [{ load }, { measure }] = await Promise.all([import(core), import(suite)]);
+      return measure(await load(), given);
+    }, { modules: [`${address}dist/core.js`, `${address}benches/suite.js`], given: options });
     return { chromium, start, drags };
   } finally {
     await browser.close();

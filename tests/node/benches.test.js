@@ -3,7 +3,6 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { differences } from '../../benches/check.js';
-import { ratio, quartiles } from '../../benches/timing.js';
 import { freshModule } from './support.js';
 
 test('baseline has the statistics and the picture of the core', async () => {
@@ -21,11 +20,4 @@ test('comparison finds a core with another skew', async () => {
   }
   const wrong = differences(/** @type {any} */ ({ BananaMachine: Off }), 2000);
   assert.deepEqual([...new Set(wrong.map((text) => text.split(':')[0]))], ['crossTrackSkew']);
-});
-
-test('quartiles has median and quartiles, and a ratio is taken turn by turn', () => {
-  assert.deepEqual(quartiles([5, 1, 4, 2, 3]), { median: 3, lower: 2, upper: 4, turns: 5 });
-  assert.equal(quartiles([1, 2]).median, 1.5);
-  // The ratio of the medians would be 2.
-  assert.equal(ratio([2, 30, 4], [1, 10, 1]).median, 3);
 });

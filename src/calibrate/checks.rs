@@ -240,7 +240,7 @@ fn mismatch(sample: &Sample, systematic: &Systematic) -> f64 {
     let ratio = |least: f64, size: fn(&SE2) -> f64, between: fn(&SE2, &SE2) -> f64| {
         let (mut sizes, mut differences) = (Vec::new(), Vec::new());
         for leg in &sample.legs {
-            let expected = systematic.expected(leg);
+            let expected = systematic.expected(sample.options.model, leg);
             if size(&expected) > least {
                 sizes.push(size(&expected));
                 differences.push(between(&systematic.motion(leg), &expected));

@@ -85,7 +85,7 @@ impl Sample {
         self.systematic = *corrected;
         self.observations =
             self.legs.iter().map(|leg| Observation::new(model, leg, corrected, position_std)).collect();
-        let term = |(leg, observation): (&Leg, &Observation)| Term::new(leg, observation, corrected);
+        let term = |(leg, observation): (&Leg, &Observation)| Term::new(model, leg, observation, corrected);
         self.terms = Rc::new(self.legs.iter().zip(&self.observations).map(term).collect());
     }
 

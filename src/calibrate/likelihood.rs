@@ -116,9 +116,9 @@ impl Expansion {
 }
 
 impl Term {
-    pub fn new(leg: &Leg, observation: &Observation, corrected: &Systematic) -> Self {
+    pub fn new(model: Model, leg: &Leg, observation: &Observation, corrected: &Systematic) -> Self {
         let residuals = Vector3::from(observation.residuals);
-        let by_errors = observation.jacobian * corrected.motion_jacobian(leg, &observation.expected);
+        let by_errors = observation.jacobian * corrected.motion_jacobian(model, leg, &observation.expected);
         // Squares of huge numbers would overflow: such a leg is not used.
         let is_sane = !residuals.iter().chain(&by_errors).any(|entry| entry.abs() > MAX_ENTRY);
         let observed = residuals.map(|residual| is_sane && !residual.is_nan());

@@ -59,6 +59,10 @@ impl Model {
         }
     }
 
+    pub(super) fn drives_sideways(self) -> bool {
+        self == Self::Odometry(OdometryRule::Omni)
+    }
+
     /// Tells whether an α (index from 0) multiplies the square of a turn or turn rate, and not that of a distance or speed.
     pub fn grows_with_turn(self, alpha: usize) -> bool {
         match self {
@@ -92,7 +96,7 @@ impl Observation {
     ///
     /// `position_std` (m) is that of the reference: where it is large beside the leg, directions are linearized at the reading.
     pub(super) fn new(model: Model, leg: &Leg, corrected: &Systematic, position_std: f64) -> Self {
-        let expected = corrected.expected(leg);
+        let expected = corrected.expected(model, leg);
         let motion = corrected.motion(leg);
         let is_linear = position_std > LINEAR_FROM * libm::hypot(expected.x(), expected.y());
         let mut observation = match model {

@@ -1,6 +1,7 @@
 //! Systematic errors: wrong in the same way on every leg, so estimated along with the noise.
 
 use super::legs::Leg;
+use super::residuals::Model;
 use crate::geom::se2::SE2;
 use nalgebra::{Matrix2, Matrix3, SMatrix, Vector2, Vector3};
 use serde::{Deserialize, Serialize};
@@ -111,15 +112,16 @@ impl Systematic {
         self.base(&leg.reference[0]).inverse() * self.base(&leg.reference[1])
     }
 
-    /// Returns the motion that the odometry read, with its scales corrected.
-    pub(super) fn expected(&self, leg: &Leg) -> SE2 {
+    /// Returns the motion that the odometry read, with its scales corrected. A robot that cannot drive sideways moves to the left by a product
+    /// of distances and turns.
+    pub(super) fn expected(&self, model: Model, leg: &Leg) -> SE2 {
         let read = leg.odometry[0].inverse() * leg.odometry[1];
-        if self.distance_scale == 1.0 && self.turn_scale == 1.0 {
+        let Self { distance_scale, turn_scale, .. } = *self;
+        if distance_scale == 1.0 && turn_scale == 1.0 {
             return read;
         }
-        let twist = read.log();
-        let Self { distance_scale, turn_scale, .. } = *self;
-        SE2::exp(&Vector3::new(distance_scale * twist.x, distance_scale * twist.y, turn_scale * twist.z))
+        let left = if model.drives_sideways() { distance_scale } else { distance_scale * turn_scale };
+        SE2::exp(&read.log().component_mul(&Vector3::new(distance_scale, left, turn_scale)))
     }
 
     /// Returns the Jacobians of the base's motion by the error of the reference at the leg's start and end: small motions (x, y,
@@ -151,7 +153,7 @@ impl Systematic {
     /// Returns the Jacobian of the motion that the reference saw, less the one that was read, by [`SystematicError::ALL`].
     ///
     /// It is taken at the reading, which has none of the leg's noise: the estimate is not drawn to where the noise is smaller.
-    pub(super) fn motion_jacobian(&self, leg: &Leg, read: &SE2) -> SMatrix<f64, 3, ERRORS> {
+    pub(super) fn motion_jacobian(&self, model: Model, leg: &Leg, read: &SE2) -> SMatrix<f64, 3, ERRORS> {
         let (sin, cos) = libm::sincos(read.theta());
         let (x, y) = (read.x(), read.y());
         let twist = read.log();
@@ -161,13 +163,18 @@ impl Systematic {
             sin * end.x + cos * end.y - start.y - start.z * x,
             end.z - start.z,
         );
+        let mut by_turn = turn_derivative(&twist, read) * twist.z;
+        if !model.drives_sideways() {
+            let bent = SE2::exp(&Vector3::new(0.0, twist.y, twist.z));
+            by_turn += Vector3::new(bent.x(), bent.y(), 0.0);
+        }
         SMatrix::from_columns(&[
             later,
             Vector3::new(-y, x, 0.0),
             Vector3::new(1.0 - cos, -sin, 0.0),
             Vector3::new(sin, 1.0 - cos, 0.0),
             -Vector3::new(x, y, 0.0) / self.distance_scale,
-            -turn_derivative(&twist, read) * (twist.z / self.turn_scale),
+            -by_turn / self.turn_scale,
         ])
     }
 }

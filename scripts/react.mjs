@@ -37,9 +37,11 @@ function imported(all) {
   );
 }
 
-const COMMON = `/** Type of a prop: numbers and lists of words also as text, as in attributes. */
+const COMMON = `/** Type of a prop: numbers and lists of words also as text, as in attributes, and digits also as numbers. */
 type Given<Value> = Value extends number
   ? Value | \`\${number}\`
+  : Value extends \`\${infer Digit extends number}\`
+  ? Value | Digit
   : Value extends string[]
     ? readonly Value[number][] | string
     : Value extends (infer Item)[]
@@ -68,6 +70,8 @@ type Said<Value> = Value extends boolean
   ? true | \`\${Value}\`
   : Value extends number
     ? Value | \`\${number}\`
+    : Value extends \`\${infer Digit extends number}\`
+    ? Value | Digit
     : Value extends string[]
       ? string
       : Exclude<Value, null>;

@@ -66,13 +66,13 @@ const REACT = `
       return (
         <>
           <BananaMachine ref={figure} omega="0.8" samples={20000} alphas={[0.1, 0.1, 0.1, 0.1, 0, 0]} className="wide" id="first" lang="de"
-            style={{ margin: 0 }} share overlays={['command']} headingLevel="3"
+            style={{ margin: 0 }} share overlays={['command']} headingLevel={3}
             onStats={({ detail, currentTarget }) => console.log(detail.crossTrackSkew.toFixed(2), currentTarget.omega)}
             onError={({ message }) => console.log(message.length)} onChange={({ currentTarget }) => currentTarget.getState()}>
             <span slot="title">Figure 1</span>
           </BananaMachine>
           <MapSqueeze sampler="whole-arc" start={{ x: 0, y: 0, theta: 0 }} onStats={({ detail }) => detail.accepted} key="map" />
-          <banana-machine omega="0.8" samples={20000} heading-level="3" class="wide" onstats={({ detail }) => detail.n} />
+          <banana-machine omega="0.8" samples={20000} heading-level={3} class="wide" onstats={({ detail }) => detail.n} />
           <map-squeeze share conditioned="false" />
           <p>{skew}</p>
           {/* @ts-expect-error */}

@@ -74,7 +74,7 @@ const choices = (series: Series[], kind?: LogKind): Choice[] => series.map(({ na
 const tiers = (series: Series[], names: RegExp[], kind?: LogKind): Choice[][] => names.map((pattern) => choices(series.filter(({ name }) => pattern.test(name)), kind));
 
 /** Returns the frames that a role has by their names, the likeliest of them. */
-function likeliest(frames: Frames[], role: Role): Frames[] {
+export function likeliest(frames: Frames[], role: Role): Frames[] {
   const first = (some: Frames[], names: RegExp[], end: keyof Frames) => names.map((name) => some.filter((each) => name.test(each[end]))).find(({ length }) => length);
   const fixed = first(frames, FIXED[role], 'parent') ?? [];
   return first(fixed, BASES, 'child') ?? fixed;

@@ -1,6 +1,6 @@
 /** Drives: odometry and reference of one drive, from the recordings that have them. */
 
-import { candidates, isTable, namesFor, roleByName, seriesNamed, usefulSeries } from './candidates.ts';
+import { candidates, isTable, likeliest, namesFor, roleByName, seriesNamed, usefulSeries } from './candidates.ts';
 import { LogError, listed } from './log-error.ts';
 import { ROLES, framesOption, framesText, type Choice, type Frames, type Log, type LogKind, type Recording, type Role, type Series } from './log.ts';
 import { isSamePath, pairLogs, pairedByTime, withStart, type Drive } from './pairs.ts';
@@ -118,8 +118,8 @@ function wishedChoice(recording: Recording, role: Role, wishes: Wishes): Choice 
 }
 
 function framesError({ name: file }: Recording, { name: topic, frames = [] }: Series, role: Role): LogError {
-  const known = frames.map(framesOption);
-  return new LogError({ file, topic }, (say) => say.frames(listed(known)), { what: 'frames', role, choices: known });
+  const choices = [...new Set([...likeliest(frames, role), ...frames])].map(framesOption);
+  return new LogError({ file, topic }, (say) => say.frames(listed(frames.map(framesText))), { what: 'frames', role, choices });
 }
 
 function guessedChoice(recording: Recording, role: Role, wishes: Wishes, other?: Choice): Choice {

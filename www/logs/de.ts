@@ -95,6 +95,7 @@ export const log: Words = {
     tilted: 'die Posen drehen sich nicht um eine senkrechte Z-Achse; erwartet werden Quaternionen in der Reihenfolge des Kopfs auf einer Ebene mit Z nach oben. Mit Z nach oben exportieren, oder die Spalten auswählen.',
     mixed: (frames) => `die Zeilen gehören zu mehreren Frames (${frames}); nur die eines davon behalten.`,
     unknownUnit: (unit) => `die Einheit ${unit} einer Spalte ist unbekannt, oder nicht die einer anderen; erwartet wird m, cm oder mm, und rad oder deg.`,
+    manyBad: (bad, rows, percent) => `${bad} von ${rows} Zeilen haben Text statt einer Zahl oder zu wenige Zellen; erlaubt sind ${percent} % solcher Zeilen.`,
     number: (column, value) => `${column} ist „${value}“; erwartet wird eine Zahl${/^[+-]?\d*,\d+$/.test(value) ? ' mit Dezimalpunkt' : /\d[/:-]\d/.test(value) ? ', oder ein Datum wie 2024-01-31 12:00:00.5' : ''}.`,
     rows: (most) => `es sind mehr Zeilen; erwartet werden höchstens ${most}.`,
     far: (value, most, message) => `${message ? `die Nachricht ${message} hat den Wert ${value}` : `ein Wert ist ${value}`}; erwartet werden Zahlen von ${-most} bis ${most}, in m, rad und s.`,
@@ -201,7 +202,7 @@ export const log: Words = {
       swapped: (odometry, by) =>
         `${by === 'name' ? `sie heißt wie eine Odometrie, und ${odometry} nicht` : `sie wiederholt im Stand genau ihre Pose, wie die Odometrie von Rädern, und ${odometry} nicht`}: Ist die Odometrie als Referenz angegeben?`,
       apart: (name, one, other) => `keine Zeit gemeinsam mit ${name} (${one}, und ${other}): Die Uhren werden nach den Drehungen des Roboters gestellt`,
-      sideways: (percent) => `in ${percent} % ihrer Etappen bewegt sie sich seitwärts, was Räder nicht können: Ihre Positionen rauschen, oder ihr Koordinatensystem liegt nicht auf der Achse`,
+      sideways: (percent) => `in ${percent} % ihrer Etappen bewegt sie sich seitwärts, was Räder nicht können, durch Rauschen oder ein Koordinatensystem neben der Achse: Odometrie der Räder in der Mitte ihrer Achse verwenden`,
       localizer: 'die Schätzung eines Lokalisierers, deren Fehler der Odometrie folgen: Die Referenz muss unabhängig gemessen sein',
     },
   },

@@ -342,7 +342,10 @@ class LogReader {
   end(): Log {
     const { clocks, columns, fields, kind, length, angle } = this.#layout;
     if (kind === 'positions') throw new LogError(this.#place, (say) => say.positions(listed(columns.map(({ name }) => name))));
-    if (this.#firstBad && this.#bad > MAX_BAD * this.#rows.count) this.#refuse(...this.#firstBad);
+    if (this.#firstBad && this.#bad > MAX_BAD * this.#rows.count) {
+      const [line, reason] = this.#firstBad;
+      this.#refuse(line, (say) => [reason(say), ...(this.#bad > 1 && this.#bad < this.#rows.count ? [say.manyBad(this.#bad, this.#rows.count, 100 * MAX_BAD)] : [])].join(' '));
+    }
     if (this.#frames.size > 1) throw new LogError(this.#place, (say) => say.mixed(listed([...this.#frames])));
     const upright = this.#upright && this.#hasYUp() ? this.#upright : undefined;
     if (this.#upright) this.#notes.push({ name: 'upAxis', values: [upright ? 'Y' : 'Z'] });

@@ -54,6 +54,7 @@ export function textOf({ calibration, options, logs, start, begins, date }: Resu
   const { model = 'odometry', rule = 'thrun' } = options;
   const failed = failedOf(checks);
   const causes = Object.entries(LOST).filter(([cause]) => lost[cause] > 0).map(([cause, name]) => `${lost[cause]} ${name}`);
+  const apart = [...(causes.length ? [`lost legs: ${causes.join(', ')}`] : []), ...outliersOf(legs, begins)];
   const text = [
     '',
     verdictSentence(calibration),
@@ -68,8 +69,7 @@ export function textOf({ calibration, options, logs, start, begins, date }: Resu
     ...aligned([['check', 'value', 'expected', ''], ...checks.map(checkRow)]),
     ...failed.map(({ name, message }) => `${name}: ${message}`),
     '',
-    ...(causes.length ? [`lost legs: ${causes.join(', ')}`] : []),
-    ...outliersOf(legs, begins),
+    ...(apart.length ? [...apart, ''] : []),
     ...aligned([['held-out windows', 'number', 'covered', 'squared error / variance (NEES)'], ...windows.map(windowRow)]),
     '',
     ...nav2Of({ calibration, options, logs, start, begins, date }),

@@ -1,4 +1,4 @@
-//! The widgets' simulations: parameters in, buffers and figures out, no browser anywhere.
+//! Simulations of the widgets. They compute buffers and figures from settings, and do not depend on a browser.
 
 pub mod alpha_calibrator;
 pub mod arc_anatomy;

@@ -1,14 +1,14 @@
-//! One number for several noise parameters.
+//! Noise level: one number that sets several noise parameters.
 
 use super::settings::{Level, Settable, Setting};
 use std::ops::RangeInclusive;
 
-/// Returns the α's of a noise level n: those of γ̂, the last two, are n/4, and all before them n.
+/// Returns the α's of a noise level n. The last two, those of γ̂, are n/4, and all others n.
 pub fn alphas_of_noise<const N: usize>(n: f64) -> [f64; N] {
     std::array::from_fn(|i| if i + 2 < N { n } else { n / 4.0 })
 }
 
-/// α's seen as one noise level. They have a level only if they equal [`alphas_of_noise`] of it.
+/// Access to α's as one noise level. They have a level only if they equal [`alphas_of_noise`] of it.
 pub struct NoiseLevel<'a, const N: usize>(pub &'a mut [f64; N]);
 
 impl<const N: usize> Level for NoiseLevel<'_, N> {

@@ -1,9 +1,9 @@
-//! Settings, each declared once by `settings!`, and the refusal of what they do not allow.
+//! Settings of the widgets, declared by `settings!`, and checks of their values.
 
 use std::fmt;
 use std::ops::{ControlFlow, RangeInclusive};
 
-/// A parameter outside its range. The message names the field, the value and what is allowed.
+/// Error for a setting that has no allowed value. The message has the field, the value and the allowed ones.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SettingsError {
     pub field: String,
@@ -15,9 +15,9 @@ pub struct SettingsError {
 pub enum Allowed {
     Real(RangeInclusive<f64>),
     Whole(RangeInclusive<u64>),
-    /// A number for which there is memory.
+    /// Numbers of samples for which there is enough memory.
     LessMemory,
-    /// Another word than this one.
+    /// Words other than this one.
     Word {
         is: &'static str,
         allowed: &'static str,
@@ -25,13 +25,13 @@ pub enum Allowed {
 }
 
 impl SettingsError {
-    /// Returns a sample count for which memory does not suffice.
+    /// Returns the error for a number of samples that need more memory than there is.
     pub(crate) fn no_memory(samples: usize) -> Self {
         Self { field: "samples".to_owned(), value: samples as f64, allowed: Allowed::LessMemory }
     }
 
-    /// Returns the message, with numbers as `number` prints them. WebAssembly leaves that to JavaScript: Rust's own
-    /// printing of floating point takes an eighth of the module.
+    /// Returns the message, with numbers as `number` prints them. In WebAssembly JavaScript prints them, because Rust's code
+    /// for printing floats would take an eighth of the module.
     pub fn message(&self, number: impl Fn(f64) -> String) -> String {
         let allowed = match &self.allowed {
             Allowed::Word { is, allowed } => return format!("{} is {is}; allowed is {allowed}", self.field),
@@ -73,7 +73,7 @@ pub(crate) fn check_real(
     Err(SettingsError { field: field.to_owned(), value, allowed: Allowed::Real(allowed.clone()) })
 }
 
-/// Returns the whole number that a double is, of a range whose ends are exact as doubles.
+/// Returns a double as the whole number in a range. The ends of the range must be exact as doubles.
 pub(crate) fn check_whole(
     field: &str,
     value: f64,
@@ -86,22 +86,21 @@ pub(crate) fn check_whole(
     Err(SettingsError { field: field.to_owned(), value, allowed: Allowed::Whole(allowed.clone()) })
 }
 
-/// Positions (m), angles (rad) and speeds (m/s, rad/s) up to a million: far beyond any robot, and the square of the
-/// largest still leaves every later product a finite double.
+/// Range of positions (m), angles (rad) and speeds (m/s, rad/s). It is far larger than any robot needs. Products with the
+/// square of the largest value are finite doubles.
 pub const QUANTITY: RangeInclusive<f64> = -1e6..=1e6;
-/// Variance coefficients up to a million, for the same reason.
+/// Range of the noise parameters α, for the same reason.
 pub const ALPHA: RangeInclusive<f64> = 0.0..=1e6;
-/// From a microsecond to a million seconds. Shorter steps would make v̂ = length/Δt lose the digits that tell samples
-/// apart.
+/// Range of durations. With shorter ones v̂ = length/Δt would lose the digits that distinguish samples.
 pub const DURATION: RangeInclusive<f64> = 1e-6..=1e6;
 /// The largest whole number up to which JavaScript's numbers are exact.
 pub const MAX_SEED: u64 = (1 << 53) - 1;
 
-/// Description of a setting beside its type and its range.
+/// Description of a setting, without its type and range.
 #[derive(Clone, Copy, Debug)]
 pub struct Declaration {
     pub key: &'static str,
-    /// The setting that this one is another way to say.
+    /// Key of the setting that this one is another form of, such as the α's of a noise level.
     pub of: Option<&'static str>,
     // The module for browsers omits the sentence and the unit of settings: no page shows them, and they would make the module larger.
     #[cfg(not(target_arch = "wasm32"))]
@@ -111,14 +110,14 @@ pub struct Declaration {
     pub unit: &'static str,
 }
 
-/// A setting where it is stored, with what it allows.
+/// Reference to the value of a setting, with its allowed values.
 pub enum Setting<'a> {
     Number(&'a mut f64, RangeInclusive<f64>),
     Whole(&'a mut dyn Whole, RangeInclusive<u64>),
     WholeOrNone(&'a mut Option<usize>, RangeInclusive<u64>),
     Truth(&'a mut bool),
     Word(&'a mut dyn Word),
-    /// A list of fixed length, all of its numbers of one range.
+    /// List of fixed length, whose numbers have one range.
     Numbers(&'a mut [f64], RangeInclusive<f64>),
     Level(&'a mut dyn Level, RangeInclusive<f64>),
     Group(&'a mut dyn Group),
@@ -139,7 +138,7 @@ impl Setting<'_> {
                 }
             }
             Self::Group(group) => check_group(key, group),
-            // A level is checked as what it stands for.
+            // The numbers that a level stands for are checked instead of the level.
             Self::WholeOrNone(None, _) | Self::Truth(_) | Self::Word(_) | Self::Level(..) => Ok(()),
         }
     }
@@ -155,30 +154,30 @@ pub(crate) fn check_group(key: &str, group: &mut dyn Group) -> Result<(), Settin
     Ok(())
 }
 
-/// A whole number of any type.
+/// Whole number of any type.
 pub trait Whole {
     fn get(&self) -> u64;
     fn set(&mut self, whole: u64);
 }
 
-/// A number that stands for several others, as a slider for all of them does.
+/// Number that sets several others in fixed ratios, such as a noise level.
 pub trait Level {
-    /// Returns the level; None where the others are not those of any.
+    /// Returns the level; None if the other numbers are not in the ratios of a level.
     fn get(&self) -> Option<f64>;
     fn set(&mut self, level: f64);
-    /// Returns the shares of the level that the numbers have, the last of the whole list.
+    /// Returns the ratios of the numbers to the level. They belong to the last numbers of the list.
     fn weights(&self) -> Vec<f64>;
 }
 
-/// An enum whose values have words: in settings, attributes and states.
+/// Enum whose values have words in settings, attributes and states.
 pub trait Words: Copy + 'static {
     const WORDS: &'static [(&'static str, Self)];
 }
 
-/// [`Words`] of any type.
+/// Reference to a value of any type with [`Words`].
 pub trait Word {
     fn get(&self) -> &'static str;
-    /// Takes on the value of a word; false where it is none of [`Word::all`].
+    /// Sets the value by its word. Returns false if the word is not in [`Word::all`].
     fn set(&mut self, word: &str) -> bool;
     fn all(&self) -> Vec<&'static str>;
 }
@@ -199,14 +198,14 @@ impl<T: Words> Word for T {
     }
 }
 
-/// Numbers that only make sense together.
+/// Setting with several numbers, such as the three coordinates of a pose.
 pub trait Group {
     fn fields(&self) -> &'static [Field];
-    /// Returns the number of a field by its place among them, from 0; panics past the last.
+    /// Returns the number of the field with this index. Panics if there is no such field.
     fn number(&mut self, index: usize) -> &mut f64;
 }
 
-/// A number of a [`Group`].
+/// Declaration of a number of a [`Group`].
 pub struct Field {
     pub declaration: Declaration,
     pub allowed: RangeInclusive<f64>,
@@ -214,7 +213,7 @@ pub struct Field {
 
 /// Types that a setting may have.
 pub trait Settable {
-    /// Declarations of the values that are allowed.
+    /// Type of the declared range.
     type Allowed;
     fn setting(&mut self, allowed: Self::Allowed) -> Setting<'_>;
 }
@@ -274,20 +273,20 @@ macro_rules! whole {
 }
 whole!(u32, u64, usize);
 
-/// Visitor of one setting after the other, which may stop.
+/// Visitor that is called for each setting, and may stop the loop.
 pub type See<'a> = dyn FnMut(&'static Declaration, Setting) -> ControlFlow<()> + 'a;
 
-/// Trait that `settings!` implements: the settings of a widget one by one.
+/// Loop over the settings of a widget. `settings!` implements it.
 pub trait Declared: Copy + Default {
     const KEYS: &'static [&'static str];
 
-    /// Shows each setting to `see`, in the order of declaration.
+    /// Calls `see` for each setting, in the order of declaration.
     fn each(&mut self, see: &mut See) -> ControlFlow<()>;
 
-    /// Shows each setting to `see`, in the order of declaration, until one is refused.
+    /// Calls `see` for each setting, in the order of declaration, until it returns an error.
     ///
     /// # Errors
-    /// The refusal of `see`.
+    /// The error of `see`.
     fn try_each<E>(
         &mut self,
         mut see: impl FnMut(&'static Declaration, Setting) -> Result<(), E>,
@@ -304,15 +303,15 @@ pub trait Declared: Copy + Default {
     }
 }
 
-/// Rules across the settings of a widget.
+/// Rules that connect several settings of a widget.
 pub trait Rules: Declared {
-    /// Adjusts other settings after the `named` ones were set one by one.
+    /// Adjusts other settings to the `named` ones, which were set one by one.
     fn settle(&mut self, _before: &Self, _named: &[&str]) {}
 
-    /// Called when each setting is known to be in its range.
+    /// Checks combinations of settings, each of which is in its range.
     ///
     /// # Errors
-    /// [`SettingsError`] where they do not fit together.
+    /// [`SettingsError`] for settings that contradict each other.
     fn check_together(&self) -> Result<(), SettingsError> {
         Ok(())
     }
@@ -326,17 +325,18 @@ pub trait Rules: Declared {
     }
 }
 
-/// Declares the settings of a widget, each by a sentence, its name, type and default; a number by its unit, if it has one,
-/// and its range besides:
+/// Declares the settings of a widget. Each has a sentence, a name, a type and a default. Numbers also have a range, and a
+/// unit if they are not dimensionless:
 ///
 /// ```text
 /// /// Radius of the robot.
 /// clearance: f64 = 0.13, "m", in 0.0..=10.0;
 /// ```
 ///
-/// The end of a range may depend on other settings: `up to` names a method for it. A setting that is not a field of its
-/// own says `by` which method it is reached, and `of` which setting it is another way to say. What is `kept` besides is
-/// part of the struct and not a setting by itself.
+/// - `up to` names a method that returns the end of the range, if it depends on other settings.
+/// - `by` names a method that returns a reference to the value, if the setting is not a field.
+/// - `of` names the setting that this one is another form of.
+/// - `kept` lists fields of the struct that are not settings.
 macro_rules! settings {
     (
         $(#[$meta:meta])*
@@ -360,7 +360,7 @@ macro_rules! settings {
         }
 
         impl Default for $name {
-            /// The widget's opening state.
+            /// Returns the settings that the widget opens with.
             fn default() -> Self {
                 Self { $($($key: $default,)?)+ $($($kept: $kept_default,)+)? }
             }
@@ -388,7 +388,7 @@ macro_rules! settings {
 }
 pub(crate) use settings;
 
-/// The [`Declaration`] of a setting or of a number of a group.
+/// Makes the [`Declaration`] of a setting or of a number of a group.
 macro_rules! declaration {
     ($key:ident, $sentence:literal, [$($unit:literal)?] $(, of $original:ident)?) => {
         $crate::sim::settings::Declaration {
@@ -405,7 +405,7 @@ macro_rules! declaration {
 }
 pub(crate) use declaration;
 
-/// Declares the numbers of a group: `sentence, key: "unit", in range;`, each key being bound by the pattern.
+/// Declares the numbers of a group, each by `/// Sentence.` and `key: "unit", in range;`. The pattern binds the keys.
 macro_rules! group {
     ($type:ty as $pattern:pat => { $(#[doc = $sentence:literal] $key:ident: $unit:literal, in $range:expr;)+ }) => {
         impl $crate::sim::settings::Group for $type {

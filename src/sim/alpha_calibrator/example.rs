@@ -1,8 +1,8 @@
-//! The log that the widget opens with: simulated, so that the true α's are known.
+//! Simulated log that the widget opens with. Its true α's are known.
 //!
-//! A robot follows a curve through a hall and looks around now and then. Between two updates of a localizer, true motion and odometry
-//! differ by the noise of Table 5.6. The reference is mounted with a lever arm and a yaw, has a clock of its own, and jumps now and
-//! then. The wheels are not quite of their nominal size.
+//! A robot follows a curve through a hall, and sometimes turns on the spot. Between two updates of a localizer, true motion and
+//! odometry differ by the noise of Table 5.6. The reference has a lever arm, a mount yaw, a clock offset, and jumps. The wheels
+//! deviate from their nominal size.
 
 use super::Log;
 use crate::calibrate::Trajectory;
@@ -28,8 +28,8 @@ pub const LEVER_ARM: [f64; 2] = [0.12, 0.0];
 pub const DISTANCE_SCALE: f64 = 1.02;
 pub const TURN_SCALE: f64 = 0.97;
 
-/// Jumps of the reference: their size (m), the number of rows that each lasts, and the probability that one begins at a row.
-/// They make about one leg in a hundred an outlier.
+/// Jumps of the reference: size (m), number of rows of each, and probability that one begins at a row. They make about one
+/// leg in a hundred an outlier.
 const JUMP: f64 = 0.5;
 const JUMP_ROWS: usize = 25;
 const JUMPS_A_ROW: f64 = 4e-4;
@@ -103,7 +103,7 @@ pub fn example(seed: u64) -> Log {
     for row in 1..ROWS {
         let time = STEP * row as f64;
         let (_, driven) = open.rows[open.rows.len() - 1];
-        // The robot steers by its odometry: steering by the true pose would correct the errors, and correlate them with the turns.
+        // The robot steers by its odometry. Steering by the true pose would correct the errors, and correlate them with the turns.
         let [v, omega] = robot.drive(time, &(start * odometry[row - 1].1), &mut rng);
         let driven = driven * SE2::exp(&Vector3::new(v * STEP, 0.0, omega * STEP));
         let read = Vector3::new(v * STEP / DISTANCE_SCALE, 0.0, omega * STEP / TURN_SCALE);
@@ -120,15 +120,15 @@ pub fn example(seed: u64) -> Log {
     // The rows after the last complete leg get no noise.
     truth.extend(open.rows.iter().skip(1).map(|(time, driven)| (*time, open.truth * *driven)));
     let trajectory = |samples| {
-        // Times rise.
+        // The times increase, so that this is no error.
         let Ok(trajectory) = Trajectory::new(samples) else { unreachable!() };
         trajectory
     };
     Log { odometry: trajectory(odometry), reference: trajectory(seen(&truth, &mut rng)) }
 }
 
-/// The leg has ended: its truth. The noise comes bit by bit, each with its share of the variance and independent of the others:
-/// were it spread evenly, legs that begin elsewhere would have less of it. Returns where it ends.
+/// Appends the true poses of a finished leg, and returns its true end. Each row adds an independent part of the noise. If the
+/// noise were proportional to time, legs with other boundaries would have less of it.
 fn close(open: &Open, truth: &mut Vec<(f64, SE2)>, rng: &mut Xoshiro256PlusPlus) -> SE2 {
     let [a1, a2, a3, a4] = ALPHAS;
     let rows = &open.rows[1..];

@@ -19,7 +19,7 @@ use std::cell::OnceCell;
 /// Number of predicted end poses of a leg.
 const OUTCOMES: usize = 400;
 
-/// Chords of the outline of a leg's cloud.
+/// Number of chords of the outline of a leg's cloud.
 const OUTLINE_SEGMENTS: usize = 64;
 
 /// Odometry and reference of one drive.
@@ -36,7 +36,7 @@ pub enum RestoreError {
     Bytes,
 }
 
-/// The true values of the simulated log.
+/// True values of the simulated log.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(
     target_arch = "wasm32",
@@ -73,7 +73,7 @@ pub struct AlphaCalibrator {
     settings: Settings,
     source: Source,
     fit: Fit,
-    /// Number of the fit: how often the log or the settings have made a new one necessary.
+    /// Number of the fit. It increases with each change of the log or the settings that needs a new fit.
     fits: u32,
 }
 
@@ -95,7 +95,7 @@ struct Fit {
 }
 
 impl AlphaCalibrator {
-    /// The widget as it opens, with the simulated log.
+    /// Creates a machine with the simulated log.
     ///
     /// # Errors
     /// [`SettingsError`] for the first setting out of range.
@@ -103,8 +103,8 @@ impl AlphaCalibrator {
         Self::with(settings, Source::Simulated, OnceCell::new())
     }
 
-    /// Returns the machine of these settings with a fit that another machine has saved. Settings that change the fit are
-    /// [pending](AlphaCalibrator::is_pending) here, as the log is elsewhere.
+    /// Creates a machine with a fit that another machine has saved. It has no log. Settings that need another fit are therefore
+    /// [pending](AlphaCalibrator::is_pending).
     ///
     /// # Errors
     /// [`RestoreError`] for settings out of range, or bytes of no fit.
@@ -131,12 +131,12 @@ impl AlphaCalibrator {
         &self.settings
     }
 
-    /// Settings of the fit. They differ from [`AlphaCalibrator::settings`] while these are pending.
+    /// Returns the settings of the fit. They differ from [`AlphaCalibrator::settings`] while those are pending.
     pub fn fitted_settings(&self) -> &Settings {
         &self.fit.settings
     }
 
-    /// Tells whether the settings need another fit, which only the machine with the log can make.
+    /// Returns true while the settings need another fit, which only the machine with the log can make.
     pub fn is_pending(&self) -> bool {
         !self.fit.settings.has_same_fit(&self.settings)
     }

@@ -23,8 +23,8 @@ pub const BINS: usize = 8;
 /// Minimum number of legs of a bin: the standard error of a mean of fewer is meaningless.
 const LEAST: usize = 5;
 
-/// Squared innovations of one noise component against a regressor x, less the parts of the other α and of the reference.
-/// Their expectation is α·x.
+/// Squared innovations of one noise component against a regressor x. The variances due to the other α and to the reference
+/// are subtracted, so that the expectation is α·x.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(
     target_arch = "wasm32",
@@ -34,9 +34,9 @@ const LEAST: usize = 5;
 pub struct Panel {
     /// Index of the α that is the slope, from 0.
     pub alpha: usize,
-    /// Means of the bins.
+    /// Means of the regressor in the bins.
     pub x: Vec<f64>,
-    /// Mean squared residuals, less the part of the other α.
+    /// Mean squared innovations of the bins, after that subtraction.
     pub y: Vec<f64>,
     /// Standard errors of `y`: from the scatter of the squares, or from the model, whichever is larger. In a bin with
     /// one dominating leg the scatter is too small.
@@ -46,8 +46,8 @@ pub struct Panel {
     pub interval: Option<[f64; 2]>,
 }
 
-/// Tells whether the first α of a noise multiplies the squared distance. It does for the translation, the sideways motion and every
-/// noise of the velocity model; for rotations it multiplies the squared rotation.
+/// Returns true if the first α of a noise component multiplies the squared distance. For rotations of the odometry models it
+/// multiplies the squared rotation.
 fn way_first(model: Model, kind: usize) -> bool {
     match model {
         Model::Odometry(OdometryRule::Omni) => kind > 0,

@@ -29,21 +29,21 @@ impl Words for Outliers {
 }
 
 settings! {
-    /// Everything that a user sets.
+    /// Settings of the user.
     pub struct Settings {
-        /// Model whose α’s are sought: four of odometry, five of a robot that can drive sideways, six of commands.
+        /// Model whose α’s are calibrated: four of odometry, five of a robot that can drive sideways, or six of commands.
         model: Model = Model::Odometry;
-        /// Rule that relates the α’s to the odometry’s noise; omni goes with the omnidirectional model, and with no other.
+        /// Rule that relates the α’s to the noise of odometry. The rule omni belongs to the omnidirectional model.
         rule: OdometryRule = OdometryRule::Table;
         /// Distribution of the noise in the predicted outcomes of a leg; the variances are the same.
         noise: NoiseKind = NoiseKind::Normal;
-        /// Treatment of outliers, as where the reference jumps: set aside, or fitted as noise.
+        /// Treatment of outliers, such as jumps of the reference: excluded, or fitted as noise.
         outliers: Outliers = Outliers::Reject;
-        /// A leg ends where the odometry is further away in x or in y: `update_min_d` of AMCL.
+        /// Distance in x or in y of the odometry after which a leg ends: `update_min_d` of AMCL.
         distance: f64 = 0.25, "m", in 0.01..=100.0;
-        /// A leg ends where the odometry has turned by more: `update_min_a` of AMCL.
+        /// Rotation of the odometry after which a leg ends: `update_min_a` of AMCL.
         angle: f64 = 0.2, "rad", in 0.01..=3.0;
-        /// Above 0, legs end after this time instead of by the odometry.
+        /// Duration of a leg; 0 for legs that end after a distance or rotation.
         duration: f64 = 0.0, "s", in 0.0..=1e3;
         /// Correction of the yaw at which the reference is mounted, if the log identifies it.
         mountYaw, by mount_yaw_mut;
@@ -61,7 +61,7 @@ settings! {
         yawStd, by yaw_std_mut, "rad", in 0.0..=1e3;
         /// Factor of the α’s in predictions.
         inflation: f64 = 1.0, in 0.01..=100.0;
-        // One whose intervals hold all of the true values: what everybody sees first should not be bad luck.
+        // With the default seed all intervals contain the true values.
         /// Seed of the simulated log.
         seed: u64 = 8, in 0..=MAX_SEED;
         kept {
@@ -118,7 +118,7 @@ impl Settings {
         *self = Self { inflation, noise, seed, ..*self };
     }
 
-    /// Returns true if other settings differ in those of the predicted cloud only, so that the fit to a log is the same.
+    /// Returns true if other settings have the same fit to a log: they differ in the predicted cloud only.
     pub(super) fn has_same_fit(&self, other: &Self) -> bool {
         let mut predicting = *self;
         predicting.copy_prediction_settings(other);

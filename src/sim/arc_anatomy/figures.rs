@@ -1,4 +1,4 @@
-//! Result of the inversion, and its likelihood.
+//! Arc between the two poses, and likelihood of the final pose.
 
 use super::Settings;
 use crate::geom::arc::{Arc, ArcInversion, invert_arc};
@@ -29,7 +29,7 @@ pub struct Bend {
 }
 
 impl Bend {
-    /// Returns the first part of the arc, a fraction of all of it.
+    /// Returns the first part of the arc, up to this fraction of its length.
     pub(super) fn arc(&self, start: SE2, share: f64) -> Arc {
         Arc { start, length: self.arc_length * share, turn: self.turn * share }
     }
@@ -48,7 +48,7 @@ impl Bend {
     }
 }
 
-/// One of the three factors of p.
+/// Factor of p, which is the product of three.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(target_arch = "wasm32", derive(serde::Serialize, tsify::Tsify), serde(rename_all = "camelCase"))]
 pub struct Factor {
@@ -58,7 +58,7 @@ pub struct Factor {
     pub residual: f64,
     /// Standard deviation σ of the noise.
     pub deviation: f64,
-    /// Residual over σ. Without noise it is 0 if the residual is 0 up to rounding, and infinite otherwise.
+    /// Residual divided by σ. Without noise it is 0 if the residual is 0 up to rounding, and infinite otherwise.
     pub deviations: f64,
     /// `prob` of the residual.
     pub value: f64,
@@ -116,8 +116,8 @@ pub(super) fn inverted(settings: &Settings) -> ArcInversion {
     ArcInversion { omega_hat: executed.omega_hat + 0.0, ..executed }
 }
 
-/// As [`inverted`], or with the unsigned radius r* of Table 5.1: v̂ = Δθ/Δt · r* then has the sign of Δθ, which is
-/// wrong if the centre is to the right of the heading.
+/// Returns the inverted arc with the radius that the settings select. With the unsigned radius r* of Table 5.1,
+/// v̂ = Δθ/Δt · r* has the sign of Δθ. That sign is wrong if the centre is to the right of the heading.
 pub(super) fn estimated(settings: &Settings) -> ArcInversion {
     let executed = inverted(settings);
     let ArcInversion { v_hat, omega_hat, .. } = executed;

@@ -15,10 +15,10 @@ pub const CHAPTERS_THRESHOLD: f64 = 1e-6;
 const DECADES: [i32; 2] = [-12, 1];
 const A_DECADE: i32 = 8;
 
-/// Number of headings over which the error is averaged (root mean square), because it varies from one to the next.
+/// Number of headings over which the error is averaged (root mean square).
 const HEADINGS: u32 = 24;
 
-/// Root mean square error (m) of the end of the exercise's motion over all headings, by the turn rate.
+/// Root mean square errors (m) of the end position over all headings, for each turn rate.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FormErrors {
     /// Turn rates, rad/s.
@@ -48,11 +48,11 @@ pub fn form_errors() -> FormErrors {
     }
 }
 
-/// Returns the errors of the arc, the straight line and the chord.
+/// Returns the root mean square errors of the arc, the straight line and the chord.
 fn root_mean_squares(omega: f64) -> [f64; 3] {
     let mut squares = [0.0; 3];
     for i in 0..HEADINGS {
-        // No heading is along an axis, where one of the coordinates would be exact.
+        // The headings avoid the axes, along which one of the coordinates would be exact.
         let theta = TAU * (f64::from(i) + 0.37) / f64::from(HEADINGS) - 0.5 * TAU;
         let truth = reference(theta, omega);
         let forms = [arc_form(theta, omega), straight_form(theta), chord_form(theta, omega)];
@@ -86,7 +86,7 @@ fn chord_form(theta: f64, omega: f64) -> [f64; 2] {
     [cos * ahead - sin * left, sin * ahead + cos * left]
 }
 
-/// Returns the end of the motion of these doubles, in twice their digits.
+/// Returns the end of the motion in double-double arithmetic.
 pub fn reference(theta: f64, omega: f64) -> [DoubleDouble; 2] {
     let half = DoubleDouble::product(0.5 * omega, DURATION);
     let distance = DoubleDouble::product(SPEED, DURATION) * half.sinc();

@@ -1,4 +1,4 @@
-//! Arc Anatomy: the arc between two poses, what it says was driven, and how likely that is (Tables 5.1 and 5.3).
+//! Arc Anatomy: the arc between two poses, the motion that it implies, and the likelihood of that motion (Tables 5.1 and 5.3).
 
 mod figures;
 mod forms;
@@ -16,28 +16,28 @@ use super::settings::{Rules, SettingsError};
 use crate::geom::arc::Departure;
 use crate::geom::se2::SE2;
 
-/// Chords of the Lie path.
+/// Number of chords of the path of the constant twist.
 const LIE_CHORDS: usize = 64;
-/// Ticks on the Lie path, at equal times.
+/// Number of ticks on the path of the constant twist, at equal intervals of time.
 const LIE_TICKS: usize = 8;
 
 /// Lines of the picture: x, y of their points in m.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Paths {
-    /// The way that the command drives without noise.
+    /// Noise-free arc of the command.
     pub commanded: Vec<[f64; 2]>,
-    /// The arc to the final position.
+    /// Arc to the final position.
     pub inverted: Vec<[f64; 2]>,
-    /// The arc that v̂ and ω̂ drive.
+    /// Arc that v̂ and ω̂ drive.
     pub driven: Vec<[f64; 2]>,
-    /// The way of a body that moves by the constant twist ξ: start · exp(tξ), t from 0 to 1. Where γ̂ ≠ 0 it is not the arc
-    /// that was driven, and has a lateral velocity, which no wheel allows.
+    /// Path of the constant twist ξ: start · exp(tξ) for t from 0 to 1. If γ̂ ≠ 0 it differs from the driven arc, and has a
+    /// lateral velocity, which wheels do not allow.
     pub lie: Vec<[f64; 2]>,
-    /// Lines from points of the path `lie`, each along the displacement that its lateral velocity alone would make in Δt.
+    /// Line segments that start on the path `lie`. Each is the displacement that the lateral velocity there would cause in Δt.
     pub ticks: Vec<[f64; 4]>,
 }
 
-/// The simulation behind the widget. All of it follows from the settings at once.
+/// Simulation of the widget. All results are computed from the settings when they change.
 #[derive(Clone, Debug)]
 pub struct ArcAnatomy {
     settings: Settings,
@@ -90,8 +90,8 @@ impl ArcAnatomy {
         }
     }
 
-    /// Returns the poses of the robot on the commanded arc, on the one that v̂ and ω̂ drive, and on the way of constant twist, after a
-    /// share of the time, from 0 to 1.
+    /// Returns the poses after a fraction of the time, from 0 to 1: on the commanded arc, on the arc that v̂ and ω̂ drive, and on
+    /// the path of the constant twist.
     pub fn underway(&self, share: f64) -> [SE2; 3] {
         let start = self.settings.start();
         let Stats { commanded, driven, .. } = self.stats();
@@ -99,8 +99,8 @@ impl ArcAnatomy {
         [commanded.arc(start, share).end(), driven.arc(start, share).end(), start.boxplus(xi * share)]
     }
 
-    /// Returns the map over positions in the rectangle from `min` to `max` (m, `min` below `max` in both coordinates); None if
-    /// no map is selected.
+    /// Returns the heat map over the rectangle from `min` to `max` (m, `min` below `max` in both coordinates); None if no heat
+    /// map is selected.
     pub fn surface(&self, min: [f64; 2], max: [f64; 2]) -> Option<Surface> {
         Surface::of(&self.settings, min, max)
     }

@@ -5,7 +5,7 @@ use crate::models::{VelocityAlphas, VelocityCmd, VelocityModel};
 use crate::noise::NoiseKind;
 use crate::sim::settings::{ALPHA, QUANTITY, Rules, Words, group, settings};
 
-/// The pose whose likelihood is asked for.
+/// Pose whose likelihood is computed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FinalPose {
     pub x: f64,
@@ -49,7 +49,7 @@ const fn preset(name: &'static str, [v, omega]: [f64; 2], [x, y, theta]: [f64; 3
     Preset { name, command: VelocityCmd { v, omega, dt: 1.0 }, next: FinalPose { x, y, theta } }
 }
 
-/// The same arc to the left, to the right and in reverse, and none.
+/// Presets: an arc to the left, its mirror images to the right and in reverse, and a straight drive.
 pub const PRESETS: [Preset; 4] = [
     preset("left", [1.0, 0.5], [1.1, 0.5, 1.1]),
     preset("right", [1.0, -0.5], [1.1, -0.5, -1.1]),
@@ -58,9 +58,9 @@ pub const PRESETS: [Preset; 4] = [
 ];
 
 settings! {
-    /// Everything that a user sets.
+    /// Settings of the user.
     pub struct Settings {
-        /// The pose that the robot starts from.
+        /// Start pose of the robot.
         start: [f64; 3] = [0.0; 3];
         /// Pose of the robot after the command.
         next: FinalPose = PRESETS[0].next;
@@ -70,14 +70,14 @@ settings! {
         alphas: [f64; 6] = [0.05, 0.05, 0.05, 0.09, 0.01, 0.01], in ALPHA;
         /// Distribution of the noise; the variances are the same.
         noise: NoiseKind = NoiseKind::Normal;
-        /// True for a radius without sign, as Table 5.1 prints it.
+        /// True for a radius without a sign, as Table 5.1 prints it.
         printed: bool = false;
         /// Quantity of the heat map over all positions, at the heading of the final pose.
         map: Mapped = Mapped::Nothing;
     }
 }
 
-/// Description of each noise parameter, which in a page is an attribute of its own.
+/// Descriptions of the noise parameters from α₁ on. In a page each parameter has its own attribute.
 #[cfg(not(target_arch = "wasm32"))]
 pub const ALPHA_SENTENCES: [&str; 6] = ["Noise parameter of the velocity model."; 6];
 

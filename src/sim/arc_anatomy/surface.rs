@@ -1,35 +1,36 @@
-//! p and the density of the sampler over positions, for the heading of the final pose.
+//! Heat map of p, or of the density of the sampler, over positions. The heading is that of the final pose.
 
 use super::figures::prob;
 use super::{FinalPose, Mapped, Settings};
 use crate::models::MotionModel;
 use crate::stats::level_set;
 
-/// Exponentials that a map may take, some milliseconds' work on a phone: cells become larger where noise could turn the robot
-/// round many times, each of which counts.
+/// Maximum number of exponentials for a heat map, which take some milliseconds on a phone. The density sums over the full turns
+/// that noise may cause. If there are many, the heat map has fewer and larger cells.
 const MOST_EXPONENTIALS: f64 = 1e5;
 
-/// Windings of the last turn that are summed at most: those of nine deviations of up to nine radians.
+/// Maximum number of full turns over which the density of the last turn is summed: nine standard deviations of up to nine
+/// radians.
 const LAST_TURNS: f64 = 27.0;
 
-/// Contours are at these shares of the highest value.
+/// Values of the contours, relative to the maximum.
 pub const LEVELS: [f64; 3] = [0.5, 0.1, 0.01];
 
-/// A map of positions.
+/// Heat map over positions.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Surface {
     pub columns: usize,
     pub rows: usize,
-    /// Values of the heat map over its highest one, in 255ths: cell by cell, row by row from the top. All 0 where a noise has no
-    /// variance.
+    /// Values of the cells from 0 to 255, relative to the maximum; row by row from the top. All are 0 if a noise has no variance.
     pub shades: Vec<u8>,
-    /// Contours of p and of the density, of the outermost level last; x, y, m.
+    /// Contours of p, those of the lowest level last, as (x, y) in m.
     pub prob: Vec<Vec<[f64; 2]>>,
+    /// Contours of the density, in the same order.
     pub density: Vec<Vec<[f64; 2]>>,
 }
 
 impl Surface {
-    /// Returns the map of a rectangle from `min` to `max`; None if no map is selected.
+    /// Returns the heat map of a rectangle from `min` to `max`; None if no heat map is selected.
     pub(super) fn of(settings: &Settings, min: [f64; 2], max: [f64; 2]) -> Option<Self> {
         if settings.map == Mapped::Nothing {
             return None;
@@ -42,14 +43,14 @@ impl Surface {
         let rows = (most / columns).max(1.0).floor();
         let side = [width / columns, height / rows];
         let (columns, rows) = (columns as usize, rows as usize);
-        // The middle of a cell, counted from the top.
+        // Returns the centre of a cell.
         let place =
             |[column, row]: [f64; 2]| [min[0] + (column + 0.5) * side[0], max[1] - (row + 0.5) * side[1]];
         let field = |value: &dyn Fn(&Settings) -> f64| -> Vec<f64> {
             let at = |i: usize| {
                 let [x, y] = place([(i % columns) as f64, (i / columns) as f64]);
                 let next = FinalPose { x, y, theta: settings.next.theta };
-                // Infinite where the robot has not moved at all.
+                // The density is infinite at the start pose.
                 value(&Settings { next, ..*settings }).min(f64::MAX)
             };
             (0..columns * rows).map(at).collect()
@@ -62,7 +63,7 @@ impl Surface {
         let shade = |value: &f64| if most > 0.0 { (255.0 * (value / most)).round() as u8 } else { 0 };
         let contours = |values: &[f64]| {
             let top = highest(values);
-            // Lines are interpolated between logarithms, which bend less between the cells.
+            // Contours are interpolated between logarithms, which are closer to linear between cells.
             let logs: Vec<f64> = values.iter().map(|value| libm::log(value.max(f64::MIN_POSITIVE))).collect();
             let levels = LEVELS.iter().filter(|_| top > 0.0).map(|share| libm::log(share * top));
             let lines = levels.flat_map(|level| level_set(&logs, columns, level));

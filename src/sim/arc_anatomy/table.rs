@@ -1,12 +1,12 @@
-//! Table 5.1 line by line.
+//! Values of each line of Table 5.1.
 
 use super::Settings;
 use super::figures::{Stats, estimated, inverted};
 use crate::geom::arc::ArcInversion;
 
-/// Values of the lines of Table 5.1, in their order; line 4 is signed unless the settings ask for it as printed.
+/// Values of the lines of Table 5.1. Line 4 is signed, unless the settings select the unsigned radius.
 ///
-/// Where the displacement is parallel to the heading μ, the centre and r* are infinite, and where there is none μ is NaN.
+/// μ, the centre and r* are infinite if the displacement is parallel to the heading. μ is NaN without a displacement.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(
     target_arch = "wasm32",
@@ -17,24 +17,24 @@ use crate::geom::arc::ArcInversion;
 pub struct Table {
     /// μ, x* (m), y* (m), r* (m), Δθ (rad), v̂ (m/s), ω̂ (rad/s), γ̂ (rad/s) and p.
     pub lines: [f64; 9],
-    /// The middle between both positions, from which the centre is μ times `normal` away, m.
+    /// Midpoint of both positions, m. The centre is the midpoint plus μ times `normal`.
     pub middle: [f64; 2],
-    /// (y − y′, x′ − x): the displacement turned by a quarter, to the left, m.
+    /// Displacement rotated by a quarter turn to the left, m: (y − y′, x′ − x).
     pub normal: [f64; 2],
 }
 
 impl Table {
-    /// With (a, b) the displacement in the frame of the start, the numerator of line 1 is −a and its denominator −b.
+    /// Computes the lines. With the displacement (a, b) in the frame of the start, line 1 is ½ · (−a)/(−b).
     pub(super) fn of(settings: &Settings, stats: &Stats) -> Self {
         let (start, next) = (settings.start(), settings.next());
         let step = start.inverse() * next;
         let executed @ ArcInversion { v_hat, omega_hat, gamma_hat } = estimated(settings);
-        // The centre is where it is, whatever sign its distance is printed with.
+        // The centre does not depend on the sign of the radius.
         let [x, y] = inverted(settings).centre(&start).unwrap_or([f64::INFINITY; 2]);
         let turn = omega_hat * settings.command.dt;
         Self {
             lines: [
-                // The half of the smallest double would be 0.
+                // The quotient is halved last, because half of the smallest double is 0.
                 0.5 * (step.x() / step.y()),
                 x,
                 y,

@@ -12,7 +12,7 @@ use crate::stats::{
 };
 use nalgebra::{ArrayStorage, Matrix3, Vector3};
 
-/// Statistics of the shown samples. They are NaN if undefined (no spread, or too few samples).
+/// Statistics of the shown samples. They are NaN if all samples are equal, or if there are too few.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Figures {
     pub cartesian: CartesianMoments,
@@ -20,13 +20,13 @@ pub struct Figures {
     pub cross_track: CrossTrack,
     /// Cross-track skew of the Gaussian with the moments of the samples in exponential coordinates.
     pub gaussian_skew: f64,
-    /// Fractions of the samples inside the two 2σ contours.
+    /// Fraction of the samples inside the 2σ ellipse in (x, y).
     pub inside_ellipse: f64,
+    /// Fraction of the samples inside the 2σ contour in exponential coordinates.
     pub inside_exponential: f64,
-    /// Gain in mean log-likelihood of a Gaussian in exponential coordinates, or in arc coordinates, over one in (x, y,
-    /// θ).
+    /// Gain in mean log-likelihood of Gaussians in exponential and in arc coordinates over those in (x, y, θ) and (x, y).
     pub gain: MeasuredGain,
-    /// Area of the 2σ ellipse in (x, y) over the area of the 2σ outline of exponential coordinates on the floor.
+    /// Area of the 2σ ellipse in (x, y), divided by that of the 2σ outline of exponential coordinates in the plane.
     pub area_ratio: f64,
     /// Standard error of `area_ratio`.
     pub area_ratio_error: f64,
@@ -76,8 +76,7 @@ impl Figures {
         let mut figures = Self { cartesian, cross_track, inside_ellipse, gain, ..Self::NONE };
         if charted.pose {
             figures.exponential = exponential;
-            // If all positions coincide the shape is undefined, although headings may spread the exponential
-            // coordinates.
+            // The shape is undefined if all positions are equal. Exponential coordinates may then differ, because of the headings.
             if !ellipse.is_point() {
                 figures.gaussian_skew = predicted_cross_track_skew(&exponential.mean, &exponential.cov);
                 figures.inside_exponential = inside_exponential;
@@ -130,7 +129,7 @@ impl serde::Serialize for Stats {
     }
 }
 
-/// Moments of the pose, in m and rad, and the measures of its banana.
+/// Moments of the pose, in m and rad, and measures of how far its distribution is from a Gaussian.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(target_arch = "wasm32", derive(serde::Serialize, tsify::Tsify), serde(rename_all = "camelCase"))]
 pub struct TableColumn {
@@ -157,7 +156,7 @@ pub struct TableColumn {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(target_arch = "wasm32", derive(serde::Serialize, tsify::Tsify), tsify(missing_as_null))]
 pub struct Table {
-    /// Noise-free end, and covariance to first order in the noise.
+    /// Noise-free end pose, and covariance to first order in the noise.
     pub linearized: TableColumn,
     /// Moments by quadrature.
     pub exact: TableColumn,
@@ -168,8 +167,8 @@ pub struct Table {
     pub tangent: Option<ExponentialMoments>,
 }
 
-/// The curves drawn over the cloud, as (x, y) in m but for `twist_ellipse`, (m, rad). Outlines are closed; empty
-/// where fewer than two samples are shown, or without a chart to be drawn in.
+/// Curves over the cloud, as (x, y) in m. Outlines are closed. They are empty for fewer than two samples, or if their
+/// coordinates are undefined.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Contours {
     /// Commanded arc, not closed.

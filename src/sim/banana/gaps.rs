@@ -1,4 +1,4 @@
-//! Parts of the floor that only the ellipse in (x, y) covers.
+//! Parts of the 2σ ellipse in (x, y) where no robot stops.
 
 use super::{BananaMachine, OUTLINE_SEGMENTS};
 use crate::geom::arc::arc_near;
@@ -6,18 +6,18 @@ use crate::geom::se2::SE2;
 use crate::sim::cloud::START;
 use crate::stats::{Ellipse, ExponentialContour};
 
-/// Minimum area ratio at which such parts are shown. Below it the outlines nearly coincide.
+/// Minimum area ratio for gaps. Below it the outlines nearly coincide.
 const LEAST_RATIO: f64 = 1.15;
 
-/// Minimum distance (standard deviations) from the mean in exponential coordinates. One robot in 900 stops beyond it.
-const NOBODY: f64 = 3.7;
+/// Minimum Mahalanobis distance of a gap from the mean in exponential coordinates. One robot in 900 stops beyond it.
+const MIN_DISTANCE: f64 = 3.7;
 
 /// Fraction of the way from the centre of the ellipse to its boundary: a point there is clearly inside.
 const INSIDE: f64 = 0.95;
 
 impl BananaMachine {
-    /// Returns places (x, y) in m, inside of the 2σ ellipse, where no robot stops: the one furthest outside of the outline in
-    /// exponential coordinates, and the one on the other side of the cloud. Empty where the outlines nearly coincide.
+    /// Returns up to two points (x, y) in m that are inside the 2σ ellipse, and where no robot stops. On each side of the
+    /// mean, short of it and beyond it, it is the point with the largest distance in exponential coordinates.
     pub fn gaps(&self) -> Vec<[f64; 2]> {
         let Self { figures, .. } = self;
         if figures.area_ratio.is_nan() || figures.area_ratio < LEAST_RATIO {
@@ -34,7 +34,7 @@ impl BananaMachine {
                 let (length, turn) = arc_near(&START, &SE2::new(x, y, 0.0), mean.z);
                 ([x, y], contour.ellipse().distance([length, turn]), length < mean.x)
             })
-            .filter(|(_, distance, _)| *distance > NOBODY)
+            .filter(|(_, distance, _)| *distance > MIN_DISTANCE)
             .collect();
         let furthest = |before: bool| {
             let side = candidates.iter().filter(|(_, _, is_before)| *is_before == before);

@@ -30,7 +30,7 @@ use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::TAU;
 
 impl Settings {
-    /// Returns the current model, with its control for a command.
+    /// Returns the current model with its input for a command: the command itself, or the noise-free odometry reading of it.
     fn motion(&self, command: VelocityCmd) -> Motion {
         match self.model {
             ModelKind::Velocity => {
@@ -41,19 +41,19 @@ impl Settings {
                 let alphas = OdomAlphas(self.effective(self.odometry_alphas));
                 let reading = OdomDelta::from_poses(&START, &command_end(&command));
                 let model = OdometryModel { alphas, noise: self.noise };
-                Motion::Odometry(Wheels { model, reverse_aware: self.reverse_aware }, reading)
+                Motion::Odometry(ConfiguredOdometry { model, reverse_aware: self.reverse_aware }, reading)
             }
         }
     }
 }
 
 /// Odometry model with the current settings.
-struct Wheels {
+struct ConfiguredOdometry {
     model: OdometryModel,
     reverse_aware: bool,
 }
 
-impl Hinges for Wheels {
+impl Hinges for ConfiguredOdometry {
     fn noise(&self) -> NoiseKind {
         self.model.noise
     }
@@ -67,10 +67,10 @@ impl Hinges for Wheels {
     }
 }
 
-/// Model with its control.
+/// Motion model with its input.
 enum Motion {
     Velocity(VelocityModel, VelocityCmd),
-    Odometry(Wheels, OdomDelta),
+    Odometry(ConfiguredOdometry, OdomDelta),
 }
 
 impl Motion {
@@ -114,8 +114,8 @@ impl Motion {
     }
 }
 
-/// Returns the command whose arc ends at (x, y), with the duration of `near`. Several arcs lead there, forward or in
-/// reverse and with more turns; the one whose turn is nearest to that of `near` is taken.
+/// Returns the command whose arc ends at (x, y), with the duration of `near`. Of all arcs that lead there, it is the one
+/// whose turn is nearest to that of `near`.
 pub fn command_reaching(x: f64, y: f64, near: &VelocityCmd) -> VelocityCmd {
     let dt = near.dt;
     let (length, turn) = arc_near(&START, &SE2::new(x, y, 0.0), near.omega * dt);
@@ -137,22 +137,21 @@ fn command_end(command: &VelocityCmd) -> SE2 {
     SE2::exp(&TangentNoiseModel::twist(command))
 }
 
-/// Number of standard deviations by which the turn must stay below a full circle for exponential coordinates to be
-/// usable. At a full circle ξ diverges. With a smaller number, single samples of a large cloud would dominate its
-/// moments.
+/// Minimum distance of the mean turn from a full circle, in standard deviations, for exponential coordinates to be usable.
+/// At a full circle ξ diverges. With a smaller distance, single samples of a large cloud would dominate its moments.
 const CHART_SIGMAS: f64 = 4.0;
 
 /// Maximum number of points of a skew curve. Each takes about ten microseconds.
 pub const MAX_CURVE_POINTS: u64 = 10_000;
 
-/// Standard deviation (m) of noise that is added to the pose: √(½ tr Σ) of x and y on the gentle arc, rounded. It fits
-/// no other distance.
+/// Standard deviation (m) of the noise that [`BananaMachine::additive`] adds to x and y. It is √(½ tr Σ) on the arc of the
+/// preset "gentle", rounded. It fits no other distance.
 pub const ADDITIVE_DEVIATION: f64 = 0.2;
 
-/// Samples of the first block, which takes a few milliseconds.
+/// Number of samples of the first block, which takes a few milliseconds.
 const FIRST_BLOCK: usize = 25_000;
 
-/// Chords of an outline: at 128 the sagitta is 0.03 % of the radius, a fifth of a pixel on the largest screen.
+/// Number of chords of an outline. The sagitta of 128 chords is 0.03 % of the radius, a fifth of a pixel on the largest screen.
 pub const OUTLINE_SEGMENTS: usize = 128;
 
 /// Simulation of the widget: settings, draws, and the cloud shown.
@@ -202,7 +201,7 @@ impl BananaMachine {
         Ok(())
     }
 
-    /// Changes the settings and shows the first block of `goal` samples. The others are for [`BananaMachine::add_samples`].
+    /// Changes the settings and shows the first block of `goal` samples. [`BananaMachine::add_samples`] shows the others.
     ///
     /// # Errors
     /// As [`BananaMachine::configure`].
@@ -250,7 +249,7 @@ impl BananaMachine {
         (0..self.shown()).map(|index| self.cloud.pose(index))
     }
 
-    /// Sample `index` of those shown.
+    /// Returns the pose of a shown sample.
     pub fn pose(&self, index: usize) -> Option<SE2> {
         (index < self.shown()).then(|| self.cloud.pose(index))
     }
@@ -309,8 +308,8 @@ impl BananaMachine {
         }
     }
 
-    /// Returns the moments of the model that the chapter argues against: noise added to the noise-free end x̄. x_t = x̄ + ε with ε ~
-    /// N(0, [`ADDITIVE_DEVIATION`]²·I) in x and y, independent of the command and the α's.
+    /// Returns the moments of additive noise, the model that the chapter argues against: x_t = x̄ + ε with the noise-free end
+    /// x̄ and ε ~ N(0, [`ADDITIVE_DEVIATION`]²·I) in x and y. It does not depend on the command and the α's.
     pub fn additive(&self) -> CartesianMoments {
         let variance = ADDITIVE_DEVIATION * ADDITIVE_DEVIATION;
         let cov = Matrix3::from_diagonal(&Vector3::new(variance, variance, 0.0));
@@ -333,7 +332,7 @@ impl BananaMachine {
         let linearized = self.linearized();
         let Figures { cartesian, cross_track, gain, area_ratio, .. } = self.figures;
         Table {
-            // A Gaussian in (x, y) has no skew. To first order, Gaussians in other coordinates are equal to it.
+            // A Gaussian in (x, y) has no skew. To first order in the noise, Gaussians in all coordinates are equal.
             linearized: TableColumn {
                 mean: linearized.mean,
                 cov: linearized.cov,
@@ -362,8 +361,8 @@ impl BananaMachine {
         TableColumn { mean, cov, cross_track_skew, likelihood_gain: gain.value, area_ratio }
     }
 
-    /// Returns the exact cross-track skew at `points` evenly spaced rotational velocities from `first` to `last`
-    /// (rad/s), with all other settings as they are.
+    /// Returns the exact cross-track skew at `points` evenly spaced turn rates from `first` to `last` (rad/s), with all other
+    /// settings unchanged.
     pub fn skew_curve(&self, first: f64, last: f64, points: usize) -> Vec<f64> {
         let step = (last - first) / (points.max(2) - 1) as f64;
         (0..points)
@@ -403,8 +402,8 @@ impl BananaMachine {
         Some(Sample { pose, twist: self.twist(&pose), executed, path })
     }
 
-    /// Returns the executed motions of the samples shown: v̂ (m/s), ω̂ and γ̂ (rad/s), or under the odometry model δ̂_rot1 (rad),
-    /// δ̂_trans (m) and δ̂_rot2 (rad).
+    /// Returns the executed motions of the samples shown: v̂ (m/s), ω̂ and γ̂ (rad/s). Under the odometry model they are
+    /// δ̂_rot1 (rad), δ̂_trans (m) and δ̂_rot2 (rad).
     pub fn executed(&self) -> impl ExactSizeIterator<Item = [f64; 3]> {
         let motion = self.settings.motion(self.settings.command);
         (0..self.shown()).map(move |index| match motion.executed(self.cloud.unit_noise(index)) {

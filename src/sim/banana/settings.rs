@@ -22,11 +22,11 @@ impl Words for NoiseKind {
         &[("normal", Self::Normal), ("triangular", Self::Triangular)];
 }
 
-/// Ten million poses take 400 MB; a page in a browser may have 4 GB.
+/// Maximum number of samples, which take 400 MB. A browser allows a page 4 GB.
 pub const MAX_SAMPLES: usize = 10_000_000;
 
-/// Number of samples that moves within a frame on a device four times slower than a laptop, together with the pictures.
-/// The standard error of the initial skew is 0.007.
+/// Initial number of samples. A device four times slower than a laptop computes and draws them within a frame. The standard
+/// error of the initial skew is 0.007.
 const OPENING_SAMPLES: usize = 50_000;
 
 /// Seed from 0 to 99 whose initial cloud has the area ratio and gain nearest to the exact values, so that the first
@@ -34,13 +34,13 @@ const OPENING_SAMPLES: usize = 50_000;
 const OPENING_SEED: u64 = 87;
 
 settings! {
-    /// Everything that a user sets.
+    /// Settings of the user.
     pub struct Settings {
         /// Model of the noise; each model keeps its own alphas.
         model: ModelKind = ModelKind::Velocity;
         /// Distribution of the noise; the variances are the same.
         noise: NoiseKind = NoiseKind::Normal;
-        /// The same for every robot.
+        /// Command of all robots.
         command: VelocityCmd = BANANA.command;
         /// Noise parameters of the present model: six of the velocity model, four of the odometry model.
         alphas, by alphas_mut, in ALPHA;
@@ -48,9 +48,9 @@ settings! {
         reverseAware, by reverse_aware_mut;
         /// Number of the only noise parameter in effect; null for all of them.
         isolate: Option<usize> = None, in 1..=6, up to alpha_count;
-        /// Robots in the whole cloud.
+        /// Number of robots in the whole cloud.
         samples: usize = OPENING_SAMPLES, in 1..=MAX_SAMPLES as u64;
-        /// The same seed is the same robots.
+        /// Seed of the random numbers. Equal seeds draw equal robots.
         seed: u64 = OPENING_SEED, in 0..=MAX_SEED;
         kept {
             /// Each model keeps its own α's, so that switching between models loses nothing.
@@ -62,7 +62,7 @@ settings! {
     }
 }
 
-/// Description of each noise parameter, the first of which is α₁; in a page each is an attribute of its own.
+/// Descriptions of the noise parameters from α₁ on. In a page each parameter has its own attribute.
 #[cfg(not(target_arch = "wasm32"))]
 pub const ALPHA_SENTENCES: [&str; 6] = {
     let (of_present, of_velocity) =
@@ -104,7 +104,7 @@ impl Settings {
 
 impl Rules for Settings {
     fn settle(&mut self, before: &Self, named: &[&str]) {
-        // The numbers of the α's mean other noises in the other model.
+        // An α of the same number has another meaning in the other model.
         if self.model != before.model && !named.contains(&"isolate") {
             self.isolate = None;
         }
@@ -127,11 +127,11 @@ const fn preset(name: &'static str, [v, omega, dt]: [f64; 3], alphas: [f64; 6]) 
 /// Noise parameters of presets that differ in the command.
 const USUAL_ALPHAS: [f64; 6] = [0.05, 0.05, 0.05, 0.09, 0.01, 0.01];
 
-/// Straight drive with much noise in the turn and little along the way. By symmetry its cloud has no skew, and yet no ellipse
-/// fits: the most visible banana.
+/// Straight drive with much noise in the turn and little in the length: the clearest banana shape. By symmetry its cloud has
+/// no skew, although no ellipse fits it.
 const BANANA: Preset = preset("banana", [1.0, 0.0, 2.0], [0.002, 0.002, 0.1, 0.1, 0.002, 0.002]);
 
-/// The chapter's four commands, the most visible banana, and the chapter's example to check by hand.
+/// Presets: the four commands of the chapter, the clearest banana shape, and the chapter's example to check by hand.
 pub const PRESETS: [Preset; 6] = [
     preset("straight", [1.0, 0.0, 2.0], USUAL_ALPHAS),
     preset("gentle", [1.0, 0.5, 1.0], USUAL_ALPHAS),

@@ -9,16 +9,17 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 use std::collections::TryReserveError;
 use wide::f64x4;
 
-/// Standard errors are expensive, and computed from a weighted subset of the groups of four robots. A few distant
-/// robots may contribute most of a variance, so more of the distant groups are used. The distance of a group is the
-/// largest sum of squared unit noises of its robots: near, far or farthest. With Gaussian noise 1.8 % of the groups are
-/// far and 0.07 % farthest; with triangular noise none is farthest.
+/// Thresholds for the squared distance of a group of four robots: near, far or farthest. The squared distance of a robot is
+/// the sum of its squared unit noises, and that of a group the largest of its robots.
+///
+/// Standard errors are expensive, and computed from a weighted subsample of the groups. A few distant robots may contribute
+/// most of a variance, so that distant groups are sampled more densely. With Gaussian noise 1.8 % of the groups are far and
+/// 0.07 % farthest. With triangular noise none is farthest.
 const FAR: f64 = 13.0;
 const FARTHEST: f64 = 20.0;
 
-/// Number of leading groups of four from which a group enters the sample, by the distance of its draws from 0. All groups of the
-/// first 2048 robots are in the sample, far ones of the first 65 536, and the farthest of all. With fewer, standard errors would be
-/// wrong in the first digit and intervals would not cover; with more, every event would take noticeably longer.
+/// Number of leading groups that are in the subsample, for near, far and farthest ones: those of the first 2048 robots, of
+/// the first 65 536, and all. Fewer would make the first digit of standard errors wrong. More would take noticeable time.
 const REACH: [usize; 3] = [512, 16_384, usize::MAX];
 
 /// Returns the entry of [`REACH`] for a group of four draws.
@@ -29,20 +30,21 @@ fn reach([a, b, c]: &[f64x4; 3]) -> usize {
     REACH[shell]
 }
 
-/// Three unit-variance variates a sample, in sample order. Depends on seed and kind alone, so that a slider moves the
-/// same robots, a larger cloud begins with the smaller one, and both kinds of noise come from the same uniforms.
+/// Random numbers of all samples: three of variance 1 for each, in sample order. They depend only on the seed and the kind of
+/// noise. Therefore a slider moves the same robots, and a larger cloud begins with the robots of a smaller one. Both kinds of
+/// noise are made from the same uniform numbers.
 #[derive(Clone, Debug)]
 pub struct Draws {
     seed: u64,
     noise: NoiseKind,
-    /// Xoshiro256++ by name: the same stream on every target, which `SmallRng` does not promise.
+    /// Generator with the same stream on every target, which `SmallRng` does not guarantee.
     rng: Xoshiro256PlusPlus,
     /// Draws in groups of four samples.
     unit_noise: Vec<[f64x4; 3]>,
     /// Sums over the first `summed` groups, in complete blocks. They stay valid while a slider moves the robots.
     sums: PairSums,
     summed: usize,
-    /// The farthest of those entries, in ascending order, but for those among which the far ones are found.
+    /// Indices of farthest groups among the first `summed`, in ascending order. Those below `REACH[1]` are not listed.
     farthest: Vec<usize>,
 }
 
@@ -88,7 +90,7 @@ impl Draws {
         noise.quantiles(unit_noise.get_mut(first..).unwrap_or_default().as_flattened_mut());
     }
 
-    /// Sums over the first `fours` entries, and finds the farthest, as far as they fill blocks.
+    /// Adds the complete blocks among the first `fours` groups to the sums, and lists their farthest groups.
     #[inline(never)]
     pub fn sum_to(&mut self, fours: usize) {
         while fours >= self.summed + BLOCK {
@@ -101,8 +103,7 @@ impl Draws {
         }
     }
 
-    /// Returns the sums of the first two noises, of their squares and of their product over `count` samples, which must
-    /// have been drawn.
+    /// Returns the sums of the first two noises, of their squares and of their product over `count` drawn samples.
     #[inline(never)]
     pub fn pair_sums(&mut self, count: usize) -> [f64; 5] {
         let fours = count / LANES;
@@ -120,13 +121,13 @@ impl Draws {
         sums.finish()
     }
 
-    /// All unit noise drawn so far, four samples an entry; the last four may be more than was asked for.
+    /// Returns all unit noise drawn so far, in groups of four samples. The last group may have additional samples.
     pub fn fours(&self) -> &[[f64x4; 3]] {
         &self.unit_noise
     }
 
-    /// Returns a sample of the `count` robots that were summed last, in fours: their noise, and how many robots each of
-    /// them stands for, none if it is not there. Up to 2048 robots are all in it.
+    /// Returns the weighted subsample of the first `count` robots, in groups of four: unit noise, and the number of robots
+    /// that each robot represents. Lanes beyond `count` have the weight 0. All of up to 2048 robots are in it.
     pub fn sample(&self, count: usize) -> impl Iterator<Item = (&[f64x4; 3], f64x4)> {
         let fours = count.div_ceil(LANES);
         let late = self.farthest.iter().copied().chain(self.summed.max(REACH[1])..fours);

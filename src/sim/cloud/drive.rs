@@ -9,11 +9,11 @@ use wide::f64x4;
 /// Affine function of a unit noise: mean + deviation · noise.
 type Affine = [f64; 2];
 
-/// A motion under given settings; its three unit noises are in the order of the model's draws.
+/// Motion under given settings. Its three unit noises are in the order of the model's draws.
 ///
-/// The arc of length s and turn φ ends at distance s·sinc(φ/2) on the bearing φ/2, heading φ + γ̂Δt. The three legs end
-/// at distance δ̂_trans on the bearing δ̂_rot1, heading δ̂_rot1 + δ̂_rot2. Both bearings, both distances but for the sinc,
-/// and both headings are affine in the noises.
+/// An arc of length s and turn φ ends at the distance s·sinc(φ/2) on the bearing φ/2, with the heading φ + γ̂Δt. The three
+/// legs end at the distance δ̂_trans on the bearing δ̂_rot1, with the heading δ̂_rot1 + δ̂_rot2. Lengths, bearings and
+/// headings are affine functions of the noises.
 #[derive(Clone, Copy, Debug)]
 pub struct Drive {
     /// True if the length is that of an arc, whose chord is shorter.
@@ -22,7 +22,7 @@ pub struct Drive {
     length: Affine,
     /// Bearing of the end, rad.
     bearing: Affine,
-    /// Half of the heading is `share` · bearing + half_rest, rad.
+    /// Coefficients of half the heading, which is `share` · bearing + `half_rest` (rad).
     share: f64,
     half_rest: Affine,
     /// Half of the commanded turn (rad), which selects the branches of logarithm and arc.
@@ -88,8 +88,8 @@ impl Drive {
         }
     }
 
-    /// Returns the ends (x, y) of four motions, the arcs that lead there, and whether the arcs are regular. The length and
-    /// half turn of regular arcs differ from the noise-free ones by [`Drive::regular`].
+    /// Returns the ends (x, y) of four motions, the arcs that lead there, and true if the arcs are regular. Regular arcs are
+    /// the driven ones: their length and half turn differ from the noise-free ones by [`Drive::regular`].
     #[inline(always)]
     pub fn ends(&self, motions: &Motions) -> ([f64x4; 2], FourArcs, bool) {
         let Motions { length, bearing, .. } = *motions;
@@ -144,7 +144,7 @@ impl Drive {
         logarithms(ends, turn)
     }
 
-    /// Returns the places of four motions that ended at `ends`, at a morph: see [`crate::geom::unbend`].
+    /// Returns the points to which a morph takes the ends of four motions: see [`crate::geom::unbend`].
     #[inline(always)]
     pub fn unbent(&self, motions: &Motions, ends: &[f64x4; 2], morph: f64) -> [f64x4; 2] {
         let FourPoses { along, lateral, half, .. } = self.poses(motions, ends);
@@ -162,7 +162,8 @@ impl Drive {
         any(beyond(motions.bearing) | beyond(motions.half))
     }
 
-    /// Four robots in all coordinates, by the long formulas: the passes over a cloud have the short ones inlined.
+    /// Returns four robots in all coordinates. It uses the formulas for any angle. The passes over a cloud inline those for
+    /// angles up to a quarter turn.
     #[inline(never)]
     pub fn robots(&self, unit_noise: &[f64x4; 3]) -> (FourPoses, FourArcs) {
         let motions = self.motions(unit_noise);
@@ -172,7 +173,7 @@ impl Drive {
         (logarithms(&ends, turn), self.other_arcs(motions.bearing, ends))
     }
 
-    /// Returns the end of a motion without noise, in the parts that a cloud's sums are counted from, and the scale of its factors.
+    /// Returns the coordinates of the noise-free end, which are subtracted in all sums, and the scales of the Jacobians.
     pub fn nominal(&self) -> (Reference, Scale) {
         let (poses, arcs) = self.robots(&[f64x4::splat(0.0); 3]);
         let mut parts = [poses.x, poses.y, poses.along, poses.lateral, poses.half, arcs.length, arcs.half]
@@ -187,13 +188,13 @@ impl Drive {
         (parts, [1.0 / chart, 1.0 / (length * arc * arc)])
     }
 
-    /// Returns the standard deviation of the turn of the arc that ends where the robot does, rad.
+    /// Returns the standard deviation (rad) of the turn of the arc that ends at the robot's position.
     pub fn arc_deviation(&self) -> f64 {
         2.0 * self.bearing[1].abs()
     }
 }
 
-/// Returns the poses at `ends` whose half headings are of `turn`, with their logarithms.
+/// Returns the poses at `ends` with the half headings of `turn`, and their logarithms.
 #[inline(always)]
 fn logarithms(ends: &[f64x4; 2], turn: HalfTurn) -> FourPoses {
     let ([x, y], HalfTurn { half, cotangent, sinc, sin, cos }) = (*ends, turn);
@@ -201,10 +202,10 @@ fn logarithms(ends: &[f64x4; 2], turn: HalfTurn) -> FourPoses {
     FourPoses { x, y, along, lateral, half, half_sin: sin, half_cos: cos, sinc }
 }
 
-/// A quarter turn, less a margin for rounding.
+/// Quarter turn minus a margin for rounding.
 const NEAR: f64 = FRAC_PI_2 * (1.0 - 1e-12);
 
-/// Returns the half turns within a quarter turn of 0 and of `near`: their middle, and how far they reach from there.
+/// Returns the middle and half the width of the interval of half turns that are within a quarter turn of 0 and of `near`.
 fn near_half(near: f64) -> [f64; 2] {
     let (low, high) = ((near - NEAR).max(-NEAR), (near + NEAR).min(NEAR));
     [0.5 * (low + high), 0.5 * (high - low)]

@@ -17,15 +17,15 @@ use std::collections::TryReserveError;
 use std::ops::Range;
 use wide::f64x4;
 
-/// Every robot of a cloud starts at the origin, heading along x.
+/// Start pose of every robot: the origin, heading along x.
 pub const START: SE2 = SE2::identity();
 
 /// Number of groups of four that are summed without compensation: 256 poses. With fewer, compensation would take
 /// noticeable time; with more, the rounding error would grow in proportion.
 const BLOCK: usize = 64;
 
-/// Structure of arrays, four samples an entry: 24 bytes of noise and 16 of position a sample. Headings are affine in the
-/// noise and logarithms cheap, so that neither is kept.
+/// Cloud as a structure of arrays in groups of four samples. A sample takes 24 bytes of noise and 16 of position. Headings
+/// and logarithms are cheap to compute, and not stored.
 #[derive(Clone, Debug)]
 pub struct Cloud {
     draws: Draws,
@@ -39,20 +39,18 @@ impl Cloud {
         Self { draws: Draws::new(seed, noise), drive, positions: Vec::new(), shown: 0 }
     }
 
-    /// Makes room for `count` samples.
+    /// Reserves memory for `count` samples.
     pub fn reserve(&mut self, count: usize) -> Result<(), TryReserveError> {
         self.draws.reserve(count)?;
         let fours = count.div_ceil(LANES);
         self.positions.try_reserve_exact(fours.saturating_sub(self.positions.len()))
     }
 
-    /// Drives the first `shown` samples of these draws under this motion and returns their figures. There must be room for
-    /// them.
+    /// Drives the first `shown` samples, and returns their statistics. Their memory must be reserved.
     pub fn refresh(&mut self, seed: u64, noise: NoiseKind, drive: Drive, shown: usize) -> CloudFigures {
         self.draws.restart(seed, noise);
         (self.drive, self.shown) = (drive, shown);
-        // Differences are summed from the expected mean of the cloud. If the mean turns out to be far from it, they are
-        // summed again.
+        // Sums contain differences from the expected mean of the cloud. They are computed again if the mean is far from it.
         let (reference, scale) = drive.nominal();
         let mut sums = self.spread_all(Spread::new(reference, scale));
         if let Some(better) = sums.better_reference(shown) {
@@ -111,7 +109,7 @@ impl Cloud {
         self.draws.of(index)
     }
 
-    /// Returns a sample that is shown.
+    /// Returns the pose of a sample that is shown.
     #[inline(always)]
     pub fn pose(&self, index: usize) -> SE2 {
         let [four, lane] = [index / LANES, index % LANES];
@@ -146,8 +144,8 @@ impl Cloud {
     }
 }
 
-/// Blocks of the fours of `count` samples, one at least. Each has the complete fours, and those that lack samples with the mask of the
-/// samples that are there.
+/// Returns blocks of the groups of four of `count` samples, at least one block. A block has a range of complete groups, and a
+/// range of incomplete ones. Each range has the mask of its samples.
 fn blocks(count: usize) -> impl Iterator<Item = [(Range<usize>, f64x4); 2]> {
     let fours = count.div_ceil(LANES);
     let there = lanes(|lane| if lane < count % LANES { ALL } else { 0.0 });
@@ -158,7 +156,7 @@ fn blocks(count: usize) -> impl Iterator<Item = [(Range<usize>, f64x4); 2]> {
     })
 }
 
-/// Mask of a lane that counts: all bits set.
+/// Mask of a lane with a robot: all bits set.
 const ALL: f64 = f64::from_bits(u64::MAX);
 
 /// Drives the robots, four at a time, and adds them to the sums of the first pass.

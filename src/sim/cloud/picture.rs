@@ -1,4 +1,4 @@
-//! The density of a cloud as counts and as an image.
+//! Density of a cloud, as counts and as an image.
 
 use super::Cloud;
 use super::views::{Grid, View};

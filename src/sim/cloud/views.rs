@@ -10,7 +10,7 @@ pub enum View {
     Plane,
     /// Exponential coordinates (along, heading), m and rad.
     Twist,
-    /// Places between the two, at a morph from 0 to 1: see [`crate::geom::unbend`].
+    /// Points between both, for a morph from 0 (plane) to 1 (twist): see [`crate::geom::unbend`].
     Morph(f64),
 }
 
@@ -42,7 +42,7 @@ pub const MAX_CELLS: u64 = 1 << 24;
 /// one cell around a longer grid would take more memory than the grid.
 pub const MAX_SIDE: u64 = 1 << 14;
 
-/// A rectangle of a view divided into cells of equal size.
+/// Rectangle of a view, divided into cells of equal size.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Grid {
     /// Smallest and largest coordinates, finite, each smallest below its largest.

@@ -12,17 +12,17 @@ pub const RECURSIONS: [Compounding; 3] =
 /// Relative error of a variance above which a step counts as a miss.
 pub const TOLERANCE: f64 = 0.05;
 
-/// Largest relative standard error at which rollouts can establish a miss: a quarter of the tolerance. Among dozens of
-/// ratios some are off by three standard errors, hardly any by four.
-const TELLING: f64 = TOLERANCE / 4.0;
+/// Maximum relative standard error at which rollouts can establish a miss, a quarter of the tolerance. Of dozens of ratios
+/// some are off by three standard errors by chance, but hardly any by four.
+const MAX_STANDARD_ERROR: f64 = TOLERANCE / 4.0;
 
-/// Standard deviation, relative to the path or in radians, below which a spread is only rounding.
+/// Standard deviation below which a spread is only rounding. It is relative to the path, or in radians.
 const NO_SPREAD: f64 = 1e-12;
 
 /// Comparison of a recursion with the robots.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Comparison {
-    /// Predicted over measured variance of along, lateral and heading after each step; NaN if either is missing.
+    /// Predicted divided by measured variance of along, lateral and heading after each step; NaN if one of them is undefined.
     pub ratios: Vec<Vector3<f64>>,
     pub misses: [Misses; 3],
 }
@@ -35,7 +35,7 @@ pub struct Misses {
     pub told: bool,
     /// First step with a miss; null (None) if there is none, or if it cannot be established.
     pub first: Option<u32>,
-    /// The last step with a miss.
+    /// Last step with a miss.
     pub last: Option<u32>,
     /// Ratio after the last step, minus 1; NaN if undefined.
     pub end: f64,
@@ -59,11 +59,11 @@ impl Comparison {
     }
 }
 
-/// Returns the covariance of ξ after each step (step 1 first) from a known start, by a recursion. None from the step at
-/// which the result is no covariance, which the fourth-order terms can cause.
+/// Returns the covariance of ξ after each step from a known start, by a recursion; the first is that of step 1. It is None
+/// from the step on at which the fourth-order terms make the matrix indefinite.
 pub fn covariances(settings: &Settings, order: Compounding) -> Vec<Option<Matrix3<f64>>> {
     let twist = TangentNoiseModel::twist(&settings.command);
-    // Every allowed setting gives finite variances of 0 or more.
+    // All allowed settings have finite variances of 0 or more.
     let noise = TangentNoiseModel::from_velocity(&settings.model(), &settings.command).ok();
     let mut sigma = Some(Matrix3::zeros());
     (0..settings.steps)
@@ -93,8 +93,8 @@ fn ratio(cov: &Matrix3<f64>, measured: &Measured, least: &Vector3<f64>) -> Vecto
 
 fn misses(ratios: &[Vector3<f64>], measured: &[Measured], axis: usize) -> Misses {
     let known = || ratios.iter().map(|ratio| ratio[axis]).zip(measured).filter(|(ratio, _)| !ratio.is_nan());
-    let told =
-        known().next().is_some() && known().all(|(_, measured)| measured.relative_error[axis] <= TELLING);
+    let told = known().next().is_some()
+        && known().all(|(_, measured)| measured.relative_error[axis] <= MAX_STANDARD_ERROR);
     let is_miss = |ratio: &Vector3<f64>| told && (ratio[axis] - 1.0).abs() > TOLERANCE;
     let step = |index: usize| index as u32 + 1;
     let [end, error] = match (ratios.last(), measured.last()) {

@@ -1,4 +1,4 @@
-//! Dead Reckoning: one command driven repeatedly, the growth of uncertainty along the path, and predictions of it.
+//! Dead Reckoning: growth of the uncertainty while a command is driven repeatedly, and predictions of it by recursions.
 
 mod figures;
 mod rollouts;
@@ -25,7 +25,8 @@ const OUTLINE_SEGMENTS: usize = 96;
 /// Maximum number of chords of the commanded arc in a step.
 const MOST_CHORDS: usize = 16;
 
-/// Number of robot steps in the first block, which a drag waits for, and in any other one, which takes some milliseconds.
+/// Number of steps of all robots in the first block, and in further blocks. While a handle is dragged, each frame waits for
+/// the first block. Further blocks take some milliseconds.
 const FIRST_STEPS: usize = 80_000;
 const BLOCK_STEPS: usize = 200_000;
 
@@ -115,7 +116,8 @@ impl DeadReckoning {
         &self.settings
     }
 
-    /// Changes the settings and drives all robots. The same seed has the same luck, however long the path and however many the robots.
+    /// Changes the settings and drives all robots. Each robot has the same random numbers for any length of the path and any
+    /// number of robots.
     ///
     /// # Errors
     /// As [`DeadReckoning::new`]; nothing has changed then.
@@ -125,8 +127,8 @@ impl DeadReckoning {
         Ok(())
     }
 
-    /// Changes the settings and drives the first block of `goal` robots. The others are for [`DeadReckoning::add_samples`]. Robots that
-    /// drive as before stay.
+    /// Changes the settings and drives the first block of `goal` robots. [`DeadReckoning::add_samples`] drives the others.
+    /// Robots stay if the change does not affect them.
     ///
     /// # Errors
     /// As [`DeadReckoning::configure`].
@@ -176,7 +178,7 @@ impl DeadReckoning {
         &self.measured
     }
 
-    /// Returns the covariance that a recursion predicts after each step; None from the step at which it has none.
+    /// Returns the covariance that a recursion predicts after each step; None from the step on at which it is undefined.
     pub fn predicted(&self, order: Compounding) -> &[Option<Matrix3<f64>>] {
         &self.predicted[place_of(order)]
     }

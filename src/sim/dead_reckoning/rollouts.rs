@@ -15,17 +15,17 @@ use std::f64::consts::FRAC_PI_2;
 use wide::f64x4;
 
 /// Number of groups of four that are driven through all steps together: 256 rollouts, whose draws and poses take 8 kB.
-/// With fewer, compensated sums would take noticeable time; more would not fit into the first-level cache.
+/// With fewer, compensated sums would take noticeable time. More would not fit into the first-level cache.
 const BLOCK: usize = 64;
 pub const BLOCK_ROLLOUTS: usize = BLOCK * LANES;
 
 /// Powers and products of ξ = (a, l, h) that are summed: a, l, h; their squares, cubes and fourth powers; al, ah, lh.
 const QUANTITIES: usize = 15;
 
-/// Mask of a lane that counts: all bits set.
+/// Mask of a lane with a robot: all bits set.
 const ALL: f64 = f64::from_bits(u64::MAX);
 
-/// A quarter turn, less a margin for rounding.
+/// Quarter turn minus a margin for rounding.
 const NEAR: f64 = FRAC_PI_2 * (1.0 - 1e-12);
 
 /// One step of a robot, in exponential coordinates about the commanded pose. With the error pose e = x̄⁻¹·x, e_k =
@@ -60,23 +60,22 @@ struct Four {
 pub struct Measured {
     /// Mean of ξ = x_k ⊟ x̄_k in the order (along, lateral, heading): m, m, rad.
     pub mean: Vector3<f64>,
-    /// Its sample covariance, 3 × 3.
+    /// Sample covariance of ξ, 3 × 3.
     pub cov: Matrix3<f64>,
     /// Relative standard errors of the three variances, from the fourth moments: √((κ − 1)/n). NaN for a variance of 0.
     pub relative_error: Vector3<f64>,
 }
 
-/// Maximum number of robots that are kept for the picture, in which more dots would not be distinguishable. Each step
-/// of a robot takes 24 bytes.
+/// Maximum number of robots in the picture: more dots would not be distinguishable. The poses of each take 24 bytes a step.
 pub const KEPT: usize = 600;
 
-/// Rollouts, as many as have been asked for so far.
+/// Rollouts that have been driven so far.
 #[derive(Clone, Debug)]
 pub struct Rollouts {
     step: Step,
     seed: u64,
-    /// Random stream of the next block. Each block has its own stream, and a longer path only takes more of it: the
-    /// first steps of the first robots depend on the seed alone.
+    /// Random stream of the next block. Each block has its own stream. A longer path takes more numbers of it, so that the
+    /// first steps of a robot depend on the seed alone.
     stream: Xoshiro256PlusPlus,
     /// Number of robots driven in complete blocks.
     driven: usize,
@@ -115,7 +114,7 @@ impl Step {
         let more = *second * self.half_turn[1];
         let Circle { sinc, sin, cos } = self.trigonometry.near_or_any_circle(more + self.half_turn[0]);
         let chord = length * sinc;
-        // Bearing of the chord: the heading of the robot plus half the turn of its arc.
+        // The bearing of the chord is the heading of the robot plus half the turn of its arc.
         let head_sin = 2.0 * four.sin * four.cos;
         let head_cos = 1.0 - 2.0 * four.sin * four.sin;
         let x = four.x + chord * (head_cos * cos - head_sin * sin) - self.end[0];
@@ -133,10 +132,10 @@ impl Step {
 }
 
 impl Rollouts {
-    /// Rollouts of which none is driven yet.
+    /// Creates rollouts without robots.
     ///
     /// # Errors
-    /// Where memory does not suffice for those in the picture.
+    /// [`TryReserveError`] if memory does not suffice for the robots in the picture.
     pub fn new(settings: &Settings) -> Result<Self, TryReserveError> {
         let steps = settings.steps as usize;
         let mut poses = Vec::new();
@@ -154,8 +153,8 @@ impl Rollouts {
         })
     }
 
-    /// Drives complete blocks towards `goal` robots. [`Rollouts::measured`] drives the rest. Starts again if more
-    /// robots have been driven.
+    /// Drives complete blocks up to `goal` robots, from the first one if more have been driven. [`Rollouts::measured`] drives
+    /// the remaining robots.
     pub fn drive_to(&mut self, goal: usize) {
         if goal < self.driven {
             self.restart();
@@ -175,7 +174,7 @@ impl Rollouts {
         self.sums.fill(Sums::new());
     }
 
-    /// Returns the moments of `goal` robots after each step: those driven, and less than a block of further ones.
+    /// Returns the moments of `goal` robots after each step. It drives those of the last, incomplete block.
     pub fn measured(&mut self, goal: usize) -> Vec<Measured> {
         let of = |sums: &[Sums<QUANTITIES>]| {
             sums.iter().map(|sums| measured(&sums.finish(), goal as f64)).collect()
@@ -237,7 +236,7 @@ impl Rollouts {
 }
 
 impl Four {
-    /// Returns x, y (m) and θ (rad) of one of the four.
+    /// Returns x, y (m) and θ (rad) of the robot in a lane.
     fn pose(&self, lane: usize, nominal: &SE2) -> [f64; 3] {
         let [x, y, half] = [self.x, self.y, self.half].map(|lanes| lanes.to_array()[lane]);
         let pose = *nominal * SE2::new(x, y, 2.0 * half);
@@ -285,7 +284,7 @@ fn sum(sums: &mut Sums<QUANTITIES>, [a, l, h]: [f64x4; 3]) {
     add(&mut sums.block, terms);
 }
 
-/// Number of robots from which their kurtosis is good enough for standard errors of variances.
+/// Minimum number of robots whose kurtosis is reliable enough for standard errors of variances.
 const FEW: f64 = 30.0;
 
 fn measured(sums: &[f64; QUANTITIES], n: f64) -> Measured {
@@ -301,8 +300,8 @@ fn measured(sums: &[f64; QUANTITIES], n: f64) -> Measured {
         let m4 = fourth - 4.0 * m * cube + 6.0 * m * m * square - 3.0 * m * m * m * m;
         let kurtosis = if m2 > 0.0 { m4 / (m2 * m2) } else { f64::NAN };
         let own = no_less_than_none(kurtosis - 1.0) / n;
-        // The kurtosis of a few robots is unreliable (of two it is always 1): at least that of a normal distribution is
-        // taken. `f64::max` would ignore NaN.
+        // The kurtosis of a few robots is unreliable; of two it is always 1. The standard error is then at least that of a
+        // normal distribution. `f64::max` would ignore NaN.
         let least = if n < FEW { 2.0 / (n - 1.0) } else { 0.0 };
         if own < least { least.sqrt() } else { own.sqrt() }
     });

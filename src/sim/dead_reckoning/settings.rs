@@ -23,40 +23,40 @@ impl Words for NoisePer {
     const WORDS: &'static [(&'static str, Self)] = &[("step", Self::Step), ("path", Self::Path)];
 }
 
-/// Two hundred steps of a million rollouts take some ten seconds, and no memory.
+/// Maximum number of rollouts. With two hundred steps they take about ten seconds. They take no memory.
 pub const MAX_SAMPLES: usize = 1_000_000;
-/// Ten times the chapter's: more steps of a metre a second would show nothing that these do not.
+/// Maximum number of steps, ten times that of the chapter. Longer paths would show nothing new.
 pub const MAX_STEPS: u64 = 200;
 
-/// Typical seed: among the seeds 0 to 99 that cross 5 % at the same step as the exact ratio, the one with ratios nearest to the exact
-/// ones.
+/// Seed with typical rollouts. Among the seeds 0 to 99 with the first miss at the exact step, it has the ratios nearest to the
+/// exact ones.
 const OPENING_SEED: u64 = 29;
 
 settings! {
-    /// Everything that a user sets.
+    /// Settings of the user.
     pub struct Settings {
-        /// Driven in each step.
+        /// Command of each step.
         command: VelocityCmd = VelocityCmd { v: 1.0, omega: 0.5, dt: 0.2 };
-        /// Steps driven one after the other.
+        /// Number of steps.
         steps: u32 = 20, in 1..=MAX_STEPS;
-        /// Selected step.
+        /// Number of the selected step.
         step: u32 = 20, in 1..=MAX_STEPS;
         /// Noise parameters, the six of the velocity model.
         alphas: [f64; 6] = [0.02, 0.02, 0.02, 0.02, 0.005, 0.005], in ALPHA;
-        /// Level h of the heading noise: α₃ and α₄ are h, α₅ and α₆ are h/4; null where they are not those of a level.
+        /// Level h of the heading noise: α₃ and α₄ are h, α₅ and α₆ are h/4. Null if they have other ratios.
         headingNoise, by heading_level of alphas, in ALPHA;
-        /// Scope of the noise parameters: each step, or the whole path as one command, of whose variance each step has its share.
+        /// Motion to which the noise parameters apply: each step, or the whole path. Each of n steps then has 1/n of its variance.
         per: NoisePer = NoisePer::Step;
         /// Recursion of the covariance that is shown.
         compounding: Compounding = Compounding::Chapter;
-        /// Rollouts of the whole path.
+        /// Number of rollouts of the whole path.
         samples: usize = 50_000, in 1..=MAX_SAMPLES as u64;
-        /// The same seed is the same luck at every step, whatever else is set.
+        /// Seed of the random numbers. Equal seeds draw equal noise for each step.
         seed: u64 = OPENING_SEED, in 0..=MAX_SEED;
     }
 }
 
-/// Description of each noise parameter, the first of which is α₁; in a page each is an attribute of its own.
+/// Descriptions of the noise parameters from α₁ on. In a page each parameter has its own attribute.
 #[cfg(not(target_arch = "wasm32"))]
 pub const ALPHA_SENTENCES: [&str; 6] = ["Noise parameter of the velocity model."; 6];
 
@@ -75,7 +75,7 @@ impl Settings {
     pub fn model(&self) -> VelocityModel {
         let share = match self.per {
             NoisePer::Step => 1.0,
-            // A path of n steps has (nΔt)²σ²/n = Δt²·nσ².
+            // A step has 1/n of the variance of the path: (nΔt)²σ²/n = Δt²·nσ².
             NoisePer::Path => f64::from(self.steps),
         };
         VelocityModel {
@@ -88,7 +88,7 @@ impl Settings {
     /// selected step and the recursion do not matter.
     pub(super) fn drives_as(&self, other: &Self) -> bool {
         let Self { step, compounding, samples, .. } = *other;
-        // A zero that is negative equals one that is not, and leads to other zeros.
+        // −0 equals 0, but leads to other signs of zeros in the results.
         let signs = |of: &Self| {
             let VelocityCmd { v, omega, dt } = of.command;
             ([v, omega, dt].map(f64::is_sign_negative), of.alphas.map(f64::is_sign_negative))
@@ -98,7 +98,7 @@ impl Settings {
 }
 
 impl Rules for Settings {
-    /// If the path gets shorter than the selected step, its last step is selected.
+    /// Selects the last step if the path has become shorter than the selected one.
     fn settle(&mut self, _: &Self, named: &[&str]) {
         if !named.contains(&"step") {
             self.step = self.step.min(self.steps);

@@ -5,8 +5,8 @@ use crate::models::{VelocityAlphas, VelocityCmd, VelocityModel};
 use crate::noise::NoiseKind;
 use crate::stats::ExactMoments;
 
-/// First and last duration, as tenths of a decade: 0.1 s to 10 s. Crossings at common settings are in this range. Finer steps
-/// would not make the curves look smoother.
+/// Decimal logarithms of the first and last duration, in tenths: 0.1 s to 10 s. Crossings at common settings are in this
+/// range. Smaller steps would not make the curves look smoother.
 const DURATIONS: [i32; 2] = [-10, 10];
 
 /// Variances of one straight command by its duration.
@@ -14,13 +14,13 @@ const DURATIONS: [i32; 2] = [-10, 10];
 pub struct StraightGrowth {
     /// Δt, s.
     pub durations: Vec<f64>,
-    /// Variances along the track and across it, m², by quadrature.
+    /// Exact variances along the track and across it, m².
     pub along: Vec<f64>,
     pub across: Vec<f64>,
-    /// The same to first order in the noise: α₁v²Δt² and ¼α₃v⁴Δt⁴.
+    /// Variances to first order in the noise: α₁v²Δt² along the track and ¼α₃v⁴Δt⁴ across it.
     pub along_first_order: Vec<f64>,
     pub across_first_order: Vec<f64>,
-    /// Duration (s) at which these two are equal, (2/|v|)·√(α₁/α₃); None if they never are.
+    /// Duration (s) at which both first-order variances are equal: (2/|v|)·√(α₁/α₃). None if they never are.
     pub crossing: Option<f64>,
 }
 
@@ -42,7 +42,7 @@ impl StraightGrowth {
             along,
             across,
             along_first_order: durations.iter().map(|dt| alpha1 * v * v * dt * dt).collect(),
-            // A turn by φ at half the way of an arc displaces its end sideways by ½vΔt·φ.
+            // An arc of length vΔt that turns by a small φ ends ½vΔt·φ to the side.
             across_first_order: (durations.iter())
                 .map(|dt| alpha3 * v * v * dt * dt * (0.5 * v * dt) * (0.5 * v * dt))
                 .collect(),

@@ -1,4 +1,4 @@
-//! The Odometry Decomposer: a reading as rotate, drive, rotate, and what noise on the three legs makes of it.
+//! The Odometry Decomposer: an odometry reading as rotation, drive and rotation, and the effect of noise on these three legs.
 
 mod settings;
 
@@ -11,7 +11,7 @@ use crate::geom::se2::SE2;
 use crate::models::{ExecutedLegs, LegVariances, OdomDelta, OdometryRule};
 use nalgebra::Vector3;
 
-/// Velocity of the odometry frame in the world (m/s, m/s, rad/s): a slow bend, as with slightly wrong wheel diameters.
+/// Velocity of the odometry frame in the world (m/s, m/s, rad/s). It drifts on a slow curve, as with slightly wrong wheel diameters.
 const DRIFT_TWIST: [f64; 3] = [0.015, 0.008, -0.01];
 
 /// Maximum number of points of a curve. Each takes a microsecond.
@@ -22,7 +22,7 @@ pub const MAX_CURVE_POINTS: u64 = 10_000;
 pub struct RuleFigures {
     pub rule: OdometryRule,
     pub legs: OdomDelta,
-    /// Standard deviations of the three legs, and across the second: rad, m, rad, m.
+    /// Standard deviations of the three legs, and of the sideways noise of the second: rad, m, rad, m.
     pub deviations: [f64; 4],
     /// Standard deviation across the measured bearing, m.
     pub cross_track: f64,
@@ -30,7 +30,7 @@ pub struct RuleFigures {
     pub heading: f64,
 }
 
-/// Statistics of the outcomes shown, and exact values under the current rule. NaN without outcomes.
+/// Statistics of the outcomes shown, and exact values under the current rule. Statistics are NaN without outcomes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(
     target_arch = "wasm32",
@@ -45,14 +45,14 @@ pub struct Stats {
     /// Standard error of the cross track, m.
     pub cross_track_error: f64,
     pub exact_cross_track: f64,
-    /// Standard deviation (m) of the end of the drive due to the first rotation: δ_trans·σ_rot1.
+    /// Sideways standard deviation (m) of the end of the drive due to the first rotation: δ_trans·σ_rot1.
     pub lever: f64,
     /// Root mean square of the difference between the turn made and the measured one, rad.
     pub heading: f64,
     /// Standard error of the heading, rad.
     pub heading_error: f64,
     pub exact_heading: f64,
-    /// Exact standard deviation of the heading if the two rotations were independent.
+    /// Exact standard deviation of the heading for independent rotations.
     pub independent_heading: f64,
 }
 
@@ -88,7 +88,7 @@ pub struct OdometryDecomposer {
 }
 
 impl OdometryDecomposer {
-    /// Creates a machine with all of its outcomes.
+    /// Creates a machine that shows all outcomes.
     ///
     /// # Errors
     /// [`SettingsError`] for the first setting out of range.

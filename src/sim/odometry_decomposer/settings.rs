@@ -50,15 +50,15 @@ const PHASE: RangeInclusive<f64> = 0.0..=3.0;
 const DRIFT: RangeInclusive<f64> = 0.0..=1e6;
 
 settings! {
-    /// Everything that a user sets.
+    /// Settings of the user.
     pub struct Settings {
-        /// The odometry pose before the motion.
+        /// Odometry pose before the motion.
         from: OdometryPose = REVERSE.from;
-        /// The odometry pose after it.
+        /// Odometry pose after the motion.
         to: OdometryPose = REVERSE.to;
         /// Rule that relates the α’s to the noise.
         rule: OdometryRule = OdometryRule::Table;
-        /// Noise parameters, the fifth of the omnidirectional rule alone.
+        /// Noise parameters of the rule; only the rule omni has the fifth.
         alphas: RuleAlphas = [0.03, 0.01, 0.01, 0.02, 0.01], in ALPHA;
         /// Distribution of the noise; the variances are the same.
         noise: NoiseKind = NoiseKind::Normal;
@@ -68,15 +68,15 @@ settings! {
         drift: f64 = 40.0, "s", in DRIFT;
         /// Progress of the robot: in the first rotation up to 1, in the drive up to 2, in the second rotation up to 3.
         phase: f64 = 3.0, in PHASE;
-        /// Outcomes in the whole cloud.
+        /// Number of outcomes in the whole cloud.
         samples: usize = 500, in 1..=MAX_SAMPLES;
-        // Seed: of the seeds 0 to 39, the one whose spreads are nearest to the exact ones at the opening.
-        /// The same seed draws the same outcomes.
+        // Among the seeds 0 to 39, the default has the initial standard deviations nearest to the exact ones.
+        /// Seed of the random numbers. Equal seeds draw equal outcomes.
         seed: u64 = 25, in 0..=MAX_SEED;
     }
 }
 
-/// Description of each noise parameter, which in a page is an attribute of its own.
+/// Descriptions of the noise parameters from α₁ on. In a page each parameter has its own attribute.
 #[cfg(not(target_arch = "wasm32"))]
 pub const ALPHA_SENTENCES: [&str; 5] =
     ["Noise parameter; the first four are every rule’s, the fifth the omnidirectional one’s."; 5];
@@ -95,14 +95,14 @@ const fn preset(name: &'static str, to: [f64; 3]) -> Preset {
     Preset { name, from: OdometryPose([0.0; 3]), to: OdometryPose(to) }
 }
 
-/// Drive in reverse, on which the rules disagree. This is the initial reading.
+/// Initial reading: a drive in reverse, on which the rules disagree.
 pub const REVERSE: Preset = preset("reverse", [-1.2, -0.3, 0.1]);
 
 /// Readings with all three legs, with one or two of them, and readings on which the rules disagree: a drive in reverse,
 /// and jitter of half a centimetre.
 pub const PRESETS: [Preset; 6] = [
     preset("all", [1.2, 1.0, 1.2]),
-    // Heading of the direction (4, 3).
+    // 0.6435 rad is the direction of (4, 3).
     preset("turn-drive", [1.2, 0.9, 0.6435]),
     preset("drive-turn", [1.5, 0.0, 1.0]),
     REVERSE,

@@ -21,13 +21,13 @@ pub struct Attempt {
     pub path_free: bool,
 }
 
-/// Bits of a verdict as a number, see [`Attempt::verdict`].
+/// Bits of the number that [`Attempt::verdict`] returns.
 pub const END_FREE: u8 = 1;
 pub const PATH_FREE: u8 = 2;
 pub const ACCEPTED: u8 = 4;
 
 impl Attempt {
-    /// Outcome in bits: [`END_FREE`], [`PATH_FREE`], [`ACCEPTED`].
+    /// Returns the outcome as the bits [`END_FREE`], [`PATH_FREE`] and [`ACCEPTED`].
     pub fn verdict(&self) -> u8 {
         END_FREE * u8::from(self.end_free)
             + PATH_FREE * u8::from(self.path_free)

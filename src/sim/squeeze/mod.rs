@@ -27,8 +27,7 @@ use rand::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
 use tally::share;
 
-/// Number of accepted samples, times parts, in a timing trial: long enough to measure, short enough not to block the
-/// page.
+/// Maximum of accepted samples times parts in a timing trial, so that a trial does not block the page.
 pub const MAX_TRIAL: u64 = 100_000;
 
 /// Simulation of the widget: a map, settings, draws, and the attempts shown.
@@ -42,7 +41,7 @@ pub struct MapSqueeze {
     picture: Vec<[u8; 4]>,
 }
 
-/// The attempts shown.
+/// Attempts that are shown, with their counts.
 #[derive(Clone, Debug, Default)]
 struct Shown {
     attempts: Vec<Attempt>,
@@ -58,7 +57,7 @@ const PATIENCE: usize = 20;
 const BLOCK_PARTS: usize = 4096;
 
 impl MapSqueeze {
-    /// Creates a machine in the apartment, all of its samples attempted.
+    /// Creates a machine in the apartment that has made all attempts.
     ///
     /// # Errors
     /// [`SettingsError`] for the first setting out of range, or where memory does not suffice for the samples.
@@ -120,7 +119,7 @@ impl MapSqueeze {
         Ok(())
     }
 
-    /// Changes the settings and makes the first block of `goal` attempts. The others are for [`MapSqueeze::add_samples`].
+    /// Changes the settings and makes the first block of `goal` attempts. [`MapSqueeze::add_samples`] makes the others.
     ///
     /// # Errors
     /// As [`MapSqueeze::configure`].
@@ -128,7 +127,7 @@ impl MapSqueeze {
         settings.check()?;
         let changed = self.plan.grid().filter(|_| settings.unknown != self.settings.unknown);
         let plan = changed.map(|grid| FloorPlan::from_grid(grid.clone().with_unknown(settings.unknown)));
-        // This is the only reason for which an accepted grid can be refused.
+        // A grid that was accepted before can only be refused because of its unknown cells.
         let plan = plan.transpose().map_err(|_| SettingsError {
             field: "unknown".to_owned(),
             value: f64::NAN,
@@ -268,7 +267,7 @@ impl MapSqueeze {
         self.plan.open_place(self.settings.clearance)
     }
 
-    /// Returns true if the robot fits where it starts.
+    /// Returns true if the robot collides with nothing at its start pose.
     pub fn start_free(&self) -> bool {
         let [x, y, _] = self.settings.start;
         self.plan.point_free([x, y], self.settings.clearance).free
@@ -286,7 +285,7 @@ pub fn most_draws(parts: usize) -> usize {
     MAX_DRAWS + PATIENCE * parts
 }
 
-/// Returns the conditioned model with these settings in a plan, by a sampler.
+/// Returns the model with these settings, conditioned on a plan by a sampler.
 fn conditioned<'a>(settings: &Settings, plan: &'a FloorPlan, sampler: Sampler) -> MapConditioned<'a> {
     let model = VelocityModel { alphas: VelocityAlphas(settings.alphas), noise: NoiseKind::Normal };
     MapConditioned { model, plan, clearance: settings.clearance, sampler }

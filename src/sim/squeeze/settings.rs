@@ -29,7 +29,7 @@ group!([f64; 3] as [x, y, theta] => {
     x: "m", in QUANTITY;
     /// Position at which the robot starts.
     y: "m", in QUANTITY;
-    /// Its heading at the start.
+    /// Heading of the robot at the start.
     theta: "rad", in QUANTITY;
 });
 
@@ -44,22 +44,22 @@ impl Settable for [f64; 6] {
 pub const PRESETS: [(&str, [f64; 3]); 3] =
     [("doorway", [2.05, 2.6, FRAC_PI_2]), ("wall", [3.3, 2.6, FRAC_PI_2]), ("corridor", [1.4, 4.4, 0.0])];
 
-/// A million attempts take 56 MB, and some seconds in a difficult map.
+/// Maximum number of attempts, which take 56 MB, and some seconds in a difficult map.
 pub const MAX_SAMPLES: usize = 1_000_000;
-/// Maximum number of parts of a command. With a thousand the sampler is as exact as checking the arc, and a thousand
-/// times slower.
+/// Maximum number of parts of a command. A thousand parts are as exact as checking the whole arc, and a thousand times
+/// slower.
 pub const MAX_STEPS: u64 = 1000;
 
 settings! {
-    /// Everything that a user sets, but for the map.
+    /// Settings of the user, except for the map.
     pub struct Settings {
-        /// The pose that the robot starts from.
+        /// Start pose of the robot.
         start: [f64; 3] = PRESETS[0].1;
-        /// The same for every motion tried.
+        /// Command of all attempts.
         command: VelocityCmd = VelocityCmd { v: 1.0, omega: 0.0, dt: 2.0 };
         /// Noise parameters, the six of the velocity model.
         alphas: [f64; 6] = alphas_of_noise(0.12), in ALPHA;
-        /// Level n: the first four noise parameters are n, the others n/4; null where they are not those of a level.
+        /// Noise level n: the first four noise parameters are n, the others n/4. Null if they have other ratios.
         noise, by noise_level of alphas, in ALPHA;
         /// Radius of the robot.
         clearance: f64 = 0.13, "m", in 0.0..=10.0;
@@ -69,12 +69,12 @@ settings! {
         unknown: Unknown = Unknown::Free;
         /// Sampler that judges the draws.
         sampler: Sampler = Sampler::Endpoint;
-        // Opens with the first number that shows the point.
+        // The default is the smallest number of parts with a visible effect.
         /// Parts of the command, for the sub-stepped sampler.
         steps: u32 = 4, in 1..=MAX_STEPS;
-        /// Motions tried.
+        /// Number of attempts.
         samples: usize = 600, in 1..=MAX_SAMPLES as u64;
-        /// The same seed draws the same motions.
+        /// Seed of the random numbers. Equal seeds draw equal motions.
         seed: u64 = 7, in 0..=MAX_SEED;
     }
 }
@@ -84,7 +84,7 @@ impl Settings {
         NoiseLevel(&mut self.alphas)
     }
 
-    /// Returns the noise level whose α's these are; None where they are not those of a level.
+    /// Returns the noise level of the α's; None if they are not in the ratios of a level.
     pub fn noise(mut self) -> Option<f64> {
         self.noise_level().get()
     }
@@ -101,7 +101,7 @@ impl Settings {
 }
 
 impl Rules for Settings {
-    /// `steps` keeps its value while another sampler is selected.
+    /// Copies the setting `steps` into the sub-stepped sampler. Other samplers leave it unchanged.
     fn settle(&mut self, _: &Self, _: &[&str]) {
         self.sampler = self.sampler.in_parts(self.steps);
     }

@@ -26,11 +26,11 @@ impl Tally {
     /// Returns the 95 % interval of the fraction through a wall (Wilson, 1927), which is also valid at 0 and 1.
     pub fn through_wall_interval(&self) -> [f64; 2] {
         let (n, p) = (self.accepted as f64, self.through_wall_rate());
-        // The normal quantile of 97.5 %.
+        // 97.5 % quantile of the normal distribution.
         let z = NoiseKind::Normal.quantile(0.475);
         let (middle, scale) = (p + z * z / (2.0 * n), 1.0 + z * z / n);
         let half = z * (p * (1.0 - p) / n + z * z / (4.0 * n * n)).sqrt();
-        // At 0 and 1 the interval ends exactly there; rounding would miss it.
+        // The interval of a fraction 0 begins at exactly 0, and that of 1 ends at exactly 1. Rounding would miss them.
         let low = if self.through_wall == 0 { 0.0 } else { (middle - half) / scale };
         let high = if self.through_wall == self.accepted { 1.0 } else { (middle + half) / scale };
         if n > 0.0 { [low, high] } else { [0.0, 1.0] }
@@ -42,7 +42,8 @@ pub(super) fn share(part: usize, all: usize) -> f64 {
     part as f64 / all as f64
 }
 
-/// Statistics of the attempts shown. Fractions of 0 attempts are NaN, and costs per accepted one infinite if none is accepted.
+/// Statistics of the attempts shown. Fractions of 0 attempts are NaN. Costs per accepted attempt are infinite if none is
+/// accepted.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(
     target_arch = "wasm32",
@@ -63,6 +64,6 @@ pub struct Stats {
     pub draws_per_accepted: f64,
     /// Number of walls whose distance was computed; most collision checks need none.
     pub wall_tests_per_accepted: f64,
-    /// True if the machine stopped short of its samples.
+    /// True if the machine stopped before it had all samples, because too few draws were accepted.
     pub gave_up: bool,
 }

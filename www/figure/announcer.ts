@@ -13,11 +13,11 @@ export class Announcer {
     this.#due = true;
   }
 
-  /** Announces an outcome if one was requested; the sentence is computed only if needed. */
+  /** Announces an outcome if one was requested. `sentence` is only called if needed. */
   setOutcome(sentence: () => string) {
     if (!this.#due && !this.#outcome) return;
     const text = sentence();
-    // Changes by the page are not announced.
+    // An outcome that the page caused replaces the announced one by silence.
     this.#text = this.#outcome = this.#due || text === this.#outcome ? text : '';
     this.#due = false;
   }

@@ -26,7 +26,7 @@ export interface Setting {
 /** Property of the element itself. */
 export interface Own {
   own: true;
-  /** Default, if the property is no part of the state. */
+  /** Default of a property that is not part of the state. */
   opening?: unknown;
   /** Range of a number, for its documentation. */
   min?: number;
@@ -35,7 +35,7 @@ export interface Own {
 
 export interface Attribute {
   kind: Kind;
-  /** Attributes whose values follow from this one; they are written where this one has no text. */
+  /** Returns the names of attributes whose values follow from a text of this one. They are only written while this one has no text. */
   covers?: (text: string | null) => string[];
   /** Allowed words, if no declaration lists them. */
   words?: readonly string[];
@@ -44,10 +44,10 @@ export interface Attribute {
 /** Attributes by name, in the order in which they are applied. */
 export type Attributes = Record<string, Attribute & (Setting | Own)>;
 
-/** Table by name, with types in TypeScript. */
+/** Documentation by name. Types are in TypeScript. */
 export type Table = Record<string, { type: string, readonly?: true, sentence: string }>;
 
-/** Documentation of what neither a declaration nor the comments of a class say. */
+/** Documentation that is neither in a declaration nor in the comments of a class. */
 export interface Documentation {
   /** Properties that have no attribute. */
   properties?: Table;
@@ -62,7 +62,7 @@ export const NUMBER: Kind = {
 
 export const WORD: Kind = { parse: (text) => text, print: (value) => value };
 
-/** Boolean attribute: true without a value, as in HTML. The value "false" makes it false, and another one is refused. */
+/** Boolean attribute. Without a value it is true, as in HTML. The value "false" makes it false. Other values are refused. */
 const BOOLEAN: Kind = {
   parse: (text) => text !== 'false' && (text === '' || text === 'true' || text),
   print: String,
@@ -97,7 +97,7 @@ const settingsIn = (declared: Declaration[], includes: (setting: Declaration) =>
 
 function settingOf({ key, in: group, field = key, index, of, weights = [], type }: Declaration): Attribute & Setting {
   const kind = KINDS[type];
-  // One number scales several of the machine's.
+  // This setting is a level, which scales several settings of the machine.
   if (of) return { kind, get: (config) => levelOf(config[of], weights), change: (value) => ({ [key]: value }) };
   if (!group) return { kind, get: (config) => config[key], change: (value) => ({ [key]: value }) };
   if (index === undefined) {
@@ -140,7 +140,7 @@ function openingConfig(declared: Declaration[]) {
   return config;
 }
 
-/** Returns the attribute of a figure's presets. A preset sets all settings but samples and seed, to defaults where it lists none. */
+/** Returns the attribute of a figure's presets. A preset sets all settings except samples and seed. Settings that it does not list get defaults. */
 export function presetsOf(presets: readonly ({ name: string } & Record<string, any>)[], declared: Declaration[]): Attribute & Setting {
   const words = presets.map(({ name }) => name);
   const settings = presets.map(({ name: _, ...given }) => {

@@ -1,4 +1,4 @@
-/** Checks of values from the page, with error messages like the core's. */
+/** Checks of values from the page. Error messages have the form of the core's. */
 
 export function refusal(field: string, value: unknown, allowed: string, Kind = RangeError): TypeError | RangeError {
   return new Kind(`${field} is ${described(value)}; allowed is ${allowed}`);
@@ -68,7 +68,7 @@ export function subset(field: string, value: unknown, allowed: readonly string[]
   return allowed.filter((name) => names.includes(name));
 }
 
-/** Returns true if all fields of `given` have the same values in `present`, which may have more fields. Objects are compared deeply. */
+/** Returns true if `present` has all fields of `given` with the same values. Objects are compared deeply. */
 export function includesFields(present: any, given: any): boolean {
   if (Object.is(present, given)) return true;
   if (typeof present !== 'object' || typeof given !== 'object' || !present || !given || present.length !== given.length) return false;

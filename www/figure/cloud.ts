@@ -31,7 +31,7 @@ export interface Growing extends Count {
 /** Number of steps of growth. */
 const STEPS = 150;
 
-/** Time for adding samples in a frame, ms; with the pictures it stays below 50. */
+/** Time for adding samples in a frame, ms. Together with the pictures a frame takes less than 50 ms. */
 const FRAME_WORK = 12;
 
 export class Cloud extends Part {
@@ -40,7 +40,7 @@ export class Cloud extends Part {
   #goal = Infinity;
   #gaveUp;
 
-  /** Creates the cloud; `gaveUp` returns true for a reading or machine that will not reach its samples. */
+  /** Creates the cloud. `gaveUp` returns true for a reading or machine that has stopped before it had all samples. */
   constructor(host: Figure, gaveUp: (latest: any) => boolean = () => false) {
     super(host);
     this.#gaveUp = gaveUp;
@@ -55,7 +55,7 @@ export class Cloud extends Part {
     return this.host.settings.stale ? this.#machine : this.host.reading;
   }
 
-  /** True if no samples are to be added. */
+  /** True if the goal is all samples, or the machine has given up. */
   get complete() {
     return this.#goal >= this.#samples || this.#gaveUp(this.#latest);
   }
@@ -189,7 +189,7 @@ export class Cloud extends Part {
     if (!this.#isWanted) this.mark(-1);
   }
 
-  /** Adds samples in a frame. A change shows one block, for quick drags. No frame follows the last, as in print. */
+  /** Adds samples in a frame. The first frame after a change shows one block, so that drags are quick. The last frame adds all samples. */
   advance(isLast: boolean) {
     if (this.playing) this.grow();
     else if (isLast || !this.host.settings.stale) this.refine(isLast ? Infinity : FRAME_WORK);

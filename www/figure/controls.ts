@@ -1,4 +1,4 @@
-/** Controls of settings, made from declarations, appearance and words. */
+/** Controls of settings, from their declarations, sliders and words. */
 
 import { html, noChange, nothing } from 'lit';
 import { live } from 'lit/directives/live.js';
@@ -52,13 +52,13 @@ export function slider(figure: Figure, key: string, overrides?: Row) {
   });
 }
 
-/** Returns a slider whose value can be typed within the core's bounds. `ends` are the values at the ends of a slider over indices. */
+/** Returns a slider whose value can also be typed, within the core's range. A slider over indices has the values `ends` at its ends. */
 function editableSlider(figure: Figure, key: string, symbol: string, row: Omit<SliderRow, 'keys' | 'type' | 'refusal' | 'forget'> & { ends?: number[], most?: number }, take: (number: number) => void = row.input, print: (number: number) => string = row.show) {
   const { min, max: declared, type, unit } = declarationOf(figure, key);
   const max = row.most ?? declared;
   const [first, last] = row.ends ?? [row.min, row.max];
   const whole = type === 'whole';
-  // The words name the end of a slider that ends within the core's bounds.
+  // At an end of the slider, a text says that values beyond it can be typed.
   const end = row.value >= row.max && last < max ? last : row.value <= row.min && first > min ? first : undefined;
   return sliderRow({
     ...row,
@@ -155,7 +155,7 @@ export function cloudControls(figure: Figure & { cloud: import('./cloud.ts').Clo
         id: 'samples',
         symbol: html`<i>N</i>`,
         name,
-        // A larger count than the last is shown by an index past the end.
+        // A count beyond the last one has an index past the end of the slider.
         value: nearest < 0 ? last + 1 : nearest,
         min: 0,
         max: last,
@@ -184,7 +184,7 @@ interface SampleFieldOptions {
   hint: string;
 }
 
-/** Returns the field with the number of the selected sample. Refused text stays until it is corrected or left. */
+/** Returns the field with the number of the selected sample. Refused text stays until the reader corrects or leaves it. */
 export function sampleField({ cloud, typing }: Figure & { cloud: import('./cloud.ts').Cloud }, { id, label, shown, told, hint }: SampleFieldOptions) {
   const refusal = typing.refusalOf('marked');
   const type = (event: Event) => {

@@ -128,22 +128,22 @@ export class FigureElement<Machine extends { free(): void, stats: object, config
     return this.constructor as typeof FigureElement;
   }
 
-  // Members that widgets override; every widget has the first five.
+  // Members that widgets override; the first five are required.
 
   /** Creates a machine in a state, or in the default one; throws a TypeError or RangeError. */
   createMachine(_motion: Motion, _state?: Values): Machine {
     throw new Error('A widget creates its own machine.');
   }
 
-  /** Applies the parts of a state that are no settings to a new machine, and completes the state. */
+  /** Applies the fields of a state that are not settings to a new machine, and adds missing fields. */
   complete(_machine: Machine, _state: Values) {}
 
-  /** Reads everything that pictures and HTML need, once a change. */
+  /** Returns the reading of the machine. It is called once for each change. */
   read(_machine: Machine): Reading {
     throw new Error('A widget reads its own machine.');
   }
 
-  /** Scene of the pictures, up to date with every change. */
+  /** Scene of the pictures: the reading, and other values that they draw. */
   get scene(): any {
     return this.fresh;
   }
@@ -153,7 +153,7 @@ export class FigureElement<Machine extends { free(): void, stats: object, config
     return nothing;
   }
 
-  /** Content for export, up to date with every change. */
+  /** Content for export, after all pending changes. */
   get takeaway(): import('./takeaway/export.ts').Takeaway {
     throw new Error('A widget defines its own export.');
   }
@@ -166,7 +166,7 @@ export class FigureElement<Machine extends { free(): void, stats: object, config
   /** Runs after the machine was replaced. */
   machineChanged() {}
 
-  /** Resets what is no part of the state, when the figure starts over. */
+  /** Resets values that are not part of the state, when the figure starts over. */
   startedOver() {}
 
   /** Moves the handles to their places in the pictures. */
@@ -201,7 +201,7 @@ export class FigureElement<Machine extends { free(): void, stats: object, config
     this.dispatchEvent(new CustomEvent('stats', { detail: this.reading.stats, bubbles: true, composed: true }));
   }
 
-  /** Stores the state and announces the outcome of a change, of a growing cloud when all samples are shown. */
+  /** Stores the state, and announces the outcome of a change unless the cloud is still growing. */
   finishChange() {
     if (this.cloud?.isSettled ?? true) this.announcer.setOutcome(() => this.announcement(this.reading));
     this.state.keep();
@@ -216,7 +216,7 @@ export class FigureElement<Machine extends { free(): void, stats: object, config
     return this.reading;
   }
 
-  /** Queries the machine after every change is in effect; null if there is no machine. */
+  /** Returns the answer of the machine to a question, after all pending changes; null without a machine. */
   ask<Answer>(question: (machine: Machine) => Answer): Answer | null {
     return this.runtime.attempt(() => {
       this.settings.settle();
@@ -402,10 +402,10 @@ export class FigureElement<Machine extends { free(): void, stats: object, config
     };
     this.#updating = true;
     try {
-      // A trap keeps the former content, and a failure shows its message.
+      // After a trap the previous content stays. After a failure the message is rendered.
       if (!this.runtime.attemptOrFail(rendered)) rendered();
     } catch {
-      // Templates cannot be rendered here at all.
+      // No template can be rendered on this page, so that further updates are useless.
       this.shouldUpdate = () => false;
       this.renderRoot.textContent = words.failure(this.runtime.failure ?? '');
     } finally {

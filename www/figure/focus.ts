@@ -1,11 +1,11 @@
-/** Keyboard focus, which stays in the figure when its control is removed, disabled or hidden. */
+/** Keyboard focus. It stays in the figure when the focused control is removed, disabled or hidden. */
 
 import { Part } from './part.ts';
 
-/** Stops of the Tab key. */
+/** Elements that the Tab key stops at. */
 const STOPS = ':is(button, input, select, textarea):enabled:not([tabindex]), summary, [tabindex="0"]';
 
-/** Returns the visible stops of the Tab key. */
+/** Returns the visible elements that the Tab key stops at. */
 export function stopsIn(root: ParentNode): HTMLElement[] {
   return ([...root.querySelectorAll(STOPS)] as HTMLElement[]).filter((stop) => stop.checkVisibility());
 }

@@ -13,7 +13,7 @@ export class Gesture extends Part {
   /** Reading of the machine (see Figure.reading) before the present or latest gesture. */
   former: any;
 
-  /** True while a pointer is down on the figure, where the views stay as they are. */
+  /** True while a pointer is down on the figure. Views do not zoom meanwhile. */
   get pressed() {
     return this.#press !== undefined;
   }
@@ -25,7 +25,7 @@ export class Gesture extends Part {
     this.#press = new AbortController();
     const { signal } = this.#press;
     for (const end of ['pointerup', 'pointercancel']) addEventListener(end, () => this.#release(), { capture: true, signal });
-    // The browser's lists and dialogs may take the `pointerup`.
+    // No `pointerup` is fired if the pointer is released over a list or dialog of the browser.
     addEventListener('pointermove', ({ buttons }) => buttons === 0 && this.#release(), { capture: true, signal });
   }
 

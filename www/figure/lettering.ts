@@ -11,7 +11,7 @@ export class Lettering extends Part {
     return title || (words as any)[this.host.kind.vocabulary].title;
   }
 
-  /** Returns the title, a heading of the page's level. In a presentation the figure's name replaces a missing title. */
+  /** Returns the title as a heading of the level that the page sets. In a presentation the figure's name replaces a missing title. */
   title() {
     const { presentation, headingLevel } = this.host;
     return this.#slot('title', headingLevel, presentation && this.name);

@@ -9,7 +9,7 @@ import { Part } from './part.ts';
 export class Link extends Part {
   /** State from the address that waits for the machine. */
   #pending: unknown;
-  /** Latest read and write of the address: an earlier one that ends later is dropped. */
+  /** Tokens of the latest read and write of the address. The results of earlier ones are dropped. */
   #latestRead = {};
   #latestWrite = {};
 
@@ -77,7 +77,7 @@ export class Link extends Part {
     }
   }
 
-  /** Writes the state into a shared address or one that has the figure's state, without scrolling or a step of history. */
+  /** Writes the state into the address, if `share` is set or the address has the figure's state. It neither scrolls nor adds to the history. */
   async write() {
     if (!this.host.share && !parts().some((part) => this.#isOf(part))) return;
     const request = (this.#latestWrite = {});
@@ -88,11 +88,11 @@ export class Link extends Part {
     try {
       history.replaceState(history.state, document.title, address);
     } catch {
-      // A page made by a script may have no address.
+      // Pages without an address of their own, such as those made by a script, throw.
     }
   }
 
-  /** Returns the address of this page with the state; the figure comes first unless the page's anchor does. */
+  /** Returns the address of this page with the state. The figure's part comes first, or after an anchor of the page. */
   async address(): Promise<string> {
     return addressWith(keyOf(this.host), await this.#pack(), !isAnchor(parts()[0]));
   }
@@ -102,7 +102,7 @@ export class Link extends Part {
   }
 }
 
-/** Returns the name of an element's part: id, or index among its kind in its root, after the names of shadow hosts. */
+/** Returns the key of an element's part: its tag with its id or its index among elements of that tag. Keys of shadow hosts come first. */
 function keyOf(element: Element): string {
   const { localName, id } = element;
   const root = element.getRootNode() as any;
@@ -112,14 +112,14 @@ function keyOf(element: Element): string {
   return `${name}.${kind.indexOf(element) + 1}`;
 }
 
-/** Returns the page's address with a part, which may be `first`. */
+/** Returns the page's address with a figure's part added or replaced, or moved to the beginning if `first` is true. */
 function addressWith(key: string, text: string, first: boolean = false): string {
   const part = `${key}=${text}`;
   const all = parts();
   const at = all.findIndex((each) => each.startsWith(`${key}=`));
   const others = all.filter((_, i) => i !== at);
   const next = first ? [part, ...others] : at < 0 ? [...all, part] : all.with(at, part);
-  // A full address is independent of a base element.
+  // The address is complete, because a base element would change a relative one.
   return `${location.href.replace(/#.*/, '')}#${next.join('&')}`;
 }
 
@@ -129,10 +129,10 @@ const isAnchor = (part: string | undefined) => part !== undefined && !part.inclu
 
 let hasScrolled = false;
 
-/** Part of the fragment that the reader's link names, until the page has scrolled to it. */
+/** First part of the fragment of a followed link, until the page has scrolled to it. */
 let linked: string | undefined;
 
-/** Scrolls to the page's own anchor, once: browsers look for the whole fragment, with the states. */
+/** Scrolls to an anchor of the page, once. Browsers do not find it, because the fragment also has the states. */
 function scrollToAnchor() {
   if (hasScrolled) return;
   hasScrolled = true;

@@ -17,7 +17,7 @@ export interface LineStyle {
   mark?: 'line' | 'dot' | 'ring' | 'area' | 'cross' | 'box';
 }
 
-/** Returns the attribute and the state of overlays; `opening` are shown by default. */
+/** Returns the attribute and the field of the state for the overlays. `opening` are the default ones. */
 export function overlaysOf(names: readonly string[], opening: readonly string[] = names): { attribute: import('./attributes.ts').Attribute & import('./attributes.ts').Own, state: import('./state.ts').Owned } {
   return {
     attribute: { kind: WORD_LIST, own: true, words: names },
@@ -25,7 +25,7 @@ export function overlaysOf(names: readonly string[], opening: readonly string[] 
   };
 }
 
-/** Returns the legend of a figure's pictures, with the catalogue's `overlays` as words. `notes` say why lines are missing; `more` has no toggle. */
+/** Returns the legend of a figure's pictures, with names from the catalogue. `notes` explain missing lines. Entries of `more` have no toggle. */
 export function legend(figure: import('./figure.ts').Figure, styles: Record<string, LineStyle>, notes: Record<string, string> = {}, more: unknown = nothing) {
   const { overlays } = figure.state.own;
   const { overlays: names } = (words as any)[figure.kind.vocabulary];

@@ -2,7 +2,7 @@
 
 import { refusal } from './checks.ts';
 
-/** Largest unpacked state, in bytes, as a link may be malicious. The largest grid has 11.2 million. */
+/** Maximum size of an unpacked state, in bytes, because a link may be malicious. The largest grid takes 11.2 million. */
 const MAX_BYTES = 12_000_000;
 
 /** Returns compressed data as letters, digits, - and _. */
@@ -12,7 +12,7 @@ export async function pack(data: object): Promise<string> {
   return toBase64(bytes).replaceAll('+', '-').replaceAll('/', '_').replaceAll('=', '');
 }
 
-/** Returns packed data; throws a RangeError for any other text. */
+/** Returns the data of a packed text; throws a RangeError for any other text. */
 export async function unpack(text: string): Promise<unknown> {
   try {
     const bytes = fromBase64(text.replaceAll('-', '+').replaceAll('_', '/'));
@@ -36,7 +36,7 @@ export async function unpack(text: string): Promise<unknown> {
 const MAX_ARGUMENTS = 4096;
 
 export function toBase64(bytes: Uint8Array & { toBase64?: () => string }) {
-  // A hundred times faster, where the browser has it.
+  // The method of newer browsers is a hundred times as fast.
   if (bytes.toBase64) return bytes.toBase64();
   let text = '';
   for (let at = 0; at < bytes.length; at += MAX_ARGUMENTS) text += String.fromCharCode(...bytes.subarray(at, at + MAX_ARGUMENTS));

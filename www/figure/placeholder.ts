@@ -12,13 +12,13 @@ export function placeholder(figure: Figure) {
 /** Moves the focus into the figure, to the end that is nearer to `origin`. */
 async function moveFocusInto(figure: Figure, origin: EventTarget | null) {
   await figure.runtime.start();
-  // The controls follow the first picture.
+  // Waits for the controls, which are rendered after the first picture.
   while (figure.stage.opening) await new Promise(requestAnimationFrame);
   await figure.updateComplete;
-  // The removal of the placeholder has dropped the focus.
+  // The focus was on the placeholder, and is on the body after its removal. The reader may have moved it.
   if (!figure.machine || document.activeElement !== document.body) return;
   const stops = stopsIn(figure.renderRoot);
-  // Backwards from an element below.
+  // With Shift+Tab the focus comes from an element below the figure.
   const below = origin instanceof Node && figure.compareDocumentPosition(origin) & Node.DOCUMENT_POSITION_FOLLOWING;
   stops.at(below ? -1 : 0)?.focus();
 }

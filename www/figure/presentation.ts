@@ -51,7 +51,7 @@ export class Presentation extends Part {
     if (navigator.userActivation.isActive) await host.requestFullscreen().catch(() => {});
     if (!this.#listening) await this.#exit();
     else if (!host.matches(':fullscreen')) {
-      // The top layer is the window, whatever transform the page has.
+      // A popover in the top layer fills the window even if an ancestor has a transform.
       host.popover = 'manual';
       host.showPopover?.();
     }
@@ -64,7 +64,7 @@ export class Presentation extends Part {
     this.#controls = false;
     await this.#exit();
     await this.host.updateComplete;
-    // The page has its layout again, and scrolls to the button.
+    // Focusing the button scrolls the page back to the figure.
     this.#focus('.to-present');
   }
 

@@ -53,7 +53,7 @@ export class Progress extends Part {
   #shown = false;
 
   hostConnected() {
-    // Captured before the page or the figure uses the key.
+    // The capturing listener is called before those of the page and the figure.
     document.addEventListener('keydown', this.#key, { capture: true });
   }
 
@@ -63,7 +63,7 @@ export class Progress extends Part {
 
   #key = (event: KeyboardEvent) => {
     if (event.key !== 'Escape' || !this.#shown || event.defaultPrevented) return;
-    // The focus is in the figure, or nowhere, as after a drop of files.
+    // The key counts if the focus is in the figure, or on the body, such as after files were dropped.
     if (event.target !== document.body && !event.composedPath().includes(this.host)) return;
     event.preventDefault();
     event.stopPropagation();

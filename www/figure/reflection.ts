@@ -1,4 +1,4 @@
-/** Attributes and properties of the element: the page's values are applied, and the attributes follow the settings. */
+/** Synchronization of attributes and properties with the settings: values of the page are applied, and changed settings are written as attributes. */
 
 import { COMMON, groupsOf, isSetting } from './attributes.ts';
 import { includesFields, renamed, word } from './checks.ts';
@@ -12,9 +12,9 @@ export type Texts = Map<string, string | null>;
 
 export class Reflection extends Part {
   #attributes = this.host.kind.attributes;
-  /** Attributes, and settings that have a property alone. */
+  /** Attributes, and settings that have a property but no attribute. */
   #entries: Attributes = { ...groupsOf(this.host.kind.declared), ...this.#attributes };
-  /** Order in which pending properties are applied: what others depend on comes first, and a log, which takes long, last. */
+  /** Order in which pending properties are applied. Properties that others depend on come first, and a log, which takes long, last. */
   #order = ['preset', 'map', ...this.host.kind.declared.map(({ key }) => key), ...Object.keys(this.#attributes), 'marked', 'log'];
   /** Settings on whose values the defaults of others depend. */
   #defaultsDependOn = this.host.kind.defaultsDependOn;
@@ -22,7 +22,7 @@ export class Reflection extends Part {
   #defaultConfigs: Map<string, Config> = new Map();
   /** Attributes that were set before there was a machine. */
   #pendingAttributes: Map<string, string | null> = new Map();
-  /** Properties that were set before there was a machine, by name; whole states have an object as key. */
+  /** Properties that were set before there was a machine, by name. Whole states have an object as key. */
   #pendingProperties: Map<unknown, { value?: unknown, apply: () => void }> = new Map();
   /** True from the first connection on: a figure that is moved keeps its settings. */
   #hasConnected = false;
@@ -66,7 +66,7 @@ export class Reflection extends Part {
       if (text !== undefined) this.#apply(name, text);
     }
     this.#pendingAttributes.clear();
-    // Properties are sorted by dependency; a state stays at its place in time.
+    // Properties between two states are sorted by dependency. States keep their order in time.
     let since = 0;
     const pending = [...this.#pendingProperties].map(([name, { apply }]) =>
       ({ apply, when: typeof name === 'string' ? since + this.#order.indexOf(name) : (since += this.#order.length) }));
@@ -81,7 +81,7 @@ export class Reflection extends Part {
     else this.#pendingProperties.set({}, { apply: enter });
   }
 
-  /** Sets a property, also by a text; null or undefined sets the default. An equal value changes nothing; a refused one is reported. */
+  /** Sets a property to a value or to its text. Null or undefined sets the default. A value that is refused is reported. */
   setProperty(name: string, value: any, apply: (value: any) => void) {
     const entry = this.#entries[name];
     const given = typeof value === 'string' && entry?.kind ? entry.kind.parse(value) : value;
@@ -89,7 +89,7 @@ export class Reflection extends Part {
       const wanted = given ?? this.#defaultOf(name) ?? null;
       const setting = entry && isSetting(entry) ? entry : undefined;
       const present = setting ? setting.get(this.host.settings.wanted) : Reflect.get(this.host, name);
-      // A group accepts some of its fields; a value of the element itself is replaced as a whole.
+      // A group of settings may be given in part. A value of the element itself is replaced as a whole.
       if (!includesFields(present, wanted) || (!setting && !includesFields(wanted, present))) apply(wanted);
     };
     if (this.host.machine) {
@@ -154,7 +154,7 @@ export class Reflection extends Part {
     for (const keys of [[], this.#defaultsDependOn]) this.#defaultConfigs.set(partOf(opening, keys), opening);
   }
 
-  /** Returns the default settings where the settings named by `keys` keep their present values. */
+  /** Returns the default settings, given the present values of the settings named by `keys`. */
   #defaultConfig(keys: string[]): Config {
     const { settings, motion } = this.host;
     const part = partOf(settings.wanted, keys);
@@ -162,7 +162,7 @@ export class Reflection extends Part {
     if (known) return known;
     const machine = this.host.createMachine(motion);
     const given = JSON.parse(part);
-    // No samples are needed.
+    // The defaults do not depend on samples, so that none are computed.
     const opening = this.host.cloud ? machine.configureFirst(given, 0) : machine.configure(given);
     machine.free();
     this.#defaultConfigs.set(part, opening);
@@ -235,7 +235,7 @@ export class Reflection extends Part {
 
 const partOf = (config: Config, keys: string[]) => JSON.stringify(Object.fromEntries(keys.map((key) => [key, config[key]])));
 
-/** Defines a widget's element with a property for each setting; nothing happens if the page loads the script twice. */
+/** Defines a widget's element with a property for each setting. If the page loads the script twice, the second call does nothing. */
 export function define(tag: string, Widget: typeof import('./figure.ts').FigureElement<any, any>) {
   if (customElements.get(tag)) return;
   const { prototype, attributes, declared, own } = Widget;

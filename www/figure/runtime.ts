@@ -1,4 +1,4 @@
-/** Core of a figure: created near the viewport, freed on removal, replaced after a trap from the last valid state. */
+/** Core of a figure. It is created near the viewport and freed on removal. After a trap, a new core gets the last valid state. */
 
 import { abandon, instantiateFor } from '../core.ts';
 import { checkNow, unwatch, watch } from './page/sight.ts';
@@ -49,7 +49,7 @@ export class Runtime extends Part {
     this.machine = machine;
   }
 
-  /** Runs work and recovers from a trap, with undefined as the result; throws other errors. */
+  /** Runs work. Recovers from a trap, and returns undefined then. Throws other errors. */
   attempt<Result>(work: () => Result): Result | undefined {
     try {
       return work();
@@ -77,7 +77,7 @@ export class Runtime extends Part {
     }
   }
 
-  /** Ends the recovery from a trap: a picture was drawn. */
+  /** Marks the core as working, after a picture was drawn: a later trap is recovered from again. */
   confirmHealthy() {
     this.#hasTrapped = false;
   }
@@ -97,7 +97,7 @@ export class Runtime extends Part {
     this.report(error);
   }
 
-  /** Replaces the core after a trap: its memory may be damaged. Returns false for other errors and a second trap before a picture. */
+  /** Replaces the core after a trap, because its memory may be damaged. Returns false for other errors, and for a second trap before a picture. */
   #recover(error: unknown): boolean {
     if (!isTrap(error) || this.#hasTrapped) return false;
     this.#hasTrapped = true;

@@ -8,7 +8,7 @@ export type Values = Record<string, any>;
 export class Settings extends Part {
   /** True if the machine has changed since it was read. */
   stale: boolean | undefined;
-  /** Settings in effect, as the machine gave them; undefined for a machine that was not asked yet. */
+  /** Cache of the settings in effect; undefined until the machine is asked. */
   #present: Values | undefined;
   /** Changes of the reader that wait for the next frame. */
   #pending: Values = {};
@@ -40,12 +40,12 @@ export class Settings extends Part {
     return { ...this.present, ...this.#pending };
   }
 
-  /** True if changes are pending or not read yet. */
+  /** True if changes are pending, or not in the reading yet. */
   get isWaiting() {
     return this.stale || Object.keys(this.#pending).length > 0;
   }
 
-  /** Changes settings with the next frame, so that a drag costs one configuration a frame. */
+  /** Changes settings in the next frame, so that a drag configures the machine once in each frame. */
   want(change: Values | ((wanted: Values) => Values)) {
     this.host.runtime.attempt(() => {
       if (!this.host.machine) return;
@@ -103,7 +103,7 @@ export class Settings extends Part {
       const { machine, cloud } = this.host;
       if (!machine) return;
       this.settle();
-      // Growth is not visible.
+      // Out of the viewport the growth of a cloud is not visible.
       if (this.host.isAwaited) cloud?.finish();
       if (cloud && !cloud.refine()) {
         this.#isShowing = true;

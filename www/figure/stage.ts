@@ -10,13 +10,13 @@ import type { Surface } from '../scene/canvas.ts';
 
 type AnyPicture = import('../scene/picture.ts').Picture<any>;
 
-/** Drawing time, ms, up to which the text is laid out in the same frame; otherwise it follows in the next one. */
+/** Drawing time, ms, up to which the text is rendered in the same frame. After a longer one it is rendered in the next frame. */
 const SAME_FRAME_TIME = 5;
 
-/** Time in a frame, ms, after which further pictures wait for the next one, so that a slow device shows more frames of a drag. */
+/** Time in a frame, ms, after which further pictures wait for the next frame. A slow device then shows more frames of a drag. */
 const PICTURES_TIME = 8;
 
-/** Longest delay of the text while frames draw pictures, ms. */
+/** Maximum delay of the text during a drag, ms. */
 const MAX_TEXT_DELAY = 100;
 
 /** Pixels per CSS pixel in print. */
@@ -27,7 +27,7 @@ let calm: MediaQueryList | undefined;
 /** Returns true if the reader prefers reduced motion. */
 export const isCalm = () => (calm ??= matchMedia('(prefers-reduced-motion: reduce)')).matches;
 
-/** Returns true if a canvas has pixels: a narrow figure may hide one. */
+/** Returns true if a canvas has pixels. Narrow figures hide some canvases. */
 const isShown = ({ width, height }: HTMLCanvasElement) => Math.min(width, height) > 0;
 
 export class Stage extends Part {
@@ -35,7 +35,7 @@ export class Stage extends Part {
   inSight = false;
   #palette: import('../ui/theme.ts').Palette | undefined;
   #canvases: HTMLCanvasElement[] | undefined;
-  /** Widths of the canvases in CSS pixels: reading them in a frame would lay out the page. */
+  /** Cached widths of the canvases in CSS pixels. Reading them in a frame would cause a reflow. */
   #widths: WeakMap<HTMLCanvasElement, number> = new WeakMap();
   /** True once the text of the first picture was rendered. */
   #isDescribed = false;
@@ -43,10 +43,10 @@ export class Stage extends Part {
   #undrawn: Set<AnyPicture> = new Set();
   /** True if the latest frame left pictures to the next one. */
   isBehind = false;
-  /** Time of the first picture since the text was rendered last; undefined if the text is up to date. */
+  /** Time of the first picture that is newer than the text; undefined if the text is up to date. */
   #undescribedSince: number | undefined;
   #printing = false;
-  /** True while the size observer reports: rendering the text now could change sizes again. */
+  /** True during a callback of the size observer. Text is not rendered then, because it could change sizes again. */
   #resizing: boolean | undefined;
   #sizes: ResizeObserver | undefined;
   /** Removes the listeners. */
@@ -57,12 +57,12 @@ export class Stage extends Part {
     const { signal } = this.#listening;
     addEventListener('beforeprint', () => this.#print(true), { signal });
     addEventListener('afterprint', () => this.#print(false), { signal });
-    // Some browsers lack the events, others fire them too late.
+    // Some browsers do not have the events, others fire them too late.
     const media = matchMedia('print');
     media.addEventListener('change', () => this.#print(media.matches), { signal });
     this.#followPixels(signal);
     onLanguage(this.host, () => this.#languageChanged(), signal);
-    // A background with a transition has its colour at the end.
+    // A background has its final colour at the end of its transition.
     const backgroundChanged = ({ target, propertyName }: TransitionEvent) => {
       if (propertyName === 'background-color' && ancestors(this.host).includes(target as Element)) this.recolour();
     };
@@ -91,7 +91,7 @@ export class Stage extends Part {
     if (this.#printing) this.#print(true);
   }
 
-  /** Measures again after a change of the pixel ratio: in WebKit the observer reports CSS pixels alone. */
+  /** Measures the canvases again after a change of the pixel ratio. WebKit's observer does not report device pixels. */
   #followPixels(signal: AbortSignal) {
     const changed = () => {
       this.#measure();
@@ -100,7 +100,7 @@ export class Stage extends Part {
     matchMedia(`(resolution:${devicePixelRatio}dppx)`).addEventListener('change', changed, { once: true, signal });
   }
 
-  /** Observes the sizes of the canvases, which reports the present ones too. */
+  /** Observes the sizes of the canvases. The observer also reports the present sizes. */
   #measure() {
     if (!this.#sizes || !this.#canvases) return;
     this.#sizes.disconnect();
@@ -138,7 +138,7 @@ export class Stage extends Part {
     return this.host.machine !== undefined && !this.#isDescribed && this.inSight && !document.hidden;
   }
 
-  /** Renders content one frame after the first picture, which is drawn sooner so. */
+  /** Returns content, but nothing in the first frame, so that the first picture is drawn earlier. */
   later(content: () => unknown) {
     return this.opening ? nothing : content();
   }
@@ -159,7 +159,7 @@ export class Stage extends Part {
 
   /** @param elapsed milliseconds since the frame before */
   #drawNow(elapsed: number) {
-    // A closed disclosure gives everything size 0.
+    // In a closed disclosure all sizes are 0.
     if (!this.host.machine || !this.#canvases?.some(isShown)) return;
     this.host.runtime.attemptOrFail(() => {
       this.#draw(elapsed);
@@ -172,7 +172,7 @@ export class Stage extends Part {
     const { reading } = host;
     const began = performance.now();
     host.settings.settle();
-    // A trap has removed the machine.
+    // The machine is missing after a trap.
     if (!host.machine) return;
     host.cloud?.advance(this.#printing);
     const { scene } = host;
@@ -228,7 +228,7 @@ export class Stage extends Part {
     return canvases.find(({ className }) => className === name) as HTMLCanvasElement;
   }
 
-  /** Sets each canvas to the size of its device pixels. In print its pixels give its proportions, so that new pixels would resize it again. */
+  /** Sets the size of each canvas in device pixels. In print the pixels determine the layout, so that the observer would be called again. */
   #resize(entries: ResizeObserverEntry[]) {
     if (this.#printing) return;
     for (const { target, contentRect, devicePixelContentBoxSize } of entries) {
@@ -248,7 +248,7 @@ export class Stage extends Part {
     }
     this.#colour();
     this.#addPictures();
-    // Resizing clears a canvas: the next frame would be too late.
+    // Resizing has cleared the canvas. A drawing in the next frame would flicker.
     this.#resizing = true;
     this.#drawNow(0);
     this.#resizing = false;
@@ -264,7 +264,7 @@ export class Stage extends Part {
     this.requestFrame();
   }
 
-  /** Sets the colours of the surroundings, or the figure's own where its theme differs from theirs. */
+  /** Sets the colours of the surroundings, or those of the figure if its theme differs from the scheme around it. */
   #colour() {
     const style = this.#find('.surface')?.style;
     if (!style) return;
@@ -275,7 +275,7 @@ export class Stage extends Part {
     const own = this.#printing || style.colorScheme !== scheme;
     for (const [name, colour] of Object.entries(around)) style.setProperty(`--${name}`, own ? '' : colour);
     style.setProperty('--back', own ? 'var(--paper)' : '');
-    // Colours that the stylesheet derives from the page fit the page's background alone.
+    // Colours that the page sets for its background do not fit the figure's own.
     for (const name of ['muted', 'rule']) style.setProperty(`--mw-${name}`, own ? 'initial' : '');
     this.#palette = undefined;
   }
@@ -285,7 +285,7 @@ export class Stage extends Part {
     this.#printing = printing;
     const { machine, cloud } = this.host;
     if (!machine) {
-      // The printer waits for microtasks, and another figure may have loaded the module.
+      // Browsers run microtasks before they print. The start needs no more than these if another figure has loaded the module.
       if (printing) void this.#startAndPrint();
       return;
     }

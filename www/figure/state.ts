@@ -1,4 +1,4 @@
-/** State of the figure as plain data: read, applied, and kept over a removal and a trap. */
+/** State of the figure as plain data. It is kept after a removal of the element and after a trap. */
 
 import { object, refusal, word } from './checks.ts';
 import { Part } from './part.ts';
@@ -13,7 +13,7 @@ export interface Owned {
   opening: unknown;
   /** True if a preset sets it to its default. */
   ofPreset?: true;
-  /** Returns a checked value, for so many selectable samples; throws. */
+  /** Returns a value after a check; throws if it is invalid. */
   check: (field: string, value: any, machine: any, selectableCount: number) => any;
 }
 
@@ -60,7 +60,7 @@ export class State extends Part {
     host.machineChanged();
     host.reflection.applyPending();
     host.link.applyPending();
-    // A trap may have removed it, or a pending state was shown already.
+    // The machine is missing after a trap. The settings are not stale if a pending state was shown already.
     if (host.machine && host.settings.stale) this.#introduce(this.kept);
   }
 
@@ -115,7 +115,7 @@ export class State extends Part {
     });
   }
 
-  /** Shows the machine's state; without one, as when the figure opens. */
+  /** Shows a state of the machine; by default as when the figure opens. */
   #introduce(state?: Values) {
     const { host } = this;
     host.stage.release();

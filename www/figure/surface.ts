@@ -25,7 +25,7 @@ export function surface(figure: Figure) {
   `;
 }
 
-/** Keeps the former content while there is no machine, as after a trap or a removal. */
+/** Returns the content, or `noChange` without a machine, as after a trap or a removal. */
 function contentOf(figure: Figure) {
   const { failure } = figure.runtime;
   if (failure !== undefined) return html`<p class="failure" role="alert">${words.failure(failure)}</p>`;
@@ -33,7 +33,7 @@ function contentOf(figure: Figure) {
   return figure.reading ? noChange : placeholder(figure);
 }
 
-/** Fields that use every key. */
+/** Controls that use every key. */
 const FIELD = 'textarea, input:not([type=range], [type=radio], [type=checkbox])';
 
 /** Keys that move sliders and radio buttons. */
@@ -42,7 +42,7 @@ const MOVES = /Arrow|Page|Home|End/;
 /** Keys that press a button, a box or a summary. */
 const PRESSES = /^( |Enter)$/;
 
-/** Stops a key that the figure has used: outside of the shadow root, a book or a talk that turns pages would not see the control. */
+/** Stops a key that a control has used. A page with key shortcuts, such as a slide deck, does not see the control in the shadow root. */
 function keepUsed(event: KeyboardEvent) {
   const { key, ctrlKey, altKey, metaKey, defaultPrevented } = event;
   const target = event.target as Element;

@@ -9,15 +9,15 @@ interface Column {
   /** Index, from 0. */
   at: number;
   name: string;
-  /** Unit that the name states, of time, length, or angle; those of speeds are of their length or angle. */
+  /** Unit in the name, of time, length or angle. Speeds have the unit of their length or angle. */
   unit?: string;
-  /** Order among columns of the same field: the lowest is the field. */
+  /** Priority among columns of the same field. The column with the lowest number is used. */
   rank: number;
 }
 
 export interface Clock {
   name: string;
-  /** One column, or those of seconds and nanoseconds. */
+  /** Column of times, or columns of seconds and nanoseconds. */
   columns: [Column] | [Column, Column];
   unit?: TimeUnit;
 }
@@ -32,20 +32,20 @@ export interface Group {
   twice: Partial<Record<Field, Column>>;
   /** Columns of times, best first. */
   times: Column[];
-  /** Clock of the rows, and another one that is used if the first is always 0. */
+  /** Clock of the rows, and another one that is used if the first is mostly 0. */
   clocks: Clock[];
-  /** First cell of its rows, in a file of rows of several kinds. */
+  /** First cell of the group's rows, in a file with several kinds of rows. */
   tag?: string;
 }
 
-/** Messages that contain a field. */
+/** Pattern of the names of messages that contain a pose. */
 const POSE = '(?:(?:pose|transform|odometry)\\.)*';
 const TWIST = '(?:(?:twist|velocity|vel|cmd)\\.)*';
 const HEADER = '(?:header\\.)?';
 
 /**
- * Names of each field, best first, in small letters with dots between their parts. A part before them is the prefix of a group.
- * The first pattern that matches a name is its field.
+ * Patterns of the names of each field, best first, in lower case with dots between their parts. A part before the pattern is the prefix of a
+ * group. The first pattern that matches a name determines its field.
  */
 const NAMES: [Field, string[]][] = [
   ['child', ['child\\.frame\\.id']],
@@ -66,12 +66,11 @@ const NAMES: [Field, string[]][] = [
 ];
 
 /**
- * Patterns that try the prefix first. The dot of a prefix is lazy, so that the name of a message belongs to the field and not to the
- * prefix.
+ * Patterns with a prefix. The prefix is matched lazily, so that the name of a message belongs to the field and not to the prefix.
  */
 const PATTERNS = NAMES.flatMap(([field, names]) => names.map((name, rank) => ({ field, rank, pattern: new RegExp(`^(?:(.*?)\\.)??(?:${name})$`, 'u') })));
 
-/** Field and a group after it: x_gt, yaw_odom, x1. */
+/** Name with a field before its group: x_gt, yaw_odom, x1. */
 const SUFFIXED = /^((?:pos\.|position\.)?[xy]|yaw|theta|heading|q\.?[xyzw]|t|time|v|omega)\.?(\d+|(?<=\.)(?!rate|dot)\p{L}.*)$/u;
 
 /** Parts of column names that are no pose, velocity or time: uncertainty, acceleration, vectors of an IMU, goals. */
@@ -114,7 +113,7 @@ const UNITS_OF: Partial<Record<Field, [Unit['of'], boolean]>> = {
   t: ['time', false], x: ['length', false], y: ['length', false], z: ['length', false], yaw: ['angle', false], v: ['length', true], omega: ['angle', true],
 };
 
-/** Parts of a name in small letters, with dots between them. */
+/** Returns a name in lower case, with dots between its parts. */
 function dottedName(name: string): string {
   const parts = name.replace(/^%/, '').replace(/^field\./, '').replaceAll(/(\p{Ll})(\p{Lu})/gu, '$1.$2').toLowerCase();
   return parts.replaceAll(/[^\p{L}\p{N}°]+/gu, '.').replaceAll(/^\.+|\.+$/g, '');
@@ -133,9 +132,9 @@ function readName(name: string): ColumnMeaning | undefined {
   const bare = bracketed === undefined ? name : name.slice(0, -bracketed.length);
   const path = dottedName(bare);
   const whole = fieldOf(path);
-  // Times of rostopic are nanoseconds, in a simulation too.
+  // Times of rostopic are in nanoseconds, also those of a simulation, which are small.
   if (whole?.field === 't' && /^%time|^field\..*stamp$/.test(name)) return { ...whole, unit: 'ns' };
-  // Clocks of microcontrollers have their unit for a name.
+  // Clocks of microcontrollers are named after their unit.
   if (whole) return { ...whole, ...(/millis$/.test(path) ? { unit: 'ms' } : /micros$/.test(path) ? { unit: 'us' } : /nanos$/.test(path) ? { unit: 'ns' } : {}) };
   const [last, word] = LAST_PART.exec(bare) ?? [];
   const unit = word === undefined ? undefined : unitOf(word.replace(/[. ]/, '_'));
@@ -146,7 +145,7 @@ function readName(name: string): ColumnMeaning | undefined {
   return fronted && suffix !== undefined && !OTHER_QUANTITIES.test(suffix) ? { ...fronted, prefix: suffix } : undefined;
 }
 
-/** Checks that a field can have a unit. An unknown unit is refused when the column is read. */
+/** Checks that a field can have a unit. Unknown units pass, and are refused when the column is read. */
 function canHaveUnit(field: Field, unit: Unit | undefined): boolean {
   const [of, isRate] = UNITS_OF[field] ?? [];
   return unit === undefined || (unit.of === of && unit.isRate === isRate);
@@ -166,7 +165,7 @@ function fieldOf(path: string): ColumnMeaning | undefined {
  *
  * @param names of the columns
  * @param isTime checks whether a column without a name holds times
- * @returns groups in the order of their columns, with those of other quantities left out
+ * @returns groups in the order of their columns, without columns of other quantities
  */
 export function groupsOf(names: string[], isTime: (at: number) => boolean = () => false): Group[] {
   const groups = new Map<string, Group>();
@@ -203,7 +202,7 @@ export function groupsOf(names: string[], isTime: (at: number) => boolean = () =
   return all.filter(({ columns }) => columns.x || columns.y || columns.v || columns.omega || columns.yaw || columns.qw).map((group) => ({ ...group, name: nameOf(group, names) }));
 }
 
-/** Returns the clocks of a group: the stamp of the message first, as the other may be the time when it was written down. */
+/** Returns the clocks of a group. The stamp of the message comes first, because the other clock may be the time of recording. */
 function clocksOf({ columns: { seconds, nanoseconds }, times }: Group): Clock[] {
   const inOne = times.toSorted((one, other) => one.rank - other.rank).map((column) => ({ name: column.name, columns: [column], ...unitOfClock(column) }) as Clock);
   if (seconds && nanoseconds) return [{ name: `${seconds.name}, ${nanoseconds.name}`, columns: [seconds, nanoseconds], unit: 's' }, ...inOne];
@@ -213,7 +212,7 @@ function clocksOf({ columns: { seconds, nanoseconds }, times }: Group): Clock[] 
 
 const unitOfClock = ({ unit }: Column) => (unit === undefined ? {} : { unit: unit as TimeUnit });
 
-/** Returns the common prefix of a group's columns as the table has it, or the suffix; of a group with neither, its columns. */
+/** Returns the common prefix or suffix of a group's columns, as it is in the table; of a group with neither, the names of its columns. */
 function nameOf({ name, columns }: Group, names: string[]): string {
   if (name === '') return '';
   const { x, v, yaw, omega } = columns;
@@ -240,8 +239,8 @@ export interface Layout {
 /**
  * Returns the columns of a group that a log is read from.
  *
- * @param wanted commands if they are there, poses alone, or by default poses if they are there
- * @throws {LogError} where a field is missing, or two columns are it
+ * @param wanted kind of the log: `commands` prefers commands to poses, and `poses` excludes commands; by default poses come first
+ * @throws {LogError} if a field is missing, or two columns can be the same field
  */
 export function layoutOf(group: Group | undefined, names: string[], place: Place, wanted: LogKind | undefined): Layout {
   const all = listed(names.map((name) => name.trim()));
@@ -271,5 +270,5 @@ export function layoutOf(group: Group | undefined, names: string[], place: Place
   };
 }
 
-/** Checks for a header: some cell is a name. */
+/** Checks for a header, which has names in some cells. */
 export const isHeader = (cells: string[]) => cells.some((cell) => /\p{L}/u.test(cell) && !/^[+-]?(nan|inf(inity)?|[\d.,]+e[+-]?\d+)$/i.test(cell.trim()));

@@ -1,4 +1,4 @@
-/** Search for the error of a log whose motion does not agree with that of the other log: each correction is tried. */
+/** Search for the error in a log whose motion disagrees with that of the other log. It tries each correction on each log. */
 
 import { bisectLeft, cross, greatest } from 'd3-array';
 import { ROLES, type Log, type Role } from './log.ts';
@@ -30,17 +30,17 @@ export interface Correction {
   at: Role;
   /** Correlation of the corrected motions. */
   score: number;
-  /** Lengths of the odometry over those of the reference. */
+  /** Ratio of the lengths of the odometry to those of the reference. */
   factor: number;
 }
 
-/** Maximum number of steps of the drive, their minimum duration in s, and minimum number of steps for a comparison. */
+/** Maximum number of steps of a drive, minimum duration of a step (s), and minimum number of steps for a comparison. */
 const [MAX_STEPS, MIN_DURATION, MIN_STEPS] = [4000, 0.25, 40];
 
-/** Largest offset of the clocks in s that is tried, as in the first scan of the core. */
+/** Maximum offset of the clocks (s) that is tried, as in the first scan of the core. */
 const MAX_OFFSET = 10;
 
-/** Score of logs that need no correction, minimum score of a correction, and maximum share of the disagreement that it leaves. */
+/** Score above which logs need no correction, minimum score after a correction, and maximum fraction of the disagreement after it. */
 const [AGREEMENT, MIN_SCORE, MAX_REST] = [0.9, 0.8, 0.3];
 
 /** Returns true for a scale that wheels can have, as in the core. */
@@ -52,10 +52,10 @@ const STANDSTILL = 1e-4;
 /** Motion beyond which a step is a jump, in units of the 90 % quantile. */
 const JUMP = 4;
 
-/** Fit of two logs: correlation of their motions, from −1 to 1, and the scales of the reference that fit best. */
+/** Agreement of two logs: correlation of their motions (−1 to 1), and best scales of the reference's lengths and angles. */
 interface Agreement { score: number; length: number; angle: number }
 
-/** Returns the correction that makes two logs of a drive agree; undefined where they agree, or none does. */
+/** Returns the correction after which two logs of a drive agree; undefined if they agree already, or after none. */
 export function correctionOf(odometry: Log, reference: Log): Correction | undefined {
   const logs = { odometry, reference };
   const spans = ROLES.map((role) => logs[role].data.t);
@@ -67,7 +67,7 @@ export function correctionOf(odometry: Log, reference: Log): Correction | undefi
   const { score, length: factor, angle } = agreement(plain, step, true);
   const tried = score >= AGREEMENT ? [] : cross(Object.keys(CORRECTIONS) as (keyof typeof CORRECTIONS)[], ['reference', 'odometry'] as const, (name, at) => {
     const corrected = { ...plain, [at]: motionsOf(logs[at], from, step, count, CORRECTIONS[name]) };
-    // A correction that is applied to the wrong log can make both wrong in the same way. Then neither robot drives straight ahead.
+    // A correction of the wrong log can give both logs the same error. Neither robot then drives along its heading.
     return { name, at, factor, ...agreement(corrected, step), straight: straightness(corrected.odometry) + straightness(corrected.reference) };
   });
   const minimum = Math.max(MIN_SCORE, 1 - MAX_REST * (1 - score));
@@ -99,9 +99,9 @@ function motionsOf({ data }: Log, from: number, step: number, count: number, cor
 const wrapped = (angle: number) => angle - 2 * Math.PI * Math.round(angle / (2 * Math.PI));
 
 /**
- * Returns the agreement of two logs at the offset of their clocks where it is largest, or at the nearest one where they agree.
+ * Returns the agreement of two logs at the smallest offset of their clocks at which they agree, or else at the best one.
  *
- * @param anyYaw whether the reference may be mounted in any direction
+ * @param anyYaw true if the reference may have any mount yaw
  */
 function agreement({ odometry, reference }: Record<Role, Motion[]>, step: number, anyYaw = false): Agreement {
   const maxLag = Math.round(MAX_OFFSET / step);
@@ -114,14 +114,14 @@ function agreement({ odometry, reference }: Record<Role, Motion[]>, step: number
   return best;
 }
 
-/** Returns motions in which each jump is replaced by no motion. */
+/** Returns motions with jumps replaced by zeros. */
 function steady(motions: Motion[]): Motion[] {
   const limitOf = (size: (motion: Motion) => number) => JUMP * Math.max(STANDSTILL, quantile(Float64Array.from(motions, size), 0.9));
   const [drive, spin] = [limitOf(([forward, left]) => Math.hypot(forward, left)), limitOf(([, , turn]) => Math.abs(turn))];
   return motions.map((motion) => (Math.hypot(motion[0], motion[1]) <= drive && Math.abs(motion[2]) <= spin ? motion : [0, 0, 0]));
 }
 
-/** Returns the agreement at a clock offset of `lag` steps; its score is −1 where fewer than half of `count` steps overlap. */
+/** Returns the agreement at a clock offset of `lag` steps. Its score is −1 if fewer than half of `count` steps overlap. */
 function agreementAt(odometry: Motion[], reference: Motion[], lag: number, count: number, anyYaw: boolean): Agreement {
   // Sums of products of the motions: odometry squared, odometry times reference (`across`: turned by 90°), reference squared.
   let [drives, bothDrives, across, itsDrives, turns, bothTurns, itsTurns] = [0, 0, 0, 0, 0, 0, 0];

@@ -1,4 +1,4 @@
-/** Drives: odometry and reference of one drive, from the recordings that have them. */
+/** Search for the odometry and the reference of each drive in recordings. */
 
 import { candidates, isTable, likeliest, namesFor, roleByName, seriesNamed, usefulSeries } from './candidates.ts';
 import { LogError, listed } from './log-error.ts';
@@ -10,15 +10,15 @@ export type { Drive };
 /** Choice of a recording for one role. */
 export interface Part { recording: Recording; choice: Choice }
 
-/** Drives, and parts of other recordings that are paired by their times. */
+/** Drives whose logs are known, and further logs that are paired by their times. */
 export interface Plan { drives: Record<Role, Part>[]; unpaired: Record<Role, Part[]> }
 
-/** Answers of a user; what is missing is guessed. */
+/** Answers of a user. Missing answers are guessed. */
 export interface Wishes {
   /** `series` is the name of a series, or a prefix of names without the separator that follows. `frames` selects among transforms. */
   odometry?: { series?: string; frames?: Frames };
   reference?: { series?: string; frames?: Frames };
-  /** Preferred odometry: commands are taken if there are any. */
+  /** Kind of odometry: `commands` prefers commands to poses, and `poses` excludes commands. By default poses come first. */
   kind?: LogKind;
   /** Roles of recordings that have one log only. */
   roles?: ReadonlyMap<Recording, Role>;
@@ -29,7 +29,7 @@ const described = (series: Series[]) => listed(series.map(({ name, type }) => (n
 
 const isSame = (one: Choice, other?: Choice) => one.series === other?.series && one.frames?.parent === other.frames?.parent && one.frames?.child === other.frames?.child;
 
-/** Plans which parts of recordings make which drives; throws a LogError, with a question where something is not clear. */
+/** Assigns the logs of recordings to drives. Throws a LogError, which has a question if the choice is ambiguous. */
 export function planDrives(recordings: Recording[], wishes: Wishes = {}): Plan {
   const plan: Plan = { drives: [], unpaired: { odometry: [], reference: [] } };
   const unnamed: Recording[] = [];
@@ -41,7 +41,7 @@ export function planDrives(recordings: Recording[], wishes: Wishes = {}): Plan {
   }
   const { odometry, reference } = plan.unpaired;
   for (const [i, recording] of unnamed.entries()) {
-    // If names give no roles, they follow from the other half of the files, or from the order of two.
+    // Without names of roles, the roles of other files determine the role, or the order of two files.
     const role = odometry.length + reference.length + unnamed.length === 2 && unnamed.length === 2 ? ROLES[i]
       : 2 * odometry.length >= recordings.length ? 'reference'
         : 2 * reference.length >= recordings.length ? 'odometry' : undefined;
@@ -59,7 +59,7 @@ export function planDrives(recordings: Recording[], wishes: Wishes = {}): Plan {
   return plan;
 }
 
-/** Returns the role of a recording among several; undefined where it has one log, and neither its name nor speeds of its own tell. */
+/** Returns the role of a recording among several, by its name or contents; undefined if it has one log without a sign of its role. */
 function onlyRole(recording: Recording, wishes: Wishes): Role | 'both' | undefined {
   if (attempted(() => bothOf(recording, wishes))) return 'both';
   const [isOdometry, isReference] = ROLES.map((role) => attempted(() => choose(recording, role, wishes)) !== undefined);
@@ -67,7 +67,7 @@ function onlyRole(recording: Recording, wishes: Wishes): Role | 'both' | undefin
   return isOdometry ? roleByName(recording.name) ?? (recording.series.some(({ hasCommands }) => hasCommands) ? 'odometry' : undefined) : 'both';
 }
 
-/** Returns what a function returns, or undefined where it throws a LogError. */
+/** Returns the result of a function, or undefined if it throws a LogError. */
 function attempted<Result>(work: () => Result): Result | undefined {
   try {
     return work();
@@ -77,7 +77,7 @@ function attempted<Result>(work: () => Result): Result | undefined {
   }
 }
 
-/** Chooses both logs of one recording. */
+/** Returns both logs of one recording. */
 function bothOf(recording: Recording, wishes: Wishes): Record<Role, Part> {
   // A series that the user chose as the reference is not guessed as the odometry.
   const { series, frames } = wishes.reference ?? {};
@@ -91,7 +91,7 @@ function bothOf(recording: Recording, wishes: Wishes): Record<Role, Part> {
   return { odometry: { recording, choice: odometry }, reference: { recording, choice: reference } };
 }
 
-/** Chooses the log of a recording for a role, other than the one that the other role has. */
+/** Returns the log of a recording for a role. It differs from that of the other role. */
 function choose(recording: Recording, role: Role, wishes: Wishes, other?: Choice): Choice {
   const { series, frames } = wishes[role] ?? {};
   return series !== undefined || frames ? wishedChoice(recording, role, wishes) : guessedChoice(recording, role, wishes, other);
@@ -124,7 +124,7 @@ function framesError({ name: file }: Recording, { name: topic, frames = [] }: Se
 
 function guessedChoice(recording: Recording, role: Role, wishes: Wishes, other?: Choice): Choice {
   const [best = []] = candidates(recording, role, wishes).map((tier) => tier.filter((choice) => !isSame(choice, other))).filter(({ length }) => length);
-  // Both logs are about the same frame of the robot.
+  // Among the best choices, those with the robot frame of the other log are preferred.
   const alike = best.filter(({ frames }) => frames && frames.child === other?.frames?.child);
   if (alike.length === 1) return alike[0];
   if (best.length === 1) return best[0];
@@ -152,13 +152,13 @@ function guessedChoice(recording: Recording, role: Role, wishes: Wishes, other?:
   );
 }
 
-/** Returns the role of the only series of a recording, by its contents, or else by the name of the file; undefined where neither says it. */
+/** Returns the role of the only series of a recording by its contents or by the name of the file; undefined if neither is a sign. */
 function knownRole({ name: file }: Recording, { name, type, kind, hasCommands }: Series): Role | undefined {
   if (kind === 'commands') return 'odometry';
   return roleByName(name) ?? (hasCommands || /Odometry$/.test(type) ? 'odometry' : roleByName(file));
 }
 
-/** Reads the logs of a plan, and pairs them, with the times of all after one start; rejects with a LogError. */
+/** Reads the logs of a plan and pairs them. Their times are relative to one start. Rejects with a LogError. */
 export async function readDrives({ drives, unpaired }: Plan, onProgress?: (share: number) => void): Promise<Drive[]> {
   const reads = [...drives.map((drive) => [drive.odometry, drive.reference]), ...[...unpaired.odometry, ...unpaired.reference].map((part) => [part])];
   const logs: Log[] = [];

@@ -33,7 +33,7 @@ const TWIST = ['linear.x', 'linear.y', 'linear.z', 'angular.x', 'angular.y', 'an
 const STAMP = ['header.stamp.sec', 'header.stamp.nanosec', 'header.frame_id'];
 const OTHERS = Array.from({ length: 36 }, () => '-');
 
-/** Messages as `ros2 topic echo --csv` prints them: Odometry, PoseStamped with and without covariance, TwistStamped, and one transform. */
+/** Columns of `ros2 topic echo --csv`: Odometry, PoseStamped with and without covariance, TwistStamped, and one transform. */
 const ROS2 = [
   [...STAMP, 'child_frame_id', ...POSE, ...OTHERS, ...TWIST, ...OTHERS],
   [...STAMP, ...POSE],
@@ -42,14 +42,14 @@ const ROS2 = [
   [...STAMP, 'child_frame_id', ...POSE],
 ];
 
-/** Records of CARMEN's logs; of FLASER behind its readings. */
+/** Records of CARMEN's logs. The columns of FLASER follow the readings of the laser. */
 const CARMEN: [tag: string, series: string, names: string[]][] = [
   ['ODOM', 'ODOM', ['-', 'x', 'y', 'theta', 'v', 'omega', '-', 't']],
   ['TRUEPOS', 'TRUEPOS', ['-', 'x', 'y', 'theta', '-', '-', '-', 't']],
   ['FLASER', 'FLASER', ['-', 'x', 'y', 'theta', '-', '-', '-', 't']],
 ];
 
-/** Columns of rows that have no times: poses of KITTI, and geometry_msgs/Twist. */
+/** Number of columns of rows without times: poses of KITTI, and geometry_msgs/Twist. */
 const [KITTI, TWISTS] = [12, 6];
 
 /** First lines of text that is no table. */
@@ -69,7 +69,7 @@ export function cellsOf(line: string, separator: string, needed?: number): strin
   return cells;
 }
 
-/** Cells of a record of CARMEN: without the readings of a laser. */
+/** Returns the cells of a record of CARMEN without the readings of the laser. */
 export function carmenCells(line: string): string[] {
   const cells = line.trim().split(/\s+/);
   return cells[0] === 'FLASER' ? [cells[0], ...cells.slice(2 + Number(cells[1]))] : cells;
@@ -78,14 +78,14 @@ export function carmenCells(line: string): string[] {
 const WITH_COMMA = /^\s*[+-]?\d*,\d+(e[+-]?\d+)?\s*$/i;
 const isNumber = (cell: string) => cell.trim() !== '' && (numberOf(cell) !== undefined || WITH_COMMA.test(cell) || dateOf(cell) !== undefined);
 
-/** Checks for a row: at least two cells, and half of those that are not empty, are numbers or dates. */
+/** Checks for a row of data: at least two cells, and half of those that are not empty, are numbers or dates. */
 function isRow(cells: string[]): boolean {
   const filled = cells.filter((cell) => cell.trim() !== '');
   const numbers = filled.filter(isNumber).length;
   return numbers >= 2 && 2 * numbers >= filled.length;
 }
 
-/** Returns the separator that splits the lines into most cells with numbers. Without any numbers, that which splits them into most cells. */
+/** Returns the separator with which lines have most numbers, or if they have none, most cells. */
 function separatorOf(lines: string[]): string {
   const declared = lines.map((line) => /^"?sep=(.)"?$/i.exec(line)?.[1]).find((each) => each !== undefined);
   if (declared) return declared;
@@ -127,7 +127,7 @@ export function formatOf(lines: string[], file: string, columns: string[] | unde
     if (first && columns.length !== width) throw new LogError(place, (say) => say.given(width, columns.length));
     return { ...common, names: columns, groups: grouped(columns, rows[0]) };
   }
-  // Prose can also contain single rows of numbers.
+  // At least half of the lines must be rows: prose can also contain single rows of numbers.
   if (2 * rows.filter(isRow).length < rows.length) throw noLog();
   const above = filled.filter(({ number }) => number < common.firstLine);
   const motive = above.length > 0 && /^"?Format Version/.test(above[0].line) ? motiveFormat(above.map(({ line }) => cells(line)), place) : undefined;
@@ -136,7 +136,7 @@ export function formatOf(lines: string[], file: string, columns: string[] | unde
   const header = headerOf(above, separator, width, rows[0]);
   if (header) {
     const { names, number } = header;
-    // A decimal comma in each number nearly doubles the cells.
+    // Rows with decimal commas between commas have more cells than the header.
     if (width > names.length) throw new LogError({ file, line: first?.number }, (say) => say.wide(width, names.length, number));
     const groups = grouped(names, rows[0]);
     if (!first && groups.every(({ kind }) => kind === null)) throw noLog();
@@ -151,7 +151,7 @@ export function formatOf(lines: string[], file: string, columns: string[] | unde
   throw new LogError(place, (say) => say.noHeader(width, cut(first.line.trim().replaceAll('\t', ' '))), { what: 'columns', choices: [usual], columns: rows[0].slice(0, width) });
 }
 
-/** Groups columns. One without a name holds times if the first row has a date or a fraction there, and not a count of rows. */
+/** Groups columns. A column without a name has times if the first row has a date or a fraction there. A whole number is a row number. */
 function grouped(names: string[], row: string[] | undefined): Group[] {
   return groupsOf(names, (at) => {
     const cell = row?.[at]?.trim() ?? '';
@@ -195,7 +195,7 @@ function carmenFormat(tags: typeof CARMEN, firstLine: number): Format {
   return { name: 'csv', separator: ' ', hasCommas: false, firstLine, names: tags.map(([tag]) => tag), groups, isSparse: false };
 }
 
-/** Format of Motive: a group for each rigid body, with its position and quaternion. Throws a LogError for Euler angles. */
+/** Returns the format of Motive: a group for each rigid body, with its position and quaternion. Throws a LogError for Euler angles. */
 function motiveFormat(above: string[][], place: Place): Pick<Format, 'names' | 'groups' | 'hasUnknownAxis'> | undefined {
   const rowOf = (name: string) => above.find((row) => row.slice(0, 3).some((cell) => cell.trim() === name));
   const [last, quantities] = above.toReversed();

@@ -1,12 +1,12 @@
-/** Reference that has lost the robot and repeats its last pose while the robot drives. */
+/** Removal of frozen poses: a reference that has lost the robot may repeat the last pose while the robot drives. */
 
 import { bisectRight } from 'd3-array';
 import type { Commands, Log, Poses } from './log.ts';
 
-/** Seconds that are ignored at both ends of a standstill: the clocks may differ by as much. */
+/** Duration (s) that is ignored at both ends of a standstill, because the clocks may differ by as much. */
 const MARGIN = 1;
 
-/** Least motion of the odometry meanwhile, in metres or radians: at rest it may count a pulse or two. */
+/** Minimum motion of the odometry during a frozen pose, in metres or radians. At rest it may count a pulse or two. */
 const MOVES = 0.05;
 
 /** Removes rows of the reference that repeat a pose while the odometry, which has the same start, moves on. */

@@ -14,7 +14,7 @@ export interface Place {
   topic?: string;
 }
 
-/** Most characters that a sentence quotes of a name or value, and of a library's message. */
+/** Maximum number of characters that a sentence quotes of a name or value, and of a library's message. */
 const [QUOTED, REASON] = [40, 100];
 
 /** Error with one sentence that names the file, the line or topic, the value, and what is expected. */

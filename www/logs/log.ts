@@ -41,7 +41,7 @@ export const framesOption = ({ parent, child }: Frames) => `${parent},${child}`;
 export interface Choice {
   /** Name of the series. */
   series: string;
-  /** Kind to read: "commands" reads poses if there are no commands. By default poses come first. */
+  /** Kind of log: `commands` prefers commands to poses, and `poses` excludes commands. By default poses come first. */
   kind?: LogKind;
   /** Ends of a chain of transforms. */
   frames?: Frames;

@@ -1,4 +1,4 @@
-/** Messages of ROS 1 and ROS 2 with poses, commands or transforms. Only the leading fields are read; covariances and the like follow. */
+/** Readers of ROS 1 and ROS 2 messages with poses, commands or transforms. They read leading fields, and ignore the rest, such as covariances. */
 
 import { viewOf, type Channel } from './formats/container.ts';
 import { unzstdMessage } from './formats/zstd.ts';
@@ -6,7 +6,7 @@ import type { Series } from './log.ts';
 import { headingOf, isRotation } from './quaternion.ts';
 
 export interface Stamp {
-  /** Zeros of a type without a stamp. */
+  /** Seconds and nanoseconds of the stamp; 0 for a type without a stamp. */
   seconds: number;
   nanoseconds: number;
 }
@@ -32,13 +32,13 @@ export interface Edge extends Stamp {
   transform: Transform;
 }
 
-/** Kinds of CDR: plain, and plain of version 2, which aligns to four bytes at most. */
+/** Identifiers of CDR: plain, and plain of version 2, which aligns to four bytes at most. */
 const [CDR, CDR_2] = [[0, 1], [6, 7, 16, 17]];
 
 /** Bytes of the header of CDR, from whose end values are aligned. */
 const CDR_HEADER = 4;
 
-/** View of the buffer of the latest message. The messages of a block share it: a view takes as long as reading a message. */
+/** Cached view of the latest buffer, which the messages of a block share. Creating a view takes as long as reading a message. */
 let latest: DataView = new DataView(new ArrayBuffer(0));
 
 /** Reader of the values of a message: packed in ROS 1, aligned to their size in ROS 2. */
@@ -101,7 +101,7 @@ class Reader {
 
 const NO_STAMP: Stamp = { seconds: 0, nanoseconds: 0 };
 
-/** Skips a string: decoding it takes as long as all the rest. */
+/** Skips a string. Decoding it would take as long as reading the rest of the message. */
 function skipString(reader: Reader): void {
   reader.seek(reader.uint32());
 }
@@ -122,7 +122,7 @@ export function poseOf({ seconds, nanoseconds }: Stamp, [x, y, , qx, qy, qz, qw]
 
 function twist({ seconds, nanoseconds }: Stamp, reader: Reader): Sample {
   const v = reader.float64();
-  // Speeds in other directions, and turn rates about other axes.
+  // Skips speeds in other directions and turn rates about other axes.
   reader.seek(4 * 8);
   return { seconds, nanoseconds, a: v, b: reader.float64(), c: 0, isRotation: true };
 }
@@ -154,7 +154,7 @@ const TRANSFORMS = ['tf2_msgs/TFMessage', 'tf/tfMessage'];
 /** Returns the name of a type in ROS 1. */
 const plainType = (type: string) => type.replace('/msg/', '/');
 
-/** Returns what can be read from messages of a type. */
+/** Returns the kind of log that can be read from messages of a type. */
 export function kindOf(type: string): Series['kind'] {
   const plain = plainType(type);
   if (Object.hasOwn(POSES, plain)) return 'poses';

@@ -1,6 +1,6 @@
 /** Numbers and times in text. */
 
-/** Time in whole seconds and the rest in seconds, so that nanoseconds since 1970 keep their digits. */
+/** Time as whole seconds and a rest in seconds, so that nanoseconds since 1970 keep their digits. */
 export type Time = [seconds: number, rest: number];
 
 /** Words for a missing or infinite number. */
@@ -23,8 +23,8 @@ const DURATION = /^\s*(?:(\d+) days? )?\+?(\d+):(\d{2}):(\d{2})(?:[.,](\d+))?\s*
 const POWERS_OF_TEN = Array.from({ length: 23 }, (_, i) => 10 ** i);
 
 /**
- * Parses digits with at most one point in a part of a line, and rounds correctly. It makes no string, because a long table has millions of
- * cells. Returns NaN for any other text, and for more digits than a number has.
+ * Parses digits with at most one point in a part of a line. The result is rounded correctly. No string is made, because a long table has
+ * millions of cells. Returns NaN for other texts, and for more digits than a number has.
  */
 export function decimalAt(line: string, from: number, to: number): number {
   const isNegative = line.charCodeAt(from) === 45;
@@ -45,7 +45,7 @@ export function decimalAt(line: string, from: number, to: number): number {
 /** Parses a number. Returns NaN for an empty cell or a word such as "nan", and undefined for any other text. */
 export function numberOf(cell: string): number | undefined {
   const value = Number(cell);
-  // `Number` reads an empty cell as 0 and takes hexadecimal digits. `parseFloat` disagrees with both of these whole numbers.
+  // `Number` parses an empty cell as 0, and hexadecimal digits. `parseFloat` returns other numbers for both.
   if (value === value && (Math.trunc(value) !== value || value === parseFloat(cell))) return value;
   return NOT_FINITE.test(cell.trim()) ? NaN : undefined;
 }
@@ -53,7 +53,7 @@ export function numberOf(cell: string): number | undefined {
 /**
  * Parses a time.
  *
- * @param power of ten that a second has of the unit: 9 for nanoseconds
+ * @param power decimal exponent of the number of units in a second: 9 for nanoseconds
  * @returns NaN or undefined as `numberOf`
  */
 export function timeOf(cell: string, power: number): Time | undefined {
@@ -65,7 +65,7 @@ export function timeOf(cell: string, power: number): Time | undefined {
     return [Math.floor(time), time - Math.floor(time)];
   }
   const [, sign, digits, decimals = '', exponent] = decimal;
-  // The digits are split where the seconds end, without a rounding.
+  // The digits are split at the end of the whole seconds, so that nothing is rounded.
   const point = digits.length - power + (exponent === undefined ? 0 : Number(exponent));
   const all = digits + decimals;
   const seconds = point <= 0 ? 0 : Number(all.slice(0, point).padEnd(point, '0'));

@@ -1,4 +1,4 @@
-/** Recordings in files, by the contents of each. */
+/** Opens recordings. The first bytes of a file determine its format. */
 
 import type { OTHERS } from './en.ts';
 import type { Container } from './formats/container.ts';
@@ -17,7 +17,7 @@ const FORMATS: Record<Format, string> = {
   metadata: 'rosbag2_bagfile_information:',
 };
 
-/** First bytes of formats that are known and not read. */
+/** First bytes of known formats that cannot be read. The error names the format. */
 const REFUSED: [keyof typeof OTHERS, string][] = [
   ['rosbag1', '#ROSBAG V1'], ['rosbag1', '#ROSRECORD'], ['ulog', 'ULog\x01\x12\x35'], ['dataflash', '\xa3\x95\x80'],
   ['pcap', '\xd4\xc3\xb2\xa1'], ['pcap', '\xa1\xb2\xc3\xd4'], ['pcap', '\x4d\x3c\xb2\xa1'], ['pcap', '\x0a\x0d\x0d\x0a'],
@@ -25,7 +25,7 @@ const REFUSED: [keyof typeof OTHERS, string][] = [
   ['xz', '\xfd7zXZ\0'], ['lz4', '\x04\x22\x4d\x18'], ['hdf5', '\x89HDF\r\n\x1a\n'], ['hdf5', 'MATLAB 5.0 MAT-file'], ['parquet', 'PAR1'],
 ];
 
-/** Bytes that identify a format. */
+/** Number of bytes that identify a format. */
 const START = 32;
 
 /**

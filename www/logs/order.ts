@@ -2,32 +2,32 @@
 
 import { quantile, sample } from './quantile.ts';
 
-/** Number of median steps within which two times are near each other. */
+/** Maximum difference of neighbouring times, in median steps. */
 const NEAR = 5;
 
-/** Fraction of the median step within which two rows have the same time. */
+/** Maximum difference of equal times, in median steps. */
 const SAME = 0.75;
 
-/** Minimum number of rows at times that earlier rows also have. They show that the clock was set back; late rows are fewer. */
+/** Minimum number of rows with times of earlier rows, by which a clock was set back. Fewer such rows are late. */
 const MIN_OVERLAP = 3;
 
-/** Fates of a row. */
+/** Classes of rows: kept, kept although late, dropped as far from all others, or dropped because the clock was set back. */
 export const [KEPT, LATE, STRAY, SET_BACK] = [0, 1, 2, 3];
 
 interface Order {
-  /** Kept rows, sorted by time; rows of equal time in the order of the file. */
+  /** Kept rows, sorted by time. Rows of equal time are in the order of the file. */
   order: Uint32Array;
-  /** Result for each row. A late row is kept, at its time. */
+  /** Class of each row. */
   fates: Uint8Array;
-  /** Row before which the clock was set back first, or -1. */
+  /** First row after the clock was set back; −1 if it never was. */
   setBack: number;
   /** Number of rows in the largest part of the log between resets of the clock. */
   most: number;
 }
 
 /**
- * Sorts rows by their times, late rows too. Drops single times far from all others. A clock that was set back divides the rows into parts
- * that repeat each other's times: only the largest part is kept.
+ * Sorts rows by their times, and drops single rows whose times are far from all others. If the clock was set back, later rows repeat the
+ * times of earlier ones. Such resets divide the rows into parts, of which only the largest is kept.
  *
  * @param t in the order of the file
  * @param isSame checks whether two rows have the same values
@@ -53,7 +53,7 @@ export function sortRows(t: Float64Array, isSame: (one: number, other: number) =
     if (around >= 0 && around <= NEAR * step && !isBetween && isAlone(i)) fates[i] = STRAY;
   }
 
-  // Runs of rising times. A run that repeats times of earlier runs begins a part under another setting of the clock.
+  // Runs are rows with rising times. A run that repeats times of earlier runs begins a new part.
   const runs = new Uint32Array(t.length);
   for (let i = 1, last = 0; i < t.length; i++) {
     runs[i] = runs[i - 1];
@@ -91,12 +91,12 @@ export function sortRows(t: Float64Array, isSame: (one: number, other: number) =
 /** Repeated poses of a moving robot: maximum duration in s of a run of equal rows, and minimum number of such runs. */
 const [LONGEST_HOLD, MIN_HOLDS] = [1, 20];
 
-/** Fraction of a moving robot's rows in such runs from which the recorder is taken to repeat poses. */
+/** Minimum fraction of rows in such runs, for a recorder that repeats poses. */
 const MIN_HELD = 0.8;
 
 /**
- * Returns the number of rows that have the same pose while the robot moves, or 1. A table that fills a slow log up to the rate of a
- * fast one repeats poses.
+ * Returns the number of rows for each pose of a moving robot; usually 1. A table with topics of different rates repeats the poses of the
+ * slower ones.
  *
  * @param isRepeated checks whether a row has the pose of the row before
  */

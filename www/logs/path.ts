@@ -7,9 +7,9 @@ export type Point = [x: number, y: number];
 export interface Path { t: number[]; points: Point[]; headings: number[]; breaks: Set<number> }
 
 /**
- * Returns the path of poses, or that of commands from the origin.
+ * Returns the path of poses, or of commands that start at the origin.
  *
- * @param every number of rows for a point; the last row has one too
+ * @param every number of rows per point; the last row also has a point
  */
 export function pathOf(data: Poses | Commands, every = 1): Path {
   const { t, breaks } = data;

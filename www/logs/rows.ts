@@ -1,4 +1,4 @@
-/** Rows of a log: which are kept, and which are dropped and why. */
+/** Rows of a log. Unusable rows are dropped, with the cause. */
 
 import { LogError, type Place } from './log-error.ts';
 import type { Cause, Log, LogKind, Note, OpenOptions, Summary } from './log.ts';
@@ -18,13 +18,13 @@ interface Decisions {
   notes: Note[];
 }
 
-/** Most rows: a day at 100 Hz. */
+/** Maximum number of rows: a day at 100 Hz. */
 const MAX_ROWS = 10_000_000;
 
-/** Largest coordinate or speed that the core accepts. */
+/** Maximum coordinate or speed that the core accepts. */
 export const MAX_VALUE = 1e9;
 
-/** Number of median steps in a gap, as in the core. */
+/** Minimum duration of a gap in median steps, as in the core. */
 const STEPS_OF_A_GAP = 5;
 
 /** Speed of a jump in units of the 90 % quantile of the moving steps. */
@@ -36,13 +36,13 @@ const [FAR, TURNED] = [0.1, 0.2];
 /** Speed in metres or radians a second below which a robot stands. */
 const STANDS = 0.01;
 
-/** Times from here on count from 1970 and not from the start of a program: 1e8 s is the year 1973. */
+/** Minimum of times since 1970, s: the year 1973. Smaller times count from the start of a program. */
 const EPOCH = 1e8;
 
-/** Minimum fraction of the rows that has to remain after a reset of the clock, and that has to have different times. */
+/** Minimum fraction of rows that remain if the clock was set back, and minimum fraction of rows with different times. */
 const MIN_SHARE = 0.6;
 
-/** Columns of the numbers of a row. The rest of a clock's time is behind its seconds. */
+/** Columns of the numbers of a row. A time has its whole seconds in one column, and the rest in the next. */
 const [SECONDS, REST, A, B, C, LINE, OTHER_SECONDS, OTHER_REST, WIDTH] = [0, 1, 2, 3, 4, 5, 6, 7, 8];
 
 export class Rows {
@@ -52,11 +52,11 @@ export class Rows {
   #added = 0;
   /** Column of the clock's seconds. */
   #clock = SECONDS;
-  /** Rows before which unusable ones were dropped, so that the path is unknown there. */
+  /** Rows before which the path is unknown, because unusable rows were dropped. */
   #broken = new Set<number>();
   #dropped: Summary['dropped'] = {};
 
-  /** All rows, with those that are dropped. */
+  /** Number of all rows, including dropped ones. */
   count = 0;
 
   /** @param place for errors */
@@ -113,7 +113,7 @@ export class Rows {
    * Finishes the log.
    *
    * @param options answers to questions about units
-   * @throws {LogError} if the rows that are left are no log, or their units are in doubt
+   * @throws {LogError} if the remaining rows are no log, or their units are in doubt
    */
   end(name: string, kind: LogKind, { units: assumed, clocks, ...decisions }: Decisions, options: OpenOptions = {}): Log {
     if (clocks[1] !== undefined) this.#sortByOtherClock();
@@ -190,9 +190,9 @@ export class Rows {
     return numbers[i + A] === numbers[j + A] && numbers[i + B] === numbers[j + B] && numbers[i + C] === numbers[j + C];
   }
 
-  /** Returns the rows that are kept by their times, each time once, and the number of those that were late. */
+  /** Returns the kept rows in the order of their times, which are all different, and the number of late rows. */
   #inOrder(kind: LogKind): { start: number; t: Float64Array; rows: Uint32Array; late: number } {
-    // A stamp of 0 among times since 1970 was not set.
+    // If other times are since 1970, a stamp of 0 means that it was not set.
     let first = Infinity;
     for (let row = 0; row < this.#added; row++) if (!this.#isUnset(row)) first = Math.min(first, this.#seconds(row));
     const isSince1970 = first > EPOCH && first < Infinity;
@@ -209,7 +209,7 @@ export class Rows {
       throw new LogError(this.#at(line), (say) => say.setBack(times[setBack - 1] - times[setBack], this.#message(line)));
     }
 
-    // The first row in the file may be too far away for a difference to the whole second.
+    // The start is computed from the first row in time. A difference to the first row in the file might be too large to be exact.
     const [seconds, rest] = [this.#seconds(stamped[order[0]]), this.#rest(stamped[order[0]])];
     const start = Math.floor(seconds) + Math.floor(seconds - Math.floor(seconds) + rest);
     const t = new Float64Array(order.length);
@@ -239,7 +239,7 @@ export class Rows {
       let kept = 0;
       for (let i = 0, run = 0; i < used; i++) {
         run = repeats[i] ? run + 1 : 0;
-        // Every `factor`-th of repeated poses is kept: the log of a standing robot has the rate of a moving one.
+        // Every `factor`-th of repeated poses is kept, so that the log has the same rate while the robot stands.
         if (run % factor !== 0) {
           isDropped.set(rows[i], 'repeated');
           continue;
@@ -262,7 +262,7 @@ export class Rows {
     return { start, t: t.slice(0, used), rows: rows.slice(0, used), late };
   }
 
-  /** Drops rows that were added. The path stays continuous across them, except where the clock was set back. */
+  /** Drops rows that were added. The path is continuous across them, unless the clock was set back. */
   #drop(rows: Map<number, Cause>): void {
     for (const row of [...rows.keys()].sort((one, other) => one - other)) {
       const cause = rows.get(row) as Cause;
@@ -310,7 +310,7 @@ export class Rows {
   }
 }
 
-/** Returns a test for a jump just before a row. */
+/** Returns a function that checks for a jump between a row and the one before it. */
 function jumpTest(t: Float64Array, x: Float64Array, y: Float64Array, theta: Float64Array): (i: number) => boolean {
   const distance = (i: number) => Math.sqrt((x[i] - x[i - 1]) ** 2 + (y[i] - y[i - 1]) ** 2);
   const turn = (i: number) => {

@@ -10,24 +10,24 @@ import { headingOf, isRotation } from './quaternion.ts';
 import { Rows } from './rows.ts';
 import { POWERS, unitOfSize } from './units.ts';
 
-/** Bytes that are read and parsed at a time. */
+/** Number of bytes that are read and parsed at a time. */
 const PIECE = 2 ** 22;
 
-/** Bytes that the format is detected from: a preamble and some rows. */
+/** Number of bytes from which the format is detected: a preamble and some rows. */
 const HEAD = 2 ** 18;
 
-/** Most characters of a line: a row of a thousand columns. */
+/** Maximum number of characters of a line: a row of a thousand columns. */
 const LONGEST = 2 ** 16;
 
-/** Share of damaged rows above which a table is refused: it is read in the wrong way, or comes from a broken disk. */
+/** Maximum fraction of damaged rows. Above it, the table has another format than assumed, or comes from a broken disk. */
 const MAX_BAD = 0.1;
 
 type Reason = ConstructorParameters<typeof LogError>[1];
 
-/** Most different frames that a sentence lists. */
+/** Maximum number of frames that a sentence lists. */
 const MOST_FRAMES = 4;
 
-/** Range of the cosine of the tilt, from the 5 % to the 95 % quantile, beyond which a robot does not drive on a plane. */
+/** Maximum difference of the 95 % and the 5 % quantile of the cosine of the tilt. Above it, the robot does not drive on a plane. */
 const TILTS = 0.5;
 
 /** Opens a table; rejects with a LogError. */
@@ -37,14 +37,14 @@ export async function openTable(source: Source, options: OpenOptions = {}): Prom
   if (decoded.includes('\0')) throw new LogError({ file: source.name }, (say) => say.binary);
   const end = endOf(decoded);
   const lines = decoded.split(end);
-  // The last line may have been cut off, unless it is the only one.
+  // The last line may be incomplete. It is dropped unless it is the only one.
   if (source.size > HEAD && lines.length > 1) lines.pop();
   const long = lines.findIndex((line) => line.length > LONGEST);
   if (long >= 0) throw new LogError({ file: source.name, line: long + 1 }, (say) => say.longLine(LONGEST));
   const format = formatOf(lines, source.name, options.columns);
   const readable = format.groups.filter(({ kind }) => kind !== null);
   const place = { file: source.name, line: Math.max(1, format.firstLine - 1) };
-  // A table that cannot be read says why when it is opened.
+  // If no group can be read, `layoutOf` throws the reason for the group with most columns.
   if (readable.length === 0) layoutOf(format.groups.toSorted((a, b) => Object.keys(b.columns).length - Object.keys(a.columns).length)[0], format.names, place, undefined);
   const seriesOf = (group: Group): Series => ({
     name: readable.length === 1 && group.kind !== null ? '' : group.name || listed(columnNames(group)),
@@ -74,7 +74,7 @@ export async function openTable(source: Source, options: OpenOptions = {}): Prom
 
 const columnNames = ({ columns }: Group) => Object.values(columns).toSorted((a, b) => a.at - b.at).map(({ name }) => name);
 
-/** Returns the encoding of a text, by its byte order mark, the zeros of UTF-16, or bytes that UTF-8 does not have. */
+/** Returns the encoding of a text. Signs are a byte order mark, the zeros of UTF-16, and bytes that UTF-8 does not have. */
 async function encodingOf(source: Source): Promise<string> {
   const bytes = await bytesOf(source, 0, Math.min(HEAD, source.size));
   const [first, second, third, fourth] = bytes;
@@ -93,7 +93,7 @@ const endOf = (text: string) => (text.includes('\n') || !text.includes('\r') ? '
 
 /** Calls `take` for each line from the number `from` on. `isOpen` is true for the text after the last line feed: the file may be cut off there. */
 async function readLines(source: Source, encoding: string, end: string, from: number, onProgress: ((share: number) => void) | undefined, take: (line: string, number: number, isOpen: boolean) => void) {
-  // Whole lines are decoded at once: Node decodes streams into strings of twice the size.
+  // Pieces of whole lines are decoded separately. Node would decode a stream into strings of twice the size.
   const decoder = new TextDecoder(encoding);
   const width = encoding.startsWith('utf-16') ? 2 : 1;
   let rest = new Uint8Array();
@@ -121,7 +121,7 @@ async function readLines(source: Source, encoding: string, end: string, from: nu
   if (number + 1 >= from) take(last, number + 1, true);
 }
 
-/** Returns the index after the last end of a line, in characters of one or two bytes; 0 where there is none. */
+/** Returns the index of the byte after the last end of a line; 0 if there is none. Characters have one or two bytes. */
 function afterLast(bytes: Uint8Array, end: number, width: number): number {
   let at = bytes.lastIndexOf(end);
   // In UTF-16 the other byte of the character is 0.
@@ -138,30 +138,30 @@ class LogReader {
   #layout: Layout;
   #options: OpenOptions;
   #rows: Rows;
-  /** Rows with the Y axis up, where it may be. */
+  /** Rows under the assumption that the Y axis is vertical; undefined if it cannot be. */
   #upright: Rows | undefined;
-  /** Cells of a row that are split off. */
+  /** Number of leading cells of a row that are needed. */
   #needed: number;
   #at: number[];
   #values: Float64Array;
   #readTimes: ((cells: string[]) => Time | undefined)[] = [];
   #units: TimeUnit[] = [];
-  /** Columns of a plain row: index of the value, or −1 − that of the clock; undefined for other columns. */
+  /** Use of each column in `#takePlain`: index i of a value, −1 − i for a clock, or undefined for other columns. */
   #plain: (number | undefined)[] = [];
-  /** Powers of ten that a second has of the units of clocks; undefined while unknown, and for dates and the like. */
+  /** Decimal exponents of the units of the clocks in a second; undefined while unknown, and for dates. */
   #powers: (number | undefined)[] = [];
-  /** Seconds and fraction of a second of each clock, in a plain row. */
+  /** Whole seconds and fraction of a second of each clock, for `#takePlain`. */
   #times = new Float64Array(4);
-  /** Basis of the unit of times that no name or option states. */
+  /** Basis of the unit of times, if neither a name nor an option states it. */
   #basis: Basis = 'usage';
   #notes: Note[] = [];
   /** Number of damaged rows, and the line and the reason of the first. */
   #bad = 0;
   #firstBad: [number, Reason] | undefined;
   #frames = new Set<string>();
-  /** Cosines of the robot's tilt, if the vertical axis is Z, and if it is Y: near 1 for the right one. */
+  /** Cosines of the robot's tilt if the vertical axis is Z, and if it is Y. They are near 1 for the actual axis. */
   #tilts: [number[], number[]] = [[], []];
-  /** Heights, if the vertical axis is Z, and if it is Y: nearly constant for the right one. */
+  /** Heights if the vertical axis is Z, and if it is Y. They are nearly constant for the actual axis. */
   #heights: [number[], number[]] = [[], []];
 
   constructor(name: string, place: Place, format: Format, group: Group, layout: Layout, options: OpenOptions) {
@@ -201,7 +201,7 @@ class LogReader {
       this.#notes.push({ name: 'cutShort', values: [] });
       return this.#leaveOut('short', number);
     }
-    // The cells of another topic's sample are filled, and those of this one are empty.
+    // In a row of another topic the cells of this one are empty.
     if (isSparse && this.#at.every((at) => cells[at].trim() === '')) return;
     this.#add(cells, number);
   }
@@ -250,7 +250,7 @@ class LogReader {
       if (power === undefined) return false;
       const point = line.indexOf('.', at);
       const hasPoint = point >= 0 && point < to;
-      // A time in other units than seconds is split between digits, if it has no point.
+      // Whole seconds end at the point. Without a point, they end `power` digits before the end of the cell.
       const split = power === 0 ? (hasPoint ? point : to) : hasPoint ? -1 : to - power;
       if (split <= at) return false;
       const [seconds, rest] = [decimalAt(line, at, split), split === to ? 0 : power === 0 ? decimalAt(line, split, to) : decimalAt(line, split, to) / 10 ** power];
@@ -284,7 +284,7 @@ class LogReader {
     this.#upright?.leaveOut(cause, line);
   }
 
-  /** Leaves out a damaged row. The log is refused for the reason of the first if there are many. */
+  /** Drops a damaged row. If there are many, the log is refused with the reason of the first. */
   #leaveOutBad(cause: 'short' | 'text', line: number, reason: Reason): void {
     this.#bad += 1;
     this.#firstBad ??= [line, reason];
@@ -295,7 +295,7 @@ class LogReader {
     this.#leaveOutBad('text', line, (say) => say.number(cut(name), cut(cell.trim())));
   }
 
-  /** Chooses how times are read, by the first row that has one. @returns false where the cell is empty */
+  /** Chooses the unit of times by the first row that has one. @returns false if the cell is empty */
   #startClocks(cells: string[]): boolean {
     const { clocks } = this.#layout;
     if (cells[clocks[0].columns[0].at].trim() === '') return false;
@@ -328,7 +328,7 @@ class LogReader {
       const trimmed = text(cells);
       if (powers[index] === undefined) {
         const size = numberOf(trimmed);
-        // A first stamp of 0 says nothing about the unit.
+        // A stamp of 0 is no sign of a unit.
         if (size !== undefined && size !== 0 && Number.isFinite(size)) {
           this.#units[index] = unitOfSize(size) ?? 's';
           if (isFirst && unitOfSize(size) !== undefined) this.#basis = 'size';
@@ -364,7 +364,7 @@ class LogReader {
     }, this.#options);
   }
 
-  /** Decides which axis of Motive is vertical: that about which the robot turns, and along which it hardly moves. */
+  /** Returns true if the Y axis of Motive is vertical. The robot turns about the vertical axis, and hardly moves along it. */
   #hasYUp(): boolean {
     const [z, y] = this.#heights.map(spread);
     const isTurning = this.#tilts.map(isTilted);
@@ -377,7 +377,7 @@ class LogReader {
   }
 }
 
-/** Number with a decimal point; a point beside commas separates thousands, so that such a number is not clear and is kept as it is. */
+/** Returns a number with a decimal comma as one with a point. A cell that also has a point is ambiguous: a question mark makes it invalid. */
 const withPoint = (cell: string) => (cell.includes('.') && !cell.includes(':') && /^\s*[+-]?[\d.]+,?\d*\s*$/.test(cell) ? `${cell}?` : cell.replace(',', '.'));
 
 const spread = (values: number[]) => {

@@ -7,13 +7,13 @@ import { LOG_TIME, framesOption, framesText, type Choice, type Log, type Note, t
 import { edgesOf, isReadable, kindOf, poseReader, type Sample } from './messages.ts';
 import { MAX_VALUE, Rows } from './rows.ts';
 
-/** Messages of transforms after which all frames are taken to be known. */
+/** Number of messages of transforms after which all frames count as known. */
 const MESSAGES_OF_FRAMES = 2000;
 
-/** Times that nodes may take turns in publishing a topic: one that is started again begins where another has ended. */
+/** Maximum number of times that a node publishes a topic again after another one. A restarted node counts as a new one, and does not alternate. */
 const MAX_TURNS = 2;
 
-/** Checks for a topic of transforms that never change. */
+/** Checks for a topic of static transforms. */
 const isStatic = ({ topic, type }: Pick<Channel, 'topic' | 'type'>) => kindOf(type) === 'transforms' && /(^|\/)tf_static$/.test(topic);
 
 /** Returns the recording that a container holds. */
@@ -32,7 +32,7 @@ export async function recordingOf(name: string, container: Container, options: O
       for (const topic of byChannel.get(message.channel) ?? []) topic.take(message);
     };
     const wanted = new Set(container.channels.filter((channel) => byChannel.get(channel)?.length && !isStatic(channel)));
-    // Static transforms hold at all times, whenever they were recorded.
+    // Static transforms are read first, because they also hold before the time of their recording.
     if (choices.some(({ frames }) => frames)) await container.read(isStatic, take);
     await container.read((channel) => wanted.has(channel), take, onProgress);
     return topics.map((topic) => topic.end(options));
@@ -67,7 +67,7 @@ async function seriesOf(container: Container): Promise<Series[]> {
   return series.sort((one, other) => (one.name < other.name ? -1 : 1));
 }
 
-/** Reader of one topic; of a topic of transforms, also of the static ones. */
+/** Reader of one topic. For a topic of transforms it also reads the static ones. */
 class TopicReader {
   #file;
   #container;
@@ -75,9 +75,9 @@ class TopicReader {
   #rows;
   #kind: Series['kind'] = null;
   #chain: Chain | undefined;
-  /** Messages so far. */
+  /** Number of messages so far. */
   #number = 0;
-  /** Messages that cannot be read, and the reason for the first. */
+  /** Number of unreadable messages, and the reason for the first. */
   #damaged = 0;
   #reason = '';
   #readers = new Map<Channel, (message: Message) => void>();
@@ -166,7 +166,7 @@ class TopicReader {
     this.#rows.leaveOut('damaged', number);
   }
 
-  /** Returns the log; throws a LogError if the messages are none. */
+  /** Returns the log; throws a LogError if the messages do not make one. */
   end(options: OpenOptions): Log {
     const { series, frames } = this.#choice;
     const { damage, cutShort, missing } = this.#container;

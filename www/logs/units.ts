@@ -1,4 +1,4 @@
-/** Units of a log, judged by two signs that know nothing of each other. Where they disagree, the log is refused with a question. */
+/** Units of a log, judged by two independent signs. If the signs disagree, the log is refused with a question. */
 
 import { LogError, type Place } from './log-error.ts';
 import { UNITS, type AngleUnit, type LogKind, type OpenOptions, type Question, type Summary, type TimeUnit } from './log.ts';
@@ -6,7 +6,7 @@ import { quantile, sample } from './quantile.ts';
 
 export type Units = Summary['units'];
 
-/** Rows in the units that are stated for them. */
+/** Columns of a log, in the units of the file. */
 export interface Columns {
   /** Seconds that were subtracted from all times. */
   start: number;
@@ -19,48 +19,48 @@ export interface Columns {
   c: Float64Array;
 }
 
-/** Units of time by the powers of ten that a second has of them. */
+/** Units of time, with the decimal exponent of their number in a second. */
 export const POWERS = { s: 0, ms: 3, us: 6, ns: 9 } as const;
 
-/** Units of length and angle, by their size in m and rad. */
+/** Units of length and angle, with their size in m and rad. */
 const METRES = { m: 1, cm: 0.01, mm: 0.001 } as const;
 const RADIANS = { rad: 1, deg: Math.PI / 180 } as const;
 
-/** Least size of a time since 1970 in each unit: 1e8 s is the year 1973, and 1e11 s the year 5138. */
+/** Minimum of times since 1970 in each unit. 1e8 s is the year 1973, and 1e11 s the year 5138. */
 const SIZES = [['ns', 1e17], ['us', 1e14], ['ms', 1e11], ['s', 1e8]] as const;
 
-/** Rows below which a log is too short to judge. */
+/** Minimum number of rows of a log whose units are judged. */
 const MIN_ROWS = 10;
 
-/** Rates of logs in Hz: those of any, and those of a log whose unit nothing states. */
+/** Ranges of the rate of a log, Hz: if its unit is stated, and if it is not. */
 const [RATES, USUAL_RATES] = [[0.05, 5000], [0.2, 2000]] as const;
 
-/** Speeds of robots in m/s or rad/s, the rounding of times included. */
+/** Minimum and maximum speed of robots in m/s or rad/s, with a margin for rounded times. */
 const [SLOWEST, FASTEST] = [0.005, 20.5];
 
-/** Duration in s of the steps whose speed is judged: the noise of shorter ones is fast. */
+/** Duration (s) of the steps whose speed is judged. In shorter steps the noise would look like a high speed. */
 const STEP = 0.5;
 
-/** Least length in m of a step with a direction. */
+/** Minimum length (m) of a step with a direction. */
 const MIN_STEP = 0.02;
 
-/** Least number of steps with a direction. */
+/** Minimum number of steps with a direction. */
 const MIN_STEPS = 20;
 
-/** Range of the difference between two headings in degrees across the end of a full circle. */
+/** Range of the difference between successive headings in degrees at the end of a full circle. */
 const WRAPS = [330, 390] as const;
 
 const isWithin = (value: number, [low, high]: readonly [number, number]) => value >= low && value <= high;
 
-/** Returns the unit of a time by its size, or undefined for a time that does not count from 1970. */
+/** Returns the unit of a time since 1970 by its size; undefined for smaller times. */
 export const unitOfSize = (time: number): TimeUnit | undefined => SIZES.find(([, least]) => Math.abs(time) >= least)?.[0];
 
 /**
  * Judges the units, and converts the columns to s, m and rad.
  *
  * @param assumed units of the columns by names, the size of the times, the format or usage
- * @param options answers to questions, which are not doubted
- * @throws {LogError} with a question, where the signs disagree
+ * @param options answers to questions, which are not judged
+ * @throws {LogError} with a question, if the signs disagree
  */
 export function judgeUnits(place: Place, kind: LogKind, columns: Columns, assumed: Units, options: OpenOptions): Units {
   const isJudged = columns.t.length >= MIN_ROWS;
@@ -93,16 +93,16 @@ function timeUnit(kind: LogKind, { t, a, b, c }: Columns, { time: assumed, lengt
   const rate = (unit: TimeUnit) => 10 ** (POWERS[unit] - POWERS[assumed.unit]) / step;
   if (assumed.by !== 'usage') {
     if (isWithin(rate(assumed.unit), RATES)) return assumed;
-    // Seconds since 1970 may also be nanoseconds since the start of a simulation.
+    // Times that look like seconds since 1970 may also be nanoseconds since the start of a simulation.
     if (assumed.by === 'name' || assumed.unit !== 's') return ask('timeUnit', rate(assumed.unit), assumed.unit, units.filter((unit) => isWithin(rate(unit), RATES)));
   }
-  // Headings whose unit nothing states are not counted.
+  // Turn rates only count if the unit of the headings is stated.
   const radians = RADIANS[options.angleUnit ?? (angle.unit === 'deg' ? 'deg' : 'rad')];
   const isCounted = options.angleUnit !== undefined || angle.by !== 'usage';
   const raw = kind === 'poses' ? speedOf(t, a, b, step) : 0;
   const [speed, turn] = [raw * METRES[options.lengthUnit ?? length.unit], kind === 'poses' && isCounted ? turnOf(t, c) * radians : 0];
   const moves = speed > 0 || turn > 0;
-  /** Checks the rate, and that the robot is neither too fast nor too slow. */
+  /** Checks that the rate and the speed of the robot are plausible with a unit. */
   const fits = (unit: TimeUnit) => {
     const speeds = [speed, turn].map((each) => each * rate(unit) * step);
     return isWithin(rate(unit), USUAL_RATES) && (!moves || (speeds.every((each) => each <= FASTEST) && [...speeds, raw * rate(unit) * step].some((each) => each >= SLOWEST)));
@@ -121,7 +121,7 @@ function checkLength(kind: LogKind, { t, a, b }: Columns, { unit, by }: Units['l
   const speed = kind === 'poses' ? speedOf(t, a, b, step) : quantile(sample(a.length, (i) => Math.abs(a[i])), 0.9);
   const inMetres = speed * METRES[unit];
   const others = UNITS.lengthUnit.filter((each) => isWithin(speed * METRES[each], [SLOWEST, FASTEST]));
-  // A name is doubted where the robot would creep in its unit, and drive as robots do in another.
+  // A unit in a name is doubted if the robot would be too slow with it, and as fast as robots are with metres.
   if (inMetres > FASTEST || (by === 'name' && unit !== 'm' && inMetres < SLOWEST && speed > 0.1 && others.includes('m'))) {
     ask('lengthUnit', inMetres, unit, others.includes(unit) ? others : [...others, unit]);
   }
@@ -148,7 +148,7 @@ function angleUnit(kind: LogKind, { t, a, b, c }: Columns, assumed: Units['angle
     if (step >= WRAPS[0] && step <= WRAPS[1]) wraps += 1;
   }
   const signs = [path === 'deg', wraps > 0, turn > FASTEST].filter(Boolean).length;
-  // Headings in radians that are not wrapped grow beyond a full circle too.
+  // Headings beyond a full circle are no proof of degrees: those in radians may be unwrapped.
   const isBeyond = largest > 2 * Math.PI + 0.1;
   if (path !== 'rad' && signs >= 2 && isBeyond) return { unit: 'deg', by: 'size' };
   if (path === 'rad' ? turn > FASTEST && wraps > 0 : turn > FASTEST || isBeyond) return ask('angleUnit', turn, assumed.unit, choices);
@@ -156,12 +156,12 @@ function angleUnit(kind: LogKind, { t, a, b, c }: Columns, assumed: Units['angle
 }
 
 /**
- * Returns the unit in which the heading follows the direction of the path or of its mirror image, forwards or backwards at a constant
- * angle. Undefined if both units fit, as on a straight path, or neither, as for a robot that drives sideways.
+ * Returns the unit in which the heading differs from the direction of the path, or of its mirror image, by a constant angle. Undefined if
+ * both units fit, as on a straight path, or neither, as for a robot that drives sideways.
  */
 function unitOfPath(t: Float64Array, x: Float64Array, y: Float64Array, heading: Float64Array): AngleUnit | undefined {
   const stride = Math.max(2, Math.ceil(STEP / quantile(sample(t.length - 1, (i) => t[i + 1] - t[i]), 0.5)));
-  // A mirrored axis has headings that turn against the path.
+  // If an axis is mirrored, the headings turn against the path.
   const candidates = UNITS.angleUnit.flatMap((unit) => [1, -1].map((sign) => ({ unit, factor: sign * RADIANS[unit], cosine: 0, sine: 0 })));
   let count = 0;
   for (let i = 0; i + stride < t.length; i += stride) {
@@ -175,19 +175,19 @@ function unitOfPath(t: Float64Array, x: Float64Array, y: Float64Array, heading: 
     }
   }
   if (count < MIN_STEPS) return undefined;
-  // Mean resultant lengths: 1 of directions that are all the same, 0 of random ones.
+  // The mean resultant length is 1 if all differences are equal, and near 0 if they are random.
   const [rad, deg] = UNITS.angleUnit.map((unit) => Math.max(...candidates.filter((each) => each.unit === unit).map(({ cosine, sine }) => Math.hypot(cosine, sine) / count)));
   if (Math.max(rad, deg) < 0.8 || Math.abs(rad - deg) < 0.3) return undefined;
   return rad > deg ? 'rad' : 'deg';
 }
 
-/** Returns the speed that nine in ten steps do not exceed. */
+/** Returns the 90 % quantile of the speeds of the steps. */
 function speedOf(t: Float64Array, x: Float64Array, y: Float64Array, step: number): number {
   const stride = Math.min(Math.max(1, Math.round(STEP / step)), t.length - 1);
   return quantile(sample(t.length - stride, (i) => Math.hypot(x[i + stride] - x[i], y[i + stride] - y[i]) / (t[i + stride] - t[i])), 0.9);
 }
 
-/** Returns the turn rate that nine in ten steps do not exceed. */
+/** Returns the 90 % quantile of the turn rates of the steps. */
 const turnOf = (t: Float64Array, heading: Float64Array) =>
   quantile(sample(t.length - 1, (i) => Math.abs(heading[i + 1] - heading[i]) / (t[i + 1] - t[i])), 0.9);
 
@@ -195,7 +195,7 @@ function scale(column: Float64Array, factor: number): void {
   for (let i = 0; i < column.length; i++) column[i] *= factor;
 }
 
-/** Divides all times, and keeps a whole second as their start. */
+/** Divides all times by a factor. Their start remains a whole second. */
 function convertTimes(columns: Columns, factor: number): void {
   if (factor === 1) return;
   const { start, t } = columns;

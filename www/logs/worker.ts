@@ -1,6 +1,6 @@
 /**
- * Recordings and one log, held away from the page, and the calibration of the log. A worker answers the page's messages; a page that may
- * have no worker gives one end of a channel to `serve`.
+ * Worker that opens recordings, reads logs and calibrates. It answers the messages of the page. If the page cannot have a worker, `serve`
+ * answers on a port of the page.
  */
 
 import { instantiateShared, type SharedCore } from '../core.ts';
@@ -13,10 +13,10 @@ import type { OpenOptions, Question, Recording, Source } from './log.ts';
 import { openRecordings } from './open.ts';
 import { logOf } from './pairs.ts';
 
-/** Recording as the page has it: with its place among the opened ones, but `read` stays here. */
+/** Recording for the page: it has its index among the opened ones, but no method `read`. */
 export type Opened = Recording & { place: number };
 
-/** Error as a message has it: an error of a log has its sentence in each language. */
+/** Error for the page. A LogError has its sentence in each language. */
 export interface Failure {
   name: string;
   message: string;
@@ -27,14 +27,14 @@ export interface Failure {
 
 export type OnProgress = (share: number) => void;
 
-/** Request: a method of `LogSession`, and what it is given. */
+/** Request: a method of `LogSession`, and its parameters. */
 export interface Request {
   number: number;
   method: 'open' | 'read' | 'calibrate';
   parameters: unknown[];
 }
 
-/** Answer to the request of that number: progress, and then the result or the failure. */
+/** Answer to the request with this number. Answers with progress precede the result or the failure. */
 export type Answer = { number: number } & ({ progress: number } | { result: unknown } | { failure: Failure });
 
 /** Opened recordings, and the log that was read last. */
@@ -53,7 +53,7 @@ class LogSession {
     return this.#recordings.map(({ name, format, series }, place) => ({ name, format, series, place }) as Opened);
   }
 
-  /** Reads the logs of a plan that the page has made. `calibrate` without a log fits them. */
+  /** Reads the logs of a plan of the page, and keeps them for `calibrate`. */
   async read(onProgress: OnProgress, { drives, unpaired }: Plan): Promise<Drive[]> {
     const held = ({ recording, choice }: Part) => ({ recording: this.#recordings[(recording as Opened).place], choice });
     const plan = {
@@ -65,7 +65,7 @@ class LogSession {
     return read;
   }
 
-  /** Returns the fit to the log, or to another that it takes, for `AlphaCalibrator.restored`. */
+  /** Returns the fit to `log`, or to the log that was read last, for `AlphaCalibrator.restored`. */
   calibrate(_: OnProgress, config: AlphaCalibratorSettings, log?: CalibrationLog): Uint8Array {
     if (log) this.#take(log);
     this.#machine.configure(config);
@@ -83,16 +83,16 @@ function failureOf(error: unknown): Failure {
   return { name, message, file: error.place.file, ask: error.ask, sentences: { en: error.sentence(english), de: error.sentence(german) } };
 }
 
-/** Returns the buffers of an answer, which are moved and not copied. */
+/** Returns the buffers of an answer, which are transferred instead of copied. */
 function buffersOf(result: unknown): ArrayBuffer[] {
   if (ArrayBuffer.isView(result)) return [result.buffer as ArrayBuffer];
   return typeof result === 'object' && result ? [...new Set(Object.values(result).flatMap(buffersOf))] : [];
 }
 
-/** Milliseconds between messages of progress: a page renders the figure after each. */
+/** Minimum time between messages of progress, ms. The page renders the figure after each message. */
 const PROGRESS_INTERVAL = 50;
 
-/** Answers the requests that come by a port, after a first message with the core. */
+/** Answers the requests on a port. The first message has the core. */
 export function serve(port: Pick<MessagePort, 'onmessage' | 'postMessage'>) {
   let session: LogSession;
   const answer = (message: Answer, buffers: ArrayBuffer[] = []) => port.postMessage(message, buffers);

@@ -1,10 +1,10 @@
-/** Axes of a picture with ticks and names, a key, and the clipping of the plot area. */
+/** Axes of a picture with ticks, names and a key, and clipping to the plot area. */
 
 import { ticks } from 'd3-array';
 import { powerOfTen, tick } from '../ui/format.ts';
 import { strokeLine, type Brush, type LineStroke } from './canvas.ts';
 
-/** Distance of ticks below which labels are multiples of a power of ten: their zeros would not fit next to the axis. */
+/** Distance of ticks below which the axis has a power of ten before its unit. The zeros of the labels would not fit next to the axis. */
 const NEAREST_TICKS = 9e-4;
 
 /** Minimum distances between two ticks, CSS pixels. */
@@ -14,8 +14,8 @@ const TICK_SPACING = { x: 60, y: 48 };
 const KEY = { gap: 0.8, sample: 1.5, space: 0.35, line: 1.4 };
 
 /**
- * Draws axes with ticks at the left and the bottom, a faint grid, and above it the name of the vertical axis and a key. Names have their
- * units in brackets. The key has its most important entries first: as many as there is room for.
+ * Draws axes with ticks at the left and the bottom, and a faint grid. Above are the name of the vertical axis and a key. Names have units in
+ * brackets. Entries of the key are in the order of their importance: the last ones are omitted if there is no space.
  */
 export function drawAxes(brush: Brush, names: { x: string, y: string }, key: KeyEntry[], grid: number = 0.5) {
   const { context, view, palette, font } = brush;
@@ -96,7 +96,7 @@ function drawKey({ context, view, palette, font }: Brush, before: string, entrie
   }
 }
 
-/** Returns about this many ticks, with the factor of their unit and their labels. One tick shows no scale: then it returns more. */
+/** Returns about `count` ticks and at least two if possible, with the factor of the unit and the labels. */
 function ticksOf(from: number, to: number, count: number) {
   const most = Math.max(2, Math.floor(count));
   const few = ticks(from, to, most);

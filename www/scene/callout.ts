@@ -39,8 +39,8 @@ interface Surroundings {
 }
 
 /**
- * Draws sentences about points on a round shape, outside of it, where they cover least of the picture. The cost of a position is continuous
- * in all points, so that a sentence seldom jumps.
+ * Draws sentences about points on the outline of a shape. They are outside of the shape, where they cover least of the picture. The cost of
+ * a position is a continuous function of all points, so that a sentence seldom jumps.
  */
 export function drawCallouts({ context, view, palette, font, placed }: Brush, callouts: Callout[], { from, lines }: Surroundings) {
   context.font = font;
@@ -85,7 +85,7 @@ export function drawCallouts({ context, view, palette, font, placed }: Brush, ca
   }
 }
 
-/** Most points between two others: a line that leaves the picture may be of any length. */
+/** Maximum number of points between two others, because a line that leaves the picture may have any length. */
 const MOST_POINTS = 200;
 
 /** Returns the first of two points, and points between them that a sentence must not cover, pixels. */
@@ -94,7 +94,7 @@ function pointsBetween([x, y]: number[], [toX, toY]: number[]) {
   return Array.from({ length: count }, (_, i) => [x + (i / count) * (toX - x), y + (i / count) * (toY - y)]);
 }
 
-/** Returns how deep points and other boxes are inside of a box, pixels. */
+/** Returns the largest depth of points and other boxes inside a box, pixels. That of boxes counts twice. */
 function coveredBy({ x, y, across, down }: Box, points: number[][], others: Box[]) {
   const depth = (toX: number, toY: number, roomX = 0, roomY = 0) =>
     Math.min(across + roomX + CLEAR - Math.abs(toX - x), down + roomY + CLEAR - Math.abs(toY - y));

@@ -27,7 +27,7 @@ export interface Brush {
   ratio: number;
   /** Font of the canvas's style. */
   font: string;
-  /** Boxes of the texts drawn so far, which further texts keep clear of. */
+  /** Boxes of the texts drawn so far. Further texts avoid them. */
   placed: Box[];
   /** True if a file is drawn, which needs its own key. */
   exported?: boolean;
@@ -39,28 +39,28 @@ export interface Brush {
   former?: any;
 }
 
-/** Font size of a picture in pixels of its view. The text of the figure has 16: see the style of canvases. */
+/** Font size of a picture in pixels of its view. The text of the figure has 16, as in the style of canvases in ui/layout.ts. */
 const LETTERS = 13;
 
-/** Returns a length in pixels of a view, in em of the figure's style. */
+/** Returns a length in pixels of a view as CSS em of the figure. */
 export const length = (pixels: number) => `${pixels / 16}em`;
 
-/** Returns a size in pixels of a view, in CSS pixels of a canvas with letters in its style. */
+/** Converts a size from pixels of a view to CSS pixels, by the font size of the canvas. */
 export const inCss = ({ width, height }: { width: number, height: number }, canvas: Element) => [width, height].map((each) => (each * parseFloat(getComputedStyle(canvas).fontSize)) / LETTERS);
 
-/** Returns a point of the window in the pixels of a view, which is as wide as the element. The page may enlarge the element. */
+/** Converts a point of the window to pixels of the view that an element shows. The page may have scaled the element. */
 export function pointOn(element: Element, view: import('./view.ts').View, { clientX, clientY }: { clientX: number, clientY: number }) {
   const { left, top, width } = element.getBoundingClientRect();
   const zoom = width / view.width;
   return [(clientX - left) / zoom, (clientY - top) / zoom];
 }
 
-/** Returns the context of a hidden canvas that is copied to visible ones. The processor draws it: a graphics card may lose its contents. */
+/** Returns the context of a hidden canvas that is copied to visible ones. It is drawn by the CPU, because a GPU may lose its contents. */
 export function hiddenContext(canvas: OffscreenCanvas) {
   return canvas.getContext('2d', { willReadFrequently: true }) as OffscreenCanvasRenderingContext2D;
 }
 
-/** Clears a canvas, sets the view to the size of the canvas, and returns what pictures draw with. */
+/** Clears a canvas, sets the view to its size, and returns the brush for pictures. */
 export function brushOn(canvas: Surface, view: import('./view.ts').View, palette: import('../ui/theme.ts').Palette) {
   const { fontFamily, fontSize } = canvas.letters;
   const ratio = ((canvas.width / Math.max(1, canvas.clientWidth)) * parseFloat(fontSize)) / LETTERS;
@@ -68,7 +68,7 @@ export function brushOn(canvas: Surface, view: import('./view.ts').View, palette
   const context = canvas.getContext('2d') as CanvasRenderingContext2D;
   context.setTransform(ratio, 0, 0, ratio, 0, 0);
   context.clearRect(0, 0, view.width, view.height);
-  // Numbers keep their order in languages that are written from right to left.
+  // In right-to-left languages numbers and units stay in the order of the text.
   context.direction = 'ltr';
   return { context, view, palette, ratio, font: `${LETTERS}px ${fontFamily}`, placed: [] as Box[] };
 }

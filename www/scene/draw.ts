@@ -9,14 +9,14 @@ import type { Callout } from './callout.ts';
 import type { Palette } from '../ui/theme.ts';
 
 /**
- * Number of heading ticks that are stroked at once. Ticks of one stroke do not darken where they cross, so that a larger number would hide
- * the density.
+ * Number of heading ticks in one stroke. Ticks of the same stroke do not darken each other where they cross. A larger number would hide the
+ * density.
  */
 const TICKS_A_STROKE = 25;
 
 /**
- * Draws samples as dots. Overlapping dots darken, so that a crowd looks like one. `layout` has the indices of the numbers that are drawn,
- * and the length of the heading's line as a share of the usual one.
+ * Draws samples as translucent dots, so that dense regions are darker. `layout` has the indices of x, y and heading in a triple, and the
+ * relative length of the heading ticks.
  */
 export function drawDots(brush: Brush, triples: Float64Array, layout: { x: number, y: number, heading: number | null, ahead?: number }) {
   const { context, view, palette } = brush;
@@ -41,7 +41,7 @@ export function drawDots(brush: Brush, triples: Float64Array, layout: { x: numbe
   }
   context.globalAlpha = few ? 0.9 : 0.5;
   context.fillStyle = palette.cloud;
-  // Squares as large as the discs are drawn six times as fast, and many small ones look the same.
+  // Squares with the area of the discs are drawn six times as fast. Many small ones look the same.
   const side = Math.sqrt(Math.PI) * radius;
   for (let i = 0; i < count; i++) {
     if (few || brush.exported) drawDisc(context, [x(i), y(i)], radius, palette.cloud);
@@ -57,7 +57,7 @@ function headingTick({ context, view }: Brush, x: number, y: number, heading: nu
   context.lineTo(x + length * ahead.x, y + length * ahead.y);
 }
 
-/** Draws many robots in one place: a single marker, and every heading as a ray of a fan. */
+/** Draws many robots at the same position as one marker with a ray for each heading. */
 export function drawHeap(brush: Brush, { x, y, headings, label }: { x: number, y: number, headings: number[], label: string }) {
   const { context, view, palette } = brush;
   const px = view.toPixelX(x);
@@ -71,14 +71,14 @@ export function drawHeap(brush: Brush, { x, y, headings, label }: { x: number, y
     context.stroke();
   }
   context.globalAlpha = 1;
-  // Larger than the handle, which is often in the same place.
+  // The disc is larger than the handle, which is often at the same position.
   drawDisc(context, [px, py], 14, palette.prediction);
   drawLabel(brush, { x: px + 14, y: py + 27, towards: 1, text: label, colour: palette.prediction });
 }
 
 /**
- * Returns the colours of a density by the share of its fullest cell, as red, green, blue and alpha: ink of the role's colour, thinner where
- * there is less.
+ * Returns the colour ramp of a density as RGBA bytes, from an empty cell to the fullest one. The colour is that of clouds, and its opacity
+ * increases.
  */
 export function densityRamp(palette: Palette): Uint8Array {
   const cloud = channels(palette.cloud);
@@ -126,8 +126,8 @@ export function lineStyles<Name extends string>({ palette, highlight }: Pick<Bru
 export const hasLength = (points: Float64Array) => points.some((value, i) => Math.abs(value - points[i % 2]) > 1e-9);
 
 /**
- * Draws polylines with halos of paper, the last one on top, so that they read on top of the cloud. The halos are below all of them: where
- * two nearly coincide, both are seen.
+ * Draws polylines with halos in the background colour, so that they are visible on top of the cloud. The last line is on top. All halos are
+ * below all lines, so that two lines that nearly coincide are both visible.
  */
 export function drawOutlines(brush: Brush, outlines: Outline[]) {
   const { context, palette } = brush;
@@ -139,7 +139,7 @@ export function drawOutlines(brush: Brush, outlines: Outline[]) {
   strokeLines(brush, drawn);
 }
 
-/** Number of lines of one style that are stroked at once, which is faster. Those of one stroke do not darken where they cross. */
+/** Number of lines of the same style in one stroke. More are faster, but lines of one stroke do not darken each other where they cross. */
 const LINES_A_STROKE = 10;
 
 /** Draws lines in their own styles. */
@@ -159,8 +159,8 @@ export function strokeLines(brush: Brush, lines: Outline[]) {
 const GHOST = 0.35;
 
 /**
- * Draws earlier outlines. Returns a callout that names them at their point in sight that is furthest from the places of the present ones;
- * none where nothing is in sight.
+ * Draws earlier outlines. Returns a callout that names them, or none if they are out of the view. It points to the visible point that is
+ * furthest from the present outlines.
  */
 export function drawGhosts(brush: Brush, outlines: Outline[], from: ArrayLike<number>[], text: string): Callout[] {
   const { context, view, palette } = brush;
@@ -192,7 +192,7 @@ export function drawRobot(brush: Brush, { x, y, heading, colour }: { x: number, 
   });
 }
 
-/** Paints a handle, in pixels, where no element stands for it: in files and on paper. */
+/** Draws a handle in files and on paper, where it is no element. Lengths are in pixels. */
 export function drawHandle({ context, palette, handles }: Brush, { x, y, radius, colour }: { x: number, y: number, radius: number, colour: string }) {
   if (handles) drawDisc(context, [x, y], radius, palette.paper, { colour, width: 3 });
 }

@@ -6,7 +6,7 @@ import { length, pointOn } from './canvas.ts';
 /** Callbacks of a handle; lengths in metres. */
 interface Hooks {
   view: () => import('./view.ts').View;
-  /** Returns the x and y of the point that a pointer at `pointer` grasps; by default the middle of the handle. */
+  /** Returns the point (x, y) that a pointer at `pointer` grasps; by default the middle of the handle. */
   at?: (pointer: number[]) => number[] | undefined;
   /** Moves the target to a point. */
   drag: (x: number, y: number) => void;
@@ -32,7 +32,7 @@ export interface Said {
   hint?: string | false;
 }
 
-/** Steps of keys along x and y (up): Home and End go to the ends of the range along x. */
+/** Steps along x and y (up) by key. Home and End go to the ends of the range along x. */
 const STEPS: Record<string, [number, number]> = {
   ArrowRight: [1, 0],
   ArrowLeft: [-1, 0],
@@ -65,24 +65,24 @@ export class Handle {
   #hooks;
   /** Pointer that drags the handle, and its element. */
   #hold: { id: number, by: Element } | undefined;
-  /** Vector (m) from the pointer to the target, so that a target that is grasped at its edge does not jump. */
+  /** Vector (m) from the pointer to the target. It keeps a target that is grasped at its edge from jumping. */
   #grip = [0, 0];
   /** Position of the middle in pixels of the view, before it is rounded on the screen. */
   #middle = [0, 0];
 
-  /** Creates the handle; its element gets these classes. */
+  /** Creates the handle. `part` has the CSS classes of its element. */
   constructor(part: string, hooks: Hooks) {
     this.#part = part;
     this.#hooks = hooks;
   }
 
-  /** True while a pointer drags it. A browser releases the pointer of a removed element without an event. */
+  /** True while a pointer drags the handle. Browsers release the pointer of a removed element without an event. */
   get held() {
     return this.#hold?.by.hasPointerCapture(this.#hold.id) ?? false;
   }
 
   element({ name, keys, title, range, now, text, stop, hint }: Said) {
-    // The text on its limit is on the side of the middle of the picture.
+    // The text about the limit is on the side that faces the middle of the picture.
     const side = 2 * this.#middle[0] > this.#hooks.view().width ? 'right' : '';
     return html`<div
       class="handle ${this.#part} ${side} ${this.held ? 'held' : ''}"
@@ -105,7 +105,7 @@ export class Handle {
     ></div>`;
   }
 
-  /** Places the element below a root: its middle at a point in pixels of the view, with a size if that is not the one of its style. */
+  /** Moves the middle of the element in `root` to a point in pixels of the view. `size` replaces the size of its style. */
   place(root: ParentNode, x: number, y: number, size?: number) {
     const handle = root.querySelector(`.handle.${this.#part.replace(' ', '.')}`) as HTMLElement | null;
     if (!handle) return;
@@ -114,7 +114,7 @@ export class Handle {
     handle.style.translate = `${length(x)} ${length(y)}`;
   }
 
-  /** Returns a point in pixels of the view in metres. */
+  /** Converts a point from pixels of the view to metres. */
   #world([x, y]: number[]): number[] {
     const view = this.#hooks.view();
     return [view.toWorldX(x), view.toWorldY(y)];

@@ -30,8 +30,8 @@ export interface Text {
 }
 
 /**
- * Draws a label at a place in pixels, on a ground of its own inside of the axes, or above or below where another text is. `towards` is the
- * side that has room, from −1 for the left to 1 for the right.
+ * Draws a label with a background at a point in pixels, inside the axes. If another text is there, the label moves up or down. `towards` is
+ * the direction in which there is space, from −1 (left) to 1 (right).
  */
 export function drawLabel(brush: Brush, { x, y, towards, colour, ...text }: Text & { x: number, y: number, towards: number, colour: string }) {
   const { context, view, palette, placed } = brush;
@@ -53,8 +53,8 @@ export function drawLabel(brush: Brush, { x, y, towards, colour, ...text }: Text
 }
 
 /**
- * Draws labels above a picture, each with a leader to its anchor in pixels. They stand in two rows by turns, so that a leader of the upper
- * row passes between two labels of the lower one. The view has {@link LABELS_ABOVE} at its top.
+ * Draws labels above a picture, each with a leader to its anchor in pixels. They alternate between two rows, so that leaders of the upper row
+ * pass between labels of the lower row. The view needs {@link LABELS_ABOVE} pixels at its top.
  */
 export function drawLabelsAbove(brush: Brush, labels: (Text & { x: number, y: number, colour: string })[]) {
   const { context, view, palette } = brush;
@@ -66,7 +66,7 @@ export function drawLabelsAbove(brush: Brush, labels: (Text & { x: number, y: nu
     .map((label, i) => ({ ...label, row: i % 2, from: label.x - label.width / 2 }));
   for (const row of [0, 1]) {
     const inRow = placed.filter((label) => label.row === row);
-    // Each label keeps clear of the one before it. Then the last ones are moved to the left, inside the picture.
+    // Each label is moved to the right of the one before it. Then the last ones are moved to the left, into the picture.
     let free = left;
     for (const label of inRow) {
       label.from = Math.max(label.from, free);
@@ -113,7 +113,7 @@ function measured({ context, font }: Brush, { symbol = '', sub = '', text = '' }
 
 const widthOf = (parts: { width: number }[]) => parts.reduce((sum, { width }) => sum + width, 0);
 
-/** Writes parts one after the other, with a halo of paper, from the left end at the height of their middle, in pixels. */
+/** Writes the parts from left to right, with a halo in the background colour. x is the left end and y the middle of the line, in pixels. */
 function write({ context, palette }: Brush, parts: ReturnType<typeof measured>, x: number, y: number, colour: string) {
   context.save();
   context.textAlign = 'left';

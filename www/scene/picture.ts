@@ -8,9 +8,9 @@ import type { Palette } from '../ui/theme.ts';
 export interface How {
   /** Milliseconds since the previous frame. */
   elapsed?: number;
-  /** True if the view keeps its target. */
+  /** True if the view must not zoom. */
   still?: boolean;
-  /** True if the view moves there without an animation. */
+  /** True if the view changes without an animation. */
   atOnce?: boolean;
   /** Reading of the machine before the current gesture. If the view zooms out after the gesture, it also shows the outlines of that reading. */
   former?: any;
@@ -23,7 +23,7 @@ export interface How {
 }
 
 export class Picture<Scene, Name extends string = string> {
-  /** Reading before the gesture after which the view last zoomed out, or may do so yet. */
+  /** Reading before the gesture whose change zoomed the view out last, or may still do so. */
   #former: any;
 
   /** Class of the canvas. */
@@ -60,14 +60,14 @@ export class Picture<Scene, Name extends string = string> {
     return -1;
   }
 
-  /** Returns a point and its neighbourhood, given in CSS pixels, in the view's world. */
+  /** Converts a point and a radius from CSS pixels to the world of the view. */
   around(x: number, y: number, reach: number): [x: number, y: number, radiusX: number, radiusY: number] {
     const { view } = this;
     return [view.toWorldX(x), view.toWorldY(y), reach / view.scaleX, reach / view.scaleY];
   }
 }
 
-/** Greatest distance from the pointer to a sample that it selects, CSS pixels. */
+/** Maximum distance from the pointer to a sample that it selects, CSS pixels. */
 const REACH = 14;
 
 /** Picture of samples that the pointer can select, with the same scale on both axes. */

@@ -5,15 +5,15 @@ import { Memo } from './memo.ts';
 import type { Brush } from './canvas.ts';
 
 /**
- * Image of pixels. Only the part that is not transparent is drawn: most of a density is empty, and scaling that would take longer than the
- * rest of a picture.
+ * Image of pixels. Only the part that is not transparent is drawn. Most of a density is empty, and scaling all of it would take longer than
+ * the rest of a picture.
  */
 export class Pixels {
   #grid = new OffscreenCanvas(1, 1);
   #inked: ReturnType<typeof inkedPart>;
 
   /**
-   * Takes other pixels.
+   * Replaces the pixels.
    *
    * @param pixels row 0 at the top
    */
@@ -22,7 +22,7 @@ export class Pixels {
     if (this.#grid.width !== columns) this.#grid.width = columns;
     if (this.#grid.height !== rows) this.#grid.height = rows;
     this.#inked = inkedPart(pixels, columns, rows);
-    // All pixels: scaling blends the edges of the part with those around it.
+    // All pixels are copied, because scaling blends the edges of the visible part with their neighbours.
     if (this.#inked) hiddenContext(this.#grid).putImageData(new ImageData(pixels, columns, rows), 0, 0);
   }
 
@@ -44,7 +44,7 @@ export class Density {
   /**
    * @param cell side in CSS pixels
    * @param question values, besides the view, that the pixels depend on; the pixels are cached until one changes
-   * @param pixelsOf machine's picture of a part of the plane
+   * @param pixelsOf returns the machine's picture of a part of the plane
    */
   draw(brush: Brush, cell: number, question: unknown[], pixelsOf: (...view: [xMin: number, yMin: number, xMax: number, yMax: number, columns: number, rows: number]) => Uint8ClampedArray<ArrayBuffer>) {
     const { left, right, top, bottom } = brush.view.frame;
@@ -55,7 +55,7 @@ export class Density {
   }
 }
 
-/** Returns the box of the pixels that are not transparent, with a border of one pixel, into which they fade when scaled. */
+/** Returns the box of the pixels that are not transparent. It has a border of one pixel, into which scaling blends its edge. */
 function inkedPart(pixels: Uint8ClampedArray<ArrayBuffer>, columns: number, rows: number): [x: number, y: number, width: number, height: number] | undefined {
   const cells = new Uint32Array(pixels.buffer, pixels.byteOffset, columns * rows);
   let [left, right, first, last] = [columns, 0, -1, -1];

@@ -1,4 +1,4 @@
-/** Substitute for the context of a canvas that writes SVG. It has the methods that scene/draw.ts and the pictures use, and no others. */
+/** Substitute for the context of a canvas that writes SVG. It has only the methods that scene/draw.ts and the pictures use. */
 
 /** Characters that XML cannot have. */
 const UNWRITABLE = /[^\t\n\r\u0020-\ud7ff\ue000-\ufffd\u{10000}-\u{10ffff}]/gu;
@@ -6,10 +6,10 @@ const UNWRITABLE = /[^\t\n\r\u0020-\ud7ff\ue000-\ufffd\u{10000}-\u{10ffff}]/gu;
 export const escaped = (text: string) =>
   text.replace(UNWRITABLE, '\ufffd').replaceAll('&', '&amp;').replaceAll('<', '&lt;').replaceAll('>', '&gt;').replaceAll('"', '&quot;');
 
-/** Prints a length in CSS pixels to a hundredth, which is finer than any printer. */
+/** Prints a length in CSS pixels to a hundredth, which is finer than the resolution of printers. */
 export const short = (length: number) => String(Math.round(100 * length) / 100);
 
-/** Moves a text down from where the canvas has its baseline, in its own height. */
+/** Offsets of the alphabetic baseline from the baselines of the canvas, in em. */
 const BASELINES = { top: '0.8em', middle: '0.33em' } as Record<string, string>;
 const ANCHORS = { center: 'middle', right: 'end' } as Record<string, string>;
 
@@ -30,7 +30,7 @@ export class SvgContext {
   #path = '';
   #dash: number[] = [];
   #marks: string[] = [];
-  /** Groups to be closed by each `restore`. */
+  /** Number of groups that each `restore` closes. */
   #open: number[] = [];
   #clips = 0;
   #name;
@@ -46,7 +46,7 @@ export class SvgContext {
     return this.#marks.join('\n');
   }
 
-  // There is nothing to clear, and the unit is the CSS pixel.
+  // Transforms and clearing are not needed: the unit is the CSS pixel, and the drawing is empty at first.
   setTransform() {}
   clearRect() {}
 
@@ -72,7 +72,7 @@ export class SvgContext {
   };
 
   lineTo: CanvasPath['lineTo'] = (x, y) => {
-    // A canvas begins a path in the same way.
+    // The first point of a path is a move, as on a canvas.
     this.#path += `${this.#path ? 'L' : 'M'}${short(x)},${short(y)}`;
   };
 
@@ -154,7 +154,7 @@ export class SvgContext {
     this.#marks.push(`<text ${place} style="font:${escaped(this.font)}"${paint}>${escaped(text)}</text>`);
   }
 
-  /** Draws an image at x, y, with width and height. Four numbers before them are a part of the image. */
+  /** Draws an image in a rectangle x, y, width, height. Four numbers before these select a part of the image. */
   drawImage(image: CanvasImageSource & { width: number, height: number }, ...place: number[]) {
     const [x, y, width, height] = place.slice(-4).map(short);
     const [fromX, fromY, columns, rows] = place.length > 4 ? place : [0, 0, image.width, image.height];

@@ -1,6 +1,6 @@
 /**
- * Transform between a view's world (metres, radians; y up) and its canvas (CSS pixels; y down), and choice of the part that a view shows.
- * The only place where y flips.
+ * View: the part of the world (metres, radians; y up) that a picture shows, and the transform to its canvas (CSS pixels; y down). No other
+ * file flips y.
  */
 
 import { clamp } from '../ui/clamp.ts';
@@ -8,41 +8,41 @@ import { clamp } from '../ui/clamp.ts';
 /** Axis-aligned part of a view's world. */
 export type Extent = { xMin: number, yMin: number, xMax: number, yMax: number };
 
-/** Fraction of a released view that its content has to fill; otherwise the view zooms in. */
+/** Minimum fraction of a released view that its content fills. Below it the view zooms in. */
 const LOOSEST_FIT = 0.45;
 
 /** Margin around the content of a view, relative to its size. */
 const MARGIN = 0.06;
 
-/** Time constant of the eased change from one extent to the next, in milliseconds. */
+/** Time constant of the animation from one extent to the next, ms. */
 const EASING = 90;
 
-/** Widths that a view may have, times powers of ten. */
+/** Widths of views, except for a power of ten. */
 const LADDER = [1, 1.12, 1.25, 1.4, 1.6, 1.8, 2, 2.25, 2.5, 2.8, 3.2, 3.6, 4, 4.5, 5, 5.6, 6.4, 7.2, 8, 9];
 
 /** Visible part of the world in a picture, with the transform to pixels. */
 export class View {
-  /** Extent that is shown now, possibly on its way to `#target`. */
+  /** Extent that is shown now. An animation moves it to `#target`. */
   extent: Extent = { xMin: -1, yMin: -1, xMax: 1, yMax: 1 };
   #target: Extent | undefined;
-  /** Part of the world that the view covers in whatever size it has. */
+  /** Part of the world that the view shows after any change of its size. */
   #room: Extent | undefined;
-  /** True where the next fit may also close in and recenter. */
+  /** True if the next fit may also zoom in and recenter. */
   #released = false;
-  /** True once the view has zoomed out; set back from outside. */
+  /** True after the view has zoomed out. The picture resets it. */
   widened = false;
-  /** Limits that the extent is moved into, or around where it is larger. */
+  /** Limits of the extent. A larger extent is centred on them. */
   within: Extent | undefined;
   /** True if a metre is as long in y as in x. */
   #equal;
-  /** True for an extent of what is needed alone, without a margin. What is needed may depend on the size: a fit in a new size chooses anew. */
+  /** True if the extent is exactly the needed part of the world, without a margin. A fit after a change of size then starts anew. */
   #snug;
   /** Canvas size at the last fit, CSS pixels. */
   #fitted = { width: 1, height: 1 };
   /** Canvas size, CSS pixels. */
   width = 1;
   height = 1;
-  /** The part of the canvas inside the axes, CSS pixels. */
+  /** Part of the canvas inside the axes, CSS pixels. */
   frame = { left: 0, top: 0, right: 1, bottom: 1 };
   #inset;
 
@@ -62,22 +62,22 @@ export class View {
     if (this.#room) this.extent = this.#target = this.#cover(this.#room);
   }
 
-  /** True once the view knows what to show. */
+  /** True after the first fit. */
   get aimed() {
     return this.#target !== undefined;
   }
 
-  /** Lets the next fit close in and recenter. */
+  /** Allows the next fit to zoom in and recenter. */
   release() {
     this.#released = true;
   }
 
-  /** Forgets what is shown: the next fit takes effect without easing. */
+  /** Resets the view, so that the next fit takes effect without an animation. */
   forget() {
     this.#target = this.#room = undefined;
   }
 
-  /** Pixels a unit of x; with equal aspect also of y. */
+  /** Pixels per unit of x. With equal scales it is also that of y. */
   get scaleX() {
     return (this.frame.right - this.frame.left) / (this.extent.xMax - this.extent.xMin);
   }
@@ -86,7 +86,7 @@ export class View {
     return (this.frame.bottom - this.frame.top) / (this.extent.yMax - this.extent.yMin);
   }
 
-  /** Returns the pixels a metre at which a part of the world fits. */
+  /** Returns the scale (pixels per metre) at which a part of the world fits into the view. */
   scaleFor({ xMin, yMin, xMax, yMax }: Extent) {
     const { left, right, top, bottom } = this.frame;
     return Math.min((right - left) / (xMax - xMin), (bottom - top) / (yMax - yMin));
@@ -108,12 +108,12 @@ export class View {
     return this.extent.yMin + (this.frame.bottom - pixel) / this.scaleY;
   }
 
-  /** Returns a step of one pixel in the direction of a heading (rad), in a view of equal aspect. */
+  /** Returns a step of one pixel in the direction of a heading (rad), for equal scales of x and y. */
   direction(heading: number): { x: number, y: number } {
     return { x: Math.cos(heading), y: -Math.sin(heading) };
   }
 
-  /** Aims the view at an extent. The view stays while that is inside, and only zooms out otherwise; a released view may also close in. */
+  /** Sets the target of the view, which stays if it contains `needed`. Otherwise the view zooms out. A released view may also zoom in. */
   fit(needed: Extent) {
     const { width, height } = this;
     const isResized = this.#snug && (width !== this.#fitted.width || height !== this.#fitted.height);
@@ -128,7 +128,7 @@ export class View {
     if (!kept) this.extent = this.#target;
   }
 
-  /** Moves the extent towards its aim by the milliseconds since the last call, or at once. Returns true if it has not arrived. */
+  /** Moves the extent towards the target, `elapsed` milliseconds after the last call, or at once. Returns true if it has not arrived. */
   ease(elapsed: number, atOnce: boolean): boolean {
     const target = this.#target;
     if (!target || target === this.extent) return false;
@@ -150,7 +150,7 @@ export class View {
     return isInside(needed, shown) && fill >= LOOSEST_FIT;
   }
 
-  /** Returns an extent around another one, moved into the limits: of rounded size unless snug, and in the aspect ratio of an equal view. */
+  /** Returns an extent around `room`, moved into the limits. Its size is rounded unless the view is snug. Equal scales determine its aspect ratio. */
   #cover(room: Extent) {
     const { left, right, top, bottom } = this.frame;
     const size = this.#snug ? (needed: number) => needed : niceSize;
@@ -170,7 +170,7 @@ export class View {
   }
 }
 
-/** Returns the middle of a span that is moved between limits; between closer ones it is in their middle. */
+/** Returns the middle of an interval that is moved between limits. If it is longer than their distance, it is centred on them. */
 function movedInto(middle: number, length: number, from: number, to: number) {
   return to - from > length ? clamp(middle, from + length / 2, to - length / 2) : (from + to) / 2;
 }
@@ -183,17 +183,17 @@ function withMargin({ xMin, xMax, yMin, yMax }: Extent): Extent {
   return { xMin: xMin - x, xMax: xMax + x, yMin: yMin - y, yMax: yMax + y };
 }
 
-/** Returns the next size of the ladder. */
+/** Returns the smallest size of the ladder that is not below a size. */
 function niceSize(size: number): number {
   const decade = 10 ** Math.floor(Math.log10(size));
   const step = LADDER.find((candidate) => candidate * decade >= size * (1 - 1e-9)) ?? 10;
   return step * decade;
 }
 
-/** The extent of nothing, which any point widens. */
+/** Empty extent. */
 const NOWHERE: Readonly<Extent> = { xMin: Infinity, yMin: Infinity, xMax: -Infinity, yMax: -Infinity };
 
-/** Returns the smallest extent around another and points, whose x and y are the first two of each `stride` numbers. */
+/** Returns the smallest extent that contains points and the extent `around`. x and y are the first two of each `stride` numbers. */
 export function extentAround(numbers: ArrayLike<number>, stride: number, around: Extent = NOWHERE) {
   const box = { ...around };
   for (let i = 0; i < numbers.length; i += stride) {
@@ -205,7 +205,7 @@ export function extentAround(numbers: ArrayLike<number>, stride: number, around:
   return box;
 }
 
-/** Returns the smallest extent around points, x, y pairs, with a least width and height. */
+/** Returns the smallest extent that contains points (x, y pairs), with a minimum width and height. */
 export function extentOf(points: number[], smallest: number) {
   const box = extentAround(points, 2);
   const growX = Math.max(0, smallest - (box.xMax - box.xMin)) / 2;

@@ -1,4 +1,4 @@
-/** Layer of the walls of a map: there may be thousands, and they change only with the map, the view or the colours. */
+/** Cached drawing of the walls of a map. There may be thousands of walls, and they change only with the map, the view or the colours. */
 
 import { clamp } from '../ui/clamp.ts';
 import { channels } from '../ui/theme.ts';
@@ -7,7 +7,7 @@ import type { View } from './view.ts';
 import type { Brush } from './canvas.ts';
 import type { Grid, Plan } from '../types.d.ts';
 
-/** Cells of a grid; without the unknown ones where there are none. */
+/** Cells of a grid. `unknown` is missing if no cell is unknown. */
 export type Cells = Omit<Grid, 'unknown'> & { unknown?: Uint8Array };
 
 export type Painter = Pick<Brush, 'view' | 'palette' | 'ratio' | 'highlight'> & { context: CanvasRenderingContext2D | OffscreenCanvasRenderingContext2D };
@@ -18,20 +18,20 @@ const WALL = 2.5;
 /** Distance, width and opacity of the lines that hatch unknown cells; lengths in CSS pixels. */
 const HATCH = { apart: 7, width: 1, opacity: 0.4 };
 
-/** Walls that are stroked at once: browsers take far longer for one path of many. */
+/** Number of walls in one stroke. Browsers take far longer for one path with many lines. */
 const WALLS_A_STROKE = 500;
 
-/** Plans of so few walls are stroked with every picture: copying a layer takes longer. */
+/** Maximum number of walls that are drawn with every picture. Copying a cached drawing takes longer. */
 const FEW_WALLS = 50;
 
 export class WallLayer {
   #plan;
   #grid;
   #layer = new OffscreenCanvas(1, 1);
-  /** View and colours that the layer was painted with. */
+  /** View and colours of the cached drawing, as text. */
   #shown = '';
 
-  /** Takes a plan, and the cells that are drawn instead of its walls if the map is a grid. */
+  /** Creates the drawing of a plan. If the map is a grid, its cells are drawn instead of the walls. */
   constructor(plan: Plan, grid: Cells | null) {
     this.#plan = plan;
     this.#grid = grid;
@@ -49,7 +49,7 @@ export class WallLayer {
     const wanted = JSON.stringify([extent, frame, width, height, palette.truth, palette.rule, palette.muted, ratio, unknown]);
     if (wanted !== this.#shown) {
       this.#shown = wanted;
-      // A new size clears the layer.
+      // Setting the size clears the cached drawing.
       this.#layer.width = Math.round(width * ratio);
       this.#layer.height = Math.round(height * ratio);
       const layer = hiddenContext(this.#layer);
@@ -63,7 +63,7 @@ export class WallLayer {
     const { context, view, palette } = painter;
     const grid = this.#grid;
     if (unknown && grid?.unknown) {
-      // The cells say where, the hatching goes there.
+      // The unknown cells are filled, and then replaced by the hatching.
       fillCells(painter, grid, grid.unknown, palette.muted);
       context.globalCompositeOperation = 'source-in';
       hatch(context, view, palette.muted);
@@ -95,7 +95,7 @@ export class WallLayer {
   }
 }
 
-/** Diagonals over the whole of a view. */
+/** Draws diagonal lines over the whole view. */
 function hatch(context: Painter['context'], { width, height }: View, colour: string) {
   context.beginPath();
   for (let x = -height; x < width; x += HATCH.apart) {
@@ -109,7 +109,7 @@ function hatch(context: Painter['context'], { width, height }: View, colour: str
   context.globalAlpha = 1;
 }
 
-/** Returns the range of the cells that a view shows, in whole squares of so many cells: first column and row, and those after the last. */
+/** Returns the visible cells as first column and row, and the column and row after the last. They are multiples of `side`, or ends of the grid. */
 function cellsIn({ extent: { xMin, xMax, yMin, yMax } }: View, { columns, rows, resolution, origin: [x, y, yaw] }: Cells, side: number): number[] {
   const [along, up] = [Math.cos(yaw) / resolution, Math.sin(yaw) / resolution];
   const corners = [xMin - x, xMax - x].flatMap((dx) => [yMin - y, yMax - y].map((dy) => [dx * along + dy * up, dy * along - dx * up]));
@@ -127,8 +127,8 @@ export function cornerOf({ resolution, origin: [x, y, yaw] }: Cells, column: num
 }
 
 /**
- * Fills the cells of a kind, which are 1. Where cells are smaller than a pixel, squares of them are drawn as soon as one of their cells is
- * of the kind: thin walls stay visible.
+ * Fills the cells whose value is 1. If cells are smaller than a pixel, squares of cells are drawn. A square is filled if one of its cells is,
+ * so that thin walls stay visible.
  */
 function fillCells({ context, view, ratio }: Painter, grid: Cells, cells: Uint8Array, colour: string) {
   const side = Math.max(1, Math.floor(1 / (grid.resolution * view.scaleX * ratio)));
@@ -151,7 +151,7 @@ function fillCells({ context, view, ratio }: Painter, grid: Cells, cells: Uint8A
     const [x, y] = cornerOf(grid, column, row);
     return [view.toPixelX(x), view.toPixelY(y)];
   };
-  // Rows of the image go up, as those of the grid.
+  // The first row of the image is the lowest one, as in the grid.
   const [[fromX, fromY], [rightX, rightY], [aboveX, aboveY]] = [corner(left, bottom), corner(left + side, bottom), corner(left, bottom + side)];
   context.save();
   context.transform(rightX - fromX, rightY - fromY, aboveX - fromX, aboveY - fromY, fromX, fromY);

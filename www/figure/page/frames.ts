@@ -35,7 +35,7 @@ function run(now: number) {
     try {
       animated.frame(elapsed);
     } catch (error) {
-      // Other figures continue.
+      // An error of one figure does not stop the others.
       reportError(error);
     }
   }

@@ -6,7 +6,7 @@ import { likedWidth } from '../../ui/width.ts';
 /** Bounds of the width classes, em, where the layout changes. */
 const WIDTHS = [20, 30, 38, 46, 56, 80];
 
-/** Heights by tag and width class, at both bounds of the class, in em: lines just above measurements in a window 900 px high. */
+/** Heights in em by tag and width class, at the lower and the upper bound of the class. Measured in a window 900 px high, with a small margin. */
 const HEIGHTS: Record<string, ([number, number] | string)[]> = {
   'banana-machine': [[86, 86.2], [71.7, 64.3], [53.2, 50.3], [50.6, 54], [50.3, 55.6]],
   'map-squeeze': [[83.9, 87], [80.8, 82.2], [44.1, 45], [46, 48.6], [50.3, 44.1]],
@@ -16,7 +16,7 @@ const HEIGHTS: Record<string, ([number, number] | string)[]> = {
   'alpha-calibrator': [[88.8, 104.7], [101.2, 92.4], [45.4, 49.6], [49.1, 50.9], [36.4, 45.1]],
 };
 
-/** Returns the height for any width, as a maximum to which each class adds −10⁶ times the distance outside of it. */
+/** Returns the height for any width as a CSS maximum over the classes. Outside of its class, a term is hugely negative. */
 function heightOf(tag: string, unit: '%' | 'cqi') {
   const heights = HEIGHTS[tag].map((height, i, { length }) => {
     const [least, next] = [WIDTHS[i], WIDTHS[i + 1]];
@@ -45,7 +45,7 @@ export function roomBefore() {
     `${waiting(tags)}{display:flow-root;position:relative;min-width:0;max-width:100%}`,
     `${waiting(tags)}::before{${likedWidth}}`,
     `${waiting(tags)}>:not([slot]){position:absolute;top:0;margin:0}`,
-    // Styles of the figure's own slots.
+    // The slots have the same styles as in the figure.
     `:where(${waiting(tags)}>[slot=title]){display:block;font-size:1.1em;line-height:1.4}`,
     `:where(${waiting(tags)}:has(>[slot=title]))::before{margin-bottom:.297em}`,
     `:where(${waiting(tags)}>[slot=caption]){font-size:.95em;line-height:1.4}`,

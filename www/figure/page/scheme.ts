@@ -4,14 +4,14 @@ import { css } from 'lit';
 import { channels } from '../../ui/theme.ts';
 
 /**
- * Colours around a figure. `shade` darkens colours for this background; `strength` is the share of the text's colour in muted text.
- * An empty `text` keeps the figure's own colour.
+ * Colours around a figure. `shade` is the amount by which colours are darkened for this background. `strength` is the fraction of the text
+ * colour in muted text. An empty `text` keeps the figure's own colour.
  */
 export type Surroundings = { ground: string, text: string, shade: string, strength: string, scheme: 'light' | 'dark' };
 
 export const THEMES = ['auto', 'light', 'dark'] as const;
 
-/** Styles of an element with the page's inherited colours, whose transition makes changes of them events. */
+/** Styles of a probe element that inherits the page's colours. Its transition fires an event when they change. */
 export const schemeStyles = css`
   .scheme-probe {
     position: absolute;
@@ -24,7 +24,7 @@ export const schemeStyles = css`
 /** Background assumed on a page that has light text, but neither a background nor a `color-scheme`. */
 const DARK = '#121212';
 
-/** Shares of the text's colour in muted text, percent; the first legible one is used. */
+/** Fractions of the text colour in muted text, percent. The first that is legible is used. */
 const MUTED_SHARES = [75, 80, 85, 90, 95];
 
 /** Minimum contrast of text: 4.5 by WCAG 2, level AA, and a margin for rounding. */
@@ -48,7 +48,7 @@ export function surroundings(probe: Element): Surroundings {
   const light = lightness(ground);
   const isLegible = contrast(ink, ground) >= MIN_CONTRAST;
   const scheme = light < (isLegible ? lightness(ink) : 0.5) ? 'dark' : 'light';
-  // The shade follows luminance; nearly white backgrounds need none.
+  // The amount grows with the darkness of the background. Nearly white backgrounds need none.
   const shade = scheme === 'light' && light < 0.97 ? `${100 * (1 - light ** 2.2)}%` : '';
   const muted = (share: number) => ground.map((channel, i) => channel + (share / 100) * (ink[i] - channel));
   const strength = isLegible ? `${MUTED_SHARES.find((share) => contrast(muted(share), ground) >= MIN_CONTRAST) ?? 100}%` : '';

@@ -1,7 +1,7 @@
-/** Visibility of elements, by two observers for the whole page: near the viewport, and in it. */
+/** Visibility of elements. The page has two observers, one for elements near the viewport and one for those in it. */
 
 export interface Watcher {
-  /** Called when the element comes near the viewport. */
+  /** Runs when the element comes near the viewport. */
   onNear: () => void;
   onVisible: (inSight: boolean) => void;
 }
@@ -11,13 +11,13 @@ const NEAR_MARGIN = '600px';
 
 const watchers: WeakMap<Element, Watcher> = new WeakMap();
 const near: WeakSet<Element> = new WeakSet();
-// The first watched element creates both.
+// `watch` creates both observers for the first element.
 let nearObserver: IntersectionObserver;
 let visibleObserver: IntersectionObserver;
 
 const watcherOf = (watched: Element) => watchers.get(watched) as Watcher;
 
-/** Observes an element: when it comes near, and whether it is visible. */
+/** Observes when an element comes near the viewport, and when it becomes visible or hidden. */
 export function watch(element: Element, watcher: Watcher) {
   watchers.set(element, watcher);
   const report = (entries: IntersectionObserverEntry[]) => {
@@ -26,7 +26,7 @@ export function watch(element: Element, watcher: Watcher) {
   visibleObserver ??= new IntersectionObserver(report);
   nearObserver ??= new IntersectionObserver(
     (entries) => {
-      // Browsers call observers in any order, and a start depends on the visibility.
+      // A start depends on the visibility, but the order of the observers' callbacks is undefined.
       report(visibleObserver.takeRecords());
       for (const { target, isIntersecting } of entries) {
         if (isIntersecting) markNear(target);
@@ -39,16 +39,16 @@ export function watch(element: Element, watcher: Watcher) {
   visibleObserver.observe(element);
 }
 
-/** Checks the position of a watched element now, as observers report a frame later. */
+/** Checks the position of a watched element now: observers would report it a frame later. */
 export function checkNow(element: Element) {
   const { top, bottom } = element.getBoundingClientRect();
-  // A removed element has its bottom at 0.
+  // The box of a removed element is all 0.
   if (top >= innerHeight || bottom <= 0) return;
   watcherOf(element).onVisible(true);
   markNear(element);
 }
 
-/** Reports an element that comes near, once until it leaves. */
+/** Reports an element as near, once until it is far again. */
 function markNear(element: Element) {
   if (near.has(element)) return;
   near.add(element);

@@ -9,13 +9,13 @@ import { Part } from '../part.ts';
 
 export type Kind = 'link' | 'code';
 
-/** Buttons that copy, each with a message, or the text to copy by hand. */
+/** Buttons that copy a text. Each has a message, or shows the text if the clipboard cannot be used. */
 export class CopyMenu extends Part {
   #copied: { kind: Kind, text: string, done?: boolean, missing: string } | undefined;
 
-  /** Copies a text; `missing` is a sentence about what it lacks. */
+  /** Copies a text. `missing` is a sentence about parts of the state that it does not have. */
   async #copy(kind: Kind, text: string, missing: string = '') {
-    // The clipboard is refused in frames without permission, and absent on pages without encryption.
+    // Frames without permission may not use the clipboard. Pages without HTTPS do not have it.
     const done = await Promise.resolve(navigator.clipboard?.writeText(text).then(() => true)).catch(() => undefined);
     this.#copied = { kind, text, done, missing };
     this.host.requestUpdate();
@@ -56,14 +56,14 @@ export class CopyMenu extends Part {
   }
 }
 
-/** Published address of the script, if its own is unknown. */
+/** Address of the published script, used if the address of this script is unknown. */
 const PUBLISHED = 'https://cdn.jsdelivr.net/npm/motion-widgets@0.1/dist/external.js';
 
 /** Returns HTML for any page: the script, and the tag with the attributes that differ from the defaults. */
 export function embedding(figure: import('../figure.ts').Figure) {
   const given = ['theme', 'lang', 'dir'].map((name) => [name, figure.getAttribute(name) ?? ''] as [string, string]);
   const needed = figure.machine ? figure.reflection.nonDefaultAttributes() : [];
-  // Addresses of local files and inline scripts are useless elsewhere.
+  // Addresses of local files and inline scripts do not work on other pages.
   const known = /^https?:/.test(address);
   const kind = (known && classic ? ['defer', ''] : ['type', 'module']) as [string, string];
   const script = tag('script', [kind, ['src', known ? address : PUBLISHED]]);

@@ -25,7 +25,7 @@ export interface Takeaway {
 /** Pixels of a PNG image per CSS pixel, fine enough for print. */
 const PNG_RATIO = 2;
 
-/** Size in CSS pixels of a figure without layout, as in a closed tab. */
+/** Size in CSS pixels of a figure without layout, such as in a hidden tab panel. */
 const SIZE = { width: 720, height: 432 };
 
 /** Draws the picture in its size and font on the page, with `ratio` pixels per CSS pixel. */
@@ -75,7 +75,7 @@ ${svg.markup}
 `;
 }
 
-/** Returns CSV: a line of settings and seed behind a #, a line of names, and a line a sample with round-trip digits. */
+/** Returns CSV: a comment with settings and seed, a header, and a line for each sample with all digits. */
 export function csvOf({ takeaway: { settings, columns, row, count } }: Figure) {
   const lines = [`# ${JSON.stringify(settings)}`, columns, ...Array.from({ length: count }, (_, i) => row(i))];
   return `${lines.join('\n')}\n`;
@@ -85,7 +85,7 @@ export function csvOf({ takeaway: { settings, columns, row, count } }: Figure) {
 export function save(name: string, blob: Blob) {
   const link = Object.assign(document.createElement('a'), { href: URL.createObjectURL(blob), download: name });
   link.click();
-  // The download has started by then.
+  // The address is released after a minute, when the download has started.
   setTimeout(() => URL.revokeObjectURL(link.href), 60_000);
 }
 

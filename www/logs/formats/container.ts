@@ -12,7 +12,7 @@ export interface Channel {
   encoding: string;
   /** Name of the node, or a number of the container's own. */
   publisher: string;
-  /** Messages. */
+  /** Number of messages. */
   count: number;
 }
 
@@ -40,10 +40,10 @@ export interface Container {
 /** Maximum size of a block in bytes: recorders write one to four million. */
 export const MAX_BLOCK = 2 ** 26;
 
-/** Bytes that are read ahead. */
+/** Number of bytes that are read ahead. */
 const PIECE = 2 ** 22;
 
-/** Returns a function that reads bytes of a source in rising order, piece by piece. */
+/** Returns a function that reads bytes of a source. Positions must increase from call to call. */
 export function readAhead(source: Source): (from: number, to: number) => Promise<Uint8Array> {
   let [start, piece] = [0, new Uint8Array()];
   return async (from, to) => {
@@ -59,7 +59,7 @@ export const viewOf = ({ buffer, byteOffset, byteLength }: Uint8Array) => new Da
 /** Returns a number of eight bytes that is below 2^53. */
 export const uint53 = (view: DataView, at: number) => view.getUint32(at, true) + 2 ** 32 * view.getUint32(at + 4, true);
 
-/** Splits a time in nanoseconds, in digits of 16 bits: a BigInt takes as long as all the rest of a message. */
+/** Splits a time in nanoseconds into seconds and nanoseconds, by digits of 16 bits. A BigInt would take as long as the rest of a message. */
 export function stampAt(view: DataView, at: number) {
   let [seconds, rest] = [0, view.getUint32(at + 4, true)];
   for (const from of [at + 2, at]) {

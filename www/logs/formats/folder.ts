@@ -1,17 +1,17 @@
-/** Recordings of rosbag2 in several files, by their metadata.yaml. */
+/** Recordings of rosbag2 that consist of several files, which a metadata.yaml lists. */
 
 import { load } from 'js-yaml';
 import { LogError, bytesOf, listed, reasonOf } from '../log-error.ts';
 import type { Source } from '../log.ts';
 import type { Channel, Container, Message } from './container.ts';
 
-/** Most bytes of a description. */
+/** Maximum size of a metadata.yaml, bytes. */
 const MAX_METADATA = 2 ** 24;
 
 /** Files of a recording. */
 interface Folder {
   name: string;
-  /** In the order of recording. */
+  /** Files in the order of recording. */
   found: Source[];
   missing: string[];
 }
@@ -41,7 +41,7 @@ export async function filesOf(metadata: Source, sources: Source[]): Promise<Fold
   return { name: folder || found[0].name, found, missing };
 }
 
-/** Returns one container of the messages of several, one after the other. */
+/** Returns a container with the messages of several containers, one after the other. */
 export function joined(parts: Container[], missing: string[]): Container {
   return {
     format: parts[0].format,

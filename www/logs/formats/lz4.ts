@@ -50,7 +50,7 @@ export async function unlz4(bytes: Uint8Array, size: number): Promise<Uint8Array
   return out;
 }
 
-/** Decompresses a block behind the bytes that are filled, and returns the number that are filled then. */
+/** Appends a decompressed block to `out`, which has `filled` bytes, and returns the new number. */
 function decompressBlock(block: Uint8Array, out: Uint8Array, filled: number): number {
   let at = 0;
   /** Reads the rest of a length of four bits. */

@@ -15,7 +15,7 @@ const HEAD = 9;
 /** Bytes before the first record. */
 const MAGIC = 8;
 
-/** Opens a recording: by its index, or without one from its start as far as it goes. */
+/** Opens a recording by its index. Without an index it is read from its start up to its end or damage. */
 export async function openMcap(source: Source): Promise<Container> {
   await loadZstd();
   const size = BigInt(source.size);
@@ -115,7 +115,7 @@ class Mcap implements Container {
     }
   }
 
-  /** Notes damage of a block, whose rest is skipped. */
+  /** Runs work on a block. Damage is recorded, and the rest of the block is skipped. */
   async #attempt(position: number, work: () => Promise<void>): Promise<void> {
     try {
       await work();

@@ -11,13 +11,13 @@ const [MESSAGE, BAG, CHUNK, CHUNK_INFO, CONNECTION] = [2, 3, 5, 6, 7];
 /** Bytes before the first record. */
 const MAGIC = 13;
 
-/** Bytes of a header that are read at first; a longer one has a long topic. */
+/** Number of bytes of a header that are read at first. Headers with a long topic are longer. */
 const HEADER = 4096;
 
 type Wanted = (channel: Channel) => boolean;
 type Each = (message: Message) => void;
 
-/** Opens a bag: by its index, or without one from its start as far as it goes. */
+/** Opens a bag by its index. Without an index it is read from its start up to its end or damage. */
 export async function openRosbag(source: Source): Promise<Container> {
   const bag = new Rosbag(source);
   if (!(await bag.readIndex())) await bag.read(() => true, ({ channel }) => (channel.count += 1));
@@ -160,7 +160,7 @@ class Rosbag implements Container {
         let head = await bytesAt(at, Math.min(at + HEADER, size));
         const length = viewOf(head).getUint32(0, true);
         if (length > MAX_BLOCK) throw new RangeError('a header is damaged');
-        // The last record of a bag that was not closed.
+        // The last record of a bag that was not closed is incomplete.
         if (at + length + 8 > size && !chunks) return;
         if (length + 8 > head.length) head = await bytesAt(at, Math.min(at + length + 8, size));
         const bytes = viewOf(head).getUint32(4 + length, true);

@@ -11,13 +11,13 @@ const [INTERIOR, LEAF] = [5, 13];
 /** Bytes of the database's header, on the first page. */
 const HEADER = 100;
 
-/** Most levels of a table: 2³² pages have fewer. */
+/** Maximum number of levels of a table. Tables with 2³² pages have fewer. */
 const MAX_DEPTH = 20;
 
-/** Most bytes of a row: the largest messages are point clouds and images. */
+/** Maximum size of a row, bytes. The largest messages are point clouds and images. */
 const MAX_ROW = 2 ** 28;
 
-/** Nanoseconds. */
+/** Number of nanoseconds in a second. */
 const SECOND = 1_000_000_000n;
 
 type Value = number | bigint | Uint8Array;

@@ -1,8 +1,7 @@
-//! The two zero-mean noises of the chapter: `sample(b²)` and `prob(a, b²)` of Tables 5.2 and 5.4.
+//! Zero-mean noises of the chapter: `sample(b²)` and `prob(a, b²)` of Tables 5.2 and 5.4, with variances as arguments.
 //!
-//! Both take a variance. Both kinds are drawn by inverting their distribution function, one uniform number a draw: the
-//! same seed then means the same robots under either kind, and no number a user can see depends on a platform's
-//! mathematics library.
+//! Each draw is the quantile of one uniform number, so that both kinds of noise give similar robots for the same seed. No
+//! result depends on the mathematics library of a platform.
 
 mod quantile;
 
@@ -13,13 +12,13 @@ use std::f64::consts::{PI, TAU};
 use std::fmt;
 use wide::f64x4;
 
-/// A variance b², in the square of the unit of the perturbed quantity. It is a type of its own, so that no standard
-/// deviation is passed by mistake. The field is public as in the chapter; [`Variance::new`] checks the value.
+/// Variance b², in the square of the unit of the perturbed quantity. The type prevents passing a standard deviation by
+/// mistake. [`Variance::new`] checks the value; the public field is not checked.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Variance(pub f64);
 
 impl Variance {
-    /// Creates a variance that is 0 or more.
+    /// Creates a variance, after checking that it is 0 or more.
     ///
     /// # Errors
     /// [`NegativeVariance`] where `b2` is negative or not a number.
@@ -42,15 +41,15 @@ impl std::error::Error for NegativeVariance {}
 
 /// Largest residual that counts as 0 for a noise of zero variance (m/s or rad/s, or m or rad for odometry legs).
 ///
-/// The inversion of an arc of 0.01 s at 1 m/s, a kilometre from the origin, errs by up to 4e-9 in γ̂, and by more at lower speeds. So
-/// a smaller bound would call a sampler's own poses impossible. No robot is controlled to 0.1 µm/s, so that this bound accepts no
-/// motion that did not follow the command.
+/// The inversion of an arc of 0.01 s at 1 m/s, a kilometre from the origin, has an error of up to 4e-9 in γ̂, and a larger one at
+/// lower speeds. A smaller bound would therefore reject poses of the sampler itself. No robot is controlled to 0.1 µm/s, so that
+/// the bound accepts no motion that deviates from the command.
 const ROUNDING: f64 = 1e-7;
 
 /// √6: the triangular density of variance b² lives on ±√6·b.
 const SQRT_6: f64 = 2.449_489_742_783_178;
 
-/// The shape of a zero-mean noise.
+/// Distribution of a zero-mean noise.
 ///
 /// ```
 /// use motion::{NoiseKind, Variance};
@@ -77,8 +76,8 @@ impl NoiseKind {
 
     /// Returns the density of the noise of variance `b2` at the residual `a`, in the inverse of a's unit.
     ///
-    /// Zero variance leaves no density to speak of: the result is then 1 where `a` is 0 to rounding (1e-7) and 0
-    /// elsewhere, so that a product of such factors scores the residuals that do carry noise.
+    /// For a variance of 0 the result is 1 if `a` is 0 up to rounding (1e-7), and 0 otherwise. In a product of such factors, only
+    /// the residuals with noise then count.
     pub fn prob(self, a: f64, b2: Variance) -> f64 {
         let Variance(b2) = b2;
         if b2 == 0.0 {
@@ -108,7 +107,7 @@ impl NoiseKind {
         }
     }
 
-    /// E\[ε⁴\]/E\[ε²\]²: of a Gaussian 3, of the triangle 12/5.
+    /// Returns the kurtosis E\[ε⁴\]/E\[ε²\]²: 3 of a Gaussian, 12/5 of the triangle.
     pub fn kurtosis(self) -> f64 {
         match self {
             Self::Normal => 3.0,
@@ -116,7 +115,7 @@ impl NoiseKind {
         }
     }
 
-    /// [`NoiseKind::quantile`] in place, to the same bits.
+    /// Replaces numbers by [`NoiseKind::quantile`] of them, with the same bits.
     pub(crate) fn quantiles(self, fours: &mut [f64x4]) {
         match self {
             Self::Normal => quantile::normals(fours),
@@ -126,10 +125,9 @@ impl NoiseKind {
         }
     }
 
-    /// Returns the unit-variance variate below which lies the probability ½ + `q`, for q in (−½, ½). Odd and increasing
-    /// in q.
+    /// Returns the quantile of the probability ½ + `q`, for a variance of 1 and q in (−½, ½). It is odd and increasing in q.
     ///
-    /// Normal: relative error below 1e-15 (Wichura, Algorithm AS 241, Applied Statistics 37, 1988).
+    /// The relative error for normal noise is below 1e-15 (Wichura, Algorithm AS 241, Applied Statistics 37, 1988).
     pub fn quantile(self, q: f64) -> f64 {
         match self {
             Self::Normal => quantile::normal(q),
@@ -139,8 +137,7 @@ impl NoiseKind {
     }
 }
 
-/// Returns the product of independent densities. 0 where one of them is 0, however narrow the others: a density may be
-/// too large for a double, and 0 · ∞ is no number.
+/// Returns the product of independent densities. It is 0 if one of them is 0, also if another one has overflowed to infinity.
 pub(crate) fn joint<const N: usize>(densities: [f64; N]) -> f64 {
     if densities.contains(&0.0) { 0.0 } else { densities.into_iter().product() }
 }
@@ -172,8 +169,8 @@ pub(crate) fn wrapped_prob(noise: NoiseKind, a: f64, b2: Variance) -> f64 {
     }
 }
 
-/// Returns a uniform number in (−½, ½): one of the 2⁵³ odd multiples of 2⁻⁵⁴ there, each equally likely, so that 0 and
-/// the ends (where a quantile is infinite) cannot come up and the distribution is exactly symmetric.
+/// Returns a uniform number in (−½, ½). It is one of the 2⁵³ odd multiples of 2⁻⁵⁴, all equally likely. So the distribution is
+/// exactly symmetric, and contains neither 0 nor the ends, whose quantiles are infinite.
 #[inline(always)]
 pub fn centred_uniform<R: Rng + ?Sized>(rng: &mut R) -> f64 {
     const SCALE: f64 = 1.0 / (1u64 << 53) as f64;

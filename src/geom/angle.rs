@@ -8,13 +8,13 @@ use std::f64::consts::{PI, TAU};
 /// is off by about 1.2e-16 · |angle|. NaN and infinities give NaN.
 #[inline(always)]
 pub fn wrap_angle(angle: f64) -> f64 {
-    // Most angles are in range, and a remainder takes longer than everything else here.
+    // Most angles are in range and need no remainder, which is slow.
     if -PI < angle && angle <= PI { angle } else { wrap_far_angle(angle) }
 }
 
 #[inline(never)]
 fn wrap_far_angle(angle: f64) -> f64 {
-    // By itself in [−π, π].
+    // The remainder is in [−π, π].
     let turned = libm::remainder(angle, TAU);
     if turned == -PI { PI } else { turned }
 }

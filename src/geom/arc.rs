@@ -19,14 +19,14 @@ pub fn chord(length: f64, turn: f64) -> (f64, f64) {
     (length * forward, length * left)
 }
 
-/// The controls that one pose pair implies: an arc at (v̂, ω̂), then a final rotation at the rate γ̂.
+/// Controls that a pair of poses implies: an arc at (v̂, ω̂), then a final rotation at the rate γ̂.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ArcInversion {
     /// Translational velocity along the arc, m/s; negative where the robot reversed.
     pub v_hat: f64,
     /// Rotational velocity along the arc, rad/s, with |ω̂·Δt| ≤ π.
     pub omega_hat: f64,
-    /// The heading that the arc leaves unexplained, as a rate over Δt, rad/s, with |γ̂·Δt| ≤ π.
+    /// Rate of the final rotation over Δt, rad/s, with |γ̂·Δt| ≤ π.
     pub gamma_hat: f64,
 }
 
@@ -38,7 +38,7 @@ impl ArcInversion {
     }
 
     /// Returns the centre of the circle of an arc that leaves `x` (m, in the frame of `x`): (x − r·sin θ, y + r·cos θ).
-    /// None where the arc is straight, or its centre further away than a double can say.
+    /// None if the arc is straight, or if the coordinates of the centre exceed the range of doubles.
     pub fn centre(&self, x: &SE2) -> Option<[f64; 2]> {
         let radius = self.radius();
         let (sin, cos) = libm::sincos(x.theta());
@@ -50,14 +50,13 @@ impl ArcInversion {
 /// Returns the arc that leaves `x` along its heading and reaches the position of `x_next` in `dt` seconds (Table 5.1,
 /// lines 1–8, with a signed radius).
 ///
-/// With the displacement in the frame of `x` at distance d and bearing β, the arc turns by φ = 2β and
-/// v̂Δt = d / sinc(β). Of the arcs of that circle (it can be driven either way, and more than once round) this is the
-/// one with |φ| ≤ π: forward where the displacement points ahead, in reverse where it points behind.
-/// γ̂ = wrap(θ′ − θ − φ)/Δt.
+/// With the displacement in the frame of `x` at distance d and bearing β, the arc turns by φ = 2β and v̂Δt = d / sinc(β).
+/// Several arcs of the circle lead there, in both directions and with several revolutions. This is the one with |φ| ≤ π. It
+/// is driven in reverse if the displacement points backwards. γ̂ = wrap(θ′ − θ − φ)/Δt.
 ///
-/// Without displacement every arc of length 0 serves; the turn on the spot that leaves γ̂ = 0 is taken.
+/// Without displacement the result is a turn on the spot with γ̂ = 0.
 ///
-/// `dt` > 0. Frames: both poses in the same frame; the result does not depend on which.
+/// `dt` must be positive. Both poses must be in the same frame, on which the result does not depend.
 ///
 /// ```
 /// use motion::{geom::se2::SE2, invert_arc};
@@ -83,7 +82,7 @@ pub fn invert_arc(x: &SE2, x_next: &SE2, dt: f64) -> ArcInversion {
 }
 
 /// Returns the signed length (m) and turn (rad) of the arc from `x` along its heading to the position of `x_next` whose turn is nearest to
-/// `near` (rad). The arc may go forward or in reverse, and more than once round its circle.
+/// `near` (rad). The arc may be driven in reverse, and with several revolutions.
 ///
 /// All of them lie on one circle, where the length driven is proportional to the turn. Without displacement the length
 /// is 0; along a straight line, which closes no circle, the turn is 0.
@@ -107,14 +106,14 @@ pub struct Arc {
 }
 
 impl Arc {
-    /// Returns the pose where it ends.
+    /// Returns the end pose of the arc.
     pub fn end(&self) -> SE2 {
         let Driven { end: [x, y], heading, .. } = Departure::new(self.start).drive(self.length, self.turn);
         SE2::new(x, y, heading)
     }
 
-    /// Returns the arc as chords of about a degree, up to two turns of it; the chords of a metre's arc of one radian
-    /// then stray by 0.05 mm.
+    /// Returns the points of chords that turn by about a degree, for at most two revolutions. The chords of an arc of 1 m and
+    /// 1 rad deviate from it by up to 0.05 mm.
     pub fn points(&self) -> Vec<[f64; 2]> {
         let chords = (self.turn.abs() / 0.02).clamp(1.0, 640.0).ceil();
         (0..=chords as u32)
@@ -156,7 +155,7 @@ impl Arc {
     }
 }
 
-/// A pose that many arcs leave, with the sine and cosine of its heading.
+/// Start pose of many arcs, with the sine and cosine of its heading.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Departure {
     pose: SE2,
@@ -164,7 +163,7 @@ pub(crate) struct Departure {
     cos: f64,
 }
 
-/// An arc and where it ends.
+/// Driven arc with its end.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Driven {
     pub arc: Arc,
@@ -185,7 +184,7 @@ impl Departure {
         self.pose
     }
 
-    /// Returns a point in the frame of the pose, told in the frame that the pose is in.
+    /// Transforms a point from the frame of the pose to the reference frame.
     #[inline(always)]
     pub fn transform(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         [self.pose.x() + (self.cos * x - self.sin * y), self.pose.y() + (self.sin * x + self.cos * y)]
@@ -201,7 +200,7 @@ impl Departure {
         self.driven(length, turn, half_sinc, self.transform([forward, left]))
     }
 
-    /// [`Departure::drive`] for four arcs at once, but for rounding: the ends are apart by less than 2e-15 · length.
+    /// Drives four arcs at once. The ends differ from those of [`Departure::drive`] by less than 2e-15 · length.
     #[inline(always)]
     pub fn drive_four(
         &self,
@@ -209,7 +208,7 @@ impl Departure {
         length: f64x4,
         turn: f64x4,
     ) -> impl Fn(usize) -> Driven {
-        // On the bearing φ/2, at the distance of the chord.
+        // The end is on the bearing φ/2, at the length of the chord.
         let Circle { sinc, sin, cos } = trigonometry.near_or_any_circle(turn * 0.5);
         let distance = length * sinc;
         let (forward, left) = (distance * cos, distance * sin);
@@ -227,8 +226,8 @@ impl Departure {
 }
 
 impl Driven {
-    /// Returns the arc in courses of up to half a turn: one, or two of which the second ends after a full turn at the
-    /// latest, where the circle begins again.
+    /// Returns the arc in one or two courses of up to half a turn. Anything after a full turn is omitted, because it repeats the
+    /// circle.
     pub fn courses(&self) -> impl Iterator<Item = Course> {
         let Arc { start, length, turn } = self.arc;
         let from = [start.x(), start.y()];
@@ -265,21 +264,21 @@ impl Driven {
     }
 }
 
-/// An arc that turns by up to a half, as a quick approximation around its middle.
+/// Approximation of an arc of up to half a turn, for fast computations of its points.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Course {
     middle: [f64; 2],
-    /// The direction of travel in the middle.
+    /// Direction of travel in the middle.
     tangent: [f64; 2],
     curvature: f64,
     /// Half its length, m.
     pub half: f64,
-    /// No point given is further from the true one, m.
+    /// Maximum error of a point, m.
     pub error: f64,
 }
 
 impl Course {
-    /// From one point to another, `length` (m, positive) apart along the arc, turning by `turn`; `half_sinc` = sinc(φ/2).
+    /// Creates the course between two points, which has a positive `length` (m) and turns by `turn`; `half_sinc` is sinc(φ/2).
     fn new(from: [f64; 2], to: [f64; 2], length: f64, turn: f64, half_sinc: f64) -> Self {
         let (per_metre, curvature) =
             if length > MIN_LENGTH { (1.0 / (length * half_sinc), turn / length) } else { (0.0, 0.0) };
@@ -298,7 +297,7 @@ impl Course {
         Self { middle, error: half * square * square * square / 2000.0, ..ends }
     }
 
-    /// Ahead and left of the middle, for one length or four.
+    /// Returns the coordinates ahead and to the left of the middle, for one length or four.
     #[inline(always)]
     fn local<T>(&self, s: T) -> [T; 2]
     where
@@ -325,13 +324,12 @@ impl Course {
 /// limit would cause visible errors, a much smaller one underflow of the curvature.
 const MIN_TURN: f64 = 1e-30;
 
-/// Arcs below this length (m) count as points. The curvature of much shorter ones, times a square of kilometres, is no
-/// double; no longer one is too short to be driven.
+/// Length (m) below which arcs count as points. The curvature of much shorter ones, times a square of kilometres, would exceed
+/// the range of doubles.
 const MIN_LENGTH: f64 = 1e-100;
 
-/// An arc in the frame of its start, mirrored so that it leads forward and to the left: from the origin along x with
-/// length ≥ 0, turn ≥ 0, curvature κ ≥ 0 (0: straight). All of it works without the centre, which is far away or
-/// nowhere where κ is small.
+/// Arc in the frame of its start, mirrored so that it leads forward and to the left. It starts at the origin along x, with
+/// length, turn and curvature κ ≥ 0. No formula uses the centre, which is far away or undefined if κ is small.
 pub(crate) struct Unrolled {
     origin: [f64; 2],
     forward: [f64; 2],

@@ -1,4 +1,4 @@
-//! Double-double arithmetic: numbers with twice the digits of a double, with which formulas in doubles are compared.
+//! Double-double arithmetic: numbers with twice the digits of a double, for checking formulas in doubles.
 //!
 //! A number is the sum of two doubles, of which the second is at most half a unit in the last place of the first: 106 bits.
 //! Sums and products by the error-free transformations of Dekker (Numerische Mathematik 18, 1971) and Knuth.
@@ -15,14 +15,13 @@ pub struct DoubleDouble {
 /// 2²⁷ + 1 splits a double into halves of 26 bits, whose products are exact.
 const SPLITTER: f64 = 134_217_729.0;
 
-/// Terms of the series of sine and cosine, whose angle is at most π/8 when they begin: the first that is left out is below
-/// 2⁻¹¹⁰ of the sum.
+/// Number of terms of the series of sine and cosine for angles up to π/8. The first omitted term is below 2⁻¹¹⁰ of the sum.
 const TERMS: i32 = 12;
 
 /// Number of times that the angle is halved before the series, and doubled after it.
 const HALVINGS: i32 = 4;
 
-/// a + b = s + e, where |a| ≥ |b|.
+/// Returns a + b without an error, if |a| ≥ |b|.
 fn quick_two_sum(a: f64, b: f64) -> DoubleDouble {
     let high = a + b;
     DoubleDouble { high, low: b - (high - a) }
@@ -62,7 +61,7 @@ impl Neg for DoubleDouble {
 
 impl Add for DoubleDouble {
     type Output = Self;
-    /// Off by at most 2⁻¹⁰⁵ of the result.
+    /// Returns the sum, with a relative error of at most 2⁻¹⁰⁵.
     fn add(self, other: Self) -> Self {
         let (sum, rest) = (two_sum(self.high, other.high), two_sum(self.low, other.low));
         let sum = quick_two_sum(sum.high, sum.low + rest.high);
@@ -79,7 +78,7 @@ impl Sub for DoubleDouble {
 
 impl Mul for DoubleDouble {
     type Output = Self;
-    /// Off by at most 2⁻¹⁰² of the result.
+    /// Returns the product, with a relative error of at most 2⁻¹⁰².
     fn mul(self, other: Self) -> Self {
         let product = two_product(self.high, other.high);
         quick_two_sum(product.high, product.low + (self.high * other.low + self.low * other.high))
@@ -97,17 +96,17 @@ impl DoubleDouble {
         self.high + self.low
     }
 
-    /// Divided by a double: off by at most 2⁻¹⁰⁴ of the result.
+    /// Returns the quotient by a double, with a relative error of at most 2⁻¹⁰⁴.
     pub fn over(self, divisor: f64) -> Self {
         let high = self.high / divisor;
         let rest = self - two_product(high, divisor);
         quick_two_sum(high, rest.high / divisor)
     }
 
-    /// Sine and cosine of an angle of up to a circle either way, off by less than 1e-30.
+    /// Returns the sine and cosine of an angle within a full circle, with an error below 1e-30.
     ///
-    /// Taylor's series of a sixteenth of it, then sin 2a = 2 sin a cos a and 1 − cos 2a = 2 sin² a: of the cosine what it
-    /// lacks of 1 is carried along, which loses nothing.
+    /// It evaluates Taylor's series for a sixteenth of the angle, and then doubles the angle four times: sin 2a = 2 sin a cos a
+    /// and 1 − cos 2a = 2 sin² a. Computing 1 − cos a instead of cos a loses no digits.
     pub fn sin_cos(self) -> (Self, Self) {
         let scale = f64::from(1 << HALVINGS);
         let a = Self { high: self.high / scale, low: self.low / scale };
@@ -135,7 +134,7 @@ impl DoubleDouble {
             return Self::from(1.0);
         }
         let (sine, _) = self.sin_cos();
-        // A quotient in doubles, mended by what it leaves.
+        // A quotient in doubles, corrected by its remainder.
         let first = sine.high / self.high;
         let rest = sine - self * Self::from(first);
         quick_two_sum(first, rest.high / self.high)

@@ -1,17 +1,17 @@
-//! Sine and cosine of four angles at once: polynomials, the same bits on every target.
+//! Sine and cosine of four angles at once, with the same bits on every target.
 //!
-//! The scalar functions of this crate come from `libm`; these agree with them to [`ACCURACY`]. Only +, −, ×, ÷ and
-//! comparisons are used, which round alike everywhere; nothing is fused.
+//! The scalar functions of this crate come from `libm`, and agree with these to [`ACCURACY`]. The polynomials use only +, −, ×,
+//! ÷ and comparisons, without fused operations, and so round equally on all targets.
 
 use super::angle::wrap_angle;
 use std::f64::consts::{FRAC_1_PI, FRAC_PI_2};
 use wide::{bytemuck, f64x2, f64x4, u64x4};
 
-/// Numbers that are worked on at a time.
+/// Number of lanes of a SIMD vector.
 pub const LANES: usize = 4;
 
-/// Largest error of sine, cosine and sinc here, absolute: five halves of a unit in the last place of 1, and a bit. The
-/// polynomials miss by 1.9e-16 at most, the rest is rounding.
+/// Maximum absolute error of sine, cosine and sinc: about five halves of a unit in the last place of 1. The error of the
+/// polynomials is at most 1.9e-16; the rest is rounding.
 pub const ACCURACY: f64 = 6e-16;
 
 /// sin x/x, sin x and cos x.
@@ -25,18 +25,18 @@ pub struct Circle {
 /// Terms of the SE(2) logarithm that depend on the heading, as functions of the half heading h = ω/2.
 #[derive(Clone, Copy)]
 pub struct HalfTurn {
-    /// h less whole half circles, within a quarter circle of the one that was asked for.
+    /// h minus whole half circles, so that it is within a quarter circle of the requested branch.
     pub half: f64x4,
     /// h·cot h and sin h/h of `half`.
     pub cotangent: f64x4,
     pub sinc: f64x4,
-    /// sin h and cos h; both may have the other sign where half circles were taken off.
+    /// sin h and cos h. Both signs may be reversed if half circles were subtracted.
     pub sin: f64x4,
     pub cos: f64x4,
 }
 
-/// The polynomials, as values: coefficients that an engine finds in memory cost it one instruction, those it must make
-/// from constants of the code three.
+/// Polynomials with their coefficients in memory. A WebAssembly engine loads such a coefficient with one instruction; a
+/// constant in the code would take three.
 #[derive(Clone, Copy, Debug)]
 pub struct Trigonometry {
     sinc: [f64; 8],
@@ -57,7 +57,7 @@ impl Trigonometry {
         Circle { sinc, sin: x * sinc, cos }
     }
 
-    /// Returns the sines and cosines of any finite angles (rad), quickest where all are up to a quarter turn.
+    /// Returns the sines and cosines of any finite angles (rad). It is fastest if all are up to a quarter turn.
     #[inline(always)]
     pub fn near_or_any_circle(&self, x: f64x4) -> Circle {
         if beyond(x, FRAC_PI_2) { self.any_circle(x) } else { self.circle(x) }
@@ -113,7 +113,7 @@ impl Trigonometry {
 
     /// Returns (sin x/x, cos x) from z = x², for |x| up to a quarter turn. Exact at 0.
     ///
-    /// By Estrin's scheme: as many operations as Horner's, in a chain half as long, which keeps a processor busier.
+    /// Estrin's scheme has as many operations as Horner's. Its chain of dependent operations is half as long.
     #[inline(always)]
     fn sinc_cos(&self, z: f64x4) -> (f64x4, f64x4) {
         let z2 = z * z;
@@ -145,7 +145,7 @@ pub(crate) fn halves(lanes: f64x4) -> [f64x2; 2] {
     bytemuck::cast(lanes)
 }
 
-/// Lanes made one by one.
+/// Returns a vector from a function of the lane's index.
 pub(crate) fn lanes(lane: impl FnMut(usize) -> f64) -> f64x4 {
     f64x4::new(std::array::from_fn(lane))
 }
@@ -193,7 +193,7 @@ const PI_PARTS: [f64; 3] = [3.141_592_653_468_251_2, 1.215_420_101_260_793_2e-10
 /// Adding and taking it off again rounds to a whole number, twice of it to an even one.
 pub(crate) const ROUND: f64 = 6_755_399_441_055_744.0;
 
-/// Returns the number of half circles to take off x for what is left to lie within a quarter circle of 0.
+/// Returns the number of half circles that are subtracted from x so that the rest is within a quarter circle of 0.
 #[inline(always)]
 fn whole_half_circles(x: f64x4) -> f64x4 {
     // Within a quarter circle there are none, whatever rounding says at its ends.

@@ -11,7 +11,7 @@ use std::ops::Mul;
 pub use super::angle::wrap_angle;
 use super::sinc::{chord_factors, sinc};
 
-/// A pose: position (x, y) in metres and heading θ in (−π, π] radians, of a body frame in a reference frame.
+/// Pose of a body frame in a reference frame: position (x, y) in metres and heading θ in (−π, π] radians.
 ///
 /// ```
 /// use motion::geom::se2::SE2;
@@ -35,7 +35,7 @@ impl SE2 {
         Self { x, y, theta: wrap_angle(theta) }
     }
 
-    /// Returns the pose of a frame in itself.
+    /// Returns the identity: the pose of a frame in itself.
     pub const fn identity() -> Self {
         Self { x: 0.0, y: 0.0, theta: 0.0 }
     }
@@ -53,12 +53,12 @@ impl SE2 {
         self.theta
     }
 
-    /// Returns the exponential map (eq. 156): where a body that starts at the identity is after one unit of time at the
-    /// constant body velocity `twist` = (v_x, v_y, ω).
+    /// Returns the exponential map of a twist (eq. 156): the pose after one unit of time at the constant body velocity
+    /// `twist` = (v_x, v_y, ω), from the identity.
     ///
-    /// Position V(ω)·(v_x, v_y) with V = [sin ω/ω, −(1 − cos ω)/ω; (1 − cos ω)/ω, sin ω/ω], heading ω wrapped.
-    /// The chord form of V needs no series near ω = 0; each component is off by at most 4e-16 · max(1, ‖twist‖) for
-    /// |ω| ≤ π.
+    /// The position is V(ω)·(v_x, v_y) with V = [sin ω/ω, −(1 − cos ω)/ω; (1 − cos ω)/ω, sin ω/ω]. The heading is ω, wrapped.
+    /// The chord form of V needs no series near ω = 0. For |ω| ≤ π the error of a component is at most
+    /// 4e-16 · max(1, ‖twist‖).
     pub fn exp(twist: &Vector3<f64>) -> Self {
         let (a, b) = chord_factors(twist.z);
         Self::new(a * twist.x - b * twist.y, b * twist.x + a * twist.y, twist.z)
@@ -66,14 +66,14 @@ impl SE2 {
 
     /// Returns the logarithm (eq. 157), inverse of [`SE2::exp`]: the twist in (m, m, rad) with |ω| ≤ π.
     ///
-    /// V⁻¹ = [h·cot h, h; −h, h·cot h] with h = θ/2. Discontinuous at heading π, as every logarithm of SE(2) is.
+    /// V⁻¹ = [h·cot h, h; −h, h·cot h] with h = θ/2. Like every logarithm of SE(2) it is discontinuous at the heading π.
     pub fn log(&self) -> Vector3<f64> {
         self.log_of_turn(self.theta)
     }
 
-    /// Returns the twist on the branch of the logarithm whose ω lies within half a turn of `turn` (rad): the motion of
-    /// a body known to have turned by about that much. Equal to [`SE2::log`] where both ω agree; grows without bound
-    /// where the body has turned by whole circles and is elsewhere than it began.
+    /// Returns the logarithm on the branch whose ω is within half a turn of `turn` (rad), for a body that has turned by about
+    /// that angle. It equals [`SE2::log`] if both ω are equal. Near a turn of whole circles it grows without bound, unless the
+    /// body is back at its start.
     pub fn log_near(&self, turn: f64) -> Vector3<f64> {
         self.log_of_turn(turn + wrap_angle(self.theta - turn))
     }
@@ -83,24 +83,24 @@ impl SE2 {
         Vector3::new(diagonal * self.x + half * self.y, diagonal * self.y - half * self.x, turn)
     }
 
-    /// x ⊞ τ = x · exp(τ): this pose moved by a twist in its own body frame (eq. 25).
+    /// Returns x ⊞ τ = x · exp(τ): this pose moved by a twist in its own body frame (eq. 25).
     pub fn boxplus(&self, twist: Vector3<f64>) -> Self {
         *self * Self::exp(&twist)
     }
 
-    /// x ⊟ y = log(y⁻¹ · x): the twist in the body frame of `other` that takes `other` to this pose (eq. 26).
+    /// Returns x ⊟ y = log(y⁻¹ · x): the twist in the body frame of `other` that takes `other` to this pose (eq. 26).
     pub fn boxminus(&self, other: &Self) -> Vector3<f64> {
         (other.inverse() * *self).log()
     }
 
-    /// Returns the inverse element: the reference frame seen from the body.
+    /// Returns the inverse: the pose of the reference frame in the body frame.
     pub fn inverse(&self) -> Self {
         let (sin, cos) = libm::sincos(self.theta);
         Self::new(-cos * self.x - sin * self.y, sin * self.x - cos * self.y, -self.theta)
     }
 
-    /// Returns the adjoint Ad (eq. 159), 3 × 3: x · exp(τ) = exp(Ad τ) · x, a body-frame twist told in the reference
-    /// frame.
+    /// Returns the adjoint Ad (eq. 159), 3 × 3, with x · exp(τ) = exp(Ad τ) · x. It converts a twist from the body frame to the
+    /// reference frame.
     pub fn adjoint(&self) -> Matrix3<f64> {
         let (sin, cos) = libm::sincos(self.theta);
         Matrix3::new(cos, -sin, self.y, sin, cos, -self.x, 0.0, 0.0, 1.0)
@@ -139,7 +139,7 @@ impl SE2 {
 impl Mul for SE2 {
     type Output = Self;
 
-    /// Composition (eq. 154): `other`, given in the frame of `self`, told in the frame of `self`'s reference.
+    /// Returns the composition (eq. 154): `other`, which is in the frame of `self`, in the reference frame of `self`.
     fn mul(self, other: Self) -> Self {
         let (sin, cos) = libm::sincos(self.theta);
         Self::new(
@@ -150,8 +150,8 @@ impl Mul for SE2 {
     }
 }
 
-/// Returns h·cot h with h = ω/2. By series near 0, where the three roundings of the closed form would be the largest in
-/// log.
+/// Returns h·cot h with h = ω/2. Near 0 it is a series, because the three roundings of the closed form would be the largest
+/// error of the logarithm.
 fn half_cotangent(turn: f64) -> f64 {
     if turn.abs() < SERIES_BELOW {
         return 1.0 - turn * cotangent_defect(turn);
@@ -166,9 +166,9 @@ fn sinc_squared_half(turn: f64) -> f64 {
     root * root
 }
 
-/// Least |ω| of the closed forms; below it the two quotients that cancel are computed by a series. From 1 on the closed forms lose
-/// up to four bits of quotients that are a sixth or less, and the sums of these stay exact to rounding. A smaller bound would let
-/// the loss grow with 1/|ω|; a larger one would need more terms.
+/// Minimum |ω| of the closed forms. Below it two quotients would cancel, and are computed by series. Above it the closed forms
+/// lose up to four bits of small quotients, so that sums with them are exact to rounding. A smaller bound would lose more bits; a
+/// larger one would need more terms.
 const SERIES_BELOW: f64 = 1.0;
 
 /// Returns (ω − sin ω)/ω² = ω/3! − ω³/5! + ω⁵/7! − …

@@ -17,13 +17,13 @@ impl Segment {
         libm::hypot(x, y)
     }
 
-    /// Returns the square of the distance: without a root, but 0 below 10⁻¹⁶² m.
+    /// Returns the squared distance to a point. Distances below 10⁻¹⁶² m underflow to 0.
     pub(crate) fn squared_distance_to_point(&self, point: [f64; 2]) -> f64 {
         let offset = self.offset_of_point(point);
         dot(offset, offset)
     }
 
-    /// From the nearest point of the segment to a point.
+    /// Returns the vector from the nearest point of the segment to a point.
     fn offset_of_point(&self, point: [f64; 2]) -> [f64; 2] {
         let along = [self.to[0] - self.from[0], self.to[1] - self.from[1]];
         let offset = [point[0] - self.from[0], point[1] - self.from[1]];
@@ -34,24 +34,24 @@ impl Segment {
 
     /// Returns the distance (m) between the nearest points of the segment and of an arc; 0 where they cross.
     ///
-    /// The nearest points are a crossing, or an end of one with the nearest point of the other, or a point inside both
-    /// where the segment is parallel to the arc and outside its circle. Nothing else can be a minimum: from within the
-    /// circle the distance to it is concave along a line.
+    /// The minimum is a crossing, or an end of one with the nearest point of the other, or a pair of inner points where the
+    /// segment is parallel to the arc and outside its circle. There are no other minima, because inside the circle the distance
+    /// to it is concave along a line.
     pub fn distance_to_arc(&self, arc: &Arc) -> f64 {
         self.distance_to_unrolled(&arc.unrolled())
     }
 
-    /// [`Segment::distance_to_arc`] of an arc that several segments are measured to.
+    /// Returns [`Segment::distance_to_arc`] for an arc that is prepared for several segments.
     pub(crate) fn distance_to_unrolled(&self, local: &Unrolled) -> f64 {
         let mirrored = self.unrolled(local);
         if mirrored.crosses(local) { 0.0 } else { mirrored.distance_apart(local) }
     }
 
-    /// Returns the distance in m by which an arc whose ends are to the left of the segment's line, or on it, gets to the right of it.
+    /// Returns the maximum distance (m) of an arc to the right of the segment's line. The ends of the arc must not be to the right.
     pub(crate) fn passed_by(&self, arc: &Arc) -> f64 {
         let along = [self.to[0] - self.from[0], self.to[1] - self.from[1]];
         let side = libm::hypot(along[0], along[1]);
-        // Furthest from the line it is where it runs along it, the one way or the other.
+        // The arc is furthest from the line where it is parallel to it, in either direction.
         let bearing = libm::atan2(along[1], along[0]) - arc.start.theta();
         let turned = libm::remainder(bearing * arc.turn.signum(), PI);
         let first = if turned < 0.0 { turned + PI } else { turned };

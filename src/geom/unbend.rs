@@ -1,20 +1,20 @@
-//! Morph of the plane from places (x, y) to exponential coordinates (along, heading).
+//! Morph of the plane from positions (x, y) to exponential coordinates (along, heading).
 //!
-//! With D = diag(1, 1 − μ, 1 − μ), the twist ξ has at the morph μ the place
+//! With D = diag(1, 1 − μ, 1 − μ), the morph μ takes the twist ξ to the point
 //!
 //! ```text
 //! F_μ(ξ) = position of exp(D·ξ) + (0, μ·ξ_heading)
 //! ```
 //!
-//! F₀ is the position of exp ξ, and F₁ is (ξ_along, ξ_heading). In between each arc keeps its length and has lost the share
-//! μ of its curvature. On arcs (ξ_lateral = 0) F_μ is one-to-one for lengths above 0 and turns below π/(1 − μ).
+//! F₀ is the position of exp ξ, and F₁ is (ξ_along, ξ_heading). In between, each arc keeps its length, and its curvature is
+//! multiplied by 1 − μ. On arcs (ξ_lateral = 0) F_μ is one-to-one for lengths above 0 and turns below π/(1 − μ).
 
 use super::arc::arc_near;
 use super::se2::SE2;
 use nalgebra::{Matrix2, Matrix2x3, Vector2, Vector3};
 use std::f64::consts::PI;
 
-/// Returns the place of a twist (m, m, rad) at a morph from 0 to 1.
+/// Returns the point to which a morph from 0 to 1 takes a twist (m, m, rad).
 pub fn unbend(twist: &Vector3<f64>, morph: f64) -> [f64; 2] {
     let left = 1.0 - morph;
     let pose = SE2::exp(&Vector3::new(twist.x, left * twist.y, left * twist.z));
@@ -37,10 +37,10 @@ fn position_jacobian(twist: &Vector3<f64>) -> Matrix2x3<f64> {
     (rotation * SE2::right_jacobian(twist)).fixed_view::<2, 3>(0, 0).into_owned()
 }
 
-/// Returns the places at a morph of a line of points of the floor, each taken for the end of the arc whose turn is nearest to `turn`
-/// (rad).
+/// Returns the points to which a morph takes a line of positions. Each position counts as the end of the arc whose turn is nearest
+/// to `turn` (rad).
 ///
-/// Empty for a line that leads half a turn away from there, as one around the start does: its arcs go over from forward to reverse.
+/// The result is empty for a line whose arcs change between forward and reverse, such as a line around the start.
 pub fn unbend_line(points: &[[f64; 2]], turn: f64, morph: f64) -> Vec<[f64; 2]> {
     let arc = |[x, y]: &[f64; 2]| arc_near(&SE2::identity(), &SE2::new(*x, *y, 0.0), turn);
     let arcs: Vec<_> = points.iter().map(arc).collect();
@@ -50,10 +50,10 @@ pub fn unbend_line(points: &[[f64; 2]], turn: f64, morph: f64) -> Vec<[f64; 2]> 
     arcs.into_iter().map(|(length, turn)| unbend(&Vector3::new(length, 0.0, turn), morph)).collect()
 }
 
-/// Newton steps at most; from one frame of a drag to the next three suffice.
+/// Maximum number of Newton steps. From one frame of a drag to the next three suffice.
 const MAX_STEPS: usize = 20;
 
-/// Returns length and turn of the arc whose place at a morph is given, by Newton's method from an arc near it; None where that
+/// Returns the length and turn of the arc that a morph takes to a point, by Newton's method from an arc near it. None if the method
 /// does not converge, as on a fold.
 pub fn arc_at(place: [f64; 2], near: [f64; 2], morph: f64) -> Option<[f64; 2]> {
     let mut arc = Vector2::from(near);

@@ -35,7 +35,7 @@ impl Sampler {
     }
 }
 
-/// The velocity model in a floor plan, for a round robot of radius `clearance` (m).
+/// Velocity model, conditioned on a floor plan for a round robot of radius `clearance` (m).
 ///
 /// ```
 /// use motion::geom::se2::SE2;
@@ -120,7 +120,7 @@ impl Judging<'_> {
         self.verdicts(self.part.motion(&self.from, unit_noise))
     }
 
-    /// [`Judging::judge`] for the samples `wanted` of four, but for rounding in the poses.
+    /// Tests the samples `wanted` of four. The poses may differ from those of [`Judging::judge`] by rounding.
     pub fn judge_four(&self, unit_noise: &[f64x4; 3], wanted: Range<usize>, see: impl FnMut(Draw)) {
         let motion = self.part.four_motions(&self.from, &self.trigonometry, unit_noise);
         wanted.map(|lane| self.verdicts(motion(lane))).for_each(see);
@@ -166,7 +166,7 @@ impl Part {
         move |lane| after(driven(lane), last[lane])
     }
 
-    /// Length (m) and turn of the arc, and the turn after it (rad), under unit noises: see [`VelocityModel::executed`].
+    /// Returns the length (m) and turn of the arc, and the turn after it (rad): see [`VelocityModel::executed`].
     fn executed<T>(&self, [v, omega, gamma]: [T; 3]) -> [T; 3]
     where
         T: Mul<f64, Output = T> + Add<f64, Output = T>,
@@ -186,12 +186,12 @@ impl MapConditioned<'_> {
     /// Returns an accepted motion from `x`.
     ///
     /// # Errors
-    /// [`Wedged`] after [`MAX_DRAWS`] draws in vain.
+    /// [`Wedged`] after [`MAX_DRAWS`] rejected draws.
     pub fn sample<R: Rng + ?Sized>(&self, u: &VelocityCmd, x: &SE2, rng: &mut R) -> Result<Accepted, Wedged> {
         self.sample_along(u, x, rng, |_| ())
     }
 
-    /// As [`MapConditioned::sample`], showing each arc of the accepted motion to `along`.
+    /// Returns an accepted motion as [`MapConditioned::sample`] does, and calls `along` with each of its arcs.
     pub fn sample_along<R: Rng + ?Sized>(
         &self,
         u: &VelocityCmd,
@@ -215,8 +215,8 @@ impl MapConditioned<'_> {
         Ok(cost)
     }
 
-    /// Returns the last part of a motion of as many parts as the sampler has, each accepted as it is drawn, and whether
-    /// all of them are free. Until the first rejection these are the draws of [`MapConditioned::sample_along`].
+    /// Returns the last part of a motion without rejection, and true if all parts are free. The motion has as many parts as
+    /// the sampler. Up to the first rejection the draws are those of [`MapConditioned::sample_along`].
     pub fn sample_unconditioned<R: Rng + ?Sized>(
         &self,
         u: &VelocityCmd,

@@ -73,7 +73,7 @@ impl DistanceField {
         f64::from(self.least.get(row * self.columns + column).copied().unwrap_or(UNKNOWN))
     }
 
-    /// As [`DistanceField::least`] for four points, as their x and y.
+    /// Returns [`DistanceField::least`] of four points. `points` are their x and y.
     #[inline(always)]
     pub fn least_of_four(&self, points: &[f64x4; 2]) -> f64x4 {
         let zero = f64x4::splat(0.0);

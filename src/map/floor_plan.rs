@@ -111,7 +111,7 @@ impl FloorPlan {
     /// Creates a plan of `walls` within `bounds` (least x, least y, greatest x, greatest y), m.
     ///
     /// # Errors
-    /// [`FloorPlanError`] for the first thing that is not as it says.
+    /// [`FloorPlanError`] for the first wall or bound that is not allowed.
     pub fn new(walls: Vec<Segment>, bounds: [f64; 4]) -> Result<Self, FloorPlanError> {
         Self::with_solid(walls, bounds, None)
     }
@@ -159,7 +159,7 @@ impl FloorPlan {
         Ok(Self { walls, bounds, solid, survey: OnceLock::new() })
     }
 
-    /// The apartment of the chapter's widget: 12 m × 9 m, 18 walls.
+    /// Creates the plan of the apartment of Map Squeeze: 12 m × 9 m, 18 walls.
     pub fn apartment() -> Self {
         Self::new(apartment::WALLS.to_vec(), apartment::BOUNDS)
             .unwrap_or_else(|_| unreachable!("a constant that the tests build"))
@@ -209,7 +209,7 @@ impl FloorPlan {
         self.path_free(&driven, self.point_free(driven.end, clearance), clearance)
     }
 
-    /// As [`FloorPlan::arc_free`], for an arc whose end has been tested already. That test counts as a part of this one.
+    /// Tests an arc as [`FloorPlan::arc_free`] does, after its end was tested. The result includes the cost of that test.
     pub(super) fn path_free(&self, driven: &Driven, end: Verdict, clearance: f64) -> Verdict {
         let start = [driven.arc.start.x(), driven.arc.start.y()];
         if !end.free || self.leaves_bounds(driven) || self.buried(start) {

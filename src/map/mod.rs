@@ -1,4 +1,4 @@
-//! Maps, exact collision of a driven arc with them, and motion conditioned on them.
+//! Maps, exact collision tests of arcs, and motion conditioned on a map.
 
 mod apartment;
 mod conditioned;

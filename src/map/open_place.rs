@@ -5,10 +5,10 @@ use super::occupancy::OccupancyGrid;
 use crate::geom::se2::SE2;
 use std::f64::consts::TAU;
 
-/// Headings that are looked along: one in five degrees.
+/// Number of headings that are tried, one in five degrees.
 const HEADINGS: u32 = 72;
 
-/// Squares along the longer side of a plan that has no cells of its own.
+/// Number of squares along the longer side of a plan without a grid.
 const SQUARES: f64 = 256.0;
 
 impl FloorPlan {

@@ -1,9 +1,9 @@
-//! Portable grey maps, as `map_server` and most mapping programs write them.
+//! Reader of PGM images, in which `map_server` and most mapping programs store maps.
 
 use super::occupancy::{Image, Pixel};
 use std::fmt;
 
-/// Why bytes are not a PGM image.
+/// Reason why bytes are not a PGM image.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PgmError {
     /// Name of the field: "the width".
@@ -27,10 +27,10 @@ impl std::error::Error for PgmError {}
 /// Largest number of pixels of an image: a map of 250 m × 250 m at 5 cm has 5000 × 5000.
 pub const MAX_PIXELS: usize = 1 << 25;
 
-/// Bytes of a file at most: a plain one takes six characters a pixel.
+/// Maximum size of a file, bytes. A plain file takes six characters for a pixel.
 pub const MAX_BYTES: usize = 6 * MAX_PIXELS + 4096;
 
-/// Characters of what is there instead that are quoted.
+/// Maximum number of characters that an error quotes.
 const QUOTED: usize = 20;
 
 /// Reads a PGM image, binary (P5) or plain (P2), of 8 or 16 bits. All of it is checked, and none of it copied.
@@ -81,7 +81,7 @@ enum Coding {
     Words,
 }
 
-/// A pixel of a PGM image: a value from 0 (black) to the greatest (white).
+/// Pixel of a PGM image, from 0 (black) to the maximum of the header (white).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Shade {
     value: u16,
@@ -94,8 +94,8 @@ impl From<Shade> for Pixel {
     }
 }
 
-/// Pixels of a PGM image, row by row from the top, each read when it is asked for: as numbers they would take several times
-/// the memory of the file.
+/// Iterator over the pixels of a PGM image, row by row from the top. Storing them as numbers would take several times the memory
+/// of the file.
 #[derive(Clone, Debug)]
 pub struct Shades<'a> {
     reader: Reader<'a>,

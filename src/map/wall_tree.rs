@@ -25,18 +25,19 @@ pub(super) struct WallTree {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Node {
     hull: Line,
-    /// No wall gets further from the line than this, m.
+    /// Maximum distance of a wall of the node from the line, m.
     pub thickness: f64,
     /// True if the walls are all the same.
     is_one: bool,
 }
 
-/// Walls of a leaf at most, and of a tree that is one leaf: fewer would be more nodes to look at, more more walls.
+/// Maximum number of walls of a leaf, and of a tree that is a single leaf. Smaller leaves would need more nodes; larger ones more
+/// comparisons of walls.
 const LEAF: usize = 16;
 const ONLY_LEAF: usize = 32;
 
 impl WallTree {
-    /// Makes the tree of walls within `bounds`.
+    /// Creates the tree of the walls, all of which are inside `bounds`.
     pub fn new(walls: &[Segment], bounds: [f64; 4]) -> Self {
         let leaves =
             if walls.len() <= ONLY_LEAF { 1 } else { walls.len().div_ceil(LEAF).next_power_of_two() };
@@ -132,7 +133,7 @@ impl WallTree {
         self.walls.len()
     }
 
-    /// Returns true if there is nothing to descend to.
+    /// Returns true if the node is a leaf.
     pub fn is_leaf(&self, at: usize) -> bool {
         at >> self.depth > 0 || self.nodes[at].is_one
     }
@@ -175,7 +176,7 @@ impl Node {
         self.hull.square(point) > reach * reach
     }
 
-    /// No wall of the node is nearer to a point than this, m.
+    /// Returns a lower bound (m) on the distance from a point to the walls of the node.
     #[inline(always)]
     pub fn least(&self, point: [f64; 2]) -> f64 {
         (self.hull.square(point).sqrt() - self.thickness).max(0.0)
@@ -211,8 +212,8 @@ impl Line {
     }
 }
 
-/// Brings the first `count` walls by a coordinate before the others, by Hoare's selection: in as many rounds as are usual at
-/// most. Were walls made to need more, their tree would have other parts and be none the less right.
+/// Moves the `count` walls with the smallest coordinates to the front, by Hoare's selection. The number of rounds is limited. Walls
+/// that would need more rounds are divided differently, and the tree is still correct.
 fn part(walls: &mut [Segment], count: usize, axis: usize) {
     let (mut low, mut high) = (0, walls.len());
     for _ in 0..ROUNDS {
@@ -262,8 +263,8 @@ fn greater(one: f64, other: f64) -> f64 {
     if other > one { other } else { one }
 }
 
-/// Returns the coordinates of a wall among others: twice its middle, and the way from its left end to the right one. It
-/// does not matter which end is called the first.
+/// Returns the coordinates by which walls are divided: twice the midpoint, and the vector from the left end to the right one. They
+/// do not depend on the order of the ends.
 fn place(wall: &Segment) -> [f64; 4] {
     let Segment { from: [x0, y0], to: [x1, y1] } = *wall;
     let (x, y) = (x1 - x0, y1 - y0);

@@ -7,7 +7,7 @@ use nalgebra::{Matrix3, Vector3};
 use rand::Rng;
 use std::f64::consts::PI;
 
-/// A relative odometry reading as rotate, drive, rotate: `rot1` and `rot2` in (−π, π] rad, `trans` ≥ 0 in m.
+/// Odometry reading as rotation, translation and rotation: `rot1` and `rot2` in (−π, π] rad, `trans` ≥ 0 in m.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OdomDelta {
     pub rot1: f64,
@@ -15,8 +15,8 @@ pub struct OdomDelta {
     pub rot2: f64,
 }
 
-/// Below this displacement (m) a reading is a spin on the spot: the direction of travel would be read off the rounding
-/// of two coordinates. No encoder resolves a nanometre; a larger bound would call slow creeping a spin.
+/// Displacement (m) below which a reading counts as a turn on the spot. The direction of such a displacement is only rounding. No
+/// encoder resolves a nanometre. With a larger bound slow motion would count as a turn.
 const SPIN_BELOW: f64 = 1e-9;
 
 impl OdomDelta {
@@ -40,12 +40,12 @@ impl OdomDelta {
     }
 }
 
-/// α₁…α₄: each rotation δ has the variance α₁δ² + α₂δ_trans², the translation α₃δ_trans² + α₄(δ_rot1² + δ_rot2²).
-/// Each is 0 or more.
+/// Noise parameters α₁…α₄, each 0 or more. A rotation δ has the variance α₁δ² + α₂δ_trans². The translation has the variance
+/// α₃δ_trans² + α₄(δ_rot1² + δ_rot2²).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OdomAlphas(pub [f64; 4]);
 
-/// The three legs of the reading, each with independent noise.
+/// Odometry motion model of Tables 5.5 and 5.6: independent noise of the two rotations and the translation.
 ///
 /// ```
 /// use motion::geom::se2::SE2;
@@ -62,7 +62,7 @@ pub struct OdometryModel {
     pub noise: NoiseKind,
 }
 
-/// An odometry model by the noise of its three legs, however that is charged.
+/// Odometry model with independent noise of its three legs, under any rule for the variances.
 pub trait Hinges {
     fn noise(&self) -> NoiseKind;
 
@@ -154,8 +154,8 @@ impl OdometryModel {
         ])
     }
 
-    /// The map from legs to poses has the determinant δ̂_trans. Noise may turn the translation negative, so that two
-    /// combinations lead to a pose: facing it and driving forward, facing away and driving in reverse.
+    /// Returns the density. The map from legs to poses has the determinant δ̂_trans. Two combinations lead to a pose: driving
+    /// forward, and driving in reverse after noise has made the translation negative.
     fn charged_density(&self, x_next: &SE2, u: &OdomDelta, x: &SE2, charge: Charge) -> Option<f64> {
         let variances = self.charged_variances(u, charge);
         if variances.iter().any(|variance| variance.0 == 0.0) {

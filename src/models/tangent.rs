@@ -151,9 +151,9 @@ impl TangentNoiseModel {
         self.propagate(sigma, tau, Compounding::Chapter)
     }
 
-    /// Returns the covariance of x_k ⊟ x̄_k after a step by the twist `tau`, given `sigma`, that of x_{k−1} ⊟ x̄_{k−1};
-    /// both 3 × 3 in the body frame of their pose. The turn after the arc adds to the heading alone, unturned by J_r:
-    /// it happens where the arc ends.
+    /// Returns the covariance of x_k ⊟ x̄_k after a step by the twist `tau`, from the covariance `sigma` of x_{k−1} ⊟ x̄_{k−1}.
+    /// Both are 3 × 3 in the body frame of their pose. The turn after the arc only adds to the heading, without J_r, because it
+    /// happens at the end of the arc.
     pub fn propagate(&self, sigma: &Matrix3<f64>, tau: &Vector3<f64>, order: Compounding) -> Matrix3<f64> {
         let back = SE2::exp(tau).inverse().adjoint();
         let carried = back * sigma * back.transpose();
@@ -171,8 +171,8 @@ impl TangentNoiseModel {
     }
 }
 
-/// Returns the fourth-order part of the covariance of log(exp(a)·exp(b)), a and b independent with covariances `a` and
-/// `b`: (𝒜_a·b + b·𝒜_aᵀ + 𝒜_b·a + a·𝒜_bᵀ)/12 + ℬ/4, with 𝒜_a = E[ad(a)²] and ℬ = E[ad(a)·b·ad(a)ᵀ].
+/// Returns the fourth-order part of the covariance of log(exp(a)·exp(b)) for independent a and b with covariances `a` and `b`.
+/// It is (𝒜_a·b + b·𝒜_aᵀ + 𝒜_b·a + a·𝒜_bᵀ)/12 + ℬ/4, with 𝒜_a = E[ad(a)²] and ℬ = E[ad(a)·b·ad(a)ᵀ].
 fn fourth_order(a: &Matrix3<f64>, b: &Matrix3<f64>) -> Matrix3<f64> {
     let twice = |cov| expectation(cov, |left, right| left * right);
     let one_sided = twice(a) * b + twice(b) * a;

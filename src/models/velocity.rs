@@ -20,7 +20,8 @@ pub struct VelocityCmd {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VelocityAlphas(pub [f64; 6]);
 
-/// The robot executes (v̂, ω̂) instead of (v, ω) along an exact arc, then turns on the spot by γ̂Δt.
+/// Velocity motion model of Tables 5.1 and 5.3. The robot drives an exact arc with (v̂, ω̂) instead of (v, ω), and then turns
+/// on the spot by γ̂Δt.
 ///
 /// ```
 /// use motion::geom::se2::SE2;
@@ -39,8 +40,8 @@ pub struct VelocityModel {
     pub noise: NoiseKind,
 }
 
-/// Windings summed by [`VelocityModel::pose_density`] at most, either way: noise that could turn the robot more than
-/// 64 times in one step says nothing about where it is, and more would only cost time.
+/// Maximum number of full turns in each direction over which [`VelocityModel::pose_density`] sums. Noise that turns the robot
+/// more than 64 times in a step makes its heading uniform.
 const MAX_WINDINGS: f64 = 64.0;
 
 impl VelocityModel {

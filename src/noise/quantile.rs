@@ -1,4 +1,4 @@
-//! The inverse of the normal distribution function: Wichura, Algorithm AS 241, Applied Statistics 37 (1988), its double
+//! Quantile function of the normal distribution: Wichura, Algorithm AS 241, Applied Statistics 37 (1988), in its double
 //! precision form PPND16.
 #![expect(clippy::excessive_precision, reason = "the digits as published")]
 
@@ -25,17 +25,17 @@ pub(super) fn normal(q: f64) -> f64 {
     tail.copysign(q)
 }
 
-/// Fours worked on at a time, so that their tails can be gathered: 1024 numbers are 10 kB of stack. Fewer would leave the
-/// last tails of more chunks alone in their four.
+/// Number of vectors in a chunk, whose tails are gathered into full vectors. 1024 numbers take 10 kB of stack. Smaller chunks
+/// would leave more incomplete vectors.
 const CHUNK: usize = 256;
 
-/// [`normal`] of each, in place and to the same bits.
+/// Replaces numbers by [`normal`] of them, with the same bits.
 pub(super) fn normals(fours: &mut [f64x4]) {
     fours.chunks_mut(CHUNK).for_each(normals_of_chunk);
 }
 
-/// One number in seven is in a tail, every second four has one: they are gathered, which saves most of their cost and the
-/// branches that nobody could predict.
+/// Replaces the numbers of a chunk. One number in seven is in a tail, and every second vector has one. The tails are gathered
+/// into full vectors, which saves most of their cost, and unpredictable branches.
 fn normals_of_chunk(fours: &mut [f64x4]) {
     let mut tails = [0.0; LANES * CHUNK + LANES];
     let mut places = [0u16; LANES * CHUNK + LANES];
@@ -43,7 +43,7 @@ fn normals_of_chunk(fours: &mut [f64x4]) {
     for (four, q) in fours.iter_mut().enumerate() {
         let in_tail = q.abs().simd_gt(f64x4::splat(CENTRE)).to_bitmask();
         for (lane, tail) in q.to_array().into_iter().enumerate() {
-            // Overwritten by the next one unless it counts.
+            // The next number overwrites this one unless it is in a tail.
             tails[count] = tail;
             places[count] = (LANES * four + lane) as u16;
             count += (in_tail >> lane & 1) as usize;
@@ -60,7 +60,7 @@ fn normals_of_chunk(fours: &mut [f64x4]) {
     }
 }
 
-/// [`normal`] of four numbers in either tail.
+/// Returns [`normal`] of four numbers, each in one of the tails.
 #[inline(always)]
 fn tail_lanes(q: f64x4) -> f64x4 {
     let r = (-log(f64x4::splat(0.5) - q.abs())).sqrt();

@@ -1,44 +1,9 @@
 // `npm start`: builds stale files and serves dist/ on this machine only. PORT selects a port; the default is the first free one from 4173.
 
-import { createReadStream, statSync } from 'node:fs';
 import { createServer } from 'node:http';
-import { extname, join, normalize, sep } from 'node:path';
+import { join } from 'node:path';
 import { build } from './build.mjs';
 import { Missing, ROOT, runAsScript } from './process.mjs';
-
-const TYPES = /** @type {Record<string, string>} */ ({
-  '.css': 'text/css; charset=utf-8',
-  '.html': 'text/html; charset=utf-8',
-  '.ico': 'image/x-icon',
-  '.js': 'text/javascript; charset=utf-8',
-  '.json': 'application/json',
-  '.map': 'application/json',
-  '.mjs': 'text/javascript; charset=utf-8',
-  '.png': 'image/png',
-  '.svg': 'image/svg+xml',
-  '.wasm': 'application/wasm',
-  '.woff2': 'font/woff2',
-});
-
-/**
- * @param {string} directory
- * @param {string} base the path that it is served under
- * @param {string} address the path and query of a request
- * @returns {{ path: string, size: number } | undefined} the file meant, never one outside the directory
- */
-function fileAt(directory, base, address) {
-  try {
-    const { pathname } = new URL(address, 'http://localhost');
-    if (!pathname.startsWith(base)) return undefined;
-    let path = normalize(join(directory, decodeURIComponent(pathname.slice(base.length - 1))));
-    if (!path.startsWith(directory + sep)) return undefined;
-    if (statSync(path).isDirectory()) path = join(path, 'index.html');
-    const { size } = statSync(path);
-    return { path, size };
-  } catch {
-    return undefined;
-  }
-}
 
 /**
  * @param {string} directory
@@ -48,23 +13,15 @@ function fileAt(directory, base, address) {
  * @param {Record<string, string>} [options.headers] sent with every file
  * @returns {Promise<{ address: string, close: () => void }>}
  */
-export function serve(directory, { port, base = '/', headers = {} } = {}) {
+export async function serve(directory, { port, base = '/', headers = {} } = {}) {
+  // A bare clone lacks it until the packages are installed.
+  const { default: sirv } = await import('sirv');
+  const files = sirv(directory, { dev: true, etag: true, setHeaders: (response) => response.setHeaders(new Map(Object.entries(headers))) });
   const server = createServer((request, response) => {
-    const file = fileAt(directory, base, request.url ?? '/');
-    if (request.method !== 'GET' && request.method !== 'HEAD') {
-      response.writeHead(405, { allow: 'GET, HEAD' }).end();
-    } else if (file === undefined) {
-      response.writeHead(404, { 'content-type': 'text/plain; charset=utf-8' }).end('There is no such page.');
-    } else {
-      response.writeHead(200, {
-        'content-type': TYPES[extname(file.path)] ?? 'application/octet-stream',
-        'content-length': file.size,
-        'cache-control': 'no-cache',
-        ...headers,
-      });
-      if (request.method === 'HEAD') response.end();
-      else createReadStream(file.path).on('error', () => response.destroy()).pipe(response);
-    }
+    const missing = () => void response.writeHead(404, { 'content-type': 'text/plain; charset=utf-8' }).end('There is no such page.');
+    if (!request.url?.startsWith(base)) return missing();
+    request.url = request.url.slice(base.length - 1);
+    files(request, response, missing);
   });
   let candidate = port ?? 4173;
   return new Promise((resolve, reject) => {

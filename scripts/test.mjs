@@ -4,10 +4,9 @@
 // Nightly tests are marked where they stand: `#[ignore = "nightly: …"]` in Rust, `@nightly` in the title of a test in JavaScript,
 // `*.nightly.test.js` for whole files.
 
-import { existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { mkdirSync, rmSync, writeFileSync } from 'node:fs';
 import { availableParallelism } from 'node:os';
 import { join } from 'node:path';
-import { stripVTControlCharacters } from 'node:util';
 import { testRunner } from './bindgen.mjs';
 import { CHROME_ARGUMENTS, ensureBrowser } from './browser.mjs';
 import { build } from './build.mjs';
@@ -15,20 +14,14 @@ import { filesOf } from './bundle.mjs';
 import { Missing, ROOT, inOnePiece, once, progress, run, runAsScript, together } from './process.mjs';
 import { ensureLints, ensurePackages, nativeRust, wasmRust } from './toolchain.mjs';
 
-/**
- * @typedef {object} Tally
- * @property {number} passed
- * @property {number} failed
- * @property {number} skipped
- * @property {string[]} [complaints] the tests that failed, each with its error
- */
-/** @typedef {{ name: string, ok: boolean, seconds: number, tally?: Tally, note?: string }} Outcome */
+/** @typedef {{ passed: number, failed: number, skipped: number }} Tally */
+/** @typedef {{ name: string, ok: boolean, seconds: number, output?: string, tally?: Tally, note?: string }} Outcome */
 /** @typedef {() => Promise<{ ok: boolean, output: string, timedOut: boolean }>} Job */
 /**
  * @typedef {object} Part
  * @property {(more: string[]) => Promise<Job>} prepare waits for what it needs, installed if need be. `more` are
  *   arguments for its program
- * @property {(output: string) => Tally} [count] where tests run, counts them in what was printed
+ * @property {Record<keyof Tally, RegExp>} [counts] where tests run, numbers in what is printed that are added
  */
 
 /** Runs the nightly tests as well. */
@@ -101,6 +94,13 @@ async function lint(rust, name, args) {
 
 const LINT_RULES = ['--', '-D', 'warnings'];
 
+/** Numbers of tests in the output of each program. @satisfies {Record<string, Record<keyof Tally, RegExp>>} */
+const COUNTS = {
+  cargo: { passed: /^test result: .*?(\d+) passed/gm, failed: /^test result: .*?(\d+) failed/gm, skipped: /^test result: .*?(\d+) ignored/gm },
+  node: { passed: /^# pass (\d+)$/gm, failed: /^# (?:fail|cancelled) (\d+)$/gm, skipped: /^# (?:skipped|todo) (\d+)$/gm },
+  playwright: { passed: /^ +(\d+) passed/gm, failed: /^ +(\d+) (?:failed|interrupted|did not run)/gm, skipped: /^ +(\d+) skipped/gm },
+};
+
 /** @type {Record<string, Part>} */
 const PARTS = {
   rustfmt: {
@@ -138,7 +138,7 @@ const PARTS = {
   },
   rust: {
     prepare: async (more) => cargo(await native(), ['test', '--locked', '--no-fail-fast', ...more, ...(ALL ? ['--', '--include-ignored'] : [])]),
-    count: rustTally,
+    counts: COUNTS.cargo,
   },
   wasm: {
     async prepare(more) {
@@ -146,21 +146,21 @@ const PARTS = {
       const options = ['--locked', '--profile', 'web', '--test', 'web', ...rust.target];
       return cargo(rust, ['test', ...options, ...more], inBrowser(await testRunner(), await browser()));
     },
-    count: rustTally,
+    counts: COUNTS.cargo,
   },
   node: {
     async prepare(more) {
       await built();
       return program(nodeTests('tests/node', more));
     },
-    count: tapTally,
+    counts: COUNTS.node,
   },
   package: {
     async prepare(more) {
       await built();
       return program(nodeTests('tests/package', more), { CHROME: (await browser()).chrome });
     },
-    count: tapTally,
+    counts: COUNTS.node,
   },
   browser: {
     async prepare(more) {
@@ -168,7 +168,7 @@ const PARTS = {
       const tier = ALL ? [] : ['--grep-invert', '@nightly'];
       return npmProgram('@playwright/test/cli.js', ['test', ...tier, ...more], { CHROME: (await browser()).chrome });
     },
-    count: playwrightTally,
+    counts: COUNTS.playwright,
   },
   // Nightly: Firefox and WebKit, and projects that embed the package.
   engines: { prepare: async () => script('tests/engines/run.mjs') },
@@ -216,7 +216,7 @@ async function test(args) {
  * @returns {Promise<Outcome>}
  */
 async function outcomeOf(name, more) {
-  const { prepare, count } = PARTS[name];
+  const { prepare, counts } = PARTS[name];
   let start = Date.now();
   const seconds = () => (Date.now() - start) / 1000;
   try {
@@ -224,10 +224,11 @@ async function outcomeOf(name, more) {
     progress(name);
     start = Date.now();
     const { ok, output, timedOut } = await job();
-    const tally = count?.(output);
+    const total = (/** @type {RegExp} */ number) => [...output.matchAll(number)].reduce((sum, [, each]) => sum + Number(each), 0);
+    const tally = counts && { passed: total(counts.passed), failed: total(counts.failed), skipped: total(counts.skipped) };
     const noTests = tally !== undefined && tally.passed + tally.failed === 0;
     const note = timedOut ? `ended after ${LIMIT} s` : noTests ? 'no test ran' : undefined;
-    return { name, ok: ok && !noTests && !tally?.failed, seconds: seconds(), tally, note };
+    return { name, ok: ok && !noTests && !tally?.failed, seconds: seconds(), output, tally, note };
   } catch (error) {
     progress(`${name}: ${error instanceof Missing ? error.message : (error instanceof Error && error.stack) || error}`);
     return { name, ok: false, seconds: seconds(), note: 'not run: see above' };
@@ -269,56 +270,8 @@ function nodeTests(directory, more) {
   return [process.execPath, '--import', 'tsx', '--test', '--test-reporter', 'tap', '--test-concurrency', `${availableParallelism()}`, ...tier, ...options, ...(named.length > 0 ? named : files)];
 }
 
-/**
- * @param {string} output of cargo test, one "test result" line for each of its programs
- * @returns {Tally}
- */
-function rustTally(output) {
-  const tally = { passed: 0, failed: 0, skipped: 0 };
-  for (const [, passed, failed, ignored] of output.matchAll(/^test result: .*?(\d+) passed; (\d+) failed; (\d+) ignored/gm)) {
-    tally.passed += Number(passed);
-    tally.failed += Number(failed);
-    tally.skipped += Number(ignored);
-  }
-  return tally;
-}
-
-/**
- * @param {string} output of node --test
- * @returns {Tally}
- */
-function tapTally(output) {
-  const last = (/** @type {string} */ word) => Number([...output.matchAll(new RegExp(`^# ${word} (\\d+)$`, 'gm'))].pop()?.[1] ?? 0);
-  return { passed: last('pass'), failed: last('fail') + last('cancelled'), skipped: last('skipped') + last('todo') };
-}
-
-/** Maximum length of an error in the summary: enough for the expected and the actual value. */
-const ERROR = 1500;
-
-/**
- * @typedef {object} Suite of Playwright's report
- * @property {Suite[]} [suites]
- * @property {{ title: string, file: string, line: number, tests: { status: string, results: { errors: { message: string }[] }[] }[] }[]} [specs]
- */
-
-/** @returns {Tally} */
-function playwrightTally() {
-  const report = at('test-results/e2e.json');
-  if (!existsSync(report)) return { passed: 0, failed: 0, skipped: 0 };
-  const { stats, suites } = /** @type {{ stats: Record<string, number>, suites: Suite[] }} */ (JSON.parse(readFileSync(report, 'utf8')));
-  return { passed: stats.expected, failed: stats.unexpected, skipped: stats.skipped, complaints: suites.flatMap(complaintsOf) };
-}
-
-/** @param {Suite} suite @returns {string[]} */
-function complaintsOf({ suites = [], specs = [] }) {
-  const own = specs.flatMap(({ title, file, line, tests }) => tests
-    .filter(({ status }) => status === 'unexpected')
-    .map(({ results }) => {
-      const error = results.flatMap(({ errors }) => errors)[0]?.message ?? 'failed without an error message';
-      return `${file}:${line} ${title}\n${stripVTControlCharacters(error).slice(0, ERROR)}`;
-    }));
-  return [...own, ...suites.flatMap(complaintsOf)];
-}
+/** Number of lines in which a program's output ends with its errors, shown again below the summary. */
+const LAST_LINES = 60;
 
 /**
  * @param {Outcome[]} outcomes
@@ -338,7 +291,9 @@ function summarize(outcomes) {
     // A part that fails without a failed test counts as one failed test.
     failed += ok ? 0 : Math.max(1, tally?.failed ?? 0);
   }
-  for (const complaint of outcomes.flatMap(({ tally }) => tally?.complaints ?? [])) console.log(`\n${complaint}`);
+  for (const { name, ok, output } of outcomes) {
+    if (!ok && output && outcomes.length > 1) console.log(`\n${name}: …\n${output.trimEnd().split('\n').slice(-LAST_LINES).join('\n')}`);
+  }
   console.log(`\n${passed} passed, ${failed} failed`);
   return failed === 0;
 }

@@ -9,13 +9,6 @@ const PYTHON = new Set(
 /** Names that widgets of ipywidgets have already and a trait would hide: tests/package/python.test.js looks for more. */
 const WIDGET = new Set(['close', 'comm', 'error', 'keys', 'layout', 'log', 'open', 'stats', 'tabbable', 'tooltip']);
 
-/** Reserved words of JavaScript and TypeScript that cannot name a declaration. */
-const JAVASCRIPT = new Set(
-  ('arguments await break case catch class const continue debugger default delete do else enum eval export extends false finally ' +
-    'for function if implements import in instanceof interface let new null package private protected public return static super ' +
-    'switch this throw true try typeof var void while with yield').split(' '),
-);
-
 /**
  * Returns the name of a property in Python: in snake case, and with an underscore behind a name that is taken, as PEP 8
  * recommends. www/anywidget.ts reads traits by this spelling too.
@@ -34,8 +27,17 @@ export function pythonName(property) {
  * @param {string} name
  */
 export function scriptName(name) {
-  if (!/^[A-Za-z_$][\w$]*$/.test(name) || JAVASCRIPT.has(name)) throw new Error(`${name} cannot name a declaration in JavaScript: rename it.`);
+  if (!/^[A-Za-z_$][\w$]*$/.test(name) || isReserved(name)) throw new Error(`${name} cannot name a declaration in JavaScript: rename it.`);
   // A type of this name would hide the one that every script has, as Map or Event.
   if (name in globalThis) throw new Error(`${name} is a global of JavaScript: give the setting or element another name.`);
   return name;
+}
+
+/** Asks the parser. @param {string} word */
+function isReserved(word) {
+  try {
+    return !new Function(`'use strict'; async () => { const ${word} = 0; };`);
+  } catch {
+    return true;
+  }
 }

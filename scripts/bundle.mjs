@@ -287,7 +287,7 @@ export async function bundle({ tags = WIDGETS, changed = (_, script) => script }
   chmodSync(at('dist/cli.js'), 0o755);
   write(at('dist/classroom.html'), inOneFile('index.html'));
   write(at('dist/custom-elements.json'), `${JSON.stringify(documentation, null, 1)}\n`);
-  // Sizes of products, which tests/package/sizes.mjs reads.
+  // Sizes of products, which tests/package/sizes.nightly.test.js reads.
   const outputs = Object.assign({}, ...results.map(({ metafile }) => metafile.outputs));
   write(at('build/outputs.json'), JSON.stringify(outputs));
   const crates = JSON.parse(readFileSync(at('build/crates.json'), 'utf8'));

@@ -9,7 +9,7 @@ import { createHash } from 'node:crypto';
 import { cpSync, existsSync, mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
 import { basename, delimiter, join } from 'node:path';
 import { ROOT, mustRun, once, progress } from '../../scripts/process.mjs';
-import { start } from './start.mjs';
+import { start } from './serving.mjs';
 import { CACHE } from '../../scripts/toolchain.mjs';
 
 /**
@@ -43,7 +43,7 @@ import { CACHE } from '../../scripts/toolchain.mjs';
  * @typedef {object} Tools
  * @property {(command: string, args: string[], env?: Record<string, string>) => Promise<string>} run runs a program in
  *   the copy, which has to succeed; resolved with what it printed
- * @property {(command: string, args: string[], env?: Record<string, string>) => ReturnType<typeof import('./start.mjs').start>} start
+ * @property {(command: string, args: string[], env?: Record<string, string>) => ReturnType<typeof import('./serving.mjs').start>} start
  *   a program in the copy that goes on
  */
 

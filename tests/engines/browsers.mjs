@@ -10,8 +10,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { Builder, Capabilities, Key } from 'selenium-webdriver';
 import { CHROME_ARGUMENTS, ensureBrowser } from '../../scripts/browser.mjs';
-import { start } from '../embeddings/start.mjs';
-import { program } from '../embeddings/serving.mjs';
+import { program, start } from '../embeddings/serving.mjs';
 import { ensureFirefox, ensureWebKit } from './programs.mjs';
 
 /**

@@ -5,10 +5,36 @@
  * @module
  */
 
+import { mkdtempSync, readFileSync, readdirSync, rmSync, symlinkSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
 import { build } from '../../scripts/build.mjs';
-import { Missing, progress, runAsScript } from '../../scripts/process.mjs';
+import { Missing, ROOT, progress, runAsScript } from '../../scripts/process.mjs';
+import { serve } from '../../scripts/serve.mjs';
 import { engines } from './browsers.mjs';
-import { site } from './site.mjs';
+
+const PAGE = 'index.html';
+const LISTENING = '<script src="/tests/engines/listen.js"></script>';
+
+/**
+ * Serves a copy of the page of `npm start` with two more scripts: one records errors, the other has functions that tests call.
+ *
+ * @returns {Promise<{ address: string, stop: () => void }>}
+ */
+async function site() {
+  const directory = mkdtempSync(join(tmpdir(), 'motion-engines-'));
+  for (const name of readdirSync(join(ROOT, 'dist'))) if (name !== PAGE) symlinkSync(join(ROOT, 'dist', name), join(directory, name));
+  symlinkSync(join(ROOT, 'tests'), join(directory, 'tests'));
+  writeFileSync(join(directory, PAGE), readFileSync(join(ROOT, 'dist', PAGE), 'utf8').replace('<head>', `<head>${LISTENING}`));
+  const { address, close } = await serve(directory, { port: 0 });
+  return {
+    address,
+    stop() {
+      close();
+      rmSync(directory, { recursive: true });
+    },
+  };
+}
 
 /**
  * @param {string} name

@@ -1,12 +1,14 @@
-/** Keyboard focus. It stays in the figure when the focused control is removed, disabled or hidden. */
+/** Keyboard focus. It moves from the placeholder into the figure, and stays there when the focused control is removed, disabled or hidden. */
 
+import { html } from 'lit';
 import { Part } from './part.ts';
+import type { Figure } from './figure.ts';
 
 /** Elements that the Tab key stops at. */
 const STOPS = ':is(button, input, select, textarea):enabled:not([tabindex]), summary, [tabindex="0"]';
 
 /** Returns the visible elements that the Tab key stops at. */
-export function stopsIn(root: ParentNode): HTMLElement[] {
+function stopsIn(root: ParentNode): HTMLElement[] {
   return ([...root.querySelectorAll(STOPS)] as HTMLElement[]).filter((stop) => stop.checkVisibility());
 }
 
@@ -32,4 +34,24 @@ export class Focus extends Part {
       return;
     }
   }
+}
+
+/** Returns the placeholder of a figure that has not started. */
+export function placeholder(figure: Figure) {
+  const enter = ({ relatedTarget }: FocusEvent) => void moveFocusInto(figure, relatedTarget);
+  return html`<div class="reserved" tabindex="0" role="group" aria-label=${figure.lettering.name} @focus=${enter}></div>`;
+}
+
+/** Moves the focus into the figure, to the end that is nearer to `origin`. */
+async function moveFocusInto(figure: Figure, origin: EventTarget | null) {
+  await figure.runtime.start();
+  // Waits for the controls, which are rendered after the first picture.
+  while (figure.stage.opening) await new Promise(requestAnimationFrame);
+  await figure.updateComplete;
+  // The focus was on the placeholder, and is on the body after its removal. The reader may have moved it.
+  if (!figure.machine || document.activeElement !== document.body) return;
+  const stops = stopsIn(figure.renderRoot);
+  // With Shift+Tab the focus comes from an element below the figure.
+  const below = origin instanceof Node && figure.compareDocumentPosition(origin) & Node.DOCUMENT_POSITION_FOLLOWING;
+  stops.at(below ? -1 : 0)?.focus();
 }

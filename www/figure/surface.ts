@@ -2,7 +2,7 @@
 
 import { html, noChange } from 'lit';
 import { language, speak, words } from '../messages/registry.ts';
-import { placeholder } from './placeholder.ts';
+import { placeholder } from './focus.ts';
 import type { Figure } from './figure.ts';
 
 /** Languages written from right to left. */

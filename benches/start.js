@@ -39,7 +39,7 @@ export async function timeStart(browser, address, loads) {
   return times;
 }
 
-/** Runs in the page before any script of its own. */
+/** Runs in the page before the page's scripts. */
 function markStages() {
   const { compile, instantiate } = WebAssembly;
   WebAssembly.compile = (source) => {

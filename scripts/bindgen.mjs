@@ -38,7 +38,7 @@ async function built(name, features) {
   // Cargo locks its directory while it builds, so this build has its own.
   const options = { env: { ...env, CARGO_TARGET_DIR: join(ROOT, 'target/bind') }, seconds: 1200 };
   const locked = await run(join(bin, 'cargo'), [...args, '--locked'], { ...options, quiet: true });
-  // A mirror may lack a crate of the lock file.
+  // A crate of the lock file may be missing in a mirror.
   if (locked.ok || (await run(join(bin, 'cargo'), args, options)).ok) return program;
   throw new Missing(
     `wasm-bindgen ${version} could not be built: check that this machine reaches the registry of Rust packages and start again.`,

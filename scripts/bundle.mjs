@@ -91,12 +91,11 @@ const MODULE = {
   /** @param {boolean} isClassic */
   inlined: (isClassic) => `import source from '${BYTES}'; import * as motion from './motion.js'; export default { motion: { glue: async () => motion, source } };${isClassic ? 'export function startWorker() {}' : startWorker('./')}`,
   /**
-   * Vite, webpack and others know `new URL(…, import.meta.url)`, carry the file along and write its new address there. Others,
-   * as esbuild and Rollup, leave the expression alone and the file behind: then the address is what it is without them, in a
-   * script that is not this one. A classic script has no `import.meta.url` at all. For these, `embedded` has the bytes in a
-   * script, which is loaded only then. All of it stands in a chunk, which external.js and the widgets share.
+   * Bundlers such as Vite and webpack copy the file of `new URL(…, import.meta.url)`, and replace its address. Bundlers such as
+   * esbuild and Rollup change nothing, so that the address in the bundled script is wrong. A classic script has no
+   * `import.meta.url`. For these cases `embedded` loads a script with the bytes. external.js and the widgets share this chunk.
    *
-   * @param {string[]} tags of the figures that have a module of their own
+   * @param {string[]} tags of the figures that have a separate module
    */
   external: (tags) => {
     const files = [['motion', '../motion.wasm'], ...tags.map((tag) => [tag, `./${basename(moduleOf(tag).path)}`])];
@@ -271,7 +270,7 @@ export async function bundle({ tags = WIDGETS, changed = (_, script) => script }
     const text = readFileSync(at(path), 'utf8');
     write(at(join('dist', relative('www', path))), path.endsWith('.html') ? withTables(text, elements, all) : text);
   }
-  // The module needs Lit, which a bare clone lacks: a static import would fail there.
+  // The module needs Lit, which is not installed in a bare clone. A static import would fail there.
   const { roomBefore } = await importTypeScript('www/figure/page/room.ts');
   // Without scripts no height is reserved.
   const kept = `@media (scripting:enabled){\n${roomBefore()}\n}`;

@@ -25,11 +25,11 @@ function print(text, stream = process.stdout) {
 }
 
 /**
- * Keeps together what is printed by work that runs beside other work.
+ * Collects the output of work that runs in parallel with other work, and prints it at the end.
  *
  * @template T
  * @param {() => Promise<T>} work
- * @returns {Promise<T>} printed, in one piece, when it is settled
+ * @returns {Promise<T>} result of the work
  */
 export async function inOnePiece(work) {
   /** @type {string[]} */

@@ -44,7 +44,7 @@ const navigation = (page) => {
   return `<nav class="site" aria-label="Site">${links.join('\n')}\n<a href="${homepage}">Source</a></nav>`;
 };
 
-/** Returns the address of the page that a code in a sentence or a table stands for: a frame with a figure, for its tag. */
+/** Returns the address for a code in a sentence or a table. The code of a tag leads to a frame with its figure. */
 function addressOf(/** @type {string} */ code) {
   if (code in TOP) return code;
   const [, widget, rest] = code.match(/^<([a-z-]+)((?: [a-z-]+(?:="[^"]*")?)+)>$/) ?? [];

@@ -12,7 +12,7 @@ import { importTypeScript } from './typescript.mjs';
 
 const HEAD = '// Generated from the declarations: not to be edited.\n';
 
-/** Declaration of `Symbol.dispose`, which the `lib` setting of a project may lack. */
+/** Declaration of `Symbol.dispose`, which may be missing in the `lib` setting of a project. */
 const DISPOSABLE = '/// <reference lib="esnext.disposable" />\n';
 
 /** Tags in templates of other frameworks: module, interface and attributes of any element there, and prefix of properties. */

@@ -1,8 +1,8 @@
 //! Probabilistic motion models of a planar robot: one command, a distribution of outcomes.
 //!
-//! The crate holds the models of the book's chapter "Probabilistic Motion Models" (after Thrun, Burgard and Fox,
-//! *Probabilistic Robotics*, chapter 5, and Long et al., "The Banana Distribution is Gaussian", RSS 2012), the
-//! statistics that show what they do, and the simulations behind the chapter's widgets.
+//! The models are those of the book's chapter "Probabilistic Motion Models". It follows Thrun, Burgard and Fox,
+//! *Probabilistic Robotics*, chapter 5, and Long et al., "The Banana Distribution is Gaussian", RSS 2012. The crate also has
+//! statistics of clouds, and the simulations of the chapter's widgets.
 //!
 //! ```
 //! use motion::geom::se2::SE2;
@@ -14,7 +14,7 @@
 //! let command = VelocityCmd { v: 1.0, omega: 0.5, dt: 1.0 };
 //! let mut rng = Xoshiro256PlusPlus::seed_from_u64(7);
 //! let poses: Vec<SE2> = (0..10_000).map(|_| model.sample(&command, &SE2::identity(), &mut rng)).collect();
-//! // No Gaussian in (x, y) has any.
+//! // A Gaussian in (x, y) has a skew of 0.
 //! assert!(motion::stats::cross_track_skew(&poses) < -0.2);
 //! ```
 //!

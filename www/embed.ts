@@ -1,6 +1,6 @@
 /**
- * One widget for an iframe. The query says which, and its attributes:
- * `embed.html?widget=banana-machine&omega=0.8`. The page around the frame is told the height by
+ * Script of a page with one widget, for an iframe. The query has the tag of the widget and its attributes:
+ * `embed.html?widget=banana-machine&omega=0.8`. The frame sends its height to the page around it by
  * messages `{ type: 'motion-widgets:height', height }`, in CSS pixels.
  */
 

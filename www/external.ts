@@ -1,6 +1,6 @@
 /**
- * Elements as in motion-widgets.js, with the WebAssembly module in a file of its own. Each widget has a script of its own, which is loaded
- * when its tag is met: in the document, or in an open shadow root.
+ * Elements as in motion-widgets.js, but the WebAssembly module is a separate file. Each widget is a separate script, which is loaded when
+ * its tag is found in the document or in an open shadow root.
  */
 
 import { vocabularies, widgets } from '../build/widgets.js';

@@ -14,7 +14,7 @@ export function elementNamed(name: unknown): HTMLElement {
   throw new Error(`widget is ${name === null || name === undefined ? 'missing' : JSON.stringify(name)}; allowed is ${TAGS.join(' or ')}`);
 }
 
-/** Returns a sentence in the place of a figure that cannot be made, with what asked for it. */
+/** Returns a paragraph with the error instead of a figure. `who` names the page or cell that requested the figure. */
 export function sorry(who: string, error: unknown) {
   const sentence = document.createElement('p');
   sentence.setAttribute('role', 'alert');

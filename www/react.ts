@@ -20,13 +20,13 @@ const HANDLERS = { load: 'onLoad', error: 'onError', input: 'onInput', change: '
 const EVENTS = Object.keys(HANDLERS) as (keyof typeof HANDLERS)[];
 
 const onServer = typeof document === 'undefined';
-/** On a server there is no layout, and React 18 warns of `useLayoutEffect` there. */
+/** Hook for layout effects. On a server there is no layout, and React 18 warns about `useLayoutEffect`. */
 const useLayout = onServer ? useEffect : useLayoutEffect;
 
 /**
- * Writer of the props of a React component to its element, when one says something else than before. At every rendering, a list that is
- * written in JSX would undo what the reader drags. React itself writes the attributes on a server alone: on the page it would choose
- * attributes or properties by its version, and by whether the element is defined yet.
+ * Writer of the props of a React component to its element. It writes a prop only if its value has changed since the last rendering:
+ * a list in JSX is another object each time, and would undo changes of the reader. React itself only writes attributes on a server. On the
+ * page its choice of attributes or properties would depend on its version, and on the time at which the element is defined.
  */
 class Figure {
   element: any;

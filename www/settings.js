@@ -190,8 +190,8 @@ export const presets = {
 export const openingAlphas = { velocity: [0.002, 0.002, 0.1, 0.1, 0.002, 0.002], odometry: [0.05, 0.05, 0.05, 0.05] };
 
 /**
- * Limits of the core: `cells` of a grid or pixels of an image, `bytes` of its file, `trial` for samples times parts in one call of
- * `MapSqueeze.trial`, and the number of colours of a `ramp`.
+ * Limits of the core. `cells` and `bytes` are the largest numbers of cells of a grid or pixels of an image, and of bytes of its file.
+ * `trial` limits samples times parts in a call of `MapSqueeze.trial`. `ramp` is the number of colours of a ramp.
  */
 export const limits = { cells: 33554432, bytes: 201330688, trial: 100000, ramp: 256 };
 

@@ -111,7 +111,7 @@ fn as_if_new(machine: &DeadReckoning) {
     assert_eq!(told(&other), told(machine));
 }
 
-/// All that is told: of the step that is shown bit by bit, the rest as text, in which NaN is equal to itself.
+/// Returns all results: those of the selected step as bits, and the others as text, in which NaN equals NaN.
 fn told(machine: &DeadReckoning) -> (String, Vec<u64>) {
     let (settings, stats, measured) = (machine.settings(), machine.stats(), machine.measured());
     let outlines = machine.outlines(settings.step);

@@ -38,7 +38,7 @@ pub fn run(bytes: &[u8]) {
     shows_sense(&machine);
 }
 
-/// The same settings with few enough samples. A robot that is wedged takes 10 000 draws to say so: most are judged once.
+/// Returns the settings with few samples. A wedged robot takes 10 000 draws, so that most settings get a sampler that checks once.
 fn few(settings: Settings, patient: bool) -> Settings {
     let steps = settings.steps.min(PARTS);
     let sampler = if patient { settings.sampler.in_parts(steps) } else { judged_once(settings.sampler) };

@@ -63,14 +63,14 @@ impl OdometryRule {
         OdomDelta { rot1: 0.0, trans: reading.trans, rot2: wrap_angle(reading.rot1 + reading.rot2) }
     }
 
-    /// Returns the variances of the noises of `reading`: of a measured one, or of the legs of [`OdometryRule::legs`].
+    /// Returns the variances of the noises of a measured reading, or of the result of [`OdometryRule::legs`].
     ///
     /// | rule | rot1 | trans | rot2 | strafe |
     /// |---|---|---|---|---|
     /// | the others | α₁c₁² + α₂t² | α₃t² + α₄(c₁² + c₂²) | α₁c₂² + α₂t² | 0 |
     /// | `Omni` | 0 | α₃t² + α₄δ² | α₁δ² + α₂t² | α₅t² + α₄δ² |
     ///
-    /// with t the length of the drive, cᵢ the angle that rotation i counts as, and δ = rot1 + rot2 the turn, wrapped.
+    /// In this table t is the length of the drive, cᵢ the angle that rotation i counts as, and δ = rot1 + rot2 the wrapped turn.
     pub fn variances(self, reading: &OdomDelta, alphas: &RuleAlphas) -> LegVariances {
         let [a1, a2, a3, a4, a5] = *alphas;
         let legs = self.legs(reading);

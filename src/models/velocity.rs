@@ -53,7 +53,7 @@ impl VelocityModel {
     }
 
     /// Returns the motion that the robot executes when the noises of v̂, ω̂ and γ̂ take the values `unit_noise` times their standard
-    /// deviations. The same unit noise under another command or other α's is the same robot with the same luck.
+    /// deviations. With constant unit noise, other commands and α's move the same robot.
     pub fn executed(&self, u: &VelocityCmd, unit_noise: [f64; 3]) -> ArcInversion {
         let [v_noise, omega_noise, gamma_noise] = self.deviations(u);
         ArcInversion {
@@ -136,7 +136,7 @@ impl MotionModel for VelocityModel {
                 let turn = shortest_turn + TAU * windings;
                 (executed.v_hat * (turn / shortest_turn), turn)
             };
-            // |sinc(φ/2)| = d/|v̂Δt|, which leaves d²Δt/(2|v̂|) of the determinant beside γ̂'s Δt.
+            // With |sinc(φ/2)| = d/|v̂Δt| the determinant is d²Δt/(2|v̂|) times the Δt of γ̂.
             joint([
                 2.0 * v_hat.abs() / square,
                 self.noise.prob(v_hat - u.v, v_variance),

@@ -18,7 +18,7 @@ import { presets } from '../../www/settings.js';
  * @property {Record<string, { bounds: number[], configurations: Record<string, Configuration> }>} widgets
  */
 
-/** Bits that replace those of every NaN: tests/native/digest/told.rs gives the reason. */
+/** Bits that replace those of every NaN, for the reason in tests/native/digest/told.rs. */
 const NAN = 0x7ff8_0000_0000_0000n;
 
 /** Results of the machine of each widget, by parts. @type {Record<string, (motion: Motion, all: Configurations, configuration: Configuration) => Record<string, Told>>} */
@@ -143,7 +143,7 @@ export const widgets = {
       leg: machine.leg(5),
       nearest: machine.nearest(0.5, 1, 3),
     };
-    // Poses at which legs begin are logs of their own.
+    // The poses at the beginnings of the legs make another log.
     const { count, times, odometry, reference } = legs;
     const column = (/** @type {Float64Array} */ values, /** @type {number} */ size, /** @type {number} */ place) =>
       Float64Array.from({ length: count }, (_, leg) => values[size * leg + place]);

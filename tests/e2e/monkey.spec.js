@@ -12,8 +12,8 @@ import { ALL } from './figures.js';
 /**
  * @typedef {import('@playwright/test').Page} Page
  * @typedef {import('./support.js').AnyElement} AnyElement
- * @typedef {{ below: (end: number) => number, one: <T>(of: readonly T[]) => T }} Luck
- * @typedef {(page: Page, luck: Luck) => Promise<string>} Deed one that says what it did
+ * @typedef {{ below: (end: number) => number, one: <T>(of: readonly T[]) => T }} Luck random numbers, and random elements of lists
+ * @typedef {(page: Page, luck: Luck) => Promise<string>} Deed random action, which returns a description of itself
  */
 
 const EVENTS = Number(process.env.MONKEY_EVENTS ?? 600);

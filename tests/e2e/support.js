@@ -50,7 +50,7 @@ export const test = base.extend({
   },
 });
 
-/** Runs in the page before any script of its own, and marks the introduction of a figure as seen. */
+/** Marks the introduction of a figure as seen. It runs in the page before the page's scripts. */
 function skipIntroduction() {
   try {
     sessionStorage.setItem('motion-widgets.introduced', 'yes');
@@ -59,14 +59,14 @@ function skipIntroduction() {
   }
 }
 
-/** For tests of a first visit, or of the history: they get a page of their own, as playwright.config.js says. */
+/** Tag of tests of a first visit or of the history. They get a new page, see playwright.config.js. */
 export const FRESH = { tag: '@fresh' };
 
-/** For tests of a complete cloud: a reader who asked for less motion gets it at once. */
+/** Options of tests of a complete cloud. With reduced motion it is complete at once. */
 export const STILL = { contextOptions: { reducedMotion: /** @type {const} */ ('reduce') } };
 
 /**
- * Opens a page with a body of its own, which keeps the events of its elements.
+ * Opens a page with a body, and records the events of its elements.
  *
  * @param {Page} page
  * @param {string} body
@@ -249,7 +249,7 @@ export async function unfold(widget) {
 }
 
 /**
- * Waits for what is in the folds that are open: it is made after a task of the browser's has told of them.
+ * Waits for the contents of open disclosures, which are rendered after the browser's `toggle` event.
  *
  * @param {Locator} widget
  */
@@ -271,7 +271,7 @@ export function valueField(widget, key) {
 }
 
 /**
- * Waits until what was asked for has been drawn.
+ * Waits until all requested frames have been drawn.
  *
  * @param {Page} page
  */
@@ -387,7 +387,7 @@ export async function pixelsOf(canvas, role) {
 }
 
 /**
- * The figure of a readout, without what is said beside it.
+ * Returns the number of a readout, without the text next to it.
  *
  * @param {Locator} widget
  * @param {string | RegExp} name

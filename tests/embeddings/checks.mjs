@@ -84,7 +84,7 @@ function listen(page, messages) {
 const address = ({ url }, path) => new URL(path.replace(/^\//, ''), url).href;
 
 /**
- * Waits until every figure is drawn as it was asked for.
+ * Waits until every figure has drawn its present settings.
  *
  * @param {Page} page
  * @param {Site} site

@@ -77,7 +77,7 @@ async function python(page, code) {
 }
 
 /**
- * Asks Python until it says so: what the figure tells is on its way.
+ * Evaluates Python code until it has the expected value, because the figure's values arrive later.
  *
  * @param {Page} page
  * @param {string} code

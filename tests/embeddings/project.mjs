@@ -13,7 +13,7 @@ import { start } from './serving.mjs';
 import { CACHE } from '../../scripts/toolchain.mjs';
 
 /**
- * Particulars of an engine: the default export of a file beside this one.
+ * Description of an engine: the default export of a file in this folder.
  *
  * @typedef {object} Engine
  * @property {string} heading of its section in doc/embedding/, and its name in the table of doc/embedding.md

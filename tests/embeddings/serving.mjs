@@ -17,7 +17,7 @@ const PATIENCE = 120;
  * Serves the files that a build has written, with a plain file server.
  *
  * @param {string} output its directory, from the copy of the example
- * @param {string} [base] the path that the site is told to have, with a slash at both ends
+ * @param {string} [base] configured path of the site, with a slash at both ends
  * @returns {import('./project.mjs').Serving['serve']}
  */
 export const files = (output, base) => async (directory) => {
@@ -50,7 +50,7 @@ export const program = (command, base = '/') => async (_directory, { start }) =>
   return { url, stop: server.stop };
 };
 
-/** @returns {Promise<number>} a port that nobody listens to */
+/** @returns {Promise<number>} a free port */
 function freePort() {
   return new Promise((resolve, reject) => {
     const server = createServer().on('error', reject);

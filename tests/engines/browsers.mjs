@@ -1,6 +1,6 @@
 /**
- * The engines, each driven by WebDriver. All of them are told that the reader has asked for less motion, who gets a complete cloud
- * at once: how fast one grows depends on frames, of which a busy machine has few.
+ * The engines, each driven by WebDriver. All of them report reduced motion, so that clouds are complete at once. The growth of a cloud
+ * would depend on the number of frames, and so on the load of the computer.
  *
  * @module
  */

@@ -10,8 +10,8 @@ import { load } from '../../dist/core.js';
  * @typedef {object} Handle
  * @property {string} name class of its element
  * @property {number[]} to where it is dragged, m
- * @property {(machine: any, to: number[]) => number[]} placeOf what a machine is told, where the handle stands for it; `to` is
- *   how far away it was dragged
+ * @property {(machine: any, to: number[]) => number[]} placeOf position of the handle by the machine's settings; `to` is the
+ *   distance by which it was dragged
  */
 
 /** Handles of the figures by tag; Dead Reckoning has no handles. @type {Record<string, { handles: Handle[] }>} */

@@ -9,7 +9,7 @@ import { digest, hashOf } from '../digest/digest.js';
 /**
  * @typedef {{ x: number, y: number }} Point
  * @typedef {HTMLElement & { machine: any, pictures: { view: import('../../www/scene/view.ts').View }[] }} Figure
- * @typedef {{ config: any, hash: string }} State what a machine is told, and a hash of all bits of what it tells
+ * @typedef {{ config: any, hash: string }} State settings of a machine, and a hash of all bits of its results
  */
 
 const figureOf = (/** @type {string} */ tag) => /** @type {Figure} */ (document.querySelector(tag));
@@ -24,7 +24,7 @@ const STILL = 10;
  * Brings a figure into sight and waits until its cloud is complete and its picture rests.
  *
  * @param {string} tag
- * @returns {Promise<{ stats: number, samples: number }>} how many samples the statistics are of, and how many were asked for
+ * @returns {Promise<{ stats: number, samples: number }>} number of samples in the statistics, and number requested
  */
 export async function settled(tag) {
   const end = performance.now() + 60_000;

@@ -37,7 +37,7 @@ async function ensureGeckodriver() {
   return join(bin, 'geckodriver');
 }
 
-/** @typedef {{ driver: string, browser: string, display: string }} WebKit its programs; the last shows windows to nobody */
+/** @typedef {{ driver: string, browser: string, display: string }} WebKit its programs; `display` is a virtual screen */
 
 /** @returns {Promise<WebKit>} */
 export async function ensureWebKit() {

@@ -79,7 +79,7 @@ test('every map is used, and what differs is named', () => {
   ]);
 });
 
-/** Members without results of their own. Tests in tests/native/simulations cover them: banana, morph, squeeze and alpha_calibrator. */
+/** Members without results in the digest. Tests in tests/native/simulations cover them: banana, morph, squeeze and alpha_calibrator. */
 const OTHERWISE = new Set([
   'constructor', 'free', '__destroy_into_raw', 'config', 'fittedConfig', 'isPending', 'save', 'read', 'firstPoses', 'configure', 'configureFirst', 'addSamples', 'block', 'alphasOfModels',
   'randomSeed', 'readMapImage', 'unbendGaussian', 'unbendLine', 'gaps',

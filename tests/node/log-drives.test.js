@@ -159,7 +159,7 @@ test('names of a localizer, and swapped ones, are noted', async () => {
 });
 
 test('odometry whose positions are noisy or off the axle is noted, and that of wheels is not', async () => {
-  // Straights and turns on the spot by turns, each of two seconds.
+  // The robot alternates between straight drives and turns on the spot, each of two seconds.
   const poses = [[0, 0, 0]];
   for (let i = 0; i < 4000; i++) {
     const [x, y, theta] = poses[i];

@@ -27,7 +27,7 @@ after(async () => {
  * figure away, `state` the traits.
  *
  * @param {Record<string, unknown>} state
- * @param {'notebook' | 'book'} kind a book's model throws what MyST's does, and stands in a shadow root
+ * @param {'notebook' | 'book'} kind a book's model throws the errors of MyST's, and its figure is in a shadow root
  */
 async function shown(state, kind) {
   const page = await browser.newPage();

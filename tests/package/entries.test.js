@@ -11,7 +11,7 @@ import { listen, served } from './support.js';
 const project = served();
 
 /**
- * @param {string} source of a module that stands beside the installed package
+ * @param {string} source of a module next to the installed package
  * @returns {string} what it prints
  */
 function inNode(source) {
@@ -128,7 +128,7 @@ test('TypeScript knows the elements, the components of React and the core, howev
  * A page with three elements and some of the package's scripts.
  *
  * @param {string} scripts
- * @returns {Promise<{ complaints: string[], modules: string[] }>} `modules` are the addresses of WebAssembly that it asked for
+ * @returns {Promise<{ complaints: string[], modules: string[] }>} `modules` are the addresses of WebAssembly that it requested
  */
 async function pageWith(scripts) {
   const elements = '<banana-machine></banana-machine><banana-machine></banana-machine><map-squeeze></map-squeeze>';
@@ -206,7 +206,7 @@ test('external.js loads a widget when its tag is met, with the words that the pa
   await page.locator('banana-machine canvas').first().waitFor();
   const ofSqueeze = () => requests.filter((path) => path.includes('/map-squeeze-'));
   assert.deepEqual(ofSqueeze(), []);
-  // An element that is defined later shows one inside of its own.
+  // An element that is defined later has a Map Squeeze in its shadow root.
   await page.evaluate(() => {
     const Late = class extends HTMLElement {
       connectedCallback() {

@@ -89,7 +89,7 @@ async function read(recording: Recording, names: string[], onProgress?: (share: 
   return { logs, reasons };
 }
 
-/** Returns the command that calibrates from the recordings, or what they lack. */
+/** Returns the command that calibrates from the recordings, or a sentence about missing logs. */
 function nextOf(given: Given[]): Pick<Inspected, 'command' | 'missing'> {
   const quoted = (text: string) => (/^[\w./,@%+=:-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`);
   const pathOf = ({ recording }: Pick<Part, 'recording'>) => quoted(given.find((each) => each.recording === recording)?.path ?? recording.name);

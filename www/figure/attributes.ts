@@ -77,7 +77,7 @@ const KINDS: Record<string, Kind> = { number: NUMBER, whole: NUMBER, word: WORD,
 /** Levels of headings in HTML. */
 export const HEADING_LEVELS = ['1', '2', '3', '4', '5', '6'] as const;
 
-/** Attributes of every figure. A missing one stands for its first word, or for null if `nullable`. */
+/** Attributes of every figure. The default is the first word, or null if `nullable`. */
 export const COMMON: Record<string, { words?: readonly string[], nullable?: true, property?: string }> = {
   theme: { words: THEMES },
   share: {},

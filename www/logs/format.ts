@@ -7,7 +7,7 @@ import { unitOfSize } from './units.ts';
 
 export interface Format {
   name: 'csv' | 'tum';
-  /** Separator of cells; a blank stands for any number of blanks and tabs. */
+  /** Separator of cells. A blank means any number of blanks and tabs. */
   separator: string;
   /** True where numbers have decimal commas. */
   hasCommas: boolean;

@@ -16,9 +16,9 @@ export type Messages = typeof import('./en.ts').en & WidgetWords;
 interface Shared {
   /** Default words of the elements. */
   english: object;
-  /** Catalogues that pages gave, by language. */
+  /** Catalogues of the page, by language. */
   catalogues: Record<string, Record<string, object>>;
-  /** Called when words or languages change. */
+  /** Functions that run when words or languages change. */
   listeners: Set<() => void>;
 }
 
@@ -32,14 +32,14 @@ export let words: Messages;
 /** Current language as a BCP 47 tag, for numbers. */
 export let language = 'en';
 
-/** Words by the language that the page asks for. */
+/** Cache of words by the language of the page. */
 const voices: Map<string, { words: Messages, language: string }> = new Map();
 shared.listeners.add(() => voices.clear());
 
-/** Adds the elements' own words in English, which say what messages there are. An empty catalogue stands for one that comes later. */
+/** Adds the English words of the elements, which define the keys of all catalogues. An empty catalogue is a placeholder for a later one. */
 export function addEnglish(messages: { [key: string]: Message }) {
   shared.english = merge(shared.english, messages);
-  // Messages that a page gave before these came have not been checked.
+  // Checks messages of the page that were added before these keys were known.
   for (const [lang, given] of Object.entries(shared.catalogues)) {
     for (const key of Object.keys(messages).filter((key) => Object.hasOwn(given, key))) {
       try {

@@ -114,8 +114,8 @@ impl Grid {
     /// Returns χ² of a sample against the density. Everything outside the box is one cell, and so
     /// are the cells that expect fewer than 20 poses. The second number is the limit that χ² exceeds with probability 1e-4.
     ///
-    /// The Gauss rule is right to about 1e-3 of a cell's mass where a kink of the triangular density crosses it, and
-    /// far better elsewhere: at 10⁶ samples that shifts χ² by about 1, next to a limit above 100.
+    /// If a kink of the triangular density crosses a cell, the Gauss rule has an error of about 1e-3 of its mass. With 10⁶
+    /// samples that changes χ² by about 1, and the limit is above 100.
     pub fn chi_square(&self, poses: &[SE2], density: impl Fn(&SE2) -> f64) -> (f64, f64) {
         let n = poses.len() as f64;
         let mut observed = self.counts(poses);

@@ -90,8 +90,8 @@ export const presets = {{
 export const openingAlphas = {{ velocity: {velocity_alphas:?}, odometry: {odometry_alphas:?} }};
 
 /**
- * Limits of the core: `cells` of a grid or pixels of an image, `bytes` of its file, `trial` for samples times parts in one call of
- * `MapSqueeze.trial`, and the number of colours of a `ramp`.
+ * Limits of the core. `cells` and `bytes` are the largest numbers of cells of a grid or pixels of an image, and of bytes of its file.
+ * `trial` limits samples times parts in a call of `MapSqueeze.trial`. `ramp` is the number of colours of a ramp.
  */
 export const limits = {{ cells: {MAX_PIXELS}, bytes: {MAX_BYTES}, trial: {MAX_TRIAL}, ramp: {RAMP} }};
 

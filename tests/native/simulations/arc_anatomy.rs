@@ -59,7 +59,7 @@ fn the_printed_option_computes_the_lines_of_the_table() {
     for settings in random(1).take(20_000) {
         let printed = machine(Settings { printed: true, ..settings }).table().lines;
         let expected = table_as_printed(&settings);
-        // The table loses digits where the circle is large against the way, and where it nearly closes.
+        // The table loses digits if the radius is much larger than the distance, and for nearly full circles.
         let scale = 1.0 + expected[0].abs() + expected[3].abs();
         for (line, expected) in expected.iter().enumerate() {
             let off = (printed[line] - expected).abs();

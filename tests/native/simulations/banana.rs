@@ -64,7 +64,7 @@ fn the_cloud_is_what_the_model_samples() {
     }
 }
 
-/// A slider moves the same robots: each keeps its own luck, read off here as (v̂ − v)/σ and so on.
+/// A slider moves the same robots: each keeps its unit noise, such as (v̂ − v)/σ.
 #[test]
 fn changed_settings_move_the_same_robots() {
     let opening = Settings { samples: 300, ..preset("gentle") };

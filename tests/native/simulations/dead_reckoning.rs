@@ -153,7 +153,7 @@ fn a_zero_variance_has_no_relative_error() {
     assert!(errors(few(1)).iter().all(|error| error.is_nan()));
     // Two have always a kurtosis of 1, as if their variance were known exactly.
     assert!(errors(few(2)).iter().all(|error| error.is_finite() && *error >= 2f64.sqrt()));
-    // Turns alone: along the track nobody moves.
+    // Robots that only turn have no variance along the track.
     let on_the_spot = VelocityCmd { v: 0.0, omega: 0.5, dt: 0.2 };
     let [along, _, heading] =
         errors(Settings { command: on_the_spot, alphas: [0.0, 0.0, 0.0, 0.02, 0.0, 0.0], ..few(300) }).into();
@@ -179,7 +179,8 @@ fn a_fourth_order_without_a_covariance_has_no_ratio() {
     assert!(!outlines.measured.is_empty());
 }
 
-/// The same luck: fewer robots are the first of more, a shorter path is the beginning of a longer one, and α's rescale noise.
+/// Equal seeds have equal random numbers. Fewer robots are the first of more, and a shorter path is the beginning of a longer one.
+/// Other α's scale the noise.
 #[test]
 fn a_seed_gives_the_same_draws() {
     let large = machine(few(1500));

@@ -63,7 +63,8 @@ fn robots_move_smoothly() {
     }
 }
 
-/// Without γ̂ the map is one-to-one: the same robots are inside of an outline all the way, but for those between a chord and its arc.
+/// Without γ̂ the morph is one-to-one, so that the same robots stay inside an outline. Exceptions are robots between a chord and
+/// its arc.
 #[test]
 fn outlines_keep_their_robots() {
     let alphas = [0.002, 0.002, 0.1, 0.1, 0.0, 0.0];
@@ -104,7 +105,7 @@ fn the_outline_ends_as_both_views_have_it() {
     }
 }
 
-/// A line beside the start stays connected. One around the start would be torn, and is left out.
+/// A line that does not surround the start stays connected. A line around the start would be torn, and is omitted.
 #[test]
 fn a_line_is_carried_whole_or_not_at_all() {
     let circle = |x: f64| -> Vec<[f64; 2]> {

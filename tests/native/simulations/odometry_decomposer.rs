@@ -33,8 +33,7 @@ fn the_outcomes_are_the_models_samples() {
     }
 }
 
-/// A slider moves the same outcomes: with nothing but α₃ the drives alone differ, each by a number of its own that a larger
-/// α₃ stretches by its root.
+/// A slider moves the same outcomes. With only α₃, the lengths of the drives differ by constant random numbers times √α₃.
 #[test]
 fn common_random_numbers() {
     let alone = |a3: f64| Settings { alphas: [0.0, 0.0, a3, 0.0, 0.0], ..of_preset("drive-turn") };

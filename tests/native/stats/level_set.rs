@@ -23,7 +23,7 @@ fn a_circle_is_one_closed_line() {
         for [x, y] in line {
             assert!((square(*x, *y).sqrt() - radius).abs() < allowed, "{radius}: {x} {y}");
         }
-        // All the way round: the lengths of its chords.
+        // The circumference is the sum of the lengths of its chords.
         let length: f64 =
             line.windows(2).map(|ends| (ends[1][0] - ends[0][0]).hypot(ends[1][1] - ends[0][1])).sum();
         assert!((length / (std::f64::consts::TAU * radius) - 1.0).abs() < 0.05, "{length}");

@@ -224,12 +224,12 @@ fn degenerate_clouds_give_nan() {
         assert_eq!(ellipse.boundary(16).len(), 17);
         assert_eq!(ExponentialContour::new(&exponential, &SE2::identity()).boundary(16).len(), 17);
     }
-    // Two poses have a spread, and the shape of any two; three can be told apart.
+    // All pairs of poses have the same shape, so that their skew is undefined. Three poses have one.
     let three = [SE2::new(0.0, 0.1, 0.0), SE2::new(1.0, -0.1, 0.0), SE2::new(0.5, -0.1, 0.0)];
     assert!(cross_track_skew(&three[..2]).is_nan());
     assert!((cross_track_skew(&three) - 0.5f64.sqrt()).abs() < 1e-12, "two at −1, one at 2");
     assert!(predicted_cross_track_skew(&Vector3::zeros(), &Matrix3::zeros()).is_nan());
-    // A robot that turns half round on its way ends up beside its arc's chord: noise to its side is noise along its heading.
+    // With a turn of π, the lateral coordinate moves the end along the heading, so that there is no spread across it.
     for turn in [PI, -PI] {
         let aside = Matrix3::from_diagonal(&Vector3::y());
         assert!(predicted_cross_track_skew(&Vector3::new(0.0, 0.0, turn), &aside).is_nan());
@@ -261,7 +261,7 @@ fn a_cloud_whose_breadth_is_rounding_is_a_line() {
     assert!((fused - plain).abs() < 1e-9 && plain.is_finite(), "{fused}, not {plain}");
 }
 
-/// Likewise where it is rounding beside the cloud's distance: a kilometre out, coordinates are known to 1e-13 m.
+/// A spread that is only rounding of a distant cloud counts as 0, too. At a kilometre, coordinates are rounded to 1e-13 m.
 #[test]
 fn a_cloud_whose_breadth_is_rounding_of_its_place_is_a_line() {
     const BREADTH: f64 = 1e-10;

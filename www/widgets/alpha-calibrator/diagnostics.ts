@@ -9,7 +9,7 @@ import { checked, expectedOf, messageOf } from './words.ts';
 
 export type Figure = import('./alpha-calibrator.ts').AlphaCalibratorElement;
 
-/** Returns all diagnostics, each in a group of its own. */
+/** Returns all diagnostics, each in a separate group. */
 export function diagnostics(figure: Figure) {
   const { checks, windows, noise, lost, largest } = words.calibrator;
   return html`${group(checks.title, checksTable(figure))}

@@ -16,7 +16,7 @@ const CELL = 16;
 /** Returns the name of a choice: its series, with the frames of transforms. */
 export const labelOf = ({ series, frames }: Choice) => (frames ? `${series}: ${framesText(frames)}` : series);
 
-/** Returns all that a role may be read from; each chain of transforms is an option of its own. */
+/** Returns all options for a role. Each chain of transforms is a separate option. */
 function optionsOf(recording: Recording, role?: Role): [label: string, Choice][] {
   const useful = usefulSeries(recording).filter(({ kind }) => role !== 'reference' || kind !== 'commands');
   const choices = useful.flatMap(({ name: series, kind, frames = [] }): Choice[] => (kind === 'transforms' ? frames.map((each) => ({ series, frames: each })) : [{ series }]));

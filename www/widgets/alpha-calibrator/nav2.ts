@@ -35,7 +35,7 @@ export class Copied extends Part<Figure> {
   }
 
   async copy(text: string) {
-    // A frame may lack the permission, and a page without encryption the clipboard: the lines can still be selected.
+    // Frames without permission may not use the clipboard, and pages without HTTPS do not have it. The lines can still be selected.
     await Promise.resolve(navigator.clipboard?.writeText(text).then(() => (this.#text = text))).catch(() => undefined);
     this.host.requestUpdate();
   }

@@ -224,7 +224,7 @@ export class LogOpener extends Part<Figure> {
   }
 }
 
-/** Tells whether a file may be a log: a folder has others beside them. */
+/** Checks whether a file may be a log, because folders also have other files. */
 const isLog = ({ name, path }: File & { path?: string }) => path === undefined || name === 'metadata.yaml' || EXTENSIONS.slice(0, -1).some((extension) => name.endsWith(extension));
 
 function planOf(reader: Reader, { recordings, wishes, roles }: Chosen, kind: 'commands' | undefined): Plan {

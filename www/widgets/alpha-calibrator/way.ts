@@ -17,7 +17,7 @@ export type Style = { colour: string, width: number, dash: number[] };
 /** Number of legs in one stroke: browsers take far longer for one path of many legs. */
 const LEGS_A_STROKE = 500;
 
-/** Number of legs up to which they are drawn directly. More legs are kept in a canvas of their own, which takes memory. */
+/** Maximum number of legs that are drawn directly. The drawing of more legs is cached in another canvas, which takes memory. */
 const FEW_LEGS = 2000;
 
 /** Number of strokes of a new log in a frame, which take about 10 ms. */

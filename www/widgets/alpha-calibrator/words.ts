@@ -73,7 +73,7 @@ export const alphaName = (index: number) => String.fromCharCode(0x2081 + index);
 /** Returns a number of a file, such as 1.5e-7, with the decimal sign of the language and a power of ten. */
 export const localized = (number: string) => number.replace('.', fixed(0.5, 1)[1]).replace(/e(-?\d+)$/, (_, exponent) => `·${powerOfTen(Number(exponent))}`);
 
-/** Scales small numbers by a power of 1000, as they have no room beside an axis. The unit is empty where the power is 1. */
+/** Scales small numbers by a power of 1000, so that labels fit next to an axis. The unit is empty for the power 1. */
 export function thousandths(highest: number): { scaled: (value: number) => number, unit: string } {
   const exponent = Math.min(0, 3 * Math.floor(Math.log10(highest) / 3));
   return { scaled: (value) => value * 10 ** -exponent, unit: exponent < 0 ? powerOfTen(exponent) : '' };

@@ -27,7 +27,7 @@ const BOUNDS = [-REACH, -REACH, REACH, REACH];
 /**
  * The arc between two poses, and how likely it is after a command.
  *
- * @attr preset - A command from the origin, and a final pose beside its arc; null if the settings match no preset.
+ * @attr preset - Command from the origin, and a final pose near its arc; null if the settings match no preset.
  * @attr overlays - The lines that are drawn; in the attribute with spaces between.
  * @csspart chart - The plot of three forms of the arc near straight.
  */
@@ -53,7 +53,7 @@ export class ArcAnatomyElement extends FigureElement<Machine, Reading> {
   );
 
   player: Player<'underway'> = new Player(this, {
-    // Every arc is played in the same time; the time of the command is written beside it.
+    // The animation of every arc takes the same time. The duration of the command is displayed next to it.
     underway: { from: 0, to: WHOLE, duration: 2000, at: () => this.state.own.underway, put: (at) => this.#drive(at) },
   });
 

@@ -176,7 +176,7 @@ function drawArrow(context: Brush['context'], colour: string, [x, y]: number[], 
   });
 }
 
-/** Returns the share of the way from a place in sight to another that is in sight. */
+/** Returns the visible fraction of the line from a visible point to another point. */
 function shareSeen({ left, right, top, bottom }: import('../../scene/view.ts').View['frame'], [fromX, fromY]: [x: number, y: number], [x, y]: [x: number, y: number]) {
   const along = (start: number, end: number, least: number, most: number) =>
     end >= least && end <= most ? 1 : (clamp(end, least, most) - start) / (end - start);

@@ -49,7 +49,7 @@ const SKEWS = [0.25, 0.5, 1, 2, 4, 8];
  *
  * @attr preset - A command to start from; null if the settings match no preset.
  * @attr overlays - The outlines that are drawn; in the attribute with spaces between.
- * @attr morph - Share of the way that the floor has been carried to exponential coordinates.
+ * @attr morph - Stage of the picture, from 0 (the floor) to 1 (exponential coordinates).
  * @csspart figures - Readouts, chart and table.
  * @csspart chart - The chart of the skew.
  */

@@ -115,7 +115,7 @@ function placesOf(twists: Float64Array, morph: number) {
   return places;
 }
 
-/** Returns the size of the density's cells in CSS pixels, for a cloud of so many square pixels: fine when there are robots enough to fill them. */
+/** Returns the size of the density's cells in CSS pixels, for a cloud with an area in square pixels. Many robots allow small cells. */
 function cellSize(area: number, count: number) {
   return Math.min(7, Math.max(2, Math.round(Math.sqrt((3 * area) / count))));
 }
@@ -220,12 +220,12 @@ export class PlanePicture extends CloudPicture {
   };
 }
 
-/** Returns the reading whose outlines stay in the picture: the pinned one, or that before the latest change. */
+/** Returns the reading of the machine whose outlines stay in the picture: the pinned one, or the one before the latest change. */
 const ghostOf = ({ former }: Brush, { pinned }: Scene): Reading | undefined => pinned ?? former;
 
 const ghostName = ({ pinned }: Scene) => (pinned ? words.banana.pinned : words.before);
 
-/** Draws robots that are on their way, with the way that they have behind them. */
+/** Draws driving robots, with the paths that they have driven. */
 function drawDriving(brush: Brush, machine: BananaMachine, { robots, share }: { robots: number, share: number }) {
   const { palette } = brush;
   for (let i = 0; i < robots; i++) {
@@ -242,11 +242,11 @@ function drawDriving(brush: Brush, machine: BananaMachine, { robots, share }: { 
   }
 }
 
-/** Radius of the arcs that show a turn, CSS pixels, and length of the line beyond the end that the second turn starts from. */
+/** Radius of the arcs of rotations, and length of the lines from which rotations start, CSS pixels. */
 const TURN_RADIUS = 26;
 const TURN_LINE = 38;
 
-/** Draws the odometry's reading of the command: turn, drive, turn. It ends at a place in metres. */
+/** Draws the odometry reading of the command: rotation, drive, rotation. The drive ends at x, y in metres. */
 function drawReading(brush: Brush, { rot1, trans, rot2 }: import('../../types.d.ts').Legs, [x, y]: [number, number]) {
   const { context, view, palette } = brush;
   const [fromX, fromY, toX, toY] = [view.toPixelX(0), view.toPixelY(0), view.toPixelX(x), view.toPixelY(y)];
@@ -255,7 +255,7 @@ function drawReading(brush: Brush, { rot1, trans, rot2 }: import('../../types.d.
   const colour = palette.prior;
   const style = { colour, width: 1.5 };
   stroke(context, style, () => {
-    // Straight ahead from the start, the drive, and on from its end.
+    // The heading at the start, the drive, and its continuation, from which the second rotation starts.
     addLine(context, [[fromX + TURN_LINE, fromY], [fromX, fromY], [toX, toY], [toX + TURN_LINE * ahead.x, toY + TURN_LINE * ahead.y]]);
     addLine(context, [[toX, toY], [toX + TURN_LINE * last.x, toY + TURN_LINE * last.y]]);
   });

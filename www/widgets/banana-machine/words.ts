@@ -40,26 +40,26 @@ function deviationText(variance: number) {
   return fixed(deviation(variance), 2);
 }
 
-/** An exact skew below this is 0, by symmetry: the rounding of its quadrature is some 1e-15. */
+/** Absolute value of an exact skew below which it counts as 0. The rounding of the quadrature is about 1e-15. */
 const NO_SKEW = 1e-9;
 
-/** Below this a cloud leans so little that nobody sees it. */
-const HARDLY = 0.05;
+/** Absolute skew below which the asymmetry of a cloud is not visible. */
+const VISIBLE_SKEW = 0.05;
 
-/** From this gain on, nats a robot, a hundred robots tell the two Gaussians apart: by a factor of e² and more. */
-const BENT = 0.02;
+/** Minimum gain, nats per robot, at which a hundred robots distinguish the two Gaussians: their likelihood ratio is e² or more. */
+const MIN_GAIN = 0.02;
 
-/** From this area ratio on, the ellipse is seen to be too large. */
-const TOO_LARGE = 1.1;
+/** Area ratio above which the ellipse is visibly too large. */
+const VISIBLE_AREA_RATIO = 1.1;
 
-/** From this gain on the floor on, nats a robot, twenty robots tell the two Gaussians apart: by a factor of e and more. */
-const MISSHAPEN = 0.05;
+/** Minimum gain on the floor, nats per robot, at which twenty robots distinguish the two Gaussians: their likelihood ratio is e or more. */
+const MIN_FLOOR_GAIN = 0.05;
 
 /** Returns the title of the view of the floor: how the ellipse fits, by the exact figures. */
 export function floorTitle({ stats, table: { exact: { areaRatio, likelihoodGain } } }: Pick<Reading, 'stats' | 'table'>) {
   const { floor, ellipseIs } = words.banana;
   if (stats.n < 2 || Number.isNaN(areaRatio + stats.areaRatio)) return floor;
-  const fit = areaRatio > TOO_LARGE ? 'large' : likelihoodGain.floor > MISSHAPEN ? 'misshapen' : 'near';
+  const fit = areaRatio > VISIBLE_AREA_RATIO ? 'large' : likelihoodGain.floor > MIN_FLOOR_GAIN ? 'misshapen' : 'near';
   return `${floor}: ${ellipseIs[fit]}`;
 }
 
@@ -75,10 +75,10 @@ function bendText({ stats: { crossTrackSkew: skew, crossTrackSkewError: error, a
   const unbroken = (number: string) => number.replaceAll(' ', '\u00a0');
   const [measured, exactly] = [unbroken(withError(skew, error, 3)), fixed(exactSkew, 3)];
   if (bowTie) return say.bowTie[bowTie.model](fixed(bowTie.length, 2), fixed(bowTie.deviation, 2), measured);
-  if (Math.abs(exactSkew) < HARDLY) {
+  if (Math.abs(exactSkew) < VISIBLE_SKEW) {
     const lean = Math.abs(exactSkew) < NO_SKEW ? say.neither(measured) : say.hardly(measured, exactly);
-    if (Math.min(areaRatio, table.exact.areaRatio) > TOO_LARGE) return `${say.wide(fixed(areaRatio, 2))} ${lean}`;
-    return Math.min(gain.value, gain.exact) > BENT ? `${say.gains(unbroken(withError(gain.value, gain.error, 3)))} ${lean}` : lean;
+    if (Math.min(areaRatio, table.exact.areaRatio) > VISIBLE_AREA_RATIO) return `${say.wide(fixed(areaRatio, 2))} ${lean}`;
+    return Math.min(gain.value, gain.exact) > MIN_GAIN ? `${say.gains(unbroken(withError(gain.value, gain.error, 3)))} ${lean}` : lean;
   }
   if (Math.abs(skew) < 2 * error || skew * exactSkew < 0) return say.unsure(measured, exactly);
   return exactSkew < 0 ? say.right(measured) : say.left(measured);

@@ -121,12 +121,12 @@ export class StepPicture extends Picture<Scene> {
   };
 }
 
-/** Ratio of the scales that is not noticeable. */
-const UNSEEN = 1.05;
+/** Ratio of the scales of x and y above which their difference is visible. */
+const NOTICEABLE_RATIO = 1.05;
 
 /** Returns the text of the factors scale x : scale y and scale y : scale x. A factor that is too small to notice is the empty text. */
 export function stretchesOf({ scaleX, scaleY }: Pick<View, 'scaleX' | 'scaleY'>) {
-  return [scaleX / scaleY, scaleY / scaleX].map((by) => (by > UNSEEN ? significant(by, by < 10 ? 2 : 1) : ''));
+  return [scaleX / scaleY, scaleY / scaleX].map((by) => (by > NOTICEABLE_RATIO ? significant(by, by < 10 ? 2 : 1) : ''));
 }
 
 /** Returns the names of the axes. The upper one has the factor by which an axis is stretched: next to the lower one it would hide ticks. */

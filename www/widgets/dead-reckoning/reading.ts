@@ -31,15 +31,15 @@ function curveOf(ratios: Float64Array, relativeErrors: Float64Array, axis: numbe
 }
 
 /**
- * Returns the condition that keeps ratios from being told: no robots, no spread at all, no covariance at the end, or too few robots; 'told'
- * if nothing does.
+ * Returns the reason for which the ratios are undefined or uncertain: no robots, no spread, no covariance at the end, or too few robots.
+ * Returns 'told' if there is none.
  */
 function conditionOf({ compounding }: DeadReckoningSettings, { n, predicted, measured, misses }: Machine['stats'], ratios: Float64Array): 'none' | 'still' | 'lost' | 'few' | 'told' {
   if (n === 0) return 'none';
   // A single robot has no variance.
   if (n === 1) return 'few';
   if (measured.cov.every((row) => row.every((entry) => Math.abs(entry) < Number.EPSILON ** 2))) return 'still';
-  // One component alone may have no variance, as the heading without noise of its own.
+  // Single components may have no variance, such as a heading without noise.
   if (predicted[compounding] === null || ratios.slice(-COMPONENTS.length).every(Number.isNaN)) return 'lost';
   return misses[compounding].some(({ told, end }) => !told && !Number.isNaN(end)) ? 'few' : 'told';
 }

@@ -1,4 +1,4 @@
-/** Overview beside a close view: the whole map, and the part of it that the picture shows. */
+/** Overview next to an enlarged picture: the whole map, with a frame around the visible part. */
 
 import { html, nothing } from 'lit';
 

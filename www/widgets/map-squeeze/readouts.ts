@@ -34,7 +34,7 @@ export function markedDraw(figure: import('./map-squeeze.ts').MapSqueezeElement)
   return sampleField(figure, { id: 'sample', label: sample, hint: markHint, shown: stats.attempts, told });
 }
 
-/** Returns the table of costs, for so many sub-steps. */
+/** Returns the table of costs for a number of sub-steps. */
 export function costTable({ costs, current }: CostMeter, steps: number) {
   const { samplers, costs: say } = words.squeeze;
   const row = (sampler: SamplerName) => {

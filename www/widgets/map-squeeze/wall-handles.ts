@@ -105,7 +105,7 @@ export class WallHandles extends Part<import('./map-squeeze.ts').MapSqueezeEleme
 
   #handleOf(grip: Grip) {
     const name = nameOf(grip);
-    // A new plan may lack the wall before its handle is removed.
+    // The wall may be missing in a new plan, until its handle is removed.
     const withGrip = <Result>(use: (present: Grip) => Result) => {
       const present = this.#present.find((each) => each && nameOf(each) === name);
       return present && use(present);

@@ -33,7 +33,7 @@ const FLOOR = [-4, -4, 4, 4];
  *
  * @attr preset - A reading to start from; null if the settings match no preset.
  * @attr overlays - Lines and marks that are drawn; in the attribute with spaces between.
- * @csspart chart - The plot of the deviation across the way.
+ * @csspart chart - Plot of the standard deviation across the path.
  */
 export class OdometryDecomposerElement extends FigureElement<Machine, Reading> {
   static styles = [...FigureElement.styles, reserve('odometry-decomposer'), ...decomposerStyles];
@@ -77,7 +77,7 @@ export class OdometryDecomposerElement extends FigureElement<Machine, Reading> {
     return { ...reading, overlays: this.state.own.overlays, marked: isMarked ? reading.poses.subarray(3 * index) : undefined };
   }
 
-  /** Returns a setting that is played from one end of its slider to the other, in so many milliseconds. */
+  /** Returns a setting that is animated from one end of its slider to the other within a duration in milliseconds. */
   #played(key: keyof typeof looks, duration: number) {
     const { min, max } = looks[key];
     return {

@@ -51,7 +51,7 @@ const AXES = { x: 'x (m)', y: 'y (m)' };
 /** Length of the axes of the odometry frame, m: less than the margin, so that none is clipped. */
 const AXIS = 0.28;
 
-/** Returns the key of an exported picture: on the page the legend stands beside it. */
+/** Returns the legend of an exported picture; none on the page, which has its own next to the picture. */
 function keyOf(brush: Brush, { overlays }: Scene, names: LineName[]) {
   const styles = lineStyles(brush, LINES);
   const say = words.decomposer.overlays;

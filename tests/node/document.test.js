@@ -16,9 +16,9 @@ const read = (/** @type {string} */ path) => readFileSync(new URL(`../../${path}
 const LIMITS = [
   ['www/widgets/banana-machine/pictures.ts', 'MAX_DOTS', /Up to (\S+) robots are drawn as dots/],
   ['www/widgets/map-squeeze/reading.ts', 'MAX_DOTS', /more than (\S+) motions are drawn as cells/],
-  ['www/widgets/banana-machine/words.ts', 'HARDLY', /exact skew is below (\S+) \| both sides are nearly alike/],
-  ['www/widgets/banana-machine/words.ts', 'TOO_LARGE', /if the ellipse has more than (\S+) times the area/],
-  ['www/widgets/banana-machine/words.ts', 'BENT', /or if the gain is more than (\S+) nats a robot/],
+  ['www/widgets/banana-machine/words.ts', 'VISIBLE_SKEW', /exact skew is below (\S+) \| both sides are nearly alike/],
+  ['www/widgets/banana-machine/words.ts', 'VISIBLE_AREA_RATIO', /if the ellipse has more than (\S+) times the area/],
+  ['www/widgets/banana-machine/words.ts', 'MIN_GAIN', /or if the gain is more than (\S+) nats a robot/],
 ];
 
 test('doc/model.md and doc/statistics.md have the limits of the pages', () => {

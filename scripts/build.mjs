@@ -92,7 +92,7 @@ function isCurrent(stamp, sources, products) {
  * @param {boolean} local
  */
 async function buildCores(names, local) {
-  // Without Rust nothing else is started, as its failure would end the process before that of Rust is shown.
+  // Waits for Rust first: an error of other work would end the process before the message about missing Rust.
   const rust = await wasmRust();
   const [binding, packages] = [binder(), ensurePackages(local ? undefined : 'scripts')];
   progress(`Compiling the core to WebAssembly (${rust.description}): ${names.join(', ')}`);

@@ -134,7 +134,7 @@ function named(name, extension, contents) {
   return { path: `dist/chunks/${name}-${hash}${extension}`, contents };
 }
 
-/** Characters of an inlined module that are shifted up by 256, so that another bundler or minifier cannot damage it. */
+/** Characters of an inlined module to which 256 is added, because other bundlers or minifiers might damage them. */
 const SHIFTED = {
   /** Characters that are ever written with a backslash. */
   utf8: /[^ -~\x80-\xff]|["$'\\`]/g,

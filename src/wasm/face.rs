@@ -1,6 +1,6 @@
 //! Methods that several machines have in JavaScript.
 
-// The module of a single figure needs some of them.
+// The module of a single figure uses only some of these macros.
 #![allow(unused_macros, unused_imports)]
 
 /// Constructor, `configure` and `config` of a class.

@@ -9,7 +9,7 @@ import { generator } from '../random.js';
 export const SEEDS = [1, 2, 3, 4, 5, 6, 7, 8];
 
 /**
- * A state of each element, by its tag, in which everything is said.
+ * Returns a random state of each element by its tag, with all fields.
  *
  * @param {number} seed
  */

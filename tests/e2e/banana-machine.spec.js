@@ -53,7 +53,7 @@ test('Home and End move the end of the arc to the ends of v, and no key scrolls 
 test('the handle does not leap to another arc with the same end @nightly', async ({ page }) => {
   const widget = await open(page);
   const handle = widget.locator('.handle');
-  // Turns beyond half a circle, and in reverse, where the shortest arc would be another one.
+  // For these turns, beyond half a circle and in reverse, the shortest arc to the end is another one.
   for (const command of [{ v: 1, omega: 1.8, dt: 2.5 }, { v: -1, omega: 0.4, dt: 1 }]) {
     await set(widget, command);
     const before = await state(widget);

@@ -44,7 +44,7 @@ export async function choose(widget, files) {
   await widget.locator('#log-files').setInputFiles(Object.entries(files).map(([name, text]) => ({ name, mimeType: 'text/csv', buffer: Buffer.from(text) })));
 }
 
-/** A table of the example's. @param {'odometry' | 'reference'} name */
+/** Returns a table of the example log. @param {'odometry' | 'reference'} name */
 export const example = (name) => readFileSync(new URL(`../../examples/calibration/${name}.csv`, import.meta.url), 'utf8');
 
 /**

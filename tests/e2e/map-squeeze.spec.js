@@ -144,7 +144,7 @@ test('every cost is that of the sampler, and a core’s share follows from it', 
   const widget = await openSqueeze(page);
   await widget.getByRole('button', { name: 'Facing a wall' }).click();
   await unfold(widget, 'Numbers and data');
-  // From then on the previous numbers are out of date.
+  // After two frames the table is marked as busy, because its numbers are out of date.
   await frames(page);
   const table = widget.locator('.table');
   await expect(table).toHaveAttribute('aria-busy', 'false');
@@ -155,7 +155,7 @@ test('every cost is that of the sampler, and a core’s share follows from it', 
   const [endpoint, wholeArc, subStepped] = rows.map((row) => row.map(numberIn));
   for (const [, , micros, share] of [endpoint, wholeArc, subStepped]) {
     expect(micros).toBeGreaterThan(0);
-    // 2000 at 20 Hz: 4 % of a core a microsecond; both are rounded to two digits, by up to 5 %.
+    // 2000 motions at 20 Hz take 4 % of a core for each microsecond. Both numbers are rounded to two digits, by up to 5 %.
     expect(Math.abs(share / (4 * micros) - 1)).toBeLessThan(0.11);
   }
 });

@@ -217,8 +217,7 @@ export async function open(page, attributes = '') {
 }
 
 /**
- * Has the cloud of a page's first figure of a kind paused where it has grown by itself for a step: it may be whole before a hand
- * from outside comes to it.
+ * Pauses the cloud of a page's first figure of a kind after one step of growth. A test from outside of the page might be too late.
  *
  * @param {Page} page that is opened after this
  * @param {string} name of the widget
@@ -320,7 +319,7 @@ export async function dragSlider(slider, to) {
     const { value, min, max } = /** @type {HTMLInputElement} */ (element);
     return (Number(value) - Number(min)) / (Number(max) - Number(min));
   });
-  // The thumb's centre travels the width of the input less its own.
+  // The centre of the thumb moves over the width of the input minus the width of the thumb.
   const at = (/** @type {number} */ share) => x + height * 0.3 + share * (width - height * 0.6);
   await page.mouse.move(at(from), y + height / 2);
   await page.mouse.down();

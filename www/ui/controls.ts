@@ -207,7 +207,7 @@ const PIECES = String.raw`\*(?:\\\*|[^*])+\*|[₀-₉]|_\{[^}]+\}`;
 const PIECE = new RegExp(PIECES, 'g');
 const FORMULA = new RegExp(`((?:${PIECES})+)`);
 
-/** Returns a message with its formulas in HTML; \\* is a star. */
+/** Returns a message with its formulas as HTML. The text \\* is an asterisk. */
 export function rich(message: string) {
   // Every second part is a formula.
   return message.split(FORMULA).map((part, i) => (i % 2 ? symbols(part.match(PIECE)?.map(printed)) : part));

@@ -128,7 +128,7 @@ const layout = css`
     margin-inline-start: auto;
   }
 
-  /* An answer has its own line. */
+  /* The message of a copy button has its own line. */
   .folds > :is(output, textarea) {
     flex: 1 0 100%;
     text-align: end;

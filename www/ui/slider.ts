@@ -275,7 +275,7 @@ export interface SliderRow extends Range {
   pick?: unknown;
   /** Keyboard of a phone for typing the value. */
   keys: 'decimal' | 'numeric' | 'text';
-  /** Takes a typed text and returns it as it is shown from now on; undefined if it is refused. */
+  /** Applies a typed text. Returns the text to display, or undefined if it is refused. */
   type: (text: string) => string | undefined;
   /** Sentence about a refused text. */
   refusal?: string;

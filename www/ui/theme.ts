@@ -1,17 +1,16 @@
 /**
- * The palette: one colour a role, the same in every view, for light and dark paper. Paper and ink are those of the
- * surroundings, and explaining text is between them. The hues are Okabe and Ito's, with lightness spread so that the roles
- * stay apart under every common form of colour blindness. Each role also has a dash or a shape of its own. Text on the
- * paper keeps a contrast of at least 4.5, and lines at least 3. A page may give each role a colour of its own, by a
- * custom property that begins with --motion.
+ * Palette: one colour for each role, the same in every view, for light and dark backgrounds. The background (paper) and the text (ink) have
+ * the colours of the surroundings. Explaining text is between them. The hues are Okabe and Ito's. Their lightness distinguishes the roles
+ * under all common forms of colour blindness, and so do dashes and shapes. Text has a contrast of at least 4.5, and lines of at least 3. A
+ * page can replace the colour of a role by a custom property that begins with --motion.
  */
 
 import { css, unsafeCSS } from 'lit';
 import { likedWidth } from './width.ts';
 
 /**
- * Roles whose resolved colours the canvas needs; each is a custom property of the same name. A cloud is a prediction too, but a mass of
- * dots rather than a line or text.
+ * Roles whose resolved colours the canvas needs. Each is a custom property of the same name. A cloud is also a prediction, but needs another
+ * colour, because it consists of many dots.
  */
 const ROLES = 
   ['paper', 'ink', 'muted', 'rule', 'prior', 'prediction', 'cloud', 'truth', 'posterior', 'accent'] as const

@@ -132,7 +132,7 @@ fn a_distance_scale_that_differs_in_turns_is_no_constant() {
     assert!(!calibration.is_constant[scale] && !calibration.is_corrected[scale]);
 }
 
-/// Turns of one half are a tenth longer than those of the other, known to a few hundredths.
+/// The turn scales of both halves of the log differ by a tenth. Their standard errors are a few hundredths.
 #[test]
 fn a_turn_scale_that_changes_is_no_constant() {
     let calibration = rescaled(&good(600, 8), |course, _| [1.0, if course < 0.5 { 1.0 } else { 1.1 }]);

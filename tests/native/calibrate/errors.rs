@@ -108,8 +108,9 @@ fn too_few_legs_are_refused() {
     assert!(matches!(refused, Err(CalibrateError::TooFewLegs { legs: 6 | 7 })));
 }
 
-/// A mount of 0.07 rad turns each rotation by as much: on legs of a quarter of a metre that is an α₂ of 0.08, and more on the shorter ones of
-/// turns. Where the noise of the reference is estimated, it takes the error: both headings of a leg are wrong by as much.
+/// A mount yaw of 0.07 rad changes each rotation of a leg by 0.07 rad. On legs of a quarter of a metre that looks like an α₂ of 0.08,
+/// and of more on shorter legs with turns. If the noise of the reference is estimated, it absorbs the error, because both headings
+/// of a leg have the same error.
 #[test]
 fn an_error_that_is_not_corrected_is_noise_of_the_wheels_or_of_the_reference() {
     let simulation = with_errors(NAV2, 600, Systematic { mount_yaw: 0.07, ..Systematic::NONE });

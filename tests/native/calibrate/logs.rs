@@ -43,7 +43,7 @@ fn legs_end_as_amcl_ends_them() {
     assert_eq!(timed.len(), 8);
 }
 
-/// Ten steps of 0.02 rad are the limit of 0.2 rad exactly, but for rounding: by sums of doubles, and by text with six decimals.
+/// Ten steps of 0.02 rad equal the limit of 0.2 rad, except for rounding of sums of doubles, or of text with six decimals.
 #[test]
 fn rounding_does_not_decide_where_a_leg_ends() {
     let spin = |rounded: fn(f64) -> f64| {

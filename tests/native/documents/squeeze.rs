@@ -32,7 +32,7 @@ fn through(settings: Settings) -> (f64, f64) {
     let machine = machine(settings);
     assert!(!machine.gave_up(), "{settings:?}");
     let (share, count) = (machine.tally().through_wall_rate(), machine.tally().accepted as f64);
-    // If the fraction is 0, the standard error of one sample in all is taken.
+    // For a fraction of 0 the standard error is that of one sample.
     (share, ((share * (1.0 - share)).max(1.0 / count) / count).sqrt())
 }
 

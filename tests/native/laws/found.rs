@@ -24,7 +24,7 @@ fn a_cloud_too_small_for_its_powers_has_no_skew() {
     assert!(figures.cross_track.skew.is_nan() && figures.cross_track.skew_error.is_nan(), "{figures:?}");
 }
 
-/// The direction of a chord was computed with a reciprocal that overflowed, and no point was free.
+/// The direction of a subnormal chord must not be computed with a reciprocal, which overflows.
 #[test]
 fn an_arc_of_subnormal_length_is_judged() {
     let plan = FloorPlan::apartment();
@@ -41,7 +41,7 @@ fn model(alphas: [f64; 6]) -> VelocityModel {
     VelocityModel { alphas: VelocityAlphas(alphas), noise: NoiseKind::Normal }
 }
 
-/// 0 · ∞: the circumference of a circle overflowed, at a speed of probability 0.
+/// The circumference of a circle may overflow at a speed of density 0. The product 0 · ∞ must count as 0.
 #[test]
 fn a_circle_too_long_for_a_double_is_not_driven() {
     let model = model([0.0, 0.55, 0.0, 0.29, 0.0, 0.41]);

@@ -226,7 +226,7 @@ fn the_open_place_has_the_most_room() {
     for unknown in [Unknown::Free, Unknown::Blocked] {
         let plan = FloorPlan::from_grid(drawn(&rows, unknown)).expect("a small grid");
         let place = plan.open_place(0.1).expect("there is room");
-        // The first of the squares of four cells, and the way through the door.
+        // The pose is in the middle of the first square of four free cells, and heads through the door.
         assert!((place.x() - 0.3).abs() + (place.y() - 0.3).abs() < 1e-12, "{place:?}");
         assert!(plan.point_free([place.x(), place.y()], 0.1).free);
         let way = Arc { start: place, length: 0.5, turn: 0.0 };

@@ -267,8 +267,8 @@ fn a_reverse_aware_robot_is_not_charged_for_half_turns() {
     }
 }
 
-/// Noise on the pose knows neither distance nor wheels: its circle is the same for a step and for a room, and its size
-/// is that of the gentle arc.
+/// Additive noise depends neither on the distance nor on the command: its circle is the same for a short and a long drive. Its
+/// size fits the preset "gentle".
 #[test]
 fn additive_noise_does_not_depend_on_the_motion() {
     for [v, omega, dt] in [[0.05, 0.0, 1.0], [1.0, 0.5, 1.0], [1.0, 0.5, 10.0]] {

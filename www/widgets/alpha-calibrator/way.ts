@@ -164,7 +164,7 @@ function* drawOdometry({ context, view, ...brush }: Painter, { count, odometry, 
   stroke(context, style);
 }
 
-/** Draws some legs by both ends of each. */
+/** Draws legs as lines between their ends. */
 function* drawLegs({ context, view }: Painter, reference: Float64Array, isDrawn: (leg: number) => boolean, style: Style) {
   const drawn: Set<number> = new Set();
   let begun = 0;

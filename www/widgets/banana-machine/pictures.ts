@@ -35,8 +35,8 @@ import type { Reading } from './reading.ts';
 import type { LineName } from './settings.ts';
 
 /**
- * Scene of both pictures. Outlines are at the morph; the ellipse is `reached` at its end. Callouts, and the rings that they keep
- * clear of, are on the floor.
+ * Scene of both pictures. Outlines are transformed by the present morph. `reached` is the ellipse after a complete morph. Callouts, and the
+ * rings that they avoid, are on the floor.
  */
 export interface Scene extends Reading {
   machine: BananaMachine;

@@ -97,8 +97,8 @@ export function spreadOf({ exact: { cov } }: Table): 'point' | 'headings' | 'clo
 }
 
 /**
- * Returns a sentence on a cloud that is not what a reader expects, with the settings that made it so; empty for an ordinary cloud.
- * `chartHolds` is false if robots turn farther than exponential coordinates reach.
+ * Returns a sentence about an unusual cloud, with the settings that cause it; empty for a usual cloud. `chartHolds` is false if robots turn
+ * so far that exponential coordinates are undefined.
  */
 function noteOn({ model, command, alphas, isolate, reverseAware }: Settings, table: Table, stats: Stats, chartHolds: boolean): string {
   const { notes, alphaIsZero } = words.banana;

@@ -53,7 +53,7 @@ export const en = {
     free: 'end pose and path are collision-free',
     way: 'the end pose is free, but the path touches a wall or leaves the map',
   },
-  /** Counts of the picture in one sentence: the test, and how many went through a wall all the same. */
+  /** Sentences with the number of accepted motions by sampler, and the number of those that lead through a wall. */
   tested: {
     endpoint: (accepted, all) => `${accepted} of ${all} motions end where the robot fits and are accepted`,
     'whole-arc': (accepted, all) => `${accepted} of ${all} motions keep clear of walls all the way and are accepted`,

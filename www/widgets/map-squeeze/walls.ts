@@ -6,7 +6,7 @@ import type { Plan } from '../../types.d.ts';
 /** Distance below which two walls touch. */
 const TOUCH = 1e-6;
 
-/** Smallest opening between the end of a wall and the next wall, and smallest length of a wall. */
+/** Minimum gap between the end of a wall and the next wall, and minimum length of a wall, m. */
 const GAP = 0.05;
 
 /** Least distance at which a path touches a wall, and the tested points of a path in such a distance. */
@@ -112,7 +112,7 @@ function roomAhead(walls: Float64Array, wall: number, [x, y]: readonly number[],
   return room;
 }
 
-/** Returns the walls with one of them moved along its axis. Walls that end on one that moves across follow it where that only lengthens them. */
+/** Returns the walls with one of them moved along an axis. Walls that end on a wall that moves sideways follow it, if they only get longer or shorter. */
 export function movedWalls(walls: Float64Array, { wall, part, axis: [ux, uy] }: Grip, distance: number) {
   const moved = walls.slice();
   const move = (at: number) => {

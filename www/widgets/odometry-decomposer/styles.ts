@@ -66,7 +66,7 @@ const own = css`
   }
 
   @container (38em <= width < 50em) {
-    /* All of them in a row. */
+    /* All presets are in one row. */
     .presets {
       --beside: 0.45em;
       gap: 0.35em;
@@ -88,7 +88,7 @@ const own = css`
     align-items: center;
   }
 
-  /* The button takes space from the track. */
+  /* The play button is next to the track. */
   .playable > .slider:not(:has(> .choice)) {
     grid-template: 'name value' auto 'track track' auto / 1fr auto;
   }

@@ -61,7 +61,7 @@ export async function readMapFiles(files: File[], decodePng: DecodePng): Promise
   throw new MapFileError(images[0]?.name ?? '', (say, image) => say.alone(image || say.noFile));
 }
 
-/** Reads bytes of a file, which may have gone since it was chosen. */
+/** Reads bytes of a file, which may have been deleted after it was chosen. */
 async function bytesOf(part: Blob, name: string) {
   try {
     return await part.arrayBuffer();

@@ -84,7 +84,7 @@ fn a_third_of_the_accepted_motions_went_through_a_wall_at_the_doorway() {
 #[ignore = "nightly: 30 clouds of 100,000"]
 fn shares_through_walls_by_substeps_are_those_in_the_documents() {
     let told = document().numbers(
-        "Facing the doorway and in the corridor it falls with k on a straight command, to # % and # % at 16.",
+        "On a straight command it falls with k: to # % at k = 16 facing the doorway, and to # % in the corridor.",
     );
     for (place, told) in [DOORWAY, CORRIDOR].into_iter().zip::<[Number; 2]>(told) {
         assert_told(in_parts(place, 16, 0.0), told);
@@ -96,8 +96,8 @@ fn shares_through_walls_by_substeps_are_those_in_the_documents() {
     assert_told(through(settings(DOORWAY, Sampler::Endpoint, omega.value)), on_page);
     assert_told(in_parts(DOORWAY, worst.value as u32, omega.value), at_worst);
     let [d1, d4, d6, d8, d16, c1, c4, c6, c8, c12] = document().numbers(
-        "with ω = 0.5, from # % judged by the endpoint over # % at k = 4 to # % at 6, and falls over # % at 8 to # % at \
-         16 (doorway); from # % over # and # % to # % at 8, and falls to # % at 12 (corridor).",
+        "At the doorway it is # % at k = 1, # % at 4, # % at 6, # % at 8, and # % at 16. In the corridor it rises from # % \
+         over # and # % to # % at k = 8, and falls to # % at 12.",
     );
     for (place, endpoint, told) in [
         (DOORWAY, d1, [(4, d4), (6, d6), (8, d8), (16, d16)]),
@@ -114,8 +114,8 @@ fn more_substeps_facing_the_wall_send_more_samples_through_it() {
     let shares = [2, 4, 8].map(|parts| in_parts(WALL, parts, 0.0));
     shares.windows(2).for_each(|pair| assert_less(pair[0], pair[1], "more parts"));
     let [one, two, four, eight, wedged] = document().numbers(
-        "the share through it rises from # % at k = 1 to # %, # % and # % at k = 2, 4, 8; from k = # on so few parts \
-         reach across that the widget gives up",
+        "it rises from # % at k = 1 to # %, # % and # % at k = 2, 4 and 8. From k = # on, so few parts reach across that \
+         the widget gives up.",
     );
     assert_told(through(settings(WALL, Sampler::Endpoint, 0.0)), one);
     shares.into_iter().zip([two, four, eight]).for_each(|(share, told)| assert_told(share, told));

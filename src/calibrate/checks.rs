@@ -27,7 +27,7 @@ pub enum CheckName {
     EnoughLegs,
     /// Fraction of the legs that were lost.
     LegsLost,
-    /// Median length of a leg over that asked for.
+    /// Median length of a leg over the length that the options ask for.
     SamplingDense,
     /// Fraction of outliers.
     OutliersFew,

@@ -89,7 +89,7 @@ impl Sample {
         self.terms = Rc::new(self.legs.iter().zip(&self.observations).map(term).collect());
     }
 
-    /// Residuals of the legs that `select` chooses; one follows the leg before only if that is chosen too.
+    /// Returns the residuals of the legs that `select` chooses. A leg is correlated with the one before it only if both are chosen.
     pub fn residuals(&self, estimated: ErrorMask, select: impl Fn(usize) -> bool) -> Residuals {
         let follows = |leg: usize| self.legs[leg].follows && leg > 0 && select(leg - 1);
         let chosen = (0..self.legs.len()).filter(|leg| select(*leg)).map(|leg| (leg, follows(leg)));

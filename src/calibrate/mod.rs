@@ -1,8 +1,9 @@
 //! Calibration of a robot's α's, from a log of its odometry and a reference of its true poses.
 //!
-//! [`calibrate`] cuts the log into [`Leg`]s as long as the updates of the filter that is to use the α's. Each gives residuals whose variances
-//! are linear in the α's ([`Observation`]). α's, the noise of the reference and the systematic errors are those of the largest restricted
-//! likelihood. Checks tell whether to trust them, and windows of a metre by how much to inflate them. `doc/calibration-method.md` has the formulas.
+//! [`calibrate`] cuts the log into [`Leg`]s. A leg is as long as the motion between two updates of the filter that uses the α's. Its residuals
+//! have variances that are linear in the α's ([`Observation`]). The α's, the noise of the reference and the systematic errors maximize the
+//! restricted likelihood. Checks tell whether to trust them. Windows of a metre give the factor by which α's for a filter are inflated.
+//! `doc/calibration-method.md` has the formulas.
 
 mod alignment;
 mod checks;

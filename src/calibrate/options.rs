@@ -29,7 +29,7 @@ pub struct Options {
     pub model: Model,
     pub legs: LegLength,
     pub outliers: Outliers,
-    /// Choice for each of [`SystematicError::ALL`]: corrected or not. None: corrected if it is identifiable and constant.
+    /// Choice for each of [`SystematicError::ALL`](super::SystematicError::ALL): corrected or not. None: corrected if it is identifiable and constant.
     pub correct: [Option<bool>; ERRORS],
     /// Standard deviation of each coordinate of the reference, m. None: estimated.
     pub position_std: Option<f64>,

@@ -20,14 +20,14 @@ pub struct Estimate {
 pub struct Persistence {
     /// Between 0, for independent legs, and 1.
     pub correlation: Estimate,
-    /// Distance (m) over which the correlation falls to 1/e; 0 of independent legs.
+    /// Distance (m) over which the correlation falls to 1/e. 0 if legs are independent.
     pub length: f64,
 }
 
 /// α's that a filter can use.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Recommended {
-    /// Fitted α's times the inflation; None of one that is not identifiable.
+    /// Fitted α's times the inflation. None for an α that is not identifiable.
     pub alphas: Vec<Option<f64>>,
     pub inflation: f64,
     pub reason: String,

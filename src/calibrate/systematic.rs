@@ -179,7 +179,7 @@ impl Systematic {
     }
 }
 
-/// Mount yaw (rad) from which the iteration may not converge, because directions wrap.
+/// Mount yaw (rad) above which the iteration may diverge: directions beyond π wrap.
 const MIN_INITIAL_YAW: f64 = 0.5;
 
 /// Length of the sum of all legs' directions over that of parallel ones. Logs of two drives have a twentieth.

@@ -114,7 +114,7 @@ function propertiesOf(element, names) {
 }
 
 /** Resolves when a figure has all of its samples, and its picture more than one colour. Runs in the page. @param {Element} element */
-async function complete(element) {
+export async function complete(element) {
   const figure = /** @type {any} */ (element);
   const canvas = /** @type {HTMLCanvasElement} */ (figure.shadowRoot.querySelector('canvas'));
   const isDrawn = () => {

@@ -24,7 +24,7 @@ const LISTENING = '<script src="/tests/engines/listen.js"></script>';
 async function site() {
   const directory = mkdtempSync(join(tmpdir(), 'motion-engines-'));
   for (const name of readdirSync(join(ROOT, 'dist'))) if (name !== PAGE) symlinkSync(join(ROOT, 'dist', name), join(directory, name));
-  symlinkSync(join(ROOT, 'tests'), join(directory, 'tests'));
+  for (const name of ['tests', 'www']) symlinkSync(join(ROOT, name), join(directory, name));
   writeFileSync(join(directory, PAGE), readFileSync(join(ROOT, 'dist', PAGE), 'utf8').replace('<head>', `<head>${LISTENING}`));
   const { address, close } = await serve(directory, { port: 0 });
   return {

@@ -14,6 +14,7 @@ import { chromium } from '@playwright/test';
 import { CHROME_ARGUMENTS, findChrome } from '../../scripts/browser.mjs';
 import { ROOT } from '../../scripts/process.mjs';
 import { serve } from '../../scripts/serve.mjs';
+import { complete } from '../embeddings/checks.mjs';
 
 /** Files of a release that are not in the package. */
 const SINGLE_FILES = ['motion-widgets.iife.js', 'motion-widgets.css', 'embed.html', 'embed.css', 'embed.js'];
@@ -84,7 +85,7 @@ export function listen(page) {
 }
 
 /**
- * Opens a page and waits until a cloud has been drawn on it.
+ * Opens a page and waits until its figure has all of its samples.
  *
  * @param {import('@playwright/test').Browser} browser
  * @param {string} address
@@ -104,27 +105,7 @@ export async function openWithCloud(browser, address, prepare) {
   await canvas.waitFor({ timeout: 10_000 }).catch((error) => {
     throw new Error([...complaints, error.message].join('\n'));
   });
-  await canvas.evaluate(waitForCloud);
+  await frame.locator('banana-machine').first().evaluate(complete);
   assert.deepEqual(complaints, []);
   return { page, requests };
-}
-
-/**
- * Resolves when a picture has many pixels of the colour of the cloud. Runs in the page.
- *
- * @param {Element} canvas
- */
-async function waitForCloud(canvas) {
-  const drawn = /** @type {HTMLCanvasElement} */ (canvas);
-  for (;;) {
-    await new Promise(requestAnimationFrame);
-    if (drawn.width === 0 || drawn.height === 0) continue;
-    const copy = Object.assign(document.createElement('canvas'), { width: drawn.width, height: drawn.height });
-    const context = /** @type {CanvasRenderingContext2D} */ (copy.getContext('2d', { willReadFrequently: true }));
-    context.drawImage(drawn, 0, 0);
-    const { data } = context.getImageData(0, 0, copy.width, copy.height);
-    let orange = 0;
-    for (let i = 0; i < data.length; i += 4) if (data[i + 3] > 100 && data[i] - data[i + 2] > 120) orange++;
-    if (orange > 200) return;
-  }
 }

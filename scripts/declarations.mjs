@@ -3,7 +3,7 @@
 
 import { presets, settings } from '../www/settings.js';
 import { scriptName } from './names.mjs';
-import { ROOT } from './process.mjs';
+import { ROOT, once } from './process.mjs';
 import { importTypeScript } from './typescript.mjs';
 
 /**
@@ -81,15 +81,8 @@ function number(value) {
   return format.format(value).replaceAll(',', '\u202f').replace('-', '−');
 }
 
-/** @type {Promise<{ schemaVersion: string, classes: Map<string, any> }> | undefined} */
-let analyzed;
-
 /** Returns the comments of the elements' classes by the names of the classes. */
-export function comments() {
-  return (analyzed ??= analyze());
-}
-
-async function analyze() {
+export const comments = once(async () => {
   // @ts-expect-error It comes without types.
   const { cli } = await import('@custom-elements-manifest/analyzer/cli.js');
   // It writes nothing but, into package.json, where the manifest is: in dist.
@@ -98,7 +91,7 @@ async function analyze() {
   /** @type {any[]} */
   const declarations = modules.flatMap((/** @type {any} */ { declarations }) => declarations ?? []);
   return { schemaVersion, classes: new Map(declarations.map((each) => [each.name, each])) };
-}
+});
 
 /** Returns a description without the line ends of its comment. @param {string} text */
 export const oneLine = (text) => text.replaceAll('\n', ' ');

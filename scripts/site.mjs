@@ -6,6 +6,7 @@ import { join, posix } from 'node:path';
 import { build } from './build.mjs';
 import { WIDGETS, filesOf } from './bundle.mjs';
 import { Missing, ROOT, mustRun, progress, runAsScript } from './process.mjs';
+import { escaped } from './tables.mjs';
 import { ensurePackages, nativeRust } from './toolchain.mjs';
 
 const SITE = join(ROOT, 'build/site');
@@ -32,8 +33,6 @@ const pageOf = (/** @type {string} */ path) => path.replace(/^README\.md$/, 'sta
 
 /** Returns a relative link from one page to another. */
 const between = (/** @type {string} */ page, /** @type {string} */ target) => '../'.repeat(page.split('/').length - 1) + target;
-
-const escaped = (text = '') => text.replaceAll('&', '&amp;').replaceAll('<', '&lt;').replaceAll('"', '&quot;');
 
 /** Returns the anchor of a heading, as GitHub makes it. */
 const anchorOf = (/** @type {string} */ heading) => heading.toLowerCase().replace(/[^\p{L}\p{N} _-]/gu, '').replaceAll(' ', '-');

@@ -92,7 +92,5 @@ function code(text) {
   return `<code>${escaped(text)}</code>`;
 }
 
-/** @param {string} text */
-function escaped(text) {
-  return text.replaceAll('&', '&amp;').replaceAll('<', '&lt;').replaceAll('>', '&gt;');
-}
+/** Escapes text for HTML and its attributes. */
+export const escaped = (text = '') => text.replaceAll('&', '&amp;').replaceAll('<', '&lt;').replaceAll('>', '&gt;').replaceAll('"', '&quot;');

@@ -7,9 +7,7 @@
 /** Stages that end with each mark, in order. */
 const STAGES = /** @type {const} */ ({
   evaluated: 'the script is evaluated',
-  instantiating: 'the element asks for the module',
-  instantiated: 'the module is compiled and instantiated',
-  drawn: 'machine, first rendering, first samples drawn',
+  drawn: 'module, machine, first rendering, first samples drawn',
   shown: 'the frame is handed over',
 });
 
@@ -41,18 +39,6 @@ export async function timeStart(browser, address, loads) {
 
 /** Runs in the page before the page's scripts. */
 function markStages() {
-  const { compile, instantiate } = WebAssembly;
-  WebAssembly.compile = (source) => {
-    performance.mark('instantiating');
-    return compile(source);
-  };
-  WebAssembly.instantiate = /** @type {typeof instantiate} */ (
-    /** @type {unknown} */ (async (/** @type {any} */ source, /** @type {any} */ imports) => {
-      const started = await instantiate(source, imports);
-      performance.mark('instantiated');
-      return started;
-    })
-  );
   // A cloud is an image of its density, or this number of dots.
   const DOTS = 100;
   let dots = 0;

@@ -1,6 +1,6 @@
 /** Search for the error in a log whose motion disagrees with that of the other log. It tries each correction on each log. */
 
-import { bisectLeft, cross, greatest } from 'd3-array';
+import { bisectLeft, greatest } from 'd3-array';
 import { ROLES, type Log, type Role } from './log.ts';
 import { pathOf } from './path.ts';
 import { quantile } from './quantile.ts';
@@ -22,6 +22,9 @@ const CORRECTIONS = {
   degrees: ([x, y, heading]: Pose): Pose => [x, y, heading * DEGREE],
   radians: ([x, y, heading]: Pose): Pose => [x, y, heading / DEGREE],
 };
+
+/** All corrections of either log, */
+const CHOICES = (Object.keys(CORRECTIONS) as (keyof typeof CORRECTIONS)[]).flatMap((name) => [[name, 'reference'], [name, 'odometry']] as [typeof name, Role][]);
 
 /** Correction that makes two logs of a drive agree. */
 export interface Correction {
@@ -65,7 +68,7 @@ export function correctionOf(odometry: Log, reference: Log): Correction | undefi
   if (!(count >= MIN_STEPS)) return undefined;
   const plain = { odometry: motionsOf(odometry, from, step, count), reference: motionsOf(reference, from, step, count) };
   const { score, length: factor, angle } = agreement(plain, step, true);
-  const tried = score >= AGREEMENT ? [] : cross(Object.keys(CORRECTIONS) as (keyof typeof CORRECTIONS)[], ['reference', 'odometry'] as const, (name, at) => {
+  const tried = score >= AGREEMENT ? [] : CHOICES.map(([name, at]) => {
     const corrected = { ...plain, [at]: motionsOf(logs[at], from, step, count, CORRECTIONS[name]) };
     // A correction of the wrong log can give both logs the same error. Neither robot then drives along its heading.
     return { name, at, factor, ...agreement(corrected, step), straight: straightness(corrected.odometry) + straightness(corrected.reference) };

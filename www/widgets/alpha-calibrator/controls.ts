@@ -48,7 +48,7 @@ export function legControls(figure: Figure) {
         forget: () => figure.typing.forget(),
       })}
     </fieldset>
-    ${button(say.worst, () => figure.choose(next), { disabled: next === undefined, title: say.worstTitle })}`;
+    ${button(say.worst, () => figure.choose(next), { disabled: next === undefined })}`;
 }
 
 /** Returns the readouts of the error of the leg that is shown. */

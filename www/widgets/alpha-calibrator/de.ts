@@ -154,7 +154,6 @@ export const de: typeof import('./en.ts').en = {
     group: 'Etappen',
     name: 'gezeigte Etappe',
     worst: 'Nächstes großes Residuum',
-    worstTitle: 'Zeigt nacheinander die zehn Etappen mit den größten Residuen',
     off: 'Fehler',
     squared: (expected) => `quadrierte Mahalanobis-Distanz (erwartet ${expected})`,
     outlier: 'Ausreißer',

@@ -192,16 +192,15 @@ async function slidersByKeys(page, tag) {
   const sliders = await page.ask('slidersOf', tag);
   assert.ok(sliders.length >= 2, `${sliders.length} sliders are to be seen.`);
   for (const { key } of sliders) {
-    assert.ok(await page.ask('focus', { tag, selector: `#${key}` }), `${key} does not take the focus.`);
+    const sliderOf = async () => (await page.ask('slidersOf', tag)).find((slider) => slider.key === key);
+    const before = await sliderOf();
+    assert.ok(before && (await page.ask('focus', { tag, selector: `#${key}` })), `${key} does not take the focus.`);
     await page.press('ArrowRight', 'ArrowRight', 'ArrowLeft');
-  }
-  await page.settled(tag);
-  const after = new Map((await page.ask('slidersOf', tag)).map((slider) => [slider.key, slider]));
-  for (const { key, value, shown, step, end } of sliders) {
-    const slider = after.get(key);
-    const to = Math.min(shown + 2 * step, end) - step;
-    assert.ok(slider && Math.abs(slider.shown - to) < 1e-9, `The slider of ${key} was at ${shown} and is at ${slider?.shown}.`);
-    assert.ok((slider.value - value) * (to - shown) > 0, `${key} was ${value} and is ${slider.value}.`);
+    await page.settled(tag);
+    const after = await sliderOf();
+    const to = Math.min(before.shown + 2 * before.step, before.end) - before.step;
+    assert.ok(after && Math.abs(after.shown - to) < 1e-9, `The slider of ${key} was at ${before.shown} and is at ${after?.shown}.`);
+    assert.ok((after.value - before.value) * (to - before.shown) > 0, `${key} was ${before.value} and is ${after.value}.`);
   }
   await asInNode(page, tag);
 }

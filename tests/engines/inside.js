@@ -119,7 +119,10 @@ export function slidersOf(tag) {
     .filter((slider) => slider.checkVisibility())
     .map((slider) => {
       const { id, value, step, max } = /** @type {HTMLInputElement} */ (slider);
-      return { key: id, value: figure[id] ?? figure.getState()[id], shown: Number(value), step: Number(step), end: Number(max) };
+      const shown = Number(value);
+      // The slider in a chart has a name of its own.
+      const setting = { [id]: shown, ...figure.getState() }[id];
+      return { key: id, value: figure[id] ?? setting, shown, step: Number(step), end: Number(max) };
     });
 }
 

@@ -16,8 +16,8 @@ import { importTypeScript } from './typescript.mjs';
  * @property {true} [readonly]
  * @property {boolean} [isText] true if it takes text too
  *
- * @typedef {Named & { property?: string, opening?: string, allowed?: string, told: string }} Attribute with its property,
- *   where that has another name, its text when the widget opens, the range of a number, and the description without that
+ * @typedef {Named & { property?: string, opening?: string, allowed?: string, withoutRange: string }} Attribute, with its property
+ *   if that has another name, the text of its default, the range of a number, and the description without the range
  *
  * @typedef {object} Widget
  * @property {string} tag
@@ -126,8 +126,8 @@ async function widget(tag) {
       const given = declaration.default;
       const opening = given === null ? undefined : String(given);
       const shown = typeof given === 'number' ? number(given) : opening;
-      const told = describe({ ...declaration, min: undefined }, shown);
-      return { name, type: typeOf(declaration), description: describe(declaration, shown), opening, allowed: allowedIn(declaration), told };
+      const withoutRange = describe({ ...declaration, min: undefined }, shown);
+      return { name, type: typeOf(declaration), description: describe(declaration, shown), opening, allowed: allowedIn(declaration), withoutRange };
     }
     const { words, covers, kind, property } = entry;
     const nullable = covers || entry.nullable;
@@ -135,9 +135,9 @@ async function widget(tag) {
     const type = kind === NUMBER ? 'number' : words === undefined ? 'boolean' : kind === WORD_LIST ? `(${union(words)})[]` : union(words);
     const text = Array.isArray(opening) ? opening.join(' ') : opening;
     const description = describe({ ...entry, sentence: sentences[name] }, text);
-    return { name, property, type: nullable ? `${type} | null` : type, description, opening: text, allowed: allowedIn(entry), told: description };
+    return { name, property, type: nullable ? `${type} | null` : type, description, opening: text, allowed: allowedIn(entry), withoutRange: description };
   };
-  const told = (/** @type {[string, any]} */ [name, { sentence, ...rest }]) => ({ name, description: sentence, ...rest });
+  const documented = (/** @type {[string, any]} */ [name, { sentence, ...rest }]) => ({ name, description: sentence, ...rest });
 
   const attributeList = Object.entries({ ...attributes, ...COMMON }).map(attribute);
   /** @type {Declaration[]} */
@@ -146,12 +146,12 @@ async function widget(tag) {
   const ofClass = element.members
     .filter((/** @type {any} */ { kind, privacy, inheritedFrom }) => kind === 'field' && privacy === 'public' && !inheritedFrom)
     .map((/** @type {any} */ { name, description, readonly, type }) => ({ name, description: oneLine(description), readonly, type: type.text }));
-  const properties = [...groups, ...Object.entries(propertyTable).map(told), ...ofClass];
+  const properties = [...groups, ...Object.entries(propertyTable).map(documented), ...ofClass];
   const ofElement = Object.keys(own).map((name) => {
     const { type, description } = /** @type {Named} */ ([...attributeList, ...properties].find((each) => each.name === name) ?? {});
     return { name, type, description };
   });
-  const state = new Map([...whole.map(plain), ...ofElement, ...Object.entries(stateTable).map(told)].map((each) => [each.name, each]));
+  const state = new Map([...whole.map(plain), ...ofElement, ...Object.entries(stateTable).map(documented)].map((each) => [each.name, each]));
   for (const { name, type } of state.values()) if (!type) throw new Error(`${tag}: nothing says what ${name} is in its state.`);
   return { tag, machine: pascal(tag), attributes: attributeList, properties, state: [...state.values()] };
 }

@@ -96,17 +96,17 @@ function endsOf(rows) {
  * Returns the true poses of the robot. The odometry model moves it leg by leg, and within a leg the error grows smoothly.
  *
  * @param {Motion} motion
- * @param {Pose[]} told poses of the odometry, one a row
+ * @param {Pose[]} read poses of the odometry, one a row
  * @param {number} seed of the first leg's noise; each leg has the next one
  * @returns {Pose[]} one a row, up to the end of the last complete leg
  */
-function real(motion, told, seed) {
+function truePoses(motion, read, seed) {
   const { se2 } = motion;
-  const rows = told.map(rounded);
+  const rows = read.map(rounded);
   const scaled = (/** @type {Pose} */ { x, y, theta }) => ({ x: TRUTH.distanceScale * x, y: TRUTH.distanceScale * y, theta });
   const posed = (/** @type {[number, number, number]} */ [x, y, theta]) => ({ x, y, theta });
   const model = new motion.OdometryModel({ alphas: TRUTH.alphas });
-  const truth = [scaled(told[0])];
+  const truth = [scaled(read[0])];
   const ends = endsOf(rows);
   for (const [leg, end] of ends.entries()) {
     if (leg === 0) continue;
@@ -119,7 +119,7 @@ function real(motion, told, seed) {
     for (let i = from + 1; i <= end; i++) {
       const share = (i - from) / (end - from);
       const smooth = share * share * (3 - 2 * share);
-      truth.push(se2.boxplus(se2.compose(began, motionTo(scaled(told[i]))), error.map((each) => smooth * each)));
+      truth.push(se2.boxplus(se2.compose(began, motionTo(scaled(read[i]))), error.map((each) => smooth * each)));
     }
   }
   model.free();
@@ -132,15 +132,15 @@ function real(motion, told, seed) {
  * @returns {{ odometry: string, reference: string }} CSV
  */
 export function exampleLog(motion, seed = SEED) {
-  const told = driven(motion);
-  const truth = real(motion, told, seed);
+  const read = driven(motion);
+  const truth = truePoses(motion, read, seed);
   const around = Math.round(AROUND / ROW);
   const line = (/** @type {number} */ t, /** @type {Pose} */ pose) => `${[t.toFixed(3), ...rounded(pose)].join(',')}\n`;
   const table = (/** @type {string[]} */ lines) => `t,x,y,yaw\n${lines.join('')}`;
   const [odometry, reference] = [/** @type {string[]} */ ([]), /** @type {string[]} */ ([])];
   const mount = { x: 0, y: 0, theta: TRUTH.mountYaw };
   const last = truth.length - 1;
-  for (let i = 0; i <= last; i++) odometry.push(line(START + i * ROW, told[i]));
+  for (let i = 0; i <= last; i++) odometry.push(line(START + i * ROW, read[i]));
   for (let i = -around; i <= last + around; i++) {
     const pose = truth[Math.max(0, Math.min(i, last))];
     reference.push(line(START + i * ROW + TRUTH.clockOffset, motion.se2.compose(pose, mount)));

@@ -32,8 +32,8 @@ export async function elements() {
   const { GLOBAL } = await importTypeScript('www/named.ts');
   const { classes } = await comments();
   const all = (await widgets()).map(({ tag, machine, attributes, properties }) => {
-    const told = [...attributes.map(({ property, name, ...rest }) => ({ ...rest, name: property ?? name })), ...properties];
-    const traits = told.filter(({ readonly }) => !readonly).map((each) => ({ ...each, trait: traitOf(each, tag) }));
+    const documented = [...attributes.map(({ property, name, ...rest }) => ({ ...rest, name: property ?? name })), ...properties];
+    const traits = documented.filter(({ readonly }) => !readonly).map((each) => ({ ...each, trait: traitOf(each, tag) }));
     const global = GLOBAL.map((/** @type {string} */ name) => ({ name, trait: 'Text()', description: `As the attribute \`${name}\` of HTML.` }));
     return { machine, tag, sentence: oneLine(classes.get(`${machine}Element`).description), traits: [...traits, ...global] };
   });

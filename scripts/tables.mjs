@@ -11,7 +11,7 @@ const TABLES = {
   attributes: (_, widgets) =>
     widgets
       .map(({ tag, attributes }) => {
-        const rows = attributes.map((each) => [code(each.name), valuesOf(each), proseHtml(each.told)]);
+        const rows = attributes.map((each) => [code(each.name), valuesOf(each), proseHtml(each.withoutRange)]);
         return table(tag, 'attribute', code(`<${tag}>`), ['attribute', 'values', 'description'], rows);
       })
       .join('\n\n'),

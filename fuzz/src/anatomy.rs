@@ -29,7 +29,7 @@ pub fn run(bytes: &[u8]) {
             configure(&mut machine, &mut input);
         }
     }
-    shows_sense(&machine);
+    assert_results(&machine);
     // Paths are checked rarely: they have a thousand points, each with a sine and a cosine.
     if with_paths && turn_of(4, bytes) {
         paths(&machine);
@@ -52,12 +52,12 @@ fn configure(machine: &mut ArcAnatomy, input: &mut Input) {
 }
 
 /// Asserts that all results are finite, or as documented where they are undefined.
-fn shows_sense(machine: &ArcAnatomy) {
+fn assert_results(machine: &ArcAnatomy) {
     let settings = machine.settings();
     let Stats { commanded, inverted, driven, last_turn, factors, weakest, prob, share, density, xi } =
         machine.stats();
     for (what, bend) in [("commanded", &commanded), ("inverted", &inverted), ("driven", &driven)] {
-        is_bend(what, bend);
+        assert_bend(what, bend);
     }
     laws::finite("last turn", &[last_turn]);
     laws::finite("xi", &xi);
@@ -116,7 +116,7 @@ fn paths(machine: &ArcAnatomy) {
     assert_eq!(inverted.last(), Some(&[x, y]));
 }
 
-fn is_bend(what: &str, bend: &Bend) {
+fn assert_bend(what: &str, bend: &Bend) {
     laws::finite(what, &[bend.arc_length, bend.turn]);
     laws::finite(what, &bend.end);
     assert!(!bend.radius.is_nan(), "{what}: {bend:?}");

@@ -34,13 +34,13 @@ pub fn run(bytes: &[u8]) {
         }
         call(&mut machine, &mut input);
     }
-    shows_sense(&machine);
+    assert_results(&machine);
     // Slow checks run for some inputs only.
     if with_curves {
         contours(&machine);
     }
     if with_double {
-        as_if_new(&machine);
+        assert_as_new(&machine);
     }
 }
 
@@ -106,7 +106,7 @@ fn in_blocks(machine: &mut BananaMachine, input: &mut Input) {
 }
 
 /// Asserts that a machine depends on its settings only, and not on earlier calls.
-fn as_if_new(machine: &BananaMachine) {
+fn assert_as_new(machine: &BananaMachine) {
     let mut other = BananaMachine::showing(*machine.settings(), 0).expect("allowed");
     if machine.shown() > 0 {
         other.add_samples(machine.shown());
@@ -137,7 +137,7 @@ fn numbers(machine: &BananaMachine) -> Vec<f64> {
 }
 
 /// Asserts that all results are finite, or NaN where they are undefined.
-fn shows_sense(machine: &BananaMachine) {
+fn assert_results(machine: &BananaMachine) {
     let (n, figures) = (machine.shown(), machine.figures());
     machine.poses().for_each(|pose| laws::pose("a pose", &pose));
     assert_eq!(machine.poses().len(), n);

@@ -27,7 +27,7 @@ pub fn run(bytes: &[u8]) {
         }
         call(&mut machine, &mut input);
     }
-    shows_sense(&machine);
+    assert_results(&machine);
 }
 
 /// Returns the same settings with fewer outcomes.
@@ -93,15 +93,15 @@ fn nearest(machine: &OdometryDecomposer, input: &mut Input) {
 }
 
 /// Asserts that all results are finite, or NaN without outcomes.
-fn shows_sense(machine: &OdometryDecomposer) {
+fn assert_results(machine: &OdometryDecomposer) {
     let settings = machine.settings();
     machine.poses().iter().for_each(|pose| laws::pose("an outcome", pose));
     machine.linkage().iter().for_each(|pose| laws::pose("the linkage", pose));
     laws::pose("the robot", &machine.robot());
     let Drifted { frame, from, to, legs } = machine.drifted();
     [frame, from, to].iter().for_each(|pose| laws::pose("drifted", pose));
-    are_legs("drifted legs", &legs);
-    are_legs("reading", &machine.reading());
+    assert_legs("drifted legs", &legs);
+    assert_legs("reading", &machine.reading());
 
     let Stats {
         n,
@@ -126,7 +126,7 @@ fn shows_sense(machine: &OdometryDecomposer) {
     );
 
     for figures in machine.rules() {
-        are_legs("legs", &figures.legs);
+        assert_legs("legs", &figures.legs);
         let all = [&figures.deviations[..], &[figures.cross_track, figures.heading]].concat();
         laws::finite("a rule", &all);
         assert!(all.iter().all(|figure| *figure >= 0.0), "{figures:?}");
@@ -152,7 +152,7 @@ fn shows_sense(machine: &OdometryDecomposer) {
     assert_eq!(other.poses(), machine.poses());
 }
 
-fn are_legs(what: &str, legs: &OdomDelta) {
+fn assert_legs(what: &str, legs: &OdomDelta) {
     laws::finite(what, &[legs.rot1, legs.trans, legs.rot2]);
     assert!(legs.trans >= 0.0, "{what}: {legs:?}");
 }

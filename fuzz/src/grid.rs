@@ -115,14 +115,14 @@ pub fn read(input: &mut Input) -> Option<(OccupancyGrid, Unknown)> {
         })
         .collect();
     for pixel in &pixels {
-        told(&interpretation, *pixel);
+        assert_cell(&interpretation, *pixel);
     }
     let image = Image { width, height, pixels };
     Some((OccupancyGrid::new(&image, &interpretation, resolution, SE2::new(x, y, yaw)), unknown))
 }
 
 /// Checks the cell of a pixel against the documentation of `map_server`. Within rounding of a threshold both states are right.
-fn told(interpretation: &Interpretation, pixel: Pixel) {
+fn assert_cell(interpretation: &Interpretation, pixel: Pixel) {
     let Interpretation { mode, negate, occupied_thresh, free_thresh } = *interpretation;
     let shade = f64::from(pixel.shade);
     let occupancy = if negate { shade } else { 1.0 - shade };

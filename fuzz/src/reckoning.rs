@@ -36,13 +36,13 @@ pub fn run(bytes: &[u8]) {
         }
         call(&mut machine, &few, &mut input);
     }
-    shows_sense(&machine);
+    assert_results(&machine);
     // Slow checks run for some inputs only.
     if with_straight && turn_of(8, bytes) {
         straight(&machine);
     }
     if with_double && turn_of(8, bytes) {
-        as_if_new(&machine);
+        assert_as_new(&machine);
     }
 }
 
@@ -81,9 +81,9 @@ fn configure(machine: &mut DeadReckoning, few: &dyn Fn(Settings) -> Settings, in
         machine.configure(few(settings)).expect("allowed");
         return;
     }
-    let before = told(machine);
+    let before = results(machine);
     assert!(machine.configure(settings).is_err() && machine.configure_first(settings, 0).is_err());
-    assert_eq!(told(machine), before);
+    assert_eq!(results(machine), before);
 }
 
 /// Blocks lead to what one call leads to.
@@ -100,19 +100,19 @@ fn in_blocks(machine: &mut DeadReckoning, few: &dyn Fn(Settings) -> Settings, in
     while machine.shown() < settings.samples {
         machine.add_samples(count);
     }
-    assert_eq!(told(machine), told(&other));
-    shows_sense(machine);
+    assert_eq!(results(machine), results(&other));
+    assert_results(machine);
 }
 
 /// A machine is what its settings are, whatever came before.
-fn as_if_new(machine: &DeadReckoning) {
+fn assert_as_new(machine: &DeadReckoning) {
     let mut other = DeadReckoning::showing(*machine.settings(), 0).expect("allowed");
     other.add_samples(machine.shown());
-    assert_eq!(told(&other), told(machine));
+    assert_eq!(results(&other), results(machine));
 }
 
 /// Returns all results: those of the selected step as bits, and the others as text, in which NaN equals NaN.
-fn told(machine: &DeadReckoning) -> (String, Vec<u64>) {
+fn results(machine: &DeadReckoning) -> (String, Vec<u64>) {
     let (settings, stats, measured) = (machine.settings(), machine.stats(), machine.measured());
     let outlines = machine.outlines(settings.step);
     let lines = outlines.iter().flat_map(|Outlines { ellipse, exponential, predicted, measured }| {
@@ -122,8 +122,8 @@ fn told(machine: &DeadReckoning) -> (String, Vec<u64>) {
     (format!("{settings:?} {stats:?} {measured:?}"), numbers.map(|number| number.to_bits()).collect())
 }
 
-/// Everything shown is finite, or NaN or empty where it has no meaning.
-fn shows_sense(machine: &DeadReckoning) {
+/// Asserts that all results are finite, or NaN or empty where they are undefined.
+fn assert_results(machine: &DeadReckoning) {
     let settings = machine.settings();
     let (n, steps) = (machine.shown(), settings.steps as usize);
     assert!(n <= SAMPLES && (1..=settings.steps).contains(&settings.step), "{settings:?} of {n}");
@@ -135,7 +135,7 @@ fn shows_sense(machine: &DeadReckoning) {
             laws::finite("mean", measured.mean.as_slice());
         }
         if n > 1 {
-            is_covariance("measured", &measured.cov, of_sums(measured));
+            assert_covariance("measured", &measured.cov, of_sums(measured));
         }
         for (i, error) in measured.relative_error.iter().enumerate() {
             assert!(error.is_nan() || *error >= 0.0, "{measured:?}");
@@ -160,17 +160,17 @@ fn shows_sense(machine: &DeadReckoning) {
             );
             let Some(cov) = cov else { continue };
             // Each step turns along and across into each other.
-            is_covariance("predicted", cov, |_, _| 1e-12 * cov.amax());
+            assert_covariance("predicted", cov, |_, _| 1e-12 * cov.amax());
         }
-        compared.misses.iter().for_each(|misses| are_misses(misses, steps));
+        compared.misses.iter().for_each(|misses| assert_misses(misses, steps));
     }
-    let Stats { n: told, .. } = machine.stats();
-    assert_eq!(told, n);
+    let Stats { n: counted, .. } = machine.stats();
+    assert_eq!(counted, n);
     outlines(machine, step);
 }
 
-/// Finite, symmetric, and no correlation above 1, to the rounding of what it was made of.
-fn is_covariance(what: &str, cov: &Matrix3<f64>, rounding: impl Fn(usize, usize) -> f64) {
+/// Asserts that a matrix is finite and symmetric, and has no correlation above 1, to within `rounding`.
+fn assert_covariance(what: &str, cov: &Matrix3<f64>, rounding: impl Fn(usize, usize) -> f64) {
     laws::finite(what, cov.as_slice());
     for i in 0..3 {
         assert!(cov[(i, i)] >= 0.0, "{what}: {cov:?}");
@@ -183,14 +183,14 @@ fn is_covariance(what: &str, cov: &Matrix3<f64>, rounding: impl Fn(usize, usize)
     }
 }
 
-/// Rounding error of a covariance computed as mean of products minus product of means.
+/// Returns the rounding error of a covariance computed as mean of products minus product of means.
 fn of_sums(Measured { mean, cov, .. }: &Measured) -> impl Fn(usize, usize) -> f64 + use<> {
     let [along, lateral, heading] = [0, 1, 2].map(|i| mean[i].abs() + cov[(i, i)].sqrt());
     let sizes = [along + lateral, along + lateral, heading];
     move |i, j| laws::ROUNDING * sizes[i] * sizes[j] + laws::UNDERFLOW * (sizes[i] + sizes[j])
 }
 
-fn are_misses(misses: &Misses, steps: usize) {
+fn assert_misses(misses: &Misses, steps: usize) {
     let Misses { told, first, last, end, error } = *misses;
     assert_eq!(first.is_some(), last.is_some(), "{misses:?}");
     assert!(told || first.is_none(), "{misses:?}");

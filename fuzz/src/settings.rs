@@ -46,7 +46,7 @@ fn set(setting: Setting, input: &mut Input) {
 /// Returns true if the settings are allowed, and checks the message if not.
 pub fn allowed<S: Rules>(settings: &S) -> bool {
     let Err(error) = settings.check() else {
-        holds_all(settings);
+        assert_in_range(settings);
         return true;
     };
     let SettingsError { field, value, allowed } = &error;
@@ -66,7 +66,7 @@ pub fn allowed<S: Rules>(settings: &S) -> bool {
 }
 
 /// Asserts that every number is in its range.
-fn holds_all<S: Rules>(settings: &S) {
+fn assert_in_range<S: Rules>(settings: &S) {
     let mut settings = *settings;
     let _: Result<(), ()> = settings.try_each(|declaration, setting| {
         let all_are = match setting {
@@ -74,7 +74,7 @@ fn holds_all<S: Rules>(settings: &S) {
             Setting::Whole(whole, range) => range.contains(&whole.get()),
             Setting::WholeOrNone(whole, range) => whole.is_none_or(|whole| range.contains(&(whole as u64))),
             Setting::Numbers(numbers, range) => numbers.iter().all(|number| range.contains(number)),
-            Setting::Group(group) => group_holds(group),
+            Setting::Group(group) => is_group_in_range(group),
             Setting::Truth(_) | Setting::Word(_) | Setting::Level(..) => true,
         };
         assert!(all_are, "{}", declaration.key);
@@ -82,7 +82,7 @@ fn holds_all<S: Rules>(settings: &S) {
     });
 }
 
-fn group_holds(group: &mut dyn Group) -> bool {
+fn is_group_in_range(group: &mut dyn Group) -> bool {
     let fields = group.fields().iter().enumerate();
     fields.fold(true, |all, (i, field)| all && field.allowed.contains(group.number(i)))
 }

@@ -35,7 +35,7 @@ pub fn run(bytes: &[u8]) {
         }
         call(&mut machine, &mut input);
     }
-    shows_sense(&machine);
+    assert_results(&machine);
 }
 
 /// Returns the settings with few samples. A wedged robot takes 10 000 draws, so that most settings get a sampler that checks once.
@@ -81,8 +81,8 @@ fn call(machine: &mut MapSqueeze, input: &mut Input) {
             assert!(found.is_none_or(|index| index < machine.attempts().len()));
         }
         // A new machine looks along 72 headings for an open place, which takes as long as ten other calls; so it is rare.
-        8 => as_if_new(machine),
-        _ if input.choice(64) == 1 => in_the_open(machine),
+        8 => assert_as_new(machine),
+        _ if input.choice(64) == 1 => assert_free_pose(machine),
         _ => {}
     }
 }
@@ -117,8 +117,8 @@ fn in_blocks(machine: &mut MapSqueeze, input: &mut Input) {
     assert_eq!(machine.attempts(), other.attempts());
 }
 
-/// A machine is what its settings and its map are, whatever came before.
-fn as_if_new(machine: &MapSqueeze) {
+/// Asserts that a machine depends on its settings and its map only, and not on earlier calls.
+fn assert_as_new(machine: &MapSqueeze) {
     let mut other = MapSqueeze::showing(*machine.settings(), 0).expect("allowed");
     other.set_plan(machine.plan().clone());
     other.add_samples(machine.attempts().len());
@@ -126,14 +126,15 @@ fn as_if_new(machine: &MapSqueeze) {
 }
 
 /// Asserts that the robot fits at the free pose that the machine finds.
-fn in_the_open(machine: &MapSqueeze) {
+fn assert_free_pose(machine: &MapSqueeze) {
     let Some(place) = machine.open_place() else { return };
     laws::pose("in the open", &place);
     let fits = machine.plan().point_free([place.x(), place.y()], machine.settings().clearance).free;
     assert!(fits, "{place:?}");
 }
 
-fn shows_sense(machine: &MapSqueeze) {
+/// Asserts that all results are finite and agree with each other.
+fn assert_results(machine: &MapSqueeze) {
     let (settings, stats, attempts) = (machine.settings(), machine.stats(), machine.attempts());
     assert_eq!(stats.attempts, attempts.len());
     assert!(attempts.len() <= settings.samples);
@@ -170,10 +171,10 @@ fn shows_sense(machine: &MapSqueeze) {
     if let Some(arc) = machine.arcs(0).first() {
         laws::finite("path", arc.points().as_flattened());
     }
-    plan_is_told(machine.plan());
+    assert_finite_plan(machine.plan());
 }
 
-fn plan_is_told(plan: &FloorPlan) {
+fn assert_finite_plan(plan: &FloorPlan) {
     laws::finite("bounds", &plan.bounds());
     for wall in plan.walls() {
         laws::finite("wall", &[wall.from, wall.to].concat());

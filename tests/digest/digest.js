@@ -9,7 +9,7 @@ import { presets } from '../../www/settings.js';
 
 /**
  * @typedef {import('../../www/types.d.ts').Motion} Motion
- * @typedef {number | boolean | string | null | ArrayLike<unknown> | object} Told
+ * @typedef {number | boolean | string | null | ArrayLike<unknown> | object} Encodable
  * @typedef {{ preset?: string, map?: string, bounds?: number[], settings: Record<string, any> }} Configuration
  * @typedef {object} Configurations as configurations.json has them
  * @property {{ columns: number, rows: number }} picture
@@ -18,10 +18,10 @@ import { presets } from '../../www/settings.js';
  * @property {Record<string, { bounds: number[], configurations: Record<string, Configuration> }>} widgets
  */
 
-/** Bits that replace those of every NaN, for the reason in tests/native/digest/told.rs. */
+/** Bits that replace those of every NaN, for the reason in tests/native/digest/encoding.rs. */
 const NAN = 0x7ff8_0000_0000_0000n;
 
-/** Results of the machine of each widget, by parts. @type {Record<string, (motion: Motion, all: Configurations, configuration: Configuration) => Record<string, Told>>} */
+/** Results of the machine of each widget, by parts. @type {Record<string, (motion: Motion, all: Configurations, configuration: Configuration) => Record<string, Encodable>>} */
 export const widgets = {
   'banana-machine'({ BananaMachine, commandReaching }, all, { preset, bounds = all.widgets['banana-machine'].bounds, settings }) {
     const machine = new BananaMachine({ ...commandOf(presets['banana-machine'], preset), ...settings });
@@ -33,7 +33,7 @@ export const widgets = {
     // The native digest has no error of the area ratio.
     const stats = { ...machine.stats, areaRatioError: undefined };
     delete stats.areaRatioError;
-    const told = {
+    const results = {
       poses: machine.poses,
       twists: machine.twists,
       executed: machine.executed,
@@ -51,7 +51,7 @@ export const widgets = {
       twist: pictureOf('twist'),
     };
     machine.free();
-    return told;
+    return results;
   },
 
   'map-squeeze'({ MapSqueeze }, all, { preset, map, bounds = all.widgets['map-squeeze'].bounds, settings }) {
@@ -63,7 +63,7 @@ export const widgets = {
     const { shown, startFree, openPlace, noise, stats } = machine;
     const [xMin, yMin, xMax, yMax] = bounds;
     const { columns, rows } = all.picture;
-    const told = {
+    const results = {
       map: { ...machine.plan, grid: machine.grid },
       poses: machine.poses,
       verdicts: machine.verdicts,
@@ -84,14 +84,14 @@ export const widgets = {
       picture: machine.picture(xMin, yMin, xMax, yMax, columns, rows, ramps(3)).slice(),
     };
     machine.free();
-    return told;
+    return results;
   },
 
   'arc-anatomy'({ ArcAnatomy }, all, { preset, bounds = all.widgets['arc-anatomy'].bounds, settings }) {
     const { v, omega, dt, nextX, nextY, nextTheta } = presets['arc-anatomy'].find(({ name }) => name === (preset ?? 'left')) ?? presets['arc-anatomy'][0];
     const machine = new ArcAnatomy({ command: { v, omega, dt }, next: { x: nextX, y: nextY, theta: nextTheta }, ...settings });
     const [xMin, yMin, xMax, yMax] = bounds;
-    const told = {
+    const results = {
       statistics: machine.stats,
       table: machine.table,
       paths: { ...machine.paths, underway: [0, 0.3, 1].map((share) => machine.underway(share)) },
@@ -99,14 +99,14 @@ export const widgets = {
       forms: ArcAnatomy.formErrors(),
     };
     machine.free();
-    return told;
+    return results;
   },
 
   'dead-reckoning'({ DeadReckoning }, _, { preset, settings }) {
     const { command, steps, alphas } = presets['dead-reckoning'].find(({ name }) => name === preset) ?? {};
     const machine = new DeadReckoning({ command, steps, alphas: alphas ?? undefined, ...settings });
     const { shown, config, headingNoise, stats } = machine;
-    const told = {
+    const results = {
       statistics: { shown, headingNoise, stats },
       steps: {
         ratios: machine.ratios, predicted: machine.predicted, measured: machine.measured, relativeErrors: machine.relativeErrors,
@@ -121,14 +121,14 @@ export const widgets = {
       straight: machine.straightGrowth,
     };
     machine.free();
-    return told;
+    return results;
   },
 
   'alpha-calibrator'({ AlphaCalibrator }, _, { settings }) {
     const machine = new AlphaCalibrator(settings);
     const { stats: { alphas, intervals, systematicErrors, referenceNoise, persistence, logLikelihood, diagnostics, recommended }, legs, truth } = machine;
     const { checks, windows } = diagnostics;
-    const told = {
+    const results = {
       alphas: { alphas, intervals, logLikelihood },
       systematic: Object.values(systematicErrors),
       noise: { stds: Object.values(referenceNoise), persistence },
@@ -151,14 +151,14 @@ export const widgets = {
     if (count > 1) machine.setLog(poses(odometry), poses(reference));
     const log = [machine.fits, machine.stats.alphas, machine.stats.intervals];
     machine.free();
-    return { ...told, log };
+    return { ...results, log };
   },
 
   'odometry-decomposer'({ OdometryDecomposer }, _, { preset, settings }) {
     const { from, to } = presets['odometry-decomposer'].find(({ name }) => name === preset) ?? {};
     const machine = new OdometryDecomposer({ from, to, ...settings });
     const { shown, stats, poses, linkage, robot, rules, drifted } = machine;
-    const told = {
+    const results = {
       poses,
       linkages: { linkage, ghosts: machine.ghosts(9), robot },
       rules: rules.map(({ legs, deviations, crossTrack, heading }) => ({ legs, deviations, crossTrack, heading })),
@@ -167,7 +167,7 @@ export const widgets = {
       drifted,
     };
     machine.free();
-    return told;
+    return results;
   },
 };
 
@@ -198,29 +198,29 @@ const ramps = (count) => Uint8Array.from({ length: 1024 * count }, (_, at) => {
 const isList = (value) => Array.isArray(value) || ArrayBuffer.isView(value);
 
 /**
- * @param {Told} value
+ * @param {Encodable} value
  * @param {number[]} numbers that it is added to: of a list its length and its items, of a word those of its letters, of an
  *   object its values in their order, NaN where there is nothing
  */
-function tell(value, numbers) {
+function encode(value, numbers) {
   if (value === null) numbers.push(NaN);
   else if (typeof value === 'number' || typeof value === 'boolean') numbers.push(Number(value));
-  else if (typeof value === 'string') tell(Uint16Array.from(value, (_, i) => value.charCodeAt(i)), numbers);
-  else if (typeof value !== 'object') throw new TypeError(`${typeof value} is nothing to be told.`);
+  else if (typeof value === 'string') encode(Uint16Array.from(value, (_, i) => value.charCodeAt(i)), numbers);
+  else if (typeof value !== 'object') throw new TypeError(`${typeof value} cannot be encoded.`);
   else if (isList(value)) {
     numbers.push(value.length);
-    for (let i = 0; i < value.length; i++) tell(/** @type {any} */ (value)[i], numbers);
-  } else for (const each of Object.values(value)) tell(each, numbers);
+    for (let i = 0; i < value.length; i++) encode(/** @type {any} */ (value)[i], numbers);
+  } else for (const each of Object.values(value)) encode(each, numbers);
 }
 
 /**
- * @param {Told} value
+ * @param {Encodable} value
  * @returns {Promise<string>} a hash of every bit of it
  */
 export async function hashOf(value) {
   /** @type {number[]} */
   const numbers = [];
-  tell(value, numbers);
+  encode(value, numbers);
   const view = new DataView(new ArrayBuffer(8 * numbers.length));
   numbers.forEach((number, i) => {
     if (Number.isNaN(number)) view.setBigUint64(8 * i, NAN, true);

@@ -13,7 +13,7 @@ test.use(STILL);
 const open = (page, attributes) => mount(page, 'arc-anatomy', { attributes });
 
 /** @param {Locator} widget */
-async function told(widget) {
+async function resultsOf(widget) {
   await frames(widget.page());
   return widget.evaluate((element) => {
     const { config, stats, table } = /** @type {ArcAnatomyElement} */ (element).machine;
@@ -28,7 +28,7 @@ const verdict = (/** @type {Locator} */ widget) => widget.locator('.verdict');
 
 test('opens off the arc, and says which factor is the worst', async ({ page }) => {
   const widget = await open(page);
-  const { config, stats } = await told(widget);
+  const { config, stats } = await resultsOf(widget);
   expect(config).toMatchObject({ start: { x: 0, y: 0, theta: 0 }, next: { x: 1.1, y: 0.5, theta: 1.1 }, command: { v: 1, omega: 0.5, dt: 1 } });
   await expect(widget.getByRole('button', { name: 'Left turn' })).toHaveAttribute('aria-pressed', 'true');
   await expect(verdict(widget)).toContainText('The last turn γ̂ fits worst: 2.2 standard deviations off');
@@ -60,7 +60,7 @@ test('the robot is dragged and turned by its handles, under the pointer', async 
   expect(Math.abs(at.x - from.x + 60)).toBeLessThan(1);
   expect(Math.abs(at.y - from.y - 30)).toBeLessThan(1);
   await page.mouse.up();
-  const moved = await told(widget);
+  const moved = await resultsOf(widget);
   expect(moved.config.next.x).toBeLessThan(1.1);
   expect(moved.config.next.y).toBeLessThan(0.5);
   expect(moved.config.next.theta).toBe(1.1);
@@ -71,7 +71,7 @@ test('the robot is dragged and turned by its handles, under the pointer', async 
   await page.mouse.down();
   await page.mouse.move(centre.x + 80, centre.y, { steps: 5 });
   await page.mouse.up();
-  const turned = await told(widget);
+  const turned = await resultsOf(widget);
   expect(Math.abs(turned.config.next.theta)).toBeLessThan(1 / 80);
   expect(turned.stats.driven).toEqual(moved.stats.driven);
   expect(turned.stats.lastTurn).not.toBe(moved.stats.lastTurn);
@@ -82,26 +82,26 @@ test('the robot moves and turns by keyboard, and stops where the floor ends', as
   const widget = await open(page, 'nextx="3.98"');
   await body(widget).press('ArrowUp');
   await body(widget).press('[');
-  expect((await told(widget)).config.next).toEqual({ x: 3.98, y: 0.55, theta: 1.1 + Math.PI / 36 });
+  expect((await resultsOf(widget)).config.next).toEqual({ x: 3.98, y: 0.55, theta: 1.1 + Math.PI / 36 });
   await body(widget).press('ArrowRight');
-  expect((await told(widget)).config.next.x).toBe(4);
+  expect((await resultsOf(widget)).config.next.x).toBe(4);
   await expect(body(widget)).toHaveAttribute('aria-valuetext', /Limit reached$/);
 });
 
 test('the start moves and turns, the commanded arc with it, and the robot stays where it is found', async ({ page }) => {
   const widget = await open(page);
   const [start, ahead] = ['Start', 'Heading at the start'].map((name) => widget.getByRole('slider', { name, exact: true }));
-  const before = await told(widget);
+  const before = await resultsOf(widget);
   await start.press('ArrowRight');
   await start.press('ArrowDown');
-  const moved = await told(widget);
+  const moved = await resultsOf(widget);
   expect(moved.config.start).toEqual({ x: 0.05, y: -0.05, theta: 0 });
   expect(moved.config.next).toEqual(before.config.next);
   const [endX, endY, endTheta] = before.stats.commanded.end;
   for (const [i, value] of [endX + 0.05, endY - 0.05, endTheta].entries()) expect(moved.stats.commanded.end[i]).toBeCloseTo(value, 12);
   await expect(widget).toHaveAttribute('startx', '0.05');
   await ahead.press('ArrowLeft');
-  expect((await told(widget)).config.start.theta).toBe(Math.PI / 36);
+  expect((await resultsOf(widget)).config.start.theta).toBe(Math.PI / 36);
 });
 
 test('a centre out of sight is pointed to, with its distance @nightly', async ({ page }) => {
@@ -137,7 +137,7 @@ test('each line of the table highlights its construction, and tells its value', 
   const [back, on] = ['Previous line', 'Next line'].map((name) => widget.getByTitle(name));
   const sentence = widget.locator('.stepper p');
   await expect(back).toBeDisabled();
-  const { lines } = (await told(widget)).table;
+  const { lines } = (await resultsOf(widget)).table;
   const pictures = [await pictureOf(picture(widget))];
   for (const [i, value] of lines.entries()) {
     await on.click();
@@ -202,7 +202,7 @@ test('a robot is drawn on each arc at the time that is chosen @nightly', async (
 
 test('the factors are exported as CSV', async ({ page }) => {
   const widget = await open(page);
-  const { stats } = await told(widget);
+  const { stats } = await resultsOf(widget);
   const [settings, columns, ...rows] = (await widget.evaluate((element) => /** @type {ArcAnatomyElement} */ (element).toCSV())).trim().split('\n');
   expect(JSON.parse(settings.slice(2))).toMatchObject({ element: 'arc-anatomy', next: { x: 1.1, y: 0.5, theta: 1.1 } });
   expect(columns).toBe('estimate,residual,standard_deviation,residual_over_deviation,prob,share_of_peak');

@@ -10,7 +10,7 @@ test.use(STILL);
 const open = (page, attributes) => mount(page, 'odometry-decomposer', { attributes });
 
 /** @param {Locator} widget */
-async function told(widget) {
+async function resultsOf(widget) {
   await frames(widget.page());
   return widget.evaluate((element) => {
     const { config, stats, shown, poses, robot, drifted } = /** @type {DecomposerElement} */ (element).machine;
@@ -54,13 +54,13 @@ test('the scale of the legs depends on the size of the window alone @nightly', a
 
 test('opens on Reverse, and presets set the reading', async ({ page }) => {
   const widget = await open(page);
-  const { config, shown } = await told(widget);
+  const { config, shown } = await resultsOf(widget);
   expect(shown).toBe(config.samples);
   await expect(widget).toHaveJSProperty('preset', 'reverse');
   await expect(widget.locator('[part=caption]')).toContainText('two rotations beyond π/2');
   await expect(readout(widget, 'standard deviation across the path')).toHaveText('± 0.626 m');
   await widget.getByRole('button', { name: 'Turn, drive, turn' }).click();
-  const forward = await told(widget);
+  const forward = await resultsOf(widget);
   expect(forward.config).toEqual({ ...config, to: { x: 1.2, y: 1, theta: 1.2 } });
   await expect(widget).toHaveJSProperty('preset', 'all');
   await expect(widget).toHaveAttribute('tox', '1.2');
@@ -68,16 +68,16 @@ test('opens on Reverse, and presets set the reading', async ({ page }) => {
 
 test('the later pose moves by its body and turns by its heading', async ({ page }) => {
   const widget = await open(page);
-  const before = await told(widget);
+  const before = await resultsOf(widget);
   const pixels = await pictureOf(widget.locator('canvas.plane'));
   await slider(widget, 'Odometry after').press('ArrowRight');
-  const moved = await told(widget);
+  const moved = await resultsOf(widget);
   expect(moved.config.to).toEqual({ ...before.config.to, x: expect.closeTo(before.config.to.x + 0.05, 12) });
   expect(moved.config.from).toEqual(before.config.from);
   expect(await pictureOf(widget.locator('canvas.plane'))).not.toBe(pixels);
   await expect(widget).toHaveJSProperty('preset', null);
   await slider(widget, 'Heading after').press('ArrowLeft');
-  const turned = await told(widget);
+  const turned = await resultsOf(widget);
   expect(turned.config.to.theta - moved.config.to.theta).toBeCloseTo(Math.PI / 36, 12);
 });
 
@@ -90,9 +90,9 @@ test('a rule is chosen in the table, which has the deviations of each rule', asy
   // Cells that differ from the printed table are marked.
   await expect(row('Table 5.6').locator('strong')).toHaveCount(0);
   await expect(row('AMCL of Nav2').locator('strong')).toHaveText(['0.131', '0.130', '0.126', '0.161', '0.182']);
-  const before = await told(widget);
+  const before = await resultsOf(widget);
   await widget.getByRole('radio', { name: 'AMCL of Nav2' }).check();
-  const after = await told(widget);
+  const after = await resultsOf(widget);
   expect(after.config).toEqual({ ...before.config, rule: 'nav2' });
   expect(after.stats.exactCrossTrack).toBeLessThan(before.stats.exactCrossTrack / 3);
   await expect(widget.locator('p[role=status]')).toContainText('The first rotation has the long lever');
@@ -116,11 +116,11 @@ test('on paper every rule has its name, and the chosen one stands out @nightly',
 
 test('the frame drifts, and no outcome moves', async ({ page }) => {
   const widget = await open(page);
-  const before = await told(widget);
+  const before = await resultsOf(widget);
   const legs = await pictureOf(widget.locator('canvas.plane'));
   const world = await pictureOf(widget.locator('canvas.world'));
   await slider(widget, 'drift time').press('End');
-  const after = await told(widget);
+  const after = await resultsOf(widget);
   expect(after.config.drift).toBe(120);
   expect(after.drifted).not.toEqual(before.drifted);
   expect(after.poses).toEqual(before.poses);
@@ -145,7 +145,7 @@ test('the path is scrubbed, and is played to its end and again from its beginnin
   // Readers who prefer reduced motion have no button.
   await expect(widget.locator('.playable button')).toHaveCount(0);
   await slider(widget, 'progress of the motion').press('Home');
-  const { robot, config } = await told(widget);
+  const { robot, config } = await resultsOf(widget);
   expect(robot).toEqual(config.from);
   await page.emulateMedia({ reducedMotion: 'no-preference' });
   const other = await open(page, 'phase="2.8"');
@@ -159,8 +159,8 @@ test('the path is scrubbed, and is played to its end and again from its beginnin
   expect(beginning[0]).toBe(0);
   expect(beginning[2]).toBeGreaterThan(beginning[1]);
   await expect(play).toHaveText('Play the motion');
-  const { config: { phase } } = await told(other);
+  const { config: { phase } } = await resultsOf(other);
   expect(phase).toBe(beginning[2]);
   await frames(page);
-  expect((await told(other)).config.phase).toBe(phase);
+  expect((await resultsOf(other)).config.phase).toBe(phase);
 });

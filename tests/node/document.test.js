@@ -22,11 +22,11 @@ const LIMITS = [
 ];
 
 test('doc/model.md and doc/statistics.md have the limits of the pages', () => {
-  const told = `${read('doc/model.md')}${read('doc/statistics.md')}`.replace(/\s+/g, ' ');
+  const documents = `${read('doc/model.md')}${read('doc/statistics.md')}`.replace(/\s+/g, ' ');
   for (const [file, name, sentence] of LIMITS) {
     const [, set] = read(file).match(new RegExp(`const ${name} = ([\\d._]+);`)) ?? [];
     assert.ok(set, `${name} of ${file}`);
-    assert.equal(told.match(sentence)?.[1], set, `${name} of ${file}`);
+    assert.equal(documents.match(sentence)?.[1], set, `${name} of ${file}`);
   }
 });
 
@@ -46,12 +46,12 @@ test('README of the example log has its true parameters', () => {
 });
 
 test('doc/reliability.md names files and commands that are there', () => {
-  const told = read('doc/reliability.md');
+  const document = read('doc/reliability.md');
   const { scripts } = JSON.parse(read('package.json'));
-  const commands = [...told.matchAll(/`npm run ([\w:]+)/g)].map(([, name]) => name);
+  const commands = [...document.matchAll(/`npm run ([\w:]+)/g)].map(([, name]) => name);
   assert.ok(commands.length >= 4, commands.join(', '));
   for (const name of commands) assert.ok(Object.hasOwn(scripts, name), name);
-  const files = [...told.matchAll(/`((?:tests|src|scripts|fuzz|www)\/[\w./-]*)`/g)].map(([, path]) => path);
+  const files = [...document.matchAll(/`((?:tests|src|scripts|fuzz|www)\/[\w./-]*)`/g)].map(([, path]) => path);
   assert.ok(files.length > 15, files.join(', '));
   for (const path of files) assert.ok(existsSync(new URL(`../../${path}`, import.meta.url)), path);
 });

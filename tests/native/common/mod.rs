@@ -2,7 +2,7 @@
 
 pub mod density;
 pub mod distance;
-pub mod told;
+pub mod text;
 
 use motion::NoiseKind;
 use motion::geom::se2::{SE2, wrap_angle};

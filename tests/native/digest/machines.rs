@@ -1,7 +1,7 @@
 //! Digested values of each machine, in the order of digest.js.
 
 use super::configuration::{Configuration, number, numbers, ramp};
-use super::told::Part;
+use super::encoding::Part;
 use motion::calibrate::{Estimate, Recommended, SystematicError};
 use motion::geom::se2::SE2;
 use motion::geom::segment::Segment;
@@ -87,7 +87,7 @@ pub fn map_squeeze(configuration: &Configuration) -> Vec<Part> {
             .map(|kind| grid.cells().map(|cell| cell == kind).collect::<Vec<_>>());
         (columns, rows, grid.resolution(), coordinates(grid.origin()), occupied, unknown)
     });
-    let told = (
+    let statistics = (
         (stats.attempts, stats.drawn, stats.accepted, stats.acceptance_rate),
         (stats.through_wall, stats.through_wall_rate, stats.through_wall_interval),
         (stats.draws_per_accepted, stats.wall_tests_per_accepted, stats.gave_up),
@@ -96,7 +96,10 @@ pub fn map_squeeze(configuration: &Configuration) -> Vec<Part> {
         Part::new("map", (plan.bounds(), flat(walls.as_flattened()), grid)),
         Part::new("poses", attempts.iter().flat_map(|each| coordinates(each.pose)).collect::<Vec<_>>()),
         Part::new("verdicts", attempts.iter().map(Attempt::verdict).collect::<Vec<_>>()),
-        Part::new("statistics", (attempts.len(), machine.start_free(), machine.open_place(), noise, told)),
+        Part::new(
+            "statistics",
+            (attempts.len(), machine.start_free(), machine.open_place(), noise, statistics),
+        ),
         Part::new("picture", flat(machine.paint(&configuration.grid(), &[0, 1, 2].map(ramp)))),
     ]
 }
@@ -123,10 +126,11 @@ pub fn dead_reckoning(configuration: &Configuration) -> Vec<Part> {
     let misses = [stats.misses.chapter, stats.misses.first_order, stats.misses.fourth_order]
         .map(|along| along.map(|Misses { told, first, last, end, error }| (told, first, last, end, error)));
     let predictions = (stats.predicted.chapter, stats.predicted.first_order, stats.predicted.fourth_order);
-    let told = (stats.n, (stats.measured.mean, stats.measured.cov), predictions, <(_, _, _)>::from(misses));
+    let statistics =
+        (stats.n, (stats.measured.mean, stats.measured.cov), predictions, <(_, _, _)>::from(misses));
     let outlines = machine.outlines(settings.step).expect("a step");
     vec![
-        Part::new("statistics", (machine.shown(), settings.heading_noise(), told)),
+        Part::new("statistics", (machine.shown(), settings.heading_noise(), statistics)),
         Part::new("steps", (ratios, predicted, measured, errors)),
         Part::new(
             "poses",

@@ -1,12 +1,12 @@
 //! Same seed, same bits: poses, statistics, outlines, pixels and fits of many configurations, to the last bit, against golden.txt.
-//! digest.js compares everything that all machines of the JavaScript face tell, in Node and in browsers.
+//! digest.js compares all results of all machines of the JavaScript interface, in Node and in browsers.
 
 mod configuration;
+mod encoding;
 mod machines;
-mod told;
 
+use encoding::{Part, hex};
 use sha2::{Digest, Sha256};
-use told::{Part, hex};
 
 const DIRECTORY: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/digest");
 
@@ -46,9 +46,9 @@ fn the_changelog_names_the_digest() {
     let changelog =
         std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/CHANGELOG.md")).expect("a changelog");
     // The newest digest comes first.
-    let told = changelog.split(|c: char| !c.is_ascii_hexdigit()).find(|word| word.len() == digest.len());
+    let printed = changelog.split(|c: char| !c.is_ascii_hexdigit()).find(|word| word.len() == digest.len());
     assert_eq!(
-        told,
+        printed,
         Some(digest.as_str()),
         "a line under the newest heading of CHANGELOG.md has to say what changed, and that the digest is now {digest}"
     );

@@ -1,7 +1,7 @@
 //! Numbers of Arc Anatomy on the page, compared with computed ones.
 
 use super::page;
-use crate::common::told::Number;
+use crate::common::text::Number;
 use crate::simulations::arc_anatomy::{preset, stats};
 use motion::sim::arc_anatomy::{ArcAnatomy, FinalPose, Mapped, Settings, Stats};
 

@@ -1,14 +1,14 @@
 //! Numbers of the Banana Machine on the page and in doc/statistics.md, compared with computed ones.
 
 use super::page;
-use crate::common::told::{Number, Told};
+use crate::common::text::{Number, Text};
 use crate::common::{SIGMAS, preset, winds_around};
 use crate::simulations::banana::machine;
 use motion::VelocityCmd;
 use motion::sim::banana::{BananaMachine, ModelKind, Settings};
 
-fn document() -> Told {
-    Told::in_document(include_str!("../../../doc/statistics.md"))
+fn document() -> Text {
+    Text::in_document(include_str!("../../../doc/statistics.md"))
 }
 
 #[test]
@@ -21,9 +21,13 @@ fn the_presets_are_those_in_the_document() {
         ("banana", "Banana"),
         ("worked", "Worked example"),
     ] {
-        let told: [Number; 9] = document().numbers(&format!("| {label} | #, #, # | #, #, #, #, #, # |"));
+        let printed: [Number; 9] = document().numbers(&format!("| {label} | #, #, # | #, #, #, #, #, # |"));
         let Settings { command: c, velocity_alphas: [a1, a2, a3, a4, a5, a6], .. } = preset(name);
-        assert_eq!(told.map(|number| number.value), [c.v, c.omega, c.dt, a1, a2, a3, a4, a5, a6], "{name}");
+        assert_eq!(
+            printed.map(|number| number.value),
+            [c.v, c.omega, c.dt, a1, a2, a3, a4, a5, a6],
+            "{name}"
+        );
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::page;
 use crate::common::SIGMAS;
-use crate::common::told::{Number, Told};
+use crate::common::text::{Number, Text};
 use crate::simulations::dead_reckoning::machine;
 use motion::Compounding;
 use motion::sim::dead_reckoning::{DeadReckoning, PRESETS, Settings, TOLERANCE};
@@ -27,11 +27,11 @@ fn off(ratios: &[f64]) -> Vec<usize> {
 #[test]
 fn the_six_per_cent_and_the_lateral_miss_are_those_of_the_machine() {
     let opening = machine(Settings::default());
-    let [told]: [Number; 1] =
+    let [printed]: [Number; 1] =
         page().numbers("what its own loses by the end: # % of the variance along the track");
     let compared = opening.compared(Compounding::Chapter);
-    told.assert_percent(-compared.misses[0].end, 0.0);
-    told.assert_percent(1.0 - exact(&opening, Compounding::Chapter, 0)[19], 0.0);
+    printed.assert_percent(-compared.misses[0].end, 0.0);
+    printed.assert_percent(1.0 - exact(&opening, Compounding::Chapter, 0)[19], 0.0);
     let [along, lateral]: [Number; 2] = page().numbers(
         "After the chapter’s 20 steps the variance along the track is # % below that of 50\u{202f}000 robots. Across the track \
          it is 0 after step 1, and # % too small at the end.",
@@ -65,7 +65,7 @@ fn the_six_per_cent_and_the_lateral_miss_are_those_of_the_machine() {
 /// larger one if the tails are heavy.
 #[test]
 fn ratios_and_crossings_are_those_of_exercise_7() {
-    let document = Told::in_document(include_str!("../../../doc/exercises.md"));
+    let document = Text::in_document(include_str!("../../../doc/exercises.md"));
     let machines = ["chapter", "doubled"].map(preset);
     for k in [1, 2, 5, 10, 20] {
         let of = |order| [0, 1, 2].map(|axis| exact(&machines[0], order, axis)[k - 1]);
@@ -105,7 +105,7 @@ fn the_crossing_times_are_those_of_exercise_2() {
     let alphas = [0.02, 0.02, h, h, h / 4.0, h / 4.0];
     let doubled = machine(Settings { alphas, samples: 1, ..Settings::default() });
     let times = [&growth, &doubled.straight_growth()].map(|growth| growth.crossing.expect("a crossing"));
-    let exercises = Told::in_document(include_str!("../../../doc/exercises.md"));
+    let exercises = Text::in_document(include_str!("../../../doc/exercises.md"));
     page().assert("along the track with the power #, across it with the power #. They cross", powers);
     exercises.assert("grows with the power # of Δt, across it with #. ", powers);
     page().assert("They cross after # s; with the heading σ doubled, after # s.", times);

@@ -1,6 +1,6 @@
 //! Numbers of doc/exercises.md, compared with computed ones; those of exercises 2 and 7 are in `dead_reckoning.rs`.
 
-use crate::common::told::{Number, Told};
+use crate::common::text::{Number, Text};
 use crate::common::{derivative, preset, seeded, unit_cdf};
 use motion::geom::arc::Arc;
 use motion::geom::se2::SE2;
@@ -13,8 +13,8 @@ use motion::{
 };
 use std::f64::consts::PI;
 
-fn document() -> Told {
-    Told::in_document(include_str!("../../../doc/exercises.md"))
+fn document() -> Text {
+    Text::in_document(include_str!("../../../doc/exercises.md"))
 }
 
 const U: VelocityCmd = VelocityCmd { v: 1.0, omega: 0.5, dt: 1.0 };
@@ -73,12 +73,12 @@ fn exercise_3_the_unpaid_jacobian() {
     let model = velocity([0.02, 0.02, 0.02, 0.02, 0.01, 0.01]);
     let x = SE2::identity();
     let end = x.boxplus(TangentNoiseModel::twist(&U));
-    let [told]: [Number; 1] =
+    let [printed]: [Number; 1] =
         document().numbers("At the noise-free end of the worked example's command it is #, and");
     let deviations = model.variances(&U).map(|variance| variance.0.sqrt());
     let by_noises = derivative([0.0; 3], |unit| model.apply_noise(&U, &x, unit));
     let determinant = by_noises.determinant() / deviations.iter().product::<f64>();
-    told.assert(determinant, 0.0);
+    printed.assert(determinant, 0.0);
     let ratio = model.prob(&end, &U, &x) / model.pose_density(&end, &U, &x).expect("noise of full rank");
     assert!((ratio / determinant - 1.0).abs() < 1e-8, "{ratio} {determinant}");
 
@@ -137,10 +137,10 @@ fn exercise_5_poses_through_walls() {
     };
     let stats = |settings| MapSqueeze::new(settings).expect("valid settings").stats();
     for n in ["0.02", "0.05", "0.12", "0.4"] {
-        let told: [Number; 5] = document().numbers(&format!("| {n} | # | # | # | # | # |"));
-        for (told, omega) in told.into_iter().zip([0.0, 0.2, 0.4, 0.6, 0.8]) {
+        let printed: [Number; 5] = document().numbers(&format!("| {n} | # | # | # | # | # |"));
+        for (printed, omega) in printed.into_iter().zip([0.0, 0.2, 0.4, 0.6, 0.8]) {
             let settings = settings(n.parse().expect("a number"), omega, Sampler::Endpoint);
-            told.assert_percent(stats(settings).through_wall_rate, 0.0);
+            printed.assert_percent(stats(settings).through_wall_rate, 0.0);
         }
     }
     document().says("Noise alone, up to 0.4, never gets it to 40 %.");
@@ -184,10 +184,11 @@ fn exercise_6_the_triangular_sampler() {
     assert!(
         poses(NoiseKind::Triangular).all(|pose| (pose.theta() - 0.5).abs() <= bound.value + bound.rounding)
     );
-    let told: [Number; 2] = document().numbers("the skew is # with normal noise and # with triangular noise");
-    for (told, noise) in told.into_iter().zip([NoiseKind::Normal, NoiseKind::Triangular]) {
+    let printed: [Number; 2] =
+        document().numbers("the skew is # with normal noise and # with triangular noise");
+    for (printed, noise) in printed.into_iter().zip([NoiseKind::Normal, NoiseKind::Triangular]) {
         let machine =
             BananaMachine::new(Settings { noise, samples: 10, ..preset("worked") }).expect("valid settings");
-        told.assert(machine.table().exact.cross_track_skew, 0.0);
+        printed.assert(machine.table().exact.cross_track_skew, 0.0);
     }
 }

@@ -7,9 +7,9 @@ mod exercises;
 mod odometry_decomposer;
 mod squeeze;
 
-use crate::common::told::Told;
+use crate::common::text::Text;
 
 /// Returns the words of the page.
-fn page() -> Told {
-    Told::on_page(include_str!("../../../www/index.html"))
+fn page() -> Text {
+    Text::on_page(include_str!("../../../www/index.html"))
 }

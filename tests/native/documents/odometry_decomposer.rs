@@ -1,13 +1,13 @@
 //! Numbers of the Odometry Decomposer on the page and of the rules in doc/model.md, compared with computed ones.
 
 use super::page;
-use crate::common::told::Told;
+use crate::common::text::Text;
 use crate::simulations::odometry_decomposer::{machine, of_preset};
 use motion::models::OdometryRule::{self, Beluga, Nav2, Omni, Table};
 use motion::sim::odometry_decomposer::{OdometryPose, RuleFigures, Settings};
 
-fn document() -> Told {
-    Told::in_document(include_str!("../../../doc/model.md"))
+fn document() -> Text {
+    Text::in_document(include_str!("../../../doc/model.md"))
 }
 
 fn figures(settings: Settings, rule: OdometryRule) -> RuleFigures {

@@ -1,7 +1,7 @@
 //! Fractions of Map Squeeze on the page and in doc/model.md, compared with computed ones.
 
 use super::page;
-use crate::common::told::{Number, Told};
+use crate::common::text::{Number, Text};
 use crate::common::{SIGMAS, seeded};
 use motion::geom::arc::Arc;
 use motion::geom::se2::SE2;
@@ -41,12 +41,12 @@ fn in_parts(place: usize, parts: u32, omega: f64) -> (f64, f64) {
 }
 
 /// Asserts that a printed percentage equals a computed fraction.
-fn assert_told((share, error): (f64, f64), told: Number) {
-    told.assert_percent(share, SIGMAS * error);
+fn assert_printed((share, error): (f64, f64), printed: Number) {
+    printed.assert_percent(share, SIGMAS * error);
 }
 
-fn document() -> Told {
-    Told::in_document(include_str!("../../../doc/model.md"))
+fn document() -> Text {
+    Text::in_document(include_str!("../../../doc/model.md"))
 }
 
 /// Asserts that one fraction is less than the other, beyond the standard errors of both.
@@ -60,7 +60,7 @@ fn most_accepted_samples_lie_behind_the_wall() {
         "Drive at a wall # % of what is accepted went through a wall, where the robot could never have gone. Test the \
          whole arc, and only what stopped short of the wall is left.",
     );
-    assert_told(through(settings(WALL, Sampler::Endpoint, 0.0)), share);
+    assert_printed(through(settings(WALL, Sampler::Endpoint, 0.0)), share);
     let behind = |sampler| {
         let machine = machine(settings(WALL, sampler, 0.0));
         let accepted: Vec<f64> =
@@ -77,34 +77,36 @@ fn a_third_of_the_accepted_motions_went_through_a_wall_at_the_doorway() {
     let [noise, share] =
         page().numbers("straight ahead at noise level #, # % of the accepted motions went through a wall.");
     assert_eq!(Settings::default().alphas, alphas_of_noise(noise.value));
-    assert_told(through(settings(DOORWAY, Sampler::Endpoint, 0.0)), share);
+    assert_printed(through(settings(DOORWAY, Sampler::Endpoint, 0.0)), share);
 }
 
 #[test]
 #[ignore = "nightly: 30 clouds of 100,000"]
 fn shares_through_walls_by_substeps_are_those_in_the_documents() {
-    let told = document().numbers(
+    let printed = document().numbers(
         "On a straight command it falls with k: to # % at k = 16 facing the doorway, and to # % in the corridor.",
     );
-    for (place, told) in [DOORWAY, CORRIDOR].into_iter().zip::<[Number; 2]>(told) {
-        assert_told(in_parts(place, 16, 0.0), told);
+    for (place, printed) in [DOORWAY, CORRIDOR].into_iter().zip::<[Number; 2]>(printed) {
+        assert_printed(in_parts(place, 16, 0.0), printed);
         assert!(in_parts(place, 64, 0.0).0 < 1e-3, "nearly nothing at the end of the slider");
     }
     let [omega, on_page, at_worst, worst] = page().numbers(
         "With ω = # more pass at first, from # % by the endpoint test to # % in # parts, and only then fewer.",
     );
-    assert_told(through(settings(DOORWAY, Sampler::Endpoint, omega.value)), on_page);
-    assert_told(in_parts(DOORWAY, worst.value as u32, omega.value), at_worst);
+    assert_printed(through(settings(DOORWAY, Sampler::Endpoint, omega.value)), on_page);
+    assert_printed(in_parts(DOORWAY, worst.value as u32, omega.value), at_worst);
     let [d1, d4, d6, d8, d16, c1, c4, c6, c8, c12] = document().numbers(
         "At the doorway it is # % at k = 1, # % at 4, # % at 6, # % at 8, and # % at 16. In the corridor it rises from # % \
          over # and # % to # % at k = 8, and falls to # % at 12.",
     );
-    for (place, endpoint, told) in [
+    for (place, endpoint, printed) in [
         (DOORWAY, d1, [(4, d4), (6, d6), (8, d8), (16, d16)]),
         (CORRIDOR, c1, [(4, c4), (6, c6), (8, c8), (12, c12)]),
     ] {
-        assert_told(through(settings(place, Sampler::Endpoint, omega.value)), endpoint);
-        told.into_iter().for_each(|(parts, share)| assert_told(in_parts(place, parts, omega.value), share));
+        assert_printed(through(settings(place, Sampler::Endpoint, omega.value)), endpoint);
+        printed
+            .into_iter()
+            .for_each(|(parts, share)| assert_printed(in_parts(place, parts, omega.value), share));
     }
 }
 
@@ -117,13 +119,13 @@ fn more_substeps_facing_the_wall_send_more_samples_through_it() {
         "it rises from # % at k = 1 to # %, # % and # % at k = 2, 4 and 8. From k = # on, so few parts reach across that \
          the widget gives up.",
     );
-    assert_told(through(settings(WALL, Sampler::Endpoint, 0.0)), one);
-    shares.into_iter().zip([two, four, eight]).for_each(|(share, told)| assert_told(share, told));
+    assert_printed(through(settings(WALL, Sampler::Endpoint, 0.0)), one);
+    shares.into_iter().zip([two, four, eight]).for_each(|(share, printed)| assert_printed(share, printed));
     let [from, to, at_two, at_eight] =
         page().numbers("go from # parts to #. The share through the wall rises, from # % to # %:");
     assert_eq!((from.value, to.value), (2.0, 8.0));
-    assert_told(shares[0], at_two);
-    assert_told(shares[2], at_eight);
+    assert_printed(shares[0], at_two);
+    assert_printed(shares[2], at_eight);
     page().says(
         "From 16 parts on hardly one is long enough to jump, and the robot stands wedged before the wall.",
     );

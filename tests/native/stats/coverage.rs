@@ -1,6 +1,6 @@
 //! Coverage of the reported errors and intervals over thousands of seeds.
 
-use crate::common::told::Told;
+use crate::common::text::Text;
 use crate::common::{SIGMAS, preset};
 use motion::geom::se2::SE2;
 use motion::map::{FloorPlan, MapConditioned, Sampler};
@@ -79,8 +79,8 @@ fn errors_of_the_finest_banana_as_it_opens() {
 #[test]
 #[ignore = "nightly: thousands of clouds"]
 fn small_clouds_hold_the_exact_skew_as_often_as_told() {
-    let told = Told::in_document(include_str!("../../../doc/statistics.md"));
-    let [few_held, few, more_held, more] = told.numbers(
+    let text = Text::in_document(include_str!("../../../doc/statistics.md"));
+    let [few_held, few, more_held, more] = text.numbers(
         "1.96 errors hold the exact one in # of 100 clouds of #, in # of #, and in 95 of 5000 and more",
     );
     for (held, robots) in [(few_held, few), (more_held, more)] {

@@ -8,31 +8,31 @@ use sha2::{Digest, Sha256};
 /// engines differ in them.
 const NAN: u64 = 0x7ff8_0000_0000_0000;
 
-/// Values that can be written as doubles, in eight bytes each, the lowest byte first. A list is preceded by its length;
+/// Encoding of values as doubles, in eight bytes each, the lowest byte first. A list is preceded by its length;
 /// a tuple has the fields of an object; a missing value is NaN.
-pub trait Told {
-    fn tell(&self, bytes: &mut Vec<u8>);
+pub trait Encode {
+    fn encode(&self, bytes: &mut Vec<u8>);
 }
 
-impl Told for f64 {
-    fn tell(&self, bytes: &mut Vec<u8>) {
+impl Encode for f64 {
+    fn encode(&self, bytes: &mut Vec<u8>) {
         let bits = if self.is_nan() { NAN } else { self.to_bits() };
         bytes.extend(bits.to_le_bytes());
     }
 }
 
-/// Implements `Told` for types that are written as another value.
-macro_rules! told_as {
+/// Implements `Encode` for types that are encoded as another value.
+macro_rules! encode_as {
     ($($type:ty: |$value:ident| $other:expr;)+) => {$(
-        impl Told for $type {
-            fn tell(&self, bytes: &mut Vec<u8>) {
+        impl Encode for $type {
+            fn encode(&self, bytes: &mut Vec<u8>) {
                 let $value = self;
-                $other.tell(bytes);
+                $other.encode(bytes);
             }
         }
     )+};
 }
-told_as! {
+encode_as! {
     u8: |value| f64::from(*value);
     u32: |value| f64::from(*value);
     usize: |value| (*value as f64);
@@ -42,46 +42,46 @@ told_as! {
     SE2: |pose| (pose.x(), pose.y(), pose.theta());
 }
 
-impl<T: Told> Told for [T] {
-    fn tell(&self, bytes: &mut Vec<u8>) {
-        self.len().tell(bytes);
-        self.iter().for_each(|each| each.tell(bytes));
+impl<T: Encode> Encode for [T] {
+    fn encode(&self, bytes: &mut Vec<u8>) {
+        self.len().encode(bytes);
+        self.iter().for_each(|each| each.encode(bytes));
     }
 }
 
-impl<T: Told, const N: usize> Told for [T; N] {
-    fn tell(&self, bytes: &mut Vec<u8>) {
-        self.as_slice().tell(bytes);
+impl<T: Encode, const N: usize> Encode for [T; N] {
+    fn encode(&self, bytes: &mut Vec<u8>) {
+        self.as_slice().encode(bytes);
     }
 }
 
-impl<T: Told> Told for Vec<T> {
-    fn tell(&self, bytes: &mut Vec<u8>) {
-        self.as_slice().tell(bytes);
+impl<T: Encode> Encode for Vec<T> {
+    fn encode(&self, bytes: &mut Vec<u8>) {
+        self.as_slice().encode(bytes);
     }
 }
 
-impl<T: Told> Told for Option<T> {
-    fn tell(&self, bytes: &mut Vec<u8>) {
+impl<T: Encode> Encode for Option<T> {
+    fn encode(&self, bytes: &mut Vec<u8>) {
         match self {
-            Some(value) => value.tell(bytes),
-            None => f64::NAN.tell(bytes),
+            Some(value) => value.encode(bytes),
+            None => f64::NAN.encode(bytes),
         }
     }
 }
 
-macro_rules! told_as_fields {
+macro_rules! encode_fields {
     ($($($name:ident)+;)+) => {$(
-        impl<$($name: Told),+> Told for ($($name,)+) {
+        impl<$($name: Encode),+> Encode for ($($name,)+) {
             #[allow(non_snake_case)]
-            fn tell(&self, bytes: &mut Vec<u8>) {
+            fn encode(&self, bytes: &mut Vec<u8>) {
                 let ($($name,)+) = self;
-                $($name.tell(bytes);)+
+                $($name.encode(bytes);)+
             }
         }
     )+};
 }
-told_as_fields! {
+encode_fields! {
     A B;
     A B C;
     A B C D;
@@ -97,9 +97,9 @@ told_as_fields! {
 pub struct Part(pub &'static str, pub String);
 
 impl Part {
-    pub fn new(name: &'static str, told: impl Told) -> Self {
+    pub fn new(name: &'static str, results: impl Encode) -> Self {
         let mut bytes = Vec::new();
-        told.tell(&mut bytes);
+        results.encode(&mut bytes);
         // With 64 bits, one change in 10¹⁹ would go unnoticed.
         Self(name, hex(&Sha256::digest(bytes))[..16].to_owned())
     }

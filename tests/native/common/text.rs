@@ -1,7 +1,7 @@
 //! Numbers in the text of a page or a document, which tests compare with computed ones.
 
 /// Text of a page or a document in one line.
-pub struct Told(String);
+pub struct Text(String);
 
 /// Number as it is printed.
 #[derive(Clone, Copy, Debug)]
@@ -17,7 +17,7 @@ impl Number {
         let off = (computed - self.value).abs();
         assert!(
             off <= self.rounding * (1.0 + 1e-9) + error,
-            "{computed} ± {error} is told as {}",
+            "{computed} ± {error} is printed as {}",
             self.value
         );
     }
@@ -31,7 +31,7 @@ impl Number {
 /// Separator of thousands.
 const THIN_SPACE: char = '\u{202f}';
 
-impl Told {
+impl Text {
     /// Returns the text of a page without its markup.
     pub fn on_page(html: &str) -> Self {
         let mut text = String::new();
@@ -64,7 +64,7 @@ impl Told {
         self.numbers::<N>(sentence)
             .iter()
             .zip(computed)
-            .for_each(|(told, computed)| told.assert(computed, 0.0));
+            .for_each(|(printed, computed)| printed.assert(computed, 0.0));
     }
 
     /// Asserts that the text contains this exactly once.

@@ -15,7 +15,7 @@ export const stampOf = (t) => ({ sec: Math.floor(t), nanosec: Math.round((t - Ma
 const of = (/** @type {string} */ type, /** @type {string[]} */ ...names) => names.map((name) => ({ type, name, isComplex: /[A-Z]/.test(type) }));
 const covariance = { type: 'float64', name: 'covariance', isArray: true, arrayLength: 36 };
 
-/** The messages in full. @type {Record<string, any[]>} */
+/** Definitions of the messages, with all their fields. @type {Record<string, any[]>} */
 const DEFINITIONS = {
   Header: [{ type: 'time', name: 'stamp' }, ...of('string', 'frame_id')],
   Vector3: of('float64', 'x', 'y', 'z'),

@@ -118,11 +118,11 @@ function withoutKernel(work: () => void) {
   }
 }
 
-/** Returns all names of traits with their properties; those that others depend on come first. */
+/** Returns all spellings of traits with their properties. Properties that others depend on come first. */
 function traitsOf(element: any): [trait: string, property: string][] {
   const { attributes, declared, own } = element.constructor;
-  const names: Record<string, { property?: string }> = { ...attributes, ...groupsOf(declared), ...own, ...COMMON, ...Object.fromEntries(GLOBAL.map((name) => [name, {}])) };
-  return Object.entries(names).flatMap(([name, { property = name }]) => {
+  const entries: Record<string, { property?: string }> = { ...attributes, ...groupsOf(declared), ...own, ...COMMON, ...Object.fromEntries(GLOBAL.map((name) => [name, {}])) };
+  return Object.entries(entries).flatMap(([name, { property = name }]) => {
     if (!(property in element)) return [];
     const inPython = property.replaceAll(/[A-Z]/g, (capital) => `_${capital.toLowerCase()}`);
     // With the underscore of a keyword, as in `from_`.

@@ -111,21 +111,21 @@ impl DoubleDouble {
         let scale = f64::from(1 << HALVINGS);
         let a = Self { high: self.high / scale, low: self.low / scale };
         let square = a * a;
-        // a − a³/3! + …, and ½a² − a⁴/4! + …
+        // Sine a − a³/3! + …, and versine 1 − cos a = ½a² − a⁴/4! + …
         let mut sine = Self::from(1.0);
-        let mut lack = Self::from(1.0);
+        let mut versine = Self::from(1.0);
         for k in (1..TERMS).rev() {
             let n = f64::from(2 * k);
             sine = Self::from(1.0) - (square * sine).over(n * (n + 1.0));
-            lack = Self::from(1.0) - (square * lack).over((n + 1.0) * (n + 2.0));
+            versine = Self::from(1.0) - (square * versine).over((n + 1.0) * (n + 2.0));
         }
         let mut sine = a * sine;
-        let mut lack = (square * lack).over(2.0);
+        let mut versine = (square * versine).over(2.0);
         for _ in 0..HALVINGS {
-            let cosine = Self::from(1.0) - lack;
-            (sine, lack) = (double(sine * cosine), double(sine * sine));
+            let cosine = Self::from(1.0) - versine;
+            (sine, versine) = (double(sine * cosine), double(sine * sine));
         }
-        (sine, Self::from(1.0) - lack)
+        (sine, Self::from(1.0) - versine)
     }
 
     /// Returns sin(a)/a of an angle as [`DoubleDouble::sin_cos`] takes it; 1 at 0.

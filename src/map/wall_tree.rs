@@ -152,7 +152,8 @@ impl WallTree {
                     return false;
                 }
             }
-            // The next one that is no child of it: a right child is its parent's last.
+            // Goes to the next node outside this subtree: its right sibling, or that of the nearest ancestor that has one. After the
+            // last node this is the root.
             at += 1;
             at >>= at.trailing_zeros();
             if at == 1 {

@@ -70,15 +70,15 @@ export interface Stats {
 export interface Contours {
   /** The arc driven without noise, from the start to its end; open. */
   command: Float64Array;
-  /** 2σ, of the Gaussian fitted in (x, y). */
+  /** 2σ ellipse of the Gaussian fitted in (x, y). */
   ellipse: Float64Array;
-  /** 2σ, of the linearization at the command that an extended Kalman filter uses. */
+  /** 2σ ellipse of the covariance that an extended Kalman filter predicts by linearization at the command. */
   linearized: Float64Array;
-  /** 2σ, of the Gaussian fitted in exponential coordinates. */
+  /** 2σ outline of the Gaussian fitted in exponential coordinates. */
   exponential: Float64Array;
   /** 2σ ellipse in (ξ along, ξ heading), m and rad. */
   twistEllipse: Float64Array;
-  /** 2σ, of noise added to the pose: a circle of 0.4 m around the noise-free end, whatever the command and the noise. */
+  /** 2σ circle of noise added to the pose: 0.4 m around the noise-free end, for every command and noise. */
   additive: Float64Array;
 }
 

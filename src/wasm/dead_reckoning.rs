@@ -15,7 +15,7 @@ use wasm_bindgen::prelude::*;
 
 #[wasm_bindgen(typescript_custom_section)]
 const TYPES: &str = r#"
-/** 2σ, as x, y pairs in m, the first point repeated at the end; empty where undefined. */
+/** 2σ outlines as x, y pairs in m, the first point repeated at the end; empty where undefined. */
 export interface StepOutlines {
   /** Outline of the predicted Gaussian in (x, y). */
   ellipse: Float64Array;

@@ -34,7 +34,7 @@ test('a digit on a slider leads into its value, Enter back, and the value may li
   await expect(slider).toHaveAttribute('aria-valuetext', '0.400');
   await expect(help(widget, 'alpha1')).toHaveText('The slider ends at 0.200; values beyond can be typed.');
   await expect(help(widget, 'alpha1')).toBeVisible();
-  // From the field back to the slider, which continues from its end.
+  // An arrow key on the slider starts from the end of the slider, not from the typed value beyond it.
   await page.keyboard.press('ArrowLeft');
   expect(await property(widget, 'alpha1')).toBeLessThan(0.2);
   // Values beyond the end of the slider can be typed.

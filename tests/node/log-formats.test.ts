@@ -118,10 +118,10 @@ const readDamaged = (name: string, at: number) => readFrom(bytesOf(name).fill(0x
 
 const placesOf = (bytes: Buffer, text: string) => Array.from(bytes.toString('latin1').matchAll(RegExp(text, 'g')), ({ index }) => index);
 
-/** Returns positions in the chunks of a file, by a field in the header of each. */
+/** Returns a function that finds a position inside each chunk of a file: 60 bytes after a text in the header of the chunk. */
 const chunks = (field: string) => (bytes: Buffer) => placesOf(bytes, field).map((at) => at + 60);
 
-/** Positions in the blocks that have messages of the odometry. In an MCAP file, chunk indexes have the field of chunks too. */
+/** Positions in the blocks that have messages of the odometry. In an MCAP file, the text is in chunk indexes too. */
 const BLOCKS: Record<string, (bytes: Buffer) => number[]> = {
   'bz2.bag': chunks('compression='), 'lz4.bag': chunks('compression='), 'zstd.mcap': chunks('zstd'), 'lz4.mcap': chunks('lz4'),
   'sqlite-sqlite.db3': (bytes) => [...new Set(placesOf(bytes, 'base_link').map((at) => at - (at % 4096)))],

@@ -22,7 +22,7 @@ export class Reflection extends Part {
   #defaultConfigs: Map<string, Config> = new Map();
   /** Attributes that were set before there was a machine. */
   #pendingAttributes: Map<string, string | null> = new Map();
-  /** Properties that were set before there was a machine, by name. Whole states have an object as key. */
+  /** Properties, by name, and states that were set before there was a machine. The key of a state is a new object, so that no state replaces another. */
   #pendingProperties: Map<unknown, { value?: unknown, apply: () => void }> = new Map();
   /** True from the first connection on: a figure that is moved keeps its settings. */
   #hasConnected = false;

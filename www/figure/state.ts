@@ -68,12 +68,12 @@ export class State extends Part {
   enter(state: unknown) {
     const host = this.host;
     host.settings.settle();
-    const present = host.snapshot();
-    const given = object('state', state, Object.keys(present), ({ widget, version }) => {
+    const current = host.snapshot();
+    const given = object('state', state, Object.keys(current), ({ widget, version }) => {
       word('state.widget', widget, [host.localName]);
       if (version !== VERSION) throw refusal('state.version', version, String(VERSION));
     });
-    const whole: Values = { ...present, ...host.completed(present, given) };
+    const whole: Values = { ...current, ...host.completed(current, given) };
     const machine = freeOnError(host.createMachine(host.motion, whole), (made) => {
       const selectableCount = whole.playing ? made.config.samples : whole.shown;
       for (const [name, { check }] of Object.entries(this.#owned)) whole[name] = check(`state.${name}`, whole[name], made, selectableCount);

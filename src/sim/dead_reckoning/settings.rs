@@ -56,7 +56,7 @@ settings! {
     }
 }
 
-/// Descriptions of the noise parameters from α₁ on. In a page each parameter has its own attribute.
+/// Descriptions of the attributes `alpha1`, `alpha2`, …, which a native test writes to `www/settings.js`.
 #[cfg(not(target_arch = "wasm32"))]
 pub const ALPHA_SENTENCES: [&str; 6] = ["Noise parameter of the velocity model."; 6];
 

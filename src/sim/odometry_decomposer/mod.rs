@@ -17,7 +17,7 @@ const DRIFT_TWIST: [f64; 3] = [0.015, 0.008, -0.01];
 /// Maximum number of points of a curve. Each takes a microsecond.
 pub const MAX_CURVE_POINTS: u64 = 10_000;
 
-/// Legs of the reading under one rule, and the standard deviations of their noises.
+/// Rotation, translation and rotation of the reading, with the standard deviations of their noises under an [`OdometryRule`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RuleFigures {
     pub rule: OdometryRule,

@@ -27,7 +27,8 @@ use rand::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
 use tally::share;
 
-/// Maximum of accepted samples times parts in a timing trial, so that a trial does not block the page.
+/// Maximum number of parts of motions in a timing trial: accepted samples times the parts of each. A longer trial would block
+/// the page.
 pub const MAX_TRIAL: u64 = 100_000;
 
 /// Simulation of the widget: a map, settings, draws, and the attempts shown.

@@ -168,7 +168,7 @@ fn noise_that_changes_is_not_covered_by_the_other_half() {
     fails(HoldoutCovered, &calibrated(&Simulation { unlike: Unlike::Changing(later), ..good(600, 11) }));
 }
 
-/// Returns the number of consistent logs, and how often each check fails.
+/// Returns the number of consistent logs among `logs` simulated ones, and prints the checks that failed.
 fn consistent(model: Model, logs: u64) -> usize {
     let mut found = Vec::new();
     let of = |seed: u64| calibrated(&Simulation::of(model, NoiseKind::Normal, 600, 3000 + seed));

@@ -53,7 +53,7 @@ fn legs_end_after_a_duration_where_one_is_set() {
     assert!(machine.legs().len() < before.len() / 2);
 }
 
-/// A standard deviation of 0 is none: the log tells it.
+/// A standard deviation of 0 is estimated from the log; any other is used as stated.
 #[test]
 fn the_noise_of_the_reference_is_stated_or_estimated() {
     let noise = |position_std: f64, yaw_std: f64| {

@@ -113,7 +113,7 @@ fn ten_million_agree_with_exact_sums() {
     check(&machine(Settings { command, samples: MAX_SAMPLES, ..preset("gentle") }));
 }
 
-/// Clouds of every shape, among them such as turn beyond the circle or lie far from where noise-free robots end.
+/// Clouds of many shapes. In some of them robots turn by more than a full circle, or end far from the noise-free pose.
 #[test]
 fn small_and_odd_clouds_agree_with_exact_sums() {
     for model in [ModelKind::Velocity, ModelKind::Odometry] {

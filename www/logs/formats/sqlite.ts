@@ -25,11 +25,11 @@ type Value = number | bigint | Uint8Array;
 /** Row of a table. */
 interface Row {
   id: number;
-  /** Bytes that are on the page of the table. */
+  /** Bytes on the leaf page; the others are on overflow pages. */
   bytes: Uint8Array;
-  /** Number of all bytes. */
+  /** Number of all bytes of the row. */
   length: number;
-  /** Number of the page with the bytes that overflow; 0 if there are none. */
+  /** Number of the first overflow page; 0 if there is none. */
   next: number;
 }
 
@@ -136,7 +136,7 @@ class Rosbag2 implements Container {
     }
   }
 
-  /** Numbers of the pages with a table's rows, in their order. */
+  /** Returns the numbers of a table's leaf pages, which have its rows, in the order of the rows. */
   async #leavesOf(root: number): Promise<number[]> {
     const { size } = this.#source;
     let level = [root];

@@ -58,7 +58,7 @@ export async function unzstdFile(source: Source): Promise<Source> {
   let [size, empty] = [0, 0];
   try {
     for (const part of decoder.decodeStreaming(piecesOf(bytes))) {
-      // The decoder does not stop at damage.
+      // The decoder does not stop at damage, but returns empty parts.
       empty = part.length === 0 ? empty + 1 : 0;
       if (empty > MAX_EMPTY) throw new RangeError('its compression is damaged');
       parts.push(part.slice());

@@ -32,7 +32,7 @@ export interface Chosen {
   questions: Asked[];
   /** Choices of the reader; what is missing is guessed. */
   wishes: Pick<Wishes, Role>;
-  /** Roles of recordings with one log, by index. */
+  /** Roles that the reader chose for recordings with one log, by the index of the recording. */
   roles: Map<number, Role>;
   /** Plan of what is read; undefined while a question is open. */
   plan?: Plan;
@@ -52,7 +52,7 @@ const MOST_NAMES = 4;
 
 export class LogOpener extends Part<Figure> {
   dropped = new FileDrop(this.host, ZONE, (files) => this.choose(files));
-  /** Why the latest log was refused. */
+  /** Message about the latest log that was refused. */
   #complaint: (() => string) | undefined;
   chosen: Chosen | undefined;
   /** Files with only one log of a drive. The next file may contain the other log. */

@@ -82,12 +82,12 @@ const lines = (texts: string[]) => texts.map((text) => html`<div>${text}</div>`)
 
 /** Prints an error as far as it is determined: its values, two for a lever arm, and half the width of each interval. */
 function digitsOf({ value, interval }: SystematicError) {
-  const known = intervalsOf(interval).map((each) => each && (each[1] - each[0]) / 2);
+  const halfWidths = intervalsOf(interval).map((each) => each && (each[1] - each[0]) / 2);
   return {
-    values: [value].flat().flatMap((each, i) => (each === null ? [] : [fixed(each, decimalsOf(known[i]))])),
-    halves: known.flatMap((half) => (half === null ? [] : [fixed(half, decimalsOf(half))])),
+    values: [value].flat().flatMap((each, i) => (each === null ? [] : [fixed(each, decimalsOf(halfWidths[i]))])),
+    halves: halfWidths.flatMap((half) => (half === null ? [] : [fixed(half, decimalsOf(half))])),
   };
 }
 
-/** Returns the decimals of an error: three, or more if half of its interval is below a thousandth. */
+/** Returns the number of decimals of an error: three, or more if its interval is narrower than a thousandth. */
 const decimalsOf = (half: number | null | undefined) => (half ? Math.min(MOST_DECIMALS, Math.max(3, -Math.floor(Math.log10(2 * half)))) : 3);

@@ -36,7 +36,10 @@ export function alphaControls(figure: Figure) {
   return group(words.noise, alphas.map((_, index) => slider(index)), 'alphas');
 }
 
-/** Returns the slider of an α, counted from 1, with the noise that it feeds and the effect on the picture. */
+/**
+ * Returns the slider of an α, counted from 1. `path` names the motion and the noise that grows with it ("v² into v̂"), and `picture` the effect
+ * on the cloud.
+ */
 function alphaSlider(figure: Figure, key: string, number: number, name: string, [path, picture]: string[]) {
   const { isolate } = figure.reading.config;
   const off = isolate !== null && isolate !== number;

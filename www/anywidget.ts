@@ -49,24 +49,24 @@ function render({ model, el }: { model: Model, el: HTMLElement }): (() => void) 
   };
 
   const traits = traitsOf(element);
-  let telling = false;
+  let isScheduled = false;
   let writing = false;
   /** Writes the figure's values into the model, once after several changes. */
-  const tell = () => {
-    if (telling) return;
-    telling = true;
+  const sendValues = () => {
+    if (isScheduled) return;
+    isScheduled = true;
     queueMicrotask(() => {
-      telling = false;
+      isScheduled = false;
       // The element was removed. The model already has the values that it showed last.
       if (!element.machine) return;
       const ours = traits.filter(([, property]) => !GLOBAL.includes(property));
-      const told = ours.map(([trait, property]) => [trait, plain(element[property])] as [string, unknown]);
+      const values = ours.map(([trait, property]) => [trait, plain(element[property])] as [string, unknown]);
       // Nulls come last: a null (no preset, for example) follows from the other values, and another view applies them in this order.
       writing = true;
-      for (const none of [false, true]) for (const [trait, value] of told) if ((value === null) === none) put(trait, value);
+      for (const none of [false, true]) for (const [trait, value] of values) if ((value === null) === none) put(trait, value);
       writing = false;
       // All values of one moment, with the number of the last request that was applied: the kernel can tell which requests are newer.
-      put('_shown', { heard: model.get('_asked'), settings: Object.fromEntries(told.filter(([trait]) => model.get(trait) !== undefined)) });
+      put('_shown', { heard: model.get('_asked'), settings: Object.fromEntries(values.filter(([trait]) => model.get(trait) !== undefined)) });
       save();
     });
   };
@@ -77,10 +77,10 @@ function render({ model, el }: { model: Model, el: HTMLElement }): (() => void) 
     put('error', event.message);
     save();
   });
-  element.addEventListener('load', tell);
+  element.addEventListener('load', sendValues);
   element.addEventListener('change', () => {
     put('error', '');
-    tell();
+    sendValues();
   });
   element.addEventListener('stats', ({ detail }: CustomEvent) => {
     if (model.get('stats') === undefined) return;
@@ -94,7 +94,7 @@ function render({ model, el }: { model: Model, el: HTMLElement }): (() => void) 
       put('error', '');
       // Global attributes are texts, and a missing one is the empty text.
       element[property] = model.get(trait) ?? (GLOBAL.includes(property) ? '' : null);
-      tell();
+      sendValues();
     };
     const value = model.get(trait);
     if (value !== undefined && value !== null) element[property] = value;

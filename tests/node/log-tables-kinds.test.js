@@ -162,7 +162,7 @@ const REFUSED = [
   ['other columns', `t,${LONG}\n0,1\n`, /, line 1: the columns are t, x{40}…; expected are x, y and yaw/],
   ['two columns of one name', 't,t,x,y,yaw\n0,0,0,0,0\n1,1,0,0,0\n', /both “t” and “t” may be the time;/],
   ['a unit that is not known', 't,x [ft],y [ft],yaw\n0,0,0,0\n1,0,0,0\n', /the unit ft of a column is not known/],
-  ['text in many rows', 't,x,y,yaw\n0,0,0,0\n1,a,0,0\n2,b,0,0\n', /, line 3: x is “a”; expected is a number\. 2 of 3 rows have text for a number or too few cells; a table may have 10 % of such rows\.$/],
+  ['text in many rows', 't,x,y,yaw\n0,0,0,0\n1,a,0,0\n2,b,0,0\n', /, line 3: x is “a”; expected is a number\. 2 of 3 rows have text in place of a number, or too few cells; at most 10 % of the rows may\.$/],
   ['text for a number', `t,x,y,yaw\n0,0,0,0\n1,${LONG},0,0\n`, /, line 3: x is “x{40}…”; expected is a number\.$/],
   ['hexadecimal digits', 't,x,y,yaw\n0x10,0,0,0\n', /, line 2: t is “0x10”;/],
   ['thousands beside decimal commas', 't;x;y;yaw\n0,5;1.234;0;0\n1,5;1;0;0\n', /, line 2: x is “1\.234”;/],

@@ -179,13 +179,13 @@ interface SampleFieldOptions {
   /** Number of samples shown. */
   shown: number;
   /** Text about the selected sample, if any. */
-  told: unknown;
+  selected: unknown;
   /** Text if none is selected. */
   hint: string;
 }
 
 /** Returns the field with the number of the selected sample. Refused text stays until the reader corrects or leaves it. */
-export function sampleField({ cloud, typing }: Figure & { cloud: import('./cloud.ts').Cloud }, { id, label, shown, told, hint }: SampleFieldOptions) {
+export function sampleField({ cloud, typing }: Figure & { cloud: import('./cloud.ts').Cloud }, { id, label, shown, selected, hint }: SampleFieldOptions) {
   const refusal = typing.refusalOf('marked');
   const type = (event: Event) => {
     const text = inputOf(event).value;
@@ -212,7 +212,7 @@ export function sampleField({ cloud, typing }: Figure & { cloud: import('./cloud
         @blur=${() => typing.forget()}
       />
     </label>
-    <output for=${id} role=${refusal ? 'alert' : nothing}>${refusal || told || html`<span class="hint">${hint}</span>`}</output>
+    <output for=${id} role=${refusal ? 'alert' : nothing}>${refusal || selected || html`<span class="hint">${hint}</span>`}</output>
   </p>`;
 }
 

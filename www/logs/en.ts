@@ -101,7 +101,7 @@ export const log = {
     tilted: 'the poses do not turn about a vertical Z axis; expected are quaternions in the order of the header on a plane with Z up. Export with Z up, or choose the columns.',
     mixed: (frames: string) => `the rows are of several frames (${frames}); keep those of one.`,
     unknownUnit: (unit: string) => `the unit ${unit} of a column is not known, or differs from that of another; expected is m, cm or mm, and rad or deg.`,
-    manyBad: (bad: number, rows: number, percent: number) => `${bad} of ${rows} rows have text for a number or too few cells; a table may have ${percent} % of such rows.`,
+    manyBad: (bad: number, rows: number, percent: number) => `${bad} of ${rows} rows have text in place of a number, or too few cells; at most ${percent} % of the rows may.`,
     number: (column: string, value: string) => `${column} is “${value}”; expected is a number${/^[+-]?\d*,\d+$/.test(value) ? ' with a decimal point' : /\d[/:-]\d/.test(value) ? ', or a date as 2024-01-31 12:00:00.5' : ''}.`,
     rows: (most: number) => `there are more rows; expected are at most ${most}.`,
     far: (value: number, most: number, message: number) =>
@@ -219,7 +219,7 @@ export const log = {
         `${by === 'name' ? `its name is that of odometry, and ${odometry} is not` : `at rest it repeats its pose exactly, like wheel odometry, and ${odometry} does not`}: was the odometry given as the reference?`,
       apart: (name: string, one: string, other: string) =>
         `no time in common with ${name} (${one}, and ${other}): the clocks are aligned by the turns of the robot`,
-      sideways: (percent: number) => `in ${percent} % of its legs it moves sideways, as wheels cannot, by noise or a frame off the axle: use odometry of the wheels, at the middle of their axle`,
+      sideways: (percent: number) => `in ${percent} % of its legs it moves sideways, which wheels cannot: its positions are noisy, or its frame is off the axle; use wheel odometry of the middle of the axle`,
       localizer: 'a localizer’s own estimate, whose errors follow the odometry: measure the reference independently',
     },
   },

@@ -78,8 +78,8 @@ export function alphaTexts(reading: Reading) {
   const { stats: { alphas }, fitted } = reading;
   const { recommendedText } = words.calibrator.alphas;
   return alphas.map((alpha, i) => {
-    const told = alpha === null ? [lackOf(reading, i)] : [fittedOf(reading, i), betweenOf(reading, i), recommendedText(recommendedOf(reading, i))];
-    return `α${alphaName(i)} ${noiseNames(fitted.model)[i]}: ${told.join(', ')}`;
+    const texts = alpha === null ? [lackOf(reading, i)] : [fittedOf(reading, i), betweenOf(reading, i), recommendedText(recommendedOf(reading, i))];
+    return `α${alphaName(i)} ${noiseNames(fitted.model)[i]}: ${texts.join(', ')}`;
   });
 }
 

@@ -52,7 +52,7 @@ function intervalsOf(interval: SystematicError['interval']) {
 export function systematicTable(figure: Figure) {
   const { stats: { systematicErrors: errors }, truth } = figure.reading;
   const say = words.calibrator.systematic;
-  const told = figure.settings.wanted;
+  const { wanted } = figure.settings;
   return html`<table class="systematic" part="table">
     <thead>
       <tr>
@@ -63,7 +63,7 @@ export function systematicTable(figure: Figure) {
     <tbody>
       ${SYSTEMATIC.map((key) => {
         const { values, halves } = digitsOf(errors[key]);
-        const box = toggle({ label: say.names[key], checked: told[key], change: (on) => figure.gesture.decide({ [key]: on }) });
+        const box = toggle({ label: say.names[key], checked: wanted[key], change: (on) => figure.gesture.decide({ [key]: on }) });
         if (values.length === 0) return html`<tr><th scope="row">${box}</th><td colspan="4">${say.unknown}</td></tr>`;
         return html`<tr>
           <th scope="row">${box}</th>

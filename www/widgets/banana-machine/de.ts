@@ -150,8 +150,8 @@ export const de: typeof import('./en.ts').en = {
     nominal: 'von jedem Gauß in seiner 2σ-Ellipse',
   },
   gainIs:
-    'Bessere Passung: um so viel ist die mittlere Log-Likelihood der Roboter unter dem Gauß in *ξ* höher als unter dem in *(x, y, θ)*. ' +
-    'Am Boden: ohne *θ*; in Länge und Drehung des Bogens zu jedem Ort, gegen *(x, y)*.',
+    'Bessere Passung: Um so viel ist die mittlere Log-Likelihood der Roboter unter dem Gauß in *ξ* höher als unter dem in *(x, y, θ)*. ' +
+    'Am Boden zählt *θ* nicht: ein Gauß in Länge und Drehung des Bogens zu jedem Ort, gegen einen in *(x, y)*.',
   nOfAll: (n, all) => `${n} von ${all}`,
   robot: 'Roboter',
   markHint: 'Zeig in einer der Ansichten auf einen, um ihn in beiden zu markieren.',

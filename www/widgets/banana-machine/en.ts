@@ -157,7 +157,7 @@ export const en = {
   },
   gainIs:
     'Gain in fit: the robots’ mean log-likelihood under the Gaussian in *ξ*, less that under the one in *(x, y, θ)*. ' +
-    'On the floor: without *θ*; in length and turn of the arc to each place, against *(x, y)*.',
+    'On the floor *θ* is left out: a Gaussian in length and turn of the arc to each place, against one in *(x, y)*.',
   nOfAll: (n, all) => `${n} of ${all}`,
   robot: 'Robot',
   markHint: 'Point at one in either view to mark it in both.',

@@ -67,14 +67,14 @@ export function markedRobot(figure: import('./banana-machine.ts').BananaMachineE
   const { shown } = figure.reading;
   const quantity = (symbol: string, value: number, unit: string) =>
     html`<span><i>${symbol}</i> = ${fixed(value, 3)} ${unit}</span>`;
-  const told = inspection && (inspection.legs
+  const selected = inspection && (inspection.legs
     ? legsOf(inspection.legs, figure.reading.reading as import('../../types.d.ts').Legs)
     : [
         quantity('v̂', inspection.vHat, 'm/s'),
         quantity('ω̂', inspection.omegaHat, 'rad/s'),
         quantity('γ̂', inspection.gammaHat, 'rad/s'),
       ]);
-  return sampleField(figure, { id: 'robot', label: robot, hint: markHint, shown, told });
+  return sampleField(figure, { id: 'robot', label: robot, hint: markHint, shown, selected });
 }
 
 /** Returns the noise of each leg: the reading minus the executed motion, as Table 5.6 subtracts it. */

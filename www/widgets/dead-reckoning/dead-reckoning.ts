@@ -109,7 +109,7 @@ export class DeadReckoningElement extends FigureElement<Machine, Reading> {
           ${panel(say.chart, html`<div class="chart">${ratioPlot(this, reading)}</div>`, 'ratios')}
           <div class="said">
             ${headline(reading, overlays)}
-            <p part="caption" class="caption ${condition !== 'told' && 'note'}">${captionOf(reading, overlays)}</p>
+            <p part="caption" class="caption ${condition !== 'certain' && 'note'}">${captionOf(reading, overlays)}</p>
             ${recursionChoice(this)}
           </div>
           ${panel(say.floor, html`<div class="stage" part="picture">${canvas(this, this.#floor, planeText(reading))}</div>`, 'floor')}

@@ -32,14 +32,14 @@ function curveOf(ratios: Float64Array, relativeErrors: Float64Array, axis: numbe
 
 /**
  * Returns the reason for which the ratios are undefined or uncertain: no robots, no spread, no covariance at the end, or too few robots.
- * Returns 'told' if there is none.
+ * Returns 'certain' if there is none.
  */
-function conditionOf({ compounding }: DeadReckoningSettings, { n, predicted, measured, misses }: Machine['stats'], ratios: Float64Array): 'none' | 'still' | 'lost' | 'few' | 'told' {
+function conditionOf({ compounding }: DeadReckoningSettings, { n, predicted, measured, misses }: Machine['stats'], ratios: Float64Array): 'none' | 'still' | 'lost' | 'few' | 'certain' {
   if (n === 0) return 'none';
   // A single robot has no variance.
   if (n === 1) return 'few';
   if (measured.cov.every((row) => row.every((entry) => Math.abs(entry) < Number.EPSILON ** 2))) return 'still';
   // Single components may have no variance, such as a heading without noise.
   if (predicted[compounding] === null || ratios.slice(-COMPONENTS.length).every(Number.isNaN)) return 'lost';
-  return misses[compounding].some(({ told, end }) => !told && !Number.isNaN(end)) ? 'few' : 'told';
+  return misses[compounding].some(({ told, end }) => !told && !Number.isNaN(end)) ? 'few' : 'certain';
 }

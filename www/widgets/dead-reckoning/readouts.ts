@@ -75,11 +75,11 @@ export function straightPlot({ durations: x, along, across, alongFirstOrder, acr
   const say = words.reckoning.straight;
   const [from, to] = GROWTH.durations;
   const [least, most] = GROWTH.variances;
-  const told = crossing === null ? '' : significant(crossing, 3);
+  const distance = crossing === null ? '' : significant(crossing, 3);
   return html`<figure>
     <p class="panel-title">${say.title}</p>
     ${plot({
-      label: say.label(crossing === null ? say.never : say.crossing(told)),
+      label: say.label(crossing === null ? say.never : say.crossing(distance)),
       x: { name: say.x, from, to, logarithmic: true },
       y: { name: say.y, from: least, to: most, logarithmic: true },
       curves: [
@@ -88,7 +88,7 @@ export function straightPlot({ durations: x, along, across, alongFirstOrder, acr
         // Both exact curves, with a gap in between.
         { name: say.exact, role: 'truth', dash: '2 3', x: [...x, NaN, ...x], y: [...along, NaN, ...across] },
       ],
-      marks: crossing !== null && crossing >= from && crossing <= to ? [{ x: crossing, text: say.mark(told) }] : [],
+      marks: crossing !== null && crossing >= from && crossing <= to ? [{ x: crossing, text: say.mark(distance) }] : [],
     })}
     <figcaption>${rich(say.caption)}</figcaption>
   </figure>`;
@@ -119,6 +119,6 @@ export function markedRobot(figure: import('./dead-reckoning.ts').DeadReckoningE
   const { robot, markHint, markedAt } = words.reckoning;
   const { config: { step }, shown } = figure.reading;
   const pose = marked?.subarray(3 * (step - 1), 3 * step);
-  const told = pose && [markedAt(fixed(pose[0], 3), fixed(pose[1], 3), fixed(pose[2], 3))];
-  return sampleField(figure, { id: 'robot', label: robot, hint: markHint, shown, told });
+  const selected = pose && [markedAt(fixed(pose[0], 3), fixed(pose[1], 3), fixed(pose[2], 3))];
+  return sampleField(figure, { id: 'robot', label: robot, hint: markHint, shown, selected });
 }

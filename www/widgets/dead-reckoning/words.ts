@@ -24,7 +24,7 @@ export const endText = ({ end, error }: { end: number, error: number }) => signe
 /** Returns how well the recursion predicts the components that are shown. */
 export function captionOf({ config: { compounding }, stats: { misses, n }, condition, curves }: Reading, overlays: string[]) {
   const say = words.reckoning;
-  if (condition !== 'told') return say.conditions[condition];
+  if (condition !== 'certain') return say.conditions[condition];
   const ofAll = misses[compounding];
   const shown = componentsOf(overlays);
   const ifShown = (miss: number, axis: number) => (shown.includes(COMPONENTS[axis]) ? miss : NaN);

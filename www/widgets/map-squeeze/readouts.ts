@@ -30,8 +30,8 @@ export function tally({ stats, config: { conditioned, sampler }, paths: { length
 export function markedDraw(figure: import('./map-squeeze.ts').MapSqueezeElement): import('lit').TemplateResult {
   const { cloud, reading: { config, stats, verdicts } } = figure;
   const { sample, markHint } = words.squeeze;
-  const told = cloud.isMarked ? verdictText(verdicts[cloud.index], config) : '';
-  return sampleField(figure, { id: 'sample', label: sample, hint: markHint, shown: stats.attempts, told });
+  const selected = cloud.isMarked ? verdictText(verdicts[cloud.index], config) : '';
+  return sampleField(figure, { id: 'sample', label: sample, hint: markHint, shown: stats.attempts, selected });
 }
 
 /** Returns the table of costs for a number of sub-steps. */

@@ -49,6 +49,10 @@ const own = css`
     --most: 41svh;
   }
 
+  :host([presentation]) .chart .plotted {
+    position: static;
+  }
+
   :host([presentation]) .step .stage {
     min-height: 20vh;
   }

@@ -31,7 +31,7 @@ export const de: typeof import('./en.ts').en = {
     samples: { name: 'Roboter', effect: 'Roboter: wenige als Punkte, viele als Dichte.' },
   },
   floor: 'Auf dem Boden',
-  ellipseIs: { large: 'keine Ellipse passt', misshapen: 'die Ellipse hat die Größe, nicht die Form', near: 'die Ellipse passt beinahe' },
+  ellipseIs: { large: 'keine Ellipse passt', misshapen: 'die Größe passt, die Form nicht', near: 'die Ellipse passt beinahe' },
   overlays: {
     command: 'befohlener Bogen',
     ellipse: 'Gauß in (x, y), 2σ',
@@ -142,7 +142,7 @@ export const de: typeof import('./en.ts').en = {
     withoutLimit: 'in *ξ* ohne Grenze, da ohne *γ̂*',
     onLine: 'keine Grenze: in *ξ* alle auf einer Linie',
     area: 'bedeckte Fläche: Ellipse / *ξ*-Umriss',
-    areaDetail: (error, ellipse, exponential) => `${error && `± ${error}; `}Roboter: ${ellipse} und ${exponential}`,
+    areaDetail: (error, ellipse, exponential) => `${error && `± ${error}; `}innen: ${ellipse} und ${exponential}`,
     gaussian: 'Schiefe, die der Gauß in *ξ* vorhersagt',
     rho: 'Korrelation *ρ* von Querlage und Richtung',
     robots: 'Roboter gezeigt, *n* von *N*',

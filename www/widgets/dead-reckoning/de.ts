@@ -51,9 +51,9 @@ export const de: typeof import('./en.ts').en = {
   ofMeasured: (step) => `mal die gemessene, in Schritt ${step}`,
   ratioText: (recursion, step, ratios) =>
     `Vorhergesagte durch gemessene Varianz je Schritt; Rekursion: ${recursion}. Bei Schritt ${step}: ${ratios}.`,
-  atStep: (ratio, step) => `das ${ratio}-Fache (Schritt ${step})`,
-  wrong: (worst, list, end) => `Am Ende weicht die vorhergesagte Varianz ${worst} um ${end} ab. Davor ist sie ${list} der gemessenen.`,
-  worse: (worst, list, end, far) => `Am Ende weicht die vorhergesagte Varianz ${far} um ${end} ab. Davor weicht die Varianz ${worst} stärker ab: Sie ist ${list} der gemessenen.`,
+  atStep: (ratio, step) => `${ratio} (Schritt ${step})`,
+  wrong: (worst, list, end) => `Am Ende weicht die vorhergesagte Varianz ${worst} um ${end} ab. Davor beträgt sie ${list} der gemessenen.`,
+  worse: (worst, list, end, far) => `Am Ende weicht die vorhergesagte Varianz ${far} um ${end} ab. Davor weicht die Varianz ${worst} mehr ab: ${list} der gemessenen.`,
   right: (robots) => `Höchstens 5 % neben dem, was ${robots} Roboter tun, in jeder Komponente bei jedem Schritt.`,
   conditions: {
     none: 'Noch keine Roboter.',

@@ -54,10 +54,10 @@ export const de: typeof import('./en.ts').en = {
     way: 'die Endpose ist frei, aber der Weg berührt eine Wand oder verlässt die Karte',
   },
   tested: {
-    endpoint: (accepted, all) => `${accepted} von ${all} Bewegungen enden, wo der Roboter Platz hat, und sind angenommen`,
+    endpoint: (accepted, all) => `${accepted} von ${all} Bewegungen enden kollisionsfrei und sind angenommen`,
     'whole-arc': (accepted, all) => `${accepted} von ${all} Bewegungen berühren unterwegs keine Wand und sind angenommen`,
     'sub-stepped': (accepted, all) =>
-      `${accepted} von ${all} Bewegungen enden mit jedem Teilschritt, wo der Roboter Platz hat, und sind angenommen`,
+      `${accepted} von ${all} Bewegungen enden nach jedem Teilschritt kollisionsfrei und sind angenommen`,
     off: (accepted) => `Ohne die Karte werden alle ${accepted} Bewegungen angenommen`,
   },
   throughOf: (count, through, share, interval) =>

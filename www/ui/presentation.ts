@@ -94,7 +94,7 @@ export const presentationStyles = css`
     }
   }
 
-  :host([presentation]) .surface:not(.with-controls) .machine > :not(.views, .morphing, .presets, [part~='legend'], [part~='caption'], [part~='readouts']),
+  :host([presentation]) .surface:not(.with-controls) .machine > :not(.views, .morphing, .presets, .about, [part~='legend'], [part~='caption'], [part~='readouts']),
   :host([presentation]) .surface:not(.with-controls) .aside > :not([part~='readouts'], .told, .presets, .judge),
   :host([presentation]) .surface:not(.with-controls) :is(.told, .looked) > :is(fieldset, .choices, button),
   :host([presentation]) .surface:not(.with-controls) .start-over,

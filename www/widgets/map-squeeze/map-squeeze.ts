@@ -347,10 +347,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
               ${this.stage.later(() => this.#wallHandles.render())}
               ${this.#handles.render()}
             </div>
-            ${this.stage.later(() => html`<div>
-              ${legend(this, hasUnknown ? { ...marks, unknown } : marks, {}, this.#wallHandles.legend())}
-              ${sorted ? nothing : html`<p class="about">${density}</p>`}
-            </div>`)}`)}
+            ${this.stage.later(() => legend(this, hasUnknown ? { ...marks, unknown } : marks, {}, this.#wallHandles.legend()))}`)}
           ${this.stage.later(() => html`<div class="aside">
             <div class="told">
               <p class="headline">${headlineOf(stats)}</p>
@@ -361,6 +358,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
         </div>
         ${this.stage.later(() => html`
         <div class="controls" part="controls">${motionControls(this)}</div>
+        ${sorted ? nothing : html`<p class="about">${density}</p>`}
         ${disclosures(this, {
           controls: () => html`<div class="controls">${robotAndMap(this, hasUnknown)}</div> ${ownMap(this, this.#opener, this.#mapText)}`,
           numbers: () => html`${tally(reading)} ${markedDraw(this)} ${costTable(this.#meter, config.steps)}`,

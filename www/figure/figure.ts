@@ -20,6 +20,7 @@ import { Runtime } from './runtime.ts';
 import { Settings } from './settings.ts';
 import { Stage } from './stage.ts';
 import { State } from './state.ts';
+import { Steadiness } from './steadiness.ts';
 import { surface } from './surface.ts';
 import { CopyMenu, embedding } from './takeaway/copy.ts';
 import { csvOf, pngOf, svgOf } from './takeaway/export.ts';
@@ -108,6 +109,7 @@ export class FigureElement<Machine extends { free(): void, stats: object, config
   focusing = new Focus(this);
   lettering = new Lettering(this);
   presenting = new Presentation(this);
+  steadiness = new Steadiness(this);
   /** Cloud of a figure with samples. */
   cloud: import('./cloud.ts').Cloud | undefined;
   /** Player of a figure that animates a slider. `advance` returns true while it plays. */

@@ -8,6 +8,7 @@ export const readoutStyles = css`
   .readouts {
     display: flex;
     flex-wrap: wrap;
+    align-content: start;
     gap: 0.2em 2em;
     margin: 0.1em 0 0.5em;
   }

@@ -292,7 +292,6 @@ const own = css`
   }
 
   .reason {
-    min-height: 2lh;
     margin: 0 0 0.3em;
     font-size: 0.84em;
     line-height: 1.3;

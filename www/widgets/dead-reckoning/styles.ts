@@ -95,7 +95,6 @@ const own = css`
     }
 
     .said .caption {
-      min-height: 6lh;
       font-size: 0.95em;
       line-height: 1.25;
     }
@@ -109,10 +108,6 @@ const own = css`
   @container (min-width: 44em) {
     .chart .plot text {
       font-size: 10.8px;
-    }
-
-    .said .caption {
-      min-height: 5lh;
     }
   }
 
@@ -133,10 +128,6 @@ const own = css`
     .said {
       grid-template: 'headline caption choices' / auto 1fr auto;
       column-gap: 2em;
-    }
-
-    .said .caption {
-      min-height: 3lh;
     }
   }
 

@@ -51,6 +51,7 @@ const own = css`
 
   /* Height of the longest headline and sentence, so that nothing moves when they change. */
   .told {
+    display: flow-root;
     min-height: calc(12.2em - 16.5cqi);
   }
 
@@ -72,7 +73,6 @@ const own = css`
   }
 
   .judge .effect {
-    min-height: 2lh;
     margin: 0 0 0.5em;
   }
 

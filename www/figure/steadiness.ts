@@ -1,0 +1,40 @@
+/** Heights of the texts above the controls, so that a control stays in its place while the reader drags it. */
+
+import { language } from '../messages/registry.ts';
+import { Part } from './part.ts';
+
+/** Texts that change with the settings. */
+const TEXTS = ':is(p, dl, li, .told):not(.told > *, .slider *, details *, .about, .on-paper)';
+
+/** Keeps the largest height of each text at the present width of the figure and in the present language. */
+export class Steadiness extends Part {
+  #texts: Set<HTMLElement> = new Set();
+  #sizes: ResizeObserver | undefined;
+  #width = 0;
+  #language = '';
+
+  hostUpdated() {
+    this.#sizes ??= new ResizeObserver((entries) => this.#keep(entries));
+    for (const text of this.host.renderRoot.querySelectorAll<HTMLElement>(TEXTS)) {
+      if (!this.#texts.has(text)) this.#sizes.observe(text);
+      this.#texts.add(text);
+    }
+  }
+
+  /** Keeps new heights, which are never below the kept ones, or measures all texts again. */
+  #keep(entries: ResizeObserverEntry[]) {
+    const { clientWidth } = this.host;
+    if (clientWidth === this.#width && language === this.#language) {
+      for (const { target, contentRect } of entries) (target as HTMLElement).style.minHeight = `${contentRect.height}px`;
+      return;
+    }
+    [this.#width, this.#language] = [clientWidth, language];
+    // A size that changed now would call the observer again in this frame.
+    requestAnimationFrame(() => {
+      this.#sizes?.disconnect();
+      for (const text of this.#texts) text.style.minHeight = '';
+      this.#texts.clear();
+      this.hostUpdated();
+    });
+  }
+}

@@ -66,14 +66,14 @@ async function drag({ widget, selector, i, steps }) {
     pictures++;
     clearRect.apply(this, box);
   };
-  /** @returns {Promise<number>} when the frame that is being made has been handed over: a message is read then */
+  /** @returns {Promise<number>} time at which the current frame has been handed over: that of the next message task */
   const handedOver = () =>
     new Promise((resolve) => {
       const { port1, port2 } = new MessageChannel();
       port1.onmessage = () => resolve(performance.now());
       port2.postMessage(undefined);
     });
-  /** @returns {Promise<number>} likewise of the next frame with a change of words, of those too that only a screen reader says */
+  /** @returns {Promise<number>} time of the next frame after a text changes, also one for screen readers only */
   const wordsChange = () =>
     new Promise((resolve) => {
       const observer = new MutationObserver(() => {

@@ -1,7 +1,7 @@
-// dist/custom-elements.json: what editors and documentation tools know of the elements.
+// Custom elements manifest (dist/custom-elements.json), which editors and documentation tools read.
 //
-// Attributes and properties follow from what is declared; methods, events, parts and colours are what the classes'
-// comments say, as the analyzer reads them. That it is true of the elements is tested in a browser.
+// Attributes and properties come from the declarations. Methods, events, parts and colours come from the comments of the classes.
+// A test in a browser compares the manifest with the elements.
 
 import { comments, oneLine, widgets } from './declarations.mjs';
 
@@ -35,9 +35,9 @@ export async function manifest() {
 /**
  * @param {import('./declarations.mjs').Widget} widget
  * @param {string} name of its element's class
- * @param {any} said what the class's comments say
+ * @param {any} analyzed comments of the class, as the analyzer reads them
  */
-function elementOf({ tag, machine, attributes, properties }, name, said) {
+function elementOf({ tag, machine, attributes, properties }, name, analyzed) {
   /** Replaces the general names of types in the common class by those of this machine. @param {string} type */
   const ours = (type) => ({ text: type.replace(/\bMachine\b/, machine).replace(/\bValues\b/, `${machine}State`) });
   const item = (/** @type {any} */ { name, type, description }) => ({ name, ...(type && { type: ours(type.text) }), description: description && oneLine(description) });
@@ -54,7 +54,7 @@ function elementOf({ tag, machine, attributes, properties }, name, said) {
     name,
     tagName: tag,
     customElement: true,
-    description: said.description,
+    description: analyzed.description,
     attributes: attributes.map(({ name, property = name, type, description, opening }) => ({
       name,
       type: { text: type.replace(' | null', '') },
@@ -65,13 +65,13 @@ function elementOf({ tag, machine, attributes, properties }, name, said) {
     members: [
       ...attributes.map(({ name, property = name, type, description }) => ({ kind: 'field', name: property, type: { text: type }, description, attribute: name, reflects: true })),
       ...properties.map(({ name, type, description, readonly }) => ({ kind: 'field', name, type: { text: type }, description, ...(readonly && { readonly }) })),
-      ...said.members
+      ...analyzed.members
         .filter((/** @type {any} */ { name, privacy }) => privacy === 'public' && !properties.some((property) => property.name === name))
         .map(member),
     ],
-    events: documented(said.events),
-    slots: documented(said.slots),
-    cssParts: documented(said.cssParts),
-    cssProperties: documented(said.cssProperties),
+    events: documented(analyzed.events),
+    slots: documented(analyzed.slots),
+    cssParts: documented(analyzed.cssParts),
+    cssProperties: documented(analyzed.cssProperties),
   };
 }

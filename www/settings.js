@@ -6,7 +6,7 @@
  * @typedef {object} Declaration
  * @property {string} key its name, as attribute, property and in states
  * @property {string} [in] the group or list that it is a part of
- * @property {string} [of] the setting that it is another way to say
+ * @property {string} [of] the setting that it sets, in another form
  * @property {number[]} [weights] the shares of it that the last numbers of that setting have
  * @property {string} [field] its name in that group, where another group has one of the same
  * @property {number} [index] its place in that list, from 0

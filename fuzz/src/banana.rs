@@ -114,7 +114,7 @@ fn assert_as_new(machine: &BananaMachine) {
     }
 }
 
-/// Everything shown, except for curves.
+/// Returns all results except curves.
 fn numbers(machine: &BananaMachine) -> Vec<f64> {
     let mut numbers: Vec<f64> = machine.poses().flat_map(|pose| [pose.x(), pose.y(), pose.theta()]).collect();
     let Figures {

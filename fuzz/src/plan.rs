@@ -21,7 +21,7 @@ pub fn run(bytes: &[u8]) {
     }
 }
 
-/// A plan of a few walls, or a refusal that says what was wrong.
+/// Reads a plan of a few walls; None if it is refused.
 pub fn read(input: &mut Input) -> Option<FloorPlan> {
     let bounds: [f64; 4] = if input.truth() {
         std::array::from_fn(|_| input.number())

@@ -17,8 +17,8 @@ pub struct Interpretation {
     pub free_thresh: f64,
 }
 
-/// Defaults where the YAML file says nothing: the grey that maps are saved with where nothing is known, 205 of
-/// 255, is not below the threshold.
+/// Defaults of keys that the YAML file does not have. Unknown cells are saved as the grey 205 of 255, whose occupancy of 0.1961
+/// is just above `free_thresh`.
 impl Default for Interpretation {
     fn default() -> Self {
         Self { mode: Mode::Trinary, negate: false, occupied_thresh: 0.65, free_thresh: 0.196 }

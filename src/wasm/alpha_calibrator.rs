@@ -14,13 +14,13 @@ use wasm_bindgen::prelude::*;
 const TYPES: &str = r#"
 /** One leg in the frame of the robot at its beginning, m and rad. */
 export interface LegView {
-  /** x, y, θ of where it may have ended under the fitted α's times the inflation. */
+  /** End poses x, y, θ drawn from the model, with the fitted α's times the inflation. */
   outcomes: Float64Array;
-  /** The 2σ ellipse of these as x, y pairs; empty where there is no noise. */
+  /** 2σ ellipse of the drawn positions as x, y pairs; empty without noise. */
   outline: Float64Array;
-  /** x, y, θ of where the odometry says that it ended. */
+  /** End pose x, y, θ by the odometry. */
   read: Float64Array;
-  /** x, y, θ of where it ended. */
+  /** End pose x, y, θ by the reference. */
   ended: Float64Array;
 }
 "#;

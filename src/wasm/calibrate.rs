@@ -50,7 +50,7 @@ const LEG: RangeInclusive<f64> = 1e-6..=1e6;
 /// Standard deviations that can be stated of a reference, m or rad: an exact one has a tiny one.
 const STD: RangeInclusive<f64> = 0.0..=1e3;
 
-/// Fits the α's of a robot to where its odometry (or its commands) and a reference say that it was. `doc/calibration-method.md` has the method.
+/// Fits the α's of a robot to logs of its odometry (or its commands) and of a reference. `doc/calibration-method.md` has the method.
 #[wasm_bindgen(js_name = calibrate, unchecked_return_type = "Calibration")]
 pub fn calibrated(
     #[wasm_bindgen(unchecked_param_type = "CalibrationOptions")] options: &JsValue,

@@ -1,5 +1,5 @@
-// A monkey on the page: clicks, drags, keys, numbers, files, attributes, sizes, languages, whatever comes along. Nothing that
-// it does may bring a message, a trap or a figure that is none, and the state says all of what is shown.
+// Monkey test: random clicks, drags, keys, numbers, files, attributes, sizes and languages. No event may cause an error message, a trap or
+// a broken figure, and a figure that is opened with the state of another shows the same.
 //
 // MONKEY_EVENTS and MONKEY_SEED ask for more, and for another one; a failure names what replays it.
 
@@ -230,7 +230,7 @@ function complaintsAbout(page, name) {
       .filter((text) => /NaN|Infinity|undefined|\[object/.test(text))
       .map((text) => `it says ${text}`);
 
-    const told = async (/** @type {any} */ one) => {
+    const resultsOf = async (/** @type {any} */ one) => {
       const bytes = new Uint8Array(await new Blob([one.poses, one.verdicts ?? one.executed]).arrayBuffer());
       const hash = [...new Uint8Array(await crypto.subtle.digest('SHA-256', bytes))].join();
       return JSON.stringify([one.getState(), one.stats, hash], (_, value) => (Number.isFinite(value) || typeof value !== 'number' ? value : String(value)));
@@ -238,13 +238,13 @@ function complaintsAbout(page, name) {
     // A growing cloud would have more samples a moment later.
     element.setState({ ...element.getState(), ...('playing' in element.getState() && { playing: false }) });
     await element.settled;
-    const before = await told(element);
+    const before = await resultsOf(element);
     const state = element.getState();
     const fresh = /** @type {any} */ (document.createElement(name));
     fresh.setState(JSON.parse(JSON.stringify(state)));
     element.after(fresh);
     await there(fresh);
-    const after = await told(fresh);
+    const after = await resultsOf(fresh);
     fresh.remove();
     if (after !== before) complaints.push(`another one in its state is another: ${before.slice(0, 2000)} became ${after.slice(0, 2000)}`);
     return complaints;

@@ -12,7 +12,7 @@ import { presets } from '../../www/settings.js';
 
 const read = (/** @type {string} */ path) => readFileSync(new URL(`../../${path}`, import.meta.url), 'utf8');
 
-/** Files and names of constants, with the sentence of the document that tells the value. @type {[string, string, RegExp][]} */
+/** Files and names of constants, with the sentence of the document that contains the value. @type {[string, string, RegExp][]} */
 const LIMITS = [
   ['www/widgets/banana-machine/pictures.ts', 'MAX_DOTS', /Up to (\S+) robots are drawn as dots/],
   ['www/widgets/map-squeeze/reading.ts', 'MAX_DOTS', /more than (\S+) motions are drawn as cells/],

@@ -46,9 +46,9 @@ pub struct Panel {
     pub interval: Option<[f64; 2]>,
 }
 
-/// Returns true if the first α of a noise component multiplies the squared distance. For rotations of the odometry models it
-/// multiplies the squared rotation.
-fn way_first(model: Model, kind: usize) -> bool {
+/// Returns true if the first α of a noise component multiplies the squared translation or speed. For rotations of the odometry models
+/// it multiplies the squared rotation.
+fn is_translation_first(model: Model, kind: usize) -> bool {
     match model {
         Model::Odometry(OdometryRule::Omni) => kind > 0,
         Model::Odometry(_) => kind == 1,
@@ -63,7 +63,7 @@ pub fn panels(model: Model, calibration: &Calibration, driver: Driver) -> [Panel
 
 fn panel(model: Model, calibration: &Calibration, kind: usize, driver: Driver) -> Panel {
     let Calibration { alphas, intervals, observations, leg_fits, .. } = calibration;
-    let own = usize::from(way_first(model, kind) != (driver == Driver::Way));
+    let own = usize::from(is_translation_first(model, kind) != (driver == Driver::Way));
     let pair = model.components()[kind].alphas;
     let alpha = pair[own];
     let slope = alphas[alpha];

@@ -37,7 +37,7 @@ fn the_opening_intervals_hold_the_true_values() {
     assert_eq!(machine.calibration().diagnostics.verdict, Verdict::Consistent);
 }
 
-/// Legs of a duration last it, whatever distance and angle say; inflation is no reason to fit anew.
+/// If a duration is set, legs end after it, and distance and angle have no effect.
 #[test]
 fn legs_end_after_a_duration_where_one_is_set() {
     let settings = Settings { duration: 0.8, ..Settings::default() };
@@ -101,7 +101,7 @@ fn panels_are_means_of_squared_innovations() {
         assert!((trans.x[i] - mean(0)).abs() < 1e-12 && (trans.y[i] - mean(1)).abs() < 1e-12, "bin {i}");
     }
     assert_eq!(trans.x.len(), 8);
-    // The model is true: the bins are about the line, as their errors say.
+    // The model is true, so that the bins are within their errors of the line.
     let off = |i: usize| ((trans.y[i] - slope * trans.x[i]) / trans.error[i]).powi(2);
     assert!((0..8).map(off).sum::<f64>() < 26.1, "χ² of 8 is above that once in a thousand times");
 }

@@ -30,7 +30,7 @@ fn models() -> [Settings; 2] {
     [preset("gentle"), Settings { model: ModelKind::Odometry, ..preset("gentle") }]
 }
 
-/// Everything that the machine shows.
+/// Returns all results of a machine as text.
 fn picture(machine: &BananaMachine) -> String {
     format!("{:?} {:?} {:?} {:?}", machine.settings(), poses(machine), machine.figures(), machine.contours())
 }

@@ -163,7 +163,7 @@ fn a_zero_variance_has_no_relative_error() {
     assert_eq!(machine(slow).compared(Compounding::Chapter).misses.map(|misses| misses.told), [false; 3]);
 }
 
-/// The fourth order's corrections may leave no covariance: then there is none, from there on, and no ratio.
+/// The corrections of the fourth order can make a matrix that is no covariance. From that step on there is no covariance and no ratio.
 #[test]
 fn a_fourth_order_without_a_covariance_has_no_ratio() {
     let wild = Settings { alphas: [0.02, 0.02, 60.0, 60.0, 5.0, 5.0], ..few(1000) };

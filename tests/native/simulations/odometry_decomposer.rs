@@ -104,8 +104,8 @@ fn the_prediction_does_not_see_the_drift() {
     assert!(apart.iter().all(|apart| apart.abs() < 1e-14), "{apart:?}");
 }
 
-/// The curve goes through what the readouts say, from what the rotations alone do; far out the lever overstates it, for no
-/// robot is farther across than it drives.
+/// The curve contains the values of the readouts. At a large noise of the rotation `lever` is too large, because no robot is farther
+/// across than it drives.
 #[test]
 fn the_curve_goes_through_the_reading() {
     for rule in OdometryRule::ALL {

@@ -13,12 +13,12 @@ fn grids(min: [f64; 2], max: [f64; 2]) -> [Grid; 4] {
     [(16, 9), (17, 1), (53, 40), (3, 2)].map(|(columns, rows)| Grid { min, max, columns, rows })
 }
 
-/// A ramp whose colours tell their step, and `mark` whose they are.
+/// Returns a ramp whose colours contain their step, and `mark` as the number of the ramp.
 fn ramp(mark: u8) -> Ramp {
     std::array::from_fn(|step| [step as u8, mark, 7, 255])
 }
 
-/// The cell of a point, row by row from the top, by the definition of a grid.
+/// Returns the index of the cell of a point, row by row from the top, by the definition of a grid.
 fn cell(grid: &Grid, [x, y]: [f64; 2]) -> Option<usize> {
     let Grid { min, max, columns, rows } = *grid;
     let column = ((x - min[0]) / (max[0] - min[0]) * columns as f64).floor();

@@ -78,7 +78,7 @@ fn errors_of_the_finest_banana_as_it_opens() {
 
 #[test]
 #[ignore = "nightly: thousands of clouds"]
-fn small_clouds_hold_the_exact_skew_as_often_as_told() {
+fn small_clouds_hold_the_exact_skew_as_often_as_printed() {
     let text = Text::in_document(include_str!("../../../doc/statistics.md"));
     let [few_held, few, more_held, more] = text.numbers(
         "1.96 errors hold the exact one in # of 100 clouds of #, in # of #, and in 95 of 5000 and more",

@@ -80,8 +80,8 @@ fn cross_track_figures_are_what_their_definitions_say() {
     assert!((cross_track_skew(&lopsided) + 0.5f64.sqrt()).abs() < 1e-15);
 }
 
-/// The contour pushed through exp holds what its name says: all of it where ξ is Gaussian and of rank 2, and the
-/// outline separates inside from outside.
+/// The 2σ contour in ξ contains the same fraction of the robots after exp, if ξ is Gaussian of rank 2. Its outline separates inside from
+/// outside.
 #[test]
 fn the_exponential_contour_covers_two_deviations() {
     let start = SE2::new(2.0, -1.0, 0.8);

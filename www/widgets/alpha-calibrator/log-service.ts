@@ -26,7 +26,7 @@ export class LogFailure extends Error {
   }
 }
 
-/** Checks whether a request was given up, and nothing is to be said about it. */
+/** Checks whether a request was aborted, which needs no message. */
 export const isStopped = (error: unknown) => error instanceof DOMException && error.name === 'AbortError';
 
 /** Client of the worker: one request at a time. */

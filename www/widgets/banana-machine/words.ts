@@ -67,7 +67,7 @@ export function floorTitle({ stats, table: { exact: { areaRatio, likelihoodGain 
 export const calloutsOf = ({ gaps }: Reading): Callout[] =>
   words.banana.callouts.slice(0, gaps.length / 2).map((text, i) => ({ text, at: [gaps[2 * i], gaps[2 * i + 1]] }));
 
-/** Returns a sentence on the lean of the cloud. The exact skew tells the side, and the sample whether it shows. */
+/** Returns a sentence on the bend of the cloud. The exact skew determines the side; the skew of the samples, whether it is significant. */
 function bendText({ stats: { crossTrackSkew: skew, crossTrackSkewError: error, areaRatio }, exactSkew, bowTie, table, gain }: Pick<Reading, 'stats' | 'exactSkew' | 'bowTie' | 'table' | 'gain'>) {
   if (Number.isNaN(skew)) return '';
   const say = words.banana.bend;

@@ -58,7 +58,7 @@ export function once(work) {
 }
 
 /**
- * @returns {<T>(work: () => Promise<T>) => Promise<T>} that does what it is given one after the other
+ * @returns {<T>(work: () => Promise<T>) => Promise<T>} a function that runs given tasks one after the other
  */
 export function queue() {
   /** @type {Promise<unknown>} */
@@ -71,7 +71,7 @@ export function queue() {
 }
 
 /**
- * Waits until all is settled: what goes on after a failure would still write where the next start reads.
+ * Waits until all promises are settled. Work that continued after a failure would write files that the next run reads.
  *
  * @template {Promise<unknown>[] | []} T
  * @param {T} works

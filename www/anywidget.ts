@@ -114,7 +114,7 @@ function withoutKernel(work: () => void) {
   try {
     work();
   } catch {
-    // The figure goes on.
+    // The figure works without a kernel.
   }
 }
 
@@ -131,7 +131,7 @@ function traitsOf(element: any): [trait: string, property: string][] {
   });
 }
 
-/** As JSON has it: lists for typed arrays, null for what is no number. */
+/** Returns a value as JSON can represent it: lists for typed arrays, null for numbers that are not finite. */
 function plain(value: unknown): unknown {
   if (typeof value === 'number') return Number.isFinite(value) ? value : null;
   if (typeof value !== 'object' || value === null) return value;

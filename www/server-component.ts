@@ -1,6 +1,6 @@
 /**
- * Substitute for the elements in a server component of React: that runs on the server alone, and what it imports for its effects never
- * comes to a browser.
+ * Substitute for the elements in a server component of React. Such a component runs on the server alone: an import for its side effects
+ * does not reach the browser.
  */
 throw new Error(
   "motion-widgets is imported by a server component, and no browser would get it: import the elements from 'motion-widgets/react', " +

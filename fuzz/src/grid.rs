@@ -94,7 +94,7 @@ fn long(wall: &Segment) -> f64 {
     (wall.to[0] - wall.from[0]).hypot(wall.to[1] - wall.from[1])
 }
 
-/// A grid of a few cells, and what is unknown in it.
+/// Reads a grid of a few cells, and the treatment of its unknown cells.
 pub fn read(input: &mut Input) -> Option<(OccupancyGrid, Unknown)> {
     let resolution = input.near(&RESOLUTION);
     let [x, y, yaw] = [0; 3].map(|_| input.near(&QUANTITY));

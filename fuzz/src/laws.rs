@@ -24,8 +24,8 @@ pub fn pose(what: &str, pose: &SE2) {
     assert!(-PI < pose.theta() && pose.theta() <= PI, "{what}: {pose:?}");
 }
 
-/// Finite, symmetric, and no correlation above 1: but for rounding, which is in proportion to the size of what a covariance
-/// was made of.
+/// Asserts that moments are finite, and that the covariance is symmetric without a correlation above 1. The tolerance for rounding is
+/// in proportion to the size of the values.
 pub fn moments(what: &str, mean: &Vector3<f64>, cov: &Matrix3<f64>) {
     finite(what, mean.as_slice());
     finite(what, cov.as_slice());

@@ -104,7 +104,7 @@ fn in_blocks(machine: &mut DeadReckoning, few: &dyn Fn(Settings) -> Settings, in
     assert_results(machine);
 }
 
-/// A machine is what its settings are, whatever came before.
+/// Asserts that a machine depends on its settings only, and not on earlier calls.
 fn assert_as_new(machine: &DeadReckoning) {
     let mut other = DeadReckoning::showing(*machine.settings(), 0).expect("allowed");
     other.add_samples(machine.shown());
@@ -224,7 +224,7 @@ fn outlines(machine: &DeadReckoning, step: u32) {
     assert_eq!(measured.is_empty(), machine.shown() < 2);
 }
 
-/// One robot's way is what the steps show of it.
+/// Asserts that the path of one robot has the poses that the steps show.
 fn rollout(machine: &DeadReckoning, index: usize) {
     let Some(way) = machine.rollout(index) else {
         assert!(index >= machine.shown());

@@ -15,7 +15,7 @@ const PARTS: u32 = 3;
 const CALLS: usize = 3;
 
 thread_local! {
-    /// In a room with one wall, with what is known about the space in it.
+    /// Machine in a room with one wall.
     static OPENING: LazyCell<MapSqueeze> = LazyCell::new(|| {
         let wall = Segment { from: [0.0, 3.5], to: [2.0, 3.5] };
         let plan = FloorPlan::new(vec![wall], [0.0, 0.0, 4.0, 5.0]).expect("a plan");

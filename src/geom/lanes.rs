@@ -190,13 +190,13 @@ const LG: [f64; 7] = [
 const MAX_REDUCED: f64 = 3e6;
 const PI_PARTS: [f64; 3] = [3.141_592_653_468_251_2, 1.215_420_101_260_793_2e-10, 4.044_532_497_591_901e-21];
 
-/// Adding and taking it off again rounds to a whole number, twice of it to an even one.
+/// Constant that rounds a number to a whole one, if it is added and then subtracted. Twice the constant rounds to an even number.
 pub(crate) const ROUND: f64 = 6_755_399_441_055_744.0;
 
 /// Returns the number of half circles that are subtracted from x so that the rest is within a quarter circle of 0.
 #[inline(always)]
 fn whole_half_circles(x: f64x4) -> f64x4 {
-    // Within a quarter circle there are none, whatever rounding says at its ends.
+    // Within a quarter circle the number is 0. At its ends the rounded quotient may be 1.
     let near = x.abs().simd_le(f64x4::splat(FRAC_PI_2));
     near.bitselect(f64x4::splat(0.0), x * FRAC_1_PI + ROUND - ROUND)
 }

@@ -260,7 +260,7 @@ impl OccupancyGrid {
     pub fn outlines(&self, most: usize) -> Result<Vec<Segment>, usize> {
         let [columns, rows] = self.size();
         let (mut sides, mut upright) = (Vec::new(), Vec::new());
-        // An outline separates an obstacle cell from one that is none. `began` has, for each grid line between columns, the
+        // An outline separates obstacle cells from all others. `began` has, for each grid line between columns, the
         // row at which the current outline began.
         let mut began = vec![None; columns + 1];
         for row in 0..=rows {
@@ -294,11 +294,12 @@ impl OccupancyGrid {
     }
 }
 
-/// Follows an outline along a grid line, of which a piece begins at `at` or does not; returns where the outline began that ends there.
-fn follow(began: &mut Option<usize>, goes_on: bool, at: usize) -> Option<usize> {
+/// Follows an outline along a grid line. `is_outline` is true if the piece from `at` on is on an outline. If an outline ends at `at`,
+/// returns where it began.
+fn follow(began: &mut Option<usize>, is_outline: bool, at: usize) -> Option<usize> {
     match *began {
-        None if goes_on => *began = Some(at),
-        Some(_) if !goes_on => return began.take(),
+        None if is_outline => *began = Some(at),
+        Some(_) if !is_outline => return began.take(),
         _ => (),
     }
     None

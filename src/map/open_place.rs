@@ -82,7 +82,7 @@ impl<'a> Squares<'a> {
     /// free. Of several, that of the first upper right corner, row by row.
     fn middle_of_largest(&self) -> Option<[f64; 2]> {
         let (mut largest, mut middle) = (0, None);
-        // For each column, the row from which on it has been free so far.
+        // Row from which on each column has been free so far.
         let mut free_from = vec![0u32; self.columns];
         for row in 0..self.rows {
             for (column, from) in free_from.iter_mut().enumerate() {
@@ -90,8 +90,8 @@ impl<'a> Squares<'a> {
                     *from = row as u32 + 1;
                 }
             }
-            // So many columns side by side, and one, that have been free for so many rows, and one, are a larger square than any before.
-            // What is `open` are those of them that are known to have been.
+            // A square with a side of `largest + 1` ends at this row if each column from `left` to `right` has been free for as many rows.
+            // Columns below `open` were checked already.
             let (mut left, mut open) = (0, 0);
             while left + largest < self.columns {
                 let right = left + largest;
@@ -103,7 +103,7 @@ impl<'a> Squares<'a> {
                 largest += 1;
                 let half = 0.5 * largest as f64;
                 middle = Some([right as f64 + 1.0 - half, row as f64 + 1.0 - half]);
-                // For longer, each of them may not have been.
+                // The next side is longer by one row, so that all columns are checked again.
                 open = 0;
             }
         }

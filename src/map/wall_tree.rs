@@ -27,7 +27,7 @@ pub(super) struct Node {
     hull: Line,
     /// Maximum distance of a wall of the node from the line, m.
     pub thickness: f64,
-    /// True if the walls are all the same.
+    /// True if all walls of the node are equal, so that one represents them.
     is_one: bool,
 }
 

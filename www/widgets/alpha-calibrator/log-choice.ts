@@ -59,7 +59,7 @@ function seriesSelect(opener: LogOpener, { recordings, wishes, plan }: Chosen, r
   }, say.open);
 }
 
-/** Returns the likeliest choice where it is the only one. */
+/** Returns the likeliest choice; undefined if there are several. */
 function guessOf(recording: Recording, role: Role, kind: 'commands' | undefined): Choice | undefined {
   const best = candidates(recording, role, { kind }).find(({ length }) => length > 0);
   return best?.length === 1 ? best[0] : undefined;

@@ -61,7 +61,7 @@ export class LogService {
     return (this.#link ??= connect(this.#tag));
   }
 
-  /** Opens files with the options of each name, and gives up what is being done. */
+  /** Opens files, with the options of each by its name, and aborts the request in progress. */
   async open(files: Source[], answers: Record<string, OpenOptions>): Promise<Opened[]> {
     this.stop();
     // A copied `File` has no path.

@@ -152,21 +152,22 @@ function drawCircle(brush: Brush, start: Pose, { center, end, turn, arcLength }:
   const radius = Math.min(ANGLE, 0.4 * Math.hypot(fromX - x, fromY - y));
   // In pixels y points down, so that a turn to the left is negative.
   stroke(context, { colour, width: 1.5 }, () => context.arc(x, y, radius, first, first - turn, turn > 0));
-  // Behind the robot, where nothing of the arc is; along it where it is so flat that a picture ends behind the robot.
+  // The labels are behind the robot, away from the arc. If the centre is outside the picture, they are ahead: the picture may end behind
+  // the robot.
   const beside = Math.sign(arcLength) * (seen === 1 ? -1 : 1);
-  const tell = (text: string, share: number) => {
+  const label = (text: string, share: number) => {
     const at = [fromX + share * (x - fromX) + 10 * beside * ahead.x, fromY + share * (y - fromY) + 10 * beside * ahead.y];
     const towards = beside * ahead.x;
     drawLabel(brush, { x: at[0], y: at[1], towards: Math.abs(towards) < 0.3 ? 0 : Math.sign(towards), text, colour });
   };
-  tell(signed, seen / 2);
+  label(signed, seen / 2);
   if (seen === 1) {
-    tell(angle, 1);
+    label(angle, 1);
     return;
   }
   drawArrow(context, colour, [fromX + seen * (x - fromX), fromY + seen * (y - fromY)], Math.atan2(y - fromY, x - fromX));
   const distance = significant(Math.hypot(center[0] - start.x, center[1] - start.y), 2);
-  tell(`${words.anatomy.centreAt(distance)}, ${angle}`, seen);
+  label(`${words.anatomy.centreAt(distance)}, ${angle}`, seen);
 }
 
 /** Draws an arrow at a point in a direction (rad), downwards from the right. */

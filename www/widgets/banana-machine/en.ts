@@ -62,7 +62,7 @@ export const en = {
   alphaIsZero: (alpha) => `${alpha} is alone and 0: no noise at all. Turn it up.`,
   alphaIsSilent: (alpha, factor, cause, picture) =>
     `${alpha} multiplies ${factor}: no noise at all. Turn ${cause} up a little and watch it ${picture}.`,
-  /** Factor of an α that has no effect, because the command lacks this speed. */
+  /** Factor of an α that has no effect, because this speed of the command is 0. */
   nothingToMultiply: {
     velocity: { v: 'v², and v is 0', ω: 'ω², and ω is 0' },
     odometry: { v: 'the squared distance, and it is 0', ω: 'the squared rotations, and they are 0' },

@@ -106,7 +106,7 @@ class CloudPicture extends Picture<Scene, import('../../types.d.ts').ViewName> {
   }
 }
 
-/** Returns the place of each robot at a morph, with the heading that is left of it. */
+/** Returns x, y and heading of each robot at a morph. The heading shrinks to 0 towards exponential coordinates. */
 function placesOf(twists: Float64Array, morph: number) {
   const places = new Float64Array(twists.length);
   for (let i = 0; i < twists.length; i += 3) {

@@ -13,7 +13,7 @@ export function recursionChoice(figure: Figure) {
   return choices(figure, 'compounding', words.reckoning.recursions);
 }
 
-/** Returns what is changed most: the heading noise, and the number of steps of the same path. */
+/** Returns the two main controls: the heading noise, and the number of steps of the same path. */
 export function pathControls(figure: Figure) {
   return html`<div class="controls" part="controls">
     ${slider(figure, 'headingNoise')} ${slider(figure, 'steps', { input: (steps) => figure.settings.want((wanted) => samePath(wanted, steps)) })}

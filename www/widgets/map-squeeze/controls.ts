@@ -32,7 +32,7 @@ export function placeControls(figure: Figure) {
   </div>`;
 }
 
-/** Returns the choice of the sampler, with what it does. */
+/** Returns the choice of the sampler, with a sentence on its effect. */
 export function samplerControls(figure: Figure) {
   const { conditioned, sampler, samples, steps } = figure.reading.config;
   const { settings, samplers, samplerEffects } = words.squeeze;

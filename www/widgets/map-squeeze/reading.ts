@@ -37,8 +37,8 @@ export function kindOf(verdict: number) {
 }
 
 /**
- * Returns how many of the accepted motions went through a wall, with the interval of their share. There is none where the sampler excludes
- * it (`certain`), or where the machine gave up: that is chance too.
+ * Returns how many of the accepted motions went through a wall, with the interval of their share. There is no interval if the
+ * sampler excludes such motions (`certain`), or if the machine gave up: when it gives up depends on chance.
  */
 export function throughText({ throughWall, throughWallRate, throughWallInterval: [low, high], gaveUp }: Pick<SqueezeStats, 'throughWall' | 'throughWallRate' | 'throughWallInterval' | 'gaveUp'>, certain: boolean) {
   const interval = certain || gaveUp ? '' : `${fixed(100 * low, 1)}\u2060–\u2060${percent(high)}`;

@@ -161,3 +161,17 @@ test('no slider moves under the finger when there is something to note', async (
   await expect(note).toContainText('no noise at all');
   expect(Math.abs((await place()) - before)).toBeLessThan(0.5);
 });
+
+test('a slider stays in its place when a text above it becomes shorter', async ({ page }) => {
+  await page.setViewportSize({ width: 700, height: 900 });
+  const widget = await openWhole(page);
+  const height = () => widget.locator('.readouts').first().evaluate((element) => element.getBoundingClientRect().height);
+  await frames(page);
+  const before = await height();
+  await widget.locator('#v').fill('0');
+  await expect(widget.locator('.readouts').first()).toContainText('—');
+  await frames(page);
+  expect(await height()).toBe(before);
+  await page.setViewportSize({ width: 740, height: 900 });
+  await expect.poll(height).toBeLessThan(before);
+});

@@ -152,7 +152,7 @@ export const de: typeof import('./en.ts').en = {
   },
   leg: {
     group: 'Etappen',
-    name: 'gezeigte Etappe',
+    name: 'Etappe',
     worst: 'Nächstes großes Residuum',
     off: 'Fehler',
     squared: (expected) => `quadrierte Mahalanobis-Distanz (erwartet ${expected})`,

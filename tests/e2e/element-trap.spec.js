@@ -51,7 +51,7 @@ test('a core that traps is restarted with the same state and picture, and no oth
   expect(await stateOf(widget)).toEqual(before);
   expect(await pictureOf(widget.locator('canvas.plane'))).toBe(picture);
   expect(await neighbour.evaluate((element) => /** @type {AnyElement} */ (element).machine === Reflect.get(window, 'neighbour'))).toBe(true);
-  // The figure goes on.
+  // The figure works again.
   await widget.locator(`#${slider}`).fill(String(values[1]));
   await expect(widget).toHaveAttribute(slider, String(values[1]));
   // After the next picture, the figure recovers from another trap too.

@@ -33,7 +33,7 @@ test('examples of the reference start when they are opened, and are what their c
 const OUTSIDE_PRESETS = ['preset', 'samples', 'overlays', 'line', 'morph'];
 
 /**
- * Expects that each item sets the whole state that it describes, whatever was pressed before.
+ * Expects that each item sets the whole state that it describes, independent of the items pressed before.
  *
  * @param {import('@playwright/test').Page} page
  * @param {import('./figures.js').Name} name

@@ -151,7 +151,7 @@ async function awayAndBack(page, site) {
   await live(page, site);
 }
 
-/** The element is made before it is defined, and has to take up what it was given. @type {(page: Page, site: Site) => Promise<void>} */
+/** Comes to the figure from another page. The element is created before its class is defined, and has to apply the properties that it got. @type {(page: Page, site: Site) => Promise<void>} */
 async function fromElsewhere(page, site) {
   await page.goto(address(site, site.definition.pages.second ?? ''));
   // From then on the engine's own script handles links.

@@ -59,7 +59,7 @@ const machine = (page) => page.locator('banana-machine');
  *
  * @param {Page} page
  * @param {string} code
- * @returns {Promise<any>} what it is worth, as JSON has it
+ * @returns {Promise<any>} its value, by JSON
  */
 async function python(page, code) {
   const cell = page.locator('.jp-CodeCell').last();

@@ -4,9 +4,9 @@ const CORE = new URL('../../dist/core.js', import.meta.url).href;
 let copies = 0;
 
 /**
- * The built module, evaluated anew: `load` keeps what it loaded first.
+ * Returns a new instance of the built module, because `load` caches its first core.
  *
- * @returns {Promise<any>} any: the tests call it as a stranger would, wrongly too
+ * @returns {Promise<any>} any, because tests also call it with wrong types
  */
 export function freshModule() {
   copies += 1;

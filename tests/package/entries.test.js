@@ -243,7 +243,7 @@ test('the address of the external module can be set by the script that imports i
   assert.deepEqual(modules, [new URL(address, project.address).href]);
 });
 
-/** A page with a figure whose modules are answered by a page, as servers do that send their own for whatever they do not have. @param {string} script */
+/** Returns a page with a figure, whose modules are answered by an HTML page, as some servers answer requests for missing files. @param {string} script */
 async function withoutModules(script) {
   const page = await project.browser.newPage();
   /** @type {string[]} */

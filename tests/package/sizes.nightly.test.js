@@ -13,7 +13,7 @@ const at = (/** @type {string} */ path) => join(ROOT, path);
 /** Output of esbuild on each product, by its path from the root. @type {Record<string, { entryPoint?: string, imports: { path: string, kind: string }[] }>} */
 const outputs = JSON.parse(readFileSync(at('build/outputs.json'), 'utf8'));
 
-/** Returns a module and what a browser loads with it, without what it imports when it is needed. @param {string} path */
+/** Returns a module with its static imports, which a browser loads with it, and without dynamic imports. @param {string} path */
 function loadedWith(path) {
   const found = new Set([path]);
   for (const each of found) {

@@ -90,7 +90,7 @@ fn lost_legs_are_counted_by_cause() {
         all[2..11].iter().map(|leg| leg.times).collect::<Vec<_>>()
     );
     assert!(lost.without_reference >= 4 && lost.total() == lost.without_reference, "{lost:?}");
-    // The robot stands for 4 s, four legs of a second.
+    // The robot stands still for 4 s, in four legs of a second.
     let standing = trajectory(whole.samples().map(|(time, pose)| {
         (time, SE2::new(if time < 3.0 { pose.x() } else { 1.5 + (pose.x() - 3.5).max(0.0) }, 0.0, 0.0))
     }));

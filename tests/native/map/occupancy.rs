@@ -97,7 +97,7 @@ fn the_walls_are_as_far_as_the_cells() {
     assert!(inside > 1000 && outside > 1000, "{inside} {outside}");
 }
 
-/// Neighbouring sides form one wall, there are none between two occupied cells, and corners touch.
+/// Neighbouring sides of cells form one wall. Between two occupied cells there is no wall, and walls meet at corners.
 #[test]
 fn outlines_are_joined() {
     let picture = ["##.", "#..", "..#"];

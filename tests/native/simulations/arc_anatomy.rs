@@ -86,8 +86,8 @@ fn robots_end_where_their_arcs_do_and_the_last_turn_gives_the_final_heading() {
     }
 }
 
-/// The table as printed is wrong where the centre lies to the right of the heading, and nowhere else: what it finds then
-/// drives to the mirror image of the final position.
+/// The table as printed is wrong only if the centre is to the right of the heading. Its arc then ends at the point reflection of the
+/// final position at the start.
 #[test]
 fn the_printed_option_mirrors_centres_to_the_right() {
     let mut right = 0;

@@ -271,7 +271,7 @@ fn the_gain_is_infinite_where_only_the_bent_cloud_is_flat() {
     assert_eq!(fan.table().exact.likelihood_gain, gain.value);
 }
 
-/// On a line through the start there is nothing to gain, whatever the headings.
+/// For robots on a line through the start the gain is undefined, for any headings.
 #[test]
 fn robots_on_a_line_have_no_gain() {
     for (command, alphas) in [

@@ -50,7 +50,9 @@ const own = css`
   }
 
   :host([presentation]) .chart .plotted {
-    position: static;
+    position: relative;
+    z-index: auto;
+    top: 0;
   }
 
   :host([presentation]) .step .stage {

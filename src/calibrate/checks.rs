@@ -31,6 +31,8 @@ pub enum CheckName {
     SamplingDense,
     /// Fraction of outliers.
     OutliersFew,
+    /// Fraction of the legs in which the odometry moves sideways.
+    SidewaysRare,
     /// Difference of the distance scales of straight and turning legs, or of both halves: the larger one.
     DistanceScaleConstant,
     /// Difference of the turn scales of both halves.
@@ -117,6 +119,7 @@ impl CheckName {
             Self::LegsLost => "legs-lost",
             Self::SamplingDense => "sampling-dense",
             Self::OutliersFew => "outliers-few",
+            Self::SidewaysRare => "sideways-rare",
             Self::DistanceScaleConstant => "distance-scale-constant",
             Self::TurnScaleConstant => "turn-scale-constant",
             Self::InflationBounded => "inflation-bounded",
@@ -146,6 +149,9 @@ impl CheckName {
             }
             Self::OutliersFew => {
                 "Many legs are outliers. The α's are those of the rest, and too small if the outliers are slip of the wheels. Look at the listed legs: a jump of the reference or slip?"
+            }
+            Self::SidewaysRare => {
+                "The odometry moves sideways: its positions are noisy, or its frame is off the axle. α₁ and α₄ are too small. Use odometry of the wheels, at the middle of their axle."
             }
             Self::DistanceScaleConstant => {
                 "The odometry's scale of distances is not a constant, so it was not corrected unless asked for. Check wheel diameters, load and slip in turns; calibrate the wheels, then the noise."
@@ -196,6 +202,12 @@ const SCALES: std::ops::RangeInclusive<f64> = 0.5..=2.0;
 const DRIVES: f64 = 0.05;
 const TURNS: f64 = 0.1;
 
+/// Length of a leg (m) from which its direction counts: rounded positions and pulses of encoders move less.
+const DIRECTED: f64 = 0.002;
+
+/// Sine of the angle between the chord of a leg and its heading halfway, above which it moves sideways. An arc has 0.
+const SIDEWAYS: f64 = 0.5;
+
 /// Number of windows below which nothing is concluded from them.
 pub(super) const MIN_WINDOWS: usize = 20;
 
@@ -226,13 +238,25 @@ pub(super) fn log_checks(
         sample.legs.iter().map(|leg| length.ratio(&leg.odometry, leg.duration())).collect();
     let outliers = sample.outliers.iter().filter(|is| **is).count();
     let lost = lost.total() - lost.standing;
-    vec![
+    let mut checks = vec![
         check(CheckName::ReferenceMatches, mismatch, [0.0, MAX_MISMATCH]),
         check(CheckName::EnoughLegs, count as f64, [ENOUGH_LEGS, f64::INFINITY]),
         check(CheckName::LegsLost, lost as f64 / (count + lost) as f64, [0.0, 0.2]),
         check(CheckName::SamplingDense, median(&mut ratios), [0.0, 1.5]),
         check(CheckName::OutliersFew, outliers as f64 / count as f64, [0.0, 0.05]),
-    ]
+    ];
+    if sample.options.model.has_directions() {
+        let sideways = sample.legs.iter().filter(|leg| moves_sideways(&leg.odometry)).count();
+        checks.push(check(CheckName::SidewaysRare, sideways as f64 / count as f64, [0.0, 0.02]));
+    }
+    checks
+}
+
+/// Tells whether a leg moves to the side of its heading. The rules of differential robots then read a large first rotation.
+fn moves_sideways([start, end]: &[SE2; 2]) -> bool {
+    let twist = end.boxminus(start);
+    let length = libm::hypot(twist.x, twist.y);
+    length > DIRECTED && twist.y.abs() > SIDEWAYS * length
 }
 
 /// Median difference of the two motions over the median motion: of turns, or of drives, whichever is larger.

@@ -28,7 +28,7 @@ export interface SystematicValue {
 /** One check of a calibration. */
 export interface CalibrationCheck {
   name:
-    | 'reference-matches' | 'enough-legs' | 'legs-lost' | 'sampling-dense' | 'outliers-few'
+    | 'reference-matches' | 'enough-legs' | 'legs-lost' | 'sampling-dense' | 'outliers-few' | 'sideways-rare'
     | 'distance-scale-constant' | 'turn-scale-constant' | 'inflation-bounded' | 'residuals-uncorrelated' | 'tails-normal'
     | 'holdout-covered' | 'window-1m-covered' | 'window-2m-covered' | 'window-5m-covered';
   value: number;

@@ -324,7 +324,7 @@ test('the report, the lines for Nav2 and the figure’s verdict agree whether th
     const args = [...FILES.slice(0, 3), file(`${name}.csv`, readFileSync(example('reference')))];
     const [{ out }, { out: json }] = [await outputOf(args), await outputOf([...args, '--json'])];
     const { logs, ...stats } = JSON.parse(json);
-    const { rating } = judgementOf(/** @type {any} */ ({ stats, legs: stats.legs, fitted: { ...stats.systematicErrors, model: 'odometry' } }), warningsOf(logs));
+    const { rating } = judgementOf(/** @type {any} */ ({ stats, legs: stats.legs, fitted: stats.systematicErrors }), warningsOf(logs));
     const found = [new RegExp(`^Consistent: .*\\n${en.nav2.localizer}\\n`, 'm').test(out), out.includes(`# ${en.nav2.localizer}`), rating === 'questionable'];
     assert.deepEqual(found, [isLocalizer, isLocalizer, isLocalizer], name);
   }

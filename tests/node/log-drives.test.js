@@ -6,7 +6,7 @@ import { log as german } from '../../www/logs/de.ts';
 import { planDrives, readDrives } from '../../www/logs/drives.ts';
 import { log as english } from '../../www/logs/en.ts';
 import { openRecordings } from '../../www/logs/open.ts';
-import { pairLogs, warningsOf } from '../../www/logs/pairs.ts';
+import { pairLogs } from '../../www/logs/pairs.ts';
 import { summarize } from '../../www/logs/summary.ts';
 import { refusalOf, sentenceOf } from './log-support.js';
 
@@ -156,24 +156,6 @@ test('names of a localizer, and swapped ones, are noted', async () => {
   const noted = (/** @type {string} */ parent) => pairLogs(odometry, { ...reference, summary: { ...reference.summary, frames: { parent, child: 'base_link' } } }).reference.summary.notes;
   assert.deepEqual([noted('mocap'), noted('map')], [[], [{ name: 'localizer', values: [] }]]);
   for (const [one, other] of [['wheels.csv', 'truth.csv'], ['odom.csv', 'reference-by-odom.csv'], ['a.csv', 'b.csv']]) assert.deepEqual(await notes(one, other), [], one);
-});
-
-test('odometry whose positions are noisy or off the axle is noted, and that of wheels is not', async () => {
-  // The robot alternates between straight drives and turns on the spot, each of two seconds.
-  const poses = [[0, 0, 0]];
-  for (let i = 0; i < 4000; i++) {
-    const [x, y, theta] = poses[i];
-    poses.push(i % 80 < 40 ? [x + 0.02 * Math.cos(theta), y + 0.02 * Math.sin(theta), theta] : [x, y, theta + 0.033]);
-  }
-  const noted = async (/** @type {(pose: number[], i: number) => number[]} */ seen) => {
-    const truth = table(poses.length, (i) => [i / 20, ...poses[i].map((each) => each * 1.01)]);
-    const [{ odometry, reference }] = await drivesOf({ 'odom.csv': table(poses.length, (i) => [i / 20, ...seen(poses[i], i)]), 'truth.csv': truth });
-    return warningsOf([odometry, reference]);
-  };
-  const jitter = (/** @type {number} */ i) => 0.005 * Math.sin(1e4 * i * i);
-  assert.deepEqual(await noted(([x, y, theta], i) => [x + jitter(i), y + jitter(i + 0.5), theta]), ['sideways']);
-  assert.deepEqual(await noted(([x, y, theta]) => [x + 0.05 * Math.cos(theta), y + 0.05 * Math.sin(theta), theta]), ['sideways']);
-  assert.deepEqual(await noted(([x, y, theta]) => [Math.round(1000 * x) / 1000, Math.round(1000 * y) / 1000, theta]), []);
 });
 
 test('one path given as both logs is refused, in another frame and in other files too', async () => {

@@ -4,7 +4,7 @@ import type { Summary } from '../logs/log.ts';
 import { warningsOf } from '../logs/pairs.ts';
 import { en as shared } from '../messages/en.ts';
 import { en } from '../widgets/alpha-calibrator/en.ts';
-import { adviceOf, alphaOrBound, formatInterval, failedOf, fixed, nav2Lines, percent, short, warningTexts } from '../widgets/alpha-calibrator/lines.ts';
+import { adviceOf, alphaOrBound, formatInterval, failedOf, fixed, nav2Lines, percent, short } from '../widgets/alpha-calibrator/lines.ts';
 
 type Interval = [number, number] | null;
 
@@ -58,7 +58,7 @@ export function textOf({ calibration, options, logs, start, begins, date }: Resu
   const text = [
     '',
     verdictSentence(calibration),
-    ...warningTexts(warningsOf(logs), model, en.nav2),
+    ...warningsOf(logs).map((name) => en.nav2[name]),
     '',
     `${legs.count} legs ${lengthOf(options.legs)}; model ${model}${model === 'odometry' ? `, rule ${rule}` : ''}`,
     '',

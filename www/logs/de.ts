@@ -202,7 +202,6 @@ export const log: Words = {
       swapped: (odometry, by) =>
         `${by === 'name' ? `sie heißt wie eine Odometrie, und ${odometry} nicht` : `sie wiederholt im Stand genau ihre Pose, wie die Odometrie von Rädern, und ${odometry} nicht`}: Ist die Odometrie als Referenz angegeben?`,
       apart: (name, one, other) => `keine Zeit gemeinsam mit ${name} (${one}, und ${other}): Die Uhren werden nach den Drehungen des Roboters gestellt`,
-      sideways: (percent) => `in ${percent} % ihrer Etappen bewegt sie sich seitwärts, was Räder nicht können: Ihre Positionen rauschen, oder ihr Koordinatensystem liegt neben der Achse; Radodometrie der Achsmitte verwenden`,
       localizer: 'die Schätzung eines Lokalisierers, deren Fehler der Odometrie folgen: Die Referenz muss unabhängig gemessen sein',
     },
   },

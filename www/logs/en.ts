@@ -219,7 +219,6 @@ export const log = {
         `${by === 'name' ? `its name is that of odometry, and ${odometry} is not` : `at rest it repeats its pose exactly, like wheel odometry, and ${odometry} does not`}: was the odometry given as the reference?`,
       apart: (name: string, one: string, other: string) =>
         `no time in common with ${name} (${one}, and ${other}): the clocks are aligned by the turns of the robot`,
-      sideways: (percent: number) => `in ${percent} % of its legs it moves sideways, which wheels cannot: its positions are noisy, or its frame is off the axle; use wheel odometry of the middle of the axle`,
       localizer: 'a localizer’s own estimate, whose errors follow the odometry: measure the reference independently',
     },
   },

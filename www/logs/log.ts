@@ -113,11 +113,11 @@ export type Cause = 'damaged' | 'notFinite' | 'noRotation' | 'noStamp' | 'short'
 export type Basis = 'name' | 'size' | 'rate' | 'format' | 'date' | 'option' | 'usage';
 
 /** Notes that leave α's doubtful even if all checks pass. */
-export type Warning = Extract<Note['name'], 'localizer' | 'swapped' | 'sideways'>;
+export type Warning = Extract<Note['name'], 'localizer' | 'swapped'>;
 
 /** Sentence about a log: name of a word in `found.notes`, and the values in it. */
 export interface Note {
-  name: 'cutShort' | 'damaged' | 'missing' | 'sorted' | 'noZone' | 'upAxis' | 'swapped' | 'apart' | 'localizer' | 'sideways';
+  name: 'cutShort' | 'damaged' | 'missing' | 'sorted' | 'noZone' | 'upAxis' | 'swapped' | 'apart' | 'localizer';
   values: (string | number)[];
 }
 

@@ -7,7 +7,6 @@ import { correctionOf, type Correction } from './corrections.ts';
 import { withoutFrozenPoses } from './frozen-pose.ts';
 import { LogError } from './log-error.ts';
 import { framesText, type Log, type Note, type Poses, type Role, type Warning } from './log.ts';
-import { sidewaysShare } from './sideways.ts';
 
 /** Two logs of one drive, with times after the same start. */
 export interface Drive { odometry: Log; reference: Log }
@@ -29,9 +28,6 @@ const MOVED = 0.1;
  * has noise.
  */
 const [RESTS, JITTERS] = [0.02, 0.001];
-
-/** Fraction of legs with a sideways motion above which the α's are doubtful. */
-const SIDEWAYS = 0.02;
 
 /** Units that correct a log if they are stated. */
 const UNIT_OF: { [Name in Correction['name']]?: 'angleUnit' | 'lengthUnit' } = { degrees: 'angleUnit', radians: 'angleUnit', lengths: 'lengthUnit' };
@@ -82,15 +78,13 @@ export function pairLogs(odometry: Log, reference: Log): Drive {
     throw new LogError({ file: log.name }, (say) => say.correction(wrong.name, other.name, wrong.score, wrong.factor), what && { what, choices: [] });
   }
   const swapped = swappedBy(first, second);
-  const sideways = sidewaysShare(first);
   const notes: Note[] = [
     ...reliable.summary.notes,
     ...(swapped ? [{ name: 'swapped' as const, values: [odometry.name, swapped] }] : []),
     ...(isLocalizer(reference.name, reference.summary.frames) ? [{ name: 'localizer' as const, values: [] }] : []),
     ...(overlap(odometry, reference) < 0 ? [{ name: 'apart' as const, values: [odometry.name, printed(reference), printed(odometry)] }] : []),
   ];
-  const own: Note[] = sideways > SIDEWAYS ? [{ name: 'sideways', values: [Math.round(100 * sideways)] }] : [];
-  return { odometry: { ...first, summary: { ...first.summary, notes: [...first.summary.notes, ...own] } }, reference: { ...reliable, summary: { ...reliable.summary, notes } } };
+  return { odometry: first, reference: { ...reliable, summary: { ...reliable.summary, notes } } };
 }
 
 /** Returns the sign by which the logs are swapped: names, or poses that repeat at rest in the reference only, as those of wheels do. */
@@ -101,7 +95,7 @@ function swappedBy(odometry: Log, reference: Log): 'name' | 'rest' | undefined {
   return roles.every((role) => role === undefined) && rests(reference) > RESTS && rests(odometry) < JITTERS ? 'rest' : undefined;
 }
 
-const WARNINGS: Warning[] = ['localizer', 'swapped', 'sideways'];
+const WARNINGS: Warning[] = ['localizer', 'swapped'];
 
 /** Returns the notes of logs that leave the α's doubtful. */
 export const warningsOf = (logs: Pick<Log, 'summary'>[]): Warning[] => WARNINGS.filter((warning) => logs.some(({ summary: { notes } }) => notes.some(({ name }) => name === warning)));

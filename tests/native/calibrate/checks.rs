@@ -2,11 +2,12 @@
 
 use super::simulated::{MODELS, Simulation, Unlike};
 use super::{calibrated, calibrated_log};
-use motion::NoiseKind;
+use crate::common::seeded;
 use motion::calibrate::CheckName::{self, *};
 use motion::calibrate::{Calibration, Model, Options, Outliers, SystematicError, Trajectory, Verdict};
 use motion::geom::se2::SE2;
 use motion::models::OdometryRule;
+use motion::{NoiseKind, Variance};
 use nalgebra::Vector3;
 
 const NAV2: Model = Model::Odometry(OdometryRule::Nav2);
@@ -120,6 +121,27 @@ fn rescaled(made: &Simulation, scale: impl Fn(f64, &Vector3<f64>) -> [f64; 2]) -
         read.push((pair[1].0, pose));
     }
     calibrated_log(&[Trajectory::new(read).expect("times rise"), reference], &made.options())
+}
+
+/// Odometry with noise of a centimetre, or of a point 5 cm ahead of the axle. Both move sideways in turns on the spot.
+#[test]
+fn odometry_that_moves_sideways_is_reported_unless_the_robot_can() {
+    let made = good(600, 12);
+    let [odometry, reference] = made.log();
+    let mut rng = seeded(12);
+    let mut noise = || NoiseKind::Normal.sample(Variance(1e-4), &mut rng);
+    let noisy = edited(&odometry, |(time, pose)| {
+        (time, SE2::new(pose.x() + noise(), pose.y() + noise(), pose.theta()))
+    });
+    let ahead = edited(&odometry, |(time, pose)| (time, pose * SE2::new(0.05, 0.0, 0.0)));
+    for odometry in [noisy, ahead] {
+        let log = [odometry, reference.clone()];
+        fails(SidewaysRare, &calibrated_log(&log, &made.options()));
+        for model in [Model::Odometry(OdometryRule::Omni), Model::Velocity] {
+            let calibration = calibrated_log(&log, &Options { model, ..made.options() });
+            assert!(calibration.diagnostics.checks.iter().all(|check| check.name != SidewaysRare));
+        }
+    }
 }
 
 /// Scales of 1 on straight legs and of 0.85 on turning ones, known to a hundredth.

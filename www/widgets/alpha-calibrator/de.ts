@@ -15,6 +15,8 @@ const MESSAGES: Record<string, string> = {
     'Die Aufzeichnung hat zu wenige Zeilen für diese Länge: Die Etappen sind länger als verlangt, und die α gelten für die längeren. Öfter aufzeichnen oder längere Etappen wählen.',
   'outliers-few':
     'Viele Etappen sind Ausreißer. Die α gelten für den Rest und sind zu klein, wenn die Ausreißer Schlupf der Räder sind. Die markierten Etappen ansehen: ein Sprung der Referenz oder Schlupf?',
+  'sideways-rare':
+    'Die Odometrie bewegt sich seitwärts: Ihre Positionen rauschen, oder ihr Koordinatensystem liegt nicht auf der Achse. α₁ und α₄ sind zu klein. Odometrie der Räder verwenden, in der Mitte ihrer Achse.',
   'distance-scale-constant':
     'Der Skalenfaktor der Strecke ist keine Konstante und wurde nicht korrigiert. Raddurchmesser, Last und Schlupf in Kurven prüfen; erst die Räder kalibrieren, dann das Rauschen.',
   'turn-scale-constant': 'Der Skalenfaktor der Drehung ist keine Konstante und wurde nicht korrigiert. Spurweite und Schlupf auf diesem Boden prüfen.',
@@ -90,11 +92,12 @@ export const de: typeof import('./en.ts').en = {
       'legs-lost': 'verlorene Etappen',
       'sampling-dense': 'Etappenlänge durch verlangte Länge',
       'outliers-few': 'Ausreißer',
+      'sideways-rare': 'Etappen mit seitlicher Odometrie',
       'distance-scale-constant': 'Änderung des Skalenfaktors, Strecke',
       'turn-scale-constant': 'Änderung des Skalenfaktors, Drehung',
       'inflation-bounded': 'Vergrößerung, die Fenster von 1 m brauchen',
       'residuals-uncorrelated': 'Korrelation benachbarter Etappen',
-      'tails-normal': 'Kurtosis der Residuen (Gewicht der Ausläufer; eine Gaußverteilung hat 3)',
+      'tails-normal': 'Kurtosis der Residuen (eine Gaußverteilung hat 3)',
       'holdout-covered': 'zurückgehaltene Etappen innerhalb von 95 %',
       'window-1m-covered': 'zurückgehaltene Fenster von 1 m innerhalb von 95 %',
       'window-2m-covered': 'zurückgehaltene Fenster von 2 m innerhalb von 95 %',
@@ -178,7 +181,7 @@ export const de: typeof import('./en.ts').en = {
   },
   windows: {
     title: 'Zurückgehaltene Fenster',
-    caption: 'Anteil der Fenster, die nicht zur Anpassung dienten, im Bereich der angepassten α',
+    caption: 'Abdeckung durch die α der anderen Hälfte',
     length: 'Strecke',
     count: 'Fenster',
     coverage: 'innerhalb von 95 %',
@@ -212,7 +215,7 @@ export const de: typeof import('./en.ts').en = {
     stds: 'Standardabweichungen der Referenz; 0: aus der Aufzeichnung geschätzt.',
     odometry: 'Odometrie',
     leave: 'Zurück zur simulierten',
-    simulated: 'Ein simulierter Roboter folgt einer Kurve durch eine Halle und dreht sich ab und zu auf der Stelle. Die wahren Werte stehen neben den Schätzungen.',
+    simulated: 'Ein simulierter Roboter folgt einer Kurve und dreht sich ab und zu auf der Stelle. Die wahren Werte stehen neben den Schätzungen.',
     present: (name) => `Aufzeichnung: ${name}.`,
     reading: 'Wird gelesen',
     refused: (message) => `Aufzeichnung abgelehnt: ${message}`,
@@ -237,7 +240,6 @@ export const de: typeof import('./en.ts').en = {
     failed: (checks) => `nicht bestandene Prüfungen: ${checks}`,
     localizer: 'Warnung: Die Referenz ist die Schätzung eines Lokalisierers. Sie teilt Fehler mit der Odometrie, die α’s sind zu klein.',
     swapped: 'Warnung: Die Referenz sieht wie Odometrie aus, die Odometrie nicht. Sind die beiden vertauscht?',
-    sideways: 'Warnung: Die Odometrie bewegt sich seitwärts, wodurch α₁ und α₄ zu klein werden.',
     corrected: (errors) => `nach Korrektur dieser systematischen Fehler: ${errors}`,
     fifth: 'alpha5 hat nur das omnidirektionale Modell',
   },

@@ -94,9 +94,6 @@ export function missingMotion(model: string, index: number): 'insufficient-rotat
   return isOfRotation ? 'insufficient-rotation' : 'insufficient-translation';
 }
 
-/** Returns the sentences of warnings. Robots of the other models may move sideways. */
-export const warningTexts = (warnings: Warning[], model: string, say: Words) => warnings.filter((name) => model === 'odometry' || name !== 'sideways').map((name) => say[name]);
-
 /**
  * Returns the lines with the recommended α's, and the fitted ones in comments. There are none if Nav2 has no such model, or no α's are
  * recommended.
@@ -113,7 +110,7 @@ export function nav2Lines({ calibration, count, model, rule, legs, log, warnings
     ...(model !== 'odometry' || ITS_RULES.includes(rule) ? [] : [say.otherRule]),
     ...correctionOf(systematicErrors).map((errors) => say.corrected(errors)),
     ...(failed ? [say.failed(failed)] : []),
-    ...warningTexts(warnings, model, say),
+    ...warnings.map((name) => say[name]),
   ];
   const lines = alphas.map((alpha: number | null, i: number) => {
     const interval = intervals[i];

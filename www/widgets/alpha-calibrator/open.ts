@@ -181,7 +181,7 @@ export class LogOpener extends Part<Figure> {
       this.host.requestUpdate();
     });
     const log = { name: nameOf(plan, reader), ...reader.logOf(drives) };
-    const fitted = this.host.open(log, reader.warningsOf(drives.flatMap(({ odometry, reference }) => [odometry, reference])), ({ count }) => {
+    const fitted = this.host.open(log, reader.warningsOf(drives.map(({ reference }) => reference)), ({ count }) => {
       if (count === 0) throw new RangeError(words.calibrator.none);
     });
     // The summary of logs is shown while they are fitted.

@@ -3,7 +3,7 @@
 import { addEnglish, words } from '../../messages/registry.ts';
 import { counted, fixed, percent, powerOfTen } from '../../ui/format.ts';
 import { en } from './en.ts';
-import { failedOf, warningTexts } from './lines.ts';
+import { failedOf } from './lines.ts';
 import { uncorrectedText } from './systematic.ts';
 import type { CalibrationCheck, LegView } from '../../types.d.ts';
 import type { Warning } from '../../logs/log.ts';
@@ -13,9 +13,8 @@ addEnglish({ calibrator: en });
 
 type Figure = Pick<import('./alpha-calibrator.ts').AlphaCalibratorElement, 'reading' | 'warnings' | 'logName'>;
 
-/** Printed checks that are a count, and those that are a fraction; the others are plain numbers. */
-const COUNTS = ['enough-legs'];
-const FRACTIONS = ['legs-lost', 'outliers-few', 'holdout-covered', 'window-1m-covered', 'window-2m-covered', 'window-5m-covered'];
+/** Names of checks whose value is a fraction. */
+const FRACTIONS = /-(lost|few|rare|covered)$/;
 
 /** Rating of the α's, with sentences. The meaning is long, and stands where it moves no picture. */
 interface Judgement {
@@ -30,7 +29,7 @@ interface Judgement {
 export function judgementOf(reading: Reading, given: Warning[]): Judgement {
   const { stats: { diagnostics: { verdict, checks } }, legs } = reading;
   const say = words.calibrator;
-  const warnings = [uncorrectedText(reading), ...warningTexts(given, reading.fitted.model, say.nav2)].filter(Boolean);
+  const warnings = [uncorrectedText(reading), ...given.map((name) => say.nav2[name])].filter(Boolean);
   const rating = verdict === 'consistent' && warnings.length > 0 ? 'questionable' : verdict;
   const result = (finding: string, next: string, ...meaning: string[]) => ({ rating, badge: say.badges[rating], finding, next, meaning: meaning.join(' ') });
   if (legs.count === 0) return result(say.none, say.longer, ...warnings);
@@ -46,7 +45,7 @@ export const messageOf = ({ name, passed, message }: CalibrationCheck) => (passe
 /** Prints the value of a check, or a limit of it. */
 export function checked(name: CalibrationCheck['name'], value: number) {
   if (!Number.isFinite(value)) return Number.isNaN(value) ? percent(value) : '∞';
-  return COUNTS.includes(name) ? counted(value) : FRACTIONS.includes(name) ? percent(value) : fixed(value, 3);
+  return name === 'enough-legs' ? counted(value) : FRACTIONS.test(name) ? percent(value) : fixed(value, 3);
 }
 
 /** Prints the values of a check that pass. */

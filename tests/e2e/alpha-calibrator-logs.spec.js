@@ -328,7 +328,7 @@ test('a log without legs says so @nightly', async ({ page }) => {
   await unfold(widget);
   await expect(caption(widget)).toHaveText(/^✕ Do not use\s+Not enough data: fewer than 8 legs, or the logs do not overlap in time\. Record a longer drive/);
   await expect(rows(widget).first()).toHaveText(/—/);
-  await expect(widget.locator('canvas.plane')).toHaveAttribute('aria-label', /none is shown\.$/);
+  await expect(widget.locator('canvas.plane')).toHaveAttribute('aria-label', /fewer than eight legs\.$/);
   await expect(widget.locator('canvas.leg')).toHaveAttribute('aria-label', 'No leg to show.');
   await expect(widget.locator('.slider.off:has(#leg)')).toBeVisible();
   await expect(widget.getByRole('button', { name: 'Next largest residual' })).toBeDisabled();

@@ -9,7 +9,7 @@ test.use(STILL);
 
 test('opens with the simulated log, said to be one, with its true α’s', async ({ page }) => {
   const widget = await openCalibrator(page);
-  await expect(caption(widget)).toHaveText(/^✓ Trust\s+All 13 checks passed\. Use the recommended α’s with legs of this length\. \d+ legs of the simulated log, \d outliers\.$/);
+  await expect(caption(widget)).toHaveText(/^✓ Trust\s+All 14 checks passed\. Use the recommended α’s with legs of this length\. \d+ legs of the simulated log, \d outliers\.$/);
   await expect(rows(widget)).toHaveCount(4);
   await expect(widget.locator('table.alphas .true')).toHaveCount(5);
   for (const role of /** @type {const} */ (['truth', 'prediction', 'accent'])) {
@@ -66,7 +66,7 @@ test('outliers are ringed, and decide the fit where they are not set aside', asy
   const growth = [1, 2].map((alpha) => Math.round(Number(after.alphas[alpha]) / Number(before.alphas[alpha])));
   expect(growth).toEqual([9, 15]);
   expect(readFileSync(new URL('../../www/index.html', import.meta.url), 'utf8')).toMatch(/becomes nine times and .* fifteen times as large, and two checks fail/);
-  await expect(caption(widget)).toHaveText(/^! Caution\s+Failed check: correlation of neighbouring legs \(2 of 13 failed\)\. \d+ legs of the simulated log\.$/);
+  await expect(caption(widget)).toHaveText(/^! Caution\s+Failed check: correlation of neighbouring legs \(2 of 14 failed\)\. \d+ legs of the simulated log\.$/);
 });
 
 test('a systematic error that is not corrected is named in the advice', async ({ page }) => {
@@ -81,7 +81,7 @@ test('a systematic error that is not corrected is named in the advice', async ({
   // Numbers from the text of the page.
   const [from, to] = [before, after].map(({ referenceNoise: { yawStd } }) => yawStd.value.toFixed(3));
   expect(readFileSync(new URL('../../www/index.html', import.meta.url), 'utf8')).toContain(`goes from ${from} to ${to}&nbsp;rad`);
-  await expect(caption(widget)).toHaveText(/^! Caution\s+Failed check: correlation of neighbouring legs \(1 of 13 failed\)\.\s+\d+ legs /);
+  await expect(caption(widget)).toHaveText(/^! Caution\s+Failed check: correlation of neighbouring legs \(1 of 14 failed\)\.\s+\d+ legs /);
   await expect(widget.locator('.meaning')).toHaveText(/^Not corrected: mount yaw \(rad\) 0\.070 ± 0\.00\d \(see More controls\)\. Errors of neighbouring legs /);
   await expect(widget.getByRole('row', { name: /mount yaw/ })).toContainText('not corrected');
 });

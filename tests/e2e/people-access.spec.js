@@ -272,6 +272,20 @@ test('paper has the figure and its settings, in light colours, and nothing to pr
   await expect.poll(stretched).toBeCloseTo(1, 1);
   await expect(widget.locator('.on-paper')).toHaveText(/α1\s=\s0\.002 α2\s=.* α6\s=\s0\.002/);
   for (const value of ['1.00 m/s', '2.00 s']) await expect(widget.getByText(value, { exact: true }).first()).toBeVisible();
+  // The pixels of a canvas give its proportions on paper, so that setting them anew would resize it in every frame.
+  await page.evaluate(() => {
+    addEventListener('error', ({ message }) => Object.assign(window, { complaint: message }));
+    document.querySelector('banana-machine')?.replaceWith(document.createElement('banana-machine'));
+  });
+  await ready(widget);
+  const sizes = () => canvas.evaluate(({ width, height }) => [width, height]);
+  for (const width of [600, 701, 1127, 1920]) {
+    await page.setViewportSize({ width, height: 900 });
+    await frames(page);
+    const before = await sizes();
+    await frames(page);
+    expect([await sizes(), await page.evaluate(() => Reflect.get(window, 'complaint'))]).toEqual([before, undefined]);
+  }
 });
 
 test('paper has figures that were far from the window, with their pictures @nightly', async ({ page }) => {

@@ -57,7 +57,7 @@ function within(name, paths, limit) {
  * the module" in doc/implementation-notes.md.
  */
 const LIMITS = {
-  page: 118, moduleOfWidget: 56, pageOfCalibrator: 160, moduleOfCalibrator: 92, module: 224, classicScript: 445, notebook: 449,
+  page: 118, moduleOfWidget: 56, pageOfCalibrator: 161, moduleOfCalibrator: 92, module: 224, classicScript: 445, notebook: 449,
 };
 
 /** Widget whose module also has all of motion::calibrate. */

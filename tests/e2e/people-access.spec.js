@@ -278,7 +278,7 @@ test('paper has the figure and its settings, in light colours, and nothing to pr
     document.querySelector('banana-machine')?.replaceWith(document.createElement('banana-machine'));
   });
   await ready(widget);
-  const sizes = () => canvas.evaluate(({ width, height }) => [width, height]);
+  const sizes = () => canvas.evaluate((element) => ['width', 'height'].map((side) => Reflect.get(element, side)));
   for (const width of [600, 701, 1127, 1920]) {
     await page.setViewportSize({ width, height: 900 });
     await frames(page);

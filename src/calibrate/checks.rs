@@ -2,9 +2,11 @@
 
 use super::fit::Sample;
 use super::legs::{LegLength, LostLegs, MIN_LEGS};
+use super::residuals::Model;
 use super::systematic::{Systematic, SystematicError};
 use super::trajectory::median;
-use crate::geom::se2::SE2;
+use crate::geom::se2::{SE2, wrap_angle};
+use crate::models::{OdomDelta, OdometryRule};
 use serde::{Deserialize, Serialize};
 
 /// Overall judgement of a calibration.
@@ -151,7 +153,7 @@ impl CheckName {
                 "Many legs are outliers. The α's are those of the rest, and too small if the outliers are slip of the wheels. Look at the listed legs: a jump of the reference or slip?"
             }
             Self::SidewaysRare => {
-                "The odometry moves sideways: its positions are noisy, or its frame is off the axle. α₁ and α₄ are too small. Use odometry of the wheels, at the middle of their axle."
+                "The odometry moves sideways: its positions are noisy, or its frame is off the axle. α₁ and α₄ are too small. Use wheel odometry of the middle of the axle."
             }
             Self::DistanceScaleConstant => {
                 "The odometry's scale of distances is not a constant, so it was not corrected unless asked for. Check wheel diameters, load and slip in turns; calibrate the wheels, then the noise."
@@ -202,10 +204,7 @@ const SCALES: std::ops::RangeInclusive<f64> = 0.5..=2.0;
 const DRIVES: f64 = 0.05;
 const TURNS: f64 = 0.1;
 
-/// Length of a leg (m) from which its direction counts: rounded positions and pulses of encoders move less.
-const DIRECTED: f64 = 0.002;
-
-/// Sine of the angle between the chord of a leg and its heading halfway, above which it moves sideways. An arc has 0.
+/// Sine of the angle between the drive of a leg and its heading halfway, above which it moves sideways. An arc has 0.
 const SIDEWAYS: f64 = 0.5;
 
 /// Number of windows below which nothing is concluded from them.
@@ -245,18 +244,20 @@ pub(super) fn log_checks(
         check(CheckName::SamplingDense, median(&mut ratios), [0.0, 1.5]),
         check(CheckName::OutliersFew, outliers as f64 / count as f64, [0.0, 0.05]),
     ];
-    if sample.options.model.has_directions() {
-        let sideways = sample.legs.iter().filter(|leg| moves_sideways(&leg.odometry)).count();
+    if let Model::Odometry(rule) = sample.options.model
+        && rule != OdometryRule::Omni
+    {
+        let sideways = sample.legs.iter().filter(|leg| moves_sideways(rule, &leg.odometry)).count();
         checks.push(check(CheckName::SidewaysRare, sideways as f64 / count as f64, [0.0, 0.02]));
     }
     checks
 }
 
-/// Tells whether a leg moves to the side of its heading. The rules of differential robots then read a large first rotation.
-fn moves_sideways([start, end]: &[SE2; 2]) -> bool {
-    let twist = end.boxminus(start);
-    let length = libm::hypot(twist.x, twist.y);
-    length > DIRECTED && twist.y.abs() > SIDEWAYS * length
+/// Tells whether a leg drives to the side of its heading. Its first rotation is large then, and in a turn on the spot it is that of noise.
+fn moves_sideways(rule: OdometryRule, [start, end]: &[SE2; 2]) -> bool {
+    let OdomDelta { rot1, rot2, .. } = rule.legs(&OdomDelta::from_poses(start, end));
+    // A leg without a first rotation has no direction.
+    rot1 != 0.0 && libm::sin(rot1 - 0.5 * wrap_angle(rot1 + rot2)).abs() > SIDEWAYS
 }
 
 /// Median difference of the two motions over the median motion: of turns, or of drives, whichever is larger.

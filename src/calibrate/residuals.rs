@@ -63,11 +63,6 @@ impl Model {
         self == Self::Odometry(OdometryRule::Omni)
     }
 
-    /// Tells whether the direction of a leg is the first rotation, whose size sets variances.
-    pub(super) fn has_directions(self) -> bool {
-        matches!(self, Self::Odometry(rule) if rule != OdometryRule::Omni)
-    }
-
     /// Tells whether an α (index from 0) multiplies the square of a turn or turn rate, and not that of a distance or speed.
     pub fn grows_with_turn(self, alpha: usize) -> bool {
         match self {

@@ -123,25 +123,31 @@ fn rescaled(made: &Simulation, scale: impl Fn(f64, &Vector3<f64>) -> [f64; 2]) -
     calibrated_log(&[Trajectory::new(read).expect("times rise"), reference], &made.options())
 }
 
-/// Odometry with noise of a centimetre, or of a point 5 cm ahead of the axle. Both move sideways in turns on the spot.
+/// Odometry with noise, or of a point 5 cm ahead of the axle. Both move sideways in turns on the spot. AMCL of Nav2 takes a leg of less than
+/// a centimetre for a turn, so that noise of a millimetre does not matter to it, but to the table.
 #[test]
-fn odometry_that_moves_sideways_is_reported_unless_the_robot_can() {
+fn odometry_that_moves_sideways_is_reported_if_the_rule_takes_its_direction() {
     let made = good(600, 12);
     let [odometry, reference] = made.log();
-    let mut rng = seeded(12);
-    let mut noise = || NoiseKind::Normal.sample(Variance(1e-4), &mut rng);
-    let noisy = edited(&odometry, |(time, pose)| {
-        (time, SE2::new(pose.x() + noise(), pose.y() + noise(), pose.theta()))
-    });
+    let noisy = |std: f64| {
+        let mut rng = seeded(12);
+        let mut noise = || NoiseKind::Normal.sample(Variance(std * std), &mut rng);
+        edited(&odometry, |(time, pose)| {
+            (time, SE2::new(pose.x() + noise(), pose.y() + noise(), pose.theta()))
+        })
+    };
     let ahead = edited(&odometry, |(time, pose)| (time, pose * SE2::new(0.05, 0.0, 0.0)));
-    for odometry in [noisy, ahead] {
-        let log = [odometry, reference.clone()];
-        fails(SidewaysRare, &calibrated_log(&log, &made.options()));
-        for model in [Model::Odometry(OdometryRule::Omni), Model::Velocity] {
-            let calibration = calibrated_log(&log, &Options { model, ..made.options() });
-            assert!(calibration.diagnostics.checks.iter().all(|check| check.name != SidewaysRare));
-        }
-    }
+    let found = |odometry: &Trajectory, model: Model| {
+        let calibration =
+            calibrated_log(&[odometry.clone(), reference.clone()], &Options { model, ..made.options() });
+        let mut checks = calibration.diagnostics.checks.into_iter();
+        let check = checks.find(|check| check.name == SidewaysRare);
+        check.inspect(|check| assert_eq!(check.passed, check.message().is_empty())).map(|check| check.passed)
+    };
+    let [table, omni] = [OdometryRule::Table, OdometryRule::Omni].map(Model::Odometry);
+    assert_eq!([found(&noisy(0.01), NAV2), found(&ahead, NAV2)], [Some(false); 2]);
+    assert_eq!([found(&noisy(1e-3), table), found(&noisy(1e-3), NAV2)], [Some(false), Some(true)]);
+    assert_eq!([found(&ahead, omni), found(&ahead, Model::Velocity)], [None; 2]);
 }
 
 /// Scales of 1 on straight legs and of 0.85 on turning ones, known to a hundredth.

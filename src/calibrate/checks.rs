@@ -6,7 +6,7 @@ use super::residuals::Model;
 use super::systematic::{Systematic, SystematicError};
 use super::trajectory::median;
 use crate::geom::se2::{SE2, wrap_angle};
-use crate::models::{OdomDelta, OdometryRule};
+use crate::models::OdometryRule;
 use serde::{Deserialize, Serialize};
 
 /// Overall judgement of a calibration.
@@ -153,7 +153,7 @@ impl CheckName {
                 "Many legs are outliers. The α's are those of the rest, and too small if the outliers are slip of the wheels. Look at the listed legs: a jump of the reference or slip?"
             }
             Self::SidewaysRare => {
-                "The odometry moves sideways: its positions are noisy, or its frame is off the axle. α₁ and α₄ are too small. Use wheel odometry of the middle of the axle."
+                "The odometry moves sideways: its positions are noisy, or its frame is off the axle. α₁ and α₄ are too small. Use odometry of the axle."
             }
             Self::DistanceScaleConstant => {
                 "The odometry's scale of distances is not a constant, so it was not corrected unless asked for. Check wheel diameters, load and slip in turns; calibrate the wheels, then the noise."
@@ -168,7 +168,7 @@ impl CheckName {
                 "Errors of neighbouring legs are correlated: they persist over several legs, or a systematic error is left in. α's fitted to legs are too small for longer ways. Recommended α's allow for it."
             }
             Self::TailsNormal => {
-                "A few errors are much larger than normal noise has them. Intervals of the predicted pose are too narrow in the tails. Recommended α's allow for it. Look at the largest residuals."
+                "A few errors are much larger than normal noise has them. Intervals of the predicted pose are too narrow in the tails. Look at the largest residuals. Recommended α's allow for it."
             }
             Self::HoldoutCovered => {
                 "The α's of one half of the log do not fit the other: floor, load or speed changed. Calibrate for each condition. Recommended α's allow for it."
@@ -244,19 +244,16 @@ pub(super) fn log_checks(
         check(CheckName::SamplingDense, median(&mut ratios), [0.0, 1.5]),
         check(CheckName::OutliersFew, outliers as f64 / count as f64, [0.0, 0.05]),
     ];
-    if let Model::Odometry(rule) = sample.options.model
-        && rule != OdometryRule::Omni
-    {
-        let sideways = sample.legs.iter().filter(|leg| moves_sideways(rule, &leg.odometry)).count();
+    if matches!(sample.options.model, Model::Odometry(rule) if rule != OdometryRule::Omni) {
+        let sideways = sample.observations.iter().filter(|leg| moves_sideways(leg.reading)).count();
         checks.push(check(CheckName::SidewaysRare, sideways as f64 / count as f64, [0.0, 0.02]));
     }
     checks
 }
 
-/// Tells whether a leg drives to the side of its heading. Its first rotation is large then, and in a turn on the spot it is that of noise.
-fn moves_sideways(rule: OdometryRule, [start, end]: &[SE2; 2]) -> bool {
-    let OdomDelta { rot1, rot2, .. } = rule.legs(&OdomDelta::from_poses(start, end));
-    // A leg without a first rotation has no direction.
+/// Tells whether a reading is a drive to the side of its heading. Its first rotation is large then, and in a turn on the spot it is that of
+/// noise. A reading without a first rotation has no direction.
+fn moves_sideways([rot1, _, rot2]: [f64; 3]) -> bool {
     rot1 != 0.0 && libm::sin(rot1 - 0.5 * wrap_angle(rot1 + rot2)).abs() > SIDEWAYS
 }
 

@@ -1,4 +1,4 @@
-"""Nobody gets a package without its figures."""
+"""Build hook that fails if generated files are missing."""
 
 from pathlib import Path
 

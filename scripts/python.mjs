@@ -16,6 +16,9 @@ import { importTypeScript } from './typescript.mjs';
 
 const PYTHON = join(ROOT, 'python');
 
+/** Traits of traitlets for settings without a range. */
+const OPTIONAL = { Bool: 't.Bool(None, allow_none=True)', Dict: 't.Dict(None, allow_none=True)', Unicode: 't.Unicode(None, allow_none=True)' };
+
 /** Writes the generated files, and copies the others: pip reads only its own directory. */
 export async function writePython() {
   const sources = join(PYTHON, 'src/motion_widgets');
@@ -34,7 +37,7 @@ export async function elements() {
   const all = (await widgets()).map(({ tag, machine, attributes, properties }) => {
     const documented = [...attributes.map(({ property, name, ...rest }) => ({ ...rest, name: property ?? name })), ...properties];
     const traits = documented.filter(({ readonly }) => !readonly).map((each) => ({ ...each, trait: traitOf(each, tag) }));
-    const global = GLOBAL.map((/** @type {string} */ name) => ({ name, trait: 'Text()', description: `As the attribute \`${name}\` of HTML.` }));
+    const global = GLOBAL.map((/** @type {string} */ name) => ({ name, trait: OPTIONAL.Unicode, description: `As the attribute \`${name}\` of HTML.` }));
     return { machine, tag, sentence: oneLine(classes.get(`${machine}Element`).description), traits: [...traits, ...global] };
   });
   const lines = [
@@ -45,7 +48,7 @@ export async function elements() {
     'import traitlets as t',
     '',
     'from ._figure import Figure',
-    'from ._traits import Data, Group, Number, Numbers, Text, Truth, Whole, Word, Words',
+    'from ._traits import Number, Sequence, Whole, Word',
     '',
     `__all__ = [${all.map(({ machine }) => text(machine)).join(', ')}]`,
   ];
@@ -69,10 +72,10 @@ function traitOf({ name, type, allowed }, tag) {
   if (declaration) return settingOf(declaration, tag);
   if (type === 'number' && allowed) return `Number(${allowed.replace(' to ', ', ')})`;
   const words = [...type.matchAll(/'([^']+)'/g)].map(([, word]) => text(word)).join(', ');
-  if (type.includes('[]')) return `Words(${words})`;
+  if (type.includes('[]')) return `Sequence(Word(${words}))`;
   if (words) return `Word(${words})`;
-  const kind = { boolean: 'Truth()', number: 'Whole(0)' }[type.replace(' | null', '')];
-  return kind ?? 'Data()';
+  const kind = { boolean: OPTIONAL.Bool, number: 'Whole(0)' }[type.replace(' | null', '')];
+  return kind ?? OPTIONAL.Dict;
 }
 
 /**
@@ -85,21 +88,21 @@ function settingOf({ key, type, words = [], fields = [], min, max }, tag) {
   switch (type) {
     case 'number': return `Number(${range})`;
     case 'whole': return `Whole(${range})`;
-    case 'numbers': return `Numbers(${range})`;
-    case 'boolean': return 'Truth()';
+    case 'numbers': return `Sequence(Number(${range}))`;
+    case 'boolean': return OPTIONAL.Bool;
     case 'word': return `Word(${words.map(text).join(', ')})`;
     case 'group': {
       const nameOf = (/** @type {Declaration} */ part) => part.field ?? part.key;
       const parts = settings[tag].filter((part) => part.in === key && fields.includes(nameOf(part)));
-      return `Group({${parts.map((part) => `${text(nameOf(part))}: ${settingOf(part, tag)}`).join(', ')}})`;
+      return `t.Dict(None, allow_none=True, per_key_traits={${parts.map((part) => `${text(nameOf(part))}: ${settingOf(part, tag)}`).join(', ')}})`;
     }
   }
 }
 
 /** Returns the words that a trait takes, as a sentence. @param {string} trait */
 function wordsOf(trait) {
-  const words = trait.match(/^(Words?)\((.+)\)$/);
-  return words ? ` ${words[1] === 'Word' ? 'One' : 'Some'} of ${words[2]}.` : '';
+  const [, list, words] = trait.match(/^(Sequence\()?Word\(([^)]+)\)/) ?? [];
+  return words ? ` ${list ? 'Some' : 'One'} of ${words}.` : '';
 }
 
 /** Constants of JavaScript that have other names in Python. @type {Record<string, string>} */

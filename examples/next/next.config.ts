@@ -1,8 +1,3 @@
-import type { NextConfig } from "next";
+import type { NextConfig } from 'next';
 
-const nextConfig: NextConfig = {
-  cacheComponents: true,
-  partialPrefetching: true,
-};
-
-export default nextConfig;
+export default { cacheComponents: true, partialPrefetching: true } satisfies NextConfig;

@@ -73,16 +73,16 @@ test('no trait hides what every widget has', () => {
   const lines = [
     'import motion_widgets as m',
     'from motion_widgets._figure import Figure',
-    'from motion_widgets._traits import Setting',
+    'from traitlets import TraitType',
     'print([f"{name}.{each}" for name in m.__all__ for each, trait in vars(getattr(m, name)).items()',
-    '       if isinstance(trait, Setting) and hasattr(Figure, each)])',
+    '       if isinstance(trait, TraitType) and hasattr(Figure, each)])',
   ];
   assert.equal(python(['-c', lines.join('\n')], path).trim(), '[]');
 });
 
 test('a value out of its range is refused with what is allowed', () => {
   const lines = ['import motion_widgets as m, traitlets', 'try: m.MapSqueeze(steps=0)', 'except traitlets.TraitError as error: print(error)'];
-  assert.equal(python(['-c', lines.join('\n')], path).trim(), 'steps is 0; allowed is a whole number from 1 to 1000, or None');
+  assert.equal(python(['-c', lines.join('\n')], path).trim(), "The value of the 'steps' trait of a MapSqueeze instance should not be less than 1, but a value of 0 was specified");
 });
 
 test('names of generated code are those that its language allows', () => {

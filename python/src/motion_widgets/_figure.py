@@ -1,4 +1,4 @@
-"""What every figure is in Python."""
+"""Base class of the figures."""
 
 from __future__ import annotations
 
@@ -8,46 +8,51 @@ from typing import Any
 import anywidget
 import traitlets as t
 
-from ._traits import Setting
-
 
 class Figure(anywidget.AnyWidget):
-    """A figure on a page, and what Python knows of it.
+    """Figure on a page, with a trait for each of its settings.
 
-    A trait that was not given is None until the figure is on the page; from then on each says what the figure shows,
-    whoever has changed it. None given later is what the figure opens with.
+    A trait that was not given is None until the figure is shown. From then on, each trait has the value of the figure,
+    also after a change by the reader. Setting a trait to None restores the opening value.
     """
 
+    _settings: frozenset[str] = frozenset()
     _esm = Path(__file__).parent / "anywidget.js"
 
     stats = t.Dict(
         default_value=None,
         allow_none=True,
         read_only=True,
-        help="The statistics that the figure shows; None where there is none, or no number.",
+        help="Statistics that the figure shows; None for undefined ones.",
     ).tag(sync=True)
-    error = t.Unicode(
-        "", read_only=True, help="Why the figure refused the last change, in a sentence; empty where it did not."
-    ).tag(sync=True)
+    error = t.Unicode("", read_only=True, help="Message if the figure refused the last change; else empty.").tag(sync=True)
 
-    # Number of requests by Python, and the settings shown by the figure with the number of requests it had heard then.
+    # Number of changes by Python.
     _asked = t.Int(0).tag(sync=True)
+    # Settings that the figure shows, and the number of changes by Python that it had received by then.
     _shown = t.Dict({"heard": 0, "settings": {}}).tag(sync=True)
 
+    def __init_subclass__(cls) -> None:
+        super().__init_subclass__()
+        settings = {name: each for name, each in vars(cls).items() if isinstance(each, t.TraitType) and not each.read_only}
+        cls._settings |= settings.keys()
+        for trait in settings.values():
+            trait.tag(sync=True)
+
     def __init__(self, **settings: Any) -> None:
-        strangers = sorted(set(settings) - set(self.trait_names()))
-        if strangers:
-            known = ", ".join(name for name, trait in self.traits().items() if isinstance(trait, Setting))
-            raise TypeError(f"{strangers[0]} is no setting of {type(self).__name__}; it has {known}")
-        # By name.
+        unknown = sorted(set(settings) - set(self.trait_names()))
+        if unknown:
+            raise TypeError(f"{unknown[0]} is no setting of {type(self).__name__}; it has {', '.join(sorted(self._settings))}")
+        # Number of the latest change of each setting by Python.
         self._asked_at: dict[str, int] = {}
-        self._told: dict[str, Any] = {}
+        # Settings that the figure is reporting.
+        self._reported: dict[str, Any] = {}
         super().__init__(**settings)
 
     def notify_change(self, change: Any) -> None:
-        """Counts what Python asks for, and sends the number with it."""
+        """Counts a change by Python, and sends the number with it."""
         name = change["name"]
-        if not _is_setting(self, name) or (name in self._told and self._told[name] == change["new"]):
+        if name not in self._settings or (name in self._reported and self._reported[name] == change["new"]):
             super().notify_change(change)
             return
         with self.hold_sync():
@@ -56,18 +61,14 @@ class Figure(anywidget.AnyWidget):
             super().notify_change(change)
 
     def set_state(self, sync_data: dict[str, Any]) -> None:
-        """Takes what the figure tells, but for what Python has asked for since: the figure is about to hear of that.
+        """Applies the settings that the figure reports in ``_shown``, except those that Python has changed since.
 
-        Settings come all at once, in ``_shown``. One by one they may be of different moments.
+        All settings in ``_shown`` are of one moment. The single traits in ``sync_data`` may be of different moments.
         """
         shown = sync_data.get("_shown", {"heard": 0, "settings": {}})
-        self._told = {name: value for name, value in shown["settings"].items() if self._asked_at.get(name, 0) <= shown["heard"]}
-        others = {name: value for name, value in sync_data.items() if not _is_setting(self, name)}
+        self._reported = {name: value for name, value in shown["settings"].items() if self._asked_at.get(name, 0) <= shown["heard"]}
+        others = {name: value for name, value in sync_data.items() if name not in self._settings}
         try:
-            super().set_state({**others, **self._told})
+            super().set_state({**others, **self._reported})
         finally:
-            self._told = {}
-
-
-def _is_setting(figure: Figure, name: str) -> bool:
-    return isinstance(getattr(type(figure), name, None), Setting)
+            self._reported = {}

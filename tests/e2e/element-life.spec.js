@@ -125,30 +125,6 @@ test('settled waits for the figure and all of its samples, in sight and far from
   }
 });
 
-test('a figure in a hidden tab asks for no frames, and shows afterwards what was set meanwhile', async ({ page, figure }) => {
-  await count(page);
-  const widget = await mount(page, figure);
-  const canvas = widget.locator('canvas.plane');
-  const [setting, other] = KNOWN[figure].other;
-  await assign(widget, setting, other);
-  const wanted = await pictureOf(canvas);
-  await assign(widget, setting, null);
-  expect(await pictureOf(canvas)).not.toBe(wanted);
-  const hide = (/** @type {boolean} */ hidden) =>
-    page.evaluate((value) => {
-      Object.defineProperty(document, 'hidden', { configurable: true, value });
-      document.dispatchEvent(new Event('visibilitychange'));
-    }, hidden);
-  await hide(true);
-  await pass(page);
-  const before = await counted(page);
-  await assign(widget, setting, other);
-  await pass(page);
-  expect(await counted(page)).toEqual(before);
-  await hide(false);
-  await expect.poll(() => pictureOf(canvas)).toBe(wanted);
-});
-
 test('a cloud that is half grown stays so over a move and over a removal @nightly', async ({ page, cloud }) => {
   await show(page, `<div id="a"><${cloud}></${cloud}></div><div id="b"></div>`);
   const widget = page.locator(cloud);

@@ -131,7 +131,7 @@ function levelOf(numbers: number[], weights: number[]): number | null {
 const KEPT_BY_PRESETS = ['samples', 'seed'];
 
 /** Returns the configuration that a figure opens with: the defaults of its settings. */
-function openingConfig(declared: Declaration[]) {
+export function defaultConfig(declared: Declaration[]) {
   const config: Record<string, any> = {};
   for (const { key, in: group, field = key, index, of, type, default: value } of declared) {
     if (group && index === undefined) config[group][field] = value;
@@ -144,7 +144,7 @@ function openingConfig(declared: Declaration[]) {
 export function presetsOf(presets: readonly ({ name: string } & Record<string, any>)[], declared: Declaration[]): Attribute & Setting {
   const words = presets.map(({ name }) => name);
   const settings = presets.map(({ name: _, ...given }) => {
-    const config = openingConfig(declared);
+    const config = defaultConfig(declared);
     for (const [key, value] of Object.entries(given)) {
       const { in: group, field = key } = declared.find((setting) => setting.key === key) as Declaration;
       (group ? config[group] : config)[field] = value;

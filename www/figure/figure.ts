@@ -91,8 +91,8 @@ export class FigureElement<Machine extends { free(): void, stats: object, config
   static attributes: import('./attributes.ts').Attributes = {};
   /** State of the element that the machine does not have. */
   static own: Record<string, import('./state.ts').Owned> = {};
-  /** Settings on whose values the defaults of others depend. */
-  static defaultsDependOn: string[] = [];
+  /** Returns the defaults that depend on other settings. */
+  static dependentDefaults: (config: Values) => Values = () => ({});
 
   runtime = new Runtime(this);
   stage = new Stage(this);
@@ -245,7 +245,7 @@ export class FigureElement<Machine extends { free(): void, stats: object, config
     return new Promise((resolve) => {
       this.#waiting.push(resolve);
       if (this.isConnected) void this.runtime.start();
-      this.settings.show();
+      this.stage.requestFrame();
     });
   }
 

@@ -1,6 +1,6 @@
 /** Synchronization of attributes and properties with the settings: values of the page are applied, and changed settings are written as attributes. */
 
-import { COMMON, groupsOf, isSetting } from './attributes.ts';
+import { COMMON, defaultConfig, groupsOf, isSetting } from './attributes.ts';
 import { includesFields, renamed, word } from './checks.ts';
 import { cloudProperties } from './cloud.ts';
 import { Part } from './part.ts';
@@ -16,10 +16,6 @@ export class Reflection extends Part {
   #entries: Attributes = { ...groupsOf(this.host.kind.declared), ...this.#attributes };
   /** Order in which pending properties are applied. Properties that others depend on come first, and a log, which takes long, last. */
   #order = ['preset', 'map', ...this.host.kind.declared.map(({ key }) => key), ...Object.keys(this.#attributes), 'marked', 'log'];
-  /** Settings on whose values the defaults of others depend. */
-  #defaultsDependOn = this.host.kind.defaultsDependOn;
-  /** Default settings, by JSON of the settings that they depend on. */
-  #defaultConfigs: Map<string, Config> = new Map();
   /** Attributes that were set before there was a machine. */
   #pendingAttributes: Map<string, string | null> = new Map();
   /** Properties, by name, and states that were set before there was a machine. The key of a state is a new object, so that no state replaces another. */
@@ -142,45 +138,36 @@ export class Reflection extends Part {
     }
   }
 
+  /** Default settings. Some depend on the present settings. */
+  get #defaultConfig(): Config {
+    const { kind, settings } = this.host;
+    return { ...defaultConfig(kind.declared), ...kind.dependentDefaults(settings.wanted) };
+  }
+
   /** Returns the default of a property. */
   #defaultOf(name: string) {
     const entry = this.#entries[name];
-    if (entry && isSetting(entry)) return entry.get(this.#defaultConfig(this.#defaultsDependOn.includes(name) ? [] : this.#defaultsDependOn));
+    if (entry && isSetting(entry)) return entry.get(this.#defaultConfig);
     return entry?.opening ?? this.host.state.opening(name);
   }
 
-  /** Remembers the settings of a machine that has just opened as defaults. */
-  rememberDefaults(opening: Config) {
-    for (const keys of [[], this.#defaultsDependOn]) this.#defaultConfigs.set(partOf(opening, keys), opening);
-  }
-
-  /** Returns the default settings, given the present values of the settings named by `keys`. */
-  #defaultConfig(keys: string[]): Config {
-    const { settings, motion } = this.host;
-    const part = partOf(settings.wanted, keys);
-    const known = this.#defaultConfigs.get(part);
-    if (known) return known;
-    const machine = this.host.createMachine(motion);
-    const given = JSON.parse(part);
-    // The defaults do not depend on samples, so that none are computed.
-    const opening = this.host.cloud ? machine.configureFirst(given, 0) : machine.configure(given);
-    machine.free();
-    this.#defaultConfigs.set(part, opening);
-    return opening;
-  }
-
-  /** Returns the texts of all attributes; `ownValue` gives those of the element itself. */
-  #texts(config: Config, ownValue: (name: string) => unknown) {
-    return new Map(
-      Object.entries(this.#attributes).map(([name, entry]) => {
-        const value = isSetting(entry) ? entry.get(config) : ownValue(name);
-        return [name, entry.kind.print(value ?? null)];
-      }),
-    );
+  /** Returns the texts of all attributes, of the values that `valueOf` returns. */
+  #textsOf(valueOf: (name: string) => unknown): Texts {
+    return new Map(Object.entries(this.#attributes).map(([name, { kind }]) => [name, kind.print(valueOf(name) ?? null)]));
   }
 
   get #currentTexts() {
-    return this.#texts(this.host.settings.wanted, (name) => Reflect.get(this.host, name));
+    const { host } = this;
+    const { wanted } = host.settings;
+    return this.#textsOf((name) => {
+      const entry = this.#attributes[name];
+      return isSetting(entry) ? entry.get(wanted) : Reflect.get(host, name);
+    });
+  }
+
+  /** Texts of the attributes with default settings. */
+  get #defaultTexts() {
+    return this.#textsOf((name) => this.#defaultOf(name));
   }
 
   /** Writes the attributes that have changed; the first call only remembers their texts. */
@@ -210,13 +197,6 @@ export class Reflection extends Part {
     this.#isWriting = false;
   }
 
-  /** Texts of the attributes with default settings. */
-  get #defaultTexts() {
-    const defaults = this.#texts(this.#defaultConfig(this.#defaultsDependOn), (name) => this.#defaultOf(name));
-    for (const name of this.#defaultsDependOn) defaults.set(name, this.#attributes[name].kind.print(this.#defaultOf(name)));
-    return defaults;
-  }
-
   /** Returns the attributes that a new figure needs to open in the present state. */
   nonDefaultAttributes(): [string, string][] {
     const texts = this.#currentTexts;
@@ -232,8 +212,6 @@ export class Reflection extends Part {
     return attributes;
   }
 }
-
-const partOf = (config: Config, keys: string[]) => JSON.stringify(Object.fromEntries(keys.map((key) => [key, config[key]])));
 
 /** Defines a widget's element with a property for each setting. If the page loads the script twice, the second call does nothing. */
 export function define(tag: string, Widget: typeof import('./figure.ts').FigureElement<any, any>) {

@@ -1,8 +1,10 @@
 /** Core of a figure. It is created near the viewport and freed on removal. After a trap, a new core gets the last valid state. */
 
 import { abandon, instantiateFor } from '../core.ts';
-import { checkNow, unwatch, watch } from './page/sight.ts';
 import { Part } from './part.ts';
+
+/** Distance from the viewport at which a figure starts. Less would show empty frames; more would start unseen figures. */
+const NEAR_MARGIN = '600px';
 
 export class Runtime extends Part {
   motion: import('../types.d.ts').Motion | undefined;
@@ -12,32 +14,64 @@ export class Runtime extends Part {
   failure: string | undefined;
   /** True once the `load` event was fired. */
   #loaded = false;
-  #near: boolean | undefined;
+  /** True if the core is needed: from the first start until the element is removed. */
+  #isNeeded = false;
+  #isNear = false;
   #starting: Promise<void> | undefined;
   /** True from a trap to the next picture. */
   #hasTrapped = false;
+  #visibleObserver: IntersectionObserver | undefined;
+  #nearObserver: IntersectionObserver | undefined;
 
   hostConnected() {
-    watch(this.host, {
-      onNear: () => void this.start(),
-      onVisible: (inSight) => this.host.stage.setVisible(inSight),
-    });
+    const { host } = this;
+    const setVisible = (entries: IntersectionObserverEntry[]) => {
+      for (const { isIntersecting } of entries) host.stage.setVisible(isIntersecting);
+    };
+    const visibleObserver = new IntersectionObserver(setVisible);
+    this.#nearObserver = new IntersectionObserver(
+      (entries) => {
+        // A start depends on the visibility, but the order of the observers' callbacks is undefined.
+        setVisible(visibleObserver.takeRecords());
+        for (const { isIntersecting } of entries) this.#setNear(isIntersecting);
+      },
+      { rootMargin: NEAR_MARGIN },
+    );
+    this.#visibleObserver = visibleObserver;
+    visibleObserver.observe(host);
+    this.#nearObserver.observe(host);
     // The figure has its layout then.
-    void this.host.updateComplete.then(() => checkNow(this.host));
+    void host.updateComplete.then(() => this.#checkPosition());
+  }
+
+  /** Checks the position of the figure now: the observers report it a frame later. */
+  #checkPosition() {
+    const { top, bottom } = this.host.getBoundingClientRect();
+    // The box of a removed element is all 0.
+    if (top >= innerHeight || bottom <= 0) return;
+    this.host.stage.setVisible(true);
+    this.#setNear(true);
+  }
+
+  #setNear(isNear: boolean) {
+    if (isNear && !this.#isNear) void this.start();
+    this.#isNear = isNear;
   }
 
   /** Starts the core, if it is not running. */
   start() {
-    this.#near = true;
-    return this.#startIfNear();
+    this.#isNeeded = true;
+    return this.#startIfNeeded();
   }
 
   hostDisconnected() {
+    this.#visibleObserver?.disconnect();
+    this.#nearObserver?.disconnect();
+    this.#isNear = false;
     // A moved element is connected again by then.
     queueMicrotask(() => {
       if (this.host.isConnected) return;
-      unwatch(this.host);
-      this.#near = false;
+      this.#isNeeded = false;
       this.host.stage.setVisible(false);
       this.#stop();
     });
@@ -103,7 +137,7 @@ export class Runtime extends Part {
     this.#hasTrapped = true;
     this.#abandon();
     this.report(error);
-    this.#startIfNear();
+    this.#startIfNeeded();
     return true;
   }
 
@@ -114,15 +148,15 @@ export class Runtime extends Part {
   }
 
   /** Resolves when the core has started or failed. */
-  #startIfNear(): Promise<void> {
-    if (!this.machine && this.#near) this.#starting ??= this.#create();
+  #startIfNeeded(): Promise<void> {
+    if (!this.machine && this.#isNeeded) this.#starting ??= this.#create();
     return this.#starting ?? Promise.resolve();
   }
 
   async #create() {
     try {
       const [motion] = await Promise.all([instantiateFor(this.host.localName), this.host.link.prepare()]);
-      if (!this.#near) return;
+      if (!this.#isNeeded) return;
       const machine = this.host.createMachine(motion, this.host.state.kept);
       Object.assign(this, { motion, machine, failure: undefined });
       this.host.state.resume();
@@ -133,7 +167,7 @@ export class Runtime extends Part {
       this.#starting = undefined;
     }
     // The element was moved meanwhile, or the core has trapped again.
-    if (this.failure === undefined) this.#startIfNear();
+    if (this.failure === undefined) this.#startIfNeeded();
   }
 
   async #show() {

@@ -12,7 +12,6 @@ export class Settings extends Part {
   #present: Values | undefined;
   /** Changes of the reader that wait for the next frame. */
   #pending: Values = {};
-  #isShowing = false;
 
   /** Drops pending changes and stops the player, for another machine. */
   reset() {
@@ -68,7 +67,7 @@ export class Settings extends Part {
       this.#configure(values);
       this.host.reflection.updateAttributes();
       this.host.stage.release();
-      this.show();
+      this.host.stage.requestFrame();
     });
   }
 
@@ -86,30 +85,4 @@ export class Settings extends Part {
     this.#present = Object.freeze(cloud ? cloud.configure(values) : machine.configure(values));
     this.stale = true;
   }
-
-  /** Shows a change of the page, also while the element is out of the viewport. */
-  show() {
-    this.host.stage.requestFrame();
-    if (this.#isShowing) return;
-    this.#isShowing = true;
-    queueMicrotask(this.#showUnseen);
-  }
-
-  #showUnseen = () => {
-    const { stage, runtime } = this.host;
-    this.#isShowing = false;
-    if (stage.inSight) return;
-    runtime.attemptOrFail(() => {
-      const { machine, cloud } = this.host;
-      if (!machine) return;
-      this.settle();
-      // Out of the viewport the growth of a cloud is not visible.
-      if (this.host.isAwaited) cloud?.finish();
-      if (cloud && !cloud.refine()) {
-        this.#isShowing = true;
-        setTimeout(this.#showUnseen);
-      } else if (this.stale) this.host.refresh();
-      this.host.resolveSettled();
-    });
-  };
 }

@@ -2,8 +2,8 @@
 
 import { nothing } from 'lit';
 import { onLanguage } from '../messages/registry.ts';
+import { clamp } from '../ui/clamp.ts';
 import { resolvePalette } from '../ui/theme.ts';
-import { sleep, wake } from './page/frames.ts';
 import { ancestors, surroundings } from './page/scheme.ts';
 import { Part } from './part.ts';
 import type { Surface } from '../scene/canvas.ts';
@@ -18,6 +18,9 @@ const PICTURES_TIME = 8;
 
 /** Maximum delay of the text during a drag, ms. */
 const MAX_TEXT_DELAY = 100;
+
+/** Longest time step of an animation, ms. After a pause it continues without a jump. */
+const MAX_TIME_STEP = 100;
 
 /** Pixels per CSS pixel in print. */
 const PRINT_RATIO = 2;
@@ -45,6 +48,10 @@ export class Stage extends Part {
   isBehind = false;
   /** Time of the first picture that is newer than the text; undefined if the text is up to date. */
   #undescribedSince: number | undefined;
+  /** Id of the requested animation frame, if any. */
+  #request: number | undefined;
+  /** Time of the request or, during an animation, of the previous frame. */
+  #previousTime = 0;
   #printing = false;
   /** True during a callback of the size observer. Text is not rendered then, because it could change sizes again. */
   #resizing: boolean | undefined;
@@ -117,9 +124,9 @@ export class Stage extends Part {
     if (!inSight && (this.opening || this.#undescribedSince !== undefined)) this.#describe();
     this.inSight = inSight;
     this.isBehind = false;
-    if (!inSight && this.host.isAwaited) this.host.settings.show();
     // No events report changes of colours while the figure is out of the viewport.
     if (inSight) this.recolour();
+    else if (this.host.isAwaited) this.requestFrame();
   }
 
   /** Allows the views to zoom in and recenter, for a scene that the reader or the page has chosen. */
@@ -127,10 +134,38 @@ export class Stage extends Part {
     for (const { view } of this.host.pictures) view.release();
   }
 
-  /** Requests one drawing of all pictures in the next frame, if the figure is visible. */
+  /** Requests a frame, in which a visible figure draws all pictures. */
   requestFrame() {
     this.#addPictures();
-    if (this.host.machine && this.inSight) wake(this);
+    this.#schedule();
+  }
+
+  #schedule() {
+    if (!this.host.machine || this.#request !== undefined) return;
+    this.#previousTime = performance.now();
+    this.#request = requestAnimationFrame((now) => {
+      this.#request = undefined;
+      const elapsed = clamp(now - this.#previousTime, 0, MAX_TIME_STEP);
+      if (!this.inSight) this.#updateUnseen();
+      else if (this.#undrawn.size > 0) this.#drawNow(elapsed);
+      else this.#describe();
+      this.#previousTime = now;
+    });
+  }
+
+  /** Applies changes and adds samples without drawing, while the figure is out of the viewport. */
+  #updateUnseen() {
+    const { host } = this;
+    host.runtime.attemptOrFail(() => {
+      const { machine, cloud, settings } = host;
+      if (!machine) return;
+      settings.settle();
+      // The growth of the cloud is not visible.
+      if (host.isAwaited) cloud?.finish();
+      if (cloud && !cloud.refine()) this.#schedule();
+      else if (settings.stale) host.refresh();
+      host.resolveSettled();
+    });
   }
 
   /** True until a visible figure has drawn its first picture and rendered its text. */
@@ -145,16 +180,9 @@ export class Stage extends Part {
 
   /** Releases the pixels of the canvases, which keep their size in the layout. */
   clear() {
-    sleep(this);
     this.#sizes?.disconnect();
     for (const canvas of this.#canvases ?? []) canvas.width = canvas.height = 0;
     this.#sizes = this.#canvases = this.#palette = this.#undescribedSince = undefined;
-  }
-
-  /** @param elapsed milliseconds since the frame before */
-  frame(elapsed: number) {
-    if (this.#undrawn.size > 0) this.#drawNow(elapsed);
-    else this.#describe();
   }
 
   /** @param elapsed milliseconds since the frame before */
@@ -197,11 +225,11 @@ export class Stage extends Part {
     if (this.opening ? since : !this.#resizing && (now - began < SAME_FRAME_TIME || now - (since ?? now) > MAX_TEXT_DELAY)) this.#describe();
     else {
       this.#undescribedSince ??= began;
-      wake(this);
+      this.#schedule();
     }
     host.resolveSettled();
     const playing = host.player?.advance(elapsed);
-    if (this.isBehind) wake(this);
+    if (this.isBehind) this.#schedule();
     if (playing || isMoving || host.cloud?.isSettled === false) this.requestFrame();
   }
 

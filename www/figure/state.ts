@@ -56,7 +56,6 @@ export class State extends Part {
     const { host } = this;
     host.settings.reset();
     if (this.kept) host.complete(host.machine, this.kept);
-    else host.reflection.rememberDefaults(host.settings.present);
     host.machineChanged();
     host.reflection.applyPending();
     host.link.applyPending();
@@ -84,7 +83,7 @@ export class State extends Part {
     host.settings.reset();
     host.machineChanged();
     this.#introduce(whole);
-    host.settings.show();
+    host.stage.requestFrame();
   }
 
   /** Applies a preset, as a change by the reader. */
@@ -123,7 +122,7 @@ export class State extends Part {
     this.#opened ??= { ...host.snapshot(), ...(host.cloud && { shown: 0, playing: true }) };
     host.refresh();
     host.reflection.updateAttributes();
-    host.settings.show();
+    host.stage.requestFrame();
   }
 
   /** Changes an own field, after a check. */

@@ -178,7 +178,7 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
       this.#given = given;
       this.runtime.replace(machine);
       this.settings.stale = true;
-      this.settings.show();
+      this.stage.requestFrame();
     });
   }
 

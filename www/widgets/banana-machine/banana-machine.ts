@@ -61,7 +61,7 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
   static own = own;
   static looks = looks;
   static vocabulary = vocabulary;
-  static defaultsDependOn = ['model'];
+  static dependentDefaults = ({ model }: Values) => ({ alphas: openingAlphas[model as keyof typeof openingAlphas] });
 
   cloud = new IntroducedCloud(this);
   #inspected: Memo<Inspection> = new Memo();

@@ -1,6 +1,7 @@
 /** <dead-reckoning>: one command driven step after step, and how well its growing uncertainty is predicted. */
 
 import { html } from 'lit';
+import { defaultConfig } from '../../figure/attributes.ts';
 import { Cloud, enterCloud } from '../../figure/cloud.ts';
 import { canvas, disclosures, panel } from '../../figure/controls.ts';
 import { FigureElement } from '../../figure/figure.ts';
@@ -43,7 +44,7 @@ export class DeadReckoningElement extends FigureElement<Machine, Reading> {
   static own = own;
   static looks = looks;
   static vocabulary = vocabulary;
-  static defaultsDependOn = ['steps'];
+  static dependentDefaults = ({ steps }: Values) => ({ step: Math.min(defaultConfig(declared).step, steps) });
 
   cloud = new Cloud(this);
   #floor = new PathPicture();

@@ -176,7 +176,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
         this.#enter(mapOf(given));
       }
       this.reflection.updateAttributes();
-      this.settings.show();
+      this.stage.requestFrame();
     });
   }
 

@@ -23,15 +23,15 @@ const DURATION = /^\s*(?:(\d+) days? )?\+?(\d+):(\d{2}):(\d{2})(?:[.,](\d+))?\s*
 const POWERS_OF_TEN = Array.from({ length: 23 }, (_, i) => 10 ** i);
 
 /**
- * Parses digits with at most one point in a part of a line. The result is rounded correctly. No string is made, because a long table has
- * millions of cells. Returns NaN for other texts, and for more digits than a number has.
+ * Parses digits with at most one point in a part of a text, several times as fast as `Number`. The result is rounded correctly. Returns NaN
+ * for other texts, and for more digits than a number has.
  */
-export function decimalAt(line: string, from: number, to: number): number {
-  const isNegative = line.charCodeAt(from) === 45;
+function decimalAt(text: string, from: number, to: number): number {
+  const isNegative = text.charCodeAt(from) === 45;
   let [value, point] = [0, -1];
   const first = isNegative ? from + 1 : from;
   for (let at = first; at < to; at++) {
-    const digit = line.charCodeAt(at) - 48;
+    const digit = text.charCodeAt(at) - 48;
     if (digit >= 0 && digit <= 9) value = value * 10 + digit;
     else if (digit === -2 && point < 0) point = at;
     else return NaN;
@@ -44,6 +44,8 @@ export function decimalAt(line: string, from: number, to: number): number {
 
 /** Parses a number. Returns NaN for an empty cell or a word such as "nan", and undefined for any other text. */
 export function numberOf(cell: string): number | undefined {
+  const decimal = decimalAt(cell, 0, cell.length);
+  if (decimal === decimal) return decimal;
   const value = Number(cell);
   // `Number` parses an empty cell as 0, and hexadecimal digits. `parseFloat` returns other numbers for both.
   if (value === value && (Math.trunc(value) !== value || value === parseFloat(cell))) return value;
@@ -57,6 +59,14 @@ export function numberOf(cell: string): number | undefined {
  * @returns NaN or undefined as `numberOf`
  */
 export function timeOf(cell: string, power: number): Time | undefined {
+  const { length } = cell;
+  const dot = cell.indexOf('.');
+  // Whole seconds end at the point. Without a point, they end `power` digits before the end.
+  const end = power === 0 ? (dot < 0 ? length : dot) : dot < 0 ? length - power : 0;
+  if (end > 0) {
+    const [seconds, rest] = [decimalAt(cell, 0, end), end === length ? 0 : decimalAt(cell, end, length) / 10 ** power];
+    if (seconds >= 0 && rest >= 0) return [seconds, rest];
+  }
   const decimal = DECIMAL.exec(cell);
   if (!decimal) {
     const number = numberOf(cell);

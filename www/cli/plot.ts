@@ -2,7 +2,7 @@
 
 import { bisectLeft, extent, ticks } from 'd3-array';
 import type { Drive } from '../logs/drives.ts';
-import { pathOf, type Path, type Point } from '../logs/path.ts';
+import { aligned, pathOf, poseAt, type Path } from '../logs/path.ts';
 import { escaped } from '../scene/svg.ts';
 
 /** Width of a panel, its greatest height, and its margins for title and axes, in pixels. */
@@ -43,31 +43,30 @@ function panelOf({ odometry, reference }: Drive, { legs, systematicErrors }: any
   const its = Array.from({ length: legs.count }, (_, leg) => ({ from: legs.times[2 * leg], to: legs.times[2 * leg + 1], isOutlier: legs.outliers[leg] === 1 })).filter((leg) => leg.from >= from && leg.to <= to);
   const outliers = its.filter(({ isOutlier }) => isOutlier);
 
-  const all = [...truth.points, ...own.points];
-  const [[left, right], [bottom, ceiling]] = [0, 1].map((axis) => extent(all, (point) => point[axis]) as [number, number]);
+  const all = [...truth.poses, ...own.poses];
+  const [[left, right], [bottom, ceiling]] = [0, 1].map((axis) => extent(all, (pose) => pose[axis]) as [number, number]);
   const [spanX, spanY] = [Math.max(right - left, 0.1), Math.max(ceiling - bottom, 0.1)];
   const scale = Math.min((WIDTH - MARGIN.left - MARGIN.right - 2 * INSET) / spanX, (HEIGHT - MARGIN.top - MARGIN.bottom - 2 * INSET) / spanY);
   const height = Math.round(MARGIN.top + MARGIN.bottom + 2 * INSET + spanY * scale);
   const x = (value: number) => MARGIN.left + INSET + (value - left) * scale;
   const y = (value: number) => height - MARGIN.bottom - INSET - (value - bottom) * scale;
   const pixel = (value: number) => value.toFixed(1);
-  const line = ({ points, breaks }: Pick<Path, 'points' | 'breaks'>) => {
+  const line = ({ poses, breaks }: Pick<Path, 'poses' | 'breaks'>) => {
     let d = '';
-    let last: Point | undefined;
-    for (const [i, point] of points.entries()) {
-      const at: Point = [x(point[0]), y(point[1])];
+    let last: [x: number, y: number] | undefined;
+    for (const [i, pose] of poses.entries()) {
+      const at: typeof last = [x(pose[0]), y(pose[1])];
       const isBroken = !last || breaks.has(i);
-      if (!isBroken && i < points.length - 1 && last && Math.hypot(at[0] - last[0], at[1] - last[1]) < STEP) continue;
+      if (!isBroken && i < poses.length - 1 && last && Math.hypot(at[0] - last[0], at[1] - last[1]) < STEP) continue;
       d += `${isBroken ? 'M' : 'L'}${pixel(at[0])} ${pixel(at[1])}`;
       last = at;
     }
     return d;
   };
-  const ends = its.map((leg) => pointAt(truth, leg.to + offset)).filter((point) => point !== undefined);
-  const dots = ends.map((point) => `M${pixel(x(point[0]))} ${pixel(y(point[1]))}h0`).join('');
+  const dots = its.map((leg) => poseAt(truth, leg.to + offset)).map((pose) => `M${pixel(x(pose[0]))} ${pixel(y(pose[1]))}h0`).join('');
   const marked = outliers.map((leg) => {
     const [first, last] = [bisectLeft(truth.t, leg.from + offset), bisectLeft(truth.t, leg.to + offset)];
-    return line({ points: truth.points.slice(first, last + 1), breaks: new Set() });
+    return line({ poses: truth.poses.slice(first, last + 1), breaks: new Set() });
   }).join('');
   const axis = (isX: boolean) => ticks(isX ? left : bottom, isX ? right : ceiling, 6).map((value) => {
     const [at, label] = [isX ? x(value) : y(value), String(Number(value.toPrecision(6))).replace('-', '−')];
@@ -91,35 +90,4 @@ ${key.join('')}
 <path d="${marked}" ${LINES.outlier}/>
 </g>`;
   return { svg, height };
-}
-
-/** Interpolates a path; undefined outside of its times. */
-function pointAt({ t, points }: Path, time: number): Point | undefined {
-  const i = bisectLeft(t, time);
-  if (i >= t.length || (i === 0 && t[0] !== time)) return undefined;
-  if (i === 0) return points[0];
-  const share = (time - t[i - 1]) / (t[i] - t[i - 1]);
-  return [0, 1].map((axis) => points[i - 1][axis] + share * (points[i][axis] - points[i - 1][axis])) as Point;
-}
-
-/** Rotates and moves a path to the least squared distance from another one, whose times are later by an offset. */
-function aligned(path: Path, target: Path, offset: number): Path {
-  const pairs = path.points.flatMap((point, i): [Point, Point][] => {
-    const other = pointAt(target, path.t[i] + offset);
-    return other ? [[point, other]] : [];
-  });
-  if (pairs.length === 0) return path;
-  const mean = (side: 0 | 1, axis: 0 | 1) => pairs.reduce((sum, pair) => sum + pair[side][axis], 0) / pairs.length;
-  const [from, to] = ([0, 1] as const).map((side): Point => [mean(side, 0), mean(side, 1)]);
-  let [cos, sin] = [0, 0];
-  for (const [[x, y], [u, v]] of pairs) {
-    cos += (x - from[0]) * (u - to[0]) + (y - from[1]) * (v - to[1]);
-    sin += (x - from[0]) * (v - to[1]) - (y - from[1]) * (u - to[0]);
-  }
-  const angle = Math.atan2(sin, cos);
-  const turned = ([x, y]: Point): Point => [
-    to[0] + Math.cos(angle) * (x - from[0]) - Math.sin(angle) * (y - from[1]),
-    to[1] + Math.sin(angle) * (x - from[0]) + Math.cos(angle) * (y - from[1]),
-  ];
-  return { ...path, points: path.points.map(turned) };
 }

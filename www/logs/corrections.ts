@@ -1,11 +1,9 @@
 /** Search for the error in a log whose motion disagrees with that of the other log. It tries each correction on each log. */
 
-import { bisectLeft, greatest } from 'd3-array';
+import { greatest } from 'd3-array';
 import { ROLES, type Log, type Role } from './log.ts';
-import { pathOf } from './path.ts';
+import { pathOf, poseAt, wrapped, type Pose } from './path.ts';
 import { quantile } from './quantile.ts';
-
-type Pose = [x: number, y: number, heading: number];
 
 /** Motion in a step in the frame of the robot, in m and rad. */
 type Motion = [forward: number, left: number, turn: number];
@@ -83,23 +81,15 @@ export function correctionOf(odometry: Log, reference: Log): Correction | undefi
 
 /** Returns the motions of a log in steps after a time. */
 function motionsOf({ data }: Log, from: number, step: number, count: number, correct = (pose: Pose) => pose): Motion[] {
-  const { t, points, headings } = pathOf(data, Math.max(1, Math.floor(data.t.length / (4 * MAX_STEPS))));
-  const poseAt = (time: number): Pose => {
-    const next = Math.min(Math.max(bisectLeft(t, time), 1), t.length - 1);
-    const share = (time - t[next - 1]) / (t[next] - t[next - 1]);
-    const [one, other] = [next - 1, next].map((i) => correct([...points[i], headings[i]]));
-    const turn = wrapped(other[2] - one[2]);
-    return [one[0] + share * (other[0] - one[0]), one[1] + share * (other[1] - one[1]), one[2] + share * turn];
-  };
-  const poses = Array.from({ length: count + 1 }, (_, i) => poseAt(from + i * step));
+  const path = pathOf(data, Math.max(1, Math.floor(data.t.length / (4 * MAX_STEPS))));
+  const corrected = { ...path, poses: path.poses.map(correct) };
+  const poses = Array.from({ length: count + 1 }, (_, i) => poseAt(corrected, from + i * step));
   return poses.slice(1).map(([x, y, heading], i) => {
     const [dx, dy, turn] = [x - poses[i][0], y - poses[i][1], wrapped(heading - poses[i][2])];
     const middle = poses[i][2] + turn / 2;
     return [dx * Math.cos(middle) + dy * Math.sin(middle), dy * Math.cos(middle) - dx * Math.sin(middle), turn];
   });
 }
-
-const wrapped = (angle: number) => angle - 2 * Math.PI * Math.round(angle / (2 * Math.PI));
 
 /**
  * Returns the agreement of two logs at the smallest offset of their clocks at which they agree, or else at the best one.

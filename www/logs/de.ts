@@ -181,7 +181,7 @@ export const log: Words = {
       clock: 'Zeiten',
       recorded: 'Zeiten der Aufzeichnung, da die Header keine haben',
       notes: 'Hinweise',
-      paths: (width, height) => `Bahnen von oben: Referenz (durchgezogen) und Odometrie (gestrichelt), von derselben ersten Pose an; ${width} m mal ${height} m.`,
+      paths: (width, height) => `Bahnen von oben: Referenz (durchgezogen) und Odometrie (gestrichelt), an ihr ausgerichtet; ${width} m mal ${height} m.`,
     },
     rows: (used, rows, seconds, rate, distance) => `${used} von ${rows} Zeilen, ${comma(seconds, 1)} s mit ${rate.toPrecision(3).replace('.', ',')} Hz, ${comma(distance, 1)} m gefahren`,
     columns: (columns) => `Spalten ${columns}`,

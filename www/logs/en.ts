@@ -195,7 +195,7 @@ export const log = {
       clock: 'times',
       recorded: 'when messages were recorded, as their headers have none',
       notes: 'notes',
-      paths: (width: string, height: string) => `Paths from above: reference (solid) and odometry (dashed), from the same first pose; ${width} m by ${height} m.`,
+      paths: (width: string, height: string) => `Paths from above: reference (solid) and odometry (dashed), aligned with it; ${width} m by ${height} m.`,
     },
     rows: (used: number, rows: number, seconds: number, rate: number, distance: number) =>
       `${used} of ${rows} rows, ${seconds.toFixed(1)} s at ${rate.toPrecision(3)} Hz, ${distance.toFixed(1)} m driven`,

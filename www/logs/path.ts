@@ -1,19 +1,24 @@
 /** Paths of logs in the plane. */
 
+import { bisectLeft, mean } from 'd3-array';
 import type { Commands, Poses } from './log.ts';
 
-export type Point = [x: number, y: number];
+export type Pose = [x: number, y: number, heading: number];
 
-export interface Path { t: number[]; points: Point[]; headings: number[]; breaks: Set<number> }
+/** Poses by time. `breaks` has the indices of poses before which the path is unknown. */
+export interface Path { t: number[]; poses: Pose[]; breaks: Set<number> }
+
+/** Returns an angle between −π and π. */
+export const wrapped = (angle: number) => angle - 2 * Math.PI * Math.round(angle / (2 * Math.PI));
 
 /**
  * Returns the path of poses, or of commands that start at the origin.
  *
- * @param every number of rows per point; the last row also has a point
+ * @param every number of rows per pose of the path; the last row also has one
  */
 export function pathOf(data: Poses | Commands, every = 1): Path {
   const { t, breaks } = data;
-  const path: Path = { t: [], points: [], headings: [], breaks: new Set() };
+  const path: Path = { t: [], poses: [], breaks: new Set() };
   let [x, y, theta, next] = [0, 0, 0, 0];
   for (let i = 0; i < t.length; i++) {
     if ('v' in data && i > 0) {
@@ -25,10 +30,39 @@ export function pathOf(data: Poses | Commands, every = 1): Path {
     }
     if (i % every !== 0 && i < t.length - 1) continue;
     if ('x' in data) [x, y, theta] = [data.x[i], data.y[i], data.theta[i]];
-    for (; next < breaks.length && breaks[next] <= i; next++) path.breaks.add(path.points.length);
+    for (; next < breaks.length && breaks[next] <= i; next++) path.breaks.add(path.poses.length);
     path.t.push(t[i]);
-    path.points.push([x, y]);
-    path.headings.push(theta);
+    path.poses.push([x, y, theta]);
   }
   return path;
+}
+
+/** Returns the interpolated pose at a time; the first or the last one outside of the path's times. */
+export function poseAt({ t, poses }: Path, time: number): Pose {
+  const next = Math.min(Math.max(bisectLeft(t, time), 1), t.length - 1);
+  const share = Math.min(Math.max((time - t[next - 1]) / (t[next] - t[next - 1]), 0), 1);
+  const [one, other] = [poses[next - 1], poses[next]];
+  return [one[0] + share * (other[0] - one[0]), one[1] + share * (other[1] - one[1]), one[2] + share * wrapped(other[2] - one[2])];
+}
+
+/** Rotates and moves a path to the least squared distance from another one, whose times are later by an offset. */
+export function aligned(path: Path, target: Path, offset = 0): Path {
+  const pairs = path.poses.flatMap((pose, i): [Pose, Pose][] => {
+    const time = path.t[i] + offset;
+    return time >= target.t[0] && time <= target.t[target.t.length - 1] ? [[pose, poseAt(target, time)]] : [];
+  });
+  if (pairs.length === 0) return path;
+  const [from, to] = [0, 1].map((side) => [0, 1].map((axis) => mean(pairs, (pair) => pair[side][axis]) as number));
+  let [cos, sin] = [0, 0];
+  for (const [[x, y], [u, v]] of pairs) {
+    cos += (x - from[0]) * (u - to[0]) + (y - from[1]) * (v - to[1]);
+    sin += (x - from[0]) * (v - to[1]) - (y - from[1]) * (u - to[0]);
+  }
+  const angle = Math.atan2(sin, cos);
+  const turned = ([x, y, heading]: Pose): Pose => [
+    to[0] + Math.cos(angle) * (x - from[0]) - Math.sin(angle) * (y - from[1]),
+    to[1] + Math.sin(angle) * (x - from[0]) + Math.cos(angle) * (y - from[1]),
+    heading + angle,
+  ];
+  return { ...path, poses: path.poses.map(turned) };
 }

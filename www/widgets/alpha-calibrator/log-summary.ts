@@ -1,11 +1,10 @@
 /** Summary of what was read: numbers and decisions about each log, and a small picture of both paths. Loaded with the first log. */
 
-import { bisectLeft } from 'd3-array';
 import { html, nothing, svg } from 'lit';
 import { guard } from 'lit/directives/guard.js';
 import type { Drive } from '../../logs/drives.ts';
 import { LOG_TIME, ROLES, framesText, type Cause, type Log } from '../../logs/log.ts';
-import { pathOf, type Path, type Point } from '../../logs/path.ts';
+import { aligned, pathOf, type Path } from '../../logs/path.ts';
 import { notesOf } from '../../logs/summary.ts';
 import { language } from '../../messages/registry.ts';
 import { counted, fixed } from '../../ui/format.ts';
@@ -61,36 +60,22 @@ function tableOf({ odometry, reference }: Drive, caption: string, say: LogWords)
   </table>`;
 }
 
-/** Returns a picture of both paths. The odometry begins at the pose of the reference, so that its drift is seen. */
+/** Returns a picture of both paths, of which the odometry is aligned with the reference. */
 function pathsOf({ odometry, reference }: Drive, { found: { labels } }: LogWords) {
   const [driven, truth] = [odometry.data, reference.data].map((data) => pathOf(data, Math.ceil(data.t.length / POINTS)));
-  const begin = Math.max(odometry.data.t[0], reference.data.t[0]);
-  const turned = moved(driven.points, poseAt(driven, begin), poseAt(truth, begin));
-  const all = [...turned, ...truth.points];
-  const ends = ([0, 1] as const).map((axis) => [Math.min(...all.map((point) => point[axis])), Math.max(...all.map((point) => point[axis]))]);
+  const own = aligned(driven, truth);
+  const all = [...own.poses, ...truth.poses];
+  const ends = ([0, 1] as const).map((axis) => [Math.min(...all.map((pose) => pose[axis])), Math.max(...all.map((pose) => pose[axis]))]);
   const [width, height] = ends.map(([low, high]) => high - low);
   const scale = Math.min((WIDTH - 2 * MARGIN) / Math.max(width, 0.1), (HEIGHT - 2 * MARGIN) / Math.max(height, 0.1));
   const coordinate = (value: number) => value.toFixed(1);
-  const line = (points: Point[], breaks: Set<number>) => points.map(([x, y], i) =>
+  const line = ({ poses, breaks }: Path) => poses.map(([x, y], i) =>
     `${i === 0 || breaks.has(i) ? 'M' : 'L'}${coordinate(MARGIN + (x - ends[0][0]) * scale)} ${coordinate(HEIGHT - MARGIN - (y - ends[1][0]) * scale)}`).join('');
   const text = labels.paths(fixed(width, 1), fixed(height, 1));
   return html`<figure class="paths">
     <svg viewBox="0 0 ${WIDTH} ${HEIGHT}" role="img" aria-label=${text}>
-      ${svg`<path class="reference" d=${line(truth.points, truth.breaks)}></path><path class="odometry" d=${line(turned, driven.breaks)}></path>`}
+      ${svg`<path class="reference" d=${line(truth)}></path><path class="odometry" d=${line(own)}></path>`}
     </svg>
     <figcaption>${text}</figcaption>
   </figure>`;
-}
-
-type Pose = [...Point, theta: number];
-
-function poseAt({ t, points, headings }: Path, time: number): Pose {
-  const i = Math.min(bisectLeft(t, time), points.length - 1);
-  return [...points[i], headings[i]];
-}
-
-/** Moves points by the rigid motion that takes one pose to another. */
-function moved(points: Point[], [x0, y0, theta0]: Pose, [toX, toY, to]: Pose): Point[] {
-  const [cos, sin] = [Math.cos(to - theta0), Math.sin(to - theta0)];
-  return points.map(([x, y]) => [toX + cos * (x - x0) - sin * (y - y0), toY + sin * (x - x0) + cos * (y - y0)]);
 }

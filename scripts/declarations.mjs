@@ -108,7 +108,7 @@ export function widgets() {
 async function widget(tag) {
   // They import libraries, which a bare clone does not have yet.
   const { COMMON, NUMBER, WORD_LIST } = await importTypeScript('www/figure/attributes.ts');
-  const { attributes, declared, documentation, own } = await importTypeScript(`www/widgets/${tag}/settings.ts`);
+  const { definition: { attributes, declared, own }, documentation } = await importTypeScript(`www/widgets/${tag}/settings.ts`);
   /** @type {import('../www/figure/attributes.ts').Documentation[]} */
   const documents = [...('marked' in own ? [OF_CLOUDS] : []), ...(documentation ? [documentation] : [])];
   const { classes } = await comments();

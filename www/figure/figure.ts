@@ -82,17 +82,7 @@ addEnglish(en);
 export class FigureElement<Machine extends { free(): void, stats: object, config: Values, configure(settings: Values): Values }, Reading extends { config: Values, stats: object }> extends LitElement {
   static styles = [theme, schemeStyles, presentationStyles, progressStyles, noticeStyles];
 
-  /** Declared settings of the widget. */
-  static declared: import('../settings.js').Declaration[];
-  /** Appearance of the settings that have a slider. */
-  static looks: Record<string, import('./controls.ts').Look> = {};
-  /** Key of the widget's words in the catalogues. */
-  static vocabulary: string;
-  static attributes: import('./attributes.ts').Attributes = {};
-  /** State of the element that the machine does not have. */
-  static own: Record<string, import('./state.ts').Owned> = {};
-  /** Returns the defaults that depend on other settings. */
-  static dependentDefaults: (config: Values) => Values = () => ({});
+  static definition: import('./definition.ts').Definition;
 
   runtime = new Runtime(this);
   stage = new Stage(this);
@@ -125,9 +115,9 @@ export class FigureElement<Machine extends { free(): void, stats: object, config
   #waiting: (() => void)[] = [];
   #updating: boolean | undefined;
 
-  /** Class of the widget. */
+  /** Definition of the widget. */
   get kind() {
-    return this.constructor as typeof FigureElement;
+    return (this.constructor as typeof FigureElement).definition;
   }
 
   // Members that widgets override; the first five are required.
@@ -377,7 +367,7 @@ export class FigureElement<Machine extends { free(): void, stats: object, config
 
   static get observedAttributes() {
     // Attributes are in lower case in HTML.
-    return [...super.observedAttributes, ...Object.keys({ ...this.attributes, ...COMMON }).map((name) => name.toLowerCase())];
+    return [...super.observedAttributes, ...Object.keys({ ...this.definition?.attributes, ...COMMON }).map((name) => name.toLowerCase())];
   }
 
   attributeChangedCallback(name: string, old: string | null, text: string | null) {

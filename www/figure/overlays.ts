@@ -3,8 +3,6 @@
 import { html, nothing, svg } from 'lit';
 import { words } from '../messages/registry.ts';
 import { rich, toggle } from '../ui/controls.ts';
-import { WORD_LIST } from './attributes.ts';
-import { subset } from './checks.ts';
 
 /** Style of a line or mark, in the picture and in the legend. */
 export interface LineStyle {
@@ -15,14 +13,6 @@ export interface LineStyle {
   width?: number;
   /** Default: line. */
   mark?: 'line' | 'dot' | 'ring' | 'area' | 'cross' | 'box';
-}
-
-/** Returns the attribute and the field of the state for the overlays. `opening` are the default ones. */
-export function overlaysOf(names: readonly string[], opening: readonly string[] = names): { attribute: import('./attributes.ts').Attribute & import('./attributes.ts').Own, state: import('./state.ts').Owned } {
-  return {
-    attribute: { kind: WORD_LIST, own: true, words: names },
-    state: { opening, check: (field, overlays) => subset(field, overlays, names) },
-  };
 }
 
 /** Returns the legend of a figure's pictures, with names from the catalogue. `notes` explain missing lines. Entries of `more` have no toggle. */

@@ -141,7 +141,7 @@ export class Reflection extends Part {
   /** Default settings. Some depend on the present settings. */
   get #defaultConfig(): Config {
     const { kind, settings } = this.host;
-    return { ...defaultConfig(kind.declared), ...kind.dependentDefaults(settings.wanted) };
+    return { ...defaultConfig(kind.declared), ...kind.dependentDefaults?.(settings.wanted) };
   }
 
   /** Returns the default of a property. */
@@ -216,7 +216,7 @@ export class Reflection extends Part {
 /** Defines a widget's element with a property for each setting. If the page loads the script twice, the second call does nothing. */
 export function define(tag: string, Widget: typeof import('./figure.ts').FigureElement<any, any>) {
   if (customElements.get(tag)) return;
-  const { prototype, attributes, declared, own } = Widget;
+  const { prototype, definition: { attributes, declared, own } } = Widget;
   for (const [name, entry] of Object.entries({ ...attributes, ...groupsOf(declared) })) {
     if (!isSetting(entry) && !(name in own)) continue;
     Object.defineProperty(prototype, name, {

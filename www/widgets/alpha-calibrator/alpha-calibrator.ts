@@ -24,7 +24,7 @@ import { LegPicture, WayPicture } from './pictures.ts';
 import { Plate } from './plate.ts';
 import { legOf, readingOf } from './reading.ts';
 import { alphaTable, alphaTexts, verdictLine } from './readouts.ts';
-import { COMPONENTS, LINES, attributes, declared, kindOf, looks, own, vocabulary } from './settings.ts';
+import { COMPONENTS, LINES, definition, kindOf } from './settings.ts';
 import { calibratorStyles } from './styles.ts';
 import { systematicTable, systematicTexts } from './systematic.ts';
 import { captionOf, judgementOf, legText, reasonOf, wayText } from './words.ts';
@@ -54,11 +54,7 @@ const KEYS = ['name', 'odometry', 'reference'];
 export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
   static styles = [...FigureElement.styles, reserve('alpha-calibrator'), ...calibratorStyles];
 
-  static declared = declared;
-  static attributes = attributes;
-  static own = own;
-  static looks = looks;
-  static vocabulary = vocabulary;
+  static definition = definition;
 
   #way = new WayPicture();
   #one = new LegPicture();

@@ -1,15 +1,8 @@
 /** The Alpha Calibrator's settings: their attributes, their part of the state, and their sliders. */
 
-import { attributesOf } from '../../figure/attributes.ts';
 import { wholeNumber, word } from '../../figure/checks.ts';
-import { overlaysOf } from '../../figure/overlays.ts';
-import { settings } from '../../settings.js';
+import { definitionOf } from '../../figure/definition.ts';
 import type { AlphaCalibratorSettings } from '../../types.d.ts';
-
-export const declared = settings['alpha-calibrator'];
-
-/** Key of the words in the catalogues. */
-export const vocabulary = 'calibrator';
 
 /** Dash of the odometry, CSS pixels. */
 const READ_DASH = [2.5, 3.5];
@@ -31,10 +24,6 @@ export type LineName = keyof typeof LINES;
 /** Classes of legs, the most usual first. */
 export const CLASSES = ['likely', 'plausible', 'unlikely', 'implausible'] as const satisfies LineName[];
 
-const { attribute: overlays, state } = overlaysOf(Object.keys(LINES));
-
-export const attributes = { ...attributesOf(declared), overlays };
-
 /** Regressors of a variance. */
 const DRIVERS = ['turn', 'way'] as const;
 
@@ -43,14 +32,7 @@ export type Driver = (typeof DRIVERS)[number];
 /** Largest number of a leg in a link: the count is not known before the fit. */
 const MOST_LEGS = 9_999_999;
 
-export const own: Record<string, import('../../figure/state.ts').Owned> = {
-  leg: { opening: null, check: (field, leg) => (leg === null ? null : wholeNumber(field, leg, 0, MOST_LEGS)) },
-  overlays: state,
-  driver: { opening: DRIVERS[0], check: (field, driver) => word(field, driver, DRIVERS) },
-};
-
 export const documentation: import('../../figure/attributes.ts').Documentation = {
-  properties: {},
   state: {
     leg: { type: 'number | null', sentence: 'The leg that is shown, from 0; null, or one that is not there, for the largest residual that is no outlier.' },
     driver: { type: "'turn' | 'way'", sentence: 'The motion that squared residuals are drawn against.' },
@@ -83,11 +65,19 @@ export const COMPONENTS = {
   velocity: ['v', 'omega', 'gamma'],
 } as const;
 
-export const looks: Record<string, import('../../figure/controls.ts').Look> = {
-  distance: { symbol: '*d*', role: 'prior', min: 0.05, max: 1, step: 0.01, decimals: 2 },
-  angle: { symbol: '*φ*', role: 'prior', min: 0.05, max: 1, step: 0.01, decimals: 2 },
-  duration: { symbol: '*T*', role: 'prior', min: 0, max: 5, step: 0.1, decimals: 2 },
-  positionStd: { symbol: '*σ*_{xy}', role: 'truth', min: 0, max: 0.05, step: 0.001, decimals: 3 },
-  yawStd: { symbol: '*σ*_{θ}', role: 'truth', min: 0, max: 0.05, step: 0.001, decimals: 3 },
-  inflation: { symbol: '*f*', role: 'prediction', min: 0.1, max: 5, step: 0.05, decimals: 2 },
-};
+export const definition = definitionOf('alpha-calibrator', {
+  vocabulary: 'calibrator',
+  lines: LINES,
+  looks: {
+    distance: { symbol: '*d*', role: 'prior', min: 0.05, max: 1, step: 0.01, decimals: 2 },
+    angle: { symbol: '*φ*', role: 'prior', min: 0.05, max: 1, step: 0.01, decimals: 2 },
+    duration: { symbol: '*T*', role: 'prior', min: 0, max: 5, step: 0.1, decimals: 2 },
+    positionStd: { symbol: '*σ*_{xy}', role: 'truth', min: 0, max: 0.05, step: 0.001, decimals: 3 },
+    yawStd: { symbol: '*σ*_{θ}', role: 'truth', min: 0, max: 0.05, step: 0.001, decimals: 3 },
+    inflation: { symbol: '*f*', role: 'prediction', min: 0.1, max: 5, step: 0.05, decimals: 2 },
+  },
+  own: {
+    leg: { opening: null, check: (field, leg) => (leg === null ? null : wholeNumber(field, leg, 0, MOST_LEGS)) },
+    driver: { opening: DRIVERS[0], check: (field, driver) => word(field, driver, DRIVERS) },
+  },
+});

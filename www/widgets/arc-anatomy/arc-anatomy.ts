@@ -15,7 +15,7 @@ import { formsPlot } from './forms.ts';
 import { ArcPicture, RADIUS } from './picture.ts';
 import { readingOf } from './reading.ts';
 import { factorBars, headline, likelihoods, tableOf } from './readouts.ts';
-import { LINES, REACH, WHOLE, attributes, declared, looks, own, vocabulary } from './settings.ts';
+import { LINES, REACH, WHOLE, definition } from './settings.ts';
 import { anatomyStyles } from './styles.ts';
 import { captionOf, pictureText } from './words.ts';
 import type { ArcAnatomy as Machine } from '../../types.d.ts';
@@ -34,11 +34,7 @@ const BOUNDS = [-REACH, -REACH, REACH, REACH];
 export class ArcAnatomyElement extends FigureElement<Machine, Reading> {
   static styles = [...FigureElement.styles, reserve('arc-anatomy'), ...anatomyStyles];
 
-  static declared = declared;
-  static attributes = attributes;
-  static own = own;
-  static looks = looks;
-  static vocabulary = vocabulary;
+  static definition = definition;
 
   #picture = new ArcPicture();
   pictures = [this.#picture];

@@ -1,18 +1,9 @@
 /** Arc Anatomy's settings: their attributes, their part of the state, and their sliders. */
 
-import { attributesOf, presetsOf } from '../../figure/attributes.ts';
 import { wholeNumber } from '../../figure/checks.ts';
-import { overlaysOf } from '../../figure/overlays.ts';
-import { presets, settings } from '../../settings.js';
+import { definitionOf } from '../../figure/definition.ts';
 import { COMMAND_DASH, commandLooks } from '../shared/command.ts';
 import { alphaLooks } from '../shared/noise.ts';
-
-export type Settings = import('../../types.d.ts').ArcAnatomySettings;
-
-export const declared = settings['arc-anatomy'];
-
-/** Key of the words in the catalogues. */
-export const vocabulary = 'anatomy';
 
 /** Number of lines of Table 5.1. */
 export const TABLE_LINES = 9;
@@ -31,20 +22,6 @@ export const LINES = {
 
 export type LineName = keyof typeof LINES;
 
-const { attribute: overlays, state } = overlaysOf(Object.keys(LINES), ['commanded', 'inverted', 'wedge', 'chord']);
-
-export const attributes: import('../../figure/attributes.ts').Attributes = {
-  preset: presetsOf(presets['arc-anatomy'], declared),
-  ...attributesOf(declared),
-  overlays,
-};
-
-export const own: Record<string, import('../../figure/state.ts').Owned> = {
-  overlays: state,
-  line: { opening: 0, ofPreset: true, check: (field, line) => wholeNumber(field, line, 0, TABLE_LINES) },
-  underway: { opening: WHOLE, ofPreset: true, check: (field, share) => wholeNumber(field, share, 0, WHOLE) },
-};
-
 export const documentation: import('../../figure/attributes.ts').Documentation = {
   state: {
     line: { type: 'number', sentence: 'The line of Table 5.1 that is lit, from 1; 0 for none.' },
@@ -56,7 +33,16 @@ export const COMMAND = commandLooks(4);
 
 export const ALPHAS = alphaLooks(6);
 
-export const looks: Record<string, import('../../figure/controls.ts').Look> = { ...COMMAND, ...ALPHAS };
+export const definition = definitionOf('arc-anatomy', {
+  vocabulary: 'anatomy',
+  lines: LINES,
+  opening: ['commanded', 'inverted', 'wedge', 'chord'],
+  looks: { ...COMMAND, ...ALPHAS },
+  own: {
+    line: { opening: 0, ofPreset: true, check: (field, line) => wholeNumber(field, line, 0, TABLE_LINES) },
+    underway: { opening: WHOLE, ofPreset: true, check: (field, share) => wholeNumber(field, share, 0, WHOLE) },
+  },
+});
 
 /** Largest coordinates of a pose that is dragged, m. */
 export const REACH = 4;

@@ -26,7 +26,7 @@ import { DURATION, carrying, morphControl, outlinesAt, placeOf, ringsOf } from '
 import { PlanePicture, TwistPicture } from './pictures.ts';
 import { Curve, readingOf } from './reading.ts';
 import { markedRobot, otherReadouts, readouts, twistTable, workedExample } from './readouts.ts';
-import { LINES, OVERLAYS, SAMPLE_COUNTS, attributes, declared, looks, own, vocabulary } from './settings.ts';
+import { LINES, OVERLAYS, SAMPLE_COUNTS, definition, looks } from './settings.ts';
 import { bananaStyles } from './styles.ts';
 import { announcementOf, calloutsOf, captionOf, floorTitle, planeText, skewText, twistCaption, twistText } from './words.ts';
 import type { BananaMachine as Machine, Inspection } from '../../types.d.ts';
@@ -56,12 +56,7 @@ const SKEWS = [0.25, 0.5, 1, 2, 4, 8];
 export class BananaMachineElement extends FigureElement<Machine, Reading> {
   static styles = [...FigureElement.styles, reserve('banana-machine'), ...bananaStyles];
 
-  static declared = declared;
-  static attributes = attributes;
-  static own = own;
-  static looks = looks;
-  static vocabulary = vocabulary;
-  static dependentDefaults = ({ model }: Values) => ({ alphas: openingAlphas[model as keyof typeof openingAlphas] });
+  static definition = definition;
 
   cloud = new IntroducedCloud(this);
   #inspected: Memo<Inspection> = new Memo();

@@ -1,17 +1,11 @@
 /** The Banana Machine's settings: their attributes, their part of the state, and their sliders. */
 
-import { NUMBER, attributesOf, presetsOf } from '../../figure/attributes.ts';
+import { NUMBER } from '../../figure/attributes.ts';
 import { numberWithin, wholeNumber } from '../../figure/checks.ts';
-import { cloudState } from '../../figure/cloud.ts';
-import { overlaysOf } from '../../figure/overlays.ts';
-import { openingAlphas, presets, settings } from '../../settings.js';
+import { definitionOf } from '../../figure/definition.ts';
+import { openingAlphas } from '../../settings.js';
 import { COMMAND_DASH, commandLooks } from '../shared/command.ts';
 import { alphaLooks } from '../shared/noise.ts';
-
-export const declared = settings['banana-machine'];
-
-/** Key of the words in the catalogues. */
-export const vocabulary = 'banana';
 
 /** Styles of the lines in the pictures. */
 export const LINES = {
@@ -25,23 +19,6 @@ export const LINES = {
 export type LineName = keyof typeof LINES;
 
 export const OVERLAYS = Object.keys(LINES) as LineName[];
-const { attribute, state } = overlaysOf(OVERLAYS, ['command', 'ellipse', 'exponential']);
-
-export const attributes: import('../../figure/attributes.ts').Attributes = {
-  preset: presetsOf(presets['banana-machine'], declared),
-  ...attributesOf(declared),
-  overlays: attribute,
-  morph: { kind: NUMBER, own: true, min: 0, max: 1 },
-};
-
-export const own: Record<string, import('../../figure/state.ts').Owned> = {
-  ...cloudState,
-  /** The α that remains under "Isolate", from 1; remembered while "Isolate" is off. */
-  isolateChoice: { opening: 4, check: (field, number) => wholeNumber(field, number, 1, openingAlphas.velocity.length) },
-  overlays: state,
-  /** Morph, from the floor (0) to exponential coordinates (1). */
-  morph: { opening: 0, ofPreset: true, check: (field, morph) => numberWithin(field, morph, 0, 1) },
-};
 
 export const documentation: import('../../figure/attributes.ts').Documentation = {
   state: {
@@ -53,6 +30,21 @@ export const documentation: import('../../figure/attributes.ts').Documentation =
 export const COMMAND = commandLooks(3);
 
 export const looks = { ...COMMAND, ...alphaLooks(6) };
+
+export const definition = definitionOf('banana-machine', {
+  vocabulary: 'banana',
+  lines: LINES,
+  opening: ['command', 'ellipse', 'exponential'],
+  looks,
+  attributes: { morph: { kind: NUMBER, own: true, min: 0, max: 1 } },
+  own: {
+    /** The α that remains under "Isolate", from 1; remembered while "Isolate" is off. */
+    isolateChoice: { opening: 4, check: (field, number) => wholeNumber(field, number, 1, openingAlphas.velocity.length) },
+    /** Morph, from the floor (0) to exponential coordinates (1). */
+    morph: { opening: 0, ofPreset: true, check: (field, morph) => numberWithin(field, morph, 0, 1) },
+  },
+  dependentDefaults: ({ model }) => ({ alphas: openingAlphas[model as keyof typeof openingAlphas] }),
+});
 
 /** Sample counts of the slider, in the 1–2–5 steps of a logarithmic scale; beyond a million a drag no longer follows the finger. */
 export const SAMPLE_COUNTS = [1, 2, 3, 4, 5].flatMap((decade) => [1, 2, 5].map((step) => step * 10 ** decade)).concat(1_000_000);

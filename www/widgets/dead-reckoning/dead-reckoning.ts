@@ -1,7 +1,6 @@
 /** <dead-reckoning>: one command driven step after step, and how well its growing uncertainty is predicted. */
 
 import { html } from 'lit';
-import { defaultConfig } from '../../figure/attributes.ts';
 import { Cloud, enterCloud } from '../../figure/cloud.ts';
 import { canvas, disclosures, panel } from '../../figure/controls.ts';
 import { FigureElement } from '../../figure/figure.ts';
@@ -16,7 +15,7 @@ import { moreControls, pathControls, recursionChoice } from './controls.ts';
 import { PathPicture, StepPicture } from './pictures.ts';
 import { COMPONENTS, readingOf } from './reading.ts';
 import { headline, markedRobot, missTable, ratioPlot, straightPlot } from './readouts.ts';
-import { OUTLINES, RECURSIONS, attributes, declared, looks, own, vocabulary } from './settings.ts';
+import { OUTLINES, RECURSIONS, definition } from './settings.ts';
 import { reckoningStyles } from './styles.ts';
 import { announcementOf, captionOf, planeText, stepText } from './words.ts';
 import type { Values } from '../../figure/settings.ts';
@@ -39,12 +38,7 @@ const columnsOf = (quantity: string) => COMPONENTS.map((name) => `${quantity}_${
 export class DeadReckoningElement extends FigureElement<Machine, Reading> {
   static styles = [...FigureElement.styles, reserve('dead-reckoning'), ...reckoningStyles];
 
-  static declared = declared;
-  static attributes = attributes;
-  static own = own;
-  static looks = looks;
-  static vocabulary = vocabulary;
-  static dependentDefaults = ({ steps }: Values) => ({ step: Math.min(defaultConfig(declared).step, steps) });
+  static definition = definition;
 
   cloud = new Cloud(this);
   #floor = new PathPicture();

@@ -20,7 +20,7 @@ import { overview } from './overview.ts';
 import { FloorPicture } from './picture.ts';
 import { kindOf, readingOf } from './reading.ts';
 import { costTable, markedDraw, tally } from './readouts.ts';
-import { LINES, OPENING_START, PRESET, attributes, declared, looks, own, vocabulary } from './settings.ts';
+import { LINES, OPENING_START, PRESET, definition } from './settings.ts';
 import { squeezeStyles } from './styles.ts';
 import { WallHandles } from './wall-handles.ts';
 import { contactOf } from './walls.ts';
@@ -41,11 +41,7 @@ import type { Reading } from './reading.ts';
 export class MapSqueezeElement extends FigureElement<Machine, Reading> {
   static styles = [...FigureElement.styles, reserve('map-squeeze'), ...squeezeStyles];
 
-  static declared = declared;
-  static attributes = attributes;
-  static own = own;
-  static looks = looks;
-  static vocabulary = vocabulary;
+  static definition = definition;
 
   cloud = new Cloud(this, (machine: Machine) => machine.stats.gaveUp);
 

@@ -1,16 +1,13 @@
 /** Map Squeeze's settings: their attributes, their part of the state, and their sliders. */
 
-import { WORD, attributesOf, presetsOf } from '../../figure/attributes.ts';
+import { WORD, presetsOf } from '../../figure/attributes.ts';
 import { word } from '../../figure/checks.ts';
-import { cloudState } from '../../figure/cloud.ts';
-import { overlaysOf } from '../../figure/overlays.ts';
+import { definitionOf } from '../../figure/definition.ts';
 import { presets, settings } from '../../settings.js';
 import { COMMAND_DASH, commandLooks } from '../shared/command.ts';
+import type { SamplerName } from '../../types.d.ts';
 
-export const declared = settings['map-squeeze'];
-
-/** Key of the words in the catalogues. */
-export const vocabulary = 'squeeze';
+const declared = settings['map-squeeze'];
 
 /** Presets: positions in the apartment, with settings that show their effect. */
 export const PRESET = presetsOf(presets['map-squeeze'], declared);
@@ -28,36 +25,31 @@ export const LINES = {
   commanded: { role: 'prior', width: 2.5, dash: COMMAND_DASH },
   unknown: { role: 'muted', mark: 'area' },
 } satisfies Record<string, import('../../figure/overlays.ts').LineStyle>;
-const overlays = overlaysOf(Object.keys(LINES));
-
-export const attributes: import('../../figure/attributes.ts').Attributes = {
-  preset: { ...PRESET, own: true, opening: PRESET.words?.[0] },
-  ...attributesOf(declared),
-  view: { kind: WORD, own: true, words: VIEWS },
-  overlays: overlays.attribute,
-};
-
-export const own: Record<string, import('../../figure/state.ts').Owned> = {
-  ...cloudState,
-  view: { opening: 'close', check: (field, view) => word(field, view, VIEWS) },
-  overlays: overlays.state,
-  /** Map of the reader; null for the apartment. A machine has checked it. */
-  map: { opening: null, check: (_, map) => map },
-};
 
 export const COMMAND = commandLooks(4);
 
-export const looks: Record<string, import('../../figure/controls.ts').Look> = {
-  ...COMMAND,
-  noise: { role: 'prediction', min: 0, max: 0.4, step: 0.005, decimals: 3, value: ({ alphas, noise = alphas[0] }) => noise },
-  clearance: { symbol: '*r*', role: 'truth', min: 0, max: 0.4, step: 0.01, decimals: 2 },
-  steps: { role: 'prediction', min: 1, max: 64, step: 1, decimals: 0 },
-};
+export const definition = definitionOf('map-squeeze', {
+  vocabulary: 'squeeze',
+  lines: LINES,
+  looks: {
+    ...COMMAND,
+    noise: { role: 'prediction', min: 0, max: 0.4, step: 0.005, decimals: 3, value: ({ alphas, noise = alphas[0] }) => noise },
+    clearance: { symbol: '*r*', role: 'truth', min: 0, max: 0.4, step: 0.01, decimals: 2 },
+    steps: { role: 'prediction', min: 1, max: 64, step: 1, decimals: 0 },
+  },
+  attributes: {
+    preset: { ...PRESET, own: true, opening: PRESET.words?.[0] },
+    view: { kind: WORD, own: true, words: VIEWS },
+  },
+  own: {
+    view: { opening: 'close', check: (field, view) => word(field, view, VIEWS) },
+    /** Map of the reader; null for the apartment. A machine has checked it. */
+    map: { opening: null, check: (_, map) => map },
+  },
+});
 
 /** Samplers in the order in which they are offered. */
-export const SAMPLERS = 
-  declared.find(({ key }) => key === 'sampler')?.words as ('endpoint' | 'whole-arc' | 'sub-stepped')[]
-;
+export const SAMPLERS = declared.find(({ key }) => key === 'sampler')?.words as SamplerName[];
 
 /** Sample counts of the slider. The machine accepts more, but they would not follow a slider. */
 export const SAMPLE_COUNTS = [1, 2, 5, 10, 20, 50, 100, 200, 300, 600, 1000, 2000, 5000, 10_000, 20_000, 50_000, 100_000];

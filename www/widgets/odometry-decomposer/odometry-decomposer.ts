@@ -19,7 +19,7 @@ import { noiseControls, playable, rulesTable } from './controls.ts';
 import { LegsPicture, RADIUS, WorldPicture } from './pictures.ts';
 import { readingOf } from './reading.ts';
 import { headline, readouts, spreads } from './readouts.ts';
-import { LINES, attributes, declared, looks, own, vocabulary } from './settings.ts';
+import { LINES, definition, looks } from './settings.ts';
 import { decomposerStyles } from './styles.ts';
 import { apart, captionOf, legsText, worldText } from './words.ts';
 import type { OdometryDecomposer as Machine } from '../../types.d.ts';
@@ -38,11 +38,7 @@ const FLOOR = [-4, -4, 4, 4];
 export class OdometryDecomposerElement extends FigureElement<Machine, Reading> {
   static styles = [...FigureElement.styles, reserve('odometry-decomposer'), ...decomposerStyles];
 
-  static declared = declared;
-  static attributes = attributes;
-  static own = own;
-  static looks = looks;
-  static vocabulary = vocabulary;
+  static definition = definition;
 
   cloud = new Cloud(this);
   player: Player<'phase' | 'drift'> = new Player(this, { phase: this.#played('phase', 4000), drift: this.#played('drift', 8000) });

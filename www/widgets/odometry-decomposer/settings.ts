@@ -1,15 +1,7 @@
 /** The Odometry Decomposer's settings: their attributes, their part of the state, and their sliders. */
 
-import { attributesOf, presetsOf } from '../../figure/attributes.ts';
-import { cloudState } from '../../figure/cloud.ts';
-import { overlaysOf } from '../../figure/overlays.ts';
-import { presets, settings } from '../../settings.js';
+import { definitionOf } from '../../figure/definition.ts';
 import { alphaLooks } from '../shared/noise.ts';
-
-export const declared = settings['odometry-decomposer'];
-
-/** Key of the words in the catalogues. */
-export const vocabulary = 'decomposer';
 
 /** Styles of the lines and marks in the pictures. */
 export const LINES = {
@@ -20,12 +12,6 @@ export const LINES = {
   odometry: { role: 'prior', width: 1.75, dash: [6, 4] },
   difference: { role: 'accent', width: 1.5, dash: [2, 4] },
 } satisfies Record<string, import('../../figure/overlays.ts').LineStyle>;
-
-const { attribute, state } = overlaysOf(Object.keys(LINES));
-
-export const attributes: import('../../figure/attributes.ts').Attributes = { preset: presetsOf(presets['odometry-decomposer'], declared), ...attributesOf(declared), overlays: attribute };
-
-export const own: Record<string, import('../../figure/state.ts').Owned> = { ...cloudState, overlays: state };
 
 /** Sliders of the noise. */
 export const NOISE = {
@@ -38,5 +24,7 @@ export const looks: Record<string, import('../../figure/controls.ts').Look> = {
   phase: { role: 'prior', min: 0, max: 3, step: 0.01, decimals: 2 },
   drift: { role: 'truth', min: 0, max: 120, step: 1, decimals: 0 },
 };
+
+export const definition = definitionOf('odometry-decomposer', { vocabulary: 'decomposer', lines: LINES, looks });
 
 export const SAMPLE_COUNTS = [10, 20, 50, 100, 200, 500, 1000, 2000, 5000];

@@ -1,0 +1,56 @@
+/** Definition of a widget: its settings with their sliders, its attributes, and the state of its element. */
+
+import { presets, settings, type Declaration } from '../settings.js';
+import { WORD_LIST, attributesOf, presetsOf, type Attributes, type Config } from './attributes.ts';
+import { subset } from './checks.ts';
+import { cloudState } from './cloud.ts';
+import type { Look } from './controls.ts';
+import type { LineStyle } from './overlays.ts';
+import type { Owned } from './state.ts';
+
+export interface Definition {
+  /** Key of the widget's words in the catalogues. */
+  vocabulary: string;
+  /** Declared settings. */
+  declared: Declaration[];
+  attributes: Attributes;
+  /** State of the element that the machine does not have. */
+  own: Record<string, Owned>;
+  /** Appearance of the settings that have a slider. */
+  looks: Record<string, Look>;
+  /** Returns the defaults that depend on other settings. */
+  dependentDefaults?: (config: Config) => Config;
+}
+
+interface Parts extends Pick<Definition, 'vocabulary' | 'looks' | 'dependentDefaults'> {
+  /** Styles of the lines and marks in the pictures, which are the words of the attribute `overlays`. */
+  lines: Record<string, LineStyle>;
+  /** Lines that are drawn by default. */
+  opening?: readonly string[];
+  /** Attributes besides those of settings, presets and overlays. */
+  attributes?: Attributes;
+  /** State besides that of the overlays and the cloud. */
+  own?: Record<string, Owned>;
+}
+
+/** Returns the definition of a widget by its tag. */
+export function definitionOf(tag: string, { lines, opening = Object.keys(lines), attributes, own, ...parts }: Parts): Definition {
+  const declared = settings[tag];
+  const given = presets[tag as keyof typeof presets];
+  const names = Object.keys(lines);
+  return {
+    ...parts,
+    declared,
+    attributes: {
+      ...(given.length > 0 && { preset: presetsOf(given, declared) }),
+      ...attributesOf(declared),
+      ...attributes,
+      overlays: { kind: WORD_LIST, own: true, words: names },
+    },
+    own: {
+      ...(declared.some(({ key }) => key === 'samples') && cloudState),
+      ...own,
+      overlays: { opening, check: (field, overlays) => subset(field, overlays, names) },
+    },
+  };
+}

@@ -21,7 +21,7 @@ test('two tables of the reader’s own take the place of the simulated log, and 
   expect(await widget.evaluate((element) => /** @type {AlphaCalibratorElement} */ (element).machine.truth)).toBeNull();
   await expect(widget.locator('.drop-zone .present')).toHaveText('Log: odom.csv, truth.csv.');
   // The summary stays visible next to the result.
-  await expect(widget.getByRole('row', { name: /^rows used \d+ of/ })).toBeVisible();
+  await expect(widget.getByRole('row', { name: /^read \d+ of \d+ rows/ })).toBeVisible();
   await expect(widget.getByRole('img', { name: /^Paths from above: .* m by .* m\.$/ })).toBeVisible();
   // Their names decide the roles, not the order in which they are chosen.
   const hint = widget.getByText('its name is that of odometry, and truth.csv is not: was the odometry given as the reference?');

@@ -101,7 +101,7 @@ test('a clock that begins at 0 has stamps; messages without stamps have the time
   // Most messages have no stamp.
   const unstamped = await rows((i) => (i < 49 ? i : 0));
   assert.deepEqual([unstamped.start, unstamped.data.t.length, unstamped.data.t[20]], [1_700_000_000, 100, 1]);
-  assert.match(unstamped.sentences, /times at which messages were recorded/);
+  assert.match(unstamped.sentences, /times: when messages were recorded/);
   assert.doesNotMatch(simulated.sentences, /recorded/);
   // A single missing stamp is far from all other times.
   const missing = await rows((i) => (i === 50 ? 0 : 5 + i / 10));

@@ -175,39 +175,19 @@ export const log = {
   },
   /** Summary of a log. */
   found: {
-    labels: {
-      title: 'What was read',
-      drive: (number: number) => `Drive ${number}`,
-      rows: 'rows used',
-      ofRows: (used: string, rows: string) => `${used} of ${rows}`,
-      leftOut: 'rows left out',
-      dropped: (reason: Cause, count: string, line: number) => `${count}: ${REASONS[reason]}${line ? ` (first in line ${line})` : ''}`,
-      duration: 'duration',
-      at: (seconds: string, rate: string) => `${seconds} s at ${rate} Hz`,
-      distance: 'distance driven',
-      gaps: 'largest gap',
-      longest: (seconds: string, count: string) => `${seconds} s (of ${count})`,
-      none: 'none',
-      jumps: 'jumps',
-      units: 'units',
-      frames: 'frames',
-      columns: 'columns',
-      clock: 'times',
-      recorded: 'when messages were recorded, as their headers have none',
-      notes: 'notes',
-      paths: (width: string, height: string) => `Paths from above: reference (solid) and odometry (dashed), aligned with it; ${width} m by ${height} m.`,
-    },
+    title: 'What was read',
+    drive: (number: number) => `Drive ${number}`,
+    paths: (width: string, height: string) => `Paths from above: reference (solid) and odometry (dashed), aligned with it; ${width} m by ${height} m.`,
+    labels: { rows: 'read', columns: 'columns', units: 'units', frames: 'frames', clock: 'times', dropped: 'left out', gaps: 'gaps', jumps: 'jumps', notes: 'notes' },
     rows: (used: number, rows: number, seconds: number, rate: number, distance: number) =>
       `${used} of ${rows} rows, ${seconds.toFixed(1)} s at ${rate.toPrecision(3)} Hz, ${distance.toFixed(1)} m driven`,
-    columns: (columns: string) => `columns ${columns}`,
     units: ({ time, length, angle }: Summary['units']) =>
       `time in ${time.unit}${BY[time.by]}, lengths in ${length.unit}${BY[length.by]}${ANGLES[angle.unit] ? `, ${ANGLES[angle.unit]}${BY[angle.by]}` : ''}`,
-    leftOut: (reason: Cause, count: number, line: number) =>
-      `left out ${count} ${count === 1 ? 'row' : 'rows'}${line ? (count === 1 ? `, line ${line}` : `, from line ${line} on`) : ''}: ${REASONS[reason]}`,
-    gaps: (count: number, first: number, longest: number) =>
-      `${count} ${count === 1 ? 'gap' : 'gaps'}, the first ${first.toFixed(2)} s after the start, the longest of ${longest.toFixed(2)} s`,
-    jumps: (count: number, first: number) => `${count} ${count === 1 ? 'jump' : 'jumps'}, the first ${first.toFixed(2)} s after the start`,
-    logTimes: 'times at which messages were recorded, as their headers have none',
+    dropped: (reason: Cause, count: number, line: number) =>
+      `${count} ${count === 1 ? 'row' : 'rows'}${line ? (count === 1 ? `, line ${line}` : `, from line ${line} on`) : ''}: ${REASONS[reason]}`,
+    gaps: (count: number, first: number, longest: number) => `${count}, the first ${first.toFixed(2)} s after the start, the longest of ${longest.toFixed(2)} s`,
+    jumps: (count: number, first: number) => `${count}, the first ${first.toFixed(2)} s after the start`,
+    recorded: 'when messages were recorded, as their headers have none',
     notes: {
       missing: (files: string) => `the files ${files} of the recording are missing`,
       damaged: (count: number, reason: string) => `${count} damaged ${count === 1 ? 'block' : 'blocks'} skipped (${reason})`,

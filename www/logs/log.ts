@@ -132,7 +132,7 @@ export interface Summary {
   seconds: number;
   /** Rows in a second, by the median step. */
   rate: number;
-  /** Length of the path in m; NaN where there is none. */
+  /** Length of the path in m. */
   distance: number;
   /** Gaps of more than five usual steps, in s; `first` is after the first row. */
   gaps: { count: number; longest: number; first: number };

@@ -1,7 +1,7 @@
-/** Summaries of logs: numbers, and sentences. */
+/** Summaries of logs for their reader. */
 
 import type { Words } from './log-error.ts';
-import { LOG_TIME, type Cause, type Commands, type Log, type Poses } from './log.ts';
+import { LOG_TIME, framesText, type Cause, type Commands, type Log, type Poses } from './log.ts';
 
 /** Minimum distance in m between two points of the path, so that the noise of poses at rest does not add up. */
 const STEP = 0.05;
@@ -26,22 +26,28 @@ export function distanceOf(data: Poses | Commands, jumps: number[]): number {
   return distance;
 }
 
-/** Returns a sentence for each decision, each cause for dropping rows, gaps and jumps. */
-export function summarize(log: Log, say: Words['found']): string[] {
-  const { rows, used, dropped, seconds, rate, distance, units, clock, columns, gaps, jumps } = log.summary;
-  return [
-    say.rows(used, rows, seconds, rate, distance),
-    ...(columns ? [`${say.columns(Object.values(columns).join(', '))}; ${say.units(units)}`] : []),
-    ...(clock === LOG_TIME ? [say.logTimes] : []),
-    ...(Object.entries(dropped) as [Cause, { count: number; first: number }][]).map(([cause, { count, first }]) => say.leftOut(cause, count, columns ? first : 0)),
-    ...(gaps.count ? [say.gaps(gaps.count, gaps.first, gaps.longest)] : []),
-    ...(jumps.count ? [say.jumps(jumps.count, jumps.first)] : []),
-    ...notesOf(log, say),
-  ];
+type Label = keyof Words['found']['labels'];
+
+/** Returns the lines about a log by their labels. */
+export function linesOf({ summary }: Log, say: Words['found']): Partial<Record<Label, string[]>> {
+  const { rows, used, dropped, seconds, rate, distance, units, clock, columns, frames, gaps, jumps, notes } = summary;
+  return {
+    rows: [say.rows(used, rows, seconds, rate, distance)],
+    ...(columns && { columns: [Object.values(columns).join(', ')], units: [say.units(units)] }),
+    ...(frames && { frames: [framesText(frames)] }),
+    ...(clock === LOG_TIME && { clock: [say.recorded] }),
+    dropped: (Object.entries(dropped) as [Cause, { count: number; first: number }][]).map(([cause, { count, first }]) => say.dropped(cause, count, columns ? first : 0)),
+    ...(gaps.count && { gaps: [say.gaps(gaps.count, gaps.first, gaps.longest)] }),
+    ...(jumps.count && { jumps: [say.jumps(jumps.count, jumps.first)] }),
+    notes: notes.map(({ name, values }) => {
+      const note: string | ((...values: any[]) => string) = say.notes[name];
+      return typeof note === 'string' ? note : note(...values);
+    }),
+  };
 }
 
-/** Returns a sentence for each note. */
-export const notesOf = ({ summary: { notes } }: Log, say: Words['found']): string[] => notes.map(({ name, values }) => {
-  const note: string | ((...values: any[]) => string) = say.notes[name];
-  return typeof note === 'string' ? note : note(...values);
-});
+/** Returns a sentence about the rows of a log, and one for each further line. */
+export function summarize(log: Log, say: Words['found']): string[] {
+  const { rows = [], ...others } = linesOf(log, say);
+  return [...rows, ...Object.entries(others).flatMap(([label, lines]) => lines.map((line) => `${say.labels[label as Label]}: ${line}`))];
+}

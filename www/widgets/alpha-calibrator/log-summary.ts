@@ -3,11 +3,11 @@
 import { html, nothing, svg } from 'lit';
 import { guard } from 'lit/directives/guard.js';
 import type { Drive } from '../../logs/drives.ts';
-import { LOG_TIME, ROLES, framesText, type Cause, type Log } from '../../logs/log.ts';
+import { ROLES } from '../../logs/log.ts';
 import { aligned, pathOf, type Path } from '../../logs/path.ts';
-import { notesOf } from '../../logs/summary.ts';
+import { linesOf } from '../../logs/summary.ts';
 import { language } from '../../messages/registry.ts';
-import { counted, fixed } from '../../ui/format.ts';
+import { fixed } from '../../ui/format.ts';
 import type { LogOpener, LogWords } from './open.ts';
 
 /** Size of the picture, CSS pixels, and its margin for the width of lines. */
@@ -22,46 +22,32 @@ export function summaryOf({ chosen, say, host }: LogOpener) {
   if (!chosen?.drives || !say || (chosen.log && chosen.log !== host.log)) return nothing;
   const { drives } = chosen;
   return html`<details class="found" open>
-    <summary>${say.found.labels.title}</summary>
+    <summary>${say.found.title}</summary>
     ${guard([drives, say, language], () => drives.map((drive, i) => html`<div class="drive">
-      ${tableOf(drive, drives.length > 1 ? say.found.labels.drive(i + 1) : '', say)}
+      ${tableOf(drive, drives.length > 1 ? say.found.drive(i + 1) : '', say)}
       ${pathsOf(drive, say)}
     </div>`))}
   </details>`;
 }
 
-function tableOf({ odometry, reference }: Drive, caption: string, say: LogWords) {
+function tableOf({ odometry, reference }: Drive, caption: string, { choose, found }: LogWords) {
   const logs = [odometry, reference];
-  const { labels } = say.found;
-  const row = (label: string, cellOf: (log: Log) => unknown) => {
-    const cells = logs.map(cellOf);
-    return cells.some((cell) => cell !== '') ? html`<tr><th scope="row">${label}</th>${cells.map((cell) => html`<td>${cell === '' ? '—' : cell}</td>`)}</tr>` : nothing;
-  };
-  const lines = (texts: string[]) => (texts.length ? texts.map((text, i) => html`${i ? html`<br />` : nothing}${text}`) : '');
+  const lines = logs.map((log) => linesOf(log, found));
+  const cell = (texts: string[] = []) => html`<td>${texts.length ? texts.map((text, i) => html`${i ? html`<br />` : nothing}${text}`) : '—'}</td>`;
+  const labels = (Object.keys(found.labels) as (keyof typeof found.labels)[]).filter((label) => lines.some((each) => each[label]?.length));
   return html`<table>
     ${caption ? html`<caption>${caption}</caption>` : nothing}
     <thead>
-      <tr><td></td>${ROLES.map((role, i) => html`<th scope="col">${say.choose.roles[role]}: ${logs[i].name}</th>`)}</tr>
+      <tr><td></td>${ROLES.map((role, i) => html`<th scope="col">${choose.roles[role]}: ${logs[i].name}</th>`)}</tr>
     </thead>
     <tbody>
-      ${row(labels.rows, ({ summary: { used, rows } }) => labels.ofRows(counted(used), counted(rows)))}
-      ${row(labels.leftOut, ({ summary: { dropped, columns } }) =>
-        lines((Object.entries(dropped) as [Cause, { count: number; first: number }][]).map(([cause, { count, first }]) => labels.dropped(cause, counted(count), columns ? first : 0))))}
-      ${row(labels.duration, ({ summary: { seconds, rate } }) => labels.at(fixed(seconds, 1), fixed(rate, 1)))}
-      ${row(labels.distance, ({ summary: { distance } }) => (Number.isNaN(distance) ? '' : `${fixed(distance, 1)} m`))}
-      ${row(labels.gaps, ({ summary: { gaps } }) => (gaps.count ? labels.longest(fixed(gaps.longest, 2), counted(gaps.count)) : labels.none))}
-      ${row(labels.jumps, ({ summary: { jumps } }) => (jumps.count ? counted(jumps.count) : ''))}
-      ${row(labels.units, ({ summary: { units } }) => say.found.units(units))}
-      ${row(labels.frames, ({ summary: { frames } }) => (frames ? framesText(frames) : ''))}
-      ${row(labels.columns, ({ summary: { columns } }) => (columns ? Object.values(columns).join(', ') : ''))}
-      ${row(labels.clock, ({ summary: { clock, columns } }) => (columns ? '' : clock === LOG_TIME ? labels.recorded : clock))}
-      ${row(labels.notes, (log) => lines(notesOf(log, say.found)))}
+      ${labels.map((label) => html`<tr><th scope="row">${found.labels[label]}</th>${lines.map((each) => cell(each[label]))}</tr>`)}
     </tbody>
   </table>`;
 }
 
 /** Returns a picture of both paths, of which the odometry is aligned with the reference. */
-function pathsOf({ odometry, reference }: Drive, { found: { labels } }: LogWords) {
+function pathsOf({ odometry, reference }: Drive, { found }: LogWords) {
   const [driven, truth] = [odometry.data, reference.data].map((data) => pathOf(data, Math.ceil(data.t.length / POINTS)));
   const own = aligned(driven, truth);
   const all = [...own.poses, ...truth.poses];
@@ -71,7 +57,7 @@ function pathsOf({ odometry, reference }: Drive, { found: { labels } }: LogWords
   const coordinate = (value: number) => value.toFixed(1);
   const line = ({ poses, breaks }: Path) => poses.map(([x, y], i) =>
     `${i === 0 || breaks.has(i) ? 'M' : 'L'}${coordinate(MARGIN + (x - ends[0][0]) * scale)} ${coordinate(HEIGHT - MARGIN - (y - ends[1][0]) * scale)}`).join('');
-  const text = labels.paths(fixed(width, 1), fixed(height, 1));
+  const text = found.paths(fixed(width, 1), fixed(height, 1));
   return html`<figure class="paths">
     <svg viewBox="0 0 ${WIDTH} ${HEIGHT}" role="img" aria-label=${text}>
       ${svg`<path class="reference" d=${line(truth)}></path><path class="odometry" d=${line(own)}></path>`}

@@ -96,7 +96,12 @@ export class LogOpener extends Part<Figure> {
   leave() {
     this.#end();
     this.chosen = this.#lone = this.#complaint = undefined;
+    this.#zone.style.minHeight = '';
     this.host.open(null, []).then(() => this.#commit());
+  }
+
+  get #zone() {
+    return this.host.renderRoot.querySelector(`#${ZONE}`) as HTMLElement;
   }
 
   /** Stops reading. */
@@ -213,6 +218,8 @@ export class LogOpener extends Part<Figure> {
     this.#complaint = undefined;
     this.#preferred = this.kind;
     this.share = 0;
+    // A question leaves its room when it is answered, so that the figure does not move up.
+    this.#zone.style.minHeight = `${this.#zone.offsetHeight}px`;
     this.host.requestUpdate();
     try {
       this.reader ??= await loadReader();
@@ -250,7 +257,7 @@ async function loadReader() {
   return { ...candidates, ...drives, ...pairs, ...choice, ...summary, en, de };
 }
 
-/** Returns the line that logs are dropped on, and below it what becomes of a log: progress or its name, choices, and why it is refused. */
+/** Returns the line that logs are dropped on, and below it the choosers, the progress or name of a log, and the reason for a refusal. */
 export function dropZone(figure: Figure, opener: LogOpener) {
   const say = words.calibrator.own;
   const { complaint, share, reader } = opener;
@@ -259,12 +266,12 @@ export function dropZone(figure: Figure, opener: LogOpener) {
       ${say.drop}
       <label class="files" @click=${opener.prepare}><span>${say.files}</span>${fileInput('log-files', EXTENSIONS, (files) => opener.dropped.take(files))}</label>
     </p>
+    ${reader?.choosers(opener)}
     ${share !== undefined
       ? html`<p><progress aria-label=${say.reading} .value=${share}></progress> ${button(words.progress.stop, () => opener.stop())}</p>`
       : figure.log ? html`<p><span class="present">${say.present(figure.logName)}</span> ${button(say.leave, () => opener.leave())}</p>` : nothing}
     <p class="note" id="refusal" role=${figure.notice.isShown ? nothing : 'alert'} ?hidden=${complaint === ''}>${complaint}</p>
     ${complaint ? html`<p class="muted">${say.still(figure.logName)}</p>` : nothing}
-    ${reader?.choosers(opener)}
   </div>`;
 }
 

@@ -7,6 +7,7 @@ import { fileStyles } from '../shared/files.ts';
 
 const own = css`
   .drop-zone {
+    box-sizing: border-box;
     margin-bottom: 0.4em;
     padding: 0.25em 0.6em;
     border: 1px dashed var(--muted);

@@ -40,6 +40,7 @@
 
 pub mod calibrate;
 pub mod geom;
+mod js;
 pub mod map;
 pub mod models;
 pub mod noise;
@@ -56,7 +57,7 @@ struct Readme;
 
 pub use geom::arc::{ArcInversion, invert_arc};
 pub use models::{
-    Compounding, MotionModel, OdomAlphas, OdomDelta, OdometryModel, ReverseAware, TangentNoiseError,
-    TangentNoiseModel, VelocityAlphas, VelocityCmd, VelocityModel,
+    Compounding, MotionModel, OdomAlphas, OdomDelta, OdometryModel, ReverseAware, RotTransRot,
+    TangentNoiseError, TangentNoiseModel, VelocityAlphas, VelocityCmd, VelocityModel,
 };
 pub use noise::{NegativeVariance, NoiseKind, Variance};

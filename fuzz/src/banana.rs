@@ -117,22 +117,15 @@ fn assert_as_new(machine: &BananaMachine) {
 /// Returns all results except curves.
 fn numbers(machine: &BananaMachine) -> Vec<f64> {
     let mut numbers: Vec<f64> = machine.poses().flat_map(|pose| [pose.x(), pose.y(), pose.theta()]).collect();
-    let Figures {
-        cartesian,
-        exponential,
-        cross_track,
-        gaussian_skew,
-        inside_ellipse,
-        inside_exponential,
-        gain,
-        area_ratio,
-        area_ratio_error,
-    } = machine.figures();
+    let figures @ Figures { cartesian, exponential, coverage, .. } = machine.figures();
     numbers.extend(cartesian.mean.iter().chain(cartesian.cov.iter()));
     numbers.extend(exponential.mean.iter().chain(exponential.cov.iter()));
-    numbers.extend([cross_track.skew, cross_track.skew_error, cross_track.rho_heading, *gaussian_skew]);
-    numbers.extend([*inside_ellipse, *inside_exponential, *area_ratio, *area_ratio_error]);
-    numbers.extend([gain.value.pose, gain.value.floor, gain.error.pose, gain.error.floor]);
+    numbers.extend([figures.cross_track_skew, figures.cross_track_skew_error]);
+    numbers.extend([figures.rho_cross_heading, figures.gaussian_skew]);
+    numbers.extend([coverage.ellipse, coverage.exponential, figures.area_ratio, figures.area_ratio_error]);
+    for gain in [figures.likelihood_gain, figures.likelihood_gain_error] {
+        numbers.extend([gain.pose, gain.floor]);
+    }
     numbers
 }
 
@@ -157,18 +150,19 @@ fn assert_results(machine: &BananaMachine) {
     } else {
         assert!(n == 1 || figures.exponential.cov.iter().all(|number| number.is_nan()));
     }
-    let track = figures.cross_track;
-    laws::finite_or_none("skew", &[track.skew, track.skew_error]);
+    let (skew, skew_error) = (figures.cross_track_skew, figures.cross_track_skew_error);
+    laws::finite_or_none("skew", &[skew, skew_error]);
     // The largest skew of n samples is that of n − 1 equal samples and one different.
     let most = (n as f64 - 2.0) / (n as f64 - 1.0).sqrt();
-    assert!(track.skew.is_nan() || track.skew.abs() <= most * (1.0 + 1e-9), "{track:?} of {n}");
-    assert!(track.skew_error.is_nan() || track.skew_error >= 0.0, "{track:?}");
-    assert!(track.rho_heading.is_nan() || track.rho_heading.abs() <= 1.0, "{track:?}");
+    assert!(skew.is_nan() || skew.abs() <= most * (1.0 + 1e-9), "{skew} of {n}");
+    assert!(skew_error.is_nan() || skew_error >= 0.0, "{skew_error}");
+    let rho = figures.rho_cross_heading;
+    assert!(rho.is_nan() || rho.abs() <= 1.0, "{rho}");
     laws::finite_or_none("gaussian skew", &[figures.gaussian_skew]);
-    laws::share("inside the ellipse", figures.inside_ellipse);
-    laws::share("inside the contour", figures.inside_exponential);
+    laws::share("inside the ellipse", figures.coverage.ellipse);
+    laws::share("inside the contour", figures.coverage.exponential);
     assert!(figures.area_ratio.is_nan() || figures.area_ratio >= 0.0, "{}", figures.area_ratio);
-    let (gain, error) = (figures.gain.value, figures.gain.error);
+    let (gain, error) = (figures.likelihood_gain, figures.likelihood_gain_error);
     for (gain, error) in [(gain.pose, error.pose), (gain.floor, error.floor)] {
         assert!(error.is_nan() || (error >= 0.0 && gain.is_finite()), "gain {gain} ± {error}");
     }

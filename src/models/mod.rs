@@ -5,7 +5,8 @@ mod odometry_rules;
 mod tangent;
 mod velocity;
 
-pub use odometry::{Hinges, OdomAlphas, OdomDelta, OdometryModel, ReverseAware};
+pub(crate) use odometry::ConfiguredOdometry;
+pub use odometry::{OdomAlphas, OdomDelta, OdometryModel, ReverseAware, RotTransRot};
 pub use odometry_rules::{ExecutedLegs, LegVariances, OdometryRule, RuleAlphas, SPIN_BELOW};
 pub(crate) use tangent::covariance_root;
 pub use tangent::{Compounding, TangentNoiseError, TangentNoiseModel};

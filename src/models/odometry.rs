@@ -9,6 +9,7 @@ use std::f64::consts::PI;
 
 /// Odometry reading as rotation, translation and rotation: `rot1` and `rot2` in (−π, π] rad, `trans` ≥ 0 in m.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(target_arch = "wasm32", derive(serde::Serialize, tsify::Tsify), tsify(rename = "Legs"))]
 pub struct OdomDelta {
     pub rot1: f64,
     pub trans: f64,
@@ -62,8 +63,8 @@ pub struct OdometryModel {
     pub noise: NoiseKind,
 }
 
-/// Odometry model with independent noise of its three legs, under any rule for the variances.
-pub trait Hinges {
+/// Odometry model whose rotation, translation and rotation have independent noises, under any rule for their variances.
+pub trait RotTransRot {
     fn noise(&self) -> NoiseKind;
 
     /// Returns the variances of the three legs of `delta` (rad², m², rad²).
@@ -80,9 +81,9 @@ pub trait Hinges {
         }
     }
 
-    /// Returns a draw of the pose after the reading: Table 5.6.
-    fn draw<R: Rng + ?Sized>(&self, u: &OdomDelta, x: &SE2, rng: &mut R) -> SE2 {
-        let unit_noise = std::array::from_fn(|_| self.noise().quantile(centred_uniform(rng)));
+    /// Returns the pose reached from `x` when the noises of the three legs take the values `unit_noise` times their
+    /// standard deviations: Table 5.6 after its three draws.
+    fn apply_noise(&self, u: &OdomDelta, x: &SE2, unit_noise: [f64; 3]) -> SE2 {
         self.executed(u, unit_noise).apply(x)
     }
 
@@ -90,19 +91,55 @@ pub trait Hinges {
     /// frame of `x` (m², m·rad, rad²).
     fn cartesian_cov(&self, u: &OdomDelta, x: &SE2) -> Matrix3<f64> {
         let (sin, cos) = libm::sincos(x.theta() + u.rot1);
-        let jacobian = Matrix3::new(
-            -u.trans * sin,
-            cos,
-            0.0, //
-            u.trans * cos,
-            sin,
-            0.0, //
-            1.0,
-            0.0,
-            1.0,
-        );
+        let by_rot1 = Vector3::new(-u.trans * sin, u.trans * cos, 1.0);
+        let jacobian = Matrix3::from_columns(&[by_rot1, Vector3::new(cos, sin, 0.0), Vector3::z()]);
         let legs = self.variances(u).map(|variance| variance.0);
         jacobian * Matrix3::from_diagonal(&Vector3::from(legs)) * jacobian.transpose()
+    }
+}
+
+impl<M: RotTransRot> MotionModel for M {
+    /// Reading that [`OdomDelta::from_poses`] makes of two poses of the odometry frame, never of the map's.
+    type Control = OdomDelta;
+
+    /// Table 5.5. As there, the variances are those of the hypothesis, not of the reading.
+    fn prob(&self, x_next: &SE2, u: &OdomDelta, x: &SE2) -> f64 {
+        let (noise, hat) = (self.noise(), OdomDelta::from_poses(x, x_next));
+        let [rot1_variance, trans_variance, rot2_variance] = self.variances(&hat);
+        joint([
+            noise.prob(wrap_angle(u.rot1 - hat.rot1), rot1_variance),
+            noise.prob(u.trans - hat.trans, trans_variance),
+            noise.prob(wrap_angle(u.rot2 - hat.rot2), rot2_variance),
+        ])
+    }
+
+    /// The map from legs to poses has the determinant δ̂_trans. Two combinations of legs lead to a pose: driving forward, and
+    /// driving in reverse after noise has made the translation negative.
+    fn pose_density(&self, x_next: &SE2, u: &OdomDelta, x: &SE2) -> Option<f64> {
+        let (noise, variances) = (self.noise(), self.variances(u));
+        if variances.iter().any(|variance| variance.0 == 0.0) {
+            return None;
+        }
+        let [rot1_variance, trans_variance, rot2_variance] = variances;
+        let step = x.inverse() * *x_next;
+        let distance = libm::hypot(step.x(), step.y());
+        let bearing = libm::atan2(step.y(), step.x());
+        let legs: f64 = [(bearing, distance), (bearing + PI, -distance)]
+            .into_iter()
+            .map(|(rot1, trans)| {
+                joint([
+                    wrapped_prob(noise, rot1 - u.rot1, rot1_variance),
+                    noise.prob(trans - u.trans, trans_variance),
+                    wrapped_prob(noise, step.theta() - rot1 - u.rot2, rot2_variance),
+                ])
+            })
+            .sum();
+        Some(if legs > 0.0 { legs / distance } else { 0.0 })
+    }
+
+    fn sample<R: Rng + ?Sized>(&self, u: &OdomDelta, x: &SE2, rng: &mut R) -> SE2 {
+        let unit_noise = std::array::from_fn(|_| self.noise().quantile(centred_uniform(rng)));
+        self.apply_noise(u, x, unit_noise)
     }
 }
 
@@ -121,126 +158,52 @@ pub(super) fn charged_variances(alphas: OdomAlphas, delta: &OdomDelta, charge: C
     ]
 }
 
-impl OdometryModel {
-    /// Returns the variances of the three legs of `delta` (rad², m², rad²).
-    pub fn variances(&self, delta: &OdomDelta) -> [Variance; 3] {
-        self.charged_variances(delta, f64::abs)
-    }
-
-    fn charged_variances(&self, delta: &OdomDelta, charge: Charge) -> [Variance; 3] {
-        charged_variances(self.alphas, delta, charge)
-    }
-
-    /// Returns the pose reached from `x` when the noises of the three legs take the values `unit_noise` times their
-    /// standard deviations: Table 5.6 after its three draws. As in the table, noise is subtracted.
-    pub fn apply_noise(&self, u: &OdomDelta, x: &SE2, unit_noise: [f64; 3]) -> SE2 {
-        self.executed(u, unit_noise).apply(x)
-    }
-
-    /// Returns the covariance of (x, y, θ) that an EKF carries: the three legs linearized at the reading, 3 × 3, in the
-    /// frame of `x` (m², m·rad, rad²).
-    pub fn cartesian_cov(&self, u: &OdomDelta, x: &SE2) -> Matrix3<f64> {
-        Hinges::cartesian_cov(self, u, x)
-    }
-
-    /// Table 5.5, its variances taken from the hypothesis as the table has it.
-    fn charged_prob(&self, x_next: &SE2, u: &OdomDelta, x: &SE2, charge: Charge) -> f64 {
-        let hat = OdomDelta::from_poses(x, x_next);
-        let [rot1_variance, trans_variance, rot2_variance] = self.charged_variances(&hat, charge);
-        joint([
-            self.noise.prob(wrap_angle(u.rot1 - hat.rot1), rot1_variance),
-            self.noise.prob(u.trans - hat.trans, trans_variance),
-            self.noise.prob(wrap_angle(u.rot2 - hat.rot2), rot2_variance),
-        ])
-    }
-
-    /// Returns the density. The map from legs to poses has the determinant δ̂_trans. Two combinations lead to a pose: driving
-    /// forward, and driving in reverse after noise has made the translation negative.
-    fn charged_density(&self, x_next: &SE2, u: &OdomDelta, x: &SE2, charge: Charge) -> Option<f64> {
-        let variances = self.charged_variances(u, charge);
-        if variances.iter().any(|variance| variance.0 == 0.0) {
-            return None;
-        }
-        let [rot1_variance, trans_variance, rot2_variance] = variances;
-        let step = x.inverse() * *x_next;
-        let distance = libm::hypot(step.x(), step.y());
-        let bearing = libm::atan2(step.y(), step.x());
-        let legs: f64 = [(bearing, distance), (bearing + PI, -distance)]
-            .into_iter()
-            .map(|(rot1, trans)| {
-                joint([
-                    wrapped_prob(self.noise, rot1 - u.rot1, rot1_variance),
-                    self.noise.prob(trans - u.trans, trans_variance),
-                    wrapped_prob(self.noise, step.theta() - rot1 - u.rot2, rot2_variance),
-                ])
-            })
-            .sum();
-        Some(if legs > 0.0 { legs / distance } else { 0.0 })
-    }
-}
-
-impl Hinges for OdometryModel {
+impl RotTransRot for OdometryModel {
     fn noise(&self) -> NoiseKind {
         self.noise
     }
 
     fn variances(&self, delta: &OdomDelta) -> [Variance; 3] {
-        self.charged_variances(delta, f64::abs)
+        charged_variances(self.alphas, delta, f64::abs)
     }
 }
 
-impl Hinges for ReverseAware {
-    fn noise(&self) -> NoiseKind {
-        self.0.noise
-    }
-
-    fn variances(&self, delta: &OdomDelta) -> [Variance; 3] {
-        self.0.charged_variances(delta, turn_either_way)
-    }
-}
-
-impl MotionModel for OdometryModel {
-    /// Built by [`OdomDelta::from_poses`] from two poses of the odometry frame, never of the map's.
-    type Control = OdomDelta;
-
-    fn prob(&self, x_next: &SE2, u: &OdomDelta, x: &SE2) -> f64 {
-        self.charged_prob(x_next, u, x, f64::abs)
-    }
-
-    fn pose_density(&self, x_next: &SE2, u: &OdomDelta, x: &SE2) -> Option<f64> {
-        self.charged_density(x_next, u, x, f64::abs)
-    }
-
-    fn sample<R: Rng + ?Sized>(&self, u: &OdomDelta, x: &SE2, rng: &mut R) -> SE2 {
-        self.draw(u, x, rng)
-    }
-}
-
-/// The odometry model for robots that reverse: noise is charged for min(|δ|, |π − |δ||) of each rotation.
+/// The odometry model for robots that reverse: a rotation δ counts as min(|δ|, |π − |δ||) in the variances.
 ///
-/// A robot that backs up decomposes into rot1 ≈ π, drive, rot2 ≈ −π; the tables charge it for two half turns that it
-/// never made. Deployed localizers charge the smaller angle, and so does this.
+/// A robot that backs up decomposes into rot1 ≈ π, drive, rot2 ≈ −π. With the tables' variances it gets the noise of two half
+/// turns that it never made. Deployed localizers also use the smaller angle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ReverseAware(pub OdometryModel);
 
-/// Returns the turn that a leg took if the robot may have driven it backwards.
+/// Returns the absolute turn of a rotation, or that of a robot which drives backwards instead, whichever is smaller.
 pub(super) fn turn_either_way(rotation: f64) -> f64 {
     let turn = rotation.abs();
     turn.min((PI - turn).abs())
 }
 
-impl MotionModel for ReverseAware {
-    type Control = OdomDelta;
-
-    fn prob(&self, x_next: &SE2, u: &OdomDelta, x: &SE2) -> f64 {
-        self.0.charged_prob(x_next, u, x, turn_either_way)
+impl RotTransRot for ReverseAware {
+    fn noise(&self) -> NoiseKind {
+        self.0.noise
     }
 
-    fn pose_density(&self, x_next: &SE2, u: &OdomDelta, x: &SE2) -> Option<f64> {
-        self.0.charged_density(x_next, u, x, turn_either_way)
+    fn variances(&self, delta: &OdomDelta) -> [Variance; 3] {
+        charged_variances(self.0.alphas, delta, turn_either_way)
+    }
+}
+
+/// Odometry model that is [`ReverseAware`] or not, by a setting.
+pub(crate) struct ConfiguredOdometry {
+    pub model: OdometryModel,
+    pub reverse_aware: bool,
+}
+
+impl RotTransRot for ConfiguredOdometry {
+    fn noise(&self) -> NoiseKind {
+        self.model.noise
     }
 
-    fn sample<R: Rng + ?Sized>(&self, u: &OdomDelta, x: &SE2, rng: &mut R) -> SE2 {
-        self.draw(u, x, rng)
+    fn variances(&self, delta: &OdomDelta) -> [Variance; 3] {
+        let charge: Charge = if self.reverse_aware { turn_either_way } else { f64::abs };
+        charged_variances(self.model.alphas, delta, charge)
     }
 }

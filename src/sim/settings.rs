@@ -225,13 +225,6 @@ impl Settable for f64 {
     }
 }
 
-impl Settable for [f64] {
-    type Allowed = RangeInclusive<f64>;
-    fn setting(&mut self, allowed: Self::Allowed) -> Setting<'_> {
-        Setting::Numbers(self, allowed)
-    }
-}
-
 impl Settable for Option<usize> {
     type Allowed = RangeInclusive<u64>;
     fn setting(&mut self, allowed: Self::Allowed) -> Setting<'_> {
@@ -252,6 +245,18 @@ impl<T: Words> Settable for T {
         Setting::Word(self)
     }
 }
+
+macro_rules! numbers {
+    ($($type:ty),+) => {$(
+        impl Settable for $type {
+            type Allowed = RangeInclusive<f64>;
+            fn setting(&mut self, allowed: Self::Allowed) -> Setting<'_> {
+                Setting::Numbers(self, allowed)
+            }
+        }
+    )+};
+}
+numbers!([f64], [f64; 5], [f64; 6]);
 
 macro_rules! whole {
     ($($type:ty),+) => {$(
@@ -333,6 +338,7 @@ pub trait Rules: Declared {
 /// clearance: f64 = 0.13, "m", in 0.0..=10.0;
 /// ```
 ///
+/// - `as` gives the key in JavaScript, if it differs from the name of the field.
 /// - `up to` names a method that returns the end of the range, if it depends on other settings.
 /// - `by` names a method that returns a reference to the value, if the setting is not a field.
 /// - `of` names the setting that this one is another form of.
@@ -343,7 +349,7 @@ macro_rules! settings {
         pub struct $name:ident {
             $(
                 #[doc = $sentence:literal]
-                $key:ident
+                $field:ident $(as $key:literal)?
                 $(: $type:ty = $default:expr $(, $unit:literal)?)?
                 $(, by $accessor:ident $(of $original:ident)? $(, $its_unit:literal)?)?
                 $(, in $range:expr $(, up to $most:ident)?)?
@@ -355,44 +361,51 @@ macro_rules! settings {
         $(#[$meta])*
         #[derive(Clone, Copy, Debug, PartialEq)]
         pub struct $name {
-            $($(#[doc = $sentence] $(#[doc = concat!(" In ", $unit, ".")])? pub $key: $type,)?)+
+            $($(#[doc = $sentence] $(#[doc = concat!(" In ", $unit, ".")])? pub $field: $type,)?)+
             $($($(#[$kept_meta])* pub $kept: $kept_type,)+)?
         }
 
         impl Default for $name {
             /// Returns the settings that the widget opens with.
             fn default() -> Self {
-                Self { $($($key: $default,)?)+ $($($kept: $kept_default,)+)? }
+                Self { $($($field: $default,)?)+ $($($kept: $kept_default,)+)? }
             }
         }
 
         impl $crate::sim::settings::Declared for $name {
-            const KEYS: &'static [&'static str] = &[$(stringify!($key)),+];
+            const KEYS: &'static [&'static str] = &[$(settings!(@key $field $($key)?)),+];
 
             fn each(&mut self, see: &mut $crate::sim::settings::See) -> std::ops::ControlFlow<()> {
                 use $crate::sim::settings::{Settable, declaration};
                 $(see(
-                    const { &declaration!($key, $sentence, [$($($unit)?)? $($($its_unit)?)?] $($(, of $original)?)?) },
-                    settings!(@place self $key $($accessor)?)
+                    const {
+                        &declaration!(
+                            settings!(@key $field $($key)?), $sentence,
+                            [$($($unit)?)? $($($its_unit)?)?] $($(, of $original)?)?
+                        )
+                    },
+                    settings!(@place self $field $($accessor)?)
                         .setting(settings!(@allowed self $($range $(, $most)?)?)),
                 )?;)+
                 std::ops::ControlFlow::Continue(())
             }
         }
     };
+    (@key $field:ident) => { stringify!($field) };
+    (@key $field:ident $key:literal) => { $key };
     (@allowed $this:ident) => { () };
     (@allowed $this:ident $range:expr) => { $range };
     (@allowed $this:ident $range:expr, $most:ident) => { *($range).start()..=$this.$most() };
-    (@place $this:ident $key:ident) => { $this.$key };
-    (@place $this:ident $key:ident $accessor:ident) => { $this.$accessor() };
+    (@place $this:ident $field:ident) => { $this.$field };
+    (@place $this:ident $field:ident $accessor:ident) => { $this.$accessor() };
 }
 pub(crate) use settings;
 
 /// Makes the [`Declaration`] of a setting or of a number of a group.
 macro_rules! declaration {
-    ($key:ident, $sentence:literal, [$($unit:literal)?] $(, of $original:ident)?) => {
+    ($key:expr, $sentence:literal, [$($unit:literal)?] $(, of $original:ident)?) => {
         $crate::sim::settings::Declaration {
-            key: stringify!($key),
+            key: $key,
             of: $crate::sim::settings::declaration!(@of $($original)?),
             #[cfg(not(target_arch = "wasm32"))]
             sentence: $sentence.trim_ascii(),
@@ -411,7 +424,7 @@ macro_rules! group {
         impl $crate::sim::settings::Group for $type {
             fn fields(&self) -> &'static [$crate::sim::settings::Field] {
                 static FIELDS: &[$crate::sim::settings::Field] = &[$($crate::sim::settings::Field {
-                    declaration: $crate::sim::settings::declaration!($key, $sentence, [$unit]),
+                    declaration: $crate::sim::settings::declaration!(stringify!($key), $sentence, [$unit]),
                     allowed: $range,
                 }),+];
                 FIELDS

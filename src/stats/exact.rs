@@ -5,7 +5,7 @@ use super::moments::no_less_than_none;
 use super::quadrature::nodes;
 use crate::geom::se2::wrap_angle;
 use crate::geom::sinc::chord_factors;
-use crate::models::{Hinges, OdomDelta, VelocityCmd, VelocityModel};
+use crate::models::{OdomDelta, RotTransRot, VelocityCmd, VelocityModel};
 use crate::noise::NoiseKind;
 use nalgebra::{Matrix3, Vector3};
 
@@ -91,7 +91,7 @@ impl ExactMoments {
 
     /// Returns the moments of the odometry model. Given the first rotation, the position is δ̂_trans along it, linear
     /// in δ̂_trans.
-    pub fn of_odometry(model: &impl Hinges, u: &OdomDelta) -> Self {
+    pub fn of_odometry(model: &impl RotTransRot, u: &OdomDelta) -> Self {
         let [rot1_variance, trans_variance, rot2_variance] = model.variances(u).map(|variance| variance.0);
         let rays = nodes(model.noise()).iter().map(|node| {
             let excess_turn = rot1_variance.sqrt() * node.value;

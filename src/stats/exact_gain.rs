@@ -7,7 +7,7 @@ use super::moments::ExponentialMoments;
 use super::quadrature::{Node, broken_nodes};
 use crate::geom::angle::wrap_angle;
 use crate::geom::sinc::sinc;
-use crate::models::{Hinges, OdomDelta, VelocityCmd, VelocityModel};
+use crate::models::{OdomDelta, RotTransRot, VelocityCmd, VelocityModel};
 use crate::noise::NoiseKind;
 use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::{LN_2, PI, TAU};
@@ -63,7 +63,7 @@ impl ExactGain {
     }
 
     /// Returns the gain of the odometry model. The reading `u` comes from a command that turns by `turn` (rad).
-    pub fn of_odometry(model: &impl Hinges, u: &OdomDelta, turn: f64) -> Self {
+    pub fn of_odometry(model: &impl RotTransRot, u: &OdomDelta, turn: f64) -> Self {
         let [rot1, trans, rot2] = model.variances(u).map(|variance| variance.0.sqrt());
         // A reading in reverse first turns to face the other way.
         let half_circles = ((u.rot1 - 0.5 * turn) / PI).round();

@@ -8,8 +8,6 @@ pub(crate) mod fused;
 mod gain;
 mod level_set;
 mod moments;
-#[cfg(target_arch = "wasm32")]
-pub(crate) mod plain;
 pub mod quadrature;
 pub(crate) mod sums;
 

@@ -1,18 +1,18 @@
 //! Means and covariances of a cloud, in Cartesian and in exponential coordinates.
 
 use crate::geom::se2::{SE2, wrap_angle};
+use crate::js::js_structs;
 use nalgebra::{Matrix3, Vector3};
 
-/// Mean and covariance of (x, y, θ): m, m, rad, in the frame of the poses.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(target_arch = "wasm32", derive(serde::Serialize))]
-pub struct CartesianMoments {
-    /// Arithmetic mean position and circular mean heading in (−π, π].
-    #[cfg_attr(target_arch = "wasm32", serde(serialize_with = "super::plain::vector"))]
-    pub mean: Vector3<f64>,
-    /// Sample covariance (over n − 1), 3 × 3. A heading counts as its shortest turn from the mean heading.
-    #[cfg_attr(target_arch = "wasm32", serde(serialize_with = "super::plain::matrix"))]
-    pub cov: Matrix3<f64>,
+js_structs! {
+    /// Mean and covariance of (x, y, θ): m, m, rad, in the frame of the poses.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct CartesianMoments {
+        /// Arithmetic mean position and circular mean heading in (−π, π].
+        pub mean: Vector3<f64> as "number[]",
+        /// Sample covariance (over n − 1), 3 × 3. A heading counts as its shortest turn from the mean heading.
+        pub cov: Matrix3<f64> as "number[][]",
+    }
 }
 
 impl CartesianMoments {
@@ -29,15 +29,14 @@ impl CartesianMoments {
     }
 }
 
-/// Mean and covariance of ξ = x_t ⊟ x_{t−1} in the order (along, lateral, heading): m, m, rad.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(target_arch = "wasm32", derive(serde::Serialize))]
-pub struct ExponentialMoments {
-    #[cfg_attr(target_arch = "wasm32", serde(serialize_with = "super::plain::vector"))]
-    pub mean: Vector3<f64>,
-    /// Sample covariance (over n − 1), 3 × 3.
-    #[cfg_attr(target_arch = "wasm32", serde(serialize_with = "super::plain::matrix"))]
-    pub cov: Matrix3<f64>,
+js_structs! {
+    /// Mean and covariance of ξ = x_t ⊟ x_{t−1} in the order (along, lateral, heading): m, m, rad.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct ExponentialMoments {
+        pub mean: Vector3<f64> as "number[]",
+        /// Sample covariance (over n − 1), 3 × 3.
+        pub cov: Matrix3<f64> as "number[][]",
+    }
 }
 
 impl ExponentialMoments {

@@ -5,34 +5,15 @@ use super::face::configured;
 use super::fields::{read_opening, whole, word};
 use super::log::read_logs;
 use super::pictures::index_of;
-use super::values::{flat, floats, object, plain, settings_to_js};
-use crate::sim::alpha_calibrator::{AlphaCalibrator, LegView, RestoreError};
+use super::values::{object, plain, settings_to_js};
+use crate::sim::alpha_calibrator::{AlphaCalibrator, RestoreError};
 use js_sys::TypeError;
 use wasm_bindgen::prelude::*;
 
-#[wasm_bindgen(typescript_custom_section)]
-const TYPES: &str = r#"
-/** One leg in the frame of the robot at its beginning, m and rad. */
-export interface LegView {
-  /** End poses x, y, θ drawn from the model, with the fitted α's times the inflation. */
-  outcomes: Float64Array;
-  /** 2σ ellipse of the drawn positions as x, y pairs; empty without noise. */
-  outline: Float64Array;
-  /** End pose x, y, θ by the odometry. */
-  read: Float64Array;
-  /** End pose x, y, θ by the reference. */
-  ended: Float64Array;
-}
-"#;
-
-configured!(
+configured! {
     /// The α's of a log, how well they are known, and whether the model is any good. It opens with a simulated log.
-    JsAlphaCalibrator,
-    AlphaCalibrator,
-    "AlphaCalibrator",
-    "AlphaCalibratorSettings",
-    "Partial<AlphaCalibratorSettings>"
-);
+    JsAlphaCalibrator(AlphaCalibrator), "AlphaCalibrator", "AlphaCalibratorSettings", "Partial<AlphaCalibratorSettings>"
+}
 
 #[wasm_bindgen(js_class = AlphaCalibrator)]
 impl JsAlphaCalibrator {
@@ -115,15 +96,7 @@ impl JsAlphaCalibrator {
     /// One leg, counted from 0; null where there is none of that number.
     #[wasm_bindgen(unchecked_return_type = "LegView | null")]
     pub fn leg(&self, index: f64) -> Result<JsValue, JsValue> {
-        let leg = self.0.leg(whole("index", index, 0..=u64::from(u32::MAX))? as usize);
-        Ok(leg.map_or(JsValue::NULL, |LegView { outcomes, outline, read, ended }| {
-            object(&[
-                ("outcomes", flat(&outcomes).into()),
-                ("outline", flat(&outline).into()),
-                ("read", floats(&read)),
-                ("ended", floats(&ended)),
-            ])
-        }))
+        plain(&self.0.leg(whole("index", index, 0..=u64::from(u32::MAX))? as usize))
     }
 
     /// The leg whose way is nearest to a point of the reference and within `radius` of it; −1 for none.

@@ -2,16 +2,16 @@
 
 use std::ops::RangeInclusive;
 
-use super::face::{cloud, configured};
+use super::face::cloud;
 use super::fields::{in_range, not_shown, whole, word};
 use super::pictures::{RADIUS, read_grid, read_ramps, view_of};
-use super::values::{flat, floats, group_to_js, list, object, plain};
+use super::values::{flat, floats, list, object, plain};
 use crate::geom::arc::ArcInversion;
 use crate::geom::se2::SE2;
 use crate::geom::unbend::unbend_line;
 use crate::sim::View;
 use crate::sim::banana::{
-    BananaMachine, Contours, Executed, MAX_CURVE_POINTS, MAX_SAMPLES, OUTLINE_SEGMENTS, Sample, Settings,
+    BananaMachine, Executed, MAX_CURVE_POINTS, MAX_SAMPLES, OUTLINE_SEGMENTS, Sample, Settings,
 };
 use crate::sim::settings::QUANTITY;
 use crate::sim::views::MORPH;
@@ -28,66 +28,8 @@ export type ViewName = 'plane' | 'twist';
 /** A view by its name, or by a morph from 0 (the plane) to 1 (the twists). */
 export type MorphedView = ViewName | number;
 
-/** Moments of (x, y, θ) in m, m, rad; in exponential coordinates, of ξ along, lateral (m) and heading (rad). */
-export interface Moments {
-  /** Three numbers; θ is a circular mean. */
-  mean: number[];
-  /** Three rows of three. */
-  cov: number[][];
-}
-
-/** Statistics of the samples shown; NaN where undefined. */
-export interface Stats {
-  /** Samples shown. */
-  n: number;
-  /** Moments of the poses. */
-  cartesian: Moments;
-  /**
-   * Moments of the poses in exponential coordinates about the start; NaN if the coordinates are undefined for the
-   * cloud.
-   */
-  exponential: Moments;
-  /** Third standardized moment across the mean heading; positive with the longer tail at its left. */
-  crossTrackSkew: number;
-  /** Standard error of `crossTrackSkew`. */
-  crossTrackSkewError: number;
-  /** The skew that the fitted Gaussian in exponential coordinates predicts. */
-  gaussianSkew: number;
-  /** Correlation of cross-track position and heading, −1 to 1. */
-  rhoCrossHeading: number;
-  /** Shares, 0 to 1, inside the 2σ outlines in (x, y) and in (ξ along, ξ heading). */
-  coverage: { ellipse: number; exponential: number };
-  likelihoodGain: LikelihoodGain;
-  /** Standard errors of `likelihoodGain`. */
-  likelihoodGainError: LikelihoodGain;
-  /** Area of the 2σ ellipse in (x, y) over that of the 2σ outline of exponential coordinates on the floor, as drawn. */
-  areaRatio: number;
-  /** Standard error of `areaRatio`. */
-  areaRatioError: number;
-}
-
-/** Outlines on the floor as x, y pairs in m, the first point repeated at the end; empty where undefined. */
-export interface Contours {
-  /** The arc driven without noise, from the start to its end; open. */
-  command: Float64Array;
-  /** 2σ ellipse of the Gaussian fitted in (x, y). */
-  ellipse: Float64Array;
-  /** 2σ ellipse of the covariance that an extended Kalman filter predicts by linearization at the command. */
-  linearized: Float64Array;
-  /** 2σ outline of the Gaussian fitted in exponential coordinates. */
-  exponential: Float64Array;
-  /** 2σ ellipse in (ξ along, ξ heading), m and rad. */
-  twistEllipse: Float64Array;
-  /** 2σ circle of noise added to the pose: 0.4 m around the noise-free end, for every command and noise. */
-  additive: Float64Array;
-}
-
-  /** The legs of the odometry model: turn (rad), drive (m), turn (rad). */
-export interface Legs {
-  rot1: number;
-  trans: number;
-  rot2: number;
-}
+/** Mean and covariance of the pose or of its exponential coordinates. */
+export type Moments = CartesianMoments | ExponentialMoments;
 
 /** One sample, and what it did to get there. */
 export interface Inspection {
@@ -108,22 +50,10 @@ export interface Inspection {
 }
 "#;
 
-configured!(
+cloud! {
     /// One command from the origin, many robots that execute it with noise, and what a Gaussian makes of where they end.
-    JsBananaMachine,
-    BananaMachine,
-    "BananaMachine",
-    "BananaMachineSettings",
-    "Partial<BananaMachineSettings>"
-);
-cloud!(
-    JsBananaMachine,
-    BananaMachine,
-    "BananaMachine",
-    "BananaMachineSettings",
-    "Partial<BananaMachineSettings>",
-    MAX_SAMPLES
-);
+    JsBananaMachine(BananaMachine), "BananaMachine", "BananaMachineSettings", "Partial<BananaMachineSettings>", MAX_SAMPLES
+}
 
 #[wasm_bindgen(js_class = BananaMachine)]
 impl JsBananaMachine {
@@ -137,12 +67,12 @@ impl JsBananaMachine {
             ("shown", self.shown().into()),
             ("block", self.block().into()),
             ("stats", self.stats()?),
-            ("contours", self.contours()),
+            ("contours", self.contours()?),
             ("gaps", self.gaps().into()),
             ("table", self.table()?),
             ("chartHolds", self.chart_holds().into()),
             ("alphasOfModels", self.alphas_of_models()),
-            ("reading", self.reading()),
+            ("reading", self.reading()?),
         ]))
     }
 
@@ -191,13 +121,13 @@ impl JsBananaMachine {
 
     /// The command as odometry without noise reads it.
     #[wasm_bindgen(getter, unchecked_return_type = "Legs")]
-    pub fn reading(&self) -> JsValue {
-        group_to_js(&mut self.0.reading())
+    pub fn reading(&self) -> Result<JsValue, JsValue> {
+        plain(&self.0.reading())
     }
 
     #[wasm_bindgen(getter, unchecked_return_type = "Stats")]
     pub fn stats(&self) -> Result<JsValue, JsValue> {
-        plain(&self.0.stats())
+        plain(self.0.figures())
     }
 
     #[wasm_bindgen(getter, unchecked_return_type = "Table")]
@@ -206,17 +136,8 @@ impl JsBananaMachine {
     }
 
     #[wasm_bindgen(getter, unchecked_return_type = "Contours")]
-    pub fn contours(&self) -> JsValue {
-        let Contours { command, ellipse, linearized, exponential, twist_ellipse, additive } =
-            self.0.contours();
-        object(&[
-            ("command", flat(&command).into()),
-            ("ellipse", flat(&ellipse).into()),
-            ("linearized", flat(&linearized).into()),
-            ("exponential", flat(&exponential).into()),
-            ("twistEllipse", flat(&twist_ellipse).into()),
-            ("additive", flat(&additive).into()),
-        ])
+    pub fn contours(&self) -> Result<JsValue, JsValue> {
+        plain(&self.0.contours())
     }
 
     /// Places inside of the 2σ ellipse where no robot stops, two at most, as x, y pairs in m; empty where the outlines nearly coincide.
@@ -247,9 +168,9 @@ impl JsBananaMachine {
             self.0.inspect(index).ok_or_else(|| not_shown(index, self.0.shown()))?;
         let (ArcInversion { v_hat, omega_hat, gamma_hat }, legs) = match executed {
             Executed::Arc { arc, .. } => (arc, JsValue::NULL),
-            Executed::Legs(mut legs) => {
+            Executed::Legs(legs) => {
                 let none = ArcInversion { v_hat: f64::NAN, omega_hat: f64::NAN, gamma_hat: f64::NAN };
-                (none, group_to_js(&mut legs))
+                (none, plain(&legs)?)
             }
         };
         Ok(object(&[

@@ -1,13 +1,11 @@
 //! `DeadReckoning` for JavaScript.
 
-use super::face::{cloud, configured};
+use super::face::cloud;
 use super::fields::{not_shown, whole};
 use super::pictures::index_of;
-use super::values::{flat, floats, number_or_null, object, plain};
+use super::values::{flat, number_or_null, object, plain};
 use crate::models::Compounding;
-use crate::sim::dead_reckoning::{
-    DeadReckoning, MAX_SAMPLES, MAX_STEPS, Measured, Outlines, Settings, StraightGrowth,
-};
+use crate::sim::dead_reckoning::{DeadReckoning, MAX_SAMPLES, MAX_STEPS, Measured, Settings};
 use crate::sim::settings::Words;
 use js_sys::{Array, Float64Array};
 use nalgebra::Vector3;
@@ -15,57 +13,20 @@ use wasm_bindgen::prelude::*;
 
 #[wasm_bindgen(typescript_custom_section)]
 const TYPES: &str = r#"
-/** 2σ outlines as x, y pairs in m, the first point repeated at the end; empty where undefined. */
-export interface StepOutlines {
-  /** Outline of the predicted Gaussian in (x, y). */
-  ellipse: Float64Array;
-  /** Outline of the predicted Gaussian in exponential coordinates about the commanded pose, on the floor. */
-  exponential: Float64Array;
-  /** Outline of the predicted Gaussian in (ξ along, ξ lateral). */
-  predicted: Float64Array;
-  /** Outline of the robots’ covariance in (ξ along, ξ lateral). */
-  measured: Float64Array;
-}
-
 /** Robots and outlines after a quarter of the path. */
 export interface Milestone {
   /** Poses as in `posesAfter`. */
   poses: Float64Array;
   outlines: StepOutlines;
 }
-
-/** Variances of one straight command by its duration, m². */
-export interface StraightGrowth {
-  /** Δt, s, at even steps of its logarithm. */
-  durations: Float64Array;
-  along: Float64Array;
-  across: Float64Array;
-  /** α₁v²Δt². */
-  alongFirstOrder: Float64Array;
-  /** ¼α₃v⁴Δt⁴. */
-  acrossFirstOrder: Float64Array;
-  /** Duration (s) at which these two are equal; null if they never are. */
-  crossing: number | null;
-}
 "#;
 
-configured!(
+cloud! {
     /// One command driven step after step by many identical robots from (0, 0), heading along x, and the covariance that
     /// recursions predict of it. `headingNoise` sets α₃ to α₆.
-    JsDeadReckoning,
-    DeadReckoning,
-    "DeadReckoning",
-    "DeadReckoningSettings",
-    "Partial<DeadReckoningSettings> & { headingNoise?: number }"
-);
-cloud!(
-    JsDeadReckoning,
-    DeadReckoning,
-    "DeadReckoning",
-    "DeadReckoningSettings",
-    "Partial<DeadReckoningSettings> & { headingNoise?: number }",
-    MAX_SAMPLES
-);
+    JsDeadReckoning(DeadReckoning), "DeadReckoning", "DeadReckoningSettings",
+    "Partial<DeadReckoningSettings> & { headingNoise?: number }", MAX_SAMPLES
+}
 
 #[wasm_bindgen(js_class = DeadReckoning)]
 impl JsDeadReckoning {
@@ -144,17 +105,8 @@ impl JsDeadReckoning {
 
     /// Variances of a straight drive as functions of its duration, at this speed and noise. Each drive is one command.
     #[wasm_bindgen(getter, js_name = straightGrowth, unchecked_return_type = "StraightGrowth")]
-    pub fn straight_growth(&self) -> JsValue {
-        let StraightGrowth { durations, along, across, along_first_order, across_first_order, crossing } =
-            self.0.straight_growth();
-        object(&[
-            ("durations", floats(&durations)),
-            ("along", floats(&along)),
-            ("across", floats(&across)),
-            ("alongFirstOrder", floats(&along_first_order)),
-            ("acrossFirstOrder", floats(&across_first_order)),
-            ("crossing", number_or_null(crossing)),
-        ])
+    pub fn straight_growth(&self) -> Result<JsValue, JsValue> {
+        plain(&self.0.straight_growth())
     }
 
     /// x, y (m), θ (rad) of the commanded pose after each step.
@@ -197,15 +149,7 @@ impl JsDeadReckoning {
     /// Outlines of a step, 1 to 200, by the recursion in view; null where the path is shorter.
     #[wasm_bindgen(unchecked_return_type = "StepOutlines | null")]
     pub fn outlines(&self, step: f64) -> Result<JsValue, JsValue> {
-        let outlines = self.0.outlines(whole("step", step, 1..=MAX_STEPS)? as u32);
-        Ok(outlines.map_or(JsValue::NULL, |Outlines { ellipse, exponential, predicted, measured }| {
-            object(&[
-                ("ellipse", flat(&ellipse).into()),
-                ("exponential", flat(&exponential).into()),
-                ("predicted", flat(&predicted).into()),
-                ("measured", flat(&measured).into()),
-            ])
-        }))
+        plain(&self.0.outlines(whole("step", step, 1..=MAX_STEPS)? as u32))
     }
 }
 

@@ -7,7 +7,7 @@
 ///
 /// `$options` is the TypeScript type of what a caller may leave out in part.
 macro_rules! configured {
-    ($(#[$doc:meta])+ $class:ident, $machine:ident, $name:literal, $settings:literal, $options:literal) => {
+    ($(#[$doc:meta])+ $class:ident($machine:ident), $name:literal, $settings:literal, $options:literal) => {
         $(#[$doc])+
         /// Metres, radians, seconds throughout. Whatever is out of range throws a TypeError or RangeError that names the field,
         /// and changes nothing.
@@ -44,9 +44,17 @@ macro_rules! configured {
     };
 }
 
-/// Methods of a class whose machine shows a cloud of at most `$most` samples.
+/// Class as by [`configured`], whose machine shows a cloud of at most `$most` samples, with the methods for it.
 macro_rules! cloud {
-    ($class:ident, $machine:ident, $name:literal, $settings:literal, $options:literal, $most:expr) => {
+    (
+        $(#[$doc:meta])+
+        $class:ident($machine:ident), $name:literal, $settings:literal, $options:literal, $most:expr
+    ) => {
+        $crate::wasm::face::configured! {
+            $(#[$doc])+
+            $class($machine), $name, $settings, $options
+        }
+
         #[wasm_bindgen(js_class = $name)]
         impl $class {
             /// A machine as the constructor makes it, which shows no samples yet.

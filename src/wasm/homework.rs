@@ -1,11 +1,11 @@
 //! The chapter's models, its inversion and SE(2) for JavaScript, for exercises.
 
 use super::fields::{Fields, boolean, group_in_range, in_range, item, length, number, numbers, whole, word};
-use super::values::{flat, group_to_js, list, number_or_null, object};
+use super::values::{flat, group_to_js, list, number_or_null, object, plain};
 use crate::geom::arc::invert_arc;
 use crate::geom::se2::SE2;
 use crate::models::{
-    Compounding, MotionModel, OdomAlphas, OdomDelta, OdometryModel, ReverseAware, TangentNoiseError,
+    Compounding, ConfiguredOdometry, MotionModel, OdomAlphas, OdomDelta, OdometryModel, TangentNoiseError,
     TangentNoiseModel, VelocityAlphas, VelocityCmd, VelocityModel, covariance_root,
 };
 use crate::noise::NoiseKind;
@@ -129,10 +129,7 @@ impl JsVelocityModel {
 
 /// The odometry motion model: noise on each of the three legs of a reading.
 #[wasm_bindgen(js_name = OdometryModel)]
-pub struct JsOdometryModel {
-    model: OdometryModel,
-    reverse_aware: bool,
-}
+pub struct JsOdometryModel(ConfiguredOdometry);
 
 #[wasm_bindgen(js_class = OdometryModel)]
 impl JsOdometryModel {
@@ -142,7 +139,8 @@ impl JsOdometryModel {
     ) -> Result<Self, JsValue> {
         let fields = Fields::new("options", "", options, &["alphas", "noise", "reverseAware"])?;
         let model = OdometryModel { alphas: OdomAlphas(alphas(&fields)?), noise: noise(&fields)? };
-        Ok(Self { model, reverse_aware: fields.optional("reverseAware", boolean)?.unwrap_or(false) })
+        let reverse_aware = fields.optional("reverseAware", boolean)?.unwrap_or(false);
+        Ok(Self(ConfiguredOdometry { model, reverse_aware }))
     }
 
     /// Scoring function of Table 5.5, with the variances of the hypothesis. A noise of variance 0 has the factor 1 if
@@ -153,11 +151,7 @@ impl JsOdometryModel {
         #[wasm_bindgen(unchecked_param_type = "Legs")] control: &JsValue,
         #[wasm_bindgen(unchecked_param_type = "Start")] start: &JsValue,
     ) -> Result<f64, JsValue> {
-        let (next, control, start) = (pose("next", next)?, legs(control)?, pose("start", start)?);
-        Ok(match self.reverse_aware {
-            true => ReverseAware(self.model).prob(&next, &control, &start),
-            false => self.model.prob(&next, &control, &start),
-        })
+        Ok(self.0.prob(&pose("next", next)?, &legs(control)?, &pose("start", start)?))
     }
 
     /// Density of the sampler over dx dy dθ; null if a variance is 0, infinite if the robot has not moved at all.
@@ -169,10 +163,7 @@ impl JsOdometryModel {
         #[wasm_bindgen(unchecked_param_type = "Start")] start: &JsValue,
     ) -> Result<JsValue, JsValue> {
         let (next, control, start) = (pose("next", next)?, legs(control)?, pose("start", start)?);
-        Ok(number_or_null(match self.reverse_aware {
-            true => ReverseAware(self.model).pose_density(&next, &control, &start),
-            false => self.model.pose_density(&next, &control, &start),
-        }))
+        Ok(number_or_null(self.0.pose_density(&next, &control, &start)))
     }
 
     /// Samples the pose after the reading, as x, y, θ triples. Equal seeds (whole numbers) give equal samples.
@@ -183,11 +174,7 @@ impl JsOdometryModel {
         count: f64,
         seed: f64,
     ) -> Result<Float64Array, JsValue> {
-        let control = legs(control)?;
-        match self.reverse_aware {
-            true => samples(&ReverseAware(self.model), &control, start, count, seed),
-            false => samples(&self.model, &control, start, count, seed),
-        }
+        samples(&self.0, &legs(control)?, start, count, seed)
     }
 }
 
@@ -223,7 +210,7 @@ pub fn decompose(
     #[wasm_bindgen(unchecked_param_type = "Start")] start: &JsValue,
     #[wasm_bindgen(unchecked_param_type = "Start")] next: &JsValue,
 ) -> Result<JsValue, JsValue> {
-    Ok(group_to_js(&mut OdomDelta::from_poses(&pose("start", start)?, &pose("next", next)?)))
+    plain(&OdomDelta::from_poses(&pose("start", start)?, &pose("next", next)?))
 }
 
 /// Covariance, in exponential coordinates about the noise-free pose, after a command was driven several times. The

@@ -28,7 +28,7 @@ mod odometry_decomposer;
 mod pictures;
 #[cfg(any(not(widget), widget = "map-squeeze"))]
 mod squeeze;
-mod values;
+pub(crate) mod values;
 
 use crate::models::VelocityCmd;
 use crate::sim::banana::command_seen_at;

@@ -1,32 +1,17 @@
 //! `OdometryDecomposer` for JavaScript.
 
-use super::face::{cloud, configured};
+use super::face::cloud;
 use super::fields::{in_range, whole};
 use super::pictures::index_of;
-use super::values::{flat, floats, group_to_js, object, plain};
+use super::values::{flat, group_to_js, object, plain};
 use crate::geom::se2::SE2;
-use crate::sim::odometry_decomposer::{
-    CurvePoint, MAX_CURVE_POINTS, MAX_SAMPLES, OdometryDecomposer, RuleFigures,
-};
-use crate::sim::settings::{QUANTITY, Word};
-use js_sys::{Array, Float64Array};
+use crate::sim::odometry_decomposer::{CurvePoint, MAX_CURVE_POINTS, MAX_SAMPLES, OdometryDecomposer};
+use crate::sim::settings::QUANTITY;
+use js_sys::Float64Array;
 use wasm_bindgen::prelude::*;
 
 #[wasm_bindgen(typescript_custom_section)]
 const TYPES: &str = r#"
-/** Legs and noises of the reading under one rule. */
-export interface RuleFigures {
-  rule: OdometryDecomposerSettings['rule'];
-  /** Legs. If the rule takes a short reading for a spin, the second rotation is the whole turn. */
-  legs: Legs;
-  /** Standard deviations of the three legs (rad, m, rad) and across the second (m). */
-  deviations: Float64Array;
-  /** Standard deviation across the measured bearing, m. */
-  crossTrack: number;
-  /** Standard deviation of the turn made, rad. */
-  heading: number;
-}
-
 /** The odometry in the world, where its frame has drifted. */
 export interface Drifted {
   /** Poses x, y (m), θ (rad) of the frame, and of the two odometry poses in the world, one after the other. */
@@ -36,22 +21,11 @@ export interface Drifted {
 }
 "#;
 
-configured!(
+cloud! {
     /// An odometry reading as rotate, drive, rotate, and its noise under the rules of several localizers.
-    JsOdometryDecomposer,
-    OdometryDecomposer,
-    "OdometryDecomposer",
-    "OdometryDecomposerSettings",
-    "Partial<OdometryDecomposerSettings>"
-);
-cloud!(
-    JsOdometryDecomposer,
-    OdometryDecomposer,
-    "OdometryDecomposer",
-    "OdometryDecomposerSettings",
-    "Partial<OdometryDecomposerSettings>",
-    MAX_SAMPLES
-);
+    JsOdometryDecomposer(OdometryDecomposer), "OdometryDecomposer", "OdometryDecomposerSettings",
+    "Partial<OdometryDecomposerSettings>", MAX_SAMPLES
+}
 
 #[wasm_bindgen(js_class = OdometryDecomposer)]
 impl JsOdometryDecomposer {
@@ -65,11 +39,11 @@ impl JsOdometryDecomposer {
             ("shown", self.shown().into()),
             ("block", self.block().into()),
             ("stats", self.stats()?),
-            ("rules", self.rules().into()),
+            ("rules", self.rules()?),
             ("poses", self.poses().into()),
             ("linkage", self.linkage().into()),
             ("robot", self.robot()),
-            ("drifted", self.drifted()),
+            ("drifted", self.drifted()?),
             ("ghosts", self.ghosts(GHOSTS)?.into()),
         ]))
     }
@@ -101,17 +75,8 @@ impl JsOdometryDecomposer {
 
     /// Legs and noises of the reading by each rule.
     #[wasm_bindgen(getter, unchecked_return_type = "RuleFigures[]")]
-    pub fn rules(&self) -> Array {
-        let figures = |RuleFigures { rule, mut legs, deviations, cross_track, heading }: RuleFigures| {
-            object(&[
-                ("rule", rule.get().into()),
-                ("legs", group_to_js(&mut legs)),
-                ("deviations", floats(&deviations)),
-                ("crossTrack", cross_track.into()),
-                ("heading", heading.into()),
-            ])
-        };
-        self.0.rules().into_iter().map(figures).collect()
+    pub fn rules(&self) -> Result<JsValue, JsValue> {
+        plain(&self.0.rules())
     }
 
     #[wasm_bindgen(getter, unchecked_return_type = "DecomposerStats")]
@@ -130,10 +95,10 @@ impl JsOdometryDecomposer {
     }
 
     #[wasm_bindgen(getter, unchecked_return_type = "Drifted")]
-    pub fn drifted(&self) -> JsValue {
-        let mut drifted = self.0.drifted();
+    pub fn drifted(&self) -> Result<JsValue, JsValue> {
+        let drifted = self.0.drifted();
         let poses = [drifted.frame, drifted.from, drifted.to].map(|pose| numbers(&pose));
-        object(&[("poses", flat(&poses).into()), ("legs", group_to_js(&mut drifted.legs))])
+        Ok(object(&[("poses", flat(&poses).into()), ("legs", plain(&drifted.legs)?)]))
     }
 
     /// The index of the outcome that ends nearest to a point and within `radius` of it; −1 for none.

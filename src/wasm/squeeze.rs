@@ -1,6 +1,6 @@
 //! `MapSqueeze` for JavaScript.
 
-use super::face::{cloud, configured};
+use super::face::cloud;
 use super::fields::{quoted, whole, word};
 use super::maps::{read_map, read_plan};
 use super::pictures::{index_of, read_grid, read_ramps, view_of};
@@ -35,23 +35,12 @@ export interface Grid {
 }
 "#;
 
-configured!(
+cloud! {
     /// One command in a map, tried many times by a round robot. It opens facing a doorway in the apartment. `noise` sets all
     /// of `alphas`.
-    JsMapSqueeze,
-    MapSqueeze,
-    "MapSqueeze",
-    "MapSqueezeSettings",
-    "Partial<MapSqueezeSettings> & { noise?: number }"
-);
-cloud!(
-    JsMapSqueeze,
-    MapSqueeze,
-    "MapSqueeze",
-    "MapSqueezeSettings",
-    "Partial<MapSqueezeSettings> & { noise?: number }",
-    MAX_SAMPLES
-);
+    JsMapSqueeze(MapSqueeze), "MapSqueeze", "MapSqueezeSettings",
+    "Partial<MapSqueezeSettings> & { noise?: number }", MAX_SAMPLES
+}
 
 #[wasm_bindgen(js_class = MapSqueeze)]
 impl JsMapSqueeze {

@@ -1,14 +1,73 @@
 //! JavaScript values made of Rust's.
 
-use crate::sim::settings::{Declared, Group, Setting};
-use js_sys::{Array, Float64Array, Object};
-use serde::Serialize;
+use crate::sim::settings::{Declared, Group, Setting, Word, Words};
+use js_sys::{Array, Float64Array, Object, Uint8Array};
+use nalgebra::{Matrix3, Vector3};
+use serde::{Serialize, Serializer};
 use wasm_bindgen::prelude::*;
 
 /// Converts a value to a plain JavaScript value, in which None is null.
 pub fn plain<T: Serialize>(value: &T) -> Result<JsValue, JsValue> {
     let serializer = serde_wasm_bindgen::Serializer::new().serialize_missing_as_null(true);
     Ok(value.serialize(&serializer)?)
+}
+
+/// Conversion to a JavaScript value of another kind than serde makes, such as a Float64Array.
+pub trait ToJs {
+    fn to_js(&self) -> JsValue;
+}
+
+/// Serializes a field of a [`crate::js::js_structs`] by its conversion.
+pub fn serialize<T: ToJs, S: Serializer>(value: &T, serializer: S) -> Result<S::Ok, S::Error> {
+    serde_wasm_bindgen::preserve::serialize(&value.to_js(), serializer)
+}
+
+impl ToJs for Vec<f64> {
+    fn to_js(&self) -> JsValue {
+        floats(self)
+    }
+}
+
+impl<const N: usize> ToJs for [f64; N] {
+    fn to_js(&self) -> JsValue {
+        floats(self)
+    }
+}
+
+impl<const N: usize> ToJs for Vec<[f64; N]> {
+    fn to_js(&self) -> JsValue {
+        floats(self.as_flattened())
+    }
+}
+
+impl ToJs for Vec<Vec<[f64; 2]>> {
+    fn to_js(&self) -> JsValue {
+        self.iter().map(Vec::to_js).collect::<Array>().into()
+    }
+}
+
+impl ToJs for Vec<u8> {
+    fn to_js(&self) -> JsValue {
+        Uint8Array::from(&self[..]).into()
+    }
+}
+
+impl ToJs for Vector3<f64> {
+    fn to_js(&self) -> JsValue {
+        list(self.as_slice())
+    }
+}
+
+impl ToJs for Matrix3<f64> {
+    fn to_js(&self) -> JsValue {
+        self.row_iter().map(|row| list(&[row[0], row[1], row[2]])).collect::<Array>().into()
+    }
+}
+
+impl<T: Words> ToJs for T {
+    fn to_js(&self) -> JsValue {
+        self.get().into()
+    }
 }
 
 /// Makes an object of the settings of a widget, without settings that are alternative forms of others.

@@ -11,6 +11,7 @@ use super::cloud::draws::Draws;
 use super::settings::{Rules, SettingsError};
 use crate::calibrate::{Calibration, Drive, Leg, Trajectory, calibrate};
 use crate::geom::se2::SE2;
+use crate::js::js_structs;
 use crate::models::{OdomDelta, RuleAlphas, VelocityAlphas, VelocityCmd, VelocityModel};
 use crate::stats::{CartesianMoments, Ellipse};
 use panels::panels;
@@ -36,35 +37,31 @@ pub enum RestoreError {
     Bytes,
 }
 
-/// True values of the simulated log.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(
-    target_arch = "wasm32",
-    derive(serde::Serialize, tsify::Tsify),
-    serde(rename_all = "camelCase"),
-    tsify(rename = "CalibrationTruth")
-)]
-pub struct Truth {
-    /// Noise parameters of the rule of Table 5.6, on legs of 0.25 m or 0.2 rad.
-    pub alphas: [f64; 4],
-    pub clock_offset: f64,
-    pub mount_yaw: f64,
-    pub lever_arm: [f64; 2],
-    pub distance_scale: f64,
-    pub turn_scale: f64,
-}
+js_structs! {
+    /// True values of the simulated log.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Truth as "CalibrationTruth" {
+        /// Noise parameters of the rule of Table 5.6, on legs of 0.25 m or 0.2 rad.
+        pub alphas: [f64; 4],
+        pub clock_offset: f64,
+        pub mount_yaw: f64,
+        pub lever_arm: [f64; 2],
+        pub distance_scale: f64,
+        pub turn_scale: f64,
+    }
 
-/// One leg in the frame of the robot at its start, m and rad.
-#[derive(Clone, Debug, PartialEq)]
-pub struct LegView {
-    /// Predicted end poses under the fitted α's.
-    pub outcomes: Vec<[f64; 3]>,
-    /// 2σ ellipse of the predicted ends; empty without noise.
-    pub outline: Vec<[f64; 2]>,
-    /// End pose by the odometry.
-    pub read: [f64; 3],
-    /// End pose by the reference.
-    pub ended: [f64; 3],
+    /// One leg in the frame of the robot at its start, m and rad.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct LegView {
+        /// End poses x, y, θ drawn from the model, with the fitted α’s times the inflation.
+        pub outcomes: Vec<[f64; 3]> as "Float64Array",
+        /// 2σ ellipse of the drawn positions as x, y pairs; empty without noise.
+        pub outline: Vec<[f64; 2]> as "Float64Array",
+        /// End pose x, y, θ by the odometry.
+        pub read: [f64; 3] as "Float64Array",
+        /// End pose x, y, θ by the reference.
+        pub ended: [f64; 3] as "Float64Array",
+    }
 }
 
 /// Simulation of the widget: settings, a log, and its fit, which is computed on first use.

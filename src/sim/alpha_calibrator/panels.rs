@@ -1,6 +1,7 @@
 //! Regression panels: squared residuals against squared distance or rotation. The slope of the line is an α.
 
 use crate::calibrate::{Calibration, Model};
+use crate::js::js_structs;
 use crate::models::OdometryRule;
 use crate::sim::settings::Words;
 
@@ -23,27 +24,24 @@ pub const BINS: usize = 8;
 /// Minimum number of legs of a bin: the standard error of a mean of fewer is meaningless.
 const LEAST: usize = 5;
 
-/// Squared innovations of one noise component against a regressor x. The variances due to the other α and to the reference
-/// are subtracted, so that the expectation is α·x.
-#[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(
-    target_arch = "wasm32",
-    derive(serde::Serialize, tsify::Tsify),
-    tsify(rename = "CalibrationPanel", missing_as_null)
-)]
-pub struct Panel {
-    /// Index of the α that is the slope, from 0.
-    pub alpha: usize,
-    /// Means of the regressor in the bins.
-    pub x: Vec<f64>,
-    /// Mean squared innovations of the bins, after that subtraction.
-    pub y: Vec<f64>,
-    /// Standard errors of `y`: from the scatter of the squares, or from the model, whichever is larger. In a bin with
-    /// one dominating leg the scatter is too small.
-    pub error: Vec<f64>,
-    /// Slope. Like its interval null (None) where the log does not identify it.
-    pub slope: Option<f64>,
-    pub interval: Option<[f64; 2]>,
+js_structs! {
+    /// Squared innovations of one noise component against a regressor x. The variances due to the other α and to the reference
+    /// are subtracted, so that the expectation is α·x.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct Panel as "CalibrationPanel" {
+        /// Index of the α that is the slope, from 0.
+        pub alpha: usize,
+        /// Means of the regressor in the bins.
+        pub x: Vec<f64>,
+        /// Mean squared innovations of the bins, after that subtraction.
+        pub y: Vec<f64>,
+        /// Standard errors of `y`: from the scatter of the squares, or from the model, whichever is larger. In a bin with
+        /// one dominating leg the scatter is too small.
+        pub error: Vec<f64>,
+        /// Slope. Like its interval null (None) where the log does not identify it.
+        pub slope: Option<f64>,
+        pub interval: Option<[f64; 2]>,
+    }
 }
 
 /// Returns true if the first α of a noise component multiplies the squared translation or speed. For rotations of the odometry models

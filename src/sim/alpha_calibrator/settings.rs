@@ -46,72 +46,28 @@ settings! {
         /// Duration of a leg; 0 for legs that end after a distance or rotation.
         duration: f64 = 0.0, "s", in 0.0..=1e3;
         /// Correction of the yaw at which the reference is mounted, if the log identifies it.
-        mountYaw, by mount_yaw_mut;
+        mount_yaw as "mountYaw": bool = true;
         /// Correction of the reference’s lever arm, if the log identifies it.
-        leverArm, by lever_arm_mut;
+        lever_arm as "leverArm": bool = true;
         /// Correction of the odometry’s scale of distances, if the log identifies it and it is constant.
-        distanceScale, by distance_scale_mut;
+        distance_scale as "distanceScale": bool = true;
         /// Correction of the odometry’s scale of turns, if the log identifies it and it is constant.
-        turnScale, by turn_scale_mut;
+        turn_scale as "turnScale": bool = true;
         /// Correction of the offset between the two clocks, if the log identifies it.
-        clockOffset, by clock_offset_mut;
+        clock_offset as "clockOffset": bool = true;
         /// Standard deviation of each coordinate of the reference; 0: estimated.
-        positionStd, by position_std_mut, "m", in 0.0..=1e3;
+        position_std as "positionStd": f64 = 0.0, "m", in 0.0..=1e3;
         /// Standard deviation of the reference’s heading; 0: estimated.
-        yawStd, by yaw_std_mut, "rad", in 0.0..=1e3;
+        yaw_std as "yawStd": f64 = 0.0, "rad", in 0.0..=1e3;
         /// Factor of the α’s in predictions.
         inflation: f64 = 1.0, in 0.01..=100.0;
         // With the default seed all intervals contain the true values.
         /// Seed of the simulated log.
         seed: u64 = 8, in 0..=MAX_SEED;
-        kept {
-            /// The setting `mountYaw`.
-            mount_yaw: bool = true;
-            /// The setting `leverArm`.
-            lever_arm: bool = true;
-            /// The setting `distanceScale`.
-            distance_scale: bool = true;
-            /// The setting `turnScale`.
-            turn_scale: bool = true;
-            /// The setting `clockOffset`.
-            clock_offset: bool = true;
-            /// The setting `positionStd`.
-            position_std: f64 = 0.0;
-            /// The setting `yawStd`.
-            yaw_std: f64 = 0.0;
-        }
     }
 }
 
 impl Settings {
-    fn mount_yaw_mut(&mut self) -> &mut bool {
-        &mut self.mount_yaw
-    }
-
-    fn lever_arm_mut(&mut self) -> &mut bool {
-        &mut self.lever_arm
-    }
-
-    fn distance_scale_mut(&mut self) -> &mut bool {
-        &mut self.distance_scale
-    }
-
-    fn turn_scale_mut(&mut self) -> &mut bool {
-        &mut self.turn_scale
-    }
-
-    fn clock_offset_mut(&mut self) -> &mut bool {
-        &mut self.clock_offset
-    }
-
-    fn position_std_mut(&mut self) -> &mut f64 {
-        &mut self.position_std
-    }
-
-    fn yaw_std_mut(&mut self) -> &mut f64 {
-        &mut self.yaw_std
-    }
-
     /// Copies the settings of the predicted cloud from others: inflation, distribution and seed. The fit does not depend on them.
     pub(super) fn copy_prediction_settings(&mut self, other: &Self) {
         let Self { inflation, noise, seed, .. } = *other;

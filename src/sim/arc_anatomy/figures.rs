@@ -3,29 +3,26 @@
 use super::Settings;
 use crate::geom::arc::{Arc, ArcInversion, invert_arc};
 use crate::geom::se2::SE2;
+use crate::js::js_structs;
 use crate::models::MotionModel;
 use crate::noise::{NoiseKind, Variance, joint};
 
-/// An arc with its circle.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(
-    target_arch = "wasm32",
-    derive(serde::Serialize, tsify::Tsify),
-    serde(rename_all = "camelCase"),
-    tsify(missing_as_null)
-)]
-pub struct Bend {
-    /// Length, m; negative in reverse.
-    pub arc_length: f64,
-    /// Turn, rad, positive to the left.
-    pub turn: f64,
-    /// Radius, m; positive with the centre to the left of the heading, infinite for a straight arc.
-    pub radius: f64,
-    /// Centre, m; null (None) for a straight arc.
-    #[cfg_attr(target_arch = "wasm32", serde(rename = "center"))]
-    pub centre: Option<[f64; 2]>,
-    /// End pose: x, y (m) and θ (rad).
-    pub end: [f64; 3],
+js_structs! {
+    /// An arc with its circle.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Bend {
+        /// Length, m; negative in reverse.
+        pub arc_length: f64,
+        /// Turn, rad, positive to the left.
+        pub turn: f64,
+        /// Radius, m; positive with the centre to the left of the heading, infinite for a straight arc.
+        pub radius: f64,
+        /// Centre, m; null (None) for a straight arc.
+        #[cfg_attr(target_arch = "wasm32", serde(rename = "center"))]
+        pub centre: Option<[f64; 2]>,
+        /// End pose: x, y (m) and θ (rad).
+        pub end: [f64; 3],
+    }
 }
 
 impl Bend {
@@ -48,22 +45,23 @@ impl Bend {
     }
 }
 
-/// Factor of p, which is the product of three.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(target_arch = "wasm32", derive(serde::Serialize, tsify::Tsify), serde(rename_all = "camelCase"))]
-pub struct Factor {
-    /// Estimated v̂, ω̂ or γ̂ (m/s, rad/s).
-    pub estimate: f64,
-    /// Residual v − v̂, ω − ω̂ or γ̂: the argument of `prob` in the table.
-    pub residual: f64,
-    /// Standard deviation σ of the noise.
-    pub deviation: f64,
-    /// Residual divided by σ. Without noise it is 0 if the residual is 0 up to rounding, and infinite otherwise.
-    pub deviations: f64,
-    /// `prob` of the residual.
-    pub value: f64,
-    /// Ratio of `prob` at the residual to `prob` at 0, from 0 to 1.
-    pub share: f64,
+js_structs! {
+    /// Factor of p, which is the product of three.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Factor {
+        /// Estimated v̂, ω̂ or γ̂ (m/s, rad/s).
+        pub estimate: f64,
+        /// Residual v − v̂, ω − ω̂ or γ̂: the argument of `prob` in the table.
+        pub residual: f64,
+        /// Standard deviation σ of the noise.
+        pub deviation: f64,
+        /// Residual divided by σ. Without noise it is 0 if the residual is 0 up to rounding, and infinite otherwise.
+        pub deviations: f64,
+        /// `prob` of the residual.
+        pub value: f64,
+        /// Ratio of `prob` at the residual to `prob` at 0, from 0 to 1.
+        pub share: f64,
+    }
 }
 
 impl Factor {
@@ -79,34 +77,30 @@ impl Factor {
     }
 }
 
-/// All readouts next to the picture.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(
-    target_arch = "wasm32",
-    derive(serde::Serialize, tsify::Tsify),
-    serde(rename_all = "camelCase"),
-    tsify(rename = "AnatomyStats", missing_as_null)
-)]
-pub struct Stats {
-    pub commanded: Bend,
-    /// Arc to the final position.
-    pub inverted: Bend,
-    /// Arc that v̂ and ω̂ drive: the inverted one, unless the radius is unsigned as printed.
-    pub driven: Bend,
-    /// Final turn γ̂Δt, rad.
-    pub last_turn: f64,
-    /// Factors of v̂, ω̂ and γ̂.
-    pub factors: [Factor; 3],
-    /// Index of the factor whose residual is the most standard deviations from 0.
-    pub weakest: usize,
-    /// p, the product of the three factors.
-    pub prob: f64,
-    /// p relative to the p of the noise-free pose, from 0 to 1.
-    pub share: f64,
-    /// Density of the sampler over dx dy dθ; null (None) if a variance is 0.
-    pub density: Option<f64>,
-    /// ξ = next ⊟ start: along (m), lateral (m), heading (rad).
-    pub xi: [f64; 3],
+js_structs! {
+    /// All readouts next to the picture.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Stats as "AnatomyStats" {
+        pub commanded: Bend,
+        /// Arc to the final position.
+        pub inverted: Bend,
+        /// Arc that v̂ and ω̂ drive: the inverted one, unless the radius is unsigned as printed.
+        pub driven: Bend,
+        /// Final turn γ̂Δt, rad.
+        pub last_turn: f64,
+        /// Factors of v̂, ω̂ and γ̂.
+        pub factors: [Factor; 3],
+        /// Index of the factor whose residual is the most standard deviations from 0.
+        pub weakest: usize,
+        /// p, the product of the three factors.
+        pub prob: f64,
+        /// p relative to the p of the noise-free pose, from 0 to 1.
+        pub share: f64,
+        /// Density of the sampler over dx dy dθ; null (None) if a variance is 0.
+        pub density: Option<f64>,
+        /// ξ = next ⊟ start: along (m), lateral (m), heading (rad).
+        pub xi: [f64; 3],
+    }
 }
 
 /// Returns the arc to the final position, with a signed radius.

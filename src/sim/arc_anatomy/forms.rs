@@ -2,6 +2,7 @@
 
 use crate::geom::arc::chord;
 use crate::geom::double_double::DoubleDouble;
+use crate::js::js_structs;
 use std::f64::consts::TAU;
 
 /// Speed, m/s, and duration, s, of the exercise.
@@ -18,19 +19,23 @@ const A_DECADE: i32 = 8;
 /// Number of headings over which the error is averaged (root mean square).
 const HEADINGS: u32 = 24;
 
-/// Root mean square errors (m) of the end position over all headings, for each turn rate.
-#[derive(Clone, Debug, PartialEq)]
-pub struct FormErrors {
-    /// Turn rates, rad/s.
-    pub omega: Vec<f64>,
-    /// Error (m) of x − (v/ω) sin θ + (v/ω) sin(θ + ωΔt), and y likewise.
-    pub arc: Vec<f64>,
-    /// Error (m) of x + vΔt cos θ, and y likewise.
-    pub straight: Vec<f64>,
-    /// Error (m) of the chord: the distance vΔt sinc(ωΔt/2) in the direction θ + ωΔt/2.
-    pub chord: Vec<f64>,
-    /// Turn rate √(2ε)/Δt (rad/s) at which the errors of arc and straight line are estimated to be equal.
-    pub estimated_crossover: f64,
+js_structs! {
+    /// Root mean square errors (m) over all headings of the end of a motion at 1 m/s for 0.1 s, for each turn rate.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct FormErrors {
+        /// Turn rates, rad/s.
+        pub omega: Vec<f64> as "Float64Array",
+        /// Error (m) of x − (v/ω) sin θ + (v/ω) sin(θ + ωΔt), and y likewise.
+        pub arc: Vec<f64> as "Float64Array",
+        /// Error (m) of x + vΔt cos θ, and y likewise.
+        pub straight: Vec<f64> as "Float64Array",
+        /// Error (m) of the chord: the distance vΔt sinc(ωΔt/2) in the direction θ + ωΔt/2.
+        pub chord: Vec<f64> as "Float64Array",
+        /// Turn rate √(2ε)/Δt (rad/s) at which the errors of arc and straight line are estimated to be equal.
+        pub estimated_crossover: f64,
+        /// Turn rate (rad/s) below which the chapter’s code uses the straight line.
+        pub threshold: f64,
+    }
 }
 
 /// Returns the errors of the three forms, relative to the same motion in double-double arithmetic.
@@ -44,6 +49,7 @@ pub fn form_errors() -> FormErrors {
         straight: of(1),
         chord: of(2),
         estimated_crossover: (2.0 * f64::EPSILON).sqrt() / DURATION,
+        threshold: CHAPTERS_THRESHOLD,
         omega,
     }
 }

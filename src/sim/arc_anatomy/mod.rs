@@ -15,26 +15,30 @@ pub use table::Table;
 use super::settings::{Rules, SettingsError};
 use crate::geom::arc::Departure;
 use crate::geom::se2::SE2;
+use crate::js::js_structs;
 
 /// Number of chords of the path of the constant twist.
 const LIE_CHORDS: usize = 64;
 /// Number of ticks on the path of the constant twist, at equal intervals of time.
 const LIE_TICKS: usize = 8;
 
-/// Lines of the picture: x, y of their points in m.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Paths {
-    /// Noise-free arc of the command.
-    pub commanded: Vec<[f64; 2]>,
-    /// Arc to the final position.
-    pub inverted: Vec<[f64; 2]>,
-    /// Arc that v̂ and ω̂ drive.
-    pub driven: Vec<[f64; 2]>,
-    /// Path of the constant twist ξ: start · exp(tξ) for t from 0 to 1. If γ̂ ≠ 0 it differs from the driven arc, and has a
-    /// lateral velocity, which wheels do not allow.
-    pub lie: Vec<[f64; 2]>,
-    /// Line segments that start on the path `lie`. Each is the displacement that the lateral velocity there would cause in Δt.
-    pub ticks: Vec<[f64; 4]>,
+js_structs! {
+    /// Lines of the picture: x, y pairs of their points, m.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct Paths as "AnatomyPaths" {
+        /// Noise-free arc of the command.
+        pub commanded: Vec<[f64; 2]> as "Float64Array",
+        /// Arc to the final position.
+        pub inverted: Vec<[f64; 2]> as "Float64Array",
+        /// Arc that v̂ and ω̂ drive.
+        pub driven: Vec<[f64; 2]> as "Float64Array",
+        /// Path of the constant twist ξ: start · exp(tξ) for t from 0 to 1. If γ̂ ≠ 0 it differs from the driven arc, and has a
+        /// lateral velocity, which wheels do not allow.
+        pub lie: Vec<[f64; 2]> as "Float64Array",
+        /// Line segments that start on the path `lie`, as x, y, x, y in m. Each is the displacement that the lateral velocity at its start
+        /// would cause within Δt.
+        pub ticks: Vec<[f64; 4]> as "Float64Array",
+    }
 }
 
 /// Simulation of the widget. All results are computed from the settings when they change.

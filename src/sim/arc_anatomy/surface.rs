@@ -2,6 +2,7 @@
 
 use super::figures::prob;
 use super::{FinalPose, Mapped, Settings};
+use crate::js::js_structs;
 use crate::models::MotionModel;
 use crate::stats::level_set;
 
@@ -16,17 +17,19 @@ const LAST_TURNS: f64 = 27.0;
 /// Values of the contours, relative to the maximum.
 pub const LEVELS: [f64; 3] = [0.5, 0.1, 0.01];
 
-/// Heat map over positions.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Surface {
-    pub columns: usize,
-    pub rows: usize,
-    /// Values of the cells from 0 to 255, relative to the maximum; row by row from the top. All are 0 if a noise has no variance.
-    pub shades: Vec<u8>,
-    /// Contours of p, those of the lowest level last, as (x, y) in m.
-    pub prob: Vec<Vec<[f64; 2]>>,
-    /// Contours of the density, in the same order.
-    pub density: Vec<Vec<[f64; 2]>>,
+js_structs! {
+    /// Heat map over positions.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct Surface as "AnatomySurface" {
+        pub columns: usize,
+        pub rows: usize,
+        /// Values of the cells from 0 to 255, relative to the maximum; row by row from the top. All are 0 if a noise has no variance.
+        pub shades: Vec<u8> as "Uint8Array",
+        /// Contours of p at a half, a tenth and a hundredth of its maximum, as x, y pairs in m.
+        pub prob: Vec<Vec<[f64; 2]>> as "Float64Array[]",
+        /// Contours of the sampler's density at the same fractions of its maximum.
+        pub density: Vec<Vec<[f64; 2]>> as "Float64Array[]",
+    }
 }
 
 impl Surface {

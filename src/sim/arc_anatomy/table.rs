@@ -3,24 +3,21 @@
 use super::Settings;
 use super::figures::{Stats, estimated, inverted};
 use crate::geom::arc::ArcInversion;
+use crate::js::js_structs;
 
-/// Values of the lines of Table 5.1. Line 4 is signed, unless the settings select the unsigned radius.
-///
-/// μ, the centre and r* are infinite if the displacement is parallel to the heading. μ is NaN without a displacement.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(
-    target_arch = "wasm32",
-    derive(serde::Serialize, tsify::Tsify),
-    serde(rename_all = "camelCase"),
-    tsify(rename = "AnatomyTable")
-)]
-pub struct Table {
-    /// μ, x* (m), y* (m), r* (m), Δθ (rad), v̂ (m/s), ω̂ (rad/s), γ̂ (rad/s) and p.
-    pub lines: [f64; 9],
-    /// Midpoint of both positions, m. The centre is the midpoint plus μ times `normal`.
-    pub middle: [f64; 2],
-    /// Displacement rotated by a quarter turn to the left, m: (y − y′, x′ − x).
-    pub normal: [f64; 2],
+js_structs! {
+    /// Values of the lines of Table 5.1. Line 4 is signed, unless the settings select the unsigned radius.
+    ///
+    /// μ, the centre and r* are infinite if the displacement is parallel to the heading. μ is NaN without a displacement.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Table as "AnatomyTable" {
+        /// μ, x* (m), y* (m), r* (m), Δθ (rad), v̂ (m/s), ω̂ (rad/s), γ̂ (rad/s) and p.
+        pub lines: [f64; 9],
+        /// Midpoint of both positions, m. The centre is the midpoint plus μ times `normal`.
+        pub middle: [f64; 2],
+        /// Displacement rotated by a quarter turn to the left, m: (y − y′, x′ − x).
+        pub normal: [f64; 2],
+    }
 }
 
 impl Table {

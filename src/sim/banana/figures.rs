@@ -3,33 +3,52 @@
 use super::OUTLINE_SEGMENTS;
 use crate::geom::arc::ArcInversion;
 use crate::geom::se2::SE2;
+use crate::js::js_structs;
 use crate::models::OdomDelta;
 use crate::sim::cloud::START;
 use crate::stats::fused::CloudFigures;
 use crate::stats::{
-    CartesianMoments, CrossTrack, Ellipse, ExponentialContour, ExponentialMoments, LikelihoodGain,
-    MeasuredGain, predicted_cross_track_skew,
+    CartesianMoments, Ellipse, ExponentialContour, ExponentialMoments, LikelihoodGain,
+    predicted_cross_track_skew,
 };
 use nalgebra::{ArrayStorage, Matrix3, Vector3};
 
-/// Statistics of the shown samples. They are NaN if all samples are equal, or if there are too few.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Figures {
-    pub cartesian: CartesianMoments,
-    pub exponential: ExponentialMoments,
-    pub cross_track: CrossTrack,
-    /// Cross-track skew of the Gaussian with the moments of the samples in exponential coordinates.
-    pub gaussian_skew: f64,
-    /// Fraction of the samples inside the 2σ ellipse in (x, y).
-    pub inside_ellipse: f64,
-    /// Fraction of the samples inside the 2σ contour in exponential coordinates.
-    pub inside_exponential: f64,
-    /// Gain in mean log-likelihood of Gaussians in exponential and in arc coordinates over those in (x, y, θ) and (x, y).
-    pub gain: MeasuredGain,
-    /// Area of the 2σ ellipse in (x, y), divided by that of the 2σ outline of exponential coordinates in the plane.
-    pub area_ratio: f64,
-    /// Standard error of `area_ratio`.
-    pub area_ratio_error: f64,
+js_structs! {
+    /// Statistics of the samples shown. They are NaN if all samples are equal, or if there are too few.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Figures as "Stats" {
+        /// Number of samples shown.
+        pub n: usize,
+        pub cartesian: CartesianMoments,
+        /// Moments of the poses in exponential coordinates about the start; NaN if the coordinates are undefined for the cloud.
+        pub exponential: ExponentialMoments,
+        /// Third standardized moment across the mean heading; positive with the longer tail at its left.
+        pub cross_track_skew: f64,
+        /// Standard error of the cross-track skew.
+        pub cross_track_skew_error: f64,
+        /// Cross-track skew of the Gaussian with the moments of the samples in exponential coordinates.
+        pub gaussian_skew: f64,
+        /// Correlation of cross-track position and heading, −1 to 1.
+        pub rho_cross_heading: f64,
+        pub coverage: Coverage,
+        /// Gain in mean log-likelihood of Gaussians in exponential and in arc coordinates over those in (x, y, θ) and (x, y).
+        pub likelihood_gain: LikelihoodGain,
+        /// Standard errors of the gains.
+        pub likelihood_gain_error: LikelihoodGain,
+        /// Area of the 2σ ellipse in (x, y), divided by that of the 2σ outline of exponential coordinates in the plane.
+        pub area_ratio: f64,
+        /// Standard error of the area ratio.
+        pub area_ratio_error: f64,
+    }
+
+    /// Fractions of the samples, from 0 to 1, inside the 2σ outlines.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Coverage {
+        /// Fraction inside the ellipse in (x, y).
+        pub ellipse: f64,
+        /// Fraction inside the outline in exponential coordinates.
+        pub exponential: f64,
+    }
 }
 
 /// Coordinates that are defined for all turns of a cloud.
@@ -49,138 +68,99 @@ impl Figures {
             Matrix3::from_array_storage(ArrayStorage([[f64::NAN; 3]; 3])),
         );
         Self {
+            n: 0,
             cartesian: CartesianMoments { mean, cov },
             exponential: ExponentialMoments { mean, cov },
-            cross_track: CrossTrack { skew: f64::NAN, skew_error: f64::NAN, rho_heading: f64::NAN },
+            cross_track_skew: f64::NAN,
+            cross_track_skew_error: f64::NAN,
             gaussian_skew: f64::NAN,
-            inside_ellipse: f64::NAN,
-            inside_exponential: f64::NAN,
-            gain: MeasuredGain { value: LikelihoodGain::NONE, error: LikelihoodGain::NONE },
+            rho_cross_heading: f64::NAN,
+            coverage: Coverage { ellipse: f64::NAN, exponential: f64::NAN },
+            likelihood_gain: LikelihoodGain::NONE,
+            likelihood_gain_error: LikelihoodGain::NONE,
             area_ratio: f64::NAN,
             area_ratio_error: f64::NAN,
         }
     };
 
-    /// Returns the statistics of a cloud. Those in coordinates that are undefined for the cloud are NaN.
-    pub fn of(cloud: &CloudFigures, charted: Charted) -> Self {
-        let CloudFigures {
-            cartesian,
-            exponential,
-            cross_track,
-            inside_ellipse,
-            inside_exponential,
-            gain,
-            log_area_error,
-        } = *cloud;
+    /// Returns the statistics of a cloud of `n` samples. Those in coordinates that are undefined for the cloud are NaN.
+    pub fn of(n: usize, cloud: &CloudFigures, charted: Charted) -> Self {
+        let CloudFigures { cartesian, exponential, cross_track, gain, .. } = *cloud;
         let ellipse = Ellipse::from_moments(&cartesian);
-        let mut figures = Self { cartesian, cross_track, inside_ellipse, gain, ..Self::NONE };
+        let mut figures = Self {
+            n,
+            cartesian,
+            cross_track_skew: cross_track.skew,
+            cross_track_skew_error: cross_track.skew_error,
+            rho_cross_heading: cross_track.rho_heading,
+            coverage: Coverage { ellipse: cloud.inside_ellipse, exponential: f64::NAN },
+            likelihood_gain: gain.value,
+            likelihood_gain_error: gain.error,
+            ..Self::NONE
+        };
         if charted.pose {
             figures.exponential = exponential;
             // The shape is undefined if all positions are equal. Exponential coordinates may then differ, because of the headings.
             if !ellipse.is_point() {
                 figures.gaussian_skew = predicted_cross_track_skew(&exponential.mean, &exponential.cov);
-                figures.inside_exponential = inside_exponential;
+                figures.coverage.exponential = cloud.inside_exponential;
             }
             let contour = ExponentialContour::new(&exponential, &START);
             figures.area_ratio = contour.area_ratio(&ellipse, OUTLINE_SEGMENTS);
-            figures.area_ratio_error = figures.area_ratio * log_area_error;
-        } else {
-            (figures.gain.value.pose, figures.gain.error.pose) = (f64::NAN, f64::NAN);
+            figures.area_ratio_error = figures.area_ratio * cloud.log_area_error;
         }
-        if !charted.arc {
-            (figures.gain.value.floor, figures.gain.error.floor) = (f64::NAN, f64::NAN);
+        let gains = [&mut figures.likelihood_gain, &mut figures.likelihood_gain_error];
+        for LikelihoodGain { pose, floor } in gains {
+            *pose = if charted.pose { *pose } else { f64::NAN };
+            *floor = if charted.arc { *floor } else { f64::NAN };
         }
         figures
     }
 }
 
-/// Statistics, and number of samples shown.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Stats {
-    pub n: usize,
-    pub figures: Figures,
-}
-
-#[cfg(target_arch = "wasm32")]
-impl serde::Serialize for Stats {
-    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        use serde::ser::SerializeStruct;
-        #[derive(serde::Serialize)]
-        struct Coverage {
-            ellipse: f64,
-            exponential: f64,
-        }
-        let Self { n, figures } = self;
-        let coverage = Coverage { ellipse: figures.inside_ellipse, exponential: figures.inside_exponential };
-        let mut stats = serializer.serialize_struct("Stats", 12)?;
-        stats.serialize_field("n", n)?;
-        stats.serialize_field("cartesian", &figures.cartesian)?;
-        stats.serialize_field("exponential", &figures.exponential)?;
-        stats.serialize_field("crossTrackSkew", &figures.cross_track.skew)?;
-        stats.serialize_field("crossTrackSkewError", &figures.cross_track.skew_error)?;
-        stats.serialize_field("gaussianSkew", &figures.gaussian_skew)?;
-        stats.serialize_field("rhoCrossHeading", &figures.cross_track.rho_heading)?;
-        stats.serialize_field("coverage", &coverage)?;
-        stats.serialize_field("likelihoodGain", &figures.gain.value)?;
-        stats.serialize_field("likelihoodGainError", &figures.gain.error)?;
-        stats.serialize_field("areaRatio", &figures.area_ratio)?;
-        stats.serialize_field("areaRatioError", &figures.area_ratio_error)?;
-        stats.end()
+js_structs! {
+    /// Moments of the pose, in m and rad, and measures of how far its distribution is from a Gaussian.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct TableColumn {
+        pub mean: Vector3<f64> as "number[]",
+        pub cov: Matrix3<f64> as "number[][]",
+        pub cross_track_skew: f64,
+        /// Gain; 0 for the linearization.
+        pub likelihood_gain: LikelihoodGain,
+        /// Ratio of the areas; 1 for the linearization.
+        pub area_ratio: f64,
     }
-}
 
-/// Moments of the pose, in m and rad, and measures of how far its distribution is from a Gaussian.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(target_arch = "wasm32", derive(serde::Serialize, tsify::Tsify), serde(rename_all = "camelCase"))]
-pub struct TableColumn {
-    #[cfg_attr(
-        target_arch = "wasm32",
-        serde(serialize_with = "crate::stats::plain::vector"),
-        tsify(type = "number[]")
-    )]
-    pub mean: Vector3<f64>,
-    #[cfg_attr(
-        target_arch = "wasm32",
-        serde(serialize_with = "crate::stats::plain::matrix"),
-        tsify(type = "number[][]")
-    )]
-    pub cov: Matrix3<f64>,
-    pub cross_track_skew: f64,
-    /// Gain; 0 for the linearization.
-    pub likelihood_gain: LikelihoodGain,
-    /// Ratio of the areas; 1 for the linearization.
-    pub area_ratio: f64,
-}
+    /// Moments of the pose by three methods, and moments of its exponential coordinates.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Table {
+        /// Noise-free end pose, and covariance to first order in the noise.
+        pub linearized: TableColumn,
+        /// Moments by quadrature.
+        pub exact: TableColumn,
+        /// Moments of the samples shown.
+        pub measured: TableColumn,
+        /// Commanded twist and covariance of its noise; null (None) if the model has no such form.
+        pub tangent: Option<ExponentialMoments>,
+    }
 
-/// Moments of the pose by three methods, and moments of its exponential coordinates.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(target_arch = "wasm32", derive(serde::Serialize, tsify::Tsify), tsify(missing_as_null))]
-pub struct Table {
-    /// Noise-free end pose, and covariance to first order in the noise.
-    pub linearized: TableColumn,
-    /// Moments by quadrature.
-    pub exact: TableColumn,
-    /// Moments of the samples shown.
-    pub measured: TableColumn,
-    /// Commanded twist and covariance of its noise; null (None) if the model has no such form.
-    #[cfg_attr(target_arch = "wasm32", tsify(type = "Moments | null"))]
-    pub tangent: Option<ExponentialMoments>,
-}
-
-/// Curves over the cloud, as (x, y) in m. Outlines are closed. They are empty for fewer than two samples, or if their
-/// coordinates are undefined.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Contours {
-    /// Commanded arc, not closed.
-    pub command: Vec<[f64; 2]>,
-    pub ellipse: Vec<[f64; 2]>,
-    /// 2σ ellipse of an EKF.
-    pub linearized: Vec<[f64; 2]>,
-    pub exponential: Vec<[f64; 2]>,
-    /// 2σ ellipse of the coordinates along the track (m) and heading (rad) of the samples' twists.
-    pub twist_ellipse: Vec<[f64; 2]>,
-    /// The 2σ circle of noise that is added to the pose: see [`super::BananaMachine::additive`].
-    pub additive: Vec<[f64; 2]>,
+    /// Curves over the cloud, as x, y pairs in m. Outlines are closed: the first point is repeated at the end. They are empty for
+    /// fewer than two samples, or if their coordinates are undefined.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct Contours {
+        /// Arc driven without noise, from the start to its end; not closed.
+        pub command: Vec<[f64; 2]> as "Float64Array",
+        /// 2σ ellipse of the Gaussian fitted in (x, y).
+        pub ellipse: Vec<[f64; 2]> as "Float64Array",
+        /// 2σ ellipse of the covariance that an extended Kalman filter predicts by linearization at the command.
+        pub linearized: Vec<[f64; 2]> as "Float64Array",
+        /// 2σ outline of the Gaussian fitted in exponential coordinates.
+        pub exponential: Vec<[f64; 2]> as "Float64Array",
+        /// 2σ ellipse of the samples in exponential coordinates: along the track (m) and heading (rad).
+        pub twist_ellipse: Vec<[f64; 2]> as "Float64Array",
+        /// 2σ circle of noise added to the pose: 0.4 m around the noise-free end, for every command and noise.
+        pub additive: Vec<[f64; 2]> as "Float64Array",
+    }
 }
 
 /// One sample in detail.

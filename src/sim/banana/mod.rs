@@ -5,7 +5,7 @@ mod gaps;
 mod settings;
 
 use figures::Charted;
-pub use figures::{Contours, Executed, Figures, Sample, Stats, Table, TableColumn};
+pub use figures::{Contours, Coverage, Executed, Figures, Sample, Table, TableColumn};
 pub use settings::*;
 
 use super::cloud::drive::Drive;
@@ -18,10 +18,9 @@ use crate::geom::lanes::LANES;
 use crate::geom::se2::SE2;
 use crate::geom::unbend::arc_at;
 use crate::models::{
-    Hinges, MotionModel, OdomAlphas, OdomDelta, OdometryModel, ReverseAware, TangentNoiseModel,
+    ConfiguredOdometry, MotionModel, OdomAlphas, OdomDelta, OdometryModel, RotTransRot, TangentNoiseModel,
     VelocityAlphas, VelocityCmd, VelocityModel,
 };
-use crate::noise::{NoiseKind, Variance};
 use crate::stats::{
     CartesianMoments, Ellipse, ExactGain, ExactMoments, ExponentialContour, ExponentialMoments,
     LikelihoodGain,
@@ -43,26 +42,6 @@ impl Settings {
                 let model = OdometryModel { alphas, noise: self.noise };
                 Motion::Odometry(ConfiguredOdometry { model, reverse_aware: self.reverse_aware }, reading)
             }
-        }
-    }
-}
-
-/// Odometry model with the current settings.
-struct ConfiguredOdometry {
-    model: OdometryModel,
-    reverse_aware: bool,
-}
-
-impl Hinges for ConfiguredOdometry {
-    fn noise(&self) -> NoiseKind {
-        self.model.noise
-    }
-
-    fn variances(&self, delta: &OdomDelta) -> [Variance; 3] {
-        if self.reverse_aware {
-            ReverseAware(self.model).variances(delta)
-        } else {
-            self.model.variances(delta)
         }
     }
 }
@@ -221,7 +200,7 @@ impl BananaMachine {
         let Settings { seed, noise, command, .. } = self.settings;
         let drive = self.settings.motion(command).drive(&command);
         let figures = self.cloud.refresh(seed, noise, drive, count);
-        self.figures = Figures::of(&figures, self.charted());
+        self.figures = Figures::of(count, &figures, self.charted());
     }
 
     /// Shows up to `count` samples more; returns how many are shown.
@@ -267,10 +246,6 @@ impl BananaMachine {
 
     pub fn figures(&self) -> &Figures {
         &self.figures
-    }
-
-    pub fn stats(&self) -> Stats {
-        Stats { n: self.shown(), figures: self.figures }
     }
 
     /// Returns true if the robots turn by less than a full circle, so that exponential coordinates are defined. Otherwise
@@ -330,7 +305,7 @@ impl BananaMachine {
     /// Returns the moments of the pose by three methods, and the model's moments of its exponential coordinates.
     pub fn table(&self) -> Table {
         let linearized = self.linearized();
-        let Figures { cartesian, cross_track, gain, area_ratio, .. } = self.figures;
+        let Figures { cartesian, cross_track_skew, likelihood_gain, area_ratio, .. } = self.figures;
         Table {
             // A Gaussian in (x, y) has no skew. To first order in the noise, Gaussians in all coordinates are equal.
             linearized: TableColumn {
@@ -344,8 +319,8 @@ impl BananaMachine {
             measured: TableColumn {
                 mean: cartesian.mean,
                 cov: cartesian.cov,
-                cross_track_skew: cross_track.skew,
-                likelihood_gain: gain.value,
+                cross_track_skew,
+                likelihood_gain,
                 area_ratio,
             },
             tangent: self.tangent(),

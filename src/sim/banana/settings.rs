@@ -45,7 +45,7 @@ settings! {
         /// Noise parameters of the present model: six of the velocity model, four of the odometry model.
         alphas, by alphas_mut, in ALPHA;
         /// True if a drive in reverse gets noise for the rotations that the robot made, and not for two additional half turns.
-        reverseAware, by reverse_aware_mut;
+        reverse_aware as "reverseAware": bool = false;
         /// Number of the only noise parameter in effect; null for all of them.
         isolate: Option<usize> = None, in 1..=6, up to alpha_count;
         /// Number of robots in the whole cloud.
@@ -56,8 +56,6 @@ settings! {
             /// Each model keeps its own α's, so that switching between models loses nothing.
             velocity_alphas: [f64; 6] = BANANA.alphas;
             odometry_alphas: [f64; 4] = [0.05, 0.05, 0.05, 0.05];
-            /// The setting `reverseAware`.
-            reverse_aware: bool = false;
         }
     }
 }
@@ -84,10 +82,6 @@ impl Settings {
             ModelKind::Velocity => &mut self.velocity_alphas,
             ModelKind::Odometry => &mut self.odometry_alphas,
         }
-    }
-
-    fn reverse_aware_mut(&mut self) -> &mut bool {
-        &mut self.reverse_aware
     }
 
     fn alpha_count(&self) -> u64 {

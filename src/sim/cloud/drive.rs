@@ -1,7 +1,7 @@
 //! Common form of both models for a start at the origin: a distance in a direction, and a final heading.
 
 use crate::geom::lanes::{Circle, HalfTurn, Trigonometry, any};
-use crate::models::{Hinges, OdomDelta, VelocityCmd, VelocityModel};
+use crate::models::{OdomDelta, RotTransRot, VelocityCmd, VelocityModel};
 use crate::stats::fused::{FourArcs, FourPoses, Reference, Scale};
 use std::f64::consts::FRAC_PI_2;
 use wide::f64x4;
@@ -57,7 +57,7 @@ impl Drive {
     }
 
     /// Creates the drive of a reading; `turn` (rad) is that of the command from which the reading was made.
-    pub fn of_odometry(model: &impl Hinges, u: &OdomDelta, turn: f64) -> Self {
+    pub fn of_odometry(model: &impl RotTransRot, u: &OdomDelta, turn: f64) -> Self {
         let [rot1, trans, rot2] = model.variances(u).map(|variance| variance.0.sqrt());
         Self {
             is_arc: false,

@@ -2,6 +2,7 @@
 
 use super::rollouts::Measured;
 use super::settings::Settings;
+use crate::js::js_structs;
 use crate::models::{Compounding, TangentNoiseModel, covariance_root};
 use nalgebra::{Matrix3, Vector3};
 
@@ -27,20 +28,21 @@ pub struct Comparison {
     pub misses: [Misses; 3],
 }
 
-/// Steps at which the ratio of one component is off by more than 5 % ([`TOLERANCE`]).
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(target_arch = "wasm32", derive(serde::Serialize, tsify::Tsify), tsify(missing_as_null))]
-pub struct Misses {
-    /// True if there is a spread, and enough robots to establish a miss.
-    pub told: bool,
-    /// First step with a miss; null (None) if there is none, or if it cannot be established.
-    pub first: Option<u32>,
-    /// Last step with a miss.
-    pub last: Option<u32>,
-    /// Ratio after the last step, minus 1; NaN if undefined.
-    pub end: f64,
-    /// Standard error of `end`.
-    pub error: f64,
+js_structs! {
+    /// Steps at which the ratio of one component is off by more than 5 % ([`TOLERANCE`]).
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Misses {
+        /// True if there is a spread, and enough robots to establish a miss.
+        pub told: bool,
+        /// First step with a miss; null (None) if there is none, or if it cannot be established.
+        pub first: Option<u32>,
+        /// Last step with a miss.
+        pub last: Option<u32>,
+        /// Ratio after the last step, minus 1; NaN if undefined.
+        pub end: f64,
+        /// Standard error of `end`.
+        pub error: f64,
+    }
 }
 
 impl Comparison {

@@ -13,6 +13,7 @@ pub use straight::StraightGrowth;
 use super::cloud::views::Nearest;
 use super::settings::{Allowed, Rules, SettingsError};
 use crate::geom::se2::SE2;
+use crate::js::js_structs;
 use crate::models::{Compounding, TangentNoiseModel};
 use crate::stats::{Ellipse, ExponentialContour, ExponentialMoments};
 use figures::covariances;
@@ -71,17 +72,19 @@ pub struct ByRecursion<T> {
 /// Rows of a symmetric matrix.
 pub type Covariance = [[f64; 3]; 3];
 
-/// 2σ outlines after a step as x, y pairs, closed; empty if the recursion has no covariance there.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Outlines {
-    /// Outline of the predicted Gaussian in (x, y), m, as a filter without other coordinates has it.
-    pub ellipse: Vec<[f64; 2]>,
-    /// Outline of the predicted Gaussian in exponential coordinates about the commanded pose, on the floor, m.
-    pub exponential: Vec<[f64; 2]>,
-    /// Outline of the predicted Gaussian in (ξ along, ξ lateral), m.
-    pub predicted: Vec<[f64; 2]>,
-    /// Outline of the robots' covariance in (ξ along, ξ lateral), m.
-    pub measured: Vec<[f64; 2]>,
+js_structs! {
+    /// 2σ outlines after a step as x, y pairs, the first point repeated at the end; empty if the recursion has no covariance there.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct Outlines as "StepOutlines" {
+        /// Outline of the predicted Gaussian in (x, y), m, as a filter without other coordinates has it.
+        pub ellipse: Vec<[f64; 2]> as "Float64Array",
+        /// Outline of the predicted Gaussian in exponential coordinates about the commanded pose, on the floor, m.
+        pub exponential: Vec<[f64; 2]> as "Float64Array",
+        /// Outline of the predicted Gaussian in (ξ along, ξ lateral), m.
+        pub predicted: Vec<[f64; 2]> as "Float64Array",
+        /// Outline of the robots' covariance in (ξ along, ξ lateral), m.
+        pub measured: Vec<[f64; 2]> as "Float64Array",
+    }
 }
 
 impl DeadReckoning {

@@ -44,7 +44,7 @@ settings! {
         /// Noise parameters, the six of the velocity model.
         alphas: [f64; 6] = [0.02, 0.02, 0.02, 0.02, 0.005, 0.005], in ALPHA;
         /// Level h of the heading noise: α₃ and α₄ are h, α₅ and α₆ are h/4. Null if they have other ratios.
-        headingNoise, by heading_level of alphas, in ALPHA;
+        heading_noise as "headingNoise", by heading_level of alphas, in ALPHA;
         /// Motion to which the noise parameters apply: each step, or the whole path. Each of n steps then has 1/n of its variance.
         per: NoisePer = NoisePer::Step;
         /// Recursion of the covariance that is shown.

@@ -1,6 +1,7 @@
 //! Variances of a straight drive as functions of its duration (exercise 2).
 
 use super::settings::Settings;
+use crate::js::js_structs;
 use crate::models::{VelocityAlphas, VelocityCmd, VelocityModel};
 use crate::noise::NoiseKind;
 use crate::stats::ExactMoments;
@@ -9,19 +10,23 @@ use crate::stats::ExactMoments;
 /// range. Smaller steps would not make the curves look smoother.
 const DURATIONS: [i32; 2] = [-10, 10];
 
-/// Variances of one straight command by its duration.
-#[derive(Clone, Debug, PartialEq)]
-pub struct StraightGrowth {
-    /// Δt, s.
-    pub durations: Vec<f64>,
-    /// Exact variances along the track and across it, m².
-    pub along: Vec<f64>,
-    pub across: Vec<f64>,
-    /// Variances to first order in the noise: α₁v²Δt² along the track and ¼α₃v⁴Δt⁴ across it.
-    pub along_first_order: Vec<f64>,
-    pub across_first_order: Vec<f64>,
-    /// Duration (s) at which both first-order variances are equal: (2/|v|)·√(α₁/α₃). None if they never are.
-    pub crossing: Option<f64>,
+js_structs! {
+    /// Variances of one straight command by its duration.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct StraightGrowth {
+        /// Δt (s) at even steps of its logarithm.
+        pub durations: Vec<f64> as "Float64Array",
+        /// Exact variances along the track, m².
+        pub along: Vec<f64> as "Float64Array",
+        /// Exact variances across the track, m².
+        pub across: Vec<f64> as "Float64Array",
+        /// Variances along the track to first order in the noise, m²: α₁v²Δt².
+        pub along_first_order: Vec<f64> as "Float64Array",
+        /// Variances across the track to first order in the noise, m²: ¼α₃v⁴Δt⁴.
+        pub across_first_order: Vec<f64> as "Float64Array",
+        /// Duration (s) at which both first-order variances are equal: (2/|v|)·√(α₁/α₃). Null (None) if they never are.
+        pub crossing: Option<f64>,
+    }
 }
 
 impl StraightGrowth {

@@ -8,6 +8,7 @@ use super::cloud::draws::Draws;
 use super::cloud::views::Nearest;
 use super::settings::{Rules, SettingsError};
 use crate::geom::se2::SE2;
+use crate::js::js_structs;
 use crate::models::{ExecutedLegs, LegVariances, OdomDelta, OdometryRule};
 use nalgebra::Vector3;
 
@@ -17,43 +18,40 @@ const DRIFT_TWIST: [f64; 3] = [0.015, 0.008, -0.01];
 /// Maximum number of points of a curve. Each takes a microsecond.
 pub const MAX_CURVE_POINTS: u64 = 10_000;
 
-/// Rotation, translation and rotation of the reading, with the standard deviations of their noises under an [`OdometryRule`].
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct RuleFigures {
-    pub rule: OdometryRule,
-    pub legs: OdomDelta,
-    /// Standard deviations of the three legs, and of the sideways noise of the second: rad, m, rad, m.
-    pub deviations: [f64; 4],
-    /// Standard deviation across the measured bearing, m.
-    pub cross_track: f64,
-    /// Standard deviation of the turn made, rad.
-    pub heading: f64,
-}
+js_structs! {
+    /// Legs of the reading under one rule, with the standard deviations of their noises.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct RuleFigures {
+        pub rule: OdometryRule as "OdometryDecomposerSettings['rule']",
+        /// Legs. If the rule takes a short reading for a spin, the second rotation is the whole turn.
+        pub legs: OdomDelta,
+        /// Standard deviations of the three legs, and of the sideways noise of the second: rad, m, rad, m.
+        pub deviations: [f64; 4] as "Float64Array",
+        /// Standard deviation across the measured bearing, m.
+        pub cross_track: f64,
+        /// Standard deviation of the turn made, rad.
+        pub heading: f64,
+    }
 
-/// Statistics of the outcomes shown, and exact values under the current rule. Statistics are NaN without outcomes.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(
-    target_arch = "wasm32",
-    derive(serde::Serialize, tsify::Tsify),
-    serde(rename_all = "camelCase"),
-    tsify(rename = "DecomposerStats")
-)]
-pub struct Stats {
-    pub n: usize,
-    /// Root mean square of the distance from the measured bearing, m.
-    pub cross_track: f64,
-    /// Standard error of the cross track, m.
-    pub cross_track_error: f64,
-    pub exact_cross_track: f64,
-    /// Sideways standard deviation (m) of the end of the drive due to the first rotation: δ_trans·σ_rot1.
-    pub lever: f64,
-    /// Root mean square of the difference between the turn made and the measured one, rad.
-    pub heading: f64,
-    /// Standard error of the heading, rad.
-    pub heading_error: f64,
-    pub exact_heading: f64,
-    /// Exact standard deviation of the heading for independent rotations.
-    pub independent_heading: f64,
+    /// Statistics of the outcomes shown, and exact values under the current rule. Statistics are NaN without outcomes.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Stats as "DecomposerStats" {
+        pub n: usize,
+        /// Root mean square of the distance from the measured bearing, m.
+        pub cross_track: f64,
+        /// Standard error of the cross track, m.
+        pub cross_track_error: f64,
+        pub exact_cross_track: f64,
+        /// Sideways standard deviation (m) of the end of the drive due to the first rotation: δ_trans·σ_rot1.
+        pub lever: f64,
+        /// Root mean square of the difference between the turn made and the measured one, rad.
+        pub heading: f64,
+        /// Standard error of the heading, rad.
+        pub heading_error: f64,
+        pub exact_heading: f64,
+        /// Exact standard deviation of the heading for independent rotations.
+        pub independent_heading: f64,
+    }
 }
 
 /// Odometry poses in the world, where their frame has drifted, and the legs computed from them.

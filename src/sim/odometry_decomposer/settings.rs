@@ -3,7 +3,7 @@
 use crate::geom::se2::SE2;
 use crate::models::{OdometryRule, RuleAlphas};
 use crate::noise::NoiseKind;
-use crate::sim::settings::{ALPHA, MAX_SEED, QUANTITY, Rules, Settable, Setting, Words, group, settings};
+use crate::sim::settings::{ALPHA, MAX_SEED, QUANTITY, Rules, Words, group, settings};
 use std::ops::RangeInclusive;
 
 impl Words for OdometryRule {
@@ -29,13 +29,6 @@ group!(OdometryPose as OdometryPose([x, y, theta]) => {
     /// Heading that odometry reports.
     theta: "rad", in QUANTITY;
 });
-
-impl Settable for RuleAlphas {
-    type Allowed = RangeInclusive<f64>;
-    fn setting(&mut self, allowed: Self::Allowed) -> Setting<'_> {
-        Setting::Numbers(self, allowed)
-    }
-}
 
 /// Maximum number of outcomes. All of them move within a frame, and more dots would not be distinguishable.
 pub const MAX_SAMPLES: u64 = 5000;

@@ -5,11 +5,9 @@ use crate::map::{Sampler, Unknown};
 use crate::models::VelocityCmd;
 use crate::sim::noise_level::{NoiseLevel, alphas_of_noise};
 use crate::sim::settings::{
-    ALPHA, Level, MAX_SEED, QUANTITY, Rules, Settable, Setting, SettingsError, Words, check_whole, group,
-    settings,
+    ALPHA, Level, MAX_SEED, QUANTITY, Rules, SettingsError, Words, check_whole, group, settings,
 };
 use std::f64::consts::FRAC_PI_2;
-use std::ops::RangeInclusive;
 
 impl Words for Sampler {
     const WORDS: &'static [(&'static str, Self)] = &[
@@ -32,13 +30,6 @@ group!([f64; 3] as [x, y, theta] => {
     /// Heading of the robot at the start.
     theta: "rad", in QUANTITY;
 });
-
-impl Settable for [f64; 6] {
-    type Allowed = RangeInclusive<f64>;
-    fn setting(&mut self, allowed: Self::Allowed) -> Setting<'_> {
-        Setting::Numbers(self, allowed)
-    }
-}
 
 /// Start poses x, y (m) and θ (rad) of the presets in the apartment.
 pub const PRESETS: [(&str, [f64; 3]); 3] =

@@ -1,5 +1,6 @@
 //! Counts over the attempts, and their statistics.
 
+use crate::js::js_structs;
 use crate::noise::NoiseKind;
 
 /// Counts over the attempts shown.
@@ -42,28 +43,24 @@ pub(super) fn share(part: usize, all: usize) -> f64 {
     part as f64 / all as f64
 }
 
-/// Statistics of the attempts shown. Fractions of 0 attempts are NaN. Costs per accepted attempt are infinite if none is
-/// accepted.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(
-    target_arch = "wasm32",
-    derive(serde::Serialize, tsify::Tsify),
-    serde(rename_all = "camelCase"),
-    tsify(rename = "SqueezeStats")
-)]
-pub struct Stats {
-    pub attempts: usize,
-    /// Draws of the model; for the sub-stepped sampler, of its shorter motions.
-    pub drawn: usize,
-    pub accepted: usize,
-    pub acceptance_rate: f64,
-    pub through_wall: usize,
-    pub through_wall_rate: f64,
-    /// 95 % interval of the rate.
-    pub through_wall_interval: [f64; 2],
-    pub draws_per_accepted: f64,
-    /// Number of walls whose distance was computed; most collision checks need none.
-    pub wall_tests_per_accepted: f64,
-    /// True if the machine stopped before it had all samples, because too few draws were accepted.
-    pub gave_up: bool,
+js_structs! {
+    /// Statistics of the attempts shown. Fractions of 0 attempts are NaN. Costs per accepted attempt are infinite if none is
+    /// accepted.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Stats as "SqueezeStats" {
+        pub attempts: usize,
+        /// Draws of the model; for the sub-stepped sampler, of its shorter motions.
+        pub drawn: usize,
+        pub accepted: usize,
+        pub acceptance_rate: f64,
+        pub through_wall: usize,
+        pub through_wall_rate: f64,
+        /// 95 % interval of the rate.
+        pub through_wall_interval: [f64; 2],
+        pub draws_per_accepted: f64,
+        /// Number of walls whose distance was computed; most collision checks need none.
+        pub wall_tests_per_accepted: f64,
+        /// True if the machine stopped before it had all samples, because too few draws were accepted.
+        pub gave_up: bool,
+    }
 }

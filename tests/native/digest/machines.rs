@@ -22,19 +22,23 @@ pub fn banana_machine(configuration: &Configuration) -> Vec<Part> {
     }
     let mut machine = BananaMachine::new(configuration.settings(opening)).expect("a valid setting");
     let (reading, contours, table) = (machine.reading(), machine.contours(), machine.table());
-    let (n, figures) = (machine.stats().n, machine.stats().figures);
-    let (across, gain) = (figures.cross_track, figures.gain);
+    let figures = *machine.figures();
     let fields = |gain: LikelihoodGain| (gain.pose, gain.floor);
     let column = |each: TableColumn| {
         (each.mean, each.cov, each.cross_track_skew, fields(each.likelihood_gain), each.area_ratio)
     };
     let stats = (
-        n,
+        figures.n,
         (figures.cartesian.mean, figures.cartesian.cov),
         (figures.exponential.mean, figures.exponential.cov),
-        (across.skew, across.skew_error, figures.gaussian_skew, across.rho_heading),
-        (figures.inside_ellipse, figures.inside_exponential),
-        (fields(gain.value), fields(gain.error)),
+        (
+            figures.cross_track_skew,
+            figures.cross_track_skew_error,
+            figures.gaussian_skew,
+            figures.rho_cross_heading,
+        ),
+        (figures.coverage.ellipse, figures.coverage.exponential),
+        (fields(figures.likelihood_gain), fields(figures.likelihood_gain_error)),
         figures.area_ratio,
     );
     let columns = (column(table.linearized), column(table.exact), column(table.measured));

@@ -42,7 +42,7 @@ fn figures_are_those_told() {
         let exact = machine.table().exact;
         floor.assert(exact.likelihood_gain.floor, 0.0);
         area.assert(exact.area_ratio, 0.0);
-        ellipse.assert_percent(machine.figures().inside_ellipse, error);
+        ellipse.assert_percent(machine.figures().coverage.ellipse, error);
         skew.assert(exact.cross_track_skew, 1e-12);
         exact
     };
@@ -64,8 +64,8 @@ fn figures_are_those_told() {
     let [ellipse, outline, skew, any] = page().numbers(
         "do not give the ellipse away, # % and # %. The skew does: #, where any Gaussian in (x, y) has #.",
     );
-    ellipse.assert_percent(many.figures().inside_ellipse, error);
-    outline.assert_percent(many.figures().inside_exponential, error);
+    ellipse.assert_percent(many.figures().coverage.ellipse, error);
+    outline.assert_percent(many.figures().coverage.exponential, error);
     skew.assert(hard.cross_track_skew, 0.0);
     any.assert(many.table().linearized.cross_track_skew, 0.0);
     assert!(banana.cross_track_skew.abs() < 1e-9);
@@ -86,7 +86,7 @@ fn figures_are_those_told() {
     );
     document().assert(
         "The widget opens with # robots. They give the skew of the Banana to ±#.",
-        [opened.settings().samples as f64, opened.figures().cross_track.skew_error],
+        [opened.settings().samples as f64, opened.figures().cross_track_skew_error],
     );
 }
 
@@ -135,8 +135,8 @@ fn the_predicted_skew_misses_under_the_odometry_model() {
     velocity_alphas[4..].fill(0.0);
     let miss = |settings| {
         let machine = machine(settings);
-        let (measured, predicted) = (machine.figures().cross_track, machine.figures().gaussian_skew);
-        (measured.skew - predicted).abs() / measured.skew_error
+        let figures = machine.figures();
+        (figures.cross_track_skew - figures.gaussian_skew).abs() / figures.cross_track_skew_error
     };
     assert!(miss(Settings { velocity_alphas, ..gentle }) < SIGMAS);
     assert!(miss(Settings { model: ModelKind::Odometry, ..gentle }) > errors.value);
@@ -145,7 +145,7 @@ fn the_predicted_skew_misses_under_the_odometry_model() {
 #[test]
 fn a_hundred_times_the_robots_leave_a_tenth_of_the_error() {
     page().says("A hundred times the robots leave a tenth of the standard error.");
-    let error = |samples| machine(Settings { samples, ..preset("gentle") }).figures().cross_track.skew_error;
+    let error = |samples| machine(Settings { samples, ..preset("gentle") }).figures().cross_track_skew_error;
     let ratio = error(2000) / error(200_000);
     assert!((ratio - 10.0).abs() < 1.0, "{ratio}");
 }

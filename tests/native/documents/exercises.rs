@@ -8,7 +8,7 @@ use motion::map::Sampler;
 use motion::sim::banana::{BananaMachine, Settings};
 use motion::sim::squeeze::{self, MapSqueeze, alphas_of_noise};
 use motion::{
-    MotionModel, NoiseKind, OdomAlphas, OdomDelta, OdometryModel, TangentNoiseModel, Variance,
+    MotionModel, NoiseKind, OdomAlphas, OdomDelta, OdometryModel, RotTransRot, TangentNoiseModel, Variance,
     VelocityAlphas, VelocityCmd, VelocityModel,
 };
 use std::f64::consts::PI;

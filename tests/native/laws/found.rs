@@ -21,7 +21,7 @@ fn a_cloud_too_small_for_its_powers_has_no_skew() {
     let alphas = [0.05, 0.0, 0.05, 0.05, 0.0, 0.0];
     let settings = Settings { command, velocity_alphas: alphas, samples: 100, ..Settings::default() };
     let figures = *BananaMachine::new(settings).expect("allowed").figures();
-    assert!(figures.cross_track.skew.is_nan() && figures.cross_track.skew_error.is_nan(), "{figures:?}");
+    assert!(figures.cross_track_skew.is_nan() && figures.cross_track_skew_error.is_nan(), "{figures:?}");
 }
 
 /// The direction of a subnormal chord must not be computed with a reciprocal, which overflows.

@@ -3,7 +3,9 @@
 use crate::common::density::Grid;
 use crate::common::{KINDS, SAMPLES, derivative, seeded, uniform};
 use motion::geom::se2::SE2;
-use motion::{MotionModel, NoiseKind, OdomAlphas, OdomDelta, OdometryModel, ReverseAware, Variance};
+use motion::{
+    MotionModel, NoiseKind, OdomAlphas, OdomDelta, OdometryModel, ReverseAware, RotTransRot, Variance,
+};
 use nalgebra::Vector3;
 use std::f64::consts::{FRAC_PI_2, PI};
 

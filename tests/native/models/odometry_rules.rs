@@ -6,7 +6,9 @@ use motion::geom::se2::SE2;
 use motion::models::{LegVariances, OdometryRule, RuleAlphas, SPIN_BELOW};
 use motion::noise::centred_uniform;
 use motion::stats::quadrature::nodes;
-use motion::{MotionModel, NoiseKind, OdomAlphas, OdomDelta, OdometryModel, ReverseAware, Variance};
+use motion::{
+    MotionModel, NoiseKind, OdomAlphas, OdomDelta, OdometryModel, ReverseAware, RotTransRot, Variance,
+};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use OdometryRule::{Beluga, Nav2, Omni, Table};

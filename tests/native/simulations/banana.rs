@@ -149,7 +149,7 @@ fn isolating_an_alpha_silences_the_others() {
     for silent in [4, 6] {
         let machine = isolated(silent);
         assert!(machine.poses().all(|pose| pose == end), "α₄ and α₆ are silent where nothing is turned");
-        assert!(machine.figures().cross_track.skew.is_nan());
+        assert!(machine.figures().cross_track_skew.is_nan());
         assert_eq!(machine.figures().cartesian.cov, Matrix3::zeros(), "no spread is exactly none");
     }
     assert!(isolated(1).poses().all(|pose| (pose.y(), pose.theta()) == (0.0, 0.0)), "α₁ turns nobody");
@@ -194,11 +194,11 @@ fn without_a_chart_exponential_figures_are_undefined() {
         let machine = turning(omega);
         assert_eq!(machine.chart_holds(), holds, "ω = {omega}");
         let (figures, contours) = (machine.figures(), machine.contours());
-        let exponential = [figures.gaussian_skew, figures.inside_exponential, figures.exponential.mean.x];
+        let exponential = [figures.gaussian_skew, figures.coverage.exponential, figures.exponential.mean.x];
         assert!(exponential.iter().all(|value| value.is_nan() != holds), "ω = {omega}: {figures:?}");
         assert_eq!(contours.exponential.is_empty(), !holds);
         assert_eq!(contours.twist_ellipse.is_empty(), !holds);
-        assert!(figures.cross_track.skew.is_finite() && figures.inside_ellipse.is_finite());
+        assert!(figures.cross_track_skew.is_finite() && figures.coverage.ellipse.is_finite());
         assert_eq!(contours.ellipse.len(), contours.linearized.len());
     }
 }
@@ -291,7 +291,10 @@ fn additive_noise_does_not_depend_on_the_motion() {
 fn the_opening_cloud_shows_the_exact_figures() {
     let machine = machine(Settings::default());
     let (shown, exact) = (machine.figures(), machine.table().exact);
-    assert!((shown.cross_track.skew - exact.cross_track_skew).abs() < 0.2 * shown.cross_track.skew_error);
+    assert!((shown.cross_track_skew - exact.cross_track_skew).abs() < 0.2 * shown.cross_track_skew_error);
     assert!((shown.area_ratio - exact.area_ratio).abs() < 0.2 * shown.area_ratio_error);
-    assert!((shown.gain.value.pose - exact.likelihood_gain.pose).abs() < 0.2 * shown.gain.error.pose);
+    assert!(
+        (shown.likelihood_gain.pose - exact.likelihood_gain.pose).abs()
+            < 0.2 * shown.likelihood_gain_error.pose
+    );
 }

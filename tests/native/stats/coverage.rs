@@ -4,7 +4,7 @@ use crate::common::text::Text;
 use crate::common::{SIGMAS, preset};
 use motion::geom::se2::SE2;
 use motion::map::{FloorPlan, MapConditioned, Sampler};
-use motion::sim::banana::{BananaMachine, Figures, ModelKind, Settings};
+use motion::sim::banana::{BananaMachine, ModelKind, Settings};
 use motion::sim::squeeze::{self, MapSqueeze, PRESETS};
 use motion::{NoiseKind, VelocityAlphas, VelocityModel};
 
@@ -39,12 +39,13 @@ fn shares_within_errors(settings: Settings, repetitions: u64) -> [f64; 3] {
     let (skew, gain) = (machine.exact().cross_track_skew, machine.exact_gain().value);
     shares(repetitions, |seed| {
         machine.configure(Settings { seed, ..settings }).expect("valid settings");
-        let Figures { cross_track, gain: measured, .. } = *machine.figures();
+        let figures = machine.figures();
+        let (measured, error) = (figures.likelihood_gain, figures.likelihood_gain_error);
         let within = |value: f64, error: f64, exact: f64| (value - exact).abs() <= 1.959_964 * error;
         [
-            within(cross_track.skew, cross_track.skew_error, skew),
-            within(measured.value.pose, measured.error.pose, gain.pose),
-            within(measured.value.floor, measured.error.floor, gain.floor),
+            within(figures.cross_track_skew, figures.cross_track_skew_error, skew),
+            within(measured.pose, error.pose, gain.pose),
+            within(measured.floor, error.floor, gain.floor),
         ]
     })
 }

@@ -4,7 +4,7 @@ use crate::common::{KINDS, Table, mean, preset, variance};
 use motion::geom::arc::{arc_near, chord};
 use motion::geom::se2::{SE2, wrap_angle};
 use motion::sim::banana::{BananaMachine, Figures, ModelKind, PRESETS, Preset, Settings};
-use motion::stats::{CartesianMoments, ExactGain, MeasuredGain};
+use motion::stats::{CartesianMoments, ExactGain, LikelihoodGain, MeasuredGain};
 use motion::{VelocityAlphas, VelocityCmd, VelocityModel};
 use nalgebra::{DMatrix, DVector, Vector3};
 use std::f64::consts::TAU;
@@ -26,8 +26,8 @@ fn poses(machine: &BananaMachine) -> Vec<SE2> {
 }
 
 /// Pose and floor.
-fn gains(gain: &MeasuredGain) -> [[f64; 2]; 2] {
-    [[gain.value.pose, gain.error.pose], [gain.value.floor, gain.error.floor]]
+fn gains(value: LikelihoodGain, error: LikelihoodGain) -> [[f64; 2]; 2] {
+    [[value.pose, error.pose], [value.floor, error.floor]]
 }
 
 fn assert_close(name: &str, found: f64, expected: f64, allowed: f64) {
@@ -105,7 +105,9 @@ fn the_gain_is_the_mean_difference_of_two_log_densities() {
         let cloud = poses(&machine(command, alphas, 20_000));
         let turn = command.omega * command.dt;
         let gain = MeasuredGain::from_poses(&cloud, &SE2::identity(), turn);
-        for ([value, error], differences) in gains(&gain).into_iter().zip(differences(&cloud, turn)) {
+        for ([value, error], differences) in
+            gains(gain.value, gain.error).into_iter().zip(differences(&cloud, turn))
+        {
             assert_close("gain", value, mean(&differences), 1e-8);
             let expected = (variance(&differences) / 20_000.0).sqrt();
             assert_close("error", error, expected, 1e-6 * expected);
@@ -128,8 +130,11 @@ fn the_machine_has_the_gain_of_its_poses() {
                     let settings =
                         Settings { model, noise, command, odometry_alphas, samples, ..preset("gentle") };
                     let machine = BananaMachine::new(settings).expect("a valid setting");
-                    let (found, cloud) = (gains(&machine.figures().gain), poses(&machine));
-                    let expected = gains(&MeasuredGain::from_poses(&cloud, &SE2::identity(), omega * dt));
+                    let (figures, cloud) = (machine.figures(), poses(&machine));
+                    let found = gains(figures.likelihood_gain, figures.likelihood_gain_error);
+                    let MeasuredGain { value, error } =
+                        MeasuredGain::from_poses(&cloud, &SE2::identity(), omega * dt);
+                    let expected = gains(value, error);
                     let what = format!("{model:?} {noise:?} {command:?} {samples}");
                     for ([value, error], [by_pose, error_by_pose]) in found.into_iter().zip(expected) {
                         // Under four or five robots a covariance is nearly singular.
@@ -176,7 +181,7 @@ fn the_gain_on_the_floor_is_the_same_whatever_the_last_turn() {
     for Preset { command, .. } in PRESETS {
         let of = |last: f64| {
             let machine = machine(command, [0.05, 0.05, 0.05, 0.09, last, last], 10_000);
-            [machine.figures().gain.value.floor, machine.exact_gain().value.floor]
+            [machine.figures().likelihood_gain.floor, machine.exact_gain().value.floor]
         };
         let without = of(0.0);
         assert!(without.iter().all(|gain| gain.is_finite()), "{command:?}");
@@ -189,12 +194,12 @@ fn the_gain_on_the_floor_is_the_same_whatever_the_last_turn() {
     // Even where headings go round so far that exponential coordinates end.
     let wild = machine(GENTLE, [0.05, 0.05, 0.05, 0.09, 5.0, 5.0], 10_000);
     assert!(!wild.chart_holds());
-    let Figures { gain, area_ratio, .. } = wild.figures();
-    assert!(gain.value.pose.is_nan() && gain.error.pose.is_nan() && area_ratio.is_nan());
+    let Figures { likelihood_gain: gain, likelihood_gain_error: error, area_ratio, .. } = wild.figures();
+    assert!(gain.pose.is_nan() && error.pose.is_nan() && area_ratio.is_nan());
     assert_close(
         "floor",
-        gain.value.floor,
-        machine(GENTLE, OPENING, 10_000).figures().gain.value.floor,
+        gain.floor,
+        machine(GENTLE, OPENING, 10_000).figures().likelihood_gain.floor,
         1e-12,
     );
 }
@@ -248,7 +253,7 @@ fn the_gain_is_infinite_where_only_the_bent_cloud_is_flat() {
                 let velocity_alphas = [0.05, 0.05, 0.05, 0.09, 0.0, 0.0];
                 let settings = Settings { command, velocity_alphas, noise, samples, ..Settings::default() };
                 let flat = BananaMachine::new(settings).expect("a valid setting");
-                let MeasuredGain { value, error } = flat.figures().gain;
+                let Figures { likelihood_gain: value, likelihood_gain_error: error, .. } = flat.figures();
                 assert!(
                     value.pose == f64::INFINITY && error.pose.is_nan(),
                     "{command:?} {samples}: {value:?}"
@@ -258,7 +263,10 @@ fn the_gain_is_infinite_where_only_the_bent_cloud_is_flat() {
                 assert!(exact.pose == f64::INFINITY && exact.floor.is_finite(), "{command:?}");
                 // A little of it, and it is as large as it should be: half a nat for every factor e of the variance.
                 let of = |last: f64| {
-                    machine(command, [0.05, 0.05, 0.05, 0.09, last, last], 5000).figures().gain.value.pose
+                    machine(command, [0.05, 0.05, 0.05, 0.09, last, last], 5000)
+                        .figures()
+                        .likelihood_gain
+                        .pose
                 };
                 assert_close("growth", of(1e-16) - of(1e-14), 100f64.ln() / 2.0, 1e-4);
             }
@@ -266,9 +274,9 @@ fn the_gain_is_infinite_where_only_the_bent_cloud_is_flat() {
     }
     // A curve in the plane that is a straight line in exponential coordinates.
     let fan = machine(STRAIGHT, [0.0, 0.0, 0.02, 0.0, 0.0, 0.0], 2000);
-    let Figures { gain, area_ratio, .. } = fan.figures();
-    assert!(gain.value.pose == f64::INFINITY && gain.value.floor == f64::INFINITY && area_ratio.is_nan());
-    assert_eq!(fan.table().exact.likelihood_gain, gain.value);
+    let Figures { likelihood_gain: gain, area_ratio, .. } = fan.figures();
+    assert!(gain.pose == f64::INFINITY && gain.floor == f64::INFINITY && area_ratio.is_nan());
+    assert_eq!(fan.table().exact.likelihood_gain, *gain);
 }
 
 /// For robots on a line through the start the gain is undefined, for any headings.
@@ -280,9 +288,9 @@ fn robots_on_a_line_have_no_gain() {
         (GENTLE, [0.1, 0.1, 0.0, 0.0, 0.0, 0.0]),
     ] {
         let machine = machine(command, alphas, 5000);
-        for gain in [machine.figures().gain.value, machine.table().exact.likelihood_gain] {
+        for gain in [machine.figures().likelihood_gain, machine.table().exact.likelihood_gain] {
             assert!(gain.pose.is_nan() && gain.floor.is_nan(), "{command:?} {alphas:?}: {gain:?}");
         }
-        assert!(machine.figures().area_ratio.is_nan() && machine.figures().inside_ellipse.is_nan());
+        assert!(machine.figures().area_ratio.is_nan() && machine.figures().coverage.ellipse.is_nan());
     }
 }

@@ -253,7 +253,7 @@ fn a_cloud_whose_breadth_is_rounding_is_a_line() {
         let settings = Settings { command, velocity_alphas, samples: 1000, ..Settings::default() };
         let machine = BananaMachine::new(settings).expect("a valid setting");
         let poses: Vec<SE2> = machine.poses().collect();
-        [machine.figures().cross_track.skew, CrossTrack::from_poses(&poses).skew]
+        [machine.figures().cross_track_skew, CrossTrack::from_poses(&poses).skew]
     };
     // Half of it is the bearing: 5e-14 of the length across.
     assert!(of(1e-13).into_iter().all(f64::is_nan));

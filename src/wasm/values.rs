@@ -58,9 +58,10 @@ impl ToJs for Vector3<f64> {
     }
 }
 
+/// Arrays of the columns. Those of a symmetric matrix, such as a covariance, are equal to its rows.
 impl ToJs for Matrix3<f64> {
     fn to_js(&self) -> JsValue {
-        self.row_iter().map(|row| list(&[row[0], row[1], row[2]])).collect::<Array>().into()
+        self.as_slice().chunks(3).map(list).collect::<Array>().into()
     }
 }
 

@@ -11,6 +11,7 @@ use serde::{Deserialize, Serialize};
 
 /// Overall judgement of a calibration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Verdict {
     /// Every check passed.
     Consistent,

@@ -1,9 +1,7 @@
 //! Calibrations as plain JavaScript values.
 
 use super::values::{floats, list, number_or_null, object, plain};
-use crate::calibrate::{
-    Calibration, Check, ErrorMask, Estimate, NotIdentifiable, Recommended, SystematicError, Verdict,
-};
+use crate::calibrate::{Calibration, Check, ErrorMask, SystematicError};
 use js_sys::Array;
 use wasm_bindgen::prelude::*;
 
@@ -112,65 +110,28 @@ pub const SYSTEMATIC: [(&str, &[SystematicError]); 5] = [
 
 /// Makes an object of a calibration, with its legs where they are given.
 pub fn calibration_to_js(calibration: &Calibration, legs: Option<JsValue>) -> Result<JsValue, JsValue> {
-    let Calibration { not_identifiable, reference_noise, persistence, diagnostics, recommended, .. } =
-        calibration;
-    let reasons: Array = not_identifiable.iter().map(|reason| reason_word(*reason)).collect();
-    let [position, yaw] = reference_noise.map(|estimate| estimate_to_js(&estimate));
+    let Calibration { not_identifiable, reference_noise: [position, yaw], diagnostics, .. } = calibration;
     let checks: Array = diagnostics.checks.iter().map(check_to_js).collect();
     let entries = [
-        ("alphas", alphas(&calibration.alphas)),
-        ("intervals", intervals(&calibration.intervals)),
-        ("notIdentifiable", reasons.into()),
+        ("alphas", plain(&calibration.alphas)?),
+        ("intervals", plain(&calibration.intervals)?),
+        ("notIdentifiable", plain(not_identifiable)?),
         ("systematicErrors", systematic_to_js(calibration)),
-        ("referenceNoise", object(&[("positionStd", position), ("yawStd", yaw)])),
-        (
-            "persistence",
-            object(&[
-                ("correlation", estimate_to_js(&persistence.correlation)),
-                ("length", persistence.length.into()),
-            ]),
-        ),
+        ("referenceNoise", object(&[("positionStd", plain(position)?), ("yawStd", plain(yaw)?)])),
+        ("persistence", plain(&calibration.persistence)?),
         ("lost", plain(&calibration.lost)?),
         ("logLikelihood", calibration.log_likelihood.into()),
         (
             "diagnostics",
             object(&[
-                ("verdict", verdict_word(diagnostics.verdict).into()),
+                ("verdict", plain(&diagnostics.verdict)?),
                 ("checks", checks.into()),
                 ("windows", plain(&diagnostics.windows)?),
             ]),
         ),
-        ("recommended", recommended.as_ref().map_or(JsValue::NULL, recommended_to_js)),
+        ("recommended", plain(&calibration.recommended)?),
     ];
     Ok(object(&entries.into_iter().chain(legs.map(|legs| ("legs", legs))).collect::<Vec<_>>()))
-}
-
-fn alphas(alphas: &[Option<f64>]) -> JsValue {
-    alphas.iter().map(|alpha| number_or_null(*alpha)).collect::<Array>().into()
-}
-
-fn interval(interval: Option<[f64; 2]>) -> JsValue {
-    interval.map_or(JsValue::NULL, |interval| list(&interval))
-}
-
-fn intervals(intervals: &[Option<[f64; 2]>]) -> JsValue {
-    intervals.iter().map(|each| interval(*each)).collect::<Array>().into()
-}
-
-fn estimate_to_js(Estimate { value, interval }: &Estimate) -> JsValue {
-    object(&[("value", (*value).into()), ("interval", list(interval))])
-}
-
-fn reason_word(reason: Option<NotIdentifiable>) -> JsValue {
-    reason.map_or(JsValue::NULL, |reason| {
-        let word = match reason {
-            NotIdentifiable::InsufficientRotation => "insufficient-rotation",
-            NotIdentifiable::InsufficientTranslation => "insufficient-translation",
-            NotIdentifiable::ReferenceTooNoisy => "reference-too-noisy",
-            NotIdentifiable::Collinear => "collinear",
-        };
-        word.into()
-    })
 }
 
 fn systematic_to_js(calibration: &Calibration) -> JsValue {
@@ -178,14 +139,16 @@ fn systematic_to_js(calibration: &Calibration) -> JsValue {
         let identified = calibration.systematic_stds[error as usize].is_some();
         number_or_null(identified.then(|| calibration.systematic.get(error)))
     };
-    let of = |error: SystematicError| interval(calibration.interval_of(error));
+    let interval = |error: SystematicError| {
+        calibration.interval_of(error).map_or(JsValue::NULL, |interval| list(&interval))
+    };
     let all = |mask: &ErrorMask, errors: &[SystematicError]| errors.iter().any(|error| mask[*error as usize]);
     let entries = SYSTEMATIC.iter().map(|(key, errors)| {
         let [value, interval] = match errors {
-            [error] => [value(*error), of(*error)],
+            [error] => [value(*error), interval(*error)],
             errors => [
                 errors.iter().map(|error| value(*error)).collect::<Array>().into(),
-                errors.iter().map(|error| of(*error)).collect::<Array>().into(),
+                errors.iter().map(|error| interval(*error)).collect::<Array>().into(),
             ],
         };
         let constant = all(&calibration.is_constant, errors).into();
@@ -197,14 +160,6 @@ fn systematic_to_js(calibration: &Calibration) -> JsValue {
     object(&entries.collect::<Vec<_>>())
 }
 
-fn verdict_word(verdict: Verdict) -> &'static str {
-    match verdict {
-        Verdict::Consistent => "consistent",
-        Verdict::Questionable => "questionable",
-        Verdict::Unusable => "unusable",
-    }
-}
-
 fn check_to_js(check: &Check) -> JsValue {
     object(&[
         ("name", check.name.key().into()),
@@ -213,10 +168,6 @@ fn check_to_js(check: &Check) -> JsValue {
         ("passed", check.passed.into()),
         ("message", check.message().into()),
     ])
-}
-
-fn recommended_to_js(Recommended { alphas: all, inflation, reason }: &Recommended) -> JsValue {
-    object(&[("alphas", alphas(all)), ("inflation", (*inflation).into()), ("reason", reason.as_str().into())])
 }
 
 /// Makes arrays of the legs of a calibration, one leg after the other in each.

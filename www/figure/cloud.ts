@@ -8,6 +8,7 @@ import { button, inputOf } from '../ui/controls.ts';
 import { counted } from '../ui/format.ts';
 import { boolean, wholeNumber } from './checks.ts';
 import { Part } from './part.ts';
+import { freeOnError } from './runtime.ts';
 import { isCalm } from './stage.ts';
 import type { Figure } from './figure.ts';
 import type { Values } from './state.ts';
@@ -271,19 +272,17 @@ export class Cloud extends Part {
   }
 }
 
-/** Sets a machine to a state, with the first block of its samples; throws a TypeError or RangeError. */
-export function enterCloud(machine: Growing, settings: Values, shown: number) {
-  machine.configureFirst(settings, 0);
-  machine.configureFirst({}, wholeNumber('state.shown', shown, 0, machine.config.samples));
+/**
+ * Sets a new machine to a state if there is one, with the first block of its samples, and returns it. An invalid state frees the machine and
+ * throws a TypeError or RangeError.
+ */
+export function enterCloud<Machine extends Growing & { free(): void }>({ settings }: Figure, machine: Machine, state?: Values): Machine {
+  if (!state) return machine;
+  return freeOnError(machine, () => {
+    machine.configureFirst(settings.declared(state), 0);
+    machine.configureFirst({}, wholeNumber('state.shown', state.shown, 0, machine.config.samples));
+  });
 }
-
-/** Own state of an element with a cloud. */
-export const cloudState: Record<string, import('./state.ts').Owned> = {
-  marked: {
-    opening: null,
-    check: (field, marked, machine, selectableCount) => (marked === null ? null : wholeNumber(field, marked, 0, selectableCount - 1)),
-  },
-};
 
 /** Properties of an element with a cloud. */
 export const cloudProperties: PropertyDescriptorMap & ThisType<Figure> = {

@@ -2,8 +2,7 @@
 
 import { presets, settings, type Declaration } from '../settings.js';
 import { WORD_LIST, attributesOf, presetsOf, type Attributes, type Config } from './attributes.ts';
-import { subset } from './checks.ts';
-import { cloudState } from './cloud.ts';
+import { subset, wholeNumber } from './checks.ts';
 import type { Look } from './controls.ts';
 import type { LineStyle } from './overlays.ts';
 import type { Owned } from './state.ts';
@@ -32,6 +31,14 @@ interface Parts extends Pick<Definition, 'vocabulary' | 'looks' | 'dependentDefa
   /** State besides that of the overlays and the cloud. */
   own?: Record<string, Owned>;
 }
+
+/** State of an element with samples. */
+const cloudState: Record<string, Owned> = {
+  marked: {
+    opening: null,
+    check: (field, marked, machine, selectableCount) => (marked === null ? null : wholeNumber(field, marked, 0, selectableCount - 1)),
+  },
+};
 
 /** Returns the definition of a widget by its tag. */
 export function definitionOf(tag: string, { lines, opening = Object.keys(lines), attributes, own, ...parts }: Parts): Definition {

@@ -113,6 +113,18 @@ export class View {
     return { x: Math.cos(heading), y: -Math.sin(heading) };
   }
 
+  /** Returns a point of the world in pixels. */
+  toPixel(x: number, y: number): [x: number, y: number] {
+    return [this.toPixelX(x), this.toPixelY(y)];
+  }
+
+  /** Returns both ends, in pixels, of a line from a pose in its heading, with a length in pixels. */
+  ray({ x, y, theta }: { x: number, y: number, theta: number }, length: number): [from: [x: number, y: number], to: [x: number, y: number]] {
+    const [fromX, fromY] = this.toPixel(x, y);
+    const ahead = this.direction(theta);
+    return [[fromX, fromY], [fromX + length * ahead.x, fromY + length * ahead.y]];
+  }
+
   /** Sets the target of the view, which stays if it contains `needed`. Otherwise the view zooms out. A released view may also zoom in. */
   fit(needed: Extent) {
     const { width, height } = this;

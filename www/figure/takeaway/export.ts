@@ -9,8 +9,8 @@ import type { Figure } from '../figure.ts';
 
 /** Content for export besides the picture. */
 export interface Takeaway {
-  title: string;
   description: string;
+  /** Settings, which the tag of the element precedes. */
   settings: object;
   /** Names of the columns, with units. */
   columns: string[];
@@ -61,13 +61,15 @@ function hash(text: string) {
   return value.toString(36);
 }
 
+const settingsText = ({ localName }: Figure, settings: object) => JSON.stringify({ element: localName, ...settings });
+
 export function svgOf(element: Figure) {
-  const { settings, title, description } = element.takeaway;
-  const name = `figure-${hash(JSON.stringify(settings))}`;
+  const { settings, description } = element.takeaway;
+  const name = `figure-${hash(settingsText(element, settings))}`;
   const svg = new SvgContext(name);
   const { view, width, height } = drawOn(element, 1, () => svg);
   return `<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height}" viewBox="0 0 ${short(view.width)} ${short(view.height)}" direction="ltr" role="img" aria-labelledby="${name}-title ${name}-text">
-<title id="${name}-title">${escaped(title)}</title>
+<title id="${name}-title">${escaped(element.lettering.name)}</title>
 <desc id="${name}-text">${escaped(description)}</desc>
 <rect width="100%" height="100%" fill="${element.stage.palette.paper}"/>
 ${svg.markup}
@@ -76,8 +78,9 @@ ${svg.markup}
 }
 
 /** Returns CSV: a comment with settings and seed, a header, and a line for each sample with all digits. */
-export function csvOf({ takeaway: { settings, columns, row, count } }: Figure) {
-  const lines = [`# ${JSON.stringify(settings)}`, columns, ...Array.from({ length: count }, (_, i) => row(i))];
+export function csvOf(element: Figure) {
+  const { settings, columns, row, count } = element.takeaway;
+  const lines = [`# ${settingsText(element, settings)}`, columns, ...Array.from({ length: count }, (_, i) => row(i))];
   return `${lines.join('\n')}\n`;
 }
 

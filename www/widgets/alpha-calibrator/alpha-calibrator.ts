@@ -22,7 +22,7 @@ import { LogOpener, dropZone, logSection } from './open.ts';
 import { panels } from './panels.ts';
 import { LegPicture, WayPicture } from './pictures.ts';
 import { Plate } from './plate.ts';
-import { legOf, readingOf } from './reading.ts';
+import { legOf, readingOf, type Reading } from './reading.ts';
 import { alphaTable, alphaTexts, verdictLine } from './readouts.ts';
 import { COMPONENTS, LINES, definition, kindOf } from './settings.ts';
 import { calibratorStyles } from './styles.ts';
@@ -30,7 +30,6 @@ import { systematicTable, systematicTexts } from './systematic.ts';
 import { captionOf, judgementOf, legText, reasonOf, wayText } from './words.ts';
 import type { AlphaCalibrator as Machine, CalibrationLog, CalibrationPanel, LegView, Motion } from '../../types.d.ts';
 import type { Warning } from '../../logs/log.ts';
-import type { Reading } from './reading.ts';
 
 /** Log of the reader or of the page, with the fit that the service has made, and the settings of the fit. */
 interface Given {
@@ -216,9 +215,8 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
     const of = (numbers: Float64Array, i: number, size: number) => numbers.subarray(size * i, size * (i + 1));
     const poses = (whose: string) => ['from', 'to'].flatMap((end) => ['x_m', 'y_m', 'theta_rad'].map((name) => `${whose}_${end}_${name}`));
     return {
-      title: this.lettering.name,
       description: [wayText(this.reading, this.chosen), ...alphaTexts(this.reading).map((text) => `${text}.`), captionOf(this), reasonOf(this.reading), ...systematicTexts(this.reading)].join(' '),
-      settings: { element: this.localName, log: this.log?.name ?? null, ...fitted },
+      settings: { log: this.log?.name ?? null, ...fitted },
       columns: [
         'begins_s', 'ends_s', ...poses('odometry'), ...poses('reference'), 'reading_1', 'reading_2', 'reading_3',
         ...['residual', 'standardized', 'std'].flatMap((what) => COMPONENTS[fitted.model].map((name) => `${what}_${name}`)), 'squared_mahalanobis', 'outlier',

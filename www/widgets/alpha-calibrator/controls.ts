@@ -9,8 +9,7 @@ import { readoutList } from '../../ui/readouts.ts';
 import { sliderRow } from '../../ui/slider.ts';
 import { observedOf } from './reading.ts';
 import { kindOf, settingsFor } from './settings.ts';
-
-export type Figure = import('./alpha-calibrator.ts').AlphaCalibratorElement;
+import type { AlphaCalibratorElement as Figure } from './alpha-calibrator.ts';
 
 /** Returns the slider of the leg that is shown. */
 export function legControls(figure: Figure) {

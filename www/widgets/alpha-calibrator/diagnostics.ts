@@ -6,8 +6,7 @@ import { button, group } from '../../ui/controls.ts';
 import { NOTHING, counted, fixed, percent, rounded } from '../../ui/format.ts';
 import { figureTable, readoutList } from '../../ui/readouts.ts';
 import { checked, expectedOf, messageOf } from './words.ts';
-
-export type Figure = import('./alpha-calibrator.ts').AlphaCalibratorElement;
+import type { AlphaCalibratorElement as Figure } from './alpha-calibrator.ts';
 
 /** Returns all diagnostics, each in a separate group. */
 export function diagnostics(figure: Figure) {

@@ -5,7 +5,8 @@ import { live } from 'lit/directives/live.js';
 import { candidates, usefulSeries } from '../../logs/candidates.ts';
 import { ROLES, UNITS, framesText, type Choice, type Question, type Recording, type Role } from '../../logs/log.ts';
 import { radioGroup } from '../../ui/controls.ts';
-import type { Asked, Chosen, Figure, LogOpener, LogWords } from './open.ts';
+import type { AlphaCalibratorElement } from './alpha-calibrator.ts';
+import type { Asked, Chosen, LogOpener, LogWords } from './open.ts';
 
 /** Fields of a table. */
 const FIELDS = ['t', 'x', 'y', 'yaw', 'qx', 'qy', 'qz', 'qw', 'v', 'omega'] as const;
@@ -118,7 +119,7 @@ function columnsForm(opener: LogOpener, asked: Asked, answer: string[] | undefin
 const idOf = ({ file, ask: { what } }: Asked) => `log-${what}-${file.replaceAll(/[^\w-]/g, '_')}`;
 
 /** Moves the focus to the chooser of a question, unless it is in one. Returns whether there is one. */
-export function focusOn({ renderRoot }: Figure, asked: Asked): boolean {
+export function focusOn({ renderRoot }: AlphaCalibratorElement, asked: Asked): boolean {
   const { what, role = 'odometry' }: Question = asked.ask;
   const places = { series: `#log-${role}`, frames: `#log-${role}`, roles: '[id^=log-role-]' } as Partial<Record<Question['what'], string>>;
   const chooser = renderRoot.querySelector<HTMLElement>(places[what] ?? `#${idOf(asked)}`);

@@ -7,8 +7,7 @@ import { words } from '../../messages/registry.ts';
 import { button } from '../../ui/controls.ts';
 import { nav2Lines } from './lines.ts';
 import { legsOf } from './settings.ts';
-
-export type Figure = import('./alpha-calibrator.ts').AlphaCalibratorElement;
+import type { AlphaCalibratorElement as Figure } from './alpha-calibrator.ts';
 
 /** Returns the lines for nav2_params.yaml; empty if Nav2 has no such model, or no α's are recommended. */
 function yamlOf({ reading, logName, warnings }: Figure): string {

@@ -6,13 +6,11 @@ import { language, words } from '../../messages/registry.ts';
 import { button } from '../../ui/controls.ts';
 import { FileDrop, fileInput } from '../shared/files.ts';
 import { referenceNoise } from './controls.ts';
-import { isStopped } from './log-service.ts';
+import { isStopped, type LogFailure } from './log-service.ts';
 import type { Drive, Plan, Wishes } from '../../logs/drives.ts';
 import type { OpenOptions, Question, Recording, Role } from '../../logs/log.ts';
 import type { CalibrationLog } from '../../types.d.ts';
-import type { LogFailure } from './log-service.ts';
-
-export type Figure = import('./alpha-calibrator.ts').AlphaCalibratorElement;
+import type { AlphaCalibratorElement as Figure } from './alpha-calibrator.ts';
 
 export type LogWords = typeof import('../../logs/en.ts').log;
 

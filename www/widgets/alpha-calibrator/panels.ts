@@ -4,14 +4,12 @@ import { html } from 'lit';
 import { words } from '../../messages/registry.ts';
 import { radioGroup, rich } from '../../ui/controls.ts';
 import { NOTHING } from '../../ui/format.ts';
-import { plot } from '../../ui/plot.ts';
+import { plot, type Curve } from '../../ui/plot.ts';
 import { adviceOf, alphaOrBound, isZero, missingMotion } from './lines.ts';
 import { COMPONENTS } from './settings.ts';
 import { alphaName, localized, thousandths } from './words.ts';
 import type { CalibrationPanel } from '../../types.d.ts';
-import type { Curve } from '../../ui/plot.ts';
-
-export type Figure = import('./alpha-calibrator.ts').AlphaCalibratorElement;
+import type { AlphaCalibratorElement as Figure } from './alpha-calibrator.ts';
 
 /** Smallest squared distance or rotation: of a millimetre, or a thousandth of a radian. */
 const DRIVEN = 1e-6;

@@ -5,11 +5,10 @@ import { clipped, drawAxes, lineKey } from '../../scene/axes.ts';
 import { drawDots, drawMark, drawOutline, drawOutlines, drawRobot } from '../../scene/draw.ts';
 import { Picture, SamplesPicture } from '../../scene/picture.ts';
 import { View, extentAround, extentOf } from '../../scene/view.ts';
-import { CLASSES, LINES } from './settings.ts';
+import { CLASSES, LINES, type LineName } from './settings.ts';
 import { WayLayer, drawRings, styleOf } from './way.ts';
 import type { LegView } from '../../types.d.ts';
 import type { Reading } from './reading.ts';
-import type { LineName } from './settings.ts';
 
 /** Scene with the leg that is shown. */
 export type Scene = Reading & { chosen: number, leg: LegView | null, overlays: LineName[] };

@@ -4,13 +4,11 @@ import { words } from '../../messages/registry.ts';
 import { brushOn } from '../../scene/canvas.ts';
 import { Picture } from '../../scene/picture.ts';
 import { View } from '../../scene/view.ts';
-import { WayPicture } from './pictures.ts';
+import { WayPicture, type Scene } from './pictures.ts';
 import { alphaTexts } from './readouts.ts';
 import { systematicTexts } from './systematic.ts';
 import { captionOf, reasonOf } from './words.ts';
-import type { Scene } from './pictures.ts';
-
-export type Figure = import('./alpha-calibrator.ts').AlphaCalibratorElement;
+import type { AlphaCalibratorElement as Figure } from './alpha-calibrator.ts';
 
 /** Layout in pixels: the path at the left, the α's next to it, and sentences below. */
 const [WIDTH, HEIGHT] = [720, 560];

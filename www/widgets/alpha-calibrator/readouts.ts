@@ -5,11 +5,9 @@ import { words } from '../../messages/registry.ts';
 import { rich } from '../../ui/controls.ts';
 import { NOTHING, powerOfTen, tick } from '../../ui/format.ts';
 import { adviceOf, alphaOrBound, fixed } from './lines.ts';
-import { truthHolds } from './reading.ts';
+import { truthHolds, type Reading } from './reading.ts';
 import { alphaName, judgementOf, legsText, localized, noiseNames } from './words.ts';
-import type { Reading } from './reading.ts';
-
-export type Figure = import('./alpha-calibrator.ts').AlphaCalibratorElement;
+import type { AlphaCalibratorElement as Figure } from './alpha-calibrator.ts';
 
 /** Size of a whisker's row. */
 const CHART = { width: 200, height: 24, middle: 12, inset: 12 };

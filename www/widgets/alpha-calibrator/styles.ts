@@ -14,7 +14,7 @@ const own = css`
     border-radius: 3px;
   }
 
-  .drop-zone p {
+  :is(.drop-zone p, .meaning, .looked fieldset) {
     margin: 0;
   }
 
@@ -141,7 +141,6 @@ const own = css`
     padding: 0.1em 0.6em;
     border: 1px solid var(--paper);
     border-radius: 3px;
-    line-height: 1;
     background: var(--prediction);
     color: var(--paper);
     font-weight: bold;
@@ -205,7 +204,6 @@ const own = css`
     padding: 0 0 0 0.6em;
     line-height: 1.2;
     white-space: nowrap;
-    vertical-align: middle;
   }
 
   /* Rows of 32 px at a font size of 16 px. */
@@ -298,10 +296,6 @@ const own = css`
     line-height: 1.3;
   }
 
-  .meaning {
-    margin: 0;
-  }
-
   .systematic :is(th, td) {
     padding-block: 0;
   }
@@ -323,10 +317,6 @@ const own = css`
 
   .looked .slider {
     padding-bottom: 0.2em;
-  }
-
-  .looked fieldset {
-    margin: 0;
   }
 
   [part='controls'] .controls {
@@ -392,10 +382,6 @@ const own = css`
       grid-column: 1 / -1;
     }
 
-    .fitted .panel-title {
-      flex: none;
-    }
-
     canvas {
       aspect-ratio: 8 / 5;
     }
@@ -407,6 +393,10 @@ const own = css`
 
   /* Each α in one line, while its table has the width of the figure. */
   @container (38em <= width < 56em) {
+    .fitted .panel-title {
+      flex: none;
+    }
+
     .alphas .line {
       display: flex;
       align-items: center;
@@ -442,10 +432,6 @@ const own = css`
 
     .fitted {
       grid-column: auto;
-    }
-
-    .fitted .panel-title {
-      flex: 1 0 100%;
     }
 
     canvas {

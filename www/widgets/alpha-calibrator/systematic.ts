@@ -7,8 +7,7 @@ import { fixed } from '../../ui/format.ts';
 import { SYSTEMATIC } from './lines.ts';
 import type { Interval } from '../../types.d.ts';
 import type { Reading } from './reading.ts';
-
-export type Figure = import('./alpha-calibrator.ts').AlphaCalibratorElement;
+import type { AlphaCalibratorElement as Figure } from './alpha-calibrator.ts';
 
 type SystematicError = Reading['stats']['systematicErrors']['mountYaw' | 'leverArm'];
 

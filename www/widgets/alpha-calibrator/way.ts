@@ -3,14 +3,12 @@
  * their own.
  */
 
-import { hiddenContext } from '../../scene/canvas.ts';
+import { hiddenContext, type Brush } from '../../scene/canvas.ts';
 import { lineStyles } from '../../scene/draw.ts';
 import { channels } from '../../ui/theme.ts';
-import { CLASSES, LINES } from './settings.ts';
+import { CLASSES, LINES, type LineName } from './settings.ts';
 import type { CalibrationLegs } from '../../types.d.ts';
 import type { Painter } from '../../scene/walls.ts';
-import type { Brush } from '../../scene/canvas.ts';
-import type { LineName } from './settings.ts';
 
 export type Style = { colour: string, width: number, dash: number[] };
 
@@ -106,7 +104,7 @@ function* drawWay(brush: Painter, legs: CalibrationLegs, classes: Uint8Array, ov
 /** Returns the ends of the outliers, CSS pixels. */
 function outlierEnds({ view }: Painter, { outliers, reference }: CalibrationLegs): [number, number][] {
   const all = [...outliers.keys()].filter((leg) => outliers[leg] > 0);
-  return all.map((leg) => [view.toPixelX(reference[6 * leg + 3]), view.toPixelY(reference[6 * leg + 4])]);
+  return all.map((leg) => view.toPixel(reference[6 * leg + 3], reference[6 * leg + 4]));
 }
 
 /** Draws rings around outliers at points in CSS pixels. */

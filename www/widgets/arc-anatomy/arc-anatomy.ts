@@ -13,13 +13,12 @@ import { presetButtons } from '../shared/presets.ts';
 import { commandControls, likelihoodControls, lineStepper, noiseControls, timeControl } from './controls.ts';
 import { formsPlot } from './forms.ts';
 import { ArcPicture, RADIUS } from './picture.ts';
-import { readingOf } from './reading.ts';
+import { readingOf, type Reading } from './reading.ts';
 import { factorBars, headline, likelihoods, tableOf } from './readouts.ts';
 import { LINES, REACH, WHOLE, definition } from './settings.ts';
 import { anatomyStyles } from './styles.ts';
 import { captionOf, pictureText } from './words.ts';
 import type { ArcAnatomy as Machine } from '../../types.d.ts';
-import type { Reading } from './reading.ts';
 
 /** Bounds of both poses, m. */
 const BOUNDS = [-REACH, -REACH, REACH, REACH];
@@ -39,14 +38,7 @@ export class ArcAnatomyElement extends FigureElement<Machine, Reading> {
   #picture = new ArcPicture();
   pictures = [this.#picture];
   /** The final pose is on top if both poses are in one place. */
-  #handles: PoseHandles[] = (['start', 'next'] as const).map(
-    (setting) =>
-      new PoseHandles(this, setting, {
-        view: () => this.#picture.view,
-        bounds: () => BOUNDS,
-        say: () => ({ ...words.anatomy.handles[setting], ends: words.anatomy.handles.ends }),
-      }),
-  );
+  #handles: PoseHandles[] = ['start', 'next'].map((setting) => new PoseHandles(this, setting, () => this.#picture.view, () => BOUNDS));
 
   player: Player<'underway'> = new Player(this, {
     // The animation of every arc takes the same time. The duration of the command is displayed next to it.
@@ -67,9 +59,8 @@ export class ArcAnatomyElement extends FigureElement<Machine, Reading> {
   get takeaway() {
     const { config, stats: { factors } } = this.fresh;
     return {
-      title: this.lettering.name,
       description: pictureText(this.reading),
-      settings: { element: this.localName, ...config },
+      settings: config,
       columns: ['estimate', 'residual', 'standard_deviation', 'residual_over_deviation', 'prob', 'share_of_peak'],
       row: (i: number) => {
         const { estimate, residual, deviation, deviations, value, share } = factors[i];
@@ -90,10 +81,8 @@ export class ArcAnatomyElement extends FigureElement<Machine, Reading> {
     this.stage.requestFrame();
   }
 
-  placeHandles({ config: { start, next } }: Reading) {
-    const [before, after] = this.#handles;
-    before.place(start, RADIUS);
-    after.place(next, RADIUS);
+  placeHandles({ config }: Reading) {
+    for (const handles of this.#handles) handles.place(config, RADIUS);
   }
 
   content(reading: Reading) {

@@ -10,8 +10,7 @@ import { track } from '../../ui/slider.ts';
 import { lineText } from './readouts.ts';
 import { ALPHAS, COMMAND, TABLE_LINES, WHOLE } from './settings.ts';
 import { CONTOURS } from './surface.ts';
-
-export type Figure = import('./arc-anatomy.ts').ArcAnatomyElement;
+import type { ArcAnatomyElement as Figure } from './arc-anatomy.ts';
 
 export const commandControls = (figure: Figure) => group(words.command, sliders(figure, COMMAND));
 

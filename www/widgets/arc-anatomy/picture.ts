@@ -9,11 +9,10 @@ import { View, extentAround } from '../../scene/view.ts';
 import { clamp } from '../../ui/clamp.ts';
 import { fixed, significant } from '../../ui/format.ts';
 import { drawHeldRobot, drawRobotOutline } from '../shared/robot.ts';
-import { LINES } from './settings.ts';
+import { LINES, type LineName } from './settings.ts';
 import { CONTOURS, SurfaceLayer } from './surface.ts';
 import type { ArcAnatomy, Bend, Pose } from '../../types.d.ts';
 import { addLine, drawDisc, stroke, strokeLine, type Brush } from '../../scene/canvas.ts';
-import type { LineName } from './settings.ts';
 import type { Reading } from './reading.ts';
 
 export type Scene = Reading & { machine: ArcAnatomy, overlays: LineName[], line: number, underway: Float64Array | undefined };
@@ -35,6 +34,9 @@ const WEDGE = 64;
 
 /** Half of the cross at a centre, CSS pixels. */
 const CROSS = 4;
+
+/** Length of the line in the heading at the commanded end, CSS pixels. */
+const HEADING = 24;
 
 /** Length of the arrow towards a centre outside the picture, CSS pixels. */
 const ARROW = 9;
@@ -104,7 +106,7 @@ export class ArcPicture extends Picture<Scene> {
       if (shows('commanded')) {
         const [endX, endY, endTheta] = commanded.end;
         drawRobotOutline(brush, endX, endY, RADIUS, styles.commanded.colour);
-        drawHeading(brush, { x: endX, y: endY, theta: endTheta }, styles.commanded.colour);
+        strokeLine(brush.context, brush.view.ray({ x: endX, y: endY, theta: endTheta }, HEADING), { colour: styles.commanded.colour, width: 1.5 });
       }
       drawUnderway(brush, scene);
       drawHeldRobot(brush, start, RADIUS, palette.truth);
@@ -134,15 +136,14 @@ function keyOf(brush: Brush, { overlays, config: { map } }: Scene) {
 function drawCircle(brush: Brush, start: Pose, { center, end, turn, arcLength }: Bend, { colour, dash, side, angle, radius: signed }: { colour: string, dash: number[], side: number, angle: string, radius: string }) {
   if (!center) return;
   const { context, view } = brush;
-  const [x, y] = [view.toPixelX(center[0]), view.toPixelY(center[1])];
-  const [fromX, fromY] = [view.toPixelX(start.x), view.toPixelY(start.y)];
-  const [toX, toY] = [view.toPixelX(end[0]), view.toPixelY(end[1])];
+  const [x, y] = view.toPixel(center[0], center[1]);
+  const [fromX, fromY] = view.toPixel(start.x, start.y);
   const ahead = view.direction(start.theta);
   const [offX, offY] = [1.5 * side * ahead.x, 1.5 * side * ahead.y];
   const seen = shareSeen(view.frame, [fromX, fromY], [x, y]);
   stroke(context, { colour, width: 1.25, dash }, () => {
     addLine(context, [[fromX + offX, fromY + offY], [x + offX, y + offY]]);
-    addLine(context, [[x, y], [toX, toY]]);
+    addLine(context, [[x, y], view.toPixel(end[0], end[1])]);
   });
   stroke(context, { colour, width: 2 }, () => {
     addLine(context, [[x - CROSS, y], [x + CROSS, y]]);
@@ -186,7 +187,7 @@ function shareSeen({ left, right, top, bottom }: import('../../scene/view.ts').V
 
 /** Draws the last turn in radians, by which the final heading differs from that of the arc. */
 function drawWedge({ context, view }: Brush, next: Pose, turn: number, colour: string) {
-  const [x, y] = [view.toPixelX(next.x), view.toPixelY(next.y)];
+  const [x, y] = view.toPixel(next.x, next.y);
   context.beginPath();
   context.moveTo(x, y);
   context.arc(x, y, WEDGE, turn - next.theta, -next.theta, turn > 0);
@@ -196,20 +197,13 @@ function drawWedge({ context, view }: Brush, next: Pose, turn: number, colour: s
   context.fill();
   context.globalAlpha = 1;
   // The side of the wedge that has the heading at the end of the arc.
-  const side = view.direction(next.theta - turn);
-  strokeLine(context, [[x, y], [x + WEDGE * side.x, y + WEDGE * side.y]], { colour, width: 1.25 });
+  strokeLine(context, view.ray({ ...next, theta: next.theta - turn }, WEDGE), { colour, width: 1.25 });
 }
 
 /** Returns the place of the wedge's label, which covers nothing of the wedge, CSS pixels. */
 function besideWedge({ view }: Brush, next: Pose, turn: number): { x: number, y: number, towards: number } {
   const ahead = view.direction(next.theta - turn / 2);
   return { x: view.toPixelX(next.x) + (WEDGE + 8) * ahead.x, y: view.toPixelY(next.y) + (WEDGE + 20) * ahead.y, towards: ahead.x };
-}
-
-function drawHeading({ context, view }: Brush, { x, y, theta }: Pose, colour: string) {
-  const ahead = view.direction(theta);
-  const [px, py] = [view.toPixelX(x), view.toPixelY(y)];
-  strokeLine(context, [[px, py], [px + 24 * ahead.x, py + 24 * ahead.y]], { colour, width: 1.5 });
 }
 
 /** Draws the robot at one time on each path that is shown. */
@@ -233,7 +227,7 @@ function drawTwistTicks(brush: Brush, ticks: Float64Array, colour: string) {
 function drawLit(brush: Brush, { config: { start, next }, stats: { inverted, lastTurn }, table: { middle }, paths, line: number }: Scene) {
   const lit = LIT[number] ?? [];
   const { context, view, palette: { accent } } = brush;
-  const at = ([x, y]: number[]) => [view.toPixelX(x), view.toPixelY(y)];
+  const at = ([x, y]: number[]) => view.toPixel(x, y);
   const line = (width: number, ...points: number[][]) => strokeLine(context, points, { colour: accent, width });
   const from = at([start.x, start.y]);
   const to = at([next.x, next.y]);

@@ -6,7 +6,7 @@ import { plotStyles } from '../../ui/plot.ts';
 
 const own = css`
   .headline {
-    margin: 0 0 0.5em;
+    margin-block: 0 0.5em;
     line-height: 1.25;
   }
 
@@ -16,32 +16,36 @@ const own = css`
     line-height: 1.15;
   }
 
-  .factors {
+  :is(.factors, .lines) {
     display: grid;
-    gap: 0.5em;
     margin: 0 0 0.6em;
     padding: 0;
-    list-style: none;
+  }
+
+  .factors {
+    gap: 0.5em;
+  }
+
+  :is(.factors, .lines) li {
+    padding-left: calc(0.5em + 3px);
+  }
+
+  :is(.factors.lit li, .weakest, .lines .lit) {
+    padding-left: 0.5em;
+    border-left: 3px solid var(--accent);
   }
 
   .factors li {
     display: grid;
     grid-template: 'estimate estimate' 'bar bar' 'keeps off' / 1fr auto;
     align-content: start;
-    padding-left: calc(0.5em + 3px);
-  }
-
-  .factors.lit li,
-  .factors .weakest {
-    padding-left: 0.5em;
-    border-left: 3px solid var(--accent);
   }
 
   .factors .estimate {
     grid-area: estimate;
   }
 
-  .factors .off {
+  .factors :is(.off, .keeps) {
     grid-area: off;
     font-size: 0.84em;
   }
@@ -70,7 +74,6 @@ const own = css`
   .factors .keeps {
     grid-area: keeps;
     color: var(--muted);
-    font-size: 0.84em;
     line-height: 1.25;
   }
 
@@ -128,19 +131,10 @@ const own = css`
     padding-bottom: 0;
   }
 
-  .lines {
-    margin: 0 0 0.6em;
-    padding: 0;
-    list-style: none;
-  }
-
   .lines li {
-    padding: 0.1em 0.5em 0.1em calc(0.5em + 3px);
-  }
-
-  .lines .lit {
-    padding-left: 0.5em;
-    border-left: 3px solid var(--accent);
+    display: block;
+    padding-block: 0.1em;
+    padding-right: 0.5em;
   }
 
   .about {

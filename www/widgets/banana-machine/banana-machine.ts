@@ -24,14 +24,13 @@ import { ArcHandle } from './handle.ts';
 import { IntroducedCloud } from './introduction.ts';
 import { DURATION, carrying, morphControl, outlinesAt, placeOf, ringsOf } from './morph.ts';
 import { PlanePicture, TwistPicture } from './pictures.ts';
-import { Curve, readingOf } from './reading.ts';
+import { Curve, readingOf, type Reading } from './reading.ts';
 import { markedRobot, otherReadouts, readouts, twistTable, workedExample } from './readouts.ts';
 import { LINES, OVERLAYS, SAMPLE_COUNTS, definition, looks } from './settings.ts';
 import { bananaStyles } from './styles.ts';
 import { announcementOf, calloutsOf, captionOf, floorTitle, planeText, skewText, twistCaption, twistText } from './words.ts';
 import type { BananaMachine as Machine, Inspection } from '../../types.d.ts';
 import type { Values } from '../../figure/state.ts';
-import type { Reading } from './reading.ts';
 
 /** Columns of a robot in a table: its end, its exponential coordinates, and the executed command. */
 const POSE_COLUMNS = ['x_m', 'y_m', 'theta_rad'];
@@ -78,12 +77,10 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
     const machine = motion.BananaMachine.empty();
     if (!state) return machine;
     const { model, alphas } = state;
-    return freeOnError(machine, () => {
-      // Each model keeps its own α's.
-      const other = model === 'velocity' ? 'odometry' : 'velocity';
-      machine.configureFirst({ model: other, alphas: alphas[other] }, 0);
-      enterCloud(machine, { ...this.settings.declared(state), alphas: alphas[model] }, state.shown);
-    });
+    // Each model keeps its own α's.
+    const other = model === 'velocity' ? 'odometry' : 'velocity';
+    freeOnError(machine, () => machine.configureFirst({ model: other, alphas: alphas[other] }, 0));
+    return enterCloud(this, machine, { ...state, alphas: alphas[model] });
   };
 
   read = readingOf;
@@ -138,9 +135,8 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
     const { config, shown: count } = this.fresh;
     const { poses, twists, executed } = this.machine as Machine;
     return {
-      title: this.lettering.name,
       description: this.#description,
-      settings: { element: this.localName, ...config },
+      settings: config,
       columns: [...POSE_COLUMNS, ...TWIST_COLUMNS, ...EXECUTED_COLUMNS[config.model]],
       row: (i: number) => [poses, twists, executed].flatMap((each) => [...each.subarray(3 * i, 3 * i + 3)]),
       count,

@@ -7,8 +7,7 @@ import { choice, group, toggle } from '../../ui/controls.ts';
 import { typed } from '../../ui/format.ts';
 import { alphaName } from './reading.ts';
 import { COMMAND } from './settings.ts';
-
-export type Figure = import('./banana-machine.ts').BananaMachineElement;
+import type { BananaMachineElement as Figure } from './banana-machine.ts';
 
 export function commandControls(figure: Figure) {
   return group(words.command, sliders(figure, COMMAND));

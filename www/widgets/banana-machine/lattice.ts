@@ -15,8 +15,7 @@ export function drawLattice({ context, view, palette }: Brush, { extent: { xMin,
   context.globalAlpha = 0.7 * Math.min(1, 5 * morph);
   const line = (at: (share: number) => [along: number, heading: number]) => addLine(context, Array.from({ length: CHORDS + 1 }, (_, i) => {
     const [along, heading] = at(i / CHORDS);
-    const [x, y] = placeOf([along, 0, heading], morph);
-    return [view.toPixelX(x), view.toPixelY(y)];
+    return view.toPixel(...placeOf([along, 0, heading], morph));
   }));
   stroke(context, { colour: palette.rule, width: 1 }, () => {
     for (const along of ticks(xMin, xMax, LINES)) line((share) => [along, yMin + share * (yMax - yMin)]);

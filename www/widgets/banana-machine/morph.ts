@@ -2,11 +2,10 @@
 
 import { html } from 'lit';
 import { words } from '../../messages/registry.ts';
-import { View } from '../../scene/view.ts';
+import { View, type Extent } from '../../scene/view.ts';
 import { percent } from '../../ui/format.ts';
 import { track } from '../../ui/slider.ts';
 import type { Motion } from '../../types.d.ts';
-import type { Extent } from '../../scene/view.ts';
 import type { Reading } from './reading.ts';
 
 /** Lines on the floor, or their images under the morph. */

@@ -2,7 +2,7 @@
 
 import { words } from '../../messages/registry.ts';
 import { clipped, drawAxes, lineKey } from '../../scene/axes.ts';
-import { drawCallouts } from '../../scene/callout.ts';
+import { drawCallouts, type Callout } from '../../scene/callout.ts';
 import {
   densityRamp,
   drawDots,
@@ -24,15 +24,11 @@ import { View, extentOf } from '../../scene/view.ts';
 import { clamp } from '../../ui/clamp.ts';
 import { counted } from '../../ui/format.ts';
 import { drawLattice } from './lattice.ts';
-import { MorphView, placeOf } from './morph.ts';
-import { deviation } from './reading.ts';
-import { LINES } from './settings.ts';
+import { MorphView, placeOf, type Outlines } from './morph.ts';
+import { deviation, type Reading } from './reading.ts';
+import { LINES, type LineName } from './settings.ts';
 import type { BananaMachine, Inspection, Moments } from '../../types.d.ts';
-import type { Callout } from '../../scene/callout.ts';
 import { addLine, drawDisc, stroke, type Brush } from '../../scene/canvas.ts';
-import type { Outlines } from './morph.ts';
-import type { Reading } from './reading.ts';
-import type { LineName } from './settings.ts';
 
 /**
  * Scene of both pictures. Outlines are transformed by the present morph. `reached` is the ellipse after a complete morph. Callouts, and the
@@ -249,7 +245,7 @@ const TURN_LINE = 38;
 /** Draws the odometry reading of the command: rotation, drive, rotation. The drive ends at x, y in metres. */
 function drawReading(brush: Brush, { rot1, trans, rot2 }: import('../../types.d.ts').Legs, [x, y]: [number, number]) {
   const { context, view, palette } = brush;
-  const [fromX, fromY, toX, toY] = [view.toPixelX(0), view.toPixelY(0), view.toPixelX(x), view.toPixelY(y)];
+  const [[fromX, fromY], [toX, toY]] = [view.toPixel(0, 0), view.toPixel(x, y)];
   const ahead = view.direction(rot1);
   const last = view.direction(rot1 + rot2);
   const colour = palette.prior;
@@ -343,7 +339,7 @@ export class TwistPicture extends CloudPicture {
       }
       if (overlays.command) {
         const { v, omega, dt } = config.command;
-        drawDisc(context, [view.toPixelX(v * dt), view.toPixelY(omega * dt)], 5, palette.paper, { ...command, dash: [] });
+        drawDisc(context, view.toPixel(v * dt, omega * dt), 5, palette.paper, { ...command, dash: [] });
       }
       if (marked) drawMark(brush, { x: marked.twist[0], y: marked.twist[2], heading: null });
     });

@@ -8,7 +8,7 @@ const own = css`
   @container (min-width: 30em) {
     .views {
       grid-template-columns: 1fr 1fr;
-      gap: 1em;
+      column-gap: 1em;
     }
   }
 
@@ -34,10 +34,8 @@ const own = css`
   /* Margin for the fade below the pictures. */
   .morphing {
     display: flex;
-    flex-wrap: wrap;
-    justify-content: end;
     align-items: start;
-    gap: 0.5em 1em;
+    gap: 1em;
     margin-top: 0.7em;
   }
 
@@ -46,26 +44,24 @@ const own = css`
     --thumb: var(--posterior);
     flex: 1;
     display: grid;
-    grid-template: 'play track track' auto 'play floor twist' auto / auto auto 1fr;
+    grid-template-columns: auto auto 1fr;
     align-items: start;
     column-gap: 0.75em;
   }
 
   .morph button {
-    grid-area: play;
+    grid-row: span 2;
   }
 
   .morph input {
-    grid-area: track;
-    min-width: 0;
+    grid-column: 2 / -1;
   }
 
   .morph .floor {
-    grid-area: floor;
+    grid-column: 2;
   }
 
   .morph .twist {
-    grid-area: twist;
     text-align: end;
   }
 

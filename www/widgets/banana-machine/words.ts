@@ -4,9 +4,8 @@ import { addEnglish, words } from '../../messages/registry.ts';
 import { counted, fixed, percent, withError } from '../../ui/format.ts';
 import { commandText } from '../shared/command.ts';
 import { en } from './en.ts';
-import { deviation, spreadOf } from './reading.ts';
+import { deviation, spreadOf, type Reading } from './reading.ts';
 import type { Callout } from '../../scene/callout.ts';
-import type { Reading } from './reading.ts';
 
 addEnglish({ banana: en });
 

@@ -6,8 +6,7 @@ import { words } from '../../messages/registry.ts';
 import { group } from '../../ui/controls.ts';
 import { fixed } from '../../ui/format.ts';
 import { COMMAND, NOISE, SAMPLE_COUNTS } from './settings.ts';
-
-export type Figure = import('./dead-reckoning.ts').DeadReckoningElement;
+import type { DeadReckoningElement as Figure } from './dead-reckoning.ts';
 
 export function recursionChoice(figure: Figure) {
   return choices(figure, 'compounding', words.reckoning.recursions);

@@ -7,20 +7,18 @@ import { FigureElement } from '../../figure/figure.ts';
 import { legend } from '../../figure/overlays.ts';
 import { reserve } from '../../figure/page/room.ts';
 import { define } from '../../figure/reflection.ts';
-import { freeOnError } from '../../figure/runtime.ts';
 import { words } from '../../messages/registry.ts';
 import { Memo } from '../../scene/memo.ts';
 import { presetButtons } from '../shared/presets.ts';
 import { moreControls, pathControls, recursionChoice } from './controls.ts';
 import { PathPicture, StepPicture } from './pictures.ts';
-import { COMPONENTS, readingOf } from './reading.ts';
+import { COMPONENTS, readingOf, type Reading } from './reading.ts';
 import { headline, markedRobot, missTable, ratioPlot, straightPlot } from './readouts.ts';
 import { OUTLINES, RECURSIONS, definition } from './settings.ts';
 import { reckoningStyles } from './styles.ts';
 import { announcementOf, captionOf, planeText, stepText } from './words.ts';
 import type { Values } from '../../figure/settings.ts';
 import type { DeadReckoning as Machine } from '../../types.d.ts';
-import type { Reading } from './reading.ts';
 
 /** Units of the components' variances. */
 const UNITS = { along: 'm2', lateral: 'm2', heading: 'rad2' };
@@ -48,12 +46,8 @@ export class DeadReckoningElement extends FigureElement<Machine, Reading> {
   #rollout: Memo<Float64Array> = new Memo();
   #straight: Memo<Machine['straightGrowth']> = new Memo();
 
-  createMachine: FigureElement<Machine, Reading>['createMachine'] = (motion, state) => {
-    // The machine starts empty: robots appear visibly, and the first frame need not wait for them.
-    const machine = motion.DeadReckoning.empty();
-    if (!state) return machine;
-    return freeOnError(machine, () => enterCloud(machine, this.settings.declared(state), state.shown));
-  };
+  // The machine starts empty: robots appear visibly, and the first frame need not wait for them.
+  createMachine: FigureElement<Machine, Reading>['createMachine'] = (motion, state) => enterCloud(this, motion.DeadReckoning.empty(), state);
 
   completed(present: Values, given: Values) {
     // If the path gets shorter than the selected step, its last step is selected.
@@ -72,9 +66,8 @@ export class DeadReckoningElement extends FigureElement<Machine, Reading> {
     const { measured, relativeErrors, predicted } = this.machine as Machine;
     const of = (triples: Float64Array, i: number) => triples.subarray(3 * i, 3 * i + 3);
     return {
-      title: this.lettering.name,
       description: planeText(this.reading),
-      settings: { element: this.localName, ...config },
+      settings: config,
       columns: [
         'step',
         ...columnsOf('measured'),

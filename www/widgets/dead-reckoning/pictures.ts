@@ -2,13 +2,12 @@
 
 import { words } from '../../messages/registry.ts';
 import { clipped, drawAxes, lineKey } from '../../scene/axes.ts';
-import { drawCallouts } from '../../scene/callout.ts';
+import { drawCallouts, type Callout } from '../../scene/callout.ts';
 import { drawDots, drawGhosts, drawMark, drawOutlines, drawRobot, lineStyles, strokeLines } from '../../scene/draw.ts';
 import { Picture, SamplesPicture } from '../../scene/picture.ts';
 import { View, extentAround, extentOf } from '../../scene/view.ts';
 import { significant } from '../../ui/format.ts';
 import { OUTLINES } from './settings.ts';
-import type { Callout } from '../../scene/callout.ts';
 import { drawDisc, type Brush } from '../../scene/canvas.ts';
 
 /** Scene of both pictures, with the poses of the selected robot after each step. */
@@ -73,7 +72,7 @@ const PLACE = 4;
 
 /** Marks the end of the command after the step: small, so that the cloud is seen around it. */
 function drawPlace({ context, view, palette }: Brush, [x, y]: Float64Array) {
-  drawDisc(context, [view.toPixelX(x), view.toPixelY(y)], PLACE, palette.prior, { colour: palette.paper, width: 1.5 });
+  drawDisc(context, view.toPixel(x, y), PLACE, palette.prior, { colour: palette.paper, width: 1.5 });
 }
 
 /** Draws the robots after another step. */

@@ -6,14 +6,12 @@ import { legend } from '../../figure/overlays.ts';
 import { words } from '../../messages/registry.ts';
 import { rich } from '../../ui/controls.ts';
 import { NOTHING, fixed, significant } from '../../ui/format.ts';
-import { plot } from '../../ui/plot.ts';
+import { plot, type Role } from '../../ui/plot.ts';
 import { figureTable, readoutList } from '../../ui/readouts.ts';
-import { COMPONENTS } from './reading.ts';
+import { COMPONENTS, type Reading } from './reading.ts';
 import { CURVES, RECURSIONS } from './settings.ts';
 import { componentsOf, endText, ratioText, worstAt } from './words.ts';
 import type { Misses } from '../../types.d.ts';
-import type { Reading } from './reading.ts';
-import type { Role } from '../../ui/plot.ts';
 
 /** Allowed heights of the plot, so that its axis does not change with every step of a drag. */
 const HEIGHTS = [1.2, 1.6, 2, 3, 5, 10];

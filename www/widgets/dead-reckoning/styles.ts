@@ -68,30 +68,20 @@ const own = css`
       aspect-ratio: 2;
     }
 
-    .ratios {
-      grid-area: ratios;
-    }
-
-    .said {
-      grid-area: said;
-    }
-
-    .floor {
-      grid-area: floor;
-    }
-
-    .step {
-      grid-area: step;
-    }
-
+    /* Two columns: the chart above its message, the floor above the step. */
     .views {
-      grid-template: 'ratios floor' 'said step' / minmax(0, 1.45fr) minmax(0, 1fr);
-      gap: 0.25em 1em;
+      grid-template: auto auto / minmax(0, 1.45fr) minmax(0, 1fr);
+      grid-auto-flow: column;
+      column-gap: 1em;
+    }
+
+    :host([presentation]) .views {
+      grid-template-rows: 1fr auto;
     }
 
     .said {
       display: grid;
-      grid-template: 'headline caption' 'choices choices' / auto 1fr;
+      grid-template-columns: auto 1fr;
       column-gap: 1em;
       align-items: center;
     }
@@ -102,7 +92,7 @@ const own = css`
     }
 
     .said .choices {
-      grid-area: choices;
+      grid-column: 1 / -1;
     }
   }
 
@@ -119,7 +109,8 @@ const own = css`
     }
 
     .views {
-      grid-template: 'ratios floor step' 'said said said' / minmax(0, 1.75fr) minmax(0, 1fr) minmax(0, 1fr);
+      grid-template-columns: minmax(0, 1.75fr) repeat(2, minmax(0, 1fr));
+      grid-auto-flow: row;
     }
 
     /* Sliders in one row with their names need the room of two columns. */
@@ -128,8 +119,13 @@ const own = css`
     }
 
     .said {
-      grid-template: 'headline caption choices' / auto 1fr auto;
+      grid-area: 2 / 1 / auto / -1;
+      grid-template-columns: auto 1fr auto;
       column-gap: 2em;
+    }
+
+    .said .choices {
+      grid-column: auto;
     }
   }
 

@@ -4,8 +4,7 @@ import { addEnglish, words } from '../../messages/registry.ts';
 import { NOTHING, counted, fixed, withError } from '../../ui/format.ts';
 import { commandText } from '../shared/command.ts';
 import { en } from './en.ts';
-import { COMPONENTS } from './reading.ts';
-import type { Reading } from './reading.ts';
+import { COMPONENTS, type Reading } from './reading.ts';
 
 addEnglish({ reckoning: en });
 

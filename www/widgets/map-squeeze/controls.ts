@@ -8,8 +8,7 @@ import { fileInput } from '../shared/files.ts';
 import { EXTENSIONS } from './maps/open.ts';
 import { presetButtons, startOverButton } from '../shared/presets.ts';
 import { COMMAND, MOST_SAMPLES, SAMPLE_COUNTS } from './settings.ts';
-
-export type Figure = import('./map-squeeze.ts').MapSqueezeElement;
+import type { MapSqueezeElement as Figure } from './map-squeeze.ts';
 
 /** Example of a floor plan: a room with a gap in its wall. */
 const EXAMPLE = `{

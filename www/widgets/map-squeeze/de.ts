@@ -76,11 +76,8 @@ export const de: typeof import('./en.ts').en = {
     `${drawn} ${parts ? 'Teilschritte ' : ''}gezogen; ${accepted} ${parts ? 'Bewegungen ' : ''}angenommen, als ${density ? 'Dichte' : 'Punkte'}; davon ${through} durch eine Wand.`,
   rest: (density) => `Der Rest ist verworfen${density ? '' : ', als Kreuze'}.`,
   throughThisWall: 'durch diese Wand',
-  robot: {
-    robot: 'Roboter',
-    robotTitle: 'Zieh den Roboter',
-    heading: 'Richtung des Roboters',
-    headingTitle: 'Dreh den Roboter',
+  handles: {
+    start: { robot: 'Roboter', robotTitle: 'Zieh den Roboter', heading: 'Richtung des Roboters', headingTitle: 'Dreh den Roboter' },
     ends: 'Hier endet die Karte',
   },
   walls: {

@@ -76,11 +76,8 @@ export const en = {
     `${drawn} ${parts ? 'sub-steps ' : ''}drawn; ${accepted} ${parts ? 'motions ' : ''}accepted, as ${density ? 'a density' : 'dots'}; ${through} of those through a wall.`,
   rest: (density) => `The rest is rejected${density ? '' : ', as crosses'}.`,
   throughThisWall: 'through this wall',
-  robot: {
-    robot: 'Robot',
-    robotTitle: 'Drag the robot',
-    heading: 'Heading of the robot',
-    headingTitle: 'Turn the robot',
+  handles: {
+    start: { robot: 'Robot', robotTitle: 'Drag the robot', heading: 'Heading of the robot', headingTitle: 'Turn the robot' },
     ends: 'The map ends here',
   },
   walls: {

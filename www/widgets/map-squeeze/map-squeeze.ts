@@ -18,7 +18,7 @@ import { applyMap, cellsOf, mapData } from './maps/data.ts';
 import { MapOpener } from './maps/open.ts';
 import { overview } from './overview.ts';
 import { FloorPicture } from './picture.ts';
-import { kindOf, readingOf } from './reading.ts';
+import { kindOf, readingOf, type Reading } from './reading.ts';
 import { costTable, markedDraw, tally } from './readouts.ts';
 import { LINES, OPENING_START, PRESET, definition } from './settings.ts';
 import { squeezeStyles } from './styles.ts';
@@ -29,7 +29,6 @@ import type { Values } from '../../figure/settings.ts';
 import type { Cells } from '../../scene/walls.ts';
 import type { MapData, MapSqueeze as Machine, Pose } from '../../types.d.ts';
 import type { OwnMap } from './maps/files.ts';
-import type { Reading } from './reading.ts';
 
 /**
  * Motion conditioned on a map, and what the condition cannot see.
@@ -48,11 +47,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
   picture = new FloorPicture({ bounds: new Float64Array(4), walls: new Float64Array() }, null);
   #meter = new CostMeter(this);
   #opener = new MapOpener(this);
-  #handles = new PoseHandles(this, 'start', {
-    view: () => this.picture.view,
-    bounds: () => this.picture.plan.bounds,
-    say: () => words.squeeze.robot,
-  });
+  #handles = new PoseHandles(this, 'start', () => this.picture.view, () => this.picture.plan.bounds);
   #wallHandles = new WallHandles(this);
   /** Treatment of unknown cells in the picture. */
   #unknown = '';
@@ -65,10 +60,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
   /** Free pose at which the robot was put last. */
   #open: Pose | undefined;
 
-  createMachine: FigureElement<Machine, Reading>['createMachine'] = (motion, state) => {
-    const machine = motion.MapSqueeze.empty();
-    return state ? freeOnError(machine, () => enterCloud(machine, this.settings.declared(state), state.shown)) : machine;
-  };
+  createMachine: FigureElement<Machine, Reading>['createMachine'] = (motion, state) => enterCloud(this, motion.MapSqueeze.empty(), state);
 
   complete(machine: Machine, state: Values) {
     const { map } = state;
@@ -119,9 +111,8 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
   get takeaway() {
     const { config, poses, verdicts } = this.fresh;
     return {
-      title: this.lettering.name,
       description: this.#description,
-      settings: { element: this.localName, map: this.map?.name ?? null, ...config },
+      settings: { map: this.map?.name ?? null, ...config },
       columns: ['x_m', 'y_m', 'theta_rad', 'end_free', 'path_free', 'accepted'],
       row: (i: number) => [
         ...poses.subarray(3 * i, 3 * i + 3),
@@ -134,8 +125,8 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
 
   announcement = captionOf;
 
-  placeHandles({ config: { start, clearance } }: Reading) {
-    this.#handles.place(start, clearance);
+  placeHandles({ config }: Reading) {
+    this.#handles.place(config, config.clearance);
     this.#wallHandles.place(this.picture.view);
   }
 

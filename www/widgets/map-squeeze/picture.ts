@@ -7,14 +7,13 @@ import { Density } from '../../scene/pixels.ts';
 import { drawLabel, drawLeader } from '../../scene/labels.ts';
 import { SamplesPicture } from '../../scene/picture.ts';
 import { View, extentAround } from '../../scene/view.ts';
-import { WallLayer, cornerOf } from '../../scene/walls.ts';
+import { WallLayer, cornerOf, type Cells } from '../../scene/walls.ts';
 import { limits } from '../../settings.js';
 import { clamp } from '../../ui/clamp.ts';
 import { drawHeldRobot, drawRobotOutline } from '../shared/robot.ts';
 import { LINES } from './settings.ts';
 import type { MapSqueeze, Plan } from '../../types.d.ts';
 import { addLine, stroke, type Brush } from '../../scene/canvas.ts';
-import type { Cells } from '../../scene/walls.ts';
 import type { Reading } from './reading.ts';
 
 export interface Scene extends Reading {
@@ -195,7 +194,7 @@ function knownCorners(grid: Cells, unknown: Uint8Array) {
 /** Draws the contact of a path with a wall, a point in metres, with a leader to it. */
 function drawContact(brush: Brush, contact: number[]) {
   const { context, view, palette } = brush;
-  const [x, y] = [view.toPixelX(contact[0]), view.toPixelY(contact[1])];
+  const [x, y] = view.toPixel(contact[0], contact[1]);
   const { left, right, top, bottom } = view.frame;
   const [side, down] = [2 * x > left + right ? -1 : 1, 2 * y > top + bottom ? -1 : 1];
   const [endX, endY] = [x + side * LEADER.x, y + down * LEADER.y];
@@ -231,7 +230,7 @@ function cross(context: Brush['context'], x: number, y: number) {
 function drawCrosses({ context, view }: Brush, triples: Float64Array, colour: string) {
   context.globalAlpha = 0.5;
   stroke(context, { colour, width: 1 }, () => {
-    for (let i = 0; i < triples.length; i += 3) cross(context, view.toPixelX(triples[i]), view.toPixelY(triples[i + 1]));
+    for (let i = 0; i < triples.length; i += 3) cross(context, ...view.toPixel(triples[i], triples[i + 1]));
   });
   context.globalAlpha = 1;
 }
@@ -250,7 +249,7 @@ function drawSamples({ context, view }: Brush, triples: Float64Array, colour: st
   const radius = clamp(view.width / DOT.per, DOT.least, DOT.most);
   for (let i = 0; i < triples.length; i += 3) {
     context.beginPath();
-    context.arc(view.toPixelX(triples[i]), view.toPixelY(triples[i + 1]), radius, 0, 2 * Math.PI);
+    context.arc(...view.toPixel(triples[i], triples[i + 1]), radius, 0, 2 * Math.PI);
     context.fill();
   }
   context.globalAlpha = 1;

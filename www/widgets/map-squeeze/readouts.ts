@@ -5,11 +5,10 @@ import { sampleField } from '../../figure/controls.ts';
 import { words } from '../../messages/registry.ts';
 import { counted, fixed, percent, rounded } from '../../ui/format.ts';
 import { figureTable, readoutList } from '../../ui/readouts.ts';
-import { DEMAND } from './cost.ts';
+import { DEMAND, type Cost, type CostMeter } from './cost.ts';
 import { SAMPLERS } from './settings.ts';
 import { verdictText } from './words.ts';
 import type { SamplerName } from '../../types.d.ts';
-import type { Cost, CostMeter } from './cost.ts';
 import type { Reading } from './reading.ts';
 
 /** Returns the counts of the samples. */

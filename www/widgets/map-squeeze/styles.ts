@@ -104,7 +104,6 @@ const own = css`
     canvas {
       aspect-ratio: 4 / 3;
     }
-
   }
 
   /* The samplers in one row, and any share in a headline of as many rows. */
@@ -172,12 +171,12 @@ const own = css`
     color: var(--ink);
   }
 
-  table.outdated tbody {
-    color: var(--muted);
-  }
-
   .own-map p {
     margin: 0 0 0.6em;
+  }
+
+  :is(.own-map .present, table.outdated tbody) {
+    color: var(--muted);
   }
 
   .own-map .note {
@@ -185,10 +184,6 @@ const own = css`
     /* When it is scrolled into view, the name of the current map is visible too. */
     scroll-margin: 4em;
     overflow-wrap: anywhere;
-  }
-
-  .own-map .present {
-    color: var(--muted);
   }
 
   label[for='map-files'] {

@@ -7,10 +7,9 @@ import { words } from '../../messages/registry.ts';
 import { Handle, stepsOf, turnsOf } from '../../scene/handle.ts';
 import { clamp } from '../../ui/clamp.ts';
 import { fixed } from '../../ui/format.ts';
-import { gripsOf, movedWalls } from './walls.ts';
+import { gripsOf, movedWalls, type Grip } from './walls.ts';
 import type { Plan } from '../../types.d.ts';
 import type { View } from '../../scene/view.ts';
-import type { Grip } from './walls.ts';
 
 /** Distance that a key moves a wall, metres. */
 const KEY_STEP = 0.05;

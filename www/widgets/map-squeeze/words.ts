@@ -8,9 +8,8 @@ import { clamp } from '../../ui/clamp.ts';
 import { counted, fixed } from '../../ui/format.ts';
 import { commandText } from '../shared/command.ts';
 import { en } from './en.ts';
-import { throughText } from './reading.ts';
+import { throughText, type Reading } from './reading.ts';
 import type { Plan, SqueezeSettings as Settings, SqueezeStats as Stats } from '../../types.d.ts';
-import type { Reading } from './reading.ts';
 
 addEnglish({ squeeze: en });
 

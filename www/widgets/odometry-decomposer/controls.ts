@@ -7,8 +7,7 @@ import { choice, group, rich } from '../../ui/controls.ts';
 import { fixed } from '../../ui/format.ts';
 import { figureTable } from '../../ui/readouts.ts';
 import { NOISE, SAMPLE_COUNTS } from './settings.ts';
-
-export type Figure = import('./odometry-decomposer.ts').OdometryDecomposerElement;
+import type { OdometryDecomposerElement as Figure } from './odometry-decomposer.ts';
 
 /** Returns the deviations by every noise model: those that differ from the printed table's stand out. */
 export function rulesTable(figure: Figure) {

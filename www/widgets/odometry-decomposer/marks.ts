@@ -17,10 +17,7 @@ export function directionsOf(heading: number, turn: number) {
 
 /** Returns the points of an arc about a pose, from its heading by a turn in radians, with a radius in pixels. */
 function arcOf({ view }: Brush, { x, y, theta }: Pose, turn: number, radius: number) {
-  return directionsOf(theta, turn).map((heading) => {
-    const ahead = view.direction(heading);
-    return [view.toPixelX(x) + radius * ahead.x, view.toPixelY(y) + radius * ahead.y];
-  });
+  return directionsOf(theta, turn).map((heading) => view.ray({ x, y, theta: heading }, radius)[1]);
 }
 
 /** Draws a turn in radians from a pose's heading, as an arc with an arrow, with a radius in pixels. */
@@ -31,12 +28,9 @@ export function drawTurn(brush: Brush, from: Pose, turn: number, radius: number,
   // The arrow head is smaller on a short arc.
   const length = Math.min(HEAD.length, radius * Math.abs(turn));
   const tip = points[points.length - 1];
-  const back = view.direction(from.theta + turn - (Math.sign(turn) * length) / radius);
+  const back = { ...from, theta: from.theta + turn - (Math.sign(turn) * length) / radius };
   const share = length / HEAD.length;
-  const foot = (side: number) => {
-    const reach = radius + side * share * HEAD.half;
-    return [view.toPixelX(from.x) + reach * back.x, view.toPixelY(from.y) + reach * back.y];
-  };
+  const foot = (side: number) => view.ray(back, radius + side * share * HEAD.half)[1];
   context.fillStyle = colour;
   context.beginPath();
   addLine(context, [tip, foot(1), foot(-1)]);
@@ -50,7 +44,7 @@ export function drawFan(brush: Brush, middle: Pose, deviation: number, radius: n
   const { context, view } = brush;
   const rim = arcOf(brush, { ...middle, theta: middle.theta - half }, 2 * half, radius);
   const fan = () => {
-    addLine(context, [[view.toPixelX(middle.x), view.toPixelY(middle.y)], ...rim]);
+    addLine(context, [view.toPixel(middle.x, middle.y), ...rim]);
     context.closePath();
   };
   context.fillStyle = colour;
@@ -64,15 +58,14 @@ export function drawFan(brush: Brush, middle: Pose, deviation: number, radius: n
 }
 
 /** Draws a standard deviation (m) to either side of a place along its heading, as a bar with ends. */
-export function drawBar({ context, view }: Brush, { x, y, theta }: Pose, deviation: number, colour: string) {
+export function drawBar({ context, view }: Brush, pose: Pose, deviation: number, colour: string) {
   if (deviation === 0) return;
-  const ahead = view.direction(theta);
+  const ahead = view.direction(pose.theta);
   const reach = deviation * view.scaleX;
-  const [px, py] = [view.toPixelX(x), view.toPixelY(y)];
   stroke(context, { colour, width: 1.75 }, () => {
     for (const side of [-reach, reach]) {
-      const [endX, endY] = [px + side * ahead.x, py + side * ahead.y];
-      addLine(context, [[px, py], [endX, endY]]);
+      const [middle, [endX, endY]] = view.ray(pose, side);
+      addLine(context, [middle, [endX, endY]]);
       addLine(context, [[endX - HEAD.half * ahead.y, endY + HEAD.half * ahead.x], [endX + HEAD.half * ahead.y, endY - HEAD.half * ahead.x]]);
     }
   });

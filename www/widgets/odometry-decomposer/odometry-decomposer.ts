@@ -7,7 +7,6 @@ import { FigureElement } from '../../figure/figure.ts';
 import { legend } from '../../figure/overlays.ts';
 import { reserve } from '../../figure/page/room.ts';
 import { define } from '../../figure/reflection.ts';
-import { freeOnError } from '../../figure/runtime.ts';
 import { words } from '../../messages/registry.ts';
 import { rich } from '../../ui/controls.ts';
 import { fixed } from '../../ui/format.ts';
@@ -17,13 +16,12 @@ import { PoseHandles } from '../shared/pose-handles.ts';
 import { presetButtons } from '../shared/presets.ts';
 import { noiseControls, playable, rulesTable } from './controls.ts';
 import { LegsPicture, RADIUS, WorldPicture } from './pictures.ts';
-import { readingOf } from './reading.ts';
+import { readingOf, type Reading } from './reading.ts';
 import { headline, readouts, spreads } from './readouts.ts';
 import { LINES, definition, looks } from './settings.ts';
 import { decomposerStyles } from './styles.ts';
 import { apart, captionOf, legsText, worldText } from './words.ts';
 import type { OdometryDecomposer as Machine } from '../../types.d.ts';
-import type { Reading } from './reading.ts';
 
 /** Bounds of both poses: left, bottom, right and top, m. */
 const FLOOR = [-4, -4, 4, 4];
@@ -46,20 +44,9 @@ export class OdometryDecomposerElement extends FigureElement<Machine, Reading> {
   #world = new WorldPicture();
   pictures = [this.#legs, this.#world];
   /** The second pose is on top if both poses are in one place. */
-  #handles: PoseHandles[] = (['from', 'to'] as const).map(
-    (setting) =>
-      new PoseHandles(this, setting, {
-        view: () => this.#legs.view,
-        bounds: () => FLOOR,
-        say: () => ({ ...words.decomposer.handles[setting], ends: words.decomposer.handles.ends }),
-      }),
-  );
+  #handles: PoseHandles[] = ['from', 'to'].map((setting) => new PoseHandles(this, setting, () => this.#legs.view, () => FLOOR));
 
-  createMachine: FigureElement<Machine, Reading>['createMachine'] = (motion, state) => {
-    const machine = new motion.OdometryDecomposer();
-    if (!state) return machine;
-    return freeOnError(machine, () => enterCloud(machine, this.settings.declared(state), state.shown));
-  };
+  createMachine: FigureElement<Machine, Reading>['createMachine'] = (motion, state) => enterCloud(this, new motion.OdometryDecomposer(), state);
 
   #curve: Memo<Float64Array> = new Memo();
   #curveOf = (longest: number, points: number) =>
@@ -88,9 +75,8 @@ export class OdometryDecomposerElement extends FigureElement<Machine, Reading> {
   get takeaway() {
     const { config, poses } = this.fresh;
     return {
-      title: this.lettering.name,
       description: legsText(this.reading),
-      settings: { element: this.localName, ...config },
+      settings: config,
       columns: ['x_m', 'y_m', 'theta_rad'],
       row: (i: number) => [...poses.subarray(3 * i, 3 * i + 3)],
       count: poses.length / 3,
@@ -99,10 +85,8 @@ export class OdometryDecomposerElement extends FigureElement<Machine, Reading> {
 
   announcement = captionOf;
 
-  placeHandles({ config: { from, to } }: Reading) {
-    const [before, after] = this.#handles;
-    before.place(from, RADIUS);
-    after.place(to, RADIUS);
+  placeHandles({ config }: Reading) {
+    for (const handles of this.#handles) handles.place(config, RADIUS);
   }
 
   content(reading: Reading) {
@@ -113,10 +97,10 @@ export class OdometryDecomposerElement extends FigureElement<Machine, Reading> {
           ${panel(say.legsTitle, html`<div class="stage" part="picture">
             ${canvas(this, this.#legs, legsText(reading))} ${this.#handles.map((handle) => handle.render())}
           </div>`, 'legs')}
-          ${panel(say.worldTitle, html`<div class="stage">${canvas(this, this.#world, worldText(reading))}</div>`, 'world')}
+          ${panel(say.worldTitle, html`<div class="stage">${canvas(this, this.#world, worldText(reading))}</div>`)}
           ${this.stage.later(() => html`
           <div class="said">${headline(reading)} <p class="caption" part="caption">${captionOf(reading)}</p></div>
-          <p class="caption drifting">${rich(say.worldCaption(fixed(apart(reading), 2)))}</p>`)}
+          <p class="caption">${rich(say.worldCaption(fixed(apart(reading), 2)))}</p>`)}
         </div>
         ${this.stage.later(() => html`
         ${legend(this, LINES)} ${presetButtons(this)} ${rulesTable(this)}

@@ -170,8 +170,8 @@ export class LegsPicture extends OutcomesPicture {
     });
     // The place of an arc that is nearest to the labels, and inside of the axes.
     const onArc = ({ x, y, theta }: Pose, by: number, reach: number) => {
-      const places = ANCHORS.map((share) => view.direction(theta + share * by))
-        .map((out) => ({ x: view.toPixelX(x) + reach * out.x, y: view.toPixelY(y) + reach * out.y }))
+      const places = ANCHORS.map((share) => view.ray({ x, y, theta: theta + share * by }, reach)[1])
+        .map(([placeX, placeY]) => ({ x: placeX, y: placeY }))
         .sort((one, other) => one.y - other.y);
       return places.find((place) => place.y > view.frame.top) ?? places[places.length - 1];
     };
@@ -185,7 +185,7 @@ export class LegsPicture extends OutcomesPicture {
 
   /** Draws the linkages of some outcomes. */
   #paintGhosts({ context, view, palette }: Brush, { ghosts }: Scene) {
-    const point = (index: number) => [view.toPixelX(ghosts[3 * index]), view.toPixelY(ghosts[3 * index + 1])];
+    const point = (index: number) => view.toPixel(ghosts[3 * index], ghosts[3 * index + 1]);
     context.globalAlpha = 0.5;
     stroke(context, { colour: palette.cloud, width: 1 }, () => {
       for (let i = 0; i < ghosts.length / 3; i += 4) addLine(context, [0, 1, 2, 3].map((k) => point(i + k)));
@@ -194,13 +194,11 @@ export class LegsPicture extends OutcomesPicture {
   }
 
   /** Draws the robot on its path. */
-  #paintRobot(brush: Brush, { x, y, theta }: Pose) {
-    const { context, view, palette } = brush;
-    const ahead = view.direction(theta);
-    const [px, py, size] = [view.toPixelX(x), view.toPixelY(y), Math.max(7, 0.7 * RADIUS * view.scaleX)];
+  #paintRobot({ context, view, palette }: Brush, pose: Pose) {
+    const size = Math.max(7, 0.7 * RADIUS * view.scaleX);
     const edge = { colour: palette.paper, width: 2 };
-    drawDisc(context, [px, py], size, palette.accent, edge);
-    strokeLine(context, [[px, py], [px + size * ahead.x, py + size * ahead.y]], edge);
+    drawDisc(context, view.toPixel(pose.x, pose.y), size, palette.accent, edge);
+    strokeLine(context, view.ray(pose, size), edge);
   }
 }
 
@@ -245,29 +243,24 @@ export class WorldPicture extends OutcomesPicture {
   };
 
   /** Draws the axes of the odometry frame. */
-  #paintFrame({ context, view, palette }: Brush, { x, y, theta }: Pose) {
-    const [px, py, reach] = [view.toPixelX(x), view.toPixelY(y), AXIS * view.scaleX];
-    const ends = [theta + Math.PI / 2, theta].map((heading) => view.direction(heading)).map((ahead) => [px + reach * ahead.x, py + reach * ahead.y]);
-    strokeLine(context, [ends[0], [px, py], ends[1]], { colour: palette.prior, width: 1.25 });
+  #paintFrame({ context, view, palette }: Brush, frame: Pose) {
+    const length = AXIS * view.scaleX;
+    const [, yEnd] = view.ray({ ...frame, theta: frame.theta + Math.PI / 2 }, length);
+    strokeLine(context, [yEnd, ...view.ray(frame, length)], { colour: palette.prior, width: 1.25 });
   }
 
-  #paintOdometry(brush: Brush, { x, y, theta }: Pose) {
+  #paintOdometry(brush: Brush, pose: Pose) {
     const { context, view, palette } = brush;
-    drawRobotOutline(brush, x, y, RADIUS, palette.prior);
-    const ahead = view.direction(theta);
-    const [px, py, reach] = [view.toPixelX(x), view.toPixelY(y), RADIUS * view.scaleX + 8];
-    strokeLine(context, [[px, py], [px + reach * ahead.x, py + reach * ahead.y]], { colour: palette.prior, width: 1.5 });
+    drawRobotOutline(brush, pose.x, pose.y, RADIUS, palette.prior);
+    strokeLine(context, view.ray(pose, RADIUS * view.scaleX + 8), { colour: palette.prior, width: 1.5 });
   }
 
   /** Returns the labels of the poses before and after; the former where these are two places. */
   #labels({ view }: Brush, poses: Pose[], symbol: string, colours: string[]) {
-    const [before, after] = poses.map(({ x, y }, i) => ({
-      x: view.toPixelX(x),
-      y: view.toPixelY(y),
-      symbol,
-      sub: ['t−1', 't'][i],
-      colour: colours[i],
-    }));
+    const [before, after] = poses.map((pose, i) => {
+      const [x, y] = view.toPixel(pose.x, pose.y);
+      return { x, y, symbol, sub: ['t−1', 't'][i], colour: colours[i] };
+    });
     return Math.hypot(before.x - after.x, before.y - after.y) > SEEN ? [before, after] : [after];
   }
 }

@@ -19,7 +19,7 @@ const own = css`
   /* The legs next to the world, each with its text. */
   @container (min-width: 38em) {
     .views {
-      grid-template: 'legs world' 'said drifting' / minmax(0, 3fr) minmax(0, 2fr);
+      grid-template-columns: minmax(0, 3fr) minmax(0, 2fr);
       column-gap: 1.5em;
     }
 
@@ -32,24 +32,11 @@ const own = css`
       height: 100%;
     }
 
-    .legs {
-      grid-area: legs;
-    }
-
-    .world {
-      grid-area: world;
-    }
-
     .said {
       display: grid;
       grid-template-columns: auto 1fr;
-      grid-area: said;
       column-gap: 1em;
       align-items: center;
-    }
-
-    .drifting {
-      grid-area: drifting;
     }
 
     .plays {
@@ -84,7 +71,7 @@ const own = css`
 
   .playable {
     grid-template-columns: minmax(0, 1fr) auto;
-    gap: 0.75em;
+    column-gap: 0.75em;
     align-items: center;
   }
 

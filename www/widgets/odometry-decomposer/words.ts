@@ -3,8 +3,7 @@
 import { addEnglish, words } from '../../messages/registry.ts';
 import { counted, fixed } from '../../ui/format.ts';
 import { en } from './en.ts';
-import { poseIn } from './reading.ts';
-import type { Reading } from './reading.ts';
+import { poseIn, type Reading } from './reading.ts';
 
 addEnglish({ decomposer: en });
 

@@ -6,27 +6,8 @@ import { Handle, stepsOf, turnsOf } from '../../scene/handle.ts';
 import { clamp } from '../../ui/clamp.ts';
 import { fixed } from '../../ui/format.ts';
 import { turnDistance } from './robot.ts';
+import type { View } from '../../scene/view.ts';
 import type { Pose } from '../../types.d.ts';
-
-/** Pose that the handles hold. */
-export interface Held {
-  view: () => import('../../scene/view.ts').View;
-  /** Left, bottom, right and top of the allowed positions, metres. */
-  bounds: () => number[] | Float64Array;
-  say: () => Said;
-}
-
-/** Texts of the handles. */
-export interface Said {
-  /** Name of the robot. */
-  robot: string;
-  robotTitle: string;
-  /** Name of the heading. */
-  heading: string;
-  headingTitle: string;
-  /** Text shown when the bounds stop the robot. */
-  ends?: string;
-}
 
 /** Movement of the robot by a key, metres, and turn by a key, radians. */
 const KEY_STEP = 0.05;
@@ -40,16 +21,21 @@ const MARGIN = 12;
 
 export class PoseHandles extends Part<import('../../figure/figure.ts').Figure> {
   #setting;
-  #of;
+  #view;
+  #bounds;
   #body;
   #turn;
 
-  /** Creates the handles of a setting that is a pose. */
-  constructor(host: import('../../figure/figure.ts').Figure, setting: string, of: Held) {
+  /**
+   * Creates the handles of a setting that is a pose, in the view of a picture. `bounds` returns left, bottom, right and top of the allowed
+   * positions, metres. The catalogue of the figure has the texts under `handles`.
+   */
+  constructor(host: import('../../figure/figure.ts').Figure, setting: string, view: () => View, bounds: () => number[] | Float64Array) {
     super(host);
     this.#setting = setting;
-    this.#of = of;
-    const hooks = { view: of.view, commit: () => host.gesture.commit() };
+    this.#view = view;
+    this.#bounds = bounds;
+    const hooks = { view, commit: () => host.gesture.commit() };
     this.#body = new Handle(`body ${setting}`, {
       ...hooks,
       at: () => [this.#pose.x, this.#pose.y],
@@ -74,9 +60,9 @@ export class PoseHandles extends Part<import('../../figure/figure.ts').Figure> {
   }
 
   render() {
-    const { robot, robotTitle, heading, headingTitle, ends } = this.#of.say();
+    const { ends, [this.#setting]: { robot, robotTitle, heading, headingTitle } } = (words as any)[this.host.kind.vocabulary].handles;
     const { x, y, theta } = this.#pose;
-    const [left, bottom, right, top] = this.#of.bounds();
+    const [left, bottom, right, top] = this.#bounds();
     return [
       this.#body.element({
         name: robot,
@@ -98,16 +84,14 @@ export class PoseHandles extends Part<import('../../figure/figure.ts').Figure> {
     ];
   }
 
-  /** Places the handles on a robot with a radius in metres. */
-  place(pose: Pose, radius: number) {
-    const view = this.#of.view();
+  /** Places the handles on the drawn robot, whose radius is in metres. */
+  place(config: Record<string, any>, radius: number) {
+    const view = this.#view();
     const root = this.host.renderRoot;
-    const [x, y] = [view.toPixelX(pose.x), view.toPixelY(pose.y)];
-    const ahead = view.direction(pose.theta);
-    const distance = turnDistance(view, radius);
+    const [[x, y], [turnX, turnY]] = view.ray(config[this.#setting], turnDistance(view, radius));
     const inside = (at: number, size: number) => clamp(at, MARGIN, size - MARGIN);
     this.#body.place(root, x, y, Math.max(MIN_BODY, 2 * radius * view.scaleX));
-    this.#turn.place(root, inside(x + distance * ahead.x, view.width), inside(y + distance * ahead.y, view.height));
+    this.#turn.place(root, inside(turnX, view.width), inside(turnY, view.height));
   }
 
   /** Moves the robot by steps along x and y; returns false if there are none. */
@@ -127,7 +111,7 @@ export class PoseHandles extends Part<import('../../figure/figure.ts').Figure> {
 
   /** Moves the robot to a point in metres, within its bounds. */
   #moveTo(x: number, y: number) {
-    const [left, bottom, right, top] = this.#of.bounds();
+    const [left, bottom, right, top] = this.#bounds();
     this.#want({ ...this.#pose, x: clamp(x, left, right), y: clamp(y, bottom, top) });
   }
 

@@ -17,23 +17,20 @@ export function turnDistance(view: Pick<View, 'scaleX'>, radius: number): number
 }
 
 /** Draws the robot that the reader has in hand, with a radius in metres. Later labels keep clear of it. */
-export function drawHeldRobot(brush: Brush, { x, y, theta }: Pose, radius: number, colour: string) {
+export function drawHeldRobot(brush: Brush, pose: Pose, radius: number, colour: string) {
   const { context, view, palette, placed } = brush;
-  const [atX, atY] = [view.toPixelX(x), view.toPixelY(y)];
-  const ahead = view.direction(theta);
-  const reach = turnDistance(view, radius);
+  const [middle, turn] = view.ray(pose, turnDistance(view, radius));
   const edge = { colour, width: 2.25 };
-  drawDisc(context, [atX, atY], radiusOn(view, radius), palette.paper, edge);
-  strokeLine(context, [[atX, atY], [atX + reach * ahead.x, atY + reach * ahead.y]], edge);
   const body = radiusOn(view, radius);
-  const ring = TURN + 3;
-  placed.push({ x: atX, y: atY, across: body, down: body }, { x: atX + reach * ahead.x, y: atY + reach * ahead.y, across: ring, down: ring });
-  drawHandle(brush, { x: atX + reach * ahead.x, y: atY + reach * ahead.y, radius: TURN, colour });
+  drawDisc(context, middle, body, palette.paper, edge);
+  strokeLine(context, [middle, turn], edge);
+  for (const [[x, y], size] of [[middle, body], [turn, TURN + 3]] as const) placed.push({ x, y, across: size, down: size });
+  drawHandle(brush, { x: turn[0], y: turn[1], radius: TURN, colour });
 }
 
 /** Draws the dashed outline of a robot where a command would bring it; lengths in metres. */
 export function drawRobotOutline({ context, view }: Brush, x: number, y: number, radius: number, colour: string) {
-  drawDisc(context, [view.toPixelX(x), view.toPixelY(y)], radiusOn(view, radius), undefined, { colour, width: 1.5, dash: [3, 3] });
+  drawDisc(context, view.toPixel(x, y), radiusOn(view, radius), undefined, { colour, width: 1.5, dash: [3, 3] });
 }
 
 /** Returns the radius of a robot, metres, in CSS pixels. */

@@ -12,7 +12,7 @@ process.stdout.on('error', (error) => {
 
 const { stdout, stderr } = process;
 /** Percent that were shown last. */
-let shown = -1;
+let shownPercent = -1;
 
 process.exitCode = await run(process.argv.slice(2), {
   load,
@@ -22,8 +22,8 @@ process.exitCode = await run(process.argv.slice(2), {
   isColored: stdout.isTTY && !process.env.NO_COLOR,
   onProgress(share) {
     const percent = share === undefined ? -1 : Math.floor(100 * share);
-    if (!stderr.isTTY || percent === shown) return;
-    shown = percent;
+    if (!stderr.isTTY || percent === shownPercent) return;
+    shownPercent = percent;
     stderr.write(share === undefined ? '\r\x1b[K' : `\rreading ${percent} %`);
   },
 });

@@ -59,11 +59,11 @@ Exit codes: 0 result, 2 bad input or options, 3 the log is unusable (see the fai
 `;
 
 const text = { type: 'string' } as const;
-const texts = { type: 'string', multiple: true } as const;
+const repeatedText = { type: 'string', multiple: true } as const;
 const flag = { type: 'boolean' } as const;
 
 const OPTIONS = {
-  odometry: texts, reference: texts, recording: texts, 'odometry-topic': text, 'reference-topic': text, 'odometry-frames': text,
+  odometry: repeatedText, reference: repeatedText, recording: repeatedText, 'odometry-topic': text, 'reference-topic': text, 'odometry-frames': text,
   'reference-frames': text, columns: text, 'odometry-columns': text, 'reference-columns': text, 'time-unit': text, 'length-unit': text,
   'angle-unit': text, model: text, rule: text, 'update-min-d': text, 'update-min-a': text, duration: text, outliers: text,
   'no-correct': text, correct: text, 'reference-position-std': text, 'reference-yaw-std': text, json: flag, yaml: flag, plot: text,
@@ -71,10 +71,10 @@ const OPTIONS = {
 } as const;
 
 /** Options of the command `inspect`. */
-const OF_INSPECT = ['recording', 'odometry', 'reference', 'columns', 'time-unit', 'length-unit', 'angle-unit', 'json'];
+const INSPECT_OPTIONS = ['recording', 'odometry', 'reference', 'columns', 'time-unit', 'length-unit', 'angle-unit', 'json'];
 
 /** Options by the fields of `calibrate`. */
-const BY_FIELD: Record<string, string> = {
+const OPTION_BY_FIELD: Record<string, string> = {
   'legs.distance': 'update-min-d', 'legs.angle': 'update-min-a', 'legs.duration': 'duration',
   positionStd: 'reference-position-std', yawStd: 'reference-yaw-std', model: 'model', rule: 'rule', outliers: 'outliers',
 };
@@ -82,7 +82,7 @@ const BY_FIELD: Record<string, string> = {
 /** Names the option that an error of the core is about; its message begins with a field. Undefined if the error is about the logs. */
 export function withOption(message: string): string | undefined {
   const [field] = message.split(' ');
-  return Object.hasOwn(BY_FIELD, field) ? `--${BY_FIELD[field]}${message.slice(field.length)}.` : undefined;
+  return Object.hasOwn(OPTION_BY_FIELD, field) ? `--${OPTION_BY_FIELD[field]}${message.slice(field.length)}.` : undefined;
 }
 
 /** File or folder, and the options to open it with. */
@@ -111,8 +111,8 @@ export function optionsOf(args: string[]): Calibrate | Inspect | 'help' | 'versi
   if (command === 'inspect') {
     const all = [...paths, ...(values.recording ?? []), ...(values.odometry ?? []), ...(values.reference ?? [])];
     if (all.length === 0) throw new UsageError('inspect needs a file or folder: npx motion-widgets inspect run.bag');
-    const other = Object.keys(values).find((name) => !OF_INSPECT.includes(name));
-    if (other !== undefined) throw new UsageError(`--${other} is an option of calibrate; inspect has ${listOf(OF_INSPECT.map((name) => `--${name}`))}.`);
+    const other = Object.keys(values).find((name) => !INSPECT_OPTIONS.includes(name));
+    if (other !== undefined) throw new UsageError(`--${other} is an option of calibrate; inspect has ${alternatives(INSPECT_OPTIONS.map((name) => `--${name}`))}.`);
     return { command, inputs: all.map((path) => ({ path, open: open() })), isJson: values.json ?? false };
   }
   if (command !== 'calibrate') throw new UsageError(`the command must be calibrate or inspect (got “${cut(command ?? '')}”); --help has examples.`);
@@ -137,13 +137,13 @@ export function optionsOf(args: string[]): Calibrate | Inspect | 'help' | 'versi
   }
   if (odometry.length !== reference.length) throw new UsageError(`there are ${odometry.length} logs of odometry and ${reference.length} of the reference; give one of each for a drive.`);
   if (recording.length + odometry.length === 0) throw new UsageError('no logs are given; give --recording, or --odometry and --reference.');
-  const wish = (role: Role) => defined({ series: values[`${role}-topic`], frames: framesOf(`${role}-frames`, values[`${role}-frames`]) });
+  const wish = (role: Role) => withoutUndefined({ series: values[`${role}-topic`], frames: framesOf(`${role}-frames`, values[`${role}-frames`]) });
   const inputs = (all: string[], role?: Role) => all.map((path) => ({ path, open: open(role, role && columns(`${role}-columns`)) }));
   return {
     command,
     inputs: { recording: inputs(recording), odometry: inputs(odometry, 'odometry'), reference: inputs(reference, 'reference') },
     wishes: { odometry: wish('odometry'), reference: wish('reference'), ...(values.model === 'velocity' && { kind: 'commands' }) },
-    fit: defined({
+    fit: withoutUndefined({
       legs: duration === undefined ? { distance: distance ?? 0.25, angle: angle ?? 0.2 } : { duration },
       model: values.model ?? (values.rule === 'omni' ? 'omnidirectional' : undefined),
       rule: values.rule,
@@ -164,16 +164,16 @@ function unitsOf(values: { [name in 'time-unit' | 'length-unit' | 'angle-unit']?
     if (given === undefined) return [];
     const units = given.split(',').map((unit) => unit.trim());
     if (units.length > 2 || !units.every((unit) => (UNITS[`${of}Unit`] as readonly string[]).includes(unit))) {
-      throw new UsageError(`--${of}-unit must be ${listOf(UNITS[`${of}Unit`])}, or two of these for odometry and reference (got “${cut(given)}”).`);
+      throw new UsageError(`--${of}-unit must be ${alternatives(UNITS[`${of}Unit`])}, or two of these for odometry and reference (got “${cut(given)}”).`);
     }
     return [[`${of}Unit`, role === 'odometry' ? units[0] : units.at(-1)]];
   }));
 }
 
 /** Returns an object without keys that are undefined. */
-const defined = <T extends object>(all: T): T => Object.fromEntries(Object.entries(all).filter(([, value]) => value !== undefined)) as T;
+const withoutUndefined = <T extends object>(all: T): T => Object.fromEntries(Object.entries(all).filter(([, value]) => value !== undefined)) as T;
 
-const listOf = (names: readonly string[]) => new Intl.ListFormat('en', { type: 'disjunction' }).format(names);
+const alternatives = (names: readonly string[]) => new Intl.ListFormat('en', { type: 'disjunction' }).format(names);
 
 /** Returns which errors are corrected; single names override `all`. */
 function correctOf(left?: string, corrected?: string): Record<string, boolean> | undefined {
@@ -197,12 +197,12 @@ function parsed(args: string[]) {
     const { code, message } = error as NodeJS.ErrnoException;
     const [, name] = (code === 'ERR_PARSE_ARGS_UNKNOWN_OPTION' && /'--?([^']*)'/.exec(message)) || [];
     const [sentence] = message.split('\n');
-    throw new UsageError(name === undefined ? sentence : `unknown option --${cut(name)}; ${nearestTo(name)}--help lists all.`);
+    throw new UsageError(name === undefined ? sentence : `unknown option --${cut(name)}; ${nearestOption(name)}--help lists all.`);
   }
 }
 
 /** Names the option that has the most pairs of letters in common with a name. */
-function nearestTo(name: string): string {
+function nearestOption(name: string): string {
   const pairs = (word: string) => Array.from(word, (letter, i) => letter + (word[i + 1] ?? ''));
   const own = pairs(name);
   const scores = Object.keys(OPTIONS).map((option) => {

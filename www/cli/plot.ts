@@ -9,13 +9,13 @@ import { escaped } from '../scene/svg.ts';
 const [WIDTH, HEIGHT, MARGIN] = [800, 800, { top: 64, right: 24, bottom: 56, left: 64 }];
 
 /** Shortest step of a line in pixels. */
-const STEP = 0.5;
+const MIN_STEP_PX = 0.5;
 
 /** Distance of the paths from the axes, in pixels. */
-const INSET = 12;
+const INSET_PX = 12;
 
 /** Lines in the colours of ink, prior and accent on the page. */
-const LINES = { reference: 'stroke="#1f1e1b" stroke-width="1.5"', odometry: 'stroke="#0b61b0" stroke-width="1.5" stroke-dasharray="4 2"', outlier: 'stroke="#7a1560" stroke-width="5" stroke-linecap="round"' };
+const LINE_STYLES = { reference: 'stroke="#1f1e1b" stroke-width="1.5"', odometry: 'stroke="#0b61b0" stroke-width="1.5" stroke-dasharray="4 2"', outlier: 'stroke="#7a1560" stroke-width="5" stroke-linecap="round"' };
 
 const [INK, MUTED] = ['#1f1e1b', '#57564f'];
 
@@ -46,10 +46,10 @@ function panelOf({ odometry, reference }: Drive, { legs, systematicErrors }: any
   const all = [...truth.poses, ...own.poses];
   const [[left, right], [bottom, ceiling]] = [0, 1].map((axis) => extent(all, (pose) => pose[axis]) as [number, number]);
   const [spanX, spanY] = [Math.max(right - left, 0.1), Math.max(ceiling - bottom, 0.1)];
-  const scale = Math.min((WIDTH - MARGIN.left - MARGIN.right - 2 * INSET) / spanX, (HEIGHT - MARGIN.top - MARGIN.bottom - 2 * INSET) / spanY);
-  const height = Math.round(MARGIN.top + MARGIN.bottom + 2 * INSET + spanY * scale);
-  const x = (value: number) => MARGIN.left + INSET + (value - left) * scale;
-  const y = (value: number) => height - MARGIN.bottom - INSET - (value - bottom) * scale;
+  const scale = Math.min((WIDTH - MARGIN.left - MARGIN.right - 2 * INSET_PX) / spanX, (HEIGHT - MARGIN.top - MARGIN.bottom - 2 * INSET_PX) / spanY);
+  const height = Math.round(MARGIN.top + MARGIN.bottom + 2 * INSET_PX + spanY * scale);
+  const x = (value: number) => MARGIN.left + INSET_PX + (value - left) * scale;
+  const y = (value: number) => height - MARGIN.bottom - INSET_PX - (value - bottom) * scale;
   const pixel = (value: number) => value.toFixed(1);
   const line = ({ poses, breaks }: Pick<Path, 'poses' | 'breaks'>) => {
     let d = '';
@@ -57,7 +57,7 @@ function panelOf({ odometry, reference }: Drive, { legs, systematicErrors }: any
     for (const [i, pose] of poses.entries()) {
       const at: typeof last = [x(pose[0]), y(pose[1])];
       const isBroken = !last || breaks.has(i);
-      if (!isBroken && i < poses.length - 1 && last && Math.hypot(at[0] - last[0], at[1] - last[1]) < STEP) continue;
+      if (!isBroken && i < poses.length - 1 && last && Math.hypot(at[0] - last[0], at[1] - last[1]) < MIN_STEP_PX) continue;
       d += `${isBroken ? 'M' : 'L'}${pixel(at[0])} ${pixel(at[1])}`;
       last = at;
     }
@@ -75,7 +75,7 @@ function panelOf({ odometry, reference }: Drive, { legs, systematicErrors }: any
       : `<path d="M${MARGIN.left} ${pixel(at)}h-5" stroke="${MUTED}"/><text x="${MARGIN.left - 9}" y="${pixel(at + 4)}" text-anchor="end">${label}</text>`;
   }).join('');
   const key = ([['reference, with the ends of legs', 'reference'], ['odometry, aligned', 'odometry'], ...(outliers.length ? [['outliers', 'outlier'] as const] : [])] as const)
-    .map(([label, name], i) => `<path d="M${MARGIN.left + 260 * i} 46h24" ${LINES[name]}/><text x="${MARGIN.left + 260 * i + 30}" y="50" fill="${INK}">${label}</text>`);
+    .map(([label, name], i) => `<path d="M${MARGIN.left + 260 * i} 46h24" ${LINE_STYLES[name]}/><text x="${MARGIN.left + 260 * i + 30}" y="50" fill="${INK}">${label}</text>`);
   const title = `${odometry.name} and ${reference.name}: ${its.length} legs, ${outliers.length} ${outliers.length === 1 ? 'outlier' : 'outliers'}`;
   const svg = `<title>${escaped(title)}</title>
 <text x="${MARGIN.left}" y="26" font-size="16" fill="${INK}">${escaped(title)}</text>
@@ -84,10 +84,10 @@ ${key.join('')}
 <text x="${(MARGIN.left + WIDTH - MARGIN.right) / 2}" y="${height - 14}" text-anchor="middle">x (m)</text>
 <text transform="translate(18 ${(MARGIN.top + height - MARGIN.bottom) / 2}) rotate(-90)" text-anchor="middle">y (m)</text></g>
 <g fill="none" stroke-linejoin="round">
-<path d="${line(own)}" ${LINES.odometry}/>
-<path d="${line(truth)}" ${LINES.reference}/>
+<path d="${line(own)}" ${LINE_STYLES.odometry}/>
+<path d="${line(truth)}" ${LINE_STYLES.reference}/>
 <path d="${dots}" stroke="${INK}" stroke-width="4" stroke-linecap="round"/>
-<path d="${marked}" ${LINES.outlier}/>
+<path d="${marked}" ${LINE_STYLES.outlier}/>
 </g>`;
   return { svg, height };
 }

@@ -35,15 +35,15 @@ const SYSTEMATIC: [string, string, string][] = [
 ];
 
 /** Causes of lost legs. */
-const LOST: Record<string, string> = {
+const LOST_LEG_CAUSES: Record<string, string> = {
   withoutReference: 'without reference', acrossBreaks: 'across jumps or missing rows', acrossPauses: 'across pauses', standing: 'of a standing robot',
 };
 
 /** Checks whose failure makes a log unusable. */
-const DECISIVE = ['reference-matches', 'enough-legs', 'inflation-bounded'];
+const DECISIVE_CHECKS = ['reference-matches', 'enough-legs', 'inflation-bounded'];
 
 /** Number of outliers that are listed. */
-const LISTED = 5;
+const MAX_LISTED_OUTLIERS = 5;
 
 /** Returns the summaries of the logs, a paragraph for each, without the result of the fit. */
 export const logSummaries = (logs: ReadLog[]): string => logs.map(({ name, sentences: [first, ...more] }) => `${[`${name}: ${first}`, ...more].join('\n  ')}\n`).join('');
@@ -53,7 +53,7 @@ export function textOf({ calibration, options, logs, start, begins, date }: Resu
   const { legs, lost, diagnostics: { checks, windows } } = calibration;
   const { model = 'odometry', rule = 'thrun' } = options;
   const failed = failedOf(checks);
-  const causes = Object.entries(LOST).filter(([cause]) => lost[cause] > 0).map(([cause, name]) => `${lost[cause]} ${name}`);
+  const causes = Object.entries(LOST_LEG_CAUSES).filter(([cause]) => lost[cause] > 0).map(([cause, name]) => `${lost[cause]} ${name}`);
   const apart = [...(causes.length ? [`lost legs: ${causes.join(', ')}`] : []), ...outliersOf(legs, begins)];
   const text = [
     '',
@@ -91,7 +91,7 @@ export function verdictSentence({ diagnostics: { verdict, checks } }: any): stri
     const count = failed.length === 1 ? 'one check' : `${failed.length} of ${checks.length} checks`;
     return `Questionable: ${count} failed (${failed.map(({ name }) => name).join(', ')}). If the log cannot be improved, use the recommended α’s.`;
   }
-  const message = failed.find(({ name }) => DECISIVE.includes(name))?.message ?? 'It does not identify any α: see below what to drive.';
+  const message = failed.find(({ name }) => DECISIVE_CHECKS.includes(name))?.message ?? 'It does not identify any α: see below what to drive.';
   return `Unusable: no α’s are recommended from this log. ${message}`;
 }
 
@@ -157,11 +157,11 @@ function windowRow({ length, count, coverage, nees }: any): string[] {
 /** Lists outliers by their times after the start of the odometry. */
 function outliersOf({ count, times, outliers }: any, begins: number[]): string[] {
   const found = Array.from({ length: count }, (_, leg) => leg).filter((leg) => outliers[leg] === 1);
-  const list = found.slice(0, LISTED).map((leg) => {
+  const list = found.slice(0, MAX_LISTED_OUTLIERS).map((leg) => {
     const begin = Math.max(...begins.filter((each) => each <= times[2 * leg]));
     return `${(times[2 * leg] - begin).toFixed(2)} s${begins.length > 1 ? ` of drive ${begins.indexOf(begin) + 1}` : ''}`;
   }).join(', ');
-  return found.length ? [`outliers: ${found.length} of ${count} legs, at ${list}${found.length > LISTED ? ', …' : ''} after the start`] : [];
+  return found.length ? [`outliers: ${found.length} of ${count} legs, at ${list}${found.length > MAX_LISTED_OUTLIERS ? ', …' : ''} after the start`] : [];
 }
 
 function nav2Of(result: Result): string[] {

@@ -3,37 +3,37 @@
 import type { Choice, Frames, LogKind, Recording, Role, Series } from './log.ts';
 
 /** Names of odometry and of commands, the likeliest first. */
-const ODOMETRY = [/(^|[/_.])odom(etry)?[/_.]?$/i, /odom|wheel|encoder/i];
-const COMMANDS = [/(^|[/_.])cmd_?vel[/_.]?$/i, /cmd|command|twist/i];
+const ODOMETRY_NAMES = [/(^|[/_.])odom(etry)?[/_.]?$/i, /odom|wheel|encoder/i];
+const COMMAND_NAMES = [/(^|[/_.])cmd_?vel[/_.]?$/i, /cmd|command|twist/i];
 
 /** Names of measurements from outside. */
-const MEASURED = /truth|(^|[^a-z])(gt|ref)([^a-z]|$)|mocap|vicon|optitrack|qualisys|vrpn|motive|natnet|phasespace|reference|station|leica|prism|tracker/i;
+const MEASUREMENT_NAMES = /truth|(^|[^a-z])(gt|ref)([^a-z]|$)|mocap|vicon|optitrack|qualisys|vrpn|motive|natnet|phasespace|reference|station|leica|prism|tracker/i;
 
 /** Names of estimates by localizers, whose errors follow the odometry where they use it. */
-const LOCALIZED = /slam|amcl|locali[sz]|carto|tracked_pose|icp|loam|scan_?match|pose_graph/i;
+const LOCALIZER_NAMES = /slam|amcl|locali[sz]|carto|tracked_pose|icp|loam|scan_?match|pose_graph/i;
 
 /** Names of filters over the odometry. */
-const FILTERED = /odometry[/_]filtered|ekf|ukf|odom_combined/i;
+const FILTER_NAMES = /odometry[/_]filtered|ekf|ukf|odom_combined/i;
 
 /** Names of topics that are no path of the robot. */
-const GOAL = /goal|initial_?pose|waypoint|target|setpoint/i;
+const GOAL_NAMES = /goal|initial_?pose|waypoint|target|setpoint/i;
 
 /** Frames of a robot, and frames that are fixed, the likeliest first. */
-const BASES = [/(^|\/)base_footprint$/, /(^|\/)base_link$/, /(^|\/)base/];
-const FIXED = { odometry: [/(^|[/_])odom(etry)?$/], reference: [/mocap|vicon|optitrack|world/, /(^|\/)map$/] };
+const BASE_FRAMES = [/(^|\/)base_footprint$/, /(^|\/)base_link$/, /(^|\/)base/];
+const FIXED_FRAMES = { odometry: [/(^|[/_])odom(etry)?$/], reference: [/mocap|vicon|optitrack|world/, /(^|\/)map$/] };
 
-const NAME_OF_ODOMETRY = /odom|wheel|encoder|cmd/i;
+const ODOMETRY_FILE_NAMES = /odom|wheel|encoder|cmd/i;
 
 /** Checks whether a recording is a table, which has groups of columns in the place of topics. */
 export const isTable = ({ format }: Pick<Recording, 'format'>): boolean => !['mcap', 'rosbag', 'sqlite'].includes(format);
 
 /** Checks by name and frames whether a log is the estimate of a localizer, or of a filter over the odometry. */
-export const isLocalizer = (name: string, frames?: Frames): boolean => frames?.parent === 'map' || ((LOCALIZED.test(name) || FILTERED.test(name)) && !MEASURED.test(name));
+export const isLocalizer = (name: string, frames?: Frames): boolean => frames?.parent === 'map' || ((LOCALIZER_NAMES.test(name) || FILTER_NAMES.test(name)) && !MEASUREMENT_NAMES.test(name));
 
 /** Returns the role that is in the name of a file; undefined if there is none. */
 export function roleByName(name: string): Role | undefined {
-  if (MEASURED.test(name) || LOCALIZED.test(name)) return 'reference';
-  return NAME_OF_ODOMETRY.test(name) ? 'odometry' : undefined;
+  if (MEASUREMENT_NAMES.test(name) || LOCALIZER_NAMES.test(name)) return 'reference';
+  return ODOMETRY_FILE_NAMES.test(name) ? 'odometry' : undefined;
 }
 
 /** Returns the series that can be read. A topic needs two messages. */
@@ -54,18 +54,18 @@ export function namesFor(recording: Recording, role: Role): string[] {
 /** Returns the choices for a role in tiers, the likeliest first. A tier of several is ambiguous. */
 export function candidates(recording: Recording, role: Role, { kind }: { kind?: LogKind } = {}): Choice[][] {
   const isOfTable = isTable(recording);
-  const useful = usefulSeries(recording).filter(({ name }) => !GOAL.test(name));
+  const useful = usefulSeries(recording).filter(({ name }) => !GOAL_NAMES.test(name));
   const paths = useful.filter((each) => each.kind === 'poses');
   const chains = useful.flatMap(({ name, frames = [] }) => likeliest(frames, role).map((each) => ({ series: name, frames: each })));
   if (role === 'reference') {
-    const others = paths.filter(({ name }) => !FILTERED.test(name) && !ODOMETRY[0].test(name));
-    return [...tiers(paths, [MEASURED, LOCALIZED], 'poses'), choices(others, 'poses'), ...(isOfTable && useful.length === 1 ? [choices(paths, 'poses')] : []), chains];
+    const others = paths.filter(({ name }) => !FILTER_NAMES.test(name) && !ODOMETRY_NAMES[0].test(name));
+    return [...tiers(paths, [MEASUREMENT_NAMES, LOCALIZER_NAMES], 'poses'), choices(others, 'poses'), ...(isOfTable && useful.length === 1 ? [choices(paths, 'poses')] : []), chains];
   }
   // The type of the message is a sign that it is odometry.
-  const wheels = paths.filter(({ name, type }) => !MEASURED.test(name) && !LOCALIZED.test(name) && (isOfTable || /Odometry$/.test(type)));
-  const poses = [...tiers(wheels, ODOMETRY), choices(wheels), chains];
+  const wheels = paths.filter(({ name, type }) => !MEASUREMENT_NAMES.test(name) && !LOCALIZER_NAMES.test(name) && (isOfTable || /Odometry$/.test(type)));
+  const poses = [...tiers(wheels, ODOMETRY_NAMES), choices(wheels), chains];
   const commands = useful.filter((each) => each.kind === 'commands' || (isOfTable && each.hasCommands));
-  const driven = [...tiers(commands, COMMANDS, 'commands'), choices(commands, 'commands')];
+  const driven = [...tiers(commands, COMMAND_NAMES, 'commands'), choices(commands, 'commands')];
   return kind === 'commands' ? [...driven, ...poses] : isOfTable ? [...poses, ...driven] : poses;
 }
 
@@ -76,6 +76,6 @@ const tiers = (series: Series[], names: RegExp[], kind?: LogKind): Choice[][] =>
 /** Returns the frames that a role has by their names, the likeliest of them. */
 export function likeliest(frames: Frames[], role: Role): Frames[] {
   const first = (some: Frames[], names: RegExp[], end: keyof Frames) => names.map((name) => some.filter((each) => name.test(each[end]))).find(({ length }) => length);
-  const fixed = first(frames, FIXED[role], 'parent') ?? [];
-  return first(fixed, BASES, 'child') ?? fixed;
+  const fixed = first(frames, FIXED_FRAMES[role], 'parent') ?? [];
+  return first(fixed, BASE_FRAMES, 'child') ?? fixed;
 }

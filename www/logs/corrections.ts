@@ -22,7 +22,7 @@ const CORRECTIONS = {
 };
 
 /** All corrections of either log, */
-const CHOICES = (Object.keys(CORRECTIONS) as (keyof typeof CORRECTIONS)[]).flatMap((name) => [[name, 'reference'], [name, 'odometry']] as [typeof name, Role][]);
+const ALL_CORRECTIONS = (Object.keys(CORRECTIONS) as (keyof typeof CORRECTIONS)[]).flatMap((name) => [[name, 'reference'], [name, 'odometry']] as [typeof name, Role][]);
 
 /** Correction that makes two logs of a drive agree. */
 export interface Correction {
@@ -42,7 +42,7 @@ const [MAX_STEPS, MIN_DURATION, MIN_STEPS] = [4000, 0.25, 40];
 const MAX_OFFSET = 10;
 
 /** Score above which logs need no correction, minimum score after a correction, and maximum fraction of the disagreement after it. */
-const [AGREEMENT, MIN_SCORE, MAX_REST] = [0.9, 0.8, 0.3];
+const [AGREEMENT, MIN_SCORE, MAX_REMAINING_FRACTION] = [0.9, 0.8, 0.3];
 
 /** Returns true for a scale that wheels can have, as in the core. */
 const isPlausible = (scale: number) => scale >= 0.5 && scale <= 2;
@@ -51,7 +51,7 @@ const isPlausible = (scale: number) => scale >= 0.5 && scale <= 2;
 const STANDSTILL = 1e-4;
 
 /** Motion beyond which a step is a jump, in units of the 90 % quantile. */
-const JUMP = 4;
+const JUMP_FACTOR = 4;
 
 /** Agreement of two logs: correlation of their motions (−1 to 1), and best scales of the reference's lengths and angles. */
 interface Agreement { score: number; length: number; angle: number }
@@ -66,12 +66,12 @@ export function correctionOf(odometry: Log, reference: Log): Correction | undefi
   if (!(count >= MIN_STEPS)) return undefined;
   const plain = { odometry: motionsOf(odometry, from, step, count), reference: motionsOf(reference, from, step, count) };
   const { score, length: factor, angle } = agreement(plain, step, true);
-  const tried = score >= AGREEMENT ? [] : CHOICES.map(([name, at]) => {
+  const tried = score >= AGREEMENT ? [] : ALL_CORRECTIONS.map(([name, at]) => {
     const corrected = { ...plain, [at]: motionsOf(logs[at], from, step, count, CORRECTIONS[name]) };
     // A correction of the wrong log can give both logs the same error. Neither robot then drives along its heading.
     return { name, at, factor, ...agreement(corrected, step), straight: straightness(corrected.odometry) + straightness(corrected.reference) };
   });
-  const minimum = Math.max(MIN_SCORE, 1 - MAX_REST * (1 - score));
+  const minimum = Math.max(MIN_SCORE, 1 - MAX_REMAINING_FRACTION * (1 - score));
   const best = greatest(tried.filter((each) => each.score >= minimum && isPlausible(each.length) && isPlausible(each.angle)), (each) => each.score + each.straight);
   if (best) return best;
   if (score < MIN_SCORE) return undefined;
@@ -98,7 +98,7 @@ function motionsOf({ data }: Log, from: number, step: number, count: number, cor
  */
 function agreement({ odometry, reference }: Record<Role, Motion[]>, step: number, anyYaw = false): Agreement {
   const maxLag = Math.round(MAX_OFFSET / step);
-  const [own, its] = [steady(odometry), steady(reference)];
+  const [own, its] = [withoutJumps(odometry), withoutJumps(reference)];
   let best: Agreement = { score: -1, length: 1, angle: 1 };
   for (let i = 0; i <= 2 * maxLag && best.score < AGREEMENT; i++) {
     const found = agreementAt(own, its, i % 2 === 0 ? i / 2 : -(i + 1) / 2, own.length - maxLag, anyYaw);
@@ -108,8 +108,8 @@ function agreement({ odometry, reference }: Record<Role, Motion[]>, step: number
 }
 
 /** Returns motions with jumps replaced by zeros. */
-function steady(motions: Motion[]): Motion[] {
-  const limitOf = (size: (motion: Motion) => number) => JUMP * Math.max(STANDSTILL, quantile(Float64Array.from(motions, size), 0.9));
+function withoutJumps(motions: Motion[]): Motion[] {
+  const limitOf = (size: (motion: Motion) => number) => JUMP_FACTOR * Math.max(STANDSTILL, quantile(Float64Array.from(motions, size), 0.9));
   const [drive, spin] = [limitOf(([forward, left]) => Math.hypot(forward, left)), limitOf(([, , turn]) => Math.abs(turn))];
   return motions.map((motion) => (Math.hypot(motion[0], motion[1]) <= drive && Math.abs(motion[2]) <= spin ? motion : [0, 0, 0]));
 }

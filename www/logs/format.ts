@@ -24,36 +24,36 @@ export interface Format {
 }
 
 /** Lines that the format is detected from. */
-const SAMPLED = 50;
+const SAMPLED_LINES = 50;
 
 /** Columns of tables without a header, by their number. */
-const TUM = ['t', 'x', 'y', 'z', 'qx', 'qy', 'qz', 'qw'];
-const POSE = ['pose.position.x', 'pose.position.y', 'pose.position.z', 'pose.orientation.x', 'pose.orientation.y', 'pose.orientation.z', 'pose.orientation.w'];
-const TWIST = ['linear.x', 'linear.y', 'linear.z', 'angular.x', 'angular.y', 'angular.z'];
-const STAMP = ['header.stamp.sec', 'header.stamp.nanosec', 'header.frame_id'];
-const OTHERS = Array.from({ length: 36 }, () => '-');
+const TUM_COLUMNS = ['t', 'x', 'y', 'z', 'qx', 'qy', 'qz', 'qw'];
+const POSE_COLUMNS = ['pose.position.x', 'pose.position.y', 'pose.position.z', 'pose.orientation.x', 'pose.orientation.y', 'pose.orientation.z', 'pose.orientation.w'];
+const TWIST_COLUMNS = ['linear.x', 'linear.y', 'linear.z', 'angular.x', 'angular.y', 'angular.z'];
+const STAMP_COLUMNS = ['header.stamp.sec', 'header.stamp.nanosec', 'header.frame_id'];
+const COVARIANCE_COLUMNS = Array.from({ length: 36 }, () => '-');
 
 /** Columns of `ros2 topic echo --csv`: Odometry, PoseStamped with and without covariance, TwistStamped, and one transform. */
-const ROS2 = [
-  [...STAMP, 'child_frame_id', ...POSE, ...OTHERS, ...TWIST, ...OTHERS],
-  [...STAMP, ...POSE],
-  [...STAMP, ...POSE, ...OTHERS],
-  [...STAMP, ...TWIST],
-  [...STAMP, 'child_frame_id', ...POSE],
+const ROS2_LAYOUTS = [
+  [...STAMP_COLUMNS, 'child_frame_id', ...POSE_COLUMNS, ...COVARIANCE_COLUMNS, ...TWIST_COLUMNS, ...COVARIANCE_COLUMNS],
+  [...STAMP_COLUMNS, ...POSE_COLUMNS],
+  [...STAMP_COLUMNS, ...POSE_COLUMNS, ...COVARIANCE_COLUMNS],
+  [...STAMP_COLUMNS, ...TWIST_COLUMNS],
+  [...STAMP_COLUMNS, 'child_frame_id', ...POSE_COLUMNS],
 ];
 
 /** Records of CARMEN's logs. The columns of FLASER follow the readings of the laser. */
-const CARMEN: [tag: string, series: string, names: string[]][] = [
+const CARMEN_RECORDS: [tag: string, series: string, names: string[]][] = [
   ['ODOM', 'ODOM', ['-', 'x', 'y', 'theta', 'v', 'omega', '-', 't']],
   ['TRUEPOS', 'TRUEPOS', ['-', 'x', 'y', 'theta', '-', '-', '-', 't']],
   ['FLASER', 'FLASER', ['-', 'x', 'y', 'theta', '-', '-', '-', 't']],
 ];
 
 /** Number of columns of rows without times: poses of KITTI, and geometry_msgs/Twist. */
-const [KITTI, TWISTS] = [12, 6];
+const [KITTI_WIDTH, TWIST_WIDTH] = [12, 6];
 
 /** First lines of text that is no table. */
-const NO_TABLE: [RegExp, string][] = [[/^\s*(\{\s*("|$)|\[\s*([-\d"[{]|$))/, 'JSON'], [/^(---|header:|pose:|transforms:|- header:)\s*$/, 'YAML']];
+const OTHER_TEXTS: [RegExp, string][] = [[/^\s*(\{\s*("|$)|\[\s*([-\d"[{]|$))/, 'JSON'], [/^(---|header:|pose:|transforms:|- header:)\s*$/, 'YAML']];
 
 /** Splits a line into cells, of which only `needed` may be returned. A separator in quotes does not count. */
 export function cellsOf(line: string, separator: string, needed = Infinity): string[] {
@@ -83,8 +83,8 @@ export function carmenCells(line: string): string[] {
   return cells[0] === 'FLASER' ? [cells[0], ...cells.slice(2 + Number(cells[1]))] : cells;
 }
 
-const WITH_COMMA = /^\s*[+-]?\d*,\d+(e[+-]?\d+)?\s*$/i;
-const isNumber = (cell: string) => cell.trim() !== '' && (numberOf(cell) !== undefined || WITH_COMMA.test(cell) || dateOf(cell) !== undefined);
+const DECIMAL_COMMA = /^\s*[+-]?\d*,\d+(e[+-]?\d+)?\s*$/i;
+const isNumber = (cell: string) => cell.trim() !== '' && (numberOf(cell) !== undefined || DECIMAL_COMMA.test(cell) || dateOf(cell) !== undefined);
 
 /** Checks for a row of data: at least two cells, and half of those that are not empty, are numbers or dates. */
 function isRow(cells: string[]): boolean {
@@ -116,16 +116,16 @@ export function formatOf(lines: string[], file: string, columns: string[] | unde
   const isComment = ({ line }: { line: string }) => /^\s*(#|%|\/\/)/.test(line);
   const texts = filled.filter((each) => !isComment(each));
   if (texts.length === 0) throw new LogError({ file }, (say) => say.empty);
-  const [, notation] = NO_TABLE.find(([pattern]) => pattern.test(texts[0].line)) ?? [];
+  const [, notation] = OTHER_TEXTS.find(([pattern]) => pattern.test(texts[0].line)) ?? [];
   if (notation !== undefined) throw new LogError({ file }, (say) => say.noTable(notation));
-  const tags = CARMEN.filter(([tag]) => texts.some(({ line }) => line.startsWith(`${tag} `)));
+  const tags = CARMEN_RECORDS.filter(([tag]) => texts.some(({ line }) => line.startsWith(`${tag} `)));
   if (tags.length > 0 && texts.every(({ line }) => /^[A-Z_0-9]+ /.test(line))) return carmenFormat(tags, filled[0].number);
 
-  const separator = separatorOf(texts.slice(0, SAMPLED).map(({ line }) => line.trim()));
+  const separator = separatorOf(texts.slice(0, SAMPLED_LINES).map(({ line }) => line.trim()));
   const cells = (line: string) => cellsOf(line, separator);
   const first = texts.find(({ line }, i) => isRow(cells(line)) && (i + 1 === texts.length || isRow(cells(texts[i + 1].line)))) ?? texts.findLast(({ line }) => isRow(cells(line)));
-  const rows = first ? texts.filter(({ number }) => number >= first.number).slice(0, SAMPLED).map(({ line }) => cells(line)) : [];
-  const hasCommas = (separator !== ',' || rows.some((_, i) => texts[i].line.includes('"'))) && rows.flat().some((cell) => WITH_COMMA.test(cell));
+  const rows = first ? texts.filter(({ number }) => number >= first.number).slice(0, SAMPLED_LINES).map(({ line }) => cells(line)) : [];
+  const hasCommas = (separator !== ',' || rows.some((_, i) => texts[i].line.includes('"'))) && rows.flat().some((cell) => DECIMAL_COMMA.test(cell));
   const width = Math.max(0, ...rows.map((row) => row.length - (row.at(-1)?.trim() === '' ? 1 : 0)));
   const common = { name: 'csv' as const, separator, hasCommas, firstLine: first?.number ?? (filled.at(-1)?.number ?? 0) + 1, isSparse: false };
   const place = { file, line: first?.number ?? filled[0].number };
@@ -152,9 +152,9 @@ export function formatOf(lines: string[], file: string, columns: string[] | unde
   }
   if (!first) throw noLog();
   const names = withoutHeader(rows);
-  if (names) return { ...common, name: names === TUM ? 'tum' : 'csv', names, groups: grouped(names, rows[0]) };
-  if (width === KITTI) throw new LogError(place, (say) => say.kitti);
-  if (width === TWISTS && rows.every((row) => row.slice(1, 5).every((cell) => Number(cell) === 0))) throw new LogError(place, (say) => say.twists);
+  if (names) return { ...common, name: names === TUM_COLUMNS ? 'tum' : 'csv', names, groups: grouped(names, rows[0]) };
+  if (width === KITTI_WIDTH) throw new LogError(place, (say) => say.kitti);
+  if (width === TWIST_WIDTH && rows.every((row) => row.slice(1, 5).every((cell) => Number(cell) === 0))) throw new LogError(place, (say) => say.twists);
   const usual = ({ 3: 't,v,omega', 4: 't,x,y,yaw' } as Record<number, string>)[width] ?? `t,x,y,yaw${',-'.repeat(Math.max(0, width - 4))}`;
   throw new LogError(place, (say) => say.noHeader(width, cut(first.line.trim().replaceAll('\t', ' '))), { what: 'columns', choices: [usual], columns: rows[0].slice(0, width) });
 }
@@ -190,15 +190,15 @@ function headerOf(above: { line: string; number: number }[], separator: string, 
 function withoutHeader(rows: string[][]): string[] | undefined {
   const [row] = rows;
   const isQuaternion = (from: number) => Math.abs(Math.hypot(...row.slice(from, from + 4).map((cell) => Number(cell.replace(',', '.')))) - 1) < 0.1;
-  if (row.length === TUM.length && row.every(isNumber)) return TUM;
-  return ROS2.find((names) => {
+  if (row.length === TUM_COLUMNS.length && row.every(isNumber)) return TUM_COLUMNS;
+  return ROS2_LAYOUTS.find((names) => {
     const at = names.indexOf('pose.orientation.x');
     return row.length === names.length && /^\d+$/.test(row[0].trim()) && /^\d{1,9}$/.test(row[1].trim()) && !isNumber(row[2]) && (at < 0 || isQuaternion(at));
   });
 }
 
 /** Returns the format of CARMEN: a group for each kind of record. */
-function carmenFormat(tags: typeof CARMEN, firstLine: number): Format {
+function carmenFormat(tags: typeof CARMEN_RECORDS, firstLine: number): Format {
   const groups = tags.flatMap(([tag, name, names]) => groupsOf(names).map((group) => ({ ...group, tag, name })));
   return { name: 'csv', separator: ' ', hasCommas: false, firstLine, names: tags.map(([tag]) => tag), groups, isSparse: false };
 }

@@ -9,10 +9,10 @@ import { product, rotated } from './quaternion.ts';
 const MAX_FRAMES = 10_000;
 
 /** Least motion in m of a frame that travels; joints only turn, and suspensions move less. */
-const TRAVELS = 0.05;
+const MIN_TRAVEL = 0.05;
 
 /** Usual names of a robot's own frame, which is fixed to one that travels. */
-const BASE = /base|body|chassis|robot/i;
+const BASE_FRAME = /base|body|chassis|robot/i;
 
 interface Link extends Frames {
   isStatic: boolean;
@@ -24,7 +24,7 @@ interface Link extends Frames {
 /** Links between frames. A frame may have several parents, as one in the map and one in the odometry. */
 export class FrameTree {
   #links = new Map<string, Link>();
-  #above = new Map<string, Link[]>();
+  #linksByChild = new Map<string, Link[]>();
 
   take({ parent, child, transform }: Edge, isStatic: boolean): void {
     const link = this.#links.get(framesText({ parent, child }));
@@ -33,7 +33,7 @@ export class FrameTree {
     } else if (this.#links.size < MAX_FRAMES) {
       const added = { parent, child, isStatic, origin: transform, travelled: 0 };
       this.#links.set(framesText(added), added);
-      this.#above.set(child, [...(this.#above.get(child) ?? []), added]);
+      this.#linksByChild.set(child, [...(this.#linksByChild.get(child) ?? []), added]);
     }
   }
 
@@ -45,7 +45,7 @@ export class FrameTree {
   chain({ parent, child }: Frames, seen = new Set<string>()): Frames[] | undefined {
     if (seen.has(child)) return undefined;
     seen.add(child);
-    for (const link of this.#above.get(child) ?? []) {
+    for (const link of this.#linksByChild.get(child) ?? []) {
       const chain = link.parent === parent ? [] : this.chain({ parent, child: link.parent }, seen);
       if (chain) return [...chain, link];
     }
@@ -58,7 +58,7 @@ export class FrameTree {
    */
   candidates(): Frames[] {
     const links = [...this.#links.values()];
-    const travelling = links.filter(({ isStatic, travelled }) => !isStatic && travelled > TRAVELS);
+    const travelling = links.filter(({ isStatic, travelled }) => !isStatic && travelled > MIN_TRAVEL);
     const moving = new Set((travelling.length ? travelling : links.filter(({ isStatic }) => !isStatic)).map(({ child }) => child));
     const children = [...new Set(links.map(({ child }) => child))];
     return children.flatMap((child) => {
@@ -66,7 +66,7 @@ export class FrameTree {
       const isMoving = moving.has(child);
       const isInner = isMoving && children.some((other) => other !== child && moving.has(other) && this.#ancestors(other).includes(child));
       // Number of ancestors of a base up to and with the nearest moving one: they move with the base, and so are no parents of its poses.
-      const fixed = isMoving || !BASE.test(child) ? 0 : ancestors.findIndex((frame) => moving.has(frame)) + 1;
+      const fixed = isMoving || !BASE_FRAME.test(child) ? 0 : ancestors.findIndex((frame) => moving.has(frame)) + 1;
       return isInner || (!isMoving && fixed === 0) ? [] : ancestors.slice(fixed).map((parent) => ({ parent, child }));
     });
   }
@@ -74,7 +74,7 @@ export class FrameTree {
   /** Frames above another, the nearest first. */
   #ancestors(frame: string): string[] {
     const found = new Set<string>([frame]);
-    for (const each of found) for (const { parent } of this.#above.get(each) ?? []) found.add(parent);
+    for (const each of found) for (const { parent } of this.#linksByChild.get(each) ?? []) found.add(parent);
     return [...found].slice(1);
   }
 }

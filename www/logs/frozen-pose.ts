@@ -4,10 +4,10 @@ import { bisectRight } from 'd3-array';
 import type { Commands, Log, Poses } from './log.ts';
 
 /** Duration (s) that is ignored at both ends of a standstill, because the clocks may differ by as much. */
-const MARGIN = 1;
+const END_MARGIN = 1;
 
 /** Minimum motion of the odometry during a frozen pose, in metres or radians. At rest it may count a pulse or two. */
-const MOVES = 0.05;
+const MIN_ODOMETRY_MOTION = 0.05;
 
 /** Removes rows of the reference that repeat a pose while the odometry, which has the same start, moves on. */
 export function withoutFrozenPoses(reference: Log, odometry: Log): Log {
@@ -17,8 +17,8 @@ export function withoutFrozenPoses(reference: Log, odometry: Log): Log {
   const breaks = new Set(known);
   for (let from = 0, to; from < t.length; from = to) {
     for (to = from + 1; to < t.length && x[to] === x[from] && y[to] === y[from] && theta[to] === theta[from]; ) to += 1;
-    const [start, end] = [t[from] + MARGIN, t[to - 1] - MARGIN];
-    if (!(end > start && movedAt(end) - movedAt(start) > MOVES)) continue;
+    const [start, end] = [t[from] + END_MARGIN, t[to - 1] - END_MARGIN];
+    if (!(end > start && movedAt(end) - movedAt(start) > MIN_ODOMETRY_MOTION)) continue;
     isKept.fill(0, from + 1, to);
     breaks.add(to);
   }

@@ -15,7 +15,7 @@ export interface Place {
 }
 
 /** Maximum number of characters that a sentence quotes of a name or value, and of a library's message. */
-const [QUOTED, REASON] = [40, 100];
+const [MAX_QUOTED, MAX_REASON] = [40, 100];
 
 /** Error with one sentence that names the file, the line or topic, the value, and what is expected. */
 export class LogError extends Error {
@@ -37,7 +37,7 @@ export class LogError extends Error {
 }
 
 /** Shortens a text to one line for quotation in a sentence. */
-export function cut(text: string, most = QUOTED): string {
+export function cut(text: string, most = MAX_QUOTED): string {
   // oxlint-disable-next-line no-control-regex
   const line = text.slice(0, most + 1).replaceAll(/[\0-\x1f\x7f-\x9f\u2028\u2029]/g, '\ufffd');
   return line.length > most ? `${line.slice(0, most)}…` : line;
@@ -46,7 +46,7 @@ export function cut(text: string, most = QUOTED): string {
 /** Returns the message of a library's error, for a sentence. */
 export function reasonOf(error: unknown): string {
   const message = error instanceof Error ? error.message : String(error);
-  return cut(message.replace(/ \[(library=[^\]]*|no header)\]$/, ''), REASON);
+  return cut(message.replace(/ \[(library=[^\]]*|no header)\]$/, ''), MAX_REASON);
 }
 
 /** Returns the first few names of a list, for a sentence. */

@@ -9,7 +9,7 @@ import { openTable } from './table.ts';
 type Format = 'mcap' | 'rosbag' | 'sqlite' | 'zstd' | 'metadata';
 
 /** First bytes of formats that are read. */
-const FORMATS: Record<Format, string> = {
+const FORMAT_MAGIC: Record<Format, string> = {
   mcap: '\x89MCAP0\r\n',
   rosbag: '#ROSBAG V2.0\n',
   sqlite: 'SQLite format 3\0',
@@ -18,7 +18,7 @@ const FORMATS: Record<Format, string> = {
 };
 
 /** First bytes of known formats that cannot be read. The error names the format. */
-const REFUSED: [keyof typeof OTHERS, string][] = [
+const UNSUPPORTED_MAGIC: [keyof typeof OTHERS, string][] = [
   ['rosbag1', '#ROSBAG V1'], ['rosbag1', '#ROSRECORD'], ['ulog', 'ULog\x01\x12\x35'], ['dataflash', '\xa3\x95\x80'],
   ['pcap', '\xd4\xc3\xb2\xa1'], ['pcap', '\xa1\xb2\xc3\xd4'], ['pcap', '\x4d\x3c\xb2\xa1'], ['pcap', '\x0a\x0d\x0d\x0a'],
   ['wal', '\x37\x7f\x06\x82'], ['wal', '\x37\x7f\x06\x83'], ['zip', 'PK\x03\x04'], ['gzip', '\x1f\x8b'], ['bzip2', 'BZh'],
@@ -26,7 +26,7 @@ const REFUSED: [keyof typeof OTHERS, string][] = [
 ];
 
 /** Number of bytes that identify a format. */
-const START = 32;
+const MAX_MAGIC_BYTES = 32;
 
 /**
  * Opens files; rejects with a LogError that names the file, the line or topic, and what to do. Files that a metadata.yaml of rosbag2
@@ -61,10 +61,10 @@ export async function openRecordings(files: Source[], options: OpenOptions | ((f
 
 /** Returns the format by the first bytes; undefined for a table. */
 async function formatOf(source: Source): Promise<Format | undefined> {
-  const start = String.fromCharCode(...(await bytesOf(source, 0, START)));
-  const refused = REFUSED.find(([, magic]) => start.startsWith(magic));
+  const start = String.fromCharCode(...(await bytesOf(source, 0, MAX_MAGIC_BYTES)));
+  const refused = UNSUPPORTED_MAGIC.find(([, magic]) => start.startsWith(magic));
   if (refused) throw new LogError({ file: source.name }, (say) => say.notRead(refused[0]));
-  return (Object.keys(FORMATS) as Format[]).find((format) => start.startsWith(FORMATS[format]));
+  return (Object.keys(FORMAT_MAGIC) as Format[]).find((format) => start.startsWith(FORMAT_MAGIC[format]));
 }
 
 /** Opens a container. The readers are loaded when they are needed. */

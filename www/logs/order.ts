@@ -3,10 +3,10 @@
 import { quantile, sample } from './quantile.ts';
 
 /** Maximum difference of neighbouring times, in median steps. */
-const NEAR = 5;
+const MAX_GAP_STEPS = 5;
 
 /** Maximum difference of equal times, in median steps. */
-const SAME = 0.75;
+const SAME_TIME_STEPS = 0.75;
 
 /** Minimum number of rows with times of earlier rows, by which a clock was set back. Fewer such rows are late. */
 const MIN_OVERLAP = 3;
@@ -18,11 +18,11 @@ interface Order {
   /** Kept rows, sorted by time. Rows of equal time are in the order of the file. */
   order: Uint32Array;
   /** Class of each row. */
-  fates: Uint8Array;
+  classes: Uint8Array;
   /** First row after the clock was set back; −1 if it never was. */
   setBack: number;
   /** Number of rows in the largest part of the log between resets of the clock. */
-  most: number;
+  largest: number;
 }
 
 /**
@@ -33,41 +33,41 @@ interface Order {
  * @param isSame checks whether two rows have the same values
  */
 export function sortRows(t: Float64Array, isSame: (one: number, other: number) => boolean): Order {
-  const fates = new Uint8Array(t.length);
+  const classes = new Uint8Array(t.length);
   const all = new Uint32Array(t.length);
   let isSorted = true;
   for (let i = 0; i < t.length; i++) {
     all[i] = i;
     if (t[i] < t[i - 1]) isSorted = false;
   }
-  if (isSorted) return { order: all, fates, setBack: -1, most: t.length };
+  if (isSorted) return { order: all, classes, setBack: -1, largest: t.length };
 
   const step = quantile(sample(t.length - 1, (i) => t[i + 1] - t[i]).filter((each) => each > 0), 0.5);
   const sorted = all.toSorted((one, other) => t[one] - t[other] || one - other);
   const places = new Uint32Array(t.length);
   for (let place = 0; place < t.length; place++) places[sorted[place]] = place;
-  const isAlone = (i: number) => [t[sorted[places[i] - 1]], t[sorted[places[i] + 1]]].every((other) => !(Math.abs(other - t[i]) <= NEAR * step));
+  const isAlone = (i: number) => [t[sorted[places[i] - 1]], t[sorted[places[i] + 1]]].every((other) => !(Math.abs(other - t[i]) <= MAX_GAP_STEPS * step));
   for (let i = 0; i < t.length; i++) {
     const around = t[i + 1] - t[i - 1];
     const isBetween = t[i] >= t[i - 1] && t[i] <= t[i + 1];
-    if (around >= 0 && around <= NEAR * step && !isBetween && isAlone(i)) fates[i] = STRAY;
+    if (around >= 0 && around <= MAX_GAP_STEPS * step && !isBetween && isAlone(i)) classes[i] = STRAY;
   }
 
   // Runs are rows with rising times. A run that repeats times of earlier runs begins a new part.
   const runs = new Uint32Array(t.length);
   for (let i = 1, last = 0; i < t.length; i++) {
     runs[i] = runs[i - 1];
-    if (fates[i - 1] !== STRAY) last = i - 1;
-    if (fates[i] !== STRAY && t[i] < t[last]) {
+    if (classes[i - 1] !== STRAY) last = i - 1;
+    if (classes[i] !== STRAY && t[i] < t[last]) {
       runs[i] += 1;
-      fates[i] = LATE;
+      classes[i] = LATE;
     }
   }
   const overlaps = new Uint32Array(runs[t.length - 1] + 1);
   let previous = -1;
   for (const i of sorted) {
-    if (fates[i] === STRAY) continue;
-    const isRepeated = previous >= 0 && runs[previous] !== runs[i] && t[i] - t[previous] < SAME * step;
+    if (classes[i] === STRAY) continue;
+    const isRepeated = previous >= 0 && runs[previous] !== runs[i] && t[i] - t[previous] < SAME_TIME_STEPS * step;
     if (isRepeated && !isSame(previous, i)) overlaps[Math.max(runs[previous], runs[i])] += 1;
     previous = i;
   }
@@ -80,19 +80,19 @@ export function sortRows(t: Float64Array, isSame: (one: number, other: number) =
       sizes.push(0);
     }
     parts[i] = sizes.length - 1;
-    if (fates[i] !== STRAY) sizes[parts[i]] += 1;
+    if (classes[i] !== STRAY) sizes[parts[i]] += 1;
   }
-  const most = Math.max(...sizes);
-  const kept = sizes.indexOf(most);
-  for (let i = 0; i < t.length; i++) if (fates[i] !== STRAY && parts[i] !== kept) fates[i] = SET_BACK;
-  return { order: sorted.filter((i) => fates[i] < STRAY), fates, setBack, most };
+  const largest = Math.max(...sizes);
+  const kept = sizes.indexOf(largest);
+  for (let i = 0; i < t.length; i++) if (classes[i] !== STRAY && parts[i] !== kept) classes[i] = SET_BACK;
+  return { order: sorted.filter((i) => classes[i] < STRAY), classes, setBack, largest };
 }
 
 /** Repeated poses of a moving robot: maximum duration in s of a run of equal rows, and minimum number of such runs. */
-const [LONGEST_HOLD, MIN_HOLDS] = [1, 20];
+const [MAX_HOLD, MIN_HOLDS] = [1, 20];
 
 /** Minimum fraction of rows in such runs, for a recorder that repeats poses. */
-const MIN_HELD = 0.8;
+const MIN_HELD_FRACTION = 0.8;
 
 /**
  * Returns the number of rows for each pose of a moving robot; usually 1. A table with topics of different rates repeats the poses of the
@@ -106,11 +106,11 @@ export function repeatFactor(t: Float64Array, isRepeated: (i: number) => boolean
   for (let from = 0, to; from < t.length; from = to) {
     for (to = from + 1; to < t.length && isRepeated(to); ) to += 1;
     if (to - from === 1) single += 1;
-    else if (t[to - 1] - t[from] <= LONGEST_HOLD) {
+    else if (t[to - 1] - t[from] <= MAX_HOLD) {
       held += to - from;
       lengths.push(to - from);
     }
   }
-  if (lengths.length < MIN_HOLDS || held < MIN_HELD * (held + single)) return 1;
+  if (lengths.length < MIN_HOLDS || held < MIN_HELD_FRACTION * (held + single)) return 1;
   return quantile(Float64Array.from(lengths), 0.5);
 }

@@ -12,30 +12,30 @@ import { framesText, type Log, type Note, type Poses, type Role, type Warning } 
 export interface Drive { odometry: Log; reference: Log }
 
 /** Minimum fraction of the shorter log's time that two logs of one drive share. */
-const COMMON = 0.5;
+const MIN_OVERLAP = 0.5;
 
 /** Number of rows that are compared to find the same log in two files, and minimum number that proves it. */
-const [COMPARED, ENOUGH] = [500, 10];
+const [COMPARED_ROWS, MIN_EQUAL_ROWS] = [500, 10];
 
 /** Largest difference in m and rad between copies of one path: the rounding to six digits. */
-const SAME = 1e-5;
+const COPY_TOLERANCE = 1e-5;
 
 /** Least motion in m and rad of paths that are compared. */
-const MOVED = 0.1;
+const MIN_MOTION = 0.1;
 
 /**
  * Fraction of rows that repeat the previous pose: minimum for wheels of a robot that rests at times, and maximum for a measurement, which
  * has noise.
  */
-const [RESTS, JITTERS] = [0.02, 0.001];
+const [MIN_WHEEL_REPEATS, MAX_MEASURED_REPEATS] = [0.02, 0.001];
 
 /** Units that correct a log if they are stated. */
-const UNIT_OF: { [Name in Correction['name']]?: 'angleUnit' | 'lengthUnit' } = { degrees: 'angleUnit', radians: 'angleUnit', lengths: 'lengthUnit' };
+const UNIT_OPTIONS: { [Name in Correction['name']]?: 'angleUnit' | 'lengthUnit' } = { degrees: 'angleUnit', radians: 'angleUnit', lengths: 'lengthUnit' };
 
 /** Returns the absolute times of the first and the last row. */
 const spanOf = ({ start, data: { t } }: Log): [number, number] => [start + t[0], start + t[t.length - 1]];
 
-const printed = (log: Log) => spanOf(log).map((time) => `${time.toFixed(2)} s`).join(' to ');
+const printedSpan = (log: Log) => spanOf(log).map((time) => `${time.toFixed(2)} s`).join(' to ');
 
 /** Returns the duration that two logs have in common; negative for logs apart. */
 function overlap(one: Log, other: Log): number {
@@ -48,7 +48,7 @@ const stemOf = (name: string) => name.toLowerCase().replace(/\.\w+$/, '').replac
 
 /** Pairs logs of several drives: by their times, by the names of their files, or in their order. */
 export function pairedByTime(odometry: Log[], reference: Log[]): [Log, Log][] {
-  const isLong = (one: Log, other: Log) => overlap(one, other) > COMMON * Math.min(one.summary.seconds, other.summary.seconds);
+  const isLong = (one: Log, other: Log) => overlap(one, other) > MIN_OVERLAP * Math.min(one.summary.seconds, other.summary.seconds);
   const isNamed = (one: Log, other: Log) => stemOf(one.name) === stemOf(other.name);
   for (const match of [isLong, isNamed]) {
     const partners = odometry.map((one) => reference.filter((other) => match(one, other)));
@@ -73,7 +73,7 @@ export function pairLogs(odometry: Log, reference: Log): Drive {
   if (reliable.data.t.length < 2) throw new LogError(place, (say) => say.held);
   const wrong = correctionOf(first, reliable);
   if (wrong) {
-    const what = UNIT_OF[wrong.name];
+    const what = UNIT_OPTIONS[wrong.name];
     const [log, other] = wrong.at === 'odometry' ? [odometry, reference] : [reference, odometry];
     throw new LogError({ file: log.name }, (say) => say.correction(wrong.name, other.name, wrong.score, wrong.factor), what && { what, choices: [] });
   }
@@ -82,7 +82,7 @@ export function pairLogs(odometry: Log, reference: Log): Drive {
     ...reliable.summary.notes,
     ...(swapped ? [{ name: 'swapped' as const, values: [odometry.name, swapped] }] : []),
     ...(isLocalizer(reference.name, reference.summary.frames) ? [{ name: 'localizer' as const, values: [] }] : []),
-    ...(overlap(odometry, reference) < 0 ? [{ name: 'apart' as const, values: [odometry.name, printed(reference), printed(odometry)] }] : []),
+    ...(overlap(odometry, reference) < 0 ? [{ name: 'apart' as const, values: [odometry.name, printedSpan(reference), printedSpan(odometry)] }] : []),
   ];
   return { odometry: first, reference: { ...reliable, summary: { ...reliable.summary, notes } } };
 }
@@ -92,7 +92,7 @@ function swappedBy(odometry: Log, reference: Log): 'name' | 'rest' | undefined {
   const roles = [odometry, reference].map(({ name }) => roleByName(name));
   if (roles[0] !== 'odometry' && roles[1] === 'odometry') return 'name';
   const rests = ({ data }: Log) => ('x' in data ? data.x.reduce((count, x, i) => count + Number(x === data.x[i - 1] && data.y[i] === data.y[i - 1] && data.theta[i] === data.theta[i - 1]), 0) / data.x.length : 1);
-  return roles.every((role) => role === undefined) && rests(reference) > RESTS && rests(odometry) < JITTERS ? 'rest' : undefined;
+  return roles.every((role) => role === undefined) && rests(reference) > MIN_WHEEL_REPEATS && rests(odometry) < MAX_MEASURED_REPEATS ? 'rest' : undefined;
 }
 
 const WARNINGS: Warning[] = ['localizer', 'swapped'];
@@ -121,7 +121,7 @@ export function isSamePath(one: Log, two: Log): boolean {
   if ('v' in poses || 'v' in other) {
     return (one.kind === two.kind || one.name === two.name) && t.length === other.t.length && t.every((time, i) => time === other.t[i]);
   }
-  const every = Math.ceil(t.length / COMPARED);
+  const every = Math.ceil(t.length / COMPARED_ROWS);
   const motion = ({ x, y, theta }: Poses, from: number, to: number) => {
     const [dx, dy, cos, sin] = [x[to] - x[from], y[to] - y[from], Math.cos(theta[from]), Math.sin(theta[from])];
     return [cos * dx + sin * dy, cos * dy - sin * dx, theta[to] - theta[from]];
@@ -135,9 +135,9 @@ export function isSamePath(one: Log, two: Log): boolean {
     const [own, its] = [motion(poses, first[0], i), motion(other, first[1], j)];
     const distance = Math.hypot(own[0], own[1]);
     const turn = Math.abs(Math.sin((own[2] - its[2]) / 2));
-    if (Math.hypot(own[0] - its[0], own[1] - its[1]) > SAME * (1 + distance) || turn > SAME) return false;
+    if (Math.hypot(own[0] - its[0], own[1] - its[1]) > COPY_TOLERANCE * (1 + distance) || turn > COPY_TOLERANCE) return false;
     rows += 1;
     moved = Math.max(moved, distance, Math.abs(Math.sin(own[2] / 2)));
   }
-  return rows >= ENOUGH && moved > MOVED;
+  return rows >= MIN_EQUAL_ROWS && moved > MIN_MOTION;
 }

@@ -1,11 +1,11 @@
 /** Quantiles of long columns. */
 
 /** Maximum number of items from which a quantile is computed. */
-const SAMPLED = 10_000;
+const MAX_ITEMS = 10_000;
 
 /** Evaluates many evenly spread items. */
 export function sample(count: number, value: (i: number) => number): Float64Array {
-  const every = Math.max(1, Math.ceil(count / SAMPLED));
+  const every = Math.max(1, Math.ceil(count / MAX_ITEMS));
   const values = new Float64Array(Math.max(0, Math.ceil(count / every)));
   for (let i = 0; i < values.length; i++) values[i] = value(i * every);
   return values;

@@ -4,20 +4,20 @@ interface Vector { x: number; y: number; z: number }
 export interface Quaternion extends Vector { w: number }
 
 /** Largest deviation from length 1 that rounding explains. */
-const TOLERANCE = 0.1;
+const LENGTH_TOLERANCE = 0.1;
 
 /** Number of steps in a radian to which headings are rounded. */
-const STEPS = 1e12;
+const HEADING_STEPS = 1e12;
 
 /** Returns the angle about the vertical axis, for quaternions of any length. */
 export function headingOf(qx: number, qy: number, qz: number, qw: number): number {
   // Engines differ in the last bits of the arc tangent, and one bit can decide where a leg of a simulated log ends.
-  return Math.round(Math.atan2(2 * (qw * qz + qx * qy), qw * qw + qx * qx - qy * qy - qz * qz) * STEPS) / STEPS;
+  return Math.round(Math.atan2(2 * (qw * qz + qx * qy), qw * qw + qx * qx - qy * qy - qz * qz) * HEADING_STEPS) / HEADING_STEPS;
 }
 
 /** Checks that a quaternion has length 1. One with NaN passes: its row is dropped as not finite. */
 export function isRotation(qx: number, qy: number, qz: number, qw: number): boolean {
-  return !(Math.abs(Math.sqrt(qx * qx + qy * qy + qz * qz + qw * qw) - 1) > TOLERANCE);
+  return !(Math.abs(Math.sqrt(qx * qx + qy * qy + qz * qz + qw * qw) - 1) > LENGTH_TOLERANCE);
 }
 
 /** Returns the Hamilton product. */

@@ -25,22 +25,22 @@ const MAX_ROWS = 10_000_000;
 export const MAX_VALUE = 1e9;
 
 /** Minimum duration of a gap in median steps, as in the core. */
-const STEPS_OF_A_GAP = 5;
+const MIN_GAP_STEPS = 5;
 
 /** Speed of a jump in units of the 90 % quantile of the moving steps. */
-const TIMES_FASTER = 8;
+const JUMP_FACTOR = 8;
 
 /** Minimum length of a jump in metres and radians, above the noise of a fast log. */
-const [FAR, TURNED] = [0.1, 0.2];
+const [MIN_JUMP, MIN_JUMP_TURN] = [0.1, 0.2];
 
 /** Speed in metres or radians a second below which a robot stands. */
-const STANDS = 0.01;
+const MIN_MOVING_SPEED = 0.01;
 
 /** Minimum of times since 1970, s: the year 1973. Smaller times count from the start of a program. */
-const EPOCH = 1e8;
+const MIN_EPOCH_TIME = 1e8;
 
 /** Minimum fraction of rows that remain if the clock was set back, and minimum fraction of rows with different times. */
-const MIN_SHARE = 0.6;
+const MIN_FRACTION = 0.6;
 
 /** Columns of the numbers of a row. A time has its whole seconds in one column, and the rest in the next. */
 const [SECONDS, REST, A, B, C, LINE, OTHER_SECONDS, OTHER_REST, WIDTH] = [0, 1, 2, 3, 4, 5, 6, 7, 8];
@@ -65,9 +65,9 @@ export class Rows {
   }
 
   /** Drops an unusable row. */
-  leaveOut(cause: Cause, line: number): void {
+  drop(cause: Cause, line: number): void {
     this.count += 1;
-    this.#note(cause, line);
+    this.#countDropped(cause, line);
     this.#broken.add(this.#added);
   }
 
@@ -85,12 +85,12 @@ export class Rows {
    */
   add(seconds: number, rest: number, a: number, b: number, c: number, line: number, otherSeconds = 0, otherRest = 0): void {
     // A sum is finite if all of its terms are.
-    if (!Number.isFinite(seconds + rest + a + b + c)) return this.leaveOut('notFinite', line);
+    if (!Number.isFinite(seconds + rest + a + b + c)) return this.drop('notFinite', line);
     this.count += 1;
     if (this.count > MAX_ROWS) throw new LogError(this.#place, (say) => say.rows(MAX_ROWS));
     if (Math.max(Math.abs(a), Math.abs(b), Math.abs(c)) > MAX_VALUE) {
       const far = [a, b, c].find((value) => Math.abs(value) > MAX_VALUE) ?? NaN;
-      throw new LogError(this.#at(line), (say) => say.far(far, MAX_VALUE, this.#message(line)));
+      throw new LogError(this.#placeOf(line), (say) => say.far(far, MAX_VALUE, this.#messageNumber(line)));
     }
     const at = WIDTH * this.#added++;
     if (at === this.#numbers.length) {
@@ -127,7 +127,7 @@ export class Rows {
     const { count } = this;
     if (rows.length < 2) {
       const [cause, dropped] = (Object.entries(this.#dropped) as [Cause, { first: number }][])[0] ?? [];
-      throw new LogError(this.#at(dropped?.first ?? 0), (say) => say.few(rows.length, count, cause));
+      throw new LogError(this.#placeOf(dropped?.first ?? 0), (say) => say.few(rows.length, count, cause));
     }
     const columns = { ...times, a, b, c };
     const units = judgeUnits(this.#place, kind, columns, assumed, options);
@@ -195,7 +195,7 @@ export class Rows {
     // If other times are since 1970, a stamp of 0 means that it was not set.
     let first = Infinity;
     for (let row = 0; row < this.#added; row++) if (!this.#isUnset(row)) first = Math.min(first, this.#seconds(row));
-    const isSince1970 = first > EPOCH && first < Infinity;
+    const isSince1970 = first > MIN_EPOCH_TIME && first < Infinity;
     let stamped = new Uint32Array(this.#added);
     let count = 0;
     for (let row = 0; row < this.#added; row++) if (!(isSince1970 && this.#isUnset(row))) stamped[count++] = row;
@@ -203,10 +203,10 @@ export class Rows {
     const base = Math.floor(this.#seconds(stamped[0]));
     const times = new Float64Array(count);
     for (let i = 0; i < count; i++) times[i] = this.#seconds(stamped[i]) - base + this.#rest(stamped[i]);
-    const { order, fates, setBack, most } = sortRows(times, (one, other) => this.#isSame(stamped[one], stamped[other]));
-    if (setBack >= 0 && most < MIN_SHARE * times.length) {
+    const { order, classes, setBack, largest } = sortRows(times, (one, other) => this.#isSame(stamped[one], stamped[other]));
+    if (setBack >= 0 && largest < MIN_FRACTION * times.length) {
       const line = this.#line(stamped[setBack]);
-      throw new LogError(this.#at(line), (say) => say.setBack(times[setBack - 1] - times[setBack], this.#message(line)));
+      throw new LogError(this.#placeOf(line), (say) => say.setBack(times[setBack - 1] - times[setBack], this.#messageNumber(line)));
     }
 
     // The start is computed from the first row in time. A difference to the first row in the file might be too large to be exact.
@@ -228,9 +228,9 @@ export class Rows {
       t[used] = time;
       used += 1;
     }
-    if (order.length > 3 && different > (1 - MIN_SHARE) * order.length) {
+    if (order.length > 3 && different > (1 - MIN_FRACTION) * order.length) {
       const line = this.#line([...isDropped.keys()].reduce((first, row) => Math.min(first, row)));
-      throw new LogError(this.#at(line), (say) => say.sameTimes(different, order.length, this.#message(line)));
+      throw new LogError(this.#placeOf(line), (say) => say.sameTimes(different, order.length, this.#messageNumber(line)));
     }
     const isRepeated = (i: number) => this.#isSame(rows[i - 1], rows[i]);
     const factor = kind === 'poses' ? repeatFactor(t.subarray(0, used), isRepeated) : 1;
@@ -251,22 +251,22 @@ export class Rows {
       used = kept;
     }
     let late = 0;
-    for (let i = 0; i < fates.length; i++) {
-      if (fates[i] === LATE) late += 1;
-      else if (fates[i] !== KEPT) isDropped.set(stamped[i], fates[i] === STRAY ? 'stray' : 'setBack');
+    for (let i = 0; i < classes.length; i++) {
+      if (classes[i] === LATE) late += 1;
+      else if (classes[i] !== KEPT) isDropped.set(stamped[i], classes[i] === STRAY ? 'stray' : 'setBack');
     }
     for (let row = 0; row < this.#added && count < this.#added; row++) {
       if (isSince1970 && this.#isUnset(row)) isDropped.set(row, 'noStamp');
     }
-    this.#drop(isDropped);
+    this.#dropAdded(isDropped);
     return { start, t: t.slice(0, used), rows: rows.slice(0, used), late };
   }
 
   /** Drops rows that were added. The path is continuous across them, unless the clock was set back. */
-  #drop(rows: Map<number, Cause>): void {
+  #dropAdded(rows: Map<number, Cause>): void {
     for (const row of [...rows.keys()].sort((one, other) => one - other)) {
       const cause = rows.get(row) as Cause;
-      this.#note(cause, this.#line(row));
+      this.#countDropped(cause, this.#line(row));
       if (cause === 'setBack' || this.#broken.delete(row)) this.#broken.add(row + 1);
     }
   }
@@ -280,7 +280,7 @@ export class Rows {
     const isJump = kind === 'poses' ? jumpTest(t, a, b, c) : () => false;
     for (let i = 1; i < t.length; i++) {
       const pause = t[i] - t[i - 1];
-      if (pause > STEPS_OF_A_GAP * step) {
+      if (pause > MIN_GAP_STEPS * step) {
         if (gaps.count === 0) gaps.first = t[i - 1] - t[0];
         gaps.count += 1;
         gaps.longest = Math.max(gaps.longest, pause);
@@ -295,16 +295,16 @@ export class Rows {
     return { rate: 1 / step, gaps, jumps, jumped, breaks: Uint32Array.from(breaks) };
   }
 
-  #at(line: number): Place {
-    return line && !this.#message(line) ? { ...this.#place, line } : this.#place;
+  #placeOf(line: number): Place {
+    return line && !this.#messageNumber(line) ? { ...this.#place, line } : this.#place;
   }
 
   /** Returns the number of a message of a recording; 0 in a table. */
-  #message(line: number): number {
+  #messageNumber(line: number): number {
     return this.#place.topic === undefined ? 0 : line;
   }
 
-  #note(cause: Cause, line: number): void {
+  #countDropped(cause: Cause, line: number): void {
     const dropped = (this.#dropped[cause] ??= { count: 0, first: line });
     dropped.count += 1;
   }
@@ -317,9 +317,9 @@ function jumpTest(t: Float64Array, x: Float64Array, y: Float64Array, theta: Floa
     const difference = theta[i] - theta[i - 1];
     return Math.abs(difference - 2 * Math.PI * Math.round(difference / (2 * Math.PI)));
   };
-  const tests = ([[distance, FAR], [turn, TURNED]] as const).map(([length, least]) => {
+  const tests = ([[distance, MIN_JUMP], [turn, MIN_JUMP_TURN]] as const).map(([length, least]) => {
     const rates = sample(t.length - 1, (i) => length(i + 1) / (t[i + 1] - t[i]));
-    const limit = TIMES_FASTER * quantile(rates.filter((rate) => rate > STANDS), 0.9);
+    const limit = JUMP_FACTOR * quantile(rates.filter((rate) => rate > MIN_MOVING_SPEED), 0.9);
     // For a robot that never moves the limit is NaN.
     return (i: number) => length(i) > Math.max(least, (limit || 0) * (t[i] - t[i - 1]));
   });

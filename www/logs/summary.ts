@@ -4,7 +4,7 @@ import type { Words } from './log-error.ts';
 import { LOG_TIME, framesText, type Cause, type Commands, type Log, type Poses } from './log.ts';
 
 /** Minimum distance in m between two points of the path, so that the noise of poses at rest does not add up. */
-const STEP = 0.05;
+const MIN_STEP = 0.05;
 
 /** Returns the distance driven, in m, without the jumps before some rows. */
 export function distanceOf(data: Poses | Commands, jumps: number[]): number {
@@ -19,7 +19,7 @@ export function distanceOf(data: Poses | Commands, jumps: number[]): number {
     const step = Math.hypot(x[i] - x[last], y[i] - y[last]);
     const isJump = jumps[next] === i;
     if (isJump) next += 1;
-    else if (step < STEP) continue;
+    else if (step < MIN_STEP) continue;
     else distance += step;
     last = i;
   }

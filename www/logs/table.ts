@@ -12,21 +12,21 @@ import { Rows } from './rows.ts';
 import { POWERS, unitOfSize } from './units.ts';
 
 /** Number of bytes that are read and parsed at a time. */
-const PIECE = 2 ** 22;
+const BLOCK_BYTES = 2 ** 22;
 
 /** Number of bytes from which the format is detected: a preamble and some rows. */
-const HEAD = 2 ** 18;
+const HEAD_BYTES = 2 ** 18;
 
 /** Maximum number of characters of a line: a row of a thousand columns. */
-const LONGEST = 2 ** 16;
+const MAX_LINE_LENGTH = 2 ** 16;
 
 /** Maximum fraction of damaged rows. Above it, the table has another format than assumed, or comes from a broken disk. */
-const MAX_BAD = 0.1;
+const MAX_DAMAGED_FRACTION = 0.1;
 
 type Reason = ConstructorParameters<typeof LogError>[1];
 
 /** Maximum number of frames that a sentence lists. */
-const MOST_FRAMES = 4;
+const MAX_LISTED_FRAMES = 4;
 
 /** Maximum spread of the cosine of the tilt. Above it, the robot does not drive on a plane. */
 const MAX_TILT_SPREAD = 0.5;
@@ -34,14 +34,14 @@ const MAX_TILT_SPREAD = 0.5;
 /** Opens a table; rejects with a LogError. */
 export async function openTable(source: Source, options: OpenOptions = {}): Promise<Recording> {
   const encoding = await encodingOf(source);
-  const decoded = new TextDecoder(encoding).decode(await bytesOf(source, 0, Math.min(HEAD, source.size)), { stream: true });
+  const decoded = new TextDecoder(encoding).decode(await bytesOf(source, 0, Math.min(HEAD_BYTES, source.size)), { stream: true });
   if (decoded.includes('\0')) throw new LogError({ file: source.name }, (say) => say.binary);
   const end = endOf(decoded);
   const lines = decoded.split(end);
   // The last line may be incomplete. It is dropped unless it is the only one.
-  if (source.size > HEAD && lines.length > 1) lines.pop();
-  const long = lines.findIndex((line) => line.length > LONGEST);
-  if (long >= 0) throw new LogError({ file: source.name, line: long + 1 }, (say) => say.longLine(LONGEST));
+  if (source.size > HEAD_BYTES && lines.length > 1) lines.pop();
+  const long = lines.findIndex((line) => line.length > MAX_LINE_LENGTH);
+  if (long >= 0) throw new LogError({ file: source.name, line: long + 1 }, (say) => say.longLine(MAX_LINE_LENGTH));
   const format = formatOf(lines, source.name, options.columns);
   const readable = format.groups.filter(({ kind }) => kind !== null);
   const place = { file: source.name, line: Math.max(1, format.firstLine - 1) };
@@ -81,7 +81,7 @@ const columnNames = ({ columns }: Group) => Object.values(columns).toSorted((a, 
 
 /** Returns the encoding of a text. Signs are a byte order mark, the zeros of UTF-16, and bytes that UTF-8 does not have. */
 async function encodingOf(source: Source): Promise<string> {
-  const bytes = await bytesOf(source, 0, Math.min(HEAD, source.size));
+  const bytes = await bytesOf(source, 0, Math.min(HEAD_BYTES, source.size));
   const [first, second, third, fourth] = bytes;
   if ((first === 0xff && second === 0xfe) || (first !== 0 && second === 0 && third !== 0 && fourth === 0)) return 'utf-16le';
   if (first === 0xfe && second === 0xff) return 'utf-16be';
@@ -103,8 +103,8 @@ async function readLines(source: Source, encoding: string, end: string, from: nu
   const width = encoding.startsWith('utf-16') ? 2 : 1;
   let rest = new Uint8Array();
   let number = 0;
-  for (let at = 0; at < source.size; at += PIECE) {
-    const piece = await bytesOf(source, at, Math.min(at + PIECE, source.size));
+  for (let at = 0; at < source.size; at += BLOCK_BYTES) {
+    const piece = await bytesOf(source, at, Math.min(at + BLOCK_BYTES, source.size));
     onProgress?.(at / source.size);
     const bytes = new Uint8Array(rest.length + piece.length);
     bytes.set(rest);
@@ -119,7 +119,7 @@ async function readLines(source: Source, encoding: string, end: string, from: nu
       number += 1;
       if (number >= from) take(line, number, false);
     }
-    if (rest.length > LONGEST * width) throw new LogError({ file: source.name, line: number + 1 }, (say) => say.longLine(LONGEST));
+    if (rest.length > MAX_LINE_LENGTH * width) throw new LogError({ file: source.name, line: number + 1 }, (say) => say.longLine(MAX_LINE_LENGTH));
   }
   const last = decoder.decode(rest);
   if (last.includes('\0')) throw new LogError({ file: source.name }, (say) => say.binary);
@@ -201,8 +201,8 @@ class LogReader {
   #needed: number;
   #notes: Note[] = [];
   /** Number of damaged rows, and the line and the reason of the first. */
-  #bad = 0;
-  #firstBad: [number, Reason] | undefined;
+  #damagedRows = 0;
+  #firstDamaged: [number, Reason] | undefined;
   #frames = new Set<string>();
   /** Cosines of the robot's tilt. They are near 1 if it drives on a plane. */
   #tilts: number[] = [];
@@ -225,17 +225,17 @@ class LogReader {
   }
 
   take(line: string, number: number, isOpen: boolean): void {
-    if (line.length > LONGEST) this.#refuse(number, (say) => say.longLine(LONGEST));
+    if (line.length > MAX_LINE_LENGTH) this.#refuse(number, (say) => say.longLine(MAX_LINE_LENGTH));
     const { separator, isSparse, header } = this.#format;
     const { tag } = this.#group;
     if (tag !== undefined && !line.startsWith(`${tag} `)) return;
     if (/^\s*(?:[#%]|$)/.test(line)) return;
-    if (line === header) return this.#rows.leaveOut('notFinite', number);
+    if (line === header) return this.#rows.drop('notFinite', number);
     const cells = tag === undefined ? cellsOf(line, separator, this.#needed) : carmenCells(line);
     if (cells.length < this.#needed) {
-      if (!isOpen) return this.#leaveOutBad('short', number, (say) => say.cells(cells.length, this.#needed));
+      if (!isOpen) return this.#dropDamaged('short', number, (say) => say.cells(cells.length, this.#needed));
       this.#notes.push({ name: 'cutShort', values: [] });
-      return this.#rows.leaveOut('short', number);
+      return this.#rows.drop('short', number);
     }
     // In a row of another topic the cells of this one are empty.
     if (isSparse && this.#layout.columns.every(({ at }) => cells[at].trim() === '')) return;
@@ -247,22 +247,22 @@ class LogReader {
     const times: Time[] = [];
     for (let i = 0; i < clocks.length; i++) {
       const time = this.#clocks[i].read(cells);
-      if (!time) return this.#leaveOutText(line, clocks[i].name, cells[clocks[i].columns[0].at]);
+      if (!time) return this.#dropText(line, clocks[i].name, cells[clocks[i].columns[0].at]);
       times.push(time);
     }
     const values: number[] = [];
     for (const { at, name } of columns) {
       const value = numberOf(this.#textOf(cells[at]));
-      if (value === undefined) return this.#leaveOutText(line, name, cells[at]);
+      if (value === undefined) return this.#dropText(line, name, cells[at]);
       values.push(value);
     }
     const { frame, child, z } = this.#group.columns;
-    if ((frame || child) && this.#frames.size <= MOST_FRAMES) this.#frames.add([frame, child].flatMap((column) => (column ? [cells[column.at].trim()] : [])).join(' to '));
+    if ((frame || child) && this.#frames.size <= MAX_LISTED_FRAMES) this.#frames.add([frame, child].flatMap((column) => (column ? [cells[column.at].trim()] : [])).join(' to '));
     const [x, y] = values;
     let heading = values[2] ?? 0;
     if (fields.at(-1) === 'qw') {
       const [qx, qy, qz, qw] = fields.length === 6 ? values.slice(2) : [0, 0, ...values.slice(2)];
-      if (!isRotation(qx, qy, qz, qw)) return this.#rows.leaveOut('noRotation', line);
+      if (!isRotation(qx, qy, qz, qw)) return this.#rows.drop('noRotation', line);
       this.#tilts.push(1 - 2 * (qx * qx + qy * qy));
       if (this.#upAxis && z) this.#heights.push(numberOf(this.#textOf(cells[z.at])) ?? NaN);
       heading = headingOf(qx, qy, qz, qw);
@@ -272,14 +272,14 @@ class LogReader {
   }
 
   /** Drops a damaged row. If there are many, the log is refused with the reason of the first. */
-  #leaveOutBad(cause: 'short' | 'text', line: number, reason: Reason): void {
-    this.#bad += 1;
-    this.#firstBad ??= [line, reason];
-    this.#rows.leaveOut(cause, line);
+  #dropDamaged(cause: 'short' | 'text', line: number, reason: Reason): void {
+    this.#damagedRows += 1;
+    this.#firstDamaged ??= [line, reason];
+    this.#rows.drop(cause, line);
   }
 
-  #leaveOutText(line: number, name: string, cell: string): void {
-    this.#leaveOutBad('text', line, (say) => say.number(cut(name), cut(cell.trim())));
+  #dropText(line: number, name: string, cell: string): void {
+    this.#dropDamaged('text', line, (say) => say.number(cut(name), cut(cell.trim())));
   }
 
   /** Returns true if the robot does not drive on a plane. */
@@ -295,9 +295,9 @@ class LogReader {
   end(): Log {
     const { clocks, columns, fields, kind, length, angle } = this.#layout;
     if (kind === 'positions') throw new LogError(this.#place, (say) => say.positions(listed(columns.map(({ name }) => name))));
-    if (this.#firstBad && this.#bad > MAX_BAD * this.#rows.count) {
-      const [line, reason] = this.#firstBad;
-      this.#refuse(line, (say) => [reason(say), ...(this.#bad > 1 && this.#bad < this.#rows.count ? [say.manyBad(this.#bad, this.#rows.count, 100 * MAX_BAD)] : [])].join(' '));
+    if (this.#firstDamaged && this.#damagedRows > MAX_DAMAGED_FRACTION * this.#rows.count) {
+      const [line, reason] = this.#firstDamaged;
+      this.#refuse(line, (say) => [reason(say), ...(this.#damagedRows > 1 && this.#damagedRows < this.#rows.count ? [say.manyBad(this.#damagedRows, this.#rows.count, 100 * MAX_DAMAGED_FRACTION)] : [])].join(' '));
     }
     if (this.#frames.size > 1) throw new LogError(this.#place, (say) => say.mixed(listed([...this.#frames])));
     if (this.isTilted) throw new LogError(this.#place, (say) => say.tilted, { what: 'columns', choices: [], columns: this.#format.names });

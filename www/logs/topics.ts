@@ -8,10 +8,10 @@ import { edgesOf, isReadable, kindOf, poseReader, type Sample } from './messages
 import { MAX_VALUE, Rows } from './rows.ts';
 
 /** Number of messages of transforms after which all frames count as known. */
-const MESSAGES_OF_FRAMES = 2000;
+const MAX_FRAME_MESSAGES = 2000;
 
 /** Maximum number of times that a node publishes a topic again after another one. A restarted node counts as a new one, and does not alternate. */
-const MAX_TURNS = 2;
+const MAX_ALTERNATIONS = 2;
 
 /** Checks for a topic of static transforms. */
 const isStatic = ({ topic, type }: Pick<Channel, 'topic' | 'type'>) => kindOf(type) === 'transforms' && /(^|\/)tf_static$/.test(topic);
@@ -61,7 +61,7 @@ async function seriesOf(container: Container): Promise<Series[]> {
       }
     };
     await container.read(isStatic, take);
-    await container.read(({ topic }) => topic === each.name, take, () => messages >= MESSAGES_OF_FRAMES);
+    await container.read(({ topic }) => topic === each.name, take, () => messages >= MAX_FRAME_MESSAGES);
     each.frames = tree.candidates();
   }
   return series.sort((one, other) => (one.name < other.name ? -1 : 1));
@@ -86,7 +86,7 @@ class TopicReader {
   /** Node of the latest message. */
   #publisher = '';
   /** Number of times that a node published again after another one. */
-  #turns = 0;
+  #alternations = 0;
 
   constructor(file: string, container: Container, choice: Choice, series: Series[]) {
     this.#file = file;
@@ -137,7 +137,7 @@ class TopicReader {
     }
     if (channel.publisher === this.#publisher || this.#chain) return;
     this.#publisher = channel.publisher;
-    if (this.#publishers.includes(channel.publisher)) this.#turns += 1;
+    if (this.#publishers.includes(channel.publisher)) this.#alternations += 1;
     else this.#publishers.push(channel.publisher);
   }
 
@@ -155,7 +155,7 @@ class TopicReader {
 
   #add({ seconds, nanoseconds, a, b, c, isRotation }: Sample, recorded: Omit<Message, 'data'>, number: number): void {
     if (Math.max(Math.abs(a), Math.abs(b), Math.abs(c)) > MAX_VALUE) return this.#drop(number, 'a value is out of range');
-    if (!isRotation) return this.#rows.leaveOut('noRotation', number);
+    if (!isRotation) return this.#rows.drop('noRotation', number);
     this.#rows.add(seconds, nanoseconds / 1e9, a, b, c, number, recorded.seconds, recorded.nanoseconds / 1e9);
   }
 
@@ -163,7 +163,7 @@ class TopicReader {
   #drop(number: number, reason: string): void {
     this.#damaged += 1;
     this.#reason ||= reason;
-    this.#rows.leaveOut('damaged', number);
+    this.#rows.drop('damaged', number);
   }
 
   /** Returns the log; throws a LogError if the messages do not make one. */
@@ -172,7 +172,7 @@ class TopicReader {
     const { damage, cutShort, missing } = this.#container;
     const [reason] = damage.values();
     if (this.#number === 0) this.#refuse((say) => (reason ? say.damaged(reason) : say.noMessages));
-    if (this.#turns > MAX_TURNS) this.#refuse((say) => say.publishers(listed(this.#publishers)));
+    if (this.#alternations > MAX_ALTERNATIONS) this.#refuse((say) => say.publishers(listed(this.#publishers)));
     if (this.#chain) this.#addPoses(this.#chain);
     if (this.#damaged === this.#number) this.#refuse((say) => say.message(1, this.#reason));
     const kind = this.#kind === 'commands' ? 'commands' : 'poses';

@@ -27,33 +27,33 @@ const METRES = { m: 1, cm: 0.01, mm: 0.001 } as const;
 const RADIANS = { rad: 1, deg: Math.PI / 180 } as const;
 
 /** Minimum of times since 1970 in each unit. 1e8 s is the year 1973, and 1e11 s the year 5138. */
-const SIZES = [['ns', 1e17], ['us', 1e14], ['ms', 1e11], ['s', 1e8]] as const;
+const MIN_EPOCH_TIMES = [['ns', 1e17], ['us', 1e14], ['ms', 1e11], ['s', 1e8]] as const;
 
 /** Minimum number of rows of a log whose units are judged. */
 const MIN_ROWS = 10;
 
 /** Ranges of the rate of a log, Hz: if its unit is stated, and if it is not. */
-const [RATES, USUAL_RATES] = [[0.05, 5000], [0.2, 2000]] as const;
+const [STATED_RATES, USUAL_RATES] = [[0.05, 5000], [0.2, 2000]] as const;
 
 /** Minimum and maximum speed of robots in m/s or rad/s, with a margin for rounded times. */
-const [SLOWEST, FASTEST] = [0.005, 20.5];
+const [MIN_SPEED, MAX_SPEED] = [0.005, 20.5];
 
 /** Duration (s) of the steps whose speed is judged. In shorter steps the noise would look like a high speed. */
-const STEP = 0.5;
+const STEP_DURATION = 0.5;
 
 /** Minimum length (m) of a step with a direction. */
-const MIN_STEP = 0.02;
+const MIN_STEP_LENGTH = 0.02;
 
 /** Minimum number of steps with a direction. */
 const MIN_STEPS = 20;
 
 /** Range of the difference between successive headings in degrees at the end of a full circle. */
-const WRAPS = [330, 390] as const;
+const WRAP_STEP = [330, 390] as const;
 
 const isWithin = (value: number, [low, high]: readonly [number, number]) => value >= low && value <= high;
 
 /** Returns the unit of a time since 1970 by its size; undefined for smaller times. */
-export const unitOfSize = (time: number): TimeUnit | undefined => SIZES.find(([, least]) => Math.abs(time) >= least)?.[0];
+export const unitOfSize = (time: number): TimeUnit | undefined => MIN_EPOCH_TIMES.find(([, least]) => Math.abs(time) >= least)?.[0];
 
 /**
  * Judges the units, and converts the columns to s, m and rad.
@@ -92,26 +92,26 @@ function timeUnit(kind: LogKind, { t, a, b, c }: Columns, { time: assumed, lengt
   const units = UNITS.timeUnit;
   const rate = (unit: TimeUnit) => 10 ** (POWERS[unit] - POWERS[assumed.unit]) / step;
   if (assumed.by !== 'usage') {
-    if (isWithin(rate(assumed.unit), RATES)) return assumed;
+    if (isWithin(rate(assumed.unit), STATED_RATES)) return assumed;
     // Times that look like seconds since 1970 may also be nanoseconds since the start of a simulation.
-    if (assumed.by === 'name' || assumed.unit !== 's') return ask('timeUnit', rate(assumed.unit), assumed.unit, units.filter((unit) => isWithin(rate(unit), RATES)));
+    if (assumed.by === 'name' || assumed.unit !== 's') return ask('timeUnit', rate(assumed.unit), assumed.unit, units.filter((unit) => isWithin(rate(unit), STATED_RATES)));
   }
   // Turn rates only count if the unit of the headings is stated.
   const radians = RADIANS[options.angleUnit ?? (angle.unit === 'deg' ? 'deg' : 'rad')];
   const isCounted = options.angleUnit !== undefined || angle.by !== 'usage';
   const raw = kind === 'poses' ? speedOf(t, a, b, step) : 0;
-  const [speed, turn] = [raw * METRES[options.lengthUnit ?? length.unit], kind === 'poses' && isCounted ? turnOf(t, c) * radians : 0];
+  const [speed, turn] = [raw * METRES[options.lengthUnit ?? length.unit], kind === 'poses' && isCounted ? turnRateOf(t, c) * radians : 0];
   const moves = speed > 0 || turn > 0;
   /** Checks that the rate and the speed of the robot are plausible with a unit. */
   const fits = (unit: TimeUnit) => {
     const speeds = [speed, turn].map((each) => each * rate(unit) * step);
-    return isWithin(rate(unit), USUAL_RATES) && (!moves || (speeds.every((each) => each <= FASTEST) && [...speeds, raw * rate(unit) * step].some((each) => each >= SLOWEST)));
+    return isWithin(rate(unit), USUAL_RATES) && (!moves || (speeds.every((each) => each <= MAX_SPEED) && [...speeds, raw * rate(unit) * step].some((each) => each >= MIN_SPEED)));
   };
   if (fits(assumed.unit)) return assumed;
   const [unit, ...others] = units.filter(fits);
   if (unit && others.length === 0 && moves) return { unit, by: 'rate' };
   // A robot that is too fast may have its lengths or headings in another unit.
-  if (isWithin(rate(assumed.unit), USUAL_RATES) && Math.max(speed, turn) > FASTEST) return assumed;
+  if (isWithin(rate(assumed.unit), USUAL_RATES) && Math.max(speed, turn) > MAX_SPEED) return assumed;
   return ask('timeUnit', rate(assumed.unit), assumed.unit, units.filter((each) => isWithin(rate(each), USUAL_RATES)));
 }
 
@@ -120,9 +120,9 @@ function checkLength(kind: LogKind, { t, a, b }: Columns, { unit, by }: Units['l
   const step = quantile(sample(t.length - 1, (i) => t[i + 1] - t[i]), 0.5);
   const speed = kind === 'poses' ? speedOf(t, a, b, step) : quantile(sample(a.length, (i) => Math.abs(a[i])), 0.9);
   const inMetres = speed * METRES[unit];
-  const others = UNITS.lengthUnit.filter((each) => isWithin(speed * METRES[each], [SLOWEST, FASTEST]));
+  const others = UNITS.lengthUnit.filter((each) => isWithin(speed * METRES[each], [MIN_SPEED, MAX_SPEED]));
   // A unit in a name is doubted if the robot would be too slow with it, and as fast as robots are with metres.
-  if (inMetres > FASTEST || (by === 'name' && unit !== 'm' && inMetres < SLOWEST && speed > 0.1 && others.includes('m'))) {
+  if (inMetres > MAX_SPEED || (by === 'name' && unit !== 'm' && inMetres < MIN_SPEED && speed > 0.1 && others.includes('m'))) {
     ask('lengthUnit', inMetres, unit, others.includes(unit) ? others : [...others, unit]);
   }
 }
@@ -132,12 +132,12 @@ function angleUnit(kind: LogKind, { t, a, b, c }: Columns, assumed: Units['angle
   const choices = [...UNITS.angleUnit];
   if (kind === 'commands') {
     const turn = quantile(sample(b.length, (i) => Math.abs(b[i])), 0.9) * RADIANS[assumed.unit as AngleUnit];
-    return turn > FASTEST ? ask('angleUnit', turn, assumed.unit, choices) : assumed;
+    return turn > MAX_SPEED ? ask('angleUnit', turn, assumed.unit, choices) : assumed;
   }
   const path = unitOfPath(t, a, b, c);
-  const turn = turnOf(t, c);
+  const turn = turnRateOf(t, c);
   if (assumed.by !== 'usage') {
-    const isDoubted = path !== undefined && path !== assumed.unit && (assumed.unit === 'deg') !== turn > FASTEST;
+    const isDoubted = path !== undefined && path !== assumed.unit && (assumed.unit === 'deg') !== turn > MAX_SPEED;
     return isDoubted ? ask('angleUnit', turn * RADIANS[assumed.unit as AngleUnit], assumed.unit, choices) : assumed;
   }
   let largest = 0;
@@ -145,13 +145,13 @@ function angleUnit(kind: LogKind, { t, a, b, c }: Columns, assumed: Units['angle
   for (let i = 0; i < c.length; i++) {
     if (Math.abs(c[i]) > largest) largest = Math.abs(c[i]);
     const step = Math.abs(c[i] - c[i - 1]);
-    if (step >= WRAPS[0] && step <= WRAPS[1]) wraps += 1;
+    if (step >= WRAP_STEP[0] && step <= WRAP_STEP[1]) wraps += 1;
   }
-  const signs = [path === 'deg', wraps > 0, turn > FASTEST].filter(Boolean).length;
+  const signs = [path === 'deg', wraps > 0, turn > MAX_SPEED].filter(Boolean).length;
   // Headings beyond a full circle are no proof of degrees: those in radians may be unwrapped.
   const isBeyond = largest > 2 * Math.PI + 0.1;
   if (path !== 'rad' && signs >= 2 && isBeyond) return { unit: 'deg', by: 'size' };
-  if (path === 'rad' ? turn > FASTEST && wraps > 0 : turn > FASTEST || isBeyond) return ask('angleUnit', turn, assumed.unit, choices);
+  if (path === 'rad' ? turn > MAX_SPEED && wraps > 0 : turn > MAX_SPEED || isBeyond) return ask('angleUnit', turn, assumed.unit, choices);
   return assumed;
 }
 
@@ -160,13 +160,13 @@ function angleUnit(kind: LogKind, { t, a, b, c }: Columns, assumed: Units['angle
  * both units fit, as on a straight path, or neither, as for a robot that drives sideways.
  */
 function unitOfPath(t: Float64Array, x: Float64Array, y: Float64Array, heading: Float64Array): AngleUnit | undefined {
-  const stride = Math.max(2, Math.ceil(STEP / quantile(sample(t.length - 1, (i) => t[i + 1] - t[i]), 0.5)));
+  const stride = Math.max(2, Math.ceil(STEP_DURATION / quantile(sample(t.length - 1, (i) => t[i + 1] - t[i]), 0.5)));
   // If an axis is mirrored, the headings turn against the path.
   const candidates = UNITS.angleUnit.flatMap((unit) => [1, -1].map((sign) => ({ unit, factor: sign * RADIANS[unit], cosine: 0, sine: 0 })));
   let count = 0;
   for (let i = 0; i + stride < t.length; i += stride) {
     const [dx, dy] = [x[i + stride] - x[i], y[i + stride] - y[i]];
-    if (Math.hypot(dx, dy) < MIN_STEP) continue;
+    if (Math.hypot(dx, dy) < MIN_STEP_LENGTH) continue;
     count += 1;
     for (const candidate of candidates) {
       const angle = 2 * (Math.atan2(dy, dx) - heading[i + (stride >> 1)] * candidate.factor);
@@ -183,12 +183,12 @@ function unitOfPath(t: Float64Array, x: Float64Array, y: Float64Array, heading: 
 
 /** Returns the 90 % quantile of the speeds of the steps. */
 function speedOf(t: Float64Array, x: Float64Array, y: Float64Array, step: number): number {
-  const stride = Math.min(Math.max(1, Math.round(STEP / step)), t.length - 1);
+  const stride = Math.min(Math.max(1, Math.round(STEP_DURATION / step)), t.length - 1);
   return quantile(sample(t.length - stride, (i) => Math.hypot(x[i + stride] - x[i], y[i + stride] - y[i]) / (t[i + stride] - t[i])), 0.9);
 }
 
 /** Returns the 90 % quantile of the turn rates of the steps. */
-const turnOf = (t: Float64Array, heading: Float64Array) =>
+const turnRateOf = (t: Float64Array, heading: Float64Array) =>
   quantile(sample(t.length - 1, (i) => Math.abs(heading[i + 1] - heading[i]) / (t[i + 1] - t[i])), 0.9);
 
 function scale(column: Float64Array, factor: number): void {

@@ -41,14 +41,14 @@ export interface Container {
 export const MAX_BLOCK = 2 ** 26;
 
 /** Number of bytes that are read ahead. */
-const PIECE = 2 ** 22;
+const READ_AHEAD_BYTES = 2 ** 22;
 
 /** Returns a function that reads bytes of a source. Positions must increase from call to call. */
 export function readAhead(source: Source): (from: number, to: number) => Promise<Uint8Array> {
   let [start, piece] = [0, new Uint8Array()];
   return async (from, to) => {
     if (from < start || to > start + piece.length) {
-      [start, piece] = [from, await bytesOf(source, from, Math.min(Math.max(to, from + PIECE), source.size))];
+      [start, piece] = [from, await bytesOf(source, from, Math.min(Math.max(to, from + READ_AHEAD_BYTES), source.size))];
     }
     return piece.subarray(from - start, to - start);
   };

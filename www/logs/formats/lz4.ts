@@ -6,10 +6,10 @@ const MAGIC = 0x184d2204;
 const [VERSION, VERSION_1, BLOCK_CHECKSUMS, CONTENT_SIZE, CHECKSUM, DICTIONARY] = [0xc0, 0x40, 0x10, 0x08, 0x04, 0x01];
 
 /** Bit in the length of a block that is not compressed. */
-const PLAIN = 0x80000000;
+const UNCOMPRESSED = 0x80000000;
 
 /** Length of a match that is written as 0. */
-const SHORTEST_MATCH = 4;
+const MIN_MATCH = 4;
 
 function check(condition: boolean): void {
   if (!condition) throw new RangeError('a damaged LZ4 frame');
@@ -35,9 +35,9 @@ export async function unlz4(bytes: Uint8Array, size: number): Promise<Uint8Array
       break;
     }
     const from = at + 4;
-    const to = from + (word & ~PLAIN);
+    const to = from + (word & ~UNCOMPRESSED);
     check(to <= bytes.length);
-    if (word & PLAIN) {
+    if (word & UNCOMPRESSED) {
       out.set(bytes.subarray(from, to), filled);
       filled += to - from;
     } else {
@@ -73,7 +73,7 @@ function decompressBlock(block: Uint8Array, out: Uint8Array, filled: number): nu
     if (at === block.length) break;
     const distance = block[at] | (block[at + 1] << 8);
     at += 2;
-    const end = filled + lengthFrom(token & 15) + SHORTEST_MATCH;
+    const end = filled + lengthFrom(token & 15) + MIN_MATCH;
     check(distance > 0 && distance <= filled && end <= out.length);
     // A match longer than its distance repeats bytes that it has just written.
     for (const from = filled - distance; filled < end; ) {

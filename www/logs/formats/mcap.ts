@@ -10,10 +10,10 @@ import { loadZstd, unzstd } from './zstd.ts';
 
 /** Codes of records, and the bytes of code and length before each. */
 const [SCHEMA, CHANNEL, MESSAGE, CHUNK, DATA_END] = [3, 4, 5, 6, 15];
-const HEAD = 9;
+const RECORD_HEAD_BYTES = 9;
 
 /** Bytes before the first record. */
-const MAGIC = 8;
+const MAGIC_BYTES = 8;
 
 /** Opens a recording by its index. Without an index it is read from its start up to its end or damage. */
 export async function openMcap(source: Source): Promise<Container> {
@@ -82,7 +82,7 @@ class Mcap implements Container {
         if (chunkLength > MAX_BLOCK) throw new RangeError(`a chunk of ${chunkLength} bytes`);
         const bytes = await bytesAt(from, from + Number(chunkLength));
         if (bytes[0] !== CHUNK) throw new RangeError('no chunk is there');
-        this.#readRecords(await contentsOf(bytes.subarray(HEAD)), isWanted, each);
+        this.#readRecords(await contentsOf(bytes.subarray(RECORD_HEAD_BYTES)), isWanted, each);
       });
       if (onProgress?.((i + 1) / chunks.length)) return;
     }
@@ -92,10 +92,10 @@ class Mcap implements Container {
     const { size } = this.#source;
     const bytesAt = readAhead(this.#source);
     this.cutShort = true;
-    for (let at = MAGIC, reported = 0; at + HEAD <= size; ) {
-      const head = await bytesAt(at, at + HEAD);
+    for (let at = MAGIC_BYTES, reported = 0; at + RECORD_HEAD_BYTES <= size; ) {
+      const head = await bytesAt(at, at + RECORD_HEAD_BYTES);
       const length = uint53(viewOf(head), 1);
-      const next = at + HEAD + length;
+      const next = at + RECORD_HEAD_BYTES + length;
       if (next > size) return;
       if (head[0] === DATA_END) {
         this.cutShort = false;
@@ -105,7 +105,7 @@ class Mcap implements Container {
         await this.#attempt(at, async () => {
           if (length > MAX_BLOCK) throw new RangeError(`a record of ${length} bytes`);
           const record = await bytesAt(at, next);
-          this.#readRecords(head[0] === CHUNK ? await contentsOf(record.subarray(HEAD)) : record, isWanted, each);
+          this.#readRecords(head[0] === CHUNK ? await contentsOf(record.subarray(RECORD_HEAD_BYTES)) : record, isWanted, each);
         });
       }
       at = next;
@@ -128,12 +128,12 @@ class Mcap implements Container {
   #readRecords(bytes: Uint8Array, isWanted: Wanted, each: Each): void {
     const view = viewOf(bytes);
     for (let at = 0; at < bytes.length; ) {
-      const next = at + HEAD + uint53(view, at + 1);
+      const next = at + RECORD_HEAD_BYTES + uint53(view, at + 1);
       if (next > bytes.length) throw new RangeError('a record is cut short');
       if (bytes[at] === MESSAGE) {
-        const channel = this.#channels.get(view.getUint16(at + HEAD, true));
+        const channel = this.#channels.get(view.getUint16(at + RECORD_HEAD_BYTES, true));
         if (channel && isWanted(channel)) {
-          each({ channel, ...stampAt(view, at + HEAD + 6), data: bytes.subarray(at + HEAD + 22, next) });
+          each({ channel, ...stampAt(view, at + RECORD_HEAD_BYTES + 6), data: bytes.subarray(at + RECORD_HEAD_BYTES + 22, next) });
         }
       } else {
         const reader = new McapStreamReader({ noMagicPrefix: true });

@@ -9,10 +9,10 @@ import { unlz4 } from './lz4.ts';
 const [MESSAGE, BAG, CHUNK, CHUNK_INFO, CONNECTION] = [2, 3, 5, 6, 7];
 
 /** Bytes before the first record. */
-const MAGIC = 13;
+const MAGIC_BYTES = 13;
 
 /** Number of bytes of a header that are read at first. Headers with a long topic are longer. */
-const HEADER = 4096;
+const HEADER_BYTES = 4096;
 
 type Wanted = (channel: Channel) => boolean;
 type Each = (message: Message) => void;
@@ -110,7 +110,7 @@ class Rosbag implements Container {
   async readIndex(): Promise<boolean> {
     const { size } = this.#source;
     try {
-      const head = await bytesOf(this.#source, MAGIC, MAGIC + HEADER);
+      const head = await bytesOf(this.#source, MAGIC_BYTES, MAGIC_BYTES + HEADER_BYTES);
       const { fields } = recordAt(head, viewOf(head), 0);
       const [start, count] = [fields.uint64('index_pos'), fields.uint32('chunk_count')];
       if (fields.byte('op') !== BAG || start === 0 || start > size) return false;
@@ -153,11 +153,11 @@ class Rosbag implements Container {
     const wanted = new Set([...this.#channels].filter(([, channel]) => isWanted(channel)).map(([id]) => id));
     const chunks = this.#chunks?.filter(({ connections }) => connections.some((id) => wanted.has(id)));
     this.cutShort = !chunks;
-    for (let i = 0, at = MAGIC; chunks ? i < chunks.length : at + 8 <= size; i++) {
+    for (let i = 0, at = MAGIC_BYTES; chunks ? i < chunks.length : at + 8 <= size; i++) {
       if (chunks) at = chunks[i].position;
       const position = at;
       try {
-        let head = await bytesAt(at, Math.min(at + HEADER, size));
+        let head = await bytesAt(at, Math.min(at + HEADER_BYTES, size));
         const length = viewOf(head).getUint32(0, true);
         if (length > MAX_BLOCK) throw new RangeError('a header is damaged');
         // The last record of a bag that was not closed is incomplete.

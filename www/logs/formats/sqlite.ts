@@ -9,7 +9,7 @@ import { loadZstd } from './zstd.ts';
 const [INTERIOR, LEAF] = [5, 13];
 
 /** Bytes of the database's header, on the first page. */
-const HEADER = 100;
+const HEADER_BYTES = 100;
 
 /** Maximum number of levels of a table. Tables with 2³² pages have fewer. */
 const MAX_DEPTH = 20;
@@ -18,7 +18,7 @@ const MAX_DEPTH = 20;
 const MAX_ROW = 2 ** 28;
 
 /** Number of nanoseconds in a second. */
-const SECOND = 1_000_000_000n;
+const NANOSECONDS = 1_000_000_000n;
 
 type Value = number | bigint | Uint8Array;
 
@@ -70,9 +70,9 @@ class Rosbag2 implements Container {
   }
 
   async open(): Promise<void> {
-    const view = viewOf(await bytesOf(this.#source, 0, HEADER));
+    const view = viewOf(await bytesOf(this.#source, 0, HEADER_BYTES));
     const refuse = () => new LogError({ file: this.#source.name }, (say) => say.noRosbag2);
-    this.cutShort = view.byteLength < HEADER;
+    this.cutShort = view.byteLength < HEADER_BYTES;
     if (this.cutShort) return;
     this.#pageSize = view.getUint16(16) === 1 ? 65536 : view.getUint16(16);
     this.#usable = this.#pageSize - view.getUint8(20);
@@ -108,7 +108,7 @@ class Rosbag2 implements Container {
     const [topicId, timestamp, data] = ['topic_id', 'timestamp', 'data'].map((column) => this.#messages.columns.indexOf(column));
     const take = (channel: Channel, bytes: Uint8Array) => {
       const time = BigInt(valueOf(bytes, timestamp) as bigint);
-      each({ channel, seconds: Number(time / SECOND), nanoseconds: Number(time % SECOND), data: valueOf(bytes, data) as Uint8Array });
+      each({ channel, seconds: Number(time / NANOSECONDS), nanoseconds: Number(time % NANOSECONDS), data: valueOf(bytes, data) as Uint8Array });
     };
     await this.#eachRow(this.#messages, (row) => {
       const channel = wanted.get(valueOf(row.bytes, topicId));
@@ -145,11 +145,11 @@ class Rosbag2 implements Container {
       for (const number of level.filter((each) => this.#has(each))) {
         // Single pages, far from each other.
         const page = await bytesOf(this.#source, (number - 1) * this.#pageSize, number * this.#pageSize);
-        if (page.length === this.#pageSize && page[number === 1 ? HEADER : 0] === LEAF && below.length === 0) return level;
+        if (page.length === this.#pageSize && page[number === 1 ? HEADER_BYTES : 0] === LEAF && below.length === 0) return level;
         try {
           const view = viewOf(page);
           for (const cell of cellsOf(page, number, INTERIOR)) below.push(view.getUint32(cell));
-          below.push(view.getUint32((number === 1 ? HEADER : 0) + 8));
+          below.push(view.getUint32((number === 1 ? HEADER_BYTES : 0) + 8));
         } catch (error) {
           this.damage.set(number, reasonOf(error));
         }
@@ -210,7 +210,7 @@ class Rosbag2 implements Container {
 /** Positions of the cells of a page; throws a RangeError if it is of another type. */
 function cellsOf(page: Uint8Array, number: number, type: number): number[] {
   const view = viewOf(page);
-  const start = number === 1 ? HEADER : 0;
+  const start = number === 1 ? HEADER_BYTES : 0;
   if (view.getUint8(start) !== type) throw new RangeError('a page is damaged');
   const pointers = start + (type === LEAF ? 8 : 12);
   return Array.from({ length: view.getUint16(start + 3) }, (_, i) => view.getUint16(pointers + 2 * i));

@@ -8,13 +8,13 @@ import { MAX_BLOCK, viewOf } from './container.ts';
 const decoder = new ZSTDDecoder();
 
 /** Most bytes of a file that is decompressed in memory. */
-const MAX_FILE = 2 ** 30;
+const MAX_FILE_BYTES = 2 ** 30;
 
 /** Bytes that are decompressed at once. */
-const PIECE = 2 ** 20;
+const PIECE_BYTES = 2 ** 20;
 
 /** Maximum number of successive parts without a byte. There is one at the end of each piece or frame. */
-const MAX_EMPTY = 100;
+const MAX_EMPTY_PARTS = 100;
 
 /** Loads the decoder; the other functions need it. */
 export const loadZstd = () => decoder.init();
@@ -51,8 +51,8 @@ function contentSize(frame: Uint8Array): number {
 /** Decompresses a file, which keeps its name. What comes before damage is kept. */
 export async function unzstdFile(source: Source): Promise<Source> {
   await loadZstd();
-  const tooLarge = () => new LogError({ file: source.name }, (say) => say.largeFile('zstd -d', MAX_FILE));
-  if (source.size > MAX_FILE) throw tooLarge();
+  const tooLarge = () => new LogError({ file: source.name }, (say) => say.largeFile('zstd -d', MAX_FILE_BYTES));
+  if (source.size > MAX_FILE_BYTES) throw tooLarge();
   const bytes = await bytesOf(source, 0, source.size);
   const parts: Uint8Array<ArrayBuffer>[] = [];
   let [size, empty] = [0, 0];
@@ -60,10 +60,10 @@ export async function unzstdFile(source: Source): Promise<Source> {
     for (const part of decoder.decodeStreaming(piecesOf(bytes))) {
       // The decoder does not stop at damage, but returns empty parts.
       empty = part.length === 0 ? empty + 1 : 0;
-      if (empty > MAX_EMPTY) throw new RangeError('its compression is damaged');
+      if (empty > MAX_EMPTY_PARTS) throw new RangeError('its compression is damaged');
       parts.push(part.slice());
       size += part.length;
-      if (size > MAX_FILE) throw tooLarge();
+      if (size > MAX_FILE_BYTES) throw tooLarge();
     }
   } catch (error) {
     if (error instanceof LogError) throw error;
@@ -74,5 +74,5 @@ export async function unzstdFile(source: Source): Promise<Source> {
 }
 
 function* piecesOf(bytes: Uint8Array) {
-  for (let at = 0; at < bytes.length; at += PIECE) yield bytes.subarray(at, at + PIECE);
+  for (let at = 0; at < bytes.length; at += PIECE_BYTES) yield bytes.subarray(at, at + PIECE_BYTES);
 }

@@ -12,13 +12,13 @@ const PLAN_KEYS = ['name', 'bounds', 'walls'];
 const GRID_KEYS = ['name', 'columns', 'rows', 'resolution', 'origin', 'occupied', 'unknown'];
 
 /** Keys that only a grid has. */
-const KEYS_OF_GRIDS_ALONE = GRID_KEYS.filter((key) => !PLAN_KEYS.includes(key));
+const GRID_ONLY_KEYS = GRID_KEYS.filter((key) => !PLAN_KEYS.includes(key));
 
 /** Maximum number of walls in the core. */
 const MAX_WALLS = 20_000;
 
 /** Shades of cells in the image that passes a grid to the core: white is occupied, and brighter values count as white. */
-const [OCCUPIED, UNKNOWN] = [2, 1];
+const [OCCUPIED_SHADE, UNKNOWN_SHADE] = [2, 1];
 
 /** Returns the grid of a machine, if it has one. Copying a large grid takes long. */
 export function cellsOf({ grid }: MapSqueeze): Cells | null {
@@ -40,7 +40,7 @@ export function mapData(machine: MapSqueeze, name: string, grid: Cells | null): 
 }
 
 /** Flattens the walls of a floor plan, because the core reads one array fastest. Other values are unchanged, and the core refuses them. */
-function inOneList(walls: unknown) {
+function flatWalls(walls: unknown) {
   if (!Array.isArray(walls) || walls.length > MAX_WALLS) return walls;
   const numbers = new Float64Array(4 * walls.length);
   for (const [i, wall] of walls.entries()) {
@@ -55,11 +55,11 @@ export function applyMap(machine: MapSqueeze, data: unknown) {
   if (typeof data !== 'object' || data === null || Array.isArray(data)) {
     throw refusal('map', data, `a plan, an object of ${PLAN_KEYS.join(', ')}, or a grid, one of ${GRID_KEYS.join(', ')}`, TypeError);
   }
-  const isGrid = KEYS_OF_GRIDS_ALONE.some((key) => key in data);
+  const isGrid = GRID_ONLY_KEYS.some((key) => key in data);
   const map = object('map', data, isGrid ? GRID_KEYS : PLAN_KEYS);
   if (map.name !== undefined && typeof map.name !== 'string') throw refusal('map.name', map.name, 'a text', TypeError);
   if (!isGrid) {
-    renamingFields(PLAN_KEYS, () => machine.setPlan({ bounds: map.bounds, walls: inOneList(map.walls) }));
+    renamingFields(PLAN_KEYS, () => machine.setPlan({ bounds: map.bounds, walls: flatWalls(map.walls) }));
     return;
   }
   const columns = wholeNumber('map.columns', map.columns, 1, limits.cells);
@@ -85,13 +85,13 @@ function renamingFields(keys: string[], take: () => void) {
 
 /** Returns cells as a PGM image. Rows of an image begin at the top, those of a grid at the bottom; negated, white is occupied. */
 function imageOf(columns: number, rows: number, occupiedBits: Uint8Array, unknownBits: Uint8Array) {
-  const header = new TextEncoder().encode(`P5 ${columns} ${rows} ${OCCUPIED}\n`);
+  const header = new TextEncoder().encode(`P5 ${columns} ${rows} ${OCCUPIED_SHADE}\n`);
   const image = new Uint8Array(header.length + columns * rows);
   image.set(header);
   const bit = (bits: Uint8Array, i: number) => (bits[i >> 3] >> (7 - (i & 7))) & 1;
   for (let row = 0, i = 0; row < rows; row++) {
     const start = image.length - columns * (row + 1);
-    for (let at = start; at < start + columns; at++, i++) image[at] = OCCUPIED * bit(occupiedBits, i) + UNKNOWN * bit(unknownBits, i);
+    for (let at = start; at < start + columns; at++, i++) image[at] = OCCUPIED_SHADE * bit(occupiedBits, i) + UNKNOWN_SHADE * bit(unknownBits, i);
   }
   return image;
 }

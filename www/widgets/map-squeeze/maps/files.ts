@@ -26,19 +26,19 @@ export class MapFileError extends Error {
 }
 
 /** Maximum size of a floor plan, in bytes: a hundred for each allowed wall. */
-const PLAN_BYTES = 2_000_000;
+const MAX_PLAN_BYTES = 2_000_000;
 
 /** Maximum size of a YAML file, in bytes. */
-const DESCRIPTION_BYTES = 100_000;
+const MAX_YAML_BYTES = 100_000;
 
 /** Maximum length of a plan that the tolerant YAML parser reads: it would take seconds for a longer one. */
 const MAX_TOLERANT_LENGTH = 200_000;
 
 /** Maximum number of quoted characters of a name or a value. */
-const QUOTED = 100;
+const MAX_QUOTED = 100;
 
 /** First bytes of a PNG image. */
-const PNG = [0x89, 0x50, 0x4e, 0x47];
+const PNG_MAGIC = [0x89, 0x50, 0x4e, 0x47];
 
 /** Form of a floor plan. */
 const PLAN_FORM = '{"bounds": [x0, y0, x1, y1], "walls": [[x0, y0, x1, y1], …]}';
@@ -47,16 +47,16 @@ const PLAN_FORM = '{"bounds": [x0, y0, x1, y1], "walls": [[x0, y0, x1, y1], …]
 export async function readMapFiles(files: File[], decodePng: DecodePng): Promise<OwnMap> {
   const named = (pattern: RegExp) => files.filter(({ name }) => pattern.test(name));
   const [plans, descriptions, images] = [named(/\.json$/i), named(/\.ya?ml$/i), named(/\.(pgm|png)$/i)];
-  const stranger = files.find((file) => ![...plans, ...descriptions, ...images].includes(file));
-  if (stranger) {
-    throw new MapFileError(stranger.name, (say, name) => say.kind(name));
+  const otherFile = files.find((file) => ![...plans, ...descriptions, ...images].includes(file));
+  if (otherFile) {
+    throw new MapFileError(otherFile.name, (say, name) => say.kind(name));
   }
   const maps = plans.length + descriptions.length;
   if (maps > 1) {
     const names = [...plans, ...descriptions].map(({ name }) => name).join(', ');
     throw new MapFileError(names, (say, those) => say.several(those, maps));
   }
-  if (plans.length) return readPlan(plans[0].name, await textOf(plans[0], PLAN_BYTES));
+  if (plans.length) return readPlan(plans[0].name, await textOf(plans[0], MAX_PLAN_BYTES));
   if (descriptions.length) return readGrid(descriptions[0], images, decodePng);
   throw new MapFileError(images[0]?.name ?? '', (say, image) => say.alone(image || say.noFile));
 }
@@ -84,17 +84,17 @@ function checkSize(name: string, size: number, most: number) {
 
 /** Shortens a text that a sentence quotes. */
 function quoted(text: string) {
-  return text.length > QUOTED ? `${text.slice(0, QUOTED)}…` : text;
+  return text.length > MAX_QUOTED ? `${text.slice(0, MAX_QUOTED)}…` : text;
 }
 
 /** Reads a floor plan from the JSON of a file; rejects with a MapFileError. */
 export async function readPlan(name: string, text: string): Promise<OwnMap> {
-  checkSize(name, text.length, PLAN_BYTES);
+  checkSize(name, text.length, MAX_PLAN_BYTES);
   const plan = await planOf(name, text);
   return {
     name,
     apply: (machine) =>
-      explaining(name, () => machine.setPlan(plan ?? null), (say, file, reason) => say.plan(file, reason, PLAN_FORM)),
+      applyOrExplain(name, () => machine.setPlan(plan ?? null), (say, file, reason) => say.plan(file, reason, PLAN_FORM)),
   };
 }
 
@@ -132,7 +132,7 @@ async function parsed(name: string, text: string, language: 'JSON' | 'YAML') {
 
 /** Reads a grid from a YAML file and its image. */
 async function readGrid(file: File, images: File[], decodePng: DecodePng): Promise<OwnMap> {
-  const description = await readDescription(file.name, await textOf(file, DESCRIPTION_BYTES));
+  const description = await readDescription(file.name, await textOf(file, MAX_YAML_BYTES));
   const { image: path } = description;
   if (typeof path !== 'string' || path === '') {
     throw new MapFileError(file.name, (say, name) => say.image(name, path === undefined ? '' : quoted(JSON.stringify(path))));
@@ -145,12 +145,12 @@ async function readGrid(file: File, images: File[], decodePng: DecodePng): Promi
   }
   checkSize(image.name, image.size, limits.bytes);
   const bytes = new Uint8Array(await bytesOf(image, image.name));
-  const isPng = PNG.every((byte, i) => byte === bytes[i]);
+  const isPng = PNG_MAGIC.every((byte, i) => byte === bytes[i]);
   const pixels = isPng ? await readPng(image.name, bytes, decodePng) : bytes;
   return {
     name: file.name,
     apply: (machine) =>
-      explaining(
+      applyOrExplain(
         file.name,
         () => machine.setGrid(description, pixels),
         (say, name, reason) => gridComplaint(say, name, quoted(image.name), reason),
@@ -159,10 +159,10 @@ async function readGrid(file: File, images: File[], decodePng: DecodePng): Promi
 }
 
 /** Words for true and false, which are strings in YAML 1.2 and booleans for map_server. */
-const WORDS = new Map([['true', true], ['yes', true], ['on', true], ['false', false], ['no', false], ['off', false]]);
+const BOOLEAN_WORDS = new Map([['true', true], ['yes', true], ['on', true], ['false', false], ['no', false], ['off', false]]);
 
 /** Fields of numbers. map_server also reads numbers in quotes. */
-const NUMBERS = ['resolution', 'origin', 'negate', 'occupied_thresh', 'free_thresh'];
+const NUMBER_FIELDS = ['resolution', 'origin', 'negate', 'occupied_thresh', 'free_thresh'];
 
 /** Returns a number in quotes as a number, and other values unchanged. */
 function unquoted(value: unknown): unknown {
@@ -176,9 +176,9 @@ async function readDescription(name: string, text: string) {
   const description = await parsed(name, text.replaceAll(/^\t+/gm, '').replaceAll('\t', ' '), 'YAML');
   if (!isObject(description)) throw new MapFileError(name, (say, file) => say.fields(file));
   const fields = { ...description };
-  for (const key of NUMBERS) if (key in fields) fields[key] = unquoted(fields[key]);
+  for (const key of NUMBER_FIELDS) if (key in fields) fields[key] = unquoted(fields[key]);
   const { negate, mode } = fields;
-  if (typeof negate === 'string') fields.negate = WORDS.get(negate.toLowerCase()) ?? negate;
+  if (typeof negate === 'string') fields.negate = BOOLEAN_WORDS.get(negate.toLowerCase()) ?? negate;
   if (typeof mode === 'string') fields.mode = mode.toLowerCase();
   return fields;
 }
@@ -201,7 +201,7 @@ function gridComplaint(say: Refused, description: string, image: string, reason:
 }
 
 /** Calls the core with the map of a file, and explains why it is refused. */
-function explaining(name: string, take: () => void, sentence: (say: Refused, file: string, reason: string) => string) {
+function applyOrExplain(name: string, take: () => void, sentence: (say: Refused, file: string, reason: string) => string) {
   try {
     take();
   } catch (error) {

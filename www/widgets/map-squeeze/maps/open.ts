@@ -10,16 +10,16 @@ import type { OwnMap } from './files.ts';
 export const EXTENSIONS = ['.json', '.yaml', '.yml', '.pgm', '.png'];
 
 /** Id of the disclosure with the current map and the reason why another one was refused. */
-const FOLD = 'more';
+const DISCLOSURE_ID = 'more';
 
 /** Size of a file in bytes above which a message is shown while it is read. */
-const LARGE = 1_000_000;
+const LARGE_BYTES = 1_000_000;
 
 /** Decodes a PNG image with the whole core, because the core of the figure has no decoder. */
 const decodePng: import('./files.ts').DecodePng = async (bytes) => (await instantiate()).readMapImage(bytes);
 
 export class MapOpener extends Part<import('../map-squeeze.ts').MapSqueezeElement> {
-  dropped = new FileDrop(this.host, FOLD, (files) => this.choose(files));
+  dropped = new FileDrop(this.host, DISCLOSURE_ID, (files) => this.choose(files));
   /** True while a large file is being read. */
   isReading = false;
   /** Reason why the latest map was refused. */
@@ -37,7 +37,7 @@ export class MapOpener extends Part<import('../map-squeeze.ts').MapSqueezeElemen
   }
 
   async choose(files: File[]) {
-    if (files.reduce((sum, { size }) => sum + size, 0) > LARGE) {
+    if (files.reduce((sum, { size }) => sum + size, 0) > LARGE_BYTES) {
       this.isReading = true;
       this.host.announcer.announce(words.squeeze.own.reading);
       this.host.requestUpdate();

@@ -1,5 +1,5 @@
 #!/usr/bin/env node
-/** `npx motion-widgets`: α's from a log, for those who never open a browser. */
+/** Program `npx motion-widgets`: calibrates α's from logs in a terminal. */
 
 import { readFileSync } from 'node:fs';
 import { load } from './core.ts';
@@ -11,7 +11,7 @@ process.stdout.on('error', (error) => {
 });
 
 const { stdout, stderr } = process;
-/** Percent that were shown last. */
+/** Percentage that the terminal shows; −1 if it shows none. */
 let shownPercent = -1;
 
 process.exitCode = await run(process.argv.slice(2), {

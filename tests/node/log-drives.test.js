@@ -2,9 +2,9 @@
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { log as german } from '../../www/logs/de.ts';
+import { german } from '../../www/logs/de.ts';
 import { planDrives, readDrives } from '../../www/logs/drives.ts';
-import { log as english } from '../../www/logs/en.ts';
+import { english } from '../../www/logs/en.ts';
 import { openRecordings } from '../../www/logs/open.ts';
 import { pairLogs } from '../../www/logs/pairs.ts';
 import { summarize } from '../../www/logs/summary.ts';

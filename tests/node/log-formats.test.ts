@@ -6,7 +6,7 @@ import { readFileSync } from 'node:fs';
 import { test } from 'node:test';
 import { gunzipSync } from 'node:zlib';
 import xxhash from 'xxhash-wasm';
-import { OTHERS, log as english } from '../../www/logs/en.ts';
+import { OTHERS, english } from '../../www/logs/en.ts';
 import { unlz4 } from '../../www/logs/formats/lz4.ts';
 import type { Choice, Commands, Log, Poses, Recording, Source } from '../../www/logs/log.ts';
 import { openRecordings } from '../../www/logs/open.ts';

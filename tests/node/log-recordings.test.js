@@ -2,7 +2,7 @@
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { log as english } from '../../www/logs/en.ts';
+import { english } from '../../www/logs/en.ts';
 import { openRecordings } from '../../www/logs/open.ts';
 import { summarize } from '../../www/logs/summary.ts';
 import { odometry, poseOf, recordingOf, stampOf, transform, twistOf } from '../mcap.js';

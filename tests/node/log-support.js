@@ -1,5 +1,5 @@
 import assert from 'node:assert/strict';
-import { log as german } from '../../www/logs/de.ts';
+import { german } from '../../www/logs/de.ts';
 import { LogError } from '../../www/logs/log-error.ts';
 import { openRecordings } from '../../www/logs/open.ts';
 

@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { openRecordings } from '../../www/logs/open.ts';
-import { log as german } from '../../www/logs/de.ts';
+import { german } from '../../www/logs/de.ts';
 import { Rows } from '../../www/logs/rows.ts';
 import { refusalOf, sentenceOf } from './log-support.js';
 

@@ -4,8 +4,8 @@ import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { test } from 'node:test';
 import { openRecordings } from '../../www/logs/open.ts';
-import { log as german } from '../../www/logs/de.ts';
-import { log as english } from '../../www/logs/en.ts';
+import { german } from '../../www/logs/de.ts';
+import { english } from '../../www/logs/en.ts';
 import { summarize } from '../../www/logs/summary.ts';
 
 /**

@@ -2,7 +2,7 @@
 
 import { candidates, isLocalizer, isTable, usefulSeries } from '../logs/candidates.ts';
 import { planDrives, type Part } from '../logs/drives.ts';
-import { log as words } from '../logs/en.ts';
+import { english } from '../logs/en.ts';
 import { LogError } from '../logs/log-error.ts';
 import { ROLES, framesOption, framesText, type Choice, type Log, type Recording, type Role, type Summary } from '../logs/log.ts';
 import { summarize } from '../logs/summary.ts';
@@ -28,7 +28,7 @@ export interface Inspected {
   command?: string;
 }
 
-/** Recording with the path that a command names it by. */
+/** Recording with the path by which it was given. */
 export interface Given { recording: Recording; path: string }
 
 /** Returns the contents of recordings, with the logs that could be odometry or reference. */
@@ -46,7 +46,7 @@ async function contentsOf(recording: Recording, onProgress?: (share: number | un
   const { logs, reasons } = await read(recording, usefulSeries(recording).filter(({ name: its, kind }) => kind !== 'transforms' && uses.get(its)?.length).map(({ name: its }) => its), onProgress);
   const series = recording.series.map(({ name: its, type, count }) => {
     const log = logs.get(its);
-    return { name: its, type, rows: log?.summary.rows ?? count, uses: uses.get(its) ?? [], ...(log && { summary: log.summary, sentences: summarize(log, words.found) }) };
+    return { name: its, type, rows: log?.summary.rows ?? count, uses: uses.get(its) ?? [], ...(log && { summary: log.summary, sentences: summarize(log, english.found) }) };
   });
   return { name, format, series, refused: reasons };
 }
@@ -61,7 +61,7 @@ export function textOf({ recordings, missing, command }: Inspected): string {
   return [...lines, ...(missing ? [missing] : []), ...(command ? ['', `  ${command}`] : []), ''].join('\n');
 }
 
-/** Says what a series could be. */
+/** Returns texts about the roles that a series could have. */
 function usesOf(recording: Recording, name: string): string[] {
   const choices = (role: Role, kind?: 'commands') => candidates(recording, role, { kind }).flat().filter((choice) => choice.series === name && (!kind || choice.kind === kind));
   const frames = ([first]: Choice[]) => (first.frames ? ` ${framesText(first.frames)}` : '');

@@ -73,13 +73,13 @@ const OPTIONS = {
 /** Options of the command `inspect`. */
 const INSPECT_OPTIONS = ['recording', 'odometry', 'reference', 'columns', 'time-unit', 'length-unit', 'angle-unit', 'json'];
 
-/** Options by the fields of `calibrate`. */
+/** Options by the fields of the core's function `calibrate`. */
 const OPTION_BY_FIELD: Record<string, string> = {
   'legs.distance': 'update-min-d', 'legs.angle': 'update-min-a', 'legs.duration': 'duration',
   positionStd: 'reference-position-std', yawStd: 'reference-yaw-std', model: 'model', rule: 'rule', outliers: 'outliers',
 };
 
-/** Names the option that an error of the core is about; its message begins with a field. Undefined if the error is about the logs. */
+/** Returns an error message of the core with the option in place of the field at its beginning; undefined if it begins with no field. */
 export function withOption(message: string): string | undefined {
   const [field] = message.split(' ');
   return Object.hasOwn(OPTION_BY_FIELD, field) ? `--${OPTION_BY_FIELD[field]}${message.slice(field.length)}.` : undefined;
@@ -175,7 +175,7 @@ const withoutUndefined = <T extends object>(all: T): T => Object.fromEntries(Obj
 
 const alternatives = (names: readonly string[]) => new Intl.ListFormat('en', { type: 'disjunction' }).format(names);
 
-/** Returns which errors are corrected; single names override `all`. */
+/** Returns true for systematic errors that are corrected, and false for those that are not. Single names override `all`. */
 function correctOf(left?: string, corrected?: string): Record<string, boolean> | undefined {
   const lists = [namesOf('no-correct', left), namesOf('correct', corrected)];
   const [all, single] = [true, false].map((isAll) => lists.flatMap((names, i) => (names.includes('all') === isAll ? names : []).map((name) => [name, i === 1] as const)));
@@ -201,7 +201,7 @@ function parsed(args: string[]) {
   }
 }
 
-/** Names the option that has the most pairs of letters in common with a name. */
+/** Returns a hint at the option that has the most pairs of letters in common with a name. */
 function nearestOption(name: string): string {
   const pairs = (word: string) => Array.from(word, (letter, i) => letter + (word[i + 1] ?? ''));
   const own = pairs(name);

@@ -8,13 +8,13 @@ import { escaped } from '../scene/svg.ts';
 /** Width of a panel, its greatest height, and its margins for title and axes, in pixels. */
 const [WIDTH, HEIGHT, MARGIN] = [800, 800, { top: 64, right: 24, bottom: 56, left: 64 }];
 
-/** Shortest step of a line in pixels. */
+/** Minimum length of a step of a line, px. Shorter steps are left out. */
 const MIN_STEP_PX = 0.5;
 
 /** Distance of the paths from the axes, in pixels. */
 const INSET_PX = 12;
 
-/** Lines in the colours of ink, prior and accent on the page. */
+/** Attributes of the lines, in the colours of the page. */
 const LINE_STYLES = { reference: 'stroke="#1f1e1b" stroke-width="1.5"', odometry: 'stroke="#0b61b0" stroke-width="1.5" stroke-dasharray="4 2"', outlier: 'stroke="#7a1560" stroke-width="5" stroke-linecap="round"' };
 
 const [INK, MUTED] = ['#1f1e1b', '#57564f'];

@@ -25,7 +25,7 @@ export interface Result {
   date: string;
 }
 
-/** Systematic errors: key, name and unit. */
+/** Systematic errors: key in the result, name in the report, and unit. */
 const SYSTEMATIC: [string, string, string][] = [
   ['clockOffset', 'clock offset', 's'],
   ['mountYaw', 'mount yaw', 'rad'],
@@ -34,7 +34,7 @@ const SYSTEMATIC: [string, string, string][] = [
   ['turnScale', 'turn scale', ''],
 ];
 
-/** Causes of lost legs. */
+/** Causes for which the core drops legs, as texts of the report. */
 const LOST_LEG_CAUSES: Record<string, string> = {
   withoutReference: 'without reference', acrossBreaks: 'across jumps or missing rows', acrossPauses: 'across pauses', standing: 'of a standing robot',
 };

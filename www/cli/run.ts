@@ -2,7 +2,7 @@
 
 import { writeFile } from 'node:fs/promises';
 import { planDrives, readDrives, type Drive } from '../logs/drives.ts';
-import { log as words } from '../logs/en.ts';
+import { english } from '../logs/en.ts';
 import { LogError, cut } from '../logs/log-error.ts';
 import { UNITS } from '../logs/log.ts';
 import { logOf } from '../logs/pairs.ts';
@@ -52,7 +52,7 @@ export async function run(args: string[], environment: Environment): Promise<num
   }
 }
 
-/** Names the option that answers the question of an error. */
+/** Returns a sentence with the option that answers the question of an error. */
 function adviceOf({ ask, message }: LogError): string {
   if (!ask || message.includes(' --')) return '';
   const { what, role = 'odometry', choices } = ask;
@@ -81,7 +81,7 @@ async function calibrate({ inputs, wishes, fit, output, plot }: Calibrate, { loa
   const drives = await readDrives(planDrives(recordings, { ...wishes, roles }), onProgress);
   onProgress?.(undefined);
   const [{ odometry: { start } }] = drives;
-  const logs = drives.flatMap(({ odometry, reference }) => [odometry, reference]).map(({ name, ...log }) => ({ name, summary: log.summary, sentences: summarize({ name, ...log }, words.found) }));
+  const logs = drives.flatMap(({ odometry, reference }) => [odometry, reference]).map(({ name, ...log }) => ({ name, summary: log.summary, sentences: summarize({ name, ...log }, english.found) }));
   // The summary is shown even if the fit is refused.
   if (output === 'text') print(logSummaries(logs));
   if (output === 'yaml') complain(logSummaries(logs));

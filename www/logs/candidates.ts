@@ -18,7 +18,7 @@ const FILTER_NAMES = /odometry[/_]filtered|ekf|ukf|odom_combined/i;
 /** Names of topics that are no path of the robot. */
 const GOAL_NAMES = /goal|initial_?pose|waypoint|target|setpoint/i;
 
-/** Frames of a robot, and frames that are fixed, the likeliest first. */
+/** Names of frames on a robot, and of fixed frames for each role, the likeliest first. */
 const BASE_FRAMES = [/(^|\/)base_footprint$/, /(^|\/)base_link$/, /(^|\/)base/];
 const FIXED_FRAMES = { odometry: [/(^|[/_])odom(etry)?$/], reference: [/mocap|vicon|optitrack|world/, /(^|\/)map$/] };
 
@@ -45,13 +45,13 @@ export function seriesNamed(series: Series[], wanted: string): Series | undefine
   return series.find(({ name }) => name === wanted) ?? series.find(({ name }) => bare(name) !== '' && bare(name) === bare(wanted));
 }
 
-/** Returns the names of the series that can be a role, the likeliest first. */
+/** Returns the names of the series that could be the log of a role, the likeliest first. */
 export function namesFor(recording: Recording, role: Role): string[] {
   const useful = usefulSeries(recording).filter(({ kind }) => role === 'odometry' || kind !== 'commands');
   return [...new Set([...candidates(recording, role).flat().map(({ series }) => series), ...useful.map(({ name }) => name)])];
 }
 
-/** Returns the choices for a role in tiers, the likeliest first. A tier of several is ambiguous. */
+/** Returns the logs that a role could have, in groups of equal likelihood, the likeliest first. A group of several is ambiguous. */
 export function candidates(recording: Recording, role: Role, { kind }: { kind?: LogKind } = {}): Choice[][] {
   const isOfTable = isTable(recording);
   const useful = usefulSeries(recording).filter(({ name }) => !GOAL_NAMES.test(name));
@@ -73,7 +73,7 @@ const choices = (series: Series[], kind?: LogKind): Choice[] => series.map(({ na
 
 const tiers = (series: Series[], names: RegExp[], kind?: LogKind): Choice[][] => names.map((pattern) => choices(series.filter(({ name }) => pattern.test(name)), kind));
 
-/** Returns the frames that a role has by their names, the likeliest of them. */
+/** Returns the likeliest pairs of frames for a role, by the names of the frames. */
 export function likeliest(frames: Frames[], role: Role): Frames[] {
   const first = (some: Frames[], names: RegExp[], end: keyof Frames) => names.map((name) => some.filter((each) => name.test(each[end]))).find(({ length }) => length);
   const fixed = first(frames, FIXED_FRAMES[role], 'parent') ?? [];

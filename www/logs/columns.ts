@@ -1,4 +1,4 @@
-/** Columns of a table: groups with a common prefix, from the names that people and recorders give them. */
+/** Columns of a table, recognized by their names, in groups with a common prefix. */
 
 import { LogError, cut, listed, type Place } from './log-error.ts';
 import { UNITS, type AngleUnit, type LengthUnit, type LogKind, type Question, type Series, type TimeUnit } from './log.ts';
@@ -28,7 +28,7 @@ export interface Group {
   kind: Series['kind'];
   hasCommands: boolean;
   columns: Partial<Record<Field, Column>>;
-  /** Second column that could equally well be the field. */
+  /** Second column that fits a field as well as the first one. */
   twice: Partial<Record<Field, Column>>;
   /** Columns of times, best first. */
   times: Column[];
@@ -108,7 +108,7 @@ function unitOf(text: string): Unit | undefined {
   return of && unit ? { of, unit, isRate } : undefined;
 }
 
-/** Quantity of each field. */
+/** Quantity of each field, and true if it is a rate. */
 const UNITS_OF: Partial<Record<Field, [Unit['of'], boolean]>> = {
   t: ['time', false], x: ['length', false], y: ['length', false], z: ['length', false], yaw: ['angle', false], v: ['length', true], omega: ['angle', true],
 };

@@ -21,7 +21,7 @@ const CORRECTIONS = {
   radians: ([x, y, heading]: Pose): Pose => [x, y, heading / DEGREE],
 };
 
-/** All corrections of either log, */
+/** All corrections, each for one of the two logs. */
 const ALL_CORRECTIONS = (Object.keys(CORRECTIONS) as (keyof typeof CORRECTIONS)[]).flatMap((name) => [[name, 'reference'], [name, 'odometry']] as [typeof name, Role][]);
 
 /** Correction that makes two logs of a drive agree. */
@@ -41,7 +41,7 @@ const [MAX_STEPS, MIN_DURATION, MIN_STEPS] = [4000, 0.25, 40];
 /** Maximum offset of the clocks (s) that is tried, as in the first scan of the core. */
 const MAX_OFFSET = 10;
 
-/** Score above which logs need no correction, minimum score after a correction, and maximum fraction of the disagreement after it. */
+/** Score above which logs agree, minimum score after a correction, and maximum fraction of the disagreement that a correction leaves. */
 const [AGREEMENT, MIN_SCORE, MAX_REMAINING_FRACTION] = [0.9, 0.8, 0.3];
 
 /** Returns true for a scale that wheels can have, as in the core. */

@@ -68,7 +68,7 @@ const CORRECTIONS: Record<Correction['name'], (other: string, factor: number) =>
   lengths: (other, factor) => `multipliziert mit ${factor.toPrecision(2).replace('.', ',')} passen ihre Längen zu denen von ${other}; die Längeneinheit von beiden angeben`,
 };
 
-export const log: Words = {
+export const german: Words = {
   place: (file, line, topic) => `${file}${line ? `, Zeile ${line}` : ''}${topic ? `, Topic ${topic}` : ''}`,
   refused: {
     gone: (reason) => (reason === 'ENOENT' ? 'es gibt keine solche Datei und keinen solchen Ordner.' : `die Datei lässt sich nicht lesen (${reason}); erwartet wird eine, die noch da ist.`),

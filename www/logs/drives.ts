@@ -7,20 +7,20 @@ import { isSamePath, pairLogs, pairedByTime, withStart, type Drive } from './pai
 
 export type { Drive };
 
-/** Choice of a recording for one role. */
+/** Recording, and the choice of a log in it. */
 export interface Part { recording: Recording; choice: Choice }
 
-/** Drives whose logs are known, and further logs that are paired by their times. */
+/** Plan of reading: drives with both logs, and single logs that are paired by their times after they are read. */
 export interface Plan { drives: Record<Role, Part>[]; unpaired: Record<Role, Part[]> }
 
-/** Answers of a user. Missing answers are guessed. */
+/** Choices of the user. Missing ones are guessed. */
 export interface Wishes {
   /** `series` is the name of a series, or a prefix of names without the separator that follows. `frames` selects among transforms. */
   odometry?: { series?: string; frames?: Frames };
   reference?: { series?: string; frames?: Frames };
   /** Kind of odometry: `commands` prefers commands to poses, and `poses` excludes commands. By default poses come first. */
   kind?: LogKind;
-  /** Roles of recordings that have one log only. */
+  /** Roles that the user gave to recordings with one log. */
   roles?: ReadonlyMap<Recording, Role>;
 }
 
@@ -41,14 +41,14 @@ export function planDrives(recordings: Recording[], wishes: Wishes = {}): Plan {
   }
   const { odometry, reference } = plan.unpaired;
   for (const [i, recording] of unnamed.entries()) {
-    // Without names of roles, the roles of other files determine the role, or the order of two files.
+    // If no name is a sign of a role, the order of two files or the roles of the other files determine it.
     const role = odometry.length + reference.length + unnamed.length === 2 && unnamed.length === 2 ? ROLES[i]
       : 2 * odometry.length >= recordings.length ? 'reference'
         : 2 * reference.length >= recordings.length ? 'odometry' : undefined;
     if (!role) throw new LogError({ file: recording.name }, (say) => say.noRole, { what: 'roles', choices: [] });
     plan.unpaired[role].push({ recording, choice: choose(recording, role, wishes) });
   }
-  // A separate reference file replaces the reference in a bag.
+  // A separate file of one role replaces the log of that role in a recording that has both.
   const lacking = odometry.length < reference.length ? 'odometry' : 'reference';
   if (plan.drives.length === Math.abs(odometry.length - reference.length)) plan.unpaired[lacking].push(...plan.drives.splice(0).map((drive) => drive[lacking]));
   if (odometry.length !== reference.length) {
@@ -91,7 +91,7 @@ function bothOf(recording: Recording, wishes: Wishes): Record<Role, Part> {
   return { odometry: { recording, choice: odometry }, reference: { recording, choice: reference } };
 }
 
-/** Returns the log of a recording for a role. It differs from that of the other role. */
+/** Returns the choice of a log for a role, different from `other`, the choice for the other role. */
 function choose(recording: Recording, role: Role, wishes: Wishes, other?: Choice): Choice {
   const { series, frames } = wishes[role] ?? {};
   return series !== undefined || frames ? wishedChoice(recording, role, wishes) : guessedChoice(recording, role, wishes, other);

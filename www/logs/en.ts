@@ -51,7 +51,7 @@ const CORRECTIONS: Record<Correction['name'], (other: string, factor: number) =>
   lengths: (other, factor) => `multiplied by ${factor.toPrecision(2)}, its lengths match those of ${other}; state the unit of lengths of both`,
 };
 
-/** Formats that are known and not read, each with the cure. */
+/** Formats that are recognized but not read, each with a remedy. */
 export const OTHERS = {
   rosbag1: 'a ROS bag of version 1.2; convert it with “rosbag reindex”.',
   ulog: 'a PX4 log (ULog); convert it with “ulog2csv”, and give two of the tables.',
@@ -70,7 +70,7 @@ export const OTHERS = {
 /** Tools that repair a recording. */
 export const REPAIRS: Record<Recording['format'], string> = { mcap: 'mcap recover', rosbag: 'rosbag reindex', sqlite: 'sqlite3 FILE .recover', csv: '', tum: '' };
 
-export const log = {
+export const english = {
   place: (file: string, line: number, topic: string) =>
     `${file}${line ? `, line ${line}` : ''}${topic ? `, topic ${topic}` : ''}`,
   /** Reasons for refusing a log, each after its place. */

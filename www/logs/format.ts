@@ -9,7 +9,7 @@ export interface Format {
   name: 'csv' | 'tum';
   /** Separator of cells. A blank means any number of blanks and tabs. */
   separator: string;
-  /** True where numbers have decimal commas. */
+  /** True if numbers have decimal commas. */
   hasCommas: boolean;
   /** Number of the first row's line, from 1. */
   firstLine: number;
@@ -19,14 +19,14 @@ export interface Format {
   groups: Group[];
   /** True if empty cells belong to samples of other topics. */
   isSparse: boolean;
-  /** True where either Y or Z may be the vertical axis: coordinates of Motive. */
+  /** True if either Y or Z may be the vertical axis, as in exports of Motive. */
   hasUnknownAxis?: boolean;
 }
 
-/** Lines that the format is detected from. */
+/** Number of lines that the format is detected from. */
 const SAMPLED_LINES = 50;
 
-/** Columns of tables without a header, by their number. */
+/** Names of the columns in tables without a header. The number of cells in a row identifies the table. */
 const TUM_COLUMNS = ['t', 'x', 'y', 'z', 'qx', 'qy', 'qz', 'qw'];
 const POSE_COLUMNS = ['pose.position.x', 'pose.position.y', 'pose.position.z', 'pose.orientation.x', 'pose.orientation.y', 'pose.orientation.z', 'pose.orientation.w'];
 const TWIST_COLUMNS = ['linear.x', 'linear.y', 'linear.z', 'angular.x', 'angular.y', 'angular.z'];
@@ -52,7 +52,7 @@ const CARMEN_RECORDS: [tag: string, series: string, names: string[]][] = [
 /** Number of columns of rows without times: poses of KITTI, and geometry_msgs/Twist. */
 const [KITTI_WIDTH, TWIST_WIDTH] = [12, 6];
 
-/** First lines of text that is no table. */
+/** Patterns of the first line of texts that are no tables, with the name of their notation. */
 const OTHER_TEXTS: [RegExp, string][] = [[/^\s*(\{\s*("|$)|\[\s*([-\d"[{]|$))/, 'JSON'], [/^(---|header:|pose:|transforms:|- header:)\s*$/, 'YAML']];
 
 /** Splits a line into cells, of which only `needed` may be returned. A separator in quotes does not count. */

@@ -5,10 +5,10 @@ import { framesText, type Frames } from './log.ts';
 import { poseOf, withoutSlash, type Edge, type Sample, type Transform } from './messages.ts';
 import { product, rotated } from './quaternion.ts';
 
-/** Maximum number of different frames: a robot has some dozens. */
-const MAX_FRAMES = 10_000;
+/** Maximum number of links between frames: a robot has some dozens. */
+const MAX_LINKS = 10_000;
 
-/** Least motion in m of a frame that travels; joints only turn, and suspensions move less. */
+/** Minimum motion, in m, of a frame that travels. Joints only turn, and suspensions move less. */
 const MIN_TRAVEL = 0.05;
 
 /** Usual names of a robot's own frame, which is fixed to one that travels. */
@@ -30,7 +30,7 @@ export class FrameTree {
     const link = this.#links.get(framesText({ parent, child }));
     if (link) {
       link.travelled = Math.max(link.travelled, Math.hypot(transform[0] - link.origin[0], transform[1] - link.origin[1]));
-    } else if (this.#links.size < MAX_FRAMES) {
+    } else if (this.#links.size < MAX_LINKS) {
       const added = { parent, child, isStatic, origin: transform, travelled: 0 };
       this.#links.set(framesText(added), added);
       this.#linksByChild.set(child, [...(this.#linksByChild.get(child) ?? []), added]);
@@ -79,7 +79,7 @@ export class FrameTree {
   }
 }
 
-/** Transform of a chain at the time of its message. */
+/** Transform of one link of a chain, with its message. */
 interface TimedEdge {
   link: string;
   edge: Edge;
@@ -93,9 +93,9 @@ export class Chain {
   readonly #ends: Frames;
   /** Names of the links, from the first to the last. */
   #links: string[] = [];
-  /** Samples in the order of their messages; at first the latest ones of each link when the chain was connected. */
+  /** Transforms in the order of their messages, from the latest ones of each link at the time when all links were known. */
   #samples: TimedEdge[] = [];
-  /** Latest samples of links, while the chain is not connected. */
+  /** Latest transforms of links, until all links of the chain are known. */
   #waiting = new Map<string, TimedEdge>();
 
   constructor({ parent, child }: Frames) {

@@ -1,11 +1,11 @@
 /** Errors of logs, and the bytes that logs are read from. */
 
-import { log as english } from './en.ts';
+import { english } from './en.ts';
 import type { Question, Source } from './log.ts';
 
 export type Words = typeof english;
 
-/** Position in a source, with a line or a topic but not both. */
+/** Position of an error: a line of a table, or a topic of a recording. */
 export interface Place {
   file: string;
   /** Line from 1. */
@@ -17,7 +17,7 @@ export interface Place {
 /** Maximum number of characters that a sentence quotes of a name or value, and of a library's message. */
 const [MAX_QUOTED, MAX_REASON] = [40, 100];
 
-/** Error with one sentence that names the file, the line or topic, the value, and what is expected. */
+/** Error of a log. Its message is one sentence that names the file, the line or topic, the value, and what is expected. */
 export class LogError extends Error {
   place: Place;
   /** Question whose answer resolves the error. */
@@ -25,7 +25,7 @@ export class LogError extends Error {
   /** Returns the sentence in a language. */
   sentence: (say: Words) => string;
 
-  /** @param reason in the language of the page when the error is shown */
+  /** @param reason returns the end of the sentence in the language of the given words */
   constructor(place: Place, reason: (say: Words['refused']) => string, ask?: Question) {
     const sentence = (say: Words) => `${say.place(cut(place.file), place.line ?? 0, cut(place.topic ?? ''))}: ${reason(say.refused)}`;
     super(sentence(english));

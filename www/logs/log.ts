@@ -15,13 +15,13 @@ export type Role = (typeof ROLES)[number];
 export interface Series {
   /** Topic, or prefix of the columns ("gt_", "/odom"); empty where a table has one group only. */
   name: string;
-  /** Message type, or the columns as a sentence names them. */
+  /** Message type of a topic, or the names of the columns of a table. */
   type: string;
-  /** Null where the series cannot be read. */
+  /** Null if no log can be read from the series. */
   kind: LogKind | 'positions' | 'transforms' | null;
-  /** True where a series of poses has speeds too, which a choice of commands reads. */
+  /** True if a table has speeds too. They are read if commands are preferred. */
   hasCommands?: boolean;
-  /** Messages; 0 for a table, whose rows are not counted yet. */
+  /** Number of messages; 0 for a table, whose rows are counted when it is read. */
   count: number;
   /** Pairs of frames whose chain of transforms may be a pose of the robot; undefined for static transforms. */
   frames?: Frames[];
@@ -47,7 +47,7 @@ export interface Choice {
   frames?: Frames;
 }
 
-/** Container: a file, or a folder that belongs together. */
+/** File, or folder of files, that logs are read from. */
 export interface Recording {
   name: string;
   format: 'mcap' | 'rosbag' | 'sqlite' | 'csv' | 'tum';
@@ -64,19 +64,19 @@ export type TimeUnit = (typeof UNITS.timeUnit)[number];
 export type LengthUnit = (typeof UNITS.lengthUnit)[number];
 export type AngleUnit = (typeof UNITS.angleUnit)[number];
 
-/** Answers to questions about a file that its contents leave open. */
+/** Answers of the user to questions about a file. */
 export interface OpenOptions {
-  /** Names of a table's columns, for one without a header or in the place of its header. */
+  /** Names of the columns of a table. They replace its header, if it has one. */
   columns?: string[];
   timeUnit?: TimeUnit;
   lengthUnit?: LengthUnit;
   angleUnit?: AngleUnit;
 }
 
-/** Question of an error: the option that answers it, and the answers. */
+/** Question of a LogError to the user: the option that answers it, and the possible answers. */
 export interface Question {
   what: keyof typeof UNITS | 'series' | 'columns' | 'frames' | 'roles' | 'other';
-  /** Log that a choice of series or frames is for, or that is there. */
+  /** Role of the log that has to be chosen. For `other`, the role of the log that was found. */
   role?: Role;
   choices: string[];
   /** Columns of the table: their names, or the cells of its first row. */
@@ -94,9 +94,9 @@ export interface Poses extends Breaks { t: Float64Array; x: Float64Array; y: Flo
 /** Commands in s, m/s and rad/s. */
 export interface Commands extends Breaks { t: Float64Array; v: Float64Array; omega: Float64Array }
 
-/** Log, plain data that a worker can post. */
+/** Log of one robot, as plain data that a worker can post. */
 export interface Log {
-  /** File, with the series and the frames of a recording. */
+  /** Name of the file, with the series and the frames if it has several logs. */
   name: string;
   kind: LogKind;
   /** Whole seconds that were subtracted from all times. */
@@ -115,7 +115,7 @@ export type Basis = 'name' | 'size' | 'rate' | 'format' | 'date' | 'option' | 'u
 /** Notes that leave α's doubtful even if all checks pass. */
 export type Warning = Extract<Note['name'], 'localizer' | 'swapped'>;
 
-/** Sentence about a log: name of a word in `found.notes`, and the values in it. */
+/** Note about a log: key of its sentence in `found.notes` of the messages, and the values in that sentence. */
 export interface Note {
   name: 'cutShort' | 'damaged' | 'missing' | 'sorted' | 'noZone' | 'upAxis' | 'swapped' | 'apart' | 'localizer';
   values: (string | number)[];
@@ -123,20 +123,20 @@ export interface Note {
 
 /** Numbers and decisions about a log. */
 export interface Summary {
-  /** Rows or messages. */
+  /** Number of rows or messages in the file. */
   rows: number;
   used: number;
-  /** Causes in the order of their sentences; `first` is a line or the number of a message, 0 if there is none. */
+  /** Number of dropped rows by cause. `first` is the line or the message of the first one; 0 if it is unknown. */
   dropped: Partial<Record<Cause, { count: number; first: number }>>;
   /** Duration. */
   seconds: number;
-  /** Rows in a second, by the median step. */
+  /** Rate in Hz, from the median time between rows. */
   rate: number;
   /** Length of the path in m. */
   distance: number;
-  /** Gaps of more than five usual steps, in s; `first` is after the first row. */
+  /** Gaps of more than five median steps. `longest` is a duration in s, and `first` a time in s after the first row. */
   gaps: { count: number; longest: number; first: number };
-  /** Steps that are much faster than the others; `first` is in s after the first row. */
+  /** Jumps: steps that are much faster than the others. `first` is a time in s after the first row. */
   jumps: { count: number; first: number };
   units: {
     time: { unit: TimeUnit; by: Basis };
@@ -151,5 +151,5 @@ export interface Summary {
   notes: Note[];
 }
 
-/** Clock of messages without stamps. */
+/** Name of the clock of messages without stamps: the time of recording. */
 export const LOG_TIME = 'log time';

@@ -32,10 +32,10 @@ export interface Edge extends Stamp {
   transform: Transform;
 }
 
-/** Identifiers of CDR: plain, and plain of version 2, which aligns to four bytes at most. */
+/** Identifiers of encodings in the CDR header: those of version 1, and those of version 2, which aligns values to at most four bytes. */
 const [CDR, CDR_2] = [[0, 1], [6, 7, 16, 17]];
 
-/** Bytes of the header of CDR, from whose end values are aligned. */
+/** Number of bytes of the CDR header. Values are aligned relative to its end. */
 const CDR_HEADER = 4;
 
 /** Cached view of the latest buffer, which the messages of a block share. Creating a view takes as long as reading a message. */
@@ -165,7 +165,7 @@ export function kindOf(type: string): Series['kind'] {
 /** Checks whether messages are serialized as ROS 1 or ROS 2 does. */
 export const isReadable = ({ encoding }: Channel) => encoding === 'cdr' || encoding === 'ros1';
 
-/** First bytes of a message that rosbag2 compressed; others start with 0. */
+/** Magic number of a message that rosbag2 compressed. Other messages start with 0. */
 const ZSTD = 0x28b52ffd;
 
 function readerOf(encoding: string, data: Uint8Array): Reader {

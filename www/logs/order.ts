@@ -5,7 +5,7 @@ import { quantile, sample } from './quantile.ts';
 /** Maximum difference of neighbouring times, in median steps. */
 const MAX_GAP_STEPS = 5;
 
-/** Maximum difference of equal times, in median steps. */
+/** Maximum difference of times that count as equal, in median steps. */
 const SAME_TIME_STEPS = 0.75;
 
 /** Minimum number of rows with times of earlier rows, by which a clock was set back. Fewer such rows are late. */

@@ -14,22 +14,22 @@ export interface Drive { odometry: Log; reference: Log }
 /** Minimum fraction of the shorter log's time that two logs of one drive share. */
 const MIN_OVERLAP = 0.5;
 
-/** Number of rows that are compared to find the same log in two files, and minimum number that proves it. */
+/** Number of rows that are compared to detect one path in two files, and minimum number of equal rows that proves it. */
 const [COMPARED_ROWS, MIN_EQUAL_ROWS] = [500, 10];
 
 /** Largest difference in m and rad between copies of one path: the rounding to six digits. */
 const COPY_TOLERANCE = 1e-5;
 
-/** Least motion in m and rad of paths that are compared. */
+/** Minimum motion, in m and rad, of paths that are compared. */
 const MIN_MOTION = 0.1;
 
 /**
- * Fraction of rows that repeat the previous pose: minimum for wheels of a robot that rests at times, and maximum for a measurement, which
- * has noise.
+ * Fractions of rows that repeat the previous pose: minimum for wheel odometry of a robot that rests at times, and maximum for a
+ * measurement, which has noise.
  */
 const [MIN_WHEEL_REPEATS, MAX_MEASURED_REPEATS] = [0.02, 0.001];
 
-/** Units that correct a log if they are stated. */
+/** Options that correct the unit of a log that was read with a wrong one, by the correction. */
 const UNIT_OPTIONS: { [Name in Correction['name']]?: 'angleUnit' | 'lengthUnit' } = { degrees: 'angleUnit', radians: 'angleUnit', lengths: 'lengthUnit' };
 
 /** Returns the absolute times of the first and the last row. */
@@ -43,7 +43,7 @@ function overlap(one: Log, other: Log): number {
   return Math.min(b, d) - Math.max(a, c);
 }
 
-/** Returns the name of a file without its extension and the words for its role. */
+/** Returns the name of a file without its extension and words for a role: the part that both files of a drive have in common. */
 const stemOf = (name: string) => name.toLowerCase().replace(/\.\w+$/, '').replace(/odom(etry)?|wheels?|encoders?|cmd(_vel)?|(ground)?[_-]?truth|gt|reference|ref|mocap|vicon|optitrack|poses?/g, '').replace(/[^a-z0-9]+/g, '');
 
 /** Pairs logs of several drives: by their times, by the names of their files, or in their order. */
@@ -113,7 +113,7 @@ export function logOf(drives: Drive[]): Pick<CalibrationLog, Role> {
   return drives.length === 1 ? { odometry: odometry[0], reference: reference[0] } : { odometry, reference };
 }
 
-/** Checks whether two logs are one: rows of one time have the same motion since the first of them, whatever frame the poses are in. */
+/** Checks whether two logs are copies of one path. Rows of equal times then have the same motion since the first such row, in any frames. */
 export function isSamePath(one: Log, two: Log): boolean {
   const [poses, other] = [one.data, two.data];
   const { t } = poses;

@@ -6,7 +6,7 @@ export interface Quaternion extends Vector { w: number }
 /** Largest deviation from length 1 that rounding explains. */
 const LENGTH_TOLERANCE = 0.1;
 
-/** Number of steps in a radian to which headings are rounded. */
+/** Number of steps per radian that headings are rounded to. */
 const HEADING_STEPS = 1e12;
 
 /** Returns the angle about the vertical axis, for quaternions of any length. */

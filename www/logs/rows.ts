@@ -7,7 +7,7 @@ import { quantile, sample } from './quantile.ts';
 import { distanceOf } from './summary.ts';
 import { type Units, judgeUnits } from './units.ts';
 
-/** Decisions about a log that its reader makes. */
+/** Facts about a log that the reader of its format knows. */
 interface Decisions {
   /** Units that a name or the format states. */
   units: Units;
@@ -27,13 +27,13 @@ export const MAX_VALUE = 1e9;
 /** Minimum duration of a gap in median steps, as in the core. */
 const MIN_GAP_STEPS = 5;
 
-/** Speed of a jump in units of the 90 % quantile of the moving steps. */
+/** Minimum speed of a jump, as a multiple of the 90 % quantile of the speeds of a moving robot. */
 const JUMP_FACTOR = 8;
 
 /** Minimum length of a jump in metres and radians, above the noise of a fast log. */
 const [MIN_JUMP, MIN_JUMP_TURN] = [0.1, 0.2];
 
-/** Speed in metres or radians a second below which a robot stands. */
+/** Minimum speed of a moving robot, in m/s or rad/s. */
 const MIN_MOVING_SPEED = 0.01;
 
 /** Minimum of times since 1970, s: the year 1973. Smaller times count from the start of a program. */
@@ -42,7 +42,7 @@ const MIN_EPOCH_TIME = 1e8;
 /** Minimum fraction of rows that remain if the clock was set back, and minimum fraction of rows with different times. */
 const MIN_FRACTION = 0.6;
 
-/** Columns of the numbers of a row. A time has its whole seconds in one column, and the rest in the next. */
+/** Indices of the numbers of a row. The whole seconds of a time have one index, and the rest has the next. */
 const [SECONDS, REST, A, B, C, LINE, OTHER_SECONDS, OTHER_REST, WIDTH] = [0, 1, 2, 3, 4, 5, 6, 7, 8];
 
 export class Rows {
@@ -50,7 +50,7 @@ export class Rows {
   /** Numbers of the rows that were added, row by row. */
   #numbers = new Float64Array(1024 * WIDTH);
   #added = 0;
-  /** Column of the clock's seconds. */
+  /** Index of the seconds of the clock that is used. */
   #clock = SECONDS;
   /** Rows before which the path is unknown, because unusable rows were dropped. */
   #broken = new Set<number>();
@@ -110,7 +110,7 @@ export class Rows {
   }
 
   /**
-   * Finishes the log.
+   * Returns the log with the rows that were added.
    *
    * @param options answers to questions about units
    * @throws {LogError} if the remaining rows are no log, or their units are in doubt

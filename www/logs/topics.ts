@@ -7,7 +7,7 @@ import { LOG_TIME, framesOption, framesText, type Choice, type Log, type Note, t
 import { edgesOf, isReadable, kindOf, poseReader, type Sample } from './messages.ts';
 import { MAX_VALUE, Rows } from './rows.ts';
 
-/** Number of messages of transforms after which all frames count as known. */
+/** Maximum number of messages with transforms that are read to find the frames. */
 const MAX_FRAME_MESSAGES = 2000;
 
 /** Maximum number of times that a node publishes a topic again after another one. A restarted node counts as a new one, and does not alternate. */

@@ -32,7 +32,7 @@ const MIN_EPOCH_TIMES = [['ns', 1e17], ['us', 1e14], ['ms', 1e11], ['s', 1e8]] a
 /** Minimum number of rows of a log whose units are judged. */
 const MIN_ROWS = 10;
 
-/** Ranges of the rate of a log, Hz: if its unit is stated, and if it is not. */
+/** Ranges of the rate of a log, Hz: if the unit of its times is stated, and if it is not. */
 const [STATED_RATES, USUAL_RATES] = [[0.05, 5000], [0.2, 2000]] as const;
 
 /** Minimum and maximum speed of robots in m/s or rad/s, with a margin for rounded times. */

@@ -5,9 +5,9 @@
 
 import { instantiateShared, type SharedCore } from '../core.ts';
 import type { AlphaCalibrator, AlphaCalibratorSettings, CalibrationLog, Motion } from '../types.d.ts';
-import { log as german } from './de.ts';
+import { german } from './de.ts';
 import { readDrives, type Drive, type Part, type Plan } from './drives.ts';
-import { log as english } from './en.ts';
+import { english } from './en.ts';
 import { LogError } from './log-error.ts';
 import type { OpenOptions, Question, Recording, Source } from './log.ts';
 import { openRecordings } from './open.ts';

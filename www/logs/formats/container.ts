@@ -27,7 +27,7 @@ export interface Message {
 export interface Container {
   format: Recording['format'];
   channels: Channel[];
-  /** Reasons for skipping damaged blocks, by position. */
+  /** Reasons why damaged blocks were skipped, by the positions of the blocks. */
   damage: Map<number, string>;
   /** True if the end of the file is missing. */
   cutShort: boolean;

@@ -8,7 +8,7 @@ const [VERSION, VERSION_1, BLOCK_CHECKSUMS, CONTENT_SIZE, CHECKSUM, DICTIONARY] 
 /** Bit in the length of a block that is not compressed. */
 const UNCOMPRESSED = 0x80000000;
 
-/** Length of a match that is written as 0. */
+/** Minimum length of a match. Lengths are written without it. */
 const MIN_MATCH = 4;
 
 function check(condition: boolean): void {

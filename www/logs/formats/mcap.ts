@@ -8,11 +8,11 @@ import { MAX_BLOCK, readAhead, stampAt, uint53, viewOf, type Channel, type Conta
 import { unlz4 } from './lz4.ts';
 import { loadZstd, unzstd } from './zstd.ts';
 
-/** Codes of records, and the bytes of code and length before each. */
+/** Codes of records, and the number of bytes of code and length before each record. */
 const [SCHEMA, CHANNEL, MESSAGE, CHUNK, DATA_END] = [3, 4, 5, 6, 15];
 const RECORD_HEAD_BYTES = 9;
 
-/** Bytes before the first record. */
+/** Number of bytes before the first record. */
 const MAGIC_BYTES = 8;
 
 /** Opens a recording by its index. Without an index it is read from its start up to its end or damage. */

@@ -143,7 +143,7 @@ class Rosbag2 implements Container {
     for (let depth = 0; depth < MAX_DEPTH; depth++) {
       const below: number[] = [];
       for (const number of level.filter((each) => this.#has(each))) {
-        // Single pages, far from each other.
+        // These pages are far from each other, so that reading ahead would be slow.
         const page = await bytesOf(this.#source, (number - 1) * this.#pageSize, number * this.#pageSize);
         if (page.length === this.#pageSize && page[number === 1 ? HEADER_BYTES : 0] === LEAF && below.length === 0) return level;
         try {
@@ -161,7 +161,7 @@ class Rosbag2 implements Container {
     return [];
   }
 
-  /** Checks whether the file has a page; one without it is cut short. */
+  /** Checks whether the file has a page. Otherwise it was cut short. */
   #has(number: number): boolean {
     const isThere = number * this.#pageSize <= this.#source.size;
     this.cutShort ||= !isThere;
@@ -182,7 +182,7 @@ class Rosbag2 implements Container {
     return { id, bytes: page.subarray(start, end), length, next: end - start < length ? viewOf(page).getUint32(end) : 0 };
   }
 
-  /** Bytes of a row that are on its page; the rest overflows to others. */
+  /** Returns the number of bytes of a row on its own page. The other bytes are on overflow pages. */
   #localBytes(length: number): number {
     const most = this.#usable - 35;
     if (length <= most) return length;
@@ -191,7 +191,7 @@ class Rosbag2 implements Container {
     return wished <= most ? wished : least;
   }
 
-  /** Returns a row with what overflows to other pages. */
+  /** Returns all bytes of a row, including those on overflow pages. */
   async #whole({ bytes, length, next }: Row): Promise<Uint8Array> {
     if (bytes.length === length) return bytes;
     const row = new Uint8Array(length);
@@ -207,7 +207,7 @@ class Rosbag2 implements Container {
   }
 }
 
-/** Positions of the cells of a page; throws a RangeError if it is of another type. */
+/** Returns the positions of the cells of a page. Throws a RangeError if the page has another type. */
 function cellsOf(page: Uint8Array, number: number, type: number): number[] {
   const view = viewOf(page);
   const start = number === 1 ? HEADER_BYTES : 0;
@@ -228,7 +228,7 @@ function varintAt(bytes: Uint8Array, at: number): [value: number, next: number] 
   throw new RangeError('a row is damaged');
 }
 
-/** Bytes of the integers of types 0 to 9. */
+/** Numbers of bytes of integers, by their type from 0 to 9. */
 const INTEGERS = [0, 1, 2, 3, 4, 6, 8, 8, 0, 0];
 
 /** Returns the value of a column; throws a RangeError if it is not among the bytes. */

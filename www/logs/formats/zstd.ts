@@ -7,10 +7,10 @@ import { MAX_BLOCK, viewOf } from './container.ts';
 
 const decoder = new ZSTDDecoder();
 
-/** Most bytes of a file that is decompressed in memory. */
+/** Maximum size of a file that is decompressed in memory, bytes. */
 const MAX_FILE_BYTES = 2 ** 30;
 
-/** Bytes that are decompressed at once. */
+/** Number of bytes that are decompressed at once. */
 const PIECE_BYTES = 2 ** 20;
 
 /** Maximum number of successive parts without a byte. There is one at the end of each piece or frame. */
@@ -34,7 +34,7 @@ export function unzstdMessage(bytes: Uint8Array): Uint8Array {
   return unzstd(bytes, size);
 }
 
-/** Size of the contents that the header of a frame states; Infinity if it states none. https://www.rfc-editor.org/rfc/rfc8878 */
+/** Returns the size of the contents by the header of a frame; Infinity if the header has none. https://www.rfc-editor.org/rfc/rfc8878 */
 function contentSize(frame: Uint8Array): number {
   const view = viewOf(frame);
   const descriptor = view.getUint8(4);
@@ -48,7 +48,7 @@ function contentSize(frame: Uint8Array): number {
   }
 }
 
-/** Decompresses a file, which keeps its name. What comes before damage is kept. */
+/** Returns a decompressed file with the same name. The contents up to a damage are kept. */
 export async function unzstdFile(source: Source): Promise<Source> {
   await loadZstd();
   const tooLarge = () => new LogError({ file: source.name }, (say) => say.largeFile('zstd -d', MAX_FILE_BYTES));

@@ -12,7 +12,7 @@ import type { OpenOptions, Question, Recording, Role } from '../../logs/log.ts';
 import type { CalibrationLog } from '../../types.d.ts';
 import type { AlphaCalibratorElement as Figure } from './alpha-calibrator.ts';
 
-export type LogWords = typeof import('../../logs/en.ts').log;
+export type LogWords = typeof import('../../logs/en.ts').english;
 
 type LogError = import('../../logs/log-error.ts').LogError;
 
@@ -249,7 +249,7 @@ function nameOf({ drives, unpaired }: Plan, reader: Reader) {
 
 /** Loads the module that plans drives and shows them. */
 async function loadReader() {
-  const [candidates, drives, pairs, choice, summary, { log: en }, { log: de }] = await Promise.all([
+  const [candidates, drives, pairs, choice, summary, { english: en }, { german: de }] = await Promise.all([
     import('../../logs/candidates.ts'), import('../../logs/drives.ts'), import('../../logs/pairs.ts'), import('./log-choice.ts'), import('./log-summary.ts'), import('../../logs/en.ts'), import('../../logs/de.ts'),
   ]);
   return { ...candidates, ...drives, ...pairs, ...choice, ...summary, en, de };

@@ -17,7 +17,7 @@ const GRID_ONLY_KEYS = GRID_KEYS.filter((key) => !PLAN_KEYS.includes(key));
 /** Maximum number of walls in the core. */
 const MAX_WALLS = 20_000;
 
-/** Shades of cells in the image that passes a grid to the core: white is occupied, and brighter values count as white. */
+/** Grey values of cells in the image that passes a grid to the core. The brightest is occupied. */
 const [OCCUPIED_SHADE, UNKNOWN_SHADE] = [2, 1];
 
 /** Returns the grid of a machine, if it has one. Copying a large grid takes long. */

@@ -8,6 +8,7 @@ import { fold } from '../ui/fold.ts';
 import { counted, limit, numberIn, typed } from '../ui/format.ts';
 import { sliderRow, type SliderRow } from '../ui/slider.ts';
 import { exportButtons } from './takeaway/export.ts';
+import type { Declaration } from '../settings.js';
 import type { Setting } from './attributes.ts';
 import type { Figure } from './figure.ts';
 
@@ -35,10 +36,11 @@ export function slider(figure: Figure, key: string, overrides?: Row) {
   const { looks, attributes } = figure.kind;
   const { symbol, decimals, value, ...look } = looks[key];
   const { name, effect } = wordsFor(figure, key);
-  const { unit } = declarationOf(figure, key);
+  const declaration = declarationOf(figure, key);
+  const { unit } = declaration;
   const config = figure.settings.wanted;
   const setting = attributes[key] as Setting;
-  return editableSlider(figure, key, symbol ?? name, {
+  return editableSlider(figure, symbol ?? name, declaration, {
     ...look,
     id: key,
     symbol: symbol && rich(symbol),
@@ -52,10 +54,9 @@ export function slider(figure: Figure, key: string, overrides?: Row) {
   });
 }
 
-/** Returns a slider whose value can also be typed, within the core's range. A slider over indices has the values `ends` at its ends. */
-function editableSlider(figure: Figure, key: string, symbol: string, row: Omit<SliderRow, 'keys' | 'type' | 'refusal' | 'forget'> & { ends?: number[], most?: number }, take: (number: number) => void = row.input, print: (number: number) => string = row.show) {
-  const { min, max: declared, type, unit } = declarationOf(figure, key);
-  const max = row.most ?? declared;
+/** Returns a slider whose value can also be typed, within an allowed range. A slider over indices has the values `ends` at its ends. */
+export function editableSlider(figure: Figure, symbol: string, { min, max: most, type, unit }: Pick<Declaration, 'type' | 'unit'> & { min: number, max: number }, row: Omit<SliderRow, 'keys' | 'type' | 'refusal' | 'forget'> & { ends?: number[], most?: number }, take: (number: number) => void = row.input, print: (number: number) => string = row.show) {
+  const max = row.most ?? most;
   const [first, last] = row.ends ?? [row.min, row.max];
   const whole = type === 'whole';
   // At an end of the slider, a text says that values beyond it can be typed.
@@ -72,9 +73,9 @@ function editableSlider(figure: Figure, key: string, symbol: string, row: Omit<S
         return print(number);
       }
       const given = Number.isNaN(number) ? `"${text}"` : text.trim().replace('-', '\u2212');
-      figure.typing.refuse(key, words.refused(symbol.replaceAll(/[*_{}]/g, ''), given, limit(min), limit(max), whole));
+      figure.typing.refuse(row.id, words.refused(symbol.replaceAll(/[*_{}]/g, ''), given, limit(min), limit(max), whole));
     },
-    refusal: figure.typing.refusalOf(key),
+    refusal: figure.typing.refusalOf(row.id),
     forget: () => figure.typing.forget(),
   });
 }
@@ -149,8 +150,8 @@ export function cloudControls(figure: Figure & { cloud: import('./cloud.ts').Clo
   const nearest = counts.findIndex((count) => count >= samples);
   return group(words.samples, html`${editableSlider(
       figure,
-      'samples',
       'N',
+      declarationOf(figure, 'samples'),
       {
         id: 'samples',
         symbol: html`<i>N</i>`,
@@ -223,7 +224,7 @@ function want(figure: Figure, key: string, value: unknown) {
 }
 
 /** Returns the declaration of a numeric setting. */
-const declarationOf = (figure: Figure, key: string): import('../settings.js').Declaration & { min: number, max: number } =>
+const declarationOf = (figure: Figure, key: string): Declaration & { min: number, max: number } =>
   figure.kind.declared.find((setting) => setting.key === key) as any;
 
 /** Returns the name of a setting, and its effect, if it has one. */

@@ -104,6 +104,8 @@ export class FigureElement<Machine extends { free(): void, stats: object, config
   cloud: import('./cloud.ts').Cloud | undefined;
   /** Player of a figure that animates a slider. `advance` returns true while it plays. */
   player: { advance(elapsed: number): boolean, stop(): void } | undefined;
+  /** Handlers of files that are dragged over a figure that takes them. */
+  dropped: { enter?: () => void } & Record<'over' | 'leave' | 'drop', (event: DragEvent) => void> | undefined;
   /** Pictures on the canvases; the first is exported unless there is a plate. */
   pictures: import('../scene/picture.ts').Picture<any>[] = [];
   /** Picture for export, with its own size. */

@@ -29,8 +29,19 @@ export function surface(figure: Figure) {
 function contentOf(figure: Figure) {
   const { failure } = figure.runtime;
   if (failure !== undefined) return html`<p class="failure" role="alert">${words.failure(failure)}</p>`;
-  if (figure.machine) return [figure.content(figure.reading), figure.announcer.render()];
-  return figure.reading ? noChange : placeholder(figure);
+  if (!figure.machine) return figure.reading ? noChange : placeholder(figure);
+  const { announcer, dropped, lettering, reading } = figure;
+  return html`<section
+      class="machine"
+      aria-label=${lettering.name}
+      @dragenter=${dropped?.enter}
+      @dragover=${dropped?.over}
+      @dragleave=${dropped?.leave}
+      @drop=${dropped?.drop}
+    >
+      ${figure.content(reading)}
+    </section>
+    ${announcer.render()}`;
 }
 
 /** Controls that use every key. */

@@ -3,6 +3,7 @@
 import { greatest } from 'd3-array';
 import { limits } from '../settings.js';
 import { channels } from '../ui/theme.ts';
+import { lineKey, type KeyEntry } from './axes.ts';
 import { addLine, drawDisc, stroke, type Brush, type LineStroke } from './canvas.ts';
 import { drawLabel } from './labels.ts';
 import type { Callout } from './callout.ts';
@@ -120,6 +121,12 @@ export function lineStyles<Name extends string>({ palette, highlight }: Pick<Bru
     return [name, { colour, width: name === highlight ? THICK * width : width, dash }];
   });
   return Object.fromEntries(styles) as Record<Name, { colour: string, width: number, dash: number[] }>;
+}
+
+/** Returns the key of an exported picture: the named lines with their words. On the page there is a legend beside the picture. */
+export function lineKeys<Name extends string>(brush: Brush, lines: Record<Name, import('../figure/overlays.ts').LineStyle>, names: Name[], say: Record<Name, string>): KeyEntry[] {
+  const styles = lineStyles(brush, lines);
+  return brush.exported ? names.map((name) => lineKey(brush, say[name].replaceAll('*', ''), styles[name])) : [];
 }
 
 /** Checks whether an outline has a length. If all robots are in one place, it has none except for rounding. */

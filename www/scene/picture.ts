@@ -27,13 +27,8 @@ export class Picture<Scene, Name extends string = string> {
   #former: any;
 
   /** Class of the canvas. */
-  name: Name;
-  view: View;
-
-  constructor(name: Name, view: View) {
-    this.name = name;
-    this.view = view;
-  }
+  declare name: Name;
+  declare view: View;
 
   /** Sets the target of the view. */
   fit(_scene: Scene) {}

@@ -60,6 +60,7 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
   pictures = [this.#way, this.#one];
   plate = new Plate(this);
   #opener = new LogOpener(this);
+  dropped = this.#opener.dropped;
   #copied = new Copied(this);
   service = new LogService('alpha-calibrator');
   #leg: Memo<LegView | null> = new Memo();
@@ -238,49 +239,40 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
     const say = words.calibrator;
     const { chosen } = this;
     return html`
-      <section
-        class="machine"
-        aria-label=${this.lettering.name}
-        @dragenter=${this.#opener.prepare}
-        @dragover=${this.#opener.dropped.over}
-        @dragleave=${this.#opener.dropped.away}
-        @drop=${this.#opener.dropped.drop}
-      >
-        ${dropZone(this, this.#opener)}
-        <div class="views">
-          <p part="caption" class="caption verdict">${this.stage.later(() => verdictLine(this))}</p>
-          ${panel(say.path, html`<div class="stage" part="picture" @click=${this.#press}>${canvas(this, this.#way, wayText(reading, chosen))}</div>`)}
-          <div class="one">
-            ${panel(say.oneLeg(counted(chosen + 1)), html`<div class="stage">${canvas(this, this.#one, legText(this.predicted, chosen))}</div>`)}
-            ${this.stage.later(() => html`<div class="looked">${legControls(this)}</div>`)}
-          </div>
-          ${this.stage.later(() => html`
-          <div class="fitted" part="readouts">
-            <div class="buttons told">
-              <p class="panel-title">${say.alphas.title(say.kinds[kindOf(reading.fitted)])}</p>
-              ${copyButton(this, this.#copied)} ${startOverButton(this)}
-            </div>
-            ${alphaTable(reading)}
-            <p class="muted reason">${reasonOf(reading)}</p>
-          </div>`)}
+      ${dropZone(this, this.#opener)}
+      <div class="views">
+        <p part="caption" class="caption verdict">${this.stage.later(() => verdictLine(this))}</p>
+        ${panel(say.path, html`<div class="stage" part="picture" @click=${this.#press}>${canvas(this, this.#way, wayText(reading, chosen))}</div>`)}
+        <div class="one">
+          ${panel(say.oneLeg(counted(chosen + 1)), html`<div class="stage">${canvas(this, this.#one, legText(this.predicted, chosen))}</div>`)}
+          ${this.stage.later(() => html`<div class="looked">${legControls(this)}</div>`)}
         </div>
         ${this.stage.later(() => html`
-        ${legend(this, LINES)}
-        <div part="controls">${legLengths(this)}</div>
-        <p class="meaning">${judgementOf(reading, this.warnings).meaning}</p>
-        ${disclosures(this, {
-          controls: () => html`${modelControls(this)}
-            ${group(say.systematic.title, systematicTable(this))}
-            ${group(say.own.title, logSection(this))}
-            ${predictionControls(this)}`,
-          numbers: () => html`${group(say.oneLeg(counted(chosen + 1)), legReadouts(this))}
-            ${diagnostics(this)}
-            ${group(say.panels.title, panels(this))}
-            ${group(say.nav2.title, nav2(this))}`,
-          csvTitle: say.csvTitle,
-        })}
-        ${this.#opener.reader?.summaryOf(this.#opener)}`)}
-      </section>
+        <div class="fitted" part="readouts">
+          <div class="buttons told">
+            <p class="panel-title">${say.alphas.title(say.kinds[kindOf(reading.fitted)])}</p>
+            ${copyButton(this, this.#copied)} ${startOverButton(this)}
+          </div>
+          ${alphaTable(reading)}
+          <p class="muted reason">${reasonOf(reading)}</p>
+        </div>`)}
+      </div>
+      ${this.stage.later(() => html`
+      ${legend(this, LINES)}
+      <div part="controls">${legLengths(this)}</div>
+      <p class="meaning">${judgementOf(reading, this.warnings).meaning}</p>
+      ${disclosures(this, {
+        controls: () => html`${modelControls(this)}
+          ${group(say.systematic.title, systematicTable(this))}
+          ${group(say.own.title, logSection(this))}
+          ${predictionControls(this)}`,
+        numbers: () => html`${group(say.oneLeg(counted(chosen + 1)), legReadouts(this))}
+          ${diagnostics(this)}
+          ${group(say.panels.title, panels(this))}
+          ${group(say.nav2.title, nav2(this))}`,
+        csvTitle: say.csvTitle,
+      })}
+      ${this.#opener.reader?.summaryOf(this.#opener)}`)}
     `;
   }
 }

@@ -1,12 +1,11 @@
 /** Controls of the Alpha Calibrator: the leg that is shown, the model, and the length of legs. */
 
 import { html } from 'lit';
-import { choices, slider } from '../../figure/controls.ts';
+import { choices, editableSlider, slider } from '../../figure/controls.ts';
 import { words } from '../../messages/registry.ts';
 import { button, group, radioGroup } from '../../ui/controls.ts';
-import { NOTHING, counted, fixed, numberIn, typed } from '../../ui/format.ts';
+import { NOTHING, counted, fixed, typed } from '../../ui/format.ts';
 import { readoutList } from '../../ui/readouts.ts';
-import { sliderRow } from '../../ui/slider.ts';
 import { observedOf } from './reading.ts';
 import { kindOf, settingsFor } from './settings.ts';
 import type { AlphaCalibratorElement as Figure } from './alpha-calibrator.ts';
@@ -17,10 +16,9 @@ export function legControls(figure: Figure) {
   const say = words.calibrator.leg;
   // If the selected leg is one of them, the button selects the next one.
   const next = worst[(worst.indexOf(figure.state.own.leg) + 1) % Math.max(1, worst.length)];
-  const take = (number: number) => figure.look(number - 1);
   return html`<fieldset class="leg">
       <legend class="visually-hidden">${say.name}</legend>
-      ${sliderRow({
+      ${editableSlider(figure, say.name, { min: 1, max: legs.count, type: 'whole' }, {
         id: 'leg',
         name: say.name,
         value: chosen + 1,
@@ -31,20 +29,8 @@ export function legControls(figure: Figure) {
         effect: undefined,
         role: 'truth',
         off: legs.count < 2,
-        keys: 'numeric',
-        input: take,
+        input: (number) => figure.look(number - 1),
         commit: () => figure.gesture.commit(),
-        type: (text) => {
-          const number = numberIn(text, '', true);
-          if (Number.isInteger(number) && number >= 1 && number <= legs.count) {
-            take(number);
-            figure.gesture.commit();
-            return counted(number);
-          }
-          figure.typing.refuse('leg', words.refused(say.name, Number.isNaN(number) ? `"${text}"` : text.trim(), '1', counted(legs.count), true));
-        },
-        refusal: figure.typing.refusalOf('leg'),
-        forget: () => figure.typing.forget(),
       })}
     </fieldset>
     ${button(say.worst, () => figure.choose(next), { disabled: next === undefined })}`;

@@ -49,7 +49,7 @@ const ZONE = 'log';
 const MOST_NAMES = 4;
 
 export class LogOpener extends Part<Figure> {
-  dropped = new FileDrop(this.host, ZONE, (files) => this.choose(files));
+  dropped = new FileDrop(this.host, ZONE, (files) => this.choose(files), () => this.prepare());
   /** Message about the latest log that was refused. */
   #complaint: (() => string) | undefined;
   chosen: Chosen | undefined;

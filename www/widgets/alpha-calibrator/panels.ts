@@ -5,9 +5,10 @@ import { words } from '../../messages/registry.ts';
 import { radioGroup, rich } from '../../ui/controls.ts';
 import { NOTHING } from '../../ui/format.ts';
 import { plot, type Curve } from '../../ui/plot.ts';
+import { subscript } from '../shared/noise.ts';
 import { adviceOf, alphaOrBound, isZero, missingMotion } from './lines.ts';
 import { COMPONENTS } from './settings.ts';
-import { alphaName, localized, thousandths } from './words.ts';
+import { localized, thousandths } from './words.ts';
 import type { CalibrationPanel } from '../../types.d.ts';
 import type { AlphaCalibratorElement as Figure } from './alpha-calibrator.ts';
 
@@ -48,7 +49,7 @@ function panelPlot({ alpha, x, y, error, slope, interval }: CalibrationPanel, ki
   const { from, to } = axisOfSquares(y, error, (slope ?? 0) * last);
   const highest = 1.1 * Math.max(x.length ? 1e-12 : 1, to);
   const { scaled, unit } = thousandths(Math.max(highest, -from));
-  const name = alphaName(alpha);
+  const name = subscript(alpha);
   const [low, high] = interval ?? [NaN, NaN];
   const middle = (low + high) / 2;
   const lines: Curve[] = slope === null ? [] : [
@@ -68,7 +69,7 @@ function panelPlot({ alpha, x, y, error, slope, interval }: CalibrationPanel, ki
 function noteOf({ alpha, slope, interval }: CalibrationPanel, { fitted: { model } }: import('./reading.ts').Reading) {
   const { panels: say, alphas: { lacking } } = words.calibrator;
   if (slope !== null && !isZero(slope, interval)) return '';
-  const name = alphaName(alpha);
+  const name = subscript(alpha);
   return html`<p class="note">${rich(slope === null ? say.noSlope(name) : say.zero(name, adviceOf(lacking, model, missingMotion(model, alpha)).drive))}</p>`;
 }
 

@@ -18,11 +18,14 @@ const WIDTH = 2.25;
 
 /** The floor from above, in the frame of the reference. */
 export class WayPicture extends SamplesPicture<Scene> {
+  name = 'plane';
+  view: View;
   #layer = new WayLayer();
 
   /** Creates the picture with a margin at the top, CSS pixels. */
   constructor(top?: number) {
-    super('plane', new View({ top }));
+    super();
+    this.view = new View({ top });
   }
 
   fit({ legs: { reference } }: Scene) {
@@ -55,9 +58,8 @@ export class WayPicture extends SamplesPicture<Scene> {
 
 /** One leg in the frame of the robot at its start: predicted ends, and the ends by odometry and reference. */
 export class LegPicture extends Picture<Scene> {
-  constructor() {
-    super('leg', new View({ left: 50 }));
-  }
+  name = 'leg';
+  view: View = new View({ left: 50 });
 
   fit({ leg }: Scene) {
     if (!leg) return;

@@ -23,10 +23,12 @@ const LINE = 18;
 export class Plate extends Picture<Scene> {
   size = { width: WIDTH, height: HEIGHT };
   #way = new WayPicture(TWO_LINES);
+  name = 'plate';
+  view: View = new View();
   #figure;
 
   constructor(figure: Figure) {
-    super('plate', new View());
+    super();
     this.#figure = figure;
   }
 

@@ -3,47 +3,39 @@
 import { SIMULATED } from './settings.ts';
 import type { AlphaCalibrator as Machine, CalibrationLegs, CalibrationLog } from '../../types.d.ts';
 
-export interface Reading {
-  machine: Machine;
+export type Reading = ReturnType<typeof fitOf> & {
   /** Log of the reader or the page; null for the simulated one. */
   log: CalibrationLog | null;
   /** Requested settings. */
   config: Machine['config'];
   /** Settings of the fit. */
   fitted: Machine['config'];
-  /** Number of the fit. */
-  fits: number;
   /** True while the settings need another fit. */
   isPending: boolean;
-  stats: Machine['stats'];
-  legs: CalibrationLegs;
-  truth: Machine['truth'];
-  /** Class of each leg, as an index of `CLASSES`. */
-  classes: Uint8Array;
-  /** Legs with the largest residuals, the largest first. */
-  worst: number[];
-  /** Leg that is shown if none was chosen. */
-  opening: number;
-}
+};
 
-/** Reads the machine for pictures and readouts, once a change. Copies of the reading before are used again if the fit is the same. */
+/** Reads the machine for pictures and readouts, once a change. The fit is copied only if it is another one than in the reading before. */
 export function readingOf(machine: Machine, log: CalibrationLog | null, before: Reading | undefined): Reading {
   const { config, fittedConfig: fitted, fits, isPending } = machine.read();
-  if (before?.machine === machine && before.fits === fits) return { ...before, log, config, fitted, isPending };
+  const fit = before?.machine === machine && before.fits === fits ? before : fitOf(machine, fits, fitted);
+  return { ...fit, log, config, fitted, isPending };
+}
+
+/** Returns the fit of a machine with its number, and choices of legs. */
+function fitOf(machine: Machine, fits: number, { duration, distance }: Machine['config']) {
   const { stats, legs, truth } = machine;
   return {
     machine,
-    log,
-    config,
-    fitted,
     fits,
-    isPending,
     stats,
     legs,
     truth,
+    /** Class of each leg, as an index of `CLASSES`. */
     classes: classesOf(legs),
+    /** Legs with the largest residuals, the largest first. */
     worst: worstOf(legs),
-    opening: openingOf(legs, fitted.duration > 0 ? SHORTEST : fitted.distance),
+    /** Leg that is shown if none was chosen. */
+    opening: openingOf(legs, duration > 0 ? SHORTEST : distance),
   };
 }
 

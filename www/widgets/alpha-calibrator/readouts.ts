@@ -4,9 +4,10 @@ import { html, nothing, svg } from 'lit';
 import { words } from '../../messages/registry.ts';
 import { rich } from '../../ui/controls.ts';
 import { NOTHING, powerOfTen, tick } from '../../ui/format.ts';
+import { subscript } from '../shared/noise.ts';
 import { adviceOf, alphaOrBound, fixed } from './lines.ts';
 import { truthHolds, type Reading } from './reading.ts';
-import { alphaName, judgementOf, legsText, localized, noiseNames } from './words.ts';
+import { judgementOf, legsText, localized, noiseNames } from './words.ts';
 import type { AlphaCalibratorElement as Figure } from './alpha-calibrator.ts';
 
 /** Size of a whisker's row. */
@@ -38,7 +39,7 @@ export function alphaTable(reading: Reading) {
     </thead>
     <tbody>
       ${alphas.map((alpha, i) => html`<tr>
-        <th scope="row">${rich(`*α*${alphaName(i)}`)}</th>
+        <th scope="row">${rich(`*α*${subscript(i)}`)}</th>
         ${alpha === null
           ? html`<td colspan="3"><div class="of">${noises[i]}</div><span class="unknown">${lackOf(reading, i)}</span></td>`
           : html`<td class="chart"><div class="line"><div class="of">${noises[i]}</div>${whisker(axis, alpha, intervals[i], truth?.[i])}</div></td>
@@ -77,7 +78,7 @@ export function alphaTexts(reading: Reading) {
   const { recommendedText } = words.calibrator.alphas;
   return alphas.map((alpha, i) => {
     const texts = alpha === null ? [lackOf(reading, i)] : [fittedOf(reading, i), betweenOf(reading, i), recommendedText(recommendedOf(reading, i))];
-    return `α${alphaName(i)} ${noiseNames(fitted.model)[i]}: ${texts.join(', ')}`;
+    return `α${subscript(i)} ${noiseNames(fitted.model)[i]}: ${texts.join(', ')}`;
   });
 }
 

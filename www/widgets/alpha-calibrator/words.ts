@@ -66,9 +66,6 @@ export function reasonOf({ stats: { recommended, diagnostics: { checks, windows 
 
 export const noiseNames = (model: Reading['config']['model']) => words.alphas[model === 'velocity' ? 'velocity' : 'odometry'];
 
-/** Returns the subscript of an α, counted from 0. */
-export const alphaName = (index: number) => String.fromCharCode(0x2081 + index);
-
 /** Returns a number of a file, such as 1.5e-7, with the decimal sign of the language and a power of ten. */
 export const localized = (number: string) => number.replace('.', fixed(0.5, 1)[1]).replace(/e(-?\d+)$/, (_, exponent) => `·${powerOfTen(Number(exponent))}`);
 

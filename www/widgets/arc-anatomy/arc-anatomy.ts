@@ -88,26 +88,24 @@ export class ArcAnatomyElement extends FigureElement<Machine, Reading> {
   content(reading: Reading) {
     const say = words.anatomy;
     return html`
-      <section class="machine" aria-label=${this.lettering.name}>
-        <div class="views">
-          ${panel(say.floor, html`<div class="stage" part="picture">
-            ${canvas(this, this.#picture, pictureText(reading))} ${this.#handles.map((handle) => handle.render())}
-          </div>`)}
-          ${this.stage.later(() => html`
-          <div class="aside">${headline(reading)} ${factorBars(reading, this.state.own.line)}</div>`)}
-        </div>
+      <div class="views">
+        ${panel(say.floor, html`<div class="stage" part="picture">
+          ${canvas(this, this.#picture, pictureText(reading))} ${this.#handles.map((handle) => handle.render())}
+        </div>`)}
         ${this.stage.later(() => html`
-        ${legend(this, LINES)}
-        <p class="verdict caption" part="caption">${captionOf(reading)}</p>
-        ${presetButtons(this)}
-        <div class="controls" part="controls">${commandControls(this)} ${timeControl(this)}</div>
-        ${disclosures(this, {
-          controls: () => html`<div class="controls">${likelihoodControls(this)} ${noiseControls(this)}</div>`,
-          numbers: () => html`${lineStepper(this)} ${tableOf(reading, this.state.own.line)} ${likelihoods(reading)} ${formsPlot(this.motion)}`,
-          mark: 'figure',
-          csvTitle: say.csvTitle,
-        })}`)}
-      </section>
+        <div class="aside">${headline(reading)} ${factorBars(reading, this.state.own.line)}</div>`)}
+      </div>
+      ${this.stage.later(() => html`
+      ${legend(this, LINES)}
+      <p class="verdict caption" part="caption">${captionOf(reading)}</p>
+      ${presetButtons(this)}
+      <div class="controls" part="controls">${commandControls(this)} ${timeControl(this)}</div>
+      ${disclosures(this, {
+        controls: () => html`<div class="controls">${likelihoodControls(this)} ${noiseControls(this)}</div>`,
+        numbers: () => html`${lineStepper(this)} ${tableOf(reading, this.state.own.line)} ${likelihoods(reading)} ${formsPlot(this.motion)}`,
+        mark: 'figure',
+        csvTitle: say.csvTitle,
+      })}`)}
     `;
   }
 }

@@ -21,8 +21,7 @@ export const noiseControls = (figure: Figure) =>
 export function likelihoodControls(figure: Figure) {
   const { likelihood, maps, printed } = words.anatomy;
   const { map } = figure.settings.wanted;
-  const contour = (name: 'prob' | 'density') =>
-    html`<span>${swatch({ role: 'ink', width: 1, dash: CONTOURS[name] })} ${maps[name]}</span>`;
+  const contour = (name: 'prob' | 'density') => html`<span>${swatch(CONTOURS[name])} ${maps[name]}</span>`;
   return group(likelihood, html`${check(figure, 'printed', rich(printed))} ${choices(figure, 'map', maps)}
     ${map === 'none' ? nothing : html`<p class="legend contours">${contour('prob')} ${contour('density')}</p>`}`);
 }

@@ -1,8 +1,8 @@
 /** Arc Anatomy's picture: the commanded arc, the arc that leads to the robot, and their construction. */
 
 import { words } from '../../messages/registry.ts';
-import { clipped, drawAxes, lineKey } from '../../scene/axes.ts';
-import { drawOutlines, drawRobot, lineStyles, strokeLines, trace } from '../../scene/draw.ts';
+import { clipped, drawAxes } from '../../scene/axes.ts';
+import { drawOutlines, drawRobot, lineKeys, lineStyles, strokeLines, trace } from '../../scene/draw.ts';
 import { drawLabel } from '../../scene/labels.ts';
 import { Picture } from '../../scene/picture.ts';
 import { View, extentAround } from '../../scene/view.ts';
@@ -12,7 +12,7 @@ import { drawHeldRobot, drawRobotOutline } from '../shared/robot.ts';
 import { LINES, type LineName } from './settings.ts';
 import { CONTOURS, SurfaceLayer } from './surface.ts';
 import type { ArcAnatomy, Bend, Pose } from '../../types.d.ts';
-import { addLine, drawDisc, stroke, strokeLine, type Brush } from '../../scene/canvas.ts';
+import { addLine, drawDisc, stroke, strokeLine, type Brush, type LineStroke } from '../../scene/canvas.ts';
 import type { Reading } from './reading.ts';
 
 export type Scene = Reading & { machine: ArcAnatomy, overlays: LineName[], line: number, underway: Float64Array | undefined };
@@ -54,11 +54,9 @@ const LIT: Record<number, string[]> = {
 };
 
 export class ArcPicture extends Picture<Scene> {
+  name = 'plane';
+  view: View = new View();
   #surface = new SurfaceLayer();
-
-  constructor() {
-    super('plane', new View());
-  }
 
   fit({ config: { start, next }, stats: { commanded, inverted }, paths }: Scene) {
     let box = extentAround([start.x, start.y, next.x, next.y], 2);
@@ -76,7 +74,7 @@ export class ArcPicture extends Picture<Scene> {
     const { palette } = brush;
     const shows = (name: LineName) => overlays.includes(name);
     const styles = lineStyles(brush, LINES);
-    drawAxes(brush, { x: 'x (m)', y: 'y (m)' }, brush.exported ? keyOf(brush, scene) : []);
+    drawAxes(brush, { x: 'x (m)', y: 'y (m)' }, keyOf(brush, scene));
     clipped(brush, () => {
       this.#surface.draw(brush, scene.machine, scene.config);
       const { commanded, inverted, driven, lastTurn } = stats;
@@ -118,14 +116,10 @@ export class ArcPicture extends Picture<Scene> {
 
 /** Returns the key of an exported picture. The last turn has its label in the picture. */
 function keyOf(brush: Brush, { overlays, config: { map } }: Scene) {
-  const { palette } = brush;
-  const { overlays: names, maps } = words.anatomy;
-  const contour = (of: 'prob' | 'density') => lineKey(brush, maps[of], { colour: palette.ink, width: 1, dash: CONTOURS[of] });
+  const drawn = (['inverted', 'commanded', 'chord', 'twist'] as LineName[]).filter((name) => overlays.includes(name));
   return [
-    ...(['inverted', 'commanded', 'chord', 'twist'] as const)
-      .filter((name) => overlays.includes(name))
-      .map((name) => lineKey(brush, names[name].replaceAll('*', ''), lineStyles(brush, LINES)[name])),
-    ...(map === 'none' ? [] : [contour('prob'), contour('density')]),
+    ...lineKeys(brush, LINES, drawn, words.anatomy.overlays),
+    ...lineKeys(brush, CONTOURS, map === 'none' ? [] : ['prob', 'density'], words.anatomy.maps),
   ];
 }
 
@@ -149,10 +143,7 @@ function drawCircle(brush: Brush, start: Pose, { center, end, turn, arcLength }:
     addLine(context, [[x - CROSS, y], [x + CROSS, y]]);
     addLine(context, [[x, y - CROSS], [x, y + CROSS]]);
   });
-  const first = Math.atan2(fromY - y, fromX - x);
-  const radius = Math.min(ANGLE, 0.4 * Math.hypot(fromX - x, fromY - y));
-  // In pixels y points down, so that a turn to the left is negative.
-  stroke(context, { colour, width: 1.5 }, () => context.arc(x, y, radius, first, first - turn, turn > 0));
+  strokeAngle(context, [x, y], [fromX, fromY], turn, { colour, width: 1.5 });
   // The labels are behind the robot, away from the arc. If the centre is outside the picture, they are ahead: the picture may end behind
   // the robot.
   const beside = Math.sign(arcLength) * (seen === 1 ? -1 : 1);
@@ -242,11 +233,15 @@ function drawLit(brush: Brush, { config: { start, next }, stats: { inverted, las
   }
   if (lit.includes('radius')) line(3, from, centre, to);
   if (lit.includes('centre')) drawDisc(context, centre, 8, undefined, { colour: accent, width: 3 });
-  if (lit.includes('angle')) {
-    const first = Math.atan2(from[1] - centre[1], from[0] - centre[0]);
-    const radius = Math.min(ANGLE, 0.4 * Math.hypot(from[0] - centre[0], from[1] - centre[1]));
-    stroke(context, { colour: accent, width: 4 }, () => context.arc(centre[0], centre[1], radius, first, first - inverted.turn, inverted.turn > 0));
-  }
+  if (lit.includes('angle')) strokeAngle(context, centre, from, inverted.turn, { colour: accent, width: 4 });
+}
+
+/** Strokes an arc about a centre that marks a turn in radians from the direction of a point; both in pixels. */
+function strokeAngle(context: Brush['context'], [x, y]: number[], [fromX, fromY]: number[], turn: number, style: LineStroke) {
+  const first = Math.atan2(fromY - y, fromX - x);
+  const radius = Math.min(ANGLE, 0.4 * Math.hypot(fromX - x, fromY - y));
+  // In pixels y points down, so that a turn to the left is negative.
+  stroke(context, style, () => context.arc(x, y, radius, first, first - turn, turn > 0));
 }
 
 /** Prints a radius with its sign, which is that of the side. */

@@ -7,8 +7,11 @@ import type { AnatomySurface, ArcAnatomy } from '../../types.d.ts';
 import { stroke, type Brush } from '../../scene/canvas.ts';
 import type { Palette } from '../../ui/theme.ts';
 
-/** Dashes of the contours, CSS pixels. They do not depend on which of the two is the image. */
-export const CONTOURS = { prob: [5, 4], density: [] };
+/** Styles of the contours, which do not depend on which of the two is the image. */
+export const CONTOURS = {
+  prob: { role: 'ink', width: 1, dash: [5, 4] },
+  density: { role: 'ink', width: 1, dash: [] },
+} satisfies Record<string, import('../../figure/overlays.ts').LineStyle>;
 
 export class SurfaceLayer {
   #pixels = new Pixels();
@@ -23,17 +26,13 @@ export class SurfaceLayer {
     const { columns, shades, prob, density } = surface;
     this.#coloured.of([surface, palette], () => this.#pixels.put(coloured(shades, palette), columns));
     this.#pixels.draw(brush);
-    this.#contour(brush, prob, CONTOURS.prob);
-    this.#contour(brush, density, CONTOURS.density);
-  }
-
-  #contour(brush: Brush, lines: Float64Array[], dash: number[]) {
-    const { context, palette } = brush;
-    context.globalAlpha = 0.7;
-    stroke(context, { colour: palette.ink, width: 1, dash }, () => {
-      for (const line of lines) trace(brush, line);
-    });
-    context.globalAlpha = 1;
+    brush.context.globalAlpha = 0.7;
+    for (const [lines, { role, width, dash }] of [[prob, CONTOURS.prob], [density, CONTOURS.density]] as const) {
+      stroke(brush.context, { colour: palette[role], width, dash }, () => {
+        for (const line of lines) trace(brush, line);
+      });
+    }
+    brush.context.globalAlpha = 1;
   }
 }
 

@@ -24,7 +24,7 @@ import { ArcHandle } from './handle.ts';
 import { IntroducedCloud } from './introduction.ts';
 import { DURATION, carrying, morphControl, outlinesAt, placeOf, ringsOf } from './morph.ts';
 import { PlanePicture, TwistPicture } from './pictures.ts';
-import { Curve, readingOf, type Reading } from './reading.ts';
+import { readingOf, type Reading } from './reading.ts';
 import { markedRobot, otherReadouts, readouts, twistTable, workedExample } from './readouts.ts';
 import { LINES, OVERLAYS, SAMPLE_COUNTS, definition, looks } from './settings.ts';
 import { bananaStyles } from './styles.ts';
@@ -39,6 +39,9 @@ const EXECUTED_COLUMNS = {
   velocity: ['v_hat_m_per_s', 'omega_hat_rad_per_s', 'gamma_hat_rad_per_s'],
   odometry: ['delta_hat_rot1_rad', 'delta_hat_trans_m', 'delta_hat_rot2_rad'],
 };
+
+/** Number of points of the skew chart's curve: fewer would draw the fall of the skew across ω = 0 as a kinked line. */
+const CURVE_POINTS = 241;
 
 /** Allowed heights of the skew chart, so that its axis does not change with every step of a drag. */
 const SKEWS = [0.25, 0.5, 1, 2, 4, 8];
@@ -59,7 +62,7 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
 
   cloud = new IntroducedCloud(this);
   #inspected: Memo<Inspection> = new Memo();
-  #curve = new Curve();
+  #curve: Memo<Float64Array> = new Memo();
   #plane = new PlanePicture();
   #twist = new TwistPicture();
   pictures = [this.#plane, this.#twist];
@@ -233,29 +236,27 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
     const { config, note } = reading;
     const say = words.banana;
     return html`
-      <section class="machine" aria-label=${this.lettering.name}>
-        <div class="views">
-          ${panel(this.#title, html`<div class="stage" part="picture">
-            ${canvas(this, this.#plane, this.#description)} ${this.#handle.render(config.command, this.cloud.asking)}
-          </div>`)}
-          ${panel(say.twist, html`<div class="stage">${canvas(this, this.#twist, twistText(reading))}</div>`, 'twist')}
-        </div>
-        ${this.stage.later(() => html`
-        <div class="morphing">
-          ${morphControl(this)}
-          ${button(say.pin, () => this.#pin(), { title: say.pinTitle, pressed: this.#pinned !== undefined })}
-        </div>
-        ${legend(this, LINES, this.#missing(reading))}
-        <p part="caption" class="caption ${note && 'note'}">${captionOf(reading)}</p>
-        ${readouts(reading, this.#pinned)} ${presetButtons(this)}
-        <div class="controls" part="controls">
-          ${commandControls(this)} ${cloudControls(this, SAMPLE_COUNTS)}
-        </div>
-        ${disclosures(this, {
-          controls: () => html`<div class="controls">${alphaControls(this)} ${modelControls(this)}</div>`,
-          numbers: () => html`${markedRobot(this, this.#inspection)} ${this.#figures(reading)}`,
-        })}`)}
-      </section>
+      <div class="views">
+        ${panel(this.#title, html`<div class="stage" part="picture">
+          ${canvas(this, this.#plane, this.#description)} ${this.#handle.render(config.command, this.cloud.asking)}
+        </div>`)}
+        ${panel(say.twist, html`<div class="stage">${canvas(this, this.#twist, twistText(reading))}</div>`, 'twist')}
+      </div>
+      ${this.stage.later(() => html`
+      <div class="morphing">
+        ${morphControl(this)}
+        ${button(say.pin, () => this.#pin(), { title: say.pinTitle, pressed: this.#pinned !== undefined })}
+      </div>
+      ${legend(this, LINES, this.#missing(reading))}
+      <p part="caption" class="caption ${note && 'note'}">${captionOf(reading)}</p>
+      ${readouts(reading, this.#pinned)} ${presetButtons(this)}
+      <div class="controls" part="controls">
+        ${commandControls(this)} ${cloudControls(this, SAMPLE_COUNTS)}
+      </div>
+      ${disclosures(this, {
+        controls: () => html`<div class="controls">${alphaControls(this)} ${modelControls(this)}</div>`,
+        numbers: () => html`${markedRobot(this, this.#inspection)} ${this.#figures(reading)}`,
+      })}`)}
     `;
   }
 
@@ -271,10 +272,11 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
 
   /** Returns the chart of the skew against ω, with a slider that sets ω. */
   #chart({ config, stats, exactSkew }: Reading) {
-    const { omega } = config.command;
+    const { model, noise, command: { v, omega, dt }, alphas, isolate } = config;
     const say = words.banana;
-    const curve = this.#curve.of(this.machine as Machine, config);
     const { min, max, step } = looks.omega;
+    // The curve depends on some of the settings only.
+    const curve = this.#curve.of([JSON.stringify([model, noise, v, dt, alphas, isolate])], () => (this.machine as Machine).skewCurve(min, max, CURVE_POINTS));
     const peak = curve.reduce((most, value) => Math.max(most, Math.abs(value) || 0), 0);
     const height = SKEWS.find((each) => each >= peak) ?? peak;
     const ends = [min, max];

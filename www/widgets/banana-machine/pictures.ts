@@ -1,7 +1,7 @@
 /** The Banana Machine's two pictures of the same robots: the floor from above, and exponential coordinates. */
 
 import { words } from '../../messages/registry.ts';
-import { clipped, drawAxes, lineKey } from '../../scene/axes.ts';
+import { clipped, drawAxes } from '../../scene/axes.ts';
 import { drawCallouts, type Callout } from '../../scene/callout.ts';
 import {
   densityRamp,
@@ -14,6 +14,7 @@ import {
   drawOutlines,
   drawRobot,
   hasLength,
+  lineKeys,
   lineStyles,
 } from '../../scene/draw.ts';
 import { drawLabel } from '../../scene/labels.ts';
@@ -126,11 +127,8 @@ const INSET = { left: 46, right: 10 };
 
 /** The floor from above, and its transformation to exponential coordinates by a morph. */
 export class PlanePicture extends CloudPicture {
+  name = 'plane' as const;
   view: MorphView = new MorphView(INSET);
-
-  constructor() {
-    super('plane', new View());
-  }
 
   get morph() {
     return this.view.morph;
@@ -165,7 +163,7 @@ export class PlanePicture extends CloudPicture {
     const outlines = scene.outlinesOf(scene);
     const styles = lineStyles(brush, LINES);
     const drawn = (name: OutlineName) => overlays[name] && hasLength(outlines[name]);
-    const key = NAMED.filter(drawn).map((name) => lineKey(brush, words.banana.overlays[name], styles[name]));
+    const key = lineKeys(brush, LINES, NAMED.filter(drawn), words.banana.overlays);
     // One pair of axes fades out before the other fades in.
     const [floor, twist] = this.view.ends;
     const axes = [
@@ -175,7 +173,7 @@ export class PlanePicture extends CloudPicture {
     for (const { view: of, there, names } of axes) {
       context.globalAlpha = clamp(there, 0, 1);
       // The lattice is the grid of exponential coordinates until it is straight.
-      if (there > 0) drawAxes({ ...brush, view: of }, names, brush.exported ? key : [], of === twist && morph < 1 ? 0 : undefined);
+      if (there > 0) drawAxes({ ...brush, view: of }, names, key, of === twist && morph < 1 ? 0 : undefined);
     }
     context.globalAlpha = 1;
     const middle = middleOf(scene, morph);
@@ -313,9 +311,8 @@ function areaOfTwists(scene: Scene) {
 
 /** Picture of the same robots in exponential coordinates. */
 export class TwistPicture extends CloudPicture {
-  constructor() {
-    super('twist', new View({ ...INSET, equal: false }));
-  }
+  name = 'twist' as const;
+  view: View = new View({ ...INSET, equal: false });
 
   fit(scene: Scene) {
     this.view.fit(extentOf([...pointsOfTwists(scene), ...(scene.pinned?.contours.twistEllipse ?? [])], 0.1));
@@ -325,8 +322,8 @@ export class TwistPicture extends CloudPicture {
     const { context, view, palette } = brush;
     const { config, contours, overlays, marked } = scene;
     const { exponential, command } = lineStyles(brush, LINES);
-    const key = overlays.exponential && hasLength(contours.twistEllipse) ? [lineKey(brush, words.banana.overlays.exponential, exponential)] : [];
-    drawAxes(brush, { x: words.banana.axisAlong, y: words.banana.axisHeading }, brush.exported ? key : []);
+    const isOutlined = overlays.exponential && hasLength(contours.twistEllipse);
+    drawAxes(brush, { x: words.banana.axisAlong, y: words.banana.axisHeading }, lineKeys(brush, LINES, isOutlined ? ['exponential'] : [], words.banana.overlays));
     const middle = middleOf(scene, 1);
     const ghost = ghostOf(brush, scene);
     const callouts: Callout[] = [];

@@ -1,27 +1,13 @@
 /** View model of the Banana Machine. */
 
 import { words } from '../../messages/registry.ts';
-import { Memo } from '../../scene/memo.ts';
-import { looks } from './settings.ts';
+import { subscript } from '../shared/noise.ts';
 import type { BananaMachine as Machine, BananaMachineSettings as Settings, Stats, Table } from '../../types.d.ts';
 
 export type Reading = ReturnType<typeof readingOf>;
 
 /** Standard deviation (m or rad) below which there is no noise: the quadrature rounds by as much. */
 const NO_SPREAD = 1e-9;
-
-/** Number of points of the chart's curve: fewer would draw the fall of the skew across ω = 0 as a kinked line. */
-const CURVE_POINTS = 241;
-
-/** Skew as a function of ω, which depends on some of the settings only. */
-export class Curve {
-  #memo: Memo<Float64Array> = new Memo();
-
-  of(machine: Machine, { model, noise, command, alphas, isolate }: Settings) {
-    const question = JSON.stringify([model, noise, command.v, command.dt, alphas, isolate]);
-    return this.#memo.of([question], () => machine.skewCurve(looks.omega.min, looks.omega.max, CURVE_POINTS));
-  }
-}
 
 /** Reads everything that the pictures and readouts need of the machine, once for each change. */
 export function readingOf(machine: Machine) {
@@ -71,9 +57,7 @@ function bowTieOf({ model, command: { v, omega, dt }, alphas, isolate, reverseAw
 }
 
 /** Returns the name of an α, counted from 0. */
-export function alphaName(index: number) {
-  return `α${String.fromCharCode(0x2081 + index)}`;
-}
+export const alphaName = (index: number) => `α${subscript(index)}`;
 
 /** Factors of the α's of each model, which are squared: the speed, or the turn rate. */
 const CAUSES = { velocity: [...'vωvωvω'], odometry: [...'ωvvω'] } as const;

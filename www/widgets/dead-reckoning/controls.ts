@@ -8,10 +8,6 @@ import { fixed } from '../../ui/format.ts';
 import { COMMAND, NOISE, SAMPLE_COUNTS } from './settings.ts';
 import type { DeadReckoningElement as Figure } from './dead-reckoning.ts';
 
-export function recursionChoice(figure: Figure) {
-  return choices(figure, 'compounding', words.reckoning.recursions);
-}
-
 /** Returns the two main controls: the heading noise, and the number of steps of the same path. */
 export function pathControls(figure: Figure) {
   return html`<div class="controls" part="controls">

@@ -2,7 +2,7 @@
 
 import { html } from 'lit';
 import { Cloud, enterCloud } from '../../figure/cloud.ts';
-import { canvas, disclosures, panel } from '../../figure/controls.ts';
+import { canvas, choices, disclosures, panel } from '../../figure/controls.ts';
 import { FigureElement } from '../../figure/figure.ts';
 import { legend } from '../../figure/overlays.ts';
 import { reserve } from '../../figure/page/room.ts';
@@ -10,7 +10,7 @@ import { define } from '../../figure/reflection.ts';
 import { words } from '../../messages/registry.ts';
 import { Memo } from '../../scene/memo.ts';
 import { presetButtons } from '../shared/presets.ts';
-import { moreControls, pathControls, recursionChoice } from './controls.ts';
+import { moreControls, pathControls } from './controls.ts';
 import { PathPicture, StepPicture } from './pictures.ts';
 import { COMPONENTS, readingOf, type Reading } from './reading.ts';
 import { headline, markedRobot, missTable, ratioPlot, straightPlot } from './readouts.ts';
@@ -92,24 +92,22 @@ export class DeadReckoningElement extends FigureElement<Machine, Reading> {
     const { overlays } = this.state.own;
     const say = words.reckoning;
     return html`
-      <section class="machine" aria-label=${this.lettering.name}>
-        <div class="views">
-          ${panel(say.chart, html`<div class="chart">${ratioPlot(this, reading)}</div>`, 'ratios')}
-          <div class="said">
-            ${headline(reading, overlays)}
-            <p part="caption" class="caption ${condition !== 'certain' && 'note'}">${captionOf(reading, overlays)}</p>
-            ${recursionChoice(this)}
-          </div>
-          ${panel(say.floor, html`<div class="stage" part="picture">${canvas(this, this.#floor, planeText(reading))}</div>`, 'floor')}
-          ${panel(say.atStepTitle(step), html`<div class="stage">${canvas(this, this.#step, stepText(reading))}</div>`, 'step')}
+      <div class="views">
+        ${panel(say.chart, html`<div class="chart">${ratioPlot(this, reading)}</div>`, 'ratios')}
+        <div class="said">
+          ${headline(reading, overlays)}
+          <p part="caption" class="caption ${condition !== 'certain' && 'note'}">${captionOf(reading, overlays)}</p>
+          ${choices(this, 'compounding', say.recursions)}
         </div>
-        ${this.stage.later(() => html`
-        ${legend(this, OUTLINES)} ${presetButtons(this)} ${pathControls(this)}
-        ${disclosures(this, {
-          controls: () => moreControls(this),
-          numbers: () => html`${missTable(reading, overlays)} ${markedRobot(this, this.#marked)} ${straightPlot(this.#straight.of([reading.stats], () => (this.machine as Machine).straightGrowth))}`,
-        })}`)}
-      </section>
+        ${panel(say.floor, html`<div class="stage" part="picture">${canvas(this, this.#floor, planeText(reading))}</div>`, 'floor')}
+        ${panel(say.atStepTitle(step), html`<div class="stage">${canvas(this, this.#step, stepText(reading))}</div>`, 'step')}
+      </div>
+      ${this.stage.later(() => html`
+      ${legend(this, OUTLINES)} ${presetButtons(this)} ${pathControls(this)}
+      ${disclosures(this, {
+        controls: () => moreControls(this),
+        numbers: () => html`${missTable(reading, overlays)} ${markedRobot(this, this.#marked)} ${straightPlot(this.#straight.of([reading.stats], () => (this.machine as Machine).straightGrowth))}`,
+      })}`)}
     `;
   }
 }

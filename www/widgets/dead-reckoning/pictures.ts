@@ -1,9 +1,9 @@
 /** Dead Reckoning's two pictures: the floor with the path, and the selected step in exponential coordinates. */
 
 import { words } from '../../messages/registry.ts';
-import { clipped, drawAxes, lineKey } from '../../scene/axes.ts';
+import { clipped, drawAxes } from '../../scene/axes.ts';
 import { drawCallouts, type Callout } from '../../scene/callout.ts';
-import { drawDots, drawGhosts, drawMark, drawOutlines, drawRobot, lineStyles, strokeLines } from '../../scene/draw.ts';
+import { drawDots, drawGhosts, drawMark, drawOutlines, drawRobot, lineKeys, lineStyles, strokeLines } from '../../scene/draw.ts';
 import { Picture, SamplesPicture } from '../../scene/picture.ts';
 import { View, extentAround, extentOf } from '../../scene/view.ts';
 import { significant } from '../../ui/format.ts';
@@ -21,15 +21,10 @@ const PASSED = { most: 200, radius: 1.3, alpha: 0.4 };
 
 export type OutlineName = keyof typeof OUTLINES;
 
-/** Returns the legend of an exported picture; none on the page, which has its own next to the picture. */
-const keyOf = (brush: Brush, names: OutlineName[]) =>
-  brush.exported ? names.map((name) => lineKey(brush, words.reckoning.overlays[name], lineStyles(brush, OUTLINES)[name])) : [];
-
 /** The floor from above. */
 export class PathPicture extends SamplesPicture<Scene> {
-  constructor() {
-    super('plane', new View());
-  }
+  name = 'plane';
+  view: View = new View();
 
   fit({ commanded, outlines, milestones, poses }: Scene) {
     const all = [outlines, ...milestones.map((milestone) => milestone.outlines)].flatMap(({ ellipse, exponential }) => [...ellipse, ...exponential]);
@@ -44,7 +39,7 @@ export class PathPicture extends SamplesPicture<Scene> {
     const styles = lineStyles(brush, OUTLINES);
     const drawn = (names: OutlineName[]) => names.filter((name) => overlays.includes(name));
     const predictions = drawn(['ellipse', 'exponential']) as ('ellipse' | 'exponential')[];
-    drawAxes(brush, { x: 'x (m)', y: 'y (m)' }, keyOf(brush, drawn(['ellipse', 'exponential', 'command'])));
+    drawAxes(brush, { x: 'x (m)', y: 'y (m)' }, lineKeys(brush, OUTLINES, drawn(['ellipse', 'exponential', 'command']), words.reckoning.overlays));
     const styled = (of: Scene['outlines']) => predictions.map((name) => ({ points: of[name], ...styles[name] }));
     const ghosts: Callout[] = [];
     clipped(brush, () => {
@@ -89,9 +84,8 @@ function drawPassed({ context, view, palette }: Brush, poses: Float64Array) {
 
 /** ξ along and lateral about the commanded pose, each with its own scale, because the lateral spread is small at first. */
 export class StepPicture extends Picture<Scene> {
-  constructor() {
-    super('twist', new View({ equal: false, left: 52, right: 10 }));
-  }
+  name = 'twist';
+  view: View = new View({ equal: false, left: 52, right: 10 });
 
   fit({ outlines: { predicted }, stats: { measured: { mean, cov } } }: Scene) {
     const points = [0, 0, ...predicted];
@@ -108,7 +102,7 @@ export class StepPicture extends Picture<Scene> {
   paint: Picture<Scene>['paint'] = (brush, { outlines: { predicted, measured }, overlays, twists }) => {
     const styles = lineStyles(brush, OUTLINES);
     const drawn = (['exponential', 'measured'] as ('exponential' | 'measured')[]).filter((name) => overlays.includes(name));
-    drawAxes(brush, axesOf(this.view), keyOf(brush, drawn));
+    drawAxes(brush, axesOf(this.view), lineKeys(brush, OUTLINES, drawn, words.reckoning.overlays));
     const points = { exponential: predicted, measured };
     const ghosts: Callout[] = [];
     clipped(brush, () => {

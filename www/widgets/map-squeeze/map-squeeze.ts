@@ -47,6 +47,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
   picture = new FloorPicture({ bounds: new Float64Array(4), walls: new Float64Array() }, null);
   #meter = new CostMeter(this);
   #opener = new MapOpener(this);
+  dropped = this.#opener.dropped;
   #handles = new PoseHandles(this, 'start', () => this.picture.view, () => this.picture.plan.bounds);
   #wallHandles = new WallHandles(this);
   /** Treatment of unknown cells in the picture. */
@@ -158,7 +159,8 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
     this.reflection.setProperty('map', isNameless ? { ...map, name: '' } : map, (given) => {
       if (given === null) {
         this.#leave();
-        this.#findRoom();
+        // The robot may have no room where it is.
+        if (this.machine && !this.machine.startFree) this.settings.assign({ start: OPENING_START });
       } else {
         this.#enter(mapOf(given));
       }
@@ -239,11 +241,6 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
     this.stage.requestFrame();
   }
 
-  /** Ends a movement of walls. */
-  restWalls() {
-    this.gesture.commit();
-  }
-
   /** Makes the walls of the picture a map of the reader. */
   #judgeWalls() {
     const { bounds, walls } = this.picture.plan;
@@ -290,12 +287,6 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
     this.#moved(data);
   }
 
-  /** Moves the robot to its initial pose in the apartment if it does not fit where it is. */
-  #findRoom() {
-    const { machine } = this;
-    if (machine && !machine.startFree) this.settings.assign({ start: OPENING_START });
-  }
-
   /** Takes over the map of the machine. */
   #moved(map: MapData | null) {
     this.state.own.map = map;
@@ -321,36 +312,28 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
     const { floor, density } = words.squeeze;
     const { unknown, ...marks } = LINES;
     return html`
-      <section
-        class="machine"
-        aria-label=${this.lettering.name}
-        @dragover=${this.#opener.dropped.over}
-        @dragleave=${this.#opener.dropped.away}
-        @drop=${this.#opener.dropped.drop}
-      >
-        <div class="views">
-          ${panel(floor, html`<div class="stage" part="picture">
-              ${canvas(this, this.picture, this.#description)}
-              ${this.stage.later(() => this.#wallHandles.render())}
-              ${this.#handles.render()}
-            </div>
-            ${this.stage.later(() => legend(this, hasUnknown ? { ...marks, unknown } : marks, {}, this.#wallHandles.legend()))}`)}
-          ${this.stage.later(() => html`<div class="aside">
-            <div class="told">
-              <p class="headline">${headlineOf(stats)}</p>
-              <p class="verdict caption ${note && 'note'}" part="caption">${captionOf(reading)}</p>
-            </div>
-            ${placeControls(this)} ${samplerControls(this)} ${overview(this.picture, reading)}
-          </div>`)}
-        </div>
-        ${this.stage.later(() => html`
-        <div class="controls" part="controls">${motionControls(this)}</div>
-        ${sorted ? nothing : html`<p class="about">${density}</p>`}
-        ${disclosures(this, {
-          controls: () => html`<div class="controls">${robotAndMap(this, hasUnknown)}</div> ${ownMap(this, this.#opener, this.#mapText)}`,
-          numbers: () => html`${tally(reading)} ${markedDraw(this)} ${costTable(this.#meter, config.steps)}`,
-        })}`)}
-      </section>
+      <div class="views">
+        ${panel(floor, html`<div class="stage" part="picture">
+            ${canvas(this, this.picture, this.#description)}
+            ${this.stage.later(() => this.#wallHandles.render())}
+            ${this.#handles.render()}
+          </div>
+          ${this.stage.later(() => legend(this, hasUnknown ? { ...marks, unknown } : marks, {}, this.#wallHandles.legend()))}`)}
+        ${this.stage.later(() => html`<div class="aside">
+          <div class="told">
+            <p class="headline">${headlineOf(stats)}</p>
+            <p class="verdict caption ${note && 'note'}" part="caption">${captionOf(reading)}</p>
+          </div>
+          ${placeControls(this)} ${samplerControls(this)} ${overview(this.picture, reading)}
+        </div>`)}
+      </div>
+      ${this.stage.later(() => html`
+      <div class="controls" part="controls">${motionControls(this)}</div>
+      ${sorted ? nothing : html`<p class="about">${density}</p>`}
+      ${disclosures(this, {
+        controls: () => html`<div class="controls">${robotAndMap(this, hasUnknown)}</div> ${ownMap(this, this.#opener, this.#mapText)}`,
+        numbers: () => html`${tally(reading)} ${markedDraw(this)} ${costTable(this.#meter, config.steps)}`,
+      })}`)}
     `;
   }
 }

@@ -51,6 +51,8 @@ const PATHS_ON_DENSITY = 25;
 const TRANSPARENT_RAMP = new Uint8Array(4 * limits.ramp);
 
 export class FloorPicture extends SamplesPicture<Scene> {
+  name = 'plane';
+  view: View = new View({ snug: true });
   plan;
   /** True if the map has unknown cells. */
   hasUnknown;
@@ -66,7 +68,7 @@ export class FloorPicture extends SamplesPicture<Scene> {
 
   /** Keeps the views of the previous picture if its map has the same bounds. */
   constructor(plan: Plan, grid: Cells | null, former?: FloorPicture) {
-    super('plane', new View({ snug: true }));
+    super();
     this.plan = plan;
     this.hasUnknown = grid?.unknown !== undefined;
     this.movable = grid === null;

@@ -5,10 +5,10 @@ import { swatch } from '../../figure/overlays.ts';
 import { Part } from '../../figure/part.ts';
 import { words } from '../../messages/registry.ts';
 import { Handle, stepsOf, turnsOf } from '../../scene/handle.ts';
+import { Memo } from '../../scene/memo.ts';
 import { clamp } from '../../ui/clamp.ts';
 import { fixed } from '../../ui/format.ts';
 import { gripsOf, movedWalls, type Grip } from './walls.ts';
-import type { Plan } from '../../types.d.ts';
 import type { View } from '../../scene/view.ts';
 
 /** Distance that a key moves a wall, metres. */
@@ -23,12 +23,7 @@ const MOST_INWARD = 1 / 6;
 
 export class WallHandles extends Part<import('./map-squeeze.ts').MapSqueezeElement> {
   #handles: Map<string, Handle> = new Map();
-  /** Plan of the grips. */
-  #plan: Plan | undefined;
-  #grips: (Grip | undefined)[] = [];
-  /** Plan whose handles were rendered, and whether they still have to be placed. */
-  #rendered: Plan | undefined;
-  #hasNew = false;
+  #grips: Memo<(Grip | undefined)[]> = new Memo();
   /** Plan and view that the handles were placed in. */
   #shown: unknown[] = [];
   /** Name of the handle that Tab leads to. */
@@ -37,17 +32,16 @@ export class WallHandles extends Part<import('./map-squeeze.ts').MapSqueezeEleme
   /** Grips of the plan in the picture. */
   get #present() {
     const { plan, movable } = this.host.picture;
-    if (plan !== this.#plan) {
-      this.#plan = plan;
-      this.#grips = movable && plan.walls.length <= 4 * MOST_WALLS ? gripsOf(plan) : [];
-    }
-    return this.#grips;
+    return this.#grips.of([plan], () => (movable && plan.walls.length <= 4 * MOST_WALLS ? gripsOf(plan) : []));
+  }
+
+  /** Walls of the plan in the picture. */
+  get #walls() {
+    return this.host.picture.plan.walls;
   }
 
   render() {
     const say = words.squeeze.walls;
-    this.#hasNew ||= this.#rendered !== this.host.picture.plan;
-    this.#rendered = this.host.picture.plan;
     return this.#present.map((grip) => {
       if (!grip) return nothing;
       const [x, y] = this.#pointOf(grip);
@@ -71,8 +65,7 @@ export class WallHandles extends Part<import('./map-squeeze.ts').MapSqueezeEleme
 
   /** Places new elements: they come after the picture. */
   hostUpdated() {
-    if (this.#hasNew) this.#place(this.host.picture.view);
-    this.#hasNew = false;
+    this.#place(this.host.picture.view);
   }
 
   /** Places the handles on the drawn walls. */
@@ -114,7 +107,7 @@ export class WallHandles extends Part<import('./map-squeeze.ts').MapSqueezeEleme
       at: () => withGrip((present) => this.#pointOf(present)),
       drag: (x, y) => withGrip((present) => this.#move(present, (point, axis) => (x - point[0]) * axis[0] + (y - point[1]) * axis[1])),
       key: (event) => withGrip((present) => this.#key(event, present)) ?? false,
-      commit: () => this.host.restWalls(),
+      commit: () => this.host.gesture.commit(),
     });
     this.#handles.set(name, handle);
     return handle;
@@ -148,14 +141,13 @@ export class WallHandles extends Part<import('./map-squeeze.ts').MapSqueezeEleme
   #move(grip: Grip, distanceOf: (point: number[], axis: number[]) => number) {
     this.#current = nameOf(grip);
     const distance = clamp(distanceOf(this.#pointOf(grip), grip.axis), grip.range[0], grip.range[1]);
-    if (distance) this.host.moveWalls(movedWalls((this.#plan as Plan).walls, grip, distance));
+    if (distance) this.host.moveWalls(movedWalls(this.#walls, grip, distance));
     return !Number.isNaN(distance);
   }
 
   /** Returns the end of a wall that a grip moves, or its first end. */
   #pointOf({ wall, part }: Grip) {
-    const { walls } = this.#plan as Plan;
-    return part === 'to' ? [walls[wall + 2], walls[wall + 3]] : [walls[wall], walls[wall + 1]];
+    return [...this.#walls.subarray(wall, wall + 4)].slice(...(part === 'to' ? [2] : [0, 2]));
   }
 
   /** Returns the place of the grip of an end, on the wall. */
@@ -167,7 +159,7 @@ export class WallHandles extends Part<import('./map-squeeze.ts').MapSqueezeEleme
   }
 
   #lengthOf({ wall }: Grip) {
-    const [x, y, x1, y1] = (this.#plan as Plan).walls.subarray(wall, wall + 4);
+    const [x, y, x1, y1] = this.#walls.subarray(wall, wall + 4);
     return Math.hypot(x1 - x, y1 - y);
   }
 
@@ -180,7 +172,7 @@ export class WallHandles extends Part<import('./map-squeeze.ts').MapSqueezeEleme
   #middleIn(grip: Grip, view: View) {
     const { wall } = grip;
     const { xMin, yMin, xMax, yMax } = view.extent;
-    const [x, y, x1, y1] = (this.#plan as Plan).walls.subarray(wall, wall + 4);
+    const [x, y, x1, y1] = this.#walls.subarray(wall, wall + 4);
     const [dx, dy] = [x1 - x, y1 - y];
     const taken = (part: Grip['part']) => (this.#present.some((each) => each?.wall === wall && each.part === part) ? 2 * this.#inward(grip, view) : 0);
     let [from, to] = [taken('from'), 1 - taken('to')];

@@ -92,24 +92,22 @@ export class OdometryDecomposerElement extends FigureElement<Machine, Reading> {
   content(reading: Reading) {
     const say = words.decomposer;
     return html`
-      <section class="machine" aria-label=${this.lettering.name}>
-        <div class="views">
-          ${panel(say.legsTitle, html`<div class="stage" part="picture">
-            ${canvas(this, this.#legs, legsText(reading))} ${this.#handles.map((handle) => handle.render())}
-          </div>`, 'legs')}
-          ${panel(say.worldTitle, html`<div class="stage">${canvas(this, this.#world, worldText(reading))}</div>`)}
-          ${this.stage.later(() => html`
-          <div class="said">${headline(reading)} <p class="caption" part="caption">${captionOf(reading)}</p></div>
-          <p class="caption">${rich(say.worldCaption(fixed(apart(reading), 2)))}</p>`)}
-        </div>
+      <div class="views">
+        ${panel(say.legsTitle, html`<div class="stage" part="picture">
+          ${canvas(this, this.#legs, legsText(reading))} ${this.#handles.map((handle) => handle.render())}
+        </div>`, 'legs')}
+        ${panel(say.worldTitle, html`<div class="stage">${canvas(this, this.#world, worldText(reading))}</div>`)}
         ${this.stage.later(() => html`
-        ${legend(this, LINES)} ${presetButtons(this)} ${rulesTable(this)}
-        <div class="plays" part="controls">${playable(this, 'phase', say.path)} ${playable(this, 'drift', say.drift)}</div>
-        ${disclosures(this, {
-          controls: () => noiseControls(this),
-          numbers: () => html`${readouts(reading)} ${spreads(this.#curveOf, reading)}`,
-        })}`)}
-      </section>
+        <div class="said">${headline(reading)} <p class="caption" part="caption">${captionOf(reading)}</p></div>
+        <p class="caption">${rich(say.worldCaption(fixed(apart(reading), 2)))}</p>`)}
+      </div>
+      ${this.stage.later(() => html`
+      ${legend(this, LINES)} ${presetButtons(this)} ${rulesTable(this)}
+      <div class="plays" part="controls">${playable(this, 'phase', say.path)} ${playable(this, 'drift', say.drift)}</div>
+      ${disclosures(this, {
+        controls: () => noiseControls(this),
+        numbers: () => html`${readouts(reading)} ${spreads(this.#curveOf, reading)}`,
+      })}`)}
     `;
   }
 }

@@ -1,8 +1,8 @@
 /** The Odometry Decomposer's two pictures: the three legs in the odometry frame, and the same in the world. */
 
 import { words } from '../../messages/registry.ts';
-import { clipped, drawAxes, lineKey } from '../../scene/axes.ts';
-import { drawDots, drawMark, lineStyles, strokeLines } from '../../scene/draw.ts';
+import { clipped, drawAxes } from '../../scene/axes.ts';
+import { drawDots, drawMark, lineKeys, lineStyles, strokeLines } from '../../scene/draw.ts';
 import { LABELS_ABOVE, drawLabelsAbove } from '../../scene/labels.ts';
 import { SamplesPicture } from '../../scene/picture.ts';
 import { View, extentOf } from '../../scene/view.ts';
@@ -51,12 +51,9 @@ const AXES = { x: 'x (m)', y: 'y (m)' };
 /** Length of the axes of the odometry frame, m: less than the margin, so that none is clipped. */
 const AXIS = 0.28;
 
-/** Returns the legend of an exported picture; none on the page, which has its own next to the picture. */
-function keyOf(brush: Brush, { overlays }: Scene, names: LineName[]) {
-  const styles = lineStyles(brush, LINES);
-  const say = words.decomposer.overlays;
-  return brush.exported ? names.filter((name) => overlays.includes(name)).map((name) => lineKey(brush, say[name].replaceAll('*', ''), styles[name])) : [];
-}
+/** Returns the key of an exported picture for the lines that are shown. */
+const keyOf = (brush: Brush, { overlays }: Scene, names: LineName[]) =>
+  lineKeys(brush, LINES, names.filter((name) => overlays.includes(name)), words.decomposer.overlays);
 
 /** Returns the corners of the outcomes' surroundings as x, y pairs, as far as a picture makes room for them. */
 function surroundings({ linkage, legs, deviations, stats }: Scene): number[] {
@@ -78,9 +75,7 @@ function drawOutcomes(brush: Brush, { poses, overlays }: Scene) {
 }
 
 class OutcomesPicture extends SamplesPicture<Scene> {
-  constructor(name: string) {
-    super(name, new View({ top: LABELS_ABOVE, snug: true }));
-  }
+  view: View = new View({ top: LABELS_ABOVE, snug: true });
 
   paintMark(brush: Brush, { marked }: Scene) {
     if (marked) drawMark(brush, { x: marked[0], y: marked[1], heading: marked[2] });
@@ -92,9 +87,7 @@ const reachesAt = (view: Pick<View, 'scaleX'>) => [0, 1].map((arc) => turnDistan
 
 /** Picture in the odometry frame: the legs as a linkage, and the effect of noise on it. */
 export class LegsPicture extends OutcomesPicture {
-  constructor() {
-    super('plane');
-  }
+  name = 'plane';
 
   fit(scene: Scene) {
     const { view } = this;
@@ -204,9 +197,7 @@ export class LegsPicture extends OutcomesPicture {
 
 /** Picture of the world, in which the odometry frame drifts. */
 export class WorldPicture extends OutcomesPicture {
-  constructor() {
-    super('world');
-  }
+  name = 'world';
 
   fit(scene: Scene) {
     const { poses } = scene.drifted;

@@ -24,11 +24,15 @@ export class FileDrop {
   #choose;
   #isDropped = false;
 
+  /** Runs when something is dragged over the figure. */
+  enter: (() => void) | undefined;
+
   /** Creates it with the id of the element that describes the files; on a drop its disclosure opens. */
-  constructor(host: Figure, id: string, choose: (files: File[]) => void) {
+  constructor(host: Figure, id: string, choose: (files: File[]) => void, enter?: () => void) {
     this.#host = host;
     this.#id = id;
     this.#choose = choose;
+    this.enter = enter;
   }
 
   /** Element with the result, null until the figure has been drawn. */
@@ -56,7 +60,7 @@ export class FileDrop {
     (event.currentTarget as HTMLElement).classList.add('dropping');
   };
 
-  away = (event: DragEvent) => {
+  leave = (event: DragEvent) => {
     const section = event.currentTarget as HTMLElement;
     const to = event.relatedTarget as Node | null;
     if (!section.contains(to)) section.classList.remove('dropping');

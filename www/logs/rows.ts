@@ -1,8 +1,9 @@
 /** Rows of a log. Unusable rows are dropped, with the cause. */
 
+import { min } from 'd3-array';
 import { LogError, type Place } from './log-error.ts';
 import type { Cause, Log, LogKind, Note, OpenOptions, Summary } from './log.ts';
-import { KEPT, LATE, STRAY, repeatFactor, sortRows } from './order.ts';
+import { LATE, SET_BACK, STRAY, repeatFactor, sortRows } from './order.ts';
 import { quantile, sample } from './quantile.ts';
 import { distanceOf } from './summary.ts';
 import { type Units, judgeUnits } from './units.ts';
@@ -43,7 +44,7 @@ const MIN_EPOCH_TIME = 1e8;
 const MIN_FRACTION = 0.6;
 
 /** Indices of the numbers of a row. The whole seconds of a time have one index, and the rest has the next. */
-const [SECONDS, REST, A, B, C, LINE, OTHER_SECONDS, OTHER_REST, WIDTH] = [0, 1, 2, 3, 4, 5, 6, 7, 8];
+const [SECONDS, REST, A, B, C, LINE, OTHER_SECONDS, OTHER_REST, IS_BROKEN, WIDTH] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9];
 
 export class Rows {
   #place: Place;
@@ -52,8 +53,8 @@ export class Rows {
   #added = 0;
   /** Index of the seconds of the clock that is used. */
   #clock = SECONDS;
-  /** Rows before which the path is unknown, because unusable rows were dropped. */
-  #broken = new Set<number>();
+  /** True if the path before the next row is unknown, because an unusable row was dropped. */
+  #isBroken = false;
   #dropped: Summary['dropped'] = {};
 
   /** Number of all rows, including dropped ones. */
@@ -68,7 +69,7 @@ export class Rows {
   drop(cause: Cause, line: number): void {
     this.count += 1;
     this.#countDropped(cause, line);
-    this.#broken.add(this.#added);
+    this.#isBroken = true;
   }
 
   /**
@@ -107,6 +108,8 @@ export class Rows {
     numbers[at + LINE] = line;
     numbers[at + OTHER_SECONDS] = otherSeconds;
     numbers[at + OTHER_REST] = otherRest;
+    numbers[at + IS_BROKEN] = Number(this.#isBroken);
+    this.#isBroken = false;
   }
 
   /**
@@ -118,12 +121,9 @@ export class Rows {
   end(name: string, kind: LogKind, { units: assumed, clocks, ...decisions }: Decisions, options: OpenOptions = {}): Log {
     if (clocks[1] !== undefined) this.#sortByOtherClock();
     const usesOther = this.#chooseClock(clocks[1] !== undefined);
-    const { rows, late, ...times } = this.#inOrder(kind);
-    const [a, b, c] = [A, B, C].map((column) => {
-      const values = new Float64Array(rows.length);
-      for (let i = 0; i < rows.length; i++) values[i] = this.#numbers[WIDTH * rows[i] + column];
-      return values;
-    });
+    const { rows, late, causes, ...times } = this.#inOrder(kind);
+    const broken = this.#dropAdded(causes);
+    const [a, b, c] = [A, B, C].map((index) => this.#column(rows, (row) => this.#number(row, index)));
     const { count } = this;
     if (rows.length < 2) {
       const [cause, dropped] = (Object.entries(this.#dropped) as [Cause, { first: number }][])[0] ?? [];
@@ -132,7 +132,7 @@ export class Rows {
     const columns = { ...times, a, b, c };
     const units = judgeUnits(this.#place, kind, columns, assumed, options);
     const { start, t } = columns;
-    const { breaks, jumped, ...found } = this.#events(kind, [t, a, b, c], rows);
+    const { breaks, jumped, ...found } = this.#events(kind, [t, a, b, c], (i) => broken.has(rows[i]));
     const data = { t, ...(kind === 'poses' ? { x: a, y: b, theta: c } : { v: a, omega: b }), breaks } as Log['data'];
     const notes = late > 0 ? [...decisions.notes, { name: 'sorted' as const, values: [late] }] : decisions.notes;
     const seconds = t[t.length - 1] - t[0];
@@ -147,132 +147,122 @@ export class Rows {
   #sortByOtherClock(): void {
     const numbers = this.#numbers;
     const compare = (one: number, other: number) =>
-      numbers[WIDTH * one + OTHER_SECONDS] - numbers[WIDTH * other + OTHER_SECONDS] || numbers[WIDTH * one + OTHER_REST] - numbers[WIDTH * other + OTHER_REST];
+      this.#number(one, OTHER_SECONDS) - this.#number(other, OTHER_SECONDS) || this.#number(one, OTHER_REST) - this.#number(other, OTHER_REST);
     let row = 1;
     while (row < this.#added && compare(row - 1, row) <= 0) row += 1;
     if (row >= this.#added) return;
-    const order = Uint32Array.from({ length: this.#added }, (_, each) => each).sort(compare);
+    const order = this.#rows.sort(compare);
     this.#numbers = new Float64Array(numbers.length);
     for (const [rank, from] of order.entries()) this.#numbers.set(numbers.subarray(WIDTH * from, WIDTH * (from + 1)), WIDTH * rank);
-    const broken = this.#broken;
-    this.#broken = new Set([...order.keys()].filter((rank) => broken.has(order[rank])));
   }
 
   /** Switches to the other clock if the first one is mostly 0. @returns whether it did */
   #chooseClock(hasOther: boolean): boolean {
-    let unset = 0;
-    for (let row = 0; row < this.#added; row++) if (this.#isUnset(row)) unset += 1;
-    if (!hasOther || 2 * unset <= this.#added) return false;
+    if (!hasOther || 2 * this.#rows.filter((row) => this.#isUnset(row)).length <= this.#added) return false;
     this.#clock = OTHER_SECONDS;
     return true;
   }
 
-  #seconds(row: number): number {
-    return this.#numbers[WIDTH * row + this.#clock];
+  /** Returns the indices of all rows that were added. */
+  get #rows(): Uint32Array<ArrayBuffer> {
+    return new Uint32Array(this.#added).map((_, row) => row);
   }
 
-  #rest(row: number): number {
-    return this.#numbers[WIDTH * row + this.#clock + 1];
+  #number(row: number, index: number): number {
+    return this.#numbers[WIDTH * row + index];
   }
 
-  #line(row: number): number {
-    return this.#numbers[WIDTH * row + LINE];
+  /** Returns a number of each of some rows. The `from` of typed arrays would take ten times as long. */
+  #column(rows: Uint32Array, numberOf: (row: number) => number): Float64Array {
+    return new Float64Array(rows.length).map((_, i) => numberOf(rows[i]));
+  }
+
+  /** Returns the time of a row in seconds after a start. */
+  #time(row: number, start: number): number {
+    return this.#number(row, this.#clock) - start + this.#number(row, this.#clock + 1);
   }
 
   #isUnset(row: number): boolean {
-    return this.#seconds(row) === 0 && this.#rest(row) === 0;
+    return this.#number(row, this.#clock) === 0 && this.#number(row, this.#clock + 1) === 0;
   }
 
   /** Checks whether two rows have the same values. */
   #isSame(one: number, other: number): boolean {
-    const numbers = this.#numbers;
-    const [i, j] = [WIDTH * one, WIDTH * other];
-    return numbers[i + A] === numbers[j + A] && numbers[i + B] === numbers[j + B] && numbers[i + C] === numbers[j + C];
+    return this.#number(one, A) === this.#number(other, A) && this.#number(one, B) === this.#number(other, B) && this.#number(one, C) === this.#number(other, C);
   }
 
-  /** Returns the kept rows in the order of their times, which are all different, and the number of late rows. */
-  #inOrder(kind: LogKind): { start: number; t: Float64Array; rows: Uint32Array; late: number } {
+  /** Returns the kept rows in the order of their times, which are all different, the number of late rows, and causes for dropping others. */
+  #inOrder(kind: LogKind): { start: number; t: Float64Array; rows: Uint32Array; late: number; causes: Map<number, Cause> } {
+    const causes = new Map<number, Cause>();
     // If other times are since 1970, a stamp of 0 means that it was not set.
-    let first = Infinity;
-    for (let row = 0; row < this.#added; row++) if (!this.#isUnset(row)) first = Math.min(first, this.#seconds(row));
-    const isSince1970 = first > MIN_EPOCH_TIME && first < Infinity;
-    let stamped = new Uint32Array(this.#added);
-    let count = 0;
-    for (let row = 0; row < this.#added; row++) if (!(isSince1970 && this.#isUnset(row))) stamped[count++] = row;
-    stamped = stamped.subarray(0, count);
-    const base = Math.floor(this.#seconds(stamped[0]));
-    const times = new Float64Array(count);
-    for (let i = 0; i < count; i++) times[i] = this.#seconds(stamped[i]) - base + this.#rest(stamped[i]);
+    const set = this.#rows.filter((row) => !this.#isUnset(row));
+    const isSince1970 = set.every((row) => this.#number(row, this.#clock) > MIN_EPOCH_TIME);
+    const stamped = isSince1970 ? set : this.#rows;
+    const base = Math.floor(this.#number(stamped[0], this.#clock));
+    const times = this.#column(stamped, (row) => this.#time(row, base));
     const { order, classes, setBack, largest } = sortRows(times, (one, other) => this.#isSame(stamped[one], stamped[other]));
     if (setBack >= 0 && largest < MIN_FRACTION * times.length) {
-      const line = this.#line(stamped[setBack]);
+      const line = this.#number(stamped[setBack], LINE);
       throw new LogError(this.#placeOf(line), (say) => say.setBack(times[setBack - 1] - times[setBack], this.#messageNumber(line)));
     }
 
     // The start is computed from the first row in time. A difference to the first row in the file might be too large to be exact.
-    const [seconds, rest] = [this.#seconds(stamped[order[0]]), this.#rest(stamped[order[0]])];
+    const sorted = order.map((i) => stamped[i]);
+    const [seconds, rest] = [this.#clock, this.#clock + 1].map((index) => this.#number(sorted[0], index));
     const start = Math.floor(seconds) + Math.floor(seconds - Math.floor(seconds) + rest);
-    const t = new Float64Array(order.length);
-    const rows = new Uint32Array(order.length);
-    const isDropped = new Map<number, Cause>();
-    let [used, different] = [0, 0];
-    for (let i = 0; i < order.length; i++) {
-      const row = stamped[order[i]];
-      const time = this.#seconds(row) - start + this.#rest(row);
-      if (used > 0 && time <= t[used - 1]) {
-        isDropped.set(row, 'duplicate');
-        if (!this.#isSame(stamped[order[i - 1]], row)) different += 1;
-        continue;
+    let [last, different] = [-Infinity, 0];
+    let rows = sorted.filter((row, i) => {
+      const time = this.#time(row, start);
+      if (i === 0 || time > last) {
+        last = time;
+        return true;
       }
-      rows[used] = row;
-      t[used] = time;
-      used += 1;
+      causes.set(row, 'duplicate');
+      if (!this.#isSame(sorted[i - 1], row)) different += 1;
+      return false;
+    });
+    if (sorted.length > 3 && different > (1 - MIN_FRACTION) * sorted.length) {
+      const line = this.#number(min(causes.keys()) as number, LINE);
+      throw new LogError(this.#placeOf(line), (say) => say.sameTimes(different, sorted.length, this.#messageNumber(line)));
     }
-    if (order.length > 3 && different > (1 - MIN_FRACTION) * order.length) {
-      const line = this.#line([...isDropped.keys()].reduce((first, row) => Math.min(first, row)));
-      throw new LogError(this.#placeOf(line), (say) => say.sameTimes(different, order.length, this.#messageNumber(line)));
-    }
-    const isRepeated = (i: number) => this.#isSame(rows[i - 1], rows[i]);
-    const factor = kind === 'poses' ? repeatFactor(t.subarray(0, used), isRepeated) : 1;
+    const timesOf = (some: Uint32Array) => this.#column(some, (row) => this.#time(row, start));
+    const distinct = rows;
+    const isRepeated = (i: number) => i > 0 && this.#isSame(distinct[i - 1], distinct[i]);
+    const factor = kind === 'poses' ? repeatFactor(timesOf(distinct), isRepeated) : 1;
+    let run = 0;
+    // Every `factor`-th of repeated poses is kept, so that the log has the same rate while the robot stands.
     if (factor > 1) {
-      const repeats = Array.from({ length: used }, (_, i) => i > 0 && isRepeated(i));
-      let kept = 0;
-      for (let i = 0, run = 0; i < used; i++) {
-        run = repeats[i] ? run + 1 : 0;
-        // Every `factor`-th of repeated poses is kept, so that the log has the same rate while the robot stands.
-        if (run % factor !== 0) {
-          isDropped.set(rows[i], 'repeated');
-          continue;
-        }
-        rows[kept] = rows[i];
-        t[kept] = t[i];
-        kept += 1;
-      }
-      used = kept;
+      rows = distinct.filter((row, i) => {
+        run = isRepeated(i) ? run + 1 : 0;
+        if (run % factor !== 0) causes.set(row, 'repeated');
+        return run % factor === 0;
+      });
     }
-    let late = 0;
-    for (let i = 0; i < classes.length; i++) {
-      if (classes[i] === LATE) late += 1;
-      else if (classes[i] !== KEPT) isDropped.set(stamped[i], classes[i] === STRAY ? 'stray' : 'setBack');
-    }
-    for (let row = 0; row < this.#added && count < this.#added; row++) {
-      if (isSince1970 && this.#isUnset(row)) isDropped.set(row, 'noStamp');
-    }
-    this.#dropAdded(isDropped);
-    return { start, t: t.slice(0, used), rows: rows.slice(0, used), late };
+    stamped.forEach((row, i) => {
+      if (classes[i] === STRAY || classes[i] === SET_BACK) causes.set(row, classes[i] === STRAY ? 'stray' : 'setBack');
+    });
+    if (stamped.length < this.#added) for (const row of this.#rows) if (this.#isUnset(row)) causes.set(row, 'noStamp');
+    return { start, t: timesOf(rows), rows, late: classes.reduce((count, each) => count + Number(each === LATE), 0), causes };
   }
 
-  /** Drops rows that were added. The path is continuous across them, unless the clock was set back. */
-  #dropAdded(rows: Map<number, Cause>): void {
-    for (const row of [...rows.keys()].sort((one, other) => one - other)) {
-      const cause = rows.get(row) as Cause;
-      this.#countDropped(cause, this.#line(row));
-      if (cause === 'setBack' || this.#broken.delete(row)) this.#broken.add(row + 1);
+  /** Counts dropped rows, and returns the rows before which the path is unknown: after unusable rows, and where the clock was set back. */
+  #dropAdded(causes: Map<number, Cause>): Set<number> {
+    const broken = new Set<number>();
+    let isBroken = false;
+    for (let row = 0; row < this.#added; row++) {
+      const cause = causes.get(row);
+      isBroken ||= this.#number(row, IS_BROKEN) === 1 || cause === 'setBack';
+      if (cause) this.#countDropped(cause, this.#number(row, LINE));
+      else if (isBroken) {
+        broken.add(row);
+        isBroken = false;
+      }
     }
+    return broken;
   }
 
   /** Returns the rate, the gaps, the jumps, and the rows before which the path is unknown. */
-  #events(kind: LogKind, [t, a, b, c]: Float64Array[], rows: Uint32Array) {
+  #events(kind: LogKind, [t, a, b, c]: Float64Array[], isBroken: (i: number) => boolean) {
     const step = quantile(sample(t.length - 1, (i) => t[i + 1] - t[i]), 0.5);
     const gaps = { count: 0, longest: 0, first: NaN };
     const jumps = { count: 0, first: NaN };
@@ -290,7 +280,7 @@ export class Rows {
         jumps.count += 1;
         jumped.push(i);
         breaks.push(i);
-      } else if (this.#broken.has(rows[i])) breaks.push(i);
+      } else if (isBroken(i)) breaks.push(i);
     }
     return { rate: 1 / step, gaps, jumps, jumped, breaks: Uint32Array.from(breaks) };
   }

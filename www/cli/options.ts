@@ -4,7 +4,7 @@ import { parseArgs } from 'node:util';
 import type { Wishes } from '../logs/drives.ts';
 import { cut } from '../logs/log-error.ts';
 import { UNITS, type Frames, type OpenOptions, type Role } from '../logs/log.ts';
-import { SYSTEMATIC } from '../widgets/alpha-calibrator/lines.ts';
+import { SYSTEMATIC_ERRORS } from '../widgets/alpha-calibrator/lines.ts';
 
 /** Error about the options; its message is a sentence. */
 export class UsageError extends Error {}
@@ -179,15 +179,15 @@ const alternatives = (names: readonly string[]) => new Intl.ListFormat('en', { t
 function correctOf(left?: string, corrected?: string): Record<string, boolean> | undefined {
   const lists = [namesOf('no-correct', left), namesOf('correct', corrected)];
   const [all, single] = [true, false].map((isAll) => lists.flatMap((names, i) => (names.includes('all') === isAll ? names : []).map((name) => [name, i === 1] as const)));
-  const entries = [...all.flatMap(([, is]) => SYSTEMATIC.map((name) => [name, is] as const)), ...single];
+  const entries = [...all.flatMap(([, is]) => SYSTEMATIC_ERRORS.map((name) => [name, is] as const)), ...single];
   return entries.length ? Object.fromEntries(entries) : undefined;
 }
 
 function namesOf(option: string, value?: string): string[] {
   const names = value?.split(',').map((name) => name.trim()) ?? [];
-  const unknown = names.find((name) => name !== 'all' && !(SYSTEMATIC as readonly string[]).includes(name));
+  const unknown = names.find((name) => name !== 'all' && !(SYSTEMATIC_ERRORS as readonly string[]).includes(name));
   if (unknown === undefined) return names;
-  throw new UsageError(`--${option} must be all, or names of ${SYSTEMATIC.join(', ')} (got “${cut(unknown)}”).`);
+  throw new UsageError(`--${option} must be all, or names of ${SYSTEMATIC_ERRORS.join(', ')} (got “${cut(unknown)}”).`);
 }
 
 function parsed(args: string[]) {

@@ -20,11 +20,11 @@ import { LogService, isStopped } from './log-service.ts';
 import { Copied, copyButton, nav2 } from './nav2.ts';
 import { LogOpener, dropZone, logSection } from './open.ts';
 import { panels } from './panels.ts';
-import { LegPicture, WayPicture } from './pictures.ts';
+import { LegPicture, PathPicture } from './pictures.ts';
 import { Plate } from './plate.ts';
 import { legOf, readingOf, type Reading } from './reading.ts';
 import { alphaTable, alphaTexts, verdictLine } from './readouts.ts';
-import { COMPONENTS, LINES, definition, kindOf } from './settings.ts';
+import { COMPONENTS, LINES, definition, modelRuleOf } from './settings.ts';
 import { calibratorStyles } from './styles.ts';
 import { systematicTable, systematicTexts } from './systematic.ts';
 import { captionOf, judgementOf, legText, reasonOf, wayText } from './words.ts';
@@ -40,8 +40,8 @@ interface Given {
   fit: Uint8Array;
 }
 
-/** Keys of a log. */
-const KEYS = ['name', 'odometry', 'reference'];
+/** Keys of the property `log`. */
+const LOG_KEYS = ['name', 'odometry', 'reference'];
 
 /**
  * The α's of a log, how well they are known, and whether the model is any good.
@@ -55,15 +55,15 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
 
   static definition = definition;
 
-  #way = new WayPicture();
-  #one = new LegPicture();
-  pictures = [this.#way, this.#one];
+  #path = new PathPicture();
+  #legPicture = new LegPicture();
+  pictures = [this.#path, this.#legPicture];
   plate = new Plate(this);
   #opener = new LogOpener(this);
   dropped = this.#opener.dropped;
   #copied = new Copied(this);
   service = new LogService('alpha-calibrator');
-  #leg: Memo<LegView | null> = new Memo();
+  #predicted: Memo<LegView | null> = new Memo();
   #panels: Memo<CalibrationPanel[]> = new Memo();
   /** Log that was given; null for the simulated one. */
   #given: Given | null = null;
@@ -97,13 +97,13 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
     return legOf(this.reading, this.state.own.leg);
   }
 
-  /** Prediction and end of that leg, as of the latest fit that is complete. */
+  /** Predicted cloud and end of the leg that is shown, by the latest complete fit; null without a leg. */
   get predicted() {
     const { chosen, machine, reading: { config } } = this;
-    return chosen < 0 || !machine ? null : this.#leg.of([config, chosen], () => machine.leg(chosen));
+    return chosen < 0 || !machine ? null : this.#predicted.of([config, chosen], () => machine.leg(chosen));
   }
 
-  /** Squared residuals against what was chosen to drive them; none without legs. */
+  /** Bins of squared residuals against the motion that is chosen; empty without legs. */
   get panels() {
     const { machine, reading: { stats, legs }, state: { own: { driver } } } = this;
     return legs.count > 0 && machine ? this.#panels.of([stats, driver], () => machine.panels(driver)) : [];
@@ -132,8 +132,8 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
     this.runtime.attempt(() => {
       const { machine } = this;
       if (!machine || !(event.target instanceof HTMLCanvasElement)) return;
-      const [x, y] = pointOn(event.target, this.#way.view, event);
-      const leg = this.#way.nearest(machine, x, y);
+      const [x, y] = pointOn(event.target, this.#path.view, event);
+      const leg = this.#path.nearest(machine, x, y);
       if (leg >= 0) this.choose(leg);
     });
   };
@@ -149,7 +149,7 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
 
   set log(log) {
     this.reflection.setProperty('log', log, (given) => {
-      if (given !== null) object('log', given, KEYS);
+      if (given !== null) object('log', given, LOG_KEYS);
       this.service.stop();
       this.open(given, []).then(() => this.reflection.updateAttributes(), this.#report);
     });
@@ -242,15 +242,15 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
       ${dropZone(this, this.#opener)}
       <div class="views">
         <p part="caption" class="caption verdict">${this.stage.later(() => verdictLine(this))}</p>
-        ${panel(say.path, html`<div class="stage" part="picture" @click=${this.#press}>${canvas(this, this.#way, wayText(reading, chosen))}</div>`)}
+        ${panel(say.path, html`<div class="stage" part="picture" @click=${this.#press}>${canvas(this, this.#path, wayText(reading, chosen))}</div>`)}
         <div class="one">
-          ${panel(say.oneLeg(counted(chosen + 1)), html`<div class="stage">${canvas(this, this.#one, legText(this.predicted, chosen))}</div>`)}
+          ${panel(say.oneLeg(counted(chosen + 1)), html`<div class="stage">${canvas(this, this.#legPicture, legText(this.predicted, chosen))}</div>`)}
           ${this.stage.later(() => html`<div class="looked">${legControls(this)}</div>`)}
         </div>
         ${this.stage.later(() => html`
         <div class="fitted" part="readouts">
           <div class="buttons told">
-            <p class="panel-title">${say.alphas.title(say.kinds[kindOf(reading.fitted)])}</p>
+            <p class="panel-title">${say.alphas.title(say.kinds[modelRuleOf(reading.fitted)])}</p>
             ${copyButton(this, this.#copied)} ${startOverButton(this)}
           </div>
           ${alphaTable(reading)}

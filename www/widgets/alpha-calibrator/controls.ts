@@ -7,7 +7,7 @@ import { button, group, radioGroup } from '../../ui/controls.ts';
 import { NOTHING, counted, fixed, typed } from '../../ui/format.ts';
 import { readoutList } from '../../ui/readouts.ts';
 import { observedOf } from './reading.ts';
-import { kindOf, settingsFor } from './settings.ts';
+import { modelRuleOf, settingsFor } from './settings.ts';
 import type { AlphaCalibratorElement as Figure } from './alpha-calibrator.ts';
 
 /** Returns the slider of the leg that is shown. */
@@ -52,7 +52,7 @@ export function modelControls(figure: Figure) {
   const { fit, settings: { model }, kinds, outliers } = words.calibrator;
   const show = (seconds: number) => (seconds > 0 ? `${typed(seconds, 2)} s` : NOTHING);
   const choose = (kind: import('./settings.ts').ModelRule) => figure.gesture.decide(settingsFor(kind));
-  return group(fit, html`${radioGroup(model.name, 'kind', kinds, kindOf(figure.settings.wanted as any), choose)}
+  return group(fit, html`${radioGroup(model.name, 'kind', kinds, modelRuleOf(figure.settings.wanted as any), choose)}
     ${choices(figure, 'outliers', outliers)} ${slider(figure, 'duration', { show })}`, 'fit');
 }
 

@@ -21,33 +21,33 @@ export interface Fitted {
 
 export type Words = typeof import('./en.ts').en.nav2;
 
-/** Significant digits of an interval's width, and of what has no interval. */
-const [OF_WIDTH, DIGITS] = [2, 3];
+/** Significant digits of an interval's width, and of values without an interval. */
+const [WIDTH_DIGITS, VALUE_DIGITS] = [2, 3];
 
 /** Magnitude below which values are printed with an exponent. */
-const TINY = 1e-6;
+const MIN_PLAIN_NUMBER = 1e-6;
 
 const MOST_DECIMALS = 12;
 
 /** Smallest magnitude of whole numbers with an exponent: times since 1970 are below. */
-const LONG = 1e15;
+const MAX_PLAIN_NUMBER = 1e15;
 
 /** Largest plausible α: an error as large as the motion, or of one radian per metre. */
-const MOST = 1;
+const MAX_PLAUSIBLE_ALPHA = 1;
 
-/** Placeholder for a missing number. */
-const NONE = '–';
+/** Text for a missing number. */
+const NO_NUMBER = '–';
 
 /** Plugins of Nav2 by model. */
-const NAV2: Record<string, string> = { odometry: 'nav2_amcl::DifferentialMotionModel', omnidirectional: 'nav2_amcl::OmniMotionModel' };
+const NAV2_PLUGINS: Record<string, string> = { odometry: 'nav2_amcl::DifferentialMotionModel', omnidirectional: 'nav2_amcl::OmniMotionModel' };
 
 /** Systematic errors that can be corrected before the α's are fitted, in the order of tables. */
-export const SYSTEMATIC = ['clockOffset', 'mountYaw', 'leverArm', 'distanceScale', 'turnScale'] as const;
+export const SYSTEMATIC_ERRORS = ['clockOffset', 'mountYaw', 'leverArm', 'distanceScale', 'turnScale'] as const;
 
-/** Rules of Nav2's models. */
-const ITS_RULES = ['nav2', 'omni'];
+/** Rules of the motion models of Nav2. */
+const NAV2_RULES = ['nav2', 'omni'];
 
-export const short = (value: number | null, digits = DIGITS) => (value !== null && Number.isFinite(value) ? pointed(String(Number(value.toPrecision(digits)))) : NONE);
+export const short = (value: number | null, digits = VALUE_DIGITS) => (value !== null && Number.isFinite(value) ? pointed(String(Number(value.toPrecision(digits)))) : NO_NUMBER);
 
 /** Adds a point to an exponent, without which YAML 1.1 reads a text. */
 const pointed = (number: string) => number.replace(/^(-?\d)e/, '$1.0e');
@@ -55,12 +55,12 @@ const pointed = (number: string) => number.replace(/^(-?\d)e/, '$1.0e');
 /** Adds decimals to a whole number, which Nav2 refuses for its doubles. */
 const withDecimals = (number: string) => (number.includes('.') ? number : `${number}.0`);
 
-/** Prints the decimals that an interval leaves meaning to. */
+/** Prints a value with the decimals that are significant for its interval. */
 export function fixed(value: number | null, interval: Interval | undefined) {
   const width = interval ? interval[1] - interval[0] : 0;
-  if (value === null || !(Math.abs(value) < LONG) || !(width > 0 && width < Infinity)) return short(value);
-  const decimals = OF_WIDTH - 1 - Math.floor(Math.log10(width));
-  if (width >= TINY || Math.abs(value) >= TINY) return value.toFixed(Math.max(0, Math.min(MOST_DECIMALS, decimals)));
+  if (value === null || !(Math.abs(value) < MAX_PLAIN_NUMBER) || !(width > 0 && width < Infinity)) return short(value);
+  const decimals = WIDTH_DIGITS - 1 - Math.floor(Math.log10(width));
+  if (width >= MIN_PLAIN_NUMBER || Math.abs(value) >= MIN_PLAIN_NUMBER) return value.toFixed(Math.max(0, Math.min(MOST_DECIMALS, decimals)));
   const digits = decimals + Math.floor(Math.log10(Math.abs(value)));
   return digits < 0 ? '0' : pointed(value.toExponential(Math.min(MOST_DECIMALS, digits)));
 }
@@ -71,16 +71,16 @@ export const formatInterval = (interval: Interval | undefined) => (interval?.eve
 /** Checks whether an α is 0 in the digits of its interval. A printed zero would look like a result. */
 export const isZero = (alpha: number | null, interval: Interval | undefined) => alpha !== null && Number(fixed(alpha, interval)) === 0;
 
-export const percent = (fraction: number | null) => (fraction !== null && Number.isFinite(fraction) ? `${short(100 * fraction)} %` : NONE);
+export const percent = (fraction: number | null) => (fraction !== null && Number.isFinite(fraction) ? `${short(100 * fraction)} %` : NO_NUMBER);
 
 /** Prints the upper end of an interval. */
-const mostOf = (interval: Interval | undefined) => short(interval?.[1] ?? null, OF_WIDTH);
+const upperEnd = (interval: Interval | undefined) => short(interval?.[1] ?? null, WIDTH_DIGITS);
 
 /** Multiplies an interval. */
 const scaled = (interval: Interval, factor: number): Interval => interval && [factor * interval[0], factor * interval[1]];
 
 /** Prints an α times a factor, or its upper bound if it is not significantly different from 0. */
-export const alphaOrBound = (alpha: number | null, interval: Interval, factor = 1) => (isZero(alpha, interval) ? `≤ ${mostOf(scaled(interval, factor))}` : fixed(alpha && factor * alpha, scaled(interval, factor)));
+export const alphaOrBound = (alpha: number | null, interval: Interval, factor = 1) => (isZero(alpha, interval) ? `≤ ${upperEnd(scaled(interval, factor))}` : fixed(alpha && factor * alpha, scaled(interval, factor)));
 
 /** Returns why an α is not identifiable, and the drive that would identify it. */
 export function adviceOf(lacking: typeof import('./en.ts').en.alphas.lacking, model: string, reason: keyof typeof lacking) {
@@ -100,14 +100,14 @@ export function missingMotion(model: string, index: number): 'insufficient-rotat
  */
 export function nav2Lines({ calibration, count, model, rule, legs, log, warnings, date }: Fitted, say: Words): string[] {
   const { alphas, intervals, recommended, systematicErrors, diagnostics: { checks, windows: [window] } } = calibration;
-  if (!Object.hasOwn(NAV2, model) || recommended === null) return [];
+  if (!Object.hasOwn(NAV2_PLUGINS, model) || recommended === null) return [];
   const { inflation } = recommended;
   const { distance, angle, duration } = legs;
   const failed = failedOf(checks).map(({ name }) => name).join(', ');
   const notes = [
     say.of(String(count), duration === undefined ? say.moved(short(distance ?? null), short(angle ?? null)) : say.lasted(short(duration)), log, date),
     say.recommended(short(inflation), percent(window.coverage), String(window.count)),
-    ...(model !== 'odometry' || ITS_RULES.includes(rule) ? [] : [say.otherRule]),
+    ...(model !== 'odometry' || NAV2_RULES.includes(rule) ? [] : [say.otherRule]),
     ...correctionOf(systematicErrors).map((errors) => say.corrected(errors)),
     ...(failed ? [say.failed(failed)] : []),
     ...warnings.map((name) => say[name]),
@@ -115,16 +115,16 @@ export function nav2Lines({ calibration, count, model, rule, legs, log, warnings
   const lines = alphas.map((alpha: number | null, i: number) => {
     const interval = intervals[i];
     if (alpha === null) return `# alpha${i + 1}: ${say.notIdentifiable}`;
-    if (isZero(alpha, interval)) return `# alpha${i + 1}: ${say.zero(mostOf(scaled(interval, inflation)))}`;
+    if (isZero(alpha, interval)) return `# alpha${i + 1}: ${say.zero(upperEnd(scaled(interval, inflation)))}`;
     const value = fixed(inflation * alpha, scaled(interval, inflation));
-    if (inflation * alpha > MOST) return `# alpha${i + 1}: ${value}, ${say.tooLarge}`;
+    if (inflation * alpha > MAX_PLAUSIBLE_ALPHA) return `# alpha${i + 1}: ${value}, ${say.tooLarge}`;
     return `alpha${i + 1}: ${withDecimals(value)}  # ${say.fitted(fixed(alpha, interval), formatInterval(interval))}`;
   });
   // A line break in a file's name would end the comment.
   const comments = notes.map((note) => `# ${note.replaceAll(/\s+/g, ' ')}`);
   const fifth = alphas.length < 5 ? [`# ${say.fifth}`] : [];
   const triggers = duration === undefined ? [`update_min_d: ${withDecimals(short(distance ?? null))}`, `update_min_a: ${withDecimals(short(angle ?? null))}`] : [];
-  const all = [...comments, `robot_model_type: "${NAV2[model]}"`, ...lines, ...fifth, ...triggers];
+  const all = [...comments, `robot_model_type: "${NAV2_PLUGINS[model]}"`, ...lines, ...fifth, ...triggers];
   return ['amcl:', '  ros__parameters:', ...all.map((line) => `    ${line}`)];
 }
 

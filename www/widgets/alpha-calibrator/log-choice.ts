@@ -12,7 +12,7 @@ import type { Asked, Chosen, LogOpener, LogWords } from './open.ts';
 const FIELDS = ['t', 'x', 'y', 'yaw', 'qx', 'qy', 'qz', 'qw', 'v', 'omega'] as const;
 
 /** Maximum number of characters of a cell next to the number of its column. */
-const CELL = 16;
+const MAX_CELL_LENGTH = 16;
 
 /** Returns the name of a choice: its series, with the frames of transforms. */
 export const labelOf = ({ series, frames }: Choice) => (frames ? `${series}: ${framesText(frames)}` : series);
@@ -92,7 +92,7 @@ function questionOf(opener: LogOpener, { answers }: Chosen, asked: Asked, { choo
 function columnsForm(opener: LogOpener, asked: Asked, answer: string[] | undefined, say: LogWords['choose']) {
   const { file, ask: { choices: [usual = ''], columns = [] } } = asked;
   const present = answer ?? usual.split(',');
-  const options = columns.map((cell, at): [string, string] => [String(at), say.column(at + 1, cell.trim().slice(0, CELL))]);
+  const options = columns.map((cell, at): [string, string] => [String(at), say.column(at + 1, cell.trim().slice(0, MAX_CELL_LENGTH))]);
   const taken = (event: Event) => {
     event.preventDefault();
     const names = columns.map(() => '-');

@@ -6,7 +6,7 @@ import { save } from '../../figure/takeaway/export.ts';
 import { words } from '../../messages/registry.ts';
 import { button } from '../../ui/controls.ts';
 import { nav2Lines } from './lines.ts';
-import { legsOf } from './settings.ts';
+import { legLengthOption } from './settings.ts';
 import type { AlphaCalibratorElement as Figure } from './alpha-calibrator.ts';
 
 /** Returns the lines for nav2_params.yaml; empty if Nav2 has no such model, or no α's are recommended. */
@@ -14,7 +14,7 @@ function yamlOf({ reading, logName, warnings }: Figure): string {
   const { fitted: config, stats, legs: { count } } = reading;
   const { model, rule } = config;
   const date = new Date().toISOString().slice(0, 10);
-  const fitted = { calibration: stats, count, model, rule, legs: legsOf(config), log: logName, warnings, date };
+  const fitted = { calibration: stats, count, model, rule, legs: legLengthOption(config), log: logName, warnings, date };
   return nav2Lines(fitted, words.calibrator.nav2).map((line) => `${line}\n`).join('');
 }
 
@@ -24,7 +24,7 @@ function jsonOf({ reading: { fitted, stats, legs, truth }, logName }: Figure) {
   return JSON.stringify(all, (_, value) => (ArrayBuffer.isView(value) ? [...(value as Float64Array)] : value), 1);
 }
 
-/** Text that was copied last. */
+/** State of the copy button: the text that was copied last. */
 export class Copied extends Part<Figure> {
   #text: string | undefined;
 

@@ -43,13 +43,13 @@ export interface Chosen {
 const EXTENSIONS = ['.csv', '.txt', '.tum', '.log', '.mcap', '.bag', '.db3', '.zst', '.zstd', '.yaml'];
 
 /** Id of the drop zone. */
-const ZONE = 'log';
+const DROP_ZONE_ID = 'log';
 
 /** Maximum number of files in the name of a log. */
-const MOST_NAMES = 4;
+const MAX_NAMED_FILES = 4;
 
 export class LogOpener extends Part<Figure> {
-  dropped = new FileDrop(this.host, ZONE, (files) => this.choose(files), () => this.prepare());
+  dropped = new FileDrop(this.host, DROP_ZONE_ID, (files) => this.choose(files), () => this.prepare());
   /** Message about the latest log that was refused. */
   #complaint: (() => string) | undefined;
   chosen: Chosen | undefined;
@@ -64,12 +64,12 @@ export class LogOpener extends Part<Figure> {
   /** Odometry that the model preferred when the log was read. */
   #preferred: 'commands' | undefined;
 
-  /** Why the latest log was refused; empty where it was not. */
+  /** Reason why the latest log was refused; empty if it was not. */
   get complaint() {
     return this.#complaint?.() ?? '';
   }
 
-  /** Preferred odometry if a log has both: the velocity model prefers commands. */
+  /** Kind of odometry that is preferred if a log has several: commands for the velocity model. */
   get kind(): 'commands' | undefined {
     return this.host.reading.config.model === 'velocity' ? 'commands' : undefined;
   }
@@ -99,7 +99,7 @@ export class LogOpener extends Part<Figure> {
   }
 
   get #zone() {
-    return this.host.renderRoot.querySelector(`#${ZONE}`) as HTMLElement;
+    return this.host.renderRoot.querySelector(`#${DROP_ZONE_ID}`) as HTMLElement;
   }
 
   /** Stops reading. */
@@ -236,7 +236,7 @@ function planOf(reader: Reader, { recordings, wishes, roles }: Chosen, kind: 'co
   return reader.planDrives(recordings, { ...wishes, kind, roles: new Map([...roles].map(([index, role]) => [recordings[index], role])) });
 }
 
-/** Returns what a plan reads, as a text that can be compared. */
+/** Returns the choices of a plan as a text, to compare plans. */
 const choicesOf = (plan: Plan | undefined) => JSON.stringify(plan && [plan.drives, plan.unpaired]);
 
 /** Returns the files of a log, and the topics of both where one recording has them. */
@@ -244,7 +244,7 @@ function nameOf({ drives, unpaired }: Plan, reader: Reader) {
   const parts = [...drives.map(({ odometry }) => odometry), ...unpaired.odometry, ...unpaired.reference];
   const names = parts.map(({ recording }) => recording.name);
   const [only] = parts.length === 1 ? drives : [];
-  return [...names.slice(0, MOST_NAMES), ...(names.length > MOST_NAMES ? ['…'] : []), ...(only ? [only.odometry, only.reference].map(({ choice }) => reader.labelOf(choice)) : [])].filter(Boolean).join(', ');
+  return [...names.slice(0, MAX_NAMED_FILES), ...(names.length > MAX_NAMED_FILES ? ['…'] : []), ...(only ? [only.odometry, only.reference].map(({ choice }) => reader.labelOf(choice)) : [])].filter(Boolean).join(', ');
 }
 
 /** Loads the module that plans drives and shows them. */
@@ -259,7 +259,7 @@ async function loadReader() {
 export function dropZone(figure: Figure, opener: LogOpener) {
   const say = words.calibrator.own;
   const { complaint, share, reader } = opener;
-  return html`<div class="drop-zone" id=${ZONE} part="drop">
+  return html`<div class="drop-zone" id=${DROP_ZONE_ID} part="drop">
     <p title=${say.dropTitle}>
       ${say.drop}
       <label class="files" @click=${opener.prepare}><span>${say.files}</span>${fileInput('log-files', EXTENSIONS, (files) => opener.dropped.take(files))}</label>

@@ -12,8 +12,8 @@ import { localized, thousandths } from './words.ts';
 import type { CalibrationPanel } from '../../types.d.ts';
 import type { AlphaCalibratorElement as Figure } from './alpha-calibrator.ts';
 
-/** Smallest squared distance or rotation: of a millimetre, or a thousandth of a radian. */
-const DRIVEN = 1e-6;
+/** Smallest squared distance or rotation of an axis: of a millimetre, or of a thousandth of a radian. */
+const MIN_REGRESSOR = 1e-6;
 
 /** Returns the plots of the squared residuals of the three noises against their regressors. */
 export function panels(figure: Figure) {
@@ -45,7 +45,7 @@ function panelPlot({ alpha, x, y, error, slope, interval }: CalibrationPanel, ki
   const say = words.calibrator.panels;
   const furthest = Math.max(0, ...x);
   // A log without rotation or without translation has an empty axis.
-  const last = furthest > DRIVEN ? 1.06 * furthest : 1;
+  const last = furthest > MIN_REGRESSOR ? 1.06 * furthest : 1;
   const { from, to } = axisOfSquares(y, error, (slope ?? 0) * last);
   const highest = 1.1 * Math.max(x.length ? 1e-12 : 1, to);
   const { scaled, unit } = thousandths(Math.max(highest, -from));

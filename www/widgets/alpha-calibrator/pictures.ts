@@ -6,7 +6,7 @@ import { drawDots, drawMark, drawOutline, drawOutlines, drawRobot } from '../../
 import { Picture, SamplesPicture } from '../../scene/picture.ts';
 import { View, extentAround, extentOf } from '../../scene/view.ts';
 import { CLASSES, LINES, type LineName } from './settings.ts';
-import { WayLayer, drawRings, styleOf } from './way.ts';
+import { PathLayer, drawRings, styleOf } from './path-layer.ts';
 import type { LegView } from '../../types.d.ts';
 import type { Reading } from './reading.ts';
 
@@ -17,10 +17,10 @@ export type Scene = Reading & { chosen: number, leg: LegView | null, overlays: L
 const WIDTH = 2.25;
 
 /** The floor from above, in the frame of the reference. */
-export class WayPicture extends SamplesPicture<Scene> {
+export class PathPicture extends SamplesPicture<Scene> {
   name = 'plane';
   view: View;
-  #layer = new WayLayer();
+  #layer = new PathLayer();
 
   /** Creates the picture with a margin at the top, CSS pixels. */
   constructor(top?: number) {

@@ -4,7 +4,7 @@ import { words } from '../../messages/registry.ts';
 import { brushOn } from '../../scene/canvas.ts';
 import { Picture } from '../../scene/picture.ts';
 import { View } from '../../scene/view.ts';
-import { WayPicture, type Scene } from './pictures.ts';
+import { PathPicture, type Scene } from './pictures.ts';
 import { alphaTexts } from './readouts.ts';
 import { systematicTexts } from './systematic.ts';
 import { captionOf, reasonOf } from './words.ts';
@@ -12,17 +12,17 @@ import type { AlphaCalibratorElement as Figure } from './alpha-calibrator.ts';
 
 /** Layout in pixels: the path at the left, the α's next to it, and sentences below. */
 const [WIDTH, HEIGHT] = [720, 560];
-const WAY = { width: 430, height: 344 };
+const PATH_SIZE = { width: 430, height: 344 };
 
 /** Room for a key in two lines, CSS pixels. */
-const TWO_LINES = 42;
+const KEY_HEIGHT = 42;
 
 /** Line height. */
 const LINE = 18;
 
 export class Plate extends Picture<Scene> {
   size = { width: WIDTH, height: HEIGHT };
-  #way = new WayPicture(TWO_LINES);
+  #path = new PathPicture(KEY_HEIGHT);
   name = 'plate';
   view: View = new View();
   #figure;
@@ -35,8 +35,8 @@ export class Plate extends Picture<Scene> {
   draw(surface: Parameters<Picture<Scene>['draw']>[0], scene: Parameters<Picture<Scene>['draw']>[1], palette: Parameters<Picture<Scene>['draw']>[2]) {
     const { reading } = this.#figure;
     const brush = { ...brushOn(surface, this.view, palette), exported: true };
-    const way = this.#way;
-    way.view.resize(WAY.width, WAY.height);
+    const way = this.#path;
+    way.view.resize(PATH_SIZE.width, PATH_SIZE.height);
     way.fit(scene);
     way.view.ease(0, true);
     const { context } = brush;
@@ -47,10 +47,10 @@ export class Plate extends Picture<Scene> {
     context.font = brush.font;
     context.textAlign = 'left';
     context.textBaseline = 'top';
-    const beside = WAY.width + 20;
+    const beside = PATH_SIZE.width + 20;
     let y = 2;
     for (const text of [`${words.calibrator.alphas.caption}:`, ...alphaTexts(reading)]) y = write(context, text, beside, y, WIDTH - beside) + LINE / 3;
-    y = Math.max(WAY.height, y) + LINE;
+    y = Math.max(PATH_SIZE.height, y) + LINE;
     for (const text of [captionOf(this.#figure), reasonOf(reading), ...systematicTexts(reading)]) y = write(context, text, 2, y, WIDTH - 2);
     return false;
   }

@@ -35,15 +35,15 @@ function fitOf(machine: Machine, fits: number, { duration, distance }: Machine['
     /** Legs with the largest residuals, the largest first. */
     worst: worstOf(legs),
     /** Leg that is shown if none was chosen. */
-    opening: openingOf(legs, duration > 0 ? SHORTEST : distance),
+    opening: openingOf(legs, duration > 0 ? MIN_DIRECTED_LEG : distance),
   };
 }
 
 /** Minimum length of a leg with a direction, m. */
-const SHORTEST = 0.01;
+const MIN_DIRECTED_LEG = 0.01;
 
-/** Number of the largest residuals that are listed. */
-const LISTED = 10;
+/** Number of legs in the list of the largest residuals. */
+const LISTED_RESIDUALS = 10;
 
 /** Quantiles 0.5, 0.95 and 0.999 of χ² with 0 to 3 degrees of freedom. */
 const CHI2 = [[0, 0, 0], [0.455, 3.841, 10.828], [1.386, 5.991, 13.816], [2.366, 7.815, 16.266]];
@@ -57,14 +57,14 @@ export function classesOf({ count, squared, residuals }: Pick<CalibrationLegs, '
   });
 }
 
-/** Returns the number of noise components that a leg shows. */
+/** Returns the number of residuals of a leg that are defined. */
 export const observedOf = (residuals: Float64Array, leg: number) => residuals.subarray(3 * leg, 3 * leg + 3).reduce((count, residual) => count + Number(!Number.isNaN(residual)), 0);
 
 /** Returns the legs with the largest residuals, the largest first. */
 function worstOf({ squared }: Pick<CalibrationLegs, 'squared'>) {
-  const least = squared.toSorted()[Math.max(0, squared.length - LISTED)];
+  const least = squared.toSorted()[Math.max(0, squared.length - LISTED_RESIDUALS)];
   const candidates = [...squared.keys()].filter((leg) => squared[leg] >= least);
-  return candidates.sort((one, other) => squared[other] - squared[one]).slice(0, LISTED);
+  return candidates.sort((one, other) => squared[other] - squared[one]).slice(0, LISTED_RESIDUALS);
 }
 
 /**

@@ -11,18 +11,18 @@ import { judgementOf, legsText, localized, noiseNames } from './words.ts';
 import type { AlphaCalibratorElement as Figure } from './alpha-calibrator.ts';
 
 /** Size of a whisker's row. */
-const CHART = { width: 200, height: 24, middle: 12, inset: 12 };
+const WHISKER_ROW = { width: 200, height: 24, middle: 12, inset: 12 };
 
 /** Maximum number of intervals between labels of the axis. */
-const MOST_INTERVALS = 4;
+const MAX_AXIS_INTERVALS = 4;
 
 /** Icons of the ratings. */
-const ICONS = { consistent: '✓', questionable: '!', unusable: '✕' };
+const RATING_ICONS = { consistent: '✓', questionable: '!', unusable: '✕' };
 
 /** Returns the badge of the α's, with the verdict, a short next step and the legs: two lines at most on a wide page. */
 export function verdictLine({ reading, logName, warnings }: Figure) {
   const { rating, badge, finding, next } = judgementOf(reading, warnings);
-  return html`<span class="badge ${rating}"><span aria-hidden="true">${ICONS[rating]}</span> ${badge}</span>
+  return html`<span class="badge ${rating}"><span aria-hidden="true">${RATING_ICONS[rating]}</span> ${badge}</span>
     <strong>${finding}</strong> ${next && `${next} `}<span class="muted">${legsText(reading, logName)}</span>`;
 }
 
@@ -41,7 +41,7 @@ export function alphaTable(reading: Reading) {
       ${alphas.map((alpha, i) => html`<tr>
         <th scope="row">${rich(`*α*${subscript(i)}`)}</th>
         ${alpha === null
-          ? html`<td colspan="3"><div class="of">${noises[i]}</div><span class="unknown">${lackOf(reading, i)}</span></td>`
+          ? html`<td colspan="3"><div class="of">${noises[i]}</div><span class="unknown">${missingText(reading, i)}</span></td>`
           : html`<td class="chart"><div class="line"><div class="of">${noises[i]}</div>${whisker(axis, alpha, intervals[i], truth?.[i])}</div></td>
             <td><div class="line"><div class="fitted-value roomy" data-room="0.0000">${fittedOf(reading, i)}</div><div class="between roomy" data-room=${say.between('0.0000', '0.0000')}>${betweenOf(reading, i)}</div></div></td>
             <td class="roomy recommended" data-room="0.0000">${recommendedOf(reading, i)}</td>`}
@@ -49,7 +49,7 @@ export function alphaTable(reading: Reading) {
       <tr class="axis" aria-hidden="true">
         <td></td>
         <td class="chart">
-          <div class="line"><div class="of"></div><div class="scale">${axis.decades.map((decade) => html`<span .style=${`left: ${(100 * axis.at(decade)) / CHART.width}%`}>${decade < 5e-4 ? powerOfTen(Math.round(Math.log10(decade))) : tick(decade, decade)}</span>`)}</div></div>
+          <div class="line"><div class="of"></div><div class="scale">${axis.decades.map((decade) => html`<span .style=${`left: ${(100 * axis.at(decade)) / WHISKER_ROW.width}%`}>${decade < 5e-4 ? powerOfTen(Math.round(Math.log10(decade))) : tick(decade, decade)}</span>`)}</div></div>
         </td>
         <td colspan="2"></td>
       </tr>
@@ -63,8 +63,8 @@ function recommendedOf({ stats: { recommended, alphas, intervals } }: Reading, i
 
 const fittedOf = ({ stats: { alphas, intervals } }: Reading, index: number) => localized(alphaOrBound(alphas[index], intervals[index]));
 
-/** Says why an α is not determined, and the drive that would determine it. */
-function lackOf({ stats: { notIdentifiable }, fitted: { model } }: Reading, index: number) {
+/** Returns why an α is not determined, and which drive would determine it. */
+function missingText({ stats: { notIdentifiable }, fitted: { model } }: Reading, index: number) {
   const say = words.calibrator.alphas;
   const reason = notIdentifiable[index];
   if (!reason) return NOTHING;
@@ -77,7 +77,7 @@ export function alphaTexts(reading: Reading) {
   const { stats: { alphas }, fitted } = reading;
   const { recommendedText } = words.calibrator.alphas;
   return alphas.map((alpha, i) => {
-    const texts = alpha === null ? [lackOf(reading, i)] : [fittedOf(reading, i), betweenOf(reading, i), recommendedText(recommendedOf(reading, i))];
+    const texts = alpha === null ? [missingText(reading, i)] : [fittedOf(reading, i), betweenOf(reading, i), recommendedText(recommendedOf(reading, i))];
     return `α${subscript(i)} ${noiseNames(fitted.model)[i]}: ${texts.join(', ')}`;
   });
 }
@@ -87,7 +87,7 @@ function betweenOf({ stats: { intervals } }: Reading, index: number) {
   return interval ? words.calibrator.alphas.between(localized(fixed(interval[0], interval)), localized(fixed(interval[1], interval))) : NOTHING;
 }
 
-/** Returns the head of the noises with the mark of the true value. */
+/** Returns the head of the column of noises, with the symbol of the simulated value. */
 function trueHead() {
   const [before, after] = words.calibrator.alphas.noiseTrue.split('|');
   return html`${before}<svg class="sample" viewBox="0 0 6 12" aria-hidden="true"><path class="true" d="M3 1V11" /></svg>${after}`;
@@ -98,19 +98,19 @@ function axisOf(values: (number | null)[]) {
   const logs = values.filter((value) => value !== null && value > 0 && Number.isFinite(value)).map((value) => Math.log10(value as number));
   const from = Math.floor(Math.min(0, ...(logs.length ? [Math.max(Math.min(...logs), Math.max(...logs) - 4)] : [-3])));
   const to = Math.max(from + 1, Math.ceil(logs.length ? Math.max(...logs) : 0));
-  const { width, inset } = CHART;
+  const { width, inset } = WHISKER_ROW;
   const at = (value: number) => {
     const share = (Math.log10(Math.max(value, 0)) - from) / (to - from);
     // A mark outside the axis is drawn at its edge.
     return Math.max(inset / 3, Math.min(width - inset / 3, inset + share * (width - 2 * inset)));
   };
   // More labels would touch.
-  const step = Math.ceil((to - from) / MOST_INTERVALS);
+  const step = Math.ceil((to - from) / MAX_AXIS_INTERVALS);
   return { at, decades: Array.from({ length: Math.floor((to - from) / step) + 1 }, (_, i) => 10 ** (from + i * step)) };
 }
 
 function whisker({ at }: ReturnType<typeof axisOf>, value: number, interval: [number, number] | null, truth: number | undefined) {
-  const { width, height, middle } = CHART;
+  const { width, height, middle } = WHISKER_ROW;
   const [low, high] = (interval ?? [value, value]).map(at);
   return html`<svg viewBox="0 0 ${width} ${height}" preserveAspectRatio="none" aria-hidden="true">
     ${truth === undefined ? nothing : svg`<path class="true" d="M${at(truth)} 2V${height - 2}" />`}

@@ -5,7 +5,7 @@ import { definitionOf } from '../../figure/definition.ts';
 import type { AlphaCalibratorSettings } from '../../types.d.ts';
 
 /** Dash of the odometry, CSS pixels. */
-const READ_DASH = [2.5, 3.5];
+const ODOMETRY_DASH = [2.5, 3.5];
 
 /** Styles of the lines and marks in the pictures: the classes of legs, the most usual first, then the rest. */
 export const LINES = {
@@ -14,7 +14,7 @@ export const LINES = {
   unlikely: { role: 'prediction', width: 3.25, dash: [] },
   implausible: { role: 'accent', width: 4.5, dash: [] },
   outlier: { role: 'ink', width: 1.25, mark: 'ring' },
-  odometry: { role: 'prior', width: 1.25, dash: READ_DASH },
+  odometry: { role: 'prior', width: 1.25, dash: ODOMETRY_DASH },
   predicted: { role: 'prediction', width: 2, dash: [7, 4] },
   reference: { role: 'ink', width: 2.25, dash: [] },
 } satisfies Record<string, import('../../figure/overlays.ts').LineStyle>;
@@ -24,10 +24,10 @@ export type LineName = keyof typeof LINES;
 /** Classes of legs, the most usual first. */
 export const CLASSES = ['likely', 'plausible', 'unlikely', 'implausible'] as const satisfies LineName[];
 
-/** Regressors of a variance. */
-const DRIVERS = ['turn', 'way'] as const;
+/** Motions that squared residuals are plotted against. */
+const REGRESSORS = ['turn', 'way'] as const;
 
-export type Driver = (typeof DRIVERS)[number];
+export type Driver = (typeof REGRESSORS)[number];
 
 /** Largest number of a leg in a link: the count is not known before the fit. */
 const MOST_LEGS = 9_999_999;
@@ -48,9 +48,9 @@ export const SIMULATED = { distance: 0.25, angle: 0.2 };
 export type ModelRule = (typeof MODEL_RULES)[number];
 
 /** Returns the length of legs as an option of `calibrate`. */
-export const legsOf = ({ distance, angle, duration }: AlphaCalibratorSettings): { duration: number } | { distance: number, angle: number } => (duration > 0 ? { duration } : { distance, angle });
+export const legLengthOption = ({ distance, angle, duration }: AlphaCalibratorSettings): { duration: number } | { distance: number, angle: number } => (duration > 0 ? { duration } : { distance, angle });
 
-export const kindOf = ({ model, rule }: AlphaCalibratorSettings): ModelRule => (model === 'velocity' ? 'velocity' : rule);
+export const modelRuleOf = ({ model, rule }: AlphaCalibratorSettings): ModelRule => (model === 'velocity' ? 'velocity' : rule);
 
 /** Returns the settings of a model with its rule. */
 export function settingsFor(kind: ModelRule) {
@@ -78,6 +78,6 @@ export const definition = definitionOf('alpha-calibrator', {
   },
   own: {
     leg: { opening: null, check: (field, leg) => (leg === null ? null : wholeNumber(field, leg, 0, MOST_LEGS)) },
-    driver: { opening: DRIVERS[0], check: (field, driver) => word(field, driver, DRIVERS) },
+    driver: { opening: REGRESSORS[0], check: (field, driver) => word(field, driver, REGRESSORS) },
   },
 });

@@ -4,7 +4,7 @@ import { html, nothing } from 'lit';
 import { words } from '../../messages/registry.ts';
 import { toggle } from '../../ui/controls.ts';
 import { fixed } from '../../ui/format.ts';
-import { SYSTEMATIC } from './lines.ts';
+import { SYSTEMATIC_ERRORS } from './lines.ts';
 import type { Interval } from '../../types.d.ts';
 import type { Reading } from './reading.ts';
 import type { AlphaCalibratorElement as Figure } from './alpha-calibrator.ts';
@@ -17,7 +17,7 @@ const MOST_DECIMALS = 6;
 /** Returns the systematic errors in two sentences: those that were corrected, and those that the α's include. */
 export function systematicTexts({ stats: { systematicErrors: errors } }: Reading) {
   const say = words.calibrator.systematic;
-  const list = (corrected: boolean) => SYSTEMATIC.filter((key) => errors[key].corrected === corrected).flatMap((key) => textOf(key, errors[key])).join('; ');
+  const list = (corrected: boolean) => SYSTEMATIC_ERRORS.filter((key) => errors[key].corrected === corrected).flatMap((key) => textOf(key, errors[key])).join('; ');
   const [corrected, left] = [list(true), list(false)];
   return [...(corrected ? [say.removed(corrected)] : []), ...(left ? [say.left(left)] : [])];
 }
@@ -25,7 +25,7 @@ export function systematicTexts({ stats: { systematicErrors: errors } }: Reading
 /** Names the systematic errors that differ from 0, or a scale from 1, but are not to be corrected; empty if there are none. */
 export function uncorrectedText({ stats: { systematicErrors: errors }, fitted }: Reading): string {
   const say = words.calibrator.systematic;
-  const uncorrected = SYSTEMATIC.filter((key) => !fitted[key] && matters(key, errors[key])).flatMap((key) => textOf(key, errors[key]));
+  const uncorrected = SYSTEMATIC_ERRORS.filter((key) => !fitted[key] && matters(key, errors[key])).flatMap((key) => textOf(key, errors[key]));
   return uncorrected.length > 0 ? say.matters(uncorrected.join('; ')) : '';
 }
 
@@ -36,7 +36,7 @@ function matters(key: string, { interval }: SystematicError) {
 }
 
 /** Returns an error as text, with its name; an empty array if the error is not identifiable. */
-function textOf(key: typeof SYSTEMATIC[number], error: SystematicError): string[] {
+function textOf(key: typeof SYSTEMATIC_ERRORS[number], error: SystematicError): string[] {
   const { values, halves } = digitsOf(error);
   return values.length ? [`${words.calibrator.systematic.names[key]} ${values.map((value, i) => `${value} ± ${halves[i]}`).join(', ')}`] : [];
 }
@@ -60,7 +60,7 @@ export function systematicTable(figure: Figure) {
       </tr>
     </thead>
     <tbody>
-      ${SYSTEMATIC.map((key) => {
+      ${SYSTEMATIC_ERRORS.map((key) => {
         const { values, halves } = digitsOf(errors[key]);
         const box = toggle({ label: say.names[key], checked: wanted[key], change: (on) => figure.gesture.decide({ [key]: on }) });
         if (values.length === 0) return html`<tr><th scope="row">${box}</th><td colspan="4">${say.unknown}</td></tr>`;

@@ -14,7 +14,7 @@ addEnglish({ calibrator: en });
 type Figure = Pick<import('./alpha-calibrator.ts').AlphaCalibratorElement, 'reading' | 'warnings' | 'logName'>;
 
 /** Names of checks whose value is a fraction. */
-const FRACTIONS = /-(lost|few|rare|covered)$/;
+const FRACTION_CHECKS = /-(lost|few|rare|covered)$/;
 
 /** Rating of the α's, with sentences. The meaning is long, and stands where it moves no picture. */
 interface Judgement {
@@ -45,7 +45,7 @@ export const messageOf = ({ name, passed, message }: CalibrationCheck) => (passe
 /** Prints the value of a check, or a limit of it. */
 export function checked(name: CalibrationCheck['name'], value: number) {
   if (!Number.isFinite(value)) return Number.isNaN(value) ? percent(value) : '∞';
-  return name === 'enough-legs' ? counted(value) : FRACTIONS.test(name) ? percent(value) : fixed(value, 3);
+  return name === 'enough-legs' ? counted(value) : FRACTION_CHECKS.test(name) ? percent(value) : fixed(value, 3);
 }
 
 /** Prints the values of a check that pass. */

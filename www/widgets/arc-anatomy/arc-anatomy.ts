@@ -12,16 +12,16 @@ import { PoseHandles } from '../shared/pose-handles.ts';
 import { presetButtons } from '../shared/presets.ts';
 import { commandControls, likelihoodControls, lineStepper, noiseControls, timeControl } from './controls.ts';
 import { formsPlot } from './forms.ts';
-import { ArcPicture, RADIUS } from './picture.ts';
+import { ArcPicture, ROBOT_RADIUS } from './picture.ts';
 import { readingOf, type Reading } from './reading.ts';
 import { factorBars, headline, likelihoods, tableOf } from './readouts.ts';
-import { LINES, REACH, WHOLE, definition } from './settings.ts';
+import { LINES, MAX_COORDINATE, WHOLE_DURATION, definition } from './settings.ts';
 import { anatomyStyles } from './styles.ts';
 import { captionOf, pictureText } from './words.ts';
 import type { ArcAnatomy as Machine } from '../../types.d.ts';
 
 /** Bounds of both poses, m. */
-const BOUNDS = [-REACH, -REACH, REACH, REACH];
+const POSE_BOUNDS = [-MAX_COORDINATE, -MAX_COORDINATE, MAX_COORDINATE, MAX_COORDINATE];
 
 /**
  * The arc between two poses, and how likely it is after a command.
@@ -38,11 +38,11 @@ export class ArcAnatomyElement extends FigureElement<Machine, Reading> {
   #picture = new ArcPicture();
   pictures = [this.#picture];
   /** The final pose is on top if both poses are in one place. */
-  #handles: PoseHandles[] = ['start', 'next'].map((setting) => new PoseHandles(this, setting, () => this.#picture.view, () => BOUNDS));
+  #handles: PoseHandles[] = ['start', 'next'].map((setting) => new PoseHandles(this, setting, () => this.#picture.view, () => POSE_BOUNDS));
 
   player: Player<'underway'> = new Player(this, {
     // The animation of every arc takes the same time. The duration of the command is displayed next to it.
-    underway: { from: 0, to: WHOLE, duration: 2000, at: () => this.state.own.underway, put: (at) => this.#drive(at) },
+    underway: { from: 0, to: WHOLE_DURATION, duration: 2000, at: () => this.state.own.underway, put: (at) => this.#drive(at) },
   });
 
   createMachine: FigureElement<Machine, Reading>['createMachine'] = (motion, state) => new motion.ArcAnatomy(state && this.settings.declared(state));
@@ -52,7 +52,7 @@ export class ArcAnatomyElement extends FigureElement<Machine, Reading> {
   get scene() {
     const { overlays, line, underway } = this.state.own;
     const reading = this.fresh;
-    const robots = underway < WHOLE ? this.machine?.underway(underway / WHOLE) : undefined;
+    const robots = underway < WHOLE_DURATION ? this.machine?.underway(underway / WHOLE_DURATION) : undefined;
     return { ...reading, machine: this.machine, overlays, line, underway: robots };
   }
 
@@ -82,7 +82,7 @@ export class ArcAnatomyElement extends FigureElement<Machine, Reading> {
   }
 
   placeHandles({ config }: Reading) {
-    for (const handles of this.#handles) handles.place(config, RADIUS);
+    for (const handles of this.#handles) handles.place(config, ROBOT_RADIUS);
   }
 
   content(reading: Reading) {

@@ -8,7 +8,7 @@ import { plot } from '../../ui/plot.ts';
 import type { FormErrors, Motion } from '../../types.d.ts';
 
 /** Range of errors in the plot, m: from below the last digit of the distance to more than all of it. */
-const ERRORS = { from: 1e-18, to: 1 };
+const ERROR_RANGE = { from: 1e-18, to: 1 };
 
 /** Cache of the errors of the forms, which depend on no setting. */
 let errors: FormErrors | undefined;
@@ -20,7 +20,7 @@ export function formsPlot({ ArcAnatomy }: Motion) {
     ${plot({
       label: say.text,
       x: { name: '|ω̂| (rad/s)', from: omega[0], to: omega[omega.length - 1], logarithmic: true },
-      y: { name: say.error, ...ERRORS, logarithmic: true },
+      y: { name: say.error, ...ERROR_RANGE, logarithmic: true },
       curves: [
         { name: say.arc, role: 'prediction', x: omega, y: arc },
         { name: say.straight, role: 'prior', dash: '2.5 3.5', x: omega, y: straight },

@@ -18,31 +18,31 @@ import type { Reading } from './reading.ts';
 export type Scene = Reading & { machine: ArcAnatomy, overlays: LineName[], line: number, underway: Float64Array | undefined };
 
 /** Radius of the robots, m. */
-export const RADIUS = 0.06;
+export const ROBOT_RADIUS = 0.06;
 
 /** Maximum radius at which the centre is shown: a multiple of the length of the path, but at least some metres. */
-const CENTRE = { ways: 3, metres: 1.5 };
+const MAX_CENTRE = { ways: 3, metres: 1.5 };
 
 /** Margin around everything, m. */
-const AROUND = 0.15;
+const MARGIN = 0.15;
 
 /** Maximum radius of the arcs that mark angles, CSS pixels. */
-const ANGLE = 40;
+const MAX_ANGLE_RADIUS = 40;
 
 /** Radius of the wedge, CSS pixels. */
-const WEDGE = 64;
+const WEDGE_RADIUS = 64;
 
 /** Half of the cross at a centre, CSS pixels. */
-const CROSS = 4;
+const CROSS_HALF = 4;
 
 /** Length of the line in the heading at the commanded end, CSS pixels. */
-const HEADING = 24;
+const HEADING_LENGTH = 24;
 
 /** Length of the arrow towards a centre outside the picture, CSS pixels. */
-const ARROW = 9;
+const ARROW_LENGTH = 9;
 
-/** Constructions of each line of Table 5.1. */
-const LIT: Record<number, string[]> = {
+/** Constructions in the picture that each line of Table 5.1 highlights. */
+const CONSTRUCTIONS: Record<number, string[]> = {
   1: ['bisector'],
   2: ['bisector', 'centre'],
   3: ['bisector', 'centre'],
@@ -63,10 +63,10 @@ export class ArcPicture extends Picture<Scene> {
     for (const path of [paths.commanded, paths.inverted, paths.driven]) box = extentAround(path, 2, box);
     const way = Math.hypot(box.xMax - box.xMin, box.yMax - box.yMin);
     for (const { center, radius } of [commanded, inverted]) {
-      if (center && Math.abs(radius) < Math.max(CENTRE.metres, CENTRE.ways * way)) box = extentAround(center, 2, box);
+      if (center && Math.abs(radius) < Math.max(MAX_CENTRE.metres, MAX_CENTRE.ways * way)) box = extentAround(center, 2, box);
     }
     const { xMin, yMin, xMax, yMax } = box;
-    this.view.fit({ xMin: xMin - AROUND, yMin: yMin - AROUND, xMax: xMax + AROUND, yMax: yMax + AROUND });
+    this.view.fit({ xMin: xMin - MARGIN, yMin: yMin - MARGIN, xMax: xMax + MARGIN, yMax: yMax + MARGIN });
   }
 
   paint: Picture<Scene>['paint'] = (brush, scene) => {
@@ -103,12 +103,12 @@ export class ArcPicture extends Picture<Scene> {
       drawLit(brush, scene);
       if (shows('commanded')) {
         const [endX, endY, endTheta] = commanded.end;
-        drawRobotOutline(brush, endX, endY, RADIUS, styles.commanded.colour);
-        strokeLine(brush.context, brush.view.ray({ x: endX, y: endY, theta: endTheta }, HEADING), { colour: styles.commanded.colour, width: 1.5 });
+        drawRobotOutline(brush, endX, endY, ROBOT_RADIUS, styles.commanded.colour);
+        strokeLine(brush.context, brush.view.ray({ x: endX, y: endY, theta: endTheta }, HEADING_LENGTH), { colour: styles.commanded.colour, width: 1.5 });
       }
       drawUnderway(brush, scene);
-      drawHeldRobot(brush, start, RADIUS, palette.truth);
-      drawHeldRobot(brush, next, RADIUS, palette.prediction);
+      drawHeldRobot(brush, start, ROBOT_RADIUS, palette.truth);
+      drawHeldRobot(brush, next, ROBOT_RADIUS, palette.prediction);
       if (shows('wedge')) drawLabel(brush, { ...besideWedge(brush, next, lastTurn), text: `γ̂Δt = ${fixed(lastTurn, 2)}`, colour: styles.wedge.colour });
     });
   };
@@ -140,8 +140,8 @@ function drawCircle(brush: Brush, start: Pose, { center, end, turn, arcLength }:
     addLine(context, [[x, y], view.toPixel(end[0], end[1])]);
   });
   stroke(context, { colour, width: 2 }, () => {
-    addLine(context, [[x - CROSS, y], [x + CROSS, y]]);
-    addLine(context, [[x, y - CROSS], [x, y + CROSS]]);
+    addLine(context, [[x - CROSS_HALF, y], [x + CROSS_HALF, y]]);
+    addLine(context, [[x, y - CROSS_HALF], [x, y + CROSS_HALF]]);
   });
   strokeAngle(context, [x, y], [fromX, fromY], turn, { colour, width: 1.5 });
   // The labels are behind the robot, away from the arc. If the centre is outside the picture, they are ahead: the picture may end behind
@@ -165,7 +165,7 @@ function drawCircle(brush: Brush, start: Pose, { center, end, turn, arcLength }:
 /** Draws an arrow at a point in a direction (rad), downwards from the right. */
 function drawArrow(context: Brush['context'], colour: string, [x, y]: number[], way: number) {
   stroke(context, { colour, width: 2.25 }, () => {
-    for (const wing of [2.6, -2.6]) addLine(context, [[x + ARROW * Math.cos(way + wing), y + ARROW * Math.sin(way + wing)], [x, y]]);
+    for (const wing of [2.6, -2.6]) addLine(context, [[x + ARROW_LENGTH * Math.cos(way + wing), y + ARROW_LENGTH * Math.sin(way + wing)], [x, y]]);
   });
 }
 
@@ -181,20 +181,20 @@ function drawWedge({ context, view }: Brush, next: Pose, turn: number, colour: s
   const [x, y] = view.toPixel(next.x, next.y);
   context.beginPath();
   context.moveTo(x, y);
-  context.arc(x, y, WEDGE, turn - next.theta, -next.theta, turn > 0);
+  context.arc(x, y, WEDGE_RADIUS, turn - next.theta, -next.theta, turn > 0);
   context.lineTo(x, y);
   context.fillStyle = colour;
   context.globalAlpha = 0.32;
   context.fill();
   context.globalAlpha = 1;
   // The side of the wedge that has the heading at the end of the arc.
-  strokeLine(context, view.ray({ ...next, theta: next.theta - turn }, WEDGE), { colour, width: 1.25 });
+  strokeLine(context, view.ray({ ...next, theta: next.theta - turn }, WEDGE_RADIUS), { colour, width: 1.25 });
 }
 
 /** Returns the place of the wedge's label, which covers nothing of the wedge, CSS pixels. */
 function besideWedge({ view }: Brush, next: Pose, turn: number): { x: number, y: number, towards: number } {
   const ahead = view.direction(next.theta - turn / 2);
-  return { x: view.toPixelX(next.x) + (WEDGE + 8) * ahead.x, y: view.toPixelY(next.y) + (WEDGE + 20) * ahead.y, towards: ahead.x };
+  return { x: view.toPixelX(next.x) + (WEDGE_RADIUS + 8) * ahead.x, y: view.toPixelY(next.y) + (WEDGE_RADIUS + 20) * ahead.y, towards: ahead.x };
 }
 
 /** Draws the robot at one time on each path that is shown. */
@@ -214,9 +214,9 @@ function drawTwistTicks(brush: Brush, ticks: Float64Array, colour: string) {
   });
 }
 
-/** Draws the construction of the lit line of the table. */
+/** Draws the construction of the highlighted line of Table 5.1. */
 function drawLit(brush: Brush, { config: { start, next }, stats: { inverted, lastTurn }, table: { middle }, paths, line: number }: Scene) {
-  const lit = LIT[number] ?? [];
+  const lit = CONSTRUCTIONS[number] ?? [];
   const { context, view, palette: { accent } } = brush;
   const at = ([x, y]: number[]) => view.toPixel(x, y);
   const line = (width: number, ...points: number[][]) => strokeLine(context, points, { colour: accent, width });
@@ -239,10 +239,10 @@ function drawLit(brush: Brush, { config: { start, next }, stats: { inverted, las
 /** Strokes an arc about a centre that marks a turn in radians from the direction of a point; both in pixels. */
 function strokeAngle(context: Brush['context'], [x, y]: number[], [fromX, fromY]: number[], turn: number, style: LineStroke) {
   const first = Math.atan2(fromY - y, fromX - x);
-  const radius = Math.min(ANGLE, 0.4 * Math.hypot(fromX - x, fromY - y));
+  const radius = Math.min(MAX_ANGLE_RADIUS, 0.4 * Math.hypot(fromX - x, fromY - y));
   // In pixels y points down, so that a turn to the left is negative.
   stroke(context, style, () => context.arc(x, y, radius, first, first - turn, turn > 0));
 }
 
-/** Prints a radius with its sign, which is that of the side. */
+/** Prints a radius with its sign: positive if the centre is to the left. */
 const signedText = (radius: number) => (radius > 0 ? `+${fixed(radius, 2)}` : fixed(radius, 2));

@@ -12,8 +12,8 @@ import type { Factor } from '../../types.d.ts';
 import type { Reading } from './reading.ts';
 
 /** Scale of the bars: standard deviations to either side, and pixels for each. */
-const SCALE = { most: 4, pixels: 22 };
-const MIDDLE = SCALE.most * SCALE.pixels + 4;
+const BAR_SCALE = { most: 4, pixels: 22 };
+const BAR_MIDDLE = BAR_SCALE.most * BAR_SCALE.pixels + 4;
 
 /** Symbols and units of the factors, with the residuals of the table. */
 const FACTORS = [
@@ -28,7 +28,10 @@ export function headline({ stats: { share } }: Reading) {
   return html`<p class="headline" part="readouts"><strong>${shareText(share)}</strong> ${isTiny(share) ? say.times : say.share}</p>`;
 }
 
-/** Returns the three residuals in standard deviations, each with its factor as a share of the peak. The last line of the table highlights them. */
+/**
+ * Returns the three residuals in standard deviations, each with its factor as a share of the peak. The last line of Table 5.1 highlights
+ * them.
+ */
 export function factorBars({ stats: { factors, weakest, share } }: Reading, line: number) {
   const say = words.anatomy.bars;
   return html`<ul part="readouts" class="factors ${line === TABLE_LINES ? 'lit' : ''}" aria-label=${say.label}>
@@ -45,12 +48,12 @@ export function factorBars({ stats: { factors, weakest, share } }: Reading, line
 }
 
 function bar({ deviations }: Factor) {
-  const at = (value: number) => MIDDLE + SCALE.pixels * clamp(value, -SCALE.most, SCALE.most);
-  const beyond = Math.abs(deviations) > SCALE.most;
+  const at = (value: number) => BAR_MIDDLE + BAR_SCALE.pixels * clamp(value, -BAR_SCALE.most, BAR_SCALE.most);
+  const beyond = Math.abs(deviations) > BAR_SCALE.most;
   const end = at(deviations);
   const side = Math.sign(deviations);
-  const ticks = Array.from({ length: 2 * SCALE.most + 1 }, (_, i) => i - SCALE.most);
-  return html`<svg viewBox="0 0 ${2 * MIDDLE} 20" preserveAspectRatio="none" aria-hidden="true">
+  const ticks = Array.from({ length: 2 * BAR_SCALE.most + 1 }, (_, i) => i - BAR_SCALE.most);
+  return html`<svg viewBox="0 0 ${2 * BAR_MIDDLE} 20" preserveAspectRatio="none" aria-hidden="true">
     ${ticks.map((tick) => svg`<line class="tick" x1=${at(tick)} x2=${at(tick)} y1=${tick === 0 ? 0 : 14} y2="20" />`)}
     <rect x=${Math.min(at(0), end)} width=${Math.abs(end - at(0))} y="3" height="11" />
     ${beyond ? svg`<path class="beyond" d="M${end - 6 * side},1l${6 * side},7.5l${-6 * side},7.5" />` : nothing}

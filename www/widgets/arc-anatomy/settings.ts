@@ -8,8 +8,8 @@ import { alphaLooks } from '../shared/noise.ts';
 /** Number of lines of Table 5.1. */
 export const TABLE_LINES = 9;
 
-/** Whole duration, per cent. */
-export const WHOLE = 100;
+/** Value of `underway` at the end of the command, per cent of its duration. */
+export const WHOLE_DURATION = 100;
 
 /** Styles of the lines in the picture. */
 export const LINES = {
@@ -24,8 +24,8 @@ export type LineName = keyof typeof LINES;
 
 export const documentation: import('../../figure/attributes.ts').Documentation = {
   state: {
-    line: { type: 'number', sentence: 'The line of Table 5.1 that is lit, from 1; 0 for none.' },
-    underway: { type: 'number', sentence: 'How much of the time the robot has been underway, in per cent.' },
+    line: { type: 'number', sentence: 'The highlighted line of Table 5.1, from 1; 0 for none.' },
+    underway: { type: 'number', sentence: 'Share of the command’s duration that the robot has driven, in per cent.' },
   },
 };
 
@@ -40,9 +40,9 @@ export const definition = definitionOf('arc-anatomy', {
   looks: { ...COMMAND, ...ALPHAS },
   own: {
     line: { opening: 0, ofPreset: true, check: (field, line) => wholeNumber(field, line, 0, TABLE_LINES) },
-    underway: { opening: WHOLE, ofPreset: true, check: (field, share) => wholeNumber(field, share, 0, WHOLE) },
+    underway: { opening: WHOLE_DURATION, ofPreset: true, check: (field, share) => wholeNumber(field, share, 0, WHOLE_DURATION) },
   },
 });
 
 /** Largest coordinates of a pose that is dragged, m. */
-export const REACH = 4;
+export const MAX_COORDINATE = 4;

@@ -10,7 +10,7 @@ import type { Reading } from './reading.ts';
 addEnglish({ anatomy: en });
 
 /** Limit below which numbers are printed as powers of ten: p is a product of three densities, and spans many decades. */
-const SMALL = 0.0005;
+const MIN_DECIMAL = 0.0005;
 
 /** Prints a positive value as a power of ten. */
 function powerText(value: number) {
@@ -19,7 +19,7 @@ function powerText(value: number) {
 }
 
 /** Checks whether a number is printed as a power of ten. */
-export const isTiny = (value: number) => value > 0 && value < SMALL;
+export const isTiny = (value: number) => value > 0 && value < MIN_DECIMAL;
 
 /** Prints a share from 0 to 1. */
 export const shareText = (share: number) => (isTiny(share) ? powerText(share) : percent(share));

@@ -22,7 +22,7 @@ import { alphaControls, commandControls, modelControls } from './controls.ts';
 import { presetButtons } from '../shared/presets.ts';
 import { ArcHandle } from './handle.ts';
 import { IntroducedCloud } from './introduction.ts';
-import { DURATION, carrying, morphControl, outlinesAt, placeOf, ringsOf } from './morph.ts';
+import { MORPH_MS, lineMorph, morphControl, outlinesAt, placeOf, ringsOf } from './morph.ts';
 import { PlanePicture, TwistPicture } from './pictures.ts';
 import { readingOf, type Reading } from './reading.ts';
 import { markedRobot, otherReadouts, readouts, twistTable, workedExample } from './readouts.ts';
@@ -44,7 +44,7 @@ const EXECUTED_COLUMNS = {
 const CURVE_POINTS = 241;
 
 /** Allowed heights of the skew chart, so that its axis does not change with every step of a drag. */
-const SKEWS = [0.25, 0.5, 1, 2, 4, 8];
+const CHART_HEIGHTS = [0.25, 0.5, 1, 2, 4, 8];
 
 /**
  * One command, thousands of outcomes, and the coordinates in which they are close to an ordinary Gaussian.
@@ -72,7 +72,7 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
   #pinned: Reading | undefined;
 
   player: Player<'morph'> = new Player(this, {
-    morph: { from: 0, to: 1, duration: DURATION, at: () => this.state.own.morph, put: (to) => this.#carry(to) },
+    morph: { from: 0, to: 1, duration: MORPH_MS, at: () => this.state.own.morph, put: (to) => this.#setMorph(to) },
   });
 
   createMachine: FigureElement<Machine, Reading>['createMachine'] = (motion, state) => {
@@ -112,7 +112,7 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
       pinnedAt: (at: number) =>
         pinned ? Object.entries(outlinesAt(motion, pinned, at)).flatMap(([name, line]) => (shown[name] ? [...line] : [])) : [],
       driving: this.cloud.driving,
-      reached: morph > 0 ? carrying(motion, reading, 1)(reading.contours.ellipse) : reading.contours.ellipse,
+      morphedEllipse: morph > 0 ? lineMorph(motion, reading, 1)(reading.contours.ellipse) : reading.contours.ellipse,
     };
   }
 
@@ -128,7 +128,7 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
   }
 
   /** Sets the morph between the floor and exponential coordinates. */
-  #carry(morph: number) {
+  #setMorph(morph: number) {
     this.state.own.morph = morph;
     this.gesture.step();
     this.stage.requestFrame();
@@ -194,8 +194,8 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
     return isMarked && machine ? this.#inspected.of([reading.stats, index], () => machine.inspect(index)) : undefined;
   }
 
-  /** Isolates an α, counted from 1: all others have no effect. */
-  leaveAlone(number: number) {
+  /** Isolates an α by its number from 1: all other α's have no effect. */
+  isolateAlpha(number: number) {
     this.state.own.isolateChoice = number;
     this.gesture.decide({ isolate: number });
   }
@@ -218,7 +218,7 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
     return morph === 0 ? floorTitle(this.reading) : morph === 1 ? words.banana.twist : words.banana.morph.title;
   }
 
-  /** Returns a note on each outline of the floor that is to be drawn and that the morph cannot carry. */
+  /** Returns a note for each outline that is on, but has no image under the morph. */
   #missing(reading: Reading) {
     const { morph, overlays } = this.state.own;
     const lost = morph === 0 ? [] : Object.entries(outlinesAt(this.motion, reading, morph)).filter(([name, { length }]) => length === 0 && overlays.includes(name));
@@ -278,7 +278,7 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
     // The curve depends on some of the settings only.
     const curve = this.#curve.of([JSON.stringify([model, noise, v, dt, alphas, isolate])], () => (this.machine as Machine).skewCurve(min, max, CURVE_POINTS));
     const peak = curve.reduce((most, value) => Math.max(most, Math.abs(value) || 0), 0);
-    const height = SKEWS.find((each) => each >= peak) ?? peak;
+    const height = CHART_HEIGHTS.find((each) => each >= peak) ?? peak;
     const ends = [min, max];
     return plot({
       label: say.chart,

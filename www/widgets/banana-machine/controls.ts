@@ -42,7 +42,7 @@ export function alphaControls(figure: Figure) {
 function alphaSlider(figure: Figure, key: string, number: number, name: string, [path, picture]: string[]) {
   const { isolate } = figure.reading.config;
   const off = isolate !== null && isolate !== number;
-  const choose = () => figure.leaveAlone(number);
+  const choose = () => figure.isolateAlpha(number);
   return slider(figure, key, {
     name,
     off,

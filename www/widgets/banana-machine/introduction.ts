@@ -3,19 +3,19 @@
 import { Cloud } from '../../figure/cloud.ts';
 
 /** Duration of the drive of one robot, and of the drive of all, ms. With the growth of the cloud they take less than four seconds. */
-const DRIVE = 650;
+const DRIVE_MS = 650;
 
 /** Number of robots that drive. */
-const ROBOTS = 10;
+const DRIVING_ROBOTS = 10;
 
 /** Key in the session's storage that marks the introduction as seen. */
-const SEEN = 'motion-widgets.introduced';
+const STORAGE_KEY = 'motion-widgets.introduced';
 
 /** Returns true if the introduction was not shown in this session, and marks it as shown. */
-function isFirstSight() {
+function isFirstInSession() {
   try {
-    const seen = sessionStorage.getItem(SEEN);
-    sessionStorage.setItem(SEEN, 'yes');
+    const seen = sessionStorage.getItem(STORAGE_KEY);
+    sessionStorage.setItem(STORAGE_KEY, 'yes');
     return seen === null;
   } catch {
     // Without storage it would be shown again and again.
@@ -23,11 +23,11 @@ function isFirstSight() {
   }
 }
 
-/** Cloud whose growth waits for the introduction. */
+/** Cloud of samples that starts to grow after the introduction. */
 export class IntroducedCloud extends Cloud {
   /** Time at which the first robot started, ms. */
   #began: number | undefined;
-  /** Phases: robots drive; then the ring of the handle pulses, while the cloud grows. */
+  /** Phase of the introduction: robots drive; then the ring of the handle pulses while the cloud grows. */
   #phase: 'none' | 'driving' | 'asking' = 'none';
 
   /** True while the ring asks to be dragged. */
@@ -39,7 +39,7 @@ export class IntroducedCloud extends Cloud {
   get driving(): { robots: number, share: number } | undefined {
     if (this.#phase !== 'driving') return undefined;
     const elapsed = performance.now() - (this.#began ?? performance.now());
-    return { robots: elapsed < DRIVE ? 1 : ROBOTS, share: Math.min(1, (elapsed % DRIVE) / DRIVE) };
+    return { robots: elapsed < DRIVE_MS ? 1 : DRIVING_ROBOTS, share: Math.min(1, (elapsed % DRIVE_MS) / DRIVE_MS) };
   }
 
   introduce(state: Parameters<Cloud['introduce']>[0]) {
@@ -47,9 +47,9 @@ export class IntroducedCloud extends Cloud {
     super.introduce(state);
     const { host } = this;
     const isAsked = host.presentation || Object.keys(host.kind.attributes).some((name) => host.hasAttribute(name));
-    if (state || !this.playing || isAsked || host.settings.present.samples < ROBOTS || !isFirstSight()) return;
+    if (state || !this.playing || isAsked || host.settings.present.samples < DRIVING_ROBOTS || !isFirstInSession()) return;
     this.#phase = 'driving';
-    this.show(ROBOTS);
+    this.show(DRIVING_ROBOTS);
     for (const event of ['pointerdown', 'keydown']) addEventListener(event, this.skip, { capture: true });
   }
 
@@ -68,7 +68,7 @@ export class IntroducedCloud extends Cloud {
     if (this.#phase === 'driving') {
       // It starts when the figure is visible.
       this.#began ??= performance.now();
-      if (performance.now() - this.#began < 2 * DRIVE) return;
+      if (performance.now() - this.#began < 2 * DRIVE_MS) return;
       this.#phase = 'asking';
     }
     super.grow();

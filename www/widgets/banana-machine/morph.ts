@@ -12,10 +12,10 @@ import type { Reading } from './reading.ts';
 export type Outlines = Omit<Reading['contours'], 'twistEllipse'>;
 
 /** Duration of the animated morph, ms. */
-export const DURATION = 5000;
+export const MORPH_MS = 5000;
 
 /** Step of the slider. */
-const STEP = 0.01;
+const MORPH_STEP = 0.01;
 
 /**
  * Returns the point to which a morph takes a twist (m, m, rad), as `geom::unbend` of the core does. The morph runs from 0, the floor, to 1,
@@ -30,14 +30,14 @@ export function placeOf({ 0: along, 1: lateral, 2: heading }: ArrayLike<number>,
 }
 
 /** Returns the function that transforms a line of points on the floor by a morph. */
-export const carrying = (motion: Motion, { config: { command } }: Reading, morph: number) => (line: Float64Array) =>
+export const lineMorph = (motion: Motion, { config: { command } }: Reading, morph: number) => (line: Float64Array) =>
   morph === 0 ? line : motion.unbendLine(line, command.omega * command.dt, morph);
 
 /** Returns the outlines after a morph. Those on the floor are transformed point by point, that in exponential coordinates is computed anew. */
 export function outlinesAt(motion: Motion, reading: Reading, morph: number): Outlines {
   const { contours, stats } = reading;
   if (morph === 0) return contours;
-  const carried = carrying(motion, reading, morph);
+  const carried = lineMorph(motion, reading, morph);
   const { mean, cov } = stats.exponential;
   return {
     command: commandAt(reading, morph),
@@ -48,13 +48,13 @@ export function outlinesAt(motion: Motion, reading: Reading, morph: number): Out
   };
 }
 
-/** Sizes of the rings, relative to outlines of two standard deviations. */
-const RINGS = [0.5, 1, 1.5];
+/** Sizes of the rings around the cloud that callouts avoid, relative to the outline of two standard deviations. */
+const RING_SIZES = [0.5, 1, 1.5];
 
 /** Returns outlines on the floor of the Gaussian in exponential coordinates, with nearly the whole cloud inside of the largest. */
 export function ringsOf(motion: Motion, { stats: { exponential: { mean, cov } }, contours }: Reading) {
   if (contours.exponential.length === 0) return [];
-  return RINGS.map((size) => motion.unbendGaussian(Float64Array.from([...mean, ...cov.flat().map((each) => size ** 2 * each)]), 0));
+  return RING_SIZES.map((size) => motion.unbendGaussian(Float64Array.from([...mean, ...cov.flat().map((each) => size ** 2 * each)]), 0));
 }
 
 /** Returns the commanded arc at a morph. */
@@ -70,7 +70,7 @@ function commandAt({ config: { command: { v, omega, dt } }, contours }: Reading,
 export class MorphView extends View {
   /** Morph, from the floor (0) to exponential coordinates (1). */
   morph = 0;
-  /** Windows at both ends. */
+  /** Views at both ends of the morph: of the floor, and of exponential coordinates. */
   ends;
 
   constructor(inset: { left: number, right: number }) {
@@ -119,7 +119,7 @@ export function morphControl({ player, gesture, state }: import('./banana-machin
   return html`<div class="morph" role="group" aria-label=${say.name}>
     ${player.button('morph', say.play)}
     ${track({
-      id: 'morph', name: say.name, min: 0, max: 1, step: STEP, value: morph, text: say.text(percent(morph)),
+      id: 'morph', name: say.name, min: 0, max: 1, step: MORPH_STEP, value: morph, text: say.text(percent(morph)),
       input: (to) => player.put('morph', to), commit: () => gesture.commit(),
     })}
     <span class="end floor" aria-hidden="true">${say.floor}</span>

@@ -32,7 +32,7 @@ import type { BananaMachine, Inspection, Moments } from '../../types.d.ts';
 import { addLine, drawDisc, stroke, type Brush } from '../../scene/canvas.ts';
 
 /**
- * Scene of both pictures. Outlines are transformed by the present morph. `reached` is the ellipse after a complete morph. Callouts, and the
+ * Scene of both pictures. Outlines are transformed by the present morph. `morphedEllipse` is the ellipse after a complete morph. Callouts, and the
  * rings that they avoid, are on the floor.
  */
 export interface Scene extends Reading {
@@ -47,7 +47,7 @@ export interface Scene extends Reading {
   outlinesOf: (reading: Reading) => Outlines;
   callouts: Callout[];
   ringsOf: () => Float64Array[];
-  reached: Float64Array;
+  morphedEllipse: Float64Array;
 }
 
 /** Number of robots above which a cloud is drawn as a density: dots would be indistinguishable, and take longer than a frame. */
@@ -57,16 +57,16 @@ const MAX_DOTS = 1000;
 const MAX_RAYS = 400;
 
 /** Standard deviation (pixels) below which a cloud is drawn as one place. */
-const ONE_PLACE = 0.6;
+const MIN_CLOUD_DEVIATION = 0.6;
 
 /** Number of standard deviations around the mean that a view shows. */
-const ROOM = 3.2;
+const SHOWN_DEVIATIONS = 3.2;
 
 /** Radius of the ring at the end of the arc, pixels. */
-const RING = 7.5;
+const HANDLE_RADIUS = 7.5;
 
 /** Largest distance from the pointer to a robot that it selects, CSS pixels. */
-const REACH = 14;
+const PICK_RADIUS = 14;
 
 /** Picture of the robots: as dots, or as a density. */
 class CloudPicture extends Picture<Scene, import('../../types.d.ts').ViewName> {
@@ -80,7 +80,7 @@ class CloudPicture extends Picture<Scene, import('../../types.d.ts').ViewName> {
 
   /** Returns the robot nearest to a point in CSS pixels; −1 for none. */
   nearest(machine: BananaMachine, x: number, y: number) {
-    return machine.nearest(this.morph, ...this.around(x, y, REACH));
+    return machine.nearest(this.morph, ...this.around(x, y, PICK_RADIUS));
   }
 
   /** Returns the places of the robots that are drawn as dots, with the headings that the morph leaves of them. */
@@ -119,16 +119,16 @@ function cellSize(area: number, count: number) {
 
 /** Names of the outlines, in the order of painting and of the key. */
 export type OutlineName = import('./settings.ts').LineName;
-const PAINTED = ['additive', 'linearized', 'ellipse', 'exponential', 'command'] as const satisfies OutlineName[];
-const NAMED = ['ellipse', 'exponential', 'linearized', 'additive', 'command'] as const satisfies OutlineName[];
+const PAINT_ORDER = ['additive', 'linearized', 'ellipse', 'exponential', 'command'] as const satisfies OutlineName[];
+const KEY_ORDER = ['ellipse', 'exponential', 'linearized', 'additive', 'command'] as const satisfies OutlineName[];
 
 /** Insets of the views, CSS pixels. */
-const INSET = { left: 46, right: 10 };
+const VIEW_INSETS = { left: 46, right: 10 };
 
 /** The floor from above, and its transformation to exponential coordinates by a morph. */
 export class PlanePicture extends CloudPicture {
   name = 'plane' as const;
-  view: MorphView = new MorphView(INSET);
+  view: MorphView = new MorphView(VIEW_INSETS);
 
   get morph() {
     return this.view.morph;
@@ -141,12 +141,12 @@ export class PlanePicture extends CloudPicture {
 
   fit(scene: Scene) {
     this.#fitFloor(scene);
-    if (scene.morph > 0) this.view.fitEnd(extentOf([...pointsOfTwists(scene), ...(scene.overlays.ellipse ? scene.reached : []), ...scene.pinnedAt(1)], 0.1), 1);
+    if (scene.morph > 0) this.view.fitEnd(extentOf([...pointsOfTwists(scene), ...(scene.overlays.ellipse ? scene.morphedEllipse : []), ...scene.pinnedAt(1)], 0.1), 1);
   }
 
   #fitFloor({ contours, table, end, overlays, pinnedAt }: Scene) {
     const { mean, cov } = table.exact;
-    const [sx, sy] = [ROOM * deviation(cov[0][0]), ROOM * deviation(cov[1][1])];
+    const [sx, sy] = [SHOWN_DEVIATIONS * deviation(cov[0][0]), SHOWN_DEVIATIONS * deviation(cov[1][1])];
     const points = [mean[0] - sx, mean[1] - sy, mean[0] + sx, mean[1] + sy, ...contours.command, ...pinnedAt(0)];
     // Only this outline may be much larger than the cloud.
     if (overlays.additive) points.push(...contours.additive);
@@ -163,7 +163,7 @@ export class PlanePicture extends CloudPicture {
     const outlines = scene.outlinesOf(scene);
     const styles = lineStyles(brush, LINES);
     const drawn = (name: OutlineName) => overlays[name] && hasLength(outlines[name]);
-    const key = lineKeys(brush, LINES, NAMED.filter(drawn), words.banana.overlays);
+    const key = lineKeys(brush, LINES, KEY_ORDER.filter(drawn), words.banana.overlays);
     // One pair of axes fades out before the other fades in.
     const [floor, twist] = this.view.ends;
     const axes = [
@@ -177,7 +177,7 @@ export class PlanePicture extends CloudPicture {
     }
     context.globalAlpha = 1;
     const middle = middleOf(scene, morph);
-    const lines = (of: Outlines) => PAINTED.filter(drawn).map((name) => ({ points: of[name], ...styles[name] }));
+    const lines = (of: Outlines) => PAINT_ORDER.filter(drawn).map((name) => ({ points: of[name], ...styles[name] }));
     const ghost = ghostOf(brush, scene);
     const earlier = ghost ? lines(scene.outlinesOf(ghost)) : [];
     const callouts = [...scene.callouts];
@@ -188,7 +188,7 @@ export class PlanePicture extends CloudPicture {
         return;
       }
       const { cov } = table.exact;
-      const heaped = morph === 0 && deviation(cov[0][0] + cov[1][1]) * view.scaleX < ONE_PLACE;
+      const heaped = morph === 0 && deviation(cov[0][0] + cov[1][1]) * view.scaleX < MIN_CLOUD_DEVIATION;
       if (!heaped) {
         const determinant = Math.max(0, cov[0][0] * cov[1][1] - cov[0][1] * cov[1][0]);
         const area = Math.sqrt(determinant) + morph * (areaOfTwists(scene) - Math.sqrt(determinant));
@@ -200,7 +200,7 @@ export class PlanePicture extends CloudPicture {
       if (overlays.command && scene.reading && morph === 0) drawReading(brush, scene.reading, end);
       if (heaped && scene.shown > 0) drawHeap(brush, heapOf(this.places(scene), scene.shown));
       const [endX, endY] = outlines.command.slice(-2);
-      drawHandle(brush, { x: view.toPixelX(endX), y: view.toPixelY(endY), radius: RING, colour: palette.prior });
+      drawHandle(brush, { x: view.toPixelX(endX), y: view.toPixelY(endY), radius: HANDLE_RADIUS, colour: palette.prior });
       if (marked) {
         const { pose, twist: at, path } = marked;
         if (morph === 0) drawOutline(brush, path, { colour: palette.accent, width: 1.25, dash: [6, 2] });
@@ -297,7 +297,7 @@ function pointsOfTwists(scene: Scene) {
   const { v, omega, dt } = scene.config.command;
   const points = [v * dt, omega * dt];
   for (const { mean, cov } of twistMoments(scene)) {
-    const [along, heading] = [ROOM * deviation(cov[0][0]), ROOM * deviation(cov[2][2])];
+    const [along, heading] = [SHOWN_DEVIATIONS * deviation(cov[0][0]), SHOWN_DEVIATIONS * deviation(cov[2][2])];
     points.push(mean[0] - along, mean[2] - heading, mean[0] + along, mean[2] + heading);
   }
   return points;
@@ -312,7 +312,7 @@ function areaOfTwists(scene: Scene) {
 /** Picture of the same robots in exponential coordinates. */
 export class TwistPicture extends CloudPicture {
   name = 'twist' as const;
-  view: View = new View({ ...INSET, equal: false });
+  view: View = new View({ ...VIEW_INSETS, equal: false });
 
   fit(scene: Scene) {
     this.view.fit(extentOf([...pointsOfTwists(scene), ...(scene.pinned?.contours.twistEllipse ?? [])], 0.1));

@@ -59,13 +59,13 @@ function bowTieOf({ model, command: { v, omega, dt }, alphas, isolate, reverseAw
 /** Returns the name of an α, counted from 0. */
 export const alphaName = (index: number) => `α${subscript(index)}`;
 
-/** Factors of the α's of each model, which are squared: the speed, or the turn rate. */
-const CAUSES = { velocity: [...'vωvωvω'], odometry: [...'ωvvω'] } as const;
+/** Speed that each α of a model multiplies, squared: v or ω. */
+const ALPHA_CAUSES = { velocity: [...'vωvωvω'], odometry: [...'ωvvω'] } as const;
 
-/** Returns a sentence on an α, counted from 0, that has nothing to multiply. */
+/** Returns a sentence on an isolated α (index from 0) without effect: its factor in the command is 0. */
 function silenceOf(model: Settings['model'], index: number) {
   const { alphaIsSilent, nothingToMultiply, settings } = words.banana;
-  const cause = CAUSES[model][index] as 'v' | 'ω';
+  const cause = ALPHA_CAUSES[model][index] as 'v' | 'ω';
   return alphaIsSilent(alphaName(index), nothingToMultiply[model][cause], cause, settings.alphas.effects[model][index][2]);
 }
 

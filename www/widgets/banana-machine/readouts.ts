@@ -10,7 +10,7 @@ import type { Inspection, Moments, Table } from '../../types.d.ts';
 import type { Reading } from './reading.ts';
 
 /** Fraction of a Gaussian in the plane inside its 2σ ellipse, 1 − e⁻². */
-const NOMINAL = 1 - Math.exp(-2);
+const FRACTION_IN_ELLIPSE = 1 - Math.exp(-2);
 
 /**
  * Returns the three figures of the message: the floor that the ellipse wastes, the gain of the other coordinates, and the lean of the
@@ -57,7 +57,7 @@ export function otherReadouts({ config, stats, table }: Reading) {
     [say.gaussian, fixed(stats.gaussianSkew, 3)],
     [say.rho, fixed(stats.rhoCrossHeading, 3)],
     [say.exactArea, fixed(table.exact.areaRatio, 3)],
-    [say.nominal, percent(NOMINAL)],
+    [say.nominal, percent(FRACTION_IN_ELLIPSE)],
   ]);
 }
 
@@ -68,7 +68,7 @@ export function markedRobot(figure: import('./banana-machine.ts').BananaMachineE
   const quantity = (symbol: string, value: number, unit: string) =>
     html`<span><i>${symbol}</i> = ${fixed(value, 3)} ${unit}</span>`;
   const selected = inspection && (inspection.legs
-    ? legsOf(inspection.legs, figure.reading.reading as import('../../types.d.ts').Legs)
+    ? legNoise(inspection.legs, figure.reading.reading as import('../../types.d.ts').Legs)
     : [
         quantity('v̂', inspection.vHat, 'm/s'),
         quantity('ω̂', inspection.omegaHat, 'rad/s'),
@@ -78,7 +78,7 @@ export function markedRobot(figure: import('./banana-machine.ts').BananaMachineE
 }
 
 /** Returns the noise of each leg: the reading minus the executed motion, as Table 5.6 subtracts it. */
-function legsOf(driven: import('../../types.d.ts').Legs, read: import('../../types.d.ts').Legs) {
+function legNoise(driven: import('../../types.d.ts').Legs, read: import('../../types.d.ts').Legs) {
   return ([['rot1', 'rad'], ['trans', 'm'], ['rot2', 'rad']] as const).map(([leg, unit]) => {
     const noise = read[leg] - driven[leg];
     return html`<span><i>ε</i><sub>${leg}</sub> = ${fixed(noise, 3)} ${unit}</span>`;

@@ -70,7 +70,7 @@ export const calloutsOf = ({ gaps }: Reading): Callout[] =>
 function bendText({ stats: { crossTrackSkew: skew, crossTrackSkewError: error, areaRatio }, exactSkew, bowTie, table, gain }: Pick<Reading, 'stats' | 'exactSkew' | 'bowTie' | 'table' | 'gain'>) {
   if (Number.isNaN(skew)) return '';
   const say = words.banana.bend;
-  // No line ends within a number and its error.
+  // A line break must not separate a number from its error.
   const unbroken = (number: string) => number.replaceAll(' ', '\u00a0');
   const [measured, exactly] = [unbroken(withError(skew, error, 3)), fixed(exactSkew, 3)];
   if (bowTie) return say.bowTie[bowTie.model](fixed(bowTie.length, 2), fixed(bowTie.deviation, 2), measured);
@@ -89,7 +89,7 @@ export function captionOf(reading: Reading) {
   return note || (stats.n === 0 ? words.banana.noRobots : bendText(reading) || words.banana.fewRobots);
 }
 
-/** Returns the text of the exact skew. */
+/** Returns the exact skew as text. */
 export function skewText(skew: number) {
   return Number.isNaN(skew) ? words.banana.noExactSkew : words.banana.exactSkew(fixed(skew, 3));
 }

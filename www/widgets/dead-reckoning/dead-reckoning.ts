@@ -21,10 +21,10 @@ import type { Values } from '../../figure/settings.ts';
 import type { DeadReckoning as Machine } from '../../types.d.ts';
 
 /** Units of the components' variances. */
-const UNITS = { along: 'm2', lateral: 'm2', heading: 'rad2' };
+const VARIANCE_UNITS = { along: 'm2', lateral: 'm2', heading: 'rad2' };
 
 /** Returns the names of the columns of a quantity in a table, one for each component. */
-const columnsOf = (quantity: string) => COMPONENTS.map((name) => `${quantity}_${name}_${UNITS[name]}`);
+const columnsOf = (quantity: string) => COMPONENTS.map((name) => `${quantity}_${name}_${VARIANCE_UNITS[name]}`);
 
 /**
  * One command driven step after step, and how well its growing uncertainty is predicted.

@@ -14,10 +14,10 @@ import { drawDisc, type Brush } from '../../scene/canvas.ts';
 export type Scene = import('./reading.ts').Reading & { marked: Float64Array | undefined, overlays: string[] };
 
 /** Number of standard deviations of a cloud that a view shows. */
-const ROOM = 3.2;
+const SHOWN_DEVIATIONS = 3.2;
 
-/** Clouds of other steps: maximum number of dots, their radius and opacity. */
-const PASSED = { most: 200, radius: 1.3, alpha: 0.4 };
+/** Dots of the clouds of steps that are not selected: maximum number, radius in CSS pixels, and opacity. */
+const PASSED_DOTS = { most: 200, radius: 1.3, alpha: 0.4 };
 
 export type OutlineName = keyof typeof OUTLINES;
 
@@ -63,21 +63,21 @@ export class PathPicture extends SamplesPicture<Scene> {
 }
 
 /** Half the size of the mark at the commanded end, CSS pixels. */
-const PLACE = 4;
+const END_MARK_RADIUS = 4;
 
 /** Marks the end of the command after the step: small, so that the cloud is seen around it. */
 function drawPlace({ context, view, palette }: Brush, [x, y]: Float64Array) {
-  drawDisc(context, view.toPixel(x, y), PLACE, palette.prior, { colour: palette.paper, width: 1.5 });
+  drawDisc(context, view.toPixel(x, y), END_MARK_RADIUS, palette.prior, { colour: palette.paper, width: 1.5 });
 }
 
 /** Draws the robots after another step. */
 function drawPassed({ context, view, palette }: Brush, poses: Float64Array) {
   context.fillStyle = palette.cloud;
-  context.globalAlpha = PASSED.alpha;
-  const side = 2 * PASSED.radius;
-  const count = Math.min(PASSED.most, poses.length / 3);
+  context.globalAlpha = PASSED_DOTS.alpha;
+  const side = 2 * PASSED_DOTS.radius;
+  const count = Math.min(PASSED_DOTS.most, poses.length / 3);
   for (let i = 0; i < count; i++) {
-    context.fillRect(view.toPixelX(poses[3 * i]) - PASSED.radius, view.toPixelY(poses[3 * i + 1]) - PASSED.radius, side, side);
+    context.fillRect(view.toPixelX(poses[3 * i]) - PASSED_DOTS.radius, view.toPixelY(poses[3 * i + 1]) - PASSED_DOTS.radius, side, side);
   }
   context.globalAlpha = 1;
 }
@@ -89,7 +89,7 @@ export class StepPicture extends Picture<Scene> {
 
   fit({ outlines: { predicted }, stats: { measured: { mean, cov } } }: Scene) {
     const points = [0, 0, ...predicted];
-    const [along, lateral] = [0, 1].map((axis) => ROOM * Math.sqrt(cov[axis][axis]));
+    const [along, lateral] = [0, 1].map((axis) => SHOWN_DEVIATIONS * Math.sqrt(cov[axis][axis]));
     if (along + lateral > 0) points.push(mean[0] - along, mean[1] - lateral, mean[0] + along, mean[1] + lateral);
     const box = extentAround(points, 2);
     // Minimum heights and widths of the box keep both scales finite. The height is at least a thousandth of the width.

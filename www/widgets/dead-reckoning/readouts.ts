@@ -14,7 +14,7 @@ import { componentsOf, endText, ratioText, worstAt } from './words.ts';
 import type { Misses } from '../../types.d.ts';
 
 /** Allowed heights of the plot, so that its axis does not change with every step of a drag. */
-const HEIGHTS = [1.2, 1.6, 2, 3, 5, 10];
+const CHART_HEIGHTS = [1.2, 1.6, 2, 3, 5, 10];
 
 /** Relative error of a predicted variance that counts as right. */
 const TOLERANCE = 0.05;
@@ -31,7 +31,7 @@ export function ratioPlot(figure: import('./dead-reckoning.ts').DeadReckoningEle
   return plot({
     label: ratioText(reading, overlays),
     x: { name: say.stepAxis, from: 0, to: steps },
-    y: { name: say.ratioAxis, from: 0, to: HEIGHTS.find((height) => height >= highest) ?? highest },
+    y: { name: say.ratioAxis, from: 0, to: CHART_HEIGHTS.find((height) => height >= highest) ?? highest },
     curves: [
       ...(overlays.includes('tolerance') ? [band] : []),
       ...shown.map(({ ratio, ...curve }) => ({ ...curve, x, y: ratio })),
@@ -51,7 +51,7 @@ export function ratioPlot(figure: import('./dead-reckoning.ts').DeadReckoningEle
   });
 }
 
-/** Returns the look of a curve. */
+/** Returns role, dash and highlight of a curve in the chart of ratios. */
 function lookOf(name: keyof typeof CURVES, highlight: string | null) {
   const { role, dash } = CURVES[name] as import('../../figure/overlays.ts').LineStyle & { role: Role };
   const lit = highlight !== null && highlight in CURVES ? name === highlight : undefined;
@@ -65,14 +65,14 @@ export function headline(reading: Reading, overlays: string[]) {
   return readoutList([[say.predicted(say.of[component]), fixed(ratio, 2), say.ofMeasured(reading.config.step)]], 0);
 }
 
-/** Fixed ranges of the logarithmic axes, so that a slider moves the curves. */
-const GROWTH = { durations: [0.1, 10], variances: [1e-6, 100] };
+/** Ranges of both logarithmic axes: fixed, so that a slider moves the curves and not the axes. */
+const GROWTH_AXES = { durations: [0.1, 10], variances: [1e-6, 100] };
 
 /** Returns the plot of exercise 2: variances against the duration. */
 export function straightPlot({ durations: x, along, across, alongFirstOrder, acrossFirstOrder, crossing }: import('../../types.d.ts').StraightGrowth) {
   const say = words.reckoning.straight;
-  const [from, to] = GROWTH.durations;
-  const [least, most] = GROWTH.variances;
+  const [from, to] = GROWTH_AXES.durations;
+  const [least, most] = GROWTH_AXES.variances;
   const distance = crossing === null ? '' : significant(crossing, 3);
   return html`<figure>
     <p class="panel-title">${say.title}</p>
@@ -92,14 +92,14 @@ export function straightPlot({ durations: x, along, across, alongFirstOrder, acr
   </figure>`;
 }
 
-/** Returns the steps with a miss, in words. */
-function missed({ told, first, last, end }: Misses) {
+/** Returns the range of steps at which a recursion misses the measured variance, as text. */
+function missText({ told, first, last, end }: Misses) {
   const { never, unknown, from } = words.reckoning.misses;
   if (!told) return Number.isNaN(end) ? NOTHING : unknown;
   return first === null || last === null ? never : from(first, last);
 }
 
-/** Returns the misses of all recursions in the components that are shown. */
+/** Returns the table of the steps at which each recursion misses the measured variance, by component. */
 export function missTable({ stats: { misses } }: Reading, overlays: string[]) {
   const say = words.reckoning;
   return figureTable({
@@ -107,7 +107,7 @@ export function missTable({ stats: { misses } }: Reading, overlays: string[]) {
     columns: [say.misses.component, ...RECURSIONS.map((recursion) => say.recursions[recursion])],
     rows: componentsOf(overlays).flatMap((component) => {
       const ofEach = RECURSIONS.map((recursion) => misses[recursion][COMPONENTS.indexOf(component)]);
-      return [[say.components[component], ...ofEach.map(missed)], [say.misses.endOf(say.components[component]), ...ofEach.map(endText)]];
+      return [[say.components[component], ...ofEach.map(missText)], [say.misses.endOf(say.components[component]), ...ofEach.map(endText)]];
     }),
   });
 }

@@ -8,8 +8,8 @@ import { COMPONENTS, type Reading } from './reading.ts';
 
 addEnglish({ reckoning: en });
 
-/** Steps at which the text gives the ratio of the worst component. */
-const TOLD_STEPS = [1, 2, 5];
+/** Steps at which the caption gives the ratio of the worst component. */
+const CAPTION_STEPS = [1, 2, 5];
 
 /** Prints a share in per cent, with a sign unless it rounds to 0. */
 function signed(share: number, printed: string = fixed(100 * share, 1)) {
@@ -17,7 +17,7 @@ function signed(share: number, printed: string = fixed(100 * share, 1)) {
   return `${100 * share >= 0.05 ? '+' : ''}${printed}\u202f%`;
 }
 
-/** Returns the miss of a ratio after the last step. */
+/** Returns the relative error of the predicted variance after the last step, as text. */
 export const endText = ({ end, error }: { end: number, error: number }) => signed(end, withError(100 * end, 100 * error, 1));
 
 /** Returns how well the recursion predicts the components that are shown. */
@@ -39,9 +39,9 @@ export function captionOf({ config: { compounding }, stats: { misses, n }, condi
 /** Returns the index of the greatest miss; NaN is not a miss. */
 const furthest = (misses: number[]): number => misses.reduce((most, miss, i) => (miss > (misses[most] || 0) ? i : most), 0);
 
-/** Returns the first ratios, in words. */
+/** Returns the ratios at the first steps of the caption, as text. */
 const listOf = (ratios: number[]) =>
-  TOLD_STEPS.filter((step) => step <= ratios.length).map((step) => words.reckoning.atStep(fixed(ratios[step - 1], 2), String(step))).join(', ');
+  CAPTION_STEPS.filter((step) => step <= ratios.length).map((step) => words.reckoning.atStep(fixed(ratios[step - 1], 2), String(step))).join(', ');
 
 /** Returns the components whose curves are shown; all where none is. */
 export function componentsOf(overlays: string[]): readonly (typeof COMPONENTS)[number][] {

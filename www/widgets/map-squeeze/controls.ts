@@ -7,11 +7,11 @@ import { button, group, radioGroup } from '../../ui/controls.ts';
 import { fileInput } from '../shared/files.ts';
 import { EXTENSIONS } from './maps/open.ts';
 import { presetButtons, startOverButton } from '../shared/presets.ts';
-import { COMMAND, MOST_SAMPLES, SAMPLE_COUNTS } from './settings.ts';
+import { COMMAND, MAX_SAMPLES, SAMPLE_COUNTS } from './settings.ts';
 import type { MapSqueezeElement as Figure } from './map-squeeze.ts';
 
 /** Example of a floor plan: a room with a gap in its wall. */
-const EXAMPLE = `{
+const EXAMPLE_PLAN = `{
   "bounds": [0, 0, 6, 4],
   "walls": [
     [3, 0, 3, 1.5], [3, 2.5, 3, 4],
@@ -26,7 +26,7 @@ export function placeControls(figure: Figure) {
   const { own, pasted } = words.squeeze;
   if (!map) return presetButtons(figure, left ? button(own.back(left.name || pasted), () => figure.returnToMap()) : nothing);
   return html`<div class="buttons presets">
-    ${button(own.leave, () => figure.leaveMap())} ${button(own.open, () => figure.goToOpen(), { pressed: figure.inTheOpen })}
+    ${button(own.leave, () => figure.leaveMap())} ${button(own.open, () => figure.moveToFreePose(), { pressed: figure.isAtFreePose })}
     ${startOverButton(figure)}
   </div>`;
 }
@@ -36,7 +36,7 @@ export function samplerControls(figure: Figure) {
   const { conditioned, sampler, samples, steps } = figure.reading.config;
   const { settings, samplers, samplerEffects } = words.squeeze;
   // With sub-steps each sample takes several draws.
-  const most = (name: string) => (name === 'sub-stepped' ? Math.floor(MOST_SAMPLES / steps) : MOST_SAMPLES);
+  const most = (name: string) => (name === 'sub-stepped' ? Math.floor(MAX_SAMPLES / steps) : MAX_SAMPLES);
   const choose = (name: string) => figure.gesture.decide({ sampler: name, ...(samples > most(name) && { samples: most(name) }) });
   return html`<div class="judge">
     ${radioGroup(settings.sampler.name, 'sampler', samplers, sampler, choose)}
@@ -78,7 +78,7 @@ export function ownMap(figure: Figure, opener: import('./maps/open.ts').MapOpene
     </div>
     <div>
       <label for="map-text">${say.plan}</label>
-      <textarea id="map-text" rows="8" spellcheck="false" autocomplete="off" .defaultValue=${EXAMPLE}></textarea>
+      <textarea id="map-text" rows="8" spellcheck="false" autocomplete="off" .defaultValue=${EXAMPLE_PLAN}></textarea>
       ${button(say.use, paste)}
     </div>
   </div>`);

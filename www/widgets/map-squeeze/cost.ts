@@ -14,16 +14,16 @@ export interface Cost {
 }
 
 /** Number of particles and rate of the chapter's exercise, samples per second. */
-export const DEMAND = 2000 * 20;
+export const SAMPLES_PER_SECOND = 2000 * 20;
 
 /** Duration of a run, ms, that is long enough to measure: clocks of browsers may have steps of 1 ms. */
-const LONG_ENOUGH = 12;
+const MIN_RUN_MS = 12;
 
-/** Number of runs, whose median is shown. */
-const RUNS = 5;
+/** Number of runs for each cost, which is their median. */
+const RUNS_PER_COST = 5;
 
 /** Measures one run at a time, so that the page can handle events between two runs. Returns the cost, or the reason why there is none. */
-function* measuring(machine: MapSqueeze, sampler: SamplerName, parts: number): Generator<undefined, Cost | 'wedged' | 'few'> {
+function* measureCost(machine: MapSqueeze, sampler: SamplerName, parts: number): Generator<undefined, Cost | 'wedged' | 'few'> {
   const most = Math.floor(limits.trial / parts);
   let count = 1;
   const run = () => {
@@ -34,16 +34,16 @@ function* measuring(machine: MapSqueeze, sampler: SamplerName, parts: number): G
   try {
     for (;;) {
       const warmUp = run();
-      if (warmUp.elapsed >= LONG_ENOUGH || count === most) {
+      if (warmUp.elapsed >= MIN_RUN_MS || count === most) {
         const runs = [];
-        while (runs.length < RUNS) {
+        while (runs.length < RUNS_PER_COST) {
           yield;
           runs.push(run());
         }
         runs.sort((one, other) => one.elapsed - other.elapsed);
-        const { draws, wallTests, elapsed } = runs[(RUNS - 1) / 2];
-        // If not, the warm-up was long because the device was busy, and more samples are needed.
-        if (elapsed >= LONG_ENOUGH / 2 || count === most) {
+        const { draws, wallTests, elapsed } = runs[(RUNS_PER_COST - 1) / 2];
+        // A shorter run means that only the warm-up was long, as on a busy device: then more samples are needed.
+        if (elapsed >= MIN_RUN_MS / 2 || count === most) {
           return { micros: (1000 * elapsed) / count, draws: draws / count, wallTests: wallTests / count };
         }
       }
@@ -56,8 +56,8 @@ function* measuring(machine: MapSqueeze, sampler: SamplerName, parts: number): G
   }
 }
 
-/** Idle time before measuring, ms, so that a reader who presses keys repeatedly does not wait. */
-const REST = 300;
+/** Idle time before measureCost, ms, so that a reader who presses keys repeatedly does not wait. */
+const IDLE_MS = 300;
 
 /** Measures the samplers one after the other when the figure is idle, and reports each. */
 export class CostMeter extends Part {
@@ -77,7 +77,7 @@ export class CostMeter extends Part {
   }
 
   /** Measures once these settings have not changed for a while, and nothing moves. */
-  heed(config: SqueezeSettings, atRest: boolean) {
+  measureWhenIdle(config: SqueezeSettings, atRest: boolean) {
     const settings = JSON.stringify(config);
     if (settings !== this.#settings) this.outdate();
     this.#settings = settings;
@@ -89,7 +89,7 @@ export class CostMeter extends Part {
     const measured = host.machine;
     if (!measured) return;
     const measurements = SAMPLERS.map((sampler) =>
-      measuring(measured, sampler, sampler === 'sub-stepped' ? steps : 1),
+      measureCost(measured, sampler, sampler === 'sub-stepped' ? steps : 1),
     );
     const measurePart = (index: number) => {
       // The element, with its machine, may have been removed.
@@ -103,6 +103,6 @@ export class CostMeter extends Part {
       if (!this.current) this.#timer = setTimeout(step, 0, done ? index + 1 : index);
     };
     const step = (index: number) => host.runtime.attempt(() => measurePart(index));
-    this.#timer = setTimeout(step, REST, 0);
+    this.#timer = setTimeout(step, IDLE_MS, 0);
   }
 }

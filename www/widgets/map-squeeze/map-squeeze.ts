@@ -18,9 +18,9 @@ import { applyMap, cellsOf, mapData } from './maps/data.ts';
 import { MapOpener } from './maps/open.ts';
 import { overview } from './overview.ts';
 import { FloorPicture } from './picture.ts';
-import { kindOf, readingOf, type Reading } from './reading.ts';
+import { outcomeOf, readingOf, type Reading } from './reading.ts';
 import { costTable, markedDraw, tally } from './readouts.ts';
-import { LINES, OPENING_START, PRESET, definition } from './settings.ts';
+import { LINES, OPENING_START, PRESET_SETTING, definition } from './settings.ts';
 import { squeezeStyles } from './styles.ts';
 import { WallHandles } from './wall-handles.ts';
 import { contactOf } from './walls.ts';
@@ -50,16 +50,16 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
   dropped = this.#opener.dropped;
   #handles = new PoseHandles(this, 'start', () => this.picture.view, () => this.picture.plan.bounds);
   #wallHandles = new WallHandles(this);
-  /** Treatment of unknown cells in the picture. */
+  /** Treatment of unknown cells that the picture was made for. */
   #unknown = '';
   /** Path of the selected sample. */
   #path: Memo<Float64Array> = new Memo();
-  /** Cache of the machine's grid. */
+  /** Cache of the grid of a machine's map, whose copy takes long. */
   #grid: { of: Machine, grid: Cells | null } | undefined;
   /** The reader's map that was left last, with the start pose in it. */
   #left: { map: MapData, start: Pose } | null = null;
   /** Free pose at which the robot was put last. */
-  #open: Pose | undefined;
+  #freePose: Pose | undefined;
 
   createMachine: FigureElement<Machine, Reading>['createMachine'] = (motion, state) => enterCloud(this, motion.MapSqueeze.empty(), state);
 
@@ -80,7 +80,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
     const { machine } = this;
     if (!machine) return;
     const grid = this.#gridOf(machine);
-    this.#opener.forgive();
+    this.#opener.clearRefusal();
     this.#meter.outdate();
     this.#unknown = this.settings.present.unknown;
     this.picture = new FloorPicture(machine.plan, grid, this.picture);
@@ -95,7 +95,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
 
   get scene() {
     const { fresh } = this;
-    this.#meter.heed(fresh.config, !this.cloud.playing && !this.gesture.pressed);
+    this.#meter.measureWhenIdle(fresh.config, !this.cloud.playing && !this.gesture.pressed);
     const { index, isMarked } = this.cloud;
     this.picture.close = this.state.own.view === 'close';
     return { ...fresh, machine: this.machine, overlays: this.state.own.overlays, marked: isMarked ? this.#marked(index) : undefined };
@@ -105,7 +105,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
   #marked(index: number) {
     const { poses, verdicts, config } = this.fresh;
     const path = this.#path.of([poses, index], () => (this.machine as Machine).path(index));
-    const isThrough = kindOf(verdicts[index]) === 2;
+    const isThrough = outcomeOf(verdicts[index]) === 2;
     return { pose: poses.subarray(3 * index), path, contact: isThrough ? contactOf(path, this.picture.plan.walls, config.clearance) : undefined };
   }
 
@@ -134,12 +134,12 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
   /** The place in the apartment that the robot starts from; null elsewhere. */
   get preset(): string | null {
     if (!this.machine) return (this.reflection.pendingValue('preset') as string | undefined) ?? null;
-    return (this.map ? null : PRESET.get(this.settings.wanted)) as string | null;
+    return (this.map ? null : PRESET_SETTING.get(this.settings.wanted)) as string | null;
   }
 
   set preset(name) {
     this.reflection.setProperty('preset', name, (given) => {
-      const settings = PRESET.change(given, {});
+      const settings = PRESET_SETTING.change(given, {});
       this.#leave();
       this.settings.assign(settings);
     });
@@ -178,7 +178,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
     return this.ask((machine) => machine.verdicts);
   }
 
-  /** The own map that was left last: the reader can go back to it. */
+  /** Map of the reader that was left last, to which a button returns. */
   get left() {
     return this.#left?.map ?? null;
   }
@@ -190,25 +190,25 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
   }
 
   /** Moves the robot to free space, as the reader asked. */
-  goToOpen() {
+  moveToFreePose() {
     this.runtime.attempt(() => {
-      if (this.machine) this.go(this.#putInTheOpen(this.machine));
+      if (this.machine) this.go(this.#findFreePose(this.machine));
     });
   }
 
   /** True if the robot is still at the free pose where it was last put. */
-  get inTheOpen() {
+  get isAtFreePose() {
     const { x, y, theta } = this.reading.config.start;
-    return this.#open?.x === x && this.#open.y === y && this.#open.theta === theta;
+    return this.#freePose?.x === x && this.#freePose.y === y && this.#freePose.theta === theta;
   }
 
   /**
    * Returns a pose in the open for a robot that comes into a map. In an occupancy grid it is used even where the robot has room: a free
    * place may lie outside of all that was mapped.
    */
-  #putInTheOpen({ openPlace, config, plan }: Machine): Pose {
+  #findFreePose({ openPlace, config, plan }: Machine): Pose {
     const [left, bottom, right, top] = plan.bounds;
-    return (this.#open = openPlace ?? { ...config.start, x: (left + right) / 2, y: (bottom + top) / 2 });
+    return (this.#freePose = openPlace ?? { ...config.start, x: (left + right) / 2, y: (bottom + top) / 2 });
   }
 
   /** Leaves the reader's map, as the reader asked. It is kept for a return. */
@@ -237,12 +237,12 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
   moveWalls(walls: Float64Array) {
     this.picture = new FloorPicture({ bounds: this.picture.plan.bounds, walls }, null, this.picture);
     this.pictures = [this.picture];
-    this.#judgeWalls();
+    this.#applyWalls();
     this.stage.requestFrame();
   }
 
   /** Makes the walls of the picture a map of the reader. */
-  #judgeWalls() {
+  #applyWalls() {
     const { bounds, walls } = this.picture.plan;
     const name = this.map?.name ?? words.squeeze.edited;
     const apply: OwnMap['apply'] = (machine) => machine.setPlan({ bounds: [...bounds], walls });
@@ -256,12 +256,12 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
   #leave() {
     const { machine, map } = this;
     if (!machine) return;
-    this.#opener.forgive();
+    this.#opener.clearRefusal();
     if (!map) return;
     this.#left = { map, start: this.settings.wanted.start };
     machine.setPlan(undefined);
     this.#grid = undefined;
-    this.#moved(null);
+    this.#adoptMap(null);
   }
 
   /**
@@ -277,18 +277,18 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
       machine.configureFirst(settings.declared(settings.wanted), 0);
       apply(machine);
       const isGrid = this.#gridOf(machine) !== null;
-      const place = start ?? (isGrid || !machine.startFree ? this.#putInTheOpen(machine) : undefined);
+      const place = start ?? (isGrid || !machine.startFree ? this.#findFreePose(machine) : undefined);
       machine.configureFirst(place ? { start: place } : {}, this.cloud.asked);
     });
     const data = mapData(machine, name, this.#gridOf(machine));
     this.runtime.replace(machine);
     settings.reset();
     this.#left = null;
-    this.#moved(data);
+    this.#adoptMap(data);
   }
 
-  /** Takes over the map of the machine. */
-  #moved(map: MapData | null) {
+  /** Shows the map of the machine, which is the reader's or, for null, the apartment. */
+  #adoptMap(map: MapData | null) {
     this.state.own.map = map;
     this.machineChanged();
     this.settings.stale = true;

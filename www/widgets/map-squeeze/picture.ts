@@ -23,26 +23,26 @@ export interface Scene extends Reading {
 }
 
 /** Half a cross, CSS pixels. */
-const CROSS = 2.6;
+const CROSS_HALF = 2.6;
 
 /** Dot of a sample: radius in CSS pixels, by the width of the picture, and opacity. */
-const DOT = { least: 2, most: 3, per: 240, alpha: 0.4 };
+const SAMPLE_DOT = { least: 2, most: 3, per: 240, alpha: 0.4 };
 
 /** Leader from a label to the wall that it is about, CSS pixels. */
-const LEADER = { x: 46, y: 30 };
+const LEADER_OFFSET = { x: 46, y: 30 };
 
 /** Area shown around the end of the command: a multiple of its length, and at least some metres. */
-const SURROUNDINGS = 0.8;
-const MIN_SURROUNDINGS = 0.8;
+const END_ROOM = 0.8;
+const MIN_END_ROOM = 0.8;
 
 /** Margin around the commanded path, metres. */
-const WAYSIDE = 0.45;
+const PATH_MARGIN = 0.45;
 
 /** Margin around the map, relative to its longer side. */
-const EDGE = 0.025;
+const MAP_MARGIN = 0.025;
 
-/** Cell sizes of the density, CSS pixels, for many samples and for few. */
-const CELL = { least: 2, most: 5, samples: 40_000 };
+/** Cells of the density: sides in CSS pixels for many and for few samples, and the number of samples with the middle side. */
+const DENSITY_CELL = { least: 2, most: 5, samples: 40_000 };
 
 /** Maximum number of paths that are drawn over a density: more would hide it. */
 const PATHS_ON_DENSITY = 25;
@@ -107,10 +107,10 @@ export class FloorPicture extends SamplesPicture<Scene> {
       return;
     }
     const length = Math.abs(config.command.v * config.command.dt);
-    const room = Math.max(MIN_SURROUNDINGS, SURROUNDINGS * length) + config.clearance;
+    const room = Math.max(MIN_END_ROOM, END_ROOM * length) + config.clearance;
     const [x, y] = commanded.slice(-2);
     const way = extentAround(commanded, 2);
-    const wayside = [way.xMin - WAYSIDE, way.yMin - WAYSIDE, way.xMax + WAYSIDE, way.yMax + WAYSIDE];
+    const wayside = [way.xMin - PATH_MARGIN, way.yMin - PATH_MARGIN, way.xMax + PATH_MARGIN, way.yMax + PATH_MARGIN];
     const needed = extentAround([...wayside, x - room, y - room, x + room, y + room], 2);
     this.#near.within = mapped;
     this.#near.fit({
@@ -127,7 +127,7 @@ export class FloorPicture extends SamplesPicture<Scene> {
     const box = extentAround(this.#known, 2, { xMin: x, yMin: y, xMax: x, yMax: y });
     const inside = box.xMin < x && x < box.xMax && box.yMin < y && y < box.yMax;
     const { xMin: left, yMin: bottom, xMax: right, yMax: top } = inside ? box : { xMin, yMin, xMax, yMax };
-    const edge = EDGE * Math.max(right - left, top - bottom);
+    const edge = MAP_MARGIN * Math.max(right - left, top - bottom);
     return { xMin: left - edge, yMin: bottom - edge, xMax: right + edge, yMax: top + edge };
   }
 
@@ -170,7 +170,7 @@ export class FloorPicture extends SamplesPicture<Scene> {
     const { palette } = brush;
     const roles = [['rejected', palette.truth], ['accepted', palette.cloud], ['through', palette.accent]] as const;
     const ramps = roles.flatMap(([name, cloud]) => [...(overlays.includes(name) ? densityRamp({ ...palette, cloud }) : TRANSPARENT_RAMP)]);
-    const cell = clamp(CELL.most * Math.sqrt(CELL.samples / stats.attempts) / 2, CELL.least, CELL.most);
+    const cell = clamp(DENSITY_CELL.most * Math.sqrt(DENSITY_CELL.samples / stats.attempts) / 2, DENSITY_CELL.least, DENSITY_CELL.most);
     this.#density.draw(brush, cell, [stats, palette, overlays], (...part) => machine.picture(...part, Uint8Array.from(ramps)));
   }
 }
@@ -199,7 +199,7 @@ function drawContact(brush: Brush, contact: number[]) {
   const [x, y] = view.toPixel(contact[0], contact[1]);
   const { left, right, top, bottom } = view.frame;
   const [side, down] = [2 * x > left + right ? -1 : 1, 2 * y > top + bottom ? -1 : 1];
-  const [endX, endY] = [x + side * LEADER.x, y + down * LEADER.y];
+  const [endX, endY] = [x + side * LEADER_OFFSET.x, y + down * LEADER_OFFSET.y];
   drawLeader(context, [[endX, endY], [x, y]], palette.ink);
   drawLabel(brush, { x: endX + 4 * side, y: endY, towards: side, text: words.squeeze.throughThisWall, colour: palette.ink });
 }
@@ -216,7 +216,7 @@ function keyOf({ context, palette }: Brush, { overlays, sorted }: Scene): import
       context.beginPath();
       if (!sorted) context.rect(middle - 5, y - 5, 10, 10);
       else if (name === 'rejected') cross(context, middle, y);
-      else context.arc(middle, y, DOT.most, 0, 2 * Math.PI);
+      else context.arc(middle, y, SAMPLE_DOT.most, 0, 2 * Math.PI);
       context.fill();
       context.stroke();
     },
@@ -225,8 +225,8 @@ function keyOf({ context, palette }: Brush, { overlays, sorted }: Scene): import
 
 /** Adds a cross at a point in CSS pixels to the path. */
 function cross(context: Brush['context'], x: number, y: number) {
-  addLine(context, [[x - CROSS, y - CROSS], [x + CROSS, y + CROSS]]);
-  addLine(context, [[x - CROSS, y + CROSS], [x + CROSS, y - CROSS]]);
+  addLine(context, [[x - CROSS_HALF, y - CROSS_HALF], [x + CROSS_HALF, y + CROSS_HALF]]);
+  addLine(context, [[x - CROSS_HALF, y + CROSS_HALF], [x + CROSS_HALF, y - CROSS_HALF]]);
 }
 
 function drawCrosses({ context, view }: Brush, triples: Float64Array, colour: string) {
@@ -247,8 +247,8 @@ function drawPaths(brush: Brush, paths: Float64Array[], colour: string) {
 /** Draws samples as dots that darken where they overlap. */
 function drawSamples({ context, view }: Brush, triples: Float64Array, colour: string) {
   context.fillStyle = colour;
-  context.globalAlpha = DOT.alpha;
-  const radius = clamp(view.width / DOT.per, DOT.least, DOT.most);
+  context.globalAlpha = SAMPLE_DOT.alpha;
+  const radius = clamp(view.width / SAMPLE_DOT.per, SAMPLE_DOT.least, SAMPLE_DOT.most);
   for (let i = 0; i < triples.length; i += 3) {
     context.beginPath();
     context.arc(...view.toPixel(triples[i], triples[i + 1]), radius, 0, 2 * Math.PI);

@@ -21,17 +21,17 @@ export function readingOf(machine: MapSqueeze) {
   };
 }
 
-/** Sorts draws by their outcome. */
+/** Returns the poses of the samples by outcome. */
 function sort(poses: Float64Array, verdicts: Uint8Array) {
   const posesOf = (wanted: number) => {
-    const some = [...verdicts.keys()].filter((i) => kindOf(verdicts[i]) === wanted);
+    const some = [...verdicts.keys()].filter((i) => outcomeOf(verdicts[i]) === wanted);
     return Float64Array.from(some.flatMap((i) => [poses[3 * i], poses[3 * i + 1], poses[3 * i + 2]]));
   };
   return { rejected: posesOf(0), free: posesOf(1), through: posesOf(2) };
 }
 
-/** Returns 0 for a sample that is rejected, 1 for an accepted one, 2 where its path is not free. */
-export function kindOf(verdict: number) {
+/** Returns 0 for a rejected sample, 1 for an accepted one, and 2 for an accepted one whose path goes through a wall. */
+export function outcomeOf(verdict: number) {
   if ((verdict & bits.accepted) === 0) return 0;
   return (verdict & bits.pathFree) === 0 ? 2 : 1;
 }

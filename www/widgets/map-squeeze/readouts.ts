@@ -5,7 +5,7 @@ import { sampleField } from '../../figure/controls.ts';
 import { words } from '../../messages/registry.ts';
 import { counted, fixed, percent, rounded } from '../../ui/format.ts';
 import { figureTable, readoutList } from '../../ui/readouts.ts';
-import { DEMAND, type Cost, type CostMeter } from './cost.ts';
+import { SAMPLES_PER_SECOND, type Cost, type CostMeter } from './cost.ts';
 import { SAMPLERS } from './settings.ts';
 import { verdictText } from './words.ts';
 import type { SamplerName } from '../../types.d.ts';
@@ -55,6 +55,6 @@ export function costTable({ costs, current }: CostMeter, steps: number) {
 }
 
 function costText({ draws, wallTests, micros }: Cost) {
-  const share = `${rounded(100 * micros * 1e-6 * DEMAND, 2)}\u202f%`;
+  const share = `${rounded(100 * micros * 1e-6 * SAMPLES_PER_SECOND, 2)}\u202f%`;
   return [fixed(draws, 2), fixed(wallTests, 2), rounded(micros, 2), share];
 }

@@ -10,7 +10,7 @@ import type { SamplerName } from '../../types.d.ts';
 const declared = settings['map-squeeze'];
 
 /** Presets: positions in the apartment, with settings that show their effect. */
-export const PRESET = presetsOf(presets['map-squeeze'], declared);
+export const PRESET_SETTING = presetsOf(presets['map-squeeze'], declared);
 
 /** Pose of the robot where a map has been left. */
 export const OPENING_START = presets['map-squeeze'][0].start;
@@ -38,7 +38,7 @@ export const definition = definitionOf('map-squeeze', {
     steps: { role: 'prediction', min: 1, max: 64, step: 1, decimals: 0 },
   },
   attributes: {
-    preset: { ...PRESET, own: true, opening: PRESET.words?.[0] },
+    preset: { ...PRESET_SETTING, own: true, opening: PRESET_SETTING.words?.[0] },
     view: { kind: WORD, own: true, words: VIEWS },
   },
   own: {
@@ -55,4 +55,4 @@ export const SAMPLERS = declared.find(({ key }) => key === 'sampler')?.words as 
 export const SAMPLE_COUNTS = [1, 2, 5, 10, 20, 50, 100, 200, 300, 600, 1000, 2000, 5000, 10_000, 20_000, 50_000, 100_000];
 
 /** Maximum number of samples for a command in one step; it is divided by the number of sub-steps. */
-export const MOST_SAMPLES = declared.find(({ key }) => key === 'samples')?.max ?? 0;
+export const MAX_SAMPLES = declared.find(({ key }) => key === 'samples')?.max ?? 0;

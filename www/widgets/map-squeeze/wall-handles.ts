@@ -15,11 +15,11 @@ import type { View } from '../../scene/view.ts';
 const KEY_STEP = 0.05;
 
 /** Largest number of walls with handles. */
-const MOST_WALLS = 50;
+const MAX_HANDLED_WALLS = 50;
 
 /** Distance of the grip of an end from that end, pixels, and the largest share of the wall: grips in a narrow doorway stay apart. */
-const INWARD = 12;
-const MOST_INWARD = 1 / 6;
+const GRIP_INSET = 12;
+const MAX_GRIP_INSET = 1 / 6;
 
 export class WallHandles extends Part<import('./map-squeeze.ts').MapSqueezeElement> {
   #handles: Map<string, Handle> = new Map();
@@ -32,7 +32,7 @@ export class WallHandles extends Part<import('./map-squeeze.ts').MapSqueezeEleme
   /** Grips of the plan in the picture. */
   get #present() {
     const { plan, movable } = this.host.picture;
-    return this.#grips.of([plan], () => (movable && plan.walls.length <= 4 * MOST_WALLS ? gripsOf(plan) : []));
+    return this.#grips.of([plan], () => (movable && plan.walls.length <= 4 * MAX_HANDLED_WALLS ? gripsOf(plan) : []));
   }
 
   /** Walls of the plan in the picture. */
@@ -165,7 +165,7 @@ export class WallHandles extends Part<import('./map-squeeze.ts').MapSqueezeEleme
 
   /** Returns the share of a wall between an end and its grip. */
   #inward(grip: Grip, view: View) {
-    return Math.min(MOST_INWARD, INWARD / (this.#lengthOf(grip) * view.scaleX));
+    return Math.min(MAX_GRIP_INSET, GRIP_INSET / (this.#lengthOf(grip) * view.scaleX));
   }
 
   /** Returns the middle of the visible part of a wall between the grips of its ends; undefined where none is visible. */

@@ -4,14 +4,14 @@ import { extentAround } from '../../scene/view.ts';
 import type { Plan } from '../../types.d.ts';
 
 /** Distance below which two walls touch. */
-const TOUCH = 1e-6;
+const TOUCH_DISTANCE = 1e-6;
 
 /** Minimum gap between the end of a wall and the next wall, and minimum length of a wall, m. */
-const GAP = 0.05;
+const MIN_GAP = 0.05;
 
 /** Least distance at which a path touches a wall, and the tested points of a path in such a distance. */
-const LEAST_REACH = 0.02;
-const STEPS_A_REACH = 4;
+const MIN_TOUCH_RADIUS = 0.02;
+const POINTS_PER_RADIUS = 4;
 
 /** Returns the point of a wall that is nearest to another point, with the distance. `k` is the index of the wall's first number. */
 function nearestOn(walls: ArrayLike<number>, k: number, x: number, y: number) {
@@ -25,7 +25,7 @@ function nearestOn(walls: ArrayLike<number>, k: number, x: number, y: number) {
 
 /** Returns the point of a wall that a robot of a radius touches first on a path of x, y pairs; undefined for none. */
 export function contactOf(path: ArrayLike<number>, walls: Float64Array, radius: number) {
-  const reach = Math.max(radius, LEAST_REACH);
+  const reach = Math.max(radius, MIN_TOUCH_RADIUS);
   const box = extentAround(path, 2);
   const near = [];
   for (let k = 0; k < walls.length; k += 4) {
@@ -35,7 +35,7 @@ export function contactOf(path: ArrayLike<number>, walls: Float64Array, radius: 
   }
   for (let i = 0; i + 3 < path.length; i += 2) {
     const [dx, dy] = [path[i + 2] - path[i], path[i + 3] - path[i + 1]];
-    const steps = Math.ceil((STEPS_A_REACH * Math.hypot(dx, dy)) / reach) || 1;
+    const steps = Math.ceil((POINTS_PER_RADIUS * Math.hypot(dx, dy)) / reach) || 1;
     for (let step = 0; step <= steps; step++) {
       const [x, y] = [path[i] + (step / steps) * dx, path[i + 1] + (step / steps) * dy];
       const [first] = near.map((k) => nearestOn(walls, k, x, y)).sort((one, other) => one.distance - other.distance);
@@ -46,19 +46,19 @@ export function contactOf(path: ArrayLike<number>, walls: Float64Array, radius: 
 
 /** Part of a wall that can be moved along an axis. */
 export interface Grip {
-  /** Index of its first number. */
+  /** Index of the wall's first coordinate in the list of all walls. */
   wall: number;
   /** An end of the wall, or the whole wall, which moves across its direction. */
   part: 'from' | 'to' | 'side';
   /** Unit vector. */
   axis: number[];
-  /** Smallest and largest movement along the axis. */
+  /** Smallest and largest movement along the axis, metres. */
   range: number[];
 }
 
 /**
  * Returns three grips of each wall, in the order of the walls: two ends, which can be moved where they touch no other wall, and the side.
- * The shell has none.
+ * The outer walls of the map have none.
  */
 export function gripsOf({ bounds, walls }: Plan): (Grip | undefined)[] {
   const grips = [];
@@ -71,18 +71,18 @@ export function gripsOf({ bounds, walls }: Plan): (Grip | undefined)[] {
     const ends: [part: 'from' | 'to', end: number[], axis: number[]][] = [['from', [x0, y0], along.map((each) => -each)], ['to', [x1, y1], along]];
     for (const [part, end, axis] of ends) {
       const most = Math.min(rangeWithin(bounds, [end], axis)[1], roomAhead(walls, wall, end, axis));
-      const range = [Math.min(0, GAP - length), Math.max(0, most)];
-      grips.push(isShell || length < GAP || !isFree(walls, wall, end) ? undefined : { wall, part, axis, range });
+      const range = [Math.min(0, MIN_GAP - length), Math.max(0, most)];
+      grips.push(isShell || length < MIN_GAP || !isFree(walls, wall, end) ? undefined : { wall, part, axis, range });
     }
     const range = rangeWithin(bounds, [[x0, y0], [x1, y1]], side);
-    grips.push(isShell || length < GAP ? undefined : { wall, part: 'side' as const, axis: side, range });
+    grips.push(isShell || length < MIN_GAP ? undefined : { wall, part: 'side' as const, axis: side, range });
   }
   return grips;
 }
 
 /** Returns whether an end of a wall touches no other wall. */
 function isFree(walls: Float64Array, wall: number, [x, y]: readonly number[]) {
-  for (let k = 0; k < walls.length; k += 4) if (k !== wall && nearestOn(walls, k, x, y).distance < TOUCH) return false;
+  for (let k = 0; k < walls.length; k += 4) if (k !== wall && nearestOn(walls, k, x, y).distance < TOUCH_DISTANCE) return false;
   return true;
 }
 
@@ -90,8 +90,8 @@ function isFree(walls: Float64Array, wall: number, [x, y]: readonly number[]) {
 function rangeWithin(bounds: ArrayLike<number>, points: readonly (readonly number[])[], axis: readonly number[]): [number, number] {
   let [least, most] = [-Infinity, Infinity];
   for (const point of points) {
-    for (const i of [0, 1].filter((each) => Math.abs(axis[each]) > TOUCH)) {
-      const ends = [bounds[i] + GAP, bounds[i + 2] - GAP].map((bound) => (bound - point[i]) / axis[i]).sort((a, b) => a - b);
+    for (const i of [0, 1].filter((each) => Math.abs(axis[each]) > TOUCH_DISTANCE)) {
+      const ends = [bounds[i] + MIN_GAP, bounds[i + 2] - MIN_GAP].map((bound) => (bound - point[i]) / axis[i]).sort((a, b) => a - b);
       [least, most] = [Math.max(least, ends[0]), Math.min(most, ends[1])];
     }
   }
@@ -105,9 +105,9 @@ function roomAhead(walls: Float64Array, wall: number, [x, y]: readonly number[],
     if (k === wall) continue;
     const ends = [k, k + 2].map((i) => [(walls[i] - x) * ux + (walls[i + 1] - y) * uy, (walls[i + 1] - y) * ux - (walls[i] - x) * uy]);
     const [[ahead, left], [further, right]] = ends;
-    if (Math.min(left, right) > TOUCH || Math.max(left, right) < -TOUCH) continue;
-    const at = Math.abs(right - left) < TOUCH ? Math.min(ahead, further) : ahead - (left * (further - ahead)) / (right - left);
-    if (at > 0) room = Math.min(room, at - GAP);
+    if (Math.min(left, right) > TOUCH_DISTANCE || Math.max(left, right) < -TOUCH_DISTANCE) continue;
+    const at = Math.abs(right - left) < TOUCH_DISTANCE ? Math.min(ahead, further) : ahead - (left * (further - ahead)) / (right - left);
+    if (at > 0) room = Math.min(room, at - MIN_GAP);
   }
   return room;
 }
@@ -123,8 +123,8 @@ export function movedWalls(walls: Float64Array, { wall, part, axis: [ux, uy] }: 
   if (part !== 'from') move(wall + 2);
   for (let k = 0; k < walls.length && part === 'side'; k += 4) {
     const [dx, dy] = [walls[k + 2] - walls[k], walls[k + 3] - walls[k + 1]];
-    if (k === wall || Math.abs(dx * uy - dy * ux) > TOUCH) continue;
-    for (const end of [k, k + 2]) if (nearestOn(walls, wall, walls[end], walls[end + 1]).distance < TOUCH) move(end);
+    if (k === wall || Math.abs(dx * uy - dy * ux) > TOUCH_DISTANCE) continue;
+    for (const end of [k, k + 2]) if (nearestOn(walls, wall, walls[end], walls[end + 1]).distance < TOUCH_DISTANCE) move(end);
   }
   return moved;
 }

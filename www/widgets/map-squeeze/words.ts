@@ -29,18 +29,18 @@ export function verdictText(verdict: number, config: Settings) {
 const DENOMINATORS = [2, 3, 4, 5, 6, 7, 8, 9, 10];
 
 /** Fraction below which the headline says "1 in n", and fraction above which it says "nearly all". */
-const FEW = 0.075;
-const MOST = 0.95;
+const ONE_IN_N_BELOW = 0.075;
+const NEARLY_ALL_ABOVE = 0.95;
 
 /** Returns a share between 0 and 1 as a simple fraction. */
 function fractionOf(share: number): [few: number, of: number] {
-  if (share < FEW) return [1, Number((1 / share).toPrecision(2))];
+  if (share < ONE_IN_N_BELOW) return [1, Number((1 / share).toPrecision(2))];
   const fractions = DENOMINATORS.map((of) => [clamp(Math.round(share * of), 1, of - 1), of] as [number, number]);
   const off = ([few, of]: [number, number]) => Math.abs(few / of - share);
   return fractions.reduce((best, each) => (off(each) < off(best) - 1e-9 ? each : best));
 }
 
-/** Returns the sentence that the figure is for. */
+/** Returns the headline: the share of accepted motions that went through a wall. */
 export function headlineOf({ attempts, accepted, throughWall }: Pick<Stats, 'attempts' | 'accepted' | 'throughWall'>) {
   const say = words.squeeze.headline;
   if (attempts === 0) return say.untried;
@@ -48,10 +48,10 @@ export function headlineOf({ attempts, accepted, throughWall }: Pick<Stats, 'att
   if (throughWall === 0) return say.none;
   const share = throughWall / accepted;
   if (share === 1) return say.all;
-  return share > MOST ? say.most : say.share(...fractionOf(share));
+  return share > NEARLY_ALL_ABOVE ? say.most : say.share(...fractionOf(share));
 }
 
-/** Returns what the picture shows, in one sentence; and what keeps the robot from moving, if something does. */
+/** Returns the caption: the counts of the samples, or why the robot cannot move. */
 export function captionOf({ config: { conditioned, sampler }, stats, note }: Reading) {
   const { accepted, attempts, gaveUp } = stats;
   const say = words.squeeze;

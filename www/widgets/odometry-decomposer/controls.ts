@@ -9,7 +9,7 @@ import { figureTable } from '../../ui/readouts.ts';
 import { NOISE, SAMPLE_COUNTS } from './settings.ts';
 import type { OdometryDecomposerElement as Figure } from './odometry-decomposer.ts';
 
-/** Returns the deviations by every noise model: those that differ from the printed table's stand out. */
+/** Returns the table of standard deviations by noise model. Values that differ from Table 5.6 are bold. */
 export function rulesTable(figure: Figure) {
   const { rules: names, table: say, settings } = words.decomposer;
   const { rules } = figure.reading;

@@ -4,14 +4,14 @@ import type { Pose } from '../../types.d.ts';
 import { addLine, stroke, strokeLine, type Brush } from '../../scene/canvas.ts';
 
 /** Half the width and the length of an arrow's head, pixels. */
-const HEAD = { half: 4, length: 9 };
+const ARROW_HEAD = { half: 4, length: 9 };
 
 /** Angle of a chord of a drawn arc, radians. */
-const STEP = 0.1;
+const CHORD_ANGLE = 0.1;
 
 /** Returns the directions, rad, from a heading to its turn by some radians. */
 export function directionsOf(heading: number, turn: number) {
-  const count = Math.max(1, Math.ceil(Math.abs(turn) / STEP));
+  const count = Math.max(1, Math.ceil(Math.abs(turn) / CHORD_ANGLE));
   return Array.from({ length: count + 1 }, (_, i) => heading + (turn * i) / count);
 }
 
@@ -26,11 +26,11 @@ export function drawTurn(brush: Brush, from: Pose, turn: number, radius: number,
   const points = arcOf(brush, from, turn, radius);
   strokeLine(context, points, { colour, width: 1.75 });
   // The arrow head is smaller on a short arc.
-  const length = Math.min(HEAD.length, radius * Math.abs(turn));
+  const length = Math.min(ARROW_HEAD.length, radius * Math.abs(turn));
   const tip = points[points.length - 1];
   const back = { ...from, theta: from.theta + turn - (Math.sign(turn) * length) / radius };
-  const share = length / HEAD.length;
-  const foot = (side: number) => view.ray(back, radius + side * share * HEAD.half)[1];
+  const share = length / ARROW_HEAD.length;
+  const foot = (side: number) => view.ray(back, radius + side * share * ARROW_HEAD.half)[1];
   context.fillStyle = colour;
   context.beginPath();
   addLine(context, [tip, foot(1), foot(-1)]);
@@ -66,7 +66,7 @@ export function drawBar({ context, view }: Brush, pose: Pose, deviation: number,
     for (const side of [-reach, reach]) {
       const [middle, [endX, endY]] = view.ray(pose, side);
       addLine(context, [middle, [endX, endY]]);
-      addLine(context, [[endX - HEAD.half * ahead.y, endY + HEAD.half * ahead.x], [endX + HEAD.half * ahead.y, endY - HEAD.half * ahead.x]]);
+      addLine(context, [[endX - ARROW_HEAD.half * ahead.y, endY + ARROW_HEAD.half * ahead.x], [endX + ARROW_HEAD.half * ahead.y, endY - ARROW_HEAD.half * ahead.x]]);
     }
   });
 }

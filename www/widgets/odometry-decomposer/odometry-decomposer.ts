@@ -15,16 +15,16 @@ import { Player } from '../shared/player.ts';
 import { PoseHandles } from '../shared/pose-handles.ts';
 import { presetButtons } from '../shared/presets.ts';
 import { noiseControls, playable, rulesTable } from './controls.ts';
-import { LegsPicture, RADIUS, WorldPicture } from './pictures.ts';
+import { LegsPicture, ROBOT_RADIUS, WorldPicture } from './pictures.ts';
 import { readingOf, type Reading } from './reading.ts';
-import { headline, readouts, spreads } from './readouts.ts';
+import { headline, readouts, spreadPlot } from './readouts.ts';
 import { LINES, definition, looks } from './settings.ts';
 import { decomposerStyles } from './styles.ts';
-import { apart, captionOf, legsText, worldText } from './words.ts';
+import { driftDistance, captionOf, legsText, worldText } from './words.ts';
 import type { OdometryDecomposer as Machine } from '../../types.d.ts';
 
 /** Bounds of both poses: left, bottom, right and top, m. */
-const FLOOR = [-4, -4, 4, 4];
+const POSE_BOUNDS = [-4, -4, 4, 4];
 
 /**
  * Odometry read as rotate, drive, rotate, with the noise that localizers add to each part.
@@ -44,7 +44,7 @@ export class OdometryDecomposerElement extends FigureElement<Machine, Reading> {
   #world = new WorldPicture();
   pictures = [this.#legs, this.#world];
   /** The second pose is on top if both poses are in one place. */
-  #handles: PoseHandles[] = ['from', 'to'].map((setting) => new PoseHandles(this, setting, () => this.#legs.view, () => FLOOR));
+  #handles: PoseHandles[] = ['from', 'to'].map((setting) => new PoseHandles(this, setting, () => this.#legs.view, () => POSE_BOUNDS));
 
   createMachine: FigureElement<Machine, Reading>['createMachine'] = (motion, state) => enterCloud(this, new motion.OdometryDecomposer(), state);
 
@@ -86,7 +86,7 @@ export class OdometryDecomposerElement extends FigureElement<Machine, Reading> {
   announcement = captionOf;
 
   placeHandles({ config }: Reading) {
-    for (const handles of this.#handles) handles.place(config, RADIUS);
+    for (const handles of this.#handles) handles.place(config, ROBOT_RADIUS);
   }
 
   content(reading: Reading) {
@@ -99,14 +99,14 @@ export class OdometryDecomposerElement extends FigureElement<Machine, Reading> {
         ${panel(say.worldTitle, html`<div class="stage">${canvas(this, this.#world, worldText(reading))}</div>`)}
         ${this.stage.later(() => html`
         <div class="said">${headline(reading)} <p class="caption" part="caption">${captionOf(reading)}</p></div>
-        <p class="caption">${rich(say.worldCaption(fixed(apart(reading), 2)))}</p>`)}
+        <p class="caption">${rich(say.worldCaption(fixed(driftDistance(reading), 2)))}</p>`)}
       </div>
       ${this.stage.later(() => html`
       ${legend(this, LINES)} ${presetButtons(this)} ${rulesTable(this)}
       <div class="plays" part="controls">${playable(this, 'phase', say.path)} ${playable(this, 'drift', say.drift)}</div>
       ${disclosures(this, {
         controls: () => noiseControls(this),
-        numbers: () => html`${readouts(reading)} ${spreads(this.#curveOf, reading)}`,
+        numbers: () => html`${readouts(reading)} ${spreadPlot(this.#curveOf, reading)}`,
       })}`)}
     `;
   }

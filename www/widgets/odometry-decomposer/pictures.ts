@@ -20,51 +20,51 @@ export type LineName = keyof typeof LINES;
 export type Scene = import('./reading.ts').Reading & { marked: Float64Array | undefined, overlays: string[] };
 
 /** Radius of the robot, m. */
-export const RADIUS = 0.11;
+export const ROBOT_RADIUS = 0.11;
 
 /** Margins around the robots, and around a standard deviation of the outcomes. */
-const ROOM = { metres: 0.3, deviations: 2.4 };
+const MARGINS = { metres: 0.3, deviations: 2.4 };
 
 /** Maximum number of outcomes that are drawn with headings: more would be indistinguishable. */
 const MAX_TICKS = 1000;
 
 /** Gap between the handle that turns a robot and the arc of a turn around it, and between two arcs, CSS pixels. */
-const GAP = { handle: 14, arcs: 16 };
+const ARC_GAPS = { handle: 14, arcs: 16 };
 
 /** Maximum margin around a turn, as a fraction of the frame's shorter side, so that half of the frame remains for the motion. */
-const ARC_SHARE = 0.25;
+const MAX_ARC_SHARE = 0.25;
 
 /** Number of bisections for the view's scale. */
-const HALVINGS = 12;
+const SCALE_BISECTIONS = 12;
 
 /** Length of a drive, CSS pixels, below which it has no label. */
-const SEEN = 24;
+const MIN_LABELLED_DRIVE = 24;
 
 /** Turn, rad, below which it has no arc. */
-const NO_TURN = 0.005;
+const MIN_DRAWN_TURN = 0.005;
 
 /** Candidate ends of a leader on the arc of a turn, as fractions of it. */
-const ANCHORS = [0.5, 0.3, 0.7, 0.1, 0.9];
+const LEADER_ENDS = [0.5, 0.3, 0.7, 0.1, 0.9];
 
 const AXES = { x: 'x (m)', y: 'y (m)' };
 
 /** Length of the axes of the odometry frame, m: less than the margin, so that none is clipped. */
-const AXIS = 0.28;
+const FRAME_AXIS_LENGTH = 0.28;
 
 /** Returns the key of an exported picture for the lines that are shown. */
 const keyOf = (brush: Brush, { overlays }: Scene, names: LineName[]) =>
   lineKeys(brush, LINES, names.filter((name) => overlays.includes(name)), words.decomposer.overlays);
 
-/** Returns the corners of the outcomes' surroundings as x, y pairs, as far as a picture makes room for them. */
+/** Returns points around the start and the outcomes, as x, y pairs, that a picture has to show. */
 function surroundings({ linkage, legs, deviations, stats }: Scene): number[] {
   const [{ x, y }, driven] = [poseIn(linkage, 0), poseIn(linkage, 2)];
-  const along = Math.min(ROOM.deviations * deviations.trans, legs.trans + 2);
+  const along = Math.min(MARGINS.deviations * deviations.trans, legs.trans + 2);
   // No limit is needed here: a rotation moves the end across by at most the length of the drive.
-  const across = ROOM.deviations * stats.exactCrossTrack;
+  const across = MARGINS.deviations * stats.exactCrossTrack;
   const [dx, dy] = [Math.abs(Math.cos(driven.theta)), Math.abs(Math.sin(driven.theta))];
-  const room = [ROOM.metres + along * dx + across * dy, ROOM.metres + along * dy + across * dx];
+  const room = [MARGINS.metres + along * dx + across * dy, MARGINS.metres + along * dy + across * dx];
   return [
-    ...[x - ROOM.metres, y - ROOM.metres, x + ROOM.metres, y + ROOM.metres],
+    ...[x - MARGINS.metres, y - MARGINS.metres, x + MARGINS.metres, y + MARGINS.metres],
     ...[driven.x - room[0], driven.y - room[1], driven.x + room[0], driven.y + room[1]],
   ];
 }
@@ -83,7 +83,7 @@ class OutcomesPicture extends SamplesPicture<Scene> {
 }
 
 /** Returns the radii of the arcs of both turns, pixels. */
-const reachesAt = (view: Pick<View, 'scaleX'>) => [0, 1].map((arc) => turnDistance(view, RADIUS) + GAP.handle + arc * GAP.arcs);
+const reachesAt = (view: Pick<View, 'scaleX'>) => [0, 1].map((arc) => turnDistance(view, ROBOT_RADIUS) + ARC_GAPS.handle + arc * ARC_GAPS.arcs);
 
 /** Picture in the odometry frame: the legs as a linkage, and the effect of noise on it. */
 export class LegsPicture extends OutcomesPicture {
@@ -98,7 +98,7 @@ export class LegsPicture extends OutcomesPicture {
       return;
     }
     const { left, right, top, bottom } = view.frame;
-    const most = ARC_SHARE * Math.min(right - left, bottom - top);
+    const most = MAX_ARC_SHARE * Math.min(right - left, bottom - top);
     const boxAt = (scale: number) => {
       const reaches = reachesAt({ scaleX: scale });
       const arcs = [legs.rot1, legs.rot2].flatMap((by, i) => {
@@ -111,7 +111,7 @@ export class LegsPicture extends OutcomesPicture {
     // The arcs, whose size is in pixels, fit at half the scale of the world alone.
     let high = view.scaleFor(extentOf(room, 1.2));
     let low = high / 2;
-    for (let i = 0; i < HALVINGS; i++) {
+    for (let i = 0; i < SCALE_BISECTIONS; i++) {
       const scale = (low + high) / 2;
       if (view.scaleFor(boxAt(scale)) < scale) high = scale;
       else low = scale;
@@ -133,8 +133,8 @@ export class LegsPicture extends OutcomesPicture {
       if (overlays.includes('outcomes')) this.#paintGhosts(brush, scene);
       drawOutcomes(brush, scene);
       if (overlays.includes('legs')) drawSegment(brush, start, driven, styles.legs);
-      drawHeldRobot(brush, start, RADIUS, palette.prior);
-      drawHeldRobot(brush, config.to, RADIUS, palette.prior);
+      drawHeldRobot(brush, start, ROBOT_RADIUS, palette.prior);
+      drawHeldRobot(brush, config.to, ROBOT_RADIUS, palette.prior);
       if (spread) {
         drawBar(brush, driven, deviations.trans, colour);
         drawBar(brush, { ...driven, theta: driven.theta + Math.PI / 2 }, deviations.strafe, colour);
@@ -143,7 +143,7 @@ export class LegsPicture extends OutcomesPicture {
       if (config.phase < 3) this.#paintRobot(brush, scene.robot);
       if (overlays.includes('legs')) {
         for (const [from, by, reach] of ([[start, legs.rot1, first], [driven, legs.rot2, second]] as [Pose, number, number][])) {
-          if (Math.abs(by) >= NO_TURN) drawTurn(brush, from, by, reach, styles.legs.colour);
+          if (Math.abs(by) >= MIN_DRAWN_TURN) drawTurn(brush, from, by, reach, styles.legs.colour);
         }
       }
       this.paintMark(brush, scene);
@@ -151,7 +151,7 @@ export class LegsPicture extends OutcomesPicture {
     if (overlays.includes('legs')) drawLabelsAbove(brush, this.#labels(brush, scene, first, second));
   };
 
-  /** Returns the labels of the legs that are seen, with their values and deviations. The arcs of both turns have radii in pixels. */
+  /** Returns labels with the value and standard deviation of each leg that is long enough to see. The arcs of both turns have radii in pixels. */
   #labels({ view, palette: { prior: colour } }: Brush, { linkage, legs, deviations }: Scene, first: number, second: number) {
     const [start, driven] = [0, 2].map((index) => poseIn(linkage, index));
     const label = (sub: 'rot1' | 'trans' | 'rot2', unit: string, place: { x: number, y: number }) => ({
@@ -163,16 +163,16 @@ export class LegsPicture extends OutcomesPicture {
     });
     // The place of an arc that is nearest to the labels, and inside of the axes.
     const onArc = ({ x, y, theta }: Pose, by: number, reach: number) => {
-      const places = ANCHORS.map((share) => view.ray({ x, y, theta: theta + share * by }, reach)[1])
+      const places = LEADER_ENDS.map((share) => view.ray({ x, y, theta: theta + share * by }, reach)[1])
         .map(([placeX, placeY]) => ({ x: placeX, y: placeY }))
         .sort((one, other) => one.y - other.y);
       return places.find((place) => place.y > view.frame.top) ?? places[places.length - 1];
     };
     const middle = { x: view.toPixelX((start.x + driven.x) / 2), y: view.toPixelY((start.y + driven.y) / 2) };
     return [
-      ...(Math.abs(legs.rot1) < NO_TURN ? [] : [label('rot1', 'rad', onArc(start, legs.rot1, first))]),
-      ...(legs.trans * view.scaleX < SEEN ? [] : [label('trans', 'm', middle)]),
-      ...(Math.abs(legs.rot2) < NO_TURN ? [] : [label('rot2', 'rad', onArc(driven, legs.rot2, second))]),
+      ...(Math.abs(legs.rot1) < MIN_DRAWN_TURN ? [] : [label('rot1', 'rad', onArc(start, legs.rot1, first))]),
+      ...(legs.trans * view.scaleX < MIN_LABELLED_DRIVE ? [] : [label('trans', 'm', middle)]),
+      ...(Math.abs(legs.rot2) < MIN_DRAWN_TURN ? [] : [label('rot2', 'rad', onArc(driven, legs.rot2, second))]),
     ];
   }
 
@@ -188,7 +188,7 @@ export class LegsPicture extends OutcomesPicture {
 
   /** Draws the robot on its path. */
   #paintRobot({ context, view, palette }: Brush, pose: Pose) {
-    const size = Math.max(7, 0.7 * RADIUS * view.scaleX);
+    const size = Math.max(7, 0.7 * ROBOT_RADIUS * view.scaleX);
     const edge = { colour: palette.paper, width: 2 };
     drawDisc(context, view.toPixel(pose.x, pose.y), size, palette.accent, edge);
     strokeLine(context, view.ray(pose, size), edge);
@@ -203,7 +203,7 @@ export class WorldPicture extends OutcomesPicture {
     const { poses } = scene.drifted;
     const around = [0, 1, 2].flatMap((index) => {
       const { x, y } = poseIn(poses, index);
-      return [x - ROOM.metres, y - ROOM.metres, x + ROOM.metres, y + ROOM.metres];
+      return [x - MARGINS.metres, y - MARGINS.metres, x + MARGINS.metres, y + MARGINS.metres];
     });
     this.view.fit(extentOf([...surroundings(scene), ...around], 1.2));
   }
@@ -224,7 +224,7 @@ export class WorldPicture extends OutcomesPicture {
       drawOutcomes(brush, scene);
       if (overlays.includes('prediction')) drawSegment(brush, start, end, styles.prediction);
       if (overlays.includes('difference')) drawSegment(brush, to, end, styles.difference);
-      drawHeldRobot(brush, start, RADIUS, palette.truth);
+      drawHeldRobot(brush, start, ROBOT_RADIUS, palette.truth);
       this.paintMark(brush, scene);
     });
     drawLabelsAbove(brush, [
@@ -235,24 +235,24 @@ export class WorldPicture extends OutcomesPicture {
 
   /** Draws the axes of the odometry frame. */
   #paintFrame({ context, view, palette }: Brush, frame: Pose) {
-    const length = AXIS * view.scaleX;
+    const length = FRAME_AXIS_LENGTH * view.scaleX;
     const [, yEnd] = view.ray({ ...frame, theta: frame.theta + Math.PI / 2 }, length);
     strokeLine(context, [yEnd, ...view.ray(frame, length)], { colour: palette.prior, width: 1.25 });
   }
 
   #paintOdometry(brush: Brush, pose: Pose) {
     const { context, view, palette } = brush;
-    drawRobotOutline(brush, pose.x, pose.y, RADIUS, palette.prior);
-    strokeLine(context, view.ray(pose, RADIUS * view.scaleX + 8), { colour: palette.prior, width: 1.5 });
+    drawRobotOutline(brush, pose.x, pose.y, ROBOT_RADIUS, palette.prior);
+    strokeLine(context, view.ray(pose, ROBOT_RADIUS * view.scaleX + 8), { colour: palette.prior, width: 1.5 });
   }
 
-  /** Returns the labels of the poses before and after; the former where these are two places. */
+  /** Returns the labels of the poses before and after the motion; only the second if both are at one place on the screen. */
   #labels({ view }: Brush, poses: Pose[], symbol: string, colours: string[]) {
     const [before, after] = poses.map((pose, i) => {
       const [x, y] = view.toPixel(pose.x, pose.y);
       return { x, y, symbol, sub: ['t−1', 't'][i], colour: colours[i] };
     });
-    return Math.hypot(before.x - after.x, before.y - after.y) > SEEN ? [before, after] : [after];
+    return Math.hypot(before.x - after.x, before.y - after.y) > MIN_LABELLED_DRIVE ? [before, after] : [after];
   }
 }
 

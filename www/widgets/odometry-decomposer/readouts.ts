@@ -33,14 +33,14 @@ export function readouts({ stats }: Reading) {
 }
 
 /** Number of points of the curves, about one for each pixel on a large screen. */
-const POINTS = 121;
+const CURVE_POINTS = 121;
 
 /** Returns the plot of standard deviations against the length of the drive. */
-export function spreads(curveOf: (longest: number, points: number) => Float64Array, { legs, stats }: Reading) {
+export function spreadPlot(curveOf: (longest: number, points: number) => Float64Array, { legs, stats }: Reading) {
   const say = words.decomposer.plot;
   const longest = Math.max(1, 2 * legs.trans);
-  const rows = curveOf(longest, POINTS);
-  const column = (index: number) => Float64Array.from({ length: POINTS }, (_, i) => rows[4 * i + index]);
+  const rows = curveOf(longest, CURVE_POINTS);
+  const column = (index: number) => Float64Array.from({ length: CURVE_POINTS }, (_, i) => rows[4 * i + index]);
   const [x, crossTrack, lever, along] = [0, 1, 2, 3].map(column);
   const highest = Math.max(0.1, ...crossTrack, ...along, stats.crossTrack + stats.crossTrackError || 0);
   return html`<figure>

@@ -13,7 +13,7 @@ export const LINES = {
   difference: { role: 'accent', width: 1.5, dash: [2, 4] },
 } satisfies Record<string, import('../../figure/overlays.ts').LineStyle>;
 
-/** Sliders of the noise. */
+/** Sliders of the noise parameters and of the correlation. */
 export const NOISE = {
   ...alphaLooks(5, 'odometry'),
   correlation: { symbol: '*ρ*', role: 'prediction' as const, min: -1, max: 1, step: 0.05, decimals: 2 },

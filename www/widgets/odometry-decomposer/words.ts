@@ -8,7 +8,7 @@ import { poseIn, type Reading } from './reading.ts';
 addEnglish({ decomposer: en });
 
 /** Length of a reading, m, below which it is called jitter. */
-const JITTER = 0.01;
+const MAX_JITTER = 0.01;
 
 /** Returns the caption below the pictures. */
 export function captionOf({ config: { rule, alphas }, rules, legs, deviations, stats }: Reading) {
@@ -18,7 +18,7 @@ export function captionOf({ config: { rule, alphas }, rules, legs, deviations, s
   const millimetres = fixed(1000 * trans, 1);
   if (alphas.every((alpha) => alpha === 0)) return say.still;
   if (rule === 'omni') return say.omni(fixed(deviations.strafe, 2));
-  if (trans > 0 && trans < JITTER) return eitherWay ? say.restSpin(millimetres) : say.rest(millimetres, fixed(rot1, 2));
+  if (trans > 0 && trans < MAX_JITTER) return eitherWay ? say.restSpin(millimetres) : say.rest(millimetres, fixed(rot1, 2));
   if (trans === 0) {
     const left = Math.PI - Math.abs(legs.rot2);
     return eitherWay && left < Math.PI / 2 ? say.spinEitherWay(fixed(left, 2)) : say.spin;
@@ -28,7 +28,7 @@ export function captionOf({ config: { rule, alphas }, rules, legs, deviations, s
 }
 
 /** Returns the distance between the odometry's own pose and the predicted pose, m. */
-export function apart({ drifted, linkage }: Reading) {
+export function driftDistance({ drifted, linkage }: Reading) {
   const [own, predicted] = [poseIn(drifted.poses, 2), poseIn(linkage, 3)];
   return Math.hypot(own.x - predicted.x, own.y - predicted.y);
 }
@@ -44,5 +44,5 @@ export function legsText(reading: Reading) {
 /** Returns the text equivalent of the world's picture. */
 export function worldText(reading: Reading) {
   const { x, y, theta } = poseIn(reading.drifted.poses, 0);
-  return words.decomposer.worldPicture(fixed(x, 2), fixed(y, 2), fixed(theta, 2), fixed(apart(reading), 2));
+  return words.decomposer.worldPicture(fixed(x, 2), fixed(y, 2), fixed(theta, 2), fixed(driftDistance(reading), 2));
 }

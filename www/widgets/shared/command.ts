@@ -8,7 +8,7 @@ export const COMMAND_DASH = [2.5, 3.5];
 
 const SPEED = { role: 'prior' as const, step: 0.01, decimals: 2 };
 
-/** Returns the sliders of a command, with the longest duration in s. Handles and charts that set the command keep to their ranges. */
+/** Returns the sliders of a command, with the longest duration in s. Handles and charts that set the command stay within these ranges. */
 export const commandLooks = (longest: number) => ({
   v: { ...SPEED, symbol: '*v*', min: -1.5, max: 1.5 },
   omega: { ...SPEED, symbol: '*ω*', min: -2, max: 2 },

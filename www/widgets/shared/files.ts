@@ -27,7 +27,7 @@ export class FileDrop {
   /** Runs when something is dragged over the figure. */
   enter: (() => void) | undefined;
 
-  /** Creates it with the id of the element that describes the files; on a drop its disclosure opens. */
+  /** Creates the drop target. `id` names the element that describes the files; if it is a disclosure, a drop opens it. */
   constructor(host: Figure, id: string, choose: (files: File[]) => void, enter?: () => void) {
     this.#host = host;
     this.#id = id;
@@ -81,18 +81,18 @@ export class FileDrop {
 async function filesOf({ items }: DataTransfer): Promise<File[]> {
   // All entries are read synchronously: the list is empty afterwards.
   const dropped = [...items].filter(({ kind }) => kind === 'file').map((item) => ({ entry: item.webkitGetAsEntry(), file: item.getAsFile() }));
-  const files = await Promise.all(dropped.map(({ entry, file }) => (entry?.isDirectory ? inside(entry as FileSystemDirectoryEntry) : file ? [file] : [])));
+  const files = await Promise.all(dropped.map(({ entry, file }) => (entry?.isDirectory ? filesIn(entry as FileSystemDirectoryEntry) : file ? [file] : [])));
   return files.flat();
 }
 
-async function inside(folder: FileSystemDirectoryEntry): Promise<File[]> {
+async function filesIn(folder: FileSystemDirectoryEntry): Promise<File[]> {
   const reader = folder.createReader();
   const entries: FileSystemEntry[] = [];
   const more = () => new Promise<FileSystemEntry[]>((resolve, reject) => reader.readEntries(resolve, reject));
   // Browsers return a hundred entries at a time.
   for (let some = await more(); some.length > 0; some = await more()) entries.push(...some);
   const files = await Promise.all(entries.filter(({ name }) => !name.startsWith('.')).map(async (entry) => {
-    if (entry.isDirectory) return inside(entry as FileSystemDirectoryEntry);
+    if (entry.isDirectory) return filesIn(entry as FileSystemDirectoryEntry);
     const file = await new Promise<File>((resolve, reject) => (entry as FileSystemFileEntry).file(resolve, reject));
     return [Object.assign(file, { path: entry.fullPath.slice(1) })];
   }));

@@ -1,4 +1,4 @@
-/** Noise parameters of a model, common to all widgets that have all of them. */
+/** Sliders of the noise parameters (α's) of a motion model. */
 
 /** Returns the subscript of an α, counted from 0. */
 export const subscript = (index: number) => String.fromCharCode(0x2081 + index);

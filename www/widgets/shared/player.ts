@@ -19,7 +19,7 @@ export class Player<Key extends string> extends Part {
   /** Key of the animated setting. */
   #key: Key | undefined;
   #played;
-  /** Movement that was not applied yet, for a setting with whole steps. */
+  /** Remainder of the last movement that a setting with whole steps could not take. */
   #beyond = 0;
 
   constructor(host: import('../../figure/figure.ts').Figure, played: Record<Key, Played>) {

@@ -17,5 +17,5 @@ export function presetButtons(figure: import('../../figure/figure.ts').Figure, m
   </div>`;
 }
 
-/** Returns the button that brings back how the figure opened. */
+/** Returns the button that restores the state that the figure opened with. */
 export const startOverButton = ({ state }: import('../../figure/figure.ts').Figure) => button(words.startOver, () => state.startOver(), { title: words.startOverTitle, name: 'start-over' });

@@ -6,17 +6,17 @@ import { drawDisc, strokeLine, type Brush } from '../../scene/canvas.ts';
 import type { View } from '../../scene/view.ts';
 
 /** Smallest radius of a robot that is drawn, CSS pixels. */
-const SMALLEST = 3;
+const MIN_RADIUS = 3;
 
-/** Radius of the ring that turns it, pixels. */
-const TURN = 5.5;
+/** Radius of the handle that turns a robot, CSS pixels. */
+const TURN_HANDLE_RADIUS = 5.5;
 
 /** Returns the distance in CSS pixels from the centre of a robot to the handle ahead that turns it. The radius is in metres. */
 export function turnDistance(view: Pick<View, 'scaleX'>, radius: number): number {
   return Math.max(34, radius * view.scaleX + 22);
 }
 
-/** Draws the robot that the reader has in hand, with a radius in metres. Later labels keep clear of it. */
+/** Draws a robot that the reader can drag and turn, with a radius in metres. Labels that are drawn later avoid it. */
 export function drawHeldRobot(brush: Brush, pose: Pose, radius: number, colour: string) {
   const { context, view, palette, placed } = brush;
   const [middle, turn] = view.ray(pose, turnDistance(view, radius));
@@ -24,8 +24,8 @@ export function drawHeldRobot(brush: Brush, pose: Pose, radius: number, colour: 
   const body = radiusOn(view, radius);
   drawDisc(context, middle, body, palette.paper, edge);
   strokeLine(context, [middle, turn], edge);
-  for (const [[x, y], size] of [[middle, body], [turn, TURN + 3]] as const) placed.push({ x, y, across: size, down: size });
-  drawHandle(brush, { x: turn[0], y: turn[1], radius: TURN, colour });
+  for (const [[x, y], size] of [[middle, body], [turn, TURN_HANDLE_RADIUS + 3]] as const) placed.push({ x, y, across: size, down: size });
+  drawHandle(brush, { x: turn[0], y: turn[1], radius: TURN_HANDLE_RADIUS, colour });
 }
 
 /** Draws the dashed outline of a robot where a command would bring it; lengths in metres. */
@@ -35,5 +35,5 @@ export function drawRobotOutline({ context, view }: Brush, x: number, y: number,
 
 /** Returns the radius of a robot, metres, in CSS pixels. */
 function radiusOn(view: View, radius: number): number {
-  return Math.max(SMALLEST, radius * view.scaleX);
+  return Math.max(MIN_RADIUS, radius * view.scaleX);
 }

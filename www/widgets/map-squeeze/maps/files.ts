@@ -5,7 +5,7 @@ import type { MapSqueeze } from '../../../types.d.ts';
 
 export type Refused = import('../../../messages/registry.ts').Messages['squeeze']['refused'];
 
-/** Throws a RangeError if it is not a PNG image. */
+/** Throws a RangeError if it is not a PNG_SIGNATURE image. */
 export type DecodePng = (bytes: Uint8Array) => Promise<Pick<ImageData, 'width' | 'height' | 'data'>>;
 
 export interface OwnMap {
@@ -37,7 +37,7 @@ const MAX_TOLERANT_LENGTH = 200_000;
 /** Maximum number of quoted characters of a name or a value. */
 const MAX_QUOTED = 100;
 
-/** First bytes of a PNG image. */
+/** First bytes of a PNG_SIGNATURE image. */
 const PNG_MAGIC = [0x89, 0x50, 0x4e, 0x47];
 
 /** Form of a floor plan. */
@@ -183,7 +183,7 @@ async function readDescription(name: string, text: string) {
   return fields;
 }
 
-/** @param name of the file */
+/** Decodes the PNG image of a file with this name; rejects with a MapFileError. */
 async function readPng(name: string, bytes: Uint8Array, decodePng: DecodePng) {
   try {
     return await decodePng(bytes);

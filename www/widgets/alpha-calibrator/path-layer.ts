@@ -12,29 +12,29 @@ import type { Painter } from '../../scene/walls.ts';
 
 export type Style = { colour: string, width: number, dash: number[] };
 
-/** Number of legs in one stroke: browsers take far longer for one path of many legs. */
+/** Number of legs in one stroke: browsers take far longer for a path with more. */
 const LEGS_A_STROKE = 500;
 
 /** Maximum number of legs that are drawn directly. The drawing of more legs is cached in another canvas, which takes memory. */
-const FEW_LEGS = 2000;
+const MAX_UNCACHED_LEGS = 2000;
 
 /** Number of strokes of a new log in a frame, which take about 10 ms. */
 const STROKES_A_FRAME = 4;
 
 /** Side of squares (CSS pixels) in each of which only one of the shorter steps is drawn, because others would not be visible. */
-const FINE = 1;
+const FINE_SQUARE = 1;
 
 /** Side of the squares in which overlapping legs are counted, CSS pixels. */
-const COARSE = 8;
+const COARSE_SQUARE = 8;
 
-/** Returns the number of the square that has a point, CSS pixels. */
-const squareOf = (x: number, y: number, side: number = FINE) => Math.round(x / side) + 2 ** 26 * Math.round(y / side);
+/** Returns the key of the grid square that contains a point in CSS pixels. */
+const squareOf = (x: number, y: number, side: number = FINE_SQUARE) => Math.round(x / side) + 2 ** 26 * Math.round(y / side);
 
 /** Radius of the rings around outliers, CSS pixels. */
-const RING = 6;
+const RING_RADIUS = 6;
 
 /** Width of the thinnest lines, CSS pixels. */
-const HAIR = 1;
+const HAIRLINE_WIDTH = 1;
 
 export function styleOf({ palette, highlight }: Pick<Brush, 'palette' | 'highlight'>, name: LineName): Style {
   const truth = name === 'plausible' ? between(palette.truth, palette.cloud) : palette.truth;
@@ -47,7 +47,7 @@ function between(one: string, other: string) {
   return `rgb(${from.map((value, i) => Math.round((value + to[i]) / 2))})`;
 }
 
-export class WayLayer {
+export class PathLayer {
   /** Canvas that caches the drawing of the legs. */
   #layer = new OffscreenCanvas(1, 1);
   /** View, colours and overlays of the cached drawing, as text. */
@@ -63,7 +63,7 @@ export class WayLayer {
    */
   draw(brush: Brush, legs: CalibrationLegs, classes: Uint8Array, overlays: LineName[]): boolean {
     const { context, view, palette, ratio, highlight, handles } = brush;
-    if ('vector' in context || legs.count <= FEW_LEGS) return advance(drawWay(brush, legs, classes, overlays), Infinity);
+    if ('vector' in context || legs.count <= MAX_UNCACHED_LEGS) return advance(drawPath(brush, legs, classes, overlays), Infinity);
     const { extent, frame, width, height } = view;
     const key = JSON.stringify([extent, frame, width, height, palette, ratio, highlight, overlays]);
     const isOther = legs !== this.#legs;
@@ -73,7 +73,7 @@ export class WayLayer {
       this.#layer = new OffscreenCanvas(Math.round(width * ratio), Math.round(height * ratio));
       const layer = hiddenContext(this.#layer);
       layer.scale(ratio, ratio);
-      this.#strokes = drawWay({ context: layer, view, palette, ratio, highlight }, legs, classes, overlays);
+      this.#strokes = drawPath({ context: layer, view, palette, ratio, highlight }, legs, classes, overlays);
       if (!isOther) advance(this.#strokes, Infinity);
     }
     const isMore = advance(this.#strokes, handles ? Infinity : STROKES_A_FRAME);
@@ -82,21 +82,21 @@ export class WayLayer {
   }
 }
 
-/** Continues a drawing with some strokes. @returns whether there are more */
+/** Continues a drawing by some strokes. Returns true if there are more. */
 function advance(strokes: Iterator<void>, count: number): boolean {
   for (; count > 0; count--) if (strokes.next().done) return false;
   return true;
 }
 
 /** Draws the legs, stroke by stroke. */
-function* drawWay(brush: Painter, legs: CalibrationLegs, classes: Uint8Array, overlays: LineName[]) {
+function* drawPath(brush: Painter, legs: CalibrationLegs, classes: Uint8Array, overlays: LineName[]) {
   if (overlays.includes('odometry')) yield* drawOdometry(brush, legs);
   // Lines get thinner continuously while the coverage grows from 1 to 2, so that nothing jumps when a plot is resized.
   const extra = Math.max(0, Math.min(1, 2 - layersOf(brush.view, legs.reference)));
   for (const [index, name] of CLASSES.entries()) {
     if (!overlays.includes(name)) continue;
     const style = styleOf(brush, name);
-    yield* drawLegs(brush, legs.reference, (leg) => classes[leg] === index, { ...style, width: HAIR + extra * (style.width - HAIR) });
+    yield* drawLegs(brush, legs.reference, (leg) => classes[leg] === index, { ...style, width: HAIRLINE_WIDTH + extra * (style.width - HAIRLINE_WIDTH) });
   }
   if (overlays.includes('outlier')) drawRings(brush, outlierEnds(brush, legs));
 }
@@ -112,8 +112,8 @@ export function drawRings(brush: Painter, points: [number, number][]) {
   const { context } = brush;
   context.beginPath();
   for (const [x, y] of points) {
-    context.moveTo(x + RING, y);
-    context.arc(x, y, RING, 0, 2 * Math.PI);
+    context.moveTo(x + RING_RADIUS, y);
+    context.arc(x, y, RING_RADIUS, 0, 2 * Math.PI);
   }
   stroke(context, styleOf(brush, 'outlier'));
 }
@@ -127,11 +127,11 @@ function layersOf(view: Painter['view'], reference: Float64Array) {
   let length = 0;
   for (let at = 0; at < reference.length; at += 6) {
     const [x, y] = [view.toPixelX(reference[at + 3]), view.toPixelY(reference[at + 4])];
-    squares.add(squareOf(x, y, COARSE));
+    squares.add(squareOf(x, y, COARSE_SQUARE));
     // Only one square's length of a leg counts for the square in which it ends.
-    length += Math.min(COARSE, Math.hypot(x - view.toPixelX(reference[at]), y - view.toPixelY(reference[at + 1])));
+    length += Math.min(COARSE_SQUARE, Math.hypot(x - view.toPixelX(reference[at]), y - view.toPixelY(reference[at + 1])));
   }
-  return (length * LINES.likely.width) / (squares.size * COARSE ** 2);
+  return (length * LINES.likely.width) / (squares.size * COARSE_SQUARE ** 2);
 }
 
 /** Draws the odometry from the first pose of the reference on: it drifts away, and each leg is compared by itself. */
@@ -171,7 +171,7 @@ function* drawLegs({ context, view }: Painter, reference: Float64Array, isDrawn:
     const at = 6 * leg;
     const [x, y] = [view.toPixelX(reference[at]), view.toPixelY(reference[at + 1])];
     const [toX, toY] = [view.toPixelX(reference[at + 3]), view.toPixelY(reference[at + 4])];
-    if (Math.hypot(toX - x, toY - y) < FINE) {
+    if (Math.hypot(toX - x, toY - y) < FINE_SQUARE) {
       const square = squareOf(toX, toY);
       if (drawn.has(square)) continue;
       drawn.add(square);

@@ -1,7 +1,7 @@
 import { spawnSync } from 'node:child_process';
 import { expect, test as anyway } from '@playwright/test';
 import { recordingOf, transform } from '../mcap.js';
-import { caption, choose, example, openCalibrator, recordingWith, rows, stats, tablesOf } from './calibrator-support.js';
+import { caption, choose, chooseRecording, example, openCalibrator, recordingWith, rows, rowsOf, stats, tablesOf } from './calibrator-support.js';
 import { STILL, heard, settled, stateOf, test, unfold } from './support.js';
 
 /**
@@ -42,7 +42,7 @@ test('two tables of the reader’s own take the place of the simulated log, and 
   await expect(caption(widget)).toHaveText(/of odom\.csv, truth\.csv[.,]/);
 });
 
-test('results are those of the command line, to the last bit', async ({ page }) => {
+test('results are those of the command line, to the last bit, and a recording whose topics the reader chooses gives them too', async ({ page }) => {
   const widget = await openCalibrator(page);
   await choose(widget, { 'odometry.csv': example('odometry'), 'reference.csv': example('reference') });
   await expect(caption(widget)).toHaveText(/odometry\.csv, reference\.csv[.,]/);
@@ -58,28 +58,15 @@ test('results are those of the command line, to the last bit', async ({ page }) 
   const { date, options, logs, start, ...printed } = JSON.parse(stdout);
   expect([options, logs.length, start, typeof date]).toEqual([{ legs: { distance: 0.25, angle: 0.2 } }, 2, 9, 'string']);
   expect(JSON.parse(shown)).toEqual(printed);
-});
 
-test('a recording has both, and where it is not clear which topic is which, the reader chooses', async ({ page }) => {
-  const widget = await openCalibrator(page);
-  await choose(widget, { 'odometry.csv': example('odometry'), 'reference.csv': example('reference') });
-  await expect(caption(widget)).toHaveText(/of odometry\.csv, reference\.csv[.,]/);
+  await chooseRecording(widget, 'run.mcap', await recordingWith(['/mocap/pose', '/vicon/pose']));
+  await expect(widget.getByRole('alert')).toHaveText(/^run\.mcap: it is not clear what the reference is: .*\/vicon\/pose \(PoseStamped\)\.$/);
+  await widget.getByLabel('Reference', { exact: true }).selectOption('/mocap/pose');
+  await expect(caption(widget)).toHaveText(/of run\.mcap, \/odom, \/mocap\/pose[.,]/);
   await settled(widget);
   const { alphas } = await stats(widget);
-  for (const topics of [['/mocap/pose'], ['/mocap/pose', '/vicon/pose']]) {
-    const name = `run-${topics.length}.mcap`;
-    const buffer = await recordingWith(topics);
-    await widget.locator('#log-files').setInputFiles({ name, mimeType: 'application/octet-stream', buffer });
-    if (topics.length > 1) {
-      await expect(widget.getByRole('alert')).toHaveText(/^run-2\.mcap: it is not clear what the reference is: .*\/vicon\/pose \(PoseStamped\)\.$/);
-      await widget.getByLabel('Reference', { exact: true }).selectOption('/mocap/pose');
-    }
-    await expect(caption(widget)).toHaveText(new RegExp(`of ${name}, /odom, /mocap/pose[.,]`));
-    await settled(widget);
-    const read = await stats(widget);
-    // Conversion to quaternions rounds the headings.
-    alphas.forEach((alpha, i) => expect(Number(read.alphas[i]) / Number(alpha)).toBeCloseTo(1, 9));
-  }
+  // Conversion to quaternions rounds the headings.
+  for (const [i, alpha] of printed.alphas.entries()) expect(Number(alphas[i]) / alpha).toBeCloseTo(1, 9);
 });
 
 test('of files with poses and commands the velocity model takes the commands, and the others the poses @nightly', async ({ page }) => {
@@ -92,22 +79,20 @@ test('of files with poses and commands the velocity model takes the commands, an
     await settled(widget);
   };
   // The command of a row is driven until the next row.
-  const [header, ...lines] = example('odometry').trim().split('\n');
-  const driven = lines.map((line) => line.split(',').map(Number));
+  const driven = rowsOf('odometry');
   const commands = driven.map(([t, x, y, yaw], i) => {
     const [next, toX, toY, to] = driven[i + 1] ?? [t + 1, x, y, yaw];
-    return `${lines[i]},${Math.hypot(toX - x, toY - y) / (next - t)},${Math.atan2(Math.sin(to - yaw), Math.cos(to - yaw)) / (next - t)}`;
+    return [t, x, y, yaw, Math.hypot(toX - x, toY - y) / (next - t), Math.atan2(Math.sin(to - yaw), Math.cos(to - yaw)) / (next - t)].join(',');
   });
-  await choose(widget, { 'odom.csv': [`${header},v,omega`, ...commands].join('\n'), 'truth.csv': example('reference') });
+  await choose(widget, { 'odom.csv': ['t,x,y,yaw,v,omega', ...commands].join('\n'), 'truth.csv': example('reference') });
   await expect.poll(keys).toContain('omega');
   await settled(widget);
   expect((await stats(widget)).alphas).toHaveLength(6);
   await model('Table 5.6', 'theta');
   await model('velocity', 'omega');
   // The recording has the commands in a separate topic.
-  const buffer = await recordingWith(['/mocap/pose'], undefined, true);
   const topic = widget.getByLabel('Odometry', { exact: true });
-  await widget.locator('#log-files').setInputFiles({ name: 'run.mcap', mimeType: 'application/octet-stream', buffer });
+  await chooseRecording(widget, 'run.mcap', await recordingWith(['/mocap/pose'], true));
   await expect.poll(keys).toContain('omega');
   await expect(topic).toHaveValue('/cmd_vel');
   await model('Table 5.6', 'theta');
@@ -117,12 +102,10 @@ test('of files with poses and commands the velocity model takes the commands, an
 
 test('of transforms the reader chooses among the chains that the recording has @nightly', async ({ page }) => {
   const widget = await openCalibrator(page);
-  const rows = (/** @type {'odometry' | 'reference'} */ name) => example(name).trim().split('\n').slice(1).map((line) => line.split(',').map(Number));
   const messages = (/** @type {'odometry' | 'reference'} */ name, /** @type {string} */ parent, /** @type {string} */ child) =>
-    rows(name).map(([t, x, y, yaw]) => ({ topic: '/tf', type: 'tf2_msgs/msg/TFMessage', t, message: { transforms: [transform(t, parent, child, x, y, yaw)] } }));
+    rowsOf(name).map(([t, x, y, yaw]) => ({ topic: '/tf', type: 'tf2_msgs/msg/TFMessage', t, message: { transforms: [transform(t, parent, child, x, y, yaw)] } }));
   const all = [...messages('odometry', 'odom', 'base_footprint'), ...messages('reference', 'map', 'base_link'), ...messages('reference', 'mocap', 'robot')];
-  const buffer = await recordingOf(all.sort((one, other) => one.t - other.t), { compression: 'zstd', chunkSize: 100_000 });
-  await widget.locator('#log-files').setInputFiles({ name: 'tf.mcap', mimeType: 'application/octet-stream', buffer });
+  await chooseRecording(widget, 'tf.mcap', await recordingOf(all.sort((one, other) => one.t - other.t), { compression: 'zstd', chunkSize: 100_000 }));
   await expect(caption(widget)).toHaveText(/of tf\.mcap, \/tf: .+, \/tf: mocap → robot[.,]/);
   await expect(widget.getByLabel('Odometry', { exact: true }).locator(':checked')).toHaveText('/tf: odom → base_footprint');
   const reference = widget.getByLabel('Reference', { exact: true });
@@ -132,7 +115,7 @@ test('of transforms the reader chooses among the chains that the recording has @
   await expect(caption(widget)).toHaveText(/of tf\.mcap, .*\/tf: map → base_link[.,]/);
 });
 
-test('of several drives all files are read at once, and those without a telling name are given a role @nightly', async ({ page }) => {
+test('of several drives all files are read at once, and files whose names do not say so are given a role @nightly', async ({ page }) => {
   const widget = await openCalibrator(page);
   const halves = (/** @type {'odometry' | 'reference'} */ name) => {
     const [header, ...all] = example(name).trim().split('\n');
@@ -148,10 +131,9 @@ test('of several drives all files are read at once, and those without a telling 
   await expect(widget.locator('.found caption')).toHaveText(['Drive 1', 'Drive 2']);
 });
 
-test('what a table leaves open is asked, and the answer holds for that file', async ({ page }) => {
+test('names and units of columns that a table does not state are asked for, and the answer holds for that file', async ({ page }) => {
   const widget = await openCalibrator(page);
-  const [, ...all] = example('odometry').trim().split('\n');
-  const inMillimetres = all.map((line) => line.split(',').map(Number)).map(([t, x, y, yaw]) => [t, 1000 * x, 1000 * y, yaw].join(','));
+  const inMillimetres = rowsOf('odometry').map(([t, x, y, yaw]) => [t, 1000 * x, 1000 * y, yaw].join(','));
   await choose(widget, { 'odom.csv': inMillimetres.join('\n'), 'truth.csv': example('reference') });
   const alert = widget.getByRole('alert');
   await expect(alert).toHaveText(/^odom\.csv, line 1: the table has no header, .* name its 4 columns\.$/);
@@ -164,27 +146,18 @@ test('what a table leaves open is asked, and the answer holds for that file', as
 
 test('the files of a dropped folder are one recording', async ({ page }) => {
   const widget = await openCalibrator(page);
-  const bytes = [...(await recordingWith(['/mocap/pose']))];
-  await widget.locator('section.machine').evaluate((section, content) => {
+  const recording = await recordingWith(['/mocap/pose']);
+  await widget.locator('section.machine').evaluate(async (section, base64) => {
+    const content = await (await fetch(`data:;base64,${base64}`)).arrayBuffer();
     const text = 'rosbag2_bagfile_information:\n  relative_file_paths: [run_0.mcap]\n';
-    const entries = [new File([new Uint8Array(content)], 'run_0.mcap'), new File([text], 'metadata.yaml')].map((file) =>
+    const entries = [new File([content], 'run_0.mcap'), new File([text], 'metadata.yaml')].map((file) =>
       ({ name: file.name, isDirectory: false, fullPath: `/run/${file.name}`, file: (/** @type {(file: File) => void} */ take) => take(file) }));
     const rest = [entries, []];
     const entry = { isDirectory: true, createReader: () => ({ readEntries: (/** @type {(some: unknown) => void} */ take) => take(rest.shift()) }) };
     const dataTransfer = { types: ['Files'], items: [{ kind: 'file', webkitGetAsEntry: () => entry, getAsFile: () => null }] };
     section.dispatchEvent(Object.defineProperty(new Event('drop'), 'dataTransfer', { value: dataTransfer }));
-  }, bytes);
+  }, recording.toString('base64'));
   await expect(caption(widget)).toHaveText(/of run, \/odom, \/mocap\/pose[.,]/);
-});
-
-test('files that are no log are refused in a sentence, and all stays as it was', async ({ page }) => {
-  const widget = await openCalibrator(page);
-  const before = await stateOf(widget);
-  const alert = widget.getByRole('alert');
-  await choose(widget, { 'odom.csv': 't,x,y,yaw\n0,0,0,0\n1,one,0,0\n', 'truth.csv': 't,x,y,yaw\n0,0,0,0\n' });
-  await expect(alert).toHaveText(/^odom\.csv, line 3: x is “one”; expected is a number\.$/);
-  expect(await stateOf(widget)).toEqual(before);
-  await expect(caption(widget)).toHaveText(/of the simulated log/);
 });
 
 test('a log without enough legs is refused, and the present log keeps its place and its name', async ({ page }) => {

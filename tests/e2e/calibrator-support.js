@@ -29,17 +29,20 @@ export const rows = (/** @type {Locator} */ widget) => widget.locator('table.alp
 export const section = (/** @type {Locator} */ widget, /** @type {string} */ name) => widget.locator('.folded fieldset', { has: widget.page().locator('> legend', { hasText: name }) });
 export const stats = (/** @type {Locator} */ widget) => widget.evaluate((element) => /** @type {AlphaCalibratorElement} */ (element).machine.stats);
 
-/** Rows of two tables of the simulated drive, as a reader's files have them. @param {Locator} widget @param {(row: number) => boolean} [keep] */
-export const tablesOf = (widget, keep = () => true) =>
-  widget.evaluate((element, kept) => {
+/** Returns two tables of the simulated drive, as a reader's files have them. @param {Locator} widget */
+export const tablesOf = (widget) =>
+  widget.evaluate((element) => {
     const { legs } = /** @type {AlphaCalibratorElement} */ (element).machine;
-    const rows = Array.from({ length: legs.count }, (_, leg) => leg).filter((leg) => kept[leg]);
     const table = (/** @type {Float64Array} */ poses) =>
-      ['t,x,y,yaw', ...rows.map((leg) => [legs.times[2 * leg], ...poses.subarray(6 * leg, 6 * leg + 3)].join(','))].join('\n');
+      ['t,x,y,yaw', ...Array.from({ length: legs.count }, (_, leg) => [legs.times[2 * leg], ...poses.subarray(6 * leg, 6 * leg + 3)].join(','))].join('\n');
     return { odometry: table(legs.odometry), reference: table(legs.reference) };
-  }, Array.from({ length: 2000 }, (_, row) => keep(row)));
+  });
 
-/** @param {Locator} widget @param {Record<string, string>} files */
+/** Chooses a recording, as a reader does. @param {Locator} widget @param {string} name @param {Buffer} buffer */
+export const chooseRecording = (widget, name, buffer) =>
+  widget.locator('#log-files').setInputFiles({ name, mimeType: 'application/octet-stream', buffer });
+
+/** Chooses tables, as a reader does. @param {Locator} widget @param {Record<string, string>} files */
 export async function choose(widget, files) {
   await widget.locator('#log-files').setInputFiles(Object.entries(files).map(([name, text]) => ({ name, mimeType: 'text/csv', buffer: Buffer.from(text) })));
 }
@@ -47,19 +50,20 @@ export async function choose(widget, files) {
 /** Returns a table of the example log. @param {'odometry' | 'reference'} name */
 export const example = (name) => readFileSync(new URL(`../../examples/calibration/${name}.csv`, import.meta.url), 'utf8');
 
+/** Returns t, x, y and yaw of each row of a table of the example log. @param {'odometry' | 'reference'} name */
+export const rowsOf = (name) => example(name).trim().split('\n').slice(1).map((line) => line.split(',').map(Number));
+
 /**
- * The example as a recording, in which a third topic may be the reference too.
+ * Returns the example log as a recording.
  *
- * @param {string[]} topics
- * @param {Parameters<typeof recordingOf>[1]} [options]
- * @param {boolean} [commands] whether it has some
+ * @param {string[]} topics that have the poses of the reference
+ * @param {boolean} [hasCommands]
  */
-export async function recordingWith(topics, options = { compression: 'zstd', chunkSize: 100_000 }, commands = false) {
-  const rows = (/** @type {'odometry' | 'reference'} */ name) => example(name).trim().split('\n').slice(1).map((line) => line.split(',').map(Number));
-  const reference = topics.flatMap((topic) => rows('reference').map(([t, x, y, yaw]) => ({
+export async function recordingWith(topics, hasCommands = false) {
+  const reference = topics.flatMap((topic) => rowsOf('reference').map(([t, x, y, yaw]) => ({
     topic, type: 'geometry_msgs/msg/PoseStamped', t, message: { header: { stamp: stampOf(t), frame_id: 'map' }, pose: poseOf(x, y, yaw) },
   })));
-  const wheels = rows('odometry').map(([t, x, y, yaw]) => ({ topic: '/odom', type: 'nav_msgs/msg/Odometry', t, message: odometry(t, x, y, yaw) }));
-  const driven = commands ? wheels.map(({ t }) => ({ topic: '/cmd_vel', type: 'geometry_msgs/msg/Twist', t, message: twistOf(0.3, 0) })) : [];
-  return recordingOf([...wheels, ...driven, ...reference].sort((one, other) => one.t - other.t), options);
+  const wheels = rowsOf('odometry').map(([t, x, y, yaw]) => ({ topic: '/odom', type: 'nav_msgs/msg/Odometry', t, message: odometry(t, x, y, yaw) }));
+  const commands = hasCommands ? wheels.map(({ t }) => ({ topic: '/cmd_vel', type: 'geometry_msgs/msg/Twist', t, message: twistOf(0.3, 0) })) : [];
+  return recordingOf([...wheels, ...commands, ...reference].sort((one, other) => one.t - other.t), { compression: 'zstd', chunkSize: 100_000 });
 }

@@ -2,7 +2,7 @@ import { readFileSync } from 'node:fs';
 import { expect } from '@playwright/test';
 import { SEEDS, anyOf } from './any-state.js';
 import { ALL, KNOWN, NAMES } from './figures.js';
-import { STILL, assign, frames, heard, mount, property, ready, show, test, unfold } from './support.js';
+import { STILL, assign, frames, heard, mount, property, ready, show, test, testEach, unfold } from './support.js';
 
 /** @typedef {import('./support.js').AnyElement} AnyElement */
 /** @typedef {import('./figures.js').Name} Name */
@@ -149,57 +149,41 @@ test('elements in the table of doc/embedding/figures.md have the attributes that
   expect(await heard(page, ['error'])).toEqual([]);
 });
 
-/** Parts of a state that no attribute has, or that one attribute sets together. */
-const UNTOLD = { 'map-squeeze': { map: null, alphas: [0.2, 0.2, 0.2, 0.2, 0.05, 0.05] } };
+/** Values for the parts of a state that attributes cannot set, or that one attribute sets together. */
+const WITHOUT_ATTRIBUTES = { 'map-squeeze': { map: null, alphas: [0.2, 0.2, 0.2, 0.2, 0.05, 0.05] } };
 
-/**
- * Expects that the code to embed opens the settings of random states, with its attributes in any order.
- *
- * @param {Page} page
- * @param {Name} name
- * @param {number[]} seeds
- */
-async function expectEmbedded(page, name, seeds) {
+testEach('code to embed opens the settings of a state, with its attributes in any order', async (page, name, isFull) => {
   await show(page, `<${name}></${name}>`);
   const widget = page.locator(name).first();
   await ready(widget);
-  for (const seed of seeds) {
-    const state = { ...anyOf(seed)[name], ...Reflect.get(UNTOLD, name) };
+  for (const seed of isFull ? SEEDS : SEEDS.slice(0, 2)) {
+    const state = { ...anyOf(seed)[name], ...Reflect.get(WITHOUT_ATTRIBUTES, name) };
     const [original, ...copies] = await widget.evaluate(async (element, given) => {
       /** @type {any} */ (element).setState(given);
       const template = document.createElement('div');
       template.innerHTML = /** @type {AnyElement} */ (element).embedCode().split('\n')[1];
-      const [told] = template.children;
+      const [embedded] = template.children;
       const again = document.createElement(element.localName);
-      for (const { name, value } of [...told.attributes].reverse()) again.setAttribute(name, value);
-      const boxes = [told, again].map((copy) => {
+      for (const { name, value } of [...embedded.attributes].reverse()) again.setAttribute(name, value);
+      const boxes = [embedded, again].map((copy) => {
         const box = document.createElement('div');
         box.style.cssText = 'position: fixed; inset: 0';
         box.append(copy);
         return box;
       });
-      const loaded = [told, again].map((copy) => new Promise((resolve) => copy.addEventListener('load', resolve)));
+      const loaded = [embedded, again].map((copy) => new Promise((resolve) => copy.addEventListener('load', resolve)));
       element.before(...boxes);
       await Promise.all(loaded);
       // A log is fitted in the frames after the state.
       while (/** @type {any} */ (element).settings.next) await new Promise(requestAnimationFrame);
-      const configs = [element, told, again].map((each) => /** @type {AnyElement} */ (each).machine.config);
+      const configs = [element, embedded, again].map((each) => /** @type {AnyElement} */ (each).machine.config);
       for (const box of boxes) box.remove();
       return configs;
     }, /** @type {any} */ (state));
     for (const copy of copies) expect(copy, `seed ${seed}`).toEqual(original);
   }
   expect(await heard(page, ['error'])).toEqual([]);
-}
-
-test('code to embed opens the settings of a state, with its attributes in any order', ({ page, figure }) => expectEmbedded(page, figure, SEEDS.slice(0, 2)));
-
-for (const name of ALL) {
-  test(`code to embed opens the settings of any state of ${name} @nightly`, ({ page }) => {
-    test.slow();
-    return expectEmbedded(page, name, SEEDS);
-  });
-}
+});
 
 test('a list that a server wrote as text is taken up, and other text is reported', async ({ page }) => {
   await show(page, '');

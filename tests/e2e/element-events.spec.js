@@ -1,6 +1,6 @@
 import { expect } from '@playwright/test';
-import { ALL, KNOWN } from './figures.js';
-import { STILL, assign, boxOf, centreOf, dragSlider, frames, heard, mount, ready, settled, show, stateOf, test, unfold } from './support.js';
+import { KNOWN } from './figures.js';
+import { STILL, assign, boxOf, centreOf, dragSlider, frames, heard, mount, ready, settled, show, stateOf, test, testEach, unfold } from './support.js';
 
 /** @typedef {import('@playwright/test').Locator} Locator */
 /** @typedef {import('@playwright/test').Page} Page */
@@ -125,14 +125,7 @@ const ACTS = {
   ],
 };
 
-/**
- * Expects that a frame after an input event calls the core at most six times. A release calls it only for pictures of a view that
- * zooms in.
- *
- * @param {Page} page
- * @param {Name} name
- */
-async function expectFewCalls(page, name) {
+testEach('a frame after an input event calls the core at most six times, and a release only for views that zoom in', async (page, name) => {
   const widget = await mount(page, name);
   await unfold(widget);
   await settled(widget);
@@ -176,12 +169,9 @@ async function expectFewCalls(page, name) {
   await page.mouse.up();
   // Map Squeeze times its samplers while nothing moves.
   expect((await asked()).flat().filter((key) => !['picture', 'surface', 'trial'].includes(key)), name).toEqual([]);
-}
+});
 
-test('a frame after an input event asks the core at most six times, and a release for views that close in alone', ({ page, figure }) => expectFewCalls(page, figure));
-
-/** Expects that each control of a figure fires one input and one change. @param {Page} page @param {Name} name */
-async function expectEvents(page, name) {
+testEach('each control of a figure fires one input and one change', async (page, name) => {
   const widget = await mount(page, name);
   await unfold(widget);
   await heard(page);
@@ -189,15 +179,7 @@ async function expectEvents(page, name) {
     await go(widget);
     expect.soft(names(await heard(page, ['input', 'change', 'error'])), act).toEqual(['input', 'change']);
   }
-}
-
-test('each control of a figure fires one input and one change', ({ page, figure }) => expectEvents(page, figure));
-
-for (const name of ALL) {
-  test(`a frame after an input event of ${name} asks the core at most six times @nightly`, ({ page }) => expectFewCalls(page, name));
-
-  test(`each control of ${name} fires one input and one change @nightly`, ({ page }) => expectEvents(page, name));
-}
+});
 
 test('a handle that is dragged fires input at each step and one change', async ({ page, handled }) => {
   const widget = await mount(page, handled);

@@ -1,6 +1,6 @@
 import { expect } from '@playwright/test';
-import { openSqueeze, squeezed, unfold } from './squeeze-support.js';
-import { STILL, centreOf, frames, numberIn, pictureOf, readout, test } from './support.js';
+import { openSqueeze, squeezeResults } from './squeeze-support.js';
+import { STILL, centreOf, frames, numberIn, pictureOf, readout, stateOf, test, unfold } from './support.js';
 
 /**
  * @typedef {import('./squeeze-support.js').MapSqueezeElement} MapSqueezeElement
@@ -20,26 +20,22 @@ const pixelsPerMetre = (widget) => widget.evaluate((element) => {
 
 test('the robot moves and turns by keyboard', async ({ page }) => {
   const widget = await openSqueeze(page);
-  let { start } = (await squeezed(widget)).config;
+  let { start } = /** @type {any} */ (await stateOf(widget));
   const degrees5 = Math.PI / 36;
   const keys = /** @type {const} */ ([
     [body, 'ArrowRight', 0.05, 0, 0],
-    [body, 'ArrowLeft', -0.05, 0, 0],
     [body, 'ArrowUp', 0, 0.05, 0],
-    [body, 'ArrowDown', 0, -0.05, 0],
     [body, '[', 0, 0, degrees5],
     [body, ']', 0, 0, -degrees5],
     [body, 'Shift+ArrowLeft', -0.25, 0, 0],
     [body, 'PageDown', 0, -0.5, 0],
-    [body, 'PageUp', 0, 0.5, 0],
     [turn, 'ArrowUp', 0, 0, degrees5],
-    [turn, 'Shift+ArrowUp', 0, 0, 5 * degrees5],
+    [turn, 'Shift+ArrowRight', 0, 0, -5 * degrees5],
     [turn, 'PageDown', 0, 0, -10 * degrees5],
-    [turn, 'ArrowRight', 0, 0, -degrees5],
   ]);
   for (const [part, key, dx, dy, dTheta] of keys) {
     await part(widget).press(key);
-    const next = (await squeezed(widget)).config.start;
+    const next = /** @type {any} */ (await stateOf(widget)).start;
     expect(next.x - start.x, key).toBeCloseTo(dx, 9);
     expect(next.y - start.y, key).toBeCloseTo(dy, 9);
     expect(next.theta - start.theta, key).toBeCloseTo(dTheta, 9);
@@ -67,42 +63,42 @@ test('the robot stays inside the map, and says so to the eye and to the ear', as
   await page.mouse.move(1, y, { steps: 3 });
   await page.mouse.up();
   expect(await stop()).toBe('none');
-  expect((await squeezed(widget)).config.start.x).toBe(0);
+  expect((await squeezeResults(widget)).config.start.x).toBe(0);
 
   // With the keyboard, the position and the obstacle are announced.
-  const told = /^x = 0\.00 m, y = \d\.\d\d m\. The map ends here$/;
-  await expect(body(widget)).toHaveAttribute('aria-valuetext', told);
+  const announced = /^x = 0\.00 m, y = \d\.\d\d m\. The map ends here$/;
+  await expect(body(widget)).toHaveAttribute('aria-valuetext', announced);
   await body(widget).press('ArrowRight');
   await expect(body(widget)).toHaveAttribute('aria-valuetext', /^x = 0\.05 m, y = \d\.\d\d m$/);
   expect(await stop()).toBe('none');
   for (let i = 0; i < 2; i++) {
     await body(widget).press('ArrowLeft');
-    await expect(body(widget)).toHaveAttribute('aria-valuetext', told);
+    await expect(body(widget)).toHaveAttribute('aria-valuetext', announced);
     expect(await stop()).toBe('"The map ends here"');
   }
-  expect((await squeezed(widget)).config.start.x).toBe(0);
+  expect((await squeezeResults(widget)).config.start.x).toBe(0);
 });
 
 test('a robot that a key led into a wall is reported @nightly', async ({ page }) => {
   const widget = await openSqueeze(page);
   await widget.evaluate((element) => void Reflect.set(element, 'start', { x: 4.2, y: 2.6, theta: 0 }));
-  expect((await squeezed(widget)).startFree).toBe(true);
+  expect((await squeezeResults(widget)).startFree).toBe(true);
   for (let i = 0; i < 2; i++) await body(widget).press('ArrowLeft');
-  expect((await squeezed(widget)).startFree).toBe(false);
+  expect((await squeezeResults(widget)).startFree).toBe(false);
   await expect(widget.getByRole('status').filter({ hasText: 'The start pose is in collision' })).toHaveCount(1);
   await expect(widget.locator('.verdict')).toContainText('The start pose is in collision');
   for (let i = 0; i < 2; i++) await body(widget).press('ArrowRight');
   await expect(widget.locator('.verdict')).not.toContainText('start pose is in collision');
 });
 
-test('each sampler judges as it says, and the figures are those of the machine', async ({ page }) => {
+test('the sampler is chosen by name, and the readouts are those of the machine', async ({ page }) => {
   const widget = await openSqueeze(page);
   const names = { Endpoint: 'endpoint', 'Whole arc': 'whole-arc' };
-  await unfold(widget, 'Numbers and data');
+  await unfold(widget);
   await widget.getByRole('button', { name: 'Facing a wall' }).click();
   for (const [label, sampler] of Object.entries(names)) {
     await widget.getByLabel(label, { exact: true }).check();
-    const { config, stats } = await squeezed(widget);
+    const { config, stats } = await squeezeResults(widget);
     expect(config.sampler).toBe(sampler);
     const shown = async (/** @type {string | RegExp} */ name) => numberIn(await readout(widget, name).textContent());
     expect(await shown(/^\s*drawn/)).toBe(stats.drawn);
@@ -140,10 +136,10 @@ test('the headline says the share as a simple fraction, and what to expect of no
   }
 });
 
-test('every cost is that of the sampler, and a core’s share follows from it', async ({ page }) => {
+test('the table of costs has each sampler, and the share of a processor core follows from its time', async ({ page }) => {
   const widget = await openSqueeze(page);
   await widget.getByRole('button', { name: 'Facing a wall' }).click();
-  await unfold(widget, 'Numbers and data');
+  await unfold(widget);
   // After two frames the table is marked as busy, because its numbers are out of date.
   await frames(page);
   const table = widget.locator('.table');
@@ -164,11 +160,11 @@ test('a wedged robot is said to be one, with the draws that were tried @nightly'
   const widget = await openSqueeze(page);
   const note = widget.locator('.verdict.note');
   await expect(note).toHaveCount(0);
-  await unfold(widget, 'Numbers and data');
+  await unfold(widget);
   await widget.getByRole('button', { name: 'Facing a wall' }).click();
   await widget.getByLabel('Sub-stepped').check();
   await widget.getByRole('slider', { name: 'sub-steps' }).fill('32');
-  const { stats, config } = await squeezed(widget);
+  const { stats, config } = await squeezeResults(widget);
   expect(stats.gaveUp).toBe(true);
   await expect(note).toContainText('The robot is wedged');
   const tried = ((await note.textContent()) ?? '').replaceAll('\u202f', '');
@@ -188,7 +184,7 @@ test('a wedged robot is said to be one, with the draws that were tried @nightly'
   await page.mouse.down();
   await page.mouse.move(x, y - up, { steps: 4 });
   await page.mouse.up();
-  const blocked = await squeezed(widget);
+  const blocked = await squeezeResults(widget);
   expect(blocked.startFree).toBe(false);
   expect(blocked.stats.accepted).toBe(0);
   await expect(note).toHaveText('No sample was accepted: all 600 drawn paths are in collision.');
@@ -197,13 +193,13 @@ test('a wedged robot is said to be one, with the draws that were tried @nightly'
 
 test('a sample pointed at, or named, shows its verdict', async ({ page }) => {
   const widget = await openSqueeze(page);
-  const { verdicts, poses } = await squeezed(widget);
+  const { verdicts, poses } = await squeezeResults(widget);
   const through = verdicts.indexOf(5);
   const rejected = verdicts.findIndex((verdict) => (verdict & 4) === 0);
   const field = widget.getByRole('spinbutton', { name: 'Sample' });
   const output = widget.locator('.marked output');
   const canvas = widget.locator('canvas.plane');
-  await unfold(widget, 'Numbers and data');
+  await unfold(widget);
   const plain = await pictureOf(canvas);
 
   await field.fill(String(through + 1));
@@ -227,7 +223,7 @@ test('a sample pointed at, or named, shows its verdict', async ({ page }) => {
 
 test('a marked motion that went through a wall has a leader to it, and no other has @nightly', async ({ page }) => {
   const widget = await openSqueeze(page);
-  const { verdicts } = await squeezed(widget);
+  const { verdicts } = await squeezeResults(widget);
   const labelled = (/** @type {number | null} */ index) => widget.evaluate((element, marked) => {
     Object.assign(element, { marked });
     return /** @type {any} */ (element).toSVG().includes('through this wall');
@@ -239,14 +235,14 @@ test('a marked motion that went through a wall has a leader to it, and no other 
 
 test('the edge of a doorway and a wall are dragged, and Back to the apartment undoes it', async ({ page }) => {
   const widget = await openSqueeze(page);
-  const before = await squeezed(widget);
+  const before = await squeezeResults(widget);
   const drag = async (/** @type {Locator} */ handle, /** @type {number} */ dx, /** @type {number} */ dy) => {
     const { x, y } = await centreOf(handle);
     await page.mouse.move(x, y);
     await page.mouse.down();
     await page.mouse.move(x + dx, y + dy, { steps: 4 });
     await page.mouse.up();
-    return squeezed(widget);
+    return squeezeResults(widget);
   };
   // The left edge of the doorway ahead, from x = 1.6 m to its limit: the right edge is at 2.5 m.
   const narrow = await drag(widget.locator('.handle.to-4'), 300, 40);
@@ -265,45 +261,45 @@ test('the edge of a doorway and a wall are dragged, and Back to the apartment un
   expect(many.walls[33]).toBeGreaterThan(y0 + 0.1);
   expect(many.shown).toBe(5000);
   await widget.getByRole('button', { name: 'Back to the apartment' }).click();
-  expect((await squeezed(widget)).walls).toEqual(before.walls);
+  expect((await squeezeResults(widget)).walls).toEqual(before.walls);
 });
 
 test('walls are moved by keyboard from one stop of Tab, and their handles are named', async ({ page }) => {
   const widget = await openSqueeze(page);
-  const { walls } = await squeezed(widget);
+  const { walls } = await squeezeResults(widget);
   await body(widget).focus();
   await page.keyboard.press('Shift+Tab');
   const current = () => widget.evaluate(({ shadowRoot }) => shadowRoot?.activeElement?.className.split(' ')[2]);
   expect(await current()).toBe('to-4');
   await page.keyboard.press('ArrowRight');
-  expect((await squeezed(widget)).walls[18]).toBeCloseTo(walls[18] + 0.05, 9);
+  expect((await squeezeResults(widget)).walls[18]).toBeCloseTo(walls[18] + 0.05, 9);
   await page.keyboard.press(']');
   expect(await current()).toBe('side-4');
   expect(await widget.evaluate(({ shadowRoot }) => getComputedStyle(/** @type {Element} */ (shadowRoot?.activeElement), '::before').content)).toBe('"Drag the wall"');
   await expect(widget.locator('.legend')).toContainText('handles: drag walls and edges of doorways');
   await page.keyboard.press('Shift+ArrowDown');
-  const moved = await squeezed(widget);
+  const moved = await squeezeResults(widget);
   expect(moved.walls[17]).toBeCloseTo(walls[17] - 0.25, 9);
   await page.keyboard.press('Shift+Tab');
   expect(await widget.evaluate(({ shadowRoot }) => shadowRoot?.activeElement?.classList.contains('handle') ?? false)).toBe(false);
 });
 
-test('the picture and the announcements have words', async ({ page }) => {
+test('the picture has a description, and a reader’s change is announced', async ({ page }) => {
   const widget = await openSqueeze(page);
-  const { stats } = await squeezed(widget);
+  const { stats } = await squeezeResults(widget);
   const canvas = widget.locator('canvas.plane');
   await expect(canvas).toHaveAttribute('aria-label', /The apartment: 12\.0 m × 9\.0 m, 18 walls/);
   await expect(canvas).toHaveAttribute('aria-label', new RegExp(`${stats.throughWall} of those through a wall`));
   await widget.getByLabel('Whole arc').check();
-  const after = (await squeezed(widget)).stats;
+  const after = (await squeezeResults(widget)).stats;
   const status = widget.locator('p[role=status]');
   const said = `${after.accepted} of 600 motions keep clear of walls all the way and are accepted; none of them went through a wall.`;
   await expect(status).toHaveText(said);
   await expect(widget.locator('.verdict')).toHaveText(said);
   // Without the condition all samples are accepted.
-  await unfold(widget, 'More controls');
+  await unfold(widget);
   await widget.getByLabel('Check samples against the map').uncheck();
-  const { throughWall } = (await squeezed(widget)).stats;
+  const { throughWall } = (await squeezeResults(widget)).stats;
   await expect(status).toContainText(`Without the map all 600 motions are accepted; ${throughWall} of them, `);
   // Changes by the page are not announced, and end the last announcement.
   await widget.evaluate((element) => Object.assign(element, { conditioned: true }));
@@ -326,7 +322,7 @@ test('either view is within the apartment, and a close one has the whole map bes
     expect(xMax).toBeLessThan(12 + edge);
     expect(yMax).toBeLessThan(9 + edge);
   }
-  await unfold(widget, 'More controls');
+  await unfold(widget);
   await expect(widget.getByLabel('close-up')).toBeChecked();
   await widget.getByLabel('whole map').check();
   const whole = await extent();
@@ -353,7 +349,7 @@ test('many samples are a density, those through a wall in a colour of their own'
   await expect(about).toHaveCount(0);
   await widget.evaluate((element) => Object.assign(element, { samples: 20_000 }));
   await expect(about).toContainText('Density');
-  expect((await squeezed(widget)).stats.throughWall).toBeGreaterThan(4000);
+  expect((await squeezeResults(widget)).stats.throughWall).toBeGreaterThan(4000);
   // All samples behind the wall at y = 5 passed through one; between the posts of the doorway hardly any did.
   const [behind, between] = await widget.evaluate((element) => {
     const { picture: { view }, renderRoot } = /** @type {any} */ (element);

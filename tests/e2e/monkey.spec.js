@@ -5,7 +5,7 @@
 
 import { expect } from '@playwright/test';
 import { generator } from '../random.js';
-import { file, pgm, yaml } from './squeeze-support.js';
+import { mapFile, pgmFile, yamlFile } from './squeeze-support.js';
 import { FRESH, frames, ready, test } from './support.js';
 import { ALL } from './figures.js';
 
@@ -31,16 +31,16 @@ const TEXTS = ['', 'null', 'true', 'false', 'toString', '__proto__', '\u0000', '
 const LANGUAGES = ['en', 'de', 'de-AT', 'fr', '', 'constructor', 'x'];
 const SIZES = [[1280, 720], [375, 667], [320, 480], [800, 400], [1920, 1080], [600, 900]];
 
-const HALL = pgm('hall.pgm', 30, 20, (column, row) => column % 29 === 0 || row % 19 === 0);
+const HALL = pgmFile('hall.pgm', 30, 20, (column, row) => column % 29 === 0 || row % 19 === 0);
 /** Files that readers may drop, the first of them a map. */
 const FILES = [
-  [yaml('hall.yaml', { image: 'hall.pgm', resolution: 0.1, origin: '[0, 0, 0]', negate: 0, occupied_thresh: 0.65, free_thresh: 0.2 }), HALL],
-  [file('plan.json', JSON.stringify({ bounds: [0, 0, 5, 4], walls: [[0, 0, 5, 0], [5, 0, 5, 4], [5, 4, 0, 4], [0, 4, 0, 0]] }))],
+  [yamlFile('hall.yaml', { image: 'hall.pgm', resolution: 0.1, origin: '[0, 0, 0]', negate: 0, occupied_thresh: 0.65, free_thresh: 0.2 }), HALL],
+  [mapFile('plan.json', JSON.stringify({ bounds: [0, 0, 5, 4], walls: [[0, 0, 5, 0], [5, 0, 5, 4], [5, 4, 0, 4], [0, 4, 0, 0]] }))],
   [HALL],
-  [file('hall.yaml', 'image: &a [*a]')],
-  [file('cut.pgm', HALL.buffer.subarray(0, 200))],
-  [file('plan.json', '{"walls": 7}')],
-  [file('notes.txt', 'no map')],
+  [mapFile('hall.yaml', 'image: &a [*a]')],
+  [mapFile('cut.pgm', HALL.buffer.subarray(0, 200))],
+  [mapFile('plan.json', '{"walls": 7}')],
+  [mapFile('notes.txt', 'no map')],
 ];
 
 /** @param {number} seed @returns {Luck} */

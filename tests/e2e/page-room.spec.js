@@ -1,6 +1,6 @@
 import { expect } from '@playwright/test';
 import { ALL, figureFor } from './figures.js';
-import { FRESH, STILL, boxOf, frames, mount, ready, show, test } from './support.js';
+import { FRESH, STILL, boxOf, frames, mount, ready, show, test, testEach } from './support.js';
 
 /**
  * @typedef {import('@playwright/test').Page} Page
@@ -12,14 +12,8 @@ test.use(STILL);
 /** Greatest difference between the reserved height and the height of a figure, em, in any font and at any width up to 80 em. */
 const TOLERANCE = 8;
 
-/**
- * Expects that the room that is kept for a figure before its script has come is about as high as the figure.
- *
- * @param {Page} page
- * @param {Name} name
- * @param {number[]} widths
- */
-async function expectRoom(page, name, widths) {
+testEach('the room that is kept for a figure before its script has come is about as high as the figure', async (page, name, isFull) => {
+  const widths = isFull ? [320, 375, 414, 480, 560, 640, 700, 760, 900, 1024, 1280] : [375, 700, 1280];
   await show(page, '', {
     head: '<style>body { margin: 0; font: 16px "Liberation Serif", serif }</style>',
     script: '<script type="module" src="/external.js"></script>',
@@ -56,15 +50,7 @@ async function expectRoom(page, name, widths) {
     return (machine - folds) / 16;
   });
   expect(emptied).toBeLessThan(TOLERANCE);
-}
-
-test('the room that is kept for a figure before its script has come is about as high as the figure', FRESH, ({ page, figure }) =>
-  expectRoom(page, figure, [375, 700, 1280]));
-
-for (const name of ALL) {
-  test(`the room that is kept for ${name} is about as high as the figure, at any width @nightly @fresh`, ({ page }) =>
-    expectRoom(page, name, [320, 375, 414, 480, 560, 640, 700, 760, 900, 1024, 1280]));
-}
+}, FRESH);
 
 test('a title and a caption move nothing when the script comes', async ({ page }) => {
   let come = () => {};

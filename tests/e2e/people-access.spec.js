@@ -1,7 +1,7 @@
 import { expect } from '@playwright/test';
 import { expectAccessible } from './axe.js';
-import { ALL, KNOWN } from './figures.js';
-import { STILL, boxOf, centreOf, frames, mount, open, pictureOf, pixelsOf, ready, show, state, stateOf, test, unfold } from './support.js';
+import { KNOWN } from './figures.js';
+import { STILL, boxOf, centreOf, frames, mount, open, pictureOf, pixelsOf, ready, show, state, stateOf, test, testEach, unfold } from './support.js';
 
 /**
  * @import { Locator, Page } from '@playwright/test'
@@ -28,30 +28,23 @@ async function unfolded(page, name, { attributes = '', before = '', after = '' }
   return widget;
 }
 
-for (const theme of ['light', 'dark']) {
-  test(`a figure has no accessibility violations in the ${theme} theme`, async ({ page, figure }) => {
-    await unfolded(page, figure, { attributes: `theme="${theme}"` });
-    await expectAccessible(page);
-  });
-}
+/** Media, attributes and widths of figures that are tested for accessibility, the first two of them by day. */
+const LOOKS = /** @type {[Parameters<Page['emulateMedia']>[0], string, number][]} */ ([
+  [{ colorScheme: 'light' }, 'theme="light"', 1280],
+  [{ colorScheme: 'light' }, 'theme="dark"', 1280],
+  [{ forcedColors: 'active', colorScheme: 'light' }, '', 1280],
+  [{ forcedColors: 'active', colorScheme: 'dark' }, '', 1280],
+  [{ colorScheme: 'light', forcedColors: 'none' }, 'lang="de"', 320],
+]);
 
-for (const name of ALL) {
-  test(`${name} has no accessibility violations in any look @nightly`, async ({ page }) => {
-    test.slow();
-    for (const [media, attributes, width] of /** @type {[Parameters<Page['emulateMedia']>[0], string, number][]} */ ([
-      [{ colorScheme: 'light' }, 'theme="light"', 1280],
-      [{ colorScheme: 'light' }, 'theme="dark"', 1280],
-      [{ forcedColors: 'active', colorScheme: 'light' }, '', 1280],
-      [{ forcedColors: 'active', colorScheme: 'dark' }, '', 1280],
-      [{ colorScheme: 'light', forcedColors: 'none' }, 'lang="de"', 320],
-    ])) {
-      await page.emulateMedia(media);
-      await page.setViewportSize({ width, height: 812 });
-      await unfolded(page, name, { attributes });
-      await expectAccessible(page, JSON.stringify([media, attributes]));
-    }
-  });
-}
+testEach('a figure has no accessibility violations in any look', async (page, name, isFull) => {
+  for (const [media, attributes, width] of isFull ? LOOKS : LOOKS.slice(0, 2)) {
+    await page.emulateMedia(media);
+    await page.setViewportSize({ width, height: 812 });
+    await unfolded(page, name, { attributes });
+    await expectAccessible(page, JSON.stringify([media, attributes]));
+  }
+});
 
 test('a figure keeps its roles, its tracks and its pressed button in forced colours', async ({ page }) => {
   await page.emulateMedia({ forcedColors: 'active' });
@@ -70,8 +63,7 @@ test('a figure keeps its roles, its tracks and its pressed button in forced colo
   expect(withTrack.equals(await slider.screenshot())).toBe(false);
 });
 
-/** Expects that Tab leads to every handle and control of a figure, once, and beyond. @param {Page} page @param {Name} name */
-async function expectTabStops(page, name) {
+testEach('Tab leads to every handle and control of a figure, once, and beyond', async (page, name) => {
   const widget = await unfolded(page, name, { before: '<a id="before" href="#">Before</a>', after: '<a id="after" href="#">After</a>' });
   await widget.evaluate((element) => {
     const root = /** @type {ShadowRoot} */ (element.shadowRoot);
@@ -103,13 +95,7 @@ async function expectTabStops(page, name) {
   const missed = names.filter((_, i) => !reached.includes(i));
   expect(missed).toEqual([]);
   expect(reached.length).toBe(count + 1);
-}
-
-test('Tab leads to every handle and control of a figure, once, and beyond', ({ page, figure }) => expectTabStops(page, figure));
-
-for (const name of ALL) {
-  test(`Tab leads to every handle and control of ${name} @nightly`, ({ page }) => expectTabStops(page, name));
-}
+});
 
 test('the focus stays near a control that goes or is disabled by its own action', async ({ page }) => {
   const focused = (/** @type {Locator} */ widget) => widget.evaluate(({ shadowRoot }) => shadowRoot?.activeElement?.closest('.presets, .lines, section')?.className);
@@ -321,11 +307,10 @@ test('paper has the folds of a figure that the reader opened, and nothing to pre
   await expect(widget.locator(':is(button, input, summary, textarea):visible')).toHaveCount(0);
 });
 
-/** Expects that a figure with all folds open fits into 320 px. @param {Page} page @param {Name} name @param {string} lang */
-async function expectNarrow(page, name, lang) {
+testEach('a figure with all folds open fits into 320 px', async (page, name, isFull) => {
   await page.setViewportSize({ width: 320, height: 812 });
-  const widget = await unfolded(page, name, { attributes: `lang="${lang}"` });
-  /** Elements beyond the right edge of the window, except for those that can be scrolled to. */
+  const widget = await unfolded(page, name);
+  /** Returns the widths of the page, and elements beyond the right edge of the window that cannot be scrolled to. */
   const beyond = () => widget.evaluate((element) => {
     const { body } = document;
     const isReached = (/** @type {Element} */ part) => {
@@ -335,18 +320,12 @@ async function expectNarrow(page, name, lang) {
     const parts = [.../** @type {ShadowRoot} */ (element.shadowRoot).querySelectorAll('*')].filter((part) => part.getBoundingClientRect().right > innerWidth + 0.5 && isReached(part));
     return [document.documentElement.scrollWidth, body.scrollWidth, ...parts.map(({ outerHTML }) => outerHTML.slice(0, 80))];
   });
-  await frames(page);
-  expect(await beyond()).toEqual([320, 320]);
-}
-
-test('a figure with all folds open fits into 320 px', ({ page, figure }) => expectNarrow(page, figure, 'en'));
-
-for (const name of ALL) {
-  test(`${name} fits into 320 px in English and German @nightly`, async ({ page }) => {
-    await expectNarrow(page, name, 'en');
-    await expectNarrow(page, name, 'de');
-  });
-}
+  for (const lang of isFull ? ['en', 'de'] : ['en']) {
+    await widget.evaluate((element, to) => element.setAttribute('lang', to), lang);
+    await frames(page);
+    expect(await beyond(), lang).toEqual([320, 320]);
+  }
+});
 
 test('the help of a slider covers no slider of its group, and no outline crosses it @nightly', async ({ page, figure }) => {
   const widget = await unfolded(page, figure);

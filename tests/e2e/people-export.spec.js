@@ -1,6 +1,6 @@
 import { readFileSync } from 'node:fs';
 import { expect } from '@playwright/test';
-import { openSqueeze, squeezed } from './squeeze-support.js';
+import { openSqueeze, squeezeResults } from './squeeze-support.js';
 import { STILL, boxOf, frames, mount, open, posesOf, property, state, test, unfold } from './support.js';
 
 /** @import { Locator } from '@playwright/test' */
@@ -67,7 +67,7 @@ test('CSV of the Banana Machine has the samples, and the settings that bring the
 
 test('CSV of Map Squeeze has the verdicts, which add up to the readouts', async ({ page }) => {
   const widget = await openSqueeze(page);
-  const { config, stats } = await squeezed(widget);
+  const { config, stats } = await squeezeResults(widget);
   const { settings, columns, rows } = parsed(await csvOf(widget));
   expect(settings).toEqual({ element: 'map-squeeze', map: null, ...config });
   expect(columns).toEqual(['x_m', 'y_m', 'theta_rad', 'end_free', 'path_free', 'accepted']);

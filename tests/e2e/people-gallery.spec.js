@@ -1,7 +1,7 @@
 import { expect, test as plain } from '@playwright/test';
 import { expectAccessible } from './axe.js';
 import { ALL } from './figures.js';
-import { STILL, boxOf, frames, mount, pictureOf, property, ready, test } from './support.js';
+import { STILL, boxOf, frames, mount, pictureOf, property, ready, test, testEach } from './support.js';
 
 test.use(STILL);
 
@@ -32,13 +32,7 @@ test('examples of the reference start when they are opened, and are what their c
 /** Settings of items that do not change the preset. */
 const OUTSIDE_PRESETS = ['preset', 'samples', 'overlays', 'line', 'morph'];
 
-/**
- * Expects that each item sets the whole state that it describes, independent of the items pressed before.
- *
- * @param {import('@playwright/test').Page} page
- * @param {import('./figures.js').Name} name
- */
-async function expectItems(page, name) {
+testEach('each item sets the whole state that it describes, whatever was pressed before', async (page, name) => {
   await page.goto('/');
   const article = page.locator('article', { has: page.locator(name) });
   const figure = article.locator(name);
@@ -63,16 +57,7 @@ async function expectItems(page, name) {
   const first = [];
   for (const button of buttons) first.push(await press(button));
   for (const [i, button] of [...buttons.entries()].reverse()) expect(await press(button)).toEqual(first[i]);
-}
-
-test('each item sets the whole state that it describes, whatever was pressed before', ({ page, figure }) => expectItems(page, figure));
-
-for (const name of ALL) {
-  test(`each item of ${name} sets the whole state that it describes @nightly`, ({ page }) => {
-    test.slow();
-    return expectItems(page, name);
-  });
-}
+});
 
 test('an entry of the legend highlights its curve in the chart', async ({ page }) => {
   const widget = await mount(page, 'dead-reckoning');

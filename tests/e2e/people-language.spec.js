@@ -1,6 +1,6 @@
 import { expect } from '@playwright/test';
-import { ALL, KNOWN } from './figures.js';
-import { STILL, frames, mount, numberIn, open, pictureOf, readout, ready, settled, show, state, test, unfold } from './support.js';
+import { KNOWN } from './figures.js';
+import { STILL, frames, mount, numberIn, open, pictureOf, readout, ready, settled, show, state, test, testEach, unfold } from './support.js';
 
 test.use(STILL);
 
@@ -65,8 +65,7 @@ test('both catalogues have the same messages, with the same values in them', asy
   expect(english.length).toBeGreaterThan(200);
 });
 
-/** Expects that no English is left in a German figure. @param {import('@playwright/test').Page} page @param {import('./figures.js').Name} name */
-async function expectGerman(page, name) {
+testEach('no English is left in a German figure', async (page, name) => {
   const [en, de] = await Promise.all(['en', 'de'].map(catalogueOf));
   const own = new Set(messagesOf(de).map(([, message]) => message));
   const english = messagesOf(en)
@@ -85,13 +84,7 @@ async function expectGerman(page, name) {
   const texts = await said(widget);
   expect(texts.length).toBeGreaterThan(60);
   expect(english.filter((part) => texts.some((text) => text === part || (part.includes(' ') && text.includes(part))))).toEqual([]);
-}
-
-test('no English is left in a German figure', ({ page, figure }) => expectGerman(page, figure));
-
-for (const name of ALL) {
-  test(`no English is left in a German ${name} @nightly`, ({ page }) => expectGerman(page, name));
-}
+});
 
 test('the nearest lang decides, also on the form of numbers; a language without words is English', async ({ page }) => {
   const widget = await open(page);

@@ -1,7 +1,6 @@
 import { expect } from '@playwright/test';
 import { expectAccessible } from './axe.js';
-import { ALL } from './figures.js';
-import { STILL, boxOf, centreOf, frames, mount, ready, show, stateOf, test } from './support.js';
+import { STILL, boxOf, centreOf, frames, mount, ready, show, stateOf, test, testEach } from './support.js';
 
 test.use({ ...STILL, viewport: { width: 1920, height: 1080 } });
 
@@ -116,13 +115,7 @@ test('the browser ends the presentation by a key of its own @nightly', async ({ 
   await expect(widget).not.toHaveAttribute('presentation');
 });
 
-/**
- * Expects large pictures and legible letters before an audience, with and without controls.
- *
- * @param {import('@playwright/test').Page} page
- * @param {string} name
- */
-async function expectLarge(page, name) {
+testEach('a presented figure has large pictures and legible letters, with and without controls', async (page, name) => {
   const widget = await mount(page, name);
   await expect(widget.locator('[part~=caption]').first()).toBeVisible();
   const sizes = () => widget.locator('canvas, .readouts dt').evaluateAll((all) => all.map((each) => parseFloat(getComputedStyle(each).fontSize)));
@@ -144,10 +137,4 @@ async function expectLarge(page, name) {
     expect(y).toBeGreaterThanOrEqual(bottom);
     expect(height).toBeGreaterThanOrEqual(0.3 * 1080);
   }
-}
-
-test('a presented figure has large pictures and legible letters, with and without controls', ({ page, figure }) => expectLarge(page, figure));
-
-for (const name of ALL) {
-  test(`presented ${name} has large pictures and legible letters, with and without controls @nightly`, ({ page }) => expectLarge(page, name));
-}
+});

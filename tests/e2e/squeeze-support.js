@@ -5,7 +5,7 @@
  */
 
 import { pngOf } from '../png.js';
-import { frames, ready, show, unfolded } from './support.js';
+import { frames, ready, show } from './support.js';
 
 /**
  * @typedef {import('@playwright/test').Page} Page
@@ -14,7 +14,7 @@ import { frames, ready, show, unfolded } from './support.js';
  * @typedef {import('../../www/types.d.ts').Motion} Motion
  * @typedef {HTMLElement & { machine: MapSqueeze, motion: Motion }} MapSqueezeElement
  * @typedef {{ name: string, mimeType: string, buffer: Buffer }} MapFile
- * @typedef {(column: number, row: number) => boolean} Occupied by column and row from the top left
+ * @typedef {(column: number, row: number) => boolean} CellTest of a column and a row, from the top left
  */
 
 /**
@@ -30,94 +30,52 @@ export async function openSqueeze(page, attributes = '') {
   return widget;
 }
 
-/**
- * Opens what is folded away, as a reader would.
- *
- * @param {Locator} widget
- * @param {string} name
- */
-export async function unfold(widget, name) {
-  const fold = widget.locator('details').filter({ has: widget.page().locator('summary', { hasText: name }) });
-  if ((await fold.getAttribute('open')) === null) await fold.locator('summary').click();
-  await unfolded(widget);
-  return fold;
-}
-
-/**
- * Returns the present results of the machine behind the widget.
- *
- * @param {Locator} widget
- */
-export async function squeezed(widget) {
+/** Returns the results of the machine after the next frames. @param {Locator} widget */
+export async function squeezeResults(widget) {
   await frames(widget.page());
-  const { plan, poses, verdicts, ...said } = await widget.evaluate((element) => {
+  const { plan: { bounds, walls }, poses, verdicts, ...others } = await widget.evaluate((element) => {
     const { config, shown, stats, startFree, openPlace, plan, poses, verdicts } = /** @type {MapSqueezeElement} */ (element).machine;
     return { config, shown, stats, startFree, openPlace, plan, poses, verdicts };
   });
-  const { bounds, walls } = plan;
-  return { ...said, bounds: [...bounds], walls: [...walls], poses: [...poses], verdicts: [...verdicts] };
+  return { ...others, bounds: [...bounds], walls: [...walls], poses: [...poses], verdicts: [...verdicts] };
 }
 
-/**
- * @param {string} name
- * @param {string | Uint8Array} contents
- * @returns {MapFile}
- */
-export function file(name, contents) {
+/** Returns a file to choose. @param {string} name @param {string | Uint8Array} contents @returns {MapFile} */
+export function mapFile(name, contents) {
   return { name, mimeType: 'application/octet-stream', buffer: Buffer.from(contents) };
 }
 
-/**
- * A map's YAML file.
- *
- * @param {string} name
- * @param {Record<string, unknown>} fields
- */
-export function yaml(name, fields) {
-  return file(name, Object.entries(fields).map(([key, value]) => `${key}: ${value}\n`).join(''));
+/** Returns the YAML file of a map. @param {string} name @param {Record<string, unknown>} fields */
+export function yamlFile(name, fields) {
+  return mapFile(name, Object.entries(fields).map(([key, value]) => `${key}: ${value}\n`).join(''));
 }
 
 /**
+ * Returns a PGM image of black and white cells.
+ *
  * @param {string} name
  * @param {number} columns
  * @param {number} rows
- * @param {Occupied} occupied
- * @param {{ black?: number, white?: number }} [shades]
+ * @param {CellTest} isBlack
  */
-export function pgm(name, columns, rows, occupied, { black = 0, white = 254 } = {}) {
-  const pixels = shadesOf(columns, rows, occupied, black, white);
+export function pgmFile(name, columns, rows, isBlack) {
+  const pixels = Buffer.from(Array.from({ length: columns * rows }, (_, i) => (isBlack(i % columns, Math.floor(i / columns)) ? 0 : 254)));
   const header = `P5\n# by hand\n${columns} ${rows}\n# and another comment\n255\n`;
-  return file(name, Buffer.concat([Buffer.from(header), pixels]));
+  return mapFile(name, Buffer.concat([Buffer.from(header), pixels]));
 }
 
 /**
- * A PNG image in shades of grey, with or without opacity.
+ * Returns a white PNG image of which some pixels are transparent.
  *
  * @param {string} name
  * @param {number} columns
  * @param {number} rows
- * @param {Occupied} occupied
- * @param {Occupied} [transparent]
+ * @param {CellTest} isTransparent
  */
-export function png(name, columns, rows, occupied, transparent) {
-  const sample = (/** @type {number} */ column, /** @type {number} */ row, /** @type {number} */ part) => {
-    if (part) return transparent?.(column, row) ? 0 : 255;
-    return occupied(column, row) ? 0 : 254;
+export function pngFile(name, columns, rows, isTransparent) {
+  const sample = (/** @type {number} */ column, /** @type {number} */ row, /** @type {number} */ channel) => {
+    if (channel === 0) return 254;
+    return isTransparent(column, row) ? 0 : 255;
   };
-  return file(name, pngOf({ width: columns, height: rows, opacity: transparent !== undefined, sample }));
-}
-
-/**
- * @param {number} columns
- * @param {number} rows
- * @param {Occupied} occupied
- * @param {number} black
- * @param {number} white
- */
-function shadesOf(columns, rows, occupied, black, white) {
-  const pixels = Buffer.alloc(columns * rows, white);
-  for (let i = 0; i < pixels.length; i++) {
-    if (occupied(i % columns, Math.floor(i / columns))) pixels[i] = black;
-  }
-  return pixels;
+  return mapFile(name, pngOf({ width: columns, height: rows, opacity: true, sample }));
 }

@@ -5,7 +5,7 @@
  */
 
 import { expect, test as base } from '@playwright/test';
-import { CLOUDS, HANDLED, figureFor } from './figures.js';
+import { ALL, CLOUDS, HANDLED, figureFor } from './figures.js';
 
 /**
  * @typedef {import('@playwright/test').Page} Page
@@ -49,6 +49,23 @@ export const test = base.extend({
     expect(complaints).toEqual([]);
   },
 });
+
+/**
+ * Declares the test of a claim about all figures. By day it is tested with one figure, which the title chooses, and at night with each.
+ *
+ * @param {string} title
+ * @param {(page: Page, name: Name, isFull: boolean) => Promise<void>} claim is tested in full at night
+ * @param {{ tag?: string }} [details]
+ */
+export function testEach(title, claim, details = {}) {
+  test(title, details, ({ page, figure }) => claim(page, figure, false));
+  for (const name of ALL) {
+    test(`${title}: ${name} @nightly`, details, ({ page }) => {
+      test.slow();
+      return claim(page, name, true);
+    });
+  }
+}
 
 /** Marks the introduction of a figure as seen. It runs in the page before the page's scripts. */
 function skipIntroduction() {

@@ -1,28 +1,24 @@
 //! Systematic errors: estimated, corrected if they are constant, and without effect on the α's.
 
 use super::simulated::{ALPHAS, MODELS, Simulation};
-use super::{calibrated, calibrated_log, options_of, trajectory};
-use motion::NoiseKind;
+use super::{NAV2, calibrated, calibrated_log, options_of, trajectory};
+use crate::common::seeded;
 use motion::calibrate::{
     CalibrateError, Calibration, Drive, LegLength, Model, Options, Systematic, SystematicError, Trajectory,
     calibrate,
 };
 use motion::geom::se2::{SE2, wrap_angle};
-use motion::models::OdometryRule;
 use nalgebra::Vector3;
-use rand::{RngExt, SeedableRng};
-use rand_xoshiro::Xoshiro256PlusPlus;
+use rand::RngExt;
 use std::f64::consts::{FRAC_PI_2, PI};
 
-const NAV2: Model = Model::Odometry(OdometryRule::Nav2);
-
 fn with_errors(model: Model, count: usize, errors: Systematic) -> Simulation {
-    Simulation { errors, ..Simulation::of(model, NoiseKind::Normal, count, 77) }
+    Simulation { errors, ..Simulation::of(model, count, 77) }
 }
 
 /// Asserts that an estimated error is within four standard errors of the truth; by chance one in sixteen thousand is not. The standard
 /// error is taken as 1e-3 at least, because products of noises are not in it.
-fn recovers(calibration: &Calibration, error: SystematicError, truth: f64) {
+fn assert_recovers(calibration: &Calibration, error: SystematicError, truth: f64) {
     let std = calibration.systematic_stds[error as usize].expect("identifiable");
     let off = wrap_angle(calibration.systematic.get(error) - truth).abs();
     assert!(off < 4.0 * std.max(1e-3) && off < 0.05, "{error:?} is off by {off}, {std}");
@@ -30,18 +26,16 @@ fn recovers(calibration: &Calibration, error: SystematicError, truth: f64) {
 
 #[test]
 fn a_mount_yaw_of_any_size_and_a_lever_arm_are_found() {
-    for yaw in [0.07, FRAC_PI_2, -2.6, PI] {
-        for model in MODELS {
-            let errors = Systematic { mount_yaw: yaw, lever_arm: [0.3, -0.2], ..Systematic::NONE };
-            let calibration = calibrated(&with_errors(model, 500, errors));
-            recovers(&calibration, SystematicError::MountYaw, yaw);
-            recovers(&calibration, SystematicError::LeverArmAhead, 0.3);
-            recovers(&calibration, SystematicError::LeverArmLeft, -0.2);
-            // The most uncertain α has a standard error of 13 %; four standard errors are allowed.
-            for (alpha, truth) in calibration.alphas.iter().zip(ALPHAS) {
-                let ratio = alpha.expect("identifiable") / truth;
-                assert!((ratio - 1.0).abs() < 0.5, "{model:?} {yaw}: {:?}", calibration.alphas);
-            }
+    for (model, yaw) in MODELS.into_iter().zip([0.07, FRAC_PI_2, -2.6, PI, -FRAC_PI_2]) {
+        let errors = Systematic { mount_yaw: yaw, lever_arm: [0.3, -0.2], ..Systematic::NONE };
+        let calibration = calibrated(&with_errors(model, 500, errors));
+        assert_recovers(&calibration, SystematicError::MountYaw, yaw);
+        assert_recovers(&calibration, SystematicError::LeverArmAhead, 0.3);
+        assert_recovers(&calibration, SystematicError::LeverArmLeft, -0.2);
+        // The most uncertain α has a standard error of 13 %; four standard errors are allowed.
+        for (alpha, truth) in calibration.alphas.iter().zip(ALPHAS) {
+            let ratio = alpha.expect("identifiable") / truth;
+            assert!((ratio - 1.0).abs() < 0.5, "{model:?} {yaw}: {:?}", calibration.alphas);
         }
     }
 }
@@ -51,7 +45,7 @@ fn clocks_with_any_offset_are_aligned() {
     for offset in [-1.7e9, -4000.0, 0.12, 7.25, 15.12, 1.7e9] {
         let errors = Systematic { clock_offset: offset, ..Systematic::NONE };
         let calibration = calibrated(&with_errors(NAV2, 500, errors));
-        recovers(&calibration, SystematicError::ClockOffset, offset);
+        assert_recovers(&calibration, SystematicError::ClockOffset, offset);
         assert!(calibration.legs.len() > 490, "{offset}: {}", calibration.legs.len());
     }
 }
@@ -64,7 +58,7 @@ fn clocks_are_aligned_by_the_turns_of_a_broken_reference() {
     let simulation = with_errors(NAV2, 2000, errors);
     let [odometry, reference] = simulation.log();
     let rows = reference.samples().len();
-    let mut rng = Xoshiro256PlusPlus::seed_from_u64(2);
+    let mut rng = seeded(2);
     let mut turned = 0.0;
     let anew = trajectory(reference.samples().enumerate().map(|(row, (time, pose))| {
         if row % 400 == 0 {
@@ -76,7 +70,7 @@ fn clocks_are_aligned_by_the_turns_of_a_broken_reference() {
     let shortly = trajectory(reference.samples().skip(rows / 2).take(rows / 5));
     for broken in [anew.with_breaks_before((0..rows).step_by(400)), seldom, shortly] {
         let calibration = calibrated_log(&[odometry.clone(), broken], &simulation.options());
-        recovers(&calibration, SystematicError::ClockOffset, 3.2);
+        assert_recovers(&calibration, SystematicError::ClockOffset, 3.2);
     }
 }
 
@@ -87,14 +81,13 @@ fn trajectories_without_a_common_time_are_refused() {
             .map(|calibration| calibration.systematic)
     };
     let later = |log: &Trajectory, by: f64| trajectory(log.samples().map(|(time, pose)| (time + by, pose)));
-    let [odometry, _] = Simulation::of(NAV2, NoiseKind::Normal, 500, 6).log();
-    let [_, of_another] = Simulation::of(NAV2, NoiseKind::Normal, 500, 7).log();
+    let [odometry, _] = Simulation::of(NAV2, 500, 6).log();
+    let [_, of_another] = Simulation::of(NAV2, 500, 7).log();
     assert_eq!(refused(&odometry, &later(&of_another, 1e6)), Err(CalibrateError::Apart));
     // For two straight drives the clocks are taken as they are, if they overlap at all.
     let straight = |from: f64| {
-        trajectory(
-            (0..1000).map(|row| (from + 0.1 * f64::from(row), SE2::new(0.05 * f64::from(row), 0.0, 0.0))),
-        )
+        let rows = (0..1000).map(f64::from);
+        trajectory(rows.map(|row| (from + 0.1 * row, SE2::new(0.05 * row, 0.0, 0.0))))
     };
     assert_eq!(refused(&straight(0.0), &straight(70.0)).map(|found| found.clock_offset), Ok(0.0));
     assert_eq!(refused(&straight(0.0), &straight(100.0)), Err(CalibrateError::Apart));
@@ -102,7 +95,7 @@ fn trajectories_without_a_common_time_are_refused() {
 
 #[test]
 fn too_few_legs_are_refused() {
-    let simulation = Simulation::of(Model::Velocity, NoiseKind::Normal, 7, 1);
+    let simulation = Simulation::of(Model::Velocity, 7, 1);
     let [odometry, reference] = simulation.log();
     let refused = calibrate(&[Drive { odometry: &odometry, reference: &reference }], &simulation.options());
     assert!(matches!(refused, Err(CalibrateError::TooFewLegs { legs: 6 | 7 })));
@@ -127,17 +120,15 @@ fn an_error_that_is_not_corrected_is_noise_of_the_wheels_or_of_the_reference() {
     let yaw = estimated.reference_noise[1].value;
     assert!((yaw / 0.07 - 1.0).abs() < 0.1, "{yaw}");
     // The error is reported nevertheless.
-    assert_eq!(
-        exact.interval_of(SystematicError::MountYaw),
-        corrected.interval_of(SystematicError::MountYaw)
-    );
+    let [left, right] = [&exact, &corrected].map(|each| each.interval_of(SystematicError::MountYaw));
+    assert_eq!(left, right);
     assert_eq!((exact.corrected, exact.is_corrected), (Systematic::NONE, [false; 6]));
 }
 
 #[test]
 fn an_error_that_the_log_does_not_identify_is_not_corrected() {
-    let simulation = Simulation { straight: 1.0, ..Simulation::of(NAV2, NoiseKind::Normal, 600, 4) };
-    let calibration = calibrated(&simulation);
+    let straight = Simulation { drive: Some(|_| [0.4, 0.0]), ..Simulation::of(NAV2, 600, 4) };
+    let calibration = calibrated(&straight);
     let unknown = |error: SystematicError| calibration.systematic_stds[error as usize].is_none();
     assert!(unknown(SystematicError::TurnScale) && unknown(SystematicError::LeverArmAhead));
     for error in SystematicError::ALL.into_iter().filter(|error| unknown(*error)) {
@@ -210,7 +201,7 @@ fn four_drives_tell_as_much_as_one_that_is_as_long() {
 /// show that wheels turn while the robot stands.
 #[test]
 fn standing_robots_whose_encoders_tremble_do_not_change_the_turn_scale() {
-    let mut rng = Xoshiro256PlusPlus::seed_from_u64(5);
+    let mut rng = seeded(5);
     let mut noise = |most: f64| rng.random_range(-most..most);
     let (mut read, mut truth, mut rows) = (SE2::identity(), SE2::identity(), Vec::new());
     for row in 0..16_000_usize {
@@ -231,8 +222,8 @@ fn standing_robots_whose_encoders_tremble_do_not_change_the_turn_scale() {
     let log = [0, 1].map(|which| trajectory(rows.iter().map(|row| row[which])));
     let options = Options { legs: LegLength::Duration { duration: 0.5 }, ..options_of(NAV2) };
     let calibration = calibrated_log(&log, &options);
-    recovers(&calibration, SystematicError::TurnScale, 1.0);
-    recovers(&calibration, SystematicError::DistanceScale, 1.0);
+    assert_recovers(&calibration, SystematicError::TurnScale, 1.0);
+    assert_recovers(&calibration, SystematicError::DistanceScale, 1.0);
 }
 
 /// With one row of the reference for each leg, legs end at these rows. The α's equal those of all rows up to their
@@ -241,7 +232,7 @@ fn standing_robots_whose_encoders_tremble_do_not_change_the_turn_scale() {
 fn one_row_a_leg_is_enough_for_the_reference() {
     // Legs of a second, so that each leg ends at a row.
     let legs = LegLength::Duration { duration: 1.0 };
-    let simulation = Simulation { legs, ..Simulation::of(NAV2, NoiseKind::Normal, 800, 3) };
+    let simulation = Simulation { legs, ..Simulation::of(NAV2, 800, 3) };
     let [odometry, reference] = simulation.log();
     let sparse = trajectory(reference.samples().step_by(20));
     let whole = calibrated_log(&[odometry.clone(), reference], &simulation.options());

@@ -1,26 +1,22 @@
 //! The restricted likelihood, against one with a dense covariance.
 
-use super::calibrated_log;
-use super::simulated::{MODELS, Simulation, Unlike};
-use motion::NoiseKind;
-use motion::calibrate::{Calibration, Leg, Model, Options, Outliers, Systematic, SystematicError};
+use super::simulated::{MODELS, Simulation, Violation};
+use super::{NAV2, calibrated_log};
+use motion::calibrate::{Calibration, Leg, Options, Outliers, Systematic, SystematicError};
 use motion::geom::se2::{SE2, wrap_angle};
-use motion::models::OdometryRule;
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use std::f64::consts::TAU;
 
-const NAV2: Model = Model::Odometry(OdometryRule::Nav2);
-
-/// Log of bends in both directions, where no special case of the model applies.
-fn bends(count: usize) -> Simulation {
+/// Returns a log of bends in both directions, where no special case of the model applies.
+fn drive_in_bends(count: usize) -> Simulation {
     Simulation {
         drive: Some(|leg| [0.3, [0.3, -0.2, 0.1][leg / 3 % 3]]),
         reference_stds: [0.004, 0.01],
-        ..Simulation::of(NAV2, NoiseKind::Normal, count, 12)
+        ..Simulation::of(NAV2, count, 12)
     }
 }
 
-/// Returns central differences of a motion or of residuals by three numbers.
+/// Returns central differences of a motion or of residuals by three coordinates.
 fn derivative(value: impl Fn(Vector3<f64>) -> Vector3<f64>) -> Matrix3<f64> {
     const H: f64 = 1e-6;
     let column = |axis: usize| {
@@ -32,20 +28,20 @@ fn derivative(value: impl Fn(Vector3<f64>) -> Vector3<f64>) -> Matrix3<f64> {
     Matrix3::from_columns(&[0, 1, 2].map(column))
 }
 
-fn numbers(pose: &SE2) -> Vector3<f64> {
+fn coordinates(pose: &SE2) -> Vector3<f64> {
     Vector3::new(pose.x(), pose.y(), pose.theta())
 }
 
 /// Returns rot1, trans, rot2 of a motion.
-fn rotations(motion: &Vector3<f64>) -> Vector3<f64> {
+fn reading(motion: &Vector3<f64>) -> Vector3<f64> {
     let first = libm::atan2(motion.y, motion.x);
     Vector3::new(first, libm::hypot(motion.x, motion.y), wrap_angle(motion.z - first))
 }
 
 /// Returns the Jacobian of (rot1, trans, rot2) by the motion, at the expected motion.
 fn by_motion(leg: &Leg, corrected: &Systematic) -> Matrix3<f64> {
-    let expected = numbers(&expected(leg, corrected));
-    derivative(|off| rotations(&(expected + off)))
+    let expected = coordinates(&expected(leg, corrected));
+    derivative(|off| reading(&(expected + off)))
 }
 
 /// Returns the motion that the odometry read, with both scales corrected.
@@ -64,7 +60,7 @@ fn by_pose(leg: &Leg, corrected: &Systematic, end: usize) -> Matrix3<f64> {
         let mut poses = leg.reference;
         poses[end] = poses[end] * SE2::new(error.x, error.y, error.z);
         let [from, to] = poses.map(|pose| corrected.base(&pose));
-        numbers(&(from.inverse() * to))
+        coordinates(&(from.inverse() * to))
     };
     by_motion(leg, corrected) * derivative(motion)
 }
@@ -80,13 +76,13 @@ fn by_error(leg: &Leg, corrected: &Systematic, error: SystematicError) -> Vector
         let mount = |of: &Systematic| SE2::new(of.lever_arm[0], of.lever_arm[1], of.mount_yaw);
         let seen = mount(corrected).inverse() * read * mount(corrected);
         let motion = changed.base(&SE2::identity()).inverse() * changed.base(&seen);
-        numbers(&motion) - numbers(&expected(leg, &changed))
+        coordinates(&motion) - coordinates(&expected(leg, &changed))
     };
     by_motion(leg, corrected) * (off(H) - off(-H)) / (2.0 * H)
 }
 
-/// Restricted log-likelihood with a dense covariance of all residuals.
-fn dense(calibration: &Calibration, errors: &[SystematicError]) -> f64 {
+/// Returns the restricted log-likelihood by a dense covariance of all residuals.
+fn dense_log_likelihood(calibration: &Calibration, errors: &[SystematicError]) -> f64 {
     let Calibration { legs, observations, corrected, alphas, reference_noise, .. } = calibration;
     let count = 3 * legs.len();
     let [position, yaw] = reference_noise.map(|std| std.value * std.value);
@@ -135,7 +131,7 @@ fn dense(calibration: &Calibration, errors: &[SystematicError]) -> f64 {
 /// The relative error of Jacobians by central differences is 1e-9, and there are 120 residuals.
 #[test]
 fn the_recursion_gives_the_likelihood_of_the_dense_covariance() {
-    let made = bends(40);
+    let made = drive_in_bends(40);
     let corrected = [
         SystematicError::MountYaw,
         SystematicError::LeverArmAhead,
@@ -147,7 +143,7 @@ fn the_recursion_gives_the_likelihood_of_the_dense_covariance() {
         let correct = SystematicError::ALL.map(|error| Some(errors.contains(&error)));
         let calibration = calibrated_log(&made.log(), &Options { correct, ..made.options() });
         assert_eq!(calibration.leg_fits.iter().filter(|fit| fit.is_outlier).count(), 0);
-        let (found, expected) = (calibration.log_likelihood, dense(&calibration, errors));
+        let (found, expected) = (calibration.log_likelihood, dense_log_likelihood(&calibration, errors));
         assert!((found - expected).abs() < 1e-5, "{found} is not {expected}");
     }
 }
@@ -156,8 +152,7 @@ fn the_recursion_gives_the_likelihood_of_the_dense_covariance() {
 /// n(ln s + 1/s − 1) lower at s times that.
 #[test]
 fn an_interval_ends_where_the_profile_likelihood_has_fallen() {
-    let made =
-        Simulation { drive: Some(|_| [0.3, 0.0]), ..Simulation::of(MODELS[3], NoiseKind::Normal, 400, 3) };
+    let made = Simulation { drive: Some(|_| [0.3, 0.0]), ..Simulation::of(MODELS[3], 400, 3) };
     let stated = Options {
         correct: [Some(false); 6],
         position_std: Some(0.0),
@@ -191,10 +186,7 @@ fn an_interval_ends_where_the_profile_likelihood_has_fallen() {
 fn alphas_and_their_intervals_scale_with_the_noise() {
     for model in [MODELS[1], MODELS[3]] {
         let of = |times: f64| {
-            let made = Simulation {
-                unlike: Unlike::Times(times),
-                ..Simulation::of(model, NoiseKind::Normal, 1000, 103)
-            };
+            let made = Simulation { violation: Violation::Times(times), ..Simulation::of(model, 1000, 103) };
             let stated = Options { position_std: Some(0.0), yaw_std: Some(0.0), ..made.options() };
             let Calibration { alphas, intervals, .. } = calibrated_log(&made.log(), &stated);
             let scaled = |number: f64| number / (times * times);
@@ -204,8 +196,8 @@ fn alphas_and_their_intervals_scale_with_the_noise() {
             });
             all.collect::<Vec<_>>()
         };
-        let usual = of(0.01);
-        for (k, (less, expected)) in of(0.001).into_iter().zip(usual).enumerate() {
+        let expected_numbers = of(0.01);
+        for (k, (less, expected)) in of(0.001).into_iter().zip(expected_numbers).enumerate() {
             for (number, expected_number) in less.into_iter().zip(expected) {
                 let allowed = 0.025 * (expected[2] - expected[0]);
                 assert!(
@@ -222,7 +214,7 @@ fn alphas_and_their_intervals_scale_with_the_noise() {
 /// any other value a smaller one.
 #[test]
 fn the_noise_of_the_reference_maximizes_the_likelihood() {
-    let made = Simulation { reference_stds: [0.02, 0.02], ..Simulation::of(NAV2, NoiseKind::Normal, 400, 5) };
+    let made = Simulation { reference_stds: [0.02, 0.02], ..Simulation::of(NAV2, 400, 5) };
     let log = made.log();
     // Likelihoods of the same residuals: nothing is corrected.
     let calibration = |position_std: Option<f64>, yaw_std: Option<f64>| {

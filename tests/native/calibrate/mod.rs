@@ -9,10 +9,12 @@ mod logs;
 mod simulated;
 mod windows;
 
-use motion::NoiseKind;
 use motion::calibrate::{Calibration, Drive, Model, Options, Trajectory, calibrate};
 use motion::geom::se2::SE2;
+use motion::models::OdometryRule;
 use simulated::Simulation;
+
+const NAV2: Model = Model::Odometry(OdometryRule::Nav2);
 
 /// Returns the calibration of a simulated log.
 fn calibrated(simulation: &Simulation) -> Calibration {
@@ -24,9 +26,9 @@ fn calibrated_log([odometry, reference]: &[Trajectory; 2], options: &Options) ->
     calibrate(&[Drive { odometry, reference }], options).expect("legs enough")
 }
 
-/// Default options.
+/// Returns the default options for a model.
 fn options_of(model: Model) -> Options {
-    Simulation::of(model, NoiseKind::Normal, 0, 0).options()
+    Simulation::of(model, 0, 0).options()
 }
 
 /// Returns a trajectory of samples whose times rise.

@@ -1,5 +1,7 @@
 //! Logs of robots whose α's and errors are known.
 
+use super::trajectory;
+use crate::common::seeded;
 use motion::calibrate::{
     LegLength, Model, Options, Outliers, Systematic, SystematicError as Error, Trajectory,
 };
@@ -7,9 +9,9 @@ use motion::geom::se2::SE2;
 use motion::models::OdometryRule;
 use motion::{NoiseKind, OdomDelta, Variance, VelocityAlphas, VelocityCmd, VelocityModel};
 use nalgebra::Vector3;
-use rand::{Rng, RngExt, SeedableRng};
-use rand_xoshiro::Xoshiro256PlusPlus;
+use rand::{Rng, RngExt};
 
+/// True α's of every simulated robot.
 pub const ALPHAS: [f64; 6] = [0.03, 0.01, 0.02, 0.005, 0.015, 0.008];
 
 /// Every model and rule.
@@ -21,11 +23,11 @@ pub const MODELS: [Model; 5] = [
     Model::Velocity,
 ];
 
-/// Deviation of the simulated noise from the model's assumption of independent noise with variance 1.
+/// Violation of the model's assumption that the noises of all legs are independent and normal, with variance 1.
 #[derive(Clone, Copy, Debug)]
-pub enum Unlike {
-    /// No difference.
-    Nothing,
+pub enum Violation {
+    /// Noise as the model assumes it.
+    None,
     /// Student's t distribution with this number of degrees of freedom.
     Tails(usize),
     /// Autocorrelated noise: this fraction of the noise of the previous leg, plus independent noise.
@@ -40,38 +42,30 @@ pub enum Unlike {
 #[derive(Clone, Copy, Debug)]
 pub struct Simulation {
     pub model: Model,
-    pub noise: NoiseKind,
     pub legs: LegLength,
+    /// Number of legs.
     pub count: usize,
     pub errors: Systematic,
     /// Fraction of legs in which the reference jumps by half a metre and stays there.
     pub jumps: f64,
-    /// True if the robot sometimes drives in reverse.
-    pub reverses: bool,
     /// v and ω of a leg by its number; random by default.
     pub drive: Option<fn(usize) -> [f64; 2]>,
-    pub unlike: Unlike,
-    /// Fraction of the log at its beginning in which the robot drives straight ahead.
-    pub straight: f64,
+    pub violation: Violation,
     pub seed: u64,
     /// Standard deviations of the reference, m and rad.
     pub reference_stds: [f64; 2],
 }
 
 impl Simulation {
-    pub fn of(model: Model, noise: NoiseKind, count: usize, seed: u64) -> Self {
-        let reverses = model != Model::Odometry(OdometryRule::Table);
+    pub fn of(model: Model, count: usize, seed: u64) -> Self {
         Self {
             model,
-            noise,
             legs: LegLength::AMCL,
             count,
             errors: Systematic::NONE,
             jumps: 0.0,
-            reverses,
             drive: None,
-            unlike: Unlike::Nothing,
-            straight: 0.0,
+            violation: Violation::None,
             seed,
             reference_stds: [0.0; 2],
         }
@@ -93,7 +87,7 @@ impl Simulation {
     /// Returns odometry and reference.
     pub fn log(&self) -> [Trajectory; 2] {
         const STEP: f64 = 0.05;
-        let mut rng = Xoshiro256PlusPlus::seed_from_u64(self.seed);
+        let mut rng = seeded(self.seed);
         let [distance_scale, turn_scale] =
             [Error::DistanceScale, Error::TurnScale].map(|e| self.errors.get(e));
         let mut odometry = vec![(0.0, SE2::identity())];
@@ -105,9 +99,6 @@ impl Simulation {
         while legs < self.count {
             if left == 0 {
                 speeds = self.speeds(&mut rng);
-                if (legs as f64) < self.straight * self.count as f64 {
-                    speeds = [0.4, 0.0];
-                }
                 left = rng.random_range(15..60);
             }
             left -= 1;
@@ -119,12 +110,12 @@ impl Simulation {
             odometry.push((time, odometry.last().expect("some").1.boxplus(read)));
             inside.push((time, driven));
             let [(start_time, start), (_, reading)] = [odometry[began], odometry[odometry.len() - 1]];
-            if !ends(self.legs, time - start_time, &start, &reading) {
+            if !leg_ends(self.legs, time - start_time, &start, &reading) {
                 continue;
             }
             let from = base.last().expect("some").1;
             unit_noise = self.unit_noise(legs as f64 / self.count as f64, unit_noise, &mut rng);
-            let to = self.executed(&from, &driven, time - start_time, unit_noise);
+            let to = from * executed(self.model, &ALPHAS, &driven, time - start_time, unit_noise);
             // The noise of a leg is distributed evenly over its rows.
             let off = (driven.inverse() * from.inverse() * to).log();
             let ahead = |time: f64| (time - start_time) / (inside.len() as f64 * STEP);
@@ -142,68 +133,68 @@ impl Simulation {
         let mount = SE2::new(ahead, to_left, self.errors.mount_yaw);
         let [place, yaw] = self.reference_stds.map(|std| Variance(std * std));
         let mut error = |variance| NoiseKind::Normal.sample(variance, &mut rng);
-        let reference: Vec<(f64, SE2)> = base
-            .iter()
-            .map(|(t, pose)| {
-                let seen = *pose * mount;
-                let [x, y, theta] = [error(place), error(place), error(yaw)];
-                (t + self.errors.clock_offset, SE2::new(seen.x() + x, seen.y() + y, seen.theta() + theta))
-            })
-            .collect();
-        [Trajectory::new(odometry).expect("times rise"), Trajectory::new(reference).expect("times rise")]
+        let reference = base.iter().map(|(t, pose)| {
+            let seen = *pose * mount;
+            let [x, y, theta] = [error(place), error(place), error(yaw)];
+            (t + self.errors.clock_offset, SE2::new(seen.x() + x, seen.y() + y, seen.theta() + theta))
+        });
+        [trajectory(odometry), trajectory(reference)]
     }
 
-    /// Returns a straight drive, a bend, a turn on the spot or, if allowed, a drive in reverse.
+    /// Returns v and ω of a straight drive, a bend, a turn on the spot or, if the rule allows it, a drive in reverse.
     fn speeds(&self, rng: &mut impl Rng) -> [f64; 2] {
         let [v, bend] = [rng.random_range(0.2..0.6), rng.random_range(-0.5..0.5)];
         match rng.random_range(0..6) {
             0 if self.model != Model::Velocity => [0.0, if bend > 0.0 { 0.6 } else { -0.6 }],
             0 => [0.06, 2.0 * bend],
-            1 if self.reverses => [-v, bend],
+            1 if self.model != Model::Odometry(OdometryRule::Table) => [-v, bend],
             2 => [v, 0.0],
             _ => [v, 2.0 * bend],
         }
     }
 
+    /// Returns three noises of a leg, at this fraction of the log. Those of the leg before it are given.
     fn unit_noise(&self, course: f64, before: [f64; 3], rng: &mut impl Rng) -> [f64; 3] {
         before.map(|before| {
-            let own = self.noise.sample(Variance(1.0), rng);
-            match self.unlike {
-                Unlike::Nothing => own,
-                Unlike::Tails(freedom) => {
+            let own = NoiseKind::Normal.sample(Variance(1.0), rng);
+            match self.violation {
+                Violation::None => own,
+                Violation::Tails(freedom) => {
                     let normal = |_| NoiseKind::Normal.sample(Variance(1.0), rng);
                     let square: f64 = (0..freedom).map(normal).map(|z| z * z).sum();
                     own * f64::sqrt((freedom as f64 - 2.0) / square)
                 }
-                Unlike::Autoregressive(share) => share * before + (1.0 - share * share).sqrt() * own,
-                Unlike::Times(times) => times * own,
-                Unlike::Changing(deviation) => deviation(course) * own,
+                Violation::Autoregressive(share) => share * before + (1.0 - share * share).sqrt() * own,
+                Violation::Times(times) => times * own,
+                Violation::Changing(deviation) => deviation(course) * own,
             }
         })
     }
+}
 
-    fn executed(&self, from: &SE2, driven: &SE2, dt: f64, unit_noise: [f64; 3]) -> SE2 {
-        let of_five: [f64; 5] = std::array::from_fn(|k| ALPHAS[k]);
-        match self.model {
-            Model::Odometry(rule) => {
-                let read = OdomDelta::from_poses(&SE2::identity(), driven);
-                rule.variances(&read, &of_five).executed(&rule.legs(&read), unit_noise).poses(from)[3]
-            }
-            Model::Velocity => {
-                let twist = driven.log();
-                let u = VelocityCmd { v: twist.x / dt, omega: twist.z / dt, dt };
-                let model = VelocityModel { alphas: VelocityAlphas(ALPHAS), noise: self.noise };
-                model.apply_noise(&u, from, unit_noise)
-            }
+/// Returns the motion that a robot executes if it reads the motion `read` within `dt`, by noises with variance 1.
+pub fn executed(model: Model, alphas: &[f64; 6], read: &SE2, dt: f64, unit_noise: [f64; 3]) -> SE2 {
+    let start = SE2::identity();
+    match model {
+        Model::Odometry(rule) => {
+            let reading = OdomDelta::from_poses(&start, read);
+            let alphas = std::array::from_fn(|k| alphas[k]);
+            rule.variances(&reading, &alphas).executed(&rule.legs(&reading), unit_noise).poses(&start)[3]
+        }
+        Model::Velocity => {
+            let twist = read.log();
+            let command = VelocityCmd { v: twist.x / dt, omega: twist.z / dt, dt };
+            let model = VelocityModel { alphas: VelocityAlphas(*alphas), noise: NoiseKind::Normal };
+            model.apply_noise(&command, &start, unit_noise)
         }
     }
 }
 
-/// Relative tolerance: even steps reach a limit exactly, up to rounding.
+/// Relative tolerance of the length of a leg: sums of equal steps reach a limit up to rounding.
 const ROUNDING: f64 = 1e-6;
 
-/// Tests the end of a leg as `LegLength` documents it, with independent code.
-fn ends(legs: LegLength, lasted: f64, start: &SE2, reading: &SE2) -> bool {
+/// Returns true if a leg ends at a reading, as `LegLength` documents it, by independent code.
+fn leg_ends(legs: LegLength, lasted: f64, start: &SE2, reading: &SE2) -> bool {
     match legs {
         LegLength::Displacement { distance, angle } => {
             let turned = motion::geom::se2::wrap_angle(reading.theta() - start.theta());

@@ -4,7 +4,7 @@
 //! half a unit of their last digit; measured ones to 4.5 standard errors, taken from the spread over 100 batches of
 //! the sample. The chapter's measurements come from another sample of the same size, which makes that √2 times as much.
 
-use crate::common::{SIGMAS, with_standard_error};
+use crate::common::{MAX_STANDARD_ERRORS, with_standard_error};
 use approx::assert_relative_eq;
 use motion::geom::se2::SE2;
 use motion::stats::{CartesianMoments, ExactMoments, ExponentialMoments};
@@ -118,8 +118,11 @@ fn the_measured_table() {
     ];
     for (what, statistic, printed, decimals, exact) in rows {
         let (measured, error) = with_standard_error(&cloud, statistic);
-        assert!((measured - exact).abs() < SIGMAS * error, "{what}: {measured} ± {error}, exactly {exact}");
-        let allowed = SIGMAS * 2f64.sqrt() * error + 0.5 * 10f64.powi(-decimals);
+        assert!(
+            (measured - exact).abs() < MAX_STANDARD_ERRORS * error,
+            "{what}: {measured} ± {error}, exactly {exact}"
+        );
+        let allowed = MAX_STANDARD_ERRORS * 2f64.sqrt() * error + 0.5 * 10f64.powi(-decimals);
         assert!((measured - printed).abs() < allowed, "{what}: {measured} ± {error}, printed {printed}");
     }
     let lateral = ExponentialMoments::from_poses(&cloud, &SE2::identity());
@@ -140,7 +143,7 @@ fn a_last_turn_leaks_into_the_lateral_coordinate() {
         |i| move |poses: &[SE2]| ExponentialMoments::from_poses(poses, &SE2::identity()).cov[(i, i)];
     for (axis, printed, decimals) in [(2, 0.0312, 4), (1, 0.0016, 4)] {
         let (measured, error) = with_standard_error(&cloud, variance(axis));
-        let allowed = SIGMAS * 2f64.sqrt() * error + 0.5 * 10f64.powi(-decimals);
+        let allowed = MAX_STANDARD_ERRORS * 2f64.sqrt() * error + 0.5 * 10f64.powi(-decimals);
         assert!((measured - printed).abs() < allowed, "axis {axis}: {measured} ± {error}, printed {printed}");
     }
 }

@@ -6,7 +6,7 @@ use motion::geom::segment::Segment;
 pub type Point = [f64; 2];
 
 /// Returns the position after a fraction `f` of the arc, relative to its start.
-pub fn along(arc: &Arc, f: f64) -> Point {
+pub fn position_along(arc: &Arc, f: f64) -> Point {
     let (length, turn) = (f * arc.length, f * arc.turn);
     let (forward, left) = if turn == 0.0 {
         (length, 0.0)
@@ -58,10 +58,10 @@ pub fn line_to_line(p: [Point; 2], q: [Point; 2]) -> f64 {
         .fold(f64::INFINITY, f64::min)
 }
 
-/// Bounds of the distance by halving. A piece of arc of length l that turns by t strays from its chord by at most l·t/8, so that the
-/// distance to the chord brackets the distance to the piece. Pieces that cannot contain the nearest point are dropped, the others
-/// halved until only rounding is left. About the centre of the circle, where all pieces are as near, halving ends at a limit.
-pub fn by_halving(arc: &Arc, wall: &Segment) -> [f64; 2] {
+/// Returns bounds of the distance. A piece of arc of length l that turns by t strays from its chord by at most l·t/8, so that the
+/// distance to the chord brackets the distance to the piece. Pieces that cannot contain the nearest point are dropped, and the others
+/// are halved until only rounding is left. About the centre of the circle all pieces are equally near: halving ends at 1000 pieces.
+pub fn distance_by_halving(arc: &Arc, wall: &Segment) -> [f64; 2] {
     let start = [arc.start.x(), arc.start.y()];
     let ends = [minus(wall.from, start), minus(wall.to, start)];
     let pieces = (arc.turn.abs() / 0.5).ceil().max(1.0) as u32;
@@ -71,10 +71,10 @@ pub fn by_halving(arc: &Arc, wall: &Segment) -> [f64; 2] {
         let stray = (arc.length * size).abs() * (arc.turn * size).abs() / 8.0;
         let measured: Vec<(f64, f64)> = candidates
             .iter()
-            .map(|&f| (f, line_to_line([along(arc, f), along(arc, (f + size).min(1.0))], ends)))
+            .map(|&f| (f, line_to_line([f, (f + size).min(1.0)].map(|f| position_along(arc, f)), ends)))
             .collect();
         let least = measured.iter().fold(f64::INFINITY, |least, (_, distance)| least.min(*distance));
-        if stray <= 0.1 * f64::EPSILON * scale(arc, wall) || measured.len() > 1000 {
+        if stray <= 0.1 * f64::EPSILON * extent(arc, wall) || measured.len() > 1000 {
             return [least - stray, least + stray];
         }
         size *= 0.5;
@@ -86,9 +86,9 @@ pub fn by_halving(arc: &Arc, wall: &Segment) -> [f64; 2] {
     }
 }
 
-/// The size of the figure that a distance is a part of, m: rounding is relative to it. The walls of a random figure are
-/// made up to 15 m from the origin, whatever their distance.
-pub fn scale(arc: &Arc, wall: &Segment) -> f64 {
+/// Returns the extent of an arc and a wall, m, to which the rounding of their distance is relative. It is at least 15 m, because random
+/// walls are made from coordinates of that size.
+pub fn extent(arc: &Arc, wall: &Segment) -> f64 {
     let start = [arc.start.x(), arc.start.y()];
     norm(minus(wall.from, start)).max(norm(minus(wall.to, start))).max(arc.length.abs()).max(15.0)
 }

@@ -11,25 +11,25 @@ use nalgebra::{Matrix3, Vector3};
 use rand::{Rng, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 
-pub const KINDS: [NoiseKind; 2] = [NoiseKind::Normal, NoiseKind::Triangular];
+pub const NOISE_KINDS: [NoiseKind; 2] = [NoiseKind::Normal, NoiseKind::Triangular];
 
 /// Sample size of the distribution tests.
 pub const SAMPLES: usize = 100_000;
 
 /// Number of standard errors by which an estimate may be off. With random seeds one comparison in 150 000 would fail.
-pub const SIGMAS: f64 = 4.5;
+pub const MAX_STANDARD_ERRORS: f64 = 4.5;
 
 /// Returns the random numbers of a fixed seed, which gives the same robots in every run.
 pub fn seeded(seed: u64) -> Xoshiro256PlusPlus {
     Xoshiro256PlusPlus::seed_from_u64(seed)
 }
 
-/// Uniform in [low, high).
+/// Returns a number that is uniform in [low, high).
 pub fn uniform(rng: &mut impl Rng, low: f64, high: f64) -> f64 {
     low + (high - low) * (rng.next_u64() >> 11) as f64 / (1u64 << 53) as f64
 }
 
-/// Either sign, magnitude log-uniform in [low, high).
+/// Returns a number of either sign, with a magnitude that is log-uniform in [low, high).
 pub fn signed_log_uniform(rng: &mut impl Rng, low: f64, high: f64) -> f64 {
     let magnitude = uniform(rng, low.ln(), high.ln()).exp();
     if rng.next_u64() >> 63 == 0 { magnitude } else { -magnitude }
@@ -41,7 +41,7 @@ pub fn pose_distance(a: &SE2, b: &SE2) -> f64 {
     (a.x() - b.x()).abs().max((a.y() - b.y()).abs()).max(turn.abs())
 }
 
-/// The derivative of a pose by three unit noises, by central differences.
+/// Returns the derivative of a pose by three unit noises, by central differences.
 pub fn derivative(noise: [f64; 3], apply: impl Fn([f64; 3]) -> SE2) -> Matrix3<f64> {
     const H: f64 = 1e-5;
     Matrix3::from_columns(&[0, 1, 2].map(|axis| {
@@ -55,13 +55,13 @@ pub fn derivative(noise: [f64; 3], apply: impl Fn([f64; 3]) -> SE2) -> Matrix3<f
     }))
 }
 
-/// The Banana Machine as it opens with one of its presets.
+/// Returns the settings of the Banana Machine with one of its presets.
 pub fn preset(name: &str) -> Settings {
     let preset = PRESETS.iter().find(|preset| preset.name == name).expect("a preset of that name");
     Settings { command: preset.command, velocity_alphas: preset.alphas, ..Settings::default() }
 }
 
-/// Tells whether a closed outline winds around a point.
+/// Returns true if a closed outline winds around a point.
 pub fn winds_around(outline: &[[f64; 2]], [x, y]: [f64; 2]) -> bool {
     let turns: i32 = outline
         .windows(2)
@@ -131,10 +131,10 @@ impl Row<'_> {
 
 // ------------------------------------------------------------------------------------------------- statistics
 
-/// √n times the Kolmogorov–Smirnov distance stays below this with probability 1 − 2·exp(−2·1.95²) = 0.999.
-pub const KOLMOGOROV: f64 = 1.95;
+/// Limit of √n times the Kolmogorov–Smirnov distance, which exceeds it with probability 2·exp(−2·1.95²) = 0.001.
+pub const MAX_KOLMOGOROV_SMIRNOV: f64 = 1.95;
 
-/// √n times the Kolmogorov–Smirnov distance between a sample and a distribution function.
+/// Returns √n times the Kolmogorov–Smirnov distance between a sample of n numbers and a distribution function.
 pub fn kolmogorov_smirnov(mut sample: Vec<f64>, cdf: impl Fn(f64) -> f64) -> f64 {
     sample.sort_by(f64::total_cmp);
     let n = sample.len() as f64;
@@ -145,7 +145,7 @@ pub fn kolmogorov_smirnov(mut sample: Vec<f64>, cdf: impl Fn(f64) -> f64) -> f64
     distance.fold(0.0, f64::max) * n.sqrt()
 }
 
-/// P(Z < z) for the unit-variance noise of a kind, by formulas that src/ does not use.
+/// Returns P(Z < z) for noise Z of a kind with variance 1, by formulas that src/ does not use.
 pub fn unit_cdf(kind: NoiseKind, z: f64) -> f64 {
     match kind {
         NoiseKind::Normal => 0.5 * libm::erfc(-z / 2f64.sqrt()),
@@ -157,7 +157,7 @@ pub fn unit_cdf(kind: NoiseKind, z: f64) -> f64 {
     }
 }
 
-/// The χ² value that `cells` cells exceed with probability 1e-4 (Wilson and Hilferty, z = 3.719). One degree of
+/// Returns the χ² value that `cells` cells exceed with probability 1e-4 (Wilson and Hilferty, z = 3.719). One degree of
 /// freedom goes to the fixed total.
 pub fn chi_square_limit(cells: usize) -> f64 {
     let k = (cells - 1) as f64;
@@ -173,7 +173,7 @@ pub fn variance(values: &[f64]) -> f64 {
     values.iter().map(|value| (value - centre).powi(2)).sum::<f64>() / (values.len() - 1) as f64
 }
 
-/// A statistic of a whole sample and its standard error, from the spread of the statistic over 100 equal batches.
+/// Returns a statistic of a sample and its standard error, from the spread of the statistic over 100 equal batches.
 pub fn with_standard_error<T>(sample: &[T], statistic: impl Fn(&[T]) -> f64) -> (f64, f64) {
     let batch = sample.len() / 100;
     let parts: Vec<f64> = sample.chunks_exact(batch).map(&statistic).collect();

@@ -7,7 +7,7 @@ pub struct Text(String);
 #[derive(Clone, Copy, Debug)]
 pub struct Number {
     pub value: f64,
-    /// Half a unit of its last digit.
+    /// Half a unit of the last digit that is printed.
     pub rounding: f64,
 }
 
@@ -68,7 +68,7 @@ impl Text {
     }
 
     /// Asserts that the text contains this exactly once.
-    pub fn says(&self, sentence: &str) {
+    pub fn assert_says(&self, sentence: &str) {
         let [] = self.numbers(sentence);
     }
 }

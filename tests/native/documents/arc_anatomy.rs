@@ -5,7 +5,7 @@ use crate::common::text::Number;
 use crate::simulations::arc_anatomy::{preset, stats};
 use motion::sim::arc_anatomy::{ArcAnatomy, FinalPose, Mapped, Settings, Stats};
 
-/// The final pose after the robot is turned until the wedge disappears.
+/// Returns settings with the final pose turned until the wedge disappears.
 fn without_wedge(settings: Settings) -> Settings {
     let theta = stats(settings).driven.end[2];
     Settings { next: FinalPose { theta, ..settings.next }, ..settings }

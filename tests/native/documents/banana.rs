@@ -2,7 +2,7 @@
 
 use super::page;
 use crate::common::text::{Number, Text};
-use crate::common::{SIGMAS, preset, winds_around};
+use crate::common::{MAX_STANDARD_ERRORS, preset, winds_around};
 use crate::simulations::banana::machine;
 use motion::VelocityCmd;
 use motion::sim::banana::{BananaMachine, ModelKind, Settings};
@@ -31,14 +31,13 @@ fn the_presets_are_those_in_the_document() {
     }
 }
 
-/// The rows of the table, and the sentences of the page on the same presets; fractions are compared to 4.5 standard
-/// errors.
+/// Checks the rows of the table, and the sentences of the page on the same presets. Fractions are compared to 4.5 standard errors.
 #[test]
-fn figures_are_those_told() {
+fn figures_in_the_table_and_on_the_page_are_those_of_the_machine() {
     const ROBOTS: usize = 300_000;
-    let error = SIGMAS * (0.117 / ROBOTS as f64).sqrt();
+    let error = MAX_STANDARD_ERRORS * (0.117 / ROBOTS as f64).sqrt();
     let of = |name| machine(Settings { samples: ROBOTS, ..preset(name) });
-    let check = |machine: &BananaMachine, [floor, area, ellipse, skew]: [Number; 4]| {
+    let assert_row = |machine: &BananaMachine, [floor, area, ellipse, skew]: [Number; 4]| {
         let exact = machine.table().exact;
         floor.assert(exact.likelihood_gain.floor, 0.0);
         area.assert(exact.area_ratio, 0.0);
@@ -47,7 +46,7 @@ fn figures_are_those_told() {
         exact
     };
     let worked = document().numbers("| 1, 0.5, 1; α₁₋₄ = 0.02, α₅,₆ = 0 | ∞ | # | # | # % | # |");
-    check(&of("worked"), worked);
+    assert_row(&of("worked"), worked);
     let [(gentle, _), (hard, many), (banana, _)] = [
         ("gentle", "| 1, 0.5, 1; (0.05, 0.05, 0.05, 0.09, 0.01, 0.01)"),
         ("hard", "| 1, 1.2, 1.4; the same"),
@@ -57,7 +56,7 @@ fn figures_are_those_told() {
         let [pose, floor, area, ellipse, skew] =
             document().numbers(&format!("{what} | # | # | # | # % | # |"));
         let machine = of(name);
-        let exact = check(&machine, [floor, area, ellipse, skew]);
+        let exact = assert_row(&machine, [floor, area, ellipse, skew]);
         pose.assert(exact.likelihood_gain.pose, 0.0);
         (exact, machine)
     });
@@ -90,11 +89,12 @@ fn figures_are_those_told() {
     );
 }
 
-/// Density of robots (1/m²) in the area that only one of the outlines encloses; from 300,000 robots, with a relative
-/// error of 2 %.
+/// Densities of 300,000 robots (1/m²) in the areas that only one of the outlines encloses have relative errors of 2 %.
 #[test]
 fn the_ellipse_covers_floor_where_few_robots_stop() {
-    page().says("where it alone lies, robots stop a seventh as densely as where the outline alone does.");
+    page().assert_says(
+        "where it alone lies, robots stop a seventh as densely as where the outline alone does.",
+    );
     let machine = machine(Settings { samples: 300_000, ..preset("banana") });
     let contours = machine.contours();
     let enclosing = |at| [&contours.ellipse, &contours.exponential].map(|outline| winds_around(outline, at));
@@ -114,7 +114,8 @@ fn the_ellipse_covers_floor_where_few_robots_stop() {
 
 #[test]
 fn a_tenth_of_the_time_leaves_less_than_a_tenth_of_the_cloud() {
-    page().says("In a tenth of the time the cloud shrinks to less than a tenth, and the circle stays:");
+    page()
+        .assert_says("In a tenth of the time the cloud shrinks to less than a tenth, and the circle stays:");
     let gentle = preset("gentle");
     let short =
         Settings { command: VelocityCmd { dt: gentle.command.dt / 10.0, ..gentle.command }, ..gentle };
@@ -138,13 +139,13 @@ fn the_predicted_skew_misses_under_the_odometry_model() {
         let figures = machine.figures();
         (figures.cross_track_skew - figures.gaussian_skew).abs() / figures.cross_track_skew_error
     };
-    assert!(miss(Settings { velocity_alphas, ..gentle }) < SIGMAS);
+    assert!(miss(Settings { velocity_alphas, ..gentle }) < MAX_STANDARD_ERRORS);
     assert!(miss(Settings { model: ModelKind::Odometry, ..gentle }) > errors.value);
 }
 
 #[test]
 fn a_hundred_times_the_robots_leave_a_tenth_of_the_error() {
-    page().says("A hundred times the robots leave a tenth of the standard error.");
+    page().assert_says("A hundred times the robots leave a tenth of the standard error.");
     let error = |samples| machine(Settings { samples, ..preset("gentle") }).figures().cross_track_skew_error;
     let ratio = error(2000) / error(200_000);
     assert!((ratio - 10.0).abs() < 1.0, "{ratio}");

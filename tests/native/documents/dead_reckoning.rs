@@ -1,8 +1,8 @@
 //! Numbers of Dead Reckoning on the page, compared with computed ones.
 
-use super::page;
-use crate::common::SIGMAS;
-use crate::common::text::{Number, Text};
+use super::{exercises_document, page};
+use crate::common::MAX_STANDARD_ERRORS;
+use crate::common::text::Number;
 use crate::simulations::dead_reckoning::machine;
 use motion::Compounding;
 use motion::sim::dead_reckoning::{DeadReckoning, PRESETS, Settings, TOLERANCE};
@@ -13,14 +13,15 @@ fn preset(name: &str) -> DeadReckoning {
     machine(Settings { command, steps, alphas, samples: 50_000, ..Settings::default() })
 }
 
-/// Returns ratios to the fourth order, which is accurate to a few thousandths and free of sampling noise.
-fn exact(machine: &DeadReckoning, order: Compounding, axis: usize) -> Vec<f64> {
+/// Returns the predicted variances of an axis after each step, relative to the fourth order, which is accurate to a few thousandths.
+fn exact_ratios(machine: &DeadReckoning, order: Compounding, axis: usize) -> Vec<f64> {
     let covs =
         |order| machine.predicted(order).iter().map(move |cov| cov.expect("a covariance")[(axis, axis)]);
     covs(order).zip(covs(Compounding::FourthOrder)).map(|(one, other)| one / other).collect()
 }
 
-fn off(ratios: &[f64]) -> Vec<usize> {
+/// Returns the steps at which a ratio differs from 1 by more than the tolerance.
+fn steps_off(ratios: &[f64]) -> Vec<usize> {
     (1..=ratios.len()).filter(|k| (ratios[k - 1] - 1.0).abs() > TOLERANCE).collect()
 }
 
@@ -31,27 +32,28 @@ fn the_six_per_cent_and_the_lateral_miss_are_those_of_the_machine() {
         page().numbers("what its own loses by the end: # % of the variance along the track");
     let compared = opening.compared(Compounding::Chapter);
     printed.assert_percent(-compared.misses[0].end, 0.0);
-    printed.assert_percent(1.0 - exact(&opening, Compounding::Chapter, 0)[19], 0.0);
+    printed.assert_percent(1.0 - exact_ratios(&opening, Compounding::Chapter, 0)[19], 0.0);
     let [along, lateral]: [Number; 2] = page().numbers(
         "After the chapter’s 20 steps the variance along the track is # % below that of 50\u{202f}000 robots. Across the track \
          it is 0 after step 1, and # % too small at the end.",
     );
     for (lost, axis) in [(along, 0), (lateral, 1)] {
         lost.assert_percent(-compared.misses[axis].end, 0.0);
-        lost.assert_percent(1.0 - exact(&opening, Compounding::Chapter, axis)[19], 0.0);
+        lost.assert_percent(1.0 - exact_ratios(&opening, Compounding::Chapter, axis)[19], 0.0);
     }
-    page().says("the Gaussian that the chapter predicts is a line, for its R, the noise covariance of one step, has no lateral noise");
+    page().assert_says("the Gaussian that the chapter predicts is a line, for its R, the noise covariance of one step, has no lateral noise");
     assert_eq!(compared.ratios[0].y, 0.0);
     assert!(opening.measured()[0].cov[(1, 1)] > 0.0);
     let [second, fifth]: [Number; 2] =
         page().numbers("At step 2 it predicts # of the lateral variance, at step 5 #.");
-    for ratios in
-        [exact(&opening, Compounding::Chapter, 1), compared.ratios.iter().map(|ratio| ratio.y).collect()]
-    {
+    for ratios in [
+        exact_ratios(&opening, Compounding::Chapter, 1),
+        compared.ratios.iter().map(|ratio| ratio.y).collect(),
+    ] {
         second.assert(ratios[1], 0.0);
         fifth.assert(ratios[4], 0.0);
     }
-    page().says(
+    page().assert_says(
         "With the right Jacobian Jr, the turn during a step, every ratio is 1 to a hundredth, and fourth order looks the same.",
     );
     for order in [Compounding::FirstOrder, Compounding::FourthOrder] {
@@ -65,19 +67,19 @@ fn the_six_per_cent_and_the_lateral_miss_are_those_of_the_machine() {
 /// larger one if the tails are heavy.
 #[test]
 fn ratios_and_crossings_are_those_of_exercise_7() {
-    let document = Text::in_document(include_str!("../../../doc/exercises.md"));
+    let document = exercises_document();
     let machines = ["chapter", "doubled"].map(preset);
     for k in [1, 2, 5, 10, 20] {
-        let of = |order| [0, 1, 2].map(|axis| exact(&machines[0], order, axis)[k - 1]);
+        let of = |order| [0, 1, 2].map(|axis| exact_ratios(&machines[0], order, axis)[k - 1]);
         let [[a, b, c], [d, e, f]] = [Compounding::Chapter, Compounding::FirstOrder].map(of);
         document.assert(&format!("| {k} | # | # | # | # | # | # |"), [a, b, c, d, e, f]);
     }
     let crossings = machines.map(|machine| {
-        let error = SIGMAS * (2.3 / machine.settings().samples as f64).sqrt();
+        let error = MAX_STANDARD_ERRORS * (2.3 / machine.settings().samples as f64).sqrt();
         let fourth = &machine.compared(Compounding::FourthOrder).ratios;
         assert!(fourth.iter().all(|ratios| ratios.iter().all(|ratio| (ratio - 1.0).abs() < error)));
         let first = machine.compared(Compounding::Chapter).misses[0].first.expect("a miss");
-        assert_eq!(first as usize, off(&exact(&machine, Compounding::Chapter, 0))[0]);
+        assert_eq!(first as usize, steps_off(&exact_ratios(&machine, Compounding::Chapter, 0))[0]);
         f64::from(first)
     });
     document.assert(
@@ -105,7 +107,7 @@ fn the_crossing_times_are_those_of_exercise_2() {
     let alphas = [0.02, 0.02, h, h, h / 4.0, h / 4.0];
     let doubled = machine(Settings { alphas, samples: 1, ..Settings::default() });
     let times = [&growth, &doubled.straight_growth()].map(|growth| growth.crossing.expect("a crossing"));
-    let exercises = Text::in_document(include_str!("../../../doc/exercises.md"));
+    let exercises = exercises_document();
     page().assert("along the track with the power #, across it with the power #. They cross", powers);
     exercises.assert("grows with the power # of Δt, across it with #. ", powers);
     page().assert("They cross after # s; with the heading σ doubled, after # s.", times);
@@ -117,14 +119,14 @@ fn the_crossing_times_are_those_of_exercise_2() {
 
 #[test]
 fn two_hundred_steps_miss_for_half_a_second() {
-    page().says(
+    page().assert_says(
         "In 200 steps nothing along the track is off by 5 %, and the lateral variance for half a second instead of three:",
     );
     let [chapter, fine] = ["chapter", "fine"].map(preset);
     assert_eq!(fine.settings().steps, 200);
-    assert!(off(&exact(&fine, Compounding::Chapter, 0)).is_empty());
+    assert!(steps_off(&exact_ratios(&fine, Compounding::Chapter, 0)).is_empty());
     let seconds = |machine: &DeadReckoning| {
-        let last = off(&exact(machine, Compounding::Chapter, 1)).last().copied().unwrap_or(0);
+        let last = steps_off(&exact_ratios(machine, Compounding::Chapter, 1)).last().copied().unwrap_or(0);
         last as f64 * machine.settings().command.dt
     };
     assert_eq!((2.0 * seconds(&fine)).round() / 2.0, 0.5, "{}", seconds(&fine));

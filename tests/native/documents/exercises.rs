@@ -1,6 +1,7 @@
 //! Numbers of doc/exercises.md, compared with computed ones; those of exercises 2 and 7 are in `dead_reckoning.rs`.
 
-use crate::common::text::{Number, Text};
+use super::exercises_document;
+use crate::common::text::Number;
 use crate::common::{derivative, preset, seeded, unit_cdf};
 use motion::geom::arc::Arc;
 use motion::geom::se2::SE2;
@@ -12,10 +13,6 @@ use motion::{
     VelocityAlphas, VelocityCmd, VelocityModel,
 };
 use std::f64::consts::PI;
-
-fn document() -> Text {
-    Text::in_document(include_str!("../../../doc/exercises.md"))
-}
 
 const U: VelocityCmd = VelocityCmd { v: 1.0, omega: 0.5, dt: 1.0 };
 
@@ -39,7 +36,6 @@ fn error_of_arc_form(omega: f64, dt: f64) -> f64 {
     (squares.sum::<f64>() / f64::from(headings)).sqrt()
 }
 
-/// Exercise 1.
 #[test]
 fn exercise_1_the_straight_line_branch() {
     let dt = 0.1;
@@ -52,29 +48,29 @@ fn exercise_1_the_straight_line_branch() {
     let crossover =
         (0..400).map(|i| 1e-9 * 10f64.powf(f64::from(i) / 100.0)).find(|omega| ratio(*omega) < 1.0);
     let [found, estimated]: [Number; 2] =
-        document().numbers("below |ω̂| = # × 10⁻⁷ rad/s, where the estimate √(2ε)/Δt says # × 10⁻⁷");
+        exercises_document().numbers("below |ω̂| = # × 10⁻⁷ rad/s, where the estimate √(2ε)/Δt says # × 10⁻⁷");
     found.assert(crossover.expect("a crossover") / 1e-7, 0.0);
     estimated.assert((2.0 * f64::EPSILON).sqrt() / dt / 1e-7, 0.0);
-    let [line, arc, times]: [Number; 3] = document().numbers(
+    let [line, arc, times]: [Number; 3] = exercises_document().numbers(
         "the straight line is off by # nm, and the arc form by # nm. Switching so early costs # times",
     );
     let (line_error, arc_error) = (straight(1e-6), error_of_arc_form(1e-6, dt));
     line.assert(line_error / 1e-9, 0.0);
     arc.assert(arc_error / 1e-9, 0.0);
     times.assert(line_error / arc_error, 0.0);
-    document().says("up to half a micrometre where Δt is a second");
+    exercises_document().assert_says("up to half a micrometre where Δt is a second");
     let end = Arc { start: SE2::identity(), length: 1.0, turn: 1e-6 }.end();
     assert!(((end.x() - 1.0).hypot(end.y()) - 0.5e-6).abs() < 1e-12, "{end:?}");
 }
 
-/// Exercise 3. The determinant is computed by differences, whose error is the square of the step.
+/// The determinant is computed by differences, whose error is the square of the step.
 #[test]
 fn exercise_3_the_unpaid_jacobian() {
     let model = velocity([0.02, 0.02, 0.02, 0.02, 0.01, 0.01]);
     let x = SE2::identity();
     let end = x.boxplus(TangentNoiseModel::twist(&U));
     let [printed]: [Number; 1] =
-        document().numbers("At the noise-free end of the worked example's command it is #, and");
+        exercises_document().numbers("At the noise-free end of the worked example's command it is #, and");
     let deviations = model.variances(&U).map(|variance| variance.0.sqrt());
     let by_noises = derivative([0.0; 3], |unit| model.apply_noise(&U, &x, unit));
     let determinant = by_noises.determinant() / deviations.iter().product::<f64>();
@@ -90,7 +86,6 @@ fn exercise_3_the_unpaid_jacobian() {
     assert!((density / factors * u.trans - 1.0).abs() < 1e-12);
 }
 
-/// Exercise 4.
 #[test]
 fn exercise_4_each_alpha() {
     let exact = |index: usize, command: VelocityCmd| {
@@ -110,17 +105,16 @@ fn exercise_4_each_alpha() {
         "headings spread with a variance of # rad²",
         "its curve has a cross-track skew of #, which",
     ]
-    .map(|sentence| document().numbers::<1>(sentence)[0]);
+    .map(|sentence| exercises_document().numbers::<1>(sentence)[0]);
     assert_eq!(alpha.value, 0.09);
-    let ([fan, _], [blur, _]) =
-        ([exact(3, turning).0, exact(3, turning).0], [exact(5, turning).0, exact(5, turning).0]);
+    let [fan, blur] = [3, 5].map(|index| exact(index, turning).0);
     variance.assert(fan.cov[(2, 2)], 0.0);
     variance.assert(blur.cov[(2, 2)], 0.0);
     skew.assert(fan.cross_track_skew, 0.0);
     assert_eq!(blur.cov.fixed_rows::<2>(0).amax(), 0.0);
 }
 
-/// Exercise 5: equal seeds give equal motions, so that the fractions equal those of the table to a digit.
+/// Equal seeds give equal motions, so that the fractions equal those of the table to a digit.
 #[test]
 fn exercise_5_poses_through_walls() {
     let settings = |n: f64, omega: f64, sampler: Sampler| {
@@ -137,13 +131,13 @@ fn exercise_5_poses_through_walls() {
     };
     let stats = |settings| MapSqueeze::new(settings).expect("valid settings").stats();
     for n in ["0.02", "0.05", "0.12", "0.4"] {
-        let printed: [Number; 5] = document().numbers(&format!("| {n} | # | # | # | # | # |"));
+        let printed: [Number; 5] = exercises_document().numbers(&format!("| {n} | # | # | # | # | # |"));
         for (printed, omega) in printed.into_iter().zip([0.0, 0.2, 0.4, 0.6, 0.8]) {
             let settings = settings(n.parse().expect("a number"), omega, Sampler::Endpoint);
             printed.assert_percent(stats(settings).through_wall_rate, 0.0);
         }
     }
-    document().says("Noise alone, up to 0.4, never gets it to 40 %.");
+    exercises_document().assert_says("Noise alone, up to 0.4, never gets it to 40 %.");
     for i in [8, 24, 40, 56, 80] {
         let stats = stats(settings(0.005 * f64::from(i), 0.0, Sampler::Endpoint));
         assert!(stats.through_wall_rate < 0.4, "{i}: {}", stats.through_wall_rate);
@@ -154,7 +148,7 @@ fn exercise_5_poses_through_walls() {
         "draws, and # % still go through one",
         "eight cost # draws",
     ]
-    .map(|sentence| document().numbers::<1>(sentence)[0]);
+    .map(|sentence| exercises_document().numbers::<1>(sentence)[0]);
     let at = |sampler| stats(settings(0.12, 0.6, sampler));
     let whole = at(Sampler::WholeArc);
     arc.assert(whole.draws_per_accepted, 0.0);
@@ -163,17 +157,16 @@ fn exercise_5_poses_through_walls() {
     four.assert(quarters.draws_per_accepted, 0.0);
     left.assert_percent(quarters.through_wall_rate, 0.0);
     eight.assert(eighths.draws_per_accepted, 0.0);
-    let [a_second]: [Number; 1] = document().numbers("at 20 Hz that is # draws a second");
+    let [a_second]: [Number; 1] = exercises_document().numbers("at 20 Hz that is # draws a second");
     // Printed in thousands.
     assert!((a_second.value - 2000.0 * 20.0 * whole.draws_per_accepted).abs() <= 500.0);
 }
 
-/// Exercise 6.
 #[test]
 fn exercise_6_the_triangular_sampler() {
     let b2 = Variance(0.025);
     let [bound, beyond]: [Number; 2] =
-        document().numbers("√6·b is # rad for the heading, beyond which # % of normal draws are");
+        exercises_document().numbers("√6·b is # rad for the heading, beyond which # % of normal draws are");
     bound.assert((6.0 * b2.0).sqrt(), 0.0);
     let poses = |noise| {
         let model = VelocityModel { alphas: VelocityAlphas([0.02, 0.02, 0.02, 0.02, 0.0, 0.0]), noise };
@@ -185,7 +178,7 @@ fn exercise_6_the_triangular_sampler() {
         poses(NoiseKind::Triangular).all(|pose| (pose.theta() - 0.5).abs() <= bound.value + bound.rounding)
     );
     let printed: [Number; 2] =
-        document().numbers("the skew is # with normal noise and # with triangular noise");
+        exercises_document().numbers("the skew is # with normal noise and # with triangular noise");
     for (printed, noise) in printed.into_iter().zip([NoiseKind::Normal, NoiseKind::Triangular]) {
         let machine =
             BananaMachine::new(Settings { noise, samples: 10, ..preset("worked") }).expect("valid settings");

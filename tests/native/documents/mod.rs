@@ -13,3 +13,11 @@ use crate::common::text::Text;
 fn page() -> Text {
     Text::on_page(include_str!("../../../www/index.html"))
 }
+
+fn exercises_document() -> Text {
+    Text::in_document(include_str!("../../../doc/exercises.md"))
+}
+
+fn model_document() -> Text {
+    Text::in_document(include_str!("../../../doc/model.md"))
+}

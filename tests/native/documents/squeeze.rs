@@ -1,8 +1,8 @@
 //! Fractions of Map Squeeze on the page and in doc/model.md, compared with computed ones.
 
-use super::page;
-use crate::common::text::{Number, Text};
-use crate::common::{SIGMAS, seeded};
+use super::{model_document, page};
+use crate::common::text::Number;
+use crate::common::{MAX_STANDARD_ERRORS, seeded};
 use motion::geom::arc::Arc;
 use motion::geom::se2::SE2;
 use motion::map::{FloorPlan, MapConditioned, Sampler};
@@ -10,7 +10,7 @@ use motion::noise::centred_uniform;
 use motion::sim::squeeze::{MapSqueeze, PRESETS, Settings, alphas_of_noise};
 use motion::{NoiseKind, VelocityAlphas, VelocityCmd, VelocityModel};
 
-/// Indices of the presets.
+/// Indices of the places in the presets.
 const DOORWAY: usize = 0;
 const WALL: usize = 1;
 const CORRIDOR: usize = 2;
@@ -42,16 +42,15 @@ fn in_parts(place: usize, parts: u32, omega: f64) -> (f64, f64) {
 
 /// Asserts that a printed percentage equals a computed fraction.
 fn assert_printed((share, error): (f64, f64), printed: Number) {
-    printed.assert_percent(share, SIGMAS * error);
-}
-
-fn document() -> Text {
-    Text::in_document(include_str!("../../../doc/model.md"))
+    printed.assert_percent(share, MAX_STANDARD_ERRORS * error);
 }
 
 /// Asserts that one fraction is less than the other, beyond the standard errors of both.
 fn assert_less(one: (f64, f64), other: (f64, f64), what: &str) {
-    assert!(other.0 - one.0 > SIGMAS * one.1.hypot(other.1), "{what}: {one:?} is not less than {other:?}");
+    assert!(
+        other.0 - one.0 > MAX_STANDARD_ERRORS * one.1.hypot(other.1),
+        "{what}: {one:?} is not less than {other:?}"
+    );
 }
 
 #[test]
@@ -83,7 +82,7 @@ fn a_third_of_the_accepted_motions_went_through_a_wall_at_the_doorway() {
 #[test]
 #[ignore = "nightly: 30 clouds of 100,000"]
 fn shares_through_walls_by_substeps_are_those_in_the_documents() {
-    let printed = document().numbers(
+    let printed = model_document().numbers(
         "On a straight command it falls with k: to # % at k = 16 facing the doorway, and to # % in the corridor.",
     );
     for (place, printed) in [DOORWAY, CORRIDOR].into_iter().zip::<[Number; 2]>(printed) {
@@ -95,7 +94,7 @@ fn shares_through_walls_by_substeps_are_those_in_the_documents() {
     );
     assert_printed(through(settings(DOORWAY, Sampler::Endpoint, omega.value)), on_page);
     assert_printed(in_parts(DOORWAY, worst.value as u32, omega.value), at_worst);
-    let [d1, d4, d6, d8, d16, c1, c4, c6, c8, c12] = document().numbers(
+    let [d1, d4, d6, d8, d16, c1, c4, c6, c8, c12] = model_document().numbers(
         "At the doorway it is # % at k = 1, # % at 4, # % at 6, # % at 8, and # % at 16. In the corridor it rises from # % \
          over # and # % to # % at k = 8, and falls to # % at 12.",
     );
@@ -104,9 +103,9 @@ fn shares_through_walls_by_substeps_are_those_in_the_documents() {
         (CORRIDOR, c1, [(4, c4), (6, c6), (8, c8), (12, c12)]),
     ] {
         assert_printed(through(settings(place, Sampler::Endpoint, omega.value)), endpoint);
-        printed
-            .into_iter()
-            .for_each(|(parts, share)| assert_printed(in_parts(place, parts, omega.value), share));
+        for (parts, share) in printed {
+            assert_printed(in_parts(place, parts, omega.value), share);
+        }
     }
 }
 
@@ -115,7 +114,7 @@ fn shares_through_walls_by_substeps_are_those_in_the_documents() {
 fn more_substeps_facing_the_wall_send_more_samples_through_it() {
     let shares = [2, 4, 8].map(|parts| in_parts(WALL, parts, 0.0));
     shares.windows(2).for_each(|pair| assert_less(pair[0], pair[1], "more parts"));
-    let [one, two, four, eight, wedged] = document().numbers(
+    let [one, two, four, eight, wedged] = model_document().numbers(
         "it rises from # % at k = 1 to # %, # % and # % at k = 2, 4 and 8. From k = # on, so few parts reach across that \
          the widget gives up.",
     );
@@ -126,7 +125,7 @@ fn more_substeps_facing_the_wall_send_more_samples_through_it() {
     assert_eq!((from.value, to.value), (2.0, 8.0));
     assert_printed(shares[0], at_two);
     assert_printed(shares[2], at_eight);
-    page().says(
+    page().assert_says(
         "From 16 parts on hardly one is long enough to jump, and the robot stands wedged before the wall.",
     );
     assert_eq!(wedged.value, 16.0);
@@ -139,11 +138,11 @@ fn more_substeps_facing_the_wall_send_more_samples_through_it() {
     }
 }
 
-/// Fraction of other results if collisions are checked along the geodesic instead of the arc.
+/// Compares the fraction of motions that are judged otherwise along the geodesic than along the arc.
 #[test]
 #[ignore = "nightly: clouds of 100,000"]
 fn judging_the_geodesic_changes_the_documented_share_of_verdicts() {
-    let [least, most, doorway_least, doorway_most] = document().numbers(
+    let [least, most, doorway_least, doorway_most] = model_document().numbers(
         "between # and # % of the accepted samples get the other verdict (n from 0.12 to 0.2, ω from 0 to 1; the doorway \
          # to # %)",
     );
@@ -174,7 +173,7 @@ fn judging_the_geodesic_changes_the_documented_share_of_verdicts() {
                 differ += u32::from(plan.arc_free(&geodesic, 0.13).free != draw.path.free);
             }
             let share = f64::from(differ) / f64::from(accepted);
-            let error = SIGMAS * (share * (1.0 - share) / f64::from(accepted)).sqrt();
+            let error = MAX_STANDARD_ERRORS * (share * (1.0 - share) / f64::from(accepted)).sqrt();
             let least = if place == "doorway" { doorway_least } else { least };
             let (least, most) = (least.value / 100.0, most.value / 100.0);
             assert!(share + error > least && share - error < most, "{place}, n = {n}, ω = {omega}: {share}");

@@ -4,8 +4,8 @@ use crate::common::{seeded, uniform};
 use motion::geom::double_double::DoubleDouble;
 use motion::sim::arc_anatomy::{CHAPTERS_THRESHOLD, FormErrors, form_errors};
 
-/// A row of the reference: an angle, and high and low of its sine, cosine and sinc.
-fn rows() -> impl Iterator<Item = [f64; 7]> {
+/// Returns the rows of the reference: an angle, and the high and low parts of its sine, cosine and sinc.
+fn reference_rows() -> impl Iterator<Item = [f64; 7]> {
     include_str!("../../reference/double_double.csv")
         .lines()
         .filter(|line| !line.starts_with('#'))
@@ -16,26 +16,27 @@ fn rows() -> impl Iterator<Item = [f64; 7]> {
         })
 }
 
-fn off(value: DoubleDouble, high: f64, low: f64) -> f64 {
+/// Returns the distance of a value from a reference in two parts.
+fn error_of(value: DoubleDouble, high: f64, low: f64) -> f64 {
     (value - DoubleDouble { high, low }).to_f64().abs()
 }
 
 #[test]
 fn sine_cosine_and_sinc_match_fifty_digit_references() {
     let mut count = 0;
-    for [angle, sin_high, sin_low, cos_high, cos_low, sinc_high, sinc_low] in rows() {
+    for [angle, sin_high, sin_low, cos_high, cos_low, sinc_high, sinc_low] in reference_rows() {
         let angle = DoubleDouble::from(angle);
         let (sin, cos) = angle.sin_cos();
-        assert!(off(sin, sin_high, sin_low) <= 1e-30, "sin {}", angle.high);
-        assert!(off(cos, cos_high, cos_low) <= 1e-30, "cos {}", angle.high);
-        assert!(off(angle.sinc(), sinc_high, sinc_low) <= 1e-30, "sinc {}", angle.high);
+        assert!(error_of(sin, sin_high, sin_low) <= 1e-30, "sin {}", angle.high);
+        assert!(error_of(cos, cos_high, cos_low) <= 1e-30, "cos {}", angle.high);
+        assert!(error_of(angle.sinc(), sinc_high, sinc_low) <= 1e-30, "sinc {}", angle.high);
         count += 1;
     }
     assert!(count >= 60);
     assert_eq!(DoubleDouble::from(0.0).sinc().to_f64(), 1.0);
 }
 
-/// Compared with exact arithmetic of 128-bit integers.
+/// The expected values come from exact arithmetic of 128-bit integers.
 #[test]
 fn sums_and_products_lose_nothing() {
     let mut rng = seeded(31);

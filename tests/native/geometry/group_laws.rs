@@ -1,14 +1,14 @@
 //! The laws of SE(2) and the accuracy of its maps.
 //!
-//! The laws hold to rounding: a pose carries coordinates up to its size, and every law below composes at most four
-//! maps, each right to a few units in the last place of that size. `LAW` allows 32 of them.
+//! The laws hold to rounding. Every law below composes at most four maps, each right to a few units in the last place of the largest
+//! coordinate. `LAW_TOLERANCE` allows 32 units.
 
 use crate::common::{Table, pose_distance, seeded, uniform};
 use motion::geom::se2::SE2;
 use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::{PI, TAU};
 
-const LAW: f64 = 32.0 * f64::EPSILON;
+const LAW_TOLERANCE: f64 = 32.0 * f64::EPSILON;
 
 /// Maximum error of exp, log and both Jacobians for |ω| ≤ π, relative to the size of the twist if that exceeds 1.
 const ACCURACY: f64 = 4e-16;
@@ -21,18 +21,18 @@ fn assert_same(a: &SE2, b: &SE2, tolerance: f64, law: &str) {
 #[test]
 fn composition_places_the_second_pose_in_the_frame_of_the_first() {
     let quarter = SE2::new(2.0, 1.0, PI / 2.0);
-    assert_same(&(quarter * SE2::new(3.0, 0.5, 0.25)), &SE2::new(1.5, 4.0, PI / 2.0 + 0.25), LAW, "by hand");
-    let north = SE2::new(5.0, 5.0, PI / 2.0);
     assert_same(
-        &north.boxplus(Vector3::x()),
-        &SE2::new(5.0, 6.0, PI / 2.0),
-        16.0 * LAW,
-        "forward is its own",
+        &(quarter * SE2::new(3.0, 0.5, 0.25)),
+        &SE2::new(1.5, 4.0, PI / 2.0 + 0.25),
+        LAW_TOLERANCE,
+        "by hand",
     );
+    let north = SE2::new(5.0, 5.0, PI / 2.0);
+    let ahead = north.boxplus(Vector3::x());
+    assert_same(&ahead, &SE2::new(5.0, 6.0, PI / 2.0), 16.0 * LAW_TOLERANCE, "forward is its own");
 }
 
-/// On the branch of a known turn the logarithm inverts exp beyond half a turn. Its coordinates grow towards a full
-/// turn.
+/// With a turn given to select the branch, the logarithm inverts exp beyond half a turn. Its coordinates grow towards a full turn.
 #[test]
 fn the_logarithm_near_a_turn_uses_the_branch_of_that_turn() {
     let mut rng = seeded(6);
@@ -44,16 +44,16 @@ fn the_logarithm_near_a_turn_uses_the_branch_of_that_turn() {
         let back = pose.log_near(turn);
         // The factor 1/sinc(ω/2) amplifies the rounding of the pose, up to 20 times at 0.3 rad from a full turn.
         assert!(
-            (back - twist).amax() < 20.0 * LAW * twist.norm().max(1.0),
+            (back - twist).amax() < 20.0 * LAW_TOLERANCE * twist.norm().max(1.0),
             "log_near({turn}) of exp({twist}) = {back}"
         );
         assert_eq!(pose.log_near(pose.theta()), pose.log());
         let elsewhere = pose.log_near(twist.z + TAU);
-        assert!((elsewhere.z - twist.z - TAU).abs() < LAW, "{}", elsewhere.z);
+        assert!((elsewhere.z - twist.z - TAU).abs() < LAW_TOLERANCE, "{}", elsewhere.z);
     }
 }
 
-/// Sweeps the bands of |ω| in which series and closed forms are known to lose digits.
+/// The reference sweeps the bands of |ω| in which series and closed forms can lose digits.
 #[test]
 fn exp_and_jacobians_match_the_references() {
     let table = Table::parse(include_str!("../../reference/group.csv"));

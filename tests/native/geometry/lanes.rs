@@ -7,7 +7,7 @@ use rand::RngExt;
 use std::f64::consts::{FRAC_PI_2, PI};
 use wide::f64x4;
 
-/// Angles of either sign, log-uniform over 32 decades, and dense around the ends of the ranges.
+/// Returns angles of either sign, log-uniform over 32 decades, and dense around multiples of a quarter turn.
 fn angles() -> Vec<f64> {
     let mut rng = seeded(9);
     let mut angles = vec![0.0, -0.0, FRAC_PI_2, -FRAC_PI_2, PI, -PI, f64::MIN_POSITIVE, 3e6, -3e6, 3.1e6];
@@ -22,7 +22,7 @@ fn angles() -> Vec<f64> {
     angles
 }
 
-fn first(lanes: f64x4) -> f64 {
+fn first_lane(lanes: f64x4) -> f64 {
     lanes.to_array()[0]
 }
 
@@ -32,12 +32,15 @@ fn circles_agree_with_libm_over_the_whole_range() {
     for angle in angles() {
         let circle = trigonometry.any_circle(f64x4::splat(angle));
         let sinc = if angle == 0.0 { 1.0 } else { libm::sin(angle) / angle };
-        assert!((first(circle.sin) - libm::sin(angle)).abs() <= ACCURACY, "sin {angle}");
-        assert!((first(circle.cos) - libm::cos(angle)).abs() <= ACCURACY, "cos {angle}");
-        assert!((first(circle.sinc) - sinc).abs() <= ACCURACY, "sinc {angle}");
+        assert!((first_lane(circle.sin) - libm::sin(angle)).abs() <= ACCURACY, "sin {angle}");
+        assert!((first_lane(circle.cos) - libm::cos(angle)).abs() <= ACCURACY, "cos {angle}");
+        assert!((first_lane(circle.sinc) - sinc).abs() <= ACCURACY, "sinc {angle}");
         if angle.abs() <= FRAC_PI_2 {
             // No digits are lost towards 0.
-            assert!((first(circle.sin) - libm::sin(angle)).abs() <= ACCURACY * angle.abs(), "sin {angle}");
+            assert!(
+                (first_lane(circle.sin) - libm::sin(angle)).abs() <= ACCURACY * angle.abs(),
+                "sin {angle}"
+            );
         }
     }
 }
@@ -49,7 +52,7 @@ fn half_turns_lie_on_the_requested_branch() {
         for half in angles().into_iter().step_by(7) {
             let turn = trigonometry.any_half_turn(f64x4::splat(half), near);
             let expected = near + 0.5 * wrap_angle(2.0 * (half - near));
-            let found = first(turn.half);
+            let found = first_lane(turn.half);
             // The reduction by half circles rounds in proportion to their number. At the end of the branch either side
             // is correct.
             let digits = ACCURACY * (1.0 + half.abs());
@@ -57,14 +60,14 @@ fn half_turns_lie_on_the_requested_branch() {
             assert!(beside <= digits, "{half} near {near}: {found} is not {expected}");
             assert!((found - near).abs() <= FRAC_PI_2 + digits, "{half} near {near}: {found}");
             let (sin, cos) = libm::sincos(found);
-            assert!((first(turn.sin).abs() - sin.abs()).abs() <= digits);
-            assert!((first(turn.sin) * first(turn.cos) - sin * cos).abs() <= 2.0 * digits);
+            assert!((first_lane(turn.sin).abs() - sin.abs()).abs() <= digits);
+            assert!((first_lane(turn.sin) * first_lane(turn.cos) - sin * cos).abs() <= 2.0 * digits);
             let cotangent = if found == 0.0 { 1.0 } else { found * cos / sin };
             // The error of the sine, divided by the sine twice.
             let tolerance =
                 4.0 * digits * (1.0 + found.abs()) / (sin * sin / (found * found).min(1.0)).max(1e-300);
             assert!(
-                (first(turn.cotangent) - cotangent).abs() <= tolerance.max(4.0 * ACCURACY),
+                (first_lane(turn.cotangent) - cotangent).abs() <= tolerance.max(4.0 * ACCURACY),
                 "{half} {near}"
             );
         }

@@ -7,8 +7,8 @@ use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-/// Cases from a fixed seed, so that results are the same on every machine. Failing cases are not stored: each becomes a
-/// test of its own.
+/// Returns the configuration for a number of cases from a fixed seed, so that results are the same on every machine. Failing cases are
+/// not stored: each becomes a test of its own in `found.rs`.
 pub fn cases(cases: u32) -> ProptestConfig {
     ProptestConfig {
         cases,
@@ -20,7 +20,7 @@ pub fn cases(cases: u32) -> ProptestConfig {
     }
 }
 
-/// Doubles with arbitrary bits, with a preference for limits of ranges.
+/// Returns doubles with arbitrary bits, often infinite or NaN.
 pub fn any_double() -> impl Strategy<Value = f64> {
     prop_oneof![
         2 => any::<u64>().prop_map(f64::from_bits),
@@ -29,17 +29,18 @@ pub fn any_double() -> impl Strategy<Value = f64> {
     ]
 }
 
-/// Finite doubles: with any exponent, of common sizes, and limits.
+/// Returns finite doubles: with any exponent, of common sizes, and limits of ranges.
 pub fn finite() -> impl Strategy<Value = f64> {
     prop_oneof![
         3 => POSITIVE | NEGATIVE | NORMAL | SUBNORMAL | ZERO,
         3 => -100.0..100.0,
-        2 => edges(),
+        2 => range_limits(),
     ]
 }
 
-fn edges() -> impl Strategy<Value = f64> {
-    const EDGES: [f64; 15] = [
+/// Returns limits of ranges of either sign, and their neighbours.
+fn range_limits() -> impl Strategy<Value = f64> {
+    const LIMITS: [f64; 15] = [
         0.0,
         f64::from_bits(1),
         f64::MIN_POSITIVE,
@@ -56,18 +57,17 @@ fn edges() -> impl Strategy<Value = f64> {
         9_007_199_254_740_993.0,
         f64::MAX,
     ];
-    (0..EDGES.len(), any::<bool>(), -1..=1).prop_map(|(i, negative, neighbour)| {
-        let edge = match neighbour {
-            -1 => EDGES[i].next_down(),
-            0 => EDGES[i],
-            _ if EDGES[i] == f64::MAX => EDGES[i],
-            _ => EDGES[i].next_up(),
+    (0..LIMITS.len(), any::<bool>(), -1..=1).prop_map(|(i, negative, neighbour)| {
+        let limit = match neighbour {
+            -1 => LIMITS[i].next_down(),
+            0 => LIMITS[i],
+            _ => LIMITS[i].next_up().min(f64::MAX),
         };
-        if negative { -edge } else { edge }
+        if negative { -limit } else { limit }
     })
 }
 
-/// Finite doubles up to `most` in size.
+/// Returns finite doubles up to `most` in absolute value.
 pub fn up_to(most: f64) -> impl Strategy<Value = f64> {
     prop_oneof![
         4 => finite().prop_filter("too large", move |number| number.abs() <= most),
@@ -76,25 +76,25 @@ pub fn up_to(most: f64) -> impl Strategy<Value = f64> {
     ]
 }
 
-/// Coordinates whose sums, and products with an angle, do not overflow.
+/// Largest coordinate whose sums, and products with an angle, do not overflow.
 pub const LARGE: f64 = 1e300;
 
 pub fn poses() -> impl Strategy<Value = SE2> {
     (up_to(LARGE), up_to(LARGE), up_to(PI)).prop_map(|(x, y, theta)| SE2::new(x, y, theta))
 }
 
-/// Twists that turn by up to `most`.
+/// Returns twists that turn by up to `most`.
 pub fn twists(most: f64) -> impl Strategy<Value = Vector3<f64>> {
     (up_to(LARGE), up_to(LARGE), up_to(most)).prop_map(|(x, y, turn)| Vector3::new(x, y, turn))
 }
 
-/// Returns the size of a pose's coordinates.
-pub fn size(pose: &SE2) -> f64 {
+/// Returns the sum of the absolute coordinates of a pose.
+pub fn extent(pose: &SE2) -> f64 {
     pose.x().abs() + pose.y().abs()
 }
 
-/// Asserts equal positions to `units` units in the last place of `size`, and equal headings to as many of a circle.
-pub fn same_pose(a: &SE2, b: &SE2, units: f64, size: f64) -> Result<(), TestCaseError> {
+/// Asserts that positions are equal to `units` units in the last place of `size`, and headings to as many units in that of a circle.
+pub fn assert_same_pose(a: &SE2, b: &SE2, units: f64, size: f64) -> Result<(), TestCaseError> {
     let room = units * f64::EPSILON * size + f64::MIN_POSITIVE;
     let turn = libm::remainder(a.theta() - b.theta(), TAU).abs();
     let near = (a.x() - b.x()).abs() <= room && (a.y() - b.y()).abs() <= room;

@@ -8,7 +8,7 @@ use motion::stats::CrossTrack;
 use motion::{MotionModel, NoiseKind, TangentNoiseModel, VelocityAlphas, VelocityCmd, VelocityModel};
 use std::f64::consts::PI;
 
-/// Sixth powers of residuals underflowed, and the standard error of the skew was 0.
+/// Sixth powers of small residuals underflow, which must not make the standard error of the skew 0.
 #[test]
 fn a_cloud_too_small_for_its_powers_has_no_skew() {
     for (unit, has_any) in [(1.0, true), (1e-48, true), (1e-52, false), (1e-60, false), (1e-110, false)] {
@@ -50,7 +50,7 @@ fn a_circle_too_long_for_a_double_is_not_driven() {
     assert_eq!(model.pose_density(&next, &u, &x), Some(0.0));
 }
 
-/// 0 / 0: a displacement whose square underflows counts as 0.
+/// A displacement whose square underflows must count as 0, instead of giving 0 / 0.
 #[test]
 fn a_displacement_with_a_subnormal_square_counts_as_none() {
     let model = model([0.0, 0.73, 0.06, 0.0, 0.0, 0.33]);
@@ -59,7 +59,7 @@ fn a_displacement_with_a_subnormal_square_counts_as_none() {
     assert_eq!(model.pose_density(&next, &u, &x), model.pose_density(&x, &u, &x));
 }
 
-/// 0 · ∞ in two solves with a root of the covariance, which divide by a variance below any normal number.
+/// Two solves with a root of the covariance divide by a subnormal variance. The product 0 · ∞ must not become NaN.
 #[test]
 fn a_last_turn_with_a_tiny_variance_has_a_finite_density() {
     let u = VelocityCmd { v: 56.0, omega: 0.0, dt: 1e-6 };
@@ -69,7 +69,8 @@ fn a_last_turn_with_a_tiny_variance_has_a_finite_density() {
     assert!(logarithm < 0.0, "{logarithm}");
 }
 
-/// A plan more than 256 times as long as wide had no squares to search.
+/// The search for an open place divides the shorter side of these plans into squares too, although the longer one is over 256 times as
+/// long.
 #[test]
 fn a_narrow_plan_has_an_open_place() {
     for bounds in [[0.0, 0.0, 100.0, 0.3], [0.0, 0.0, 0.01, 100.0], [-1e6, 5.0, -9e5, 5.02]] {

@@ -1,9 +1,9 @@
 //! Angles, sinc and SE(2).
 //!
-//! A law that composes n maps may be off by a few units in the last place for each. Allowed are 32, as in `group_laws.rs`, relative to
-//! the size of the arguments, which may be 10⁻³⁰⁸ or 10³⁰⁰.
+//! A law may be off by a few units in the last place for each map that it composes. The tolerance is 32 units, as in `group_laws.rs`,
+//! relative to the size of the arguments, which may be 10⁻³⁰⁸ or 10³⁰⁰.
 
-use super::doubles::{cases, finite, poses, same_pose, size, twists};
+use super::doubles::{assert_same_pose, cases, extent, finite, poses, twists};
 use motion::geom::se2::{SE2, wrap_angle};
 use motion::geom::sinc::sinc;
 use nalgebra::{Matrix3, Vector3};
@@ -41,31 +41,31 @@ proptest! {
 
     #[test]
     fn composition_is_associative_and_has_inverses(a in poses(), b in poses(), c in poses()) {
-        let sizes = size(&a) + size(&b) + size(&c);
-        same_pose(&((a * b) * c), &(a * (b * c)), UNITS, sizes)?;
-        same_pose(&(a * a.inverse()), &SE2::identity(), UNITS, size(&a))?;
-        same_pose(&(a.inverse() * a), &SE2::identity(), UNITS, size(&a))?;
-        same_pose(&(a * b).inverse(), &(b.inverse() * a.inverse()), UNITS, sizes)?;
+        let sizes = extent(&a) + extent(&b) + extent(&c);
+        assert_same_pose(&((a * b) * c), &(a * (b * c)), UNITS, sizes)?;
+        assert_same_pose(&(a * a.inverse()), &SE2::identity(), UNITS, extent(&a))?;
+        assert_same_pose(&(a.inverse() * a), &SE2::identity(), UNITS, extent(&a))?;
+        assert_same_pose(&(a * b).inverse(), &(b.inverse() * a.inverse()), UNITS, sizes)?;
         prop_assert_eq!(SE2::identity() * a, a);
         prop_assert_eq!(a * SE2::identity(), a);
     }
 
-    /// Any turn: beyond half a turn the heading is rounded by 10⁻¹⁶ of it, and the arc changes as much.
+    /// The law holds for any turn. Beyond half a turn the heading is rounded by 10⁻¹⁶ of the turn, and the arc changes as much.
     #[test]
     fn a_twist_and_its_reverse_cancel(twist in twists(f64::MAX)) {
         let there = SE2::exp(&twist);
         prop_assert!(there.x().is_finite() && there.y().is_finite());
-        same_pose(&SE2::exp(&-twist), &there.inverse(), UNITS, twist.x.abs() + twist.y.abs())?;
+        assert_same_pose(&SE2::exp(&-twist), &there.inverse(), UNITS, twist.x.abs() + twist.y.abs())?;
     }
 
     #[test]
     fn logarithms_lead_back(pose in poses()) {
         let twist = pose.log();
         prop_assert!(twist.z.abs() <= PI && twist.x.is_finite() && twist.y.is_finite());
-        same_pose(&SE2::exp(&twist), &pose, UNITS, 2.0 * size(&pose))?;
+        assert_same_pose(&SE2::exp(&twist), &pose, UNITS, 2.0 * extent(&pose))?;
     }
 
-    /// The principal branch. The last coordinate is exact to rounding, whatever the others are.
+    /// Turns are on the principal branch. The last coordinate is returned exactly, whatever the others are.
     #[test]
     fn exponentials_lead_back(twist in twists(3.1)) {
         let back = SE2::exp(&twist).log();
@@ -76,25 +76,25 @@ proptest! {
 
     #[test]
     fn boxplus_inverts_boxminus(a in poses(), b in poses()) {
-        let sizes = size(&a) + size(&b);
-        same_pose(&a.boxplus(b.boxminus(&a)), &b, UNITS, 2.0 * sizes)?;
+        let sizes = extent(&a) + extent(&b);
+        assert_same_pose(&a.boxplus(b.boxminus(&a)), &b, UNITS, 2.0 * sizes)?;
         prop_assert_eq!(a.boxplus(Vector3::zeros()), a);
         prop_assert_eq!(a.boxplus(b.log()), a * SE2::exp(&b.log()));
     }
 
     #[test]
     fn adjoints_compose_as_poses_do(a in poses(), b in poses()) {
-        close(&(a * b).adjoint(), &(a.adjoint() * b.adjoint()), size(&a) + size(&b))?;
-        close(&(a.adjoint() * a.inverse().adjoint()), &Matrix3::identity(), size(&a))?;
+        assert_close(&(a * b).adjoint(), &(a.adjoint() * b.adjoint()), extent(&a) + extent(&b))?;
+        assert_close(&(a.adjoint() * a.inverse().adjoint()), &Matrix3::identity(), extent(&a))?;
     }
 
     /// x · exp(τ) = exp(Ad τ) · x.
     #[test]
     fn the_adjoint_moves_a_twist_from_the_right_to_the_left(pose in poses(), twist in twists(PI)) {
-        prop_assume!(size(&pose) < 1e290);
+        prop_assume!(extent(&pose) < 1e290);
         let moved = pose.adjoint() * twist;
-        let sizes = size(&pose) + twist.x.abs() + twist.y.abs() + moved.x.abs() + moved.y.abs();
-        same_pose(&(pose * SE2::exp(&twist)), &(SE2::exp(&moved) * pose), UNITS, sizes)?;
+        let sizes = extent(&pose) + twist.x.abs() + twist.y.abs() + moved.x.abs() + moved.y.abs();
+        assert_same_pose(&(pose * SE2::exp(&twist)), &(SE2::exp(&moved) * pose), UNITS, sizes)?;
     }
 
     /// The inverse Jacobian diverges at a full turn. This law is tested up to half a turn.
@@ -102,25 +102,24 @@ proptest! {
     fn jacobians_have_inverses(twist in twists(PI)) {
         let (jacobian, inverse) = (SE2::right_jacobian(&twist), SE2::right_jacobian_inverse(&twist));
         let sizes = twist.x.abs() + twist.y.abs();
-        close(&(jacobian * inverse), &Matrix3::identity(), sizes)?;
-        close(&(inverse * jacobian), &Matrix3::identity(), sizes)?;
+        assert_close(&(jacobian * inverse), &Matrix3::identity(), sizes)?;
+        assert_close(&(inverse * jacobian), &Matrix3::identity(), sizes)?;
         let half = sinc(0.5 * twist.z);
         let determinant = jacobian[(0, 0)] * jacobian[(1, 1)] - jacobian[(0, 1)] * jacobian[(1, 0)];
         prop_assert!((determinant - half * half).abs() <= UNITS * f64::EPSILON);
     }
 
-    /// J_l = Ad(exp ξ)·J_r, and J_l(ξ) = J_r(−ξ): Solà et al., eq. 75 and 76. Sines of the turn are of its double, and
-    /// headings of the wrapped one: up to half a turn, where both are the same.
+    /// J_l = Ad(exp ξ)·J_r, and J_l(ξ) = J_r(−ξ): Solà et al., eq. 75 and 76. The adjoint has the wrapped heading, which is the turn only
+    /// up to half a turn.
     #[test]
     fn left_jacobians_are_right_ones_of_the_reverse(twist in twists(PI)) {
         let left = SE2::exp(&twist).adjoint() * SE2::right_jacobian(&twist);
-        close(&left, &SE2::right_jacobian(&-twist), twist.x.abs() + twist.y.abs())?;
+        assert_close(&left, &SE2::right_jacobian(&-twist), twist.x.abs() + twist.y.abs())?;
     }
-
 }
 
-/// Asserts equality up to rounding: of turns relative to 1, of positions relative to the `size` of their terms.
-fn close(a: &Matrix3<f64>, b: &Matrix3<f64>, size: f64) -> Result<(), TestCaseError> {
+/// Asserts equality up to rounding: of turns relative to 1, and of positions relative to the `size` of their terms.
+fn assert_close(a: &Matrix3<f64>, b: &Matrix3<f64>, size: f64) -> Result<(), TestCaseError> {
     for i in 0..3 {
         for j in 0..3 {
             let scale = if j == 2 { 1.0 + size } else { 1.0 };

@@ -45,5 +45,4 @@ proptest! {
         let last = plain.trim_end_matches(|c: char| c.is_ascii_digit()).len();
         prop_assert!(read_pgm(&plain.as_bytes()[..cut % (last + 1)]).is_err());
     }
-
 }

@@ -14,7 +14,7 @@ fn kinds() -> impl Strategy<Value = NoiseKind> {
     prop_oneof![Just(NoiseKind::Normal), Just(NoiseKind::Triangular)]
 }
 
-/// Numbers in the range of a setting, including its ends.
+/// Returns numbers in the range of a setting, including its ends.
 fn within(range: std::ops::RangeInclusive<f64>) -> impl Strategy<Value = f64> {
     let [low, high] = [*range.start(), *range.end()];
     up_to(high).prop_map(move |number| if low >= 0.0 { number.abs().max(low) } else { number })
@@ -25,7 +25,7 @@ fn alphas<const N: usize>() -> impl Strategy<Value = [f64; N]> {
         .prop_map(|alphas| std::array::from_fn(|i| alphas[i]))
 }
 
-/// Commands in the range of the settings.
+/// Returns commands in the range of the settings.
 fn commands() -> impl Strategy<Value = VelocityCmd> {
     (up_to(1e6), up_to(1e6), within(DURATION)).prop_map(|(v, omega, dt)| VelocityCmd { v, omega, dt })
 }
@@ -42,7 +42,7 @@ fn deltas() -> impl Strategy<Value = OdomDelta> {
     })
 }
 
-/// Possible values of a draw, odd multiples of 2⁻⁵⁴; the outermost and innermost ones often.
+/// Returns possible values of a draw, odd multiples of 2⁻⁵⁴, and often the outermost and innermost ones.
 fn uniforms() -> impl Strategy<Value = f64> {
     let scale = 1.0 / (1u64 << 53) as f64;
     prop_oneof![
@@ -69,7 +69,7 @@ proptest! {
         prop_assert!(low <= high + 2e-15 * high.abs(), "{} {}", low, high);
     }
 
-    /// Any residual, and any variance that does not overflow when multiplied by six.
+    /// Residuals are arbitrary. Variances do not overflow when multiplied by six.
     #[test]
     fn densities_are_numbers(kind in kinds(), a in finite(), b2 in up_to(1e307)) {
         let b2 = b2.abs();
@@ -89,7 +89,7 @@ proptest! {
         kind in kinds(), alphas in alphas(), u in commands(), x in places(), next in places(),
     ) {
         let model = VelocityModel { alphas: VelocityAlphas(alphas), noise: kind };
-        likelihoods_are_numbers(&model, &u, &x, &next)?;
+        assert_likelihoods_are_numbers(&model, &u, &x, &next)?;
         let none = model.variances(&u).iter().any(|variance| variance.0 == 0.0);
         prop_assert_eq!(model.pose_density(&next, &u, &x).is_none(), none);
     }
@@ -100,9 +100,9 @@ proptest! {
     ) {
         let model = OdometryModel { alphas: OdomAlphas(alphas), noise: kind };
         if aware {
-            likelihoods_are_numbers(&ReverseAware(model), &u, &x, &next)?;
+            assert_likelihoods_are_numbers(&ReverseAware(model), &u, &x, &next)?;
         } else {
-            likelihoods_are_numbers(&model, &u, &x, &next)?;
+            assert_likelihoods_are_numbers(&model, &u, &x, &next)?;
         }
     }
 
@@ -115,7 +115,7 @@ proptest! {
     }
 }
 
-fn likelihoods_are_numbers<M: MotionModel>(
+fn assert_likelihoods_are_numbers<M: MotionModel>(
     model: &M,
     u: &M::Control,
     x: &SE2,

@@ -1,13 +1,13 @@
 //! Arcs and legs, and their inverses.
 
-use super::doubles::{cases, poses, same_pose, size, up_to};
+use super::doubles::{assert_same_pose, cases, extent, poses, up_to};
 use motion::geom::arc::{Arc, arc_near, chord, invert_arc};
 use motion::geom::se2::SE2;
 use motion::models::OdomDelta;
 use proptest::prelude::*;
 use std::f64::consts::PI;
 
-/// Every map here composes up to eight others, each right to a few units in the last place.
+/// Tolerance in units in the last place. Every map here composes up to eight others, each right to a few units.
 const UNITS: f64 = 64.0;
 
 fn durations() -> impl Strategy<Value = f64> {
@@ -26,7 +26,7 @@ proptest! {
         prop_assert!(turn.abs() <= half && last.abs() <= half, "{:?}", found);
         let (forward, left) = chord(length, turn);
         let reached = x * SE2::new(forward, left, turn + last);
-        same_pose(&reached, &next, UNITS, size(&x) + size(&next))?;
+        assert_same_pose(&reached, &next, UNITS, extent(&x) + extent(&next))?;
     }
 
     /// The start is the origin, whose coordinates add no rounding. Half a turn is driven forward or in reverse,
@@ -56,7 +56,7 @@ proptest! {
         prop_assert!(turn == 0.0 || (turn - near).abs() <= PI * (1.0 + 1e-12), "{}", turn);
         let end = Arc { start: SE2::identity(), length, turn }.end();
         let apart = (end.x() - x).hypot(end.y() - y);
-        prop_assert!(apart <= UNITS * f64::EPSILON * (length.abs() + size(&next)), "{:e}", apart);
+        prop_assert!(apart <= UNITS * f64::EPSILON * (length.abs() + extent(&next)), "{:e}", apart);
     }
 
     /// A displacement below a nanometre counts as 0 in an odometry reading.
@@ -64,9 +64,9 @@ proptest! {
     fn an_odometry_reading_leads_to_the_second_pose(prev in poses(), curr in poses()) {
         let reading = OdomDelta::from_poses(&prev, &curr);
         prop_assert!(reading.trans >= 0.0 && [reading.rot1, reading.rot2].iter().all(|turn| -PI < *turn && *turn <= PI));
-        let sizes = size(&prev) + size(&curr);
+        let sizes = extent(&prev) + extent(&curr);
         let spin = 1e-9 / (UNITS * f64::EPSILON);
-        same_pose(&reading.apply(&prev), &curr, UNITS, sizes + if reading.trans == 0.0 { spin } else { 0.0 })?;
+        assert_same_pose(&reading.apply(&prev), &curr, UNITS, sizes + if reading.trans == 0.0 { spin } else { 0.0 })?;
     }
 
     /// The reading depends on the relative pose only: it is the same if both poses are moved and turned with their
@@ -84,5 +84,4 @@ proptest! {
             prop_assert!(libm::remainder(a - b, 2.0 * PI).abs() <= rounding, "{} {}", a, b);
         }
     }
-
 }

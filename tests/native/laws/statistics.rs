@@ -13,7 +13,7 @@ use std::f64::consts::PI;
 /// Relative error of sums of fifty terms, each exact to a few units in the last place.
 const ROUNDING: f64 = 256.0 * f64::EPSILON;
 
-/// Robots around a place with headings within a quarter turn, so that the mean heading is well defined.
+/// Returns robots around a place with headings within a quarter turn, so that the mean heading is well defined.
 fn clouds() -> impl Strategy<Value = Vec<SE2>> {
     let robot = (-1.0..1.0, -1.0..1.0, -1.5..1.5);
     (vec(robot, 1..50), (-5.0..5.0, -5.0..5.0, -PI..PI)).prop_map(|(robots, (x, y, theta))| {
@@ -26,7 +26,7 @@ fn frames() -> impl Strategy<Value = SE2> {
     (-10.0..10.0, -10.0..10.0, -PI..PI).prop_map(|(x, y, theta)| SE2::new(x, y, theta))
 }
 
-/// A covariance of common size, of full or lower rank, as L·Lᵀ.
+/// Returns covariances L·Lᵀ with entries of common size, of full or lower rank.
 fn covariances() -> impl Strategy<Value = Matrix3<f64>> {
     vec(prop_oneof![3 => -1.0..1.0, 1 => Just(0.0)], 6).prop_map(|l| {
         let root = Matrix3::new(l[0], 0.0, 0.0, l[1], l[2], 0.0, l[3], l[4], l[5]);
@@ -34,21 +34,21 @@ fn covariances() -> impl Strategy<Value = Matrix3<f64>> {
     })
 }
 
-fn close(a: f64, b: f64, scale: f64) -> bool {
+fn is_close(a: f64, b: f64, scale: f64) -> bool {
     a == b || (a.is_nan() && b.is_nan()) || (a - b).abs() <= ROUNDING * scale
 }
 
 /// Minimum variance (m² and rad²) of a cloud about 1 m across: the shape of narrower ones is mostly rounding.
-const NARROW: f64 = 1e-3;
+const MIN_VARIANCE: f64 = 1e-3;
 
-/// Tests the variance in every direction on the floor, and that of the heading.
+/// Returns true if the variances in every direction on the floor, and of the heading, exceed the minimum.
 fn is_wide(moments: &CartesianMoments) -> bool {
     let floor = moments.cov.fixed_view::<2, 2>(0, 0).into_owned();
-    floor.symmetric_eigenvalues().min().min(moments.cov[(2, 2)]) > NARROW
+    floor.symmetric_eigenvalues().min().min(moments.cov[(2, 2)]) > MIN_VARIANCE
 }
 
 /// Maximum distance of a robot from the origin in any frame, m.
-const REACH: f64 = 20.0;
+const MAX_DISTANCE: f64 = 20.0;
 
 proptest! {
     #![proptest_config(cases(300))]
@@ -61,11 +61,11 @@ proptest! {
         let mean = frame * SE2::new(here.mean.x, here.mean.y, here.mean.z);
         let turned = SE2::new(0.0, 0.0, frame.theta()).adjoint();
         let cov = turned * here.cov * turned.transpose();
-        same_moments((&Vector3::new(mean.x(), mean.y(), mean.theta()), &cov), (&there.mean, &there.cov))?;
-        let [a, b] = [(&cloud, cloud_start()), (&moved, frame)].map(|(cloud, start)| ExponentialMoments::from_poses(cloud, &start));
+        assert_same_moments((&Vector3::new(mean.x(), mean.y(), mean.theta()), &cov), (&there.mean, &there.cov))?;
+        let [a, b] = [(&cloud, SE2::identity()), (&moved, frame)].map(|(cloud, start)| ExponentialMoments::from_poses(cloud, &start));
         // Near a full turn coordinates diverge, and near half a turn the mean heading is ambiguous.
         if cloud.iter().all(|pose| pose.theta().abs() < 2.0) {
-            same_moments((&a.mean, &a.cov), (&b.mean, &b.cov))?;
+            assert_same_moments((&a.mean, &a.cov), (&b.mean, &b.cov))?;
         }
     }
 
@@ -78,7 +78,7 @@ proptest! {
             cloud.iter().map(|pose| SE2::new(unit * pose.x(), side * unit * pose.y(), side * pose.theta())).collect();
         let (a, b) = (CrossTrack::from_poses(&cloud), CrossTrack::from_poses(&scaled));
         for (a, b) in [(a.skew, side * b.skew), (a.skew_error, b.skew_error), (a.rho_heading, b.rho_heading)] {
-            prop_assert!(close(a, b, 0.0), "{} {}", a, b);
+            prop_assert!(is_close(a, b, 0.0), "{} {}", a, b);
         }
     }
 
@@ -91,7 +91,7 @@ proptest! {
         let gain = MeasuredGain::from_poses(&cloud, &SE2::identity(), 0.0).value;
         prop_assert!(gain.pose.is_nan() && gain.floor.is_nan(), "{:?}", gain);
         let expected = if count == 1 { f64::NAN } else { 0.0 };
-        prop_assert!(CartesianMoments::from_poses(&cloud).cov.iter().all(|entry| close(*entry, expected, 0.0)));
+        prop_assert!(CartesianMoments::from_poses(&cloud).cov.iter().all(|entry| is_close(*entry, expected, 0.0)));
     }
 
     /// The gain has no unit: both Gaussians are densities over the same measure.
@@ -102,18 +102,17 @@ proptest! {
         prop_assume!(cloud.iter().all(|pose| pose.theta().abs() < 2.0 && pose.x().hypot(pose.y()) > 0.1));
         let unit = 2f64.powi(power);
         let scaled: Vec<SE2> = cloud.iter().map(|pose| SE2::new(unit * pose.x(), unit * pose.y(), pose.theta())).collect();
-        let [a, b] = [&cloud, &scaled].map(|cloud| MeasuredGain::from_poses(cloud, &cloud_start(), 0.0));
+        let [a, b] = [&cloud, &scaled].map(|cloud| MeasuredGain::from_poses(cloud, &SE2::identity(), 0.0));
         // Only logarithms round when all is scaled. None is above 50, as ln 2⁶⁰ = 42. The mean of fifty errs by 25 ε of that, six
         // logarithms of volumes and their sums by another 7 ε, and the difference of a robot by one more.
         let logarithms = 2.0 * 33.0 * 50.0 * f64::EPSILON / ROUNDING;
         for (a, b) in [(a.value, b.value), (a.error, b.error)] {
-            prop_assert!(close(a.pose, b.pose, logarithms) && close(a.floor, b.floor, logarithms), "{:?} {:?}", a, b);
+            prop_assert!(is_close(a.pose, b.pose, logarithms) && is_close(a.floor, b.floor, logarithms), "{:?} {:?}", a, b);
         }
         prop_assert!(a.error.pose >= 0.0);
     }
 
-    /// Points two standard deviations from the centre in any direction and unit: slightly inside is inside, slightly
-    /// outside is outside.
+    /// Points of the outline are moved towards the centre and away from it by a billionth.
     #[test]
     fn ellipses_hold_what_is_inside(a in 0.01..10.0f64, b in 0.01..10.0f64, rho in -0.99..0.99f64, power in -300..300i32, centre in (-9.0..9.0, -9.0..9.0)) {
         let unit = 2f64.powi(power);
@@ -149,19 +148,15 @@ proptest! {
     }
 }
 
-fn cloud_start() -> SE2 {
-    SE2::identity()
-}
-
 /// Asserts that moments are equal up to the rounding errors of a cloud that reaches 20 m from the origin.
-fn same_moments(
+fn assert_same_moments(
     (mean, cov): (&Vector3<f64>, &Matrix3<f64>),
     (other, other_cov): (&Vector3<f64>, &Matrix3<f64>),
 ) -> Result<(), TestCaseError> {
-    let (reach, turn) = (REACH, libm::remainder(mean.z - other.z, 2.0 * PI));
-    prop_assert!(close(mean.x, other.x, reach) && close(mean.y, other.y, reach), "{} {}", mean, other);
-    prop_assert!(close(turn, 0.0, reach), "{} {}", mean, other);
-    let all = cov.iter().zip(other_cov.iter()).all(|(a, b)| close(*a, *b, reach * reach));
+    let (reach, turn) = (MAX_DISTANCE, libm::remainder(mean.z - other.z, 2.0 * PI));
+    prop_assert!(is_close(mean.x, other.x, reach) && is_close(mean.y, other.y, reach), "{} {}", mean, other);
+    prop_assert!(is_close(turn, 0.0, reach), "{} {}", mean, other);
+    let all = cov.iter().zip(other_cov.iter()).all(|(a, b)| is_close(*a, *b, reach * reach));
     prop_assert!(all, "{} {}", cov, other_cov);
     Ok(())
 }

@@ -1,6 +1,6 @@
 //! Motion conditioned on a map: the published fractions, and the three samplers.
 
-use crate::common::{SIGMAS, seeded};
+use crate::common::{MAX_STANDARD_ERRORS, seeded};
 use motion::geom::arc::Arc;
 use motion::geom::se2::SE2;
 use motion::geom::segment::Segment;
@@ -32,11 +32,14 @@ fn unit_noise(rng: &mut Xoshiro256PlusPlus) -> [f64; 3] {
 
 // -------------------------------------------------------------------------------------- the chapter's figures
 
-/// Both this estimate and the published one come from 60 000 draws, and the published one is rounded.
+/// Asserts that a fraction equals a published one. Both come from 60 000 draws, and the published one is rounded.
 fn assert_share(name: &str, part: usize, whole: usize, published: f64) {
     let share = part as f64 / whole as f64;
     let error = (2.0 * published * (1.0 - published) / whole as f64).sqrt();
-    assert!((share - published).abs() < SIGMAS * error + 0.0005, "{name}: {share} instead of {published}");
+    assert!(
+        (share - published).abs() < MAX_STANDARD_ERRORS * error + 0.0005,
+        "{name}: {share} instead of {published}"
+    );
 }
 
 #[test]
@@ -85,10 +88,10 @@ fn the_last_turn_is_not_part_of_the_path() {
 
 // --------------------------------------------------------------------------------------------------- the samplers
 
-/// Table 5.7 written out: draws from the model until the end (or the whole path) is free. Equal random numbers give
+/// The expected poses are drawn as in table 5.7: from the model, until the end or the whole path is free. Equal random numbers give
 /// equal poses, after the same number of draws.
 #[test]
-fn rejection_is_rejection() {
+fn samples_are_those_of_table_5_7() {
     let plan = FloorPlan::apartment();
     let command = VelocityCmd { omega: 0.2, ..AHEAD };
     for sampler in [Sampler::Endpoint, Sampler::WholeArc] {
@@ -118,8 +121,8 @@ fn rejection_is_rejection() {
     }
 }
 
-/// A cell of 20 cm, in which the robot of 13 cm fits nowhere.
-pub fn cell() -> FloorPlan {
+/// Returns a plan of 20 cm by 20 cm, in which a robot with a radius of 13 cm fits nowhere.
+pub fn too_small_room() -> FloorPlan {
     let corners = [[2.0, 2.0], [2.2, 2.0], [2.2, 2.2], [2.0, 2.2]];
     let walls = (0..4).map(|i| Segment { from: corners[i], to: corners[(i + 1) % 4] }).collect();
     FloorPlan::new(walls, [1.9, 1.9, 2.3, 2.3]).expect("a valid plan")
@@ -127,7 +130,7 @@ pub fn cell() -> FloorPlan {
 
 #[test]
 fn a_wedged_robot_is_an_error_that_counts_its_draws() {
-    let plan = cell();
+    let plan = too_small_room();
     let start = SE2::new(2.1, 2.1, 0.0);
     for sampler in SAMPLERS {
         let wedged =

@@ -15,7 +15,7 @@ fn wall(x0: f64, y0: f64, x1: f64, y1: f64) -> Segment {
     Segment { from: [x0, y0], to: [x1, y1] }
 }
 
-/// Many walls in one place, on one line, through one point, around one, and nearly the same.
+/// Returns names and walls of plans with many walls in one place, on one line, through one point, around one, and nearly the same.
 fn hard_plans(count: usize) -> Vec<(&'static str, Vec<Segment>)> {
     let mut rng = seeded(9800);
     let walls =
@@ -73,17 +73,16 @@ fn some_arc(rng: &mut impl Rng) -> Arc {
     Arc { start: SE2::new(x, y, uniform(rng, -PI, PI)), length, turn: uniform(rng, -1.0, 1.0) }
 }
 
-/// Largest mean number of walls that are measured for an arc: one in two hundred of all walls.
-const MEASURED: usize = FloorPlan::MAX_WALLS / 200;
+/// Largest mean number of walls whose distance is measured for an arc: one in two hundred of all walls.
+const MAX_MEAN_WALL_TESTS: usize = FloorPlan::MAX_WALLS / 200;
 
-/// With the maximum number of walls, collision tests measure so few of them.
 #[test]
-fn hard_plans_are_no_harder_than_one_can_wait_for() {
+fn a_collision_check_in_a_hard_plan_measures_few_walls() {
     for (name, walls) in hard_plans(FloorPlan::MAX_WALLS) {
         let plan = FloorPlan::new(walls, ROOM).expect("allowed");
         assert_eq!(plan.walls().len(), FloorPlan::MAX_WALLS);
         let mut rng = seeded(9802);
         let tests: usize = (0..300).map(|_| plan.arc_free(&some_arc(&mut rng), 0.13).wall_tests).sum();
-        assert!(tests < 300 * MEASURED, "{name}: {tests}");
+        assert!(tests < 300 * MAX_MEAN_WALL_TESTS, "{name}: {tests}");
     }
 }

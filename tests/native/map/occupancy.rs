@@ -11,7 +11,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 const BLACK: Pixel = Pixel { shade: 0.0, opacity: 1.0 };
 const WHITE: Pixel = Pixel { shade: 1.0, opacity: 1.0 };
 
-/// Grid with known cells.
+/// Cells from which a grid is made.
 struct Cells {
     width: usize,
     height: usize,
@@ -108,19 +108,17 @@ fn outlines_are_joined() {
         plan.walls().iter().map(|Segment { from, to }| [from[0], from[1], to[0], to[1]]).collect();
     walls.sort_by(|a, b| a.partial_cmp(b).expect("numbers"));
     let expected = [
-        [1.0, 2.5, 1.5, 2.5],
         [1.0, 2.5, 1.0, 3.5],
+        [1.0, 2.5, 1.5, 2.5],
         [1.0, 3.5, 2.0, 3.5],
         [1.5, 2.5, 1.5, 3.0],
         [1.5, 3.0, 2.0, 3.0],
-        [2.0, 2.0, 2.5, 2.0],
         [2.0, 2.0, 2.0, 2.5],
+        [2.0, 2.0, 2.5, 2.0],
         [2.0, 2.5, 2.5, 2.5],
         [2.0, 3.0, 2.0, 3.5],
         [2.5, 2.0, 2.5, 2.5],
     ];
-    let mut expected = expected.to_vec();
-    expected.sort_by(|a, b| a.partial_cmp(b).expect("numbers"));
     assert_eq!(walls, expected);
     assert_eq!(plan.bounds(), [1.0, 2.0, 2.5, 3.5]);
     let turned = Cells { origin: [1.0, 2.0, FRAC_PI_2], ..cells };
@@ -157,7 +155,7 @@ fn a_grid_that_reaches_too_far_is_refused() {
     }
 }
 
-// -------------------------------------------------------------------------------------------------- what is unknown
+// --------------------------------------------------------------------------------------------------- unknown cells
 
 /// Returns a grid drawn with `#` (occupied), `?` (unknown) and `.` (free), the first row at the top, with cells of 10
 /// cm.
@@ -207,7 +205,7 @@ fn unknown_cells_are_free_or_blocked_as_set() {
     assert_eq!(cells, [Cell::Occupied, Cell::Unknown, Cell::Free], "it stays known which is which");
 }
 
-// ------------------------------------------------------------------------------------------------ a place to start
+// ----------------------------------------------------------------------------------------------------- open places
 
 /// The pose is in the middle of the largest square that is known to be free, heading along the longest path known to be
 /// free.

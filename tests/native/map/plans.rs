@@ -29,7 +29,7 @@ fn arc_from(start: [f64; 2], rng: &mut impl Rng) -> Arc {
     Arc { start: SE2::new(start[0], start[1], uniform(rng, -PI, PI)), length, turn }
 }
 
-/// Returns walls of at most `size` m, a third of them along the axes.
+/// Returns walls whose coordinates extend by at most `size` m, a third of them along the axes.
 fn scattered(count: usize, size: f64, bounds: [f64; 4], rng: &mut impl Rng) -> Vec<Segment> {
     let [left, bottom, right, top] = bounds;
     (0..count)
@@ -120,9 +120,9 @@ fn verdicts_are_those_of_a_loop_over_all_walls() {
             };
             let edges = (0..4).map(|i| Segment { from: corners[i], to: corners[(i + 1) % 4] });
             let crosses = edges.map(|edge| edge.distance_to_arc(&arc)).fold(f64::INFINITY, f64::min) == 0.0;
-            let buried = |point| plan.grid().is_some_and(|grid| grid.holds(point));
-            let end_free = on_map(end) && !buried(end) && to_end > clearance;
-            let path_free = on_map(start) && !crosses && !buried(start) && end_free && to_arc > clearance;
+            let in_cell = |point| plan.grid().is_some_and(|grid| grid.holds(point));
+            let end_free = on_map(end) && !in_cell(end) && to_end > clearance;
+            let path_free = on_map(start) && !crosses && !in_cell(start) && end_free && to_arc > clearance;
             assert_eq!(plan.point_free(end, clearance).free, end_free, "{number}: {arc:?} {clearance}");
             assert_eq!(plan.arc_free(&arc, clearance).free, path_free, "{number}: {arc:?} {clearance}");
             counts[usize::from(end_free) + usize::from(path_free)] += 1;
@@ -140,7 +140,7 @@ fn touching_is_not_free() {
     let along = Arc { start: SE2::new(4.0, 2.25, 0.0), length: 2.0, turn: 0.0 };
     assert!(!plan.arc_free(&along, 0.25).free);
     assert!(plan.arc_free(&along, 0.2499).free);
-    // Round the end of the wall: the middle of the half circle is the nearest, a quarter from the end.
+    // A half circle leads around the end of the wall. Its middle is nearest, 0.25 m from that end.
     let round = Arc { start: SE2::new(9.0, 2.25, 0.0), length: -0.25 * PI, turn: PI };
     assert!(!plan.arc_free(&round, 0.0).free, "in reverse it goes through the wall");
     let round = Arc { length: 0.25 * PI, turn: -PI, ..round };
@@ -166,11 +166,7 @@ fn the_open_place_has_the_most_room() {
         let room = [place.x() - left, right - place.x(), place.y() - bottom, top - place.y()];
         assert!(room.into_iter().all(|room| room > 1.4), "not at the edge: {place:?}");
     }
-    assert!(plan_with_a_slit().open_place(0.3).is_none());
-}
-
-/// Walls everywhere, half a metre apart.
-fn plan_with_a_slit() -> FloorPlan {
     let walls = (0..=20).map(|i| wall(0.0, 0.5 * f64::from(i), 10.0, 0.5 * f64::from(i))).collect();
-    FloorPlan::new(walls, ROOM).expect("a valid plan")
+    let slits = FloorPlan::new(walls, ROOM).expect("a valid plan");
+    assert!(slits.open_place(0.3).is_none(), "walls are half a metre apart everywhere");
 }

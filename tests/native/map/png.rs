@@ -6,16 +6,16 @@ use motion::map::{ImageError, Interpretation, MAX_PIXELS, PngError, read_grid, r
 use png::{BitDepth, ColorType, Encoder, Filter};
 use rand::Rng;
 
-/// Image of one colour type and depth.
-struct Kind {
+/// Colour type, depth and tables of an image.
+struct Format {
     color: ColorType,
     bits: u32,
     palette: Option<Vec<u8>>,
     transparency: Option<Vec<u8>>,
 }
 
-/// Encodes samples, those of a pixel one after the other.
-fn encoded(kind: &Kind, width: u32, samples: &[u16]) -> Vec<u8> {
+/// Returns the file of an image. Samples of a pixel follow each other.
+fn encoded(kind: &Format, width: u32, samples: &[u16]) -> Vec<u8> {
     let row = width as usize * kind.color.samples();
     let mut data = Vec::new();
     for row in samples.chunks(row) {
@@ -32,7 +32,7 @@ fn encoded(kind: &Kind, width: u32, samples: &[u16]) -> Vec<u8> {
     encoder.set_color(kind.color);
     encoder.set_depth(BitDepth::from_u8(kind.bits as u8).expect("a depth"));
     encoder.set_filter(Filter::Adaptive);
-    // A gamma chunk, with which browsers would change shades.
+    // With a gamma chunk browsers change shades. The reader must not.
     encoder.set_source_gamma(png::ScaledFloat::new(0.3));
     if let Some(palette) = &kind.palette {
         encoder.set_palette(palette.clone());
@@ -44,9 +44,9 @@ fn encoded(kind: &Kind, width: u32, samples: &[u16]) -> Vec<u8> {
     file
 }
 
-/// Opaque pixels of a grey image of 8 bits.
+/// Returns the file of an opaque grey image of 8 bits.
 fn grey(width: u32, samples: &[u16]) -> Vec<u8> {
-    let kind = Kind { color: ColorType::Grayscale, bits: 8, palette: None, transparency: None };
+    let kind = Format { color: ColorType::Grayscale, bits: 8, palette: None, transparency: None };
     encoded(&kind, width, samples)
 }
 
@@ -74,7 +74,7 @@ fn every_kind_of_image_is_read_sample_for_sample() {
                     _ => first.iter().flat_map(|sample| sample.to_be_bytes()).collect(),
                 };
                 let has_one = is_clear && !matches!(color, ColorType::GrayscaleAlpha | ColorType::Rgba);
-                let kind = Kind {
+                let kind = Format {
                     color,
                     bits,
                     palette: (color == ColorType::Indexed).then(|| palette.clone()),
@@ -141,7 +141,7 @@ fn an_image_that_is_cut_short_is_refused() {
     );
 }
 
-/// The header has the size: a small file may contain an enormous image.
+/// A small file may contain an enormous image. The size is in its header.
 #[test]
 fn an_image_that_is_too_large_is_refused_unread() {
     let mut file = Vec::new();

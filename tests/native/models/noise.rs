@@ -1,6 +1,8 @@
 //! `sample(b²)` and `prob(a, b²)`: both kinds of noise compared with their exact distributions.
 
-use crate::common::{KINDS, KOLMOGOROV, SAMPLES, Table, kolmogorov_smirnov, seeded, unit_cdf};
+use crate::common::{
+    MAX_KOLMOGOROV_SMIRNOV, NOISE_KINDS, SAMPLES, Table, kolmogorov_smirnov, seeded, unit_cdf,
+};
 use motion::{NoiseKind, Variance};
 
 fn draws(kind: NoiseKind, b2: f64, count: usize, seed: u64) -> Vec<f64> {
@@ -10,22 +12,22 @@ fn draws(kind: NoiseKind, b2: f64, count: usize, seed: u64) -> Vec<f64> {
 
 #[test]
 fn samples_have_the_distribution_they_should() {
-    for kind in KINDS {
+    for kind in NOISE_KINDS {
         for (seed, b2) in [(1, 1.0), (2, 0.025), (3, 1e-8), (4, 400.0)] {
             let sample = draws(kind, b2, SAMPLES, seed);
             let distance = kolmogorov_smirnov(sample, |a| unit_cdf(kind, a / b2.sqrt()));
-            assert!(distance < KOLMOGOROV, "{kind:?} of variance {b2}: √n·D = {distance}");
+            assert!(distance < MAX_KOLMOGOROV_SMIRNOV, "{kind:?} of variance {b2}: √n·D = {distance}");
         }
     }
 }
 
 #[test]
 fn prob_is_a_density_and_that_of_the_samples() {
-    for kind in KINDS {
+    for kind in NOISE_KINDS {
         for b2 in [1e-6, 0.025, 1.0, 90.0] {
             let b = f64::sqrt(b2);
-            // Simpson's rule between quantiles; a multiple of the kinks' spacing keeps them on the grid. The result
-            // must be the increase of the distribution function over every one of 60 intervals, and 1 in all.
+            // Simpson's rule over each of 60 intervals must give the increase of the distribution function, and 1 in all. The kinks of the
+            // triangular density lie on ends of intervals.
             let (edge, panels) = (6f64.sqrt() * 4.0 * b, 60);
             let width = 2.0 * edge / panels as f64;
             let mut total = 0.0;
@@ -60,7 +62,7 @@ fn prob_is_a_density_and_that_of_the_samples() {
 
 #[test]
 fn zero_variance_is_certainty() {
-    for kind in KINDS {
+    for kind in NOISE_KINDS {
         let mut rng = seeded(8);
         for _ in 0..100 {
             assert_eq!(kind.sample(Variance(0.0), &mut rng), 0.0);
@@ -90,12 +92,11 @@ fn quantiles_match_references_to_1e_15() {
     }
 }
 
-/// The same seed must mean the same draws in every release and on every machine; a change here changes every picture
-/// that a reader has kept. The numbers were also computed from the generator's definition and 40-digit quantiles, which
-/// agree to the last digit or the one before.
+/// A seed gives the same draws in every release and on every machine. Other draws change every picture that a reader has kept. A
+/// computation from the generator's definition and 40-digit quantiles agrees to the last digit or the one before.
 #[test]
 fn seeded_draws_are_golden() {
-    for (kind, expected) in KINDS.into_iter().zip(GOLDEN_DRAWS) {
+    for (kind, expected) in NOISE_KINDS.into_iter().zip(GOLDEN_DRAWS) {
         assert_eq!(draws(kind, 1.0, expected.len(), 2005), expected, "{kind:?}");
     }
 }

@@ -1,7 +1,7 @@
 //! The odometry model: decomposition, scoring, density and sampler, and the option for robots that reverse.
 
 use crate::common::density::Grid;
-use crate::common::{KINDS, SAMPLES, derivative, seeded, uniform};
+use crate::common::{NOISE_KINDS, SAMPLES, derivative, seeded, uniform};
 use motion::geom::se2::SE2;
 use motion::{
     MotionModel, NoiseKind, OdomAlphas, OdomDelta, OdometryModel, ReverseAware, RotTransRot, Variance,
@@ -30,10 +30,10 @@ fn readings() -> [OdomDelta; 6] {
     ]
 }
 
-/// Returns the variances of the table; `size` defines the size of a rotation.
-fn variances(of: &OdomDelta, size: impl Fn(f64) -> f64) -> [f64; 3] {
+/// Returns the variances of the table. `charged` returns the angle for which a rotation is charged.
+fn variances(of: &OdomDelta, charged: impl Fn(f64) -> f64) -> [f64; 3] {
     let [a1, a2, a3, a4] = ALPHAS.0;
-    let [r1, t, r2] = [size(of.rot1).powi(2), of.trans.powi(2), size(of.rot2).powi(2)];
+    let [r1, t, r2] = [charged(of.rot1).powi(2), of.trans.powi(2), charged(of.rot2).powi(2)];
     [a1 * r1 + a2 * t, a3 * t + a4 * (r1 + r2), a1 * r2 + a2 * t]
 }
 
@@ -49,7 +49,7 @@ fn a_spin_on_the_spot_is_charged_to_the_second_rotation() {
             assert!((step.rot2 - turn).abs() < 1e-15);
         }
     }
-    // From a nanometre on there is a direction of travel.
+    // A translation of a nanometre or more has a direction.
     let prev = SE2::identity();
     let at = |distance: f64| OdomDelta::from_poses(&prev, &SE2::new(0.0, distance, 0.5));
     assert_eq!(at(1e-9f64.next_down()), delta(0.0, 0.0, 0.5));
@@ -63,7 +63,7 @@ fn a_spin_on_the_spot_is_charged_to_the_second_rotation() {
 fn prob_is_the_tables_score() {
     let mut rng = seeded(92);
     let x = SE2::new(1.0, 2.0, -0.5);
-    for kind in KINDS {
+    for kind in NOISE_KINDS {
         for u in readings() {
             for _ in 0..200 {
                 let mut near = |value: f64| value + uniform(&mut rng, -0.4, 0.4);
@@ -86,7 +86,7 @@ fn prob_is_the_tables_score() {
 fn zero_noise_gives_certainty_and_no_density() {
     let mut rng = seeded(93);
     let x = SE2::new(-1.0, 0.5, 2.0);
-    for kind in KINDS {
+    for kind in NOISE_KINDS {
         let still = OdometryModel { alphas: OdomAlphas([0.0; 4]), noise: kind };
         for u in readings() {
             let end = u.apply(&x);
@@ -103,18 +103,19 @@ fn zero_noise_gives_certainty_and_no_density() {
     }
 }
 
-/// The density is the noise's at the legs, with the variances of the reading, over the determinant: the translation.
+/// The density of a pose is that of the noises of its legs, with the variances of the reading. It is divided by the determinant, which is
+/// the translation.
 #[test]
 fn the_pose_density_divides_by_the_jacobian() {
     let mut rng = seeded(94);
     let x = SE2::new(1.0, -2.0, 0.3);
-    for kind in KINDS {
+    for kind in NOISE_KINDS {
         for u in readings() {
-            let sizes = variances(&u, f64::abs);
+            let variances = variances(&u, f64::abs);
             for _ in 0..100 {
-                let noise = sizes.map(|b2| uniform(&mut rng, -1.0, 1.0) * b2.sqrt());
+                let noise = variances.map(|b2| uniform(&mut rng, -1.0, 1.0) * b2.sqrt());
                 let hat = delta(u.rot1 - noise[0], u.trans - noise[1], u.rot2 - noise[2]);
-                let [r1, t, r2] = [0, 1, 2].map(|leg| kind.prob(noise[leg], Variance(sizes[leg])));
+                let [r1, t, r2] = [0, 1, 2].map(|leg| kind.prob(noise[leg], Variance(variances[leg])));
                 let expected = r1 * t * r2 / hat.trans;
                 let density = model(kind).pose_density(&hat.apply(&x), &u, &x).unwrap();
                 // Other legs lead to the same pose: in reverse, or with full turns. With this noise they add less than 1e-6.
@@ -127,14 +128,14 @@ fn the_pose_density_divides_by_the_jacobian() {
     }
 }
 
-/// A box around the noise-free pose, cut into as many `cells` along each axis. Of a multiple of four the edges meet the
-/// kinks of the triangular density, at multiples of √6 deviations. It reaches twice as far.
-fn box_around(u: &OdomDelta, x: &SE2, sizes: [f64; 3], cells: usize) -> Grid {
-    let [rot1, trans, rot2] = sizes.map(|b2| 2.0 * (6.0 * b2).sqrt());
-    Grid::new(x, &u.apply(x), 1.0, [trans, rot1.min(PI / 2.0), rot2.min(PI)], [cells; 3])
+/// Returns a box around the noise-free pose, which reaches twice as far as triangular noise. The kinks of the triangular density, at
+/// multiples of √6 deviations, lie on bounds of cells.
+fn box_around(u: &OdomDelta, x: &SE2, variances: [f64; 3]) -> Grid {
+    let [rot1, trans, rot2] = variances.map(|b2| 2.0 * (6.0 * b2).sqrt());
+    Grid::new(x, &u.apply(x), 1.0, [trans, rot1.min(PI / 2.0), rot2.min(PI)], [8; 3])
 }
 
-/// Noise as large as the motion: reversed translations and whole turns are part of the density.
+/// The noise is as large as the motion: reversed translations and whole turns are part of the density.
 #[test]
 fn the_pose_density_integrates_to_one_for_large_noise() {
     let x = SE2::new(0.4, 0.4, -2.2);
@@ -143,7 +144,7 @@ fn the_pose_density_integrates_to_one_for_large_noise() {
     {
         let model = OdometryModel { alphas: OdomAlphas([0.9, 0.9, 1.1, 0.4]), noise: kind };
         let radius = u.trans + 7.0 * (1.1 * u.trans.powi(2) + 0.4 * (u.rot1.powi(2) + u.rot2.powi(2))).sqrt();
-        let total = Grid::everything(&x, 1.0, radius, [14, 8, 8])
+        let total = Grid::around_start(&x, 1.0, radius, [14, 8, 8])
             .integral(|pose| model.pose_density(pose, &u, &x).unwrap());
         assert!((total - 1.0).abs() < allowed, "{kind:?} {u:?}: {total}");
     }
@@ -153,11 +154,11 @@ fn the_pose_density_integrates_to_one_for_large_noise() {
 fn sampler_and_density_agree() {
     let x = SE2::new(0.5, -0.25, 1.0);
     for (seed, u) in (100..).zip([readings()[0], readings()[3]]) {
-        for kind in KINDS {
+        for kind in NOISE_KINDS {
             let model = model(kind);
             let mut rng = seeded(seed);
             let poses: Vec<SE2> = (0..SAMPLES).map(|_| model.sample(&u, &x, &mut rng)).collect();
-            let (value, limit) = box_around(&u, &x, variances(&u, f64::abs), 12)
+            let (value, limit) = box_around(&u, &x, variances(&u, f64::abs))
                 .chi_square(&poses, |pose| model.pose_density(pose, &u, &x).unwrap());
             assert!(value < limit, "{kind:?} {u:?}: χ² = {value}, limit {limit}");
         }
@@ -182,11 +183,11 @@ fn a_reversing_robot_is_charged_for_what_it_turned() {
     let back = OdomDelta::from_poses(&x, &x.boxplus(Vector3::new(-0.5, 0.0, 0.02)));
     assert!(back.rot1.abs() > 3.0 && back.rot2.abs() > 3.0, "{back:?}");
     let charged = |rotation: f64| rotation.abs().min((PI - rotation.abs()).abs());
-    for kind in KINDS {
+    for kind in NOISE_KINDS {
         let (tables, aware) = (model(kind), ReverseAware(model(kind)));
         let mut rng = seeded(110);
         let aware_cloud: Vec<SE2> = (0..SAMPLES).map(|_| aware.sample(&back, &x, &mut rng)).collect();
-        let (value, limit) = box_around(&back, &x, variances(&back, charged), 12)
+        let (value, limit) = box_around(&back, &x, variances(&back, charged))
             .chi_square(&aware_cloud, |pose| aware.pose_density(pose, &back, &x).unwrap());
         assert!(value < limit, "{kind:?}: χ² = {value}, limit {limit}");
 

@@ -1,7 +1,7 @@
 //! The rules by which localizers charge an odometry reading: against cases computed by hand, and their exact spreads against
 //! quadrature and samples.
 
-use crate::common::{KINDS, SAMPLES, SIGMAS, pose_distance, seeded, uniform};
+use crate::common::{MAX_STANDARD_ERRORS, NOISE_KINDS, SAMPLES, pose_distance, seeded, uniform};
 use motion::geom::se2::SE2;
 use motion::models::{LegVariances, OdometryRule, RuleAlphas, SPIN_BELOW};
 use motion::noise::centred_uniform;
@@ -13,7 +13,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use OdometryRule::{Beluga, Nav2, Omni, Table};
 
-/// All different, so that no two of them can be mistaken for each other.
+/// α's that differ from each other, so that a test fails if two are exchanged.
 const ALPHAS: RuleAlphas = [0.1, 0.2, 0.3, 0.4, 0.5];
 
 fn delta(rot1: f64, trans: f64, rot2: f64) -> OdomDelta {
@@ -25,31 +25,31 @@ fn variances(rule: OdometryRule, reading: OdomDelta) -> [f64; 4] {
     [rot1, trans, rot2, strafe].map(|variance| variance.0)
 }
 
-/// By hand, to eight digits: (π − 3)² = 0.02004848, (π − 2.2)² = 0.88659673.
+/// Expected variances are computed by hand, to eight digits, with (π − 3)² = 0.02004848 and (π − 2.2)² = 0.88659673.
 #[test]
 fn the_variances_of_each_rule_match_its_source() {
     // Turn by 0.5, drive 2 m, turn back by 1: no angle is nearer to π than to 0, and the whole turn is −0.5.
     let bend = delta(0.5, 2.0, -1.0);
     // 0.1·0.25 + 0.2·4, 0.3·4 + 0.4·(0.25 + 1), 0.1·1 + 0.2·4.
-    let hinged = [0.825, 1.7, 0.9, 0.0];
+    let bend_by_turns = [0.825, 1.7, 0.9, 0.0];
     // 0.3·4 + 0.4·0.25, 0.1·0.25 + 0.2·4, 0.5·4 + 0.4·0.25.
-    let slid = [0.0, 1.3, 0.825, 2.1];
+    let bend_by_strafe = [0.0, 1.3, 0.825, 2.1];
     // Backing up by 1 m: (π − 3) twice, and no turn as a whole.
     let reverse = delta(3.0, 1.0, -3.0);
-    let as_printed = [1.1, 7.5, 1.1, 0.0];
-    let either_way = [0.202004848, 0.316038784, 0.202004848, 0.0];
+    let reverse_by_half_turns = [1.1, 7.5, 1.1, 0.0];
+    let reverse_without_half_turns = [0.202004848, 0.316038784, 0.202004848, 0.0];
     // On the spot, by more than a quarter turn.
     let spin = delta(0.0, 0.0, 2.2);
     // Half a centimetre of jitter, to the left and backwards, with a turn of a hundredth.
     let rest = delta(2.0, 0.005, -1.99);
     let cases = [
-        (Table, bend, hinged),
-        (Nav2, bend, hinged),
-        (Beluga, bend, hinged),
-        (Omni, bend, slid),
-        (Table, reverse, as_printed),
-        (Nav2, reverse, either_way),
-        (Beluga, reverse, either_way),
+        (Table, bend, bend_by_turns),
+        (Nav2, bend, bend_by_turns),
+        (Beluga, bend, bend_by_turns),
+        (Omni, bend, bend_by_strafe),
+        (Table, reverse, reverse_by_half_turns),
+        (Nav2, reverse, reverse_without_half_turns),
+        (Beluga, reverse, reverse_without_half_turns),
         (Omni, reverse, [0.0, 0.3, 0.2, 0.5]),
         (Table, spin, [0.0, 1.936, 0.484, 0.0]),
         (Nav2, spin, [0.0, 0.35463869, 0.088659673, 0.0]),
@@ -127,10 +127,10 @@ fn legs_of_every_rule_end_where_the_reading_does() {
     }
 }
 
-/// The closed forms of E[sin² ε] against quadrature, as far as that reaches, and their limit beyond.
+/// Compares the closed forms of E[sin² ε] with quadrature, as far as that is accurate, and with their limit beyond.
 #[test]
 fn the_mean_squared_sine_is_that_of_the_noise() {
-    for kind in KINDS {
+    for kind in NOISE_KINDS {
         for exponent in -60..=4 {
             let b = 10f64.powf(f64::from(exponent) / 10.0);
             let expected: f64 =
@@ -143,12 +143,11 @@ fn the_mean_squared_sine_is_that_of_the_noise() {
     }
 }
 
-/// A million outcomes: the mean square of a quantity of kurtosis κ is off by √((κ − 1)/n) of itself a standard error; κ is
-/// measured along.
+/// The mean square of n outcomes with kurtosis κ has the relative standard error √((κ − 1)/n). κ is measured too.
 #[test]
 fn exact_spreads_match_samples() {
     let readings = [delta(0.7, 1.5, 0.5), delta(3.0, 1.0, -3.0), delta(0.2, 0.3, FRAC_PI_2)];
-    for (kind, rule) in KINDS.into_iter().flat_map(|kind| OdometryRule::ALL.map(|rule| (kind, rule))) {
+    for (kind, rule) in NOISE_KINDS.into_iter().flat_map(|kind| OdometryRule::ALL.map(|rule| (kind, rule))) {
         for reading in readings {
             let (legs, variances) = (rule.legs(&reading), rule.variances(&reading, &[0.05; 5]));
             let mut rng = seeded(192);
@@ -173,7 +172,7 @@ fn exact_spreads_match_samples() {
                 let (m2, m4) = (mean(2), mean(4));
                 let error = ((m4 - m2 * m2) / SAMPLES as f64).sqrt();
                 assert!(
-                    (m2 - exact).abs() < SIGMAS * error,
+                    (m2 - exact).abs() < MAX_STANDARD_ERRORS * error,
                     "{kind:?} {rule:?} {reading:?} {which}: {m2} ± {error}, exactly {exact}"
                 );
             }

@@ -1,7 +1,7 @@
 //! Gaussian noise in exponential coordinates: density, sampler, and covariances carried along a path.
 
 use crate::common::{
-    KOLMOGOROV, SAMPLES, Table, chi_square_limit, kolmogorov_smirnov, seeded, uniform, unit_cdf,
+    MAX_KOLMOGOROV_SMIRNOV, SAMPLES, Table, chi_square_limit, kolmogorov_smirnov, seeded, uniform, unit_cdf,
 };
 use motion::geom::se2::SE2;
 use motion::{
@@ -12,7 +12,7 @@ use std::f64::consts::PI;
 
 const U: VelocityCmd = VelocityCmd { v: 1.0, omega: 0.5, dt: 1.0 };
 
-/// Twenty canonical steps are compounded with these.
+/// Command of one of twenty steps that are compounded.
 const STEP: VelocityCmd = VelocityCmd { dt: 0.2, ..U };
 const FULL_RANK: VelocityAlphas = VelocityAlphas([0.02, 0.02, 0.02, 0.02, 0.005, 0.005]);
 
@@ -20,12 +20,12 @@ fn velocity(alphas: VelocityAlphas) -> VelocityModel {
     VelocityModel { alphas, noise: NoiseKind::Normal }
 }
 
-/// A covariance with every entry at work.
+/// Returns a covariance without zeros.
 fn full_cov() -> Matrix3<f64> {
     Matrix3::new(0.09, 0.02, 0.03, 0.02, 0.05, -0.02, 0.03, -0.02, 0.12)
 }
 
-/// log N(d; 0, cov) by the adjugate.
+/// Returns log N(d; 0, cov) by the inverse of the covariance.
 fn log_normal(d: &Vector3<f64>, cov: &Matrix3<f64>) -> f64 {
     let inverse = cov.try_inverse().unwrap();
     -0.5 * (d.dot(&(inverse * d)) + cov.determinant().ln() + 3.0 * (2.0 * PI).ln())
@@ -47,7 +47,7 @@ fn log_prob_is_a_gaussian_in_exponential_coordinates() {
             assert!((value - expected).abs() < 1e-8, "{value}, not {expected}");
         }
     }
-    // A wheelset has no lateral noise: the density is a thin sheet, and off it there is nothing.
+    // A wheelset has no lateral noise: the density is concentrated on a thin sheet.
     let model =
         TangentNoiseModel::from_velocity(&velocity(VelocityAlphas([0.02, 0.02, 0.02, 0.02, 0.0, 0.0])), &U);
     let model = model.unwrap();
@@ -73,7 +73,7 @@ fn no_noise_before_the_last_turn_has_a_thin_density() {
     }
 }
 
-/// A density over ξ is one over poses times dx dy dθ / dξ = sinc²(ξ_ω/2).
+/// A density over ξ is a density over poses times dx dy dθ / dξ = sinc²(ξ_ω/2).
 #[test]
 fn the_velocity_models_tangent_form_has_the_same_density() {
     let mut rng = seeded(121);
@@ -95,8 +95,8 @@ fn the_velocity_models_tangent_form_has_the_same_density() {
     }
 }
 
-/// ξ − τ, whitened by the inverse of the covariance's root, is standard normal: each component by Kolmogorov and
-/// Smirnov, and the three together by χ² over octants and shells.
+/// ξ − τ times the inverse of the covariance's root is standard normal. Each component is tested by Kolmogorov and Smirnov, and the three
+/// together by χ² over octants and shells.
 #[test]
 fn sampler_and_density_agree() {
     let x = SE2::new(1.0, 2.0, -0.7);
@@ -109,7 +109,7 @@ fn sampler_and_density_agree() {
     for axis in 0..3 {
         let component = whitened.iter().map(|w| w[axis]).collect();
         let distance = kolmogorov_smirnov(component, |z| unit_cdf(NoiseKind::Normal, z));
-        assert!(distance < KOLMOGOROV, "axis {axis}: √n·D = {distance}");
+        assert!(distance < MAX_KOLMOGOROV_SMIRNOV, "axis {axis}: √n·D = {distance}");
     }
     // Squared radii that cut χ² with three degrees of freedom at the quartiles.
     const QUARTILES: [f64; 3] = [1.212_532_903_045_966, 2.365_973_884_375_339, 4.108_344_935_632_316];
@@ -123,7 +123,7 @@ fn sampler_and_density_agree() {
     assert!(value < chi_square_limit(32), "χ² = {value}");
 }
 
-/// A Σ Aᵀ + R with A = Ad(exp τ)⁻¹, spelled out here by the inverse of the adjoint matrix.
+/// The expected covariance is A Σ Aᵀ + R, with A as the inverse of the adjoint matrix of exp τ.
 #[test]
 fn compound_is_the_chapters_recursion() {
     let mut rng = seeded(124);
@@ -147,7 +147,7 @@ fn compound_is_the_chapters_recursion() {
     assert!((model.compound(&Matrix3::zeros(), &Vector3::zeros()) - expected).amax() < 1e-16);
 }
 
-/// One step from a known pose: J_r R J_rᵀ for noise inside the arc; γ̂'s, which turns the robot after it, as it is.
+/// A step from an exact pose transforms noise inside the arc to J_r R J_rᵀ. Noise of γ̂, which turns the robot after the arc, stays as it is.
 #[test]
 fn first_order_turns_the_noise_inside_the_arc_only() {
     let tau = TangentNoiseModel::twist(&U);

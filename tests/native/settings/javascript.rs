@@ -1,5 +1,5 @@
-//! `www/settings.js`, what JavaScript has to know of the core before it is loaded, is what the core declares. Messages
-//! about refused settings write numbers as JavaScript does.
+//! `www/settings.js`, from which scripts know the settings before the core is loaded, is generated from the declarations in the core.
+//! Messages about refused settings write numbers as JavaScript does.
 
 use motion::map::{MAX_BYTES, MAX_PIXELS};
 use motion::sim::picture::RAMP;
@@ -11,10 +11,9 @@ use std::ops::{ControlFlow, RangeInclusive};
 
 const PATH: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/www/settings.js");
 
-/// Numbers in messages are those of JavaScript, where most who read them are.
 #[test]
 fn numbers_in_messages_are_formatted_as_in_javascript() {
-    for (number, told) in [
+    for (number, printed) in [
         (f64::INFINITY, "Infinity"),
         (f64::NEG_INFINITY, "-Infinity"),
         (f64::NAN, "NaN"),
@@ -25,14 +24,14 @@ fn numbers_in_messages_are_formatted_as_in_javascript() {
     ] {
         let mut settings = banana::Settings::default();
         settings.command.v = number;
-        let error = banana::BananaMachine::new(settings).expect_err(told);
-        assert!(error.to_string().starts_with(&format!("command.v is {told}; ")), "{error}");
+        let error = banana::BananaMachine::new(settings).expect_err(printed);
+        assert!(error.to_string().starts_with(&format!("command.v is {printed}; ")), "{error}");
     }
-    for (seconds, told) in [(0.0, "0"), (-0.000_001, "-0.000001"), (5e-7, "5e-7"), (-1e-300, "-1e-300")] {
+    for (seconds, printed) in [(0.0, "0"), (-0.000_001, "-0.000001"), (5e-7, "5e-7"), (-1e-300, "-1e-300")] {
         let mut settings = banana::Settings::default();
         settings.command.dt = seconds;
-        let error = banana::BananaMachine::new(settings).expect_err(told);
-        assert!(error.to_string().starts_with(&format!("command.dt is {told}; ")), "{error}");
+        let error = banana::BananaMachine::new(settings).expect_err(printed);
+        assert!(error.to_string().starts_with(&format!("command.dt is {printed}; ")), "{error}");
     }
 }
 
@@ -149,7 +148,7 @@ const HEAD: &str = "\
  */
 ";
 
-/// Objects, a line each.
+/// Returns objects of JavaScript, one on each line.
 fn lines(objects: impl IntoIterator<Item = String>) -> String {
     objects.into_iter().fold(String::new(), |mut lines, object| {
         writeln!(lines, "    {{ {object} }},").expect("a string takes all");
@@ -157,7 +156,7 @@ fn lines(objects: impl IntoIterator<Item = String>) -> String {
     })
 }
 
-/// A line a setting, and a number of a group or list: `numbered` are the sentences of those that are attributes.
+/// Returns a line for each setting, and for each number of a group or list. `numbered` are the sentences of numbers that are attributes.
 fn declarations(mut opening: impl Declared, numbered: &[&str]) -> String {
     let mut objects = Vec::new();
     let shared = shared_fields(&mut opening);
@@ -168,7 +167,7 @@ fn declarations(mut opening: impl Declared, numbered: &[&str]) -> String {
     lines(objects)
 }
 
-/// The fields that more than one group has, as two poses do: as attributes they have the names of their groups before theirs.
+/// Returns the keys of fields that more than one group has, as two poses do. Their attributes have the name of the group before the key.
 fn shared_fields(opening: &mut impl Declared) -> Vec<&'static str> {
     let (mut seen, mut shared) = (Vec::new(), Vec::new());
     let _ = opening.each(&mut |_, setting| {
@@ -182,6 +181,7 @@ fn shared_fields(opening: &mut impl Declared) -> Vec<&'static str> {
     shared
 }
 
+/// Appends the object of a setting, and those of its numbers.
 fn describe(
     declaration: &Declaration,
     setting: Setting,
@@ -219,7 +219,7 @@ fn describe(
         Setting::Numbers(values, allowed) => {
             line(format!("type: 'numbers', {}, default: {values:?}", range(&allowed)));
             for (index, (value, sentence)) in values.iter().zip(numbered).enumerate() {
-                // The model with the fewest has none of the others.
+                // The model with the fewest α's has none of the other numbers, which are null then.
                 let nullable = if sentence == &numbered[0] { "" } else { "nullable: true, " };
                 objects.push(format!(
                     "key: 'alpha{}', in: '{key}', index: {index}, type: 'number', {nullable}{}, default: {value}, \
@@ -259,7 +259,7 @@ fn words(words: Vec<&str>) -> String {
     format!("['{}']", words.join("', '"))
 }
 
-/// The numbers of a group by their keys.
+/// Returns the numbers of a group by their keys.
 fn group(mut group: impl Group) -> String {
     let numbers = group.fields().iter().enumerate();
     let entries: Vec<String> =

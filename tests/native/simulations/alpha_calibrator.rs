@@ -7,14 +7,12 @@ use motion::geom::se2::SE2;
 use motion::models::OdometryRule;
 use motion::sim::alpha_calibrator::{AlphaCalibrator, Driver, Log, Model, RestoreError, Settings};
 
-const SEEDS: u64 = 40;
-
 fn machine(settings: Settings) -> AlphaCalibrator {
     AlphaCalibrator::new(settings).expect("allowed")
 }
 
-/// Returns whether the interval of each α, and then of each systematic error, holds what the log was simulated with.
-fn held(machine: &AlphaCalibrator) -> [bool; 10] {
+/// Returns true for each α, and then for each systematic error, whose interval holds the value of the simulation.
+fn held_by_intervals(machine: &AlphaCalibrator) -> [bool; 10] {
     let calibration = machine.calibration();
     let truth = machine.truth().expect("a simulated log");
     let [ahead, left] = truth.lever_arm;
@@ -29,15 +27,14 @@ fn held(machine: &AlphaCalibrator) -> [bool; 10] {
     })
 }
 
-/// The intervals of the opening log hold all true values.
 #[test]
 fn the_opening_intervals_hold_the_true_values() {
     let machine = machine(Settings::default());
-    assert_eq!(held(&machine), [true; 10]);
+    assert_eq!(held_by_intervals(&machine), [true; 10]);
     assert_eq!(machine.calibration().diagnostics.verdict, Verdict::Consistent);
 }
 
-/// If a duration is set, legs end after it, and distance and angle have no effect.
+/// Distance and angle then have no effect.
 #[test]
 fn legs_end_after_a_duration_where_one_is_set() {
     let settings = Settings { duration: 0.8, ..Settings::default() };
@@ -112,7 +109,7 @@ fn panels_are_means_of_squared_innovations() {
 #[ignore = "nightly: 40 calibrations"]
 fn the_error_bars_of_panels_hold_the_fitted_lines() {
     let [mut bins, mut beyond, mut far] = [0; 3];
-    for seed in 0..SEEDS {
+    for seed in 0..40 {
         let machine = machine(Settings { seed, ..Settings::default() });
         for panel in [Driver::Way, Driver::Turn].into_iter().flat_map(|driver| machine.panels(driver)) {
             let slope = panel.slope.expect("the log turns and drives");
@@ -203,17 +200,17 @@ fn a_restored_fit_is_the_fitted_one_to_the_last_bit() {
     let fitted = machine(settings);
     let mut restored = AlphaCalibrator::restored(settings, &fitted.saved()).expect("a fit");
     // Residuals that a leg does not show are NaN, which equals nothing.
-    let told = |of: &AlphaCalibrator| {
+    let results = |of: &AlphaCalibrator| {
         let panels = [Driver::Turn, Driver::Way].map(|driver| of.panels(driver));
         format!("{:?} {panels:?} {:?} {:?}", of.calibration(), of.leg(5), of.nearest([0.5, 1.0], 3.0))
     };
-    let before = told(&fitted);
-    assert!(told(&restored) == before && restored.truth().is_none() && !restored.is_pending());
-    // The inflation is of the prediction alone; another rule needs the log.
+    let before = results(&fitted);
+    assert!(results(&restored) == before && restored.truth().is_none() && !restored.is_pending());
+    // A new inflation changes only predictions. Another rule needs the log.
     restored.configure(Settings { inflation: 2.0, ..settings }).expect("allowed");
-    assert!(!restored.is_pending() && told(&restored) != before);
+    assert!(!restored.is_pending() && results(&restored) != before);
     restored.configure(Settings::default()).expect("allowed");
-    assert!(restored.is_pending() && told(&restored) == before && *restored.fitted_settings() == settings);
+    assert!(restored.is_pending() && results(&restored) == before && *restored.fitted_settings() == settings);
     assert_eq!(AlphaCalibrator::restored(settings, &[1, 2]).unwrap_err(), RestoreError::Bytes);
 }
 

@@ -1,6 +1,6 @@
-//! Arc Anatomy: the inversion by the table as it is printed, by driving what was found, and by differences.
+//! Arc Anatomy: the inversion of an arc, compared with the printed table, with the driven motion and with differences.
 
-use crate::common::{KINDS, seeded, uniform};
+use crate::common::{NOISE_KINDS, seeded, uniform};
 use motion::geom::se2::{SE2, wrap_angle};
 use motion::sim::arc_anatomy::{ArcAnatomy, FinalPose, PRESETS, Settings, Stats};
 use motion::{MotionModel, NoiseKind, VelocityAlphas, VelocityCmd, VelocityModel};
@@ -25,7 +25,7 @@ fn poses(settings: &Settings) -> (SE2, SE2) {
     (SE2::new(x, y, theta), SE2::new(next_x, next_y, next_theta))
 }
 
-/// Two poses at random, some metres apart, and a command.
+/// Returns settings with two random poses, some metres apart, and a random command.
 fn random(seed: u64) -> impl Iterator<Item = Settings> {
     let mut rng = seeded(seed);
     std::iter::repeat_with(move || {
@@ -37,7 +37,7 @@ fn random(seed: u64) -> impl Iterator<Item = Settings> {
     })
 }
 
-/// Lines 1 to 8 of Table 5.1, letter for letter but for the wrapped angles.
+/// Returns lines 1 to 8 of Table 5.1 as printed, except that angles are wrapped.
 fn table_as_printed(settings: &Settings) -> [f64; 8] {
     let (x, next) = poses(settings);
     let dt = settings.command.dt;
@@ -119,7 +119,7 @@ fn the_printed_option_mirrors_centres_to_the_right() {
 #[test]
 fn p_is_the_product_of_the_factors_and_that_of_the_model() {
     for (i, settings) in random(5).take(4000).enumerate() {
-        let noise = KINDS[i % 2];
+        let noise = NOISE_KINDS[i % 2];
         let settings = Settings { noise, ..settings };
         let model = VelocityModel { alphas: VelocityAlphas(settings.alphas), noise };
         let (start, next) = poses(&settings);
@@ -154,17 +154,15 @@ fn without_noise_a_residual_is_zero_or_infinite() {
     assert_eq!((prob, share), (1.0, 1.0));
 }
 
-/// The lateral velocity by differences of the path, whose error is that of the square of the step.
+/// The expected lateral velocity comes from central differences of the path.
 #[test]
 fn the_twist_slips_sideways_when_there_is_a_last_turn() {
     for settings in random(6).take(200) {
         let machine = machine(settings);
         let [along, lateral, _] = machine.stats().xi;
         let step = 1e-5;
-        for (tick, share) in
-            machine.paths().ticks.iter().zip([0.0, 0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875])
-        {
-            let share = share + step;
+        for (i, tick) in machine.paths().ticks.iter().enumerate().take(8) {
+            let share = 0.125 * i as f64 + step;
             let [before, at, after] =
                 [share - step, share, share + step].map(|share| machine.underway(share)[2]);
             let velocity = [(after.x() - before.x()) / (2.0 * step), (after.y() - before.y()) / (2.0 * step)];

@@ -1,6 +1,6 @@
 //! The Banana Machine: common random numbers, settings and reported figures.
 
-use crate::common::{KINDS, SIGMAS, pose_distance, preset, seeded};
+use crate::common::{MAX_STANDARD_ERRORS, NOISE_KINDS, pose_distance, preset, seeded};
 use motion::geom::lanes::ACCURACY;
 use motion::geom::se2::SE2;
 use motion::sim::View;
@@ -31,45 +31,46 @@ fn models() -> [Settings; 2] {
 }
 
 /// Returns all results of a machine as text.
-fn picture(machine: &BananaMachine) -> String {
+fn results(machine: &BananaMachine) -> String {
     format!("{:?} {:?} {:?} {:?}", machine.settings(), poses(machine), machine.figures(), machine.contours())
 }
 
-/// For robots that get a metre or two away, each factor of a coordinate off by the accuracy of its sine or cosine.
+/// Accuracy of a pose after a metre or two. Each factor of a coordinate has the accuracy of a sine or cosine.
 const POSE_ACCURACY: f64 = 4.0 * ACCURACY;
 
-/// The cloud is the model's own, in the model's own order of draws: forward and in reverse, by either model.
+/// The poses are those of the model, in its order of draws, forward and in reverse.
 #[test]
 fn the_cloud_is_what_the_model_samples() {
     let start = SE2::identity();
     let back = VelocityCmd { v: -1.0, omega: 0.5, dt: 1.0 };
-    for (noise, command) in KINDS.into_iter().flat_map(|noise| [GENTLE, back].map(|command| (noise, command)))
+    for (noise, command) in
+        NOISE_KINDS.into_iter().flat_map(|noise| [GENTLE, back].map(|command| (noise, command)))
     {
         let settings = Settings { noise, command, samples: 500, seed: 2005, ..preset("gentle") };
-        let same = |settings: Settings, draw: &mut dyn FnMut(&mut Xoshiro256PlusPlus) -> SE2| {
+        let assert_same = |settings: Settings, draw: &mut dyn FnMut(&mut Xoshiro256PlusPlus) -> SE2| {
             let mut rng = seeded(2005);
             for pose in machine(settings).poses() {
                 assert!(pose_distance(&pose, &draw(&mut rng)) < POSE_ACCURACY, "{settings:?}");
             }
         };
         let model = VelocityModel { alphas: VelocityAlphas(settings.velocity_alphas), noise };
-        same(settings, &mut |rng| model.sample(&command, &start, rng));
+        assert_same(settings, &mut |rng| model.sample(&command, &start, rng));
         let odometry = Settings { model: ModelKind::Odometry, ..settings };
         let model = OdometryModel { alphas: OdomAlphas(settings.odometry_alphas), noise };
         let end = start.boxplus(Vector3::new(command.v, 0.0, command.omega));
         let reading = OdomDelta::from_poses(&start, &end);
-        same(odometry, &mut |rng| model.sample(&reading, &start, rng));
+        assert_same(odometry, &mut |rng| model.sample(&reading, &start, rng));
         let aware = Settings { reverse_aware: true, ..odometry };
-        same(aware, &mut |rng| ReverseAware(model).sample(&reading, &start, rng));
+        assert_same(aware, &mut |rng| ReverseAware(model).sample(&reading, &start, rng));
     }
 }
 
-/// A slider moves the same robots: each keeps its unit noise, such as (v̂ − v)/σ.
+/// Each robot keeps its noise relative to its standard deviation, such as (v̂ − v)/σ.
 #[test]
 fn changed_settings_move_the_same_robots() {
     let opening = Settings { samples: 300, ..preset("gentle") };
     let mut machine = machine(opening);
-    let luck = |machine: &BananaMachine| -> Vec<[f64; 3]> {
+    let unit_noises = |machine: &BananaMachine| -> Vec<[f64; 3]> {
         let settings = machine.settings();
         let model = VelocityModel { alphas: VelocityAlphas(settings.velocity_alphas), noise: settings.noise };
         let [v, omega, gamma] = model.variances(&settings.command).map(|b2| b2.0.sqrt());
@@ -86,39 +87,39 @@ fn changed_settings_move_the_same_robots() {
             })
             .collect()
     };
-    let before = luck(&machine);
+    let before = unit_noises(&machine);
     let command = VelocityCmd { v: -0.6, omega: 1.1, dt: 0.7 };
     for settings in [
         Settings { velocity_alphas: [0.01, 0.2, 0.03, 0.04, 0.3, 0.2], ..opening },
         Settings { command, ..opening },
     ] {
         machine.configure(settings).unwrap();
-        for (a, b) in luck(&machine).iter().zip(&before) {
+        for (a, b) in unit_noises(&machine).iter().zip(&before) {
             assert!(a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-9), "{a:?} was {b:?}");
         }
     }
     machine.configure(opening).unwrap();
-    assert_eq!(luck(&machine), before, "and back again to the bit");
+    assert_eq!(unit_noises(&machine), before, "and back again to the bit");
     machine.configure(Settings { seed: 8, ..opening }).unwrap();
-    assert!(luck(&machine).iter().zip(&before).all(|(a, b)| a != b), "a new seed is new luck");
+    assert!(unit_noises(&machine).iter().zip(&before).all(|(a, b)| a != b), "a new seed is new luck");
 }
 
-/// Blocks of 25,000 and more. Smaller clouds grow in `tests/fuzz.rs`.
+/// Blocks have 25,000 robots or more. The growth of smaller clouds is tested in `tests/fuzz.rs`.
 #[test]
 fn a_large_cloud_grows_in_blocks() {
     for settings in models() {
-        let large = Settings { samples: 120_000, ..settings };
+        let large = Settings { samples: 60_000, ..settings };
         let mut growing = BananaMachine::showing(settings, 0).unwrap();
         growing.configure_first(large, usize::MAX).unwrap();
         assert_eq!(growing.shown(), 25_000);
         while growing.shown() < large.samples {
             growing.add_samples(growing.block());
         }
-        assert_eq!(picture(&growing), picture(&machine(large)));
+        assert_eq!(results(&growing), results(&machine(large)));
     }
 }
 
-/// A command may turn further than half a circle: its samples are one cloud in exponential coordinates, around τ.
+/// The samples of a command that turns by more than half a circle are one cloud in exponential coordinates, around τ.
 #[test]
 fn long_turns_stay_on_the_branch_of_the_command() {
     for omega in [3.1, -4.5, 5.0] {
@@ -127,10 +128,13 @@ fn long_turns_stay_on_the_branch_of_the_command() {
         let machine = machine(Settings { command, velocity_alphas, samples: 20_000, ..preset("gentle") });
         let ExponentialMoments { mean, cov } = machine.figures().exponential;
         let turn_variance = 0.001 * omega * omega;
-        assert!((mean.x - 1.0).abs() < SIGMAS * 0.1 / 20_000f64.sqrt(), "{omega}: {mean}");
-        assert!((mean.z - omega).abs() < SIGMAS * (turn_variance / 20_000.0).sqrt(), "{omega}: {mean}");
+        assert!((mean.x - 1.0).abs() < MAX_STANDARD_ERRORS * 0.1 / 20_000f64.sqrt(), "{omega}: {mean}");
         assert!(
-            (cov[(2, 2)] / turn_variance - 1.0).abs() < SIGMAS * (2.0f64 / 20_000.0).sqrt(),
+            (mean.z - omega).abs() < MAX_STANDARD_ERRORS * (turn_variance / 20_000.0).sqrt(),
+            "{omega}: {mean}"
+        );
+        assert!(
+            (cov[(2, 2)] / turn_variance - 1.0).abs() < MAX_STANDARD_ERRORS * (2.0f64 / 20_000.0).sqrt(),
             "{omega}: {cov}"
         );
         for (pose, twist) in machine.poses().zip(machine.twists()) {
@@ -140,7 +144,6 @@ fn long_turns_stay_on_the_branch_of_the_command() {
     }
 }
 
-/// The students' exercise: straight ahead, one α at a time.
 #[test]
 fn isolating_an_alpha_silences_the_others() {
     let straight = Settings { command: PRESETS[0].command, samples: 1000, ..preset("gentle") };
@@ -159,7 +162,7 @@ fn isolating_an_alpha_silences_the_others() {
     let mut again = isolated(3);
     assert_eq!(again.settings().velocity_alphas, straight.velocity_alphas, "the sliders stay where they are");
     again.configure(straight).unwrap();
-    assert_eq!(picture(&again), picture(&machine(straight)));
+    assert_eq!(results(&again), results(&machine(straight)));
 }
 
 #[test]
@@ -181,8 +184,7 @@ fn a_dragged_end_is_reached() {
     assert_eq!(command_reaching(0.0, 0.0, &present), VelocityCmd { v: 0.0, omega: 0.0, dt: 3.0 });
 }
 
-/// Exponential coordinates run to infinity where robots turn by a whole circle: the figures in them are then undefined,
-/// all others not.
+/// Exponential coordinates are infinite for a full turn. Statistics in them are then undefined, and the others are not.
 #[test]
 fn without_a_chart_exponential_figures_are_undefined() {
     let turning = |omega: f64| {
@@ -221,7 +223,7 @@ fn both_views_find_the_nearest_sample() {
         }
         assert_eq!(machine.nearest(view, points[17], [1e-9, 1e-9]), Some(17));
         assert_eq!(machine.nearest(view, [50.0, 50.0], [1.0, 1.0]), None);
-        // The radii are where it ends: beyond the outermost sample, a little more and a little less than one away.
+        // The search reaches to the radii: a target beyond the outermost sample finds it from just inside a radius, and not from outside.
         let outermost = (0..points.len()).max_by(|&a, &b| points[a][0].total_cmp(&points[b][0])).unwrap();
         let beside = |distance| [points[outermost][0] + distance, points[outermost][1]];
         assert_eq!(machine.nearest(view, beside(0.0099), [0.01, 1e-9]), Some(outermost));
@@ -250,7 +252,7 @@ fn the_executed_motion_leads_to_the_pose() {
     }
 }
 
-/// In reverse the heading keeps what the table charges for two half turns; with the option it does not.
+/// In reverse the table charges the heading for two half turns, and the option does not.
 #[test]
 fn a_reverse_aware_robot_is_not_charged_for_half_turns() {
     let command = VelocityCmd { v: -1.0, ..GENTLE };

@@ -1,22 +1,23 @@
-//! The machine of Dead Reckoning: rollouts against the models one pose at a time, statistics against plain sums.
+//! The machine of Dead Reckoning: rollouts are compared with poses of the models, and statistics with plain sums.
 
+use crate::common::seeded;
 use motion::geom::se2::SE2;
 use motion::sim::dead_reckoning::{DeadReckoning, NoisePer, PRESETS, RECURSIONS, Settings};
 use motion::{Compounding, NoiseKind, TangentNoiseModel, VelocityAlphas, VelocityCmd, VelocityModel};
 use nalgebra::{Matrix3, Vector3};
 
-/// The selected step is the last one where the path is shorter.
+/// Returns a machine. If the path has fewer steps than the selected one, the last step is selected.
 pub fn machine(settings: Settings) -> DeadReckoning {
     let step = settings.step.min(settings.steps);
     DeadReckoning::new(Settings { step, ..settings }).expect("valid settings")
 }
 
-/// Settings as the widget opens, with fewer robots.
+/// Returns the settings with which the widget opens, with fewer robots.
 fn few(samples: usize) -> Settings {
     Settings { samples, ..Settings::default() }
 }
 
-/// Settings that leave the short formulas: sharp turns, reverse, wild noise, headings beyond half a turn.
+/// Returns settings to which short formulas do not apply: sharp turns, reverse, large noise, headings beyond half a turn.
 fn all_kinds() -> Vec<Settings> {
     let of = |v: f64, omega: f64, dt: f64, alphas| Settings {
         command: VelocityCmd { v, omega, dt },
@@ -44,17 +45,15 @@ fn assert_same([x, y, theta]: [f64; 3], expected: &SE2, scale: f64) {
     assert!(apart.amax() < 1e-13 * scale, "({x}, {y}, {theta}), not {expected:?}: {apart}");
 }
 
-/// The lanes against nalgebra and libm, one robot and one step at a time, from the draws themselves.
+/// Paths that are computed in lanes equal poses that are composed one by one, from the same random numbers.
 #[test]
 fn lanes_agree_with_poses_composed_one_by_one() {
     use motion::noise::centred_uniform;
-    use rand::SeedableRng;
-    use rand_xoshiro::Xoshiro256PlusPlus;
     for settings in all_kinds() {
         let machine = machine(settings);
         let (u, model) = (settings.command, settings.model());
         // The third block, and in it robot 513: lane 1 of the first four.
-        let mut stream = Xoshiro256PlusPlus::seed_from_u64(settings.seed);
+        let mut stream = seeded(settings.seed);
         stream.jump();
         stream.jump();
         let mut pose = SE2::identity();
@@ -66,7 +65,7 @@ fn lanes_agree_with_poses_composed_one_by_one() {
             let unit = uniforms[1].map(|q| NoiseKind::Normal.quantile(q));
             let before = pose;
             pose = model.apply_noise(&u, &pose, unit);
-            // As an arc of any length and turn is a scale for its rounding.
+            // The rounding of a path grows with its length and its turn.
             way += (pose.x() - before.x()).hypot(pose.y() - before.y()) + (u.omega * u.dt).abs();
             let turn = model.variances(&u)[1].0.sqrt() * u.dt * unit[1].abs();
             assert_same(driven, &pose, way * (1.0 + turn) * 4.0);
@@ -74,7 +73,7 @@ fn lanes_agree_with_poses_composed_one_by_one() {
     }
 }
 
-/// Means, covariances and their errors of all robots, added up one by one from their paths.
+/// The expected means, covariances and relative errors are sums over the paths of all robots.
 #[test]
 fn moments_are_those_of_the_robots() {
     for (i, settings) in all_kinds().into_iter().enumerate() {
@@ -98,9 +97,12 @@ fn moments_are_those_of_the_robots() {
             for axis in 0..3 {
                 let power = |p: i32| xi.iter().map(|xi| (xi[axis] - mean[axis]).powi(p)).sum::<f64>() / n;
                 let expected = ((power(4) / power(2).powi(2) - 1.0) / n).sqrt();
-                let told = measured.relative_error[axis];
+                let found = measured.relative_error[axis];
                 if power(2) > 1e-20 {
-                    assert!((told / expected - 1.0).abs() < 1e-6, "{i}, {k}, {axis}: {told}, not {expected}");
+                    assert!(
+                        (found / expected - 1.0).abs() < 1e-6,
+                        "{i}, {k}, {axis}: {found}, not {expected}"
+                    );
                 }
             }
         }
@@ -151,7 +153,7 @@ fn a_zero_variance_has_no_relative_error() {
         assert!(errors(Settings { alphas: [0.0; 6], ..few(samples) }).iter().all(|error| error.is_nan()));
     }
     assert!(errors(few(1)).iter().all(|error| error.is_nan()));
-    // Two have always a kurtosis of 1, as if their variance were known exactly.
+    // Two robots always have a kurtosis of 1, from which the error would be 0.
     assert!(errors(few(2)).iter().all(|error| error.is_finite() && *error >= 2f64.sqrt()));
     // Robots that only turn have no variance along the track.
     let on_the_spot = VelocityCmd { v: 0.0, omega: 0.5, dt: 0.2 };
@@ -205,7 +207,7 @@ fn a_seed_gives_the_same_draws() {
     assert_eq!(large.rollout(1500), None);
 }
 
-/// Each step has its share of the whole path: the sum of the shares is the path's own variance, whatever the number of steps.
+/// Each step has a share of the variance of the whole path. The shares add up to that variance for any number of steps.
 #[test]
 fn noise_of_the_whole_path_is_shared_by_its_steps() {
     let whole = VelocityCmd { v: 1.0, omega: 0.5, dt: 4.0 };
@@ -234,7 +236,7 @@ fn the_level_of_heading_noise_is_that_of_four_alphas() {
     assert_eq!(Settings { alphas: [0.02, 0.02, 0.02, 0.02, 0.005, 0.0], ..few(1) }.heading_noise(), None);
 }
 
-/// Outlines of both Gaussians at the commanded pose. The ellipse is rotated by the robot's heading.
+/// Points of the outlines of both Gaussians are two standard deviations from the commanded pose.
 #[test]
 fn outlines_are_those_of_the_covariance() {
     let settings = Settings { step: 20, compounding: Compounding::FirstOrder, ..few(300) };
@@ -245,7 +247,6 @@ fn outlines_are_those_of_the_covariance() {
     assert_eq!([machine.outlines(0), machine.outlines(21)], [None, None]);
     let plane = sigma.fixed_view::<2, 2>(0, 0).into_owned().try_inverse().expect("full rank");
     for [x, y] in &outlines.ellipse {
-        // Seen from the commanded pose, every point is at two deviations.
         let seen = nominal.inverse() * SE2::new(*x, *y, 0.0);
         let at = nalgebra::Vector2::new(seen.x(), seen.y());
         assert!(((at.transpose() * plane * at)[0] - 4.0).abs() < 1e-9);
@@ -259,7 +260,6 @@ fn outlines_are_those_of_the_covariance() {
     assert!(first.predicted.iter().all(|[_, lateral]| *lateral == 0.0));
 }
 
-/// The commanded way leads through every commanded pose.
 #[test]
 fn the_commanded_way_leads_through_its_poses() {
     for settings in all_kinds() {

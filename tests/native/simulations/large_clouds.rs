@@ -8,14 +8,14 @@ use motion::stats::Ellipse;
 use motion::{NoiseKind, VelocityCmd};
 use nalgebra::Vector3;
 
-/// A sum in twice the digits (Knuth's two-sum, the error added up as well): exact to 1e-30 of the sum of sizes.
+/// Sum in twice the precision (Knuth's two-sum, with a sum of the errors). Its error is 1e-30 of the sum of absolute terms.
 #[derive(Clone, Copy, Default)]
-struct Exact {
+struct ExactSum {
     sum: f64,
     lost: f64,
 }
 
-impl Exact {
+impl ExactSum {
     fn add(&mut self, term: f64) {
         let sum = self.sum + term;
         let of_term = sum - self.sum;
@@ -25,7 +25,7 @@ impl Exact {
 }
 
 fn mean(terms: impl Iterator<Item = f64>) -> f64 {
-    let (mut sum, mut count) = (Exact::default(), 0.0);
+    let (mut sum, mut count) = (ExactSum::default(), 0.0);
     for term in terms {
         sum.add(term);
         count += 1.0;
@@ -33,8 +33,8 @@ fn mean(terms: impl Iterator<Item = f64>) -> f64 {
     (sum.sum + sum.lost) / count
 }
 
-/// The figures by their definitions, a pass each.
-fn check(machine: &BananaMachine) {
+/// Asserts that the statistics of a cloud equal their definitions, each computed in its own pass.
+fn assert_exact(machine: &BananaMachine) {
     let poses: Vec<SE2> = machine.poses().collect();
     let n = poses.len() as f64;
     let figures @ Figures { cartesian, exponential, .. } = *machine.figures();
@@ -102,7 +102,7 @@ fn check(machine: &BananaMachine) {
 
     let ellipse = Ellipse::from_moments(&cartesian);
     let inside = poses.iter().filter(|pose| ellipse.contains([pose.x(), pose.y()])).count();
-    // On the contour itself, rounding may decide about one.
+    // Rounding may decide whether one robot on the contour is inside.
     close("coverage", figures.coverage.ellipse, inside as f64 / n, 1.5e12 / n);
 }
 
@@ -110,7 +110,7 @@ fn check(machine: &BananaMachine) {
 #[ignore = "nightly: 10 million robots"]
 fn ten_million_agree_with_exact_sums() {
     let command = VelocityCmd { v: 1.0, omega: 1.2, dt: 1.4 };
-    check(&machine(Settings { command, samples: MAX_SAMPLES, ..preset("gentle") }));
+    assert_exact(&machine(Settings { command, samples: MAX_SAMPLES, ..preset("gentle") }));
 }
 
 /// Clouds of many shapes. In some of them robots turn by more than a full circle, or end far from the noise-free pose.
@@ -125,7 +125,7 @@ fn small_and_odd_clouds_agree_with_exact_sums() {
                     let [v, omega, dt] = command;
                     let command = VelocityCmd { v, omega, dt };
                     let odometry_alphas = [0.02, 0.01, 0.02, 0.01];
-                    check(&machine(Settings {
+                    assert_exact(&machine(Settings {
                         model,
                         noise,
                         command,

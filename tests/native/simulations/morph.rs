@@ -16,7 +16,7 @@ fn distance(one: [f64; 2], other: [f64; 2]) -> f64 {
     (one[0] - other[0]).hypot(one[1] - other[1])
 }
 
-/// The end of the path of a body with constant velocity in its own frame, in steps of the midpoint rule.
+/// Returns where a body with constant velocity in its own frame ends, by steps of the midpoint rule.
 fn integrated([vx, vy, omega]: [f64; 3]) -> [f64; 2] {
     const STEPS: usize = 2000;
     let step = 1.0 / STEPS as f64;
@@ -93,7 +93,7 @@ fn outlines_keep_their_robots() {
     }
 }
 
-/// At its ends the outline of the Gaussian in exponential coordinates is the one of each view, also with γ̂.
+/// At both ends of the morph, the outline of the Gaussian in exponential coordinates is the one of that view, also with γ̂.
 #[test]
 fn the_outline_ends_as_both_views_have_it() {
     let machine = machine(Settings { samples: 5000, ..preset("hard") });

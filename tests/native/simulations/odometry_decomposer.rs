@@ -1,6 +1,6 @@
 //! The machine of the Odometry Decomposer: common random numbers, linkage, drifting frame and curve.
 
-use crate::common::{KINDS, pose_distance, seeded};
+use crate::common::{NOISE_KINDS, pose_distance, seeded};
 use motion::geom::se2::SE2;
 use motion::models::OdometryRule;
 use motion::sim::odometry_decomposer::{CurvePoint, OdometryDecomposer, OdometryPose, PRESETS, Settings};
@@ -15,10 +15,10 @@ pub fn of_preset(name: &str) -> Settings {
     Settings { from: preset.from, to: preset.to, ..Settings::default() }
 }
 
-/// Under the table's rule the outcomes are the draws of the crate's model, with the same seed.
+/// By the rule of the table the outcomes are the draws of `OdometryModel` with the same seed.
 #[test]
 fn the_outcomes_are_the_models_samples() {
-    for noise in KINDS {
+    for noise in NOISE_KINDS {
         let settings =
             Settings { from: OdometryPose([0.5, -1.0, 2.0]), noise, samples: 1001, ..Settings::default() };
         let machine = machine(settings);
@@ -33,9 +33,9 @@ fn the_outcomes_are_the_models_samples() {
     }
 }
 
-/// A slider moves the same outcomes. With only α₃, the lengths of the drives differ by constant random numbers times √α₃.
+/// With only α₃, the lengths of the drives differ by constant random numbers times √α₃.
 #[test]
-fn common_random_numbers() {
+fn changed_settings_move_the_same_outcomes() {
     let alone = |a3: f64| Settings { alphas: [0.0, 0.0, a3, 0.0, 0.0], ..of_preset("drive-turn") };
     let mut machine = machine(alone(0.01));
     let excess = |machine: &OdometryDecomposer| -> Vec<f64> {
@@ -85,7 +85,7 @@ fn the_linkage_is_the_reading() {
     }
 }
 
-/// Only the relative motion enters: the frame of the odometry goes its way, and nothing that is predicted moves.
+/// The prediction depends only on the relative motion. A drift of the odometry's frame does not change it.
 #[test]
 fn the_prediction_does_not_see_the_drift() {
     let near = |drift| machine(Settings { drift, ..Settings::default() });
@@ -94,7 +94,7 @@ fn the_prediction_does_not_see_the_drift() {
     assert_eq!(at_once.rules(), late.rules());
     let [fresh, drifted] = [&at_once, &late].map(OdometryDecomposer::drifted);
     assert_eq!(fresh.frame, SE2::identity());
-    // The odometry's own poses are metres away by now, and the legs are the same.
+    // The poses in the frame of the odometry are metres away, and the legs are the same.
     assert!((drifted.to.x() - fresh.to.x()).hypot(drifted.to.y() - fresh.to.y()) > 2.0);
     let apart = [
         drifted.legs.rot1 - fresh.legs.rot1,

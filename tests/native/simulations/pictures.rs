@@ -7,8 +7,8 @@ use motion::sim::picture::{RAMP, Ramp};
 use motion::sim::squeeze::{self, KINDS, MapSqueeze, PRESETS};
 use motion::sim::views::Grid;
 
-/// Over the middle of the apartment or a part of a cloud, so that some are outside on every side. As wide as cells are
-/// skipped together, in one more, and where four are more than there are.
+/// Returns grids over the middle of a cloud, so that samples are outside on every side. Sixteen empty cells are skipped at once: the widths
+/// are 16, one more, and others.
 fn grids(min: [f64; 2], max: [f64; 2]) -> [Grid; 4] {
     [(16, 9), (17, 1), (53, 40), (3, 2)].map(|(columns, rows)| Grid { min, max, columns, rows })
 }
@@ -27,7 +27,7 @@ fn cell(grid: &Grid, [x, y]: [f64; 2]) -> Option<usize> {
     inside.then(|| row as usize * columns + column as usize)
 }
 
-/// 255·√(count/most), rounded.
+/// Returns the step of the ramp for a count: 255·√(count/most), rounded.
 fn step(count: u32, most: u32) -> u8 {
     ((RAMP - 1) as f64 * (f64::from(count) / f64::from(most)).sqrt()).round() as u8
 }
@@ -46,7 +46,7 @@ fn a_cloud_is_painted_as_it_is_dense() {
         points.iter().filter_map(|point| cell(&grid, *point)).for_each(|cell| counts[cell] += 1);
         let most = *counts.iter().max().expect("there are cells");
         assert!((1..3000).contains(&counts.iter().sum::<u32>()), "some are outside");
-        // Once more: nothing of an image is left for the next.
+        // Painted twice, because nothing of an image may remain in the next one.
         for time in ["first", "second"] {
             let pixels = machine.paint(view, &grid, &ramp(3));
             assert_eq!(pixels.len(), counts.len());

@@ -1,7 +1,7 @@
 //! The machine of Map Squeeze: common random numbers, draw budget, tally and its interval.
 
 use crate::common::seeded;
-use crate::map::conditioned::{AHEAD, SAMPLERS, cell};
+use crate::map::conditioned::{AHEAD, SAMPLERS, too_small_room};
 use motion::geom::se2::SE2;
 use motion::map::{FloorPlan, MAX_DRAWS, MapConditioned, Sampler};
 use motion::sim::settings::Rules;
@@ -16,7 +16,8 @@ fn poses(machine: &MapSqueeze) -> Vec<SE2> {
     machine.attempts().iter().map(|attempt| attempt.pose).collect()
 }
 
-fn picture(machine: &MapSqueeze) -> String {
+/// Returns all results of a machine as text.
+fn results(machine: &MapSqueeze) -> String {
     let (settings, tally) = (machine.settings(), machine.tally());
     format!(
         "{settings:?} {:?} {tally:?} {} {:?}",
@@ -26,12 +27,12 @@ fn picture(machine: &MapSqueeze) -> String {
     )
 }
 
-/// Conditioning, and judging by the whole arc, change verdicts and no draw; so does another map.
+/// The sampler, conditioning and the map change verdicts and no draw.
 #[test]
-fn common_random_numbers() {
+fn changed_settings_move_no_sample() {
     let endpoint = Settings { samples: 3000, ..Settings::default() };
     let mut machine = machine(endpoint);
-    let (before, cloud) = (picture(&machine), poses(&machine));
+    let (before, cloud) = (results(&machine), poses(&machine));
     let verdicts = |machine: &MapSqueeze| -> Vec<[bool; 2]> {
         machine.attempts().iter().map(|Attempt { end_free, path_free, .. }| [*end_free, *path_free]).collect()
     };
@@ -50,31 +51,31 @@ fn common_random_numbers() {
         assert_eq!(machine.tally().accepted, 3000, "nobody is refused");
         assert_eq!((machine.tally().draws, machine.tally().wall_tests), (3000, 0));
     }
-    machine.set_plan(cell());
+    machine.set_plan(too_small_room());
     assert_eq!(poses(&machine), cloud);
     assert_eq!(machine.tally().through_wall, 3000);
     machine.set_plan(FloorPlan::apartment());
     machine.configure(endpoint).expect("valid");
-    assert_eq!(picture(&machine), before, "and back again to the bit");
+    assert_eq!(results(&machine), before, "and back again to the bit");
     machine.configure(Settings { seed: 8, ..endpoint }).expect("valid");
     assert!(poses(&machine).iter().zip(&cloud).all(|(a, b)| a != b), "a new seed is new luck");
 }
 
-/// A rejected part is drawn again, which moves what comes after it. Where nothing is rejected, conditioning moves nothing.
+/// A rejected part is drawn again, which moves the following parts. Conditioning moves no sample unless a part is rejected.
 #[test]
-fn common_random_numbers_of_parts() {
+fn only_rejected_parts_move_samples() {
     let stepped = Settings { sampler: Sampler::SubStepped(4), samples: 500, ..Settings::default() };
     let mut machine = machine(stepped);
     machine.set_plan(FloorPlan::new(Vec::new(), [-50.0, -50.0, 50.0, 50.0]).expect("an open field"));
-    let on = poses(&machine);
+    let open_field = poses(&machine);
     machine.configure(Settings { conditioned: false, ..stepped }).expect("valid");
-    assert!(poses(&machine) == on);
+    assert!(poses(&machine) == open_field);
     machine.set_plan(FloorPlan::apartment());
-    assert!(poses(&machine) == on, "unconditioned, no wall is looked at");
+    assert!(poses(&machine) == open_field, "without conditioning walls have no effect");
     let tally = machine.tally();
     assert_eq!((tally.accepted, tally.draws, tally.wall_tests), (500, 2000, 0));
     machine.configure(stepped).expect("valid");
-    let apart = poses(&machine).iter().zip(&on).filter(|(a, b)| a != b).count();
+    let apart = poses(&machine).iter().zip(&open_field).filter(|(a, b)| a != b).count();
     let rejected = machine.tally().draws - 2000;
     assert!(apart > 0 && apart <= rejected, "{apart} moved by {rejected} rejections");
 }
@@ -118,7 +119,7 @@ fn the_commanded_path_and_the_room_at_its_start() {
         machine.configure(Settings { clearance, ..Settings::default() }).expect("valid");
         assert_eq!(machine.start_free(), free, "{clearance}");
     }
-    machine.set_plan(cell());
+    machine.set_plan(too_small_room());
     assert!(!machine.start_free());
 }
 
@@ -138,7 +139,7 @@ fn the_machine_stops_after_a_bounded_number_of_draws() {
     let wedged = Settings { start: [2.1, 2.1, 0.0], sampler: Sampler::SubStepped(4), ..Settings::default() };
     let mut machine = machine(wedged);
     assert!(!machine.gave_up());
-    machine.set_plan(cell());
+    machine.set_plan(too_small_room());
     assert!(machine.gave_up());
     let tally = *machine.tally();
     assert_eq!((tally.accepted, tally.through_wall), (0, 0));
@@ -171,7 +172,7 @@ fn a_trial_reports_its_cost_and_changes_nothing() {
     let model = VelocityModel { alphas: VelocityAlphas(settings.alphas), noise: NoiseKind::Normal };
     let [x, y, theta] = settings.start;
     let start = SE2::new(x, y, theta);
-    let before = picture(&machine);
+    let before = results(&machine);
     for sampler in SAMPLERS {
         let cost = machine.trial(sampler, 500).expect("it fits");
         let plan = FloorPlan::apartment();
@@ -184,7 +185,7 @@ fn a_trial_reports_its_cost_and_changes_nothing() {
         }
         assert_eq!((cost.draws, cost.wall_tests), expected);
     }
-    assert_eq!(picture(&machine), before);
+    assert_eq!(results(&machine), before);
 }
 
 // ------------------------------------------------------------------------------------------------ Wilson's interval

@@ -1,23 +1,23 @@
 //! Coverage of the reported errors and intervals over thousands of seeds.
 
 use crate::common::text::Text;
-use crate::common::{SIGMAS, preset};
+use crate::common::{MAX_STANDARD_ERRORS, preset};
 use motion::geom::se2::SE2;
 use motion::map::{FloorPlan, MapConditioned, Sampler};
 use motion::sim::banana::{BananaMachine, ModelKind, Settings};
 use motion::sim::squeeze::{self, MapSqueeze, PRESETS};
 use motion::{NoiseKind, VelocityAlphas, VelocityModel};
 
-/// Seeds of each case: a count of 10 000 scatters by √(0.95 · 0.05 / 10 000) = 0.2 % around 95 %, and 4.5 times that is 1 %.
+/// Number of seeds of each case. A share of 95 % then has a standard error of 0.2 %, and 4.5 times that is 1 %.
 const REPETITIONS: u64 = 10_000;
 
-/// Seeds of clouds as large as the widget opens with, ten times as large: 1.8 %.
+/// Number of seeds of clouds that are ten times as large. 4.5 standard errors of a share are 1.8 % then.
 const LARGE_REPETITIONS: u64 = 3000;
 
-/// Robots a cloud, a tenth of what the widget opens with. Of fewer, the skew understates itself and its error.
+/// Number of robots of a cloud, a tenth of that with which the widget opens. The skew of smaller clouds, and its error, are biased.
 const ROBOTS: usize = 5000;
 
-/// The shares of the repetitions that held the exact value, for any number of intervals at once.
+/// Returns the share of repetitions in which an interval holds the exact value, for each of several intervals.
 fn shares<const N: usize>(repetitions: u64, mut held: impl FnMut(u64) -> [bool; N]) -> [f64; N] {
     let mut counts = [0; N];
     for seed in 0..repetitions {
@@ -29,11 +29,11 @@ fn shares<const N: usize>(repetitions: u64, mut held: impl FnMut(u64) -> [bool; 
 }
 
 fn assert_covered(what: &str, share: f64, repetitions: u64) {
-    let allowed = SIGMAS * (0.95 * 0.05 / repetitions as f64).sqrt();
+    let allowed = MAX_STANDARD_ERRORS * (0.95 * 0.05 / repetitions as f64).sqrt();
     assert!((share - 0.95).abs() <= allowed, "{what}: {:.2} % hold the exact value", 100.0 * share);
 }
 
-/// Shares of runs in which the skew and the gains of poses and on the floor are within 1.96 of their standard errors.
+/// Returns the shares of clouds in which the skew and the gains of poses and on the floor are within 1.96 standard errors.
 fn shares_within_errors(settings: Settings, repetitions: u64) -> [f64; 3] {
     let mut machine = BananaMachine::new(settings).expect("valid settings");
     let (skew, gain) = (machine.exact().cross_track_skew, machine.exact_gain().value);
@@ -91,8 +91,8 @@ fn small_clouds_hold_the_exact_skew_as_often_as_printed() {
     }
 }
 
-/// Share of motions whose path is blocked among those whose end is free, under these settings: a sum over the noises of speed and
-/// turn rate, as the turn after the arc moves nothing.
+/// Returns the share of motions whose path is blocked among those whose end is free. It is a sum over the noises of speed and turn rate,
+/// because the turn after the arc moves nothing.
 fn share_through_walls(settings: &squeeze::Settings) -> f64 {
     const NODES: usize = 600;
     const REACH: f64 = 6.0;

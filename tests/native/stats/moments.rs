@@ -1,6 +1,6 @@
 //! Moments, skews and contours of clouds, and exact moments of models.
 
-use crate::common::{SIGMAS, Table, mean, seeded, uniform, variance};
+use crate::common::{MAX_STANDARD_ERRORS, Table, mean, seeded, uniform, variance};
 use motion::geom::se2::{SE2, wrap_angle};
 use motion::sim::banana::{BananaMachine, Settings};
 use motion::stats::{
@@ -96,9 +96,9 @@ fn the_exponential_contour_covers_two_deviations() {
     let error = (TWO_SIGMA_SHARE * (1.0 - TWO_SIGMA_SHARE) / 200_000.0).sqrt();
     let exact =
         ExponentialMoments { mean: TangentNoiseModel::twist(&U), cov: model.tangent_cov(&U).unwrap() };
-    assert!((share(&exact) - TWO_SIGMA_SHARE).abs() < SIGMAS * error, "{}", share(&exact));
+    assert!((share(&exact) - TWO_SIGMA_SHARE).abs() < MAX_STANDARD_ERRORS * error, "{}", share(&exact));
     let fitted = share(&ExponentialMoments::from_poses(&poses, &start));
-    assert!((fitted - TWO_SIGMA_SHARE).abs() < SIGMAS * error, "{fitted}");
+    assert!((fitted - TWO_SIGMA_SHARE).abs() < MAX_STANDARD_ERRORS * error, "{fitted}");
 
     let contour = ExponentialContour::new(&exact, &start);
     let outline = contour.boundary(48);

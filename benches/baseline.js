@@ -14,10 +14,7 @@
 const SUMS = ['x', 'y', 'l', 'm', 't', 's', 'c', 'xx', 'xy', 'yy', 'xt', 'yt', 'tt', 'll', 'lm', 'mm', 'lt', 'mt'];
 
 export class Baseline {
-  /**
-   * @param {number[]} alphas
-   * @param {Float64Array} unitNoise standard normal noise of v̂, ω̂ and γ̂, three numbers a sample
-   */
+  /** @param {number[]} alphas @param {Float64Array} unitNoise three standard normal numbers for each sample */
   constructor(alphas, unitNoise) {
     this.alphas = alphas;
     this.samples = unitNoise.length / 3;
@@ -83,12 +80,7 @@ export class Baseline {
     };
   }
 
-  /**
-   * Colours the counts by a table of all counts up to the largest.
-   *
-   * @param {Uint8Array} ramp
-   * @param {number} most
-   */
+  /** Colours the counts by a table of all counts up to the largest. @param {Uint8Array} ramp @param {number} most */
   #paint(ramp, most) {
     const { counts, pixels } = this;
     const colours = new Uint32Array(ramp.buffer, ramp.byteOffset, 256);

@@ -47,11 +47,7 @@ export async function timeDrags(browser, address, steps) {
   return drags;
 }
 
-/**
- * Runs in the page.
- *
- * @param {{ widget: string, selector: string, i: number, steps: number }} wanted
- */
+/** Runs in the page. @param {{ widget: string, selector: string, i: number, steps: number }} wanted */
 async function drag({ widget, selector, i, steps }) {
   const MAX_FRAMES = 30;
   const figure = /** @type {any} */ (document.querySelector(widget));

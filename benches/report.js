@@ -22,10 +22,7 @@ import { THROTTLE } from './drag.js';
 /** Duration of a frame at 60 Hz, ms. */
 const FRAME = 16.7;
 
-/**
- * @param {Results} results
- * @returns {string}
- */
+/** Returns the report as text. @param {Results} results */
 export function report({ ranOn, quick, node, chromium, start, drags }) {
   const slowest = drags.reduce((most, drag) => (median(drag.picture) > median(most.picture) ? drag : most));
   const both = (/** @type {(measured: Measured) => number[]} */ of) => ({ Node: of(node), Chromium: of(chromium) });

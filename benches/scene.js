@@ -23,12 +23,7 @@ export const RAMP = Uint8Array.from({ length: 1024 }, (_, i) => {
   return Math.round(i % 4 === 3 ? 255 * (0.15 + 0.85 * shade) : from[i % 4] + ink * (to[i % 4] - from[i % 4]));
 });
 
-/**
- * Command at an event. The slider goes up and down and never stays.
- *
- * @param {number} event
- * @returns {Command}
- */
+/** Command at an event. The slider goes up and down and never stays. @param {number} event @returns {Command} */
 export function command(event) {
   return { v: 1, omega: 0.5 + 0.001 * Math.abs(50 - (event % 100)), dt: 1 };
 }

@@ -20,11 +20,7 @@ export const testRunner = once(async () => {
   return built('test-runner', ['--features', 'test-runner']);
 });
 
-/**
- * @param {string} name
- * @param {string[]} features
- * @returns {Promise<string>} the full path of a program
- */
+/** Compiles a program once, and returns its path. @param {string} name @param {string[]} features */
 async function built(name, features) {
   const version = requireOneVersion();
   const sources = createHash('sha256');

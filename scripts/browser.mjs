@@ -58,10 +58,7 @@ async function ensureChrome() {
   return installed;
 }
 
-/**
- * @param {string[]} [names] of programs, the preferred one first
- * @returns {string | undefined}
- */
+/** Returns the first Chrome that is found. @param {string[]} [names] of programs, the preferred one first */
 export function findChrome(names = CHROME_NAMES) {
   return (
     names.map((name) => findProgram(name)).find((path) => path !== undefined) ??
@@ -110,11 +107,7 @@ async function chromeForTesting() {
   return usablePair(chrome, driver);
 }
 
-/**
- * @param {string} directory
- * @param {string} what
- * @returns {Promise<string | undefined>} the program's path
- */
+/** Downloads a program, and returns its path. @param {string} directory @param {string} what @returns {Promise<string | undefined>} */
 async function download(directory, what) {
   const tool = ['exec', '--yes', '--', '@puppeteer/browsers@2.13.2', 'install', what];
   const { ok, stdout } = await run('npm', [...tool, '--path', directory, '--format', '{{path}}'], { seconds: 900 });

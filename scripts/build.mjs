@@ -51,11 +51,7 @@ export async function build({ local = false } = {}) {
   await whenStale('build/example-log.sha256', digest(['scripts/example-log.mjs'], core), Object.values(EXAMPLE_LOGS), writeExampleLog);
 }
 
-/**
- * @param {string[]} paths files and directories
- * @param {string} [seed]
- * @returns {string} a digest of their names and contents
- */
+/** Returns a hash of names and contents. @param {string[]} paths of files and directories @param {string} [seed] */
 function digest(paths, seed = '') {
   const hash = createHash('sha256').update(seed);
   for (const path of paths.flatMap(filesOf)) hash.update(`\0${path}\0`).update(readFileSync(at(path)));
@@ -76,11 +72,7 @@ async function whenStale(stamp, sources, products, work) {
   writeFileSync(at(stamp), sources);
 }
 
-/**
- * @param {string} stamp
- * @param {string} sources
- * @param {string[]} products
- */
+/** Returns true if products were built from these sources. @param {string} stamp @param {string} sources @param {string[]} products */
 function isCurrent(stamp, sources, products) {
   return [stamp, ...products].every((path) => existsSync(at(path))) && readFileSync(at(stamp), 'utf8') === sources;
 }
@@ -134,10 +126,7 @@ async function compileCore(rust, name, local) {
   return join(metadata.target_directory, `wasm32-unknown-unknown/${profile}/motion.wasm`);
 }
 
-/**
- * @param {string} name of a core that is bound
- * @param {boolean} local
- */
+/** Writes the module and the glue of a bound core. @param {string} name @param {boolean} local */
 async function finish(name, local) {
   copyFileSync(at(`build/bound/${name}/motion_bg.wasm`), at(`build/${name}.wasm`));
   if (!local) await shrink(`build/${name}.wasm`);
@@ -178,11 +167,7 @@ async function silencePanics(path) {
 /** After the usual passes, merges variables with equal values once more. */
 const PASSES = ['-O3', '--converge', '--rse', '--vacuum', '--coalesce-locals', '--reorder-locals'];
 
-/**
- * @param {string} path of a module, which is changed
- * @param {string[]} passes
- * @returns {Promise<string>} what is printed
- */
+/** Optimizes a module in place, and returns what the optimizer prints. @param {string} path @param {string[]} passes */
 async function optimize(path, passes = PASSES) {
   // Features that rustc enables for this target by default, and SIMD from .cargo/config.toml.
   const features = ['bulk-memory', 'multivalue', 'mutable-globals', 'nontrapping-float-to-int', 'reference-types', 'sign-ext', 'simd'];

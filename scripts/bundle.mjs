@@ -115,11 +115,7 @@ const MODULE = {
   },
 };
 
-/**
- * Returns the module that a widget needs, without the machines of others.
- *
- * @param {string} tag
- */
+/** Returns the module that a widget needs, without the machines of others. @param {string} tag */
 const moduleOf = (tag) => named(tag, '.wasm', readFileSync(at(`build/${tag}.wasm`)));
 
 /**
@@ -315,10 +311,7 @@ function inAscii(script) {
   return script.replaceAll(/[^\0-\x7f]/g, (unit) => `\\u${unit.charCodeAt(0).toString(16).padStart(4, '0')}`);
 }
 
-/**
- * @param {string} path of a file or directory, from the root
- * @returns {string[]} the files there, sorted
- */
+/** Returns the files in a directory, sorted, or a file. @param {string} path from the root */
 export function filesOf(path) {
   if (statSync(at(path)).isFile()) return [path];
   return readdirSync(at(path), { withFileTypes: true, recursive: true })
@@ -383,12 +376,7 @@ const REPLACED = {
   ],
 };
 
-/**
- * Replaces some passages of a library.
- *
- * @param {string} library
- * @param {keyof typeof REPLACED} name of its file
- */
+/** Replaces some passages of a library. @param {string} library @param {keyof typeof REPLACED} name of its file */
 function withReplaced(library, name) {
   return REPLACED[name].reduce((text, [is, instead]) => {
     if (text.split(is).length !== 2) throw new Error(`${name} does not have ${is} once, as scripts/bundle.mjs takes it to have.`);
@@ -405,11 +393,7 @@ function besideEachOther(types) {
   return types.replaceAll(/'\.\.\/build\/(\w+)\.d\.ts'/g, "'./$1.js'").replaceAll("'../www/types.d.ts'", "'./core.js'");
 }
 
-/**
- * Removes the text of the inlined module from a source map: a quarter of a million characters.
- *
- * @param {string} text
- */
+/** Removes the text of the inlined module from a source map: a quarter of a million characters. @param {string} text */
 function withoutModule(text) {
   const map = JSON.parse(text);
   const keep = (/** @type {string} */ content, /** @type {number} */ i) => (map.sources[i].endsWith(BYTES) ? '' : content);

@@ -101,10 +101,7 @@ export function widgets() {
   return Promise.all(Object.keys(settings).map(widget));
 }
 
-/**
- * @param {string} tag
- * @returns {Promise<Widget>}
- */
+/** Returns the declarations of a widget. @param {string} tag @returns {Promise<Widget>} */
 async function widget(tag) {
   // They import libraries, which a bare clone does not have yet.
   const { COMMON, NUMBER, WORD_LIST } = await importTypeScript('www/figure/attributes.ts');
@@ -161,11 +158,7 @@ function plain(declaration) {
   return { name: declaration.key, type: typeOf(declaration), description: describe(declaration) };
 }
 
-/**
- * Returns the preset that the widget opens with, if there is one.
- *
- * @param {string} tag
- */
+/** Returns the preset that the widget opens with, if there is one. @param {string} tag */
 function openingPreset(tag) {
   const opening = Object.fromEntries(settings[tag].map(({ key, in: group, field, default: value }) => [field ? `${group}.${field}` : key, value]));
   /** @returns {boolean} */
@@ -176,10 +169,7 @@ function openingPreset(tag) {
   return presetsOf(tag).find((preset) => same(preset))?.name;
 }
 
-/**
- * @param {string} tag
- * @returns {(Record<string, unknown> & { name: string })[]}
- */
+/** Returns the presets of a widget. @param {string} tag @returns {(Record<string, unknown> & { name: string })[]} */
 function presetsOf(tag) {
   return /** @type {Record<string, any[]>} */ (presets)[tag] ?? [];
 }

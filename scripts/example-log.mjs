@@ -126,11 +126,7 @@ function truePoses(motion, read, seed) {
   return truth;
 }
 
-/**
- * @param {Motion} motion
- * @param {number} [seed]
- * @returns {{ odometry: string, reference: string }} CSV
- */
+/** Returns the tables of the example log, as CSV. @param {Motion} motion @param {number} [seed] */
 export function exampleLog(motion, seed = SEED) {
   const read = driven(motion);
   const truth = truePoses(motion, read, seed);

@@ -39,10 +39,7 @@ export function packagesOf(outputs) {
   });
 }
 
-/**
- * @param {Package[]} packages
- * @returns {string} each text once, below those who have it
- */
+/** Returns each licence text once, below the packages that have it. @param {Package[]} packages */
 export function licences(packages) {
   /** @type {Map<string, string[]>} */
   const holders = new Map();

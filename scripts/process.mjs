@@ -14,10 +14,7 @@ export class Missing extends Error {}
 /** @type {AsyncLocalStorage<string[]>} */
 const collected = new AsyncLocalStorage();
 
-/**
- * @param {string} text
- * @param {NodeJS.WriteStream} [stream]
- */
+/** Prints text, or adds it to the collected output. @param {string} text @param {NodeJS.WriteStream} [stream] */
 function print(text, stream = process.stdout) {
   const lines = collected.getStore();
   if (lines === undefined) stream.write(text);
@@ -57,9 +54,7 @@ export function once(work) {
   return () => (result ??= work());
 }
 
-/**
- * @returns {<T>(work: () => Promise<T>) => Promise<T>} a function that runs given tasks one after the other
- */
+/** Returns a function that runs tasks one after the other. @returns {<T>(work: () => Promise<T>) => Promise<T>} */
 export function queue() {
   /** @type {Promise<unknown>} */
   let last = Promise.resolve();

@@ -61,12 +61,7 @@ export async function elements() {
   return `${lines.join('\n')}\n`;
 }
 
-/**
- * Returns the call that creates a trait.
- *
- * @param {Named & { allowed?: string }} named
- * @param {string} tag
- */
+/** Returns the call that creates a trait. @param {Named & { allowed?: string }} named @param {string} tag */
 function traitOf({ name, type, allowed }, tag) {
   const declaration = settings[tag].find(({ key }) => key === name);
   if (declaration) return settingOf(declaration, tag);
@@ -78,11 +73,7 @@ function traitOf({ name, type, allowed }, tag) {
   return kind ?? OPTIONAL.Dict;
 }
 
-/**
- * @param {Declaration} declaration
- * @param {string} tag
- * @returns {string}
- */
+/** Returns the type of a setting, as Python source. @param {Declaration} declaration @param {string} tag @returns {string} */
 function settingOf({ key, type, words = [], fields = [], min, max }, tag) {
   const range = `${min}, ${max}`;
   switch (type) {

@@ -77,10 +77,7 @@ const [apt, rustup] = [queue(), queue()];
  */
 export const aptInstall = (packages, sentence) => apt(() => aptInstallNow(packages, sentence));
 
-/**
- * @param {string[]} packages
- * @param {string} sentence
- */
+/** Installs Debian packages. @param {string[]} packages @param {string} sentence of the error */
 async function aptInstallNow(packages, sentence) {
   if (findProgram('apt-get') === undefined) throw new Missing(sentence);
   const asRoot = process.getuid?.() === 0 ? [] : ['sudo', '-n'];
@@ -243,11 +240,7 @@ async function requireVersion(bin, env, remedy) {
   return stdout.split(' ').slice(0, 2).join(' ');
 }
 
-/**
- * Ensures that rustfmt and clippy are installed for a cargo.
- *
- * @param {Rust} rust
- */
+/** Ensures that rustfmt and clippy are installed for a cargo. @param {Rust} rust */
 export async function ensureLints({ bin, env }) {
   const present = async () => {
     const versions = ['cargo-fmt', 'cargo-clippy'].map((name) => run(join(bin, name), ['--version'], { env, quiet: true }));
@@ -265,11 +258,7 @@ export async function ensureLints({ bin, env }) {
   if (!(await present())) throw new Missing(sentence);
 }
 
-/**
- * @param {string} file
- * @param {RegExp} pattern with one group
- * @returns {string}
- */
+/** Returns the part of a file that the group of a pattern matches. @param {string} file @param {RegExp} pattern */
 export function manifestValue(file, pattern) {
   const found = readFileSync(join(ROOT, file), 'utf8').match(pattern);
   if (found === null) throw new Error(`${file} has nothing like ${pattern}`);

@@ -145,11 +145,7 @@ ${names.join('')}  }
 `;
 }
 
-/**
- * @param {string} name
- * @param {Named[]} fields
- * @param {string} [base]
- */
+/** Returns an interface of TypeScript. @param {string} name @param {Named[]} fields @param {string} [base] */
 function asInterface(name, fields, base) {
   const lines = fields.map(({ name: key, type, description, readonly, isText }) => {
     const comment = description && `  /** ${description} */\n`;

@@ -30,10 +30,7 @@ export function header({ width, height, opacity = false }) {
   return chunk('IHDR', data);
 }
 
-/**
- * @param {string} type
- * @param {Uint8Array | number[]} data
- */
+/** Returns a chunk of a PNG file. @param {string} type @param {Uint8Array | number[]} data */
 function chunk(type, data) {
   const body = Buffer.concat([Buffer.from(type, 'latin1'), Buffer.from(data)]);
   const framed = Buffer.alloc(body.length + 8);

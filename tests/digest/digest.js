@@ -174,10 +174,7 @@ export const widgets = {
 const VIEWS = /** @type {const} */ (['plane', 'twist']);
 const SAMPLERS = /** @type {const} */ (['endpoint', 'whole-arc', 'sub-stepped']);
 
-/**
- * @param {{ name: string, v: number, omega: number, dt: number }[]} presets
- * @param {string} [wanted]
- */
+/** Returns the command of a preset. @param {{ name: string, v: number, omega: number, dt: number }[]} presets @param {string} [wanted] */
 function commandOf(presets, wanted) {
   const preset = presets.find(({ name }) => name === wanted);
   if (preset === undefined) return {};
@@ -213,10 +210,7 @@ function encode(value, numbers) {
   } else for (const each of Object.values(value)) encode(each, numbers);
 }
 
-/**
- * @param {Encodable} value
- * @returns {Promise<string>} a hash of every bit of it
- */
+/** Returns a hash of every bit of a value. @param {Encodable} value */
 export async function hashOf(value) {
   /** @type {number[]} */
   const numbers = [];
@@ -251,11 +245,7 @@ export async function digest(motion, all, tags = Object.keys(all.widgets)) {
   return lines.sort().join('');
 }
 
-/**
- * @param {string} golden
- * @param {string} computed
- * @returns {string[]} what is not the same, a line for each configuration
- */
+/** Returns a line for each configuration whose digest differs. @param {string} golden @param {string} computed */
 export function differences(golden, computed) {
   const table = (/** @type {string} */ text) =>
     new Map(text.trimEnd().split('\n').map((line) => /** @type {[string, string[]]} */ ([line.split(' ')[0], line.split(' ').slice(1)])));

@@ -3,7 +3,6 @@ import { expect } from '@playwright/test';
 import { caption, openCalibrator, rows, section, stats } from './calibrator-support.js';
 import { STILL, frames, pixelsOf, stateOf, settled, test, unfold } from './support.js';
 
-/** @typedef {import('./calibrator-support.js').AlphaCalibratorElement} AlphaCalibratorElement */
 
 test.use(STILL);
 

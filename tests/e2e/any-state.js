@@ -8,11 +8,7 @@ import { generator } from '../random.js';
 
 export const SEEDS = [1, 2, 3, 4, 5, 6, 7, 8];
 
-/**
- * Returns a random state of each element by its tag, with all fields.
- *
- * @param {number} seed
- */
+/** Returns a random state of each element by its tag, with all fields. @param {number} seed */
 export function anyOf(seed) {
   const random = generator(seed);
   const real = (/** @type {number} */ least, /** @type {number} */ most) => least + (most - least) * random();

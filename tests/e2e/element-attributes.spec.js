@@ -5,8 +5,6 @@ import { ALL, KNOWN, NAMES } from './figures.js';
 import { STILL, assign, frames, heard, mount, property, ready, show, test, testEach, unfold } from './support.js';
 
 /** @typedef {import('./support.js').AnyElement} AnyElement */
-/** @typedef {import('./figures.js').Name} Name */
-/** @typedef {import('@playwright/test').Page} Page */
 
 test.use(STILL);
 

@@ -48,13 +48,7 @@ test('a figure is as wide as it prefers, or as there is room, in every kind of b
   }
 });
 
-/**
- * Returns the boxes of all parts of a figure, in em.
- *
- * @param {Page} page
- * @param {string} name
- * @param {number} em CSS pixels
- */
+/** Returns the boxes of all parts of a figure, in em. @param {Page} page @param {string} name @param {number} em CSS pixels */
 const boxesOf = (page, name, em) =>
   page.locator(name).evaluate(
     (element, size) => {

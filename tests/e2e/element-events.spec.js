@@ -3,7 +3,6 @@ import { KNOWN } from './figures.js';
 import { STILL, assign, boxOf, centreOf, dragSlider, frames, heard, mount, ready, settled, show, stateOf, test, testEach, unfold } from './support.js';
 
 /** @typedef {import('@playwright/test').Locator} Locator */
-/** @typedef {import('@playwright/test').Page} Page */
 /** @typedef {import('./figures.js').Name} Name */
 
 test.use(STILL);

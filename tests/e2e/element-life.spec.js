@@ -4,16 +4,11 @@ import { ALL, CLOUDS, KNOWN, NAMES } from './figures.js';
 import { FRESH, STILL, assign, boxOf, centreOf, frames, heard, mount, pictureOf, property, ready, show, stateOf, test, unfold } from './support.js';
 
 /** @typedef {import('./support.js').AnyElement} AnyElement */
-/** @typedef {import('@playwright/test').Locator} Locator */
 /** @typedef {import('@playwright/test').Page} Page */
 
 test.use(STILL);
 
-/**
- * Counts requested frames and compiled modules from the start of a page.
- *
- * @param {Page} page
- */
+/** Counts requested frames and compiled modules from the start of a page. @param {Page} page */
 async function count(page) {
   await page.addInitScript(() => {
     const counts = { frames: 0, compiled: 0, instances: 0 };
@@ -32,17 +27,10 @@ async function count(page) {
   });
 }
 
-/**
- * @param {Page} page
- * @returns {Promise<{ frames: number, compiled: number, instances: number }>}
- */
+/** Returns the counts. @param {Page} page @returns {Promise<{ frames: number, compiled: number, instances: number }>} */
 const counted = (page) => page.evaluate(() => Reflect.get(window, 'counts'));
 
-/**
- * Waits for six frames that the count leaves out.
- *
- * @param {Page} page
- */
+/** Waits for six frames that the count leaves out. @param {Page} page */
 const pass = (page) =>
   page.evaluate(async () => {
     for (let i = 0; i < 6; i++) await new Promise(Reflect.get(window, 'quietFrame'));

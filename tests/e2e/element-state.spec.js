@@ -3,7 +3,6 @@ import { SEEDS, anyOf } from './any-state.js';
 import { STILL, frames, heard, mount, ready, show, stateOf, test, testEach, unfold } from './support.js';
 
 /** @typedef {import('./support.js').AnyElement} AnyElement */
-/** @typedef {import('./figures.js').Name} Name */
 
 test.use(STILL);
 

@@ -7,12 +7,7 @@ import { STILL, frames, heard, mount, pictureOf, ready, show, stateOf, test } fr
 
 test.use(STILL);
 
-/**
- * Makes the next call into the core trap, and has a slider cause that call.
- *
- * @param {Locator} widget
- * @param {string} slider
- */
+/** Makes the next call into the core trap, and has a slider cause that call. @param {Locator} widget @param {string} slider */
 function trap(widget, slider) {
   return widget.evaluate((element, id) => {
     const { machine, shadowRoot } = /** @type {AnyElement} */ (element);

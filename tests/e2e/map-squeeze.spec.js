@@ -3,7 +3,6 @@ import { openSqueeze, squeezeResults } from './squeeze-support.js';
 import { STILL, centreOf, frames, numberIn, pictureOf, readout, stateOf, test, unfold } from './support.js';
 
 /**
- * @typedef {import('./squeeze-support.js').MapSqueezeElement} MapSqueezeElement
  * @typedef {import('@playwright/test').Locator} Locator
  */
 

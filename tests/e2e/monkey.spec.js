@@ -50,13 +50,7 @@ function luckOf(seed) {
   return { below, one: (of) => of[below(of.length)] };
 }
 
-/**
- * Brings a part of a widget to where the pointer can reach it.
- *
- * @param {Page} page
- * @param {Luck} luck
- * @param {string} selector
- */
+/** Brings a part of a widget to where the pointer can reach it. @param {Page} page @param {Luck} luck @param {string} selector */
 async function partAt(page, luck, selector) {
   const [name, choice, x, y] = [luck.one(ALL), luck.below(1e6), luck.below(99) + 1, luck.below(99) + 1];
   const place = await page.evaluate(

@@ -2,10 +2,6 @@ import { expect } from '@playwright/test';
 import { ALL, figureFor } from './figures.js';
 import { FRESH, STILL, boxOf, frames, mount, ready, show, test, testEach } from './support.js';
 
-/**
- * @typedef {import('@playwright/test').Page} Page
- * @typedef {import('./figures.js').Name} Name
- */
 
 test.use(STILL);
 

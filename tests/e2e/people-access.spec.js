@@ -5,7 +5,6 @@ import { STILL, boxOf, centreOf, frames, mount, open, pictureOf, pixelsOf, ready
 
 /**
  * @import { Locator, Page } from '@playwright/test'
- * @import { Name } from './figures.js'
  */
 
 test.use(STILL);

@@ -6,12 +6,7 @@ import { STILL, frames, ready, test } from './support.js';
 // The chapter's exercises 4, 5 and 7 on the page, from the keyboard alone: predicted first, then revealed.
 test.use(STILL);
 
-/**
- * Opens the page at the section of a figure.
- *
- * @param {Page} page
- * @param {string} section
- */
+/** Opens the page at the section of a figure. @param {Page} page @param {string} section */
 async function openAt(page, section) {
   await page.goto(`/#${section}`);
   const article = page.locator(`#${section}`);
@@ -19,11 +14,7 @@ async function openAt(page, section) {
   return article;
 }
 
-/**
- * Returns the text that a form reveals.
- *
- * @param {Locator} form
- */
+/** Returns the text that a form reveals. @param {Locator} form */
 async function revealed(form) {
   await form.getByRole('button').press('Enter');
   await expect(form.getByRole('status')).not.toHaveText('');

@@ -19,22 +19,14 @@ async function catalogueOf(lang) {
   return { ...(await import(`../../www/messages/${lang}.js`))[lang], ...Object.fromEntries(await Promise.all(own)) };
 }
 
-/**
- * @param {any} catalogue
- * @param {string} [path]
- * @returns {[string, string | Function][]} path and message of each
- */
+/** Returns path and message of each entry. @param {any} catalogue @param {string} [path] @returns {[string, string | Function][]} */
 function messagesOf(catalogue, path = '') {
   return Object.entries(catalogue).flatMap(([key, message]) =>
     typeof message === 'object' ? messagesOf(message, `${path}.${key}`) : [[`${path}.${key}`, message]],
   );
 }
 
-/**
- * Returns all texts of a figure that a reader sees or hears.
- *
- * @param {import('@playwright/test').Locator} widget
- */
+/** Returns all texts of a figure that a reader sees or hears. @param {import('@playwright/test').Locator} widget */
 function said(widget) {
   return widget.evaluate((element) => {
     const root = /** @type {ShadowRoot} */ (element.shadowRoot);

@@ -17,12 +17,7 @@ import { frames, ready, show } from './support.js';
  * @typedef {(column: number, row: number) => boolean} CellTest of a column and a row, from the top left
  */
 
-/**
- * Opens a page with a Map Squeeze.
- *
- * @param {Page} page
- * @param {string} [attributes]
- */
+/** Opens a page with a Map Squeeze. @param {Page} page @param {string} [attributes] */
 export async function openSqueeze(page, attributes = '') {
   await show(page, `<main><h1>Bare</h1><map-squeeze heading-level="2" ${attributes}></map-squeeze></main>`);
   const widget = page.locator('map-squeeze');

@@ -115,11 +115,7 @@ export async function show(page, body, { head = '', fragment = '', script = '<sc
   await page.goto(`/bare.html${fragment}`);
 }
 
-/**
- * Waits until an element has its machine, and a picture where it is in sight.
- *
- * @param {Locator} widget
- */
+/** Waits until an element has its machine, and a picture where it is in sight. @param {Locator} widget */
 export async function ready(widget) {
   await widget.evaluate(async (element) => {
     while (Reflect.get(element, 'machine') === undefined) await new Promise(requestAnimationFrame);
@@ -155,10 +151,7 @@ export async function heard(page, names = ['load', 'input', 'change', 'error']) 
   return all.filter(({ name }) => names.includes(name));
 }
 
-/**
- * @param {Locator} widget
- * @param {string} name
- */
+/** Returns a property of a figure. @param {Locator} widget @param {string} name */
 export function property(widget, name) {
   return widget.evaluate((element, key) => Reflect.get(element, key), name);
 }
@@ -223,12 +216,7 @@ export function stateOf(widget) {
   return widget.evaluate((element) => /** @type {AnyElement} */ (element).getState());
 }
 
-/**
- * Opens a page with a Banana Machine.
- *
- * @param {Page} page
- * @param {string} [attributes]
- */
+/** Opens a page with a Banana Machine. @param {Page} page @param {string} [attributes] */
 export async function open(page, attributes = '') {
   return mount(page, 'banana-machine', { attributes });
 }
@@ -252,11 +240,7 @@ export async function pauseEarly(page, name) {
   }, name);
 }
 
-/**
- * Opens every fold of a widget.
- *
- * @param {Locator} widget
- */
+/** Opens every fold of a widget. @param {Locator} widget */
 export async function unfold(widget) {
   await widget.evaluate(({ shadowRoot }) => {
     for (const fold of shadowRoot?.querySelectorAll('details') ?? []) fold.open ||= fold.matches('[part=fold]');
@@ -264,11 +248,7 @@ export async function unfold(widget) {
   await unfolded(widget);
 }
 
-/**
- * Waits for the contents of open disclosures, which are rendered after the browser's `toggle` event.
- *
- * @param {Locator} widget
- */
+/** Waits for the contents of open disclosures, which are rendered after the browser's `toggle` event. @param {Locator} widget */
 export async function unfolded(widget) {
   await widget.evaluate(async ({ shadowRoot }) => {
     while (shadowRoot?.querySelector('details[open] > .folded:empty')) await new Promise(requestAnimationFrame);
@@ -276,32 +256,19 @@ export async function unfolded(widget) {
   await frames(widget.page());
 }
 
-/**
- * The field of a slider's value.
- *
- * @param {Locator} widget
- * @param {string} key of the setting
- */
+/** The field of a slider's value. @param {Locator} widget @param {string} key of the setting */
 export function valueField(widget, key) {
   return widget.locator(`.slider:has(#${key}) .typed`);
 }
 
-/**
- * Waits until all requested frames have been drawn.
- *
- * @param {Page} page
- */
+/** Waits until all requested frames have been drawn. @param {Page} page */
 export async function frames(page) {
   await page.evaluate(async () => {
     for (let i = 0; i < 3; i++) await new Promise(requestAnimationFrame);
   });
 }
 
-/**
- * Returns the readings of a machine after the next frames, other than its poses, which are many.
- *
- * @param {Locator} widget
- */
+/** Returns the readings of a machine after the next frames, other than its poses, which are many. @param {Locator} widget */
 export async function state(widget) {
   await frames(widget.page());
   return widget.evaluate((element) => {
@@ -358,10 +325,7 @@ export async function centreOf(locator) {
   return { x: x + width / 2, y: y + height / 2 };
 }
 
-/**
- * @param {Locator} canvas
- * @returns {Promise<string>} its pixels
- */
+/** Returns the pixels of a canvas as text. @param {Locator} canvas @returns {Promise<string>} */
 export async function pictureOf(canvas) {
   await frames(canvas.page());
   return canvas.evaluate((element) => /** @type {HTMLCanvasElement} */ (element).toDataURL());
@@ -402,22 +366,12 @@ export async function pixelsOf(canvas, role) {
   }, role);
 }
 
-/**
- * Returns the number of a readout, without the text next to it.
- *
- * @param {Locator} widget
- * @param {string | RegExp} name
- */
+/** Returns the number of a readout, without the text next to it. @param {Locator} widget @param {string | RegExp} name */
 export function readout(widget, name) {
   return widget.locator('.readouts div').filter({ hasText: name }).locator('dd').first();
 }
 
-/**
- * Returns the small print below a readout.
- *
- * @param {Locator} widget
- * @param {string | RegExp} name
- */
+/** Returns the small print below a readout. @param {Locator} widget @param {string | RegExp} name */
 export function detail(widget, name) {
   return widget.locator('.readouts div').filter({ hasText: name }).locator('dd.detail');
 }
@@ -440,10 +394,7 @@ export async function openWhole(page, attributes = '') {
 /** @param {number} count @returns {string} as the widget prints it, rounded */
 export const counted = (count) => String(Math.round(count)).replace(/\B(?=(\d{3})+$)/g, '\u202f');
 
-/**
- * @param {string | null} text as the widget prints numbers
- * @returns {number}
- */
+/** Returns a number that a widget prints. @param {string | null} text */
 export function numberIn(text) {
   const [mantissa, power = '0'] = (text ?? '').replace('\u2212', '-').replace(/[\u202f%]/g, '').split('·10');
   const exponent = power.replace('⁻', '-').replace(/[⁰¹²³⁴⁵⁶⁷⁸⁹]/g, (digit) => String('⁰¹²³⁴⁵⁶⁷⁸⁹'.indexOf(digit)));

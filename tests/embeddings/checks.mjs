@@ -57,10 +57,7 @@ function checksOf({ definition, serving }) {
   };
 }
 
-/**
- * @param {Page} page
- * @param {string[]} messages
- */
+/** Collects what the console and requests of a page complain of. @param {Page} page @param {string[]} messages */
 function listen(page, messages) {
   page.on('console', (message) => {
     // The addresses of failed requests are listed below.
@@ -83,12 +80,7 @@ function listen(page, messages) {
 /** @param {Site} site @param {string} path */
 const address = ({ url }, path) => new URL(path.replace(/^\//, ''), url).href;
 
-/**
- * Waits until every figure has drawn its present settings.
- *
- * @param {Page} page
- * @param {Site} site
- */
+/** Waits until every figure has drawn its present settings. @param {Page} page @param {Site} site */
 export async function live(page, { definition }) {
   assert.ok(definition.expected.length > 0, 'No figure is expected.');
   for (const { selector, properties } of definition.expected) {

@@ -54,13 +54,7 @@ async function run(page, site) {
 /** @param {Page} page */
 const machine = (page) => page.locator('banana-machine');
 
-/**
- * Runs a line in a cell below all others.
- *
- * @param {Page} page
- * @param {string} code
- * @returns {Promise<any>} its value, by JSON
- */
+/** Runs a line in a cell below all others. @param {Page} page @param {string} code @returns {Promise<any>} its value, by JSON */
 async function python(page, code) {
   const cell = page.locator('.jp-CodeCell').last();
   await cell.locator('.cm-content').click();

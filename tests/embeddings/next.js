@@ -3,12 +3,7 @@ import { join } from 'node:path';
 import { npmInstall, pinned } from './project.mjs';
 import { files, program } from './serving.mjs';
 
-/**
- * By Next's own server.
- *
- * @param {string} command
- * @param {string[]} args
- */
+/** By Next's own server. @param {string} command @param {string[]} args */
 const next = (command, ...args) => program((port) => ['npx', ['next', command, '--port', port, ...args]]);
 
 /** @type {import('./project.mjs').Engine} */

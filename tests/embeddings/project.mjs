@@ -67,20 +67,13 @@ export async function engines() {
   return [...Object.keys(plain), ...readdirSync(join(ROOT, 'tests/embeddings')).flatMap((name) => name.match(/^(.+)\.js$/)?.slice(1) ?? [])];
 }
 
-/**
- * @param {string} name
- * @returns {Promise<Engine>}
- */
+/** Returns the description of an engine. @param {string} name @returns {Promise<Engine>} */
 export async function engine(name) {
   const { plain } = await import('./plain.mjs');
   return plain[name] ?? (await import(`./${name}.js`)).default;
 }
 
-/**
- * @param {string} example
- * @param {string[]} packages
- * @returns {string} their names and versions, as the example pins them
- */
+/** Returns packages with the versions that an example pins. @param {string} example @param {string[]} packages */
 export function pinned(example, ...packages) {
   const directory = join(ROOT, 'examples', example);
   const read = (/** @type {string} */ name) => (existsSync(join(directory, name)) ? readFileSync(join(directory, name), 'utf8') : '');
@@ -96,12 +89,7 @@ export function pinned(example, ...packages) {
     .join(', ');
 }
 
-/**
- * For engines that are npm packages.
- *
- * @param {string} _directory
- * @param {Tools & Packed} tools
- */
+/** For engines that are npm packages. @param {string} _directory @param {Tools & Packed} tools */
 export async function npmInstall(_directory, { run, tarball }) {
   await run('npm', ['install', '--no-audit', '--no-fund', '--prefer-offline', '--loglevel', 'error', tarball]);
 }
@@ -109,10 +97,7 @@ export async function npmInstall(_directory, { run, tarball }) {
 /** Directory of an example's Python tools, outside of it, as a program that reads a whole directory would read them too. @param {string} directory */
 export const besidePython = (directory) => `${directory}.tools`;
 
-/**
- * @param {string} directory
- * @param {string} name of a program that `pythonInstall` has installed
- */
+/** Returns the path of a program that `pythonInstall` has installed. @param {string} directory @param {string} name */
 export const pythonProgram = (directory, name) => join(besidePython(directory), 'bin', name);
 
 /**
@@ -144,10 +129,7 @@ const wheel = once(async () => {
   return join(directory, readdirSync(directory)[0]);
 });
 
-/**
- * @param {string} registry
- * @returns {string} a directory for what it would have
- */
+/** Returns an empty directory for the package of a registry. @param {string} registry */
 function emptied(registry) {
   const directory = join(SCRATCH, 'packed', registry);
   rmSync(directory, { recursive: true, force: true });
@@ -155,17 +137,10 @@ function emptied(registry) {
   return directory;
 }
 
-/**
- * @param {string} command
- * @param {string[]} args
- */
+/** Runs a program that packs the package. @param {string} command @param {string[]} args */
 const pack = (command, args) => mustRun(`${command} cannot pack the package: see above.`, command, args, { quiet: true, seconds: 300 });
 
-/**
- * @param {string} directory
- * @param {Record<string, string>} env
- * @returns {Tools}
- */
+/** Returns the tools for a copy of an example. @param {string} directory @param {Record<string, string>} env @returns {Tools} */
 function toolsIn(directory, env) {
   return {
     async run(command, args, more) {
@@ -224,10 +199,7 @@ function forget(modules) {
   }
 }
 
-/**
- * @param {Engine} definition
- * @returns {Promise<Record<string, string>>} an environment with the Node that it needs, installed where this is older
- */
+/** Returns an environment with the Node that an engine needs, installed if this one is older. @param {Engine} definition @returns {Promise<Record<string, string>>} */
 async function nodeFor({ node = 0 }) {
   if (Number.parseInt(process.versions.node) >= node) return {};
   const directory = join(SCRATCH, `node-${node}`);

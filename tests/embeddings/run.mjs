@@ -17,9 +17,10 @@ import { engine, engines, prepared } from './project.mjs';
 /** @typedef {{ name: string, serving: string, passed: number, failures: string[], seconds: number }} Outcome */
 
 /**
+ * Returns an outcome for each serving, or one if the engine cannot be served.
+ *
  * @param {import('@playwright/test').Browser} browser
  * @param {string} name
- * @returns {Promise<Outcome[]>} one a serving; one alone where it comes to none
  */
 async function outcomesOf(browser, name) {
   const definition = await engine(name);
@@ -53,10 +54,7 @@ async function outcomesOf(browser, name) {
   return outcomes;
 }
 
-/**
- * @param {string[]} wanted the engines to try; all where there are none
- * @returns {Promise<boolean>} whether all is well
- */
+/** Tests some engines, or all if none is named, and returns true if they pass. @param {string[]} wanted */
 async function test(wanted) {
   const known = await engines();
   const unknown = wanted.find((name) => !known.includes(name));
@@ -77,10 +75,7 @@ async function test(wanted) {
   return outcomes.every(({ failures }) => failures.length === 0);
 }
 
-/**
- * @param {Outcome[]} outcomes
- * @param {string} version of the browser
- */
+/** Prints versions and outcomes. @param {Outcome[]} outcomes @param {string} version of the browser */
 async function summarize(outcomes, version) {
   progress(`Versions: Node ${process.versions.node}, Chromium ${version}`);
   for (const name of new Set(outcomes.map((outcome) => outcome.name))) console.log(`${name.padEnd(16)} ${(await engine(name)).versions()}`);

@@ -61,10 +61,7 @@ function freePort() {
   });
 }
 
-/**
- * @param {string} url
- * @returns {Promise<void>} resolved when the server answers with status 200
- */
+/** Waits until a server answers with status 200. @param {string} url */
 async function answered(url) {
   const last = Date.now() + PATIENCE * 1000;
   for (;;) {

@@ -170,11 +170,7 @@ async function dragged(page, tag, { name, to, placeOf }) {
   assert.notEqual(await page.ask('pixelsOf', tag), before, 'The picture is as it was.');
 }
 
-/**
- * @param {Page} page
- * @param {string} tag
- * @param {import('./figures.mjs').Handle} handle
- */
+/** Moves a handle by keys. @param {Page} page @param {string} tag @param {import('./figures.mjs').Handle} handle */
 async function handleByKeys(page, tag, { name }) {
   await page.open(tag);
   const { hash: before } = await page.ask('stateOf', tag);

@@ -45,11 +45,7 @@ export const figures = {
   'alpha-calibrator': { handles: [] },
 };
 
-/**
- * @param {string} tag
- * @param {any} config
- * @returns {Promise<any>} the machine of a figure, in Node
- */
+/** Returns the machine of a figure, in Node. @param {string} tag @param {any} config @returns {Promise<any>} */
 export async function machineOf(tag, config) {
   const motion = /** @type {any} */ (await load());
   return new motion[tag.replace(/(^|-)(\w)/g, (_, _dash, letter) => letter.toUpperCase())](config);

@@ -54,10 +54,7 @@ export async function settled(tag) {
 /** @param {string} tag */
 export const stateOf = (tag) => machineState(figureOf(tag).machine);
 
-/**
- * @param {any} machine of whatever widget
- * @returns {Promise<State>}
- */
+/** Returns the state of a machine of any widget. @param {any} machine @returns {Promise<State>} */
 export async function machineState({ config, poses = null, stats, verdicts = null, contours = null, grid = null }) {
   return { config, hash: await hashOf({ poses, stats, verdicts, contours, grid }) };
 }

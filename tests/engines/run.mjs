@@ -61,10 +61,7 @@ async function outcomeOf(name, address) {
   }
 }
 
-/**
- * @param {string[]} wanted the engines to try; all where there are none
- * @returns {Promise<boolean>} whether all is well
- */
+/** Tests some engines, or all if none is named, and returns true if they pass. @param {string[]} wanted */
 async function test(wanted) {
   const known = Object.keys(engines);
   const unknown = wanted.find((name) => !known.includes(name));

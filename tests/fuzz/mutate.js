@@ -17,11 +17,7 @@ const BYTES = [0, 1, 2, 3, 4, 8, 16, 32, 127, 128, 255];
 /** Largest size of a mutation in bytes. */
 const LONGEST = 4096;
 
-/**
- * @param {Uint8Array[]} corpus
- * @param {() => number} random from 0 to 1
- * @returns {Buffer<ArrayBuffer>} an input of the corpus, changed in one to four places
- */
+/** Returns an input of the corpus, changed in one to four places. @param {Uint8Array[]} corpus @param {() => number} random from 0 to 1 */
 export function mutantOf(corpus, random) {
   const below = (/** @type {number} */ count) => Math.floor(count * random());
   const one = (/** @type {ArrayLike<any>} */ from) => from[below(from.length)];

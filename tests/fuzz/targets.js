@@ -68,11 +68,7 @@ async function filesAreTaken(...files) {
   return false;
 }
 
-/**
- * Returns true if the core takes the value, and checks the message of a refusal.
- *
- * @param {() => void} give
- */
+/** Returns true if the core takes the value, and checks the message of a refusal. @param {() => void} give */
 function isTaken(give) {
   try {
     give();
@@ -84,11 +80,7 @@ function isTaken(give) {
   }
 }
 
-/**
- * Returns true if a log is read. It must have finite numbers and rising times.
- *
- * @param {() => ReturnType<typeof readLog>} read
- */
+/** Returns true if a log is read. It must have finite numbers and rising times. @param {() => ReturnType<typeof readLog>} read */
 async function logIsRead(read) {
   let log;
   try {

@@ -34,10 +34,7 @@ test('all scripts of the page are looked at', () => {
 test('no import runs in a circle', () => {
   /** @type {Map<string, 'open' | 'done'>} */
   const seen = new Map();
-  /**
-   * @param {string} file
-   * @param {string[]} way
-   */
+  /** @param {string} file @param {string[]} way */
   const visit = (file, way) => {
     assert.notEqual(seen.get(file), 'open', [...way, file].join(' → '));
     if (seen.has(file)) return;

@@ -10,7 +10,7 @@ import { pairLogs } from '../../www/logs/pairs.ts';
 import { summarize } from '../../www/logs/summary.ts';
 import { refusalOf, sentenceOf } from './log-support.js';
 
-/** @import { Recording, Series } from '../../www/logs/log.ts' */
+/** @import { Recording } from '../../www/logs/log.ts' */
 
 const TYPES = /** @type {const} */ ({
   odometry: ['nav_msgs/msg/Odometry', 'poses'], pose: ['geometry_msgs/msg/PoseStamped', 'poses'], point: ['geometry_msgs/msg/PointStamped', 'positions'],

@@ -11,10 +11,7 @@ const PGM = file('map.pgm', 'P5 2 1 255\n\x00\x7f');
 /** Time limit of a refusal in milliseconds: a thousand times the usual time, and about the patience of a reader. */
 const INSTANT = 1000;
 
-/**
- * @param {string} yaml
- * @param {string} reason why it is no YAML
- */
+/** Expects that a description is refused at once, for a reason. @param {string} yaml @param {string} reason */
 async function refused(yaml, reason) {
   const start = performance.now();
   const sentence = await refusalOf([file('map.yaml', yaml), PGM]);

@@ -9,10 +9,7 @@ const motion = await load();
 
 const decodePng = async (/** @type {Uint8Array} */ bytes) => motion.readMapImage(bytes);
 
-/**
- * @param {string} name
- * @param {BlobPart} contents
- */
+/** @param {string} name @param {BlobPart} contents */
 export const file = (name, contents) => new File([contents], name);
 
 /** Returns the YAML file that describes an image, with fields replaced or added. @param {Record<string, unknown>} [fields] */
@@ -21,11 +18,7 @@ export function description(fields) {
   return file('map.yaml', Object.entries(all).map(([key, value]) => `${key}: ${value}\n`).join(''));
 }
 
-/**
- * The machine that files put a map into.
- *
- * @param {File[]} files
- */
+/** The machine that files put a map into. @param {File[]} files */
 export async function opened(...files) {
   const machine = new motion.MapSqueeze({ samples: 1 });
   (await readMapFiles(files, decodePng)).apply(machine);

@@ -39,11 +39,7 @@ async function shown(state, kind) {
   return { page, complaints };
 }
 
-/**
- * Runs in the page.
- *
- * @param {{ state: Record<string, unknown>, inBook: boolean }} given
- */
+/** Runs in the page. @param {{ state: Record<string, unknown>, inBook: boolean }} given */
 async function render({ state, inBook }) {
   const heard = new Map();
   const log = /** @type {unknown[]} */ ([]);

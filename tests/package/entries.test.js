@@ -10,10 +10,7 @@ import { listen, served } from './support.js';
 
 const project = served();
 
-/**
- * @param {string} source of a module next to the installed package
- * @returns {string} what it prints
- */
+/** Runs a module next to the installed package, and returns what it prints. @param {string} source */
 function inNode(source) {
   const path = join(project.directory, 'script.mjs');
   writeFileSync(path, source);

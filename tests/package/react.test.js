@@ -85,18 +85,12 @@ beforeEach(async () => {
 
 afterEach(() => page.close());
 
-/**
- * @param {string} name
- * @param {string} contents
- */
+/** Writes a file next to the installed package. @param {string} name @param {string} contents */
 function write(name, contents) {
   writeFileSync(join(project.directory, 'react', name), contents);
 }
 
-/**
- * @param {object} props of the first figure; as source, for JSON has no NaN
- * @returns {string} what a server sends
- */
+/** Returns what a server sends for a figure. @param {object} props as source, because JSON has no NaN */
 function sent(props) {
   const text = JSON.stringify(props, (_, value) => (Number.isNaN(value) ? 'NaN' : value)).replaceAll('"NaN"', 'NaN');
   const source = `

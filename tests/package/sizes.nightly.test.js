@@ -40,11 +40,7 @@ function moduleOf(tag) {
   return `dist/chunks/${found}`;
 }
 
-/**
- * @param {string} name
- * @param {string[]} paths
- * @param {number} limit bytes by brotli at its best, as content delivery networks keep files
- */
+/** Tests that files are small, by brotli at its best. @param {string} name @param {string[]} paths @param {number} limit bytes */
 function within(name, paths, limit) {
   const best = { params: { [constants.BROTLI_PARAM_QUALITY]: 11 } };
   const bytes = paths.reduce((sum, path) => sum + brotliCompressSync(readFileSync(at(path)), best).length, 0);

@@ -19,10 +19,7 @@ import { complete } from '../embeddings/checks.mjs';
 /** Files of a release that are not in the package. */
 const SINGLE_FILES = ['motion-widgets.iife.js', 'motion-widgets.css', 'embed.html', 'embed.css', 'embed.js'];
 
-/**
- * @returns {{ directory: string, remove: () => void }} directory with a copy of each example, in which only the packed
- *   package is installed
- */
+/** Returns a directory with the examples, in which only the packed package is installed. @returns {{ directory: string, remove: () => void }} */
 export function installed() {
   const directory = mkdtempSync(join(tmpdir(), 'motion-widgets-'));
   // The package has been built already.

@@ -21,9 +21,9 @@ fn the_inversion_and_the_score_are_those_of_the_model() {
     );
     let p = model.prob(&next, &COMMAND, &start);
     let density = model.pose_density(&next, &COMMAND, &start).expect("a density");
-    let told: [f64; 3] =
+    let [prob, product, given]: [f64; 3] =
         it.get("[it.stats.prob, it.stats.factors.reduce((p, { value }) => p * value, 1), it.stats.density]");
-    assert_near([told[0] / p, told[1] / p, told[2] / density], [1.0; 3], 1e-12);
+    assert_near([prob / p, product / p, given / density], [1.0; 3], 1e-12);
     assert_near(it.get("it.table.lines.slice(-1)"), [p], 1e-15);
     let bend: (f64, [f64; 2], [f64; 3]) = it.get("pick(it.stats.commanded, 'radius', 'center', 'end')");
     assert_eq!((bend.0, bend.1), (2.0, [0.0, 2.0]));

@@ -159,10 +159,10 @@ fn a_log_of_ones_own_replaces_it_and_its_fit_can_be_restored() {
         )
     );
     it.run("it.restored = motion.AlphaCalibrator.restored(it.machine.config, it.machine.save())");
-    let told = |name: &str| {
+    let results = |name: &str| {
         it.get::<String>(&format!("JSON.stringify([it.{name}.config, it.{name}.stats, it.{name}.count])"))
     };
-    assert_eq!(told("restored"), told("machine"));
+    assert_eq!(results("restored"), results("machine"));
     it.run("it.restored.configure({ rule: 'nav2' })");
     it.assert("it.restored.isPending && it.restored.fittedConfig.rule === 'thrun' && it.restored.fits === 1");
     it.run("it.machine.configure({ rule: 'nav2' })");

@@ -11,7 +11,7 @@ use rand::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
 use wasm_bindgen_test::wasm_bindgen_test;
 
-/// The same values in JavaScript and in Rust.
+/// Values of the tests in JavaScript. The constants and functions below have the same values in Rust.
 const VALUES: &str = "{
     start: { x: 1, y: -2, theta: 0.5 }, next: { x: 1.7, y: -1.3, theta: 1.2 },
     command: { v: 1, omega: 0.5, dt: 1 }, control: { rot1: 0.2, trans: 1, rot2: 0.3 },

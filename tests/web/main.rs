@@ -1,7 +1,7 @@
-//! The JavaScript face of the core in a real browser: values in and out, errors by class and message, memory freed.
+//! The JavaScript interface of the core in a browser: values in and out, errors by class and message, memory freed.
 //!
-//! Native tests hold what the models and simulations compute. Here every class and function is called as a page calls
-//! it, and answers what Rust does.
+//! Native tests check what the models and simulations compute. Here every class and function is called as by a page, and its results are
+//! compared with those of Rust.
 #![cfg(target_arch = "wasm32")]
 #![allow(
     clippy::disallowed_methods,

@@ -8,8 +8,8 @@ use motion::sim::squeeze::{self, MapSqueeze};
 use wasm_bindgen::JsCast;
 use wasm_bindgen_test::wasm_bindgen_test;
 
-/// Bytes of the module's memory.
-fn size() -> u32 {
+/// Returns the number of bytes of the module's memory.
+fn memory_size() -> u32 {
     let memory: WebAssembly::Memory = wasm_bindgen::memory().unchecked_into();
     memory.buffer().unchecked_into::<ArrayBuffer>().byte_length()
 }
@@ -33,12 +33,12 @@ fn a_freed_object_is_gone_with_its_memory() {
     for (class, work) in CLASSES {
         let used = format!("[it.one = new motion.{class}, it.one.stats, it.one.free()]");
         it.run(&used);
-        let before = size();
+        let before = memory_size();
         for _ in 0..10 {
             it.run(&used);
         }
         // A cloud is larger than a page of memory.
-        assert!(size() <= before + 65_536, "{class} left {} bytes", size() - before);
+        assert!(memory_size() <= before + 65_536, "{class} left {} bytes", memory_size() - before);
         assert!(it.error(&format!("it.one.{work}")).starts_with("Error: "), "{class}");
         it.run(&format!("[it.one = new motion.{class}, it.one[Symbol.dispose]()]"));
         assert!(it.error(&format!("it.one.{work}")).starts_with("Error: "), "{class}");

@@ -1,4 +1,4 @@
-//! Calls of the JavaScript face: expressions in, values out.
+//! Calls of the JavaScript interface: expressions in, values out.
 
 use serde::de::DeserializeOwned;
 use wasm_bindgen::prelude::*;
@@ -24,7 +24,7 @@ impl Object {
         Self(Self(JsValue::UNDEFINED).evaluate(expression))
     }
 
-    /// Value of an expression.
+    /// Returns the value of an expression.
     pub fn get<T: DeserializeOwned>(&self, expression: &str) -> T {
         serde_wasm_bindgen::from_value(self.evaluate(expression))
             .unwrap_or_else(|error| panic!("{expression}: {error}"))
@@ -79,7 +79,7 @@ impl<T: serde::Serialize> From<&T> for Object {
     }
 }
 
-/// Value of an expression without a machine.
+/// Returns the value of an expression without an object.
 pub fn get<T: DeserializeOwned>(expression: &str) -> T {
     Object(JsValue::UNDEFINED).get(expression)
 }

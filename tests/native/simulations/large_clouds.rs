@@ -4,7 +4,7 @@ use crate::common::preset;
 use crate::simulations::banana::machine;
 use motion::geom::se2::{SE2, wrap_angle};
 use motion::sim::banana::{BananaMachine, Figures, MAX_SAMPLES, ModelKind, Settings};
-use motion::stats::Ellipse;
+use motion::stats::{CartesianMoments, CrossTrack, Ellipse};
 use motion::{NoiseKind, VelocityCmd};
 use nalgebra::Vector3;
 
@@ -33,24 +33,22 @@ fn mean(terms: impl Iterator<Item = f64>) -> f64 {
     (sum.sum + sum.lost) / count
 }
 
-/// Asserts that the statistics of a cloud equal their definitions, each computed in its own pass.
-fn assert_exact(machine: &BananaMachine) {
-    let poses: Vec<SE2> = machine.poses().collect();
-    let n = poses.len() as f64;
-    let figures @ Figures { cartesian, exponential, .. } = *machine.figures();
-    let close = |name: &str, found: f64, expected: f64, size: f64| {
-        assert!((found - expected).abs() <= 1e-12 * size, "{name}: {found} is not {expected}");
-    };
+fn assert_close(name: &str, found: f64, expected: f64, size: f64) {
+    assert!((found - expected).abs() <= 1e-12 * size, "{name}: {found} is not {expected}");
+}
 
+/// Asserts that moments of a cloud, and its skew, its error and the correlation with the heading, equal their definitions, each computed in its own pass.
+fn assert_exact_moments(poses: &[SE2], cartesian: &CartesianMoments, cross_track: [f64; 3]) {
+    let n = poses.len() as f64;
     let (sin, cos) = (
         mean(poses.iter().map(|pose| libm::sin(pose.theta()))),
         mean(poses.iter().map(|pose| libm::cos(pose.theta()))),
     );
     let heading = libm::atan2(sin, cos);
     let centre = [mean(poses.iter().map(SE2::x)), mean(poses.iter().map(SE2::y))];
-    close("mean heading", cartesian.mean.z, heading, 1.0);
-    close("mean x", cartesian.mean.x, centre[0], 1.0);
-    close("mean y", cartesian.mean.y, centre[1], 1.0);
+    assert_close("mean heading", cartesian.mean.z, heading, 1.0);
+    assert_close("mean x", cartesian.mean.x, centre[0], 1.0);
+    assert_close("mean y", cartesian.mean.y, centre[1], 1.0);
 
     let residuals = || {
         poses.iter().map(|pose| {
@@ -63,20 +61,7 @@ fn assert_exact(machine: &BananaMachine) {
             let shift = |r: Vector3<f64>, k: usize| if k == 2 { r.z - mean_turn } else { r[k] };
             let cov = mean(residuals().map(|r| shift(r, i) * shift(r, j))) * n / (n - 1.0);
             let size = (cartesian.cov[(i, i)] * cartesian.cov[(j, j)]).sqrt();
-            close(&format!("cov {i}{j}"), cartesian.cov[(i, j)], cov, size);
-        }
-    }
-
-    let twist = |pose: &SE2| pose.log_near(machine.settings().command.omega * machine.settings().command.dt);
-    let twists = || poses.iter().map(twist);
-    let twist_mean = Vector3::from_fn(|i, _| mean(twists().map(|twist| twist[i])));
-    // A cloud that turns a full circle has no exponential coordinates to compare.
-    for i in if machine.chart_holds() { 0..3 } else { 0..0 } {
-        close(&format!("twist {i}"), exponential.mean[i], twist_mean[i], 1.0);
-        for j in 0..3 {
-            let cov = mean(twists().map(|t| (t[i] - twist_mean[i]) * (t[j] - twist_mean[j]))) * n / (n - 1.0);
-            let size = (exponential.cov[(i, i)] * exponential.cov[(j, j)]).sqrt();
-            close(&format!("twist cov {i}{j}"), exponential.cov[(i, j)], cov, size);
+            assert_close(&format!("cov {i}{j}"), cartesian.cov[(i, j)], cov, size);
         }
     }
 
@@ -86,7 +71,7 @@ fn assert_exact(machine: &BananaMachine) {
     let m2 = mean(tracks().map(|(_, d, _)| d * d));
     let sd = m2.sqrt();
     let skew = mean(tracks().map(|(_, d, _)| (d / sd).powi(3)));
-    close("skew", figures.cross_track_skew, skew, 1.0);
+    assert_close("skew", cross_track[0], skew, 1.0);
     let resultant = mean(residuals().map(|r| libm::cos(r.z)));
     let (ad, add) = (mean(tracks().map(|(a, d, _)| a * d)), mean(tracks().map(|(a, d, _)| a * d * d)));
     let by_heading = 3.0 * (skew * ad / m2 - add / (m2 * sd)) / resultant;
@@ -95,15 +80,39 @@ fn assert_exact(machine: &BananaMachine) {
         z * z * z - skew - 3.0 * z - 1.5 * skew * (z * z - 1.0) + by_heading * libm::sin(turn)
     };
     let skew_error = (mean(tracks().map(|track| influence(track).powi(2))) / n).sqrt();
-    close("skew error", figures.cross_track_skew_error, skew_error, skew_error);
+    assert_close("skew error", cross_track[1], skew_error, skew_error);
     let turn_variance = mean(residuals().map(|r| (r.z - mean_turn).powi(2)));
     let rho = mean(tracks().map(|(_, d, turn)| d * turn)) / (m2 * turn_variance).sqrt();
-    close("rho", figures.rho_cross_heading, rho, 1.0);
+    assert_close("rho", cross_track[2], rho, 1.0);
+}
+
+/// Asserts that the machine's statistics of its cloud, and those computed from its poses, equal their definitions.
+fn assert_exact(machine: &BananaMachine) {
+    let poses: Vec<SE2> = machine.poses().collect();
+    let n = poses.len() as f64;
+    let figures @ Figures { cartesian, exponential, .. } = *machine.figures();
+    let cross_track = [figures.cross_track_skew, figures.cross_track_skew_error, figures.rho_cross_heading];
+    assert_exact_moments(&poses, &cartesian, cross_track);
+    let CrossTrack { skew, skew_error, rho_heading } = CrossTrack::from_poses(&poses);
+    assert_exact_moments(&poses, &CartesianMoments::from_poses(&poses), [skew, skew_error, rho_heading]);
+
+    let twist = |pose: &SE2| pose.log_near(machine.settings().command.omega * machine.settings().command.dt);
+    let twists = || poses.iter().map(twist);
+    let twist_mean = Vector3::from_fn(|i, _| mean(twists().map(|twist| twist[i])));
+    // A cloud that turns a full circle has no exponential coordinates to compare.
+    for i in if machine.chart_holds() { 0..3 } else { 0..0 } {
+        assert_close(&format!("twist {i}"), exponential.mean[i], twist_mean[i], 1.0);
+        for j in 0..3 {
+            let cov = mean(twists().map(|t| (t[i] - twist_mean[i]) * (t[j] - twist_mean[j]))) * n / (n - 1.0);
+            let size = (exponential.cov[(i, i)] * exponential.cov[(j, j)]).sqrt();
+            assert_close(&format!("twist cov {i}{j}"), exponential.cov[(i, j)], cov, size);
+        }
+    }
 
     let ellipse = Ellipse::from_moments(&cartesian);
     let inside = poses.iter().filter(|pose| ellipse.contains([pose.x(), pose.y()])).count();
     // Rounding may decide whether one robot on the contour is inside.
-    close("coverage", figures.coverage.ellipse, inside as f64 / n, 1.5e12 / n);
+    assert_close("coverage", figures.coverage.ellipse, inside as f64 / n, 1.5e12 / n);
 }
 
 #[test]

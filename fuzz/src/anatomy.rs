@@ -32,11 +32,11 @@ pub fn run(bytes: &[u8]) {
     assert_results(&machine);
     // Paths are checked rarely: they have a thousand points, each with a sine and a cosine.
     if with_paths && turn_of(4, bytes) {
-        paths(&machine);
+        assert_paths(&machine);
     }
     // Maps are checked rarely: one takes as long as hundreds of other calls.
     if turn_of(256, bytes) {
-        surface(&machine, &mut input);
+        assert_surface(&machine, &mut input);
     }
 }
 
@@ -59,10 +59,10 @@ fn assert_results(machine: &ArcAnatomy) {
     for (what, bend) in [("commanded", &commanded), ("inverted", &inverted), ("driven", &driven)] {
         assert_bend(what, bend);
     }
-    laws::finite("last turn", &[last_turn]);
-    laws::finite("xi", &xi);
+    laws::assert_finite("last turn", &[last_turn]);
+    laws::assert_finite("xi", &xi);
     for factor in &factors {
-        laws::finite("factor", &[factor.estimate, factor.residual, factor.deviation, factor.value]);
+        laws::assert_finite("factor", &[factor.estimate, factor.residual, factor.deviation, factor.value]);
         assert!(factor.deviation >= 0.0 && factor.value >= 0.0, "{factor:?}");
         assert!((0.0..=1.0).contains(&factor.share), "{factor:?}");
         let off = factor.deviations.abs();
@@ -83,7 +83,7 @@ fn assert_results(machine: &ArcAnatomy) {
     let allowed = laws::ROUNDING * size + f64::MIN_POSITIVE;
     assert!(ends.iter().all(|end| off(*end) <= allowed), "{ends:?} for {settings:?}");
     assert_eq!(underway(machine, 0.0), [start.x(), start.y()]);
-    table(machine, prob);
+    assert_table(machine, prob);
 }
 
 fn poses(settings: &Settings) -> (SE2, SE2) {
@@ -91,7 +91,7 @@ fn poses(settings: &Settings) -> (SE2, SE2) {
     (SE2::new(x, y, theta), SE2::new(next.x, next.y, next.theta))
 }
 
-fn table(machine: &ArcAnatomy, prob: f64) {
+fn assert_table(machine: &ArcAnatomy, prob: f64) {
     let (start, next) = poses(machine.settings());
     let Table { lines: [mu, x, y, radius, controls @ ..], middle, normal } = machine.table();
     let step = start.inverse() * next;
@@ -99,40 +99,40 @@ fn table(machine: &ArcAnatomy, prob: f64) {
     assert!([x, y, radius].iter().all(|line| !line.is_nan()), "{x} {y} {radius}");
     assert!(!mu.is_nan() || stays, "{mu} for {step:?}");
     assert!(!machine.settings().printed || radius >= 0.0, "{radius}");
-    laws::finite("controls", &controls[..4]);
-    laws::same("p", &controls[4..], &[prob]);
-    laws::finite("middle and normal", &[middle, normal].concat());
+    laws::assert_finite("controls", &controls[..4]);
+    laws::assert_same_numbers("p", &controls[4..], &[prob]);
+    laws::assert_finite("middle and normal", &[middle, normal].concat());
 }
 
-fn paths(machine: &ArcAnatomy) {
+fn assert_paths(machine: &ArcAnatomy) {
     let Paths { commanded, inverted, driven, lie, ticks } = machine.paths();
     for (what, path) in
         [("commanded", &commanded), ("inverted", &inverted), ("driven", &driven), ("lie", &lie)]
     {
-        laws::finite(what, path.as_flattened());
+        laws::assert_finite(what, path.as_flattened());
     }
-    laws::finite("ticks", ticks.as_flattened());
+    laws::assert_finite("ticks", ticks.as_flattened());
     let Stats { inverted: Bend { end: [x, y, _], .. }, .. } = machine.stats();
     assert_eq!(inverted.last(), Some(&[x, y]));
 }
 
 fn assert_bend(what: &str, bend: &Bend) {
-    laws::finite(what, &[bend.arc_length, bend.turn]);
-    laws::finite(what, &bend.end);
+    laws::assert_finite(what, &[bend.arc_length, bend.turn]);
+    laws::assert_finite(what, &bend.end);
     assert!(!bend.radius.is_nan(), "{what}: {bend:?}");
     assert_eq!(bend.centre.is_some(), bend.radius.is_finite(), "{what}: {bend:?}");
-    laws::finite(what, &bend.centre.unwrap_or_default());
+    laws::assert_finite(what, &bend.centre.unwrap_or_default());
 }
 
 /// Returns the position on the path of constant twist after a fraction of the time.
 fn underway(machine: &ArcAnatomy, share: f64) -> [f64; 2] {
     let poses = machine.underway(share);
-    poses.iter().for_each(|pose| laws::pose("underway", pose));
+    poses.iter().for_each(|pose| laws::assert_pose("underway", pose));
     [poses[2].x(), poses[2].y()]
 }
 
 /// Asserts that contours have finite points inside the rectangle.
-fn surface(machine: &ArcAnatomy, input: &mut Input) {
+fn assert_surface(machine: &ArcAnatomy, input: &mut Input) {
     let Grid { min, max, .. } = banana::grid(input);
     let surface = machine.surface(min, max);
     assert_eq!(surface.is_none(), machine.settings().map == Mapped::Nothing);

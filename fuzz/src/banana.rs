@@ -19,12 +19,12 @@ const CALLS: usize = 4;
 pub fn run(bytes: &[u8]) {
     let mut input = Input(bytes);
     let [with_curves, with_double] = [0; 2].map(|_| input.choice(4) == 1);
-    let opening = changed(&few(Settings::default()), &mut input);
+    let opening = changed(&with_few_samples(Settings::default()), &mut input);
     if !allowed(&opening) {
         assert!(BananaMachine::showing(opening, 0).is_err());
         return;
     }
-    let mut machine = BananaMachine::showing(few(opening), 0).expect("allowed");
+    let mut machine = BananaMachine::showing(with_few_samples(opening), 0).expect("allowed");
     if input.truth() {
         machine.add_samples(SAMPLES);
     }
@@ -37,7 +37,7 @@ pub fn run(bytes: &[u8]) {
     assert_results(&machine);
     // Slow checks run for some inputs only.
     if with_curves {
-        contours(&machine);
+        assert_contours(&machine);
     }
     if with_double {
         assert_as_new(&machine);
@@ -45,14 +45,14 @@ pub fn run(bytes: &[u8]) {
 }
 
 /// Returns the same settings with fewer samples.
-fn few(settings: Settings) -> Settings {
+fn with_few_samples(settings: Settings) -> Settings {
     Settings { samples: settings.samples.min(SAMPLES), ..settings }
 }
 
 fn call(machine: &mut BananaMachine, input: &mut Input) {
     match input.choice(9) {
         0 => configure(machine, input),
-        1 => in_blocks(machine, input),
+        1 => assert_same_in_blocks(machine, input),
         2 => {
             let before = machine.shown();
             let count = input.choice(SAMPLES);
@@ -63,10 +63,10 @@ fn call(machine: &mut BananaMachine, input: &mut Input) {
             machine.configure_first(*machine.settings(), 0).expect("allowed");
             assert_eq!(machine.shown(), 0);
         }
-        4 => paint(machine, input),
-        5 => nearest(machine, input),
-        6 => inspect(machine, usize::from(input.byte())),
-        7 => table(machine),
+        4 => assert_painted(machine, input),
+        5 => assert_nearest(machine, input),
+        6 => assert_executed(machine, usize::from(input.byte())),
+        7 => assert_table(machine),
         _ => {
             let [x, y] = [0; 2].map(|_| input.within(QUANTITY));
             let near = machine.settings().command;
@@ -80,29 +80,29 @@ fn call(machine: &mut BananaMachine, input: &mut Input) {
 fn configure(machine: &mut BananaMachine, input: &mut Input) {
     let settings = changed(machine.settings(), input);
     if allowed(&settings) {
-        machine.configure(few(settings)).expect("allowed");
+        machine.configure(with_few_samples(settings)).expect("allowed");
         return;
     }
-    let (before, shown) = (*machine.settings(), numbers(machine));
+    let (before, shown) = (*machine.settings(), all_results(machine));
     assert!(machine.configure(settings).is_err() && machine.configure_first(settings, 0).is_err());
     assert_eq!(*machine.settings(), before);
-    laws::same("after a refusal", &numbers(machine), &shown);
+    laws::assert_same_numbers("after a refusal", &all_results(machine), &shown);
 }
 
 /// Asserts that samples added in blocks equal the samples of one call.
-fn in_blocks(machine: &mut BananaMachine, input: &mut Input) {
+fn assert_same_in_blocks(machine: &mut BananaMachine, input: &mut Input) {
     let settings = changed(machine.settings(), input);
     if !allowed(&settings) {
         return;
     }
     let mut other = machine.clone();
-    other.configure(few(settings)).expect("allowed");
+    other.configure(with_few_samples(settings)).expect("allowed");
     let count = 1 + usize::from(input.byte());
-    machine.configure_first(few(settings), count).expect("allowed");
+    machine.configure_first(with_few_samples(settings), count).expect("allowed");
     while machine.shown() < machine.settings().samples {
         machine.add_samples(count);
     }
-    laws::same("in blocks", &numbers(machine), &numbers(&other));
+    laws::assert_same_numbers("in blocks", &all_results(machine), &all_results(&other));
 }
 
 /// Asserts that a machine depends on its settings only, and not on earlier calls.
@@ -110,12 +110,12 @@ fn assert_as_new(machine: &BananaMachine) {
     let mut other = BananaMachine::showing(*machine.settings(), 0).expect("allowed");
     if machine.shown() > 0 {
         other.add_samples(machine.shown());
-        laws::same("as if new", &numbers(machine), &numbers(&other));
+        laws::assert_same_numbers("as if new", &all_results(machine), &all_results(&other));
     }
 }
 
 /// Returns all results except curves.
-fn numbers(machine: &BananaMachine) -> Vec<f64> {
+fn all_results(machine: &BananaMachine) -> Vec<f64> {
     let mut numbers: Vec<f64> = machine.poses().flat_map(|pose| [pose.x(), pose.y(), pose.theta()]).collect();
     let figures @ Figures { cartesian, exponential, coverage, .. } = machine.figures();
     numbers.extend(cartesian.mean.iter().chain(cartesian.cov.iter()));
@@ -132,35 +132,35 @@ fn numbers(machine: &BananaMachine) -> Vec<f64> {
 /// Asserts that all results are finite, or NaN where they are undefined.
 fn assert_results(machine: &BananaMachine) {
     let (n, figures) = (machine.shown(), machine.figures());
-    machine.poses().for_each(|pose| laws::pose("a pose", &pose));
+    machine.poses().for_each(|pose| laws::assert_pose("a pose", &pose));
     assert_eq!(machine.poses().len(), n);
-    laws::finite("executed", machine.executed().collect::<Vec<_>>().as_flattened());
+    laws::assert_finite("executed", machine.executed().collect::<Vec<_>>().as_flattened());
     let charted = machine.chart_holds();
     if charted {
-        machine.twists().for_each(|twist| laws::finite("a twist", twist.as_slice()));
+        machine.twists().for_each(|twist| laws::assert_finite("a twist", twist.as_slice()));
     }
     if n > 0 {
-        laws::finite("mean", figures.cartesian.mean.as_slice());
+        laws::assert_finite("mean", figures.cartesian.mean.as_slice());
     }
     if n > 1 {
-        laws::moments("pose", &figures.cartesian.mean, &figures.cartesian.cov);
+        laws::assert_moments("pose", &figures.cartesian.mean, &figures.cartesian.cov);
     }
     if charted && n > 1 {
-        laws::moments("exponential", &figures.exponential.mean, &figures.exponential.cov);
+        laws::assert_moments("exponential", &figures.exponential.mean, &figures.exponential.cov);
     } else {
         assert!(n == 1 || figures.exponential.cov.iter().all(|number| number.is_nan()));
     }
     let (skew, skew_error) = (figures.cross_track_skew, figures.cross_track_skew_error);
-    laws::finite_or_none("skew", &[skew, skew_error]);
+    laws::assert_finite_or_none("skew", &[skew, skew_error]);
     // The largest skew of n samples is that of n − 1 equal samples and one different.
     let most = (n as f64 - 2.0) / (n as f64 - 1.0).sqrt();
     assert!(skew.is_nan() || skew.abs() <= most * (1.0 + 1e-9), "{skew} of {n}");
     assert!(skew_error.is_nan() || skew_error >= 0.0, "{skew_error}");
     let rho = figures.rho_cross_heading;
     assert!(rho.is_nan() || rho.abs() <= 1.0, "{rho}");
-    laws::finite_or_none("gaussian skew", &[figures.gaussian_skew]);
-    laws::share("inside the ellipse", figures.coverage.ellipse);
-    laws::share("inside the contour", figures.coverage.exponential);
+    laws::assert_finite_or_none("gaussian skew", &[figures.gaussian_skew]);
+    laws::assert_share("inside the ellipse", figures.coverage.ellipse);
+    laws::assert_share("inside the contour", figures.coverage.exponential);
     assert!(figures.area_ratio.is_nan() || figures.area_ratio >= 0.0, "{}", figures.area_ratio);
     let (gain, error) = (figures.likelihood_gain, figures.likelihood_gain_error);
     for (gain, error) in [(gain.pose, error.pose), (gain.floor, error.floor)] {
@@ -168,7 +168,7 @@ fn assert_results(machine: &BananaMachine) {
     }
 }
 
-fn contours(machine: &BananaMachine) {
+fn assert_contours(machine: &BananaMachine) {
     let Contours { command, ellipse, linearized, exponential, twist_ellipse, additive } = machine.contours();
     for (what, outline) in [
         ("command", &command),
@@ -178,7 +178,7 @@ fn contours(machine: &BananaMachine) {
         ("twist ellipse", &twist_ellipse),
         ("additive", &additive),
     ] {
-        laws::finite(what, outline.as_flattened());
+        laws::assert_finite(what, outline.as_flattened());
     }
     for outline in [&ellipse, &linearized, &exponential, &twist_ellipse, &additive] {
         assert_eq!(outline.first(), outline.last(), "an outline is closed");
@@ -188,12 +188,12 @@ fn contours(machine: &BananaMachine) {
 }
 
 /// Checks every column of the table. Quadrature makes this slow.
-fn table(machine: &BananaMachine) {
+fn assert_table(machine: &BananaMachine) {
     let table = machine.table();
     for (what, column) in [("linearized", &table.linearized), ("exact", &table.exact)] {
         let TableColumn { mean, cov, cross_track_skew, likelihood_gain, area_ratio } = column;
-        laws::moments(what, mean, cov);
-        laws::finite_or_none(what, &[*cross_track_skew]);
+        laws::assert_moments(what, mean, cov);
+        laws::assert_finite_or_none(what, &[*cross_track_skew]);
         assert!(
             !likelihood_gain.pose.is_infinite() || likelihood_gain.pose > 0.0,
             "{what}: {likelihood_gain:?}"
@@ -201,21 +201,21 @@ fn table(machine: &BananaMachine) {
         assert!(area_ratio.is_nan() || *area_ratio >= 0.0, "{what}: {area_ratio}");
     }
     if let Some(tangent) = table.tangent {
-        laws::moments("tangent", &tangent.mean, &tangent.cov);
+        laws::assert_moments("tangent", &tangent.mean, &tangent.cov);
     }
     let reading = machine.reading();
-    laws::finite("reading", &[reading.rot1, reading.trans, reading.rot2]);
+    laws::assert_finite("reading", &[reading.rot1, reading.trans, reading.rot2]);
 }
 
-fn inspect(machine: &BananaMachine, index: usize) {
+fn assert_executed(machine: &BananaMachine, index: usize) {
     let Some(sample) = machine.inspect(index) else {
         assert!(index >= machine.shown());
         return;
     };
-    laws::pose("inspected", &sample.pose);
-    laws::finite("path", sample.path.as_flattened());
+    laws::assert_pose("inspected", &sample.pose);
+    laws::assert_finite("path", sample.path.as_flattened());
     if let Executed::Legs(legs) = sample.executed {
-        laws::finite("legs", &[legs.rot1, legs.trans, legs.rot2]);
+        laws::assert_finite("legs", &[legs.rot1, legs.trans, legs.rot2]);
     }
     let [x, y] = *sample.path.last().expect("a path has an end");
     // Paths use the scalar functions, poses the SIMD functions. They agree to 2e-15 of the length.
@@ -249,7 +249,7 @@ pub fn grid(input: &mut Input) -> Grid {
     Grid { min, max, columns, rows }
 }
 
-fn paint(machine: &mut BananaMachine, input: &mut Input) {
+fn assert_painted(machine: &mut BananaMachine, input: &mut Input) {
     let (view, grid) = (input.of(&[View::Plane, View::Twist]), grid(input));
     let counts = machine.density(view, &grid);
     assert_eq!(counts.len(), grid.columns * grid.rows);
@@ -259,7 +259,7 @@ fn paint(machine: &mut BananaMachine, input: &mut Input) {
     assert!(pixels.iter().zip(&counts).all(|(pixel, count)| (pixel[3] > 0) == (*count > 0)), "{grid:?}");
 }
 
-fn nearest(machine: &BananaMachine, input: &mut Input) {
+fn assert_nearest(machine: &BananaMachine, input: &mut Input) {
     let target = [0; 2].map(|_| input.number());
     let radii = [0; 2].map(|_| input.within(0.0..=f64::INFINITY));
     let Some(index) = machine.nearest(View::Plane, target, radii) else { return };

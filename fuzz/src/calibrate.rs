@@ -29,16 +29,16 @@ const MODELS: [Model; 5] = [
 pub fn run(bytes: &[u8]) {
     let mut input = Input(bytes);
     let options = options(&mut input);
-    let mut driven = driven(&mut input, if turn_of(128, bytes) { ROWS } else { FEW_ROWS });
-    let mut seen = seen(&driven, &mut input);
-    edit(&mut driven, &mut input);
-    edit(&mut seen, &mut input);
+    let mut driven = odometry_rows(&mut input, if turn_of(128, bytes) { ROWS } else { FEW_ROWS });
+    let mut seen = reference_rows(&driven, &mut input);
+    edit_rows(&mut driven, &mut input);
+    edit_rows(&mut seen, &mut input);
     let (Some(odometry), Some(reference)) = (trajectory(&driven, &mut input), trajectory(&seen, &mut input))
     else {
         return;
     };
     match calibrate(&[Drive { odometry: &odometry, reference: &reference }], &options) {
-        Ok(calibration) => makes_sense(&calibration, &options),
+        Ok(calibration) => assert_calibration(&calibration, &options),
         Err(CalibrateError::TooFewLegs { legs }) => assert!(legs < MIN_LEGS),
         Err(CalibrateError::Apart) => {
             let [one, other] = [&odometry, &reference].map(|each| each.span().expect("a row at least"));
@@ -80,7 +80,7 @@ fn usually(choices: &[f64], input: &mut Input) -> f64 {
     choices.get(choice).copied().unwrap_or_else(|| input.within(-1e9..=1e9))
 }
 
-fn driven(input: &mut Input, rows_of_a_part: usize) -> Vec<Row> {
+fn odometry_rows(input: &mut Input, rows_of_a_part: usize) -> Vec<Row> {
     let step = usually(&[0.05, 0.1, 0.1, 0.5, 1.0], input).abs();
     let mut rows = vec![(usually(&[0.0, 10.0, 1.7e9], input), SE2::identity())];
     for _ in 0..=input.choice(PARTS) {
@@ -95,7 +95,7 @@ fn driven(input: &mut Input, rows_of_a_part: usize) -> Vec<Row> {
 }
 
 /// Returns the reference: the odometry with an error in each step, and with occasional jumps.
-fn seen(driven: &[Row], input: &mut Input) -> Vec<Row> {
+fn reference_rows(driven: &[Row], input: &mut Input) -> Vec<Row> {
     let offset = usually(&[0.0, 0.12, -3.0, 50.0], input);
     let mount = SE2::new(0.1 * f64::from(input.choice(3) as u8), 0.0, usually(&[0.0, 0.07, 3.0], input));
     let off = usually(&[0.0, 0.01, 0.1, 0.5], input);
@@ -116,7 +116,7 @@ fn seen(driven: &[Row], input: &mut Input) -> Vec<Row> {
 }
 
 /// Changes or removes some rows.
-fn edit(rows: &mut Vec<Row>, input: &mut Input) {
+fn edit_rows(rows: &mut Vec<Row>, input: &mut Input) {
     for _ in 0..input.choice(4) {
         let at = usize::from(u16::from_le_bytes(input.bytes())) % rows.len();
         let (time, pose) = rows[at];
@@ -163,7 +163,7 @@ fn trajectory(rows: &[Row], input: &mut Input) -> Option<Trajectory> {
     }
 }
 
-fn makes_sense(calibration: &Calibration, options: &Options) {
+fn assert_calibration(calibration: &Calibration, options: &Options) {
     let Calibration { alphas, intervals, not_identifiable, legs, observations, leg_fits, .. } = calibration;
     assert!(legs.len() >= MIN_LEGS);
     assert_eq!([observations.len(), leg_fits.len()], [legs.len(); 2]);
@@ -197,19 +197,19 @@ fn makes_sense(calibration: &Calibration, options: &Options) {
         assert!(!is_usable || is_finite, "{leg:?}");
         assert!(options.outliers == Outliers::Reject || !leg.is_outlier);
     }
-    diagnostics_make_sense(calibration);
+    assert_diagnostics(calibration);
 }
 
-fn diagnostics_make_sense(Calibration { alphas, diagnostics, persistence, recommended, .. }: &Calibration) {
+fn assert_diagnostics(Calibration { alphas, diagnostics, persistence, recommended, .. }: &Calibration) {
     for Check { name, value, expected: [low, high], passed } in &diagnostics.checks {
         assert_eq!(*passed, low <= value && value <= high, "{name:?}: {value} {low} {high}");
     }
     let consistent = diagnostics.checks.iter().all(|check| check.passed);
     assert!(consistent || diagnostics.verdict != Verdict::Consistent);
     for window in diagnostics.windows.iter().filter(|window| window.count > 0) {
-        laws::share("covered windows", window.coverage);
+        laws::assert_share("covered windows", window.coverage);
     }
-    laws::share("persistence", persistence.correlation.value);
+    laws::assert_share("persistence", persistence.correlation.value);
     assert_eq!(recommended.is_none(), diagnostics.verdict == Verdict::Unusable);
     let Some(recommended) = recommended else { return };
     assert!((1.0..=100.0).contains(&recommended.inflation), "{recommended:?}");

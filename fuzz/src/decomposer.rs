@@ -15,12 +15,12 @@ const CALLS: usize = 4;
 
 pub fn run(bytes: &[u8]) {
     let mut input = Input(bytes);
-    let opening = changed(&few(Settings::default()), &mut input);
+    let opening = changed(&with_few_samples(Settings::default()), &mut input);
     if !allowed(&opening) {
         assert!(OdometryDecomposer::new(opening).is_err());
         return;
     }
-    let mut machine = OdometryDecomposer::new(few(opening)).expect("allowed");
+    let mut machine = OdometryDecomposer::new(with_few_samples(opening)).expect("allowed");
     for _ in 0..CALLS {
         if input.is_empty() {
             break;
@@ -31,7 +31,7 @@ pub fn run(bytes: &[u8]) {
 }
 
 /// Returns the same settings with fewer outcomes.
-fn few(settings: Settings) -> Settings {
+fn with_few_samples(settings: Settings) -> Settings {
     Settings { samples: settings.samples.min(SAMPLES), ..settings }
 }
 
@@ -50,11 +50,11 @@ fn call(machine: &mut OdometryDecomposer, input: &mut Input) {
         4 => {
             let ghosts = machine.ghosts(usize::from(input.byte()));
             assert!(ghosts.len() <= shown);
-            ghosts.as_flattened().iter().for_each(|pose| laws::pose("a ghost", pose));
+            ghosts.as_flattened().iter().for_each(|pose| laws::assert_pose("a ghost", pose));
             assert!(ghosts.iter().zip(machine.poses()).all(|(ghost, pose)| ghost[3] == *pose));
         }
-        5 => curve(machine, input.within(0.0..=*QUANTITY.end()), 1 + input.choice(POINTS)),
-        _ => nearest(machine, input),
+        5 => assert_curve(machine, input.within(0.0..=*QUANTITY.end()), 1 + input.choice(POINTS)),
+        _ => assert_nearest(machine, input),
     }
 }
 
@@ -67,21 +67,21 @@ fn configure(machine: &mut OdometryDecomposer, input: &mut Input) {
         assert_eq!(machine.poses(), poses);
         return;
     }
-    let settings = few(settings);
+    let settings = with_few_samples(settings);
     machine.configure(settings).expect("allowed");
     assert_eq!(machine.poses().len(), settings.samples);
 }
 
-fn curve(machine: &OdometryDecomposer, longest: f64, count: usize) {
+fn assert_curve(machine: &OdometryDecomposer, longest: f64, count: usize) {
     let points = machine.curve(longest, count);
     assert_eq!(points.len(), count);
     for point in points {
-        laws::finite("curve", &[point.trans, point.cross_track, point.lever, point.along]);
+        laws::assert_finite("curve", &[point.trans, point.cross_track, point.lever, point.along]);
         assert!(point.cross_track >= 0.0 && point.lever >= 0.0 && point.along >= 0.0, "{point:?}");
     }
 }
 
-fn nearest(machine: &OdometryDecomposer, input: &mut Input) {
+fn assert_nearest(machine: &OdometryDecomposer, input: &mut Input) {
     let target = [0; 2].map(|_| input.number());
     let radius = input.within(0.0..=f64::INFINITY);
     let Some(index) = machine.nearest(target, radius) else { return };
@@ -95,11 +95,11 @@ fn nearest(machine: &OdometryDecomposer, input: &mut Input) {
 /// Asserts that all results are finite, or NaN without outcomes.
 fn assert_results(machine: &OdometryDecomposer) {
     let settings = machine.settings();
-    machine.poses().iter().for_each(|pose| laws::pose("an outcome", pose));
-    machine.linkage().iter().for_each(|pose| laws::pose("the linkage", pose));
-    laws::pose("the robot", &machine.robot());
+    machine.poses().iter().for_each(|pose| laws::assert_pose("an outcome", pose));
+    machine.linkage().iter().for_each(|pose| laws::assert_pose("the linkage", pose));
+    laws::assert_pose("the robot", &machine.robot());
     let Drifted { frame, from, to, legs } = machine.drifted();
-    [frame, from, to].iter().for_each(|pose| laws::pose("drifted", pose));
+    [frame, from, to].iter().for_each(|pose| laws::assert_pose("drifted", pose));
     assert_legs("drifted legs", &legs);
     assert_legs("reading", &machine.reading());
 
@@ -117,8 +117,8 @@ fn assert_results(machine: &OdometryDecomposer) {
     assert_eq!(n, machine.poses().len());
     let exact = [exact_cross_track, lever, exact_heading, independent_heading];
     let measured = [cross_track, cross_track_error, heading, heading_error];
-    laws::finite("exact", &exact);
-    laws::finite_or_none("measured", &measured);
+    laws::assert_finite("exact", &exact);
+    laws::assert_finite_or_none("measured", &measured);
     assert_eq!(n == 0, cross_track.is_nan());
     assert!(
         exact.iter().chain(&measured).all(|figure| figure.is_nan() || *figure >= 0.0),
@@ -128,11 +128,11 @@ fn assert_results(machine: &OdometryDecomposer) {
     for figures in machine.rules() {
         assert_legs("legs", &figures.legs);
         let all = [&figures.deviations[..], &[figures.cross_track, figures.heading]].concat();
-        laws::finite("a rule", &all);
+        laws::assert_finite("a rule", &all);
         assert!(all.iter().all(|figure| *figure >= 0.0), "{figures:?}");
         if figures.rule == settings.rule {
             assert_eq!(figures.legs, machine.legs());
-            laws::same("exact", &all[4..], &[exact_cross_track, exact_heading]);
+            laws::assert_same_numbers("exact", &all[4..], &[exact_cross_track, exact_heading]);
         }
     }
 
@@ -153,6 +153,6 @@ fn assert_results(machine: &OdometryDecomposer) {
 }
 
 fn assert_legs(what: &str, legs: &OdomDelta) {
-    laws::finite(what, &[legs.rot1, legs.trans, legs.rot2]);
+    laws::assert_finite(what, &[legs.rot1, legs.trans, legs.rot2]);
     assert!(legs.trans >= 0.0, "{what}: {legs:?}");
 }

@@ -21,7 +21,7 @@ pub fn run(bytes: &[u8]) {
     assert_eq!(grid.cells().len(), columns * rows);
     // The distance field of a plan takes a hundred times as long as everything else.
     if input.choice(16) != 1 {
-        outlined(&grid.with_unknown(unknown), unknown);
+        assert_outlined(&grid.with_unknown(unknown), unknown);
         return;
     }
     let plan = match FloorPlan::from_grid(grid.with_unknown(unknown)) {
@@ -30,12 +30,12 @@ pub fn run(bytes: &[u8]) {
         Err(error) => panic!("{error}"),
     };
     let grid = plan.grid().expect("made of a grid");
-    outlined(grid, unknown);
+    assert_outlined(grid, unknown);
     for (middle, blocks) in middles(grid, unknown) {
         assert_eq!(plan.point_free(middle, 0.0).free, !blocks, "{middle:?} in {grid:?}");
     }
     for _ in 0..ARCS {
-        plan::verdict(&plan, &mut input);
+        plan::assert_verdict(&plan, &mut input);
         if input.is_empty() {
             break;
         }
@@ -63,7 +63,7 @@ fn middles(grid: &OccupancyGrid, unknown: Unknown) -> Vec<([f64; 2], bool)> {
 
 /// Asserts that each cell contains its middle, and that outlines separate obstacle cells from others: their total
 /// length is that of the sides between them.
-fn outlined(grid: &OccupancyGrid, unknown: Unknown) {
+fn assert_outlined(grid: &OccupancyGrid, unknown: Unknown) {
     let middles = middles(grid, unknown);
     for (middle, blocks) in &middles {
         assert_eq!(grid.holds(*middle), *blocks, "{middle:?} in {grid:?}");
@@ -84,13 +84,13 @@ fn outlined(grid: &OccupancyGrid, unknown: Unknown) {
         }
     }
     let outlines = grid.outlines(usize::MAX).expect("no limit");
-    let length: f64 = outlines.iter().map(long).sum();
+    let length: f64 = outlines.iter().map(length_of).sum();
     if !middles.is_empty() {
         assert!((length / grid.resolution() - sides as f64).abs() < 1e-3 * (1 + sides) as f64, "{grid:?}");
     }
 }
 
-fn long(wall: &Segment) -> f64 {
+fn length_of(wall: &Segment) -> f64 {
     (wall.to[0] - wall.from[0]).hypot(wall.to[1] - wall.from[1])
 }
 

@@ -7,7 +7,7 @@ pub struct Input<'a>(pub &'a [u8]);
 
 /// Returns true for one in `one_in` inputs, chosen by a hash of all their bytes. Slow checks run for those only.
 ///
-/// A choice byte in the input would be copied to most mutations of it.
+/// A byte of the input is no choice for that, because most mutations of the input keep it.
 pub fn turn_of(one_in: u64, bytes: &[u8]) -> bool {
     // FNV-1a.
     let mix = |hash: u64, byte: &u8| (hash ^ u64::from(*byte)).wrapping_mul(0x0000_0100_0000_01b3);
@@ -15,8 +15,8 @@ pub fn turn_of(one_in: u64, bytes: &[u8]) -> bool {
     (hash >> 32) % one_in == 0
 }
 
-/// Doubles at which something begins or ends, here or in the formats they come from.
-const EDGES: [f64; 24] = [
+/// Limits of ranges, of settings or of the formats of numbers.
+const LIMITS: [f64; 24] = [
     0.0,
     -0.0,
     1.0,
@@ -62,7 +62,7 @@ impl Input<'_> {
         self.byte() & 1 == 1
     }
 
-    /// One of `count`, from 0.
+    /// Returns a whole number from 0 that is less than `count`.
     pub fn choice(&mut self, count: usize) -> usize {
         usize::from(self.byte()) % count
     }
@@ -71,11 +71,11 @@ impl Input<'_> {
         choices[self.choice(choices.len())]
     }
 
-    /// Any double: a round one, an edge, or any bits.
+    /// Returns any double: a round one, a limit of a range, or one with any bits.
     pub fn number(&mut self) -> f64 {
         match self.choice(8) {
             0 => f64::from_le_bytes(self.bytes()),
-            1 => self.of(&EDGES),
+            1 => self.of(&LIMITS),
             2 => f64::from(self.byte() as i8),
             3 => f64::from(self.byte() as i8) * 10f64.powi(i32::from(self.byte() as i8) / 4),
             4 => f64::from(i16::from_le_bytes(self.bytes())) * 1e-4,
@@ -83,7 +83,7 @@ impl Input<'_> {
         }
     }
 
-    /// Mostly a double of this range.
+    /// Returns a double, mostly in this range.
     pub fn near(&mut self, range: &RangeInclusive<f64>) -> f64 {
         let number = self.number();
         if self.choice(8) == 0 || number.is_nan() {
@@ -92,13 +92,13 @@ impl Input<'_> {
         number.clamp(*range.start(), *range.end())
     }
 
-    /// A double of this range.
+    /// Returns a double in this range.
     pub fn within(&mut self, range: RangeInclusive<f64>) -> f64 {
         let number = self.number();
         if number.is_nan() { *range.start() } else { number.clamp(*range.start(), *range.end()) }
     }
 
-    /// Mostly a whole number of this range.
+    /// Returns a whole number, mostly in this range.
     pub fn whole_near(&mut self, range: &RangeInclusive<u64>) -> u64 {
         let whole = match self.choice(4) {
             0 => u64::from_le_bytes(self.bytes()),

@@ -4,31 +4,31 @@ use motion::geom::se2::SE2;
 use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::PI;
 
-pub fn finite(what: &str, numbers: &[f64]) {
+pub fn assert_finite(what: &str, numbers: &[f64]) {
     assert!(numbers.iter().all(|number| number.is_finite()), "{what}: {numbers:?}");
 }
 
-/// Either all are numbers or none is.
-pub fn finite_or_none(what: &str, numbers: &[f64]) {
+/// Asserts that all numbers are finite, or that all are NaN.
+pub fn assert_finite_or_none(what: &str, numbers: &[f64]) {
     if !numbers.iter().all(|number| number.is_nan()) {
-        finite(what, numbers);
+        assert_finite(what, numbers);
     }
 }
 
-pub fn share(what: &str, share: f64) {
+pub fn assert_share(what: &str, share: f64) {
     assert!(share.is_nan() || (0.0..=1.0).contains(&share), "{what}: {share}");
 }
 
-pub fn pose(what: &str, pose: &SE2) {
-    finite(what, &[pose.x(), pose.y(), pose.theta()]);
+pub fn assert_pose(what: &str, pose: &SE2) {
+    assert_finite(what, &[pose.x(), pose.y(), pose.theta()]);
     assert!(-PI < pose.theta() && pose.theta() <= PI, "{what}: {pose:?}");
 }
 
 /// Asserts that moments are finite, and that the covariance is symmetric without a correlation above 1. The tolerance for rounding is
 /// in proportion to the size of the values.
-pub fn moments(what: &str, mean: &Vector3<f64>, cov: &Matrix3<f64>) {
-    finite(what, mean.as_slice());
-    finite(what, cov.as_slice());
+pub fn assert_moments(what: &str, mean: &Vector3<f64>, cov: &Matrix3<f64>) {
+    assert_finite(what, mean.as_slice());
+    assert_finite(what, cov.as_slice());
     let sizes = Vector3::from_fn(|i, _| mean[i].abs() + cov[(i, i)].sqrt());
     let extent = sizes.x + sizes.y;
     let sizes = [extent, extent, sizes.z];
@@ -43,14 +43,14 @@ pub fn moments(what: &str, mean: &Vector3<f64>, cov: &Matrix3<f64>) {
     }
 }
 
-/// A few dozen units in the last place.
+/// Relative rounding error of a few dozen units in the last place.
 pub const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
-/// Bound of deviations whose squares underflow to 0, with a factor of more than two to spare.
+/// Bound, with a margin of a factor of two, of deviations whose squares underflow to 0.
 pub const UNDERFLOW: f64 = 1e-161;
 
-/// The same numbers, NaN being NaN.
-pub fn same(what: &str, a: &[f64], b: &[f64]) {
+/// Asserts that lists have the same numbers, where NaN equals NaN.
+pub fn assert_same_numbers(what: &str, a: &[f64], b: &[f64]) {
     let alike = |(a, b): (&f64, &f64)| a == b || (a.is_nan() && b.is_nan());
     assert!(a.len() == b.len() && a.iter().zip(b).all(alike), "{what}: {a:?} and {b:?}");
 }

@@ -1,4 +1,4 @@
-//! Properties of any input: one function a target, called by cargo-fuzz and by the tests of the package.
+//! Properties that hold for any input: a function for each target, called by cargo-fuzz and by the tests of the package.
 
 pub mod input;
 pub mod laws;

@@ -12,7 +12,7 @@ pub fn run(bytes: &[u8]) {
             assert_eq!(pixels.len(), width * height);
             assert!(pixels.iter().all(|pixel| (0.0..=1.0).contains(&pixel.shade) && pixel.opacity == 1.0));
             if pixels.len() <= 64 {
-                written_again(&image);
+                assert_written_reads_the_same(&image);
                 let grid = OccupancyGrid::new(&image, &Interpretation::default(), 1.0, SE2::identity());
                 assert_eq!(
                     read_grid(bytes, &Interpretation::default(), 1.0, SE2::identity()).as_ref(),
@@ -27,15 +27,15 @@ pub fn run(bytes: &[u8]) {
     }
 }
 
-/// The whole image, or the refusal.
+/// Returns the whole image, or the reason of the refusal.
 fn read(bytes: &[u8]) -> Result<Image<Vec<Pixel>>, String> {
     let Image { width, height, pixels } = read_pgm(bytes).map_err(|error| error.to_string())?;
     Ok(Image { width, height, pixels: pixels.map(Pixel::from).collect() })
 }
 
-/// A reading is a fixed point: in 16 bits, plain and binary, it reads the same, to the 65 535th of the shade that is
-/// rounded away where its file counted to another number.
-fn written_again(image: &Image<Vec<Pixel>>) {
+/// Asserts that an image that is written with 16 bits, plain or binary, is read as the same image. Shades may differ by a 65 535th, to
+/// which they are rounded.
+fn assert_written_reads_the_same(image: &Image<Vec<Pixel>>) {
     const GREATEST: f32 = 65_535.0;
     let mut plain = format!("P2\n{} {}\n{GREATEST}", image.width, image.height);
     let mut binary = format!("P5 {} {} {GREATEST}\n", image.width, image.height).into_bytes();

@@ -14,7 +14,7 @@ pub fn run(bytes: &[u8]) {
     let mut input = Input(bytes);
     let Some(plan) = read(&mut input) else { return };
     for _ in 0..ARCS {
-        verdict(&plan, &mut input);
+        assert_verdict(&plan, &mut input);
         if input.is_empty() {
             break;
         }
@@ -71,7 +71,7 @@ pub fn read(input: &mut Input) -> Option<FloorPlan> {
             match error {
                 FloorPlanError::BadBounds(which) => {
                     assert!(!are_good, "{message}");
-                    super::laws::same(&message, &which, &bounds);
+                    super::laws::assert_same_numbers(&message, &which, &bounds);
                 }
                 FloorPlanError::BadWall { index, end } => {
                     assert!(index < count, "{message}");
@@ -87,7 +87,7 @@ pub fn read(input: &mut Input) -> Option<FloorPlan> {
     }
 }
 
-/// A pose inside the bounds, mostly.
+/// Returns a pose, mostly inside the bounds.
 pub fn pose(plan: &FloorPlan, input: &mut Input) -> SE2 {
     let [left, bottom, right, top] = plan.bounds();
     let [x, y] = [[left, right], [bottom, top]].map(|[low, high]| {
@@ -97,14 +97,14 @@ pub fn pose(plan: &FloorPlan, input: &mut Input) -> SE2 {
     SE2::new(x, y, input.within(-1e6..=1e6))
 }
 
-/// The verdicts on an arc and on its end are those of every wall looked at.
-pub fn verdict(plan: &FloorPlan, input: &mut Input) {
+/// Asserts that the verdicts on an arc and on its end are those of a loop over all walls.
+pub fn assert_verdict(plan: &FloorPlan, input: &mut Input) {
     let start = pose(plan, input);
     let length = input.within(-1e12..=1e12);
     let turn = input.within(-1e12..=1e12);
     let clearance = input.within(0.0..=10.0);
     let arc = Arc { start, length, turn };
-    let tolerance = rounding(plan, &arc, clearance);
+    let tolerance = rounding_error(plan, &arc, clearance);
     let depth = |x: f64, y: f64| depth(plan, [x, y]);
 
     // Upper bound of the least distance of the path from the edge of the map, by some of its points.
@@ -159,7 +159,7 @@ fn depth(plan: &FloorPlan, [x, y]: [f64; 2]) -> f64 {
 
 /// Tolerance for rounding in m, as `FloorPlan` has it at the edge of a map: some thousand units in the last place of the
 /// largest number.
-fn rounding(plan: &FloorPlan, arc: &Arc, clearance: f64) -> f64 {
+fn rounding_error(plan: &FloorPlan, arc: &Arc, clearance: f64) -> f64 {
     let furthest = plan.bounds().iter().fold(0.0, |most: f64, bound| most.max(bound.abs()));
     1e-12 * (furthest + arc.length.abs() + clearance)
 }

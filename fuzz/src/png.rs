@@ -2,7 +2,7 @@
 
 use motion::map::{Image, MAX_PIXELS, read_png};
 
-/// Pixels of an image at most. Larger images are slow, and other tests cover them.
+/// Maximum number of pixels of an image. Larger images are slow, and other tests cover them.
 const PIXELS: usize = 1 << 16;
 
 pub fn run(bytes: &[u8]) {

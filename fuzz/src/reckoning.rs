@@ -8,8 +8,7 @@ use motion::sim::dead_reckoning::{
 };
 use nalgebra::Matrix3;
 
-/// Maximum numbers of robots, steps and calls in a run. Robots are driven in blocks of 256, also for a single one: most runs
-/// have one block, some several.
+/// Maximum numbers of robots, steps and calls in a run. Robots are driven in blocks of 256. Most runs have one block, and some several.
 const FEW_SAMPLES: usize = 200;
 const SAMPLES: usize = 800;
 const STEPS: u32 = 5;
@@ -39,14 +38,14 @@ pub fn run(bytes: &[u8]) {
     assert_results(&machine);
     // Slow checks run for some inputs only.
     if with_straight && turn_of(8, bytes) {
-        straight(&machine);
+        assert_straight_growth(&machine);
     }
     if with_double && turn_of(8, bytes) {
         assert_as_new(&machine);
     }
 }
 
-/// The same settings with few enough robots and steps.
+/// Returns the same settings with few robots and steps.
 fn few(settings: Settings, most: usize) -> Settings {
     Settings {
         samples: settings.samples.min(most),
@@ -60,7 +59,7 @@ fn call(machine: &mut DeadReckoning, few: &dyn Fn(Settings) -> Settings, input: 
     let shown = machine.shown();
     match input.choice(9) {
         0 | 1 => configure(machine, few, input),
-        2 | 3 => in_blocks(machine, few, input),
+        2 | 3 => assert_same_in_blocks(machine, few, input),
         4 => {
             let count = usize::from(u16::from_le_bytes(input.bytes())) % SAMPLES;
             assert_eq!(machine.add_samples(count), (shown + count).min(machine.settings().samples));
@@ -69,9 +68,9 @@ fn call(machine: &mut DeadReckoning, few: &dyn Fn(Settings) -> Settings, input: 
             machine.configure_first(*machine.settings(), 0).expect("allowed");
             assert_eq!(machine.shown(), 0);
         }
-        6 => nearest(machine, input),
-        7 => outlines(machine, 1 + input.choice(STEPS as usize) as u32),
-        _ => rollout(machine, usize::from(u16::from_le_bytes(input.bytes())) % SAMPLES),
+        6 => assert_nearest(machine, input),
+        7 => assert_outlines(machine, 1 + input.choice(STEPS as usize) as u32),
+        _ => assert_rollout(machine, usize::from(u16::from_le_bytes(input.bytes())) % SAMPLES),
     }
 }
 
@@ -86,8 +85,8 @@ fn configure(machine: &mut DeadReckoning, few: &dyn Fn(Settings) -> Settings, in
     assert_eq!(results(machine), before);
 }
 
-/// Blocks lead to what one call leads to.
-fn in_blocks(machine: &mut DeadReckoning, few: &dyn Fn(Settings) -> Settings, input: &mut Input) {
+/// Asserts that robots added in blocks equal the robots of one call.
+fn assert_same_in_blocks(machine: &mut DeadReckoning, few: &dyn Fn(Settings) -> Settings, input: &mut Input) {
     let settings = changed(machine.settings(), input);
     if !allowed(&settings) {
         return;
@@ -128,14 +127,14 @@ fn assert_results(machine: &DeadReckoning) {
     let (n, steps) = (machine.shown(), settings.steps as usize);
     assert!(n <= SAMPLES && (1..=settings.steps).contains(&settings.step), "{settings:?} of {n}");
     assert_eq!([machine.measured().len(), machine.nominal().len()], [steps; 2]);
-    machine.nominal().iter().for_each(|pose| laws::pose("nominal", pose));
-    laws::finite("commanded", machine.commanded().as_flattened());
+    machine.nominal().iter().for_each(|pose| laws::assert_pose("nominal", pose));
+    laws::assert_finite("commanded", machine.commanded().as_flattened());
     for measured in machine.measured() {
         if n > 0 {
-            laws::finite("mean", measured.mean.as_slice());
+            laws::assert_finite("mean", measured.mean.as_slice());
         }
         if n > 1 {
-            assert_covariance("measured", &measured.cov, of_sums(measured));
+            assert_covariance("measured", &measured.cov, rounding_of_sums(measured));
         }
         for (i, error) in measured.relative_error.iter().enumerate() {
             assert!(error.is_nan() || *error >= 0.0, "{measured:?}");
@@ -147,8 +146,8 @@ fn assert_results(machine: &DeadReckoning) {
     let step = settings.step;
     assert_eq!(machine.poses(step).len(), n.min(KEPT));
     assert!(machine.poses(0).is_empty() && machine.poses(settings.steps + 1).is_empty());
-    laws::finite("poses", machine.poses(step).as_flattened());
-    machine.twists().for_each(|twist| laws::finite("a twist", &twist));
+    laws::assert_finite("poses", machine.poses(step).as_flattened());
+    machine.twists().for_each(|twist| laws::assert_finite("a twist", &twist));
     assert_eq!(machine.twists().len(), n.min(KEPT));
     for order in RECURSIONS {
         let (predicted, compared) = (machine.predicted(order), machine.compared(order));
@@ -166,12 +165,12 @@ fn assert_results(machine: &DeadReckoning) {
     }
     let Stats { n: counted, .. } = machine.stats();
     assert_eq!(counted, n);
-    outlines(machine, step);
+    assert_outlines(machine, step);
 }
 
 /// Asserts that a matrix is finite and symmetric, and has no correlation above 1, to within `rounding`.
 fn assert_covariance(what: &str, cov: &Matrix3<f64>, rounding: impl Fn(usize, usize) -> f64) {
-    laws::finite(what, cov.as_slice());
+    laws::assert_finite(what, cov.as_slice());
     for i in 0..3 {
         assert!(cov[(i, i)] >= 0.0, "{what}: {cov:?}");
         for j in 0..i {
@@ -184,7 +183,7 @@ fn assert_covariance(what: &str, cov: &Matrix3<f64>, rounding: impl Fn(usize, us
 }
 
 /// Returns the rounding error of a covariance computed as mean of products minus product of means.
-fn of_sums(Measured { mean, cov, .. }: &Measured) -> impl Fn(usize, usize) -> f64 + use<> {
+fn rounding_of_sums(Measured { mean, cov, .. }: &Measured) -> impl Fn(usize, usize) -> f64 + use<> {
     let [along, lateral, heading] = [0, 1, 2].map(|i| mean[i].abs() + cov[(i, i)].sqrt());
     let sizes = [along + lateral, along + lateral, heading];
     move |i, j| laws::ROUNDING * sizes[i] * sizes[j] + laws::UNDERFLOW * (sizes[i] + sizes[j])
@@ -198,17 +197,17 @@ fn assert_misses(misses: &Misses, steps: usize) {
     assert!(in_order && !end.is_infinite() && (error.is_nan() || error >= 0.0), "{misses:?}");
 }
 
-fn straight(machine: &DeadReckoning) {
+fn assert_straight_growth(machine: &DeadReckoning) {
     let StraightGrowth { durations, along, across, along_first_order, across_first_order, crossing } =
         machine.straight_growth();
     for curve in [&durations, &along, &across, &along_first_order, &across_first_order] {
-        laws::finite("straight", curve);
+        laws::assert_finite("straight", curve);
         assert!(curve.len() == durations.len() && curve.iter().all(|variance| *variance >= 0.0), "{curve:?}");
     }
     assert!(crossing.is_none_or(|crossing| crossing.is_finite() && crossing > 0.0), "{crossing:?}");
 }
 
-fn outlines(machine: &DeadReckoning, step: u32) {
+fn assert_outlines(machine: &DeadReckoning, step: u32) {
     let settings = machine.settings();
     let Some(outlines) = machine.outlines(step) else {
         assert!(step > settings.steps);
@@ -216,7 +215,7 @@ fn outlines(machine: &DeadReckoning, step: u32) {
     };
     let Outlines { ellipse, exponential, predicted, measured } = outlines;
     for outline in [&ellipse, &exponential, &predicted, &measured] {
-        laws::finite("an outline", outline.as_flattened());
+        laws::assert_finite("an outline", outline.as_flattened());
         assert_eq!(outline.first(), outline.last(), "an outline is closed");
     }
     let none = machine.predicted(settings.compounding)[step as usize - 1].is_none();
@@ -225,19 +224,19 @@ fn outlines(machine: &DeadReckoning, step: u32) {
 }
 
 /// Asserts that the path of one robot has the poses that the steps show.
-fn rollout(machine: &DeadReckoning, index: usize) {
+fn assert_rollout(machine: &DeadReckoning, index: usize) {
     let Some(way) = machine.rollout(index) else {
         assert!(index >= machine.shown());
         return;
     };
     assert_eq!(way.len(), machine.settings().steps as usize);
-    laws::finite("a way", way.as_flattened());
+    laws::assert_finite("a way", way.as_flattened());
     for (step, pose) in (1..).zip(&way) {
         assert!(machine.poses(step).get(index).is_none_or(|shown| shown == pose), "{index} at {step}");
     }
 }
 
-fn nearest(machine: &DeadReckoning, input: &mut Input) {
+fn assert_nearest(machine: &DeadReckoning, input: &mut Input) {
     let target = [0; 2].map(|_| input.number());
     let radius = input.within(0.0..=f64::INFINITY);
     let Some(index) = machine.nearest(target, radius) else { return };

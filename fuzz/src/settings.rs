@@ -1,9 +1,9 @@
-//! Settings as a reader of them sets them, with any values.
+//! Settings that are changed as a reader changes them, to any values.
 
 use super::input::Input;
 use motion::sim::settings::{Allowed, Group, Rules, Setting, SettingsError};
 
-/// The present settings with some of them changed.
+/// Returns the present settings with some of them changed.
 pub fn changed<S: Rules>(present: &S, input: &mut Input) -> S {
     let (mut settings, mut named) = (*present, Vec::new());
     let chosen = u16::from_le_bytes(input.bytes());

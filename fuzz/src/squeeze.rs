@@ -9,7 +9,7 @@ use motion::sim::picture::RAMP;
 use motion::sim::squeeze::{KINDS, MapSqueeze, Settings};
 use std::cell::LazyCell;
 
-/// Samples, parts of one and calls of a run at most.
+/// Maximum numbers of samples, of parts of a sample, and of calls in a run.
 const SAMPLES: usize = 8;
 const PARTS: u32 = 3;
 const CALLS: usize = 3;
@@ -19,7 +19,7 @@ thread_local! {
     static OPENING: LazyCell<MapSqueeze> = LazyCell::new(|| {
         let wall = Segment { from: [0.0, 3.5], to: [2.0, 3.5] };
         let plan = FloorPlan::new(vec![wall], [0.0, 0.0, 4.0, 5.0]).expect("a plan");
-        let mut machine = MapSqueeze::new(few(Settings::default(), false)).expect("the opening state");
+        let mut machine = MapSqueeze::new(with_few_samples(Settings::default(), false)).expect("the opening state");
         machine.set_plan(plan);
         assert!(machine.start_free());
         machine
@@ -39,20 +39,20 @@ pub fn run(bytes: &[u8]) {
 }
 
 /// Returns the settings with few samples. A wedged robot takes 10 000 draws, so that most settings get a sampler that checks once.
-fn few(settings: Settings, patient: bool) -> Settings {
+fn with_few_samples(settings: Settings, patient: bool) -> Settings {
     let steps = settings.steps.min(PARTS);
-    let sampler = if patient { settings.sampler.in_parts(steps) } else { judged_once(settings.sampler) };
+    let sampler = if patient { settings.sampler.in_parts(steps) } else { without_parts(settings.sampler) };
     Settings { samples: settings.samples.min(SAMPLES), steps, sampler, ..settings }
 }
 
-fn judged_once(sampler: Sampler) -> Sampler {
+fn without_parts(sampler: Sampler) -> Sampler {
     if let Sampler::SubStepped(_) = sampler { Sampler::WholeArc } else { sampler }
 }
 
 fn call(machine: &mut MapSqueeze, input: &mut Input) {
     match input.choice(10) {
         0 => configure(machine, input),
-        1 => in_blocks(machine, input),
+        1 => assert_same_in_blocks(machine, input),
         2 => {
             if let Some(plan) = plan::read(input) {
                 machine.set_plan(plan);
@@ -73,7 +73,7 @@ fn call(machine: &mut MapSqueeze, input: &mut Input) {
             machine.configure_first(*machine.settings(), 0).expect("allowed");
             assert!(machine.attempts().is_empty());
         }
-        6 => paint(machine, input),
+        6 => assert_painted(machine, input),
         7 => {
             let target = [0; 2].map(|_| input.number());
             let radius = input.within(0.0..=f64::INFINITY);
@@ -92,7 +92,7 @@ fn configure(machine: &mut MapSqueeze, input: &mut Input) {
     let before = *machine.settings();
     if allowed(&settings) {
         let patient = input.choice(16) == 1;
-        machine.configure(few(settings, patient)).expect("allowed");
+        machine.configure(with_few_samples(settings, patient)).expect("allowed");
         return;
     }
     let attempts = machine.attempts().to_vec();
@@ -102,8 +102,8 @@ fn configure(machine: &mut MapSqueeze, input: &mut Input) {
 }
 
 /// Asserts that attempts made in several blocks equal the attempts of one call.
-fn in_blocks(machine: &mut MapSqueeze, input: &mut Input) {
-    let settings = few(changed(machine.settings(), input), false);
+fn assert_same_in_blocks(machine: &mut MapSqueeze, input: &mut Input) {
+    let settings = with_few_samples(changed(machine.settings(), input), false);
     if !allowed(&settings) {
         return;
     }
@@ -128,7 +128,7 @@ fn assert_as_new(machine: &MapSqueeze) {
 /// Asserts that the robot fits at the free pose that the machine finds.
 fn assert_free_pose(machine: &MapSqueeze) {
     let Some(place) = machine.open_place() else { return };
-    laws::pose("in the open", &place);
+    laws::assert_pose("in the open", &place);
     let fits = machine.plan().point_free([place.x(), place.y()], machine.settings().clearance).free;
     assert!(fits, "{place:?}");
 }
@@ -141,8 +141,8 @@ fn assert_results(machine: &MapSqueeze) {
     assert_eq!(stats.accepted, attempts.iter().filter(|attempt| attempt.accepted).count());
     let through = attempts.iter().filter(|attempt| attempt.accepted && !attempt.path_free).count();
     assert_eq!(stats.through_wall, through);
-    laws::share("acceptance", stats.acceptance_rate);
-    laws::share("through a wall", stats.through_wall_rate);
+    laws::assert_share("acceptance", stats.acceptance_rate);
+    laws::assert_share("through a wall", stats.through_wall_rate);
     let [low, high] = stats.through_wall_interval;
     assert!(0.0 <= low && low <= high && high <= 1.0, "{stats:?}");
     if stats.accepted > 0 {
@@ -150,7 +150,7 @@ fn assert_results(machine: &MapSqueeze) {
         assert!(stats.draws_per_accepted >= 1.0 && stats.draws_per_accepted.is_finite(), "{stats:?}");
     }
     for (index, attempt) in attempts.iter().enumerate() {
-        laws::pose("an attempt", &attempt.pose);
+        laws::assert_pose("an attempt", &attempt.pose);
         assert!(attempt.end_free || !attempt.path_free, "{attempt:?}");
         let expected = match settings.sampler {
             _ if !settings.conditioned => true,
@@ -164,24 +164,24 @@ fn assert_results(machine: &MapSqueeze) {
             assert_eq!(arcs.len(), settings.parts() as usize);
         }
         for arc in &arcs {
-            laws::finite("arc", &[arc.length, arc.turn]);
+            laws::assert_finite("arc", &[arc.length, arc.turn]);
         }
     }
     assert!(machine.arcs(attempts.len()).is_empty());
     if let Some(arc) = machine.arcs(0).first() {
-        laws::finite("path", arc.points().as_flattened());
+        laws::assert_finite("path", arc.points().as_flattened());
     }
     assert_finite_plan(machine.plan());
 }
 
 fn assert_finite_plan(plan: &FloorPlan) {
-    laws::finite("bounds", &plan.bounds());
+    laws::assert_finite("bounds", &plan.bounds());
     for wall in plan.walls() {
-        laws::finite("wall", &[wall.from, wall.to].concat());
+        laws::assert_finite("wall", &[wall.from, wall.to].concat());
     }
 }
 
-fn paint(machine: &mut MapSqueeze, input: &mut Input) {
+fn assert_painted(machine: &mut MapSqueeze, input: &mut Input) {
     let grid = banana::grid(input);
     let shown = machine.attempts().len();
     let pixels = machine.paint(&grid, &[[[1; 4]; RAMP]; KINDS]);

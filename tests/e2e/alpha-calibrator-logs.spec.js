@@ -2,7 +2,7 @@ import { spawnSync } from 'node:child_process';
 import { expect, test as anyway } from '@playwright/test';
 import { recordingOf, transform } from '../mcap.js';
 import { caption, choose, chooseRecording, example, openCalibrator, recordingWith, rows, rowsOf, stats, tablesOf } from './calibrator-support.js';
-import { STILL, heard, settled, stateOf, test, unfold } from './support.js';
+import { STILL, stateOf, takeEvents, test, unfold, untilSettled } from './support.js';
 
 /**
  * @typedef {import('@playwright/test').Locator} Locator
@@ -16,7 +16,7 @@ test('two tables of the reader’s own take the place of the simulated log, and 
   const widget = await openCalibrator(page);
   const tables = await tablesOf(widget);
   await choose(widget, { 'truth.csv': tables.reference, 'odom.csv': tables.odometry });
-  await settled(widget);
+  await untilSettled(widget);
   expect(await caption(widget).innerText()).toMatch(/ \d+ legs of odom\.csv, truth\.csv[.,]/);
   expect(await widget.evaluate((element) => /** @type {AlphaCalibratorElement} */ (element).machine.truth)).toBeNull();
   await expect(widget.locator('.drop-zone .present')).toHaveText('Log: odom.csv, truth.csv.');
@@ -44,7 +44,7 @@ test('results are those of the command line, to the last bit, and a recording wh
   const widget = await openCalibrator(page);
   await choose(widget, { 'odometry.csv': example('odometry'), 'reference.csv': example('reference') });
   await expect(caption(widget)).toHaveText(/odometry\.csv, reference\.csv[.,]/);
-  await settled(widget);
+  await untilSettled(widget);
   const shown = await widget.evaluate((element) => {
     const { machine: { stats, legs } } = /** @type {AlphaCalibratorElement} */ (element);
     return JSON.stringify({ ...stats, legs }, (_, value) => (ArrayBuffer.isView(value) ? [.../** @type {Float64Array} */ (value)] : value));
@@ -61,7 +61,7 @@ test('results are those of the command line, to the last bit, and a recording wh
   await expect(widget.getByRole('alert')).toHaveText(/^run\.mcap: it is not clear what the reference is: .*\/vicon\/pose \(PoseStamped\)\.$/);
   await widget.getByLabel('Reference', { exact: true }).selectOption('/mocap/pose');
   await expect(caption(widget)).toHaveText(/of run\.mcap, \/odom, \/mocap\/pose[.,]/);
-  await settled(widget);
+  await untilSettled(widget);
   const { alphas } = await stats(widget);
   // Conversion to quaternions rounds the headings.
   for (const [i, alpha] of printed.alphas.entries()) expect(Number(alphas[i]) / alpha).toBeCloseTo(1, 9);
@@ -74,7 +74,7 @@ test('of files with poses and commands the velocity model takes the commands, an
   const model = async (/** @type {string} */ name, /** @type {string} */ key) => {
     await widget.getByRole('radio', { name }).check();
     await expect.poll(keys).toContain(key);
-    await settled(widget);
+    await untilSettled(widget);
   };
   // The command of a row is driven until the next row.
   const driven = rowsOf('odometry');
@@ -84,7 +84,7 @@ test('of files with poses and commands the velocity model takes the commands, an
   });
   await choose(widget, { 'odom.csv': ['t,x,y,yaw,v,omega', ...commands].join('\n'), 'truth.csv': example('reference') });
   await expect.poll(keys).toContain('omega');
-  await settled(widget);
+  await untilSettled(widget);
   expect((await stats(widget)).alphas).toHaveLength(6);
   await model('Table 5.6', 'theta');
   await model('velocity', 'omega');
@@ -162,13 +162,13 @@ test('a log without enough legs is refused, and the present log keeps its place 
   const widget = await openCalibrator(page);
   await choose(widget, { 'odometry.csv': example('odometry'), 'reference.csv': example('reference') });
   await expect(caption(widget)).toHaveText(/of odometry\.csv, reference\.csv[.,]/);
-  await settled(widget);
+  await untilSettled(widget);
   const before = await caption(widget).innerText();
   const { alphas } = await stats(widget);
   const still = 't,x,y,yaw\n0,0,0,0\n1,0,0,0\n2,0,0,0\n';
   await choose(widget, { 'a.csv': still, 'b.csv': still });
   await expect(widget.getByRole('alert')).toHaveText('Log refused: Not enough data: fewer than 8 legs, or the logs do not overlap in time.');
-  await settled(widget);
+  await untilSettled(widget);
   expect(await caption(widget).innerText()).toBe(before);
   expect((await stats(widget)).alphas).toEqual(alphas);
   await expect(widget.locator('.drop-zone .present')).toContainText('odometry.csv, reference.csv');
@@ -221,7 +221,7 @@ test('a log is read and fitted in a worker, and the page stays free', async ({ p
     return { distance: figure.distance, alphas: figure.machine.stats.alphas };
   });
   expect(changed).toEqual({ distance: 0.5, alphas });
-  await settled(widget);
+  await untilSettled(widget);
   expect((await stats(widget)).alphas).not.toEqual(alphas);
 });
 
@@ -295,7 +295,7 @@ test('a log without legs says so @nightly', async ({ page }) => {
     /** @type {AlphaCalibratorElement} */ (element).log = { odometry: still, reference: still };
   });
   await expect.poll(() => widget.evaluate((element) => /** @type {AlphaCalibratorElement} */ (element).machine.count)).toBe(0);
-  await settled(widget);
+  await untilSettled(widget);
   await unfold(widget);
   await expect(caption(widget)).toHaveText(/^✕ Do not use\s+Not enough data: fewer than 8 legs, or the logs do not overlap in time\. Record a longer drive/);
   await expect(rows(widget).first()).toHaveText(/—/);
@@ -303,5 +303,5 @@ test('a log without legs says so @nightly', async ({ page }) => {
   await expect(widget.locator('canvas.leg')).toHaveAttribute('aria-label', 'No leg to show.');
   await expect(widget.locator('.slider.off:has(#leg)')).toBeVisible();
   await expect(widget.getByRole('button', { name: 'Next largest residual' })).toBeDisabled();
-  expect(await heard(page, ['error'])).toEqual([]);
+  expect(await takeEvents(page, ['error'])).toEqual([]);
 });

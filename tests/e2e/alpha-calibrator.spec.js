@@ -1,7 +1,7 @@
 import { readFileSync } from 'node:fs';
 import { expect } from '@playwright/test';
 import { caption, openCalibrator, rows, section, stats } from './calibrator-support.js';
-import { STILL, frames, pixelsOf, stateOf, settled, test, unfold } from './support.js';
+import { STILL, frames, pixelsOf, stateOf, test, unfold, untilSettled } from './support.js';
 
 
 test.use(STILL);
@@ -21,14 +21,14 @@ test('the true α’s are shown where the fit is of their rule and legs, and now
   const widget = await openCalibrator(page);
   await unfold(widget);
   await widget.getByRole('radio', { name: 'AMCL of Nav2' }).check();
-  await settled(widget);
+  await untilSettled(widget);
   await expect(widget.locator('table.alphas .true')).toHaveCount(0);
   await widget.getByRole('radio', { name: 'velocity' }).check();
-  await settled(widget);
+  await untilSettled(widget);
   await expect(rows(widget)).toHaveCount(6);
   expect(await stateOf(widget)).toMatchObject({ model: 'velocity', rule: 'thrun' });
   await widget.getByRole('radio', { name: 'omnidirectional' }).check();
-  await settled(widget);
+  await untilSettled(widget);
   await expect(rows(widget)).toHaveCount(5);
   expect(await stateOf(widget)).toMatchObject({ model: 'omnidirectional', rule: 'omni' });
 });
@@ -59,7 +59,7 @@ test('outliers are ringed, and decide the fit where they are not set aside', asy
   await widget.getByRole('checkbox', { name: 'outlier', exact: true }).uncheck();
   expect(await pixelsOf(widget.locator('canvas.plane'), 'ink')).toBeLessThan(rings - 40);
   await widget.getByRole('radio', { name: 'fit as noise' }).check();
-  await settled(widget);
+  await untilSettled(widget);
   const after = await stats(widget);
   // Numbers from the text of the page.
   const growth = [1, 2].map((alpha) => Math.round(Number(after.alphas[alpha]) / Number(before.alphas[alpha])));
@@ -73,7 +73,7 @@ test('a systematic error that is not corrected is named in the advice', async ({
   await unfold(widget);
   const before = await stats(widget);
   await widget.getByRole('checkbox', { name: /^mount yaw/ }).uncheck();
-  await settled(widget);
+  await untilSettled(widget);
   const after = await stats(widget);
   expect(after.systematicErrors.mountYaw.corrected).toBe(false);
   expect(after.systematicErrors.mountYaw.value).toBeCloseTo(0.07, 2);
@@ -125,7 +125,7 @@ test('an export as a picture has the key, the α’s with their intervals, and t
   const widget = await openCalibrator(page);
   await unfold(widget);
   await widget.getByRole('checkbox', { name: 'mount yaw (rad)' }).uncheck();
-  await settled(widget);
+  await untilSettled(widget);
   const texts = await rows(widget).evaluateAll((all) => all.map((row) => {
     const [of, value, between, recommended] = ['.of', '.fitted-value', '.between', '.recommended'].map((part) => row.querySelector(part)?.textContent?.trim());
     return `${of}: ${value}, ${between}, recommended ${recommended}`;
@@ -168,7 +168,7 @@ test('the lines for Nav2 have the numbers of the table, and are copied by the bu
   await expect(widget.locator('.fitted output')).toHaveText('Copied.');
   expect(await page.evaluate(() => navigator.clipboard.readText())).toBe(yaml);
   await widget.getByRole('radio', { name: 'velocity' }).check();
-  await settled(widget);
+  await untilSettled(widget);
   await expect(widget.locator('textarea.yaml')).toHaveCount(0);
   await expect(copy).toBeDisabled();
 });
@@ -181,19 +181,19 @@ test('legs of a time, and how well the reference is known, are set by their slid
   await expect(time.locator('.typed')).toHaveValue('—');
   await time.locator('.typed').fill('0.8');
   await time.locator('.typed').press('Enter');
-  await settled(widget);
+  await untilSettled(widget);
   expect(await stateOf(widget)).toMatchObject({ duration: 0.8, distance: 0.25, angle: 0.2 });
   await expect(widget.locator('.slider.off:is(:has(#distance), :has(#angle))')).toHaveCount(2);
   await expect(widget.locator('textarea.yaml')).toHaveValue(/# \d+ legs of 0\.8 s of the simulated log/);
   await expect(widget.locator('textarea.yaml')).not.toHaveValue(/update_min/);
   await time.locator('#duration').fill('0');
-  await settled(widget);
+  await untilSettled(widget);
   expect((await stats(widget)).alphas).toEqual(before.alphas);
   // Noise of the reference is not noise of the wheels.
   await expect(widget.locator('.slider:has(#positionStd) .typed')).toHaveValue('estimated');
   await widget.getByRole('slider', { name: /reference position σ/ }).fill('0.004');
   await widget.getByRole('slider', { name: /reference yaw σ/ }).fill('0.003');
-  await settled(widget);
+  await untilSettled(widget);
   expect(await stateOf(widget)).toMatchObject({ positionStd: 0.004, yawStd: 0.003, duration: 0 });
   expect(Number((await stats(widget)).alphas[3])).toBeLessThan(0.9 * Number(before.alphas[3]));
 });
@@ -207,7 +207,7 @@ test('of an α that a log does not determine it says why, and what to add', asyn
     const straight = (/** @type {number} */ error) => t.map((time, i) => 0.5 * time + error * Math.sin(i * i));
     Object.assign(element, { log: { odometry: { t, x: straight(0), y: none, theta: none }, reference: { t, x: straight(0.002), y: none, theta: none } } });
   });
-  await settled(widget);
+  await untilSettled(widget);
   await expect(rows(widget).nth(0)).toHaveText(/not determined: too little rotation in this log; add ~50 in-place rotations/);
   await expect(rows(widget).nth(2)).not.toHaveText(/not determined/);
 });

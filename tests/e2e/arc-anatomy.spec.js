@@ -1,5 +1,5 @@
 import { expect } from '@playwright/test';
-import { STILL, centreOf, frames, mount, numberIn, pictureOf, pixelsOf, played, readout, test, unfold } from './support.js';
+import { STILL, centreOf, frames, mount, numberIn, pictureOf, pixelsOf, playSlider, readout, test, unfold } from './support.js';
 
 /**
  * @import { Locator, Page } from '@playwright/test'
@@ -230,7 +230,7 @@ test('without noise it says so, and draws no map @nightly', async ({ page }) => 
 test('the robot goes along the arcs by itself for readers who like motion', async ({ page }) => {
   await page.emulateMedia({ reducedMotion: 'no-preference' });
   const widget = await open(page);
-  const { values, label } = await played(widget, 'underway', 3);
+  const { values, label } = await playSlider(widget, 'underway', 3);
   expect(label).toBe('Pause');
   expect(values[0]).toBe(0);
   expect(values[2]).toBeGreaterThan(values[1]);

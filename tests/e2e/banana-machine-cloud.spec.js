@@ -1,5 +1,5 @@
 import { expect } from '@playwright/test';
-import { STILL, boxOf, centreOf, detail, frames, numberIn, open, openWhole, pauseEarly, pictureOf, pixelsOf, posesOf, readout, set, state, test } from './support.js';
+import { STILL, bananaReadings, boxOf, centreOf, frames, numberIn, openBanana, openUnfoldedBanana, pauseEarly, pictureOf, pixelsOf, posesOf, readout, readoutDetail, setSliders, test } from './support.js';
 
 /** @typedef {import('./support.js').BananaMachineElement} BananaMachineElement */
 /** @typedef {import('@playwright/test').Locator} Locator */
@@ -25,25 +25,25 @@ async function markedNumbers(widget) {
 test('the cloud grows by itself, pauses, and goes on', async ({ page }) => {
   await page.emulateMedia({ reducedMotion: 'no-preference' });
   await pauseEarly(page, 'banana-machine');
-  const widget = await open(page);
+  const widget = await openBanana(page);
   const play = widget.locator('.cloud').getByRole('button', { name: 'Draw samples' });
   await expect(play).toBeVisible();
-  const [paused, first] = [await state(widget), await posesOf(widget)];
+  const [paused, first] = [await bananaReadings(widget), await posesOf(widget)];
   expect(paused.shown).toBeGreaterThan(0);
   expect(paused.shown).toBeLessThan(paused.config.samples);
   await frames(page);
-  expect((await state(widget)).shown).toBe(paused.shown);
+  expect((await bananaReadings(widget)).shown).toBe(paused.shown);
 
   await play.click();
-  await expect.poll(async () => (await state(widget)).shown, { timeout: 20_000 }).toBe(paused.config.samples);
+  await expect.poll(async () => (await bananaReadings(widget)).shown, { timeout: 20_000 }).toBe(paused.config.samples);
   await expect(play).toBeVisible();
   // The robots of the paused cloud are the first robots of the complete one.
   expect((await posesOf(widget)).slice(0, first.length)).toEqual(first);
 });
 
 test('opens with the whole cloud of the opening command, and shows the numbers of the machine', async ({ page }) => {
-  const widget = await openWhole(page);
-  const { config, shown: robots, stats, table } = await state(widget);
+  const widget = await openUnfoldedBanana(page);
+  const { config, shown: robots, stats, table } = await bananaReadings(widget);
   expect(config).toMatchObject({ model: 'velocity', noise: 'normal', command: { v: 1, omega: 0, dt: 2 }, alphas: OPENING_ALPHAS, isolate: null });
   expect(robots).toBe(config.samples);
   expect(Math.abs(table.exact.areaRatio - 1.967)).toBeLessThan(5e-4);
@@ -51,15 +51,15 @@ test('opens with the whole cloud of the opening command, and shows the numbers o
   const [skew, error] = (await shown('cross-track skew')).split(' ± ').map(numberIn);
   expect(skew).toBeCloseTo(stats.crossTrackSkew, 3);
   expect(error).toBeCloseTo(stats.crossTrackSkewError, 3);
-  await expect(detail(widget, 'cross-track skew')).toHaveText('exactly 0.000');
+  await expect(readoutDetail(widget, 'cross-track skew')).toHaveText('exactly 0.000');
   expect(numberIn(await shown('predicts'))).toBeCloseTo(stats.gaussianSkew, 3);
   expect(numberIn(await shown('ρ'))).toBeCloseTo(stats.rhoCrossHeading, 3);
   expect((await shown('robots shown')).split(' of ').map(numberIn)).toEqual([stats.n, config.samples]);
   expect(numberIn((await shown('gain in fit')).split(' ± ')[0])).toBeCloseTo(stats.likelihoodGain.pose, 3);
   expect(await shown('area covered')).toBe(`${stats.areaRatio.toFixed(2)} ×`);
   const shares = [stats.coverage.ellipse, stats.coverage.exponential].map((share) => `${(100 * share).toFixed(1)}\u202f%`);
-  await expect(detail(widget, 'area covered')).toHaveText(`± ${stats.areaRatioError.toPrecision(1)}; robots inside: ${shares.join(' and ')}`);
-  await expect(detail(widget, 'gain in fit')).toHaveText(`exactly ${table.exact.likelihoodGain.pose.toFixed(3)}; 1 nat: a factor of e`);
+  await expect(readoutDetail(widget, 'area covered')).toHaveText(`± ${stats.areaRatioError.toPrecision(1)}; robots inside: ${shares.join(' and ')}`);
+  await expect(readoutDetail(widget, 'gain in fit')).toHaveText(`exactly ${table.exact.likelihoodGain.pose.toFixed(3)}; 1 nat: a factor of e`);
   const row = widget.locator('tr').filter({ has: page.getByRole('rowheader', { name: 'Σxx', exact: true }) });
   const cells = (await row.getByRole('cell').allTextContents()).map(numberIn);
   for (const [i, column] of [table.linearized, table.exact, table.measured].entries()) expect(cells[i] / column.cov[0][0]).toBeCloseTo(1, 2);
@@ -70,23 +70,23 @@ test('opens with the whole cloud of the opening command, and shows the numbers o
 });
 
 test('Clear empties the cloud, Step adds a batch of the same robots', async ({ page }) => {
-  const widget = await open(page, 'samples="3000"');
-  const [whole, poses] = [await state(widget), await posesOf(widget)];
+  const widget = await openBanana(page, 'samples="3000"');
+  const [whole, poses] = [await bananaReadings(widget), await posesOf(widget)];
   await widget.getByRole('button', { name: 'Clear' }).click();
-  expect((await state(widget)).shown).toBe(0);
+  expect((await bananaReadings(widget)).shown).toBe(0);
   await expect(readout(widget, 'cross-track skew')).toHaveText('—');
   await expect(widget.getByRole('img', { name: 'No robots yet' }).first()).toBeVisible();
 
   const batch = Math.ceil(whole.config.samples / BATCHES);
   for (const shown of [batch, 2 * batch]) {
     await widget.getByRole('button', { name: 'Step' }).click();
-    expect((await state(widget)).shown).toBe(shown);
+    expect((await bananaReadings(widget)).shown).toBe(shown);
     expect(await posesOf(widget)).toEqual(poses.slice(0, 3 * shown));
   }
 });
 
 test('each overlay has a toggle', async ({ page }) => {
-  const widget = await openWhole(page, 'preset="gentle"');
+  const widget = await openUnfoldedBanana(page, 'preset="gentle"');
   const plane = widget.locator('canvas.plane');
   const twist = widget.locator('canvas.twist');
   const first = await pictureOf(plane);
@@ -113,7 +113,7 @@ test('each overlay has a toggle', async ({ page }) => {
 });
 
 test('a robot pointed at in one view is marked in both, with what it executed', async ({ page }) => {
-  const widget = await openWhole(page, 'preset="gentle"');
+  const widget = await openUnfoldedBanana(page, 'preset="gentle"');
   const plane = widget.locator('canvas.plane');
   const twist = widget.locator('canvas.twist');
   const field = widget.getByRole('spinbutton', { name: 'Robot' });
@@ -144,7 +144,7 @@ test('a robot pointed at in one view is marked in both, with what it executed', 
 });
 
 test('the sentence says what holds exactly for the model, and what the robots show', async ({ page }) => {
-  const widget = await openWhole(page, 'preset="gentle"');
+  const widget = await openUnfoldedBanana(page, 'preset="gentle"');
   const press = (/** @type {string} */ name) => widget.getByRole('button', { name, exact: true }).click();
   await expect(sentence(widget)).toHaveText(/^The cloud is bent, with its tail to the right of the mean heading: skew −0\.4\d\d\s±\s0\.01\d, where any Gaussian in \(x, y\) has 0\.$/);
   await widget.locator('#omega').fill('-0.5');
@@ -153,7 +153,7 @@ test('the sentence says what holds exactly for the model, and what the robots sh
   // Symmetric: the skew is exactly 0 for any number of robots, and the ellipse has twice the area.
   await press('Banana');
   await frames(page);
-  const { table } = await state(widget);
+  const { table } = await bananaReadings(widget);
   expect(Math.abs(table.exact.crossTrackSkew)).toBeLessThan(1e-9);
   expect(Math.abs(table.exact.areaRatio - 1.97)).toBeLessThan(0.005);
   // The sentence has the number of the readout.
@@ -171,9 +171,9 @@ test('the sentence says what holds exactly for the model, and what the robots sh
 });
 
 test('few robots do not show the lean; the Pivot’s bow-tie has its reason @nightly', async ({ page }) => {
-  const widget = await openWhole(page);
+  const widget = await openUnfoldedBanana(page);
   await widget.getByRole('button', { name: 'Pivot' }).click();
-  const { table, config } = await state(widget);
+  const { table, config } = await bananaReadings(widget);
   const [, a2] = config.alphas;
   const deviation = Math.sqrt(config.alphas[0] * 0.06 ** 2 + a2 * 1.5 ** 2);
   await expect(sentence(widget)).toContainText(`v̂ is 0.06 ± ${deviation.toFixed(2)} m/s`);
@@ -184,28 +184,28 @@ test('few robots do not show the lean; the Pivot’s bow-tie has its reason @nig
 
   await widget.getByRole('button', { name: 'Gentle arc' }).click();
   await widget.locator('#samples').fill('3');
-  const { stats, table: few } = await state(widget);
+  const { stats, table: few } = await bananaReadings(widget);
   expect(Math.abs(stats.crossTrackSkew)).toBeLessThan(2 * stats.crossTrackSkewError);
   await expect(sentence(widget)).toHaveText(new RegExp(`^Too few robots to show the lean: .*exactly −${Math.abs(few.exact.crossTrackSkew).toFixed(3)}\\.$`));
 });
 
 test('a cloud that turns a full circle has no exponential coordinates, and says so @nightly', async ({ page }) => {
-  const widget = await openWhole(page);
-  await set(widget, { omega: 2, dt: 3 });
+  const widget = await openUnfoldedBanana(page);
+  await setSliders(widget, { omega: 2, dt: 3 });
   await expect(widget.locator('.note')).toContainText('there are no statistics in ξ');
   await expect(readout(widget, 'predicts')).toHaveText('—');
-  await expect(detail(widget, 'area covered')).toHaveText(/robots inside: [\d.]+\u202f% and —$/);
+  await expect(readoutDetail(widget, 'area covered')).toHaveText(/robots inside: [\d.]+\u202f% and —$/);
   for (const name of ['area covered', 'gain in fit', 'exact area']) await expect(readout(widget, name)).toHaveText('—');
   await expect(readout(widget, 'cross-track skew')).not.toHaveText('—');
   const measured = widget.getByRole('row', { name: 'mean ξ along' }).getByRole('cell').last();
   await expect(measured).toHaveText('—');
-  await set(widget, { omega: 0.5, dt: 1 });
+  await setSliders(widget, { omega: 0.5, dt: 1 });
   await expect(widget.locator('.note')).toHaveCount(0);
   await expect(measured).not.toHaveText('—');
 });
 
 test('the odometry model shows its reading, the hinge noises of a marked robot, and backs up as one likes', async ({ page }) => {
-  const widget = await openWhole(page, 'preset="gentle"');
+  const widget = await openUnfoldedBanana(page, 'preset="gentle"');
   await expect(widget.getByLabel('Reverse without half-turn noise')).toHaveCount(0);
   await widget.getByLabel('odometry').check();
   await widget.getByRole('spinbutton', { name: 'Robot' }).fill('5');
@@ -227,23 +227,23 @@ test('the odometry model shows its reading, the hinge noises of a marked robot, 
 });
 
 test('captions and notes depend on the model and its noise', async ({ page }) => {
-  const widget = await openWhole(page);
+  const widget = await openUnfoldedBanana(page);
   const caption = widget.locator('.figures figure p');
   await expect(caption).toContainText('nearly a Gaussian');
-  await set(widget, { alpha5: 0, alpha6: 0 });
+  await setSliders(widget, { alpha5: 0, alpha6: 0 });
   await expect(caption).toContainText('exactly a Gaussian');
   await widget.getByLabel('triangular').check();
   await expect(caption).toContainText('triangular noise is not Gaussian');
   await widget.getByLabel('odometry').check();
   await expect(caption).toContainText('only roughly');
-  await set(widget, { v: -1 });
+  await setSliders(widget, { v: -1 });
   await expect(widget.locator('.note')).toContainText('Odometry reads backing up as two half turns');
   await widget.getByLabel('velocity').check();
   await expect(widget.locator('.note')).toHaveCount(0);
 });
 
 test('the marked robot and Step follow the size of the cloud @nightly', async ({ page }) => {
-  const widget = await openWhole(page);
+  const widget = await openUnfoldedBanana(page);
   const field = widget.getByRole('spinbutton', { name: 'Robot' });
   const step = widget.getByRole('button', { name: 'Step' });
   await expect(step).toBeDisabled();
@@ -251,7 +251,7 @@ test('the marked robot and Step follow the size of the cloud @nightly', async ({
   await field.fill('1500');
   await frames(page);
   await expect(widget.locator('.marked output')).toContainText('m/s');
-  await set(widget, { samples: 3 });
+  await setSliders(widget, { samples: 3 });
   await expect(field).toHaveValue('');
   await expect(widget.locator('.marked output')).toContainText('Point at one');
   await field.fill('100');

@@ -1,12 +1,12 @@
 import { expect } from '@playwright/test';
-import { FRESH, STILL, boxOf, centreOf, open, pictureOf, played, property, readout, ready, show, state, stateOf, test } from './support.js';
+import { FRESH, STILL, bananaReadings, boxOf, centreOf, openBanana, pictureOf, playSlider, property, readout, showPage, stateOf, test, untilReady } from './support.js';
 
 test.use(STILL);
 
 const calloutsOf = (/** @type {import('@playwright/test').Locator} */ widget) => widget.evaluate((element) => /** @type {any} */ (element).scene.callouts.length);
 
 test('one slider carries the floor to exponential coordinates and back, and callouts are on the floor alone', async ({ page }) => {
-  const widget = await open(page);
+  const widget = await openBanana(page);
   const plane = widget.locator('canvas.plane');
   const slider = widget.getByRole('slider', { name: 'From the floor' });
   const pictures = [await pictureOf(plane)];
@@ -23,7 +23,7 @@ test('one slider carries the floor to exponential coordinates and back, and call
 });
 
 test('a preset brings back the floor, also the present one', async ({ page }) => {
-  const widget = await open(page);
+  const widget = await openBanana(page);
   for (const name of ['Hard arc', 'Hard arc']) {
     await widget.getByRole('slider', { name: 'From the floor' }).fill('1');
     await widget.getByRole('button', { name }).click();
@@ -33,19 +33,19 @@ test('a preset brings back the floor, also the present one', async ({ page }) =>
 
 test('Play carries the floor all the way', async ({ page }) => {
   await page.emulateMedia({ reducedMotion: 'no-preference' });
-  const widget = await open(page, 'samples="1000"');
-  const { values, label } = await played(widget, 'morph');
+  const widget = await openBanana(page, 'samples="1000"');
+  const { values, label } = await playSlider(widget, 'morph');
   expect(label).toBe('Pause');
   expect(values.at(-1)).toBe(1);
   for (const [i, value] of values.entries()) expect(value).toBeGreaterThan(values[i - 1] ?? 0);
 });
 
 test('the end of the arc is moved where the morph shows it @nightly', async ({ page }) => {
-  const widget = await open(page, 'morph="1"');
+  const widget = await openBanana(page, 'morph="1"');
   const handle = widget.locator('.handle');
   await handle.press('ArrowUp');
   await handle.press('ArrowRight');
-  let { command } = (await state(widget)).config;
+  let { command } = (await bananaReadings(widget)).config;
   expect(command.omega * command.dt).toBeCloseTo(0.02, 9);
   expect(command.v * command.dt).toBeCloseTo(2.02, 9);
   await widget.evaluate((element) => void Reflect.set(element, 'morph', 0.4));
@@ -54,12 +54,12 @@ test('the end of the arc is moved where the morph shows it @nightly', async ({ p
   const [seenX, seenY] = /** @type {number[]} */ (await property(widget, 'seenEnd'));
   expect(seenX).toBeCloseTo(x, 9);
   expect(seenY).toBeCloseTo(y + 0.02, 9);
-  ({ command } = (await state(widget)).config);
+  ({ command } = (await bananaReadings(widget)).config);
   expect(command.omega).toBeGreaterThan(0.01);
 });
 
 test('Pin keeps the numbers and outlines to compare with, and lets go of them', async ({ page }) => {
-  const widget = await open(page);
+  const widget = await openBanana(page);
   const pin = widget.getByRole('button', { name: 'Pin' });
   const area = widget.locator('.readouts div').filter({ hasText: 'area covered' });
   const before = await readout(widget, 'area covered').innerText();
@@ -83,7 +83,7 @@ test('Pin keeps the numbers and outlines to compare with, and lets go of them', 
 });
 
 test('the title of the floor agrees with the fit of the ellipse', async ({ page }) => {
-  const widget = await open(page);
+  const widget = await openBanana(page);
   const title = widget.locator('.panel-title').first();
   for (const [preset, fit, gaps] of /** @type {const} */ ([['banana', 'no ellipse fits', 2], ['gentle', 'the ellipse nearly fits', 0], ['pivot', 'the ellipse has the size, not the shape', 0]])) {
     await widget.evaluate((element, preset) => void Reflect.set(element, 'preset', preset), preset);
@@ -93,7 +93,7 @@ test('the title of the floor agrees with the fit of the ellipse', async ({ page 
 });
 
 test('an outline that the morph cannot carry is struck through in the legend, which keeps its size', async ({ page }) => {
-  const widget = await open(page, 'preset="pivot"');
+  const widget = await openBanana(page, 'preset="pivot"');
   const legend = widget.locator('.legend').first();
   await expect(legend).not.toContainText('on the floor alone');
   const before = await boxOf(legend);
@@ -105,13 +105,13 @@ test('an outline that the morph cannot carry is struck through in the legend, wh
 
 test('the buttons that play have the names of what they play @nightly', async ({ page }) => {
   await page.emulateMedia({ reducedMotion: 'no-preference' });
-  const widget = await open(page, 'samples="100"');
+  const widget = await openBanana(page, 'samples="100"');
   await expect(widget.getByRole('button', { name: 'Play the morph' })).toHaveCount(1);
   await expect(widget.getByRole('button', { name: 'Draw samples' })).toHaveCount(1);
 });
 
 test('callouts are hidden while the cloud is dragged under them @nightly', async ({ page }) => {
-  const widget = await open(page);
+  const widget = await openBanana(page);
   const callouts = () => calloutsOf(widget);
   const { x, y } = await centreOf(widget.locator('.handle'));
   await page.mouse.move(x, y);
@@ -124,7 +124,7 @@ test('callouts are hidden while the cloud is dragged under them @nightly', async
 
 test('a narrow figure has one picture, which shows both ends', async ({ page }) => {
   await page.setViewportSize({ width: 375, height: 812 });
-  const widget = await open(page);
+  const widget = await openBanana(page);
   await expect(widget.locator('canvas.twist')).toBeHidden();
   const plane = widget.locator('canvas.plane');
   const floor = await pictureOf(plane);
@@ -138,19 +138,19 @@ test.describe('at first sight', () => {
   test('robots drive once a session, until a key or the pointer is pressed', FRESH, async ({ page }) => {
     await page.emulateMedia({ reducedMotion: 'no-preference' });
     const driving = () => page.locator('banana-machine').evaluate((element) => /** @type {any} */ (element).cloud.driving?.robots);
-    await show(page, '<banana-machine></banana-machine>');
+    await showPage(page, '<banana-machine></banana-machine>');
     await page.waitForFunction(() => /** @type {any} */ (document.querySelector('banana-machine'))?.cloud?.driving?.robots > 0);
     await page.keyboard.press('Shift');
     expect(await driving()).toBeUndefined();
-    await expect.poll(async () => (await state(page.locator('banana-machine'))).shown).toBeGreaterThan(10);
+    await expect.poll(async () => (await bananaReadings(page.locator('banana-machine'))).shown).toBeGreaterThan(10);
     await page.reload();
-    await ready(page.locator('banana-machine'));
+    await untilReady(page.locator('banana-machine'));
     expect(await driving()).toBeUndefined();
   });
 
   test('robots do not drive for a figure that a page has set @nightly', FRESH, async ({ page }) => {
     await page.emulateMedia({ reducedMotion: 'no-preference' });
-    const widget = await open(page, 'preset="gentle"');
+    const widget = await openBanana(page, 'preset="gentle"');
     expect(await widget.evaluate((element) => /** @type {any} */ (element).cloud.driving)).toBeUndefined();
   });
 });

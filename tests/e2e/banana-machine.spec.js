@@ -1,5 +1,5 @@
 import { expect } from '@playwright/test';
-import { STILL, centreOf, dragSlider, frames, open, openWhole, pictureOf, readout, settled, set, state, test } from './support.js';
+import { STILL, bananaReadings, centreOf, dragSlider, frames, openBanana, openUnfoldedBanana, pictureOf, readout, setSliders, test, untilSettled } from './support.js';
 
 test.use(STILL);
 
@@ -7,7 +7,7 @@ test.use(STILL);
 const GENTLE = 'preset="gentle"';
 
 test('a drag keeps the scale, and the view zooms out after it', async ({ page }) => {
-  const widget = await open(page, 'preset="banana"');
+  const widget = await openBanana(page, 'preset="banana"');
   const handle = widget.getByRole('slider', { name: 'End of the commanded arc' });
   const extent = () => widget.evaluate((element) => ({ .../** @type {any} */ (element).pictures[0].view.extent }));
   const from = await centreOf(handle);
@@ -38,27 +38,27 @@ test('a drag keeps the scale, and the view zooms out after it', async ({ page })
 });
 
 test('Home and End move the end of the arc to the ends of v, and no key scrolls the page', async ({ page }) => {
-  const widget = await open(page, 'style="margin-bottom: 3000px"');
+  const widget = await openBanana(page, 'style="margin-bottom: 3000px"');
   const handle = widget.locator('.handle');
   await handle.focus();
   await page.evaluate(() => scrollTo(0, 100));
   for (const [key, v] of /** @type {const} */ ([['End', 1.5], ['Home', -1.5], ['PageDown', undefined], ['ArrowDown', undefined]])) {
     await page.keyboard.press(key);
-    const { command } = (await state(widget)).config;
+    const { command } = (await bananaReadings(widget)).config;
     if (v) expect(command.v).toBeCloseTo(v, 1);
   }
   expect(await page.evaluate(() => scrollY)).toBe(100);
 });
 
 test('the handle does not leap to another arc with the same end @nightly', async ({ page }) => {
-  const widget = await open(page);
+  const widget = await openBanana(page);
   const handle = widget.locator('.handle');
   // For these turns, beyond half a circle and in reverse, the shortest arc to the end is another one.
   for (const command of [{ v: 1, omega: 1.8, dt: 2.5 }, { v: -1, omega: 0.4, dt: 1 }]) {
-    await set(widget, command);
-    const before = await state(widget);
+    await setSliders(widget, command);
+    const before = await bananaReadings(widget);
     await handle.press('ArrowUp');
-    const after = await state(widget);
+    const after = await bananaReadings(widget);
     expect(after.end[0]).toBeCloseTo(before.end[0], 9);
     expect(after.end[1]).toBeCloseTo(before.end[1] + 0.02, 9);
     expect(Math.abs(after.config.command.v - command.v)).toBeLessThan(0.2);
@@ -67,7 +67,7 @@ test('the handle does not leap to another arc with the same end @nightly', async
 });
 
 test('the ring says where the sliders end, to the eye and to the ear', async ({ page }) => {
-  const widget = await open(page);
+  const widget = await openBanana(page);
   const handle = widget.getByRole('slider', { name: 'End of the commanded arc' });
   const hint = () => handle.evaluate((element) => getComputedStyle(element, '::before').content);
   await widget.evaluate((element) => void Object.assign(element, { v: 1.49, omega: 0 }));
@@ -82,29 +82,29 @@ test('the ring says where the sliders end, to the eye and to the ear', async ({ 
 });
 
 test('the chart sets ω by pointer and by keyboard', async ({ page }) => {
-  const widget = await openWhole(page, GENTLE);
+  const widget = await openUnfoldedBanana(page, GENTLE);
   const marker = widget.getByRole('slider', { name: 'Commanded ω on the chart' });
   await marker.focus();
   await marker.press('ArrowRight');
-  expect((await state(widget)).config.command.omega).toBeCloseTo(0.51, 12);
+  expect((await bananaReadings(widget)).config.command.omega).toBeCloseTo(0.51, 12);
   const chart = widget.locator('svg.plot');
   await chart.scrollIntoViewIfNeeded();
   const { x, y } = await centreOf(chart);
   await page.mouse.click(x + 80, y);
-  const { config, table } = await state(widget);
+  const { config, table } = await bananaReadings(widget);
   expect(config.command.omega).toBeGreaterThan(0.51);
   await expect(marker).toHaveAttribute('aria-valuetext', new RegExp(`skew −${Math.abs(table.exact.crossTrackSkew).toFixed(3)}`));
 });
 
 test('a dragged α moves the same robots, once a frame', async ({ page }) => {
   // All samples are in the first block, so that no later one changes the statistics.
-  const widget = await openWhole(page, `${GENTLE} samples="20000"`);
-  const before = await state(widget);
+  const widget = await openUnfoldedBanana(page, `${GENTLE} samples="20000"`);
+  const before = await bananaReadings(widget);
   const picture = await pictureOf(widget.locator('canvas.plane'));
   const skew = await readout(widget, 'cross-track skew').textContent();
   await dragSlider(widget.getByRole('slider', { name: 'α4' }), 0.85);
-  await settled(widget);
-  const after = await state(widget);
+  await untilSettled(widget);
+  const after = await bananaReadings(widget);
   const alpha = after.config.alphas[3];
   expect(alpha).toBeGreaterThan(0.16);
   expect(after.config).toEqual({ ...before.config, alphas: before.config.alphas.with(3, alpha) });
@@ -124,29 +124,29 @@ test('a dragged α moves the same robots, once a frame', async ({ page }) => {
     return count;
   });
   expect(told).toBe(1);
-  expect((await state(widget)).config.alphas[0]).toBe(0.09);
+  expect((await bananaReadings(widget)).config.alphas[0]).toBe(0.09);
 });
 
 test('Isolate leaves one α in effect, shows the others as off, and lets go again', async ({ page }) => {
-  const widget = await openWhole(page, GENTLE);
-  const before = await state(widget);
+  const widget = await openUnfoldedBanana(page, GENTLE);
+  const before = await bananaReadings(widget);
   await widget.getByLabel('Isolate one').check();
-  expect((await state(widget)).config).toEqual({ ...before.config, isolate: 4 });
+  expect((await bananaReadings(widget)).config).toEqual({ ...before.config, isolate: 4 });
   await expect(widget.locator('.alphas .value', { hasText: 'off' })).toHaveCount(5);
   await widget.getByRole('radio', { name: 'Only α₁' }).check();
-  expect((await state(widget)).config.isolate).toBe(1);
+  expect((await bananaReadings(widget)).config.isolate).toBe(1);
   // Moving the slider of another α selects that α.
   await widget.getByRole('slider', { name: 'α3' }).fill('0.06');
-  const { config } = await state(widget);
+  const { config } = await bananaReadings(widget);
   expect(config).toMatchObject({ isolate: 3, alphas: before.config.alphas.with(2, 0.06) });
   await widget.getByLabel('Isolate one').uncheck();
-  expect((await state(widget)).config.isolate).toBeNull();
+  expect((await bananaReadings(widget)).config.isolate).toBeNull();
   await expect(widget.locator('.alphas .value', { hasText: 'off' })).toHaveCount(0);
 });
 
 test('no slider moves under the finger when there is something to note', async ({ page }) => {
   await page.setViewportSize({ width: 375, height: 812 });
-  const widget = await openWhole(page, GENTLE);
+  const widget = await openUnfoldedBanana(page, GENTLE);
   const slider = widget.locator('#omega');
   const note = widget.locator('.note');
   const place = async () => {
@@ -164,7 +164,7 @@ test('no slider moves under the finger when there is something to note', async (
 
 test('a slider stays in its place when a text above it becomes shorter', async ({ page }) => {
   await page.setViewportSize({ width: 700, height: 900 });
-  const widget = await openWhole(page);
+  const widget = await openUnfoldedBanana(page);
   const height = () => widget.locator('.readouts').first().evaluate((element) => element.getBoundingClientRect().height);
   await frames(page);
   const before = await height();

@@ -6,7 +6,7 @@
 
 import { readFileSync } from 'node:fs';
 import { odometry, poseOf, recordingOf, stampOf, twistOf } from '../mcap.js';
-import { mount, settled } from './support.js';
+import { mount, untilSettled } from './support.js';
 
 /**
  * @typedef {import('@playwright/test').Page} Page
@@ -20,7 +20,7 @@ export async function openCalibrator(page, attributes) {
   const widget = await mount(page, 'alpha-calibrator', {
     attributes, script: ['motion-widgets', 'de'].map((name) => `<script type="module" src="/${name}.js"></script>`).join(''),
   });
-  await settled(widget);
+  await untilSettled(widget);
   return widget;
 }
 

@@ -3,7 +3,7 @@
 import { fileURLToPath } from 'node:url';
 import { expect, test as anyway } from '@playwright/test';
 import { serve } from '../../scripts/serve.mjs';
-import { frames, ready, test, unfold } from './support.js';
+import { frames, test, unfold, untilReady } from './support.js';
 
 const DIST = fileURLToPath(new URL('../../dist', import.meta.url));
 const STRICT = "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'";
@@ -42,7 +42,7 @@ async function openUnder(page, policy, path) {
 test('a figure asks for nothing that a strict policy forbids', async ({ page, figure }) => {
   const violations = await openUnder(page, STRICT, `embed.html?widget=${figure}`);
   const widget = page.locator(figure);
-  await ready(widget);
+  await untilReady(widget);
   await unfold(widget);
   await widget.getByRole('slider').first().press('ArrowRight');
   await frames(page);
@@ -56,7 +56,7 @@ test('a figure has a Trusted Types policy of its own beside that of the page\'s 
   // A copy of Lit that the page loads before the figures makes this policy.
   await page.addInitScript(() => void Reflect.get(window, 'trustedTypes').createPolicy('lit-html', { createHTML: (/** @type {string} */ text) => text }));
   const violations = await openUnder(page, trusting('lit-html motion-widgets'), `embed.html?widget=${figure}`);
-  await ready(page.locator(figure));
+  await untilReady(page.locator(figure));
   await unfold(page.locator(figure));
   expect(await violations()).toEqual([]);
 });

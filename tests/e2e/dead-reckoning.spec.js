@@ -1,5 +1,5 @@
 import { expect } from '@playwright/test';
-import { STILL, dragSlider, frames, mount, pictureOf, pixelsOf, readout, settled, test, unfold } from './support.js';
+import { STILL, dragSlider, frames, mount, pictureOf, pixelsOf, readout, test, unfold, untilSettled } from './support.js';
 
 /**
  * @import { Locator, Page } from '@playwright/test'
@@ -12,7 +12,7 @@ test.use(STILL);
 /** Opens a page with the figure, and waits for all of its robots. @param {Page} page @param {string} [attributes] */
 async function openReckoning(page, attributes) {
   const widget = await mount(page, 'dead-reckoning', { attributes });
-  await settled(widget);
+  await untilSettled(widget);
   return widget;
 }
 
@@ -101,16 +101,16 @@ test('presets are paths, and tell which one it is', async ({ page }) => {
   const button = (/** @type {string} */ name) => widget.getByRole('button', { name });
   await expect(button('The chapter’s 20 steps')).toHaveAttribute('aria-pressed', 'true');
   await button('Heading σ doubled').click();
-  await settled(widget);
+  await untilSettled(widget);
   expect((await config(widget)).alphas).toEqual([0.02, 0.02, 0.08, 0.08, 0.02, 0.02]);
   expect((await missed(widget))[0]).toBe('steps 9–20');
   await expect(widget).toHaveAttribute('preset', 'doubled');
   await button('Same path, 200 steps').click();
-  await settled(widget);
+  await untilSettled(widget);
   expect(await config(widget)).toMatchObject({ steps: 200, command: { dt: 0.02 } });
   expect((await missed(widget))[0]).toBe('never');
   await widget.locator('#headingNoise').press('ArrowRight');
-  await settled(widget);
+  await untilSettled(widget);
   expect((await config(widget)).alphas).toEqual([0.02, 0.02, 0.025, 0.025, 0.00625, 0.00625]);
   await expect(widget).not.toHaveAttribute('preset');
 });
@@ -120,7 +120,7 @@ test('more steps are shorter ones of the same path, seen from the same place', a
   const end = (/** @type {Locator} */ of) => of.evaluate((element) => [.../** @type {DeadReckoningElement} */ (element).machine.commanded.slice(-2)]);
   const [x, y] = await end(widget);
   await dragSlider(widget.locator('#steps'), 0.5);
-  await settled(widget);
+  await untilSettled(widget);
   const { steps, step, command } = await config(widget);
   expect(steps).toBeGreaterThan(80);
   expect(Math.abs(steps * command.dt - 4)).toBeLessThan(1e-12);
@@ -151,7 +151,7 @@ test('no noise has no ratio, and a fourth order without a covariance neither @ni
     return /** @type {DeadReckoningElement} */ (element).machine.stats.predicted['fourth-order'];
   });
   expect(wild).toBeNull();
-  await settled(widget);
+  await untilSettled(widget);
   await expect(caption(widget)).toHaveText(/has left no covariance/);
 });
 
@@ -190,7 +190,7 @@ test('variances of a straight drive cross where the formula says', async ({ page
   const plot = widget.locator('.folded svg.plot');
   await expect(plot).toHaveAttribute('aria-label', /Equal to first order after 2.00 s\.$/);
   await widget.evaluate((element) => Object.assign(element, { headingNoise: 0 }));
-  await settled(widget);
+  await untilSettled(widget);
   await expect(plot).toHaveAttribute('aria-label', /never cross\.$/);
 });
 

@@ -2,14 +2,14 @@ import { readFileSync } from 'node:fs';
 import { expect } from '@playwright/test';
 import { SEEDS, anyOf } from './any-state.js';
 import { ALL, KNOWN, NAMES } from './figures.js';
-import { STILL, assign, frames, heard, mount, property, ready, show, test, testEach, unfold } from './support.js';
+import { STILL, assign, frames, mount, property, showPage, takeEvents, test, testEach, unfold, untilReady } from './support.js';
 
 /** @typedef {import('./support.js').AnyElement} AnyElement */
 
 test.use(STILL);
 
 test('attributes of every kind say how the figure opens', async ({ page }) => {
-  await show(
+  await showPage(
     page,
     `<banana-machine seed="11" samples="300" alpha4="0.125" model="odometry" noise="triangular" preset="hard" v="-0.5"
        isolate="3" overlays="linearized command"></banana-machine>
@@ -17,9 +17,9 @@ test('attributes of every kind say how the figure opens', async ({ page }) => {
        clearance="0.2" samples="77" seed="5" view="close"></map-squeeze>`,
   );
   const [banana, squeeze] = NAMES.map((name) => page.locator(name));
-  await ready(banana);
+  await untilReady(banana);
   await squeeze.scrollIntoViewIfNeeded();
-  await ready(squeeze);
+  await untilReady(squeeze);
   const config = await banana.evaluate((element) => Reflect.get(element, 'machine').config);
   expect(config).toMatchObject({
     model: 'odometry',
@@ -42,13 +42,13 @@ test('attributes of every kind say how the figure opens', async ({ page }) => {
     seed: 5,
   });
   expect(await property(squeeze, 'view')).toBe('close');
-  expect((await heard(page)).map(({ name, target }) => [name, target])).toEqual(NAMES.map((name) => ['load', name]));
+  expect((await takeEvents(page)).map(({ name, target }) => [name, target])).toEqual(NAMES.map((name) => ['load', name]));
 });
 
 test('attributes stay as written until a setting changes, and then reflect it', async ({ page }) => {
-  await show(page, '<banana-machine preset="hard" seed="3"></banana-machine><map-squeeze></map-squeeze>');
+  await showPage(page, '<banana-machine preset="hard" seed="3"></banana-machine><map-squeeze></map-squeeze>');
   const [banana, squeeze] = NAMES.map((name) => page.locator(name));
-  await ready(banana);
+  await untilReady(banana);
   await unfold(banana);
   const attributes = (/** @type {import('@playwright/test').Locator} */ widget) =>
     widget.evaluate((element) => Object.fromEntries([...element.attributes].map(({ name, value }) => [name, value])));
@@ -70,7 +70,7 @@ test('attributes stay as written until a setting changes, and then reflect it', 
   expect(await attributes(banana)).not.toHaveProperty('isolate');
 
   await squeeze.scrollIntoViewIfNeeded();
-  await ready(squeeze);
+  await untilReady(squeeze);
   await unfold(squeeze);
   await squeeze.getByRole('button', { name: 'Facing a wall' }).click();
   await squeeze.getByLabel('Check samples against the map').uncheck();
@@ -79,19 +79,19 @@ test('attributes stay as written until a setting changes, and then reflect it', 
 });
 
 test('boolean attributes may be empty or "true", and lists may have any space @nightly', async ({ page }) => {
-  await show(page, '<banana-machine overlays=" linearized\n  command "></banana-machine><map-squeeze conditioned="true"></map-squeeze>');
+  await showPage(page, '<banana-machine overlays=" linearized\n  command "></banana-machine><map-squeeze conditioned="true"></map-squeeze>');
   const [banana, squeeze] = NAMES.map((name) => page.locator(name));
-  await ready(banana);
+  await untilReady(banana);
   expect(await property(banana, 'overlays')).toEqual(['command', 'linearized']);
   await banana.evaluate((element) => element.setAttribute('overlays', ''));
   expect(await property(banana, 'overlays')).toEqual([]);
   await squeeze.scrollIntoViewIfNeeded();
-  await ready(squeeze);
+  await untilReady(squeeze);
   for (const [text, value] of /** @type {const} */ ([['false', false], ['true', true], ['false', false], ['', true]])) {
     await squeeze.evaluate((element, given) => element.setAttribute('conditioned', given), text);
     expect(await property(squeeze, 'conditioned')).toBe(value);
   }
-  expect(await heard(page, ['error'])).toEqual([]);
+  expect(await takeEvents(page, ['error'])).toEqual([]);
 });
 
 test('attributes follow the controls of a figure, and lead back to the default where they are removed', async ({ page, figure }) => {
@@ -105,7 +105,7 @@ test('attributes follow the controls of a figure, and lead back to the default w
   expect(await property(widget, slider)).toBe(second);
   await expect(widget.locator(`#${slider}`)).toHaveValue(String(second));
   await widget.evaluate((element, key) => element.setAttribute(key, 'fast'), slider);
-  expect((await heard(page, ['error'])).map(({ message }) => message).join()).toMatch(/ is "fast"; allowed is a (whole )?number/);
+  expect((await takeEvents(page, ['error'])).map(({ message }) => message).join()).toMatch(/ is "fast"; allowed is a (whole )?number/);
   expect(await property(widget, slider)).toBe(second);
   await widget.evaluate((element, key) => element.removeAttribute(key), slider);
   expect(await property(widget, slider)).toBe(opening);
@@ -113,7 +113,7 @@ test('attributes follow the controls of a figure, and lead back to the default w
 
 test('attributes that are refused are reported in the words of the core, and the last good value stays', async ({ page }) => {
   const widget = await mount(page, 'banana-machine', { attributes: 'v="fast" omega="0.7" model="walking" samples="0" overlays="ellipse stars"' });
-  const errors = (await heard(page, ['error'])).map(({ message }) => message);
+  const errors = (await takeEvents(page, ['error'])).map(({ message }) => message);
   expect(errors).toEqual([
     'model is "walking"; allowed is "velocity" or "odometry"',
     'command.v is "fast"; allowed is a number',
@@ -124,7 +124,7 @@ test('attributes that are refused are reported in the words of the core, and the
   expect(await values()).toEqual([1, 0.7, 'velocity', 50000]);
   // A blank attribute is neither a number nor zero.
   await widget.evaluate((element) => element.setAttribute('omega', ' '));
-  expect((await heard(page, ['error'])).map(({ message }) => message)).toEqual(['command.omega is " "; allowed is a number']);
+  expect((await takeEvents(page, ['error'])).map(({ message }) => message)).toEqual(['command.omega is " "; allowed is a number']);
   expect(await property(widget, 'omega')).toBe(0.7);
   await widget.evaluate((element) => element.setAttribute('dt', '3'));
   expect(await property(widget, 'dt')).toBe(3);
@@ -136,24 +136,24 @@ test('elements in the table of doc/embedding/figures.md have the attributes that
   const document = readFileSync(new URL('../../doc/embedding/figures.md', import.meta.url), 'utf8');
   const examples = [...document.matchAll(/^\| [^|]* \| `<([a-z-]+)( [^`]*)>` \|$/gm)].map(([, name, attributes]) => ({ name, attributes }));
   expect(new Set(examples.map(({ name }) => name)).size).toBe(ALL.length);
-  await show(page, examples.map(({ name, attributes }) => `<${name} class="example" ${attributes}></${name}>`).join(''));
+  await showPage(page, examples.map(({ name, attributes }) => `<${name} class="example" ${attributes}></${name}>`).join(''));
   const unknown = await page.locator('.example').evaluateAll((all) => all.flatMap(({ attributes, constructor }) =>
     [...attributes].map(({ name }) => name).filter((name) => name !== 'class' && !Reflect.get(constructor, 'observedAttributes').includes(name))));
   expect(unknown).toEqual([]);
   for (const widget of await page.locator(`${figure}.example`).all()) {
     await widget.scrollIntoViewIfNeeded();
-    await ready(widget);
+    await untilReady(widget);
   }
-  expect(await heard(page, ['error'])).toEqual([]);
+  expect(await takeEvents(page, ['error'])).toEqual([]);
 });
 
 /** Values for the parts of a state that attributes cannot set, or that one attribute sets together. */
 const WITHOUT_ATTRIBUTES = { 'map-squeeze': { map: null, alphas: [0.2, 0.2, 0.2, 0.2, 0.05, 0.05] } };
 
 testEach('code to embed opens the settings of a state, with its attributes in any order', async (page, name, isFull) => {
-  await show(page, `<${name}></${name}>`);
+  await showPage(page, `<${name}></${name}>`);
   const widget = page.locator(name).first();
-  await ready(widget);
+  await untilReady(widget);
   for (const seed of isFull ? SEEDS : SEEDS.slice(0, 2)) {
     const state = { ...anyOf(seed)[name], ...Reflect.get(WITHOUT_ATTRIBUTES, name) };
     const [original, ...copies] = await widget.evaluate(async (element, given) => {
@@ -180,11 +180,11 @@ testEach('code to embed opens the settings of a state, with its attributes in an
     }, /** @type {any} */ (state));
     for (const copy of copies) expect(copy, `seed ${seed}`).toEqual(original);
   }
-  expect(await heard(page, ['error'])).toEqual([]);
+  expect(await takeEvents(page, ['error'])).toEqual([]);
 });
 
 test('a list that a server wrote as text is taken up, and other text is reported', async ({ page }) => {
-  await show(page, '');
+  await showPage(page, '');
   const refused = await page.evaluate(async () => {
     const box = document.createElement('div');
     document.body.prepend(box);
@@ -198,7 +198,7 @@ test('a list that a server wrote as text is taken up, and other text is reported
 });
 
 test('properties that were set before the element was defined are taken up, in any order', async ({ page }) => {
-  await show(page, '', { script: '' });
+  await showPage(page, '', { script: '' });
   const told = await page.evaluate(async () => {
     const map = { bounds: [0, 0, 6, 4], walls: [[3, 0, 3, 1.5]] };
     const given = /** @type {[string, Record<string, unknown>, string[]][]} */ ([
@@ -230,7 +230,7 @@ test('properties that were set before the element was defined are taken up, in a
     ...twice([30, 40]),
     ...twice([3, { x: 3, y: 1, theta: 0 }]),
   ]);
-  expect(await heard(page, ['error'])).toEqual([]);
+  expect(await takeEvents(page, ['error'])).toEqual([]);
 });
 
 test('properties that are null or undefined are the defaults @nightly', async ({ page, figure }) => {
@@ -248,13 +248,13 @@ test('properties that are null or undefined are the defaults @nightly', async ({
     return told;
   }, /** @type {any} */ (anyOf(1)[figure]));
   for (const each of again) expect(each).toEqual(opening);
-  expect(await heard(page, ['error'])).toEqual([]);
+  expect(await takeEvents(page, ['error'])).toEqual([]);
 });
 
 test('properties that are assigned their own value change nothing @nightly', async ({ page, figure }) => {
   const widget = await mount(page, figure);
   await widget.evaluate((element, state) => /** @type {any} */ (element).setState(state), /** @type {any} */ (anyOf(2)[figure]));
-  await heard(page, ['stats']);
+  await takeEvents(page, ['stats']);
   const count = await widget.evaluate((element, keys) => {
     const figure = /** @type {any} */ (element);
     const names = keys.filter((key) => key in figure && key !== 'playing');
@@ -263,19 +263,19 @@ test('properties that are assigned their own value change nothing @nightly', asy
     return names.length;
   }, Object.keys(anyOf(2)[figure]));
   expect(count).toBeGreaterThan(6);
-  expect(await heard(page, ['stats', 'error', 'input', 'change'])).toEqual([]);
+  expect(await takeEvents(page, ['stats', 'error', 'input', 'change'])).toEqual([]);
 });
 
 test('properties take effect at once and reflect; those out of range are reported and change nothing', async ({ page }) => {
-  await show(page, '<banana-machine></banana-machine><map-squeeze></map-squeeze>');
+  await showPage(page, '<banana-machine></banana-machine><map-squeeze></map-squeeze>');
   const [banana, squeeze] = NAMES.map((name) => page.locator(name));
-  await ready(banana);
+  await untilReady(banana);
   expect(await assign(banana, 'omega', 1.1)).toBe('');
   expect(await banana.getAttribute('omega')).toBe('1.1');
   const { stats } = await banana.evaluate((element) => ({ stats: /** @type {AnyElement} */ (element).stats }));
   expect(stats?.n).toBe(await property(banana, 'samples'));
   await squeeze.scrollIntoViewIfNeeded();
-  await ready(squeeze);
+  await untilReady(squeeze);
   for (const [widget, name, value, message] of /** @type {const} */ ([
     [banana, 'theme', 'sepia', 'RangeError: theme is "sepia"; allowed is "auto" or "light" or "dark"'],
     [banana, 'marked', 50000, 'RangeError: marked is 50000; allowed is a whole number from 0 to 49999'],

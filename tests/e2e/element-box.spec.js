@@ -1,5 +1,5 @@
 import { expect } from '@playwright/test';
-import { FRESH, STILL, boxOf, frames, ready, show, test } from './support.js';
+import { FRESH, STILL, boxOf, frames, showPage, test, untilReady } from './support.js';
 
 /** @typedef {import('@playwright/test').Page} Page */
 
@@ -42,7 +42,7 @@ test('a figure is as wide as it prefers, or as there is room, in every kind of b
     return widths.filter(([, each]) => Number(each) > width + 0.5 || Number(each) < Math.min(LIKED, width) - 0.5);
   };
   for (const script of ['', '<script type="module" src="/motion-widgets.js"></script>']) {
-    await show(page, cases.join(''), { head, script });
+    await showPage(page, cases.join(''), { head, script });
     if (script) await page.waitForFunction((tag) => customElements.get(tag) !== undefined, figure);
     for (const width of [320, 600, 1280]) expect.soft(await wrong(width), `${script ? 'defined' : 'not defined'}, ${width} px`).toEqual([]);
   }
@@ -66,10 +66,10 @@ test('a figure is in proportion to the letters around it, whatever the font size
   const looks = [];
   for (const [root, em] of [['100%', 16], ['62.5%', 24]]) {
     await page.setViewportSize({ width: 1400, height: 2400 });
-    await show(page, `<div style="width: 43.75em"><${figure}></${figure}></div>`, {
+    await showPage(page, `<div style="width: 43.75em"><${figure}></${figure}></div>`, {
       head: `<style>html { font-size: ${root} } body { margin: 0; font: ${em}px/1.5 Arial, 'Liberation Sans', 'Nimbus Sans', sans-serif }</style>`,
     });
-    await ready(page.locator(figure));
+    await untilReady(page.locator(figure));
     await expect(page.locator(figure).locator('.folds')).toBeVisible();
     await frames(page);
     looks.push({ root, em, boxes: await boxesOf(page, figure, Number(em)) });
@@ -85,11 +85,11 @@ test('a figure is in proportion to the letters around it, whatever the font size
 
 test('the picture of a figure stays in sight on a phone, below the header of the site', async ({ page, figure }) => {
   await page.setViewportSize({ width: 375, height: 812 });
-  await show(page, `<header style="position: sticky; top: 0; height: 56px; z-index: 9; background: #fff">Site</header><${figure}></${figure}><div style="height: 2000px"></div>`, {
+  await showPage(page, `<header style="position: sticky; top: 0; height: 56px; z-index: 9; background: #fff">Site</header><${figure}></${figure}><div style="height: 2000px"></div>`, {
     head: '<style>:root { --motion-sticky-top: 56px } body { margin: 0 }</style>',
   });
   const widget = page.locator(figure);
-  await ready(widget);
+  await untilReady(widget);
   const picture = widget.locator('[part=picture]').first();
   await widget.locator('.slider input[type=range]').nth(1).evaluate((element) => element.scrollIntoView({ block: 'start' }));
   await frames(page);
@@ -101,9 +101,9 @@ test('the picture of a figure stays in sight on a phone, below the header of the
 for (const name of ['map-squeeze', 'dead-reckoning']) {
   test(`at 200 % zoom the picture of ${name} stays in sight and covers no slider`, async ({ page }) => {
     await page.setViewportSize({ width: 640, height: 400 });
-    await show(page, `<${name}></${name}><div style="height: 2000px"></div>`);
+    await showPage(page, `<${name}></${name}><div style="height: 2000px"></div>`);
     const widget = page.locator(name);
-    await ready(widget);
+    await untilReady(widget);
     for (const slider of await widget.locator('.slider input[type=range]').all()) {
       await slider.evaluate((element) => element.scrollIntoView({ block: 'start' }));
       await frames(page);

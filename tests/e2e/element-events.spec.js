@@ -1,6 +1,6 @@
 import { expect } from '@playwright/test';
 import { KNOWN } from './figures.js';
-import { STILL, assign, boxOf, centreOf, dragSlider, frames, heard, mount, ready, settled, show, stateOf, test, testEach, unfold } from './support.js';
+import { STILL, assign, boxOf, centreOf, dragSlider, frames, mount, showPage, stateOf, takeEvents, test, testEach, unfold, untilReady, untilSettled } from './support.js';
 
 /** @typedef {import('@playwright/test').Locator} Locator */
 /** @typedef {import('./figures.js').Name} Name */
@@ -11,7 +11,7 @@ test.use(STILL);
 const names = (events) => events.map(({ name }) => name);
 
 test('a drag fires input at each step and one change at its end, composed, with the value', async ({ page }) => {
-  await show(page, '<div id="host"></div>');
+  await showPage(page, '<div id="host"></div>');
   await page.evaluate(() => {
     const root = /** @type {Element} */ (document.querySelector('#host')).attachShadow({ mode: 'open' });
     root.innerHTML = '<banana-machine></banana-machine>';
@@ -25,7 +25,7 @@ test('a drag fires input at each step and one change at its end, composed, with 
     }
   });
   const widget = page.locator('banana-machine');
-  await ready(widget);
+  await untilReady(widget);
   const take = () => page.evaluate(() => /** @type {unknown[][]} */ (Reflect.get(window, 'all')).splice(0));
   const opening = await take();
   expect(opening.map(([name]) => name).sort()).toEqual(['load', 'stats']);
@@ -127,7 +127,7 @@ const ACTS = {
 testEach('a frame after an input event calls the core at most six times, and a release only for views that zoom in', async (page, name) => {
   const widget = await mount(page, name);
   await unfold(widget);
-  await settled(widget);
+  await untilSettled(widget);
   await widget.evaluate((element) => {
     const calls = /** @type {string[][]} */ ([[]]);
     Object.assign(element, { calls });
@@ -148,7 +148,7 @@ testEach('a frame after an input event calls the core at most six times, and a r
   });
   // Methods of the machine that were called, as one list for each frame.
   const asked = async () => {
-    await settled(widget);
+    await untilSettled(widget);
     return widget.evaluate((element) => /** @type {string[][]} */ (Reflect.get(element, 'calls')).splice(0, Infinity, []));
   };
   const slider = widget.locator(`#${KNOWN[name].slider}`);
@@ -173,55 +173,55 @@ testEach('a frame after an input event calls the core at most six times, and a r
 testEach('each control of a figure fires one input and one change', async (page, name) => {
   const widget = await mount(page, name);
   await unfold(widget);
-  await heard(page);
+  await takeEvents(page);
   for (const [act, go] of ACTS[name]) {
     await go(widget);
-    expect.soft(names(await heard(page, ['input', 'change', 'error'])), act).toEqual(['input', 'change']);
+    expect.soft(names(await takeEvents(page, ['input', 'change', 'error'])), act).toEqual(['input', 'change']);
   }
 });
 
 test('a handle that is dragged fires input at each step and one change', async ({ page, handled }) => {
   const widget = await mount(page, handled);
-  await heard(page);
+  await takeEvents(page);
   const { x, y } = await centreOf(widget.locator('.handle').first());
   await page.mouse.move(x, y);
   await page.mouse.down();
   await page.mouse.move(x + 40, y - 20, { steps: 4 });
-  expect(names(await heard(page))).toEqual(Array(4).fill('input'));
+  expect(names(await takeEvents(page))).toEqual(Array(4).fill('input'));
   await page.mouse.up();
-  expect(names(await heard(page))).toEqual(['change']);
+  expect(names(await takeEvents(page))).toEqual(['change']);
   // A handle is taken and released without a change.
   await page.mouse.down();
   await page.mouse.up();
-  expect(names(await heard(page))).toEqual([]);
+  expect(names(await takeEvents(page))).toEqual([]);
 });
 
 test('changes by the page fire stats alone, also out of sight', async ({ page, figure }) => {
-  await show(page, `<${figure}></${figure}><div style="height: 4000px"></div>`);
+  await showPage(page, `<${figure}></${figure}><div style="height: 4000px"></div>`);
   const widget = page.locator(figure);
-  await ready(widget);
-  await heard(page);
+  await untilReady(widget);
+  await takeEvents(page);
   await page.evaluate(() => scrollTo(0, 4000));
-  await heard(page, ['stats']);
+  await takeEvents(page, ['stats']);
   const before = await stateOf(widget);
   const [key, value] = KNOWN[figure].other;
   for (const to of [value, null]) {
     expect(await assign(widget, key, to)).toBe('');
-    expect(names(await heard(page, ['load', 'input', 'change', 'error', 'stats'])), String(to)).toEqual(['stats']);
+    expect(names(await takeEvents(page, ['load', 'input', 'change', 'error', 'stats'])), String(to)).toEqual(['stats']);
   }
   expect(await stateOf(widget)).toEqual(before);
   await widget.evaluate((element, [attribute, to]) => element.setAttribute(attribute, String(to)), KNOWN[figure].other);
-  expect(names(await heard(page, ['load', 'input', 'change', 'error', 'stats']))).toEqual(['stats']);
+  expect(names(await takeEvents(page, ['load', 'input', 'change', 'error', 'stats']))).toEqual(['stats']);
   const other = await stateOf(widget);
   expect(other).not.toEqual(before);
   await widget.evaluate((element, state) => Reflect.get(element, 'setState').call(element, state), before);
-  expect(names(await heard(page, ['load', 'input', 'change', 'error', 'stats']))).toEqual(['stats']);
+  expect(names(await takeEvents(page, ['load', 'input', 'change', 'error', 'stats']))).toEqual(['stats']);
   expect(await stateOf(widget)).toEqual(before);
 });
 
 test('events report changes alone, whatever is drawn and asked', async ({ page, figure }) => {
   const widget = await mount(page, figure);
-  await heard(page, ['stats']);
+  await takeEvents(page, ['stats']);
   await widget.locator('canvas.plane').hover({ position: { x: 100, y: 100 } });
   await page.emulateMedia({ colorScheme: 'dark' });
   await widget.evaluate((element) => {
@@ -230,9 +230,9 @@ test('events report changes alone, whatever is drawn and asked', async ({ page, 
     figure.toCSV();
     figure.getState();
   });
-  expect(await heard(page, ['input', 'change', 'stats'])).toEqual([]);
+  expect(await takeEvents(page, ['input', 'change', 'stats'])).toEqual([]);
   expect(await assign(widget, ...KNOWN[figure].other)).toBe('');
-  expect(await heard(page, ['stats'])).toHaveLength(1);
+  expect(await takeEvents(page, ['stats'])).toHaveLength(1);
 });
 
 test('an arrow key or a space that a control used goes no further; any other key does', async ({ page }) => {

@@ -1,7 +1,7 @@
 import { chromium, expect } from '@playwright/test';
 import { CHROME_ARGUMENTS, FULL_CHROME, findChrome } from '../../scripts/browser.mjs';
 import { ALL, CLOUDS, KNOWN, NAMES } from './figures.js';
-import { FRESH, STILL, assign, boxOf, centreOf, frames, heard, mount, pictureOf, property, ready, show, stateOf, test, unfold } from './support.js';
+import { FRESH, STILL, assign, boxOf, centreOf, frames, mount, pictureOf, property, showPage, stateOf, takeEvents, test, unfold, untilReady } from './support.js';
 
 /** @typedef {import('./support.js').AnyElement} AnyElement */
 /** @typedef {import('@playwright/test').Page} Page */
@@ -41,7 +41,7 @@ test('figures far from the window fetch and compute nothing, and one module serv
   const fetched = [];
   page.on('request', (request) => fetched.push(new URL(request.url()).pathname));
   await count(page);
-  await show(page, `<div style="height: 5000px"></div>${NAMES.map((name) => `<${name}></${name}>`).join('')}`, {
+  await showPage(page, `<div style="height: 5000px"></div>${NAMES.map((name) => `<${name}></${name}>`).join('')}`, {
     script: '<script type="module" src="/external.js"></script>',
   });
   // Polling is avoided, because it requests frames.
@@ -51,7 +51,7 @@ test('figures far from the window fetch and compute nothing, and one module serv
   expect(fetched.filter((path) => path.endsWith('.wasm'))).toEqual([]);
   for (const name of NAMES) {
     await page.locator(name).scrollIntoViewIfNeeded();
-    await ready(page.locator(name));
+    await untilReady(page.locator(name));
   }
   expect(await counted(page)).toMatchObject({ compiled: 1, instances: NAMES.length });
   expect(fetched.filter((path) => path.endsWith('.wasm'))).toEqual(['/motion.wasm']);
@@ -60,26 +60,26 @@ test('figures far from the window fetch and compute nothing, and one module serv
 test('a page with one figure fetches the module of that figure @nightly', async ({ page }) => {
   for (const name of ALL) {
     const module = page.waitForRequest(/\.wasm$/);
-    await show(page, `<${name}></${name}>`, { script: '<script type="module" src="/external.js"></script>' });
-    await ready(page.locator(name));
+    await showPage(page, `<${name}></${name}>`, { script: '<script type="module" src="/external.js"></script>' });
+    await untilReady(page.locator(name));
     expect(new URL((await module).url()).pathname).toMatch(new RegExp(`^/chunks/${name}-\\w+\\.wasm$`));
   }
 });
 
 test('figures within six hundred pixels of the window start, and others do not', async ({ page }) => {
   const places = [560, 620].map((below) => `<div style="position: absolute; top: calc(100vh + ${below}px); width: 600px"><map-squeeze></map-squeeze></div>`);
-  await show(page, places.join(''));
+  await showPage(page, places.join(''));
   const widgets = page.locator('map-squeeze');
-  await ready(widgets.nth(0));
+  await untilReady(widgets.nth(0));
   expect(await property(widgets.nth(1), 'machine')).toBe(undefined);
 });
 
 test('a cloud that is out of sight asks for no frames, and goes on growing where it was @nightly', async ({ page, cloud }) => {
   await page.emulateMedia({ reducedMotion: 'no-preference' });
   await count(page);
-  await show(page, `<${cloud}></${cloud}><div style="height: 6000px"></div>`);
+  await showPage(page, `<${cloud}></${cloud}><div style="height: 6000px"></div>`);
   const widget = page.locator(cloud);
-  await ready(widget);
+  await untilReady(widget);
   const shown = () => widget.evaluate((element) => /** @type {AnyElement} */ (element).machine.shown);
   const samples = Number(await property(widget, 'samples'));
   await widget.evaluate(async (element) => {
@@ -103,7 +103,7 @@ test('a cloud that is out of sight asks for no frames, and goes on growing where
 test('settled waits for the figure and all of its samples, in sight and far from the window', async ({ page, cloud }) => {
   await page.emulateMedia({ reducedMotion: 'no-preference' });
   for (const height of [0, 6000]) {
-    await show(page, `<div style="height: ${height}px"></div><${cloud}></${cloud}>`);
+    await showPage(page, `<div style="height: ${height}px"></div><${cloud}></${cloud}>`);
     const [shown, samples, playing] = await page.locator(cloud).evaluate(async (element) => {
       const figure = /** @type {any} */ (element);
       await figure.settled;
@@ -114,9 +114,9 @@ test('settled waits for the figure and all of its samples, in sight and far from
 });
 
 test('a cloud that is half grown stays so over a move and over a removal @nightly', async ({ page, cloud }) => {
-  await show(page, `<div id="a"><${cloud}></${cloud}></div><div id="b"></div>`);
+  await showPage(page, `<div id="a"><${cloud}></${cloud}></div><div id="b"></div>`);
   const widget = page.locator(cloud);
-  await ready(widget);
+  await untilReady(widget);
   // With this seed every robot stays in the picture, so that the view does not open.
   await assign(widget, 'seed', 11);
   await unfold(widget);
@@ -140,15 +140,15 @@ test('a cloud that is half grown stays so over a move and over a removal @nightl
     await new Promise(requestAnimationFrame);
     document.querySelector('#a')?.append(element);
   });
-  await ready(widget);
+  await untilReady(widget);
   expect(await stateOf(widget)).toEqual(before);
   await expect.poll(() => pictureOf(widget.locator('canvas.plane'))).toBe(picture);
 });
 
 test('folds, fields and height of a figure stay over a move and over a removal', async ({ page, figure }) => {
-  await show(page, `<div id="a"><${figure}></${figure}></div><div id="b"></div>`);
+  await showPage(page, `<div id="a"><${figure}></${figure}></div><div id="b"></div>`);
   const widget = page.locator(figure);
-  await ready(widget);
+  await untilReady(widget);
   const { fold } = KNOWN[figure];
   const folds = widget.locator('details');
   await expect.poll(() => folds.count()).toBeGreaterThan(1);
@@ -170,7 +170,7 @@ test('folds, fields and height of a figure stay over a move and over a removal',
     await again;
     return [...heights, element.getBoundingClientRect().height];
   });
-  await ready(widget);
+  await untilReady(widget);
   expect(await open()).toEqual(before);
   await expect(field).toHaveValue(fold.value);
   await expect(folds.nth(fold.at).locator('.folded')).not.toBeEmpty();
@@ -193,9 +193,9 @@ test('a figure keeps what the reader did in the moment before it was removed @ni
 });
 
 test('a figure that is moved while a handle is held lets go of it, and fits its picture @nightly', async ({ page, handled }) => {
-  await show(page, `<div id="a" style="width: 1100px"><${handled}></${handled}></div><div id="b" style="width: 500px"></div>`);
+  await showPage(page, `<div id="a" style="width: 1100px"><${handled}></${handled}></div><div id="b" style="width: 500px"></div>`);
   const widget = page.locator(handled);
-  await ready(widget);
+  await untilReady(widget);
   const handle = widget.locator('.handle').first();
   const before = await stateOf(widget);
   const { x, y } = await centreOf(handle);
@@ -206,11 +206,11 @@ test('a figure that is moved while a handle is held lets go of it, and fits its 
   await expect(handle).toHaveClass(/held/);
   const dragged = await stateOf(widget);
   expect(dragged).not.toEqual(before);
-  await heard(page);
+  await takeEvents(page);
   await widget.evaluate((element) => document.querySelector('#b')?.append(element));
   await frames(page);
   await expect(handle).not.toHaveClass(/held/);
-  expect((await heard(page)).map(({ name }) => name)).toEqual(['change']);
+  expect((await takeEvents(page)).map(({ name }) => name)).toEqual(['change']);
   await page.mouse.move(700, 300);
   await frames(page);
   expect(await stateOf(widget)).toEqual(dragged);
@@ -234,9 +234,9 @@ test('a canvas that has got its context back is drawn again', async ({ page, fig
 });
 
 test('a figure that was not displayed shows what was set meanwhile @nightly', async ({ page, figure }) => {
-  await show(page, `<div id="box"><${figure}></${figure}></div>`);
+  await showPage(page, `<div id="box"><${figure}></${figure}></div>`);
   const widget = page.locator(figure);
-  await ready(widget);
+  await untilReady(widget);
   const canvas = widget.locator('canvas.plane');
   const before = await pictureOf(canvas);
   const display = (/** @type {string} */ value) => page.locator('#box').evaluate((box, to) => void (/** @type {HTMLElement} */ (box).style.display = to), value);
@@ -254,10 +254,10 @@ test('a page that comes back from the back-forward cache is alive @nightly', asy
     executablePath: findChrome(FULL_CHROME), args: CHROME_ARGUMENTS, ignoreDefaultArgs: ['--disable-back-forward-cache'],
   });
   const page = await browser.newPage({ baseURL, reducedMotion: 'reduce' });
-  await show(page, ALL.map((name) => `<${name} share></${name}>`).join(''));
+  await showPage(page, ALL.map((name) => `<${name} share></${name}>`).join(''));
   for (const name of ALL) {
     await page.locator(name).scrollIntoViewIfNeeded();
-    await ready(page.locator(name));
+    await untilReady(page.locator(name));
   }
   const banana = page.locator('banana-machine');
   await banana.scrollIntoViewIfNeeded();
@@ -277,8 +277,8 @@ test('a page that comes back from the back-forward cache is alive @nightly', asy
 
 test('figures that were removed leave no memory, no observers and no nodes @nightly', FRESH, async ({ page }) => {
   test.setTimeout(200_000);
-  await show(page, '<banana-machine></banana-machine>');
-  await ready(page.locator('banana-machine'));
+  await showPage(page, '<banana-machine></banana-machine>');
+  await untilReady(page.locator('banana-machine'));
   await page.evaluate(() => document.body.replaceChildren());
   const session = await page.context().newCDPSession(page);
   await session.send('HeapProfiler.enable');

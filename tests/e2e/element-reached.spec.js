@@ -1,5 +1,5 @@
 import { expect } from '@playwright/test';
-import { STILL, frames, property, ready, show, test } from './support.js';
+import { STILL, frames, property, showPage, test, untilReady } from './support.js';
 
 /** @typedef {import('@playwright/test').Page} Page */
 
@@ -20,7 +20,7 @@ async function showFar(page, name) {
       }
     );
   });
-  await show(
+  await showPage(
     page,
     `<a id="before" tabindex="-1">Before</a><div style="position: absolute; top: 4000px; width: 600px"><${name}></${name}></div><button id="after">After</button>`,
     { script: '<script type="module" src="/external.js"></script>' },
@@ -37,7 +37,7 @@ for (const [way, origin, key] of /** @type {const} */ ([['above', '#before', 'Ta
     const stop = () => widget.evaluate(({ shadowRoot }) => shadowRoot?.activeElement?.outerHTML);
     await page.locator(origin).focus();
     await page.keyboard.press(key);
-    await ready(widget);
+    await untilReady(widget);
     const reached = await stop();
     await page.locator(origin).focus();
     await page.keyboard.press(key);
@@ -60,7 +60,7 @@ test('a figure that starts when the reader has gone on leaves the focus where it
   await asked;
   await page.keyboard.press('Tab');
   arrive();
-  await ready(widget);
+  await untilReady(widget);
   await frames(page);
   await expect(page.locator('#after')).toBeFocused();
 });

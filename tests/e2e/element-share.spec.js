@@ -1,7 +1,7 @@
 import { expect } from '@playwright/test';
 import { expectAccessible } from './axe.js';
 import { KNOWN } from './figures.js';
-import { FRESH, STILL, frames, heard, mount, property, ready, show, stateOf, test } from './support.js';
+import { FRESH, STILL, frames, mount, property, showPage, stateOf, takeEvents, test, untilReady } from './support.js';
 
 /** @typedef {import('./support.js').AnyElement} AnyElement */
 /** @typedef {import('@playwright/test').Locator} Locator */
@@ -20,12 +20,12 @@ const THREE = `<banana-machine share></banana-machine>
   <banana-machine></banana-machine>`;
 
 test('two widgets and an anchor share the fragment, and the link shows what was there', FRESH, async ({ page, context }) => {
-  await show(page, THREE, { fragment: '#what-to-try&theme=a%20b' });
+  await showPage(page, THREE, { fragment: '#what-to-try&theme=a%20b' });
   // The browser finds the anchor although the fragment has further parts.
   await expect.poll(() => page.evaluate(() => scrollY)).toBeGreaterThan(1000);
   const [first, second, third] = [0, 1, 2].map((i) => page.locator('banana-machine').nth(i));
   await first.scrollIntoViewIfNeeded();
-  await ready(first);
+  await untilReady(first);
   const hash = () => page.evaluate(() => location.hash);
   expect(await hash()).toBe('#what-to-try&theme=a%20b');
   const entries = await page.evaluate(() => history.length);
@@ -33,11 +33,11 @@ test('two widgets and an anchor share the fragment, and the link shows what was 
   await first.getByRole('button', { name: 'Hard arc' }).click();
   await expect.poll(hash).toMatch(/^#what-to-try&theme=a%20b&banana-machine\.1=[\w-]+$/);
   await second.scrollIntoViewIfNeeded();
-  await ready(second);
+  await untilReady(second);
   await second.getByRole('button', { name: 'Pivot' }).click();
   await expect.poll(hash).toMatch(/^#what-to-try&theme=a%20b&banana-machine\.1=[\w-]+&banana-machine:second%20one=[\w-]+$/);
   await third.scrollIntoViewIfNeeded();
-  await ready(third);
+  await untilReady(third);
   const before = await hash();
   await third.getByRole('button', { name: 'Straight' }).click();
   await frames(page);
@@ -47,17 +47,17 @@ test('two widgets and an anchor share the fragment, and the link shows what was 
   const link = await linkOf(first);
   expect(new URL(link).hash).toBe(before);
   const other = await context.newPage();
-  await show(other, THREE, { fragment: new URL(link).hash });
+  await showPage(other, THREE, { fragment: new URL(link).hash });
   const [one, two, three] = [0, 1, 2].map((i) => other.locator('banana-machine').nth(i));
   for (const [copy, original] of [[one, first], [two, second]]) {
     await copy.scrollIntoViewIfNeeded();
-    await ready(copy);
+    await untilReady(copy);
     expect(await stateOf(copy)).toEqual(await stateOf(original));
   }
   await three.scrollIntoViewIfNeeded();
-  await ready(three);
+  await untilReady(three);
   expect(/** @type {any} */ (await stateOf(three)).command).toEqual({ v: 1, omega: 0, dt: 2 });
-  expect(await heard(other, ['error', 'input', 'change'])).toEqual([]);
+  expect(await takeEvents(other, ['error', 'input', 'change'])).toEqual([]);
 });
 
 test('figures in shadow roots, closed ones too, have parts of their own in the fragment @nightly', FRESH, async ({ page }) => {
@@ -69,9 +69,9 @@ test('figures in shadow roots, closed ones too, have parts of their own in the f
     }
   });
   const hosts = '<open-host></open-host><open-host></open-host><closed-host id="c"></closed-host><banana-machine></banana-machine>';
-  await show(page, hosts);
+  await showPage(page, hosts);
   await page.locator('body > banana-machine').scrollIntoViewIfNeeded();
-  await ready(page.locator('body > banana-machine'));
+  await untilReady(page.locator('body > banana-machine'));
   const keys = await page.evaluate(async () => {
     const inShadow = [...document.querySelectorAll('open-host, closed-host')].map((host) => Reflect.get(host, 'figure'));
     const figures = /** @type {AnyElement[]} */ ([...inShadow, document.querySelector('body > banana-machine')]);
@@ -85,7 +85,7 @@ test('figures in shadow roots, closed ones too, have parts of their own in the f
 test('a link leads to the figure that it was copied from, once; a reload leads nowhere', FRESH, async ({ page, context }) => {
   const gap = '<p style="margin: 2000px 0">Between</p>';
   const body = `${gap}<banana-machine></banana-machine>${gap}<banana-machine></banana-machine>${gap}`;
-  await show(page, body);
+  await showPage(page, body);
   const figure = (/** @type {import('@playwright/test').Page} */ of, /** @type {number} */ i) => of.locator('banana-machine').nth(i);
   const tops = (/** @type {import('@playwright/test').Page} */ of) =>
     of.locator('banana-machine').evaluateAll((all) => all.map((each) => Math.round(each.getBoundingClientRect().top)));
@@ -93,7 +93,7 @@ test('a link leads to the figure that it was copied from, once; a reload leads n
   const links = [];
   for (const i of [0, 1]) {
     await figure(page, i).scrollIntoViewIfNeeded();
-    await ready(figure(page, i));
+    await untilReady(figure(page, i));
     // The address contains the state of this figure when the link to the next one is copied.
     links.push(await fragmentOf(figure(page, i)));
     await page.evaluate((hash) => history.replaceState(null, '', hash), links[i]);
@@ -103,8 +103,8 @@ test('a link leads to the figure that it was copied from, once; a reload leads n
   expect(await fragmentOf(figure(page, 1))).toBe(links[1]);
   for (const [i, fragment] of links.entries()) {
     const other = await context.newPage();
-    await show(other, body, { fragment });
-    await ready(figure(other, i));
+    await showPage(other, body, { fragment });
+    await untilReady(figure(other, i));
     await expect.poll(async () => (await tops(other))[i]).toBeCloseTo(0);
     // Elements that are added or moved later do not scroll the page.
     const moved = await other.evaluate(async () => {
@@ -129,8 +129,8 @@ test('a link leads to the figure that it was copied from, once; a reload leads n
 });
 
 test('an anchor that is not there, or that the reader has left, scrolls nothing @nightly', FRESH, async ({ page }) => {
-  await show(page, '<banana-machine></banana-machine><p id="low" style="margin: 3000px 0">Low</p>', { fragment: '#nowhere&theme=a' });
-  await ready(page.locator('banana-machine'));
+  await showPage(page, '<banana-machine></banana-machine><p id="low" style="margin: 3000px 0">Low</p>', { fragment: '#nowhere&theme=a' });
+  await untilReady(page.locator('banana-machine'));
   expect(await page.evaluate(() => scrollY)).toBe(0);
   await page.evaluate(() => (location.hash = '#low'));
   await expect.poll(() => page.evaluate(() => scrollY)).toBeGreaterThan(1000);
@@ -148,7 +148,7 @@ test('a link that is broken is reported, and the figure opens as its attributes 
   for (const text of ['nonsense!', 'q1YqSy0qzszPU7JSMtAzUKoFAA']) {
     await page.goto('about:blank');
     const widget = await mount(page, 'banana-machine', { attributes: 'share v="0.5"', fragment: `#banana-machine.1=${text}` });
-    const errors = await heard(page, ['error']);
+    const errors = await takeEvents(page, ['error']);
     expect(errors.length, text).toBe(1);
     expect(errors[0].message).toMatch(/^state.*; allowed (is|are) /);
     expect(/** @type {any} */ (await stateOf(widget)).command.v).toBe(0.5);
@@ -177,8 +177,8 @@ test('a figure without share leaves the address alone, and opens its part of a l
   const link = await linkOf(widget);
   expect(link.split('#')[0]).toBe(page.url().split('#')[0]);
   const other = await context.newPage();
-  await show(other, `<${figure}></${figure}>`, { fragment: new URL(link).hash });
-  await ready(other.locator(figure));
+  await showPage(other, `<${figure}></${figure}>`, { fragment: new URL(link).hash });
+  await untilReady(other.locator(figure));
   const opened = await stateOf(other.locator(figure));
   expect(opened).toEqual(await stateOf(widget));
   // From then on the address follows the figure, and "back" leaves the page.
@@ -189,15 +189,15 @@ test('a figure without share leaves the address alone, and opens its part of a l
   expect(await other.evaluate(() => history.length)).toBe(entries);
   const changed = await stateOf(other.locator(figure));
   await other.reload();
-  await ready(other.locator(figure));
+  await untilReady(other.locator(figure));
   expect(await stateOf(other.locator(figure))).toEqual(changed);
 });
 
 test('a figure with share keeps its state in the address, and follows it', async ({ page, figure }) => {
   const { slider, values, button } = KNOWN[figure];
-  await show(page, `<${figure} share></${figure}><p id="end">The end</p>`);
+  await showPage(page, `<${figure} share></${figure}><p id="end">The end</p>`);
   const widget = page.locator(figure);
-  await ready(widget);
+  await untilReady(widget);
   const hash = () => page.evaluate(() => location.hash);
   await widget.locator(`#${slider}`).fill(String(values[0]));
   await expect.poll(hash).toMatch(new RegExp(`^#${figure}\\.1=[\\w-]+$`));
@@ -212,7 +212,7 @@ test('a figure with share keeps its state in the address, and follows it', async
   await frames(page);
   expect(await page.evaluate(() => document.querySelector(':target')?.id)).toBe('end');
   expect(await stateOf(widget)).toEqual(state);
-  expect(await heard(page, ['error'])).toEqual([]);
+  expect(await takeEvents(page, ['error'])).toEqual([]);
 });
 
 test.describe('the menu', () => {
@@ -263,7 +263,7 @@ test('the code to embed names the script that defined the element', FRESH, async
 });
 
 test('the code to embed has the published script where that of the page is nothing to others @nightly', async ({ page }) => {
-  await show(page, '', { script: '' });
+  await showPage(page, '', { script: '' });
   const code = await page.evaluate(async () => {
     const script = new Blob([await (await fetch('/motion-widgets.js')).text()], { type: 'text/javascript' });
     await import(URL.createObjectURL(script));
@@ -278,7 +278,7 @@ test('a frame shows the figure of its address, and sends its height', async ({ p
     addEventListener('message', ({ data }) => data?.type === 'motion-widgets:height' && Reflect.get(window, 'heights').push(data.height));
   });
   const { slider, values: [value] } = KNOWN[figure];
-  await show(page, `<iframe src="/embed.html?widget=${figure}&${slider}=${value}" width="700" height="900"></iframe>`, { script: '' });
+  await showPage(page, `<iframe src="/embed.html?widget=${figure}&${slider}=${value}" width="700" height="900"></iframe>`, { script: '' });
   const widget = page.frameLocator('iframe').locator(figure);
   await expect(widget.locator('.folds')).toBeVisible();
   expect(await property(widget, slider)).toBe(value);

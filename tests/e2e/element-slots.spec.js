@@ -1,12 +1,12 @@
 import { expect } from '@playwright/test';
-import { STILL, assign, boxOf, heard, mount, property, ready, show, test } from './support.js';
+import { STILL, assign, boxOf, mount, property, showPage, takeEvents, test, untilReady } from './support.js';
 
 test.use(STILL);
 
 test('a figure has the title above and the caption below that the page gives it', async ({ page, figure }) => {
-  await show(page, `<${figure} heading-level="3"><span slot="title">Figure 9.3 One command</span><p slot="caption">As <b>measured</b>.</p></${figure}>`);
+  await showPage(page, `<${figure} heading-level="3"><span slot="title">Figure 9.3 One command</span><p slot="caption">As <b>measured</b>.</p></${figure}>`);
   const widget = page.locator(figure);
-  await ready(widget);
+  await untilReady(widget);
   await expect(widget.getByRole('heading', { name: 'Figure 9.3 One command', level: 3 })).toBeVisible();
   await expect(widget.getByRole('region', { name: 'Figure 9.3 One command' })).toBeVisible();
   const [title, picture, caption] = await Promise.all([widget.getByText('Figure 9.3'), widget.locator('canvas').first(), widget.getByText('measured', { exact: true })].map(boxOf));
@@ -27,7 +27,7 @@ test('a figure has the title above and the caption below that the page gives it'
 
 test('a heading has one of six levels @nightly', async ({ page }) => {
   const widget = await mount(page, 'map-squeeze', { attributes: 'heading-level="9"' });
-  expect((await heard(page, ['error'])).map(({ message }) => message)).toEqual(['heading-level is "9"; allowed is "1" or "2" or "3" or "4" or "5" or "6"']);
+  expect((await takeEvents(page, ['error'])).map(({ message }) => message)).toEqual(['heading-level is "9"; allowed is "1" or "2" or "3" or "4" or "5" or "6"']);
   expect(await assign(widget, 'headingLevel', 7)).toContain('RangeError: headingLevel is "7"');
   expect(await assign(widget, 'headingLevel', 2)).toBe('');
   expect([await property(widget, 'headingLevel'), await widget.getAttribute('heading-level')]).toEqual(['2', '2']);

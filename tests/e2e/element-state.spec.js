@@ -1,16 +1,16 @@
 import { expect } from '@playwright/test';
 import { SEEDS, anyOf } from './any-state.js';
-import { STILL, frames, heard, mount, ready, show, stateOf, test, testEach, unfold } from './support.js';
+import { STILL, frames, mount, showPage, stateOf, takeEvents, test, testEach, unfold, untilReady } from './support.js';
 
 /** @typedef {import('./support.js').AnyElement} AnyElement */
 
 test.use(STILL);
 
 testEach('random states go in and come out, and a second element in the same state is equal', async (page, name, isFull) => {
-  await show(page, `<${name} id="one"></${name}><div style="position: fixed; inset: 0 0 auto"><${name} id="two"></${name}></div>`);
+  await showPage(page, `<${name} id="one"></${name}><div style="position: fixed; inset: 0 0 auto"><${name} id="two"></${name}></div>`);
   const [one, two] = ['#one', '#two'].map((id) => page.locator(id));
-  await ready(one);
-  await ready(two);
+  await untilReady(one);
+  await untilReady(two);
   for (const seed of isFull ? SEEDS : SEEDS.slice(0, 2)) {
     const state = anyOf(seed)[name];
     const [first, second] = await page.evaluate(async (given) => {
@@ -23,7 +23,7 @@ testEach('random states go in and come out, and a second element in the same sta
     expect(second).toEqual(first);
   }
   await frames(page);
-  expect(await heard(page, ['error', 'input', 'change'])).toEqual([]);
+  expect(await takeEvents(page, ['error', 'input', 'change'])).toEqual([]);
 });
 
 test('a state that is refused names the field, and changes nothing', async ({ page }) => {
@@ -75,7 +75,7 @@ test('a part of a state leaves the rest, and both models keep their noise', asyn
     await new Promise(requestAnimationFrame);
     parent.append(element);
   });
-  await ready(widget);
+  await untilReady(widget);
   expect(await stateOf(widget)).toEqual(after);
 });
 

@@ -1,5 +1,5 @@
 import { expect } from '@playwright/test';
-import { STILL, frames, mount, pixelsOf, ready, show, test, unfold } from './support.js';
+import { STILL, frames, mount, pixelsOf, showPage, test, unfold, untilReady } from './support.js';
 
 /** @typedef {import('@playwright/test').Locator} Locator */
 
@@ -119,7 +119,7 @@ test('a figure on the ground of any theme has its ink and letters, and enough co
 });
 
 test('the ground is the nearest, through shadow roots and what is half transparent @nightly', async ({ page }) => {
-  await show(page, '<div id="card" style="background: rgb(0 0 0 / 50%)"></div>', {
+  await showPage(page, '<div id="card" style="background: rgb(0 0 0 / 50%)"></div>', {
     head: '<style>body { background: rgb(200 100 50); color: white }</style>',
   });
   await page.locator('#card').evaluate((card) => {
@@ -127,7 +127,7 @@ test('the ground is the nearest, through shadow roots and what is half transpare
     card.innerHTML = '<banana-machine></banana-machine>';
   });
   const widget = page.locator('banana-machine');
-  await ready(widget);
+  await untilReady(widget);
   expect(await paperOf(widget)).toBe('#643219');
   await page.locator('#card').evaluate((card) => {
     card.shadowRoot?.querySelector('section')?.setAttribute('style', 'background: #eee; color: #111');
@@ -136,11 +136,11 @@ test('the ground is the nearest, through shadow roots and what is half transpare
 });
 
 test('a ground that fades arrives where the page does, also where the text has come before @nightly', async ({ page }) => {
-  await show(page, '<banana-machine></banana-machine>', {
+  await showPage(page, '<banana-machine></banana-machine>', {
     head: '<style>body { background: white; color: #222; transition: background-color 0.4s } .night body { background: #101418; color: #ddd }</style>',
   });
   const widget = page.locator('banana-machine');
-  await ready(widget);
+  await untilReady(widget);
   for (const [night, ground] of /** @type {const} */ ([[true, '#101418'], [false, '#ffffff']])) {
     await page.evaluate((on) => document.documentElement.classList.toggle('night', on), night);
     await expect.poll(() => paperOf(widget)).toBe(ground);

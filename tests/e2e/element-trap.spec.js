@@ -1,6 +1,6 @@
 import { expect } from '@playwright/test';
 import { ALL, KNOWN } from './figures.js';
-import { STILL, frames, heard, mount, pictureOf, ready, show, stateOf, test } from './support.js';
+import { STILL, frames, mount, pictureOf, showPage, stateOf, takeEvents, test, untilReady } from './support.js';
 
 /** @typedef {import('./support.js').AnyElement} AnyElement */
 /** @typedef {import('@playwright/test').Locator} Locator */
@@ -28,19 +28,19 @@ const restarted = (widget) =>
 test('a core that traps is restarted with the same state and picture, and no other element notices', async ({ page, figure }) => {
   const other = ALL[(ALL.indexOf(figure) + 1) % ALL.length];
   const { slider, values } = KNOWN[figure];
-  await show(page, `<${figure}></${figure}><div style="position: fixed; top: 0; width: 300px; opacity: 0.5"><${other} id="other"></${other}></div>`);
+  await showPage(page, `<${figure}></${figure}><div style="position: fixed; top: 0; width: 300px; opacity: 0.5"><${other} id="other"></${other}></div>`);
   const widget = page.locator(figure).first();
   const neighbour = page.locator('#other');
-  await ready(widget);
-  await ready(neighbour);
+  await untilReady(widget);
+  await untilReady(neighbour);
   await widget.locator(`#${slider}`).fill(String(values[0]));
   await frames(page);
   const [before, picture] = [await stateOf(widget), await pictureOf(widget.locator('canvas.plane'))];
   await neighbour.evaluate((element) => void Object.assign(window, { neighbour: /** @type {AnyElement} */ (element).machine }));
-  await heard(page);
+  await takeEvents(page);
   await trap(widget, slider);
   await restarted(widget);
-  const errors = await heard(page, ['error', 'load']);
+  const errors = await takeEvents(page, ['error', 'load']);
   expect(errors.map(({ name, target }) => [name, target])).toEqual([['error', figure]]);
   expect(errors[0].message).toMatch(/memory access out of bounds|unreachable/);
   expect(await stateOf(widget)).toEqual(before);
@@ -53,12 +53,12 @@ test('a core that traps is restarted with the same state and picture, and no oth
   await frames(page);
   await trap(widget, slider);
   await restarted(widget);
-  expect(await heard(page, ['error', 'load'])).toHaveLength(1);
+  expect(await takeEvents(page, ['error', 'load'])).toHaveLength(1);
 });
 
 test('a core that traps twice without a picture between ends in a sentence @nightly', async ({ page }) => {
   const widget = await mount(page, 'banana-machine');
-  await heard(page);
+  await takeEvents(page);
   await widget.evaluate((element) => {
     const widget = /** @type {any} */ (element);
     const { createMachine } = widget;
@@ -66,7 +66,7 @@ test('a core that traps twice without a picture between ends in a sentence @nigh
   });
   await trap(widget, 'v');
   await expect(widget.getByRole('alert')).toContainText('This interactive figure cannot run here.');
-  expect(await heard(page, ['error'])).toHaveLength(2);
+  expect(await takeEvents(page, ['error'])).toHaveLength(2);
   await frames(page);
-  expect(await heard(page, ['error'])).toEqual([]);
+  expect(await takeEvents(page, ['error'])).toEqual([]);
 });

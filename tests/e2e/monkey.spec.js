@@ -6,7 +6,7 @@
 import { expect } from '@playwright/test';
 import { generator } from '../random.js';
 import { mapFile, pgmFile, yamlFile } from './squeeze-support.js';
-import { FRESH, frames, ready, test } from './support.js';
+import { FRESH, frames, test, untilReady } from './support.js';
 import { ALL } from './figures.js';
 
 /**
@@ -265,7 +265,7 @@ test('random actions leave every figure sound @nightly', FRESH, async ({ page })
   await page.goto('/');
   for (const name of ALL) {
     await page.locator(name).first().scrollIntoViewIfNeeded();
-    await ready(page.locator(name).first());
+    await untilReady(page.locator(name).first());
   }
 
   const luck = luckOf(SEED);

@@ -1,5 +1,5 @@
 import { expect } from '@playwright/test';
-import { STILL, frames, mount, pictureOf, played, readout, test, unfold } from './support.js';
+import { STILL, frames, mount, pictureOf, playSlider, readout, test, unfold } from './support.js';
 
 /** @import { Locator, Page } from '@playwright/test' */
 /** @typedef {HTMLElement & { machine: import('../../www/types.d.ts').OdometryDecomposer }} DecomposerElement */
@@ -150,12 +150,12 @@ test('the path is scrubbed, and is played to its end and again from its beginnin
   await page.emulateMedia({ reducedMotion: 'no-preference' });
   const other = await open(page, 'phase="2.8"');
   const play = other.locator('.playable.phase button');
-  const { values: rest, label } = await played(other, 'phase');
+  const { values: rest, label } = await playSlider(other, 'phase');
   expect(label).toBe('Pause');
   expect(rest[0]).toBeGreaterThan(2.8);
   expect(rest.at(-1)).toBe(3);
   await expect(play).toHaveText('Play the motion');
-  const { values: beginning } = await played(other, 'phase', 3);
+  const { values: beginning } = await playSlider(other, 'phase', 3);
   expect(beginning[0]).toBe(0);
   expect(beginning[2]).toBeGreaterThan(beginning[1]);
   await expect(play).toHaveText('Play the motion');

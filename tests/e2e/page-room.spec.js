@@ -1,6 +1,6 @@
 import { expect } from '@playwright/test';
 import { ALL, figureFor } from './figures.js';
-import { FRESH, STILL, boxOf, frames, mount, ready, show, test, testEach } from './support.js';
+import { FRESH, STILL, boxOf, frames, mount, showPage, test, testEach, untilReady } from './support.js';
 
 
 test.use(STILL);
@@ -10,7 +10,7 @@ const TOLERANCE = 8;
 
 testEach('the room that is kept for a figure before its script has come is about as high as the figure', async (page, name, isFull) => {
   const widths = isFull ? [320, 375, 414, 480, 560, 640, 700, 760, 900, 1024, 1280] : [375, 700, 1280];
-  await show(page, '', {
+  await showPage(page, '', {
     head: '<style>body { margin: 0; font: 16px "Liberation Serif", serif }</style>',
     script: '<script type="module" src="/external.js"></script>',
   });
@@ -34,7 +34,7 @@ testEach('the room that is kept for a figure before its script has come is about
   const before = await heights();
   expect(await widget.evaluate((element) => element.matches(':defined'))).toBe(false);
   come();
-  await ready(widget);
+  await untilReady(widget);
   await expect(widget.locator('.folds')).toBeVisible();
   for (const [i, after] of (await heights()).entries()) {
     expect(after).toBeGreaterThanOrEqual(before[i]);
@@ -56,12 +56,12 @@ test('a title and a caption move nothing when the script comes', async ({ page }
     await route.continue();
   });
   const lettered = '<banana-machine><span slot="title">Figure 9.3</span><p slot="caption">Drag the ring.</p></banana-machine><p id="after">After</p>';
-  const shown = show(page, lettered, { head: '<link rel="stylesheet" href="/motion-widgets.css">' });
+  const shown = showPage(page, lettered, { head: '<link rel="stylesheet" href="/motion-widgets.css">' });
   const top = async () => (await boxOf(page.locator('#after'))).y;
   const before = await top();
   come();
   await shown;
-  await ready(page.locator('banana-machine'));
+  await untilReady(page.locator('banana-machine'));
   expect(await top()).toBe(before);
 });
 

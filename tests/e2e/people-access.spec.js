@@ -1,7 +1,7 @@
 import { expect } from '@playwright/test';
 import { expectAccessible } from './axe.js';
 import { KNOWN } from './figures.js';
-import { STILL, boxOf, centreOf, frames, mount, open, pictureOf, pixelsOf, ready, show, state, stateOf, test, testEach, unfold } from './support.js';
+import { STILL, bananaReadings, boxOf, centreOf, frames, mount, openBanana, pictureOf, pixelsOf, showPage, stateOf, test, testEach, unfold, untilReady } from './support.js';
 
 /**
  * @import { Locator, Page } from '@playwright/test'
@@ -17,12 +17,12 @@ test.use(STILL);
  * @param {{ attributes?: string, before?: string, after?: string }} [options]
  */
 async function unfolded(page, name, { attributes = '', before = '', after = '' } = {}) {
-  await show(page, `<main><h1>Bare</h1>${before}<${name} heading-level="2" ${attributes}></${name}>${after}</main>`, {
+  await showPage(page, `<main><h1>Bare</h1>${before}<${name} heading-level="2" ${attributes}></${name}>${after}</main>`, {
     head: '<meta name="viewport" content="width=device-width"><style>body { margin: 0 }</style>',
     script: ['motion-widgets', 'de'].map((script) => `<script type="module" src="/${script}.js"></script>`).join(''),
   });
   const widget = page.locator(name);
-  await ready(widget);
+  await untilReady(widget);
   await unfold(widget);
   return widget;
 }
@@ -47,7 +47,7 @@ testEach('a figure has no accessibility violations in any look', async (page, na
 
 test('a figure keeps its roles, its tracks and its pressed button in forced colours', async ({ page }) => {
   await page.emulateMedia({ forcedColors: 'active' });
-  const widget = await open(page);
+  const widget = await openBanana(page);
   for (const role of ['prior', 'prediction', 'posterior', 'truth']) {
     expect(await pixelsOf(widget.locator('canvas.plane'), role), role).toBeGreaterThan(25);
   }
@@ -98,16 +98,16 @@ testEach('Tab leads to every handle and control of a figure, once, and beyond', 
 
 test('the focus stays near a control that goes or is disabled by its own action', async ({ page }) => {
   const focused = (/** @type {Locator} */ widget) => widget.evaluate(({ shadowRoot }) => shadowRoot?.activeElement?.closest('.presets, .lines, section')?.className);
-  await show(page, '<map-squeeze></map-squeeze><arc-anatomy></arc-anatomy>');
+  await showPage(page, '<map-squeeze></map-squeeze><arc-anatomy></arc-anatomy>');
   const map = page.locator('map-squeeze');
-  await ready(map);
+  await untilReady(map);
   await map.evaluate((element) => void Object.assign(element, { map: { bounds: [0, 0, 6, 4], walls: [[3, 0, 3, 1.5]] } }));
   await map.getByRole('button', { name: 'Back to the apartment' }).press('Enter');
   await expect(map.getByRole('button', { name: 'Back to the apartment' })).toHaveCount(0);
   expect(await focused(map)).toContain('presets');
   const arc = page.locator('arc-anatomy');
   await arc.scrollIntoViewIfNeeded();
-  await ready(arc);
+  await untilReady(arc);
   await arc.evaluate((element) => /** @type {any} */ (element).setState({ widget: 'arc-anatomy', version: 1, line: 8 }));
   await unfold(arc);
   const next = arc.getByRole('button', { name: 'Next line' });
@@ -117,7 +117,7 @@ test('the focus stays near a control that goes or is disabled by its own action'
 });
 
 test('sliders speak their value with its unit, and nothing is announced while one moves', async ({ page }) => {
-  const widget = await open(page);
+  const widget = await openBanana(page);
   const status = widget.locator('p[role=status]');
   const slider = widget.locator('#v');
   await slider.scrollIntoViewIfNeeded();
@@ -130,7 +130,7 @@ test('sliders speak their value with its unit, and nothing is announced while on
     await frames(page);
     expect(await status.textContent()).toBe('');
   }
-  const { config } = await state(widget);
+  const { config } = await bananaReadings(widget);
   await page.mouse.up();
   await expect(status).toContainText(`v = ${config.command.v.toFixed(2).replace('-', '−')} m/s`);
   for (const each of await widget.locator('input[type=range]').all()) {
@@ -212,7 +212,7 @@ test.describe('a finger', () => {
     await lower(chart);
     const { x, y, width, height } = await boxOf(chart);
     await page.touchscreen.tap(x + 0.8 * width, y + height / 2);
-    await expect.poll(async () => (await state(widget)).config.command.omega).toBeGreaterThan(1);
+    await expect.poll(async () => (await bananaReadings(widget)).config.command.omega).toBeGreaterThan(1);
     const canvas = widget.locator('canvas.plane');
     await canvas.scrollIntoViewIfNeeded();
     const [right, down] = await widget.evaluate((element) => {
@@ -262,7 +262,7 @@ test('paper has the figure and its settings, in light colours, and nothing to pr
     addEventListener('error', ({ message }) => Object.assign(window, { complaint: message }));
     document.querySelector('banana-machine')?.replaceWith(document.createElement('banana-machine'));
   });
-  await ready(widget);
+  await untilReady(widget);
   const sizes = () => canvas.evaluate((element) => ['width', 'height'].map((side) => Reflect.get(element, side)));
   for (const width of [600, 701, 1127, 1920]) {
     await page.setViewportSize({ width, height: 900 });
@@ -274,8 +274,8 @@ test('paper has the figure and its settings, in light colours, and nothing to pr
 });
 
 test('paper has figures that were far from the window, with their pictures @nightly', async ({ page }) => {
-  await show(page, '<banana-machine></banana-machine><div style="height: 3000px"></div><map-squeeze></map-squeeze>');
-  await ready(page.locator('banana-machine'));
+  await showPage(page, '<banana-machine></banana-machine><div style="height: 3000px"></div><map-squeeze></map-squeeze>');
+  await untilReady(page.locator('banana-machine'));
   const far = page.locator('map-squeeze');
   expect(await far.evaluate((element) => Reflect.get(element, 'machine'))).toBe(undefined);
   await page.evaluate(() => {

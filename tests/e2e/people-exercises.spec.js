@@ -1,5 +1,5 @@
 import { expect } from '@playwright/test';
-import { STILL, frames, ready, test } from './support.js';
+import { STILL, frames, test, untilReady } from './support.js';
 
 /** @import { Locator, Page } from '@playwright/test' */
 
@@ -10,7 +10,7 @@ test.use(STILL);
 async function openAt(page, section) {
   await page.goto(`/#${section}`);
   const article = page.locator(`#${section}`);
-  await ready(article.locator('.stand > *'));
+  await untilReady(article.locator('.stand > *'));
   return article;
 }
 

@@ -1,7 +1,7 @@
 import { readFileSync } from 'node:fs';
 import { expect } from '@playwright/test';
 import { openSqueeze, squeezeResults } from './squeeze-support.js';
-import { STILL, boxOf, frames, mount, open, posesOf, property, state, test, unfold } from './support.js';
+import { STILL, bananaReadings, boxOf, frames, mount, openBanana, posesOf, property, test, unfold } from './support.js';
 
 /** @import { Locator } from '@playwright/test' */
 /** @typedef {import('../../www/types.d.ts').BananaMachineElement} Figure any element, as far as exports are concerned */
@@ -37,9 +37,9 @@ function elementsOf(page, svg) {
 }
 
 test('CSV of the Banana Machine has the samples, and the settings that bring them back', async ({ page }) => {
-  const widget = await open(page, 'samples="2000"');
+  const widget = await openBanana(page, 'samples="2000"');
   await widget.getByRole('button', { name: 'Hard arc' }).click();
-  const { config, shown } = await state(widget);
+  const { config, shown } = await bananaReadings(widget);
   const poses = await posesOf(widget);
   const { settings, columns, rows } = parsed(await csvOf(widget));
   expect(columns).toEqual([
@@ -72,7 +72,7 @@ test('CSV of Map Squeeze has the verdicts, which add up to the readouts', async 
 });
 
 test('SVG is vectors with a title and a description: dots while they are few, else an image', async ({ page }) => {
-  const widget = await open(page);
+  const widget = await openBanana(page);
   const plane = widget.locator('canvas.plane');
   // A thousand.
   await widget.locator('#samples').fill('6');
@@ -124,7 +124,7 @@ test('PNG of a figure has twice the pixels and opaque paper', async ({ page, fig
 });
 
 test('the menu saves files with names that say what they are, from the keyboard too', async ({ page }) => {
-  const widget = await open(page);
+  const widget = await openBanana(page);
   await unfold(widget);
   await widget.locator('.exports button').first().focus();
   for (const ending of ['png', 'svg', 'csv']) {

@@ -1,7 +1,7 @@
 import { expect, test as plain } from '@playwright/test';
 import { expectAccessible } from './axe.js';
 import { ALL } from './figures.js';
-import { STILL, boxOf, frames, mount, pictureOf, property, ready, test, testEach } from './support.js';
+import { STILL, boxOf, frames, mount, pictureOf, property, test, testEach, untilReady } from './support.js';
 
 test.use(STILL);
 
@@ -37,7 +37,7 @@ testEach('each item sets the whole state that it describes, whatever was pressed
   const article = page.locator('article', { has: page.locator(name) });
   const figure = article.locator(name);
   await figure.scrollIntoViewIfNeeded();
-  await ready(figure);
+  await untilReady(figure);
   const buttons = await article.locator('button[data-try]').all();
   const press = async (/** @type {import('@playwright/test').Locator} */ button) => {
     // Clicked by script, because some buttons are in a closed disclosure.
@@ -70,7 +70,7 @@ test('a term and an entry of the legend highlight their line in the picture', as
   await page.goto('/');
   const article = page.locator('#banana');
   const figure = article.locator('banana-machine');
-  await ready(figure);
+  await untilReady(figure);
   const canvas = figure.locator('canvas.plane');
   const plain = await pictureOf(canvas);
   const term = article.getByText('dashed ellipse', { exact: true });
@@ -99,7 +99,7 @@ for (const [width, height] of [[1280, 720], [375, 760]]) {
     await page.setViewportSize({ width, height });
     await page.goto('/');
     const article = page.locator('#banana');
-    await ready(article.locator('banana-machine'));
+    await untilReady(article.locator('banana-machine'));
     const [heading, stand] = [await boxOf(article.locator('header')), await boxOf(article.locator('.stand'))];
     expect(stand.y).toBeGreaterThanOrEqual(heading.y + heading.height);
     await article.getByRole('button', { name: 'Odometry model' }).evaluate((button) => button.scrollIntoView({ block: 'end' }));
@@ -121,7 +121,7 @@ test('nothing on the page moves while figures load', async ({ page }) => {
   await page.goto('/');
   for (const name of ALL) {
     await page.locator(name).first().scrollIntoViewIfNeeded();
-    await ready(page.locator(name).first());
+    await untilReady(page.locator(name).first());
   }
   expect(await page.evaluate(() => Reflect.get(window, 'moved'))).toEqual([]);
 });

@@ -1,6 +1,6 @@
 import { expect } from '@playwright/test';
 import { KNOWN } from './figures.js';
-import { STILL, frames, mount, numberIn, open, pictureOf, readout, ready, settled, show, state, test, testEach, unfold } from './support.js';
+import { STILL, bananaReadings, frames, mount, numberIn, openBanana, pictureOf, readout, showPage, test, testEach, unfold, untilReady, untilSettled } from './support.js';
 
 test.use(STILL);
 
@@ -67,11 +67,11 @@ testEach('no English is left in a German figure', async (page, name) => {
     .map((part) => part.replace(/[₀-₉]/g, (/** @type {string} */ digit) => String(digit.charCodeAt(0) - 0x2080)).trim())
     .filter((part) => /\p{L}{4}/u.test(part) && !SAME.includes(part) && !own.has(part));
   expect(english.length).toBeGreaterThan(400);
-  await show(page, `<${name} lang="de-AT"></${name}>`, {
+  await showPage(page, `<${name} lang="de-AT"></${name}>`, {
     script: ['motion-widgets', 'de'].map((script) => `<script type="module" src="/${script}.js"></script>`).join(''),
   });
   const widget = page.locator(name);
-  await ready(widget);
+  await untilReady(widget);
   await unfold(widget);
   const texts = await said(widget);
   expect(texts.length).toBeGreaterThan(60);
@@ -79,7 +79,7 @@ testEach('no English is left in a German figure', async (page, name) => {
 });
 
 test('the nearest lang decides, also on the form of numbers; a language without words is English', async ({ page }) => {
-  const widget = await open(page);
+  const widget = await openBanana(page);
   await page.addScriptTag({ type: 'module', url: '/de.js' });
   const play = (/** @type {string} */ name) => expect(widget.getByRole('button', { name, exact: true })).toBeVisible();
   const skew = (await readout(widget, 'cross-track skew').textContent()) ?? '';
@@ -88,7 +88,7 @@ test('the nearest lang decides, also on the form of numbers; a language without 
   const schiefe = (await readout(widget, /[Qq]uer/).textContent()) ?? '';
   expect(schiefe).toBe(skew.replaceAll('.', ','));
   expect(schiefe).toMatch(/^−0,\d{3,4} ± 0,\d{3,4}$/);
-  expect(numberIn(schiefe.split(' ± ')[0].replace(',', '.'))).toBeCloseTo((await state(widget)).stats.crossTrackSkew, 3);
+  expect(numberIn(schiefe.split(' ± ')[0].replace(',', '.'))).toBeCloseTo((await bananaReadings(widget)).stats.crossTrackSkew, 3);
   await expect(widget.locator('#v')).toHaveAttribute('aria-valuetext', '1,00 m/s');
   await widget.evaluate((element) => element.setAttribute('lang', 'fr'));
   await play('Draw samples');
@@ -101,7 +101,7 @@ test('the nearest lang decides, also on the form of numbers; a language without 
 });
 
 test('a page may replace words and add languages; a message of another shape is refused by name', async ({ page }) => {
-  const widget = await open(page, 'preset="gentle"');
+  const widget = await openBanana(page, 'preset="gentle"');
   await unfold(widget);
   const complaints = await page.evaluate(async () => {
     const { setMessages } = await import(new URL('/motion-widgets.js', location.href).href);
@@ -152,9 +152,9 @@ test('a page from right to left has the same picture, and nothing beside its fig
 test('signs stand left of their numbers on a page from right to left, also among words from right to left', async ({ page, figure }) => {
   const head = '<script type="module">import { setMessages } from "/motion-widgets.js"; setMessages("he", { play: "נגן" })</script>';
   for (const [lang, direction, values] of [['en', 'ltr', '.machine'], ['he', 'rtl', '.machine :is(bdi, [dir=ltr])']]) {
-    await show(page, `<div dir="rtl" lang="${lang}"><${figure}><p slot="caption">נגן</p></${figure}></div>`, { head });
+    await showPage(page, `<div dir="rtl" lang="${lang}"><${figure}><p slot="caption">נגן</p></${figure}></div>`, { head });
     const widget = page.locator(figure);
-    await ready(widget);
+    await untilReady(widget);
     await unfold(widget);
     const found = await widget.evaluate(({ shadowRoot }, selector) => {
       const range = new Range();
@@ -185,7 +185,7 @@ test('signs stand left of their numbers on a page from right to left, also among
 test('a page translator that replaces every text freezes none @nightly', async ({ page, figure }) => {
   // A figure outside the viewport is not drawn: both have to be visible.
   await page.setViewportSize({ width: 1280, height: 4000 });
-  await show(page, `<${figure} id="translated"></${figure}><${figure} id="other"></${figure}>`);
+  await showPage(page, `<${figure} id="translated"></${figure}><${figure} id="other"></${figure}>`);
   const [translated, other] = ['#translated', '#other'].map((id) => page.locator(id));
   const { slider, values } = KNOWN[figure];
   const texts = async () => {
@@ -193,7 +193,7 @@ test('a page translator that replaces every text freezes none @nightly', async (
     return Promise.all([translated, other].map((widget) => widget.locator('.machine').evaluate((machine) => machine.textContent)));
   };
   for (const widget of [translated, other]) {
-    await ready(widget);
+    await untilReady(widget);
     await unfold(widget);
   }
   await translated.evaluate(({ shadowRoot }) => {
@@ -209,7 +209,7 @@ test('a page translator that replaces every text freezes none @nightly', async (
   for (const value of values) {
     const before = await texts();
     for (const widget of [translated, other]) await widget.locator(`#${slider}`).fill(String(value));
-    for (const widget of [translated, other]) await settled(widget);
+    for (const widget of [translated, other]) await untilSettled(widget);
     const [one, two] = await texts();
     expect(two).not.toBe(before[1]);
     expect(one).toBe(two);

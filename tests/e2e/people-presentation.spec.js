@@ -1,6 +1,6 @@
 import { expect } from '@playwright/test';
 import { expectAccessible } from './axe.js';
-import { STILL, boxOf, centreOf, frames, mount, ready, show, stateOf, test, testEach } from './support.js';
+import { STILL, boxOf, centreOf, frames, mount, showPage, stateOf, test, testEach, untilReady } from './support.js';
 
 test.use({ ...STILL, viewport: { width: 1920, height: 1080 } });
 
@@ -8,9 +8,9 @@ test.use({ ...STILL, viewport: { width: 1920, height: 1080 } });
 const fits = (widget) => widget.locator('.surface').evaluate((element) => element.scrollHeight <= element.clientHeight && element.scrollWidth <= element.clientWidth);
 
 test('the button fills the screen, C shows the controls, and Escape leaves', async ({ page }) => {
-  await show(page, '<div style="height: 300px"></div><banana-machine></banana-machine><div style="height: 3000px"></div>');
+  await showPage(page, '<div style="height: 300px"></div><banana-machine></banana-machine><div style="height: 3000px"></div>');
   const widget = page.locator('banana-machine');
-  await ready(widget);
+  await untilReady(widget);
   await widget.getByRole('button', { name: 'Present' }).click();
   await expect.poll(() => page.evaluate(() => document.fullscreenElement?.localName)).toBe('banana-machine');
   const controls = widget.getByRole('button', { name: 'C Controls' });

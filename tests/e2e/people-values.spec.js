@@ -2,7 +2,7 @@ import { expect } from '@playwright/test';
 import { settings } from '../../www/settings.js';
 import { expectAccessible } from './axe.js';
 import { NAMES } from './figures.js';
-import { STILL, counted, frames, heard, mount, property, test, unfold, valueField } from './support.js';
+import { STILL, frames, mount, printedCount, property, takeEvents, test, unfold, valueField } from './support.js';
 
 /** @typedef {import('@playwright/test').Locator} Locator */
 
@@ -12,7 +12,7 @@ test.use(STILL);
 async function widgetOf(page, name) {
   const widget = await mount(page, name);
   await unfold(widget);
-  await heard(page);
+  await takeEvents(page);
   return widget;
 }
 
@@ -28,7 +28,7 @@ test('a digit on a slider leads into its value, Enter back, and the value may li
   await page.keyboard.press('Enter');
   await expect(slider).toBeFocused();
   expect(await property(widget, 'alpha1')).toBe(0.4);
-  expect((await heard(page, ['input', 'change'])).map(({ name }) => name)).toEqual(['input', 'change']);
+  expect((await takeEvents(page, ['input', 'change'])).map(({ name }) => name)).toEqual(['input', 'change']);
   // The thumb is at the end of the slider.
   await expect(slider).toHaveValue('0.2');
   await expect(slider).toHaveAttribute('aria-valuetext', '0.400');
@@ -62,11 +62,11 @@ test('a value is typed with its unit, a true minus and few more decimals, and Es
   await expect(field).toHaveValue('\u22122.125 m/s');
   expect(await property(widget, 'v')).toBe(-2.125);
   // Enter leads from the slider to the field, and changes nothing by itself.
-  await heard(page);
+  await takeEvents(page);
   await page.keyboard.press('Enter');
   await expect(field).toBeFocused();
   await page.keyboard.press('Enter');
-  expect(await heard(page)).toEqual([]);
+  expect(await takeEvents(page)).toEqual([]);
 });
 
 test('a value that is refused is reported with the allowed range, and the last good one stays', async ({ page }) => {
@@ -89,7 +89,7 @@ test('a value that is refused is reported with the allowed range, and the last g
     await expect(field).toHaveValue(shown);
     await expect(field).toHaveAttribute('aria-describedby', `${key}-effect`);
     expect(await property(widget, key)).toBe(before);
-    expect(await heard(page)).toEqual([]);
+    expect(await takeEvents(page)).toEqual([]);
     if (key === 'samples') await expectAccessible(page, undefined, 'banana-machine');
     // The message disappears when the text changes.
     await page.keyboard.type('1');
@@ -112,7 +112,7 @@ test('a number that no sample has is refused and kept until it is right or left 
   for (const text of ['2.5', String(samples + 1)]) {
     await field.fill('7');
     await field.fill(text);
-    await expect(said).toHaveText(`Robot must be a whole number between 1 and ${counted(samples)} (got ${text}).`);
+    await expect(said).toHaveText(`Robot must be a whole number between 1 and ${printedCount(samples)} (got ${text}).`);
     await expect(field).toHaveValue(text);
     expect(await property(widget, 'marked')).toBe(6);
     await field.blur();

@@ -5,7 +5,7 @@
  */
 
 import { pngOf } from '../png.js';
-import { frames, ready, show } from './support.js';
+import { frames, showPage, untilReady } from './support.js';
 
 /**
  * @typedef {import('@playwright/test').Page} Page
@@ -19,9 +19,9 @@ import { frames, ready, show } from './support.js';
 
 /** Opens a page with a Map Squeeze. @param {Page} page @param {string} [attributes] */
 export async function openSqueeze(page, attributes = '') {
-  await show(page, `<main><h1>Bare</h1><map-squeeze heading-level="2" ${attributes}></map-squeeze></main>`);
+  await showPage(page, `<main><h1>Bare</h1><map-squeeze heading-level="2" ${attributes}></map-squeeze></main>`);
   const widget = page.locator('map-squeeze');
-  await ready(widget);
+  await untilReady(widget);
   return widget;
 }
 

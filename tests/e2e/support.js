@@ -89,7 +89,7 @@ export const STILL = { contextOptions: { reducedMotion: /** @type {const} */ ('r
  * @param {string} body
  * @param {{ head?: string, fragment?: string, script?: string }} [options]
  */
-export async function show(page, body, { head = '', fragment = '', script = '<script type="module" src="/motion-widgets.js"></script>' } = {}) {
+export async function showPage(page, body, { head = '', fragment = '', script = '<script type="module" src="/motion-widgets.js"></script>' } = {}) {
   await page.addInitScript(() => {
     const heard = /** @type {Heard[]} */ ([]);
     Object.assign(window, { heard });
@@ -116,7 +116,7 @@ export async function show(page, body, { head = '', fragment = '', script = '<sc
 }
 
 /** Waits until an element has its machine, and a picture where it is in sight. @param {Locator} widget */
-export async function ready(widget) {
+export async function untilReady(widget) {
   await widget.evaluate(async (element) => {
     while (Reflect.get(element, 'machine') === undefined) await new Promise(requestAnimationFrame);
   });
@@ -128,13 +128,13 @@ export async function ready(widget) {
  *
  * @param {Page} page
  * @param {string} name of the element
- * @param {Parameters<typeof show>[2] & { attributes?: string }} [options]
+ * @param {Parameters<typeof showPage>[2] & { attributes?: string }} [options]
  * @returns {Promise<Locator>} the figure, running
  */
 export async function mount(page, name, { attributes = '', ...options } = {}) {
-  await show(page, `<${name} ${attributes}></${name}>`, options);
+  await showPage(page, `<${name} ${attributes}></${name}>`, options);
   const widget = page.locator(name);
-  await ready(widget);
+  await untilReady(widget);
   return widget;
 }
 
@@ -145,7 +145,7 @@ export async function mount(page, name, { attributes = '', ...options } = {}) {
  * @param {string[]} [names]
  * @returns {Promise<Heard[]>}
  */
-export async function heard(page, names = ['load', 'input', 'change', 'error']) {
+export async function takeEvents(page, names = ['load', 'input', 'change', 'error']) {
   await frames(page);
   const all = /** @type {Heard[]} */ (await page.evaluate(() => Reflect.get(window, 'heard').splice(0)));
   return all.filter(({ name }) => names.includes(name));
@@ -184,7 +184,7 @@ export function assign(widget, name, value) {
  * @param {number} [most] steps until it is paused
  * @returns {Promise<{ values: number[], label: string }>} value at each step, and the label of the button at the first
  */
-export function played(widget, key, most = Infinity) {
+export function playSlider(widget, key, most = Infinity) {
   return widget.evaluate(
     (element, [key, most]) =>
       new Promise((resolve) => {
@@ -217,7 +217,7 @@ export function stateOf(widget) {
 }
 
 /** Opens a page with a Banana Machine. @param {Page} page @param {string} [attributes] */
-export async function open(page, attributes = '') {
+export async function openBanana(page, attributes = '') {
   return mount(page, 'banana-machine', { attributes });
 }
 
@@ -245,11 +245,11 @@ export async function unfold(widget) {
   await widget.evaluate(({ shadowRoot }) => {
     for (const fold of shadowRoot?.querySelectorAll('details') ?? []) fold.open ||= fold.matches('[part=fold]');
   });
-  await unfolded(widget);
+  await untilUnfolded(widget);
 }
 
 /** Waits for the contents of open disclosures, which are rendered after the browser's `toggle` event. @param {Locator} widget */
-export async function unfolded(widget) {
+export async function untilUnfolded(widget) {
   await widget.evaluate(async ({ shadowRoot }) => {
     while (shadowRoot?.querySelector('details[open] > .folded:empty')) await new Promise(requestAnimationFrame);
   });
@@ -269,7 +269,7 @@ export async function frames(page) {
 }
 
 /** Returns the readings of a machine after the next frames, other than its poses, which are many. @param {Locator} widget */
-export async function state(widget) {
+export async function bananaReadings(widget) {
   await frames(widget.page());
   return widget.evaluate((element) => {
     const { config, shown, stats, table, contours } = /** @type {BananaMachineElement} */ (element).machine;
@@ -284,7 +284,7 @@ export async function posesOf(widget) {
 }
 
 /** Sets sliders by their ids. @param {Locator} widget @param {Record<string, number>} values */
-export async function set(widget, values) {
+export async function setSliders(widget, values) {
   for (const [id, value] of Object.entries(values)) await widget.locator(`#${id}`).fill(String(value));
   await frames(widget.page());
 }
@@ -372,7 +372,7 @@ export function readout(widget, name) {
 }
 
 /** Returns the small print below a readout. @param {Locator} widget @param {string | RegExp} name */
-export function detail(widget, name) {
+export function readoutDetail(widget, name) {
   return widget.locator('.readouts div').filter({ hasText: name }).locator('dd.detail');
 }
 
@@ -383,8 +383,8 @@ export function detail(widget, name) {
  * @param {string} [attributes]
  * @returns {Promise<Locator>} the widget
  */
-export async function openWhole(page, attributes = '') {
-  const widget = await open(page, attributes);
+export async function openUnfoldedBanana(page, attributes = '') {
+  const widget = await openBanana(page, attributes);
   await unfold(widget);
   await page.evaluate(() => scrollTo(0, 0));
   await frames(page);
@@ -392,7 +392,7 @@ export async function openWhole(page, attributes = '') {
 }
 
 /** @param {number} count @returns {string} as the widget prints it, rounded */
-export const counted = (count) => String(Math.round(count)).replace(/\B(?=(\d{3})+$)/g, '\u202f');
+export const printedCount = (count) => String(Math.round(count)).replace(/\B(?=(\d{3})+$)/g, '\u202f');
 
 /** Returns a number that a widget prints. @param {string | null} text */
 export function numberIn(text) {
@@ -402,7 +402,7 @@ export function numberIn(text) {
 }
 
 /** Waits until all is calculated and shown. @param {Locator} widget */
-export async function settled(widget) {
+export async function untilSettled(widget) {
   await widget.evaluate((element) => /** @type {AnyElement} */ (element).settled);
   await frames(widget.page());
 }

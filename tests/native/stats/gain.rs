@@ -200,7 +200,7 @@ fn the_gain_on_the_floor_is_the_same_whatever_the_last_turn() {
     assert_close(
         "floor",
         gain.floor,
-        machine(GENTLE, OPENING, 10_000).figures().likelihood_gain.floor,
+        machine(GENTLE, GENTLE_ALPHAS, 10_000).figures().likelihood_gain.floor,
         1e-12,
     );
 }
@@ -276,7 +276,7 @@ fn the_gain_is_infinite_where_only_the_bent_cloud_is_flat() {
             }
             // With a tiny variance of γ̂ the gain is finite. It grows by half a nat if that variance falls by a factor e.
             let of = |last: f64| {
-                machine(command, [0.05, 0.05, 0.05, 0.09, last, last], 5000).figures().gain.value.pose
+                machine(command, [0.05, 0.05, 0.05, 0.09, last, last], 5000).figures().likelihood_gain.pose
             };
             assert_close("growth", of(1e-16) - of(1e-14), 100f64.ln() / 2.0, 1e-4);
         }

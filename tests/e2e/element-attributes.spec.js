@@ -1,7 +1,7 @@
 import { readFileSync } from 'node:fs';
 import { expect } from '@playwright/test';
 import { SEEDS, anyOf } from './any-state.js';
-import { ALL, KNOWN, NAMES } from './figures.js';
+import { ALL_NAMES, FIGURE_FACTS, TWO_NAMES } from './figures.js';
 import { STILL, assign, frames, mount, property, showPage, takeEvents, test, testEach, unfold, untilReady } from './support.js';
 
 /** @typedef {import('./support.js').AnyElement} AnyElement */
@@ -16,7 +16,7 @@ test('attributes of every kind say how the figure opens', async ({ page }) => {
      <map-squeeze preset="wall" x="3.25" noise="0.2" conditioned="false" sampler="sub-stepped" steps="4"
        clearance="0.2" samples="77" seed="5" view="close"></map-squeeze>`,
   );
-  const [banana, squeeze] = NAMES.map((name) => page.locator(name));
+  const [banana, squeeze] = TWO_NAMES.map((name) => page.locator(name));
   await untilReady(banana);
   await squeeze.scrollIntoViewIfNeeded();
   await untilReady(squeeze);
@@ -42,12 +42,12 @@ test('attributes of every kind say how the figure opens', async ({ page }) => {
     seed: 5,
   });
   expect(await property(squeeze, 'view')).toBe('close');
-  expect((await takeEvents(page)).map(({ name, target }) => [name, target])).toEqual(NAMES.map((name) => ['load', name]));
+  expect((await takeEvents(page)).map(({ name, target }) => [name, target])).toEqual(TWO_NAMES.map((name) => ['load', name]));
 });
 
 test('attributes stay as written until a setting changes, and then reflect it', async ({ page }) => {
   await showPage(page, '<banana-machine preset="hard" seed="3"></banana-machine><map-squeeze></map-squeeze>');
-  const [banana, squeeze] = NAMES.map((name) => page.locator(name));
+  const [banana, squeeze] = TWO_NAMES.map((name) => page.locator(name));
   await untilReady(banana);
   await unfold(banana);
   const attributes = (/** @type {import('@playwright/test').Locator} */ widget) =>
@@ -80,7 +80,7 @@ test('attributes stay as written until a setting changes, and then reflect it', 
 
 test('boolean attributes may be empty or "true", and lists may have any space @nightly', async ({ page }) => {
   await showPage(page, '<banana-machine overlays=" linearized\n  command "></banana-machine><map-squeeze conditioned="true"></map-squeeze>');
-  const [banana, squeeze] = NAMES.map((name) => page.locator(name));
+  const [banana, squeeze] = TWO_NAMES.map((name) => page.locator(name));
   await untilReady(banana);
   expect(await property(banana, 'overlays')).toEqual(['command', 'linearized']);
   await banana.evaluate((element) => element.setAttribute('overlays', ''));
@@ -96,7 +96,7 @@ test('boolean attributes may be empty or "true", and lists may have any space @n
 
 test('attributes follow the controls of a figure, and lead back to the default where they are removed', async ({ page, figure }) => {
   const widget = await mount(page, figure);
-  const { slider, values: [first, second] } = KNOWN[figure];
+  const { slider, values: [first, second] } = FIGURE_FACTS[figure];
   const opening = await property(widget, slider);
   await widget.locator(`#${slider}`).fill(String(first));
   await expect(widget).toHaveAttribute(slider, String(first));
@@ -135,7 +135,7 @@ test('attributes that are refused are reported in the words of the core, and the
 test('elements in the table of doc/embedding/figures.md have the attributes that it shows', async ({ page, figure }) => {
   const document = readFileSync(new URL('../../doc/embedding/figures.md', import.meta.url), 'utf8');
   const examples = [...document.matchAll(/^\| [^|]* \| `<([a-z-]+)( [^`]*)>` \|$/gm)].map(([, name, attributes]) => ({ name, attributes }));
-  expect(new Set(examples.map(({ name }) => name)).size).toBe(ALL.length);
+  expect(new Set(examples.map(({ name }) => name)).size).toBe(ALL_NAMES.length);
   await showPage(page, examples.map(({ name, attributes }) => `<${name} class="example" ${attributes}></${name}>`).join(''));
   const unknown = await page.locator('.example').evaluateAll((all) => all.flatMap(({ attributes, constructor }) =>
     [...attributes].map(({ name }) => name).filter((name) => name !== 'class' && !Reflect.get(constructor, 'observedAttributes').includes(name))));
@@ -268,7 +268,7 @@ test('properties that are assigned their own value change nothing @nightly', asy
 
 test('properties take effect at once and reflect; those out of range are reported and change nothing', async ({ page }) => {
   await showPage(page, '<banana-machine></banana-machine><map-squeeze></map-squeeze>');
-  const [banana, squeeze] = NAMES.map((name) => page.locator(name));
+  const [banana, squeeze] = TWO_NAMES.map((name) => page.locator(name));
   await untilReady(banana);
   expect(await assign(banana, 'omega', 1.1)).toBe('');
   expect(await banana.getAttribute('omega')).toBe('1.1');

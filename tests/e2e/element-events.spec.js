@@ -1,5 +1,5 @@
 import { expect } from '@playwright/test';
-import { KNOWN } from './figures.js';
+import { FIGURE_FACTS } from './figures.js';
 import { STILL, assign, boxOf, centreOf, dragSlider, frames, mount, showPage, stateOf, takeEvents, test, testEach, unfold, untilReady, untilSettled } from './support.js';
 
 /** @typedef {import('@playwright/test').Locator} Locator */
@@ -151,7 +151,7 @@ testEach('a frame after an input event calls the core at most six times, and a r
     await untilSettled(widget);
     return widget.evaluate((element) => /** @type {string[][]} */ (Reflect.get(element, 'calls')).splice(0, Infinity, []));
   };
-  const slider = widget.locator(`#${KNOWN[name].slider}`);
+  const slider = widget.locator(`#${FIGURE_FACTS[name].slider}`);
   await slider.scrollIntoViewIfNeeded();
   await asked();
   const { x, y, width, height } = await boxOf(slider);
@@ -204,13 +204,13 @@ test('changes by the page fire stats alone, also out of sight', async ({ page, f
   await page.evaluate(() => scrollTo(0, 4000));
   await takeEvents(page, ['stats']);
   const before = await stateOf(widget);
-  const [key, value] = KNOWN[figure].other;
+  const [key, value] = FIGURE_FACTS[figure].other;
   for (const to of [value, null]) {
     expect(await assign(widget, key, to)).toBe('');
     expect(names(await takeEvents(page, ['load', 'input', 'change', 'error', 'stats'])), String(to)).toEqual(['stats']);
   }
   expect(await stateOf(widget)).toEqual(before);
-  await widget.evaluate((element, [attribute, to]) => element.setAttribute(attribute, String(to)), KNOWN[figure].other);
+  await widget.evaluate((element, [attribute, to]) => element.setAttribute(attribute, String(to)), FIGURE_FACTS[figure].other);
   expect(names(await takeEvents(page, ['load', 'input', 'change', 'error', 'stats']))).toEqual(['stats']);
   const other = await stateOf(widget);
   expect(other).not.toEqual(before);
@@ -231,7 +231,7 @@ test('events report changes alone, whatever is drawn and asked', async ({ page, 
     figure.getState();
   });
   expect(await takeEvents(page, ['input', 'change', 'stats'])).toEqual([]);
-  expect(await assign(widget, ...KNOWN[figure].other)).toBe('');
+  expect(await assign(widget, ...FIGURE_FACTS[figure].other)).toBe('');
   expect(await takeEvents(page, ['stats'])).toHaveLength(1);
 });
 

@@ -1,6 +1,6 @@
 import { chromium, expect } from '@playwright/test';
 import { CHROME_ARGUMENTS, FULL_CHROME, findChrome } from '../../scripts/browser.mjs';
-import { ALL, CLOUDS, KNOWN, NAMES } from './figures.js';
+import { ALL_NAMES, CLOUD_NAMES, FIGURE_FACTS, TWO_NAMES } from './figures.js';
 import { FRESH, STILL, assign, boxOf, centreOf, frames, mount, pictureOf, property, showPage, stateOf, takeEvents, test, unfold, untilReady } from './support.js';
 
 /** @typedef {import('./support.js').AnyElement} AnyElement */
@@ -41,24 +41,24 @@ test('figures far from the window fetch and compute nothing, and one module serv
   const fetched = [];
   page.on('request', (request) => fetched.push(new URL(request.url()).pathname));
   await count(page);
-  await showPage(page, `<div style="height: 5000px"></div>${NAMES.map((name) => `<${name}></${name}>`).join('')}`, {
+  await showPage(page, `<div style="height: 5000px"></div>${TWO_NAMES.map((name) => `<${name}></${name}>`).join('')}`, {
     script: '<script type="module" src="/external.js"></script>',
   });
   // Polling is avoided, because it requests frames.
-  await page.evaluate((tags) => Promise.all(tags.map((tag) => customElements.whenDefined(tag))).then(() => true), [...NAMES]);
+  await page.evaluate((tags) => Promise.all(tags.map((tag) => customElements.whenDefined(tag))).then(() => true), [...TWO_NAMES]);
   await pass(page);
   expect(await counted(page)).toEqual({ frames: 0, compiled: 0, instances: 0 });
   expect(fetched.filter((path) => path.endsWith('.wasm'))).toEqual([]);
-  for (const name of NAMES) {
+  for (const name of TWO_NAMES) {
     await page.locator(name).scrollIntoViewIfNeeded();
     await untilReady(page.locator(name));
   }
-  expect(await counted(page)).toMatchObject({ compiled: 1, instances: NAMES.length });
+  expect(await counted(page)).toMatchObject({ compiled: 1, instances: TWO_NAMES.length });
   expect(fetched.filter((path) => path.endsWith('.wasm'))).toEqual(['/motion.wasm']);
 });
 
 test('a page with one figure fetches the module of that figure @nightly', async ({ page }) => {
-  for (const name of ALL) {
+  for (const name of ALL_NAMES) {
     const module = page.waitForRequest(/\.wasm$/);
     await showPage(page, `<${name}></${name}>`, { script: '<script type="module" src="/external.js"></script>' });
     await untilReady(page.locator(name));
@@ -149,7 +149,7 @@ test('folds, fields and height of a figure stay over a move and over a removal',
   await showPage(page, `<div id="a"><${figure}></${figure}></div><div id="b"></div>`);
   const widget = page.locator(figure);
   await untilReady(widget);
-  const { fold } = KNOWN[figure];
+  const { fold } = FIGURE_FACTS[figure];
   const folds = widget.locator('details');
   await expect.poll(() => folds.count()).toBeGreaterThan(1);
   await unfold(widget);
@@ -179,7 +179,7 @@ test('folds, fields and height of a figure stay over a move and over a removal',
 });
 
 test('a figure keeps what the reader did in the moment before it was removed @nightly', async ({ page, figure }) => {
-  const { slider, at, values: [value] } = KNOWN[figure];
+  const { slider, at, values: [value] } = FIGURE_FACTS[figure];
   const widget = await mount(page, figure);
   const kept = await widget.evaluate(async (element, [id, to]) => {
     const slider = /** @type {HTMLInputElement} */ (element.shadowRoot?.querySelector(`#${id}`));
@@ -242,11 +242,11 @@ test('a figure that was not displayed shows what was set meanwhile @nightly', as
   const display = (/** @type {string} */ value) => page.locator('#box').evaluate((box, to) => void (/** @type {HTMLElement} */ (box).style.display = to), value);
   await display('none');
   await frames(page);
-  await assign(widget, ...KNOWN[figure].other);
+  await assign(widget, ...FIGURE_FACTS[figure].other);
   await frames(page);
   await display('block');
   await expect.poll(() => pictureOf(canvas)).not.toBe(before);
-  await expect(widget).toHaveAttribute(KNOWN[figure].other[0].replace(/[A-Z]/g, (letter) => `-${letter.toLowerCase()}`), String(KNOWN[figure].other[1]));
+  await expect(widget).toHaveAttribute(FIGURE_FACTS[figure].other[0].replace(/[A-Z]/g, (letter) => `-${letter.toLowerCase()}`), String(FIGURE_FACTS[figure].other[1]));
 });
 
 test('a page that comes back from the back-forward cache is alive @nightly', async ({ baseURL }) => {
@@ -254,15 +254,15 @@ test('a page that comes back from the back-forward cache is alive @nightly', asy
     executablePath: findChrome(FULL_CHROME), args: CHROME_ARGUMENTS, ignoreDefaultArgs: ['--disable-back-forward-cache'],
   });
   const page = await browser.newPage({ baseURL, reducedMotion: 'reduce' });
-  await showPage(page, ALL.map((name) => `<${name} share></${name}>`).join(''));
-  for (const name of ALL) {
+  await showPage(page, ALL_NAMES.map((name) => `<${name} share></${name}>`).join(''));
+  for (const name of ALL_NAMES) {
     await page.locator(name).scrollIntoViewIfNeeded();
     await untilReady(page.locator(name));
   }
   const banana = page.locator('banana-machine');
   await banana.scrollIntoViewIfNeeded();
   await assign(banana, 'omega', 1.25);
-  const shown = async () => [await pictureOf(banana.locator('canvas.plane')), ...(await Promise.all(ALL.map((name) => stateOf(page.locator(name)))))];
+  const shown = async () => [await pictureOf(banana.locator('canvas.plane')), ...(await Promise.all(ALL_NAMES.map((name) => stateOf(page.locator(name)))))];
   const before = await shown();
   await page.evaluate(() => addEventListener('pageshow', ({ persisted }) => void Object.assign(window, { persisted })));
   await page.goto('/embed.html?widget=map-squeeze');
@@ -285,7 +285,7 @@ test('figures that were removed leave no memory, no observers and no nodes @nigh
   /** Mounts a figure of each kind after the other, and removes it when it is drawn. @param {number} rounds */
   const mounted = async (rounds) => {
     for (let round = 0; round < rounds; round++) {
-      for (const name of ALL) {
+      for (const name of ALL_NAMES) {
         await page.evaluate(async ([tag, few]) => {
           const figure = Object.assign(document.createElement(tag), few);
           const loaded = new Promise((resolve) => figure.addEventListener('load', resolve, { once: true }));
@@ -293,7 +293,7 @@ test('figures that were removed leave no memory, no observers and no nodes @nigh
           await loaded;
           await new Promise(requestAnimationFrame);
           figure.remove();
-        }, /** @type {const} */ ([name, CLOUDS.includes(name) ? { samples: 200 } : {}]));
+        }, /** @type {const} */ ([name, CLOUD_NAMES.includes(name) ? { samples: 200 } : {}]));
       }
     }
   };

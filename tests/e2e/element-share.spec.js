@@ -1,6 +1,6 @@
 import { expect } from '@playwright/test';
 import { expectAccessible } from './axe.js';
-import { KNOWN } from './figures.js';
+import { FIGURE_FACTS } from './figures.js';
 import { FRESH, STILL, frames, mount, property, showPage, stateOf, takeEvents, test, untilReady } from './support.js';
 
 /** @typedef {import('./support.js').AnyElement} AnyElement */
@@ -168,7 +168,7 @@ test('a page with a base of its own keeps its address @nightly', async ({ page }
 });
 
 test('a figure without share leaves the address alone, and opens its part of a link and keeps it up to date', FRESH, async ({ page, context, figure }) => {
-  const { slider, values, button } = KNOWN[figure];
+  const { slider, values, button } = FIGURE_FACTS[figure];
   const widget = await mount(page, figure, { fragment: '#elsewhere' });
   await widget.evaluate((element, [key, value]) => void Reflect.set(element, key, value), /** @type {const} */ ([slider, values[0]]));
   await widget.getByRole('button', { name: button, exact: true }).click();
@@ -194,7 +194,7 @@ test('a figure without share leaves the address alone, and opens its part of a l
 });
 
 test('a figure with share keeps its state in the address, and follows it', async ({ page, figure }) => {
-  const { slider, values, button } = KNOWN[figure];
+  const { slider, values, button } = FIGURE_FACTS[figure];
   await showPage(page, `<${figure} share></${figure}><p id="end">The end</p>`);
   const widget = page.locator(figure);
   await untilReady(widget);
@@ -235,16 +235,16 @@ test('copies a link, and the code to embed with the address of the script', asyn
   expect(await clipboard()).toContain(`<script type="module" src="${origin}/motion-widgets.js"></script>`);
 });
 
-test('says that the code to embed is without the own map @nightly', async ({ page }) => {
-  const widget = await mount(page, 'map-squeeze');
-  await widget.getByText('Numbers and data').click();
-  await widget.getByRole('button', { name: 'Copy embed code' }).click();
-  await expect(widget.getByText('Copied.')).toHaveText('Copied.');
-  await widget.evaluate((element) => void Object.assign(element, { map: { bounds: [0, 0, 6, 4], walls: [[3, 0, 3, 1.5]] } }));
-  await frames(page);
-  await widget.getByRole('button', { name: 'Copy embed code' }).click();
-  await expect(widget.getByText('Copied.')).toContainText('without your map');
-});
+  test('the button that copies the code to embed says that it is without the reader’s map @nightly', async ({ page }) => {
+    const widget = await mount(page, 'map-squeeze');
+    await widget.getByText('Numbers and data').click();
+    await widget.getByRole('button', { name: 'Copy embed code' }).click();
+    await expect(widget.getByText('Copied.')).toHaveText('Copied.');
+    await widget.evaluate((element) => void Object.assign(element, { map: { bounds: [0, 0, 6, 4], walls: [[3, 0, 3, 1.5]] } }));
+    await frames(page);
+    await widget.getByRole('button', { name: 'Copy embed code' }).click();
+    await expect(widget.getByText('Copied.')).toContainText('without your map');
+  });
 });
 
 test('the menu shows what the clipboard does not take @nightly', async ({ page }) => {
@@ -277,7 +277,7 @@ test('a frame shows the figure of its address, and sends its height', async ({ p
     Object.assign(window, { heights: [] });
     addEventListener('message', ({ data }) => data?.type === 'motion-widgets:height' && Reflect.get(window, 'heights').push(data.height));
   });
-  const { slider, values: [value] } = KNOWN[figure];
+  const { slider, values: [value] } = FIGURE_FACTS[figure];
   await showPage(page, `<iframe src="/embed.html?widget=${figure}&${slider}=${value}" width="700" height="900"></iframe>`, { script: '' });
   const widget = page.frameLocator('iframe').locator(figure);
   await expect(widget.locator('.folds')).toBeVisible();

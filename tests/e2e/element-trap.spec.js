@@ -1,5 +1,5 @@
 import { expect } from '@playwright/test';
-import { ALL, KNOWN } from './figures.js';
+import { ALL_NAMES, FIGURE_FACTS } from './figures.js';
 import { STILL, frames, mount, pictureOf, showPage, stateOf, takeEvents, test, untilReady } from './support.js';
 
 /** @typedef {import('./support.js').AnyElement} AnyElement */
@@ -26,8 +26,8 @@ const restarted = (widget) =>
   })).toBe(true);
 
 test('a core that traps is restarted with the same state and picture, and no other element notices', async ({ page, figure }) => {
-  const other = ALL[(ALL.indexOf(figure) + 1) % ALL.length];
-  const { slider, values } = KNOWN[figure];
+  const other = ALL_NAMES[(ALL_NAMES.indexOf(figure) + 1) % ALL_NAMES.length];
+  const { slider, values } = FIGURE_FACTS[figure];
   await showPage(page, `<${figure}></${figure}><div style="position: fixed; top: 0; width: 300px; opacity: 0.5"><${other} id="other"></${other}></div>`);
   const widget = page.locator(figure).first();
   const neighbour = page.locator('#other');

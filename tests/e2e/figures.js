@@ -7,7 +7,7 @@
 /**
  * Facts about an element that tests use.
  *
- * @typedef {object} Known
+ * @typedef {object} FigureFacts
  * @property {boolean} [cloud] true if the figure has a cloud that grows, by Play, Step and Clear
  * @property {string[]} [handles] selectors of the handles in its pictures
  * @property {string} slider id of a slider that is visible when the figure opens
@@ -19,14 +19,14 @@
  * @property {{ at: number, part: string }} paper index of a fold with a part that is printed, and its selector
  */
 
-/** @satisfies {Partial<Known>} */
+/** @satisfies {Partial<FigureFacts>} */
 const COMMAND = { slider: 'v', at: ['command', 'v'], values: /** @type {[number, number]} */ ([0.7, 0.4]), other: /** @type {[string, number]} */ (['omega', 1.25]) };
 const MARKED = { at: 1, field: 'input[type=number]', value: '7' };
 
 /** @typedef {'banana-machine' | 'map-squeeze' | 'arc-anatomy' | 'odometry-decomposer' | 'dead-reckoning' | 'alpha-calibrator'} Name */
 
-/** @type {Record<Name, Known>} */
-export const KNOWN = {
+/** @type {Record<Name, FigureFacts>} */
+export const FIGURE_FACTS = {
   'banana-machine': {
     ...COMMAND, cloud: true, handles: ['.handle'], button: 'New seed',
     fold: MARKED, paper: { at: 1, part: 'table' },
@@ -55,16 +55,16 @@ export const KNOWN = {
 };
 
 /** Names of all elements. */
-export const ALL = /** @type {Name[]} */ (Object.keys(KNOWN));
+export const ALL_NAMES = /** @type {Name[]} */ (Object.keys(FIGURE_FACTS));
 
 /** Two elements, for tests of several figures on one page. */
-export const NAMES = /** @type {const} */ (['banana-machine', 'map-squeeze']);
+export const TWO_NAMES = /** @type {const} */ (['banana-machine', 'map-squeeze']);
 
 /** Names of the elements with a cloud. */
-export const CLOUDS = ALL.filter((name) => KNOWN[name].cloud);
+export const CLOUD_NAMES = ALL_NAMES.filter((name) => FIGURE_FACTS[name].cloud);
 
 /** Names of the elements with a handle. */
-export const HANDLED = ALL.filter((name) => KNOWN[name].handles);
+export const NAMES_WITH_HANDLES = ALL_NAMES.filter((name) => FIGURE_FACTS[name].handles);
 
 /**
  * Returns the figure on which a claim about all of them is tested: always the same for one title, and each in its turn.
@@ -72,7 +72,7 @@ export const HANDLED = ALL.filter((name) => KNOWN[name].handles);
  * @param {string} title of the test, whose tag does not count
  * @param {Name[]} [among]
  */
-export function figureFor(title, among = ALL) {
+export function figureFor(title, among = ALL_NAMES) {
   let hash = 0;
   for (const letter of title.replace(/ @\w+$/, '')) hash = (53 * hash + letter.charCodeAt(0)) % 65_521;
   return among[hash % among.length];

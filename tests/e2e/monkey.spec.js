@@ -7,7 +7,7 @@ import { expect } from '@playwright/test';
 import { generator } from '../random.js';
 import { mapFile, pgmFile, yamlFile } from './squeeze-support.js';
 import { FRESH, frames, test, untilReady } from './support.js';
-import { ALL } from './figures.js';
+import { ALL_NAMES } from './figures.js';
 
 /**
  * @typedef {import('@playwright/test').Page} Page
@@ -52,7 +52,7 @@ function luckOf(seed) {
 
 /** Brings a part of a widget to where the pointer can reach it. @param {Page} page @param {Luck} luck @param {string} selector */
 async function partAt(page, luck, selector) {
-  const [name, choice, x, y] = [luck.one(ALL), luck.below(1e6), luck.below(99) + 1, luck.below(99) + 1];
+  const [name, choice, x, y] = [luck.one(ALL_NAMES), luck.below(1e6), luck.below(99) + 1, luck.below(99) + 1];
   const place = await page.evaluate(
     ([name, selector, choice]) => {
       const parts = [...(document.querySelector(`${name}`)?.shadowRoot?.querySelectorAll(`${selector}`) ?? [])].filter((part) => part.checkVisibility());
@@ -111,7 +111,7 @@ const DEEDS = {
     return `${by}`;
   },
   async attribute(page, luck) {
-    const [name, choice, text] = [luck.one(ALL), luck.below(1e6), luck.below(4) === 0 ? null : luck.one(TEXTS)];
+    const [name, choice, text] = [luck.one(ALL_NAMES), luck.below(1e6), luck.below(4) === 0 ? null : luck.one(TEXTS)];
     return page.evaluate(([name, choice, text]) => {
       const attributes = [.../** @type {any} */ (customElements.get(`${name}`)).observedAttributes, 'lang', 'dir', 'id', 'hidden'];
       const attribute = attributes[Number(choice) % attributes.length];
@@ -137,7 +137,7 @@ const DEEDS = {
     return lang;
   },
   async hash(page, luck) {
-    const [name, choice] = [luck.one(ALL), luck.below(4)];
+    const [name, choice] = [luck.one(ALL_NAMES), luck.below(4)];
     return page.evaluate(async ([name, choice]) => {
       const link = await /** @type {AnyElement} */ (document.querySelector(`${name}`)).shareLink();
       const { hash } = new URL(link);
@@ -156,7 +156,7 @@ const DEEDS = {
     return given.map(({ name }) => name).join(' ');
   },
   async state(page, luck) {
-    const [name, choice, key, text] = [luck.one(ALL), luck.below(3), luck.below(1e6), luck.one([0, 1, -1, 0.5, 1e9, null, 'x', [], {}, true])];
+    const [name, choice, key, text] = [luck.one(ALL_NAMES), luck.below(3), luck.below(1e6), luck.one([0, 1, -1, 0.5, 1e9, null, 'x', [], {}, true])];
     return page.evaluate(([name, choice, key, text]) => {
       const element = /** @type {any} */ (document.querySelector(`${name}`));
       const kept = /** @type {any} */ (window).kept;
@@ -176,14 +176,14 @@ const DEEDS = {
   },
   /** Sets a small number of samples: with millions everything else would be slow. */
   async few(page, luck) {
-    const [name, samples] = [luck.one(ALL), luck.one([1, 20, 300, 2000])];
+    const [name, samples] = [luck.one(ALL_NAMES), luck.one([1, 20, 300, 2000])];
     return page.evaluate(([name, samples]) => {
       Object.assign(/** @type {Element} */ (document.querySelector(`${name}`)), { samples });
       return `${name} ${samples}`;
     }, [name, samples]);
   },
   async move(page, luck) {
-    const [name, choice] = [luck.one(ALL), luck.below(3)];
+    const [name, choice] = [luck.one(ALL_NAMES), luck.below(3)];
     return page.evaluate(async ([name, choice]) => {
       const element = document.querySelector(`${name}`);
       const mark = document.createComment('');
@@ -263,7 +263,7 @@ test('random actions leave every figure sound @nightly', FRESH, async ({ page })
     }, true);
   });
   await page.goto('/');
-  for (const name of ALL) {
+  for (const name of ALL_NAMES) {
     await page.locator(name).first().scrollIntoViewIfNeeded();
     await untilReady(page.locator(name).first());
   }
@@ -284,7 +284,7 @@ test('random actions leave every figure sound @nightly', FRESH, async ({ page })
     await page.keyboard.press('Escape');
     await page.emulateMedia({ media: 'screen' });
     await frames(page);
-    for (const widget of ALL) expect(await complaintsAbout(page, widget), `${widget}: ${replay()}`).toEqual([]);
+    for (const widget of ALL_NAMES) expect(await complaintsAbout(page, widget), `${widget}: ${replay()}`).toEqual([]);
     expect(await page.evaluate(() => Reflect.get(window, 'trouble').splice(0)), replay()).toEqual([]);
   }
 });

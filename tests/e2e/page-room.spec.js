@@ -1,5 +1,5 @@
 import { expect } from '@playwright/test';
-import { ALL, figureFor } from './figures.js';
+import { ALL_NAMES, figureFor } from './figures.js';
 import { FRESH, STILL, boxOf, frames, mount, showPage, test, testEach, untilReady } from './support.js';
 
 
@@ -67,7 +67,7 @@ test('a title and a caption move nothing when the script comes', async ({ page }
 
 test('a figure is at most 720 px high in the column of a book and on a screen', async ({ page }, { title }) => {
   // Arc Anatomy is higher: its table of factors stands below the picture.
-  const figure = figureFor(title, ALL.filter((name) => name !== 'arc-anatomy'));
+  const figure = figureFor(title, ALL_NAMES.filter((name) => name !== 'arc-anatomy'));
   const widget = await mount(page, figure, { head: '<style>body { margin: 0 }</style>' });
   await expect(widget.locator('.folds')).toBeVisible();
   for (const width of [640, 1280]) {

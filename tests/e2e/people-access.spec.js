@@ -1,6 +1,6 @@
 import { expect } from '@playwright/test';
 import { expectAccessible } from './axe.js';
-import { KNOWN } from './figures.js';
+import { FIGURE_FACTS } from './figures.js';
 import { STILL, bananaReadings, boxOf, centreOf, frames, mount, openBanana, pictureOf, pixelsOf, showPage, stateOf, test, testEach, unfold, untilReady } from './support.js';
 
 /**
@@ -180,7 +180,7 @@ test.describe('a finger', () => {
 
   test('moves each handle of a figure and not the page', async ({ page, handled }) => {
     const widget = await unfolded(page, handled, around);
-    for (const selector of KNOWN[handled].handles ?? []) {
+    for (const selector of FIGURE_FACTS[handled].handles ?? []) {
       const handle = widget.locator(selector);
       await lower(handle);
       const before = await stateOf(widget);
@@ -193,7 +193,7 @@ test.describe('a finger', () => {
 
   test('that swipes over a picture or a slider scrolls the page and changes nothing', async ({ page, figure }) => {
     const widget = await unfolded(page, figure, around);
-    for (const selector of ['canvas.plane', `#${KNOWN[figure].slider}`]) {
+    for (const selector of ['canvas.plane', `#${FIGURE_FACTS[figure].slider}`]) {
       const part = widget.locator(selector);
       await lower(part);
       const before = await stateOf(widget);
@@ -291,7 +291,7 @@ test('paper has figures that were far from the window, with their pictures @nigh
 
 test('paper has the folds of a figure that the reader opened, and nothing to press @nightly', async ({ page, figure }) => {
   const widget = await mount(page, figure);
-  const { at, part } = KNOWN[figure].paper;
+  const { at, part } = FIGURE_FACTS[figure].paper;
   const fold = widget.locator('.folds details').nth(at);
   await expect(fold).toBeVisible();
   await page.emulateMedia({ media: 'print' });

@@ -95,7 +95,7 @@ test('SVG is vectors with a title and a description: dots while they are few, el
   expect(many.images).toBe(1);
   expect(many.paths).toBeLessThan(60);
 
-const map = await elementsOf(page, await svgOf(await openSqueeze(page)));
+  const map = await elementsOf(page, await svgOf(await openSqueeze(page)));
   expect(map.title).toBe('Map Squeeze');
   expect(map.images).toBe(0);
   expect(map.paths).toBeGreaterThan(400);

@@ -1,6 +1,6 @@
 import { expect, test as plain } from '@playwright/test';
 import { expectAccessible } from './axe.js';
-import { ALL } from './figures.js';
+import { ALL_NAMES } from './figures.js';
 import { STILL, boxOf, frames, mount, pictureOf, property, test, testEach, untilReady } from './support.js';
 
 test.use(STILL);
@@ -119,7 +119,7 @@ test('nothing on the page moves while figures load', async ({ page }) => {
     }).observe({ type: 'layout-shift', buffered: true });
   });
   await page.goto('/');
-  for (const name of ALL) {
+  for (const name of ALL_NAMES) {
     await page.locator(name).first().scrollIntoViewIfNeeded();
     await untilReady(page.locator(name).first());
   }

@@ -1,5 +1,5 @@
 import { expect } from '@playwright/test';
-import { KNOWN } from './figures.js';
+import { FIGURE_FACTS } from './figures.js';
 import { STILL, bananaReadings, frames, mount, numberIn, openBanana, pictureOf, readout, showPage, test, testEach, unfold, untilReady, untilSettled } from './support.js';
 
 test.use(STILL);
@@ -187,7 +187,7 @@ test('a page translator that replaces every text freezes none @nightly', async (
   await page.setViewportSize({ width: 1280, height: 4000 });
   await showPage(page, `<${figure} id="translated"></${figure}><${figure} id="other"></${figure}>`);
   const [translated, other] = ['#translated', '#other'].map((id) => page.locator(id));
-  const { slider, values } = KNOWN[figure];
+  const { slider, values } = FIGURE_FACTS[figure];
   const texts = async () => {
     await frames(page);
     return Promise.all([translated, other].map((widget) => widget.locator('.machine').evaluate((machine) => machine.textContent)));

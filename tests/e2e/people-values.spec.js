@@ -1,7 +1,7 @@
 import { expect } from '@playwright/test';
 import { settings } from '../../www/settings.js';
 import { expectAccessible } from './axe.js';
-import { NAMES } from './figures.js';
+import { TWO_NAMES } from './figures.js';
 import { STILL, frames, mount, printedCount, property, takeEvents, test, unfold, valueField } from './support.js';
 
 /** @typedef {import('@playwright/test').Locator} Locator */
@@ -125,7 +125,7 @@ test('a number that no sample has is refused and kept until it is right or left 
   expect(await property(widget, 'marked')).toBe(null);
 });
 
-for (const name of NAMES) {
+for (const name of TWO_NAMES) {
   test(`every slider of ${name} takes the least and the greatest value of the core @nightly`, async ({ page }) => {
     const widget = await widgetOf(page, name);
     const keys = await widget.locator('.slider input[type=range]').evaluateAll((sliders) => sliders.map(({ id }) => id));

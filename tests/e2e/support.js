@@ -5,7 +5,7 @@
  */
 
 import { expect, test as base } from '@playwright/test';
-import { ALL, CLOUDS, HANDLED, figureFor } from './figures.js';
+import { ALL_NAMES, CLOUD_NAMES, NAMES_WITH_HANDLES, figureFor } from './figures.js';
 
 /**
  * @typedef {import('@playwright/test').Page} Page
@@ -33,8 +33,8 @@ import { ALL, CLOUDS, HANDLED, figureFor } from './figures.js';
 export const test = base.extend({
   /* oxlint-disable no-empty-pattern */
   figure: async ({}, use, { title }) => use(figureFor(title)),
-  cloud: async ({}, use, { title }) => use(figureFor(title, CLOUDS)),
-  handled: async ({}, use, { title }) => use(figureFor(title, HANDLED)),
+  cloud: async ({}, use, { title }) => use(figureFor(title, CLOUD_NAMES)),
+  handled: async ({}, use, { title }) => use(figureFor(title, NAMES_WITH_HANDLES)),
   /* oxlint-enable no-empty-pattern */
   introduced: [true, { option: true }],
   page: async ({ page, introduced }, use) => {
@@ -59,7 +59,7 @@ export const test = base.extend({
  */
 export function testEach(title, claim, details = {}) {
   test(title, details, ({ page, figure }) => claim(page, figure, false));
-  for (const name of ALL) {
+  for (const name of ALL_NAMES) {
     test(`${title}: ${name} @nightly`, details, ({ page }) => {
       test.slow();
       return claim(page, name, true);

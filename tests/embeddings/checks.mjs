@@ -14,11 +14,7 @@ import { ROOT } from '../../scripts/process.mjs';
 /** Time limit in milliseconds: a development server compiles a page at the first request. */
 const PATIENCE = 90_000;
 
-/**
- * @param {import('@playwright/test').Browser} browser
- * @param {Site} site
- * @returns {Promise<{ passed: number, failures: string[] }>}
- */
+/** Runs the checks of a site. @param {import('@playwright/test').Browser} browser @param {Site} site */
 export async function check(browser, site) {
   const { definition, serving } = site;
   /** @type {string[]} */

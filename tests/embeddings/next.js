@@ -3,7 +3,7 @@ import { join } from 'node:path';
 import { npmInstall, pinned } from './project.mjs';
 import { files, program } from './serving.mjs';
 
-/** By Next's own server. @param {string} command @param {string[]} args */
+/** Returns how Next's own server is started. @param {string} command @param {string[]} args */
 const next = (command, ...args) => program((port) => ['npx', ['next', command, '--port', port, ...args]]);
 
 /** @type {import('./project.mjs').Engine} */

@@ -89,7 +89,7 @@ export function pinned(example, ...packages) {
     .join(', ');
 }
 
-/** For engines that are npm packages. @param {string} _directory @param {Tools & Packed} tools */
+/** Installs the npm packages of an engine. @param {string} _directory @param {Tools & Packed} tools */
 export async function npmInstall(_directory, { run, tarball }) {
   await run('npm', ['install', '--no-audit', '--no-fund', '--prefer-offline', '--loglevel', 'error', tarball]);
 }
@@ -101,7 +101,7 @@ export const besidePython = (directory) => `${directory}.tools`;
 export const pythonProgram = (directory, name) => join(besidePython(directory), 'bin', name);
 
 /**
- * For engines that are Python packages.
+ * Installs the Python packages of an engine.
  *
  * @param {string} directory
  * @param {Tools} tools

@@ -99,17 +99,13 @@ function dataOf(canvas) {
   return context.getImageData(0, 0, canvas.width, canvas.height).data;
 }
 
-/** @param {string} tag @returns {number[]} how many colours each of its pictures has that is to be seen */
+/** Returns the number of colours of each visible picture. @param {string} tag */
 export function coloursOf(tag) {
   const canvases = [...rootOf(tag).querySelectorAll('canvas')].filter((canvas) => canvas.checkVisibility());
   return canvases.map((canvas) => new Set(new Uint32Array(dataOf(canvas).buffer)).size);
 }
 
-/**
- * @param {string} tag
- * @returns {{ key: string, value: number, shown: number, step: number, end: number }[]} its sliders that are to be seen: what the
- *   setting of each is, where the slider stands, and where it ends
- */
+/** Returns the visible sliders of a figure: value of the setting, position of the slider, its step and its end. @param {string} tag */
 export function slidersOf(tag) {
   const figure = /** @type {any} */ (figureOf(tag));
   return [...rootOf(tag).querySelectorAll('input[type=range]')]

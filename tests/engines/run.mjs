@@ -36,11 +36,7 @@ async function site() {
   };
 }
 
-/**
- * @param {string} name
- * @param {string} address
- * @returns {Promise<{ version: string, passed: number, failures: string[] }>}
- */
+/** Opens a page in an engine, and returns what its checks found. @param {string} name @param {string} address */
 async function outcomeOf(name, address) {
   progress(name);
   let version = 'none';

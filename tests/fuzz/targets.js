@@ -178,7 +178,7 @@ export const targets = {
       const { length } = CHOICES;
       const pick = bytes.reduce((sum, byte) => sum + byte, 0);
       const taken = await logIsRead(() => readLog(source, CHOICES[pick % length]));
-        // One input in four lists the topics too.
+      // One input in four lists the topics too.
       if (Math.floor(pick / length) % 4) return taken;
       try {
         for (const { name, count } of (await openRecordings([source]))[0].series) assert.ok(typeof name === 'string' && count >= 0);

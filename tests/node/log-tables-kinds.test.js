@@ -160,7 +160,7 @@ const REFUSED = [
   ['a count of rows as times', ',x,y,yaw\n0,0,0,0\n1,0,0,0\n', /is the time;/],
   ['x and y of one source and the heading of another', 't,x,y,imu_yaw\n0,0,0,0\n1,0,0,0\n', /: x, y are positions without a heading;/],
   ['other columns', `t,${LONG}\n0,1\n`, /, line 1: the columns are t, x{40}…; expected are x, y and yaw/],
-  ['two columns of one name', 't,t,x,y,yaw\n0,0,0,0,0\n1,1,0,0,0\n', /both “t” and “t” may be the time;/],
+  ['two columns of one name', 't,t,x,y,yaw\n0,0,0,0,0\n1,1,0,0,0\n', /both “t” and “t” may be the column of time;/],
   ['a unit that is not known', 't,x [ft],y [ft],yaw\n0,0,0,0\n1,0,0,0\n', /the unit ft of a column is not known/],
   ['text in many rows', 't,x,y,yaw\n0,0,0,0\n1,a,0,0\n2,b,0,0\n', /, line 3: x is “a”; expected is a number\. 2 of 3 rows have text in place of a number, or too few cells; at most 10 % of the rows may\.$/],
   ['text for a number', `t,x,y,yaw\n0,0,0,0\n1,${LONG},0,0\n`, /, line 3: x is “x{40}…”; expected is a number\.$/],

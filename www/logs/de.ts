@@ -5,10 +5,7 @@ import { REPAIRS } from './en.ts';
 import type { Words } from './log-error.ts';
 import type { Basis, Cause, Summary } from './log.ts';
 
-const FIELDS: Record<string, string> = {
-  t: 'die Zeit', seconds: 'die Sekunden der Zeit', nanoseconds: 'die Nanosekunden der Zeit', x: 'x', y: 'y', yaw: 'die Richtung',
-  qx: 'qx', qy: 'qy', qz: 'qz', qw: 'qw', v: 'die Geschwindigkeit v', omega: 'die Drehrate omega',
-};
+const FIELDS: Record<string, string> = { t: 'Zeit', x: 'x', y: 'y', yaw: 'Gierwinkel', qx: 'qx', qy: 'qy', qz: 'qz', qw: 'qw', v: 'Geschwindigkeit v', omega: 'Drehrate ω' };
 
 const NEEDED = {
   poses: 'x, y und yaw (oder qx, qy, qz und qw)',
@@ -79,7 +76,7 @@ export const german: Words = {
     noTime: (columns) =>
       `keine der Spalten ${columns} ist die Zeit; erwartet wird eine mit dem Namen t, time, timestamp oder stamp, oder zwei mit sec und nanosec, oder eine Auswahl der Spalten.`,
     noColumns: (wanted, columns) => `die Spalten sind ${columns}; erwartet werden darunter ${NEEDED[wanted]}, oder eine Auswahl der Spalten.`,
-    twice: (field, one, other) => `sowohl „${one}“ als auch „${other}“ kann ${FIELDS[field]} sein; erwartet wird eines davon.`,
+    twice: (field, one, other) => `sowohl „${one}“ als auch „${other}“ kann die Spalte „${FIELDS[field]}“ sein; erwartet wird eines davon.`,
     cells: (count, needed) => `die Zeile hat ${times(count, 'Feld', 'Felder')}; erwartet werden mindestens ${needed}.`,
     wide: (count, needed, header) =>
       `die Zeile hat ${times(count, 'Feld', 'Felder')} und der Kopf in Zeile ${header} ${needed}; erwartet werden gleich viele, mit Dezimalpunkten in Zahlen oder Semikolons zwischen Feldern.`,
@@ -155,7 +152,7 @@ export const german: Words = {
     units: { s: 'Sekunden (s)', ms: 'Millisekunden (ms)', us: 'Mikrosekunden (µs)', ns: 'Nanosekunden (ns)', m: 'Meter (m)', cm: 'Zentimeter (cm)', mm: 'Millimeter (mm)', rad: 'Radiant (rad)', deg: 'Grad (°)' },
     columns: (file) => `Spalten von ${file}`,
     column: (number, cell) => `Spalte ${number}: ${cell}`,
-    fields: { t: 'Zeit', x: 'x', y: 'y', yaw: 'Gierwinkel', qx: 'qx', qy: 'qy', qz: 'qz', qw: 'qw', v: 'Geschwindigkeit v', omega: 'Drehrate ω' },
+    fields: FIELDS,
     none: 'keine',
     read: 'Lesen',
     other: 'Die andere Datei auch hierher ziehen oder wählen, oder beide zugleich.',

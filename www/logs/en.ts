@@ -3,11 +3,8 @@
 import type { Correction } from './corrections.ts';
 import type { Basis, Cause, Recording, Role, Summary } from './log.ts';
 
-/** Fields of a table, as a sentence names them. */
-const FIELDS: Record<string, string> = {
-  t: 'the time', seconds: 'the seconds of the time', nanoseconds: 'the nanoseconds of the time', x: 'x', y: 'y', yaw: 'the heading',
-  qx: 'qx', qy: 'qy', qz: 'qz', qw: 'qw', v: 'the speed v', omega: 'the turn rate omega',
-};
+/** Fields of a table, as labels and sentences name them. */
+const FIELDS: Record<string, string> = { t: 'time', x: 'x', y: 'y', yaw: 'yaw', qx: 'qx', qy: 'qy', qz: 'qz', qw: 'qw', v: 'speed v', omega: 'turn rate ω' };
 
 const NEEDED = {
   poses: 'x, y and yaw (or qx, qy, qz and qw)',
@@ -85,7 +82,7 @@ export const english = {
     noColumns: (wanted: keyof typeof NEEDED, columns: string) =>
       `the columns are ${columns}; expected are ${NEEDED[wanted]} among them, or a choice of columns.`,
     twice: (field: string, one: string, other: string) =>
-      `both “${one}” and “${other}” may be ${FIELDS[field]}; expected is one of them.`,
+      `both “${one}” and “${other}” may be the column of ${FIELDS[field]}; expected is one of them.`,
     cells: (count: number, needed: number) => `the row has ${count} ${count === 1 ? 'cell' : 'cells'}; expected are at least ${needed}.`,
     wide: (count: number, needed: number, header: number) =>
       `the row has ${count} cells, and the header in line ${header} ${needed}; expected are as many, with decimal points in numbers, or semicolons between cells.`,
@@ -168,7 +165,7 @@ export const english = {
     units: { s: 'seconds (s)', ms: 'milliseconds (ms)', us: 'microseconds (µs)', ns: 'nanoseconds (ns)', m: 'metres (m)', cm: 'centimetres (cm)', mm: 'millimetres (mm)', rad: 'radians (rad)', deg: 'degrees (°)' },
     columns: (file: string) => `Columns of ${file}`,
     column: (number: number, cell: string) => `column ${number}: ${cell}`,
-    fields: { t: 'time', x: 'x', y: 'y', yaw: 'yaw', qx: 'qx', qy: 'qy', qz: 'qz', qw: 'qw', v: 'speed v', omega: 'turn rate ω' },
+    fields: FIELDS,
     none: 'none',
     read: 'Read',
     other: 'Drop or choose the other file too, or both at once.',

@@ -9,7 +9,7 @@ use crate::geom::angle::wrap_angle;
 use crate::geom::sinc::sinc;
 use rand::Rng;
 use std::f64::consts::{PI, TAU};
-use std::fmt;
+use thiserror::Error;
 use wide::f64x4;
 
 /// Variance b², in the square of the unit of the perturbed quantity. The type prevents passing a standard deviation by
@@ -28,16 +28,9 @@ impl Variance {
 }
 
 /// Error of [`Variance::new`]: a negative number or NaN.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Error)]
+#[error("variance is {0}; a number that is 0 or more is needed")]
 pub struct NegativeVariance(pub f64);
-
-impl fmt::Display for NegativeVariance {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "variance is {}; a number that is 0 or more is needed", self.0)
-    }
-}
-
-impl std::error::Error for NegativeVariance {}
 
 /// Largest residual that counts as 0 for a noise of zero variance (m/s or rad/s, or m or rad for odometry legs).
 ///

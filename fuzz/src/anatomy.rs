@@ -4,7 +4,7 @@ use super::input::{Input, turn_of};
 use super::settings::{allowed, changed};
 use super::{banana, laws};
 use motion::geom::se2::SE2;
-use motion::sim::arc_anatomy::{ArcAnatomy, Bend, Mapped, Paths, Settings, Stats, Surface, Table};
+use motion::sim::arc_anatomy::{ArcAnatomy, Bend, SurfaceKind, Paths, Settings, Stats, Surface, Table};
 use motion::sim::views::Grid;
 
 /// Maximum number of calls in a run.
@@ -126,7 +126,7 @@ fn assert_bend(what: &str, bend: &Bend) {
 
 /// Returns the position on the path of constant twist after a fraction of the time.
 fn underway(machine: &ArcAnatomy, share: f64) -> [f64; 2] {
-    let poses = machine.underway(share);
+    let poses = machine.poses_at(share);
     poses.iter().for_each(|pose| laws::assert_pose("underway", pose));
     [poses[2].x(), poses[2].y()]
 }
@@ -135,7 +135,7 @@ fn underway(machine: &ArcAnatomy, share: f64) -> [f64; 2] {
 fn assert_surface(machine: &ArcAnatomy, input: &mut Input) {
     let Grid { min, max, .. } = banana::grid(input);
     let surface = machine.surface(min, max);
-    assert_eq!(surface.is_none(), machine.settings().map == Mapped::Nothing);
+    assert_eq!(surface.is_none(), machine.settings().map == SurfaceKind::Nothing);
     let Some(Surface { columns, rows, shades, prob, density }) = surface else { return };
     assert!(shades.len() == columns * rows && !shades.is_empty(), "{columns} × {rows}");
     for [x, y] in prob.iter().chain(&density).flatten() {

@@ -6,11 +6,11 @@ use super::settings::{allowed, changed};
 use motion::geom::se2::SE2;
 use motion::sim::View;
 use motion::sim::banana::{
-    BananaMachine, Contours, Executed, Figures, Settings, TableColumn, command_reaching,
+    BananaMachine, Contours, Figures, Settings, TableColumn, command_reaching,
 };
 use motion::sim::picture::RAMP;
-use motion::sim::settings::QUANTITY;
-use motion::sim::views::{EXTENT, Grid};
+use motion::sim::settings::QUANTITY_RANGE;
+use motion::sim::views::{EXTENT_RANGE, Grid};
 
 /// Maximum number of samples and calls in a run: enough for every branch, few enough for many runs.
 const SAMPLES: usize = 12;
@@ -68,7 +68,7 @@ fn call(machine: &mut BananaMachine, input: &mut Input) {
         6 => assert_executed(machine, usize::from(input.byte())),
         7 => assert_table(machine),
         _ => {
-            let [x, y] = [0; 2].map(|_| input.within(QUANTITY));
+            let [x, y] = [0; 2].map(|_| input.within(QUANTITY_RANGE));
             let near = machine.settings().command;
             let reaching = command_reaching(x, y, &near);
             // The circle of a nearly straight arc is so long that a double overflows.
@@ -212,9 +212,9 @@ fn assert_executed(machine: &BananaMachine, index: usize) {
         assert!(index >= machine.shown());
         return;
     };
-    laws::assert_pose("inspected", &sample.pose);
+    laws::assert_pose("inspected", &sample.pose.into());
     laws::assert_finite("path", sample.path.as_flattened());
-    if let Executed::Legs(legs) = sample.executed {
+    if let Some(legs) = sample.legs {
         laws::assert_finite("legs", &[legs.rot1, legs.trans, legs.rot2]);
     }
     let [x, y] = *sample.path.last().expect("a path has an end");
@@ -222,16 +222,13 @@ fn assert_executed(machine: &BananaMachine, index: usize) {
     let length = sample.path.windows(2).map(|ends| distance(ends[0], ends[1])).sum::<f64>();
     let command = machine.settings().command;
     let commanded = (command.v * command.dt).abs();
-    let most = match sample.executed {
-        Executed::Arc { arc, dt } => (arc.v_hat * dt).abs(),
-        Executed::Legs(legs) => legs.trans.abs(),
-    };
+    let most = sample.legs.map_or((sample.v_hat * command.dt).abs(), |legs| legs.trans.abs());
     assert!(length <= most * (1.0 + 1e-9) + 1e-9, "{length}, {most}");
     // If the noise nearly cancels the command, the rounding error of the command remains.
     let turned = 1.0 + (command.omega * command.dt).abs();
     let rounding = 1e-14 * (most * turned + commanded) + f64::MIN_POSITIVE;
     assert!(
-        distance([x, y], [sample.pose.x(), sample.pose.y()]) <= rounding,
+        distance([x, y], [sample.pose[0], sample.pose[1]]) <= rounding,
         "{sample:?} of {:?}",
         machine.settings()
     );
@@ -243,8 +240,8 @@ fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
 
 /// Returns a rectangle of a view with few cells.
 pub fn grid(input: &mut Input) -> Grid {
-    let min = [0; 2].map(|_| input.within(EXTENT));
-    let max = min.map(|least| input.within(least..=*EXTENT.end()));
+    let min = [0; 2].map(|_| input.within(EXTENT_RANGE));
+    let max = min.map(|least| input.within(least..=*EXTENT_RANGE.end()));
     let [columns, rows] = [0; 2].map(|_| 1 + input.choice(40));
     Grid { min, max, columns, rows }
 }

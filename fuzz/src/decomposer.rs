@@ -4,9 +4,9 @@ use super::input::Input;
 use super::laws;
 use super::settings::{allowed, changed};
 use motion::geom::se2::SE2;
-use motion::models::{OdomDelta, SPIN_BELOW};
+use motion::models::{OdomDelta, MAX_SPIN_DISTANCE};
 use motion::sim::odometry_decomposer::{Drifted, OdometryDecomposer, Settings, Stats};
-use motion::sim::settings::QUANTITY;
+use motion::sim::settings::QUANTITY_RANGE;
 
 /// Maximum number of outcomes, points of a curve and calls in a run.
 const SAMPLES: usize = 12;
@@ -53,7 +53,7 @@ fn call(machine: &mut OdometryDecomposer, input: &mut Input) {
             ghosts.as_flattened().iter().for_each(|pose| laws::assert_pose("a ghost", pose));
             assert!(ghosts.iter().zip(machine.poses()).all(|(ghost, pose)| ghost[3] == *pose));
         }
-        5 => assert_curve(machine, input.within(0.0..=*QUANTITY.end()), 1 + input.choice(POINTS)),
+        5 => assert_curve(machine, input.within(0.0..=*QUANTITY_RANGE.end()), 1 + input.choice(POINTS)),
         _ => assert_nearest(machine, input),
     }
 }
@@ -141,7 +141,7 @@ fn assert_results(machine: &OdometryDecomposer) {
     let [.., end] = machine.linkage();
     let off = (end.x() - x).hypot(end.y() - y);
     let size = settings.from.0.iter().chain(&settings.to.0).fold(0.0, |most: f64, at| most.max(at.abs()));
-    assert!(off <= 2.0 * SPIN_BELOW + 1e-14 * size, "{end:?} for {settings:?}: {off}");
+    assert!(off <= 2.0 * MAX_SPIN_DISTANCE + 1e-14 * size, "{end:?} for {settings:?}: {off}");
 
     // Asserts that a machine depends on its settings only, and not on earlier calls.
     let mut other = OdometryDecomposer::new(*settings).expect("allowed");

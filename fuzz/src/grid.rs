@@ -5,9 +5,9 @@ use super::plan;
 use motion::geom::se2::SE2;
 use motion::geom::segment::Segment;
 use motion::map::{
-    Cell, FloorPlan, FloorPlanError, Image, Interpretation, Mode, OccupancyGrid, Pixel, RESOLUTION, Unknown,
+    Cell, FloorPlan, FloorPlanError, Image, Interpretation, Mode, OccupancyGrid, Pixel, RESOLUTION_RANGE, Unknown,
 };
-use motion::sim::settings::QUANTITY;
+use motion::sim::settings::QUANTITY_RANGE;
 
 /// Maximum number of arcs that are tested on a grid.
 const ARCS: usize = 3;
@@ -66,7 +66,7 @@ fn middles(grid: &OccupancyGrid, unknown: Unknown) -> Vec<([f64; 2], bool)> {
 fn assert_outlined(grid: &OccupancyGrid, unknown: Unknown) {
     let middles = middles(grid, unknown);
     for (middle, blocks) in &middles {
-        assert_eq!(grid.holds(*middle), *blocks, "{middle:?} in {grid:?}");
+        assert_eq!(grid.is_blocked_at(*middle), *blocks, "{middle:?} in {grid:?}");
     }
     let [columns, rows] = grid.size();
     let at = |column: usize, row: usize| {
@@ -96,9 +96,9 @@ fn length_of(wall: &Segment) -> f64 {
 
 /// Reads a grid of a few cells, and the treatment of its unknown cells.
 pub fn read(input: &mut Input) -> Option<(OccupancyGrid, Unknown)> {
-    let resolution = input.near(&RESOLUTION);
-    let [x, y, yaw] = [0; 3].map(|_| input.near(&QUANTITY));
-    if !RESOLUTION.contains(&resolution) || ![x, y, yaw].iter().all(|number| QUANTITY.contains(number)) {
+    let resolution = input.near(&RESOLUTION_RANGE);
+    let [x, y, yaw] = [0; 3].map(|_| input.near(&QUANTITY_RANGE));
+    if !RESOLUTION_RANGE.contains(&resolution) || ![x, y, yaw].iter().all(|number| QUANTITY_RANGE.contains(number)) {
         return None;
     }
     let [width, height] = [0; 2].map(|_| 1 + input.choice(SIDE));

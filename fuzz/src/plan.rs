@@ -118,7 +118,7 @@ pub fn assert_verdict(plan: &FloorPlan, input: &mut Input) {
     // No point of an arc is further from a looked-at one than half the piece between two, or the circle is wide.
     let circle = if turn == 0.0 { f64::INFINITY } else { 2.0 * (length / turn).abs() };
     let between = (0.5 * length.abs() / f64::from(CHORDS)).min(circle);
-    let buried = plan.grid().is_some_and(|grid| grid.holds([start.x(), start.y()]));
+    let buried = plan.grid().is_some_and(|grid| grid.is_blocked_at([start.x(), start.y()]));
     let room = plan.walls().iter().map(|wall| wall.distance_to_arc(&arc)).fold(f64::INFINITY, f64::min);
 
     let found = plan.arc_free(&arc, clearance).free;
@@ -134,7 +134,7 @@ pub fn assert_verdict(plan: &FloorPlan, input: &mut Input) {
     let point = [end.x(), end.y()];
     let room = plan.walls().iter().map(|wall| wall.distance_to_point(point)).fold(f64::INFINITY, f64::min);
     let found = plan.point_free(point, clearance).free;
-    let buried = plan.grid().is_some_and(|grid| grid.holds(point));
+    let buried = plan.grid().is_some_and(|grid| grid.is_blocked_at(point));
     let inside = depth(point[0], point[1]);
     if found {
         assert!(room > clearance - tolerance && inside >= -tolerance && !buried, "{point:?}, {clearance}");

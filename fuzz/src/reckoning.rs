@@ -4,7 +4,7 @@ use super::input::{Input, turn_of};
 use super::laws;
 use super::settings::{allowed, changed};
 use motion::sim::dead_reckoning::{
-    DeadReckoning, KEPT, Measured, Misses, Outlines, RECURSIONS, Settings, Stats, StraightGrowth,
+    DeadReckoning, MAX_SHOWN_ROBOTS, Measured, Misses, Outlines, RECURSIONS, Settings, Stats, StraightGrowth,
 };
 use nalgebra::Matrix3;
 
@@ -144,13 +144,13 @@ fn assert_results(machine: &DeadReckoning) {
         }
     }
     let step = settings.step;
-    assert_eq!(machine.poses(step).len(), n.min(KEPT));
+    assert_eq!(machine.poses(step).len(), n.min(MAX_SHOWN_ROBOTS));
     assert!(machine.poses(0).is_empty() && machine.poses(settings.steps + 1).is_empty());
     laws::assert_finite("poses", machine.poses(step).as_flattened());
     machine.twists().for_each(|twist| laws::assert_finite("a twist", &twist));
-    assert_eq!(machine.twists().len(), n.min(KEPT));
+    assert_eq!(machine.twists().len(), n.min(MAX_SHOWN_ROBOTS));
     for order in RECURSIONS {
-        let (predicted, compared) = (machine.predicted(order), machine.compared(order));
+        let (predicted, compared) = (machine.predicted(order), machine.comparison(order));
         assert_eq!([predicted.len(), compared.ratios.len()], [steps; 2]);
         for (cov, ratio) in predicted.iter().zip(&compared.ratios) {
             assert!(

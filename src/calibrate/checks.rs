@@ -11,7 +11,6 @@ use serde::{Deserialize, Serialize};
 
 /// Overall judgement of a calibration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
 pub enum Verdict {
     /// Every check passed.
     Consistent,

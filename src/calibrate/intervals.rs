@@ -170,7 +170,6 @@ fn student_95(freedom: f64) -> f64 {
 
 /// Reason for which a log does not identify an α.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
 pub enum NotIdentifiable {
     /// The robot turned too little. Under the velocity model: while it drove, for a turn on the spot shows no executed turn rate.
     InsufficientRotation,

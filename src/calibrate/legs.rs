@@ -5,7 +5,7 @@
 
 use super::trajectory::Trajectory;
 use crate::geom::se2::{SE2, wrap_angle};
-use crate::models::SPIN_BELOW;
+use crate::models::MAX_SPIN_DISTANCE;
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
@@ -245,7 +245,9 @@ pub fn split_into_legs(
         } else if has_paused && length.ratio(&ends, time - start_time) > MAX_RATIO_ACROSS_PAUSE {
             lost.across_pauses += 1;
             follows = false;
-        } else if libm::hypot(motion.x(), motion.y()) < SPIN_BELOW && motion.theta().abs() < STANDING_TURN {
+        } else if libm::hypot(motion.x(), motion.y()) < MAX_SPIN_DISTANCE
+            && motion.theta().abs() < STANDING_TURN
+        {
             lost.standing += 1;
             follows = false;
         } else {

@@ -7,7 +7,7 @@ use super::systematic::{Systematic, log_sinc_derivative};
 use crate::geom::arc::invert_arc;
 use crate::geom::se2::{SE2, wrap_angle};
 use crate::geom::sinc::sinc;
-use crate::models::{LegVariances, OdomDelta, OdometryRule, RuleAlphas, SPIN_BELOW};
+use crate::models::{LegVariances, MAX_SPIN_DISTANCE, OdomDelta, OdometryRule, RuleAlphas};
 use nalgebra::{Matrix3, RowVector3, Vector3};
 use serde::{Deserialize, Serialize};
 
@@ -135,7 +135,7 @@ fn unit_variances(rule: OdometryRule, reading: &OdomDelta) -> [LegVariances; 5] 
 /// Returns whether a leg is long enough (m) to have a direction, by the reading and by the reference. `executed` is negative of a motion that
 /// leads backwards; a linear direction does not depend on it.
 fn has_direction(read: f64, executed: f64, is_linear: bool) -> bool {
-    read >= SPIN_BELOW && (is_linear || executed >= SPIN_BELOW)
+    read >= MAX_SPIN_DISTANCE && (is_linear || executed >= MAX_SPIN_DISTANCE)
 }
 
 fn differential(rule: OdometryRule, expected: &SE2, motion: &SE2, is_linear: bool) -> Observation {

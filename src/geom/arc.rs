@@ -108,7 +108,7 @@ pub struct Arc {
 impl Arc {
     /// Returns the end pose of the arc.
     pub fn end(&self) -> SE2 {
-        let Driven { end: [x, y], heading, .. } = Departure::new(self.start).drive(self.length, self.turn);
+        let Driven { end: [x, y], heading, .. } = PreparedPose::new(self.start).drive(self.length, self.turn);
         SE2::new(x, y, heading)
     }
 
@@ -155,15 +155,15 @@ impl Arc {
     }
 }
 
-/// Start pose of many arcs, with the sine and cosine of its heading.
+/// Pose with the sine and cosine of its heading, for many arcs that start there.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Departure {
+pub(crate) struct PreparedPose {
     pose: SE2,
     sin: f64,
     cos: f64,
 }
 
-/// Driven arc with its end.
+/// Arc with its end pose.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Driven {
     pub arc: Arc,
@@ -174,7 +174,7 @@ pub(crate) struct Driven {
     half_sinc: f64,
 }
 
-impl Departure {
+impl PreparedPose {
     pub fn new(pose: SE2) -> Self {
         let (sin, cos) = libm::sincos(pose.theta());
         Self { pose, sin, cos }
@@ -200,7 +200,7 @@ impl Departure {
         self.driven(length, turn, half_sinc, self.transform([forward, left]))
     }
 
-    /// Drives four arcs at once. The ends differ from those of [`Departure::drive`] by less than 2e-15 · length.
+    /// Drives four arcs at once. The ends differ from those of [`PreparedPose::drive`] by less than 2e-15 · length.
     #[inline(always)]
     pub fn drive_four(
         &self,
@@ -237,7 +237,7 @@ impl Driven {
         }
         let half = 0.5 * (TAU / turn.abs()).min(1.0);
         let (length, turn) = (half * length, half * turn);
-        let Driven { end: middle, half_sinc, .. } = Departure::new(start).drive(length, turn);
+        let Driven { end: middle, half_sinc, .. } = PreparedPose::new(start).drive(length, turn);
         let to = if half < 0.5 { from } else { self.end };
         [(from, middle), (middle, to)]
             .map(|(from, to)| Some(Course::new(from, to, length.abs(), turn, half_sinc)))

@@ -97,7 +97,7 @@ impl DoubleDouble {
     }
 
     /// Returns the quotient by a double, with a relative error of at most 2⁻¹⁰⁴.
-    pub fn over(self, divisor: f64) -> Self {
+    pub fn divided_by(self, divisor: f64) -> Self {
         let high = self.high / divisor;
         let rest = self - two_product(high, divisor);
         quick_two_sum(high, rest.high / divisor)
@@ -116,11 +116,11 @@ impl DoubleDouble {
         let mut versine = Self::from(1.0);
         for k in (1..TERMS).rev() {
             let n = f64::from(2 * k);
-            sine = Self::from(1.0) - (square * sine).over(n * (n + 1.0));
-            versine = Self::from(1.0) - (square * versine).over((n + 1.0) * (n + 2.0));
+            sine = Self::from(1.0) - (square * sine).divided_by(n * (n + 1.0));
+            versine = Self::from(1.0) - (square * versine).divided_by((n + 1.0) * (n + 2.0));
         }
         let mut sine = a * sine;
-        let mut versine = (square * versine).over(2.0);
+        let mut versine = (square * versine).divided_by(2.0);
         for _ in 0..HALVINGS {
             let cosine = Self::from(1.0) - versine;
             (sine, versine) = (double(sine * cosine), double(sine * sine));

@@ -45,7 +45,7 @@ pub struct Trigonometry {
 
 impl Default for Trigonometry {
     fn default() -> Self {
-        Self { sinc: SINC, cos: COS }
+        Self { sinc: SINC_COEFFICIENTS, cos: COS_COEFFICIENTS }
     }
 }
 
@@ -70,7 +70,7 @@ impl Trigonometry {
         let half_circles = whole_half_circles(x);
         let near = self.circle(without_half_circles(x, half_circles));
         // +1 or −1: rounded to an even number, an odd one is off by one.
-        let odd = half_circles - (half_circles + 2.0 * ROUND - 2.0 * ROUND);
+        let odd = half_circles - (half_circles + 2.0 * ROUND_TO_INTEGER - 2.0 * ROUND_TO_INTEGER);
         let sign = f64x4::splat(1.0) - 2.0 * odd.abs();
         let (sin, cos) = (near.sin * sign, near.cos * sign);
         let sinc = half_circles.simd_eq(f64x4::splat(0.0)).bitselect(near.sinc, sin / x);
@@ -166,16 +166,19 @@ pub(crate) fn log(x: f64x4) -> f64x4 {
     let s = f / (2.0 + f);
     let z = s * s;
     let w = z * z;
-    let even = w * (LG[1] + w * (LG[3] + w * LG[5]));
-    let odd = z * (LG[0] + w * (LG[2] + w * (LG[4] + w * LG[6])));
-    s * (half_square + (odd + even)) + power * LN2[1] - half_square + f + power * LN2[0]
+    let even = w * (LOG_COEFFICIENTS[1] + w * (LOG_COEFFICIENTS[3] + w * LOG_COEFFICIENTS[5]));
+    let odd = z
+        * (LOG_COEFFICIENTS[0]
+            + w * (LOG_COEFFICIENTS[2] + w * (LOG_COEFFICIENTS[4] + w * LOG_COEFFICIENTS[6])));
+    s * (half_square + (odd + even)) + power * LN_2_PARTS[1] - half_square + f + power * LN_2_PARTS[0]
 }
 
-/// ln 2 in two parts, and the polynomial.
+/// ln 2 in two parts: the second has the digits that the first lacks.
 #[expect(clippy::excessive_precision, reason = "the digits as published")]
-const LN2: [f64; 2] = [6.931_471_803_691_238_164_90e-1, 1.908_214_929_270_587_700_02e-10];
+const LN_2_PARTS: [f64; 2] = [6.931_471_803_691_238_164_90e-1, 1.908_214_929_270_587_700_02e-10];
+/// Coefficients of the polynomial in s² of [`log`].
 #[expect(clippy::excessive_precision, reason = "the digits as published")]
-const LG: [f64; 7] = [
+const LOG_COEFFICIENTS: [f64; 7] = [
     6.666_666_666_666_735_130e-1,
     3.999_999_999_940_941_908e-1,
     2.857_142_874_366_239_149e-1,
@@ -191,14 +194,14 @@ const MAX_REDUCED: f64 = 3e6;
 const PI_PARTS: [f64; 3] = [3.141_592_653_468_251_2, 1.215_420_101_260_793_2e-10, 4.044_532_497_591_901e-21];
 
 /// Constant that rounds a number to a whole one, if it is added and then subtracted. Twice the constant rounds to an even number.
-pub(crate) const ROUND: f64 = 6_755_399_441_055_744.0;
+pub(crate) const ROUND_TO_INTEGER: f64 = 6_755_399_441_055_744.0;
 
 /// Returns the number of half circles that are subtracted from x so that the rest is within a quarter circle of 0.
 #[inline(always)]
 fn whole_half_circles(x: f64x4) -> f64x4 {
     // Within a quarter circle the number is 0. At its ends the rounded quotient may be 1.
     let near = x.abs().simd_le(f64x4::splat(FRAC_PI_2));
-    near.bitselect(f64x4::splat(0.0), x * FRAC_1_PI + ROUND - ROUND)
+    near.bitselect(f64x4::splat(0.0), x * FRAC_1_PI + ROUND_TO_INTEGER - ROUND_TO_INTEGER)
 }
 
 /// Returns x − kπ.
@@ -207,8 +210,9 @@ fn without_half_circles(x: f64x4, half_circles: f64x4) -> f64x4 {
     PI_PARTS.iter().fold(x, |rest, part| rest - half_circles * *part)
 }
 
-/// From the lowest power up: with 1 before it, (sin √z/√z − 1)/z fitted on [0, π²/4] by Remez's exchange, error 1.2e-16.
-const SINC: [f64; 8] = [
+/// Coefficients of sin √z/√z, from the lowest power up. Those after the 1 fit (sin √z/√z − 1)/z on [0, π²/4] by Remez's exchange,
+/// error 1.2e-16.
+const SINC_COEFFICIENTS: [f64; 8] = [
     1.0,
     -0.166_666_666_666_662_6,
     0.008_333_333_333_291_249,
@@ -218,8 +222,8 @@ const SINC: [f64; 8] = [
     1.604_841_188_107_557e-10,
     -7.377_031_323_962_015e-13,
 ];
-/// Likewise (cos √z − 1)/z, error 4e-18.
-const COS: [f64; 9] = [
+/// Coefficients of cos √z, from the lowest power up. Those after the 1 fit (cos √z − 1)/z likewise, error 4e-18.
+const COS_COEFFICIENTS: [f64; 9] = [
     1.0,
     -0.499_999_999_999_999_83,
     0.041_666_666_666_664_37,

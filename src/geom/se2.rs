@@ -120,19 +120,9 @@ impl SE2 {
     ///
     /// Same accuracy as [`SE2::right_jacobian`] for |ω| ≤ π; it grows without bound towards |ω| = 2π.
     pub fn right_jacobian_inverse(twist: &Vector3<f64>) -> Matrix3<f64> {
-        let half = 0.5 * twist.z;
+        let (x, y, half) = (twist.x, twist.y, 0.5 * twist.z);
         let (k, g) = (half_cotangent(twist.z), cotangent_defect(twist.z));
-        Matrix3::new(
-            k,
-            -half,
-            g * twist.x + 0.5 * twist.y,
-            half,
-            k,
-            g * twist.y - 0.5 * twist.x,
-            0.0,
-            0.0,
-            1.0,
-        )
+        Matrix3::new(k, -half, g * x + 0.5 * y, half, k, g * y - 0.5 * x, 0.0, 0.0, 1.0)
     }
 }
 
@@ -147,6 +137,19 @@ impl Mul for SE2 {
             self.y + (sin * other.x + cos * other.y),
             self.theta + other.theta,
         )
+    }
+}
+
+/// Position x, y (m) and heading (rad).
+impl From<SE2> for [f64; 3] {
+    fn from(SE2 { x, y, theta }: SE2) -> Self {
+        [x, y, theta]
+    }
+}
+
+impl From<[f64; 3]> for SE2 {
+    fn from([x, y, theta]: [f64; 3]) -> Self {
+        Self::new(x, y, theta)
     }
 }
 

@@ -1,14 +1,14 @@
 //! Motion conditioned on a map by rejection sampling (Table 5.7), with three acceptance tests.
 
 use super::floor_plan::{FloorPlan, Verdict};
-use crate::geom::arc::{Arc, Departure, Driven};
+use crate::geom::arc::{Arc, Driven, PreparedPose};
 use crate::geom::lanes::Trigonometry;
 use crate::geom::se2::SE2;
 use crate::models::{VelocityCmd, VelocityModel};
 use crate::noise::centred_uniform;
 use rand::Rng;
-use std::fmt;
 use std::ops::{Add, Mul, Range};
+use thiserror::Error;
 use wide::f64x4;
 
 /// Condition for accepting a draw.
@@ -91,37 +91,30 @@ pub struct Cost {
 }
 
 /// No motion was accepted: [`MAX_DRAWS`] draws in a row were rejected, or too many in total.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Wedged(pub Cost);
-
-impl fmt::Display for Wedged {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "the robot is wedged: {} draws were tried and too few accepted", self.0.draws)
-    }
-}
-
-impl std::error::Error for Wedged {}
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[error("the robot is wedged: {} draws were tried and too few accepted", .0.draws)]
+pub struct NoAcceptedSample(pub Cost);
 
 /// Number of rejected draws in a row after which the robot counts as wedged, about a tenth of a second. An acceptance
 /// below one in ten thousand is useless to a filter; more draws would block a page.
 pub const MAX_DRAWS: usize = 10_000;
 
-/// Collision tests of draws from one pose under one command, see [`MapConditioned::judge`].
+/// Collision tests of draws from one pose under one command.
 #[derive(Clone, Copy, Debug)]
-pub struct Judging<'a> {
+pub struct DrawTester<'a> {
     conditioned: &'a MapConditioned<'a>,
     part: Part,
-    from: Departure,
+    from: PreparedPose,
     trigonometry: Trigonometry,
 }
 
-impl Judging<'_> {
+impl DrawTester<'_> {
     pub fn judge(&self, unit_noise: [f64; 3]) -> Draw {
         self.verdicts(self.part.motion(&self.from, unit_noise))
     }
 
-    /// Tests the samples `wanted` of four. The poses may differ from those of [`Judging::judge`] by rounding.
-    pub fn judge_four(&self, unit_noise: &[f64x4; 3], wanted: Range<usize>, see: impl FnMut(Draw)) {
+    /// Tests the lanes `wanted` of four samples, and calls `see` with each result. The poses may differ from those of [`DrawTester::judge`] by rounding.
+    pub fn test_four(&self, unit_noise: &[f64x4; 3], wanted: Range<usize>, see: impl FnMut(Draw)) {
         let motion = self.part.four_motions(&self.from, &self.trigonometry, unit_noise);
         wanted.map(|lane| self.verdicts(motion(lane))).for_each(see);
     }
@@ -139,7 +132,7 @@ impl Judging<'_> {
     }
 }
 
-/// A command and the standard deviations of its noise.
+/// Part of a motion: a command, and the standard deviations of its noise.
 #[derive(Clone, Copy, Debug)]
 struct Part {
     u: VelocityCmd,
@@ -148,7 +141,7 @@ struct Part {
 
 impl Part {
     /// Returns the pose under these unit noises, and the arc driven there.
-    fn motion(&self, from: &Departure, unit_noise: [f64; 3]) -> (SE2, Driven) {
+    fn motion(&self, from: &PreparedPose, unit_noise: [f64; 3]) -> (SE2, Driven) {
         let [length, turn, last] = self.executed(unit_noise);
         after(from.drive(length, turn), last)
     }
@@ -157,7 +150,7 @@ impl Part {
     #[inline(always)]
     fn four_motions(
         &self,
-        from: &Departure,
+        from: &PreparedPose,
         trigonometry: &Trigonometry,
         unit_noise: &[f64x4; 3],
     ) -> impl Fn(usize) -> (SE2, Driven) {
@@ -186,8 +179,13 @@ impl MapConditioned<'_> {
     /// Returns an accepted motion from `x`.
     ///
     /// # Errors
-    /// [`Wedged`] after [`MAX_DRAWS`] rejected draws.
-    pub fn sample<R: Rng + ?Sized>(&self, u: &VelocityCmd, x: &SE2, rng: &mut R) -> Result<Accepted, Wedged> {
+    /// [`NoAcceptedSample`] after [`MAX_DRAWS`] rejected draws.
+    pub fn sample<R: Rng + ?Sized>(
+        &self,
+        u: &VelocityCmd,
+        x: &SE2,
+        rng: &mut R,
+    ) -> Result<Accepted, NoAcceptedSample> {
         self.sample_along(u, x, rng, |_| ())
     }
 
@@ -198,7 +196,7 @@ impl MapConditioned<'_> {
         x: &SE2,
         rng: &mut R,
         mut along: impl FnMut(&Arc),
-    ) -> Result<Accepted, Wedged> {
+    ) -> Result<Accepted, NoAcceptedSample> {
         let mut path_free = true;
         let mut cost = Cost::default();
         let pose = self.drive(u, x, rng, &mut cost, &mut |driven, end| {
@@ -209,7 +207,12 @@ impl MapConditioned<'_> {
     }
 
     /// Returns the cost of one accepted motion in a filter: for each draw only the test that decides is made.
-    pub fn cost<R: Rng + ?Sized>(&self, u: &VelocityCmd, x: &SE2, rng: &mut R) -> Result<Cost, Wedged> {
+    pub fn cost<R: Rng + ?Sized>(
+        &self,
+        u: &VelocityCmd,
+        x: &SE2,
+        rng: &mut R,
+    ) -> Result<Cost, NoAcceptedSample> {
         let mut cost = Cost::default();
         self.drive(u, x, rng, &mut cost, &mut |_, _| ())?;
         Ok(cost)
@@ -225,7 +228,7 @@ impl MapConditioned<'_> {
         mut along: impl FnMut(&Arc),
     ) -> (Draw, bool) {
         let (steps, step) = self.parts(u);
-        let judged = |from: &SE2, unit_noise| self.judging_part(step, from).judge(unit_noise);
+        let judged = |from: &SE2, unit_noise| self.tester_of_part(step, from).judge(unit_noise);
         let mut draw = judged(x, self.unit_noise(rng));
         along(&draw.arc);
         let mut path_free = draw.path.free;
@@ -258,25 +261,23 @@ impl MapConditioned<'_> {
         rng: &mut R,
         cost: &mut Cost,
         along: &mut dyn FnMut(&Driven, Verdict),
-    ) -> Result<SE2, Wedged> {
+    ) -> Result<SE2, NoAcceptedSample> {
         let (steps, step) = self.parts(u);
-        let mut pose = *x;
-        for _ in 0..steps {
-            let (driven, end);
-            (pose, driven, end) = self.one_step(&step, &Departure::new(pose), rng, cost)?;
+        (0..steps).try_fold(*x, |pose, _| {
+            let (pose, driven, end) = self.one_step(&step, &PreparedPose::new(pose), rng, cost)?;
             along(&driven, end);
-        }
-        Ok(pose)
+            Ok(pose)
+        })
     }
 
     /// Returns the first draw that is accepted, and the verdict on its end.
     fn one_step<R: Rng + ?Sized>(
         &self,
         part: &Part,
-        from: &Departure,
+        from: &PreparedPose,
         rng: &mut R,
         cost: &mut Cost,
-    ) -> Result<(SE2, Driven, Verdict), Wedged> {
+    ) -> Result<(SE2, Driven, Verdict), NoAcceptedSample> {
         for _ in 0..MAX_DRAWS {
             let (pose, driven) = part.motion(from, self.unit_noise(rng));
             let end = self.plan.point_free(driven.end, self.clearance);
@@ -291,21 +292,21 @@ impl MapConditioned<'_> {
                 return Ok((pose, driven, end));
             }
         }
-        Err(Wedged(*cost))
-    }
-
-    /// Returns the motion under these unit noises, with both verdicts.
-    pub fn judge(&self, u: &VelocityCmd, x: &SE2, unit_noise: [f64; 3]) -> Draw {
-        self.judging(u, x).judge(unit_noise)
+        Err(NoAcceptedSample(*cost))
     }
 
     /// Prepares tests of many draws from one pose: common terms are computed once.
-    pub fn judging(&self, u: &VelocityCmd, x: &SE2) -> Judging<'_> {
-        self.judging_part(self.part(u), x)
+    pub fn draw_tester(&self, u: &VelocityCmd, x: &SE2) -> DrawTester<'_> {
+        self.tester_of_part(self.part(u), x)
     }
 
-    fn judging_part(&self, part: Part, x: &SE2) -> Judging<'_> {
-        Judging { conditioned: self, part, from: Departure::new(*x), trigonometry: Trigonometry::default() }
+    fn tester_of_part(&self, part: Part, x: &SE2) -> DrawTester<'_> {
+        DrawTester {
+            conditioned: self,
+            part,
+            from: PreparedPose::new(*x),
+            trigonometry: Trigonometry::default(),
+        }
     }
 
     /// Returns the result of the test that decides on a draw.

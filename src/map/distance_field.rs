@@ -2,11 +2,11 @@
 
 use super::occupancy::OccupancyGrid;
 use super::wall_tree::WallTree;
-use crate::geom::lanes::{ROUND, lanes};
+use crate::geom::lanes::{ROUND_TO_INTEGER, lanes};
 use std::f64::consts::FRAC_1_SQRT_2;
 use wide::f64x4;
 
-/// Square cells over the bounds of a map, each with the smallest distance of its points to a wall. Most collision tests
+/// Square cells over the bounds of a map, each with a lower bound on the distance of its points to the nearest wall. Most collision tests
 /// need no other distance, and take the same time for any number of walls.
 #[derive(Clone, Debug)]
 pub(super) struct DistanceField {
@@ -19,34 +19,34 @@ pub(super) struct DistanceField {
     /// Half the diagonal of a cell, m.
     radius: f64,
     /// Uncertainty of the distance from the middle of a cell, m.
-    blur: f64,
+    uncertainty: f64,
     /// Distances row by row from the bottom, m. Negative if a wall passes through the cell or its neighbour, −∞ if the
     /// cell is inside an occupied one, [`UNKNOWN`] if not computed.
-    least: Vec<f32>,
+    lower_bounds: Vec<f32>,
 }
 
 /// Number of cells for each wall, and smallest and largest number for a map. Fewer cells decide less, more take longer
 /// to fill: the apartment's cells have sides of 4 cm and take a millisecond; 2²⁰ cells take 4 MB. A fuzzer fills
 /// millions of fields and uses a few cells, with the same results of the tests.
-const CELLS_A_WALL: f64 = MIN_CELLS;
+const CELLS_PER_WALL: f64 = MIN_CELLS;
 const MIN_CELLS: f64 = if cfg!(fuzzing) { 64.0 } else { 4096.0 };
 const MAX_CELLS: f64 = 1_048_576.0;
 
 /// Maximum number of walls or nodes that are measured for a block, and for each of its cells in addition. Where more
 /// are near, as in the middle of a star, filling would take seconds. The distance is then [`UNKNOWN`], and the tree is
 /// searched.
-const WALLS_A_BLOCK: usize = 32;
-const WALLS_A_CELL: usize = 3;
+const MAX_WALLS_PER_BLOCK: usize = 32;
+const MAX_WALLS_PER_CELL: usize = 3;
 
 /// Accepted error of the distance from a block, as a fraction of its radius, if there is a tree. Walls closer together
 /// than that are measured as one.
-const BLUR: f64 = 0.125;
+const BLOCK_UNCERTAINTY: f64 = 0.125;
 
 /// Lower bound of a distance that was not computed.
 const UNKNOWN: f32 = f32::MIN;
 
 /// A block of cells is not divided further when the nearest wall is this many times its radius away.
-const FAR: f64 = 8.0;
+const UNDIVIDED_DISTANCE: f64 = 8.0;
 
 impl DistanceField {
     /// Fills the field of the walls of a tree within `bounds` (least x, least y, greatest x, greatest y; m). `solid` are the
@@ -66,33 +66,37 @@ impl DistanceField {
 
     /// Returns a lower bound (m) on the distance from a point inside the bounds to the nearest wall.
     #[inline(always)]
-    pub fn least(&self, [x, y]: [f64; 2]) -> f64 {
+    pub fn lower_bound(&self, [x, y]: [f64; 2]) -> f64 {
         // Rounding can move a point slightly outside; it belongs to the nearest cell.
         let column = (((x - self.corner[0]) * self.cells_per_metre) as u32 as usize).min(self.columns - 1);
         let row = ((y - self.corner[1]) * self.cells_per_metre) as u32 as usize;
-        f64::from(self.least.get(row * self.columns + column).copied().unwrap_or(UNKNOWN))
+        f64::from(self.lower_bounds.get(row * self.columns + column).copied().unwrap_or(UNKNOWN))
     }
 
-    /// Returns [`DistanceField::least`] of four points. `points` are their x and y.
+    /// Returns [`DistanceField::lower_bound`] of four points. `points` are their x and y.
     #[inline(always)]
-    pub fn least_of_four(&self, points: &[f64x4; 2]) -> f64x4 {
+    pub fn lower_bounds(&self, points: &[f64x4; 2]) -> f64x4 {
         let zero = f64x4::splat(0.0);
         // On the border of two cells both are correct, so that rounding may select either.
         let [column, row] = [0, 1].map(|axis| {
             let cell = (points[axis] - self.corner[axis]) * self.cells_per_metre - 0.5;
-            cell.fast_max(zero).fast_min(f64x4::splat(self.last[axis])) + ROUND - ROUND
+            cell.fast_max(zero).fast_min(f64x4::splat(self.last[axis])) + ROUND_TO_INTEGER - ROUND_TO_INTEGER
         });
         // Adding this number to a small whole number puts that number into the last bits of the sum.
-        let cells = (row * self.columns as f64 + column + ROUND).to_array();
-        lanes(|i| f64::from(self.least.get(cells[i].to_bits() as u32 as usize).copied().unwrap_or(UNKNOWN)))
+        let cells = (row * self.columns as f64 + column + ROUND_TO_INTEGER).to_array();
+        lanes(|i| {
+            f64::from(self.lower_bounds.get(cells[i].to_bits() as u32 as usize).copied().unwrap_or(UNKNOWN))
+        })
     }
 
     /// Returns the upper bound (m) that belongs to a lower bound; −∞ inside an occupied cell.
-    pub fn most(&self, least: f64) -> f64 {
+    pub fn upper_bound(&self, least: f64) -> f64 {
         // With the middle of the cell at distance d from the wall, `least` is d − radius and the upper bound d + radius.
         // In a block that was not divided d is known to d/8: at most (1 + 1/8)/(1 − 1/8) times as far.
         let radius = 1.001 * self.radius;
-        let most = (FAR + 1.0) / (FAR - 1.0) * (least + radius + self.blur) + radius;
+        let most = (UNDIVIDED_DISTANCE + 1.0) / (UNDIVIDED_DISTANCE - 1.0)
+            * (least + radius + self.uncertainty)
+            + radius;
         if least == f64::from(UNKNOWN) { f64::INFINITY } else { most }
     }
 }
@@ -105,11 +109,11 @@ struct Filling {
     /// Bound on the rounding error of any coordinate on the map, m.
     slack: f64,
     /// Stack of candidates for the nearest wall, for the blocks that are still to be filled.
-    near: Vec<Near>,
+    near: Vec<Candidate>,
     blocks: Vec<Block>,
     /// Candidates of the current block: not yet measured, and measured.
-    open: Vec<Near>,
-    measured: Vec<(f64, Near)>,
+    open: Vec<Candidate>,
+    measured: Vec<(f64, Candidate)>,
 }
 
 /// `size` · `size` cells.
@@ -123,7 +127,7 @@ struct Block {
 
 /// Wall, or all walls of a node of the tree.
 #[derive(Clone, Copy, Debug)]
-enum Near {
+enum Candidate {
     Wall(u32),
     Node(u32),
 }
@@ -132,15 +136,15 @@ impl Filling {
     fn new(tree: &WallTree, bounds: [f64; 4]) -> Self {
         let [left, bottom, right, top] = bounds;
         let (width, height) = (right - left, top - bottom);
-        let cells = (CELLS_A_WALL * tree.count() as f64).clamp(MIN_CELLS, MAX_CELLS);
+        let cells = (CELLS_PER_WALL * tree.count() as f64).clamp(MIN_CELLS, MAX_CELLS);
         // A narrow map could otherwise get more cells than that in a single row.
         let side = (width * height / cells).sqrt().max(width.max(height) / cells);
         let [columns, rows] = [width, height].map(|length| (length / side).ceil() as usize + 1);
         let radius = FRAC_1_SQRT_2 * side;
         let near = if tree.is_leaf(1) {
-            tree.members(1).map(|wall| Near::Wall(wall as u32)).collect()
+            tree.members(1).map(|wall| Candidate::Wall(wall as u32)).collect()
         } else {
-            vec![Near::Node(1)]
+            vec![Candidate::Node(1)]
         };
         let size = columns.max(rows).next_power_of_two();
         let all = Block { first: [0, 0], size, range: [0, near.len()] };
@@ -151,8 +155,8 @@ impl Filling {
                 columns,
                 last: [columns, rows].map(|count| count as f64 - 1.0),
                 radius,
-                blur: if tree.is_leaf(1) { 0.0 } else { BLUR * radius },
-                least: vec![UNKNOWN; columns * rows],
+                uncertainty: if tree.is_leaf(1) { 0.0 } else { BLOCK_UNCERTAINTY * radius },
+                lower_bounds: vec![UNKNOWN; columns * rows],
             },
             rows,
             side,
@@ -173,11 +177,11 @@ impl Filling {
         let [right, top] = [(left + size).min(self.field.columns), (bottom + size).min(self.rows)];
         let centre = self.centre(block.first, size);
         let radius = size as f64 * self.field.radius;
-        let blur = size as f64 * self.field.blur;
+        let uncertainty = size as f64 * self.field.uncertainty;
         // Keeps the candidates of the block around this one; those after them belong to blocks that are done.
         self.near.truncate(range[1]);
-        let Some([least, most]) = self.measure(tree, centre, block, blur) else { return };
-        if size > 1 && least <= FAR * radius + blur / BLUR {
+        let Some([least, most]) = self.measure(tree, centre, block, uncertainty) else { return };
+        if size > 1 && least <= UNDIVIDED_DISTANCE * radius + uncertainty / BLOCK_UNCERTAINTY {
             let reach = most + 2.0 * radius + self.slack;
             self.near
                 .extend(self.measured.iter().filter(|(least, _)| *least <= reach).map(|(_, near)| *near));
@@ -189,22 +193,32 @@ impl Filling {
             return;
         }
         // If `least > radius`, no wall passes through the block, so that all of it is on one side of each outline.
-        let buried = least > radius && solid.is_some_and(|solid| solid.holds(centre));
+        let is_in_blocked_cell = least > radius && solid.is_some_and(|solid| solid.is_blocked_at(centre));
         for row in bottom..top {
             for column in left..right {
                 let [x, y] = self.centre([column, row], 1);
                 let off = self.field.radius
                     + ((x - centre[0]) * (x - centre[0]) + (y - centre[1]) * (y - centre[1])).sqrt();
                 // A relative error of 1e-6 is larger than the rounding of an f32.
-                let least = if buried { f64::NEG_INFINITY } else { least * (1.0 - 1e-6) - off - self.slack };
-                self.field.least[row * self.field.columns + column] = least as f32;
+                let least = if is_in_blocked_cell {
+                    f64::NEG_INFINITY
+                } else {
+                    least * (1.0 - 1e-6) - off - self.slack
+                };
+                self.field.lower_bounds[row * self.field.columns + column] = least as f32;
             }
         }
     }
 
-    /// Returns bounds on the distance from the middle of a block to the nearest wall, at most `blur` apart (m); None if
+    /// Returns bounds on the distance from the middle of a block to the nearest wall, at most `uncertainty` apart (m); None if
     /// too many walls are near. Afterwards `measured` has all walls, or nodes, that may be nearest to a point of the block.
-    fn measure(&mut self, tree: &WallTree, point: [f64; 2], block: Block, blur: f64) -> Option<[f64; 2]> {
+    fn measure(
+        &mut self,
+        tree: &WallTree,
+        point: [f64; 2],
+        block: Block,
+        uncertainty: f64,
+    ) -> Option<[f64; 2]> {
         let Self { near, open, measured, .. } = self;
         let Block { size, range: [from, to], .. } = block;
         // A wall that is nearest to some point of the block is at most one diameter of the block further from the middle
@@ -217,34 +231,34 @@ impl Filling {
         let mut spent = 0;
         while let Some(near) = open.pop() {
             spent += 1;
-            if spent > WALLS_A_BLOCK + WALLS_A_CELL * size * size {
+            if spent > MAX_WALLS_PER_BLOCK + MAX_WALLS_PER_CELL * size * size {
                 return None;
             }
             let to = |wall: usize| tree.line(wall).square(point).sqrt();
             let least = match near {
-                Near::Wall(wall) => to(wall as usize),
-                Near::Node(node) => tree.node(node as usize).least(point),
+                Candidate::Wall(wall) => to(wall as usize),
+                Candidate::Node(node) => tree.node(node as usize).lower_bound(point),
             };
             if least > most + reach {
                 continue;
             }
             if least < most {
                 most = most.min(match near {
-                    Near::Wall(_) => least,
-                    Near::Node(node) => to(tree.members(node as usize).start),
+                    Candidate::Wall(_) => least,
+                    Candidate::Node(node) => to(tree.members(node as usize).start),
                 });
             }
-            if size == 1 && most <= blur {
+            if size == 1 && most <= uncertainty {
                 return Some([0.0, most]);
             }
             match near {
-                Near::Node(node)
-                    if least < most - blur || tree.node(node as usize).thickness > 0.5 * reach =>
+                Candidate::Node(node)
+                    if least < most - uncertainty || tree.node(node as usize).thickness > 0.5 * reach =>
                 {
                     if tree.is_leaf(node as usize) {
-                        open.extend(tree.members(node as usize).map(|wall| Near::Wall(wall as u32)));
+                        open.extend(tree.members(node as usize).map(|wall| Candidate::Wall(wall as u32)));
                     } else {
-                        open.extend([2 * node, 2 * node + 1].map(Near::Node));
+                        open.extend([2 * node, 2 * node + 1].map(Candidate::Node));
                     }
                 }
                 _ => measured.push((least, near)),

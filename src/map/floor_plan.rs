@@ -4,13 +4,13 @@ use super::apartment;
 use super::distance_field::{DistanceField, rounding};
 use super::occupancy::OccupancyGrid;
 use super::wall_tree::{Node, WallTree};
-use crate::geom::arc::{Arc, Course, Departure, Driven, Unrolled};
+use crate::geom::arc::{Arc, Course, Driven, PreparedPose, Unrolled};
 use crate::geom::lanes::{LANES, any};
 use crate::geom::segment::Segment;
 use std::cell::OnceCell;
-use std::fmt;
 use std::ops::RangeInclusive;
 use std::sync::OnceLock;
+use thiserror::Error;
 use wide::f64x4;
 
 /// Walls without thickness inside a rectangle.
@@ -34,7 +34,8 @@ struct Survey {
 }
 
 /// Reason why a floor plan is refused.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[error("{}", self.message(|number| number.to_string()))]
 pub enum FloorPlanError {
     /// A bound is beyond ±10⁶ m, or a side shorter than a centimetre or longer than 100 km.
     BadBounds([f64; 4]),
@@ -78,14 +79,6 @@ impl FloorPlanError {
     }
 }
 
-impl fmt::Display for FloorPlanError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.message(|number| number.to_string()))
-    }
-}
-
-impl std::error::Error for FloorPlanError {}
-
 /// Result of a collision test, and the number of wall distances computed for it. Most tests are decided by the distance
 /// field alone. A wall that is close to several pieces of a motion counts for each.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -100,9 +93,9 @@ impl Verdict {
 }
 
 /// Range of bounds, m: the range of a robot's coordinates.
-const COORDINATE: RangeInclusive<f64> = -1e6..=1e6;
+const COORDINATE_RANGE: RangeInclusive<f64> = -1e6..=1e6;
 /// Range of the width and height of bounds, m.
-const SIDE: RangeInclusive<f64> = 0.01..=1e5;
+const SIDE_RANGE: RangeInclusive<f64> = 0.01..=1e5;
 
 impl FloorPlan {
     /// Largest number of walls of a plan.
@@ -137,8 +130,8 @@ impl FloorPlan {
     ) -> Result<Self, FloorPlanError> {
         let [left, bottom, right, top] = bounds;
         let sides = [right - left, top - bottom];
-        if !bounds.iter().all(|bound| COORDINATE.contains(bound))
-            || !sides.iter().all(|side| SIDE.contains(side))
+        if !bounds.iter().all(|bound| COORDINATE_RANGE.contains(bound))
+            || !sides.iter().all(|side| SIDE_RANGE.contains(side))
         {
             let refused = if solid.is_some() { FloorPlanError::BadGrid } else { FloorPlanError::BadBounds };
             return Err(refused(bounds));
@@ -180,19 +173,19 @@ impl FloorPlan {
 
     /// Tests whether a disc of radius `clearance` (m) around a point touches no wall and its centre is inside the bounds.
     pub fn point_free(&self, point: [f64; 2], clearance: f64) -> Verdict {
-        if !self.holds(point) {
+        if !self.contains(point) {
             return Verdict::BLOCKED;
         }
         let field = self.field();
-        let least = field.least(point);
+        let least = field.lower_bound(point);
         if least > clearance {
             return Verdict::FREE;
         }
-        if field.most(least) <= clearance || self.buried(point) {
+        if field.upper_bound(least) <= clearance || self.is_in_blocked_cell(point) {
             return Verdict::BLOCKED;
         }
         let mut wall_tests = 0;
-        let free = self.walls_keep(
+        let free = self.near_walls_keep(
             point,
             clearance,
             &mut wall_tests,
@@ -205,14 +198,14 @@ impl FloorPlan {
     /// Tests whether a disc of radius `clearance` (m) whose centre drives along `arc` touches no wall and stays inside the
     /// bounds.
     pub fn arc_free(&self, arc: &Arc, clearance: f64) -> Verdict {
-        let driven = Departure::new(arc.start).drive(arc.length, arc.turn);
+        let driven = PreparedPose::new(arc.start).drive(arc.length, arc.turn);
         self.path_free(&driven, self.point_free(driven.end, clearance), clearance)
     }
 
     /// Tests an arc as [`FloorPlan::arc_free`] does, after its end was tested. The result includes the cost of that test.
     pub(super) fn path_free(&self, driven: &Driven, end: Verdict, clearance: f64) -> Verdict {
         let start = [driven.arc.start.x(), driven.arc.start.y()];
-        if !end.free || self.leaves_bounds(driven) || self.buried(start) {
+        if !end.free || self.leaves_bounds(driven) || self.is_in_blocked_cell(start) {
             return Verdict { free: false, ..end };
         }
         let mut sweep = Sweep {
@@ -241,9 +234,9 @@ impl FloorPlan {
 
     /// Returns true if a point is on the map: on the grid where there is one, which may be turned, else inside the bounds.
     #[inline(always)]
-    fn holds(&self, point: [f64; 2]) -> bool {
+    fn contains(&self, point: [f64; 2]) -> bool {
         if let Some(grid) = &self.solid {
-            return grid.spans(point);
+            return grid.contains(point);
         }
         let ([x, y], [left, bottom, right, top]) = (point, self.bounds);
         (left..=right).contains(&x) && (bottom..=top).contains(&y)
@@ -257,20 +250,20 @@ impl FloorPlan {
     }
 
     #[inline(always)]
-    fn buried(&self, point: [f64; 2]) -> bool {
-        self.solid.as_ref().is_some_and(|solid| solid.holds(point))
+    fn is_in_blocked_cell(&self, point: [f64; 2]) -> bool {
+        self.solid.as_ref().is_some_and(|solid| solid.is_blocked_at(point))
     }
 
     fn leaves_bounds(&self, driven: &Driven) -> bool {
         let [left, bottom, right, top] = driven.bounding_box();
         if [[left, bottom], [right, bottom], [right, top], [left, top]]
             .into_iter()
-            .all(|corner| self.holds(corner))
+            .all(|corner| self.contains(corner))
         {
             return false;
         }
         let arc = &driven.arc;
-        if !self.holds([arc.start.x(), arc.start.y()]) || !self.holds(driven.end) {
+        if !self.contains([arc.start.x(), arc.start.y()]) || !self.contains(driven.end) {
             return true;
         }
         // Both ends are inside. An arc that only touches an edge counts as inside, up to rounding.
@@ -284,7 +277,7 @@ impl FloorPlan {
 
     /// Tests whether every wall is `free` whose bounding box is within `reach` (m) of the point in both coordinates.
     /// Nodes of the tree that are known to be free are skipped.
-    fn walls_keep(
+    fn near_walls_keep(
         &self,
         [x, y]: [f64; 2],
         reach: f64,
@@ -324,13 +317,13 @@ impl Sweep<'_> {
         let reach = (to - from) / (2 * LANES) as f64;
         let needed = self.clearance + course.error + reach;
         let middles = course.at(f64x4::new([1.0, 3.0, 5.0, 7.0]) * reach + from);
-        let rooms = field.least_of_four(&middles);
+        let rooms = field.lower_bounds(&middles);
         if !any(rooms.simd_le(f64x4::splat(needed))) {
             return true;
         }
         let rooms = rooms.to_array();
         let least = rooms.into_iter().fold(f64::INFINITY, f64::min);
-        if field.most(least) <= self.clearance - course.error {
+        if field.upper_bound(least) <= self.clearance - course.error {
             return false;
         }
         // A piece no longer than the diagonal of a cell is not divided, because the field is too coarse. Its walls are measured.
@@ -353,7 +346,7 @@ impl Sweep<'_> {
         let (arc, clearance) = (self.arc, self.clearance);
         let unrolled = || self.unrolled.get_or_init(|| arc.unrolled());
         let (near, touching) = (reach + clearance, (clearance - error).max(0.0));
-        self.plan.walls_keep(
+        self.plan.near_walls_keep(
             middle,
             near,
             &mut self.wall_tests,

@@ -12,9 +12,11 @@ mod png;
 mod reading;
 mod wall_tree;
 
-pub use conditioned::{Accepted, Cost, Draw, Judging, MAX_DRAWS, MapConditioned, Sampler, Wedged};
+pub use conditioned::{
+    Accepted, Cost, Draw, DrawTester, MAX_DRAWS, MapConditioned, NoAcceptedSample, Sampler,
+};
 pub use floor_plan::{FloorPlan, FloorPlanError, Verdict};
-pub use occupancy::{Cell, Image, Interpretation, Mode, OccupancyGrid, Pixel, RESOLUTION, Unknown};
+pub use occupancy::{Cell, Image, Interpretation, Mode, OccupancyGrid, Pixel, RESOLUTION_RANGE, Unknown};
 pub use pgm::{MAX_BYTES, MAX_PIXELS, PgmError, Shade, Shades, read_pgm};
 #[cfg(not(widget))]
 pub use png::{PngError, read_png};

@@ -1,6 +1,6 @@
 //! Occupancy grids as ROS `map_server` stores them.
 
-use crate::geom::arc::Departure;
+use crate::geom::arc::PreparedPose;
 use crate::geom::se2::SE2;
 use crate::geom::segment::Segment;
 use std::ops::RangeInclusive;
@@ -25,6 +25,7 @@ impl Default for Interpretation {
     }
 }
 
+/// Meaning of the pixels of a map, as in the YAML file of `map_server`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mode {
     /// Dark pixels are occupied, light ones free, and those between the thresholds unknown.
@@ -101,7 +102,7 @@ impl Interpretation {
 }
 
 /// Sides of a cell, m: from a millimetre to a hundred metres.
-pub const RESOLUTION: RangeInclusive<f64> = 1e-3..=100.0;
+pub const RESOLUTION_RANGE: RangeInclusive<f64> = 1e-3..=100.0;
 
 /// Grid of square cells. Occupied ones are obstacles, and unknown ones depend on a setting.
 #[derive(Clone, Debug, PartialEq)]
@@ -113,7 +114,7 @@ pub struct OccupancyGrid {
     /// The lower left corner of the lower left cell, rows and columns along its axes.
     origin: SE2,
     /// The plane in the frame of the origin.
-    to_local: Departure,
+    to_local: PreparedPose,
     /// Cells row by row from the bottom.
     cells: Vec<Cell>,
     unknown: Unknown,
@@ -132,7 +133,7 @@ impl OccupancyGrid {
     ) -> Self {
         let Image { width, height, ref pixels } = *image;
         let cells = vec![Cell::Free; width * height];
-        let (to_local, unknown) = (Departure::new(origin.inverse()), Unknown::default());
+        let (to_local, unknown) = (PreparedPose::new(origin.inverse()), Unknown::default());
         let mut grid = Self { width, height, resolution, origin, to_local, cells, unknown };
         let is_transparent = grid.draw(pixels.clone(), interpretation, false);
         if is_transparent && interpretation.mode == Mode::Trinary {
@@ -199,18 +200,18 @@ impl OccupancyGrid {
     }
 
     /// Returns true if a point of the plane lies in a cell that is in a robot's way.
-    pub fn holds(&self, point: [f64; 2]) -> bool {
+    pub fn is_blocked_at(&self, point: [f64; 2]) -> bool {
         let [column, row] = self.cell_coordinates(point).map(f64::floor);
         column >= 0.0 && row >= 0.0 && self.is_blocked(self.row(row as usize), column as usize)
     }
 
     /// Returns true if a cell is known to be free; cells off the grid are not.
-    pub(super) fn known_free(&self, column: usize, row: usize) -> bool {
+    pub(super) fn is_known_free(&self, column: usize, row: usize) -> bool {
         self.row(row).get(column) == Some(&Cell::Free)
     }
 
     /// Returns true if a point of the plane lies on the grid, its edge included.
-    pub fn spans(&self, point: [f64; 2]) -> bool {
+    pub fn contains(&self, point: [f64; 2]) -> bool {
         let [column, row] = self.cell_coordinates(point);
         (0.0..=self.width as f64).contains(&column) && (0.0..=self.height as f64).contains(&row)
     }
@@ -272,10 +273,10 @@ impl OccupancyGrid {
             let (mut from, mut left) = (None, false);
             for column in 0..=columns {
                 let [blocked, was] = [here, below].map(|row| self.is_blocked(row, column));
-                if let Some(from) = follow(&mut from, was != blocked, column) {
+                if let Some(from) = outline_end(&mut from, was != blocked, column) {
                     sides.push(self.side([from, row], [column, row]));
                 }
-                if let Some(began) = follow(&mut began[column], left != blocked, row) {
+                if let Some(began) = outline_end(&mut began[column], left != blocked, row) {
                     upright.push([column, began, row]);
                 }
                 left = blocked;
@@ -294,9 +295,9 @@ impl OccupancyGrid {
     }
 }
 
-/// Follows an outline along a grid line. `is_outline` is true if the piece from `at` on is on an outline. If an outline ends at `at`,
-/// returns where it began.
-fn follow(began: &mut Option<usize>, is_outline: bool, at: usize) -> Option<usize> {
+/// Returns where an outline began that ends at `at` of a grid line. `is_outline` is true if the piece from `at` on is on an outline;
+/// its start is then kept in `began`.
+fn outline_end(began: &mut Option<usize>, is_outline: bool, at: usize) -> Option<usize> {
     match *began {
         None if is_outline => *began = Some(at),
         Some(_) if !is_outline => return began.take(),

@@ -19,7 +19,7 @@ impl FloorPlan {
         let open = squares.middle_of_largest().map(|middle| squares.point(middle));
         let fits = |point: &[f64; 2]| self.point_free(*point, clearance).free;
         let [x, y] = open.filter(fits).or_else(|| squares.middles().find(fits))?;
-        Some(SE2::new(x, y, squares.longest_way([x, y], fits)))
+        Some(SE2::new(x, y, squares.heading_of_longest_path([x, y], fits)))
     }
 }
 
@@ -71,11 +71,11 @@ impl<'a> Squares<'a> {
     /// Returns true if all of a square is known to be free.
     fn free(&self, column: usize, row: usize) -> bool {
         if let Some(grid) = self.grid() {
-            return grid.known_free(column, row);
+            return grid.is_known_free(column, row);
         }
         let middle = self.point([column as f64 + 0.5, row as f64 + 0.5]);
         let is_inside = column < self.columns && row < self.rows;
-        is_inside && self.plan.field().least(middle) > 0.75 * self.longer_side()
+        is_inside && self.plan.field().lower_bound(middle) > 0.75 * self.longer_side()
     }
 
     /// Returns the middle of the largest square of free ones, in squares from the lower left corner; None where none is
@@ -111,7 +111,7 @@ impl<'a> Squares<'a> {
     }
 
     /// Returns the heading in which the robot gets furthest over free squares.
-    fn longest_way(&self, [x, y]: [f64; 2], fits: impl Fn(&[f64; 2]) -> bool) -> f64 {
+    fn heading_of_longest_path(&self, [x, y]: [f64; 2], fits: impl Fn(&[f64; 2]) -> bool) -> f64 {
         let (mut longest, mut heading) = (0, 0.0);
         for i in 0..HEADINGS {
             let angle = TAU * f64::from(i) / f64::from(HEADINGS);

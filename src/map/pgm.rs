@@ -1,10 +1,11 @@
 //! Reader of PGM images, in which `map_server` and most mapping programs store maps.
 
 use super::occupancy::{Image, Pixel};
-use std::fmt;
+use thiserror::Error;
 
 /// Reason why bytes are not a PGM image.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[error("line {line}: {field} is {value}; allowed is {allowed}")]
 pub struct PgmError {
     /// Name of the field: "the width".
     pub field: &'static str,
@@ -14,15 +15,6 @@ pub struct PgmError {
     pub value: String,
     pub allowed: String,
 }
-
-impl fmt::Display for PgmError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { field, line, value, allowed } = self;
-        write!(f, "line {line}: {field} is {value}; allowed is {allowed}")
-    }
-}
-
-impl std::error::Error for PgmError {}
 
 /// Largest number of pixels of an image: a map of 250 m × 250 m at 5 cm has 5000 × 5000.
 pub const MAX_PIXELS: usize = 1 << 25;
@@ -112,7 +104,7 @@ impl Iterator for Shades<'_> {
         self.left = self.left.checked_sub(1)?;
         let Self { reader: Reader { bytes, at, .. }, greatest, .. } = *self;
         let value = match self.coding {
-            Coding::Plain => number(self.reader.token())? as u16,
+            Coding::Plain => parse_decimal(self.reader.token())? as u16,
             Coding::Bytes => {
                 self.reader.at += 1;
                 u16::from(*bytes.get(at)?)
@@ -133,7 +125,7 @@ impl Iterator for Shades<'_> {
 impl ExactSizeIterator for Shades<'_> {}
 
 /// Parses decimal digits; None for a number larger than [`MAX_PIXELS`].
-fn number(token: &[u8]) -> Option<usize> {
+fn parse_decimal(token: &[u8]) -> Option<usize> {
     let value = token.iter().try_fold(0, |value: usize, digit| {
         let digit = digit.is_ascii_digit().then(|| usize::from(digit - b'0'))?;
         Some(value * 10 + digit).filter(|value| *value <= MAX_PIXELS)
@@ -141,6 +133,7 @@ fn number(token: &[u8]) -> Option<usize> {
     (!token.is_empty()).then_some(value)
 }
 
+/// Reader of the words of a header, and of plain pixels.
 #[derive(Clone, Debug)]
 struct Reader<'a> {
     bytes: &'a [u8],
@@ -173,7 +166,7 @@ impl<'a> Reader<'a> {
 
     fn number(&mut self, field: &'static str, least: usize, most: usize) -> Result<usize, PgmError> {
         let token = self.token();
-        number(token)
+        parse_decimal(token)
             .filter(|number| (least..=most).contains(number))
             .ok_or_else(|| self.error(field, token, format!("a whole number from {least} to {most}")))
     }

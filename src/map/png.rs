@@ -3,38 +3,22 @@
 use super::occupancy::Image;
 use super::pgm::MAX_PIXELS;
 use png::{BitDepth, ColorType, Decoder, DecodingError, Info, Limits, Transformations};
-use std::fmt;
 use std::io::Cursor;
+use thiserror::Error;
 
 /// First bytes of every PNG image.
 pub const SIGNATURE: [u8; 8] = *b"\x89PNG\r\n\x1a\n";
 
 /// Reason why bytes are not a PNG image.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum PngError {
     /// The bytes end, or differ from what the standard allows, before byte `at` of `length`.
+    #[error("the PNG image is damaged or cut short before byte {at} of {length}; allowed is a complete one")]
     Damaged { at: u64, length: usize },
     /// The image has more pixels than [`MAX_PIXELS`].
+    #[error("image has {width} × {height} pixels; allowed are at most {MAX_PIXELS}")]
     TooLarge { width: u32, height: u32 },
 }
-
-impl fmt::Display for PngError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Damaged { at, length } => {
-                write!(
-                    f,
-                    "the PNG image is damaged or cut short before byte {at} of {length}; allowed is a complete one"
-                )
-            }
-            Self::TooLarge { width, height } => {
-                write!(f, "image has {width} × {height} pixels; allowed are at most {MAX_PIXELS}")
-            }
-        }
-    }
-}
-
-impl std::error::Error for PngError {}
 
 /// Decodes a PNG image of any kind into red, green, blue and opacity; samples of 16 bits become the nearest of 8.
 ///

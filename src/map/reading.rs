@@ -5,27 +5,17 @@ use super::pgm::{PgmError, read_pgm};
 #[cfg(not(widget))]
 use super::png::{PngError, SIGNATURE, read_png};
 use crate::geom::se2::SE2;
-use std::fmt;
+use thiserror::Error;
 
 /// Reason why a file is not the image of a map.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Error)]
 pub enum ImageError {
-    Pgm(PgmError),
+    #[error(transparent)]
+    Pgm(#[from] PgmError),
     #[cfg(not(widget))]
-    Png(PngError),
+    #[error(transparent)]
+    Png(#[from] PngError),
 }
-
-impl fmt::Display for ImageError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Pgm(error) => error.fmt(f),
-            #[cfg(not(widget))]
-            Self::Png(error) => error.fmt(f),
-        }
-    }
-}
-
-impl std::error::Error for ImageError {}
 
 /// Makes the grid of an image file as [`OccupancyGrid::new`] does; the first bytes tell PNG from PGM.
 ///
@@ -39,9 +29,9 @@ pub fn read_grid(
 ) -> Result<OccupancyGrid, ImageError> {
     #[cfg(not(widget))]
     if file.starts_with(&SIGNATURE) {
-        let image = read_png(file).map_err(ImageError::Png)?;
+        let image = read_png(file)?;
         return Ok(OccupancyGrid::new(&image, interpretation, resolution, origin));
     }
-    let image = read_pgm(file).map_err(ImageError::Pgm)?;
+    let image = read_pgm(file)?;
     Ok(OccupancyGrid::new(&image, interpretation, resolution, origin))
 }

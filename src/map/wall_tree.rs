@@ -10,9 +10,9 @@ use std::ops::Range;
 /// It is a full binary tree without pointers: the children of node i are 2i and 2i + 1, the root is 1.
 #[derive(Clone, Debug)]
 pub(super) struct WallTree {
-    /// Those of every node side by side.
+    /// Walls, those of each node side by side.
     walls: Vec<Segment>,
-    /// Each of them, ready to be measured.
+    /// Walls prepared for distances, in the same order.
     lines: Vec<Line>,
     nodes: Vec<Node>,
     /// Number of times that the walls are halved.
@@ -21,37 +21,40 @@ pub(super) struct WallTree {
     slack: f64,
 }
 
-/// A part of the walls.
+/// Walls of a subtree.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Node {
     hull: Line,
     /// Maximum distance of a wall of the node from the line, m.
     pub thickness: f64,
     /// True if all walls of the node are equal, so that one represents them.
-    is_one: bool,
+    all_equal: bool,
 }
 
 /// Maximum number of walls of a leaf, and of a tree that is a single leaf. Smaller leaves would need more nodes; larger ones more
 /// comparisons of walls.
-const LEAF: usize = 16;
-const ONLY_LEAF: usize = 32;
+const MAX_LEAF_WALLS: usize = 16;
+const MAX_SINGLE_LEAF_WALLS: usize = 32;
 
 impl WallTree {
     /// Creates the tree of the walls, all of which are inside `bounds`.
     pub fn new(walls: &[Segment], bounds: [f64; 4]) -> Self {
-        let leaves =
-            if walls.len() <= ONLY_LEAF { 1 } else { walls.len().div_ceil(LEAF).next_power_of_two() };
+        let leaves = if walls.len() <= MAX_SINGLE_LEAF_WALLS {
+            1
+        } else {
+            walls.len().div_ceil(MAX_LEAF_WALLS).next_power_of_two()
+        };
         let mut tree = Self {
             walls: walls.to_vec(),
             lines: Vec::new(),
             // The root is always visited, and has no sibling.
-            nodes: vec![Node { hull: Line::POINT, thickness: f64::INFINITY, is_one: false }; 2],
+            nodes: vec![Node { hull: Line::POINT, thickness: f64::INFINITY, all_equal: false }; 2],
             depth: leaves.ilog2(),
             slack: 1e-9 * bounds.iter().fold(0.0, |most: f64, bound| most.max(bound.abs())),
         };
         for parent in 1..leaves {
             tree.halve(parent);
-            let children = [2 * parent, 2 * parent + 1].map(|child| tree.node_of(child));
+            let children = [2 * parent, 2 * parent + 1].map(|child| tree.make_node(child));
             tree.nodes.extend(children);
         }
         tree.lines = tree.walls.iter().map(Line::new).collect();
@@ -65,19 +68,19 @@ impl WallTree {
         let walls = &mut self.walls[range.clone()];
         let mut ends = [[f64::INFINITY, f64::NEG_INFINITY]; 4];
         for wall in &*walls {
-            for ([least, most], place) in ends.iter_mut().zip(place(wall)) {
+            for ([least, most], place) in ends.iter_mut().zip(sort_keys(wall)) {
                 (*least, *most) = (lesser(*least, place), greater(*most, place));
             }
         }
         let spread = ends.map(|[least, most]| most - least);
         let axis = (1..4).fold(0, |widest, axis| if spread[axis] > spread[widest] { axis } else { widest });
-        part(walls, middle - range.start, axis);
+        select_smallest(walls, middle - range.start, axis);
     }
 
-    fn node_of(&self, at: usize) -> Node {
+    fn make_node(&self, at: usize) -> Node {
         let walls = &self.walls[self.range(at)];
-        // Along what most of the walls lead, or along an axis: as it makes the narrowest.
-        let sum = walls.iter().map(place).fold([0.0; 2], |[x, y], place| [x + place[2], y + place[3]]);
+        // The capsule lies along the mean direction of the walls or along an axis, whichever makes it narrowest.
+        let sum = walls.iter().map(sort_keys).fold([0.0; 2], |[x, y], place| [x + place[2], y + place[3]]);
         let length = libm::hypot(sum[0], sum[1]);
         let mean = if length > 0.0 { sum.map(|coordinate| coordinate / length) } else { [1.0, 0.0] };
         let axes = [mean, [1.0, 0.0], [0.0, 1.0]];
@@ -103,7 +106,7 @@ impl WallTree {
         // No point of a wall is further from the line than the further one of its ends.
         let ends = walls.iter().flat_map(|wall| [wall.from, wall.to]);
         let furthest = ends.map(|end| hull.square(end)).fold(0.0, greater).sqrt();
-        Node { hull, thickness: furthest + self.slack, is_one: walls.iter().all(|wall| *wall == walls[0]) }
+        Node { hull, thickness: furthest + self.slack, all_equal: walls.iter().all(|wall| *wall == walls[0]) }
     }
 
     /// Returns the range of the walls of a node.
@@ -114,10 +117,10 @@ impl WallTree {
         end(place)..end(place + 1)
     }
 
-    /// Returns the walls of a node by their numbers, equal ones once.
+    /// Returns the indices of the walls of a node: one if all of them are equal.
     pub fn members(&self, at: usize) -> Range<usize> {
         let range = self.range(at);
-        if self.nodes[at].is_one { range.start..range.start + 1 } else { range }
+        if self.nodes[at].all_equal { range.start..range.start + 1 } else { range }
     }
 
     pub fn line(&self, wall: usize) -> &Line {
@@ -135,10 +138,10 @@ impl WallTree {
 
     /// Returns true if the node is a leaf.
     pub fn is_leaf(&self, at: usize) -> bool {
-        at >> self.depth > 0 || self.nodes[at].is_one
+        at >> self.depth > 0 || self.nodes[at].all_equal
     }
 
-    /// Returns true if all walls are `kept`, but for those in nodes that are `far`.
+    /// Returns true if all walls are `kept`. Walls of nodes that are `far` are skipped.
     #[inline(always)]
     pub fn all(&self, mut far: impl FnMut(&Node) -> bool, mut kept: impl FnMut(&Segment) -> bool) -> bool {
         let mut at = 1;
@@ -164,7 +167,7 @@ impl WallTree {
 }
 
 impl Node {
-    /// Returns the line that the walls are around, to be measured as a wall is.
+    /// Returns the axis of the capsule.
     pub fn line(&self) -> Segment {
         let Line { from, along, .. } = self.hull;
         Segment { from, to: [from[0] + along[0], from[1] + along[1]] }
@@ -179,12 +182,12 @@ impl Node {
 
     /// Returns a lower bound (m) on the distance from a point to the walls of the node.
     #[inline(always)]
-    pub fn least(&self, point: [f64; 2]) -> f64 {
+    pub fn lower_bound(&self, point: [f64; 2]) -> f64 {
         (self.hull.square(point).sqrt() - self.thickness).max(0.0)
     }
 }
 
-/// A wall, ready to be measured many times.
+/// Wall prepared for many distances.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Line {
     from: [f64; 2],
@@ -215,13 +218,13 @@ impl Line {
 
 /// Moves the `count` walls with the smallest coordinates to the front, by Hoare's selection. The number of rounds is limited. Walls
 /// that would need more rounds are divided differently, and the tree is still correct.
-fn part(walls: &mut [Segment], count: usize, axis: usize) {
+fn select_smallest(walls: &mut [Segment], count: usize, axis: usize) {
     let (mut low, mut high) = (0, walls.len());
-    for _ in 0..ROUNDS {
+    for _ in 0..MAX_SELECTION_ROUNDS {
         if high - low < 2 {
             return;
         }
-        let of = |wall: &Segment| place(wall)[axis];
+        let of = |wall: &Segment| sort_keys(wall)[axis];
         let pivot = of(&walls[(low + high) / 2]);
         let (mut left, mut right) = (low, high);
         loop {
@@ -239,7 +242,7 @@ fn part(walls: &mut [Segment], count: usize, axis: usize) {
                 break;
             }
         }
-        // All before `right` are up to the pivot, all from `left` on at least.
+        // Walls before `right` have coordinates up to that of the pivot, and those from `left` on at least that.
         if count < right {
             high = right;
         } else if count > left {
@@ -250,7 +253,7 @@ fn part(walls: &mut [Segment], count: usize, axis: usize) {
     }
 }
 
-const ROUNDS: usize = 64;
+const MAX_SELECTION_ROUNDS: usize = 64;
 
 /// Returns the lesser and the greater of two numbers, neither of which is NaN: `f64::min` and `f64::max` take several
 /// times as long.
@@ -266,7 +269,7 @@ fn greater(one: f64, other: f64) -> f64 {
 
 /// Returns the coordinates by which walls are divided: twice the midpoint, and the vector from the left end to the right one. They
 /// do not depend on the order of the ends.
-fn place(wall: &Segment) -> [f64; 4] {
+fn sort_keys(wall: &Segment) -> [f64; 4] {
     let Segment { from: [x0, y0], to: [x1, y1] } = *wall;
     let (x, y) = (x1 - x0, y1 - y0);
     let [x, y] = if x < 0.0 || (x == 0.0 && y < 0.0) { [-x, -y] } else { [x, y] };

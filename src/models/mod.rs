@@ -7,7 +7,7 @@ mod velocity;
 
 pub(crate) use odometry::ConfiguredOdometry;
 pub use odometry::{OdomAlphas, OdomDelta, OdometryModel, ReverseAware, RotTransRot};
-pub use odometry_rules::{ExecutedLegs, LegVariances, OdometryRule, RuleAlphas, SPIN_BELOW};
+pub use odometry_rules::{ExecutedLegs, LegVariances, MAX_SPIN_DISTANCE, OdometryRule, RuleAlphas};
 pub(crate) use tangent::covariance_root;
 pub use tangent::{Compounding, TangentNoiseError, TangentNoiseModel};
 pub use velocity::{VelocityAlphas, VelocityCmd, VelocityModel};

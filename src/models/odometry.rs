@@ -18,7 +18,7 @@ pub struct OdomDelta {
 
 /// Displacement (m) below which a reading counts as a turn on the spot. The direction of such a displacement is only rounding. No
 /// encoder resolves a nanometre. With a larger bound slow motion would count as a turn.
-const SPIN_BELOW: f64 = 1e-9;
+const MIN_TRANSLATION: f64 = 1e-9;
 
 impl OdomDelta {
     /// Returns the decomposition of the motion between two poses of the odometry frame (Table 5.5, lines 2–4). A spin
@@ -27,7 +27,7 @@ impl OdomDelta {
         let (dx, dy) = (curr.x() - prev.x(), curr.y() - prev.y());
         let trans = libm::hypot(dx, dy);
         let turn = curr.theta() - prev.theta();
-        if trans < SPIN_BELOW {
+        if trans < MIN_TRANSLATION {
             return Self { rot1: 0.0, trans: 0.0, rot2: wrap_angle(turn) };
         }
         let rot1 = wrap_angle(libm::atan2(dy, dx) - prev.theta());

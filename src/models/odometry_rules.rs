@@ -10,7 +10,7 @@ pub enum OdometryRule {
     /// Table 5.6 as it is printed.
     Table,
     /// AMCL of Navigation2 for a differential drive: `nav2_amcl/src/motion_model/differential_motion_model.cpp` (ros-navigation/
-    /// navigation2, commit 0051083). A rotation δ is charged as min(|δ|, |π − |δ||), so that backing up is no pair of half
+    /// navigation2, commit 0051083). A rotation δ counts as min(|δ|, |π − |δ||), so that backing up is no pair of half
     /// turns; a reading shorter than a centimetre has no first rotation. The sums of α·δ² are variances. In AMCL of ROS 1
     /// the same sums were the standard deviations themselves.
     Nav2,
@@ -20,7 +20,7 @@ pub enum OdometryRule {
     Beluga,
     /// AMCL of Navigation2 for a robot that can drive sideways: `nav2_amcl/src/motion_model/omni_motion_model.cpp` (same
     /// commit). The bearing is exact; noise is in the distance, across it (the strafe, α₄ and α₅), and in the turn as a
-    /// whole, which is charged as it is.
+    /// whole, which counts as it is.
     Omni,
 }
 
@@ -30,12 +30,12 @@ impl OdometryRule {
 
 /// Readings below this (m) are taken for spins by deployed localizers: the direction of so short a motion is that of the
 /// encoders' jitter. A larger bound would take a slow robot's forward motion for one along its old heading.
-pub const SPIN_BELOW: f64 = 0.01;
+pub const MAX_SPIN_DISTANCE: f64 = 0.01;
 
-/// α₁…α₅, each 0 or more; the fifth is [`OdometryRule::Omni`]'s alone.
+/// Noise parameters α₁…α₅, each 0 or more. Only [`OdometryRule::Omni`] uses the fifth.
 pub type RuleAlphas = [f64; 5];
 
-/// The noise of one executed reading: of the three legs, and across the second.
+/// Variances of the noises of a reading: of its three legs, and across the second.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LegVariances {
     /// rad².
@@ -44,18 +44,18 @@ pub struct LegVariances {
     pub trans: Variance,
     /// rad².
     pub rot2: Variance,
-    /// Across the drive, m²; 0 where a robot cannot slide.
+    /// Variance across the drive, m²; 0 if the robot cannot slide.
     pub strafe: Variance,
 }
 
 impl OdometryRule {
-    /// Returns the legs that the rule makes of a reading: the same motion to within [`SPIN_BELOW`], with the whole turn
+    /// Returns the legs that the rule makes of a reading: the same motion to within [`MAX_SPIN_DISTANCE`], with the whole turn
     /// in the second rotation where the rule calls it a spin.
     pub fn legs(self, reading: &OdomDelta) -> OdomDelta {
         let spin = match self {
             Self::Table | Self::Omni => false,
-            Self::Nav2 => reading.trans < SPIN_BELOW,
-            Self::Beluga => reading.trans <= SPIN_BELOW,
+            Self::Nav2 => reading.trans < MAX_SPIN_DISTANCE,
+            Self::Beluga => reading.trans <= MAX_SPIN_DISTANCE,
         };
         if !spin {
             return *reading;
@@ -74,13 +74,13 @@ impl OdometryRule {
     pub fn variances(self, reading: &OdomDelta, alphas: &RuleAlphas) -> LegVariances {
         let [a1, a2, a3, a4, a5] = *alphas;
         let legs = self.legs(reading);
-        let hinged = |charge: Charge| {
+        let differential = |charge: Charge| {
             let [rot1, trans, rot2] = charged_variances(OdomAlphas([a1, a2, a3, a4]), &legs, charge);
             LegVariances { rot1, trans, rot2, strafe: Variance(0.0) }
         };
         match self {
-            Self::Table => hinged(f64::abs),
-            Self::Nav2 | Self::Beluga => hinged(turn_either_way),
+            Self::Table => differential(f64::abs),
+            Self::Nav2 | Self::Beluga => differential(turn_either_way),
             Self::Omni => {
                 let turn = wrap_angle(legs.rot1 + legs.rot2);
                 let (trans_sq, turn_sq) = (legs.trans * legs.trans, turn * turn);
@@ -95,11 +95,11 @@ impl OdometryRule {
     }
 }
 
-/// A reading as it was executed: three legs, the second of which may have slid to the left.
+/// Motion that a robot executed instead of a reading: three legs, and a displacement across the second.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ExecutedLegs {
     pub legs: OdomDelta,
-    /// m, to the left of the drive.
+    /// Displacement to the left of the drive, m.
     pub strafe: f64,
 }
 

@@ -8,7 +8,7 @@ use crate::noise::{NoiseKind, Variance};
 use nalgebra::{Matrix3, Vector3};
 use rand::Rng;
 use std::f64::consts::PI;
-use std::fmt;
+use thiserror::Error;
 
 /// Motion x_t = x_{t−1} ⊞ (τ + w) with w ~ N(0, R).
 ///
@@ -31,7 +31,7 @@ use std::fmt;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TangentNoiseModel {
-    /// R, to be read: a model with another R is made by [`TangentNoiseModel::new`], which factors it.
+    /// Covariance R. [`TangentNoiseModel::new`] makes a model with another R, because the model also has its factor.
     pub r: Matrix3<f64>,
     /// Variance (rad²) of the turn after the arc.
     last_turn: f64,
@@ -50,30 +50,17 @@ pub enum Compounding {
     FourthOrder,
 }
 
-/// Why a matrix is no covariance.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// Reason for which a matrix is not a covariance.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 pub enum TangentNoiseError {
-    /// An entry is NaN or infinite.
+    #[error("R has an entry that is not finite; a covariance is needed")]
     NotFinite,
     /// The matrix differs from its transpose by more than rounding.
+    #[error("R differs from its transpose; a covariance is symmetric")]
     NotSymmetric,
-    /// Some direction would have a negative variance.
+    #[error("R has a negative variance in some direction; a covariance has none")]
     NotPositiveSemidefinite,
 }
-
-impl fmt::Display for TangentNoiseError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::NotFinite => "R has an entry that is not finite; a covariance is needed",
-            Self::NotSymmetric => "R differs from its transpose; a covariance is symmetric",
-            Self::NotPositiveSemidefinite => {
-                "R has a negative variance in some direction; a covariance has none"
-            }
-        })
-    }
-}
-
-impl std::error::Error for TangentNoiseError {}
 
 /// Tolerance for symmetry and positive semidefiniteness of R, relative to its largest entry. A smaller one would refuse
 /// computed covariances because of rounding; a larger one would accept mistakes.
@@ -93,8 +80,8 @@ impl TangentNoiseModel {
         Self::with_last_turn(r, 0.0)
     }
 
-    /// Returns the velocity model under one command, its γ̂ kept apart: R = R_u, and a turn of variance Δt²(α₅v² +
-    /// α₆ω²) after the arc. The noise is Gaussian whatever the velocity model's kind: only the variances are taken.
+    /// Returns the velocity model under one command, with the final turn γ̂Δt kept apart: R = R_u, and a turn of variance Δt²(α₅v² +
+    /// α₆ω²) after the arc. The noise is Gaussian for any kind of noise of the velocity model, of which only the variances are used.
     ///
     /// # Errors
     /// [`TangentNoiseError`] where α's or command make a variance negative or not finite.
@@ -113,7 +100,7 @@ impl TangentNoiseModel {
         Ok(Self { r, last_turn, root: covariance_root(&r)? })
     }
 
-    /// τ = (vΔt, 0, ωΔt), whose exponential is the arc of the command.
+    /// Returns τ = (vΔt, 0, ωΔt), whose exponential is the arc of the command.
     pub fn twist(u: &VelocityCmd) -> Vector3<f64> {
         Vector3::new(u.v * u.dt, 0.0, u.omega * u.dt)
     }
@@ -146,7 +133,7 @@ impl TangentNoiseModel {
             + libm::log(2.0 * chart * chart / (length.abs() * arc * arc))
     }
 
-    /// Σ_k from Σ_{k−1} by the chapter's recursion: `propagate` with [`Compounding::Chapter`].
+    /// Returns Σ_k from Σ_{k−1} by the chapter's recursion: `propagate` with [`Compounding::Chapter`].
     pub fn compound(&self, sigma: &Matrix3<f64>, tau: &Vector3<f64>) -> Matrix3<f64> {
         self.propagate(sigma, tau, Compounding::Chapter)
     }

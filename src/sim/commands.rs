@@ -1,22 +1,22 @@
 //! Commands and odometry readings of a robot, as settings.
 
-use super::settings::{DURATION, QUANTITY, group};
+use super::settings::{DURATION_RANGE, QUANTITY_RANGE, group};
 use crate::models::{OdomDelta, VelocityCmd};
 
 group!(VelocityCmd as VelocityCmd { v, omega, dt } => {
     /// Commanded speed; negative in reverse.
-    v: "m/s", in QUANTITY;
+    v: "m/s", in QUANTITY_RANGE;
     /// Commanded turn rate; positive to the left.
-    omega: "rad/s", in QUANTITY;
+    omega: "rad/s", in QUANTITY_RANGE;
     /// Duration of the command.
-    dt: "s", in DURATION;
+    dt: "s", in DURATION_RANGE;
 });
 
 group!(OdomDelta as OdomDelta { rot1, trans, rot2 } => {
     /// First turn.
-    rot1: "rad", in QUANTITY;
+    rot1: "rad", in QUANTITY_RANGE;
     /// Drive.
-    trans: "m", in 0.0..=*QUANTITY.end();
+    trans: "m", in 0.0..=*QUANTITY_RANGE.end();
     /// Second turn.
-    rot2: "rad", in QUANTITY;
+    rot2: "rad", in QUANTITY_RANGE;
 });

@@ -1,10 +1,11 @@
 //! Settings of the widgets, declared by `settings!`, and checks of their values.
 
-use std::fmt;
 use std::ops::{ControlFlow, RangeInclusive};
+use thiserror::Error;
 
 /// Error for a setting that has no allowed value. The message has the field, the value and the allowed ones.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Error)]
+#[error("{}", self.message(number))]
 pub struct SettingsError {
     pub field: String,
     pub value: f64,
@@ -45,14 +46,6 @@ impl SettingsError {
     }
 }
 
-impl fmt::Display for SettingsError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.message(number))
-    }
-}
-
-impl std::error::Error for SettingsError {}
-
 /// Returns a number as JavaScript would print it.
 fn number(value: f64) -> String {
     if value.is_infinite() {
@@ -88,11 +81,11 @@ pub(crate) fn check_whole(
 
 /// Range of positions (m), angles (rad) and speeds (m/s, rad/s). It is far larger than any robot needs. Products with the
 /// square of the largest value are finite doubles.
-pub const QUANTITY: RangeInclusive<f64> = -1e6..=1e6;
+pub const QUANTITY_RANGE: RangeInclusive<f64> = -1e6..=1e6;
 /// Range of the noise parameters α, for the same reason.
-pub const ALPHA: RangeInclusive<f64> = 0.0..=1e6;
+pub const ALPHA_RANGE: RangeInclusive<f64> = 0.0..=1e6;
 /// Range of durations. With shorter ones v̂ = length/Δt would lose the digits that distinguish samples.
-pub const DURATION: RangeInclusive<f64> = 1e-6..=1e6;
+pub const DURATION_RANGE: RangeInclusive<f64> = 1e-6..=1e6;
 /// The largest whole number up to which JavaScript's numbers are exact.
 pub const MAX_SEED: u64 = (1 << 53) - 1;
 
@@ -279,14 +272,14 @@ macro_rules! whole {
 whole!(u32, u64, usize);
 
 /// Visitor that is called for each setting, and may stop the loop.
-pub type See<'a> = dyn FnMut(&'static Declaration, Setting) -> ControlFlow<()> + 'a;
+pub type Visitor<'a> = dyn FnMut(&'static Declaration, Setting) -> ControlFlow<()> + 'a;
 
 /// Loop over the settings of a widget. `settings!` implements it.
 pub trait Declared: Copy + Default {
     const KEYS: &'static [&'static str];
 
     /// Calls `see` for each setting, in the order of declaration.
-    fn each(&mut self, see: &mut See) -> ControlFlow<()>;
+    fn each(&mut self, see: &mut Visitor) -> ControlFlow<()>;
 
     /// Calls `see` for each setting, in the order of declaration, until it returns an error.
     ///
@@ -375,7 +368,7 @@ macro_rules! settings {
         impl $crate::sim::settings::Declared for $name {
             const KEYS: &'static [&'static str] = &[$(settings!(@key $field $($key)?)),+];
 
-            fn each(&mut self, see: &mut $crate::sim::settings::See) -> std::ops::ControlFlow<()> {
+            fn each(&mut self, see: &mut $crate::sim::settings::Visitor) -> std::ops::ControlFlow<()> {
                 use $crate::sim::settings::{Settable, declaration};
                 $(see(
                     const {

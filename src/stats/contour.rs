@@ -37,17 +37,9 @@ impl Ellipse {
         let shared = if first > 0.0 { cov[(1, 0)] / first } else { 0.0 };
         let second = root(cov[(1, 1)] - shared * shared, rounding.max(NO_AREA * cov[(1, 1)]));
         let inverse = |extent: f64| if extent > 0.0 { 1.0 / extent } else { 0.0 };
-        let (first_inverse, second_inverse) = (inverse(first), inverse(second));
-        Self {
-            centre,
-            root: Matrix2::new(first, 0.0, shared, second),
-            whitening: Matrix2::new(
-                first_inverse,
-                0.0,
-                -shared * first_inverse * second_inverse,
-                second_inverse,
-            ),
-        }
+        let (z, w) = (inverse(first), inverse(second));
+        let whitening = Matrix2::new(z, 0.0, -shared * z * w, w);
+        Self { centre, root: Matrix2::new(first, 0.0, shared, second), whitening }
     }
 
     /// Returns the ellipse of the position (x, y), m.
@@ -147,7 +139,7 @@ impl ExponentialContour {
     /// Returns the closed outline at a morph from 0, where it is [`ExponentialContour::boundary`], to 1, where it is that of
     /// [`ExponentialContour::ellipse`]; in the frame of the start.
     pub fn unbent(&self, segments: usize, morph: f64) -> Vec<[f64; 2]> {
-        self.rim(segments, morph).map(|twist| unbend(&twist, morph)).collect()
+        self.silhouette(segments, morph).map(|twist| unbend(&twist, morph)).collect()
     }
 
     /// Returns the area of an `ellipse` in the plane divided by that of this outline, both drawn as `segments` chords. NaN if
@@ -175,7 +167,7 @@ impl ExponentialContour {
 
     /// Returns the coordinate of ξ along the track (m), and the position, of each point of the outline.
     fn outline(&self, segments: usize) -> impl Iterator<Item = (f64, [f64; 2])> {
-        self.rim(segments, 0.0).map(|twist| {
+        self.silhouette(segments, 0.0).map(|twist| {
             let pose = self.start.boxplus(twist);
             (twist.x, [pose.x(), pose.y()])
         })
@@ -186,22 +178,22 @@ impl ExponentialContour {
     /// The ellipsoid is ξ = m + 2·G·u with |u| = 1, and H(ξ) the Jacobian of the position by ξ. On the silhouette u is
     /// perpendicular to the null vector k with H(ξ)·G·k = 0. The direction of k varies little over the ellipsoid. So the
     /// great circle perpendicular to the principal direction of k approximates the silhouette.
-    fn rim(&self, segments: usize, morph: f64) -> impl Iterator<Item = Vector3<f64>> {
+    fn silhouette(&self, segments: usize, morph: f64) -> impl Iterator<Item = Vector3<f64>> {
         let at = move |u: &Vector3<f64>| self.mean + self.root * u * SIGMAS;
         // Samples k at the six ends of the axes. The cross product weights it by the area that H·G maps to the plane.
         let mut spread = Matrix3::zeros();
         for axis in [Vector3::x(), Vector3::y(), Vector3::z()] {
             for end in [axis, -axis] {
                 let shift = unbend_jacobian(&at(&end), morph) * self.root;
-                let idle = shift.row(0).transpose().cross(&shift.row(1).transpose());
-                spread += idle * idle.transpose();
+                let null_direction = shift.row(0).transpose().cross(&shift.row(1).transpose());
+                spread += null_direction * null_direction.transpose();
             }
         }
-        let idle = principal_direction(&spread);
+        let null_direction = principal_direction(&spread);
         // Two directions that span the circle. The coordinate axis least parallel to k makes the first well-conditioned.
-        let aside = Matrix3::identity().column(idle.iamin()).into_owned();
-        let first = (aside - idle * aside.dot(&idle)).normalize();
-        let second = idle.cross(&first);
+        let aside = Matrix3::identity().column(null_direction.iamin()).into_owned();
+        let first = (aside - null_direction * aside.dot(&null_direction)).normalize();
+        let second = null_direction.cross(&first);
         unit_circle(segments).map(move |direction| at(&(first * direction.x + second * direction.y)))
     }
 

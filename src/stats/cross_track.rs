@@ -25,80 +25,68 @@ pub(super) const NO_SPREAD: f64 = 1e-12;
 
 /// Variance (m²) below which a standard deviation also counts as 0. The sixth power of 10⁻⁵⁰ m nearly underflows, so that the
 /// standard error would be 0.
-const LEAST_SQUARE: f64 = 1e-100;
+const MIN_VARIANCE: f64 = 1e-100;
 
 impl CrossTrack {
+    const UNDEFINED: Self = Self { skew: f64::NAN, skew_error: f64::NAN, rho_heading: f64::NAN };
+
     /// Returns the statistics of `poses`, all in a frame whose origin they are near or spread around.
     pub fn from_poses(poses: &[SE2]) -> Self {
-        let undefined = Self { skew: f64::NAN, skew_error: f64::NAN, rho_heading: f64::NAN };
-        let [first, _, _, ..] = poses else { return undefined };
+        let [first, _, _, ..] = poses else { return Self::UNDEFINED };
         let count = poses.len() as f64;
         let heading = mean_heading(poses);
         let (sin, cos) = libm::sincos(heading);
-        let turned = |x: f64, y: f64| (x * cos + y * sin, y * cos - x * sin);
-
         let (mut x, mut y) = (0.0, 0.0);
         for pose in poses {
             x += pose.x() - first.x();
             y += pose.y() - first.y();
         }
         let (x, y) = (x / count, y / count);
-        // (along, d, turn from the mean heading) of a pose.
-        let residual = |pose: &SE2| {
-            let (along, d) = turned(pose.x() - first.x() - x, pose.y() - first.y() - y);
-            (along, d, wrap_angle(pose.theta() - heading))
-        };
-
-        let mut moments = TrackMoments::default();
-        for (along, d, turn) in poses.iter().map(residual) {
-            let (sin, cos) = libm::sincos(turn);
-            moments.extent_squared += along * along + d * d;
-            moments.along_d += along * d;
-            moments.along_d2 += along * d * d;
-            let mut power = 1.0;
-            for (k, sum) in moments.d.iter_mut().enumerate() {
-                *sum += power;
-                if let Some(sum) = moments.sin_d.get_mut(k) {
-                    *sum += sin * power;
-                }
-                power *= d;
-            }
-            moments.sin_sin += sin * sin;
-            moments.turn += turn;
-            moments.turn_turn += turn * turn;
-            moments.turn_d += turn * d;
-            moments.resultant += cos;
+        let mut sums = [0.0; 16];
+        for pose in poses {
+            let (dx, dy) = (pose.x() - first.x() - x, pose.y() - first.y() - y);
+            let (a, d, t) = (dx * cos + dy * sin, dy * cos - dx * sin, wrap_angle(pose.theta() - heading));
+            let (s, c) = libm::sincos(t);
+            let d2 = d * d;
+            let d3 = d2 * d;
+            let [ad, ad2, d4, d5, d6] = [a * d, a * d2, d2 * d2, d2 * d3, d3 * d3];
+            let [ss, sd, sd2, sd3, tt, td] = [s * s, s * d, s * d2, s * d3, t * t, t * d];
+            let squared_distance = a * a + d2;
+            let terms = [ad, ad2, d2, d3, d4, d5, d6, ss, sd, sd2, sd3, t, tt, td, squared_distance, c];
+            sums.iter_mut().zip(terms).for_each(|(sum, term)| *sum += term);
         }
-        let mut moments = moments.divided_by(count);
-        moments.extent_squared += (first.x() + x) * (first.x() + x) + (first.y() + y) * (first.y() + y);
+        let [products @ .., spread, resultant] = sums.map(|sum| sum / count);
+        let (x, y) = (first.x() + x, first.y() + y);
+        let moments = TrackMoments { products, resultant, extent_squared: spread + (x * x + y * y) };
         Self::from_moments(poses.len(), &moments)
     }
 
     /// Returns the statistics of `count` poses from their moments.
     pub(super) fn from_moments(count: usize, moments: &TrackMoments) -> Self {
-        let TrackMoments { d: [.., m2, m3, _, _, _], sin_d, .. } = moments;
-        let (m2, m3) = (*m2, *m3);
-        if count < 3 || m2 <= (NO_SPREAD * NO_SPREAD * moments.extent_squared).max(LEAST_SQUARE) {
-            return Self { skew: f64::NAN, skew_error: f64::NAN, rho_heading: f64::NAN };
+        let TrackMoments { products, extent_squared, resultant } = *moments;
+        let [ad, ad2, m2, m3, d4, d5, d6, ss, sd, sd2, sd3, t, tt, td] = products;
+        if count < 3 || m2 <= (NO_SPREAD * NO_SPREAD * extent_squared).max(MIN_VARIANCE) {
+            return Self::UNDEFINED;
         }
+        // Means of dᵏ for k = 0 … 6, and of sin(t)·dᵏ for k = 0 … 3. The means of d and of sin(t) are 0.
+        let (d, sin_d) = ([1.0, 0.0, m2, m3, d4, d5, d6], [0.0, sd, sd2, sd3]);
         let sd = m2.sqrt();
         let skew = m3 / (m2 * sd);
         // Rotating the axis by dh changes d by −along·dh. The influence of a pose on the mean heading is sin(turn)/resultant.
-        let by_heading =
-            3.0 * (skew * moments.along_d / m2 - moments.along_d2 / (m2 * sd)) / moments.resultant;
+        let by_heading = 3.0 * (skew * ad / m2 - ad2 / (m2 * sd)) / resultant;
         // The influence of a pose on the skew is z³ − skew − 3z − 1.5·skew·(z² − 1) + by_heading·sin(turn), with z = d/sd. It
         // is a polynomial in d, so that its mean square is a sum of moments.
         let influence = [0.5 * skew, -3.0 / sd, -1.5 * skew / m2, 1.0 / (m2 * sd)];
-        let mut squared = by_heading * by_heading * moments.sin_sin;
+        let mut squared = by_heading * by_heading * ss;
         for (i, a) in influence.iter().enumerate() {
             squared += 2.0 * by_heading * a * sin_d[i];
             for (j, b) in influence.iter().enumerate() {
-                squared += a * b * moments.d[i + j];
+                squared += a * b * d[i + j];
             }
         }
-        let heading_variance = moments.turn_turn - moments.turn * moments.turn;
+        let heading_variance = tt - t * t;
         let rho_heading = if heading_variance > NO_SPREAD * NO_SPREAD {
-            (moments.turn_d / (m2 * heading_variance).sqrt()).clamp(-1.0, 1.0)
+            (td / (m2 * heading_variance).sqrt()).clamp(-1.0, 1.0)
         } else {
             f64::NAN
         };
@@ -106,41 +94,15 @@ impl CrossTrack {
     }
 }
 
-/// Means over a cloud of products of residuals from the mean: `d` across the track, `along` along it, and `turn` of the heading.
-#[derive(Clone, Copy, Debug, Default)]
+/// Means over a cloud of products of residuals from the mean: d across the track, a along it, and t of the heading.
+#[derive(Clone, Copy, Debug)]
 pub(super) struct TrackMoments {
+    /// Means of ad, ad², d², …, d⁶, s², sd, sd², sd³, t, t² and td, with s = sin t.
+    pub products: [f64; 14],
     /// Mean of the squared distance from the origin.
     pub extent_squared: f64,
-    pub along_d: f64,
-    pub along_d2: f64,
-    /// Means of dᵏ for k = 0 … 6.
-    pub d: [f64; 7],
-    /// Means of sin(turn)·dᵏ for k = 0 … 3.
-    pub sin_d: [f64; 4],
-    pub sin_sin: f64,
-    pub turn: f64,
-    pub turn_turn: f64,
-    pub turn_d: f64,
-    /// Mean of cos(turn).
+    /// Mean of cos t.
     pub resultant: f64,
-}
-
-impl TrackMoments {
-    /// Returns means from sums over `count` poses.
-    fn divided_by(&self, count: f64) -> Self {
-        Self {
-            extent_squared: self.extent_squared / count,
-            along_d: self.along_d / count,
-            along_d2: self.along_d2 / count,
-            d: self.d.map(|sum| sum / count),
-            sin_d: self.sin_d.map(|sum| sum / count),
-            sin_sin: self.sin_sin / count,
-            turn: self.turn / count,
-            turn_turn: self.turn_turn / count,
-            turn_d: self.turn_d / count,
-            resultant: self.resultant / count,
-        }
-    }
 }
 
 /// Returns [`CrossTrack::skew`] of `poses`.

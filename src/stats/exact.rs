@@ -1,7 +1,7 @@
 //! Exact moments of a model, by quadrature over the heading noise. The other noises have a closed form.
 
 use super::cross_track::NO_SPREAD;
-use super::moments::no_less_than_none;
+use super::moments::non_negative;
 use super::quadrature::nodes;
 use crate::geom::se2::wrap_angle;
 use crate::geom::sinc::chord_factors;
@@ -56,7 +56,7 @@ impl RayMoments {
         let mean = self.mean / self.total;
         let mut spread = self.square / self.total - mean * mean.transpose();
         for i in 0..3 {
-            spread[(i, i)] = no_less_than_none(spread[(i, i)]);
+            spread[(i, i)] = non_negative(spread[(i, i)]);
         }
         let [x, y] = self.reference.unwrap_or_default();
         let unit = [mean.x + x, mean.y + y, 0.0];
@@ -79,14 +79,8 @@ impl ExactMoments {
             let excess_turn = omega_variance.sqrt() * u.dt * node.value;
             Ray { weight: node.weight, unit: chord_factors(u.omega * u.dt + excess_turn).into(), excess_turn }
         });
-        let dt2 = u.dt * u.dt;
-        Self::of_rays(
-            &rays.collect::<Vec<_>>(),
-            u.v * u.dt,
-            dt2 * v_variance,
-            u.omega * u.dt,
-            dt2 * gamma_variance,
-        )
+        let (rays, dt2) = (rays.collect::<Vec<_>>(), u.dt * u.dt);
+        Self::of_rays(&rays, u.v * u.dt, dt2 * v_variance, u.omega * u.dt, dt2 * gamma_variance)
     }
 
     /// Returns the moments of the odometry model. Given the first rotation, the position is δ̂_trans along it, linear
@@ -112,11 +106,8 @@ impl ExactMoments {
         let (sin, cos) = libm::sincos(turn);
         let across = rays.iter().map(|Ray { weight, unit, .. }| {
             let lateral = unit[1] * cos - unit[0] * sin;
-            Component {
-                weight: *weight,
-                mean: length * lateral,
-                variance: length_variance * lateral * lateral,
-            }
+            let (mean, variance) = (length * lateral, length_variance * lateral * lateral);
+            Component { weight: *weight, mean, variance }
         });
         Self {
             mean: Vector3::new(mean.x, mean.y, wrap_angle(turn)),

@@ -15,8 +15,8 @@ use std::f64::consts::{LN_2, PI, TAU};
 /// Exact gain of a model, and the moments of its exponential coordinates, for robots that start at the identity pose.
 ///
 /// Exponential coordinates diverge at a turn of a full circle. Gaussian noise reaches it with some probability, so that the
-/// exact moments of ξ are infinite. Turns beyond `REACH` standard deviations are therefore omitted, which changes a variance
-/// by a fraction of 1e-7. The figures are NaN if a full circle is within `REACH`.
+/// exact moments of ξ are infinite. Turns beyond `MAX_SIGMAS` standard deviations are therefore omitted, which changes a variance
+/// by a fraction of 1e-7. The figures are NaN if a full circle is within `MAX_SIGMAS`.
 ///
 /// Turns are not wrapped here. In a cloud, turns of more than half a circle beyond the command are wrapped, so that its `pose`
 /// differs if many robots make them.
@@ -29,13 +29,13 @@ pub struct ExactGain {
 
 /// Limit of the integral over a normal turn, in standard deviations. The largest of ten million samples is at 5.3. A
 /// smaller limit would change the fourth digit. A larger one would reach a full circle for commands whose clouds do not.
-const REACH: f64 = 6.0;
+const MAX_SIGMAS: f64 = 6.0;
 
 /// Breaks of a function that is smooth everywhere, see [`broken_nodes`].
-const SMOOTH: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
+const NO_BREAKS: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
 
 /// Motion of either model: a length in the direction of a bearing, and a turn.
-struct Legs {
+struct PolarMotion {
     noise: NoiseKind,
     /// True if the length is that of an arc, whose chord at the bearing φ/2 is shorter by the factor sinc(φ/2).
     is_arc: bool,
@@ -52,14 +52,14 @@ impl ExactGain {
     pub fn of_velocity(model: &VelocityModel, u: &VelocityCmd) -> Self {
         let [v, omega, gamma] = model.deviations(u).map(|deviation| deviation * u.dt);
         let turn = u.omega * u.dt;
-        let legs = Legs {
+        let motion = PolarMotion {
             noise: model.noise,
             is_arc: true,
             length: [u.v * u.dt, v],
             bearing: [0.5 * turn, 0.5 * omega],
             turn: [turn, omega, gamma],
         };
-        legs.gain(&ExactMoments::of_velocity(model, u))
+        motion.gain(&ExactMoments::of_velocity(model, u))
     }
 
     /// Returns the gain of the odometry model. The reading `u` comes from a command that turns by `turn` (rad).
@@ -68,18 +68,18 @@ impl ExactGain {
         // A reading in reverse first turns to face the other way.
         let half_circles = ((u.rot1 - 0.5 * turn) / PI).round();
         let ahead = if libm::remainder(half_circles, 2.0) == 0.0 { 1.0 } else { -1.0 };
-        let legs = Legs {
+        let motion = PolarMotion {
             noise: model.noise(),
             is_arc: false,
             length: [ahead * u.trans, trans],
             bearing: [u.rot1 - half_circles * PI, rot1],
             turn: [turn + wrap_angle(u.rot1 + u.rot2 - turn), rot1, rot2],
         };
-        legs.gain(&ExactMoments::of_odometry(model, u))
+        motion.gain(&ExactMoments::of_odometry(model, u))
     }
 }
 
-impl Legs {
+impl PolarMotion {
     fn gain(&self, plain: &ExactMoments) -> ExactGain {
         let (mean_log_length, [bearing, deviation]) = (self.mean_log_length(), self.bearing);
         let (twist, chart) = self.twist();
@@ -109,7 +109,7 @@ impl Legs {
     /// Returns the integration limit of the sum of two noises with these standard deviations.
     fn reach(&self, one: f64, other: f64) -> f64 {
         match self.noise {
-            NoiseKind::Normal => REACH * libm::hypot(one, other),
+            NoiseKind::Normal => MAX_SIGMAS * libm::hypot(one, other),
             NoiseKind::Triangular => 6f64.sqrt() * (one + other),
         }
     }
@@ -120,8 +120,8 @@ impl Legs {
         let ([bearing, deviation], [turn, by_bearing, after]) = (self.bearing, self.turn);
         let reach = self.reach(by_bearing, after);
         let (mut moments, mut logs) = (RayMoments::default(), MeanLog::default());
-        let last_nodes = self.nodes(after, SMOOTH);
-        for first in self.nodes(deviation, SMOOTH) {
+        let last_nodes = self.nodes(after, NO_BREAKS);
+        for first in self.nodes(deviation, NO_BREAKS) {
             let bearing = bearing + deviation * first.value;
             let chord = if self.is_arc { sinc(bearing) } else { 1.0 };
             for last in &last_nodes {

@@ -7,7 +7,7 @@
 use super::contour::{Ellipse, ExponentialContour};
 use super::cross_track::{CrossTrack, TrackMoments};
 use super::gain::{Charts, Differences, FourRobots, MeasuredGain, Moments};
-use super::moments::{CartesianMoments, ExponentialMoments, no_less_than_none};
+use super::moments::{CartesianMoments, ExponentialMoments, non_negative};
 use super::sums::{PairSums, Sums, add};
 use crate::geom::angle::wrap_angle;
 use crate::geom::lanes::{LANES, any, halves};
@@ -79,28 +79,13 @@ impl Spread {
     #[inline(always)]
     pub fn add(&mut self, poses: &FourPoses, mask: f64x4) {
         let [x, y, along, lateral, half, ..] = self.reference;
-        let sin = poses.half_sin & mask;
+        let (sin, cos) = (poses.half_sin & mask, poses.half_cos);
         let [x, y] = [(poses.x - x) & mask, (poses.y - y) & mask];
         let [a, l, h] =
             [(poses.along - along) & mask, (poses.lateral - lateral) & mask, (poses.half - half) & mask];
-        let terms = [
-            x,
-            y,
-            a,
-            l,
-            h,
-            x * x,
-            x * y,
-            y * y,
-            a * a,
-            a * l,
-            l * l,
-            a * h,
-            l * h,
-            h * h,
-            sin * poses.half_cos,
-            sin * sin,
-        ];
+        let [xx, xy, yy] = [x * x, x * y, y * y];
+        let [aa, al, ll, ah, lh, hh] = [a * a, a * l, l * l, a * h, l * h, h * h];
+        let terms = [x, y, a, l, h, xx, xy, yy, aa, al, ll, ah, lh, hh, sin * cos, sin * sin];
         add(&mut self.sums.block, terms);
     }
 
@@ -155,7 +140,7 @@ impl Spread {
         let cov = |product: f64, first: f64, second: f64| {
             if count > 1 { (product - first * (second / n)) / (n - 1.0) } else { f64::NAN }
         };
-        let variance = |square: f64, sum: f64| no_less_than_none(cov(square, sum, sum));
+        let variance = |square: f64, sum: f64| non_negative(cov(square, sum, sum));
         let [x0, y0, along, lateral, half, length, half_turn] = self.reference;
         // sin θ and cos θ of the double angle, turned so that the reference's heading is 0.
         let (sin, cos) = libm::sincos(2.0 * half);
@@ -264,35 +249,23 @@ impl CloudShape {
     pub fn add(&mut self, poses: &FourPoses, mask: f64x4) {
         let ([mean_x, mean_y], (sin, cos)) = (self.spread.position, self.heading);
         let (x, y) = (poses.x - mean_x, poses.y - mean_y);
+        // The letters are those of `TrackMoments`.
         let d = (y * cos - x * sin) & mask;
-        let along = (x * cos + y * sin) & mask;
-        let turn = wrapped(poses.half * 2.0 - self.spread.mean_turn) & mask;
+        let a = (x * cos + y * sin) & mask;
+        let t = wrapped(poses.half * 2.0 - self.spread.mean_turn) & mask;
         // sin(θ − h), from the double angle of θ/2.
         let theta_sin = poses.half_sin * poses.half_cos * 2.0;
         let theta_cos = 1.0 - poses.half_sin * poses.half_sin * 2.0;
         let s = (theta_sin * cos - theta_cos * sin) & mask;
         let counted = f64x4::splat(1.0) & mask;
-        let (dd, sd) = (d * d, s * d);
-        let ddd = dd * d;
-        let terms = [
-            along * d,
-            along * dd,
-            dd,
-            ddd,
-            dd * dd,
-            dd * ddd,
-            ddd * ddd,
-            s * s,
-            sd,
-            s * dd,
-            s * ddd,
-            turn,
-            turn * turn,
-            turn * d,
-            turn * along,
-            self.ellipse.contains_four(poses.x, poses.y) & counted,
-            self.twist_ellipse.contains_four(poses.along, poses.half * 2.0) & counted,
-        ];
+        let inside = self.ellipse.contains_four(poses.x, poses.y) & counted;
+        let in_contour = self.twist_ellipse.contains_four(poses.along, poses.half * 2.0) & counted;
+        let d2 = d * d;
+        let d3 = d2 * d;
+        let [ad, ad2, d4, d5, d6] = [a * d, a * d2, d2 * d2, d2 * d3, d3 * d3];
+        let [ss, sd, sd2, sd3, tt, td] = [s * s, s * d, s * d2, s * d3, t * t, t * d];
+        let ta = t * a;
+        let terms = [ad, ad2, d2, d3, d4, d5, d6, ss, sd, sd2, sd3, t, tt, td, ta, inside, in_contour];
         add(&mut self.sums.block, terms);
     }
 
@@ -308,47 +281,22 @@ impl CloudShape {
     ) -> CloudFigures {
         let n = count as f64;
         let means = self.sums.finish().map(|sum| sum / n);
-        let [
-            ad,
-            add,
-            d2,
-            d3,
-            d4,
-            d5,
-            d6,
-            ss,
-            sd,
-            sdd,
-            sddd,
-            turn,
-            turn_turn,
-            turn_d,
-            turn_along,
-            inside,
-            inside_twist,
-        ] = means;
+        let [products @ .., ta, inside, in_contour] = means;
+        let [.., t, tt, td] = products;
         let SpreadMoments { position: [x, y], position_cov: [xx, xy, yy], .. } = self.spread;
         let (sin, cos) = self.heading;
         let bessel = if count > 1 { n / (n - 1.0) } else { f64::NAN };
         let [x_turn, y_turn, turn_variance] =
-            [turn_along * cos - turn_d * sin, turn_along * sin + turn_d * cos, turn_turn - turn * turn]
-                .map(|mean| bessel * mean);
+            [ta * cos - td * sin, ta * sin + td * cos, tt - t * t].map(|mean| bessel * mean);
         let cov = Matrix3::new(xx, xy, x_turn, xy, yy, y_turn, x_turn, y_turn, turn_variance);
         let track = TrackMoments {
+            products,
             extent_squared: x * x + y * y + if count > 1 { (xx + yy) / bessel } else { 0.0 },
-            along_d: ad,
-            along_d2: add,
-            d: [1.0, 0.0, d2, d3, d4, d5, d6],
-            sin_d: [0.0, sd, sdd, sddd],
-            sin_sin: ss,
-            turn,
-            turn_turn,
-            turn_d,
             resultant: self.spread.resultant,
         };
         let SpreadMoments { exponential, arc, log_jacobians, .. } = self.spread;
         let charts = Charts::new(
-            (Vector3::new(x, y, turn), cov),
+            (Vector3::new(x, y, t), cov),
             (exponential.mean, exponential.cov),
             arc,
             log_jacobians,
@@ -371,7 +319,7 @@ impl CloudShape {
             exponential: self.spread.exponential,
             cross_track: CrossTrack::from_moments(count, &track),
             inside_ellipse: share(&self.ellipse, inside),
-            inside_exponential: share(&self.twist_ellipse, inside_twist),
+            inside_exponential: share(&self.twist_ellipse, in_contour),
             gain: differences.finish(count),
             log_area_error: differences.log_area_error(count),
         }

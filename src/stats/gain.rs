@@ -2,11 +2,8 @@
 //! detects bananas that bend symmetrically to both sides, which have no skew.
 
 use super::cross_track::NO_SPREAD;
-use super::moments::{mean_and_cov, mean_heading, no_less_than_none};
-use crate::geom::arc::arc_near;
-use crate::geom::lanes::{LANES, lanes, log};
-use crate::geom::se2::{SE2, wrap_angle};
-use crate::geom::sinc::sinc;
+use super::moments::non_negative;
+use crate::geom::lanes::log;
 use crate::models::covariance_root;
 use nalgebra::{Matrix3, Vector3};
 use wide::f64x4;
@@ -42,48 +39,6 @@ pub struct MeasuredGain {
     /// moments add nothing to first order, because each Gaussian's likelihood is at its maximum over them. NaN where the
     /// gain is not finite.
     pub error: LikelihoodGain,
-}
-
-impl MeasuredGain {
-    /// Returns the gain of `poses`, all driven from `start` under a command that turns by `turn` (rad): ξ and the arcs
-    /// are taken on the branches nearest to it.
-    pub fn from_poses(poses: &[SE2], start: &SE2, turn: f64) -> Self {
-        let back = start.inverse();
-        let steps: Vec<SE2> = poses.iter().map(|pose| back * *pose).collect();
-        let heading = mean_heading(&steps);
-        let plain = |step: &SE2| Vector3::new(step.x(), step.y(), wrap_angle(step.theta() - heading));
-        let twist = |step: &SE2| step.log_near(turn);
-        let arc = |step: &SE2| {
-            let (length, turn) = arc_near(&SE2::identity(), step, turn);
-            Vector3::new(length, turn, 0.0)
-        };
-        let jacobians = |step: &SE2| {
-            let (arc, chart) = (arc(step), sinc(0.5 * twist(step).z));
-            let half_sinc = sinc(0.5 * arc.y);
-            [chart * chart, 0.5 * arc.x.abs() * half_sinc * half_sinc]
-        };
-        let moments = |of: &dyn Fn(&SE2) -> Vector3<f64>| {
-            let first = steps.first().map_or_else(Vector3::zeros, of);
-            let (offset, cov) = mean_and_cov(steps.iter().map(|step| of(step) - first), steps.len());
-            (first + offset, cov)
-        };
-        let mean_logs = [0, 1].map(|i| {
-            steps.iter().map(|step| libm::log(jacobians(step)[i])).sum::<f64>() / steps.len() as f64
-        });
-        let charts = Charts::new(moments(&plain), moments(&twist), moments(&arc), mean_logs);
-        let mut differences = Differences::new(charts);
-        for four in steps.chunks(LANES) {
-            // Lanes without a pose in the last group of four do not count.
-            let each = |of: &dyn Fn(&SE2) -> Vector3<f64>| {
-                let points: [_; LANES] = std::array::from_fn(|lane| of(&four[lane % four.len()]));
-                std::array::from_fn(|i| lanes(|lane| points[lane][i]))
-            };
-            let jacobians = [0, 1].map(|i| lanes(|lane| jacobians(&four[lane % four.len()])[i]));
-            let robots = FourRobots { plain: each(&plain), twist: each(&twist), arc: each(&arc), jacobians };
-            differences.add(&robots, lanes(|lane| if lane < four.len() { 1.0 } else { 0.0 }));
-        }
-        differences.finish(steps.len())
-    }
 }
 
 /// End poses of four robots in each of the coordinates.
@@ -197,7 +152,7 @@ impl Differences {
         let [u, uu, hu, hh] = self.areas.map(|sum| sum.reduce_add() / total);
         let mean = 1.0 + u;
         let variance = hh - 2.0 * hu / mean + (uu - u * u) / (mean * mean);
-        (no_less_than_none(variance) / (total - 1.0) * total / count as f64).sqrt()
+        (non_negative(variance) / (total - 1.0) * total / count as f64).sqrt()
     }
 }
 

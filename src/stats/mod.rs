@@ -17,5 +17,5 @@ pub use exact::{ExactMoments, predicted_cross_track_skew};
 pub use exact_gain::ExactGain;
 pub use gain::{LikelihoodGain, MeasuredGain};
 pub use level_set::level_set;
-pub(crate) use moments::no_less_than_none;
+pub(crate) use moments::non_negative;
 pub use moments::{CartesianMoments, ExponentialMoments};

@@ -69,7 +69,7 @@ pub(super) fn mean_heading(poses: &[SE2]) -> f64 {
 }
 
 /// Replaces a negative variance by 0: rounding can make a difference negative. NaN stays NaN.
-pub(crate) fn no_less_than_none(variance: f64) -> f64 {
+pub(crate) fn non_negative(variance: f64) -> f64 {
     if variance < 0.0 { 0.0 } else { variance }
 }
 

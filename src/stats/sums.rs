@@ -9,39 +9,39 @@ pub struct Sums<const N: usize> {
     /// Sums of the current block, to which [`add`] adds.
     pub block: [f64x2; N],
     total: [f64x2; N],
-    lost: [f64x2; N],
+    compensation: [f64x2; N],
 }
 
 impl<const N: usize> Sums<N> {
     pub fn new() -> Self {
         let zero = [f64x2::splat(0.0); N];
-        Self { block: zero, total: zero, lost: zero }
+        Self { block: zero, total: zero, compensation: zero }
     }
 
     pub fn close_block(&mut self) {
-        close(&mut self.block, &mut self.total, &mut self.lost);
+        close(&mut self.block, &mut self.total, &mut self.compensation);
     }
 
     pub fn finish(&self) -> [f64; N] {
-        std::array::from_fn(|i| whole(self.total[i], self.lost[i]))
+        std::array::from_fn(|i| compensated_total(self.total[i], self.compensation[i]))
     }
 }
 
 /// Adds blocks to their totals, keeping what rounding loses (Knuth's two-sum).
 #[inline(never)]
-fn close(blocks: &mut [f64x2], totals: &mut [f64x2], lost: &mut [f64x2]) {
-    for ((block, total), lost) in blocks.iter_mut().zip(totals).zip(lost) {
+fn close(blocks: &mut [f64x2], totals: &mut [f64x2], compensation: &mut [f64x2]) {
+    for ((block, total), compensation) in blocks.iter_mut().zip(totals).zip(compensation) {
         let term = std::mem::replace(block, f64x2::splat(0.0));
         let sum = *total + term;
         let of_term = sum - *total;
-        *lost += (*total - (sum - of_term)) + (term - of_term);
+        *compensation += (*total - (sum - of_term)) + (term - of_term);
         *total = sum;
     }
 }
 
 #[inline(never)]
-fn whole(total: f64x2, lost: f64x2) -> f64 {
-    let ([a, b], [c, d]) = (total.to_array(), lost.to_array());
+fn compensated_total(total: f64x2, compensation: f64x2) -> f64 {
+    let ([a, b], [c, d]) = (total.to_array(), compensation.to_array());
     (a + b) + (c + d)
 }
 

@@ -2,11 +2,11 @@
 
 use super::calibration::{calibration_to_js, columns_to_js};
 use super::face::configured;
-use super::fields::{read_opening, whole, word};
+use super::fields::{read_integer, read_opening, read_word};
 use super::log::read_logs;
-use super::pictures::index_of;
-use super::values::{object, plain, settings_to_js};
-use crate::sim::alpha_calibrator::{AlphaCalibrator, RestoreError};
+use super::pictures::nearest_index;
+use super::values::{ToJs, js_object, settings_to_js, to_plain_js};
+use crate::sim::alpha_calibrator::{AlphaCalibrator, LegView, RestoreError};
 use js_sys::TypeError;
 use wasm_bindgen::prelude::*;
 
@@ -17,7 +17,8 @@ configured! {
 
 #[wasm_bindgen(js_class = AlphaCalibrator)]
 impl JsAlphaCalibrator {
-    /// A machine of these settings with the fit that another has saved. It has no log: settings that need another fit are pending.
+    /// Creates a machine with these settings and a fit that another machine has saved. It has no log, so that settings that need
+    /// another fit stay pending.
     pub fn restored(
         #[wasm_bindgen(unchecked_param_type = "Partial<AlphaCalibratorSettings>")] settings: &JsValue,
         saved: &[u8],
@@ -31,17 +32,17 @@ impl JsAlphaCalibrator {
         }
     }
 
-    /// The fit, for `restored`.
+    /// The fit as bytes, from which `restored` makes a machine.
     pub fn save(&self) -> Vec<u8> {
         self.0.saved()
     }
 
-    /// Settings and the number of the fit, at once: `stats` and `legs` are others only if that is.
+    /// Settings, and the number of the fit. `stats` and `legs` change only if that number changes.
     #[wasm_bindgen(
         unchecked_return_type = "Pick<AlphaCalibrator, 'config' | 'fittedConfig' | 'fits' | 'isPending'>"
     )]
     pub fn read(&self) -> JsValue {
-        object(&[
+        js_object(&[
             ("config", self.config()),
             ("fittedConfig", self.fitted_config()),
             ("fits", self.fits().into()),
@@ -72,7 +73,7 @@ impl JsAlphaCalibrator {
         Ok(())
     }
 
-    /// Number of the fit: another one has another number.
+    /// Number of the fit. It changes with each new fit.
     #[wasm_bindgen(getter)]
     pub fn fits(&self) -> u32 {
         self.0.fits()
@@ -81,30 +82,39 @@ impl JsAlphaCalibrator {
     /// The true values of the simulated log; null where the log is another.
     #[wasm_bindgen(getter, unchecked_return_type = "CalibrationTruth | null")]
     pub fn truth(&self) -> Result<JsValue, JsValue> {
-        plain(&self.0.truth())
+        to_plain_js(&self.0.truth())
     }
 
-    /// Squared residuals of the three noises of the model against the square of the way or of the turn.
+    /// Squared residuals of the three noises of the model against the square of the distance or of the turn.
     #[wasm_bindgen(unchecked_return_type = "CalibrationPanel[]")]
     pub fn panels(
         &self,
         #[wasm_bindgen(unchecked_param_type = "'way' | 'turn'")] driver: &JsValue,
     ) -> Result<JsValue, JsValue> {
-        plain(&self.0.panels(word("driver", driver)?))
+        to_plain_js(&self.0.panels(read_word("driver", driver)?))
     }
 
-    /// One leg, counted from 0; null where there is none of that number.
+    /// One leg by its index, counted from 0; null if there are fewer legs.
     #[wasm_bindgen(unchecked_return_type = "LegView | null")]
     pub fn leg(&self, index: f64) -> Result<JsValue, JsValue> {
-        plain(&self.0.leg(whole("index", index, 0..=u64::from(u32::MAX))? as usize))
+        let leg = self.0.leg(read_integer("index", index, 0..=u64::from(u32::MAX))? as usize);
+        // By hand: the module of this figure is the largest, and smaller without serde's conversion of typed arrays.
+        Ok(leg.map_or(JsValue::NULL, |LegView { outcomes, outline, read, ended }| {
+            js_object(&[
+                ("outcomes", outcomes.to_js()),
+                ("outline", outline.to_js()),
+                ("read", read.to_js()),
+                ("ended", ended.to_js()),
+            ])
+        }))
     }
 
-    /// The leg whose way is nearest to a point of the reference and within `radius` of it; −1 for none.
+    /// The leg whose path is nearest to a point of the reference and within `radius` of it; −1 for none.
     pub fn nearest(&self, x: f64, y: f64, radius: f64) -> Result<i32, JsValue> {
-        index_of(x, y, radius, |target, radius| self.0.nearest(target, radius))
+        nearest_index(x, y, radius, |target, radius| self.0.nearest(target, radius))
     }
 
-    /// Result of the calibration without its legs; of a log with too few legs, one without any figure.
+    /// Result of the calibration, without its legs. All α’s are null if the log has too few legs.
     #[wasm_bindgen(getter, unchecked_return_type = "Omit<Calibration, 'legs'>")]
     pub fn stats(&self) -> Result<JsValue, JsValue> {
         calibration_to_js(self.0.calibration(), None)

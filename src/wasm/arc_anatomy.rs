@@ -3,7 +3,7 @@
 use super::face::configured;
 use super::fields::in_range;
 use super::pictures::read_bounds;
-use super::values::{flat, object, plain};
+use super::values::{flat_float_array, js_object, to_plain_js};
 use crate::sim::arc_anatomy::{ArcAnatomy, form_errors};
 use js_sys::Float64Array;
 use wasm_bindgen::prelude::*;
@@ -18,13 +18,13 @@ impl JsArcAnatomy {
     /// Errors of the forms of the arc at small turn rates: exercise 1.
     #[wasm_bindgen(js_name = formErrors, unchecked_return_type = "FormErrors")]
     pub fn form_errors() -> Result<JsValue, JsValue> {
-        plain(&form_errors())
+        to_plain_js(&form_errors())
     }
 
     /// Returns everything that is shown besides the surface, in one call.
     #[wasm_bindgen(unchecked_return_type = "Pick<ArcAnatomy, 'config' | 'stats' | 'table' | 'paths'>")]
     pub fn read(&self) -> Result<JsValue, JsValue> {
-        Ok(object(&[
+        Ok(js_object(&[
             ("config", self.config()),
             ("stats", self.stats()?),
             ("table", self.table()?),
@@ -34,17 +34,17 @@ impl JsArcAnatomy {
 
     #[wasm_bindgen(getter, unchecked_return_type = "AnatomyStats")]
     pub fn stats(&self) -> Result<JsValue, JsValue> {
-        plain(&self.0.stats())
+        to_plain_js(&self.0.stats())
     }
 
     #[wasm_bindgen(getter, unchecked_return_type = "AnatomyTable")]
     pub fn table(&self) -> Result<JsValue, JsValue> {
-        plain(&self.0.table())
+        to_plain_js(&self.0.table())
     }
 
     #[wasm_bindgen(getter, unchecked_return_type = "AnatomyPaths")]
     pub fn paths(&self) -> Result<JsValue, JsValue> {
-        plain(&self.0.paths())
+        to_plain_js(&self.0.paths())
     }
 
     /// Surface over the positions of a rectangle (m), for the heading of the final pose; null for none.
@@ -57,13 +57,13 @@ impl JsArcAnatomy {
         #[wasm_bindgen(js_name = yMax)] y_max: f64,
     ) -> Result<JsValue, JsValue> {
         let [min, max] = read_bounds([x_min, y_min, x_max, y_max])?;
-        plain(&self.0.surface(min, max))
+        to_plain_js(&self.0.surface(min, max))
     }
 
-    /// Poses after a share of the time, 0 to 1: x, y (m) and θ (rad) on the commanded arc, on the one that v̂ and ω̂
-    /// drive, and on the way of constant twist.
+    /// Poses after a fraction of the time, 0 to 1: x, y (m) and θ (rad) on the commanded arc, on the arc that v̂ and ω̂
+    /// drive, and on the path of constant twist.
     pub fn underway(&self, share: f64) -> Result<Float64Array, JsValue> {
-        let poses = self.0.underway(in_range("share", share, &(0.0..=1.0))?);
-        Ok(flat(&poses.map(|pose| [pose.x(), pose.y(), pose.theta()])))
+        let poses = self.0.poses_at(in_range("share", share, &(0.0..=1.0))?);
+        Ok(flat_float_array(&poses.map(<[f64; 3]>::from)))
     }
 }

@@ -3,18 +3,15 @@
 use std::ops::RangeInclusive;
 
 use super::face::cloud;
-use super::fields::{in_range, not_shown, whole, word};
-use super::pictures::{RADIUS, read_grid, read_ramps, view_of};
-use super::values::{flat, floats, list, object, plain};
-use crate::geom::arc::ArcInversion;
+use super::fields::{in_range, not_shown, read_integer, read_word};
+use super::pictures::{RADIUS_RANGE, pixel_view, read_grid, read_ramps};
+use super::values::{flat_float_array, js_array, js_object, to_plain_js};
 use crate::geom::se2::SE2;
 use crate::geom::unbend::unbend_line;
 use crate::sim::View;
-use crate::sim::banana::{
-    BananaMachine, Executed, MAX_CURVE_POINTS, MAX_SAMPLES, OUTLINE_SEGMENTS, Sample, Settings,
-};
-use crate::sim::settings::QUANTITY;
-use crate::sim::views::MORPH;
+use crate::sim::banana::{BananaMachine, MAX_CURVE_POINTS, MAX_SAMPLES, OUTLINE_SEGMENTS, Settings};
+use crate::sim::settings::QUANTITY_RANGE;
+use crate::sim::views::MORPH_RANGE;
 use crate::stats::{ExponentialContour, ExponentialMoments};
 use js_sys::{Float64Array, RangeError, Uint8ClampedArray, Uint32Array};
 use nalgebra::{Matrix3, Vector3};
@@ -30,24 +27,6 @@ export type MorphedView = ViewName | number;
 
 /** Mean and covariance of the pose or of its exponential coordinates. */
 export type Moments = CartesianMoments | ExponentialMoments;
-
-/** One sample, and what it did to get there. */
-export interface Inspection {
-  /** x, y in m, θ in rad, in (−π, π]. */
-  pose: Float64Array;
-  /** ξ along and lateral in m, heading in rad. */
-  twist: Float64Array;
-  /** Speed of its arc, m/s; like the next two NaN under the odometry model, which knows no arc. */
-  vHat: number;
-  /** Turn rate of the arc, rad/s. */
-  omegaHat: number;
-  /** Turn rate after it, rad/s over the same duration. */
-  gammaHat: number;
-  /** Legs executed under the odometry model; null under the velocity model. */
-  legs: Legs | null;
-  /** Path as x, y pairs in m from the start. */
-  path: Float64Array;
-}
 "#;
 
 cloud! {
@@ -62,7 +41,7 @@ impl JsBananaMachine {
         unchecked_return_type = "Pick<BananaMachine, 'config' | 'shown' | 'block' | 'stats' | 'contours' | 'gaps' | 'table' | 'chartHolds' | 'alphasOfModels' | 'reading'>"
     )]
     pub fn read(&self) -> Result<JsValue, JsValue> {
-        Ok(object(&[
+        Ok(js_object(&[
             ("config", self.config()),
             ("shown", self.shown().into()),
             ("block", self.block().into()),
@@ -84,10 +63,10 @@ impl JsBananaMachine {
     )]
     pub fn alphas_of_models(&self) -> JsValue {
         let Settings { velocity_alphas, odometry_alphas, .. } = self.0.settings();
-        object(&[("velocity", list(velocity_alphas)), ("odometry", list(odometry_alphas))])
+        js_object(&[("velocity", js_array(velocity_alphas)), ("odometry", js_array(odometry_alphas))])
     }
 
-    /// True if exponential coordinates reach as far as the robots turn: to short of a full circle. If not, figures and
+    /// True if the robots turn by less than a full circle, so that exponential coordinates are defined. Otherwise statistics and
     /// contours in them are undefined.
     #[wasm_bindgen(getter, js_name = chartHolds)]
     pub fn chart_holds(&self) -> bool {
@@ -97,53 +76,53 @@ impl JsBananaMachine {
     /// x, y (m), θ (rad) of each sample shown; a copy.
     #[wasm_bindgen(getter)]
     pub fn poses(&self) -> Float64Array {
-        flat(&self.0.poses().map(|pose| [pose.x(), pose.y(), pose.theta()]).collect::<Vec<_>>())
+        flat_float_array(&self.0.poses().map(<[f64; 3]>::from).collect::<Vec<_>>())
     }
 
     /// Poses as in `poses`, of the first `count` samples, or of all if there are fewer.
     #[wasm_bindgen(js_name = firstPoses)]
     pub fn first_poses(&self, count: usize) -> Float64Array {
-        flat(&self.0.poses().take(count).map(|pose| [pose.x(), pose.y(), pose.theta()]).collect::<Vec<_>>())
+        flat_float_array(&self.0.poses().take(count).map(<[f64; 3]>::from).collect::<Vec<_>>())
     }
 
     /// ξ along, lateral (m), heading (rad) of each sample shown; a copy.
     #[wasm_bindgen(getter)]
     pub fn twists(&self) -> Float64Array {
-        flat(&self.0.twists().map(<[f64; 3]>::from).collect::<Vec<_>>())
+        flat_float_array(&self.0.twists().map(<[f64; 3]>::from).collect::<Vec<_>>())
     }
 
     /// Motion that each sample shown executed: v̂ (m/s), ω̂, γ̂ (rad/s); under the odometry model the legs δ̂_rot1 (rad), δ̂_trans (m),
     /// δ̂_rot2 (rad). A copy.
     #[wasm_bindgen(getter)]
     pub fn executed(&self) -> Float64Array {
-        flat(&self.0.executed().collect::<Vec<_>>())
+        flat_float_array(&self.0.executed().collect::<Vec<_>>())
     }
 
-    /// The command as odometry without noise reads it.
+    /// Noise-free odometry reading of the command.
     #[wasm_bindgen(getter, unchecked_return_type = "Legs")]
     pub fn reading(&self) -> Result<JsValue, JsValue> {
-        plain(&self.0.reading())
+        to_plain_js(&self.0.reading())
     }
 
     #[wasm_bindgen(getter, unchecked_return_type = "Stats")]
     pub fn stats(&self) -> Result<JsValue, JsValue> {
-        plain(self.0.figures())
+        to_plain_js(self.0.figures())
     }
 
     #[wasm_bindgen(getter, unchecked_return_type = "Table")]
     pub fn table(&self) -> Result<JsValue, JsValue> {
-        plain(&self.0.table())
+        to_plain_js(&self.0.table())
     }
 
     #[wasm_bindgen(getter, unchecked_return_type = "Contours")]
     pub fn contours(&self) -> Result<JsValue, JsValue> {
-        plain(&self.0.contours())
+        to_plain_js(&self.0.contours())
     }
 
     /// Places inside of the 2σ ellipse where no robot stops, two at most, as x, y pairs in m; empty where the outlines nearly coincide.
     #[wasm_bindgen(getter)]
     pub fn gaps(&self) -> Float64Array {
-        flat(&self.0.gaps())
+        flat_float_array(&self.0.gaps())
     }
 
     /// Exact cross-track skew at 2 to 10 000 evenly spaced turn rates, rad/s; NaN where undefined.
@@ -154,43 +133,27 @@ impl JsBananaMachine {
         #[wasm_bindgen(js_name = omegaMax)] omega_max: f64,
         points: f64,
     ) -> Result<Vec<f64>, JsValue> {
-        let first = in_range("omegaMin", omega_min, &QUANTITY)?;
-        let last = in_range("omegaMax", omega_max, &QUANTITY)?;
-        let points = whole("points", points, 2..=MAX_CURVE_POINTS)?;
+        let first = in_range("omegaMin", omega_min, &QUANTITY_RANGE)?;
+        let last = in_range("omegaMax", omega_max, &QUANTITY_RANGE)?;
+        let points = read_integer("points", points, 2..=MAX_CURVE_POINTS)?;
         Ok(self.0.skew_curve(first, last, points as usize))
     }
 
-    /// A sample shown, counted from 0.
+    /// Sample by its index, counted from 0, among those shown.
     #[wasm_bindgen(unchecked_return_type = "Inspection")]
     pub fn inspect(&self, index: f64) -> Result<JsValue, JsValue> {
-        let index = whole("index", index, 0..=MAX_SAMPLES as u64)? as usize;
-        let Sample { pose, twist, executed, path } =
-            self.0.inspect(index).ok_or_else(|| not_shown(index, self.0.shown()))?;
-        let (ArcInversion { v_hat, omega_hat, gamma_hat }, legs) = match executed {
-            Executed::Arc { arc, .. } => (arc, JsValue::NULL),
-            Executed::Legs(legs) => {
-                let none = ArcInversion { v_hat: f64::NAN, omega_hat: f64::NAN, gamma_hat: f64::NAN };
-                (none, plain(&legs)?)
-            }
-        };
-        Ok(object(&[
-            ("pose", floats(&[pose.x(), pose.y(), pose.theta()])),
-            ("twist", floats(twist.as_slice())),
-            ("vHat", v_hat.into()),
-            ("omegaHat", omega_hat.into()),
-            ("gammaHat", gamma_hat.into()),
-            ("legs", legs),
-            ("path", flat(&path).into()),
-        ]))
+        let index = read_integer("index", index, 0..=MAX_SAMPLES as u64)? as usize;
+        let sample = self.0.inspect(index).ok_or_else(|| not_shown(index, self.0.shown()))?;
+        to_plain_js(&sample)
     }
 
-    /// The heading of a sample shown, counted from 0, rad.
+    /// Heading (rad) of a sample by its index, counted from 0.
     pub fn heading(&self, index: f64) -> Result<f64, JsValue> {
-        let index = whole("index", index, 0..=MAX_SAMPLES as u64)? as usize;
-        self.0.pose(index).map(|pose: SE2| pose.theta()).ok_or_else(|| not_shown(index, self.0.shown()))
+        let index = read_integer("index", index, 0..=MAX_SAMPLES as u64)? as usize;
+        self.0.pose(index).map(|pose| pose.theta()).ok_or_else(|| not_shown(index, self.0.shown()))
     }
 
-    /// The nearest sample inside an ellipse of these radii around a point of the view; −1 for none.
+    /// Index of the nearest sample inside an ellipse with these radii around a point of the view; −1 for none.
     pub fn nearest(
         &self,
         #[wasm_bindgen(unchecked_param_type = "MorphedView")] view: &JsValue,
@@ -199,12 +162,14 @@ impl JsBananaMachine {
         #[wasm_bindgen(js_name = radiusX)] radius_x: f64,
         #[wasm_bindgen(js_name = radiusY)] radius_y: f64,
     ) -> Result<i32, JsValue> {
-        let radii = [in_range("radiusX", radius_x, &RADIUS)?, in_range("radiusY", radius_y, &RADIUS)?];
+        let radii =
+            [in_range("radiusX", radius_x, &RADIUS_RANGE)?, in_range("radiusY", radius_y, &RADIUS_RANGE)?];
         let nearest = self.0.nearest(read_view(view)?, [x, y], radii);
         Ok(nearest.map_or(-1, |index| index as i32))
     }
 
-    /// Samples a cell of a grid over a part of the view, row by row from yMax down; 2²⁴ cells, 2¹⁴ a side at most.
+    /// Number of samples in each cell of a grid over a part of the view, row by row from yMax down. The grid has at most 2²⁴ cells,
+    /// and at most 2¹⁴ on a side.
     #[expect(clippy::too_many_arguments, reason = "a view, a rectangle and a size")]
     pub fn density(
         &self,
@@ -237,39 +202,39 @@ impl JsBananaMachine {
     ) -> Result<Uint8ClampedArray, JsValue> {
         let grid = read_grid([x_min, y_min, x_max, y_max], columns, rows)?;
         let [ramp] = read_ramps("ramp", ramp)?;
-        Ok(view_of(self.0.paint(read_view(view)?, &grid, &ramp)))
+        Ok(pixel_view(self.0.paint(read_view(view)?, &grid, &ramp)))
     }
 }
 
 /// Reads a view: its name, or a morph.
 fn read_view(view: &JsValue) -> Result<View, JsValue> {
     match view.as_f64() {
-        Some(morph) => Ok(View::at(in_range("view", morph, &MORPH)?)),
-        None => word("view", view),
+        Some(morph) => Ok(View::at(in_range("view", morph, &MORPH_RANGE)?)),
+        None => read_word("view", view),
     }
 }
 
-/// Turns of commands: a turn rate times a duration.
-const TURN: RangeInclusive<f64> = -1e12..=1e12;
+/// Range of the turns of commands, rad: a turn rate times a duration.
+const TURN_RANGE: RangeInclusive<f64> = -1e12..=1e12;
 
-/// Places at a morph of a line of points of the floor, x, y pairs in m. Each point is taken for the end of the arc whose turn is
-/// nearest to `turn` (rad). Empty for a line around the start.
+/// Points to which a morph takes a line of points of the floor, x, y pairs in m. Each point counts as the end of the arc whose turn
+/// is nearest to `turn` (rad). Empty for a line around the start.
 #[wasm_bindgen(js_name = unbendLine)]
 pub fn line_unbent(points: &[f64], turn: f64, morph: f64) -> Result<Float64Array, JsValue> {
-    let (turn, morph) = (in_range("turn", turn, &TURN)?, in_range("morph", morph, &MORPH)?);
-    Ok(flat(&unbend_line(points.as_chunks().0, turn, morph)))
+    let (turn, morph) = (in_range("turn", turn, &TURN_RANGE)?, in_range("morph", morph, &MORPH_RANGE)?);
+    Ok(flat_float_array(&unbend_line(points.as_chunks().0, turn, morph)))
 }
 
 /// The 2σ outline at a morph of a Gaussian in exponential coordinates, as x, y pairs; `moments` are its mean (three numbers) and its
 /// covariance (nine).
 #[wasm_bindgen(js_name = unbendGaussian)]
 pub fn gaussian_unbent(moments: &[f64], morph: f64) -> Result<Float64Array, JsValue> {
-    let morph = in_range("morph", morph, &MORPH)?;
+    let morph = in_range("morph", morph, &MORPH_RANGE)?;
     let (mean, cov) = moments
         .split_at_checked(3)
         .filter(|(_, cov)| cov.len() == 9)
         .ok_or_else(|| RangeError::new(&format!("moments has length {}; allowed is 12", moments.len())))?;
     let moments =
         ExponentialMoments { mean: Vector3::from_column_slice(mean), cov: Matrix3::from_row_slice(cov) };
-    Ok(flat(&ExponentialContour::new(&moments, &SE2::identity()).unbent(OUTLINE_SEGMENTS, morph)))
+    Ok(flat_float_array(&ExponentialContour::new(&moments, &SE2::identity()).unbent(OUTLINE_SEGMENTS, morph)))
 }

@@ -1,7 +1,7 @@
 //! `motion.calibrate` for JavaScript: logs in, α's out.
 
 use super::calibration::{SYSTEMATIC, calibration_to_js, columns_to_js};
-use super::fields::{Fields, boolean, in_range, number, type_error, word};
+use super::fields::{Fields, in_range, read_boolean, read_number, read_word, type_error};
 use super::log::read_logs;
 use crate::calibrate::{Drive, ERRORS, LegLength, Model, Options, calibrate};
 use crate::models::OdometryRule;
@@ -45,10 +45,10 @@ export interface CalibrationOptions {
 "#;
 
 /// Lengths of legs, m, rad or s.
-const LEG: RangeInclusive<f64> = 1e-6..=1e6;
+const LEG_LENGTH_RANGE: RangeInclusive<f64> = 1e-6..=1e6;
 
 /// Standard deviations that can be stated of a reference, m or rad: an exact one has a tiny one.
-const STD: RangeInclusive<f64> = 0.0..=1e3;
+const STD_RANGE: RangeInclusive<f64> = 0.0..=1e3;
 
 /// Fits the α's of a robot to logs of its odometry (or its commands) and of a reference. `doc/calibration-method.md` has the method.
 #[wasm_bindgen(js_name = calibrate, unchecked_return_type = "Calibration")]
@@ -58,11 +58,12 @@ pub fn calibrated(
     const KEYS: [&str; 9] =
         ["odometry", "reference", "model", "rule", "legs", "outliers", "correct", "positionStd", "yawStd"];
     let fields = Fields::new("options", "", options, &KEYS)?;
-    let std = |key: &str| fields.optional(key, |path, value| in_range(path, number(path, value)?, &STD));
+    let std =
+        |key: &str| fields.optional(key, |path, value| in_range(path, read_number(path, value)?, &STD_RANGE));
     let options = Options {
         model: model(&fields)?,
         legs: fields.optional("legs", legs)?.unwrap_or(LegLength::AMCL),
-        outliers: fields.optional("outliers", word)?.unwrap_or_default(),
+        outliers: fields.optional("outliers", read_word)?.unwrap_or_default(),
         correct: fields.optional("correct", corrected)?.unwrap_or_default(),
         position_std: std("positionStd")?,
         yaw_std: std("yawStd")?,
@@ -75,8 +76,8 @@ pub fn calibrated(
 }
 
 fn model(fields: &Fields) -> Result<Model, JsValue> {
-    let asked: Option<Asked> = fields.optional("model", word)?;
-    let rule: Option<OdometryRule> = fields.optional("rule", word)?;
+    let asked: Option<Asked> = fields.optional("model", read_word)?;
+    let rule: Option<OdometryRule> = fields.optional("rule", read_word)?;
     let is_omni = rule == Some(OdometryRule::Omni);
     let fits = match asked {
         None => true,
@@ -97,8 +98,9 @@ fn model(fields: &Fields) -> Result<Model, JsValue> {
 
 fn legs(field: &str, value: &JsValue) -> Result<LegLength, JsValue> {
     let fields = Fields::new(field, "legs.", value, &["distance", "angle", "duration"])?;
-    let [distance, angle, duration] = ["distance", "angle", "duration"]
-        .map(|key| fields.optional(key, |path, value| in_range(path, number(path, value)?, &LEG)));
+    let [distance, angle, duration] = ["distance", "angle", "duration"].map(|key| {
+        fields.optional(key, |path, value| in_range(path, read_number(path, value)?, &LEG_LENGTH_RANGE))
+    });
     let (distance, angle) = (distance?, angle?);
     match duration? {
         Some(_) if distance.is_some() || angle.is_some() => {
@@ -125,7 +127,7 @@ fn corrected(field: &str, value: &JsValue) -> Result<[Option<bool>; ERRORS], JsV
     let fields = Fields::new(field, "correct.", value, &keys)?;
     let mut correct = [None; ERRORS];
     for (key, errors) in SYSTEMATIC {
-        let is = fields.optional(key, boolean)?;
+        let is = fields.optional(key, read_boolean)?;
         errors.iter().for_each(|error| correct[*error as usize] = is);
     }
     Ok(correct)

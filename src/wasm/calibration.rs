@@ -1,7 +1,9 @@
 //! Calibrations as plain JavaScript values.
 
-use super::values::{floats, list, number_or_null, object, plain};
-use crate::calibrate::{Calibration, Check, ErrorMask, SystematicError};
+use super::values::{float_array, js_array, js_object, number_or_null, to_plain_js};
+use crate::calibrate::{
+    Calibration, Check, ErrorMask, Estimate, NotIdentifiable, Recommended, SystematicError, Verdict,
+};
 use js_sys::Array;
 use wasm_bindgen::prelude::*;
 
@@ -110,28 +112,65 @@ pub const SYSTEMATIC: [(&str, &[SystematicError]); 5] = [
 
 /// Makes an object of a calibration, with its legs where they are given.
 pub fn calibration_to_js(calibration: &Calibration, legs: Option<JsValue>) -> Result<JsValue, JsValue> {
-    let Calibration { not_identifiable, reference_noise: [position, yaw], diagnostics, .. } = calibration;
+    let Calibration { not_identifiable, reference_noise, persistence, diagnostics, recommended, .. } =
+        calibration;
+    let reasons: Array = not_identifiable.iter().map(|reason| reason_word(*reason)).collect();
+    let [position, yaw] = reference_noise.map(|estimate| estimate_to_js(&estimate));
     let checks: Array = diagnostics.checks.iter().map(check_to_js).collect();
     let entries = [
-        ("alphas", plain(&calibration.alphas)?),
-        ("intervals", plain(&calibration.intervals)?),
-        ("notIdentifiable", plain(not_identifiable)?),
+        ("alphas", alphas(&calibration.alphas)),
+        ("intervals", intervals(&calibration.intervals)),
+        ("notIdentifiable", reasons.into()),
         ("systematicErrors", systematic_to_js(calibration)),
-        ("referenceNoise", object(&[("positionStd", plain(position)?), ("yawStd", plain(yaw)?)])),
-        ("persistence", plain(&calibration.persistence)?),
-        ("lost", plain(&calibration.lost)?),
+        ("referenceNoise", js_object(&[("positionStd", position), ("yawStd", yaw)])),
+        (
+            "persistence",
+            js_object(&[
+                ("correlation", estimate_to_js(&persistence.correlation)),
+                ("length", persistence.length.into()),
+            ]),
+        ),
+        ("lost", to_plain_js(&calibration.lost)?),
         ("logLikelihood", calibration.log_likelihood.into()),
         (
             "diagnostics",
-            object(&[
-                ("verdict", plain(&diagnostics.verdict)?),
+            js_object(&[
+                ("verdict", verdict_word(diagnostics.verdict).into()),
                 ("checks", checks.into()),
-                ("windows", plain(&diagnostics.windows)?),
+                ("windows", to_plain_js(&diagnostics.windows)?),
             ]),
         ),
-        ("recommended", plain(&calibration.recommended)?),
+        ("recommended", recommended.as_ref().map_or(JsValue::NULL, recommended_to_js)),
     ];
-    Ok(object(&entries.into_iter().chain(legs.map(|legs| ("legs", legs))).collect::<Vec<_>>()))
+    Ok(js_object(&entries.into_iter().chain(legs.map(|legs| ("legs", legs))).collect::<Vec<_>>()))
+}
+
+fn alphas(alphas: &[Option<f64>]) -> JsValue {
+    alphas.iter().map(|alpha| number_or_null(*alpha)).collect::<Array>().into()
+}
+
+fn interval(interval: Option<[f64; 2]>) -> JsValue {
+    interval.map_or(JsValue::NULL, |interval| js_array(&interval))
+}
+
+fn intervals(intervals: &[Option<[f64; 2]>]) -> JsValue {
+    intervals.iter().map(|each| interval(*each)).collect::<Array>().into()
+}
+
+fn estimate_to_js(Estimate { value, interval }: &Estimate) -> JsValue {
+    js_object(&[("value", (*value).into()), ("interval", js_array(interval))])
+}
+
+fn reason_word(reason: Option<NotIdentifiable>) -> JsValue {
+    reason.map_or(JsValue::NULL, |reason| {
+        let word = match reason {
+            NotIdentifiable::InsufficientRotation => "insufficient-rotation",
+            NotIdentifiable::InsufficientTranslation => "insufficient-translation",
+            NotIdentifiable::ReferenceTooNoisy => "reference-too-noisy",
+            NotIdentifiable::Collinear => "collinear",
+        };
+        word.into()
+    })
 }
 
 fn systematic_to_js(calibration: &Calibration) -> JsValue {
@@ -139,34 +178,48 @@ fn systematic_to_js(calibration: &Calibration) -> JsValue {
         let identified = calibration.systematic_stds[error as usize].is_some();
         number_or_null(identified.then(|| calibration.systematic.get(error)))
     };
-    let interval = |error: SystematicError| {
-        calibration.interval_of(error).map_or(JsValue::NULL, |interval| list(&interval))
-    };
+    let of = |error: SystematicError| interval(calibration.interval_of(error));
     let all = |mask: &ErrorMask, errors: &[SystematicError]| errors.iter().any(|error| mask[*error as usize]);
     let entries = SYSTEMATIC.iter().map(|(key, errors)| {
         let [value, interval] = match errors {
-            [error] => [value(*error), interval(*error)],
+            [error] => [value(*error), of(*error)],
             errors => [
                 errors.iter().map(|error| value(*error)).collect::<Array>().into(),
-                errors.iter().map(|error| interval(*error)).collect::<Array>().into(),
+                errors.iter().map(|error| of(*error)).collect::<Array>().into(),
             ],
         };
         let constant = all(&calibration.is_constant, errors).into();
         let corrected = all(&calibration.is_corrected, errors).into();
         let entries =
             [("value", value), ("interval", interval), ("constant", constant), ("corrected", corrected)];
-        (*key, object(&entries))
+        (*key, js_object(&entries))
     });
-    object(&entries.collect::<Vec<_>>())
+    js_object(&entries.collect::<Vec<_>>())
+}
+
+fn verdict_word(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::Consistent => "consistent",
+        Verdict::Questionable => "questionable",
+        Verdict::Unusable => "unusable",
+    }
 }
 
 fn check_to_js(check: &Check) -> JsValue {
-    object(&[
+    js_object(&[
         ("name", check.name.key().into()),
         ("value", check.value.into()),
-        ("expected", list(&check.expected)),
+        ("expected", js_array(&check.expected)),
         ("passed", check.passed.into()),
         ("message", check.message().into()),
+    ])
+}
+
+fn recommended_to_js(Recommended { alphas: all, inflation, reason }: &Recommended) -> JsValue {
+    js_object(&[
+        ("alphas", alphas(all)),
+        ("inflation", (*inflation).into()),
+        ("reason", reason.as_str().into()),
     ])
 }
 
@@ -178,8 +231,8 @@ pub fn columns_to_js(calibration: &Calibration) -> JsValue {
     for ((leg, observation), fit) in legs.iter().zip(observations).zip(leg_fits) {
         times.extend_from_slice(&leg.times);
         for [read, pose] in [0, 1].map(|end| [leg.odometry[end], corrected.base(&leg.reference[end])]) {
-            odometry.extend_from_slice(&[read.x(), read.y(), read.theta()]);
-            reference.extend_from_slice(&[pose.x(), pose.y(), pose.theta()]);
+            odometry.extend_from_slice(&<[f64; 3]>::from(read));
+            reference.extend_from_slice(&<[f64; 3]>::from(pose));
         }
         readings.extend_from_slice(&observation.reading);
         residuals.extend_from_slice(&observation.residuals);
@@ -190,16 +243,16 @@ pub fn columns_to_js(calibration: &Calibration) -> JsValue {
         squared.push(fit.squared);
         outliers.push(f64::from(u8::from(fit.is_outlier)));
     }
-    object(&[
+    js_object(&[
         ("count", (legs.len() as f64).into()),
-        ("times", floats(&times)),
-        ("odometry", floats(&odometry)),
-        ("reference", floats(&reference)),
-        ("readings", floats(&readings)),
-        ("residuals", floats(&residuals)),
-        ("standardized", floats(&standardized)),
-        ("stds", floats(&stds)),
-        ("squared", floats(&squared)),
-        ("outliers", floats(&outliers)),
+        ("times", float_array(&times)),
+        ("odometry", float_array(&odometry)),
+        ("reference", float_array(&reference)),
+        ("readings", float_array(&readings)),
+        ("residuals", float_array(&residuals)),
+        ("standardized", float_array(&standardized)),
+        ("stds", float_array(&stds)),
+        ("squared", float_array(&squared)),
+        ("outliers", float_array(&outliers)),
     ])
 }

@@ -1,9 +1,9 @@
 //! `DeadReckoning` for JavaScript.
 
 use super::face::cloud;
-use super::fields::{not_shown, whole};
-use super::pictures::index_of;
-use super::values::{flat, number_or_null, object, plain};
+use super::fields::{not_shown, read_integer};
+use super::pictures::nearest_index;
+use super::values::{flat_float_array, js_object, number_or_null, to_plain_js};
 use crate::models::Compounding;
 use crate::sim::dead_reckoning::{DeadReckoning, MAX_SAMPLES, MAX_STEPS, Measured, Settings};
 use crate::sim::settings::Words;
@@ -38,10 +38,10 @@ impl JsDeadReckoning {
         let Settings { step, steps, .. } = *self.0.settings();
         let milestone = |after: u32| {
             let (poses, outlines) = (self.poses_after(after.into())?, self.outlines(after.into())?);
-            Ok(object(&[("poses", poses.into()), ("outlines", outlines)]))
+            Ok(js_object(&[("poses", poses.into()), ("outlines", outlines)]))
         };
         let milestones = quarters_of(steps).filter(|after| *after != step).map(milestone);
-        Ok(object(&[
+        Ok(js_object(&[
             ("config", self.config()),
             ("shown", self.shown().into()),
             ("block", self.block().into()),
@@ -65,14 +65,14 @@ impl JsDeadReckoning {
 
     #[wasm_bindgen(getter, unchecked_return_type = "ReckoningStats")]
     pub fn stats(&self) -> Result<JsValue, JsValue> {
-        plain(&self.0.stats())
+        to_plain_js(&self.0.stats())
     }
 
     /// Predicted over measured variance of along, lateral and heading after each step, three numbers a step; NaN where there
     /// is none.
     #[wasm_bindgen(getter, unchecked_return_type = "ByRecursion<Float64Array>")]
     pub fn ratios(&self) -> JsValue {
-        by_recursion(|order| vectors(self.0.compared(order).ratios.iter().copied()))
+        by_recursion(|order| vectors(self.0.comparison(order).ratios.iter().copied()))
     }
 
     /// Predicted variances of along, lateral (m²) and heading (rad²) after each step, three numbers a step; NaN where there is
@@ -85,75 +85,74 @@ impl JsDeadReckoning {
         })
     }
 
-    /// Measured variances, as `predicted`.
+    /// Measured variances, in the form of `predicted`.
     #[wasm_bindgen(getter)]
     pub fn measured(&self) -> Float64Array {
         vectors(self.0.measured().iter().map(|measured: &Measured| measured.cov.diagonal()))
     }
 
-    /// Their standard errors, as shares of them.
+    /// Standard errors of the measured variances, relative to them.
     #[wasm_bindgen(getter, js_name = relativeErrors)]
     pub fn relative_errors(&self) -> Float64Array {
         vectors(self.0.measured().iter().map(|measured: &Measured| measured.relative_error))
     }
 
-    /// The way that is driven without noise, as x, y pairs (m) from the start.
+    /// Path driven without noise, as x, y pairs (m) from the start.
     #[wasm_bindgen(getter)]
     pub fn commanded(&self) -> Float64Array {
-        flat(&self.0.commanded())
+        flat_float_array(&self.0.commanded())
     }
 
     /// Variances of a straight drive as functions of its duration, at this speed and noise. Each drive is one command.
     #[wasm_bindgen(getter, js_name = straightGrowth, unchecked_return_type = "StraightGrowth")]
     pub fn straight_growth(&self) -> Result<JsValue, JsValue> {
-        plain(&self.0.straight_growth())
+        to_plain_js(&self.0.straight_growth())
     }
 
     /// x, y (m), θ (rad) of the commanded pose after each step.
     #[wasm_bindgen(getter)]
     pub fn nominal(&self) -> Float64Array {
-        let poses = self.0.nominal().iter().map(|pose| [pose.x(), pose.y(), pose.theta()]);
-        flat(&poses.collect::<Vec<_>>())
+        flat_float_array(&self.0.nominal().iter().map(|pose| <[f64; 3]>::from(*pose)).collect::<Vec<_>>())
     }
 
     /// x, y (m), θ (rad) of the first robots after the selected step, 600 at most; a copy.
     #[wasm_bindgen(getter)]
     pub fn poses(&self) -> Float64Array {
-        flat(self.0.poses(self.0.settings().step))
+        flat_float_array(self.0.poses(self.0.settings().step))
     }
 
     /// Poses as in `poses`, after another step from 1 to 200; empty if the path is shorter.
     #[wasm_bindgen(js_name = posesAfter)]
     pub fn poses_after(&self, step: f64) -> Result<Float64Array, JsValue> {
-        Ok(flat(self.0.poses(whole("step", step, 1..=MAX_STEPS)? as u32)))
+        Ok(flat_float_array(self.0.poses(read_integer("step", step, 1..=MAX_STEPS)? as u32)))
     }
 
     /// ξ along, lateral (m), heading (rad) of the robots of `poses` about the commanded pose; a copy.
     #[wasm_bindgen(getter)]
     pub fn twists(&self) -> Float64Array {
-        flat(&self.0.twists().collect::<Vec<_>>())
+        flat_float_array(&self.0.twists().collect::<Vec<_>>())
     }
 
     /// x, y (m), θ (rad) of one robot after each step, counted from 0.
     pub fn rollout(&self, index: f64) -> Result<Float64Array, JsValue> {
-        let index = whole("index", index, 0..=MAX_SAMPLES as u64)? as usize;
+        let index = read_integer("index", index, 0..=MAX_SAMPLES as u64)? as usize;
         let poses = self.0.rollout(index).ok_or_else(|| not_shown(index, self.0.shown()))?;
-        Ok(flat(&poses))
+        Ok(flat_float_array(&poses))
     }
 
     /// The robot of `poses` that is nearest to a point and within `radius` of it; −1 for none.
     pub fn nearest(&self, x: f64, y: f64, radius: f64) -> Result<i32, JsValue> {
-        index_of(x, y, radius, |target, radius| self.0.nearest(target, radius))
+        nearest_index(x, y, radius, |target, radius| self.0.nearest(target, radius))
     }
 
-    /// Outlines of a step, 1 to 200, by the recursion in view; null where the path is shorter.
+    /// Outlines of a step, 1 to 200, by the selected recursion; null where the path is shorter.
     #[wasm_bindgen(unchecked_return_type = "StepOutlines | null")]
     pub fn outlines(&self, step: f64) -> Result<JsValue, JsValue> {
-        plain(&self.0.outlines(whole("step", step, 1..=MAX_STEPS)? as u32))
+        to_plain_js(&self.0.outlines(read_integer("step", step, 1..=MAX_STEPS)? as u32))
     }
 }
 
-/// Steps that end the quarters of a path; fewer where a path has fewer steps.
+/// Returns the steps that end the quarters of a path; fewer if the path has less than four steps.
 fn quarters_of(steps: u32) -> impl Iterator<Item = u32> {
     let mut ends: Vec<_> =
         (1..=4).map(|quarter| ((f64::from(quarter * steps) / 4.0).round() as u32).max(1)).collect();
@@ -162,10 +161,10 @@ fn quarters_of(steps: u32) -> impl Iterator<Item = u32> {
 }
 
 fn vectors(vectors: impl Iterator<Item = Vector3<f64>>) -> Float64Array {
-    flat(&vectors.map(<[f64; 3]>::from).collect::<Vec<_>>())
+    flat_float_array(&vectors.map(<[f64; 3]>::from).collect::<Vec<_>>())
 }
 
 fn by_recursion(of: impl Fn(Compounding) -> Float64Array) -> JsValue {
     let entries: Vec<_> = Compounding::WORDS.iter().map(|(word, order)| (*word, of(*order).into())).collect();
-    object(&entries)
+    js_object(&entries)
 }

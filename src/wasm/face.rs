@@ -87,7 +87,7 @@ macro_rules! cloud {
             /// Shows up to `count` samples more. Returns how many are shown then.
             #[wasm_bindgen(js_name = addSamples)]
             pub fn add_samples(&mut self, count: f64) -> Result<usize, JsValue> {
-                let count = $crate::wasm::fields::whole("count", count, 0..=$most as u64)?;
+                let count = $crate::wasm::fields::read_integer("count", count, 0..=$most as u64)?;
                 Ok(self.0.add_samples(count as usize))
             }
 

@@ -10,11 +10,11 @@ use wasm_bindgen::prelude::*;
 
 impl From<SettingsError> for JsValue {
     fn from(error: SettingsError) -> Self {
-        RangeError::new(&error.message(printed)).into()
+        RangeError::new(&error.message(number_text)).into()
     }
 }
 
-/// An object of named fields, with no other keys than those it may have.
+/// JavaScript object whose fields are read by their names.
 pub struct Fields<'a> {
     object: &'a JsValue,
     /// Path of the object in the argument: "" at the top, "command." one below.
@@ -41,8 +41,8 @@ impl<'a> Fields<'a> {
         Ok(Self { object, prefix })
     }
 
-    /// An object that may have other keys too.
-    pub fn open(name: &str, prefix: &'a str, object: &'a JsValue) -> Result<Self, JsValue> {
+    /// Returns the fields of an object that may also have other keys.
+    pub fn with_any_keys(name: &str, prefix: &'a str, object: &'a JsValue) -> Result<Self, JsValue> {
         if object.is_object() {
             Ok(Self { object, prefix })
         } else {
@@ -54,7 +54,7 @@ impl<'a> Fields<'a> {
         format!("{}{key}", self.prefix)
     }
 
-    /// The value of a field; undefined where it is missing.
+    /// Returns the value of a field; undefined where it is missing.
     pub fn value(&self, key: &str) -> Result<JsValue, JsValue> {
         Reflect::get(self.object, &key.into())
     }
@@ -71,12 +71,12 @@ impl<'a> Fields<'a> {
 
     /// Reads a required number without checking its range.
     pub fn number(&self, key: &str) -> Result<f64, JsValue> {
-        number(&self.path(key), &self.value(key)?)
+        read_number(&self.path(key), &self.value(key)?)
     }
 }
 
 /// Reads any number.
-pub fn number(field: &str, value: &JsValue) -> Result<f64, JsValue> {
+pub fn read_number(field: &str, value: &JsValue) -> Result<f64, JsValue> {
     value.as_f64().ok_or_else(|| type_error(field, value, "a number"))
 }
 
@@ -87,7 +87,7 @@ pub fn in_range(field: &str, number: f64, allowed: &RangeInclusive<f64>) -> Resu
 }
 
 /// Checks that a number is a whole one of the given range.
-pub fn whole(field: &str, number: f64, allowed: RangeInclusive<u64>) -> Result<u64, JsValue> {
+pub fn read_integer(field: &str, number: f64, allowed: RangeInclusive<u64>) -> Result<u64, JsValue> {
     Ok(check_whole(field, number, &allowed)?)
 }
 
@@ -98,13 +98,13 @@ pub fn not_shown(index: usize, shown: usize) -> JsValue {
 }
 
 /// Reads one of the words of an enum.
-pub fn word<T: Words>(field: &str, value: &JsValue) -> Result<T, JsValue> {
+pub fn read_word<T: Words>(field: &str, value: &JsValue) -> Result<T, JsValue> {
     let mut result = T::WORDS[0].1;
-    read_word(field, value, &mut result)?;
+    set_word(field, value, &mut result)?;
     Ok(result)
 }
 
-fn read_word(field: &str, value: &JsValue, word: &mut dyn Word) -> Result<(), JsValue> {
+fn set_word(field: &str, value: &JsValue, word: &mut dyn Word) -> Result<(), JsValue> {
     let allowed = |word: &dyn Word| word.all().into_iter().map(quoted).collect::<Vec<_>>().join(" or ");
     let text = value.as_string().ok_or_else(|| type_error(field, value, &allowed(word)))?;
     if word.set(&text) {
@@ -114,20 +114,20 @@ fn read_word(field: &str, value: &JsValue, word: &mut dyn Word) -> Result<(), Js
 }
 
 /// Reads an array (or typed array) of exactly N numbers without checking ranges.
-pub fn numbers<const N: usize>(field: &str, value: &JsValue) -> Result<[f64; N], JsValue> {
+pub fn read_array<const N: usize>(field: &str, value: &JsValue) -> Result<[f64; N], JsValue> {
     let mut result = [0.0; N];
-    read_numbers(field, value, &mut result)?;
+    fill_array(field, value, &mut result)?;
     Ok(result)
 }
 
-fn read_numbers(field: &str, value: &JsValue, numbers: &mut [f64]) -> Result<(), JsValue> {
+fn fill_array(field: &str, value: &JsValue, numbers: &mut [f64]) -> Result<(), JsValue> {
     let expected = format!("an array of {} numbers", numbers.len());
-    let length = length(field, value, &expected)?;
+    let length = array_length(field, value, &expected)?;
     if length != numbers.len() {
         return Err(RangeError::new(&format!("{field} has length {length}; allowed is {expected}")).into());
     }
     for (i, slot) in numbers.iter_mut().enumerate() {
-        *slot = number(&format!("{field}[{i}]"), &item(value, i)?)?;
+        *slot = read_number(&format!("{field}[{i}]"), &array_item(value, i)?)?;
     }
     Ok(())
 }
@@ -144,7 +144,7 @@ fn read_group(field: &str, value: &JsValue, group: &mut dyn Group) -> Result<(),
     Ok(())
 }
 
-/// As [`read_group`], with each number in its range.
+/// Reads all numbers of a group, each in its range.
 pub fn group_in_range(field: &str, value: &JsValue, group: &mut dyn Group) -> Result<(), JsValue> {
     read_group(field, value, group)?;
     Ok(check_group(field, group)?)
@@ -178,28 +178,28 @@ pub fn read_settings<S: Rules>(present: &S, options: &JsValue) -> Result<S, JsVa
 
 fn read_setting(field: &str, value: &JsValue, setting: Setting) -> Result<(), JsValue> {
     match setting {
-        Setting::Number(slot, _) => *slot = number(field, value)?,
-        Setting::Whole(slot, allowed) => slot.set(whole(field, number(field, value)?, allowed)?),
+        Setting::Number(slot, _) => *slot = read_number(field, value)?,
+        Setting::Whole(slot, allowed) => slot.set(read_integer(field, read_number(field, value)?, allowed)?),
         Setting::WholeOrNone(slot, _) if value.is_null() => *slot = None,
         Setting::WholeOrNone(slot, allowed) => {
-            *slot = Some(whole(field, number(field, value)?, allowed)? as usize);
+            *slot = Some(read_integer(field, read_number(field, value)?, allowed)? as usize);
         }
-        Setting::Truth(slot) => *slot = boolean(field, value)?,
-        Setting::Word(slot) => read_word(field, value, slot)?,
-        Setting::Numbers(slots, _) => read_numbers(field, value, slots)?,
+        Setting::Truth(slot) => *slot = read_boolean(field, value)?,
+        Setting::Word(slot) => set_word(field, value, slot)?,
+        Setting::Numbers(slots, _) => fill_array(field, value, slots)?,
         // Checked here: once a level is split into its numbers, an error could not name it.
-        Setting::Level(slot, allowed) => slot.set(in_range(field, number(field, value)?, &allowed)?),
+        Setting::Level(slot, allowed) => slot.set(in_range(field, read_number(field, value)?, &allowed)?),
         Setting::Group(group) => read_group(field, value, group)?,
     }
     Ok(())
 }
 
-pub fn boolean(field: &str, value: &JsValue) -> Result<bool, JsValue> {
+pub fn read_boolean(field: &str, value: &JsValue) -> Result<bool, JsValue> {
     value.as_bool().ok_or_else(|| type_error(field, value, "true or false"))
 }
 
 /// Returns the length of an array or typed array.
-pub fn length(field: &str, value: &JsValue, expected: &str) -> Result<usize, JsValue> {
+pub fn array_length(field: &str, value: &JsValue, expected: &str) -> Result<usize, JsValue> {
     if !value.is_object() {
         return Err(type_error(field, value, expected));
     }
@@ -209,7 +209,7 @@ pub fn length(field: &str, value: &JsValue, expected: &str) -> Result<usize, JsV
 }
 
 /// Returns item `index` of an array.
-pub fn item(value: &JsValue, index: usize) -> Result<JsValue, JsValue> {
+pub fn array_item(value: &JsValue, index: usize) -> Result<JsValue, JsValue> {
     Reflect::get_u32(value, index as u32)
 }
 
@@ -218,7 +218,7 @@ pub fn type_error(field: &str, value: &JsValue, allowed: &str) -> JsValue {
 }
 
 /// Returns a number as JavaScript prints it.
-pub fn printed(number: f64) -> String {
+pub fn number_text(number: f64) -> String {
     // Cannot throw with radix 10.
     Number::from(number).to_string_with_radix(10).map_or_else(|_| String::new(), String::from)
 }
@@ -257,7 +257,7 @@ fn describe(value: &JsValue) -> String {
         return quoted(&shortened(&text));
     }
     if let Some(number) = value.as_f64() {
-        return printed(number);
+        return number_text(number);
     }
     if let Some(truth) = value.as_bool() {
         return truth.to_string();

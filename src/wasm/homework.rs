@@ -1,7 +1,10 @@
 //! The chapter's models, its inversion and SE(2) for JavaScript, for exercises.
 
-use super::fields::{Fields, boolean, group_in_range, in_range, item, length, number, numbers, whole, word};
-use super::values::{flat, group_to_js, list, number_or_null, object, plain};
+use super::fields::{
+    Fields, array_item, array_length, group_in_range, in_range, read_array, read_boolean, read_integer,
+    read_number, read_word,
+};
+use super::values::{flat_float_array, group_to_js, js_array, js_object, number_or_null, to_plain_js};
 use crate::geom::arc::invert_arc;
 use crate::geom::se2::SE2;
 use crate::models::{
@@ -10,7 +13,7 @@ use crate::models::{
 };
 use crate::noise::NoiseKind;
 use crate::sim::banana::MAX_SAMPLES;
-use crate::sim::settings::{ALPHA, DURATION, MAX_SEED, QUANTITY, check_real};
+use crate::sim::settings::{ALPHA_RANGE, DURATION_RANGE, MAX_SEED, QUANTITY_RANGE, check_real};
 use js_sys::{Array, Float64Array, RangeError};
 use nalgebra::{Matrix3, Vector3};
 use rand::SeedableRng;
@@ -139,7 +142,7 @@ impl JsOdometryModel {
     ) -> Result<Self, JsValue> {
         let fields = Fields::new("options", "", options, &["alphas", "noise", "reverseAware"])?;
         let model = OdometryModel { alphas: OdomAlphas(alphas(&fields)?), noise: noise(&fields)? };
-        let reverse_aware = fields.optional("reverseAware", boolean)?.unwrap_or(false);
+        let reverse_aware = fields.optional("reverseAware", read_boolean)?.unwrap_or(false);
         Ok(Self(ConfiguredOdometry { model, reverse_aware }))
     }
 
@@ -186,15 +189,16 @@ pub fn inverted(
     #[wasm_bindgen(unchecked_param_type = "Start")] next: &JsValue,
     dt: f64,
 ) -> Result<JsValue, JsValue> {
-    let (start, next, dt) = (pose("start", start)?, pose("next", next)?, in_range("dt", dt, &DURATION)?);
+    let (start, next, dt) =
+        (pose("start", start)?, pose("next", next)?, in_range("dt", dt, &DURATION_RANGE)?);
     let inversion = invert_arc(&start, &next, dt);
     // A straight drive in reverse has the turn rate −0. Adding 0 makes it 0.
     let omega_hat = inversion.omega_hat + 0.0;
     let center = match inversion.centre(&start) {
-        Some([x, y]) => object(&[("x", x.into()), ("y", y.into())]),
+        Some([x, y]) => js_object(&[("x", x.into()), ("y", y.into())]),
         None => JsValue::NULL,
     };
-    Ok(object(&[
+    Ok(js_object(&[
         ("vHat", inversion.v_hat.into()),
         ("omegaHat", omega_hat.into()),
         ("gammaHat", inversion.gamma_hat.into()),
@@ -210,7 +214,7 @@ pub fn decompose(
     #[wasm_bindgen(unchecked_param_type = "Start")] start: &JsValue,
     #[wasm_bindgen(unchecked_param_type = "Start")] next: &JsValue,
 ) -> Result<JsValue, JsValue> {
-    plain(&OdomDelta::from_poses(&pose("start", start)?, &pose("next", next)?))
+    to_plain_js(&OdomDelta::from_poses(&pose("start", start)?, &pose("next", next)?))
 }
 
 /// Covariance, in exponential coordinates about the noise-free pose, after a command was driven several times. The
@@ -224,9 +228,9 @@ pub fn propagate(
     let sigma = fields.optional("sigma", covariance)?.unwrap_or_default();
     let command = velocity_command(&fields.value("command")?)?;
     let model = VelocityModel { alphas: VelocityAlphas(alphas(&fields)?), noise: NoiseKind::Normal };
-    let order = fields.optional("compounding", word)?.unwrap_or(Compounding::Chapter);
+    let order = fields.optional("compounding", read_word)?.unwrap_or(Compounding::Chapter);
     let steps = fields
-        .optional("steps", |field, value| whole(field, number(field, value)?, 1..=MAX_STEPS))?
+        .optional("steps", |field, value| read_integer(field, read_number(field, value)?, 1..=MAX_STEPS))?
         .unwrap_or(1);
     // Arguments in range cannot give a negative or infinite variance.
     let noise = TangentNoiseModel::from_velocity(&model, &command)
@@ -257,7 +261,7 @@ pub fn exp(#[wasm_bindgen(unchecked_param_type = "Twist")] twist: &JsValue) -> R
 pub fn log(
     #[wasm_bindgen(js_name = pose, unchecked_param_type = "Start")] of: &JsValue,
 ) -> Result<JsValue, JsValue> {
-    Ok(list(pose("pose", of)?.log().as_slice()))
+    Ok(js_array(pose("pose", of)?.log().as_slice()))
 }
 
 /// a · b: the pose `b`, given in the frame of `a`, in the reference frame of `a`.
@@ -292,7 +296,7 @@ pub fn boxminus(
     #[wasm_bindgen(unchecked_param_type = "Start")] a: &JsValue,
     #[wasm_bindgen(unchecked_param_type = "Start")] b: &JsValue,
 ) -> Result<JsValue, JsValue> {
-    Ok(list(pose("a", a)?.boxminus(&pose("b", b)?).as_slice()))
+    Ok(js_array(pose("a", a)?.boxminus(&pose("b", b)?).as_slice()))
 }
 
 /// Adjoint of a pose, three rows of three.
@@ -319,31 +323,28 @@ fn samples<M: MotionModel>(
     seed: f64,
 ) -> Result<Float64Array, JsValue> {
     let start = pose("start", start)?;
-    let count = whole("count", count, 0..=MAX_SAMPLES as u64)? as usize;
-    let mut rng = Xoshiro256PlusPlus::seed_from_u64(whole("seed", seed, 0..=MAX_SEED)?);
-    let draw = |_| {
-        let pose = model.sample(control, &start, &mut rng);
-        [pose.x(), pose.y(), pose.theta()]
-    };
-    Ok(flat(&(0..count).map(draw).collect::<Vec<_>>()))
+    let count = read_integer("count", count, 0..=MAX_SAMPLES as u64)? as usize;
+    let mut rng = Xoshiro256PlusPlus::seed_from_u64(read_integer("seed", seed, 0..=MAX_SEED)?);
+    let draw = |_| <[f64; 3]>::from(model.sample(control, &start, &mut rng));
+    Ok(flat_float_array(&(0..count).map(draw).collect::<Vec<_>>()))
 }
 
 fn alphas<const N: usize>(fields: &Fields) -> Result<[f64; N], JsValue> {
-    let alphas = numbers("alphas", &fields.value("alphas")?)?;
+    let alphas = read_array("alphas", &fields.value("alphas")?)?;
     for (i, alpha) in alphas.iter().enumerate() {
-        check_real(&format!("alphas[{i}]"), *alpha, &ALPHA)?;
+        check_real(&format!("alphas[{i}]"), *alpha, &ALPHA_RANGE)?;
     }
     Ok(alphas)
 }
 
 fn noise(fields: &Fields) -> Result<NoiseKind, JsValue> {
-    Ok(fields.optional("noise", word)?.unwrap_or(NoiseKind::Normal))
+    Ok(fields.optional("noise", read_word)?.unwrap_or(NoiseKind::Normal))
 }
 
 fn pose(field: &str, value: &JsValue) -> Result<SE2, JsValue> {
-    let mut place = [0.0; 3];
-    group_in_range(field, value, &mut place)?;
-    Ok(SE2::new(place[0], place[1], place[2]))
+    let mut pose = [0.0; 3];
+    group_in_range(field, value, &mut pose)?;
+    Ok(pose.into())
 }
 
 fn velocity_command(value: &JsValue) -> Result<VelocityCmd, JsValue> {
@@ -364,9 +365,9 @@ fn read_twist(field: &str, value: &JsValue) -> Result<Vector3<f64>, JsValue> {
 
 /// Reads three numbers in the range of the models.
 fn quantities(field: &str, value: &JsValue) -> Result<[f64; 3], JsValue> {
-    let numbers = numbers(field, value)?;
+    let numbers = read_array(field, value)?;
     for (i, number) in numbers.iter().enumerate() {
-        check_real(&format!("{field}[{i}]"), *number, &QUANTITY)?;
+        check_real(&format!("{field}[{i}]"), *number, &QUANTITY_RANGE)?;
     }
     Ok(numbers)
 }
@@ -374,13 +375,13 @@ fn quantities(field: &str, value: &JsValue) -> Result<[f64; 3], JsValue> {
 /// Reads a covariance, three rows of three.
 fn covariance(field: &str, value: &JsValue) -> Result<Matrix3<f64>, JsValue> {
     let allowed = "three rows of three numbers, symmetric, of no negative variance";
-    let count = length(field, value, allowed)?;
+    let count = array_length(field, value, allowed)?;
     if count != 3 {
         return Err(RangeError::new(&format!("{field} has length {count}; allowed are {allowed}")).into());
     }
     let mut matrix = Matrix3::zeros();
     for i in 0..3 {
-        let row = quantities(&format!("{field}[{i}]"), &item(value, i)?)?;
+        let row = quantities(&format!("{field}[{i}]"), &array_item(value, i)?)?;
         matrix.set_row(i, &Vector3::from(row).transpose());
     }
     let is = match covariance_root(&matrix) {
@@ -392,9 +393,9 @@ fn covariance(field: &str, value: &JsValue) -> Result<Matrix3<f64>, JsValue> {
 }
 
 fn pose_to_js(pose: SE2) -> JsValue {
-    group_to_js(&mut [pose.x(), pose.y(), pose.theta()])
+    group_to_js(&mut <[f64; 3]>::from(pose))
 }
 
 fn rows(matrix: &Matrix3<f64>) -> Array {
-    matrix.row_iter().map(|row| list(&[row[0], row[1], row[2]])).collect()
+    matrix.row_iter().map(|row| js_array(&[row[0], row[1], row[2]])).collect()
 }

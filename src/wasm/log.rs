@@ -1,6 +1,6 @@
 //! Logs of JavaScript: odometry and reference.
 
-use super::fields::{Fields, item, length, number, printed, type_error, whole};
+use super::fields::{Fields, array_item, array_length, number_text, read_integer, read_number, type_error};
 use crate::calibrate::{Trajectory, TrajectoryError, TrajectoryFault};
 use crate::geom::se2::SE2;
 use crate::sim::alpha_calibrator::Log;
@@ -38,15 +38,15 @@ export interface LoggedCommands {
 const MAX_ROWS: usize = 10_000_000;
 
 /// Range of times, s, of any clock.
-const TIME: RangeInclusive<f64> = -1e12..=1e12;
+const TIME_RANGE: RangeInclusive<f64> = -1e12..=1e12;
 
 /// Range of coordinates (m) and other values: those of any national map grid.
-const COORDINATE: RangeInclusive<f64> = -1e9..=1e9;
+const COORDINATE_RANGE: RangeInclusive<f64> = -1e9..=1e9;
 
 /// Reads one drive, or arrays of both logs of several drives.
 pub fn read_logs(odometry: &JsValue, reference: &JsValue) -> Result<Vec<Log>, JsValue> {
-    let odometry = drives("odometry", odometry, read_odometry)?;
-    let reference = drives("reference", reference, read_poses)?;
+    let odometry = read_drives("odometry", odometry, read_odometry)?;
+    let reference = read_drives("reference", reference, read_poses)?;
     if odometry.len() != reference.len() {
         let [odometry, reference] = [odometry.len(), reference.len()];
         let message = format!(
@@ -58,7 +58,7 @@ pub fn read_logs(odometry: &JsValue, reference: &JsValue) -> Result<Vec<Log>, Js
 }
 
 /// Reads one trajectory, or an array of them.
-fn drives(
+fn read_drives(
     field: &str,
     value: &JsValue,
     read: fn(&str, &JsValue) -> Result<Trajectory, JsValue>,
@@ -66,11 +66,11 @@ fn drives(
     if !js_sys::Array::is_array(value) {
         return Ok(vec![read(field, value)?]);
     }
-    let count = length(field, value, "an array of drives")?;
+    let count = array_length(field, value, "an array of drives")?;
     if count == 0 {
         return Err(RangeError::new(&format!("{field} is empty; allowed is one drive at least")).into());
     }
-    (0..count).map(|i| read(&format!("{field}[{i}]"), &item(value, i)?)).collect()
+    (0..count).map(|i| read(&format!("{field}[{i}]"), &array_item(value, i)?)).collect()
 }
 
 /// Reads poses or commands.
@@ -80,59 +80,68 @@ fn read_odometry(field: &str, value: &JsValue) -> Result<Trajectory, JsValue> {
         let allowed = "an object with keys from t, x, y, theta, breaks or from t, v, omega, breaks";
         return Err(type_error(field, value, allowed));
     }
-    let fields = Fields::open(field, &prefix, value)?;
+    let fields = Fields::with_any_keys(field, &prefix, value)?;
     if fields.value("v")?.is_undefined() && fields.value("omega")?.is_undefined() {
-        return poses(&Fields::new(field, &prefix, value, &["t", "x", "y", "theta", "breaks"])?);
+        return trajectory_of_poses(&Fields::new(
+            field,
+            &prefix,
+            value,
+            &["t", "x", "y", "theta", "breaks"],
+        )?);
     }
     let fields = Fields::new(field, &prefix, value, &["t", "v", "omega", "breaks"])?;
-    let columns = columns(&fields, ["t", "v", "omega"])?;
+    let columns = read_columns(&fields, ["t", "v", "omega"])?;
     let [t, v, omega] = &columns;
     let commands = t.iter().zip(v).zip(omega).map(|((t, v), omega)| (*t, *v, *omega));
-    trajectory(&fields, Trajectory::from_commands(commands))
+    checked_trajectory(&fields, Trajectory::from_commands(commands))
 }
 
 /// Reads poses.
 fn read_poses(field: &str, value: &JsValue) -> Result<Trajectory, JsValue> {
     let prefix = format!("{field}.");
-    poses(&Fields::new(field, &prefix, value, &["t", "x", "y", "theta", "breaks"])?)
+    trajectory_of_poses(&Fields::new(field, &prefix, value, &["t", "x", "y", "theta", "breaks"])?)
 }
 
-fn poses(fields: &Fields) -> Result<Trajectory, JsValue> {
-    let columns = columns(fields, ["t", "x", "y", "theta"])?;
+fn trajectory_of_poses(fields: &Fields) -> Result<Trajectory, JsValue> {
+    let columns = read_columns(fields, ["t", "x", "y", "theta"])?;
     let [t, x, y, theta] = &columns;
     let poses = x.iter().zip(y).zip(theta).map(|((x, y), theta)| SE2::new(*x, *y, *theta));
-    trajectory(fields, Trajectory::new(t.iter().copied().zip(poses)))
+    checked_trajectory(fields, Trajectory::new(t.iter().copied().zip(poses)))
 }
 
-/// Adds the breaks to a trajectory. Errors are formatted here, because formatting numbers by Rust would take a
-/// twentieth of a module.
-fn trajectory(fields: &Fields, read: Result<Trajectory, TrajectoryError>) -> Result<Trajectory, JsValue> {
+/// Returns a trajectory with the breaks that the caller states. Errors are formatted here, because formatting numbers by Rust
+/// would take a twentieth of a module.
+fn checked_trajectory(
+    fields: &Fields,
+    read: Result<Trajectory, TrajectoryError>,
+) -> Result<Trajectory, JsValue> {
     let read = read.map_err(|TrajectoryError { sample, fault }| {
         let what = match fault {
             TrajectoryFault::NotFinite => {
                 "has a time or a coordinate that is not finite; allowed are finite numbers".to_owned()
             }
             TrajectoryFault::NotLater { before } => {
-                let before = printed(before);
+                let before = number_text(before);
                 format!("is not later than the one before, at {before} s; allowed are times that rise")
             }
         };
         let field = fields.path("");
         JsValue::from(RangeError::new(&format!("{}: sample {sample} {what}", field.trim_end_matches('.'))))
     })?;
-    broken(fields, read)
+    with_breaks(fields, read)
 }
 
 /// Adds the breaks that the caller states.
-fn broken(fields: &Fields, mut trajectory: Trajectory) -> Result<Trajectory, JsValue> {
+fn with_breaks(fields: &Fields, mut trajectory: Trajectory) -> Result<Trajectory, JsValue> {
     let (field, breaks) = (fields.path("breaks"), fields.value("breaks")?);
     if breaks.is_undefined() {
         return Ok(trajectory);
     }
     let (last, mut before) = (trajectory.samples().len() - 1, 0);
-    for i in 0..length(&field, &breaks, "an array of numbers")? {
+    for i in 0..array_length(&field, &breaks, "an array of numbers")? {
         let path = format!("{field}[{i}]");
-        let sample = whole(&path, number(&path, &item(&breaks, i)?)?, 1..=last as u64)? as usize;
+        let sample =
+            read_integer(&path, read_number(&path, &array_item(&breaks, i)?)?, 1..=last as u64)? as usize;
         if sample <= before {
             let message = format!("{path} is {sample}; allowed is more than {before}, the one before it");
             return Err(RangeError::new(&message).into());
@@ -144,12 +153,12 @@ fn broken(fields: &Fields, mut trajectory: Trajectory) -> Result<Trajectory, JsV
 }
 
 /// Reads arrays of numbers of the same length as the first one, the times.
-fn columns<const N: usize>(fields: &Fields, keys: [&str; N]) -> Result<[Vec<f64>; N], JsValue> {
+fn read_columns<const N: usize>(fields: &Fields, keys: [&str; N]) -> Result<[Vec<f64>; N], JsValue> {
     let mut columns = [const { Vec::new() }; N];
     for (i, key) in keys.into_iter().enumerate() {
         let (path, value) = (fields.path(key), fields.value(key)?);
         let expected = "an array of numbers";
-        let rows = length(&path, &value, expected)?;
+        let rows = array_length(&path, &value, expected)?;
         let allowed = if i == 0 { 2..=MAX_ROWS } else { columns[0].len()..=columns[0].len() };
         if !allowed.contains(&rows) {
             let allowed = if i == 0 {
@@ -159,9 +168,9 @@ fn columns<const N: usize>(fields: &Fields, keys: [&str; N]) -> Result<[Vec<f64>
             };
             return Err(RangeError::new(&format!("{path} has length {rows}; allowed is {allowed}")).into());
         }
-        columns[i] = column(&path, &value, rows)?;
+        columns[i] = read_column(&path, &value, rows)?;
         for (row, number) in columns[i].iter().enumerate() {
-            let range = if i == 0 { &TIME } else { &COORDINATE };
+            let range = if i == 0 { &TIME_RANGE } else { &COORDINATE_RANGE };
             if !range.contains(number) {
                 check_real(&format!("{path}[{row}]"), *number, range)?;
             }
@@ -170,13 +179,13 @@ fn columns<const N: usize>(fields: &Fields, keys: [&str; N]) -> Result<[Vec<f64>
     Ok(columns)
 }
 
-fn column(path: &str, value: &JsValue, rows: usize) -> Result<Vec<f64>, JsValue> {
+fn read_column(path: &str, value: &JsValue, rows: usize) -> Result<Vec<f64>, JsValue> {
     if let Some(doubles) = value.dyn_ref::<Float64Array>() {
         return Ok(doubles.to_vec());
     }
     let numbers = (0..rows).map(|row| {
-        let item = item(value, row)?;
-        item.as_f64().map_or_else(|| number(&format!("{path}[{row}]"), &item), Ok)
+        let item = array_item(value, row)?;
+        item.as_f64().map_or_else(|| read_number(&format!("{path}[{row}]"), &item), Ok)
     });
     numbers.collect()
 }

@@ -1,15 +1,16 @@
 //! Plans and grids from JavaScript.
 
 use super::fields::{
-    Fields, boolean, in_range, item, length, number, numbers, printed, type_error, whole, word,
+    Fields, array_item, array_length, in_range, number_text, read_array, read_boolean, read_integer,
+    read_number, read_word, type_error,
 };
 use crate::geom::se2::SE2;
 use crate::geom::segment::Segment;
 use crate::map::{
     FloorPlan, FloorPlanError, Image, ImageError, Interpretation, MAX_BYTES, MAX_PIXELS, Mode, OccupancyGrid,
-    RESOLUTION, read_grid,
+    RESOLUTION_RANGE, read_grid,
 };
-use crate::sim::settings::{QUANTITY, Words};
+use crate::sim::settings::{QUANTITY_RANGE, Words};
 use js_sys::{Float64Array, RangeError, Uint8Array, Uint8ClampedArray};
 use wasm_bindgen::prelude::*;
 
@@ -20,7 +21,7 @@ impl Words for Mode {
 
 impl From<FloorPlanError> for JsValue {
     fn from(error: FloorPlanError) -> Self {
-        RangeError::new(&error.message(printed)).into()
+        RangeError::new(&error.message(number_text)).into()
     }
 }
 
@@ -34,7 +35,7 @@ impl From<ImageError> for JsValue {
 /// as a machine returns them.
 pub fn read_plan(plan: &JsValue) -> Result<FloorPlan, JsValue> {
     let fields = Fields::new("plan", "", plan, &["bounds", "walls"])?;
-    let bounds = numbers("bounds", &fields.value("bounds")?)?;
+    let bounds = read_array("bounds", &fields.value("bounds")?)?;
     let walls = fields.value("walls")?;
     if let Some(walls) = walls.dyn_ref::<Float64Array>() {
         if !walls.length().is_multiple_of(4) {
@@ -44,12 +45,12 @@ pub fn read_plan(plan: &JsValue) -> Result<FloorPlan, JsValue> {
         let segment = |wall: &[f64; 4]| Segment { from: [wall[0], wall[1]], to: [wall[2], wall[3]] };
         return Ok(FloorPlan::new(walls.to_vec().as_chunks().0.iter().map(segment).collect(), bounds)?);
     }
-    let count = length("walls", &walls, "an array of walls, each [x, y, x, y]")?;
+    let count = array_length("walls", &walls, "an array of walls, each [x, y, x, y]")?;
     if count > FloorPlan::MAX_WALLS {
         return Err(FloorPlanError::TooManyWalls(count).into());
     }
     let segments = (0..count).map(|i| {
-        let [x0, y0, x1, y1] = numbers(&format!("walls[{i}]"), &item(&walls, i)?)?;
+        let [x0, y0, x1, y1] = read_array(&format!("walls[{i}]"), &array_item(&walls, i)?)?;
         Ok(Segment { from: [x0, y0], to: [x1, y1] })
     });
     Ok(FloorPlan::new(segments.collect::<Result<_, JsValue>>()?, bounds)?)
@@ -58,36 +59,37 @@ pub fn read_plan(plan: &JsValue) -> Result<FloorPlan, JsValue> {
 /// Reads a map as `map_server` does: from an image (the bytes of a file, or pixels), and the fields of its YAML file
 /// with their defaults.
 pub fn read_map(description: &JsValue, image: &JsValue) -> Result<OccupancyGrid, JsValue> {
-    let fields = Fields::open("description", "", description)?;
-    let resolution = in_range("resolution", fields.number("resolution")?, &RESOLUTION)?;
-    let origin: [f64; 3] = numbers("origin", &fields.value("origin")?)?;
+    let fields = Fields::with_any_keys("description", "", description)?;
+    let resolution = in_range("resolution", fields.number("resolution")?, &RESOLUTION_RANGE)?;
+    let origin: [f64; 3] = read_array("origin", &fields.value("origin")?)?;
     for (i, coordinate) in origin.iter().enumerate() {
-        in_range(&format!("origin[{i}]"), *coordinate, &QUANTITY)?;
+        in_range(&format!("origin[{i}]"), *coordinate, &QUANTITY_RANGE)?;
     }
     let negate = fields.optional("negate", |field, value| {
         if value.as_bool().is_some() {
-            return boolean(field, value);
+            return read_boolean(field, value);
         }
-        Ok(whole(field, number(field, value)?, 0..=1)? == 1)
+        Ok(read_integer(field, read_number(field, value)?, 0..=1)? == 1)
     })?;
-    let threshold =
-        |key: &str| fields.optional(key, |field, value| in_range(field, number(field, value)?, &(0.0..=1.0)));
+    let threshold = |key: &str| {
+        fields.optional(key, |field, value| in_range(field, read_number(field, value)?, &(0.0..=1.0)))
+    };
     let usual = Interpretation::default();
     let occupied_thresh = threshold("occupied_thresh")?.unwrap_or(usual.occupied_thresh);
     let free_thresh = threshold("free_thresh")?;
     if let Some(free) = free_thresh.filter(|free| *free > occupied_thresh) {
-        let [free, limit] = [free, occupied_thresh].map(printed);
+        let [free, limit] = [free, occupied_thresh].map(number_text);
         let message = format!("free_thresh is {free}; allowed is at most occupied_thresh, {limit}");
         return Err(RangeError::new(&message).into());
     }
-    let mode = fields.optional("mode", word)?.unwrap_or(usual.mode);
+    let mode = fields.optional("mode", read_word)?.unwrap_or(usual.mode);
     let free_thresh = free_thresh.unwrap_or(usual.free_thresh.min(occupied_thresh));
     let negate = negate.unwrap_or(usual.negate);
     let interpretation = Interpretation { mode, negate, occupied_thresh, free_thresh };
     let [x, y, yaw] = origin;
     let origin = SE2::new(x, y, yaw);
     if let Some(file) = image.dyn_ref::<Uint8Array>() {
-        whole("image.length", f64::from(file.length()), 0..=MAX_BYTES as u64)?;
+        read_integer("image.length", f64::from(file.length()), 0..=MAX_BYTES as u64)?;
         return Ok(read_grid(&file.to_vec(), &interpretation, resolution, origin)?);
     }
     let (width, height, data) = read_pixels(image)?;
@@ -98,9 +100,10 @@ pub fn read_map(description: &JsValue, image: &JsValue) -> Result<OccupancyGrid,
 /// Reads width, height, and red, green, blue and opacity of each pixel of an ImageData, or of an object with its
 /// properties, because Node has no such class.
 fn read_pixels(image: &JsValue) -> Result<(usize, usize, Vec<u8>), JsValue> {
-    let fields = Fields::open("image", "image.", image)?;
-    let width = whole("image.width", fields.number("width")?, 1..=MAX_PIXELS as u64)? as usize;
-    let height = whole("image.height", fields.number("height")?, 1..=(MAX_PIXELS / width) as u64)? as usize;
+    let fields = Fields::with_any_keys("image", "image.", image)?;
+    let width = read_integer("image.width", fields.number("width")?, 1..=MAX_PIXELS as u64)? as usize;
+    let height =
+        read_integer("image.height", fields.number("height")?, 1..=(MAX_PIXELS / width) as u64)? as usize;
     let data = fields.value("data")?;
     let Some(data) = data.dyn_ref::<Uint8ClampedArray>() else {
         return Err(type_error("image.data", &data, "a Uint8ClampedArray of red, green, blue, opacity"));

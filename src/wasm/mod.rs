@@ -2,7 +2,7 @@
 
 // A page with one widget loads a module without the others, which is compiled with the widget's tag as its cfg
 // `widget`.
-#![cfg_attr(widget, allow(dead_code, reason = "what the other widgets read and make"))]
+#![cfg_attr(widget, allow(dead_code, reason = "used by the other widgets"))]
 
 #[cfg(any(not(widget), widget = "alpha-calibrator"))]
 mod alpha_calibrator;
@@ -32,19 +32,19 @@ pub(crate) mod values;
 
 use crate::models::VelocityCmd;
 use crate::sim::banana::command_seen_at;
-use crate::sim::settings::QUANTITY;
-use crate::sim::views::MORPH;
+use crate::sim::settings::QUANTITY_RANGE;
+use crate::sim::views::MORPH_RANGE;
 use fields::{group_in_range, in_range};
-use values::object;
+use values::js_object;
 use wasm_bindgen::prelude::*;
 
-/// A seed from the platform's entropy source: a whole number, 0 to 2³² − 1.
+/// Returns a seed from the platform's entropy source: a whole number, 0 to 2³² − 1.
 #[wasm_bindgen(js_name = randomSeed)]
 pub fn random_seed() -> Result<f64, JsError> {
     Ok(f64::from(getrandom::u32()?))
 }
 
-/// Speeds of the arc from the origin, heading along x, that ends at (x, y), in m, −1e6 to 1e6, in the time of a command. Of the many
+/// Returns the speeds of the arc from the origin, heading along x, that ends at (x, y), in m, −1e6 to 1e6, in the time of a command. Of the many
 /// such arcs it is the one whose turn is nearest to that command's. `morph` is the stage of the picture, from 0 (the default, the
 /// floor) to 1 (exponential coordinates), in which (x, y) is a point.
 #[wasm_bindgen(js_name = commandReaching, unchecked_return_type = "{ v: number; omega: number }")]
@@ -54,10 +54,10 @@ pub fn speeds_reaching(
     #[wasm_bindgen(unchecked_param_type = "Command")] command: &JsValue,
     morph: Option<f64>,
 ) -> Result<JsValue, JsValue> {
-    let (x, y) = (in_range("x", x, &QUANTITY)?, in_range("y", y, &QUANTITY)?);
+    let (x, y) = (in_range("x", x, &QUANTITY_RANGE)?, in_range("y", y, &QUANTITY_RANGE)?);
     let mut near = VelocityCmd { v: 0.0, omega: 0.0, dt: 0.0 };
     group_in_range("command", command, &mut near)?;
-    let morph = in_range("morph", morph.unwrap_or(0.0), &MORPH)?;
+    let morph = in_range("morph", morph.unwrap_or(0.0), &MORPH_RANGE)?;
     let VelocityCmd { v, omega, .. } = command_seen_at([x, y], &near, morph);
-    Ok(object(&[("v", v.into()), ("omega", omega.into())]))
+    Ok(js_object(&[("v", v.into()), ("omega", omega.into())]))
 }

@@ -1,12 +1,11 @@
 //! `OdometryDecomposer` for JavaScript.
 
 use super::face::cloud;
-use super::fields::{in_range, whole};
-use super::pictures::index_of;
-use super::values::{flat, group_to_js, object, plain};
-use crate::geom::se2::SE2;
+use super::fields::{in_range, read_integer};
+use super::pictures::nearest_index;
+use super::values::{flat_float_array, group_to_js, js_object, to_plain_js};
 use crate::sim::odometry_decomposer::{CurvePoint, MAX_CURVE_POINTS, MAX_SAMPLES, OdometryDecomposer};
-use crate::sim::settings::QUANTITY;
+use crate::sim::settings::QUANTITY_RANGE;
 use js_sys::Float64Array;
 use wasm_bindgen::prelude::*;
 
@@ -34,7 +33,7 @@ impl JsOdometryDecomposer {
         unchecked_return_type = "Pick<OdometryDecomposer, 'config' | 'shown' | 'block' | 'stats' | 'rules' | 'poses' | 'linkage' | 'robot' | 'drifted'> & { ghosts: Float64Array }"
     )]
     pub fn read(&self) -> Result<JsValue, JsValue> {
-        Ok(object(&[
+        Ok(js_object(&[
             ("config", self.config()),
             ("shown", self.shown().into()),
             ("block", self.block().into()),
@@ -44,72 +43,70 @@ impl JsOdometryDecomposer {
             ("linkage", self.linkage().into()),
             ("robot", self.robot()),
             ("drifted", self.drifted()?),
-            ("ghosts", self.ghosts(GHOSTS)?.into()),
+            ("ghosts", self.ghosts(MAX_GHOSTS)?.into()),
         ]))
     }
 
     /// x, y (m), θ (rad) of each outcome shown, in the odometry frame; a copy.
     #[wasm_bindgen(getter)]
     pub fn poses(&self) -> Float64Array {
-        flat(&self.0.poses().iter().map(numbers).collect::<Vec<_>>())
+        flat_float_array(&self.0.poses().iter().map(|pose| (*pose).into()).collect::<Vec<[f64; 3]>>())
     }
 
     /// Noise-free reading as four poses x, y, θ: at the start, after the first rotation, after the drive, after the
     /// second rotation.
     #[wasm_bindgen(getter)]
     pub fn linkage(&self) -> Float64Array {
-        flat(&self.0.linkage().map(|pose| numbers(&pose)))
+        flat_float_array(&self.0.linkage().map(<[f64; 3]>::from))
     }
 
     /// Linkages of the first `count` outcomes shown, one after the other in the form of `linkage`.
     pub fn ghosts(&self, count: f64) -> Result<Float64Array, JsValue> {
-        let ghosts = self.0.ghosts(whole("count", count, 0..=MAX_SAMPLES)? as usize);
-        Ok(flat(&ghosts.as_flattened().iter().map(numbers).collect::<Vec<_>>()))
+        let ghosts = self.0.ghosts(read_integer("count", count, 0..=MAX_SAMPLES)? as usize);
+        Ok(flat_float_array(
+            &ghosts.as_flattened().iter().map(|pose| (*pose).into()).collect::<Vec<[f64; 3]>>(),
+        ))
     }
 
     /// Pose of the robot at the selected phase.
     #[wasm_bindgen(getter, unchecked_return_type = "Start")]
     pub fn robot(&self) -> JsValue {
-        group_to_js(&mut numbers(&self.0.robot()))
+        group_to_js(&mut <[f64; 3]>::from(self.0.robot()))
     }
 
     /// Legs and noises of the reading by each rule.
     #[wasm_bindgen(getter, unchecked_return_type = "RuleFigures[]")]
     pub fn rules(&self) -> Result<JsValue, JsValue> {
-        plain(&self.0.rules())
+        to_plain_js(&self.0.rules())
     }
 
     #[wasm_bindgen(getter, unchecked_return_type = "DecomposerStats")]
     pub fn stats(&self) -> Result<JsValue, JsValue> {
-        plain(&self.0.stats())
+        to_plain_js(&self.0.stats())
     }
 
     /// Standard deviations for lengths of the drive from 0 to `longest` m. For each of `count` points: the length, the
     /// standard deviation across the bearing, the contribution of the first rotation, and the standard deviation of the
     /// length, all in m.
     pub fn curve(&self, longest: f64, count: f64) -> Result<Float64Array, JsValue> {
-        let longest = in_range("longest", longest, &(0.0..=*QUANTITY.end()))?;
-        let count = whole("count", count, 1..=MAX_CURVE_POINTS)? as usize;
+        let longest = in_range("longest", longest, &(0.0..=*QUANTITY_RANGE.end()))?;
+        let count = read_integer("count", count, 1..=MAX_CURVE_POINTS)? as usize;
         let point = |CurvePoint { trans, cross_track, lever, along }| [trans, cross_track, lever, along];
-        Ok(flat(&self.0.curve(longest, count).into_iter().map(point).collect::<Vec<_>>()))
+        Ok(flat_float_array(&self.0.curve(longest, count).into_iter().map(point).collect::<Vec<_>>()))
     }
 
     #[wasm_bindgen(getter, unchecked_return_type = "Drifted")]
     pub fn drifted(&self) -> Result<JsValue, JsValue> {
         let drifted = self.0.drifted();
-        let poses = [drifted.frame, drifted.from, drifted.to].map(|pose| numbers(&pose));
-        Ok(object(&[("poses", flat(&poses).into()), ("legs", plain(&drifted.legs)?)]))
+        let poses = [drifted.frame, drifted.from, drifted.to].map(<[f64; 3]>::from);
+        Ok(js_object(&[("poses", flat_float_array(&poses).into()), ("legs", to_plain_js(&drifted.legs)?)]))
     }
 
     /// The index of the outcome that ends nearest to a point and within `radius` of it; −1 for none.
     pub fn nearest(&self, x: f64, y: f64, radius: f64) -> Result<i32, JsValue> {
-        index_of(x, y, radius, |target, radius| self.0.nearest(target, radius))
+        nearest_index(x, y, radius, |target, radius| self.0.nearest(target, radius))
     }
 }
 
-/// Maximum number of linkages shown: more would hide the linkage of the reading.
-const GHOSTS: f64 = 12.0;
-
-fn numbers(pose: &SE2) -> [f64; 3] {
-    [pose.x(), pose.y(), pose.theta()]
-}
+/// Number of linkages of outcomes that are drawn: more would hide the linkage of the reading.
+const MAX_GHOSTS: f64 = 12.0;

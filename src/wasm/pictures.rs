@@ -1,17 +1,17 @@
 //! Densities for JavaScript: arguments of pictures, and pixels as a view of the core's memory.
 
-use super::fields::{in_range, whole};
+use super::fields::{in_range, read_integer};
 use crate::sim::picture::{RAMP, Ramp};
-use crate::sim::views::{EXTENT, Grid, MAX_CELLS, MAX_SIDE};
+use crate::sim::views::{EXTENT_RANGE, Grid, MAX_CELLS, MAX_SIDE};
 use js_sys::{RangeError, Uint8ClampedArray, WebAssembly};
 use std::ops::RangeInclusive;
 use wasm_bindgen::prelude::*;
 
 /// Allowed radii around a point. NaN is refused.
-pub const RADIUS: RangeInclusive<f64> = 0.0..=f64::INFINITY;
+pub const RADIUS_RANGE: RangeInclusive<f64> = 0.0..=f64::INFINITY;
 
 /// Makes a view of pixels in the core's memory.
-pub fn view_of(pixels: &[[u8; 4]]) -> Uint8ClampedArray {
+pub fn pixel_view(pixels: &[[u8; 4]]) -> Uint8ClampedArray {
     let (start, length) = (pixels.as_ptr() as u32, pixels.as_flattened().len() as u32);
     let view = || {
         let memory: WebAssembly::Memory = wasm_bindgen::memory().unchecked_into();
@@ -23,27 +23,27 @@ pub fn view_of(pixels: &[[u8; 4]]) -> Uint8ClampedArray {
 }
 
 /// Finds the index of what is nearest to a point (m) and within `radius` of it; −1 for none.
-pub fn index_of(
+pub fn nearest_index(
     x: f64,
     y: f64,
     radius: f64,
     find: impl FnOnce([f64; 2], f64) -> Option<usize>,
 ) -> Result<i32, JsValue> {
-    Ok(find([x, y], in_range("radius", radius, &RADIUS)?).map_or(-1, |index| index as i32))
+    Ok(find([x, y], in_range("radius", radius, &RADIUS_RANGE)?).map_or(-1, |index| index as i32))
 }
 
 /// Reads least x, least y, greatest x, greatest y as two corners.
 pub fn read_bounds([x_min, y_min, x_max, y_max]: [f64; 4]) -> Result<[[f64; 2]; 2], JsValue> {
-    let min = [in_range("xMin", x_min, &EXTENT)?, in_range("yMin", y_min, &EXTENT)?];
-    let end = *EXTENT.end();
+    let min = [in_range("xMin", x_min, &EXTENT_RANGE)?, in_range("yMin", y_min, &EXTENT_RANGE)?];
+    let end = *EXTENT_RANGE.end();
     let max = [in_range("xMax", x_max, &(min[0]..=end))?, in_range("yMax", y_max, &(min[1]..=end))?];
     Ok([min, max])
 }
 
 pub fn read_grid(bounds: [f64; 4], columns: f64, rows: f64) -> Result<Grid, JsValue> {
     let [min, max] = read_bounds(bounds)?;
-    let columns = whole("columns", columns, 1..=MAX_SIDE)?;
-    let rows = whole("rows", rows, 1..=MAX_SIDE.min(MAX_CELLS / columns))?;
+    let columns = read_integer("columns", columns, 1..=MAX_SIDE)?;
+    let rows = read_integer("rows", rows, 1..=MAX_SIDE.min(MAX_CELLS / columns))?;
     Ok(Grid { min, max, columns: columns as usize, rows: rows as usize })
 }
 

@@ -1,14 +1,14 @@
 //! `MapSqueeze` for JavaScript.
 
 use super::face::cloud;
-use super::fields::{quoted, whole, word};
+use super::fields::{quoted, read_integer, read_word};
 use super::maps::{read_map, read_plan};
-use super::pictures::{index_of, read_grid, read_ramps, view_of};
-use super::values::{flat, floats, group_to_js, number_or_null, object, plain};
+use super::pictures::{nearest_index, pixel_view, read_grid, read_ramps};
+use super::values::{flat_float_array, float_array, group_to_js, js_object, number_or_null, to_plain_js};
 use crate::geom::segment::Segment;
 use crate::map::{Cell, FloorPlan, MAX_DRAWS, Sampler};
 use crate::sim::settings::Word;
-use crate::sim::squeeze::{Attempt, MAX_SAMPLES, MAX_STEPS, MAX_TRIAL, MapSqueeze, most_draws};
+use crate::sim::squeeze::{Attempt, MAX_SAMPLES, MAX_STEPS, MAX_TRIAL, MapSqueeze, max_draws};
 use js_sys::{Array, Float64Array, RangeError, Uint8Array, Uint8ClampedArray};
 use wasm_bindgen::prelude::*;
 
@@ -52,7 +52,7 @@ impl JsMapSqueeze {
         let attempts = self.0.attempts().iter().enumerate();
         let through = attempts.filter(|(_, attempt)| attempt.is_through_wall()).take(MAX_PATHS);
         let paths = through.map(|(index, _)| self.path(index as f64));
-        Ok(object(&[
+        Ok(js_object(&[
             ("config", self.config()),
             ("shown", self.shown().into()),
             ("block", self.block().into()),
@@ -75,7 +75,10 @@ impl JsMapSqueeze {
     pub fn plan(&self) -> JsValue {
         let wall = |Segment { from, to }: &Segment| [from[0], from[1], to[0], to[1]];
         let walls: Vec<_> = self.0.plan().walls().iter().map(wall).collect();
-        object(&[("bounds", floats(&self.0.plan().bounds())), ("walls", flat(&walls).into())])
+        js_object(&[
+            ("bounds", float_array(&self.0.plan().bounds())),
+            ("walls", flat_float_array(&walls).into()),
+        ])
     }
 
     /// Cells of the map; null for a plan of walls.
@@ -87,11 +90,11 @@ impl JsMapSqueeze {
             let marks: Vec<u8> = grid.cells().map(|cell| u8::from(cell == kind)).collect();
             Uint8Array::from(&marks[..]).into()
         };
-        object(&[
+        js_object(&[
             ("columns", (columns as f64).into()),
             ("rows", (rows as f64).into()),
             ("resolution", grid.resolution().into()),
-            ("origin", floats(&[origin.x(), origin.y(), origin.theta()])),
+            ("origin", float_array(&<[f64; 3]>::from(origin))),
             ("occupied", cells(Cell::Occupied)),
             ("unknown", cells(Cell::Unknown)),
         ])
@@ -124,7 +127,7 @@ impl JsMapSqueeze {
     #[wasm_bindgen(getter, js_name = openPlace, unchecked_return_type = "Start | null")]
     pub fn open_place(&self) -> JsValue {
         let place = self.0.open_place();
-        place.map_or(JsValue::NULL, |place| group_to_js(&mut [place.x(), place.y(), place.theta()]))
+        place.map_or(JsValue::NULL, |place| group_to_js(&mut <[f64; 3]>::from(place)))
     }
 
     /// True if the robot collides with nothing at its start pose.
@@ -136,14 +139,14 @@ impl JsMapSqueeze {
     /// Noise-free path of the command, as x, y pairs.
     #[wasm_bindgen(getter)]
     pub fn commanded(&self) -> Float64Array {
-        flat(&self.0.commanded().points())
+        flat_float_array(&self.0.commanded().points())
     }
 
     /// x, y (m), θ (rad) of each attempt shown; a copy.
     #[wasm_bindgen(getter)]
     pub fn poses(&self) -> Float64Array {
-        let poses = self.0.attempts().iter().map(|Attempt { pose, .. }| [pose.x(), pose.y(), pose.theta()]);
-        flat(&poses.collect::<Vec<_>>())
+        let poses = self.0.attempts().iter().map(|attempt| <[f64; 3]>::from(attempt.pose));
+        flat_float_array(&poses.collect::<Vec<_>>())
     }
 
     /// Result of each attempt as one byte, the sum of 1 if its end is free, 2 if its path is free, and 4 if it is
@@ -155,13 +158,13 @@ impl JsMapSqueeze {
 
     /// Path driven in an attempt, as x, y pairs; empty if the attempt is not shown.
     pub fn path(&self, index: f64) -> Result<Float64Array, JsValue> {
-        let arcs = self.0.arcs(whole("index", index, 0..=MAX_SAMPLES as u64)? as usize);
-        Ok(flat(&arcs.iter().flat_map(|arc| arc.points()).collect::<Vec<_>>()))
+        let arcs = self.0.arcs(read_integer("index", index, 0..=MAX_SAMPLES as u64)? as usize);
+        Ok(flat_float_array(&arcs.iter().flat_map(|arc| arc.points()).collect::<Vec<_>>()))
     }
 
     #[wasm_bindgen(getter, unchecked_return_type = "SqueezeStats")]
     pub fn stats(&self) -> Result<JsValue, JsValue> {
-        plain(&self.0.stats())
+        to_plain_js(&self.0.stats())
     }
 
     /// Draws `count` accepted samples with a sampler and forgets them, for timing it; throws where the robot is wedged.
@@ -172,18 +175,18 @@ impl JsMapSqueeze {
         steps: f64,
         count: f64,
     ) -> Result<JsValue, JsValue> {
-        let steps = whole("steps", steps, 1..=MAX_STEPS)?;
-        let sampler = word::<Sampler>("sampler", sampler)?.in_parts(steps as u32);
-        let count = whole("count", count, 1..=MAX_TRIAL / steps)? as usize;
+        let steps = read_integer("steps", steps, 1..=MAX_STEPS)?;
+        let sampler = read_word::<Sampler>("sampler", sampler)?.in_parts(steps as u32);
+        let count = read_integer("count", count, 1..=MAX_TRIAL / steps)? as usize;
         let cost = self.0.trial(sampler, count).map_err(|wedged| {
-            let most = most_draws(sampler.parts() as usize * count);
+            let most = max_draws(sampler.parts() as usize * count);
             RangeError::new(&format!(
                 "sampler is {}, by which {wedged}; allowed is one of at most {MAX_DRAWS} draws an accepted sample and {most} \
                  for {count} of them",
                 quoted(sampler.get()),
             ))
         })?;
-        plain(&cost)
+        to_plain_js(&cost)
     }
 
     /// Density of the ends of the attempts shown, as RGBA pixels of a grid, row by row from the top. The colours are three
@@ -204,12 +207,12 @@ impl JsMapSqueeze {
     ) -> Result<Uint8ClampedArray, JsValue> {
         let grid = read_grid([x_min, y_min, x_max, y_max], columns, rows)?;
         let ramps = read_ramps("ramps", ramps)?;
-        Ok(view_of(self.0.paint(&grid, &ramps)))
+        Ok(pixel_view(self.0.paint(&grid, &ramps)))
     }
 
     /// The index of the attempt that ends nearest to a point and within `radius` of it; −1 for none.
     pub fn nearest(&self, x: f64, y: f64, radius: f64) -> Result<i32, JsValue> {
-        index_of(x, y, radius, |target, radius| self.0.nearest(target, radius))
+        nearest_index(x, y, radius, |target, radius| self.0.nearest(target, radius))
     }
 }
 
@@ -224,7 +227,7 @@ const MAX_PATHS: usize = 60;
 )]
 pub fn read_map_image(bytes: &[u8]) -> Result<JsValue, JsValue> {
     let image = crate::map::read_png(bytes).map_err(|error| RangeError::new(&error.to_string()))?;
-    Ok(object(&[
+    Ok(js_object(&[
         ("width", (image.width as f64).into()),
         ("height", (image.height as f64).into()),
         ("data", js_sys::Uint8ClampedArray::from(image.pixels.as_flattened()).into()),

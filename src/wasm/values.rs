@@ -7,7 +7,7 @@ use serde::{Serialize, Serializer};
 use wasm_bindgen::prelude::*;
 
 /// Converts a value to a plain JavaScript value, in which None is null.
-pub fn plain<T: Serialize>(value: &T) -> Result<JsValue, JsValue> {
+pub fn to_plain_js<T: Serialize>(value: &T) -> Result<JsValue, JsValue> {
     let serializer = serde_wasm_bindgen::Serializer::new().serialize_missing_as_null(true);
     Ok(value.serialize(&serializer)?)
 }
@@ -22,47 +22,28 @@ pub fn serialize<T: ToJs, S: Serializer>(value: &T, serializer: S) -> Result<S::
     serde_wasm_bindgen::preserve::serialize(&value.to_js(), serializer)
 }
 
-impl ToJs for Vec<f64> {
-    fn to_js(&self) -> JsValue {
-        floats(self)
-    }
+macro_rules! to_js {
+    ($($type:ty: |$value:ident| $js:expr;)+) => {$(
+        impl ToJs for $type {
+            fn to_js(&self) -> JsValue {
+                let $value = self;
+                $js.into()
+            }
+        }
+    )+};
 }
-
-impl<const N: usize> ToJs for [f64; N] {
-    fn to_js(&self) -> JsValue {
-        floats(self)
-    }
-}
-
-impl<const N: usize> ToJs for Vec<[f64; N]> {
-    fn to_js(&self) -> JsValue {
-        floats(self.as_flattened())
-    }
-}
-
-impl ToJs for Vec<Vec<[f64; 2]>> {
-    fn to_js(&self) -> JsValue {
-        self.iter().map(Vec::to_js).collect::<Array>().into()
-    }
-}
-
-impl ToJs for Vec<u8> {
-    fn to_js(&self) -> JsValue {
-        Uint8Array::from(&self[..]).into()
-    }
-}
-
-impl ToJs for Vector3<f64> {
-    fn to_js(&self) -> JsValue {
-        list(self.as_slice())
-    }
-}
-
-/// Arrays of the columns. Those of a symmetric matrix, such as a covariance, are equal to its rows.
-impl ToJs for Matrix3<f64> {
-    fn to_js(&self) -> JsValue {
-        self.as_slice().chunks(3).map(list).collect::<Array>().into()
-    }
+to_js! {
+    Vec<f64>: |numbers| float_array(numbers);
+    Vec<[f64; 2]>: |points| float_array(points.as_flattened());
+    Vec<[f64; 3]>: |poses| float_array(poses.as_flattened());
+    Vec<[f64; 4]>: |segments| float_array(segments.as_flattened());
+    [f64; 3]: |pose| float_array(pose);
+    [f64; 4]: |numbers| float_array(numbers);
+    Vec<Vec<[f64; 2]>>: |lines| lines.iter().map(Vec::to_js).collect::<Array>();
+    Vec<u8>: |bytes| Uint8Array::from(&bytes[..]);
+    Vector3<f64>: |vector| js_array(vector.as_slice());
+    // Arrays of the columns. Those of a symmetric matrix, such as a covariance, are equal to its rows.
+    Matrix3<f64>: |matrix| matrix.as_slice().chunks(3).map(js_array).collect::<Array>();
 }
 
 impl<T: Words> ToJs for T {
@@ -80,7 +61,7 @@ pub fn settings_to_js<S: Declared>(settings: &S) -> JsValue {
         }
         Ok::<_, ()>(())
     });
-    object(&entries)
+    js_object(&entries)
 }
 
 fn setting_to_js(setting: Setting) -> JsValue {
@@ -90,7 +71,7 @@ fn setting_to_js(setting: Setting) -> JsValue {
         Setting::WholeOrNone(whole, _) => number_or_null(whole.map(|whole| whole as f64)),
         Setting::Truth(truth) => (*truth).into(),
         Setting::Word(word) => word.get().into(),
-        Setting::Numbers(numbers, _) => list(numbers),
+        Setting::Numbers(numbers, _) => js_array(numbers),
         Setting::Level(level, _) => number_or_null(level.get()),
         Setting::Group(group) => group_to_js(group),
     }
@@ -107,28 +88,28 @@ pub fn group_to_js(group: &mut dyn Group) -> JsValue {
         .enumerate()
         .map(|(i, field)| (field.declaration.key, (*group.number(i)).into()))
         .collect();
-    object(&entries)
+    js_object(&entries)
 }
 
 /// Makes a plain array of numbers.
-pub fn list(numbers: &[f64]) -> JsValue {
+pub fn js_array(numbers: &[f64]) -> JsValue {
     numbers.iter().copied().map(JsValue::from).collect::<Array>().into()
 }
 
 /// Makes a Float64Array of numbers, those of each point or pose one after the other.
-pub fn flat<const N: usize>(numbers: &[[f64; N]]) -> Float64Array {
+pub fn flat_float_array<const N: usize>(numbers: &[[f64; N]]) -> Float64Array {
     Float64Array::from(numbers.as_flattened())
 }
 
 /// Makes a Float64Array of numbers.
 #[inline(never)]
-pub fn floats(numbers: &[f64]) -> JsValue {
+pub fn float_array(numbers: &[f64]) -> JsValue {
     Float64Array::from(numbers).into()
 }
 
 /// Makes a plain object.
 #[inline(never)]
-pub fn object(entries: &[(&str, JsValue)]) -> JsValue {
+pub fn js_object(entries: &[(&str, JsValue)]) -> JsValue {
     let entries: Array = entries.iter().map(|(key, value)| Array::of2(&(*key).into(), value)).collect();
     Object::from_entries(&entries).unwrap_or_else(|_| Object::new()).into()
 }

@@ -32,10 +32,10 @@ pub const TURN_SCALE: f64 = 0.97;
 /// leg in a hundred an outlier.
 const JUMP: f64 = 0.5;
 const JUMP_ROWS: usize = 25;
-const JUMPS_A_ROW: f64 = 4e-4;
+const JUMP_PROBABILITY: f64 = 4e-4;
 
 /// Time between two rows, s, and number of rows.
-const STEP: f64 = 0.02;
+const ROW_INTERVAL: f64 = 0.02;
 const ROWS: usize = 9000;
 
 /// Speed, m/s, and turn rate, rad/s.
@@ -43,10 +43,10 @@ const SPEED: f64 = 0.6;
 const TURN_RATE: f64 = 0.8;
 
 /// Time between two turns on the spot, s.
-const DRIVES: f64 = 20.0;
+const TURN_INTERVAL: f64 = 20.0;
 
 /// Returns the target of the robot (m) at a phase (rad): a rosette, which crosses the hall in all directions.
-fn aim(phase: f64) -> [f64; 2] {
+fn target_at(phase: f64) -> [f64; 2] {
     let radius = 2.1 + 1.1 * libm::cos(2.4 * phase);
     [1.35 * radius * libm::cos(phase), radius * libm::sin(phase)]
 }
@@ -55,27 +55,27 @@ fn aim(phase: f64) -> [f64; 2] {
 struct Robot {
     phase: f64,
     /// Remaining angle of the turn on the spot, rad.
-    turning: f64,
-    next_look: f64,
+    remaining_turn: f64,
+    next_turn_time: f64,
 }
 
 impl Robot {
     /// Returns the speeds (m/s, rad/s) at a time and estimated pose.
     fn drive(&mut self, time: f64, pose: &SE2, rng: &mut Xoshiro256PlusPlus) -> [f64; 2] {
-        if time >= self.next_look {
-            self.next_look += DRIVES;
-            self.turning = rng.random_range(1.2..3.0) * if rng.random_bool(0.5) { 1.0 } else { -1.0 };
+        if time >= self.next_turn_time {
+            self.next_turn_time += TURN_INTERVAL;
+            self.remaining_turn = rng.random_range(1.2..3.0) * if rng.random_bool(0.5) { 1.0 } else { -1.0 };
         }
-        if self.turning != 0.0 {
-            let turn = self.turning.clamp(-TURN_RATE * STEP, TURN_RATE * STEP);
-            self.turning -= turn;
-            return [0.0, turn / STEP];
+        if self.remaining_turn != 0.0 {
+            let turn = self.remaining_turn.clamp(-TURN_RATE * ROW_INTERVAL, TURN_RATE * ROW_INTERVAL);
+            self.remaining_turn -= turn;
+            return [0.0, turn / ROW_INTERVAL];
         }
         // The target moves ahead of the robot.
-        let mut ahead = aim(self.phase);
+        let mut ahead = target_at(self.phase);
         while libm::hypot(ahead[0] - pose.x(), ahead[1] - pose.y()) < 0.7 {
             self.phase += 0.002;
-            ahead = aim(self.phase);
+            ahead = target_at(self.phase);
         }
         let bearing = libm::atan2(ahead[1] - pose.y(), ahead[0] - pose.x());
         let off = wrap_angle(bearing - pose.theta());
@@ -85,7 +85,7 @@ impl Robot {
 }
 
 /// Rows of the current leg: times, and the noise-free motion since its start.
-struct Open {
+struct CurrentLeg {
     odometry: SE2,
     truth: SE2,
     rows: Vec<(f64, SE2)>,
@@ -94,27 +94,27 @@ struct Open {
 /// Returns the simulated log of a seed.
 pub fn example(seed: u64) -> Log {
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
-    let [x, y] = aim(0.0);
+    let [x, y] = target_at(0.0);
     let start = SE2::new(x, y, 1.6);
-    let mut robot = Robot { phase: 0.0, turning: 0.0, next_look: 6.0 };
+    let mut robot = Robot { phase: 0.0, remaining_turn: 0.0, next_turn_time: 6.0 };
     let mut odometry = vec![(0.0, SE2::identity())];
     let mut truth = vec![(0.0, start)];
-    let mut open = Open { odometry: SE2::identity(), truth: start, rows: vec![(0.0, SE2::identity())] };
+    let mut open = CurrentLeg { odometry: SE2::identity(), truth: start, rows: vec![(0.0, SE2::identity())] };
     for row in 1..ROWS {
-        let time = STEP * row as f64;
+        let time = ROW_INTERVAL * row as f64;
         let (_, driven) = open.rows[open.rows.len() - 1];
         // The robot steers by its odometry. Steering by the true pose would correct the errors, and correlate them with the turns.
         let [v, omega] = robot.drive(time, &(start * odometry[row - 1].1), &mut rng);
-        let driven = driven * SE2::exp(&Vector3::new(v * STEP, 0.0, omega * STEP));
-        let read = Vector3::new(v * STEP / DISTANCE_SCALE, 0.0, omega * STEP / TURN_SCALE);
+        let driven = driven * SE2::exp(&Vector3::new(v * ROW_INTERVAL, 0.0, omega * ROW_INTERVAL));
+        let read = Vector3::new(v * ROW_INTERVAL / DISTANCE_SCALE, 0.0, omega * ROW_INTERVAL / TURN_SCALE);
         let pose = odometry[row - 1].1 * SE2::exp(&read);
         odometry.push((time, pose));
         open.rows.push((time, driven));
         let moved = |from: f64, to: f64| (to - from).abs() > DISTANCE;
         let turned = wrap_angle(pose.theta() - open.odometry.theta()).abs() > ANGLE;
         if moved(open.odometry.x(), pose.x()) || moved(open.odometry.y(), pose.y()) || turned {
-            let end = close(&open, &mut truth, &mut rng);
-            open = Open { odometry: pose, truth: end, rows: vec![(time, SE2::identity())] };
+            let end = finish_leg(&open, &mut truth, &mut rng);
+            open = CurrentLeg { odometry: pose, truth: end, rows: vec![(time, SE2::identity())] };
         }
     }
     // The rows after the last complete leg get no noise.
@@ -124,12 +124,12 @@ pub fn example(seed: u64) -> Log {
         let Ok(trajectory) = Trajectory::new(samples) else { unreachable!() };
         trajectory
     };
-    Log { odometry: trajectory(odometry), reference: trajectory(seen(&truth, &mut rng)) }
+    Log { odometry: trajectory(odometry), reference: trajectory(measured_by_reference(&truth, &mut rng)) }
 }
 
 /// Appends the true poses of a finished leg, and returns its true end. Each row adds an independent part of the noise. If the
 /// noise were proportional to time, legs with other boundaries would have less of it.
-fn close(open: &Open, truth: &mut Vec<(f64, SE2)>, rng: &mut Xoshiro256PlusPlus) -> SE2 {
+fn finish_leg(open: &CurrentLeg, truth: &mut Vec<(f64, SE2)>, rng: &mut Xoshiro256PlusPlus) -> SE2 {
     let [a1, a2, a3, a4] = ALPHAS;
     let rows = &open.rows[1..];
     let (_, driven) = open.rows[rows.len()];
@@ -147,7 +147,7 @@ fn close(open: &Open, truth: &mut Vec<(f64, SE2)>, rng: &mut Xoshiro256PlusPlus)
 }
 
 /// Returns the true trajectory as the reference measures it.
-fn seen(truth: &[(f64, SE2)], rng: &mut Xoshiro256PlusPlus) -> Vec<(f64, SE2)> {
+fn measured_by_reference(truth: &[(f64, SE2)], rng: &mut Xoshiro256PlusPlus) -> Vec<(f64, SE2)> {
     let mut jump = SE2::identity();
     let mut left = 0;
     truth
@@ -155,7 +155,7 @@ fn seen(truth: &[(f64, SE2)], rng: &mut Xoshiro256PlusPlus) -> Vec<(f64, SE2)> {
         .map(|(time, pose)| {
             if left > 0 {
                 left -= 1;
-            } else if rng.random_bool(JUMPS_A_ROW) {
+            } else if rng.random_bool(JUMP_PROBABILITY) {
                 let bearing = TAU * rng.random::<f64>();
                 jump = SE2::new(JUMP * libm::cos(bearing), JUMP * libm::sin(bearing), 0.0);
                 left = JUMP_ROWS;

@@ -139,9 +139,7 @@ impl AlphaCalibrator {
     }
 
     /// Changes the settings.
-    ///
-    /// # Errors
-    /// As [`AlphaCalibrator::new`]; nothing has changed then.
+    /// Errors are those of [`AlphaCalibrator::new`], and change nothing.
     pub fn configure(&mut self, settings: Settings) -> Result<(), SettingsError> {
         settings.check()?;
         let is_same_log = !matches!(self.source, Source::Simulated) || self.settings.seed == settings.seed;
@@ -217,15 +215,17 @@ impl AlphaCalibrator {
         let reading = self.calibration().observations[index].reading;
         let mut draws = Draws::new(self.fit.settings.seed, self.fit.settings.noise);
         draws.extend_to(OUTCOMES);
-        let outcomes: Vec<[f64; 3]> =
-            (0..OUTCOMES).map(|outcome| self.outcome(&reading, draws.of(outcome))).map(numbers).collect();
-        let poses: Vec<SE2> = outcomes.iter().map(|[x, y, theta]| SE2::new(*x, *y, *theta)).collect();
+        let outcomes: Vec<[f64; 3]> = (0..OUTCOMES)
+            .map(|outcome| self.outcome(&reading, draws.unit_noise_of(outcome)))
+            .map(Into::into)
+            .collect();
+        let poses: Vec<SE2> = outcomes.iter().map(|pose| SE2::from(*pose)).collect();
         let cloud = Ellipse::from_moments(&CartesianMoments::from_poses(&poses));
         let outline = if cloud.has_area() { cloud.boundary(OUTLINE_SEGMENTS) } else { vec![] };
         let read = self.outcome(&reading, [0.0; 3]);
         let [from, to] = leg.reference.map(|pose| self.calibration().corrected.base(&pose));
         let ended = from.inverse() * to;
-        Some(LegView { outcomes, outline, read: numbers(read), ended: numbers(ended) })
+        Some(LegView { outcomes, outline, read: read.into(), ended: ended.into() })
     }
 
     /// Returns the end of a leg with this unit noise.
@@ -264,8 +264,4 @@ impl AlphaCalibrator {
             .min_by(|(_, one), (_, other)| one.total_cmp(other))
             .map(|(index, _)| index)
     }
-}
-
-fn numbers(pose: SE2) -> [f64; 3] {
-    [pose.x(), pose.y(), pose.theta()]
 }

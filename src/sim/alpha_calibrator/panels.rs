@@ -22,7 +22,7 @@ impl Words for Driver {
 pub const BINS: usize = 8;
 
 /// Minimum number of legs of a bin: the standard error of a mean of fewer is meaningless.
-const LEAST: usize = 5;
+const MIN_LEGS_PER_BIN: usize = 5;
 
 js_structs! {
     /// Squared innovations of one noise component against a regressor x. The variances due to the other α and to the reference
@@ -33,12 +33,12 @@ js_structs! {
         pub alpha: usize,
         /// Means of the regressor in the bins.
         pub x: Vec<f64>,
-        /// Mean squared innovations of the bins, after that subtraction.
+        /// Mean squared innovations of the bins, less the variances due to the other α and to the reference.
         pub y: Vec<f64>,
         /// Standard errors of `y`: from the scatter of the squares, or from the model, whichever is larger. In a bin with
         /// one dominating leg the scatter is too small.
         pub error: Vec<f64>,
-        /// Slope. Like its interval null (None) where the log does not identify it.
+        /// Slope: the α. It and its interval are null (None) where the log does not identify the α.
         pub slope: Option<f64>,
         pub interval: Option<[f64; 2]>,
     }
@@ -86,7 +86,7 @@ fn panel(model: Model, calibration: &Calibration, kind: usize, driver: Driver) -
     }
     let mut along: Vec<f64> = points.iter().map(|point| point[0]).collect();
     along.sort_unstable_by(f64::total_cmp);
-    let size = points.len().div_ceil(BINS).max(LEAST);
+    let size = points.len().div_ceil(BINS).max(MIN_LEGS_PER_BIN);
     let mut after = f64::NEG_INFINITY;
     for bin in along.chunks(size) {
         let up_to = bin[bin.len() - 1];
@@ -99,7 +99,7 @@ fn panel(model: Model, calibration: &Calibration, kind: usize, driver: Driver) -
         let [x, y] = [sum(&|point| point[0]) / total, sum(&|point| point[1]) / total];
         let spread = sum(&|point| (point[1] - y) * (point[1] - y)) / (total * (total - 1.0));
         let modelled = sum(&|point| point[2] * point[3]) / (total * total);
-        if bin.len() >= LEAST && total > 1.0 {
+        if bin.len() >= MIN_LEGS_PER_BIN && total > 1.0 {
             panel.x.push(x);
             panel.y.push(y);
             panel.error.push(spread.max(modelled).sqrt());

@@ -34,13 +34,12 @@ impl Bend {
     fn of(arc: &Arc) -> Self {
         let Arc { start, length, turn } = *arc;
         let rates = ArcInversion { v_hat: length, omega_hat: turn, gamma_hat: 0.0 };
-        let end = arc.end();
         Self {
             arc_length: length,
             turn,
             radius: rates.radius(),
             centre: rates.centre(&start),
-            end: [end.x(), end.y(), end.theta()],
+            end: arc.end().into(),
         }
     }
 }

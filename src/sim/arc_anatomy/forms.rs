@@ -13,8 +13,8 @@ const DURATION: f64 = 0.1;
 pub const CHAPTERS_THRESHOLD: f64 = 1e-6;
 
 /// Turn rates from 10⁻¹² to 10 rad/s, and their number for each factor of ten.
-const DECADES: [i32; 2] = [-12, 1];
-const A_DECADE: i32 = 8;
+const FIRST_AND_LAST_DECADE: [i32; 2] = [-12, 1];
+const POINTS_PER_DECADE: i32 = 8;
 
 /// Number of headings over which the error is averaged (root mean square).
 const HEADINGS: u32 = 24;
@@ -40,8 +40,9 @@ js_structs! {
 
 /// Returns the errors of the three forms, relative to the same motion in double-double arithmetic.
 pub fn form_errors() -> FormErrors {
-    let [first, last] = DECADES.map(|decade| decade * A_DECADE);
-    let omega: Vec<f64> = (first..=last).map(|i| libm::exp10(f64::from(i) / f64::from(A_DECADE))).collect();
+    let [first, last] = FIRST_AND_LAST_DECADE.map(|decade| decade * POINTS_PER_DECADE);
+    let omega: Vec<f64> =
+        (first..=last).map(|i| libm::exp10(f64::from(i) / f64::from(POINTS_PER_DECADE))).collect();
     let errors: Vec<[f64; 3]> = omega.iter().map(|omega| root_mean_squares(*omega)).collect();
     let of = |form: usize| errors.iter().map(|error| error[form]).collect();
     FormErrors {

@@ -9,11 +9,11 @@ mod table;
 pub use figures::{Bend, Factor, Stats};
 pub use forms::{CHAPTERS_THRESHOLD, FormErrors, form_errors, reference};
 pub use settings::*;
-pub use surface::{LEVELS, Surface};
+pub use surface::{CONTOUR_LEVELS, Surface};
 pub use table::Table;
 
 use super::settings::{Rules, SettingsError};
-use crate::geom::arc::Departure;
+use crate::geom::arc::PreparedPose;
 use crate::geom::se2::SE2;
 use crate::js::js_structs;
 
@@ -82,7 +82,7 @@ impl ArcAnatomy {
         let point = |pose: SE2| [pose.x(), pose.y()];
         let tick = |i: usize| {
             let pose = slid(i, LIE_TICKS);
-            let [x, y] = Departure::new(pose).transform([0.0, xi.y]);
+            let [x, y] = PreparedPose::new(pose).transform([0.0, xi.y]);
             [pose.x(), pose.y(), x, y]
         };
         Paths {
@@ -96,7 +96,7 @@ impl ArcAnatomy {
 
     /// Returns the poses after a fraction of the time, from 0 to 1: on the commanded arc, on the arc that v̂ and ω̂ drive, and on
     /// the path of the constant twist.
-    pub fn underway(&self, share: f64) -> [SE2; 3] {
+    pub fn poses_at(&self, share: f64) -> [SE2; 3] {
         let start = self.settings.start();
         let Stats { commanded, driven, .. } = self.stats();
         let xi = self.settings.next().boxminus(&start);

@@ -3,7 +3,7 @@
 use crate::geom::se2::SE2;
 use crate::models::{VelocityAlphas, VelocityCmd, VelocityModel};
 use crate::noise::NoiseKind;
-use crate::sim::settings::{ALPHA, QUANTITY, Rules, Words, group, settings};
+use crate::sim::settings::{ALPHA_RANGE, QUANTITY_RANGE, Rules, Words, group, settings};
 
 /// Pose whose likelihood is computed.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -15,16 +15,16 @@ pub struct FinalPose {
 
 group!(FinalPose as FinalPose { x, y, theta } => {
     /// Position of the robot after the command.
-    x: "m", in QUANTITY;
+    x: "m", in QUANTITY_RANGE;
     /// Position of the robot after the command.
-    y: "m", in QUANTITY;
+    y: "m", in QUANTITY_RANGE;
     /// Heading of the robot after the command.
-    theta: "rad", in QUANTITY;
+    theta: "rad", in QUANTITY_RANGE;
 });
 
 /// Quantity of the heat map over the positions of the final pose, at its heading.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Mapped {
+pub enum SurfaceKind {
     Nothing,
     /// [`crate::MotionModel::prob`], the score of Table 5.1.
     Prob,
@@ -32,7 +32,7 @@ pub enum Mapped {
     Density,
 }
 
-impl Words for Mapped {
+impl Words for SurfaceKind {
     const WORDS: &'static [(&'static str, Self)] =
         &[("none", Self::Nothing), ("prob", Self::Prob), ("density", Self::Density)];
 }
@@ -67,13 +67,13 @@ settings! {
         /// Command between the two poses.
         command: VelocityCmd = PRESETS[0].command;
         /// Noise parameters, the six of the velocity model.
-        alphas: [f64; 6] = [0.05, 0.05, 0.05, 0.09, 0.01, 0.01], in ALPHA;
+        alphas: [f64; 6] = [0.05, 0.05, 0.05, 0.09, 0.01, 0.01], in ALPHA_RANGE;
         /// Distribution of the noise; the variances are the same.
         noise: NoiseKind = NoiseKind::Normal;
         /// True for a radius without a sign, as Table 5.1 prints it.
         printed: bool = false;
         /// Quantity of the heat map over all positions, at the heading of the final pose.
-        map: Mapped = Mapped::Nothing;
+        map: SurfaceKind = SurfaceKind::Nothing;
     }
 }
 
@@ -85,8 +85,7 @@ impl Rules for Settings {}
 
 impl Settings {
     pub(super) fn start(&self) -> SE2 {
-        let [x, y, theta] = self.start;
-        SE2::new(x, y, theta)
+        self.start.into()
     }
 
     pub(super) fn next(&self) -> SE2 {

@@ -1,21 +1,21 @@
 //! Heat map of p, or of the density of the sampler, over positions. The heading is that of the final pose.
 
 use super::figures::prob;
-use super::{FinalPose, Mapped, Settings};
+use super::{FinalPose, Settings, SurfaceKind};
 use crate::js::js_structs;
 use crate::models::MotionModel;
 use crate::stats::level_set;
 
 /// Maximum number of exponentials for a heat map, which take some milliseconds on a phone. The density sums over the full turns
 /// that noise may cause. If there are many, the heat map has fewer and larger cells.
-const MOST_EXPONENTIALS: f64 = 1e5;
+const MAX_EXPONENTIALS: f64 = 1e5;
 
 /// Maximum number of full turns over which the density of the last turn is summed: nine standard deviations of up to nine
 /// radians.
-const LAST_TURNS: f64 = 27.0;
+const MAX_LAST_TURNS: f64 = 27.0;
 
 /// Values of the contours, relative to the maximum.
-pub const LEVELS: [f64; 3] = [0.5, 0.1, 0.01];
+pub const CONTOUR_LEVELS: [f64; 3] = [0.5, 0.1, 0.01];
 
 js_structs! {
     /// Heat map over positions.
@@ -35,12 +35,12 @@ js_structs! {
 impl Surface {
     /// Returns the heat map of a rectangle from `min` to `max`; None if no heat map is selected.
     pub(super) fn of(settings: &Settings, min: [f64; 2], max: [f64; 2]) -> Option<Self> {
-        if settings.map == Mapped::Nothing {
+        if settings.map == SurfaceKind::Nothing {
             return None;
         }
         let (model, start) = (settings.model(), settings.start());
         let windings = f64::from(2 * model.windings(&settings.command) + 1);
-        let most = MOST_EXPONENTIALS / (3.0 + 2.0 * windings + LAST_TURNS.min(windings + 2.0));
+        let most = MAX_EXPONENTIALS / (3.0 + 2.0 * windings + MAX_LAST_TURNS.min(windings + 2.0));
         let [width, height] = [max[0] - min[0], max[1] - min[1]];
         let columns = (most * width / height).sqrt().max(1.0).min(most).floor();
         let rows = (most / columns).max(1.0).floor();
@@ -60,7 +60,7 @@ impl Surface {
         };
         let prob = field(&prob);
         let density = field(&|at| model.pose_density(&at.next(), &at.command, &start).unwrap_or(0.0));
-        let mapped = if settings.map == Mapped::Prob { &prob } else { &density };
+        let mapped = if settings.map == SurfaceKind::Prob { &prob } else { &density };
         let highest = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
         let most = highest(mapped);
         let shade = |value: &f64| if most > 0.0 { (255.0 * (value / most)).round() as u8 } else { 0 };
@@ -68,7 +68,7 @@ impl Surface {
             let top = highest(values);
             // Contours are interpolated between logarithms, which are closer to linear between cells.
             let logs: Vec<f64> = values.iter().map(|value| libm::log(value.max(f64::MIN_POSITIVE))).collect();
-            let levels = LEVELS.iter().filter(|_| top > 0.0).map(|share| libm::log(share * top));
+            let levels = CONTOUR_LEVELS.iter().filter(|_| top > 0.0).map(|share| libm::log(share * top));
             let lines = levels.flat_map(|level| level_set(&logs, columns, level));
             lines.map(|line| line.into_iter().map(place).collect()).collect()
         };

@@ -2,7 +2,6 @@
 
 use super::OUTLINE_SEGMENTS;
 use crate::geom::arc::ArcInversion;
-use crate::geom::se2::SE2;
 use crate::js::js_structs;
 use crate::models::OdomDelta;
 use crate::sim::cloud::START;
@@ -53,7 +52,7 @@ js_structs! {
 
 /// Coordinates that are defined for all turns of a cloud.
 #[derive(Clone, Copy, Debug)]
-pub struct Charted {
+pub struct DefinedCharts {
     /// True for exponential coordinates.
     pub pose: bool,
     /// True for the length and turn of the arc that ends at the robot.
@@ -84,7 +83,7 @@ impl Figures {
     };
 
     /// Returns the statistics of a cloud of `n` samples. Those in coordinates that are undefined for the cloud are NaN.
-    pub fn of(n: usize, cloud: &CloudFigures, charted: Charted) -> Self {
+    pub fn of(n: usize, cloud: &CloudFigures, defined: DefinedCharts) -> Self {
         let CloudFigures { cartesian, exponential, cross_track, gain, .. } = *cloud;
         let ellipse = Ellipse::from_moments(&cartesian);
         let mut figures = Self {
@@ -98,7 +97,7 @@ impl Figures {
             likelihood_gain_error: gain.error,
             ..Self::NONE
         };
-        if charted.pose {
+        if defined.pose {
             figures.exponential = exponential;
             // The shape is undefined if all positions are equal. Exponential coordinates may then differ, because of the headings.
             if !ellipse.is_point() {
@@ -111,8 +110,8 @@ impl Figures {
         }
         let gains = [&mut figures.likelihood_gain, &mut figures.likelihood_gain_error];
         for LikelihoodGain { pose, floor } in gains {
-            *pose = if charted.pose { *pose } else { f64::NAN };
-            *floor = if charted.arc { *floor } else { f64::NAN };
+            *pose = if defined.pose { *pose } else { f64::NAN };
+            *floor = if defined.arc { *floor } else { f64::NAN };
         }
         figures
     }
@@ -161,21 +160,30 @@ js_structs! {
         /// 2σ circle of noise added to the pose: 0.4 m around the noise-free end, for every command and noise.
         pub additive: Vec<[f64; 2]> as "Float64Array",
     }
-}
 
-/// One sample in detail.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Sample {
-    pub pose: SE2,
-    pub twist: Vector3<f64>,
-    pub executed: Executed,
-    /// Driven path, as (x, y) in m.
-    pub path: Vec<[f64; 2]>,
+    /// One sample, and the motion that it executed.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct Sample as "Inspection" {
+        /// x, y in m, θ in rad, in (−π, π].
+        pub pose: [f64; 3] as "Float64Array",
+        /// ξ along and lateral in m, heading in rad.
+        pub twist: [f64; 3] as "Float64Array",
+        /// Speed of its arc, m/s; like the next two NaN under the odometry model, which has no arc.
+        pub v_hat: f64,
+        /// Turn rate of the arc, rad/s.
+        pub omega_hat: f64,
+        /// Turn rate after the arc, rad/s over the same duration.
+        pub gamma_hat: f64,
+        /// Legs executed under the odometry model; null (None) under the velocity model.
+        pub legs: Option<OdomDelta>,
+        /// Path as x, y pairs in m from the start.
+        pub path: Vec<[f64; 2]> as "Float64Array",
+    }
 }
 
 /// Motion that a robot executed instead of the command.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Executed {
+pub(super) enum Executed {
     /// Arc and final turn, both of duration `dt` (s).
     Arc { arc: ArcInversion, dt: f64 },
     /// Three legs of the odometry model, which has no arc.

@@ -7,20 +7,20 @@ use crate::sim::cloud::START;
 use crate::stats::{Ellipse, ExponentialContour};
 
 /// Minimum area ratio for gaps. Below it the outlines nearly coincide.
-const LEAST_RATIO: f64 = 1.15;
+const MIN_AREA_RATIO: f64 = 1.15;
 
 /// Minimum Mahalanobis distance of a gap from the mean in exponential coordinates. One robot in 900 stops beyond it.
 const MIN_DISTANCE: f64 = 3.7;
 
 /// Fraction of the way from the centre of the ellipse to its boundary: a point there is clearly inside.
-const INSIDE: f64 = 0.95;
+const GAP_FRACTION: f64 = 0.95;
 
 impl BananaMachine {
-    /// Returns up to two points (x, y) in m that are inside the 2σ ellipse, and where no robot stops. On each side of the
-    /// mean, short of it and beyond it, it is the point with the largest distance in exponential coordinates.
+    /// Returns up to two points (x, y) in m that are inside the 2σ ellipse, and where no robot stops. One is short of the mean and
+    /// one beyond it, each the point of its side with the largest distance in exponential coordinates.
     pub fn gaps(&self) -> Vec<[f64; 2]> {
         let Self { figures, .. } = self;
-        if figures.area_ratio.is_nan() || figures.area_ratio < LEAST_RATIO {
+        if figures.area_ratio.is_nan() || figures.area_ratio < MIN_AREA_RATIO {
             return Vec::new();
         }
         let floor = Ellipse::from_moments(&figures.cartesian);
@@ -30,7 +30,7 @@ impl BananaMachine {
             .boundary(OUTLINE_SEGMENTS)
             .into_iter()
             .map(|point| {
-                let [x, y] = floor.inside(point, INSIDE);
+                let [x, y] = floor.inside(point, GAP_FRACTION);
                 let (length, turn) = arc_near(&START, &SE2::new(x, y, 0.0), mean.z);
                 ([x, y], contour.ellipse().distance([length, turn]), length < mean.x)
             })

@@ -4,8 +4,8 @@ mod figures;
 mod gaps;
 mod settings;
 
-use figures::Charted;
-pub use figures::{Contours, Coverage, Executed, Figures, Sample, Table, TableColumn};
+pub use figures::{Contours, Coverage, Figures, Sample, Table, TableColumn};
+use figures::{DefinedCharts, Executed};
 pub use settings::*;
 
 use super::cloud::drive::Drive;
@@ -13,7 +13,7 @@ use super::cloud::picture::{self, Ramp};
 use super::cloud::views::{Grid, Nearest, View};
 use super::cloud::{Cloud, START};
 use super::settings::{Rules, SettingsError};
-use crate::geom::arc::{Arc, arc_near};
+use crate::geom::arc::{Arc, ArcInversion, arc_near};
 use crate::geom::lanes::LANES;
 use crate::geom::se2::SE2;
 use crate::geom::unbend::arc_at;
@@ -153,9 +153,7 @@ impl BananaMachine {
     }
 
     /// Creates a machine that shows the first `count` samples.
-    ///
-    /// # Errors
-    /// As [`BananaMachine::new`].
+    /// Errors are those of [`BananaMachine::new`].
     pub fn showing(settings: Settings, count: usize) -> Result<Self, SettingsError> {
         settings.check()?;
         let drive = settings.motion(settings.command).drive(&settings.command);
@@ -171,9 +169,7 @@ impl BananaMachine {
     }
 
     /// Changes the settings, and draws all samples again from the same random numbers.
-    ///
-    /// # Errors
-    /// As [`BananaMachine::new`]; nothing has changed then.
+    /// Errors are those of [`BananaMachine::new`], and change nothing.
     pub fn configure(&mut self, settings: Settings) -> Result<(), SettingsError> {
         self.configure_first(settings, settings.samples)?;
         self.add_samples(settings.samples);
@@ -181,9 +177,7 @@ impl BananaMachine {
     }
 
     /// Changes the settings and shows the first block of `goal` samples. [`BananaMachine::add_samples`] shows the others.
-    ///
-    /// # Errors
-    /// As [`BananaMachine::configure`].
+    /// Errors are those of [`BananaMachine::configure`].
     pub fn configure_first(&mut self, settings: Settings, goal: usize) -> Result<(), SettingsError> {
         settings.check()?;
         self.reserve(&settings)?;
@@ -200,7 +194,7 @@ impl BananaMachine {
         let Settings { seed, noise, command, .. } = self.settings;
         let drive = self.settings.motion(command).drive(&command);
         let figures = self.cloud.refresh(seed, noise, drive, count);
-        self.figures = Figures::of(count, &figures, self.charted());
+        self.figures = Figures::of(count, &figures, self.defined());
     }
 
     /// Shows up to `count` samples more; returns how many are shown.
@@ -251,13 +245,13 @@ impl BananaMachine {
     /// Returns true if the robots turn by less than a full circle, so that exponential coordinates are defined. Otherwise
     /// statistics and contours in them are undefined.
     pub fn chart_holds(&self) -> bool {
-        self.charted().pose
+        self.defined().pose
     }
 
-    fn charted(&self) -> Charted {
+    fn defined(&self) -> DefinedCharts {
         let VelocityCmd { omega, dt, .. } = self.settings.command;
         let holds = |deviation: f64| (omega * dt).abs() + CHART_SIGMAS * deviation < TAU;
-        Charted { pose: holds(self.cloud.turn_deviation()), arc: holds(self.cloud.arc_deviation()) }
+        DefinedCharts { pose: holds(self.cloud.turn_deviation()), arc: holds(self.cloud.arc_deviation()) }
     }
 
     /// Returns the model's mean τ and covariance R_u in exponential coordinates. The variance of the final turn is added
@@ -353,15 +347,15 @@ impl BananaMachine {
         let Figures { cartesian, exponential, .. } = &self.figures;
         let if_any = |holds: bool, outline: Vec<[f64; 2]>| if holds { outline } else { Vec::new() };
         let enough = self.shown() > 1;
-        let charted = enough && self.chart_holds();
+        let defined = enough && self.chart_holds();
         let VelocityCmd { v, omega, dt } = self.settings.command;
         let contour = ExponentialContour::new(exponential, &START);
         Contours {
             command: arc_points(v * dt, omega * dt),
             ellipse: if_any(enough, Ellipse::from_moments(cartesian).boundary(OUTLINE_SEGMENTS)),
             linearized: Ellipse::from_moments(&self.linearized()).boundary(OUTLINE_SEGMENTS),
-            exponential: if_any(charted, contour.boundary(OUTLINE_SEGMENTS)),
-            twist_ellipse: if_any(charted, contour.ellipse().boundary(OUTLINE_SEGMENTS)),
+            exponential: if_any(defined, contour.boundary(OUTLINE_SEGMENTS)),
+            twist_ellipse: if_any(defined, contour.ellipse().boundary(OUTLINE_SEGMENTS)),
             additive: Ellipse::from_moments(&self.additive()).boundary(OUTLINE_SEGMENTS),
         }
     }
@@ -369,12 +363,14 @@ impl BananaMachine {
     /// Returns sample `index` of the samples shown.
     pub fn inspect(&self, index: usize) -> Option<Sample> {
         let pose = self.pose(index)?;
+        let no_arc = ArcInversion { v_hat: f64::NAN, omega_hat: f64::NAN, gamma_hat: f64::NAN };
         let executed = self.settings.motion(self.settings.command).executed(self.cloud.unit_noise(index));
-        let path = match executed {
-            Executed::Arc { arc, dt } => arc_points(arc.v_hat * dt, arc.omega_hat * dt),
-            Executed::Legs(_) => vec![[START.x(), START.y()], [pose.x(), pose.y()]],
+        let (ArcInversion { v_hat, omega_hat, gamma_hat }, legs, path) = match executed {
+            Executed::Arc { arc, dt } => (arc, None, arc_points(arc.v_hat * dt, arc.omega_hat * dt)),
+            Executed::Legs(legs) => (no_arc, Some(legs), vec![[START.x(), START.y()], [pose.x(), pose.y()]]),
         };
-        Some(Sample { pose, twist: self.twist(&pose), executed, path })
+        let (pose, twist) = (pose.into(), self.twist(&pose).into());
+        Some(Sample { pose, twist, v_hat, omega_hat, gamma_hat, legs, path })
     }
 
     /// Returns the executed motions of the samples shown: v̂ (m/s), ω̂ and γ̂ (rad/s). Under the odometry model they are

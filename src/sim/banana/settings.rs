@@ -2,7 +2,7 @@
 
 use crate::models::VelocityCmd;
 use crate::noise::NoiseKind;
-use crate::sim::settings::{ALPHA, MAX_SEED, Rules, Words, settings};
+use crate::sim::settings::{ALPHA_RANGE, MAX_SEED, Rules, Words, settings};
 
 /// Motion model of the machine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -43,7 +43,7 @@ settings! {
         /// Command of all robots.
         command: VelocityCmd = BANANA.command;
         /// Noise parameters of the present model: six of the velocity model, four of the odometry model.
-        alphas, by alphas_mut, in ALPHA;
+        alphas, by alphas_mut, in ALPHA_RANGE;
         /// True if a drive in reverse gets noise for the rotations that the robot made, and not for two additional half turns.
         reverse_aware as "reverseAware": bool = false;
         /// Number of the only noise parameter in effect; null for all of them.

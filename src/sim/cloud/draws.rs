@@ -15,19 +15,22 @@ use wide::f64x4;
 /// Standard errors are expensive, and computed from a weighted subsample of the groups. A few distant robots may contribute
 /// most of a variance, so that distant groups are sampled more densely. With Gaussian noise 1.8 % of the groups are far and
 /// 0.07 % farthest. With triangular noise none is farthest.
-const FAR: f64 = 13.0;
-const FARTHEST: f64 = 20.0;
+const FAR_SQUARE: f64 = 13.0;
+const FARTHEST_SQUARE: f64 = 20.0;
 
 /// Number of leading groups that are in the subsample, for near, far and farthest ones: those of the first 2048 robots, of
 /// the first 65 536, and all. Fewer would make the first digit of standard errors wrong. More would take noticeable time.
-const REACH: [usize; 3] = [512, 16_384, usize::MAX];
+const SUBSAMPLE_GROUPS: [usize; 3] = [512, 16_384, usize::MAX];
 
-/// Returns the entry of [`REACH`] for a group of four draws.
+/// Returns the entry of [`SUBSAMPLE_GROUPS`] for a group of four draws.
 #[inline(never)]
-fn reach([a, b, c]: &[f64x4; 3]) -> usize {
+fn subsample_groups([a, b, c]: &[f64x4; 3]) -> usize {
     let squares = *a * *a + *b * *b + *c * *c;
-    let shell = [FAR, FARTHEST].iter().filter(|least| any(squares.simd_gt(f64x4::splat(**least)))).count();
-    REACH[shell]
+    let shell = [FAR_SQUARE, FARTHEST_SQUARE]
+        .iter()
+        .filter(|least| any(squares.simd_gt(f64x4::splat(**least))))
+        .count();
+    SUBSAMPLE_GROUPS[shell]
 }
 
 /// Random numbers of all samples: three of variance 1 for each, in sample order. They depend only on the seed and the kind of
@@ -44,7 +47,7 @@ pub struct Draws {
     /// Sums over the first `summed` groups, in complete blocks. They stay valid while a slider moves the robots.
     sums: PairSums,
     summed: usize,
-    /// Indices of farthest groups among the first `summed`, in ascending order. Those below `REACH[1]` are not listed.
+    /// Indices of farthest groups among the first `summed`, in ascending order. Those below `SUBSAMPLE_GROUPS[1]` are not listed.
     farthest: Vec<usize>,
 }
 
@@ -97,8 +100,9 @@ impl Draws {
             let block = self.unit_noise[self.summed..][..BLOCK].iter();
             block.for_each(|noise| self.sums.add([noise[0], noise[1]], f64x4::splat(ALL)));
             self.sums.close_block();
-            let late = self.summed.max(REACH[1])..self.summed + BLOCK;
-            self.farthest.extend(late.filter(|four| reach(&self.unit_noise[*four]) > REACH[1]));
+            let late = self.summed.max(SUBSAMPLE_GROUPS[1])..self.summed + BLOCK;
+            self.farthest
+                .extend(late.filter(|four| subsample_groups(&self.unit_noise[*four]) > SUBSAMPLE_GROUPS[1]));
             self.summed += BLOCK;
         }
     }
@@ -130,18 +134,18 @@ impl Draws {
     /// that each robot represents. Lanes beyond `count` have the weight 0. All of up to 2048 robots are in it.
     pub fn sample(&self, count: usize) -> impl Iterator<Item = (&[f64x4; 3], f64x4)> {
         let fours = count.div_ceil(LANES);
-        let late = self.farthest.iter().copied().chain(self.summed.max(REACH[1])..fours);
-        (0..fours.min(REACH[1])).chain(late).filter_map(move |four| {
+        let late = self.farthest.iter().copied().chain(self.summed.max(SUBSAMPLE_GROUPS[1])..fours);
+        (0..fours.min(SUBSAMPLE_GROUPS[1])).chain(late).filter_map(move |four| {
             let noise = &self.unit_noise[four];
-            let reach = reach(noise);
-            let weight = (fours as f64 / reach as f64).max(1.0);
-            (four < reach)
+            let subsample_groups = subsample_groups(noise);
+            let weight = (fours as f64 / subsample_groups as f64).max(1.0);
+            (four < subsample_groups)
                 .then(|| (noise, lanes(|lane| if LANES * four + lane < count { weight } else { 0.0 })))
         })
     }
 
     /// Returns the unit noise of one sample.
-    pub fn of(&self, index: usize) -> [f64; 3] {
+    pub fn unit_noise_of(&self, index: usize) -> [f64; 3] {
         self.unit_noise[index / LANES].map(|lanes| lanes.to_array()[index % LANES])
     }
 }

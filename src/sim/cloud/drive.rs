@@ -27,7 +27,8 @@ pub struct Drive {
     half_rest: Affine,
     /// Half of the commanded turn (rad), which selects the branches of logarithm and arc.
     near: f64,
-    near_half: [f64; 2],
+    /// Middle and half the width (rad) of the interval of half turns in which the short formulas hold.
+    short_formula_interval: [f64; 2],
     trigonometry: Trigonometry,
 }
 
@@ -51,7 +52,7 @@ impl Drive {
             share: 1.0,
             half_rest: [0.0, 0.5 * gamma],
             near,
-            near_half: near_half(near),
+            short_formula_interval: short_formula_interval(near),
             trigonometry: Trigonometry::default(),
         }
     }
@@ -66,7 +67,7 @@ impl Drive {
             share: 0.5,
             half_rest: [0.5 * u.rot2, -0.5 * rot2],
             near: 0.5 * turn,
-            near_half: near_half(0.5 * turn),
+            short_formula_interval: short_formula_interval(0.5 * turn),
             trigonometry: Trigonometry::default(),
         }
     }
@@ -157,7 +158,7 @@ impl Drive {
     /// Tests whether an angle is outside the range of the short formulas.
     #[inline(always)]
     fn is_far(&self, motions: &Motions) -> bool {
-        let [middle, reach] = self.near_half;
+        let [middle, reach] = self.short_formula_interval;
         let beyond = |angle: f64x4| (angle - middle).abs().simd_gt(f64x4::splat(reach));
         any(beyond(motions.bearing) | beyond(motions.half))
     }
@@ -203,10 +204,13 @@ fn logarithms(ends: &[f64x4; 2], turn: HalfTurn) -> FourPoses {
 }
 
 /// Quarter turn minus a margin for rounding.
-const NEAR: f64 = FRAC_PI_2 * (1.0 - 1e-12);
+const MAX_SHORT_FORMULA_ANGLE: f64 = FRAC_PI_2 * (1.0 - 1e-12);
 
 /// Returns the middle and half the width of the interval of half turns that are within a quarter turn of 0 and of `near`.
-fn near_half(near: f64) -> [f64; 2] {
-    let (low, high) = ((near - NEAR).max(-NEAR), (near + NEAR).min(NEAR));
+fn short_formula_interval(near: f64) -> [f64; 2] {
+    let (low, high) = (
+        (near - MAX_SHORT_FORMULA_ANGLE).max(-MAX_SHORT_FORMULA_ANGLE),
+        (near + MAX_SHORT_FORMULA_ANGLE).min(MAX_SHORT_FORMULA_ANGLE),
+    );
     [0.5 * (low + high), 0.5 * (high - low)]
 }

@@ -106,7 +106,7 @@ impl Cloud {
 
     /// Returns the unit noise of a sample.
     pub fn unit_noise(&self, index: usize) -> [f64; 3] {
-        self.draws.of(index)
+        self.draws.unit_noise_of(index)
     }
 
     /// Returns the pose of a sample that is shown.
@@ -118,8 +118,8 @@ impl Cloud {
         SE2::new(x, y, 2.0 * half.to_array()[lane])
     }
 
-    /// Calls `see` with each group of four in a view. In the last group, lanes without a sample are infinitely far
-    /// away.
+    /// Calls `see` with the points of each group of four samples in a view. In the last group, lanes without a sample are
+    /// infinitely far away.
     #[inline(always)]
     pub fn each_four(&self, view: View, mut see: impl FnMut([f64x4; 2])) {
         let shown = self.shown();

@@ -13,17 +13,13 @@ pub const RAMP: usize = 256;
 /// Counts the shown samples in each cell, row by row from the top (largest second coordinate). Samples outside are not
 /// counted.
 pub fn density(cloud: &Cloud, view: View, grid: &Grid) -> Vec<u32> {
-    let Grid { min, max, columns, rows } = *grid;
-    let mut counts = vec![0; columns * rows];
-    let (width, height) = (columns as f64, rows as f64);
-    let [columns_per_unit, rows_per_unit] = [width / (max[0] - min[0]), height / (max[1] - min[1])];
+    let (Grid { min, max, .. }, per_unit) = (*grid, grid.cells_per_unit());
+    let mut counts = vec![0; grid.columns * grid.rows];
     cloud.each_four(view, |[x, y]| {
-        let column = ((x - min[0]) * columns_per_unit).floor().to_array();
-        let row = ((max[1] - y) * rows_per_unit).floor().to_array();
-        for (column, row) in (0..LANES).map(|lane| (column[lane], row[lane])) {
-            if column >= 0.0 && column < width && row >= 0.0 && row < height {
-                counts[row as usize * columns + column as usize] += 1;
-            }
+        let column = ((x - min[0]) * per_unit[0]).floor().to_array();
+        let row = ((max[1] - y) * per_unit[1]).floor().to_array();
+        for cell in (0..LANES).filter_map(|lane| grid.index_of(column[lane], row[lane])) {
+            counts[cell] += 1;
         }
     });
     counts

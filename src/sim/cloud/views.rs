@@ -30,10 +30,10 @@ impl Words for View {
 }
 
 /// Range of the morph, from the plane to the twists.
-pub const MORPH: RangeInclusive<f64> = 0.0..=1.0;
+pub const MORPH_RANGE: RangeInclusive<f64> = 0.0..=1.0;
 
 /// Range of the coordinates of a view. It includes every position that the largest settings reach.
-pub const EXTENT: RangeInclusive<f64> = -1e18..=1e18;
+pub const EXTENT_RANGE: RangeInclusive<f64> = -1e18..=1e18;
 
 /// Largest number of cells of a [`Grid`], beyond any screen. They take 64 MB.
 pub const MAX_CELLS: u64 = 1 << 24;
@@ -50,6 +50,21 @@ pub struct Grid {
     pub max: [f64; 2],
     pub columns: usize,
     pub rows: usize,
+}
+
+impl Grid {
+    /// Returns the number of columns for each unit of the first coordinate, and of rows for each of the second.
+    pub(in crate::sim) fn cells_per_unit(&self) -> [f64; 2] {
+        let Self { min, max, columns, rows } = *self;
+        [columns as f64 / (max[0] - min[0]), rows as f64 / (max[1] - min[1])]
+    }
+
+    /// Returns the index of the cell in a column and row, row by row from the top; None outside of the grid.
+    #[inline(always)]
+    pub(in crate::sim) fn index_of(&self, column: f64, row: f64) -> Option<usize> {
+        let is_inside = column >= 0.0 && column < self.columns as f64 && row >= 0.0 && row < self.rows as f64;
+        is_inside.then(|| row as usize * self.columns + column as usize)
+    }
 }
 
 /// Search for the point nearest to a target among points that are given one by one.

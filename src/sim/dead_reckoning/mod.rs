@@ -6,7 +6,7 @@ mod settings;
 mod straight;
 
 pub use figures::{Comparison, Misses, RECURSIONS, TOLERANCE};
-pub use rollouts::{KEPT, Measured};
+pub use rollouts::{MAX_SHOWN_ROBOTS, Measured};
 pub use settings::*;
 pub use straight::StraightGrowth;
 
@@ -24,7 +24,7 @@ use rollouts::{BLOCK_ROLLOUTS, Rollouts};
 const OUTLINE_SEGMENTS: usize = 96;
 
 /// Maximum number of chords of the commanded arc in a step.
-const MOST_CHORDS: usize = 16;
+const MAX_CHORDS: usize = 16;
 
 /// Number of steps of all robots in the first block, and in further blocks. While a handle is dragged, each frame waits for
 /// the first block. Further blocks take some milliseconds.
@@ -41,7 +41,7 @@ pub struct DeadReckoning {
     /// Predictions by recursion.
     predicted: [Vec<Option<Matrix3<f64>>>; 3],
     measured: Vec<Measured>,
-    compared: [Comparison; 3],
+    comparisons: [Comparison; 3],
 }
 
 /// Statistics of the robots driven, and comparison with the recursions. They are NaN if undefined.
@@ -97,9 +97,7 @@ impl DeadReckoning {
     }
 
     /// Creates a machine that has driven the first `count` robots.
-    ///
-    /// # Errors
-    /// As [`DeadReckoning::new`].
+    /// Errors are those of [`DeadReckoning::new`].
     pub fn showing(settings: Settings, count: usize) -> Result<Self, SettingsError> {
         settings.check()?;
         let mut rollouts = Rollouts::new(&settings).map_err(|_| SettingsError {
@@ -109,8 +107,8 @@ impl DeadReckoning {
         })?;
         let predicted = RECURSIONS.map(|order| covariances(&settings, order));
         let measured = rollouts.measured(0);
-        let compared = compare(&settings, &predicted, &measured);
-        let mut machine = Self { settings, rollouts, shown: 0, predicted, measured, compared };
+        let comparisons = compare(&settings, &predicted, &measured);
+        let mut machine = Self { settings, rollouts, shown: 0, predicted, measured, comparisons };
         machine.show(count.min(settings.samples));
         Ok(machine)
     }
@@ -121,9 +119,7 @@ impl DeadReckoning {
 
     /// Changes the settings and drives all robots. Each robot has the same random numbers for any length of the path and any
     /// number of robots.
-    ///
-    /// # Errors
-    /// As [`DeadReckoning::new`]; nothing has changed then.
+    /// Errors are those of [`DeadReckoning::new`], and change nothing.
     pub fn configure(&mut self, settings: Settings) -> Result<(), SettingsError> {
         self.configure_first(settings, 0)?;
         self.show(settings.samples);
@@ -132,12 +128,10 @@ impl DeadReckoning {
 
     /// Changes the settings and drives the first block of `goal` robots. [`DeadReckoning::add_samples`] drives the others.
     /// Robots stay if the change does not affect them.
-    ///
-    /// # Errors
-    /// As [`DeadReckoning::configure`].
+    /// Errors are those of [`DeadReckoning::configure`].
     pub fn configure_first(&mut self, settings: Settings, goal: usize) -> Result<(), SettingsError> {
         settings.check()?;
-        if self.settings.drives_as(&settings) {
+        if self.settings.has_same_rollouts(&settings) {
             self.settings = settings;
         } else {
             *self = Self::showing(settings, 0)?;
@@ -159,7 +153,7 @@ impl DeadReckoning {
         self.rollouts.drive_to(count);
         self.shown = count;
         self.measured = self.rollouts.measured(count);
-        self.compared = compare(&self.settings, &self.predicted, &self.measured);
+        self.comparisons = compare(&self.settings, &self.predicted, &self.measured);
     }
 
     /// Returns the number of robots that are driven within a few milliseconds.
@@ -183,12 +177,12 @@ impl DeadReckoning {
 
     /// Returns the covariance that a recursion predicts after each step; None from the step on at which it is undefined.
     pub fn predicted(&self, order: Compounding) -> &[Option<Matrix3<f64>>] {
-        &self.predicted[place_of(order)]
+        &self.predicted[index_of_recursion(order)]
     }
 
     /// Returns the comparison of a recursion with the robots.
-    pub fn compared(&self, order: Compounding) -> &Comparison {
-        &self.compared[place_of(order)]
+    pub fn comparison(&self, order: Compounding) -> &Comparison {
+        &self.comparisons[index_of_recursion(order)]
     }
 
     /// Returns the commanded pose after each step.
@@ -196,7 +190,7 @@ impl DeadReckoning {
         self.rollouts.nominal()
     }
 
-    /// Returns x, y (m) and θ (rad) of the robots in the picture, [`KEPT`] at most, after a step; empty where there is
+    /// Returns x, y (m) and θ (rad) of the robots in the picture, [`MAX_SHOWN_ROBOTS`] at most, after a step; empty where there is
     /// no such step.
     pub fn poses(&self, step: u32) -> &[[f64; 3]] {
         let Self { settings, rollouts, shown, .. } = self;
@@ -208,7 +202,7 @@ impl DeadReckoning {
     pub fn twists(&self) -> impl ExactSizeIterator<Item = [f64; 3]> {
         let step = self.settings.step;
         let nominal = self.nominal()[step as usize - 1];
-        self.poses(step).iter().map(move |[x, y, theta]| SE2::new(*x, *y, *theta).boxminus(&nominal).into())
+        self.poses(step).iter().map(move |pose| SE2::from(*pose).boxminus(&nominal).into())
     }
 
     /// Returns x, y (m) and θ (rad) of one robot after each step; None if the index is too large.
@@ -230,7 +224,7 @@ impl DeadReckoning {
             n: self.shown(),
             measured: ExponentialMoments { mean, cov },
             predicted: by_recursion(|order| self.predicted(order)[step].map(Into::into)),
-            misses: by_recursion(|order| self.compared(order).misses),
+            misses: by_recursion(|order| self.comparison(order).misses),
         }
     }
 
@@ -244,7 +238,7 @@ impl DeadReckoning {
         let Settings { command, steps, .. } = self.settings;
         let twist = TangentNoiseModel::twist(&command);
         // A chord of 0.1 rad deviates from its arc by 1/800 of its length.
-        let chords = ((twist.z.abs() * 10.0).ceil() as usize).clamp(1, MOST_CHORDS);
+        let chords = ((twist.z.abs() * 10.0).ceil() as usize).clamp(1, MAX_CHORDS);
         (0..=chords * steps as usize)
             .map(|i| {
                 let pose = SE2::exp(&(twist * (i as f64 / chords as f64)));
@@ -294,7 +288,7 @@ fn by_recursion<T>(of: impl Fn(Compounding) -> T) -> ByRecursion<T> {
 }
 
 /// Returns the index of a recursion in [`RECURSIONS`].
-fn place_of(order: Compounding) -> usize {
+fn index_of_recursion(order: Compounding) -> usize {
     RECURSIONS.iter().position(|each| *each == order).unwrap_or_default()
 }
 

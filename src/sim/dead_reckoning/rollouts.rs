@@ -5,7 +5,7 @@ use crate::geom::lanes::{Circle, HalfTurn, LANES, Trigonometry, any, lanes};
 use crate::geom::se2::SE2;
 use crate::models::TangentNoiseModel;
 use crate::noise::{NoiseKind, centred_uniform};
-use crate::stats::no_less_than_none;
+use crate::stats::non_negative;
 use crate::stats::sums::{Sums, add};
 use nalgebra::{Matrix3, Vector3};
 use rand::SeedableRng;
@@ -19,14 +19,14 @@ use wide::f64x4;
 const BLOCK: usize = 64;
 pub const BLOCK_ROLLOUTS: usize = BLOCK * LANES;
 
-/// Powers and products of ξ = (a, l, h) that are summed: a, l, h; their squares, cubes and fourth powers; al, ah, lh.
-const QUANTITIES: usize = 15;
+/// Number of the powers and products of ξ = (a, l, h) that are summed: a, l, h; their squares, cubes and fourth powers; al, ah, lh.
+const SUMMED_TERMS: usize = 15;
 
 /// Mask of a lane with a robot: all bits set.
 const ALL: f64 = f64::from_bits(u64::MAX);
 
 /// Quarter turn minus a margin for rounding.
-const NEAR: f64 = FRAC_PI_2 * (1.0 - 1e-12);
+const MAX_SHORT_FORMULA_ANGLE: f64 = FRAC_PI_2 * (1.0 - 1e-12);
 
 /// One step of a robot, in exponential coordinates about the commanded pose. With the error pose e = x̄⁻¹·x, e_k =
 /// exp(−τ)·e_{k−1}·exp(τ + w)·(a turn by γ̂Δt). No number grows with the length of the path.
@@ -47,7 +47,7 @@ struct Step {
 
 /// Error poses of four robots.
 #[derive(Clone, Copy)]
-struct Four {
+struct ErrorPoses {
     x: f64x4,
     y: f64x4,
     half: f64x4,
@@ -67,7 +67,7 @@ pub struct Measured {
 }
 
 /// Maximum number of robots in the picture: more dots would not be distinguishable. The poses of each take 24 bytes a step.
-pub const KEPT: usize = 600;
+pub const MAX_SHOWN_ROBOTS: usize = 600;
 
 /// Rollouts that have been driven so far.
 #[derive(Clone, Debug)]
@@ -80,7 +80,7 @@ pub struct Rollouts {
     /// Number of robots driven in complete blocks.
     driven: usize,
     /// Sums over these robots after each step.
-    sums: Vec<Sums<QUANTITIES>>,
+    sums: Vec<Sums<SUMMED_TERMS>>,
     /// The commanded pose after each step.
     nominal: Vec<SE2>,
     /// x, y (m) and θ (rad) of the first robots, step after step.
@@ -109,7 +109,7 @@ impl Step {
 
     /// Drives four robots by one step, and returns their ξ.
     #[inline(always)]
-    fn drive(&self, four: &mut Four, [first, second, third]: &[f64x4; 3]) -> [f64x4; 3] {
+    fn drive(&self, four: &mut ErrorPoses, [first, second, third]: &[f64x4; 3]) -> [f64x4; 3] {
         let length = *first * self.length[1] + self.length[0];
         let more = *second * self.half_turn[1];
         let Circle { sinc, sin, cos } = self.trigonometry.near_or_any_circle(more + self.half_turn[0]);
@@ -120,13 +120,13 @@ impl Step {
         let x = four.x + chord * (head_cos * cos - head_sin * sin) - self.end[0];
         let y = four.y + chord * (head_sin * cos + head_cos * sin) - self.end[1];
         let half = four.half + (more + *third * self.half_last);
-        let is_far = any(half.abs().simd_gt(f64x4::splat(NEAR)));
+        let is_far = any(half.abs().simd_gt(f64x4::splat(MAX_SHORT_FORMULA_ANGLE)));
         let HalfTurn { half, cotangent, sin, cos, .. } = if is_far {
             self.trigonometry.any_half_turn(half, 0.0)
         } else {
             self.trigonometry.half_turn(half)
         };
-        *four = Four { x: x * self.cos + y * self.sin, y: y * self.cos - x * self.sin, half, sin, cos };
+        *four = ErrorPoses { x: x * self.cos + y * self.sin, y: y * self.cos - x * self.sin, half, sin, cos };
         [cotangent * four.x + half * four.y, cotangent * four.y - half * four.x, half * 2.0]
     }
 }
@@ -139,8 +139,8 @@ impl Rollouts {
     pub fn new(settings: &Settings) -> Result<Self, TryReserveError> {
         let steps = settings.steps as usize;
         let mut poses = Vec::new();
-        poses.try_reserve_exact(steps * KEPT)?;
-        poses.resize(steps * KEPT, [0.0; 3]);
+        poses.try_reserve_exact(steps * MAX_SHOWN_ROBOTS)?;
+        poses.resize(steps * MAX_SHOWN_ROBOTS, [0.0; 3]);
         let twist = TangentNoiseModel::twist(&settings.command);
         Ok(Self {
             step: Step::new(settings),
@@ -176,7 +176,7 @@ impl Rollouts {
 
     /// Returns the moments of `goal` robots after each step. It drives those of the last, incomplete block.
     pub fn measured(&mut self, goal: usize) -> Vec<Measured> {
-        let of = |sums: &[Sums<QUANTITIES>]| {
+        let of = |sums: &[Sums<SUMMED_TERMS>]| {
             sums.iter().map(|sums| measured(&sums.finish(), goal as f64)).collect()
         };
         if goal == self.driven {
@@ -189,12 +189,12 @@ impl Rollouts {
 
     /// Drives the next block and adds the first `count` of its robots.
     #[inline(never)]
-    fn drive_next(&mut self, count: usize, sums: &mut [Sums<QUANTITIES>]) {
+    fn drive_next(&mut self, count: usize, sums: &mut [Sums<SUMMED_TERMS>]) {
         let Self { step, stream, driven, nominal, poses, .. } = self;
         let mut block = Block::new(stream.clone());
         for (k, (sums, nominal)) in sums.iter_mut().zip(nominal).enumerate() {
             block.drive(step);
-            for (i, xi) in block.threes.iter().enumerate() {
+            for (i, xi) in block.draws.iter().enumerate() {
                 let there = count.saturating_sub(LANES * i);
                 if there >= LANES {
                     sum(sums, *xi);
@@ -204,7 +204,7 @@ impl Rollouts {
                 }
             }
             sums.close_block();
-            let row = poses[k * KEPT..][..KEPT].iter_mut().skip(*driven);
+            let row = poses[k * MAX_SHOWN_ROBOTS..][..MAX_SHOWN_ROBOTS].iter_mut().skip(*driven);
             for (i, pose) in row.take(BLOCK_ROLLOUTS).enumerate() {
                 *pose = block.fours[i / LANES].pose(i % LANES, nominal);
             }
@@ -216,9 +216,9 @@ impl Rollouts {
         &self.nominal
     }
 
-    /// Returns x, y (m) and θ (rad) of the first `count` robots, [`KEPT`] at most, after step `k`, counted from 1.
+    /// Returns x, y (m) and θ (rad) of the first `count` robots, [`MAX_SHOWN_ROBOTS`] at most, after step `k`, counted from 1.
     pub fn poses(&self, k: usize, count: usize) -> &[[f64; 3]] {
-        &self.poses[(k - 1) * KEPT..][..count.min(KEPT)]
+        &self.poses[(k - 1) * MAX_SHOWN_ROBOTS..][..count.min(MAX_SHOWN_ROBOTS)]
     }
 
     /// Returns x, y (m) and θ (rad) of one robot after each step.
@@ -235,12 +235,11 @@ impl Rollouts {
     }
 }
 
-impl Four {
+impl ErrorPoses {
     /// Returns x, y (m) and θ (rad) of the robot in a lane.
     fn pose(&self, lane: usize, nominal: &SE2) -> [f64; 3] {
         let [x, y, half] = [self.x, self.y, self.half].map(|lanes| lanes.to_array()[lane]);
-        let pose = *nominal * SE2::new(x, y, 2.0 * half);
-        [pose.x(), pose.y(), pose.theta()]
+        (*nominal * SE2::new(x, y, 2.0 * half)).into()
     }
 }
 
@@ -248,61 +247,61 @@ impl Four {
 struct Block {
     rng: Xoshiro256PlusPlus,
     /// Error poses of the robots.
-    fours: [Four; BLOCK],
+    fours: [ErrorPoses; BLOCK],
     /// Draws of a step, replaced by the resulting ξ.
-    threes: [[f64x4; 3]; BLOCK],
+    draws: [[f64x4; 3]; BLOCK],
 }
 
 impl Block {
     fn new(rng: Xoshiro256PlusPlus) -> Self {
         let [zero, one] = [0.0, 1.0].map(f64x4::splat);
-        let start = Four { x: zero, y: zero, half: zero, sin: zero, cos: one };
-        Self { rng, fours: [start; BLOCK], threes: [[zero; 3]; BLOCK] }
+        let start = ErrorPoses { x: zero, y: zero, half: zero, sin: zero, cos: one };
+        Self { rng, fours: [start; BLOCK], draws: [[zero; 3]; BLOCK] }
     }
 
     #[inline(never)]
     fn drive(&mut self, step: &Step) {
-        let Self { rng, fours, threes } = self;
-        for three in threes.iter_mut() {
+        let Self { rng, fours, draws } = self;
+        for draw in draws.iter_mut() {
             let mut uniforms = [[0.0; LANES]; 3];
             for lane in 0..LANES {
                 uniforms.iter_mut().for_each(|variate| variate[lane] = centred_uniform(rng));
             }
-            *three = uniforms.map(f64x4::from);
+            *draw = uniforms.map(f64x4::from);
         }
-        NoiseKind::Normal.quantiles(threes.as_flattened_mut());
-        for (four, three) in fours.iter_mut().zip(threes) {
-            *three = step.drive(four, three);
+        NoiseKind::Normal.quantiles(draws.as_flattened_mut());
+        for (four, draw) in fours.iter_mut().zip(draws) {
+            *draw = step.drive(four, draw);
         }
     }
 }
 
 #[inline(always)]
-fn sum(sums: &mut Sums<QUANTITIES>, [a, l, h]: [f64x4; 3]) {
+fn sum(sums: &mut Sums<SUMMED_TERMS>, [a, l, h]: [f64x4; 3]) {
     let [aa, ll, hh] = [a * a, l * l, h * h];
     let terms = [a, l, h, aa, ll, hh, a * aa, l * ll, h * hh, aa * aa, ll * ll, hh * hh, a * l, a * h, l * h];
     add(&mut sums.block, terms);
 }
 
 /// Minimum number of robots whose kurtosis is reliable enough for standard errors of variances.
-const FEW: f64 = 30.0;
+const MIN_RELIABLE_COUNT: f64 = 30.0;
 
-fn measured(sums: &[f64; QUANTITIES], n: f64) -> Measured {
+fn measured(sums: &[f64; SUMMED_TERMS], n: f64) -> Measured {
     let [a, l, h, aa, ll, hh, .., al, ah, lh] = sums.map(|sum| sum / n);
     let mean = Vector3::new(a, l, h);
     let mut products = Matrix3::new(aa, al, ah, al, ll, lh, ah, lh, hh) - mean * mean.transpose();
     for i in 0..3 {
-        products[(i, i)] = no_less_than_none(products[(i, i)]);
+        products[(i, i)] = non_negative(products[(i, i)]);
     }
     let relative_error = Vector3::from_fn(|i, _| {
         let [m, square, cube, fourth] = [0, 3, 6, 9].map(|power| sums[power + i] / n);
         let m2 = products[(i, i)];
         let m4 = fourth - 4.0 * m * cube + 6.0 * m * m * square - 3.0 * m * m * m * m;
         let kurtosis = if m2 > 0.0 { m4 / (m2 * m2) } else { f64::NAN };
-        let own = no_less_than_none(kurtosis - 1.0) / n;
+        let own = non_negative(kurtosis - 1.0) / n;
         // The kurtosis of a few robots is unreliable; of two it is always 1. The standard error is then at least that of a
         // normal distribution. `f64::max` would ignore NaN.
-        let least = if n < FEW { 2.0 / (n - 1.0) } else { 0.0 };
+        let least = if n < MIN_RELIABLE_COUNT { 2.0 / (n - 1.0) } else { 0.0 };
         if own < least { least.sqrt() } else { own.sqrt() }
     });
     Measured { mean, cov: products * (n / (n - 1.0)), relative_error }

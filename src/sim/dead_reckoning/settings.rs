@@ -3,7 +3,9 @@
 use crate::models::{Compounding, VelocityAlphas, VelocityCmd, VelocityModel};
 use crate::noise::NoiseKind;
 use crate::sim::noise_level::NoiseLevel;
-use crate::sim::settings::{ALPHA, Level, MAX_SEED, Rules, SettingsError, Words, check_whole, settings};
+use crate::sim::settings::{
+    ALPHA_RANGE, Level, MAX_SEED, Rules, SettingsError, Words, check_whole, settings,
+};
 
 impl Words for Compounding {
     const WORDS: &'static [(&'static str, Self)] =
@@ -42,9 +44,9 @@ settings! {
         /// Number of the selected step.
         step: u32 = 20, in 1..=MAX_STEPS;
         /// Noise parameters, the six of the velocity model.
-        alphas: [f64; 6] = [0.02, 0.02, 0.02, 0.02, 0.005, 0.005], in ALPHA;
+        alphas: [f64; 6] = [0.02, 0.02, 0.02, 0.02, 0.005, 0.005], in ALPHA_RANGE;
         /// Level h of the heading noise: α₃ and α₄ are h, α₅ and α₆ are h/4. Null if they have other ratios.
-        heading_noise as "headingNoise", by heading_level of alphas, in ALPHA;
+        heading_noise as "headingNoise", by heading_level of alphas, in ALPHA_RANGE;
         /// Motion to which the noise parameters apply: each step, or the whole path. Each of n steps then has 1/n of its variance.
         per: NoisePer = NoisePer::Step;
         /// Recursion of the covariance that is shown.
@@ -86,7 +88,7 @@ impl Settings {
 
     /// Returns true if rollouts under both settings are equal to the last bit. The number of robots, the
     /// selected step and the recursion do not matter.
-    pub(super) fn drives_as(&self, other: &Self) -> bool {
+    pub(super) fn has_same_rollouts(&self, other: &Self) -> bool {
         let Self { step, compounding, samples, .. } = *other;
         // −0 equals 0, but leads to other signs of zeros in the results.
         let signs = |of: &Self| {

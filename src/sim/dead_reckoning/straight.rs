@@ -8,7 +8,7 @@ use crate::stats::ExactMoments;
 
 /// Decimal logarithms of the first and last duration, in tenths: 0.1 s to 10 s. Crossings at common settings are in this
 /// range. Smaller steps would not make the curves look smoother.
-const DURATIONS: [i32; 2] = [-10, 10];
+const LOG10_DURATIONS_IN_TENTHS: [i32; 2] = [-10, 10];
 
 js_structs! {
     /// Variances of one straight command by its duration.
@@ -35,7 +35,7 @@ impl StraightGrowth {
         let v = settings.command.v;
         let [alpha1, _, alpha3, ..] = settings.alphas;
         let model = VelocityModel { alphas: VelocityAlphas(settings.alphas), noise: NoiseKind::Normal };
-        let [first, last] = DURATIONS;
+        let [first, last] = LOG10_DURATIONS_IN_TENTHS;
         let durations: Vec<f64> = (first..=last).map(|i| libm::pow(10.0, f64::from(i) / 10.0)).collect();
         let exact = durations.iter().map(|dt| {
             let cov = ExactMoments::of_velocity(&model, &VelocityCmd { v, omega: 0.0, dt: *dt }).cov;

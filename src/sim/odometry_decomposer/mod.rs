@@ -95,9 +95,7 @@ impl OdometryDecomposer {
     }
 
     /// Creates a machine that shows the first `count` outcomes.
-    ///
-    /// # Errors
-    /// As [`OdometryDecomposer::new`].
+    /// Errors are those of [`OdometryDecomposer::new`].
     pub fn showing(settings: Settings, count: usize) -> Result<Self, SettingsError> {
         settings.check()?;
         let draws = Draws::new(settings.seed, settings.noise);
@@ -111,17 +109,13 @@ impl OdometryDecomposer {
     }
 
     /// Changes the settings and shows all outcomes; the draws stay the same.
-    ///
-    /// # Errors
-    /// As [`OdometryDecomposer::new`]; nothing has changed then.
+    /// Errors are those of [`OdometryDecomposer::new`], and change nothing.
     pub fn configure(&mut self, settings: Settings) -> Result<(), SettingsError> {
         self.configure_first(settings, settings.samples)
     }
 
     /// Changes the settings and shows the first `goal` outcomes.
-    ///
-    /// # Errors
-    /// As [`OdometryDecomposer::configure`].
+    /// Errors are those of [`OdometryDecomposer::configure`].
     pub fn configure_first(&mut self, settings: Settings, goal: usize) -> Result<(), SettingsError> {
         settings.check()?;
         self.shown = goal.min(settings.samples);
@@ -177,7 +171,7 @@ impl OdometryDecomposer {
         let rho = self.settings.correlation;
         let (legs, variances) = (self.legs(), self.variances());
         (0..count).map(move |index| {
-            let [across, along, own] = self.draws.of(index);
+            let [across, along, own] = self.draws.unit_noise_of(index);
             let turn = rho * across + (1.0 - rho * rho).sqrt() * own;
             variances.executed(&legs, [across, along, turn])
         })

@@ -3,7 +3,7 @@
 use crate::geom::se2::SE2;
 use crate::models::{OdometryRule, RuleAlphas};
 use crate::noise::NoiseKind;
-use crate::sim::settings::{ALPHA, MAX_SEED, QUANTITY, Rules, Words, group, settings};
+use crate::sim::settings::{ALPHA_RANGE, MAX_SEED, QUANTITY_RANGE, Rules, Words, group, settings};
 use std::ops::RangeInclusive;
 
 impl Words for OdometryRule {
@@ -16,31 +16,31 @@ impl Words for OdometryRule {
 pub struct OdometryPose(pub [f64; 3]);
 
 impl From<OdometryPose> for SE2 {
-    fn from(OdometryPose([x, y, theta]): OdometryPose) -> Self {
-        Self::new(x, y, theta)
+    fn from(OdometryPose(pose): OdometryPose) -> Self {
+        pose.into()
     }
 }
 
 group!(OdometryPose as OdometryPose([x, y, theta]) => {
     /// Position x that odometry reports.
-    x: "m", in QUANTITY;
+    x: "m", in QUANTITY_RANGE;
     /// Position y that odometry reports.
-    y: "m", in QUANTITY;
+    y: "m", in QUANTITY_RANGE;
     /// Heading that odometry reports.
-    theta: "rad", in QUANTITY;
+    theta: "rad", in QUANTITY_RANGE;
 });
 
 /// Maximum number of outcomes. All of them move within a frame, and more dots would not be distinguishable.
 pub const MAX_SAMPLES: u64 = 5000;
 
 /// Range of the correlation.
-const CORRELATION: RangeInclusive<f64> = -1.0..=1.0;
+const CORRELATION_RANGE: RangeInclusive<f64> = -1.0..=1.0;
 
 /// Range of the phase, from the start to the end of the three legs.
-const PHASE: RangeInclusive<f64> = 0.0..=3.0;
+const PHASE_RANGE: RangeInclusive<f64> = 0.0..=3.0;
 
 /// Range of the drift time, up to eleven days like other durations.
-const DRIFT: RangeInclusive<f64> = 0.0..=1e6;
+const DRIFT_RANGE: RangeInclusive<f64> = 0.0..=1e6;
 
 settings! {
     /// Settings of the user.
@@ -52,15 +52,15 @@ settings! {
         /// Rule that relates the α’s to the noise.
         rule: OdometryRule = OdometryRule::Table;
         /// Noise parameters of the rule; only the rule omni has the fifth.
-        alphas: RuleAlphas = [0.03, 0.01, 0.01, 0.02, 0.01], in ALPHA;
+        alphas: RuleAlphas = [0.03, 0.01, 0.01, 0.02, 0.01], in ALPHA_RANGE;
         /// Distribution of the noise; the variances are the same.
         noise: NoiseKind = NoiseKind::Normal;
         /// Correlation of the noises of the two rotations, which the rules take to be independent.
-        correlation: f64 = 0.0, in CORRELATION;
+        correlation: f64 = 0.0, in CORRELATION_RANGE;
         /// Time for which the frame of the odometry has drifted away from the world.
-        drift: f64 = 40.0, "s", in DRIFT;
+        drift: f64 = 40.0, "s", in DRIFT_RANGE;
         /// Progress of the robot: in the first rotation up to 1, in the drive up to 2, in the second rotation up to 3.
-        phase: f64 = 3.0, in PHASE;
+        phase: f64 = 3.0, in PHASE_RANGE;
         /// Number of outcomes in the whole cloud.
         samples: usize = 500, in 1..=MAX_SAMPLES;
         // Among the seeds 0 to 39, the default has the initial standard deviations nearest to the exact ones.

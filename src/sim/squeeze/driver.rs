@@ -4,7 +4,7 @@ use super::settings::Settings;
 use crate::geom::arc::Arc;
 use crate::geom::lanes::LANES;
 use crate::geom::se2::SE2;
-use crate::map::{Accepted, Cost, Judging, MapConditioned, Sampler, Wedged};
+use crate::map::{Accepted, Cost, DrawTester, MapConditioned, NoAcceptedSample, Sampler};
 use crate::sim::cloud::draws::Draws;
 use rand::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
@@ -43,19 +43,19 @@ impl Attempt {
 /// Makes attempts, each from its own noise.
 pub struct Driver<'a> {
     model: &'a MapConditioned<'a>,
-    judging: Judging<'a>,
+    draw_tester: DrawTester<'a>,
     settings: &'a Settings,
     draws: &'a Draws,
 }
 
 impl<'a> Driver<'a> {
     pub fn new(model: &'a MapConditioned, settings: &'a Settings, draws: &'a Draws) -> Self {
-        Self { model, judging: model.judging(&settings.command, &settings.start()), settings, draws }
+        Self { model, draw_tester: model.draw_tester(&settings.command, &settings.start()), settings, draws }
     }
 
-    /// Makes the first of these attempts. With a sampler that checks each attempt once, makes up to four at a time.
+    /// Makes the first of the attempts `indices`, or up to four of them with a sampler that checks each attempt once.
     #[inline(always)]
-    pub fn drive_some(&self, indices: Range<usize>, mut see: impl FnMut(Attempt, Cost)) {
+    pub fn make_attempts(&self, indices: Range<usize>, mut see: impl FnMut(Attempt, Cost)) {
         if let Sampler::SubStepped(steps) = self.settings.sampler {
             let (attempt, cost) = self.drive_parts(indices.start, steps, &mut |_| ());
             return see(attempt, cost);
@@ -63,7 +63,7 @@ impl<'a> Driver<'a> {
         let conditioned = self.settings.conditioned;
         let (four, first) = (indices.start / LANES, indices.start % LANES);
         let lanes = first..LANES.min(first + indices.len());
-        self.judging.judge_four(&self.draws.fours()[four], lanes, |draw| {
+        self.draw_tester.test_four(&self.draws.fours()[four], lanes, |draw| {
             let deciding = self.model.deciding(&draw);
             let attempt = Attempt {
                 pose: draw.pose,
@@ -79,7 +79,7 @@ impl<'a> Driver<'a> {
     /// Returns the arcs that are driven in an attempt.
     pub fn arcs(&self, index: usize) -> Vec<Arc> {
         let Sampler::SubStepped(steps) = self.settings.sampler else {
-            return vec![self.judging.arc(self.draws.of(index))];
+            return vec![self.draw_tester.arc(self.draws.unit_noise_of(index))];
         };
         let mut arcs = Vec::new();
         self.drive_parts(index, steps, &mut |arc| arcs.push(*arc));
@@ -101,7 +101,7 @@ impl<'a> Driver<'a> {
             Ok(Accepted { pose, path_free, cost }) => {
                 (Attempt { pose, accepted: true, end_free: true, path_free }, cost)
             }
-            Err(Wedged(cost)) => {
+            Err(NoAcceptedSample(cost)) => {
                 (Attempt { pose: start, accepted: false, end_free: false, path_free: false }, cost)
             }
         }

@@ -18,14 +18,14 @@ use super::settings::{Allowed, Rules, SettingsError};
 use crate::geom::arc::Arc;
 use crate::geom::se2::SE2;
 use crate::map::{
-    Cost, FloorPlan, FloorPlanError, MAX_DRAWS, MapConditioned, OccupancyGrid, Sampler, Wedged,
+    Cost, FloorPlan, FloorPlanError, MAX_DRAWS, MapConditioned, NoAcceptedSample, OccupancyGrid, Sampler,
 };
 use crate::models::{VelocityAlphas, VelocityCmd, VelocityModel};
 use crate::noise::NoiseKind;
 use driver::Driver;
 use rand::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
-use tally::share;
+use tally::ratio;
 
 /// Maximum number of parts of motions in a timing trial: accepted samples times the parts of each. A longer trial would block
 /// the page.
@@ -52,7 +52,7 @@ struct Shown {
 
 /// Average number of draws for a part of a motion at which the machine gives up: an acceptance of 5 %. With a smaller
 /// limit it would stop where a filter still works; with a larger one a page would wait for seconds.
-const PATIENCE: usize = 20;
+const MAX_MEAN_DRAWS_PER_PART: usize = 20;
 
 /// Number of parts of motions in a block, which takes some milliseconds.
 const BLOCK_PARTS: usize = 4096;
@@ -67,9 +67,7 @@ impl MapSqueeze {
     }
 
     /// Creates a machine in the apartment that shows the first `count` attempts.
-    ///
-    /// # Errors
-    /// As [`MapSqueeze::new`].
+    /// Errors are those of [`MapSqueeze::new`].
     pub fn showing(settings: Settings, count: usize) -> Result<Self, SettingsError> {
         let mut machine = Self {
             plan: FloorPlan::apartment(),
@@ -101,9 +99,7 @@ impl MapSqueeze {
     }
 
     /// Replaces the map by a grid, as [`MapSqueeze::set_plan`] does by a plan. Unknown cells are treated as the settings say.
-    ///
-    /// # Errors
-    /// As [`FloorPlan::from_grid`]; nothing has changed then.
+    /// Errors are those of [`FloorPlan::from_grid`], and change nothing.
     pub fn set_grid(&mut self, grid: OccupancyGrid) -> Result<(), FloorPlanError> {
         self.set_plan(FloorPlan::from_grid(grid.with_unknown(self.settings.unknown))?);
         Ok(())
@@ -121,9 +117,7 @@ impl MapSqueeze {
     }
 
     /// Changes the settings and makes the first block of `goal` attempts. [`MapSqueeze::add_samples`] makes the others.
-    ///
-    /// # Errors
-    /// As [`MapSqueeze::configure`].
+    /// Errors are those of [`MapSqueeze::configure`].
     pub fn configure_first(&mut self, settings: Settings, goal: usize) -> Result<(), SettingsError> {
         settings.check()?;
         let changed = self.plan.grid().filter(|_| settings.unknown != self.settings.unknown);
@@ -167,14 +161,14 @@ impl MapSqueeze {
         let model = conditioned(settings, plan, settings.sampler);
         let driver = Driver::new(&model, settings, draws);
         while attempts.len() < goal && !*gave_up {
-            driver.drive_some(attempts.len()..goal, |attempt, cost| {
+            driver.make_attempts(attempts.len()..goal, |attempt, cost| {
                 tally.draws += cost.draws;
                 tally.wall_tests += cost.wall_tests;
                 tally.accepted += usize::from(attempt.accepted);
                 tally.through_wall += usize::from(attempt.is_through_wall());
                 attempts.push(attempt);
             });
-            *gave_up = tally.draws > most_draws(steps * attempts.len());
+            *gave_up = tally.draws > max_draws(steps * attempts.len());
         }
         attempts.len()
     }
@@ -213,8 +207,8 @@ impl MapSqueeze {
             through_wall: tally.through_wall,
             through_wall_rate: tally.through_wall_rate(),
             through_wall_interval: tally.through_wall_interval(),
-            draws_per_accepted: share(tally.draws, tally.accepted),
-            wall_tests_per_accepted: share(tally.wall_tests, tally.accepted),
+            draws_per_accepted: ratio(tally.draws, tally.accepted),
+            wall_tests_per_accepted: ratio(tally.wall_tests, tally.accepted),
             gave_up: self.shown.gave_up,
         }
     }
@@ -246,8 +240,8 @@ impl MapSqueeze {
     /// Draws `count` accepted samples with a sampler and returns their cost. The caller measures the time.
     ///
     /// # Errors
-    /// [`Wedged`] if one of the samples is not accepted, or if all together take so many draws that the machine would give up.
-    pub fn trial(&self, sampler: Sampler, count: usize) -> Result<Cost, Wedged> {
+    /// [`NoAcceptedSample`] if one of the samples is not accepted, or if all together take so many draws that the machine would give up.
+    pub fn trial(&self, sampler: Sampler, count: usize) -> Result<Cost, NoAcceptedSample> {
         let conditioned = conditioned(&self.settings, &self.plan, sampler);
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(self.settings.seed);
         let mut total = Cost::default();
@@ -256,8 +250,8 @@ impl MapSqueeze {
             let cost = conditioned.cost(&self.settings.command, &self.settings.start(), &mut rng)?;
             total.draws += cost.draws;
             total.wall_tests += cost.wall_tests;
-            if total.draws > most_draws(parts) {
-                return Err(Wedged(total));
+            if total.draws > max_draws(parts) {
+                return Err(NoAcceptedSample(total));
             }
         }
         Ok(total)
@@ -282,8 +276,8 @@ impl MapSqueeze {
 }
 
 /// Returns the maximum number of draws for this many parts of motions, after which the machine gives up.
-pub fn most_draws(parts: usize) -> usize {
-    MAX_DRAWS + PATIENCE * parts
+pub fn max_draws(parts: usize) -> usize {
+    MAX_DRAWS + MAX_MEAN_DRAWS_PER_PART * parts
 }
 
 /// Returns the model with these settings, conditioned on a plan by a sampler.

@@ -29,15 +29,13 @@ impl Attempt {
 
 /// Paints the ends of attempts, row by row from the top.
 pub fn paint(attempts: &[Attempt], grid: &Grid, ramps: &[Ramp; KINDS]) -> Vec<[u8; 4]> {
-    let Grid { min, max, columns, rows } = *grid;
-    let mut cells = vec![[0u32; KINDS]; columns * rows];
-    let [columns_per_metre, rows_per_metre] =
-        [columns as f64 / (max[0] - min[0]), rows as f64 / (max[1] - min[1])];
+    let (Grid { min, max, .. }, per_metre) = (*grid, grid.cells_per_unit());
+    let mut cells = vec![[0u32; KINDS]; grid.columns * grid.rows];
     for attempt in attempts {
-        let column = ((attempt.pose.x() - min[0]) * columns_per_metre).floor();
-        let row = ((max[1] - attempt.pose.y()) * rows_per_metre).floor();
-        if column >= 0.0 && column < columns as f64 && row >= 0.0 && row < rows as f64 {
-            cells[row as usize * columns + column as usize][attempt.kind() as usize] += 1;
+        let column = ((attempt.pose.x() - min[0]) * per_metre[0]).floor();
+        let row = ((max[1] - attempt.pose.y()) * per_metre[1]).floor();
+        if let Some(cell) = grid.index_of(column, row) {
+            cells[cell][attempt.kind() as usize] += 1;
         }
     }
     let all = |counts: &[u32; KINDS]| counts.iter().sum::<u32>();

@@ -5,7 +5,7 @@ use crate::map::{Sampler, Unknown};
 use crate::models::VelocityCmd;
 use crate::sim::noise_level::{NoiseLevel, alphas_of_noise};
 use crate::sim::settings::{
-    ALPHA, Level, MAX_SEED, QUANTITY, Rules, SettingsError, Words, check_whole, group, settings,
+    ALPHA_RANGE, Level, MAX_SEED, QUANTITY_RANGE, Rules, SettingsError, Words, check_whole, group, settings,
 };
 use std::f64::consts::FRAC_PI_2;
 
@@ -24,11 +24,11 @@ impl Words for Unknown {
 
 group!([f64; 3] as [x, y, theta] => {
     /// Position at which the robot starts.
-    x: "m", in QUANTITY;
+    x: "m", in QUANTITY_RANGE;
     /// Position at which the robot starts.
-    y: "m", in QUANTITY;
+    y: "m", in QUANTITY_RANGE;
     /// Heading of the robot at the start.
-    theta: "rad", in QUANTITY;
+    theta: "rad", in QUANTITY_RANGE;
 });
 
 /// Start poses x, y (m) and θ (rad) of the presets in the apartment.
@@ -49,9 +49,9 @@ settings! {
         /// Command of all attempts.
         command: VelocityCmd = VelocityCmd { v: 1.0, omega: 0.0, dt: 2.0 };
         /// Noise parameters, the six of the velocity model.
-        alphas: [f64; 6] = alphas_of_noise(0.12), in ALPHA;
+        alphas: [f64; 6] = alphas_of_noise(0.12), in ALPHA_RANGE;
         /// Noise level n: the first four noise parameters are n, the others n/4. Null if they have other ratios.
-        noise, by noise_level of alphas, in ALPHA;
+        noise, by noise_level of alphas, in ALPHA_RANGE;
         /// Radius of the robot.
         clearance: f64 = 0.13, "m", in 0.0..=10.0;
         /// True if draws are judged by the map; otherwise all are accepted.
@@ -86,8 +86,7 @@ impl Settings {
     }
 
     pub(super) fn start(&self) -> SE2 {
-        let [x, y, theta] = self.start;
-        SE2::new(x, y, theta)
+        self.start.into()
     }
 }
 

@@ -17,11 +17,11 @@ pub struct Tally {
 impl Tally {
     /// Returns the fraction of accepted draws. In an accepted attempt of k parts, k draws were accepted.
     pub fn acceptance_rate(&self, steps: u32) -> f64 {
-        share(self.accepted * steps as usize, self.draws)
+        ratio(self.accepted * steps as usize, self.draws)
     }
 
     pub fn through_wall_rate(&self) -> f64 {
-        share(self.through_wall, self.accepted)
+        ratio(self.through_wall, self.accepted)
     }
 
     /// Returns the 95 % interval of the fraction through a wall (Wilson, 1927), which is also valid at 0 and 1.
@@ -39,7 +39,7 @@ impl Tally {
 }
 
 /// Returns a quotient: NaN for 0/0, and infinity for another number over 0.
-pub(super) fn share(part: usize, all: usize) -> f64 {
+pub(super) fn ratio(part: usize, all: usize) -> f64 {
     part as f64 / all as f64
 }
 

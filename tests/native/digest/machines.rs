@@ -120,7 +120,7 @@ pub fn dead_reckoning(configuration: &Configuration) -> Vec<Part> {
     };
     let none = Vector3::repeat(f64::NAN);
     let [ratios, predicted] = [
-        RECURSIONS.map(|order| each_step(&|k| machine.compared(order).ratios[k])),
+        RECURSIONS.map(|order| each_step(&|k| machine.comparison(order).ratios[k])),
         RECURSIONS
             .map(|order| each_step(&|k| machine.predicted(order)[k].map_or(none, |cov| cov.diagonal()))),
     ]

@@ -3,7 +3,7 @@
 use super::page;
 use crate::common::text::Number;
 use crate::simulations::arc_anatomy::{preset, stats};
-use motion::sim::arc_anatomy::{ArcAnatomy, FinalPose, Mapped, Settings, Stats};
+use motion::sim::arc_anatomy::{ArcAnatomy, FinalPose, Settings, Stats, SurfaceKind};
 
 /// Returns settings with the final pose turned until the wedge disappears.
 fn without_wedge(settings: Settings) -> Settings {
@@ -41,7 +41,7 @@ fn the_printed_table_loses_p_for_centres_to_the_right() {
         assert!(factors[0].estimate * printed.command.v < 0.0);
         // With the unsigned radius the contours are near the start only; with a sign they reach further.
         let furthest = |settings: Settings| {
-            let surface = ArcAnatomy::new(Settings { map: Mapped::Prob, ..settings })
+            let surface = ArcAnatomy::new(Settings { map: SurfaceKind::Prob, ..settings })
                 .expect("valid settings")
                 .surface([-2.0, -2.0], [2.0, 2.0])
                 .expect("a map");

@@ -30,7 +30,7 @@ fn the_six_per_cent_and_the_lateral_miss_are_those_of_the_machine() {
     let opening = machine(Settings::default());
     let [printed]: [Number; 1] =
         page().numbers("what its own loses by the end: # % of the variance along the track");
-    let compared = opening.compared(Compounding::Chapter);
+    let compared = opening.comparison(Compounding::Chapter);
     printed.assert_percent(-compared.misses[0].end, 0.0);
     printed.assert_percent(1.0 - exact_ratios(&opening, Compounding::Chapter, 0)[19], 0.0);
     let [along, lateral]: [Number; 2] = page().numbers(
@@ -57,7 +57,7 @@ fn the_six_per_cent_and_the_lateral_miss_are_those_of_the_machine() {
         "With the right Jacobian Jr, the turn during a step, every ratio is 1 to a hundredth, and fourth order looks the same.",
     );
     for order in [Compounding::FirstOrder, Compounding::FourthOrder] {
-        for ratio in &opening.compared(order).ratios {
+        for ratio in &opening.comparison(order).ratios {
             assert!(ratio.iter().all(|ratio| (ratio - 1.0).abs() < 0.01), "{order:?}: {ratio}");
         }
     }
@@ -76,9 +76,9 @@ fn ratios_and_crossings_are_those_of_exercise_7() {
     }
     let crossings = machines.map(|machine| {
         let error = MAX_STANDARD_ERRORS * (2.3 / machine.settings().samples as f64).sqrt();
-        let fourth = &machine.compared(Compounding::FourthOrder).ratios;
+        let fourth = &machine.comparison(Compounding::FourthOrder).ratios;
         assert!(fourth.iter().all(|ratios| ratios.iter().all(|ratio| (ratio - 1.0).abs() < error)));
-        let first = machine.compared(Compounding::Chapter).misses[0].first.expect("a miss");
+        let first = machine.comparison(Compounding::Chapter).misses[0].first.expect("a miss");
         assert_eq!(first as usize, steps_off(&exact_ratios(&machine, Compounding::Chapter, 0))[0]);
         f64::from(first)
     });

@@ -156,12 +156,12 @@ fn judging_the_geodesic_changes_the_documented_share_of_verdicts() {
             let conditioned =
                 MapConditioned { model, plan: &plan, clearance: 0.13, sampler: Sampler::Endpoint };
             let command = VelocityCmd { v: 1.0, omega, dt: 2.0 };
-            let judging = conditioned.judging(&command, &start);
+            let draw_tester = conditioned.draw_tester(&command, &start);
             let mut rng = seeded(93);
             let (mut accepted, mut differ) = (0u32, 0u32);
             for _ in 0..40_000 {
                 let noise = std::array::from_fn(|_| NoiseKind::Normal.quantile(centred_uniform(&mut rng)));
-                let draw = judging.judge(noise);
+                let draw = draw_tester.judge(noise);
                 if !draw.end.free {
                     continue;
                 }

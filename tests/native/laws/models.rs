@@ -2,7 +2,7 @@
 
 use super::doubles::{any_double, cases, finite, up_to};
 use motion::geom::se2::SE2;
-use motion::sim::settings::{ALPHA, DURATION};
+use motion::sim::settings::{ALPHA_RANGE, DURATION_RANGE};
 use motion::{
     MotionModel, NoiseKind, OdomAlphas, OdomDelta, OdometryModel, ReverseAware, TangentNoiseModel, Variance,
     VelocityAlphas, VelocityCmd, VelocityModel,
@@ -21,13 +21,13 @@ fn within(range: std::ops::RangeInclusive<f64>) -> impl Strategy<Value = f64> {
 }
 
 fn alphas<const N: usize>() -> impl Strategy<Value = [f64; N]> {
-    proptest::collection::vec(prop_oneof![3 => 0.0..1.0, 2 => within(ALPHA), 1 => Just(0.0)], N)
+    proptest::collection::vec(prop_oneof![3 => 0.0..1.0, 2 => within(ALPHA_RANGE), 1 => Just(0.0)], N)
         .prop_map(|alphas| std::array::from_fn(|i| alphas[i]))
 }
 
 /// Returns commands in the range of the settings.
 fn commands() -> impl Strategy<Value = VelocityCmd> {
-    (up_to(1e6), up_to(1e6), within(DURATION)).prop_map(|(v, omega, dt)| VelocityCmd { v, omega, dt })
+    (up_to(1e6), up_to(1e6), within(DURATION_RANGE)).prop_map(|(v, omega, dt)| VelocityCmd { v, omega, dt })
 }
 
 fn places() -> impl Strategy<Value = SE2> {

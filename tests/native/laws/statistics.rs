@@ -4,7 +4,7 @@ use super::doubles::{any_double, cases};
 use motion::TangentNoiseModel;
 use motion::geom::se2::SE2;
 use motion::models::TangentNoiseError;
-use motion::stats::{CartesianMoments, CrossTrack, Ellipse, ExponentialMoments, MeasuredGain};
+use motion::stats::{CartesianMoments, CrossTrack, Ellipse, ExponentialMoments};
 use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -36,15 +36,6 @@ fn covariances() -> impl Strategy<Value = Matrix3<f64>> {
 
 fn is_close(a: f64, b: f64, scale: f64) -> bool {
     a == b || (a.is_nan() && b.is_nan()) || (a - b).abs() <= ROUNDING * scale
-}
-
-/// Minimum variance (m² and rad²) of a cloud about 1 m across: the shape of narrower ones is mostly rounding.
-const MIN_VARIANCE: f64 = 1e-3;
-
-/// Returns true if the variances in every direction on the floor, and of the heading, exceed the minimum.
-fn is_wide(moments: &CartesianMoments) -> bool {
-    let floor = moments.cov.fixed_view::<2, 2>(0, 0).into_owned();
-    floor.symmetric_eigenvalues().min().min(moments.cov[(2, 2)]) > MIN_VARIANCE
 }
 
 /// Maximum distance of a robot from the origin in any frame, m.
@@ -82,34 +73,14 @@ proptest! {
         }
     }
 
-    /// Equal poses are a point: skew and gain are undefined, and so are their standard errors.
+    /// Equal poses are a point: the skew is undefined, and so is its standard error.
     #[test]
     fn a_point_has_no_shape(pose in frames(), count in 1..20usize) {
         let cloud = vec![pose; count];
         let track = CrossTrack::from_poses(&cloud);
         prop_assert!([track.skew, track.skew_error, track.rho_heading].iter().all(|figure| figure.is_nan()));
-        let gain = MeasuredGain::from_poses(&cloud, &SE2::identity(), 0.0).value;
-        prop_assert!(gain.pose.is_nan() && gain.floor.is_nan(), "{:?}", gain);
         let expected = if count == 1 { f64::NAN } else { 0.0 };
         prop_assert!(CartesianMoments::from_poses(&cloud).cov.iter().all(|entry| is_close(*entry, expected, 0.0)));
-    }
-
-    /// The gain has no unit: both Gaussians are densities over the same measure.
-    #[test]
-    fn gains_have_no_unit(cloud in clouds(), power in -60..60i32) {
-        prop_assume!(cloud.len() > 4 && is_wide(&CartesianMoments::from_poses(&cloud)));
-        // Turns far from a full one, and no robot at the start position.
-        prop_assume!(cloud.iter().all(|pose| pose.theta().abs() < 2.0 && pose.x().hypot(pose.y()) > 0.1));
-        let unit = 2f64.powi(power);
-        let scaled: Vec<SE2> = cloud.iter().map(|pose| SE2::new(unit * pose.x(), unit * pose.y(), pose.theta())).collect();
-        let [a, b] = [&cloud, &scaled].map(|cloud| MeasuredGain::from_poses(cloud, &SE2::identity(), 0.0));
-        // Only logarithms round when all is scaled. None is above 50, as ln 2⁶⁰ = 42. The mean of fifty errs by 25 ε of that, six
-        // logarithms of volumes and their sums by another 7 ε, and the difference of a robot by one more.
-        let logarithms = 2.0 * 33.0 * 50.0 * f64::EPSILON / ROUNDING;
-        for (a, b) in [(a.value, b.value), (a.error, b.error)] {
-            prop_assert!(is_close(a.pose, b.pose, logarithms) && is_close(a.floor, b.floor, logarithms), "{:?} {:?}", a, b);
-        }
-        prop_assert!(a.error.pose >= 0.0);
     }
 
     /// Points of the outline are moved towards the centre and away from it by a billionth.

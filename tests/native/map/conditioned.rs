@@ -56,7 +56,7 @@ fn the_published_shares() {
         let (start, command) = (preset(name), VelocityCmd { omega, ..AHEAD });
         let mut rng = seeded(5);
         let draws: Vec<_> =
-            (0..DRAWS).map(|_| endpoint.judge(&command, &start, unit_noise(&mut rng))).collect();
+            (0..DRAWS).map(|_| endpoint.draw_tester(&command, &start).judge(unit_noise(&mut rng))).collect();
         let accepted = draws.iter().filter(|draw| draw.end.free).count();
         let through = draws.iter().filter(|draw| draw.end.free && !draw.path.free).count();
         assert_share(name, accepted, DRAWS, acceptance);
@@ -74,8 +74,8 @@ fn the_last_turn_is_not_part_of_the_path() {
     let mut rng = seeded(7);
     for _ in 0..1000 {
         let [v, omega, gamma] = unit_noise(&mut rng);
-        let draw = endpoint.judge(&command, &start, [v, omega, gamma]);
-        let unturned = endpoint.judge(&command, &start, [v, omega, 0.0]);
+        let draw = endpoint.draw_tester(&command, &start).judge([v, omega, gamma]);
+        let unturned = endpoint.draw_tester(&command, &start).judge([v, omega, 0.0]);
         assert_eq!((draw.arc, draw.end, draw.path), (unturned.arc, unturned.end, unturned.path));
         let executed = model().executed(&command, [v, omega, gamma]);
         assert!((draw.arc.length - 2.0 * executed.v_hat).abs() < 1e-15);

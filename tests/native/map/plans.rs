@@ -120,7 +120,7 @@ fn verdicts_are_those_of_a_loop_over_all_walls() {
             };
             let edges = (0..4).map(|i| Segment { from: corners[i], to: corners[(i + 1) % 4] });
             let crosses = edges.map(|edge| edge.distance_to_arc(&arc)).fold(f64::INFINITY, f64::min) == 0.0;
-            let in_cell = |point| plan.grid().is_some_and(|grid| grid.holds(point));
+            let in_cell = |point| plan.grid().is_some_and(|grid| grid.is_blocked_at(point));
             let end_free = on_map(end) && !in_cell(end) && to_end > clearance;
             let path_free = on_map(start) && !crosses && !in_cell(start) && end_free && to_arc > clearance;
             assert_eq!(plan.point_free(end, clearance).free, end_free, "{number}: {arc:?} {clearance}");

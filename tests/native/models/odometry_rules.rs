@@ -3,7 +3,7 @@
 
 use crate::common::{MAX_STANDARD_ERRORS, NOISE_KINDS, SAMPLES, pose_distance, seeded, uniform};
 use motion::geom::se2::SE2;
-use motion::models::{LegVariances, OdometryRule, RuleAlphas, SPIN_BELOW};
+use motion::models::{LegVariances, MAX_SPIN_DISTANCE, OdometryRule, RuleAlphas};
 use motion::noise::centred_uniform;
 use motion::stats::quadrature::nodes;
 use motion::{
@@ -75,9 +75,11 @@ fn the_variances_of_each_rule_match_its_source() {
 #[test]
 fn nav2_and_beluga_disagree_at_a_centimetre_alone() {
     let reading = |trans| delta(1.0, trans, -0.4);
-    for (trans, of_nav2, of_beluga) in
-        [(SPIN_BELOW.next_down(), 0.0, 0.0), (SPIN_BELOW, 1.0, 0.0), (SPIN_BELOW.next_up(), 1.0, 1.0)]
-    {
+    for (trans, of_nav2, of_beluga) in [
+        (MAX_SPIN_DISTANCE.next_down(), 0.0, 0.0),
+        (MAX_SPIN_DISTANCE, 1.0, 0.0),
+        (MAX_SPIN_DISTANCE.next_up(), 1.0, 1.0),
+    ] {
         let first = |rule: OdometryRule| rule.legs(&reading(trans)).rot1;
         assert_eq!([first(Nav2), first(Beluga)], [of_nav2, of_beluga], "{trans}");
         for rule in OdometryRule::ALL {
@@ -95,7 +97,7 @@ fn the_table_and_the_reversing_option_are_the_models_of_the_crate() {
     for _ in 0..10_000 {
         let reading = delta(
             uniform(&mut rng, -PI, PI),
-            uniform(&mut rng, SPIN_BELOW.next_up(), 3.0),
+            uniform(&mut rng, MAX_SPIN_DISTANCE.next_up(), 3.0),
             uniform(&mut rng, -PI, PI),
         );
         let three = |rule| -> [f64; 3] { std::array::from_fn(|leg| variances(rule, reading)[leg]) };
@@ -115,9 +117,10 @@ fn legs_of_every_rule_end_where_the_reading_does() {
     for _ in 0..10_000 {
         let mut draw = |limit: f64| uniform(&mut rng, -limit, limit);
         let (from, to) = (SE2::new(draw(5.0), draw(5.0), draw(PI)), SE2::new(draw(5.0), draw(5.0), draw(PI)));
-        let near = from * SE2::new(0.2 * SPIN_BELOW * draw(1.0), 0.2 * SPIN_BELOW * draw(1.0), draw(PI));
+        let near = from
+            * SE2::new(0.2 * MAX_SPIN_DISTANCE * draw(1.0), 0.2 * MAX_SPIN_DISTANCE * draw(1.0), draw(PI));
         for rule in OdometryRule::ALL {
-            for (to, tolerance) in [(to, 1e-13), (near, SPIN_BELOW)] {
+            for (to, tolerance) in [(to, 1e-13), (near, MAX_SPIN_DISTANCE)] {
                 let legs = rule.legs(&OdomDelta::from_poses(&from, &to));
                 let still = rule.variances(&legs, &[0.0; 5]).executed(&legs, [1.0; 3]);
                 assert!(pose_distance(&still.poses(&from)[3], &to) < tolerance, "{rule:?}");

@@ -79,7 +79,7 @@ fn robots_end_where_their_arcs_do_and_the_last_turn_gives_the_final_heading() {
         let (_, next) = poses(&settings);
         let Stats { commanded, driven, last_turn, .. } = stats(settings);
         assert!(wrap_angle(driven.end[2] + last_turn - next.theta()).abs() < 1e-13, "{settings:?}");
-        let [as_commanded, as_driven, _] = machine(settings).underway(1.0);
+        let [as_commanded, as_driven, _] = machine(settings).poses_at(1.0);
         for (robot, bend) in [(as_commanded, commanded), (as_driven, driven)] {
             assert_eq!([robot.x(), robot.y()], bend.end[..2], "{settings:?}");
         }
@@ -164,7 +164,7 @@ fn the_twist_slips_sideways_when_there_is_a_last_turn() {
         for (i, tick) in machine.paths().ticks.iter().enumerate().take(8) {
             let share = 0.125 * i as f64 + step;
             let [before, at, after] =
-                [share - step, share, share + step].map(|share| machine.underway(share)[2]);
+                [share - step, share, share + step].map(|share| machine.poses_at(share)[2]);
             let velocity = [(after.x() - before.x()) / (2.0 * step), (after.y() - before.y()) / (2.0 * step)];
             let (sin, cos) = at.theta().sin_cos();
             let sideways = cos * velocity[1] - sin * velocity[0];

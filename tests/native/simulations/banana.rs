@@ -5,7 +5,7 @@ use motion::geom::lanes::ACCURACY;
 use motion::geom::se2::SE2;
 use motion::sim::View;
 use motion::sim::banana::{
-    ADDITIVE_DEVIATION, BananaMachine, Executed, ModelKind, PRESETS, Settings, command_reaching,
+    ADDITIVE_DEVIATION, BananaMachine, ModelKind, PRESETS, Sample, Settings, command_reaching,
 };
 use motion::stats::ExponentialMoments;
 use motion::{
@@ -76,9 +76,7 @@ fn changed_settings_move_the_same_robots() {
         let [v, omega, gamma] = model.variances(&settings.command).map(|b2| b2.0.sqrt());
         (0..300)
             .map(|i| {
-                let Executed::Arc { arc: executed, .. } = machine.inspect(i).unwrap().executed else {
-                    panic!("the velocity model drives arcs")
-                };
+                let executed = machine.inspect(i).unwrap();
                 [
                     (executed.v_hat - settings.command.v) / v,
                     (executed.omega_hat - settings.command.omega) / omega,
@@ -236,13 +234,15 @@ fn the_executed_motion_leads_to_the_pose() {
     for settings in models() {
         let machine = machine(Settings { samples: 200, ..settings });
         for ((i, numbers), pose) in machine.executed().enumerate().zip(machine.poses()) {
-            let led = match machine.inspect(i).unwrap().executed {
-                Executed::Arc { arc, dt } => {
-                    assert_eq!(numbers, [arc.v_hat, arc.omega_hat, arc.gamma_hat]);
-                    let end = SE2::exp(&Vector3::new(arc.v_hat * dt, 0.0, arc.omega_hat * dt));
-                    end * SE2::new(0.0, 0.0, arc.gamma_hat * dt)
+            let Sample { v_hat, omega_hat, gamma_hat, legs, .. } = machine.inspect(i).unwrap();
+            let led = match legs {
+                None => {
+                    assert_eq!(numbers, [v_hat, omega_hat, gamma_hat]);
+                    let dt = settings.command.dt;
+                    let end = SE2::exp(&Vector3::new(v_hat * dt, 0.0, omega_hat * dt));
+                    end * SE2::new(0.0, 0.0, gamma_hat * dt)
                 }
-                Executed::Legs(legs) => {
+                Some(legs) => {
                     assert_eq!(numbers, [legs.rot1, legs.trans, legs.rot2]);
                     legs.apply(&SE2::identity())
                 }

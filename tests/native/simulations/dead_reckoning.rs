@@ -114,7 +114,7 @@ fn moments_are_those_of_the_robots() {
 fn ratios_and_misses_are_counted() {
     let machine = machine(Settings::default());
     for order in RECURSIONS {
-        let compared = machine.compared(order);
+        let compared = machine.comparison(order);
         for (axis, misses) in compared.misses.iter().enumerate() {
             let ratios: Vec<f64> = (0..20)
                 .map(|k| {
@@ -134,13 +134,17 @@ fn ratios_and_misses_are_counted() {
 /// Misses of the chapter's recursion are established with enough robots that have a spread, and not otherwise.
 #[test]
 fn misses_are_reported_with_enough_robots_only() {
-    let told = |settings| machine(settings).compared(Compounding::Chapter).misses.map(|misses| misses.told);
+    let told = |settings| machine(settings).comparison(Compounding::Chapter).misses.map(|misses| misses.told);
     assert_eq!(told(Settings::default()), [true; 3]);
     assert_eq!(told(few(5000)), [false; 3]);
     assert_eq!(told(Settings { alphas: [0.0; 6], ..few(20_000) }), [false; 3]);
     let empty = DeadReckoning::showing(Settings::default(), 0).expect("valid settings");
     assert!(
-        empty.compared(Compounding::Chapter).misses.iter().all(|misses| !misses.told && misses.end.is_nan())
+        empty
+            .comparison(Compounding::Chapter)
+            .misses
+            .iter()
+            .all(|misses| !misses.told && misses.end.is_nan())
     );
     assert_eq!(empty.stats().n, 0);
 }
@@ -162,7 +166,7 @@ fn a_zero_variance_has_no_relative_error() {
     assert!(along.is_nan() && heading.is_finite(), "{along} {heading}");
     // Squares of such variances are no doubles.
     let slow = Settings { command: VelocityCmd { v: 1e-100, omega: 0.0, dt: 0.2 }, ..few(300) };
-    assert_eq!(machine(slow).compared(Compounding::Chapter).misses.map(|misses| misses.told), [false; 3]);
+    assert_eq!(machine(slow).comparison(Compounding::Chapter).misses.map(|misses| misses.told), [false; 3]);
 }
 
 /// The corrections of the fourth order can make a matrix that is no covariance. From that step on there is no covariance and no ratio.
@@ -173,7 +177,9 @@ fn a_fourth_order_without_a_covariance_has_no_ratio() {
     let covs = machine.predicted(Compounding::FourthOrder);
     let first = covs.iter().position(Option::is_none).expect("some step without");
     assert!(covs[first..].iter().all(Option::is_none));
-    assert!(machine.compared(Compounding::FourthOrder).ratios[first..].iter().all(|ratio| ratio.x.is_nan()));
+    assert!(
+        machine.comparison(Compounding::FourthOrder).ratios[first..].iter().all(|ratio| ratio.x.is_nan())
+    );
     assert!(machine.predicted(Compounding::FirstOrder).iter().all(Option::is_some));
     let shown = Settings { step: first as u32 + 1, compounding: Compounding::FourthOrder, ..wild };
     let outlines = DeadReckoning::new(shown).expect("valid settings").outlines(shown.step).expect("a step");

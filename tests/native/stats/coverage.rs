@@ -100,13 +100,13 @@ fn share_through_walls(settings: &squeeze::Settings) -> f64 {
     let model = VelocityModel { alphas: VelocityAlphas(settings.alphas), noise: NoiseKind::Normal };
     let conditioned =
         MapConditioned { model, plan: &plan, clearance: settings.clearance, sampler: Sampler::Endpoint };
-    let judging = conditioned.judging(&settings.command, &SE2::new(x, y, theta));
+    let draw_tester = conditioned.draw_tester(&settings.command, &SE2::new(x, y, theta));
     let node = |i: usize| ((i as f64 + 0.5) / NODES as f64 * 2.0 - 1.0) * REACH;
     let (mut free, mut through) = (0.0, 0.0);
     for v in (0..NODES).map(node) {
         for omega in (0..NODES).map(node) {
             let weight = libm::exp(-0.5 * (v * v + omega * omega));
-            let draw = judging.judge([v, omega, 0.0]);
+            let draw = draw_tester.judge([v, omega, 0.0]);
             if draw.end.free {
                 free += weight;
                 through += if draw.path.free { 0.0 } else { weight };

@@ -2,7 +2,7 @@
 
 use crate::common::{seeded, uniform};
 use motion::geom::se2::SE2;
-use motion::sim::arc_anatomy::{ArcAnatomy, LEVELS, Mapped, Settings, Surface};
+use motion::sim::arc_anatomy::{ArcAnatomy, CONTOUR_LEVELS, Settings, Surface, SurfaceKind};
 use motion::stats::level_set;
 use motion::{MotionModel, NoiseKind, VelocityAlphas, VelocityModel};
 
@@ -91,15 +91,15 @@ fn surface(settings: Settings) -> Surface {
 /// (2/d)² · (1/σ_ω² + 1/σ_γ²) < 770, which is 0.075.
 #[test]
 fn contours_are_where_the_models_have_their_levels() {
-    let settings = Settings { map: Mapped::Density, ..Settings::default() };
+    let settings = Settings { map: SurfaceKind::Density, ..Settings::default() };
     let Surface { columns, rows, shades, prob, density } = surface(settings);
     assert!(columns * rows == shades.len() && (5_000..=10_000).contains(&shades.len()));
     let model = VelocityModel { alphas: VelocityAlphas(settings.alphas), noise: NoiseKind::Normal };
     let start = SE2::identity();
-    let value = |[x, y]: [f64; 2], wanted: Mapped| {
+    let value = |[x, y]: [f64; 2], wanted: SurfaceKind| {
         let next = SE2::new(x, y, settings.next.theta);
         match wanted {
-            Mapped::Prob => model.prob(&next, &settings.command, &start),
+            SurfaceKind::Prob => model.prob(&next, &settings.command, &start),
             _ => model.pose_density(&next, &settings.command, &start).expect("noise of full rank"),
         }
     };
@@ -107,26 +107,27 @@ fn contours_are_where_the_models_have_their_levels() {
         let [column, row] = [i % columns, i / columns].map(|index| index as f64 + 0.5);
         [-0.5 + 2.5 * column / columns as f64, 1.5 - 2.5 * row / rows as f64]
     };
-    for (lines, wanted) in [(&prob, Mapped::Prob), (&density, Mapped::Density)] {
+    for (lines, wanted) in [(&prob, SurfaceKind::Prob), (&density, SurfaceKind::Density)] {
         let top = (0..shades.len()).map(|i| value(place(i), wanted)).fold(0.0, f64::max);
-        assert!(lines.len() >= LEVELS.len());
+        assert!(lines.len() >= CONTOUR_LEVELS.len());
         for point in lines.iter().flatten().filter(|[x, y]| x.hypot(*y) > 0.7) {
             let height = value(*point, wanted) / top;
-            let level =
-                LEVELS.into_iter().min_by(|a, b| (height / a).ln().abs().total_cmp(&(height / b).ln().abs()));
+            let level = CONTOUR_LEVELS
+                .into_iter()
+                .min_by(|a, b| (height / a).ln().abs().total_cmp(&(height / b).ln().abs()));
             assert!((height / level.expect("a level") - 1.0).abs() < 0.078, "{point:?} {height}");
         }
     }
-    let top = (0..shades.len()).map(|i| value(place(i), Mapped::Density)).fold(0.0, f64::max);
+    let top = (0..shades.len()).map(|i| value(place(i), SurfaceKind::Density)).fold(0.0, f64::max);
     for (i, shade) in shades.iter().enumerate() {
-        let expected = 255.0 * value(place(i), Mapped::Density) / top;
+        let expected = 255.0 * value(place(i), SurfaceKind::Density) / top;
         assert!((f64::from(*shade) - expected).abs() <= 0.5 + 1e-9);
     }
 }
 
 #[test]
 fn a_map_without_noise_is_empty() {
-    let noiseless = Settings { alphas: [0.0; 6], map: Mapped::Prob, ..Settings::default() };
+    let noiseless = Settings { alphas: [0.0; 6], map: SurfaceKind::Prob, ..Settings::default() };
     let Surface { shades, prob, density, .. } = surface(noiseless);
     assert!(shades.iter().all(|shade| *shade == 0) && prob.is_empty() && density.is_empty());
 }

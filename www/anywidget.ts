@@ -120,7 +120,7 @@ function withoutKernel(work: () => void) {
 
 /** Returns all spellings of traits with their properties. Properties that others depend on come first. */
 function traitsOf(element: any): [trait: string, property: string][] {
-  const { attributes, declared, own } = element.constructor;
+  const { attributes, declared, own } = element.constructor.definition;
   const entries: Record<string, { property?: string }> = { ...attributes, ...groupsOf(declared), ...own, ...COMMON, ...Object.fromEntries(GLOBAL.map((name) => [name, {}])) };
   return Object.entries(entries).flatMap(([name, { property = name }]) => {
     if (!(property in element)) return [];

@@ -188,7 +188,7 @@ const layout = css`
     inset: 0.55em;
     box-sizing: border-box;
     background: var(--paper);
-    border: 3px solid var(--prior);
+    border: 3px solid var(--ring, var(--prior));
     border-radius: 50%;
   }
 
@@ -217,7 +217,7 @@ const layout = css`
   }
 
   .handle:hover::after {
-    background: var(--prior);
+    background: var(--ring, var(--prior));
   }
 
   /* A robot is drawn in the picture: the handle of its body is invisible. */

@@ -7,7 +7,7 @@ import { NOTHING } from '../../ui/format.ts';
 import { plot, type Curve } from '../../ui/plot.ts';
 import { subscript } from '../shared/noise.ts';
 import { adviceOf, alphaOrBound, isZero, missingMotion } from './lines.ts';
-import { COMPONENTS } from './settings.ts';
+import { COMPONENTS, type Driver } from './settings.ts';
 import { localized, thousandths } from './words.ts';
 import type { CalibrationPanel } from '../../types.d.ts';
 import type { AlphaCalibratorElement as Figure } from './alpha-calibrator.ts';
@@ -17,30 +17,22 @@ const MIN_REGRESSOR = 1e-6;
 
 /** Returns the plots of the squared residuals of the three noises against their regressors. */
 export function panels(figure: Figure) {
-  const { reading, state: { own: { driver } }, gesture } = figure;
+  const { reading, reading: { fitted: { model } }, state: { own: { driver } }, gesture } = figure;
   const say = words.calibrator.panels;
+  const axes = model === 'velocity' ? { turn: say.turnRate, way: say.speed } : { turn: say.turn, way: say.way };
   if (reading.legs.count === 0) return html`<p>${words.calibrator.none}</p>`;
-  const choose = (name: import('./settings.ts').Driver) => gesture.choose('driver', name);
+  const choose = (name: Driver) => gesture.choose('driver', name);
   return html`${radioGroup(say.against, 'driver', say.drivers, driver, choose)}
     <div class="panels">
-      ${panelsOf(figure).map(({ panel, plot: described }) => html`<figure>
-        ${plot(described)}
+      ${figure.panels.map((panel, i) => html`<figure>
+        ${plot(panelPlot(panel, say.kinds[COMPONENTS[model][i]], axes[driver as Driver]))}
         ${noteOf(panel, reading)}
       </figure>`)}
     </div>
     <p class="figcaption">${rich(say.caption)}</p>`;
 }
 
-/** Returns the panels with their plots; none without legs. */
-function panelsOf({ panels: all, reading: { fitted }, state: { own: { driver } } }: Figure) {
-  const say = words.calibrator.panels;
-  const axes = fitted.model === 'velocity' ? { turn: say.turnRate, way: say.speed } : { turn: say.turn, way: say.way };
-  return all.map((panel, i) => {
-    const kind = say.kinds[COMPONENTS[fitted.model][i]];
-    return { panel, plot: panelPlot(panel, kind, axes[(driver as 'turn' | 'way')]) };
-  });
-}
-
+/** Returns the plot of a panel, with the name of its noise and of its axis of squared motion. */
 function panelPlot({ alpha, x, y, error, slope, interval }: CalibrationPanel, kind: string, axis: string): import('../../ui/plot.ts').Plot {
   const say = words.calibrator.panels;
   const furthest = Math.max(0, ...x);

@@ -16,17 +16,11 @@ type Figure = Pick<import('./alpha-calibrator.ts').AlphaCalibratorElement, 'read
 /** Names of checks whose value is a fraction. */
 const FRACTION_CHECKS = /-(lost|few|rare|covered)$/;
 
-/** Rating of the α's, with sentences. The meaning is long, and stands where it moves no picture. */
-interface Judgement {
-  rating: Reading['stats']['diagnostics']['verdict'];
-  badge: string;
-  finding: string;
-  next: string;
-  meaning: string;
-}
-
-/** Returns the judgement of the α's. A warning, as that of a localizer as reference, makes consistent α's questionable. */
-export function judgementOf(reading: Reading, given: Warning[]): Judgement {
+/**
+ * Returns the rating of the α's with sentences, of which the meaning is long. A warning, as that of a localizer as reference, makes
+ * consistent α's questionable.
+ */
+export function judgementOf(reading: Reading, given: Warning[]) {
   const { stats: { diagnostics: { verdict, checks } }, legs } = reading;
   const say = words.calibrator;
   const warnings = [uncorrectedText(reading), ...given.map((name) => say.nav2[name])].filter(Boolean);

@@ -13,11 +13,10 @@ import { presetButtons } from '../shared/presets.ts';
 import { commandControls, likelihoodControls, lineStepper, noiseControls, timeControl } from './controls.ts';
 import { formsPlot } from './forms.ts';
 import { ArcPicture, ROBOT_RADIUS } from './picture.ts';
-import { readingOf, type Reading } from './reading.ts';
 import { factorBars, headline, likelihoods, tableOf } from './readouts.ts';
 import { LINES, MAX_COORDINATE, WHOLE_DURATION, definition } from './settings.ts';
 import { anatomyStyles } from './styles.ts';
-import { captionOf, pictureText } from './words.ts';
+import { captionOf, pictureText, type Reading } from './words.ts';
 import type { ArcAnatomy as Machine } from '../../types.d.ts';
 
 /** Bounds of both poses, m. */
@@ -47,7 +46,7 @@ export class ArcAnatomyElement extends FigureElement<Machine, Reading> {
 
   createMachine: FigureElement<Machine, Reading>['createMachine'] = (motion, state) => new motion.ArcAnatomy(state && this.settings.declared(state));
 
-  read = readingOf;
+  read = (machine: Machine): Reading => machine.read();
 
   get scene() {
     const { overlays, line, underway } = this.state.own;

@@ -13,7 +13,7 @@ import { LINES, type LineName } from './settings.ts';
 import { CONTOURS, SurfaceLayer } from './surface.ts';
 import type { ArcAnatomy, Bend, Pose } from '../../types.d.ts';
 import { addLine, drawDisc, stroke, strokeLine, type Brush, type LineStroke } from '../../scene/canvas.ts';
-import type { Reading } from './reading.ts';
+import type { Reading } from './words.ts';
 
 export type Scene = Reading & { machine: ArcAnatomy, overlays: LineName[], line: number, underway: Float64Array | undefined };
 

@@ -7,9 +7,8 @@ import { rich } from '../../ui/controls.ts';
 import { fixed } from '../../ui/format.ts';
 import { readoutList } from '../../ui/readouts.ts';
 import { TABLE_LINES } from './settings.ts';
-import { densityText, isTiny, shareText } from './words.ts';
+import { densityText, isTiny, shareText, type Reading } from './words.ts';
 import type { Factor } from '../../types.d.ts';
-import type { Reading } from './reading.ts';
 
 /** Scale of the bars: standard deviations to either side, and pixels for each. */
 const BAR_SCALE = { most: 4, pixels: 22 };

@@ -149,14 +149,6 @@ const own = css`
   .handle.turn.start {
     --ring: var(--truth);
   }
-
-  .handle.turn::after {
-    border-color: var(--ring);
-  }
-
-  .handle.turn:hover::after {
-    background: var(--ring);
-  }
 `;
 
 export const anatomyStyles = [...layoutStyles, plotStyles, own];

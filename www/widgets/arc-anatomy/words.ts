@@ -4,10 +4,12 @@ import { addEnglish, words } from '../../messages/registry.ts';
 import { fixed, percent, powerOfTen, significant } from '../../ui/format.ts';
 import { commandText } from '../shared/command.ts';
 import { en } from './en.ts';
-import type { Pose } from '../../types.d.ts';
-import type { Reading } from './reading.ts';
+import type { ArcAnatomy, Pose } from '../../types.d.ts';
 
 addEnglish({ anatomy: en });
+
+/** Values that the picture and the readouts need of the machine. */
+export type Reading = ReturnType<ArcAnatomy['read']>;
 
 /** Limit below which numbers are printed as powers of ten: p is a product of three densities, and spans many decades. */
 const MIN_DECIMAL = 0.0005;

@@ -3,20 +3,7 @@
 import { words } from '../../messages/registry.ts';
 import { clipped, drawAxes } from '../../scene/axes.ts';
 import { drawCallouts, type Callout } from '../../scene/callout.ts';
-import {
-  densityRamp,
-  drawDots,
-  drawGhosts,
-  drawHandle,
-  drawHeap,
-  drawMark,
-  drawOutline,
-  drawOutlines,
-  drawRobot,
-  hasLength,
-  lineKeys,
-  lineStyles,
-} from '../../scene/draw.ts';
+import { densityRamp, drawDots, drawGhosts, drawHandle, drawHeap, drawMark, drawOutline, drawOutlines, drawRobot, hasLength, lineKeys, lineStyles } from '../../scene/draw.ts';
 import { drawLabel } from '../../scene/labels.ts';
 import { Memo } from '../../scene/memo.ts';
 import { Picture } from '../../scene/picture.ts';

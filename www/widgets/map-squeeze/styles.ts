@@ -6,6 +6,7 @@ import { fileStyles } from '../shared/files.ts';
 
 const own = css`
   .handle:is(.jamb, .side) {
+    --ring: var(--truth);
     width: 1.75em;
     height: 1.75em;
     border-radius: 0;
@@ -13,7 +14,7 @@ const own = css`
 
   .handle.jamb::after {
     inset: 0.6em;
-    border: 1.5px solid var(--truth);
+    border-width: 1.5px;
     border-radius: 1px;
   }
 
@@ -34,12 +35,8 @@ const own = css`
 
   .handle.side::after {
     inset: 0.625em 0.2em;
-    border: 1.5px solid var(--truth);
+    border-width: 1.5px;
     border-radius: 0.25em;
-  }
-
-  .handle:is(.jamb, .side):hover::after {
-    background: var(--truth);
   }
 
   /* Handles of walls are visible while a pointer is over the picture, and always on touch screens. */

@@ -174,7 +174,7 @@ impl CheckName {
                 "The α's of one half of the log do not fit the other: floor, load or speed changed. Calibrate for each condition. Recommended α's allow for it."
             }
             Self::Window1Covered | Self::Window2Covered | Self::Window5Covered => {
-                "Over windows of this length the fitted α's do not predict the error: it grows otherwise than they say. Recommended α's hold over 1 m."
+                "Over windows of this length the fitted α's do not predict the error: it grows otherwise than they say. Recommended α's hold over 1 m: use them if the filter corrects its pose that often."
             }
         }
     }

@@ -8,7 +8,8 @@ test.use(STILL);
 
 test('opens with the simulated log, said to be one, with its true α’s', async ({ page }) => {
   const widget = await openCalibrator(page);
-  await expect(caption(widget)).toHaveText(/^✓ Trust\s+All 14 checks passed\. Use the recommended α’s with legs of this length\. \d+ legs of the simulated log, \d outliers\.$/);
+  await expect(caption(widget)).toHaveText(/^✓ Trust\s+All 14 checks passed\. \d+ legs of the simulated log, \d outliers\.$/);
+  await expect(widget.locator('.to-do')).toHaveText('Use the recommended α’s with legs of this length.');
   await expect(rows(widget)).toHaveCount(4);
   await expect(widget.locator('table.alphas .true')).toHaveCount(5);
   for (const role of /** @type {const} */ (['truth', 'prediction', 'accent'])) {
@@ -81,7 +82,7 @@ test('a systematic error that is not corrected is named in the advice', async ({
   const [from, to] = [before, after].map(({ referenceNoise: { yawStd } }) => yawStd.value.toFixed(3));
   expect(readFileSync(new URL('../../www/index.html', import.meta.url), 'utf8')).toContain(`goes from ${from} to ${to}&nbsp;rad`);
   await expect(caption(widget)).toHaveText(/^! Caution\s+Failed check: correlation of neighbouring legs \(1 of 14 failed\)\.\s+\d+ legs /);
-  await expect(widget.locator('.meaning')).toHaveText(/^Not corrected: mount yaw \(rad\) 0\.070 ± 0\.00\d \(see More controls\)\. Errors of neighbouring legs /);
+  await expect(widget.locator('.to-do')).toHaveText(/^Not corrected: mount yaw \(rad\) 0\.070 ± 0\.00\d \(see More controls\)\. Errors of neighbouring legs /);
   await expect(widget.getByRole('row', { name: /mount yaw/ })).toContainText('not corrected');
 });
 

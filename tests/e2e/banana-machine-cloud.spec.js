@@ -58,7 +58,7 @@ test('opens with the whole cloud of the opening command, and shows the numbers o
   expect(numberIn((await shown('gain in fit')).split(' ± ')[0])).toBeCloseTo(stats.likelihoodGain.pose, 3);
   expect(await shown('area covered')).toBe(`${stats.areaRatio.toFixed(2)} ×`);
   const shares = [stats.coverage.ellipse, stats.coverage.exponential].map((share) => `${(100 * share).toFixed(1)}\u202f%`);
-  await expect(readoutDetail(widget, 'area covered')).toHaveText(`± ${stats.areaRatioError.toPrecision(1)}; robots inside: ${shares.join(' and ')}`);
+  await expect(readoutDetail(widget, 'area covered')).toHaveText(`± ${stats.areaRatioError.toPrecision(1)}; inside: ellipse ${shares.join(', outline ')}`);
   await expect(readoutDetail(widget, 'gain in fit')).toHaveText(`exactly ${table.exact.likelihoodGain.pose.toFixed(3)}; 1 nat: a factor of e`);
   const row = widget.locator('tr').filter({ has: page.getByRole('rowheader', { name: 'Σxx', exact: true }) });
   const cells = (await row.getByRole('cell').allTextContents()).map(numberIn);
@@ -194,7 +194,7 @@ test('a cloud that turns a full circle has no exponential coordinates, and says 
   await setSliders(widget, { omega: 2, dt: 3 });
   await expect(widget.locator('.note')).toContainText('there are no statistics in ξ');
   await expect(readout(widget, 'predicts')).toHaveText('—');
-  await expect(readoutDetail(widget, 'area covered')).toHaveText(/robots inside: [\d.]+\u202f% and —$/);
+  await expect(readoutDetail(widget, 'area covered')).toHaveText(/inside: ellipse [\d.]+\u202f%, outline —$/);
   for (const name of ['area covered', 'gain in fit', 'exact area']) await expect(readout(widget, name)).toHaveText('—');
   await expect(readout(widget, 'cross-track skew')).not.toHaveText('—');
   const measured = widget.getByRole('row', { name: 'mean ξ along' }).getByRole('cell').last();

@@ -85,8 +85,14 @@ test('Pin keeps the numbers and outlines to compare with, and lets go of them', 
 test('the title of the floor agrees with the fit of the ellipse', async ({ page }) => {
   const widget = await openBanana(page);
   const title = widget.locator('.panel-title').first();
-  for (const [preset, fit, gaps] of /** @type {const} */ ([['banana', 'no ellipse fits', 2], ['gentle', 'the ellipse nearly fits', 0], ['pivot', 'the ellipse has the size, not the shape', 0]])) {
-    await widget.evaluate((element, preset) => void Reflect.set(element, 'preset', preset), preset);
+  for (const [settings, fit, gaps] of /** @type {const} */ ([
+    [{ preset: 'banana' }, 'no ellipse fits', 2],
+    [{ preset: 'pivot' }, 'the ellipse has the size, not the shape', 0],
+    // The skew alone is visible here.
+    [{ preset: 'gentle' }, 'the ellipse has the size, not the shape', 0],
+    [{ preset: 'straight', alphas: [0.002, 0.002, 0.002, 0.002, 0, 0] }, 'the ellipse nearly fits', 0],
+  ])) {
+    await widget.evaluate((element, settings) => void Object.assign(element, settings), settings);
     await expect(title).toHaveText(`On the floor: ${fit}`);
     expect(await calloutsOf(widget)).toBe(gaps);
   }

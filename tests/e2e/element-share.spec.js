@@ -235,7 +235,7 @@ test('copies a link, and the code to embed with the address of the script', asyn
   expect(await clipboard()).toContain(`<script type="module" src="${origin}/motion-widgets.js"></script>`);
 });
 
-  test('the button that copies the code to embed says that it is without the reader’s map @nightly', async ({ page }) => {
+  test('the button that copies the code to embed says that it has no map of the reader @nightly', async ({ page }) => {
     const widget = await mount(page, 'map-squeeze');
     await widget.getByText('Numbers and data').click();
     await widget.getByRole('button', { name: 'Copy embed code' }).click();
@@ -243,7 +243,7 @@ test('copies a link, and the code to embed with the address of the script', asyn
     await widget.evaluate((element) => void Object.assign(element, { map: { bounds: [0, 0, 6, 4], walls: [[3, 0, 3, 1.5]] } }));
     await frames(page);
     await widget.getByRole('button', { name: 'Copy embed code' }).click();
-    await expect(widget.getByText('Copied.')).toContainText('without your map');
+    await expect(widget.getByText('Copied.')).toContainText('Your map is not in it');
   });
 });
 

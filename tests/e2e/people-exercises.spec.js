@@ -35,14 +35,14 @@ test('exercise 4: a sketch is chosen, and the robots of α₄ alone and α₆ al
     await expect(form.locator('.robots')).toHaveAttribute('d', /^M/);
     return text;
   };
-  const nothing = 'Not what you chose. Every robot stops at the same point, with the same heading. There is no cloud.';
+  const nothing = 'Not what you expected. Every robot stops at the same point, with the same heading. There is no cloud.';
   expect(await reveal()).toBe(nothing);
   expect(await isolated()).toEqual([4, 0]);
   await cases.nth(0).press('ArrowDown');
   expect(await reveal()).toBe(nothing);
   expect(await isolated()).toEqual([6, 0]);
   await cases.nth(1).press('ArrowDown');
-  expect(await reveal()).toMatch(/^Not what you chose\. The robots spread by 0\.\d+ m \(1σ\), their headings by 0\.\d+ rad\.$/);
+  expect(await reveal()).toMatch(/^Not what you expected\. The robots spread by 0\.\d+ m \(1σ\), their headings by 0\.\d+ rad\.$/);
   expect(await isolated()).toEqual([4, 0.5]);
   await cases.nth(2).press('ArrowDown');
   expect(await reveal('a point')).toMatch(/^Right\. Every robot stops at the same point\. Only the headings differ, by 0\.\d+ rad/);
@@ -56,7 +56,8 @@ test('exercise 4: a sketch drawn with the pointer stays over the robots', async 
   await pad.dragTo(pad, { sourcePosition: { x: 150, y: 40 }, targetPosition: { x: 220, y: 120 } });
   const drawn = await form.locator('.drawn').getAttribute('d');
   expect(drawn?.split('L').length).toBeGreaterThan(1);
-  await revealed(form);
+  // The first case has no noise.
+  expect(await revealed(form)).toMatch(/^Not what you expected\. Every robot stops at the same point/);
   expect(await form.locator('.drawn').getAttribute('d')).toBe(drawn);
 });
 
@@ -75,8 +76,12 @@ test('exercise 5: noise alone stays below 40 %, and a curve does not', async ({ 
   expect(await article.locator('map-squeeze').evaluate((figure) => Reflect.get(figure, 'omega'))).toBe(0.6);
 });
 
-test('exercise 7: the step is bet on before the heading σ is doubled', async ({ page }) => {
-  const form = (await openAt(page, 'reckoning')).locator('.bet');
-  await form.getByRole('slider').press('ArrowRight');
-  expect(await revealed(form)).toBe('Your bet: 11. The figure: 9.');
+test('exercise 7: the steps of both noises are bet on, and only the variance along the track is shown', async ({ page }) => {
+  const article = await openAt(page, 'reckoning');
+  for (const [index, step] of [15, 9].entries()) {
+    const form = article.locator('.bet').nth(index);
+    await form.getByRole('slider').press('ArrowRight');
+    expect(await revealed(form)).toBe(`Your bet: 11. The figure: ${step}.`);
+  }
+  await expect(article.getByText('predicted along-track variance', { exact: true })).toBeVisible();
 });

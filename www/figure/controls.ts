@@ -120,8 +120,8 @@ export function disclosures(figure: Figure, { controls, numbers, mark = figure.r
   return html`<div class="folds">
     ${fold(words.moreControls, controls, 'more')}
     ${fold(words.numbersAndData, () => html`${numbers()} ${exportButtons(figure, mark, csvTitle)} ${figure.copies.codeButton()}`, 'numbers')}
-    <div class="begin">${figure.copies.linkButton()} ${figure.presenting.button()}</div>
     ${figure.copies.answer('link')}
+    <div class="begin">${figure.copies.linkButton()} ${figure.presenting.button()}</div>
   </div>
   <p class="on-paper">${noiseOf(figure)}</p>`;
 }

@@ -34,7 +34,7 @@ function arcOf({ v, omega, dt }: { v: number, omega: number, dt: number }, turne
 /** Outlines that can be chosen instead of drawn, by name. */
 const SHAPES: Record<string, (command: { v: number, omega: number, dt: number }) => Point[]> = {
   point: (command) => ringAround(pixel(arcOf(command)[24]), 7, 7),
-  fan: (command) => {
+  band: (command) => {
     const ends = (length: number) => Array.from({ length: 13 }, (_, i) => pixel(arcOf({ ...command, v: command.v * length }, (i - 6) / 18)[24]));
     return [...ends(1.04), ...ends(0.96).reverse()];
   },
@@ -44,11 +44,22 @@ const SHAPES: Record<string, (command: { v: number, omega: number, dt: number })
 const ringAround = ([x, y]: Point, radiusX: number, radiusY: number) =>
   Array.from({ length: 37 }, (_, i) => [x + radiusX * Math.cos((i * Math.PI) / 18), y + radiusY * Math.sin((i * Math.PI) / 18)] as Point);
 
-/** Says where robots stop, by x, y, θ of one after the other, and whether a chosen shape is right; a drawing has none. */
-function outcomeOf(poses: Float64Array, guess: string | undefined) {
+/** Maximum size in pixels of a drawing that stands for a point. */
+const POINT_SIZE = 25;
+
+const sizeAlong = (points: Point[], axis: number) => Math.max(...points.map((point) => point[axis])) - Math.min(...points.map((point) => point[axis]));
+
+/** Returns the shape that a drawing stands for: a point, or any other. */
+function shapeOf(points: Point[]): string {
+  const isLong = [0, 1].some((axis) => sizeAlong(points, axis) > POINT_SIZE);
+  return isLong ? 'drawing' : 'point';
+}
+
+/** Says where robots stop, by x, y, θ of one after the other, and whether the expected shape is right, which nobody can say of a drawn region. */
+function outcomeOf(poses: Float64Array, expected: string) {
   const of = (axis: number) => deviation(poses.filter((_, i) => i % 3 === axis)) ?? 0;
   const [place, heading] = [Math.hypot(of(0), of(1)), of(2)];
-  const verdict = guess === undefined ? '' : guess === (place > NONE ? 'fan' : 'point') ? 'Right. ' : 'Not what you chose. ';
+  const verdict = place > NONE && expected === 'drawing' ? '' : expected === (place > NONE ? 'band' : 'point') ? 'Right. ' : 'Not what you expected. ';
   if (place > NONE) return `${verdict}The robots spread by ${place.toFixed(2)}\u00a0m (1σ), their headings by ${heading.toFixed(2)}\u00a0rad.`;
   if (heading > NONE) return `${verdict}Every robot stops at the same point. Only the headings differ, by ${heading.toFixed(2)}\u00a0rad (1σ).`;
   return `${verdict}Every robot stops at the same point, with the same heading. There is no cloud.`;
@@ -110,7 +121,7 @@ export function prepareSketch(form: HTMLFormElement, enter: (values: Record<stri
     });
     part('robots').setAttribute('d', dots.map(({ dot }) => dot).join(''));
     part('headings').setAttribute('d', dots.map(({ tick }) => tick).join(''));
-    status.textContent = outcomeOf(poses, chosen('shape')?.value);
+    status.textContent = outcomeOf(poses, chosen('shape')?.value ?? shapeOf(drawn));
   });
   begin();
 }

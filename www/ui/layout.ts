@@ -122,10 +122,27 @@ const layout = css`
     padding-bottom: 0.8em;
   }
 
+  /* Tables and charts scroll over the pictures, which only controls keep visible. */
+  #numbers[open] {
+    position: relative;
+    z-index: 3;
+    background: var(--paper);
+    box-shadow: -0.5em 0 var(--paper), 0.5em 0 var(--paper);
+  }
+
+  .folds > .copied {
+    flex: 1 1 8em;
+    min-width: 0;
+    text-align: end;
+  }
+
+  .folds > textarea {
+    flex-basis: 100%;
+  }
+
   .begin {
     display: flex;
     gap: 0.5em;
-    margin-inline-start: auto;
   }
 
   /* The message of a copy button has its own line. */

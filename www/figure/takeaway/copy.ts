@@ -13,8 +13,9 @@ export type Kind = 'link' | 'code';
 export class CopyMenu extends Part {
   #copied: { kind: Kind, text: string, done?: boolean, missing: string } | undefined;
 
-  /** Copies a text. `missing` is a sentence about parts of the state that it does not have. */
-  async #copy(kind: Kind, text: string, missing: string = '') {
+  /** Copies a text. The message says which parts of the state it does not have. */
+  async #copy(kind: Kind, text: string) {
+    const missing = this.host.takeaway.notInCopies ?? '';
     // Frames without permission may not use the clipboard. Pages without HTTPS do not have it.
     const done = await Promise.resolve(navigator.clipboard?.writeText(text).then(() => true)).catch(() => undefined);
     this.#copied = { kind, text, done, missing };
@@ -39,7 +40,7 @@ export class CopyMenu extends Part {
     return html`<fieldset class="copies" part="copies">
       <legend>${say.label}</legend>
       <div class="buttons">
-        ${button(say.code, () => this.#copy('code', host.embedCode(), host.takeaway.notInCode), { title: say.codeTitle })}
+        ${button(say.code, () => this.#copy('code', host.embedCode()), { title: say.codeTitle })}
       </div>
       ${this.answer('code')}
     </fieldset>`;
@@ -49,7 +50,7 @@ export class CopyMenu extends Part {
   answer(kind: Kind) {
     const say = words.copies;
     const copied = this.#copied?.kind === kind ? this.#copied : undefined;
-    return html`<output class="copied">${copied ? `${copied.missing} ${copied.done ? say.done : say.byHand}` : nothing}</output>
+    return html`<output class="copied">${copied ? `${copied.done ? say.done : say.byHand} ${copied.missing}` : nothing}</output>
       ${copied && !copied.done
         ? html`<textarea readonly rows="3" aria-label=${say.byHand} .value=${copied.text}></textarea>`
         : nothing}`;

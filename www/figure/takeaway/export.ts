@@ -18,8 +18,8 @@ export interface Takeaway {
   row: (i: number) => number[];
   /** Number of samples. */
   count: number;
-  /** Sentence about state that attributes cannot carry. */
-  notInCode?: string;
+  /** Sentence about state that neither a link nor attributes can carry. */
+  notInCopies?: string;
 }
 
 /** Pixels of a PNG image per CSS pixel, fine enough for print. */

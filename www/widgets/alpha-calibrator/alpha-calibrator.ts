@@ -227,7 +227,7 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
         ...of(legs.residuals, i, 3), ...of(legs.standardized, i, 3), ...of(legs.stds, i, 3), legs.squared[i], legs.outliers[i],
       ],
       count: legs.count,
-      notInCode: this.log ? words.calibrator.logNotInCode : '',
+      notInCopies: this.log ? words.calibrator.logNotInCopies : '',
     };
   }
 
@@ -253,6 +253,7 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
             <p class="panel-title">${say.alphas.title(say.kinds[modelRuleOf(reading.fitted)])}</p>
             ${copyButton(this, this.#copied)} ${startOverButton(this)}
           </div>
+          <p class="to-do">${judgementOf(reading, this.warnings).toDo}</p>
           ${alphaTable(reading)}
           <p class="muted reason">${reasonOf(reading)}</p>
         </div>`)}
@@ -260,7 +261,6 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
       ${this.stage.later(() => html`
       ${legend(this, LINES)}
       <div part="controls">${legLengths(this)}</div>
-      <p class="meaning">${judgementOf(reading, this.warnings).meaning}</p>
       ${disclosures(this, {
         controls: () => html`${modelControls(this)}
           ${group(say.systematic.title, systematicTable(this))}

@@ -30,7 +30,7 @@ const MESSAGES: Record<string, string> = {
     'Die α der einen Hälfte der Aufzeichnung passen nicht zur anderen: Boden, Last oder Geschwindigkeit haben sich geändert. Für jede Bedingung kalibrieren. Empfohlene α berücksichtigen das.',
   ...Object.fromEntries([1, 2, 5].map((length) => [
     `window-${length}m-covered`,
-    'Über Fenster dieser Länge sagen die angepassten α den Fehler nicht vorher: Er wächst anders. Empfohlene α gelten über 1 m.',
+    'Über Fenster dieser Länge sagen die angepassten α den Fehler nicht vorher: Er wächst anders. Empfohlene α gelten über 1 m: verwenden, wenn das Filter seine Pose so oft korrigiert.',
   ])),
 };
 
@@ -244,7 +244,7 @@ export const de: typeof import('./en.ts').en = {
     fifth: 'alpha5 hat nur das omnidirektionale Modell',
   },
   csvTitle: 'Jede Etappe mit Odometrie, Referenz und Residuen',
-  logNotInCode: 'Die eigene Aufzeichnung ist nicht dabei: Die Abbildung öffnet sich mit der simulierten.',
+  logNotInCopies: 'Die eigene Aufzeichnung ist nicht dabei: Die Abbildung öffnet sich mit der simulierten.',
   noWay: 'Der Boden von oben: Es sind weniger als acht Etappen, gezeigt wird keine.',
   noLeg: 'Es gibt keine Etappe zu zeigen.',
   way: (legs, far, chosen) =>

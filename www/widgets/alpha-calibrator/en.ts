@@ -212,7 +212,7 @@ export const en = {
     fifth: 'alpha5 belongs to the omnidirectional model only',
   },
   csvTitle: 'Every leg, with odometry, reference and residuals',
-  logNotInCode: 'Your log is not in it: the figure opens with the simulated one.',
+  logNotInCopies: 'Your log is not in it: the figure opens with the simulated one.',
   noWay: 'No view of the floor: there are fewer than eight legs.',
   noLeg: 'No leg to show.',
   way: (legs, classes, chosen) =>

@@ -19,11 +19,11 @@ const MAX_AXIS_INTERVALS = 4;
 /** Icons of the ratings. */
 const RATING_ICONS = { consistent: '✓', questionable: '!', unusable: '✕' };
 
-/** Returns the badge of the α's, with the verdict, a short next step and the legs: two lines at most on a wide page. */
+/** Returns the badge of the α's, with the finding and the legs: two lines at most on a wide page. */
 export function verdictLine({ reading, logName, warnings }: Figure) {
-  const { rating, badge, finding, next } = judgementOf(reading, warnings);
+  const { rating, badge, finding } = judgementOf(reading, warnings);
   return html`<span class="badge ${rating}"><span aria-hidden="true">${RATING_ICONS[rating]}</span> ${badge}</span>
-    <strong>${finding}</strong> ${next && `${next} `}<span class="muted">${legsText(reading, logName)}</span>`;
+    <strong>${finding}</strong> <span class="muted">${legsText(reading, logName)}</span>`;
 }
 
 /** Returns the table of the α's, each with its interval on a common axis. */

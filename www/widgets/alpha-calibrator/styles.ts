@@ -14,7 +14,7 @@ const own = css`
     border-radius: 3px;
   }
 
-  :is(.drop-zone p, .meaning, .looked fieldset) {
+  :is(.drop-zone p, .looked fieldset) {
     margin: 0;
   }
 
@@ -293,6 +293,13 @@ const own = css`
   .reason {
     margin: 0 0 0.3em;
     font-size: 0.84em;
+    line-height: 1.3;
+  }
+
+  /* Two lines, so that a failed check moves no control. */
+  .to-do {
+    min-height: 2.6em;
+    margin: 0.2em 0;
     line-height: 1.3;
   }
 

@@ -17,20 +17,20 @@ type Figure = Pick<import('./alpha-calibrator.ts').AlphaCalibratorElement, 'read
 const FRACTION_CHECKS = /-(lost|few|rare|covered)$/;
 
 /**
- * Returns the rating of the α's with sentences, of which the meaning is long. A warning, as that of a localizer as reference, makes
- * consistent α's questionable.
+ * Returns the rating of the α's, the finding in a sentence, and what to do, which can be long. A warning, as that of a localizer as
+ * reference, makes consistent α's questionable.
  */
 export function judgementOf(reading: Reading, given: Warning[]) {
   const { stats: { diagnostics: { verdict, checks } }, legs } = reading;
   const say = words.calibrator;
   const warnings = [uncorrectedText(reading), ...given.map((name) => say.nav2[name])].filter(Boolean);
   const rating = verdict === 'consistent' && warnings.length > 0 ? 'questionable' : verdict;
-  const result = (finding: string, next: string, ...meaning: string[]) => ({ rating, badge: say.badges[rating], finding, next, meaning: meaning.join(' ') });
+  const result = (finding: string, ...toDo: string[]) => ({ rating, badge: say.badges[rating], finding, toDo: toDo.join(' ') });
   if (legs.count === 0) return result(say.none, say.longer, ...warnings);
   const failed = failedOf(checks);
-  if (failed.length > 0) return result(say.failed(say.checks.names[failed[0].name], counted(failed.length), counted(checks.length)), '', ...warnings, messageOf(failed[0]));
-  if (verdict === 'unusable') return result(say.noAlpha, '', ...warnings);
-  return warnings.length > 0 ? result(warnings[0], '', ...warnings.slice(1)) : result(say.passed(counted(checks.length)), say.use);
+  if (failed.length > 0) return result(say.failed(say.checks.names[failed[0].name], counted(failed.length), counted(checks.length)), ...warnings, messageOf(failed[0]));
+  if (verdict === 'unusable') return result(say.noAlpha, ...warnings);
+  return warnings.length > 0 ? result(warnings[0], ...warnings.slice(1)) : result(say.passed(counted(checks.length)), say.use);
 }
 
 /** Returns what a failed check means and what to do. */
@@ -78,8 +78,8 @@ export function legsText({ legs }: Reading, log: string) {
 
 /** Returns the caption of the pictures: the judgement and the legs. */
 export function captionOf({ reading, warnings, logName }: Figure) {
-  const { badge, finding, next, meaning } = judgementOf(reading, warnings);
-  return [`${badge}.`, finding, next, legsText(reading, logName), meaning].filter(Boolean).join(' ');
+  const { badge, finding, toDo } = judgementOf(reading, warnings);
+  return [`${badge}.`, finding, legsText(reading, logName), toDo].filter(Boolean).join(' ');
 }
 
 /** Returns the text equivalent of the path. */

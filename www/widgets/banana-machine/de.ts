@@ -142,7 +142,7 @@ export const de: typeof import('./en.ts').en = {
     withoutLimit: 'in *ξ* ohne Grenze, da ohne *γ̂*',
     onLine: 'keine Grenze: in *ξ* alle auf einer Linie',
     area: 'bedeckte Fläche: Ellipse / *ξ*-Umriss',
-    areaDetail: (error, ellipse, exponential) => `${error && `± ${error}; `}innen: ${ellipse} und ${exponential}`,
+    areaDetail: (error, ellipse, exponential) => `${error && `± ${error}; `}innen: Ellipse ${ellipse}, Umriss ${exponential}`,
     gaussian: 'Schiefe, die der Gauß in *ξ* vorhersagt',
     rho: 'Korrelation *ρ* von Querlage und Richtung',
     robots: 'Roboter gezeigt, *n* von *N*',

@@ -148,7 +148,7 @@ export const en = {
     withoutLimit: 'in *ξ* without limit, as there is no *γ̂*',
     onLine: 'no limit: in *ξ* all on one line',
     area: 'area covered: ellipse / *ξ* outline',
-    areaDetail: (error, ellipse, exponential) => `${error && `± ${error}; `}robots inside: ${ellipse} and ${exponential}`,
+    areaDetail: (error, ellipse, exponential) => `${error && `± ${error}; `}inside: ellipse ${ellipse}, outline ${exponential}`,
     gaussian: 'skew that the Gaussian in *ξ* predicts',
     rho: 'correlation *ρ* of lateral place and heading',
     robots: 'robots shown, *n* of *N*',

@@ -55,10 +55,10 @@ const VISIBLE_AREA_RATIO = 1.1;
 const MIN_FLOOR_GAIN = 0.05;
 
 /** Returns the title of the view of the floor: how the ellipse fits, by the exact figures. */
-export function floorTitle({ stats, table: { exact: { areaRatio, likelihoodGain } } }: Pick<Reading, 'stats' | 'table'>) {
+export function floorTitle({ stats, table: { exact: { areaRatio, likelihoodGain, crossTrackSkew } } }: Pick<Reading, 'stats' | 'table'>) {
   const { floor, ellipseIs } = words.banana;
   if (stats.n < 2 || Number.isNaN(areaRatio + stats.areaRatio)) return floor;
-  const fit = areaRatio > VISIBLE_AREA_RATIO ? 'large' : likelihoodGain.floor > MIN_FLOOR_GAIN ? 'misshapen' : 'near';
+  const fit = areaRatio > VISIBLE_AREA_RATIO ? 'large' : likelihoodGain.floor > MIN_FLOOR_GAIN || Math.abs(crossTrackSkew) > VISIBLE_SKEW ? 'misshapen' : 'near';
   return `${floor}: ${ellipseIs[fit]}`;
 }
 

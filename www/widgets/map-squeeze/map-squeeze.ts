@@ -120,7 +120,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
         ...Object.values(bits).map((bit) => Math.sign(verdicts[i] & bit)),
       ],
       count: verdicts.length,
-      notInCode: this.map ? words.squeeze.mapNotInCode : '',
+      notInCopies: this.map ? words.squeeze.mapNotInCopies : '',
     };
   }
 

@@ -9,7 +9,7 @@ use std::f64::consts::PI;
 
 /// Odometry reading as rotation, translation and rotation: `rot1` and `rot2` in (−π, π] rad, `trans` ≥ 0 in m.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(target_arch = "wasm32", derive(serde::Serialize, tsify::Tsify), tsify(rename = "Legs"))]
+#[cfg_attr(target_arch = "wasm32", derive(serde::Serialize, tsify::Tsify))]
 pub struct OdomDelta {
     pub rot1: f64,
     pub trans: f64,

@@ -99,7 +99,7 @@ impl JsBananaMachine {
     }
 
     /// Noise-free odometry reading of the command.
-    #[wasm_bindgen(getter, unchecked_return_type = "Legs")]
+    #[wasm_bindgen(getter, unchecked_return_type = "OdomDelta")]
     pub fn reading(&self) -> Result<JsValue, JsValue> {
         to_plain_js(&self.0.reading())
     }

@@ -151,7 +151,7 @@ impl JsOdometryModel {
     pub fn prob(
         &self,
         #[wasm_bindgen(unchecked_param_type = "Start")] next: &JsValue,
-        #[wasm_bindgen(unchecked_param_type = "Legs")] control: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "OdomDelta")] control: &JsValue,
         #[wasm_bindgen(unchecked_param_type = "Start")] start: &JsValue,
     ) -> Result<f64, JsValue> {
         Ok(self.0.prob(&pose("next", next)?, &legs(control)?, &pose("start", start)?))
@@ -162,7 +162,7 @@ impl JsOdometryModel {
     pub fn pose_density(
         &self,
         #[wasm_bindgen(unchecked_param_type = "Start")] next: &JsValue,
-        #[wasm_bindgen(unchecked_param_type = "Legs")] control: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "OdomDelta")] control: &JsValue,
         #[wasm_bindgen(unchecked_param_type = "Start")] start: &JsValue,
     ) -> Result<JsValue, JsValue> {
         let (next, control, start) = (pose("next", next)?, legs(control)?, pose("start", start)?);
@@ -172,7 +172,7 @@ impl JsOdometryModel {
     /// Samples the pose after the reading, as x, y, θ triples. Equal seeds (whole numbers) give equal samples.
     pub fn sample(
         &self,
-        #[wasm_bindgen(unchecked_param_type = "Legs")] control: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "OdomDelta")] control: &JsValue,
         #[wasm_bindgen(unchecked_param_type = "Start")] start: &JsValue,
         count: f64,
         seed: f64,
@@ -209,7 +209,7 @@ pub fn inverted(
 }
 
 /// The three legs between two poses of the odometry frame (Table 5.5, lines 2–4). A turn on the spot is all in `rot2`.
-#[wasm_bindgen(unchecked_return_type = "Legs")]
+#[wasm_bindgen(unchecked_return_type = "OdomDelta")]
 pub fn decompose(
     #[wasm_bindgen(unchecked_param_type = "Start")] start: &JsValue,
     #[wasm_bindgen(unchecked_param_type = "Start")] next: &JsValue,

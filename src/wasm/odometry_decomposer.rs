@@ -16,7 +16,7 @@ export interface Drifted {
   /** Poses x, y (m), θ (rad) of the frame, and of the two odometry poses in the world, one after the other. */
   poses: Float64Array;
   /** Legs that are computed from these poses. */
-  legs: Legs;
+  legs: OdomDelta;
 }
 "#;
 

@@ -49,7 +49,8 @@ fn a_reference_with_other_units_or_axes_or_of_another_drive_is_unusable() {
     let made = good_log(600, 1);
     let [odometry, reference] = made.log();
     let [_, of_another] = good_log(600, 2).log();
-    let changes: [(&str, fn(SE2) -> SE2); 5] = [
+    type Change = fn(SE2) -> SE2;
+    let changes: [(&str, Change); 5] = [
         ("degrees", |pose| SE2::new(pose.x(), pose.y(), pose.theta().to_degrees())),
         ("y up", |pose| SE2::new(pose.x(), 0.1, 0.0)),
         ("mirrored", |pose| SE2::new(-pose.x(), pose.y(), pose.theta())),

@@ -228,7 +228,7 @@ const TURN_RADIUS = 26;
 const TURN_LINE = 38;
 
 /** Draws the odometry reading of the command: rotation, drive, rotation. The drive ends at x, y in metres. */
-function drawReading(brush: Brush, { rot1, trans, rot2 }: import('../../types.d.ts').Legs, [x, y]: [number, number]) {
+function drawReading(brush: Brush, { rot1, trans, rot2 }: import('../../types.d.ts').OdomDelta, [x, y]: [number, number]) {
   const { context, view, palette } = brush;
   const [[fromX, fromY], [toX, toY]] = [view.toPixel(0, 0), view.toPixel(x, y)];
   const ahead = view.direction(rot1);

@@ -68,7 +68,7 @@ export function markedRobot(figure: import('./banana-machine.ts').BananaMachineE
   const quantity = (symbol: string, value: number, unit: string) =>
     html`<span><i>${symbol}</i> = ${fixed(value, 3)} ${unit}</span>`;
   const selected = inspection && (inspection.legs
-    ? legNoise(inspection.legs, figure.reading.reading as import('../../types.d.ts').Legs)
+    ? legNoise(inspection.legs, figure.reading.reading as import('../../types.d.ts').OdomDelta)
     : [
         quantity('v̂', inspection.vHat, 'm/s'),
         quantity('ω̂', inspection.omegaHat, 'rad/s'),
@@ -78,7 +78,7 @@ export function markedRobot(figure: import('./banana-machine.ts').BananaMachineE
 }
 
 /** Returns the noise of each leg: the reading minus the executed motion, as Table 5.6 subtracts it. */
-function legNoise(driven: import('../../types.d.ts').Legs, read: import('../../types.d.ts').Legs) {
+function legNoise(driven: import('../../types.d.ts').OdomDelta, read: import('../../types.d.ts').OdomDelta) {
   return ([['rot1', 'rad'], ['trans', 'm'], ['rot2', 'rad']] as const).map(([leg, unit]) => {
     const noise = read[leg] - driven[leg];
     return html`<span><i>ε</i><sub>${leg}</sub> = ${fixed(noise, 3)} ${unit}</span>`;

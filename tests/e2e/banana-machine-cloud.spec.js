@@ -55,7 +55,9 @@ test('opens with the whole cloud of the opening command, and shows the numbers o
   expect(numberIn(await shown('predicts'))).toBeCloseTo(stats.gaussianSkew, 3);
   expect(numberIn(await shown('ρ'))).toBeCloseTo(stats.rhoCrossHeading, 3);
   expect((await shown('robots shown')).split(' of ').map(numberIn)).toEqual([stats.n, config.samples]);
-  expect(numberIn((await shown('gain in fit')).split(' ± ')[0])).toBeCloseTo(stats.likelihoodGain.pose, 3);
+  const [gain, gainError] = (await shown('gain in fit')).split(' ± ').map(numberIn);
+  expect(gain).toBeCloseTo(stats.likelihoodGain.pose, 3);
+  expect(gainError).toBeCloseTo(stats.likelihoodGainError.pose, 3);
   expect(await shown('area covered')).toBe(`${stats.areaRatio.toFixed(2)} ×`);
   const shares = [stats.coverage.ellipse, stats.coverage.exponential].map((share) => `${(100 * share).toFixed(1)}\u202f%`);
   await expect(readoutDetail(widget, 'area covered')).toHaveText(`± ${stats.areaRatioError.toPrecision(1)}; inside: ellipse ${shares.join(', outline ')}`);

@@ -48,6 +48,11 @@ test('what else YAML has beyond fields and values is refused at once', async () 
   assert.equal(Reflect.get({}, 'resolution'), undefined);
 });
 
+test('two maps at a time are refused', async () => {
+  const plan = file('plan.json', '{"bounds": [0, 0, 1, 1], "walls": []}');
+  assert.equal(await refusalOf([description({ image: 'map.pgm' }), PGM, plan]), 'plan.json, map.yaml: these are 2 maps; expected is one at a time.');
+});
+
 test('a description is read as leniently as map_server reads it', async () => {
   const plain = await opened(description({ image: 'map.pgm', origin: '[-1, 2, 0]', mode: 'trinary', negate: 1 }), PGM);
   for (const yaml of [

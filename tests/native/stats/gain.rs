@@ -50,15 +50,18 @@ fn log_densities(points: &[DVector<f64>]) -> Vec<f64> {
     points.iter().map(at).collect()
 }
 
-/// Returns the determinant of a map's Jacobian, by central differences. Its error is about 1e-10.
+/// Returns the determinant of a map's Jacobian, by differences of fourth order. Its absolute error is about 1e-13.
 fn determinant(map: impl Fn(&DVector<f64>) -> DVector<f64>, at: &DVector<f64>) -> f64 {
-    const STEP: f64 = 1e-5;
+    const STEP: f64 = 1e-3;
     let columns: Vec<DVector<f64>> = (0..at.len())
         .map(|i| {
-            let mut ends = [at.clone(), at.clone()];
-            ends[0][i] += STEP;
-            ends[1][i] -= STEP;
-            (map(&ends[0]) - map(&ends[1])) / (2.0 * STEP)
+            let difference = |steps: f64| {
+                let mut ends = [at.clone(), at.clone()];
+                ends[0][i] += steps * STEP;
+                ends[1][i] -= steps * STEP;
+                (map(&ends[0]) - map(&ends[1])) / (2.0 * steps * STEP)
+            };
+            (4.0 * difference(1.0) - difference(2.0)) / 3.0
         })
         .collect();
     DMatrix::from_columns(&columns).determinant()
@@ -97,23 +100,6 @@ fn differences(cloud: &[SE2], turn: f64) -> [Vec<f64>; 2] {
     [each(&plain, &twists, &exp), each(&places, &arcs, &end)]
 }
 
-#[test]
-fn the_gain_is_the_mean_difference_of_two_log_densities() {
-    for (command, alphas) in [
-        (GENTLE, GENTLE_ALPHAS),
-        (HARD, GENTLE_ALPHAS),
-        (VelocityCmd { v: -0.7, omega: -1.1, dt: 1.3 }, BANANA_ALPHAS),
-    ] {
-        let machine = machine(command, alphas, 2048);
-        let differences = differences(&poses(&machine), command.omega * command.dt);
-        for ([value, error], differences) in gains(machine.figures()).into_iter().zip(differences) {
-            assert_close("gain", value, mean(&differences), 1e-8);
-            let expected = (variance(&differences) / 2048.0).sqrt();
-            assert_close("error", error, expected, 1e-6 * expected);
-        }
-    }
-}
-
 /// The machine computes the gain from sums, for every model and size. Up to 2048 robots its error is that of all of them, and beyond that
 /// of a sample.
 #[test]
@@ -132,13 +118,12 @@ fn the_machine_has_the_gain_of_its_poses() {
                     let found = gains(machine.figures());
                     let what = format!("{model:?} {noise:?} {command:?} {samples}");
                     if samples > 4 {
-                        // Numerical determinants of short arcs are off by up to 1e-5.
                         let differences = differences(&poses(&machine), omega * dt);
                         for ([value, error], differences) in found.into_iter().zip(differences) {
-                            assert_close(&what, value, mean(&differences), 1e-5);
+                            assert_close(&what, value, mean(&differences), 1e-9);
                             if samples <= 2048 {
                                 let expected = (variance(&differences) / samples as f64).sqrt();
-                                assert_close(&what, error, expected, 1e-4 * expected);
+                                assert_close(&what, error, expected, 1e-8 * expected);
                             }
                         }
                     }
@@ -262,14 +247,6 @@ fn the_gain_is_infinite_where_only_the_bent_cloud_is_flat() {
                 assert!(value.floor.is_finite() && error.floor > 0.0, "{command:?} {samples}");
                 let exact = flat.table().exact.likelihood_gain;
                 assert!(exact.pose == f64::INFINITY && exact.floor.is_finite(), "{command:?}");
-                // A little of it, and it is as large as it should be: half a nat for every factor e of the variance.
-                let of = |last: f64| {
-                    machine(command, [0.05, 0.05, 0.05, 0.09, last, last], 5000)
-                        .figures()
-                        .likelihood_gain
-                        .pose
-                };
-                assert_close("growth", of(1e-16) - of(1e-14), 100f64.ln() / 2.0, 1e-4);
             }
             // With a tiny variance of γ̂ the gain is finite. It grows by half a nat if that variance falls by a factor e.
             let of = |last: f64| {

@@ -114,7 +114,7 @@ impl Sample {
     /// Initial guess of the parameters: each component is as noisy as its median square says.
     fn initial_guess(&self) -> Parameters {
         let mut parameters = Parameters::zeros();
-        for (component, of) in self.options.model.components().iter().enumerate() {
+        for (component, alphas) in self.options.model.component_alphas().into_iter().enumerate() {
             let ratio = |observation: &Observation| {
                 let [first, second] = observation.coefficients[component];
                 observation.residuals[component].powi(2) / (first + second)
@@ -122,7 +122,7 @@ impl Sample {
             let mut ratios: Vec<f64> =
                 self.observations.iter().map(ratio).filter(|ratio| ratio.is_finite()).collect();
             let alpha = (median(&mut ratios) / MEDIAN_SQUARE).clamp(1e-8, 10.0);
-            of.alphas.iter().for_each(|of| parameters[*of] = alpha.max(parameters[*of]));
+            alphas.iter().for_each(|each| parameters[*each] = alpha.max(parameters[*each]));
         }
         let Options { position_std, yaw_std, .. } = self.options;
         parameters[POSITION] = position_std.map_or(INITIAL_STD * INITIAL_STD, |std| std * std);

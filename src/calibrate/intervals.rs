@@ -216,7 +216,7 @@ pub(super) fn identifiability(
         let turns = model.grows_with_turn(alpha);
         let uses = |observation: &&Observation| {
             let shown = (0..3)
-                .any(|k| model.components()[k].alphas.contains(&alpha) && !observation.residuals[k].is_nan());
+                .any(|k| model.component_alphas()[k].contains(&alpha) && !observation.residuals[k].is_nan());
             let motion = &observation.expected;
             shown
                 && if turns {

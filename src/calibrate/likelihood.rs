@@ -63,7 +63,7 @@ pub(super) struct Residuals {
     terms: Rc<Vec<Term>>,
     /// Indices of the terms that are used, each with whether it starts with the pose at which the one before ends.
     chosen: Vec<(usize, bool)>,
-    alphas: [[usize; 2]; 3],
+    model: Model,
     pub estimated: ErrorMask,
 }
 
@@ -149,8 +149,7 @@ impl Residuals {
         terms: &Rc<Vec<Term>>,
         chosen: Vec<(usize, bool)>,
     ) -> Self {
-        let alphas = model.components().map(|component| component.alphas);
-        Self { terms: Rc::clone(terms), chosen, alphas, estimated }
+        Self { terms: Rc::clone(terms), chosen, model, estimated }
     }
 
     /// Number of legs.
@@ -160,15 +159,6 @@ impl Residuals {
 
     fn terms(&self) -> impl DoubleEndedIterator<Item = (&Term, bool)> + ExactSizeIterator {
         self.chosen.iter().map(|(term, follows)| (&self.terms[*term], *follows))
-    }
-
-    /// Variances of the wheels' noise in one leg.
-    fn wheel_variances(&self, coefficients: &[[f64; 2]; 3], parameters: &Parameters) -> Vector3<f64> {
-        Vector3::from_fn(|component, _| {
-            let [first, second] = self.alphas[component];
-            let [by_first, by_second] = coefficients[component];
-            parameters[first] * by_first + parameters[second] * by_second
-        })
     }
 
     /// Runs the forward recursion, with `visit` called on each innovation and its covariance; returns ln|V| and [r X]ᵀV⁻¹[r X].
@@ -189,7 +179,7 @@ impl Residuals {
             let columns = term.columns - term.start * mean;
             let mut innovation = term.start * covariance * term.start.transpose()
                 + term.end * reference * term.end.transpose();
-            let wheels = self.wheel_variances(&term.coefficients, parameters) + term.floors;
+            let wheels = self.model.wheel_variances(&term.coefficients, parameters) + term.floors;
             for component in 0..3 {
                 innovation[(component, component)] += wheels[component];
             }
@@ -321,7 +311,9 @@ impl Residuals {
             };
             for component in 0..3 {
                 let trace = block[(component, component)] - known(&solved, component);
-                for (alpha, factor) in self.alphas[component].iter().zip(term.coefficients[component]) {
+                for (alpha, factor) in
+                    self.model.component_alphas()[component].iter().zip(term.coefficients[component])
+                {
                     add(*alpha, factor, own[component] * own[component], trace);
                 }
             }
@@ -368,7 +360,9 @@ impl Residuals {
             }
             let mut working = Working::zeros();
             for component in 0..3 {
-                for (alpha, factor) in self.alphas[component].iter().zip(term.coefficients[component]) {
+                for (alpha, factor) in
+                    self.model.component_alphas()[component].iter().zip(term.coefficients[component])
+                {
                     working[(component, *alpha)] += factor * own[component];
                 }
             }

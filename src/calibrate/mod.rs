@@ -25,7 +25,7 @@ pub use checks::{Check, CheckName, Diagnostics, LegFit, Verdict, WindowCoverage}
 pub use intervals::NotIdentifiable;
 pub use legs::{Leg, LegLength, LostLegs, MIN_LEGS, split_into_legs};
 pub use options::{CalibrateError, Drive, Options, Outliers};
-pub use residuals::{Model, NoiseComponent, Observation};
+pub use residuals::{Model, Observation};
 pub use result::{Calibration, Estimate, Persistence, Recommended};
 pub use systematic::{ERRORS, ErrorMask, Systematic, SystematicError};
 pub use trajectory::{Trajectory, TrajectoryError, TrajectoryFault};

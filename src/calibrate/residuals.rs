@@ -3,6 +3,7 @@
 //! They are in the model's own coordinates, where the noise of the wheels is independent and its variances are linear in the α's.
 
 use super::legs::Leg;
+use super::likelihood::Parameters;
 use super::systematic::{Systematic, log_sinc_derivative};
 use crate::geom::arc::invert_arc;
 use crate::geom::se2::{SE2, wrap_angle};
@@ -20,26 +21,6 @@ pub enum Model {
     Velocity,
 }
 
-/// Noise component of a model.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct NoiseComponent {
-    /// Name in the tables.
-    pub name: &'static str,
-    /// Indices, from 0, of the two α's in its variance.
-    pub alphas: [usize; 2],
-}
-
-const fn component(name: &'static str, first: usize, second: usize) -> NoiseComponent {
-    NoiseComponent { name, alphas: [first, second] }
-}
-
-const DIFFERENTIAL: [NoiseComponent; 3] =
-    [component("rot1", 0, 1), component("trans", 2, 3), component("rot2", 0, 1)];
-const OMNI: [NoiseComponent; 3] =
-    [component("rot2", 0, 1), component("trans", 2, 3), component("strafe", 4, 3)];
-const VELOCITY: [NoiseComponent; 3] =
-    [component("v", 0, 1), component("omega", 2, 3), component("gamma", 4, 5)];
-
 impl Model {
     /// Number of α's.
     pub fn alphas(self) -> usize {
@@ -50,13 +31,29 @@ impl Model {
         }
     }
 
-    /// Noise components in the order of [`Observation::residuals`].
-    pub fn components(self) -> &'static [NoiseComponent; 3] {
+    /// Indices, from 0, of the two α's in the variance of each component of [`Observation::residuals`].
+    pub fn component_alphas(self) -> [[usize; 2]; 3] {
         match self {
-            Self::Odometry(OdometryRule::Omni) => &OMNI,
-            Self::Odometry(_) => &DIFFERENTIAL,
-            Self::Velocity => &VELOCITY,
+            // Second rotation, translation, strafe.
+            Self::Odometry(OdometryRule::Omni) => [[0, 1], [2, 3], [4, 3]],
+            // First rotation, translation, second rotation.
+            Self::Odometry(_) => [[0, 1], [2, 3], [0, 1]],
+            // v, ω, γ.
+            Self::Velocity => [[0, 1], [2, 3], [4, 5]],
         }
+    }
+
+    /// Variances of the wheels' noise in one leg.
+    pub(super) fn wheel_variances(
+        self,
+        coefficients: &[[f64; 2]; 3],
+        parameters: &Parameters,
+    ) -> Vector3<f64> {
+        let alphas = self.component_alphas();
+        Vector3::from_fn(|component, _| {
+            let ([first, second], [by_first, by_second]) = (alphas[component], coefficients[component]);
+            parameters[first] * by_first + parameters[second] * by_second
+        })
     }
 
     pub(super) fn drives_sideways(self) -> bool {
@@ -100,8 +97,8 @@ impl Observation {
         let motion = corrected.motion(leg);
         let is_linear = position_std > LINEAR_FROM * libm::hypot(expected.x(), expected.y());
         let mut observation = match model {
-            Model::Odometry(OdometryRule::Omni) => omni(&expected, &motion),
-            Model::Odometry(rule) => differential(rule, &expected, &motion, is_linear),
+            Model::Odometry(OdometryRule::Omni) => omni(expected, &motion),
+            Model::Odometry(rule) => differential(rule, expected, &motion, is_linear),
             Model::Velocity => velocity(leg.duration(), &expected, &motion, is_linear),
         };
         for component in 0..3 {
@@ -110,16 +107,6 @@ impl Observation {
             }
         }
         observation
-    }
-
-    fn of(
-        residuals: [f64; 3],
-        coefficients: [[f64; 2]; 3],
-        reading: [f64; 3],
-        expected: SE2,
-        jacobian: Matrix3<f64>,
-    ) -> Self {
-        Self { residuals, coefficients, reading, expected, jacobian }
     }
 }
 
@@ -138,48 +125,37 @@ fn has_direction(read: f64, executed: f64, is_linear: bool) -> bool {
     read >= MAX_SPIN_DISTANCE && (is_linear || executed >= MAX_SPIN_DISTANCE)
 }
 
-fn differential(rule: OdometryRule, expected: &SE2, motion: &SE2, is_linear: bool) -> Observation {
-    let read = OdomDelta::from_poses(&SE2::identity(), expected);
+/// Returns the residuals of rot1, trans and rot2; in a turn on the spot the second rotation is the whole turn.
+fn differential(rule: OdometryRule, expected: SE2, motion: &SE2, is_linear: bool) -> Observation {
+    let read = OdomDelta::from_poses(&SE2::identity(), &expected);
     let OdomDelta { rot1, trans, rot2 } = rule.legs(&read);
     let unit = unit_variances(rule, &read);
-    let first = [0, 1].map(|alpha: usize| unit[alpha].rot1.0);
-    let along = [2, 3].map(|alpha: usize| unit[alpha].trans.0);
-    let second = [0, 1].map(|alpha: usize| unit[alpha].rot2.0);
-    let reading = [rot1, trans, rot2];
+    let first = [unit[0].rot1.0, unit[1].rot1.0];
+    let along = [unit[2].trans.0, unit[3].trans.0];
+    let second = [unit[0].rot2.0, unit[1].rot2.0];
     let (sin, cos) = libm::sincos(rot1);
-    let forward = RowVector3::new(cos, sin, 0.0);
-    let turn = RowVector3::new(0.0, 0.0, 1.0);
-    let turned = wrap_angle(motion.theta() - rot1 - rot2);
     let [ahead, left] = [cos * motion.x() + sin * motion.y(), cos * motion.y() - sin * motion.x()];
-    if !has_direction(read.trans, ahead, is_linear) {
-        let sum = [first[0] + second[0], first[1] + second[1]];
-        let jacobian = Matrix3::from_rows(&[RowVector3::zeros(), forward, turn]);
-        return Observation::of(
-            [f64::NAN, ahead - trans, turned],
-            [[0.0; 2], along, sum],
-            reading,
-            *expected,
-            jacobian,
-        );
-    }
-    let (off, longer) = if is_linear {
-        (left / trans, ahead - trans)
+    let turned = wrap_angle(motion.theta() - rot1 - rot2);
+    let (residuals, coefficients, across) = if has_direction(read.trans, ahead, is_linear) {
+        let (off, longer) = if is_linear {
+            (left / trans, ahead - trans)
+        } else {
+            (libm::atan2(left, ahead), libm::hypot(ahead, left) - trans)
+        };
+        let across = RowVector3::new(-sin, cos, 0.0) / trans;
+        ([off, longer, wrap_angle(turned - off)], [first, along, second], across)
     } else {
-        (libm::atan2(left, ahead), libm::hypot(ahead, left) - trans)
+        let both = [first[0] + second[0], first[1] + second[1]];
+        ([f64::NAN, ahead - trans, turned], [[0.0; 2], along, both], RowVector3::zeros())
     };
-    let across = RowVector3::new(-sin, cos, 0.0) / trans;
-    let jacobian = Matrix3::from_rows(&[across, forward, turn - across]);
-    Observation::of(
-        [off, longer, wrap_angle(turned - off)],
-        [first, along, second],
-        reading,
-        *expected,
-        jacobian,
-    )
+    let forward = RowVector3::new(cos, sin, 0.0);
+    let jacobian = Matrix3::from_rows(&[across, forward, RowVector3::new(0.0, 0.0, 1.0) - across]);
+    Observation { residuals, coefficients, reading: [rot1, trans, rot2], expected, jacobian }
 }
 
-fn omni(expected: &SE2, motion: &SE2) -> Observation {
-    let read = OdomDelta::from_poses(&SE2::identity(), expected);
+/// Returns the residuals of the turn, of the drive and of the slide across the drive.
+fn omni(expected: SE2, motion: &SE2) -> Observation {
+    let read = OdomDelta::from_poses(&SE2::identity(), &expected);
     let OdomDelta { rot1, trans, rot2 } = read;
     let unit = unit_variances(OdometryRule::Omni, &read);
     let (sin, cos) = libm::sincos(rot1);
@@ -194,45 +170,41 @@ fn omni(expected: &SE2, motion: &SE2) -> Observation {
         [unit[4].strafe.0, unit[3].strafe.0],
     ];
     let jacobian = Matrix3::new(0.0, 0.0, 1.0, cos, sin, 0.0, -sin, cos, 0.0);
-    Observation::of(residuals, coefficients, [rot1, trans, rot2], *expected, jacobian)
+    Observation { residuals, coefficients, reading: [rot1, trans, rot2], expected, jacobian }
 }
 
-/// Returns the residuals of the constant command that leads where the odometry says, against the arc that was driven.
+/// Returns the residuals of v, ω and γ: the constant command that leads where the odometry says, against the arc that was driven.
 fn velocity(dt: f64, read: &SE2, motion: &SE2, is_linear: bool) -> Observation {
     let twist = read.log();
     // A command does not lead sideways.
     let expected = SE2::exp(&Vector3::new(twist.x, 0.0, twist.z));
     let [length, turn] = [twist.x, twist.z];
     let [v, omega] = [length / dt, turn / dt];
+    let squares = [v * v, omega * omega];
     let half = 0.5 * turn;
-    let chord = length * sinc(half);
     let (sin, cos) = libm::sincos(half);
     let forward = RowVector3::new(cos, sin, 0.0) / sinc(half);
-    let [v2, omega2] = [v * v, omega * omega];
-    let reading = [v, omega, dt];
-    let ahead = (cos * motion.x() + sin * motion.y()) / sinc(half) / dt;
     let executed = invert_arc(&SE2::identity(), motion, dt);
-    if !has_direction(length.abs(), length.signum() * executed.v_hat * dt, is_linear) {
-        let jacobian = Matrix3::from_rows(&[forward / dt, RowVector3::zeros(), RowVector3::zeros()]);
-        let coefficients = [[v2, omega2], [0.0; 2], [0.0; 2]];
-        return Observation::of([ahead - v, f64::NAN, f64::NAN], coefficients, reading, expected, jacobian);
-    }
-    let bearing = RowVector3::new(-sin, cos, 0.0) / chord;
-    let jacobian = Matrix3::from_rows(&[
-        forward - bearing * (length * log_sinc_derivative(half)),
-        bearing * 2.0,
-        RowVector3::new(0.0, 0.0, 1.0) - bearing * 2.0,
-    ]) / dt;
-    let residuals = if is_linear {
-        let off = jacobian
-            * Vector3::new(
-                motion.x() - expected.x(),
-                motion.y() - expected.y(),
-                wrap_angle(motion.theta() - expected.theta()),
-            );
-        off.into()
-    } else {
-        [executed.v_hat - v, wrap_angle((executed.omega_hat - omega) * dt) / dt, executed.gamma_hat]
-    };
-    Observation::of(residuals, [[v2, omega2]; 3], reading, expected, jacobian)
+    let (residuals, coefficients, jacobian) =
+        if has_direction(length.abs(), length.signum() * executed.v_hat * dt, is_linear) {
+            let bearing = RowVector3::new(-sin, cos, 0.0) / (length * sinc(half));
+            let jacobian = Matrix3::from_rows(&[
+                forward - bearing * (length * log_sinc_derivative(half)),
+                bearing * 2.0,
+                RowVector3::new(0.0, 0.0, 1.0) - bearing * 2.0,
+            ]) / dt;
+            let residuals = if is_linear {
+                let turned = wrap_angle(motion.theta() - expected.theta());
+                let off = Vector3::new(motion.x() - expected.x(), motion.y() - expected.y(), turned);
+                (jacobian * off).into()
+            } else {
+                [executed.v_hat - v, wrap_angle((executed.omega_hat - omega) * dt) / dt, executed.gamma_hat]
+            };
+            (residuals, [squares; 3], jacobian)
+        } else {
+            let ahead = (cos * motion.x() + sin * motion.y()) / sinc(half) / dt;
+            let jacobian = Matrix3::from_rows(&[forward / dt, RowVector3::zeros(), RowVector3::zeros()]);
+            ([ahead - v, f64::NAN, f64::NAN], [squares, [0.0; 2], [0.0; 2]], jacobian)
+        };
+    Observation { residuals, coefficients, reading: [v, omega, dt], expected, jacobian }
 }

@@ -61,11 +61,7 @@ impl Sample {
             wheels = carried * wheels * carried.transpose();
             if let Some(jacobian) = self.noise_jacobian(leg) {
                 let to_end = to_end_frame(&motion) * jacobian;
-                let variances = Vector3::from_fn(|k, _| {
-                    let [first, second] = self.options.model.components()[k].alphas;
-                    parameters[first] * observation.coefficients[k][0]
-                        + parameters[second] * observation.coefficients[k][1]
-                });
+                let variances = self.options.model.wheel_variances(&observation.coefficients, parameters);
                 wheels += to_end * Matrix3::from_diagonal(&variances) * to_end.transpose();
             }
             expected = expected * motion;

@@ -62,7 +62,7 @@ pub fn panels(model: Model, calibration: &Calibration, driver: Driver) -> [Panel
 fn panel(model: Model, calibration: &Calibration, kind: usize, driver: Driver) -> Panel {
     let Calibration { alphas, intervals, observations, leg_fits, .. } = calibration;
     let own = usize::from(is_translation_first(model, kind) != (driver == Driver::Way));
-    let pair = model.components()[kind].alphas;
+    let pair = model.component_alphas()[kind];
     let alpha = pair[own];
     let slope = alphas[alpha];
     let points: Vec<[f64; 4]> = observations

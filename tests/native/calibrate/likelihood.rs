@@ -101,7 +101,7 @@ fn dense_log_likelihood(calibration: &Calibration, errors: &[SystematicError]) -
         poses += 1;
         for k in 0..3 {
             let [first, second] =
-                NAV2.components()[k].alphas.map(|alpha| alphas[alpha].expect("identifiable"));
+                NAV2.component_alphas()[k].map(|alpha| alphas[alpha].expect("identifiable"));
             let [by_first, by_second] = observation.coefficients[k];
             covariance[(3 * i + k, 3 * i + k)] = first * by_first + second * by_second;
             residuals[3 * i + k] = observation.residuals[k];

@@ -193,7 +193,7 @@ fn assert_calibration(calibration: &Calibration, options: &Options) {
     }
     assert!(legs.iter().all(|leg| leg.times[0] < leg.times[1]));
     for leg in leg_fits {
-        let is_finite = leg.squared.is_finite() && leg.stds.iter().all(|std| *std >= 0.0);
+        let is_finite = leg.squared.is_finite() && leg.stds.iter().all(|std| std.is_nan() || *std >= 0.0);
         assert!(!is_usable || is_finite, "{leg:?}");
         assert!(options.outliers == Outliers::Reject || !leg.is_outlier);
     }

@@ -1,9 +1,10 @@
 //! Checks of a fit: validity of the log, and goodness of fit of the model.
 
-use super::fit::Sample;
-use super::legs::{LegLength, LostLegs, MIN_LEGS};
+use super::fit::{Fit, Sample};
+use super::legs::{LostLegs, MIN_DISTANCE, MIN_LEGS, MIN_TURN, distance, turn};
 use super::residuals::Model;
-use super::systematic::{Systematic, SystematicError};
+use super::result::LegFit;
+use super::systematic::{ERRORS, ErrorMask, Systematic, SystematicError};
 use super::trajectory::median;
 use crate::geom::se2::{SE2, wrap_angle};
 use crate::models::OdometryRule;
@@ -22,6 +23,7 @@ pub enum Verdict {
 
 /// Names of the checks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum CheckName {
     /// Median difference of the two motions over the median motion.
     ReferenceMatches,
@@ -47,9 +49,14 @@ pub enum CheckName {
     TailsNormal,
     /// Fraction of the legs of each half inside of the 95 % region by the fit to the other half.
     HoldoutCovered,
-    /// As before, of windows of 1, 2 and 5 m.
+    /// Fraction of the windows of 1 m inside of their 95 % ellipsoid by the fit to the other half.
+    #[serde(rename = "window-1m-covered")]
     Window1Covered,
+    /// The same fraction of windows of 2 m.
+    #[serde(rename = "window-2m-covered")]
     Window2Covered,
+    /// The same fraction of windows of 5 m.
+    #[serde(rename = "window-5m-covered")]
     Window5Covered,
 }
 
@@ -64,22 +71,15 @@ pub struct Check {
 }
 
 impl Check {
+    /// Returns the check of a value, which passes within the expected range.
+    pub(super) fn new(name: CheckName, value: f64, expected: [f64; 2]) -> Self {
+        Self { name, value, expected, passed: value >= expected[0] && value <= expected[1] }
+    }
+
     /// Returns the meaning for the α's of a check that failed, and the remedy; nothing where it passed.
     pub fn message(&self) -> &'static str {
         if self.passed { "" } else { self.name.failure() }
     }
-}
-
-/// One leg under the fit.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct LegFit {
-    /// Standard deviations of the innovation's components.
-    pub stds: [f64; 3],
-    /// Innovation over its standard deviations.
-    pub standardized: [f64; 3],
-    /// Squared Mahalanobis distance of the innovation.
-    pub squared: f64,
-    pub is_outlier: bool,
 }
 
 /// Coverage of windows of one length.
@@ -107,33 +107,12 @@ pub struct Diagnostics {
 impl Diagnostics {
     /// Returns the diagnostics of a log that could not be fitted.
     pub(super) fn too_few_legs() -> Self {
-        let legs = check(CheckName::EnoughLegs, 0.0, [ENOUGH_LEGS, f64::INFINITY]);
+        let legs = Check::new(CheckName::EnoughLegs, 0.0, [ENOUGH_LEGS, f64::INFINITY]);
         Self { verdict: Verdict::Unusable, checks: vec![legs], windows: Vec::new() }
     }
 }
 
 impl CheckName {
-    /// Name in results, for scripts.
-    pub fn key(self) -> &'static str {
-        match self {
-            Self::ReferenceMatches => "reference-matches",
-            Self::EnoughLegs => "enough-legs",
-            Self::LegsLost => "legs-lost",
-            Self::SamplingDense => "sampling-dense",
-            Self::OutliersFew => "outliers-few",
-            Self::SidewaysRare => "sideways-rare",
-            Self::DistanceScaleConstant => "distance-scale-constant",
-            Self::TurnScaleConstant => "turn-scale-constant",
-            Self::InflationBounded => "inflation-bounded",
-            Self::ResidualsUncorrelated => "residuals-uncorrelated",
-            Self::TailsNormal => "tails-normal",
-            Self::HoldoutCovered => "holdout-covered",
-            Self::Window1Covered => "window-1m-covered",
-            Self::Window2Covered => "window-2m-covered",
-            Self::Window5Covered => "window-5m-covered",
-        }
-    }
-
     /// Returns the meaning of a failure for the α's, and the remedy.
     fn failure(self) -> &'static str {
         match self {
@@ -197,15 +176,11 @@ const USABLE_LEGS: f64 = 30.0;
 /// Median difference of odometry and reference, relative to the median motion, above which they do not belong together.
 const MAX_MISMATCH: f64 = 0.7;
 
-/// Scales that no wheel has: the reference has another unit.
-const SCALES: std::ops::RangeInclusive<f64> = 0.5..=2.0;
-
-/// Motion (m, rad) below which a leg is not compared with the reference.
-const DRIVES: f64 = 0.05;
-const TURNS: f64 = 0.1;
+/// Scales that wheels can have; with any other one the reference has another unit.
+const PLAUSIBLE_SCALES: std::ops::RangeInclusive<f64> = 0.5..=2.0;
 
 /// Sine of the angle between the drive of a leg and its heading halfway, above which it moves sideways. An arc has 0.
-const SIDEWAYS: f64 = 0.5;
+const MIN_SIDEWAYS_SINE: f64 = 0.5;
 
 /// Number of windows below which nothing is concluded from them.
 pub(super) const MIN_WINDOWS: usize = 20;
@@ -213,40 +188,33 @@ pub(super) const MIN_WINDOWS: usize = 20;
 /// Largest inflation: α's that need more do not describe the robot.
 pub(super) const MAX_INFLATION: f64 = 30.0;
 
-fn check(name: CheckName, value: f64, expected: [f64; 2]) -> Check {
-    Check { name, value, expected, passed: value >= expected[0] && value <= expected[1] }
-}
-
-/// Returns the check of a scale: its largest difference between groups of legs, which may be `tolerance`.
-pub(super) fn scale_check(name: CheckName, difference: f64, tolerance: f64) -> Check {
-    check(name, difference, [-tolerance, tolerance])
-}
-
-/// Checks of the log itself: of the reference, of the number of legs, of rows and outliers.
+/// Returns the checks of the log itself. Those that decide whether a log is usable come first: the first failure is the advice.
 pub(super) fn log_checks(
     sample: &Sample,
     lost: &LostLegs,
-    length: LegLength,
     systematic: &Systematic,
+    inflation: f64,
 ) -> Vec<Check> {
     let count = sample.legs.len();
     let scales = [SystematicError::DistanceScale, SystematicError::TurnScale];
-    let in_units = scales.iter().all(|scale| SCALES.contains(&systematic.get(*scale)));
+    let in_units = scales.iter().all(|scale| PLAUSIBLE_SCALES.contains(&systematic.get(*scale)));
     let mismatch = if in_units { mismatch(sample, systematic) } else { f64::INFINITY };
     let mut ratios: Vec<f64> =
-        sample.legs.iter().map(|leg| length.ratio(&leg.odometry, leg.duration())).collect();
+        sample.legs.iter().map(|leg| sample.options.legs.ratio(&leg.odometry, leg.duration())).collect();
     let outliers = sample.outliers.iter().filter(|is| **is).count();
     let lost = lost.total() - lost.standing;
     let mut checks = vec![
-        check(CheckName::ReferenceMatches, mismatch, [0.0, MAX_MISMATCH]),
-        check(CheckName::EnoughLegs, count as f64, [ENOUGH_LEGS, f64::INFINITY]),
-        check(CheckName::LegsLost, lost as f64 / (count + lost) as f64, [0.0, 0.2]),
-        check(CheckName::SamplingDense, median(&mut ratios), [0.0, 1.5]),
-        check(CheckName::OutliersFew, outliers as f64 / count as f64, [0.0, 0.05]),
+        Check::new(CheckName::ReferenceMatches, mismatch, [0.0, MAX_MISMATCH]),
+        Check::new(CheckName::EnoughLegs, count as f64, [ENOUGH_LEGS, f64::INFINITY]),
+        // An infinite inflation: none is enough.
+        Check::new(CheckName::InflationBounded, inflation, [1.0, MAX_INFLATION]),
+        Check::new(CheckName::LegsLost, lost as f64 / (count + lost) as f64, [0.0, 0.2]),
+        Check::new(CheckName::SamplingDense, median(&mut ratios), [0.0, 1.5]),
+        Check::new(CheckName::OutliersFew, outliers as f64 / count as f64, [0.0, 0.05]),
     ];
     if matches!(sample.options.model, Model::Odometry(rule) if rule != OdometryRule::Omni) {
         let sideways = sample.observations.iter().filter(|leg| moves_sideways(leg.reading)).count();
-        checks.push(check(CheckName::SidewaysRare, sideways as f64 / count as f64, [0.0, 0.02]));
+        checks.push(Check::new(CheckName::SidewaysRare, sideways as f64 / count as f64, [0.0, 0.02]));
     }
     checks
 }
@@ -254,7 +222,7 @@ pub(super) fn log_checks(
 /// Tells whether a reading is a drive to the side of its heading. Its first rotation is large then, and in a turn on the spot it is that of
 /// noise. A reading without a first rotation has no direction.
 fn moves_sideways([rot1, _, rot2]: [f64; 3]) -> bool {
-    rot1 != 0.0 && libm::sin(rot1 - 0.5 * wrap_angle(rot1 + rot2)).abs() > SIDEWAYS
+    rot1 != 0.0 && libm::sin(rot1 - 0.5 * wrap_angle(rot1 + rot2)).abs() > MIN_SIDEWAYS_SINE
 }
 
 /// Median difference of the two motions over the median motion: of turns, or of drives, whichever is larger.
@@ -270,28 +238,16 @@ fn mismatch(sample: &Sample, systematic: &Systematic) -> f64 {
         }
         if sizes.len() < MIN_LEGS { 0.0 } else { median(&mut differences) / median(&mut sizes) }
     };
-    let turns = ratio(TURNS, |motion| motion.theta().abs(), |one, other| (one.theta() - other.theta()).abs());
-    let drives = ratio(
-        DRIVES,
-        |motion| libm::hypot(motion.x(), motion.y()),
-        |one, other| libm::hypot(one.x() - other.x(), one.y() - other.y()),
-    );
+    let turns = ratio(MIN_TURN, turn, |one, other| (one.theta() - other.theta()).abs());
+    let drives =
+        ratio(MIN_DISTANCE, distance, |one, other| libm::hypot(one.x() - other.x(), one.y() - other.y()));
     turns.max(drives)
 }
 
-/// Checks of the innovations: correlation of neighbours and tails.
-pub(super) fn residual_checks(sample: &Sample, fits: &[LegFit], correlation: f64) -> Vec<Check> {
-    let kept: Vec<f64> = fits
-        .iter()
-        .zip(&sample.observations)
-        .filter(|(fit, _)| !fit.is_outlier)
-        .flat_map(|(fit, observation)| {
-            (0..3)
-                .filter(|k| !observation.residuals[*k].is_nan())
-                .map(|k| fit.standardized[k])
-                .collect::<Vec<_>>()
-        })
-        .collect();
+/// Returns the checks of the innovations: correlation of neighbours and tails.
+pub(super) fn residual_checks(fits: &[LegFit], correlation: f64) -> Vec<Check> {
+    let kept = fits.iter().filter(|fit| !fit.is_outlier).flat_map(|fit| fit.standardized);
+    let kept: Vec<f64> = kept.filter(|each| !each.is_nan()).collect();
     let count = kept.len() as f64;
     let moment = |power: i32| kept.iter().map(|each| each.powi(power)).sum::<f64>() / count;
     let kurtosis = moment(4) / moment(2).powi(2);
@@ -299,19 +255,14 @@ pub(super) fn residual_checks(sample: &Sample, fits: &[LegFit], correlation: f64
     // Kurtosis of a normal sample has variance 24/n.
     let tails = NEGLIGIBLE_KURTOSIS.max(MAX_STD_ERRORS * (24.0 / count).sqrt());
     vec![
-        check(CheckName::ResidualsUncorrelated, correlation, [-limit, limit]),
-        check(CheckName::TailsNormal, kurtosis, [1.0, 3.0 + tails]),
+        Check::new(CheckName::ResidualsUncorrelated, correlation, [-limit, limit]),
+        Check::new(CheckName::TailsNormal, kurtosis, [1.0, 3.0 + tails]),
     ]
-}
-
-/// Returns the check of coverage by the fit to the other half. `scale_std` is the mean relative standard error of a half's variances.
-pub(super) fn holdout_check(coverage: f64, count: usize, scale_std: f64) -> Check {
-    check(CheckName::HoldoutCovered, coverage, coverage_range(count, scale_std))
 }
 
 /// Returns the range of coverage on logs that are simulated by the model. A relative error of the variances moves it by 0.14 times as
 /// much: that is the density of ln χ² with 3 degrees of freedom at its quantile 0.95.
-fn coverage_range(count: usize, scale_std: f64) -> [f64; 2] {
+pub(super) fn coverage_range(count: usize, scale_std: f64) -> [f64; 2] {
     let binomial = 0.95 * 0.05 / count as f64;
     let off = NEGLIGIBLE_COVERAGE.max(MAX_STD_ERRORS * (binomial + (0.14 * scale_std).powi(2)).sqrt());
     [0.95 - off, (0.95 + off).min(1.0)]
@@ -322,14 +273,75 @@ pub(super) fn window_checks(windows: &[WindowCoverage], scale_std: f64) -> Vec<C
     let names = [CheckName::Window1Covered, CheckName::Window2Covered, CheckName::Window5Covered];
     let enough = windows.iter().zip(names).filter(|(window, _)| window.count >= MIN_WINDOWS);
     let of = |(window, name): (&WindowCoverage, CheckName)| {
-        check(name, window.coverage, coverage_range(window.count, scale_std))
+        Check::new(name, window.coverage, coverage_range(window.count, scale_std))
     };
     enough.map(of).collect()
 }
 
-/// Check of the inflation that windows of 1 m need; ∞ where none is enough.
-pub(super) fn inflation_check(inflation: f64) -> Check {
-    check(CheckName::InflationBounded, inflation, [1.0, MAX_INFLATION])
+/// Turn (rad) above which a leg counts as turning.
+const TURNING_LEG_ANGLE: f64 = 0.05;
+
+/// Legs of a group at least.
+const MIN_GROUP_LEGS: usize = 20;
+
+/// Standard errors of a difference that chance explains: the intervals of both groups overlap.
+const MAX_SCALE_STD_ERRORS: f64 = 2.8;
+
+/// Difference that is too small to matter.
+const NEGLIGIBLE_SCALE_DIFFERENCE: f64 = 0.01;
+
+/// Returns a check of each scale that is identifiable, and which systematic errors are constant.
+///
+/// Only scales are tested: all others, and scales that are not identifiable, count as constant. `repeated` multiplies standard errors
+/// where errors persist; it is 1 otherwise.
+pub(super) fn scale_checks(fit: &Fit, repeated: f64) -> (Vec<Check>, ErrorMask) {
+    let (mut checks, mut is_constant) = (Vec::new(), [true; ERRORS]);
+    let half = fit.sample.legs.len() / 2;
+    let is_turning = |leg: usize| turn(&fit.sample.observations[leg].expected) > TURNING_LEG_ANGLE;
+    let scales = [
+        (SystematicError::DistanceScale, CheckName::DistanceScaleConstant),
+        (SystematicError::TurnScale, CheckName::TurnScaleConstant),
+    ];
+    for (scale, name) in scales {
+        if fit.stds[scale as usize] == 0.0 {
+            continue;
+        }
+        let mut worst = (0.0, NEGLIGIBLE_SCALE_DIFFERENCE);
+        let mut compare = |in_first: &dyn Fn(usize) -> bool| {
+            let [first, second] =
+                [true, false].map(|which| scale_of(fit, scale, |leg| in_first(leg) == which));
+            if let Some(([a, a_std], [b, b_std])) = first.zip(second) {
+                let tolerance = NEGLIGIBLE_SCALE_DIFFERENCE
+                    .max(MAX_SCALE_STD_ERRORS * repeated * libm::hypot(a_std, b_std));
+                if (a - b).abs() / tolerance > f64::abs(worst.0) / worst.1 {
+                    worst = (a - b, tolerance);
+                }
+            }
+        };
+        compare(&|leg| leg < half);
+        if scale == SystematicError::DistanceScale {
+            compare(&is_turning);
+        }
+        let check = Check::new(name, worst.0, [-worst.1, worst.1]);
+        is_constant[scale as usize] = check.passed;
+        checks.push(check);
+    }
+    (checks, is_constant)
+}
+
+/// Scale of some legs, relative to that of all, and its standard error; the other errors stay as they are. None where the legs do not
+/// identify it.
+fn scale_of(fit: &Fit, scale: SystematicError, select: impl Fn(usize) -> bool) -> Option<[f64; 2]> {
+    let mut mask = [false; ERRORS];
+    mask[scale as usize] = true;
+    let residuals = fit.sample.residuals(mask, |leg| select(leg) && !fit.sample.outliers[leg]);
+    if residuals.len() < MIN_GROUP_LEGS {
+        return None;
+    }
+    let squares = residuals.least_squares(&fit.maximum.parameters);
+    let variance = squares.covariance[(scale as usize, scale as usize)];
+    let std = variance.sqrt();
+    (variance > 0.0 && std < scale.identifiability_limit()).then(|| [-squares.errors[scale as usize], std])
 }
 
 /// Judges by all checks, and by whether the log identifies any α.

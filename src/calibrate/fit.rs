@@ -3,7 +3,7 @@
 
 use super::alignment::clock_offset;
 use super::legs::{Leg, LostLegs, MIN_LEGS, split_into_legs};
-use super::likelihood::{POSITION, Parameters, Residuals, Standardized, Term, YAW, identifiable_errors};
+use super::likelihood::{POSITION, Parameters, Residuals, Term, YAW, identifiable_errors};
 use super::optimizer::{Free, Maximum, maximize};
 use super::options::{CalibrateError, Drive, Options};
 use super::residuals::Observation;
@@ -35,7 +35,6 @@ pub(super) struct Fit {
     pub maximum: Maximum,
     /// Standard errors of the systematic errors; 0 of one that is not estimated.
     pub stds: [f64; ERRORS],
-    pub innovations: Vec<Standardized>,
 }
 
 /// Maximum number of legs that are fitted, in blocks spread over the log. They give an α to about 3 %.
@@ -201,11 +200,11 @@ pub(super) fn fit_systematic(log: &Log, options: &Options) -> Result<Fit, Calibr
         let position_std = parameters.map_or(f64::INFINITY, |parameters| parameters[POSITION].sqrt());
         sample.observe(&systematic, position_std);
         let guess = parameters.unwrap_or_else(|| sample.initial_guess());
-        sample.estimated = identifiable_errors(&sample.kept(0..legs.len()).error_information(&guess));
+        sample.estimated = identifiable_errors(&sample.kept(0..legs.len()).least_squares(&guess).information);
         let gate = if parameters.is_some() { 1.0 } else { GUESSED_GATE };
         let mut is_settled = !sample.mark_outliers(&guess, gate, round) && round > 1;
         let (residuals, maximum) = sample.fit(guess)?;
-        let squares = residuals.least_squares(&maximum.parameters);
+        let squares = &maximum.expansion.least_squares;
         let before = systematic;
         for (i, error) in SystematicError::ALL.into_iter().enumerate() {
             if sample.estimated[i] {
@@ -218,17 +217,16 @@ pub(super) fn fit_systematic(log: &Log, options: &Options) -> Result<Fit, Calibr
             }
         }
         systematic.mount_yaw = wrap_angle(systematic.mount_yaw);
-        parameters = Some(maximum.parameters);
         if is_settled || round == MAX_ROUNDS {
             let length = (residuals.len() as f64).cbrt().ceil() as usize;
-            let sandwich = residuals.sandwich(&maximum.parameters, &squares, length);
+            let sandwich = residuals.sandwich(&maximum.parameters, length);
             let std = |i: usize| squares.covariance[(i, i)].max(sandwich[(i, i)]).max(0.0).sqrt();
-            let innovations = sample.innovations(&maximum.parameters);
             let stds = std::array::from_fn(std);
-            return Ok(Fit { sample, residuals, maximum, stds, innovations });
+            return Ok(Fit { sample, residuals, maximum, stds });
         }
         let change = systematic.clock_offset - before.clock_offset;
         sample.legs.iter_mut().for_each(|leg| log.realign(leg, systematic.clock_offset, change));
+        parameters = Some(maximum.parameters);
     }
     unreachable!("the last round returns")
 }
@@ -255,13 +253,12 @@ pub(super) fn fit_corrected(
         last = Some((residuals, maximum));
     }
     let Some((residuals, maximum)) = last else { unreachable!("the first round fits") };
-    let innovations = sample.innovations(&parameters);
     let mut all = sample.clone();
     if legs.len() > sample.legs.len() {
         all = Sample::new(legs, mask, options);
         all.observe(corrected, parameters[POSITION].sqrt());
         all.mark_outliers(&parameters, 1.0, 1);
     }
-    let fit = Fit { sample, residuals, maximum, stds: [0.0; ERRORS], innovations };
+    let fit = Fit { sample, residuals, maximum, stds: [0.0; ERRORS] };
     Ok((fit, all, lost))
 }

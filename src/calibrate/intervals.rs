@@ -1,9 +1,10 @@
 //! 95 % intervals of variances, by the profile likelihood, and whether the log identifies an α at all.
 
-use super::likelihood::{ALPHAS, Expansion, Information, PARAMETERS, Parameters, Residuals};
-use super::optimizer::{Free, Maximum, conditional_information, conditional_inverse};
-use super::residuals::{Model, Observation};
-use nalgebra::SVector;
+use super::fit::Fit;
+use super::legs::{MIN_DISTANCE, MIN_TURN, distance, turn};
+use super::likelihood::{ALPHAS, PARAMETERS, Parameters, Residuals};
+use super::optimizer::Maximum;
+use super::residuals::Observation;
 use serde::{Deserialize, Serialize};
 
 /// Quantile 0.975 of the standard normal distribution.
@@ -19,54 +20,48 @@ const TOLERANCE: f64 = 0.02;
 ///
 /// An end is where twice the log-likelihood is t² below its maximum, the other parameters moving along the ridge that the
 /// information gives. The distance to it is multiplied by √(S/I⁻¹), if above 1, S being the sandwich covariance over blocks of legs.
-pub(super) fn intervals(
-    residuals: &Residuals,
-    maximum: &Maximum,
-    free: &Free,
-    persistence: f64,
-) -> Vec<[f64; 2]> {
+/// A block has ∛n legs, and more where errors persist: the correlation ρ of errors is one of ρ² of their squares. Standard errors
+/// increase by √((1 + ρ²)/(1 − ρ²)) at least.
+pub(super) fn intervals(Fit { residuals, maximum, .. }: &Fit, correlation: f64) -> [[f64; 2]; PARAMETERS] {
     let count = residuals.len();
-    let blocks = Blocks::new(maximum, count, persistence);
-    let freedom = (count.saturating_sub(PARAMETERS)).max(1) as f64;
-    (0..PARAMETERS)
-        .map(|parameter| {
-            let value = maximum.parameters[parameter];
-            let information =
-                conditional_information(&maximum.expansion, &maximum.parameters, free, parameter);
-            if !free[parameter] {
-                return [value; 2];
-            }
-            if information <= 0.0 {
-                return [0.0, f64::INFINITY];
-            }
-            let lines = ridges(maximum, free, parameter);
-            let threshold = student_95(freedom);
-            let widening = blocks.widening(maximum, free, parameter);
-            let end = |sign: f64| {
-                profile_end(
-                    residuals,
-                    maximum,
-                    &lines,
-                    parameter,
-                    sign * threshold / information.sqrt(),
-                    threshold,
-                )
-            };
-            let [low, high] = [end(-1.0), end(1.0)];
-            [(value + widening * low).max(0.0), value + widening * high]
-        })
-        .collect()
+    let threshold = student_95(count.saturating_sub(PARAMETERS));
+    let square = correlation * correlation;
+    let repeated = (1.0 + square) / (1.0 - square);
+    let length = ((count as f64).cbrt() * repeated).ceil().max(1.0) as usize;
+    let blocks: Vec<Parameters> =
+        maximum.expansion.scores.chunks(length).map(|block| block.iter().sum()).collect();
+    let quantile = student_95(blocks.len().saturating_sub(1));
+    std::array::from_fn(|parameter| {
+        let value = maximum.parameters[parameter];
+        if !maximum.free[parameter] {
+            return [value; 2];
+        }
+        let covariances = maximum.covariances(&maximum.parameters, parameter);
+        let variance = covariances[parameter];
+        if variance <= 0.0 {
+            return [0.0, f64::INFINITY];
+        }
+        let ridges = ridges(maximum, parameter);
+        let guess = threshold / (1.0 / variance).sqrt();
+        let end = |sign: f64| profile_end(residuals, maximum, &ridges, parameter, sign * guess, threshold);
+        let sandwich: f64 = blocks.iter().map(|score| covariances.dot(score).powi(2)).sum();
+        let widening = ((sandwich / variance).sqrt() * quantile / NORMAL_95).max(repeated.sqrt());
+        [(value + widening * end(-1.0)).max(0.0), value + widening * end(1.0)]
+    })
 }
 
-/// Ridges of the likelihood: one on which variances of 0 stay 0, and another, where there are such α's, on which these rise.
-fn ridges(maximum: &Maximum, free: &Free, parameter: usize) -> Vec<Parameters> {
-    let at_zero = (0..ALPHAS).any(|alpha| free[alpha] && maximum.parameters[alpha] == 0.0);
-    let risen = at_zero.then(|| unknown_alphas(&maximum.parameters));
-    [Some(maximum.parameters), risen]
-        .iter()
-        .flatten()
-        .map(|parameters| ridge(&maximum.expansion, parameters, free, parameter))
-        .collect()
+/// Returns the ridges of the likelihood: the change of all parameters when one of them changes by 1. On the first one, variances of 0 stay 0;
+/// on the second one, where there are α's of 0, these rise.
+fn ridges(maximum: &Maximum, parameter: usize) -> Vec<Parameters> {
+    let parameters = maximum.parameters;
+    let at_zero = (0..ALPHAS).any(|alpha| maximum.free[alpha] && parameters[alpha] == 0.0);
+    let risen = at_zero.then(|| unknown_alphas(&parameters));
+    let ridge = |parameters| {
+        let covariances = maximum.covariances(&parameters, parameter);
+        let variance = covariances[parameter];
+        if variance > 0.0 { covariances / variance } else { Parameters::ith(parameter, 1.0) }
+    };
+    [Some(parameters), risen].into_iter().flatten().map(ridge).collect()
 }
 
 /// Returns the parameters with α's of 0 as small as can be: they are unknown like the others.
@@ -74,32 +69,23 @@ fn unknown_alphas(parameters: &Parameters) -> Parameters {
     Parameters::from_fn(|j, _| if j < ALPHAS { parameters[j].max(f64::MIN_POSITIVE) } else { parameters[j] })
 }
 
-/// Change of all parameters when one of them changes by 1 along the ridge of the likelihood.
-fn ridge(expansion: &Expansion, parameters: &Parameters, free: &Free, parameter: usize) -> Parameters {
-    let column = conditional_inverse(expansion, parameters, free, parameter).column(parameter).into_owned();
-    if column[parameter] > 0.0 {
-        column / column[parameter]
-    } else {
-        Parameters::from_fn(|j, _| f64::from(u8::from(j == parameter)))
-    }
-}
-
 /// Distance from the maximum to an end of the profile, from a guess of it; as far as 0 where the likelihood does not fall enough before.
 fn profile_end(
     residuals: &Residuals,
     maximum: &Maximum,
-    lines: &[Parameters],
+    ridges: &[Parameters],
     parameter: usize,
     guess: f64,
     threshold: f64,
 ) -> f64 {
     let value = maximum.parameters[parameter];
     let root = |distance: f64| {
-        let along = |line: &Parameters| {
-            residuals.log_likelihood(&(maximum.parameters + line * distance).map(|each| each.max(0.0)))
+        let along = |ridge: &Parameters| {
+            let parameters = (maximum.parameters + ridge * distance).map(|each| each.max(0.0));
+            residuals.least_squares(&parameters).log_likelihood
         };
-        let best = lines.iter().map(along).fold(f64::NEG_INFINITY, f64::max);
-        (2.0 * (maximum.expansion.log_likelihood - best)).max(0.0).sqrt()
+        let best = ridges.iter().map(along).fold(f64::NEG_INFINITY, f64::max);
+        (2.0 * (maximum.expansion.least_squares.log_likelihood - best)).max(0.0).sqrt()
     };
     let mut distance = guess.max(-value);
     if distance == -value && (value == 0.0 || root(distance) <= threshold) {
@@ -129,40 +115,9 @@ fn profile_end(
     distance
 }
 
-/// Scores summed over blocks of neighbouring legs.
-struct Blocks {
-    scores: Vec<Parameters>,
-    /// Factor of a variance's standard error where errors have the correlation ρ from leg to leg: √((1 + ρ²)/(1 − ρ²)).
-    repeated: f64,
-}
-
-impl Blocks {
-    /// A block has ∛n legs, and more where errors persist: the correlation of squares falls by ρ² from leg to leg.
-    fn new(maximum: &Maximum, count: usize, persistence: f64) -> Self {
-        let square = persistence * persistence;
-        let repeated = (1.0 + square) / (1.0 - square);
-        let length = ((count as f64).cbrt() * repeated).ceil().max(1.0) as usize;
-        let scores = maximum.expansion.scores.chunks(length).map(|block| block.iter().sum()).collect();
-        Self { scores, repeated: repeated.sqrt() }
-    }
-
-    /// Returns by how much an interval is longer, at least 1, than the likelihood has it.
-    fn widening(&self, maximum: &Maximum, free: &Free, parameter: usize) -> f64 {
-        let inverse: Information =
-            conditional_inverse(&maximum.expansion, &maximum.parameters, free, parameter);
-        let row: SVector<f64, PARAMETERS> = inverse.column(parameter).into_owned();
-        let variance: f64 = self.scores.iter().map(|score| row.dot(score).powi(2)).sum();
-        let freedom = self.scores.len().saturating_sub(1).max(1) as f64;
-        let model = inverse[(parameter, parameter)];
-        if model <= 0.0 {
-            return 1.0;
-        }
-        ((variance / model).sqrt() * student_95(freedom) / NORMAL_95).max(self.repeated)
-    }
-}
-
 /// Quantile 0.975 of Student's t, by the expansion of Fisher and Cornish.
-fn student_95(freedom: f64) -> f64 {
+fn student_95(degrees_of_freedom: usize) -> f64 {
+    let freedom = degrees_of_freedom.max(1) as f64;
     let (z, z3) = (NORMAL_95, NORMAL_95.powi(3));
     z + (z3 + z) / (4.0 * freedom)
         + (5.0 * NORMAL_95.powi(5) + 16.0 * z3 + 3.0 * z) / (96.0 * freedom * freedom)
@@ -188,48 +143,36 @@ const MIN_INFORMATION: f64 = 4.0;
 /// by less than a seventh.
 const MIN_FREE_INFORMATION: f64 = 0.02;
 
-/// Drive (m) and turn (rad) of a leg that counts as one of a robot that drives or turns.
-const DRIVES: f64 = 0.05;
-const TURNS: f64 = 0.1;
-
-/// Number of such legs that identify an α against an exact reference: its standard error is then a fifth.
+/// Number of legs with a motion that identify an α against an exact reference: its standard error is then a fifth.
 const ENOUGH_LEGS: usize = 50;
 
-/// Returns of each α why it is not identifiable; None where it is.
-pub(super) fn identifiability(
-    model: Model,
-    expansion: &Expansion,
-    parameters: &Parameters,
-    free: &Free,
-    observations: &[Observation],
-) -> Vec<Option<NotIdentifiable>> {
-    let unknown = unknown_alphas(parameters);
-    let of = |alpha: usize| {
-        let marginal = expansion.information[(alpha, alpha)];
-        let conditional = conditional_information(expansion, &unknown, free, alpha);
+/// Returns of each α the reason for which it is not identifiable; None where it is.
+pub(super) fn identifiability(Fit { sample, maximum, .. }: &Fit) -> Vec<Option<NotIdentifiable>> {
+    let model = sample.options.model;
+    let unknown = unknown_alphas(&maximum.parameters);
+    let reason = |alpha: usize| {
+        let marginal = maximum.expansion.information[(alpha, alpha)];
+        let variance = maximum.covariances(&unknown, alpha)[alpha];
+        let conditional = if variance > 0.0 { 1.0 / variance } else { 0.0 };
         if conditional >= MIN_INFORMATION && conditional >= MIN_FREE_INFORMATION * marginal {
             return None;
         }
         if marginal >= MIN_INFORMATION {
             return Some(NotIdentifiable::Collinear);
         }
-        let turns = model.grows_with_turn(alpha);
-        let uses = |observation: &&Observation| {
-            let shown = (0..3)
-                .any(|k| model.component_alphas()[k].contains(&alpha) && !observation.residuals[k].is_nan());
+        let by_turn = model.grows_with_turn(alpha);
+        let uses_alpha = |observation: &&Observation| {
+            let is_shown =
+                |k: usize| model.component_alphas()[k].contains(&alpha) && !observation.residuals[k].is_nan();
             let motion = &observation.expected;
-            shown
-                && if turns {
-                    motion.theta().abs() > TURNS
-                } else {
-                    libm::hypot(motion.x(), motion.y()) > DRIVES
-                }
+            let moves = if by_turn { turn(motion) > MIN_TURN } else { distance(motion) > MIN_DISTANCE };
+            moves && (0..3).any(is_shown)
         };
-        Some(match observations.iter().filter(uses).count() {
+        Some(match sample.observations.iter().filter(uses_alpha).count() {
             count if count >= ENOUGH_LEGS => NotIdentifiable::ReferenceTooNoisy,
-            _ if turns => NotIdentifiable::InsufficientRotation,
+            _ if by_turn => NotIdentifiable::InsufficientRotation,
             _ => NotIdentifiable::InsufficientTranslation,
         })
     };
-    (0..model.alphas()).map(of).collect()
+    (0..model.alphas()).map(reason).collect()
 }

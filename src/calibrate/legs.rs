@@ -104,6 +104,20 @@ impl LostLegs {
     }
 }
 
+/// Distance (m) and turn (rad) of a leg above which its motion counts as a drive, and as a turn.
+pub(super) const MIN_DISTANCE: f64 = 0.05;
+pub(super) const MIN_TURN: f64 = 0.1;
+
+/// Returns the length of a motion, m.
+pub(super) fn distance(motion: &SE2) -> f64 {
+    libm::hypot(motion.x(), motion.y())
+}
+
+/// Returns the turn of a motion, rad, 0 or more.
+pub(super) fn turn(motion: &SE2) -> f64 {
+    motion.theta().abs()
+}
+
 /// Number of legs below which no fit is tried.
 pub const MIN_LEGS: usize = 8;
 
@@ -245,9 +259,7 @@ pub fn split_into_legs(
         } else if has_paused && length.ratio(&ends, time - start_time) > MAX_RATIO_ACROSS_PAUSE {
             lost.across_pauses += 1;
             follows = false;
-        } else if libm::hypot(motion.x(), motion.y()) < MAX_SPIN_DISTANCE
-            && motion.theta().abs() < STANDING_TURN
-        {
+        } else if distance(&motion) < MAX_SPIN_DISTANCE && turn(&motion) < STANDING_TURN {
             lost.standing += 1;
             follows = false;
         } else {

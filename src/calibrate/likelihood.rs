@@ -15,6 +15,7 @@
 
 use super::legs::Leg;
 use super::residuals::{Model, Observation};
+use super::result::LegFit;
 use super::systematic::{ERRORS, ErrorMask, Systematic, SystematicError};
 use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
 use std::f64::consts::TAU;
@@ -23,9 +24,12 @@ use std::rc::Rc;
 /// Most α's of a model.
 pub(super) const ALPHAS: usize = 6;
 
-/// Places of σ_p² and σ_θ² after the α's.
+/// Indices of the parameters σ_p² and σ_θ².
 pub(super) const POSITION: usize = ALPHAS;
 pub(super) const YAW: usize = ALPHAS + 1;
+
+/// Indices of the parameters that are the variances of the reference in x, y and θ.
+const REFERENCE: [usize; 3] = [POSITION, POSITION, YAW];
 
 /// Number of variance parameters: α's, 0 where the model has fewer, then σ_p² (m²) and σ_θ² (rad²).
 pub(super) const PARAMETERS: usize = ALPHAS + 2;
@@ -37,6 +41,7 @@ const COLUMNS: usize = 1 + ERRORS;
 type Columns = SMatrix<f64, 3, COLUMNS>;
 type Gram = SMatrix<f64, COLUMNS, COLUMNS>;
 pub(super) type ErrorMatrix = SMatrix<f64, ERRORS, ERRORS>;
+type ErrorVector = SVector<f64, ERRORS>;
 
 /// Least standard deviation of a residual (rad, m or their rates): a log without noise has a finite likelihood.
 const MIN_STD: f64 = 1e-7;
@@ -50,11 +55,11 @@ pub(super) struct Term {
     columns: Columns,
     /// Factors of the α's in the variance of each component.
     coefficients: [[f64; 2]; 3],
-    /// Least variance of each component; 1 of one that is not observed, whose residual is 0.
-    floors: Vector3<f64>,
+    /// False for a component without a residual. Its residual is 0 here, and its variance 1.
+    observed: [bool; 3],
+    /// Jacobians by the reference's errors at the start and at the end of the leg.
     start: Matrix3<f64>,
     end: Matrix3<f64>,
-    pub observed: usize,
 }
 
 /// Residuals of several legs, with the model and the systematic errors that are estimated with them.
@@ -67,40 +72,34 @@ pub(super) struct Residuals {
     pub estimated: ErrorMask,
 }
 
-/// State of the forward recursion after one leg.
+/// Innovation of one leg: its residual, and the Jacobians of it, less what the legs before predict.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Innovation {
     columns: Columns,
-    /// Inverse covariance of the innovation.
+    /// Variance of each component; NaN of one that is not observed.
+    variances: [f64; 3],
+    /// Inverse covariance.
     weight: Matrix3<f64>,
+    /// Kalman gain of the reference's error at the end of the leg.
     gain: Matrix3<f64>,
-}
-
-/// Innovation of one leg: its residual less what the legs before predict.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Standardized {
-    /// Each component over its standard deviation.
-    pub components: [f64; 3],
-    pub stds: [f64; 3],
-    /// Squared Mahalanobis distance: χ² with as many degrees of freedom as components are observed.
-    pub squared: f64,
-    pub observed: usize,
 }
 
 /// Generalized least squares of the systematic errors under given variances.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LeastSquares {
     pub log_likelihood: f64,
+    /// Information on all errors, XᵀV⁻¹X.
+    pub information: ErrorMatrix,
     /// Estimate of β; 0 of errors that are not estimated.
-    pub errors: SVector<f64, ERRORS>,
-    /// Covariance of the estimate, (XᵀV⁻¹X)⁻¹.
+    pub errors: ErrorVector,
+    /// Covariance of the estimate: the inverse of the information on the errors that are estimated.
     pub covariance: ErrorMatrix,
 }
 
 /// Log-likelihood with its derivatives by the parameters.
 #[derive(Clone, Debug)]
 pub(super) struct Expansion {
-    pub log_likelihood: f64,
+    pub least_squares: LeastSquares,
     /// rᵀP Vⱼ P r and tr(P Vⱼ) of each parameter; the score is half of their difference.
     pub quadratic: Parameters,
     pub trace: Parameters,
@@ -134,10 +133,28 @@ impl Term {
         Self {
             columns,
             coefficients: if is_sane { observation.coefficients } else { [[0.0; 2]; 3] },
-            floors: observed.map(|is| if is { MIN_STD * MIN_STD } else { 1.0 }),
+            observed: observed.into(),
             start,
             end,
-            observed: observed.iter().filter(|is| **is).count(),
+        }
+    }
+}
+
+impl Innovation {
+    /// Returns the innovation of the residual, less what these systematic errors explain.
+    fn unexplained(&self, errors: &ErrorVector) -> Vector3<f64> {
+        self.columns.column(0) - self.columns.fixed_columns::<ERRORS>(1) * errors
+    }
+
+    /// Returns the leg under the fit, with these systematic errors.
+    pub fn leg_fit(&self, errors: &ErrorVector, is_outlier: bool) -> LegFit {
+        let innovation = self.unexplained(errors);
+        let stds = self.variances.map(f64::sqrt);
+        LegFit {
+            stds,
+            standardized: std::array::from_fn(|k| innovation[k] / stds[k]),
+            squared: innovation.dot(&(self.weight * innovation)),
+            is_outlier,
         }
     }
 }
@@ -161,30 +178,27 @@ impl Residuals {
         self.chosen.iter().map(|(term, follows)| (&self.terms[*term], *follows))
     }
 
-    /// Runs the forward recursion, with `visit` called on each innovation and its covariance; returns ln|V| and [r X]ᵀV⁻¹[r X].
-    fn filter(
-        &self,
-        parameters: &Parameters,
-        mut visit: impl FnMut(&Term, Innovation, &Matrix3<f64>),
-    ) -> (f64, Gram) {
+    /// Runs the forward recursion, and adds the innovation of each leg to a list if there is one.
+    fn filter(&self, parameters: &Parameters, mut innovations: Option<&mut Vec<Innovation>>) -> LeastSquares {
         let reference = reference_covariance(parameters);
         let (mut log_det, mut gram) = (0.0, Gram::zeros());
-        let (mut mean, mut covariance) = (Columns::zeros(), reference);
+        let (mut mean, mut prior) = (Columns::zeros(), reference);
         // A product is cheaper than as many logarithms.
         let mut det = 1.0;
         for (term, follows) in self.terms() {
             if !follows {
-                (mean, covariance) = (Columns::zeros(), reference);
+                (mean, prior) = (Columns::zeros(), reference);
             }
             let columns = term.columns - term.start * mean;
-            let mut innovation = term.start * covariance * term.start.transpose()
-                + term.end * reference * term.end.transpose();
-            let wheels = self.model.wheel_variances(&term.coefficients, parameters) + term.floors;
-            for component in 0..3 {
-                innovation[(component, component)] += wheels[component];
+            let mut covariance =
+                term.start * prior * term.start.transpose() + term.end * reference * term.end.transpose();
+            let wheels = self.model.wheel_variances(&term.coefficients, parameters);
+            for (component, is_observed) in term.observed.into_iter().enumerate() {
+                let floor = if is_observed { MIN_STD * MIN_STD } else { 1.0 };
+                covariance[(component, component)] += wheels[component] + floor;
             }
-            let weight = innovation.try_inverse().unwrap_or_else(Matrix3::zeros);
-            det *= innovation.determinant();
+            let weight = covariance.try_inverse().unwrap_or_else(Matrix3::zeros);
+            det *= covariance.determinant();
             if !(1e-200..1e200).contains(&det) {
                 log_det += libm::log(det.max(f64::MIN_POSITIVE));
                 det = 1.0;
@@ -192,84 +206,63 @@ impl Residuals {
             let gain = reference * term.end.transpose() * weight;
             gram += columns.transpose() * (weight * columns);
             mean = gain * columns;
-            covariance = reference - gain * term.end * reference;
-            visit(term, Innovation { columns, weight, gain }, &innovation);
+            prior = reference - gain * term.end * reference;
+            if let Some(all) = &mut innovations {
+                let variance = |k: usize| if term.observed[k] { covariance[(k, k)] } else { f64::NAN };
+                all.push(Innovation { columns, variances: std::array::from_fn(variance), weight, gain });
+            }
         }
-        (log_det + libm::log(det.max(f64::MIN_POSITIVE)), gram)
+        self.least_squares_of(log_det + libm::log(det.max(f64::MIN_POSITIVE)), &gram)
     }
 
+    /// Returns the least squares by ln|V| and [r X]ᵀV⁻¹[r X].
     fn least_squares_of(&self, log_det: f64, gram: &Gram) -> LeastSquares {
         let information: ErrorMatrix = gram.fixed_view::<ERRORS, ERRORS>(1, 1).into_owned();
         let (covariance, log_det_information) = masked_inverse(&information, &self.estimated);
-        let pull: SVector<f64, ERRORS> = gram.fixed_view::<ERRORS, 1>(1, 0).into_owned();
+        let pull: ErrorVector = gram.fixed_view::<ERRORS, 1>(1, 0).into_owned();
         let errors = covariance * pull;
-        let count: usize = self.terms().map(|(term, _)| term.observed).sum();
+        let count =
+            self.terms().flat_map(|(term, _)| term.observed).filter(|is_observed| *is_observed).count();
         let free = count as f64 - self.estimated.iter().filter(|is| **is).count() as f64;
         let deviance =
             log_det + log_det_information + gram[(0, 0)] - pull.dot(&errors) + free * libm::log(TAU);
-        LeastSquares { log_likelihood: -0.5 * deviance, errors, covariance }
+        LeastSquares { log_likelihood: -0.5 * deviance, information, errors, covariance }
     }
 
     pub fn least_squares(&self, parameters: &Parameters) -> LeastSquares {
-        let (log_det, gram) = self.filter(parameters, |_, _, _| ());
-        self.least_squares_of(log_det, &gram)
+        self.filter(parameters, None)
     }
 
-    pub fn log_likelihood(&self, parameters: &Parameters) -> f64 {
-        self.least_squares(parameters).log_likelihood
-    }
-
-    /// Information that the residuals have on the systematic errors, XᵀV⁻¹X.
-    pub fn error_information(&self, parameters: &Parameters) -> ErrorMatrix {
-        let (_, gram) = self.filter(parameters, |_, _, _| ());
-        gram.fixed_view::<ERRORS, ERRORS>(1, 1).into_owned()
+    /// Returns the innovation of each leg, and the systematic errors that explain a part of them.
+    pub fn innovations(&self, parameters: &Parameters) -> (Vec<Innovation>, LeastSquares) {
+        let mut innovations = Vec::with_capacity(self.chosen.len());
+        let least_squares = self.filter(parameters, Some(&mut innovations));
+        (innovations, least_squares)
     }
 
     /// Returns the sandwich covariance of the systematic errors, C (Σ gᵦ gᵦᵀ) C. C is the covariance by the likelihood, and gᵦ the score of a
     /// block of `length` legs: it holds whatever the legs of a block have in common.
-    pub fn sandwich(
-        &self,
-        parameters: &Parameters,
-        LeastSquares { errors, covariance, .. }: &LeastSquares,
-        length: usize,
-    ) -> ErrorMatrix {
-        let (mut scatter, mut score, mut count) = (ErrorMatrix::zeros(), SVector::<f64, ERRORS>::zeros(), 0);
-        self.filter(parameters, |_, Innovation { columns, weight, .. }, _| {
-            let jacobian = columns.fixed_columns::<ERRORS>(1);
-            score += jacobian.transpose() * (weight * (columns.column(0) - jacobian * errors));
-            count += 1;
-            if count % length == 0 {
-                scatter += score * score.transpose();
-                score.fill(0.0);
+    pub fn sandwich(&self, parameters: &Parameters, length: usize) -> ErrorMatrix {
+        let (innovations, LeastSquares { errors, covariance, .. }) = self.innovations(parameters);
+        let mut scatter = ErrorMatrix::zeros();
+        for block in innovations.chunks(length) {
+            let mut score = ErrorVector::zeros();
+            for innovation in block {
+                let jacobian = innovation.columns.fixed_columns::<ERRORS>(1);
+                score += jacobian.transpose() * (innovation.weight * innovation.unexplained(&errors));
             }
-        });
-        scatter += score * score.transpose();
+            scatter += score * score.transpose();
+        }
         covariance * scatter * covariance
-    }
-
-    /// Returns the innovation of each leg, less what these systematic errors explain.
-    pub fn innovations(&self, parameters: &Parameters, errors: &SVector<f64, ERRORS>) -> Vec<Standardized> {
-        let mut all = Vec::with_capacity(self.len());
-        self.filter(parameters, |term, Innovation { columns, weight, .. }, covariance| {
-            let innovation = columns.column(0) - columns.fixed_columns::<ERRORS>(1) * errors;
-            let stds = std::array::from_fn(|k| covariance[(k, k)].sqrt());
-            all.push(Standardized {
-                components: std::array::from_fn(|k| innovation[k] / stds[k]),
-                squared: innovation.dot(&(weight * innovation)),
-                stds,
-                observed: term.observed,
-            });
-        });
-        all
     }
 
     /// Returns the log-likelihood with its derivatives.
     pub fn expansion(&self, parameters: &Parameters) -> Expansion {
-        let mut innovations = Vec::with_capacity(self.len());
-        let (log_det, gram) = self.filter(parameters, |_, innovation, _| innovations.push(innovation));
-        let LeastSquares { log_likelihood, errors, covariance } = self.least_squares_of(log_det, &gram);
+        let (innovations, least_squares) = self.innovations(parameters);
+        let LeastSquares { errors, covariance, .. } = least_squares;
+        let alphas = self.model.component_alphas();
         let mut expansion = Expansion {
-            log_likelihood,
+            least_squares,
             quadratic: Parameters::zeros(),
             trace: Parameters::zeros(),
             information: Information::zeros(),
@@ -285,7 +278,7 @@ impl Residuals {
         };
         // V⁻¹[r X] of the leg after, and its block on the diagonal of V⁻¹.
         let mut after: Option<(Columns, Matrix3<f64>)> = None;
-        for (i, ((term, follows), Innovation { columns, weight, gain })) in
+        for (i, ((term, follows), Innovation { columns, weight, gain, .. })) in
             self.terms().zip(&innovations).enumerate().rev()
         {
             let (mut solved, mut block) = (weight * columns, *weight);
@@ -311,22 +304,15 @@ impl Residuals {
             };
             for component in 0..3 {
                 let trace = block[(component, component)] - known(&solved, component);
-                for (alpha, factor) in
-                    self.model.component_alphas()[component].iter().zip(term.coefficients[component])
-                {
-                    add(*alpha, factor, own[component] * own[component], trace);
+                for (alpha, factor) in alphas[component].into_iter().zip(term.coefficients[component]) {
+                    add(alpha, factor, own[component] * own[component], trace);
                 }
             }
             let mut add_pose = |solved: &Columns, block: &Matrix3<f64>| {
                 let projected = project(solved);
                 for row in 0..3 {
-                    let parameter = if row < 2 { POSITION } else { YAW };
-                    add(
-                        parameter,
-                        1.0,
-                        projected[row] * projected[row],
-                        block[(row, row)] - known(solved, row),
-                    );
+                    let trace = block[(row, row)] - known(solved, row);
+                    add(REFERENCE[row], 1.0, projected[row] * projected[row], trace);
                 }
                 projected
             };
@@ -353,6 +339,7 @@ impl Residuals {
         type Working = SMatrix<f64, 3, PARAMETERS>;
         let (mut gram, mut cross) = (Information::zeros(), SMatrix::<f64, ERRORS, PARAMETERS>::zeros());
         let (mut mean, mut pose) = (Working::zeros(), Vector3::zeros());
+        let alphas = self.model.component_alphas();
         for (((term, follows), innovation), [own, start, end]) in self.terms().zip(innovations).zip(projected)
         {
             if !follows {
@@ -360,16 +347,13 @@ impl Residuals {
             }
             let mut working = Working::zeros();
             for component in 0..3 {
-                for (alpha, factor) in
-                    self.model.component_alphas()[component].iter().zip(term.coefficients[component])
-                {
-                    working[(component, *alpha)] += factor * own[component];
+                for (alpha, factor) in alphas[component].into_iter().zip(term.coefficients[component]) {
+                    working[(component, alpha)] += factor * own[component];
                 }
             }
             for row in 0..3 {
-                let parameter = if row < 2 { POSITION } else { YAW };
                 let moved = term.start.column(row) * pose[row] + term.end.column(row) * end[row];
-                let mut column = working.column_mut(parameter);
+                let mut column = working.column_mut(REFERENCE[row]);
                 column += moved;
             }
             working -= term.start * mean;
@@ -383,8 +367,9 @@ impl Residuals {
     }
 }
 
-fn reference_covariance(parameters: &Parameters) -> Matrix3<f64> {
-    Matrix3::from_diagonal(&Vector3::new(parameters[POSITION], parameters[POSITION], parameters[YAW]))
+/// Returns the covariance R of the reference's error.
+pub(super) fn reference_covariance(parameters: &Parameters) -> Matrix3<f64> {
+    Matrix3::from_diagonal(&REFERENCE.map(|variance| parameters[variance]).into())
 }
 
 /// Returns the inverse of the rows and columns in the mask, 0 elsewhere, and the logarithm of their determinant.

@@ -1,7 +1,7 @@
 //! Maximum of the restricted likelihood over variances of 0 or more.
 
 use super::likelihood::{Expansion, Information, PARAMETERS, Parameters, Residuals};
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 /// Parameters that are fitted; the others stay as they are.
 pub(super) type Free = [bool; PARAMETERS];
@@ -11,6 +11,7 @@ pub(super) type Free = [bool; PARAMETERS];
 pub(super) struct Maximum {
     pub parameters: Parameters,
     pub expansion: Expansion,
+    pub free: Free,
 }
 
 /// Gain (nats) that a step has to promise.
@@ -27,50 +28,44 @@ const MAX_HALVINGS: usize = 4;
 pub(super) fn maximize(residuals: &Residuals, start: Parameters, free: &Free) -> Maximum {
     let mut parameters = start;
     let mut expansion = residuals.expansion(&parameters);
+    let likelihood = |expansion: &Expansion| expansion.least_squares.log_likelihood;
     for _ in 0..MAX_STEPS {
         let Some(step) = scoring_step(&parameters, &expansion, free) else { break };
         let mut next = None;
         for halving in 0..=MAX_HALVINGS {
             let candidate = (parameters + step * 0.5_f64.powi(halving as i32)).map(|each| each.max(0.0));
-            if residuals.log_likelihood(&candidate) > expansion.log_likelihood {
+            if residuals.least_squares(&candidate).log_likelihood > likelihood(&expansion) {
                 next = Some(candidate);
                 break;
             }
         }
         let next = next.unwrap_or_else(|| minorized(&parameters, &expansion, free));
         let better = residuals.expansion(&next);
-        if better.log_likelihood <= expansion.log_likelihood {
+        let gain = likelihood(&better) - likelihood(&expansion);
+        if gain <= 0.0 {
             break;
         }
-        let gain = better.log_likelihood - expansion.log_likelihood;
         (parameters, expansion) = (next, better);
         if gain < MIN_GAIN {
             break;
         }
     }
-    Maximum { parameters, expansion }
+    Maximum { parameters, expansion, free: *free }
 }
 
 /// Step of Fisher scoring; None where it promises no gain. A variance of 0 whose score is negative stays there.
 fn scoring_step(parameters: &Parameters, expansion: &Expansion, free: &Free) -> Option<Parameters> {
     let score = expansion.score();
-    let mut moving: Vec<usize> = (0..PARAMETERS)
-        .filter(|j| {
-            free[*j] && expansion.information[(*j, *j)] > 0.0 && (parameters[*j] > 0.0 || score[*j] > 0.0)
-        })
-        .collect();
+    let information = &expansion.information;
+    let is_moving =
+        |j: &usize| free[*j] && information[(*j, *j)] > 0.0 && (parameters[*j] > 0.0 || score[*j] > 0.0);
+    let mut moving: Vec<usize> = (0..PARAMETERS).filter(is_moving).collect();
     loop {
-        let count = moving.len();
-        // Parameters differ by orders of magnitude: each has the scale of its information.
-        let scale: Vec<f64> = moving.iter().map(|j| expansion.information[(*j, *j)].sqrt()).collect();
-        let matrix = DMatrix::from_fn(count, count, |a, b| {
-            let entry = expansion.information[(moving[a], moving[b])] / (scale[a] * scale[b]);
-            if a == b { entry * (1.0 + 1e-9) + 1e-9 } else { entry }
-        });
-        let gradient = DVector::from_fn(count, |a, _| score[moving[a]] / scale[a]);
-        let solved = matrix.cholesky()?.solve(&gradient);
+        let (factor, scale) = scaled_cholesky(information, &moving, [1e-9, 1e-9])?;
+        let gradient = DVector::from_fn(moving.len(), |a, _| score[moving[a]] / scale[a]);
+        let solved = factor.solve(&gradient);
         // One that would leave 0 for a negative variance stays, and the others move without it.
-        if let Some(stuck) = (0..count).find(|a| parameters[moving[*a]] == 0.0 && solved[*a] < 0.0) {
+        if let Some(stuck) = (0..moving.len()).find(|a| parameters[moving[*a]] == 0.0 && solved[*a] < 0.0) {
             moving.remove(stuck);
             continue;
         }
@@ -83,53 +78,46 @@ fn scoring_step(parameters: &Parameters, expansion: &Expansion, free: &Free) -> 
     }
 }
 
+/// Returns the step of the minorize-maximize algorithm, which always gains.
 fn minorized(parameters: &Parameters, expansion: &Expansion, free: &Free) -> Parameters {
     Parameters::from_fn(|j, _| {
         let ratio = expansion.quadratic[j] / expansion.trace[j];
-        if free[j] && ratio.is_finite() && ratio >= 0.0 {
-            parameters[j] * ratio.sqrt()
-        } else {
-            parameters[j]
-        }
+        let can_move = free[j] && ratio.is_finite() && ratio >= 0.0;
+        if can_move { parameters[j] * ratio.sqrt() } else { parameters[j] }
     })
 }
 
-/// Returns the inverse of the information matrix over the free parameters above 0 and `parameter`. Other parameters at 0 are fixed
-/// there: their rows and columns are 0.
-pub(super) fn conditional_inverse(
-    expansion: &Expansion,
-    parameters: &Parameters,
-    free: &Free,
-    parameter: usize,
-) -> Information {
-    let moving: Vec<usize> = (0..PARAMETERS)
-        .filter(|j| *j == parameter || free[*j] && parameters[*j] > 0.0)
-        .filter(|j| expansion.information[(*j, *j)] > 0.0)
-        .collect();
-    let count = moving.len();
-    let scale: Vec<f64> = moving.iter().map(|j| expansion.information[(*j, *j)].sqrt()).collect();
-    let matrix = DMatrix::from_fn(count, count, |a, b| {
-        let entry = expansion.information[(moving[a], moving[b])] / (scale[a] * scale[b]);
-        if a == b { entry * (1.0 + 1e-12) } else { entry }
+/// Returns the Cholesky factor of the information on some parameters, each in units of its scale, and these scales. Parameters differ by
+/// orders of magnitude; the scale of one is the root of its information. The diagonal of 1 is increased by a relative and an absolute amount.
+fn scaled_cholesky(
+    information: &Information,
+    parameters: &[usize],
+    [relative, absolute]: [f64; 2],
+) -> Option<(Cholesky<f64, Dyn>, Vec<f64>)> {
+    let scale: Vec<f64> = parameters.iter().map(|j| information[(*j, *j)].sqrt()).collect();
+    let matrix = DMatrix::from_fn(scale.len(), scale.len(), |a, b| {
+        let entry = information[(parameters[a], parameters[b])] / (scale[a] * scale[b]);
+        if a == b { entry * (1.0 + relative) + absolute } else { entry }
     });
-    let mut inverse = Information::zeros();
-    if let Some(small) = matrix.cholesky().map(|factor| factor.inverse()) {
-        for a in 0..count {
-            for b in 0..count {
-                inverse[(moving[a], moving[b])] = small[(a, b)] / (scale[a] * scale[b]);
-            }
-        }
-    }
-    inverse
+    Some((matrix.cholesky()?, scale))
 }
 
-/// Information on one parameter when the other free ones are unknown; 0 where there is none.
-pub(super) fn conditional_information(
-    expansion: &Expansion,
-    parameters: &Parameters,
-    free: &Free,
-    parameter: usize,
-) -> f64 {
-    let variance = conditional_inverse(expansion, parameters, free, parameter)[(parameter, parameter)];
-    if variance > 0.0 { 1.0 / variance } else { 0.0 }
+impl Maximum {
+    /// Returns the covariances of one parameter with all: a column of the inverse information matrix over the free parameters above 0 and
+    /// this one. Other parameters at 0 are fixed there: their covariances are 0. All are 0 if there is no information on this one.
+    pub fn covariances(&self, parameters: &Parameters, parameter: usize) -> Parameters {
+        let information = &self.expansion.information;
+        let moving: Vec<usize> = (0..PARAMETERS)
+            .filter(|j| *j == parameter || self.free[*j] && parameters[*j] > 0.0)
+            .filter(|j| information[(*j, *j)] > 0.0)
+            .collect();
+        let mut column = Parameters::zeros();
+        if let Some(place) = moving.iter().position(|j| *j == parameter)
+            && let Some((factor, scale)) = scaled_cholesky(information, &moving, [1e-12, 0.0])
+        {
+            let solved = factor.solve(&DVector::from_fn(scale.len(), |a, _| f64::from(u8::from(a == place))));
+            moving.iter().enumerate().for_each(|(a, j)| column[*j] = solved[a] / (scale[a] * scale[place]));
+        }
+        column
+    }
 }

@@ -1,12 +1,13 @@
 //! Gate that sets outliers aside, as where the reference jumped: they are listed, and the fit goes on without them.
 
 use super::fit::Sample;
-use super::likelihood::{Parameters, Residuals, Standardized};
+use super::likelihood::{LeastSquares, Parameters, Residuals};
 use super::options::Outliers;
+use super::result::LegFit;
 use super::trajectory::median;
 
 /// Quantiles 0.9999 of χ² with 1, 2 and 3 degrees of freedom.
-const GATES: [f64; 3] = [15.137, 18.421, 21.108];
+const CHI2_9999: [f64; 3] = [15.137, 18.421, 21.108];
 
 /// Median of χ² with 3 degrees of freedom.
 const MEDIAN_CHI2: f64 = 2.366;
@@ -15,15 +16,18 @@ const MEDIAN_CHI2: f64 = 2.366;
 const LAST_RETURN: usize = 2;
 
 impl Sample {
-    /// Innovations of all legs: of an outlier without the leg before it, of the others along the chain of kept legs.
-    pub(super) fn innovations(&self, parameters: &Parameters) -> Vec<Standardized> {
+    /// Returns all legs under these parameters: an outlier without the leg before it, the others along the chain of kept legs.
+    pub(super) fn leg_fits(&self, parameters: &Parameters) -> Vec<LegFit> {
         let kept = self.kept(0..self.legs.len());
-        let errors = kept.least_squares(parameters).errors;
-        let chosen = (0..self.legs.len()).filter(|leg| self.outliers[*leg]).map(|leg| (leg, false));
-        let outside = Residuals::new(self.options.model, self.estimated, &self.terms, chosen.collect());
-        let [mut inside, mut outside] =
-            [kept, outside].map(|all| all.innovations(parameters, &errors).into_iter());
-        let next = |is_outlier: &bool| if *is_outlier { outside.next() } else { inside.next() };
+        let outliers = (0..self.legs.len()).filter(|leg| self.outliers[*leg]).map(|leg| (leg, false));
+        let outliers = Residuals::new(self.options.model, self.estimated, &self.terms, outliers.collect());
+        let (inside, LeastSquares { errors, .. }) = kept.innovations(parameters);
+        let (outside, _) = outliers.innovations(parameters);
+        let [mut inside, mut outside] = [inside, outside].map(Vec::into_iter);
+        let next = |is_outlier: &bool| {
+            let innovation = if *is_outlier { outside.next() } else { inside.next() };
+            innovation.map(|innovation| innovation.leg_fit(&errors, *is_outlier))
+        };
         self.outliers.iter().filter_map(next).collect()
     }
 
@@ -32,14 +36,14 @@ impl Sample {
         if self.options.outliers == Outliers::Keep {
             return false;
         }
-        let innovations = self.innovations(parameters);
+        let fits = self.leg_fits(parameters);
         // Variances may still be too small: half of the legs must not pass for outliers then.
-        let mut squares: Vec<f64> = innovations.iter().map(|innovation| innovation.squared).collect();
+        let mut squares: Vec<f64> = fits.iter().map(|fit| fit.squared).collect();
         let gate = gate * (median(&mut squares) / MEDIAN_CHI2).max(1.0);
         let is_outside =
-            |each: &Standardized| each.observed > 0 && each.squared > gate * GATES[each.observed - 1];
-        let mark = |(each, was): (&Standardized, &bool)| *was && round > LAST_RETURN || is_outside(each);
-        let marked: Vec<bool> = innovations.iter().zip(&self.outliers).map(mark).collect();
+            |fit: &LegFit| fit.observed() > 0 && fit.squared > gate * CHI2_9999[fit.observed() - 1];
+        let is_marked = |fit: &LegFit| fit.is_outlier && round > LAST_RETURN || is_outside(fit);
+        let marked: Vec<bool> = fits.iter().map(is_marked).collect();
         let changed = marked != self.outliers;
         self.outliers = marked;
         changed

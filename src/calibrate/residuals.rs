@@ -2,7 +2,7 @@
 //!
 //! They are in the model's own coordinates, where the noise of the wheels is independent and its variances are linear in the α's.
 
-use super::legs::Leg;
+use super::legs::{Leg, distance};
 use super::likelihood::Parameters;
 use super::systematic::{Systematic, log_sinc_derivative};
 use crate::geom::arc::invert_arc;
@@ -95,7 +95,7 @@ impl Observation {
     pub(super) fn new(model: Model, leg: &Leg, corrected: &Systematic, position_std: f64) -> Self {
         let expected = corrected.expected(model, leg);
         let motion = corrected.motion(leg);
-        let is_linear = position_std > LINEAR_FROM * libm::hypot(expected.x(), expected.y());
+        let is_linear = position_std > LINEAR_FROM * distance(&expected);
         let mut observation = match model {
             Model::Odometry(OdometryRule::Omni) => omni(expected, &motion),
             Model::Odometry(rule) => differential(rule, expected, &motion, is_linear),

@@ -1,6 +1,6 @@
 //! Result of a calibration.
 
-use super::checks::{Diagnostics, LegFit};
+use super::checks::Diagnostics;
 use super::intervals::{NORMAL_95, NotIdentifiable};
 use super::legs::{Leg, LostLegs};
 use super::residuals::{Model, Observation};
@@ -31,6 +31,25 @@ pub struct Recommended {
     pub alphas: Vec<Option<f64>>,
     pub inflation: f64,
     pub reason: String,
+}
+
+/// One leg under the fit: its innovation, the residual less what the legs before predict. Components are NaN if the leg does not show them.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct LegFit {
+    /// Standard deviations of the innovation's components.
+    pub stds: [f64; 3],
+    /// Innovation over its standard deviations.
+    pub standardized: [f64; 3],
+    /// Squared Mahalanobis distance of the innovation: χ² with as many degrees of freedom as components are observed.
+    pub squared: f64,
+    pub is_outlier: bool,
+}
+
+impl LegFit {
+    /// Returns the number of components that are observed.
+    pub(super) fn observed(&self) -> usize {
+        self.stds.iter().filter(|std| !std.is_nan()).count()
+    }
 }
 
 /// Result of a calibration.

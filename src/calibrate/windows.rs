@@ -2,10 +2,12 @@
 //!
 //! A filter needs α's that hold between two corrections, not over one leg: errors of real wheels persist.
 
-use super::checks::{Check, MAX_INFLATION, MIN_WINDOWS, WindowCoverage, holdout_check, window_checks};
+use super::checks::{
+    Check, CheckName, MAX_INFLATION, MIN_WINDOWS, WindowCoverage, coverage_range, window_checks,
+};
 use super::fit::{Fit, Sample, free_parameters};
-use super::legs::Leg;
-use super::likelihood::{POSITION, Parameters, YAW};
+use super::legs::{Leg, distance};
+use super::likelihood::{LeastSquares, Parameters, reference_covariance};
 use super::optimizer::maximize;
 use super::residuals::Observation;
 use super::result::Recommended;
@@ -31,7 +33,7 @@ impl Window {
 
 impl Sample {
     /// Cuts the legs in `range` into windows of `length` (m) driven. None of them contains an outlier or leads across a gap.
-    fn windows(&self, range: std::ops::Range<usize>, length: f64, parameters: &Parameters) -> Vec<Window> {
+    fn windows(&self, range: Range<usize>, length: f64, parameters: &Parameters) -> Vec<Window> {
         let mut windows = Vec::new();
         let (mut first, mut driven) = (range.start, 0.0);
         for leg in range {
@@ -43,7 +45,7 @@ impl Sample {
                 continue;
             }
             let motion = &self.observations[leg].expected;
-            driven += libm::hypot(motion.x(), motion.y());
+            driven += distance(motion);
             if driven >= length {
                 windows.push(self.window(first, leg, parameters));
                 first = leg + 1;
@@ -75,13 +77,12 @@ impl Sample {
             ..self.legs[first]
         };
         let seen = self.systematic.motion(&whole);
-        let error = Vector3::new(parameters[POSITION], parameters[POSITION], parameters[YAW]);
         let reference = self
             .systematic
             .reference_jacobians(&whole)
             .map(|jacobian| {
                 let to_end = to_end_frame(&seen) * jacobian;
-                to_end * Matrix3::from_diagonal(&error) * to_end.transpose()
+                to_end * reference_covariance(parameters) * to_end.transpose()
             })
             .iter()
             .sum();
@@ -168,17 +169,16 @@ pub(super) fn recommend(fit: &Fit, all: &Sample, alphas: &[Option<f64>]) -> Reco
     let parameters = [0, 1].map(|half| maximize(&residuals[half], fit.maximum.parameters, &free).parameters);
     let (mut inside, mut compared) = (0, 0);
     for (residuals, parameters) in residuals.iter().zip([&parameters[1], &parameters[0]]) {
-        let errors = residuals.least_squares(parameters).errors;
-        let innovations = residuals.innovations(parameters, &errors);
+        let (innovations, LeastSquares { errors, .. }) = residuals.innovations(parameters);
         compared += innovations.len();
-        inside += innovations
-            .iter()
-            .filter(|each| each.observed > 0 && each.squared < CHI2_95[each.observed - 1])
-            .count();
+        let fits = innovations.iter().map(|innovation| innovation.leg_fit(&errors, false));
+        inside += fits.filter(|fit| fit.observed() > 0 && fit.squared < CHI2_95[fit.observed() - 1]).count();
     }
     // Variances of n legs have the relative variance 2/3n; α's share them.
     let scale_std = (2.0 * alphas.len() as f64 / (3 * count / 2).max(1) as f64).sqrt();
-    let mut checks = vec![holdout_check(inside as f64 / compared as f64, compared, scale_std)];
+    let coverage_by_other_half = inside as f64 / compared as f64;
+    let expected = coverage_range(compared, scale_std);
+    let mut checks = vec![Check::new(CheckName::HoldoutCovered, coverage_by_other_half, expected)];
     // Windows of the whole log, each under the fit to the half in which it is not.
     let total = all.legs.len();
     let ranges = [0..total / 2, total / 2..total];

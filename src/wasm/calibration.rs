@@ -116,7 +116,7 @@ pub fn calibration_to_js(calibration: &Calibration, legs: Option<JsValue>) -> Re
         calibration;
     let reasons: Array = not_identifiable.iter().map(|reason| reason_word(*reason)).collect();
     let [position, yaw] = reference_noise.map(|estimate| estimate_to_js(&estimate));
-    let checks: Array = diagnostics.checks.iter().map(check_to_js).collect();
+    let checks: Array = diagnostics.checks.iter().map(check_to_js).collect::<Result<_, _>>()?;
     let entries = [
         ("alphas", alphas(&calibration.alphas)),
         ("intervals", intervals(&calibration.intervals)),
@@ -205,14 +205,14 @@ fn verdict_word(verdict: Verdict) -> &'static str {
     }
 }
 
-fn check_to_js(check: &Check) -> JsValue {
-    js_object(&[
-        ("name", check.name.key().into()),
+fn check_to_js(check: &Check) -> Result<JsValue, JsValue> {
+    Ok(js_object(&[
+        ("name", to_plain_js(&check.name)?),
         ("value", check.value.into()),
         ("expected", js_array(&check.expected)),
         ("passed", check.passed.into()),
         ("message", check.message().into()),
-    ])
+    ]))
 }
 
 fn recommended_to_js(Recommended { alphas: all, inflation, reason }: &Recommended) -> JsValue {
@@ -236,10 +236,8 @@ pub fn columns_to_js(calibration: &Calibration) -> JsValue {
         }
         readings.extend_from_slice(&observation.reading);
         residuals.extend_from_slice(&observation.residuals);
-        let observed =
-            |k: usize, number: f64| if observation.residuals[k].is_nan() { f64::NAN } else { number };
-        standardized.extend((0..3).map(|k| observed(k, fit.standardized[k])));
-        stds.extend((0..3).map(|k| observed(k, fit.stds[k])));
+        standardized.extend_from_slice(&fit.standardized);
+        stds.extend_from_slice(&fit.stds);
         squared.push(fit.squared);
         outliers.push(f64::from(u8::from(fit.is_outlier)));
     }

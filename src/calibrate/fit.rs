@@ -178,9 +178,8 @@ impl<'a> Log<'a> {
     /// Moves the reference of a leg by a change of the clock's offset; `clock_offset` is the new one of the first drive. A leg that would leave
     /// the log stays as it is.
     fn realign(&self, leg: &mut Leg, clock_offset: f64, change: f64) {
-        let Drive { odometry, reference } = self.drives[leg.drive];
         let offset = clock_offset + self.offsets[leg.drive] - self.clock_offset();
-        if let Some(realigned) = leg.realigned(odometry, reference, offset, change) {
+        if let Some(realigned) = self.drives[leg.drive].realigned(*leg, offset, change) {
             *leg = realigned;
         }
     }
@@ -211,9 +210,9 @@ pub(super) fn fit_systematic(log: &Log, options: &Options) -> Result<Fit, Calibr
                 let most = 4.0 * error.identifiability_limit();
                 let change = -squares.errors[i];
                 is_settled &= change.abs() <= CONVERGED * squares.covariance[(i, i)].sqrt();
-                systematic.set(error, systematic.get(error) + change.clamp(-most, most));
+                *systematic.get_mut(error) += change.clamp(-most, most);
             } else {
-                systematic.set(error, begun.get(error));
+                *systematic.get_mut(error) = begun.get(error);
             }
         }
         systematic.mount_yaw = wrap_angle(systematic.mount_yaw);

@@ -3,6 +3,7 @@
 //! The α's belong to one length of leg: in the tables the variance of a drive grows with the square of its length, that of
 //! real wheels mostly with the length itself.
 
+use super::options::Drive;
 use super::trajectory::Trajectory;
 use crate::geom::se2::{SE2, wrap_angle};
 use crate::models::MAX_SPIN_DISTANCE;
@@ -130,7 +131,7 @@ const MAX_RATIO_ACROSS_PAUSE: f64 = 2.0;
 /// Ratio of periods above which the reference is the sparser trajectory.
 const SPARSE_RATIO: f64 = 1.5;
 
-/// One end of a leg.
+/// One end of a leg; its members are those of [`Leg`].
 #[derive(Clone, Copy, Debug)]
 struct End {
     time: f64,
@@ -140,68 +141,45 @@ struct End {
     interpolation_variance: f64,
 }
 
-/// Log with the offset (s) by which the reference's clock is ahead of the odometry's.
-struct Log<'a> {
-    odometry: &'a Trajectory,
-    reference: &'a Trajectory,
-    clock_offset: f64,
-    is_sparse: bool,
-}
+impl Drive<'_> {
+    fn has_sparse_reference(&self) -> bool {
+        self.reference.median_period() > SPARSE_RATIO * self.odometry.median_period()
+    }
 
-impl Log<'_> {
     /// Returns the end of a leg at a sample of the odometry, or next to it where the reference has fewer samples.
     ///
     /// Ends are at samples of the sparser trajectory. Between its samples the pose is interpolated on an arc, which has a part
     /// of the noise of a leg, and a part of its neighbour's.
-    fn end_at(&self, sample: usize) -> Option<End> {
-        let Self { odometry, reference, clock_offset, is_sparse } = *self;
+    fn end_at(&self, sample: usize, clock_offset: f64) -> Option<End> {
+        let Self { odometry, reference } = *self;
         let (time, pose) = odometry.sample(sample);
-        if !is_sparse {
-            let at = time + clock_offset;
-            return Some(End {
-                time,
-                odometry: pose,
-                velocity: odometry.velocity(sample),
-                reference: reference.pose_at(at)?,
-                interpolation_variance: reference.interpolation_variance_at(at),
-            });
+        if !self.has_sparse_reference() {
+            let velocity = odometry.velocity(sample);
+            let (reference, interpolation_variance) = reference.interpolated(time + clock_offset)?;
+            return Some(End { time, odometry: pose, velocity, reference, interpolation_variance });
         }
-        let (seen, pose) = reference.sample(reference.nearest(time + clock_offset)?);
+        let (seen, reference) = reference.sample(reference.nearest(time + clock_offset)?);
         let time = seen - clock_offset;
         let velocity = odometry.velocity(odometry.nearest(time)?);
         Some(End {
             time,
             odometry: odometry.pose_at(time)?,
             velocity,
-            reference: pose,
+            reference,
             interpolation_variance: 1.0,
         })
     }
-}
 
-fn is_sparse(odometry: &Trajectory, reference: &Trajectory) -> bool {
-    reference.median_period() > SPARSE_RATIO * odometry.median_period()
-}
-
-impl Leg {
-    /// Returns the leg under another offset of the clocks, `change` (s) later than that under which it was cut, which is then
-    /// `clock_offset`. None where a trajectory does not cover it.
-    pub(super) fn realigned(
-        &self,
-        odometry: &Trajectory,
-        reference: &Trajectory,
-        clock_offset: f64,
-        change: f64,
-    ) -> Option<Self> {
-        let mut leg = *self;
+    /// Returns a leg of this drive under another offset of the clocks, `change` (s) later than that under which it was cut. None where a
+    /// trajectory does not cover it.
+    pub(super) fn realigned(&self, mut leg: Leg, clock_offset: f64, change: f64) -> Option<Leg> {
         for end in 0..2 {
-            if is_sparse(odometry, reference) {
+            if self.has_sparse_reference() {
                 leg.times[end] -= change;
-                leg.odometry[end] = odometry.pose_at(leg.times[end])?;
+                leg.odometry[end] = self.odometry.pose_at(leg.times[end])?;
             } else {
-                let at = leg.times[end] + clock_offset;
-                leg.reference[end] = reference.pose_at(at)?;
-                leg.interpolation_variances[end] = reference.interpolation_variance_at(at);
+                (leg.reference[end], leg.interpolation_variances[end]) =
+                    self.reference.interpolated(leg.times[end] + clock_offset)?;
             }
         }
         Some(leg)
@@ -218,7 +196,7 @@ pub fn split_into_legs(
     length: LegLength,
     clock_offset: f64,
 ) -> (Vec<Leg>, LostLegs) {
-    let log = Log { odometry, reference, clock_offset, is_sparse: is_sparse(odometry, reference) };
+    let drive = Drive { odometry, reference };
     let (mut legs, mut lost) = (Vec::new(), LostLegs::default());
     // Reading at which a leg began, and its end there where the reference is known.
     let mut start: Option<((f64, SE2), Option<End>)> = None;
@@ -228,7 +206,7 @@ pub fn split_into_legs(
             lost.across_breaks += 1;
         }
         let Some(((start_time, start_pose), from)) = start else {
-            start = Some(((time, pose), log.end_at(sample)));
+            start = Some(((time, pose), drive.end_at(sample, clock_offset)));
             (follows, paused) = (false, false);
             continue;
         };
@@ -237,7 +215,7 @@ pub fn split_into_legs(
         if !length.ends(&ends, time - start_time) {
             continue;
         }
-        let to = log.end_at(sample);
+        let to = drive.end_at(sample, clock_offset);
         let (Some(from), Some(to)) = (from, to) else {
             // The reference may come back within the length that a leg may have.
             if from.is_none() || length.ratio(&ends, time - start_time) > MAX_RATIO_ACROSS_PAUSE {

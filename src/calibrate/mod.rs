@@ -74,7 +74,7 @@ pub fn calibrate(drives: &[Drive], options: &Options) -> Result<Calibration, Cal
         std::array::from_fn(|i| systematic_stds[i].is_some() && options.correct[i].unwrap_or(is_constant[i]));
     let mut corrected = Systematic::NONE;
     for error in SystematicError::ALL.into_iter().filter(|error| is_corrected[*error as usize]) {
-        corrected.set(error, errors.get(error));
+        *corrected.get_mut(error) = errors.get(error);
     }
     let (fit, all, lost) =
         fit_corrected(&log, options, &corrected, is_corrected, &systematic.maximum.parameters)?;

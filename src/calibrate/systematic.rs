@@ -59,25 +59,18 @@ impl Systematic {
     pub const NONE: Self =
         Self { clock_offset: 0.0, mount_yaw: 0.0, lever_arm: [0.0; 2], distance_scale: 1.0, turn_scale: 1.0 };
 
-    pub fn get(&self, error: SystematicError) -> f64 {
-        match error {
-            SystematicError::ClockOffset => self.clock_offset,
-            SystematicError::MountYaw => self.mount_yaw,
-            SystematicError::LeverArmAhead => self.lever_arm[0],
-            SystematicError::LeverArmLeft => self.lever_arm[1],
-            SystematicError::DistanceScale => self.distance_scale,
-            SystematicError::TurnScale => self.turn_scale,
-        }
+    pub fn get(mut self, error: SystematicError) -> f64 {
+        *self.get_mut(error)
     }
 
-    pub fn set(&mut self, error: SystematicError, value: f64) {
+    pub fn get_mut(&mut self, error: SystematicError) -> &mut f64 {
         match error {
-            SystematicError::ClockOffset => self.clock_offset = value,
-            SystematicError::MountYaw => self.mount_yaw = value,
-            SystematicError::LeverArmAhead => self.lever_arm[0] = value,
-            SystematicError::LeverArmLeft => self.lever_arm[1] = value,
-            SystematicError::DistanceScale => self.distance_scale = value,
-            SystematicError::TurnScale => self.turn_scale = value,
+            SystematicError::ClockOffset => &mut self.clock_offset,
+            SystematicError::MountYaw => &mut self.mount_yaw,
+            SystematicError::LeverArmAhead => &mut self.lever_arm[0],
+            SystematicError::LeverArmLeft => &mut self.lever_arm[1],
+            SystematicError::DistanceScale => &mut self.distance_scale,
+            SystematicError::TurnScale => &mut self.turn_scale,
         }
     }
 
@@ -134,17 +127,7 @@ impl Systematic {
         let swing = Vector2::new(lever.y, -lever.x);
         let pivot = mount * Vector2::new(-seen.y(), seen.x());
         let embed = |place: Matrix2<f64>, heading: Vector2<f64>, turn: f64| {
-            Matrix3::new(
-                place[(0, 0)],
-                place[(0, 1)],
-                heading.x,
-                place[(1, 0)],
-                place[(1, 1)],
-                heading.y,
-                0.0,
-                0.0,
-                turn,
-            )
+            Matrix3::new(place.m11, place.m12, heading.x, place.m21, place.m22, heading.y, 0.0, 0.0, turn)
         };
         let [start, end] = leg.interpolation_variances.map(f64::sqrt);
         [embed(-mount, -pivot - swing, -1.0) * start, embed(mount * turn, swing, 1.0) * end]

@@ -10,20 +10,11 @@ pub struct Trajectory {
     /// Times (s), each later than the one before.
     times: Vec<f64>,
     poses: Vec<SE2>,
-    /// Gap before each sample: the motion from the sample before is unknown in between, or altogether.
-    gaps: Vec<Gap>,
-    has_breaks: bool,
+    /// Indices, in their order, of samples before which the pose may have jumped: no motion is known across.
+    breaks: Vec<usize>,
     median_period: f64,
-}
-
-/// Kind of gap before a sample.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Gap {
-    None,
-    /// Pause of the recording; the poses at both ends are right.
-    Pause,
-    /// The pose may have jumped: no motion is known across.
-    Break,
+    /// Longest period (s) without a pause of the recording. In a pause no pose is known; those at both ends are right.
+    max_period: f64,
 }
 
 /// First sample that is not allowed in a trajectory.
@@ -46,26 +37,22 @@ impl fmt::Display for TrajectoryError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { sample, fault } = self;
         match fault {
-            TrajectoryFault::NotFinite => {
-                write!(
-                    f,
-                    "sample {sample} has a time or a coordinate that is not finite; allowed are finite numbers"
-                )
-            }
-            TrajectoryFault::NotLater { before } => {
-                write!(
-                    f,
-                    "sample {sample} is not later than the one before, at {before} s; allowed are times that rise"
-                )
-            }
+            TrajectoryFault::NotFinite => write!(
+                f,
+                "sample {sample} has a time or a coordinate that is not finite; allowed are finite numbers"
+            ),
+            TrajectoryFault::NotLater { before } => write!(
+                f,
+                "sample {sample} is not later than the one before, at {before} s; allowed are times that rise"
+            ),
         }
     }
 }
 
 impl std::error::Error for TrajectoryError {}
 
-/// Periods of a gap, at least: a recording drops a message or two now and then.
-const GAP_PERIODS: f64 = 5.0;
+/// Number of median periods above which a period is a pause: a recording drops a message or two now and then.
+const MAX_PERIODS: f64 = 5.0;
 
 /// Longest step (s) between samples of held commands: legs end at samples.
 const COMMAND_STEP: f64 = 0.1;
@@ -93,24 +80,17 @@ impl Trajectory {
         }
         let mut periods: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
         let median_period = median(&mut periods);
-        let mut gaps = vec![Gap::None; times.len()];
-        for (gap, pair) in gaps.iter_mut().skip(1).zip(times.windows(2)) {
-            if pair[1] - pair[0] > GAP_PERIODS * median_period {
-                *gap = Gap::Pause;
-            }
-        }
-        Ok(Self { times, poses, gaps, has_breaks: false, median_period })
+        let max_period = MAX_PERIODS * median_period;
+        Ok(Self { times, poses, breaks: Vec::new(), median_period, max_period })
     }
 
-    /// Returns the trajectory with a break before each of these samples: no leg leads across, as where a reference jumped.
+    /// Returns the trajectory with a break before each of these samples, as where a reference jumped: no leg leads across.
     #[must_use]
     pub fn with_breaks_before(mut self, samples: impl IntoIterator<Item = usize>) -> Self {
-        for sample in samples {
-            if let Some(gap) = self.gaps.get_mut(sample) {
-                *gap = Gap::Break;
-                self.has_breaks = true;
-            }
-        }
+        let count = self.times.len();
+        self.breaks.extend(samples.into_iter().filter(|sample| (1..count).contains(sample)));
+        self.breaks.sort_unstable();
+        self.breaks.dedup();
         self
     }
 
@@ -141,9 +121,7 @@ impl Trajectory {
                 pose = pose.boxplus(Vector3::new(v * dt, 0.0, omega * dt));
             }
         }
-        let mut trajectory = Self::new(samples)?;
-        trajectory.gaps.fill(Gap::None);
-        Ok(trajectory)
+        Ok(Self { max_period: f64::INFINITY, ..Self::new(samples)? })
     }
 
     /// Samples: times (s) and poses.
@@ -153,7 +131,7 @@ impl Trajectory {
 
     /// Number of gaps, pauses and breaks together.
     pub fn gaps(&self) -> usize {
-        self.gaps.iter().skip(1).filter(|gap| **gap != Gap::None).count()
+        (1..self.times.len()).filter(|sample| self.has_gap_before(*sample)).count()
     }
 
     /// Times of the first and the last sample, s; None of an empty trajectory.
@@ -178,9 +156,9 @@ impl Trajectory {
 
     /// Velocity (m/s ahead and to the left, rad/s) at a sample: the mean over the steps before and after it.
     pub(super) fn velocity(&self, sample: usize) -> Vector3<f64> {
-        let from = if sample > 0 && self.gaps[sample] == Gap::None { sample - 1 } else { sample };
+        let from = if sample > 0 && !self.has_gap_before(sample) { sample - 1 } else { sample };
         let next = sample + 1;
-        let to = if next < self.times.len() && self.gaps[next] == Gap::None { next } else { sample };
+        let to = if next < self.times.len() && !self.has_gap_before(next) { next } else { sample };
         if from == to {
             return Vector3::zeros();
         }
@@ -192,55 +170,51 @@ impl Trajectory {
         (self.times[sample], self.poses[sample])
     }
 
-    /// Sample nearest to a time (s); None where there is none within half of a gap.
+    /// Sample nearest to a time (s); None where there is none within half of the shortest pause.
     pub(super) fn nearest(&self, time: f64) -> Option<usize> {
         let after = self.times.partition_point(|each| *each < time);
         let off = |sample: usize| self.times.get(sample).map_or(f64::INFINITY, |at| (at - time).abs());
         let before = after.saturating_sub(1);
         let nearest = if off(before) < off(after) { before } else { after };
-        (off(nearest) <= 0.5 * GAP_PERIODS * self.median_period).then_some(nearest)
+        (off(nearest) <= 0.5 * MAX_PERIODS * self.median_period).then_some(nearest)
     }
 
     pub(super) fn has_break_before(&self, sample: usize) -> bool {
-        self.gaps[sample] == Gap::Break
+        self.breaks.binary_search(&sample).is_ok()
     }
 
+    /// Returns whether a pause or a break is between the sample before and this one.
     pub(super) fn has_gap_before(&self, sample: usize) -> bool {
-        self.gaps[sample] != Gap::None
+        let start = self.times[sample.saturating_sub(1)];
+        self.times[sample] - start > self.max_period || self.has_break_before(sample)
     }
 
     /// Returns whether a break lies between two times (s).
     pub(super) fn has_break(&self, from: f64, to: f64) -> bool {
-        if !self.has_breaks {
-            return false;
-        }
-        let after = self.times.partition_point(|time| *time <= from);
-        let end = self.times.partition_point(|time| *time < to);
-        self.gaps[after..].iter().take((end + 1).saturating_sub(after)).any(|gap| *gap == Gap::Break)
+        let next = self.breaks.partition_point(|sample| self.times[*sample] <= from);
+        self.breaks.get(next).is_some_and(|sample| self.times[sample - 1] < to)
     }
 
     /// Pose at `time` (s): between two samples on the arc of constant velocities that joins them. None outside, and inside of a
     /// gap.
+    pub fn pose_at(&self, time: f64) -> Option<SE2> {
+        self.interpolated(time).map(|(pose, _)| pose)
+    }
+
+    /// Returns [`Trajectory::pose_at`], and the variance of its error over that of one sample, where samples err independently:
+    /// (1 − s)² + s² at the fraction s between two.
     // Arcs are long code.
     #[inline(never)]
-    pub fn pose_at(&self, time: f64) -> Option<SE2> {
+    pub(super) fn interpolated(&self, time: f64) -> Option<(SE2, f64)> {
         let after = self.times.partition_point(|each| *each < time);
         let (at, pose) = (*self.times.get(after)?, self.poses[after]);
         if at == time {
-            return Some(pose);
+            return Some((pose, 1.0));
         }
-        let before = after.checked_sub(1).filter(|_| self.gaps[after] == Gap::None)?;
+        let before = after.checked_sub(1).filter(|_| !self.has_gap_before(after))?;
         let fraction = (time - self.times[before]) / (at - self.times[before]);
-        Some(self.poses[before].boxplus(pose.boxminus(&self.poses[before]) * fraction))
-    }
-
-    /// Variance of the error of [`Trajectory::pose_at`] over that of one sample, where samples err independently: (1 − s)² + s²
-    /// at the fraction s between two.
-    pub(super) fn interpolation_variance_at(&self, time: f64) -> f64 {
-        let after = self.times.partition_point(|each| *each < time);
-        let (Some(at), Some(before)) = (self.times.get(after), after.checked_sub(1)) else { return 1.0 };
-        let fraction = (time - self.times[before]) / (at - self.times[before]);
-        (1.0 - fraction) * (1.0 - fraction) + fraction * fraction
+        let between = self.poses[before].boxplus(pose.boxminus(&self.poses[before]) * fraction);
+        Some((between, (1.0 - fraction) * (1.0 - fraction) + fraction * fraction))
     }
 }
 

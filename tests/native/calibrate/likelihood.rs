@@ -71,7 +71,7 @@ fn by_error(leg: &Leg, corrected: &Systematic, error: SystematicError) -> Vector
     let read = expected(leg, corrected);
     let off = |step: f64| {
         let mut changed = *corrected;
-        changed.set(error, changed.get(error) + step);
+        *changed.get_mut(error) += step;
         // Returns a reference that equals the odometry.
         let mount = |of: &Systematic| SE2::new(of.lever_arm[0], of.lever_arm[1], of.mount_yaw);
         let seen = mount(corrected).inverse() * read * mount(corrected);

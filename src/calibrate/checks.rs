@@ -227,15 +227,12 @@ fn moves_sideways([rot1, _, rot2]: [f64; 3]) -> bool {
 
 /// Median difference of the two motions over the median motion: of turns, or of drives, whichever is larger.
 fn mismatch(sample: &Sample, systematic: &Systematic) -> f64 {
+    let motions = |leg| [systematic.expected(sample.options.model, leg), systematic.motion(leg)];
+    let motions: Vec<[SE2; 2]> = sample.legs.iter().map(motions).collect();
     let ratio = |least: f64, size: fn(&SE2) -> f64, between: fn(&SE2, &SE2) -> f64| {
-        let (mut sizes, mut differences) = (Vec::new(), Vec::new());
-        for leg in &sample.legs {
-            let expected = systematic.expected(sample.options.model, leg);
-            if size(&expected) > least {
-                sizes.push(size(&expected));
-                differences.push(between(&systematic.motion(leg), &expected));
-            }
-        }
+        let moving = || motions.iter().filter(|[expected, _]| size(expected) > least);
+        let mut sizes: Vec<f64> = moving().map(|[expected, _]| size(expected)).collect();
+        let mut differences: Vec<f64> = moving().map(|[expected, seen]| between(seen, expected)).collect();
         if sizes.len() < MIN_LEGS { 0.0 } else { median(&mut differences) / median(&mut sizes) }
     };
     let turns = ratio(MIN_TURN, turn, |one, other| (one.theta() - other.theta()).abs());

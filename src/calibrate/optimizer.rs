@@ -34,13 +34,16 @@ pub(super) fn maximize(residuals: &Residuals, start: Parameters, free: &Free) ->
         let mut next = None;
         for halving in 0..=MAX_HALVINGS {
             let candidate = (parameters + step * 0.5_f64.powi(halving as i32)).map(|each| each.max(0.0));
-            if residuals.least_squares(&candidate).log_likelihood > likelihood(&expansion) {
-                next = Some(candidate);
+            let better = residuals.expansion(&candidate);
+            if likelihood(&better) > likelihood(&expansion) {
+                next = Some((candidate, better));
                 break;
             }
         }
-        let next = next.unwrap_or_else(|| minorized(&parameters, &expansion, free));
-        let better = residuals.expansion(&next);
+        let (next, better) = next.unwrap_or_else(|| {
+            let candidate = minorized(&parameters, &expansion, free);
+            (candidate, residuals.expansion(&candidate))
+        });
         let gain = likelihood(&better) - likelihood(&expansion);
         if gain <= 0.0 {
             break;

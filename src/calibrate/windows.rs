@@ -5,9 +5,9 @@
 use super::checks::{
     Check, CheckName, MAX_INFLATION, MIN_WINDOWS, WindowCoverage, coverage_range, window_checks,
 };
-use super::fit::{Fit, Sample, free_parameters};
+use super::fit::{Fit, Sample};
 use super::legs::{Leg, distance};
-use super::likelihood::{LeastSquares, Parameters, reference_covariance};
+use super::likelihood::{LeastSquares, Parameters, Residuals, reference_covariance};
 use super::optimizer::maximize;
 use super::residuals::Observation;
 use super::result::Recommended;
@@ -32,73 +32,68 @@ impl Window {
 }
 
 impl Sample {
-    /// Cuts the legs in `range` into windows of `length` (m) driven. None of them contains an outlier or leads across a gap.
-    fn windows(&self, range: Range<usize>, length: f64, parameters: &Parameters) -> Vec<Window> {
-        let mut windows = Vec::new();
-        let (mut first, mut driven) = (range.start, 0.0);
+    /// Cuts the legs in `range` into windows of `length` (m) driven. Legs without a covariance are in no window, and none leads across a gap.
+    fn windows(
+        &self,
+        range: Range<usize>,
+        length: f64,
+        covariances: &[Option<Matrix3<f64>>],
+        parameters: &Parameters,
+    ) -> Vec<Window> {
+        let empty = (0.0, SE2::identity(), Matrix3::zeros());
+        let (mut windows, mut first) = (Vec::new(), range.start);
+        let (mut driven, mut expected, mut wheels) = empty;
         for leg in range {
-            let is_usable = !self.outliers[leg] && self.noise_jacobian(leg).is_some();
-            if leg == first || !self.legs[leg].follows || !is_usable {
-                (first, driven) = (if is_usable { leg } else { leg + 1 }, 0.0);
-            }
-            if !is_usable {
+            let Some(covariance) = covariances[leg] else {
+                first = leg + 1;
                 continue;
+            };
+            if leg == first || !self.legs[leg].follows {
+                (driven, expected, wheels) = empty;
+                first = leg;
             }
             let motion = &self.observations[leg].expected;
+            let carried = motion.inverse().adjoint();
+            wheels = carried * wheels * carried.transpose() + covariance;
+            expected = expected * *motion;
             driven += distance(motion);
             if driven >= length {
-                windows.push(self.window(first, leg, parameters));
+                let (seen, reference) = self.seen(first, leg, parameters);
+                windows.push(Window { error: seen.boxminus(&expected), wheels, reference });
                 first = leg + 1;
             }
         }
         windows
     }
 
-    fn window(&self, first: usize, last: usize, parameters: &Parameters) -> Window {
-        let (mut expected, mut wheels) = (SE2::identity(), Matrix3::zeros());
-        for leg in first..=last {
-            let observation = &self.observations[leg];
-            let motion = observation.expected;
-            let carried = motion.inverse().adjoint();
-            wheels = carried * wheels * carried.transpose();
-            if let Some(jacobian) = self.noise_jacobian(leg) {
-                let to_end = to_end_frame(&motion) * jacobian;
-                let variances = self.options.model.wheel_variances(&observation.coefficients, parameters);
-                wheels += to_end * Matrix3::from_diagonal(&variances) * to_end.transpose();
-            }
-            expected = expected * motion;
-        }
+    /// Returns the motion that the reference saw over several legs, and the covariance of its error in the frame of their end.
+    fn seen(&self, first: usize, last: usize, parameters: &Parameters) -> (SE2, Matrix3<f64>) {
+        let [start, end] = [first, last].map(|leg| &self.legs[leg]);
         let whole = Leg {
-            reference: [self.legs[first].reference[0], self.legs[last].reference[1]],
-            interpolation_variances: [
-                self.legs[first].interpolation_variances[0],
-                self.legs[last].interpolation_variances[1],
-            ],
-            ..self.legs[first]
+            reference: [start.reference[0], end.reference[1]],
+            interpolation_variances: [start.interpolation_variances[0], end.interpolation_variances[1]],
+            ..*start
         };
         let seen = self.systematic.motion(&whole);
-        let reference = self
-            .systematic
-            .reference_jacobians(&whole)
-            .map(|jacobian| {
-                let to_end = to_end_frame(&seen) * jacobian;
-                to_end * reference_covariance(parameters) * to_end.transpose()
-            })
-            .iter()
-            .sum();
-        Window { error: seen.boxminus(&expected), wheels, reference }
+        let covariances = self.systematic.reference_jacobians(&whole).map(|jacobian| {
+            let to_end = to_end_frame(&seen) * jacobian;
+            to_end * reference_covariance(parameters) * to_end.transpose()
+        });
+        (seen, covariances.iter().sum())
     }
 
-    /// Jacobian of the base's motion by the model's noise; None where the leg does not show all of it. The noise of a turn on the spot
-    /// has no first rotation.
-    fn noise_jacobian(&self, leg: usize) -> Option<Matrix3<f64>> {
-        let Observation { residuals, jacobian, .. } = &self.observations[leg];
-        let mut rows = *jacobian;
+    /// Returns the covariance of the wheels' noise over one leg, in the frame of its end. None of an outlier, and of a leg that does not
+    /// show all of the noise. The noise of a turn on the spot has no first rotation.
+    fn wheel_covariance(&self, leg: usize, parameters: &Parameters) -> Option<Matrix3<f64>> {
+        let Observation { residuals, coefficients, mut jacobian, expected, .. } = self.observations[leg];
         if residuals[0].is_nan() {
-            let normal = rows.row(1).transpose().cross(&rows.row(2).transpose());
-            rows.set_row(0, &normal.transpose());
+            let normal = jacobian.row(1).transpose().cross(&jacobian.row(2).transpose());
+            jacobian.set_row(0, &normal.transpose());
         }
-        rows.try_inverse()
+        let by_noise = jacobian.try_inverse().filter(|_| !self.outliers[leg])?;
+        let to_end = to_end_frame(&expected) * by_noise;
+        let variances = self.options.model.wheel_variances(&coefficients, parameters);
+        Some(to_end * Matrix3::from_diagonal(&variances) * to_end.transpose())
     }
 }
 
@@ -149,7 +144,7 @@ fn required_inflation(windows: &[Window]) -> Option<f64> {
 }
 
 /// Lengths of the windows, m; the first one is that which the recommended α's have to cover.
-const LENGTHS: [f64; 3] = [1.0, 2.0, 5.0];
+const WINDOW_LENGTHS: [f64; 3] = [1.0, 2.0, 5.0];
 
 /// Quantiles 0.95 of χ² with 1, 2 and 3 degrees of freedom.
 const CHI2_95: [f64; 3] = [3.841, 5.991, 7.815];
@@ -162,13 +157,13 @@ pub(super) struct Recommendation {
 
 /// Fits each half of the log, compares the other one with that, and finds the inflation that windows need.
 pub(super) fn recommend(fit: &Fit, all: &Sample, alphas: &[Option<f64>]) -> Recommendation {
+    let halves = |count: usize| [0..count / 2, count / 2..count];
     let count = fit.sample.legs.len();
-    let halves = [0..count / 2, count / 2..count];
-    let free = free_parameters(&fit.sample.options);
-    let residuals = halves.map(|half| fit.sample.kept(half));
-    let parameters = [0, 1].map(|half| maximize(&residuals[half], fit.maximum.parameters, &free).parameters);
+    let residuals = halves(count).map(|half| fit.sample.kept(half));
+    let fitted = |half: &Residuals| maximize(half, fit.maximum.parameters, &fit.maximum.free).parameters;
+    let by_other_half = [fitted(&residuals[1]), fitted(&residuals[0])];
     let (mut inside, mut compared) = (0, 0);
-    for (residuals, parameters) in residuals.iter().zip([&parameters[1], &parameters[0]]) {
+    for (residuals, parameters) in residuals.iter().zip(&by_other_half) {
         let (innovations, LeastSquares { errors, .. }) = residuals.innovations(parameters);
         compared += innovations.len();
         let fits = innovations.iter().map(|innovation| innovation.leg_fit(&errors, false));
@@ -180,18 +175,18 @@ pub(super) fn recommend(fit: &Fit, all: &Sample, alphas: &[Option<f64>]) -> Reco
     let expected = coverage_range(compared, scale_std);
     let mut checks = vec![Check::new(CheckName::HoldoutCovered, coverage_by_other_half, expected)];
     // Windows of the whole log, each under the fit to the half in which it is not.
-    let total = all.legs.len();
-    let ranges = [0..total / 2, total / 2..total];
-    let held_out = |length: f64| -> Vec<Window> {
-        let of = |(range, parameters): (&Range<usize>, &Parameters)| {
-            all.windows(range.clone(), length, parameters)
-        };
-        ranges.iter().zip([&parameters[1], &parameters[0]]).flat_map(of).collect()
-    };
-    let windows: Vec<Vec<Window>> = LENGTHS.map(held_out).into();
+    let held_out = halves(all.legs.len());
+    let held_out = || held_out.iter().cloned().zip(&by_other_half);
+    let covariances: Vec<Option<Matrix3<f64>>> = held_out()
+        .flat_map(|(half, parameters)| half.map(|leg| all.wheel_covariance(leg, parameters)))
+        .collect();
+    let windows = WINDOW_LENGTHS.map(|length| {
+        let cut = |(half, parameters)| all.windows(half, length, &covariances, parameters);
+        held_out().flat_map(cut).collect::<Vec<_>>()
+    });
     let inflation = required_inflation(&windows[0]);
     let covered: Vec<WindowCoverage> =
-        windows.iter().zip(LENGTHS).map(|(windows, length)| coverage(windows, length, 1.0)).collect();
+        windows.iter().zip(WINDOW_LENGTHS).map(|(windows, length)| coverage(windows, length, 1.0)).collect();
     checks.extend(window_checks(&covered, scale_std));
     let recommended = inflation.map(|inflation| Recommended {
         alphas: alphas.iter().map(|alpha| alpha.map(|alpha| inflation * alpha)).collect(),

@@ -40,7 +40,7 @@ pub fn run(bytes: &[u8]) {
     match calibrate(&[Drive { odometry: &odometry, reference: &reference }], &options) {
         Ok(calibration) => assert_calibration(&calibration, &options),
         Err(CalibrateError::TooFewLegs { legs }) => assert!(legs < MIN_LEGS),
-        Err(CalibrateError::Apart) => {
+        Err(CalibrateError::NoCommonTime) => {
             let [one, other] = [&odometry, &reference].map(|each| each.span().expect("a row at least"));
             assert!(one[1] < other[0] || other[1] < one[0], "{one:?} {other:?}");
         }

@@ -2,41 +2,42 @@
 
 use super::trajectory::Trajectory;
 
-/// Step (s) of the finest scan: a robot does not begin and end a turn in less than a few of them.
-const STEP: f64 = 0.05;
+/// Step (s) of the finest scan of clock offsets. Turns of a robot last several steps.
+const FINEST_STEP: f64 = 0.05;
 
-/// Largest offset (s) of the first scan, that of the clocks of one network. Further away, a drive in circles would match its next round.
-const NEAR: f64 = 10.0;
+/// Largest clock offset (s) of the first scan. Clocks of one network differ by less, and a drive in circles takes longer for one round.
+const MAX_NEAR_OFFSET: f64 = 10.0;
 
 /// Number of offsets in the coarse scan of clocks without a common start: over an hour they are 1 s apart.
 const COARSE_OFFSETS: f64 = 4096.0;
 
-/// Samples of a scan at most.
+/// Maximum number of turn rates that are compared at each clock offset.
 const MAX_SAMPLES: f64 = 100_000.0;
 
 /// Correlation of two turn rates below which they do not match: unrelated ones reach it within a few seconds.
 const MIN_CORRELATION: f64 = 0.5;
 
-/// Correlation at which the search for another offset ends. At the right offset it is 1 up to a few hundredths.
+/// Correlation at which the search for other clock offsets ends. At the right offset the correlation is 1 up to a few hundredths.
 const CONFIDENT_CORRELATION: f64 = 0.9;
 
-/// Excess of correlation that an offset beyond [`NEAR`] needs.
-const MARGIN: f64 = 0.05;
+/// Increase of the correlation for which an offset beyond [`MAX_NEAR_OFFSET`] is preferred to one within.
+const MIN_CORRELATION_GAIN: f64 = 0.05;
 
-/// An offset (s), and the correlation of the turn rates there.
+/// Clock offset (s), and the correlation of the two turn rates at this offset.
 type Match = (f64, f64);
 
-/// Returns by how much (s) the reference's clock is ahead of the odometry's: where the correlation of their turn rates is largest.
+/// Returns the time (s) by which the reference's clock is ahead of the odometry's. At this offset the correlation of their turn rates is
+/// largest.
 ///
-/// Where they do not correlate anywhere, as of a robot that does not turn, it is 0 if the recordings overlap, and None otherwise.
-/// Recordings overlap by half of the shorter one at least.
+/// If turn rates do not correlate at any offset, as of a robot that does not turn, the offset is 0. It is None if the recordings do not
+/// overlap either. Only offsets at which half of the shorter recording overlaps the other one are compared.
 pub(super) fn clock_offset(odometry: &Trajectory, reference: &Trajectory) -> Option<f64> {
     let ([from, to], [start, end]) = (odometry.span()?, reference.span()?);
     let half = 0.5 * (to - from).min(end - start);
     let common = to.min(end) - from.max(start);
-    let finest = STEP.max(0.5 * odometry.median_period()).max((to - from) / MAX_SAMPLES);
+    let finest = FINEST_STEP.max(0.5 * odometry.median_period()).max((to - from) / MAX_SAMPLES);
     let scan = |range: [f64; 2], step: f64| best_match(odometry, reference, range, finest.max(step));
-    let near = if common < half { None } else { scan([-NEAR, NEAR], 0.0) };
+    let near = if common < half { None } else { scan([-MAX_NEAR_OFFSET, MAX_NEAR_OFFSET], 0.0) };
     if let Some((offset, _)) = near.filter(|(_, correlation)| *correlation >= CONFIDENT_CORRELATION) {
         return Some(offset);
     }
@@ -49,13 +50,16 @@ pub(super) fn clock_offset(odometry: &Trajectory, reference: &Trajectory) -> Opt
         far = scan(around, step);
     }
     match [near, far] {
-        [Some((offset, correlation)), Some((_, farther))] if farther - correlation < MARGIN => Some(offset),
+        [Some((offset, correlation)), Some((_, farther))] if farther - correlation < MIN_CORRELATION_GAIN => {
+            Some(offset)
+        }
         [_, Some((offset, _))] | [Some((offset, _)), None] => Some(offset),
         [None, None] => (common >= 0.0).then_some(0.0),
     }
 }
 
-/// Returns the offset of a range at which the turn rates correlate most, interpolated between steps; None where they do not.
+/// Returns the offset within a range at which the turn rates correlate most, interpolated between steps. None if the largest correlation is
+/// below [`MIN_CORRELATION`].
 fn best_match(
     odometry: &Trajectory,
     reference: &Trajectory,
@@ -83,7 +87,7 @@ fn best_match(
     Some((from + (best as f64 + fraction) * step, most))
 }
 
-/// Turns (rad) from each of `count` times to the next; None outside, and across gaps.
+/// Returns the turns (rad) from each of `count` evenly spaced times to the next. None before and after the trajectory, and across gaps.
 fn turns(trajectory: &Trajectory, start: f64, step: f64, count: usize) -> Vec<Option<f64>> {
     let times: Vec<f64> = trajectory.samples().map(|(time, _)| time).collect();
     let headings = trajectory.unwrapped_heading();
@@ -110,7 +114,8 @@ fn turns(trajectory: &Trajectory, start: f64, step: f64, count: usize) -> Vec<Op
     headings.windows(2).map(turn).collect()
 }
 
-/// Pearson's correlation over what is known of both; 0 where that is fewer than `least`, or one is constant.
+/// Returns Pearson's correlation over the pairs of which both numbers are known. 0 if there are fewer than `least` pairs, or one list is
+/// constant.
 fn correlation(a: &[Option<f64>], b: &[Option<f64>], least: usize) -> f64 {
     let pairs = || a.iter().zip(b).filter_map(|(a, b)| a.zip(*b));
     let (mut count, mut sums) = (0.0, [0.0; 5]);

@@ -1,10 +1,10 @@
 //! Checks of a fit: validity of the log, and goodness of fit of the model.
 
 use super::fit::{Fit, Sample};
-use super::legs::{LostLegs, MIN_DISTANCE, MIN_LEGS, MIN_TURN, distance, turn};
+use super::legs::{LostLegs, MIN_DRIVE_DISTANCE, MIN_LEGS, MIN_TURN_ANGLE, distance, turn};
 use super::residuals::Model;
 use super::result::LegFit;
-use super::systematic::{ERRORS, ErrorMask, Systematic, SystematicError};
+use super::systematic::{ERROR_COUNT, ErrorMask, Systematic, SystematicError};
 use super::trajectory::median;
 use crate::geom::se2::{SE2, wrap_angle};
 use crate::models::OdometryRule;
@@ -15,9 +15,9 @@ use serde::{Deserialize, Serialize};
 pub enum Verdict {
     /// Every check passed.
     Consistent,
-    /// A check failed: the α's may be off, the recommended ones less so.
+    /// A check failed: α's may be wrong, and recommended α's allow for a part of that.
     Questionable,
-    /// The log does not tell α's.
+    /// The log gives no α's.
     Unusable,
 }
 
@@ -107,7 +107,7 @@ pub struct Diagnostics {
 impl Diagnostics {
     /// Returns the diagnostics of a log that could not be fitted.
     pub(super) fn too_few_legs() -> Self {
-        let legs = Check::new(CheckName::EnoughLegs, 0.0, [ENOUGH_LEGS, f64::INFINITY]);
+        let legs = Check::new(CheckName::EnoughLegs, 0.0, [SUFFICIENT_LEGS, f64::INFINITY]);
         Self { verdict: Verdict::Unusable, checks: vec![legs], windows: Vec::new() }
     }
 }
@@ -159,7 +159,7 @@ impl CheckName {
     }
 }
 
-/// Number of standard errors by which a sample statistic may be off. With it, few logs that are simulated by the model fail any check.
+/// Number of standard errors by which a sample statistic may differ. Few logs that the model simulates fail a check with it.
 const MAX_STD_ERRORS: f64 = 3.0;
 
 /// Correlation of neighbours, and excess kurtosis, that is too small to matter in a long log.
@@ -169,11 +169,11 @@ const NEGLIGIBLE_KURTOSIS: f64 = 0.5;
 /// Difference of the coverage from 95 % that is too small to matter in a long log.
 const NEGLIGIBLE_COVERAGE: f64 = 0.015;
 
-/// Number of legs that are enough, and that make a log usable at all.
-const ENOUGH_LEGS: f64 = 100.0;
-const USABLE_LEGS: f64 = 30.0;
+/// Number of legs below which the check fails, and below which the log is unusable.
+const SUFFICIENT_LEGS: f64 = 100.0;
+const MIN_USABLE_LEGS: f64 = 30.0;
 
-/// Median difference of odometry and reference, relative to the median motion, above which they do not belong together.
+/// Largest median difference of the motions by odometry and reference, over the median motion, of logs of the same drive.
 const MAX_MISMATCH: f64 = 0.7;
 
 /// Scales that wheels can have; with any other one the reference has another unit.
@@ -205,7 +205,7 @@ pub(super) fn log_checks(
     let lost = lost.total() - lost.standing;
     let mut checks = vec![
         Check::new(CheckName::ReferenceMatches, mismatch, [0.0, MAX_MISMATCH]),
-        Check::new(CheckName::EnoughLegs, count as f64, [ENOUGH_LEGS, f64::INFINITY]),
+        Check::new(CheckName::EnoughLegs, count as f64, [SUFFICIENT_LEGS, f64::INFINITY]),
         // An infinite inflation: none is enough.
         Check::new(CheckName::InflationBounded, inflation, [1.0, MAX_INFLATION]),
         Check::new(CheckName::LegsLost, lost as f64 / (count + lost) as f64, [0.0, 0.2]),
@@ -235,9 +235,10 @@ fn mismatch(sample: &Sample, systematic: &Systematic) -> f64 {
         let mut differences: Vec<f64> = moving().map(|[expected, seen]| between(seen, expected)).collect();
         if sizes.len() < MIN_LEGS { 0.0 } else { median(&mut differences) / median(&mut sizes) }
     };
-    let turns = ratio(MIN_TURN, turn, |one, other| (one.theta() - other.theta()).abs());
-    let drives =
-        ratio(MIN_DISTANCE, distance, |one, other| libm::hypot(one.x() - other.x(), one.y() - other.y()));
+    let turns = ratio(MIN_TURN_ANGLE, turn, |one, other| (one.theta() - other.theta()).abs());
+    let drives = ratio(MIN_DRIVE_DISTANCE, distance, |one, other| {
+        libm::hypot(one.x() - other.x(), one.y() - other.y())
+    });
     turns.max(drives)
 }
 
@@ -275,16 +276,16 @@ pub(super) fn window_checks(windows: &[WindowCoverage], scale_std: f64) -> Vec<C
     enough.map(of).collect()
 }
 
-/// Turn (rad) above which a leg counts as turning.
+/// Turn (rad) above which a leg counts as turning, and below which as straight.
 const TURNING_LEG_ANGLE: f64 = 0.05;
 
-/// Legs of a group at least.
+/// Minimum number of legs of a group whose scale is compared.
 const MIN_GROUP_LEGS: usize = 20;
 
-/// Standard errors of a difference that chance explains: the intervals of both groups overlap.
+/// Largest difference of two scales, in standard errors, that chance explains. Their 95 % intervals overlap then.
 const MAX_SCALE_STD_ERRORS: f64 = 2.8;
 
-/// Difference that is too small to matter.
+/// Difference of two scales that is too small to matter.
 const NEGLIGIBLE_SCALE_DIFFERENCE: f64 = 0.01;
 
 /// Returns a check of each scale that is identifiable, and which systematic errors are constant.
@@ -292,7 +293,7 @@ const NEGLIGIBLE_SCALE_DIFFERENCE: f64 = 0.01;
 /// Only scales are tested: all others, and scales that are not identifiable, count as constant. `repeated` multiplies standard errors
 /// where errors persist; it is 1 otherwise.
 pub(super) fn scale_checks(fit: &Fit, repeated: f64) -> (Vec<Check>, ErrorMask) {
-    let (mut checks, mut is_constant) = (Vec::new(), [true; ERRORS]);
+    let (mut checks, mut is_constant) = (Vec::new(), [true; ERROR_COUNT]);
     let half = fit.sample.legs.len() / 2;
     let is_turning = |leg: usize| turn(&fit.sample.observations[leg].expected) > TURNING_LEG_ANGLE;
     let scales = [
@@ -326,10 +327,10 @@ pub(super) fn scale_checks(fit: &Fit, repeated: f64) -> (Vec<Check>, ErrorMask) 
     (checks, is_constant)
 }
 
-/// Scale of some legs, relative to that of all, and its standard error; the other errors stay as they are. None where the legs do not
-/// identify it.
+/// Returns the scale of the selected legs less that of all legs, and its standard error. Other systematic errors are not estimated again.
+/// None if the legs do not identify the scale.
 fn scale_of(fit: &Fit, scale: SystematicError, select: impl Fn(usize) -> bool) -> Option<[f64; 2]> {
-    let mut mask = [false; ERRORS];
+    let mut mask = [false; ERROR_COUNT];
     mask[scale as usize] = true;
     let residuals = fit.sample.residuals(mask, |leg| select(leg) && !fit.sample.outliers[leg]);
     if residuals.len() < MIN_GROUP_LEGS {
@@ -341,13 +342,13 @@ fn scale_of(fit: &Fit, scale: SystematicError, select: impl Fn(usize) -> bool) -
     (variance > 0.0 && std < scale.identifiability_limit()).then(|| [-squares.errors[scale as usize], std])
 }
 
-/// Judges by all checks, and by whether the log identifies any α.
+/// Returns the verdict from all checks. `identifies` is true if the log identifies at least one α.
 pub(super) fn verdict(checks: &[Check], identifies: bool) -> Verdict {
     let failed = |name: CheckName| checks.iter().any(|check| check.name == name && !check.passed);
     let legs =
         checks.iter().find(|check| check.name == CheckName::EnoughLegs).map_or(0.0, |check| check.value);
     let is_covered = !failed(CheckName::InflationBounded);
-    if failed(CheckName::ReferenceMatches) || legs < USABLE_LEGS || !identifies || !is_covered {
+    if failed(CheckName::ReferenceMatches) || legs < MIN_USABLE_LEGS || !identifies || !is_covered {
         Verdict::Unusable
     } else if checks.iter().all(|check| check.passed) {
         Verdict::Consistent

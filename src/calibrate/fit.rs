@@ -3,11 +3,11 @@
 
 use super::alignment::clock_offset;
 use super::legs::{Leg, LostLegs, MIN_LEGS, split_into_legs};
-use super::likelihood::{POSITION, Parameters, Residuals, Term, YAW, identifiable_errors};
-use super::optimizer::{Free, Maximum, maximize};
+use super::likelihood::{POSITION_VARIANCE, Parameters, Residuals, Term, YAW_VARIANCE, identifiable_errors};
+use super::optimizer::{FreeMask, Maximum, maximize};
 use super::options::{CalibrateError, Drive, Options};
 use super::residuals::Observation;
-use super::systematic::{ERRORS, ErrorMask, Systematic, SystematicError};
+use super::systematic::{ERROR_COUNT, ErrorMask, Systematic, SystematicError};
 use super::trajectory::median;
 use crate::geom::se2::wrap_angle;
 use std::ops::Range;
@@ -34,20 +34,20 @@ pub(super) struct Fit {
     pub residuals: Residuals,
     pub maximum: Maximum,
     /// Standard errors of the systematic errors; 0 of one that is not estimated.
-    pub stds: [f64; ERRORS],
+    pub stds: [f64; ERROR_COUNT],
 }
 
-/// Maximum number of legs that are fitted, in blocks spread over the log. They give an α to about 3 %.
+/// Maximum number of legs that are fitted, in blocks spread over the log. As many legs give an α to about 3 %.
 const MAX_LEGS: usize = 6_000;
-const BLOCK: usize = 100;
+const LEGS_PER_BLOCK: usize = 100;
 
 const MAX_ROUNDS: usize = 15;
 
-/// Change of a systematic error, relative to its standard error, below which the rounds end.
-const CONVERGED: f64 = 0.05;
+/// Change of a systematic error between rounds, relative to its standard error, below which the rounds end.
+const CONVERGENCE_TOLERANCE: f64 = 0.05;
 
-/// Factor of the outliers' gate (a squared distance) in the first round, whose variances are the initial guess.
-const GUESSED_GATE: f64 = 4.0;
+/// Factor of the gate on squared distances in the first round, in which variances are an initial guess.
+const FIRST_ROUND_GATE_FACTOR: f64 = 4.0;
 
 impl Sample {
     fn new(legs: Vec<Leg>, estimated: ErrorMask, options: &Options) -> Self {
@@ -68,12 +68,12 @@ impl Sample {
         if legs.len() <= MAX_LEGS {
             return Self::new(legs.to_vec(), estimated, options);
         }
-        let blocks = MAX_LEGS / BLOCK;
+        let blocks = MAX_LEGS / LEGS_PER_BLOCK;
         let mut thinned = Vec::with_capacity(MAX_LEGS);
         for block in 0..blocks {
-            let from = block * (legs.len() - BLOCK) / (blocks - 1);
-            thinned.extend_from_slice(&legs[from..from + BLOCK]);
-            let start = thinned.len() - BLOCK;
+            let from = block * (legs.len() - LEGS_PER_BLOCK) / (blocks - 1);
+            thinned.extend_from_slice(&legs[from..from + LEGS_PER_BLOCK]);
+            let start = thinned.len() - LEGS_PER_BLOCK;
             thinned[start].follows = false;
         }
         Self::new(thinned, estimated, options)
@@ -110,7 +110,7 @@ impl Sample {
         Ok((residuals, maximum))
     }
 
-    /// Initial guess of the parameters: each component is as noisy as its median square says.
+    /// Returns the initial guess of the parameters, from the median of the squared residuals of each component.
     fn initial_guess(&self) -> Parameters {
         let mut parameters = Parameters::zeros();
         for (component, alphas) in self.options.model.component_alphas().into_iter().enumerate() {
@@ -124,23 +124,23 @@ impl Sample {
             alphas.iter().for_each(|each| parameters[*each] = alpha.max(parameters[*each]));
         }
         let Options { position_std, yaw_std, .. } = self.options;
-        parameters[POSITION] = position_std.map_or(INITIAL_STD * INITIAL_STD, |std| std * std);
-        parameters[YAW] = yaw_std.map_or(INITIAL_STD * INITIAL_STD, |std| std * std);
+        parameters[POSITION_VARIANCE] = position_std.map_or(INITIAL_STD * INITIAL_STD, |std| std * std);
+        parameters[YAW_VARIANCE] = yaw_std.map_or(INITIAL_STD * INITIAL_STD, |std| std * std);
         parameters
     }
 }
 
-/// Median of the square of a standard normal number.
+/// Median of χ² with one degree of freedom: of the square of a standard normal number.
 const MEDIAN_SQUARE: f64 = 0.4549;
 
 /// Initial guess of the reference's errors, m and rad.
 const INITIAL_STD: f64 = 1e-3;
 
 /// Parameters that are fitted: α's of the model, and what is not stated of the reference.
-pub(super) fn free_parameters(options: &Options) -> Free {
+pub(super) fn free_parameters(options: &Options) -> FreeMask {
     std::array::from_fn(|parameter| match parameter {
-        POSITION => options.position_std.is_none(),
-        YAW => options.yaw_std.is_none(),
+        POSITION_VARIANCE => options.position_std.is_none(),
+        YAW_VARIANCE => options.yaw_std.is_none(),
         alpha => alpha < options.model.alphas(),
     })
 }
@@ -155,7 +155,7 @@ pub(super) struct Log<'a> {
 impl<'a> Log<'a> {
     pub fn new(drives: &'a [Drive<'a>]) -> Result<Self, CalibrateError> {
         let offset =
-            |drive: &Drive| clock_offset(drive.odometry, drive.reference).ok_or(CalibrateError::Apart);
+            |drive: &Drive| clock_offset(drive.odometry, drive.reference).ok_or(CalibrateError::NoCommonTime);
         Ok(Self { drives, offsets: drives.iter().map(offset).collect::<Result<_, _>>()? })
     }
 
@@ -175,8 +175,8 @@ impl<'a> Log<'a> {
         (all, lost)
     }
 
-    /// Moves the reference of a leg by a change of the clock's offset; `clock_offset` is the new one of the first drive. A leg that would leave
-    /// the log stays as it is.
+    /// Moves the reference poses of a leg by a change of the clock offset. `clock_offset` is the new one of the first drive. A leg that would
+    /// leave the log stays as it is.
     fn realign(&self, leg: &mut Leg, clock_offset: f64, change: f64) {
         let offset = clock_offset + self.offsets[leg.drive] - self.clock_offset();
         if let Some(realigned) = self.drives[leg.drive].realigned(*leg, offset, change) {
@@ -193,14 +193,15 @@ pub(super) fn fit_systematic(log: &Log, options: &Options) -> Result<Fit, Calibr
         return Err(CalibrateError::TooFewLegs { legs: legs.len() });
     }
     let mut systematic = Systematic { mount_yaw: Systematic::initial_mount_yaw(&legs), ..begun };
-    let mut sample = Sample::thinned(&legs, [true; ERRORS], options);
+    let mut sample = Sample::thinned(&legs, [true; ERROR_COUNT], options);
     let mut parameters: Option<Parameters> = None;
     for round in 1.. {
-        let position_std = parameters.map_or(f64::INFINITY, |parameters| parameters[POSITION].sqrt());
+        let position_std =
+            parameters.map_or(f64::INFINITY, |parameters| parameters[POSITION_VARIANCE].sqrt());
         sample.observe(&systematic, position_std);
         let guess = parameters.unwrap_or_else(|| sample.initial_guess());
         sample.estimated = identifiable_errors(&sample.kept(0..legs.len()).least_squares(&guess).information);
-        let gate = if parameters.is_some() { 1.0 } else { GUESSED_GATE };
+        let gate = if parameters.is_some() { 1.0 } else { FIRST_ROUND_GATE_FACTOR };
         let mut is_settled = !sample.mark_outliers(&guess, gate, round) && round > 1;
         let (residuals, maximum) = sample.fit(guess)?;
         let squares = &maximum.expansion.least_squares;
@@ -209,7 +210,7 @@ pub(super) fn fit_systematic(log: &Log, options: &Options) -> Result<Fit, Calibr
             if sample.estimated[i] {
                 let most = 4.0 * error.identifiability_limit();
                 let change = -squares.errors[i];
-                is_settled &= change.abs() <= CONVERGED * squares.covariance[(i, i)].sqrt();
+                is_settled &= change.abs() <= CONVERGENCE_TOLERANCE * squares.covariance[(i, i)].sqrt();
                 *systematic.get_mut(error) += change.clamp(-most, most);
             } else {
                 *systematic.get_mut(error) = begun.get(error);
@@ -243,7 +244,7 @@ pub(super) fn fit_corrected(
     let mut parameters = *start;
     let mut last = None;
     for round in 1..=MAX_ROUNDS {
-        sample.observe(corrected, parameters[POSITION].sqrt());
+        sample.observe(corrected, parameters[POSITION_VARIANCE].sqrt());
         if !sample.mark_outliers(&parameters, 1.0, round) && last.is_some() {
             break;
         }
@@ -255,9 +256,9 @@ pub(super) fn fit_corrected(
     let mut all = sample.clone();
     if legs.len() > sample.legs.len() {
         all = Sample::new(legs, mask, options);
-        all.observe(corrected, parameters[POSITION].sqrt());
+        all.observe(corrected, parameters[POSITION_VARIANCE].sqrt());
         all.mark_outliers(&parameters, 1.0, 1);
     }
-    let fit = Fit { sample, residuals, maximum, stds: [0.0; ERRORS] };
+    let fit = Fit { sample, residuals, maximum, stds: [0.0; ERROR_COUNT] };
     Ok((fit, all, lost))
 }

@@ -1,8 +1,8 @@
-//! 95 % intervals of variances, by the profile likelihood, and whether the log identifies an α at all.
+//! 95 % intervals of variances by the profile likelihood, and reasons for which a log does not identify an α.
 
 use super::fit::Fit;
-use super::legs::{MIN_DISTANCE, MIN_TURN, distance, turn};
-use super::likelihood::{ALPHAS, PARAMETERS, Parameters, Residuals};
+use super::legs::{MIN_DRIVE_DISTANCE, MIN_TURN_ANGLE, distance, turn};
+use super::likelihood::{MAX_ALPHAS, PARAMETER_COUNT, Parameters, Residuals};
 use super::optimizer::Maximum;
 use super::residuals::Observation;
 use serde::{Deserialize, Serialize};
@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 /// Quantile 0.975 of the standard normal distribution.
 pub(super) const NORMAL_95: f64 = 1.959_963_984_540_054;
 
-/// Steps of the search for an end of an interval; the root of the deviance is nearly linear.
+/// Maximum number of steps of the search for an end of an interval. Few are enough, because the root of the deviance is nearly linear.
 const MAX_STEPS: usize = 12;
 
 /// Relative tolerance on the root of the deviance at an end of an interval.
@@ -22,9 +22,12 @@ const TOLERANCE: f64 = 0.02;
 /// information gives. The distance to it is multiplied by √(S/I⁻¹), if above 1, S being the sandwich covariance over blocks of legs.
 /// A block has ∛n legs, and more where errors persist: the correlation ρ of errors is one of ρ² of their squares. Standard errors
 /// increase by √((1 + ρ²)/(1 − ρ²)) at least.
-pub(super) fn intervals(Fit { residuals, maximum, .. }: &Fit, correlation: f64) -> [[f64; 2]; PARAMETERS] {
+pub(super) fn intervals(
+    Fit { residuals, maximum, .. }: &Fit,
+    correlation: f64,
+) -> [[f64; 2]; PARAMETER_COUNT] {
     let count = residuals.len();
-    let threshold = student_95(count.saturating_sub(PARAMETERS));
+    let threshold = student_95(count.saturating_sub(PARAMETER_COUNT));
     let square = correlation * correlation;
     let repeated = (1.0 + square) / (1.0 - square);
     let length = ((count as f64).cbrt() * repeated).ceil().max(1.0) as usize;
@@ -54,7 +57,7 @@ pub(super) fn intervals(Fit { residuals, maximum, .. }: &Fit, correlation: f64) 
 /// on the second one, where there are α's of 0, these rise.
 fn ridges(maximum: &Maximum, parameter: usize) -> Vec<Parameters> {
     let parameters = maximum.parameters;
-    let at_zero = (0..ALPHAS).any(|alpha| maximum.free[alpha] && parameters[alpha] == 0.0);
+    let at_zero = (0..MAX_ALPHAS).any(|alpha| maximum.free[alpha] && parameters[alpha] == 0.0);
     let risen = at_zero.then(|| unknown_alphas(&parameters));
     let ridge = |parameters| {
         let covariances = maximum.covariances(&parameters, parameter);
@@ -66,10 +69,13 @@ fn ridges(maximum: &Maximum, parameter: usize) -> Vec<Parameters> {
 
 /// Returns the parameters with α's of 0 as small as can be: they are unknown like the others.
 fn unknown_alphas(parameters: &Parameters) -> Parameters {
-    Parameters::from_fn(|j, _| if j < ALPHAS { parameters[j].max(f64::MIN_POSITIVE) } else { parameters[j] })
+    Parameters::from_fn(
+        |j, _| if j < MAX_ALPHAS { parameters[j].max(f64::MIN_POSITIVE) } else { parameters[j] },
+    )
 }
 
-/// Distance from the maximum to an end of the profile, from a guess of it; as far as 0 where the likelihood does not fall enough before.
+/// Returns the distance of a parameter from its estimate to an end of its interval, from a guess of it. If the likelihood does not fall
+/// enough down to a parameter of 0, the interval ends there.
 fn profile_end(
     residuals: &Residuals,
     maximum: &Maximum,
@@ -132,19 +138,19 @@ pub enum NotIdentifiable {
     InsufficientTranslation,
     /// The error of the reference hides the noise of the wheels.
     ReferenceTooNoisy,
-    /// Turn and distance had one ratio in all legs: the noise may be this α's or that of the other one of its component.
+    /// Turn and distance had the same ratio in all legs: noise may be due to this α, or to the other α of the same component.
     Collinear,
 }
 
-/// Fisher information below which an α is not identifiable: 4 is a standard error of 0.5, far above any plausible α.
+/// Fisher information below which an α is not identifiable. An information of 4 is a standard error of 0.5, far above any plausible α.
 const MIN_INFORMATION: f64 = 4.0;
 
-/// Least fraction of the information on an α that is left when the others are unknown. Below it, the ratio of turn and distance varies
-/// by less than a seventh.
+/// Least fraction of the information on an α that is left if the other α's are estimated too. With less, the ratio of turn and distance
+/// varies by less than a seventh between legs.
 const MIN_FREE_INFORMATION: f64 = 0.02;
 
 /// Number of legs with a motion that identify an α against an exact reference: its standard error is then a fifth.
-const ENOUGH_LEGS: usize = 50;
+const MIN_MOVING_LEGS: usize = 50;
 
 /// Returns of each α the reason for which it is not identifiable; None where it is.
 pub(super) fn identifiability(Fit { sample, maximum, .. }: &Fit) -> Vec<Option<NotIdentifiable>> {
@@ -165,11 +171,12 @@ pub(super) fn identifiability(Fit { sample, maximum, .. }: &Fit) -> Vec<Option<N
             let is_shown =
                 |k: usize| model.component_alphas()[k].contains(&alpha) && !observation.residuals[k].is_nan();
             let motion = &observation.expected;
-            let moves = if by_turn { turn(motion) > MIN_TURN } else { distance(motion) > MIN_DISTANCE };
+            let moves =
+                if by_turn { turn(motion) > MIN_TURN_ANGLE } else { distance(motion) > MIN_DRIVE_DISTANCE };
             moves && (0..3).any(is_shown)
         };
         Some(match sample.observations.iter().filter(uses_alpha).count() {
-            count if count >= ENOUGH_LEGS => NotIdentifiable::ReferenceTooNoisy,
+            count if count >= MIN_MOVING_LEGS => NotIdentifiable::ReferenceTooNoisy,
             _ if by_turn => NotIdentifiable::InsufficientRotation,
             _ => NotIdentifiable::InsufficientTranslation,
         })

@@ -1,7 +1,7 @@
 //! Cutting a log into legs as long as the updates of the filter that is to use the α's.
 //!
-//! The α's belong to one length of leg: in the tables the variance of a drive grows with the square of its length, that of
-//! real wheels mostly with the length itself.
+//! Fitted α's depend on the length of the legs. In the models the variance of a drive grows with the square of its length, but that of real
+//! wheels mostly with the length itself.
 
 use super::options::Drive;
 use super::trajectory::Trajectory;
@@ -10,17 +10,17 @@ use crate::models::MAX_SPIN_DISTANCE;
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-/// Relative tolerance on the length of a leg. Even steps reach a limit exactly, and text with six decimals or the arc tangent of an engine
-/// rounds by less than this.
-const ROUNDING: f64 = 1e-5;
+/// Relative tolerance on the length of a leg. Steps of equal length reach the limit exactly, except for rounding. Text with six decimals
+/// rounds by less than this tolerance.
+const LENGTH_TOLERANCE: f64 = 1e-5;
 
 /// Condition on which a leg ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LegLength {
-    /// Displacement as in AMCL (`update_min_d`, `update_min_a`): at the first reading that is more than `distance` (m) away, or
+    /// A leg ends as in AMCL (`update_min_d`, `update_min_a`): at the first reading that is more than `distance` (m) away from its start, or
     /// turned by more than `angle` (rad). The distance is compared along each axis of the odometry frame.
     Displacement { distance: f64, angle: f64 },
-    /// At the first reading after this time (s).
+    /// A leg ends at the first reading after this time (s).
     Duration { duration: f64 },
 }
 
@@ -32,7 +32,7 @@ impl LegLength {
     /// `update_min_a`, rad.
     pub const AMCL_ANGLE: f64 = 0.2;
 
-    /// Returns the length of a leg over the one at which it should end.
+    /// Returns the length of a leg divided by the one at which it should end.
     pub(super) fn ratio(&self, [start, end]: &[SE2; 2], lasted: f64) -> f64 {
         match *self {
             Self::Displacement { distance, angle } => ((end.x() - start.x()).abs() / distance)
@@ -42,12 +42,12 @@ impl LegLength {
         }
     }
 
-    /// Returns whether a leg ends here: beyond the limit of a displacement, at that of a time, both up to [`ROUNDING`].
+    /// Returns whether a leg ends here: beyond the limit of a displacement, at that of a time, both up to [`LENGTH_TOLERANCE`].
     fn ends(&self, ends: &[SE2; 2], lasted: f64) -> bool {
         let beyond = self.ratio(ends, lasted) - 1.0;
         match self {
-            Self::Displacement { .. } => beyond > ROUNDING,
-            Self::Duration { .. } => beyond >= -ROUNDING,
+            Self::Displacement { .. } => beyond > LENGTH_TOLERANCE,
+            Self::Duration { .. } => beyond >= -LENGTH_TOLERANCE,
         }
     }
 }
@@ -55,19 +55,20 @@ impl LegLength {
 /// One leg: the motion that the odometry read, and the one that the reference saw.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Leg {
-    /// Start and end by the clock of the odometry, s.
+    /// Times of start and end by the clock of the odometry, s.
     pub times: [f64; 2],
-    /// Both ends in the odometry frame.
+    /// Poses at start and end in the odometry frame.
     pub odometry: [SE2; 2],
-    /// Velocities by the odometry at both ends: m/s ahead and to the left, rad/s.
+    /// Velocities at start and end by the odometry: m/s ahead and to the left, rad/s.
     pub velocities: [Vector3<f64>; 2],
-    /// Both ends in the frame of the reference.
+    /// Poses at start and end in the frame of the reference.
     pub reference: [SE2; 2],
-    /// Variance of the reference's error at both ends over that of one sample: below 1 between two samples.
+    /// Variances of the reference's error at start and end over that of one sample. A pose that is interpolated between two samples has less
+    /// than 1.
     pub(super) interpolation_variances: [f64; 2],
-    /// True if it starts with the reference pose at which the leg before ends.
+    /// True if the leg starts at the reference pose at which the leg before it ends.
     pub follows: bool,
-    /// Place of its drive among those of the calibration.
+    /// Index of the drive to which the leg belongs.
     pub(super) drive: usize,
 }
 
@@ -78,17 +79,17 @@ impl Leg {
     }
 }
 
-/// Legs that a log does not give, by cause.
+/// Numbers of legs that were left out, by cause.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub struct LostLegs {
-    /// Leg of which the reference does not cover an end, or has a gap there.
+    /// Legs with an end at which the reference has no pose.
     pub without_reference: usize,
-    /// Leg on which a trajectory is broken, as where the reference jumped.
+    /// Legs within which the pose of a trajectory may have jumped.
     pub across_breaks: usize,
-    /// Leg that a pause stretched to more than twice the length asked for.
+    /// Legs that a pause stretched to more than twice the length in the options.
     pub across_pauses: usize,
-    /// Leg of a standing robot: less than 1 cm and 0.02 rad.
+    /// Legs of a standing robot: less than 1 cm and 0.02 rad.
     pub standing: usize,
 }
 
@@ -106,8 +107,8 @@ impl LostLegs {
 }
 
 /// Distance (m) and turn (rad) of a leg above which its motion counts as a drive, and as a turn.
-pub(super) const MIN_DISTANCE: f64 = 0.05;
-pub(super) const MIN_TURN: f64 = 0.1;
+pub(super) const MIN_DRIVE_DISTANCE: f64 = 0.05;
+pub(super) const MIN_TURN_ANGLE: f64 = 0.1;
 
 /// Returns the length of a motion, m.
 pub(super) fn distance(motion: &SE2) -> f64 {
@@ -123,12 +124,12 @@ pub(super) fn turn(motion: &SE2) -> f64 {
 pub const MIN_LEGS: usize = 8;
 
 /// Turn (rad) below which a leg that did not drive is one of a standing robot.
-const STANDING_TURN: f64 = 0.02;
+const MAX_STANDING_TURN: f64 = 0.02;
 
-/// Length ratio above which a leg across a pause is dropped, because it is too long for the requested length.
+/// Largest length of a leg across a pause, over the length in the options. Longer ones are left out.
 const MAX_RATIO_ACROSS_PAUSE: f64 = 2.0;
 
-/// Ratio of periods above which the reference is the sparser trajectory.
+/// Median period of the reference over that of the odometry, above which the reference counts as sparse.
 const SPARSE_RATIO: f64 = 1.5;
 
 /// One end of a leg; its members are those of [`Leg`].
@@ -198,7 +199,7 @@ pub fn split_into_legs(
 ) -> (Vec<Leg>, LostLegs) {
     let drive = Drive { odometry, reference };
     let (mut legs, mut lost) = (Vec::new(), LostLegs::default());
-    // Reading at which a leg began, and its end there where the reference is known.
+    // Reading at which the present leg began, and its start if the reference has a pose there.
     let mut start: Option<((f64, SE2), Option<End>)> = None;
     let (mut follows, mut paused) = (false, false);
     for (sample, (time, pose)) in odometry.samples().enumerate() {
@@ -217,14 +218,14 @@ pub fn split_into_legs(
         }
         let to = drive.end_at(sample, clock_offset);
         let (Some(from), Some(to)) = (from, to) else {
-            // The reference may come back within the length that a leg may have.
+            // The leg stays open until it is too long: the reference may come back.
             if from.is_none() || length.ratio(&ends, time - start_time) > MAX_RATIO_ACROSS_PAUSE {
                 lost.without_reference += 1;
                 (start, follows) = (Some(((time, pose), to)), false);
             }
             continue;
         };
-        // A reference with fewer samples than there are legs ends one as soon as it has another sample.
+        // The nearest sample of a sparse reference may still be that at the start of the leg, which then stays open.
         if to.time <= from.time {
             continue;
         }
@@ -237,7 +238,7 @@ pub fn split_into_legs(
         } else if has_paused && length.ratio(&ends, time - start_time) > MAX_RATIO_ACROSS_PAUSE {
             lost.across_pauses += 1;
             follows = false;
-        } else if distance(&motion) < MAX_SPIN_DISTANCE && turn(&motion) < STANDING_TURN {
+        } else if distance(&motion) < MAX_SPIN_DISTANCE && turn(&motion) < MAX_STANDING_TURN {
             lost.standing += 1;
             follows = false;
         } else {

@@ -16,37 +16,37 @@
 use super::legs::Leg;
 use super::residuals::{Model, Observation};
 use super::result::LegFit;
-use super::systematic::{ERRORS, ErrorMask, Systematic, SystematicError};
+use super::systematic::{ERROR_COUNT, ErrorMask, Systematic, SystematicError};
 use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
 use std::f64::consts::TAU;
 use std::rc::Rc;
 
-/// Most α's of a model.
-pub(super) const ALPHAS: usize = 6;
+/// Largest number of α's of a model.
+pub(super) const MAX_ALPHAS: usize = 6;
 
 /// Indices of the parameters σ_p² and σ_θ².
-pub(super) const POSITION: usize = ALPHAS;
-pub(super) const YAW: usize = ALPHAS + 1;
+pub(super) const POSITION_VARIANCE: usize = MAX_ALPHAS;
+pub(super) const YAW_VARIANCE: usize = MAX_ALPHAS + 1;
 
 /// Indices of the parameters that are the variances of the reference in x, y and θ.
-const REFERENCE: [usize; 3] = [POSITION, POSITION, YAW];
+const REFERENCE_VARIANCES: [usize; 3] = [POSITION_VARIANCE, POSITION_VARIANCE, YAW_VARIANCE];
 
 /// Number of variance parameters: α's, 0 where the model has fewer, then σ_p² (m²) and σ_θ² (rad²).
-pub(super) const PARAMETERS: usize = ALPHAS + 2;
-pub(super) type Parameters = SVector<f64, PARAMETERS>;
-pub(super) type Information = SMatrix<f64, PARAMETERS, PARAMETERS>;
+pub(super) const PARAMETER_COUNT: usize = MAX_ALPHAS + 2;
+pub(super) type Parameters = SVector<f64, PARAMETER_COUNT>;
+pub(super) type Information = SMatrix<f64, PARAMETER_COUNT, PARAMETER_COUNT>;
 
 /// Columns that the recursion carries: the residual and the Jacobian of each systematic error.
-const COLUMNS: usize = 1 + ERRORS;
-type Columns = SMatrix<f64, 3, COLUMNS>;
-type Gram = SMatrix<f64, COLUMNS, COLUMNS>;
-pub(super) type ErrorMatrix = SMatrix<f64, ERRORS, ERRORS>;
-type ErrorVector = SVector<f64, ERRORS>;
+const COLUMN_COUNT: usize = 1 + ERROR_COUNT;
+type Columns = SMatrix<f64, 3, COLUMN_COUNT>;
+type Gram = SMatrix<f64, COLUMN_COUNT, COLUMN_COUNT>;
+pub(super) type ErrorMatrix = SMatrix<f64, ERROR_COUNT, ERROR_COUNT>;
+type ErrorVector = SVector<f64, ERROR_COUNT>;
 
-/// Least standard deviation of a residual (rad, m or their rates): a log without noise has a finite likelihood.
+/// Least standard deviation of a residual (rad, m or their rates). With it, a log without noise has a finite likelihood.
 const MIN_STD: f64 = 1e-7;
 
-/// Largest residual or derivative of one that is used.
+/// Largest absolute value of residuals and their derivatives. Legs with larger ones are not used.
 const MAX_ENTRY: f64 = 1e30;
 
 /// Residuals of one leg as the likelihood sees them.
@@ -66,7 +66,7 @@ pub(super) struct Term {
 #[derive(Clone, Debug)]
 pub(super) struct Residuals {
     terms: Rc<Vec<Term>>,
-    /// Indices of the terms that are used, each with whether it starts with the pose at which the one before ends.
+    /// Indices of the terms that are used. Each has true if its leg starts at the reference pose at which the leg before it ends.
     chosen: Vec<(usize, bool)>,
     model: Model,
     pub estimated: ErrorMask,
@@ -126,7 +126,7 @@ impl Term {
             corrected.reference_jacobians(leg).map(|by_error| observation.jacobian * by_error);
         if is_sane {
             columns.set_column(0, &residuals.map(|residual| if residual.is_nan() { 0.0 } else { residual }));
-            columns.fixed_columns_mut::<ERRORS>(1).copy_from(&by_errors);
+            columns.fixed_columns_mut::<ERROR_COUNT>(1).copy_from(&by_errors);
         } else {
             [start, end] = [Matrix3::zeros(); 2];
         }
@@ -143,7 +143,7 @@ impl Term {
 impl Innovation {
     /// Returns the innovation of the residual, less what these systematic errors explain.
     fn unexplained(&self, errors: &ErrorVector) -> Vector3<f64> {
-        self.columns.column(0) - self.columns.fixed_columns::<ERRORS>(1) * errors
+        self.columns.column(0) - self.columns.fixed_columns::<ERROR_COUNT>(1) * errors
     }
 
     /// Returns the leg under the fit, with these systematic errors.
@@ -217,9 +217,9 @@ impl Residuals {
 
     /// Returns the least squares by ln|V| and [r X]ᵀV⁻¹[r X].
     fn least_squares_of(&self, log_det: f64, gram: &Gram) -> LeastSquares {
-        let information: ErrorMatrix = gram.fixed_view::<ERRORS, ERRORS>(1, 1).into_owned();
+        let information: ErrorMatrix = gram.fixed_view::<ERROR_COUNT, ERROR_COUNT>(1, 1).into_owned();
         let (covariance, log_det_information) = masked_inverse(&information, &self.estimated);
-        let pull: ErrorVector = gram.fixed_view::<ERRORS, 1>(1, 0).into_owned();
+        let pull: ErrorVector = gram.fixed_view::<ERROR_COUNT, 1>(1, 0).into_owned();
         let errors = covariance * pull;
         let count =
             self.terms().flat_map(|(term, _)| term.observed).filter(|is_observed| *is_observed).count();
@@ -241,14 +241,14 @@ impl Residuals {
     }
 
     /// Returns the sandwich covariance of the systematic errors, C (Σ gᵦ gᵦᵀ) C. C is the covariance by the likelihood, and gᵦ the score of a
-    /// block of `length` legs: it holds whatever the legs of a block have in common.
+    /// block of `length` legs. The sandwich is right even if the legs of a block are correlated.
     pub fn sandwich(&self, parameters: &Parameters, length: usize) -> ErrorMatrix {
         let (innovations, LeastSquares { errors, covariance, .. }) = self.innovations(parameters);
         let mut scatter = ErrorMatrix::zeros();
         for block in innovations.chunks(length) {
             let mut score = ErrorVector::zeros();
             for innovation in block {
-                let jacobian = innovation.columns.fixed_columns::<ERRORS>(1);
+                let jacobian = innovation.columns.fixed_columns::<ERROR_COUNT>(1);
                 score += jacobian.transpose() * (innovation.weight * innovation.unexplained(&errors));
             }
             scatter += score * score.transpose();
@@ -268,12 +268,12 @@ impl Residuals {
             information: Information::zeros(),
             scores: vec![Parameters::zeros(); self.len()],
         };
-        // P r of each leg, and AᵀP r + BᵀP r at the pose at which it starts (if it does not follow) and at that at which it ends.
+        // P r of each leg, and (AᵀP r of the next leg) + BᵀP r of the reference pose at its start, unless it follows, and at its end.
         let mut projected = vec![[Vector3::zeros(); 3]; self.len()];
-        let project = |solved: &Columns| solved.column(0) - solved.fixed_columns::<ERRORS>(1) * errors;
-        // Diagonal of P, less than that of V⁻¹ by what is known of the systematic errors.
+        let project = |solved: &Columns| solved.column(0) - solved.fixed_columns::<ERROR_COUNT>(1) * errors;
+        // Part by which a diagonal entry of P is smaller than that of V⁻¹, because systematic errors are estimated.
         let known = |solved: &Columns, row: usize| {
-            let row = solved.fixed_view::<1, ERRORS>(row, 1);
+            let row = solved.fixed_view::<1, ERROR_COUNT>(row, 1);
             (row * covariance).dot(&row)
         };
         // V⁻¹[r X] of the leg after, and its block on the diagonal of V⁻¹.
@@ -312,7 +312,7 @@ impl Residuals {
                 let projected = project(solved);
                 for row in 0..3 {
                     let trace = block[(row, row)] - known(solved, row);
-                    add(REFERENCE[row], 1.0, projected[row] * projected[row], trace);
+                    add(REFERENCE_VARIANCES[row], 1.0, projected[row] * projected[row], trace);
                 }
                 projected
             };
@@ -329,15 +329,16 @@ impl Residuals {
         expansion
     }
 
-    /// ½ rᵀP Vⱼ P Vₖ P r.
+    /// Returns the average information of each two parameters j and k, ½ rᵀP Vⱼ P Vₖ P r.
     fn average_information(
         &self,
         innovations: &[Innovation],
         projected: &[[Vector3<f64>; 3]],
         covariance: &ErrorMatrix,
     ) -> Information {
-        type Working = SMatrix<f64, 3, PARAMETERS>;
-        let (mut gram, mut cross) = (Information::zeros(), SMatrix::<f64, ERRORS, PARAMETERS>::zeros());
+        type Working = SMatrix<f64, 3, PARAMETER_COUNT>;
+        let (mut gram, mut cross) =
+            (Information::zeros(), SMatrix::<f64, ERROR_COUNT, PARAMETER_COUNT>::zeros());
         let (mut mean, mut pose) = (Working::zeros(), Vector3::zeros());
         let alphas = self.model.component_alphas();
         for (((term, follows), innovation), [own, start, end]) in self.terms().zip(innovations).zip(projected)
@@ -353,13 +354,13 @@ impl Residuals {
             }
             for row in 0..3 {
                 let moved = term.start.column(row) * pose[row] + term.end.column(row) * end[row];
-                let mut column = working.column_mut(REFERENCE[row]);
+                let mut column = working.column_mut(REFERENCE_VARIANCES[row]);
                 column += moved;
             }
             working -= term.start * mean;
             let weighted = innovation.weight * working;
             gram += working.transpose() * weighted;
-            cross += innovation.columns.fixed_columns::<ERRORS>(1).transpose() * weighted;
+            cross += innovation.columns.fixed_columns::<ERROR_COUNT>(1).transpose() * weighted;
             mean = innovation.gain * working;
             pose = *end;
         }
@@ -369,18 +370,18 @@ impl Residuals {
 
 /// Returns the covariance R of the reference's error.
 pub(super) fn reference_covariance(parameters: &Parameters) -> Matrix3<f64> {
-    Matrix3::from_diagonal(&REFERENCE.map(|variance| parameters[variance]).into())
+    Matrix3::from_diagonal(&REFERENCE_VARIANCES.map(|variance| parameters[variance]).into())
 }
 
 /// Returns the inverse of the rows and columns in the mask, 0 elsewhere, and the logarithm of their determinant.
 fn masked_inverse(information: &ErrorMatrix, mask: &ErrorMask) -> (ErrorMatrix, f64) {
     let (mut inverse, mut log_det) = (*information, 0.0);
-    for pivot in (0..ERRORS).filter(|pivot| mask[*pivot]) {
+    for pivot in (0..ERROR_COUNT).filter(|pivot| mask[*pivot]) {
         log_det += libm::log(inverse[(pivot, pivot)].max(f64::MIN_POSITIVE));
         sweep(&mut inverse, pivot);
     }
-    for i in 0..ERRORS {
-        for j in 0..ERRORS {
+    for i in 0..ERROR_COUNT {
+        for j in 0..ERROR_COUNT {
             if !(mask[i] && mask[j]) {
                 inverse[(i, j)] = 0.0;
             }
@@ -389,16 +390,16 @@ fn masked_inverse(information: &ErrorMatrix, mask: &ErrorMask) -> (ErrorMatrix, 
     (inverse, log_det)
 }
 
-/// Returns the systematic errors that are identifiable: one is swept after the other, the best known first, until the best of those
-/// left has too large a standard error beside those that were swept.
+/// Returns the systematic errors that are identifiable. They are chosen one after the other, the one with the smallest standard error
+/// first. The choice ends when all other errors, estimated together with the chosen ones, have too large a standard error.
 pub(super) fn identifiable_errors(information: &ErrorMatrix) -> ErrorMask {
-    let (mut swept, mut chosen) = (*information, [false; ERRORS]);
+    let (mut swept, mut chosen) = (*information, [false; ERROR_COUNT]);
     loop {
         let known = |error: usize| {
             let limit = SystematicError::ALL[error].identifiability_limit();
             swept[(error, error)] * limit * limit
         };
-        let next = (0..ERRORS).filter(|error| !chosen[*error]).map(|error| (error, known(error)));
+        let next = (0..ERROR_COUNT).filter(|error| !chosen[*error]).map(|error| (error, known(error)));
         let Some((pivot, _)) = next.max_by(|a, b| a.1.total_cmp(&b.1)).filter(|(_, known)| *known > 1.0)
         else {
             return chosen;
@@ -412,9 +413,9 @@ pub(super) fn identifiable_errors(information: &ErrorMatrix) -> ErrorMask {
 fn sweep(matrix: &mut ErrorMatrix, pivot: usize) {
     let scale = matrix[(pivot, pivot)];
     let row = matrix.row(pivot) / scale;
-    for i in (0..ERRORS).filter(|i| *i != pivot) {
+    for i in (0..ERROR_COUNT).filter(|i| *i != pivot) {
         let factor = matrix[(i, pivot)];
-        for j in 0..ERRORS {
+        for j in 0..ERROR_COUNT {
             matrix[(i, j)] -= factor * row[j];
         }
         matrix[(i, pivot)] = -factor / scale;

@@ -26,13 +26,13 @@ pub use legs::{Leg, LegLength, LostLegs, MIN_LEGS, split_into_legs};
 pub use options::{CalibrateError, Drive, Options, Outliers};
 pub use residuals::{Model, Observation};
 pub use result::{Calibration, Estimate, LegFit, Persistence, Recommended};
-pub use systematic::{ERRORS, ErrorMask, Systematic, SystematicError};
+pub use systematic::{ERROR_COUNT, ErrorMask, Systematic, SystematicError};
 pub use trajectory::{Trajectory, TrajectoryError, TrajectoryFault};
 
 use fit::{Fit, Log, fit_corrected, fit_systematic};
 use intervals::{NORMAL_95, identifiability, intervals};
 use legs::distance;
-use likelihood::{POSITION, YAW};
+use likelihood::{POSITION_VARIANCE, YAW_VARIANCE};
 
 /// Calibrates the α's of a robot from one drive or several.
 ///
@@ -86,7 +86,7 @@ pub fn calibrate(drives: &[Drive], options: &Options) -> Result<Calibration, Cal
         (0..options.model.alphas()).map(|alpha| is_identified(alpha).then_some(parameters[alpha])).collect();
     let alpha_intervals =
         (0..alphas.len()).map(|alpha| is_identified(alpha).then_some(parameter_intervals[alpha])).collect();
-    let reference_noise = [POSITION, YAW].map(|variance| Estimate {
+    let reference_noise = [POSITION_VARIANCE, YAW_VARIANCE].map(|variance| Estimate {
         value: parameters[variance].sqrt(),
         interval: parameter_intervals[variance].map(f64::sqrt),
     });

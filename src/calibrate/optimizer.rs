@@ -1,31 +1,31 @@
 //! Maximum of the restricted likelihood over variances of 0 or more.
 
-use super::likelihood::{Expansion, Information, PARAMETERS, Parameters, Residuals};
+use super::likelihood::{Expansion, Information, PARAMETER_COUNT, Parameters, Residuals};
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
-/// Parameters that are fitted; the others stay as they are.
-pub(super) type Free = [bool; PARAMETERS];
+/// Mask of the parameters that are fitted; the others stay as they are.
+pub(super) type FreeMask = [bool; PARAMETER_COUNT];
 
 /// Maximum of the likelihood.
 #[derive(Clone, Debug)]
 pub(super) struct Maximum {
     pub parameters: Parameters,
     pub expansion: Expansion,
-    pub free: Free,
+    pub free: FreeMask,
 }
 
-/// Gain (nats) that a step has to promise.
+/// Least gain of log-likelihood (nats) for which a step is tried, and after which the optimizer goes on.
 const MIN_GAIN: f64 = 1e-5;
 
 const MAX_STEPS: usize = 60;
 
-/// Halvings of a step before the other kind of step is taken.
+/// Number of halvings of a scoring step before a minorized step is taken instead.
 const MAX_HALVINGS: usize = 4;
 
 /// Returns the maximum by Fisher scoring with the average information, projected to where no variance is negative.
 ///
 /// A step that gains nothing gives way to θⱼ √(rᵀP Vⱼ P r / tr(P Vⱼ)), which always gains (Zhou, Hu, Qiao, Cho and Lange 2019).
-pub(super) fn maximize(residuals: &Residuals, start: Parameters, free: &Free) -> Maximum {
+pub(super) fn maximize(residuals: &Residuals, start: Parameters, free: &FreeMask) -> Maximum {
     let mut parameters = start;
     let mut expansion = residuals.expansion(&parameters);
     let likelihood = |expansion: &Expansion| expansion.least_squares.log_likelihood;
@@ -56,18 +56,18 @@ pub(super) fn maximize(residuals: &Residuals, start: Parameters, free: &Free) ->
     Maximum { parameters, expansion, free: *free }
 }
 
-/// Step of Fisher scoring; None where it promises no gain. A variance of 0 whose score is negative stays there.
-fn scoring_step(parameters: &Parameters, expansion: &Expansion, free: &Free) -> Option<Parameters> {
+/// Returns the step of Fisher scoring; None if the predicted gain is below [`MIN_GAIN`]. A variance of 0 whose score is negative stays 0.
+fn scoring_step(parameters: &Parameters, expansion: &Expansion, free: &FreeMask) -> Option<Parameters> {
     let score = expansion.score();
     let information = &expansion.information;
     let is_moving =
         |j: &usize| free[*j] && information[(*j, *j)] > 0.0 && (parameters[*j] > 0.0 || score[*j] > 0.0);
-    let mut moving: Vec<usize> = (0..PARAMETERS).filter(is_moving).collect();
+    let mut moving: Vec<usize> = (0..PARAMETER_COUNT).filter(is_moving).collect();
     loop {
         let (factor, scale) = scaled_cholesky(information, &moving, [1e-9, 1e-9])?;
         let gradient = DVector::from_fn(moving.len(), |a, _| score[moving[a]] / scale[a]);
         let solved = factor.solve(&gradient);
-        // One that would leave 0 for a negative variance stays, and the others move without it.
+        // A variance of 0 that would become negative stays 0, and the step of the others is computed without it.
         if let Some(stuck) = (0..moving.len()).find(|a| parameters[moving[*a]] == 0.0 && solved[*a] < 0.0) {
             moving.remove(stuck);
             continue;
@@ -82,7 +82,7 @@ fn scoring_step(parameters: &Parameters, expansion: &Expansion, free: &Free) -> 
 }
 
 /// Returns the step of the minorize-maximize algorithm, which always gains.
-fn minorized(parameters: &Parameters, expansion: &Expansion, free: &Free) -> Parameters {
+fn minorized(parameters: &Parameters, expansion: &Expansion, free: &FreeMask) -> Parameters {
     Parameters::from_fn(|j, _| {
         let ratio = expansion.quadratic[j] / expansion.trace[j];
         let can_move = free[j] && ratio.is_finite() && ratio >= 0.0;
@@ -110,7 +110,7 @@ impl Maximum {
     /// this one. Other parameters at 0 are fixed there: their covariances are 0. All are 0 if there is no information on this one.
     pub fn covariances(&self, parameters: &Parameters, parameter: usize) -> Parameters {
         let information = &self.expansion.information;
-        let moving: Vec<usize> = (0..PARAMETERS)
+        let moving: Vec<usize> = (0..PARAMETER_COUNT)
             .filter(|j| *j == parameter || self.free[*j] && parameters[*j] > 0.0)
             .filter(|j| information[(*j, *j)] > 0.0)
             .collect();

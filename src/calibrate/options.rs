@@ -2,7 +2,7 @@
 
 use super::legs::{LegLength, MIN_LEGS};
 use super::residuals::Model;
-use super::systematic::ERRORS;
+use super::systematic::ERROR_COUNT;
 use super::trajectory::Trajectory;
 use std::fmt;
 
@@ -13,13 +13,13 @@ pub struct Drive<'a> {
     pub reference: &'a Trajectory,
 }
 
-/// Treatment of legs outside of the gate.
+/// Treatment of outliers: legs whose residuals the fit does not explain.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Outliers {
-    /// They are set aside.
+    /// Outliers are left out of the fit.
     #[default]
     Reject,
-    /// They are fitted as noise.
+    /// Outliers are fitted as noise.
     Keep,
 }
 
@@ -29,8 +29,9 @@ pub struct Options {
     pub model: Model,
     pub legs: LegLength,
     pub outliers: Outliers,
-    /// Choice for each of [`SystematicError::ALL`](super::SystematicError::ALL): corrected or not. None: corrected if it is identifiable and constant.
-    pub correct: [Option<bool>; ERRORS],
+    /// True or false for each of [`SystematicError::ALL`](super::SystematicError::ALL) that is corrected or not. None: an error is corrected if
+    /// it is identifiable and constant.
+    pub correct: [Option<bool>; ERROR_COUNT],
     /// Standard deviation of each coordinate of the reference, m. None: estimated.
     pub position_std: Option<f64>,
     /// Standard deviation of the reference's heading, rad. None: estimated.
@@ -41,7 +42,7 @@ pub struct Options {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum CalibrateError {
     /// The times of odometry and reference do not overlap, and at no clock offset are their turn rates correlated.
-    Apart,
+    NoCommonTime,
     /// There are fewer than [`MIN_LEGS`] legs.
     TooFewLegs { legs: usize },
 }
@@ -49,7 +50,7 @@ pub enum CalibrateError {
 impl fmt::Display for CalibrateError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Apart => f.write_str(
+            Self::NoCommonTime => f.write_str(
                 "odometry and reference have no time in common, and their turn rates correlate at no clock offset; give two logs of one drive",
             ),
             Self::TooFewLegs { legs } => write!(

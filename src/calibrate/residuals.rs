@@ -1,6 +1,6 @@
-//! Residuals of a leg: the motion that the reference saw, less the one that the odometry read.
+//! Residuals of a leg: the motion that the reference measured, less the one that the odometry read.
 //!
-//! They are in the model's own coordinates, where the noise of the wheels is independent and its variances are linear in the α's.
+//! Residuals are in the model's own coordinates, in which noise components are independent and have variances that are linear in the α's.
 
 use super::legs::{Leg, distance};
 use super::likelihood::Parameters;
@@ -69,33 +69,34 @@ impl Model {
     }
 }
 
-/// Residuals of one leg, with all that their distribution depends on.
+/// Residuals of one leg, with the coefficients of their variances and their Jacobian.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Observation {
-    /// Executed minus expected; NaN of a component that the leg does not show, as the first rotation of a turn on the spot.
+    /// Executed minus expected motion in the model's coordinates. NaN of a component that the leg does not show: a turn on the spot has no
+    /// first rotation.
     pub residuals: [f64; 3],
     /// Factors of the two α's in the variance of each component.
     pub coefficients: [[f64; 2]; 3],
     /// Reading in the model's coordinates: rot1, trans, rot2 (rad, m, rad), or v, ω, Δt (m/s, rad/s, s).
     pub reading: [f64; 3],
-    /// Motion that the model expects.
+    /// Motion that the model expects by the odometry, in the frame of the leg's start.
     pub expected: SE2,
     /// Jacobian of the residuals by the motion of the base (x, y, θ).
     pub(super) jacobian: Matrix3<f64>,
 }
 
-/// Error of the reference over the length of a leg above which directions are taken to first order: atan2 of a displacement
-/// that the reference moves by much is biased.
-const LINEAR_FROM: f64 = 0.05;
+/// Largest noise of the reference, over the length of a leg, with which directions are computed by atan2. With more noise atan2 is biased,
+/// and directions are linear in the displacement.
+const MAX_ATAN2_NOISE_RATIO: f64 = 0.05;
 
 impl Observation {
     /// Returns the residuals of a leg, with these systematic errors corrected.
     ///
-    /// `position_std` (m) is that of the reference: where it is large beside the leg, directions are linearized at the reading.
+    /// `position_std` (m) is the standard deviation of the reference.
     pub(super) fn new(model: Model, leg: &Leg, corrected: &Systematic, position_std: f64) -> Self {
         let expected = corrected.expected(model, leg);
         let motion = corrected.motion(leg);
-        let is_linear = position_std > LINEAR_FROM * distance(&expected);
+        let is_linear = position_std > MAX_ATAN2_NOISE_RATIO * distance(&expected);
         let mut observation = match model {
             Model::Odometry(OdometryRule::Omni) => omni(expected, &motion),
             Model::Odometry(rule) => differential(rule, expected, &motion, is_linear),
@@ -119,8 +120,8 @@ fn unit_variances(rule: OdometryRule, reading: &OdomDelta) -> [LegVariances; 5] 
     })
 }
 
-/// Returns whether a leg is long enough (m) to have a direction, by the reading and by the reference. `executed` is negative of a motion that
-/// leads backwards; a linear direction does not depend on it.
+/// Returns whether a leg has a direction: its lengths by the reading and by the reference, in m, are not below [`MAX_SPIN_DISTANCE`]. A linear
+/// direction does not need the length by the reference. That length is negative if the reference saw a motion opposite to the reading.
 fn has_direction(read: f64, executed: f64, is_linear: bool) -> bool {
     read >= MAX_SPIN_DISTANCE && (is_linear || executed >= MAX_SPIN_DISTANCE)
 }

@@ -4,7 +4,7 @@ use super::checks::Diagnostics;
 use super::intervals::{NORMAL_95, NotIdentifiable};
 use super::legs::{Leg, LostLegs};
 use super::residuals::{Model, Observation};
-use super::systematic::{ERRORS, ErrorMask, Systematic, SystematicError};
+use super::systematic::{ERROR_COUNT, ErrorMask, Systematic, SystematicError};
 use serde::{Deserialize, Serialize};
 
 /// Estimate with its 95 % interval.
@@ -63,7 +63,7 @@ pub struct Calibration {
     /// Systematic errors, all estimated together.
     pub systematic: Systematic,
     /// Standard errors of [`SystematicError::ALL`]; None of one that the log does not identify.
-    pub systematic_stds: [Option<f64>; ERRORS],
+    pub systematic_stds: [Option<f64>; ERROR_COUNT],
     /// True for each systematic error that is the same on straight and turning legs, and in both halves of the log, up to its standard
     /// error. Only scales are tested; the others count as constant.
     pub is_constant: ErrorMask,
@@ -93,10 +93,10 @@ impl Calibration {
             intervals: vec![None; model.alphas()],
             not_identifiable: vec![None; model.alphas()],
             systematic: Systematic::NONE,
-            systematic_stds: [None; ERRORS],
-            is_constant: [true; ERRORS],
+            systematic_stds: [None; ERROR_COUNT],
+            is_constant: [true; ERROR_COUNT],
             corrected: Systematic::NONE,
-            is_corrected: [false; ERRORS],
+            is_corrected: [false; ERROR_COUNT],
             reference_noise: [unknown; 2],
             persistence: Persistence {
                 correlation: Estimate { value: 0.0, interval: [0.0, 1.0] },

@@ -1,4 +1,4 @@
-//! Systematic errors: wrong in the same way on every leg, so estimated along with the noise.
+//! Systematic errors of odometry and reference. They are equal on all legs, and estimated along with the noise.
 
 use super::legs::Leg;
 use super::residuals::Model;
@@ -13,7 +13,7 @@ pub struct Systematic {
     pub clock_offset: f64,
     /// Heading of the reference minus that of the robot's base, rad.
     pub mount_yaw: f64,
-    /// Point that the reference follows, in the frame of the base, m.
+    /// Position of the point that the reference measures, in the frame of the base, m.
     pub lever_arm: [f64; 2],
     /// True distance over that of the odometry.
     pub distance_scale: f64,
@@ -33,10 +33,10 @@ pub enum SystematicError {
 }
 
 /// Number of systematic errors.
-pub const ERRORS: usize = 6;
+pub const ERROR_COUNT: usize = 6;
 
 impl SystematicError {
-    pub const ALL: [Self; ERRORS] = [
+    pub const ALL: [Self; ERROR_COUNT] = [
         Self::ClockOffset,
         Self::MountYaw,
         Self::LeverArmAhead,
@@ -45,7 +45,8 @@ impl SystematicError {
         Self::TurnScale,
     ];
 
-    /// Largest standard error with which it counts as identifiable. An error as large shows without a log.
+    /// Returns the largest standard error (s, rad, m, or none of a scale) with which the error counts as identifiable. Anybody sees an error
+    /// as large without a calibration.
     pub(super) fn identifiability_limit(self) -> f64 {
         match self {
             Self::ClockOffset | Self::LeverArmAhead | Self::LeverArmLeft => 0.25,
@@ -74,8 +75,8 @@ impl Systematic {
         }
     }
 
-    /// Returns the initial guess of the mount's yaw, from the directions of all legs; 0 where these are near already, or have none
-    /// in common.
+    /// Returns the initial guess of the mount's yaw: the mean angle between the directions of legs by odometry and by reference. 0 if that angle
+    /// is small, or directions are unrelated.
     pub(super) fn initial_mount_yaw(legs: &[Leg]) -> f64 {
         let (mut along, mut across, mut total) = (0.0, 0.0, 0.0);
         for leg in legs {
@@ -95,7 +96,7 @@ impl Systematic {
         }
     }
 
-    /// Returns the pose of the base where the reference is at `pose`.
+    /// Returns the pose of the base for the pose that the reference measures.
     pub fn base(&self, pose: &SE2) -> SE2 {
         *pose * SE2::new(self.lever_arm[0], self.lever_arm[1], self.mount_yaw).inverse()
     }
@@ -123,7 +124,7 @@ impl Systematic {
         let seen = leg.reference[0].inverse() * leg.reference[1];
         let [mount, turn] = [self.mount_yaw, seen.theta()].map(rotation);
         let lever = turn * Vector2::from(self.lever_arm);
-        // Velocity of the base per rad of turn that the reference sees too much.
+        // Displacement of the base for each rad by which the reference's heading at the end is too large.
         let swing = Vector2::new(lever.y, -lever.x);
         let pivot = mount * Vector2::new(-seen.y(), seen.x());
         let embed = |place: Matrix2<f64>, heading: Vector2<f64>, turn: f64| {
@@ -133,10 +134,15 @@ impl Systematic {
         [embed(-mount, -pivot - swing, -1.0) * start, embed(mount * turn, swing, 1.0) * end]
     }
 
-    /// Returns the Jacobian of the motion that the reference saw, less the one that was read, by [`SystematicError::ALL`].
+    /// Returns the Jacobian, by [`SystematicError::ALL`], of the motion that the reference measured less the one that the odometry read.
     ///
-    /// It is taken at the reading, which has none of the leg's noise: the estimate is not drawn to where the noise is smaller.
-    pub(super) fn motion_jacobian(&self, model: Model, leg: &Leg, read: &SE2) -> SMatrix<f64, 3, ERRORS> {
+    /// The Jacobian is computed at the reading, because the measured motion has the noise of the leg, which would bias the estimate.
+    pub(super) fn motion_jacobian(
+        &self,
+        model: Model,
+        leg: &Leg,
+        read: &SE2,
+    ) -> SMatrix<f64, 3, ERROR_COUNT> {
         let (sin, cos) = libm::sincos(read.theta());
         let (x, y) = (read.x(), read.y());
         let twist = read.log();
@@ -162,10 +168,11 @@ impl Systematic {
     }
 }
 
-/// Mount yaw (rad) above which the iteration may diverge: directions beyond π wrap.
+/// Mount yaw (rad) above which the fit needs an initial guess: differences of directions may wrap at π.
 const MIN_INITIAL_YAW: f64 = 0.5;
 
-/// Length of the sum of all legs' directions over that of parallel ones. Logs of two drives have a twentieth.
+/// Least length of the sum of all legs' direction differences, as unit vectors, over that of equal ones. Logs of unrelated drives have
+/// about 0.05.
 const MIN_RESULTANT: f64 = 0.5;
 
 fn rotation(angle: f64) -> Matrix2<f64> {
@@ -173,17 +180,17 @@ fn rotation(angle: f64) -> Matrix2<f64> {
     Matrix2::new(cos, -sin, sin, cos)
 }
 
-/// Returns the derivative of the motion to which a twist leads by its turn, at constant length.
+/// Returns the derivative, by the turn of a twist, of the motion exp(twist) that ends at `end`. The twist keeps its length.
 fn turn_derivative(twist: &Vector3<f64>, end: &SE2) -> Vector3<f64> {
     let half = 0.5 * twist.z;
     let shrink = 0.5 * log_sinc_derivative(half);
     Vector3::new(shrink * end.x() - 0.5 * end.y(), shrink * end.y() + 0.5 * end.x(), 1.0)
 }
 
-/// d(ln sinc)/dβ = cot β − 1/β.
+/// Returns the derivative of ln sinc β: cot β − 1/β.
 pub(super) fn log_sinc_derivative(angle: f64) -> f64 {
     if angle.abs() < 1e-4 { -angle / 3.0 } else { libm::cos(angle) / libm::sin(angle) - 1.0 / angle }
 }
 
 /// Selection of [`SystematicError::ALL`].
-pub type ErrorMask = [bool; ERRORS];
+pub type ErrorMask = [bool; ERROR_COUNT];

@@ -20,7 +20,7 @@ pub struct Trajectory {
 /// First sample that is not allowed in a trajectory.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TrajectoryError {
-    /// Index from 0.
+    /// Index of the sample, from 0.
     pub sample: usize,
     pub fault: TrajectoryFault,
 }
@@ -29,7 +29,7 @@ pub struct TrajectoryError {
 pub enum TrajectoryFault {
     /// A time or a coordinate is not finite.
     NotFinite,
-    /// Its time is not later than `before` (s), the time of the sample before.
+    /// The time of the sample is not later than `before` (s), the time of the sample before it.
     NotLater { before: f64 },
 }
 
@@ -52,10 +52,10 @@ impl fmt::Display for TrajectoryError {
 impl std::error::Error for TrajectoryError {}
 
 /// Number of median periods above which a period is a pause: a recording drops a message or two now and then.
-const MAX_PERIODS: f64 = 5.0;
+const MAX_PERIOD_RATIO: f64 = 5.0;
 
-/// Longest step (s) between samples of held commands: legs end at samples.
-const COMMAND_STEP: f64 = 0.1;
+/// Longest step (s) between the poses to which a held command is integrated. Legs end at these poses.
+const MAX_COMMAND_STEP: f64 = 0.1;
 
 impl Trajectory {
     /// Returns the trajectory through `samples`, each a time (s) and a pose.
@@ -80,7 +80,7 @@ impl Trajectory {
         }
         let mut periods: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
         let median_period = median(&mut periods);
-        let max_period = MAX_PERIODS * median_period;
+        let max_period = MAX_PERIOD_RATIO * median_period;
         Ok(Self { times, poses, breaks: Vec::new(), median_period, max_period })
     }
 
@@ -94,8 +94,8 @@ impl Trajectory {
         self
     }
 
-    /// Integrates commands from the origin, each (time in s, v in m/s, ω in rad/s) held until the next. A held command has
-    /// samples of its own on the way, and no gap.
+    /// Integrates commands from the origin, each (time in s, v in m/s, ω in rad/s) held until the next. While a command is held, poses are
+    /// added at most [`MAX_COMMAND_STEP`] apart, so that there are no pauses.
     ///
     /// # Errors
     /// [`TrajectoryError`] at the first command that is not finite or not later than the one before.
@@ -107,7 +107,7 @@ impl Trajectory {
         let rows = commands.iter().map(|(t, v, omega)| {
             (if v.is_finite() && omega.is_finite() { *t } else { f64::NAN }, SE2::identity())
         });
-        let step = Self::new(rows)?.median_period.min(COMMAND_STEP);
+        let step = Self::new(rows)?.median_period.min(MAX_COMMAND_STEP);
         let (mut samples, mut pose) = (Vec::with_capacity(commands.len()), SE2::identity());
         for (row, (time, v, omega)) in commands.iter().enumerate() {
             let Some((next, ..)) = commands.get(row + 1) else {
@@ -124,27 +124,27 @@ impl Trajectory {
         Ok(Self { max_period: f64::INFINITY, ..Self::new(samples)? })
     }
 
-    /// Samples: times (s) and poses.
+    /// Returns the times (s) and poses of all samples.
     pub fn samples(&self) -> impl ExactSizeIterator<Item = (f64, SE2)> + '_ {
         self.times.iter().copied().zip(self.poses.iter().copied())
     }
 
-    /// Number of gaps, pauses and breaks together.
+    /// Returns the number of pauses and breaks together.
     pub fn gaps(&self) -> usize {
         (1..self.times.len()).filter(|sample| self.has_gap_before(*sample)).count()
     }
 
-    /// Times of the first and the last sample, s; None of an empty trajectory.
+    /// Returns the times (s) of the first and the last sample; None for an empty trajectory.
     pub fn span(&self) -> Option<[f64; 2]> {
         Some([*self.times.first()?, *self.times.last()?])
     }
 
-    /// Median time between two samples, s; 0 where there are none.
+    /// Returns the median time between two samples, s; 0 of fewer than two samples.
     pub fn median_period(&self) -> f64 {
         self.median_period
     }
 
-    /// Heading at each sample since the first, rad, unwrapped: each step turns by less than half a circle.
+    /// Returns the unwrapped heading (rad) of each sample less that of the first. Each step turns by less than half a circle.
     pub(super) fn unwrapped_heading(&self) -> Vec<f64> {
         let mut sum = 0.0;
         let steps = self.poses.windows(2).map(|pair| {
@@ -154,7 +154,7 @@ impl Trajectory {
         self.poses.first().map(|_| 0.0).into_iter().chain(steps).collect()
     }
 
-    /// Velocity (m/s ahead and to the left, rad/s) at a sample: the mean over the steps before and after it.
+    /// Returns the velocity (m/s ahead and to the left, rad/s) at a sample: the mean over the steps before and after it.
     pub(super) fn velocity(&self, sample: usize) -> Vector3<f64> {
         let from = if sample > 0 && !self.has_gap_before(sample) { sample - 1 } else { sample };
         let next = sample + 1;
@@ -165,18 +165,18 @@ impl Trajectory {
         self.poses[to].boxminus(&self.poses[from]) / (self.times[to] - self.times[from])
     }
 
-    /// Time (s) and pose of a sample.
+    /// Returns the time (s) and the pose of a sample.
     pub(super) fn sample(&self, sample: usize) -> (f64, SE2) {
         (self.times[sample], self.poses[sample])
     }
 
-    /// Sample nearest to a time (s); None where there is none within half of the shortest pause.
+    /// Returns the index of the sample nearest to a time (s). None if it is further away than half of the shortest pause.
     pub(super) fn nearest(&self, time: f64) -> Option<usize> {
         let after = self.times.partition_point(|each| *each < time);
         let off = |sample: usize| self.times.get(sample).map_or(f64::INFINITY, |at| (at - time).abs());
         let before = after.saturating_sub(1);
         let nearest = if off(before) < off(after) { before } else { after };
-        (off(nearest) <= 0.5 * MAX_PERIODS * self.median_period).then_some(nearest)
+        (off(nearest) <= 0.5 * MAX_PERIOD_RATIO * self.median_period).then_some(nearest)
     }
 
     pub(super) fn has_break_before(&self, sample: usize) -> bool {
@@ -195,8 +195,8 @@ impl Trajectory {
         self.breaks.get(next).is_some_and(|sample| self.times[sample - 1] < to)
     }
 
-    /// Pose at `time` (s): between two samples on the arc of constant velocities that joins them. None outside, and inside of a
-    /// gap.
+    /// Returns the pose at `time` (s). Between two samples it lies on the arc of constant velocities that joins them. None outside of the
+    /// trajectory and inside of a gap.
     pub fn pose_at(&self, time: f64) -> Option<SE2> {
         self.interpolated(time).map(|(pose, _)| pose)
     }

@@ -15,10 +15,10 @@ use crate::geom::se2::SE2;
 use nalgebra::{Matrix3, Vector3};
 use std::ops::Range;
 
-/// Error of the motion over a window in exponential coordinates, and what it is made of.
+/// Error of the predicted motion over a window of legs in exponential coordinates, and the covariances of its two causes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Window {
-    /// log of (expected motion)⁻¹ (motion seen).
+    /// log of (expected motion)⁻¹ (motion that the reference measured).
     error: Vector3<f64>,
     wheels: Matrix3<f64>,
     reference: Matrix3<f64>,
@@ -97,7 +97,7 @@ impl Sample {
     }
 }
 
-/// Jacobian from a motion (x, y, θ) in the frame of its start to one in the frame of its end.
+/// Returns the rotation of a change of motion (x, y, θ) from the frame at the start of the motion to that at its end.
 fn to_end_frame(motion: &SE2) -> Matrix3<f64> {
     let (sin, cos) = libm::sincos(motion.theta());
     Matrix3::new(cos, sin, 0.0, -sin, cos, 0.0, 0.0, 0.0, 1.0)
@@ -143,7 +143,7 @@ fn required_inflation(windows: &[Window]) -> Option<f64> {
     Some(high)
 }
 
-/// Lengths of the windows, m; the first one is that which the recommended α's have to cover.
+/// Lengths of the windows, m. Recommended α's have to cover windows of the first length.
 const WINDOW_LENGTHS: [f64; 3] = [1.0, 2.0, 5.0];
 
 /// Quantiles 0.95 of χ² with 1, 2 and 3 degrees of freedom.
@@ -215,7 +215,7 @@ fn reason(window: &WindowCoverage, inflation: f64) -> String {
     )
 }
 
-/// Prints a positive number with decimals. The formatting of floating-point numbers would be a twentieth of the module for a page.
+/// Formats a positive number with decimals. The standard formatting of floating-point numbers would be a twentieth of the module for a page.
 fn decimal(number: f64, decimals: usize) -> String {
     let scale = 10_u64.pow(decimals as u32);
     let scaled = (number * scale as f64).round() as u64;

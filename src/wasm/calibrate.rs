@@ -3,7 +3,7 @@
 use super::calibration::{SYSTEMATIC, calibration_to_js, columns_to_js};
 use super::fields::{Fields, in_range, read_boolean, read_number, read_word, type_error};
 use super::log::read_logs;
-use crate::calibrate::{Drive, ERRORS, LegLength, Model, Options, calibrate};
+use crate::calibrate::{Drive, ERROR_COUNT, LegLength, Model, Options, calibrate};
 use crate::models::OdometryRule;
 use crate::sim::alpha_calibrator::{Log, Model as Asked};
 use js_sys::RangeError;
@@ -115,9 +115,9 @@ fn legs(field: &str, value: &JsValue) -> Result<LegLength, JsValue> {
     }
 }
 
-fn corrected(field: &str, value: &JsValue) -> Result<[Option<bool>; ERRORS], JsValue> {
+fn corrected(field: &str, value: &JsValue) -> Result<[Option<bool>; ERROR_COUNT], JsValue> {
     if let Some(all) = value.as_bool() {
-        return Ok([Some(all); ERRORS]);
+        return Ok([Some(all); ERROR_COUNT]);
     }
     let keys = SYSTEMATIC.map(|(key, _)| key);
     if !value.is_object() {
@@ -125,7 +125,7 @@ fn corrected(field: &str, value: &JsValue) -> Result<[Option<bool>; ERRORS], JsV
         return Err(type_error(field, value, &allowed));
     }
     let fields = Fields::new(field, "correct.", value, &keys)?;
-    let mut correct = [None; ERRORS];
+    let mut correct = [None; ERROR_COUNT];
     for (key, errors) in SYSTEMATIC {
         let is = fields.optional(key, read_boolean)?;
         errors.iter().for_each(|error| correct[*error as usize] = is);

@@ -1,6 +1,6 @@
 //! Settings of the Alpha Calibrator.
 
-use crate::calibrate::{self, ERRORS, LegLength, Options, Outliers};
+use crate::calibrate::{self, ERROR_COUNT, LegLength, Options, Outliers};
 use crate::models::OdometryRule;
 use crate::noise::NoiseKind;
 use crate::sim::settings::{Allowed, MAX_SEED, Rules, SettingsError, Word, Words, settings};
@@ -120,7 +120,7 @@ impl Settings {
     /// Returns the options of the calibration.
     pub fn options(&self) -> Options {
         let Self { mount_yaw, lever_arm, distance_scale, turn_scale, clock_offset, .. } = *self;
-        let corrected: [bool; ERRORS] =
+        let corrected: [bool; ERROR_COUNT] =
             [clock_offset, mount_yaw, lever_arm, lever_arm, distance_scale, turn_scale];
         let stated = |std: f64| (std > 0.0).then_some(std);
         Options {

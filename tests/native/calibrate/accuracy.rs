@@ -2,7 +2,7 @@
 
 use super::calibrated;
 use super::simulated::{ALPHAS, MODELS, Simulation, Violation};
-use motion::calibrate::{ERRORS as ERROR_COUNT, Model, Systematic, SystematicError};
+use motion::calibrate::{ERROR_COUNT, Model, Systematic, SystematicError};
 
 /// Number of legs of a log.
 const LEGS: usize = 600;

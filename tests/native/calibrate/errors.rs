@@ -83,14 +83,14 @@ fn trajectories_without_a_common_time_are_refused() {
     let later = |log: &Trajectory, by: f64| trajectory(log.samples().map(|(time, pose)| (time + by, pose)));
     let [odometry, _] = Simulation::of(NAV2, 500, 6).log();
     let [_, of_another] = Simulation::of(NAV2, 500, 7).log();
-    assert_eq!(refused(&odometry, &later(&of_another, 1e6)), Err(CalibrateError::Apart));
+    assert_eq!(refused(&odometry, &later(&of_another, 1e6)), Err(CalibrateError::NoCommonTime));
     // For two straight drives the clocks are taken as they are, if they overlap at all.
     let straight = |from: f64| {
         let rows = (0..1000).map(f64::from);
         trajectory(rows.map(|row| (from + 0.1 * row, SE2::new(0.05 * row, 0.0, 0.0))))
     };
     assert_eq!(refused(&straight(0.0), &straight(70.0)).map(|found| found.clock_offset), Ok(0.0));
-    assert_eq!(refused(&straight(0.0), &straight(100.0)), Err(CalibrateError::Apart));
+    assert_eq!(refused(&straight(0.0), &straight(100.0)), Err(CalibrateError::NoCommonTime));
 }
 
 #[test]

@@ -17,7 +17,7 @@ export const TRUTH = { alphas: [0.03, 0.008, 0.002, 0.002], mountYaw: 0.03, cloc
 /** Length of a leg in AMCL: metres along either axis, and radians. */
 export const LEGS = { distance: 0.25, angle: 0.2 };
 
-/** Seconds: start and duration of the drive, its integration step, and the time between two rows of a log. */
+/** Start and duration of the drive, its integration step, and the time between two rows of a log, s. */
 const [START, DURATION, STEP, ROW] = [10, 225, 0.005, 0.05];
 
 /** Integration steps between two rows. */
@@ -32,13 +32,13 @@ const AROUND = 1;
 /** Seed of the noise. */
 const SEED = 1;
 
-/** m/s² and rad/s²: what the robot's speeds change by at most. */
+/** Maximum accelerations of the robot, m/s² and rad/s². */
 const CHANGES = { v: 0.8, omega: 2 };
 
-/** m/s, rad/s. */
+/** Speed of straight drives, m/s, and rate of turns on the spot, rad/s. */
 const SPEEDS = { v: 0.8, turn: 0.9 };
 
-/** Seconds, and what is commanded in them. @typedef {{ seconds: number, v: number, omega: number }} Command */
+/** Command and its duration in seconds. @typedef {{ seconds: number, v: number, omega: number }} Command */
 
 /** @returns {Generator<Command>} straight drives, arcs, turns on the spot and pauses, without end */
 function* commands() {

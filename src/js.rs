@@ -1,8 +1,8 @@
-//! Results of the core as JavaScript gets them.
+//! Declaration of results that JavaScript gets as objects.
 
-/// Declares structs of which JavaScript gets objects. The keys are the names of the fields in camel case, and the TypeScript type of
-/// the object is that of `as "Name"`. A field with `as "Type"` has that TypeScript type, and is converted by `wasm::values::ToJs`.
-/// Natively the structs are plain ones.
+/// Declares structs that become objects in JavaScript, with the names of the fields in camel case as keys. `as "Name"` after a
+/// struct names its TypeScript type. `as "Type"` after a field is its TypeScript type, and `wasm::values::ToJs` converts it.
+/// Without JavaScript they are plain structs.
 macro_rules! js_structs {
     ($(
         $(#[$meta:meta])*

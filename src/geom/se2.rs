@@ -115,10 +115,10 @@ impl SE2 {
         Matrix3::new(a, b, c * twist.x - d * twist.y, -b, a, d * twist.x + c * twist.y, 0.0, 0.0, 1.0)
     }
 
-    /// Returns the inverse of the right Jacobian (eq. 164's counterpart, in closed form), 3 × 3: log(exp(τ) · exp(δ)) =
-    /// τ + J_r⁻¹(τ)·δ to first order in δ.
+    /// Returns the inverse of the right Jacobian in closed form, 3 × 3: log(exp(τ) · exp(δ)) = τ + J_r⁻¹(τ)·δ to first order
+    /// in δ.
     ///
-    /// Same accuracy as [`SE2::right_jacobian`] for |ω| ≤ π; it grows without bound towards |ω| = 2π.
+    /// Entries have the accuracy of [`SE2::right_jacobian`] for |ω| ≤ π. They grow without bound towards |ω| = 2π.
     pub fn right_jacobian_inverse(twist: &Vector3<f64>) -> Matrix3<f64> {
         let (x, y, half) = (twist.x, twist.y, 0.5 * twist.z);
         let (k, g) = (half_cotangent(twist.z), cotangent_defect(twist.z));

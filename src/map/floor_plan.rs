@@ -305,7 +305,7 @@ struct Sweep<'a> {
     field: &'a DistanceField,
     arc: &'a Arc,
     clearance: f64,
-    /// Form of the arc for distances to walls, computed for the first such wall.
+    /// Arc in the frame of its start, computed when the distance to a wall is first measured.
     unrolled: OnceCell<Unrolled>,
     wall_tests: usize,
 }

@@ -323,8 +323,8 @@ pub trait Rules: Declared {
     }
 }
 
-/// Declares the settings of a widget. Each has a sentence, a name, a type and a default. Numbers also have a range, and a
-/// unit if they are not dimensionless:
+/// Declares the settings of a widget. Each has a sentence (its comment), a name, a type and a default. Numbers also
+/// have a range, and a unit if they are not dimensionless:
 ///
 /// ```text
 /// /// Radius of the robot.
@@ -334,7 +334,7 @@ pub trait Rules: Declared {
 /// - `as` gives the key in JavaScript, if it differs from the name of the field.
 /// - `up to` names a method that returns the end of the range, if it depends on other settings.
 /// - `by` names a method that returns a reference to the value, if the setting is not a field.
-/// - `of` names the setting that this one is another form of.
+/// - `of` names another setting that has the same value in another form.
 /// - `kept` lists fields of the struct that are not settings.
 macro_rules! settings {
     (

@@ -29,7 +29,7 @@ struct Ray {
     excess_turn: f64,
 }
 
-/// Weighted moments of a vector u and an excess turn. The weights may sum to less than 1.
+/// Weighted moments of rays: of `unit`, called u, and of `excess_turn`. The weights may sum to less than 1.
 #[derive(Default)]
 pub(super) struct RayMoments {
     /// First value of u. Sums contain differences from it, so that few digits are lost if u varies little.

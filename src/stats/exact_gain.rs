@@ -65,7 +65,7 @@ impl ExactGain {
     /// Returns the gain of the odometry model. The reading `u` comes from a command that turns by `turn` (rad).
     pub fn of_odometry(model: &impl RotTransRot, u: &OdomDelta, turn: f64) -> Self {
         let [rot1, trans, rot2] = model.variances(u).map(|variance| variance.0.sqrt());
-        // A reading in reverse first turns to face the other way.
+        // The length in a reading is never negative. After a drive in reverse, its first rotation therefore differs by half a circle.
         let half_circles = ((u.rot1 - 0.5 * turn) / PI).round();
         let ahead = if libm::remainder(half_circles, 2.0) == 0.0 { 1.0 } else { -1.0 };
         let motion = PolarMotion {

@@ -12,8 +12,8 @@ use wide::f64x4;
 /// cloud's own moments in their coordinates, and both are densities over the same measure, so that neither units nor the
 /// frame matter.
 ///
-/// Infinite where the cloud fills no volume in the coordinates that bend with it, but does in the plain ones: there the
-/// bent Gaussian is infinitely narrow. NaN where it fills none in the plain ones, or where there are too few poses.
+/// A gain is NaN if there are too few poses, or if they fill no volume in (x, y, θ) or no area in (x, y). It is infinite if
+/// they fill one there, but none in the bent coordinates, in which the Gaussian is then infinitely narrow.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(target_arch = "wasm32", derive(serde::Serialize, tsify::Tsify))]
 pub struct LikelihoodGain {

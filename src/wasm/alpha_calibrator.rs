@@ -98,7 +98,7 @@ impl JsAlphaCalibrator {
     #[wasm_bindgen(unchecked_return_type = "LegView | null")]
     pub fn leg(&self, index: f64) -> Result<JsValue, JsValue> {
         let leg = self.0.leg(read_integer("index", index, 0..=u64::from(u32::MAX))? as usize);
-        // By hand: the module of this figure is the largest, and smaller without serde's conversion of typed arrays.
+        // Without serde's conversion of typed arrays the module of this figure, which is the largest, is smaller.
         Ok(leg.map_or(JsValue::NULL, |LegView { outcomes, outline, read, ended }| {
             js_object(&[
                 ("outcomes", outcomes.to_js()),

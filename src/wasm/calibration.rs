@@ -88,7 +88,7 @@ export interface CalibrationLegs {
   reference: Float64Array;
   /** rot1, trans, rot2; or v, ω, Δt. */
   readings: Float64Array;
-  /** Executed minus expected, of each noise component; NaN of one that a leg does not show. */
+  /** Executed minus expected value of each noise component; NaN if the leg does not determine the component. */
   residuals: Float64Array;
   /** Innovations over their standard deviations. */
   standardized: Float64Array;
@@ -96,7 +96,7 @@ export interface CalibrationLegs {
   stds: Float64Array;
   /** Squared Mahalanobis distance of the innovation. */
   squared: Float64Array;
-  /** 1 of an outlier, otherwise 0. */
+  /** 1 for an outlier, otherwise 0. */
   outliers: Float64Array;
 }
 "#;

@@ -44,7 +44,7 @@ macro_rules! configured {
     };
 }
 
-/// Class as by [`configured`], whose machine shows a cloud of at most `$most` samples, with the methods for it.
+/// Declares a class as [`configured`] does, for a machine with a cloud of at most `$most` samples, and adds the methods of the cloud.
 macro_rules! cloud {
     (
         $(#[$doc:meta])+

@@ -11,7 +11,7 @@ use wasm_bindgen::prelude::*;
 
 #[wasm_bindgen(typescript_custom_section)]
 const TYPES: &str = r#"
-/** Poses with times, each array of the same length: s, rising; m; m; rad. */
+/** Poses, in arrays of the same length: rising times in s, x and y in m, headings in rad. */
 export interface LoggedPoses {
   t: ArrayLike<number>;
   x: ArrayLike<number>;
@@ -24,12 +24,12 @@ export interface LoggedPoses {
   breaks?: ArrayLike<number>;
 }
 
-/** Commands with times, each held until the next: s, rising; m/s; rad/s. */
+/** Commands, each held until the next: rising times in s, speeds in m/s, turn rates in rad/s. */
 export interface LoggedCommands {
   t: ArrayLike<number>;
   v: ArrayLike<number>;
   omega: ArrayLike<number>;
-  /** Indices of breaks, as of poses. */
+  /** Indices of commands before which the path is unknown, as for poses. */
   breaks?: ArrayLike<number>;
 }
 "#;

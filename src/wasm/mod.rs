@@ -44,9 +44,9 @@ pub fn random_seed() -> Result<f64, JsError> {
     Ok(f64::from(getrandom::u32()?))
 }
 
-/// Returns the speeds of the arc from the origin, heading along x, that ends at (x, y), in m, −1e6 to 1e6, in the time of a command. Of the many
-/// such arcs it is the one whose turn is nearest to that command's. `morph` is the stage of the picture, from 0 (the default, the
-/// floor) to 1 (exponential coordinates), in which (x, y) is a point.
+/// Returns the speeds that lead from the origin, heading along x, to (x, y), in m from −1e6 to 1e6, in the time of a
+/// command. Many arcs lead there: the speeds are those of the arc whose turn is nearest to that command's. `morph` is the
+/// stage of the picture, from 0 (the default, the floor) to 1 (exponential coordinates), in which (x, y) is a point.
 #[wasm_bindgen(js_name = commandReaching, unchecked_return_type = "{ v: number; omega: number }")]
 pub fn speeds_reaching(
     x: f64,

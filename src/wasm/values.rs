@@ -17,7 +17,7 @@ pub trait ToJs {
     fn to_js(&self) -> JsValue;
 }
 
-/// Serializes a field of a [`crate::js::js_structs`] by its conversion.
+/// Serializes a field of [`crate::js::js_structs`] as [`ToJs`] converts it.
 pub fn serialize<T: ToJs, S: Serializer>(value: &T, serializer: S) -> Result<S::Ok, S::Error> {
     serde_wasm_bindgen::preserve::serialize(&value.to_js(), serializer)
 }

@@ -23,7 +23,7 @@ export async function ensureFirefox() {
   return { firefox, driver: await ensureGeckodriver() };
 }
 
-/** Finds geckodriver, which no distribution packages, or compiles it once. */
+/** Returns the path of geckodriver. Distributions have no package of it, so that it is compiled once if it is not found. */
 async function ensureGeckodriver() {
   const { GECKOWEBDRIVER } = process.env;
   const bin = join(CACHE, 'geckodriver/bin');

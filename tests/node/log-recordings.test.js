@@ -158,7 +158,7 @@ test('chunks with another checksum or size than they state are not read', async 
   assert.equal(await reasonOf(altered), 'the checksum of a chunk is wrong');
 
   const bytes = await recordingOf(wheels(20), { compression: 'zstd', index: false, chunks: true, chunkSize: 1e6 });
-  // Record of the first chunk: its code, its length, two times, the size.
+  // The name follows the code of the record, its length, two times, the size, a checksum, and the length of the name.
   const chunk = bytes.indexOf(Buffer.from('zstd')) - 4 - 4 - 8 - 16 - 9;
   for (const [size, reason] of /** @type {const} */ ([
     [10n ** 12n, 'a chunk of 1000000000000 bytes'],

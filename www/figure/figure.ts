@@ -106,7 +106,7 @@ export class FigureElement<Machine extends { free(): void, stats: object, config
   player: { advance(elapsed: number): boolean, stop(): void } | undefined;
   /** Handlers of files that are dragged over a figure that takes them. */
   dropped: { enter?: () => void } & Record<'over' | 'leave' | 'drop', (event: DragEvent) => void> | undefined;
-  /** Pictures on the canvases; the first is exported unless there is a plate. */
+  /** Pictures on the canvases. The first is exported, unless `plate` has a picture for that. */
   pictures: import('../scene/picture.ts').Picture<any>[] = [];
   /** Picture for export, with its own size. */
   plate: import('../scene/picture.ts').Picture<any> & { size: { width: number, height: number } } | undefined;

@@ -93,7 +93,7 @@ export class Chain {
   readonly #ends: Frames;
   /** Names of the links, from the first to the last. */
   #links: string[] = [];
-  /** Transforms in the order of their messages, from the latest ones of each link at the time when all links were known. */
+  /** Transforms in the order of their messages. The first are the latest ones of all links at the time when the chain was complete. */
   #samples: TimedEdge[] = [];
   /** Latest transforms of links, until all links of the chain are known. */
   #waiting = new Map<string, TimedEdge>();

@@ -172,7 +172,7 @@ export class Rows {
     return this.#numbers[WIDTH * row + index];
   }
 
-  /** Returns a number of each of some rows. The `from` of typed arrays would take ten times as long. */
+  /** Returns the values of a function of rows. The `from` of typed arrays would take ten times as long. */
   #column(rows: Uint32Array, numberOf: (row: number) => number): Float64Array {
     return new Float64Array(rows.length).map((_, i) => numberOf(rows[i]));
   }

@@ -1,4 +1,4 @@
-/** Summaries of logs for their reader. */
+/** Sentences that summarize logs. */
 
 import type { Words } from './log-error.ts';
 import { LOG_TIME, framesText, type Cause, type Commands, type Log, type Poses } from './log.ts';

@@ -6,7 +6,7 @@ import type { Figure } from '../page.ts';
 /** Point in metres on the floor, or in pixels of the pad. */
 export type Point = [x: number, y: number];
 
-/** Pixels of the pad a metre, and the robot's start in the pad. */
+/** Scale of the pad, pixels per metre, and the robot's start in it. */
 const SCALE = 95;
 const START = { x: 30, y: 150 };
 

@@ -23,7 +23,7 @@ export interface How {
 }
 
 export class Picture<Scene, Name extends string = string> {
-  /** Reading before the gesture whose change zoomed the view out last, or may still do so. */
+  /** Reading before the gesture that was drawn last. Another one means a new gesture, which has not zoomed the view out yet. */
   #former: any;
 
   /** Class of the canvas. */

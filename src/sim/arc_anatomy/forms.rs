@@ -20,7 +20,8 @@ const POINTS_PER_DECADE: i32 = 8;
 const HEADINGS: u32 = 24;
 
 js_structs! {
-    /// Root mean square errors (m) over all headings of the end of a motion at 1 m/s for 0.1 s, for each turn rate.
+    /// Errors (m) of three forms for the end of a motion at 1 m/s for 0.1 s, by turn rate. Each is the root mean square over all
+    /// headings.
     #[derive(Clone, Debug, PartialEq)]
     pub struct FormErrors {
         /// Turn rates, rad/s.

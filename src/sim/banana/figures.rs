@@ -124,9 +124,9 @@ js_structs! {
         pub mean: Vector3<f64> as "number[]",
         pub cov: Matrix3<f64> as "number[][]",
         pub cross_track_skew: f64,
-        /// Gain; 0 for the linearization.
+        /// Gain in mean log-likelihood of Gaussians in exponential and in arc coordinates; 0 for the linearization.
         pub likelihood_gain: LikelihoodGain,
-        /// Ratio of the areas; 1 for the linearization.
+        /// Area of the 2σ ellipse in (x, y), divided by that of the 2σ outline; 1 for the linearization.
         pub area_ratio: f64,
     }
 
@@ -139,7 +139,7 @@ js_structs! {
         pub exact: TableColumn,
         /// Moments of the samples shown.
         pub measured: TableColumn,
-        /// Commanded twist and covariance of its noise; null (None) if the model has no such form.
+        /// Commanded twist and covariance of its noise; null (None) under the odometry model, whose noise is not added to a twist.
         pub tangent: Option<ExponentialMoments>,
     }
 

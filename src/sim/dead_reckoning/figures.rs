@@ -14,7 +14,7 @@ pub const RECURSIONS: [Compounding; 3] =
 pub const TOLERANCE: f64 = 0.05;
 
 /// Maximum relative standard error at which rollouts can establish a miss, a quarter of the tolerance. Of dozens of ratios
-/// some are off by draw standard errors by chance, but hardly any by four.
+/// some are off by three standard errors by chance, but hardly any by four.
 const MAX_STANDARD_ERROR: f64 = TOLERANCE / 4.0;
 
 /// Standard deviation below which a spread is only rounding. It is relative to the path, or in radians.
@@ -29,7 +29,7 @@ pub struct Comparison {
 }
 
 js_structs! {
-    /// Steps at which the ratio of one component is off by more than 5 % ([`TOLERANCE`]).
+    /// Misses: steps at which the ratio of one component is off by more than 5 % ([`TOLERANCE`]).
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Misses {
         /// True if there is a spread, and enough robots to establish a miss.

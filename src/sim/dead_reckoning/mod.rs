@@ -76,7 +76,7 @@ js_structs! {
     /// 2σ outlines after a step as x, y pairs, the first point repeated at the end; empty if the recursion has no covariance there.
     #[derive(Clone, Debug, PartialEq)]
     pub struct Outlines as "StepOutlines" {
-        /// Outline of the predicted Gaussian in (x, y), m, as a filter without other coordinates has it.
+        /// Outline of the predicted Gaussian in (x, y), m, as in a filter that estimates x, y and θ.
         pub ellipse: Vec<[f64; 2]> as "Float64Array",
         /// Outline of the predicted Gaussian in exponential coordinates about the commanded pose, on the floor, m.
         pub exponential: Vec<[f64; 2]> as "Float64Array",

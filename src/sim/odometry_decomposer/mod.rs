@@ -27,7 +27,7 @@ js_structs! {
         pub legs: OdomDelta,
         /// Standard deviations of the three legs, and of the sideways noise of the second: rad, m, rad, m.
         pub deviations: [f64; 4] as "Float64Array",
-        /// Standard deviation across the measured bearing, m.
+        /// Standard deviation of the end position across the measured bearing, m.
         pub cross_track: f64,
         /// Standard deviation of the turn made, rad.
         pub heading: f64,
@@ -39,14 +39,14 @@ js_structs! {
         pub n: usize,
         /// Root mean square of the distance from the measured bearing, m.
         pub cross_track: f64,
-        /// Standard error of the cross track, m.
+        /// Standard error of `crossTrack`, m.
         pub cross_track_error: f64,
         pub exact_cross_track: f64,
         /// Sideways standard deviation (m) of the end of the drive due to the first rotation: δ_trans·σ_rot1.
         pub lever: f64,
         /// Root mean square of the difference between the turn made and the measured one, rad.
         pub heading: f64,
-        /// Standard error of the heading, rad.
+        /// Standard error of `heading`, rad.
         pub heading_error: f64,
         pub exact_heading: f64,
         /// Exact standard deviation of the heading for independent rotations.
@@ -68,7 +68,7 @@ pub struct Drifted {
 pub struct CurvePoint {
     /// Length of the drive, m.
     pub trans: f64,
-    /// Standard deviation across the bearing, m.
+    /// Standard deviation of the end position across the bearing, m.
     pub cross_track: f64,
     /// Contribution of the first rotation alone, m.
     pub lever: f64,

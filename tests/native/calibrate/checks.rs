@@ -111,7 +111,8 @@ fn a_log_that_no_inflation_covers_is_unusable() {
     assert_unusable(&calibration, "a jump");
 }
 
-/// Returns a calibration with scaled steps of the odometry. `scale` gets the time as a fraction of the log, and the velocity.
+/// Returns the calibration of a log whose odometry is wrong by factors. `scale` returns by how much each distance and each turn is divided, for
+/// the time as a fraction of the log, and the velocity.
 fn calibrated_with_scales(made: &Simulation, scale: impl Fn(f64, &Vector3<f64>) -> [f64; 2]) -> Calibration {
     let [odometry, reference] = made.log();
     let rows: Vec<(f64, SE2)> = odometry.samples().collect();

@@ -91,7 +91,7 @@ function advance(strokes: Iterator<void>, count: number): boolean {
 /** Draws the legs, stroke by stroke. */
 function* drawPath(brush: Painter, legs: CalibrationLegs, classes: Uint8Array, overlays: LineName[]) {
   if (overlays.includes('odometry')) yield* drawOdometry(brush, legs);
-  // Lines get thinner continuously while the coverage grows from 1 to 2, so that nothing jumps when a plot is resized.
+  // While the coverage by legs grows from 1 to 2, lines get thinner little by little, so that nothing jumps when a plot is resized.
   const extra = Math.max(0, Math.min(1, 2 - layersOf(brush.view, legs.reference)));
   for (const [index, name] of CLASSES.entries()) {
     if (!overlays.includes(name)) continue;

@@ -263,8 +263,8 @@ function heapOf(poses: Float64Array, shown: number) {
 }
 
 /**
- * Returns the moments in exponential coordinates: the model's and the sample's. Without both, those of the spread in the plane around the
- * command.
+ * Returns the moments in exponential coordinates: the model's and the sample's. If neither are defined, they are replaced by the commanded
+ * twist, with the variance of the whole position as that along the track.
  */
 function twistMoments({ config, stats, table }: Scene): Moments[] {
   const known = [table.tangent, stats.exponential].filter((moments) => moments !== null);

@@ -5,7 +5,7 @@ import type { MapSqueeze } from '../../../types.d.ts';
 
 export type Refused = import('../../../messages/registry.ts').Messages['squeeze']['refused'];
 
-/** Throws a RangeError if it is not a PNG_SIGNATURE image. */
+/** Decodes a PNG image. Throws a RangeError for other files. */
 export type DecodePng = (bytes: Uint8Array) => Promise<Pick<ImageData, 'width' | 'height' | 'data'>>;
 
 export interface OwnMap {
@@ -37,7 +37,7 @@ const MAX_TOLERANT_LENGTH = 200_000;
 /** Maximum number of quoted characters of a name or a value. */
 const MAX_QUOTED = 100;
 
-/** First bytes of a PNG_SIGNATURE image. */
+/** First bytes of a PNG image. */
 const PNG_MAGIC = [0x89, 0x50, 0x4e, 0x47];
 
 /** Form of a floor plan. */

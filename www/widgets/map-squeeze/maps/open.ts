@@ -15,7 +15,7 @@ const DISCLOSURE_ID = 'more';
 /** Size of a file in bytes above which a message is shown while it is read. */
 const LARGE_BYTES = 1_000_000;
 
-/** Decodes a PNG_SIGNATURE image with the whole core, because the core of the figure has no decoder. */
+/** Decodes a PNG image with the whole core, because the core of the figure has no decoder. */
 const decodePng: import('./files.ts').DecodePng = async (bytes) => (await instantiate()).readMapImage(bytes);
 
 export class MapOpener extends Part<import('../map-squeeze.ts').MapSqueezeElement> {

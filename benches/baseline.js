@@ -64,7 +64,7 @@ export class Baseline {
     const centre = [mean.x, mean.y, mean.l, mean.t];
     const scales = [...centre, ...whiten(cartesian.cov, 1), ...whiten(exponential.cov, 2), Math.sin(heading), Math.cos(heading)];
     const [perX, perY] = [columns / (view.xMax - view.xMin), rows / (view.yMax - view.yMin)];
-    const [inEllipse, inTilted, square, cube, most] = measure(
+    const [inEllipse, inTilted, square, cube, most] = secondPass(
       this.cloud, this.counts, scales, [(origin.x - view.xMin) * perX, perX, (view.yMax - origin.y) * perY, perY, columns, rows],
     );
     this.#paint(ramp, most);
@@ -155,7 +155,7 @@ function drive(noise, cloud, command, deviations, origin) {
  * @param {number[]} view offset and pixels a metre of both axes, columns and rows
  * @returns {number[]} samples inside each contour, sums of squares and cubes, largest count
  */
-function measure(cloud, counts, scales, view) {
+function secondPass(cloud, counts, scales, view) {
   const [cx, cy, cl, ct, e00, e10, e11, f00, f10, f11, sin, cos] = scales;
   const [left, perX, top, perY, columns, rows] = view;
   let inEllipse = 0, inTilted = 0, square = 0, cube = 0, most = 0;

@@ -36,9 +36,9 @@ export async function timeDrags(browser, address, steps) {
     await page.locator(widget).scrollIntoViewIfNeeded();
     await page.waitForFunction((tag) => document.querySelector(tag)?.shadowRoot?.querySelector('.slider'), widget);
     await page.locator(widget).evaluate((element) => element.scrollIntoView({ block: 'start' }));
-    const count = await page.locator(widget).locator(DRAGGED).count();
+    const draggedCount = await page.locator(widget).locator(DRAGGED).count();
     await session.send('Emulation.setCPUThrottlingRate', { rate: THROTTLE });
-    for (let i = 0; i < count; i++) {
+    for (let i = 0; i < draggedCount; i++) {
       drags.push({ widget, ...(await page.evaluate(drag, { widget, selector: DRAGGED, i, steps })) });
     }
     await session.send('Emulation.setCPUThrottlingRate', { rate: 1 });

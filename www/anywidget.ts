@@ -37,8 +37,8 @@ function render({ model, el }: { model: Model, el: HTMLElement }): (() => void) 
 
   let unsaved = false;
   const put = (trait: string, value: unknown) => {
-    const present = model.get(trait);
-    if (present === undefined || includesFields(present, value)) return;
+    const current = model.get(trait);
+    if (current === undefined || includesFields(current, value)) return;
     unsaved = true;
     model.set(trait, value);
   };

@@ -14,8 +14,8 @@ import type { Input } from './options.ts';
  */
 export async function recordingsOf({ path, open }: Input, onSkip: (reason: string) => void): Promise<Recording[]> {
   const sources = await sourcesOf(path);
-  const folders = sources.filter(({ name }) => name === 'metadata.yaml').map((source) => dirname(source.path ?? ''));
-  const isJoined = ({ path = '' }: Source) => folders.includes(dirname(path));
+  const bagFolders = sources.filter(({ name }) => name === 'metadata.yaml').map((source) => dirname(source.path ?? ''));
+  const isJoined = ({ path = '' }: Source) => bagFolders.includes(dirname(path));
   const joined = sources.filter(isJoined);
   const recordings = joined.length > 0 ? await openRecordings(joined, open) : [];
   for (const source of sources.filter((each) => !isJoined(each))) {

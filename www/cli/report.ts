@@ -110,8 +110,8 @@ function alphasOf({ alphas, intervals, notIdentifiable, recommended, diagnostics
   ]);
   const { lacking } = en.alphas;
   // Driving differently does not help where the reference is another drive's, or has other units.
-  const matches = diagnostics.checks.every(({ name, passed }: any) => passed || name !== 'reference-matches');
-  const advice = !matches ? [] : (Object.keys(lacking) as (keyof typeof lacking)[]).flatMap((reason) => {
+  const referenceMatches = diagnostics.checks.every(({ name, passed }: any) => passed || name !== 'reference-matches');
+  const advice = !referenceMatches ? [] : (Object.keys(lacking) as (keyof typeof lacking)[]).flatMap((reason) => {
     const names = notIdentifiable.flatMap((each: string | null, i: number) => (each === reason ? [`alpha${i + 1}`] : []));
     const { lack, drive } = adviceOf(lacking, model, reason);
     return names.length ? [`${new Intl.ListFormat('en').format(names)} not identifiable: ${lack}; ${drive}`] : [];

@@ -251,7 +251,7 @@ export class Cloud extends Part {
     const { host } = this;
     const { max } = host.kind.declared.find(({ key }) => key === 'seed') as { max: number };
     const refusal = host.typing.refusalOf('seed');
-    const type = (event: Event) => {
+    const enterSeed = (event: Event) => {
       const text = inputOf(event).value;
       if (/^\d+$/.test(text) && Number(text) <= max) host.settings.want({ seed: Number(text) });
       else host.typing.refuse('seed', words.refused(words.seed, text.replace('-', '\u2212'), '0', counted(max), true));
@@ -263,7 +263,7 @@ export class Cloud extends Part {
         inputmode="numeric"
         autocomplete="off"
         .value=${refusal ? noChange : live(String(host.settings.wanted.seed))}
-        @input=${type}
+        @input=${enterSeed}
         @change=${() => host.gesture.commit()}
         @blur=${() => host.typing.forget()}
       />

@@ -84,9 +84,9 @@ export class Reflection extends Part {
     const applyIfChanged = () => {
       const wanted = given ?? this.#defaultOf(name) ?? null;
       const setting = entry && isSetting(entry) ? entry : undefined;
-      const present = setting ? setting.get(this.host.settings.wanted) : Reflect.get(this.host, name);
+      const current = setting ? setting.get(this.host.settings.wanted) : Reflect.get(this.host, name);
       // A group of settings may be given in part. A value of the element itself is replaced as a whole.
-      if (!includesFields(present, wanted) || (!setting && !includesFields(wanted, present))) apply(wanted);
+      if (!includesFields(current, wanted) || (!setting && !includesFields(wanted, current))) apply(wanted);
     };
     if (this.host.machine) {
       this.host.runtime.attemptOrReport(applyIfChanged);

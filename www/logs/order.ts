@@ -83,8 +83,8 @@ export function sortRows(t: Float64Array, isSame: (one: number, other: number) =
     if (classes[i] !== STRAY) sizes[parts[i]] += 1;
   }
   const largest = Math.max(...sizes);
-  const kept = sizes.indexOf(largest);
-  for (let i = 0; i < t.length; i++) if (classes[i] !== STRAY && parts[i] !== kept) classes[i] = SET_BACK;
+  const keptPart = sizes.indexOf(largest);
+  for (let i = 0; i < t.length; i++) if (classes[i] !== STRAY && parts[i] !== keptPart) classes[i] = SET_BACK;
   return { order: sorted.filter((i) => classes[i] < STRAY), classes, setBack, largest };
 }
 

@@ -71,11 +71,11 @@ export function pairLogs(odometry: Log, reference: Log): Drive {
   if (isSamePath(first, second)) throw new LogError(place, (say) => (reference.name === odometry.name ? say.givenTwice : say.same(odometry.name)));
   const reliable = withoutFrozenPoses(second, first);
   if (reliable.data.t.length < 2) throw new LogError(place, (say) => say.held);
-  const wrong = correctionOf(first, reliable);
-  if (wrong) {
-    const what = UNIT_OPTIONS[wrong.name];
-    const [log, other] = wrong.at === 'odometry' ? [odometry, reference] : [reference, odometry];
-    throw new LogError({ file: log.name }, (say) => say.correction(wrong.name, other.name, wrong.score, wrong.factor), what && { what, choices: [] });
+  const correction = correctionOf(first, reliable);
+  if (correction) {
+    const what = UNIT_OPTIONS[correction.name];
+    const [log, other] = correction.at === 'odometry' ? [odometry, reference] : [reference, odometry];
+    throw new LogError({ file: log.name }, (say) => say.correction(correction.name, other.name, correction.score, correction.factor), what && { what, choices: [] });
   }
   const swapped = swappedBy(first, second);
   const notes: Note[] = [

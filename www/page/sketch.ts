@@ -23,8 +23,8 @@ const pixel = ([x, y]: Point) => [START.x + SCALE * x, START.y - SCALE * y] as P
 const pathOf = (points: Point[], closed: boolean = false) => (points.length ? `M${points.map(([x, y]) => `${x.toFixed(1)} ${y.toFixed(1)}`).join('L')}${closed ? 'Z' : ''}` : '');
 
 /** Returns points of the commanded arc, with an error of the turn rate in rad/s. */
-function arcOf({ v, omega, dt }: { v: number, omega: number, dt: number }, turned: number = 0) {
-  const rate = omega + turned || 1e-9;
+function arcOf({ v, omega, dt }: { v: number, omega: number, dt: number }, rateError: number = 0) {
+  const rate = omega + rateError || 1e-9;
   return Array.from({ length: 25 }, (_, i) => {
     const turn = (rate * dt * i) / 24;
     return [(v / rate) * Math.sin(turn), (v / rate) * (1 - Math.cos(turn))] as Point;
@@ -81,7 +81,7 @@ export function prepareSketch(form: HTMLFormElement, enter: (values: Record<stri
     part('drawn').setAttribute('d', pathOf(points, true));
     button.disabled = points.length < 2;
   };
-  const begin = () => {
+  const reset = () => {
     const arc = arcOf(command()).map(pixel);
     part('command').setAttribute('d', pathOf(arc));
     for (const [name, at] of [['cx', 0], ['cy', 1]]) part('end').setAttribute(String(name), String(arc[24][Number(at)]));
@@ -107,7 +107,7 @@ export function prepareSketch(form: HTMLFormElement, enter: (values: Record<stri
   });
   form.addEventListener('change', ({ target }) => {
     const { name, value } = target as HTMLInputElement;
-    if (name === 'case') begin();
+    if (name === 'case') reset();
     else draw(SHAPES[value](command()));
   });
   form.addEventListener('submit', async (event) => {
@@ -123,5 +123,5 @@ export function prepareSketch(form: HTMLFormElement, enter: (values: Record<stri
     part('headings').setAttribute('d', dots.map(({ tick }) => tick).join(''));
     status.textContent = outcomeOf(poses, chosen('shape')?.value ?? shapeOf(drawn));
   });
-  begin();
+  reset();
 }

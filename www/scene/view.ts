@@ -220,7 +220,7 @@ export function extentAround(numbers: ArrayLike<number>, stride: number, around:
 /** Returns the smallest extent that contains points (x, y pairs), with a minimum width and height. */
 export function extentOf(points: number[], smallest: number) {
   const box = extentAround(points, 2);
-  const growX = Math.max(0, smallest - (box.xMax - box.xMin)) / 2;
-  const growY = Math.max(0, smallest - (box.yMax - box.yMin)) / 2;
-  return extentAround([box.xMin - growX, box.yMin - growY, box.xMax + growX, box.yMax + growY], 2);
+  const marginX = Math.max(0, smallest - (box.xMax - box.xMin)) / 2;
+  const marginY = Math.max(0, smallest - (box.yMax - box.yMin)) / 2;
+  return extentAround([box.xMin - marginX, box.yMin - marginY, box.xMax + marginX, box.yMax + marginY], 2);
 }

@@ -203,14 +203,14 @@ export const controlStyles = css`
 `;
 
 /** Pieces of a formula in a message: italics and subscripts. */
-const PIECES = String.raw`\*(?:\\\*|[^*])+\*|[₀-₉]|_\{[^}]+\}`;
-const PIECE = new RegExp(PIECES, 'g');
-const FORMULA = new RegExp(`((?:${PIECES})+)`);
+const FORMULA_PIECES = String.raw`\*(?:\\\*|[^*])+\*|[₀-₉]|_\{[^}]+\}`;
+const FORMULA_PIECE = new RegExp(FORMULA_PIECES, 'g');
+const FORMULA = new RegExp(`((?:${FORMULA_PIECES})+)`);
 
 /** Returns a message with its formulas as HTML. The text \\* is an asterisk. */
 export function rich(message: string) {
   // Every second part is a formula.
-  return message.split(FORMULA).map((part, i) => (i % 2 ? symbols(part.match(PIECE)?.map(printed)) : part));
+  return message.split(FORMULA).map((part, i) => (i % 2 ? symbols(part.match(FORMULA_PIECE)?.map(printed)) : part));
 }
 
 function printed(piece: string) {

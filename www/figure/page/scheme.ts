@@ -45,11 +45,11 @@ export function surroundings(probe: Element): Surroundings {
   const isDarkByDefault = colorScheme === 'normal' && lightness(ink) > 0.5;
   const grounds = ancestors(probe).map((each) => getComputedStyle(each).backgroundColor);
   const ground = channels(...[...grounds, isDarkByDefault ? DARK : canvas].reverse());
-  const light = lightness(ground);
+  const groundLightness = lightness(ground);
   const isLegible = contrast(ink, ground) >= MIN_CONTRAST;
-  const scheme = light < (isLegible ? lightness(ink) : 0.5) ? 'dark' : 'light';
+  const scheme = groundLightness < (isLegible ? lightness(ink) : 0.5) ? 'dark' : 'light';
   // The amount grows with the darkness of the background. Nearly white backgrounds need none.
-  const shade = scheme === 'light' && light < 0.97 ? `${100 * (1 - light ** 2.2)}%` : '';
+  const shade = scheme === 'light' && groundLightness < 0.97 ? `${100 * (1 - groundLightness ** 2.2)}%` : '';
   const muted = (share: number) => ground.map((channel, i) => channel + (share / 100) * (ink[i] - channel));
   const strength = isLegible ? `${MUTED_SHARES.find((share) => contrast(muted(share), ground) >= MIN_CONTRAST) ?? 100}%` : '';
   return { ground: `rgb(${ground})`, text: isLegible ? color : '', shade, strength, scheme };

@@ -57,10 +57,10 @@ const withDecimals = (number: string) => (number.includes('.') ? number : `${num
 
 /** Prints a value with the decimals that are significant for its interval. */
 export function fixed(value: number | null, interval: Interval | undefined) {
-  const width = interval ? interval[1] - interval[0] : 0;
-  if (value === null || !(Math.abs(value) < MAX_PLAIN_NUMBER) || !(width > 0 && width < Infinity)) return short(value);
-  const decimals = WIDTH_DIGITS - 1 - Math.floor(Math.log10(width));
-  if (width >= MIN_PLAIN_NUMBER || Math.abs(value) >= MIN_PLAIN_NUMBER) return value.toFixed(Math.max(0, Math.min(MOST_DECIMALS, decimals)));
+  const intervalWidth = interval ? interval[1] - interval[0] : 0;
+  if (value === null || !(Math.abs(value) < MAX_PLAIN_NUMBER) || !(intervalWidth > 0 && intervalWidth < Infinity)) return short(value);
+  const decimals = WIDTH_DIGITS - 1 - Math.floor(Math.log10(intervalWidth));
+  if (intervalWidth >= MIN_PLAIN_NUMBER || Math.abs(value) >= MIN_PLAIN_NUMBER) return value.toFixed(Math.max(0, Math.min(MOST_DECIMALS, decimals)));
   const digits = decimals + Math.floor(Math.log10(Math.abs(value)));
   return digits < 0 ? '0' : pointed(value.toExponential(Math.min(MOST_DECIMALS, digits)));
 }

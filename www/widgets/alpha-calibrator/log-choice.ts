@@ -53,8 +53,8 @@ function select(id: string, label: string, value: string, options: [value: strin
 function seriesSelect(opener: LogOpener, { recordings, wishes, plan }: Chosen, role: Role, { choose: say }: LogWords) {
   const options = new Map(recordings.flatMap((recording) => optionsOf(recording, role)));
   const [planned] = plan ? [...plan.drives.map((drive) => drive[role]), ...plan.unpaired[role]] : [];
-  const present = (wishes[role] as Choice | undefined) ?? planned?.choice ?? guessOf(recordings[0], role, opener.kind);
-  return select(`log-${role}`, say.roles[role], present ? labelOf(present) || (planned?.recording ?? recordings[0]).name : '', [...options.keys()].map((label) => [label, label]), (label) => {
+  const chosen = (wishes[role] as Choice | undefined) ?? planned?.choice ?? guessOf(recordings[0], role, opener.kind);
+  return select(`log-${role}`, say.roles[role], chosen ? labelOf(chosen) || (planned?.recording ?? recordings[0]).name : '', [...options.keys()].map((label) => [label, label]), (label) => {
     const choice = options.get(label);
     if (choice) opener.change({ wishes: { ...wishes, [role]: choice } });
   }, say.open);
@@ -68,8 +68,8 @@ function guessOf(recording: Recording, role: Role, kind: 'commands' | undefined)
 
 function roleSelect(opener: LogOpener, { recordings, roles, plan }: Chosen, index: number, { choose: say }: LogWords) {
   const { name } = recordings[index];
-  const present = roles.get(index) ?? ROLES.find((role) => plan?.unpaired[role].some(({ recording }) => recording === recordings[index]));
-  return select(`log-role-${index}`, name, present ?? '', ROLES.map((role) => [role, say.roles[role]]), (value) => {
+  const chosen = roles.get(index) ?? ROLES.find((role) => plan?.unpaired[role].some(({ recording }) => recording === recordings[index]));
+  return select(`log-role-${index}`, name, chosen ?? '', ROLES.map((role) => [role, say.roles[role]]), (value) => {
     const role = value as Role;
     const changed = new Map(roles).set(index, role);
     // The other one of two files has the other role.
@@ -91,7 +91,7 @@ function questionOf(opener: LogOpener, { answers }: Chosen, asked: Asked, { choo
 /** Returns a form with one `<select>` for each field, which assigns a column to it. */
 function columnsForm(opener: LogOpener, asked: Asked, answer: string[] | undefined, say: LogWords['choose']) {
   const { file, ask: { choices: [usual = ''], columns = [] } } = asked;
-  const present = answer ?? usual.split(',');
+  const assigned = answer ?? usual.split(',');
   const options = columns.map((cell, at): [string, string] => [String(at), say.column(at + 1, cell.trim().slice(0, MAX_CELL_LENGTH))]);
   const taken = (event: Event) => {
     event.preventDefault();
@@ -107,7 +107,7 @@ function columnsForm(opener: LogOpener, asked: Asked, answer: string[] | undefin
           ${say.fields[field]}
           <select name=${field} aria-label=${say.fields[field]} aria-describedby="refusal">
             <option value="">${say.none}</option>
-            ${options.map(([at, label]) => html`<option value=${at} ?selected=${present[Number(at)] === field}>${label}</option>`)}
+            ${options.map(([at, label]) => html`<option value=${at} ?selected=${assigned[Number(at)] === field}>${label}</option>`)}
           </select>
         </label>`)}
         <button type="submit" part="button">${say.read}</button>

@@ -92,7 +92,7 @@ function advance(strokes: Iterator<void>, count: number): boolean {
 function* drawPath(brush: Painter, legs: CalibrationLegs, classes: Uint8Array, overlays: LineName[]) {
   if (overlays.includes('odometry')) yield* drawOdometry(brush, legs);
   // While the coverage by legs grows from 1 to 2, lines get thinner little by little, so that nothing jumps when a plot is resized.
-  const extra = Math.max(0, Math.min(1, 2 - layersOf(brush.view, legs.reference)));
+  const extra = Math.max(0, Math.min(1, 2 - coverageOf(brush.view, legs.reference)));
   for (const [index, name] of CLASSES.entries()) {
     if (!overlays.includes(name)) continue;
     const style = styleOf(brush, name);
@@ -122,7 +122,7 @@ export function drawRings(brush: Painter, points: [number, number][]) {
  * Returns the coverage: the area of the legs at the usual line width, relative to that of the squares in which they end. Above 1 wide lines
  * would hide each other, while as hairlines each class covers its share of the legs.
  */
-function layersOf(view: Painter['view'], reference: Float64Array) {
+function coverageOf(view: Painter['view'], reference: Float64Array) {
   const squares: Set<number> = new Set();
   let length = 0;
   for (let at = 0; at < reference.length; at += 6) {

@@ -14,7 +14,7 @@ import { commandControls, likelihoodControls, lineStepper, noiseControls, timeCo
 import { formsPlot } from './forms.ts';
 import { ArcPicture, ROBOT_RADIUS } from './picture.ts';
 import { factorBars, headline, likelihoods, tableOf } from './readouts.ts';
-import { LINES, MAX_COORDINATE, WHOLE_DURATION, definition } from './settings.ts';
+import { LINES, MAX_COORDINATE, UNDERWAY_AT_END, definition } from './settings.ts';
 import { anatomyStyles } from './styles.ts';
 import { captionOf, pictureText, type Reading } from './words.ts';
 import type { ArcAnatomy as Machine } from '../../types.d.ts';
@@ -41,7 +41,7 @@ export class ArcAnatomyElement extends FigureElement<Machine, Reading> {
 
   player: Player<'underway'> = new Player(this, {
     // The animation of every arc takes the same time. The duration of the command is displayed next to it.
-    underway: { from: 0, to: WHOLE_DURATION, duration: 2000, at: () => this.state.own.underway, put: (at) => this.#drive(at) },
+    underway: { from: 0, to: UNDERWAY_AT_END, duration: 2000, at: () => this.state.own.underway, put: (at) => this.#drive(at) },
   });
 
   createMachine: FigureElement<Machine, Reading>['createMachine'] = (motion, state) => new motion.ArcAnatomy(state && this.settings.declared(state));
@@ -51,7 +51,7 @@ export class ArcAnatomyElement extends FigureElement<Machine, Reading> {
   get scene() {
     const { overlays, line, underway } = this.state.own;
     const reading = this.fresh;
-    const robots = underway < WHOLE_DURATION ? this.machine?.underway(underway / WHOLE_DURATION) : undefined;
+    const robots = underway < UNDERWAY_AT_END ? this.machine?.underway(underway / UNDERWAY_AT_END) : undefined;
     return { ...reading, machine: this.machine, overlays, line, underway: robots };
   }
 

@@ -8,7 +8,7 @@ import { button, group, rich } from '../../ui/controls.ts';
 import { fixed } from '../../ui/format.ts';
 import { track } from '../../ui/slider.ts';
 import { lineText } from './readouts.ts';
-import { ALPHAS, COMMAND, TABLE_LINES, WHOLE_DURATION } from './settings.ts';
+import { ALPHAS, COMMAND, TABLE_LINES, UNDERWAY_AT_END } from './settings.ts';
 import { CONTOURS } from './surface.ts';
 import type { ArcAnatomyElement as Figure } from './arc-anatomy.ts';
 
@@ -45,12 +45,12 @@ export function lineStepper(figure: Figure) {
 export function timeControl({ player, gesture, reading, state }: Figure) {
   const { underway } = state.own;
   const { dt } = reading.config.command;
-  const shown = words.anatomy.timeOf(fixed((underway / WHOLE_DURATION) * dt, 2), fixed(dt, 2));
+  const shown = words.anatomy.timeOf(fixed((underway / UNDERWAY_AT_END) * dt, 2), fixed(dt, 2));
   return group(words.anatomy.time, html`<div class="underway">
     ${player.button('underway', words.play)}
     <div class="slider" part="slider" data-role="truth">
       <label for="underway"><bdi class="symbol notranslate" translate="no"><i>t</i></bdi>${words.anatomy.underway}</label>
-      ${track({ id: 'underway', min: 0, max: WHOLE_DURATION, step: 1, value: underway, text: shown, input: (at) => player.put('underway', at), commit: () => gesture.commit() })}
+      ${track({ id: 'underway', min: 0, max: UNDERWAY_AT_END, step: 1, value: underway, text: shown, input: (at) => player.put('underway', at), commit: () => gesture.commit() })}
       <output class="value" for="underway">${shown}</output>
     </div>
   </div>`);

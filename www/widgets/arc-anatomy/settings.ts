@@ -9,7 +9,7 @@ import { alphaLooks } from '../shared/noise.ts';
 export const TABLE_LINES = 9;
 
 /** Value of `underway` at the end of the command, per cent of its duration. */
-export const WHOLE_DURATION = 100;
+export const UNDERWAY_AT_END = 100;
 
 /** Styles of the lines in the picture. */
 export const LINES = {
@@ -40,7 +40,7 @@ export const definition = definitionOf('arc-anatomy', {
   looks: { ...COMMAND, ...ALPHAS },
   own: {
     line: { opening: 0, ofPreset: true, check: (field, line) => wholeNumber(field, line, 0, TABLE_LINES) },
-    underway: { opening: WHOLE_DURATION, ofPreset: true, check: (field, share) => wholeNumber(field, share, 0, WHOLE_DURATION) },
+    underway: { opening: UNDERWAY_AT_END, ofPreset: true, check: (field, share) => wholeNumber(field, share, 0, UNDERWAY_AT_END) },
   },
 });
 

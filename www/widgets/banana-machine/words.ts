@@ -98,8 +98,8 @@ export function skewText(skew: number) {
 export function twistCaption({ config: { model, noise, alphas, isolate }, note }: Reading) {
   const { twist, twistIs } = words.banana;
   if (note) return `${twist}.`;
-  const turned = alphas.some((alpha, i) => i >= 4 && alpha > 0 && (isolate === null || isolate === i + 1));
-  const kind = model === 'odometry' ? model : noise === 'triangular' ? noise : turned ? 'turned' : 'exact';
+  const hasFinalTurn = alphas.some((alpha, i) => i >= 4 && alpha > 0 && (isolate === null || isolate === i + 1));
+  const kind = model === 'odometry' ? model : noise === 'triangular' ? noise : hasFinalTurn ? 'turned' : 'exact';
   return `${twist}: ${twistIs[kind]}`;
 }
 

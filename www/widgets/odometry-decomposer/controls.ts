@@ -13,14 +13,14 @@ import type { OdometryDecomposerElement as Figure } from './odometry-decomposer.
 export function rulesTable(figure: Figure) {
   const { rules: names, table: say, settings } = words.decomposer;
   const { rules } = figure.reading;
-  const present = figure.settings.wanted.rule;
+  const currentRule = figure.settings.wanted.rule;
   const rows = rules.map(({ deviations, crossTrack, heading }) => [...deviations, crossTrack, heading].map((value) => fixed(value, 3)));
   return html`<div class="rules" role="radiogroup" aria-label=${settings.rule.name}>
     ${figureTable({
       caption: rich(say.caption),
       columns: [settings.rule.name, ...say.columns.map(rich)],
       rows: rules.map(({ rule }, i) => [
-        choice({ group: 'rule', label: names[rule], checked: rule === present, choose: () => figure.gesture.decide({ rule }) }),
+        choice({ group: 'rule', label: names[rule], checked: rule === currentRule, choose: () => figure.gesture.decide({ rule }) }),
         ...rows[i].map((cell, column) => (cell === rows[0][column] ? cell : html`<strong>${cell}</strong>`)),
       ]),
     })}

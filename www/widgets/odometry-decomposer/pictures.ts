@@ -188,10 +188,10 @@ export class LegsPicture extends OutcomesPicture {
 
   /** Draws the robot on its path. */
   #paintRobot({ context, view, palette }: Brush, pose: Pose) {
-    const size = Math.max(7, 0.7 * ROBOT_RADIUS * view.scaleX);
+    const radius = Math.max(7, 0.7 * ROBOT_RADIUS * view.scaleX);
     const edge = { colour: palette.paper, width: 2 };
-    drawDisc(context, view.toPixel(pose.x, pose.y), size, palette.accent, edge);
-    strokeLine(context, view.ray(pose, size), edge);
+    drawDisc(context, view.toPixel(pose.x, pose.y), radius, palette.accent, edge);
+    strokeLine(context, view.ray(pose, radius), edge);
   }
 }
 

@@ -12,9 +12,9 @@ export function readingOf(machine: OdometryDecomposer) {
 
 /** Returns the legs and standard deviations of the current rule. */
 function partsOf(rules: RuleFigures[], config: OdometryDecomposerSettings) {
-  const present = rules.find(({ rule }) => rule === config.rule) as RuleFigures;
-  const [rot1, trans, rot2, strafe] = present.deviations;
-  return { legs: present.legs, deviations: { rot1, trans, rot2, strafe } };
+  const current = rules.find(({ rule }) => rule === config.rule) as RuleFigures;
+  const [rot1, trans, rot2, strafe] = current.deviations;
+  return { legs: current.legs, deviations: { rot1, trans, rot2, strafe } };
 }
 
 /** Returns one of several poses in an array of x, y, θ triples. */

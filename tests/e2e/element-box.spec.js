@@ -115,3 +115,18 @@ for (const name of ['map-squeeze', 'dead-reckoning']) {
     }
   });
 }
+
+test('tables of a figure scroll over the picture that stays in sight', async ({ page }) => {
+  await page.setViewportSize({ width: 640, height: 400 });
+  await showPage(page, '<dead-reckoning></dead-reckoning><div style="height: 2000px"></div>');
+  const widget = page.locator('dead-reckoning');
+  await untilReady(widget);
+  await widget.getByText('Numbers and data').click();
+  const table = widget.locator('#numbers table').first();
+  await table.evaluate((element) => element.scrollIntoView({ block: 'start' }));
+  await frames(page);
+  expect(await table.evaluate((element) => {
+    const { left, top } = element.getBoundingClientRect();
+    return element.contains(/** @type {ShadowRoot} */ (element.getRootNode()).elementFromPoint(left + 5, Math.max(top, 0) + 5));
+  })).toBe(true);
+});

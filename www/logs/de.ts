@@ -166,6 +166,7 @@ export const german: Words = {
     units: ({ time, length, angle }) =>
       `Zeit in ${time.unit}${BY[time.by]}, Längen in ${length.unit}${BY[length.by]}${ANGLES[angle.unit] ? `, ${ANGLES[angle.unit]}${BY[angle.by]}` : ''}`,
     dropped: (reason, count, line) => `${times(count, 'Zeile', 'Zeilen')}${line ? ` ${count === 1 ? 'in' : 'ab'} Zeile ${line}` : ''}: ${REASONS[reason]}`,
+    noGaps: 'keine',
     gaps: (count, first, longest) => `${count}, die erste ${comma(first, 2)} s nach dem Start, die längste von ${comma(longest, 2)} s`,
     jumps: (count, first) => `${count}, der erste ${comma(first, 2)} s nach dem Start`,
     recorded: 'die der Aufzeichnung, da die Header keine haben',

@@ -182,6 +182,7 @@ export const english = {
       `time in ${time.unit}${BY[time.by]}, lengths in ${length.unit}${BY[length.by]}${ANGLES[angle.unit] ? `, ${ANGLES[angle.unit]}${BY[angle.by]}` : ''}`,
     dropped: (reason: Cause, count: number, line: number) =>
       `${count} ${count === 1 ? 'row' : 'rows'}${line ? (count === 1 ? `, line ${line}` : `, from line ${line} on`) : ''}: ${REASONS[reason]}`,
+    noGaps: 'none',
     gaps: (count: number, first: number, longest: number) => `${count}, the first ${first.toFixed(2)} s after the start, the longest of ${longest.toFixed(2)} s`,
     jumps: (count: number, first: number) => `${count}, the first ${first.toFixed(2)} s after the start`,
     recorded: 'when messages were recorded, as their headers have none',

@@ -37,7 +37,7 @@ export function linesOf({ summary }: Log, say: Words['found']): Partial<Record<L
     ...(frames && { frames: [framesText(frames)] }),
     ...(clock === LOG_TIME && { clock: [say.recorded] }),
     dropped: (Object.entries(dropped) as [Cause, { count: number; first: number }][]).map(([cause, { count, first }]) => say.dropped(cause, count, columns ? first : 0)),
-    ...(gaps.count && { gaps: [say.gaps(gaps.count, gaps.first, gaps.longest)] }),
+    gaps: [gaps.count ? say.gaps(gaps.count, gaps.first, gaps.longest) : say.noGaps],
     ...(jumps.count && { jumps: [say.jumps(jumps.count, jumps.first)] }),
     notes: notes.map(({ name, values }) => {
       const note: string | ((...values: any[]) => string) = say.notes[name];

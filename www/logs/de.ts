@@ -146,6 +146,7 @@ export const german: Words = {
   choose: {
     roles: ROLES,
     open: 'auswählen',
+    byOrder: 'Kein Name sagt, was welche ist: Stimmt das?',
     timeUnit: (file) => `Einheit der Zeiten in ${file}`,
     lengthUnit: (file) => `Einheit der Längen in ${file}`,
     angleUnit: (file) => `Einheit der Richtungen in ${file}`,

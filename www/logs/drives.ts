@@ -11,7 +11,12 @@ export type { Drive };
 export interface Part { recording: Recording; choice: Choice }
 
 /** Plan of reading: drives with both logs, and single logs that are paired by their times after they are read. */
-export interface Plan { drives: Record<Role, Part>[]; unpaired: Record<Role, Part[]> }
+export interface Plan {
+  drives: Record<Role, Part>[];
+  unpaired: Record<Role, Part[]>;
+  /** True if neither names nor contents of two files are signs of their roles. The first is the odometry then. */
+  isByOrder: boolean;
+}
 
 /** Choices of the user. Missing ones are guessed. */
 export interface Wishes {
@@ -31,7 +36,8 @@ const isSame = (one: Choice, other?: Choice) => one.series === other?.series && 
 
 /** Assigns the logs of recordings to drives. Throws a LogError, which has a question if the choice is ambiguous. */
 export function planDrives(recordings: Recording[], wishes: Wishes = {}): Plan {
-  const plan: Plan = { drives: [], unpaired: { odometry: [], reference: [] } };
+  const unpaired: Plan['unpaired'] = { odometry: [], reference: [] };
+  const plan: Plan = { drives: [], unpaired, isByOrder: false };
   const unnamed: Recording[] = [];
   for (const recording of recordings) {
     const role = wishes.roles?.get(recording) ?? (recordings.length > 1 ? onlyRole(recording, wishes) : 'both');
@@ -39,10 +45,11 @@ export function planDrives(recordings: Recording[], wishes: Wishes = {}): Plan {
     else if (role) plan.unpaired[role].push({ recording, choice: choose(recording, role, wishes) });
     else unnamed.push(recording);
   }
-  const { odometry, reference } = plan.unpaired;
+  const { odometry, reference } = unpaired;
+  plan.isByOrder = odometry.length + reference.length === 0 && unnamed.length === 2;
   for (const [i, recording] of unnamed.entries()) {
     // If no name is a sign of a role, the order of two files or the roles of the other files determine it.
-    const role = odometry.length + reference.length + unnamed.length === 2 && unnamed.length === 2 ? ROLES[i]
+    const role = plan.isByOrder ? ROLES[i]
       : 2 * odometry.length >= recordings.length ? 'reference'
         : 2 * reference.length >= recordings.length ? 'odometry' : undefined;
     if (!role) throw new LogError({ file: recording.name }, (say) => say.noRole, { what: 'roles', choices: [] });
@@ -159,7 +166,7 @@ function knownRole({ name: file }: Recording, { name, type, kind, hasCommands }:
 }
 
 /** Reads the logs of a plan and pairs them. Their times are relative to one start. Rejects with a LogError. */
-export async function readDrives({ drives, unpaired }: Plan, onProgress?: (share: number) => void): Promise<Drive[]> {
+export async function readDrives({ drives, unpaired }: Omit<Plan, 'isByOrder'>, onProgress?: (share: number) => void): Promise<Drive[]> {
   const reads = [...drives.map((drive) => [drive.odometry, drive.reference]), ...[...unpaired.odometry, ...unpaired.reference].map((part) => [part])];
   const logs: Log[] = [];
   for (const [i, parts] of reads.entries()) {

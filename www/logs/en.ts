@@ -159,6 +159,7 @@ export const english = {
   choose: {
     roles: { odometry: 'Odometry', reference: 'Reference' },
     open: 'choose',
+    byOrder: 'Neither name says which is which: is this right?',
     timeUnit: (file: string) => `Unit of times in ${file}`,
     lengthUnit: (file: string) => `Unit of lengths in ${file}`,
     angleUnit: (file: string) => `Unit of headings in ${file}`,

@@ -28,14 +28,14 @@ function optionsOf(recording: Recording, role?: Role): [label: string, Choice][]
 export function choosers(opener: LogOpener) {
   const { chosen, say } = opener;
   if (!chosen || !say) return nothing;
-  const { recordings, questions } = chosen;
+  const { recordings, questions, plan } = chosen;
   const isSingle = (recording: Recording) => optionsOf(recording).length === 1;
   const which = [
     ...(recordings.every(isSingle) ? [] : ROLES.map((role) => seriesSelect(opener, chosen, role, say))),
     ...(recordings.length > 1 ? recordings.flatMap((recording, index) => (isSingle(recording) ? [roleSelect(opener, chosen, index, say)] : [])) : []),
   ];
   return html`<div class="choosers">
-    ${which.length ? html`<div class="topics">${which}</div>` : nothing}
+    ${which.length ? html`<div class="topics">${which} ${plan?.isByOrder ? say.choose.byOrder : nothing}</div>` : nothing}
     ${questions.map((asked) => questionOf(opener, chosen, asked, say))}
   </div>`;
 }

@@ -130,25 +130,28 @@ const layout = css`
     box-shadow: -0.5em 0 var(--paper), 0.5em 0 var(--paper);
   }
 
+  .begin {
+    display: flex;
+    gap: 0.5em;
+    margin-inline-start: auto;
+  }
+
+  /* The message of the copy button is before it, or else on its own line after it. A text to copy by hand follows both. */
   .folds > .copied {
     flex: 1 1 8em;
-    min-width: 0;
     text-align: end;
   }
 
   .folds > textarea {
     flex-basis: 100%;
+    order: 1;
   }
 
-  .begin {
-    display: flex;
-    gap: 0.5em;
-  }
-
-  /* The message of a copy button has its own line. */
-  .folds > :is(output, textarea) {
-    flex: 1 0 100%;
-    text-align: end;
+  @container (max-width: 44em) {
+    .folds > .copied {
+      flex-basis: 100%;
+      order: 1;
+    }
   }
 
   .folded {

@@ -16,6 +16,9 @@ export type Scene = Reading & { chosen: number, leg: LegView | null, overlays: L
 /** Width of the lines of a single leg, CSS pixels. */
 const WIDTH = 2.25;
 
+/** Space around the mark of an end, as a share of the leg. */
+const MARK_ROOM = 0.08;
+
 /** The floor from above, in the frame of the reference. */
 export class PathPicture extends SamplesPicture<Scene> {
   name = 'plane';
@@ -65,7 +68,9 @@ export class LegPicture extends Picture<Scene> {
     if (!leg) return;
     const { outline, read, ended } = leg;
     this.view.release();
-    this.view.fit(extentOf([0, 0, ...outline, read[0], read[1], ended[0], ended[1]], 0.05));
+    const room = MARK_ROOM * Math.hypot(ended[0], ended[1]);
+    const marks = [read, ended].flatMap(([x, y]) => [x - room, y - room, x + room, y + room]);
+    this.view.fit(extentOf([0, 0, ...outline, ...marks], 0.05));
   }
 
   paint: Picture<Scene>['paint'] = (brush, { leg, overlays }) => {

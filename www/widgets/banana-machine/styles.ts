@@ -34,8 +34,10 @@ const own = css`
   /* Margin for the fade below the pictures. */
   .morphing {
     display: flex;
+    flex-wrap: wrap;
+    justify-content: end;
     align-items: start;
-    gap: 1em;
+    gap: 0.5em 1em;
     margin-top: 0.7em;
   }
 

@@ -127,8 +127,8 @@ fn corrected(field: &str, value: &JsValue) -> Result<[Option<bool>; ERROR_COUNT]
     let fields = Fields::new(field, "correct.", value, &keys)?;
     let mut correct = [None; ERROR_COUNT];
     for (key, errors) in SYSTEMATIC {
-        let is = fields.optional(key, read_boolean)?;
-        errors.iter().for_each(|error| correct[*error as usize] = is);
+        let is_corrected = fields.optional(key, read_boolean)?;
+        errors.iter().for_each(|error| correct[*error as usize] = is_corrected);
     }
     Ok(correct)
 }

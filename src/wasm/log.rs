@@ -113,9 +113,9 @@ fn trajectory_of_poses(fields: &Fields) -> Result<Trajectory, JsValue> {
 /// would take a twentieth of a module.
 fn checked_trajectory(
     fields: &Fields,
-    read: Result<Trajectory, TrajectoryError>,
+    trajectory: Result<Trajectory, TrajectoryError>,
 ) -> Result<Trajectory, JsValue> {
-    let read = read.map_err(|TrajectoryError { sample, fault }| {
+    let trajectory = trajectory.map_err(|TrajectoryError { sample, fault }| {
         let what = match fault {
             TrajectoryFault::NotFinite => {
                 "has a time or a coordinate that is not finite; allowed are finite numbers".to_owned()
@@ -128,7 +128,7 @@ fn checked_trajectory(
         let field = fields.path("");
         JsValue::from(RangeError::new(&format!("{}: sample {sample} {what}", field.trim_end_matches('.'))))
     })?;
-    with_breaks(fields, read)
+    with_breaks(fields, trajectory)
 }
 
 /// Adds the breaks that the caller states.

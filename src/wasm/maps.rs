@@ -74,17 +74,17 @@ pub fn read_map(description: &JsValue, image: &JsValue) -> Result<OccupancyGrid,
     let threshold = |key: &str| {
         fields.optional(key, |field, value| in_range(field, read_number(field, value)?, &(0.0..=1.0)))
     };
-    let usual = Interpretation::default();
-    let occupied_thresh = threshold("occupied_thresh")?.unwrap_or(usual.occupied_thresh);
+    let defaults = Interpretation::default();
+    let occupied_thresh = threshold("occupied_thresh")?.unwrap_or(defaults.occupied_thresh);
     let free_thresh = threshold("free_thresh")?;
     if let Some(free) = free_thresh.filter(|free| *free > occupied_thresh) {
         let [free, limit] = [free, occupied_thresh].map(number_text);
         let message = format!("free_thresh is {free}; allowed is at most occupied_thresh, {limit}");
         return Err(RangeError::new(&message).into());
     }
-    let mode = fields.optional("mode", read_word)?.unwrap_or(usual.mode);
-    let free_thresh = free_thresh.unwrap_or(usual.free_thresh.min(occupied_thresh));
-    let negate = negate.unwrap_or(usual.negate);
+    let mode = fields.optional("mode", read_word)?.unwrap_or(defaults.mode);
+    let free_thresh = free_thresh.unwrap_or(defaults.free_thresh.min(occupied_thresh));
+    let negate = negate.unwrap_or(defaults.negate);
     let interpretation = Interpretation { mode, negate, occupied_thresh, free_thresh };
     let [x, y, yaw] = origin;
     let origin = SE2::new(x, y, yaw);

@@ -6,7 +6,7 @@ import { readFileSync } from 'node:fs';
 import { test } from 'node:test';
 import { gunzipSync } from 'node:zlib';
 import xxhash from 'xxhash-wasm';
-import { OTHERS, english } from '../../www/logs/en.ts';
+import { UNSUPPORTED_FORMATS, english } from '../../www/logs/en.ts';
 import { unlz4 } from '../../www/logs/formats/lz4.ts';
 import type { Choice, Commands, Log, Poses, Recording, Source } from '../../www/logs/log.ts';
 import { openRecordings } from '../../www/logs/open.ts';
@@ -181,12 +181,12 @@ test('LZ4 frames of another size are refused, and any damage to one with checksu
 });
 
 test('formats that are not read are refused with the cure, by their contents', async () => {
-  const starts: [keyof typeof OTHERS, string][] = [
+  const starts: [keyof typeof UNSUPPORTED_FORMATS, string][] = [
     ['rosbag1', '#ROSBAG V1.2\n'], ['ulog', 'ULog\x01\x12\x35'], ['dataflash', '\xa3\x95\x80'], ['pcap', '\xd4\xc3\xb2\xa1'], ['wal', '\x37\x7f\x06\x82'], ['zip', 'PK\x03\x04'],
     ['gzip', '\x1f\x8b\x08'], ['bzip2', 'BZh9'], ['xz', '\xfd7zXZ\0'], ['lz4', '\x04\x22\x4d\x18'], ['hdf5', '\x89HDF\r\n\x1a\n'], ['parquet', 'PAR1'],
   ];
-  for (const [format, start] of starts) assert.equal(await sentenceOf(openRecordings([fileOf(Buffer.from(start, 'latin1'), 'run.mcap')])), `run.mcap: it is ${OTHERS[format]}`);
-  assert.deepEqual(starts.map(([format]) => format).toSorted(), Object.keys(OTHERS).toSorted());
+  for (const [format, start] of starts) assert.equal(await sentenceOf(openRecordings([fileOf(Buffer.from(start, 'latin1'), 'run.mcap')])), `run.mcap: it is ${UNSUPPORTED_FORMATS[format]}`);
+  assert.deepEqual(starts.map(([format]) => format).toSorted(), Object.keys(UNSUPPORTED_FORMATS).toSorted());
 });
 
 test('a recording without one whole message is incomplete, and the tool that repairs it is named', async () => {

@@ -43,21 +43,21 @@ const cloudState: Record<string, Owned> = {
 /** Returns the definition of a widget by its tag. */
 export function definitionOf(tag: string, { lines, opening = Object.keys(lines), attributes, own, ...parts }: Parts): Definition {
   const declared = settings[tag];
-  const given = presets[tag as keyof typeof presets];
-  const names = Object.keys(lines);
+  const widgetPresets = presets[tag as keyof typeof presets];
+  const lineNames = Object.keys(lines);
   return {
     ...parts,
     declared,
     attributes: {
-      ...(given.length > 0 && { preset: presetsOf(given, declared) }),
+      ...(widgetPresets.length > 0 && { preset: presetsOf(widgetPresets, declared) }),
       ...attributesOf(declared),
       ...attributes,
-      overlays: { kind: WORD_LIST, own: true, words: names },
+      overlays: { kind: WORD_LIST, own: true, words: lineNames },
     },
     own: {
       ...(declared.some(({ key }) => key === 'samples') && cloudState),
       ...own,
-      overlays: { opening, check: (field, overlays) => subset(field, overlays, names) },
+      overlays: { opening, check: (field, overlays) => subset(field, overlays, lineNames) },
     },
   };
 }

@@ -98,10 +98,10 @@ function motionsOf({ data }: Log, from: number, step: number, count: number, cor
  */
 function agreement({ odometry, reference }: Record<Role, Motion[]>, step: number, anyYaw = false): Agreement {
   const maxLag = Math.round(MAX_OFFSET / step);
-  const [own, its] = [withoutJumps(odometry), withoutJumps(reference)];
+  const [odo, ref] = [withoutJumps(odometry), withoutJumps(reference)];
   let best: Agreement = { score: -1, length: 1, angle: 1 };
   for (let i = 0; i <= 2 * maxLag && best.score < AGREEMENT; i++) {
-    const found = agreementAt(own, its, i % 2 === 0 ? i / 2 : -(i + 1) / 2, own.length - maxLag, anyYaw);
+    const found = agreementAt(odo, ref, i % 2 === 0 ? i / 2 : -(i + 1) / 2, odo.length - maxLag, anyYaw);
     if (found.score > best.score) best = found;
   }
   return best;
@@ -117,22 +117,22 @@ function withoutJumps(motions: Motion[]): Motion[] {
 /** Returns the agreement at a clock offset of `lag` steps. Its score is −1 if fewer than half of `count` steps overlap. */
 function agreementAt(odometry: Motion[], reference: Motion[], lag: number, count: number, anyYaw: boolean): Agreement {
   // Sums of products of the motions: odometry squared, odometry times reference (`across`: turned by 90°), reference squared.
-  let [drives, bothDrives, across, itsDrives, turns, bothTurns, itsTurns] = [0, 0, 0, 0, 0, 0, 0];
+  let [drives, bothDrives, across, refDrives, turns, bothTurns, refTurns] = [0, 0, 0, 0, 0, 0, 0];
   const [first, end] = [Math.max(0, -lag), Math.min(odometry.length, reference.length - lag)];
   for (let i = first; i < end; i++) {
-    const [own, its] = [odometry[i], reference[i + lag]];
-    drives += own[0] * own[0] + own[1] * own[1];
-    bothDrives += own[0] * its[0] + own[1] * its[1];
-    across += own[0] * its[1] - own[1] * its[0];
-    itsDrives += its[0] * its[0] + its[1] * its[1];
-    turns += own[2] * own[2];
-    bothTurns += own[2] * its[2];
-    itsTurns += its[2] * its[2];
+    const [odo, ref] = [odometry[i], reference[i + lag]];
+    drives += odo[0] * odo[0] + odo[1] * odo[1];
+    bothDrives += odo[0] * ref[0] + odo[1] * ref[1];
+    across += odo[0] * ref[1] - odo[1] * ref[0];
+    refDrives += ref[0] * ref[0] + ref[1] * ref[1];
+    turns += odo[2] * odo[2];
+    bothTurns += odo[2] * ref[2];
+    refTurns += ref[2] * ref[2];
   }
   if (2 * (end - first) < count) return { score: -1, length: 1, angle: 1 };
   // For a robot that only drives straight or only turns on the spot, one of the two correlations is undefined.
-  const [drive, turn] = [[drives, anyYaw ? Math.hypot(bothDrives, across) : bothDrives, itsDrives], [turns, bothTurns, itsTurns]].map(([own, both, its]) =>
-    (Math.sqrt(Math.max(own, its) / (end - first)) < STANDSTILL ? { correlation: 1, scale: 1 } : { correlation: both / Math.sqrt(own * its || 1), scale: own / both }));
+  const [drive, turn] = [[drives, anyYaw ? Math.hypot(bothDrives, across) : bothDrives, refDrives], [turns, bothTurns, refTurns]].map(([odo, both, ref]) =>
+    (Math.sqrt(Math.max(odo, ref) / (end - first)) < STANDSTILL ? { correlation: 1, scale: 1 } : { correlation: both / Math.sqrt(odo * ref || 1), scale: odo / both }));
   return { score: Math.min(drive.correlation, turn.correlation), length: drive.scale, angle: turn.scale };
 }
 

@@ -39,7 +39,7 @@ const REASONS: Record<Cause, string> = {
   held: 'die Pose steht, während die Odometrie weitergeht',
 };
 
-const OTHERS: typeof import('./en.ts').OTHERS = {
+const UNSUPPORTED_FORMATS: typeof import('./en.ts').UNSUPPORTED_FORMATS = {
   rosbag1: 'eine ROS-Bag der Version 1.2; mit „rosbag reindex“ umwandeln.',
   ulog: 'ein PX4-Log (ULog); mit „ulog2csv“ umwandeln und zwei der Tabellen angeben.',
   dataflash: 'ein ArduPilot-Log; mit „mavlogdump.py --format csv --types POS“ umwandeln.',
@@ -112,7 +112,7 @@ export const german: Words = {
     largeFile: (command, most) => `sie hat dekomprimiert mehr als ${most} Bytes; mit „${command}“ dekomprimieren und das Ergebnis angeben.`,
     noRosbag2: 'das ist eine SQLite-Datenbank ohne die Tabellen „topics“ und „messages“ von rosbag2; erwartet wird eine Aufzeichnung von „ros2 bag record“.',
     notRosbag2: 'sie steht in der metadata.yaml einer Aufzeichnung und ist keine; erwartet wird eine MCAP- oder .db3-Datei.',
-    notRead: (format) => `das ist ${OTHERS[format]}`,
+    notRead: (format) => `das ist ${UNSUPPORTED_FORMATS[format]}`,
     noFiles: (files) => `sie beschreibt eine Aufzeichnung in ${files}; auch diese Datei angeben, oder den ganzen Ordner.`,
     noTopic: (topics) => `dieses Topic gibt es nicht; erwartet wird eines von ${topics}.`,
     noTopics: (topics) => `die Topics sind ${topics}; erwartet wird eines vom Typ ${TYPES.either}.`,

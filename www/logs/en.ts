@@ -49,7 +49,7 @@ const CORRECTIONS: Record<Correction['name'], (other: string, factor: number) =>
 };
 
 /** Formats that are recognized but not read, each with a remedy. */
-export const OTHERS = {
+export const UNSUPPORTED_FORMATS = {
   rosbag1: 'a ROS bag of version 1.2; convert it with “rosbag reindex”.',
   ulog: 'a PX4 log (ULog); convert it with “ulog2csv”, and give two of the tables.',
   dataflash: 'an ArduPilot log; convert it with “mavlogdump.py --format csv --types POS”.',
@@ -121,7 +121,7 @@ export const english = {
     largeFile: (command: string, most: number) => `it has more than ${most} bytes when it is decompressed; decompress it with “${command}”, and give the result.`,
     noRosbag2: 'it is an SQLite database without the tables “topics” and “messages” of rosbag2; expected is a recording of “ros2 bag record”.',
     notRosbag2: 'it is listed in the metadata.yaml of a recording, and is none; expected is an MCAP or .db3 file.',
-    notRead: (format: keyof typeof OTHERS) => `it is ${OTHERS[format]}`,
+    notRead: (format: keyof typeof UNSUPPORTED_FORMATS) => `it is ${UNSUPPORTED_FORMATS[format]}`,
     noFiles: (files: string) => `it describes a recording in ${files}; give that file too, or the whole folder.`,
     noTopic: (topics: string) => `there is no such topic; expected is one of ${topics}.`,
     noTopics: (topics: string) => `the topics are ${topics}; expected is one of type ${TYPES.either}.`,

@@ -1,6 +1,6 @@
 /** Opens recordings. The first bytes of a file determine its format. */
 
-import type { OTHERS } from './en.ts';
+import type { UNSUPPORTED_FORMATS } from './en.ts';
 import type { Container } from './formats/container.ts';
 import { LogError, bytesOf } from './log-error.ts';
 import type { OpenOptions, Recording, Source } from './log.ts';
@@ -18,7 +18,7 @@ const FORMAT_MAGIC: Record<Format, string> = {
 };
 
 /** First bytes of known formats that cannot be read. The error names the format. */
-const UNSUPPORTED_MAGIC: [keyof typeof OTHERS, string][] = [
+const UNSUPPORTED_MAGIC: [keyof typeof UNSUPPORTED_FORMATS, string][] = [
   ['rosbag1', '#ROSBAG V1'], ['rosbag1', '#ROSRECORD'], ['ulog', 'ULog\x01\x12\x35'], ['dataflash', '\xa3\x95\x80'],
   ['pcap', '\xd4\xc3\xb2\xa1'], ['pcap', '\xa1\xb2\xc3\xd4'], ['pcap', '\x4d\x3c\xb2\xa1'], ['pcap', '\x0a\x0d\x0d\x0a'],
   ['wal', '\x37\x7f\x06\x82'], ['wal', '\x37\x7f\x06\x83'], ['zip', 'PK\x03\x04'], ['gzip', '\x1f\x8b'], ['bzip2', 'BZh'],

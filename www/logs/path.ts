@@ -59,10 +59,10 @@ export function aligned(path: Path, target: Path, offset = 0): Path {
     sin += (x - from[0]) * (v - to[1]) - (y - from[1]) * (u - to[0]);
   }
   const angle = Math.atan2(sin, cos);
-  const turned = ([x, y, heading]: Pose): Pose => [
+  const moved = ([x, y, heading]: Pose): Pose => [
     to[0] + Math.cos(angle) * (x - from[0]) - Math.sin(angle) * (y - from[1]),
     to[1] + Math.sin(angle) * (x - from[0]) + Math.cos(angle) * (y - from[1]),
     heading + angle,
   ];
-  return { ...path, poses: path.poses.map(turned) };
+  return { ...path, poses: path.poses.map(moved) };
 }

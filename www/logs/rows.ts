@@ -122,7 +122,7 @@ export class Rows {
     if (clocks[1] !== undefined) this.#sortByOtherClock();
     const usesOther = this.#chooseClock(clocks[1] !== undefined);
     const { rows, late, causes, ...times } = this.#inOrder(kind);
-    const broken = this.#dropAdded(causes);
+    const broken = this.#brokenRows(causes);
     const [a, b, c] = [A, B, C].map((index) => this.#column(rows, (row) => this.#number(row, index)));
     const { count } = this;
     if (rows.length < 2) {
@@ -195,9 +195,9 @@ export class Rows {
   #inOrder(kind: LogKind): { start: number; t: Float64Array; rows: Uint32Array; late: number; causes: Map<number, Cause> } {
     const causes = new Map<number, Cause>();
     // If other times are since 1970, a stamp of 0 means that it was not set.
-    const set = this.#rows.filter((row) => !this.#isUnset(row));
-    const isSince1970 = set.every((row) => this.#number(row, this.#clock) > MIN_EPOCH_TIME);
-    const stamped = isSince1970 ? set : this.#rows;
+    const withStamp = this.#rows.filter((row) => !this.#isUnset(row));
+    const isSince1970 = withStamp.every((row) => this.#number(row, this.#clock) > MIN_EPOCH_TIME);
+    const stamped = isSince1970 ? withStamp : this.#rows;
     const base = Math.floor(this.#number(stamped[0], this.#clock));
     const times = this.#column(stamped, (row) => this.#time(row, base));
     const { order, classes, setBack, largest } = sortRows(times, (one, other) => this.#isSame(stamped[one], stamped[other]));
@@ -225,17 +225,17 @@ export class Rows {
       const line = this.#number(min(causes.keys()) as number, LINE);
       throw new LogError(this.#placeOf(line), (say) => say.sameTimes(different, sorted.length, this.#messageNumber(line)));
     }
-    const timesOf = (some: Uint32Array) => this.#column(some, (row) => this.#time(row, start));
+    const timesOf = (chosen: Uint32Array) => this.#column(chosen, (row) => this.#time(row, start));
     const distinct = rows;
     const isRepeated = (i: number) => i > 0 && this.#isSame(distinct[i - 1], distinct[i]);
     const factor = kind === 'poses' ? repeatFactor(timesOf(distinct), isRepeated) : 1;
-    let run = 0;
+    let repeats = 0;
     // Every `factor`-th of repeated poses is kept, so that the log has the same rate while the robot stands.
     if (factor > 1) {
       rows = distinct.filter((row, i) => {
-        run = isRepeated(i) ? run + 1 : 0;
-        if (run % factor !== 0) causes.set(row, 'repeated');
-        return run % factor === 0;
+        repeats = isRepeated(i) ? repeats + 1 : 0;
+        if (repeats % factor !== 0) causes.set(row, 'repeated');
+        return repeats % factor === 0;
       });
     }
     stamped.forEach((row, i) => {
@@ -245,8 +245,8 @@ export class Rows {
     return { start, t: timesOf(rows), rows, late: classes.reduce((count, each) => count + Number(each === LATE), 0), causes };
   }
 
-  /** Counts dropped rows, and returns the rows before which the path is unknown: after unusable rows, and where the clock was set back. */
-  #dropAdded(causes: Map<number, Cause>): Set<number> {
+  /** Returns the rows before which the path is unknown: after unusable rows, and where the clock was set back. Counts the dropped rows. */
+  #brokenRows(causes: Map<number, Cause>): Set<number> {
     const broken = new Set<number>();
     let isBroken = false;
     for (let row = 0; row < this.#added; row++) {

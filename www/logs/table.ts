@@ -40,8 +40,8 @@ export async function openTable(source: Source, options: OpenOptions = {}): Prom
   const lines = decoded.split(end);
   // The last line may be incomplete. It is dropped unless it is the only one.
   if (source.size > HEAD_BYTES && lines.length > 1) lines.pop();
-  const long = lines.findIndex((line) => line.length > MAX_LINE_LENGTH);
-  if (long >= 0) throw new LogError({ file: source.name, line: long + 1 }, (say) => say.longLine(MAX_LINE_LENGTH));
+  const longLine = lines.findIndex((line) => line.length > MAX_LINE_LENGTH);
+  if (longLine >= 0) throw new LogError({ file: source.name, line: longLine + 1 }, (say) => say.longLine(MAX_LINE_LENGTH));
   const format = formatOf(lines, source.name, options.columns);
   const readable = format.groups.filter(({ kind }) => kind !== null);
   const place = { file: source.name, line: Math.max(1, format.firstLine - 1) };
@@ -174,10 +174,10 @@ class ClockReader {
     }
     if (this.#isDate) return dateOf(cells[at])?.time;
     if (this.unit === undefined) {
-      const size = numberOf(text);
-      if (size && Number.isFinite(size)) {
-        this.unit = unitOfSize(size) ?? 's';
-        if (unitOfSize(size)) this.by = 'size';
+      const value = numberOf(text);
+      if (value && Number.isFinite(value)) {
+        this.unit = unitOfSize(value) ?? 's';
+        if (unitOfSize(value)) this.by = 'size';
       }
     }
     return timeOf(text, POWERS[this.unit ?? 's']);

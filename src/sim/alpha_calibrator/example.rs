@@ -72,12 +72,12 @@ impl Robot {
             return [0.0, turn / ROW_INTERVAL];
         }
         // The target moves ahead of the robot.
-        let mut ahead = target_at(self.phase);
-        while libm::hypot(ahead[0] - pose.x(), ahead[1] - pose.y()) < 0.7 {
+        let mut target = target_at(self.phase);
+        while libm::hypot(target[0] - pose.x(), target[1] - pose.y()) < 0.7 {
             self.phase += 0.002;
-            ahead = target_at(self.phase);
+            target = target_at(self.phase);
         }
-        let bearing = libm::atan2(ahead[1] - pose.y(), ahead[0] - pose.x());
+        let bearing = libm::atan2(target[1] - pose.y(), target[0] - pose.x());
         let off = wrap_angle(bearing - pose.theta());
         let v = SPEED * libm::cos(off).max(0.0);
         [v, (2.0 * off).clamp(-TURN_RATE, TURN_RATE)]
@@ -99,26 +99,26 @@ pub fn example(seed: u64) -> Log {
     let mut robot = Robot { phase: 0.0, remaining_turn: 0.0, next_turn_time: 6.0 };
     let mut odometry = vec![(0.0, SE2::identity())];
     let mut truth = vec![(0.0, start)];
-    let mut open = CurrentLeg { odometry: SE2::identity(), truth: start, rows: vec![(0.0, SE2::identity())] };
+    let mut leg = CurrentLeg { odometry: SE2::identity(), truth: start, rows: vec![(0.0, SE2::identity())] };
     for row in 1..ROWS {
         let time = ROW_INTERVAL * row as f64;
-        let (_, driven) = open.rows[open.rows.len() - 1];
+        let (_, driven) = leg.rows[leg.rows.len() - 1];
         // The robot steers by its odometry. Steering by the true pose would correct the errors, and correlate them with the turns.
         let [v, omega] = robot.drive(time, &(start * odometry[row - 1].1), &mut rng);
         let driven = driven * SE2::exp(&Vector3::new(v * ROW_INTERVAL, 0.0, omega * ROW_INTERVAL));
         let read = Vector3::new(v * ROW_INTERVAL / DISTANCE_SCALE, 0.0, omega * ROW_INTERVAL / TURN_SCALE);
         let pose = odometry[row - 1].1 * SE2::exp(&read);
         odometry.push((time, pose));
-        open.rows.push((time, driven));
+        leg.rows.push((time, driven));
         let moved = |from: f64, to: f64| (to - from).abs() > DISTANCE;
-        let turned = wrap_angle(pose.theta() - open.odometry.theta()).abs() > ANGLE;
-        if moved(open.odometry.x(), pose.x()) || moved(open.odometry.y(), pose.y()) || turned {
-            let end = finish_leg(&open, &mut truth, &mut rng);
-            open = CurrentLeg { odometry: pose, truth: end, rows: vec![(time, SE2::identity())] };
+        let turned = wrap_angle(pose.theta() - leg.odometry.theta()).abs() > ANGLE;
+        if moved(leg.odometry.x(), pose.x()) || moved(leg.odometry.y(), pose.y()) || turned {
+            let end = finish_leg(&leg, &mut truth, &mut rng);
+            leg = CurrentLeg { odometry: pose, truth: end, rows: vec![(time, SE2::identity())] };
         }
     }
     // The rows after the last complete leg get no noise.
-    truth.extend(open.rows.iter().skip(1).map(|(time, driven)| (*time, open.truth * *driven)));
+    truth.extend(leg.rows.iter().skip(1).map(|(time, driven)| (*time, leg.truth * *driven)));
     let trajectory = |samples| {
         // The times increase, so that this is no error.
         let Ok(trajectory) = Trajectory::new(samples) else { unreachable!() };
@@ -129,10 +129,10 @@ pub fn example(seed: u64) -> Log {
 
 /// Appends the true poses of a finished leg, and returns its true end. Each row adds an independent part of the noise. If the
 /// noise were proportional to time, legs with other boundaries would have less of it.
-fn finish_leg(open: &CurrentLeg, truth: &mut Vec<(f64, SE2)>, rng: &mut Xoshiro256PlusPlus) -> SE2 {
+fn finish_leg(leg: &CurrentLeg, truth: &mut Vec<(f64, SE2)>, rng: &mut Xoshiro256PlusPlus) -> SE2 {
     let [a1, a2, a3, a4] = ALPHAS;
-    let rows = &open.rows[1..];
-    let (_, driven) = open.rows[rows.len()];
+    let rows = &leg.rows[1..];
+    let (_, driven) = leg.rows[rows.len()];
     let reading = OdomDelta::from_poses(&SE2::identity(), &driven);
     let variances = OdometryRule::Table.variances(&reading, &[a1, a2, a3, a4, 0.0]);
     let share = Variance(1.0 / rows.len() as f64);
@@ -141,9 +141,9 @@ fn finish_leg(open: &CurrentLeg, truth: &mut Vec<(f64, SE2)>, rng: &mut Xoshiro2
     for (time, pose) in rows {
         unit_noise.iter_mut().for_each(|noise| *noise += NoiseKind::Normal.sample(share, rng));
         [.., end] = variances.executed(&reading, unit_noise).poses(&SE2::identity());
-        truth.push((*time, open.truth * pose.boxplus(end.boxminus(&driven))));
+        truth.push((*time, leg.truth * pose.boxplus(end.boxminus(&driven))));
     }
-    open.truth * end
+    leg.truth * end
 }
 
 /// Returns the true trajectory as the reference measures it.

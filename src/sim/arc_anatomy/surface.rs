@@ -40,10 +40,10 @@ impl Surface {
         }
         let (model, start) = (settings.model(), settings.start());
         let windings = f64::from(2 * model.windings(&settings.command) + 1);
-        let most = MAX_EXPONENTIALS / (3.0 + 2.0 * windings + MAX_LAST_TURNS.min(windings + 2.0));
+        let max_cells = MAX_EXPONENTIALS / (3.0 + 2.0 * windings + MAX_LAST_TURNS.min(windings + 2.0));
         let [width, height] = [max[0] - min[0], max[1] - min[1]];
-        let columns = (most * width / height).sqrt().max(1.0).min(most).floor();
-        let rows = (most / columns).max(1.0).floor();
+        let columns = (max_cells * width / height).sqrt().max(1.0).min(max_cells).floor();
+        let rows = (max_cells / columns).max(1.0).floor();
         let side = [width / columns, height / rows];
         let (columns, rows) = (columns as usize, rows as usize);
         // Returns the centre of a cell.
@@ -62,8 +62,8 @@ impl Surface {
         let density = field(&|at| model.pose_density(&at.next(), &at.command, &start).unwrap_or(0.0));
         let mapped = if settings.map == SurfaceKind::Prob { &prob } else { &density };
         let highest = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
-        let most = highest(mapped);
-        let shade = |value: &f64| if most > 0.0 { (255.0 * (value / most)).round() as u8 } else { 0 };
+        let maximum = highest(mapped);
+        let shade = |value: &f64| if maximum > 0.0 { (255.0 * (value / maximum)).round() as u8 } else { 0 };
         let contours = |values: &[f64]| {
             let top = highest(values);
             // Contours are interpolated between logarithms, which are closer to linear between cells.

@@ -100,9 +100,10 @@ impl Draws {
             let block = self.unit_noise[self.summed..][..BLOCK].iter();
             block.for_each(|noise| self.sums.add([noise[0], noise[1]], f64x4::splat(ALL)));
             self.sums.close_block();
-            let late = self.summed.max(SUBSAMPLE_GROUPS[1])..self.summed + BLOCK;
-            self.farthest
-                .extend(late.filter(|four| subsample_groups(&self.unit_noise[*four]) > SUBSAMPLE_GROUPS[1]));
+            let later_groups = self.summed.max(SUBSAMPLE_GROUPS[1])..self.summed + BLOCK;
+            self.farthest.extend(
+                later_groups.filter(|four| subsample_groups(&self.unit_noise[*four]) > SUBSAMPLE_GROUPS[1]),
+            );
             self.summed += BLOCK;
         }
     }
@@ -134,8 +135,8 @@ impl Draws {
     /// that each robot represents. Lanes beyond `count` have the weight 0. All of up to 2048 robots are in it.
     pub fn sample(&self, count: usize) -> impl Iterator<Item = (&[f64x4; 3], f64x4)> {
         let fours = count.div_ceil(LANES);
-        let late = self.farthest.iter().copied().chain(self.summed.max(SUBSAMPLE_GROUPS[1])..fours);
-        (0..fours.min(SUBSAMPLE_GROUPS[1])).chain(late).filter_map(move |four| {
+        let later_groups = self.farthest.iter().copied().chain(self.summed.max(SUBSAMPLE_GROUPS[1])..fours);
+        (0..fours.min(SUBSAMPLE_GROUPS[1])).chain(later_groups).filter_map(move |four| {
             let noise = &self.unit_noise[four];
             let subsample_groups = subsample_groups(noise);
             let weight = (fours as f64 / subsample_groups as f64).max(1.0);

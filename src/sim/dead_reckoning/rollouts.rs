@@ -298,11 +298,11 @@ fn measured(sums: &[f64; SUMMED_TERMS], n: f64) -> Measured {
         let m2 = products[(i, i)];
         let m4 = fourth - 4.0 * m * cube + 6.0 * m * m * square - 3.0 * m * m * m * m;
         let kurtosis = if m2 > 0.0 { m4 / (m2 * m2) } else { f64::NAN };
-        let own = non_negative(kurtosis - 1.0) / n;
+        let estimate = non_negative(kurtosis - 1.0) / n;
         // The kurtosis of a few robots is unreliable; of two it is always 1. The standard error is then at least that of a
         // normal distribution. `f64::max` would ignore NaN.
-        let least = if n < MIN_RELIABLE_COUNT { 2.0 / (n - 1.0) } else { 0.0 };
-        if own < least { least.sqrt() } else { own.sqrt() }
+        let of_gaussian = if n < MIN_RELIABLE_COUNT { 2.0 / (n - 1.0) } else { 0.0 };
+        if estimate < of_gaussian { of_gaussian.sqrt() } else { estimate.sqrt() }
     });
     Measured { mean, cov: products * (n / (n - 1.0)), relative_error }
 }

@@ -171,8 +171,8 @@ impl OdometryDecomposer {
         let rho = self.settings.correlation;
         let (legs, variances) = (self.legs(), self.variances());
         (0..count).map(move |index| {
-            let [across, along, own] = self.draws.unit_noise_of(index);
-            let turn = rho * across + (1.0 - rho * rho).sqrt() * own;
+            let [across, along, independent] = self.draws.unit_noise_of(index);
+            let turn = rho * across + (1.0 - rho * rho).sqrt() * independent;
             variances.executed(&legs, [across, along, turn])
         })
     }

@@ -44,8 +44,8 @@ pub struct FourArcs {
 /// Point whose coordinates are subtracted in all sums: x, y, along, lateral, half heading; length and half turn of the arc.
 pub type Reference = [f64; 7];
 
-/// Factors that scale two terms of the Jacobians to about 1, so that a product of many does not underflow: sinc(ξ_ω/2), with
-/// the turn ξ_ω of the twist, and |s|·sinc²(φ/2), with the length s and the turn φ of the arc.
+/// Factors that scale two terms of the Jacobians to about 1, so that a product of many does not underflow. One term is
+/// sinc(ξ_ω/2), with the turn ξ_ω of a twist. The other is |s|·sinc²(φ/2), with the length s and the turn φ of an arc.
 pub type Scale = [f64; 2];
 
 /// First pass: accumulates means, covariances and the mean logarithms of the Jacobians.

@@ -61,7 +61,7 @@ export interface Calibration {
   };
   /** Standard deviations of the reference: each coordinate (m) and heading (rad). */
   referenceNoise: { positionStd: Estimate; yawStd: Estimate };
-  /** Correlation of the wheels' errors in neighbouring legs, 0 of independent ones, and the distance (m) over which it falls to 1/e. */
+  /** Correlation of the wheels' errors in neighbouring legs, 0 for independent errors, and the distance (m) over which it falls to 1/e. */
   persistence: { correlation: Estimate; length: number };
   legs: CalibrationLegs;
   /** Legs that the log does not give, by cause. */

@@ -38,12 +38,12 @@ function panelOf({ odometry, reference }: Drive, { legs, systematicErrors }: any
   const truth = pathOf(reference.data);
   // Legs have the times of the odometry.
   const offset = systematicErrors.clockOffset.value ?? 0;
-  const own = aligned(pathOf(odometry.data), truth, offset);
+  const odometryPath = aligned(pathOf(odometry.data), truth, offset);
   const [from, to] = [odometry.data.t[0], odometry.data.t[odometry.data.t.length - 1]];
-  const its = Array.from({ length: legs.count }, (_, leg) => ({ from: legs.times[2 * leg], to: legs.times[2 * leg + 1], isOutlier: legs.outliers[leg] === 1 })).filter((leg) => leg.from >= from && leg.to <= to);
-  const outliers = its.filter(({ isOutlier }) => isOutlier);
+  const driveLegs = Array.from({ length: legs.count }, (_, leg) => ({ from: legs.times[2 * leg], to: legs.times[2 * leg + 1], isOutlier: legs.outliers[leg] === 1 })).filter((leg) => leg.from >= from && leg.to <= to);
+  const outliers = driveLegs.filter(({ isOutlier }) => isOutlier);
 
-  const all = [...truth.poses, ...own.poses];
+  const all = [...truth.poses, ...odometryPath.poses];
   const [[left, right], [bottom, ceiling]] = [0, 1].map((axis) => extent(all, (pose) => pose[axis]) as [number, number]);
   const [spanX, spanY] = [Math.max(right - left, 0.1), Math.max(ceiling - bottom, 0.1)];
   const scale = Math.min((WIDTH - MARGIN.left - MARGIN.right - 2 * INSET_PX) / spanX, (HEIGHT - MARGIN.top - MARGIN.bottom - 2 * INSET_PX) / spanY);
@@ -63,7 +63,7 @@ function panelOf({ odometry, reference }: Drive, { legs, systematicErrors }: any
     }
     return d;
   };
-  const dots = its.map((leg) => poseAt(truth, leg.to + offset)).map((pose) => `M${pixel(x(pose[0]))} ${pixel(y(pose[1]))}h0`).join('');
+  const dots = driveLegs.map((leg) => poseAt(truth, leg.to + offset)).map((pose) => `M${pixel(x(pose[0]))} ${pixel(y(pose[1]))}h0`).join('');
   const marked = outliers.map((leg) => {
     const [first, last] = [bisectLeft(truth.t, leg.from + offset), bisectLeft(truth.t, leg.to + offset)];
     return line({ poses: truth.poses.slice(first, last + 1), breaks: new Set() });
@@ -76,7 +76,7 @@ function panelOf({ odometry, reference }: Drive, { legs, systematicErrors }: any
   }).join('');
   const key = ([['reference, with the ends of legs', 'reference'], ['odometry, aligned', 'odometry'], ...(outliers.length ? [['outliers', 'outlier'] as const] : [])] as const)
     .map(([label, name], i) => `<path d="M${MARGIN.left + 260 * i} 46h24" ${LINE_STYLES[name]}/><text x="${MARGIN.left + 260 * i + 30}" y="50" fill="${INK}">${label}</text>`);
-  const title = `${odometry.name} and ${reference.name}: ${its.length} legs, ${outliers.length} ${outliers.length === 1 ? 'outlier' : 'outliers'}`;
+  const title = `${odometry.name} and ${reference.name}: ${driveLegs.length} legs, ${outliers.length} ${outliers.length === 1 ? 'outlier' : 'outliers'}`;
   const svg = `<title>${escaped(title)}</title>
 <text x="${MARGIN.left}" y="26" font-size="16" fill="${INK}">${escaped(title)}</text>
 ${key.join('')}
@@ -84,7 +84,7 @@ ${key.join('')}
 <text x="${(MARGIN.left + WIDTH - MARGIN.right) / 2}" y="${height - 14}" text-anchor="middle">x (m)</text>
 <text transform="translate(18 ${(MARGIN.top + height - MARGIN.bottom) / 2}) rotate(-90)" text-anchor="middle">y (m)</text></g>
 <g fill="none" stroke-linejoin="round">
-<path d="${line(own)}" ${LINE_STYLES.odometry}/>
+<path d="${line(odometryPath)}" ${LINE_STYLES.odometry}/>
 <path d="${line(truth)}" ${LINE_STYLES.reference}/>
 <path d="${dots}" stroke="${INK}" stroke-width="4" stroke-linecap="round"/>
 <path d="${marked}" ${LINE_STYLES.outlier}/>

@@ -188,7 +188,7 @@ interface SampleFieldOptions {
 /** Returns the field with the number of the selected sample. Refused text stays until the reader corrects or leaves it. */
 export function sampleField({ cloud, typing }: Figure & { cloud: import('./cloud.ts').Cloud }, { id, label, shown, selected, hint }: SampleFieldOptions) {
   const refusal = typing.refusalOf('marked');
-  const type = (event: Event) => {
+  const enterIndex = (event: Event) => {
     const text = inputOf(event).value;
     const number = Number(text);
     if (text && !(Number.isInteger(number) && number >= 1 && number <= shown)) {
@@ -209,7 +209,7 @@ export function sampleField({ cloud, typing }: Figure & { cloud: import('./cloud
         placeholder=${shown === 0 ? '' : `1–${counted(shown)}`}
         ?disabled=${shown === 0}
         .value=${refusal ? noChange : live(cloud.index < 0 ? '' : String(cloud.index + 1))}
-        @input=${type}
+        @input=${enterIndex}
         @blur=${() => typing.forget()}
       />
     </label>

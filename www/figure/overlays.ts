@@ -23,9 +23,9 @@ export function legend(figure: import('./figure.ts').Figure, styles: Record<stri
   const every = figure.kind.attributes.overlays.words as string[];
   const choose = (name: string, shown: boolean) =>
     figure.gesture.choose('overlays', every.filter((each) => (each === name ? shown : overlays.includes(each))));
-  const light = (name: string | null) => (figure.highlight = name);
+  const highlight = (name: string | null) => (figure.highlight = name);
   return html`<div class="legend" part="legend" role="group" aria-label=${words.legend}>
-    ${all.map((name) => html`<span title=${notes[name] ?? nothing} @pointerenter=${() => light(name)} @pointerleave=${() => light(null)} @focusin=${() => light(name)} @focusout=${() => light(null)}>
+    ${all.map((name) => html`<span title=${notes[name] ?? nothing} @pointerenter=${() => highlight(name)} @pointerleave=${() => highlight(null)} @focusin=${() => highlight(name)} @focusout=${() => highlight(null)}>
       ${toggle({
         label: html`${swatch(styles[name])}<span class=${notes[name] ? 'absent' : nothing}>${rich(names[name])}${notes[name] ? html`<span class="visually-hidden">: ${notes[name]}</span>` : nothing}</span>`,
         checked: overlays.includes(name),

@@ -300,11 +300,11 @@ export class Stage extends Part {
     // Forced colours override the theme.
     const theme = matchMedia('(forced-colors: active)').matches ? 'auto' : this.host.theme;
     style.colorScheme = this.#printing ? 'light' : theme === 'auto' ? scheme : theme;
-    const own = this.#printing || style.colorScheme !== scheme;
-    for (const [name, colour] of Object.entries(around)) style.setProperty(`--${name}`, own ? '' : colour);
-    style.setProperty('--back', own ? 'var(--paper)' : '');
+    const isOwnTheme = this.#printing || style.colorScheme !== scheme;
+    for (const [name, colour] of Object.entries(around)) style.setProperty(`--${name}`, isOwnTheme ? '' : colour);
+    style.setProperty('--back', isOwnTheme ? 'var(--paper)' : '');
     // Colours that the page sets for its background do not fit the figure's own.
-    for (const name of ['muted', 'rule']) style.setProperty(`--mw-${name}`, own ? 'initial' : '');
+    for (const name of ['muted', 'rule']) style.setProperty(`--mw-${name}`, isOwnTheme ? 'initial' : '');
     this.#palette = undefined;
   }
 

@@ -155,8 +155,8 @@ export function formatOf(lines: string[], file: string, columns: string[] | unde
   if (names) return { ...common, name: names === TUM_COLUMNS ? 'tum' : 'csv', names, groups: grouped(names, rows[0]) };
   if (width === KITTI_WIDTH) throw new LogError(place, (say) => say.kitti);
   if (width === TWIST_WIDTH && rows.every((row) => row.slice(1, 5).every((cell) => Number(cell) === 0))) throw new LogError(place, (say) => say.twists);
-  const usual = ({ 3: 't,v,omega', 4: 't,x,y,yaw' } as Record<number, string>)[width] ?? `t,x,y,yaw${',-'.repeat(Math.max(0, width - 4))}`;
-  throw new LogError(place, (say) => say.noHeader(width, cut(first.line.trim().replaceAll('\t', ' '))), { what: 'columns', choices: [usual], columns: rows[0].slice(0, width) });
+  const defaultNames = ({ 3: 't,v,omega', 4: 't,x,y,yaw' } as Record<number, string>)[width] ?? `t,x,y,yaw${',-'.repeat(Math.max(0, width - 4))}`;
+  throw new LogError(place, (say) => say.noHeader(width, cut(first.line.trim().replaceAll('\t', ' '))), { what: 'columns', choices: [defaultNames], columns: rows[0].slice(0, width) });
 }
 
 /** Groups columns. A column without a name has times if the first row has a date or a fraction there. A whole number is a row number. */

@@ -54,7 +54,7 @@ export class FrameTree {
 
   /**
    * Returns the ends of chains that may be poses of a robot: they end at a frame that travels, or at a base that is fixed to it. If
-   * none travels, all frames that are published again and again may do so.
+   * none travels, all frames that are published again and again count as travelling.
    */
   candidates(): Frames[] {
     const links = [...this.#links.values()];

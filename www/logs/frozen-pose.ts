@@ -23,7 +23,7 @@ export function withoutFrozenPoses(reference: Log, odometry: Log): Log {
     breaks.add(to);
   }
   if (!isKept.includes(0)) return reference;
-  const kept = (_: unknown, i: number) => isKept[i] === 1;
+  const isKeptRow = (_: unknown, i: number) => isKept[i] === 1;
   // Indices of later rows change when earlier ones are removed.
   const indices = new Uint32Array(t.length + 1);
   for (let i = 0; i < t.length; i++) indices[i + 1] = indices[i] + isKept[i];
@@ -32,10 +32,10 @@ export function withoutFrozenPoses(reference: Log, odometry: Log): Log {
   return {
     ...reference,
     data: {
-      t: t.filter(kept),
-      x: x.filter(kept),
-      y: y.filter(kept),
-      theta: theta.filter(kept),
+      t: t.filter(isKeptRow),
+      x: x.filter(isKeptRow),
+      y: y.filter(isKeptRow),
+      theta: theta.filter(isKeptRow),
       breaks: Uint32Array.from(moved).filter((row) => row < left).sort(),
     },
     summary: { ...reference.summary, used: left, dropped: { ...reference.summary.dropped, held: { count: t.length - left, first: 0 } } },

@@ -113,7 +113,7 @@ export function logOf(drives: Drive[]): Pick<CalibrationLog, Role> {
   return drives.length === 1 ? { odometry: odometry[0], reference: reference[0] } : { odometry, reference };
 }
 
-/** Checks whether two logs are copies of one path. Rows of equal times then have the same motion since the first such row, in any frames. */
+/** Checks whether two logs are copies of one path. Rows of equal times then have the same motion since the first of them, in any frames. */
 export function isSamePath(one: Log, two: Log): boolean {
   const [poses, other] = [one.data, two.data];
   const { t } = poses;

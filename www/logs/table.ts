@@ -100,7 +100,7 @@ const endOf = (text: string) => (text.includes('\n') || !text.includes('\r') ? '
 async function readLines(source: Source, encoding: string, end: string, from: number, onProgress: ((share: number) => void) | undefined, take: (line: string, number: number, isOpen: boolean) => void) {
   // Pieces of whole lines are decoded separately. Node would decode a stream into strings of twice the size.
   const decoder = new TextDecoder(encoding);
-  const width = encoding.startsWith('utf-16') ? 2 : 1;
+  const charBytes = encoding.startsWith('utf-16') ? 2 : 1;
   let rest = new Uint8Array();
   let number = 0;
   for (let at = 0; at < source.size; at += BLOCK_BYTES) {
@@ -109,7 +109,7 @@ async function readLines(source: Source, encoding: string, end: string, from: nu
     const bytes = new Uint8Array(rest.length + piece.length);
     bytes.set(rest);
     bytes.set(piece, rest.length);
-    const wholeLines = afterLast(bytes, end.charCodeAt(0), width);
+    const wholeLines = afterLast(bytes, end.charCodeAt(0), charBytes);
     const text = decoder.decode(bytes.subarray(0, wholeLines));
     rest = bytes.slice(wholeLines);
     if (text.includes('\0')) throw new LogError({ file: source.name }, (say) => say.binary);
@@ -119,7 +119,7 @@ async function readLines(source: Source, encoding: string, end: string, from: nu
       number += 1;
       if (number >= from) take(line, number, false);
     }
-    if (rest.length > MAX_LINE_LENGTH * width) throw new LogError({ file: source.name, line: number + 1 }, (say) => say.longLine(MAX_LINE_LENGTH));
+    if (rest.length > MAX_LINE_LENGTH * charBytes) throw new LogError({ file: source.name, line: number + 1 }, (say) => say.longLine(MAX_LINE_LENGTH));
   }
   const last = decoder.decode(rest);
   if (last.includes('\0')) throw new LogError({ file: source.name }, (say) => say.binary);
@@ -127,11 +127,11 @@ async function readLines(source: Source, encoding: string, end: string, from: nu
 }
 
 /** Returns the index of the byte after the last end of a line; 0 if there is none. Characters have one or two bytes. */
-function afterLast(bytes: Uint8Array, end: number, width: number): number {
+function afterLast(bytes: Uint8Array, end: number, charBytes: number): number {
   let at = bytes.lastIndexOf(end);
   // In UTF-16 the other byte of the character is 0.
-  while (width === 2 && at >= 0 && bytes[at ^ 1] !== 0) at = at === 0 ? -1 : bytes.lastIndexOf(end, at - 1);
-  return at < 0 ? 0 : at - (at % width) + width;
+  while (charBytes === 2 && at >= 0 && bytes[at ^ 1] !== 0) at = at === 0 ? -1 : bytes.lastIndexOf(end, at - 1);
+  return at < 0 ? 0 : at - (at % charBytes) + charBytes;
 }
 
 /** Returns a group of columns with Y as the vertical axis: X of the robot's plane is Z, and Y is X. */
@@ -327,6 +327,6 @@ const withPoint = (cell: string) => (cell.includes('.') && !cell.includes(':') &
 
 /** Returns the difference of the 95 % and the 5 % quantile. */
 const spread = (values: number[]) => {
-  const some = sample(values.length, (i) => values[i]).filter(Number.isFinite);
-  return quantile(some, 0.95) - quantile(some, 0.05);
+  const sampled = sample(values.length, (i) => values[i]).filter(Number.isFinite);
+  return quantile(sampled, 0.95) - quantile(sampled, 0.05);
 };

@@ -90,8 +90,8 @@ function questionOf(opener: LogOpener, { answers }: Chosen, asked: Asked, { choo
 
 /** Returns a form with one `<select>` for each field, which assigns a column to it. */
 function columnsForm(opener: LogOpener, asked: Asked, answer: string[] | undefined, say: LogWords['choose']) {
-  const { file, ask: { choices: [usual = ''], columns = [] } } = asked;
-  const assigned = answer ?? usual.split(',');
+  const { file, ask: { choices: [defaultNames = ''], columns = [] } } = asked;
+  const assigned = answer ?? defaultNames.split(',');
   const options = columns.map((cell, at): [string, string] => [String(at), say.column(at + 1, cell.trim().slice(0, MAX_CELL_LENGTH))]);
   const taken = (event: Event) => {
     event.preventDefault();

@@ -49,8 +49,8 @@ function tableOf({ odometry, reference }: Drive, caption: string, { choose, foun
 /** Returns a picture of both paths, of which the odometry is aligned with the reference. */
 function pathsOf({ odometry, reference }: Drive, { found }: LogWords) {
   const [driven, truth] = [odometry.data, reference.data].map((data) => pathOf(data, Math.ceil(data.t.length / POINTS)));
-  const own = aligned(driven, truth);
-  const all = [...own.poses, ...truth.poses];
+  const odometryPath = aligned(driven, truth);
+  const all = [...odometryPath.poses, ...truth.poses];
   const ends = ([0, 1] as const).map((axis) => [Math.min(...all.map((pose) => pose[axis])), Math.max(...all.map((pose) => pose[axis]))]);
   const [width, height] = ends.map(([low, high]) => high - low);
   const scale = Math.min((WIDTH - 2 * MARGIN) / Math.max(width, 0.1), (HEIGHT - 2 * MARGIN) / Math.max(height, 0.1));
@@ -60,7 +60,7 @@ function pathsOf({ odometry, reference }: Drive, { found }: LogWords) {
   const text = found.paths(fixed(width, 1), fixed(height, 1));
   return html`<figure class="paths">
     <svg viewBox="0 0 ${WIDTH} ${HEIGHT}" role="img" aria-label=${text}>
-      ${svg`<path class="reference" d=${line(truth)}></path><path class="odometry" d=${line(own)}></path>`}
+      ${svg`<path class="reference" d=${line(truth)}></path><path class="odometry" d=${line(odometryPath)}></path>`}
     </svg>
     <figcaption>${text}</figcaption>
   </figure>`;

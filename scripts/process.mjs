@@ -87,6 +87,10 @@ export async function together(works) {
 export async function runAsScript(url, main) {
   if (process.argv[1] === undefined || realpathSync(process.argv[1]) !== fileURLToPath(url)) return;
   try {
+    const [major, minor] = process.versions.node.split('.').map(Number);
+    if (major < 20 || (major === 20 && minor < 19)) {
+      throw new Missing(`Node 20.19 or newer is needed and this is ${process.versions.node}: install it from nodejs.org.`);
+    }
     await main();
   } catch (error) {
     console.error(`\n${error instanceof Missing ? error.message : (error instanceof Error && error.stack) || error}`);

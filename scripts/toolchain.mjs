@@ -47,10 +47,6 @@ export async function ensurePackages(workspace) {
 
 /** @param {string} key a workspace, or "root" */
 async function installPackages(key) {
-  const [major, minor] = process.versions.node.split('.').map(Number);
-  if (major < 20 || (major === 20 && minor < 19)) {
-    throw new Missing(`Node 20.19 or newer is needed and this is ${process.versions.node}: install it from nodejs.org.`);
-  }
   const lock = createHash('sha256').update(readFileSync(join(ROOT, 'package-lock.json'))).digest('hex');
   const name = `motion-widgets-${key.replace('/', '-')}`;
   const stamp = join(ROOT, `node_modules/.installed-${name}`);

@@ -235,6 +235,8 @@ test('--yaml prints the lines for Nav2 alone, or none of an unusable log', async
   assert.equal(code, 0);
   assert.match(out, /^amcl:\n {2}ros__parameters:\n[^]*\n {4}update_min_a: 0\.2\n$/);
   assert.match(err, /^odometry\.csv: \d+ of \d+ rows, [^]*^Consistent: /m);
+  const swapped = await outputOf(['--odometry', example('reference'), '--reference', example('odometry'), '--yaml']);
+  assert.match(swapped.err, /^Warning: .* Are the two swapped\?$/m);
   const other = backwards();
   const refused = await outputOf([...FILES.slice(0, 3), other, '--yaml']);
   assert.deepEqual([refused.code, refused.out], [3, '']);

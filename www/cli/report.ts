@@ -57,8 +57,7 @@ export function textOf({ calibration, options, logs, start, begins, date }: Resu
   const apart = [...(causes.length ? [`lost legs: ${causes.join(', ')}`] : []), ...outliersOf(legs, begins)];
   const text = [
     '',
-    verdictSentence(calibration),
-    ...warningsOf(logs).map((name) => en.nav2[name]),
+    ...verdictLines({ calibration, logs }),
     '',
     `${legs.count} legs ${lengthOf(options.legs)}; model ${model}${model === 'odometry' ? `, rule ${rule}` : ''}`,
     '',
@@ -83,8 +82,11 @@ const [RED, GREEN, YELLOW] = [31, 32, 33];
 
 const painted = (color: number) => (text: string) => `\x1b[${color}m${text}\x1b[0m`;
 
+/** Returns the verdict, and warnings of the logs. */
+export const verdictLines = ({ calibration, logs }: Pick<Result, 'calibration' | 'logs'>): string[] => [verdictSentence(calibration), ...warningsOf(logs).map((name) => en.nav2[name])];
+
 /** Returns the verdict and what to do. */
-export function verdictSentence({ diagnostics: { verdict, checks } }: any): string {
+function verdictSentence({ diagnostics: { verdict, checks } }: any): string {
   const failed = failedOf(checks);
   if (verdict === 'consistent') return 'Consistent: all checks passed. Use the recommended α’s with legs of this length.';
   if (verdict === 'questionable') {

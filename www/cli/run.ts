@@ -11,7 +11,7 @@ import { recordingsOf } from './files.ts';
 import { inspect, textOf as textOfContents, type Given } from './inspect.ts';
 import { HELP, UsageError, optionsOf, withOption, type Calibrate } from './options.ts';
 import { plotOf } from './plot.ts';
-import { jsonOf, logSummaries, textOf, nav2YamlOf, verdictSentence, type Result } from './report.ts';
+import { jsonOf, logSummaries, textOf, nav2YamlOf, verdictLines, type Result } from './report.ts';
 
 interface Environment {
   /** Loads the core. */
@@ -91,8 +91,7 @@ async function calibrate({ inputs, wishes, fit, output, plot }: Calibrate, { loa
   const isUnusable = calibration.recommended === null;
   if (output === 'yaml') {
     const { yaml, reason } = nav2YamlOf(result);
-    complain(`${verdictSentence(calibration)}\n`);
-    if (reason) complain(`${reason}\n`);
+    complain([...verdictLines(result), ...(reason ? [reason] : []), ''].join('\n'));
     print(yaml);
     return isUnusable ? UNUSABLE : yaml ? SUCCESS : BAD_INPUT;
   }

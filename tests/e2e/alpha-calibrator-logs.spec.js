@@ -297,7 +297,8 @@ test('a log without legs says so @nightly', async ({ page }) => {
   await expect.poll(() => widget.evaluate((element) => /** @type {AlphaCalibratorElement} */ (element).machine.count)).toBe(0);
   await untilSettled(widget);
   await unfold(widget);
-  await expect(caption(widget)).toHaveText(/^✕ Do not use\s+Not enough data: fewer than 8 legs, or the logs do not overlap in time\. Record a longer drive/);
+  await expect(caption(widget)).toHaveText(/^✕ Do not use\s+Not enough data: fewer than 8 legs, or the logs do not overlap in time\./);
+  await expect(widget.locator('.to-do')).toHaveText(/^Record a longer drive/);
   await expect(rows(widget).first()).toHaveText(/—/);
   await expect(widget.locator('canvas.plane')).toHaveAttribute('aria-label', /fewer than eight legs\.$/);
   await expect(widget.locator('canvas.leg')).toHaveAttribute('aria-label', 'No leg to show.');

@@ -116,7 +116,7 @@ for (const name of ['map-squeeze', 'dead-reckoning']) {
   });
 }
 
-test('tables of a figure scroll over the picture that stays in sight', async ({ page }) => {
+test('tables of a figure scroll over the picture that stays in sight, unless a handle of it has the focus', async ({ page }) => {
   await page.setViewportSize({ width: 640, height: 400 });
   await showPage(page, '<dead-reckoning></dead-reckoning><div style="height: 2000px"></div>');
   const widget = page.locator('dead-reckoning');
@@ -125,8 +125,17 @@ test('tables of a figure scroll over the picture that stays in sight', async ({ 
   const table = widget.locator('#numbers table').first();
   await table.evaluate((element) => element.scrollIntoView({ block: 'start' }));
   await frames(page);
-  expect(await table.evaluate((element) => {
+  const isTableOnTop = () => table.evaluate((element) => {
     const { left, top } = element.getBoundingClientRect();
     return element.contains(/** @type {ShadowRoot} */ (element.getRootNode()).elementFromPoint(left + 5, Math.max(top, 0) + 5));
+  });
+  expect(await isTableOnTop()).toBe(true);
+  await widget.locator('#numbers button').last().focus();
+  const handle = widget.getByRole('slider', { name: 'selected step', exact: true });
+  await handle.press('ArrowLeft');
+  await frames(page);
+  expect(await handle.evaluate((element) => {
+    const { left, top, width, height } = element.getBoundingClientRect();
+    return /** @type {ShadowRoot} */ (element.getRootNode()).elementFromPoint(left + width / 2, top + height / 2)?.closest('#numbers') === null;
   })).toBe(true);
 });

@@ -214,7 +214,7 @@ test.describe('a finger', () => {
     await page.touchscreen.tap(x + 0.8 * width, y + height / 2);
     await expect.poll(async () => (await bananaReadings(widget)).config.command.omega).toBeGreaterThan(1);
     const canvas = widget.locator('canvas.plane');
-    await canvas.scrollIntoViewIfNeeded();
+    await widget.evaluate((element) => element.scrollIntoView());
     const [right, down] = await widget.evaluate((element) => {
       const { pictures: [{ view }], poses, reading: { end } } = /** @type {any} */ (element);
       const place = (/** @type {number} */ i) => [view.toPixelX(poses[3 * i]), view.toPixelY(poses[3 * i + 1])];

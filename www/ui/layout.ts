@@ -122,8 +122,8 @@ const layout = css`
     padding-bottom: 0.8em;
   }
 
-  /* Tables and charts scroll over the pictures, which only controls keep visible. */
-  #numbers[open] {
+  /* Tables and charts scroll over the pictures, which only controls keep visible, unless a handle of a picture has the focus. */
+  .machine:not(:has(.views :focus-visible)) #numbers[open] {
     position: relative;
     z-index: 3;
     background: var(--paper);

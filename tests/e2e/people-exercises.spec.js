@@ -85,3 +85,14 @@ test('exercise 7: the steps of both noises are bet on, and only the variance alo
   }
   await expect(article.getByText('predicted along-track variance', { exact: true })).toBeVisible();
 });
+
+test('on a phone, the picture that stays beside an item shows what the item sets', async ({ page }) => {
+  await page.setViewportSize({ width: 375, height: 800 });
+  const article = await openAt(page, 'reckoning');
+  const drawn = () => article.locator('dead-reckoning canvas').first().evaluate((canvas) => /** @type {HTMLCanvasElement} */ (canvas).toDataURL());
+  const button = article.getByRole('button', { name: '200 steps', exact: true });
+  await button.scrollIntoViewIfNeeded();
+  const before = await drawn();
+  await button.click();
+  await expect.poll(drawn).not.toBe(before);
+});

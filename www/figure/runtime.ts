@@ -25,8 +25,10 @@ export class Runtime extends Part {
 
   hostConnected() {
     const { host } = this;
+    const seen = new Map<Element, boolean>();
     const setVisible = (entries: IntersectionObserverEntry[]) => {
-      for (const { isIntersecting } of entries) host.stage.setVisible(isIntersecting);
+      for (const { target, isIntersecting } of entries) seen.set(target, isIntersecting);
+      if (entries.length > 0) host.stage.setVisible([...seen.values()].includes(true));
     };
     const visibleObserver = new IntersectionObserver(setVisible);
     this.#nearObserver = new IntersectionObserver(
@@ -41,7 +43,16 @@ export class Runtime extends Part {
     visibleObserver.observe(host);
     this.#nearObserver.observe(host);
     // The figure has its layout then.
-    void host.updateComplete.then(() => this.#checkPosition());
+    void host.updateComplete.then(() => {
+      this.#checkPosition();
+      this.hostUpdated();
+    });
+  }
+
+  /** Observes the content too: beside text below the figure, a picture sticks outside the element's box. */
+  hostUpdated() {
+    const content = this.host.shadowRoot?.querySelector('.machine');
+    if (content) this.#visibleObserver?.observe(content);
   }
 
   /** Checks the position of the figure now: the observers report it a frame later. */

@@ -28,7 +28,7 @@ export function prepareBet(form: HTMLFormElement, enter: (values: Record<string,
     form.style.setProperty('--bet', String((slider.valueAsNumber - min) / (max - min)));
     form.style.setProperty('--truth', String(((truth ?? max) - min) / (max - min)));
     form.classList.add('revealed');
-    answered.textContent = `Your bet: ${text(slider.valueAsNumber)}. The figure: ${truth === null ? 'never' : text(truth)}.`;
+    answered.textContent = `Your bet: ${text(slider.valueAsNumber)}. The figure:\u00a0${truth === null ? 'never' : text(truth)}.`;
     button.textContent = 'Reveal again';
   });
 }

@@ -33,6 +33,12 @@ export const sliderStyles = css`
     line-height: 1.2;
   }
 
+  @container (width < 56em) {
+    .slider > [for] {
+      margin-inline-end: 0.5em;
+    }
+  }
+
   .slider > [for] .symbol {
     margin-inline-end: 0.3em;
     font-size: 1.1em;

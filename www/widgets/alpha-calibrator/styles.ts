@@ -296,11 +296,23 @@ const own = css`
     line-height: 1.3;
   }
 
-  /* Two lines, so that a failed check moves no control. */
+  /* Space for the advice of a failed check, which must not move a slider that is dragged. */
   .to-do {
     min-height: 2.6em;
     margin: 0.2em 0;
     line-height: 1.3;
+  }
+
+  @container (30em <= width < 56em) {
+    .to-do {
+      min-height: 3.9em;
+    }
+  }
+
+  @container (width < 30em) {
+    .to-do {
+      min-height: 6.5em;
+    }
   }
 
   .systematic :is(th, td) {

@@ -17,7 +17,7 @@ import { importTypeScript } from './typescript.mjs';
 const PYTHON = join(ROOT, 'python');
 
 /** Traits of traitlets for settings without a range. */
-const OPTIONAL = { Bool: 't.Bool(None, allow_none=True)', Dict: 't.Dict(None, allow_none=True)', Unicode: 't.Unicode(None, allow_none=True)' };
+const OPTIONAL = { Bool: 't.Bool(None, allow_none=True)', Dict: 't.Dict(default_value=None, allow_none=True)', Unicode: 't.Unicode(None, allow_none=True)' };
 
 /** Writes the generated files, and copies the others: pip reads only its own directory. */
 export async function writePython() {
@@ -48,7 +48,7 @@ export async function elements() {
     'import traitlets as t',
     '',
     'from ._figure import Figure',
-    'from ._traits import Number, Sequence, Whole, Word',
+    'from ._traits import Group, Number, Sequence, Whole, Word',
     '',
     `__all__ = [${all.map(({ machine }) => text(machine)).join(', ')}]`,
   ];
@@ -85,7 +85,7 @@ function settingOf({ key, type, words = [], fields = [], min, max }, tag) {
     case 'group': {
       const nameOf = (/** @type {Declaration} */ part) => part.field ?? part.key;
       const parts = settings[tag].filter((part) => part.in === key && fields.includes(nameOf(part)));
-      return `t.Dict(None, allow_none=True, per_key_traits={${parts.map((part) => `${text(nameOf(part))}: ${settingOf(part, tag)}`).join(', ')}})`;
+      return `Group(${parts.map((part) => `${nameOf(part)}=${settingOf(part, tag)}`).join(', ')})`;
     }
   }
 }

@@ -80,9 +80,20 @@ test('no trait hides what every widget has', () => {
   assert.equal(python(['-c', lines.join('\n')], path).trim(), '[]');
 });
 
-test('a value out of its range is refused with what is allowed', () => {
-  const lines = ['import motion_widgets as m, traitlets', 'try: m.MapSqueeze(steps=0)', 'except traitlets.TraitError as error: print(error)'];
-  assert.equal(python(['-c', lines.join('\n')], path).trim(), "The value of the 'steps' trait of a MapSqueeze instance should not be less than 1, but a value of 0 was specified");
+test('a value out of its range, and parts that are wrong or missing, are refused with what is allowed', () => {
+  const refusals = [
+    ['MapSqueeze(steps=0)', "The value of the 'steps' trait of a MapSqueeze instance should not be less than 1, but a value of 0 was specified"],
+    ['MapSqueeze(command={"v": 1, "dt": 2})', "command has 'v', 'dt'; it needs 'v', 'omega', 'dt'"],
+    ['MapSqueeze(command={"v": 1, "omega": 0, "dt": 0})', "command['dt'] is 0; allowed is a number from 1e-06 to 1000000"],
+    ['BananaMachine(alphas=[1, "2"])', "alphas[1] is '2'; allowed is a number from 0 to 1000000"],
+    ['BananaMachine(overlays=["elipse"])', "overlays[0] is 'elipse'; allowed is one of command, ellipse, exponential, linearized, additive"],
+  ];
+  const lines = ['import motion_widgets as m, traitlets', ...refusals.flatMap(([call]) => [`try: m.${call}`, 'except traitlets.TraitError as error: print(error)'])];
+  assert.deepEqual(python(['-c', lines.join('\n')], path).trim().split('\n'), refusals.map(([, message]) => message));
+});
+
+test('settings that were not given are None', () => {
+  assert.equal(python(['-c', 'import motion_widgets as m; f = m.MapSqueeze(); print({getattr(f, name) for name in m.MapSqueeze._settings})'], path).trim(), '{None}');
 });
 
 test('names of generated code are those that its language allows', () => {

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numbers
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from typing import Any, Optional, Union
 
 import traitlets as t
@@ -21,6 +21,13 @@ class Number(t.Float[Optional[float], Optional[Real]]):
         if isinstance(value, bool) or not isinstance(value, numbers.Real) or value != value:
             self.error(obj, value)
         return super().validate(obj, float(value))
+
+    def part(self, name: str, value: Any) -> float:
+        """Returns the value of a part of a trait; ``name`` is that of the part."""
+        is_number = isinstance(value, numbers.Real) and not isinstance(value, bool)
+        if not is_number or not self.min <= value <= self.max:
+            raise t.TraitError(f"{name} is {value!r}; allowed is a number from {self.min:.15g} to {self.max:.15g}")
+        return float(value)
 
 
 class Whole(t.Int[Optional[int], Optional[Real]]):
@@ -44,11 +51,33 @@ class Word(t.Enum[Optional[str]]):
     def validate(self, obj: Any, value: Any) -> Optional[str]:
         return super().validate(obj, str(value) if isinstance(value, int) else value)
 
+    def part(self, name: str, value: Any) -> str:
+        """Returns the value of a part of a trait; ``name`` is that of the part."""
+        if value not in self.values:
+            raise t.TraitError(f"{name} is {value!r}; allowed is one of {', '.join(self.values)}")
+        return value
+
 
 class Sequence(t.List[Any]):
-    """List of values of one trait, also from an array of NumPy."""
+    """List of numbers or words, also from an array of NumPy."""
 
     _cast_types = (Iterable,)
 
-    def __init__(self, trait: t.TraitType[Any, Any]) -> None:
+    def __init__(self, trait: Union[Number, Word]) -> None:
         super().__init__(trait, None, allow_none=True)
+
+    def validate_elements(self, obj: Any, value: Any) -> Any:
+        return [self._trait.part(f"{self.name}[{i}]", each) for i, each in enumerate(value)]
+
+
+class Group(t.Dict):  # type: ignore[type-arg]
+    """Numbers by name; a figure takes all of them."""
+
+    def __init__(self, **parts: Number) -> None:
+        super().__init__(default_value=None, allow_none=True)
+        self.parts = parts
+
+    def validate_elements(self, obj: Any, value: Mapping[str, Any]) -> dict[str, float]:
+        if set(value) != set(self.parts):
+            raise t.TraitError(f"{self.name} has {', '.join(map(repr, value)) or 'nothing'}; it needs {', '.join(map(repr, self.parts))}")
+        return {name: part.part(f"{self.name}[{name!r}]", value[name]) for name, part in self.parts.items()}

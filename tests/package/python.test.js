@@ -82,7 +82,9 @@ test('no trait hides what every widget has', () => {
 
 test('a value out of its range, and parts that are wrong or missing, are refused with what is allowed', () => {
   const refusals = [
-    ['MapSqueeze(steps=0)', "The value of the 'steps' trait of a MapSqueeze instance should not be less than 1, but a value of 0 was specified"],
+    ['MapSqueeze(omega=2e6)', 'omega is 2000000.0; allowed is a number from -1000000 to 1000000'],
+    ['MapSqueeze(steps=0)', 'steps is 0; allowed is a whole number from 1 to 1000'],
+    ['BananaMachine(model="car")', "model is 'car'; allowed is one of velocity, odometry"],
     ['MapSqueeze(command={"v": 1, "dt": 2})', "command has 'v', 'dt'; it needs 'v', 'omega', 'dt'"],
     ['MapSqueeze(command={"v": 1, "omega": 0, "dt": 0})', "command['dt'] is 0; allowed is a number from 1e-06 to 1000000"],
     ['BananaMachine(alphas=[1, "2"])', "alphas[1] is '2'; allowed is a number from 0 to 1000000"],
@@ -90,6 +92,22 @@ test('a value out of its range, and parts that are wrong or missing, are refused
   ];
   const lines = ['import motion_widgets as m, traitlets', ...refusals.flatMap(([call]) => [`try: m.${call}`, 'except traitlets.TraitError as error: print(error)'])];
   assert.deepEqual(python(['-c', lines.join('\n')], path).trim().split('\n'), refusals.map(([, message]) => message));
+});
+
+test('what a figure reports is applied and echoed if the figure sent it and Python has not changed it since', () => {
+  const lines = [
+    'import comm, json, motion_widgets as m',
+    'from comm.base_comm import BaseComm',
+    'sent = []',
+    'class Comm(BaseComm):',
+    '    def publish_msg(self, msg_type, data=None, **_): sent.append(data)',
+    'comm.create_comm = Comm',
+    'f = m.BananaMachine()',
+    'f.preset = "hard"; heard = f._asked; f.omega = 0.2; sent.clear()',
+    'f.set_state({"omega": 1.2, "dt": 1.4, "_shown": {"heard": heard, "settings": {"preset": "hard", "omega": 1.2, "dt": 1.4}}})',
+    'print(json.dumps([f.preset, f.omega, f.dt, [sorted(each["state"]) for each in sent]]))',
+  ];
+  assert.deepEqual(JSON.parse(python(['-c', lines.join('\n')], path)), ['hard', 0.2, 1.4, [['_shown', 'dt']]]);
 });
 
 test('settings that were not given are None', () => {

@@ -61,14 +61,15 @@ class Figure(anywidget.AnyWidget):
             super().notify_change(change)
 
     def set_state(self, sync_data: dict[str, Any]) -> None:
-        """Applies the settings that the figure reports in ``_shown``, except those that Python has changed since.
+        """Applies the settings that the figure has changed, except those that Python has changed since.
 
-        All settings in ``_shown`` are of one moment. The single traits in ``sync_data`` may be of different moments.
+        All settings in ``_shown`` are of one moment. The single traits in ``sync_data`` may be of different moments. Only the latter are
+        set, because a page takes an echo of a trait that it did not send for a change by Python.
         """
         shown = sync_data.get("_shown", {"heard": 0, "settings": {}})
         self._reported = {name: value for name, value in shown["settings"].items() if self._asked_at.get(name, 0) <= shown["heard"]}
-        others = {name: value for name, value in sync_data.items() if name not in self._settings}
+        known = [name for name in sync_data if name not in self._settings or name in self._reported]
         try:
-            super().set_state({**others, **self._reported})
+            super().set_state({name: self._reported.get(name, sync_data[name]) for name in known})
         finally:
             self._reported = {}

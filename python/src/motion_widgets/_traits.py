@@ -17,13 +17,11 @@ class Number(t.Float[Optional[float], Optional[Real]]):
     def __init__(self, min: float, max: float) -> None:
         super().__init__(None, allow_none=True, min=min, max=max)  # type: ignore[misc]
 
-    def validate(self, obj: Any, value: Any) -> Optional[float]:
-        if isinstance(value, bool) or not isinstance(value, numbers.Real) or value != value:
-            self.error(obj, value)
-        return super().validate(obj, float(value))
+    def validate(self, obj: Any, value: Any) -> float:
+        return self.part(self.name, value)
 
     def part(self, name: str, value: Any) -> float:
-        """Returns the value of a part of a trait; ``name`` is that of the part."""
+        """Returns a value of this trait, or of a part of another one; ``name`` is that of the part."""
         is_number = isinstance(value, numbers.Real) and not isinstance(value, bool)
         if not is_number or not self.min <= value <= self.max:
             raise t.TraitError(f"{name} is {value!r}; allowed is a number from {self.min:.15g} to {self.max:.15g}")
@@ -36,10 +34,12 @@ class Whole(t.Int[Optional[int], Optional[Real]]):
     def __init__(self, min: int, max: Optional[int] = None) -> None:
         super().__init__(None, allow_none=True, min=min, max=max)  # type: ignore[misc]
 
-    def validate(self, obj: Any, value: Any) -> Optional[int]:
-        if isinstance(value, bool) or not isinstance(value, numbers.Real) or value % 1 != 0:
-            self.error(obj, value)
-        return super().validate(obj, int(float(value)))
+    def validate(self, obj: Any, value: Any) -> int:
+        is_whole = isinstance(value, numbers.Real) and not isinstance(value, bool) and value % 1 == 0
+        if not is_whole or value < self.min or (self.max is not None and value > self.max):
+            end = "" if self.max is None else f" to {self.max}"
+            raise t.TraitError(f"{self.name} is {value!r}; allowed is a whole number from {self.min}{end}")
+        return int(value)
 
 
 class Word(t.Enum[Optional[str]]):
@@ -48,11 +48,11 @@ class Word(t.Enum[Optional[str]]):
     def __init__(self, *words: str) -> None:
         super().__init__(words, None, allow_none=True)
 
-    def validate(self, obj: Any, value: Any) -> Optional[str]:
-        return super().validate(obj, str(value) if isinstance(value, int) else value)
+    def validate(self, obj: Any, value: Any) -> str:
+        return self.part(self.name, str(value) if isinstance(value, int) else value)
 
     def part(self, name: str, value: Any) -> str:
-        """Returns the value of a part of a trait; ``name`` is that of the part."""
+        """Returns a value of this trait, or of a part of another one; ``name`` is that of the part."""
         if value not in self.values:
             raise t.TraitError(f"{name} is {value!r}; allowed is one of {', '.join(self.values)}")
         return value

@@ -48,7 +48,7 @@ export const de: typeof import('./en.ts').en = {
     keys: 'Die Pfeiltasten bewegen ihn, mit Umschalt in größeren Schritten; Bild auf und Bild ab bewegen ihn weit in y, Pos1 und Ende an die Enden in x; Komma und Punkt oder [ und ] drehen ihn',
     headingKeys: 'Die Pfeiltasten drehen ihn, mit Umschalt in größeren Schritten; Bild auf und Bild ab drehen ihn weit, Pos1 und Ende nach hinten',
   },
-  sliderEnds: (end) => `Der Regler endet bei ${end}; Werte darüber hinaus kann man eintippen.`,
+  sliderEnds: (end) => `Endet bei ${end}; weitere Werte eintippen.`,
   refused: (name, given, least, most, whole) =>
     `${name} muss ${whole ? 'eine ganze Zahl ' : ''}von ${least} bis ${most} sein (gegeben: ${given}).`,
   exports: {

@@ -54,7 +54,7 @@ export const en = {
     keys: 'Arrow keys move it, with Shift by larger steps; Page Up and Page Down move it far in y, Home and End to the ends along x; comma and period, or [ and ], turn it',
     headingKeys: 'Arrow keys turn it, with Shift by larger steps; Page Up and Page Down turn it far, Home and End to the back',
   },
-  sliderEnds: (end) => `The slider ends at ${end}; values beyond can be typed.`,
+  sliderEnds: (end) => `Ends at ${end}; type values beyond.`,
   refused: (name, given, least, most, whole) =>
     `${name} must be ${whole ? 'a whole number ' : ''}between ${least} and ${most}${given.includes(',') && !whole ? ', with a decimal point' : ''} (got ${given}).`,
   exports: {

@@ -40,18 +40,38 @@ export interface Container {
 /** Maximum size of a block in bytes: recorders write one to four million. */
 export const MAX_BLOCK = 2 ** 26;
 
-/** Number of bytes that are read ahead. */
-const READ_AHEAD_BYTES = 2 ** 22;
+/** Number of bytes that are read at once. */
+const PIECE_BYTES = 2 ** 22;
 
-/** Returns a function that reads bytes of a source. Positions must increase from call to call. */
+/**
+ * Returns a function that reads bytes of a source. Positions must increase from call to call. While positions follow each other, the next
+ * piece is read during the work on the present one.
+ */
 export function readAhead(source: Source): (from: number, to: number) => Promise<Uint8Array> {
-  let [start, piece] = [0, new Uint8Array()];
+  let start = 0;
+  let piece: Uint8Array = new Uint8Array();
+  let next: Promise<Uint8Array> | undefined;
+  const read = (from: number, to = from) => bytesOf(source, from, Math.min(Math.max(to, from + PIECE_BYTES), source.size));
   return async (from, to) => {
-    if (from < start || to > start + piece.length) {
-      [start, piece] = [from, await bytesOf(source, from, Math.min(Math.max(to, from + READ_AHEAD_BYTES), source.size))];
+    const end = start + piece.length;
+    if (from < start || to > end) {
+      const follows = from >= start && from <= end;
+      const isRead = follows && next && to <= end + PIECE_BYTES;
+      piece = isRead ? joined(piece.subarray(from - start), await next!) : await read(from, to);
+      start = from;
+      next = follows ? read(start + piece.length) : undefined;
+      // A piece that is never needed may fail.
+      next?.catch(() => {});
     }
     return piece.subarray(from - start, to - start);
   };
+}
+
+function joined(first: Uint8Array, second: Uint8Array): Uint8Array {
+  const bytes = new Uint8Array(first.length + second.length);
+  bytes.set(first);
+  bytes.set(second, first.length);
+  return bytes;
 }
 
 export const viewOf = ({ buffer, byteOffset, byteLength }: Uint8Array) => new DataView(buffer, byteOffset, byteLength);

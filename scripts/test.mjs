@@ -186,8 +186,9 @@ const PARTS = {
 const LANES = [
   ['build', 'browser', ...(ALL ? ['engines', 'embeddings'] : [])],
   ['rustfmt', 'rust', ...(ALL ? ['docs'] : [])],
-  ['wasm', 'clippy', ...(ALL ? ['clippy-wasm'] : [])],
-  ['oxlint', 'tsc', 'node', 'package'],
+  ['wasm', ...(ALL ? ['clippy-wasm'] : [])],
+  // Clippy waits for the tests of `rust` to be compiled, because both write the same directory.
+  ['oxlint', 'tsc', 'node', 'clippy', 'package'],
 ];
 
 /**

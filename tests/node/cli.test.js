@@ -62,6 +62,17 @@ test('options reach the core', async () => {
   assert.equal((await callOf([...FILES, '--rule', 'omni'])).model, 'omnidirectional');
 });
 
+test('files without an option are recordings, paired where each is one table', async () => {
+  const [own, reference] = [example('odometry'), example('reference')];
+  const moved = (/** @type {string} */ name, /** @type {string} */ from) => file(name, readFileSync(from, 'utf8').replaceAll(/^(\d+)/gm, (_, seconds) => `${Number(seconds) + 1000}`));
+  const stated = await callOf(FILES);
+  assert.deepEqual(await callOf([reference, own]), stated);
+  assert.deepEqual(await callOf([reference, '--recording', own]), stated);
+  const [second, truth] = [moved('odom2.csv', own), moved('truth2.csv', reference)];
+  const { odometry: drives, reference: measured } = await callOf([truth, own, '--odometry', second, '--reference', reference]);
+  for (const logs of [drives, measured]) assert.deepEqual(logs.map((/** @type {any} */ { t }) => Math.floor(t[0] / 1000)), [0, 1]);
+});
+
 test('systematic errors are corrected or left in by name, all of them or single ones', async () => {
   const correctOf = async (/** @type {string} */ args) => (await callOf([...FILES, ...args.split(' ')])).correct;
   assert.deepEqual(await correctOf('--no-correct mountYaw,leverArm --correct turnScale'), { mountYaw: false, leverArm: false, turnScale: true });
@@ -118,12 +129,14 @@ test('a recording has both logs, by topics and frames that are clear or named', 
 test('bad input has the exit code 2 and a sentence', async () => {
   const straight = file('straight.csv', ['t,x,y,yaw', ...Array.from({ length: 2000 }, (_, i) => `${1_600_000_000 + i / 20},${i / 40},0,0`)].join('\n'));
   for (const [args, start] of /** @type {[string[], string][]} */ ([
-    [['odom.csv'], '“odom.csv” belongs to no option; files follow --recording, --odometry or --reference.'],
+    [[example('odometry')], 'odometry.csv: it has the odometry only, t, x, y, yaw; give the reference too. Name both, '],
+    [['a.csv', 'b.csv', '--time-unit', 'ms,s'], '--time-unit ms,s has two units; give the files with --odometry and --reference.'],
+    [['a.csv', 'b.csv', '--reference-columns', 't,x,y,yaw'], '--reference-columns needs --reference FILE.'],
     [['--odometri', 'a'], 'unknown option --odometri; the nearest is --odometry, --help lists all.'],
     [['--seed', '1'], 'unknown option --seed; --help lists all.'],
     [['--update-min-d', '--json'], "Option '--update-min-d' argument is ambiguous."],
-    [['--json'], 'no logs are given; give --recording, or --odometry and --reference.'],
-    [['--odometry', example('odometry')], '--reference is missing; give a file or folder, or --recording with both.'],
+    [['--json'], 'no logs are given; give a recording, as in calibrate run.bag, or two files, odometry and reference.'],
+    [['--odometry', example('odometry')], '--reference is missing; give a file or folder, or a recording with both.'],
     [[...FILES, '--plot', 'x.png'], '--plot writes SVG; the name must end in .svg (got “x.png”).'],
     [[...FILES, '--json', '--yaml'], '--json excludes --yaml: give one or the other.'],
     [[...FILES, '--update-min-d', '0,25'], '--update-min-d must be a number with a decimal point, 0.25 (got “0,25”).'],
@@ -143,7 +156,7 @@ test('bad input has the exit code 2 and a sentence', async () => {
     [[...FILES.slice(0, 2), '--reference', straight], 'odometry.csv and straight.csv: odometry and reference have no time in common, and their turn rates correlate at no clock offset; '],
   ])) {
     const { code, out, err } = await outputOf(args);
-    assert.deepEqual([code, out.replaceAll(/^.* rows, .*\n( {2}.*\n)*/gm, '')], [2, ''], err);
+    assert.deepEqual([code, out.replaceAll(/^(Odometry|Reference): .*\n( {2}.*\n)*/gm, '')], [2, ''], err);
     assert.ok(err.startsWith(start) && err.endsWith('\n'), err);
   }
 });
@@ -184,7 +197,7 @@ test('the report of the example, from the verdict to the lines for Nav2', async 
   const { code, out } = await outputOf([...FILES, '--rule', 'nav2', '--reference-yaw-std', '0']);
   assert.equal(code, 0);
   const parts = [
-    /^odometry\.csv: \d+ of \d+ rows, /, /^ {2}columns: t, x, y, yaw\n {2}units: time in s, /m, /^Consistent: all checks passed\. Use the recommended α’s with legs of this length\.$/m,
+    /^Odometry: odometry\.csv\n {2}\d+ of \d+ rows, /, /^ {2}columns: t, x, y, yaw\n {2}units: time in s, /m, /^Consistent: all checks passed\. Use the recommended α’s with legs of this length\.$/m,
     /^\d+ legs of 0\.25 m or 0\.2 rad; model odometry, rule nav2$/m, /^ +fitted +95 % +recommended$/m,
     /^alpha1 +0\.0\d+ +\S+ to \S+ +0\.0\d+ +rotation noise from rotation$/m, /^The fit covers .* held-out windows of 1 m/m,
     /^reference position σ +\S+ m +\S+ to \S+ +estimated$/m, /^reference yaw σ +0 rad +as stated$/m, /^mount yaw +0\.0\d+ rad +\S+ to \S+ +corrected$/m,
@@ -219,8 +232,8 @@ test('a folder gives its logs, and other files are skipped', async () => {
   for (const [name, from] of [['odom.csv', 'odometry'], ['truth.csv', 'reference']]) writeFileSync(join(path, name), readFileSync(example(from)));
   writeFileSync(join(path, '._odom.csv'), readFileSync(example('odometry')));
   writeFileSync(join(path, 'README.md'), '# A drive\n\nwith words, and no numbers\n');
-  const { code, out, err } = await outputOf(['--recording', path]);
-  assert.deepEqual([code, out.match(/^.*\.csv(?=:)/gm)], [0, ['odom.csv', 'truth.csv']]);
+  const { code, out, err } = await outputOf([path]);
+  assert.deepEqual([code, out.match(/^\w+: .*\.csv$/gm)], [0, ['Odometry: odom.csv', 'Reference: truth.csv']]);
   assert.match(err, /^skipped: README\.md: it does not look like a log, .*\n$/);
 });
 
@@ -234,7 +247,7 @@ test('--yaml prints the lines for Nav2 alone, or none of an unusable log', async
   const { code, out, err } = await outputOf([...FILES, '--yaml', '--rule', 'nav2']);
   assert.equal(code, 0);
   assert.match(out, /^amcl:\n {2}ros__parameters:\n[^]*\n {4}update_min_a: 0\.2\n$/);
-  assert.match(err, /^odometry\.csv: \d+ of \d+ rows, [^]*^Consistent: /m);
+  assert.match(err, /^Odometry: odometry\.csv\n {2}\d+ of \d+ rows, [^]*^Consistent: /m);
   const swapped = await outputOf(['--odometry', example('reference'), '--reference', example('odometry'), '--yaml']);
   assert.match(swapped.err, /^Warning: .* Are the two swapped\?$/m);
   const other = backwards();
@@ -296,13 +309,15 @@ test('inspect lists what is in a file, and the command to go on with', async () 
     /^run\.mcap: MCAP recording$/m, /^ {2}\/chatter +std_msgs\/msg\/String +40$/m, /^ {2}\/odom +nav_msgs\/msg\/Odometry +40 +20\.0 Hz +odometry$/m,
     /^ {2}\/vicon\/robot 1 +geometry_msgs\/msg\/PoseStamped +40 +20\.0 Hz +reference$/m,
     /^ {2}\/tf +tf2_msgs\/msg\/TFMessage +40 +reference map → base_link \(a localizer\)$/m, /^run\.mcap, topic \/lost: 0 of 40 rows can be used/m,
-    /^ {2}npx motion-widgets calibrate --recording DIR\/run\.mcap --odometry-topic \/odom --reference-topic '\/vicon\/robot 1' --rule nav2$/m,
+    /^ {2}npx motion-widgets calibrate DIR\/run\.mcap --odometry-topic \/odom --reference-topic '\/vicon\/robot 1' --rule nav2$/m,
   ]) assert.match(listed, line);
   for (const [role, other] of [['odometry', 'reference'], ['reference', 'odometry']]) {
     assert.match(await inspected([example(role)]), new RegExp(`; give the ${other} too\\.\\n\\n {2}npx motion-widgets calibrate --${role} \\S+ --${other} FILE --rule nav2$`, 'm'));
   }
   const [a, b] = [['b', 'reference'], ['a', 'odometry']].map(([name, from]) => file(`${name}.csv`, readFileSync(example(from))));
-  assert.match(await inspected([a, b]), /\n\n {2}npx motion-widgets calibrate --odometry DIR\/b\.csv --reference DIR\/a\.csv --rule nav2$/m);
+  const byOrder = 'b.csv is taken as the odometry and a.csv as the reference, by their order: neither name says which is which.\n';
+  assert.ok((await inspected([a, b])).endsWith(`\n${byOrder}\n  npx motion-widgets calibrate --odometry DIR/b.csv --reference DIR/a.csv --rule nav2\n`));
+  assert.equal((await outputOf([a, b, '--json'])).err, byOrder);
   const positions = file('positions.csv', ['t,odom_x,odom_y,odom_yaw,gt_x,gt_y', ...Array.from({ length: 40 }, (_, i) => `${i / 20},${i / 40},0,0,${i / 40},1`)].join('\n'));
   const { recordings: [{ series }], ...contents } = JSON.parse(await inspected([positions, '--json'], 2));
   assert.deepEqual(series.map((/** @type {any} */ { name, rows, uses, summary }) => [name, rows, uses, summary?.seconds]), [['odom_', 40, ['odometry'], 1.95], ['gt_', 0, [], undefined]]);

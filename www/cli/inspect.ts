@@ -1,7 +1,7 @@
 /** Command `inspect`: the contents of recordings, and the command to go on with. */
 
 import { candidates, isLocalizer, isTable, usefulSeries } from '../logs/candidates.ts';
-import { planDrives, type Part } from '../logs/drives.ts';
+import { planDrives, type Part, type Plan } from '../logs/drives.ts';
 import { english } from '../logs/en.ts';
 import { LogError } from '../logs/log-error.ts';
 import { ROLES, framesOption, framesText, type Choice, type Log, type Recording, type Role, type Summary } from '../logs/log.ts';
@@ -22,7 +22,7 @@ export interface Contents {
 /** Contents of all recordings that are given together. */
 export interface Inspected {
   recordings: Contents[];
-  /** Sentence about what a calibration still needs. */
+  /** Sentence about what a calibration still needs, or assumes. */
   missing?: string;
   /** Command to go on with; undefined where nothing can be used. */
   command?: string;
@@ -89,19 +89,25 @@ async function read(recording: Recording, names: string[], onProgress?: (share: 
   return { logs, reasons };
 }
 
+/** Returns a sentence about roles that only follow from the order of two files. */
+export const byOrder = ({ unpaired: { odometry: [first], reference: [second] } }: Plan): string =>
+  `${first.recording.name} is taken as the odometry and ${second.recording.name} as the reference, by their order: neither name says which is which.`;
+
 /** Returns the command that calibrates from the recordings, or a sentence about missing logs. */
 function nextOf(given: Given[]): Pick<Inspected, 'command' | 'missing'> {
   const quoted = (text: string) => (/^[\w./,@%+=:-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`);
   const pathOf = ({ recording }: Pick<Part, 'recording'>) => quoted(given.find((each) => each.recording === recording)?.path ?? recording.name);
   const command = (...options: string[]) => ['npx motion-widgets calibrate', ...new Set(options), '--rule nav2'].join(' ');
-  const all = given.map(({ recording }) => `--recording ${pathOf({ recording })}`);
+  const all = given.map(({ recording }) => pathOf({ recording }));
   try {
-    const { drives, unpaired } = planDrives(given.map(({ recording }) => recording));
+    const plan = planDrives(given.map(({ recording }) => recording));
+    const { drives, unpaired } = plan;
     const choices = ROLES.flatMap((role) => [...drives.map((drive) => drive[role]), ...unpaired[role]].flatMap(({ choice: { series, frames } }) => [
       ...(series ? [`--${role}-topic ${quoted(series)}`] : []),
       ...(frames ? [`--${role}-frames ${quoted(framesOption(frames))}`] : []),
     ]));
-    return { command: command(...drives.map(({ odometry }) => `--recording ${pathOf(odometry)}`), ...ROLES.flatMap((role) => unpaired[role].map((part) => `--${role} ${pathOf(part)}`)), ...choices) };
+    const files = [...drives.map(({ odometry }) => pathOf(odometry)), ...ROLES.flatMap((role) => unpaired[role].map((part) => `--${role} ${pathOf(part)}`))];
+    return { ...(plan.isByOrder && { missing: byOrder(plan) }), command: command(...files, ...choices) };
   } catch (error) {
     if (!(error instanceof LogError)) throw error;
     const missing = error.message;

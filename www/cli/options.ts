@@ -3,7 +3,7 @@
 import { parseArgs } from 'node:util';
 import type { Wishes } from '../logs/drives.ts';
 import { cut } from '../logs/log-error.ts';
-import { UNITS, type Frames, type OpenOptions, type Role } from '../logs/log.ts';
+import { ROLES, UNITS, type Frames, type OpenOptions, type Role } from '../logs/log.ts';
 import { SYSTEMATIC_ERRORS } from '../widgets/alpha-calibrator/lines.ts';
 
 /** Error about the options; its message is a sentence. */
@@ -13,16 +13,17 @@ export const HELP = `motion-widgets: the α's of a robot's motion model, from lo
 
   npx motion-widgets inspect run.bag
       lists what is in a recording or table, what could be odometry or reference, and the command to go on with
-  npx motion-widgets calibrate --recording run.bag --rule nav2
+  npx motion-widgets calibrate run.bag --rule nav2
       calibrates from a bag, folder or MCAP file that has both, for Nav2's AMCL
-  npx motion-widgets calibrate --odometry odom.csv --reference mocap.csv --rule nav2 --yaml > alphas.yaml
+  npx motion-widgets calibrate odom.csv mocap.csv --rule nav2 --yaml > alphas.yaml
       calibrates from two files, and writes the lines for Nav2
 
 Logs: ROS 1 bags, rosbag2 (MCAP, SQLite, folders), CSV and other tables, TUM.
-  --recording PATH           file or folder with odometry and reference
+  PATH, --recording PATH     file or folder with odometry and reference, or with one of them, which is paired by
+                             names, contents and times
   --odometry PATH            file or folder with the odometry: poses, or commands v and omega
   --reference PATH           file or folder with the reference: motion capture, total station, scan matching
-                             Several drives: give these options several times.
+                             Several drives: give these several times.
   --odometry-topic NAME      topic, or prefix of a table's columns (odom_); default: guessed from types and names
   --reference-topic NAME     the same for the reference
   --odometry-frames P,C      parent and child frame, of a topic of transforms: odom,base_link
@@ -107,7 +108,7 @@ export function optionsOf(args: string[]): Calibrate | Inspect | 'help' | 'versi
   if (values.version) return 'version';
   if (values.help || args.length === 0) return 'help';
   const columns = (name: 'columns' | 'odometry-columns' | 'reference-columns') => values[name]?.split(',').map((each) => each.trim());
-  const open = (role: Role = 'odometry', names = columns('columns')): OpenOptions => ({ ...unitsOf(values, role), ...(names && { columns: names }) });
+  const open = (role?: Role, names = columns('columns')): OpenOptions => ({ ...unitsOf(values, role), ...(names && { columns: names }) });
   if (command === 'inspect') {
     const all = [...paths, ...(values.recording ?? []), ...(values.odometry ?? []), ...(values.reference ?? [])];
     if (all.length === 0) throw new UsageError('inspect needs a file or folder: npx motion-widgets inspect run.bag');
@@ -116,9 +117,6 @@ export function optionsOf(args: string[]): Calibrate | Inspect | 'help' | 'versi
     return { command, inputs: all.map((path) => ({ path, open: open() })), isJson: values.json ?? false };
   }
   if (command !== 'calibrate') throw new UsageError(`the command must be calibrate or inspect (got “${cut(command ?? '')}”); --help has examples.`);
-  const [stray] = paths;
-  if (stray !== undefined) throw new UsageError(`“${cut(stray)}” belongs to no option; files follow --recording, --odometry or --reference.`);
-
   const number = (name: 'update-min-d' | 'update-min-a' | 'duration' | 'reference-position-std' | 'reference-yaw-std') => {
     const value = values[name];
     if (value === undefined) return undefined;
@@ -131,12 +129,18 @@ export function optionsOf(args: string[]): Calibrate | Inspect | 'help' | 'versi
   if (duration !== undefined && (distance ?? angle) !== undefined) throw new UsageError('--duration excludes --update-min-d and --update-min-a: give one or the other.');
   if (values.plot !== undefined && !/\.svg$/i.test(values.plot)) throw new UsageError(`--plot writes SVG; the name must end in .svg (got “${cut(values.plot)}”).`);
   if (values.json && values.yaml) throw new UsageError('--json excludes --yaml: give one or the other.');
-  const { recording = [], odometry = [], reference = [] } = values;
-  for (const [one, other] of [[odometry, 'reference'], [reference, 'odometry']] as const) {
-    if (one.length > 0 && !values[other]) throw new UsageError(`--${other} is missing; give a file or folder, or --recording with both.`);
+  const recording = [...paths, ...(values.recording ?? [])];
+  const { odometry = [], reference = [] } = values;
+  if (recording.length === 0) {
+    for (const [one, other] of [[odometry, 'reference'], [reference, 'odometry']] as const) {
+      if (one.length > 0 && !values[other]) throw new UsageError(`--${other} is missing; give a file or folder, or a recording with both.`);
+    }
+    if (odometry.length !== reference.length) throw new UsageError(`there are ${odometry.length} logs of odometry and ${reference.length} of the reference; give one of each for a drive.`);
+    if (odometry.length === 0) throw new UsageError('no logs are given; give a recording, as in calibrate run.bag, or two files, odometry and reference.');
   }
-  if (odometry.length !== reference.length) throw new UsageError(`there are ${odometry.length} logs of odometry and ${reference.length} of the reference; give one of each for a drive.`);
-  if (recording.length + odometry.length === 0) throw new UsageError('no logs are given; give --recording, or --odometry and --reference.');
+  for (const role of ROLES) {
+    if (values[`${role}-columns`] !== undefined && !values[role]) throw new UsageError(`--${role}-columns needs --${role} FILE.`);
+  }
   const wish = (role: Role) => withoutUndefined({ series: values[`${role}-topic`], frames: framesOf(`${role}-frames`, values[`${role}-frames`]) });
   const inputs = (all: string[], role?: Role) => all.map((path) => ({ path, open: open(role, role && columns(`${role}-columns`)) }));
   return {
@@ -157,8 +161,8 @@ export function optionsOf(args: string[]): Calibrate | Inspect | 'help' | 'versi
   };
 }
 
-/** Returns the units that are stated for a log: one for both, or one for each. */
-function unitsOf(values: { [name in 'time-unit' | 'length-unit' | 'angle-unit']?: string }, role: Role): OpenOptions {
+/** Returns the units that are stated for a log: one for both, or one for each if its role is given. */
+function unitsOf(values: { [name in 'time-unit' | 'length-unit' | 'angle-unit']?: string }, role: Role | undefined): OpenOptions {
   return Object.fromEntries((['time', 'length', 'angle'] as const).flatMap((of) => {
     const given = values[`${of}-unit`];
     if (given === undefined) return [];
@@ -166,7 +170,8 @@ function unitsOf(values: { [name in 'time-unit' | 'length-unit' | 'angle-unit']?
     if (units.length > 2 || !units.every((unit) => (UNITS[`${of}Unit`] as readonly string[]).includes(unit))) {
       throw new UsageError(`--${of}-unit must be ${alternatives(UNITS[`${of}Unit`])}, or two of these for odometry and reference (got “${cut(given)}”).`);
     }
-    return [[`${of}Unit`, role === 'odometry' ? units[0] : units.at(-1)]];
+    if (units.length > 1 && !role) throw new UsageError(`--${of}-unit ${cut(given)} has two units; give the files with --odometry and --reference.`);
+    return [[`${of}Unit`, role === 'reference' ? units.at(-1) : units[0]]];
   }));
 }
 

@@ -1,6 +1,7 @@
 /** Result as text and as JSON. */
 
-import type { Summary } from '../logs/log.ts';
+import { english } from '../logs/en.ts';
+import { ROLES, type Summary } from '../logs/log.ts';
 import { warningsOf } from '../logs/pairs.ts';
 import { en as shared } from '../messages/en.ts';
 import { en } from '../widgets/alpha-calibrator/en.ts';
@@ -45,8 +46,9 @@ const DECISIVE_CHECKS = ['reference-matches', 'enough-legs', 'inflation-bounded'
 /** Number of outliers that are listed. */
 const MAX_LISTED_OUTLIERS = 5;
 
-/** Returns the summaries of the logs, a paragraph for each, without the result of the fit. */
-export const logSummaries = (logs: ReadLog[]): string => logs.map(({ name, sentences: [first, ...more] }) => `${[`${name}: ${first}`, ...more].join('\n  ')}\n`).join('');
+/** Returns the summaries of the logs, odometry and reference in turns, without the result of the fit. */
+export const logSummaries = (logs: ReadLog[]): string =>
+  logs.map(({ name, sentences }, i) => `${[`${english.choose.roles[ROLES[i % 2]]}: ${name}`, ...sentences].join('\n  ')}\n`).join('');
 
 /** Returns the report after the summary of the logs. */
 export function textOf({ calibration, options, logs, start, begins, date }: Result, isColored = false): string {

@@ -8,7 +8,7 @@ import { UNITS } from '../logs/log.ts';
 import { logOf } from '../logs/pairs.ts';
 import { summarize } from '../logs/summary.ts';
 import { recordingsOf } from './files.ts';
-import { inspect, textOf as textOfContents, type Given } from './inspect.ts';
+import { byOrder, inspect, textOf as textOfContents, type Given } from './inspect.ts';
 import { HELP, UsageError, optionsOf, withOption, type Calibrate } from './options.ts';
 import { plotOf } from './plot.ts';
 import { jsonOf, logSummaries, textOf, nav2YamlOf, verdictLines, type Result } from './report.ts';
@@ -78,7 +78,9 @@ async function calibrate({ inputs, wishes, fit, output, plot }: Calibrate, { loa
     }
   }
   if (recordings.length === 0) throw new UsageError('there are no logs in the folder.');
-  const drives = await readDrives(planDrives(recordings, { ...wishes, roles }), onProgress);
+  const plan = planDrives(recordings, { ...wishes, roles });
+  if (plan.isByOrder) complain(`${byOrder(plan)}\n`);
+  const drives = await readDrives(plan, onProgress);
   onProgress?.(undefined);
   const [{ odometry: { start } }] = drives;
   const logs = drives.flatMap(({ odometry, reference }) => [odometry, reference]).map(({ name, ...log }) => ({ name, summary: log.summary, sentences: summarize({ name, ...log }, english.found) }));

@@ -6,28 +6,23 @@ const MINUS = '\u2212';
 const THIN_SPACE = '\u202f';
 export const NOTHING = '\u2014';
 
-/** Cache of formatters by language and options: creating one takes longer than a frame. */
-const formats: Map<string, Intl.NumberFormat> = new Map();
+/** Decimal separators by language. */
+const separators: Map<string, string> = new Map([['en', '.']]);
 
-function print(value: number, options: Intl.NumberFormatOptions) {
-  if (Number.isNaN(value)) return NOTHING;
-  const key = language + Object.entries(options);
-  let format = formats.get(key);
-  if (!format) formats.set(key, (format = new Intl.NumberFormat(language, { signDisplay: 'negative', ...options })));
-  return format
-    .formatToParts(value)
-    .map((part) => (part.type === 'minusSign' ? MINUS : part.type === 'group' ? THIN_SPACE : part.value))
-    .join('');
+/** Returns the decimal separator of the current language. The first use of `Intl` takes longer than the rest of the first frame. */
+function decimalSeparator(): string {
+  let separator = separators.get(language);
+  if (!separator) separators.set(language, (separator = new Intl.NumberFormat(language).formatToParts(0.5).find(({ type }) => type === 'decimal')?.value ?? '.'));
+  return separator;
 }
 
-/** Prints a number with decimals: "−0.301"; "0.000" rather than "−0.000"; "—" for NaN. */
+/** Prints a number with decimals: "−0.301"; "0.000" rather than "−0.000"; "∞"; "—" for NaN. */
 export function fixed(value: number, decimals: number): string {
-  // Rounds the binary number. The formatter would round the shortest decimals, and find ties that are none.
-  const digits = value.toFixed(decimals);
-  const rounded = Number(digits);
-  // English needs no formatter, which would take longer to create than the rest of the first frame.
-  if (language === 'en' && Math.abs(rounded) < 1e21) return rounded < 0 ? MINUS + digits.slice(1) : digits.replace('-', '');
-  return print(rounded, { minimumFractionDigits: decimals, maximumFractionDigits: decimals, useGrouping: false });
+  if (Number.isNaN(value)) return NOTHING;
+  // `toFixed` rounds the binary number. A formatter rounds the shortest decimals, and finds ties that are none.
+  const digits = Math.abs(value).toFixed(decimals);
+  const sign = value < 0 && Number(digits) !== 0 ? MINUS : '';
+  return sign + (Number.isFinite(value) ? digits.replace('.', decimalSeparator()) : '∞');
 }
 
 /** Maximum number of additional decimals of a short number. */
@@ -49,7 +44,7 @@ export function typed(value: number, decimals: number): string {
 export function numberIn(text: string, unit: string = '', whole: boolean = false): number {
   const plain = text.replace(/\s/g, '').replace(MINUS, '-');
   const bare = unit && plain.endsWith(unit) ? plain.slice(0, -unit.length) : plain;
-  const [, decimal] = fixed(0.5, 1);
+  const decimal = decimalSeparator();
   // In English, commas separate complete groups of three digits. Where the comma is the decimal separator, points may.
   const groups = decimal === '.' ? /^-?[1-9]\d{0,2}(,\d{3})+$/ : whole && /^-?[1-9]\d{0,2}(\.\d{3})+$/;
   const ungrouped = groups && groups.test(bare) ? bare.replace(/[,.]/g, '') : bare;
@@ -69,14 +64,13 @@ const MAX_DECIMALS = 5;
 
 const SUPERSCRIPTS = '⁰¹²³⁴⁵⁶⁷⁸⁹';
 
-/** Prints a number with significant digits: "0.0070020"; from 0.0001 downwards "1.2500·10⁻⁵". */
+/** Prints a number with significant digits: "0.0070020"; below 0.0001 and from 100,000 on "1.2500·10⁻⁵". */
 export function significant(value: number, digits: number): string {
-  const size = Math.abs(value);
-  if (size < NOTHING_BELOW) return '0';
-  const options = { minimumSignificantDigits: digits, maximumSignificantDigits: digits, useGrouping: false };
-  if (!Number.isFinite(size) || (size >= 1e-4 && size < 1e5)) return print(value, options);
-  const [mantissa, exponent] = value.toExponential(digits - 1).split('e');
-  return `${print(Number(mantissa), options)}·${powerOfTen(Number(exponent))}`;
+  if (Math.abs(value) < NOTHING_BELOW) return '0';
+  if (!Number.isFinite(value)) return fixed(value, 0);
+  const [mantissa, exponent] = value.toExponential(digits - 1).split('e').map(Number);
+  if (exponent < -4 || exponent >= 5) return `${fixed(mantissa, digits - 1)}·${powerOfTen(exponent)}`;
+  return fixed(Number(value.toPrecision(digits)), Math.max(0, digits - 1 - exponent));
 }
 
 /** Prints a power of ten: "10⁻⁵". */
@@ -92,10 +86,7 @@ export function rounded(value: number, digits: number): string {
 }
 
 /** Prints a count: "100 000". */
-export function counted(count: number): string {
-  if (language === 'en' && Math.abs(count) < 1e21) return fixed(count, 0).replace(/\B(?=(\d{3})+$)/g, THIN_SPACE);
-  return print(count, { maximumFractionDigits: 0, useGrouping: true });
-}
+export const counted = (count: number): string => fixed(count, 0).replace(/\B(?=(\d{3})+$)/g, THIN_SPACE);
 
 /** Prints a share from 0 to 1 in percent: "86.5 %". */
 export function percent(share: number): string {

@@ -10,7 +10,7 @@ import { ALPHAS, RAMP, VIEW, command, figures, picture } from './scene.js';
 /** Largest accepted difference (m, rad or a fraction) between both implementations, which add in different orders. */
 const TOLERANCE = 1e-9;
 
-/** Returns names and values of figures that differ. @param {import('../www/types.d.ts').Motion} motion @param {number} samples */
+/** Returns the names and values of the statistics in which the core and the baseline differ. @param {import('../www/types.d.ts').Motion} motion @param {number} samples */
 export function differences(motion, samples) {
   const machine = new motion.BananaMachine({ alphas: ALPHAS, samples, seed: 11, command: command(0) });
   const baseline = new Baseline(ALPHAS, noiseOf(machine));

@@ -335,10 +335,10 @@ async function chunks() {
   );
 }
 
-/** Returns the declarations without their documentation, which no page shows. Presets need the defaults. */
+/** Returns the declarations of settings without their documentation, which no page shows. */
 function ofDeclarations() {
-  const left = ['sentence', 'nullable'];
-  const plain = (/** @type {unknown} */ value) => JSON.stringify(value, (key, each) => (left.includes(key) ? undefined : each));
+  const omitted = ['sentence', 'nullable'];
+  const plain = (/** @type {unknown} */ value) => JSON.stringify(value, (key, each) => (omitted.includes(key) ? undefined : each));
   return Object.entries(declared)
     .map(([name, value]) => `export const ${name} = ${plain(value)};\n`)
     .join('');

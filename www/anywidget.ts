@@ -32,7 +32,7 @@ function render({ model, el }: { model: Model, el: HTMLElement }): (() => void) 
   }
   // Digits and letters that are typed in a figure are no shortcuts of JupyterLab, by which it would change the cell.
   element.dataset.lmSuppressShortcuts = 'true';
-  // Around what a cell puts out JupyterLab's themes change the ground and leave black text; the colour that they mean is here.
+  // JupyterLab's themes change the background of a cell's output but leave its text black. This variable has the theme's text colour.
   element.style.color = 'var(--jp-content-font-color1, inherit)';
 
   let unsaved = false;

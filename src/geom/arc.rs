@@ -37,7 +37,7 @@ impl ArcInversion {
         if self.omega_hat == 0.0 { f64::INFINITY } else { self.v_hat / self.omega_hat }
     }
 
-    /// Returns the centre of the circle of an arc that leaves `x` (m, in the frame of `x`): (x − r·sin θ, y + r·cos θ).
+    /// Returns the centre of the circle of an arc that leaves `x` (m, in the frame in which `x` is given): (x − r·sin θ, y + r·cos θ).
     /// None if the arc is straight, or if the coordinates of the centre exceed the range of doubles.
     pub fn centre(&self, x: &SE2) -> Option<[f64; 2]> {
         let radius = self.radius();

@@ -27,7 +27,7 @@ fn quick_two_sum(a: f64, b: f64) -> DoubleDouble {
     DoubleDouble { high, low: b - (high - a) }
 }
 
-/// Returns a + b without an error.
+/// Returns a + b without rounding error.
 fn two_sum(a: f64, b: f64) -> DoubleDouble {
     let high = a + b;
     let part = high - a;

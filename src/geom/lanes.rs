@@ -222,7 +222,7 @@ const SINC_COEFFICIENTS: [f64; 8] = [
     1.604_841_188_107_557e-10,
     -7.377_031_323_962_015e-13,
 ];
-/// Coefficients of cos √z, from the lowest power up. Those after the 1 fit (cos √z − 1)/z likewise, error 4e-18.
+/// Coefficients of cos √z, from the lowest power up. Those after the 1 fit (cos √z − 1)/z over the same interval, error 4e-18.
 const COS_COEFFICIENTS: [f64; 9] = [
     1.0,
     -0.499_999_999_999_999_83,

@@ -53,7 +53,7 @@ pub(super) struct FourRobots {
     pub jacobians: [f64x4; 2],
 }
 
-/// Gaussian fitted to a cloud or model in each of the coordinates.
+/// Gaussians fitted to a cloud or model, one in each of three coordinate systems.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Charts {
     plain: Normal,

@@ -1,4 +1,4 @@
-// Contract of dist/core.js in Node: how it loads, and which names it has. tests/web holds the values behind the names.
+// Contract of dist/core.js in Node: how it loads, and which names it exports. tests/web tests what the exports return.
 
 import assert from 'node:assert/strict';
 import { readFile } from 'node:fs/promises';

@@ -185,7 +185,7 @@ export class Cloud extends Part {
     return this.playing ? this.#samples : this.asked;
   }
 
-  /** Clears the selection of a sample that does not exist. */
+  /** Clears the selection if the selected sample neither is shown nor will be. */
   unmark() {
     if (!this.#isWanted) this.mark(-1);
   }

@@ -36,7 +36,7 @@ export let language = 'en';
 const voices: Map<string, { words: Messages, language: string }> = new Map();
 shared.listeners.add(() => voices.clear());
 
-/** Adds the English words of the elements, which define the keys of all catalogues. An empty catalogue is a placeholder for a later one. */
+/** Adds the English words of the elements, which define the keys of all catalogues. An empty catalogue can be added first, and be filled by a later call. */
 export function addEnglish(messages: { [key: string]: Message }) {
   shared.english = merge(shared.english, messages);
   // Checks messages of the page that were added before these keys were known.

@@ -15,7 +15,7 @@ pub enum View {
 }
 
 impl View {
-    /// Returns the view at a morph. At 0 and 1 it is exactly the plane and the twists.
+    /// Returns the view at a position of the morph's slider. At 0 and 1 it is exactly the plane and the twists.
     pub fn at(morph: f64) -> Self {
         match morph {
             0.0 => Self::Plane,

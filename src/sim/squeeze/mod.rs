@@ -42,7 +42,7 @@ pub struct MapSqueeze {
     picture: Vec<[u8; 4]>,
 }
 
-/// Attempts that are shown, with their counts.
+/// Attempts that are shown, with the number of each outcome.
 #[derive(Clone, Debug, Default)]
 struct Shown {
     attempts: Vec<Attempt>,

@@ -1,4 +1,4 @@
-//! Arcs and legs, and their inverses.
+//! Arcs, and motions of rotation, translation and rotation: computed from two poses, and executed again.
 
 use super::doubles::{assert_same_pose, cases, extent, poses, up_to};
 use motion::geom::arc::{Arc, arc_near, chord, invert_arc};

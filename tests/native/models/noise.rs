@@ -92,7 +92,7 @@ fn quantiles_match_references_to_1e_15() {
     }
 }
 
-/// A seed gives the same draws in every release and on every machine. Other draws change every picture that a reader has kept. A
+/// A seed gives the same draws in every release and on every machine. If the draws changed, so would every picture that a reader has kept. A
 /// computation from the generator's definition and 40-digit quantiles agrees to the last digit or the one before.
 #[test]
 fn seeded_draws_are_golden() {

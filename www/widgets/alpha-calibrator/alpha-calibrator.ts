@@ -139,7 +139,7 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
   };
 
   /**
-   * A log of the page’s own; null for the simulated one. It is in no state and in no link.
+   * A log of the page’s own; null for the simulated one. `getState` and shared links do not contain it.
    *
    * @public
    */

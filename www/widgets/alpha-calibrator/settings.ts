@@ -29,7 +29,7 @@ const REGRESSORS = ['turn', 'way'] as const;
 
 export type Driver = (typeof REGRESSORS)[number];
 
-/** Largest number of a leg in a link: the count is not known before the fit. */
+/** Maximum index of a leg in a shared link. The number of legs is not known before the fit, so that it cannot be the limit. */
 const MOST_LEGS = 9_999_999;
 
 export const documentation: import('../../figure/attributes.ts').Documentation = {

@@ -268,8 +268,8 @@ impl Residuals {
             information: Information::zeros(),
             scores: vec![Parameters::zeros(); self.len()],
         };
-        // P r of each leg. Then two sums Bᵀ P r + Aᵀ P r, the latter of the next leg. The first is of the reference pose at its
-        // start, and 0 if the leg follows another one. The second is of the pose at its end.
+        // P r of each leg, and Bᵀ P r of the leg before plus Aᵀ P r of the leg after the reference poses at its start and end.
+        // The start is 0 if another leg ends there, because that leg has the pose already.
         let mut projected = vec![[Vector3::zeros(); 3]; self.len()];
         let project = |solved: &Columns| solved.column(0) - solved.fixed_columns::<ERROR_COUNT>(1) * errors;
         // Part by which a diagonal entry of P is smaller than that of V⁻¹, because systematic errors are estimated.

@@ -5,7 +5,7 @@ import { FRESH, STILL, boxOf, frames, showPage, test, untilReady } from './suppo
 
 test.use(STILL);
 
-/** Preferred width of a figure in CSS pixels: see `likedWidth`. */
+/** Preferred width of a figure in CSS pixels: see `preferredWidth`. */
 const LIKED = 44 * 16;
 
 /** Boxes whose width depends on their content, an X. @type {Record<string, string>} */

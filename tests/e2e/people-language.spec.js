@@ -35,7 +35,7 @@ function said(widget) {
     while (walker.nextNode()) {
       const node = walker.currentNode;
       if (node instanceof Element) {
-        for (const name of ['aria-label', 'aria-description', 'aria-valuetext', 'title', 'placeholder', 'data-room']) {
+        for (const name of ['aria-label', 'aria-description', 'aria-valuetext', 'title', 'placeholder', 'data-longest']) {
           texts.push(node.getAttribute(name) ?? '');
         }
       } else if (node.parentElement?.localName !== 'style' && node.parentElement?.localName !== 'textarea') {

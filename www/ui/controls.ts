@@ -55,14 +55,6 @@ export const controlStyles = css`
     cursor: pointer;
   }
 
-  button[data-other]::after {
-    content: attr(data-other);
-    display: block;
-    height: 0;
-    overflow: hidden;
-    visibility: hidden;
-  }
-
   button:disabled {
     border-color: var(--rule);
     color: var(--muted);
@@ -93,9 +85,9 @@ export const controlStyles = css`
     }
   }
 
-  /* Text that reserves the width of a longer one, which is invisible. */
-  .roomy::after {
-    content: attr(data-room);
+  /* The longest text that an element may have reserves its width. */
+  [data-longest]::after {
+    content: attr(data-longest);
     display: block;
     height: 0;
     overflow: hidden;
@@ -253,7 +245,7 @@ export function button(label: unknown, press: () => void, { pressed, disabled = 
   return html`<button
     type="button"
     class=${name ?? nothing}
-    data-other=${other ?? nothing}
+    data-longest=${other ?? nothing}
     part="button"
     ?disabled=${disabled}
     title=${title ?? nothing}

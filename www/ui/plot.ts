@@ -42,27 +42,9 @@ export const plotStyles = css`
     width: calc(${unsafeCSS((100 * (RIGHT - LEFT)) / WIDTH)}% + 0.55em);
     height: ${unsafeCSS((100 * (BOTTOM - TOP)) / HEIGHT)}%;
     --thumb: var(--prior);
-  }
-
-  .plotted input::-webkit-slider-runnable-track {
-    background: none;
-  }
-
-  .plotted input::-moz-range-track {
-    background: none;
-  }
-
-  .plotted input::-webkit-slider-thumb {
-    width: 0.55em;
-    height: 1.9em;
-    margin-top: calc(1px - 0.95em);
-    border-radius: 0.3em;
-  }
-
-  .plotted input::-moz-range-thumb {
-    width: 0.55em;
-    height: 1.9em;
-    border-radius: 0.3em;
+    --thumb-width: 0.55em;
+    --thumb-height: 1.9em;
+    --track: none;
   }
 
   .plot text {

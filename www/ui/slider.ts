@@ -1,9 +1,35 @@
 /** Slider with its label, an editable value, and one line about its effect on the picture. */
 
-import { css, html, noChange, nothing } from 'lit';
+import { css, html, noChange, nothing, unsafeCSS } from 'lit';
 import { Directive, directive } from 'lit/directive.js';
 import { live } from 'lit/directives/live.js';
 import { inputOf } from './controls.ts';
+
+/** Returns the styles of the track and thumb of a slider, whose pseudo-elements have other names in each browser. */
+const partsOf = (track: string, thumb: string) => unsafeCSS(`
+  input[type='range']::${track} {
+    height: 2px;
+    background: var(--track, var(--muted));
+    border-radius: 1px;
+  }
+
+  input[type='range']::${thumb} {
+    appearance: none;
+    box-sizing: border-box;
+    width: var(--thumb-width, 1.05em);
+    height: var(--thumb-height, 1.05em);
+    background: var(--thumb);
+    border: 2px solid var(--thumb-edge);
+    border-radius: 1em;
+    box-shadow: 0 0 0 3px var(--paper);
+  }
+
+  /* Focus ring around the thumb only: around the slider it would overlap the rows above and below. */
+  input[type='range']:focus-visible::${thumb} {
+    outline: 2px solid var(--accent);
+    outline-offset: 2px;
+  }
+`);
 
 export const sliderStyles = css`
   /* Name and value above the track, and space for a line of help below it. */
@@ -132,52 +158,16 @@ export const sliderStyles = css`
     touch-action: pan-y;
   }
 
-  input[type='range']::-webkit-slider-runnable-track {
-    height: 2px;
-    background: var(--muted);
-    border-radius: 1px;
-  }
+  ${partsOf('-webkit-slider-runnable-track', '-webkit-slider-thumb')}
+  ${partsOf('-moz-range-track', '-moz-range-thumb')}
 
-  input[type='range']::-moz-range-track {
-    height: 2px;
-    background: var(--muted);
-    border-radius: 1px;
-  }
-
+  /* Its track has no middle that the thumb keeps to, unlike that of Firefox. */
   input[type='range']::-webkit-slider-thumb {
-    appearance: none;
-    width: 1.05em;
-    height: 1.05em;
-    margin-top: calc(1px - 0.525em);
-    background: var(--thumb);
-    border: 2px solid var(--thumb-edge);
-    border-radius: 50%;
-    box-shadow: 0 0 0 3px var(--paper);
+    margin-top: calc(1px - var(--thumb-height, 1.05em) / 2);
   }
 
-  input[type='range']::-moz-range-thumb {
-    box-sizing: border-box;
-    width: 1.05em;
-    height: 1.05em;
-    background: var(--thumb);
-    border: 2px solid var(--thumb-edge);
-    border-radius: 50%;
-    box-shadow: 0 0 0 3px var(--paper);
-  }
-
-  /* Focus ring around the thumb only: around the slider it would overlap the rows above and below. */
   input[type='range']:focus-visible {
     outline: none;
-  }
-
-  input[type='range']:focus-visible::-webkit-slider-thumb {
-    outline: 2px solid var(--accent);
-    outline-offset: 2px;
-  }
-
-  input[type='range']:focus-visible::-moz-range-thumb {
-    outline: 2px solid var(--accent);
-    outline-offset: 2px;
   }
 
   .typed:focus-visible {
@@ -186,42 +176,22 @@ export const sliderStyles = css`
   }
 `;
 
-/* Touch on a slider: a vertical movement scrolls the page and changes nothing; a horizontal one or a tap sets the slider. */
-
 /** Movement (CSS pixels) below which the direction of a touch is undecided. */
 const SLOP = 8;
 
-/** Position of a touch whose direction is undecided. */
-let down: { clientX: number, clientY: number } | undefined;
+/**
+ * Begin of a touch on a slider, while its direction is undecided. A vertical movement scrolls the page and changes nothing; a horizontal one
+ * or a tap sets the slider.
+ */
+let undecided: PointerEvent | undefined;
 
-const forget = () => (down = undefined);
+const decide = () => (undecided = undefined);
 
-const finger = {
-  comes({ pointerType, clientX, clientY }: PointerEvent) {
-    down = pointerType === 'touch' ? { clientX, clientY } : undefined;
-    // An element that is removed during a touch gets no pointerup.
-    addEventListener('pointerup', forget);
-    addEventListener('pointercancel', forget);
-  },
-
-  moves(event: PointerEvent) {
-    if (!down) return;
-    const [across, along] = [Math.abs(event.clientX - down.clientX), Math.abs(event.clientY - down.clientY)];
-    if (across > SLOP && across > along) down = undefined;
-  },
-
-  /** Ends a touch. Returns true if the finger only tapped. */
-  goes(): boolean {
-    const tapped = down !== undefined;
-    down = undefined;
-    return tapped;
-  },
-
-  /** True while the touch may still scroll the page. */
-  get waits() {
-    return down !== undefined;
-  },
-};
+function beginTouch(event: PointerEvent) {
+  undecided = event.pointerType === 'touch' ? event : undefined;
+  // An element that is removed during a touch gets no pointerup.
+  for (const end of ['pointerup', 'pointercancel']) addEventListener(end, decide, { once: true });
+}
 
 /** First character of a number that is typed on a slider. */
 const BEGINS_A_NUMBER = /^[\d.,+\-\u2212]$/;
@@ -231,19 +201,14 @@ const BEGINS_A_NUMBER = /^[\d.,+\-\u2212]$/;
  * digit leads from the slider into it, Enter and Escape lead back.
  */
 export function sliderRow(row: SliderRow) {
-  const states = {
-    off: row.off,
-    refused: row.refusal,
-  };
-  const classes = ['slider', ...Object.keys(states).filter((key) => states[(key as keyof typeof states)])].join(' ');
   const shown = row.show(row.value);
-  const room = [row.show(row.min), row.show(row.max)].reduce((one, other) => (other.length > one.length ? other : one), shown);
+  const longest = [row.show(row.min), row.show(row.max)].reduce((one, other) => (other.length > one.length ? other : one), shown);
   return html`
-    <div class=${classes} part="slider" data-role=${row.role}>
+    <div class="slider ${row.off ? 'off' : ''} ${row.refusal ? 'refused' : ''}" part="slider" data-role=${row.role}>
       ${row.pick ?? nothing}
       <label for=${row.id} id="${row.id}-name">${row.symbol ? html`<bdi class="symbol notranslate" translate="no">${row.symbol}</bdi>` : nothing}${row.name}</label>
       ${track({ ...row, name: undefined, text: shown, describedBy: `${row.id}-effect`, keydown: leadIntoField })}
-      <span class="value roomy notranslate" translate="no" dir="ltr" data-room=${room}>
+      <span class="value notranslate" translate="no" dir="ltr" data-longest=${longest}>
         <span class="printed">${shown}</span>
         ${field(row, shown)}
       </span>
@@ -303,7 +268,18 @@ interface Track extends Range {
 export function track({ id, name, min, max, step, value, text, describedBy, keydown, input, commit }: Track) {
   // A browser sets a slider as soon as it is touched. Rendering keeps that value until the touch is a tap or scrolls.
   const set = (event: Event) => {
-    if (!finger.waits) input(inputOf(event).valueAsNumber);
+    if (!undecided) input(inputOf(event).valueAsNumber);
+  };
+  const move = (event: PointerEvent) => {
+    const across = Math.abs(event.clientX - (undecided?.clientX ?? NaN));
+    if (across > SLOP && across > Math.abs(event.clientY - (undecided?.clientY ?? NaN))) decide();
+    if (event.pointerType === 'touch') set(event);
+  };
+  const end = (event: PointerEvent) => {
+    if (!undecided) return;
+    decide();
+    if (event.type === 'pointerup') set(event);
+    else inputOf(event).value = String(value);
   };
   return html`<input
     id=${id}
@@ -311,20 +287,15 @@ export function track({ id, name, min, max, step, value, text, describedBy, keyd
     min=${min}
     max=${max}
     step=${step}
-    .value=${finger.waits ? noChange : live(String(value))}
+    .value=${undecided ? noChange : live(String(value))}
     aria-label=${name ?? nothing}
     aria-valuetext=${text}
     aria-describedby=${describedBy ?? nothing}
     @keydown=${keydown}
-    @pointerdown=${finger.comes}
-    @pointermove=${(event: PointerEvent) => {
-      finger.moves(event);
-      if (event.pointerType === 'touch' && !finger.waits) set(event);
-    }}
-    @pointerup=${(event: PointerEvent) => finger.goes() && set(event)}
-    @pointercancel=${(event: PointerEvent) => {
-      if (finger.goes()) inputOf(event).value = String(value);
-    }}
+    @pointerdown=${beginTouch}
+    @pointermove=${move}
+    @pointerup=${end}
+    @pointercancel=${end}
     @input=${set}
     @change=${commit}
   />`;
@@ -364,7 +335,7 @@ function field({ id, keys, type, forget }: Pick<SliderRow, 'id' | 'keys' | 'type
     else if (event.key !== 'Enter') return;
     // Prevents other effects of the key.
     event.preventDefault();
-    if (take(input)) sliderBeside(input).focus();
+    if (take(input)) controlOf(input, 'input[type=range]').focus();
     else input.select();
   };
   return html`<input
@@ -398,12 +369,8 @@ function leadIntoField(event: KeyboardEvent) {
   if (/\d/.test(key) && (slider.getRootNode() as any).host?.presentation) return;
   if (key === 'Enter') event.preventDefault();
   event.stopPropagation();
-  const row = slider.closest('.slider') as Element;
-  (row.querySelector('.typed') as HTMLInputElement).focus();
+  controlOf(slider, '.typed').focus();
 }
 
-/** Returns the slider of a field. */
-function sliderBeside(input: Element) {
-  const row = input.closest('.slider') as Element;
-  return row.querySelector('input[type=range]') as HTMLInputElement;
-}
+/** Returns a control of the row that an element is in. */
+const controlOf = (element: Element, selector: string) => (element.closest('.slider') as Element).querySelector(selector) as HTMLInputElement;

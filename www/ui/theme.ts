@@ -6,7 +6,6 @@
  */
 
 import { css, unsafeCSS } from 'lit';
-import { likedWidth } from './width.ts';
 
 /**
  * Roles whose resolved colours the canvas needs. Each is a custom property of the same name. A cloud is also a prediction, but needs another
@@ -15,6 +14,13 @@ import { likedWidth } from './width.ts';
 const ROLES = 
   ['paper', 'ink', 'muted', 'rule', 'prior', 'prediction', 'cloud', 'truth', 'posterior', 'accent'] as const
 ;
+
+/**
+ * Width that a figure likes in a box that is as wide as its contents: that of a book's column. Two dots with so much between them break the
+ * line if there is less.
+ */
+export const preferredWidth =
+  "content:'. .';display:block;height:0;overflow:hidden;visibility:hidden;white-space:normal;word-spacing:44em";
 
 /** Resolved CSS colours by role. */
 export type Palette = Record<(typeof ROLES)[number], string>;
@@ -32,7 +38,7 @@ export const theme = css`
   }
 
   :host::before {
-    ${unsafeCSS(likedWidth)}
+    ${unsafeCSS(preferredWidth)}
   }
 
   /*
@@ -208,7 +214,7 @@ export const theme = css`
       visibility: visible !important;
     }
 
-    .roomy::after,
+    [data-longest]::after,
     .reserved {
       display: none !important;
     }

@@ -1,7 +1,7 @@
 /** Heights reserved for figures, so that the text below does not move when they load. */
 
 import { css, unsafeCSS } from 'lit';
-import { likedWidth } from '../../ui/width.ts';
+import { preferredWidth } from '../../ui/theme.ts';
 
 /** Bounds of the width classes, em, where the layout changes. */
 const WIDTHS = [20, 30, 38, 46, 56, 80];
@@ -43,7 +43,7 @@ export function roomBefore() {
   const waiting = (each: string | string[]) => `:is(${each}):not(:defined)`;
   return [
     `${waiting(tags)}{display:flow-root;position:relative;min-width:0;max-width:100%}`,
-    `${waiting(tags)}::before{${likedWidth}}`,
+    `${waiting(tags)}::before{${preferredWidth}}`,
     `${waiting(tags)}>:not([slot]){position:absolute;top:0;margin:0}`,
     // The slots have the same styles as in the figure.
     `:where(${waiting(tags)}>[slot=title]){display:block;font-size:1.1em;line-height:1.4}`,

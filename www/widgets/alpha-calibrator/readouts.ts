@@ -43,8 +43,8 @@ export function alphaTable(reading: Reading) {
         ${alpha === null
           ? html`<td colspan="3"><div class="of">${noises[i]}</div><span class="unknown">${missingText(reading, i)}</span></td>`
           : html`<td class="chart"><div class="line"><div class="of">${noises[i]}</div>${whisker(axis, alpha, intervals[i], truth?.[i])}</div></td>
-            <td><div class="line"><div class="fitted-value roomy" data-room="0.0000">${fittedOf(reading, i)}</div><div class="between roomy" data-room=${say.between('0.0000', '0.0000')}>${betweenOf(reading, i)}</div></div></td>
-            <td class="roomy recommended" data-room="0.0000">${recommendedOf(reading, i)}</td>`}
+            <td><div class="line"><div class="fitted-value" data-longest="0.0000">${fittedOf(reading, i)}</div><div class="between" data-longest=${say.between('0.0000', '0.0000')}>${betweenOf(reading, i)}</div></div></td>
+            <td class="recommended" data-longest="0.0000">${recommendedOf(reading, i)}</td>`}
       </tr>`)}
       <tr class="axis" aria-hidden="true">
         <td></td>

@@ -1,10 +1,9 @@
 /** Cloud of samples that grows in steps. */
 
-import { html, noChange, nothing } from 'lit';
-import { live } from 'lit/directives/live.js';
+import { html } from 'lit';
 import { words } from '../messages/registry.ts';
 import { pointOn } from '../scene/canvas.ts';
-import { button, inputOf } from '../ui/controls.ts';
+import { button } from '../ui/controls.ts';
 import { counted } from '../ui/format.ts';
 import { boolean, wholeNumber } from './checks.ts';
 import { Part } from './part.ts';
@@ -236,39 +235,16 @@ export class Cloud extends Part {
     });
   }
 
-  buttons() {
+  /** Returns the buttons of growth and seed, with the field of the seed. */
+  buttons(seedField: unknown) {
     const say = words.cloud;
     const [label, other] = this.playing ? [words.pause, say.play] : [say.play, words.pause];
     return html`<div class="buttons">
       ${button(label, () => this.play(), { title: say.playTitle, other })}
       ${button(words.step, () => this.step(), { title: say.step(counted(this.#batch)), disabled: this.complete })}
       ${button(words.clear, () => this.clear(), { title: say.clear })}
-      ${this.#seedField()} ${button(words.newSeed, () => this.reseed(), { title: say.reseed })}
+      ${seedField} ${button(words.newSeed, () => this.reseed(), { title: say.reseed })}
     </div>`;
-  }
-
-  #seedField() {
-    const { host } = this;
-    const { max } = host.kind.declared.find(({ key }) => key === 'seed') as { max: number };
-    const refusal = host.typing.refusalOf('seed');
-    const enterSeed = (event: Event) => {
-      const text = inputOf(event).value;
-      if (/^\d+$/.test(text) && Number(text) <= max) host.settings.want({ seed: Number(text) });
-      else host.typing.refuse('seed', words.refused(words.seed, text.replace('-', '\u2212'), '0', counted(max), true));
-    };
-    return html`<label class="seed">
-      ${words.seed}
-      <input
-        type="text"
-        inputmode="numeric"
-        autocomplete="off"
-        .value=${refusal ? noChange : live(String(host.settings.wanted.seed))}
-        @input=${enterSeed}
-        @change=${() => host.gesture.commit()}
-        @blur=${() => host.typing.forget()}
-      />
-      ${refusal ? html`<output role="alert">${refusal}</output>` : nothing}
-    </label>`;
   }
 }
 

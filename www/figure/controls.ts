@@ -66,18 +66,26 @@ export function editableSlider(figure: Figure, symbol: string, { min, max: most,
     effect: end === undefined ? row.effect : words.sliderEnds(print(end)),
     keys: min < 0 ? 'text' : whole ? 'numeric' : 'decimal',
     type: (text) => {
-      const number = numberIn(text, unit, whole);
-      if (number >= min && number <= max && (!whole || Number.isInteger(number))) {
-        take(number);
-        row.commit();
-        return print(number);
-      }
-      const given = Number.isNaN(number) ? `"${text}"` : text.trim().replace('-', '\u2212');
-      figure.typing.refuse(row.id, words.refused(symbol.replaceAll(/[*_{}]/g, ''), given, limit(min), limit(max), whole));
+      const number = entered(figure, row.id, symbol, text, { min, max, unit, whole });
+      if (number === undefined) return undefined;
+      take(number);
+      row.commit();
+      return print(number);
     },
-    refusal: figure.typing.refusalOf(row.id),
-    forget: () => figure.typing.forget(),
+    refusal: figure.settings.refusalOf(row.id),
+    forget: () => figure.settings.forgetRefusal(),
   });
+}
+
+/** Returns the number that a text of the reader means. Shows the reason if it is refused, and returns undefined. */
+function entered({ settings }: Figure, key: string, name: string, text: string, { min, max, unit, whole }: { min: number, max: number, unit?: string, whole: boolean }) {
+  const number = numberIn(text, unit, whole);
+  if (number >= min && number <= max && (!whole || Number.isInteger(number))) {
+    settings.forgetRefusal();
+    return number;
+  }
+  const given = Number.isNaN(number) ? `"${text}"` : text.trim().replace('-', '\u2212');
+  settings.refuse(key, words.refused(name.replaceAll(/[*_{}]/g, ''), given, limit(min), limit(max), whole));
 }
 
 /** Returns a picture's canvas, on which the pointer selects samples. The stage sets its size. */
@@ -171,7 +179,30 @@ export function cloudControls(figure: Figure & { cloud: import('./cloud.ts').Clo
       (count) => want(figure, 'samples', count),
       counted,
     )}
-    ${figure.cloud.buttons()}`, 'cloud');
+    ${figure.cloud.buttons(seedField(figure))}`, 'cloud');
+}
+
+/** Returns the field of the seed. */
+function seedField(figure: Figure) {
+  const { settings, gesture } = figure;
+  const refusal = settings.refusalOf('seed');
+  const enterSeed = (event: Event) => {
+    const seed = entered(figure, 'seed', words.seed, inputOf(event).value, { ...declarationOf(figure, 'seed'), whole: true });
+    if (seed !== undefined) settings.want({ seed });
+  };
+  return html`<label class="seed">
+    ${words.seed}
+    <input
+      type="text"
+      inputmode="numeric"
+      autocomplete="off"
+      .value=${refusal ? noChange : live(String(settings.wanted.seed))}
+      @input=${enterSeed}
+      @change=${() => gesture.commit()}
+      @blur=${() => settings.forgetRefusal()}
+    />
+    ${refusal ? html`<output role="alert">${refusal}</output>` : nothing}
+  </label>`;
 }
 
 interface SampleFieldOptions {
@@ -186,16 +217,14 @@ interface SampleFieldOptions {
 }
 
 /** Returns the field with the number of the selected sample. Refused text stays until the reader corrects or leaves it. */
-export function sampleField({ cloud, typing }: Figure & { cloud: import('./cloud.ts').Cloud }, { id, label, shown, selected, hint }: SampleFieldOptions) {
-  const refusal = typing.refusalOf('marked');
+export function sampleField(figure: Figure & { cloud: import('./cloud.ts').Cloud }, { id, label, shown, selected, hint }: SampleFieldOptions) {
+  const { cloud, settings } = figure;
+  const refusal = settings.refusalOf('marked');
   const enterIndex = (event: Event) => {
     const text = inputOf(event).value;
-    const number = Number(text);
-    if (text && !(Number.isInteger(number) && number >= 1 && number <= shown)) {
-      typing.refuse('marked', words.refused(label, text.replace('-', '\u2212'), '1', counted(shown), true));
-      return;
-    }
-    typing.forget();
+    const number = text === '' ? 0 : entered(figure, 'marked', label, text, { min: 1, max: shown, whole: true });
+    if (number === undefined) return;
+    settings.forgetRefusal();
     cloud.mark(number - 1);
   };
   return html`<p class="marked">
@@ -210,7 +239,7 @@ export function sampleField({ cloud, typing }: Figure & { cloud: import('./cloud
         ?disabled=${shown === 0}
         .value=${refusal ? noChange : live(cloud.index < 0 ? '' : String(cloud.index + 1))}
         @input=${enterIndex}
-        @blur=${() => typing.forget()}
+        @blur=${() => settings.forgetRefusal()}
       />
     </label>
     <output for=${id} role=${refusal ? 'alert' : nothing}>${refusal || selected || html`<span class="hint">${hint}</span>`}</output>

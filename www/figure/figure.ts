@@ -10,10 +10,8 @@ import { COMMON, HEADING_LEVELS } from './attributes.ts';
 import { Focus } from './focus.ts';
 import { Gesture } from './gesture.ts';
 import { Link } from './link.ts';
-import { Lettering } from './lettering.ts';
 import { THEMES, schemeStyles } from './page/scheme.ts';
 import { Notice, noticeStyles } from './notice.ts';
-import { Progress, progressStyles } from './progress.ts';
 import { Presentation } from './presentation.ts';
 import { Reflection } from './reflection.ts';
 import { Runtime } from './runtime.ts';
@@ -24,7 +22,6 @@ import { Steadiness } from './steadiness.ts';
 import { surface } from './surface.ts';
 import { CopyMenu, embedding } from './takeaway/copy.ts';
 import { csvOf, pngOf, svgOf } from './takeaway/export.ts';
-import { Typing } from './typing.ts';
 import type { FigureState, Motion } from '../types.d.ts';
 import type { Values } from './state.ts';
 
@@ -80,7 +77,7 @@ addEnglish(en);
  *   be above the figure.
  */
 export class FigureElement<Machine extends { free(): void, stats: object, config: Values, configure(settings: Values): Values }, Reading extends { config: Values, stats: object }> extends LitElement {
-  static styles = [theme, schemeStyles, presentationStyles, progressStyles, noticeStyles];
+  static styles = [theme, schemeStyles, presentationStyles, noticeStyles];
 
   static definition: import('./definition.ts').Definition;
 
@@ -92,12 +89,9 @@ export class FigureElement<Machine extends { free(): void, stats: object, config
   reflection = new Reflection(this);
   link = new Link(this);
   announcer = new Announcer();
-  progress = new Progress(this);
   notice = new Notice(this);
   copies = new CopyMenu(this);
-  typing = new Typing(this);
   focusing = new Focus(this);
-  lettering = new Lettering(this);
   presenting = new Presentation(this);
   steadiness = new Steadiness(this);
   /** Cloud of a figure with samples. */

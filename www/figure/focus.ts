@@ -1,6 +1,5 @@
 /** Keyboard focus. It moves from the placeholder into the figure, and stays there when the focused control is removed, disabled or hidden. */
 
-import { html } from 'lit';
 import { Part } from './part.ts';
 import type { Figure } from './figure.ts';
 
@@ -36,14 +35,8 @@ export class Focus extends Part {
   }
 }
 
-/** Returns the placeholder of a figure that has not started. */
-export function placeholder(figure: Figure) {
-  const enter = ({ relatedTarget }: FocusEvent) => void moveFocusInto(figure, relatedTarget);
-  return html`<div class="reserved" tabindex="0" role="group" aria-label=${figure.lettering.name} @focus=${enter}></div>`;
-}
-
 /** Moves the focus into the figure, to the end that is nearer to `origin`. */
-async function moveFocusInto(figure: Figure, origin: EventTarget | null) {
+export async function moveFocusInto(figure: Figure, origin: EventTarget | null) {
   await figure.runtime.start();
   // Waits for the controls, which are rendered after the first picture.
   while (figure.stage.opening) await new Promise(requestAnimationFrame);

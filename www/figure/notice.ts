@@ -1,35 +1,111 @@
-/** Notice over the lower edge of the figure or the window, which the reader closes. It moves no content. */
+/** Notice over the lower edge of the figure or the window, which moves no content: a sentence, or long work with a button that stops it. */
 
 import { css, html, nothing } from 'lit';
 import { words } from '../messages/registry.ts';
 import { button } from '../ui/controls.ts';
 import { Part } from './part.ts';
 
+/** Time that work may take before the notice shows it, ms. */
+const DELAY = 200;
+
 export const noticeStyles = css`
-  .progress > .notice {
+  .notice {
+    position: sticky;
+    z-index: 3;
+    bottom: 0;
+    height: 0;
+  }
+
+  .notice > div {
+    position: absolute;
+    bottom: 0.5em;
+    left: 50%;
+    display: flex;
+    align-items: center;
+    gap: 0.8em;
+    box-sizing: border-box;
+    max-width: 100%;
+    padding: 0.35em 0.5em 0.35em 0.9em;
+    transform: translateX(-50%);
+    background: var(--paper);
+    border: 1px solid var(--rule);
+    border-radius: 4px;
+    box-shadow: 0 2px 10px rgb(0 0 0 / 25%);
+    white-space: nowrap;
+    font-variant-numeric: tabular-nums;
+  }
+
+  .notice > .sentence {
     width: max-content;
     border-left: 3px solid var(--accent);
     white-space: normal;
+  }
+
+  progress {
+    flex: 0 1 8em;
+    min-width: 3em;
+    accent-color: var(--posterior);
   }
 `;
 
 export class Notice extends Part {
   #sentence = '';
+  /** Stops the work that is shown, if any. */
+  #stop: (() => void) | undefined;
 
+  /** True if a sentence is shown. */
   get isShown() {
     return this.#sentence !== '';
   }
 
-  /** Shows a sentence; an empty one hides the notice. */
+  /** Shows a sentence until the reader closes it; an empty one hides it. */
   show(sentence: string) {
     this.#sentence = sentence;
     this.host.requestUpdate();
   }
 
+  /** Shows work that takes long, until it ends. `stop` is called if the reader stops it. */
+  async during(work: Promise<unknown>, stop: () => void) {
+    const { host } = this;
+    const ended = new AbortController();
+    const begin = () => {
+      this.#stop = () => {
+        host.announcer.announce(words.progress.stopped);
+        stop();
+      };
+      host.announcer.announce(words.progress.begins);
+      host.requestUpdate();
+      // The capturing listener is called before those of the page and the figure.
+      document.addEventListener('keydown', this.#key, { capture: true, signal: ended.signal });
+    };
+    const timer = setTimeout(begin, DELAY);
+    try {
+      await work;
+    } finally {
+      clearTimeout(timer);
+      ended.abort();
+      this.#stop = undefined;
+      host.requestUpdate();
+    }
+  }
+
+  #key = (event: KeyboardEvent) => {
+    if (event.key !== 'Escape' || event.defaultPrevented) return;
+    // The key counts if the focus is in the figure, or on the body, such as after files were dropped.
+    if (event.target !== document.body && !event.composedPath().includes(this.host)) return;
+    event.preventDefault();
+    event.stopPropagation();
+    this.#stop?.();
+  };
+
   render() {
-    if (!this.isShown) return nothing;
-    return html`<div class="progress">
-      <div class="notice"><span role="alert">${this.#sentence}</span> ${button(words.close, () => this.show(''))}</div>
+    const { label, stop, stopTitle } = words.progress;
+    const work = this.#stop && html`<div part="progress">
+      <progress aria-label=${label}></progress>
+      <span aria-hidden="true">${label}</span>
+      ${button(stop, this.#stop, { title: stopTitle })}
     </div>`;
+    const sentence = this.isShown && html`<div class="sentence"><span role="alert">${this.#sentence}</span> ${button(words.close, () => this.show(''))}</div>`;
+    return [work, sentence].map((content) => (content ? html`<div class="notice">${content}</div>` : nothing));
   }
 }

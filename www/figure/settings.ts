@@ -12,6 +12,8 @@ export class Settings extends Part {
   #present: Values | undefined;
   /** Changes of the reader that wait for the next frame. */
   #pending: Values = {};
+  /** Message on the text that the reader typed last for a setting, if it was refused. */
+  #refusal: { key: string, message: string } | undefined;
 
   /** Drops pending changes and stops the player, for another machine. */
   reset() {
@@ -48,7 +50,7 @@ export class Settings extends Part {
   want(change: Values | ((wanted: Values) => Values)) {
     this.host.runtime.attempt(() => {
       if (!this.host.machine) return;
-      this.host.typing.forget();
+      this.forgetRefusal();
       const values = () => (typeof change === 'function' ? change(this.wanted) : change);
       const given = values();
       const both = (key: string, other: string) => key in given && other in this.#pending;
@@ -58,6 +60,22 @@ export class Settings extends Part {
       this.host.gesture.step();
       this.host.stage.requestFrame();
     });
+  }
+
+  /** Shows why a typed text is no value of a setting. */
+  refuse(key: string, message: string) {
+    this.#refusal = { key, message };
+    this.host.requestUpdate();
+  }
+
+  /** Returns the message on the refused text of a setting. */
+  refusalOf(key: string): string | undefined {
+    return this.#refusal?.key === key ? this.#refusal.message : undefined;
+  }
+
+  forgetRefusal() {
+    if (this.#refusal) this.host.requestUpdate();
+    this.#refusal = undefined;
   }
 
   /** Changes settings at once, for the page; throws a TypeError or RangeError and changes nothing then. */

@@ -90,7 +90,7 @@ export class State extends Part {
   choosePreset(preset: string) {
     const { host } = this;
     host.player?.stop();
-    host.typing.forget();
+    host.settings.forgetRefusal();
     host.stage.release();
     for (const [name, { ofPreset }] of Object.entries(this.#owned)) if (ofPreset) this.own[name] = this.opening(name);
     Object.assign(host, { preset });

@@ -1,8 +1,8 @@
 /** HTML of a figure: its content, or its placeholder, or the message of a failure. */
 
-import { html, noChange } from 'lit';
+import { html, noChange, nothing } from 'lit';
 import { language, speak, words } from '../messages/registry.ts';
-import { placeholder } from './focus.ts';
+import { moveFocusInto } from './focus.ts';
 import type { Figure } from './figure.ts';
 
 /** Languages written from right to left. */
@@ -11,16 +11,16 @@ const RIGHT_TO_LEFT = /^(ar|ckb|dv|fa|he|ps|sd|ug|ur|yi)\b/i;
 /** Returns the HTML of a figure, whose language and direction may differ from the page's. */
 export function surface(figure: Figure) {
   speak(figure);
-  const { gesture, lettering, notice, presenting, progress, stage } = figure;
+  const { gesture, notice, presenting, stage, presentation, headingLevel } = figure;
   const recolour = () => stage.recolour();
   return html`
     <span class="scheme-probe" aria-hidden="true" @transitionend=${recolour} @transitioncancel=${recolour}></span>
     <div class="surface ${presenting.className}" @pointerdown=${(event: PointerEvent) => gesture.press(event)} @input=${stop} @change=${stop} @keydown=${keepUsed}>
-      ${lettering.title()}
+      ${slotOf(figure, 'title', presentation ? nameOf(figure) : '', headingLevel)}
       <div class="spoken" lang=${language} dir=${RIGHT_TO_LEFT.test(language) ? 'rtl' : 'ltr'}>
-        ${contentOf(figure)} ${progress.render()} ${notice.render()} ${presenting.render()}
+        ${contentOf(figure)} ${notice.render()} ${presenting.render()}
       </div>
-      ${lettering.caption()}
+      ${slotOf(figure, 'caption')}
     </div>
   `;
 }
@@ -30,10 +30,10 @@ function contentOf(figure: Figure) {
   const { failure } = figure.runtime;
   if (failure !== undefined) return html`<p class="failure" role="alert">${words.failure(failure)}</p>`;
   if (!figure.machine) return figure.reading ? noChange : placeholder(figure);
-  const { announcer, dropped, lettering, reading } = figure;
+  const { announcer, dropped, reading } = figure;
   return html`<section
       class="machine"
-      aria-label=${lettering.name}
+      aria-label=${nameOf(figure)}
       @dragenter=${dropped?.enter}
       @dragover=${dropped?.over}
       @dragleave=${dropped?.leave}
@@ -42,6 +42,33 @@ function contentOf(figure: Figure) {
       ${figure.content(reading)}
     </section>
     ${announcer.render()}`;
+}
+
+/** Returns the placeholder of a figure that has not started. */
+function placeholder(figure: Figure) {
+  const enter = ({ relatedTarget }: FocusEvent) => void moveFocusInto(figure, relatedTarget);
+  return html`<div class="reserved" tabindex="0" role="group" aria-label=${nameOf(figure)} @focus=${enter}></div>`;
+}
+
+/** Returns the page's elements in a slot. */
+const slotted = (figure: Figure, name: string) => [...figure.children].filter(({ slot }) => slot === name);
+
+/** Returns the name of a figure: the page's title, or the widget's own. */
+export function nameOf(figure: Figure) {
+  const title = slotted(figure, 'title').map(({ textContent }) => textContent).join(' ').replace(/\s+/g, ' ').trim();
+  return title || (words as any)[figure.kind.vocabulary].title;
+}
+
+/** Returns a slot of the page, with a text for an empty one. It is a heading if it has a level. */
+function slotOf(figure: Figure, name: string, fallback = '', level: string | null = null) {
+  return html`<div
+    class="${name}-slot"
+    role=${level ? 'heading' : nothing}
+    aria-level=${level ?? nothing}
+    ?hidden=${!fallback && slotted(figure, name).length === 0}
+  >
+    <slot name=${name} @slotchange=${() => figure.requestUpdate()}>${fallback || nothing}</slot>
+  </div>`;
 }
 
 /** Controls that use every key. */

@@ -5,6 +5,7 @@ import { words } from '../../messages/registry.ts';
 import { inCss } from '../../scene/canvas.ts';
 import { SvgContext, escaped, short } from '../../scene/svg.ts';
 import { button } from '../../ui/controls.ts';
+import { nameOf } from '../surface.ts';
 import type { Figure } from '../figure.ts';
 
 /** Content for export besides the picture. */
@@ -69,7 +70,7 @@ export function svgOf(element: Figure) {
   const svg = new SvgContext(name);
   const { view, width, height } = drawOn(element, 1, () => svg);
   return `<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height}" viewBox="0 0 ${short(view.width)} ${short(view.height)}" direction="ltr" role="img" aria-labelledby="${name}-title ${name}-text">
-<title id="${name}-title">${escaped(element.lettering.name)}</title>
+<title id="${name}-title">${escaped(nameOf(element))}</title>
 <desc id="${name}-text">${escaped(description)}</desc>
 <rect width="100%" height="100%" fill="${element.stage.palette.paper}"/>
 ${svg.markup}

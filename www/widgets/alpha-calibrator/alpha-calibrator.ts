@@ -180,18 +180,13 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
 
   /** Fits the present log under settings that are pending. The figure shows the former fit until then. */
   async #follow() {
-    const { log, service, progress } = this;
+    const { log, service } = this;
     if (!log || service.isBusy) return;
-    const work = { stop: () => this.#giveUp() };
-    const telling = setInterval(() => progress.update(work), 100);
     try {
-      await this.open(log, this.warnings);
+      await this.notice.during(this.open(log, this.warnings), () => this.#giveUp());
     } catch (error) {
       if (!isStopped(error)) this.#giveUp();
       this.#report(error);
-    } finally {
-      clearInterval(telling);
-      progress.end(work);
     }
   }
 

@@ -132,7 +132,7 @@ test('Isolate leaves one α in effect, shows the others as off, and lets go agai
   const before = await bananaReadings(widget);
   await widget.getByLabel('Isolate one').check();
   expect((await bananaReadings(widget)).config).toEqual({ ...before.config, isolate: 4 });
-  await expect(widget.locator('.alphas .value', { hasText: 'off' })).toHaveCount(5);
+  await expect(widget.locator('.slider .value', { hasText: 'off' })).toHaveCount(5);
   await widget.getByRole('radio', { name: 'Only α₁' }).check();
   expect((await bananaReadings(widget)).config.isolate).toBe(1);
   // Moving the slider of another α selects that α.
@@ -141,7 +141,7 @@ test('Isolate leaves one α in effect, shows the others as off, and lets go agai
   expect(config).toMatchObject({ isolate: 3, alphas: before.config.alphas.with(2, 0.06) });
   await widget.getByLabel('Isolate one').uncheck();
   expect((await bananaReadings(widget)).config.isolate).toBeNull();
-  await expect(widget.locator('.alphas .value', { hasText: 'off' })).toHaveCount(0);
+  await expect(widget.locator('.slider .value', { hasText: 'off' })).toHaveCount(0);
 });
 
 test('no slider moves under the finger when there is something to note', async ({ page }) => {

@@ -1,5 +1,4 @@
 import { expect } from '@playwright/test';
-import { ALL_NAMES, figureFor } from './figures.js';
 import { FRESH, STILL, boxOf, frames, mount, showPage, test, testEach, untilReady } from './support.js';
 
 
@@ -65,15 +64,13 @@ test('a title and a caption move nothing when the script comes', async ({ page }
   expect(await top()).toBe(before);
 });
 
-test('a figure is at most 720 px high in the column of a book and on a screen', async ({ page }, { title }) => {
-  // Arc Anatomy is higher: its table of factors stands below the picture.
-  const figure = figureFor(title, ALL_NAMES.filter((name) => name !== 'arc-anatomy'));
-  const widget = await mount(page, figure, { head: '<style>body { margin: 0 }</style>' });
+testEach('a figure is no wider than the column of a book or a screen, and at most a third higher than a screen', async (page, name) => {
+  const widget = await mount(page, name, { head: '<style>body { margin: 0 }</style>' });
   await expect(widget.locator('.folds')).toBeVisible();
   for (const width of [640, 1280]) {
     await page.setViewportSize({ width, height: 720 });
     await frames(page);
-    expect.soft((await boxOf(widget)).height, `${width} px`).toBeLessThanOrEqual(720);
+    expect.soft((await boxOf(widget)).height / 720, `${width} px`).toBeLessThanOrEqual(4 / 3);
     expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBeLessThanOrEqual(width);
   }
-});
+}, FRESH);

@@ -64,6 +64,10 @@ const layout = css`
 
   /* The number of samples is below a single slider, and both are next to the command. */
   @container (min-width: 56em) {
+    .controls:has(> .single) {
+      grid-template-columns: repeat(2, minmax(0, 1fr));
+    }
+
     .controls > fieldset:has(+ .single) {
       grid-row: span 2;
     }

@@ -8,8 +8,8 @@ const WIDTHS = [20, 30, 38, 46, 56, 80];
 
 /** Heights in em by tag and width class, at the lower and the upper bound of the class. Measured in a window 900 px high, with a small margin. */
 const HEIGHTS: Record<string, ([number, number] | string)[]> = {
-  'banana-machine': [[86, 86.2], [71.7, 64.3], [53.2, 50.3], [50.6, 54], [50.3, 55.6]],
-  'map-squeeze': [[83.9, 87], [80.8, 82.2], [44.1, 45], [46, 48.6], [50.3, 44.1]],
+  'banana-machine': [[92.8, 93], [78.4, 71.1], [55.2, 51.5], [51.7, 54.8], [54.6, 57.9]],
+  'map-squeeze': [[83.9, 87], [80.8, 82.2], [44.1, 45], [46, 48.6], [50.3, 46.4]],
   'arc-anatomy': [[81, 70.9], [73.9, 68.5], [42.2, 48.5], [50.9, 50.9], [50.9, 47.9]],
   'odometry-decomposer': [[101.5, 112.9], [93.4, 96.5], 'clamp(44.9em, 100svh - 0.1em, 56.1em)', 'clamp(44.9em, 100svh - 0.1em, 56.1em)', 'clamp(45.1em, 100svh + 0.1em, 52.7em)'],
   'dead-reckoning': [[95.9, 111.5], [63.8, 54.2], [53.8, 45.5], [45, 50.7], [41, 42.1]],

@@ -18,7 +18,7 @@ import { button, rich } from '../../ui/controls.ts';
 import { fixed } from '../../ui/format.ts';
 import { plot } from '../../ui/plot.ts';
 import { Player } from '../shared/player.ts';
-import { alphaControls, commandControls, modelControls } from './controls.ts';
+import { alphaControls, bendingControl, commandControls, modelControls } from './controls.ts';
 import { presetButtons } from '../shared/presets.ts';
 import { ArcHandle } from './handle.ts';
 import { IntroducedCloud } from './introduction.ts';
@@ -251,7 +251,7 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
       <p part="caption" class="caption ${note && 'note'}">${captionOf(reading)}</p>
       ${readouts(reading, this.#pinned)} ${presetButtons(this)}
       <div class="controls" part="controls">
-        ${commandControls(this)} ${cloudControls(this, SAMPLE_COUNTS)}
+        ${commandControls(this)} ${bendingControl(this)} ${cloudControls(this, SAMPLE_COUNTS)}
       </div>
       ${disclosures(this, {
         controls: () => html`<div class="controls">${alphaControls(this)} ${modelControls(this)}</div>`,

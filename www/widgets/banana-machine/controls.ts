@@ -27,12 +27,20 @@ export function modelControls(figure: Figure) {
     })}`);
 }
 
-export function alphaControls(figure: Figure) {
+/** Indices of the α's by which driving straight turns the robot. They bend the cloud, and their slider is always in sight. */
+const BENDING_ALPHAS: Record<string, number> = { velocity: 2, odometry: 1 };
+
+export const bendingControl = (figure: Figure) => alphaGroup(figure, (index) => index === BENDING_ALPHAS[figure.reading.config.model], 'single');
+
+export const alphaControls = (figure: Figure) => alphaGroup(figure, (index) => index !== BENDING_ALPHAS[figure.reading.config.model], 'alphas');
+
+/** Returns the sliders of some α's by their indices. */
+function alphaGroup(figure: Figure, isIn: (index: number) => boolean, name: string) {
   const { model, alphas } = figure.reading.config;
   const { effects } = words.banana.settings.alphas;
   const names = words.alphas[(model as 'velocity' | 'odometry')];
   const slider = (index: number) => alphaSlider(figure, `alpha${index + 1}`, index + 1, names[index], effects[model][index]);
-  return group(words.noise, alphas.map((_, index) => slider(index)), 'alphas');
+  return group(words.noise, [...alphas.keys()].filter(isIn).map(slider), name);
 }
 
 /**

@@ -73,6 +73,8 @@ test('Pin keeps the numbers and outlines to compare with, and lets go of them', 
     return scene.pinnedAt(0).filter((/** @type {number} */ at, /** @type {number} */ i) => (i % 2 ? at < yMin || at > yMax : at < xMin || at > xMax));
   });
   expect(outside).toEqual([]);
+  await widget.getByRole('button', { name: 'Copy link' }).click();
+  await expect(widget.locator('.copied').first()).toContainText('The pinned outlines are not in it.');
   const withGhost = await pictureOf(widget.locator('canvas.plane'));
   await pin.click();
   await expect(area).not.toContainText('pinned');

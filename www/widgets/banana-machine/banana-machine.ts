@@ -140,6 +140,7 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
     return {
       description: this.#description,
       settings: config,
+      notInCopies: this.#pinned ? words.banana.pinNotInCopies : '',
       columns: [...POSE_COLUMNS, ...TWIST_COLUMNS, ...EXECUTED_COLUMNS[config.model]],
       row: (i: number) => [poses, twists, executed].flatMap((each) => [...each.subarray(3 * i, 3 * i + 3)]),
       count,

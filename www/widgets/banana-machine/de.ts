@@ -123,6 +123,7 @@ export const de: typeof import('./en.ts').en = {
   pin: 'Festhalten',
   pinned: 'festgehalten',
   pinTitle: 'Behält diese Umrisse und Zahlen zum Vergleich',
+  pinNotInCopies: 'Die festgehaltenen Umrisse sind nicht dabei.',
   slidersEnd: 'Hier enden die Regler',
   chart: 'Exakte Schiefe quer zur Fahrt über dem befohlenen ω, beim jetzigen Rauschen',
   chartAxis: 'Schiefe quer zur Fahrt',

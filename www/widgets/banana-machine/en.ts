@@ -129,6 +129,7 @@ export const en = {
   pin: 'Pin',
   pinned: 'pinned',
   pinTitle: 'Keep these outlines and numbers to compare with',
+  pinNotInCopies: 'The pinned outlines are not in it.',
   slidersEnd: 'The sliders end here',
   chart: 'Exact cross-track skew against commanded ω, for the present noise',
   chartAxis: 'cross-track skew',

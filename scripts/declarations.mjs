@@ -126,10 +126,10 @@ async function widget(tag) {
       const withoutRange = describe({ ...declaration, min: undefined }, shown);
       return { name, type: typeOf(declaration), description: describe(declaration, shown), opening, allowed: allowedIn(declaration), withoutRange };
     }
-    const { words, covers, kind, property } = entry;
+    const { words, covers, converter, property } = entry;
     const nullable = covers || entry.nullable;
-    const opening = entry.opening ?? own[name]?.opening ?? (covers ? openingPreset(tag) : nullable ? undefined : words?.[0]);
-    const type = kind === NUMBER ? 'number' : words === undefined ? 'boolean' : kind === WORD_LIST ? `(${union(words)})[]` : union(words);
+    const opening = own[name]?.opening ?? (covers ? openingPreset(tag) : nullable ? undefined : words?.[0]);
+    const type = converter === NUMBER ? 'number' : words === undefined ? 'boolean' : converter === WORD_LIST ? `(${union(words)})[]` : union(words);
     const text = Array.isArray(opening) ? opening.join(' ') : opening;
     const description = describe({ ...entry, sentence: sentences[name] }, text);
     return { name, property, type: nullable ? `${type} | null` : type, description, opening: text, allowed: allowedIn(entry), withoutRange: description };

@@ -8,7 +8,7 @@
 
 import './de.ts';
 import './widgets/index.ts';
-import { COMMON, groupsOf } from './figure/attributes.ts';
+import { COMMON } from './figure/attributes.ts';
 import { includesFields } from './figure/checks.ts';
 import { GLOBAL, elementNamed, sorry } from './named.ts';
 
@@ -120,8 +120,8 @@ function withoutKernel(work: () => void) {
 
 /** Returns all spellings of traits with their properties. Properties that others depend on come first. */
 function traitsOf(element: any): [trait: string, property: string][] {
-  const { attributes, declared, own } = element.constructor.definition;
-  const entries: Record<string, { property?: string }> = { ...attributes, ...groupsOf(declared), ...own, ...COMMON, ...Object.fromEntries(GLOBAL.map((name) => [name, {}])) };
+  const { properties, own } = element.constructor.definition;
+  const entries: Record<string, { property?: string }> = { ...properties, ...own, ...COMMON, ...Object.fromEntries(GLOBAL.map((name) => [name, {}])) };
   return Object.entries(entries).flatMap(([name, { property = name }]) => {
     if (!(property in element)) return [];
     const inPython = property.replaceAll(/[A-Z]/g, (capital) => `_${capital.toLowerCase()}`);

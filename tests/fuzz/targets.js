@@ -8,7 +8,7 @@ import { Buffer } from 'node:buffer';
 import { readFileSync } from 'node:fs';
 import { deflateRawSync, gunzipSync } from 'node:zlib';
 import { load } from '../../dist/core.js';
-import { attributesOf, isSetting } from '../../www/figure/attributes.ts';
+import { attributesIn, propertiesOf } from '../../www/figure/attributes.ts';
 import { pack, unpack } from '../../www/figure/packing.ts';
 import { settings } from '../../www/settings.js';
 import { LogError } from '../../www/logs/log-error.ts';
@@ -36,15 +36,15 @@ const squeeze = new motion.MapSqueeze({ samples: 1 });
 /**
  * Machines of the elements, with their attributes and opening settings.
  *
- * @type {{ attributes: ReturnType<typeof attributesOf>, machine: any, opening: any }[]}
+ * @type {{ attributes: ReturnType<typeof attributesIn>, machine: any, opening: any }[]}
  */
 const machines = [
-  { attributes: attributesOf(settings['banana-machine']), machine: new motion.BananaMachine({ samples: 1 }) },
-  { attributes: attributesOf(settings['map-squeeze']), machine: squeeze },
-  { attributes: attributesOf(settings['arc-anatomy']), machine: new motion.ArcAnatomy() },
-  { attributes: attributesOf(settings['odometry-decomposer']), machine: new motion.OdometryDecomposer({ samples: 1 }) },
-  { attributes: attributesOf(settings['dead-reckoning']), machine: new motion.DeadReckoning({ samples: 1 }) },
-  { attributes: attributesOf(settings['alpha-calibrator']), machine: calibrator },
+  { attributes: attributesIn(propertiesOf(settings['banana-machine'])), machine: new motion.BananaMachine({ samples: 1 }) },
+  { attributes: attributesIn(propertiesOf(settings['map-squeeze'])), machine: squeeze },
+  { attributes: attributesIn(propertiesOf(settings['arc-anatomy'])), machine: new motion.ArcAnatomy() },
+  { attributes: attributesIn(propertiesOf(settings['odometry-decomposer'])), machine: new motion.OdometryDecomposer({ samples: 1 }) },
+  { attributes: attributesIn(propertiesOf(settings['dead-reckoning'])), machine: new motion.DeadReckoning({ samples: 1 }) },
+  { attributes: attributesIn(propertiesOf(settings['alpha-calibrator'])), machine: calibrator },
 ].map((each) => ({ ...each, opening: each.machine.config }));
 
 /** Maximum length of a sentence: long quotations are shortened. */
@@ -229,11 +229,10 @@ export const targets = {
       const [name, ...rest] = bytes.toString().split('=');
       const { attributes, machine, opening } = machines[bytes.length % machines.length];
       const attribute = Object.hasOwn(attributes, name) ? attributes[name] : Object.values(attributes)[bytes.length % 9];
-      if (!isSetting(attribute)) return false;
       // Millions of samples would take too much memory.
       if (/^(samples|steps)$/.test(name) && Number(rest.join('=')) > 1e5) return false;
-      if (!isTaken(() => machine.configure(attribute.change(attribute.kind.parse(rest.join('=')), machine.config)))) return false;
-      assert.equal(typeof attribute.kind.print(attribute.get(machine.config)), 'string');
+      if (!isTaken(() => machine.configure(attribute.change(attribute.converter.parse(rest.join('=')), machine.config)))) return false;
+      assert.equal(typeof attribute.converter.print(attribute.get(machine.config)), 'string');
       machine.configure(opening);
       return true;
     },

@@ -4,45 +4,40 @@ import { includesFields, refusal, word } from './checks.ts';
 import { THEMES } from './page/scheme.ts';
 import type { Declaration } from '../settings.js';
 
-export interface Kind {
+/** Conversion of a value from and to the text of an attribute. */
+export interface Converter {
   /** Returns an invalid text unchanged; the check of the value refuses it. */
   parse: (text: string) => unknown;
   /** Returns null for no attribute. */
   print: (value: any) => string | null;
 }
 
-/** Settings of a machine, with pending changes. */
+/** Settings of the machine, with pending changes, and the state of the element. */
 export type Config = Record<string, any>;
 
-/** Setting of the machine. */
-export interface Setting {
+/** Property of a figure. */
+export interface Property {
+  /** Conversion of a property that is also an attribute. */
+  converter?: Converter;
   get: (config: Config) => unknown;
-  /** Returns the settings to configure. */
+  /** Returns the part of the configuration that has a new value. */
   change: (value: any, config: Config) => Config;
-  /** Name in the core, if different. */
+  /** Name of a setting in the core, if different. */
   path?: string;
-}
-
-/** Property of the element itself. */
-export interface Own {
-  own: true;
-  /** Default of a property that is not part of the state. */
-  opening?: unknown;
-  /** Range of a number, for its documentation. */
-  min?: number;
-  max?: number;
-}
-
-export interface Attribute {
-  kind: Kind;
   /** Returns the names of attributes whose values follow from a text of this one. They are only written while this one has no text. */
   covers?: (text: string | null) => string[];
   /** Allowed words, if no declaration lists them. */
   words?: readonly string[];
+  /** Range of a number, if no declaration has it. */
+  min?: number;
+  max?: number;
 }
 
-/** Attributes by name, in the order in which they are applied. */
-export type Attributes = Record<string, Attribute & (Setting | Own)>;
+/** Properties by name, in the order in which they are applied. */
+export type Properties = Record<string, Property>;
+
+/** Property that is also an attribute. */
+export type Attribute = Property & { converter: Converter };
 
 /** Documentation by name. Types are in TypeScript. */
 export type Table = Record<string, { type: string, readonly?: true, sentence: string }>;
@@ -55,24 +50,24 @@ export interface Documentation {
   state?: Table;
 }
 
-export const NUMBER: Kind = {
+export const NUMBER: Converter = {
   parse: (text) => (text.trim() === '' || Number.isNaN(Number(text)) ? text : Number(text)),
   print: (value) => (value === null ? null : String(value)),
 };
 
-export const WORD: Kind = { parse: (text) => text, print: (value) => value };
+export const WORD: Converter = { parse: (text) => text, print: (value) => value };
 
 /** Boolean attribute. Without a value it is true, as in HTML. The value "false" makes it false. Other values are refused. */
-const BOOLEAN: Kind = {
+const BOOLEAN: Converter = {
   parse: (text) => text !== 'false' && (text === '' || text === 'true' || text),
   print: String,
 };
 
 /** Words separated by spaces. */
-export const WORD_LIST: Kind = { parse: (text) => text.split(/\s/).filter(Boolean), print: (value) => value.join(' ') };
+export const WORD_LIST: Converter = { parse: (text) => text.split(/\s/).filter(Boolean), print: (value) => value.join(' ') };
 
-/** Conversions of the types that fit into an attribute. */
-const KINDS: Record<string, Kind> = { number: NUMBER, whole: NUMBER, word: WORD, boolean: BOOLEAN };
+/** Conversions of the types that fit into an attribute. Objects and arrays have none. */
+const CONVERTERS: Record<string, Converter> = { number: NUMBER, whole: NUMBER, word: WORD, boolean: BOOLEAN };
 
 /** Levels of headings in HTML. */
 export const HEADING_LEVELS = ['1', '2', '3', '4', '5', '6'] as const;
@@ -85,37 +80,30 @@ export const COMMON: Record<string, { words?: readonly string[], nullable?: true
   'heading-level': { words: HEADING_LEVELS, nullable: true, property: 'headingLevel' },
 };
 
-export const isSetting = (entry: Setting | Own): entry is Setting => !('own' in entry);
+/** Returns the properties of declared settings. */
+export const propertiesOf = (declared: Declaration[]): Properties => Object.fromEntries(declared.map((setting) => [setting.key, propertyOf(setting)]));
 
-export const attributesOf = (declared: Declaration[]) => settingsIn(declared, ({ type }) => type in KINDS);
+/** Returns the properties that are also attributes. */
+export const attributesIn = (properties: Properties) =>
+  Object.fromEntries(Object.entries(properties).filter(([, { converter }]) => converter)) as Record<string, Attribute>;
 
-/** Returns the settings that are objects or arrays, which have no attribute. */
-export const groupsOf = (declared: Declaration[]) => settingsIn(declared, ({ type }) => !(type in KINDS));
+/** Returns a property with a field of the configuration. */
+export const plainProperty = (key: string, converter?: Converter): Property => ({ converter, get: (config) => config[key], change: (value) => ({ [key]: value }) });
 
-const settingsIn = (declared: Declaration[], includes: (setting: Declaration) => boolean) =>
-  Object.fromEntries(declared.filter(includes).map((setting) => [setting.key, settingOf(setting)]));
-
-function settingOf({ key, in: group, field = key, index, of, weights = [], type }: Declaration): Attribute & Setting {
-  const kind = KINDS[type];
+function propertyOf({ key, in: group, field = key, index, of, weights = [], type }: Declaration): Property {
+  const plain = plainProperty(key, CONVERTERS[type]);
   // This setting is a level, which scales several settings of the machine.
-  if (of) return { kind, get: (config) => levelOf(config[of], weights), change: (value) => ({ [key]: value }) };
-  if (!group) return { kind, get: (config) => config[key], change: (value) => ({ [key]: value }) };
-  if (index === undefined) {
-    return {
-      kind,
-      path: field === key ? undefined : `${group}.${field}`,
-      get: (config) => config[group][field],
-      change: (value, config) => ({ [group]: { ...config[group], [field]: value } }),
-    };
-  }
+  if (of) return { ...plain, get: (config) => levelOf(config[of], weights) };
+  if (!group) return plain;
+  const at = index ?? field;
   return {
-    kind,
-    path: `${group}[${index}]`,
-    get: (config) => config[group][index] ?? null,
-    change: (value, config) => {
-      const { length } = config[group];
-      if (index < length) return { [group]: config[group].with(index, value) };
-      throw refusal(key, value, `none, as the last one at present is ${key.replace(/\d/, '')}${length}`);
+    ...plain,
+    path: index !== undefined ? `${group}[${index}]` : field === key ? undefined : `${group}.${field}`,
+    get: (config) => config[group][at] ?? null,
+    change: (value, { [group]: whole }) => {
+      if (index === undefined) return { [group]: { ...whole, [at]: value } };
+      if (index < whole.length) return { [group]: whole.with(index, value) };
+      throw refusal(key, value, `none, as the last one at present is ${key.replace(/\d/, '')}${whole.length}`);
     },
   };
 }
@@ -141,7 +129,7 @@ export function defaultConfig(declared: Declaration[]) {
 }
 
 /** Returns the attribute of a figure's presets. A preset sets all settings except samples and seed. Settings that it does not list get defaults. */
-export function presetsOf(presets: readonly ({ name: string } & Record<string, any>)[], declared: Declaration[]): Attribute & Setting {
+export function presetsOf(presets: readonly ({ name: string } & Record<string, any>)[], declared: Declaration[]): Attribute {
   const words = presets.map(({ name }) => name);
   const settings = presets.map(({ name: _, ...given }) => {
     const config = defaultConfig(declared);
@@ -151,9 +139,9 @@ export function presetsOf(presets: readonly ({ name: string } & Record<string, a
     }
     return Object.fromEntries(Object.entries(config).filter(([key]) => !KEPT_BY_PRESETS.includes(key)));
   });
-  const covered = Object.keys(attributesOf(declared)).filter((key) => !KEPT_BY_PRESETS.includes(key));
+  const covered = Object.keys(attributesIn(propertiesOf(declared))).filter((key) => !KEPT_BY_PRESETS.includes(key));
   return {
-    kind: WORD,
+    converter: WORD,
     covers: () => covered,
     words,
     get: (config) => words[settings.findIndex((each) => includesFields(config, each))] ?? null,

@@ -260,16 +260,8 @@ export function enterCloud<Machine extends Growing & { free(): void }>({ setting
   });
 }
 
-/** Properties of an element with a cloud. */
+/** Properties of an element with a cloud that cannot be set. */
 export const cloudProperties: PropertyDescriptorMap & ThisType<Figure> = {
   playing: { get() { return (this.cloud as Cloud).playing; } },
-  marked: {
-    get() {
-      return this.state.own.marked;
-    },
-    set(marked) {
-      this.reflection.setProperty('marked', marked, (given: unknown) => this.state.assign('marked', given));
-    },
-  },
   poses: { get() { return this.ask((machine) => machine.poses); } },
 };

@@ -9,7 +9,6 @@ import { counted, limit, numberIn, typed } from '../ui/format.ts';
 import { sliderRow, type SliderRow } from '../ui/slider.ts';
 import { exportButtons } from './takeaway/export.ts';
 import type { Declaration } from '../settings.js';
-import type { Setting } from './attributes.ts';
 import type { Figure } from './figure.ts';
 
 /** Appearance of a numeric setting. */
@@ -39,7 +38,7 @@ export function slider(figure: Figure, key: string, overrides?: Row) {
   const declaration = declarationOf(figure, key);
   const { unit } = declaration;
   const config = figure.settings.wanted;
-  const setting = attributes[key] as Setting;
+  const setting = attributes[key];
   return editableSlider(figure, symbol ?? name, declaration, {
     ...look,
     id: key,
@@ -137,7 +136,7 @@ export function disclosures(figure: Figure, { controls, numbers, mark = figure.r
 /** Returns the noise parameters with their values, for print. */
 function noiseOf({ kind: { attributes, looks }, settings: { wanted: config } }: Figure) {
   return Object.entries(looks).filter(([, { alpha }]) => alpha).flatMap(([key, { symbol = '', decimals }]) => {
-    const value = (attributes[key] as Setting).get(config) as number | null;
+    const value = attributes[key].get(config) as number | null;
     return value === null ? [] : html`<span>${rich(`${symbol}\u00a0=\u00a0${typed(value, decimals)}`)}</span> `;
   });
 }
@@ -248,7 +247,7 @@ export function sampleField(figure: Figure & { cloud: import('./cloud.ts').Cloud
 
 /** Requests another value of a setting. */
 function want(figure: Figure, key: string, value: unknown) {
-  const setting = figure.kind.attributes[key] as Setting;
+  const setting = figure.kind.attributes[key];
   figure.settings.want((wanted) => setting.change(value, wanted));
 }
 

@@ -1,20 +1,33 @@
-/** Definition of a widget: its settings with their sliders, its attributes, and the state of its element. */
+/** Definition of a widget: its settings with their sliders, its properties and attributes, and the state of its element. */
 
 import { presets, settings, type Declaration } from '../settings.js';
-import { WORD_LIST, attributesOf, presetsOf, type Attributes, type Config } from './attributes.ts';
-import { subset, wholeNumber } from './checks.ts';
+import { NUMBER, WORD_LIST, attributesIn, plainProperty, presetsOf, propertiesOf, type Attribute, type Config, type Properties, type Property } from './attributes.ts';
+import { numberWithin, subset, wholeNumber, word } from './checks.ts';
 import type { Look } from './controls.ts';
 import type { LineStyle } from './overlays.ts';
-import type { Owned } from './state.ts';
+
+/** Field of the state that the machine does not have. */
+export interface Own extends Pick<Property, 'converter' | 'words' | 'min' | 'max'> {
+  /** Default. */
+  opening: unknown;
+  /** True if a preset sets it to its default. */
+  ofPreset?: true;
+  /** True if it is a property, but no attribute. */
+  isProperty?: true;
+  /** Returns a value after a check; throws if it is invalid. An attribute is checked by its words or its range. */
+  check?: (field: string, value: any, selectableCount: number) => any;
+}
 
 export interface Definition {
   /** Key of the widget's words in the catalogues. */
   vocabulary: string;
   /** Declared settings. */
   declared: Declaration[];
-  attributes: Attributes;
+  properties: Properties;
+  /** Properties that are also attributes. */
+  attributes: Record<string, Attribute>;
   /** State of the element that the machine does not have. */
-  own: Record<string, Owned>;
+  own: Record<string, Own>;
   /** Appearance of the settings that have a slider. */
   looks: Record<string, Look>;
   /** Returns the defaults that depend on other settings. */
@@ -26,38 +39,43 @@ interface Parts extends Pick<Definition, 'vocabulary' | 'looks' | 'dependentDefa
   lines: Record<string, LineStyle>;
   /** Lines that are drawn by default. */
   opening?: readonly string[];
-  /** Attributes besides those of settings, presets and overlays. */
-  attributes?: Attributes;
+  /** Attribute of the presets, if it depends on more than the settings. */
+  preset?: Attribute;
   /** State besides that of the overlays and the cloud. */
-  own?: Record<string, Owned>;
+  own?: Record<string, Own>;
 }
 
 /** State of an element with samples. */
-const cloudState: Record<string, Owned> = {
+const cloudState: Record<string, Own> = {
   marked: {
     opening: null,
-    check: (field, marked, machine, selectableCount) => (marked === null ? null : wholeNumber(field, marked, 0, selectableCount - 1)),
+    isProperty: true,
+    check: (field, marked, selectableCount) => (marked === null ? null : wholeNumber(field, marked, 0, selectableCount - 1)),
   },
 };
 
 /** Returns the definition of a widget by its tag. */
-export function definitionOf(tag: string, { lines, opening = Object.keys(lines), attributes, own, ...parts }: Parts): Definition {
+export function definitionOf(tag: string, { lines, opening = Object.keys(lines), preset, own: ofWidget, ...parts }: Parts): Definition {
   const declared = settings[tag];
   const widgetPresets = presets[tag as keyof typeof presets];
-  const lineNames = Object.keys(lines);
-  return {
-    ...parts,
-    declared,
-    attributes: {
-      ...(widgetPresets.length > 0 && { preset: presetsOf(widgetPresets, declared) }),
-      ...attributesOf(declared),
-      ...attributes,
-      overlays: { kind: WORD_LIST, own: true, words: lineNames },
-    },
-    own: {
-      ...(declared.some(({ key }) => key === 'samples') && cloudState),
-      ...own,
-      overlays: { opening, check: (field, overlays) => subset(field, overlays, lineNames) },
-    },
+  const own: Record<string, Own> = {
+    ...(declared.some(({ key }) => key === 'samples') && cloudState),
+    ...ofWidget,
+    overlays: { converter: WORD_LIST, words: Object.keys(lines), opening },
   };
+  const properties: Properties = {
+    ...(widgetPresets.length > 0 && { preset: preset ?? presetsOf(widgetPresets, declared) }),
+    ...propertiesOf(declared),
+  };
+  for (const [key, { converter, isProperty, words, min, max }] of Object.entries(own)) {
+    if (converter || isProperty) properties[key] = { ...plainProperty(key, converter), words, min, max };
+  }
+  return { ...parts, declared, properties, attributes: attributesIn(properties), own };
+}
+
+/** Returns a value for a field of the state of the element after a check; throws a TypeError or RangeError if it is invalid. */
+export function checked({ converter, words = [], min = -Infinity, max = Infinity, check }: Own, field: string, value: unknown, selectableCount: number) {
+  if (check) return check(field, value, selectableCount);
+  if (converter === NUMBER) return numberWithin(field, value, min, max);
+  return converter === WORD_LIST ? subset(field, value, words) : word(field, value, words);
 }

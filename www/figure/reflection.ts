@@ -1,10 +1,10 @@
 /** Synchronization of attributes and properties with the settings: values of the page are applied, and changed settings are written as attributes. */
 
-import { COMMON, defaultConfig, groupsOf, isSetting } from './attributes.ts';
+import { COMMON, defaultConfig } from './attributes.ts';
 import { includesFields, renamed, word } from './checks.ts';
 import { cloudProperties } from './cloud.ts';
 import { Part } from './part.ts';
-import type { Attributes, Config, Setting } from './attributes.ts';
+import type { Config } from './attributes.ts';
 import type { Figure } from './figure.ts';
 
 /** Texts of attributes; null for none. */
@@ -12,10 +12,9 @@ export type Texts = Map<string, string | null>;
 
 export class Reflection extends Part {
   #attributes = this.host.kind.attributes;
-  /** Attributes, and settings that have a property but no attribute. */
-  #entries: Attributes = { ...groupsOf(this.host.kind.declared), ...this.#attributes };
+  #properties = this.host.kind.properties;
   /** Order in which pending properties are applied. Properties that others depend on come first, and a log, which takes long, last. */
-  #order = ['preset', 'map', ...this.host.kind.declared.map(({ key }) => key), ...Object.keys(this.#attributes), 'marked', 'log'];
+  #order = ['preset', 'map', ...Object.keys(this.#properties), 'log'];
   /** Attributes that were set before there was a machine. */
   #pendingAttributes: Map<string, string | null> = new Map();
   /** Properties, by name, and states that were set before there was a machine. The key of a state is a new object, so that no state replaces another. */
@@ -47,8 +46,8 @@ export class Reflection extends Part {
 
   /** Takes lists from text as servers write it, such as `alphas="0.1,0.2"`. The property refuses and reports any other text. */
   #takeUpLists(host: Record<string, unknown>) {
-    for (const name of Object.keys(this.#entries)) {
-      const text = name in this.#attributes ? null : this.host.getAttribute(name);
+    for (const name of Object.keys(this.#properties)) {
+      const text = name in this.#attributes || name in this.host.state.own ? null : this.host.getAttribute(name);
       if (text === null || Object.hasOwn(host, name)) continue;
       const numbers = text.split(/[\s,]+/).map(Number);
       host[name] = numbers.every(Number.isFinite) ? numbers : text;
@@ -79,14 +78,13 @@ export class Reflection extends Part {
 
   /** Sets a property to a value or to its text. Null or undefined sets the default. A value that is refused is reported. */
   setProperty(name: string, value: any, apply: (value: any) => void) {
-    const entry = this.#entries[name];
-    const given = typeof value === 'string' && entry?.kind ? entry.kind.parse(value) : value;
+    const property = this.#properties[name];
+    const given = typeof value === 'string' && property?.converter ? property.converter.parse(value) : value;
     const applyIfChanged = () => {
-      const wanted = given ?? this.#defaultOf(name) ?? null;
-      const setting = entry && isSetting(entry) ? entry : undefined;
-      const current = setting ? setting.get(this.host.settings.wanted) : Reflect.get(this.host, name);
-      // A group of settings may be given in part. A value of the element itself is replaced as a whole.
-      if (!includesFields(current, wanted) || (!setting && !includesFields(wanted, current))) apply(wanted);
+      const wanted = given ?? property?.get(this.#defaultConfig) ?? null;
+      const current = property ? property.get(this.host.state.config) : Reflect.get(this.host, name);
+      // A group of settings may be given in part. A map or a log is replaced as a whole.
+      if (!includesFields(current, wanted) || (!property && !includesFields(wanted, current))) apply(wanted);
     };
     if (this.host.machine) {
       this.host.runtime.attemptOrReport(applyIfChanged);
@@ -95,6 +93,20 @@ export class Reflection extends Part {
       this.#pendingProperties.delete(name);
       this.#pendingProperties.set(name, { value: given, apply: applyIfChanged });
     }
+  }
+
+  /** Returns the value of a property; before there is a machine, the one that waits for it. */
+  get(name: string) {
+    const { machine, state } = this.host;
+    const pending = this.pendingValue(name);
+    if (pending !== undefined) return pending;
+    if (name in state.own) return structuredClone(state.own[name]);
+    return machine ? this.host.ask(() => this.#properties[name].get(state.config)) : undefined;
+  }
+
+  /** Sets a property: see `setProperty`. */
+  set(name: string, value: unknown) {
+    this.setProperty(name, value, (given) => this.#assign(name, given));
   }
 
   /** Returns the value of a property that waits for the machine; undefined for none. */
@@ -129,51 +141,36 @@ export class Reflection extends Part {
     }
   }
 
-  /** Changes a setting; an error names it by the name that the caller used. */
-  assign(name: string, setting: Setting, value: unknown) {
+  /** Changes a property; an error names it by the name that the caller used. */
+  #assign(name: string, value: unknown) {
+    const { state, settings } = this.host;
+    if (name in state.own) {
+      state.assign(name, value);
+      return;
+    }
+    const { change, path } = this.#properties[name];
     try {
-      this.host.settings.assign(setting.change(value, this.host.settings.wanted));
+      settings.assign(change(value, settings.wanted));
     } catch (error) {
-      throw renamed(error, name, setting.path);
+      throw renamed(error, name, path);
     }
   }
 
-  /** Default settings. Some depend on the present settings. */
+  /** Default configuration. Some defaults depend on the present settings. */
   get #defaultConfig(): Config {
-    const { kind, settings } = this.host;
-    return { ...defaultConfig(kind.declared), ...kind.dependentDefaults?.(settings.wanted) };
+    const { kind, settings, state } = this.host;
+    return { ...defaultConfig(kind.declared), ...state.openings, ...kind.dependentDefaults?.(settings.wanted) };
   }
 
-  /** Returns the default of a property. */
-  #defaultOf(name: string) {
-    const entry = this.#entries[name];
-    if (entry && isSetting(entry)) return entry.get(this.#defaultConfig);
-    return entry?.opening ?? this.host.state.opening(name);
-  }
-
-  /** Returns the texts of all attributes, of the values that `valueOf` returns. */
-  #textsOf(valueOf: (name: string) => unknown): Texts {
-    return new Map(Object.entries(this.#attributes).map(([name, { kind }]) => [name, kind.print(valueOf(name) ?? null)]));
-  }
-
-  get #currentTexts() {
-    const { host } = this;
-    const { wanted } = host.settings;
-    return this.#textsOf((name) => {
-      const entry = this.#attributes[name];
-      return isSetting(entry) ? entry.get(wanted) : Reflect.get(host, name);
-    });
-  }
-
-  /** Texts of the attributes with default settings. */
-  get #defaultTexts() {
-    return this.#textsOf((name) => this.#defaultOf(name));
+  /** Returns the texts of all attributes in a configuration. */
+  #textsOf(config: Config): Texts {
+    return new Map(Object.entries(this.#attributes).map(([name, { converter, get }]) => [name, converter.print(get(config) ?? null)]));
   }
 
   /** Writes the attributes that have changed; the first call only remembers their texts. */
   updateAttributes() {
     this.host.runtime.attempt(() => {
-      if (this.host.machine) this.#write(this.#currentTexts);
+      if (this.host.machine) this.#write(this.#textsOf(this.host.state.config));
     });
   }
 
@@ -182,10 +179,10 @@ export class Reflection extends Part {
     this.#written = texts;
     if (!written) return;
     const changed = new Set([...texts.keys()].filter((name) => texts.get(name) !== written.get(name)));
-    for (const [name, entry] of Object.entries(this.#attributes)) {
-      if (!entry.covers || texts.get(name) !== null || !changed.has(name)) continue;
-      const defaults = this.#defaultTexts;
-      for (const covered of entry.covers(null)) if (texts.get(covered) !== defaults.get(covered)) changed.add(covered);
+    for (const [name, { covers }] of Object.entries(this.#attributes)) {
+      if (!covers || texts.get(name) !== null || !changed.has(name)) continue;
+      const defaults = this.#textsOf(this.#defaultConfig);
+      for (const covered of covers(null)) if (texts.get(covered) !== defaults.get(covered)) changed.add(covered);
     }
     this.#isWriting = true;
     for (const name of changed) {
@@ -199,37 +196,32 @@ export class Reflection extends Part {
 
   /** Returns the attributes that a new figure needs to open in the present state. */
   nonDefaultAttributes(): [string, string][] {
-    const texts = this.#currentTexts;
-    const defaults = this.#defaultTexts;
+    const texts = this.#textsOf(this.host.state.config);
+    const defaults = this.#textsOf(this.#defaultConfig);
     const covered: Set<string> = new Set();
     const attributes: [string, string][] = [];
-    for (const [name, entry] of Object.entries(this.#attributes)) {
+    for (const [name, { covers }] of Object.entries(this.#attributes)) {
       const text = texts.get(name) ?? null;
       if (text === null) continue;
       if (text !== defaults.get(name) && !covered.has(name)) attributes.push([name, text]);
-      entry.covers?.(text).forEach((each) => covered.add(each));
+      covers?.(text).forEach((each) => covered.add(each));
     }
     return attributes;
   }
 }
 
-/** Defines a widget's element with a property for each setting. If the page loads the script twice, the second call does nothing. */
+/** Defines a widget's element with its properties. If the page loads the script twice, the second call does nothing. */
 export function define(tag: string, Widget: typeof import('./figure.ts').FigureElement<any, any>) {
   if (customElements.get(tag)) return;
-  const { prototype, definition: { attributes, declared, own } } = Widget;
-  for (const [name, entry] of Object.entries({ ...attributes, ...groupsOf(declared) })) {
-    if (!isSetting(entry) && !(name in own)) continue;
+  const { prototype, definition: { properties, own } } = Widget;
+  for (const name of Object.keys(properties)) {
+    // A widget may have a property that does more.
+    if (Object.hasOwn(prototype, name)) continue;
     Object.defineProperty(prototype, name, {
       configurable: true,
       enumerable: true,
-      get(this: Figure) {
-        if (!isSetting(entry)) return this.reflection.pendingValue(name) ?? this.state.copy(name);
-        return this.machine ? this.ask(() => entry.get(this.settings.present)) : this.reflection.pendingValue(name);
-      },
-      set(this: Figure, value) {
-        this.reflection.setProperty(name, value, (given) =>
-          isSetting(entry) ? this.reflection.assign(name, entry, given) : this.state.assign(name, given));
-      },
+      get(this: Figure) { return this.reflection.get(name); },
+      set(this: Figure, value) { this.reflection.set(name, value); },
     });
   }
   if ('marked' in own) Object.defineProperties(prototype, cloudProperties);

@@ -1,21 +1,12 @@
 /** State of the figure as plain data. It is kept after a removal of the element and after a trap. */
 
 import { object, refusal, word } from './checks.ts';
+import { checked } from './definition.ts';
 import { Part } from './part.ts';
 import { freeOnError } from './runtime.ts';
 
 /** Plain data with the fields of the widget. */
 export type Values = Record<string, any>;
-
-/** Field of the state that the machine does not have. */
-export interface Owned {
-  /** Default. */
-  opening: unknown;
-  /** True if a preset sets it to its default. */
-  ofPreset?: true;
-  /** Returns a value after a check; throws if it is invalid. */
-  check: (field: string, value: any, machine: any, selectableCount: number) => any;
-}
 
 /** Version of the states. */
 const VERSION = 1;
@@ -25,26 +16,20 @@ export class State extends Part {
   kept: Values | undefined;
   /** State that the figure opened with. */
   #opened: Values | undefined;
+  #fields = this.host.kind.own;
+  /** Defaults of the state that the machine does not have. */
+  openings: Values = Object.fromEntries(Object.entries(this.#fields).map(([name, { opening }]) => [name, opening]));
   /** State that the machine does not have, by name. */
-  own: Values = Object.fromEntries(Object.keys(this.#owned).map((name) => [name, this.opening(name)]));
+  own = { ...this.openings };
 
-  get #owned() {
-    return this.host.kind.own;
-  }
-
-  /** Returns the default of a field of the state that is not a setting of the machine. */
-  opening(name: string) {
-    return this.#owned[name]?.opening;
+  /** Settings of the machine, with pending changes, and the state that it does not have. */
+  get config(): Values {
+    return { ...this.host.settings.wanted, ...this.own };
   }
 
   /** Fields that every widget's state has. */
   get common(): Values {
     return { widget: this.host.localName, version: VERSION, ...this.own };
-  }
-
-  /** Returns a copy of an own field for the page. */
-  copy(name: string) {
-    return structuredClone(this.own[name]);
   }
 
   keep() {
@@ -75,7 +60,7 @@ export class State extends Part {
     const whole: Values = { ...current, ...host.completed(current, given) };
     const machine = freeOnError(host.createMachine(host.motion, whole), (made) => {
       const selectableCount = whole.playing ? made.config.samples : whole.shown;
-      for (const [name, { check }] of Object.entries(this.#owned)) whole[name] = check(`state.${name}`, whole[name], made, selectableCount);
+      for (const [name, field] of Object.entries(this.#fields)) whole[name] = checked(field, `state.${name}`, whole[name], selectableCount);
       host.complete(made, whole);
     });
     for (const name of Object.keys(this.own)) this.own[name] = whole[name];
@@ -92,7 +77,7 @@ export class State extends Part {
     host.player?.stop();
     host.settings.forgetRefusal();
     host.stage.release();
-    for (const [name, { ofPreset }] of Object.entries(this.#owned)) if (ofPreset) this.own[name] = this.opening(name);
+    for (const [name, { ofPreset, opening }] of Object.entries(this.#fields)) if (ofPreset) this.own[name] = opening;
     Object.assign(host, { preset });
     host.gesture.step();
     host.gesture.commit();
@@ -129,8 +114,7 @@ export class State extends Part {
   assign(name: string, value: unknown) {
     const { settings, cloud, reflection, stage } = this.host;
     settings.settle();
-    const { machine } = this.host;
-    this.own[name] = this.#owned[name].check(name, value, machine, cloud?.selectableCount ?? 0);
+    this.own[name] = checked(this.#fields[name], name, value, cloud?.selectableCount ?? 0);
     reflection.updateAttributes();
     stage.requestFrame();
   }

@@ -1,7 +1,7 @@
 /** The Banana Machine's settings: their attributes, their part of the state, and their sliders. */
 
 import { NUMBER } from '../../figure/attributes.ts';
-import { numberWithin, wholeNumber } from '../../figure/checks.ts';
+import { wholeNumber } from '../../figure/checks.ts';
 import { definitionOf } from '../../figure/definition.ts';
 import { openingAlphas } from '../../settings.js';
 import { COMMAND_DASH, commandLooks } from '../shared/command.ts';
@@ -36,12 +36,11 @@ export const definition = definitionOf('banana-machine', {
   lines: LINES,
   opening: ['command', 'ellipse', 'exponential'],
   looks,
-  attributes: { morph: { kind: NUMBER, own: true, min: 0, max: 1 } },
   own: {
     /** The α that remains under "Isolate", from 1; remembered while "Isolate" is off. */
     isolateChoice: { opening: 4, check: (field, number) => wholeNumber(field, number, 1, openingAlphas.velocity.length) },
     /** Morph, from the floor (0) to exponential coordinates (1). */
-    morph: { opening: 0, ofPreset: true, check: (field, morph) => numberWithin(field, morph, 0, 1) },
+    morph: { converter: NUMBER, min: 0, max: 1, opening: 0, ofPreset: true },
   },
   dependentDefaults: ({ model }) => ({ alphas: openingAlphas[model as keyof typeof openingAlphas] }),
 });

@@ -133,8 +133,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
 
   /** The place in the apartment that the robot starts from; null elsewhere. */
   get preset(): string | null {
-    if (!this.machine) return (this.reflection.pendingValue('preset') as string | undefined) ?? null;
-    return (this.map ? null : PRESET_SETTING.get(this.settings.wanted)) as string | null;
+    return (this.reflection.get('preset') as string | undefined) ?? null;
   }
 
   set preset(name) {

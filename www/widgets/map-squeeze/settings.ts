@@ -1,7 +1,6 @@
 /** Map Squeeze's settings: their attributes, their part of the state, and their sliders. */
 
 import { WORD, presetsOf } from '../../figure/attributes.ts';
-import { word } from '../../figure/checks.ts';
 import { definitionOf } from '../../figure/definition.ts';
 import { presets, settings } from '../../settings.js';
 import { COMMAND_DASH, commandLooks } from '../shared/command.ts';
@@ -37,12 +36,10 @@ export const definition = definitionOf('map-squeeze', {
     clearance: { symbol: '*r*', role: 'truth', min: 0, max: 0.4, step: 0.01, decimals: 2 },
     steps: { role: 'prediction', min: 1, max: 64, step: 1, decimals: 0 },
   },
-  attributes: {
-    preset: { ...PRESET_SETTING, own: true, opening: PRESET_SETTING.words?.[0] },
-    view: { kind: WORD, own: true, words: VIEWS },
-  },
+  // Presets are places in the apartment.
+  preset: { ...PRESET_SETTING, get: (config) => (config.map ? null : PRESET_SETTING.get(config)) },
   own: {
-    view: { opening: 'close', check: (field, view) => word(field, view, VIEWS) },
+    view: { converter: WORD, words: VIEWS, opening: 'close' },
     /** Map of the reader; null for the apartment. A machine has checked it. */
     map: { opening: null, check: (_, map) => map },
   },

@@ -8,7 +8,7 @@ import { button } from '../../ui/controls.ts';
 export function presetButtons(figure: import('../../figure/figure.ts').Figure, more: unknown = nothing) {
   const { kind, settings, state } = figure;
   const { presets } = (words as any)[kind.vocabulary];
-  const preset = kind.attributes.preset as import('../../figure/attributes.ts').Setting;
+  const preset = kind.attributes.preset;
   const current = preset.get(settings.wanted);
   return html`<div class="buttons presets" role="group" aria-label=${words.presets}>
     ${Object.entries(presets).map(([name, label]) =>

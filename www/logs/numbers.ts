@@ -19,33 +19,8 @@ const SECONDS = /^\s*(\d+)(?:[.,](\d+))?\s*s(?:ec(?:onds?)?)?\s*$/i;
 /** Duration as printed by pandas ("0 days 00:00:01.5") and MATLAB ("00:00:01.5"). */
 const DURATION = /^\s*(?:(\d+) days? )?\+?(\d+):(\d{2}):(\d{2})(?:[.,](\d+))?\s*$/;
 
-/** Powers of ten that are exact. */
-const POWERS_OF_TEN = Array.from({ length: 23 }, (_, i) => 10 ** i);
-
-/**
- * Parses digits with at most one point in a part of a text, several times as fast as `Number`. The result is rounded correctly. Returns NaN
- * for other texts, and for more digits than a number has.
- */
-function decimalAt(text: string, from: number, to: number): number {
-  const isNegative = text.charCodeAt(from) === 45;
-  let [value, point] = [0, -1];
-  const first = isNegative ? from + 1 : from;
-  for (let at = first; at < to; at++) {
-    const digit = text.charCodeAt(at) - 48;
-    if (digit >= 0 && digit <= 9) value = value * 10 + digit;
-    else if (digit === -2 && point < 0) point = at;
-    else return NaN;
-  }
-  if (value > Number.MAX_SAFE_INTEGER || first + (point < 0 ? 0 : 1) >= to) return NaN;
-  // Division of exact numbers rounds once.
-  if (point >= 0) value /= POWERS_OF_TEN[to - point - 1];
-  return isNegative ? -value : value;
-}
-
 /** Parses a number. Returns NaN for an empty cell or a word such as "nan", and undefined for any other text. */
 export function numberOf(cell: string): number | undefined {
-  const decimal = decimalAt(cell, 0, cell.length);
-  if (decimal === decimal) return decimal;
   const value = Number(cell);
   // `Number` parses an empty cell as 0, and hexadecimal digits. `parseFloat` returns other numbers for both.
   if (value === value && (Math.trunc(value) !== value || value === parseFloat(cell))) return value;
@@ -59,14 +34,6 @@ export function numberOf(cell: string): number | undefined {
  * @returns NaN or undefined as `numberOf`
  */
 export function timeOf(cell: string, power: number): Time | undefined {
-  const { length } = cell;
-  const dot = cell.indexOf('.');
-  // Whole seconds end at the point. Without a point, they end `power` digits before the end.
-  const end = power === 0 ? (dot < 0 ? length : dot) : dot < 0 ? length - power : 0;
-  if (end > 0) {
-    const [seconds, rest] = [decimalAt(cell, 0, end), end === length ? 0 : decimalAt(cell, end, length) / 10 ** power];
-    if (seconds >= 0 && rest >= 0) return [seconds, rest];
-  }
   const decimal = DECIMAL.exec(cell);
   if (!decimal) {
     const number = numberOf(cell);

@@ -98,40 +98,22 @@ const endOf = (text: string) => (text.includes('\n') || !text.includes('\r') ? '
 
 /** Calls `take` for each line from the number `from` on. `isOpen` is true for the text after the last line feed: the file may be cut off there. */
 async function readLines(source: Source, encoding: string, end: string, from: number, onProgress: ((share: number) => void) | undefined, take: (line: string, number: number, isOpen: boolean) => void) {
-  // Pieces of whole lines are decoded separately. Node would decode a stream into strings of twice the size.
   const decoder = new TextDecoder(encoding);
-  const charBytes = encoding.startsWith('utf-16') ? 2 : 1;
-  let rest = new Uint8Array();
-  let number = 0;
+  let [rest, number] = ['', 0];
+  const takeLine = (line: string, isOpen: boolean) => {
+    number += 1;
+    if (number >= from) take(line, number, isOpen);
+  };
   for (let at = 0; at < source.size; at += BLOCK_BYTES) {
-    const piece = await bytesOf(source, at, Math.min(at + BLOCK_BYTES, source.size));
     onProgress?.(at / source.size);
-    const bytes = new Uint8Array(rest.length + piece.length);
-    bytes.set(rest);
-    bytes.set(piece, rest.length);
-    const wholeLines = afterLast(bytes, end.charCodeAt(0), charBytes);
-    const text = decoder.decode(bytes.subarray(0, wholeLines));
-    rest = bytes.slice(wholeLines);
+    const text = rest + decoder.decode(await bytesOf(source, at, Math.min(at + BLOCK_BYTES, source.size)), { stream: true });
     if (text.includes('\0')) throw new LogError({ file: source.name }, (say) => say.binary);
     const lines = text.split(end);
-    lines.pop();
-    for (const line of lines) {
-      number += 1;
-      if (number >= from) take(line, number, false);
-    }
-    if (rest.length > MAX_LINE_LENGTH * charBytes) throw new LogError({ file: source.name, line: number + 1 }, (say) => say.longLine(MAX_LINE_LENGTH));
+    rest = lines.pop() ?? '';
+    for (const line of lines) takeLine(line, false);
+    if (rest.length > MAX_LINE_LENGTH) throw new LogError({ file: source.name, line: number + 1 }, (say) => say.longLine(MAX_LINE_LENGTH));
   }
-  const last = decoder.decode(rest);
-  if (last.includes('\0')) throw new LogError({ file: source.name }, (say) => say.binary);
-  if (number + 1 >= from) take(last, number + 1, true);
-}
-
-/** Returns the index of the byte after the last end of a line; 0 if there is none. Characters have one or two bytes. */
-function afterLast(bytes: Uint8Array, end: number, charBytes: number): number {
-  let at = bytes.lastIndexOf(end);
-  // In UTF-16 the other byte of the character is 0.
-  while (charBytes === 2 && at >= 0 && bytes[at ^ 1] !== 0) at = at === 0 ? -1 : bytes.lastIndexOf(end, at - 1);
-  return at < 0 ? 0 : at - (at % charBytes) + charBytes;
+  takeLine(rest + decoder.decode(), true);
 }
 
 /** Returns a group of columns with Y as the vertical axis: X of the robot's plane is Z, and Y is X. */

@@ -2,7 +2,7 @@
 
 import { ticks } from 'd3-array';
 import { powerOfTen, tick } from '../ui/format.ts';
-import { strokeLine, type Brush, type LineStroke } from './canvas.ts';
+import { faded, strokeLine, type Brush, type LineStroke } from './canvas.ts';
 
 /** Distance of ticks below which the axis has a power of ten before its unit. The zeros of the labels would not fit next to the axis. */
 const NEAREST_TICKS = 9e-4;
@@ -21,41 +21,33 @@ export function drawAxes(brush: Brush, names: { x: string, y: string }, key: Key
   const { context, view, palette, font } = brush;
   const { left, right, top, bottom } = view.frame;
   const { xMin, xMax, yMin, yMax } = view.extent;
-  context.font = font;
-  context.lineWidth = 1;
-  context.strokeStyle = palette.rule;
-  context.fillStyle = palette.muted;
+  const rule = (opacity: number, ...line: number[][]) => faded(context, opacity, () => strokeLine(context, line, { colour: palette.rule, width: 1 }));
 
   const xTicks = ticksOf(xMin, xMax, (right - left) / TICK_SPACING.x);
+  Object.assign(context, { font, fillStyle: palette.muted, textAlign: 'center', textBaseline: 'top' });
   // The name of the axis takes the place of the last tick label.
   const xName = names.x.replace('(', `(${xTicks.unit}`);
   const free = right - context.measureText(xName).width - 10;
-  context.textAlign = 'center';
-  context.textBaseline = 'top';
   for (const value of xTicks.values) {
     const x = Math.round(view.toPixelX(value)) + 0.5;
-    line(context, [x, top, x, bottom], grid);
+    rule(grid, [x, top], [x, bottom]);
     const text = xTicks.text(value);
     if (x + context.measureText(text).width / 2 < free) context.fillText(text, x, bottom + 6);
   }
   const yTicks = ticksOf(yMin, yMax, (bottom - top) / TICK_SPACING.y);
-  context.textAlign = 'right';
-  context.textBaseline = 'middle';
+  Object.assign(context, { textAlign: 'right', textBaseline: 'middle' });
   for (const value of yTicks.values) {
     const y = Math.round(view.toPixelY(value)) + 0.5;
-    line(context, [left, y, right, y], grid);
+    rule(grid, [left, y], [right, y]);
     context.fillText(yTicks.text(value), left - 6, y);
   }
 
-  line(context, [left, bottom + 0.5, right, bottom + 0.5], 1);
-  line(context, [left - 0.5, top, left - 0.5, bottom], 1);
-  context.font = `italic ${font}`;
-  context.textAlign = 'right';
-  context.textBaseline = 'top';
+  rule(1, [left, bottom + 0.5], [right, bottom + 0.5]);
+  rule(1, [left - 0.5, top], [left - 0.5, bottom]);
+  Object.assign(context, { font: `italic ${font}`, textBaseline: 'top' });
   context.fillText(xName, right, bottom + 6);
   context.textAlign = 'left';
-  const yName = names.y.replace('(', `(${yTicks.unit}`);
-  drawKey(brush, yName, key);
+  drawKey(brush, names.y.replace('(', `(${yTicks.unit}`), key);
 }
 
 export interface KeyEntry {
@@ -109,16 +101,6 @@ function ticksOf(from: number, to: number, count: number) {
     unit: exponent < 0 ? `${powerOfTen(exponent)} ` : '',
     text: (value: number) => tick(value / 10 ** exponent, step / 10 ** exponent),
   };
-}
-
-function line(context: CanvasRenderingContext2D, [x1, y1, x2, y2]: number[], alpha: number) {
-  const { globalAlpha } = context;
-  context.globalAlpha = alpha * globalAlpha;
-  context.beginPath();
-  context.moveTo(x1, y1);
-  context.lineTo(x2, y2);
-  context.stroke();
-  context.globalAlpha = globalAlpha;
 }
 
 /** Clips what `paint` draws to the plot area. */

@@ -1,6 +1,7 @@
 /** Callouts: sentences in a picture, each with a line to the point that it is about. */
 
 import { clamp } from '../ui/clamp.ts';
+import { faded } from './canvas.ts';
 import { drawLeader } from './labels.ts';
 import type { Box, Brush } from './canvas.ts';
 
@@ -75,12 +76,8 @@ export function drawCallouts({ context, view, palette, font, placed }: Brush, ca
 
     drawLeader(context, [begin, [x, y]], colour);
     context.fillStyle = palette.paper;
-    context.globalAlpha = 0.85;
-    context.fillRect(place.x - across, place.y - down, 2 * across, 2 * down);
-    context.globalAlpha = 1;
-    context.fillStyle = colour;
-    context.textAlign = 'center';
-    context.textBaseline = 'middle';
+    faded(context, 0.85, () => context.fillRect(place.x - across, place.y - down, 2 * across, 2 * down));
+    Object.assign(context, { fillStyle: colour, textAlign: 'center', textBaseline: 'middle' });
     rows.forEach((row, i) => context.fillText(row, place.x, place.y + (i - (rows.length - 1) / 2) * LEADING));
   }
 }

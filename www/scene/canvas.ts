@@ -73,7 +73,15 @@ export function brushOn(canvas: Surface, view: import('./view.ts').View, palette
   return { context, view, palette, ratio, font: `${LETTERS}px ${fontFamily}`, placed: [] as Box[] };
 }
 
-type Context = Brush['context'];
+type Context = CanvasRenderingContext2D | OffscreenCanvasRenderingContext2D;
+
+/** Draws with an opacity. */
+export function faded(context: Context, opacity: number, paint: () => void) {
+  const { globalAlpha } = context;
+  context.globalAlpha = opacity * globalAlpha;
+  paint();
+  context.globalAlpha = globalAlpha;
+}
 
 /** Style of a line; dashes in pixels. */
 export interface LineStroke { colour: string, width: number, dash?: number[] }

@@ -4,7 +4,7 @@ import { greatest } from 'd3-array';
 import { limits } from '../settings.js';
 import { channels } from '../ui/theme.ts';
 import { lineKey, type KeyEntry } from './axes.ts';
-import { addLine, drawDisc, stroke, type Brush, type LineStroke } from './canvas.ts';
+import { addLine, drawDisc, faded, stroke, type Brush, type LineStroke } from './canvas.ts';
 import { drawLabel } from './labels.ts';
 import type { Callout } from './callout.ts';
 import type { Palette } from '../ui/theme.ts';
@@ -21,60 +21,46 @@ const TICKS_A_STROKE = 25;
  */
 export function drawDots(brush: Brush, triples: Float64Array, layout: { x: number, y: number, heading: number | null, ahead?: number }) {
   const { context, view, palette } = brush;
-  const count = triples.length / 3;
-  const few = count < 400;
+  const places = Array.from({ length: triples.length / 3 }, (_, i) => view.toPixel(triples[3 * i + layout.x], triples[3 * i + layout.y]));
+  const few = places.length < 400;
   // Dots are smaller in a small picture, where the robots have less space.
   const size = Math.min(1, Math.max(0.7, view.width / 720));
   const radius = size * (few ? 2.4 : 1.8);
-  const x = (i: number) => view.toPixelX(triples[3 * i + layout.x]);
-  const y = (i: number) => view.toPixelY(triples[3 * i + layout.y]);
   const { heading, ahead = 1 } = layout;
   if (heading !== null) {
     const length = ahead * size * (few ? 13 : 9);
-    context.strokeStyle = palette.cloud;
-    context.lineWidth = 1;
-    context.globalAlpha = few ? 0.6 : 0.32;
-    for (let i = 0; i < count; i++) {
-      if (i % TICKS_A_STROKE === 0) context.beginPath();
-      headingTick(brush, x(i), y(i), triples[3 * i + heading], length);
-      if (i % TICKS_A_STROKE === TICKS_A_STROKE - 1 || i === count - 1) context.stroke();
-    }
+    const ticks = (begin: number) => places.slice(begin, begin + TICKS_A_STROKE).forEach((place, i) => headingTick(brush, place, triples[3 * (begin + i) + heading], length));
+    faded(context, few ? 0.6 : 0.32, () => {
+      for (let begin = 0; begin < places.length; begin += TICKS_A_STROKE) stroke(context, { colour: palette.cloud, width: 1 }, () => ticks(begin));
+    });
   }
-  context.globalAlpha = few ? 0.9 : 0.5;
-  context.fillStyle = palette.cloud;
   // Squares with the area of the discs are drawn six times as fast. Many small ones look the same.
   const side = Math.sqrt(Math.PI) * radius;
-  for (let i = 0; i < count; i++) {
-    if (few || brush.exported) drawDisc(context, [x(i), y(i)], radius, palette.cloud);
-    else context.fillRect(x(i) - side / 2, y(i) - side / 2, side, side);
-  }
-  context.globalAlpha = 1;
+  context.fillStyle = palette.cloud;
+  faded(context, few ? 0.9 : 0.5, () => {
+    for (const [x, y] of places) {
+      if (few || brush.exported) drawDisc(context, [x, y], radius, palette.cloud);
+      else context.fillRect(x - side / 2, y - side / 2, side, side);
+    }
+  });
 }
 
 /** Adds a line to the path, from a point in CSS pixels in a direction of the world (rad), with a length in CSS pixels. */
-function headingTick({ context, view }: Brush, x: number, y: number, heading: number, length: number) {
+function headingTick({ context, view }: Brush, [x, y]: number[], heading: number, length: number) {
   const ahead = view.direction(heading);
-  context.moveTo(x, y);
-  context.lineTo(x + length * ahead.x, y + length * ahead.y);
+  addLine(context, [[x, y], [x + length * ahead.x, y + length * ahead.y]]);
 }
 
 /** Draws many robots at the same position as one marker with a ray for each heading. */
 export function drawHeap(brush: Brush, { x, y, headings, label }: { x: number, y: number, headings: number[], label: string }) {
-  const { context, view, palette } = brush;
-  const px = view.toPixelX(x);
-  const py = view.toPixelY(y);
-  context.strokeStyle = palette.prediction;
-  context.lineWidth = 1;
-  context.globalAlpha = Math.min(1, 30 / headings.length);
-  for (const heading of headings) {
-    context.beginPath();
-    headingTick(brush, px, py, heading, 64);
-    context.stroke();
-  }
-  context.globalAlpha = 1;
+  const { context, view, palette: { prediction: colour } } = brush;
+  const place = view.toPixel(x, y);
+  faded(context, Math.min(1, 30 / headings.length), () => {
+    for (const heading of headings) stroke(context, { colour, width: 1 }, () => headingTick(brush, place, heading, 64));
+  });
   // The disc is larger than the handle, which is often at the same position.
-  drawDisc(context, [px, py], 14, palette.prediction);
-  drawLabel(brush, { x: px + 14, y: py + 27, towards: 1, text: label, colour: palette.prediction });
+  drawDisc(context, place, 14, colour);
+  drawLabel(brush, { x: place[0] + 14, y: place[1] + 27, towards: 1, text: label, colour });
 }
 
 /**
@@ -140,9 +126,7 @@ export function drawOutlines(brush: Brush, outlines: Outline[]) {
   const { context, palette } = brush;
   const drawn = outlines.filter(({ points }) => hasLength(points));
   context.lineJoin = 'round';
-  context.globalAlpha = 0.7;
-  strokeLines(brush, drawn.map(({ points, width }) => ({ points, colour: palette.paper, width: width + 2.5 })));
-  context.globalAlpha = 1;
+  faded(context, 0.7, () => strokeLines(brush, drawn.map(({ points, width }) => ({ points, colour: palette.paper, width: width + 2.5 }))));
   strokeLines(brush, drawn);
 }
 
@@ -172,9 +156,7 @@ const GHOST = 0.35;
 export function drawGhosts(brush: Brush, outlines: Outline[], from: ArrayLike<number>[], text: string): Callout[] {
   const { context, view, palette } = brush;
   const drawn = outlines.filter(({ points }) => hasLength(points));
-  context.globalAlpha = GHOST;
-  strokeLines(brush, drawn);
-  context.globalAlpha = 1;
+  faded(context, GHOST, () => strokeLines(brush, drawn));
   const { xMin, xMax, yMin, yMax } = view.extent;
   const seen = drawn.flatMap(({ points }) => Array.from({ length: points.length / 2 }, (_, i): [number, number] => [points[2 * i], points[2 * i + 1]]))
     .filter(([x, y]) => x > xMin && x < xMax && y > yMin && y < yMax);
@@ -183,20 +165,16 @@ export function drawGhosts(brush: Brush, outlines: Outline[], from: ArrayLike<nu
 }
 
 /** Draws a single outline. */
-export function drawOutline(brush: Brush, points: Float64Array, style: Omit<Outline, 'points'>) {
+export function drawOutline(brush: Brush, points: Float64Array, style: LineStroke) {
   drawOutlines(brush, [{ points, ...style }]);
 }
 
 /** Draws a robot seen from above: a disc with a line to the front. */
 export function drawRobot(brush: Brush, { x, y, heading, colour }: { x: number, y: number, heading: number, colour: string }) {
   const { context, view, palette } = brush;
-  const px = view.toPixelX(x);
-  const py = view.toPixelY(y);
-  drawDisc(context, [px, py], 8, palette.paper);
-  stroke(context, { colour, width: 2 }, () => {
-    context.arc(px, py, 8, 0, 2 * Math.PI);
-    headingTick(brush, px, py, heading, 14);
-  });
+  const place = view.toPixel(x, y);
+  drawDisc(context, place, 8, palette.paper, { colour, width: 2 });
+  stroke(context, { colour, width: 2 }, () => headingTick(brush, place, heading, 14));
 }
 
 /** Draws a handle in files and on paper, where it is no element. Lengths are in pixels. */
@@ -205,18 +183,14 @@ export function drawHandle({ context, palette, handles }: Brush, { x, y, radius,
 }
 
 /** Draws the ring and cross hairs of the selected sample in a colour. */
-export function drawMark(brush: Brush, { x, y, heading }: { x: number, y: number, heading: number | null }, accent: string = brush.palette.accent) {
+export function drawMark(brush: Brush, { x, y, heading }: { x: number, y: number, heading: number | null }, colour: string = brush.palette.accent) {
   const { context, view, palette } = brush;
-  const px = view.toPixelX(x);
-  const py = view.toPixelY(y);
-  for (const [colour, width] of ([
-    [palette.paper, 5],
-    [accent, 2],
-  ] as const)) {
-    stroke(context, { colour, width }, () => {
+  const [px, py] = view.toPixel(x, y);
+  for (const style of [{ colour: palette.paper, width: 5 }, { colour, width: 2 }]) {
+    stroke(context, style, () => {
       context.arc(px, py, 7, 0, 2 * Math.PI);
       for (const [dx, dy] of [[1, 0], [0, 1], [-1, 0], [0, -1]]) addLine(context, [[px + 7 * dx, py + 7 * dy], [px + 12 * dx, py + 12 * dy]]);
-      if (heading !== null) headingTick(brush, px, py, heading, 24);
+      if (heading !== null) headingTick(brush, [px, py], heading, 24);
     });
   }
 }

@@ -1,7 +1,7 @@
 /** Labels in pictures: a symbol with its subscript, and a text. */
 
 import { clamp } from '../ui/clamp.ts';
-import { drawDisc, strokeLine, type Brush } from './canvas.ts';
+import { drawDisc, faded, strokeLine, type Brush } from './canvas.ts';
 
 /** Font size of a subscript relative to the text, and its offset below the baseline, pixels. */
 const SUBSCRIPT = 0.78;
@@ -46,9 +46,7 @@ export function drawLabel(brush: Brush, { x, y, towards, colour, ...text }: Text
   const line = lines.find(isFree) ?? lines[0];
   placed.push({ x: at + width / 2, y: line, across, down });
   context.fillStyle = palette.paper;
-  context.globalAlpha = GROUND.alpha;
-  context.fillRect(at - 2, line - down, 2 * across, 2 * down);
-  context.globalAlpha = 1;
+  faded(context, GROUND.alpha, () => context.fillRect(at - 2, line - down, 2 * across, 2 * down));
   write(brush, parts, at, line, colour);
 }
 
@@ -116,12 +114,7 @@ const widthOf = (parts: { width: number }[]) => parts.reduce((sum, { width }) =>
 /** Writes the parts from left to right, with a halo in the background colour. x is the left end and y the middle of the line, in pixels. */
 function write({ context, palette }: Brush, parts: ReturnType<typeof measured>, x: number, y: number, colour: string) {
   context.save();
-  context.textAlign = 'left';
-  context.textBaseline = 'middle';
-  context.lineJoin = 'round';
-  context.lineWidth = 4;
-  context.strokeStyle = palette.paper;
-  context.fillStyle = colour;
+  Object.assign(context, { textAlign: 'left', textBaseline: 'middle', lineJoin: 'round', lineWidth: 4, strokeStyle: palette.paper, fillStyle: colour });
   let at = x;
   for (const { text, style, drop, width } of parts) {
     context.font = style;

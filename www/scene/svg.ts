@@ -54,11 +54,6 @@ export class SvgContext {
     this.#open.push(0);
   }
 
-  translate: CanvasTransform['translate'] = (x, y) => {
-    this.#marks.push(`<g transform="translate(${short(x)} ${short(y)})">`);
-    this.#open[this.#open.length - 1]++;
-  };
-
   restore() {
     this.#marks.push('</g>'.repeat(this.#open.pop() ?? 0));
   }
@@ -101,12 +96,6 @@ export class SvgContext {
     this.#path = '';
     this.rect(...box);
     this.fill();
-  };
-
-  strokeRect: CanvasRect['strokeRect'] = (...box) => {
-    this.#path = '';
-    this.rect(...box);
-    this.stroke();
   };
 
   clip() {

@@ -2,7 +2,7 @@
 
 import { clamp } from '../ui/clamp.ts';
 import { channels } from '../ui/theme.ts';
-import { hiddenContext } from './canvas.ts';
+import { addLine, faded, hiddenContext, stroke, strokeLine } from './canvas.ts';
 import type { View } from './view.ts';
 import type { Brush } from './canvas.ts';
 import type { Grid, Plan } from '../types.d.ts';
@@ -21,9 +21,6 @@ const HATCH = { apart: 7, width: 1, opacity: 0.4 };
 /** Number of walls in one stroke. Browsers take far longer for one path with many lines. */
 const WALLS_A_STROKE = 500;
 
-/** Maximum number of walls that are drawn with every picture. Copying a cached drawing takes longer. */
-const FEW_WALLS = 50;
-
 export class WallLayer {
   #plan;
   #grid;
@@ -41,8 +38,7 @@ export class WallLayer {
   draw(brush: Brush, unknown: boolean) {
     const { context, view, palette, ratio } = brush;
     const { extent, frame, width, height } = view;
-    const { walls } = this.#plan;
-    if (!this.#grid && ('vector' in context || walls.length <= 4 * FEW_WALLS)) {
+    if (!this.#grid && 'vector' in context) {
       this.#paint(brush, unknown);
       return;
     }
@@ -70,26 +66,16 @@ export class WallLayer {
       context.globalCompositeOperation = 'source-over';
     }
     if (grid) fillCells(painter, grid, grid.occupied, palette.truth);
-    const { bounds } = this.#plan;
-    const [left, top] = [view.toPixelX(bounds[0]), view.toPixelY(bounds[3])];
-    context.strokeStyle = palette.rule;
-    context.lineWidth = 1;
-    context.strokeRect(left, top, view.toPixelX(bounds[2]) - left, view.toPixelY(bounds[1]) - top);
-    if (!grid) this.#stroke(painter);
-  }
-
-  #stroke({ context, view, palette }: Painter) {
-    const { walls } = this.#plan;
-    context.strokeStyle = palette.truth;
-    context.lineWidth = WALL;
+    const { bounds: [xMin, yMin, xMax, yMax], walls } = this.#plan;
+    strokeLine(context, [[xMin, yMin], [xMax, yMin], [xMax, yMax], [xMin, yMax], [xMin, yMin]].map(([x, y]) => view.toPixel(x, y)), { colour: palette.rule, width: 1 });
+    if (grid) return;
     context.lineCap = 'round';
     for (let begin = 0; begin < walls.length; begin += 4 * WALLS_A_STROKE) {
-      context.beginPath();
-      for (let i = begin; i < Math.min(walls.length, begin + 4 * WALLS_A_STROKE); i += 4) {
-        context.moveTo(view.toPixelX(walls[i]), view.toPixelY(walls[i + 1]));
-        context.lineTo(view.toPixelX(walls[i + 2]), view.toPixelY(walls[i + 3]));
-      }
-      context.stroke();
+      stroke(context, { colour: palette.truth, width: WALL }, () => {
+        for (let i = begin; i < Math.min(walls.length, begin + 4 * WALLS_A_STROKE); i += 4) {
+          addLine(context, [view.toPixel(walls[i], walls[i + 1]), view.toPixel(walls[i + 2], walls[i + 3])]);
+        }
+      });
     }
     context.lineCap = 'butt';
   }
@@ -97,16 +83,9 @@ export class WallLayer {
 
 /** Draws diagonal lines over the whole view. */
 function hatch(context: Painter['context'], { width, height }: View, colour: string) {
-  context.beginPath();
-  for (let x = -height; x < width; x += HATCH.apart) {
-    context.moveTo(x, height);
-    context.lineTo(x + height, 0);
-  }
-  context.strokeStyle = colour;
-  context.lineWidth = HATCH.width;
-  context.globalAlpha = HATCH.opacity;
-  context.stroke();
-  context.globalAlpha = 1;
+  faded(context, HATCH.opacity, () => stroke(context, { colour, width: HATCH.width }, () => {
+    for (let x = -height; x < width; x += HATCH.apart) addLine(context, [[x, height], [x + height, 0]]);
+  }));
 }
 
 /** Returns the visible cells as first column and row, and the column and row after the last. They are multiples of `side`, or ends of the grid. */
@@ -121,7 +100,7 @@ function cellsIn({ extent: { xMin, xMax, yMin, yMax } }: View, { columns, rows, 
 }
 
 /** Returns the position of the corner of a cell, m. */
-export function cornerOf({ resolution, origin: [x, y, yaw] }: Cells, column: number, row: number) {
+export function cornerOf({ resolution, origin: [x, y, yaw] }: Cells, column: number, row: number): [x: number, y: number] {
   const [along, up] = [resolution * Math.cos(yaw), resolution * Math.sin(yaw)];
   return [x + column * along - row * up, y + column * up + row * along];
 }
@@ -147,10 +126,7 @@ function fillCells({ context, view, ratio }: Painter, grid: Cells, cells: Uint8A
   }
   const canvas = new OffscreenCanvas(width, height);
   hiddenContext(canvas).putImageData(image, 0, 0);
-  const corner = (column: number, row: number) => {
-    const [x, y] = cornerOf(grid, column, row);
-    return [view.toPixelX(x), view.toPixelY(y)];
-  };
+  const corner = (column: number, row: number) => view.toPixel(...cornerOf(grid, column, row));
   // The first row of the image is the lowest one, as in the grid.
   const [[fromX, fromY], [rightX, rightY], [aboveX, aboveY]] = [corner(left, bottom), corner(left + side, bottom), corner(left, bottom + side)];
   context.save();

@@ -7,20 +7,17 @@ import { pack, unpack } from './packing.ts';
 import { Part } from './part.ts';
 
 export class Link extends Part {
-  /** State from the address that waits for the machine. */
-  #pending: unknown;
   /** Tokens of the latest read and write of the address. The results of earlier ones are dropped. */
   #latestRead = {};
   #latestWrite = {};
 
   hostConnected() {
     addEventListener('hashchange', this.#changed);
-    scrollToAnchor();
-    // The reader may have followed another link meanwhile.
-    if (linked === parts()[0] && this.#isOf(linked)) {
-      linked = undefined;
-      this.#scrollHere();
-    }
+    target ??= openedAt();
+    if (isAnchor(target)) document.getElementById(decoded(target))?.scrollIntoView();
+    else if (target !== parts()[0] || !this.#isOf(target)) return;
+    else this.#scrollHere();
+    target = '';
   }
 
   hostDisconnected() {
@@ -29,12 +26,12 @@ export class Link extends Part {
 
   #changed = () => {
     if (this.#isOf(parts()[0])) this.#scrollHere();
-    void this.follow();
+    void this.#follow();
   };
 
   /** Returns true for this figure's part of the address. */
-  #isOf(part: string | undefined) {
-    return part?.startsWith(`${keyOf(this.host)}=`);
+  #isOf(part = '') {
+    return part.startsWith(`${keyOf(this.host)}=`);
   }
 
   /** Scrolls to the figure that a link names. */
@@ -46,34 +43,20 @@ export class Link extends Part {
 
   /** Reads the state to open with, before the first machine. */
   async prepare() {
-    if (!this.host.state.kept) await this.follow();
+    if (!this.host.state.kept) await this.#follow();
   }
 
-  /** Applies the state that waited for the machine. */
-  applyPending() {
-    const pending = this.#pending;
-    this.#pending = undefined;
-    if (pending !== undefined) this.host.runtime.attemptOrReport(() => this.host.setState(pending as any));
-  }
-
-  /** Applies the state in the page's address. */
-  follow = async () => {
+  /** Applies the state in the page's address, if any, now or as soon as there is a machine. */
+  async #follow() {
+    const { host } = this;
     const request = (this.#latestRead = {});
-    const state = await this.#read();
-    if (request !== this.#latestRead) return;
-    this.#pending = state;
-    if (this.host.machine) this.applyPending();
-  };
-
-  /** Returns the state in the address, if any. */
-  async #read(): Promise<unknown> {
-    const key = `${keyOf(this.host)}=`;
-    const text = parts().find((part) => part.startsWith(key))?.slice(key.length);
-    if (text === undefined) return undefined;
+    const part = parts().find((each) => this.#isOf(each));
+    if (part === undefined) return;
     try {
-      return await unpack(text);
+      const state = await unpack(part.slice(part.indexOf('=') + 1));
+      if (request === this.#latestRead) host.runtime.attemptOrReport(() => host.setState(state as any));
     } catch (error) {
-      this.host.runtime.report(error);
+      host.runtime.report(error);
     }
   }
 
@@ -108,8 +91,7 @@ function keyOf(element: Element): string {
   const root = element.getRootNode() as any;
   const name = (root.host ? `${keyOf(root.host)}/` : '') + encodeURIComponent(localName);
   if (id) return `${name}:${encodeURIComponent(id)}`;
-  const kind = [...root.querySelectorAll(CSS.escape(localName))];
-  return `${name}.${kind.indexOf(element) + 1}`;
+  return `${name}.${[...root.querySelectorAll(CSS.escape(localName))].indexOf(element) + 1}`;
 }
 
 /** Returns the page's address with a figure's part added or replaced, or moved to the beginning if `first` is true. */
@@ -125,23 +107,17 @@ function addressWith(key: string, text: string, first: boolean = false): string 
 
 const parts = () => location.hash.slice(1).split('&').filter((part) => part !== '');
 
-const isAnchor = (part: string | undefined) => part !== undefined && !part.includes('=');
+const isAnchor = (part = '') => part !== '' && !part.includes('=');
 
-let hasScrolled = false;
+/** First part of the fragment of a followed link, until the page has scrolled to it; then an empty text. */
+let target: string | undefined;
 
-/** First part of the fragment of a followed link, until the page has scrolled to it. */
-let linked: string | undefined;
-
-/** Scrolls to an anchor of the page, once. Browsers do not find it, because the fragment also has the states. */
-function scrollToAnchor() {
-  if (hasScrolled) return;
-  hasScrolled = true;
-  // On a reload the browser restores the scroll position.
+/** Returns the first part of the fragment that the page was opened with, if the browser does not scroll to it. */
+function openedAt() {
   const [navigation] = performance.getEntriesByType('navigation') as PerformanceNavigationTiming[];
-  if (navigation?.type !== 'navigate') return;
-  const [first, second] = parts();
-  linked = first;
-  if (second && isAnchor(first)) document.getElementById(decoded(first))?.scrollIntoView();
+  const [first = '', second] = parts();
+  // On a reload the browser restores the scroll position, and it finds an anchor that is the whole fragment.
+  return navigation?.type !== 'navigate' || (isAnchor(first) && !second) ? '' : first;
 }
 
 function decoded(text: string) {

@@ -43,7 +43,6 @@ export class State extends Part {
     if (this.kept) host.complete(host.machine, this.kept);
     host.machineChanged();
     host.reflection.applyPending();
-    host.link.applyPending();
     // The machine is missing after a trap. The settings are not stale if a pending state was shown already.
     if (host.machine && host.settings.stale) this.#introduce(this.kept);
   }

@@ -14,6 +14,7 @@
 //! Thompson and Cullis 1995).
 
 use super::legs::Leg;
+use super::matrices::{WIDTH, Wide, inverse, product};
 use super::residuals::{Model, Observation};
 use super::result::LegFit;
 use super::systematic::{ERROR_COUNT, ErrorMask, Systematic, SystematicError};
@@ -36,10 +37,10 @@ pub(super) const PARAMETER_COUNT: usize = MAX_ALPHAS + 2;
 pub(super) type Parameters = SVector<f64, PARAMETER_COUNT>;
 pub(super) type Information = SMatrix<f64, PARAMETER_COUNT, PARAMETER_COUNT>;
 
-/// Columns that the recursion carries: the residual and the Jacobian of each systematic error.
-const COLUMN_COUNT: usize = 1 + ERROR_COUNT;
-type Columns = SMatrix<f64, 3, COLUMN_COUNT>;
-type Gram = SMatrix<f64, COLUMN_COUNT, COLUMN_COUNT>;
+/// Columns that the recursion carries: the Jacobian of the residual by each systematic error, then the residual.
+type Columns = Wide<3>;
+const RESIDUAL: usize = ERROR_COUNT;
+type Gram = Wide<{ RESIDUAL + 1 }>;
 pub(super) type ErrorMatrix = SMatrix<f64, ERROR_COUNT, ERROR_COUNT>;
 type ErrorVector = SVector<f64, ERROR_COUNT>;
 
@@ -68,20 +69,31 @@ pub(super) struct Residuals {
     terms: Rc<Vec<Term>>,
     /// Indices of the terms that are used. Each has true if its leg starts at the reference pose at which the leg before it ends.
     chosen: Vec<(usize, bool)>,
+    /// Number of components of them that are observed.
+    count: usize,
     model: Model,
-    pub estimated: ErrorMask,
+    estimated: ErrorMask,
 }
 
 /// Innovation of one leg: its residual, and the Jacobians of it, less what the legs before predict.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Innovation {
     columns: Columns,
+    /// Columns, multiplied by the inverse covariance.
+    weighted: Columns,
     /// Variance of each component; NaN of one that is not observed.
     variances: [f64; 3],
     /// Inverse covariance.
     weight: Matrix3<f64>,
     /// Kalman gain of the reference's error at the end of the leg.
     gain: Matrix3<f64>,
+}
+
+/// Innovations of all legs under given variances, with the least squares that follow from them.
+#[derive(Clone, Debug)]
+pub(super) struct Filtered {
+    pub innovations: Vec<Innovation>,
+    pub least_squares: LeastSquares,
 }
 
 /// Generalized least squares of the systematic errors under given variances.
@@ -116,39 +128,34 @@ impl Expansion {
 
 impl Term {
     pub fn new(model: Model, leg: &Leg, observation: &Observation, corrected: &Systematic) -> Self {
-        let residuals = Vector3::from(observation.residuals);
+        let residuals = observation.residuals;
         let by_errors = observation.jacobian * corrected.motion_jacobian(model, leg, &observation.expected);
         // Squares of huge numbers would overflow: such a leg is not used.
-        let is_sane = !residuals.iter().chain(&by_errors).any(|entry| entry.abs() > MAX_ENTRY);
-        let observed = residuals.map(|residual| is_sane && !residual.is_nan());
-        let mut columns = Columns::zeros();
-        let [mut start, mut end] =
-            corrected.reference_jacobians(leg).map(|by_error| observation.jacobian * by_error);
-        if is_sane {
-            columns.set_column(0, &residuals.map(|residual| if residual.is_nan() { 0.0 } else { residual }));
-            columns.fixed_columns_mut::<ERROR_COUNT>(1).copy_from(&by_errors);
-        } else {
-            [start, end] = [Matrix3::zeros(); 2];
+        if residuals.iter().chain(&by_errors).any(|entry| entry.abs() > MAX_ENTRY) {
+            let [start, end] = [Matrix3::zeros(); 2];
+            return Self {
+                columns: Wide::ZERO,
+                coefficients: [[0.0; 2]; 3],
+                observed: [false; 3],
+                start,
+                end,
+            };
         }
-        Self {
-            columns,
-            coefficients: if is_sane { observation.coefficients } else { [[0.0; 2]; 3] },
-            observed: observed.into(),
-            start,
-            end,
-        }
+        let observed = residuals.map(|residual| !residual.is_nan());
+        let columns = Wide::from_fn(|k, column| match column {
+            RESIDUAL if observed[k] => residuals[k],
+            0..RESIDUAL => by_errors[(k, column)],
+            _ => 0.0,
+        });
+        let [start, end] = corrected.reference_jacobians(leg).map(|by_error| observation.jacobian * by_error);
+        Self { columns, coefficients: observation.coefficients, observed, start, end }
     }
 }
 
 impl Innovation {
-    /// Returns the innovation of the residual, less what these systematic errors explain.
-    fn unexplained(&self, errors: &ErrorVector) -> Vector3<f64> {
-        self.columns.column(0) - self.columns.fixed_columns::<ERROR_COUNT>(1) * errors
-    }
-
     /// Returns the leg under the fit, with these systematic errors.
     pub fn leg_fit(&self, errors: &ErrorVector, is_outlier: bool) -> LegFit {
-        let innovation = self.unexplained(errors);
+        let innovation = unexplained(&self.columns, errors);
         let stds = self.variances.map(f64::sqrt);
         LegFit {
             stds,
@@ -159,6 +166,19 @@ impl Innovation {
     }
 }
 
+/// Returns the residual less what these systematic errors explain.
+#[inline(always)]
+fn unexplained(columns: &Columns, errors: &ErrorVector) -> Vector3<f64> {
+    let unexplained = |row: &[f64; WIDTH]| {
+        let mut explained = row[0] * errors[0];
+        for error in 1..ERROR_COUNT {
+            explained += row[error] * errors[error];
+        }
+        row[RESIDUAL] - explained
+    };
+    Vector3::new(unexplained(columns.row(0)), unexplained(columns.row(1)), unexplained(columns.row(2)))
+}
+
 impl Residuals {
     pub fn new(
         model: Model,
@@ -166,7 +186,9 @@ impl Residuals {
         terms: &Rc<Vec<Term>>,
         chosen: Vec<(usize, bool)>,
     ) -> Self {
-        Self { terms: Rc::clone(terms), chosen, model, estimated }
+        let observed = chosen.iter().flat_map(|(term, _)| terms[*term].observed);
+        let count = observed.filter(|is_observed| *is_observed).count();
+        Self { terms: Rc::clone(terms), chosen, count, model, estimated }
     }
 
     /// Number of legs.
@@ -180,52 +202,55 @@ impl Residuals {
 
     /// Runs the forward recursion, and adds the innovation of each leg to a list if there is one.
     fn filter(&self, parameters: &Parameters, mut innovations: Option<&mut Vec<Innovation>>) -> LeastSquares {
-        let reference = reference_covariance(parameters);
-        let (mut log_det, mut gram) = (0.0, Gram::zeros());
-        let (mut mean, mut prior) = (Columns::zeros(), reference);
+        let reference = reference_variances(parameters);
+        let alphas = self.model.component_alphas();
+        let (mut log_det, mut gram) = (0.0, Gram::ZERO);
+        let at_start = (Columns::ZERO, Matrix3::from_diagonal(&reference));
+        let (mut mean, mut prior) = at_start;
         // A product is cheaper than as many logarithms.
         let mut det = 1.0;
         for (term, follows) in self.terms() {
             if !follows {
-                (mean, prior) = (Columns::zeros(), reference);
+                (mean, prior) = at_start;
             }
-            let columns = term.columns - term.start * mean;
-            let mut covariance =
-                term.start * prior * term.start.transpose() + term.end * reference * term.end.transpose();
-            let wheels = self.model.wheel_variances(&term.coefficients, parameters);
-            for (component, is_observed) in term.observed.into_iter().enumerate() {
-                let floor = if is_observed { MIN_STD * MIN_STD } else { 1.0 };
-                covariance[(component, component)] += wheels[component] + floor;
+            let columns = term.columns.minus(&mean.multiplied(&term.start));
+            let by_end = scaled(&term.end, &reference);
+            let mut covariance = product(&product(&term.start, &prior), &term.start.transpose())
+                + product(&by_end, &term.end.transpose());
+            for k in 0..3 {
+                let ([first, second], [by_first, by_second]) = (alphas[k], term.coefficients[k]);
+                let wheels = parameters[first] * by_first + parameters[second] * by_second;
+                covariance[(k, k)] += wheels + if term.observed[k] { MIN_STD * MIN_STD } else { 1.0 };
             }
-            let weight = covariance.try_inverse().unwrap_or_else(Matrix3::zeros);
-            det *= covariance.determinant();
+            let (weight, determinant) = inverse(&covariance);
+            det *= determinant;
             if !(1e-200..1e200).contains(&det) {
                 log_det += libm::log(det.max(f64::MIN_POSITIVE));
                 det = 1.0;
             }
-            let gain = reference * term.end.transpose() * weight;
-            gram += columns.transpose() * (weight * columns);
-            mean = gain * columns;
-            prior = reference - gain * term.end * reference;
+            let gain = product(&by_end.transpose(), &weight);
+            let weighted = columns.multiplied(&weight);
+            gram.add_product(&columns, &weighted);
+            mean = columns.multiplied(&gain);
+            prior = Matrix3::from_diagonal(&reference) - scaled(&product(&gain, &term.end), &reference);
             if let Some(all) = &mut innovations {
                 let variance = |k: usize| if term.observed[k] { covariance[(k, k)] } else { f64::NAN };
-                all.push(Innovation { columns, variances: std::array::from_fn(variance), weight, gain });
+                let variances = [variance(0), variance(1), variance(2)];
+                all.push(Innovation { columns, weighted, variances, weight, gain });
             }
         }
         self.least_squares_of(log_det + libm::log(det.max(f64::MIN_POSITIVE)), &gram)
     }
 
-    /// Returns the least squares by ln|V| and [r X]ᵀV⁻¹[r X].
+    /// Returns the least squares by ln|V| and [X r]ᵀV⁻¹[X r].
     fn least_squares_of(&self, log_det: f64, gram: &Gram) -> LeastSquares {
-        let information: ErrorMatrix = gram.fixed_view::<ERROR_COUNT, ERROR_COUNT>(1, 1).into_owned();
+        let information: ErrorMatrix = gram.block(0);
         let (covariance, log_det_information) = masked_inverse(&information, &self.estimated);
-        let pull: ErrorVector = gram.fixed_view::<ERROR_COUNT, 1>(1, 0).into_owned();
+        let pull: ErrorVector = gram.block(RESIDUAL);
         let errors = covariance * pull;
-        let count =
-            self.terms().flat_map(|(term, _)| term.observed).filter(|is_observed| *is_observed).count();
-        let free = count as f64 - self.estimated.iter().filter(|is| **is).count() as f64;
-        let deviance =
-            log_det + log_det_information + gram[(0, 0)] - pull.dot(&errors) + free * libm::log(TAU);
+        let free = self.count as f64 - self.estimated.iter().filter(|is| **is).count() as f64;
+        let deviance = log_det + log_det_information + gram.row(RESIDUAL)[RESIDUAL] - pull.dot(&errors)
+            + free * libm::log(TAU);
         LeastSquares { log_likelihood: -0.5 * deviance, information, errors, covariance }
     }
 
@@ -234,35 +259,38 @@ impl Residuals {
     }
 
     /// Returns the innovation of each leg, and the systematic errors that explain a part of them.
-    pub fn innovations(&self, parameters: &Parameters) -> (Vec<Innovation>, LeastSquares) {
+    pub fn filtered(&self, parameters: &Parameters) -> Filtered {
         let mut innovations = Vec::with_capacity(self.chosen.len());
         let least_squares = self.filter(parameters, Some(&mut innovations));
-        (innovations, least_squares)
+        Filtered { innovations, least_squares }
     }
 
     /// Returns the sandwich covariance of the systematic errors, C (Σ gᵦ gᵦᵀ) C. C is the covariance by the likelihood, and gᵦ the score of a
     /// block of `length` legs. The sandwich is right even if the legs of a block are correlated.
     pub fn sandwich(&self, parameters: &Parameters, length: usize) -> ErrorMatrix {
-        let (innovations, LeastSquares { errors, covariance, .. }) = self.innovations(parameters);
+        let Filtered { innovations, least_squares } = self.filtered(parameters);
+        let LeastSquares { errors, covariance, .. } = least_squares;
         let mut scatter = ErrorMatrix::zeros();
         for block in innovations.chunks(length) {
             let mut score = ErrorVector::zeros();
-            for innovation in block {
-                let jacobian = innovation.columns.fixed_columns::<ERROR_COUNT>(1);
-                score += jacobian.transpose() * (innovation.weight * innovation.unexplained(&errors));
+            for Innovation { columns, weight, .. } in block {
+                let jacobian: SMatrix<f64, 3, ERROR_COUNT> = columns.block(0);
+                score += jacobian.transpose() * (weight * unexplained(columns, &errors));
             }
             scatter += score * score.transpose();
         }
         covariance * scatter * covariance
     }
 
-    /// Returns the log-likelihood with its derivatives.
-    pub fn expansion(&self, parameters: &Parameters) -> Expansion {
-        let (innovations, least_squares) = self.innovations(parameters);
+    /// Returns the log-likelihood with its derivatives, from the innovations under the same parameters.
+    pub fn expansion(&self, Filtered { innovations, least_squares }: &Filtered) -> Expansion {
         let LeastSquares { errors, covariance, .. } = least_squares;
+        // With a row x of V⁻¹X, x C xᵀ is the part by which a diagonal entry of P is smaller than that of V⁻¹: errors are estimated.
+        let estimated =
+            Wide::<ERROR_COUNT>::from_fn(|i, j| if j < ERROR_COUNT { covariance[(i, j)] } else { 0.0 });
         let alphas = self.model.component_alphas();
         let mut expansion = Expansion {
-            least_squares,
+            least_squares: *least_squares,
             quadratic: Parameters::zeros(),
             trace: Parameters::zeros(),
             information: Information::zeros(),
@@ -271,32 +299,25 @@ impl Residuals {
         // P r of each leg, and Bᵀ P r of the leg before plus Aᵀ P r of the leg after the reference poses at its start and end.
         // The start is 0 if another leg ends there, because that leg has the pose already.
         let mut projected = vec![[Vector3::zeros(); 3]; self.len()];
-        let project = |solved: &Columns| solved.column(0) - solved.fixed_columns::<ERROR_COUNT>(1) * errors;
-        // Part by which a diagonal entry of P is smaller than that of V⁻¹, because systematic errors are estimated.
-        let known = |solved: &Columns, row: usize| {
-            let row = solved.fixed_view::<1, ERROR_COUNT>(row, 1);
-            (row * covariance).dot(&row)
-        };
-        // V⁻¹[r X] of the leg after, and its block on the diagonal of V⁻¹.
-        let mut after: Option<(Columns, Matrix3<f64>)> = None;
-        for (i, ((term, follows), Innovation { columns, weight, gain, .. })) in
-            self.terms().zip(&innovations).enumerate().rev()
-        {
-            let (mut solved, mut block) = (weight * columns, *weight);
-            let (mut at_end, mut end_block) = (Columns::zeros(), Matrix3::zeros());
-            if let Some((next, next_block)) = after {
-                let start = self.terms[self.chosen[i + 1].0].start;
-                let through = start * gain;
-                at_end = start.transpose() * next;
-                solved -= gain.transpose() * at_end;
-                let off_diagonal = -next_block * through;
-                block -= through.transpose() * off_diagonal;
-                let cross = start.transpose() * off_diagonal * term.end;
-                end_block = start.transpose() * next_block * start + cross + cross.transpose();
+        // V⁻¹[X r] of the leg after, its block on the diagonal of V⁻¹, and A of it.
+        let mut after: Option<(Columns, Matrix3<f64>, Matrix3<f64>)> = None;
+        for (i, ((term, follows), innovation)) in self.terms().zip(innovations).enumerate().rev() {
+            let Innovation { weighted, weight, gain, .. } = innovation;
+            let (mut solved, mut block) = (*weighted, *weight);
+            let (mut at_end, mut end_block) = (Columns::ZERO, Matrix3::zeros());
+            if let Some((next, next_block, start)) = &after {
+                let through = product(start, gain);
+                at_end = next.multiplied(&start.transpose());
+                solved = solved.minus(&at_end.multiplied(&gain.transpose()));
+                let off_diagonal = -product(next_block, &through);
+                block -= product(&through.transpose(), &off_diagonal);
+                let cross = product(&product(&start.transpose(), &off_diagonal), &term.end);
+                let of_start = product(&product(&start.transpose(), next_block), start);
+                end_block = of_start + cross + cross.transpose();
             }
-            at_end += term.end.transpose() * solved;
-            end_block += term.end.transpose() * block * term.end;
-            let own = project(&solved);
+            at_end = at_end.plus(&solved.multiplied(&term.end.transpose()));
+            end_block += product(&product(&term.end.transpose(), &block), &term.end);
+            let own = unexplained(&solved, errors);
             let score = &mut expansion.scores[i];
             let mut add = |parameter: usize, factor: f64, square: f64, trace: f64| {
                 expansion.quadratic[parameter] += factor * square;
@@ -304,15 +325,15 @@ impl Residuals {
                 score[parameter] += 0.5 * factor * (square - trace);
             };
             for component in 0..3 {
-                let trace = block[(component, component)] - known(&solved, component);
+                let trace = block[(component, component)] - estimated.quadratic_form(solved.row(component));
                 for (alpha, factor) in alphas[component].into_iter().zip(term.coefficients[component]) {
                     add(alpha, factor, own[component] * own[component], trace);
                 }
             }
             let mut add_pose = |solved: &Columns, block: &Matrix3<f64>| {
-                let projected = project(solved);
+                let projected = unexplained(solved, errors);
                 for row in 0..3 {
-                    let trace = block[(row, row)] - known(solved, row);
+                    let trace = block[(row, row)] - estimated.quadratic_form(solved.row(row));
                     add(REFERENCE_VARIANCES[row], 1.0, projected[row] * projected[row], trace);
                 }
                 projected
@@ -321,12 +342,13 @@ impl Residuals {
             let start = if follows && i > 0 {
                 Vector3::zeros()
             } else {
-                add_pose(&(term.start.transpose() * solved), &(term.start.transpose() * block * term.start))
+                let start_block = product(&product(&term.start.transpose(), &block), &term.start);
+                add_pose(&solved.multiplied(&term.start.transpose()), &start_block)
             };
             projected[i] = [own, start, end];
-            after = (follows && i > 0).then_some((solved, block));
+            after = (follows && i > 0).then_some((solved, block, term.start));
         }
-        expansion.information = self.average_information(&innovations, &projected, &covariance);
+        expansion.information = self.average_information(innovations, &projected, covariance);
         expansion
     }
 
@@ -337,41 +359,52 @@ impl Residuals {
         projected: &[[Vector3<f64>; 3]],
         covariance: &ErrorMatrix,
     ) -> Information {
-        type Working = SMatrix<f64, 3, PARAMETER_COUNT>;
-        let (mut gram, mut cross) =
-            (Information::zeros(), SMatrix::<f64, ERROR_COUNT, PARAMETER_COUNT>::zeros());
-        let (mut mean, mut pose) = (Working::zeros(), Vector3::zeros());
+        let (mut gram, mut cross) = (Wide::<PARAMETER_COUNT>::ZERO, Wide::<ERROR_COUNT>::ZERO);
+        let (mut mean, mut pose) = (Wide::<3>::ZERO, Vector3::zeros());
         let alphas = self.model.component_alphas();
         for (((term, follows), innovation), [own, start, end]) in self.terms().zip(innovations).zip(projected)
         {
             if !follows {
-                (mean, pose) = (Working::zeros(), *start);
+                (mean, pose) = (Wide::ZERO, *start);
             }
-            let mut working = Working::zeros();
-            for component in 0..3 {
-                for (alpha, factor) in alphas[component].into_iter().zip(term.coefficients[component]) {
-                    working[(component, alpha)] += factor * own[component];
+            let mut working = Wide::<3>::ZERO;
+            for k in 0..3 {
+                let row = working.row_mut(k);
+                for (alpha, factor) in alphas[k].into_iter().zip(term.coefficients[k]) {
+                    row[alpha] += factor * own[k];
+                }
+                for (by, variance) in REFERENCE_VARIANCES.into_iter().enumerate() {
+                    row[variance] += term.start[(k, by)] * pose[by] + term.end[(k, by)] * end[by];
                 }
             }
-            for row in 0..3 {
-                let moved = term.start.column(row) * pose[row] + term.end.column(row) * end[row];
-                let mut column = working.column_mut(REFERENCE_VARIANCES[row]);
-                column += moved;
-            }
-            working -= term.start * mean;
-            let weighted = innovation.weight * working;
-            gram += working.transpose() * weighted;
-            cross += innovation.columns.fixed_columns::<ERROR_COUNT>(1).transpose() * weighted;
-            mean = innovation.gain * working;
+            working = working.minus(&mean.multiplied(&term.start));
+            let weighted = working.multiplied(&innovation.weight);
+            gram.add_product(&working, &weighted);
+            cross.add_product(&innovation.columns, &weighted);
+            mean = working.multiplied(&innovation.gain);
             pose = *end;
         }
+        let gram: Information = gram.block(0);
+        let cross: SMatrix<f64, ERROR_COUNT, PARAMETER_COUNT> = cross.block(0);
         (gram - cross.transpose() * covariance * cross) * 0.5
     }
 }
 
-/// Returns the covariance R of the reference's error.
-pub(super) fn reference_covariance(parameters: &Parameters) -> Matrix3<f64> {
-    Matrix3::from_diagonal(&REFERENCE_VARIANCES.map(|variance| parameters[variance]).into())
+/// Multiplies the columns of a matrix by the numbers of a vector.
+#[inline(always)]
+fn scaled(matrix: &Matrix3<f64>, by: &Vector3<f64>) -> Matrix3<f64> {
+    let mut scaled = *matrix;
+    for column in 0..3 {
+        for row in 0..3 {
+            scaled[(row, column)] *= by[column];
+        }
+    }
+    scaled
+}
+
+/// Returns the variances of the reference's error: the diagonal of its covariance R.
+pub(super) fn reference_variances(parameters: &Parameters) -> Vector3<f64> {
+    REFERENCE_VARIANCES.map(|variance| parameters[variance]).into()
 }
 
 /// Returns the inverse of the rows and columns in the mask, 0 elsewhere, and the logarithm of their determinant.

@@ -11,6 +11,7 @@ mod fit;
 mod intervals;
 mod legs;
 mod likelihood;
+mod matrices;
 mod optimizer;
 mod options;
 mod outliers;

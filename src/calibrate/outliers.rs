@@ -1,7 +1,7 @@
 //! Outliers: legs outside of a gate on the innovation, as where the reference jumped. They are listed, and the fit leaves them out.
 
 use super::fit::Sample;
-use super::likelihood::{LeastSquares, Parameters, Residuals};
+use super::likelihood::{Parameters, Residuals};
 use super::options::Outliers;
 use super::result::LegFit;
 use super::trajectory::median;
@@ -21,9 +21,9 @@ impl Sample {
         let kept = self.kept(0..self.legs.len());
         let outliers = (0..self.legs.len()).filter(|leg| self.outliers[*leg]).map(|leg| (leg, false));
         let outliers = Residuals::new(self.options.model, self.estimated, &self.terms, outliers.collect());
-        let (inside, LeastSquares { errors, .. }) = kept.innovations(parameters);
-        let (outside, _) = outliers.innovations(parameters);
-        let [mut inside, mut outside] = [inside, outside].map(Vec::into_iter);
+        let [inside, outside] = [kept, outliers].map(|residuals| residuals.filtered(parameters));
+        let errors = inside.least_squares.errors;
+        let [mut inside, mut outside] = [inside, outside].map(|filtered| filtered.innovations.into_iter());
         let next = |is_outlier: &bool| {
             let innovation = if *is_outlier { outside.next() } else { inside.next() };
             innovation.map(|innovation| innovation.leg_fit(&errors, *is_outlier))

@@ -7,7 +7,7 @@ use super::checks::{
 };
 use super::fit::{Fit, Sample};
 use super::legs::{Leg, distance};
-use super::likelihood::{LeastSquares, Parameters, Residuals, reference_covariance};
+use super::likelihood::{Filtered, LeastSquares, Parameters, Residuals, reference_variances};
 use super::optimizer::maximize;
 use super::residuals::Observation;
 use super::result::Recommended;
@@ -77,7 +77,7 @@ impl Sample {
         let seen = self.systematic.motion(&whole);
         let covariances = self.systematic.reference_jacobians(&whole).map(|jacobian| {
             let to_end = to_end_frame(&seen) * jacobian;
-            to_end * reference_covariance(parameters) * to_end.transpose()
+            to_end * Matrix3::from_diagonal(&reference_variances(parameters)) * to_end.transpose()
         });
         (seen, covariances.iter().sum())
     }
@@ -164,7 +164,8 @@ pub(super) fn recommend(fit: &Fit, all: &Sample, alphas: &[Option<f64>]) -> Reco
     let by_other_half = [fitted(&residuals[1]), fitted(&residuals[0])];
     let (mut inside, mut compared) = (0, 0);
     for (residuals, parameters) in residuals.iter().zip(&by_other_half) {
-        let (innovations, LeastSquares { errors, .. }) = residuals.innovations(parameters);
+        let Filtered { innovations, least_squares: LeastSquares { errors, .. } } =
+            residuals.filtered(parameters);
         compared += innovations.len();
         let fits = innovations.iter().map(|innovation| innovation.leg_fit(&errors, false));
         inside += fits.filter(|fit| fit.observed() > 0 && fit.squared < CHI2_95[fit.observed() - 1]).count();

@@ -7,6 +7,7 @@ import { presentationStyles } from '../ui/presentation.ts';
 import { theme } from '../ui/theme.ts';
 import { Announcer } from './announcer.ts';
 import { COMMON, HEADING_LEVELS } from './attributes.ts';
+import { Colours } from './colours.ts';
 import { Focus } from './focus.ts';
 import { Gesture } from './gesture.ts';
 import { Link } from './link.ts';
@@ -81,8 +82,11 @@ export class FigureElement<Machine extends { free(): void, stats: object, config
 
   static definition: import('./definition.ts').Definition;
 
+  /** Aborted when the element is removed; listeners of its controllers on other objects go with it. */
+  connection = new AbortController();
   runtime = new Runtime(this);
   stage = new Stage(this);
+  colours = new Colours(this);
   gesture = new Gesture(this);
   settings = new Settings(this);
   state = new State(this);
@@ -361,6 +365,16 @@ export class FigureElement<Machine extends { free(): void, stats: object, config
     return embedding(this);
   }
 
+  connectedCallback() {
+    this.connection = new AbortController();
+    super.connectedCallback();
+  }
+
+  disconnectedCallback() {
+    this.connection.abort();
+    super.disconnectedCallback();
+  }
+
   static get observedAttributes() {
     // Attributes are in lower case in HTML.
     return [...super.observedAttributes, ...Object.keys({ ...this.definition?.attributes, ...COMMON }).map((name) => name.toLowerCase())];
@@ -373,7 +387,7 @@ export class FigureElement<Machine extends { free(): void, stats: object, config
     if (!(name in COMMON)) return;
     this.requestUpdate();
     this.presenting.follow();
-    this.stage.recolour();
+    this.colours.update();
   }
 
   /** Postpones a request that comes during an update, which LitElement would lose. */

@@ -12,16 +12,12 @@ export class Link extends Part {
   #latestWrite = {};
 
   hostConnected() {
-    addEventListener('hashchange', this.#changed);
+    addEventListener('hashchange', this.#changed, { signal: this.host.connection.signal });
     target ??= openedAt();
     if (isAnchor(target)) document.getElementById(decoded(target))?.scrollIntoView();
     else if (target !== parts()[0] || !this.#isOf(target)) return;
     else this.#scrollHere();
     target = '';
-  }
-
-  hostDisconnected() {
-    removeEventListener('hashchange', this.#changed);
   }
 
   #changed = () => {

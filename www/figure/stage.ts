@@ -1,10 +1,8 @@
-/** Canvases of a figure: sizes in device pixels, frames while the figure is visible, and colours of page, theme and paper. */
+/** Canvases of a figure: their sizes in device pixels, and frames, on the screen while the figure is visible and on paper. */
 
 import { nothing } from 'lit';
 import { onLanguage } from '../messages/registry.ts';
 import { clamp } from '../ui/clamp.ts';
-import { resolvePalette } from '../ui/theme.ts';
-import { ancestors, surroundings } from './page/scheme.ts';
 import { Part } from './part.ts';
 import type { Surface } from '../scene/canvas.ts';
 
@@ -36,7 +34,6 @@ const isShown = ({ width, height }: HTMLCanvasElement) => Math.min(width, height
 export class Stage extends Part {
   /** True while the figure is in the viewport. */
   inSight = false;
-  #palette: import('../ui/theme.ts').Palette | undefined;
   #canvases: HTMLCanvasElement[] | undefined;
   /** Cached widths of the canvases in CSS pixels. Reading them in a frame would cause a reflow. */
   #widths: WeakMap<HTMLCanvasElement, number> = new WeakMap();
@@ -52,16 +49,14 @@ export class Stage extends Part {
   #request: number | undefined;
   /** Time of the request or, during an animation, of the previous frame. */
   #previousTime = 0;
-  #printing = false;
+  /** True from before printing until after it. */
+  printing = false;
   /** True during a callback of the size observer. Text is not rendered then, because it could change sizes again. */
   #resizing: boolean | undefined;
   #sizes: ResizeObserver | undefined;
-  /** Removes the listeners. */
-  #listening = new AbortController();
 
   hostConnected() {
-    this.#listening = new AbortController();
-    const { signal } = this.#listening;
+    const { signal } = this.host.connection;
     addEventListener('beforeprint', () => this.#print(true), { signal });
     addEventListener('afterprint', () => this.#print(false), { signal });
     // Some browsers do not have the events, others fire them too late.
@@ -69,15 +64,6 @@ export class Stage extends Part {
     media.addEventListener('change', () => this.#print(media.matches), { signal });
     this.#followPixels(signal);
     onLanguage(this.host, () => this.#languageChanged(), signal);
-    // A background has its final colour at the end of its transition.
-    const backgroundChanged = ({ target, propertyName }: TransitionEvent) => {
-      if (propertyName === 'background-color' && ancestors(this.host).includes(target as Element)) this.recolour();
-    };
-    document.addEventListener('transitionend', backgroundChanged, { signal });
-  }
-
-  hostDisconnected() {
-    this.#listening.abort();
   }
 
   #languageChanged() {
@@ -88,14 +74,13 @@ export class Stage extends Part {
 
   hostUpdated() {
     this.host.resolveSettled();
-    if (!this.#canvases) this.recolour();
+    if (!this.#canvases) this.host.colours.update();
     if (!this.host.machine || this.#canvases) return;
     this.#canvases = [...this.host.renderRoot.querySelectorAll('canvas')];
     this.#sizes = new ResizeObserver((entries) => this.#resize(entries));
     this.#measure();
     this.requestFrame();
-    this.#printing = matchMedia('print').matches;
-    if (this.#printing) this.#print(true);
+    if (matchMedia('print').matches) this.#print(true);
   }
 
   /** Measures the canvases again after a change of the pixel ratio. WebKit's observer does not report device pixels. */
@@ -125,7 +110,7 @@ export class Stage extends Part {
     this.inSight = inSight;
     this.isBehind = false;
     // No events report changes of colours while the figure is out of the viewport.
-    if (inSight) this.recolour();
+    if (inSight) this.host.colours.update();
     else if (this.host.isAwaited) this.requestFrame();
   }
 
@@ -182,7 +167,7 @@ export class Stage extends Part {
   clear() {
     this.#sizes?.disconnect();
     for (const canvas of this.#canvases ?? []) canvas.width = canvas.height = 0;
-    this.#sizes = this.#canvases = this.#palette = this.#undescribedSince = undefined;
+    this.#sizes = this.#canvases = this.#undescribedSince = undefined;
   }
 
   /** @param elapsed milliseconds since the frame before */
@@ -202,11 +187,11 @@ export class Stage extends Part {
     host.settings.settle();
     // The machine is missing after a trap.
     if (!host.machine) return;
-    host.cloud?.advance(this.#printing);
+    host.cloud?.advance(this.printing);
     const { scene } = host;
     if (host.reading !== reading) this.#addPictures();
     const { pressed: still, former } = host.gesture;
-    const options = { elapsed, still, atOnce: this.#printing || isCalm(), former, highlight: host.highlight, handles: this.#printing };
+    const options = { elapsed, still, atOnce: this.printing || isCalm(), former, highlight: host.highlight, handles: this.printing };
     let isMoving = false;
     this.isBehind = false;
     for (const picture of this.#undrawn) {
@@ -215,7 +200,7 @@ export class Stage extends Part {
       const canvas = this.canvasOf(picture);
       // A figure may have replaced its picture.
       if (!host.pictures.includes(picture) || !isShown(canvas)) continue;
-      isMoving = picture.draw(this.#surfaceOf(canvas), scene, this.palette, options) || isMoving;
+      isMoving = picture.draw(this.#surfaceOf(canvas), scene, host.colours.palette, options) || isMoving;
       this.isBehind = this.#undrawn.size > 0 && !this.#resizing && performance.now() - began > PICTURES_TIME;
     }
     host.placeHandles(scene);
@@ -258,7 +243,7 @@ export class Stage extends Part {
 
   /** Sets the size of each canvas in device pixels. In print the pixels determine the layout, so that the observer would be called again. */
   #resize(entries: ResizeObserverEntry[]) {
-    if (this.#printing) return;
+    if (this.printing) return;
     for (const { target, contentRect, devicePixelContentBoxSize } of entries) {
       const canvas = target as HTMLCanvasElement;
       const exact = devicePixelContentBoxSize?.[0];
@@ -272,9 +257,9 @@ export class Stage extends Part {
     for (const canvas of this.#canvases ?? []) {
       const { clientWidth, clientHeight } = canvas;
       this.#widths.set(canvas, clientWidth);
-      if (this.#printing) Object.assign(canvas, { width: PRINT_RATIO * clientWidth, height: PRINT_RATIO * clientHeight });
+      if (this.printing) Object.assign(canvas, { width: PRINT_RATIO * clientWidth, height: PRINT_RATIO * clientHeight });
     }
-    this.#colour();
+    this.host.colours.resolve();
     this.#addPictures();
     // Resizing has cleared the canvas. A drawing in the next frame would flicker.
     this.#resizing = true;
@@ -282,35 +267,9 @@ export class Stage extends Part {
     this.#resizing = false;
   }
 
-  get palette() {
-    return (this.#palette ??= resolvePalette(this.#find('.surface')));
-  }
-
-  /** Updates the colours from the page and the theme, and draws. */
-  recolour() {
-    this.#colour();
-    this.requestFrame();
-  }
-
-  /** Sets the colours of the surroundings, or those of the figure if its theme differs from the scheme around it. */
-  #colour() {
-    const style = this.#find('.surface')?.style;
-    if (!style) return;
-    const { scheme, ...around } = surroundings(this.#find('.scheme-probe'));
-    // Forced colours override the theme.
-    const theme = matchMedia('(forced-colors: active)').matches ? 'auto' : this.host.theme;
-    style.colorScheme = this.#printing ? 'light' : theme === 'auto' ? scheme : theme;
-    const isOwnTheme = this.#printing || style.colorScheme !== scheme;
-    for (const [name, colour] of Object.entries(around)) style.setProperty(`--${name}`, isOwnTheme ? '' : colour);
-    style.setProperty('--back', isOwnTheme ? 'var(--paper)' : '');
-    // Colours that the page sets for its background do not fit the figure's own.
-    for (const name of ['muted', 'rule']) style.setProperty(`--mw-${name}`, isOwnTheme ? 'initial' : '');
-    this.#palette = undefined;
-  }
-
   /** Draws for print, in light colours and with all samples, or for the screen again. */
   #print(printing: boolean) {
-    this.#printing = printing;
+    this.printing = printing;
     const { machine, cloud } = this.host;
     if (!machine) {
       // Browsers run microtasks before they print. The start needs no more than these if another figure has loaded the module.
@@ -327,11 +286,6 @@ export class Stage extends Part {
   async #startAndPrint() {
     await this.host.runtime.start();
     await this.host.updateComplete;
-    if (this.host.machine) this.#print(this.#printing);
-  }
-
-  /** Returns an element of the rendered figure. */
-  #find(selector: string) {
-    return this.host.renderRoot?.querySelector(selector) as HTMLElement;
+    if (this.host.machine) this.#print(this.printing);
   }
 }

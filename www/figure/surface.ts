@@ -11,8 +11,8 @@ const RIGHT_TO_LEFT = /^(ar|ckb|dv|fa|he|ps|sd|ug|ur|yi)\b/i;
 /** Returns the HTML of a figure, whose language and direction may differ from the page's. */
 export function surface(figure: Figure) {
   speak(figure);
-  const { gesture, notice, presenting, stage, presentation, headingLevel } = figure;
-  const recolour = () => stage.recolour();
+  const { gesture, notice, presenting, colours, presentation, headingLevel } = figure;
+  const recolour = () => colours.update();
   return html`
     <span class="scheme-probe" aria-hidden="true" @transitionend=${recolour} @transitioncancel=${recolour}></span>
     <div class="surface ${presenting.className}" @pointerdown=${(event: PointerEvent) => gesture.press(event)} @input=${stop} @change=${stop} @keydown=${keepUsed}>

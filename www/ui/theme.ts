@@ -42,7 +42,7 @@ export const theme = css`
   }
 
   /*
-   * Set by Stage: --ground and --text are background and text colour of the page, --shade how far the background is from white, and
+   * Set by Colours: --ground and --text are background and text colour of the page, --shade how far the background is from white, and
    * --strength the percentage of the text colour in muted text.
    */
   .scheme-probe,

@@ -30,7 +30,7 @@ const PNG_RATIO = 2;
 const SIZE = { width: 720, height: 432 };
 
 /** Draws the picture in its size and font on the page, with `ratio` pixels per CSS pixel. */
-function drawOn({ scene, pictures: [first], plate, stage }: Figure, ratio: number, makeContext: (size: { width: number, height: number }) => unknown) {
+function drawOn({ scene, pictures: [first], plate, stage, colours }: Figure, ratio: number, makeContext: (size: { width: number, height: number }) => unknown) {
   const picture = plate ?? first;
   const canvas = stage.canvasOf(first);
   const box = canvas.clientWidth > 0 ? canvas.getBoundingClientRect() : SIZE;
@@ -38,7 +38,7 @@ function drawOn({ scene, pictures: [first], plate, stage }: Figure, ratio: numbe
   const size = { width: Math.round(ratio * clientWidth), height: Math.round(ratio * height) };
   const context = makeContext(size) as CanvasRenderingContext2D;
   const surface = { ...size, clientWidth, letters: getComputedStyle(canvas), getContext: () => context };
-  picture.draw(surface, scene, stage.palette, { still: true, atOnce: true, exported: true });
+  picture.draw(surface, scene, colours.palette, { still: true, atOnce: true, exported: true });
   return { context, view: picture.view, ...size };
 }
 
@@ -48,7 +48,7 @@ export async function pngOf(element: Figure): Promise<Blob> {
   const { context, width, height } = drawOn(element, PNG_RATIO, (size) => Object.assign(image, size).getContext('2d'));
   context.resetTransform();
   context.globalCompositeOperation = 'destination-over';
-  context.fillStyle = element.stage.palette.paper;
+  context.fillStyle = element.colours.palette.paper;
   context.fillRect(0, 0, width, height);
   return new Promise((resolve, reject) => {
     image.toBlob((blob) => (blob ? resolve(blob) : reject(new Error('The browser makes no PNG image of it.'))));
@@ -72,7 +72,7 @@ export function svgOf(element: Figure) {
   return `<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height}" viewBox="0 0 ${short(view.width)} ${short(view.height)}" direction="ltr" role="img" aria-labelledby="${name}-title ${name}-text">
 <title id="${name}-title">${escaped(nameOf(element))}</title>
 <desc id="${name}-text">${escaped(description)}</desc>
-<rect width="100%" height="100%" fill="${element.stage.palette.paper}"/>
+<rect width="100%" height="100%" fill="${element.colours.palette.paper}"/>
 ${svg.markup}
 </svg>
 `;

@@ -219,8 +219,7 @@ export class Cloud extends Part {
   }
 
   reseed() {
-    this.host.settings.want(() => ({ seed: this.host.motion.randomSeed() }));
-    this.host.gesture.commit();
+    this.host.gesture.decide(() => ({ seed: this.host.motion.randomSeed() }));
   }
 
   /** Runs an action of the reader on the growth, and sets `playing`. */
@@ -229,8 +228,7 @@ export class Cloud extends Part {
       if (!this.host.machine) return;
       act();
       this.playing = playing;
-      this.host.gesture.step();
-      this.host.gesture.commit();
+      this.host.gesture.complete();
       this.host.stage.requestFrame();
     });
   }

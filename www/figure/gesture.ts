@@ -62,18 +62,22 @@ export class Gesture extends Part {
     }
   }
 
+  /** Records a change that was made in one step. */
+  complete() {
+    this.step();
+    this.commit();
+  }
+
   /** Changes settings in one step, with its end. */
   decide(change: Values | ((wanted: Values) => Values)) {
     this.host.settings.want(change);
     this.commit();
   }
 
-  /** Changes an own field of the element in one step, with its end. */
+  /** Changes a field of the element's state in one step, with its end. It has no outcome to announce. */
   choose(name: string, value: unknown) {
-    this.host.state.own[name] = value;
-    this.step();
+    this.host.settings.want({ [name]: value });
     this.#finish();
-    this.host.stage.requestFrame();
   }
 
   #finish() {

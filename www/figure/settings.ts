@@ -46,19 +46,23 @@ export class Settings extends Part {
     return this.stale || Object.keys(this.#pending).length > 0;
   }
 
-  /** Changes settings in the next frame, so that a drag configures the machine once in each frame. */
+  /**
+   * Changes settings in the next frame, for the reader, so that a drag configures the machine once in each frame. State that the machine does
+   * not have is changed at once.
+   */
   want(change: Values | ((wanted: Values) => Values)) {
-    this.host.runtime.attempt(() => {
+    const { runtime, kind, state, gesture, stage } = this.host;
+    runtime.attempt(() => {
       if (!this.host.machine) return;
       this.forgetRefusal();
       const values = () => (typeof change === 'function' ? change(this.wanted) : change);
       const given = values();
       const both = (key: string, other: string) => key in given && other in this.#pending;
       // A setting and the group that has it are applied one after the other.
-      if (this.host.kind.declared.some(({ key, of }) => of && (both(key, of) || both(of, key)))) this.settle();
-      Object.assign(this.#pending, values());
-      this.host.gesture.step();
-      this.host.stage.requestFrame();
+      if (kind.declared.some(({ key, of }) => of && (both(key, of) || both(of, key)))) this.settle();
+      for (const [key, value] of Object.entries(values())) (key in state.own ? state.own : this.#pending)[key] = value;
+      gesture.step();
+      stage.requestFrame();
     });
   }
 

@@ -78,8 +78,7 @@ export class State extends Part {
     host.stage.release();
     for (const [name, { ofPreset, opening }] of Object.entries(this.#fields)) if (ofPreset) this.own[name] = opening;
     Object.assign(host, { preset });
-    host.gesture.step();
-    host.gesture.commit();
+    host.gesture.complete();
   }
 
   /** Restores the state that the figure opened with. */
@@ -93,8 +92,7 @@ export class State extends Part {
     const { gesture, runtime } = this.host;
     runtime.attempt(() => {
       this.enter(state);
-      gesture.step();
-      gesture.commit();
+      gesture.complete();
     });
   }
 

@@ -116,9 +116,7 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
 
   /** Shows a leg, counted from 0, while the reader moves between legs. */
   look(leg: number) {
-    this.state.own.leg = leg;
-    this.gesture.step();
-    this.stage.requestFrame();
+    this.settings.want({ leg });
   }
 
   /** Shows a leg, counted from 0, that the reader has chosen. */

@@ -95,7 +95,7 @@ export class LogOpener extends Part<Figure> {
     this.#end();
     this.chosen = this.#lone = this.#complaint = undefined;
     this.#zone.style.minHeight = '';
-    this.host.open(null, []).then(() => this.#commit());
+    this.host.open(null, []).then(() => this.host.gesture.complete());
   }
 
   get #zone() {
@@ -120,11 +120,6 @@ export class LogOpener extends Part<Figure> {
     this.host.settings.stale = true;
     this.host.stage.requestFrame();
     this.host.requestUpdate();
-  }
-
-  #commit() {
-    this.host.gesture.step();
-    this.host.gesture.commit();
   }
 
   /** Loads the module that reads logs, while the reader chooses files or drags them here. */
@@ -193,7 +188,7 @@ export class LogOpener extends Part<Figure> {
     await fitted;
     chosen.log = log;
     this.#lone = undefined;
-    this.#commit();
+    this.host.gesture.complete();
   }
 
   /** Shows why a log was refused, and what to choose. */

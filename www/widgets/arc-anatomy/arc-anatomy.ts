@@ -73,11 +73,8 @@ export class ArcAnatomyElement extends FigureElement<Machine, Reading> {
 
   /** Moves the robot to a percentage of the path, in whole per cents. Each is a change with an `input` event. */
   #drive(at: number) {
-    const { own } = this.state;
-    if (Math.floor(at) === own.underway) return;
-    own.underway = Math.floor(at);
-    this.gesture.step();
-    this.stage.requestFrame();
+    const underway = Math.floor(at);
+    if (underway !== this.state.own.underway) this.settings.want({ underway });
   }
 
   placeHandles({ config }: Reading) {

@@ -72,7 +72,7 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
   #pinned: Reading | undefined;
 
   player: Player<'morph'> = new Player(this, {
-    morph: { from: 0, to: 1, duration: MORPH_MS, at: () => this.state.own.morph, put: (to) => this.#setMorph(to) },
+    morph: { from: 0, to: 1, duration: MORPH_MS, at: () => this.state.own.morph, put: (morph) => this.settings.want({ morph }) },
   });
 
   createMachine: FigureElement<Machine, Reading>['createMachine'] = (motion, state) => {
@@ -125,13 +125,6 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
     this.#pinned = this.#pinned ? undefined : this.fresh;
     this.stage.requestFrame();
     this.requestUpdate();
-  }
-
-  /** Sets the morph between the floor and exponential coordinates. */
-  #setMorph(morph: number) {
-    this.state.own.morph = morph;
-    this.gesture.step();
-    this.stage.requestFrame();
   }
 
   get takeaway() {
@@ -197,8 +190,7 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
 
   /** Isolates an α by its number from 1: all other α's have no effect. */
   isolateAlpha(number: number) {
-    this.state.own.isolateChoice = number;
-    this.gesture.decide({ isolate: number });
+    this.gesture.decide({ isolate: number, isolateChoice: number });
   }
 
   /**

@@ -227,8 +227,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
     if (!this.machine) return;
     this.runtime.attempt(() => {
       this.#enter(map);
-      this.gesture.step();
-      this.gesture.commit();
+      this.gesture.complete();
     });
   }
 

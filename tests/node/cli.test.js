@@ -321,7 +321,7 @@ test('inspect lists what is in a file, and the command to go on with', async () 
   const positions = file('positions.csv', ['t,odom_x,odom_y,odom_yaw,gt_x,gt_y', ...Array.from({ length: 40 }, (_, i) => `${i / 20},${i / 40},0,0,${i / 40},1`)].join('\n'));
   const { recordings: [{ series }], ...contents } = JSON.parse(await inspected([positions, '--json'], 2));
   assert.deepEqual(series.map((/** @type {any} */ { name, rows, uses, summary }) => [name, rows, uses, summary?.seconds]), [['odom_', 40, ['odometry'], 1.95], ['gt_', 0, [], undefined]]);
-  assert.deepEqual([contents.missing.split(';')[0], contents.command], ['positions.csv: gt_x, gt_y are positions without a heading', undefined]);
+  assert.deepEqual([contents.missing.split(';')[0], contents.command], ['positions.csv: gt_ (gt_x, gt_y) are positions without a heading', undefined]);
 });
 
 test('an unusable log has a sentence and no lines for Nav2', async () => {

@@ -86,7 +86,8 @@ test('what is not clear is asked', async () => {
     [{ '/odom': 'odometry' }, 'it has the odometry only, /odom (Odometry); give the reference too.', 'other', 'odometry'],
     [{ '/mocap': 'pose' }, 'it has the reference only, /mocap (PoseStamped); give the odometry too.', 'other', 'reference'],
     [{ '/cmd_vel': 'twist' }, 'it has commands only, /cmd_vel (Twist); a reference needs poses.', undefined, undefined, undefined, [], { kind: 'commands' }],
-    [{ '/odom': 'odometry', '/leica/position': 'point' }, 'geometry_msgs/msg/PointStamped are positions without a heading; '],
+    [{ '/odom': 'odometry', '/leica/position': 'point' }, '/leica/position (PointStamped) are positions without a heading; '],
+    [{ '/odom': 'odometry', '/clicked_point': 'point' }, 'by its names and types it has no reference, but ', 'series', 'reference'],
     [{ '/rosout': 'text' }, 'the topics are /rosout (String); '],
     [{ '/odom': 'odometry', '/mocap': 'pose' }, 'there is no such topic; expected is one of /mocap, /odom.', 'series', 'reference', ['/mocap', '/odom'], [], { reference: { series: '/moc' } }],
     [{ '/odom': 'odometry', '/mocap': 'pose' }, '/odom is the odometry itself; ', 'series', 'reference', ['/mocap'], [], { reference: { series: '/odom' } }],
@@ -115,6 +116,14 @@ test('several recordings are drives of their own, or give one log each', async (
   assert.deepEqual(await tables('odom1.csv', 'x.csv', 'y.csv', 'odom2.csv'), [['odom1.csv', 'odom2.csv'], ['x.csv', 'y.csv']]);
   assert.match(await sentenceOf(tables('a.csv', 'b.csv', 'c.csv', 'd.csv')), /^a\.csv: its name does not say whether it is odometry or reference; /);
   assert.match(await sentenceOf(tables('odom1.csv', 'odom2.csv', 'truth.csv')), /^odom1\.csv: there are 2 logs of odometry and 1 of the reference; /);
+  // Logs of which one role is ambiguous.
+  const bodies = recording({ Robot: 'columns', Cart: 'columns' }, { name: 'take.csv', format: 'csv' });
+  const own = recording({ '': 'columns' }, { name: 'odom.csv', format: 'csv' });
+  const { ask } = await refusalOf(planned([own, bodies]));
+  assert.deepEqual([ask?.what, ask?.role, ask?.choices], ['series', 'reference', ['Robot', 'Cart']]);
+  assert.equal(planDrives([own, bodies], { reference: { series: 'Cart' } }).unpaired.reference[0].choice.series, 'Cart');
+  const unclear = recording({ '/odom': 'odometry', '/a': 'pose', '/b': 'pose' });
+  assert.match(await sentenceOf(planned([unclear, unclear])), /^run\.mcap: it is not clear what the reference is: /);
 });
 
 /** Reads drives from tables by their names. @param {Record<string, string>} files @param {import('../../www/logs/drives.ts').Wishes} [wishes] */

@@ -2,6 +2,7 @@
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
+import { planDrives } from '../../www/logs/drives.ts';
 import { english } from '../../www/logs/en.ts';
 import { readAhead } from '../../www/logs/formats/container.ts';
 import { openRecordings } from '../../www/logs/open.ts';
@@ -139,6 +140,16 @@ test('topics and frames that cannot be read are refused', async () => {
     [{ series: '/tf' }, 'run.mcap, topic /tf: give a parent and a child frame, connected by odom → base_link, map → base_link, odom → base_footprint, map → base_footprint.'],
     [{ series: '/tf', frames: { parent: 'map', child: 'laser' } }, 'run.mcap, topic /tf: no transforms lead along map → laser; expected are frames that are connected, of base_footprint → base_link, map → odom, odom → base_footprint, base_link → wheel.'],
   ])) assert.equal(await sentenceOf(readLog(source, choice)), sentence);
+});
+
+test('positions without a heading are refused, by their type', async () => {
+  const points = Array.from({ length: 20 }, (_, i) => ({
+    topic: '/prism', type: 'geometry_msgs/msg/PointStamped', t: i / 10, message: { header: { stamp: stampOf(i / 10), frame_id: 'world' }, point: { x: i / 20, y: 0, z: 0 } },
+  }));
+  const [recording] = await openRecordings([file(await recordingOf([...drive().filter(({ topic }) => topic === '/odom'), ...points]))]);
+  const sentence = /^run\.mcap: \/prism \(PointStamped\) are positions without a heading; give a reference that measures the heading, /;
+  assert.match(await sentenceOf((async () => planDrives([recording]))()), sentence);
+  assert.match(await sentenceOf(recording.read([{ series: '/prism' }])), /^run\.mcap, topic \/prism: geometry_msgs\/msg\/PointStamped are positions without a heading; /);
 });
 
 test('other recordings are refused', async () => {

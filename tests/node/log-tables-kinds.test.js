@@ -54,13 +54,36 @@ test('late rows are sorted; a time far from all others is dropped', async () => 
   const times = steps(50);
   const late = await read(straight([...times.slice(0, 20), times[22], times[20], times[21], ...times.slice(23)]));
   assert.deepEqual([[...late.data.t], [...late.data.breaks]], [times, []]);
-  assert.deepEqual([late.data.x[20], late.summary.notes], [21 / 50, [{ name: 'sorted', values: [1] }]]);
+  assert.deepEqual([late.data.x[20], late.summary.notes], [21 / 50, [{ name: 'sorted', values: [2] }]]);
   const parts = await read(straight([...steps(50, 100), ...steps(50)]));
   assert.deepEqual([parts.data.t.length, parts.data.t[0], parts.data.x[0]], [100, 0, 1]);
   for (const stray of [1e6, -1e6]) {
     const { data, summary } = await read(straight(times.with(20, stray)));
     assert.deepEqual([[...data.t], summary.dropped, [...data.breaks]], [times.toSpliced(20, 1), { stray: { count: 1, first: 22 } }, []]);
   }
+});
+
+test('a log that is out of order everywhere is sorted, and one of two clocks in turns is not taken for it', async () => {
+  const [header, ...rows] = circles().split('\n');
+  const order = rows.map((_, i) => (i * 301) % rows.length);
+  for (const reach of [8, rows.length]) {
+    const jittered = rows.map((_, i) => i).toSorted((one, other) => one + (order[one] % reach) - other - (order[other] % reach));
+    const { data, summary } = await read([header, ...jittered.map((i) => rows[i])].join('\n'));
+    assert.deepEqual([[...data.x], [...data.breaks], summary.used], [CIRCLES.map(([, x]) => x), [], rows.length]);
+    assert.ok(summary.notes[0].name === 'sorted' && Number(summary.notes[0].values[0]) > rows.length / 8, JSON.stringify(summary.notes));
+  }
+  const inTurns = rows.flatMap((row, i) => [row, [CIRCLES[i][0] + 5.02, ...CIRCLES[rows.length - 1 - i].slice(1)].join(',')]);
+  assert.match(await sentenceOf(read([header, ...inTurns].join('\n'))), /^run\.csv: /);
+});
+
+test('a block of zeros in a table loses the row that it is in', async () => {
+  const [header, ...rows] = circles().split('\n');
+  for (const hole of [100, 700]) {
+    const { data, summary } = await read([header, ...rows.with(hole, `${rows[hole].slice(0, 9)}${'\0'.repeat(100_000)}${rows[hole + 1].slice(5)}`)].join('\n'));
+    assert.deepEqual([data.t.length, summary.dropped, [...data.breaks]], [rows.length - 1, { text: { count: 1, first: hole + 2 } }, [hole]]);
+  }
+  const { data, summary } = await read([header, ...rows, '\0'.repeat(5_000_000)].join('\n'));
+  assert.deepEqual([data.t.length, summary.used], [rows.length, rows.length]);
 });
 
 test('a clock that was set back leaves the larger part, and halves are refused', async () => {

@@ -42,6 +42,7 @@ const degrees = (/** @type {number} */ radians) => (radians * 180) / Math.PI;
 const iso = (/** @type {number} */ t) => new Date((EPOCH + Math.floor(t)) * 1000).toISOString().slice(0, 19) + `.${String(Math.round((t % 1) * 1e9)).padStart(9, '0')}`;
 const pose = (/** @type {Row} */ { x, y, qz, qw }) => [x, y, 0, 0, 0, qz, qw];
 const zeros = (/** @type {number} */ count) => Array.from({ length: count }, () => 0);
+const ABBREVIATED = '<array type: double[36]>';
 const utf16 = (/** @type {string} */ text) => new Uint8Array(Buffer.from(`\ufeff${text}`, 'utf16le'));
 
 const ODOMETRY = 'seq header.frame_id child_frame_id pose.pose.position.x pose.pose.position.y pose.pose.position.z pose.pose.orientation.x pose.pose.orientation.y pose.pose.orientation.z pose.pose.orientation.w'.split(' ');
@@ -115,6 +116,8 @@ const CASES = [
   { name: 'stamp_sec, stamp_nsec', start: EPOCH, text: bagpy('stamp_sec', 'stamp_nsec') },
   { name: 'seconds, nanoseconds', start: EPOCH, text: bagpy('seconds', 'nanoseconds') },
   { name: 'ros2 topic echo --csv of odometry', start: EPOCH, text: table('', (row) => [...seconds(row.t), 'odom', 'base', ...pose(row), ...zeros(36), row.v, 0, 0, 0, 0, row.omega, ...zeros(36)]).slice(1) },
+  { name: 'ros2 topic echo --csv --no-arr of odometry', start: EPOCH, text: table('', (row) => [...seconds(row.t), 'odom', 'base', ...pose(row), ABBREVIATED, row.v, 0, 0, 0, 0, row.omega, ABBREVIATED]).slice(1) },
+  { name: 'ros2 topic echo --csv --no-arr of poses with covariance', start: EPOCH, text: table('', (row) => [...seconds(row.t), 'map', ...pose(row), ABBREVIATED]).slice(1) },
   { name: 'ros2 topic echo --csv of poses', start: EPOCH, text: table('', (row) => [...seconds(row.t), 'map', ...pose(row)]).slice(1) },
   { name: 'ros2 topic echo --csv of commands', start: EPOCH, kind: 'commands', text: table('', ({ t, v, omega }) => [...seconds(t), 'base', v, 0, 0, 0, 0, omega]).slice(1) },
   { name: 'PlotJuggler, a topic of two', start: EPOCH, series: ['/odom', '/mocap', '/imu'], choice: { series: '/odom' }, text: plotjuggler },

@@ -16,7 +16,7 @@ const LOCALIZER_NAMES = /slam|amcl|locali[sz]|carto|tracked_pose|icp|loam|scan_?
 const FILTER_NAMES = /odometry[/_]filtered|ekf|ukf|odom_combined/i;
 
 /** Names of topics that are no path of the robot. */
-const GOAL_NAMES = /goal|initial_?pose|waypoint|target|setpoint/i;
+export const GOAL_NAMES = /goal|initial_?pose|waypoint|target|setpoint|clicked_?point/i;
 
 /** Names of frames on a robot, and of fixed frames for each role, the likeliest first. */
 const BASE_FRAMES = [/(^|\/)base_footprint$/, /(^|\/)base_link$/, /(^|\/)base/];

@@ -1,6 +1,6 @@
 /** Search for the odometry and the reference of each drive in recordings. */
 
-import { candidates, isTable, likeliest, namesFor, roleByName, seriesNamed, usefulSeries } from './candidates.ts';
+import { GOAL_NAMES, candidates, isTable, likeliest, namesFor, roleByName, seriesNamed, usefulSeries } from './candidates.ts';
 import { LogError, listed } from './log-error.ts';
 import { ROLES, framesOption, framesText, type Choice, type Frames, type Log, type LogKind, type Recording, type Role, type Series } from './log.ts';
 import { isSamePath, pairLogs, pairedByTime, withStart, type Drive } from './pairs.ts';
@@ -30,7 +30,7 @@ export interface Wishes {
 }
 
 /** Returns the series with their types, for a sentence. */
-const described = (series: Series[]) => listed(series.map(({ name, type }) => (name ? `${name} (${type.replace(/^.*\//, '')})` : type)));
+const described = (series: Series[]) => listed(series.map(({ name, type }) => (name ? `${name} (${type.replace(/^\w+\/(msg\/)?(?=\w+$)/, '')})` : type)));
 
 const isSame = (one: Choice, other?: Choice) => one.series === other?.series && one.frames?.parent === other.frames?.parent && one.frames?.child === other.frames?.child;
 
@@ -59,7 +59,10 @@ export function planDrives(recordings: Recording[], wishes: Wishes = {}): Plan {
   const lacking = odometry.length < reference.length ? 'odometry' : 'reference';
   if (plan.drives.length === Math.abs(odometry.length - reference.length)) plan.unpaired[lacking].push(...plan.drives.splice(0).map((drive) => drive[lacking]));
   if (odometry.length !== reference.length) {
-    const [first] = odometry.length > reference.length ? odometry : reference;
+    const longer = odometry.length > reference.length ? odometry : reference;
+    // The other log of a recording may be there, and only be ambiguous.
+    for (const { recording } of longer) attempted(() => bothOf(recording, wishes), ({ ask }) => ask?.what !== 'series');
+    const [first] = longer;
     const isRepeated = recordings.length === 2 && recordings[0].name === recordings[1].name;
     throw new LogError({ file: first.recording.name }, (say) => (isRepeated ? say.givenTwice : say.unpaired(odometry.length, reference.length)));
   }
@@ -71,15 +74,18 @@ function onlyRole(recording: Recording, wishes: Wishes): Role | 'both' | undefin
   if (attempted(() => bothOf(recording, wishes))) return 'both';
   const [isOdometry, isReference] = ROLES.map((role) => attempted(() => choose(recording, role, wishes)) !== undefined);
   if (isOdometry !== isReference) return isOdometry ? 'odometry' : 'reference';
-  return isOdometry ? roleByName(recording.name) ?? (recording.series.some(({ hasCommands }) => hasCommands) ? 'odometry' : undefined) : 'both';
+  // Several bodies of one file are ambiguous in both roles.
+  const couldBeEither = isOdometry || ROLES.every((role) => candidates(recording, role, wishes).some(({ length }) => length > 0));
+  if (!couldBeEither) return 'both';
+  return roleByName(recording.name) ?? (recording.series.some(({ hasCommands }) => hasCommands) ? 'odometry' : undefined);
 }
 
-/** Returns the result of a function, or undefined if it throws a LogError. */
-function attempted<Result>(work: () => Result): Result | undefined {
+/** Returns the result of a function, or undefined if it throws an expected LogError. */
+function attempted<Result>(work: () => Result, isExpected: (error: LogError) => boolean = () => true): Result | undefined {
   try {
     return work();
   } catch (error) {
-    if (error instanceof LogError) return undefined;
+    if (error instanceof LogError && isExpected(error)) return undefined;
     throw error;
   }
 }
@@ -144,9 +150,9 @@ function guessedChoice(recording: Recording, role: Role, wishes: Wishes, other?:
   const transforms = useful.filter(({ kind }) => kind === 'transforms');
   if (transforms.length === useful.length) throw framesError(recording, transforms.find((each) => each.frames) ?? transforms[0], role);
   if (role === 'reference' && useful.every(({ kind }) => kind === 'commands')) throw new LogError({ file }, (say) => say.noPoses(described(useful)));
-  const positions = useful.filter(({ kind }) => kind === 'positions');
+  const positions = useful.filter(({ name, kind }) => kind === 'positions' && !GOAL_NAMES.test(name));
   if (positions.length === useful.length || (role === 'reference' && best.length === 0 && positions.length > 0)) {
-    throw new LogError({ file }, (say) => say.positions(listed(positions.map(({ type }) => type))));
+    throw new LogError({ file }, (say) => say.positions(described(positions)));
   }
   if (useful.length === 1) {
     const known = knownRole(recording, useful[0]);

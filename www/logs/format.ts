@@ -33,13 +33,16 @@ const TWIST_COLUMNS = ['linear.x', 'linear.y', 'linear.z', 'angular.x', 'angular
 const STAMP_COLUMNS = ['header.stamp.sec', 'header.stamp.nanosec', 'header.frame_id'];
 const COVARIANCE_COLUMNS = Array.from({ length: 36 }, () => '-');
 
-/** Columns of `ros2 topic echo --csv`: Odometry, PoseStamped with and without covariance, TwistStamped, and one transform. */
+/** Columns of `ros2 topic echo --csv`: PoseStamped, TwistStamped, one transform, and with covariances Odometry and PoseStamped. */
 const ROS2_LAYOUTS = [
-  [...STAMP_COLUMNS, 'child_frame_id', ...POSE_COLUMNS, ...COVARIANCE_COLUMNS, ...TWIST_COLUMNS, ...COVARIANCE_COLUMNS],
   [...STAMP_COLUMNS, ...POSE_COLUMNS],
-  [...STAMP_COLUMNS, ...POSE_COLUMNS, ...COVARIANCE_COLUMNS],
   [...STAMP_COLUMNS, ...TWIST_COLUMNS],
   [...STAMP_COLUMNS, 'child_frame_id', ...POSE_COLUMNS],
+  // With --no-arr one cell replaces a covariance.
+  ...[COVARIANCE_COLUMNS, ['-']].flatMap((covariance) => [
+    [...STAMP_COLUMNS, 'child_frame_id', ...POSE_COLUMNS, ...covariance, ...TWIST_COLUMNS, ...covariance],
+    [...STAMP_COLUMNS, ...POSE_COLUMNS, ...covariance],
+  ]),
 ];
 
 /** Records of CARMEN's logs. The columns of FLASER follow the readings of the laser. */

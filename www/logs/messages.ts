@@ -150,6 +150,8 @@ const COMMANDS: typeof POSES = {
   'geometry_msgs/TwistWithCovarianceStamped': (reader) => twist(header(reader), reader),
 };
 const TRANSFORMS = ['tf2_msgs/TFMessage', 'tf/tfMessage'];
+/** Types of positions without a heading, which are refused. */
+const POSITIONS = ['geometry_msgs/PointStamped', 'sensor_msgs/NavSatFix'];
 
 /** Returns the name of a type in ROS 1. */
 const plainType = (type: string) => type.replace('/msg/', '/');
@@ -159,6 +161,7 @@ export function kindOf(type: string): Series['kind'] {
   const plain = plainType(type);
   if (Object.hasOwn(POSES, plain)) return 'poses';
   if (Object.hasOwn(COMMANDS, plain)) return 'commands';
+  if (POSITIONS.includes(plain)) return 'positions';
   return TRANSFORMS.includes(plain) ? 'transforms' : null;
 }
 

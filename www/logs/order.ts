@@ -11,6 +11,9 @@ const SAME_TIME_STEPS = 0.75;
 /** Minimum number of rows with times of earlier rows, by which a clock was set back. Fewer such rows are late. */
 const MIN_OVERLAP = 3;
 
+/** Maximum fraction of steps back in time of a log in parts. Above it, the log is out of order everywhere. */
+const MAX_STEPS_BACK = 0.1;
+
 /** Classes of rows: kept, kept although late, dropped as far from all others, or dropped because the clock was set back. */
 export const [KEPT, LATE, STRAY, SET_BACK] = [0, 1, 2, 3];
 
@@ -35,15 +38,17 @@ interface Order {
 export function sortRows(t: Float64Array, isSame: (one: number, other: number) => boolean): Order {
   const classes = new Uint8Array(t.length);
   const all = new Uint32Array(t.length);
-  let isSorted = true;
+  let stepsBack = 0;
   for (let i = 0; i < t.length; i++) {
     all[i] = i;
-    if (t[i] < t[i - 1]) isSorted = false;
+    if (t[i] < t[i - 1]) stepsBack += 1;
   }
-  if (isSorted) return { order: all, classes, setBack: -1, largest: t.length };
+  if (stepsBack === 0) return { order: all, classes, setBack: -1, largest: t.length };
 
-  const step = quantile(sample(t.length - 1, (i) => t[i + 1] - t[i]).filter((each) => each > 0), 0.5);
   const sorted = all.toSorted((one, other) => t[one] - t[other] || one - other);
+  // Parts of the log may have the same times, so that sorting makes the steps shorter. A log that is out of order everywhere has no parts.
+  const ordered = stepsBack > MAX_STEPS_BACK * t.length ? sorted : all;
+  const step = quantile(sample(t.length - 1, (i) => t[ordered[i + 1]] - t[ordered[i]]).filter((each) => each > 0), 0.5);
   const places = new Uint32Array(t.length);
   for (let place = 0; place < t.length; place++) places[sorted[place]] = place;
   const isAlone = (i: number) => [t[sorted[places[i] - 1]], t[sorted[places[i] + 1]]].every((other) => !(Math.abs(other - t[i]) <= MAX_GAP_STEPS * step));
@@ -58,10 +63,7 @@ export function sortRows(t: Float64Array, isSame: (one: number, other: number) =
   for (let i = 1, last = 0; i < t.length; i++) {
     runs[i] = runs[i - 1];
     if (classes[i - 1] !== STRAY) last = i - 1;
-    if (classes[i] !== STRAY && t[i] < t[last]) {
-      runs[i] += 1;
-      classes[i] = LATE;
-    }
+    if (classes[i] !== STRAY && t[i] < t[last]) runs[i] += 1;
   }
   const overlaps = new Uint32Array(runs[t.length - 1] + 1);
   let previous = -1;
@@ -84,7 +86,13 @@ export function sortRows(t: Float64Array, isSame: (one: number, other: number) =
   }
   const largest = Math.max(...sizes);
   const keptPart = sizes.indexOf(largest);
-  for (let i = 0; i < t.length; i++) if (classes[i] !== STRAY && parts[i] !== keptPart) classes[i] = SET_BACK;
+  let newest = -Infinity;
+  for (let i = 0; i < t.length; i++) {
+    if (classes[i] === STRAY) continue;
+    if (parts[i] !== keptPart) classes[i] = SET_BACK;
+    else if (t[i] < newest) classes[i] = LATE;
+    else newest = t[i];
+  }
   return { order: sorted.filter((i) => classes[i] < STRAY), classes, setBack, largest };
 }
 

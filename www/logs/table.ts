@@ -17,6 +17,9 @@ const BLOCK_BYTES = 2 ** 22;
 /** Number of bytes from which the format is detected: a preamble and some rows. */
 const HEAD_BYTES = 2 ** 18;
 
+/** Number of characters at the beginning that are no text if one of them is 0. Later zeros are a block that was never written. */
+const TEXT_CHARS = 4096;
+
 /** Maximum number of characters of a line: a row of a thousand columns. */
 const MAX_LINE_LENGTH = 2 ** 16;
 
@@ -34,8 +37,8 @@ const MAX_TILT_SPREAD = 0.5;
 /** Opens a table; rejects with a LogError. */
 export async function openTable(source: Source, options: OpenOptions = {}): Promise<Recording> {
   const encoding = await encodingOf(source);
-  const decoded = new TextDecoder(encoding).decode(await bytesOf(source, 0, Math.min(HEAD_BYTES, source.size)), { stream: true });
-  if (decoded.includes('\0')) throw new LogError({ file: source.name }, (say) => say.binary);
+  const decoded = withoutHoles(new TextDecoder(encoding).decode(await bytesOf(source, 0, Math.min(HEAD_BYTES, source.size)), { stream: true }));
+  if (decoded.slice(0, TEXT_CHARS).includes('\0')) throw new LogError({ file: source.name }, (say) => say.binary);
   const end = endOf(decoded);
   const lines = decoded.split(end);
   // The last line may be incomplete. It is dropped unless it is the only one.
@@ -93,6 +96,12 @@ async function encodingOf(source: Source): Promise<string> {
   }
 }
 
+/**
+ * Replaces each block of zeros, which a file has where the computer lost its power, by a single one. Its row then has a cell that is no
+ * number.
+ */
+const withoutHoles = (text: string) => (text.includes('\0') ? text.replaceAll(/\0+/g, '\0') : text);
+
 /** Returns the character that ends lines: a line feed, or in files of old spreadsheets a carriage return. */
 const endOf = (text: string) => (text.includes('\n') || !text.includes('\r') ? '\n' : '\r');
 
@@ -106,8 +115,7 @@ async function readLines(source: Source, encoding: string, end: string, from: nu
   };
   for (let at = 0; at < source.size; at += BLOCK_BYTES) {
     onProgress?.(at / source.size);
-    const text = rest + decoder.decode(await bytesOf(source, at, Math.min(at + BLOCK_BYTES, source.size)), { stream: true });
-    if (text.includes('\0')) throw new LogError({ file: source.name }, (say) => say.binary);
+    const text = rest + withoutHoles(decoder.decode(await bytesOf(source, at, Math.min(at + BLOCK_BYTES, source.size)), { stream: true }));
     const lines = text.split(end);
     rest = lines.pop() ?? '';
     for (const line of lines) takeLine(line, false);
@@ -212,7 +220,7 @@ class LogReader {
     const { tag } = this.#group;
     if (tag !== undefined && !line.startsWith(`${tag} `)) return;
     if (/^\s*(?:[#%]|$)/.test(line)) return;
-    if (line === header) return this.#rows.drop('notFinite', number);
+    if (line === header) return this.#rows.drop('text', number);
     const cells = tag === undefined ? cellsOf(line, separator, this.#needed) : carmenCells(line);
     if (cells.length < this.#needed) {
       if (!isOpen) return this.#dropDamaged('short', number, (say) => say.cells(cells.length, this.#needed));

@@ -120,6 +120,7 @@ class TopicReader {
     const types = [...new Set((fitting.length ? fitting : channels).map(({ type }) => type))];
     if (fitting.length === 0) this.#refuse((say) => say.type(cut(types.join(', ')), frames ? 'transforms' : wanted === 'poses' ? wanted : 'either'));
     if (types.length > 1) this.#refuse((say) => say.types(listed(types)));
+    if (kindOf(types[0]) === 'positions') this.#refuse((say) => say.positions(types[0]));
     if (!isReadable(fitting[0])) this.#refuse((say) => say.encoding(cut(fitting[0].encoding)));
     return kindOf(types[0]);
   }

@@ -27,6 +27,9 @@ export interface Look {
   alpha?: [model: 'velocity' | 'odometry', index: number];
 }
 
+/** Values that can be typed. */
+type Allowed = Pick<Declaration, 'type' | 'unit'> & { min: number, max: number };
+
 /** Row whose `most` limits the value further than the declaration. */
 export type Row = Partial<SliderRow> & { most?: number };
 
@@ -53,23 +56,22 @@ export function slider(figure: Figure, key: string, overrides?: Row) {
   });
 }
 
-/** Returns a slider whose value can also be typed, within an allowed range. A slider over indices has the values `ends` at its ends. */
-export function editableSlider(figure: Figure, symbol: string, { min, max: most, type, unit }: Pick<Declaration, 'type' | 'unit'> & { min: number, max: number }, row: Omit<SliderRow, 'keys' | 'type' | 'refusal' | 'forget'> & { ends?: number[], most?: number }, take: (number: number) => void = row.input, print: (number: number) => string = row.show) {
+/** Returns a slider whose value can also be typed, within an allowed range. */
+export function editableSlider(figure: Figure, symbol: string, { min, max: most, type, unit }: Allowed, row: Omit<SliderRow, 'keys' | 'type' | 'refusal' | 'forget'> & { most?: number }) {
   const max = row.most ?? most;
-  const [first, last] = row.ends ?? [row.min, row.max];
   const whole = type === 'whole';
   // At an end of the slider, a text says that values beyond it can be typed.
-  const end = row.value >= row.max && last < max ? last : row.value <= row.min && first > min ? first : undefined;
+  const end = row.value >= row.max && row.max < max ? row.max : row.value <= row.min && row.min > min ? row.min : undefined;
   return sliderRow({
     ...row,
-    effect: end === undefined ? row.effect : words.sliderEnds(print(end)),
+    effect: end === undefined ? row.effect : words.sliderEnds(row.show(end)),
     keys: min < 0 ? 'text' : whole ? 'numeric' : 'decimal',
     type: (text) => {
-      const number = entered(figure, row.id, symbol, text, { min, max, unit, whole });
+      const number = entered(figure, row.id, symbol, text, { min, max, type, unit });
       if (number === undefined) return undefined;
-      take(number);
+      row.input(number);
       row.commit();
-      return print(number);
+      return row.show(number);
     },
     refusal: figure.settings.refusalOf(row.id),
     forget: () => figure.settings.forgetRefusal(),
@@ -77,7 +79,8 @@ export function editableSlider(figure: Figure, symbol: string, { min, max: most,
 }
 
 /** Returns the number that a text of the reader means. Shows the reason if it is refused, and returns undefined. */
-function entered({ settings }: Figure, key: string, name: string, text: string, { min, max, unit, whole }: { min: number, max: number, unit?: string, whole: boolean }) {
+function entered({ settings }: Figure, key: string, name: string, text: string, { min, max, unit, type }: Allowed) {
+  const whole = type === 'whole';
   const number = numberIn(text, unit, whole);
   if (number >= min && number <= max && (!whole || Number.isInteger(number))) {
     settings.forgetRefusal();
@@ -151,33 +154,22 @@ export function panel(title: unknown, picture: unknown, name?: string) {
 
 /** Returns the controls of growth, seed and size of the cloud; the slider offers `counts`. */
 export function cloudControls(figure: Figure & { cloud: import('./cloud.ts').Cloud }, counts: readonly number[]) {
-  const { samples } = figure.settings.wanted;
   const { name, effect } = wordsFor(figure, 'samples');
-  const last = counts.length - 1;
-  const nearest = counts.findIndex((count) => count >= samples);
-  return group(words.samples, html`${editableSlider(
-      figure,
-      'N',
-      declarationOf(figure, 'samples'),
-      {
-        id: 'samples',
-        symbol: html`<i>N</i>`,
-        name,
-        // A count beyond the last one has an index past the end of the slider.
-        value: nearest < 0 ? last + 1 : nearest,
-        min: 0,
-        max: last,
-        step: 1,
-        ends: [counts[0], counts[last]],
-        show: (index) => counted(index === nearest || index > last ? samples : counts[index]),
-        effect,
-        role: 'truth',
-        input: (index) => want(figure, 'samples', counts[index]),
-        commit: () => figure.gesture.commit(),
-      },
-      (count) => want(figure, 'samples', count),
-      counted,
-    )}
+  return group(words.samples, html`${editableSlider(figure, 'N', declarationOf(figure, 'samples'), {
+      id: 'samples',
+      symbol: html`<i>N</i>`,
+      name,
+      value: figure.settings.wanted.samples,
+      min: counts[0],
+      max: counts[counts.length - 1],
+      step: 1,
+      stops: counts,
+      show: counted,
+      effect,
+      role: 'truth',
+      input: (count) => want(figure, 'samples', count),
+      commit: () => figure.gesture.commit(),
+    })}
     ${figure.cloud.buttons(seedField(figure))}`, 'cloud');
 }
 
@@ -186,7 +178,7 @@ function seedField(figure: Figure) {
   const { settings, gesture } = figure;
   const refusal = settings.refusalOf('seed');
   const enterSeed = (event: Event) => {
-    const seed = entered(figure, 'seed', words.seed, inputOf(event).value, { ...declarationOf(figure, 'seed'), whole: true });
+    const seed = entered(figure, 'seed', words.seed, inputOf(event).value, declarationOf(figure, 'seed'));
     if (seed !== undefined) settings.want({ seed });
   };
   return html`<label class="seed">
@@ -221,7 +213,7 @@ export function sampleField(figure: Figure & { cloud: import('./cloud.ts').Cloud
   const refusal = settings.refusalOf('marked');
   const enterIndex = (event: Event) => {
     const text = inputOf(event).value;
-    const number = text === '' ? 0 : entered(figure, 'marked', label, text, { min: 1, max: shown, whole: true });
+    const number = text === '' ? 0 : entered(figure, 'marked', label, text, { min: 1, max: shown, type: 'whole' });
     if (number === undefined) return;
     settings.forgetRefusal();
     cloud.mark(number - 1);
@@ -252,7 +244,7 @@ function want(figure: Figure, key: string, value: unknown) {
 }
 
 /** Returns the declaration of a numeric setting. */
-const declarationOf = (figure: Figure, key: string): Declaration & { min: number, max: number } =>
+const declarationOf = (figure: Figure, key: string): Declaration & Allowed =>
   figure.kind.declared.find((setting) => setting.key === key) as any;
 
 /** Returns the name of a setting, and its effect, if it has one. */

@@ -207,7 +207,7 @@ export function sliderRow(row: SliderRow) {
     <div class="slider ${row.off ? 'off' : ''} ${row.refusal ? 'refused' : ''}" part="slider" data-role=${row.role}>
       ${row.pick ?? nothing}
       <label for=${row.id} id="${row.id}-name">${row.symbol ? html`<bdi class="symbol notranslate" translate="no">${row.symbol}</bdi>` : nothing}${row.name}</label>
-      ${track({ ...row, name: undefined, text: shown, describedBy: `${row.id}-effect`, keydown: leadIntoField })}
+      ${track({ ...row, ...positionsOf(row), name: undefined, text: shown, describedBy: `${row.id}-effect`, keydown: leadIntoField })}
       <span class="value notranslate" translate="no" dir="ltr" data-longest=${longest}>
         <span class="printed">${shown}</span>
         ${field(row, shown)}
@@ -235,6 +235,8 @@ export interface SliderRow extends Range {
   /** Symbol before the name. */
   symbol?: unknown;
   name: unknown;
+  /** Values of the slider, if they are not in equal steps. */
+  stops?: readonly number[];
   /** Returns a value with its unit. */
   show: (value: number) => string;
   /** Effect of the parameter on the picture, in words. */
@@ -252,6 +254,13 @@ export interface SliderRow extends Range {
   refusal?: string;
   /** Called when something else matters more than the refused text. */
   forget: () => void;
+}
+
+/** Returns the range of a slider over stops: its values are their indices. A value beyond the last one has an index past the end. */
+function positionsOf({ stops, value, input }: SliderRow): Partial<Range> {
+  if (!stops) return {};
+  const index = stops.findIndex((stop) => stop >= value);
+  return { min: 0, max: stops.length - 1, step: 1, value: index < 0 ? stops.length : index, input: (at) => input(stops[at]) };
 }
 
 interface Track extends Range {

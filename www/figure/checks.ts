@@ -47,19 +47,14 @@ export function boolean(field: string, value: unknown) {
   throw refusal(field, value, 'true or false', TypeError);
 }
 
-export function wholeNumber(field: string, value: unknown, least: number, most: number) {
-  const allowed = `a whole number from ${least} to ${most}`;
+export function numberWithin(field: string, value: unknown, least: number, most: number, isWhole = false) {
+  const allowed = `${isWhole ? 'a whole number from ' : ''}${least} to ${most}`;
   if (typeof value !== 'number') throw refusal(field, value, allowed, TypeError);
-  if (!Number.isInteger(value) || value < least || value > most) throw refusal(field, value, allowed);
+  if (!(value >= least && value <= most) || (isWhole && !Number.isInteger(value))) throw refusal(field, value, allowed);
   return value;
 }
 
-export function numberWithin(field: string, value: unknown, least: number, most: number) {
-  const allowed = `${least} to ${most}`;
-  if (typeof value !== 'number') throw refusal(field, value, allowed, TypeError);
-  if (!(value >= least && value <= most)) throw refusal(field, value, allowed);
-  return value;
-}
+export const wholeNumber = (field: string, value: unknown, least: number, most: number) => numberWithin(field, value, least, most, true);
 
 /** Returns the allowed names that the array contains, in the order of `allowed`. */
 export function subset(field: string, value: unknown, allowed: readonly string[]): string[] {

@@ -83,15 +83,13 @@ export class Presentation extends Part {
 
   #key = ({ key, ctrlKey, altKey, metaKey, defaultPrevented }: KeyboardEvent) => {
     if (defaultPrevented || ctrlKey || altKey || metaKey) return;
+    const { kind, machine, state } = this.host;
+    const preset = kind.attributes.preset?.words?.[Number(key) - 1];
     if (key === 'Escape') this.host.presentation = false;
     else if (key.toLowerCase() === KEY) this.#toggle();
     else if (key === BACK) this.#restore();
-    else this.#choose(this.host.kind.attributes.preset?.words?.[Number(key) - 1]);
+    else if (preset !== undefined && machine) state.choosePreset(preset);
   };
-
-  #choose(preset?: string) {
-    if (preset !== undefined && this.host.machine) this.host.state.choosePreset(preset);
-  }
 
   #restore() {
     if (this.host.machine) this.host.state.goBack(this.#stateAtBegin);

@@ -14,8 +14,6 @@ export class Runtime extends Part {
   failure: string | undefined;
   /** True once the `load` event was fired. */
   #loaded = false;
-  /** True if the core is needed: from the first start until the element is removed. */
-  #isNeeded = false;
   #isNear = false;
   #starting: Promise<void> | undefined;
   /** True from a trap to the next picture. */
@@ -69,10 +67,10 @@ export class Runtime extends Part {
     this.#isNear = isNear;
   }
 
-  /** Starts the core, if it is not running. */
-  start() {
-    this.#isNeeded = true;
-    return this.#startIfNeeded();
+  /** Starts the core, if it is not running. Resolves when it has started or failed. */
+  start(): Promise<void> {
+    if (!this.machine && this.host.isConnected) this.#starting ??= this.#create();
+    return this.#starting ?? Promise.resolve();
   }
 
   hostDisconnected() {
@@ -82,7 +80,6 @@ export class Runtime extends Part {
     // A moved element is connected again by then.
     queueMicrotask(() => {
       if (this.host.isConnected) return;
-      this.#isNeeded = false;
       this.host.stage.setVisible(false);
       this.#stop();
     });
@@ -148,7 +145,7 @@ export class Runtime extends Part {
     this.#hasTrapped = true;
     this.#abandon();
     this.report(error);
-    this.#startIfNeeded();
+    void this.start();
     return true;
   }
 
@@ -158,16 +155,10 @@ export class Runtime extends Part {
     this.machine = this.motion = undefined;
   }
 
-  /** Resolves when the core has started or failed. */
-  #startIfNeeded(): Promise<void> {
-    if (!this.machine && this.#isNeeded) this.#starting ??= this.#create();
-    return this.#starting ?? Promise.resolve();
-  }
-
   async #create() {
     try {
       const [motion] = await Promise.all([instantiateFor(this.host.localName), this.host.link.prepare()]);
-      if (!this.#isNeeded) return;
+      if (!this.host.isConnected) return;
       const machine = this.host.createMachine(motion, this.host.state.kept);
       Object.assign(this, { motion, machine, failure: undefined });
       this.host.state.resume();
@@ -178,7 +169,7 @@ export class Runtime extends Part {
       this.#starting = undefined;
     }
     // The element was moved meanwhile, or the core has trapped again.
-    if (this.failure === undefined) this.#startIfNeeded();
+    if (this.failure === undefined) void this.start();
   }
 
   async #show() {

@@ -35,7 +35,7 @@ export interface Brush {
   handles?: boolean;
   /** Name of the highlighted line. It is drawn thicker, and all others faint. */
   highlight?: string | null;
-  /** Earlier reading of the machine, whose outlines stay visible for comparison. */
+  /** Reading of the machine before the current gesture. Its outlines stay visible for comparison if the gesture zooms the view out. */
   former?: any;
 }
 

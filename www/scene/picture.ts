@@ -5,21 +5,14 @@ import type { Brush, Surface } from './canvas.ts';
 import type { View } from './view.ts';
 import type { Palette } from '../ui/theme.ts';
 
-export interface How {
+/** Way in which a scene is drawn. */
+export interface How extends Pick<Brush, 'exported' | 'handles' | 'highlight' | 'former'> {
   /** Milliseconds since the previous frame. */
   elapsed?: number;
   /** True if the view must not zoom. */
   still?: boolean;
   /** True if the view changes without an animation. */
   atOnce?: boolean;
-  /** Reading of the machine before the current gesture. If the view zooms out after the gesture, it also shows the outlines of that reading. */
-  former?: any;
-  /** Name of the line that is highlighted. */
-  highlight?: string | null;
-  /** True if it is drawn for a file, without the page around it. */
-  exported?: boolean;
-  /** True if handles are painted. */
-  handles?: boolean;
 }
 
 export class Picture<Scene, Name extends string = string> {
@@ -37,7 +30,7 @@ export class Picture<Scene, Name extends string = string> {
   paint(_brush: Brush, _scene: Scene): boolean | void {}
 
   /** Draws the scene. Returns true if the view is still moving, or there is more to paint. */
-  draw(surface: Surface, scene: Scene, palette: Palette, { elapsed = 0, still = false, atOnce = false, former, highlight, exported = false, handles = exported }: How = {}): boolean {
+  draw(surface: Surface, scene: Scene, palette: Palette, { elapsed = 0, still = false, atOnce = false, former, exported, handles = exported, highlight }: How = {}): boolean {
     const { view } = this;
     const brush = brushOn(surface, view, palette);
     if (former !== this.#former && !exported) {

@@ -11,9 +11,7 @@ import { css, unsafeCSS } from 'lit';
  * Roles whose resolved colours the canvas needs. Each is a custom property of the same name. A cloud is also a prediction, but needs another
  * colour, because it consists of many dots.
  */
-const ROLES = 
-  ['paper', 'ink', 'muted', 'rule', 'prior', 'prediction', 'cloud', 'truth', 'posterior', 'accent'] as const
-;
+const ROLES = ['paper', 'ink', 'muted', 'rule', 'prior', 'prediction', 'cloud', 'truth', 'posterior', 'accent'] as const;
 
 /**
  * Width that a figure likes in a box that is as wide as its contents: that of a book's column. Two dots with so much between them break the
@@ -67,17 +65,6 @@ export const theme = css`
     display: none;
   }
 
-  /* In forced colours, background and text are the reader's, and the roles keep their hues. */
-  @media (forced-colors: active) {
-    .scheme-probe,
-    .surface {
-      --paper: Canvas;
-      --ink: CanvasText;
-      --muted: CanvasText;
-      --rule: color-mix(in srgb, CanvasText 35%, Canvas);
-    }
-  }
-
   /* A change of any role fires an event: see schemeStyles. */
   .scheme-probe {
     background: var(--motion-paper, transparent);
@@ -98,10 +85,14 @@ export const theme = css`
     color: var(--ink);
   }
 
-  /* Probe and surface have no colours of the page: some of those would be forced, and others not. */
+  /* In forced colours, background and text are the reader's, and the roles keep their hues. Some colours of the page would not be forced. */
   @media (forced-colors: active) {
     .scheme-probe,
     .surface {
+      --paper: Canvas;
+      --ink: CanvasText;
+      --muted: CanvasText;
+      --rule: color-mix(in srgb, CanvasText 35%, Canvas);
       background: Canvas;
       color: CanvasText;
     }

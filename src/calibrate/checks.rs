@@ -6,7 +6,7 @@ use super::residuals::Model;
 use super::result::LegFit;
 use super::systematic::{ERROR_COUNT, ErrorMask, Systematic, SystematicError};
 use super::trajectory::median;
-use crate::geom::se2::{SE2, wrap_angle};
+use crate::geom::se2::wrap_angle;
 use crate::models::OdometryRule;
 use serde::{Deserialize, Serialize};
 
@@ -227,19 +227,24 @@ fn moves_sideways([rot1, _, rot2]: [f64; 3]) -> bool {
 
 /// Median difference of the two motions over the median motion: of turns, or of drives, whichever is larger.
 fn mismatch(sample: &Sample, systematic: &Systematic) -> f64 {
-    let motions = |leg| [systematic.expected(sample.options.model, leg), systematic.motion(leg)];
-    let motions: Vec<[SE2; 2]> = sample.legs.iter().map(motions).collect();
-    let ratio = |least: f64, size: fn(&SE2) -> f64, between: fn(&SE2, &SE2) -> f64| {
-        let moving = || motions.iter().filter(|[expected, _]| size(expected) > least);
-        let mut sizes: Vec<f64> = moving().map(|[expected, _]| size(expected)).collect();
-        let mut differences: Vec<f64> = moving().map(|[expected, seen]| between(seen, expected)).collect();
+    // Sizes and differences of the turns, and of the drives.
+    let [mut turns, mut drives] = [const { [Vec::new(), Vec::new()] }; 2];
+    let add = |[sizes, differences]: &mut [Vec<f64>; 2], size: f64, difference: f64, least: f64| {
+        if size > least {
+            sizes.push(size);
+            differences.push(difference);
+        }
+    };
+    for leg in &sample.legs {
+        let (expected, seen) = (systematic.expected(sample.options.model, leg), systematic.motion(leg));
+        let off = libm::hypot(seen.x() - expected.x(), seen.y() - expected.y());
+        add(&mut turns, turn(&expected), (seen.theta() - expected.theta()).abs(), MIN_TURN_ANGLE);
+        add(&mut drives, distance(&expected), off, MIN_DRIVE_DISTANCE);
+    }
+    let ratio = |[mut sizes, mut differences]: [Vec<f64>; 2]| {
         if sizes.len() < MIN_LEGS { 0.0 } else { median(&mut differences) / median(&mut sizes) }
     };
-    let turns = ratio(MIN_TURN_ANGLE, turn, |one, other| (one.theta() - other.theta()).abs());
-    let drives = ratio(MIN_DRIVE_DISTANCE, distance, |one, other| {
-        libm::hypot(one.x() - other.x(), one.y() - other.y())
-    });
-    turns.max(drives)
+    ratio(turns).max(ratio(drives))
 }
 
 /// Returns the checks of the innovations: correlation of neighbours and tails.

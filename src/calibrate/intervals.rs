@@ -16,7 +16,7 @@ const MAX_STEPS: usize = 12;
 /// Relative tolerance on the root of the deviance at an end of an interval.
 const TOLERANCE: f64 = 0.02;
 
-/// Returns the 95 % interval of each free parameter; that of a parameter without information is [0, ∞].
+/// Returns the function that computes the 95 % interval of a parameter; that of one without information is [0, ∞].
 ///
 /// An end is where twice the log-likelihood is t² below its maximum, the other parameters moving along the ridge that the
 /// information gives. The distance to it is multiplied by √(S/I⁻¹), if above 1, S being the sandwich covariance over blocks of legs.
@@ -25,7 +25,7 @@ const TOLERANCE: f64 = 0.02;
 pub(super) fn intervals(
     Fit { residuals, maximum, .. }: &Fit,
     correlation: f64,
-) -> [[f64; 2]; PARAMETER_COUNT] {
+) -> impl Fn(usize) -> [f64; 2] {
     let count = residuals.len();
     let threshold = student_95(count.saturating_sub(PARAMETER_COUNT));
     let square = correlation * correlation;
@@ -34,7 +34,7 @@ pub(super) fn intervals(
     let blocks: Vec<Parameters> =
         maximum.expansion.scores.chunks(length).map(|block| block.iter().sum()).collect();
     let quantile = student_95(blocks.len().saturating_sub(1));
-    std::array::from_fn(|parameter| {
+    move |parameter| {
         let value = maximum.parameters[parameter];
         if !maximum.free[parameter] {
             return [value; 2];
@@ -50,7 +50,7 @@ pub(super) fn intervals(
         let sandwich: f64 = blocks.iter().map(|score| covariances.dot(score).powi(2)).sum();
         let widening = ((sandwich / variance).sqrt() * quantile / NORMAL_95).max(repeated.sqrt());
         [(value + widening * end(-1.0)).max(0.0), value + widening * end(1.0)]
-    })
+    }
 }
 
 /// Returns the ridges of the likelihood: the change of all parameters when one of them changes by 1. On the first one, variances of 0 stay 0;
@@ -64,7 +64,9 @@ fn ridges(maximum: &Maximum, parameter: usize) -> Vec<Parameters> {
         let variance = covariances[parameter];
         if variance > 0.0 { covariances / variance } else { Parameters::ith(parameter, 1.0) }
     };
-    [Some(parameters), risen].into_iter().flatten().map(ridge).collect()
+    let mut ridges: Vec<Parameters> = [Some(parameters), risen].into_iter().flatten().map(ridge).collect();
+    ridges.dedup();
+    ridges
 }
 
 /// Returns the parameters with α's of 0 as small as can be: they are unknown like the others.
@@ -94,13 +96,13 @@ fn profile_end(
         (2.0 * (maximum.expansion.least_squares.log_likelihood - best)).max(0.0).sqrt()
     };
     let mut distance = guess.max(-value);
-    if distance == -value && (value == 0.0 || root(distance) <= threshold) {
+    if distance == 0.0 {
         return distance;
     }
     let (mut inside, mut outside) = (0.0, None::<f64>);
     for _ in 0..MAX_STEPS {
         let height = root(distance);
-        if (height / threshold - 1.0).abs() < TOLERANCE {
+        if (height / threshold - 1.0).abs() < TOLERANCE || distance == -value && height <= threshold {
             break;
         }
         if height < threshold {
@@ -114,9 +116,6 @@ fn profile_end(
             Some(_) => next,
             None => (4.0 * distance.abs()).min(next.abs()).copysign(distance).max(-value),
         };
-        if outside.is_none() && distance == -value && root(distance) <= threshold {
-            break;
-        }
     }
     distance
 }

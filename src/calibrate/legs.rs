@@ -231,14 +231,14 @@ pub fn split_into_legs(
         }
         start = Some(((time, pose), Some(to)));
         let (has_paused, did_follow) = (std::mem::take(&mut paused), std::mem::replace(&mut follows, true));
-        let motion = from.odometry.inverse() * to.odometry;
+        let motion = from.odometry.between(&to.odometry);
         if reference.has_break(from.time + clock_offset, to.time + clock_offset) {
             lost.across_breaks += 1;
             follows = false;
         } else if has_paused && length.ratio(&ends, time - start_time) > MAX_RATIO_ACROSS_PAUSE {
             lost.across_pauses += 1;
             follows = false;
-        } else if distance(&motion) < MAX_SPIN_DISTANCE && turn(&motion) < MAX_STANDING_TURN {
+        } else if turn(&motion) < MAX_STANDING_TURN && distance(&motion) < MAX_SPIN_DISTANCE {
             lost.standing += 1;
             follows = false;
         } else {

@@ -81,15 +81,15 @@ pub fn calibrate(drives: &[Drive], options: &Options) -> Result<Calibration, Cal
         fit_corrected(&log, options, &corrected, is_corrected, &systematic.maximum.parameters)?;
     let parameters = &fit.maximum.parameters;
     let not_identifiable = identifiability(&fit);
-    let parameter_intervals = intervals(&fit, correlation);
+    let interval = intervals(&fit, correlation);
     let is_identified = |alpha: usize| not_identifiable[alpha].is_none();
     let alphas: Vec<Option<f64>> =
         (0..options.model.alphas()).map(|alpha| is_identified(alpha).then_some(parameters[alpha])).collect();
     let alpha_intervals =
-        (0..alphas.len()).map(|alpha| is_identified(alpha).then_some(parameter_intervals[alpha])).collect();
+        (0..alphas.len()).map(|alpha| is_identified(alpha).then(|| interval(alpha))).collect();
     let reference_noise = [POSITION_VARIANCE, YAW_VARIANCE].map(|variance| Estimate {
         value: parameters[variance].sqrt(),
-        interval: parameter_intervals[variance].map(f64::sqrt),
+        interval: interval(variance).map(f64::sqrt),
     });
     let leg_fits = all.leg_fits(parameters);
     let recommendation = windows::recommend(&fit, &all, &alphas);
@@ -147,7 +147,7 @@ fn persistence(fit: &Fit) -> Persistence {
     let value = if correlation > NORMAL_95 * std { in_range(correlation) } else { 0.0 };
     let interval = [in_range(correlation - NORMAL_95 * std), in_range(correlation + NORMAL_95 * std)];
     let legs = &fit.sample.legs;
-    let driven = |leg: &Leg| distance(&(leg.odometry[0].inverse() * leg.odometry[1]));
+    let driven = |leg: &Leg| distance(&leg.odometry[0].between(&leg.odometry[1]));
     let mean = legs.iter().map(driven).sum::<f64>() / legs.len() as f64;
     let length = if value > 0.0 { -mean / libm::log(value) } else { 0.0 };
     Persistence { correlation: Estimate { value, interval }, length }

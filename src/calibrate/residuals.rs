@@ -8,7 +8,7 @@ use super::systematic::{Systematic, log_sinc_derivative};
 use crate::geom::arc::invert_arc;
 use crate::geom::se2::{SE2, wrap_angle};
 use crate::geom::sinc::sinc;
-use crate::models::{LegVariances, MAX_SPIN_DISTANCE, OdomDelta, OdometryRule, RuleAlphas};
+use crate::models::{LegVariances, MAX_SPIN_DISTANCE, OdomDelta, OdometryRule};
 use nalgebra::{Matrix3, RowVector3, Vector3};
 use serde::{Deserialize, Serialize};
 
@@ -111,13 +111,9 @@ impl Observation {
     }
 }
 
-/// Coefficients of the α's: the variances of a reading where one α is 1 and all others are 0.
-fn unit_variances(rule: OdometryRule, reading: &OdomDelta) -> [LegVariances; 5] {
-    std::array::from_fn(|alpha| {
-        let mut alphas: RuleAlphas = [0.0; 5];
-        alphas[alpha] = 1.0;
-        rule.variances(reading, &alphas)
-    })
+/// Returns the variances of a reading where the first α of each component is 1 and the second is 0, and those where it is the other way round.
+fn unit_variances(rule: OdometryRule, reading: &OdomDelta) -> [LegVariances; 2] {
+    [[1.0, 0.0, 1.0, 0.0, 1.0], [0.0, 1.0, 0.0, 1.0, 0.0]].map(|alphas| rule.variances(reading, &alphas))
 }
 
 /// Returns whether a leg has a direction: its lengths by the reading and by the reference, in m, are not below [`MAX_SPIN_DISTANCE`]. A linear
@@ -131,9 +127,8 @@ fn differential(rule: OdometryRule, expected: SE2, motion: &SE2, is_linear: bool
     let read = OdomDelta::from_poses(&SE2::identity(), &expected);
     let OdomDelta { rot1, trans, rot2 } = rule.legs(&read);
     let unit = unit_variances(rule, &read);
-    let first = [unit[0].rot1.0, unit[1].rot1.0];
-    let along = [unit[2].trans.0, unit[3].trans.0];
-    let second = [unit[0].rot2.0, unit[1].rot2.0];
+    let [first, along, second] =
+        [unit.map(|unit| unit.rot1.0), unit.map(|unit| unit.trans.0), unit.map(|unit| unit.rot2.0)];
     let (sin, cos) = libm::sincos(rot1);
     let [ahead, left] = [cos * motion.x() + sin * motion.y(), cos * motion.y() - sin * motion.x()];
     let turned = wrap_angle(motion.theta() - rot1 - rot2);
@@ -165,11 +160,8 @@ fn omni(expected: SE2, motion: &SE2) -> Observation {
         cos * motion.x() + sin * motion.y() - trans,
         cos * motion.y() - sin * motion.x(),
     ];
-    let coefficients = [
-        [unit[0].rot2.0, unit[1].rot2.0],
-        [unit[2].trans.0, unit[3].trans.0],
-        [unit[4].strafe.0, unit[3].strafe.0],
-    ];
+    let coefficients =
+        [unit.map(|unit| unit.rot2.0), unit.map(|unit| unit.trans.0), unit.map(|unit| unit.strafe.0)];
     let jacobian = Matrix3::new(0.0, 0.0, 1.0, cos, sin, 0.0, -sin, cos, 0.0);
     Observation { residuals, coefficients, reading: [rot1, trans, rot2], expected, jacobian }
 }

@@ -81,7 +81,7 @@ impl Systematic {
         let (mut along, mut across, mut total) = (0.0, 0.0, 0.0);
         for leg in legs {
             let [read, seen] = [leg.odometry, leg.reference].map(|[from, to]| {
-                let motion = from.inverse() * to;
+                let motion = from.between(&to);
                 Vector2::new(motion.x(), motion.y())
             });
             along += read.dot(&seen);
@@ -96,20 +96,22 @@ impl Systematic {
         }
     }
 
-    /// Returns the pose of the base for the pose that the reference measures.
-    pub fn base(&self, pose: &SE2) -> SE2 {
-        *pose * SE2::new(self.lever_arm[0], self.lever_arm[1], self.mount_yaw).inverse()
+    /// Returns the pose of the base in the frame of the pose that the reference measures.
+    pub fn base(&self) -> SE2 {
+        SE2::new(self.lever_arm[0], self.lever_arm[1], self.mount_yaw).inverse()
     }
 
     /// Returns the motion of the base that the reference saw, in the frame of the leg's start.
-    pub(super) fn motion(&self, leg: &Leg) -> SE2 {
-        self.base(&leg.reference[0]).inverse() * self.base(&leg.reference[1])
+    pub(crate) fn motion(&self, leg: &Leg) -> SE2 {
+        let base = self.base();
+        let [start, end] = leg.reference.map(|pose| pose * base);
+        start.between(&end)
     }
 
     /// Returns the motion that the odometry read, with its scales corrected. A robot that cannot drive sideways moves to the left by a product
     /// of distances and turns.
     pub(super) fn expected(&self, model: Model, leg: &Leg) -> SE2 {
-        let read = leg.odometry[0].inverse() * leg.odometry[1];
+        let read = leg.odometry[0].between(&leg.odometry[1]);
         let Self { distance_scale, turn_scale, .. } = *self;
         if distance_scale == 1.0 && turn_scale == 1.0 {
             return read;
@@ -121,7 +123,7 @@ impl Systematic {
     /// Returns the Jacobians of the base's motion by the error of the reference at the leg's start and end: small motions (x, y,
     /// θ) in the frame of the reference there.
     pub(super) fn reference_jacobians(&self, leg: &Leg) -> [Matrix3<f64>; 2] {
-        let seen = leg.reference[0].inverse() * leg.reference[1];
+        let seen = leg.reference[0].between(&leg.reference[1]);
         let [mount, turn] = [self.mount_yaw, seen.theta()].map(rotation);
         let lever = turn * Vector2::from(self.lever_arm);
         // Displacement of the base for each rad by which the reference's heading at the end is too large.
@@ -189,7 +191,8 @@ fn turn_derivative(twist: &Vector3<f64>, end: &SE2) -> Vector3<f64> {
 
 /// Returns the derivative of ln sinc β: cot β − 1/β.
 pub(super) fn log_sinc_derivative(angle: f64) -> f64 {
-    if angle.abs() < 1e-4 { -angle / 3.0 } else { libm::cos(angle) / libm::sin(angle) - 1.0 / angle }
+    let (sin, cos) = libm::sincos(angle);
+    if angle.abs() < 1e-4 { -angle / 3.0 } else { cos / sin - 1.0 / angle }
 }
 
 /// Selection of [`SystematicError::ALL`].

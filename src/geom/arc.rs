@@ -66,7 +66,7 @@ impl ArcInversion {
 /// assert!((arc.omega_hat + arc.gamma_hat - 2.0).abs() < 1e-12);
 /// ```
 pub fn invert_arc(x: &SE2, x_next: &SE2, dt: f64) -> ArcInversion {
-    let step = x.inverse() * *x_next;
+    let step = x.between(x_next);
     let distance = libm::hypot(step.x(), step.y());
     if distance == 0.0 {
         return ArcInversion { v_hat: 0.0, omega_hat: step.theta() / dt, gamma_hat: 0.0 };

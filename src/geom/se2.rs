@@ -90,13 +90,24 @@ impl SE2 {
 
     /// Returns x ⊟ y = log(y⁻¹ · x): the twist in the body frame of `other` that takes `other` to this pose (eq. 26).
     pub fn boxminus(&self, other: &Self) -> Vector3<f64> {
-        (other.inverse() * *self).log()
+        other.between(self).log()
     }
 
     /// Returns the inverse: the pose of the reference frame in the body frame.
     pub fn inverse(&self) -> Self {
         let (sin, cos) = libm::sincos(self.theta);
         Self::new(-cos * self.x - sin * self.y, sin * self.x - cos * self.y, -self.theta)
+    }
+
+    /// Returns x⁻¹ · y, the pose of `other` in the frame of this one.
+    pub(crate) fn between(&self, other: &Self) -> Self {
+        let (sin, cos) = libm::sincos(self.theta);
+        let (x, y) = (-cos * self.x - sin * self.y, sin * self.x - cos * self.y);
+        Self::new(
+            x + (cos * other.x + sin * other.y),
+            y + (cos * other.y - sin * other.x),
+            wrap_angle(-self.theta) + other.theta,
+        )
     }
 
     /// Returns the adjoint Ad (eq. 159), 3 × 3, with x · exp(τ) = exp(Ad τ) · x. It converts a twist from the body frame to the

@@ -121,7 +121,7 @@ impl<M: RotTransRot> MotionModel for M {
             return None;
         }
         let [rot1_variance, trans_variance, rot2_variance] = variances;
-        let step = x.inverse() * *x_next;
+        let step = x.between(x_next);
         let distance = libm::hypot(step.x(), step.y());
         let bearing = libm::atan2(step.y(), step.x());
         let legs: f64 = [(bearing, distance), (bearing + PI, -distance)]

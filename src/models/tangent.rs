@@ -127,7 +127,7 @@ impl TangentNoiseModel {
         let (length, turn) = (executed.v_hat * u.dt, executed.omega_hat * u.dt);
         let residual = Vector3::new(length - u.v * u.dt, turn - u.omega * u.dt, executed.gamma_hat * u.dt);
         let variances = Vector3::new(self.r[(0, 0)] + PADDING, self.r[(2, 2)] + PADDING, self.last_turn);
-        let chart = sinc(0.5 * (x.inverse() * *x_next).theta());
+        let chart = sinc(0.5 * x.between(x_next).theta());
         let arc = sinc(0.5 * turn);
         log_normal(&residual, &Matrix3::from_diagonal(&variances))
             + libm::log(2.0 * chart * chart / (length.abs() * arc * arc))

@@ -119,7 +119,7 @@ impl MotionModel for VelocityModel {
         }
         let [v_variance, omega_variance, gamma_variance] = variances;
         let executed = invert_arc(x, x_next, u.dt);
-        let step = x.inverse() * *x_next;
+        let step = x.between(x_next);
         let distance = libm::hypot(step.x(), step.y());
         let shortest_turn = executed.omega_hat * u.dt;
         let square = distance * distance * u.dt;

@@ -199,7 +199,7 @@ impl ExponentialContour {
 
     /// Returns true if the exponential coordinates of `pose` lie inside the ellipse.
     pub fn contains(&self, pose: &SE2) -> bool {
-        let twist = (self.start.inverse() * *pose).log_near(self.mean.z);
+        let twist = self.start.between(pose).log_near(self.mean.z);
         self.ellipse.contains([twist.x, twist.z])
     }
 }

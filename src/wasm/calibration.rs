@@ -228,9 +228,10 @@ pub fn columns_to_js(calibration: &Calibration) -> JsValue {
     let Calibration { legs, observations, leg_fits, corrected, .. } = calibration;
     let [mut times, mut odometry, mut reference, mut readings, mut residuals] = [const { Vec::new() }; 5];
     let [mut standardized, mut stds, mut squared, mut outliers] = [const { Vec::new() }; 4];
+    let base = corrected.base();
     for ((leg, observation), fit) in legs.iter().zip(observations).zip(leg_fits) {
         times.extend_from_slice(&leg.times);
-        for [read, pose] in [0, 1].map(|end| [leg.odometry[end], corrected.base(&leg.reference[end])]) {
+        for [read, pose] in [0, 1].map(|end| [leg.odometry[end], leg.reference[end] * base]) {
             odometry.extend_from_slice(&<[f64; 3]>::from(read));
             reference.extend_from_slice(&<[f64; 3]>::from(pose));
         }

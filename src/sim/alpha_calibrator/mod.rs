@@ -223,8 +223,7 @@ impl AlphaCalibrator {
         let cloud = Ellipse::from_moments(&CartesianMoments::from_poses(&poses));
         let outline = if cloud.has_area() { cloud.boundary(OUTLINE_SEGMENTS) } else { vec![] };
         let read = self.outcome(&reading, [0.0; 3]);
-        let [from, to] = leg.reference.map(|pose| self.calibration().corrected.base(&pose));
-        let ended = from.inverse() * to;
+        let ended = self.calibration().corrected.motion(leg);
         Some(LegView { outcomes, outline, read: read.into(), ended: ended.into() })
     }
 
@@ -252,7 +251,7 @@ impl AlphaCalibrator {
     pub fn nearest(&self, [x, y]: [f64; 2], radius: f64) -> Option<usize> {
         let corrected = &self.calibration().corrected;
         let distance = |leg: &Leg| {
-            let [from, to] = leg.reference.map(|pose| corrected.base(&pose));
+            let [from, to] = leg.reference.map(|pose| pose * corrected.base());
             let [dx, dy] = [to.x() - from.x(), to.y() - from.y()];
             let [px, py] = [x - from.x(), y - from.y()];
             let square = dx * dx + dy * dy;

@@ -59,7 +59,7 @@ fn by_pose(leg: &Leg, corrected: &Systematic, end: usize) -> Matrix3<f64> {
     let motion = |error: Vector3<f64>| {
         let mut poses = leg.reference;
         poses[end] = poses[end] * SE2::new(error.x, error.y, error.z);
-        let [from, to] = poses.map(|pose| corrected.base(&pose));
+        let [from, to] = poses.map(|pose| pose * corrected.base());
         coordinates(&(from.inverse() * to))
     };
     by_motion(leg, corrected) * derivative(motion)
@@ -75,7 +75,7 @@ fn by_error(leg: &Leg, corrected: &Systematic, error: SystematicError) -> Vector
         // Returns a reference that equals the odometry.
         let mount = |of: &Systematic| SE2::new(of.lever_arm[0], of.lever_arm[1], of.mount_yaw);
         let seen = mount(corrected).inverse() * read * mount(corrected);
-        let motion = changed.base(&SE2::identity()).inverse() * changed.base(&seen);
+        let motion = changed.base().inverse() * (seen * changed.base());
         coordinates(&motion) - coordinates(&expected(leg, &changed))
     };
     by_motion(leg, corrected) * (off(H) - off(-H)) / (2.0 * H)

@@ -131,7 +131,7 @@ fn a_leg_is_shown_in_the_frame_of_its_start() {
     let calibration = machine.calibration();
     let index = 100;
     let view = machine.leg(index).expect("a leg");
-    let [from, to] = calibration.legs[index].reference.map(|pose| calibration.corrected.base(&pose));
+    let [from, to] = calibration.legs[index].reference.map(|pose| pose * calibration.corrected.base());
     let ended = from.inverse() * to;
     assert_eq!(view.ended, [ended.x(), ended.y(), ended.theta()]);
     let [rot1, trans, rot2] = calibration.observations[index].reading;
@@ -165,10 +165,10 @@ fn a_leg_is_shown_in_the_frame_of_its_start() {
 fn the_nearest_leg_is_the_one_that_leads_by() {
     let machine = machine(Settings::default());
     let calibration = machine.calibration();
-    let [from, to] = calibration.legs[7].reference.map(|pose| calibration.corrected.base(&pose));
+    let [from, to] = calibration.legs[7].reference.map(|pose| pose * calibration.corrected.base());
     let middle = [0.5 * (from.x() + to.x()), 0.5 * (from.y() + to.y())];
     let found = machine.nearest(middle, 1e-9).expect("it leads through there");
-    let [from, to] = calibration.legs[found].reference.map(|pose| calibration.corrected.base(&pose));
+    let [from, to] = calibration.legs[found].reference.map(|pose| pose * calibration.corrected.base());
     let way = |a: [f64; 2], b: [f64; 2]| libm::hypot(a[0] - b[0], a[1] - b[1]);
     let [from, to] = [from, to].map(|pose| [pose.x(), pose.y()]);
     assert!(way(from, middle) + way(middle, to) - way(from, to) < 1e-9);

@@ -19,6 +19,7 @@ export interface Own extends Pick<Property, 'converter' | 'words' | 'min' | 'max
 }
 
 export interface Definition {
+  tag: string;
   /** Key of the widget's words in the catalogues. */
   vocabulary: string;
   /** Declared settings. */
@@ -70,7 +71,7 @@ export function definitionOf(tag: string, { lines, opening = Object.keys(lines),
   for (const [key, { converter, isProperty, words, min, max }] of Object.entries(own)) {
     if (converter || isProperty) properties[key] = { ...plainProperty(key, converter), words, min, max };
   }
-  return { ...parts, declared, properties, attributes: attributesIn(properties), own };
+  return { ...parts, tag, declared, properties, attributes: attributesIn(properties), own };
 }
 
 /** Returns a value for a field of the state of the element after a check; throws a TypeError or RangeError if it is invalid. */

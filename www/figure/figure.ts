@@ -1,8 +1,10 @@
 /** Base class of all figures: a simulation of the core, canvases, and a state that a page can read and set. */
 
-import { LitElement, nothing } from 'lit';
+import { LitElement, nothing, type CSSResultGroup } from 'lit';
 import { en } from '../messages/en.ts';
 import { addEnglish, speak, words } from '../messages/registry.ts';
+import { layoutStyles } from '../ui/layout.ts';
+import { plotStyles } from '../ui/plot.ts';
 import { presentationStyles } from '../ui/presentation.ts';
 import { theme } from '../ui/theme.ts';
 import { Announcer } from './announcer.ts';
@@ -11,6 +13,7 @@ import { Colours } from './colours.ts';
 import { Focus } from './focus.ts';
 import { Gesture } from './gesture.ts';
 import { Link } from './link.ts';
+import { reserve } from './page/room.ts';
 import { THEMES, schemeStyles } from './page/scheme.ts';
 import { Notice, noticeStyles } from './notice.ts';
 import { Presentation } from './presentation.ts';
@@ -78,9 +81,14 @@ addEnglish(en);
  *   be above the figure.
  */
 export class FigureElement<Machine extends { free(): void, stats: object, config: Values, configure(settings: Values): Values }, Reading extends { config: Values, stats: object }> extends LitElement {
-  static styles = [theme, schemeStyles, presentationStyles, noticeStyles];
-
   static definition: import('./definition.ts').Definition;
+
+  /** Adds the styles that all figures have before those of a widget. */
+  static finalizeStyles(own: CSSResultGroup = []) {
+    // Lit asks the base class too, which has no definition.
+    const reserved = this.definition ? reserve(this.definition.tag) : [];
+    return super.finalizeStyles([theme, schemeStyles, presentationStyles, noticeStyles, reserved, ...layoutStyles, plotStyles, own]);
+  }
 
   /** Aborted when the element is removed; listeners of its controllers on other objects go with it. */
   connection = new AbortController();

@@ -211,9 +211,9 @@ export class Reflection extends Part {
 }
 
 /** Defines a widget's element with its properties. If the page loads the script twice, the second call does nothing. */
-export function define(tag: string, Widget: typeof import('./figure.ts').FigureElement<any, any>) {
+export function define(Widget: typeof import('./figure.ts').FigureElement<any, any>) {
+  const { prototype, definition: { tag, properties, own } } = Widget;
   if (customElements.get(tag)) return;
-  const { prototype, definition: { properties, own } } = Widget;
   for (const name of Object.keys(properties)) {
     // A widget may have a property that does more.
     if (Object.hasOwn(prototype, name)) continue;

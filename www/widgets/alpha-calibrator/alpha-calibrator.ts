@@ -5,7 +5,6 @@ import { object } from '../../figure/checks.ts';
 import { canvas, disclosures, panel } from '../../figure/controls.ts';
 import { FigureElement } from '../../figure/figure.ts';
 import { legend } from '../../figure/overlays.ts';
-import { reserve } from '../../figure/page/room.ts';
 import { define } from '../../figure/reflection.ts';
 import { freeOnError } from '../../figure/runtime.ts';
 import { words } from '../../messages/registry.ts';
@@ -25,7 +24,7 @@ import { Plate } from './plate.ts';
 import { legOf, readingOf, type Reading } from './reading.ts';
 import { alphaTable, alphaTexts, verdictLine } from './readouts.ts';
 import { COMPONENTS, LINES, definition, modelRuleOf } from './settings.ts';
-import { calibratorStyles } from './styles.ts';
+import { styles } from './styles.ts';
 import { systematicTable, systematicTexts } from './systematic.ts';
 import { captionOf, judgementOf, legText, reasonOf, wayText } from './words.ts';
 import type { AlphaCalibrator as Machine, CalibrationLog, CalibrationPanel, LegView, Motion } from '../../types.d.ts';
@@ -51,7 +50,7 @@ const LOG_KEYS = ['name', 'odometry', 'reference'];
  * @csspart chart - A plot of residuals.
  */
 export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
-  static styles = [...FigureElement.styles, reserve('alpha-calibrator'), ...calibratorStyles];
+  static styles = styles;
 
   static definition = definition;
 
@@ -270,4 +269,4 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
   }
 }
 
-define('alpha-calibrator', AlphaCalibratorElement);
+define(AlphaCalibratorElement);

@@ -1,11 +1,9 @@
 /** Styles of the Alpha Calibrator. */
 
 import { css } from 'lit';
-import { layoutStyles } from '../../ui/layout.ts';
-import { plotStyles } from '../../ui/plot.ts';
 import { fileStyles } from '../shared/files.ts';
 
-const own = css`
+export const styles = [fileStyles, css`
   .drop-zone {
     box-sizing: border-box;
     margin-bottom: 0.4em;
@@ -461,6 +459,4 @@ const own = css`
       aspect-ratio: 5 / 4;
     }
   }
-`;
-
-export const calibratorStyles = [...layoutStyles, plotStyles, fileStyles, own];
+`];

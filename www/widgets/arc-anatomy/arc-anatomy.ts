@@ -4,7 +4,6 @@ import { html } from 'lit';
 import { canvas, disclosures, panel } from '../../figure/controls.ts';
 import { FigureElement } from '../../figure/figure.ts';
 import { legend } from '../../figure/overlays.ts';
-import { reserve } from '../../figure/page/room.ts';
 import { define } from '../../figure/reflection.ts';
 import { words } from '../../messages/registry.ts';
 import { Player } from '../shared/player.ts';
@@ -15,7 +14,7 @@ import { formsPlot } from './forms.ts';
 import { ArcPicture, ROBOT_RADIUS } from './picture.ts';
 import { factorBars, headline, likelihoods, tableOf } from './readouts.ts';
 import { LINES, MAX_COORDINATE, UNDERWAY_AT_END, definition } from './settings.ts';
-import { anatomyStyles } from './styles.ts';
+import { styles } from './styles.ts';
 import { captionOf, pictureText, type Reading } from './words.ts';
 import type { ArcAnatomy as Machine } from '../../types.d.ts';
 
@@ -30,7 +29,7 @@ const POSE_BOUNDS = [-MAX_COORDINATE, -MAX_COORDINATE, MAX_COORDINATE, MAX_COORD
  * @csspart chart - The plot of three forms of the arc near straight.
  */
 export class ArcAnatomyElement extends FigureElement<Machine, Reading> {
-  static styles = [...FigureElement.styles, reserve('arc-anatomy'), ...anatomyStyles];
+  static styles = styles;
 
   static definition = definition;
 
@@ -106,4 +105,4 @@ export class ArcAnatomyElement extends FigureElement<Machine, Reading> {
   }
 }
 
-define('arc-anatomy', ArcAnatomyElement);
+define(ArcAnatomyElement);

@@ -1,10 +1,8 @@
 /** Styles of Arc Anatomy: the headline, the bars, and the lines of the table. */
 
 import { css } from 'lit';
-import { layoutStyles } from '../../ui/layout.ts';
-import { plotStyles } from '../../ui/plot.ts';
 
-const own = css`
+export const styles = css`
   .headline {
     margin-block: 0 0.5em;
     line-height: 1.25;
@@ -150,5 +148,3 @@ const own = css`
     --ring: var(--truth);
   }
 `;
-
-export const anatomyStyles = [...layoutStyles, plotStyles, own];

@@ -5,7 +5,6 @@ import { object } from '../../figure/checks.ts';
 import { enterCloud } from '../../figure/cloud.ts';
 import { canvas, cloudControls, disclosures, panel } from '../../figure/controls.ts';
 import { FigureElement } from '../../figure/figure.ts';
-import { reserve } from '../../figure/page/room.ts';
 import { legend } from '../../figure/overlays.ts';
 import { define } from '../../figure/reflection.ts';
 import { freeOnError } from '../../figure/runtime.ts';
@@ -27,7 +26,7 @@ import { PlanePicture, TwistPicture } from './pictures.ts';
 import { readingOf, type Reading } from './reading.ts';
 import { markedRobot, otherReadouts, readouts, twistTable, workedExample } from './readouts.ts';
 import { LINES, OVERLAYS, SAMPLE_COUNTS, definition, looks } from './settings.ts';
-import { bananaStyles } from './styles.ts';
+import { styles } from './styles.ts';
 import { announcementOf, calloutsOf, captionOf, floorTitle, planeText, skewText, twistCaption, twistText } from './words.ts';
 import type { BananaMachine as Machine, Inspection } from '../../types.d.ts';
 import type { Values } from '../../figure/state.ts';
@@ -56,7 +55,7 @@ const CHART_HEIGHTS = [0.25, 0.5, 1, 2, 4, 8];
  * @csspart chart - The chart of the skew.
  */
 export class BananaMachineElement extends FigureElement<Machine, Reading> {
-  static styles = [...FigureElement.styles, reserve('banana-machine'), ...bananaStyles];
+  static styles = styles;
 
   static definition = definition;
 
@@ -298,4 +297,4 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
   }
 }
 
-define('banana-machine', BananaMachineElement);
+define(BananaMachineElement);

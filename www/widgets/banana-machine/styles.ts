@@ -1,10 +1,8 @@
 /** Styles of the Banana Machine. */
 
 import { css } from 'lit';
-import { layoutStyles } from '../../ui/layout.ts';
-import { plotStyles } from '../../ui/plot.ts';
 
-const own = css`
+export const styles = css`
   @container (min-width: 30em) {
     .views {
       grid-template-columns: 1fr 1fr;
@@ -85,5 +83,3 @@ const own = css`
     }
   }
 `;
-
-export const bananaStyles = [...layoutStyles, plotStyles, own];

@@ -5,7 +5,6 @@ import { Cloud, enterCloud } from '../../figure/cloud.ts';
 import { canvas, choices, disclosures, panel } from '../../figure/controls.ts';
 import { FigureElement } from '../../figure/figure.ts';
 import { legend } from '../../figure/overlays.ts';
-import { reserve } from '../../figure/page/room.ts';
 import { define } from '../../figure/reflection.ts';
 import { words } from '../../messages/registry.ts';
 import { Memo } from '../../scene/memo.ts';
@@ -15,7 +14,7 @@ import { PathPicture, StepPicture } from './pictures.ts';
 import { COMPONENTS, readingOf, type Reading } from './reading.ts';
 import { headline, markedRobot, missTable, ratioPlot, straightPlot } from './readouts.ts';
 import { OUTLINES, RECURSIONS, definition } from './settings.ts';
-import { reckoningStyles } from './styles.ts';
+import { styles } from './styles.ts';
 import { announcementOf, captionOf, planeText, stepText } from './words.ts';
 import type { Values } from '../../figure/settings.ts';
 import type { DeadReckoning as Machine } from '../../types.d.ts';
@@ -34,7 +33,7 @@ const columnsOf = (quantity: string) => COMPONENTS.map((name) => `${quantity}_${
  * @csspart chart - The plot of predicted over measured variance.
  */
 export class DeadReckoningElement extends FigureElement<Machine, Reading> {
-  static styles = [...FigureElement.styles, reserve('dead-reckoning'), ...reckoningStyles];
+  static styles = styles;
 
   static definition = definition;
 
@@ -112,4 +111,4 @@ export class DeadReckoningElement extends FigureElement<Machine, Reading> {
   }
 }
 
-define('dead-reckoning', DeadReckoningElement);
+define(DeadReckoningElement);

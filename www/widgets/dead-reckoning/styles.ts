@@ -1,8 +1,6 @@
 /** Styles of Dead Reckoning. */
 
 import { css } from 'lit';
-import { layoutStyles } from '../../ui/layout.ts';
-import { plotStyles } from '../../ui/plot.ts';
 
 /** The chart stays visible while scrolling, because its line is dragged. */
 const chartAlone = css`
@@ -33,7 +31,7 @@ const chartAlone = css`
   }
 `;
 
-const own = css`
+export const styles = css`
   .chart .plotted {
     max-width: calc(var(--most, 60svh) * 1.52);
     margin-inline: auto;
@@ -141,5 +139,3 @@ const own = css`
     }
   }
 `;
-
-export const reckoningStyles = [...layoutStyles, plotStyles, own];

@@ -5,7 +5,6 @@ import { Cloud, enterCloud } from '../../figure/cloud.ts';
 import { canvas, disclosures, panel } from '../../figure/controls.ts';
 import { FigureElement } from '../../figure/figure.ts';
 import { legend } from '../../figure/overlays.ts';
-import { reserve } from '../../figure/page/room.ts';
 import { define } from '../../figure/reflection.ts';
 import { freeOnError } from '../../figure/runtime.ts';
 import { words } from '../../messages/registry.ts';
@@ -21,7 +20,7 @@ import { FloorPicture } from './picture.ts';
 import { outcomeOf, readingOf, type Reading } from './reading.ts';
 import { costTable, markedDraw, tally } from './readouts.ts';
 import { LINES, OPENING_START, PRESET_SETTING, definition } from './settings.ts';
-import { squeezeStyles } from './styles.ts';
+import { styles } from './styles.ts';
 import { WallHandles } from './wall-handles.ts';
 import { contactOf } from './walls.ts';
 import { captionOf, headlineOf, mapText, pictureText } from './words.ts';
@@ -38,7 +37,7 @@ import type { OwnMap } from './maps/files.ts';
  * @attr overlays - The marks and lines that are drawn; in the attribute with spaces between.
  */
 export class MapSqueezeElement extends FigureElement<Machine, Reading> {
-  static styles = [...FigureElement.styles, reserve('map-squeeze'), ...squeezeStyles];
+  static styles = styles;
 
   static definition = definition;
 
@@ -342,4 +341,4 @@ const mapOf = (map: MapData): OwnMap => ({
   apply: (machine) => applyMap(machine, map),
 });
 
-define('map-squeeze', MapSqueezeElement);
+define(MapSqueezeElement);

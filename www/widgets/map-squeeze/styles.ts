@@ -1,10 +1,9 @@
 /** Styles that only Map Squeeze has: of the headline, the overview, and the controls that open a map. */
 
 import { css } from 'lit';
-import { layoutStyles } from '../../ui/layout.ts';
 import { fileStyles } from '../shared/files.ts';
 
-const own = css`
+export const styles = [fileStyles, css`
   .handle:is(.jamb, .side) {
     --ring: var(--truth);
     width: 1.75em;
@@ -203,6 +202,4 @@ const own = css`
       display: none !important;
     }
   }
-`;
-
-export const squeezeStyles = [...layoutStyles, fileStyles, own];
+`];

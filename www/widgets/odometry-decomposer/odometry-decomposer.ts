@@ -5,7 +5,6 @@ import { Cloud, enterCloud } from '../../figure/cloud.ts';
 import { canvas, disclosures, panel } from '../../figure/controls.ts';
 import { FigureElement } from '../../figure/figure.ts';
 import { legend } from '../../figure/overlays.ts';
-import { reserve } from '../../figure/page/room.ts';
 import { define } from '../../figure/reflection.ts';
 import { words } from '../../messages/registry.ts';
 import { rich } from '../../ui/controls.ts';
@@ -19,7 +18,7 @@ import { LegsPicture, ROBOT_RADIUS, WorldPicture } from './pictures.ts';
 import { readingOf, type Reading } from './reading.ts';
 import { headline, readouts, spreadPlot } from './readouts.ts';
 import { LINES, definition, looks } from './settings.ts';
-import { decomposerStyles } from './styles.ts';
+import { styles } from './styles.ts';
 import { driftDistance, captionOf, legsText, worldText } from './words.ts';
 import type { OdometryDecomposer as Machine } from '../../types.d.ts';
 
@@ -34,7 +33,7 @@ const POSE_BOUNDS = [-4, -4, 4, 4];
  * @csspart chart - Plot of the standard deviation across the path.
  */
 export class OdometryDecomposerElement extends FigureElement<Machine, Reading> {
-  static styles = [...FigureElement.styles, reserve('odometry-decomposer'), ...decomposerStyles];
+  static styles = styles;
 
   static definition = definition;
 
@@ -112,4 +111,4 @@ export class OdometryDecomposerElement extends FigureElement<Machine, Reading> {
   }
 }
 
-define('odometry-decomposer', OdometryDecomposerElement);
+define(OdometryDecomposerElement);

@@ -1,10 +1,8 @@
 /** Styles of the Odometry Decomposer. */
 
 import { css } from 'lit';
-import { layoutStyles } from '../../ui/layout.ts';
-import { plotStyles } from '../../ui/plot.ts';
 
-const own = css`
+export const styles = css`
   /* On a phone, the handles of two robots need space side by side. */
   .legs canvas {
     aspect-ratio: 1;
@@ -121,5 +119,3 @@ const own = css`
     gap: 0.2em 1.25em;
   }
 `;
-
-export const decomposerStyles = [...layoutStyles, plotStyles, own];

@@ -200,7 +200,7 @@ test('a log is read and fitted in a worker, and the page stays free', async ({ p
     Object.assign(window, { entries });
   });
   // The worker starts while the reader chooses files.
-  await Promise.all([page.waitForEvent('worker'), page.waitForEvent('filechooser'), widget.locator('#log-files').click()]);
+  await Promise.all([page.waitForEvent('worker'), page.waitForEvent('filechooser'), widget.getByText('choose files').click()]);
   const began = await chooseLong(widget);
   await expect(caption(widget)).toHaveText(/of odom\.csv, truth\.csv[.,]/, { timeout: 20_000 });
   expect(page.workers().map((worker) => new URL(worker.url()).pathname)).toEqual(['/chunks/log-worker.js']);

@@ -29,7 +29,7 @@ const present = (/** @type {Locator} */ widget) => widget.locator('.own-map .pre
 /** Chooses files, as a reader does. @param {Locator} widget @param {MapFile[]} files */
 async function choose(widget, files) {
   await unfold(widget);
-  await widget.getByLabel('Map files').setInputFiles(files);
+  await widget.getByLabel('Choose map files').setInputFiles(files);
 }
 
 /** Drops files on a part of the widget. @param {Locator} part @param {MapFile[]} files */

@@ -31,8 +31,7 @@ export const controlStyles = css`
     cursor: pointer;
   }
 
-  :is(button, textarea, input[type='number']),
-  ::file-selector-button {
+  :is(button, textarea, input[type='number'], .files) {
     background: none;
     border: 1px solid var(--muted);
     border-radius: 3px;
@@ -45,8 +44,7 @@ export const controlStyles = css`
   }
 
   /* Padding in proportion to the font size. */
-  button,
-  ::file-selector-button {
+  button {
     --size: 1;
     min-height: calc(2em / var(--size));
     padding: calc(0.15em / var(--size)) calc(var(--beside, 0.65em) / var(--size)) calc(0.25em / var(--size));
@@ -61,7 +59,7 @@ export const controlStyles = css`
     cursor: default;
   }
 
-  button:enabled:hover {
+  :is(button:enabled, .files):hover {
     border-color: var(--ink);
     box-shadow: inset 0 0 0 1px var(--ink);
   }
@@ -129,20 +127,28 @@ export const controlStyles = css`
   }
 
   .options .choice {
-    position: relative;
     min-height: 2em;
-    padding: 0 0.65em;
     border: 1px solid var(--muted);
     border-radius: 3px;
   }
 
-  .options input {
+  :is(.options .choice, .files) {
+    position: relative;
+    padding: 0 0.65em;
+  }
+
+  :is(.options, .files) input {
     position: absolute;
     inset: 0;
     width: 100%;
     height: 100%;
     margin: 0;
     opacity: 0;
+  }
+
+  /* The browser's own button, in the language of the browser, is invisible in a button of the figure. */
+  .files input {
+    pointer-events: none;
   }
 
   .options .choice:has(:checked) {

@@ -4,7 +4,7 @@ import { html, nothing } from 'lit';
 import { Part } from '../../figure/part.ts';
 import { language, words } from '../../messages/registry.ts';
 import { button } from '../../ui/controls.ts';
-import { FileDrop, fileInput } from '../shared/files.ts';
+import { FileDrop, fileButton } from '../shared/files.ts';
 import { referenceNoise } from './controls.ts';
 import { isStopped, type LogFailure } from './log-service.ts';
 import type { Drive, Plan, Wishes } from '../../logs/drives.ts';
@@ -257,7 +257,7 @@ export function dropZone(figure: Figure, opener: LogOpener) {
   return html`<div class="drop-zone" id=${DROP_ZONE_ID} part="drop">
     <p title=${say.dropTitle}>
       ${say.drop}
-      <label class="files" @click=${opener.prepare}><span>${say.files}</span>${fileInput('log-files', EXTENSIONS, (files) => opener.dropped.take(files))}</label>
+      ${fileButton('log-files', say.files, EXTENSIONS, (files) => opener.dropped.take(files), opener.prepare)}
     </p>
     ${reader?.choosers(opener)}
     ${share !== undefined

@@ -1,9 +1,8 @@
 /** Styles of the Alpha Calibrator. */
 
 import { css } from 'lit';
-import { fileStyles } from '../shared/files.ts';
 
-export const styles = [fileStyles, css`
+export const styles = css`
   .drop-zone {
     box-sizing: border-box;
     margin-bottom: 0.4em;
@@ -18,35 +17,6 @@ export const styles = [fileStyles, css`
 
   .drop-zone .note {
     margin: 0.3em 0;
-  }
-
-  /* The browser's own button is in the language of the browser. It is transparent, above a button in the figure's language. */
-  .files {
-    position: relative;
-    display: inline-block;
-    padding: 0.05em 0.6em;
-    border: 1px solid var(--muted);
-    border-radius: 3px;
-  }
-
-  .files input {
-    position: absolute;
-    inset: 0;
-    width: 100%;
-    min-height: 0;
-    margin: 0;
-    opacity: 0;
-    cursor: pointer;
-  }
-
-  .files input::file-selector-button {
-    width: 100%;
-    cursor: pointer;
-  }
-
-  .files:hover {
-    border-color: var(--ink);
-    box-shadow: inset 0 0 0 1px var(--ink);
   }
 
   .choosers .topics {
@@ -459,4 +429,4 @@ export const styles = [fileStyles, css`
       aspect-ratio: 5 / 4;
     }
   }
-`];
+`;

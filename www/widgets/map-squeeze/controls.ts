@@ -4,7 +4,7 @@ import { html, nothing } from 'lit';
 import { check, choices, cloudControls, slider, sliders } from '../../figure/controls.ts';
 import { words } from '../../messages/registry.ts';
 import { button, group, radioGroup } from '../../ui/controls.ts';
-import { fileInput } from '../shared/files.ts';
+import { fileButton } from '../shared/files.ts';
 import { EXTENSIONS } from './maps/open.ts';
 import { presetButtons, startOverButton } from '../shared/presets.ts';
 import { COMMAND, MAX_SAMPLES, SAMPLE_COUNTS } from './settings.ts';
@@ -70,8 +70,7 @@ export function ownMap(figure: Figure, opener: import('./maps/open.ts').MapOpene
   return group(say.legend, html`<div class="own-map">
     <div>
       <p>${say.text}</p>
-      <label for="map-files">${say.files}</label>
-      ${fileInput('map-files', EXTENSIONS, (files) => opener.dropped.take(files))}
+      <p>${fileButton('map-files', say.files, EXTENSIONS, (files) => opener.dropped.take(files))}</p>
       <p ?hidden=${!opener.isReading}>${say.reading}</p>
       <p class="note" role=${figure.notice.isShown ? nothing : 'alert'} ?hidden=${complaint === ''}>${complaint}</p>
       <p class="present">${map}.</p>

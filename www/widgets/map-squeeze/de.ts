@@ -117,7 +117,7 @@ export const de: typeof import('./en.ts').en = {
     reading: 'Die Karte wird gelesen …',
     legend: 'Eine eigene Karte',
     text: 'Zieh Dateien irgendwo auf diese Abbildung oder wähle sie hier: einen Grundriss in JSON oder eine Karte des map_server von ROS, die YAML-Datei zusammen mit ihrem Bild in PGM oder PNG. Sie verlassen dieses Gerät nicht.',
-    files: 'Kartendateien',
+    files: 'Kartendateien wählen',
     open: 'Roboter ins Freie setzen',
     leave: 'Zurück in die Wohnung',
     back: (name) => `Zurück zu ${name}`,

@@ -1,9 +1,8 @@
 /** Styles that only Map Squeeze has: of the headline, the overview, and the controls that open a map. */
 
 import { css } from 'lit';
-import { fileStyles } from '../shared/files.ts';
 
-export const styles = [fileStyles, css`
+export const styles = css`
   .handle:is(.jamb, .side) {
     --ring: var(--truth);
     width: 1.75em;
@@ -182,10 +181,6 @@ export const styles = [fileStyles, css`
     overflow-wrap: anywhere;
   }
 
-  label[for='map-files'] {
-    display: block;
-  }
-
   textarea {
     box-sizing: border-box;
     display: block;
@@ -202,4 +197,4 @@ export const styles = [fileStyles, css`
       display: none !important;
     }
   }
-`];
+`;

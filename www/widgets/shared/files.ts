@@ -1,22 +1,9 @@
 /** Files of the reader, chosen or dropped on a figure. A disclosure shows the result, and a notice why dropped files were refused. */
 
-import { css, html } from 'lit';
+import { html, nothing } from 'lit';
 import { inputOf } from '../../ui/controls.ts';
 
 export type Figure = import('../../figure/figure.ts').Figure;
-
-/**
- * Styles of a file input. The browser's text next to the button is hidden, because it says that there is no file even after one was read.
- */
-export const fileStyles = css`
-  input[type='file'] {
-    max-width: 100%;
-    margin: 0.3em 0 0.6em;
-    min-height: 2em;
-    color: transparent;
-    font: inherit;
-  }
-`;
 
 export class FileDrop {
   #host;
@@ -99,16 +86,19 @@ async function filesIn(folder: FileSystemDirectoryEntry): Promise<File[]> {
   return files.flat();
 }
 
-/** Returns a file input for files with some extensions. */
-export const fileInput = (id: string, extensions: string[], choose: (files: File[]) => void) => html`<input
-  id=${id}
-  type="file"
-  multiple
-  accept=${extensions.join(',')}
-  @change=${(event: Event) => {
-    const input = inputOf(event);
-    choose([...(input.files ?? [])]);
-    // Reset, so that choosing the same file again after a correction fires an event.
-    input.value = '';
-  }}
-/>`;
+/** Returns a button that opens files with some extensions. `prepare` runs while the reader chooses. */
+export const fileButton = (id: string, label: string, extensions: string[], choose: (files: File[]) => void, prepare?: () => void) => html`<label class="choice files" @click=${prepare ?? nothing}>
+  ${label}
+  <input
+    id=${id}
+    type="file"
+    multiple
+    accept=${extensions.join(',')}
+    @change=${(event: Event) => {
+      const input = inputOf(event);
+      choose([...(input.files ?? [])]);
+      // Reset, so that choosing the same file again after a correction fires an event.
+      input.value = '';
+    }}
+  />
+</label>`;

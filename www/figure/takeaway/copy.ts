@@ -1,4 +1,4 @@
-/** Buttons that copy a link to the figure, or its HTML. */
+/** Buttons that copy texts, such as a link to the figure or its HTML. */
 
 import { html, nothing } from 'lit';
 import { address, classic } from '../../address.ts';
@@ -7,18 +7,14 @@ import { escaped } from '../../scene/svg.ts';
 import { button } from '../../ui/controls.ts';
 import { Part } from '../part.ts';
 
-export type Kind = 'link' | 'code';
-
 /** Buttons that copy a text. Each has a message, or shows the text if the clipboard cannot be used. */
 export class CopyMenu extends Part {
-  #copied: { kind: Kind, text: string, done?: boolean, missing: string } | undefined;
+  #copied: { kind: string, text: string, done?: boolean, note: string } | undefined;
 
-  /** Copies a text. The message says which parts of the state it does not have. */
-  async #copy(kind: Kind, text: string) {
-    const missing = this.host.takeaway.notInCopies ?? '';
+  async #copy(kind: string, text: string, note: string) {
     // Frames without permission may not use the clipboard. Pages without HTTPS do not have it.
     const done = await Promise.resolve(navigator.clipboard?.writeText(text).then(() => true)).catch(() => undefined);
-    this.#copied = { kind, text, done, missing };
+    this.#copied = { kind, text, done, note };
     this.host.requestUpdate();
   }
 
@@ -28,29 +24,33 @@ export class CopyMenu extends Part {
     this.host.requestUpdate();
   }
 
+  /** Returns a button that copies a text. A note follows the message: by default, which parts of the state the text does not have. */
+  button(kind: string, label: string, textOf: () => string | Promise<string>, { note, ...options }: { note?: string, title?: string, disabled?: boolean }) {
+    return button(label, async () => this.#copy(kind, await textOf(), note ?? this.host.takeaway.notInCopies ?? ''), options);
+  }
+
   linkButton() {
     const say = words.copies;
-    return button(say.link, async () => this.#copy('link', await this.host.shareLink()), { title: say.linkTitle });
+    return this.button('link', say.link, () => this.host.shareLink(), { title: say.linkTitle });
   }
 
   /** Returns the button that copies the HTML, with its message. */
   codeButton() {
     const say = words.copies;
-    const { host } = this;
     return html`<fieldset class="copies" part="copies">
       <legend>${say.label}</legend>
       <div class="buttons">
-        ${button(say.code, () => this.#copy('code', host.embedCode()), { title: say.codeTitle })}
+        ${this.button('code', say.code, () => this.host.embedCode(), { title: say.codeTitle })}
       </div>
       ${this.answer('code')}
     </fieldset>`;
   }
 
-  /** Returns the message of a button. */
-  answer(kind: Kind) {
+  /** Returns the message of a button, unless its text has changed since. */
+  answer(kind: string, text?: string) {
     const say = words.copies;
-    const copied = this.#copied?.kind === kind ? this.#copied : undefined;
-    return html`<output class="copied">${copied ? `${copied.done ? say.done : say.byHand} ${copied.missing}` : nothing}</output>
+    const copied = this.#copied?.kind === kind && this.#copied.text === (text ?? this.#copied.text) ? this.#copied : undefined;
+    return html`<output class="copied">${copied ? `${copied.done ? say.done : say.byHand} ${copied.note}` : nothing}</output>
       ${copied && !copied.done
         ? html`<textarea readonly rows="3" aria-label=${say.byHand} .value=${copied.text}></textarea>`
         : nothing}`;

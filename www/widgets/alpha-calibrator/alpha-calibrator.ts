@@ -16,7 +16,7 @@ import { startOverButton } from '../shared/presets.ts';
 import { legControls, legLengths, legReadouts, modelControls, predictionControls } from './controls.ts';
 import { diagnostics } from './diagnostics.ts';
 import { LogService, isStopped } from './log-service.ts';
-import { Copied, copyButton, nav2 } from './nav2.ts';
+import { copyButton, nav2 } from './nav2.ts';
 import { LogOpener, dropZone, logSection } from './open.ts';
 import { panels } from './panels.ts';
 import { LegPicture, PathPicture } from './pictures.ts';
@@ -60,7 +60,6 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
   plate = new Plate(this);
   #opener = new LogOpener(this);
   dropped = this.#opener.dropped;
-  #copied = new Copied(this);
   service = new LogService('alpha-calibrator');
   #predicted: Memo<LegView | null> = new Memo();
   #panels: Memo<CalibrationPanel[]> = new Memo();
@@ -243,7 +242,7 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
         <div class="fitted" part="readouts">
           <div class="buttons told">
             <p class="panel-title">${say.alphas.title(say.kinds[modelRuleOf(reading.fitted)])}</p>
-            ${copyButton(this, this.#copied)} ${startOverButton(this)}
+            ${copyButton(this)} ${startOverButton(this)}
           </div>
           <p class="to-do">${judgementOf(reading, this.warnings).toDo}</p>
           ${alphaTable(reading)}

@@ -225,7 +225,6 @@ export const de: typeof import('./en.ts').en = {
     title: 'Für Nav2',
     label: 'Zeilen für nav2_params.yaml',
     copy: 'Für Nav2 kopieren',
-    copied: 'Kopiert.',
     json: 'Alles als JSON speichern',
     none: 'Keine Zeilen: Nav2 hat kein Geschwindigkeitsmodell, oder es werden keine α’s empfohlen. In JSON steht alles.',
     otherRule: 'Nach einer anderen Regel als der von Nav2 angepasst: das Modell „Nav2“ wählen (Regel nav2)',

@@ -193,7 +193,6 @@ export const en = {
     title: 'For Nav2',
     label: 'Lines for nav2_params.yaml',
     copy: 'Copy for Nav2',
-    copied: 'Copied.',
     json: 'Save all as JSON',
     none: 'No lines: Nav2 has no velocity model, or no α’s are recommended. JSON has everything.',
     otherRule: 'Fitted by another rule than Nav2’s: choose the model AMCL of Nav2 (rule nav2)',

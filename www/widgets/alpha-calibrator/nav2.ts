@@ -1,7 +1,6 @@
 /** Exports of the Alpha Calibrator: lines of nav2_params.yaml, and everything as JSON. */
 
-import { html, nothing } from 'lit';
-import { Part } from '../../figure/part.ts';
+import { html } from 'lit';
 import { save } from '../../figure/takeaway/export.ts';
 import { words } from '../../messages/registry.ts';
 import { button } from '../../ui/controls.ts';
@@ -24,28 +23,13 @@ function jsonOf({ reading: { fitted, stats, legs, truth }, logName }: Figure) {
   return JSON.stringify(all, (_, value) => (ArrayBuffer.isView(value) ? [...(value as Float64Array)] : value), 1);
 }
 
-/** State of the copy button: the text that was copied last. */
-export class Copied extends Part<Figure> {
-  #text: string | undefined;
-
-  /** Checks whether a text was copied last. */
-  has(text: string) {
-    return this.#text === text;
-  }
-
-  async copy(text: string) {
-    // Frames without permission may not use the clipboard, and pages without HTTPS do not have it. The lines can still be selected.
-    await Promise.resolve(navigator.clipboard?.writeText(text).then(() => (this.#text = text))).catch(() => undefined);
-    this.host.requestUpdate();
-  }
-}
-
 /** Returns the button that copies the lines for Nav2. */
-export function copyButton(figure: Figure, copied: Copied) {
+export function copyButton(figure: Figure) {
   const say = words.calibrator.nav2;
   const yaml = yamlOf(figure);
-  return html`${button(say.copy, () => copied.copy(yaml), { disabled: !yaml, title: yaml ? say.label : say.none })}
-    <output>${yaml && copied.has(yaml) ? [say.copied, yaml.includes(say.otherRule) ? ` ${say.otherRule}.` : nothing] : nothing}</output>`;
+  const note = yaml.includes(say.otherRule) ? `${say.otherRule}.` : '';
+  return html`${figure.copies.button('nav2', say.copy, () => yaml, { disabled: !yaml, title: yaml ? say.label : say.none, note })}
+    ${figure.copies.answer('nav2', yaml)}`;
 }
 
 /** Returns the lines for Nav2, and the button that saves everything as JSON. */

@@ -2,15 +2,13 @@
 
 import { clamp } from '../ui/clamp.ts';
 import { channels } from '../ui/theme.ts';
-import { addLine, faded, hiddenContext, stroke, strokeLine } from './canvas.ts';
+import { addLine, faded, hiddenContext, stroke, strokeLine, type Brush } from './canvas.ts';
+import { Layer, advance, strokeMany, type Painter } from './layer.ts';
 import type { View } from './view.ts';
-import type { Brush } from './canvas.ts';
 import type { Grid, Plan } from '../types.d.ts';
 
 /** Cells of a grid. `unknown` is missing if no cell is unknown. */
 export type Cells = Omit<Grid, 'unknown'> & { unknown?: Uint8Array };
-
-export type Painter = Pick<Brush, 'view' | 'palette' | 'ratio' | 'highlight'> & { context: CanvasRenderingContext2D | OffscreenCanvasRenderingContext2D };
 
 /** Width of a wall, CSS pixels. */
 const WALL = 2.5;
@@ -18,15 +16,10 @@ const WALL = 2.5;
 /** Distance, width and opacity of the lines that hatch unknown cells; lengths in CSS pixels. */
 const HATCH = { apart: 7, width: 1, opacity: 0.4 };
 
-/** Number of walls in one stroke. Browsers take far longer for one path with many lines. */
-const WALLS_A_STROKE = 500;
-
 export class WallLayer {
   #plan;
   #grid;
-  #layer = new OffscreenCanvas(1, 1);
-  /** View and colours of the cached drawing, as text. */
-  #shown = '';
+  #layer = new Layer();
 
   /** Creates the drawing of a plan. If the map is a grid, its cells are drawn instead of the walls. */
   constructor(plan: Plan, grid: Cells | null) {
@@ -36,26 +29,11 @@ export class WallLayer {
 
   /** Draws the walls or cells; unknown cells are hatched if they are shown. */
   draw(brush: Brush, unknown: boolean) {
-    const { context, view, palette, ratio } = brush;
-    const { extent, frame, width, height } = view;
-    if (!this.#grid && 'vector' in context) {
-      this.#paint(brush, unknown);
-      return;
-    }
-    const wanted = JSON.stringify([extent, frame, width, height, palette.truth, palette.rule, palette.muted, ratio, unknown]);
-    if (wanted !== this.#shown) {
-      this.#shown = wanted;
-      // Setting the size clears the cached drawing.
-      this.#layer.width = Math.round(width * ratio);
-      this.#layer.height = Math.round(height * ratio);
-      const layer = hiddenContext(this.#layer);
-      layer.scale(ratio, ratio);
-      this.#paint({ context: layer, view, palette, ratio }, unknown);
-    }
-    context.drawImage(this.#layer, 0, 0, width, height);
+    if (!this.#grid && 'vector' in brush.context) advance(this.#paint(brush, unknown));
+    else this.#layer.draw(brush, [unknown], (painter) => this.#paint(painter, unknown));
   }
 
-  #paint(painter: Painter, unknown: boolean) {
+  *#paint(painter: Painter, unknown: boolean): Generator<undefined, void> {
     const { context, view, palette } = painter;
     const grid = this.#grid;
     if (unknown && grid?.unknown) {
@@ -66,18 +44,15 @@ export class WallLayer {
       context.globalCompositeOperation = 'source-over';
     }
     if (grid) fillCells(painter, grid, grid.occupied, palette.truth);
-    const { bounds: [xMin, yMin, xMax, yMax], walls } = this.#plan;
+    const { bounds: [xMin, yMin, xMax, yMax] } = this.#plan;
     strokeLine(context, [[xMin, yMin], [xMax, yMin], [xMax, yMax], [xMin, yMax], [xMin, yMin]].map(([x, y]) => view.toPixel(x, y)), { colour: palette.rule, width: 1 });
-    if (grid) return;
-    context.lineCap = 'round';
-    for (let begin = 0; begin < walls.length; begin += 4 * WALLS_A_STROKE) {
-      stroke(context, { colour: palette.truth, width: WALL }, () => {
-        for (let i = begin; i < Math.min(walls.length, begin + 4 * WALLS_A_STROKE); i += 4) {
-          addLine(context, [view.toPixel(walls[i], walls[i + 1]), view.toPixel(walls[i + 2], walls[i + 3])]);
-        }
-      });
-    }
-    context.lineCap = 'butt';
+    if (!grid) yield* strokeMany(context, this.#linesIn(view), { colour: palette.truth, width: WALL });
+  }
+
+  /** Returns the walls as lines, pixels. */
+  *#linesIn(view: View) {
+    const { walls } = this.#plan;
+    for (let i = 0; i < walls.length; i += 4) yield [view.toPixel(walls[i], walls[i + 1]), view.toPixel(walls[i + 2], walls[i + 3])];
   }
 }
 

@@ -3,17 +3,14 @@
  * their own.
  */
 
-import { hiddenContext, type Brush } from '../../scene/canvas.ts';
+import { stroke, type Brush } from '../../scene/canvas.ts';
 import { lineStyles } from '../../scene/draw.ts';
+import { LINES_A_STROKE, Layer, advance, strokeMany, type Painter } from '../../scene/layer.ts';
 import { channels } from '../../ui/theme.ts';
 import { CLASSES, LINES, type LineName } from './settings.ts';
 import type { CalibrationLegs } from '../../types.d.ts';
-import type { Painter } from '../../scene/walls.ts';
 
 export type Style = { colour: string, width: number, dash: number[] };
-
-/** Number of legs in one stroke: browsers take far longer for a path with more. */
-const LEGS_A_STROKE = 500;
 
 /** Maximum number of legs that are drawn directly. The drawing of more legs is cached in another canvas, which takes memory. */
 const MAX_UNCACHED_LEGS = 2000;
@@ -48,55 +45,37 @@ function between(one: string, other: string) {
 }
 
 export class PathLayer {
-  /** Canvas that caches the drawing of the legs. */
-  #layer = new OffscreenCanvas(1, 1);
-  /** View, colours and overlays of the cached drawing, as text. */
-  #key = '';
-  /** Legs of the cached drawing. */
+  #layer = new Layer();
+  /** Legs that were drawn last. */
   #legs: CalibrationLegs | undefined;
-  /** Strokes that are not drawn yet. */
-  #strokes: Iterator<void> = [].values();
 
   /**
    * Draws the legs, the most usual classes first. Returns true if the next frame has more to draw: many legs of another log take several
    * frames. Another view of them, and paper, have all at once.
    */
   draw(brush: Brush, legs: CalibrationLegs, classes: Uint8Array, overlays: LineName[]): boolean {
-    const { context, view, palette, ratio, highlight, handles } = brush;
-    if ('vector' in context || legs.count <= MAX_UNCACHED_LEGS) return advance(drawPath(brush, legs, classes, overlays), Infinity);
-    const { extent, frame, width, height } = view;
-    const key = JSON.stringify([extent, frame, width, height, palette, ratio, highlight, overlays]);
+    const { context, highlight, handles } = brush;
+    if ('vector' in context || legs.count <= MAX_UNCACHED_LEGS) return advance(drawPath(brush, legs, classes, overlays));
     const isOther = legs !== this.#legs;
-    if (key !== this.#key || isOther) {
-      this.#key = key;
-      this.#legs = legs;
-      this.#layer = new OffscreenCanvas(Math.round(width * ratio), Math.round(height * ratio));
-      const layer = hiddenContext(this.#layer);
-      layer.scale(ratio, ratio);
-      this.#strokes = drawPath({ context: layer, view, palette, ratio, highlight }, legs, classes, overlays);
-      if (!isOther) advance(this.#strokes, Infinity);
-    }
-    const isMore = advance(this.#strokes, handles ? Infinity : STROKES_A_FRAME);
-    context.drawImage(this.#layer, 0, 0, width, height);
-    return isMore;
+    this.#legs = legs;
+    return this.#layer.draw(brush, [legs, overlays, highlight], (painter) => {
+      const strokes = drawPath(painter, legs, classes, overlays);
+      if (!isOther) advance(strokes);
+      return strokes;
+    }, handles ? Infinity : STROKES_A_FRAME);
   }
-}
-
-/** Continues a drawing by some strokes. Returns true if there are more. */
-function advance(strokes: Iterator<void>, count: number): boolean {
-  for (; count > 0; count--) if (strokes.next().done) return false;
-  return true;
 }
 
 /** Draws the legs, stroke by stroke. */
 function* drawPath(brush: Painter, legs: CalibrationLegs, classes: Uint8Array, overlays: LineName[]) {
-  if (overlays.includes('odometry')) yield* drawOdometry(brush, legs);
+  if (overlays.includes('odometry')) yield* strokeMany(brush.context, odometryLines(brush.view, legs), styleOf(brush, 'odometry'));
   // While the coverage by legs grows from 1 to 2, lines get thinner little by little, so that nothing jumps when a plot is resized.
   const extra = Math.max(0, Math.min(1, 2 - coverageOf(brush.view, legs.reference)));
   for (const [index, name] of CLASSES.entries()) {
     if (!overlays.includes(name)) continue;
     const style = styleOf(brush, name);
-    yield* drawLegs(brush, legs.reference, (leg) => classes[leg] === index, { ...style, width: HAIRLINE_WIDTH + extra * (style.width - HAIRLINE_WIDTH) });
+    const lines = visibleLegs(brush.view, legs.reference, (leg) => classes[leg] === index);
+    yield* strokeMany(brush.context, lines, { ...style, width: HAIRLINE_WIDTH + extra * (style.width - HAIRLINE_WIDTH) });
   }
   if (overlays.includes('outlier')) drawRings(brush, outlierEnds(brush, legs));
 }
@@ -110,12 +89,12 @@ function outlierEnds({ view }: Painter, { outliers, reference }: CalibrationLegs
 /** Draws rings around outliers at points in CSS pixels. */
 export function drawRings(brush: Painter, points: [number, number][]) {
   const { context } = brush;
-  context.beginPath();
-  for (const [x, y] of points) {
-    context.moveTo(x + RING_RADIUS, y);
-    context.arc(x, y, RING_RADIUS, 0, 2 * Math.PI);
-  }
-  stroke(context, styleOf(brush, 'outlier'));
+  stroke(context, styleOf(brush, 'outlier'), () => {
+    for (const [x, y] of points) {
+      context.moveTo(x + RING_RADIUS, y);
+      context.arc(x, y, RING_RADIUS, 0, 2 * Math.PI);
+    }
+  });
 }
 
 /**
@@ -134,66 +113,37 @@ function coverageOf(view: Painter['view'], reference: Float64Array) {
   return (length * LINES.likely.width) / (squares.size * COARSE_SQUARE ** 2);
 }
 
-/** Draws the odometry from the first pose of the reference on: it drifts away, and each leg is compared by itself. */
-function* drawOdometry({ context, view, ...brush }: Painter, { count, odometry, reference }: CalibrationLegs) {
-  if (count === 0) return;
+/** Returns the odometry from the first pose of the reference on, in pieces. It drifts away, and each leg is compared by itself. */
+function* odometryLines(view: Painter['view'], { count, odometry, reference }: CalibrationLegs) {
   const turn = reference[2] - odometry[2];
   const [cos, sin] = [Math.cos(turn), Math.sin(turn)];
-  const style = styleOf(brush, 'odometry');
-  let last = NaN;
-  let points = 0;
-  context.beginPath();
+  let [last, line] = [NaN, [] as number[][]];
   for (let leg = 0; leg < count; leg++) {
     const [dx, dy] = [odometry[6 * leg + 3] - odometry[0], odometry[6 * leg + 4] - odometry[1]];
-    const x = view.toPixelX(reference[0] + cos * dx - sin * dy);
-    const y = view.toPixelY(reference[1] + sin * dx + cos * dy);
-    const square = squareOf(x, y);
+    const point = view.toPixel(reference[0] + cos * dx - sin * dy, reference[1] + sin * dx + cos * dy);
+    const square = squareOf(...point);
     if (square === last) continue;
     last = square;
-    context.lineTo(x, y);
-    points += 1;
-    if (points <= LEGS_A_STROKE) continue;
-    stroke(context, style);
-    yield;
-    points = 1;
-    context.beginPath();
-    context.moveTo(x, y);
+    line.push(point);
+    if (line.length <= LINES_A_STROKE) continue;
+    yield line;
+    line = [point];
   }
-  stroke(context, style);
+  yield line;
 }
 
-/** Draws legs as lines between their ends. */
-function* drawLegs({ context, view }: Painter, reference: Float64Array, isDrawn: (leg: number) => boolean, style: Style) {
+/** Returns the legs that are drawn as lines between their ends. */
+function* visibleLegs(view: Painter['view'], reference: Float64Array, isDrawn: (leg: number) => boolean) {
   const drawn: Set<number> = new Set();
-  let begun = 0;
   for (let leg = 0; leg < reference.length / 6; leg++) {
     if (!isDrawn(leg)) continue;
     const at = 6 * leg;
-    const [x, y] = [view.toPixelX(reference[at]), view.toPixelY(reference[at + 1])];
-    const [toX, toY] = [view.toPixelX(reference[at + 3]), view.toPixelY(reference[at + 4])];
-    if (Math.hypot(toX - x, toY - y) < FINE_SQUARE) {
-      const square = squareOf(toX, toY);
+    const [from, to] = [view.toPixel(reference[at], reference[at + 1]), view.toPixel(reference[at + 3], reference[at + 4])];
+    if (Math.hypot(to[0] - from[0], to[1] - from[1]) < FINE_SQUARE) {
+      const square = squareOf(...to);
       if (drawn.has(square)) continue;
       drawn.add(square);
     }
-    if (begun === 0) context.beginPath();
-    context.moveTo(x, y);
-    context.lineTo(toX, toY);
-    begun = (begun + 1) % LEGS_A_STROKE;
-    if (begun > 0) continue;
-    stroke(context, style);
-    yield;
+    yield [from, to];
   }
-  if (begun > 0) stroke(context, style);
-}
-
-/** Strokes the present path, with round ends unless it is dashed. */
-function stroke(context: Painter['context'], { colour, width, dash }: Style) {
-  context.strokeStyle = colour;
-  context.lineWidth = width;
-  context.lineCap = dash.length > 0 ? 'butt' : 'round';
-  context.setLineDash(dash);
-  context.stroke();
-  context.lineCap = 'butt';
-  context.setLineDash([]);
 }

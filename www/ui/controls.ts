@@ -146,6 +146,10 @@ export const controlStyles = css`
     opacity: 0;
   }
 
+  .files {
+    min-height: 24px;
+  }
+
   /* The browser's own button, in the language of the browser, is invisible in a button of the figure. */
   .files input {
     pointer-events: none;

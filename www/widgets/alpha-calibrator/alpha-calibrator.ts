@@ -59,7 +59,7 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
   pictures = [this.#path, this.#legPicture];
   plate = new Plate(this);
   #opener = new LogOpener(this);
-  dropped = this.#opener.dropped;
+  dropped = this.#opener;
   service = new LogService('alpha-calibrator');
   #predicted: Memo<LegView | null> = new Memo();
   #panels: Memo<CalibrationPanel[]> = new Memo();

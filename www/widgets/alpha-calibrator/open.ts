@@ -1,10 +1,9 @@
 /** Logs of the reader: chosen or dropped files, and reading them. */
 
 import { html, nothing } from 'lit';
-import { Part } from '../../figure/part.ts';
 import { language, words } from '../../messages/registry.ts';
 import { button } from '../../ui/controls.ts';
-import { FileDrop, fileButton } from '../shared/files.ts';
+import { FileOpener } from '../shared/files.ts';
 import { referenceNoise } from './controls.ts';
 import { isStopped, type LogFailure } from './log-service.ts';
 import type { Drive, Plan, Wishes } from '../../logs/drives.ts';
@@ -42,16 +41,11 @@ export interface Chosen {
 /** Extensions that the file dialog offers. */
 const EXTENSIONS = ['.csv', '.txt', '.tum', '.log', '.mcap', '.bag', '.db3', '.zst', '.zstd', '.yaml'];
 
-/** Id of the drop zone. */
-const DROP_ZONE_ID = 'log';
-
 /** Maximum number of files in the name of a log. */
 const MAX_NAMED_FILES = 4;
 
-export class LogOpener extends Part<Figure> {
-  dropped = new FileDrop(this.host, DROP_ZONE_ID, (files) => this.choose(files), () => this.prepare());
-  /** Message about the latest log that was refused. */
-  #complaint: (() => string) | undefined;
+export class LogOpener extends FileOpener<Figure> {
+  id = 'log';
   chosen: Chosen | undefined;
   /** Files with only one log of a drive. The next file may contain the other log. */
   #lone: Chosen | undefined;
@@ -59,15 +53,8 @@ export class LogOpener extends Part<Figure> {
   reader: Reader | undefined;
   /** Fraction of the files that has been read; undefined if no file is being read. */
   share: number | undefined;
-  /** Number of the latest attempt to read files. */
-  #latest = 0;
   /** Odometry that the model preferred when the log was read. */
   #preferred: 'commands' | undefined;
-
-  /** Reason why the latest log was refused; empty if it was not. */
-  get complaint() {
-    return this.#complaint?.() ?? '';
-  }
 
   /** Kind of odometry that is preferred if a log has several: commands for the velocity model. */
   get kind(): 'commands' | undefined {
@@ -91,25 +78,25 @@ export class LogOpener extends Part<Figure> {
   }
 
   /** Returns to the simulated log. */
-  leave() {
+  close() {
     this.#end();
-    this.chosen = this.#lone = this.#complaint = undefined;
+    this.chosen = this.#lone = this.refusal = undefined;
     this.#zone.style.minHeight = '';
     this.host.open(null, []).then(() => this.host.gesture.complete());
   }
 
   get #zone() {
-    return this.host.renderRoot.querySelector(`#${DROP_ZONE_ID}`) as HTMLElement;
+    return this.host.renderRoot.querySelector(`#${this.id}`) as HTMLElement;
   }
 
   /** Stops reading. */
   stop() {
     this.#end();
-    this.#complaint = () => words.progress.stopped;
+    this.refusal = new DOMException('', 'AbortError');
   }
 
   #end() {
-    this.#latest++;
+    this.cancel();
     this.host.service.stop();
     this.#rest();
   }
@@ -123,7 +110,7 @@ export class LogOpener extends Part<Figure> {
   }
 
   /** Loads the module that reads logs, while the reader chooses files or drags them here. */
-  prepare = () => {
+  enter = () => {
     loadReader().catch(() => {});
     this.host.service.start();
   };
@@ -171,10 +158,9 @@ export class LogOpener extends Part<Figure> {
   }
 
   async #read(chosen: Chosen, plan: Plan, reader: Reader) {
-    const latest = this.#latest;
     chosen.plan = plan;
     const drives = await this.host.service.read(plan, (share) => {
-      if (latest !== this.#latest) return;
+      if (this.share === undefined) return;
       this.share = share;
       this.host.requestUpdate();
     });
@@ -191,36 +177,35 @@ export class LogOpener extends Part<Figure> {
     this.host.gesture.complete();
   }
 
+  explain(refusal: Error & Partial<LogError & LogFailure>) {
+    if (isStopped(refusal)) return words.progress.stopped;
+    const { message, sentence, sentences, ask } = refusal;
+    const reason = sentences?.[language === 'de' ? 'de' : 'en'] ?? (sentence && this.say ? sentence(this.say) : words.calibrator.own.refused(message));
+    return [reason, ...(ask?.what === 'other' && this.say ? [this.say.choose.other] : [])].join(' ');
+  }
+
   /** Shows why a log was refused, and what to choose. */
-  async #refuse(error: unknown) {
-    const { message, sentence, sentences, ask, file, place } = error as Error & Partial<LogError & LogFailure>;
-    const complain = () => sentences?.[language === 'de' ? 'de' : 'en'] ?? (sentence && this.say ? sentence(this.say) : words.calibrator.own.refused(message));
-    this.#complaint = () => [complain(), ...(ask?.what === 'other' && this.say ? [this.say.choose.other] : [])].join(' ');
+  async refuse(error: Error & Partial<LogError & LogFailure>) {
+    if (isStopped(error)) return;
+    this.refusal = error;
+    const { ask, file, place } = error;
     const { chosen } = this;
     const asked = ask && chosen && { file: file ?? place?.file ?? '', ask };
     if (asked && !chosen.questions.some((each) => each.file === asked.file && each.ask.what === ask.what)) chosen.questions.push(asked);
     this.host.requestUpdate();
     await this.host.updateComplete;
-    if (!(asked && this.reader?.focusOn(this.host, asked))) await this.dropped.showRefusal(this.complaint);
+    if (!(asked && this.reader?.focusOn(this.host, asked))) await this.showRefusal();
   }
 
   /** Cancels reading, and starts again. */
   async #attempt(work: (reader: Reader) => Promise<void>) {
-    const number = ++this.#latest;
     this.host.service.stop();
-    this.#complaint = undefined;
     this.#preferred = this.kind;
     this.share = 0;
     // A question leaves its room when it is answered, so that the figure does not move up.
     this.#zone.style.minHeight = `${this.#zone.offsetHeight}px`;
-    this.host.requestUpdate();
-    try {
-      this.reader ??= await loadReader();
-      await work(this.reader);
-    } catch (error) {
-      if (number === this.#latest && !isStopped(error)) await this.#refuse(error);
-    }
-    if (number === this.#latest) this.#rest();
+    const isLatest = await this.attempt(async () => work(this.reader ??= await loadReader()));
+    if (isLatest) this.#rest();
   }
 }
 
@@ -253,18 +238,18 @@ async function loadReader() {
 /** Returns the line that logs are dropped on, and below it the choosers, the progress or name of a log, and the reason for a refusal. */
 export function dropZone(figure: Figure, opener: LogOpener) {
   const say = words.calibrator.own;
-  const { complaint, share, reader } = opener;
-  return html`<div class="drop-zone" id=${DROP_ZONE_ID} part="drop">
+  const { share, reader } = opener;
+  return html`<div class="drop-zone" id=${opener.id} part="drop">
     <p title=${say.dropTitle}>
       ${say.drop}
-      ${fileButton('log-files', say.files, EXTENSIONS, (files) => opener.dropped.take(files), opener.prepare)}
+      ${opener.button('log-files', say.files, EXTENSIONS)}
     </p>
     ${reader?.choosers(opener)}
     ${share !== undefined
       ? html`<p><progress aria-label=${say.reading} .value=${share}></progress> ${button(words.progress.stop, () => opener.stop())}</p>`
-      : figure.log ? html`<p><span class="present">${say.present(figure.logName)}</span> ${button(say.leave, () => opener.leave())}</p>` : nothing}
-    <p class="note" id="refusal" role=${figure.notice.isShown ? nothing : 'alert'} ?hidden=${complaint === ''}>${complaint}</p>
-    ${complaint ? html`<p class="muted">${say.still(figure.logName)}</p>` : nothing}
+      : figure.log ? html`<p><span class="present">${say.present(figure.logName)}</span> ${button(say.leave, () => opener.close())}</p>` : nothing}
+    ${opener.note}
+    ${opener.complaint ? html`<p class="muted">${say.still(figure.logName)}</p>` : nothing}
   </div>`;
 }
 

@@ -4,7 +4,6 @@ import { html, nothing } from 'lit';
 import { check, choices, cloudControls, slider, sliders } from '../../figure/controls.ts';
 import { words } from '../../messages/registry.ts';
 import { button, group, radioGroup } from '../../ui/controls.ts';
-import { fileButton } from '../shared/files.ts';
 import { EXTENSIONS } from './maps/open.ts';
 import { presetButtons, startOverButton } from '../shared/presets.ts';
 import { COMMAND, MAX_SAMPLES, SAMPLE_COUNTS } from './settings.ts';
@@ -66,13 +65,12 @@ export function ownMap(figure: Figure, opener: import('./maps/open.ts').MapOpene
     const text = figure.renderRoot.querySelector('#map-text') as HTMLTextAreaElement;
     opener.paste(text.value);
   };
-  const { complaint } = opener;
   return group(say.legend, html`<div class="own-map">
     <div>
       <p>${say.text}</p>
-      <p>${fileButton('map-files', say.files, EXTENSIONS, (files) => opener.dropped.take(files))}</p>
+      <p>${opener.button('map-files', say.files, EXTENSIONS)}</p>
       <p ?hidden=${!opener.isReading}>${say.reading}</p>
-      <p class="note" role=${figure.notice.isShown ? nothing : 'alert'} ?hidden=${complaint === ''}>${complaint}</p>
+      ${opener.note}
       <p class="present">${map}.</p>
     </div>
     <div>

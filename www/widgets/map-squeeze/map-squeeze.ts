@@ -46,7 +46,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
   picture = new FloorPicture({ bounds: new Float64Array(4), walls: new Float64Array() }, null);
   #meter = new CostMeter(this);
   #opener = new MapOpener(this);
-  dropped = this.#opener.dropped;
+  dropped = this.#opener;
   #handles = new PoseHandles(this, 'start', () => this.picture.view, () => this.picture.plan.bounds);
   #wallHandles = new WallHandles(this);
   /** Treatment of unknown cells that the picture was made for. */
@@ -79,7 +79,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
     const { machine } = this;
     if (!machine) return;
     const grid = this.#gridOf(machine);
-    this.#opener.clearRefusal();
+    this.#opener.refusal = undefined;
     this.#meter.outdate();
     this.#unknown = this.settings.present.unknown;
     this.picture = new FloorPicture(machine.plan, grid, this.picture);
@@ -253,7 +253,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
   #leave() {
     const { machine, map } = this;
     if (!machine) return;
-    this.#opener.clearRefusal();
+    this.#opener.refusal = undefined;
     if (!map) return;
     this.#left = { map, start: this.settings.wanted.start };
     machine.setPlan(undefined);

@@ -1,44 +1,81 @@
 /** Files of the reader, chosen or dropped on a figure. A disclosure shows the result, and a notice why dropped files were refused. */
 
 import { html, nothing } from 'lit';
+import { Part } from '../../figure/part.ts';
 import { inputOf } from '../../ui/controls.ts';
 
-export type Figure = import('../../figure/figure.ts').Figure;
+type Figure = import('../../figure/figure.ts').Figure;
 
-export class FileDrop {
-  #host;
-  #id;
-  #choose;
+export abstract class FileOpener<Host extends Figure> extends Part<Host> {
+  /** Id of the element with the result. If it is a disclosure, a drop opens it. */
+  abstract id: string;
+  /** Why the latest files were refused; undefined if they were not. */
+  refusal: unknown;
   #isDropped = false;
+  /** Number of the latest attempt. Results of earlier ones are ignored. */
+  #latest = 0;
 
-  /** Runs when something is dragged over the figure. */
-  enter: (() => void) | undefined;
+  /** Opens files. */
+  abstract choose(files: File[]): void;
 
-  /** Creates the drop target. `id` names the element that describes the files; if it is a disclosure, a drop opens it. */
-  constructor(host: Figure, id: string, choose: (files: File[]) => void, enter?: () => void) {
-    this.#host = host;
-    this.#id = id;
-    this.#choose = choose;
-    this.enter = enter;
+  /** Returns the sentence about a refusal, in the present language. */
+  abstract explain(refusal: any): string;
+
+  /** Runs when something is dragged over the figure, and while the reader chooses files. */
+  enter = () => {};
+
+  /** Message about the latest files; empty if they were not refused. */
+  get complaint() {
+    return this.refusal === undefined ? '' : this.explain(this.refusal);
+  }
+
+  get note() {
+    const { complaint } = this;
+    return html`<p class="note" id="refusal" role=${this.host.notice.isShown ? nothing : 'alert'} ?hidden=${complaint === ''}>${complaint}</p>`;
+  }
+
+  /** Ignores the result of the latest attempt. */
+  cancel() {
+    this.#latest++;
+  }
+
+  /** Opens something instead of what is being opened. Returns whether it is still the latest attempt. */
+  async attempt(work: (isLatest: () => boolean) => Promise<void>) {
+    const number = ++this.#latest;
+    const isLatest = () => number === this.#latest;
+    this.refusal = undefined;
+    this.host.requestUpdate();
+    try {
+      await work(isLatest);
+    } catch (error) {
+      if (isLatest()) await this.refuse(error);
+    }
+    return isLatest();
+  }
+
+  async refuse(error: unknown) {
+    this.refusal = error;
+    this.host.requestUpdate();
+    await this.showRefusal();
+  }
+
+  /** Shows why files were refused; for dropped files, near the place of the drop. */
+  async showRefusal() {
+    if (this.#isDropped) this.host.notice.show(this.complaint);
+    await this.host.updateComplete;
+    if (!this.#isDropped) this.#place?.querySelector('.note')?.scrollIntoView({ block: 'nearest' });
   }
 
   /** Element with the result, null until the figure has been drawn. */
   get #place() {
-    return this.#host.renderRoot.querySelector(`#${this.#id}`);
+    return this.host.renderRoot.querySelector(`#${this.id}`);
   }
 
-  /** Shows why files were refused; for dropped files, near the place of the drop. */
-  async showRefusal(sentence: string) {
-    if (this.#isDropped) this.#host.notice.show(sentence);
-    await this.#host.updateComplete;
-    if (!this.#isDropped) this.#place?.querySelector('.note')?.scrollIntoView({ block: 'nearest' });
-  }
-
-  /** Handles files that the reader has chosen or dropped. */
+  /** Opens files that the reader has chosen or dropped. */
   take(files: File[], isDropped: boolean = false) {
     this.#isDropped = isDropped;
-    this.#host.notice.show('');
-    this.#choose(files);
+    this.host.notice.show('');
+    this.choose(files);
   }
 
   over = (event: DragEvent) => {
@@ -62,6 +99,19 @@ export class FileDrop {
     if (this.#place instanceof HTMLDetailsElement) this.#place.open = true;
     filesOf(event.dataTransfer).then((files) => this.take(files, true));
   };
+
+  /** Returns a button that opens files with some extensions. */
+  button(id: string, label: string, extensions: string[]) {
+    const open = (event: Event) => {
+      const input = inputOf(event);
+      this.take([...(input.files ?? [])]);
+      // Reset, so that choosing the same file again after a correction fires an event.
+      input.value = '';
+    };
+    return html`<label class="choice files" @click=${this.enter}>
+      ${label} <input id=${id} type="file" multiple accept=${extensions.join(',')} @change=${open} />
+    </label>`;
+  }
 }
 
 /** Returns what was dropped, with the files of folders and their paths in them. */
@@ -85,20 +135,3 @@ async function filesIn(folder: FileSystemDirectoryEntry): Promise<File[]> {
   }));
   return files.flat();
 }
-
-/** Returns a button that opens files with some extensions. `prepare` runs while the reader chooses. */
-export const fileButton = (id: string, label: string, extensions: string[], choose: (files: File[]) => void, prepare?: () => void) => html`<label class="choice files" @click=${prepare ?? nothing}>
-  ${label}
-  <input
-    id=${id}
-    type="file"
-    multiple
-    accept=${extensions.join(',')}
-    @change=${(event: Event) => {
-      const input = inputOf(event);
-      choose([...(input.files ?? [])]);
-      // Reset, so that choosing the same file again after a correction fires an event.
-      input.value = '';
-    }}
-  />
-</label>`;

@@ -34,22 +34,25 @@ test('the true α’s are shown where the fit is of their rule and legs, and now
   expect(await stateOf(widget)).toMatchObject({ model: 'omnidirectional', rule: 'omni' });
 });
 
-test('the meaning of each α stands beside it in one line, also on a phone and in German @nightly', async ({ page }) => {
-  await page.setViewportSize({ width: 375, height: 900 });
+test('the meaning of each α stands beside it, apart from the numbers, also on a phone, in German and in a wide font', async ({ page }) => {
   const widget = await openCalibrator(page, 'lang="de"');
   await expect(rows(widget).locator('.of')).toHaveText(['Drehrauschen durch Drehen', 'Drehrauschen durch Fahren', 'Streckenrauschen durch Fahren', 'Streckenrauschen durch Drehen']);
-  const told = await rows(widget).evaluateAll((all) => all.map((row) => {
-    const of = /** @type {Element} */ (row.querySelector('.of'));
-    const [, value] = row.querySelectorAll('td');
-    const text = new Range();
-    text.selectNodeContents(of);
-    const table = /** @type {Element} */ (row.closest('table'));
-    const number = new Range();
-    number.selectNode(/** @type {Element} */ (value.querySelector('.between')));
-    const [end, top] = [text.getBoundingClientRect(), number.getBoundingClientRect()];
-    return { lines: text.getClientRects().length, apart: end.right <= top.left || end.bottom <= top.top + 2, over: table.scrollWidth - table.clientWidth };
-  }));
-  for (const each of told) expect(each).toEqual({ lines: 1, apart: true, over: 0 });
+  for (const [width, spacing] of [[375, 0], [920, 0], [920, 0.1], [1280, 0], [1280, 0.1]]) {
+    await page.setViewportSize({ width, height: 900 });
+    await page.evaluate((em) => void (document.body.style.letterSpacing = `${em}em`), spacing);
+    await frames(page);
+    const told = await rows(widget).evaluateAll((all) => all.map((row) => {
+      const boxOf = (/** @type {string} */ selector) => {
+        const text = new Range();
+        text.selectNodeContents(/** @type {Element} */ (row.querySelector(selector)));
+        return text.getBoundingClientRect();
+      };
+      const [name, ...numbers] = ['.of', '.fitted-value', '.between', '.recommended'].map(boxOf);
+      return numbers.every(({ left, top }) => name.right <= left || name.bottom <= top + 2);
+    }));
+    expect(told, `${width} px, ${spacing} em`).toEqual([true, true, true, true]);
+    expect(await page.evaluate(() => document.documentElement.scrollWidth), `${width} px, ${spacing} em`).toBeLessThanOrEqual(width);
+  }
 });
 
 test('outliers are ringed, and decide the fit where they are not set aside', async ({ page }) => {

@@ -188,12 +188,11 @@ export const styles = css`
     width: 100%;
   }
 
-  /* A longer name continues above the value. */
   .alphas .of {
-    width: 0;
     color: var(--muted);
     line-height: 1;
     text-align: left;
+    white-space: normal;
   }
 
   .alphas svg {
@@ -414,11 +413,21 @@ export const styles = css`
   @container (min-width: 56em) {
     .views {
       /* The table comes after the pictures, and moves nothing. */
-      grid-template-columns: minmax(0, 1.2fr) minmax(0, 1fr) 22em;
+      grid-template-columns: minmax(0, 1.2fr) minmax(0, 1fr) minmax(22em, max-content);
     }
 
     .fitted {
       grid-column: auto;
+    }
+
+    /* Only the table decides the width of its column. */
+    .fitted > :not(.alphas) {
+      width: 0;
+      min-width: 100%;
+    }
+
+    .alphas .of {
+      max-width: clamp(9em, 24cqi - 5em, 16em);
     }
 
     canvas {

@@ -117,7 +117,7 @@ impl CheckName {
     fn failure(self) -> &'static str {
         match self {
             Self::ReferenceMatches => {
-                "The reference does not follow the odometry: it may be of another drive, have other units (degrees, millimetres) or a mirrored y axis, or its columns are swapped. The α's mean nothing. Compare both files row by row."
+                "The reference is no other measurement of this drive. Either it does not follow the odometry: it is of another drive, has other units (degrees, millimetres) or a mirrored y axis, or its columns are swapped. Or it follows it exactly, as a copy does. The α's mean nothing. Compare both files row by row."
             }
             Self::EnoughLegs => {
                 "There are few legs, so the intervals are wide and the other checks weak. Drive on: a quarter of an hour of straight drives, arcs and turns on the spot."
@@ -173,8 +173,9 @@ const NEGLIGIBLE_COVERAGE: f64 = 0.015;
 const SUFFICIENT_LEGS: f64 = 100.0;
 const MIN_USABLE_LEGS: f64 = 30.0;
 
-/// Largest median difference of the motions by odometry and reference, over the median motion, of logs of the same drive.
-const MAX_MISMATCH: f64 = 0.7;
+/// Range of the median difference of the motions by odometry and reference, over the median motion, of logs of the same drive. Two
+/// measurements differ by more than 0.05 %: one that differs by less is a copy of the other.
+const MISMATCH: [f64; 2] = [0.0005, 0.7];
 
 /// Scales that wheels can have; with any other one the reference has another unit.
 const PLAUSIBLE_SCALES: std::ops::RangeInclusive<f64> = 0.5..=2.0;
@@ -198,13 +199,13 @@ pub(super) fn log_checks(
     let count = sample.legs.len();
     let scales = [SystematicError::DistanceScale, SystematicError::TurnScale];
     let in_units = scales.iter().all(|scale| PLAUSIBLE_SCALES.contains(&systematic.get(*scale)));
-    let mismatch = if in_units { mismatch(sample, systematic) } else { f64::INFINITY };
+    let mismatch = if in_units { mismatch(sample, systematic) } else { Some(f64::INFINITY) };
     let mut ratios: Vec<f64> =
         sample.legs.iter().map(|leg| sample.options.legs.ratio(&leg.odometry, leg.duration())).collect();
     let outliers = sample.outliers.iter().filter(|is| **is).count();
     let lost = lost.total() - lost.standing;
     let mut checks = vec![
-        Check::new(CheckName::ReferenceMatches, mismatch, [0.0, MAX_MISMATCH]),
+        Check::new(CheckName::ReferenceMatches, mismatch.unwrap_or(MISMATCH[0]), MISMATCH),
         Check::new(CheckName::EnoughLegs, count as f64, [SUFFICIENT_LEGS, f64::INFINITY]),
         // An infinite inflation: none is enough.
         Check::new(CheckName::InflationBounded, inflation, [1.0, MAX_INFLATION]),
@@ -225,8 +226,8 @@ fn moves_sideways([rot1, _, rot2]: [f64; 3]) -> bool {
     rot1 != 0.0 && libm::sin(rot1 - 0.5 * wrap_angle(rot1 + rot2)).abs() > MIN_SIDEWAYS_SINE
 }
 
-/// Median difference of the two motions over the median motion: of turns, or of drives, whichever is larger.
-fn mismatch(sample: &Sample, systematic: &Systematic) -> f64 {
+/// Median difference of the two motions over the median motion: of turns, or of drives, whichever is larger. `None` with few legs of both.
+fn mismatch(sample: &Sample, systematic: &Systematic) -> Option<f64> {
     // Sizes and differences of the turns, and of the drives.
     let [mut turns, mut drives] = [const { [Vec::new(), Vec::new()] }; 2];
     let add = |[sizes, differences]: &mut [Vec<f64>; 2], size: f64, difference: f64, least: f64| {
@@ -242,9 +243,9 @@ fn mismatch(sample: &Sample, systematic: &Systematic) -> f64 {
         add(&mut drives, distance(&expected), off, MIN_DRIVE_DISTANCE);
     }
     let ratio = |[mut sizes, mut differences]: [Vec<f64>; 2]| {
-        if sizes.len() < MIN_LEGS { 0.0 } else { median(&mut differences) / median(&mut sizes) }
+        (sizes.len() >= MIN_LEGS).then(|| median(&mut differences) / median(&mut sizes))
     };
-    ratio(turns).max(ratio(drives))
+    [turns, drives].into_iter().filter_map(ratio).reduce(f64::max)
 }
 
 /// Returns the checks of the innovations: correlation of neighbours and tails.

@@ -66,6 +66,21 @@ fn a_reference_with_other_units_or_axes_or_of_another_drive_is_unusable() {
 }
 
 #[test]
+fn a_copy_of_the_odometry_is_no_reference() {
+    let made = good_log(600, 1);
+    let [odometry, _] = made.log();
+    // In another frame, with other lengths, at other times, and with the digits of a text file.
+    let rounded = |value: f64| (1e6 * value).round() / 1e6;
+    let copy = odometry.samples().map(|(time, pose)| {
+        let moved = SE2::new(3.0, 1.0, 0.5) * SE2::new(1.02 * pose.x(), 1.02 * pose.y(), pose.theta());
+        (time + 0.1, SE2::new(rounded(moved.x()), rounded(moved.y()), rounded(moved.theta())))
+    });
+    let calibration = calibrated_log(&[odometry.clone(), trajectory(copy)], &made.options());
+    assert!(failed_checks(&calibration).contains(&ReferenceMatches));
+    assert_unusable(&calibration, "a copy");
+}
+
+#[test]
 fn few_legs_are_questionable_and_fewer_unusable() {
     assert_fails(EnoughLegs, &calibrated(&good_log(80, 3)));
     let few = calibrated(&good_log(25, 3));

@@ -267,9 +267,9 @@ export async function bundle({ tags = WIDGETS, changed = (_, script) => script }
     write(at(join('dist', relative('www', path))), path.endsWith('.html') ? withTables(text, elements, all) : text);
   }
   // The module needs Lit, which is not installed in a bare clone. A static import would fail there.
-  const { roomBefore } = await importTypeScript('www/figure/page/room.ts');
+  const { preUpgradeCss } = await importTypeScript('www/figure/page/reserved-height.ts');
   // Without scripts no height is reserved.
-  const kept = `@media (scripting:enabled){\n${roomBefore()}\n}`;
+  const kept = `@media (scripting:enabled){\n${preUpgradeCss()}\n}`;
   // Slides have a large font, which is too large for figures. `:where` has no specificity: any rule of a page takes precedence.
   const slides = `:where(.reveal) :where(${WIDGETS}){font-size:.3em;text-align:start}`;
   appendFileSync(at('dist/motion-widgets.css'), `\n:where(${WIDGETS}){margin-block:1em}\n${slides}\n${kept}\n`);

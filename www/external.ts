@@ -5,7 +5,7 @@
 
 import { vocabularies, widgets } from '../build/widgets.js';
 import { knownTags } from './core.ts';
-import { roomBefore } from './figure/page/room.ts';
+import { preUpgradeCss } from './figure/page/reserved-height.ts';
 import { en } from './messages/en.ts';
 import { addEnglish } from './messages/registry.ts';
 
@@ -60,7 +60,7 @@ function watch(root: Document | ShadowRoot) {
 if (observer) {
   // Space is reserved, so that nothing moves when the elements are defined.
   const sheet = new CSSStyleSheet();
-  sheet.replaceSync(roomBefore());
+  sheet.replaceSync(preUpgradeCss());
   document.adoptedStyleSheets.push(sheet);
   watch(document);
 }

@@ -6,7 +6,7 @@ import { pointOn } from '../scene/canvas.ts';
 import { button } from '../ui/controls.ts';
 import { counted } from '../ui/format.ts';
 import { boolean, wholeNumber } from './checks.ts';
-import { Part } from './part.ts';
+import { FigureController } from './controller.ts';
 import { freeOnError } from './runtime.ts';
 import { isCalm } from './stage.ts';
 import type { Figure } from './figure.ts';
@@ -34,7 +34,7 @@ const STEPS = 150;
 /** Time for adding samples in a frame, ms. Together with the pictures a frame takes less than 50 ms. */
 const FRAME_WORK = 12;
 
-export class Cloud extends Part {
+export class Cloud extends FigureController {
   playing = false;
   /** Number of samples to show; Infinity for all. */
   #goal = Infinity;

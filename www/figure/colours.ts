@@ -2,9 +2,9 @@
 
 import { resolvePalette, type Palette } from '../ui/theme.ts';
 import { ancestors, surroundings } from './page/scheme.ts';
-import { Part } from './part.ts';
+import { FigureController } from './controller.ts';
 
-export class Colours extends Part {
+export class Colours extends FigureController {
   #palette: Palette | undefined;
 
   hostConnected() {

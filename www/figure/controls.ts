@@ -7,12 +7,12 @@ import { group, inputOf, radioGroup, rich, toggle } from '../ui/controls.ts';
 import { fold } from '../ui/fold.ts';
 import { counted, limit, numberIn, typed } from '../ui/format.ts';
 import { sliderRow, type SliderRow } from '../ui/slider.ts';
-import { exportButtons } from './takeaway/export.ts';
+import { exportButtons } from './export.ts';
 import type { Declaration } from '../settings.js';
 import type { Figure } from './figure.ts';
 
 /** Appearance of a numeric setting. */
-export interface Look {
+export interface SliderSpec {
   /** Symbol of the book, in the markup of messages. */
   symbol?: string;
   role: 'prior' | 'prediction' | 'truth';
@@ -35,8 +35,8 @@ export type Row = Partial<SliderRow> & { most?: number };
 
 /** Returns the slider of a setting; `overrides` replaces fields of its slider row. */
 export function slider(figure: Figure, key: string, overrides?: Row) {
-  const { looks, attributes } = figure.kind;
-  const { symbol, decimals, value, ...look } = looks[key];
+  const { sliderSpecs, attributes } = figure.definition;
+  const { symbol, decimals, value, ...look } = sliderSpecs[key];
   const { name, effect } = wordsFor(figure, key);
   const declaration = declarationOf(figure, key);
   const { unit } = declaration;
@@ -104,7 +104,7 @@ export function canvas(figure: Figure, picture: import('../scene/picture.ts').Pi
   ></canvas>`;
 }
 
-export const sliders = (figure: Figure, looks: Record<string, Look>) => Object.keys(looks).map((key) => slider(figure, key));
+export const sliders = (figure: Figure, sliderSpecs: Record<string, SliderSpec>) => Object.keys(sliderSpecs).map((key) => slider(figure, key));
 
 /** Returns radio buttons for a setting that is a word, with labels by word. */
 export const choices = (figure: Figure, key: string, labels: Record<string, string>) =>
@@ -137,8 +137,8 @@ export function disclosures(figure: Figure, { controls, numbers, mark = figure.r
 }
 
 /** Returns the noise parameters with their values, for print. */
-function noiseOf({ kind: { attributes, looks }, settings: { wanted: config } }: Figure) {
-  return Object.entries(looks).filter(([, { alpha }]) => alpha).flatMap(([key, { symbol = '', decimals }]) => {
+function noiseOf({ definition: { attributes, sliderSpecs }, settings: { wanted: config } }: Figure) {
+  return Object.entries(sliderSpecs).filter(([, { alpha }]) => alpha).flatMap(([key, { symbol = '', decimals }]) => {
     const value = attributes[key].get(config) as number | null;
     return value === null ? [] : html`<span>${rich(`${symbol}\u00a0=\u00a0${typed(value, decimals)}`)}</span> `;
   });
@@ -239,17 +239,17 @@ export function sampleField(figure: Figure & { cloud: import('./cloud.ts').Cloud
 
 /** Requests another value of a setting. */
 function want(figure: Figure, key: string, value: unknown) {
-  const setting = figure.kind.attributes[key];
+  const setting = figure.definition.attributes[key];
   figure.settings.want((wanted) => setting.change(value, wanted));
 }
 
 /** Returns the declaration of a numeric setting. */
 const declarationOf = (figure: Figure, key: string): Declaration & Allowed =>
-  figure.kind.declared.find((setting) => setting.key === key) as any;
+  figure.definition.declared.find((setting) => setting.key === key) as any;
 
 /** Returns the name of a setting, and its effect, if it has one. */
 function wordsFor(figure: Figure, key: string): { name: string, effect?: string } {
-  const [model, index] = figure.kind.looks[key]?.alpha ?? [];
+  const [model, index] = figure.definition.sliderSpecs[key]?.alpha ?? [];
   const ofAlpha = model && { name: words.alphas[model][(index as number)] };
-  return { ...(words.settings as any)[key], ...ofAlpha, ...(words as any)[figure.kind.vocabulary].settings[key] };
+  return { ...(words.settings as any)[key], ...ofAlpha, ...(words as any)[figure.definition.messageKey].settings[key] };
 }

@@ -3,7 +3,7 @@
 import { presets, settings, type Declaration } from '../settings.js';
 import { NUMBER, WORD_LIST, attributesIn, plainProperty, presetsOf, propertiesOf, type Attribute, type Config, type Properties, type Property } from './attributes.ts';
 import { numberWithin, subset, wholeNumber, word } from './checks.ts';
-import type { Look } from './controls.ts';
+import type { SliderSpec } from './controls.ts';
 import type { LineStyle } from './overlays.ts';
 
 /** Field of the state that the machine does not have. */
@@ -21,7 +21,7 @@ export interface Own extends Pick<Property, 'converter' | 'words' | 'min' | 'max
 export interface Definition {
   tag: string;
   /** Key of the widget's words in the catalogues. */
-  vocabulary: string;
+  messageKey: string;
   /** Declared settings. */
   declared: Declaration[];
   properties: Properties;
@@ -30,12 +30,12 @@ export interface Definition {
   /** State of the element that the machine does not have. */
   own: Record<string, Own>;
   /** Appearance of the settings that have a slider. */
-  looks: Record<string, Look>;
+  sliderSpecs: Record<string, SliderSpec>;
   /** Returns the defaults that depend on other settings. */
   dependentDefaults?: (config: Config) => Config;
 }
 
-interface Parts extends Pick<Definition, 'vocabulary' | 'looks' | 'dependentDefaults'> {
+interface Parts extends Pick<Definition, 'messageKey' | 'sliderSpecs' | 'dependentDefaults'> {
   /** Styles of the lines and marks in the pictures, which are the words of the attribute `overlays`. */
   lines: Record<string, LineStyle>;
   /** Lines that are drawn by default. */

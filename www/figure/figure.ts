@@ -13,7 +13,7 @@ import { Colours } from './colours.ts';
 import { Focus } from './focus.ts';
 import { Gesture } from './gesture.ts';
 import { Link } from './link.ts';
-import { reserve } from './page/room.ts';
+import { reservedHeight } from './page/reserved-height.ts';
 import { THEMES, schemeStyles } from './page/scheme.ts';
 import { Notice, noticeStyles } from './notice.ts';
 import { Presentation } from './presentation.ts';
@@ -22,10 +22,10 @@ import { Runtime } from './runtime.ts';
 import { Settings } from './settings.ts';
 import { Stage } from './stage.ts';
 import { State } from './state.ts';
-import { Steadiness } from './steadiness.ts';
+import { TextHeights } from './text-heights.ts';
 import { surface } from './surface.ts';
-import { CopyMenu, embedding } from './takeaway/copy.ts';
-import { csvOf, pngOf, svgOf } from './takeaway/export.ts';
+import { CopyMenu, embedding } from './copy.ts';
+import { csvOf, pngOf, svgOf } from './export.ts';
 import type { FigureState, Motion } from '../types.d.ts';
 import type { Values } from './state.ts';
 
@@ -86,7 +86,7 @@ export class FigureElement<Machine extends { free(): void, stats: object, config
   /** Adds the styles that all figures have before those of a widget. */
   static finalizeStyles(own: CSSResultGroup = []) {
     // Lit asks the base class too, which has no definition.
-    const reserved = this.definition ? reserve(this.definition.tag) : [];
+    const reserved = this.definition ? reservedHeight(this.definition.tag) : [];
     return super.finalizeStyles([theme, schemeStyles, presentationStyles, noticeStyles, reserved, ...layoutStyles, plotStyles, own]);
   }
 
@@ -105,17 +105,17 @@ export class FigureElement<Machine extends { free(): void, stats: object, config
   copies = new CopyMenu(this);
   focusing = new Focus(this);
   presenting = new Presentation(this);
-  steadiness = new Steadiness(this);
+  textHeights = new TextHeights(this);
   /** Cloud of a figure with samples. */
   cloud: import('./cloud.ts').Cloud | undefined;
   /** Player of a figure that animates a slider. `advance` returns true while it plays. */
   player: { advance(elapsed: number): boolean, stop(): void } | undefined;
   /** Handlers of files that are dragged over a figure that takes them. */
   dropped: { enter?: () => void } & Record<'over' | 'leave' | 'drop', (event: DragEvent) => void> | undefined;
-  /** Pictures on the canvases. The first is exported, unless `plate` has a picture for that. */
+  /** Pictures on the canvases. The first is exported, unless `exportPicture` has a picture for that. */
   pictures: import('../scene/picture.ts').Picture<any>[] = [];
   /** Picture for export, with its own size. */
-  plate: import('../scene/picture.ts').Picture<any> & { size: { width: number, height: number } } | undefined;
+  exportPicture: import('../scene/picture.ts').Picture<any> & { size: { width: number, height: number } } | undefined;
   /** Reading of the machine: all values that pictures, texts and tables show, read at one time. Undefined before the first frame. */
   reading: Reading = undefined as any;
   #highlight: string | null = null;
@@ -124,7 +124,7 @@ export class FigureElement<Machine extends { free(): void, stats: object, config
   #updating: boolean | undefined;
 
   /** Definition of the widget. */
-  get kind() {
+  get definition() {
     return (this.constructor as typeof FigureElement).definition;
   }
 
@@ -154,7 +154,7 @@ export class FigureElement<Machine extends { free(): void, stats: object, config
   }
 
   /** Content for export, after all pending changes. */
-  get takeaway(): import('./takeaway/export.ts').Takeaway {
+  get exportData(): import('./export.ts').ExportData {
     throw new Error('A widget defines its own export.');
   }
 

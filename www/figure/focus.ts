@@ -1,6 +1,6 @@
 /** Keyboard focus. It moves from the placeholder into the figure, and stays there when the focused control is removed, disabled or hidden. */
 
-import { Part } from './part.ts';
+import { FigureController } from './controller.ts';
 import type { Figure } from './figure.ts';
 
 /** Elements that the Tab key stops at. */
@@ -11,7 +11,7 @@ function stopsIn(root: ParentNode): HTMLElement[] {
   return ([...root.querySelectorAll(STOPS)] as HTMLElement[]).filter((stop) => stop.checkVisibility());
 }
 
-export class Focus extends Part {
+export class Focus extends FigureController {
   /** Focused control and its ancestors, the nearest first. */
   #held: Element[] = [];
 

@@ -1,9 +1,9 @@
 /** Events of the reader's changes: one `input` for each step and one `change` at the end, whatever the number of settings. */
 
-import { Part } from './part.ts';
+import { FigureController } from './controller.ts';
 import type { Values } from './settings.ts';
 
-export class Gesture extends Part {
+export class Gesture extends FigureController {
   #step = false;
   #end: boolean | undefined;
   /** True between an `input` event and its `change`. */
@@ -11,7 +11,7 @@ export class Gesture extends Part {
   /** Removes the listeners of a press. */
   #press: AbortController | undefined;
   /** Reading of the machine (see Figure.reading) before the present or latest gesture. */
-  former: any;
+  previousReading: any;
 
   /** True while a pointer is down on the figure. Views do not zoom meanwhile. */
   get pressed() {
@@ -43,7 +43,7 @@ export class Gesture extends Part {
 
   /** Records a step of a change that may continue. */
   step() {
-    if (!this.#isOpen && !this.#step) this.former = this.host.reading;
+    if (!this.#isOpen && !this.#step) this.previousReading = this.host.reading;
     this.#step = true;
     this.#end = false;
     this.#queue();

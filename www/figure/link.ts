@@ -4,9 +4,9 @@
  */
 
 import { pack, unpack } from './packing.ts';
-import { Part } from './part.ts';
+import { FigureController } from './controller.ts';
 
-export class Link extends Part {
+export class Link extends FigureController {
   /** Tokens of the latest read and write of the address. The results of earlier ones are dropped. */
   #latestRead = {};
   #latestWrite = {};

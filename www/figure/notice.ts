@@ -3,7 +3,7 @@
 import { css, html, nothing } from 'lit';
 import { words } from '../messages/registry.ts';
 import { button } from '../ui/controls.ts';
-import { Part } from './part.ts';
+import { FigureController } from './controller.ts';
 
 /** Time that work may take before the notice shows it, ms. */
 const DELAY = 200;
@@ -48,7 +48,7 @@ export const noticeStyles = css`
   }
 `;
 
-export class Notice extends Part {
+export class Notice extends FigureController {
   #sentence = '';
   /** Stops the work that is shown, if any. */
   #stop: (() => void) | undefined;

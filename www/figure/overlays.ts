@@ -18,9 +18,9 @@ export interface LineStyle {
 /** Returns the legend of a figure's pictures, with names from the catalogue. `notes` explain missing lines. Entries of `more` have no toggle. */
 export function legend(figure: import('./figure.ts').Figure, styles: Record<string, LineStyle>, notes: Record<string, string> = {}, more: unknown = nothing) {
   const { overlays } = figure.state.own;
-  const { overlays: names } = (words as any)[figure.kind.vocabulary];
+  const { overlays: names } = (words as any)[figure.definition.messageKey];
   const all = Object.keys(styles);
-  const every = figure.kind.attributes.overlays.words as string[];
+  const every = figure.definition.attributes.overlays.words as string[];
   const choose = (name: string, shown: boolean) =>
     figure.gesture.choose('overlays', every.filter((each) => (each === name ? shown : overlays.includes(each))));
   const highlight = (name: string | null) => (figure.highlight = name);

@@ -3,7 +3,7 @@
 import { html, nothing } from 'lit';
 import { words } from '../messages/registry.ts';
 import { button } from '../ui/controls.ts';
-import { Part } from './part.ts';
+import { FigureController } from './controller.ts';
 
 /** Key that shows and hides the controls. */
 const KEY = 'c';
@@ -11,7 +11,7 @@ const KEY = 'c';
 /** Key that restores the state at the beginning of the presentation. */
 const BACK = '0';
 
-export class Presentation extends Part {
+export class Presentation extends FigureController {
   /** True while the controls are shown. */
   #controls = false;
   /** State at the beginning; undefined if the figure opened in a presentation. */
@@ -83,8 +83,8 @@ export class Presentation extends Part {
 
   #key = ({ key, ctrlKey, altKey, metaKey, defaultPrevented }: KeyboardEvent) => {
     if (defaultPrevented || ctrlKey || altKey || metaKey) return;
-    const { kind, machine, state } = this.host;
-    const preset = kind.attributes.preset?.words?.[Number(key) - 1];
+    const { definition, machine, state } = this.host;
+    const preset = definition.attributes.preset?.words?.[Number(key) - 1];
     if (key === 'Escape') this.host.presentation = false;
     else if (key.toLowerCase() === KEY) this.#toggle();
     else if (key === BACK) this.#restore();

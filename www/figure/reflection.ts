@@ -3,16 +3,16 @@
 import { COMMON, defaultConfig } from './attributes.ts';
 import { includesFields, renamed, word } from './checks.ts';
 import { cloudProperties } from './cloud.ts';
-import { Part } from './part.ts';
+import { FigureController } from './controller.ts';
 import type { Config } from './attributes.ts';
 import type { Figure } from './figure.ts';
 
 /** Texts of attributes; null for none. */
 export type Texts = Map<string, string | null>;
 
-export class Reflection extends Part {
-  #attributes = this.host.kind.attributes;
-  #properties = this.host.kind.properties;
+export class Reflection extends FigureController {
+  #attributes = this.host.definition.attributes;
+  #properties = this.host.definition.properties;
   /** Order in which pending properties are applied. Properties that others depend on come first, and a log, which takes long, last. */
   #order = ['preset', 'map', ...Object.keys(this.#properties), 'log'];
   /** Attributes that were set before there was a machine. */
@@ -158,8 +158,8 @@ export class Reflection extends Part {
 
   /** Default configuration. Some defaults depend on the present settings. */
   get #defaultConfig(): Config {
-    const { kind, settings, state } = this.host;
-    return { ...defaultConfig(kind.declared), ...state.openings, ...kind.dependentDefaults?.(settings.wanted) };
+    const { definition, settings, state } = this.host;
+    return { ...defaultConfig(definition.declared), ...state.openings, ...definition.dependentDefaults?.(settings.wanted) };
   }
 
   /** Returns the texts of all attributes in a configuration. */

@@ -1,12 +1,12 @@
 /** Core of a figure. It is created near the viewport and freed on removal. After a trap, a new core gets the last valid state. */
 
 import { abandon, instantiateFor } from '../core.ts';
-import { Part } from './part.ts';
+import { FigureController } from './controller.ts';
 
 /** Distance from the viewport at which a figure starts. Less would show empty frames; more would start unseen figures. */
 const NEAR_MARGIN = '600px';
 
-export class Runtime extends Part {
+export class Runtime extends FigureController {
   motion: import('../types.d.ts').Motion | undefined;
   /** Simulation object of the core. */
   machine: any;

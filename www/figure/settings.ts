@@ -1,11 +1,11 @@
 /** Settings of the machine: those in effect, and changes that wait for the next frame. */
 
-import { Part } from './part.ts';
+import { FigureController } from './controller.ts';
 
 /** Settings by name. */
 export type Values = Record<string, any>;
 
-export class Settings extends Part {
+export class Settings extends FigureController {
   /** True if the machine has changed since it was read. */
   stale: boolean | undefined;
   /** Cache of the settings in effect; undefined until the machine is asked. */
@@ -25,7 +25,7 @@ export class Settings extends Part {
 
   /** Returns the declared settings among other values. */
   declared(values: Values) {
-    const keys = this.host.kind.declared.filter((setting) => !setting.in && !setting.of).map(({ key }) => key);
+    const keys = this.host.definition.declared.filter((setting) => !setting.in && !setting.of).map(({ key }) => key);
     return Object.fromEntries(keys.map((key) => [key, values[key]]));
   }
 
@@ -51,7 +51,7 @@ export class Settings extends Part {
    * not have is changed at once.
    */
   want(change: Values | ((wanted: Values) => Values)) {
-    const { runtime, kind, state, gesture, stage } = this.host;
+    const { runtime, definition, state, gesture, stage } = this.host;
     runtime.attempt(() => {
       if (!this.host.machine) return;
       this.forgetRefusal();
@@ -59,7 +59,7 @@ export class Settings extends Part {
       const given = values();
       const both = (key: string, other: string) => key in given && other in this.#pending;
       // A setting and the group that has it are applied one after the other.
-      if (kind.declared.some(({ key, of }) => of && (both(key, of) || both(of, key)))) this.settle();
+      if (definition.declared.some(({ key, of }) => of && (both(key, of) || both(of, key)))) this.settle();
       for (const [key, value] of Object.entries(values())) (key in state.own ? state.own : this.#pending)[key] = value;
       gesture.step();
       stage.requestFrame();

@@ -3,7 +3,7 @@
 import { nothing } from 'lit';
 import { onLanguage } from '../messages/registry.ts';
 import { clamp } from '../ui/clamp.ts';
-import { Part } from './part.ts';
+import { FigureController } from './controller.ts';
 import type { Surface } from '../scene/canvas.ts';
 
 type AnyPicture = import('../scene/picture.ts').Picture<any>;
@@ -31,7 +31,7 @@ export const isCalm = () => (calm ??= matchMedia('(prefers-reduced-motion: reduc
 /** Returns true if a canvas has pixels. Narrow figures hide some canvases. */
 const isShown = ({ width, height }: HTMLCanvasElement) => Math.min(width, height) > 0;
 
-export class Stage extends Part {
+export class Stage extends FigureController {
   /** True while the figure is in the viewport. */
   inSight = false;
   #canvases: HTMLCanvasElement[] | undefined;
@@ -190,8 +190,8 @@ export class Stage extends Part {
     host.cloud?.advance(this.printing);
     const { scene } = host;
     if (host.reading !== reading) this.#addPictures();
-    const { pressed: still, former } = host.gesture;
-    const options = { elapsed, still, atOnce: this.printing || isCalm(), former, highlight: host.highlight, handles: this.printing };
+    const { pressed: still, previousReading } = host.gesture;
+    const options = { elapsed, still, atOnce: this.printing || isCalm(), previousReading, highlight: host.highlight, handles: this.printing };
     let isMoving = false;
     this.isBehind = false;
     for (const picture of this.#undrawn) {

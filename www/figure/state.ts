@@ -2,7 +2,7 @@
 
 import { object, refusal, word } from './checks.ts';
 import { checked } from './definition.ts';
-import { Part } from './part.ts';
+import { FigureController } from './controller.ts';
 import { freeOnError } from './runtime.ts';
 
 /** Plain data with the fields of the widget. */
@@ -11,12 +11,12 @@ export type Values = Record<string, any>;
 /** Version of the states. */
 const VERSION = 1;
 
-export class State extends Part {
+export class State extends FigureController {
   /** Last valid state. */
   kept: Values | undefined;
   /** State that the figure opened with. */
   #opened: Values | undefined;
-  #fields = this.host.kind.own;
+  #fields = this.host.definition.own;
   /** Defaults of the state that the machine does not have. */
   openings: Values = Object.fromEntries(Object.entries(this.#fields).map(([name, { opening }]) => [name, opening]));
   /** State that the machine does not have, by name. */

@@ -56,7 +56,7 @@ const slotted = (figure: Figure, name: string) => [...figure.children].filter(({
 /** Returns the name of a figure: the page's title, or the widget's own. */
 export function nameOf(figure: Figure) {
   const title = slotted(figure, 'title').map(({ textContent }) => textContent).join(' ').replace(/\s+/g, ' ').trim();
-  return title || (words as any)[figure.kind.vocabulary].title;
+  return title || (words as any)[figure.definition.messageKey].title;
 }
 
 /** Returns a slot of the page, with a text for an empty one. It is a heading if it has a level. */

@@ -4,7 +4,7 @@ import { html, nothing } from 'lit';
 import { length, pointOn } from './canvas.ts';
 
 /** Callbacks of a handle; lengths in metres. */
-interface Hooks {
+interface HandleCallbacks {
   view: () => import('./view.ts').View;
   /** Returns the point (x, y) that a pointer at `pointer` grasps; by default the middle of the handle. */
   at?: (pointer: number[]) => number[] | undefined;
@@ -17,7 +17,7 @@ interface Hooks {
 }
 
 /** Texts of a handle. */
-export interface Said {
+export interface HandleLabels {
   name: string;
   keys: string;
   title: string;
@@ -62,7 +62,7 @@ export const turnsOf = ({ key, metaKey }: KeyboardEvent): number | undefined => 
 
 export class Handle {
   #part;
-  #hooks;
+  #callbacks;
   /** Pointer that drags the handle, and its element. */
   #hold: { id: number, by: Element } | undefined;
   /** Vector (m) from the pointer to the target. It keeps a target that is grasped at its edge from jumping. */
@@ -71,9 +71,9 @@ export class Handle {
   #middle = [0, 0];
 
   /** Creates the handle. `part` has the CSS classes of its element. */
-  constructor(part: string, hooks: Hooks) {
+  constructor(part: string, callbacks: HandleCallbacks) {
     this.#part = part;
-    this.#hooks = hooks;
+    this.#callbacks = callbacks;
   }
 
   /** True while a pointer drags the handle. Browsers release the pointer of a removed element without an event. */
@@ -81,9 +81,9 @@ export class Handle {
     return this.#hold?.by.hasPointerCapture(this.#hold.id) ?? false;
   }
 
-  element({ name, keys, title, range, now, text, stop, hint }: Said) {
+  element({ name, keys, title, range, now, text, stop, hint }: HandleLabels) {
     // The text about the limit is on the side that faces the middle of the picture.
-    const side = 2 * this.#middle[0] > this.#hooks.view().width ? 'right' : '';
+    const side = 2 * this.#middle[0] > this.#callbacks.view().width ? 'right' : '';
     return html`<div
       class="handle ${this.#part} ${side} ${this.held ? 'held' : ''}"
       role="slider"
@@ -116,14 +116,14 @@ export class Handle {
 
   /** Converts a point from pixels of the view to metres. */
   #world([x, y]: number[]): number[] {
-    const view = this.#hooks.view();
+    const view = this.#callbacks.view();
     return [view.toWorldX(x), view.toWorldY(y)];
   }
 
   /** Returns the place of the pointer in metres. */
   #pointer(event: PointerEvent): number[] {
     const { parentElement } = event.currentTarget as Element;
-    return this.#world(pointOn(parentElement as Element, this.#hooks.view(), event));
+    return this.#world(pointOn(parentElement as Element, this.#callbacks.view(), event));
   }
 
   #take = (event: PointerEvent) => {
@@ -132,25 +132,25 @@ export class Handle {
     handle.setPointerCapture(event.pointerId);
     this.#hold = { id: event.pointerId, by: handle };
     const pointer = this.#pointer(event);
-    const held = this.#hooks.at?.(pointer) ?? this.#world(this.#middle);
+    const held = this.#callbacks.at?.(pointer) ?? this.#world(this.#middle);
     this.#grip = [held[0] - pointer[0], held[1] - pointer[1]];
   };
 
   #drag = (event: PointerEvent) => {
     if (!this.held) return;
     const [x, y] = this.#pointer(event);
-    this.#hooks.drag(x + this.#grip[0], y + this.#grip[1]);
+    this.#callbacks.drag(x + this.#grip[0], y + this.#grip[1]);
   };
 
   #release = () => {
     if (!this.#hold) return;
     this.#hold = undefined;
-    this.#hooks.commit();
+    this.#callbacks.commit();
   };
 
   #key = (event: KeyboardEvent) => {
-    if (!this.#hooks.key(event)) return;
+    if (!this.#callbacks.key(event)) return;
     event.preventDefault();
-    this.#hooks.commit();
+    this.#callbacks.commit();
   };
 }

@@ -6,7 +6,7 @@ import type { View } from './view.ts';
 import type { Palette } from '../ui/theme.ts';
 
 /** Way in which a scene is drawn. */
-export interface How extends Pick<Brush, 'exported' | 'handles' | 'highlight' | 'former'> {
+export interface DrawOptions extends Pick<Brush, 'exported' | 'handles' | 'highlight' | 'previousReading'> {
   /** Milliseconds since the previous frame. */
   elapsed?: number;
   /** True if the view must not zoom. */
@@ -17,7 +17,7 @@ export interface How extends Pick<Brush, 'exported' | 'handles' | 'highlight' | 
 
 export class Picture<Scene, Name extends string = string> {
   /** Reading before the gesture that was drawn last. Another one means a new gesture, which has not zoomed the view out yet. */
-  #former: any;
+  #previousReading: any;
 
   /** Class of the canvas. */
   declare name: Name;
@@ -30,16 +30,16 @@ export class Picture<Scene, Name extends string = string> {
   paint(_brush: Brush, _scene: Scene): boolean | void {}
 
   /** Draws the scene. Returns true if the view is still moving, or there is more to paint. */
-  draw(surface: Surface, scene: Scene, palette: Palette, { elapsed = 0, still = false, atOnce = false, former, exported, handles = exported, highlight }: How = {}): boolean {
+  draw(surface: Surface, scene: Scene, palette: Palette, { elapsed = 0, still = false, atOnce = false, previousReading, exported, handles = exported, highlight }: DrawOptions = {}): boolean {
     const { view } = this;
     const brush = brushOn(surface, view, palette);
-    if (former !== this.#former && !exported) {
-      this.#former = former;
+    if (previousReading !== this.#previousReading && !exported) {
+      this.#previousReading = previousReading;
       view.widened = false;
     }
     if (!still || !view.aimed) this.fit(scene);
     const moving = view.ease(elapsed, atOnce);
-    const isMore = this.paint({ ...brush, highlight, exported, handles, former: view.widened && !exported ? former : undefined }, scene);
+    const isMore = this.paint({ ...brush, highlight, exported, handles, previousReading: view.widened && !exported ? previousReading : undefined }, scene);
     return moving || isMore === true;
   }
 

@@ -20,7 +20,7 @@ import { copyButton, nav2 } from './nav2.ts';
 import { LogOpener, dropZone, logSection } from './open.ts';
 import { panels } from './panels.ts';
 import { LegPicture, PathPicture } from './pictures.ts';
-import { Plate } from './plate.ts';
+import { SummaryPicture } from './summary-picture.ts';
 import { legOf, readingOf, type Reading } from './reading.ts';
 import { alphaTable, alphaTexts, verdictLine } from './readouts.ts';
 import { COMPONENTS, LINES, definition, modelRuleOf } from './settings.ts';
@@ -57,7 +57,7 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
   #path = new PathPicture();
   #legPicture = new LegPicture();
   pictures = [this.#path, this.#legPicture];
-  plate = new Plate(this);
+  exportPicture = new SummaryPicture(this);
   #opener = new LogOpener(this);
   dropped = this.#opener;
   service = new LogService('alpha-calibrator');
@@ -202,7 +202,7 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
     return log ? log.name || words.calibrator.own.odometry : words.calibrator.simulated;
   }
 
-  get takeaway() {
+  get exportData() {
     const { fitted, legs } = this.fresh;
     const of = (numbers: Float64Array, i: number, size: number) => numbers.subarray(size * i, size * (i + 1));
     const poses = (whose: string) => ['from', 'to'].flatMap((end) => ['x_m', 'y_m', 'theta_rad'].map((name) => `${whose}_${end}_${name}`));

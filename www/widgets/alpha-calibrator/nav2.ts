@@ -1,7 +1,7 @@
 /** Exports of the Alpha Calibrator: lines of nav2_params.yaml, and everything as JSON. */
 
 import { html } from 'lit';
-import { save } from '../../figure/takeaway/export.ts';
+import { save } from '../../figure/export.ts';
 import { words } from '../../messages/registry.ts';
 import { button } from '../../ui/controls.ts';
 import { nav2Lines } from './lines.ts';

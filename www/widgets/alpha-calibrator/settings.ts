@@ -66,9 +66,9 @@ export const COMPONENTS = {
 } as const;
 
 export const definition = definitionOf('alpha-calibrator', {
-  vocabulary: 'calibrator',
+  messageKey: 'calibrator',
   lines: LINES,
-  looks: {
+  sliderSpecs: {
     distance: { symbol: '*d*', role: 'prior', min: 0.05, max: 1, step: 0.01, decimals: 2 },
     angle: { symbol: '*φ*', role: 'prior', min: 0.05, max: 1, step: 0.01, decimals: 2 },
     duration: { symbol: '*T*', role: 'prior', min: 0, max: 5, step: 0.1, decimals: 2 },

@@ -54,7 +54,7 @@ export class ArcAnatomyElement extends FigureElement<Machine, Reading> {
     return { ...reading, machine: this.machine, overlays, line, underway: robots };
   }
 
-  get takeaway() {
+  get exportData() {
     const { config, stats: { factors } } = this.fresh;
     return {
       description: pictureText(this.reading),

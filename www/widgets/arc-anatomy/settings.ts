@@ -2,8 +2,8 @@
 
 import { wholeNumber } from '../../figure/checks.ts';
 import { definitionOf } from '../../figure/definition.ts';
-import { COMMAND_DASH, commandLooks } from '../shared/command.ts';
-import { alphaLooks } from '../shared/noise.ts';
+import { COMMAND_DASH, commandSliders } from '../shared/command.ts';
+import { alphaSliders } from '../shared/noise.ts';
 
 /** Number of lines of Table 5.1. */
 export const TABLE_LINES = 9;
@@ -29,15 +29,15 @@ export const documentation: import('../../figure/attributes.ts').Documentation =
   },
 };
 
-export const COMMAND = commandLooks(4);
+export const COMMAND = commandSliders(4);
 
-export const ALPHAS = alphaLooks(6);
+export const ALPHAS = alphaSliders(6);
 
 export const definition = definitionOf('arc-anatomy', {
-  vocabulary: 'anatomy',
+  messageKey: 'anatomy',
   lines: LINES,
   opening: ['commanded', 'inverted', 'wedge', 'chord'],
-  looks: { ...COMMAND, ...ALPHAS },
+  sliderSpecs: { ...COMMAND, ...ALPHAS },
   own: {
     line: { opening: 0, ofPreset: true, check: (field, line) => wholeNumber(field, line, 0, TABLE_LINES) },
     underway: { opening: UNDERWAY_AT_END, ofPreset: true, check: (field, share) => wholeNumber(field, share, 0, UNDERWAY_AT_END) },

@@ -25,7 +25,7 @@ import { MORPH_MS, lineMorph, morphControl, outlinesAt, placeOf, ringsOf } from 
 import { PlanePicture, TwistPicture } from './pictures.ts';
 import { readingOf, type Reading } from './reading.ts';
 import { markedRobot, otherReadouts, readouts, twistTable, workedExample } from './readouts.ts';
-import { LINES, OVERLAYS, SAMPLE_COUNTS, definition, looks } from './settings.ts';
+import { LINES, OVERLAYS, SAMPLE_COUNTS, definition, sliderSpecs } from './settings.ts';
 import { styles } from './styles.ts';
 import { announcementOf, calloutsOf, captionOf, floorTitle, planeText, skewText, twistCaption, twistText } from './words.ts';
 import type { BananaMachine as Machine, Inspection } from '../../types.d.ts';
@@ -95,7 +95,7 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
     const shown = Object.fromEntries(OVERLAYS.map((name) => [name, overlays.includes(name)]));
     // There are no callouts while a cloud grows or is dragged, because outlines move, nor away from the floor, where their sentences are
     // wrong.
-    const isMoving = this.cloud.playing || (this.gesture.pressed && reading !== this.gesture.former);
+    const isMoving = this.cloud.playing || (this.gesture.pressed && reading !== this.gesture.previousReading);
     const others = OVERLAYS.filter((name) => name !== 'command' && shown[name] && hasLength(reading.contours[name]));
     const callouts = isMoving || morph > 0 || others.join() !== 'ellipse,exponential' ? [] : calloutsOf(reading);
     return {
@@ -126,7 +126,7 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
     this.requestUpdate();
   }
 
-  get takeaway() {
+  get exportData() {
     const { config, shown: count } = this.fresh;
     const { poses, twists, executed } = this.machine as Machine;
     return {
@@ -200,7 +200,7 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
     this.settings.want(({ command }) => {
       const { v, omega } = this.motion.commandReaching(x, y, command, this.state.own.morph);
       const within = (value: number, { min, max }: { min: number, max: number }) => clamp(value, min, max);
-      return { command: { ...command, v: within(v, looks.v), omega: within(omega, looks.omega) } };
+      return { command: { ...command, v: within(v, sliderSpecs.v), omega: within(omega, sliderSpecs.omega) } };
     });
   }
 
@@ -266,7 +266,7 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
   #chart({ config, stats, exactSkew }: Reading) {
     const { model, noise, command: { v, omega, dt }, alphas, isolate } = config;
     const say = words.banana;
-    const { min, max, step } = looks.omega;
+    const { min, max, step } = sliderSpecs.omega;
     // The curve depends on some of the settings only.
     const curve = this.#curve.of([JSON.stringify([model, noise, v, dt, alphas, isolate])], () => (this.machine as Machine).skewCurve(min, max, CURVE_POINTS));
     const peak = curve.reduce((most, value) => Math.max(most, Math.abs(value) || 0), 0);

@@ -4,7 +4,7 @@ import { words } from '../../messages/registry.ts';
 import { Handle, stepsOf } from '../../scene/handle.ts';
 import { clamp } from '../../ui/clamp.ts';
 import { fixed } from '../../ui/format.ts';
-import { looks } from './settings.ts';
+import { sliderSpecs } from './settings.ts';
 
 /** Distance that an arrow key moves the end of the arc by, metres. */
 const KEY_STEP = 0.02;
@@ -19,7 +19,7 @@ export class ArcHandle extends Handle {
         if (!steps) return false;
         const [x, y] = figure.runtime.attempt(() => figure.machine && figure.seenEnd) ?? [0, 0];
         // The straight arc reaches furthest.
-        const farthest = looks.v.max * figure.settings.wanted.command.dt;
+        const farthest = sliderSpecs.v.max * figure.settings.wanted.command.dt;
         figure.reach(clamp(x + KEY_STEP * steps[0], -farthest, farthest), y + KEY_STEP * steps[1]);
         return true;
       },
@@ -30,8 +30,8 @@ export class ArcHandle extends Handle {
   /** Renders the handle, with a hint to drag it if the introduction asks for that. */
   render({ v, omega }: import('../../types.d.ts').Command, isAsking: boolean) {
     const say = words.banana;
-    const { min, max } = looks.omega;
-    const ends = [v - looks.v.min, looks.v.max - v, omega - min, max - omega].some((left) => left <= 0);
+    const { min, max } = sliderSpecs.omega;
+    const ends = [v - sliderSpecs.v.min, sliderSpecs.v.max - v, omega - min, max - omega].some((left) => left <= 0);
     return this.element({
       name: say.handle,
       keys: say.handleKeys,

@@ -46,7 +46,7 @@ export class IntroducedCloud extends Cloud {
     this.#phase = 'none';
     super.introduce(state);
     const { host } = this;
-    const isAsked = host.presentation || Object.keys(host.kind.attributes).some((name) => host.hasAttribute(name));
+    const isAsked = host.presentation || Object.keys(host.definition.attributes).some((name) => host.hasAttribute(name));
     if (state || !this.playing || isAsked || host.settings.present.samples < DRIVING_ROBOTS || !isFirstInSession()) return;
     this.#phase = 'driving';
     this.show(DRIVING_ROBOTS);

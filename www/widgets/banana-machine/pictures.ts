@@ -202,7 +202,7 @@ export class PlanePicture extends CloudPicture {
 }
 
 /** Returns the reading of the machine whose outlines stay in the picture: the pinned one, or the one before the latest change. */
-const ghostOf = ({ former }: Brush, { pinned }: Scene): Reading | undefined => pinned ?? former;
+const ghostOf = ({ previousReading }: Brush, { pinned }: Scene): Reading | undefined => pinned ?? previousReading;
 
 const ghostName = ({ pinned }: Scene) => (pinned ? words.banana.pinned : words.before);
 

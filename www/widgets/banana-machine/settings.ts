@@ -4,8 +4,8 @@ import { NUMBER } from '../../figure/attributes.ts';
 import { wholeNumber } from '../../figure/checks.ts';
 import { definitionOf } from '../../figure/definition.ts';
 import { openingAlphas } from '../../settings.js';
-import { COMMAND_DASH, commandLooks } from '../shared/command.ts';
-import { alphaLooks } from '../shared/noise.ts';
+import { COMMAND_DASH, commandSliders } from '../shared/command.ts';
+import { alphaSliders } from '../shared/noise.ts';
 
 /** Styles of the lines in the pictures. */
 export const LINES = {
@@ -27,15 +27,15 @@ export const documentation: import('../../figure/attributes.ts').Documentation =
   },
 };
 
-export const COMMAND = commandLooks(3);
+export const COMMAND = commandSliders(3);
 
-export const looks = { ...COMMAND, ...alphaLooks(6) };
+export const sliderSpecs = { ...COMMAND, ...alphaSliders(6) };
 
 export const definition = definitionOf('banana-machine', {
-  vocabulary: 'banana',
+  messageKey: 'banana',
   lines: LINES,
   opening: ['command', 'ellipse', 'exponential'],
-  looks,
+  sliderSpecs,
   own: {
     /** The α that remains under "Isolate", from 1; remembered while "Isolate" is off. */
     isolateChoice: { opening: 4, check: (field, number) => wholeNumber(field, number, 1, openingAlphas.velocity.length) },

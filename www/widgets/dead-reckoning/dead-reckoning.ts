@@ -60,7 +60,7 @@ export class DeadReckoningElement extends FigureElement<Machine, Reading> {
     return { ...this.fresh, marked: this.#marked, overlays: this.state.own.overlays };
   }
 
-  get takeaway() {
+  get exportData() {
     const { config } = this.fresh;
     const { measured, relativeErrors, predicted } = this.machine as Machine;
     const of = (triples: Float64Array, i: number) => triples.subarray(3 * i, 3 * i + 3);

@@ -49,7 +49,7 @@ export class PathPicture extends SamplesPicture<Scene> {
         ...drawn(['command']).map((name) => ({ points: commanded, ...styles[name] })),
         ...predictions.flatMap((name) => milestones.map(({ outlines: passed }) => ({ points: passed[name], ...styles[name], width: 1 }))),
       ]);
-      if (brush.former) ghosts.push(...drawGhosts(brush, styled(brush.former.outlines), [pose, [0, 0]], words.before));
+      if (brush.previousReading) ghosts.push(...drawGhosts(brush, styled(brush.previousReading.outlines), [pose, [0, 0]], words.before));
       drawOutlines(brush, styled(outlines));
       drawRobot(brush, { x: 0, y: 0, heading: 0, colour: palette.truth });
       drawPlace(brush, pose);
@@ -107,7 +107,7 @@ export class StepPicture extends Picture<Scene> {
     const ghosts: Callout[] = [];
     clipped(brush, () => {
       drawDots(brush, twists, { x: 0, y: 1, heading: null });
-      if (brush.former && overlays.includes('exponential')) ghosts.push(...drawGhosts(brush, [{ points: brush.former.outlines.predicted, ...styles.exponential }], [[0, 0]], words.before));
+      if (brush.previousReading && overlays.includes('exponential')) ghosts.push(...drawGhosts(brush, [{ points: brush.previousReading.outlines.predicted, ...styles.exponential }], [[0, 0]], words.before));
       drawOutlines(brush, drawn.map((name) => ({ points: points[name], ...styles[name] })));
     });
     drawCallouts(brush, ghosts, { from: [0, 0], lines: [predicted, measured] });

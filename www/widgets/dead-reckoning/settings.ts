@@ -3,8 +3,8 @@
 import { defaultConfig } from '../../figure/attributes.ts';
 import { definitionOf } from '../../figure/definition.ts';
 import { settings } from '../../settings.js';
-import { COMMAND_DASH, commandLooks } from '../shared/command.ts';
-import { ALPHA, alphaLooks } from '../shared/noise.ts';
+import { COMMAND_DASH, commandSliders } from '../shared/command.ts';
+import { ALPHA, alphaSliders } from '../shared/noise.ts';
 import type { DeadReckoningSettings } from '../../types.d.ts';
 
 const declared = settings['dead-reckoning'];
@@ -29,14 +29,14 @@ export const OUTLINES = {
 } satisfies Record<string, import('../../figure/overlays.ts').LineStyle>;
 
 /** Sliders of the command of a step. */
-export const COMMAND: Record<string, import('../../figure/controls.ts').Look> = commandLooks(1);
+export const COMMAND: Record<string, import('../../figure/controls.ts').SliderSpec> = commandSliders(1);
 
-export const NOISE = alphaLooks(6);
+export const NOISE = alphaSliders(6);
 
 export const definition = definitionOf('dead-reckoning', {
-  vocabulary: 'reckoning',
+  messageKey: 'reckoning',
   lines: { ...CURVES, ...OUTLINES },
-  looks: {
+  sliderSpecs: {
     ...COMMAND,
     ...NOISE,
     step: { symbol: '*k*', role: 'truth', min: 1, max: 200, step: 1, decimals: 0 },

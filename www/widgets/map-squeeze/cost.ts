@@ -1,6 +1,6 @@
 /** Measured cost of each sampler on this device. */
 
-import { Part } from '../../figure/part.ts';
+import { FigureController } from '../../figure/controller.ts';
 import { limits } from '../../settings.js';
 import { SAMPLERS } from './settings.ts';
 import type { MapSqueeze, SamplerName, SqueezeSettings } from '../../types.d.ts';
@@ -60,7 +60,7 @@ function* measureCost(machine: MapSqueeze, sampler: SamplerName, parts: number):
 const IDLE_MS = 300;
 
 /** Measures the samplers one after the other when the figure is idle, and reports each. */
-export class CostMeter extends Part {
+export class CostMeter extends FigureController {
   /** Latest costs, or the reasons why there are none. */
   costs: Partial<Record<SamplerName, Cost | 'wedged' | 'few'>> = {};
   /** True if the costs are those of the present settings. */

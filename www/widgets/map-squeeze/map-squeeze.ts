@@ -108,7 +108,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
     return { pose: poses.subarray(3 * index), path, contact: isThrough ? contactOf(path, this.picture.plan.walls, config.clearance) : undefined };
   }
 
-  get takeaway() {
+  get exportData() {
     const { config, poses, verdicts } = this.fresh;
     return {
       description: this.#description,

@@ -3,7 +3,7 @@
 import { WORD, presetsOf } from '../../figure/attributes.ts';
 import { definitionOf } from '../../figure/definition.ts';
 import { presets, settings } from '../../settings.js';
-import { COMMAND_DASH, commandLooks } from '../shared/command.ts';
+import { COMMAND_DASH, commandSliders } from '../shared/command.ts';
 import type { SamplerName } from '../../types.d.ts';
 
 const declared = settings['map-squeeze'];
@@ -25,12 +25,12 @@ export const LINES = {
   unknown: { role: 'muted', mark: 'area' },
 } satisfies Record<string, import('../../figure/overlays.ts').LineStyle>;
 
-export const COMMAND = commandLooks(4);
+export const COMMAND = commandSliders(4);
 
 export const definition = definitionOf('map-squeeze', {
-  vocabulary: 'squeeze',
+  messageKey: 'squeeze',
   lines: LINES,
-  looks: {
+  sliderSpecs: {
     ...COMMAND,
     noise: { role: 'prediction', min: 0, max: 0.4, step: 0.005, decimals: 3, value: ({ alphas, noise = alphas[0] }) => noise },
     clearance: { symbol: '*r*', role: 'truth', min: 0, max: 0.4, step: 0.01, decimals: 2 },

@@ -2,7 +2,7 @@
 
 import { html, nothing } from 'lit';
 import { swatch } from '../../figure/overlays.ts';
-import { Part } from '../../figure/part.ts';
+import { FigureController } from '../../figure/controller.ts';
 import { words } from '../../messages/registry.ts';
 import { Handle, stepsOf, turnsOf } from '../../scene/handle.ts';
 import { Memo } from '../../scene/memo.ts';
@@ -21,7 +21,7 @@ const MAX_HANDLED_WALLS = 50;
 const GRIP_INSET = 12;
 const MAX_GRIP_INSET = 1 / 6;
 
-export class WallHandles extends Part<import('./map-squeeze.ts').MapSqueezeElement> {
+export class WallHandles extends FigureController<import('./map-squeeze.ts').MapSqueezeElement> {
   #handles: Map<string, Handle> = new Map();
   #grips: Memo<(Grip | undefined)[]> = new Memo();
   /** Plan and view that the handles were placed in. */

@@ -17,7 +17,7 @@ import { noiseControls, playable, rulesTable } from './controls.ts';
 import { LegsPicture, ROBOT_RADIUS, WorldPicture } from './pictures.ts';
 import { readingOf, type Reading } from './reading.ts';
 import { headline, readouts, spreadPlot } from './readouts.ts';
-import { LINES, definition, looks } from './settings.ts';
+import { LINES, definition, sliderSpecs } from './settings.ts';
 import { styles } from './styles.ts';
 import { driftDistance, captionOf, legsText, worldText } from './words.ts';
 import type { OdometryDecomposer as Machine } from '../../types.d.ts';
@@ -60,8 +60,8 @@ export class OdometryDecomposerElement extends FigureElement<Machine, Reading> {
   }
 
   /** Returns a setting that is animated from one end of its slider to the other within a duration in milliseconds. */
-  #played(key: keyof typeof looks, duration: number) {
-    const { min, max } = looks[key];
+  #played(key: keyof typeof sliderSpecs, duration: number) {
+    const { min, max } = sliderSpecs[key];
     return {
       from: min,
       to: max,
@@ -71,7 +71,7 @@ export class OdometryDecomposerElement extends FigureElement<Machine, Reading> {
     };
   }
 
-  get takeaway() {
+  get exportData() {
     const { config, poses } = this.fresh;
     return {
       description: legsText(this.reading),

@@ -1,7 +1,7 @@
 /** The Odometry Decomposer's settings: their attributes, their part of the state, and their sliders. */
 
 import { definitionOf } from '../../figure/definition.ts';
-import { alphaLooks } from '../shared/noise.ts';
+import { alphaSliders } from '../shared/noise.ts';
 
 /** Styles of the lines and marks in the pictures. */
 export const LINES = {
@@ -15,16 +15,16 @@ export const LINES = {
 
 /** Sliders of the noise parameters and of the correlation. */
 export const NOISE = {
-  ...alphaLooks(5, 'odometry'),
+  ...alphaSliders(5, 'odometry'),
   correlation: { symbol: '*ρ*', role: 'prediction' as const, min: -1, max: 1, step: 0.05, decimals: 2 },
 };
 
-export const looks: Record<string, import('../../figure/controls.ts').Look> = {
+export const sliderSpecs: Record<string, import('../../figure/controls.ts').SliderSpec> = {
   ...NOISE,
   phase: { role: 'prior', min: 0, max: 3, step: 0.01, decimals: 2 },
   drift: { role: 'truth', min: 0, max: 120, step: 1, decimals: 0 },
 };
 
-export const definition = definitionOf('odometry-decomposer', { vocabulary: 'decomposer', lines: LINES, looks });
+export const definition = definitionOf('odometry-decomposer', { messageKey: 'decomposer', lines: LINES, sliderSpecs });
 
 export const SAMPLE_COUNTS = [10, 20, 50, 100, 200, 500, 1000, 2000, 5000];

@@ -9,7 +9,7 @@ export const COMMAND_DASH = [2.5, 3.5];
 const SPEED = { role: 'prior' as const, step: 0.01, decimals: 2 };
 
 /** Returns the sliders of a command, with the longest duration in s. Handles and charts that set the command stay within these ranges. */
-export const commandLooks = (longest: number) => ({
+export const commandSliders = (longest: number) => ({
   v: { ...SPEED, symbol: '*v*', min: -1.5, max: 1.5 },
   omega: { ...SPEED, symbol: '*ω*', min: -2, max: 2 },
   dt: { ...SPEED, symbol: '*Δt*', min: 0.1, max: longest, step: 0.05 },

@@ -1,12 +1,12 @@
 /** Files of the reader, chosen or dropped on a figure. A disclosure shows the result, and a notice why dropped files were refused. */
 
 import { html, nothing } from 'lit';
-import { Part } from '../../figure/part.ts';
+import { FigureController } from '../../figure/controller.ts';
 import { inputOf } from '../../ui/controls.ts';
 
 type Figure = import('../../figure/figure.ts').Figure;
 
-export abstract class FileOpener<Host extends Figure> extends Part<Host> {
+export abstract class FileOpener<Host extends Figure> extends FigureController<Host> {
   /** Id of the element with the result. If it is a disclosure, a drop opens it. */
   abstract id: string;
   /** Why the latest files were refused; undefined if they were not. */

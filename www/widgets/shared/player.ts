@@ -1,7 +1,7 @@
 /** Animation of a slider: from its current value, or from its beginning if it is at its end. */
 
 import { nothing } from 'lit';
-import { Part } from '../../figure/part.ts';
+import { FigureController } from '../../figure/controller.ts';
 import { isCalm } from '../../figure/stage.ts';
 import { words } from '../../messages/registry.ts';
 import { button } from '../../ui/controls.ts';
@@ -15,7 +15,7 @@ interface Played {
   put: (value: number) => void;
 }
 
-export class Player<Key extends string> extends Part {
+export class Player<Key extends string> extends FigureController {
   /** Key of the animated setting. */
   #key: Key | undefined;
   #played;

@@ -1,6 +1,6 @@
 /** Handles of a robot: its body moves it, and a handle ahead of it turns it, with the pointer or keys. */
 
-import { Part } from '../../figure/part.ts';
+import { FigureController } from '../../figure/controller.ts';
 import { words } from '../../messages/registry.ts';
 import { Handle, stepsOf, turnsOf } from '../../scene/handle.ts';
 import { clamp } from '../../ui/clamp.ts';
@@ -19,7 +19,7 @@ const MIN_BODY = 32;
 /** Minimum distance of the turning handle from the edge of the picture, CSS pixels. */
 const MARGIN = 12;
 
-export class PoseHandles extends Part<import('../../figure/figure.ts').Figure> {
+export class PoseHandles extends FigureController<import('../../figure/figure.ts').Figure> {
   #setting;
   #view;
   #bounds;
@@ -60,7 +60,7 @@ export class PoseHandles extends Part<import('../../figure/figure.ts').Figure> {
   }
 
   render() {
-    const { ends, [this.#setting]: { robot, robotTitle, heading, headingTitle } } = (words as any)[this.host.kind.vocabulary].handles;
+    const { ends, [this.#setting]: { robot, robotTitle, heading, headingTitle } } = (words as any)[this.host.definition.messageKey].handles;
     const { x, y, theta } = this.#pose;
     const [left, bottom, right, top] = this.#bounds();
     return [

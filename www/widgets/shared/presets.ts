@@ -6,9 +6,9 @@ import { button } from '../../ui/controls.ts';
 
 /** Returns a button for each preset, the present one pressed, then more buttons, and the one to start over. */
 export function presetButtons(figure: import('../../figure/figure.ts').Figure, more: unknown = nothing) {
-  const { kind, settings, state } = figure;
-  const { presets } = (words as any)[kind.vocabulary];
-  const preset = kind.attributes.preset;
+  const { definition, settings, state } = figure;
+  const { presets } = (words as any)[definition.messageKey];
+  const preset = definition.attributes.preset;
   const current = preset.get(settings.wanted);
   return html`<div class="buttons presets" role="group" aria-label=${words.presets}>
     ${Object.entries(presets).map(([name, label]) =>

@@ -1,15 +1,15 @@
 /** Export of a figure: its picture as PNG or SVG, and its samples as CSV. */
 
 import { html } from 'lit';
-import { words } from '../../messages/registry.ts';
-import { inCss } from '../../scene/canvas.ts';
-import { SvgContext, escaped, short } from '../../scene/svg.ts';
-import { button } from '../../ui/controls.ts';
-import { nameOf } from '../surface.ts';
-import type { Figure } from '../figure.ts';
+import { words } from '../messages/registry.ts';
+import { inCss } from '../scene/canvas.ts';
+import { SvgContext, escaped, short } from '../scene/svg.ts';
+import { button } from '../ui/controls.ts';
+import { nameOf } from './surface.ts';
+import type { Figure } from './figure.ts';
 
 /** Content for export besides the picture. */
-export interface Takeaway {
+export interface ExportData {
   description: string;
   /** Settings, which the tag of the element precedes. */
   settings: object;
@@ -30,11 +30,11 @@ const PNG_RATIO = 2;
 const SIZE = { width: 720, height: 432 };
 
 /** Draws the picture in its size and font on the page, with `ratio` pixels per CSS pixel. */
-function drawOn({ scene, pictures: [first], plate, stage, colours }: Figure, ratio: number, makeContext: (size: { width: number, height: number }) => unknown) {
-  const picture = plate ?? first;
+function drawOn({ scene, pictures: [first], exportPicture, stage, colours }: Figure, ratio: number, makeContext: (size: { width: number, height: number }) => unknown) {
+  const picture = exportPicture ?? first;
   const canvas = stage.canvasOf(first);
   const box = canvas.clientWidth > 0 ? canvas.getBoundingClientRect() : SIZE;
-  const [clientWidth, height] = plate ? inCss(plate.size, canvas) : [box.width, box.height];
+  const [clientWidth, height] = exportPicture ? inCss(exportPicture.size, canvas) : [box.width, box.height];
   const size = { width: Math.round(ratio * clientWidth), height: Math.round(ratio * height) };
   const context = makeContext(size) as CanvasRenderingContext2D;
   const surface = { ...size, clientWidth, letters: getComputedStyle(canvas), getContext: () => context };
@@ -65,7 +65,7 @@ function hash(text: string) {
 const settingsText = ({ localName }: Figure, settings: object) => JSON.stringify({ element: localName, ...settings });
 
 export function svgOf(element: Figure) {
-  const { settings, description } = element.takeaway;
+  const { settings, description } = element.exportData;
   const name = `figure-${hash(settingsText(element, settings))}`;
   const svg = new SvgContext(name);
   const { view, width, height } = drawOn(element, 1, () => svg);
@@ -80,7 +80,7 @@ ${svg.markup}
 
 /** Returns CSV: a comment with settings and seed, a header, and a line for each sample with all digits. */
 export function csvOf(element: Figure) {
-  const { settings, columns, row, count } = element.takeaway;
+  const { settings, columns, row, count } = element.exportData;
   const lines = [`# ${settingsText(element, settings)}`, columns, ...Array.from({ length: count }, (_, i) => row(i))];
   return `${lines.join('\n')}\n`;
 }

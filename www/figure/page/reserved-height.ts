@@ -30,7 +30,7 @@ function heightOf(tag: string, unit: '%' | 'cqi') {
 }
 
 /** Returns the style that reserves the height of a figure. */
-export const reserve = (tag: string) => {
+export const reservedHeight = (tag: string) => {
   const height = heightOf(tag, 'cqi');
   return css`
     ${unsafeCSS(`.reserved{min-height:${height}}.machine{min-height:calc(${height} + var(--motion-sticky-bottom,0px))}`)}
@@ -38,7 +38,7 @@ export const reserve = (tag: string) => {
 };
 
 /** Returns the style sheet that reserves heights until the elements are defined. */
-export function roomBefore() {
+export function preUpgradeCss() {
   const tags = Object.keys(HEIGHTS);
   const waiting = (each: string | string[]) => `:is(${each}):not(:defined)`;
   return [

@@ -2,7 +2,7 @@
 
 import type { Figure } from './figure.ts';
 
-export class Part<Host extends Figure = Figure> {
+export class FigureController<Host extends Figure = Figure> {
   host: Host;
 
   constructor(host: Host) {

@@ -20,10 +20,10 @@ const KEY_HEIGHT = 42;
 /** Line height. */
 const LINE = 18;
 
-export class Plate extends Picture<Scene> {
+export class SummaryPicture extends Picture<Scene> {
   size = { width: WIDTH, height: HEIGHT };
   #path = new PathPicture(KEY_HEIGHT);
-  name = 'plate';
+  name = 'exportPicture';
   view: View = new View();
   #figure;
 

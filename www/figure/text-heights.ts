@@ -1,13 +1,13 @@
 /** Heights of the texts above the controls, so that a control stays in its place while the reader drags it. */
 
 import { language } from '../messages/registry.ts';
-import { Part } from './part.ts';
+import { FigureController } from './controller.ts';
 
 /** Texts that change with the settings. */
 const TEXTS = ':is(p, dl, li, .told):not(.told > *, .slider *, details *, .about, .on-paper)';
 
 /** Keeps the largest height of each text at the present width of the figure and in the present language. */
-export class Steadiness extends Part {
+export class TextHeights extends FigureController {
   #texts: Set<HTMLElement> = new Set();
   #sizes: ResizeObserver | undefined;
   #width = 0;

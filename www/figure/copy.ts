@@ -1,14 +1,14 @@
 /** Buttons that copy texts, such as a link to the figure or its HTML. */
 
 import { html, nothing } from 'lit';
-import { address, classic } from '../../address.ts';
-import { words } from '../../messages/registry.ts';
-import { escaped } from '../../scene/svg.ts';
-import { button } from '../../ui/controls.ts';
-import { Part } from '../part.ts';
+import { address, classic } from '../address.ts';
+import { words } from '../messages/registry.ts';
+import { escaped } from '../scene/svg.ts';
+import { button } from '../ui/controls.ts';
+import { FigureController } from './controller.ts';
 
 /** Buttons that copy a text. Each has a message, or shows the text if the clipboard cannot be used. */
-export class CopyMenu extends Part {
+export class CopyMenu extends FigureController {
   #copied: { kind: string, text: string, done?: boolean, note: string } | undefined;
 
   async #copy(kind: string, text: string, note: string) {
@@ -26,7 +26,7 @@ export class CopyMenu extends Part {
 
   /** Returns a button that copies a text. A note follows the message: by default, which parts of the state the text does not have. */
   button(kind: string, label: string, textOf: () => string | Promise<string>, { note, ...options }: { note?: string, title?: string, disabled?: boolean }) {
-    return button(label, async () => this.#copy(kind, await textOf(), note ?? this.host.takeaway.notInCopies ?? ''), options);
+    return button(label, async () => this.#copy(kind, await textOf(), note ?? this.host.exportData.notInCopies ?? ''), options);
   }
 
   linkButton() {
@@ -61,7 +61,7 @@ export class CopyMenu extends Part {
 const PUBLISHED = 'https://cdn.jsdelivr.net/npm/motion-widgets@0.1/dist/external.js';
 
 /** Returns HTML for any page: the script, and the tag with the attributes that differ from the defaults. */
-export function embedding(figure: import('../figure.ts').Figure) {
+export function embedding(figure: import('./figure.ts').Figure) {
   const given = ['theme', 'lang', 'dir'].map((name) => [name, figure.getAttribute(name) ?? ''] as [string, string]);
   const needed = figure.machine ? figure.reflection.nonDefaultAttributes() : [];
   // Addresses of local files and inline scripts do not work on other pages.

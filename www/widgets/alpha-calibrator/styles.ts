@@ -182,6 +182,7 @@ export const styles = css`
 
   .alphas thead th:nth-child(2) {
     text-align: left;
+    white-space: normal;
   }
 
   .alphas .chart {
@@ -193,6 +194,8 @@ export const styles = css`
     line-height: 1;
     text-align: left;
     white-space: normal;
+    overflow-wrap: anywhere;
+    hyphens: auto;
   }
 
   .alphas svg {
@@ -413,21 +416,11 @@ export const styles = css`
   @container (min-width: 56em) {
     .views {
       /* The table comes after the pictures, and moves nothing. */
-      grid-template-columns: minmax(0, 1.2fr) minmax(0, 1fr) minmax(22em, max-content);
+      grid-template-columns: minmax(0, 1.2fr) minmax(0, 1fr) clamp(24em, 34cqi, 29em);
     }
 
     .fitted {
       grid-column: auto;
-    }
-
-    /* Only the table decides the width of its column. */
-    .fitted > :not(.alphas) {
-      width: 0;
-      min-width: 100%;
-    }
-
-    .alphas .of {
-      max-width: clamp(9em, 24cqi - 5em, 16em);
     }
 
     canvas {

@@ -223,7 +223,7 @@ test('units are stated for both logs, or for each', async () => {
   assert.deepEqual(stated.reference, plain.reference);
   for (const name of ['t', 'x', 'theta']) assert.ok(Math.abs(stated.odometry[0][name][999] - plain.odometry[0][name][999]) < 1e-9, name);
   const wrong = await outputOf(['--odometry', scaledBy(1), ...FILES.slice(2), '--angle-unit', 'rad']);
-  assert.match(wrong.err, /^scaled-1\.csv: its headings are in degrees and were read as radians; .* Choose with --angle-unit, as in --angle-unit deg, or --angle-unit rad,deg where/);
+  assert.match(wrong.err, /^scaled-1\.csv: its headings are in degrees and were read as radians; .* Choose with --angle-unit, as in --angle-unit deg; if odometry and reference differ, with --odometry FILE --reference FILE --angle-unit rad,deg\./);
 });
 
 test('a folder gives its logs, and other files are skipped', async () => {
@@ -308,7 +308,7 @@ test('inspect lists what is in a file, and the command to go on with', async () 
   for (const line of [
     /^run\.mcap: MCAP recording$/m, /^ {2}\/chatter +std_msgs\/msg\/String +40$/m, /^ {2}\/odom +nav_msgs\/msg\/Odometry +40 +20\.0 Hz +odometry$/m,
     /^ {2}\/vicon\/robot 1 +geometry_msgs\/msg\/PoseStamped +40 +20\.0 Hz +reference$/m,
-    /^ {2}\/tf +tf2_msgs\/msg\/TFMessage +40 +reference map → base_link \(a localizer\)$/m, /^run\.mcap, topic \/lost: 0 of 40 rows can be used/m,
+    /^ {2}\/tf \(map → base_link\) +tf2_msgs\/msg\/TFMessage +40 +20\.0 Hz +reference \(a localizer\)$/m, /^ {2}\/tf \(map → base_link\): 40 of 40 rows, 1\.9 s at 20\.0 Hz, 39\.0 m driven$/m, /^run\.mcap, topic \/lost: 0 of 40 rows can be used/m,
     /^ {2}npx motion-widgets calibrate DIR\/run\.mcap --odometry-topic \/odom --reference-topic '\/vicon\/robot 1' --rule nav2$/m,
   ]) assert.match(listed, line);
   for (const [role, other] of [['odometry', 'reference'], ['reference', 'odometry']]) {
@@ -318,6 +318,9 @@ test('inspect lists what is in a file, and the command to go on with', async () 
   const byOrder = 'b.csv is taken as the odometry and a.csv as the reference, by their order: neither name says which is which.\n';
   assert.ok((await inspected([a, b])).endsWith(`\n${byOrder}\n  npx motion-widgets calibrate --odometry DIR/b.csv --reference DIR/a.csv --rule nav2\n`));
   assert.equal((await outputOf([a, b, '--json'])).err, byOrder);
+  const millimetres = file('mm.csv', readFileSync(example('reference'), 'utf8').replaceAll(/^([\d.]+),([\d.e-]+),([\d.e-]+)/gm, (_, t, x, y) => [t, 1000 * x, 1000 * y].join(',')));
+  assert.match(await inspected([millimetres], 2), /^mm\.csv: in m, the robot would drive at .* Choose with --length-unit, as in --length-unit /m);
+  assert.match(await inspected([millimetres, '--length-unit', 'mm']), /^ {2}npx motion-widgets calibrate --odometry DIR\/mm\.csv --reference FILE --length-unit mm --rule nav2$/m);
   const positions = file('positions.csv', ['t,odom_x,odom_y,odom_yaw,gt_x,gt_y', ...Array.from({ length: 40 }, (_, i) => `${i / 20},${i / 40},0,0,${i / 40},1`)].join('\n'));
   const { recordings: [{ series }], ...contents } = JSON.parse(await inspected([positions, '--json'], 2));
   assert.deepEqual(series.map((/** @type {any} */ { name, rows, uses, summary }) => [name, rows, uses, summary?.seconds]), [['odom_', 40, ['odometry'], 1.95], ['gt_', 0, [], undefined]]);

@@ -6,6 +6,7 @@ import { english } from '../logs/en.ts';
 import { LogError } from '../logs/log-error.ts';
 import { ROLES, framesOption, framesText, type Choice, type Log, type Recording, type Role, type Summary } from '../logs/log.ts';
 import { summarize } from '../logs/summary.ts';
+import { adviceOf } from './advice.ts';
 import { aligned } from './report.ts';
 
 const FORMATS: Partial<Record<Recording['format'], string>> = { mcap: 'MCAP recording', rosbag: 'ROS 1 bag', sqlite: 'rosbag2 SQLite recording', csv: 'table', tum: 'TUM table' };
@@ -31,22 +32,31 @@ export interface Inspected {
 /** Recording with the path by which it was given. */
 export interface Given { recording: Recording; path: string }
 
-/** Returns the contents of recordings, with the logs that could be odometry or reference. */
-export async function inspect(given: Given[], onProgress?: (share: number | undefined) => void): Promise<Inspected> {
+/**
+ * Returns the contents of recordings, with the logs that could be odometry or reference.
+ *
+ * @param stated options about units and columns, which the command needs too
+ */
+export async function inspect(given: Given[], stated: [name: string, value: string][], onProgress?: (share: number | undefined) => void): Promise<Inspected> {
   const recordings: Contents[] = [];
   for (const { recording } of given) recordings.push(await contentsOf(recording, onProgress));
   onProgress?.(undefined);
   const isRefused = recordings.some(({ series, refused }) => refused.length > 0 && !series.some(({ summary }) => summary));
-  return { recordings, ...(isRefused ? {} : nextOf(given)) };
+  return { recordings, ...(isRefused ? {} : nextOf(given, stated)) };
 }
 
 async function contentsOf(recording: Recording, onProgress?: (share: number | undefined) => void): Promise<Contents> {
   const { name, format } = recording;
-  const uses = new Map(recording.series.map(({ name: its }) => [its, usesOf(recording, its)]));
-  const { logs, reasons } = await read(recording, usefulSeries(recording).filter(({ name: its, kind }) => kind !== 'transforms' && uses.get(its)?.length).map(({ name: its }) => its), onProgress);
-  const series = recording.series.map(({ name: its, type, count }) => {
-    const log = logs.get(its);
-    return { name: its, type, rows: log?.summary.rows ?? count, uses: uses.get(its) ?? [], ...(log && { summary: log.summary, sentences: summarize(log, english.found) }) };
+  // Each chain of transforms that could be a log has its own entry.
+  const entries = recording.series.flatMap((each) => {
+    const usable: { choice?: Choice; uses: string[] }[] = usesOf(recording, each.name);
+    return (usable.length > 0 ? usable : [{ uses: [] }]).map((use) => ({ ...each, ...use }));
+  });
+  const { logs, reasons } = await read(recording, entries.flatMap(({ choice }) => choice ?? []), onProgress);
+  const series = entries.map(({ name: its, type, count, uses, choice }) => {
+    const log = choice && logs.get(choice);
+    const label = choice?.frames ? `${its} (${framesText(choice.frames)})` : its;
+    return { name: label, type, rows: log?.summary.rows ?? count, uses, ...(log && { summary: log.summary, sentences: summarize(log, english.found) }) };
   });
   return { name, format, series, refused: reasons };
 }
@@ -61,31 +71,40 @@ export function textOf({ recordings, missing, command }: Inspected): string {
   return [...lines, ...(missing ? [missing] : []), ...(command ? ['', `  ${command}`] : []), ''].join('\n');
 }
 
-/** Returns texts about the roles that a series could have. */
-function usesOf(recording: Recording, name: string): string[] {
-  const choices = (role: Role, kind?: 'commands') => candidates(recording, role, { kind }).flat().filter((choice) => choice.series === name && (!kind || choice.kind === kind));
-  const frames = ([first]: Choice[]) => (first.frames ? ` ${framesText(first.frames)}` : '');
-  const [odometry, commands, reference] = [choices('odometry'), choices('odometry', 'commands'), choices('reference')];
-  return [
-    ...(odometry.length ? [`odometry${frames(odometry)}`] : commands.length ? ['odometry (commands)'] : []),
-    ...(reference.length ? [`reference${frames(reference)}${isLocalizer(name, reference[0].frames) ? ' (a localizer)' : ''}`] : []),
-  ];
+/** Returns the logs that a series could be, several for transforms, each with texts about its roles. */
+function usesOf(recording: Recording, name: string): { choice: Choice; uses: string[] }[] {
+  if (!usefulSeries(recording).some((each) => each.name === name)) return [];
+  const found = new Map<string, { choice: Choice; uses: string[] }>();
+  const add = (role: Role, kind?: 'commands') => {
+    for (const { series, frames, kind: its } of candidates(recording, role, { kind }).flat()) {
+      if (series !== name || (kind && its !== kind)) continue;
+      const use = role === 'odometry' ? `odometry${kind ? ' (commands)' : ''}` : `reference${isLocalizer(name, frames) ? ' (a localizer)' : ''}`;
+      const key = frames ? framesText(frames) : '';
+      const known = found.get(key) ?? { choice: { series, ...(frames && { frames }) }, uses: [] };
+      if (!known.uses.some((each) => each.startsWith(role))) known.uses.push(use);
+      found.set(key, known);
+    }
+  };
+  add('odometry');
+  add('odometry', 'commands');
+  add('reference');
+  return [...found.values()];
 }
 
-/** Reads series in one pass, or one by one if any is refused. */
-async function read(recording: Recording, names: string[], onProgress?: (share: number) => void): Promise<{ logs: Map<string, Log>; reasons: string[] }> {
-  const logs = new Map<string, Log>();
+/** Reads logs in one pass, or one by one if any is refused. */
+async function read(recording: Recording, choices: Choice[], onProgress?: (share: number) => void): Promise<{ logs: Map<Choice, Log>; reasons: string[] }> {
+  const logs = new Map<Choice, Log>();
   const reasons: string[] = [];
-  const readAll = async (some: string[]) => {
+  const readAll = async (some: Choice[]) => {
     try {
-      for (const [i, log] of (await recording.read(some.map((series) => ({ series })), onProgress)).entries()) logs.set(some[i], log);
+      for (const [i, log] of (await recording.read(some, onProgress)).entries()) logs.set(some[i], log);
     } catch (error) {
       if (!(error instanceof LogError)) throw error;
-      if (some.length === 1) reasons.push(error.message);
+      if (some.length === 1) reasons.push(`${error.message}${adviceOf(error)}`);
       else for (const one of some) await readAll([one]);
     }
   };
-  if (names.length > 0) await readAll(names);
+  if (choices.length > 0) await readAll(choices);
   return { logs, reasons };
 }
 
@@ -94,10 +113,11 @@ export const byOrder = ({ unpaired: { odometry: [first], reference: [second] } }
   `${first.recording.name} is taken as the odometry and ${second.recording.name} as the reference, by their order: neither name says which is which.`;
 
 /** Returns the command that calibrates from the recordings, or a sentence about missing logs. */
-function nextOf(given: Given[]): Pick<Inspected, 'command' | 'missing'> {
+function nextOf(given: Given[], stated: [name: string, value: string][]): Pick<Inspected, 'command' | 'missing'> {
   const quoted = (text: string) => (/^[\w./,@%+=:-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`);
   const pathOf = ({ recording }: Pick<Part, 'recording'>) => quoted(given.find((each) => each.recording === recording)?.path ?? recording.name);
-  const command = (...options: string[]) => ['npx motion-widgets calibrate', ...new Set(options), '--rule nav2'].join(' ');
+  const units = stated.map(([name, value]) => `--${name} ${quoted(value)}`);
+  const command = (...options: string[]) => ['npx motion-widgets calibrate', ...new Set(options), ...units, '--rule nav2'].join(' ');
   const all = given.map(({ recording }) => pathOf({ recording }));
   try {
     const plan = planDrives(given.map(({ recording }) => recording));
@@ -112,10 +132,12 @@ function nextOf(given: Given[]): Pick<Inspected, 'command' | 'missing'> {
     if (!(error instanceof LogError)) throw error;
     const missing = error.message;
     const role = error.ask?.role ?? ROLES.find((each) => given.some(({ recording }) => candidates(recording, each).some(({ length }) => length > 0)));
+    // The odometry is chosen first.
+    const open = error.ask?.role === 'reference' ? ['reference'] : ROLES;
     switch (error.ask?.what) {
       case 'other': return { missing, ...(role && { command: command(`--${role} ${pathOf(given[0])}`, role === 'odometry' ? '--reference FILE' : '--odometry FILE') }) };
-      case 'series': return { missing, command: command(...all, '--odometry-topic NAME', '--reference-topic NAME') };
-      case 'frames': return { missing, command: command(...all, '--odometry-frames PARENT,CHILD', '--reference-frames PARENT,CHILD') };
+      case 'series': return { missing, command: command(...all, ...open.map((each) => `--${each}-topic NAME`)) };
+      case 'frames': return { missing, command: command(...all, ...open.map((each) => `--${each}-frames PARENT,CHILD`)) };
       default: return { missing };
     }
   }

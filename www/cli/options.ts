@@ -100,7 +100,13 @@ export interface Calibrate {
   plot: string | undefined;
 }
 
-interface Inspect { command: 'inspect'; inputs: Input[]; isJson: boolean }
+interface Inspect {
+  command: 'inspect';
+  inputs: Input[];
+  /** Options about units and columns. */
+  stated: [name: string, value: string][];
+  isJson: boolean;
+}
 
 /** Parses the arguments; throws a UsageError. */
 export function optionsOf(args: string[]): Calibrate | Inspect | 'help' | 'version' {
@@ -114,7 +120,8 @@ export function optionsOf(args: string[]): Calibrate | Inspect | 'help' | 'versi
     if (all.length === 0) throw new UsageError('inspect needs a file or folder: npx motion-widgets inspect run.bag');
     const other = Object.keys(values).find((name) => !INSPECT_OPTIONS.includes(name));
     if (other !== undefined) throw new UsageError(`--${other} is an option of calibrate; inspect has ${alternatives(INSPECT_OPTIONS.map((name) => `--${name}`))}.`);
-    return { command, inputs: all.map((path) => ({ path, open: open() })), isJson: values.json ?? false };
+    const stated = Object.entries(values).filter((each): each is [string, string] => typeof each[1] === 'string');
+    return { command, inputs: all.map((path) => ({ path, open: open() })), stated, isJson: values.json ?? false };
   }
   if (command !== 'calibrate') throw new UsageError(`the command must be calibrate or inspect (got “${cut(command ?? '')}”); --help has examples.`);
   const number = (name: 'update-min-d' | 'update-min-a' | 'duration' | 'reference-position-std' | 'reference-yaw-std') => {

@@ -4,9 +4,9 @@ import { writeFile } from 'node:fs/promises';
 import { planDrives, readDrives, type Drive } from '../logs/drives.ts';
 import { english } from '../logs/en.ts';
 import { LogError, cut } from '../logs/log-error.ts';
-import { UNITS } from '../logs/log.ts';
 import { logOf } from '../logs/pairs.ts';
 import { summarize } from '../logs/summary.ts';
+import { adviceOf } from './advice.ts';
 import { recordingsOf } from './files.ts';
 import { byOrder, inspect, textOf as textOfContents, type Given } from './inspect.ts';
 import { HELP, UsageError, optionsOf, withOption, type Calibrate } from './options.ts';
@@ -39,7 +39,7 @@ export async function run(args: string[], environment: Environment): Promise<num
     else if (options.command === 'inspect') {
       const given: Given[] = [];
       for (const input of options.inputs) for (const recording of await recordingsOf(input, onSkip)) given.push({ recording, path: input.path });
-      const contents = await inspect(given, onProgress);
+      const contents = await inspect(given, options.stated, onProgress);
       print(options.isJson ? `${JSON.stringify(contents, undefined, 1)}\n` : textOfContents(contents));
       if (contents.command === undefined) return BAD_INPUT;
     } else return await calibrate(options, environment, onSkip);
@@ -50,21 +50,6 @@ export async function run(args: string[], environment: Environment): Promise<num
     complain(`${error.message}${error instanceof LogError ? adviceOf(error) : ''}\n`);
     return BAD_INPUT;
   }
-}
-
-/** Returns a sentence with the option that answers the question of an error. */
-function adviceOf({ ask, message }: LogError): string {
-  if (!ask || message.includes(' --')) return '';
-  const { what, role = 'odometry', choices } = ask;
-  if (what === 'other') return ' Name both, with --odometry FILE and --reference FILE.';
-  const option = { series: `--${role}-topic`, frames: `--${role}-frames`, columns: '--columns', timeUnit: '--time-unit', lengthUnit: '--length-unit', angleUnit: '--angle-unit', roles: '--odometry and --reference' }[what];
-  if (what in UNITS) {
-    const [usual, ...others] = UNITS[what as keyof typeof UNITS];
-    const unit = choices.find((each) => each !== usual) ?? others[others.length - 1];
-    return ` Choose with ${option}, as in ${option} ${unit}, or ${option} ${usual},${unit} where odometry and reference differ.`;
-  }
-  const [first] = choices.length > 0 ? choices.filter(Boolean) : what === 'columns' ? ['t,x,y,yaw'] : [];
-  return ` Choose with ${option}${first === undefined ? '' : `, as in ${option} ${cut(first)}`}.`;
 }
 
 async function calibrate({ inputs, wishes, fit, output, plot }: Calibrate, { load, print, complain, onProgress, isColored = false, now = new Date() }: Environment, onSkip: (reason: string) => void): Promise<number> {

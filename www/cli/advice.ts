@@ -1,0 +1,19 @@
+/** Options that answer the questions of errors. */
+
+import { LogError, cut } from '../logs/log-error.ts';
+import { UNITS } from '../logs/log.ts';
+
+/** Returns a sentence with the option that answers the question of an error. */
+export function adviceOf({ ask, message }: LogError): string {
+  if (!ask || message.includes(' --')) return '';
+  const { what, role = 'odometry', choices } = ask;
+  if (what === 'other') return ' Name both, with --odometry FILE and --reference FILE.';
+  const option = { series: `--${role}-topic`, frames: `--${role}-frames`, columns: '--columns', timeUnit: '--time-unit', lengthUnit: '--length-unit', angleUnit: '--angle-unit', roles: '--odometry and --reference' }[what];
+  if (what in UNITS) {
+    const [usual, ...others] = UNITS[what as keyof typeof UNITS];
+    const unit = choices.find((each) => each !== usual) ?? others[others.length - 1];
+    return ` Choose with ${option}, as in ${option} ${unit}; if odometry and reference differ, with --odometry FILE --reference FILE ${option} ${usual},${unit}.`;
+  }
+  const [first] = choices.length > 0 ? choices.filter(Boolean) : what === 'columns' ? ['t,x,y,yaw'] : [];
+  return ` Choose with ${option}${first === undefined ? '' : `, as in ${option} ${cut(first)}`}.`;
+}

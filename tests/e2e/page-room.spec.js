@@ -64,13 +64,16 @@ test('a title and a caption move nothing when the script comes', async ({ page }
   expect(await top()).toBe(before);
 });
 
-testEach('a figure is no wider than the column of a book or a screen, and at most a third higher than a screen', async (page, name) => {
+testEach('a figure is no wider than a phone, the column of a book or a screen, also in a wide font, and at most a third higher than a screen', async (page, name) => {
   const widget = await mount(page, name, { head: '<style>body { margin: 0 }</style>' });
   await expect(widget.locator('.folds')).toBeVisible();
-  for (const width of [640, 1280]) {
+  for (const width of [375, 480, 640, 900, 1280]) {
     await page.setViewportSize({ width, height: 720 });
-    await frames(page);
-    expect.soft((await boxOf(widget)).height / 720, `${width} px`).toBeLessThanOrEqual(4 / 3);
-    expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBeLessThanOrEqual(width);
+    for (const spacing of ['0.1em', '0']) {
+      await page.evaluate((letterSpacing) => void Object.assign(document.body.style, { letterSpacing }), spacing);
+      await frames(page);
+      expect.soft(await page.evaluate(() => document.documentElement.scrollWidth), `${width} px, ${spacing}`).toBeLessThanOrEqual(width);
+    }
+    if (width >= 640) expect.soft((await boxOf(widget)).height / 720, `${width} px`).toBeLessThanOrEqual(4 / 3);
   }
 }, FRESH);

@@ -44,13 +44,13 @@ export const sliderStyles = css`
   /* In wide figures the label, the track and the value are in one row. Fixed column widths align the sliders of all groups. */
   @container (min-width: 56em) {
     .slider {
-      grid-template: 'pick name track value' auto / auto 14em 1fr 5.5em;
+      grid-template: 'pick name track value' auto / auto 14em 1fr minmax(5.5em, max-content);
       align-items: center;
       column-gap: 0.5em;
     }
 
     .slider:not(:has(> .choice)) {
-      grid-template: 'name track value' auto / 14em 1fr 5.5em;
+      grid-template: 'name track value' auto / 14em 1fr minmax(5.5em, max-content);
     }
   }
 

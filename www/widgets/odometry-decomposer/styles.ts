@@ -105,7 +105,7 @@ export const styles = css`
   }
 
   .rules :is(td, thead th:not(:first-child)) {
-    padding-inline: 0.54em;
+    padding-inline: clamp(0.05em, 4cqi - 1.1em, 0.54em);
   }
 
   /* The table needs room too. */

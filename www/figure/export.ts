@@ -29,27 +29,27 @@ const PNG_RATIO = 2;
 /** Size in CSS pixels of a figure without layout, such as in a hidden tab panel. */
 const SIZE = { width: 720, height: 432 };
 
-/** Draws the picture in its size and font on the page, with `ratio` pixels per CSS pixel. */
-function drawOn({ scene, pictures: [first], exportPicture, stage, colours }: Figure, ratio: number, makeContext: (size: { width: number, height: number }) => unknown) {
+/** Draws the picture in its size and font on the page, with `ratio` pixels per CSS pixel. Returns the size in pixels and the view. */
+function draw({ scene, pictures: [first], exportPicture, stage, colours }: Figure, ratio: number, contextOf: (size: { width: number, height: number }) => unknown) {
   const picture = exportPicture ?? first;
   const canvas = stage.canvasOf(first);
   const box = canvas.clientWidth > 0 ? canvas.getBoundingClientRect() : SIZE;
   const [clientWidth, height] = exportPicture ? inCss(exportPicture.size, canvas) : [box.width, box.height];
   const size = { width: Math.round(ratio * clientWidth), height: Math.round(ratio * height) };
-  const context = makeContext(size) as CanvasRenderingContext2D;
-  const surface = { ...size, clientWidth, letters: getComputedStyle(canvas), getContext: () => context };
+  const surface = { ...size, clientWidth, letters: getComputedStyle(canvas), context: contextOf(size) as CanvasRenderingContext2D };
   picture.draw(surface, scene, colours.palette, { still: true, atOnce: true, exported: true });
-  return { context, view: picture.view, ...size };
+  return { view: picture.view, ...size };
 }
 
 /** Returns a PNG image with the background. */
 export async function pngOf(element: Figure): Promise<Blob> {
   const image = document.createElement('canvas');
-  const { context, width, height } = drawOn(element, PNG_RATIO, (size) => Object.assign(image, size).getContext('2d'));
+  const context = image.getContext('2d') as CanvasRenderingContext2D;
+  draw(element, PNG_RATIO, (size) => Object.assign(image, size) && context);
   context.resetTransform();
   context.globalCompositeOperation = 'destination-over';
   context.fillStyle = element.colours.palette.paper;
-  context.fillRect(0, 0, width, height);
+  context.fillRect(0, 0, image.width, image.height);
   return new Promise((resolve, reject) => {
     image.toBlob((blob) => (blob ? resolve(blob) : reject(new Error('The browser makes no PNG image of it.'))));
   });
@@ -68,7 +68,7 @@ export function svgOf(element: Figure) {
   const { settings, description } = element.exportData;
   const name = `figure-${hash(settingsText(element, settings))}`;
   const svg = new SvgContext(name);
-  const { view, width, height } = drawOn(element, 1, () => svg);
+  const { view, width, height } = draw(element, 1, () => svg);
   return `<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height}" viewBox="0 0 ${short(view.width)} ${short(view.height)}" direction="ltr" role="img" aria-labelledby="${name}-title ${name}-text">
 <title id="${name}-title">${escaped(nameOf(element))}</title>
 <desc id="${name}-text">${escaped(description)}</desc>
@@ -97,8 +97,7 @@ export function save(name: string, blob: Blob) {
 export function exportButtons(element: Figure, mark: string | number, csvTitle: string = words.exports.csvTitle) {
   const say = words.exports;
   const name = `${element.localName}-${mark}`;
-  const text = (ending: string, type: string, content: string) =>
-    save(`${name}.${ending}`, new Blob([content], { type }));
+  const text = (ending: string, type: string, content: string) => save(`${name}.${ending}`, new Blob([content], { type }));
   return html`<fieldset class="exports" part="exports">
     <legend>${say.label}</legend>
     <div class="buttons">

@@ -233,7 +233,7 @@ export class Stage extends FigureController {
   #surfaceOf(canvas: HTMLCanvasElement): Surface {
     const { width, height } = canvas;
     const clientWidth = this.#widths.get(canvas) ?? canvas.clientWidth;
-    return { width, height, clientWidth, letters: getComputedStyle(canvas), getContext: (kind) => canvas.getContext(kind) };
+    return { width, height, clientWidth, letters: getComputedStyle(canvas), context: canvas.getContext('2d') as CanvasRenderingContext2D };
   }
 
   canvasOf({ name }: AnyPicture) {

@@ -9,7 +9,7 @@ export interface Surface {
   clientWidth: number;
   /** Font of the style. */
   letters: { fontFamily: string, fontSize: string };
-  getContext: (kind: '2d') => CanvasRenderingContext2D | null;
+  context: CanvasRenderingContext2D;
 }
 
 /** Box of a text in a picture: its middle, and half of its sides, pixels. */
@@ -61,11 +61,9 @@ export function hiddenContext(canvas: OffscreenCanvas) {
 }
 
 /** Clears a canvas, sets the view to its size, and returns the brush for pictures. */
-export function brushOn(canvas: Surface, view: import('./view.ts').View, palette: import('../ui/theme.ts').Palette) {
-  const { fontFamily, fontSize } = canvas.letters;
-  const ratio = ((canvas.width / Math.max(1, canvas.clientWidth)) * parseFloat(fontSize)) / LETTERS;
-  view.resize(canvas.width / ratio, canvas.height / ratio);
-  const context = canvas.getContext('2d') as CanvasRenderingContext2D;
+export function brushOn({ width, height, clientWidth, letters: { fontFamily, fontSize }, context }: Surface, view: import('./view.ts').View, palette: import('../ui/theme.ts').Palette) {
+  const ratio = ((width / Math.max(1, clientWidth)) * parseFloat(fontSize)) / LETTERS;
+  view.resize(width / ratio, height / ratio);
   context.setTransform(ratio, 0, 0, ratio, 0, 0);
   context.clearRect(0, 0, view.width, view.height);
   // In right-to-left languages numbers and units stay in the order of the text.

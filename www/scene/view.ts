@@ -120,9 +120,9 @@ export class View {
 
   /** Returns both ends, in pixels, of a line from a pose in its heading, with a length in pixels. */
   ray({ x, y, theta }: { x: number, y: number, theta: number }, length: number): [from: [x: number, y: number], to: [x: number, y: number]] {
-    const [fromX, fromY] = this.toPixel(x, y);
+    const from = this.toPixel(x, y);
     const ahead = this.direction(theta);
-    return [[fromX, fromY], [fromX + length * ahead.x, fromY + length * ahead.y]];
+    return [from, [from[0] + length * ahead.x, from[1] + length * ahead.y]];
   }
 
   /** Sets the target of the view, which stays if it contains `needed`. Otherwise the view zooms out. A released view may also zoom in. */
@@ -146,39 +146,31 @@ export class View {
     if (!target || target === this.extent) return false;
     const share = atOnce ? 1 : 1 - Math.exp(-elapsed / EASING);
     const next = { ...this.extent };
-    for (const key of (Object.keys(next) as (keyof Extent)[])) {
-      next[key] += share * (target[key] - next[key]);
-    }
+    for (const key of Object.keys(next) as (keyof Extent)[]) next[key] += share * (target[key] - next[key]);
     const pixels = Math.abs(next.xMin - target.xMin) + Math.abs(next.xMax - target.xMax);
     const arrived = pixels * this.scaleX < 0.5;
     this.extent = arrived || atOnce ? target : next;
     return this.extent !== target;
   }
 
+  /** Returns true if the needed part of the world fills enough of an extent. */
   #suits(shown: Extent, needed: Extent) {
-    const fillX = (needed.xMax - needed.xMin) / (shown.xMax - shown.xMin);
-    const fillY = (needed.yMax - needed.yMin) / (shown.yMax - shown.yMin);
-    const fill = this.#equal ? Math.max(fillX, fillY) : Math.min(fillX, fillY);
-    return isInside(needed, shown) && fill >= LOOSEST_FIT;
+    const fills = [(needed.xMax - needed.xMin) / (shown.xMax - shown.xMin), (needed.yMax - needed.yMin) / (shown.yMax - shown.yMin)];
+    return isInside(needed, shown) && Math[this.#equal ? 'max' : 'min'](...fills) >= LOOSEST_FIT;
   }
 
   /** Returns an extent around `room`, moved into the limits. Its size is rounded unless the view is snug. Equal scales determine its aspect ratio. */
   #cover(room: Extent) {
     const { left, right, top, bottom } = this.frame;
     const size = this.#snug ? (needed: number) => needed : niceSize;
-    let [width, height] = [room.xMax - room.xMin, room.yMax - room.yMin];
-    if (this.#equal) {
-      const aspect = (bottom - top) / (right - left);
-      width = size(Math.max(width, height / aspect));
-      height = width * aspect;
-    } else {
-      width = size(width);
-      height = size(height);
-    }
+    const aspect = (bottom - top) / (right - left);
+    const [roomX, roomY] = [room.xMax - room.xMin, room.yMax - room.yMin];
+    const width = size(this.#equal ? Math.max(roomX, roomY / aspect) : roomX);
+    const height = this.#equal ? width * aspect : size(roomY);
     const limits = this.within ?? { xMin: -Infinity, xMax: Infinity, yMin: -Infinity, yMax: Infinity };
     const x = movedInto((room.xMin + room.xMax) / 2, width, limits.xMin, limits.xMax);
     const y = movedInto((room.yMin + room.yMax) / 2, height, limits.yMin, limits.yMax);
-    return extentAround([x - width / 2, y - height / 2, x + width / 2, y + height / 2], 2);
+    return { xMin: x - width / 2, xMax: x + width / 2, yMin: y - height / 2, yMax: y + height / 2 };
   }
 }
 
@@ -219,8 +211,7 @@ export function extentAround(numbers: ArrayLike<number>, stride: number, around:
 
 /** Returns the smallest extent that contains points (x, y pairs), with a minimum width and height. */
 export function extentOf(points: number[], smallest: number) {
-  const box = extentAround(points, 2);
-  const marginX = Math.max(0, smallest - (box.xMax - box.xMin)) / 2;
-  const marginY = Math.max(0, smallest - (box.yMax - box.yMin)) / 2;
-  return extentAround([box.xMin - marginX, box.yMin - marginY, box.xMax + marginX, box.yMax + marginY], 2);
+  const { xMin, xMax, yMin, yMax } = extentAround(points, 2);
+  const [x, y] = [xMax - xMin, yMax - yMin].map((size) => Math.max(0, smallest - size) / 2);
+  return { xMin: xMin - x, xMax: xMax + x, yMin: yMin - y, yMax: yMax + y };
 }

@@ -179,16 +179,8 @@ export function plot({ label, x, y, curves, points = [], marks = [], slider, leg
   const [toX, toY] = [placing(x, LEFT, RIGHT), placing(y, BOTTOM, TOP)];
   return html`<div class="plotted" dir="ltr">
     <svg class="plot" viewBox="0 0 ${WIDTH} ${HEIGHT}" role="img" aria-label=${label} part="chart">
-      ${labelsOf(x, MOST_LABELS.x).map(
-        ([value, text]) => svg`
-          <line class="grid" x1=${toX(value)} x2=${toX(value)} y1=${TOP} y2=${BOTTOM} />
-          <text class="notranslate" translate="no" x=${toX(value)} y=${BOTTOM + 18} text-anchor="middle">${text}</text>`,
-      )}
-      ${labelsOf(y, MOST_LABELS.y).map(
-        ([value, text]) => svg`
-          <line class="grid" x1=${LEFT} x2=${RIGHT} y1=${toY(value)} y2=${toY(value)} />
-          <text class="notranslate" translate="no" x=${LEFT - 6} y=${toY(value) + 4} text-anchor="end">${text}</text>`,
-      )}
+      ${labelsOf(x, MOST_LABELS.x).map(([value, text]) => gridLine(toX(value), toX(value), TOP, BOTTOM, { x: toX(value), y: BOTTOM + 18, anchor: 'middle', text }))}
+      ${labelsOf(y, MOST_LABELS.y).map(([value, text]) => gridLine(LEFT, RIGHT, toY(value), toY(value), { x: LEFT - 6, y: toY(value) + 4, anchor: 'end', text }))}
       <text class="name" x=${RIGHT} y=${BOTTOM + 30} text-anchor="end">${x.name}</text>
       <text class="name" x="0" y="12">${y.name}</text>
       <svg x=${LEFT} y=${TOP} width=${RIGHT - LEFT} height=${BOTTOM - TOP} viewBox="${LEFT} ${TOP} ${RIGHT - LEFT} ${BOTTOM - TOP}">
@@ -209,6 +201,11 @@ export function plot({ label, x, y, curves, points = [], marks = [], slider, leg
     ${legend}
   `;
 }
+
+/** Returns a line of the grid with its label. */
+const gridLine = (x1: number, x2: number, y1: number, y2: number, { x, y, anchor, text }: { x: number, y: number, anchor: string, text: string }) => svg`
+  <line class="grid" x1=${x1} x2=${x2} y1=${y1} y2=${y2} />
+  <text class="notranslate" translate="no" x=${x} y=${y} text-anchor=${anchor}>${text}</text>`;
 
 /** Returns the class of a curve by its highlight. */
 const litOf = ({ lit }: Curve) => (lit === undefined ? '' : lit ? 'lit' : 'unlit');
@@ -241,24 +238,17 @@ function labelsOf({ from, to, logarithmic }: Axis, most: number): [value: number
   return exponents.map((exponent) => [10 ** exponent, powerOfTen(exponent)]);
 }
 
+/** Returns a curve as a path, with gaps. */
 function line({ x, y }: Curve, toX: (value: number) => number, toY: (value: number) => number) {
-  let path = '';
-  let drawn = false;
-  for (let i = 0; i < x.length; i++) {
-    const [atX, atY] = [toX(x[i]), toY(y[i])];
-    const isDefined = !Number.isNaN(atX + atY);
-    if (isDefined) path += `${drawn ? 'L' : 'M'}${atX.toFixed(2)},${atY.toFixed(2)}`;
-    drawn = isDefined;
-  }
-  return path;
+  const points = Array.from(x, (value, i) => (Number.isNaN(value + y[i]) ? '' : `${toX(value).toFixed(2)},${toY(y[i]).toFixed(2)}`));
+  return points.map((point, i) => point && `${points[i - 1] ? 'L' : 'M'}${point}`).join('');
 }
 
 /** Returns the outline of a curve's band as a path. */
 function band({ x, y, error = [] }: Curve, toX: (value: number) => number, toY: (value: number) => number) {
-  const defined = Array.from(x, (_, i) => i).filter((i) => !Number.isNaN(toX(x[i]) + toY(y[i]) + toY(error[i])));
+  const defined = Array.from(x, (_, i) => i).filter((i) => !Number.isNaN(x[i] + y[i] + error[i]));
   const edge = (side: number) => defined.map((i) => `${toX(x[i]).toFixed(2)},${toY(y[i] + side * error[i]).toFixed(2)}`);
-  const outline = [...edge(1), ...edge(-1).reverse()];
-  return outline.length > 0 ? `M${outline.join('L')}Z` : '';
+  return defined.length > 0 ? `M${[...edge(1), ...edge(-1).reverse()].join('L')}Z` : '';
 }
 
 /** Returns a mark with its text in a row, so that neighbours do not touch. */

@@ -142,6 +142,20 @@ test('topics and frames that cannot be read are refused', async () => {
   ])) assert.equal(await sentenceOf(readLog(source, choice)), sentence);
 });
 
+test('a transform that never changes holds from the beginning, and a moving one from its first message', async () => {
+  const messages = (/** @type {(i: number) => number} */ mounted) => Array.from({ length: 60 }, (_, i) => [
+    transform(i / 10, 'world', 'marker', i / 20, 0, 0),
+    ...(i % 3 === 0 && i >= 30 ? [transform(i / 10, 'marker', 'base', mounted(i), 0, 0)] : []),
+  ].map((each) => ({ topic: '/tf', type: TF, t: i / 10, message: { transforms: [each] } }))).flat();
+  const read = async (/** @type {(i: number) => number} */ mounted) => {
+    const { start, data, summary } = await readLog(file(await recordingOf(messages(mounted))), { series: '/tf', frames: { parent: 'world', child: 'base' } });
+    return [data.t.length, start + data.t[0], /** @type {any} */ (data).x[0], summary.rows];
+  };
+  assert.deepEqual(await read(() => 0.5), [60, 0, 0.5, 60]);
+  // The robot's pose is known from 3 s on, at the times of the link nearest to it.
+  assert.deepEqual(await read((i) => i / 100), [10, 3, 1.8, 10]);
+});
+
 test('positions without a heading are refused, by their type', async () => {
   const points = Array.from({ length: 20 }, (_, i) => ({
     topic: '/prism', type: 'geometry_msgs/msg/PointStamped', t: i / 10, message: { header: { stamp: stampOf(i / 10), frame_id: 'world' }, point: { x: i / 20, y: 0, z: 0 } },

@@ -82,6 +82,7 @@ export class FrameTree {
 /** Transform of one link of a chain, with its message. */
 interface TimedEdge {
   link: string;
+  isStatic: boolean;
   edge: Edge;
   message: Omit<Message, 'data'>;
   number: number;
@@ -93,10 +94,8 @@ export class Chain {
   readonly #ends: Frames;
   /** Names of the links, from the first to the last. */
   #links: string[] = [];
-  /** Transforms in the order of their messages. The first are the latest ones of all links at the time when the chain was complete. */
+  /** Transforms in the order of their messages: of all links, until those of the chain are known. */
   #samples: TimedEdge[] = [];
-  /** Latest transforms of links, until all links of the chain are known. */
-  #waiting = new Map<string, TimedEdge>();
 
   constructor({ parent, child }: Frames) {
     this.#ends = { parent: withoutSlash(parent), child: withoutSlash(child) };
@@ -105,14 +104,11 @@ export class Chain {
   /** Adds a transform. Static ones have to come first, because they hold at all times. */
   take(edge: Edge, isStatic: boolean, { channel, seconds, nanoseconds }: Message, number: number): void {
     this.tree.take(edge, isStatic);
-    const sample = { link: framesText(edge), edge, message: { channel, seconds, nanoseconds }, number };
-    if (this.isConnected) {
-      if (this.#links.includes(sample.link)) this.#samples.push(sample);
-      return;
-    }
-    this.#waiting.set(sample.link, sample);
+    const sample = { link: framesText(edge), isStatic, edge, message: { channel, seconds, nanoseconds }, number };
+    if (!this.isConnected || this.#links.includes(sample.link)) this.#samples.push(sample);
+    if (this.isConnected) return;
     this.#links = (this.tree.chain(this.#ends) ?? []).map(framesText);
-    for (const link of this.#links) this.#samples.push(this.#waiting.get(link) as TimedEdge);
+    if (this.isConnected) this.#samples = this.#samples.filter(({ link }) => this.#links.includes(link));
   }
 
   get isConnected(): boolean {
@@ -120,25 +116,34 @@ export class Chain {
   }
 
   /**
-   * Passes on the poses at the times of the moving transform that is nearest to the child, with the latest ones of all others.
+   * Passes on the poses at the times of the moving transform that is nearest to the child, with the latest ones of all others. A transform
+   * that never changes also holds before its first message.
    *
    * @returns false if no transform ever changes
    */
   poses(each: (reading: Sample, sample: TimedEdge) => void): boolean {
     const latest = new Map<string, Transform>();
     const moving = new Set<string>();
-    for (const { link, edge: { transform } } of this.#samples) {
+    const unknown = new Set<string>();
+    for (const { link, isStatic, edge: { transform } } of this.#samples) {
       const first = latest.get(link);
       if (!first) latest.set(link, transform);
-      else if (transform.some((value, i) => value !== first[i])) moving.add(link);
+      else if (transform.some((value, i) => value !== first[i])) {
+        moving.add(link);
+        if (!isStatic) unknown.add(link);
+      }
     }
     const nearest = this.#links.findLast((link) => moving.has(link));
     if (nearest === undefined) return false;
     const timeOf = ({ message: { seconds, nanoseconds } }: TimedEdge) => seconds + nanoseconds / 1e9;
+    let pending: TimedEdge | undefined;
     for (const sample of this.#samples.toSorted((one, other) => timeOf(one) - timeOf(other))) {
       latest.set(sample.link, sample.edge.transform);
-      if (sample.link !== nearest) continue;
-      each(poseOf(sample.edge, this.#links.map((link) => latest.get(link) as Transform).reduce(composed)), sample);
+      unknown.delete(sample.link);
+      if (sample.link === nearest) pending = sample;
+      if (!pending || unknown.size > 0) continue;
+      each(poseOf(pending.edge, this.#links.map((link) => latest.get(link) as Transform).reduce(composed)), pending);
+      pending = undefined;
     }
     return true;
   }

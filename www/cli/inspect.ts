@@ -3,7 +3,7 @@
 import { candidates, isLocalizer, isTable, usefulSeries } from '../logs/candidates.ts';
 import { planDrives, type Part, type Plan } from '../logs/drives.ts';
 import { english } from '../logs/en.ts';
-import { LogError } from '../logs/log-error.ts';
+import { LogError, cut } from '../logs/log-error.ts';
 import { ROLES, framesOption, framesText, type Choice, type Log, type Recording, type Role, type Summary } from '../logs/log.ts';
 import { summarize } from '../logs/summary.ts';
 import { adviceOf } from './advice.ts';
@@ -64,7 +64,7 @@ async function contentsOf(recording: Recording, onProgress?: (share: number | un
 /** Returns the contents as text. */
 export function textOf({ recordings, missing, command }: Inspected): string {
   const lines = recordings.flatMap(({ name, format, series, refused }) => {
-    const rows = series.map(({ name: its, type, rows: count, uses, summary }) => [its || '(all columns)', type, String(count || ''), summary ? `${summary.rate.toPrecision(3)} Hz` : '', uses.join(' or ')]);
+    const rows = series.map(({ name: its, type, rows: count, uses, summary }) => [its || '(all columns)', isTable({ format }) ? cut(type) : type, String(count || ''), summary ? `${summary.rate.toPrecision(3)} Hz` : '', uses.join(' or ')]);
     const found = series.flatMap(({ name: its, sentences = [] }) => sentences.map((line, i) => (i > 0 ? `  ${line}` : its ? `${its}: ${line}` : line)));
     return [`${name}: ${FORMATS[format] ?? format}`, ...[...aligned([[isTable({ format }) ? 'columns' : 'topic', 'type', 'rows', 'rate', 'could be'], ...rows]), ...found].map((line) => `  ${line}`), ...refused];
   });

@@ -45,7 +45,7 @@ const UNSUPPORTED_FORMATS: typeof import('./en.ts').UNSUPPORTED_FORMATS = {
   dataflash: 'ein ArduPilot-Log; mit „mavlogdump.py --format csv --types POS“ umwandeln.',
   pcap: 'ein Netzwerkmitschnitt; erwartet wird eine Aufzeichnung von „ros2 bag record“ oder „rosbag record“.',
   wal: 'das Journal einer SQLite-Datenbank; die .db3-Datei einmal mit „sqlite3“ öffnen, das es zurückschreibt, und diese angeben.',
-  zip: 'ein Zip-Archiv; entpacken und die Dateien darin angeben.',
+  zip: 'ein Zip-Archiv oder eine Arbeitsmappe (.xlsx, .ods); entpacken und die Dateien angeben, oder die Tabelle als CSV speichern.',
   gzip: 'mit gzip komprimiert; mit „gunzip“ dekomprimieren und das Ergebnis angeben.',
   bzip2: 'mit bzip2 komprimiert; mit „bunzip2“ dekomprimieren und das Ergebnis angeben.',
   xz: 'mit xz komprimiert; mit „unxz“ dekomprimieren und das Ergebnis angeben.',

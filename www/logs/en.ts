@@ -55,7 +55,7 @@ export const UNSUPPORTED_FORMATS = {
   dataflash: 'an ArduPilot log; convert it with “mavlogdump.py --format csv --types POS”.',
   pcap: 'a network capture; expected is a recording of “ros2 bag record” or “rosbag record”.',
   wal: 'the journal of an SQLite database; open the .db3 file once with “sqlite3”, which writes it back, and give that.',
-  zip: 'a zip archive; unzip it, and give the files in it.',
+  zip: 'a zip archive or a workbook (.xlsx, .ods); unzip it and give its files, or save the sheet as CSV.',
   gzip: 'compressed by gzip; decompress it with “gunzip”, and give the result.',
   bzip2: 'compressed by bzip2; decompress it with “bunzip2”, and give the result.',
   xz: 'compressed by xz; decompress it with “unxz”, and give the result.',

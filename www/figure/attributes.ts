@@ -15,7 +15,6 @@ export interface Converter {
 /** Settings of the machine, with pending changes, and the state of the element. */
 export type Config = Record<string, any>;
 
-/** Property of a figure. */
 export interface Property {
   /** Conversion of a property that is also an attribute. */
   converter?: Converter;
@@ -69,7 +68,6 @@ export const WORD_LIST: Converter = { parse: (text) => text.split(/\s/).filter(B
 /** Conversions of the types that fit into an attribute. Objects and arrays have none. */
 const CONVERTERS: Record<string, Converter> = { number: NUMBER, whole: NUMBER, word: WORD, boolean: BOOLEAN };
 
-/** Levels of headings in HTML. */
 export const HEADING_LEVELS = ['1', '2', '3', '4', '5', '6'] as const;
 
 /** Attributes of every figure. The default is the first word, or null if `nullable`. */
@@ -80,7 +78,6 @@ export const COMMON: Record<string, { words?: readonly string[], nullable?: true
   'heading-level': { words: HEADING_LEVELS, nullable: true, property: 'headingLevel' },
 };
 
-/** Returns the properties of declared settings. */
 export const propertiesOf = (declared: Declaration[]): Properties => Object.fromEntries(declared.map((setting) => [setting.key, propertyOf(setting)]));
 
 /** Returns the properties that are also attributes. */
@@ -120,10 +117,9 @@ const KEPT_BY_PRESETS = ['samples', 'seed'];
 
 /** Returns the configuration that a figure opens with: the defaults of its settings. */
 export function defaultConfig(declared: Declaration[]) {
-  const config: Record<string, any> = {};
-  for (const { key, in: group, field = key, index, of, type, default: value } of declared) {
-    if (group && index === undefined) config[group][field] = value;
-    else if (!group && !of) config[key] = type === 'group' ? {} : value;
+  let config: Config = {};
+  for (const setting of declared) {
+    if (!setting.of) config = { ...config, ...propertyOf(setting).change(setting.type === 'group' ? {} : setting.default, config) };
   }
   return config;
 }
@@ -131,15 +127,12 @@ export function defaultConfig(declared: Declaration[]) {
 /** Returns the attribute of a figure's presets. A preset sets all settings except samples and seed. Settings that it does not list get defaults. */
 export function presetsOf(presets: readonly ({ name: string } & Record<string, any>)[], declared: Declaration[]): Attribute {
   const words = presets.map(({ name }) => name);
+  const properties = propertiesOf(declared);
   const settings = presets.map(({ name: _, ...given }) => {
-    const config = defaultConfig(declared);
-    for (const [key, value] of Object.entries(given)) {
-      const { in: group, field = key } = declared.find((setting) => setting.key === key) as Declaration;
-      (group ? config[group] : config)[field] = value;
-    }
+    const config = Object.entries(given).reduce((all, [key, value]) => ({ ...all, ...properties[key].change(value, all) }), defaultConfig(declared));
     return Object.fromEntries(Object.entries(config).filter(([key]) => !KEPT_BY_PRESETS.includes(key)));
   });
-  const covered = Object.keys(attributesIn(propertiesOf(declared))).filter((key) => !KEPT_BY_PRESETS.includes(key));
+  const covered = Object.keys(attributesIn(properties)).filter((key) => !KEPT_BY_PRESETS.includes(key));
   return {
     converter: WORD,
     covers: () => covered,

@@ -10,7 +10,7 @@ import { FigureController } from './controller.ts';
 import { freeOnError } from './runtime.ts';
 import { isCalm } from './stage.ts';
 import type { Figure } from './figure.ts';
-import type { Values } from './state.ts';
+import type { Values } from './settings.ts';
 
 /** Number of samples of a machine, or of a reading of it. */
 interface Count {
@@ -19,7 +19,6 @@ interface Count {
   block: number;
 }
 
-/** A machine with a cloud. */
 export interface Growing extends Count {
   config: { samples: number, seed: number };
   /** Changes settings and shows the first block of `goal` samples. Returns all settings. */
@@ -28,7 +27,6 @@ export interface Growing extends Count {
   addSamples: (count: number) => number;
 }
 
-/** Number of steps of growth. */
 const STEPS = 150;
 
 /** Time for adding samples in a frame, ms. Together with the pictures a frame takes less than 50 ms. */
@@ -130,7 +128,6 @@ export class Cloud extends FigureController {
     return true;
   }
 
-  /** Returns the cloud's part of the state. */
   snapshot(): Values {
     return { shown: this.asked, playing: this.playing, marked: this.#isWanted ? this.index : null };
   }
@@ -195,7 +192,6 @@ export class Cloud extends FigureController {
     else if (isLast || !this.host.settings.stale) this.refine(isLast ? Infinity : FRAME_WORK);
   }
 
-  /** Adds one step of growth. */
   grow() {
     this.show(this.#latest.shown + this.#batch);
     if (!this.complete) return;

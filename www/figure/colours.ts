@@ -43,7 +43,6 @@ export class Colours extends FigureController {
     this.#palette = undefined;
   }
 
-  /** Returns an element of the rendered figure. */
   #find(selector: string) {
     return this.host.renderRoot?.querySelector(selector) as HTMLElement;
   }

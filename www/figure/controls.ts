@@ -115,7 +115,6 @@ export const check = (figure: Figure, key: string, label: unknown) =>
   toggle({ label, checked: figure.settings.wanted[key], change: (on) => figure.gesture.decide({ [key]: on }) });
 
 interface Disclosures {
-  /** Less common controls. */
   controls: () => unknown;
   /** Tables and charts. */
   numbers: () => unknown;
@@ -173,7 +172,6 @@ export function cloudControls(figure: Figure & { cloud: import('./cloud.ts').Clo
     ${figure.cloud.buttons(seedField(figure))}`, 'cloud');
 }
 
-/** Returns the field of the seed. */
 function seedField(figure: Figure) {
   const { settings, gesture } = figure;
   const refusal = settings.refusalOf('seed');
@@ -199,11 +197,9 @@ function seedField(figure: Figure) {
 interface SampleFieldOptions {
   id: string;
   label: string;
-  /** Number of samples shown. */
   shown: number;
   /** Text about the selected sample, if any. */
   selected: unknown;
-  /** Text if none is selected. */
   hint: string;
 }
 

@@ -22,7 +22,6 @@ export interface Definition {
   tag: string;
   /** Key of the widget's words in the catalogues. */
   messageKey: string;
-  /** Declared settings. */
   declared: Declaration[];
   properties: Properties;
   /** Properties that are also attributes. */
@@ -31,7 +30,6 @@ export interface Definition {
   own: Record<string, Own>;
   /** Appearance of the settings that have a slider. */
   sliderSpecs: Record<string, SliderSpec>;
-  /** Returns the defaults that depend on other settings. */
   dependentDefaults?: (config: Config) => Config;
 }
 
@@ -55,7 +53,6 @@ const cloudState: Record<string, Own> = {
   },
 };
 
-/** Returns the definition of a widget by its tag. */
 export function definitionOf(tag: string, { lines, opening = Object.keys(lines), preset, own: ofWidget, ...parts }: Parts): Definition {
   const declared = settings[tag];
   const widgetPresets = presets[tag as keyof typeof presets];

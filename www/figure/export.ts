@@ -15,7 +15,6 @@ export interface ExportData {
   settings: object;
   /** Names of the columns, with units. */
   columns: string[];
-  /** Returns the row of a sample. */
   row: (i: number) => number[];
   /** Number of samples. */
   count: number;

@@ -27,9 +27,8 @@ import { surface } from './surface.ts';
 import { CopyMenu, embedding } from './copy.ts';
 import { csvOf, pngOf, svgOf } from './export.ts';
 import type { FigureState, Motion } from '../types.d.ts';
-import type { Values } from './state.ts';
+import type { Values } from './settings.ts';
 
-/** Figure of any widget. */
 export type Figure = FigureElement<any, any>;
 
 addEnglish(en);
@@ -123,7 +122,6 @@ export class FigureElement<Machine extends { free(): void, stats: object, config
   #waiting: (() => void)[] = [];
   #updating: boolean | undefined;
 
-  /** Definition of the widget. */
   get definition() {
     return (this.constructor as typeof FigureElement).definition;
   }

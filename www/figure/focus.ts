@@ -6,7 +6,6 @@ import type { Figure } from './figure.ts';
 /** Elements that the Tab key stops at. */
 const STOPS = ':is(button, input, select, textarea):enabled:not([tabindex]), summary, [tabindex="0"]';
 
-/** Returns the visible elements that the Tab key stops at. */
 function stopsIn(root: ParentNode): HTMLElement[] {
   return ([...root.querySelectorAll(STOPS)] as HTMLElement[]).filter((stop) => stop.checkVisibility());
 }

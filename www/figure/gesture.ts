@@ -18,7 +18,6 @@ export class Gesture extends FigureController {
     return this.#press !== undefined;
   }
 
-  /** Begins a press. */
   press({ button }: PointerEvent) {
     if (button !== 0) return;
     this.#release();

@@ -53,7 +53,6 @@ export class Notice extends FigureController {
   /** Stops the work that is shown, if any. */
   #stop: (() => void) | undefined;
 
-  /** True if a sentence is shown. */
   get isShown() {
     return this.#sentence !== '';
   }

@@ -15,7 +15,7 @@ export class Presentation extends FigureController {
   /** True while the controls are shown. */
   #controls = false;
   /** State at the beginning; undefined if the figure opened in a presentation. */
-  #stateAtBegin: import('./state.ts').Values | undefined;
+  #stateAtBegin: import('./settings.ts').Values | undefined;
   /** Stops listening to keys; undefined while the figure is not presented. */
   #listening: AbortController | undefined;
 
@@ -100,18 +100,15 @@ export class Presentation extends FigureController {
     this.host.requestUpdate();
   }
 
-  /** Class of the surface while the controls are shown. */
   get className() {
     return this.#controls ? 'with-controls' : '';
   }
 
-  /** Returns the button that begins the presentation. */
   button() {
     const say = words.presentation;
     return button(say.begin, () => (this.host.presentation = true), { title: say.title, name: 'to-present' });
   }
 
-  /** Returns the buttons of a presentation, with their keys. */
   render() {
     if (!this.#listening) return nothing;
     const say = words.presentation;

@@ -21,7 +21,6 @@ export class Reflection extends FigureController {
   #pendingProperties: Map<unknown, { value?: unknown, apply: () => void }> = new Map();
   /** True from the first connection on: a figure that is moved keeps its settings. */
   #hasConnected = false;
-  /** True while this class writes attributes. */
   #isWriting = false;
   /** Attribute that is being applied; its text is not overwritten. */
   #incoming: string | undefined;
@@ -162,7 +161,6 @@ export class Reflection extends FigureController {
     return { ...defaultConfig(definition.declared), ...state.openings, ...definition.dependentDefaults?.(settings.wanted) };
   }
 
-  /** Returns the texts of all attributes in a configuration. */
   #textsOf(config: Config): Texts {
     return new Map(Object.entries(this.#attributes).map(([name, { converter, get }]) => [name, converter.print(get(config) ?? null)]));
   }

@@ -2,7 +2,7 @@
 
 import { FigureController } from './controller.ts';
 
-/** Settings by name. */
+/** Settings or a state as plain data. */
 export type Values = Record<string, any>;
 
 export class Settings extends FigureController {
@@ -72,7 +72,6 @@ export class Settings extends FigureController {
     this.host.requestUpdate();
   }
 
-  /** Returns the message on the refused text of a setting. */
   refusalOf(key: string): string | undefined {
     return this.#refusal?.key === key ? this.#refusal.message : undefined;
   }

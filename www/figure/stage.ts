@@ -32,7 +32,6 @@ export const isCalm = () => (calm ??= matchMedia('(prefers-reduced-motion: reduc
 const isShown = ({ width, height }: HTMLCanvasElement) => Math.min(width, height) > 0;
 
 export class Stage extends FigureController {
-  /** True while the figure is in the viewport. */
   inSight = false;
   #canvases: HTMLCanvasElement[] | undefined;
   /** Cached widths of the canvases in CSS pixels. Reading them in a frame would cause a reflow. */
@@ -45,11 +44,9 @@ export class Stage extends FigureController {
   isBehind = false;
   /** Time of the first picture that is newer than the text; undefined if the text is up to date. */
   #undescribedSince: number | undefined;
-  /** Id of the requested animation frame, if any. */
-  #request: number | undefined;
+  #frameRequest: number | undefined;
   /** Time of the request or, during an animation, of the previous frame. */
   #previousTime = 0;
-  /** True from before printing until after it. */
   printing = false;
   /** True during a callback of the size observer. Text is not rendered then, because it could change sizes again. */
   #resizing: boolean | undefined;
@@ -126,10 +123,10 @@ export class Stage extends FigureController {
   }
 
   #schedule() {
-    if (!this.host.machine || this.#request !== undefined) return;
+    if (!this.host.machine || this.#frameRequest !== undefined) return;
     this.#previousTime = performance.now();
-    this.#request = requestAnimationFrame((now) => {
-      this.#request = undefined;
+    this.#frameRequest = requestAnimationFrame((now) => {
+      this.#frameRequest = undefined;
       const elapsed = clamp(now - this.#previousTime, 0, MAX_TIME_STEP);
       if (!this.inSight) this.#updateUnseen();
       else if (this.#undrawn.size > 0) this.#drawNow(elapsed);

@@ -4,17 +4,13 @@ import { object, refusal, word } from './checks.ts';
 import { checked } from './definition.ts';
 import { FigureController } from './controller.ts';
 import { freeOnError } from './runtime.ts';
+import type { Values } from './settings.ts';
 
-/** Plain data with the fields of the widget. */
-export type Values = Record<string, any>;
-
-/** Version of the states. */
 const VERSION = 1;
 
 export class State extends FigureController {
   /** Last valid state. */
   kept: Values | undefined;
-  /** State that the figure opened with. */
   #opened: Values | undefined;
   #fields = this.host.definition.own;
   /** Defaults of the state that the machine does not have. */
@@ -27,7 +23,6 @@ export class State extends FigureController {
     return { ...this.host.settings.wanted, ...this.own };
   }
 
-  /** Fields that every widget's state has. */
   get common(): Values {
     return { widget: this.host.localName, version: VERSION, ...this.own };
   }

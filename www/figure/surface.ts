@@ -50,7 +50,6 @@ function placeholder(figure: Figure) {
   return html`<div class="reserved" tabindex="0" role="group" aria-label=${nameOf(figure)} @focus=${enter}></div>`;
 }
 
-/** Returns the page's elements in a slot. */
 const slotted = (figure: Figure, name: string) => [...figure.children].filter(({ slot }) => slot === name);
 
 /** Returns the name of a figure: the page's title, or the widget's own. */

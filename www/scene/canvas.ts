@@ -7,7 +7,6 @@ export interface Surface {
   height: number;
   /** Width in CSS pixels. */
   clientWidth: number;
-  /** Font of the style. */
   letters: { fontFamily: string, fontSize: string };
   context: CanvasRenderingContext2D;
 }
@@ -98,7 +97,6 @@ export function stroke(context: Context, { colour, width, dash = [] }: LineStrok
 /** Adds a line through points in pixels to the path. */
 export const addLine = (context: Context, points: number[][]) => points.forEach(([x, y], i) => (i ? context.lineTo(x, y) : context.moveTo(x, y)));
 
-/** Strokes a line through points in pixels. */
 export const strokeLine = (context: Context, points: number[][], style: LineStroke) => stroke(context, style, () => addLine(context, points));
 
 /** Draws a disc in pixels, filled, with an edge, or both. */

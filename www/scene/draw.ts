@@ -164,7 +164,6 @@ export function drawGhosts(brush: Brush, outlines: Outline[], from: ArrayLike<nu
   return at ? [{ text, at, colour: palette.muted }] : [];
 }
 
-/** Draws a single outline. */
 export function drawOutline(brush: Brush, points: Float64Array, style: LineStroke) {
   drawOutlines(brush, [{ points, ...style }]);
 }

@@ -8,7 +8,6 @@ interface HandleCallbacks {
   view: () => import('./view.ts').View;
   /** Returns the point (x, y) that a pointer at `pointer` grasps; by default the middle of the handle. */
   at?: (pointer: number[]) => number[] | undefined;
-  /** Moves the target to a point. */
   drag: (x: number, y: number) => void;
   /** Handles a key; returns true if it moved the target. */
   key: (event: KeyboardEvent) => boolean;
@@ -16,7 +15,6 @@ interface HandleCallbacks {
   commit: () => void;
 }
 
-/** Texts of a handle. */
 export interface HandleLabels {
   name: string;
   keys: string;

@@ -41,7 +41,6 @@ export class SvgContext {
     this.#name = name;
   }
 
-  /** Drawing as elements of SVG. */
   get markup() {
     return this.#marks.join('\n');
   }

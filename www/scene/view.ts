@@ -52,7 +52,6 @@ export class View {
     this.#inset = { left, right, top, bottom };
   }
 
-  /** Sets the size in CSS pixels. */
   resize(width: number, height: number) {
     if (width === this.width && height === this.height) return;
     this.width = width;
@@ -113,7 +112,6 @@ export class View {
     return { x: Math.cos(heading), y: -Math.sin(heading) };
   }
 
-  /** Returns a point of the world in pixels. */
   toPixel(x: number, y: number): [x: number, y: number] {
     return [this.toPixelX(x), this.toPixelY(y)];
   }
@@ -194,11 +192,10 @@ function niceSize(size: number): number {
   return step * decade;
 }
 
-/** Empty extent. */
-const NOWHERE: Readonly<Extent> = { xMin: Infinity, yMin: Infinity, xMax: -Infinity, yMax: -Infinity };
+const EMPTY_EXTENT: Readonly<Extent> = { xMin: Infinity, yMin: Infinity, xMax: -Infinity, yMax: -Infinity };
 
 /** Returns the smallest extent that contains points and the extent `around`. x and y are the first two of each `stride` numbers. */
-export function extentAround(numbers: ArrayLike<number>, stride: number, around: Extent = NOWHERE) {
+export function extentAround(numbers: ArrayLike<number>, stride: number, around: Extent = EMPTY_EXTENT) {
   const box = { ...around };
   for (let i = 0; i < numbers.length; i += stride) {
     box.xMin = Math.min(box.xMin, numbers[i]);

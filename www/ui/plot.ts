@@ -144,13 +144,11 @@ export interface Curve {
   lit?: boolean;
 }
 
-/** Measured value. */
 export interface Point {
   role: Role;
   x: number;
   /** Value; NaN if there is none. */
   y: number;
-  /** Standard error. */
   error: number;
 }
 
@@ -210,7 +208,6 @@ const gridLine = (x1: number, x2: number, y1: number, y2: number, { x, y, anchor
 /** Returns the class of a curve by its highlight. */
 const litOf = ({ lit }: Curve) => (lit === undefined ? '' : lit ? 'lit' : 'unlit');
 
-/** Returns the key of a chart. */
 function keyOf(curves: Curve[]) {
   return html`<ul class="plot-key" part="legend">
     ${curves.map(

@@ -232,7 +232,6 @@ interface Range {
 }
 
 export interface SliderRow extends Range {
-  /** Symbol before the name. */
   symbol?: unknown;
   name: unknown;
   /** Values of the slider, if they are not in equal steps. */
@@ -328,7 +327,6 @@ const untilTyped = directive(
   },
 );
 
-/** Returns the input field for the value of a slider. */
 function field({ id, keys, type, forget }: Pick<SliderRow, 'id' | 'keys' | 'type' | 'forget'>, shown: string) {
   /** Takes the typed text; returns true if it became the value. */
   const take = (input: HTMLInputElement): boolean => {

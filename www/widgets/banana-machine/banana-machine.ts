@@ -29,7 +29,7 @@ import { LINES, OVERLAYS, SAMPLE_COUNTS, definition, sliderSpecs } from './setti
 import { styles } from './styles.ts';
 import { announcementOf, calloutsOf, captionOf, floorTitle, planeText, skewText, twistCaption, twistText } from './words.ts';
 import type { BananaMachine as Machine, Inspection } from '../../types.d.ts';
-import type { Values } from '../../figure/state.ts';
+import type { Values } from '../../figure/settings.ts';
 
 /** Columns of a robot in a table: its end, its exponential coordinates, and the executed command. */
 const POSE_COLUMNS = ['x_m', 'y_m', 'theta_rad'];

@@ -4,7 +4,7 @@ use super::input::{Input, turn_of};
 use super::laws;
 use motion::calibrate::{
     CalibrateError, Calibration, Check, Drive, LegLength, MIN_LEGS, Model, Options, Outliers,
-    SystematicError, Trajectory, TrajectoryError, TrajectoryFault, Verdict, calibrate,
+    SystematicError, Trajectory, TrajectoryError, Verdict, calibrate,
 };
 use motion::geom::se2::SE2;
 use motion::models::OdometryRule;
@@ -151,12 +151,12 @@ fn trajectory(rows: &[Row], input: &mut Input) -> Option<Trajectory> {
             assert!((whole..=whole + breaks.len()).contains(&broken.gaps()));
             Some(broken)
         }
-        Err(TrajectoryError { sample, fault: TrajectoryFault::NotLater { before } }) => {
+        Err(TrajectoryError::NotLater { sample, before }) => {
             assert!(sample > 0 && rows[sample].0 <= before && rows[sample - 1].0 == before);
             None
         }
         // Poses after large commands may overflow.
-        Err(TrajectoryError { sample, fault: TrajectoryFault::NotFinite }) => {
+        Err(TrajectoryError::NotFinite { sample }) => {
             assert!(sample < rows.len());
             None
         }

@@ -9,6 +9,7 @@ use super::trajectory::median;
 use crate::geom::se2::wrap_angle;
 use crate::models::OdometryRule;
 use serde::{Deserialize, Serialize};
+use thiserror::Error;
 
 /// Overall judgement of a calibration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -21,42 +22,84 @@ pub enum Verdict {
     Unusable,
 }
 
-/// Names of the checks.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+/// Text of a failed check of windows.
+const FAILED_WINDOWS: &str = "Over windows of this length the fitted α's do not predict the error: it grows otherwise than they say. Recommended α's hold over 1 m: use them if the filter corrects its pose that often.";
+
+/// Names of the checks. The text of each is the meaning of a failure for the α's, and the remedy.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, Error)]
 #[serde(rename_all = "kebab-case")]
 pub enum CheckName {
     /// Median difference of the two motions over the median motion.
+    #[error(
+        "The reference is no other measurement of this drive. Either it does not follow the odometry: it is of another drive, has other units (degrees, millimetres) or a mirrored y axis, or its columns are swapped. Or it follows it exactly, as a copy does. The α's mean nothing. Compare both files row by row."
+    )]
     ReferenceMatches,
     /// Number of legs.
+    #[error(
+        "There are few legs, so the intervals are wide and the other checks weak. Drive on: a quarter of an hour of straight drives, arcs and turns on the spot."
+    )]
     EnoughLegs,
     /// Fraction of the legs that were lost.
+    #[error(
+        "Many legs were lost to gaps, breaks or a standing robot. The α's are those of the rest. Look at the counts by cause, and record without gaps."
+    )]
     LegsLost,
     /// Median length of a leg over the length that the options ask for.
+    #[error(
+        "Rows are too sparse for legs of this length: legs are longer than asked, and the α's belong to the longer ones. Record more often, or ask for longer legs."
+    )]
     SamplingDense,
     /// Fraction of outliers.
+    #[error(
+        "Many legs are outliers. The α's are those of the rest, and too small if the outliers are slip of the wheels. Look at the listed legs: a jump of the reference or slip?"
+    )]
     OutliersFew,
     /// Fraction of the legs in which the odometry moves sideways.
+    #[error(
+        "The odometry moves sideways: its positions are noisy, or its frame is off the axle. α₁ and α₄ are too small. Use odometry of the axle."
+    )]
     SidewaysRare,
     /// Difference of the distance scales of straight and turning legs, or of both halves: the larger one.
+    #[error(
+        "The odometry's scale of distances is not a constant, so it was not corrected unless asked for. Check wheel diameters, load and slip in turns; calibrate the wheels, then the noise."
+    )]
     DistanceScaleConstant,
     /// Difference of the turn scales of both halves.
+    #[error(
+        "The odometry's scale of turns is not a constant, so it was not corrected unless asked for. Check the track width and slip on this floor."
+    )]
     TurnScaleConstant,
     /// Inflation under which windows of 1 m are covered.
+    #[error(
+        "No inflation up to 30 covers the errors over 1 m: they are no noise of the wheels. Find their cause first: outliers that were kept, a reference that jumps, slip."
+    )]
     InflationBounded,
     /// Correlation of the innovations of neighbouring legs.
+    #[error(
+        "Errors of neighbouring legs are correlated: they persist over several legs, or a systematic error is left in. α's fitted to legs are too small for longer ways. Recommended α's allow for it."
+    )]
     ResidualsUncorrelated,
     /// Kurtosis of the innovations: 3 of normal ones, at least 1 of any, and less than 3 does no harm.
+    #[error(
+        "A few errors are much larger than normal noise has them. Intervals of the predicted pose are too narrow in the tails. Look at the largest residuals. Recommended α's allow for it."
+    )]
     TailsNormal,
     /// Fraction of the legs of each half inside of the 95 % region by the fit to the other half.
+    #[error(
+        "The α's of one half of the log do not fit the other: floor, load or speed changed. Calibrate for each condition. Recommended α's allow for it."
+    )]
     HoldoutCovered,
     /// Fraction of the windows of 1 m inside of their 95 % ellipsoid by the fit to the other half.
     #[serde(rename = "window-1m-covered")]
+    #[error("{FAILED_WINDOWS}")]
     Window1Covered,
     /// The same fraction of windows of 2 m.
     #[serde(rename = "window-2m-covered")]
+    #[error("{FAILED_WINDOWS}")]
     Window2Covered,
     /// The same fraction of windows of 5 m.
     #[serde(rename = "window-5m-covered")]
+    #[error("{FAILED_WINDOWS}")]
     Window5Covered,
 }
 
@@ -77,8 +120,8 @@ impl Check {
     }
 
     /// Returns the meaning for the α's of a check that failed, and the remedy; nothing where it passed.
-    pub fn message(&self) -> &'static str {
-        if self.passed { "" } else { self.name.failure() }
+    pub fn message(&self) -> String {
+        if self.passed { String::new() } else { self.name.to_string() }
     }
 }
 
@@ -109,53 +152,6 @@ impl Diagnostics {
     pub(super) fn too_few_legs() -> Self {
         let legs = Check::new(CheckName::EnoughLegs, 0.0, [SUFFICIENT_LEGS, f64::INFINITY]);
         Self { verdict: Verdict::Unusable, checks: vec![legs], windows: Vec::new() }
-    }
-}
-
-impl CheckName {
-    /// Returns the meaning of a failure for the α's, and the remedy.
-    fn failure(self) -> &'static str {
-        match self {
-            Self::ReferenceMatches => {
-                "The reference is no other measurement of this drive. Either it does not follow the odometry: it is of another drive, has other units (degrees, millimetres) or a mirrored y axis, or its columns are swapped. Or it follows it exactly, as a copy does. The α's mean nothing. Compare both files row by row."
-            }
-            Self::EnoughLegs => {
-                "There are few legs, so the intervals are wide and the other checks weak. Drive on: a quarter of an hour of straight drives, arcs and turns on the spot."
-            }
-            Self::LegsLost => {
-                "Many legs were lost to gaps, breaks or a standing robot. The α's are those of the rest. Look at the counts by cause, and record without gaps."
-            }
-            Self::SamplingDense => {
-                "Rows are too sparse for legs of this length: legs are longer than asked, and the α's belong to the longer ones. Record more often, or ask for longer legs."
-            }
-            Self::OutliersFew => {
-                "Many legs are outliers. The α's are those of the rest, and too small if the outliers are slip of the wheels. Look at the listed legs: a jump of the reference or slip?"
-            }
-            Self::SidewaysRare => {
-                "The odometry moves sideways: its positions are noisy, or its frame is off the axle. α₁ and α₄ are too small. Use odometry of the axle."
-            }
-            Self::DistanceScaleConstant => {
-                "The odometry's scale of distances is not a constant, so it was not corrected unless asked for. Check wheel diameters, load and slip in turns; calibrate the wheels, then the noise."
-            }
-            Self::TurnScaleConstant => {
-                "The odometry's scale of turns is not a constant, so it was not corrected unless asked for. Check the track width and slip on this floor."
-            }
-            Self::InflationBounded => {
-                "No inflation up to 30 covers the errors over 1 m: they are no noise of the wheels. Find their cause first: outliers that were kept, a reference that jumps, slip."
-            }
-            Self::ResidualsUncorrelated => {
-                "Errors of neighbouring legs are correlated: they persist over several legs, or a systematic error is left in. α's fitted to legs are too small for longer ways. Recommended α's allow for it."
-            }
-            Self::TailsNormal => {
-                "A few errors are much larger than normal noise has them. Intervals of the predicted pose are too narrow in the tails. Look at the largest residuals. Recommended α's allow for it."
-            }
-            Self::HoldoutCovered => {
-                "The α's of one half of the log do not fit the other: floor, load or speed changed. Calibrate for each condition. Recommended α's allow for it."
-            }
-            Self::Window1Covered | Self::Window2Covered | Self::Window5Covered => {
-                "Over windows of this length the fitted α's do not predict the error: it grows otherwise than they say. Recommended α's hold over 1 m: use them if the filter corrects its pose that often."
-            }
-        }
     }
 }
 

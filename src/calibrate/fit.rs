@@ -2,7 +2,7 @@
 //! the outliers on both.
 
 use super::alignment::clock_offset;
-use super::legs::{Leg, LostLegs, MIN_LEGS, split_into_legs};
+use super::legs::{Leg, LostLegs, MIN_LEGS};
 use super::likelihood::{POSITION_VARIANCE, Parameters, Residuals, Term, YAW_VARIANCE, identifiable_errors};
 use super::optimizer::{FreeMask, Maximum, maximize};
 use super::options::{CalibrateError, Drive, Options};
@@ -166,11 +166,10 @@ impl<'a> Log<'a> {
     /// Cuts all drives; `clock_offset` is that of the first.
     pub fn legs(&self, options: &Options, clock_offset: f64) -> (Vec<Leg>, LostLegs) {
         let (mut all, mut lost) = (Vec::new(), LostLegs::default());
-        for (drive, Drive { odometry, reference }) in self.drives.iter().enumerate() {
-            let offset = clock_offset + self.offsets[drive] - self.clock_offset();
-            let (legs, lost_here) = split_into_legs(odometry, reference, options.legs, offset);
-            all.extend(legs.into_iter().map(|leg| Leg { drive, ..leg }));
-            lost.add(&lost_here);
+        for (index, drive) in self.drives.iter().enumerate() {
+            let (offset, first) = (clock_offset + self.offsets[index] - self.clock_offset(), all.len());
+            drive.cut(options.legs, offset, &mut all, &mut lost);
+            all[first..].iter_mut().for_each(|leg| leg.drive = index);
         }
         (all, lost)
     }
@@ -192,8 +191,8 @@ pub(super) fn fit_systematic(log: &Log, options: &Options) -> Result<Fit, Calibr
     if legs.len() < MIN_LEGS {
         return Err(CalibrateError::TooFewLegs { legs: legs.len() });
     }
-    let mut systematic = Systematic { mount_yaw: Systematic::initial_mount_yaw(&legs), ..begun };
     let mut sample = Sample::thinned(&legs, [true; ERROR_COUNT], options);
+    let mut systematic = Systematic { mount_yaw: Systematic::initial_mount_yaw(&sample.legs), ..begun };
     let mut parameters: Option<Parameters> = None;
     for round in 1.. {
         let position_std =
@@ -204,7 +203,7 @@ pub(super) fn fit_systematic(log: &Log, options: &Options) -> Result<Fit, Calibr
         let gate = if parameters.is_some() { 1.0 } else { FIRST_ROUND_GATE_FACTOR };
         let mut is_settled = !sample.mark_outliers(&guess, gate, round) && round > 1;
         let (residuals, maximum) = sample.fit(guess)?;
-        let squares = &maximum.expansion.least_squares;
+        let squares = &maximum.expansion.filtered.least_squares;
         let before = systematic;
         for (i, error) in SystematicError::ALL.into_iter().enumerate() {
             if sample.estimated[i] {
@@ -219,7 +218,7 @@ pub(super) fn fit_systematic(log: &Log, options: &Options) -> Result<Fit, Calibr
         systematic.mount_yaw = wrap_angle(systematic.mount_yaw);
         if is_settled || round == MAX_ROUNDS {
             let length = (residuals.len() as f64).cbrt().ceil() as usize;
-            let sandwich = residuals.sandwich(&maximum.parameters, length);
+            let sandwich = maximum.expansion.filtered.sandwich(length);
             let std = |i: usize| squares.covariance[(i, i)].max(sandwich[(i, i)]).max(0.0).sqrt();
             let stds = std::array::from_fn(std);
             return Ok(Fit { sample, residuals, maximum, stds });

@@ -93,7 +93,7 @@ fn profile_end(
             residuals.least_squares(&parameters).log_likelihood
         };
         let best = ridges.iter().map(along).fold(f64::NEG_INFINITY, f64::max);
-        (2.0 * (maximum.expansion.least_squares.log_likelihood - best)).max(0.0).sqrt()
+        (2.0 * (maximum.expansion.log_likelihood() - best)).max(0.0).sqrt()
     };
     let mut distance = guess.max(-value);
     if distance == 0.0 {

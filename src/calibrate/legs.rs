@@ -97,13 +97,6 @@ impl LostLegs {
     pub fn total(&self) -> usize {
         self.without_reference + self.across_breaks + self.across_pauses + self.standing
     }
-
-    pub(super) fn add(&mut self, other: &Self) {
-        self.without_reference += other.without_reference;
-        self.across_breaks += other.across_breaks;
-        self.across_pauses += other.across_pauses;
-        self.standing += other.standing;
-    }
 }
 
 /// Distance (m) and turn (rad) of a leg above which its motion counts as a drive, and as a turn.
@@ -185,6 +178,66 @@ impl Drive<'_> {
         }
         Some(leg)
     }
+
+    /// Adds the legs of this drive, each beginning where the one before ended, and the numbers of those that were left out.
+    pub(super) fn cut(&self, length: LegLength, clock_offset: f64, legs: &mut Vec<Leg>, lost: &mut LostLegs) {
+        let Self { odometry, reference } = *self;
+        // Reading at which the present leg began, and its start if the reference has a pose there.
+        let mut start: Option<((f64, SE2), Option<End>)> = None;
+        let (mut follows, mut paused) = (false, false);
+        for (sample, (time, pose)) in odometry.samples().enumerate() {
+            if odometry.has_break_before(sample) && start.take().is_some() {
+                lost.across_breaks += 1;
+            }
+            let Some(((start_time, start_pose), from)) = start else {
+                start = Some(((time, pose), self.end_at(sample, clock_offset)));
+                (follows, paused) = (false, false);
+                continue;
+            };
+            paused |= odometry.has_gap_before(sample);
+            let ends = [start_pose, pose];
+            if !length.ends(&ends, time - start_time) {
+                continue;
+            }
+            let to = self.end_at(sample, clock_offset);
+            let (Some(from), Some(to)) = (from, to) else {
+                // The leg stays open until it is too long: the reference may come back.
+                if from.is_none() || length.ratio(&ends, time - start_time) > MAX_RATIO_ACROSS_PAUSE {
+                    lost.without_reference += 1;
+                    (start, follows) = (Some(((time, pose), to)), false);
+                }
+                continue;
+            };
+            // The nearest sample of a sparse reference may still be that at the start of the leg, which then stays open.
+            if to.time <= from.time {
+                continue;
+            }
+            start = Some(((time, pose), Some(to)));
+            let (has_paused, did_follow) =
+                (std::mem::take(&mut paused), std::mem::replace(&mut follows, true));
+            let motion = from.odometry.between(&to.odometry);
+            if reference.has_break(from.time + clock_offset, to.time + clock_offset) {
+                lost.across_breaks += 1;
+                follows = false;
+            } else if has_paused && length.ratio(&ends, time - start_time) > MAX_RATIO_ACROSS_PAUSE {
+                lost.across_pauses += 1;
+                follows = false;
+            } else if turn(&motion) < MAX_STANDING_TURN && distance(&motion) < MAX_SPIN_DISTANCE {
+                lost.standing += 1;
+                follows = false;
+            } else {
+                legs.push(Leg {
+                    times: [from.time, to.time],
+                    odometry: [from.odometry, to.odometry],
+                    velocities: [from.velocity, to.velocity],
+                    reference: [from.reference, to.reference],
+                    interpolation_variances: [from.interpolation_variance, to.interpolation_variance],
+                    follows: did_follow,
+                    drive: 0,
+                });
+            }
+        }
+    }
 }
 
 /// Cuts a log into legs, each beginning where the one before ended.
@@ -197,61 +250,7 @@ pub fn split_into_legs(
     length: LegLength,
     clock_offset: f64,
 ) -> (Vec<Leg>, LostLegs) {
-    let drive = Drive { odometry, reference };
     let (mut legs, mut lost) = (Vec::new(), LostLegs::default());
-    // Reading at which the present leg began, and its start if the reference has a pose there.
-    let mut start: Option<((f64, SE2), Option<End>)> = None;
-    let (mut follows, mut paused) = (false, false);
-    for (sample, (time, pose)) in odometry.samples().enumerate() {
-        if odometry.has_break_before(sample) && start.take().is_some() {
-            lost.across_breaks += 1;
-        }
-        let Some(((start_time, start_pose), from)) = start else {
-            start = Some(((time, pose), drive.end_at(sample, clock_offset)));
-            (follows, paused) = (false, false);
-            continue;
-        };
-        paused |= odometry.has_gap_before(sample);
-        let ends = [start_pose, pose];
-        if !length.ends(&ends, time - start_time) {
-            continue;
-        }
-        let to = drive.end_at(sample, clock_offset);
-        let (Some(from), Some(to)) = (from, to) else {
-            // The leg stays open until it is too long: the reference may come back.
-            if from.is_none() || length.ratio(&ends, time - start_time) > MAX_RATIO_ACROSS_PAUSE {
-                lost.without_reference += 1;
-                (start, follows) = (Some(((time, pose), to)), false);
-            }
-            continue;
-        };
-        // The nearest sample of a sparse reference may still be that at the start of the leg, which then stays open.
-        if to.time <= from.time {
-            continue;
-        }
-        start = Some(((time, pose), Some(to)));
-        let (has_paused, did_follow) = (std::mem::take(&mut paused), std::mem::replace(&mut follows, true));
-        let motion = from.odometry.between(&to.odometry);
-        if reference.has_break(from.time + clock_offset, to.time + clock_offset) {
-            lost.across_breaks += 1;
-            follows = false;
-        } else if has_paused && length.ratio(&ends, time - start_time) > MAX_RATIO_ACROSS_PAUSE {
-            lost.across_pauses += 1;
-            follows = false;
-        } else if turn(&motion) < MAX_STANDING_TURN && distance(&motion) < MAX_SPIN_DISTANCE {
-            lost.standing += 1;
-            follows = false;
-        } else {
-            legs.push(Leg {
-                times: [from.time, to.time],
-                odometry: [from.odometry, to.odometry],
-                velocities: [from.velocity, to.velocity],
-                reference: [from.reference, to.reference],
-                interpolation_variances: [from.interpolation_variance, to.interpolation_variance],
-                follows: did_follow,
-                drive: 0,
-            });
-        }
-    }
+    Drive { odometry, reference }.cut(length, clock_offset, &mut legs, &mut lost);
     (legs, lost)
 }

@@ -14,7 +14,7 @@
 //! Thompson and Cullis 1995).
 
 use super::legs::Leg;
-use super::matrices::{WIDTH, Wide, inverse, product};
+use super::matrices::{Wide, inverse, product};
 use super::residuals::{Model, Observation};
 use super::result::LegFit;
 use super::systematic::{ERROR_COUNT, ErrorMask, Systematic, SystematicError};
@@ -79,8 +79,6 @@ pub(super) struct Residuals {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Innovation {
     columns: Columns,
-    /// Columns, multiplied by the inverse covariance.
-    weighted: Columns,
     /// Variance of each component; NaN of one that is not observed.
     variances: [f64; 3],
     /// Inverse covariance.
@@ -111,7 +109,7 @@ pub(super) struct LeastSquares {
 /// Log-likelihood with its derivatives by the parameters.
 #[derive(Clone, Debug)]
 pub(super) struct Expansion {
-    pub least_squares: LeastSquares,
+    pub filtered: Filtered,
     /// rᵀP Vⱼ P r and tr(P Vⱼ) of each parameter; the score is half of their difference.
     pub quadratic: Parameters,
     pub trace: Parameters,
@@ -121,6 +119,10 @@ pub(super) struct Expansion {
 }
 
 impl Expansion {
+    pub fn log_likelihood(&self) -> f64 {
+        self.filtered.least_squares.log_likelihood
+    }
+
     pub fn score(&self) -> Parameters {
         (self.quadratic - self.trace) * 0.5
     }
@@ -152,6 +154,29 @@ impl Term {
     }
 }
 
+impl Filtered {
+    /// Returns the sandwich covariance of the systematic errors, C (Σ gᵦ gᵦᵀ) C. C is the covariance by the likelihood, and gᵦ the score of a
+    /// block of `length` legs. The sandwich is right even if the legs of a block are correlated.
+    pub fn sandwich(&self, length: usize) -> ErrorMatrix {
+        let LeastSquares { errors, covariance, .. } = self.least_squares;
+        let mut scatter = ErrorMatrix::zeros();
+        for block in self.innovations.chunks(length) {
+            let mut score = ErrorVector::zeros();
+            for Innovation { columns, weight, .. } in block {
+                let jacobian: SMatrix<f64, 3, ERROR_COUNT> = columns.block(0);
+                score += jacobian.transpose() * (weight * unexplained(columns, &errors));
+            }
+            scatter += score * score.transpose();
+        }
+        covariance * scatter * covariance
+    }
+
+    /// Returns the legs under the fit.
+    pub fn leg_fits(&self) -> impl Iterator<Item = LegFit> {
+        self.innovations.iter().map(|innovation| innovation.leg_fit(&self.least_squares.errors, false))
+    }
+}
+
 impl Innovation {
     /// Returns the leg under the fit, with these systematic errors.
     pub fn leg_fit(&self, errors: &ErrorVector, is_outlier: bool) -> LegFit {
@@ -169,14 +194,16 @@ impl Innovation {
 /// Returns the residual less what these systematic errors explain.
 #[inline(always)]
 fn unexplained(columns: &Columns, errors: &ErrorVector) -> Vector3<f64> {
-    let unexplained = |row: &[f64; WIDTH]| {
+    let mut unexplained = Vector3::zeros();
+    for k in 0..3 {
+        let row = columns.row(k);
         let mut explained = row[0] * errors[0];
         for error in 1..ERROR_COUNT {
             explained += row[error] * errors[error];
         }
-        row[RESIDUAL] - explained
-    };
-    Vector3::new(unexplained(columns.row(0)), unexplained(columns.row(1)), unexplained(columns.row(2)))
+        unexplained[k] = row[RESIDUAL] - explained;
+    }
+    unexplained
 }
 
 impl Residuals {
@@ -196,6 +223,11 @@ impl Residuals {
         self.chosen.len()
     }
 
+    /// Tells of each leg whether it starts at the reference pose at which the leg before it ends.
+    pub fn follows(&self) -> impl Iterator<Item = bool> {
+        self.chosen.iter().map(|(_, follows)| *follows)
+    }
+
     fn terms(&self) -> impl DoubleEndedIterator<Item = (&Term, bool)> + ExactSizeIterator {
         self.chosen.iter().map(|(term, follows)| (&self.terms[*term], *follows))
     }
@@ -203,7 +235,6 @@ impl Residuals {
     /// Runs the forward recursion, and adds the innovation of each leg to a list if there is one.
     fn filter(&self, parameters: &Parameters, mut innovations: Option<&mut Vec<Innovation>>) -> LeastSquares {
         let reference = reference_variances(parameters);
-        let alphas = self.model.component_alphas();
         let (mut log_det, mut gram) = (0.0, Gram::ZERO);
         let at_start = (Columns::ZERO, Matrix3::from_diagonal(&reference));
         let (mut mean, mut prior) = at_start;
@@ -213,14 +244,13 @@ impl Residuals {
             if !follows {
                 (mean, prior) = at_start;
             }
-            let columns = term.columns.minus(&mean.multiplied(&term.start));
+            let columns = term.columns.plus(&mean.multiplied(&-term.start));
             let by_end = scaled(&term.end, &reference);
             let mut covariance = product(&product(&term.start, &prior), &term.start.transpose())
                 + product(&by_end, &term.end.transpose());
+            let wheels = self.model.wheel_variances(&term.coefficients, parameters);
             for k in 0..3 {
-                let ([first, second], [by_first, by_second]) = (alphas[k], term.coefficients[k]);
-                let wheels = parameters[first] * by_first + parameters[second] * by_second;
-                covariance[(k, k)] += wheels + if term.observed[k] { MIN_STD * MIN_STD } else { 1.0 };
+                covariance[(k, k)] += wheels[k] + if term.observed[k] { MIN_STD * MIN_STD } else { 1.0 };
             }
             let (weight, determinant) = inverse(&covariance);
             det *= determinant;
@@ -229,14 +259,13 @@ impl Residuals {
                 det = 1.0;
             }
             let gain = product(&by_end.transpose(), &weight);
-            let weighted = columns.multiplied(&weight);
-            gram.add_product(&columns, &weighted);
+            gram.add_product(&columns, &columns.multiplied(&weight));
             mean = columns.multiplied(&gain);
             prior = Matrix3::from_diagonal(&reference) - scaled(&product(&gain, &term.end), &reference);
             if let Some(all) = &mut innovations {
                 let variance = |k: usize| if term.observed[k] { covariance[(k, k)] } else { f64::NAN };
                 let variances = [variance(0), variance(1), variance(2)];
-                all.push(Innovation { columns, weighted, variances, weight, gain });
+                all.push(Innovation { columns, variances, weight, gain });
             }
         }
         self.least_squares_of(log_det + libm::log(det.max(f64::MIN_POSITIVE)), &gram)
@@ -265,32 +294,15 @@ impl Residuals {
         Filtered { innovations, least_squares }
     }
 
-    /// Returns the sandwich covariance of the systematic errors, C (Σ gᵦ gᵦᵀ) C. C is the covariance by the likelihood, and gᵦ the score of a
-    /// block of `length` legs. The sandwich is right even if the legs of a block are correlated.
-    pub fn sandwich(&self, parameters: &Parameters, length: usize) -> ErrorMatrix {
-        let Filtered { innovations, least_squares } = self.filtered(parameters);
-        let LeastSquares { errors, covariance, .. } = least_squares;
-        let mut scatter = ErrorMatrix::zeros();
-        for block in innovations.chunks(length) {
-            let mut score = ErrorVector::zeros();
-            for Innovation { columns, weight, .. } in block {
-                let jacobian: SMatrix<f64, 3, ERROR_COUNT> = columns.block(0);
-                score += jacobian.transpose() * (weight * unexplained(columns, &errors));
-            }
-            scatter += score * score.transpose();
-        }
-        covariance * scatter * covariance
-    }
-
     /// Returns the log-likelihood with its derivatives, from the innovations under the same parameters.
-    pub fn expansion(&self, Filtered { innovations, least_squares }: &Filtered) -> Expansion {
-        let LeastSquares { errors, covariance, .. } = least_squares;
+    pub fn expansion(&self, filtered: Filtered) -> Expansion {
+        let LeastSquares { errors, covariance, .. } = filtered.least_squares;
         // With a row x of V⁻¹X, x C xᵀ is the part by which a diagonal entry of P is smaller than that of V⁻¹: errors are estimated.
         let estimated =
             Wide::<ERROR_COUNT>::from_fn(|i, j| if j < ERROR_COUNT { covariance[(i, j)] } else { 0.0 });
         let alphas = self.model.component_alphas();
         let mut expansion = Expansion {
-            least_squares: *least_squares,
+            filtered,
             quadratic: Parameters::zeros(),
             trace: Parameters::zeros(),
             information: Information::zeros(),
@@ -301,14 +313,15 @@ impl Residuals {
         let mut projected = vec![[Vector3::zeros(); 3]; self.len()];
         // V⁻¹[X r] of the leg after, its block on the diagonal of V⁻¹, and A of it.
         let mut after: Option<(Columns, Matrix3<f64>, Matrix3<f64>)> = None;
+        let innovations = &expansion.filtered.innovations;
         for (i, ((term, follows), innovation)) in self.terms().zip(innovations).enumerate().rev() {
-            let Innovation { weighted, weight, gain, .. } = innovation;
-            let (mut solved, mut block) = (*weighted, *weight);
+            let Innovation { columns, weight, gain, .. } = innovation;
+            let (mut solved, mut block) = (columns.multiplied(weight), *weight);
             let (mut at_end, mut end_block) = (Columns::ZERO, Matrix3::zeros());
             if let Some((next, next_block, start)) = &after {
                 let through = product(start, gain);
                 at_end = next.multiplied(&start.transpose());
-                solved = solved.minus(&at_end.multiplied(&gain.transpose()));
+                solved = solved.plus(&at_end.multiplied(&-gain.transpose()));
                 let off_diagonal = -product(next_block, &through);
                 block -= product(&through.transpose(), &off_diagonal);
                 let cross = product(&product(&start.transpose(), &off_diagonal), &term.end);
@@ -317,7 +330,7 @@ impl Residuals {
             }
             at_end = at_end.plus(&solved.multiplied(&term.end.transpose()));
             end_block += product(&product(&term.end.transpose(), &block), &term.end);
-            let own = unexplained(&solved, errors);
+            let own = unexplained(&solved, &errors);
             let score = &mut expansion.scores[i];
             let mut add = |parameter: usize, factor: f64, square: f64, trace: f64| {
                 expansion.quadratic[parameter] += factor * square;
@@ -331,7 +344,7 @@ impl Residuals {
                 }
             }
             let mut add_pose = |solved: &Columns, block: &Matrix3<f64>| {
-                let projected = unexplained(solved, errors);
+                let projected = unexplained(solved, &errors);
                 for row in 0..3 {
                     let trace = block[(row, row)] - estimated.quadratic_form(solved.row(row));
                     add(REFERENCE_VARIANCES[row], 1.0, projected[row] * projected[row], trace);
@@ -348,7 +361,7 @@ impl Residuals {
             projected[i] = [own, start, end];
             after = (follows && i > 0).then_some((solved, block, term.start));
         }
-        expansion.information = self.average_information(innovations, &projected, covariance);
+        expansion.information = self.average_information(innovations, &projected, &covariance);
         expansion
     }
 
@@ -377,7 +390,7 @@ impl Residuals {
                     row[variance] += term.start[(k, by)] * pose[by] + term.end[(k, by)] * end[by];
                 }
             }
-            working = working.minus(&mean.multiplied(&term.start));
+            working = working.plus(&mean.multiplied(&-term.start));
             let weighted = working.multiplied(&innovation.weight);
             gram.add_product(&working, &weighted);
             cross.add_product(&innovation.columns, &weighted);

@@ -86,16 +86,6 @@ impl Wide<3> {
     }
 
     #[inline(always)]
-    pub fn minus(mut self, other: &Self) -> Self {
-        for row in 0..3 {
-            for pair in 0..PAIRS {
-                self.0[row][pair] -= other.0[row][pair];
-            }
-        }
-        self
-    }
-
-    #[inline(always)]
     pub fn plus(mut self, other: &Self) -> Self {
         for row in 0..3 {
             for pair in 0..PAIRS {
@@ -135,18 +125,11 @@ pub(super) fn product(left: &Matrix3<f64>, right: &Matrix3<f64>) -> Matrix3<f64>
 #[inline(always)]
 pub(super) fn inverse(matrix: &Matrix3<f64>) -> (Matrix3<f64>, f64) {
     let row = |row: usize| [matrix[(row, 0)], matrix[(row, 1)], matrix[(row, 2)]];
-    let rows = [row(0), row(1), row(2)];
-    let columns = [cross(&rows[1], &rows[2]), cross(&rows[2], &rows[0]), cross(&rows[0], &rows[1])];
-    let determinant = rows[0][0] * columns[0][0] + rows[0][1] * columns[0][1] + rows[0][2] * columns[0][2];
-    let mut inverse = Matrix3::zeros();
-    if determinant != 0.0 {
-        for column in 0..3 {
-            for row in 0..3 {
-                inverse[(row, column)] = columns[column][row] / determinant;
-            }
-        }
-    }
-    (inverse, determinant)
+    let [a, b, c] = [row(0), row(1), row(2)];
+    let first = cross(&b, &c);
+    let determinant = a[0] * first[0] + a[1] * first[1] + a[2] * first[2];
+    let adjugate = Matrix3::from([first, cross(&c, &a), cross(&a, &b)]);
+    (if determinant == 0.0 { Matrix3::zeros() } else { adjugate / determinant }, determinant)
 }
 
 #[inline(always)]

@@ -28,7 +28,7 @@ pub use options::{CalibrateError, Drive, Options, Outliers};
 pub use residuals::{Model, Observation};
 pub use result::{Calibration, Estimate, LegFit, Persistence, Recommended};
 pub use systematic::{ERROR_COUNT, ErrorMask, Systematic, SystematicError};
-pub use trajectory::{Trajectory, TrajectoryError, TrajectoryFault};
+pub use trajectory::{Trajectory, TrajectoryError};
 
 use fit::{Fit, Log, fit_corrected, fit_systematic};
 use intervals::{NORMAL_95, identifiability, intervals};
@@ -110,7 +110,7 @@ pub fn calibrate(drives: &[Drive], options: &Options) -> Result<Calibration, Cal
         is_corrected,
         reference_noise,
         persistence,
-        log_likelihood: fit.maximum.expansion.least_squares.log_likelihood,
+        log_likelihood: fit.maximum.expansion.log_likelihood(),
         legs: all.legs,
         observations: all.observations,
         leg_fits,
@@ -122,12 +122,10 @@ pub fn calibrate(drives: &[Drive], options: &Options) -> Result<Calibration, Cal
 
 /// Returns the correlation of the innovations of neighbouring legs, and its standard error.
 fn neighbour_correlation(Fit { sample, maximum, .. }: &Fit) -> (f64, f64) {
-    let fits = sample.leg_fits(&maximum.parameters);
+    let residuals = sample.kept(0..sample.legs.len());
+    let fits: Vec<LegFit> = residuals.filtered(&maximum.parameters).leg_fits().collect();
     let (mut product, mut squares, mut count) = (0.0, 0.0, 0);
-    for (pair, leg) in fits.windows(2).zip(&sample.legs[1..]) {
-        if !leg.follows || pair.iter().any(|fit| fit.is_outlier) {
-            continue;
-        }
+    for (pair, _) in fits.windows(2).zip(residuals.follows().skip(1)).filter(|(_, follows)| *follows) {
         for (before, after) in pair[0].standardized.into_iter().zip(pair[1].standardized) {
             if !before.is_nan() && !after.is_nan() {
                 product += before * after;

@@ -27,24 +27,23 @@ const MAX_HALVINGS: usize = 4;
 /// A step that gains nothing gives way to θⱼ √(rᵀP Vⱼ P r / tr(P Vⱼ)), which always gains (Zhou, Hu, Qiao, Cho and Lange 2019).
 pub(super) fn maximize(residuals: &Residuals, start: Parameters, free: &FreeMask) -> Maximum {
     let mut parameters = start;
-    let mut expansion = residuals.expansion(&residuals.filtered(&parameters));
-    let likelihood = |expansion: &Expansion| expansion.least_squares.log_likelihood;
+    let mut expansion = residuals.expansion(residuals.filtered(&parameters));
     for _ in 0..MAX_STEPS {
         let Some(step) = scoring_step(&parameters, &expansion, free) else { break };
         let mut next = None;
         for halving in 0..=MAX_HALVINGS {
             let candidate = (parameters + step * 0.5_f64.powi(halving as i32)).map(|each| each.max(0.0));
             let filtered = residuals.filtered(&candidate);
-            if filtered.least_squares.log_likelihood > likelihood(&expansion) {
-                next = Some((candidate, residuals.expansion(&filtered)));
+            if filtered.least_squares.log_likelihood > expansion.log_likelihood() {
+                next = Some((candidate, residuals.expansion(filtered)));
                 break;
             }
         }
         let (next, better) = next.unwrap_or_else(|| {
             let candidate = minorized(&parameters, &expansion, free);
-            (candidate, residuals.expansion(&residuals.filtered(&candidate)))
+            (candidate, residuals.expansion(residuals.filtered(&candidate)))
         });
-        let gain = likelihood(&better) - likelihood(&expansion);
+        let gain = better.log_likelihood() - expansion.log_likelihood();
         if gain <= 0.0 {
             break;
         }

@@ -4,7 +4,7 @@ use super::legs::{LegLength, MIN_LEGS};
 use super::residuals::Model;
 use super::systematic::ERROR_COUNT;
 use super::trajectory::Trajectory;
-use std::fmt;
+use thiserror::Error;
 
 /// Odometry and reference of one drive.
 #[derive(Clone, Copy, Debug)]
@@ -39,26 +39,16 @@ pub struct Options {
 }
 
 /// Reason for which a log cannot be fitted.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
 pub enum CalibrateError {
     /// The times of odometry and reference do not overlap, and at no clock offset are their turn rates correlated.
+    #[error(
+        "odometry and reference have no time in common, and their turn rates correlate at no clock offset; give two logs of one drive"
+    )]
     NoCommonTime,
     /// There are fewer than [`MIN_LEGS`] legs.
+    #[error(
+        "the log has {legs} legs for which both trajectories are known; at least {MIN_LEGS} are needed: choose shorter legs, drive longer, or check the clocks"
+    )]
     TooFewLegs { legs: usize },
 }
-
-impl fmt::Display for CalibrateError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::NoCommonTime => f.write_str(
-                "odometry and reference have no time in common, and their turn rates correlate at no clock offset; give two logs of one drive",
-            ),
-            Self::TooFewLegs { legs } => write!(
-                f,
-                "the log has {legs} legs for which both trajectories are known; at least {MIN_LEGS} are needed: choose shorter legs, drive longer, or check the clocks"
-            ),
-        }
-    }
-}
-
-impl std::error::Error for CalibrateError {}

@@ -44,16 +44,17 @@ impl Model {
     }
 
     /// Variances of the wheels' noise in one leg.
+    #[inline(always)]
     pub(super) fn wheel_variances(
         self,
         coefficients: &[[f64; 2]; 3],
         parameters: &Parameters,
     ) -> Vector3<f64> {
-        let alphas = self.component_alphas();
-        Vector3::from_fn(|component, _| {
-            let ([first, second], [by_first, by_second]) = (alphas[component], coefficients[component]);
-            parameters[first] * by_first + parameters[second] * by_second
-        })
+        let mut variances = Vector3::zeros();
+        for (k, [first, second]) in self.component_alphas().into_iter().enumerate() {
+            variances[k] = parameters[first] * coefficients[k][0] + parameters[second] * coefficients[k][1];
+        }
+        variances
     }
 
     pub(super) fn drives_sideways(self) -> bool {

@@ -2,7 +2,7 @@
 
 use crate::geom::se2::{SE2, wrap_angle};
 use nalgebra::Vector3;
-use std::fmt;
+use thiserror::Error;
 
 /// Poses in one fixed frame, in the order of their times.
 #[derive(Clone, Debug, PartialEq)]
@@ -17,39 +17,16 @@ pub struct Trajectory {
     max_period: f64,
 }
 
-/// First sample that is not allowed in a trajectory.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TrajectoryError {
-    /// Index of the sample, from 0.
-    pub sample: usize,
-    pub fault: TrajectoryFault,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum TrajectoryFault {
+/// Reason for which the first sample at fault is not allowed in a trajectory. `sample` is its index, from 0.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+pub enum TrajectoryError {
     /// A time or a coordinate is not finite.
-    NotFinite,
+    #[error("sample {sample} has a time or a coordinate that is not finite; allowed are finite numbers")]
+    NotFinite { sample: usize },
     /// The time of the sample is not later than `before` (s), the time of the sample before it.
-    NotLater { before: f64 },
+    #[error("sample {sample} is not later than the one before, at {before} s; allowed are times that rise")]
+    NotLater { sample: usize, before: f64 },
 }
-
-impl fmt::Display for TrajectoryError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { sample, fault } = self;
-        match fault {
-            TrajectoryFault::NotFinite => write!(
-                f,
-                "sample {sample} has a time or a coordinate that is not finite; allowed are finite numbers"
-            ),
-            TrajectoryFault::NotLater { before } => write!(
-                f,
-                "sample {sample} is not later than the one before, at {before} s; allowed are times that rise"
-            ),
-        }
-    }
-}
-
-impl std::error::Error for TrajectoryError {}
 
 /// Number of median periods above which a period is a pause: a recording drops a message or two now and then.
 const MAX_PERIOD_RATIO: f64 = 5.0;
@@ -68,12 +45,11 @@ impl Trajectory {
         let (mut times, mut poses) = (Vec::with_capacity(count), Vec::with_capacity(count));
         for (sample, (time, pose)) in samples.enumerate() {
             let pose: SE2 = pose;
-            let error = |fault| Err(TrajectoryError { sample, fault });
             if ![time, pose.x(), pose.y(), pose.theta()].iter().all(|number| number.is_finite()) {
-                return error(TrajectoryFault::NotFinite);
+                return Err(TrajectoryError::NotFinite { sample });
             }
             if let Some(before) = times.last().copied().filter(|before| time <= *before) {
-                return error(TrajectoryFault::NotLater { before });
+                return Err(TrajectoryError::NotLater { sample, before });
             }
             times.push(time);
             poses.push(pose);

@@ -7,7 +7,7 @@ use super::checks::{
 };
 use super::fit::{Fit, Sample};
 use super::legs::{Leg, distance};
-use super::likelihood::{Filtered, LeastSquares, Parameters, Residuals, reference_variances};
+use super::likelihood::{Parameters, Residuals, reference_variances};
 use super::optimizer::maximize;
 use super::residuals::Observation;
 use super::result::Recommended;
@@ -164,11 +164,12 @@ pub(super) fn recommend(fit: &Fit, all: &Sample, alphas: &[Option<f64>]) -> Reco
     let by_other_half = [fitted(&residuals[1]), fitted(&residuals[0])];
     let (mut inside, mut compared) = (0, 0);
     for (residuals, parameters) in residuals.iter().zip(&by_other_half) {
-        let Filtered { innovations, least_squares: LeastSquares { errors, .. } } =
-            residuals.filtered(parameters);
-        compared += innovations.len();
-        let fits = innovations.iter().map(|innovation| innovation.leg_fit(&errors, false));
-        inside += fits.filter(|fit| fit.observed() > 0 && fit.squared < CHI2_95[fit.observed() - 1]).count();
+        compared += residuals.len();
+        let filtered = residuals.filtered(parameters);
+        inside += filtered
+            .leg_fits()
+            .filter(|fit| fit.observed() > 0 && fit.squared < CHI2_95[fit.observed() - 1])
+            .count();
     }
     // Variances of n legs have the relative variance 2/3n; α's share them.
     let scale_std = (2.0 * alphas.len() as f64 / (3 * count / 2).max(1) as f64).sqrt();

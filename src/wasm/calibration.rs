@@ -226,8 +226,10 @@ fn recommended_to_js(Recommended { alphas: all, inflation, reason }: &Recommende
 /// Makes arrays of the legs of a calibration, one leg after the other in each.
 pub fn columns_to_js(calibration: &Calibration) -> JsValue {
     let Calibration { legs, observations, leg_fits, corrected, .. } = calibration;
-    let [mut times, mut odometry, mut reference, mut readings, mut residuals] = [const { Vec::new() }; 5];
-    let [mut standardized, mut stds, mut squared, mut outliers] = [const { Vec::new() }; 4];
+    let room = |width: usize| Vec::with_capacity(width * legs.len());
+    let [mut times, mut odometry, mut reference] = [2, 6, 6].map(room);
+    let [mut readings, mut residuals, mut standardized, mut stds] = [3; 4].map(room);
+    let [mut squared, mut outliers] = [1; 2].map(room);
     let base = corrected.base();
     for ((leg, observation), fit) in legs.iter().zip(observations).zip(leg_fits) {
         times.extend_from_slice(&leg.times);

@@ -1,7 +1,7 @@
 //! Logs of JavaScript: odometry and reference.
 
 use super::fields::{Fields, array_item, array_length, number_text, read_integer, read_number, type_error};
-use crate::calibrate::{Trajectory, TrajectoryError, TrajectoryFault};
+use crate::calibrate::{Trajectory, TrajectoryError};
 use crate::geom::se2::SE2;
 use crate::sim::alpha_calibrator::Log;
 use crate::sim::settings::check_real;
@@ -115,14 +115,17 @@ fn checked_trajectory(
     fields: &Fields,
     trajectory: Result<Trajectory, TrajectoryError>,
 ) -> Result<Trajectory, JsValue> {
-    let trajectory = trajectory.map_err(|TrajectoryError { sample, fault }| {
-        let what = match fault {
-            TrajectoryFault::NotFinite => {
-                "has a time or a coordinate that is not finite; allowed are finite numbers".to_owned()
-            }
-            TrajectoryFault::NotLater { before } => {
+    let trajectory = trajectory.map_err(|error| {
+        let (sample, what) = match error {
+            TrajectoryError::NotFinite { sample } => (
+                sample,
+                "has a time or a coordinate that is not finite; allowed are finite numbers".to_owned(),
+            ),
+            TrajectoryError::NotLater { sample, before } => {
                 let before = number_text(before);
-                format!("is not later than the one before, at {before} s; allowed are times that rise")
+                let what =
+                    format!("is not later than the one before, at {before} s; allowed are times that rise");
+                (sample, what)
             }
         };
         let field = fields.path("");

@@ -232,6 +232,9 @@ test('a folder gives its logs, and other files are skipped', async () => {
   for (const [name, from] of [['odom.csv', 'odometry'], ['truth.csv', 'reference']]) writeFileSync(join(path, name), readFileSync(example(from)));
   writeFileSync(join(path, '._odom.csv'), readFileSync(example('odometry')));
   writeFileSync(join(path, 'README.md'), '# A drive\n\nwith words, and no numbers\n');
+  let inspected = '';
+  await run(['inspect', path], { load, print: (text) => (inspected += text), complain: () => {} });
+  assert.match(inspected, /^ {2}npx motion-widgets calibrate \S+\/drive --rule nav2$/m);
   const { code, out, err } = await outputOf([path]);
   assert.deepEqual([code, out.match(/^\w+: .*\.csv$/gm)], [0, ['Odometry: odom.csv', 'Reference: truth.csv']]);
   assert.match(err, /^skipped: README\.md: it does not look like a log, .*\n$/);

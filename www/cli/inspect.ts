@@ -127,7 +127,9 @@ function nextOf(given: Given[], stated: [name: string, value: string][]): Pick<I
       ...(frames ? [`--${role}-frames ${quoted(framesOption(frames))}`] : []),
     ]));
     const files = [...drives.map(({ odometry }) => pathOf(odometry)), ...ROLES.flatMap((role) => unpaired[role].map((part) => `--${role} ${pathOf(part)}`))];
-    return { ...(plan.isByOrder && { missing: byOrder(plan) }), command: command(...files, ...choices) };
+    // A folder with several logs has no single role.
+    const isShared = new Set(all).size < all.length;
+    return { ...(plan.isByOrder && { missing: byOrder(plan) }), command: command(...(isShared ? all : files), ...choices) };
   } catch (error) {
     if (!(error instanceof LogError)) throw error;
     const missing = error.message;

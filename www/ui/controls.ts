@@ -31,7 +31,7 @@ export const controlStyles = css`
     cursor: pointer;
   }
 
-  :is(button, textarea, input[type='number'], .files) {
+  :is(button, textarea, .seed input, input[type='number'], .files) {
     background: none;
     border: 1px solid var(--muted);
     border-radius: 3px;

@@ -60,10 +60,8 @@ const layout = css`
     .controls {
       column-gap: 5em;
     }
-  }
 
-  /* The number of samples is below a single slider, and both are next to the command. */
-  @container (min-width: 56em) {
+    /* The number of samples is below a single slider, and both are next to the command. */
     .controls:has(> .single) {
       grid-template-columns: repeat(2, minmax(0, 1fr));
     }
@@ -332,9 +330,7 @@ const layout = css`
     flex-wrap: wrap;
     gap: 0 1.2em;
     margin: 0.2em 0;
-    padding: 0;
     font-size: 0.92em;
-    list-style: none;
   }
 
   .swatch {
@@ -370,10 +366,6 @@ const layout = css`
     width: 5em;
     min-height: 2em;
     padding: 0 0.4em;
-    background: none;
-    border: 1px solid var(--muted);
-    border-radius: 3px;
-    color: var(--ink);
     font: inherit;
   }
 

@@ -34,6 +34,7 @@ const partsOf = (track: string, thumb: string) => unsafeCSS(`
 export const sliderStyles = css`
   /* Name and value above the track, and space for a line of help below it. */
   .slider {
+    --thumb: var(--role);
     position: relative;
     display: grid;
     grid-template: 'pick name value' auto 'track track track' auto / auto 1fr auto;
@@ -141,10 +142,6 @@ export const sliderStyles = css`
   .slider.off input[type='range'] {
     --thumb: var(--paper);
     --thumb-edge: var(--muted);
-  }
-
-  .slider {
-    --thumb: var(--role);
   }
 
   input[type='range'] {

@@ -67,7 +67,7 @@ test('the keys 1 to 9 choose presets, and entering from the keyboard leads to a 
   const widget = await mount(page, 'banana-machine');
   await widget.getByRole('button', { name: 'Present' }).press('Enter');
   await expect(widget.getByRole('button', { name: 'C Controls' })).toBeFocused();
-  const words = await widget.evaluate((element) => /** @type {any} */ (element).kind.attributes.preset.words);
+  const words = await widget.evaluate((element) => /** @type {any} */ (element).definition.attributes.preset.words);
   for (const i of [1, 2, 0]) {
     await widget.evaluate((element) => void Object.assign(element, { morph: 0.5 }));
     await page.keyboard.press(String(i + 1));

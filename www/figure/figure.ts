@@ -8,13 +8,13 @@ import { plotStyles } from '../ui/plot.ts';
 import { presentationStyles } from '../ui/presentation.ts';
 import { theme } from '../ui/theme.ts';
 import { Announcer } from './announcer.ts';
-import { COMMON, HEADING_LEVELS } from './attributes.ts';
+import { COMMON, type HEADING_LEVELS } from './attributes.ts';
 import { Colours } from './colours.ts';
 import { Focus } from './focus.ts';
 import { Gesture } from './gesture.ts';
 import { Link } from './link.ts';
 import { reservedHeight } from './page/reserved-height.ts';
-import { THEMES, schemeStyles } from './page/scheme.ts';
+import { type THEMES, schemeStyles } from './page/scheme.ts';
 import { Notice, noticeStyles } from './notice.ts';
 import { Presentation } from './presentation.ts';
 import { Reflection } from './reflection.ts';
@@ -89,6 +89,14 @@ export class FigureElement<Machine extends { free(): void, stats: object, config
     return super.finalizeStyles([theme, schemeStyles, presentationStyles, noticeStyles, reserved, ...layoutStyles, plotStyles, own]);
   }
 
+  /** Colours: light, dark, or auto for those of the surroundings. */
+  declare theme: (typeof THEMES)[number];
+  /** True if the page's address carries the state. */
+  declare share: boolean;
+  /** True while the figure is presented to an audience. */
+  declare presentation: boolean;
+  /** Heading level of the title; null if it is no heading. */
+  declare headingLevel: (typeof HEADING_LEVELS)[number] | null;
   /** Aborted when the element is removed; listeners of its controllers on other objects go with it. */
   connection = new AbortController();
   runtime = new Runtime(this);
@@ -263,33 +271,6 @@ export class FigureElement<Machine extends { free(): void, stats: object, config
     if (isSettled) for (const resolve of this.#waiting.splice(0)) resolve();
   }
 
-  /** Colours: light, dark, or auto for those of the surroundings. */
-  get theme() {
-    return THEMES.find((theme) => theme === this.getAttribute('theme')) ?? THEMES[0];
-  }
-
-  set theme(theme) {
-    this.reflection.setAttribute('theme', theme);
-  }
-
-  /** True if the page's address carries the state. */
-  get share() {
-    return this.hasAttribute('share');
-  }
-
-  set share(share: boolean | '') {
-    this.toggleAttribute('share', share || share === '');
-  }
-
-  /** True while the figure is presented to an audience. */
-  get presentation() {
-    return this.hasAttribute('presentation');
-  }
-
-  set presentation(presentation: boolean | '') {
-    this.toggleAttribute('presentation', presentation || presentation === '');
-  }
-
   /**
    * Name of the highlighted line, a word of `overlays`; null for none. No part of the state.
    * @public
@@ -301,15 +282,6 @@ export class FigureElement<Machine extends { free(): void, stats: object, config
   set highlight(name) {
     this.#highlight = name;
     this.stage.requestFrame();
-  }
-
-  /** Heading level of the title; null if it is no heading. */
-  get headingLevel() {
-    return HEADING_LEVELS.find((level) => level === this.getAttribute('heading-level')) ?? null;
-  }
-
-  set headingLevel(level) {
-    this.reflection.setAttribute('heading-level', level);
   }
 
   /**
@@ -424,4 +396,19 @@ export class FigureElement<Machine extends { free(): void, stats: object, config
   render() {
     return surface(this);
   }
+}
+
+// The attributes of every figure hold the values of these properties.
+for (const [name, { property = name, words: allowed, nullable }] of Object.entries(COMMON)) {
+  Object.defineProperty(FigureElement.prototype, property, {
+    configurable: true,
+    get(this: Figure) {
+      if (!allowed) return this.hasAttribute(name);
+      return allowed.find((each) => each === this.getAttribute(name)) ?? (nullable ? null : allowed[0]);
+    },
+    set(this: Figure, value) {
+      if (allowed) this.reflection.setAttribute(name, value);
+      else this.toggleAttribute(name, value || value === '');
+    },
+  });
 }

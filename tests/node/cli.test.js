@@ -137,6 +137,10 @@ test('bad input has the exit code 2 and a sentence', async () => {
     [['--update-min-d', '--json'], "Option '--update-min-d' argument is ambiguous."],
     [['--json'], 'no logs are given; give a recording, as in calibrate run.bag, or two files, odometry and reference.'],
     [['--odometry', example('odometry')], '--reference is missing; give a file or folder, or a recording with both.'],
+    [
+      [example('odometry'), file('lidar_odom.csv', readFileSync(example('reference')))],
+      'odometry.csv: there are 2 logs of odometry and 0 of the reference; give one of each for a drive. Choose with --odometry and --reference.\n',
+    ],
     [[...FILES, '--plot', 'x.png'], '--plot writes SVG; the name must end in .svg (got “x.png”).'],
     [[...FILES, '--json', '--yaml'], '--json excludes --yaml: give one or the other.'],
     [[...FILES, '--update-min-d', '0,25'], '--update-min-d must be a number with a decimal point, 0.25 (got “0,25”).'],

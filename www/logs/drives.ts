@@ -64,7 +64,8 @@ export function planDrives(recordings: Recording[], wishes: Wishes = {}): Plan {
     for (const { recording } of longer) attempted(() => bothOf(recording, wishes), ({ ask }) => ask?.what !== 'series');
     const [first] = longer;
     const isRepeated = recordings.length === 2 && recordings[0].name === recordings[1].name;
-    throw new LogError({ file: first.recording.name }, (say) => (isRepeated ? say.givenTwice : say.unpaired(odometry.length, reference.length)));
+    const ask = { what: 'roles' as const, choices: [] };
+    throw new LogError({ file: first.recording.name }, (say) => (isRepeated ? say.givenTwice : say.unpaired(odometry.length, reference.length)), isRepeated ? undefined : ask);
   }
   return plan;
 }

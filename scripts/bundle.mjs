@@ -331,7 +331,7 @@ async function chunks() {
   return (
     '/** @type {Record<string, () => Promise<unknown>>} by their tags */\n' +
     `export const widgets = {\n${loaders.join('')}};\n\n` +
-    `export const vocabularies = ${JSON.stringify(modules.map(({ definition }) => definition.vocabulary))};\n`
+    `export const messageKeys = ${JSON.stringify(modules.map(({ definition }) => definition.messageKey))};\n`
   );
 }
 

@@ -3,7 +3,7 @@
  * its tag is found in the document or in an open shadow root.
  */
 
-import { vocabularies, widgets } from '../build/widgets.js';
+import { messageKeys, widgets } from '../build/widgets.js';
 import { knownTags } from './core.ts';
 import { preUpgradeCss } from './figure/page/reserved-height.ts';
 import { en } from './messages/en.ts';
@@ -13,7 +13,7 @@ export { load } from './core.ts';
 export { setMessages } from './messages/registry.ts';
 
 // A page may set the words of a widget before its script is loaded.
-addEnglish({ ...en, ...Object.fromEntries(vocabularies.map((key) => [key, {}])) });
+addEnglish({ ...en, ...Object.fromEntries(messageKeys.map((key) => [key, {}])) });
 
 /** Returns true for the tag of a figure. Compilers of templates ask which tags are custom elements. */
 export const isFigureTag = (tag: string) => tag in widgets;

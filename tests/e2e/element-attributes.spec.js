@@ -173,7 +173,7 @@ testEach('code to embed opens the settings of a state, with its attributes in an
       element.before(...boxes);
       await Promise.all(loaded);
       // A log is fitted in the frames after the state.
-      while (/** @type {any} */ (element).settings.next) await new Promise(requestAnimationFrame);
+      while (/** @type {any} */ (element).isBusy) await new Promise(requestAnimationFrame);
       const configs = [element, embedded, again].map((each) => /** @type {AnyElement} */ (each).machine.config);
       for (const box of boxes) box.remove();
       return configs;

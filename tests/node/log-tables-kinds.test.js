@@ -196,6 +196,7 @@ const REFUSED = [
   ['no rotations', '0 0 0 0 0 0 0 0\n1 0 0 0 0 0 0 0\n', /, line 1: 0 of 2 rows can be used \(a quaternion that is no rotation\);/],
   ['a large value', 't,x,y,yaw\n0,0,0,0\n1,0,1e300,0\n', /, line 3: a value is 1e\+300;/],
   ['two logs at the same times', circles((row, i) => row.with(0, CIRCLES[i - (i % 2)][0])), /, line 3: 400 of 800 rows, this one first, have the time of another row/],
+  ['nanoseconds without leading zeros', circles(([t, ...pose]) => [`${Math.floor(t)}.${Math.round((t % 1) * 1e9)}`, ...pose]), /^run\.csv: in 0\.50000000 and other times the digits after the point lack their leading zeros;/],
   ['times that a spreadsheet rounded', circles((row, i) => [`1.71800${i >> 6}E+18`, ...row.slice(1)]), /have the time of another row/],
   ['a quaternion in another order', circles(([t, x, y, yaw]) => [t, x, y, 0, Math.cos(yaw / 2), 0, 0, Math.sin(yaw / 2)]).slice('t,x,y,yaw\n'.length), /do not turn about a vertical Z axis;/],
   ['several frames', circles((row, i) => [...row, i % 2 ? 'base' : 'wheel'], 't,x,y,yaw,child_frame_id'), /of several frames \(base, wheel\)|of several frames \(wheel, base\)/],

@@ -98,6 +98,8 @@ export const german: Words = {
     far: (value, most, message) => `${message ? `die Nachricht ${message} hat den Wert ${value}` : `ein Wert ist ${value}`}; erwartet werden Zahlen von ${-most} bis ${most}, in m, rad und s.`,
     setBack: (seconds, message) =>
       `die Zeiten springen ${message ? `bei Nachricht ${message} ` : ''}um ${seconds.toPrecision(3)} s zurück und wiederholen die davor; dort die Datei teilen, oder nur eine Aufzeichnung angeben.`,
+    unpadded: (time) =>
+      `in ${time} und anderen Zeiten fehlen die führenden Nullen nach dem Punkt; Sekunden und Nanosekunden in zwei Spalten schreiben, oder als %d.%09d.`,
     sameTimes: (count, rows, message) =>
       `${count} von ${rows} Zeilen, ${message ? `die der Nachricht ${message}` : 'diese'} zuerst, haben die Zeit einer anderen Zeile und andere Werte; nötig ist das Log eines Roboters, mit allen Stellen der Zeiten (eine Tabellenkalkulation oder ein Format wie %.9e kann sie gerundet haben).`,
     few: (kept, rows, reason) => `${kept} von ${rows} Zeilen sind zu brauchen${reason ? ` (${REASONS[reason]})` : ''}; erwartet werden mindestens 2.`,

@@ -105,6 +105,8 @@ export const english = {
       `${message ? `message ${message} has the value ${value}` : `a value is ${value}`}; expected are numbers from ${-most} to ${most}, in m, rad and s.`,
     setBack: (seconds: number, message: number) =>
       `times go back by ${seconds.toPrecision(3)} s${message ? ` at message ${message}` : ''} and repeat those before; split the file there, or give one recording only.`,
+    unpadded: (time: string) =>
+      `in ${time} and other times the digits after the point lack their leading zeros; write seconds and nanoseconds in two columns, or as %d.%09d.`,
     sameTimes: (count: number, rows: number, message: number) =>
       `${count} of ${rows} rows, ${message ? `that of message ${message}` : 'this one'} first, have the time of another row and other values; give the log of one robot, with all digits of its times (a spreadsheet, or a format such as %.9e, may have rounded them).`,
     few: (kept: number, rows: number, reason: Cause | undefined) =>

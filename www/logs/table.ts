@@ -26,6 +26,9 @@ const MAX_LINE_LENGTH = 2 ** 16;
 /** Maximum fraction of damaged rows. Above it, the table has another format than assumed, or comes from a broken disk. */
 const MAX_DAMAGED_FRACTION = 0.1;
 
+/** Minimum number of short fractions that end in 0, of times without leading zeros in their fractions. */
+const MIN_UNPADDED = 5;
+
 type Reason = ConstructorParameters<typeof LogError>[1];
 
 /** Maximum number of frames that a sentence lists. */
@@ -139,6 +142,12 @@ class ClockReader {
   by: Summary['units']['time']['by'];
   /** False for dates without a time zone. */
   hasZone = true;
+  /** True if a fraction of a second begins with 0. */
+  #hasLeadingZero = false;
+  /** Number of digits of the longest fraction. */
+  #longest = 0;
+  /** Times by the number of digits of their fractions, of those that end in 0. */
+  #endingInZero = new Map<number, string[]>();
 
   /** @param textOf returns the text of a cell with a decimal point */
   constructor(clock: Clock, stated: TimeUnit | undefined, textOf: (cell: string) => string) {
@@ -170,7 +179,29 @@ class ClockReader {
         if (unitOfSize(value)) this.by = 'size';
       }
     }
+    this.#noteFraction(text);
     return timeOf(text, POWERS[this.unit ?? 's']);
+  }
+
+  #noteFraction(text: string): void {
+    const point = text.indexOf('.');
+    const digits = text.length - point - 1;
+    if (point < 0 || digits < 2) return;
+    this.#longest = Math.max(this.#longest, digits);
+    if (text[point + 1] === '0') this.#hasLeadingZero = true;
+    if (!text.endsWith('0')) return;
+    const same = this.#endingInZero.get(digits) ?? [];
+    if (same.length === 0) this.#endingInZero.set(digits, same);
+    if (same.length < MIN_UNPADDED) same.push(text);
+  }
+
+  /**
+   * Time that shows that nanoseconds were written behind the point without their leading zeros; undefined if none does. Short fractions that
+   * end in 0 were not shortened by dropping zeros at their end.
+   */
+  get unpadded(): string | undefined {
+    if (this.#hasLeadingZero) return undefined;
+    return [...this.#endingInZero].find(([digits, { length }]) => digits < this.#longest && length === MIN_UNPADDED)?.[1][0];
   }
 }
 
@@ -290,6 +321,8 @@ class LogReader {
       this.#refuse(line, (say) => [reason(say), ...(this.#damagedRows > 1 && this.#damagedRows < this.#rows.count ? [say.manyBad(this.#damagedRows, this.#rows.count, 100 * MAX_DAMAGED_FRACTION)] : [])].join(' '));
     }
     if (this.#frames.size > 1) throw new LogError(this.#place, (say) => say.mixed(listed([...this.#frames])));
+    const { unpadded } = this.#clocks[0];
+    if (unpadded !== undefined) throw new LogError(this.#place, (say) => say.unpadded(cut(unpadded)));
     if (this.isTilted) throw new LogError(this.#place, (say) => say.tilted, { what: 'columns', choices: [], columns: this.#format.names });
     if (this.#upAxis) this.#notes.push({ name: 'upAxis', values: [this.#upAxis] });
     const [{ unit = 's', by, hasZone }] = this.#clocks;

@@ -254,7 +254,8 @@ test('--yaml prints the lines for Nav2 alone, or none of an unusable log', async
   const { code, out, err } = await outputOf([...FILES, '--yaml', '--rule', 'nav2']);
   assert.equal(code, 0);
   assert.match(out, /^amcl:\n {2}ros__parameters:\n[^]*\n {4}update_min_a: 0\.2\n$/);
-  assert.match(err, /^Odometry: odometry\.csv\n {2}\d+ of \d+ rows, [^]*^Consistent: /m);
+  assert.match(err, /^Odometry: odometry\.csv\n {2}\d+ of \d+ rows, [^]*^Consistent: .*\n$/m);
+  assert.match((await outputOf([...FILES, '--yaml'])).err, /\nWarning: fitted by another rule than Nav2’s; give --rule nav2\.\n$/);
   const swapped = await outputOf(['--odometry', example('reference'), '--reference', example('odometry'), '--yaml']);
   assert.match(swapped.err, /^Warning: .* Are the two swapped\?$/m);
   const other = backwards();

@@ -6,6 +6,7 @@ import { english } from '../logs/en.ts';
 import { LogError, cut } from '../logs/log-error.ts';
 import { logOf } from '../logs/pairs.ts';
 import { summarize } from '../logs/summary.ts';
+import { isOfNav2 } from '../widgets/alpha-calibrator/lines.ts';
 import { adviceOf } from './advice.ts';
 import { recordingsOf } from './files.ts';
 import { byOrder, inspect, textOf as textOfContents, type Given } from './inspect.ts';
@@ -78,7 +79,8 @@ async function calibrate({ inputs, wishes, fit, output, plot }: Calibrate, { loa
   const isUnusable = calibration.recommended === null;
   if (output === 'yaml') {
     const { yaml, reason } = nav2YamlOf(result);
-    complain([...verdictLines(result), ...(reason ? [reason] : []), ''].join('\n'));
+    const isOther = yaml !== '' && !isOfNav2(fit.model ?? 'odometry', fit.rule ?? 'thrun');
+    complain([...verdictLines(result), ...(isOther ? ['Warning: fitted by another rule than Nav2’s; give --rule nav2.'] : []), ...(reason ? [reason] : []), ''].join('\n'));
     print(yaml);
     return isUnusable ? UNUSABLE : yaml ? SUCCESS : BAD_INPUT;
   }

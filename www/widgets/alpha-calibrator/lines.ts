@@ -47,6 +47,9 @@ export const SYSTEMATIC_ERRORS = ['clockOffset', 'mountYaw', 'leverArm', 'distan
 /** Rules of the motion models of Nav2. */
 const NAV2_RULES = ['nav2', 'omni'];
 
+/** Checks whether Nav2 moves its particles by a rule. */
+export const isOfNav2 = (model: string, rule: string): boolean => model !== 'odometry' || NAV2_RULES.includes(rule);
+
 export const short = (value: number | null, digits = VALUE_DIGITS) => (value !== null && Number.isFinite(value) ? pointed(String(Number(value.toPrecision(digits)))) : NO_NUMBER);
 
 /** Adds a point to an exponent, without which YAML 1.1 reads a text. */
@@ -107,7 +110,7 @@ export function nav2Lines({ calibration, count, model, rule, legs, log, warnings
   const notes = [
     say.of(String(count), duration === undefined ? say.moved(short(distance ?? null), short(angle ?? null)) : say.lasted(short(duration)), log, date),
     say.recommended(short(inflation), percent(window.coverage), String(window.count)),
-    ...(model !== 'odometry' || NAV2_RULES.includes(rule) ? [] : [say.otherRule]),
+    ...(isOfNav2(model, rule) ? [] : [say.otherRule]),
     ...correctionOf(systematicErrors).map((errors) => say.corrected(errors)),
     ...(failed ? [say.failed(failed)] : []),
     ...warnings.map((name) => say[name]),

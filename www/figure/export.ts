@@ -29,9 +29,9 @@ const PNG_RATIO = 2;
 const SIZE = { width: 720, height: 432 };
 
 /** Draws the picture in its size and font on the page, with `ratio` pixels per CSS pixel. Returns the size in pixels and the view. */
-function draw({ scene, pictures: [first], exportPicture, stage, colours }: Figure, ratio: number, contextOf: (size: { width: number, height: number }) => unknown) {
+function draw({ scene, pictures: [first], exportPicture, canvases, colours }: Figure, ratio: number, contextOf: (size: { width: number, height: number }) => unknown) {
   const picture = exportPicture ?? first;
-  const canvas = stage.canvasOf(first);
+  const canvas = canvases.of(first);
   const box = canvas.clientWidth > 0 ? canvas.getBoundingClientRect() : SIZE;
   const [clientWidth, height] = exportPicture ? inCss(exportPicture.size, canvas) : [box.width, box.height];
   const size = { width: Math.round(ratio * clientWidth), height: Math.round(ratio * height) };

@@ -9,6 +9,7 @@ import { presentationStyles } from '../ui/presentation.ts';
 import { theme } from '../ui/theme.ts';
 import { Announcer } from './announcer.ts';
 import { COMMON, type HEADING_LEVELS } from './attributes.ts';
+import { Canvases } from './canvases.ts';
 import { Colours } from './colours.ts';
 import { Focus } from './focus.ts';
 import { Gesture } from './gesture.ts';
@@ -24,6 +25,7 @@ import { Stage } from './stage.ts';
 import { State } from './state.ts';
 import { TextHeights } from './text-heights.ts';
 import { surface } from './surface.ts';
+import { Visibility } from './visibility.ts';
 import { CopyMenu, embedding } from './copy.ts';
 import { csvOf, pngOf, svgOf } from './export.ts';
 import type { FigureState, Motion } from '../types.d.ts';
@@ -100,6 +102,8 @@ export class FigureElement<Machine extends { free(): void, stats: object, config
   /** Aborted when the element is removed; listeners of its controllers on other objects go with it. */
   connection = new AbortController();
   runtime = new Runtime(this);
+  visibility = new Visibility(this);
+  canvases = new Canvases(this);
   stage = new Stage(this);
   colours = new Colours(this);
   gesture = new Gesture(this);

@@ -1,10 +1,7 @@
-/** Core of a figure. It is created near the viewport and freed on removal. After a trap, a new core gets the last valid state. */
+/** Core of a figure. It is freed when the element is removed. After a trap, a new core gets the last valid state. */
 
 import { abandon, instantiateFor } from '../core.ts';
 import { FigureController } from './controller.ts';
-
-/** Distance from the viewport at which a figure starts. Less would show empty frames; more would start unseen figures. */
-const NEAR_MARGIN = '600px';
 
 export class Runtime extends FigureController {
   motion: import('../types.d.ts').Motion | undefined;
@@ -14,58 +11,9 @@ export class Runtime extends FigureController {
   failure: string | undefined;
   /** True once the `load` event was fired. */
   #loaded = false;
-  #isNear = false;
   #starting: Promise<void> | undefined;
   /** True from a trap to the next picture. */
   #hasTrapped = false;
-  #visibleObserver: IntersectionObserver | undefined;
-  #nearObserver: IntersectionObserver | undefined;
-
-  hostConnected() {
-    const { host } = this;
-    const seen = new Map<Element, boolean>();
-    const setVisible = (entries: IntersectionObserverEntry[]) => {
-      for (const { target, isIntersecting } of entries) seen.set(target, isIntersecting);
-      if (entries.length > 0) host.stage.setVisible([...seen.values()].includes(true));
-    };
-    const visibleObserver = new IntersectionObserver(setVisible);
-    this.#nearObserver = new IntersectionObserver(
-      (entries) => {
-        // A start depends on the visibility, but the order of the observers' callbacks is undefined.
-        setVisible(visibleObserver.takeRecords());
-        for (const { isIntersecting } of entries) this.#setNear(isIntersecting);
-      },
-      { rootMargin: NEAR_MARGIN },
-    );
-    this.#visibleObserver = visibleObserver;
-    visibleObserver.observe(host);
-    this.#nearObserver.observe(host);
-    // The figure has its layout then.
-    void host.updateComplete.then(() => {
-      this.#checkPosition();
-      this.hostUpdated();
-    });
-  }
-
-  /** Observes the content too: beside text below the figure, a picture sticks outside the element's box. */
-  hostUpdated() {
-    const content = this.host.shadowRoot?.querySelector('.machine');
-    if (content) this.#visibleObserver?.observe(content);
-  }
-
-  /** Checks the position of the figure now: the observers report it a frame later. */
-  #checkPosition() {
-    const { top, bottom } = this.host.getBoundingClientRect();
-    // The box of a removed element is all 0.
-    if (top >= innerHeight || bottom <= 0) return;
-    this.host.stage.setVisible(true);
-    this.#setNear(true);
-  }
-
-  #setNear(isNear: boolean) {
-    if (isNear && !this.#isNear) void this.start();
-    this.#isNear = isNear;
-  }
 
   /** Starts the core, if it is not running. Resolves when it has started or failed. */
   start(): Promise<void> {
@@ -74,9 +22,6 @@ export class Runtime extends FigureController {
   }
 
   hostDisconnected() {
-    this.#visibleObserver?.disconnect();
-    this.#nearObserver?.disconnect();
-    this.#isNear = false;
     // A moved element is connected again by then.
     queueMicrotask(() => {
       if (this.host.isConnected) return;
@@ -186,7 +131,7 @@ export class Runtime extends FigureController {
   #stop() {
     this.#loaded = false;
     this.#hasTrapped = false;
-    this.host.stage.clear();
+    this.host.canvases.clear();
     this.attempt(() => {
       this.host.settings.settle();
       this.host.state.keep();

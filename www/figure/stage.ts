@@ -1,10 +1,10 @@
-/** Canvases of a figure: their sizes in device pixels, and frames, on the screen while the figure is visible and on paper. */
+/** Frames of a figure: its pictures, and then its text, on the screen while it is visible, and on paper. */
 
 import { nothing } from 'lit';
 import { onLanguage } from '../messages/registry.ts';
 import { clamp } from '../ui/clamp.ts';
+import { isShown } from './canvases.ts';
 import { FigureController } from './controller.ts';
-import type { Surface } from '../scene/canvas.ts';
 
 type AnyPicture = import('../scene/picture.ts').Picture<any>;
 
@@ -20,22 +20,13 @@ const MAX_TEXT_DELAY = 100;
 /** Longest time step of an animation, ms. After a pause it continues without a jump. */
 const MAX_TIME_STEP = 100;
 
-/** Pixels per CSS pixel in print. */
-const PRINT_RATIO = 2;
-
 let calm: MediaQueryList | undefined;
 
 /** Returns true if the reader prefers reduced motion. */
 export const isCalm = () => (calm ??= matchMedia('(prefers-reduced-motion: reduce)')).matches;
 
-/** Returns true if a canvas has pixels. Narrow figures hide some canvases. */
-const isShown = ({ width, height }: HTMLCanvasElement) => Math.min(width, height) > 0;
-
 export class Stage extends FigureController {
   inSight = false;
-  #canvases: HTMLCanvasElement[] | undefined;
-  /** Cached widths of the canvases in CSS pixels. Reading them in a frame would cause a reflow. */
-  #widths: WeakMap<HTMLCanvasElement, number> = new WeakMap();
   /** True once the text of the first picture was rendered. */
   #isDescribed = false;
   /** Pictures to draw, the one that has waited longest first. */
@@ -50,7 +41,6 @@ export class Stage extends FigureController {
   printing = false;
   /** True during a callback of the size observer. Text is not rendered then, because it could change sizes again. */
   #resizing: boolean | undefined;
-  #sizes: ResizeObserver | undefined;
 
   hostConnected() {
     const { signal } = this.host.connection;
@@ -59,7 +49,6 @@ export class Stage extends FigureController {
     // Some browsers do not have the events, others fire them too late.
     const media = matchMedia('print');
     media.addEventListener('change', () => this.#print(media.matches), { signal });
-    this.#followPixels(signal);
     onLanguage(this.host, () => this.#languageChanged(), signal);
   }
 
@@ -70,36 +59,13 @@ export class Stage extends FigureController {
   }
 
   hostUpdated() {
-    this.host.resolveSettled();
-    if (!this.#canvases) this.host.colours.update();
-    if (!this.host.machine || this.#canvases) return;
-    this.#canvases = [...this.host.renderRoot.querySelectorAll('canvas')];
-    this.#sizes = new ResizeObserver((entries) => this.#resize(entries));
-    this.#measure();
+    const { host } = this;
+    host.resolveSettled();
+    if (!host.canvases.all) host.colours.update();
+    if (!host.machine || host.canvases.all) return;
+    host.canvases.find();
     this.requestFrame();
     if (matchMedia('print').matches) this.#print(true);
-  }
-
-  /** Measures the canvases again after a change of the pixel ratio. WebKit's observer does not report device pixels. */
-  #followPixels(signal: AbortSignal) {
-    const changed = () => {
-      this.#measure();
-      this.#followPixels(signal);
-    };
-    matchMedia(`(resolution:${devicePixelRatio}dppx)`).addEventListener('change', changed, { once: true, signal });
-  }
-
-  /** Observes the sizes of the canvases. The observer also reports the present sizes. */
-  #measure() {
-    if (!this.#sizes || !this.#canvases) return;
-    this.#sizes.disconnect();
-    for (const canvas of this.#canvases) {
-      try {
-        this.#sizes.observe(canvas, { box: 'device-pixel-content-box' });
-      } catch {
-        this.#sizes.observe(canvas);
-      }
-    }
   }
 
   setVisible(inSight: boolean) {
@@ -160,17 +126,10 @@ export class Stage extends FigureController {
     return this.opening ? nothing : content();
   }
 
-  /** Releases the pixels of the canvases, which keep their size in the layout. */
-  clear() {
-    this.#sizes?.disconnect();
-    for (const canvas of this.#canvases ?? []) canvas.width = canvas.height = 0;
-    this.#sizes = this.#canvases = this.#undescribedSince = undefined;
-  }
-
   /** @param elapsed milliseconds since the frame before */
   #drawNow(elapsed: number) {
     // In a closed disclosure all sizes are 0.
-    if (!this.host.machine || !this.#canvases?.some(isShown)) return;
+    if (!this.host.machine || !this.host.canvases.all?.some(isShown)) return;
     this.host.runtime.attemptOrFail(() => {
       this.#draw(elapsed);
       if (this.host.machine) this.host.runtime.confirmHealthy();
@@ -194,10 +153,10 @@ export class Stage extends FigureController {
     for (const picture of this.#undrawn) {
       if (this.isBehind) break;
       this.#undrawn.delete(picture);
-      const canvas = this.canvasOf(picture);
+      const canvas = host.canvases.of(picture);
       // A figure may have replaced its picture.
       if (!host.pictures.includes(picture) || !isShown(canvas)) continue;
-      isMoving = picture.draw(this.#surfaceOf(canvas), scene, host.colours.palette, options) || isMoving;
+      isMoving = picture.draw(host.canvases.surfaceOf(canvas), scene, host.colours.palette, options) || isMoving;
       this.isBehind = this.#undrawn.size > 0 && !this.#resizing && performance.now() - began > PICTURES_TIME;
     }
     host.placeHandles(scene);
@@ -227,38 +186,11 @@ export class Stage extends FigureController {
     for (const picture of this.host.pictures) this.#undrawn.add(picture);
   }
 
-  #surfaceOf(canvas: HTMLCanvasElement): Surface {
-    const { width, height } = canvas;
-    const clientWidth = this.#widths.get(canvas) ?? canvas.clientWidth;
-    return { width, height, clientWidth, letters: getComputedStyle(canvas), context: canvas.getContext('2d') as CanvasRenderingContext2D };
-  }
-
-  canvasOf({ name }: AnyPicture) {
-    const canvases = this.#canvases as HTMLCanvasElement[];
-    return canvases.find(({ className }) => className === name) as HTMLCanvasElement;
-  }
-
-  /** Sets the size of each canvas in device pixels. In print the pixels determine the layout, so that the observer would be called again. */
-  #resize(entries: ResizeObserverEntry[]) {
-    if (this.printing) return;
-    for (const { target, contentRect, devicePixelContentBoxSize } of entries) {
-      const canvas = target as HTMLCanvasElement;
-      const exact = devicePixelContentBoxSize?.[0];
-      canvas.width = Math.round(exact?.inlineSize ?? devicePixelRatio * contentRect.width);
-      canvas.height = Math.round(exact?.blockSize ?? devicePixelRatio * contentRect.height);
-    }
-    this.#drawResized();
-  }
-
-  #drawResized() {
-    for (const canvas of this.#canvases ?? []) {
-      const { clientWidth, clientHeight } = canvas;
-      this.#widths.set(canvas, clientWidth);
-      if (this.printing) Object.assign(canvas, { width: PRINT_RATIO * clientWidth, height: PRINT_RATIO * clientHeight });
-    }
+  /** Draws at once, because resizing has cleared the canvases: a drawing in the next frame would flicker. */
+  drawResized() {
+    this.host.canvases.update(this.printing);
     this.host.colours.resolve();
     this.#addPictures();
-    // Resizing has cleared the canvas. A drawing in the next frame would flicker.
     this.#resizing = true;
     this.#drawNow(0);
     this.#resizing = false;
@@ -274,8 +206,8 @@ export class Stage extends FigureController {
       return;
     }
     if (printing) cloud?.finish();
-    else this.#measure();
-    this.#drawResized();
+    else this.host.canvases.measure();
+    this.drawResized();
     this.#describe();
   }
 

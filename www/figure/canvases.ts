@@ -1,0 +1,88 @@
+/** Canvases of a figure, and their sizes in device pixels. */
+
+import { FigureController } from './controller.ts';
+import type { Surface } from '../scene/canvas.ts';
+
+/** Pixels per CSS pixel in print. */
+const PRINT_RATIO = 2;
+
+/** Returns true if a canvas has pixels. Narrow figures hide some canvases. */
+export const isShown = ({ width, height }: HTMLCanvasElement) => Math.min(width, height) > 0;
+
+export class Canvases extends FigureController {
+  /** Canvases that are observed; undefined until they are rendered. */
+  all: HTMLCanvasElement[] | undefined;
+  /** Cached widths in CSS pixels. Reading them in a frame would cause a reflow. */
+  #widths: WeakMap<HTMLCanvasElement, number> = new WeakMap();
+  #observer = new ResizeObserver((entries) => this.#resize(entries));
+
+  hostConnected() {
+    this.#followPixels(this.host.connection.signal);
+  }
+
+  /** Finds and observes the canvases. */
+  find() {
+    this.all = [...this.host.renderRoot.querySelectorAll('canvas')];
+    this.measure();
+  }
+
+  /** Releases the pixels of the canvases, which keep their size in the layout. */
+  clear() {
+    this.#observer.disconnect();
+    for (const canvas of this.all ?? []) canvas.width = canvas.height = 0;
+    this.all = undefined;
+  }
+
+  /** Measures the canvases again after a change of the pixel ratio. WebKit's observer does not report device pixels. */
+  #followPixels(signal: AbortSignal) {
+    const changed = () => {
+      this.measure();
+      this.#followPixels(signal);
+    };
+    matchMedia(`(resolution:${devicePixelRatio}dppx)`).addEventListener('change', changed, { once: true, signal });
+  }
+
+  /** Observes the sizes of the canvases. The observer also reports the present sizes. */
+  measure() {
+    this.#observer.disconnect();
+    for (const canvas of this.all ?? []) {
+      try {
+        this.#observer.observe(canvas, { box: 'device-pixel-content-box' });
+      } catch {
+        this.#observer.observe(canvas);
+      }
+    }
+  }
+
+  /** Sets the size of each canvas in device pixels. In print the pixels determine the layout, so that the observer would be called again. */
+  #resize(entries: ResizeObserverEntry[]) {
+    if (this.host.stage.printing) return;
+    for (const { target, contentRect, devicePixelContentBoxSize } of entries) {
+      const canvas = target as HTMLCanvasElement;
+      const exact = devicePixelContentBoxSize?.[0];
+      canvas.width = Math.round(exact?.inlineSize ?? devicePixelRatio * contentRect.width);
+      canvas.height = Math.round(exact?.blockSize ?? devicePixelRatio * contentRect.height);
+    }
+    this.host.stage.drawResized();
+  }
+
+  /** Caches the widths in the layout, and sets the sizes in pixels for print. */
+  update(printing: boolean) {
+    for (const canvas of this.all ?? []) {
+      const { clientWidth, clientHeight } = canvas;
+      this.#widths.set(canvas, clientWidth);
+      if (printing) Object.assign(canvas, { width: PRINT_RATIO * clientWidth, height: PRINT_RATIO * clientHeight });
+    }
+  }
+
+  /** Returns the canvas of a picture. */
+  of({ name }: { name: string }) {
+    return this.all?.find(({ className }) => className === name) as HTMLCanvasElement;
+  }
+
+  surfaceOf(canvas: HTMLCanvasElement): Surface {
+    const { width, height } = canvas;
+    const clientWidth = this.#widths.get(canvas) ?? canvas.clientWidth;
+    return { width, height, clientWidth, letters: getComputedStyle(canvas), context: canvas.getContext('2d') as CanvasRenderingContext2D };
+  }
+}

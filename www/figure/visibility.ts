@@ -1,0 +1,60 @@
+/** Visibility of a figure, which starts near the viewport and draws only within it. */
+
+import { FigureController } from './controller.ts';
+
+/** Distance from the viewport at which a figure starts. Less would show empty frames; more would start unseen figures. */
+const NEAR_MARGIN = '600px';
+
+export class Visibility extends FigureController {
+  #isNear = false;
+  #visibleObserver: IntersectionObserver | undefined;
+
+  hostConnected() {
+    const { host } = this;
+    const seen = new Map<Element, boolean>();
+    const setVisible = (entries: IntersectionObserverEntry[]) => {
+      for (const { target, isIntersecting } of entries) seen.set(target, isIntersecting);
+      if (entries.length > 0) host.stage.setVisible([...seen.values()].includes(true));
+    };
+    const visibleObserver = (this.#visibleObserver = new IntersectionObserver(setVisible));
+    const nearChanged = (entries: IntersectionObserverEntry[]) => {
+      // A start depends on the visibility, but the order of the observers' callbacks is undefined.
+      setVisible(visibleObserver.takeRecords());
+      for (const { isIntersecting } of entries) this.#setNear(isIntersecting);
+    };
+    const nearObserver = new IntersectionObserver(nearChanged, { rootMargin: NEAR_MARGIN });
+    for (const observer of [visibleObserver, nearObserver]) {
+      observer.observe(host);
+      host.connection.signal.addEventListener('abort', () => observer.disconnect());
+    }
+    // The figure has its layout then.
+    void host.updateComplete.then(() => {
+      this.#checkPosition();
+      this.hostUpdated();
+    });
+  }
+
+  hostDisconnected() {
+    this.#isNear = false;
+  }
+
+  /** Observes the content too: beside text below the figure, a picture sticks outside the element's box. */
+  hostUpdated() {
+    const content = this.host.shadowRoot?.querySelector('.machine');
+    if (content) this.#visibleObserver?.observe(content);
+  }
+
+  /** Checks the position of the figure now: the observers report it a frame later. */
+  #checkPosition() {
+    const { top, bottom } = this.host.getBoundingClientRect();
+    // The box of a removed element is all 0.
+    if (top >= innerHeight || bottom <= 0) return;
+    this.host.stage.setVisible(true);
+    this.#setNear(true);
+  }
+
+  #setNear(isNear: boolean) {
+    if (isNear && !this.#isNear) void this.host.runtime.start();
+    this.#isNear = isNear;
+  }
+}

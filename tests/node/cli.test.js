@@ -135,6 +135,11 @@ test('bad input has the exit code 2 and a sentence', async () => {
     [['--odometri', 'a'], 'unknown option --odometri; the nearest is --odometry, --help lists all.'],
     [['--seed', '1'], 'unknown option --seed; --help lists all.'],
     [['--update-min-d', '--json'], "Option '--update-min-d' argument is ambiguous."],
+    [['--columns', '-,t,x,y,yaw'], "Option '--columns' argument is ambiguous. Did you forget to specify the option argument for '--columns'? To specify an option argument starting with a dash use '--columns=-XYZ'."],
+    [
+      [file('two.csv', ['t,x,y,yaw,b_x,b_y,b_yaw', ...Array.from({ length: 40 }, (_, i) => `${i / 20},${i / 40},0,0,${i / 39},0,0`)].join('\n'))],
+      "two.csv: it is not clear what the odometry is: t, x, y, yaw (t, x, y, yaw), b_ (b_x, b_y, b_yaw). Choose with --odometry-topic, as in --odometry-topic 't, x, y, yaw'.\n",
+    ],
     [['--json'], 'no logs are given; give a recording, as in calibrate run.bag, or two files, odometry and reference.'],
     [['--odometry', example('odometry')], '--reference is missing; give a file or folder, or a recording with both.'],
     [

@@ -67,7 +67,7 @@ test('odometry and reference are guessed by types, names and frames', () => {
 test('groups of columns are guessed as topics are, and may be named without a separator', () => {
   const table = /** @type {const} */ ({ name: 'run.csv', format: 'csv' });
   for (const [series, odometry, reference, wishes] of /** @type {[Parameters<typeof recording>[0], string, string, any?][]} */ ([
-    [{ odom_: 'columns', gt_: 'columns' }, 'odom_', 'gt_'], [{ '': 'columns', gt_: 'columns' }, '', 'gt_'], [{ '/truth': 'columns', '/odom': 'columns' }, '/odom', '/truth'],
+    [{ odom_: 'columns', gt_: 'columns' }, 'odom_', 'gt_'], [{ '': 'columns', gt_: 'columns' }, '', 'gt_'], [{ '': 'columns', _true: 'columns' }, '', '_true'], [{ '/truth': 'columns', '/odom': 'columns' }, '/odom', '/truth'],
     [{ a_: 'columns', b_: 'columns' }, 'b_', 'a_', { odometry: { series: 'b' } }],
   ])) {
     const [drive] = planDrives([recording(series, table)], wishes).drives;

@@ -3,6 +3,9 @@
 import { LogError, cut } from '../logs/log-error.ts';
 import { UNITS } from '../logs/log.ts';
 
+/** Returns a text as a shell takes it for one argument. */
+export const quoted = (text: string): string => (/^[\w./,@%+=:-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`);
+
 /** Returns a sentence with the option that answers the question of an error. */
 export function adviceOf({ ask, message }: LogError): string {
   if (!ask || message.includes(' --')) return '';
@@ -15,5 +18,5 @@ export function adviceOf({ ask, message }: LogError): string {
     return ` Choose with ${option}, as in ${option} ${unit}; if odometry and reference differ, with --odometry FILE --reference FILE ${option} ${usual},${unit}.`;
   }
   const [first] = choices.length > 0 ? choices.filter(Boolean) : what === 'columns' ? ['t,x,y,yaw'] : [];
-  return ` Choose with ${option}${first === undefined ? '' : `, as in ${option} ${cut(first)}`}.`;
+  return ` Choose with ${option}${first === undefined ? '' : `, as in ${option} ${quoted(cut(first))}`}.`;
 }

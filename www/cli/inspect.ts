@@ -6,7 +6,7 @@ import { english } from '../logs/en.ts';
 import { LogError, cut } from '../logs/log-error.ts';
 import { ROLES, framesOption, framesText, type Choice, type Log, type Recording, type Role, type Summary } from '../logs/log.ts';
 import { summarize } from '../logs/summary.ts';
-import { adviceOf } from './advice.ts';
+import { adviceOf, quoted } from './advice.ts';
 import { aligned } from './report.ts';
 
 const FORMATS: Partial<Record<Recording['format'], string>> = { mcap: 'MCAP recording', rosbag: 'ROS 1 bag', sqlite: 'rosbag2 SQLite recording', csv: 'table', tum: 'TUM table' };
@@ -114,7 +114,6 @@ export const byOrder = ({ unpaired: { odometry: [first], reference: [second] } }
 
 /** Returns the command that calibrates from the recordings, or a sentence about missing logs. */
 function nextOf(given: Given[], stated: [name: string, value: string][]): Pick<Inspected, 'command' | 'missing'> {
-  const quoted = (text: string) => (/^[\w./,@%+=:-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`);
   const pathOf = ({ recording }: Pick<Part, 'recording'>) => quoted(given.find((each) => each.recording === recording)?.path ?? recording.name);
   const units = stated.map(([name, value]) => `--${name} ${quoted(value)}`);
   const command = (...options: string[]) => ['npx motion-widgets calibrate', ...new Set(options), ...units, '--rule nav2'].join(' ');

@@ -208,8 +208,7 @@ function parsed(args: string[]) {
   } catch (error) {
     const { code, message } = error as NodeJS.ErrnoException;
     const [, name] = (code === 'ERR_PARSE_ARGS_UNKNOWN_OPTION' && /'--?([^']*)'/.exec(message)) || [];
-    const [sentence] = message.split('\n');
-    throw new UsageError(name === undefined ? sentence : `unknown option --${cut(name)}; ${nearestOption(name)}--help lists all.`);
+    throw new UsageError(name === undefined ? message.replaceAll('\n', ' ') : `unknown option --${cut(name)}; ${nearestOption(name)}--help lists all.`);
   }
 }
 

@@ -7,7 +7,7 @@ const ODOMETRY_NAMES = [/(^|[/_.])odom(etry)?[/_.]?$/i, /odom|wheel|encoder/i];
 const COMMAND_NAMES = [/(^|[/_.])cmd_?vel[/_.]?$/i, /cmd|command|twist/i];
 
 /** Names of measurements from outside. */
-const MEASUREMENT_NAMES = /truth|(^|[^a-z])(gt|ref)([^a-z]|$)|mocap|vicon|optitrack|qualisys|vrpn|motive|natnet|phasespace|reference|station|leica|prism|tracker/i;
+const MEASUREMENT_NAMES = /truth|(^|[^a-z])(gt|ref|true)([^a-z]|$)|mocap|vicon|optitrack|qualisys|vrpn|motive|natnet|phasespace|reference|station|leica|prism|tracker/i;
 
 /** Names of estimates by localizers, whose errors follow the odometry where they use it. */
 const LOCALIZER_NAMES = /slam|amcl|locali[sz]|carto|tracked_pose|icp|loam|scan_?match|pose_graph/i;

@@ -267,7 +267,7 @@ export async function bundle({ tags = WIDGETS, changed = (_, script) => script }
     write(at(join('dist', relative('www', path))), path.endsWith('.html') ? withTables(text, elements, all) : text);
   }
   // The module needs Lit, which is not installed in a bare clone. A static import would fail there.
-  const { preUpgradeCss } = await importTypeScript('www/figure/page/reserved-height.ts');
+  const { preUpgradeCss } = await importTypeScript('www/figure/reserved-height.ts');
   // Without scripts no height is reserved.
   const kept = `@media (scripting:enabled){\n${preUpgradeCss()}\n}`;
   // Slides have a large font, which is too large for figures. `:where` has no specificity: any rule of a page takes precedence.

@@ -1,7 +1,6 @@
 /** Attributes and properties derived from a widget's settings, and their conversion from and to text. */
 
 import { includesFields, refusal, word } from './checks.ts';
-import { THEMES } from './page/scheme.ts';
 import type { Declaration } from '../settings.js';
 
 /** Conversion of a value from and to the text of an attribute. */
@@ -67,6 +66,8 @@ export const WORD_LIST: Converter = { parse: (text) => text.split(/\s/).filter(B
 
 /** Conversions of the types that fit into an attribute. Objects and arrays have none. */
 const CONVERTERS: Record<string, Converter> = { number: NUMBER, whole: NUMBER, word: WORD, boolean: BOOLEAN };
+
+export const THEMES = ['auto', 'light', 'dark'] as const;
 
 export const HEADING_LEVELS = ['1', '2', '3', '4', '5', '6'] as const;
 

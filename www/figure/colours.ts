@@ -1,7 +1,6 @@
 /** Colours of a figure: those of the page around it, of its theme, or of paper. */
 
-import { resolvePalette, type Palette } from '../ui/theme.ts';
-import { ancestors, surroundings } from './page/scheme.ts';
+import { channels, resolvePalette, type Palette } from '../ui/theme.ts';
 import { FigureController } from './controller.ts';
 
 export class Colours extends FigureController {
@@ -46,4 +45,56 @@ export class Colours extends FigureController {
   #find(selector: string) {
     return this.host.renderRoot?.querySelector(selector) as HTMLElement;
   }
+}
+
+/**
+ * Colours around a figure. `shade` is the amount by which colours are darkened for this background. `strength` is the fraction of the text
+ * colour in muted text. An empty `text` keeps the figure's own colour.
+ */
+type Surroundings = { ground: string, text: string, shade: string, strength: string, scheme: 'light' | 'dark' };
+
+/** Background assumed on a page that has light text, but neither a background nor a `color-scheme`. */
+const DARK = '#121212';
+
+/** Fractions of the text colour in muted text, percent. The first that is legible is used. */
+const MUTED_SHARES = [75, 80, 85, 90, 95];
+
+/** Minimum contrast of text: 4.5 by WCAG 2, level AA, and a margin for rounding. */
+const MIN_CONTRAST = 4.55;
+
+/** Returns a node's element and its ancestors across shadow roots, the nearest first. */
+function ancestors(node: Node): Element[] {
+  const all = [];
+  let at: any = node;
+  for (; at; at = at.assignedSlot ?? at.parentNode ?? at.host) if (at.nodeType === 1) all.push(at);
+  return all;
+}
+
+/** Returns the surroundings. They are dark if the background is darker than legible text, or than medium grey if the text is not legible. */
+function surroundings(probe: Element): Surroundings {
+  const { color, borderTopColor: canvas, colorScheme } = getComputedStyle(probe);
+  const ink = channels(color);
+  const isDarkByDefault = colorScheme === 'normal' && lightness(ink) > 0.5;
+  const grounds = ancestors(probe).map((each) => getComputedStyle(each).backgroundColor);
+  const ground = channels(...[...grounds, isDarkByDefault ? DARK : canvas].reverse());
+  const groundLightness = lightness(ground);
+  const isLegible = contrast(ink, ground) >= MIN_CONTRAST;
+  const scheme = groundLightness < (isLegible ? lightness(ink) : 0.5) ? 'dark' : 'light';
+  // The amount grows with the darkness of the background. Nearly white backgrounds need none.
+  const shade = scheme === 'light' && groundLightness < 0.97 ? `${100 * (1 - groundLightness ** 2.2)}%` : '';
+  const muted = (share: number) => ground.map((channel, i) => channel + (share / 100) * (ink[i] - channel));
+  const strength = isLegible ? `${MUTED_SHARES.find((share) => contrast(muted(share), ground) >= MIN_CONTRAST) ?? 100}%` : '';
+  return { ground: `rgb(${ground})`, text: isLegible ? color : '', shade, strength, scheme };
+}
+
+/** Returns the contrast by WCAG 2. */
+function contrast(one: number[], other: number[]) {
+  const linear = (channel: number) => (channel > 10 ? ((channel / 255 + 0.055) / 1.055) ** 2.4 : channel / 3294.6);
+  const [low, high] = [one, other].map((colour) => lightness(colour.map((channel) => 255 * linear(channel)))).sort((a, b) => a - b);
+  return (high + 0.05) / (low + 0.05);
+}
+
+/** Returns the lightness from 0, black, to 1, with the weights of Rec. 709. */
+function lightness([red, green, blue]: number[]): number {
+  return (0.2126 * red + 0.7152 * green + 0.0722 * blue) / 255;
 }

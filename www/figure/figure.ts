@@ -8,14 +8,13 @@ import { plotStyles } from '../ui/plot.ts';
 import { presentationStyles } from '../ui/presentation.ts';
 import { theme } from '../ui/theme.ts';
 import { Announcer } from './announcer.ts';
-import { COMMON, type HEADING_LEVELS } from './attributes.ts';
+import { COMMON, type HEADING_LEVELS, type THEMES } from './attributes.ts';
 import { Canvases } from './canvases.ts';
 import { Colours } from './colours.ts';
 import { Focus } from './focus.ts';
 import { Gesture } from './gesture.ts';
 import { Link } from './link.ts';
-import { reservedHeight } from './page/reserved-height.ts';
-import { type THEMES, schemeStyles } from './page/scheme.ts';
+import { reservedHeight } from './reserved-height.ts';
 import { Notice, noticeStyles } from './notice.ts';
 import { Presentation } from './presentation.ts';
 import { Reflection } from './reflection.ts';
@@ -88,7 +87,7 @@ export class FigureElement<Machine extends { free(): void, stats: object, config
   static finalizeStyles(own: CSSResultGroup = []) {
     // Lit asks the base class too, which has no definition.
     const reserved = this.definition ? reservedHeight(this.definition.tag) : [];
-    return super.finalizeStyles([theme, schemeStyles, presentationStyles, noticeStyles, reserved, ...layoutStyles, plotStyles, own]);
+    return super.finalizeStyles([theme, presentationStyles, noticeStyles, reserved, ...layoutStyles, plotStyles, own]);
   }
 
   /** Colours: light, dark, or auto for those of the surroundings. */

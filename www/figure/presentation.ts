@@ -47,13 +47,13 @@ export class Presentation extends FigureController {
     await host.updateComplete;
     // A click should leave no focus ring in the presentation.
     this.#focus(keyed ? '.presenting button' : '.presenting');
-    // Full screen needs a key press or a click.
-    if (navigator.userActivation.isActive) await host.requestFullscreen().catch(() => {});
+    // Full screen needs a key press or a click. Phones may have none.
+    if (navigator.userActivation.isActive) await host.requestFullscreen?.().catch(() => {});
     if (!this.#listening) await this.#exit();
     else if (!host.matches(':fullscreen')) {
       // A popover in the top layer fills the window even if an ancestor has a transform.
       host.popover = 'manual';
-      host.showPopover?.();
+      host.showPopover();
     }
   }
 

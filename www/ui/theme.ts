@@ -65,8 +65,12 @@ export const theme = css`
     display: none;
   }
 
-  /* A change of any role fires an event: see schemeStyles. */
+  /* Probe that inherits the page's colours. Its transition fires an event when a role changes. */
   .scheme-probe {
+    position: absolute;
+    visibility: hidden;
+    forced-color-adjust: none;
+    transition: 1ms;
     background: var(--motion-paper, transparent);
     color: var(--motion-ink);
     border-color: Canvas var(--muted) var(--rule);

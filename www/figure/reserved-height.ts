@@ -1,7 +1,7 @@
 /** Heights reserved for figures, so that the text below does not move when they load. */
 
 import { css, unsafeCSS } from 'lit';
-import { preferredWidth } from '../../ui/theme.ts';
+import { preferredWidth } from '../ui/theme.ts';
 
 /** Bounds of the width classes, em, where the layout changes. */
 const WIDTHS = [20, 30, 38, 46, 56, 80];

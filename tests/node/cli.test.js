@@ -133,6 +133,7 @@ test('bad input has the exit code 2 and a sentence', async () => {
     [['a.csv', 'b.csv', '--time-unit', 'ms,s'], '--time-unit ms,s has two units; give the files with --odometry and --reference.'],
     [['a.csv', 'b.csv', '--reference-columns', 't,x,y,yaw'], '--reference-columns needs --reference FILE.'],
     [['--odometri', 'a'], 'unknown option --odometri; the nearest is --odometry, --help lists all.'],
+    [['--ref', 'a'], 'unknown option --ref; the nearest is --reference, --help lists all.'],
     [['--seed', '1'], 'unknown option --seed; --help lists all.'],
     [['--update-min-d', '--json'], "Option '--update-min-d' argument is ambiguous."],
     [['--columns', '-,t,x,y,yaw'], "Option '--columns' argument is ambiguous. Did you forget to specify the option argument for '--columns'? To specify an option argument starting with a dash use '--columns=-XYZ'."],

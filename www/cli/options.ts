@@ -212,13 +212,13 @@ function parsed(args: string[]) {
   }
 }
 
-/** Returns a hint at the option that has the most pairs of letters in common with a name. */
+/** Returns a hint at the option that begins with a name, or has the most pairs of letters in common with it. */
 function nearestOption(name: string): string {
   const pairs = (word: string) => Array.from(word, (letter, i) => letter + (word[i + 1] ?? ''));
   const own = pairs(name);
   const scores = Object.keys(OPTIONS).map((option) => {
     const other = pairs(option);
-    return { option, score: own.filter((pair) => other.includes(pair)).length / Math.max(own.length, other.length) };
+    return { option, score: option.startsWith(name) ? 1 : own.filter((pair) => other.includes(pair)).length / Math.max(own.length, other.length) };
   });
   const { option, score } = scores.reduce((best, each) => (each.score > best.score ? each : best));
   return score > 0.4 ? `the nearest is --${option}, ` : '';

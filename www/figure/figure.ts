@@ -1,6 +1,6 @@
 /** Base class of all figures: a simulation of the core, canvases, and a state that a page can read and set. */
 
-import { LitElement, nothing, type CSSResultGroup } from 'lit';
+import { LitElement, type CSSResultGroup } from 'lit';
 import { en } from '../messages/en.ts';
 import { addEnglish, speak, words } from '../messages/registry.ts';
 import { layoutStyles } from '../ui/layout.ts';
@@ -80,7 +80,7 @@ addEnglish(en);
  * @cssprop --motion-sticky-bottom - Height of text below the figure beside which the picture still sticks. The text needs a `position` to
  *   be above the figure.
  */
-export class FigureElement<Machine extends { free(): void, stats: object, config: Values, configure(settings: Values): Values }, Reading extends { config: Values, stats: object }> extends LitElement {
+export abstract class FigureElement<Machine extends { free(): void, stats: object, config: Values, configure(settings: Values): Values }, Reading extends { config: Values, stats: object }> extends LitElement {
   static definition: import('./definition.ts').Definition;
 
   /** Adds the styles that all figures have before those of a widget. */
@@ -137,20 +137,16 @@ export class FigureElement<Machine extends { free(): void, stats: object, config
     return (this.constructor as typeof FigureElement).definition;
   }
 
-  // Members that widgets override; the first five are required.
+  // Members that widgets override; the abstract ones are required.
 
   /** Creates a machine in a state, or in the default one; throws a TypeError or RangeError. */
-  createMachine(_motion: Motion, _state?: Values): Machine {
-    throw new Error('A widget creates its own machine.');
-  }
+  abstract createMachine(motion: Motion, state?: Values): Machine;
 
   /** Applies the fields of a state that are not settings to a new machine, and adds missing fields. */
   complete(_machine: Machine, _state: Values) {}
 
   /** Returns the reading of the machine. It is called once for each change. */
-  read(_machine: Machine): Reading {
-    throw new Error('A widget reads its own machine.');
-  }
+  abstract read(machine: Machine): Reading;
 
   /** Scene of the pictures: the reading, and other values that they draw. */
   get scene(): any {
@@ -158,19 +154,13 @@ export class FigureElement<Machine extends { free(): void, stats: object, config
   }
 
   /** Returns the HTML of the figure. */
-  content(_reading: Reading): unknown {
-    return nothing;
-  }
+  abstract content(reading: Reading): unknown;
 
   /** Content for export, after all pending changes. */
-  get exportData(): import('./export.ts').ExportData {
-    throw new Error('A widget defines its own export.');
-  }
+  abstract get exportData(): import('./export.ts').ExportData;
 
   /** Returns the announcement for screen readers after a completed change. */
-  announcement(_reading: Reading) {
-    return '';
-  }
+  abstract announcement(reading: Reading): string;
 
   /** Runs after the machine was replaced. */
   machineChanged() {}

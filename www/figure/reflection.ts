@@ -209,7 +209,7 @@ export class Reflection extends FigureController {
 }
 
 /** Defines a widget's element with its properties. If the page loads the script twice, the second call does nothing. */
-export function define(Widget: typeof import('./figure.ts').FigureElement<any, any>) {
+export function define(Widget: typeof import('./figure.ts').FigureElement<any, any> & CustomElementConstructor) {
   const { prototype, definition: { tag, properties, own } } = Widget;
   if (customElements.get(tag)) return;
   for (const name of Object.keys(properties)) {

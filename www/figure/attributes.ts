@@ -22,8 +22,8 @@ export interface Property {
   change: (value: any, config: Config) => Config;
   /** Name of a setting in the core, if different. */
   path?: string;
-  /** Returns the names of attributes whose values follow from a text of this one. They are only written while this one has no text. */
-  covers?: (text: string | null) => string[];
+  /** Names of the attributes whose values follow from this one. They are only written while this one has no text. */
+  covers?: string[];
   /** Allowed words, if no declaration lists them. */
   words?: readonly string[];
   /** Range of a number, if no declaration has it. */
@@ -133,10 +133,9 @@ export function presetsOf(presets: readonly ({ name: string } & Record<string, a
     const config = Object.entries(given).reduce((all, [key, value]) => ({ ...all, ...properties[key].change(value, all) }), defaultConfig(declared));
     return Object.fromEntries(Object.entries(config).filter(([key]) => !KEPT_BY_PRESETS.includes(key)));
   });
-  const covered = Object.keys(attributesIn(properties)).filter((key) => !KEPT_BY_PRESETS.includes(key));
   return {
     converter: WORD,
-    covers: () => covered,
+    covers: Object.keys(attributesIn(properties)).filter((key) => !KEPT_BY_PRESETS.includes(key)),
     words,
     get: (config) => words[settings.findIndex((each) => includesFields(config, each))] ?? null,
     change: (name) => settings[words.indexOf(word('preset', name, words))],

@@ -150,7 +150,7 @@ export abstract class FigureElement<Machine extends { free(): void, stats: objec
 
   /** Scene of the pictures: the reading, and other values that they draw. */
   get scene(): any {
-    return this.fresh;
+    return this.currentReading;
   }
 
   /** Returns the HTML of the figure. */
@@ -207,7 +207,7 @@ export abstract class FigureElement<Machine extends { free(): void, stats: objec
   }
 
   /** Reading of the machine after all pending changes are applied. */
-  get fresh(): Reading {
+  get currentReading(): Reading {
     if (!this.machine) throw new Error('There is no figure yet: it is there from the load event on.');
     speak(this);
     this.settings.settle();

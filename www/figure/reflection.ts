@@ -180,7 +180,7 @@ export class Reflection extends FigureController {
     for (const [name, { covers }] of Object.entries(this.#attributes)) {
       if (!covers || texts.get(name) !== null || !changed.has(name)) continue;
       const defaults = this.#textsOf(this.#defaultConfig);
-      for (const covered of covers(null)) if (texts.get(covered) !== defaults.get(covered)) changed.add(covered);
+      for (const covered of covers) if (texts.get(covered) !== defaults.get(covered)) changed.add(covered);
     }
     this.#isWriting = true;
     for (const name of changed) {
@@ -202,7 +202,7 @@ export class Reflection extends FigureController {
       const text = texts.get(name) ?? null;
       if (text === null) continue;
       if (text !== defaults.get(name) && !covered.has(name)) attributes.push([name, text]);
-      covers?.(text).forEach((each) => covered.add(each));
+      covers?.forEach((each) => covered.add(each));
     }
     return attributes;
   }

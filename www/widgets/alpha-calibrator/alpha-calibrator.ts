@@ -108,7 +108,7 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
   }
 
   get scene() {
-    const reading = this.fresh;
+    const reading = this.currentReading;
     return { ...reading, chosen: this.chosen, leg: this.predicted, overlays: this.state.own.overlays };
   }
 
@@ -203,7 +203,7 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
   }
 
   get exportData() {
-    const { fitted, legs } = this.fresh;
+    const { fitted, legs } = this.currentReading;
     const of = (numbers: Float64Array, i: number, size: number) => numbers.subarray(size * i, size * (i + 1));
     const poses = (whose: string) => ['from', 'to'].flatMap((end) => ['x_m', 'y_m', 'theta_rad'].map((name) => `${whose}_${end}_${name}`));
     return {

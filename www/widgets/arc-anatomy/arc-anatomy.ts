@@ -49,13 +49,13 @@ export class ArcAnatomyElement extends FigureElement<Machine, Reading> {
 
   get scene() {
     const { overlays, line, underway } = this.state.own;
-    const reading = this.fresh;
+    const reading = this.currentReading;
     const robots = underway < UNDERWAY_AT_END ? this.machine?.underway(underway / UNDERWAY_AT_END) : undefined;
     return { ...reading, machine: this.machine, overlays, line, underway: robots };
   }
 
   get exportData() {
-    const { config, stats: { factors } } = this.fresh;
+    const { config, stats: { factors } } = this.currentReading;
     return {
       description: pictureText(this.reading),
       settings: config,

@@ -88,7 +88,7 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
   read = readingOf;
 
   get scene() {
-    const reading = this.fresh;
+    const reading = this.currentReading;
     const { motion } = this;
     const pinned = this.#pinned;
     const { overlays, morph } = this.state.own;
@@ -121,13 +121,13 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
 
   /** Pins the outlines and numbers for comparison, or removes those that are pinned. */
   #pin() {
-    this.#pinned = this.#pinned ? undefined : this.fresh;
+    this.#pinned = this.#pinned ? undefined : this.currentReading;
     this.stage.requestFrame();
     this.requestUpdate();
   }
 
   get exportData() {
-    const { config, shown: count } = this.fresh;
+    const { config, shown: count } = this.currentReading;
     const { poses, twists, executed } = this.machine as Machine;
     return {
       description: this.#description,
@@ -152,7 +152,7 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
 
   /** Place of the end of the commanded arc, in the view's world. */
   get seenEnd() {
-    const { v, omega, dt } = this.fresh.config.command;
+    const { v, omega, dt } = this.currentReading.config.command;
     return placeOf([v * dt, 0, omega * dt], this.state.own.morph);
   }
 

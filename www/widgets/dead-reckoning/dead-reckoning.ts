@@ -57,11 +57,11 @@ export class DeadReckoningElement extends FigureElement<Machine, Reading> {
   read = readingOf;
 
   get scene() {
-    return { ...this.fresh, marked: this.#marked, overlays: this.state.own.overlays };
+    return { ...this.currentReading, marked: this.#marked, overlays: this.state.own.overlays };
   }
 
   get exportData() {
-    const { config } = this.fresh;
+    const { config } = this.currentReading;
     const { measured, relativeErrors, predicted } = this.machine as Machine;
     const of = (triples: Float64Array, i: number) => triples.subarray(3 * i, 3 * i + 3);
     return {

@@ -93,23 +93,23 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
   }
 
   get scene() {
-    const { fresh } = this;
-    this.#meter.measureWhenIdle(fresh.config, !this.cloud.playing && !this.gesture.pressed);
+    const reading = this.currentReading;
+    this.#meter.measureWhenIdle(reading.config, !this.cloud.playing && !this.gesture.pressed);
     const { index, isMarked } = this.cloud;
     this.picture.close = this.state.own.view === 'close';
-    return { ...fresh, machine: this.machine, overlays: this.state.own.overlays, marked: isMarked ? this.#marked(index) : undefined };
+    return { ...reading, machine: this.machine, overlays: this.state.own.overlays, marked: isMarked ? this.#marked(index) : undefined };
   }
 
   /** Returns the marked sample, with the point where an accepted one went through a wall. */
   #marked(index: number) {
-    const { poses, verdicts, config } = this.fresh;
+    const { poses, verdicts, config } = this.currentReading;
     const path = this.#path.of([poses, index], () => (this.machine as Machine).path(index));
     const isThrough = outcomeOf(verdicts[index]) === 2;
     return { pose: poses.subarray(3 * index), path, contact: isThrough ? contactOf(path, this.picture.plan.walls, config.clearance) : undefined };
   }
 
   get exportData() {
-    const { config, poses, verdicts } = this.fresh;
+    const { config, poses, verdicts } = this.currentReading;
     return {
       description: this.#description,
       settings: { map: this.map?.name ?? null, ...config },

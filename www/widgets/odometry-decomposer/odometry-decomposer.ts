@@ -54,7 +54,7 @@ export class OdometryDecomposerElement extends FigureElement<Machine, Reading> {
   read = readingOf;
 
   get scene() {
-    const reading = this.fresh;
+    const reading = this.currentReading;
     const { index, isMarked } = this.cloud;
     return { ...reading, overlays: this.state.own.overlays, marked: isMarked ? reading.poses.subarray(3 * index) : undefined };
   }
@@ -72,7 +72,7 @@ export class OdometryDecomposerElement extends FigureElement<Machine, Reading> {
   }
 
   get exportData() {
-    const { config, poses } = this.fresh;
+    const { config, poses } = this.currentReading;
     return {
       description: legsText(this.reading),
       settings: config,

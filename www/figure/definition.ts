@@ -4,7 +4,7 @@ import { presets, settings, type Declaration } from '../settings.js';
 import { NUMBER, WORD_LIST, attributesIn, plainProperty, presetsOf, propertiesOf, type Attribute, type Config, type Properties, type Property } from './attributes.ts';
 import { numberWithin, subset, wholeNumber, word } from './checks.ts';
 import type { SliderSpec } from './controls.ts';
-import type { LineStyle } from './overlays.ts';
+import type { LineStyle } from '../scene/draw.ts';
 
 /** Field of the state that the machine does not have. */
 export interface Own extends Pick<Property, 'converter' | 'words' | 'min' | 'max'> {

@@ -3,17 +3,7 @@
 import { html, nothing, svg } from 'lit';
 import { words } from '../messages/registry.ts';
 import { rich, toggle } from '../ui/controls.ts';
-
-/** Style of a line or mark, in the picture and in the legend. */
-export interface LineStyle {
-  role: keyof import('../ui/theme.ts').Palette;
-  /** Lengths, CSS pixels. */
-  dash?: number[];
-  /** CSS pixels. */
-  width?: number;
-  /** Default: line. */
-  mark?: 'line' | 'dot' | 'ring' | 'area' | 'cross' | 'box';
-}
+import type { LineStyle } from '../scene/draw.ts';
 
 /** Returns the legend of a figure's pictures, with names from the catalogue. `notes` explain missing lines. Entries of `more` have no toggle. */
 export function legend(figure: import('./figure.ts').Figure, styles: Record<string, LineStyle>, notes: Record<string, string> = {}, more: unknown = nothing) {

@@ -8,7 +8,7 @@ import type { Config } from './attributes.ts';
 import type { Figure } from './figure.ts';
 
 /** Texts of attributes; null for none. */
-export type Texts = Map<string, string | null>;
+type Texts = Map<string, string | null>;
 
 export class Reflection extends FigureController {
   #attributes = this.host.definition.attributes;

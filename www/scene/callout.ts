@@ -32,18 +32,11 @@ export interface Callout {
   colour?: string;
 }
 
-interface Surroundings {
-  /** Centre that the sentences keep away from. */
-  from: [number, number];
-  /** Lines that they do not cover: x, y pairs. */
-  lines: Float64Array[];
-}
-
 /**
- * Draws sentences about points on the outline of a shape. They are outside of the shape, where they cover least of the picture. The cost of
- * a position is a continuous function of all points, so that a sentence seldom jumps.
+ * Draws sentences about points on the outline of a shape, whose centre is `from`. They are outside of the shape, where they cover least of
+ * the lines (x, y pairs) and other texts. The cost of a position is a continuous function of all points, so that a sentence seldom jumps.
  */
-export function drawCallouts({ context, view, palette, font, placed }: Brush, callouts: Callout[], { from, lines }: Surroundings) {
+export function drawCallouts({ context, view, palette, font, placed }: Brush, callouts: Callout[], { from, lines }: { from: [number, number], lines: Float64Array[] }) {
   context.font = font;
   const pixels = ({ 0: x, 1: y }: ArrayLike<number>) => [view.toPixelX(x), view.toPixelY(y)];
   const [fromX, fromY] = pixels(from);

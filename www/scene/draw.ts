@@ -93,6 +93,17 @@ export interface Outline extends LineStroke {
   points: Float64Array;
 }
 
+/** Style of a line or mark, in the picture and in the legend. */
+export interface LineStyle {
+  role: keyof Palette;
+  /** Lengths, CSS pixels. */
+  dash?: number[];
+  /** CSS pixels. */
+  width?: number;
+  /** Default: line. */
+  mark?: 'line' | 'dot' | 'ring' | 'area' | 'cross' | 'box';
+}
+
 /** Factor of the width of a highlighted line. */
 const THICK = 1.9;
 
@@ -100,9 +111,9 @@ const THICK = 1.9;
 const FAINT = 0.3;
 
 /** Returns the line styles by name, in the colours of their roles. The highlighted line is thicker, and all others are faint. */
-export function lineStyles<Name extends string>({ palette, highlight }: Pick<Brush, 'palette' | 'highlight'>, lines: Record<Name, import('../figure/overlays.ts').LineStyle>) {
+export function lineStyles<Name extends string>({ palette, highlight }: Pick<Brush, 'palette' | 'highlight'>, lines: Record<Name, LineStyle>) {
   const isLit = Object.keys(lines).some((name) => name === highlight);
-  const styles = Object.entries(lines as Record<string, import('../figure/overlays.ts').LineStyle>).map(([name, { role, width = 2.25, dash = [] }]) => {
+  const styles = Object.entries(lines as Record<string, LineStyle>).map(([name, { role, width = 2.25, dash = [] }]) => {
     const colour = isLit && name !== highlight ? `rgb(${channels(palette[role]).join(' ')} / ${FAINT})` : palette[role];
     return [name, { colour, width: name === highlight ? THICK * width : width, dash }];
   });
@@ -110,7 +121,7 @@ export function lineStyles<Name extends string>({ palette, highlight }: Pick<Bru
 }
 
 /** Returns the key of an exported picture: the named lines with their words. On the page there is a legend beside the picture. */
-export function lineKeys<Name extends string>(brush: Brush, lines: Record<Name, import('../figure/overlays.ts').LineStyle>, names: Name[], say: Record<Name, string>): KeyEntry[] {
+export function lineKeys<Name extends string>(brush: Brush, lines: Record<Name, LineStyle>, names: Name[], say: Record<Name, string>): KeyEntry[] {
   const styles = lineStyles(brush, lines);
   return brush.exported ? names.map((name) => lineKey(brush, say[name].replaceAll('*', ''), styles[name])) : [];
 }

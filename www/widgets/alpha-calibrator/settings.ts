@@ -17,7 +17,7 @@ export const LINES = {
   odometry: { role: 'prior', width: 1.25, dash: ODOMETRY_DASH },
   predicted: { role: 'prediction', width: 2, dash: [7, 4] },
   reference: { role: 'ink', width: 2.25, dash: [] },
-} satisfies Record<string, import('../../figure/overlays.ts').LineStyle>;
+} satisfies Record<string, import('../../scene/draw.ts').LineStyle>;
 
 export type LineName = keyof typeof LINES;
 

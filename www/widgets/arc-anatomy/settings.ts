@@ -18,7 +18,7 @@ export const LINES = {
   wedge: { role: 'accent', mark: 'area' },
   chord: { role: 'ink', width: 1, dash: [2, 3] },
   twist: { role: 'posterior', width: 2, dash: [7, 3] },
-} satisfies Record<string, import('../../figure/overlays.ts').LineStyle>;
+} satisfies Record<string, import('../../scene/draw.ts').LineStyle>;
 
 export type LineName = keyof typeof LINES;
 

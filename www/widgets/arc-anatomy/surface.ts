@@ -11,7 +11,7 @@ import type { Palette } from '../../ui/theme.ts';
 export const CONTOURS = {
   prob: { role: 'ink', width: 1, dash: [5, 4] },
   density: { role: 'ink', width: 1, dash: [] },
-} satisfies Record<string, import('../../figure/overlays.ts').LineStyle>;
+} satisfies Record<string, import('../../scene/draw.ts').LineStyle>;
 
 export class SurfaceLayer {
   #pixels = new Pixels();

@@ -53,7 +53,7 @@ export function ratioPlot(figure: import('./dead-reckoning.ts').DeadReckoningEle
 
 /** Returns role, dash and highlight of a curve in the chart of ratios. */
 function lookOf(name: keyof typeof CURVES, highlight: string | null) {
-  const { role, dash } = CURVES[name] as import('../../figure/overlays.ts').LineStyle & { role: Role };
+  const { role, dash } = CURVES[name] as import('../../scene/draw.ts').LineStyle & { role: Role };
   const lit = highlight !== null && highlight in CURVES ? name === highlight : undefined;
   return { role, dash: dash?.join(' '), lit };
 }

@@ -18,7 +18,7 @@ export const CURVES = {
   along: { role: 'ink', width: 1.9, dash: [8, 4] },
   heading: { role: 'muted', width: 1.9, dash: [9, 3, 2, 3] },
   tolerance: { role: 'truth', mark: 'area' },
-} satisfies Record<string, import('../../figure/overlays.ts').LineStyle>;
+} satisfies Record<string, import('../../scene/draw.ts').LineStyle>;
 
 /** Styles of the outlines in the pictures, in the order in which they are painted. */
 export const OUTLINES = {
@@ -26,7 +26,7 @@ export const OUTLINES = {
   measured: { role: 'truth', width: 2.25, dash: [3, 3] },
   ellipse: { role: 'prediction', width: 2, dash: [7, 4] },
   exponential: { role: 'posterior', width: 2.25, dash: [] },
-} satisfies Record<string, import('../../figure/overlays.ts').LineStyle>;
+} satisfies Record<string, import('../../scene/draw.ts').LineStyle>;
 
 /** Sliders of the command of a step. */
 export const COMMAND: Record<string, import('../../figure/controls.ts').SliderSpec> = commandSliders(1);

@@ -23,7 +23,7 @@ export const LINES = {
   rejected: { role: 'muted', mark: 'cross', width: 1.5 },
   commanded: { role: 'prior', width: 2.5, dash: COMMAND_DASH },
   unknown: { role: 'muted', mark: 'area' },
-} satisfies Record<string, import('../../figure/overlays.ts').LineStyle>;
+} satisfies Record<string, import('../../scene/draw.ts').LineStyle>;
 
 export const COMMAND = commandSliders(4);
 

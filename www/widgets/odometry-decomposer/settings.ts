@@ -11,7 +11,7 @@ export const LINES = {
   prediction: { role: 'prediction', width: 2.5, dash: [] },
   odometry: { role: 'prior', width: 1.75, dash: [6, 4] },
   difference: { role: 'accent', width: 1.5, dash: [2, 4] },
-} satisfies Record<string, import('../../figure/overlays.ts').LineStyle>;
+} satisfies Record<string, import('../../scene/draw.ts').LineStyle>;
 
 /** Sliders of the noise parameters and of the correlation. */
 export const NOISE = {

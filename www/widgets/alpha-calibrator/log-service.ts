@@ -36,10 +36,8 @@ export class LogService {
   /** Number of the latest request: other answers are ignored. */
   #number = 0;
   #fail: ((error: unknown) => void) | undefined;
-  #sources: { file: Source; path: string }[] = [];
-  #answers: Record<string, OpenOptions> = {};
-  /** True where the worker has the recordings. */
-  #isOpen = false;
+  /** True while the worker has the recordings that were opened last. */
+  isOpen = false;
   /** Odometry of the drives that the worker has. */
   #held: Trajectory[] | undefined;
 
@@ -64,23 +62,15 @@ export class LogService {
   /** Opens files, with the options of each by its name, and aborts the request in progress. */
   async open(files: Source[], answers: Record<string, OpenOptions>): Promise<Opened[]> {
     this.stop();
+    this.isOpen = false;
     // A copied `File` has no path.
-    this.#sources = files.map((file) => ({ file, path: file.path ?? '' }));
-    this.#answers = answers;
-    return this.#openAgain();
-  }
-
-  async #openAgain() {
-    this.#isOpen = false;
-    const opened = await this.#ask<Opened[]>('open', [this.#sources, this.#answers]);
-    this.#isOpen = true;
+    const opened = await this.#ask<Opened[]>('open', [files.map((file) => ({ file, path: file.path ?? '' })), answers]);
+    this.isOpen = true;
     return opened;
   }
 
   /** Reads the drives of a plan for the opened recordings. The worker then has their logs. */
   async read(plan: Plan, onProgress: OnProgress): Promise<Drive[]> {
-    this.stop();
-    if (!this.#isOpen) await this.#openAgain();
     this.#held = undefined;
     const drives = await this.#ask<Drive[]>('read', [plan], onProgress);
     this.#held = drives.map(({ odometry }) => odometry.data);
@@ -107,7 +97,7 @@ export class LogService {
   end() {
     this.#link?.then(({ end }) => end(), () => {});
     this.#link = this.#held = undefined;
-    this.#isOpen = false;
+    this.isOpen = false;
     this.#number++;
     this.#fail?.(new DOMException('', 'AbortError'));
   }

@@ -158,8 +158,10 @@ export class LogOpener extends FileOpener<Figure> {
   }
 
   async #read(chosen: Chosen, plan: Plan, reader: Reader) {
+    const { service } = this.host;
     chosen.plan = plan;
-    const drives = await this.host.service.read(plan, (share) => {
+    if (!service.isOpen) await service.open(chosen.files, chosen.answers);
+    const drives = await service.read(plan, (share) => {
       if (this.share === undefined) return;
       this.share = share;
       this.host.requestUpdate();

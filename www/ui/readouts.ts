@@ -133,7 +133,7 @@ export function readoutList(rows: [name: string, value: string, ...details: (str
 }
 
 interface Table {
-  caption: unknown;
+  caption?: unknown;
   /** Names of the columns, that of the rows' names first. */
   columns: unknown[];
   /** Cells of the rows, the name of each first. A single cell after the name takes the place of all. */
@@ -148,7 +148,7 @@ export function figureTable({ caption, columns, rows, outdated = false }: Table)
       ? html`<td colspan=${columns.length - 1}>${symbols(first)}</td>`
       : [first, ...others].map((cell) => html`<td>${symbols(cell)}</td>`);
   return html`<table part="table" class=${outdated ? 'outdated' : nothing}>
-    <caption>${caption}</caption>
+    ${caption ? html`<caption>${caption}</caption>` : nothing}
     <thead>
       <tr>
         ${columns.map((name) => html`<th scope="col">${name}</th>`)}

@@ -1,9 +1,10 @@
 /** Systematic errors of the Alpha Calibrator: as a table, and as sentences. */
 
-import { html, nothing } from 'lit';
+import { html } from 'lit';
 import { words } from '../../messages/registry.ts';
 import { toggle } from '../../ui/controls.ts';
 import { fixed } from '../../ui/format.ts';
+import { figureTable } from '../../ui/readouts.ts';
 import { SYSTEMATIC_ERRORS } from './lines.ts';
 import type { Interval } from '../../types.d.ts';
 import type { Reading } from './reading.ts';
@@ -52,28 +53,20 @@ export function systematicTable(figure: Figure) {
   const { stats: { systematicErrors: errors }, truth } = figure.reading;
   const say = words.calibrator.systematic;
   const { wanted } = figure.settings;
-  return html`<table class="systematic" part="table">
-    <thead>
-      <tr>
-        <th scope="col">${say.what}</th><th scope="col">${say.value}</th><th scope="col">${say.interval}</th><th scope="col">${say.treatment}</th>
-        ${truth ? html`<th scope="col">${say.truth}</th>` : nothing}
-      </tr>
-    </thead>
-    <tbody>
-      ${SYSTEMATIC_ERRORS.map((key) => {
-        const { values, halves } = digitsOf(errors[key]);
-        const box = toggle({ label: say.names[key], checked: wanted[key], change: (on) => figure.gesture.decide({ [key]: on }) });
-        if (values.length === 0) return html`<tr><th scope="row">${box}</th><td colspan="4">${say.unknown}</td></tr>`;
-        return html`<tr>
-          <th scope="row">${box}</th>
-          <td>${lines(values)}</td>
-          <td class="between">${lines(halves.map((half) => `± ${half}`))}</td>
-          <td>${errors[key].corrected ? say.corrected : errors[key].constant ? say.notCorrected : say.notConstant}</td>
-          ${truth ? html`<td class="muted">${lines([truth[key]].flat().map((each) => fixed(each, 3)))}</td>` : nothing}
-        </tr>`;
-      })}
-    </tbody>
-  </table>`;
+  const rows = SYSTEMATIC_ERRORS.map((key) => {
+    const { values, halves } = digitsOf(errors[key]);
+    const box = toggle({ label: say.names[key], checked: wanted[key], change: (on) => figure.gesture.decide({ [key]: on }) });
+    if (values.length === 0) return [box, say.unknown];
+    return [
+      box,
+      lines(values),
+      html`<div class="between">${lines(halves.map((half) => `± ${half}`))}</div>`,
+      errors[key].corrected ? say.corrected : errors[key].constant ? say.notCorrected : say.notConstant,
+      ...(truth ? [html`<div class="muted">${lines([truth[key]].flat().map((each) => fixed(each, 3)))}</div>`] : []),
+    ];
+  });
+  const columns = [say.what, say.value, say.interval, say.treatment, ...(truth ? [say.truth] : [])];
+  return html`<div class="systematic">${figureTable({ columns, rows })}</div>`;
 }
 
 /** Returns texts below each other. */

@@ -1,11 +1,16 @@
-/** Diagnostics of the Alpha Calibrator: checks, held-out windows, noise of the reference, and lost legs. */
+/** Diagnostics of the Alpha Calibrator: checks, held-out windows, noise of the reference, lost legs, and regression panels. */
 
 import { html } from 'lit';
 import { words } from '../../messages/registry.ts';
-import { button, group } from '../../ui/controls.ts';
+import { button, group, radioGroup, rich } from '../../ui/controls.ts';
 import { NOTHING, counted, fixed, percent, rounded } from '../../ui/format.ts';
+import { plot, type Curve } from '../../ui/plot.ts';
 import { figureTable, readoutList } from '../../ui/readouts.ts';
-import { checked, expectedOf, messageOf } from './words.ts';
+import { subscript } from '../shared/noise.ts';
+import { adviceOf, alphaOrBound, isZero, missingMotion } from './lines.ts';
+import { COMPONENTS, type Driver } from './settings.ts';
+import { checked, expectedOf, messageOf, localized, thousandths } from './words.ts';
+import type { CalibrationPanel } from '../../types.d.ts';
 import type { AlphaCalibratorElement as Figure } from './alpha-calibrator.ts';
 
 /** Returns all diagnostics, each in a separate group. */
@@ -71,4 +76,71 @@ function largestResiduals(figure: Figure) {
   return html`<div class="buttons" role="group" aria-label=${say.title}>
     ${worst.map((leg) => button(say.leg(counted(leg + 1), legs.outliers[leg] > 0), () => figure.choose(leg), { pressed: leg === figure.chosen }))}
   </div>`;
+}
+
+/** Smallest squared distance or rotation of an axis: of a millimetre, or of a thousandth of a radian. */
+const MIN_REGRESSOR = 1e-6;
+
+/** Returns the plots of the squared residuals of the three noises against their regressors. */
+export function panels(figure: Figure) {
+  const { reading, reading: { fitted: { model } }, state: { own: { driver } }, gesture } = figure;
+  const say = words.calibrator.panels;
+  const axes = model === 'velocity' ? { turn: say.turnRate, way: say.speed } : { turn: say.turn, way: say.way };
+  if (reading.legs.count === 0) return html`<p>${words.calibrator.none}</p>`;
+  const choose = (name: Driver) => gesture.choose('driver', name);
+  return html`${radioGroup(say.against, 'driver', say.drivers, driver, choose)}
+    <div class="panels">
+      ${figure.panels.map((panel, i) => html`<figure>
+        ${plot(panelPlot(panel, say.kinds[COMPONENTS[model][i]], axes[driver as Driver]))}
+        ${noteOf(panel, reading)}
+      </figure>`)}
+    </div>
+    <p class="figcaption">${rich(say.caption)}</p>`;
+}
+
+/** Returns the plot of a panel, with the name of its noise and of its axis of squared motion. */
+function panelPlot({ alpha, x, y, error, slope, interval }: CalibrationPanel, kind: string, axis: string): import('../../ui/plot.ts').Plot {
+  const say = words.calibrator.panels;
+  const furthest = Math.max(0, ...x);
+  // A log without rotation or without translation has an empty axis.
+  const last = furthest > MIN_REGRESSOR ? 1.06 * furthest : 1;
+  const { from, to } = axisOfSquares(y, error, (slope ?? 0) * last);
+  const highest = 1.1 * Math.max(x.length ? 1e-12 : 1, to);
+  const { scaled, unit } = thousandths(Math.max(highest, -from));
+  const name = subscript(alpha);
+  const [low, high] = interval ?? [NaN, NaN];
+  const middle = (low + high) / 2;
+  const lines: Curve[] = slope === null ? [] : [
+    { name: say.slope(name), role: 'prediction', x: [0, last], y: [0, scaled(slope * last)] },
+    { name: words.calibrator.alphas.interval, role: 'cloud', area: true, x: [0, last], y: [0, scaled(middle * last)], error: [0, scaled(((high - low) / 2) * last)] },
+  ];
+  return {
+    label: say.label(kind, String(alpha + 1), slope === null ? NOTHING : localized(alphaOrBound(slope, interval))),
+    x: { name: axis, from: 0, to: last },
+    y: { name: `${kind}, ${say.axis}${unit && ` (${unit})`}`, from: scaled(from), to: scaled(highest) },
+    curves: [...lines, { name: say.bins, role: 'ink', x: [], y: [] }],
+    points: x.map((at, i) => ({ role: 'ink' as const, x: at, y: scaled(y[i]), error: scaled(error[i]) })),
+  };
+}
+
+/** Returns a note on an α that is not identifiable, or not distinguishable from 0. */
+function noteOf({ alpha, slope, interval }: CalibrationPanel, { fitted: { model } }: import('./reading.ts').Reading) {
+  const { panels: say, alphas: { lacking } } = words.calibrator;
+  if (slope !== null && !isZero(slope, interval)) return '';
+  const name = subscript(alpha);
+  return html`<p class="note">${rich(slope === null ? say.noSlope(name) : say.zero(name, adviceOf(lacking, model, missingMotion(model, alpha)).drive))}</p>`;
+}
+
+/**
+ * Returns the range of an axis of squares: all bins, the highest square of the line, and half as much again for error bars. The bar of a
+ * single leg would leave the others no room.
+ */
+function axisOfSquares(squares: number[], error: number[], line: number): { from: number, to: number } {
+  const [lowest, highest] = [Math.min(0, ...squares), Math.max(0, line, ...squares)];
+  const ends = (side: number) => squares.map((square, i) => square + side * error[i]);
+  const room = (highest - lowest) / 2;
+  return {
+    from: Math.max(lowest - room, Math.min(lowest, ...ends(-1))),
+    to: Math.min(highest + room, Math.max(highest, ...ends(1))),
+  };
 }

@@ -8,8 +8,7 @@ import { button, group, rich } from '../../ui/controls.ts';
 import { fixed } from '../../ui/format.ts';
 import { track } from '../../ui/slider.ts';
 import { lineText } from './readouts.ts';
-import { ALPHAS, COMMAND, TABLE_LINES, UNDERWAY_AT_END } from './settings.ts';
-import { CONTOURS } from './surface.ts';
+import { CONTOURS, ALPHAS, COMMAND, TABLE_LINES, UNDERWAY_AT_END } from './settings.ts';
 import type { ArcAnatomyElement as Figure } from './arc-anatomy.ts';
 
 export const commandControls = (figure: Figure) => group(words.command, sliders(figure, COMMAND));

@@ -2,17 +2,19 @@
 
 import { words } from '../../messages/registry.ts';
 import { clipped, drawAxes } from '../../scene/axes.ts';
-import { drawOutlines, drawRobot, lineKeys, lineStyles, strokeLines, trace } from '../../scene/draw.ts';
+import { addLine, drawDisc, stroke, strokeLine, type Brush, type LineStroke } from '../../scene/canvas.ts';
+import { drawOutlines, drawRobot, lineKeys, lineStyles, strokeLines, trace, densityRamp } from '../../scene/draw.ts';
 import { drawLabel } from '../../scene/labels.ts';
+import { Memo } from '../../scene/memo.ts';
 import { Picture } from '../../scene/picture.ts';
+import { Pixels } from '../../scene/pixels.ts';
 import { View, extentAround } from '../../scene/view.ts';
 import { clamp } from '../../ui/clamp.ts';
 import { fixed, significant } from '../../ui/format.ts';
 import { drawHeldRobot, drawRobotOutline } from '../shared/robot.ts';
-import { LINES, type LineName } from './settings.ts';
-import { CONTOURS, SurfaceLayer } from './surface.ts';
-import type { ArcAnatomy, Bend, Pose } from '../../types.d.ts';
-import { addLine, drawDisc, stroke, strokeLine, type Brush, type LineStroke } from '../../scene/canvas.ts';
+import { CONTOURS, LINES, type LineName } from './settings.ts';
+import type { ArcAnatomy, Bend, Pose, AnatomySurface } from '../../types.d.ts';
+import type { Palette } from '../../ui/theme.ts';
 import type { Reading } from './words.ts';
 
 export type Scene = Reading & { machine: ArcAnatomy, overlays: LineName[], line: number, underway: Float64Array | undefined };
@@ -246,3 +248,33 @@ function strokeAngle(context: Brush['context'], [x, y]: number[], [fromX, fromY]
 
 /** Prints a radius with its sign: positive if the centre is to the left. */
 const signedText = (radius: number) => (radius > 0 ? `+${fixed(radius, 2)}` : fixed(radius, 2));
+
+export class SurfaceLayer {
+  #pixels = new Pixels();
+  #surface: Memo<AnatomySurface | null> = new Memo();
+  #coloured: Memo<void> = new Memo();
+
+  /** Draws the surface for a configuration, which is another object after every change. */
+  draw(brush: Brush, machine: ArcAnatomy, config: import('../../types.d.ts').ArcAnatomySettings) {
+    const { palette, view: { extent: { xMin, yMin, xMax, yMax } } } = brush;
+    const surface = this.#surface.of([config, xMin, yMin, xMax, yMax], () => machine.surface(xMin, yMin, xMax, yMax));
+    if (!surface) return;
+    const { columns, shades, prob, density } = surface;
+    this.#coloured.of([surface, palette], () => this.#pixels.put(coloured(shades, palette), columns));
+    this.#pixels.draw(brush);
+    brush.context.globalAlpha = 0.7;
+    for (const [lines, { role, width, dash }] of [[prob, CONTOURS.prob], [density, CONTOURS.density]] as const) {
+      stroke(brush.context, { colour: palette[role], width, dash }, () => {
+        for (const line of lines) trace(brush, line);
+      });
+    }
+    brush.context.globalAlpha = 1;
+  }
+}
+
+function coloured(shades: Uint8Array, palette: Palette) {
+  const colours = new Uint32Array(densityRamp(palette).buffer);
+  // The lowest shade is transparent.
+  colours[0] = 0;
+  return new Uint8ClampedArray(Uint32Array.from(shades, (shade) => colours[shade]).buffer);
+}

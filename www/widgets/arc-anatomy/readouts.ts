@@ -1,14 +1,15 @@
-/** Readouts of Arc Anatomy: the likelihood, its three factors as bars, and Table 5.1. */
+/** Readouts of Arc Anatomy: the likelihood, its three factors as bars, Table 5.1, and errors of three forms of the arc. */
 
 import { html, nothing, svg } from 'lit';
 import { words } from '../../messages/registry.ts';
 import { clamp } from '../../ui/clamp.ts';
 import { rich } from '../../ui/controls.ts';
-import { fixed } from '../../ui/format.ts';
+import { fixed, powerOfTen } from '../../ui/format.ts';
+import { plot } from '../../ui/plot.ts';
 import { readoutList } from '../../ui/readouts.ts';
 import { TABLE_LINES } from './settings.ts';
 import { densityText, isTiny, shareText, type Reading } from './words.ts';
-import type { Factor } from '../../types.d.ts';
+import type { Factor, FormErrors, Motion } from '../../types.d.ts';
 
 /** Scale of the bars: standard deviations to either side, and pixels for each. */
 const BAR_SCALE = { most: 4, pixels: 22 };
@@ -100,4 +101,32 @@ export function tableOf(reading: Reading, lit: number) {
       ${FORMULAS.map((_, i) => html`<li class=${i + 1 === lit ? 'lit' : nothing}>${rich(lineText(reading, i + 1))}</li>`)}
     </ol>
     <p class="about">${rich(say.sign)}</p>`;
+}
+
+/** Range of errors in the plot, m: from below the last digit of the distance to more than all of it. */
+const ERROR_RANGE = { from: 1e-18, to: 1 };
+
+/** Cache of the errors of the forms, which depend on no setting. */
+let errors: FormErrors | undefined;
+
+export function formsPlot({ ArcAnatomy }: Motion) {
+  const say = words.anatomy.forms;
+  const { omega, arc, straight, chord, estimatedCrossover, threshold } = (errors ??= ArcAnatomy.formErrors());
+  return html`<figure class="forms">
+    ${plot({
+      label: say.text,
+      x: { name: '|ω̂| (rad/s)', from: omega[0], to: omega[omega.length - 1], logarithmic: true },
+      y: { name: say.error, ...ERROR_RANGE, logarithmic: true },
+      curves: [
+        { name: say.arc, role: 'prediction', x: omega, y: arc },
+        { name: say.straight, role: 'prior', dash: '2.5 3.5', x: omega, y: straight },
+        { name: say.chord, role: 'posterior', dash: '7 3', x: omega, y: chord },
+      ],
+      marks: [
+        { x: estimatedCrossover, text: `2·${powerOfTen(-8)}/Δt` },
+        { x: threshold, text: powerOfTen(Math.log10(threshold)) },
+      ],
+    })}
+    <figcaption>${rich(say.caption)}</figcaption>
+  </figure>`;
 }

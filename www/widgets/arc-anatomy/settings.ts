@@ -20,6 +20,12 @@ export const LINES = {
   twist: { role: 'posterior', width: 2, dash: [7, 3] },
 } satisfies Record<string, import('../../scene/draw.ts').LineStyle>;
 
+/** Styles of the contours, which do not depend on which of the two is the image. */
+export const CONTOURS = {
+  prob: { role: 'ink', width: 1, dash: [5, 4] },
+  density: { role: 'ink', width: 1, dash: [] },
+} satisfies Record<string, import('../../scene/draw.ts').LineStyle>;
+
 export type LineName = keyof typeof LINES;
 
 export const documentation: import('../../figure/attributes.ts').Documentation = {

@@ -1,7 +1,9 @@
-/** Morph that transforms the floor continuously to exponential coordinates: see doc/statistics.md. */
+/** Morph that transforms the floor continuously to exponential coordinates, and the grid that it straightens: see doc/statistics.md. */
 
+import { ticks } from 'd3-array';
 import { html } from 'lit';
 import { words } from '../../messages/registry.ts';
+import { addLine, stroke, type Brush } from '../../scene/canvas.ts';
 import { View, type Extent } from '../../scene/view.ts';
 import { percent } from '../../ui/format.ts';
 import { track } from '../../ui/slider.ts';
@@ -125,4 +127,23 @@ export function morphControl({ player, gesture, state }: import('./banana-machin
     <span class="end floor" aria-hidden="true">${say.floor}</span>
     <span class="end twist" aria-hidden="true">${say.twist}</span>
   </div>`;
+}
+
+/** Approximate number of lines of either kind, and number of chords of a line. */
+const GRID_LINES = 7;
+const CHORDS_PER_LINE = 32;
+
+/** Draws the grid of exponential coordinates at a morph. `end` is the view at the end of the morph. */
+export function drawLattice({ context, view, palette }: Brush, { extent: { xMin, xMax, yMin, yMax } }: View, morph: number) {
+  // It becomes visible early in the morph, and ends as the straight grid of the axes.
+  context.globalAlpha = 0.7 * Math.min(1, 5 * morph);
+  const line = (at: (share: number) => [along: number, heading: number]) => addLine(context, Array.from({ length: CHORDS_PER_LINE + 1 }, (_, i) => {
+    const [along, heading] = at(i / CHORDS_PER_LINE);
+    return view.toPixel(...placeOf([along, 0, heading], morph));
+  }));
+  stroke(context, { colour: palette.rule, width: 1 }, () => {
+    for (const along of ticks(xMin, xMax, GRID_LINES)) line((share) => [along, yMin + share * (yMax - yMin)]);
+    for (const heading of ticks(yMin, yMax, GRID_LINES)) line((share) => [xMin + share * (xMax - xMin), heading]);
+  });
+  context.globalAlpha = 1;
 }

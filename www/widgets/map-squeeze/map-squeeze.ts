@@ -15,10 +15,9 @@ import { motionControls, ownMap, placeControls, robotAndMap, samplerControls } f
 import { CostMeter } from './cost.ts';
 import { applyMap, cellsOf, mapData } from './maps/data.ts';
 import { MapOpener } from './maps/open.ts';
-import { overview } from './overview.ts';
+import { overview, costTable, markedDraw, tally } from './readouts.ts';
 import { FloorPicture } from './picture.ts';
 import { outcomeOf, readingOf, type Reading } from './reading.ts';
-import { costTable, markedDraw, tally } from './readouts.ts';
 import { LINES, OPENING_START, PRESET_SETTING, definition } from './settings.ts';
 import { styles } from './styles.ts';
 import { WallHandles } from './wall-handles.ts';

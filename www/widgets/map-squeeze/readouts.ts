@@ -1,6 +1,6 @@
-/** Map Squeeze's readouts: counts of the samples, the selected one, and the cost of each sampler. */
+/** Map Squeeze's readouts: counts of the samples, the selected one, the cost of each sampler, and the whole map beside a close view. */
 
-import { html } from 'lit';
+import { html, nothing } from 'lit';
 import { sampleField } from '../../figure/controls.ts';
 import { words } from '../../messages/registry.ts';
 import { counted, fixed, percent, rounded } from '../../ui/format.ts';
@@ -57,4 +57,23 @@ export function costTable({ costs, current }: CostMeter, steps: number) {
 function costText({ draws, wallTests, micros }: Cost) {
   const share = `${rounded(100 * micros * 1e-6 * SAMPLES_PER_SECOND, 2)}\u202f%`;
   return [fixed(draws, 2), fixed(wallTests, 2), rounded(micros, 2), share];
+}
+
+/** Largest fraction of the map's area in a close view that has an overview. */
+const MAX_SHOWN_FRACTION = 0.6;
+
+/** Returns the overview, or nothing where the picture shows most of the map. */
+export function overview(picture: import('./picture.ts').FloorPicture, { config, commanded }: import('./reading.ts').Reading) {
+  const { xMin, yMin, xMax, yMax } = picture.mapped(config.start);
+  const [width, height] = [xMax - xMin, yMax - yMin];
+  const { extent } = picture.view;
+  const shown = [extent.xMax - extent.xMin, extent.yMax - extent.yMin];
+  if (!picture.close || shown[0] * shown[1] > MAX_SHOWN_FRACTION * width * height) return nothing;
+  return html`<svg class="overview" viewBox=${`${xMin} ${-yMax} ${width} ${height}`} aria-hidden="true">
+    <g transform="scale(1 -1)">
+      <path class="walls" d=${picture.outline} />
+      <polyline class="way" points=${[...commanded].join(' ')} />
+      <rect x=${extent.xMin} y=${extent.yMin} width=${shown[0]} height=${shown[1]} />
+    </g>
+  </svg>`;
 }

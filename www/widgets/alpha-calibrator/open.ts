@@ -231,10 +231,10 @@ function nameOf({ drives, unpaired }: Plan, reader: Reader) {
 
 /** Loads the module that plans drives and shows them. */
 async function loadReader() {
-  const [candidates, drives, pairs, choice, summary, { english: en }, { german: de }] = await Promise.all([
-    import('../../logs/candidates.ts'), import('../../logs/drives.ts'), import('../../logs/pairs.ts'), import('./log-choice.ts'), import('./log-summary.ts'), import('../../logs/en.ts'), import('../../logs/de.ts'),
+  const [candidates, drives, pairs, choice, { english: en }, { german: de }] = await Promise.all([
+    import('../../logs/candidates.ts'), import('../../logs/drives.ts'), import('../../logs/pairs.ts'), import('./log-choice.ts'), import('../../logs/en.ts'), import('../../logs/de.ts'),
   ]);
-  return { ...candidates, ...drives, ...pairs, ...choice, ...summary, en, de };
+  return { ...candidates, ...drives, ...pairs, ...choice, en, de };
 }
 
 /** Returns the line that logs are dropped on, and below it the choosers, the progress or name of a log, and the reason for a refusal. */

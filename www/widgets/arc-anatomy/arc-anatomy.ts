@@ -37,10 +37,8 @@ export class ArcAnatomyElement extends FigureElement<Machine, Reading> {
   /** The final pose is on top if both poses are in one place. */
   #handles: PoseHandles[] = ['start', 'next'].map((setting) => new PoseHandles(this, setting, () => this.#picture.view, () => POSE_BOUNDS));
 
-  player: Player<'underway'> = new Player(this, {
-    // The animation of every arc takes the same time. The duration of the command is displayed next to it.
-    underway: { from: 0, to: UNDERWAY_AT_END, duration: 2000, at: () => this.state.own.underway, put: (at) => this.#drive(at) },
-  });
+  /** Animation of every arc in the same time. The duration of the command is displayed next to it. */
+  player: Player<'underway'> = new Player(this, { underway: { to: UNDERWAY_AT_END, duration: 2000, whole: true } });
 
   createMachine: FigureElement<Machine, Reading>['createMachine'] = (motion, state) => new motion.ArcAnatomy(state && this.settings.declared(state));
 
@@ -68,12 +66,6 @@ export class ArcAnatomyElement extends FigureElement<Machine, Reading> {
   }
 
   announcement = captionOf;
-
-  /** Moves the robot to a percentage of the path, in whole per cents. Each is a change with an `input` event. */
-  #drive(at: number) {
-    const underway = Math.floor(at);
-    if (underway !== this.state.own.underway) this.settings.want({ underway });
-  }
 
   placeHandles({ config }: Reading) {
     for (const handles of this.#handles) handles.place(config, ROBOT_RADIUS);

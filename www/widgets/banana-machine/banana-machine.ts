@@ -70,9 +70,7 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
   /** Reading that the current cloud is compared with. */
   #pinned: Reading | undefined;
 
-  player: Player<'morph'> = new Player(this, {
-    morph: { from: 0, to: 1, duration: MORPH_MS, at: () => this.state.own.morph, put: (morph) => this.settings.want({ morph }) },
-  });
+  player: Player<'morph'> = new Player(this, { morph: { to: 1, duration: MORPH_MS } });
 
   createMachine: FigureElement<Machine, Reading>['createMachine'] = (motion, state) => {
     // The machine starts empty: the cloud grows visibly, and the first frame need not wait for samples.

@@ -38,7 +38,7 @@ export class OdometryDecomposerElement extends FigureElement<Machine, Reading> {
   static definition = definition;
 
   cloud = new Cloud(this);
-  player: Player<'phase' | 'drift'> = new Player(this, { phase: this.#played('phase', 4000), drift: this.#played('drift', 8000) });
+  player: Player<'phase' | 'drift'> = new Player(this, { phase: { to: sliderSpecs.phase.max, duration: 4000 }, drift: { to: sliderSpecs.drift.max, duration: 8000 } });
   #legs = new LegsPicture();
   #world = new WorldPicture();
   pictures = [this.#legs, this.#world];
@@ -57,18 +57,6 @@ export class OdometryDecomposerElement extends FigureElement<Machine, Reading> {
     const reading = this.currentReading;
     const { index, isMarked } = this.cloud;
     return { ...reading, overlays: this.state.own.overlays, marked: isMarked ? reading.poses.subarray(3 * index) : undefined };
-  }
-
-  /** Returns a setting that is animated from one end of its slider to the other within a duration in milliseconds. */
-  #played(key: keyof typeof sliderSpecs, duration: number) {
-    const { min, max } = sliderSpecs[key];
-    return {
-      from: min,
-      to: max,
-      duration,
-      at: () => this.settings.wanted[key],
-      put: (value: number) => this.settings.want({ [key]: value }),
-    };
   }
 
   get exportData() {

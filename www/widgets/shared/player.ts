@@ -1,4 +1,4 @@
-/** Animation of a slider: from its current value, or from its beginning if it is at its end. */
+/** Animation of a slider: from its current value, or from 0 if it is at its end. */
 
 import { nothing } from 'lit';
 import { FigureController } from '../../figure/controller.ts';
@@ -7,12 +7,12 @@ import { words } from '../../messages/registry.ts';
 import { button } from '../../ui/controls.ts';
 
 interface Played {
-  from: number;
+  /** Maximum of the setting. */
   to: number;
-  /** Duration from one end to the other, milliseconds. */
+  /** Duration from 0 to the maximum, milliseconds. */
   duration: number;
-  at: () => number;
-  put: (value: number) => void;
+  /** True if the values are whole numbers. */
+  whole?: boolean;
 }
 
 export class Player<Key extends string> extends FigureController {
@@ -35,15 +35,24 @@ export class Player<Key extends string> extends FigureController {
   /** Sets a value that the reader has chosen, and stops the animation. */
   put(key: Key, value: number) {
     this.stop();
-    this.#played[key].put(value);
+    this.#put(key, value);
+  }
+
+  #at(key: Key): number {
+    const { settings, state } = this.host;
+    return key in state.own ? state.own[key] : settings.wanted[key];
+  }
+
+  #put(key: Key, value: number) {
+    const next = this.#played[key].whole ? Math.floor(value) : value;
+    if (next !== this.#at(key)) this.host.settings.want({ [key]: next });
   }
 
   #toggle(key: Key) {
     const { host: { gesture, stage } } = this;
-    const { from, to, at, put } = this.#played[key];
     const playing = this.#key !== key;
     if (this.#key) gesture.commit();
-    if (playing && at() >= to) put(from);
+    if (playing && this.#at(key) >= this.#played[key].to) this.#put(key, 0);
     this.#key = playing ? key : undefined;
     this.#beyond = 0;
     stage.requestFrame();
@@ -53,10 +62,10 @@ export class Player<Key extends string> extends FigureController {
   /** Advances the animation by the milliseconds since the previous frame. Returns true if there is more to play. */
   advance(elapsed: number): boolean {
     if (!this.#key) return false;
-    const { from, to, duration, at, put } = this.#played[this.#key];
-    const next = Math.min(to, at() + this.#beyond + ((to - from) * elapsed) / duration);
-    put(next);
-    this.#beyond = next - at();
+    const { to, duration } = this.#played[this.#key];
+    const next = Math.min(to, this.#at(this.#key) + this.#beyond + (to * elapsed) / duration);
+    this.#put(this.#key, next);
+    this.#beyond = next - this.#at(this.#key);
     if (next < to) return true;
     this.stop();
     this.host.gesture.commit();

@@ -10,7 +10,6 @@ import { observedOf } from './reading.ts';
 import { modelRuleOf, settingsFor } from './settings.ts';
 import type { AlphaCalibratorElement as Figure } from './alpha-calibrator.ts';
 
-/** Returns the slider of the leg that is shown. */
 export function legControls(figure: Figure) {
   const { reading: { legs, worst }, chosen } = figure;
   const say = words.calibrator.leg;
@@ -36,7 +35,6 @@ export function legControls(figure: Figure) {
     ${button(say.worst, () => figure.choose(next), { disabled: next === undefined })}`;
 }
 
-/** Returns the readouts of the error of the leg that is shown. */
 export function legReadouts({ reading: { legs }, chosen, predicted: leg }: Figure) {
   const say = words.calibrator.leg;
   const off = leg ? Math.hypot(leg.ended[0] - leg.read[0], leg.ended[1] - leg.read[1]) : NaN;
@@ -47,7 +45,6 @@ export function legReadouts({ reading: { legs }, chosen, predicted: leg }: Figur
   ]);
 }
 
-/** Returns the controls of the model, the treatment of outliers, and the duration of a leg. */
 export function modelControls(figure: Figure) {
   const { fit, settings: { model }, kinds, outliers } = words.calibrator;
   const show = (seconds: number) => (seconds > 0 ? `${typed(seconds, 2)} s` : NOTHING);
@@ -56,19 +53,16 @@ export function modelControls(figure: Figure) {
     ${choices(figure, 'outliers', outliers)} ${slider(figure, 'duration', { show })}`, 'fit');
 }
 
-/** Returns the controls of the distribution and inflation of the predicted cloud. */
 export function predictionControls(figure: Figure) {
   const { prediction, noises } = words.calibrator;
   return group(prediction, html`${choices(figure, 'noise', noises)} ${slider(figure, 'inflation')}`, 'fit');
 }
 
-/** Returns the sliders of the length of a leg. */
 export function legLengths(figure: Figure) {
   const off = figure.settings.wanted.duration > 0;
   return group(words.calibrator.leg.group, html`<div class="controls">${slider(figure, 'distance', { off })} ${slider(figure, 'angle', { off })}</div>`);
 }
 
-/** Returns the sliders of the noise of the reference. */
 export function referenceNoise(figure: Figure) {
   const row = (key: string, unit: string) =>
     slider(figure, key, { show: (std: number) => (std > 0 ? `${typed(std, 3)} ${unit}` : words.calibrator.estimated) });

@@ -13,7 +13,6 @@ import { checked, expectedOf, messageOf, localized, thousandths } from './words.
 import type { CalibrationPanel } from '../../types.d.ts';
 import type { AlphaCalibratorElement as Figure } from './alpha-calibrator.ts';
 
-/** Returns all diagnostics, each in a separate group. */
 export function diagnostics(figure: Figure) {
   const { checks, windows, noise, lost, largest } = words.calibrator;
   return html`${group(checks.title, checksTable(figure))}
@@ -69,7 +68,6 @@ function lostLegs({ reading: { stats: { lost }, legs } }: Figure) {
   return readoutList([...causes.map((cause) => [say[cause], counted(lost[cause])] as [string, string]), [say.outliers, counted(outliers)]]);
 }
 
-/** Buttons that show the legs with the largest residuals. */
 function largestResiduals(figure: Figure) {
   const say = words.calibrator.largest;
   const { worst, legs } = figure.reading;

@@ -7,7 +7,6 @@ export type Interval = [number, number] | null;
 export interface Fitted {
   /** Calibration of the core. */
   calibration: any;
-  /** Count of legs. */
   count: number;
   model: string;
   rule: string;
@@ -79,7 +78,6 @@ export const percent = (fraction: number | null) => (fraction !== null && Number
 /** Prints the upper end of an interval. */
 const upperEnd = (interval: Interval | undefined) => short(interval?.[1] ?? null, WIDTH_DIGITS);
 
-/** Multiplies an interval. */
 const scaled = (interval: Interval, factor: number): Interval => interval && [factor * interval[0], factor * interval[1]];
 
 /** Prints an α times a factor, or its upper bound if it is not significantly different from 0. */

@@ -14,7 +14,6 @@ import type { Drive } from '../../logs/drives.ts';
 import type { AlphaCalibratorElement } from './alpha-calibrator.ts';
 import type { Asked, Chosen, LogOpener, LogWords } from './open.ts';
 
-/** Fields of a table. */
 const FIELDS = ['t', 'x', 'y', 'yaw', 'qx', 'qy', 'qz', 'qw', 'v', 'omega'] as const;
 
 /** Maximum number of characters of a cell next to the number of its column. */

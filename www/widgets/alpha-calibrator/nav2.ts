@@ -23,7 +23,6 @@ function jsonOf({ reading: { fitted, stats, legs, truth }, logName }: Figure) {
   return JSON.stringify(all, (_, value) => (ArrayBuffer.isView(value) ? [...(value as Float64Array)] : value), 1);
 }
 
-/** Returns the button that copies the lines for Nav2. */
 export function copyButton(figure: Figure) {
   const say = words.calibrator.nav2;
   const yaml = yamlOf(figure);
@@ -32,7 +31,6 @@ export function copyButton(figure: Figure) {
     ${figure.copies.answer('nav2', yaml)}`;
 }
 
-/** Returns the lines for Nav2, and the button that saves everything as JSON. */
 export function nav2(figure: Figure) {
   const say = words.calibrator.nav2;
   const yaml = yamlOf(figure);

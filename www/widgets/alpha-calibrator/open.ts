@@ -77,7 +77,6 @@ export class LogOpener extends FileOpener<Figure> {
     });
   }
 
-  /** Returns to the simulated log. */
   close() {
     this.#end();
     this.chosen = this.#lone = this.refusal = undefined;
@@ -89,7 +88,6 @@ export class LogOpener extends FileOpener<Figure> {
     return this.host.renderRoot.querySelector(`#${this.id}`) as HTMLElement;
   }
 
-  /** Stops reading. */
   stop() {
     this.#end();
     this.refusal = new DOMException('', 'AbortError');
@@ -229,7 +227,6 @@ function nameOf({ drives, unpaired }: Plan, reader: Reader) {
   return [...names.slice(0, MAX_NAMED_FILES), ...(names.length > MAX_NAMED_FILES ? ['…'] : []), ...(only ? [only.odometry, only.reference].map(({ choice }) => reader.labelOf(choice)) : [])].filter(Boolean).join(', ');
 }
 
-/** Loads the module that plans drives and shows them. */
 async function loadReader() {
   const [candidates, drives, pairs, choice, { english: en }, { german: de }] = await Promise.all([
     import('../../logs/candidates.ts'), import('../../logs/drives.ts'), import('../../logs/pairs.ts'), import('./log-choice.ts'), import('../../logs/en.ts'), import('../../logs/de.ts'),
@@ -255,7 +252,6 @@ export function dropZone(figure: Figure, opener: LogOpener) {
   </div>`;
 }
 
-/** Returns the section with the name of the log, and the noise of its reference. */
 export function logSection(figure: Figure) {
   const say = words.calibrator.own;
   return html`<p>${figure.log ? say.present(figure.logName) : say.simulated}</p>

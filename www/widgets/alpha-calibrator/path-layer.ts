@@ -38,7 +38,6 @@ export function styleOf({ palette, highlight }: Pick<Brush, 'palette' | 'highlig
   return lineStyles({ palette: { ...palette, truth }, highlight }, LINES)[name];
 }
 
-/** Mixes two colours. */
 function between(one: string, other: string) {
   const [from, to] = [channels(one), channels(other)];
   return `rgb(${from.map((value, i) => Math.round((value + to[i]) / 2))})`;
@@ -66,7 +65,6 @@ export class PathLayer {
   }
 }
 
-/** Draws the legs, stroke by stroke. */
 function* drawPath(brush: Painter, legs: CalibrationLegs, classes: Uint8Array, overlays: LineName[]) {
   if (overlays.includes('odometry')) yield* strokeMany(brush.context, odometryLines(brush.view, legs), styleOf(brush, 'odometry'));
   // While the coverage by legs grows from 1 to 2, lines get thinner little by little, so that nothing jumps when a plot is resized.
@@ -86,7 +84,6 @@ function outlierEnds({ view }: Painter, { outliers, reference }: CalibrationLegs
   return all.map((leg) => view.toPixel(reference[6 * leg + 3], reference[6 * leg + 4]));
 }
 
-/** Draws rings around outliers at points in CSS pixels. */
 export function drawRings(brush: Painter, points: [number, number][]) {
   const { context } = brush;
   stroke(context, styleOf(brush, 'outlier'), () => {

@@ -60,7 +60,6 @@ export function classesOf({ count, squared, residuals }: Pick<CalibrationLegs, '
 /** Returns the number of residuals of a leg that are defined. */
 export const observedOf = (residuals: Float64Array, leg: number) => residuals.subarray(3 * leg, 3 * leg + 3).reduce((count, residual) => count + Number(!Number.isNaN(residual)), 0);
 
-/** Returns the legs with the largest residuals, the largest first. */
 function worstOf({ squared }: Pick<CalibrationLegs, 'squared'>) {
   const least = squared.toSorted()[Math.max(0, squared.length - LISTED_RESIDUALS)];
   const candidates = [...squared.keys()].filter((leg) => squared[leg] >= least);

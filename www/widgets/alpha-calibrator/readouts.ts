@@ -26,7 +26,6 @@ export function verdictLine({ reading, logName, warnings }: Figure) {
     <strong>${finding}</strong> <span class="muted">${legsText(reading, logName)}</span>`;
 }
 
-/** Returns the table of the α's, each with its interval on a common axis. */
 export function alphaTable(reading: Reading) {
   const { alphas, intervals } = reading.stats;
   const say = words.calibrator.alphas;

@@ -52,7 +52,6 @@ export const legLengthOption = ({ distance, angle, duration }: AlphaCalibratorSe
 
 export const modelRuleOf = ({ model, rule }: AlphaCalibratorSettings): ModelRule => (model === 'velocity' ? 'velocity' : rule);
 
-/** Returns the settings of a model with its rule. */
 export function settingsFor(kind: ModelRule) {
   if (kind === 'velocity') return { model: 'velocity', rule: 'thrun' };
   return { model: kind === 'omni' ? 'omnidirectional' : 'odometry', rule: kind };

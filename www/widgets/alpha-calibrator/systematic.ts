@@ -48,7 +48,6 @@ function intervalsOf(interval: SystematicError['interval']) {
   return (isPair ? interval : [interval]) as (Interval | null)[];
 }
 
-/** Returns the table of the systematic errors, each with a box for its correction. */
 export function systematicTable(figure: Figure) {
   const { stats: { systematicErrors: errors }, truth } = figure.reading;
   const say = words.calibrator.systematic;
@@ -69,7 +68,6 @@ export function systematicTable(figure: Figure) {
   return html`<div class="systematic">${figureTable({ columns, rows })}</div>`;
 }
 
-/** Returns texts below each other. */
 const lines = (texts: string[]) => texts.map((text) => html`<div>${text}</div>`);
 
 /** Prints an error as far as it is determined: its values, two for a lever arm, and half the width of each interval. */

@@ -76,20 +76,17 @@ export function legsText({ legs }: Reading, log: string) {
   return words.calibrator.present(log, counted(legs.count), outliers > 0 ? counted(outliers) : '');
 }
 
-/** Returns the caption of the pictures: the judgement and the legs. */
 export function captionOf({ reading, warnings, logName }: Figure) {
   const { badge, finding, toDo } = judgementOf(reading, warnings);
   return [`${badge}.`, finding, legsText(reading, logName), toDo].filter(Boolean).join(' ');
 }
 
-/** Returns the text equivalent of the path. */
 export function wayText({ legs, classes }: Reading, chosen: number) {
   if (chosen < 0) return words.calibrator.noWay;
   const far = classes.reduce((sum, legClass) => sum + Number(legClass > 1), 0);
   return words.calibrator.way(counted(legs.count), counted(far), counted(chosen + 1));
 }
 
-/** Returns the text equivalent of a leg. */
 export function legText(leg: LegView | null, chosen: number) {
   if (!leg) return words.calibrator.noLeg;
   const [readX, readY, endX, endY] = [leg.read[0], leg.read[1], leg.ended[0], leg.ended[1]];

@@ -28,7 +28,6 @@ export function likelihoodControls(figure: Figure) {
 /** Returns an icon with a text that screen readers read instead. */
 const sign = (seen: string, heard: string) => html`<span aria-hidden="true">${seen}</span><span class="visually-hidden">${heard}</span>`;
 
-/** Returns the buttons that step through Table 5.1. Each line highlights its construction. */
 export function lineStepper(figure: Figure) {
   const say = words.anatomy.table;
   const { line } = figure.state.own;
@@ -40,7 +39,6 @@ export function lineStepper(figure: Figure) {
   </div>`;
 }
 
-/** Returns the slider of the time, which moves a robot along each arc, with its Play button. */
 export function timeControl({ player, gesture, reading, state }: Figure) {
   const { underway } = state.own;
   const { dt } = reading.config.command;

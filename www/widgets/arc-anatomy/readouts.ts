@@ -22,7 +22,6 @@ const FACTORS = [
   { symbol: '*γ̂*', residual: '*γ̂*', unit: 'rad/s' },
 ];
 
-/** Returns the headline: p as a share of its peak. */
 export function headline({ stats: { share } }: Reading) {
   const say = words.anatomy.headline;
   return html`<p class="headline" part="readouts"><strong>${shareText(share)}</strong> ${isTiny(share) ? say.times : say.share}</p>`;
@@ -60,7 +59,6 @@ function bar({ deviations }: Factor) {
   </svg>`;
 }
 
-/** Returns p, the density of the sampler, and ξ. */
 export function likelihoods({ stats: { prob, density, xi } }: Reading) {
   const say = words.anatomy.likelihoods;
   const [along, lateral, heading] = xi;
@@ -94,7 +92,6 @@ export function lineText({ table: { lines }, config: { printed } }: Reading, lin
   return `${line}. ${formula} = ${number}${UNITS[line - 1]}`;
 }
 
-/** Returns all lines of the table, one of them highlighted. */
 export function tableOf(reading: Reading, lit: number) {
   const say = words.anatomy.table;
   return html`<ol class="lines" part="table">

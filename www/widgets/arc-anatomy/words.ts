@@ -14,7 +14,6 @@ export type Reading = ReturnType<ArcAnatomy['read']>;
 /** Limit below which numbers are printed as powers of ten: p is a product of three densities, and spans many decades. */
 const MIN_DECIMAL = 0.0005;
 
-/** Prints a positive value as a power of ten. */
 function powerText(value: number) {
   const [mantissa, exponent] = value.toExponential(1).split('e').map(Number);
   return `${fixed(mantissa, 1)}·${powerOfTen(exponent)}`;
@@ -23,7 +22,6 @@ function powerText(value: number) {
 /** Checks whether a number is printed as a power of ten. */
 export const isTiny = (value: number) => value > 0 && value < MIN_DECIMAL;
 
-/** Prints a share from 0 to 1. */
 export const shareText = (share: number) => (isTiny(share) ? powerText(share) : percent(share));
 
 export const densityText = (density: number) => (isTiny(density) ? powerText(density) : significant(density, 3));
@@ -43,7 +41,6 @@ export function captionOf({ config, stats: { factors, weakest, share, driven, in
 
 const poseText = ({ x, y, theta }: Pose) => words.anatomy.pose(fixed(x, 2), fixed(y, 2), fixed(theta, 2));
 
-/** Returns the text equivalent of the picture. */
 export function pictureText(reading: Reading) {
   const { config, stats: { inverted, factors } } = reading;
   const say = words.anatomy.picture;

@@ -202,7 +202,6 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
     });
   }
 
-  /** Title of the picture with the morph. */
   get #title() {
     const { morph } = this.state.own;
     return morph === 0 ? floorTitle(this.reading) : morph === 1 ? words.banana.twist : words.banana.morph.title;
@@ -215,7 +214,6 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
     return Object.fromEntries(lost.map(([name]) => [name, words.banana.notCarried]));
   }
 
-  /** Text equivalent of the floor. */
   get #description() {
     const { overlays } = this.state.own as { overlays: (typeof OVERLAYS)[number][] };
     const drawn = overlays.filter((name) => hasLength(this.reading.contours[name]));
@@ -260,7 +258,6 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
       </div>`;
   }
 
-  /** Returns the chart of the skew against ω, with a slider that sets ω. */
   #chart({ config, stats, exactSkew }: Reading) {
     const { model, noise, command: { v, omega, dt }, alphas, isolate } = config;
     const say = words.banana;

@@ -114,7 +114,6 @@ export class MorphView extends View {
   }
 }
 
-/** Returns the slider from the floor to exponential coordinates, and the button that plays it. */
 export function morphControl({ player, gesture, state }: import('./banana-machine.ts').BananaMachineElement) {
   const say = words.banana.morph;
   const { morph } = state.own;

@@ -54,7 +54,6 @@ const HANDLE_RADIUS = 7.5;
 /** Largest distance from the pointer to a robot that it selects, CSS pixels. */
 const PICK_RADIUS = 14;
 
-/** Picture of the robots: as dots, or as a density. */
 class CloudPicture extends Picture<Scene, import('../../types.d.ts').ViewName> {
   #density = new Density();
   #places: Memo<Float64Array> = new Memo();
@@ -205,7 +204,6 @@ const ghostOf = ({ previousReading }: Brush, { pinned }: Scene): Reading | undef
 
 const ghostName = ({ pinned }: Scene) => (pinned ? words.banana.pinned : words.before);
 
-/** Draws driving robots, with the paths that they have driven. */
 function drawDriving(brush: Brush, machine: BananaMachine, { robots, share }: { robots: number, share: number }) {
   const { palette } = brush;
   for (let i = 0; i < robots; i++) {

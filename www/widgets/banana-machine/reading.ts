@@ -9,7 +9,6 @@ export type Reading = ReturnType<typeof readingOf>;
 /** Standard deviation (m or rad) below which there is no noise: the quadrature rounds by as much. */
 const NO_SPREAD = 1e-9;
 
-/** Reads everything that the pictures and readouts need of the machine, once for each change. */
 export function readingOf(machine: Machine) {
   const reading = machine.read();
   const { config, stats, contours, table, chartHolds } = reading;

@@ -48,7 +48,6 @@ function gainText({ unbounded, value, exact, wraps }: Reading['gain']) {
   return wraps ? unwrapped(fixed(exact, 3)) : `${exactly(fixed(exact, 3))}; ${nat}`;
 }
 
-/** Returns the less important readouts. */
 export function otherReadouts({ config, stats, table }: Reading) {
   const say = words.banana.readouts;
   const { nOfAll } = words.banana;

@@ -9,7 +9,6 @@ import type { Callout } from '../../scene/callout.ts';
 
 addEnglish({ banana: en });
 
-/** Returns the announcement of a change that has come to rest. */
 export function announcementOf({ config, stats, note }: Reading) {
   const { announcement, skew, noSkew } = words.banana;
   const outcome = Number.isNaN(stats.crossTrackSkew)
@@ -83,13 +82,11 @@ function bendText({ stats: { crossTrackSkew: skew, crossTrackSkewError: error, a
   return exactSkew < 0 ? say.right(measured) : say.left(measured);
 }
 
-/** Returns the caption of the view of the floor. */
 export function captionOf(reading: Reading) {
   const { note, stats } = reading;
   return note || (stats.n === 0 ? words.banana.noRobots : bendText(reading) || words.banana.fewRobots);
 }
 
-/** Returns the exact skew as text. */
 export function skewText(skew: number) {
   return Number.isNaN(skew) ? words.banana.noExactSkew : words.banana.exactSkew(fixed(skew, 3));
 }
@@ -103,7 +100,6 @@ export function twistCaption({ config: { model, noise, alphas, isolate }, note }
   return `${twist}: ${twistIs[kind]}`;
 }
 
-/** Returns the text equivalent of the view in exponential coordinates. */
 export function twistText({ stats: { n, exponential, coverage } }: Reading) {
   const { mean, cov } = exponential;
   const { twist, twistAxes, noRobots, oneRobot, twistMoments } = words.banana;

@@ -8,7 +8,6 @@ import { fixed } from '../../ui/format.ts';
 import { COMMAND, NOISE, SAMPLE_COUNTS } from './settings.ts';
 import type { DeadReckoningElement as Figure } from './dead-reckoning.ts';
 
-/** Returns the two main controls: the heading noise, and the number of steps of the same path. */
 export function pathControls(figure: Figure) {
   return html`<div class="controls" part="controls">
     ${slider(figure, 'headingNoise')} ${slider(figure, 'steps', { input: (steps) => figure.settings.want((wanted) => samePath(wanted, steps)) })}
@@ -20,7 +19,6 @@ function samePath({ command, steps: before, step }: Record<string, any>, steps: 
   return { steps, step: Math.max(1, Math.round((step * steps) / before)), command: { ...command, dt: (command.dt * before) / steps } };
 }
 
-/** Returns the selected step to be typed, the command, the noise and the samples. */
 export function moreControls(figure: Figure) {
   const { steps, step, command: { dt } } = figure.settings.wanted;
   const { settings: { alphas }, walked, per } = words.reckoning;

@@ -70,7 +70,6 @@ function drawPlace({ context, view, palette }: Brush, [x, y]: Float64Array) {
   drawDisc(context, view.toPixel(x, y), END_MARK_RADIUS, palette.prior, { colour: palette.paper, width: 1.5 });
 }
 
-/** Draws the robots after another step. */
 function drawPassed({ context, view, palette }: Brush, poses: Float64Array) {
   context.fillStyle = palette.cloud;
   context.globalAlpha = PASSED_DOTS.alpha;

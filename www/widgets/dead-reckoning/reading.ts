@@ -7,7 +7,6 @@ export type Reading = ReturnType<typeof readingOf>;
 /** Components of ξ, in the order of every triple. */
 export const COMPONENTS = ['along', 'lateral', 'heading'] as const;
 
-/** Reads everything that the pictures and readouts need of the machine, once for each change. */
 export function readingOf(machine: Machine) {
   const reading = machine.read();
   const { config, stats, ratios, relativeErrors, nominal } = reading;

@@ -68,7 +68,6 @@ export function headline(reading: Reading, overlays: string[]) {
 /** Ranges of both logarithmic axes: fixed, so that a slider moves the curves and not the axes. */
 const GROWTH_AXES = { durations: [0.1, 10], variances: [1e-6, 100] };
 
-/** Returns the plot of exercise 2: variances against the duration. */
 export function straightPlot({ durations: x, along, across, alongFirstOrder, acrossFirstOrder, crossing }: import('../../types.d.ts').StraightGrowth) {
   const say = words.reckoning.straight;
   const [from, to] = GROWTH_AXES.durations;

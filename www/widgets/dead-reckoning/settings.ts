@@ -28,7 +28,6 @@ export const OUTLINES = {
   exponential: { role: 'posterior', width: 2.25, dash: [] },
 } satisfies Record<string, import('../../scene/draw.ts').LineStyle>;
 
-/** Sliders of the command of a step. */
 export const COMMAND: Record<string, import('../../figure/controls.ts').SliderSpec> = commandSliders(1);
 
 export const NOISE = alphaSliders(6);

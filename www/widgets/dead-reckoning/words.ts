@@ -39,7 +39,6 @@ export function captionOf({ config: { compounding }, stats: { misses, n }, condi
 /** Returns the index of the greatest miss; NaN is not a miss. */
 const furthest = (misses: number[]): number => misses.reduce((most, miss, i) => (miss > (misses[most] || 0) ? i : most), 0);
 
-/** Returns the ratios at the first steps of the caption, as text. */
 const listOf = (ratios: number[]) =>
   CAPTION_STEPS.filter((step) => step <= ratios.length).map((step) => words.reckoning.atStep(fixed(ratios[step - 1], 2), String(step))).join(', ');
 
@@ -57,13 +56,11 @@ export function worstAt({ config: { step }, curves }: Reading, overlays: string[
   return { component: COMPONENTS[worst], ratio: ratios[worst] };
 }
 
-/** Returns the announcement of a change that has come to rest. */
 export function announcementOf(reading: Reading, overlays: string[]) {
   const { config, shown } = reading;
   return words.reckoning.announcement(counted(shown), commandText(config.command), String(config.steps), captionOf(reading, overlays));
 }
 
-/** Returns the ratios that are shown, at the selected step. */
 export function ratioText({ config: { step, compounding }, curves }: Reading, overlays: string[]) {
   const say = words.reckoning;
   const ratios = componentsOf(overlays).map((name) => {
@@ -73,14 +70,12 @@ export function ratioText({ config: { step, compounding }, curves }: Reading, ov
   return say.ratioText(say.recursions[compounding], String(step), ratios.join(', '));
 }
 
-/** Returns the text equivalent of the floor. */
 export function planeText({ config, shown, pose }: Reading) {
   const { command, steps, step, compounding } = config;
   const say = words.reckoning;
   return say.plane(commandText(command), String(steps), counted(shown), String(step), fixed(pose[0], 2), fixed(pose[1], 2), say.recursions[compounding]);
 }
 
-/** Returns the text equivalent of the step in exponential coordinates. */
 export function stepText({ config: { step, compounding }, stats: { measured, predicted } }: Reading) {
   const say = words.reckoning;
   const deviations = (cov: number[][] | null) => [0, 1].map((axis) => fixed(Math.sqrt(cov?.[axis][axis] ?? NaN), 4));

@@ -30,7 +30,6 @@ export function placeControls(figure: Figure) {
   </div>`;
 }
 
-/** Returns the choice of the sampler, with a sentence on its effect. */
 export function samplerControls(figure: Figure) {
   const { conditioned, sampler, samples, steps } = figure.reading.config;
   const { settings, samplers, samplerEffects } = words.squeeze;
@@ -44,7 +43,6 @@ export function samplerControls(figure: Figure) {
   </div>`;
 }
 
-/** Returns the sliders of the command and of the noise, and the samples. */
 export function motionControls(figure: Figure) {
   return html`${group(words.command, sliders(figure, COMMAND))}
     ${group(words.noise, slider(figure, 'noise'), 'single')} ${cloudControls(figure, SAMPLE_COUNTS)}`;

@@ -69,7 +69,6 @@ export class CostMeter extends FigureController {
   #settings = '';
   #timer: ReturnType<typeof setTimeout> | undefined;
 
-  /** Marks the costs as out of date. */
   outdate() {
     clearTimeout(this.#timer);
     this.#timer = undefined;

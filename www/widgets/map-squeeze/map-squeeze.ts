@@ -291,13 +291,11 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
     this.cloud.mark(-1);
   }
 
-  /** Name and size of the current map. */
   get #mapText() {
     const { pasted, apartment } = words.squeeze;
     return mapText(this.map ? this.map.name || pasted : apartment, this.picture.plan);
   }
 
-  /** Text equivalent of the picture. */
   get #description() {
     return pictureText(this.reading, this.#mapText);
   }
@@ -334,7 +332,6 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
   }
 }
 
-/** Returns a map from plain data. */
 const mapOf = (map: MapData): OwnMap => ({
   name: map.name ?? '',
   apply: (machine) => applyMap(machine, map),

@@ -10,7 +10,6 @@ export type Reading = ReturnType<typeof readingOf>;
 /** Number of samples above which they are drawn as a density: dots would be indistinguishable, and take longer than a frame. */
 export const MAX_DOTS = 1500;
 
-/** Reads everything that the picture and the readouts need of the machine, once for each change. */
 export function readingOf(machine: MapSqueeze) {
   const reading = machine.read();
   const { config, stats, verdicts, poses, startFree } = reading;
@@ -21,7 +20,6 @@ export function readingOf(machine: MapSqueeze) {
   };
 }
 
-/** Returns the poses of the samples by outcome. */
 function sort(poses: Float64Array, verdicts: Uint8Array) {
   const posesOf = (wanted: number) => {
     const some = [...verdicts.keys()].filter((i) => outcomeOf(verdicts[i]) === wanted);

@@ -11,7 +11,6 @@ import { verdictText } from './words.ts';
 import type { SamplerName } from '../../types.d.ts';
 import type { Reading } from './reading.ts';
 
-/** Returns the counts of the samples. */
 export function tally({ stats, config: { conditioned, sampler }, paths: { length: paths } }: Reading) {
   const say = words.squeeze.tally;
   const certain = conditioned && sampler === 'whole-arc';
@@ -25,7 +24,6 @@ export function tally({ stats, config: { conditioned, sampler }, paths: { length
   ]);
 }
 
-/** Returns the readout of the selected sample, with its outcome. */
 export function markedDraw(figure: import('./map-squeeze.ts').MapSqueezeElement): import('lit').TemplateResult {
   const { cloud, reading: { config, stats, verdicts } } = figure;
   const { sample, markHint } = words.squeeze;
@@ -33,7 +31,6 @@ export function markedDraw(figure: import('./map-squeeze.ts').MapSqueezeElement)
   return sampleField(figure, { id: 'sample', label: sample, hint: markHint, shown: stats.attempts, selected });
 }
 
-/** Returns the table of costs for a number of sub-steps. */
 export function costTable({ costs, current }: CostMeter, steps: number) {
   const { samplers, costs: say } = words.squeeze;
   const row = (sampler: SamplerName) => {

@@ -35,7 +35,6 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
     return this.#grips.of([plan], () => (movable && plan.walls.length <= 4 * MAX_HANDLED_WALLS ? gripsOf(plan) : []));
   }
 
-  /** Walls of the plan in the picture. */
   get #walls() {
     return this.host.picture.plan.walls;
   }
@@ -68,7 +67,6 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
     this.#place(this.host.picture.view);
   }
 
-  /** Places the handles on the drawn walls. */
   place(view: View) {
     const shown = [this.host.picture.plan, view.extent, view.frame];
     if (shown.some((each, i) => each !== this.#shown[i])) this.#place(view);

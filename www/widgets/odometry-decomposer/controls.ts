@@ -37,7 +37,6 @@ export function playable(figure: Figure, key: 'phase' | 'drift', legend: string)
   </fieldset>`;
 }
 
-/** Returns the noise, the correlation of the two rotations, and the outcomes. */
 export function noiseControls(figure: Figure) {
   const { hinges, noises } = words.decomposer;
   return html`<div class="controls">

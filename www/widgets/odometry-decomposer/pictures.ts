@@ -176,7 +176,6 @@ export class LegsPicture extends OutcomesPicture {
     ];
   }
 
-  /** Draws the linkages of some outcomes. */
   #paintGhosts({ context, view, palette }: Brush, { ghosts }: Scene) {
     const point = (index: number) => view.toPixel(ghosts[3 * index], ghosts[3 * index + 1]);
     context.globalAlpha = 0.5;
@@ -186,7 +185,6 @@ export class LegsPicture extends OutcomesPicture {
     context.globalAlpha = 1;
   }
 
-  /** Draws the robot on its path. */
   #paintRobot({ context, view, palette }: Brush, pose: Pose) {
     const radius = Math.max(7, 0.7 * ROBOT_RADIUS * view.scaleX);
     const edge = { colour: palette.paper, width: 2 };
@@ -233,7 +231,6 @@ export class WorldPicture extends OutcomesPicture {
     ]);
   };
 
-  /** Draws the axes of the odometry frame. */
   #paintFrame({ context, view, palette }: Brush, frame: Pose) {
     const length = FRAME_AXIS_LENGTH * view.scaleX;
     const [, yEnd] = view.ray({ ...frame, theta: frame.theta + Math.PI / 2 }, length);

@@ -4,7 +4,6 @@ import type { OdometryDecomposer, OdometryDecomposerSettings, RuleFigures } from
 
 export type Reading = ReturnType<typeof readingOf>;
 
-/** Reads everything that the pictures and the readouts need of the machine, once for each change. */
 export function readingOf(machine: OdometryDecomposer) {
   const reading = machine.read();
   return { ...reading, ...partsOf(reading.rules, reading.config) };

@@ -35,7 +35,6 @@ export function readouts({ stats }: Reading) {
 /** Number of points of the curves, about one for each pixel on a large screen. */
 const CURVE_POINTS = 121;
 
-/** Returns the plot of standard deviations against the length of the drive. */
 export function spreadPlot(curveOf: (longest: number, points: number) => Float64Array, { legs, stats }: Reading) {
   const say = words.decomposer.plot;
   const longest = Math.max(1, 2 * legs.trans);

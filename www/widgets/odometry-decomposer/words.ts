@@ -10,7 +10,6 @@ addEnglish({ decomposer: en });
 /** Length of a reading, m, below which it is called jitter. */
 const MAX_JITTER = 0.01;
 
-/** Returns the caption below the pictures. */
 export function captionOf({ config: { rule, alphas }, rules, legs, deviations, stats }: Reading) {
   const say = words.decomposer.caption;
   const [{ legs: { rot1, trans } }] = rules;
@@ -33,7 +32,6 @@ export function driftDistance({ drifted, linkage }: Reading) {
   return Math.hypot(own.x - predicted.x, own.y - predicted.y);
 }
 
-/** Returns the text equivalent of the legs' picture. */
 export function legsText(reading: Reading) {
   const { legs: { rot1, trans, rot2 }, config: { to }, stats } = reading;
   const say = words.decomposer;
@@ -41,7 +39,6 @@ export function legsText(reading: Reading) {
   return `${say.picture(fixed(rot1, 2), fixed(trans, 2), fixed(rot2, 2), fixed(to.x, 2), fixed(to.y, 2))} ${outcomes} ${captionOf(reading)}`;
 }
 
-/** Returns the text equivalent of the world's picture. */
 export function worldText(reading: Reading) {
   const { x, y, theta } = poseIn(reading.drifted.poses, 0);
   return words.decomposer.worldPicture(fixed(x, 2), fixed(y, 2), fixed(theta, 2), fixed(driftDistance(reading), 2));

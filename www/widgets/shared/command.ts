@@ -15,7 +15,6 @@ export const commandSliders = (longest: number) => ({
   dt: { ...SPEED, symbol: '*Δt*', min: 0.1, max: longest, step: 0.05 },
 });
 
-/** Returns the command in words. */
 export function commandText({ v, omega, dt }: import('../../types.d.ts').Command) {
   return words.commandText(fixed(v, 2), fixed(omega, 2), fixed(dt, 2));
 }

@@ -27,7 +27,6 @@ export class Player<Key extends string> extends FigureController {
     this.#played = played;
   }
 
-  /** Stops the animation. */
   stop() {
     this.#key = undefined;
   }

@@ -54,7 +54,6 @@ export class PoseHandles extends FigureController<import('../../figure/figure.ts
     });
   }
 
-  /** Requested pose. */
   get #pose(): Pose {
     return this.host.settings.wanted[this.#setting];
   }

@@ -77,7 +77,6 @@ async function textOf(file: File, most: number) {
   return new TextDecoder().decode(await bytesOf(file, file.name));
 }
 
-/** Checks the size of a file in bytes before it is read. */
 function checkSize(name: string, size: number, most: number) {
   if (size > most) throw new MapFileError(name, (say, file) => say.long(file, size, most));
 }
@@ -130,7 +129,6 @@ async function parsed(name: string, text: string, language: 'JSON' | 'YAML') {
   }
 }
 
-/** Reads a grid from a YAML file and its image. */
 async function readGrid(file: File, images: File[], decodePng: DecodePng): Promise<OwnMap> {
   const description = await readDescription(file.name, await textOf(file, MAX_YAML_BYTES));
   const { image: path } = description;

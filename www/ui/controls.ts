@@ -38,6 +38,12 @@ export const controlStyles = css`
     color: var(--ink);
   }
 
+  textarea {
+    box-sizing: border-box;
+    width: 100%;
+    font: 0.85em / 1.4 ui-monospace, monospace;
+  }
+
   /* Browsers have their own font size for controls. */
   input {
     font-size: inherit;

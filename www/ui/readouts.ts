@@ -17,6 +17,16 @@ export const readoutStyles = css`
     margin: 0;
   }
 
+  /* The message of the figure beside its caption. */
+  @container (min-width: 30em) {
+    .said {
+      display: grid;
+      grid-template-columns: auto 1fr;
+      column-gap: 1em;
+      align-items: center;
+    }
+  }
+
   /* Reserved width, so that a longer value moves no neighbour. */
   .readouts > div {
     min-width: 5em;
@@ -95,16 +105,16 @@ export const readoutStyles = css`
       font-size: 0.82em;
     }
 
-    table :is(caption, thead, tbody) {
+    :where(table:not(.alphas)) > :is(caption, thead, tbody) {
       display: block;
     }
 
-    tr {
+    :where(table:not(.alphas)) tr {
       display: flex;
       flex-wrap: wrap;
     }
 
-    tr > :is(th, td) {
+    :where(table:not(.alphas)) tr > :is(th, td) {
       flex: 1;
       min-width: 0;
       padding: 0.17em 0;
@@ -112,7 +122,7 @@ export const readoutStyles = css`
       overflow-wrap: anywhere;
     }
 
-    tr > :first-child {
+    :where(table:not(.alphas)) tr > :first-child {
       flex-basis: 100%;
       padding-inline-start: 0;
     }

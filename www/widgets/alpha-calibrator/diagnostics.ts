@@ -87,13 +87,13 @@ export function panels(figure: Figure) {
   if (reading.legs.count === 0) return html`<p>${words.calibrator.none}</p>`;
   const choose = (name: Driver) => gesture.choose('driver', name);
   return html`${radioGroup(say.against, 'driver', say.drivers, driver, choose)}
-    <div class="panels">
+    <figure><div class="panels">
       ${figure.panels.map((panel, i) => html`<figure>
         ${plot(panelPlot(panel, say.kinds[COMPONENTS[model][i]], axes[driver as Driver]))}
         ${noteOf(panel, reading)}
       </figure>`)}
     </div>
-    <p class="figcaption">${rich(say.caption)}</p>`;
+    <figcaption>${rich(say.caption)}</figcaption></figure>`;
 }
 
 /** Returns the plot of a panel, with the name of its noise and of its axis of squared motion. */

@@ -15,10 +15,6 @@ export const styles = css`
     margin: 0;
   }
 
-  .drop-zone .note {
-    margin: 0.3em 0;
-  }
-
   .choosers .topics {
     display: flex;
     flex-wrap: wrap;
@@ -319,18 +315,6 @@ export const styles = css`
     gap: 0.5em 1em;
   }
 
-  .figcaption {
-    margin: 0.3em 0 0;
-    color: var(--muted);
-    font-size: 0.92em;
-  }
-
-  textarea.yaml {
-    width: 100%;
-    box-sizing: border-box;
-    font: 0.84em / 1.4 ui-monospace, monospace;
-  }
-
   .dropping .drop-zone {
     outline: 2px solid var(--accent);
     outline-offset: 2px;
@@ -343,17 +327,8 @@ export const styles = css`
   }
 
   @container (width < 26em) {
-    .alphas :is(thead, tbody) {
-      display: revert;
-    }
-
-    .alphas tr {
-      display: table-row;
-    }
-
-    .alphas tr > :is(th, td) {
-      padding: 0 0 0 0.4em;
-      overflow-wrap: normal;
+    .alphas :is(th, td) {
+      padding-left: 0.4em;
     }
 
     .alphas thead th {

@@ -3,13 +3,6 @@
 import { css } from 'lit';
 
 export const styles = css`
-  @container (min-width: 30em) {
-    .views {
-      grid-template-columns: 1fr 1fr;
-      column-gap: 1em;
-    }
-  }
-
   @container (min-width: 38em) {
     canvas {
       aspect-ratio: 1.45;
@@ -78,6 +71,11 @@ export const styles = css`
   }
 
   @container (min-width: 30em) {
+    .views {
+      grid-template-columns: 1fr 1fr;
+      column-gap: 1em;
+    }
+
     .surface .machine > .readouts {
       grid-template-columns: repeat(3, 1fr);
     }

@@ -77,13 +77,6 @@ export const styles = css`
       grid-template-rows: 1fr auto;
     }
 
-    .said {
-      display: grid;
-      grid-template-columns: auto 1fr;
-      column-gap: 1em;
-      align-items: center;
-    }
-
     .said .caption {
       font-size: 0.95em;
       line-height: 1.25;

@@ -182,13 +182,8 @@ export const styles = css`
   }
 
   textarea {
-    box-sizing: border-box;
     display: block;
-    width: 100%;
     margin: 0.35em 0 0.7em;
-    padding: 0.47em 0.59em;
-    font-size: 0.85em;
-    line-height: 1.35;
     resize: vertical;
   }
 

@@ -30,13 +30,6 @@ export const styles = css`
       height: 100%;
     }
 
-    .said {
-      display: grid;
-      grid-template-columns: auto 1fr;
-      column-gap: 1em;
-      align-items: center;
-    }
-
     .plays {
       display: grid;
       grid-template-columns: 1fr 1fr;

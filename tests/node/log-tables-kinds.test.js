@@ -147,6 +147,8 @@ test('units are taken by two signs', async () => {
 /** Tables that lead to a question about a unit. Each has the option that answers it, and a field of row 9 with its value after the answer. @type {[string, string, RegExp, import('../../www/logs/log.ts').OpenOptions, [string, number]][]} */
 const QUESTIONS = [
   ['millimetres', circles(([t, x, y, yaw]) => [t, 1000 * x, 1000 * y, yaw]), /in m, the robot would drive at \d+ m\/s; .*: cm or mm or m\.$/, { lengthUnit: 'mm' }, ['x', CIRCLES[9][1]]],
+  ['centimetres of a slow robot', circles(([t]) => [t, 15 * Math.sin(t), 0, 0]), /in m, the robot would drive at 1\d\.\d m\/s; .*: m or cm or mm\.$/, { lengthUnit: 'cm' }, ['x', 0.15 * Math.sin(0.45)]],
+  ['commands in centimetres', ['t,v,omega', ...steps(50).map((t) => `${t},${10 * Math.sin(2 * t)},0`)].join('\n'), /in m, the robot would drive at \d\.\d+ m\/s;/, { lengthUnit: 'cm' }, ['v', 0.1 * Math.sin(1.8)]],
   ['metres that a name has as millimetres', circles(undefined, 't,x_mm,y_mm,yaw'), /in mm, the robot .*: m or mm\.$/, { lengthUnit: 'm' }, ['x', CIRCLES[9][1]]],
   ['commands in milliseconds', ['t,v,omega', ...steps(50).map((t) => `${1000 * t},0.5,0.5`)].join('\n'), /in s, the times would mean 0\.01\d* rows a second; state their unit/, { timeUnit: 'ms' }, ['t', 0.9]],
   ['seconds that a name has as nanoseconds', circles(undefined, 't_ns,x,y,yaw'), /in ns, the times would mean/, { timeUnit: 's' }, ['t', CIRCLES[9][0]]],
@@ -154,6 +156,11 @@ const QUESTIONS = [
   ['radians that a name has as degrees', circles(undefined, 't,x,y,yaw_deg'), /headings in deg .*: rad or deg\.$/, { angleUnit: 'rad' }, ['theta', CIRCLES[9][3]]],
   ['turn rates in degrees', ['t,v,omega', ...steps(50).map((t) => `${t},0.5,30`)].join('\n'), /headings in rad would turn at 30\.0 rad\/s/, { angleUnit: 'deg' }, ['omega', Math.PI / 6]],
 ];
+
+test('a car is not asked about its lengths', async () => {
+  const { summary: { units } } = await read(circles(([t]) => [t, 40 * Math.sin(0.3 * t), 0, 0]));
+  assert.deepEqual(units.length, { unit: 'm', by: 'usage' });
+});
 
 for (const [name, text, sentence, options, [field, value]] of QUESTIONS) {
   test(`asks about ${name}`, async () => {

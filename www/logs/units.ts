@@ -38,6 +38,9 @@ const [STATED_RATES, USUAL_RATES] = [[0.05, 5000], [0.2, 2000]] as const;
 /** Minimum and maximum speed of robots in m/s or rad/s, with a margin for rounded times. */
 const [MIN_SPEED, MAX_SPEED] = [0.005, 20.5];
 
+/** Speed in m/s above which the acceleration is judged too, and maximum acceleration in m/s²: that of gravity, which tyres transmit. */
+const [FAST, MAX_ACCELERATION] = [3, 9.8];
+
 /** Duration (s) of the steps whose speed is judged. In shorter steps the noise would look like a high speed. */
 const STEP_DURATION = 0.5;
 
@@ -115,14 +118,15 @@ function timeUnit(kind: LogKind, { t, a, b, c }: Columns, { time: assumed, lengt
   return ask('timeUnit', rate(assumed.unit), assumed.unit, units.filter((each) => isWithin(rate(each), USUAL_RATES)));
 }
 
-/** Checks lengths by the speed of the robot. */
+/** Checks lengths by the speed of the robot, and by its acceleration. */
 function checkLength(kind: LogKind, { t, a, b }: Columns, { unit, by }: Units['length'], ask: Ask): void {
   const step = quantile(sample(t.length - 1, (i) => t[i + 1] - t[i]), 0.5);
   const speed = kind === 'poses' ? speedOf(t, a, b, step) : quantile(sample(a.length, (i) => Math.abs(a[i])), 0.9);
   const inMetres = speed * METRES[unit];
+  const isTooLively = inMetres > FAST && accelerationOf(kind, t, a, b, step) * METRES[unit] > MAX_ACCELERATION;
   const others = UNITS.lengthUnit.filter((each) => isWithin(speed * METRES[each], [MIN_SPEED, MAX_SPEED]));
   // A unit in a name is doubted if the robot would be too slow with it, and as fast as robots are with metres.
-  if (inMetres > MAX_SPEED || (by === 'name' && unit !== 'm' && inMetres < MIN_SPEED && speed > 0.1 && others.includes('m'))) {
+  if (inMetres > MAX_SPEED || isTooLively || (by === 'name' && unit !== 'm' && inMetres < MIN_SPEED && speed > 0.1 && others.includes('m'))) {
     ask('lengthUnit', inMetres, unit, others.includes(unit) ? others : [...others, unit]);
   }
 }
@@ -185,6 +189,15 @@ function unitOfPath(t: Float64Array, x: Float64Array, y: Float64Array, heading: 
 function speedOf(t: Float64Array, x: Float64Array, y: Float64Array, step: number): number {
   const stride = Math.min(Math.max(1, Math.round(STEP_DURATION / step)), t.length - 1);
   return quantile(sample(t.length - stride, (i) => Math.hypot(x[i + stride] - x[i], y[i + stride] - y[i]) / (t[i + stride] - t[i])), 0.9);
+}
+
+/** Returns the 90 % quantile of the accelerations between successive steps. */
+function accelerationOf(kind: LogKind, t: Float64Array, a: Float64Array, b: Float64Array, step: number): number {
+  const stride = Math.min(Math.max(1, Math.round(STEP_DURATION / step)), Math.max(1, (t.length - 1) >> 1));
+  if (kind === 'commands') return quantile(sample(t.length - stride, (i) => Math.abs(a[i + stride] - a[i]) / (t[i + stride] - t[i])), 0.9);
+  const speed = (p: Float64Array, i: number) => (p[i + stride] - p[i]) / (t[i + stride] - t[i]);
+  const change = (p: Float64Array, i: number) => speed(p, i + stride) - speed(p, i);
+  return quantile(sample(t.length - 2 * stride, (i) => Math.hypot(change(a, i), change(b, i)) / (t[i + stride] - t[i])), 0.9);
 }
 
 /** Returns the 90 % quantile of the turn rates of the steps. */

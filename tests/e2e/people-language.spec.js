@@ -140,7 +140,7 @@ test('a page from right to left has the same picture, and nothing beside its fig
   const canvas = widget.locator('canvas.plane');
   const before = await pictureOf(canvas);
   await page.evaluate(() => void (document.documentElement.dir = 'rtl'));
-  await widget.evaluate((element) => /** @type {any} */ (element).stage.requestFrame());
+  await widget.evaluate((element) => /** @type {any} */ (element).renderer.requestFrame());
   expect(await pictureOf(canvas)).toBe(before);
   expect(await page.evaluate(() => document.documentElement.scrollWidth - innerWidth)).toBeLessThanOrEqual(0);
   const slider = widget.locator('.slider input[type=range]').first();

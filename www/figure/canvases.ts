@@ -56,14 +56,14 @@ export class Canvases extends FigureController {
 
   /** Sets the size of each canvas in device pixels. In print the pixels determine the layout, so that the observer would be called again. */
   #resize(entries: ResizeObserverEntry[]) {
-    if (this.host.stage.printing) return;
+    if (this.host.renderer.printing) return;
     for (const { target, contentRect, devicePixelContentBoxSize } of entries) {
       const canvas = target as HTMLCanvasElement;
       const exact = devicePixelContentBoxSize?.[0];
       canvas.width = Math.round(exact?.inlineSize ?? devicePixelRatio * contentRect.width);
       canvas.height = Math.round(exact?.blockSize ?? devicePixelRatio * contentRect.height);
     }
-    this.host.stage.drawResized();
+    this.host.renderer.drawResized();
   }
 
   /** Caches the widths in the layout, and sets the sizes in pixels for print. */

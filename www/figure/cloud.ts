@@ -8,7 +8,7 @@ import { counted } from '../ui/format.ts';
 import { boolean, wholeNumber } from './checks.ts';
 import { FigureController } from './controller.ts';
 import { freeOnError } from './runtime.ts';
-import { isCalm } from './stage.ts';
+import { isCalm } from './renderer.ts';
 import type { Figure } from './figure.ts';
 import type { Values } from './settings.ts';
 
@@ -151,7 +151,7 @@ export class Cloud extends FigureController {
   mark(index: number) {
     if (index === this.index) return;
     this.host.state.own.marked = index < 0 ? null : index;
-    this.host.stage.requestFrame();
+    this.host.renderer.requestFrame();
   }
 
   /** Selects the sample nearest to the pointer. */
@@ -225,7 +225,7 @@ export class Cloud extends FigureController {
       act();
       this.playing = playing;
       this.host.gesture.complete();
-      this.host.stage.requestFrame();
+      this.host.renderer.requestFrame();
     });
   }
 

@@ -22,14 +22,14 @@ export class Colours extends FigureController {
   /** Updates the colours from the page and the theme, and draws. */
   update() {
     this.resolve();
-    this.host.stage.requestFrame();
+    this.host.renderer.requestFrame();
   }
 
   /** Sets the colours of the surroundings, or those of the figure if its theme differs from the scheme around it. Paper is light. */
   resolve() {
     const style = this.#find('.surface')?.style;
     if (!style) return;
-    const { stage: { printing }, theme } = this.host;
+    const { renderer: { printing }, theme } = this.host;
     const { scheme, ...around } = surroundings(this.#find('.scheme-probe'));
     // Forced colours override the theme.
     const isAuto = theme === 'auto' || matchMedia('(forced-colors: active)').matches;

@@ -90,7 +90,7 @@ function entered({ settings }: Figure, key: string, name: string, text: string, 
   settings.refuse(key, words.refused(name.replaceAll(/[*_{}]/g, ''), given, limit(min), limit(max), whole));
 }
 
-/** Returns a picture's canvas, on which the pointer selects samples. The stage sets its size. */
+/** Returns a picture's canvas, on which the pointer selects samples. `Canvases` sets its size. */
 export function canvas(figure: Figure, picture: import('../scene/picture.ts').Picture<any>, description: string) {
   const point = (event: PointerEvent) => figure.cloud?.point(picture, event);
   return html`<canvas
@@ -100,7 +100,7 @@ export function canvas(figure: Figure, picture: import('../scene/picture.ts').Pi
     aria-label=${description}
     @pointermove=${point}
     @click=${point}
-    @contextrestored=${() => figure.stage.requestFrame()}
+    @contextrestored=${() => figure.renderer.requestFrame()}
   ></canvas>`;
 }
 

@@ -20,7 +20,7 @@ import { Presentation } from './presentation.ts';
 import { Reflection } from './reflection.ts';
 import { Runtime } from './runtime.ts';
 import { Settings } from './settings.ts';
-import { Stage } from './stage.ts';
+import { Renderer } from './renderer.ts';
 import { State } from './state.ts';
 import { TextHeights } from './text-heights.ts';
 import { surface } from './surface.ts';
@@ -103,7 +103,7 @@ export abstract class FigureElement<Machine extends { free(): void, stats: objec
   runtime = new Runtime(this);
   visibility = new Visibility(this);
   canvases = new Canvases(this);
-  stage = new Stage(this);
+  renderer = new Renderer(this);
   colours = new Colours(this);
   gesture = new Gesture(this);
   settings = new Settings(this);
@@ -242,7 +242,7 @@ export abstract class FigureElement<Machine extends { free(): void, stats: objec
     return new Promise((resolve) => {
       this.#waiting.push(resolve);
       if (this.isConnected) void this.runtime.start();
-      this.stage.requestFrame();
+      this.renderer.requestFrame();
     });
   }
 
@@ -259,8 +259,8 @@ export abstract class FigureElement<Machine extends { free(): void, stats: objec
   /** Resolves `settled` if the figure is settled or cannot run. */
   resolveSettled() {
     if (!this.isAwaited) return;
-    const { machine, cloud, settings, runtime, stage } = this;
-    const isSettled = machine ? !this.isBusy && !settings.isWaiting && !stage.isBehind && (cloud?.isSettled ?? true) : runtime.failure !== undefined;
+    const { machine, cloud, settings, runtime, renderer } = this;
+    const isSettled = machine ? !this.isBusy && !settings.isWaiting && !renderer.isBehind && (cloud?.isSettled ?? true) : runtime.failure !== undefined;
     if (isSettled) for (const resolve of this.#waiting.splice(0)) resolve();
   }
 
@@ -274,7 +274,7 @@ export abstract class FigureElement<Machine extends { free(): void, stats: objec
 
   set highlight(name) {
     this.#highlight = name;
-    this.stage.requestFrame();
+    this.renderer.requestFrame();
   }
 
   /**

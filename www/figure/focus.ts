@@ -38,7 +38,7 @@ export class Focus extends FigureController {
 export async function moveFocusInto(figure: Figure, origin: EventTarget | null) {
   await figure.runtime.start();
   // Waits for the controls, which are rendered after the first picture.
-  while (figure.stage.opening) await new Promise(requestAnimationFrame);
+  while (figure.renderer.opening) await new Promise(requestAnimationFrame);
   await figure.updateComplete;
   // The focus was on the placeholder, and is on the body after its removal. The reader may have moved it.
   if (!figure.machine || document.activeElement !== document.body) return;

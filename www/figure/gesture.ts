@@ -31,7 +31,7 @@ export class Gesture extends FigureController {
   #release() {
     this.#press?.abort();
     this.#press = undefined;
-    this.host.stage.requestFrame();
+    this.host.renderer.requestFrame();
   }
 
   /** Ends the gesture when the figure is removed. */
@@ -54,7 +54,7 @@ export class Gesture extends FigureController {
     host.runtime.attempt(() => host.settings.settle());
     host.announcer.announceNext();
     this.#finish();
-    if (host.settings.stale) host.stage.requestFrame();
+    if (host.settings.stale) host.renderer.requestFrame();
     else if (host.machine) {
       host.finishChange();
       host.requestUpdate();

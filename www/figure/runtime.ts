@@ -25,7 +25,7 @@ export class Runtime extends FigureController {
     // A moved element is connected again by then.
     queueMicrotask(() => {
       if (this.host.isConnected) return;
-      this.host.stage.setVisible(false);
+      this.host.renderer.setVisible(false);
       this.#stop();
     });
   }
@@ -122,7 +122,7 @@ export class Runtime extends FigureController {
     await this.host.updateComplete;
     // Rendering may have trapped, and the element may be removed.
     if (!this.machine) return;
-    this.host.stage.requestFrame();
+    this.host.renderer.requestFrame();
     if (this.#loaded) return;
     this.#loaded = true;
     this.host.dispatchEvent(new Event('load', { bubbles: true, composed: true }));

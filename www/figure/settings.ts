@@ -51,7 +51,7 @@ export class Settings extends FigureController {
    * not have is changed at once.
    */
   want(change: Values | ((wanted: Values) => Values)) {
-    const { runtime, definition, state, gesture, stage } = this.host;
+    const { runtime, definition, state, gesture, renderer } = this.host;
     runtime.attempt(() => {
       if (!this.host.machine) return;
       this.forgetRefusal();
@@ -62,7 +62,7 @@ export class Settings extends FigureController {
       if (definition.declared.some(({ key, of }) => of && (both(key, of) || both(of, key)))) this.settle();
       for (const [key, value] of Object.entries(values())) (key in state.own ? state.own : this.#pending)[key] = value;
       gesture.step();
-      stage.requestFrame();
+      renderer.requestFrame();
     });
   }
 
@@ -87,8 +87,8 @@ export class Settings extends FigureController {
       this.settle();
       this.#configure(values);
       this.host.reflection.updateAttributes();
-      this.host.stage.release();
-      this.host.stage.requestFrame();
+      this.host.renderer.releaseViews();
+      this.host.renderer.requestFrame();
     });
   }
 

@@ -62,7 +62,7 @@ export class State extends FigureController {
     host.settings.reset();
     host.machineChanged();
     this.#introduce(whole);
-    host.stage.requestFrame();
+    host.renderer.requestFrame();
   }
 
   /** Applies a preset, as a change by the reader. */
@@ -70,7 +70,7 @@ export class State extends FigureController {
     const { host } = this;
     host.player?.stop();
     host.settings.forgetRefusal();
-    host.stage.release();
+    host.renderer.releaseViews();
     for (const [name, { ofPreset, opening }] of Object.entries(this.#fields)) if (ofPreset) this.own[name] = opening;
     Object.assign(host, { preset });
     host.gesture.complete();
@@ -94,20 +94,20 @@ export class State extends FigureController {
   /** Shows a state of the machine; by default as when the figure opens. */
   #introduce(state?: Values) {
     const { host } = this;
-    host.stage.release();
+    host.renderer.releaseViews();
     host.cloud?.introduce(state);
     this.#opened ??= { ...host.snapshot(), ...(host.cloud && { shown: 0, playing: true }) };
     host.refresh();
     host.reflection.updateAttributes();
-    host.stage.requestFrame();
+    host.renderer.requestFrame();
   }
 
   /** Changes an own field, after a check. */
   assign(name: string, value: unknown) {
-    const { settings, cloud, reflection, stage } = this.host;
+    const { settings, cloud, reflection, renderer } = this.host;
     settings.settle();
     this.own[name] = checked(this.#fields[name], name, value, cloud?.selectableCount ?? 0);
     reflection.updateAttributes();
-    stage.requestFrame();
+    renderer.requestFrame();
   }
 }

@@ -14,7 +14,7 @@ export class Visibility extends FigureController {
     const seen = new Map<Element, boolean>();
     const setVisible = (entries: IntersectionObserverEntry[]) => {
       for (const { target, isIntersecting } of entries) seen.set(target, isIntersecting);
-      if (entries.length > 0) host.stage.setVisible([...seen.values()].includes(true));
+      if (entries.length > 0) host.renderer.setVisible([...seen.values()].includes(true));
     };
     const visibleObserver = (this.#visibleObserver = new IntersectionObserver(setVisible));
     const nearChanged = (entries: IntersectionObserverEntry[]) => {
@@ -49,7 +49,7 @@ export class Visibility extends FigureController {
     const { top, bottom } = this.host.getBoundingClientRect();
     // The box of a removed element is all 0.
     if (top >= innerHeight || bottom <= 0) return;
-    this.host.stage.setVisible(true);
+    this.host.renderer.setVisible(true);
     this.#setNear(true);
   }
 

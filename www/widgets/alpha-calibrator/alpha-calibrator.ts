@@ -169,7 +169,7 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
       this.#given = given;
       this.runtime.replace(machine);
       this.settings.stale = true;
-      this.stage.requestFrame();
+      this.renderer.requestFrame();
     });
   }
 
@@ -231,13 +231,13 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
     return html`
       ${dropZone(this, this.#opener)}
       <div class="views">
-        <p part="caption" class="caption verdict">${this.stage.later(() => verdictLine(this))}</p>
+        <p part="caption" class="caption verdict">${this.renderer.afterFirstPicture(() => verdictLine(this))}</p>
         ${panel(say.path, html`<div class="stage" part="picture" @click=${this.#press}>${canvas(this, this.#path, wayText(reading, chosen))}</div>`)}
         <div class="one">
           ${panel(say.oneLeg(counted(chosen + 1)), html`<div class="stage">${canvas(this, this.#legPicture, legText(this.predicted, chosen))}</div>`)}
-          ${this.stage.later(() => html`<div class="looked">${legControls(this)}</div>`)}
+          ${this.renderer.afterFirstPicture(() => html`<div class="looked">${legControls(this)}</div>`)}
         </div>
-        ${this.stage.later(() => html`
+        ${this.renderer.afterFirstPicture(() => html`
         <div class="fitted" part="readouts">
           <div class="buttons told">
             <p class="panel-title">${say.alphas.title(say.kinds[modelRuleOf(reading.fitted)])}</p>
@@ -248,7 +248,7 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
           <p class="muted reason">${reasonOf(reading)}</p>
         </div>`)}
       </div>
-      ${this.stage.later(() => html`
+      ${this.renderer.afterFirstPicture(() => html`
       ${legend(this, LINES)}
       <div part="controls">${legLengths(this)}</div>
       ${disclosures(this, {

@@ -103,7 +103,7 @@ export class LogOpener extends FileOpener<Figure> {
   #rest() {
     this.share = undefined;
     this.host.settings.stale = true;
-    this.host.stage.requestFrame();
+    this.host.renderer.requestFrame();
     this.host.requestUpdate();
   }
 

@@ -78,10 +78,10 @@ export class ArcAnatomyElement extends FigureElement<Machine, Reading> {
         ${panel(say.floor, html`<div class="stage" part="picture">
           ${canvas(this, this.#picture, pictureText(reading))} ${this.#handles.map((handle) => handle.render())}
         </div>`)}
-        ${this.stage.later(() => html`
+        ${this.renderer.afterFirstPicture(() => html`
         <div class="aside">${headline(reading)} ${factorBars(reading, this.state.own.line)}</div>`)}
       </div>
-      ${this.stage.later(() => html`
+      ${this.renderer.afterFirstPicture(() => html`
       ${legend(this, LINES)}
       <p class="verdict caption" part="caption">${captionOf(reading)}</p>
       ${presetButtons(this)}

@@ -120,7 +120,7 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
   /** Pins the outlines and numbers for comparison, or removes those that are pinned. */
   #pin() {
     this.#pinned = this.#pinned ? undefined : this.currentReading;
-    this.stage.requestFrame();
+    this.renderer.requestFrame();
     this.requestUpdate();
   }
 
@@ -230,7 +230,7 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
         </div>`)}
         ${panel(say.twist, html`<div class="stage">${canvas(this, this.#twist, twistText(reading))}</div>`, 'twist')}
       </div>
-      ${this.stage.later(() => html`
+      ${this.renderer.afterFirstPicture(() => html`
       <div class="morphing">
         ${morphControl(this)}
         ${button(say.pin, () => this.#pin(), { title: say.pinTitle, pressed: this.#pinned !== undefined })}

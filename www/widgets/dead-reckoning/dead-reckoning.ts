@@ -101,7 +101,7 @@ export class DeadReckoningElement extends FigureElement<Machine, Reading> {
         ${panel(say.floor, html`<div class="stage" part="picture">${canvas(this, this.#floor, planeText(reading))}</div>`, 'floor')}
         ${panel(say.atStepTitle(step), html`<div class="stage">${canvas(this, this.#step, stepText(reading))}</div>`, 'step')}
       </div>
-      ${this.stage.later(() => html`
+      ${this.renderer.afterFirstPicture(() => html`
       ${legend(this, OUTLINES)} ${presetButtons(this)} ${pathControls(this)}
       ${disclosures(this, {
         controls: () => moreControls(this),

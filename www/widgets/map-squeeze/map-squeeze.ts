@@ -162,7 +162,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
         this.#enter(mapOf(given));
       }
       this.reflection.updateAttributes();
-      this.stage.requestFrame();
+      this.renderer.requestFrame();
     });
   }
 
@@ -182,7 +182,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
 
   /** Moves the robot to a pose in the current map, as the reader asked. */
   go(start: Pose) {
-    this.stage.release();
+    this.renderer.releaseViews();
     this.gesture.decide({ start });
   }
 
@@ -234,7 +234,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
     this.picture = new FloorPicture({ bounds: this.picture.plan.bounds, walls }, null, this.picture);
     this.pictures = [this.picture];
     this.#applyWalls();
-    this.stage.requestFrame();
+    this.renderer.requestFrame();
   }
 
   /** Makes the walls of the picture a map of the reader. */
@@ -309,11 +309,11 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
       <div class="views">
         ${panel(floor, html`<div class="stage" part="picture">
             ${canvas(this, this.picture, this.#description)}
-            ${this.stage.later(() => this.#wallHandles.render())}
+            ${this.renderer.afterFirstPicture(() => this.#wallHandles.render())}
             ${this.#handles.render()}
           </div>
-          ${this.stage.later(() => legend(this, hasUnknown ? { ...marks, unknown } : marks, {}, this.#wallHandles.legend()))}`)}
-        ${this.stage.later(() => html`<div class="aside">
+          ${this.renderer.afterFirstPicture(() => legend(this, hasUnknown ? { ...marks, unknown } : marks, {}, this.#wallHandles.legend()))}`)}
+        ${this.renderer.afterFirstPicture(() => html`<div class="aside">
           <div class="told">
             <p class="headline">${headlineOf(stats)}</p>
             <p class="verdict caption ${note && 'note'}" part="caption">${captionOf(reading)}</p>
@@ -321,7 +321,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
           ${placeControls(this)} ${samplerControls(this)} ${overview(this.picture, reading)}
         </div>`)}
       </div>
-      ${this.stage.later(() => html`
+      ${this.renderer.afterFirstPicture(() => html`
       <div class="controls" part="controls">${motionControls(this)}</div>
       ${sorted ? nothing : html`<p class="about">${density}</p>`}
       ${disclosures(this, {

@@ -84,11 +84,11 @@ export class OdometryDecomposerElement extends FigureElement<Machine, Reading> {
           ${canvas(this, this.#legs, legsText(reading))} ${this.#handles.map((handle) => handle.render())}
         </div>`, 'legs')}
         ${panel(say.worldTitle, html`<div class="stage">${canvas(this, this.#world, worldText(reading))}</div>`)}
-        ${this.stage.later(() => html`
+        ${this.renderer.afterFirstPicture(() => html`
         <div class="said">${headline(reading)} <p class="caption" part="caption">${captionOf(reading)}</p></div>
         <p class="caption">${rich(say.worldCaption(fixed(driftDistance(reading), 2)))}</p>`)}
       </div>
-      ${this.stage.later(() => html`
+      ${this.renderer.afterFirstPicture(() => html`
       ${legend(this, LINES)} ${presetButtons(this)} ${rulesTable(this)}
       <div class="plays" part="controls">${playable(this, 'phase', say.path)} ${playable(this, 'drift', say.drift)}</div>
       ${disclosures(this, {

@@ -2,7 +2,7 @@
 
 import { nothing } from 'lit';
 import { FigureController } from '../../figure/controller.ts';
-import { isCalm } from '../../figure/stage.ts';
+import { isCalm } from '../../figure/renderer.ts';
 import { words } from '../../messages/registry.ts';
 import { button } from '../../ui/controls.ts';
 
@@ -48,13 +48,13 @@ export class Player<Key extends string> extends FigureController {
   }
 
   #toggle(key: Key) {
-    const { host: { gesture, stage } } = this;
+    const { host: { gesture, renderer } } = this;
     const playing = this.#key !== key;
     if (this.#key) gesture.commit();
     if (playing && this.#at(key) >= this.#played[key].to) this.#put(key, 0);
     this.#key = playing ? key : undefined;
     this.#beyond = 0;
-    stage.requestFrame();
+    renderer.requestFrame();
     this.host.requestUpdate();
   }
 

@@ -25,16 +25,16 @@ let calm: MediaQueryList | undefined;
 /** Returns true if the reader prefers reduced motion. */
 export const isCalm = () => (calm ??= matchMedia('(prefers-reduced-motion: reduce)')).matches;
 
-export class Stage extends FigureController {
-  inSight = false;
+export class Renderer extends FigureController {
+  isVisible = false;
   /** True once the text of the first picture was rendered. */
-  #isDescribed = false;
+  #hasRenderedText = false;
   /** Pictures to draw, the one that has waited longest first. */
   #undrawn: Set<AnyPicture> = new Set();
   /** True if the latest frame left pictures to the next one. */
   isBehind = false;
   /** Time of the first picture that is newer than the text; undefined if the text is up to date. */
-  #undescribedSince: number | undefined;
+  #textPendingSince: number | undefined;
   #frameRequest: number | undefined;
   /** Time of the request or, during an animation, of the previous frame. */
   #previousTime = 0;
@@ -68,17 +68,17 @@ export class Stage extends FigureController {
     if (matchMedia('print').matches) this.#print(true);
   }
 
-  setVisible(inSight: boolean) {
-    if (!inSight && (this.opening || this.#undescribedSince !== undefined)) this.#describe();
-    this.inSight = inSight;
+  setVisible(isVisible: boolean) {
+    if (!isVisible && (this.opening || this.#textPendingSince !== undefined)) this.#renderText();
+    this.isVisible = isVisible;
     this.isBehind = false;
     // No events report changes of colours while the figure is out of the viewport.
-    if (inSight) this.host.colours.update();
+    if (isVisible) this.host.colours.update();
     else if (this.host.isAwaited) this.requestFrame();
   }
 
   /** Allows the views to zoom in and recenter, for a scene that the reader or the page has chosen. */
-  release() {
+  releaseViews() {
     for (const { view } of this.host.pictures) view.release();
   }
 
@@ -94,9 +94,9 @@ export class Stage extends FigureController {
     this.#frameRequest = requestAnimationFrame((now) => {
       this.#frameRequest = undefined;
       const elapsed = clamp(now - this.#previousTime, 0, MAX_TIME_STEP);
-      if (!this.inSight) this.#updateUnseen();
+      if (!this.isVisible) this.#updateUnseen();
       else if (this.#undrawn.size > 0) this.#drawNow(elapsed);
-      else this.#describe();
+      else this.#renderText();
       this.#previousTime = now;
     });
   }
@@ -118,11 +118,11 @@ export class Stage extends FigureController {
 
   /** True until a visible figure has drawn its first picture and rendered its text. */
   get opening() {
-    return this.host.machine !== undefined && !this.#isDescribed && this.inSight && !document.hidden;
+    return this.host.machine !== undefined && !this.#hasRenderedText && this.isVisible && !document.hidden;
   }
 
   /** Returns content, but nothing in the first frame, so that the first picture is drawn earlier. */
-  later(content: () => unknown) {
+  afterFirstPicture(content: () => unknown) {
     return this.opening ? nothing : content();
   }
 
@@ -161,11 +161,11 @@ export class Stage extends FigureController {
     }
     host.placeHandles(scene);
     const now = performance.now();
-    const since = this.#undescribedSince;
+    const since = this.#textPendingSince;
     // The first picture is drawn without text.
-    if (this.opening ? since : !this.#resizing && (now - began < SAME_FRAME_TIME || now - (since ?? now) > MAX_TEXT_DELAY)) this.#describe();
+    if (this.opening ? since : !this.#resizing && (now - began < SAME_FRAME_TIME || now - (since ?? now) > MAX_TEXT_DELAY)) this.#renderText();
     else {
-      this.#undescribedSince ??= began;
+      this.#textPendingSince ??= began;
       this.#schedule();
     }
     host.resolveSettled();
@@ -175,9 +175,9 @@ export class Stage extends FigureController {
   }
 
   /** Renders the text of the latest picture and writes the attributes. */
-  #describe() {
-    this.#isDescribed = true;
-    this.#undescribedSince = undefined;
+  #renderText() {
+    this.#hasRenderedText = true;
+    this.#textPendingSince = undefined;
     this.host.reflection.updateAttributes();
     this.host.requestUpdate();
   }
@@ -208,7 +208,7 @@ export class Stage extends FigureController {
     if (printing) cloud?.finish();
     else this.host.canvases.measure();
     this.drawResized();
-    this.#describe();
+    this.#renderText();
   }
 
   /** Starts a figure that is far from the viewport, and draws it for print. */

@@ -42,11 +42,6 @@ export function word<Word extends string>(field: string, value: unknown, allowed
   throw refusal(field, value, allowed.map((each) => JSON.stringify(each)).join(' or '), Kind);
 }
 
-export function boolean(field: string, value: unknown) {
-  if (typeof value === 'boolean') return value;
-  throw refusal(field, value, 'true or false', TypeError);
-}
-
 export function numberWithin(field: string, value: unknown, least: number, most: number, isWhole = false) {
   const allowed = `${isWhole ? 'a whole number from ' : ''}${least} to ${most}`;
   if (typeof value !== 'number') throw refusal(field, value, allowed, TypeError);

@@ -5,7 +5,7 @@ import { words } from '../messages/registry.ts';
 import { pointOn } from '../scene/canvas.ts';
 import { button } from '../ui/controls.ts';
 import { counted } from '../ui/format.ts';
-import { boolean, wholeNumber } from './checks.ts';
+import { refusal, wholeNumber } from './checks.ts';
 import { FigureController } from './controller.ts';
 import { freeOnError } from './runtime.ts';
 import { isCalm } from './renderer.ts';
@@ -135,7 +135,7 @@ export class Cloud extends FigureController {
   /** Returns values that follow from a partial state; throws a TypeError if `playing` is not a boolean. */
   completed(present: Values, given: Values): Values {
     const { samples, playing } = { ...present, ...given };
-    boolean('state.playing', playing);
+    if (typeof playing !== 'boolean') throw refusal('state.playing', playing, 'true or false', TypeError);
     const { shown = present.shown === present.samples ? samples : Math.min(present.shown, samples) } = given;
     // Comparisons with undefined are false, so none stays null.
     const marked = present.marked < (playing ? samples : shown) ? present.marked : null;

@@ -54,7 +54,7 @@ export class Cloud extends FigureController {
   }
 
   /** True if the goal is all samples, or the machine has given up. */
-  get complete() {
+  get isComplete() {
     return this.#goal >= this.#samples || this.#gaveUp(this.#latest);
   }
 
@@ -70,7 +70,7 @@ export class Cloud extends FigureController {
 
   /** Number of samples to show; all of them if the machine has given up. */
   get asked() {
-    return this.complete ? this.#samples : this.#goal;
+    return this.isComplete ? this.#samples : this.#goal;
   }
 
   /** True if all samples to show are shown. */
@@ -133,7 +133,7 @@ export class Cloud extends FigureController {
   }
 
   /** Returns values that follow from a partial state; throws a TypeError if `playing` is not a boolean. */
-  completed(present: Values, given: Values): Values {
+  withDerivedFields(present: Values, given: Values): Values {
     const { samples, playing } = { ...present, ...given };
     if (typeof playing !== 'boolean') throw refusal('state.playing', playing, 'true or false', TypeError);
     const { shown = present.shown === present.samples ? samples : Math.min(present.shown, samples) } = given;
@@ -194,7 +194,7 @@ export class Cloud extends FigureController {
 
   grow() {
     this.show(this.#latest.shown + this.#batch);
-    if (!this.complete) return;
+    if (!this.isComplete) return;
     this.#goal = Infinity;
     this.playing = false;
     this.host.announcer.announceNext();
@@ -202,7 +202,7 @@ export class Cloud extends FigureController {
 
   play() {
     this.#control(!this.playing, () => {
-      if (!this.playing && this.complete) this.#restart();
+      if (!this.playing && this.isComplete) this.#restart();
     });
   }
 
@@ -235,7 +235,7 @@ export class Cloud extends FigureController {
     const [label, other] = this.playing ? [words.pause, say.play] : [say.play, words.pause];
     return html`<div class="buttons">
       ${button(label, () => this.play(), { title: say.playTitle, other })}
-      ${button(words.step, () => this.step(), { title: say.step(counted(this.#batch)), disabled: this.complete })}
+      ${button(words.step, () => this.step(), { title: say.step(counted(this.#batch)), disabled: this.isComplete })}
       ${button(words.clear, () => this.clear(), { title: say.clear })}
       ${seedField} ${button(words.newSeed, () => this.reseed(), { title: say.reseed })}
     </div>`;
@@ -249,7 +249,7 @@ export class Cloud extends FigureController {
 export function enterCloud<Machine extends Growing & { free(): void }>({ settings }: Figure, machine: Machine, state?: Values): Machine {
   if (!state) return machine;
   return freeOnError(machine, () => {
-    machine.configureFirst(settings.declared(state), 0);
+    machine.configureFirst(settings.pick(state), 0);
     machine.configureFirst({}, wholeNumber('state.shown', state.shown, 0, machine.config.samples));
   });
 }

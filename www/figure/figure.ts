@@ -143,7 +143,7 @@ export abstract class FigureElement<Machine extends { free(): void, stats: objec
   abstract createMachine(motion: Motion, state?: Values): Machine;
 
   /** Applies the fields of a state that are not settings to a new machine, and adds missing fields. */
-  complete(_machine: Machine, _state: Values) {}
+  restore(_machine: Machine, _state: Values) {}
 
   /** Returns the reading of the machine. It is called once for each change. */
   abstract read(machine: Machine): Reading;
@@ -173,12 +173,12 @@ export abstract class FigureElement<Machine extends { free(): void, stats: objec
 
   /** Returns the whole state. */
   snapshot(): Values {
-    return { ...this.state.common, ...this.settings.declared(this.settings.present), ...this.cloud?.snapshot() };
+    return { ...this.state.common, ...this.settings.pick(this.settings.present), ...this.cloud?.snapshot() };
   }
 
   /** Returns a partial state with values that follow from it for missing fields. */
-  completed(present: Values, given: Values): Values {
-    return { ...this.cloud?.completed(present, given), ...given };
+  withDerivedFields(present: Values, given: Values): Values {
+    return { ...this.cloud?.withDerivedFields(present, given), ...given };
   }
 
   get machine() {

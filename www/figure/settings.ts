@@ -24,7 +24,7 @@ export class Settings extends FigureController {
   }
 
   /** Returns the declared settings among other values. */
-  declared(values: Values) {
+  pick(values: Values) {
     const keys = this.host.definition.declared.filter((setting) => !setting.in && !setting.of).map(({ key }) => key);
     return Object.fromEntries(keys.map((key) => [key, values[key]]));
   }

@@ -35,7 +35,7 @@ export class State extends FigureController {
   resume() {
     const { host } = this;
     host.settings.reset();
-    if (this.kept) host.complete(host.machine, this.kept);
+    if (this.kept) host.restore(host.machine, this.kept);
     host.machineChanged();
     host.reflection.applyPending();
     // The machine is missing after a trap. The settings are not stale if a pending state was shown already.
@@ -51,11 +51,11 @@ export class State extends FigureController {
       word('state.widget', widget, [host.localName]);
       if (version !== VERSION) throw refusal('state.version', version, String(VERSION));
     });
-    const whole: Values = { ...current, ...host.completed(current, given) };
+    const whole: Values = { ...current, ...host.withDerivedFields(current, given) };
     const machine = freeOnError(host.createMachine(host.motion, whole), (made) => {
       const selectableCount = whole.playing ? made.config.samples : whole.shown;
       for (const [name, field] of Object.entries(this.#fields)) whole[name] = checked(field, `state.${name}`, whole[name], selectableCount);
-      host.complete(made, whole);
+      host.restore(made, whole);
     });
     for (const name of Object.keys(this.own)) this.own[name] = whole[name];
     host.runtime.replace(machine);

@@ -66,7 +66,7 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
   #given: Given | null = null;
 
   createMachine: FigureElement<Machine, Reading>['createMachine'] = (motion, state) =>
-    state ? this.#machineOf(motion, this.settings.declared(state), this.#given) : new motion.AlphaCalibrator();
+    state ? this.#machineOf(motion, this.settings.pick(state), this.#given) : new motion.AlphaCalibrator();
 
   #machineOf({ AlphaCalibrator }: Motion, requested: Partial<Machine['config']>, given: Given | null): Machine {
     if (!given) return new AlphaCalibrator(requested);
@@ -159,11 +159,11 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
    * `warnings` are the notes of the logs that leave the α's doubtful.
    */
   async open(log: CalibrationLog | null, warnings: Warning[], check?: (machine: Machine) => void) {
-    const config = this.settings.declared(this.settings.present) as Machine['config'];
+    const config = this.settings.pick(this.settings.present) as Machine['config'];
     const given = log && { log, warnings, config, fit: await this.service.calibrate(config, log) };
     this.runtime.attempt(() => {
       if (!this.machine) return;
-      const machine = this.#machineOf(this.motion, this.settings.declared(this.settings.present), given);
+      const machine = this.#machineOf(this.motion, this.settings.pick(this.settings.present), given);
       freeOnError(machine, () => check?.(machine));
       if (log !== this.log) this.state.own.leg = null;
       this.#given = given;

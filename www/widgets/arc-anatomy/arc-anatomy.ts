@@ -40,7 +40,7 @@ export class ArcAnatomyElement extends FigureElement<Machine, Reading> {
   /** Animation of every arc in the same time. The duration of the command is displayed next to it. */
   player: Player<'underway'> = new Player(this, { underway: { to: UNDERWAY_AT_END, duration: 2000, whole: true } });
 
-  createMachine: FigureElement<Machine, Reading>['createMachine'] = (motion, state) => new motion.ArcAnatomy(state && this.settings.declared(state));
+  createMachine: FigureElement<Machine, Reading>['createMachine'] = (motion, state) => new motion.ArcAnatomy(state && this.settings.pick(state));
 
   read = (machine: Machine): Reading => machine.read();
 

@@ -143,9 +143,9 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
     return { ...super.snapshot(), alphas: this.settings.stale ? this.machine?.alphasOfModels : this.reading.alphasOfModels };
   }
 
-  completed(present: Values, given: Values) {
+  withDerivedFields(present: Values, given: Values) {
     const alphas = object('state.alphas', given.alphas ?? {}, Object.keys(openingAlphas));
-    return { ...super.completed(present, given), alphas: { ...present.alphas, ...alphas } };
+    return { ...super.withDerivedFields(present, given), alphas: { ...present.alphas, ...alphas } };
   }
 
   /** Place of the end of the commanded arc, in the view's world. */

@@ -48,10 +48,10 @@ export class DeadReckoningElement extends FigureElement<Machine, Reading> {
   // The machine starts empty: robots appear visibly, and the first frame need not wait for them.
   createMachine: FigureElement<Machine, Reading>['createMachine'] = (motion, state) => enterCloud(this, motion.DeadReckoning.empty(), state);
 
-  completed(present: Values, given: Values) {
+  withDerivedFields(present: Values, given: Values) {
     // If the path gets shorter than the selected step, its last step is selected.
     const { steps = present.steps } = given;
-    return { step: Math.min(present.step, steps), ...super.completed(present, given) };
+    return { step: Math.min(present.step, steps), ...super.withDerivedFields(present, given) };
   }
 
   read = readingOf;

@@ -61,7 +61,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
 
   createMachine: FigureElement<Machine, Reading>['createMachine'] = (motion, state) => enterCloud(this, motion.MapSqueeze.empty(), state);
 
-  complete(machine: Machine, state: Values) {
+  restore(machine: Machine, state: Values) {
     const { map } = state;
     if (!map) return;
     applyMap(machine, map);
@@ -270,7 +270,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
     settings.settle();
     const machine = motion.MapSqueeze.empty();
     freeOnError(machine, () => {
-      machine.configureFirst(settings.declared(settings.wanted), 0);
+      machine.configureFirst(settings.pick(settings.wanted), 0);
       apply(machine);
       const isGrid = this.#gridOf(machine) !== null;
       const place = start ?? (isGrid || !machine.startFree ? this.#findFreePose(machine) : undefined);

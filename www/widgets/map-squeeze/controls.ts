@@ -23,7 +23,7 @@ const EXAMPLE_PLAN = `{
 export function placeControls(figure: Figure) {
   const { map, left } = figure;
   const { own, pasted } = words.squeeze;
-  if (!map) return presetButtons(figure, left ? button(own.back(left.name || pasted), () => figure.returnToMap()) : nothing);
+  if (!map) return presetButtons(figure, left ? button(own.back(left.map.name || pasted), () => figure.returnToMap()) : nothing);
   return html`<div class="buttons presets">
     ${button(own.leave, () => figure.leaveMap())} ${button(own.open, () => figure.moveToFreePose(), { pressed: figure.isAtFreePose })}
     ${startOverButton(figure)}

@@ -54,8 +54,8 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
   #path: Memo<Float64Array> = new Memo();
   /** Cache of the grid of a machine's map, whose copy takes long. */
   #grid: { of: Machine, grid: Cells | null } | undefined;
-  /** The reader's map that was left last, with the start pose in it. */
-  #left: { map: MapData, start: Pose } | null = null;
+  /** The reader's map that was left last, with the start pose in it. A button returns to it. */
+  left: { map: MapData, start: Pose } | null = null;
   /** Free pose at which the robot was put last. */
   #freePose: Pose | undefined;
 
@@ -175,11 +175,6 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
     return this.ask((machine) => machine.verdicts);
   }
 
-  /** Map of the reader that was left last, to which a button returns. */
-  get left() {
-    return this.#left?.map ?? null;
-  }
-
   /** Moves the robot to a pose in the current map, as the reader asked. */
   go(start: Pose) {
     this.renderer.releaseViews();
@@ -216,7 +211,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
 
   /** Returns to the reader's map, as it was left. */
   returnToMap() {
-    const left = this.#left;
+    const { left } = this;
     if (left) this.open({ ...mapOf(left.map), start: left.start });
   }
 
@@ -229,23 +224,16 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
     });
   }
 
-  /** Moves walls. The picture shows them at once. Few samples follow in the same frame, many when the walls have come to rest. */
+  /** Makes moved walls a map of the reader. Few samples follow in the same frame, many when the walls have come to rest. */
   moveWalls(walls: Float64Array) {
-    this.picture = new FloorPicture({ bounds: this.picture.plan.bounds, walls }, null, this.picture);
-    this.pictures = [this.picture];
-    this.#applyWalls();
-    this.renderer.requestFrame();
-  }
-
-  /** Makes the walls of the picture a map of the reader. */
-  #applyWalls() {
-    const { bounds, walls } = this.picture.plan;
+    const { bounds } = this.picture.plan;
     const name = this.map?.name ?? words.squeeze.edited;
     const apply: OwnMap['apply'] = (machine) => machine.setPlan({ bounds: [...bounds], walls });
     this.runtime.attemptOrReport(() => {
       this.#enter({ name, apply, start: this.settings.wanted.start });
       this.gesture.step();
     });
+    this.renderer.requestFrame();
   }
 
   /** Leaves the reader's map, if there is one. */
@@ -254,7 +242,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
     if (!machine) return;
     this.#opener.refusal = undefined;
     if (!map) return;
-    this.#left = { map, start: this.settings.wanted.start };
+    this.left = { map, start: this.settings.wanted.start };
     machine.setPlan(undefined);
     this.#grid = undefined;
     this.#adoptMap(null);
@@ -279,7 +267,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
     const data = mapData(machine, name, this.#gridOf(machine));
     this.runtime.replace(machine);
     settings.reset();
-    this.#left = null;
+    this.left = null;
     this.#adoptMap(data);
   }
 

@@ -6,7 +6,7 @@ import { button, group, radioGroup, rich } from '../../ui/controls.ts';
 import { NOTHING, counted, fixed, percent, rounded } from '../../ui/format.ts';
 import { plot, type Curve } from '../../ui/plot.ts';
 import { figureTable, readoutList } from '../../ui/readouts.ts';
-import { subscript } from '../shared/noise.ts';
+import { subscript } from '../shared/sliders.ts';
 import { adviceOf, alphaOrBound, isZero, missingMotion } from './lines.ts';
 import { COMPONENTS, type Driver } from './settings.ts';
 import { checked, expectedOf, messageOf, localized, thousandths } from './words.ts';

@@ -4,7 +4,7 @@ import { html, nothing, svg } from 'lit';
 import { words } from '../../messages/registry.ts';
 import { rich } from '../../ui/controls.ts';
 import { NOTHING, powerOfTen, tick } from '../../ui/format.ts';
-import { subscript } from '../shared/noise.ts';
+import { subscript } from '../shared/sliders.ts';
 import { adviceOf, alphaOrBound, fixed } from './lines.ts';
 import { truthHolds, type Reading } from './reading.ts';
 import { judgementOf, legsText, localized, noiseNames } from './words.ts';

@@ -249,7 +249,7 @@ function strokeAngle(context: Brush['context'], [x, y]: number[], [fromX, fromY]
 /** Prints a radius with its sign: positive if the centre is to the left. */
 const signedText = (radius: number) => (radius > 0 ? `+${fixed(radius, 2)}` : fixed(radius, 2));
 
-export class SurfaceLayer {
+class SurfaceLayer {
   #pixels = new Pixels();
   #surface: Memo<AnatomySurface | null> = new Memo();
   #coloured: Memo<void> = new Memo();

@@ -2,8 +2,7 @@
 
 import { wholeNumber } from '../../figure/checks.ts';
 import { definitionOf } from '../../figure/definition.ts';
-import { COMMAND_DASH, commandSliders } from '../shared/command.ts';
-import { alphaSliders } from '../shared/noise.ts';
+import { COMMAND_DASH, alphaSliders, commandSliders } from '../shared/sliders.ts';
 
 /** Number of lines of Table 5.1. */
 export const TABLE_LINES = 9;

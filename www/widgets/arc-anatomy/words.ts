@@ -2,7 +2,7 @@
 
 import { addEnglish, words } from '../../messages/registry.ts';
 import { fixed, percent, powerOfTen, significant } from '../../ui/format.ts';
-import { commandText } from '../shared/command.ts';
+import { commandText } from '../shared/sliders.ts';
 import { en } from './en.ts';
 import type { ArcAnatomy, Pose } from '../../types.d.ts';
 

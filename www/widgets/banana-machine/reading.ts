@@ -1,7 +1,7 @@
 /** View model of the Banana Machine. */
 
 import { words } from '../../messages/registry.ts';
-import { subscript } from '../shared/noise.ts';
+import { subscript } from '../shared/sliders.ts';
 import type { BananaMachine as Machine, BananaMachineSettings as Settings, Stats, Table } from '../../types.d.ts';
 
 export type Reading = ReturnType<typeof readingOf>;

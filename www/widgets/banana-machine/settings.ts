@@ -4,8 +4,7 @@ import { NUMBER } from '../../figure/attributes.ts';
 import { wholeNumber } from '../../figure/checks.ts';
 import { definitionOf } from '../../figure/definition.ts';
 import { openingAlphas } from '../../settings.js';
-import { COMMAND_DASH, commandSliders } from '../shared/command.ts';
-import { alphaSliders } from '../shared/noise.ts';
+import { COMMAND_DASH, alphaSliders, commandSliders } from '../shared/sliders.ts';
 
 /** Styles of the lines in the pictures. */
 export const LINES = {

@@ -2,7 +2,7 @@
 
 import { addEnglish, words } from '../../messages/registry.ts';
 import { counted, fixed, percent, withError } from '../../ui/format.ts';
-import { commandText } from '../shared/command.ts';
+import { commandText } from '../shared/sliders.ts';
 import { en } from './en.ts';
 import { deviation, spreadOf, type Reading } from './reading.ts';
 import type { Callout } from '../../scene/callout.ts';

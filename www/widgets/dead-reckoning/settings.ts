@@ -3,8 +3,7 @@
 import { defaultConfig } from '../../figure/attributes.ts';
 import { definitionOf } from '../../figure/definition.ts';
 import { settings } from '../../settings.js';
-import { COMMAND_DASH, commandSliders } from '../shared/command.ts';
-import { ALPHA, alphaSliders } from '../shared/noise.ts';
+import { ALPHA, COMMAND_DASH, alphaSliders, commandSliders } from '../shared/sliders.ts';
 import type { DeadReckoningSettings } from '../../types.d.ts';
 
 const declared = settings['dead-reckoning'];

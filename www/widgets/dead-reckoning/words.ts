@@ -2,7 +2,7 @@
 
 import { addEnglish, words } from '../../messages/registry.ts';
 import { NOTHING, counted, fixed, withError } from '../../ui/format.ts';
-import { commandText } from '../shared/command.ts';
+import { commandText } from '../shared/sliders.ts';
 import { en } from './en.ts';
 import { COMPONENTS, type Reading } from './reading.ts';
 

@@ -3,7 +3,7 @@
 import { WORD, presetsOf } from '../../figure/attributes.ts';
 import { definitionOf } from '../../figure/definition.ts';
 import { presets, settings } from '../../settings.js';
-import { COMMAND_DASH, commandSliders } from '../shared/command.ts';
+import { COMMAND_DASH, commandSliders } from '../shared/sliders.ts';
 import type { SamplerName } from '../../types.d.ts';
 
 const declared = settings['map-squeeze'];

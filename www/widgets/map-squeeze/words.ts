@@ -6,7 +6,7 @@ import { addEnglish, words } from '../../messages/registry.ts';
 import { verdict as bits } from '../../settings.js';
 import { clamp } from '../../ui/clamp.ts';
 import { counted, fixed } from '../../ui/format.ts';
-import { commandText } from '../shared/command.ts';
+import { commandText } from '../shared/sliders.ts';
 import { en } from './en.ts';
 import { throughText, type Reading } from './reading.ts';
 import type { Plan, SqueezeSettings as Settings, SqueezeStats as Stats } from '../../types.d.ts';

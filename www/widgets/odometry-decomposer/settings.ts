@@ -1,7 +1,7 @@
 /** The Odometry Decomposer's settings: their attributes, their part of the state, and their sliders. */
 
 import { definitionOf } from '../../figure/definition.ts';
-import { alphaSliders } from '../shared/noise.ts';
+import { alphaSliders } from '../shared/sliders.ts';
 
 /** Styles of the lines and marks in the pictures. */
 export const LINES = {

@@ -30,7 +30,9 @@ export const de: typeof import('./en.ts').en = {
     omega: { name: 'Drehrate' },
     dt: { name: 'Dauer' },
     samples: { name: 'Stichproben' },
+    noise: { name: 'Verteilung' },
   },
+  noises: { normal: 'Normalverteilung', triangular: 'Dreiecksverteilung' },
   noise: 'Rauschen',
   alphas: {
     velocity: [

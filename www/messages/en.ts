@@ -35,7 +35,9 @@ export const en = {
     omega: { name: 'turn rate' },
     dt: { name: 'duration' },
     samples: { name: 'samples' },
+    noise: { name: 'Distribution' },
   },
+  noises: { normal: 'normal', triangular: 'triangular' },
   noise: 'Noise',
   /** Names of the noise parameters: the noise, and the motion that it grows with. */
   alphas: {

@@ -54,8 +54,7 @@ export function modelControls(figure: Figure) {
 }
 
 export function predictionControls(figure: Figure) {
-  const { prediction, noises } = words.calibrator;
-  return group(prediction, html`${choices(figure, 'noise', noises)} ${slider(figure, 'inflation')}`, 'fit');
+  return group(words.calibrator.prediction, html`${choices(figure, 'noise', words.noises)} ${slider(figure, 'inflation')}`, 'fit');
 }
 
 export function legLengths(figure: Figure) {

@@ -39,7 +39,6 @@ export const de: typeof import('./en.ts').en = {
   settings: {
     model: { name: 'Modell' },
     rule: { name: 'Regel' },
-    noise: { name: 'Verteilung' },
     distance: { name: 'Etappenlänge (update_min_d)', effect: 'Eine Etappe endet nach *d* in *x* oder *y*. Die *α* gelten für diese Länge.' },
     angle: { name: 'Etappenwinkel (update_min_a)', effect: 'Eine Etappe endet nach einer Drehung um *φ*.' },
     duration: { name: 'Etappendauer', effect: 'Über 0 beendet *T* eine Etappe statt *d* und *φ*.' },
@@ -50,7 +49,6 @@ export const de: typeof import('./en.ts').en = {
   },
   fit: 'Modell und Anpassung',
   kinds: { thrun: 'Tabelle 5.6', nav2: 'Nav2', beluga: 'Beluga 2', omni: 'Omni', velocity: 'Geschwindigkeit' },
-  noises: { normal: 'normalverteilt', triangular: 'dreiecksverteilt' },
   outliers: { reject: 'aussortieren', keep: 'als Rauschen anpassen' },
   prediction: 'Vorhergesagte Wolke',
   estimated: 'geschätzt',

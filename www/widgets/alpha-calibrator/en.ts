@@ -7,7 +7,6 @@ export const en = {
   settings: {
     model: { name: 'Model' },
     rule: { name: 'Rule' },
-    noise: { name: 'Distribution' },
     distance: { name: 'leg length (update_min_d)', effect: 'A leg ends after *d* in *x* or *y*. The *α*’s are valid for this length.' },
     angle: { name: 'leg angle (update_min_a)', effect: 'A leg ends after a rotation by *φ*.' },
     duration: { name: 'leg duration', effect: 'Above 0, *T* ends a leg instead of *d* and *φ*.' },
@@ -18,7 +17,6 @@ export const en = {
   },
   fit: 'Model and fit',
   kinds: { thrun: 'Table 5.6', nav2: 'AMCL of Nav2', beluga: 'Beluga 2', omni: 'omnidirectional', velocity: 'velocity' },
-  noises: { normal: 'normal', triangular: 'triangular' },
   outliers: { reject: 'set aside', keep: 'fit as noise' },
   prediction: 'Predicted cloud',
   estimated: 'estimated',

@@ -14,7 +14,7 @@ import type { ArcAnatomyElement as Figure } from './arc-anatomy.ts';
 export const commandControls = (figure: Figure) => group(words.command, sliders(figure, COMMAND));
 
 export const noiseControls = (figure: Figure) =>
-  group(words.noise, html`${choices(figure, 'noise', words.anatomy.noises)} ${sliders(figure, ALPHAS)}`, 'alphas');
+  group(words.noise, html`${choices(figure, 'noise', words.noises)} ${sliders(figure, ALPHAS)}`, 'alphas');
 
 /** Returns the controls of the likelihood: the sign of the radius, and the heat map with the names of its contours. */
 export function likelihoodControls(figure: Figure) {

@@ -6,7 +6,6 @@ export const de: typeof import('./en.ts').en = {
     v: { effect: 'Der befohlene Bogen ist *vΔt* lang.' },
     omega: { effect: 'Biegt den befohlenen Bogen: Radius *v*/*ω*, Drehung *ωΔt*.' },
     dt: { effect: '*v̂*, *ω̂* und *γ̂* sind Mittel über *Δt*.' },
-    noise: { name: 'Verteilung' },
     map: { name: 'Heatmap' },
     alpha1: { effect: 'Varianz von *v̂* durch *v*².' },
     alpha2: { effect: 'Varianz von *v̂* durch *ω*².' },
@@ -30,7 +29,6 @@ export const de: typeof import('./en.ts').en = {
   underway: 'Zeit auf dem Bogen',
   timeOf: (t, duration) => `${t} von ${duration} s`,
   likelihood: 'Likelihood',
-  noises: { normal: 'normal', triangular: 'dreieckig' },
   csvTitle: 'Die drei Schätzungen mit ihren Faktoren, und die Parameter',
   handles: {
     start: { robot: 'Start', robotTitle: 'Zieh den Start', heading: 'Richtung am Start', headingTitle: 'Dreh den Start' },

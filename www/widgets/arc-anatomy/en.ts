@@ -6,7 +6,6 @@ export const en = {
     v: { effect: 'The commanded arc is *vΔt* long.' },
     omega: { effect: 'Bends the commanded arc: radius *v*/*ω*, turn *ωΔt*.' },
     dt: { effect: '*v̂*, *ω̂* and *γ̂* are means over *Δt*.' },
-    noise: { name: 'Distribution' },
     map: { name: 'Heat map' },
     alpha1: { effect: 'Variance of *v̂* from *v*².' },
     alpha2: { effect: 'Variance of *v̂* from *ω*².' },
@@ -30,7 +29,6 @@ export const en = {
   underway: 'time along the arc',
   timeOf: (t, duration) => `${t} of ${duration} s`,
   likelihood: 'Likelihood',
-  noises: { normal: 'normal', triangular: 'triangular' },
   csvTitle: 'The three estimates with their factors, and the parameters',
   handles: {
     start: { robot: 'Start', robotTitle: 'Drag the start', heading: 'Heading at the start', headingTitle: 'Turn the start' },

@@ -18,7 +18,7 @@ export function modelControls(figure: Figure) {
   const say = words.banana;
   // The index of the α begins at 1; the other model may have fewer.
   const chosen = Math.min(figure.state.own.isolateChoice, alphas.length);
-  return group(say.modelGroup, html`${choices(figure, 'model', say.models)} ${choices(figure, 'noise', say.noises)}
+  return group(say.modelGroup, html`${choices(figure, 'model', say.models)} ${choices(figure, 'noise', words.noises)}
     ${model === 'odometry' ? check(figure, 'reverseAware', say.reverseAware) : nothing}
     ${toggle({
       label: say.isolate,

@@ -42,7 +42,6 @@ export const de: typeof import('./en.ts').en = {
   notCarried: 'um den Start, nur auf dem Boden',
   modelGroup: 'Modell',
   models: { velocity: 'Geschwindigkeit', odometry: 'Odometrie' },
-  noises: { normal: 'Normalverteilung', triangular: 'Dreiecksverteilung' },
   reverseAware: 'Rückwärts ohne halbe Drehungen',
   isolate: 'Nur ein α gelten lassen',
   only: (alpha) => `Nur ${alpha}`,

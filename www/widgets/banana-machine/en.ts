@@ -45,7 +45,6 @@ export const en = {
   notCarried: 'around the start, on the floor alone',
   modelGroup: 'Model',
   models: { velocity: 'velocity', odometry: 'odometry' },
-  noises: { normal: 'normal', triangular: 'triangular' },
   reverseAware: 'Reverse without half-turn noise',
   isolate: 'Isolate one α',
   only: (alpha) => `Only ${alpha}`,

@@ -38,10 +38,9 @@ export function playable(figure: Figure, key: 'phase' | 'drift', legend: string)
 }
 
 export function noiseControls(figure: Figure) {
-  const { hinges, noises } = words.decomposer;
   return html`<div class="controls">
-      ${group(words.noise, html`${sliders(figure, NOISE)} ${choices(figure, 'noise', noises)}`, 'alphas')}
+      ${group(words.noise, html`${sliders(figure, NOISE)} ${choices(figure, 'noise', words.noises)}`, 'alphas')}
       ${cloudControls(figure, SAMPLE_COUNTS)}
     </div>
-    <p>${rich(hinges)}</p>`;
+    <p>${rich(words.decomposer.hinges)}</p>`;
 }

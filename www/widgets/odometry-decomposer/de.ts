@@ -18,7 +18,6 @@ export const de: typeof import('./en.ts').en = {
   },
   settings: {
     rule: { name: 'Rauschmodell' },
-    noise: { name: 'Verteilung' },
     alpha1: { effect: 'Je mehr der Roboter sich dreht, desto unsicherer seine Richtung.' },
     alpha2: { effect: 'Gibt den Drehungen auch auf geradem Weg Rauschen.' },
     alpha3: { effect: 'Streut die Ausgänge in Fahrtrichtung.' },
@@ -32,7 +31,6 @@ export const de: typeof import('./en.ts').en = {
     drift: { name: 'Driftzeit', effect: 'Verschiebt das Koordinatensystem der Odometrie gegen die Welt. Die Vorhersage bleibt.' },
     samples: { name: 'Ausgänge', effect: 'Ausgänge: Mehr davon verkleinern den Fehler dessen, was sie messen.' },
   },
-  noises: { normal: 'normalverteilt', triangular: 'dreiecksverteilt' },
   path: 'Weg',
   drift: 'Drift',
   plays: { phase: 'Bewegung abspielen', drift: 'Drift abspielen' },

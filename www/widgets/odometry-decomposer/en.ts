@@ -18,7 +18,6 @@ export const en = {
   },
   settings: {
     rule: { name: 'Noise model' },
-    noise: { name: 'Distribution' },
     alpha1: { effect: 'The more the robot turns, the less certain its heading.' },
     alpha2: { effect: 'Adds noise to the rotations on a straight path too.' },
     alpha3: { effect: 'Spreads the outcomes along the path.' },
@@ -32,7 +31,6 @@ export const en = {
     drift: { name: 'drift time', effect: 'Moves the odometry frame away from the world. The prediction stays.' },
     samples: { name: 'outcomes', effect: 'Outcomes: more of them narrow the error of what they measure.' },
   },
-  noises: { normal: 'normal', triangular: 'triangular' },
   path: 'Path',
   drift: 'Drift',
   plays: { phase: 'Play the motion', drift: 'Play the drift' },

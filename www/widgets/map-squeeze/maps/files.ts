@@ -61,21 +61,18 @@ export async function readMapFiles(files: File[], decodePng: DecodePng): Promise
   throw new MapFileError(images[0]?.name ?? '', (say, image) => say.alone(image || say.noFile));
 }
 
-/** Reads bytes of a file, which may have been deleted after it was chosen. */
-async function bytesOf(part: Blob, name: string) {
+/** Reads a file, which may have been deleted after it was chosen; throws if it has more than `most` bytes. */
+async function bytesOf(file: File, most: number) {
+  checkSize(file.name, file.size, most);
   try {
-    return await part.arrayBuffer();
+    return new Uint8Array(await file.arrayBuffer());
   } catch (error) {
     const reason = error instanceof Error ? error.name : String(error);
-    throw new MapFileError(name, (say, file) => say.gone(file, reason));
+    throw new MapFileError(file.name, (say, name) => say.gone(name, reason));
   }
 }
 
-/** Reads the text of a file; throws if it has more than `most` bytes. */
-async function textOf(file: File, most: number) {
-  checkSize(file.name, file.size, most);
-  return new TextDecoder().decode(await bytesOf(file, file.name));
-}
+const textOf = async (file: File, most: number) => new TextDecoder().decode(await bytesOf(file, most));
 
 function checkSize(name: string, size: number, most: number) {
   if (size > most) throw new MapFileError(name, (say, file) => say.long(file, size, most));
@@ -141,10 +138,12 @@ async function readGrid(file: File, images: File[], decodePng: DecodePng): Promi
     const given = images.map(({ name }) => name).join(', ');
     throw new MapFileError(file.name, (say, name) => say.pair(name, quoted(wanted), quoted(given)));
   }
-  checkSize(image.name, image.size, limits.bytes);
-  const bytes = new Uint8Array(await bytesOf(image, image.name));
+  const bytes = await bytesOf(image, limits.bytes);
   const isPng = PNG_MAGIC.every((byte, i) => byte === bytes[i]);
-  const pixels = isPng ? await readPng(image.name, bytes, decodePng) : bytes;
+  const refusePng = (error: Error) => {
+    throw error instanceof RangeError ? new MapFileError(image.name, (say, name) => say.broken(name, error.message)) : error;
+  };
+  const pixels = isPng ? await decodePng(bytes).catch(refusePng) : bytes;
   return {
     name: file.name,
     apply: (machine) =>
@@ -179,16 +178,6 @@ async function readDescription(name: string, text: string) {
   if (typeof negate === 'string') fields.negate = BOOLEAN_WORDS.get(negate.toLowerCase()) ?? negate;
   if (typeof mode === 'string') fields.mode = mode.toLowerCase();
   return fields;
-}
-
-/** Decodes the PNG image of a file with this name; rejects with a MapFileError. */
-async function readPng(name: string, bytes: Uint8Array, decodePng: DecodePng) {
-  try {
-    return await decodePng(bytes);
-  } catch (error) {
-    if (!(error instanceof RangeError)) throw error;
-    throw new MapFileError(name, (say, file) => say.broken(file, error.message));
-  }
 }
 
 /** Returns the sentence about a grid that the core refuses, with the name of the YAML file or of the image. */

@@ -85,23 +85,22 @@ export class CostMeter extends FigureController {
 
   #measureSoon(steps: number) {
     const { host } = this;
-    const measured = host.machine;
-    if (!measured) return;
-    const measurements = SAMPLERS.map((sampler) =>
-      measureCost(measured, sampler, sampler === 'sub-stepped' ? steps : 1),
-    );
-    const measurePart = (index: number) => {
+    const { machine } = host;
+    if (!machine) return;
+    const measurement = this.#measure(machine, steps);
+    const step = () => host.runtime.attempt(() => {
       // The element, with its machine, may have been removed.
-      if (host.machine !== measured) return;
-      const { done, value } = measurements[index].next();
-      if (done) {
-        this.costs[SAMPLERS[index]] = value;
-        this.current = index === SAMPLERS.length - 1;
-        host.requestUpdate();
-      }
-      if (!this.current) this.#timer = setTimeout(step, 0, done ? index + 1 : index);
-    };
-    const step = (index: number) => host.runtime.attempt(() => measurePart(index));
-    this.#timer = setTimeout(step, IDLE_MS, 0);
+      if (host.machine === machine && !measurement.next().done) this.#timer = setTimeout(step);
+    });
+    this.#timer = setTimeout(step, IDLE_MS);
+  }
+
+  *#measure(machine: MapSqueeze, steps: number) {
+    for (const sampler of SAMPLERS) {
+      this.costs[sampler] = yield* measureCost(machine, sampler, sampler === 'sub-stepped' ? steps : 1);
+      this.current = sampler === SAMPLERS.at(-1);
+      this.host.requestUpdate();
+      yield;
+    }
   }
 }

@@ -62,7 +62,7 @@ async function drag({ widget, selector, i, steps }) {
     pictures++;
     clearRect.apply(this, box);
   };
-  /** @returns {Promise<number>} time at which the current frame has been handed over: that of the next message task */
+  /** @returns {Promise<number>} time at which the page has finished the current frame: that of the first message after it */
   const handedOver = () =>
     new Promise((resolve) => {
       const { port1, port2 } = new MessageChannel();

@@ -14,17 +14,18 @@ import { importTypeScript } from './typescript.mjs';
  * @property {string} type in TypeScript
  * @property {string} description
  * @property {true} [readonly]
- * @property {boolean} [isText] true if it takes text too
+ * @property {boolean} [isText] true if a number can be given as text
  *
- * @typedef {Named & { property?: string, opening?: string, allowed?: string, withoutRange: string }} Attribute, with its property
- *   if that has another name, the text of its default, the range of a number, and the description without the range
+ * @typedef {Named & { property?: string, opening?: string, allowed?: string, withoutRange: string }} Attribute `property` is the
+ *   name of its property if it differs, `opening` the text of its default, `allowed` the range of a number, and `withoutRange` the
+ *   description without that range
  *
  * @typedef {object} Widget
  * @property {string} tag
- * @property {string} machine its class in the core; that of its element ends in Element
- * @property {Attribute[]} attributes each of them is a property too
- * @property {Named[]} properties the others
- * @property {Named[]} state without what every state has
+ * @property {string} machine name of its class in the core; the class of its element has the suffix Element
+ * @property {Attribute[]} attributes each of which is also a property
+ * @property {Named[]} properties without an attribute
+ * @property {Named[]} state fields of the state that only this widget has
  */
 
 /** Types in TypeScript of settings other than words and groups. @type {Record<string, string>} */

@@ -276,7 +276,7 @@ function nodeTests(directory, more) {
   return [process.execPath, '--import', 'tsx', '--test', '--test-reporter', 'tap', '--test-concurrency', `${availableParallelism()}`, ...tier, ...options, ...(named.length > 0 ? named : files)];
 }
 
-/** Number of lines in which a program's output ends with its errors, shown again below the summary. */
+/** Number of last lines of a failed program's output that are shown again below the summary. They have its errors. */
 const LAST_LINES = 60;
 
 /**

@@ -12,9 +12,10 @@ use nalgebra::Vector3;
 use rand::{RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 
-/// Maximum number of parts of a drive, and of rows of each. Most drives have few, because the time of a calibration
-/// grows with them.
+/// Maximum number of parts of a drive.
 const PARTS: usize = 6;
+
+/// Maximum number of rows of a part in most drives, and in all. The time of a calibration grows with the rows.
 const FEW_ROWS: usize = 12;
 const ROWS: usize = 64;
 

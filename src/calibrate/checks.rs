@@ -84,12 +84,12 @@ pub enum CheckName {
         "A few errors are much larger than normal noise has them. Intervals of the predicted pose are too narrow in the tails. Look at the largest residuals. Recommended α's allow for it."
     )]
     TailsNormal,
-    /// Fraction of the legs of each half inside of the 95 % region by the fit to the other half.
+    /// Fraction of the legs whose error is inside of the 95 % region that the fit to the other half of the log predicts.
     #[error(
         "The α's of one half of the log do not fit the other: floor, load or speed changed. Calibrate for each condition. Recommended α's allow for it."
     )]
     HoldoutCovered,
-    /// Fraction of the windows of 1 m inside of their 95 % ellipsoid by the fit to the other half.
+    /// Fraction of the windows of 1 m whose error is inside of the 95 % ellipsoid that the fit to the other half of the log predicts.
     #[serde(rename = "window-1m-covered")]
     #[error("{FAILED_WINDOWS}")]
     Window1Covered,

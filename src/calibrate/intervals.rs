@@ -18,10 +18,11 @@ const TOLERANCE: f64 = 0.02;
 
 /// Returns the function that computes the 95 % interval of a parameter; that of one without information is [0, ∞].
 ///
-/// An end is where twice the log-likelihood is t² below its maximum, the other parameters moving along the ridge that the
-/// information gives. The distance to it is multiplied by √(S/I⁻¹), if above 1, S being the sandwich covariance over blocks of legs.
-/// A block has ∛n legs, and more where errors persist: the correlation ρ of errors is one of ρ² of their squares. Standard errors
-/// increase by √((1 + ρ²)/(1 − ρ²)) at least.
+/// An end is where twice the log-likelihood is t² below its maximum, with t the quantile of Student's t. The other parameters follow
+/// the ridge of the likelihood as the information matrix I predicts it. The distance to the maximum is multiplied by √(S/I⁻¹) if that
+/// is above 1, with S the sandwich covariance over blocks of legs. A block has ∛n of the n legs, and more where errors persist: if
+/// errors of neighbouring legs have the correlation ρ, their squares have ρ². Standard errors are therefore multiplied by at least
+/// √((1 + ρ²)/(1 − ρ²)).
 pub(super) fn intervals(
     Fit { residuals, maximum, .. }: &Fit,
     correlation: f64,

@@ -28,7 +28,7 @@ struct Squares<'a> {
     plan: &'a FloorPlan,
     columns: usize,
     rows: usize,
-    /// Width and height, m: the same, but on a plan that is narrower than its squares would be.
+    /// Width and height, m. They are equal, except on a plan that is narrower than one square.
     sides: [f64; 2],
 }
 

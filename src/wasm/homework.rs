@@ -22,7 +22,7 @@ use wasm_bindgen::prelude::*;
 
 #[wasm_bindgen(typescript_custom_section)]
 const TYPES: &str = r#"
-/** Speeds along the body's x (m/s or m) and y, and turn rate (rad/s or rad); as exponential coordinates along, lateral, heading. */
+/** Twist: speeds along the body's x and y (m/s) and turn rate (rad/s). Exponential coordinates of a motion: along (m), lateral (m), heading (rad). */
 export type Twist = ArrayLike<number>;
 
 /** Options of a velocity model. */

@@ -108,5 +108,5 @@ impl JsOdometryDecomposer {
     }
 }
 
-/// Number of linkages of outcomes that are drawn: more would hide the linkage of the reading.
+/// Number of outcomes whose rotation, translation and rotation are drawn. More would hide those of the reading.
 const MAX_GHOSTS: f64 = 12.0;

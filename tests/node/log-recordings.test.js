@@ -152,7 +152,7 @@ test('a transform that never changes holds from the beginning, and a moving one 
     return [data.t.length, start + data.t[0], /** @type {any} */ (data).x[0], summary.rows];
   };
   assert.deepEqual(await read(() => 0.5), [60, 0, 0.5, 60]);
-  // The robot's pose is known from 3 s on, at the times of the link nearest to it.
+  // The pose is known from 3 s on, at the times of the transform to the robot's own frame.
   assert.deepEqual(await read((i) => i / 100), [10, 3, 1.8, 10]);
 });
 

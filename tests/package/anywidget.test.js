@@ -23,11 +23,11 @@ after(async () => {
 });
 
 /**
- * A page on which a model is shown. In it, `view` has what happened: `log` of what was set and saved, `end` what takes the
- * figure away, `state` the traits.
+ * Returns a page that shows a model. Its global `view` records the test: `log` lists what was set and saved, `end()` removes the
+ * figure, and `state` has the traits.
  *
  * @param {Record<string, unknown>} state
- * @param {'notebook' | 'book'} kind a book's model throws the errors of MyST's, and its figure is in a shadow root
+ * @param {'notebook' | 'book'} kind in a book, the model throws the errors that MyST's model throws, and the figure is in a shadow root
  */
 async function shown(state, kind) {
   const page = await browser.newPage();

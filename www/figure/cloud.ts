@@ -254,7 +254,7 @@ export function enterCloud<Machine extends Growing & { free(): void }>({ setting
   });
 }
 
-/** Properties of an element with a cloud that cannot be set. */
+/** Read-only properties of an element with a cloud. */
 export const cloudProperties: PropertyDescriptorMap & ThisType<Figure> = {
   playing: { get() { return (this.cloud as Cloud).playing; } },
   poses: { get() { return this.ask((machine) => machine.poses); } },

@@ -84,7 +84,7 @@ export class Gesture extends FigureController {
     this.#queue();
   }
 
-  /** Fires the events after the running handler, which may take several steps. */
+  /** Fires the events once after the running handler, which may change several values. */
   #queue() {
     queueMicrotask(() => {
       const [step, end] = [this.#step, this.#end];

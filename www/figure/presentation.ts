@@ -47,7 +47,7 @@ export class Presentation extends FigureController {
     await host.updateComplete;
     // A click should leave no focus ring in the presentation.
     this.#focus(keyed ? '.presenting button' : '.presenting');
-    // Full screen needs a key press or a click. Phones may have none.
+    // Browsers allow a full screen only after a key press or a click. Some phones have no full screen.
     if (navigator.userActivation.isActive) await host.requestFullscreen?.().catch(() => {});
     if (!this.#listening) await this.#exit();
     else if (!host.matches(':fullscreen')) {

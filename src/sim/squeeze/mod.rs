@@ -54,7 +54,7 @@ struct Shown {
 /// limit it would stop where a filter still works; with a larger one a page would wait for seconds.
 const MAX_MEAN_DRAWS_PER_PART: usize = 20;
 
-/// Number of parts of motions in a block, which takes some milliseconds.
+/// Number of parts of motions that a block of attempts tests against the map. A block takes some milliseconds.
 const BLOCK_PARTS: usize = 4096;
 
 impl MapSqueeze {
@@ -116,7 +116,7 @@ impl MapSqueeze {
         Ok(())
     }
 
-    /// Changes the settings and makes the first block of `goal` attempts. [`MapSqueeze::add_samples`] makes the others.
+    /// Changes the settings and makes the first block of attempts. [`MapSqueeze::add_samples`] makes the others, up to `goal` in all.
     /// Errors are those of [`MapSqueeze::configure`].
     pub fn configure_first(&mut self, settings: Settings, goal: usize) -> Result<(), SettingsError> {
         settings.check()?;

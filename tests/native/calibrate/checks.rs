@@ -69,7 +69,7 @@ fn a_reference_with_other_units_or_axes_or_of_another_drive_is_unusable() {
 fn a_copy_of_the_odometry_is_no_reference() {
     let made = good_log(600, 1);
     let [odometry, _] = made.log();
-    // In another frame, with other lengths, at other times, and with the digits of a text file.
+    // The copy is in another frame, with longer lengths, later times, and numbers rounded as in a text file.
     let rounded = |value: f64| (1e6 * value).round() / 1e6;
     let copy = odometry.samples().map(|(time, pose)| {
         let moved = SE2::new(3.0, 1.0, 0.5) * SE2::new(1.02 * pose.x(), 1.02 * pose.y(), pose.theta());
@@ -143,8 +143,8 @@ fn calibrated_with_scales(made: &Simulation, scale: impl Fn(f64, &Vector3<f64>) 
     calibrated_log(&[trajectory(read), reference], &made.options())
 }
 
-/// Odometry with noise, or of a point 5 cm ahead of the axle. Both move sideways in turns on the spot. AMCL of Nav2 takes a leg of less than
-/// a centimetre for a turn, so that noise of a millimetre does not matter to it, but to the table.
+/// Odometry with noise, or of a point 5 cm ahead of the axle. Both move sideways in turns on the spot. AMCL of Nav2 reads a leg of less than
+/// a centimetre as a turn on the spot. Noise of a millimetre therefore changes nothing by its rule, but by the rule of Table 5.6.
 #[test]
 fn odometry_that_moves_sideways_is_reported_if_the_rule_takes_its_direction() {
     let made = good_log(600, 12);

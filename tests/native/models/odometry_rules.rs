@@ -102,7 +102,7 @@ fn the_table_and_the_reversing_option_are_the_models_of_the_crate() {
         );
         let three = |rule| -> [f64; 3] { std::array::from_fn(|leg| variances(rule, reading)[leg]) };
         assert_eq!(three(Table), model.variances(&reading).map(|variance| variance.0));
-        // The score of its own reading is the product of three densities at 0, which depend on the variances only.
+        // The score of the pose to which the reading leads is the product of three densities at 0. They depend on the variances only.
         let x = SE2::identity();
         let peak = ReverseAware(model).prob(&reading.apply(&x), &reading, &x);
         let product: f64 = three(Nav2).iter().map(|b2| NoiseKind::Normal.prob(0.0, Variance(*b2))).product();

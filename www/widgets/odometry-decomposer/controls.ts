@@ -1,4 +1,4 @@
-/** The Odometry Decomposer's controls: noise models side by side, animated sliders, and the noise. */
+/** The Odometry Decomposer's controls: the table that compares the noise models, animated sliders, and the distribution of the noise. */
 
 import { html } from 'lit';
 import { choices, cloudControls, slider, sliders } from '../../figure/controls.ts';

@@ -121,6 +121,12 @@ pub(super) fn product(left: &Matrix3<f64>, right: &Matrix3<f64>) -> Matrix3<f64>
     product
 }
 
+/// Returns BᵀMB. It is a call, because it is long code.
+#[inline(never)]
+pub(super) fn congruent(matrix: &Matrix3<f64>, by: &Matrix3<f64>) -> Matrix3<f64> {
+    product(&product(&by.transpose(), matrix), by)
+}
+
 /// Returns the inverse of a matrix, 0 of a singular one, and its determinant.
 #[inline(always)]
 pub(super) fn inverse(matrix: &Matrix3<f64>) -> (Matrix3<f64>, f64) {

@@ -14,7 +14,7 @@
 //! Thompson and Cullis 1995).
 
 use super::legs::Leg;
-use super::matrices::{Wide, congruent, inverse, product};
+use super::matrices::{Wide, inverse, product};
 use super::residuals::{Model, Observation};
 use super::result::LegFit;
 use super::systematic::{ERROR_COUNT, ErrorMask, Systematic, SystematicError};
@@ -325,11 +325,11 @@ impl Residuals {
                 let off_diagonal = -product(next_block, &through);
                 block -= product(&through.transpose(), &off_diagonal);
                 let cross = product(&product(&start.transpose(), &off_diagonal), &term.end);
-                let of_start = congruent(next_block, start);
+                let of_start = product(&product(&start.transpose(), next_block), start);
                 end_block = of_start + cross + cross.transpose();
             }
             at_end = at_end.plus(&solved.multiplied(&term.end.transpose()));
-            end_block += congruent(&block, &term.end);
+            end_block += product(&product(&term.end.transpose(), &block), &term.end);
             let own = unexplained(&solved, &errors);
             let score = &mut expansion.scores[i];
             let mut add = |parameter: usize, factor: f64, square: f64, trace: f64| {
@@ -355,7 +355,7 @@ impl Residuals {
             let start = if follows && i > 0 {
                 Vector3::zeros()
             } else {
-                let start_block = congruent(&block, &term.start);
+                let start_block = product(&product(&term.start.transpose(), &block), &term.start);
                 add_pose(&solved.multiplied(&term.start.transpose()), &start_block)
             };
             projected[i] = [own, start, end];

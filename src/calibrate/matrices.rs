@@ -1,7 +1,7 @@
 //! Products of the small matrices of the likelihood.
 //!
-//! They are inlined, and those of wide matrices are in explicit vectors. In WebAssembly a call of a general product takes longer than the
-//! product itself.
+//! In WebAssembly a call of a general product takes longer than the product itself. So they are inlined, but for two whose code is long,
+//! and those of wide matrices are in explicit vectors.
 
 // Iterators over two arrays are compiled to more than indices.
 #![allow(clippy::needless_range_loop)]
@@ -76,7 +76,7 @@ impl<const ROWS: usize> Wide<ROWS> {
 
 impl Wide<3> {
     /// Returns the product of a matrix and this one.
-    #[inline(always)]
+    #[inline(never)]
     pub fn multiplied(&self, left: &Matrix3<f64>) -> Self {
         let mut product = Self::ZERO;
         for row in 0..3 {
@@ -108,7 +108,7 @@ impl Wide<3> {
 }
 
 /// Returns the product of two matrices.
-#[inline(always)]
+#[inline(never)]
 pub(super) fn product(left: &Matrix3<f64>, right: &Matrix3<f64>) -> Matrix3<f64> {
     let mut product = Matrix3::zeros();
     for column in 0..3 {
@@ -119,12 +119,6 @@ pub(super) fn product(left: &Matrix3<f64>, right: &Matrix3<f64>) -> Matrix3<f64>
         }
     }
     product
-}
-
-/// Returns BᵀMB. It is a call, because it is long code.
-#[inline(never)]
-pub(super) fn congruent(matrix: &Matrix3<f64>, by: &Matrix3<f64>) -> Matrix3<f64> {
-    product(&product(&by.transpose(), matrix), by)
 }
 
 /// Returns the inverse of a matrix, 0 of a singular one, and its determinant.

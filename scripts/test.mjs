@@ -185,10 +185,9 @@ const PARTS = {
  */
 const LANES = [
   ['build', 'browser', ...(ALL ? ['engines', 'embeddings'] : [])],
-  ['rustfmt', 'rust', ...(ALL ? ['docs'] : [])],
+  ['rustfmt', 'rust', 'clippy', ...(ALL ? ['docs'] : [])],
   ['wasm', ...(ALL ? ['clippy-wasm'] : [])],
-  // Clippy waits for the tests of `rust` to be compiled, because both write the same directory.
-  ['oxlint', 'tsc', 'node', 'clippy', 'package'],
+  ['oxlint', 'tsc', 'node', 'package'],
 ];
 
 /**

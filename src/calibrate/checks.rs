@@ -9,7 +9,6 @@ use super::trajectory::median;
 use crate::geom::se2::wrap_angle;
 use crate::models::OdometryRule;
 use serde::{Deserialize, Serialize};
-use thiserror::Error;
 
 /// Overall judgement of a calibration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -22,84 +21,42 @@ pub enum Verdict {
     Unusable,
 }
 
-/// Text of a failed check of windows.
-const FAILED_WINDOWS: &str = "Over windows of this length the fitted α's do not predict the error: it grows otherwise than they say. Recommended α's hold over 1 m: use them if the filter corrects its pose that often.";
-
-/// Names of the checks. The text of each is the meaning of a failure for the α's, and the remedy.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, Error)]
+/// Names of the checks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum CheckName {
     /// Median difference of the two motions over the median motion.
-    #[error(
-        "The reference is no other measurement of this drive. Either it does not follow the odometry: it is of another drive, has other units (degrees, millimetres) or a mirrored y axis, or its columns are swapped. Or it follows it exactly, as a copy does. The α's mean nothing. Compare both files row by row."
-    )]
     ReferenceMatches,
     /// Number of legs.
-    #[error(
-        "There are few legs, so the intervals are wide and the other checks weak. Drive on: a quarter of an hour of straight drives, arcs and turns on the spot."
-    )]
     EnoughLegs,
     /// Fraction of the legs that were lost.
-    #[error(
-        "Many legs were lost to gaps, breaks or a standing robot. The α's are those of the rest. Look at the counts by cause, and record without gaps."
-    )]
     LegsLost,
     /// Median length of a leg over the length that the options ask for.
-    #[error(
-        "Rows are too sparse for legs of this length: legs are longer than asked, and the α's belong to the longer ones. Record more often, or ask for longer legs."
-    )]
     SamplingDense,
     /// Fraction of outliers.
-    #[error(
-        "Many legs are outliers. The α's are those of the rest, and too small if the outliers are slip of the wheels. Look at the listed legs: a jump of the reference or slip?"
-    )]
     OutliersFew,
     /// Fraction of the legs in which the odometry moves sideways.
-    #[error(
-        "The odometry moves sideways: its positions are noisy, or its frame is off the axle. α₁ and α₄ are too small. Use odometry of the axle."
-    )]
     SidewaysRare,
     /// Difference of the distance scales of straight and turning legs, or of both halves: the larger one.
-    #[error(
-        "The odometry's scale of distances is not a constant, so it was not corrected unless asked for. Check wheel diameters, load and slip in turns; calibrate the wheels, then the noise."
-    )]
     DistanceScaleConstant,
     /// Difference of the turn scales of both halves.
-    #[error(
-        "The odometry's scale of turns is not a constant, so it was not corrected unless asked for. Check the track width and slip on this floor."
-    )]
     TurnScaleConstant,
     /// Inflation under which windows of 1 m are covered.
-    #[error(
-        "No inflation up to 30 covers the errors over 1 m: they are no noise of the wheels. Find their cause first: outliers that were kept, a reference that jumps, slip."
-    )]
     InflationBounded,
     /// Correlation of the innovations of neighbouring legs.
-    #[error(
-        "Errors of neighbouring legs are correlated: they persist over several legs, or a systematic error is left in. α's fitted to legs are too small for longer ways. Recommended α's allow for it."
-    )]
     ResidualsUncorrelated,
     /// Kurtosis of the innovations: 3 of normal ones, at least 1 of any, and less than 3 does no harm.
-    #[error(
-        "A few errors are much larger than normal noise has them. Intervals of the predicted pose are too narrow in the tails. Look at the largest residuals. Recommended α's allow for it."
-    )]
     TailsNormal,
     /// Fraction of the legs whose error is inside of the 95 % region that the fit to the other half of the log predicts.
-    #[error(
-        "The α's of one half of the log do not fit the other: floor, load or speed changed. Calibrate for each condition. Recommended α's allow for it."
-    )]
     HoldoutCovered,
     /// Fraction of the windows of 1 m whose error is inside of the 95 % ellipsoid that the fit to the other half of the log predicts.
     #[serde(rename = "window-1m-covered")]
-    #[error("{FAILED_WINDOWS}")]
     Window1Covered,
     /// The same fraction of windows of 2 m.
     #[serde(rename = "window-2m-covered")]
-    #[error("{FAILED_WINDOWS}")]
     Window2Covered,
     /// The same fraction of windows of 5 m.
     #[serde(rename = "window-5m-covered")]
-    #[error("{FAILED_WINDOWS}")]
     Window5Covered,
 }
 
@@ -120,8 +77,8 @@ impl Check {
     }
 
     /// Returns the meaning for the α's of a check that failed, and the remedy; nothing where it passed.
-    pub fn message(&self) -> String {
-        if self.passed { String::new() } else { self.name.to_string() }
+    pub fn message(&self) -> &'static str {
+        if self.passed { "" } else { self.name.failure() }
     }
 }
 
@@ -152,6 +109,53 @@ impl Diagnostics {
     pub(super) fn too_few_legs() -> Self {
         let legs = Check::new(CheckName::EnoughLegs, 0.0, [SUFFICIENT_LEGS, f64::INFINITY]);
         Self { verdict: Verdict::Unusable, checks: vec![legs], windows: Vec::new() }
+    }
+}
+
+impl CheckName {
+    /// Returns the meaning of a failure for the α's, and the remedy.
+    fn failure(self) -> &'static str {
+        match self {
+            Self::ReferenceMatches => {
+                "The reference is not an independent measurement of this drive. Either it does not follow the odometry: it may be of another drive, have other units (degrees, millimetres) or a mirrored y axis, or its columns may be swapped. Or it is a copy of the odometry. The α's mean nothing. Compare both files row by row."
+            }
+            Self::EnoughLegs => {
+                "There are few legs, so the intervals are wide and the other checks weak. Drive on: a quarter of an hour of straight drives, arcs and turns on the spot."
+            }
+            Self::LegsLost => {
+                "Many legs were lost to gaps, breaks or a standing robot. The α's are those of the rest. Look at the counts by cause, and record without gaps."
+            }
+            Self::SamplingDense => {
+                "Rows are too sparse for legs of this length: legs are longer than asked, and the α's belong to the longer ones. Record more often, or ask for longer legs."
+            }
+            Self::OutliersFew => {
+                "Many legs are outliers. The α's are those of the rest, and too small if the outliers are slip of the wheels. Look at the listed legs: a jump of the reference or slip?"
+            }
+            Self::SidewaysRare => {
+                "The odometry moves sideways: its positions are noisy, or its frame is off the axle. α₁ and α₄ are too small. Use odometry of the axle."
+            }
+            Self::DistanceScaleConstant => {
+                "The odometry's scale of distances is not a constant, so it was not corrected unless asked for. Check wheel diameters, load and slip in turns; calibrate the wheels, then the noise."
+            }
+            Self::TurnScaleConstant => {
+                "The odometry's scale of turns is not a constant, so it was not corrected unless asked for. Check the track width and slip on this floor."
+            }
+            Self::InflationBounded => {
+                "No inflation up to 30 covers the errors over 1 m: they are no noise of the wheels. Find their cause first: outliers that were kept, a reference that jumps, slip."
+            }
+            Self::ResidualsUncorrelated => {
+                "Errors of neighbouring legs are correlated: they persist over several legs, or a systematic error is left in. α's fitted to legs are too small for longer ways. Recommended α's allow for it."
+            }
+            Self::TailsNormal => {
+                "A few errors are much larger than normal noise has them. Intervals of the predicted pose are too narrow in the tails. Look at the largest residuals. Recommended α's allow for it."
+            }
+            Self::HoldoutCovered => {
+                "The α's of one half of the log do not fit the other: floor, load or speed changed. Calibrate for each condition. Recommended α's allow for it."
+            }
+            Self::Window1Covered | Self::Window2Covered | Self::Window5Covered => {
+                "Over windows of this length the fitted α's do not predict the error: it grows otherwise than they say. Recommended α's hold over 1 m: use them if the filter corrects its pose that often."
+            }
+        }
     }
 }
 
@@ -200,15 +204,16 @@ pub(super) fn log_checks(
         sample.legs.iter().map(|leg| sample.options.legs.ratio(&leg.odometry, leg.duration())).collect();
     let outliers = sample.outliers.iter().filter(|is| **is).count();
     let lost = lost.total() - lost.standing;
-    let mut checks = vec![
-        Check::new(CheckName::ReferenceMatches, mismatch.unwrap_or(MISMATCH[0]), MISMATCH),
+    let mismatch = mismatch.map(|value| Check::new(CheckName::ReferenceMatches, value, MISMATCH));
+    let mut checks = Vec::from_iter(mismatch);
+    checks.extend([
         Check::new(CheckName::EnoughLegs, count as f64, [SUFFICIENT_LEGS, f64::INFINITY]),
         // An infinite inflation: none is enough.
         Check::new(CheckName::InflationBounded, inflation, [1.0, MAX_INFLATION]),
         Check::new(CheckName::LegsLost, lost as f64 / (count + lost) as f64, [0.0, 0.2]),
         Check::new(CheckName::SamplingDense, median(&mut ratios), [0.0, 1.5]),
         Check::new(CheckName::OutliersFew, outliers as f64 / count as f64, [0.0, 0.05]),
-    ];
+    ]);
     if matches!(sample.options.model, Model::Odometry(rule) if rule != OdometryRule::Omni) {
         let sideways = sample.observations.iter().filter(|leg| moves_sideways(leg.reading)).count();
         checks.push(Check::new(CheckName::SidewaysRare, sideways as f64 / count as f64, [0.0, 0.02]));
@@ -222,7 +227,8 @@ fn moves_sideways([rot1, _, rot2]: [f64; 3]) -> bool {
     rot1 != 0.0 && libm::sin(rot1 - 0.5 * wrap_angle(rot1 + rot2)).abs() > MIN_SIDEWAYS_SINE
 }
 
-/// Median difference of the two motions over the median motion: of turns, or of drives, whichever is larger. `None` with few legs of both.
+/// Returns the median difference of the two motions over the median motion: of turns, or of drives, whichever is larger. `None` if
+/// too few legs turn and too few drive.
 fn mismatch(sample: &Sample, systematic: &Systematic) -> Option<f64> {
     // Sizes and differences of the turns, and of the drives.
     let [mut turns, mut drives] = [const { [Vec::new(), Vec::new()] }; 2];

@@ -346,7 +346,7 @@ test('an unusable log has a sentence and no lines for Nav2', async () => {
   const { code, out } = await outputOf([...FILES.slice(0, 3), other]);
   assert.equal(code, 3);
   for (const line of [
-    /^Unusable: no α’s are recommended from this log\. The reference is no other measurement of this drive\. /m, /^reference-matches +\S+ +0\.0005 to 0\.7 +FAILED$/m,
+    /^Unusable: no α’s are recommended from this log\. The reference is not an independent measurement of this drive\. /m, /^reference-matches +\S+ +0\.0005 to 0\.7 +FAILED$/m,
     /^alpha1 .* – +rotation noise/m, /^No lines for nav2_params\.yaml: the log is unusable\.$/m,
   ]) assert.match(out, line);
   assert.doesNotMatch(out, /amcl:|not identifiable: /);

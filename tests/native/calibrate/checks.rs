@@ -4,7 +4,9 @@ use super::simulated::{MODELS, Simulation, Violation};
 use super::{NAV2, calibrated, calibrated_log, trajectory};
 use crate::common::seeded;
 use motion::calibrate::CheckName::{self, *};
-use motion::calibrate::{Calibration, Model, Options, Outliers, SystematicError, Trajectory, Verdict};
+use motion::calibrate::{
+    Calibration, LegLength, Model, Options, Outliers, SystematicError, Trajectory, Verdict,
+};
 use motion::geom::se2::SE2;
 use motion::models::OdometryRule;
 use motion::{NoiseKind, Variance};
@@ -78,6 +80,26 @@ fn a_copy_of_the_odometry_is_no_reference() {
     let calibration = calibrated_log(&[odometry.clone(), trajectory(copy)], &made.options());
     assert!(failed_checks(&calibration).contains(&ReferenceMatches));
     assert_unusable(&calibration, "a copy");
+}
+
+/// Legs of 3 cm and 0.05 rad are too short to tell a difference from the noise of a good reference.
+#[test]
+fn legs_that_hardly_move_are_not_compared() {
+    let mut rng = seeded(4);
+    let mut noise = |std: f64| NoiseKind::Normal.sample(Variance(std * std), &mut rng);
+    let [mut read, mut seen] = [SE2::identity(); 2];
+    let mut poses = vec![[read, seen]];
+    for leg in 0..200 {
+        let turn = if leg % 2 == 0 { 0.05 } else { -0.05 };
+        read = read.boxplus(Vector3::new(0.03, 0.0, turn));
+        seen = seen.boxplus(Vector3::new(0.03 + noise(0.001), 0.0, turn + noise(0.001)));
+        poses.push([read, seen]);
+    }
+    let log = |k: usize| trajectory(poses.iter().enumerate().map(|(i, pose)| (i as f64, pose[k])));
+    let legs = LegLength::Duration { duration: 1.0 };
+    let options = Options { legs, ..good_log(1, 1).options() };
+    let calibration = calibrated_log(&[log(0), log(1)], &options);
+    assert!(calibration.diagnostics.checks.iter().all(|check| check.name != ReferenceMatches));
 }
 
 #[test]

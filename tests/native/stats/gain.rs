@@ -67,8 +67,8 @@ fn determinant(map: impl Fn(&DVector<f64>) -> DVector<f64>, at: &DVector<f64>) -
     DMatrix::from_columns(&columns).determinant()
 }
 
-/// Returns, for each robot, its log-density under the Gaussian in exponential coordinates minus that under the Gaussian in x, y and θ. The
-/// first list has densities of poses, the second has densities of positions, under the Gaussian in arc coordinates.
+/// Returns two gains of each robot in log-density: that of its pose, from the Gaussian in x, y and θ to the one in exponential coordinates,
+/// and that of its position, from the Gaussian in x and y to the one in arc coordinates.
 fn differences(cloud: &[SE2], turn: f64) -> [Vec<f64>; 2] {
     let heading = CartesianMoments::from_poses(cloud).mean.z;
     let plain: Vec<_> = cloud

@@ -6,7 +6,7 @@ const parts = (count: string, more: string = 'n') => `${count} Etappe${count ===
 /** Messages of failed checks. */
 const MESSAGES: Record<string, string> = {
   'reference-matches':
-    'Die Referenz ist keine zweite Messung dieser Fahrt. Entweder folgt sie der Odometrie nicht: Sie ist von einer anderen Fahrt, hat andere Einheiten (Grad, Millimeter) oder eine gespiegelte y-Achse, oder ihre Spalten sind vertauscht. Oder sie folgt ihr genau, wie eine Kopie. Die α sind bedeutungslos. Beide Dateien Zeile für Zeile vergleichen.',
+    'Die Referenz ist keine unabhängige Messung dieser Fahrt. Entweder folgt sie der Odometrie nicht: Vielleicht ist sie von einer anderen Fahrt, hat andere Einheiten (Grad, Millimeter) oder eine gespiegelte y-Achse, oder ihre Spalten sind vertauscht. Oder sie ist eine Kopie der Odometrie. Die α sind bedeutungslos. Beide Dateien Zeile für Zeile vergleichen.',
   'enough-legs':
     'Es sind wenige Etappen: Die Intervalle sind breit und die anderen Prüfungen schwach. Weiter aufzeichnen: eine Viertelstunde mit Geraden, Bögen und Drehungen auf der Stelle.',
   'legs-lost':

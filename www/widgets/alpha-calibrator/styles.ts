@@ -185,7 +185,9 @@ export const styles = css`
     width: 100%;
   }
 
+  /* A name may extend above the interval in the next cell, as far as the shorter value beside it leaves room. */
   .alphas .of {
+    margin-inline-end: -4em;
     color: var(--muted);
     line-height: 1;
     text-align: left;
@@ -369,6 +371,7 @@ export const styles = css`
 
     .alphas .of {
       flex: 0 0 16em;
+      margin-inline-end: 0;
     }
 
     .alphas svg {
@@ -396,6 +399,10 @@ export const styles = css`
 
     .fitted {
       grid-column: auto;
+    }
+
+    .alphas .of {
+      margin-inline-end: clamp(-4em, 36em - 50cqi, 0em);
     }
 
     canvas {

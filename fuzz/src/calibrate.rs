@@ -15,7 +15,8 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 /// Maximum number of parts of a drive.
 const PARTS: usize = 6;
 
-/// Maximum number of rows of a part in most drives, and in all. The time of a calibration grows with the rows.
+/// Maximum number of rows of each part of a drive: `FEW_ROWS` of most drives, `ROWS` of the others. The time of a calibration grows with
+/// the rows.
 const FEW_ROWS: usize = 12;
 const ROWS: usize = 64;
 

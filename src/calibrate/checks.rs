@@ -227,8 +227,8 @@ fn moves_sideways([rot1, _, rot2]: [f64; 3]) -> bool {
     rot1 != 0.0 && libm::sin(rot1 - 0.5 * wrap_angle(rot1 + rot2)).abs() > MIN_SIDEWAYS_SINE
 }
 
-/// Returns the median difference of the two motions over the median motion: of turns, or of drives, whichever is larger. `None` if
-/// too few legs turn and too few drive.
+/// Returns the median difference between the motions of a leg by odometry and by reference, divided by the median motion. This is done
+/// for turns and for drives, and the larger quotient counts. `None` if too few legs turn and too few drive.
 fn mismatch(sample: &Sample, systematic: &Systematic) -> Option<f64> {
     // Sizes and differences of the turns, and of the drives.
     let [mut turns, mut drives] = [const { [Vec::new(), Vec::new()] }; 2];

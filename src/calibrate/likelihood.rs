@@ -171,7 +171,7 @@ impl Filtered {
         covariance * scatter * covariance
     }
 
-    /// Returns the legs under the fit.
+    /// Returns the error of each leg with its standard deviations, as the fit has them.
     pub fn leg_fits(&self) -> impl Iterator<Item = LegFit> {
         self.innovations.iter().map(|innovation| innovation.leg_fit(&self.least_squares.errors, false))
     }

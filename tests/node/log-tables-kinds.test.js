@@ -72,8 +72,8 @@ test('a log that is out of order everywhere is sorted, and one of two clocks in 
     assert.deepEqual([[...data.x], [...data.breaks], summary.used], [CIRCLES.map(([, x]) => x), [], rows.length]);
     assert.ok(summary.notes[0].name === 'sorted' && Number(summary.notes[0].values[0]) > rows.length / 8, JSON.stringify(summary.notes));
   }
-  const inTurns = rows.flatMap((row, i) => [row, [CIRCLES[i][0] + 5.02, ...CIRCLES[rows.length - 1 - i].slice(1)].join(',')]);
-  assert.match(await sentenceOf(read([header, ...inTurns].join('\n'))), /^run\.csv: /);
+  const alternating = rows.flatMap((row, i) => [row, [CIRCLES[i][0] + 5.02, ...CIRCLES[rows.length - 1 - i].slice(1)].join(',')]);
+  assert.match(await sentenceOf(read([header, ...alternating].join('\n'))), /^run\.csv: /);
 });
 
 test('a block of zeros in a table loses the row that it is in', async () => {

@@ -168,7 +168,7 @@ export function optionsOf(args: string[]): Calibrate | Inspect | 'help' | 'versi
   };
 }
 
-/** Returns the units that are stated for a log: one for both, or one for each if its role is given. */
+/** Returns the units that the options state for a log. Of two units of a quantity, the role of the log chooses one. */
 function unitsOf(values: { [name in 'time-unit' | 'length-unit' | 'angle-unit']?: string }, role: Role | undefined): OpenOptions {
   return Object.fromEntries((['time', 'length', 'angle'] as const).flatMap((of) => {
     const given = values[`${of}-unit`];

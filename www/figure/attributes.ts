@@ -22,11 +22,11 @@ export interface Property {
   change: (value: any, config: Config) => Config;
   /** Name of a setting in the core, if different. */
   path?: string;
-  /** Names of the attributes whose values follow from this one. They are only written while this one has no text. */
+  /** Names of the attributes whose values follow from this one. They are only written while this value cannot be written as a text. */
   covers?: string[];
-  /** Allowed words, if no declaration lists them. */
+  /** Allowed words, if the declarations of www/settings.js do not list them. */
   words?: readonly string[];
-  /** Range of a number, if no declaration has it. */
+  /** Range of a number, if the declarations do not have it. */
   min?: number;
   max?: number;
 }
@@ -85,11 +85,11 @@ export const propertiesOf = (declared: Declaration[]): Properties => Object.from
 export const attributesIn = (properties: Properties) =>
   Object.fromEntries(Object.entries(properties).filter(([, { converter }]) => converter)) as Record<string, Attribute>;
 
-/** Returns a property with a field of the configuration. */
-export const plainProperty = (key: string, converter?: Converter): Property => ({ converter, get: (config) => config[key], change: (value) => ({ [key]: value }) });
+/** Returns the property of a field of the configuration. */
+export const fieldProperty = (key: string, converter?: Converter): Property => ({ converter, get: (config) => config[key], change: (value) => ({ [key]: value }) });
 
 function propertyOf({ key, in: group, field = key, index, of, weights = [], type }: Declaration): Property {
-  const plain = plainProperty(key, CONVERTERS[type]);
+  const plain = fieldProperty(key, CONVERTERS[type]);
   // This setting is a level, which scales several settings of the machine.
   if (of) return { ...plain, get: (config) => levelOf(config[of], weights) };
   if (!group) return plain;
@@ -126,7 +126,7 @@ export function defaultConfig(declared: Declaration[]) {
 }
 
 /** Returns the attribute of a figure's presets. A preset sets all settings except samples and seed. Settings that it does not list get defaults. */
-export function presetsOf(presets: readonly ({ name: string } & Record<string, any>)[], declared: Declaration[]): Attribute {
+export function presetPropertyOf(presets: readonly ({ name: string } & Record<string, any>)[], declared: Declaration[]): Attribute {
   const words = presets.map(({ name }) => name);
   const properties = propertiesOf(declared);
   const settings = presets.map(({ name: _, ...given }) => {

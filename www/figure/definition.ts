@@ -1,7 +1,7 @@
 /** Definition of a widget: its settings with their sliders, its properties and attributes, and the state of its element. */
 
 import { presets, settings, type Declaration } from '../settings.js';
-import { NUMBER, WORD_LIST, attributesIn, plainProperty, presetsOf, propertiesOf, type Attribute, type Config, type Properties, type Property } from './attributes.ts';
+import { NUMBER, WORD_LIST, attributesIn, fieldProperty, presetPropertyOf, propertiesOf, type Attribute, type Config, type Properties, type Property } from './attributes.ts';
 import { numberWithin, subset, wholeNumber, word } from './checks.ts';
 import type { SliderSpec } from './controls.ts';
 import type { LineStyle } from '../scene/draw.ts';
@@ -62,11 +62,11 @@ export function definitionOf(tag: string, { lines, opening = Object.keys(lines),
     overlays: { converter: WORD_LIST, words: Object.keys(lines), opening },
   };
   const properties: Properties = {
-    ...(widgetPresets.length > 0 && { preset: preset ?? presetsOf(widgetPresets, declared) }),
+    ...(widgetPresets.length > 0 && { preset: preset ?? presetPropertyOf(widgetPresets, declared) }),
     ...propertiesOf(declared),
   };
   for (const [key, { converter, isProperty, words, min, max }] of Object.entries(own)) {
-    if (converter || isProperty) properties[key] = { ...plainProperty(key, converter), words, min, max };
+    if (converter || isProperty) properties[key] = { ...fieldProperty(key, converter), words, min, max };
   }
   return { ...parts, tag, declared, properties, attributes: attributesIn(properties), own };
 }

@@ -213,7 +213,7 @@ export function define(Widget: typeof import('./figure.ts').FigureElement<any, a
   const { prototype, definition: { tag, properties, own } } = Widget;
   if (customElements.get(tag)) return;
   for (const name of Object.keys(properties)) {
-    // A widget may have a property that does more.
+    // A widget may define this property itself, because it does more than read and write the value.
     if (Object.hasOwn(prototype, name)) continue;
     Object.defineProperty(prototype, name, {
       configurable: true,

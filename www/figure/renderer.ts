@@ -108,7 +108,7 @@ export class Renderer extends FigureController {
       const { machine, cloud, settings } = host;
       if (!machine) return;
       settings.settle();
-      // The growth of the cloud is not visible.
+      // A script awaits all samples. Nobody sees the cloud grow.
       if (host.isAwaited) cloud?.finish();
       if (cloud && !cloud.refine()) this.#schedule();
       else if (settings.stale) host.refresh();

@@ -38,7 +38,7 @@ export class Visibility extends FigureController {
     this.#isNear = false;
   }
 
-  /** Observes the content too: beside text below the figure, a picture sticks outside the element's box. */
+  /** Observes the content too. A sticky picture stays in sight while the page scrolls on, outside of the element's box. */
   hostUpdated() {
     const content = this.host.shadowRoot?.querySelector('.machine');
     if (content) this.#visibleObserver?.observe(content);

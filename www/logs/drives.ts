@@ -60,7 +60,7 @@ export function planDrives(recordings: Recording[], wishes: Wishes = {}): Plan {
   if (plan.drives.length === Math.abs(odometry.length - reference.length)) plan.unpaired[lacking].push(...plan.drives.splice(0).map((drive) => drive[lacking]));
   if (odometry.length !== reference.length) {
     const longer = odometry.length > reference.length ? odometry : reference;
-    // The other log of a recording may be there, and only be ambiguous.
+    // If a recording has the other log too, but it is not clear which one it is, that error says more.
     for (const { recording } of longer) attempted(() => bothOf(recording, wishes), ({ ask }) => ask?.what !== 'series');
     const [first] = longer;
     const isRepeated = recordings.length === 2 && recordings[0].name === recordings[1].name;

@@ -124,13 +124,13 @@ export class Chain {
   poses(each: (reading: Sample, sample: TimedEdge) => void): boolean {
     const latest = new Map<string, Transform>();
     const moving = new Set<string>();
-    const unknown = new Set<string>();
+    const unknownLinks = new Set<string>();
     for (const { link, isStatic, edge: { transform } } of this.#samples) {
       const first = latest.get(link);
       if (!first) latest.set(link, transform);
       else if (transform.some((value, i) => value !== first[i])) {
         moving.add(link);
-        if (!isStatic) unknown.add(link);
+        if (!isStatic) unknownLinks.add(link);
       }
     }
     const nearest = this.#links.findLast((link) => moving.has(link));
@@ -139,9 +139,9 @@ export class Chain {
     let pending: TimedEdge | undefined;
     for (const sample of this.#samples.toSorted((one, other) => timeOf(one) - timeOf(other))) {
       latest.set(sample.link, sample.edge.transform);
-      unknown.delete(sample.link);
+      unknownLinks.delete(sample.link);
       if (sample.link === nearest) pending = sample;
-      if (!pending || unknown.size > 0) continue;
+      if (!pending || unknownLinks.size > 0) continue;
       each(poseOf(pending.edge, this.#links.map((link) => latest.get(link) as Transform).reduce(composed)), pending);
       pending = undefined;
     }

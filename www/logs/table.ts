@@ -26,7 +26,7 @@ const MAX_LINE_LENGTH = 2 ** 16;
 /** Maximum fraction of damaged rows. Above it, the table has another format than assumed, or comes from a broken disk. */
 const MAX_DAMAGED_FRACTION = 0.1;
 
-/** Minimum number of short fractions that end in 0, of times without leading zeros in their fractions. */
+/** Minimum number of short fractions that end in 0 from which times are taken for seconds and nanoseconds without leading zeros. */
 const MIN_UNPADDED = 5;
 
 type Reason = ConstructorParameters<typeof LogError>[1];
@@ -146,7 +146,7 @@ class ClockReader {
   #hasLeadingZero = false;
   /** Number of digits of the longest fraction. */
   #longest = 0;
-  /** Times by the number of digits of their fractions, of those that end in 0. */
+  /** Times whose fractions end in 0, by the number of digits of the fraction. */
   #endingInZero = new Map<number, string[]>();
 
   /** @param textOf returns the text of a cell with a decimal point */

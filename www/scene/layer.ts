@@ -12,8 +12,8 @@ export class Layer {
   /**
    * Draws the layer, at most `count` strokes of it in this frame. Returns true if there are more.
    *
-   * @param question values, besides the view and the colours, that the drawing depends on
-   * @param paint returns the strokes of another drawing
+   * @param question values, besides the view and the colours, that the drawing depends on. When one changes, it begins anew
+   * @param paint returns the strokes of the drawing
    */
   draw({ context, view, palette, ratio, highlight }: Brush, question: unknown[], paint: (painter: Painter) => Iterator<void>, count: number = Infinity): boolean {
     const { extent, frame, width, height } = view;
@@ -25,9 +25,9 @@ export class Layer {
       layer.scale(ratio, ratio);
       return paint({ context: layer, view, palette, ratio, highlight });
     });
-    const isMore = advance(strokes, count);
+    const isUnfinished = advance(strokes, count);
     context.drawImage(this.#canvas, 0, 0, width, height);
-    return isMore;
+    return isUnfinished;
   }
 }
 

@@ -39,8 +39,8 @@ export class Picture<Scene, Name extends string = string> {
     }
     if (!still || !view.aimed) this.fit(scene);
     const moving = view.ease(elapsed, atOnce);
-    const isMore = this.paint({ ...brush, highlight, exported, handles, previousReading: view.widened && !exported ? previousReading : undefined }, scene);
-    return moving || isMore === true;
+    const isUnfinished = this.paint({ ...brush, highlight, exported, handles, previousReading: view.widened && !exported ? previousReading : undefined }, scene);
+    return moving || isUnfinished === true;
   }
 
   /** Returns the index of the sample nearest to a point in CSS pixels; −1 for none. */

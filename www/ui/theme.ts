@@ -89,7 +89,8 @@ export const theme = css`
     color: var(--ink);
   }
 
-  /* In forced colours, background and text are the reader's, and the roles keep their hues. Some colours of the page would not be forced. */
+  /* In forced colours, background and text have the system colours that the reader has chosen, because browsers do not replace all colours
+     of a page. The colours of the lines keep their hues. */
   @media (forced-colors: active) {
     .scheme-probe,
     .surface {

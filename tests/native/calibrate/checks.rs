@@ -166,7 +166,7 @@ fn calibrated_with_scales(made: &Simulation, scale: impl Fn(f64, &Vector3<f64>) 
 }
 
 /// Odometry with noise, or of a point 5 cm ahead of the axle. Both move sideways in turns on the spot. AMCL of Nav2 reads a leg of less than
-/// a centimetre as a turn on the spot. Noise of a millimetre therefore changes nothing by its rule, but by the rule of Table 5.6.
+/// a centimetre as a turn on the spot. Noise of a millimetre therefore has no effect under that rule, but under the rule of Table 5.6 it has.
 #[test]
 fn odometry_that_moves_sideways_is_reported_if_the_rule_takes_its_direction() {
     let made = good_log(600, 12);

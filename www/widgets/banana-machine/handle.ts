@@ -19,8 +19,8 @@ export class ArcHandle extends Handle {
         if (!steps) return false;
         const [x, y] = figure.runtime.attempt(() => figure.machine && figure.seenEnd) ?? [0, 0];
         // The straight arc reaches furthest.
-        const farthest = sliderSpecs.v.max * figure.settings.wanted.command.dt;
-        figure.reach(clamp(x + KEY_STEP * steps[0], -farthest, farthest), y + KEY_STEP * steps[1]);
+        const farthestX = sliderSpecs.v.max * figure.settings.wanted.command.dt;
+        figure.reach(clamp(x + KEY_STEP * steps[0], -farthestX, farthestX), y + KEY_STEP * steps[1]);
         return true;
       },
       commit: () => figure.gesture.commit(),

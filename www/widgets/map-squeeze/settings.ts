@@ -1,6 +1,6 @@
 /** Map Squeeze's settings: their attributes, their part of the state, and their sliders. */
 
-import { WORD, presetsOf } from '../../figure/attributes.ts';
+import { WORD, presetPropertyOf } from '../../figure/attributes.ts';
 import { definitionOf } from '../../figure/definition.ts';
 import { presets, settings } from '../../settings.js';
 import { COMMAND_DASH, commandSliders } from '../shared/sliders.ts';
@@ -9,7 +9,7 @@ import type { SamplerName } from '../../types.d.ts';
 const declared = settings['map-squeeze'];
 
 /** Presets: positions in the apartment, with settings that show their effect. */
-export const PRESET_SETTING = presetsOf(presets['map-squeeze'], declared);
+export const PRESET_SETTING = presetPropertyOf(presets['map-squeeze'], declared);
 
 /** Pose of the robot where a map has been left. */
 export const OPENING_START = presets['map-squeeze'][0].start;

@@ -66,7 +66,7 @@ export abstract class FileOpener<Host extends Figure> extends FigureController<H
     if (!this.#isDropped) this.#place?.querySelector('.note')?.scrollIntoView({ block: 'nearest' });
   }
 
-  /** Element with the result, null until the figure has been drawn. */
+  /** Element that says which files are open or why they were refused; null until the figure has been drawn. */
   get #place() {
     return this.host.renderRoot.querySelector(`#${this.id}`);
   }

@@ -107,6 +107,7 @@ test('a page may replace words and add languages; a message of another shape is 
     const { setMessages } = await import(new URL('/motion-widgets.js', location.href).href);
     setMessages('fr', { cloud: { play: 'Jouer' }, banana: { robot: 'Automate', bend: { right: () => 'À droite.' } } });
     setMessages('en', { pause: 'Hold' });
+    setMessages('ar', { cloud: { play: 'عيّن' } });
     const given = /** @type {[string, object][]} */ ([
       ['fr', { banana: { robots: 'x' } }],
       ['fr', { banana: { alphaIsSilent: 'silence' } }],
@@ -133,6 +134,9 @@ test('a page may replace words and add languages; a message of another shape is 
   await expect(widget.getByRole('spinbutton', { name: 'Automate' })).toBeVisible();
   await expect(widget.getByRole('button', { name: 'Step' })).toBeVisible();
   await expect(widget.locator('p[part=caption]')).toHaveText('À droite.');
+  // The digits are Latin in all languages, and so is the separator between them.
+  await widget.evaluate((element) => element.setAttribute('lang', 'ar-EG'));
+  await expect(readout(widget, 'cross-track skew')).toHaveText(/^−0\.\d{3}/);
 });
 
 test('a page from right to left has the same picture, and nothing beside its figure @nightly', async ({ page, figure }) => {

@@ -9,10 +9,10 @@ export const NOTHING = '\u2014';
 /** Decimal separators by language. */
 const separators: Map<string, string> = new Map([['en', '.']]);
 
-/** Returns the decimal separator of the current language. The first use of `Intl` takes longer than the rest of the first frame. */
+/** Returns the decimal separator of the current language between Latin digits. The first use of `Intl` takes longer than the rest of the first frame. */
 function decimalSeparator(): string {
   let separator = separators.get(language);
-  if (!separator) separators.set(language, (separator = new Intl.NumberFormat(language).formatToParts(0.5).find(({ type }) => type === 'decimal')?.value ?? '.'));
+  if (!separator) separators.set(language, (separator = new Intl.NumberFormat(language, { numberingSystem: 'latn' }).formatToParts(0.5).find(({ type }) => type === 'decimal')?.value ?? '.'));
   return separator;
 }
 

@@ -132,6 +132,8 @@ export class Runtime extends FigureController {
     this.#loaded = false;
     this.#hasTrapped = false;
     this.host.canvases.clear();
+    // An element that is removed during print gets no event at its end.
+    this.host.renderer.printing = false;
     this.attempt(() => {
       this.host.settings.settle();
       this.host.state.keep();

@@ -233,6 +233,58 @@ test('a canvas that has got its context back is drawn again', async ({ page, fig
   expect(await pictureOf(canvas)).toBe(before);
 });
 
+test('a figure that comes back is drawn on the screen again, even if it was removed during print', async ({ page, figure }) => {
+  const widget = await mount(page, figure);
+  await page.emulateMedia({ media: 'print' });
+  await expect(widget.locator('canvas.plane')).toHaveJSProperty('width', 2 * (await widget.locator('canvas.plane').evaluate(({ clientWidth }) => clientWidth)));
+  const element = await widget.evaluateHandle((each) => (each.remove(), each));
+  await page.emulateMedia({ media: 'screen' });
+  await element.evaluate((each) => document.body.append(each));
+  await untilReady(widget);
+  await expect.poll(() => widget.locator('canvas.plane').evaluate((canvas) => /** @type {HTMLCanvasElement} */ (canvas).width)).toBeGreaterThan(0);
+});
+
+test('a figure that was removed and comes back has no more observers, and does not draw its walls anew when it is seen again', FRESH, async ({ page }) => {
+  await page.addInitScript(() => {
+    const counts = { observers: 0, paths: 0 };
+    Object.assign(window, { counts });
+    const { observe, disconnect } = IntersectionObserver.prototype;
+    const observers = new Set();
+    IntersectionObserver.prototype.observe = function (target) {
+      counts.observers = observers.add(this).size;
+      observe.call(this, target);
+    };
+    IntersectionObserver.prototype.disconnect = function () {
+      observers.delete(this);
+      counts.observers = observers.size;
+      disconnect.call(this);
+    };
+    const { beginPath } = OffscreenCanvasRenderingContext2D.prototype;
+    OffscreenCanvasRenderingContext2D.prototype.beginPath = function () {
+      counts.paths++;
+      beginPath.call(this);
+    };
+  });
+  await showPage(page, '<map-squeeze></map-squeeze><div style="height: 4000px"></div>');
+  const widget = page.locator('map-squeeze');
+  await untilReady(widget);
+  const counts = () => page.evaluate(() => ({ ...Reflect.get(window, 'counts') }));
+  const before = await counts();
+  for (const y of [3500, 0]) {
+    await page.evaluate((top) => scrollTo(0, top), y);
+    await frames(page);
+  }
+  expect(await counts()).toEqual(before);
+  await widget.evaluate(async (element) => {
+    const { body } = document;
+    element.remove();
+    await new Promise(requestAnimationFrame);
+    body.prepend(element);
+  });
+  await untilReady(widget);
+  expect((await counts()).observers).toBe(before.observers);
+});
+
 test('a figure that was not displayed shows what was set meanwhile @nightly', async ({ page, figure }) => {
   await showPage(page, `<div id="box"><${figure}></${figure}></div>`);
   const widget = page.locator(figure);

@@ -36,6 +36,8 @@ export class Visibility extends FigureController {
 
   hostDisconnected() {
     this.#isNear = false;
+    // A later update must not make the disconnected observer observe again.
+    this.#visibleObserver = undefined;
   }
 
   /** Observes the content too. A sticky picture stays in sight while the page scrolls on, outside of the element's box. */

@@ -17,7 +17,7 @@ export class Layer {
    */
   draw({ context, view, palette, ratio, highlight }: Brush, question: unknown[], paint: (painter: Painter) => Iterator<void>, count: number = Infinity): boolean {
     const { extent, frame, width, height } = view;
-    const strokes = this.#strokes.of([...question, JSON.stringify([extent, frame, width, height]), palette, ratio], () => {
+    const strokes = this.#strokes.of([...question, JSON.stringify([extent, frame, width, height, palette, ratio])], () => {
       // Setting the size clears the canvas.
       this.#canvas.width = Math.round(width * ratio);
       this.#canvas.height = Math.round(height * ratio);

@@ -71,7 +71,7 @@ export class LogOpener extends FileOpener<Figure> {
     const { chosen } = this;
     if (!chosen?.log || chosen.log !== this.host.log || this.share !== undefined || this.#preferred === this.kind) return;
     const before = choicesOf(chosen.plan);
-    this.#attempt(async (reader) => {
+    this.#restart(async (reader) => {
       const plan = planOf(reader, chosen, this.kind);
       if (choicesOf(plan) !== before) await this.#read(chosen, plan, reader);
     });
@@ -96,11 +96,11 @@ export class LogOpener extends FileOpener<Figure> {
   #end() {
     this.cancel();
     this.host.service.stop();
-    this.#rest();
+    this.#setIdle();
   }
 
   /** Shows that no log is being read, and lets the figure apply the changes that waited for the end of reading. */
-  #rest() {
+  #setIdle() {
     this.share = undefined;
     this.host.settings.stale = true;
     this.host.renderer.requestFrame();
@@ -133,7 +133,7 @@ export class LogOpener extends FileOpener<Figure> {
   #open(chosen: Chosen) {
     this.chosen = { ...chosen, plan: undefined, drives: undefined, log: undefined };
     const now = this.chosen;
-    this.#attempt(async (reader) => {
+    this.#restart(async (reader) => {
       if (now.recordings.length === 0) now.recordings = await this.host.service.open(now.files, now.answers);
       await this.#read(now, await this.#plan(now, reader), reader);
     });
@@ -160,7 +160,6 @@ export class LogOpener extends FileOpener<Figure> {
     chosen.plan = plan;
     if (!service.isOpen) await service.open(chosen.files, chosen.answers);
     const drives = await service.read(plan, (share) => {
-      if (this.share === undefined) return;
       this.share = share;
       this.host.requestUpdate();
     });
@@ -198,14 +197,14 @@ export class LogOpener extends FileOpener<Figure> {
   }
 
   /** Cancels reading, and starts again. */
-  async #attempt(work: (reader: Reader) => Promise<void>) {
+  async #restart(work: (reader: Reader) => Promise<void>) {
     this.host.service.stop();
     this.#preferred = this.kind;
     this.share = 0;
     // A question leaves its room when it is answered, so that the figure does not move up.
     this.#zone.style.minHeight = `${this.#zone.offsetHeight}px`;
-    const isLatest = await this.attempt(async () => work(this.reader ??= await loadReader()));
-    if (isLatest) this.#rest();
+    const isLatest = await this.run(async () => work(this.reader ??= await loadReader()));
+    if (isLatest) this.#setIdle();
   }
 }
 

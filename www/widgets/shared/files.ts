@@ -9,13 +9,13 @@ type Figure = import('../../figure/figure.ts').Figure;
 export abstract class FileOpener<Host extends Figure> extends FigureController<Host> {
   /** Id of the element with the result. If it is a disclosure, a drop opens it. */
   abstract id: string;
-  /** Why the latest files were refused; undefined if they were not. */
+  /** Error by which the latest files were refused; undefined if they were not. */
   refusal: unknown;
   #isDropped = false;
   /** Number of the latest attempt. Results of earlier ones are ignored. */
   #latest = 0;
 
-  /** Opens files. */
+  /** Opens files that were chosen or dropped. */
   abstract choose(files: File[]): void;
 
   /** Returns the sentence about a refusal, in the present language. */
@@ -39,8 +39,8 @@ export abstract class FileOpener<Host extends Figure> extends FigureController<H
     this.#latest++;
   }
 
-  /** Opens something instead of what is being opened. Returns whether it is still the latest attempt. */
-  async attempt(work: (isLatest: () => boolean) => Promise<void>) {
+  /** Runs an attempt to open files, which takes the place of an earlier one. Returns false if a later one has taken its place. */
+  async run(work: (isLatest: () => boolean) => Promise<void>) {
     const number = ++this.#latest;
     const isLatest = () => number === this.#latest;
     this.refusal = undefined;

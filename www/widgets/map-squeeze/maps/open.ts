@@ -38,7 +38,7 @@ export class MapOpener extends FileOpener<import('../map-squeeze.ts').MapSqueeze
   }
 
   #open(find: (reader: typeof import('./files.ts')) => OwnMap | Promise<OwnMap>) {
-    return this.attempt(async (isLatest) => {
+    return this.run(async (isLatest) => {
       const map = await find(await import('./files.ts'));
       if (isLatest()) this.host.open(map);
     });

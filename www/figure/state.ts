@@ -1,7 +1,7 @@
 /** State of the figure as plain data. It is kept after a removal of the element and after a trap. */
 
 import { object, refusal, word } from './checks.ts';
-import { checked } from './definition.ts';
+import { validated } from './definition.ts';
 import { FigureController } from './controller.ts';
 import { freeOnError } from './runtime.ts';
 import type { Values } from './settings.ts';
@@ -54,7 +54,7 @@ export class State extends FigureController {
     const whole: Values = { ...current, ...host.withDerivedFields(current, given) };
     const machine = freeOnError(host.createMachine(host.motion, whole), (made) => {
       const selectableCount = whole.playing ? made.config.samples : whole.shown;
-      for (const [name, field] of Object.entries(this.#fields)) whole[name] = checked(field, `state.${name}`, whole[name], selectableCount);
+      for (const [name, field] of Object.entries(this.#fields)) whole[name] = validated(field, `state.${name}`, whole[name], selectableCount);
       host.restore(made, whole);
     });
     for (const name of Object.keys(this.own)) this.own[name] = whole[name];
@@ -106,7 +106,7 @@ export class State extends FigureController {
   assign(name: string, value: unknown) {
     const { settings, cloud, reflection, renderer } = this.host;
     settings.settle();
-    this.own[name] = checked(this.#fields[name], name, value, cloud?.selectableCount ?? 0);
+    this.own[name] = validated(this.#fields[name], name, value, cloud?.selectableCount ?? 0);
     reflection.updateAttributes();
     renderer.requestFrame();
   }

@@ -3,7 +3,7 @@
 import { LogError, cut } from '../logs/log-error.ts';
 import { UNITS } from '../logs/log.ts';
 
-/** Returns a text as a shell takes it for one argument. */
+/** Returns a text quoted as one argument of a shell command. */
 export const quoted = (text: string): string => (/^[\w./,@%+=:-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`);
 
 /** Returns a sentence with the option that answers the question of an error. */

@@ -78,7 +78,7 @@ export function editableSlider(figure: Figure, symbol: string, { min, max: most,
   });
 }
 
-/** Returns the number that a text of the reader means. Shows the reason if it is refused, and returns undefined. */
+/** Parses a number that the reader typed. Returns undefined for a text that is refused, and shows the reason. */
 function entered({ settings }: Figure, key: string, name: string, text: string, { min, max, unit, type }: Allowed) {
   const whole = type === 'whole';
   const number = numberIn(text, unit, whole);

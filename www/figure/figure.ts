@@ -98,7 +98,7 @@ export abstract class FigureElement<Machine extends { free(): void, stats: objec
   declare presentation: boolean;
   /** Heading level of the title; null if it is no heading. */
   declare headingLevel: (typeof HEADING_LEVELS)[number] | null;
-  /** Aborted when the element is removed; listeners of its controllers on other objects go with it. */
+  /** Aborted when the element is removed. Its signal removes the listeners that controllers have on other objects. */
   connection = new AbortController();
   runtime = new Runtime(this);
   visibility = new Visibility(this);

@@ -103,7 +103,7 @@ export class Reflection extends FigureController {
     return machine ? this.host.ask(() => this.#properties[name].get(state.config)) : undefined;
   }
 
-  /** Sets a property: see `setProperty`. */
+  /** Sets a property of the definition, as `setProperty` does. */
   set(name: string, value: unknown) {
     this.setProperty(name, value, (given) => this.#assign(name, given));
   }

@@ -5,7 +5,7 @@ import type { Brush, Surface } from './canvas.ts';
 import type { View } from './view.ts';
 import type { Palette } from '../ui/theme.ts';
 
-/** Way in which a scene is drawn. */
+/** Options of `Picture.draw`. */
 export interface DrawOptions extends Pick<Brush, 'exported' | 'handles' | 'highlight' | 'previousReading'> {
   /** Milliseconds since the previous frame. */
   elapsed?: number;

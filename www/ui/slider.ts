@@ -158,7 +158,7 @@ export const sliderStyles = css`
   ${partsOf('-webkit-slider-runnable-track', '-webkit-slider-thumb')}
   ${partsOf('-moz-range-track', '-moz-range-thumb')}
 
-  /* Its track has no middle that the thumb keeps to, unlike that of Firefox. */
+  /* Chromium and WebKit put the top of the thumb on the top of the track. Firefox centres the thumb. */
   input[type='range']::-webkit-slider-thumb {
     margin-top: calc(1px - var(--thumb-height, 1.05em) / 2);
   }
@@ -252,7 +252,7 @@ export interface SliderRow extends Range {
   forget: () => void;
 }
 
-/** Returns the range of a slider over stops: its values are their indices. A value beyond the last one has an index past the end. */
+/** Returns the range of a slider over stops, whose positions are the indices of the stops. A value beyond the last stop has the position after it. */
 function positionsOf({ stops, value, input }: SliderRow): Partial<Range> {
   if (!stops) return {};
   const index = stops.findIndex((stop) => stop >= value);

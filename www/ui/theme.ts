@@ -14,8 +14,8 @@ import { css, unsafeCSS } from 'lit';
 const ROLES = ['paper', 'ink', 'muted', 'rule', 'prior', 'prediction', 'cloud', 'truth', 'posterior', 'accent'] as const;
 
 /**
- * Width that a figure likes in a box that is as wide as its contents: that of a book's column. Two dots with so much between them break the
- * line if there is less.
+ * Styles of a pseudo-element that gives a figure the width of a book's column in a box that fits its contents. It has two dots with a wide
+ * space between them, at which the line breaks in a narrower box.
  */
 export const preferredWidth =
   "content:'. .';display:block;height:0;overflow:hidden;visibility:hidden;white-space:normal;word-spacing:44em";

@@ -60,7 +60,7 @@ export function readAhead(source: Source): (from: number, to: number) => Promise
       piece = isRead ? joined(piece.subarray(from - start), await next!) : await read(from, to);
       start = from;
       next = follows ? read(start + piece.length) : undefined;
-      // A piece that is never needed may fail.
+      // If the piece is never needed, an error of its read has no effect.
       next?.catch(() => {});
     }
     return piece.subarray(from - start, to - start);

@@ -12,6 +12,19 @@ import { STILL, stateOf, takeEvents, test, unfold, untilSettled } from './suppor
 test.use(STILL);
 anyway.use(STILL);
 
+test('a refusal and long work are shown one above the other', async ({ page }) => {
+  const widget = await openCalibrator(page);
+  await widget.evaluate((element) => {
+    const { notice } = /** @type {any} */ (element);
+    notice.show('odom.csv: no columns are named t, x, y, yaw; expected is a table with a header. '.repeat(3));
+    void notice.during(new Promise(() => {}), () => {});
+  });
+  const boxes = widget.locator('.notice > div');
+  await expect(boxes).toHaveCount(2);
+  const [work, sentence] = await boxes.evaluateAll((each) => each.map((box) => box.getBoundingClientRect()));
+  expect(sentence.bottom).toBeLessThanOrEqual(work.top);
+});
+
 test('two tables of the reader’s own take the place of the simulated log, and leave it again', async ({ page }) => {
   const widget = await openCalibrator(page);
   const tables = await tablesOf(widget);

@@ -35,6 +35,11 @@ export const noticeStyles = css`
     font-variant-numeric: tabular-nums;
   }
 
+  /* A sentence is above the work that is shown with it. */
+  .notice + .notice > div {
+    bottom: 3.7em;
+  }
+
   .notice > .sentence {
     width: max-content;
     border-left: 3px solid var(--accent);
@@ -74,7 +79,7 @@ export class Notice extends FigureController {
       };
       host.announcer.announce(words.progress.begins);
       host.requestUpdate();
-      // The capturing listener is called before those of the page and the figure.
+      // A capturing listener is called before the listeners of the figure.
       document.addEventListener('keydown', this.#key, { capture: true, signal: ended.signal });
     };
     const timer = setTimeout(begin, DELAY);

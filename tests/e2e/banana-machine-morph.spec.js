@@ -89,9 +89,9 @@ test('the title of the floor agrees with the fit of the ellipse', async ({ page 
   const title = widget.locator('.panel-title').first();
   for (const [settings, fit, gaps] of /** @type {const} */ ([
     [{ preset: 'banana' }, 'no ellipse fits', 2],
-    [{ preset: 'pivot' }, 'the ellipse has the size, not the shape', 0],
+    [{ preset: 'pivot' }, 'the ellipse fits in size only', 0],
     // The skew alone is visible here.
-    [{ preset: 'gentle' }, 'the ellipse has the size, not the shape', 0],
+    [{ preset: 'gentle' }, 'the ellipse fits in size only', 0],
     [{ preset: 'straight', alphas: [0.002, 0.002, 0.002, 0.002, 0, 0] }, 'the ellipse nearly fits', 0],
   ])) {
     await widget.evaluate((element, settings) => void Object.assign(element, settings), settings);

@@ -155,11 +155,29 @@ test('no slider moves under the finger when there is something to note', async (
   };
   const before = await place();
   await widget.getByLabel('Isolate one').check();
-  await expect(note).toContainText('the robots lie on a line');
+  await expect(note).toContainText('they lie on a line');
   expect(Math.abs((await place()) - before)).toBeLessThan(0.5);
   await slider.fill('0');
   await expect(note).toContainText('no noise at all');
   expect(Math.abs((await place()) - before)).toBeLessThan(0.5);
+});
+
+test('no slider moves while the noise that bends the cloud is dragged, or outlines are pinned', async ({ page }) => {
+  for (const width of [375, 700, 1280]) {
+    await page.setViewportSize({ width, height: 900 });
+    const widget = await openBanana(page);
+    const place = async () => {
+      await untilSettled(widget);
+      return widget.locator('#v').evaluate((element) => element.getBoundingClientRect().top + scrollY);
+    };
+    const before = await place();
+    for (const alpha of ['0.05', '0.02', '0', '0.2']) {
+      await widget.locator('#alpha3').fill(alpha);
+      expect.soft(Math.abs((await place()) - before), `${width} px, ${alpha}`).toBeLessThan(1.5);
+    }
+    await widget.getByRole('button', { name: 'Pin' }).click();
+    expect.soft(Math.abs((await place()) - before), `${width} px, pinned`).toBeLessThan(1.5);
+  }
 });
 
 test('a slider stays in its place when a text above it becomes shorter', async ({ page }) => {

@@ -50,6 +50,22 @@ export const readoutStyles = css`
     line-height: 1.1;
   }
 
+  .readouts dd:has(.earlier) {
+    white-space: normal;
+  }
+
+  /* As large as a detail, whatever the size of the value beside it. */
+  .readouts .earlier {
+    display: inline-block;
+    color: var(--muted);
+    font-size: 0.76em;
+    white-space: nowrap;
+  }
+
+  .readouts .headline .earlier {
+    font-size: 0.42em;
+  }
+
   .readouts .detail {
     color: var(--muted);
     font-size: 0.84em;
@@ -129,14 +145,14 @@ export const readoutStyles = css`
   }
 `;
 
-/** Returns a list of readouts, each with optional details in smaller print. One of them may be the headline of the figure. */
-export function readoutList(rows: [name: string, value: string, ...details: (string | undefined)[]][], headline?: number) {
+/** Returns a list of readouts. Each may have a detail below it, and an earlier value beside it. One may be the headline of the figure. */
+export function readoutList(rows: [name: string, value: string, detail?: string, earlier?: string][], headline?: number) {
   return html`<dl class="readouts" part="readouts">
     ${rows.map(
-      ([name, value, ...details], i) => html`<div class=${i === headline ? 'headline' : nothing}>
+      ([name, value, detail, earlier], i) => html`<div class=${i === headline ? 'headline' : nothing}>
         <dt>${rich(name)}</dt>
-        <dd>${symbols(value)}</dd>
-        ${details.map((detail) => (detail ? html`<dd class="detail">${rich(detail)}</dd>` : nothing))}
+        <dd>${symbols(value)}${earlier ? html` <span class="earlier">${symbols(earlier)}</span>` : nothing}</dd>
+        ${detail ? html`<dd class="detail">${rich(detail)}</dd>` : nothing}
       </div>`,
     )}
   </dl>`;

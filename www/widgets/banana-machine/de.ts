@@ -53,7 +53,7 @@ export const de: typeof import('./en.ts').en = {
     headings: 'Nur γ̂ rauscht: Alle Roboter halten am selben Punkt, und nur ihre Richtungen fächern sich auf.',
     circle: 'Manche Roboter drehen sich um fast 2π. Dort ist der Logarithmus nicht eindeutig, und Statistiken in ξ sind nicht definiert.',
     backwards: 'Die Odometrie liest Rückwärtsfahren als zwei halbe Drehungen und berechnet für beide Rauschen.',
-    line: 'Nur ein Rauschen bleibt: Die Roboter liegen auf einer Linie, und ein Umriss ohne Fläche enthält keinen Anteil.',
+    line: 'Nur ein Rauschen versetzt die Roboter: Sie liegen auf einer Linie, und ein Umriss ohne Fläche enthält keinen Anteil.',
   },
   alphaIsZero: (alpha) => `${alpha} gilt allein und ist 0: gar kein Rauschen. Dreh es auf.`,
   alphaIsSilent: (alpha, factor, cause, picture) =>
@@ -78,7 +78,7 @@ export const de: typeof import('./en.ts').en = {
     hardly: (skew, exactly) => `Beide Seiten sind fast gleich: Schiefe ${skew}, genau ${exactly}.`,
     neither: (skew) => `Beide Seiten sind gleich: Schiefe ${skew}, genau 0 (Symmetrie).`,
     wide: (ratio) => `Die Wolke ist krumm: Ihre Ellipse hat die ${ratio}-fache Fläche des ξ-Umrisses.`,
-    gains: (gain) => `Die Wolke ist leicht krumm: Die Ellipse ist etwa so groß wie der ξ-Umriss, der um ${gain} Nat je Roboter besser passt.`,
+    gains: (gain) => `Leicht krumm: Der ξ-Umriss, etwa so groß wie die Ellipse, passt um ${gain} Nat je Roboter besser.`,
     bowTie: {
       velocity: (speed, deviation, skew) =>
         `Eine Fliege: Das Drehen bringt Rauschen α₂ω² ins Tempo. v̂ ist ${speed}\u00a0±\u00a0${deviation}\u00a0m/s, also halten Roboter vor und hinter dem Start. Schiefe ${skew}.`,

@@ -34,7 +34,7 @@ export const en = {
     samples: { name: 'robots', effect: 'Robots sent: few are dots, many a density.' },
   },
   floor: 'On the floor',
-  ellipseIs: { large: 'no ellipse fits', misshapen: 'the ellipse has the size, not the shape', near: 'the ellipse nearly fits' },
+  ellipseIs: { large: 'no ellipse fits', misshapen: 'the ellipse fits in size only', near: 'the ellipse nearly fits' },
   overlays: {
     command: 'commanded arc',
     ellipse: 'Gaussian in (x, y), 2σ',
@@ -56,7 +56,7 @@ export const en = {
     headings: 'Only γ̂ is noisy: every robot stops at the same point, and only the headings fan out.',
     circle: 'Some robots turn by nearly 2π. The logarithm is not unique there, so there are no statistics in ξ.',
     backwards: 'Odometry reads backing up as two half turns, and the table charges noise for both.',
-    line: 'Only one noise is left: the robots lie on a line, and an outline without area holds no share of them.',
+    line: 'Only one noise moves the robots: they lie on a line, and an outline without area holds no share of them.',
   },
   alphaIsZero: (alpha) => `${alpha} is alone and 0: no noise at all. Turn it up.`,
   alphaIsSilent: (alpha, factor, cause, picture) =>
@@ -83,7 +83,7 @@ export const en = {
     neither: (skew) => `Both sides are alike: skew ${skew}, exactly 0 by symmetry.`,
     /** Text before the sentence on the skew. */
     wide: (ratio) => `The cloud is bent: its ellipse covers ${ratio} times the area of the ξ outline.`,
-    gains: (gain) => `The cloud is slightly bent: the ellipse is about as large as the ξ outline, which fits better by ${gain} nats per robot.`,
+    gains: (gain) => `Slightly bent: the ξ outline, about as large as the ellipse, fits better by ${gain} nats per robot.`,
     bowTie: {
       velocity: (speed, deviation, skew) =>
         `A bow-tie: turning adds noise α₂ω² to the speed. v̂ is ${speed}\u00a0±\u00a0${deviation}\u00a0m/s, so robots end ahead of the start and behind it. Skew ${skew}.`,

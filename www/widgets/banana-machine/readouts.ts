@@ -14,7 +14,7 @@ const FRACTION_IN_ELLIPSE = 1 - Math.exp(-2);
 
 /**
  * Returns the three figures of the message: the floor that the ellipse wastes, the gain of the other coordinates, and the lean of the
- * cloud. Those of a pinned cloud stand below.
+ * cloud. Those of a pinned cloud stand beside them.
  */
 export function readouts(reading: Reading, pinned?: Reading) {
   const say = words.banana.readouts;

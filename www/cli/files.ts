@@ -40,7 +40,7 @@ async function sourcesOf(path: string): Promise<Source[]> {
   } catch (error) {
     const { code } = error as NodeJS.ErrnoException;
     if (error instanceof LogError || code === undefined) throw error;
-    throw new LogError({ file: name }, (say) => say.gone(code));
+    throw new LogError({ file: path }, (say) => say.gone(code));
   }
 }
 

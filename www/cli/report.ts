@@ -5,7 +5,7 @@ import { ROLES, type Summary } from '../logs/log.ts';
 import { warningsOf } from '../logs/pairs.ts';
 import { en as shared } from '../messages/en.ts';
 import { en } from '../widgets/alpha-calibrator/en.ts';
-import { adviceOf, alphaOrBound, formatInterval, failedOf, fixed, nav2Lines, percent, short } from '../widgets/alpha-calibrator/lines.ts';
+import { adviceOf, alphaOrBound, correctFirst, formatInterval, failedOf, fixed, isOfNav2, nav2Lines, percent, short } from '../widgets/alpha-calibrator/lines.ts';
 
 type Interval = [number, number] | null;
 
@@ -85,7 +85,11 @@ const [RED, GREEN, YELLOW] = [31, 32, 33];
 const painted = (color: number) => (text: string) => `\x1b[${color}m${text}\x1b[0m`;
 
 /** Returns the verdict, and warnings of the logs. */
-export const verdictLines = ({ calibration, logs }: Pick<Result, 'calibration' | 'logs'>): string[] => [verdictSentence(calibration), ...warningsOf(logs).map((name) => en.nav2[name])];
+export const verdictLines = ({ calibration, logs }: Pick<Result, 'calibration' | 'logs'>): string[] => [
+  verdictSentence(calibration),
+  ...warningsOf(logs).map((name) => en.nav2[name]),
+  ...(calibration.recommended ? correctFirst(calibration.systematicErrors, en.nav2) : []),
+];
 
 /** Returns the verdict and what to do. */
 function verdictSentence({ diagnostics: { verdict, checks } }: any): string {
@@ -170,8 +174,12 @@ function outliersOf({ count, times, outliers }: any, begins: number[]): string[]
 
 function nav2Of(result: Result): string[] {
   const { yaml, reason } = nav2YamlOf(result);
-  return reason ? [reason] : ['# nav2_params.yaml', yaml.trimEnd()];
+  return reason ? [reason] : [...ruleWarning(result), '# nav2_params.yaml', yaml.trimEnd()];
 }
+
+/** Returns a warning if the α's are of another rule than that of Nav2's AMCL. */
+export const ruleWarning = ({ options: { model = 'odometry', rule = 'thrun' } }: Pick<Result, 'options'>): string[] =>
+  (isOfNav2(model, rule) ? [] : ['Warning: fitted by another rule than Nav2’s; give --rule nav2.']);
 
 /** Returns the lines for nav2_params.yaml, or the reason why there are none. */
 export function nav2YamlOf({ calibration, options: { model = 'odometry', rule = 'thrun', legs }, logs, date }: Result): { yaml: string; reason?: string } {

@@ -6,13 +6,12 @@ import { english } from '../logs/en.ts';
 import { LogError, cut } from '../logs/log-error.ts';
 import { logOf } from '../logs/pairs.ts';
 import { summarize } from '../logs/summary.ts';
-import { isOfNav2 } from '../widgets/alpha-calibrator/lines.ts';
 import { adviceOf } from './advice.ts';
 import { recordingsOf } from './files.ts';
 import { byOrder, inspect, textOf as textOfContents, type Given } from './inspect.ts';
 import { HELP, UsageError, optionsOf, withOption, type Calibrate } from './options.ts';
 import { plotOf } from './plot.ts';
-import { jsonOf, logSummaries, textOf, nav2YamlOf, verdictLines, type Result } from './report.ts';
+import { jsonOf, logSummaries, nav2YamlOf, ruleWarning, textOf, verdictLines, type Result } from './report.ts';
 
 interface Environment {
   /** Loads the core. */
@@ -79,8 +78,7 @@ async function calibrate({ inputs, wishes, fit, output, plot }: Calibrate, { loa
   const isUnusable = calibration.recommended === null;
   if (output === 'yaml') {
     const { yaml, reason } = nav2YamlOf(result);
-    const isOther = yaml !== '' && !isOfNav2(fit.model ?? 'odometry', fit.rule ?? 'thrun');
-    complain([...verdictLines(result), ...(isOther ? ['Warning: fitted by another rule than Nav2’s; give --rule nav2.'] : []), ...(reason ? [reason] : []), ''].join('\n'));
+    complain([...verdictLines(result), ...(yaml ? ruleWarning(result) : []), ...(reason ? [reason] : []), ''].join('\n'));
     print(yaml);
     return isUnusable ? UNUSABLE : yaml ? SUCCESS : BAD_INPUT;
   }

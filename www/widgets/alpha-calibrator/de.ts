@@ -225,7 +225,8 @@ export const de: typeof import('./en.ts').en = {
     copy: 'Für Nav2 kopieren',
     json: 'Alles als JSON speichern',
     none: 'Keine Zeilen: Nav2 hat kein Geschwindigkeitsmodell, oder es werden keine α’s empfohlen. In JSON steht alles.',
-    otherRule: 'Nach einer anderen Regel als der von Nav2 angepasst: das Modell „Nav2“ wählen (Regel nav2)',
+    otherRule: 'Nach einer anderen Regel als der von Nav2 angepasst, die nav2 heißt.',
+    chooseRule: 'Nach einer anderen Regel als der von Nav2 angepasst: unter Weitere Regler das Modell „Nav2“ wählen.',
     notIdentifiable: 'von dieser Aufzeichnung nicht bestimmt',
     zero: (most) => `nicht signifikant von 0 verschieden, höchstens ${most}`,
     tooLarge: 'unplausibel (> 1): Prüfungen und Ausreißer ansehen',
@@ -238,6 +239,8 @@ export const de: typeof import('./en.ts').en = {
     localizer: 'Warnung: Die Referenz ist die Schätzung eines Lokalisierers. Sie teilt Fehler mit der Odometrie, die α’s sind zu klein.',
     swapped: 'Warnung: Die Referenz sieht wie Odometrie aus, die Odometrie nicht. Sind die beiden vertauscht?',
     corrected: (errors) => `nach Korrektur dieser systematischen Fehler: ${errors}`,
+    correctFirst: (distance, turn) =>
+      `Zuerst die Odometrie des Roboters korrigieren: ${[distance && `Strecken mal ${distance}`, turn && `Drehungen mal ${turn}`].filter(Boolean).join(', ')}. Die α gelten für den korrigierten Roboter.`,
     fifth: 'alpha5 hat nur das omnidirektionale Modell',
   },
   csvTitle: 'Jede Etappe mit Odometrie, Referenz und Residuen',

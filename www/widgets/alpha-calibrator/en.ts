@@ -193,7 +193,8 @@ export const en = {
     copy: 'Copy for Nav2',
     json: 'Save all as JSON',
     none: 'No lines: Nav2 has no velocity model, or no α’s are recommended. JSON has everything.',
-    otherRule: 'Fitted by another rule than Nav2’s: choose the model AMCL of Nav2 (rule nav2)',
+    otherRule: 'Fitted by another rule than Nav2’s, which is nav2.',
+    chooseRule: 'Fitted by another rule than Nav2’s: choose the model AMCL of Nav2 under More controls.',
     notIdentifiable: 'not identifiable from this log',
     zero: (most) => `not significantly different from 0, at most ${most}`,
     tooLarge: 'implausible (> 1): see the failed checks and the outliers',
@@ -206,6 +207,8 @@ export const en = {
     localizer: 'Warning: the reference is a localizer’s own estimate. Its errors follow the odometry: the α’s are too small.',
     swapped: 'Warning: the reference looks like odometry, and the odometry does not. Are the two swapped?',
     corrected: (errors) => `with these systematic errors corrected: ${errors}`,
+    correctFirst: (distance, turn) =>
+      `First correct the robot’s odometry: multiply its ${[distance && `distances by ${distance}`, turn && `turns by ${turn}`].filter(Boolean).join(' and its ')}. The α’s are those of the corrected robot.`,
     fifth: 'alpha5 belongs to the omnidirectional model only',
   },
   csvTitle: 'Every leg, with odometry, reference and residuals',

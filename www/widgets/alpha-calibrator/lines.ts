@@ -110,6 +110,7 @@ export function nav2Lines({ calibration, count, model, rule, legs, log, warnings
     say.recommended(short(inflation), percent(window.coverage), String(window.count)),
     ...(isOfNav2(model, rule) ? [] : [say.otherRule]),
     ...correctionOf(systematicErrors).map((errors) => say.corrected(errors)),
+    ...correctFirst(systematicErrors, say),
     ...(failed ? [say.failed(failed)] : []),
     ...warnings.map((name) => say[name]),
   ];
@@ -131,7 +132,19 @@ export function nav2Lines({ calibration, count, model, rule, legs, log, warnings
 
 export const failedOf = <Check extends { name: string, passed: boolean, message: string }>(checks: Check[]) => checks.filter(({ passed }) => !passed);
 
-/** Lists the systematic errors that were corrected, in one text or none: the odometry of the robot still has them. */
+/**
+ * Returns a sentence that says how to correct the robot's odometry, or none. It has scales that were corrected, and that differ from 1 beyond
+ * their intervals: AMCL gets the odometry as the robot reports it. `print` writes the numbers of the sentence.
+ */
+export function correctFirst(systematicErrors: any, say: Words, print = (number: string) => number): string[] {
+  const [distance, turn] = ['distanceScale', 'turnScale'].map((key) => {
+    const { value, interval, corrected } = systematicErrors[key];
+    return corrected && interval && (interval[0] > 1 || interval[1] < 1) ? print(fixed(value, interval)) : '';
+  });
+  return distance || turn ? [say.correctFirst(distance, turn)] : [];
+}
+
+/** Lists the systematic errors that were corrected, in one text or none. */
 function correctionOf(systematicErrors: any): string[] {
   const corrected = Object.entries<any>(systematicErrors).filter(([, each]) => each.corrected);
   const list = corrected.map(([name, { value, interval }]) => `${name} ${[value].flat().map((one, i) => fixed(one, Array.isArray(value) ? interval[i] : interval)).join(', ')}`);

@@ -4,8 +4,9 @@ import { html } from 'lit';
 import { save } from '../../figure/export.ts';
 import { words } from '../../messages/registry.ts';
 import { button } from '../../ui/controls.ts';
-import { nav2Lines } from './lines.ts';
+import { correctFirst, isOfNav2, nav2Lines } from './lines.ts';
 import { legLengthOption } from './settings.ts';
+import { localized } from './words.ts';
 import type { AlphaCalibratorElement as Figure } from './alpha-calibrator.ts';
 
 /** Returns the lines for nav2_params.yaml; empty if Nav2 has no such model, or no α's are recommended. */
@@ -26,7 +27,9 @@ function jsonOf({ reading: { fitted, stats, legs, truth }, logName }: Figure) {
 export function copyButton(figure: Figure) {
   const say = words.calibrator.nav2;
   const yaml = yamlOf(figure);
-  const note = yaml.includes(say.otherRule) ? `${say.otherRule}.` : '';
+  const { fitted: { model, rule }, stats: { systematicErrors } } = figure.reading;
+  const notes = [...(isOfNav2(model, rule) ? [] : [say.chooseRule]), ...correctFirst(systematicErrors, say, localized)];
+  const note = notes.join(' ');
   return html`${figure.copies.button('nav2', say.copy, () => yaml, { disabled: !yaml, title: yaml ? say.label : say.none, note })}
     ${figure.copies.answer('nav2', yaml)}`;
 }

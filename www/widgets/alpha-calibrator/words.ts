@@ -3,7 +3,7 @@
 import { addEnglish, words } from '../../messages/registry.ts';
 import { counted, fixed, percent, powerOfTen } from '../../ui/format.ts';
 import { en } from './en.ts';
-import { failedOf } from './lines.ts';
+import { correctFirst, failedOf } from './lines.ts';
 import { uncorrectedText } from './systematic.ts';
 import type { CalibrationCheck, LegView } from '../../types.d.ts';
 import type { Warning } from '../../logs/log.ts';
@@ -21,16 +21,17 @@ const FRACTION_CHECKS = /-(lost|few|rare|covered)$/;
  * reference, makes consistent α's questionable.
  */
 export function judgementOf(reading: Reading, given: Warning[]) {
-  const { stats: { diagnostics: { verdict, checks } }, legs } = reading;
+  const { stats: { diagnostics: { verdict, checks }, systematicErrors, recommended }, legs } = reading;
   const say = words.calibrator;
   const warnings = [uncorrectedText(reading), ...given.map((name) => say.nav2[name])].filter(Boolean);
   const rating = verdict === 'consistent' && warnings.length > 0 ? 'questionable' : verdict;
   const result = (finding: string, ...toDo: string[]) => ({ rating, badge: say.badges[rating], finding, toDo: toDo.join(' ') });
   if (legs.count === 0) return result(say.none, say.longer, ...warnings);
   const failed = failedOf(checks);
-  if (failed.length > 0) return result(say.failed(say.checks.names[failed[0].name], counted(failed.length), counted(checks.length)), ...warnings, messageOf(failed[0]));
+  const correction = recommended ? correctFirst(systematicErrors, say.nav2, localized) : [];
+  if (failed.length > 0) return result(say.failed(say.checks.names[failed[0].name], counted(failed.length), counted(checks.length)), ...warnings, messageOf(failed[0]), ...correction);
   if (verdict === 'unusable') return result(say.noAlpha, ...warnings);
-  return warnings.length > 0 ? result(warnings[0], ...warnings.slice(1)) : result(say.passed(counted(checks.length)), say.use);
+  return warnings.length > 0 ? result(warnings[0], ...warnings.slice(1), ...correction) : result(say.passed(counted(checks.length)), say.use, ...correction);
 }
 
 /** Returns what a failed check means and what to do. */

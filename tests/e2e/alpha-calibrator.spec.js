@@ -9,7 +9,7 @@ test.use(STILL);
 test('opens with the simulated log, said to be one, with its true α’s', async ({ page }) => {
   const widget = await openCalibrator(page);
   await expect(caption(widget)).toHaveText(/^✓ Trust\s+All 14 checks passed\. \d+ legs of the simulated log, \d outliers\.$/);
-  await expect(widget.locator('.to-do')).toHaveText('Use the recommended α’s with legs of this length.');
+  await expect(widget.locator('.to-do')).toHaveText(/^Use the recommended α’s with legs of this length\. First multiply the odometry’s distances by 1\.0\d\d and turns by 0\.9\d\d: the α’s are those of the corrected robot\.$/);
   await expect(rows(widget)).toHaveCount(4);
   await expect(widget.locator('table.alphas .true')).toHaveCount(5);
   for (const role of /** @type {const} */ (['truth', 'prediction', 'accent'])) {

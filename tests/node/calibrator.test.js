@@ -46,7 +46,10 @@ const calibration = (change) => ({
   alphas: [0.03, 0.008],
   intervals: [[0.024, 0.036], [0.007, 0.0091]],
   recommended: { inflation: 2 },
-  systematicErrors: { mountYaw: { value: 0.05, interval: [0.04, 0.06], corrected: true }, turnScale: { value: 1.01, interval: [1, 1.02], corrected: false } },
+  systematicErrors: { 
+    mountYaw: { value: 0.05, interval: [0.04, 0.06], corrected: true },
+    distanceScale: { value: 0.99, interval: [0.98, 0.999], corrected: true }, turnScale: { value: 1.01, interval: [1.005, 1.015], corrected: false },
+  },
   diagnostics: { checks: [{ name: 'enough-legs', passed: true, message: '' }], windows: [{ length: 1, count: 78, coverage: 0.923 }] },
   ...change,
 });
@@ -61,7 +64,8 @@ test('lines for Nav2 have the recommended α’s, and the fitted ones in comment
     'amcl:', 'ros__parameters:',
     '# 9 legs of 0.25 m or 0.2 rad of a.csv and b.csv, 2026-01-02',
     '# recommended = fitted × 2: the fit covers 92.3 % of 78 held-out windows of 1 m',
-    '# with these systematic errors corrected: mountYaw 0.050',
+    '# with these systematic errors corrected: mountYaw 0.050; distanceScale 0.990',
+    '# First multiply the odometry’s distances by 0.990: the α’s are those of the corrected robot.',
     'robot_model_type: "nav2_amcl::DifferentialMotionModel"',
     'alpha1: 0.060  # fitted 0.030, 95 % 0.024 to 0.036', 'alpha2: 0.0160  # fitted 0.0080, 95 % 0.0070 to 0.0091',
     `# ${en.nav2.fifth}`, 'update_min_d: 0.25', 'update_min_a: 0.2',

@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { spawnSync } from 'node:child_process';
 import { mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
-import { join } from 'node:path';
+import { join, relative } from 'node:path';
 import { after, before, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
 import { load } from '../../dist/core.js';
@@ -158,7 +158,8 @@ test('bad input has the exit code 2 and a sentence', async () => {
     [[...FILES, '--reference-frames', 'map,base_link'], 'reference.csv: it is a table, and no group of its columns has this name; it has t, x, y, yaw.'],
     [[...FILES, '--odometry-topic', '/odom'], 'odometry.csv, topic /odom: it is a table, and no group of its columns has this name; it has t, x, y, yaw.'],
     [['--odometry', FILES[1], '--reference', FILES[1]], 'odometry.csv: it is given twice; give two independent measurements of one drive, odometry and reference.'],
-    [[...FILES.slice(0, 2), '--reference', join(folder, 'no.csv')], 'no.csv: there is no such file or folder.'],
+    [[example('odometry'), `./${relative('.', example('odometry'))}`], '“./examples/calibration/odometry.csv” is given twice; give two independent measurements of one drive, odometry and reference.'],
+    [[...FILES.slice(0, 2), '--reference', join(folder, 'no.csv')], `${join(folder, 'no.csv')}: there is no such file or folder.`],
     [[...FILES, '--plot', join(folder, 'no', 'plot.svg')], '--plot '],
     // Errors of the core, by the names of options and files.
     [[...FILES, '--update-min-d=-1'], '--update-min-d is -1; allowed is '],
@@ -260,7 +261,7 @@ test('--yaml prints the lines for Nav2 alone, or none of an unusable log', async
   const { code, out, err } = await outputOf([...FILES, '--yaml', '--rule', 'nav2']);
   assert.equal(code, 0);
   assert.match(out, /^amcl:\n {2}ros__parameters:\n[^]*\n {4}update_min_a: 0\.2\n$/);
-  assert.match(err, /^Odometry: odometry\.csv\n {2}\d+ of \d+ rows, [^]*^Consistent: .*\n$/m);
+  assert.match(err, /^Odometry: odometry\.csv\n {2}\d+ of \d+ rows, [^]*^Consistent: .*\nFirst multiply the odometry’s distances by .*\n$/m);
   assert.match((await outputOf([...FILES, '--yaml'])).err, /\nWarning: fitted by another rule than Nav2’s; give --rule nav2\.\n$/);
   const swapped = await outputOf(['--odometry', example('reference'), '--reference', example('odometry'), '--yaml']);
   assert.match(swapped.err, /^Warning: .* Are the two swapped\?$/m);

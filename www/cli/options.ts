@@ -1,5 +1,6 @@
 /** Options of the command line. */
 
+import { resolve } from 'node:path';
 import { parseArgs } from 'node:util';
 import type { Wishes } from '../logs/drives.ts';
 import { cut } from '../logs/log-error.ts';
@@ -118,6 +119,7 @@ export function optionsOf(args: string[]): Calibrate | Inspect | 'help' | 'versi
   if (command === 'inspect') {
     const all = [...paths, ...(values.recording ?? []), ...(values.odometry ?? []), ...(values.reference ?? [])];
     if (all.length === 0) throw new UsageError('inspect needs a file or folder: npx motion-widgets inspect run.bag');
+    refuseRepeated(all);
     const other = Object.keys(values).find((name) => !INSPECT_OPTIONS.includes(name));
     if (other !== undefined) throw new UsageError(`--${other} is an option of calibrate; inspect has ${alternatives(INSPECT_OPTIONS.map((name) => `--${name}`))}.`);
     const stated = Object.entries(values).filter((each): each is [string, string] => typeof each[1] === 'string');
@@ -137,6 +139,7 @@ export function optionsOf(args: string[]): Calibrate | Inspect | 'help' | 'versi
   if (values.plot !== undefined && !/\.svg$/i.test(values.plot)) throw new UsageError(`--plot writes SVG; the name must end in .svg (got “${cut(values.plot)}”).`);
   if (values.json && values.yaml) throw new UsageError('--json excludes --yaml: give one or the other.');
   const recording = [...paths, ...(values.recording ?? [])];
+  refuseRepeated(recording);
   const { odometry = [], reference = [] } = values;
   if (recording.length === 0) {
     for (const [one, other] of [[odometry, 'reference'], [reference, 'odometry']] as const) {
@@ -166,6 +169,13 @@ export function optionsOf(args: string[]): Calibrate | Inspect | 'help' | 'versi
     output: values.json ? 'json' : values.yaml ? 'yaml' : 'text',
     plot: values.plot,
   };
+}
+
+/** Throws a UsageError if a path is given twice. */
+function refuseRepeated(paths: string[]): void {
+  const all = paths.map((path) => resolve(path));
+  const repeated = paths.find((_, i) => all.indexOf(all[i]) < i);
+  if (repeated !== undefined) throw new UsageError(`“${cut(repeated)}” is given twice; give two independent measurements of one drive, odometry and reference.`);
 }
 
 /** Returns the units that the options state for a log. Of two units of a quantity, the role of the log chooses one. */

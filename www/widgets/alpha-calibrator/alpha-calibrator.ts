@@ -16,7 +16,7 @@ import { startOverButton } from '../shared/presets.ts';
 import { legControls, legLengths, legReadouts, modelControls, predictionControls } from './controls.ts';
 import { diagnostics, panels } from './diagnostics.ts';
 import { LogService, isStopped } from './log-service.ts';
-import { copyButton, nav2 } from './nav2.ts';
+import { copyAnswer, copyButton, nav2 } from './nav2.ts';
 import { LogOpener, dropZone, logSection } from './open.ts';
 import { LegPicture, PathPicture } from './pictures.ts';
 import { SummaryPicture } from './summary-picture.ts';
@@ -246,6 +246,7 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
           <p class="to-do">${judgementOf(reading, this.warnings).toDo}</p>
           ${alphaTable(reading)}
           <p class="muted reason">${reasonOf(reading)}</p>
+          ${copyAnswer(this)}
         </div>`)}
       </div>
       ${this.renderer.afterFirstPicture(() => html`

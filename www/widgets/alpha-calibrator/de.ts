@@ -240,7 +240,7 @@ export const de: typeof import('./en.ts').en = {
     swapped: 'Warnung: Die Referenz sieht wie Odometrie aus, die Odometrie nicht. Sind die beiden vertauscht?',
     corrected: (errors) => `nach Korrektur dieser systematischen Fehler: ${errors}`,
     correctFirst: (distance, turn) =>
-      `Zuerst die Odometrie des Roboters korrigieren: ${[distance && `Strecken mal ${distance}`, turn && `Drehungen mal ${turn}`].filter(Boolean).join(', ')}. Die α gelten für den korrigierten Roboter.`,
+      `Zuerst in der Odometrie ${[distance && `Strecken mit ${distance}`, turn && `Drehungen mit ${turn}`].filter(Boolean).join(' und ')} multiplizieren: Die α gelten für den korrigierten Roboter.`,
     fifth: 'alpha5 hat nur das omnidirektionale Modell',
   },
   csvTitle: 'Jede Etappe mit Odometrie, Referenz und Residuen',

@@ -208,7 +208,7 @@ export const en = {
     swapped: 'Warning: the reference looks like odometry, and the odometry does not. Are the two swapped?',
     corrected: (errors) => `with these systematic errors corrected: ${errors}`,
     correctFirst: (distance, turn) =>
-      `First correct the robot’s odometry: multiply its ${[distance && `distances by ${distance}`, turn && `turns by ${turn}`].filter(Boolean).join(' and its ')}. The α’s are those of the corrected robot.`,
+      `First multiply the odometry’s ${[distance && `distances by ${distance}`, turn && `turns by ${turn}`].filter(Boolean).join(' and ')}: the α’s are those of the corrected robot.`,
     fifth: 'alpha5 belongs to the omnidirectional model only',
   },
   csvTitle: 'Every leg, with odometry, reference and residuals',

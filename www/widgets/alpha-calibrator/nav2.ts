@@ -4,9 +4,8 @@ import { html } from 'lit';
 import { save } from '../../figure/export.ts';
 import { words } from '../../messages/registry.ts';
 import { button } from '../../ui/controls.ts';
-import { correctFirst, isOfNav2, nav2Lines } from './lines.ts';
+import { isOfNav2, nav2Lines } from './lines.ts';
 import { legLengthOption } from './settings.ts';
-import { localized } from './words.ts';
 import type { AlphaCalibratorElement as Figure } from './alpha-calibrator.ts';
 
 /** Returns the lines for nav2_params.yaml; empty if Nav2 has no such model, or no α's are recommended. */
@@ -26,13 +25,14 @@ function jsonOf({ reading: { fitted, stats, legs, truth }, logName }: Figure) {
 
 export function copyButton(figure: Figure) {
   const say = words.calibrator.nav2;
+  const { model, rule } = figure.reading.fitted;
   const yaml = yamlOf(figure);
-  const { fitted: { model, rule }, stats: { systematicErrors } } = figure.reading;
-  const notes = [...(isOfNav2(model, rule) ? [] : [say.chooseRule]), ...correctFirst(systematicErrors, say, localized)];
-  const note = notes.join(' ');
-  return html`${figure.copies.button('nav2', say.copy, () => yaml, { disabled: !yaml, title: yaml ? say.label : say.none, note })}
-    ${figure.copies.answer('nav2', yaml)}`;
+  const note = isOfNav2(model, rule) ? '' : say.chooseRule;
+  return figure.copies.button('nav2', say.copy, () => yaml, { disabled: !yaml, title: yaml ? say.label : say.none, note });
 }
+
+/** Returns the message of the button, which stands where it moves neither the button nor the table. */
+export const copyAnswer = (figure: Figure) => figure.copies.answer('nav2', yamlOf(figure));
 
 export function nav2(figure: Figure) {
   const say = words.calibrator.nav2;

@@ -177,6 +177,10 @@ test('the lines for Nav2 have the numbers of the table, and are copied by the bu
   await untilSettled(widget);
   await expect(widget.locator('textarea.yaml')).toHaveCount(0);
   await expect(copy).toBeDisabled();
+  await widget.getByRole('radio', { name: 'Table 5.6' }).check();
+  await untilSettled(widget);
+  await copy.click();
+  await expect(widget.locator('.fitted output')).toHaveText('Copied. Fitted by another rule than Nav2’s: choose the model AMCL of Nav2 under More controls.');
 });
 
 test('legs of a time, and how well the reference is known, are set by their sliders', async ({ page }) => {

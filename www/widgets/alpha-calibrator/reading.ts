@@ -4,6 +4,8 @@ import { SIMULATED } from './settings.ts';
 import type { AlphaCalibrator as Machine, CalibrationLegs, CalibrationLog } from '../../types.d.ts';
 
 export type Reading = ReturnType<typeof fitOf> & {
+  /** True values of the simulated log. */
+  truth: Machine['truth'];
   /** Log of the reader or the page; null for the simulated one. */
   log: CalibrationLog | null;
   /** Requested settings. */
@@ -14,22 +16,23 @@ export type Reading = ReturnType<typeof fitOf> & {
   isPending: boolean;
 };
 
-/** Reads the machine for pictures and readouts, once a change. The fit is copied only if it is another one than in the reading before. */
+/** Reads the machine for pictures and readouts, once a change. The fit and the true values are copied only if they are not those before. */
 export function readingOf(machine: Machine, log: CalibrationLog | null, before: Reading | undefined): Reading {
   const { config, fittedConfig: fitted, fits, isPending } = machine.read();
-  const fit = before?.machine === machine && before.fits === fits ? before : fitOf(machine, fits, fitted);
-  return { ...fit, log, config, fitted, isPending };
+  const isSame = before?.machine === machine;
+  const fit = isSame && before.fits === fits ? before : fitOf(machine, fits, fitted);
+  const truth = isSame && before.log === log ? before.truth : machine.truth;
+  return { ...fit, truth, log, config, fitted, isPending };
 }
 
 /** Returns the fit of a machine with its number, and choices of legs. */
 function fitOf(machine: Machine, fits: number, { duration, distance }: Machine['config']) {
-  const { stats, legs, truth } = machine;
+  const { stats, legs } = machine;
   return {
     machine,
     fits,
     stats,
     legs,
-    truth,
     /** Class of each leg, as an index of `CLASSES`. */
     classes: classesOf(legs),
     /** Legs with the largest residuals, the largest first. */

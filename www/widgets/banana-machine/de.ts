@@ -31,7 +31,7 @@ export const de: typeof import('./en.ts').en = {
     samples: { name: 'Roboter', effect: 'Roboter: wenige als Punkte, viele als Dichte.' },
   },
   floor: 'Auf dem Boden',
-  ellipseIs: { large: 'keine Ellipse passt', misshapen: 'die Größe passt, die Form nicht', near: 'die Ellipse passt beinahe' },
+  ellipseIs: { large: 'keine Ellipse passt', misshapen: 'die Form passt nicht', near: 'Ellipse passt beinahe' },
   overlays: {
     command: 'befohlener Bogen',
     ellipse: 'Gauß in (x, y), 2σ',
@@ -78,7 +78,7 @@ export const de: typeof import('./en.ts').en = {
     hardly: (skew, exactly) => `Beide Seiten sind fast gleich: Schiefe ${skew}, genau ${exactly}.`,
     neither: (skew) => `Beide Seiten sind gleich: Schiefe ${skew}, genau 0 (Symmetrie).`,
     wide: (ratio) => `Die Wolke ist krumm: Ihre Ellipse hat die ${ratio}-fache Fläche des ξ-Umrisses.`,
-    gains: (gain) => `Leicht krumm: Der ξ-Umriss, etwa so groß wie die Ellipse, passt um ${gain} Nat je Roboter besser.`,
+    gains: (gain) => `Leicht krumm: Der ξ-Umriss passt um ${gain} Nat je Roboter besser.`,
     bowTie: {
       velocity: (speed, deviation, skew) =>
         `Eine Fliege: Das Drehen bringt Rauschen α₂ω² ins Tempo. v̂ ist ${speed}\u00a0±\u00a0${deviation}\u00a0m/s, also halten Roboter vor und hinter dem Start. Schiefe ${skew}.`,
@@ -92,7 +92,7 @@ export const de: typeof import('./en.ts').en = {
   robotsHere: (_count, printed) => `hier ${printed} Roboter`,
   exactSkew: (skew) => `exakte Schiefe ${skew}`,
   noExactSkew: 'exakte Schiefe nicht definiert',
-  twist: 'Dieselben Roboter in Exponentialkoordinaten ξ',
+  twist: 'Dieselben in Exponentialkoordinaten ξ',
   twistIs: {
     odometry:
       'nur ungefähr eine Gauß-Verteilung. Das Rauschen der Odometrie tritt beim Drehen, Fahren und Drehen ein, nicht einen Bogen entlang, und die vorhergesagte Schiefe trifft nicht.',
@@ -109,7 +109,7 @@ export const de: typeof import('./en.ts').en = {
   morph: {
     name: 'Vom Boden zu Exponentialkoordinaten',
     play: 'Morph abspielen',
-    title: 'Auf dem Weg zu Exponentialkoordinaten',
+    title: 'Unterwegs zu Exponentialkoordinaten',
     floor: 'Boden',
     twist: 'Exponentialkoordinaten',
     text: (share) => `${share} des Weges zu Exponentialkoordinaten`,

@@ -83,7 +83,7 @@ export const en = {
     neither: (skew) => `Both sides are alike: skew ${skew}, exactly 0 by symmetry.`,
     /** Text before the sentence on the skew. */
     wide: (ratio) => `The cloud is bent: its ellipse covers ${ratio} times the area of the ξ outline.`,
-    gains: (gain) => `Slightly bent: the ξ outline, about as large as the ellipse, fits better by ${gain} nats per robot.`,
+    gains: (gain) => `Slightly bent: the ξ outline fits better by ${gain} nats per robot.`,
     bowTie: {
       velocity: (speed, deviation, skew) =>
         `A bow-tie: turning adds noise α₂ω² to the speed. v̂ is ${speed}\u00a0±\u00a0${deviation}\u00a0m/s, so robots end ahead of the start and behind it. Skew ${skew}.`,
@@ -97,7 +97,7 @@ export const en = {
   robotsHere: (count, printed) => `${printed} ${plural(count, 'robot')} here`,
   exactSkew: (skew) => `exact skew ${skew}`,
   noExactSkew: 'no exact skew',
-  twist: 'The same robots in exponential coordinates ξ',
+  twist: 'Same robots, exponential coordinates ξ',
   twistIs: {
     odometry:
       'only roughly a Gaussian. Odometry noise enters in a turn, a drive and a turn, not along one arc, and the predicted skew misses.',

@@ -108,10 +108,10 @@ impl NoiseKind {
         }
     }
 
-    /// Replaces numbers by [`NoiseKind::quantile`] of them, with the same bits.
+    /// Replaces numbers by their quantiles, which have the same bits as [`NoiseKind::quantile`].
     pub(crate) fn quantiles(self, fours: &mut [f64x4]) {
         match self {
-            Self::Normal => quantile::normals(fours),
+            Self::Normal => quantile::normal_quantiles(fours),
             Self::Triangular => {
                 fours.iter_mut().for_each(|q| *q = *q * (SQRT_6 * 2.0) / (1.0 + (1.0 - 2.0 * q.abs()).sqrt()))
             }
@@ -123,7 +123,7 @@ impl NoiseKind {
     /// The relative error for normal noise is below 1e-15 (Wichura, Algorithm AS 241, Applied Statistics 37, 1988).
     pub fn quantile(self, q: f64) -> f64 {
         match self {
-            Self::Normal => quantile::normal(q),
+            Self::Normal => quantile::normal_quantile(q),
             // 1 − √(1 − 2|q|), without its cancellation near the middle.
             Self::Triangular => q * (SQRT_6 * 2.0) / (1.0 + (1.0 - 2.0 * q.abs()).sqrt()),
         }
@@ -131,7 +131,7 @@ impl NoiseKind {
 }
 
 /// Returns the product of independent densities. It is 0 if one of them is 0, also if another one has overflowed to infinity.
-pub(crate) fn joint<const N: usize>(densities: [f64; N]) -> f64 {
+pub(crate) fn product_or_zero<const N: usize>(densities: [f64; N]) -> f64 {
     if densities.contains(&0.0) { 0.0 } else { densities.into_iter().product() }
 }
 
@@ -145,19 +145,19 @@ pub(crate) fn wrapped_prob(noise: NoiseKind, a: f64, b2: Variance) -> f64 {
         NoiseKind::Normal if sd > 9.0 => 1.0 / TAU,
         NoiseKind::Normal => {
             // Beyond nine standard deviations a term is below the rounding of the sum.
-            let turns = (9.0 * sd / TAU).ceil() as i32;
-            (-turns..=turns).map(|k| noise.prob(a + f64::from(k) * TAU, b2)).sum()
+            let max_turns = (9.0 * sd / TAU).ceil() as i32;
+            (-max_turns..=max_turns).map(|k| noise.prob(a + f64::from(k) * TAU, b2)).sum()
         }
         NoiseKind::Triangular if sd == 0.0 => noise.prob(a, b2),
         NoiseKind::Triangular => {
             let half_width = SQRT_6 * sd;
             // The arithmetic series first, first + 2π, … up to the end of the support, on either side.
-            let side = |first: f64| {
-                let count = ((half_width - first) / TAU).ceil().max(0.0);
-                count * (half_width - first) - TAU * count * (count - 1.0) / 2.0
+            let sum_on_side = |first: f64| {
+                let term_count = ((half_width - first) / TAU).ceil().max(0.0);
+                term_count * (half_width - first) - TAU * term_count * (term_count - 1.0) / 2.0
             };
-            let distance = a.abs();
-            (side(distance) + side(TAU - distance)) / (half_width * half_width)
+            let abs_angle = a.abs();
+            (sum_on_side(abs_angle) + sum_on_side(TAU - abs_angle)) / (half_width * half_width)
         }
     }
 }
@@ -167,6 +167,6 @@ pub(crate) fn wrapped_prob(noise: NoiseKind, a: f64, b2: Variance) -> f64 {
 #[inline(always)]
 pub fn centred_uniform<R: Rng + ?Sized>(rng: &mut R) -> f64 {
     const SCALE: f64 = 1.0 / (1u64 << 53) as f64;
-    let signed = rng.next_u64() as i64 >> 11;
-    (signed as f64 + 0.5) * SCALE
+    let signed_integer = rng.next_u64() as i64 >> 11;
+    (signed_integer as f64 + 0.5) * SCALE
 }

@@ -4,7 +4,7 @@ use super::input::{Input, turn_of};
 use super::settings::{allowed, changed};
 use super::{banana, laws};
 use motion::geom::se2::SE2;
-use motion::sim::arc_anatomy::{ArcAnatomy, Bend, SurfaceKind, Paths, Settings, Stats, Surface, Table};
+use motion::sim::arc_anatomy::{ArcAnatomy, ArcWithCircle, SurfaceKind, Paths, Settings, Stats, Surface, Table};
 use motion::sim::views::Grid;
 
 /// Maximum number of calls in a run.
@@ -112,11 +112,11 @@ fn assert_paths(machine: &ArcAnatomy) {
         laws::assert_finite(what, path.as_flattened());
     }
     laws::assert_finite("ticks", ticks.as_flattened());
-    let Stats { inverted: Bend { end: [x, y, _], .. }, .. } = machine.stats();
+    let Stats { inverted: ArcWithCircle { end: [x, y, _], .. }, .. } = machine.stats();
     assert_eq!(inverted.last(), Some(&[x, y]));
 }
 
-fn assert_bend(what: &str, bend: &Bend) {
+fn assert_bend(what: &str, bend: &ArcWithCircle) {
     laws::assert_finite(what, &[bend.arc_length, bend.turn]);
     laws::assert_finite(what, &bend.end);
     assert!(!bend.radius.is_nan(), "{what}: {bend:?}");

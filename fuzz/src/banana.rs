@@ -8,7 +8,7 @@ use motion::sim::View;
 use motion::sim::banana::{
     BananaMachine, Contours, Figures, Settings, TableColumn, command_reaching,
 };
-use motion::sim::picture::RAMP;
+use motion::sim::picture::RAMP_STEPS;
 use motion::sim::settings::QUANTITY_RANGE;
 use motion::sim::views::{EXTENT_RANGE, Grid};
 
@@ -251,7 +251,7 @@ fn assert_painted(machine: &mut BananaMachine, input: &mut Input) {
     let counts = machine.density(view, &grid);
     assert_eq!(counts.len(), grid.columns * grid.rows);
     assert!(counts.iter().sum::<u32>() as usize <= machine.shown(), "{grid:?}: {counts:?}");
-    let pixels = machine.paint(view, &grid, &[[1; 4]; RAMP]);
+    let pixels = machine.paint(view, &grid, &[[1; 4]; RAMP_STEPS]);
     assert_eq!(pixels.len(), counts.len());
     assert!(pixels.iter().zip(&counts).all(|(pixel, count)| (pixel[3] > 0) == (*count > 0)), "{grid:?}");
 }

@@ -5,8 +5,8 @@ use super::settings::{allowed, changed};
 use super::{banana, grid, laws, plan};
 use motion::geom::segment::Segment;
 use motion::map::{FloorPlan, Sampler};
-use motion::sim::picture::RAMP;
-use motion::sim::squeeze::{KINDS, MapSqueeze, Settings};
+use motion::sim::picture::RAMP_STEPS;
+use motion::sim::squeeze::{OUTCOME_KINDS, MapSqueeze, Settings};
 use std::cell::LazyCell;
 
 /// Maximum numbers of samples, of parts of a sample, and of calls in a run.
@@ -184,7 +184,7 @@ fn assert_finite_plan(plan: &FloorPlan) {
 fn assert_painted(machine: &mut MapSqueeze, input: &mut Input) {
     let grid = banana::grid(input);
     let shown = machine.attempts().len();
-    let pixels = machine.paint(&grid, &[[[1; 4]; RAMP]; KINDS]);
+    let pixels = machine.paint(&grid, &[[[1; 4]; RAMP_STEPS]; OUTCOME_KINDS]);
     assert_eq!(pixels.len(), grid.columns * grid.rows);
     assert!(pixels.iter().filter(|pixel| pixel[3] > 0).count() <= shown);
 }

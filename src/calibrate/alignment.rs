@@ -2,7 +2,7 @@
 
 use super::trajectory::Trajectory;
 
-/// Step (s) of the finest scan of clock offsets. Turns of a robot last several steps.
+/// Step (s) of the finest scan of clock offsets. A turn of a robot lasts several steps.
 const FINEST_STEP: f64 = 0.05;
 
 /// Largest clock offset (s) of the first scan. Clocks of one network differ by less, and a drive in circles takes longer for one round.
@@ -14,7 +14,7 @@ const COARSE_OFFSETS: f64 = 4096.0;
 /// Maximum number of turn rates that are compared at each clock offset.
 const MAX_SAMPLES: f64 = 100_000.0;
 
-/// Correlation of two turn rates below which they do not match: unrelated ones reach it within a few seconds.
+/// Correlation of two turn rates below which they do not match. Over only a few seconds, unrelated turn rates may reach it.
 const MIN_CORRELATION: f64 = 0.5;
 
 /// Correlation at which the search for other clock offsets ends. At the right offset the correlation is 1 up to a few hundredths.
@@ -33,28 +33,29 @@ type Match = (f64, f64);
 /// overlap either. Only offsets at which half of the shorter recording overlaps the other one are compared.
 pub(super) fn clock_offset(odometry: &Trajectory, reference: &Trajectory) -> Option<f64> {
     let ([from, to], [start, end]) = (odometry.span()?, reference.span()?);
-    let half = 0.5 * (to - from).min(end - start);
-    let common = to.min(end) - from.max(start);
-    let finest = FINEST_STEP.max(0.5 * odometry.median_period()).max((to - from) / MAX_SAMPLES);
-    let scan = |range: [f64; 2], step: f64| best_match(odometry, reference, range, finest.max(step));
-    let near = if common < half { None } else { scan([-MAX_NEAR_OFFSET, MAX_NEAR_OFFSET], 0.0) };
-    if let Some((offset, _)) = near.filter(|(_, correlation)| *correlation >= CONFIDENT_CORRELATION) {
+    let min_overlap = 0.5 * (to - from).min(end - start);
+    let overlap = to.min(end) - from.max(start);
+    let finest_step = FINEST_STEP.max(0.5 * odometry.median_period()).max((to - from) / MAX_SAMPLES);
+    let scan = |range: [f64; 2], step: f64| best_match(odometry, reference, range, finest_step.max(step));
+    let near_match =
+        if overlap < min_overlap { None } else { scan([-MAX_NEAR_OFFSET, MAX_NEAR_OFFSET], 0.0) };
+    if let Some((offset, _)) = near_match.filter(|(_, correlation)| *correlation >= CONFIDENT_CORRELATION) {
         return Some(offset);
     }
-    let range = [start - to + half, end - from - half];
-    let mut step = finest.max((range[1] - range[0]) / COARSE_OFFSETS);
-    let mut far = scan(range, step);
-    while let Some((about, _)) = far.filter(|_| step > finest) {
-        let around = [about - 2.0 * step, about + 2.0 * step];
-        step = finest.max(step / 50.0);
-        far = scan(around, step);
+    let range = [start - to + min_overlap, end - from - min_overlap];
+    let mut step = finest_step.max((range[1] - range[0]) / COARSE_OFFSETS);
+    let mut far_match = scan(range, step);
+    while let Some((rough_offset, _)) = far_match.filter(|_| step > finest_step) {
+        let nearby_range = [rough_offset - 2.0 * step, rough_offset + 2.0 * step];
+        step = finest_step.max(step / 50.0);
+        far_match = scan(nearby_range, step);
     }
-    match [near, far] {
+    match [near_match, far_match] {
         [Some((offset, correlation)), Some((_, farther))] if farther - correlation < MIN_CORRELATION_GAIN => {
             Some(offset)
         }
         [_, Some((offset, _))] | [Some((offset, _)), None] => Some(offset),
-        [None, None] => (common >= 0.0).then_some(0.0),
+        [None, None] => (overlap >= 0.0).then_some(0.0),
     }
 }
 
@@ -67,23 +68,24 @@ fn best_match(
     step: f64,
 ) -> Option<Match> {
     let [first, last] = odometry.span()?;
-    let count = ((last - first) / step) as usize;
-    let offsets = ((to - from) / step).round() as usize + 1;
-    let read = turns(odometry, first, step, count);
-    let seen = turns(reference, first + from, step, count + offsets - 1);
-    let known = |rates: &[Option<f64>]| rates.iter().flatten().count();
-    let least = known(&read).min(known(&seen)) / 2;
-    let correlations: Vec<f64> =
-        (0..offsets).map(|offset| correlation(&read, &seen[offset..], least)).collect();
+    let turn_count = ((last - first) / step) as usize;
+    let offset_count = ((to - from) / step).round() as usize + 1;
+    let odometry_turns = turns(odometry, first, step, turn_count);
+    let reference_turns = turns(reference, first + from, step, turn_count + offset_count - 1);
+    let known_count = |rates: &[Option<f64>]| rates.iter().flatten().count();
+    let min_pairs = known_count(&odometry_turns).min(known_count(&reference_turns)) / 2;
+    let correlations: Vec<f64> = (0..offset_count)
+        .map(|offset| correlation(&odometry_turns, &reference_turns[offset..], min_pairs))
+        .collect();
     let (best, most) = correlations.iter().copied().enumerate().max_by(|a, b| a.1.total_cmp(&b.1))?;
     if most < MIN_CORRELATION {
         return None;
     }
     // Vertex of the parabola through the best and its neighbours.
-    let at = |offset: usize| correlations.get(offset).copied().unwrap_or(most);
-    let (before, after) = (at(best.wrapping_sub(1)), at(best + 1));
-    let bend = before - 2.0 * most + after;
-    let fraction = if bend < 0.0 { 0.5 * (before - after) / bend } else { 0.0 };
+    let correlation_at = |offset: usize| correlations.get(offset).copied().unwrap_or(most);
+    let (before, after) = (correlation_at(best.wrapping_sub(1)), correlation_at(best + 1));
+    let curvature = before - 2.0 * most + after;
+    let fraction = if curvature < 0.0 { 0.5 * (before - after) / curvature } else { 0.0 };
     Some((from + (best as f64 + fraction) * step, most))
 }
 
@@ -93,28 +95,29 @@ fn turns(trajectory: &Trajectory, start: f64, step: f64, count: usize) -> Vec<Op
     let headings = trajectory.unwrapped_heading();
     let (mut next, mut gaps) = (0, 0);
     // Number of gaps so far, and heading.
-    let mut at = |time: f64| {
+    let mut heading_at = |time: f64| {
         while next < times.len() && times[next] < time {
             next += 1;
             gaps += usize::from(next < times.len() && trajectory.has_gap_before(next));
         }
-        let after = *times.get(next)?;
-        if after == time {
+        let time_after = *times.get(next)?;
+        if time_after == time {
             return Some((gaps, headings[next]));
         }
-        let before = next.checked_sub(1).filter(|_| !trajectory.has_gap_before(next))?;
-        let fraction = (time - times[before]) / (after - times[before]);
-        Some((gaps, headings[before] + fraction * (headings[next] - headings[before])))
+        let sample_before = next.checked_sub(1).filter(|_| !trajectory.has_gap_before(next))?;
+        let fraction = (time - times[sample_before]) / (time_after - times[sample_before]);
+        Some((gaps, headings[sample_before] + fraction * (headings[next] - headings[sample_before])))
     };
-    let headings: Vec<Option<(usize, f64)>> = (0..=count).map(|i| at(start + i as f64 * step)).collect();
-    let turn = |pair: &[Option<(usize, f64)>]| {
+    let headings: Vec<Option<(usize, f64)>> =
+        (0..=count).map(|i| heading_at(start + i as f64 * step)).collect();
+    let turn_between = |pair: &[Option<(usize, f64)>]| {
         let [(before, from), (after, to)] = [pair[0]?, pair[1]?];
         (before == after).then_some(to - from)
     };
-    headings.windows(2).map(turn).collect()
+    headings.windows(2).map(turn_between).collect()
 }
 
-/// Returns Pearson's correlation over the pairs of which both numbers are known. 0 if there are fewer than `least` pairs, or one list is
+/// Returns Pearson's correlation over the pairs whose numbers are both known. 0 if there are fewer than `least` such pairs, or one list is
 /// constant.
 fn correlation(a: &[Option<f64>], b: &[Option<f64>], least: usize) -> f64 {
     let pairs = || a.iter().zip(b).filter_map(|(a, b)| a.zip(*b));
@@ -126,10 +129,10 @@ fn correlation(a: &[Option<f64>], b: &[Option<f64>], least: usize) -> f64 {
         }
     }
     let [x, y, xx, yy, xy] = sums.map(|sum| sum / count);
-    let spread = (xx - x * x) * (yy - y * y);
-    // Rates that are constant but for rounding have no spread.
-    if count < least as f64 || spread <= 1e-18 * xx * yy || !spread.is_finite() {
+    let variance_product = (xx - x * x) * (yy - y * y);
+    // Rates that are constant except for rounding count as constant.
+    if count < least as f64 || variance_product <= 1e-18 * xx * yy || !variance_product.is_finite() {
         return 0.0;
     }
-    (xy - x * y) / spread.sqrt()
+    (xy - x * y) / variance_product.sqrt()
 }

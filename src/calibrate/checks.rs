@@ -15,7 +15,7 @@ use serde::{Deserialize, Serialize};
 pub enum Verdict {
     /// Every check passed.
     Consistent,
-    /// A check failed: α's may be wrong, and recommended α's allow for a part of that.
+    /// A check failed: α's may be wrong. The recommended α's compensate for a part of that.
     Questionable,
     /// The log gives no α's.
     Unusable,
@@ -25,37 +25,37 @@ pub enum Verdict {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum CheckName {
-    /// Median difference of the two motions over the median motion.
+    /// Median difference of a leg's motions by odometry and by reference, divided by the median motion.
     ReferenceMatches,
     /// Number of legs.
     EnoughLegs,
     /// Fraction of the legs that were lost.
     LegsLost,
-    /// Median length of a leg over the length that the options ask for.
+    /// Median length of a leg, divided by the length that the options ask for.
     SamplingDense,
     /// Fraction of outliers.
     OutliersFew,
     /// Fraction of the legs in which the odometry moves sideways.
     SidewaysRare,
-    /// Difference of the distance scales of straight and turning legs, or of both halves: the larger one.
+    /// Difference of the distance scales of straight and turning legs, or of both halves of the log, whichever is larger.
     DistanceScaleConstant,
-    /// Difference of the turn scales of both halves.
+    /// Difference of the turn scales of both halves of the log.
     TurnScaleConstant,
     /// Inflation under which windows of 1 m are covered.
     InflationBounded,
     /// Correlation of the innovations of neighbouring legs.
     ResidualsUncorrelated,
-    /// Kurtosis of the innovations: 3 of normal ones, at least 1 of any, and less than 3 does no harm.
+    /// Kurtosis of the innovations. It is 3 for a normal distribution and at least 1 for any; values below 3 do no harm.
     TailsNormal,
     /// Fraction of the legs whose error is inside of the 95 % region that the fit to the other half of the log predicts.
     HoldoutCovered,
     /// Fraction of the windows of 1 m whose error is inside of the 95 % ellipsoid that the fit to the other half of the log predicts.
     #[serde(rename = "window-1m-covered")]
     Window1Covered,
-    /// The same fraction of windows of 2 m.
+    /// As `Window1Covered`, for windows of 2 m.
     #[serde(rename = "window-2m-covered")]
     Window2Covered,
-    /// The same fraction of windows of 5 m.
+    /// As `Window1Covered`, for windows of 5 m.
     #[serde(rename = "window-5m-covered")]
     Window5Covered,
 }
@@ -78,7 +78,7 @@ impl Check {
 
     /// Returns the meaning for the α's of a check that failed, and the remedy; nothing where it passed.
     pub fn message(&self) -> &'static str {
-        if self.passed { "" } else { self.name.failure() }
+        if self.passed { "" } else { self.name.meaning_of_failure() }
     }
 }
 
@@ -114,7 +114,7 @@ impl Diagnostics {
 
 impl CheckName {
     /// Returns the meaning of a failure for the α's, and the remedy.
-    fn failure(self) -> &'static str {
+    fn meaning_of_failure(self) -> &'static str {
         match self {
             Self::ReferenceMatches => {
                 "The reference is not an independent measurement of this drive. Either it does not follow the odometry: it may be of another drive, have other units (degrees, millimetres) or a mirrored y axis, or its columns may be swapped. Or it is a copy of the odometry. The α's mean nothing. Compare both files row by row."
@@ -177,10 +177,10 @@ const MIN_USABLE_LEGS: f64 = 30.0;
 /// measurements differ by more than 0.05 %: one that differs by less is a copy of the other.
 const MISMATCH: [f64; 2] = [0.0005, 0.7];
 
-/// Scales that wheels can have; with any other one the reference has another unit.
+/// Scales that wheels can have. Any other scale shows that the reference has another unit.
 const PLAUSIBLE_SCALES: std::ops::RangeInclusive<f64> = 0.5..=2.0;
 
-/// Sine of the angle between the drive of a leg and its heading halfway, above which it moves sideways. An arc has 0.
+/// Sine of the angle between a leg's displacement and its heading halfway, above which the leg moves sideways. An arc has 0.
 const MIN_SIDEWAYS_SINE: f64 = 0.5;
 
 /// Number of windows below which nothing is concluded from them.
@@ -196,33 +196,40 @@ pub(super) fn log_checks(
     systematic: &Systematic,
     inflation: f64,
 ) -> Vec<Check> {
-    let count = sample.legs.len();
+    let leg_count = sample.legs.len();
     let scales = [SystematicError::DistanceScale, SystematicError::TurnScale];
-    let in_units = scales.iter().all(|scale| PLAUSIBLE_SCALES.contains(&systematic.get(*scale)));
-    let mismatch = if in_units { mismatch(sample, systematic) } else { Some(f64::INFINITY) };
-    let mut ratios: Vec<f64> =
-        sample.legs.iter().map(|leg| sample.options.legs.ratio(&leg.odometry, leg.duration())).collect();
-    let outliers = sample.outliers.iter().filter(|is| **is).count();
-    let lost = lost.total() - lost.standing;
+    let has_plausible_scales = scales.iter().all(|scale| PLAUSIBLE_SCALES.contains(&systematic.get(*scale)));
+    let mismatch = if has_plausible_scales { mismatch(sample, systematic) } else { Some(f64::INFINITY) };
+    let mut length_ratios: Vec<f64> = sample
+        .legs
+        .iter()
+        .map(|leg| sample.options.legs.length_ratio(&leg.odometry, leg.duration()))
+        .collect();
+    let outlier_count = sample.outliers.iter().filter(|is| **is).count();
+    let lost_count = lost.total() - lost.standing;
     let mismatch = mismatch.map(|value| Check::new(CheckName::ReferenceMatches, value, MISMATCH));
     let mut checks = Vec::from_iter(mismatch);
     checks.extend([
-        Check::new(CheckName::EnoughLegs, count as f64, [SUFFICIENT_LEGS, f64::INFINITY]),
+        Check::new(CheckName::EnoughLegs, leg_count as f64, [SUFFICIENT_LEGS, f64::INFINITY]),
         // An infinite inflation: none is enough.
         Check::new(CheckName::InflationBounded, inflation, [1.0, MAX_INFLATION]),
-        Check::new(CheckName::LegsLost, lost as f64 / (count + lost) as f64, [0.0, 0.2]),
-        Check::new(CheckName::SamplingDense, median(&mut ratios), [0.0, 1.5]),
-        Check::new(CheckName::OutliersFew, outliers as f64 / count as f64, [0.0, 0.05]),
+        Check::new(CheckName::LegsLost, lost_count as f64 / (leg_count + lost_count) as f64, [0.0, 0.2]),
+        Check::new(CheckName::SamplingDense, median(&mut length_ratios), [0.0, 1.5]),
+        Check::new(CheckName::OutliersFew, outlier_count as f64 / leg_count as f64, [0.0, 0.05]),
     ]);
     if matches!(sample.options.model, Model::Odometry(rule) if rule != OdometryRule::Omni) {
-        let sideways = sample.observations.iter().filter(|leg| moves_sideways(leg.reading)).count();
-        checks.push(Check::new(CheckName::SidewaysRare, sideways as f64 / count as f64, [0.0, 0.02]));
+        let sideways_count = sample.observations.iter().filter(|leg| moves_sideways(leg.reading)).count();
+        checks.push(Check::new(
+            CheckName::SidewaysRare,
+            sideways_count as f64 / leg_count as f64,
+            [0.0, 0.02],
+        ));
     }
     checks
 }
 
-/// Tells whether a reading is a drive to the side of its heading. Its first rotation is large then, and in a turn on the spot it is that of
-/// noise. A reading without a first rotation has no direction.
+/// Returns true if a reading is a drive to the side of its heading. Its first rotation is then large. In a turn on the spot the first
+/// rotation is only noise. A reading without a first rotation has no direction.
 fn moves_sideways([rot1, _, rot2]: [f64; 3]) -> bool {
     rot1 != 0.0 && libm::sin(rot1 - 0.5 * wrap_angle(rot1 + rot2)).abs() > MIN_SIDEWAYS_SINE
 }
@@ -232,56 +239,64 @@ fn moves_sideways([rot1, _, rot2]: [f64; 3]) -> bool {
 fn mismatch(sample: &Sample, systematic: &Systematic) -> Option<f64> {
     // Sizes and differences of the turns, and of the drives.
     let [mut turns, mut drives] = [const { [Vec::new(), Vec::new()] }; 2];
-    let add = |[sizes, differences]: &mut [Vec<f64>; 2], size: f64, difference: f64, least: f64| {
+    let add_motion = |[sizes, differences]: &mut [Vec<f64>; 2], size: f64, difference: f64, least: f64| {
         if size > least {
             sizes.push(size);
             differences.push(difference);
         }
     };
     for leg in &sample.legs {
-        let (expected, seen) = (systematic.expected(sample.options.model, leg), systematic.motion(leg));
-        let off = libm::hypot(seen.x() - expected.x(), seen.y() - expected.y());
-        add(&mut turns, turn(&expected), (seen.theta() - expected.theta()).abs(), MIN_TURN_ANGLE);
-        add(&mut drives, distance(&expected), off, MIN_DRIVE_DISTANCE);
+        let (expected_motion, seen_motion) =
+            (systematic.expected(sample.options.model, leg), systematic.motion(leg));
+        let distance_error =
+            libm::hypot(seen_motion.x() - expected_motion.x(), seen_motion.y() - expected_motion.y());
+        add_motion(
+            &mut turns,
+            turn(&expected_motion),
+            (seen_motion.theta() - expected_motion.theta()).abs(),
+            MIN_TURN_ANGLE,
+        );
+        add_motion(&mut drives, distance(&expected_motion), distance_error, MIN_DRIVE_DISTANCE);
     }
-    let ratio = |[mut sizes, mut differences]: [Vec<f64>; 2]| {
+    let median_ratio = |[mut sizes, mut differences]: [Vec<f64>; 2]| {
         (sizes.len() >= MIN_LEGS).then(|| median(&mut differences) / median(&mut sizes))
     };
-    [turns, drives].into_iter().filter_map(ratio).reduce(f64::max)
+    [turns, drives].into_iter().filter_map(median_ratio).reduce(f64::max)
 }
 
 /// Returns the checks of the innovations: correlation of neighbours and tails.
 pub(super) fn residual_checks(fits: &[LegFit], correlation: f64) -> Vec<Check> {
-    let kept = fits.iter().filter(|fit| !fit.is_outlier).flat_map(|fit| fit.standardized);
-    let kept: Vec<f64> = kept.filter(|each| !each.is_nan()).collect();
-    let count = kept.len() as f64;
-    let moment = |power: i32| kept.iter().map(|each| each.powi(power)).sum::<f64>() / count;
+    let standardized = fits.iter().filter(|fit| !fit.is_outlier).flat_map(|fit| fit.standardized);
+    let standardized: Vec<f64> = standardized.filter(|each| !each.is_nan()).collect();
+    let count = standardized.len() as f64;
+    let moment = |power: i32| standardized.iter().map(|each| each.powi(power)).sum::<f64>() / count;
     let kurtosis = moment(4) / moment(2).powi(2);
-    let limit = NEGLIGIBLE_CORRELATION.max(MAX_STD_ERRORS / count.sqrt());
+    let correlation_limit = NEGLIGIBLE_CORRELATION.max(MAX_STD_ERRORS / count.sqrt());
     // Kurtosis of a normal sample has variance 24/n.
-    let tails = NEGLIGIBLE_KURTOSIS.max(MAX_STD_ERRORS * (24.0 / count).sqrt());
+    let max_excess_kurtosis = NEGLIGIBLE_KURTOSIS.max(MAX_STD_ERRORS * (24.0 / count).sqrt());
     vec![
-        Check::new(CheckName::ResidualsUncorrelated, correlation, [-limit, limit]),
-        Check::new(CheckName::TailsNormal, kurtosis, [1.0, 3.0 + tails]),
+        Check::new(CheckName::ResidualsUncorrelated, correlation, [-correlation_limit, correlation_limit]),
+        Check::new(CheckName::TailsNormal, kurtosis, [1.0, 3.0 + max_excess_kurtosis]),
     ]
 }
 
 /// Returns the range of coverage on logs that are simulated by the model. A relative error of the variances moves it by 0.14 times as
 /// much: that is the density of ln χ² with 3 degrees of freedom at its quantile 0.95.
 pub(super) fn coverage_range(count: usize, scale_std: f64) -> [f64; 2] {
-    let binomial = 0.95 * 0.05 / count as f64;
-    let off = NEGLIGIBLE_COVERAGE.max(MAX_STD_ERRORS * (binomial + (0.14 * scale_std).powi(2)).sqrt());
-    [0.95 - off, (0.95 + off).min(1.0)]
+    let binomial_variance = 0.95 * 0.05 / count as f64;
+    let distance_error =
+        NEGLIGIBLE_COVERAGE.max(MAX_STD_ERRORS * (binomial_variance + (0.14 * scale_std).powi(2)).sqrt());
+    [0.95 - distance_error, (0.95 + distance_error).min(1.0)]
 }
 
-/// Checks of windows, of those lengths of which there are enough.
+/// Returns the checks of windows, for the lengths with at least [`MIN_WINDOWS`] windows.
 pub(super) fn window_checks(windows: &[WindowCoverage], scale_std: f64) -> Vec<Check> {
     let names = [CheckName::Window1Covered, CheckName::Window2Covered, CheckName::Window5Covered];
-    let enough = windows.iter().zip(names).filter(|(window, _)| window.count >= MIN_WINDOWS);
-    let of = |(window, name): (&WindowCoverage, CheckName)| {
+    let sufficient_windows = windows.iter().zip(names).filter(|(window, _)| window.count >= MIN_WINDOWS);
+    let check_of = |(window, name): (&WindowCoverage, CheckName)| {
         Check::new(name, window.coverage, coverage_range(window.count, scale_std))
     };
-    enough.map(of).collect()
+    sufficient_windows.map(check_of).collect()
 }
 
 /// Turn (rad) above which a leg counts as turning, and below which as straight.
@@ -296,13 +311,13 @@ const MAX_SCALE_STD_ERRORS: f64 = 2.8;
 /// Difference of two scales that is too small to matter.
 const NEGLIGIBLE_SCALE_DIFFERENCE: f64 = 0.01;
 
-/// Returns a check of each scale that is identifiable, and which systematic errors are constant.
+/// Returns a check of each scale that is identifiable, and the mask of the systematic errors that are constant.
 ///
 /// Only scales are tested: all others, and scales that are not identifiable, count as constant. `repeated` multiplies standard errors
 /// where errors persist; it is 1 otherwise.
 pub(super) fn scale_checks(fit: &Fit, repeated: f64) -> (Vec<Check>, ErrorMask) {
     let (mut checks, mut is_constant) = (Vec::new(), [true; ERROR_COUNT]);
-    let half = fit.sample.legs.len() / 2;
+    let half_count = fit.sample.legs.len() / 2;
     let is_turning = |leg: usize| turn(&fit.sample.observations[leg].expected) > TURNING_LEG_ANGLE;
     let scales = [
         (SystematicError::DistanceScale, CheckName::DistanceScaleConstant),
@@ -312,31 +327,32 @@ pub(super) fn scale_checks(fit: &Fit, repeated: f64) -> (Vec<Check>, ErrorMask) 
         if fit.stds[scale as usize] == 0.0 {
             continue;
         }
-        let mut worst = (0.0, NEGLIGIBLE_SCALE_DIFFERENCE);
-        let mut compare = |in_first: &dyn Fn(usize) -> bool| {
-            let [first, second] =
+        let mut worst_difference = (0.0, NEGLIGIBLE_SCALE_DIFFERENCE);
+        let mut compare_groups = |in_first: &dyn Fn(usize) -> bool| {
+            let [first_group, second_group] =
                 [true, false].map(|which| scale_of(fit, scale, |leg| in_first(leg) == which));
-            if let Some(([a, a_std], [b, b_std])) = first.zip(second) {
+            if let Some(([a, a_std], [b, b_std])) = first_group.zip(second_group) {
                 let tolerance = NEGLIGIBLE_SCALE_DIFFERENCE
                     .max(MAX_SCALE_STD_ERRORS * repeated * libm::hypot(a_std, b_std));
-                if (a - b).abs() / tolerance > f64::abs(worst.0) / worst.1 {
-                    worst = (a - b, tolerance);
+                if (a - b).abs() / tolerance > f64::abs(worst_difference.0) / worst_difference.1 {
+                    worst_difference = (a - b, tolerance);
                 }
             }
         };
-        compare(&|leg| leg < half);
+        compare_groups(&|leg| leg < half_count);
         if scale == SystematicError::DistanceScale {
-            compare(&is_turning);
+            compare_groups(&is_turning);
         }
-        let check = Check::new(name, worst.0, [-worst.1, worst.1]);
-        is_constant[scale as usize] = check.passed;
-        checks.push(check);
+        let difference_check =
+            Check::new(name, worst_difference.0, [-worst_difference.1, worst_difference.1]);
+        is_constant[scale as usize] = difference_check.passed;
+        checks.push(difference_check);
     }
     (checks, is_constant)
 }
 
-/// Returns the scale of the selected legs less that of all legs, and its standard error. Other systematic errors are not estimated again.
-/// None if the legs do not identify the scale.
+/// Returns the scale of the selected legs minus that of all legs, and the standard error of this difference. Other systematic errors are
+/// not estimated again. None if the legs do not identify the scale.
 fn scale_of(fit: &Fit, scale: SystematicError, select: impl Fn(usize) -> bool) -> Option<[f64; 2]> {
     let mut mask = [false; ERROR_COUNT];
     mask[scale as usize] = true;
@@ -344,19 +360,20 @@ fn scale_of(fit: &Fit, scale: SystematicError, select: impl Fn(usize) -> bool) -
     if residuals.len() < MIN_GROUP_LEGS {
         return None;
     }
-    let squares = residuals.least_squares(&fit.maximum.parameters);
-    let variance = squares.covariance[(scale as usize, scale as usize)];
+    let least_squares = residuals.least_squares(&fit.maximum.parameters);
+    let variance = least_squares.covariance[(scale as usize, scale as usize)];
     let std = variance.sqrt();
-    (variance > 0.0 && std < scale.identifiability_limit()).then(|| [-squares.errors[scale as usize], std])
+    (variance > 0.0 && std < scale.identifiability_limit())
+        .then(|| [-least_squares.errors[scale as usize], std])
 }
 
 /// Returns the verdict from all checks. `identifies` is true if the log identifies at least one α.
 pub(super) fn verdict(checks: &[Check], identifies: bool) -> Verdict {
-    let failed = |name: CheckName| checks.iter().any(|check| check.name == name && !check.passed);
+    let has_failed = |name: CheckName| checks.iter().any(|check| check.name == name && !check.passed);
     let legs =
         checks.iter().find(|check| check.name == CheckName::EnoughLegs).map_or(0.0, |check| check.value);
-    let is_covered = !failed(CheckName::InflationBounded);
-    if failed(CheckName::ReferenceMatches) || legs < MIN_USABLE_LEGS || !identifies || !is_covered {
+    let is_covered = !has_failed(CheckName::InflationBounded);
+    if has_failed(CheckName::ReferenceMatches) || legs < MIN_USABLE_LEGS || !identifies || !is_covered {
         Verdict::Unusable
     } else if checks.iter().all(|check| check.passed) {
         Verdict::Consistent

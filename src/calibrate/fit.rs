@@ -33,11 +33,11 @@ pub(super) struct Fit {
     pub sample: Sample,
     pub residuals: Residuals,
     pub maximum: Maximum,
-    /// Standard errors of the systematic errors; 0 of one that is not estimated.
+    /// Standard errors of the systematic errors; 0 for an error that is not estimated.
     pub stds: [f64; ERROR_COUNT],
 }
 
-/// Maximum number of legs that are fitted, in blocks spread over the log. As many legs give an α to about 3 %.
+/// Maximum number of legs that are fitted, in blocks spread over the log. With this many legs the error of an α is about 3 %.
 const MAX_LEGS: usize = 6_000;
 const LEGS_PER_BLOCK: usize = 100;
 
@@ -63,7 +63,7 @@ impl Sample {
         }
     }
 
-    /// Returns blocks of neighbouring legs, evenly spread, where there are more than [`MAX_LEGS`].
+    /// Returns all legs, or evenly spread blocks of neighbouring legs if there are more than [`MAX_LEGS`].
     fn thinned(legs: &[Leg], estimated: ErrorMask, options: &Options) -> Self {
         if legs.len() <= MAX_LEGS {
             return Self::new(legs.to_vec(), estimated, options);
@@ -71,8 +71,8 @@ impl Sample {
         let blocks = MAX_LEGS / LEGS_PER_BLOCK;
         let mut thinned = Vec::with_capacity(MAX_LEGS);
         for block in 0..blocks {
-            let from = block * (legs.len() - LEGS_PER_BLOCK) / (blocks - 1);
-            thinned.extend_from_slice(&legs[from..from + LEGS_PER_BLOCK]);
+            let first_leg = block * (legs.len() - LEGS_PER_BLOCK) / (blocks - 1);
+            thinned.extend_from_slice(&legs[first_leg..first_leg + LEGS_PER_BLOCK]);
             let start = thinned.len() - LEGS_PER_BLOCK;
             thinned[start].follows = false;
         }
@@ -91,18 +91,18 @@ impl Sample {
     /// Returns the residuals of the legs that `select` chooses. A leg is correlated with the one before it only if both are chosen.
     pub fn residuals(&self, estimated: ErrorMask, select: impl Fn(usize) -> bool) -> Residuals {
         let follows = |leg: usize| self.legs[leg].follows && leg > 0 && select(leg - 1);
-        let chosen = (0..self.legs.len()).filter(|leg| select(*leg)).map(|leg| (leg, follows(leg)));
-        Residuals::new(self.options.model, estimated, &self.terms, chosen.collect())
+        let chosen_terms = (0..self.legs.len()).filter(|leg| select(*leg)).map(|leg| (leg, follows(leg)));
+        Residuals::new(self.options.model, estimated, &self.terms, chosen_terms.collect())
     }
 
-    /// Residuals of the legs in a range that are no outliers.
-    pub fn kept(&self, range: Range<usize>) -> Residuals {
+    /// Returns the residuals of the legs in a range that are not outliers.
+    pub fn inlier_residuals(&self, range: Range<usize>) -> Residuals {
         self.residuals(self.estimated, |leg| range.contains(&leg) && !self.outliers[leg])
     }
 
-    /// Fits the variances to the legs that are no outliers.
+    /// Fits the variances to the legs that are not outliers.
     fn fit(&self, start: Parameters) -> Result<(Residuals, Maximum), CalibrateError> {
-        let residuals = self.kept(0..self.legs.len());
+        let residuals = self.inlier_residuals(0..self.legs.len());
         if residuals.len() < MIN_LEGS {
             return Err(CalibrateError::TooFewLegs { legs: residuals.len() });
         }
@@ -114,13 +114,13 @@ impl Sample {
     fn initial_guess(&self) -> Parameters {
         let mut parameters = Parameters::zeros();
         for (component, alphas) in self.options.model.component_alphas().into_iter().enumerate() {
-            let ratio = |observation: &Observation| {
+            let alpha_of = |observation: &Observation| {
                 let [first, second] = observation.coefficients[component];
                 observation.residuals[component].powi(2) / (first + second)
             };
-            let mut ratios: Vec<f64> =
-                self.observations.iter().map(ratio).filter(|ratio| ratio.is_finite()).collect();
-            let alpha = (median(&mut ratios) / MEDIAN_SQUARE).clamp(1e-8, 10.0);
+            let mut leg_alphas: Vec<f64> =
+                self.observations.iter().map(alpha_of).filter(|ratio| ratio.is_finite()).collect();
+            let alpha = (median(&mut leg_alphas) / MEDIAN_SQUARE).clamp(1e-8, 10.0);
             alphas.iter().for_each(|each| parameters[*each] = alpha.max(parameters[*each]));
         }
         let Options { position_std, yaw_std, .. } = self.options;
@@ -130,13 +130,13 @@ impl Sample {
     }
 }
 
-/// Median of χ² with one degree of freedom: of the square of a standard normal number.
+/// Median of χ² with one degree of freedom, the distribution of the square of a standard normal number.
 const MEDIAN_SQUARE: f64 = 0.4549;
 
 /// Initial guess of the reference's errors, m and rad.
 const INITIAL_STD: f64 = 1e-3;
 
-/// Parameters that are fitted: α's of the model, and what is not stated of the reference.
+/// Returns the parameters that are fitted: α's of the model, and those variances of the reference that the options do not state.
 pub(super) fn free_parameters(options: &Options) -> FreeMask {
     std::array::from_fn(|parameter| match parameter {
         POSITION_VARIANCE => options.position_std.is_none(),
@@ -148,34 +148,35 @@ pub(super) fn free_parameters(options: &Options) -> FreeMask {
 /// Legs of all drives.
 pub(super) struct Log<'a> {
     drives: &'a [Drive<'a>],
-    /// Clock offset of each drive by the robot's turns, s.
+    /// Clock offset (s) of each drive, as determined from the robot's turns.
     offsets: Vec<f64>,
 }
 
 impl<'a> Log<'a> {
     pub fn new(drives: &'a [Drive<'a>]) -> Result<Self, CalibrateError> {
-        let offset =
+        let offset_of =
             |drive: &Drive| clock_offset(drive.odometry, drive.reference).ok_or(CalibrateError::NoCommonTime);
-        Ok(Self { drives, offsets: drives.iter().map(offset).collect::<Result<_, _>>()? })
+        Ok(Self { drives, offsets: drives.iter().map(offset_of).collect::<Result<_, _>>()? })
     }
 
     pub fn clock_offset(&self) -> f64 {
         self.offsets.first().copied().unwrap_or(0.0)
     }
 
-    /// Cuts all drives; `clock_offset` is that of the first.
+    /// Cuts all drives into legs. `clock_offset` (s) is the offset of the first drive.
     pub fn legs(&self, options: &Options, clock_offset: f64) -> (Vec<Leg>, LostLegs) {
         let (mut all, mut lost) = (Vec::new(), LostLegs::default());
         for (index, drive) in self.drives.iter().enumerate() {
-            let (offset, first) = (clock_offset + self.offsets[index] - self.clock_offset(), all.len());
-            drive.cut(options.legs, offset, &mut all, &mut lost);
-            all[first..].iter_mut().for_each(|leg| leg.drive = index);
+            let (offset, first_leg_of_drive) =
+                (clock_offset + self.offsets[index] - self.clock_offset(), all.len());
+            drive.cut_into_legs(options.legs, offset, &mut all, &mut lost);
+            all[first_leg_of_drive..].iter_mut().for_each(|leg| leg.drive = index);
         }
         (all, lost)
     }
 
-    /// Moves the reference poses of a leg by a change of the clock offset. `clock_offset` is the new one of the first drive. A leg that would
-    /// leave the log stays as it is.
+    /// Moves the reference poses of a leg by a change of the clock offset. `clock_offset` is the new offset of the first drive. A leg that
+    /// would leave the log stays as it is.
     fn realign(&self, leg: &mut Leg, clock_offset: f64, change: f64) {
         let offset = clock_offset + self.offsets[leg.drive] - self.clock_offset();
         if let Some(realigned) = self.drives[leg.drive].realigned(*leg, offset, change) {
@@ -186,51 +187,53 @@ impl<'a> Log<'a> {
 
 /// Finds the systematic errors: each round fits the variances, and then corrects the errors by generalized least squares.
 pub(super) fn fit_systematic(log: &Log, options: &Options) -> Result<Fit, CalibrateError> {
-    let begun = Systematic { clock_offset: log.clock_offset(), ..Systematic::NONE };
-    let (legs, _) = log.legs(options, begun.clock_offset);
+    let initial = Systematic { clock_offset: log.clock_offset(), ..Systematic::NONE };
+    let (legs, _) = log.legs(options, initial.clock_offset);
     if legs.len() < MIN_LEGS {
         return Err(CalibrateError::TooFewLegs { legs: legs.len() });
     }
     let mut sample = Sample::thinned(&legs, [true; ERROR_COUNT], options);
-    let mut systematic = Systematic { mount_yaw: Systematic::initial_mount_yaw(&sample.legs), ..begun };
+    let mut systematic = Systematic { mount_yaw: Systematic::initial_mount_yaw(&sample.legs), ..initial };
     let mut parameters: Option<Parameters> = None;
     for round in 1.. {
         let position_std =
             parameters.map_or(f64::INFINITY, |parameters| parameters[POSITION_VARIANCE].sqrt());
         sample.observe(&systematic, position_std);
         let guess = parameters.unwrap_or_else(|| sample.initial_guess());
-        sample.estimated = identifiable_errors(&sample.kept(0..legs.len()).least_squares(&guess).information);
+        sample.estimated =
+            identifiable_errors(&sample.inlier_residuals(0..legs.len()).least_squares(&guess).information);
         let gate = if parameters.is_some() { 1.0 } else { FIRST_ROUND_GATE_FACTOR };
-        let mut is_settled = !sample.mark_outliers(&guess, gate, round) && round > 1;
+        let mut has_converged = !sample.mark_outliers(&guess, gate, round) && round > 1;
         let (residuals, maximum) = sample.fit(guess)?;
-        let squares = &maximum.expansion.filtered.least_squares;
-        let before = systematic;
+        let least_squares = &maximum.expansion.filtered.least_squares;
+        let previous = systematic;
         for (i, error) in SystematicError::ALL.into_iter().enumerate() {
             if sample.estimated[i] {
-                let most = 4.0 * error.identifiability_limit();
-                let change = -squares.errors[i];
-                is_settled &= change.abs() <= CONVERGENCE_TOLERANCE * squares.covariance[(i, i)].sqrt();
-                *systematic.get_mut(error) += change.clamp(-most, most);
+                let max_change = 4.0 * error.identifiability_limit();
+                let change = -least_squares.errors[i];
+                has_converged &=
+                    change.abs() <= CONVERGENCE_TOLERANCE * least_squares.covariance[(i, i)].sqrt();
+                *systematic.get_mut(error) += change.clamp(-max_change, max_change);
             } else {
-                *systematic.get_mut(error) = begun.get(error);
+                *systematic.get_mut(error) = initial.get(error);
             }
         }
         systematic.mount_yaw = wrap_angle(systematic.mount_yaw);
-        if is_settled || round == MAX_ROUNDS {
-            let length = (residuals.len() as f64).cbrt().ceil() as usize;
-            let sandwich = maximum.expansion.filtered.sandwich(length);
-            let std = |i: usize| squares.covariance[(i, i)].max(sandwich[(i, i)]).max(0.0).sqrt();
+        if has_converged || round == MAX_ROUNDS {
+            let block_length = (residuals.len() as f64).cbrt().ceil() as usize;
+            let sandwich = maximum.expansion.filtered.sandwich(block_length);
+            let std = |i: usize| least_squares.covariance[(i, i)].max(sandwich[(i, i)]).max(0.0).sqrt();
             let stds = std::array::from_fn(std);
             return Ok(Fit { sample, residuals, maximum, stds });
         }
-        let change = systematic.clock_offset - before.clock_offset;
+        let change = systematic.clock_offset - previous.clock_offset;
         sample.legs.iter_mut().for_each(|leg| log.realign(leg, systematic.clock_offset, change));
         parameters = Some(maximum.parameters);
     }
     unreachable!("the last round returns")
 }
 
-/// Fits the variances with these errors corrected and no others; returns all legs too, of which the fit may be to a part.
+/// Fits the variances with only these errors corrected. Also returns all legs, because the fit may use only a part of them.
 pub(super) fn fit_corrected(
     log: &Log,
     options: &Options,
@@ -241,23 +244,23 @@ pub(super) fn fit_corrected(
     let (legs, lost) = log.legs(options, corrected.clock_offset);
     let mut sample = Sample::thinned(&legs, mask, options);
     let mut parameters = *start;
-    let mut last = None;
+    let mut last_fit = None;
     for round in 1..=MAX_ROUNDS {
         sample.observe(corrected, parameters[POSITION_VARIANCE].sqrt());
-        if !sample.mark_outliers(&parameters, 1.0, round) && last.is_some() {
+        if !sample.mark_outliers(&parameters, 1.0, round) && last_fit.is_some() {
             break;
         }
         let (residuals, maximum) = sample.fit(parameters)?;
         parameters = maximum.parameters;
-        last = Some((residuals, maximum));
+        last_fit = Some((residuals, maximum));
     }
-    let Some((residuals, maximum)) = last else { unreachable!("the first round fits") };
-    let mut all = sample.clone();
+    let Some((residuals, maximum)) = last_fit else { unreachable!("the first round fits") };
+    let mut all_legs = sample.clone();
     if legs.len() > sample.legs.len() {
-        all = Sample::new(legs, mask, options);
-        all.observe(corrected, parameters[POSITION_VARIANCE].sqrt());
-        all.mark_outliers(&parameters, 1.0, 1);
+        all_legs = Sample::new(legs, mask, options);
+        all_legs.observe(corrected, parameters[POSITION_VARIANCE].sqrt());
+        all_legs.mark_outliers(&parameters, 1.0, 1);
     }
     let fit = Fit { sample, residuals, maximum, stds: [0.0; ERROR_COUNT] };
-    Ok((fit, all, lost))
+    Ok((fit, all_legs, lost))
 }

@@ -10,35 +10,36 @@ use serde::{Deserialize, Serialize};
 /// Quantile 0.975 of the standard normal distribution.
 pub(super) const NORMAL_95: f64 = 1.959_963_984_540_054;
 
-/// Maximum number of steps of the search for an end of an interval. Few are enough, because the root of the deviance is nearly linear.
+/// Maximum number of steps of the search for an end of an interval. Few are enough, because the square root of the deviance is nearly
+/// linear.
 const MAX_STEPS: usize = 12;
 
-/// Relative tolerance on the root of the deviance at an end of an interval.
+/// Relative tolerance on the square root of the deviance at an end of an interval.
 const TOLERANCE: f64 = 0.02;
 
-/// Returns the function that computes the 95 % interval of a parameter; that of one without information is [0, ∞].
+/// Returns the function that computes the 95 % interval of a parameter. The interval of a parameter without information is [0, ∞].
 ///
-/// An end is where twice the log-likelihood is t² below its maximum, with t the quantile of Student's t. The other parameters follow
-/// the ridge of the likelihood as the information matrix I predicts it. The distance to the maximum is multiplied by √(S/I⁻¹) if that
-/// is above 1, with S the sandwich covariance over blocks of legs. A block has ∛n of the n legs, and more where errors persist: if
-/// errors of neighbouring legs have the correlation ρ, their squares have ρ². Standard errors are therefore multiplied by at least
-/// √((1 + ρ²)/(1 − ρ²)).
+/// At an end, twice the log-likelihood is t² below its maximum, with t the quantile of Student's t. The other parameters follow
+/// the ridge of the likelihood, which the information matrix I predicts. The distance from the maximum to the end is multiplied by
+/// √(S/I⁻¹) if that is above 1, with S the sandwich covariance over blocks of legs. A block has ∛n of the n legs, and more where
+/// errors persist. If the errors of neighbouring legs have the correlation ρ, the squares of the errors have the correlation ρ².
+/// Standard errors are therefore multiplied by at least √((1 + ρ²)/(1 − ρ²)).
 pub(super) fn intervals(
     Fit { residuals, maximum, .. }: &Fit,
     correlation: f64,
 ) -> impl Fn(usize) -> [f64; 2] {
-    let count = residuals.len();
-    let threshold = student_95(count.saturating_sub(PARAMETER_COUNT));
-    let square = correlation * correlation;
-    let repeated = (1.0 + square) / (1.0 - square);
-    let length = ((count as f64).cbrt() * repeated).ceil().max(1.0) as usize;
-    let blocks: Vec<Parameters> =
-        maximum.expansion.scores.chunks(length).map(|block| block.iter().sum()).collect();
-    let quantile = student_95(blocks.len().saturating_sub(1));
+    let leg_count = residuals.len();
+    let threshold = student_95(leg_count.saturating_sub(PARAMETER_COUNT));
+    let squared_correlation = correlation * correlation;
+    let variance_factor = (1.0 + squared_correlation) / (1.0 - squared_correlation);
+    let block_length = ((leg_count as f64).cbrt() * variance_factor).ceil().max(1.0) as usize;
+    let block_scores: Vec<Parameters> =
+        maximum.expansion.scores.chunks(block_length).map(|block| block.iter().sum()).collect();
+    let block_quantile = student_95(block_scores.len().saturating_sub(1));
     move |parameter| {
-        let value = maximum.parameters[parameter];
+        let estimate = maximum.parameters[parameter];
         if !maximum.free[parameter] {
-            return [value; 2];
+            return [estimate; 2];
         }
         let covariances = maximum.covariances(&maximum.parameters, parameter);
         let variance = covariances[parameter];
@@ -46,11 +47,14 @@ pub(super) fn intervals(
             return [0.0, f64::INFINITY];
         }
         let ridges = ridges(maximum, parameter);
-        let guess = threshold / (1.0 / variance).sqrt();
-        let end = |sign: f64| profile_end(residuals, maximum, &ridges, parameter, sign * guess, threshold);
-        let sandwich: f64 = blocks.iter().map(|score| covariances.dot(score).powi(2)).sum();
-        let widening = ((sandwich / variance).sqrt() * quantile / NORMAL_95).max(repeated.sqrt());
-        [(value + widening * end(-1.0)).max(0.0), value + widening * end(1.0)]
+        let initial_distance = threshold / (1.0 / variance).sqrt();
+        let end_at = |sign: f64| {
+            profile_end(residuals, maximum, &ridges, parameter, sign * initial_distance, threshold)
+        };
+        let sandwich: f64 = block_scores.iter().map(|score| covariances.dot(score).powi(2)).sum();
+        let widening_factor =
+            ((sandwich / variance).sqrt() * block_quantile / NORMAL_95).max(variance_factor.sqrt());
+        [(estimate + widening_factor * end_at(-1.0)).max(0.0), estimate + widening_factor * end_at(1.0)]
     }
 }
 
@@ -58,19 +62,20 @@ pub(super) fn intervals(
 /// on the second one, where there are α's of 0, these rise.
 fn ridges(maximum: &Maximum, parameter: usize) -> Vec<Parameters> {
     let parameters = maximum.parameters;
-    let at_zero = (0..MAX_ALPHAS).any(|alpha| maximum.free[alpha] && parameters[alpha] == 0.0);
-    let risen = at_zero.then(|| unknown_alphas(&parameters));
-    let ridge = |parameters| {
+    let has_zero_alpha = (0..MAX_ALPHAS).any(|alpha| maximum.free[alpha] && parameters[alpha] == 0.0);
+    let with_small_alphas = has_zero_alpha.then(|| unknown_alphas(&parameters));
+    let ridge_at = |parameters| {
         let covariances = maximum.covariances(&parameters, parameter);
         let variance = covariances[parameter];
         if variance > 0.0 { covariances / variance } else { Parameters::ith(parameter, 1.0) }
     };
-    let mut ridges: Vec<Parameters> = [Some(parameters), risen].into_iter().flatten().map(ridge).collect();
+    let mut ridges: Vec<Parameters> =
+        [Some(parameters), with_small_alphas].into_iter().flatten().map(ridge_at).collect();
     ridges.dedup();
     ridges
 }
 
-/// Returns the parameters with α's of 0 as small as can be: they are unknown like the others.
+/// Returns the parameters with α's of 0 replaced by small positive ones, so that they count as unknown like the others.
 fn unknown_alphas(parameters: &Parameters) -> Parameters {
     Parameters::from_fn(
         |j, _| if j < MAX_ALPHAS { parameters[j].max(f64::MIN_POSITIVE) } else { parameters[j] },
@@ -87,35 +92,40 @@ fn profile_end(
     guess: f64,
     threshold: f64,
 ) -> f64 {
-    let value = maximum.parameters[parameter];
-    let root = |distance: f64| {
-        let along = |ridge: &Parameters| {
+    let estimate = maximum.parameters[parameter];
+    let excess_root = |distance: f64| {
+        let value_along = |ridge: &Parameters| {
             let parameters = (maximum.parameters + ridge * distance).map(|each| each.max(0.0));
             residuals.least_squares(&parameters).log_likelihood
         };
-        let best = ridges.iter().map(along).fold(f64::NEG_INFINITY, f64::max);
-        (2.0 * (maximum.expansion.log_likelihood() - best)).max(0.0).sqrt()
+        let best_value = ridges.iter().map(value_along).fold(f64::NEG_INFINITY, f64::max);
+        (2.0 * (maximum.expansion.log_likelihood() - best_value)).max(0.0).sqrt()
     };
-    let mut distance = guess.max(-value);
+    let mut distance = guess.max(-estimate);
     if distance == 0.0 {
         return distance;
     }
-    let (mut inside, mut outside) = (0.0, None::<f64>);
+    let (mut inside_distance, mut outside_distance) = (0.0, None::<f64>);
     for _ in 0..MAX_STEPS {
-        let height = root(distance);
-        if (height / threshold - 1.0).abs() < TOLERANCE || distance == -value && height <= threshold {
+        let root_at_distance = excess_root(distance);
+        if (root_at_distance / threshold - 1.0).abs() < TOLERANCE
+            || distance == -estimate && root_at_distance <= threshold
+        {
             break;
         }
-        if height < threshold {
-            inside = distance;
+        if root_at_distance < threshold {
+            inside_distance = distance;
         } else {
-            outside = Some(distance);
+            outside_distance = Some(distance);
         }
-        let next = if height > 0.0 { distance * threshold / height } else { 2.0 * distance };
-        distance = match outside {
-            Some(outside) if (next - inside) * (next - outside) >= 0.0 => 0.5 * (inside + outside),
-            Some(_) => next,
-            None => (4.0 * distance.abs()).min(next.abs()).copysign(distance).max(-value),
+        let next_distance =
+            if root_at_distance > 0.0 { distance * threshold / root_at_distance } else { 2.0 * distance };
+        distance = match outside_distance {
+            Some(outside) if (next_distance - inside_distance) * (next_distance - outside) >= 0.0 => {
+                0.5 * (inside_distance + outside)
+            }
+            Some(_) => next_distance,
+            None => (4.0 * distance.abs()).min(next_distance.abs()).copysign(distance).max(-estimate),
         };
     }
     distance
@@ -123,16 +133,16 @@ fn profile_end(
 
 /// Quantile 0.975 of Student's t, by the expansion of Fisher and Cornish.
 fn student_95(degrees_of_freedom: usize) -> f64 {
-    let freedom = degrees_of_freedom.max(1) as f64;
+    let degrees = degrees_of_freedom.max(1) as f64;
     let (z, z3) = (NORMAL_95, NORMAL_95.powi(3));
-    z + (z3 + z) / (4.0 * freedom)
-        + (5.0 * NORMAL_95.powi(5) + 16.0 * z3 + 3.0 * z) / (96.0 * freedom * freedom)
+    z + (z3 + z) / (4.0 * degrees)
+        + (5.0 * NORMAL_95.powi(5) + 16.0 * z3 + 3.0 * z) / (96.0 * degrees * degrees)
 }
 
 /// Reason for which a log does not identify an α.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum NotIdentifiable {
-    /// The robot turned too little. Under the velocity model: while it drove, for a turn on the spot shows no executed turn rate.
+    /// The robot turned too little. Under the velocity model only turns while driving count, because a turn on the spot shows no turn rate.
     InsufficientRotation,
     /// The robot drove too little.
     InsufficientTranslation,
@@ -152,13 +162,13 @@ const MIN_FREE_INFORMATION: f64 = 0.02;
 /// Number of legs with a motion that identify an α against an exact reference: its standard error is then a fifth.
 const MIN_MOVING_LEGS: usize = 50;
 
-/// Returns of each α the reason for which it is not identifiable; None where it is.
+/// Returns, for each α, the reason why it is not identifiable; None if it is identifiable.
 pub(super) fn identifiability(Fit { sample, maximum, .. }: &Fit) -> Vec<Option<NotIdentifiable>> {
     let model = sample.options.model;
-    let unknown = unknown_alphas(&maximum.parameters);
-    let reason = |alpha: usize| {
+    let without_zeros = unknown_alphas(&maximum.parameters);
+    let reason_for = |alpha: usize| {
         let marginal = maximum.expansion.information[(alpha, alpha)];
-        let variance = maximum.covariances(&unknown, alpha)[alpha];
+        let variance = maximum.covariances(&without_zeros, alpha)[alpha];
         let conditional = if variance > 0.0 { 1.0 / variance } else { 0.0 };
         if conditional >= MIN_INFORMATION && conditional >= MIN_FREE_INFORMATION * marginal {
             return None;
@@ -166,20 +176,23 @@ pub(super) fn identifiability(Fit { sample, maximum, .. }: &Fit) -> Vec<Option<N
         if marginal >= MIN_INFORMATION {
             return Some(NotIdentifiable::Collinear);
         }
-        let by_turn = model.grows_with_turn(alpha);
+        let grows_with_turn = model.grows_with_turn(alpha);
         let uses_alpha = |observation: &&Observation| {
-            let is_shown =
+            let is_observed =
                 |k: usize| model.component_alphas()[k].contains(&alpha) && !observation.residuals[k].is_nan();
             let motion = &observation.expected;
-            let moves =
-                if by_turn { turn(motion) > MIN_TURN_ANGLE } else { distance(motion) > MIN_DRIVE_DISTANCE };
-            moves && (0..3).any(is_shown)
+            let has_motion = if grows_with_turn {
+                turn(motion) > MIN_TURN_ANGLE
+            } else {
+                distance(motion) > MIN_DRIVE_DISTANCE
+            };
+            has_motion && (0..3).any(is_observed)
         };
         Some(match sample.observations.iter().filter(uses_alpha).count() {
             count if count >= MIN_MOVING_LEGS => NotIdentifiable::ReferenceTooNoisy,
-            _ if by_turn => NotIdentifiable::InsufficientRotation,
+            _ if grows_with_turn => NotIdentifiable::InsufficientRotation,
             _ => NotIdentifiable::InsufficientTranslation,
         })
     };
-    (0..model.alphas()).map(reason).collect()
+    (0..model.alphas()).map(reason_for).collect()
 }

@@ -1,4 +1,4 @@
-//! Cutting a log into legs as long as the updates of the filter that is to use the α's.
+//! Cutting a log into legs. A leg is as long as the motion between two updates of the filter that will use the α's.
 //!
 //! Fitted α's depend on the length of the legs. In the models the variance of a drive grows with the square of its length, but that of real
 //! wheels mostly with the length itself.
@@ -32,8 +32,8 @@ impl LegLength {
     /// `update_min_a`, rad.
     pub const AMCL_ANGLE: f64 = 0.2;
 
-    /// Returns the length of a leg divided by the one at which it should end.
-    pub(super) fn ratio(&self, [start, end]: &[SE2; 2], lasted: f64) -> f64 {
+    /// Returns the length of a leg divided by the length at which it should end.
+    pub(super) fn length_ratio(&self, [start, end]: &[SE2; 2], lasted: f64) -> f64 {
         match *self {
             Self::Displacement { distance, angle } => ((end.x() - start.x()).abs() / distance)
                 .max((end.y() - start.y()).abs() / distance)
@@ -42,17 +42,17 @@ impl LegLength {
         }
     }
 
-    /// Returns whether a leg ends here: beyond the limit of a displacement, at that of a time, both up to [`LENGTH_TOLERANCE`].
-    fn ends(&self, ends: &[SE2; 2], lasted: f64) -> bool {
-        let beyond = self.ratio(ends, lasted) - 1.0;
+    /// Returns true if a leg ends here: beyond the limit of a displacement, or at the limit of a duration, up to [`LENGTH_TOLERANCE`].
+    fn is_complete(&self, ends: &[SE2; 2], lasted: f64) -> bool {
+        let excess_ratio = self.length_ratio(ends, lasted) - 1.0;
         match self {
-            Self::Displacement { .. } => beyond > LENGTH_TOLERANCE,
-            Self::Duration { .. } => beyond >= -LENGTH_TOLERANCE,
+            Self::Displacement { .. } => excess_ratio > LENGTH_TOLERANCE,
+            Self::Duration { .. } => excess_ratio >= -LENGTH_TOLERANCE,
         }
     }
 }
 
-/// One leg: the motion that the odometry read, and the one that the reference saw.
+/// One leg: its motion as measured by the odometry and by the reference.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Leg {
     /// Times of start and end by the clock of the odometry, s.
@@ -116,16 +116,16 @@ pub(super) fn turn(motion: &SE2) -> f64 {
 /// Number of legs below which no fit is tried.
 pub const MIN_LEGS: usize = 8;
 
-/// Turn (rad) below which a leg that did not drive is one of a standing robot.
+/// Turn (rad) below which a leg without a drive belongs to a standing robot.
 const MAX_STANDING_TURN: f64 = 0.02;
 
-/// Largest length of a leg across a pause, over the length in the options. Longer ones are left out.
+/// Maximum ratio of the length of a leg across a pause to the length in the options. Longer legs are left out.
 const MAX_RATIO_ACROSS_PAUSE: f64 = 2.0;
 
 /// Median period of the reference over that of the odometry, above which the reference counts as sparse.
 const SPARSE_RATIO: f64 = 1.5;
 
-/// One end of a leg; its members are those of [`Leg`].
+/// One end of a leg. Its fields have the meaning of the fields of [`Leg`].
 #[derive(Clone, Copy, Debug)]
 struct End {
     time: f64,
@@ -142,8 +142,8 @@ impl Drive<'_> {
 
     /// Returns the end of a leg at a sample of the odometry, or next to it where the reference has fewer samples.
     ///
-    /// Ends are at samples of the sparser trajectory. Between its samples the pose is interpolated on an arc, which has a part
-    /// of the noise of a leg, and a part of its neighbour's.
+    /// Ends are at samples of the sparser trajectory. A pose interpolated between its samples would mix the noise of two neighbouring
+    /// legs.
     fn end_at(&self, sample: usize, clock_offset: f64) -> Option<End> {
         let Self { odometry, reference } = *self;
         let (time, pose) = odometry.sample(sample);
@@ -152,19 +152,19 @@ impl Drive<'_> {
             let (reference, interpolation_variance) = reference.interpolated(time + clock_offset)?;
             return Some(End { time, odometry: pose, velocity, reference, interpolation_variance });
         }
-        let (seen, reference) = reference.sample(reference.nearest(time + clock_offset)?);
-        let time = seen - clock_offset;
-        let velocity = odometry.velocity(odometry.nearest(time)?);
+        let (reference_time, reference) = reference.sample(reference.nearest(time + clock_offset)?);
+        let odometry_time = reference_time - clock_offset;
+        let velocity = odometry.velocity(odometry.nearest(odometry_time)?);
         Some(End {
-            time,
-            odometry: odometry.pose_at(time)?,
+            time: odometry_time,
+            odometry: odometry.pose_at(odometry_time)?,
             velocity,
             reference,
             interpolation_variance: 1.0,
         })
     }
 
-    /// Returns a leg of this drive under another offset of the clocks, `change` (s) later than that under which it was cut. None where a
+    /// Returns a leg of this drive under another clock offset, `change` (s) larger than the offset with which the leg was cut. None if a
     /// trajectory does not cover it.
     pub(super) fn realigned(&self, mut leg: Leg, clock_offset: f64, change: f64) -> Option<Leg> {
         for end in 0..2 {
@@ -179,8 +179,14 @@ impl Drive<'_> {
         Some(leg)
     }
 
-    /// Adds the legs of this drive, each beginning where the one before ended, and the numbers of those that were left out.
-    pub(super) fn cut(&self, length: LegLength, clock_offset: f64, legs: &mut Vec<Leg>, lost: &mut LostLegs) {
+    /// Adds the legs of this drive to `legs`, and the numbers of omitted legs to `lost`. Each leg begins where the previous one ended.
+    pub(super) fn cut_into_legs(
+        &self,
+        length: LegLength,
+        clock_offset: f64,
+        legs: &mut Vec<Leg>,
+        lost: &mut LostLegs,
+    ) {
         let Self { odometry, reference } = *self;
         // Reading at which the present leg began, and its start if the reference has a pose there.
         let mut start: Option<((f64, SE2), Option<End>)> = None;
@@ -189,22 +195,24 @@ impl Drive<'_> {
             if odometry.has_break_before(sample) && start.take().is_some() {
                 lost.across_breaks += 1;
             }
-            let Some(((start_time, start_pose), from)) = start else {
+            let Some(((start_time, start_pose), start_end)) = start else {
                 start = Some(((time, pose), self.end_at(sample, clock_offset)));
                 (follows, paused) = (false, false);
                 continue;
             };
             paused |= odometry.has_gap_before(sample);
-            let ends = [start_pose, pose];
-            if !length.ends(&ends, time - start_time) {
+            let is_complete = [start_pose, pose];
+            if !length.is_complete(&is_complete, time - start_time) {
                 continue;
             }
-            let to = self.end_at(sample, clock_offset);
-            let (Some(from), Some(to)) = (from, to) else {
+            let end_end = self.end_at(sample, clock_offset);
+            let (Some(from), Some(to)) = (start_end, end_end) else {
                 // The leg stays open until it is too long: the reference may come back.
-                if from.is_none() || length.ratio(&ends, time - start_time) > MAX_RATIO_ACROSS_PAUSE {
+                if start_end.is_none()
+                    || length.length_ratio(&is_complete, time - start_time) > MAX_RATIO_ACROSS_PAUSE
+                {
                     lost.without_reference += 1;
-                    (start, follows) = (Some(((time, pose), to)), false);
+                    (start, follows) = (Some(((time, pose), end_end)), false);
                 }
                 continue;
             };
@@ -219,7 +227,9 @@ impl Drive<'_> {
             if reference.has_break(from.time + clock_offset, to.time + clock_offset) {
                 lost.across_breaks += 1;
                 follows = false;
-            } else if has_paused && length.ratio(&ends, time - start_time) > MAX_RATIO_ACROSS_PAUSE {
+            } else if has_paused
+                && length.length_ratio(&is_complete, time - start_time) > MAX_RATIO_ACROSS_PAUSE
+            {
                 lost.across_pauses += 1;
                 follows = false;
             } else if turn(&motion) < MAX_STANDING_TURN && distance(&motion) < MAX_SPIN_DISTANCE {
@@ -242,8 +252,8 @@ impl Drive<'_> {
 
 /// Cuts a log into legs, each beginning where the one before ended.
 ///
-/// `clock_offset` (s) is how far the reference's clock is ahead of the odometry's. A leg may lead across a pause of either
-/// trajectory, for both ends are known, but not across a break.
+/// `clock_offset` (s) is the time of the reference's clock minus that of the odometry's. A leg may lead across a pause of either
+/// trajectory, because the poses at both ends are known, but not across a break.
 pub fn split_into_legs(
     odometry: &Trajectory,
     reference: &Trajectory,
@@ -251,6 +261,6 @@ pub fn split_into_legs(
     clock_offset: f64,
 ) -> (Vec<Leg>, LostLegs) {
     let (mut legs, mut lost) = (Vec::new(), LostLegs::default());
-    Drive { odometry, reference }.cut(length, clock_offset, &mut legs, &mut lost);
+    Drive { odometry, reference }.cut_into_legs(length, clock_offset, &mut legs, &mut lost);
     (legs, lost)
 }

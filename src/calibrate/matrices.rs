@@ -1,9 +1,9 @@
 //! Products of the small matrices of the likelihood.
 //!
-//! In WebAssembly a call of a general product takes longer than the product itself. So they are inlined, but for two whose code is long,
-//! and those of wide matrices are in explicit vectors.
+//! In WebAssembly a call of a general product takes longer than the product itself. Products are therefore inlined, except two whose
+//! code is long. Products of wide matrices use explicit SIMD vectors.
 
-// Iterators over two arrays are compiled to more than indices.
+// Iterators over two arrays are compiled to more code than indices.
 #![allow(clippy::needless_range_loop)]
 
 use nalgebra::{Matrix3, SMatrix};
@@ -12,14 +12,14 @@ use wide::{bytemuck, f64x2};
 /// Number of columns of a wide matrix.
 pub(super) const WIDTH: usize = 8;
 
-const PAIRS: usize = WIDTH / 2;
+const VECTORS_PER_ROW: usize = WIDTH / 2;
 
 /// Matrix of `ROWS` rows and [`WIDTH`] columns, by rows.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Wide<const ROWS: usize>([[f64x2; PAIRS]; ROWS]);
+pub(super) struct WideMatrix<const ROWS: usize>([[f64x2; VECTORS_PER_ROW]; ROWS]);
 
-impl<const ROWS: usize> Wide<ROWS> {
-    pub const ZERO: Self = Self([[f64x2::ZERO; PAIRS]; ROWS]);
+impl<const ROWS: usize> WideMatrix<ROWS> {
+    pub const ZERO: Self = Self([[f64x2::ZERO; VECTORS_PER_ROW]; ROWS]);
 
     pub fn from_fn(entry: impl Fn(usize, usize) -> f64) -> Self {
         let mut matrix = Self::ZERO;
@@ -30,7 +30,7 @@ impl<const ROWS: usize> Wide<ROWS> {
     }
 
     #[inline(always)]
-    pub fn row(&self, row: usize) -> &[f64; WIDTH] {
+    pub fn matrix_row(&self, row: usize) -> &[f64; WIDTH] {
         bytemuck::cast_ref(&self.0[row])
     }
 
@@ -41,15 +41,15 @@ impl<const ROWS: usize> Wide<ROWS> {
 
     /// Returns a block of this matrix that begins at `column` of its first row.
     pub fn block<const R: usize, const C: usize>(&self, column: usize) -> SMatrix<f64, R, C> {
-        SMatrix::from_fn(|i, j| self.row(i)[column + j])
+        SMatrix::from_fn(|i, j| self.matrix_row(i)[column + j])
     }
 
     /// Returns vᵀ M v with M the first `ROWS` columns of this matrix, and v the first `ROWS` entries of `vector`.
     #[inline(always)]
     pub fn quadratic_form(&self, vector: &[f64; WIDTH]) -> f64 {
-        let mut product = [f64x2::ZERO; PAIRS];
+        let mut product = [f64x2::ZERO; VECTORS_PER_ROW];
         for row in 0..ROWS {
-            for pair in 0..PAIRS {
+            for pair in 0..VECTORS_PER_ROW {
                 product[pair] += f64x2::splat(vector[row]) * self.0[row][pair];
             }
         }
@@ -63,32 +63,32 @@ impl<const ROWS: usize> Wide<ROWS> {
 
     /// Adds the product of the transpose of `left`'s first `ROWS` columns and `right`.
     #[inline(always)]
-    pub fn add_product(&mut self, left: &Wide<3>, right: &Wide<3>) {
+    pub fn add_product(&mut self, left: &WideMatrix<3>, right: &WideMatrix<3>) {
         for row in 0..ROWS {
-            let factors = [left.row(0)[row], left.row(1)[row], left.row(2)[row]];
-            let product = right.combined(factors);
-            for pair in 0..PAIRS {
+            let left_column = [left.matrix_row(0)[row], left.matrix_row(1)[row], left.matrix_row(2)[row]];
+            let product = right.row_combination(left_column);
+            for pair in 0..VECTORS_PER_ROW {
                 self.0[row][pair] += product[pair];
             }
         }
     }
 }
 
-impl Wide<3> {
+impl WideMatrix<3> {
     /// Returns the product of a matrix and this one.
     #[inline(never)]
-    pub fn multiplied(&self, left: &Matrix3<f64>) -> Self {
+    pub fn left_multiplied(&self, left: &Matrix3<f64>) -> Self {
         let mut product = Self::ZERO;
         for row in 0..3 {
-            product.0[row] = self.combined([left[(row, 0)], left[(row, 1)], left[(row, 2)]]);
+            product.0[row] = self.row_combination([left[(row, 0)], left[(row, 1)], left[(row, 2)]]);
         }
         product
     }
 
     #[inline(always)]
-    pub fn plus(mut self, other: &Self) -> Self {
+    pub fn with_added(mut self, other: &Self) -> Self {
         for row in 0..3 {
-            for pair in 0..PAIRS {
+            for pair in 0..VECTORS_PER_ROW {
                 self.0[row][pair] += other.0[row][pair];
             }
         }
@@ -97,10 +97,10 @@ impl Wide<3> {
 
     /// Returns a linear combination of the rows.
     #[inline(always)]
-    fn combined(&self, [a, b, c]: [f64; 3]) -> [f64x2; PAIRS] {
+    fn row_combination(&self, [a, b, c]: [f64; 3]) -> [f64x2; VECTORS_PER_ROW] {
         let [a, b, c] = [f64x2::splat(a), f64x2::splat(b), f64x2::splat(c)];
-        let mut sum = [f64x2::ZERO; PAIRS];
-        for pair in 0..PAIRS {
+        let mut sum = [f64x2::ZERO; VECTORS_PER_ROW];
+        for pair in 0..VECTORS_PER_ROW {
             sum[pair] = a * self.0[0][pair] + b * self.0[1][pair] + c * self.0[2][pair];
         }
         sum
@@ -121,18 +121,18 @@ pub(super) fn product(left: &Matrix3<f64>, right: &Matrix3<f64>) -> Matrix3<f64>
     product
 }
 
-/// Returns the inverse of a matrix, 0 of a singular one, and its determinant.
+/// Returns the inverse of a matrix (0 if the matrix is singular), and its determinant.
 #[inline(always)]
 pub(super) fn inverse(matrix: &Matrix3<f64>) -> (Matrix3<f64>, f64) {
-    let row = |row: usize| [matrix[(row, 0)], matrix[(row, 1)], matrix[(row, 2)]];
-    let [a, b, c] = [row(0), row(1), row(2)];
-    let first = cross(&b, &c);
-    let determinant = a[0] * first[0] + a[1] * first[1] + a[2] * first[2];
-    let adjugate = Matrix3::from([first, cross(&c, &a), cross(&a, &b)]);
+    let matrix_row = |row: usize| [matrix[(row, 0)], matrix[(row, 1)], matrix[(row, 2)]];
+    let [a, b, c] = [matrix_row(0), matrix_row(1), matrix_row(2)];
+    let first_cofactors = cross_product(&b, &c);
+    let determinant = a[0] * first_cofactors[0] + a[1] * first_cofactors[1] + a[2] * first_cofactors[2];
+    let adjugate = Matrix3::from([first_cofactors, cross_product(&c, &a), cross_product(&a, &b)]);
     (if determinant == 0.0 { Matrix3::zeros() } else { adjugate / determinant }, determinant)
 }
 
 #[inline(always)]
-fn cross(a: &[f64; 3], b: &[f64; 3]) -> [f64; 3] {
+fn cross_product(a: &[f64; 3], b: &[f64; 3]) -> [f64; 3] {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }

@@ -66,41 +66,41 @@ pub fn calibrate(drives: &[Drive], options: &Options) -> Result<Calibration, Cal
     let systematic = fit_systematic(&log, options)?;
     let errors = systematic.sample.systematic;
     let persistence = persistence(&systematic);
-    // Noise that is correlated between legs increases the standard errors, as fewer legs would.
+    // Noise that is correlated between legs increases the standard errors, as if there were fewer legs.
     let correlation = persistence.correlation.value;
-    let repeated = ((1.0 + correlation) / (1.0 - correlation)).sqrt();
-    let systematic_stds = systematic.stds.map(|std| (std > 0.0).then_some(repeated * std));
-    let (scale_checks, is_constant) = checks::scale_checks(&systematic, repeated);
+    let std_factor = ((1.0 + correlation) / (1.0 - correlation)).sqrt();
+    let systematic_stds = systematic.stds.map(|std| (std > 0.0).then_some(std_factor * std));
+    let (scale_checks, is_constant) = checks::scale_checks(&systematic, std_factor);
     let is_corrected: ErrorMask =
         std::array::from_fn(|i| systematic_stds[i].is_some() && options.correct[i].unwrap_or(is_constant[i]));
     let mut corrected = Systematic::NONE;
     for error in SystematicError::ALL.into_iter().filter(|error| is_corrected[*error as usize]) {
         *corrected.get_mut(error) = errors.get(error);
     }
-    let (fit, all, lost) =
+    let (fit, all_legs, lost) =
         fit_corrected(&log, options, &corrected, is_corrected, &systematic.maximum.parameters)?;
     let parameters = &fit.maximum.parameters;
     let not_identifiable = identifiability(&fit);
-    let interval = intervals(&fit, correlation);
+    let interval_of = intervals(&fit, correlation);
     let is_identified = |alpha: usize| not_identifiable[alpha].is_none();
-    let alphas: Vec<Option<f64>> =
+    let identified_alphas: Vec<Option<f64>> =
         (0..options.model.alphas()).map(|alpha| is_identified(alpha).then_some(parameters[alpha])).collect();
     let alpha_intervals =
-        (0..alphas.len()).map(|alpha| is_identified(alpha).then(|| interval(alpha))).collect();
+        (0..identified_alphas.len()).map(|alpha| is_identified(alpha).then(|| interval_of(alpha))).collect();
     let reference_noise = [POSITION_VARIANCE, YAW_VARIANCE].map(|variance| Estimate {
         value: parameters[variance].sqrt(),
-        interval: interval(variance).map(f64::sqrt),
+        interval: interval_of(variance).map(f64::sqrt),
     });
-    let leg_fits = all.leg_fits(parameters);
-    let recommendation = windows::recommend(&fit, &all, &alphas);
+    let leg_fits = all_legs.leg_fits(parameters);
+    let recommendation = windows::recommend(&fit, &all_legs, &identified_alphas);
     let inflation = recommendation.recommended.as_ref().map_or(f64::INFINITY, |found| found.inflation);
-    let mut checks = checks::log_checks(&all, &lost, &errors, inflation);
+    let mut checks = checks::log_checks(&all_legs, &lost, &errors, inflation);
     checks.extend(scale_checks);
     checks.extend(checks::residual_checks(&leg_fits, neighbour_correlation(&fit).0));
     checks.extend(recommendation.checks);
-    let verdict = checks::verdict(&checks, alphas.iter().any(Option::is_some));
+    let verdict = checks::verdict(&checks, identified_alphas.iter().any(Option::is_some));
     Ok(Calibration {
-        alphas,
+        alphas: identified_alphas,
         intervals: alpha_intervals,
         not_identifiable,
         systematic: errors,
@@ -111,8 +111,8 @@ pub fn calibrate(drives: &[Drive], options: &Options) -> Result<Calibration, Cal
         reference_noise,
         persistence,
         log_likelihood: fit.maximum.expansion.log_likelihood(),
-        legs: all.legs,
-        observations: all.observations,
+        legs: all_legs.legs,
+        observations: all_legs.observations,
         leg_fits,
         lost,
         diagnostics: Diagnostics { verdict, checks, windows: recommendation.windows },
@@ -122,31 +122,34 @@ pub fn calibrate(drives: &[Drive], options: &Options) -> Result<Calibration, Cal
 
 /// Returns the correlation of the innovations of neighbouring legs, and its standard error.
 fn neighbour_correlation(Fit { sample, maximum, .. }: &Fit) -> (f64, f64) {
-    let residuals = sample.kept(0..sample.legs.len());
-    let fits: Vec<LegFit> = residuals.filtered(&maximum.parameters).leg_fits().collect();
-    let (mut product, mut squares, mut count) = (0.0, 0.0, 0);
-    for (pair, _) in fits.windows(2).zip(residuals.follows().skip(1)).filter(|(_, follows)| *follows) {
+    let residuals = sample.inlier_residuals(0..sample.legs.len());
+    let standardized_fits: Vec<LegFit> = residuals.filtered(&maximum.parameters).leg_fits().collect();
+    let (mut product, mut square_sum, mut count) = (0.0, 0.0, 0);
+    for (pair, _) in
+        standardized_fits.windows(2).zip(residuals.follows().skip(1)).filter(|(_, follows)| *follows)
+    {
         for (before, after) in pair[0].standardized.into_iter().zip(pair[1].standardized) {
             if !before.is_nan() && !after.is_nan() {
                 product += before * after;
-                squares += 0.5 * (before * before + after * after);
+                square_sum += 0.5 * (before * before + after * after);
                 count += 1;
             }
         }
     }
-    if count == 0 { (0.0, 1.0) } else { (product / squares, 1.0 / f64::from(count).sqrt()) }
+    if count == 0 { (0.0, 1.0) } else { (product / square_sum, 1.0 / f64::from(count).sqrt()) }
 }
 
-/// Returns the correlation of the wheels' errors in neighbouring legs, and the length over which it falls to 1/e.
+/// Returns the correlation of the wheels' errors in neighbouring legs, and the distance over which it falls to 1/e.
 fn persistence(fit: &Fit) -> Persistence {
     let (correlation, std) = neighbour_correlation(fit);
-    let in_range = |value: f64| value.clamp(0.0, 0.95);
-    // A correlation that chance explains is none.
-    let value = if correlation > NORMAL_95 * std { in_range(correlation) } else { 0.0 };
-    let interval = [in_range(correlation - NORMAL_95 * std), in_range(correlation + NORMAL_95 * std)];
+    let clamp_correlation = |value: f64| value.clamp(0.0, 0.95);
+    // A correlation that chance can explain counts as 0.
+    let value = if correlation > NORMAL_95 * std { clamp_correlation(correlation) } else { 0.0 };
+    let interval_of =
+        [clamp_correlation(correlation - NORMAL_95 * std), clamp_correlation(correlation + NORMAL_95 * std)];
     let legs = &fit.sample.legs;
-    let driven = |leg: &Leg| distance(&leg.odometry[0].between(&leg.odometry[1]));
-    let mean = legs.iter().map(driven).sum::<f64>() / legs.len() as f64;
-    let length = if value > 0.0 { -mean / libm::log(value) } else { 0.0 };
-    Persistence { correlation: Estimate { value, interval }, length }
+    let driven_distance = |leg: &Leg| distance(&leg.odometry[0].between(&leg.odometry[1]));
+    let mean_leg_distance = legs.iter().map(driven_distance).sum::<f64>() / legs.len() as f64;
+    let correlation_length = if value > 0.0 { -mean_leg_distance / libm::log(value) } else { 0.0 };
+    Persistence { correlation: Estimate { value, interval: interval_of }, length: correlation_length }
 }

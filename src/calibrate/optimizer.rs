@@ -3,7 +3,7 @@
 use super::likelihood::{Expansion, Information, PARAMETER_COUNT, Parameters, Residuals};
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
-/// Mask of the parameters that are fitted; the others stay as they are.
+/// Mask of the parameters that are fitted. All other parameters are kept fixed.
 pub(super) type FreeMask = [bool; PARAMETER_COUNT];
 
 /// Maximum of the likelihood.
@@ -14,7 +14,7 @@ pub(super) struct Maximum {
     pub free: FreeMask,
 }
 
-/// Least gain of log-likelihood (nats) for which a step is tried, and after which the optimizer goes on.
+/// Minimum gain of log-likelihood (nats): a step with a smaller predicted gain is not tried, and a smaller actual gain ends the search.
 const MIN_GAIN: f64 = 1e-5;
 
 const MAX_STEPS: usize = 60;
@@ -24,23 +24,24 @@ const MAX_HALVINGS: usize = 4;
 
 /// Returns the maximum by Fisher scoring with the average information, projected to where no variance is negative.
 ///
-/// A step that gains nothing gives way to θⱼ √(rᵀP Vⱼ P r / tr(P Vⱼ)), which always gains (Zhou, Hu, Qiao, Cho and Lange 2019).
+/// A step that does not increase the likelihood is replaced by θⱼ √(rᵀP Vⱼ P r / tr(P Vⱼ)), which always increases it (Zhou, Hu, Qiao,
+/// Cho and Lange 2019).
 pub(super) fn maximize(residuals: &Residuals, start: Parameters, free: &FreeMask) -> Maximum {
     let mut parameters = start;
     let mut expansion = residuals.expansion(residuals.filtered(&parameters));
     for _ in 0..MAX_STEPS {
         let Some(step) = scoring_step(&parameters, &expansion, free) else { break };
-        let mut next = None;
+        let mut accepted = None;
         for halving in 0..=MAX_HALVINGS {
             let candidate = (parameters + step * 0.5_f64.powi(halving as i32)).map(|each| each.max(0.0));
-            let filtered = residuals.filtered(&candidate);
-            if filtered.least_squares.log_likelihood > expansion.log_likelihood() {
-                next = Some((candidate, residuals.expansion(filtered)));
+            let candidate_innovations = residuals.filtered(&candidate);
+            if candidate_innovations.least_squares.log_likelihood > expansion.log_likelihood() {
+                accepted = Some((candidate, residuals.expansion(candidate_innovations)));
                 break;
             }
         }
-        let (next, better) = next.unwrap_or_else(|| {
-            let candidate = minorized(&parameters, &expansion, free);
+        let (next, better) = accepted.unwrap_or_else(|| {
+            let candidate = minorized_step(&parameters, &expansion, free);
             (candidate, residuals.expansion(residuals.filtered(&candidate)))
         });
         let gain = better.log_likelihood() - expansion.log_likelihood();
@@ -59,66 +60,71 @@ pub(super) fn maximize(residuals: &Residuals, start: Parameters, free: &FreeMask
 fn scoring_step(parameters: &Parameters, expansion: &Expansion, free: &FreeMask) -> Option<Parameters> {
     let score = expansion.score();
     let information = &expansion.information;
-    let is_moving =
+    let is_free =
         |j: &usize| free[*j] && information[(*j, *j)] > 0.0 && (parameters[*j] > 0.0 || score[*j] > 0.0);
-    let mut moving: Vec<usize> = (0..PARAMETER_COUNT).filter(is_moving).collect();
+    let mut free_parameters: Vec<usize> = (0..PARAMETER_COUNT).filter(is_free).collect();
     loop {
-        let (factor, scale) = scaled_cholesky(information, &moving, [1e-9, 1e-9])?;
-        let gradient = DVector::from_fn(moving.len(), |a, _| score[moving[a]] / scale[a]);
-        let solved = factor.solve(&gradient);
+        let (factor, scale) = scaled_cholesky(information, &free_parameters, [1e-9, 1e-9])?;
+        let gradient = DVector::from_fn(free_parameters.len(), |a, _| score[free_parameters[a]] / scale[a]);
+        let moves = factor.solve(&gradient);
         // A variance of 0 that would become negative stays 0, and the step of the others is computed without it.
-        if let Some(stuck) = (0..moving.len()).find(|a| parameters[moving[*a]] == 0.0 && solved[*a] < 0.0) {
-            moving.remove(stuck);
+        if let Some(stuck) =
+            (0..free_parameters.len()).find(|a| parameters[free_parameters[*a]] == 0.0 && moves[*a] < 0.0)
+        {
+            free_parameters.remove(stuck);
             continue;
         }
-        if 0.5 * gradient.dot(&solved) < MIN_GAIN {
+        if 0.5 * gradient.dot(&moves) < MIN_GAIN {
             return None;
         }
         let mut step = Parameters::zeros();
-        moving.iter().enumerate().for_each(|(a, j)| step[*j] = solved[a] / scale[a]);
+        free_parameters.iter().enumerate().for_each(|(a, j)| step[*j] = moves[a] / scale[a]);
         return Some(step);
     }
 }
 
-/// Returns the step of the minorize-maximize algorithm, which always gains.
-fn minorized(parameters: &Parameters, expansion: &Expansion, free: &FreeMask) -> Parameters {
+/// Returns the parameters after a step of the minorize-maximize algorithm, which always increases the likelihood.
+fn minorized_step(parameters: &Parameters, expansion: &Expansion, free: &FreeMask) -> Parameters {
     Parameters::from_fn(|j, _| {
-        let ratio = expansion.quadratic[j] / expansion.trace[j];
-        let can_move = free[j] && ratio.is_finite() && ratio >= 0.0;
-        if can_move { parameters[j] * ratio.sqrt() } else { parameters[j] }
+        let quadratic_ratio = expansion.quadratic[j] / expansion.trace[j];
+        let is_updated = free[j] && quadratic_ratio.is_finite() && quadratic_ratio >= 0.0;
+        if is_updated { parameters[j] * quadratic_ratio.sqrt() } else { parameters[j] }
     })
 }
 
-/// Returns the Cholesky factor of the information on some parameters, each in units of its scale, and these scales. Parameters differ by
-/// orders of magnitude; the scale of one is the root of its information. The diagonal of 1 is increased by a relative and an absolute amount.
+/// Returns the Cholesky factor of the information on some parameters, scaled to a diagonal of 1, and the scales: the square roots of the
+/// diagonal. Parameters differ by orders of magnitude. A relative and an absolute amount are added to the diagonal.
 fn scaled_cholesky(
     information: &Information,
     parameters: &[usize],
     [relative, absolute]: [f64; 2],
 ) -> Option<(Cholesky<f64, Dyn>, Vec<f64>)> {
-    let scale: Vec<f64> = parameters.iter().map(|j| information[(*j, *j)].sqrt()).collect();
-    let matrix = DMatrix::from_fn(scale.len(), scale.len(), |a, b| {
-        let entry = information[(parameters[a], parameters[b])] / (scale[a] * scale[b]);
-        if a == b { entry * (1.0 + relative) + absolute } else { entry }
+    let scales: Vec<f64> = parameters.iter().map(|j| information[(*j, *j)].sqrt()).collect();
+    let matrix = DMatrix::from_fn(scales.len(), scales.len(), |a, b| {
+        let scaled_entry = information[(parameters[a], parameters[b])] / (scales[a] * scales[b]);
+        if a == b { scaled_entry * (1.0 + relative) + absolute } else { scaled_entry }
     });
-    Some((matrix.cholesky()?, scale))
+    Some((matrix.cholesky()?, scales))
 }
 
 impl Maximum {
-    /// Returns the covariances of one parameter with all: a column of the inverse information matrix over the free parameters above 0 and
-    /// this one. Other parameters at 0 are fixed there: their covariances are 0. All are 0 if there is no information on this one.
+    /// Returns the covariances of one parameter with all parameters: a column of the inverse information matrix over this parameter and the
+    /// free parameters above 0. Other parameters at 0 are fixed, with covariance 0. All are 0 without information on this parameter.
     pub fn covariances(&self, parameters: &Parameters, parameter: usize) -> Parameters {
         let information = &self.expansion.information;
-        let moving: Vec<usize> = (0..PARAMETER_COUNT)
+        let free_parameters: Vec<usize> = (0..PARAMETER_COUNT)
             .filter(|j| *j == parameter || self.free[*j] && parameters[*j] > 0.0)
             .filter(|j| information[(*j, *j)] > 0.0)
             .collect();
         let mut column = Parameters::zeros();
-        if let Some(place) = moving.iter().position(|j| *j == parameter)
-            && let Some((factor, scale)) = scaled_cholesky(information, &moving, [1e-12, 0.0])
+        if let Some(place) = free_parameters.iter().position(|j| *j == parameter)
+            && let Some((factor, scale)) = scaled_cholesky(information, &free_parameters, [1e-12, 0.0])
         {
-            let solved = factor.solve(&DVector::from_fn(scale.len(), |a, _| f64::from(u8::from(a == place))));
-            moving.iter().enumerate().for_each(|(a, j)| column[*j] = solved[a] / (scale[a] * scale[place]));
+            let moves = factor.solve(&DVector::from_fn(scale.len(), |a, _| f64::from(u8::from(a == place))));
+            free_parameters
+                .iter()
+                .enumerate()
+                .for_each(|(a, j)| column[*j] = moves[a] / (scale[a] * scale[place]));
         }
         column
     }

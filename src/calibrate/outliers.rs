@@ -1,4 +1,4 @@
-//! Outliers: legs outside of a gate on the innovation, as where the reference jumped. They are listed, and the fit leaves them out.
+//! Outliers: legs whose innovation is outside a gate, for example because the reference jumped. They are listed, and not fitted.
 
 use super::fit::Sample;
 use super::likelihood::{Parameters, Residuals};
@@ -12,23 +12,26 @@ const CHI2_9999: [f64; 3] = [15.137, 18.421, 21.108];
 /// Median of χ² with 3 degrees of freedom.
 const MEDIAN_CHI2: f64 = 2.366;
 
-/// Last round in which an outlier may become an inlier again. Later ones forbid it, because a leg at the gate could alternate forever.
+/// Last round in which an outlier may become an inlier again. In later rounds a leg near the gate could otherwise alternate forever.
 const LAST_RETURN_ROUND: usize = 2;
 
 impl Sample {
-    /// Returns all legs under these parameters: an outlier without the leg before it, the others along the chain of kept legs.
+    /// Returns the fits of all legs under these parameters. An outlier is computed alone, the inliers along their chain.
     pub(super) fn leg_fits(&self, parameters: &Parameters) -> Vec<LegFit> {
-        let kept = self.kept(0..self.legs.len());
-        let outliers = (0..self.legs.len()).filter(|leg| self.outliers[*leg]).map(|leg| (leg, false));
-        let outliers = Residuals::new(self.options.model, self.estimated, &self.terms, outliers.collect());
-        let [inside, outside] = [kept, outliers].map(|residuals| residuals.filtered(parameters));
-        let errors = inside.least_squares.errors;
-        let [mut inside, mut outside] = [inside, outside].map(|filtered| filtered.innovations.into_iter());
-        let next = |is_outlier: &bool| {
-            let innovation = if *is_outlier { outside.next() } else { inside.next() };
+        let inlier_residuals = self.inlier_residuals(0..self.legs.len());
+        let outlier_terms = (0..self.legs.len()).filter(|leg| self.outliers[*leg]).map(|leg| (leg, false));
+        let outlier_residuals =
+            Residuals::new(self.options.model, self.estimated, &self.terms, outlier_terms.collect());
+        let [inlier_fit, outlier_fit] =
+            [inlier_residuals, outlier_residuals].map(|residuals| residuals.filtered(parameters));
+        let errors = inlier_fit.least_squares.errors;
+        let [mut inlier_innovations, mut outlier_innovations] =
+            [inlier_fit, outlier_fit].map(|filtered| filtered.innovations.into_iter());
+        let fit_of_next = |is_outlier: &bool| {
+            let innovation = if *is_outlier { outlier_innovations.next() } else { inlier_innovations.next() };
             innovation.map(|innovation| innovation.leg_fit(&errors, *is_outlier))
         };
-        self.outliers.iter().filter_map(next).collect()
+        self.outliers.iter().filter_map(fit_of_next).collect()
     }
 
     /// Marks the outliers under these parameters, and returns true if they changed. `gate` is a factor of the gate on the squared distance.
@@ -38,14 +41,14 @@ impl Sample {
         }
         let fits = self.leg_fits(parameters);
         // Variances may still be too small in early rounds. The gate is wider then, so that at most half of the legs are outliers.
-        let mut squares: Vec<f64> = fits.iter().map(|fit| fit.squared).collect();
-        let gate = gate * (median(&mut squares) / MEDIAN_CHI2).max(1.0);
-        let is_outside =
-            |fit: &LegFit| fit.observed() > 0 && fit.squared > gate * CHI2_9999[fit.observed() - 1];
-        let is_marked = |fit: &LegFit| fit.is_outlier && round > LAST_RETURN_ROUND || is_outside(fit);
-        let marked: Vec<bool> = fits.iter().map(is_marked).collect();
-        let changed = marked != self.outliers;
-        self.outliers = marked;
-        changed
+        let mut squared_distances: Vec<f64> = fits.iter().map(|fit| fit.squared).collect();
+        let gate_factor = gate * (median(&mut squared_distances) / MEDIAN_CHI2).max(1.0);
+        let exceeds_gate =
+            |fit: &LegFit| fit.observed() > 0 && fit.squared > gate_factor * CHI2_9999[fit.observed() - 1];
+        let is_marked = |fit: &LegFit| fit.is_outlier && round > LAST_RETURN_ROUND || exceeds_gate(fit);
+        let new_outliers: Vec<bool> = fits.iter().map(is_marked).collect();
+        let has_changed = new_outliers != self.outliers;
+        self.outliers = new_outliers;
+        has_changed
     }
 }

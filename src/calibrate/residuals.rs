@@ -1,4 +1,4 @@
-//! Residuals of a leg: the motion that the reference measured, less the one that the odometry read.
+//! Residuals of a leg: the motion measured by the reference minus the motion measured by the odometry.
 //!
 //! Residuals are in the model's own coordinates, in which noise components are independent and have variances that are linear in the α's.
 
@@ -73,21 +73,21 @@ impl Model {
 /// Residuals of one leg, with the coefficients of their variances and their Jacobian.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Observation {
-    /// Executed minus expected motion in the model's coordinates. NaN of a component that the leg does not show: a turn on the spot has no
-    /// first rotation.
+    /// Executed minus expected motion in the model's coordinates. A component that the leg does not show is NaN: a turn on the spot has
+    /// no first rotation.
     pub residuals: [f64; 3],
     /// Factors of the two α's in the variance of each component.
     pub coefficients: [[f64; 2]; 3],
     /// Reading in the model's coordinates: rot1, trans, rot2 (rad, m, rad), or v, ω, Δt (m/s, rad/s, s).
     pub reading: [f64; 3],
-    /// Motion that the model expects by the odometry, in the frame of the leg's start.
+    /// Motion that the model expects from the odometry, in the frame of the leg's start.
     pub expected: SE2,
-    /// Jacobian of the residuals by the motion of the base (x, y, θ).
+    /// Jacobian of the residuals with respect to the motion of the base (x, y, θ).
     pub(super) jacobian: Matrix3<f64>,
 }
 
-/// Largest noise of the reference, over the length of a leg, with which directions are computed by atan2. With more noise atan2 is biased,
-/// and directions are linear in the displacement.
+/// Maximum ratio of the reference's noise to the length of a leg for which directions are computed by atan2. With more noise atan2 is
+/// biased, and directions are linearized in the displacement.
 const MAX_ATAN2_NOISE_RATIO: f64 = 0.05;
 
 impl Observation {
@@ -99,9 +99,9 @@ impl Observation {
         let motion = corrected.motion(leg);
         let is_linear = position_std > MAX_ATAN2_NOISE_RATIO * distance(&expected);
         let mut observation = match model {
-            Model::Odometry(OdometryRule::Omni) => omni(expected, &motion),
-            Model::Odometry(rule) => differential(rule, expected, &motion, is_linear),
-            Model::Velocity => velocity(leg.duration(), &expected, &motion, is_linear),
+            Model::Odometry(OdometryRule::Omni) => omni_residuals(expected, &motion),
+            Model::Odometry(rule) => differential_residuals(rule, expected, &motion, is_linear),
+            Model::Velocity => velocity_residuals(leg.duration(), &expected, &motion, is_linear),
         };
         for component in 0..3 {
             if observation.residuals[component].is_nan() {
@@ -112,93 +112,109 @@ impl Observation {
     }
 }
 
-/// Returns the variances of a reading where the first α of each component is 1 and the second is 0, and those where it is the other way round.
+/// Returns the variances of a reading twice: with the first α of each component 1 and the second 0, and with the first 0 and the second 1.
 fn unit_variances(rule: OdometryRule, reading: &OdomDelta) -> [LegVariances; 2] {
     [[1.0, 0.0, 1.0, 0.0, 1.0], [0.0, 1.0, 0.0, 1.0, 0.0]].map(|alphas| rule.variances(reading, &alphas))
 }
 
-/// Returns whether a leg has a direction: its lengths by the reading and by the reference, in m, are not below [`MAX_SPIN_DISTANCE`]. A linear
-/// direction does not need the length by the reference. That length is negative if the reference saw a motion opposite to the reading.
+/// Returns true if a leg has a direction: neither its length by the reading nor that by the reference (m) is below [`MAX_SPIN_DISTANCE`]. A
+/// linearized direction only needs the first one. The second is negative if the reference saw a motion opposite to the reading.
 fn has_direction(read: f64, executed: f64, is_linear: bool) -> bool {
     read >= MAX_SPIN_DISTANCE && (is_linear || executed >= MAX_SPIN_DISTANCE)
 }
 
 /// Returns the residuals of rot1, trans and rot2; in a turn on the spot the second rotation is the whole turn.
-fn differential(rule: OdometryRule, expected: SE2, motion: &SE2, is_linear: bool) -> Observation {
+fn differential_residuals(rule: OdometryRule, expected: SE2, motion: &SE2, is_linear: bool) -> Observation {
     let read = OdomDelta::from_poses(&SE2::identity(), &expected);
     let OdomDelta { rot1, trans, rot2 } = rule.legs(&read);
-    let unit = unit_variances(rule, &read);
-    let [first, along, second] =
-        [unit.map(|unit| unit.rot1.0), unit.map(|unit| unit.trans.0), unit.map(|unit| unit.rot2.0)];
+    let unit_variances_of_reading = unit_variances(rule, &read);
+    let [first, along, second] = [
+        unit_variances_of_reading.map(|unit| unit.rot1.0),
+        unit_variances_of_reading.map(|unit| unit.trans.0),
+        unit_variances_of_reading.map(|unit| unit.rot2.0),
+    ];
     let (sin, cos) = libm::sincos(rot1);
-    let [ahead, left] = [cos * motion.x() + sin * motion.y(), cos * motion.y() - sin * motion.x()];
-    let turned = wrap_angle(motion.theta() - rot1 - rot2);
-    let (residuals, coefficients, across) = if has_direction(read.trans, ahead, is_linear) {
+    let [along_drive, left] = [cos * motion.x() + sin * motion.y(), cos * motion.y() - sin * motion.x()];
+    let turn_residual = wrap_angle(motion.theta() - rot1 - rot2);
+    let (residuals, coefficients, lateral_coefficients) = if has_direction(read.trans, along_drive, is_linear)
+    {
         let (off, longer) = if is_linear {
-            (left / trans, ahead - trans)
+            (left / trans, along_drive - trans)
         } else {
-            (libm::atan2(left, ahead), libm::hypot(ahead, left) - trans)
+            (libm::atan2(left, along_drive), libm::hypot(along_drive, left) - trans)
         };
-        let across = RowVector3::new(-sin, cos, 0.0) / trans;
-        ([off, longer, wrap_angle(turned - off)], [first, along, second], across)
+        let across_row = RowVector3::new(-sin, cos, 0.0) / trans;
+        ([off, longer, wrap_angle(turn_residual - off)], [first, along, second], across_row)
     } else {
-        let both = [first[0] + second[0], first[1] + second[1]];
-        ([f64::NAN, ahead - trans, turned], [[0.0; 2], along, both], RowVector3::zeros())
+        let both_rotations = [first[0] + second[0], first[1] + second[1]];
+        (
+            [f64::NAN, along_drive - trans, turn_residual],
+            [[0.0; 2], along, both_rotations],
+            RowVector3::zeros(),
+        )
     };
-    let forward = RowVector3::new(cos, sin, 0.0);
-    let jacobian = Matrix3::from_rows(&[across, forward, RowVector3::new(0.0, 0.0, 1.0) - across]);
+    let forward_row = RowVector3::new(cos, sin, 0.0);
+    let jacobian = Matrix3::from_rows(&[
+        lateral_coefficients,
+        forward_row,
+        RowVector3::new(0.0, 0.0, 1.0) - lateral_coefficients,
+    ]);
     Observation { residuals, coefficients, reading: [rot1, trans, rot2], expected, jacobian }
 }
 
 /// Returns the residuals of the turn, of the drive and of the slide across the drive.
-fn omni(expected: SE2, motion: &SE2) -> Observation {
+fn omni_residuals(expected: SE2, motion: &SE2) -> Observation {
     let read = OdomDelta::from_poses(&SE2::identity(), &expected);
     let OdomDelta { rot1, trans, rot2 } = read;
-    let unit = unit_variances(OdometryRule::Omni, &read);
+    let unit_variances_of_reading = unit_variances(OdometryRule::Omni, &read);
     let (sin, cos) = libm::sincos(rot1);
     let residuals = [
         wrap_angle(motion.theta() - rot1 - rot2),
         cos * motion.x() + sin * motion.y() - trans,
         cos * motion.y() - sin * motion.x(),
     ];
-    let coefficients =
-        [unit.map(|unit| unit.rot2.0), unit.map(|unit| unit.trans.0), unit.map(|unit| unit.strafe.0)];
+    let coefficients = [
+        unit_variances_of_reading.map(|unit| unit.rot2.0),
+        unit_variances_of_reading.map(|unit| unit.trans.0),
+        unit_variances_of_reading.map(|unit| unit.strafe.0),
+    ];
     let jacobian = Matrix3::new(0.0, 0.0, 1.0, cos, sin, 0.0, -sin, cos, 0.0);
     Observation { residuals, coefficients, reading: [rot1, trans, rot2], expected, jacobian }
 }
 
-/// Returns the residuals of v, ω and γ: the constant command that leads where the odometry says, against the arc that was driven.
-fn velocity(dt: f64, read: &SE2, motion: &SE2, is_linear: bool) -> Observation {
+/// Returns the residuals of v, ω and γ: the arc measured by the reference minus the constant command that explains the odometry.
+fn velocity_residuals(dt: f64, read: &SE2, motion: &SE2, is_linear: bool) -> Observation {
     let twist = read.log();
-    // A command does not lead sideways.
+    // A velocity command has no sideways component.
     let expected = SE2::exp(&Vector3::new(twist.x, 0.0, twist.z));
     let [length, turn] = [twist.x, twist.z];
     let [v, omega] = [length / dt, turn / dt];
-    let squares = [v * v, omega * omega];
-    let half = 0.5 * turn;
-    let (sin, cos) = libm::sincos(half);
-    let forward = RowVector3::new(cos, sin, 0.0) / sinc(half);
+    let squared_rates = [v * v, omega * omega];
+    let half_turn = 0.5 * turn;
+    let (sin, cos) = libm::sincos(half_turn);
+    let forward_row = RowVector3::new(cos, sin, 0.0) / sinc(half_turn);
     let executed = invert_arc(&SE2::identity(), motion, dt);
     let (residuals, coefficients, jacobian) =
         if has_direction(length.abs(), length.signum() * executed.v_hat * dt, is_linear) {
-            let bearing = RowVector3::new(-sin, cos, 0.0) / (length * sinc(half));
+            let bearing_row = RowVector3::new(-sin, cos, 0.0) / (length * sinc(half_turn));
             let jacobian = Matrix3::from_rows(&[
-                forward - bearing * (length * log_sinc_derivative(half)),
-                bearing * 2.0,
-                RowVector3::new(0.0, 0.0, 1.0) - bearing * 2.0,
+                forward_row - bearing_row * (length * log_sinc_derivative(half_turn)),
+                bearing_row * 2.0,
+                RowVector3::new(0.0, 0.0, 1.0) - bearing_row * 2.0,
             ]) / dt;
             let residuals = if is_linear {
-                let turned = wrap_angle(motion.theta() - expected.theta());
-                let off = Vector3::new(motion.x() - expected.x(), motion.y() - expected.y(), turned);
-                (jacobian * off).into()
+                let turn_residual = wrap_angle(motion.theta() - expected.theta());
+                let pose_error =
+                    Vector3::new(motion.x() - expected.x(), motion.y() - expected.y(), turn_residual);
+                (jacobian * pose_error).into()
             } else {
                 [executed.v_hat - v, wrap_angle((executed.omega_hat - omega) * dt) / dt, executed.gamma_hat]
             };
-            (residuals, [squares; 3], jacobian)
+            (residuals, [squared_rates; 3], jacobian)
         } else {
-            let ahead = (cos * motion.x() + sin * motion.y()) / sinc(half) / dt;
-            let jacobian = Matrix3::from_rows(&[forward / dt, RowVector3::zeros(), RowVector3::zeros()]);
-            ([ahead - v, f64::NAN, f64::NAN], [squares, [0.0; 2], [0.0; 2]], jacobian)
+            let ahead = (cos * motion.x() + sin * motion.y()) / sinc(half_turn) / dt;
+            let jacobian = Matrix3::from_rows(&[forward_row / dt, RowVector3::zeros(), RowVector3::zeros()]);
+            ([ahead - v, f64::NAN, f64::NAN], [squared_rates, [0.0; 2], [0.0; 2]], jacobian)
         };
     Observation { residuals, coefficients, reading: [v, omega, dt], expected, jacobian }
 }

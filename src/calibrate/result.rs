@@ -33,14 +33,14 @@ pub struct Recommended {
     pub reason: String,
 }
 
-/// One leg under the fit: its innovation, the residual less what the legs before predict. Components are NaN if the leg does not show them.
+/// One leg under the fit. Its innovation is the residual minus the prediction from the previous legs. Unobserved components are NaN.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LegFit {
     /// Standard deviations of the innovation's components.
     pub stds: [f64; 3],
     /// Innovation over its standard deviations.
     pub standardized: [f64; 3],
-    /// Squared Mahalanobis distance of the innovation: χ² with as many degrees of freedom as components are observed.
+    /// Squared Mahalanobis distance of the innovation: χ² distributed, with one degree of freedom per observed component.
     pub squared: f64,
     pub is_outlier: bool,
 }
@@ -55,19 +55,19 @@ impl LegFit {
 /// Result of a calibration.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Calibration {
-    /// None of one that the log does not identify.
+    /// Fitted α's. None for an α that the log does not identify.
     pub alphas: Vec<Option<f64>>,
     /// 95 % intervals of the α's.
     pub intervals: Vec<Option<[f64; 2]>>,
     pub not_identifiable: Vec<Option<NotIdentifiable>>,
     /// Systematic errors, all estimated together.
     pub systematic: Systematic,
-    /// Standard errors of [`SystematicError::ALL`]; None of one that the log does not identify.
+    /// Standard errors of [`SystematicError::ALL`]; None for an error that the log does not identify.
     pub systematic_stds: [Option<f64>; ERROR_COUNT],
     /// True for each systematic error that is the same on straight and turning legs, and in both halves of the log, up to its standard
     /// error. Only scales are tested; the others count as constant.
     pub is_constant: ErrorMask,
-    /// Systematic errors that were corrected, 0 (scales 1) where one was not.
+    /// Systematic errors that were corrected. An error that was not corrected is 0, or 1 if it is a scale.
     pub corrected: Systematic,
     /// True for each systematic error that was corrected.
     pub is_corrected: ErrorMask,

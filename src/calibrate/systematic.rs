@@ -45,8 +45,8 @@ impl SystematicError {
         Self::TurnScale,
     ];
 
-    /// Returns the largest standard error (s, rad, m, or none of a scale) with which the error counts as identifiable. Anybody sees an error
-    /// as large without a calibration.
+    /// Returns the maximum standard error (s, rad or m; no unit for a scale) with which the error counts as identifiable. An error this
+    /// large is visible without a calibration.
     pub(super) fn identifiability_limit(self) -> f64 {
         match self {
             Self::ClockOffset | Self::LeverArmAhead | Self::LeverArmLeft => 0.25,
@@ -78,18 +78,18 @@ impl Systematic {
     /// Returns the initial guess of the mount's yaw: the mean angle between the directions of legs by odometry and by reference. 0 if that angle
     /// is small, or directions are unrelated.
     pub(super) fn initial_mount_yaw(legs: &[Leg]) -> f64 {
-        let (mut along, mut across, mut total) = (0.0, 0.0, 0.0);
+        let (mut cos_sum, mut sin_sum, mut total) = (0.0, 0.0, 0.0);
         for leg in legs {
-            let [read, seen] = [leg.odometry, leg.reference].map(|[from, to]| {
+            let [odometry_motion, reference_motion] = [leg.odometry, leg.reference].map(|[from, to]| {
                 let motion = from.between(&to);
                 Vector2::new(motion.x(), motion.y())
             });
-            along += read.dot(&seen);
-            across += read.y * seen.x - read.x * seen.y;
-            total += read.norm() * seen.norm();
+            cos_sum += odometry_motion.dot(&reference_motion);
+            sin_sum += odometry_motion.y * reference_motion.x - odometry_motion.x * reference_motion.y;
+            total += odometry_motion.norm() * reference_motion.norm();
         }
-        let yaw = libm::atan2(across, along);
-        if yaw.abs() > MIN_INITIAL_YAW && libm::hypot(along, across) > MIN_RESULTANT * total {
+        let yaw = libm::atan2(sin_sum, cos_sum);
+        if yaw.abs() > MIN_INITIAL_YAW && libm::hypot(cos_sum, sin_sum) > MIN_RESULTANT * total {
             yaw
         } else {
             0.0
@@ -116,27 +116,30 @@ impl Systematic {
         if distance_scale == 1.0 && turn_scale == 1.0 {
             return read;
         }
-        let left = if model.drives_sideways() { distance_scale } else { distance_scale * turn_scale };
-        SE2::exp(&read.log().component_mul(&Vector3::new(distance_scale, left, turn_scale)))
+        let left_scale = if model.drives_sideways() { distance_scale } else { distance_scale * turn_scale };
+        SE2::exp(&read.log().component_mul(&Vector3::new(distance_scale, left_scale, turn_scale)))
     }
 
-    /// Returns the Jacobians of the base's motion by the error of the reference at the leg's start and end: small motions (x, y,
-    /// θ) in the frame of the reference there.
+    /// Returns the Jacobians of the base's motion with respect to the errors of the reference at the leg's start and end. An error is a
+    /// small motion (x, y, θ) in the frame of the reference there.
     pub(super) fn reference_jacobians(&self, leg: &Leg) -> [Matrix3<f64>; 2] {
         let seen = leg.reference[0].between(&leg.reference[1]);
-        let [mount, turn] = [self.mount_yaw, seen.theta()].map(rotation);
-        let lever = turn * Vector2::from(self.lever_arm);
+        let [mount_rotation, turn_rotation] = [self.mount_yaw, seen.theta()].map(rotation_matrix);
+        let rotated_lever_arm = turn_rotation * Vector2::from(self.lever_arm);
         // Displacement of the base for each rad by which the reference's heading at the end is too large.
-        let swing = Vector2::new(lever.y, -lever.x);
-        let pivot = mount * Vector2::new(-seen.y(), seen.x());
-        let embed = |place: Matrix2<f64>, heading: Vector2<f64>, turn: f64| {
+        let lever_displacement = Vector2::new(rotated_lever_arm.y, -rotated_lever_arm.x);
+        let turn_displacement = mount_rotation * Vector2::new(-seen.y(), seen.x());
+        let to_jacobian = |place: Matrix2<f64>, heading: Vector2<f64>, turn: f64| {
             Matrix3::new(place.m11, place.m12, heading.x, place.m21, place.m22, heading.y, 0.0, 0.0, turn)
         };
         let [start, end] = leg.interpolation_variances.map(f64::sqrt);
-        [embed(-mount, -pivot - swing, -1.0) * start, embed(mount * turn, swing, 1.0) * end]
+        [
+            to_jacobian(-mount_rotation, -turn_displacement - lever_displacement, -1.0) * start,
+            to_jacobian(mount_rotation * turn_rotation, lever_displacement, 1.0) * end,
+        ]
     }
 
-    /// Returns the Jacobian, by [`SystematicError::ALL`], of the motion that the reference measured less the one that the odometry read.
+    /// Returns the Jacobian, with respect to [`SystematicError::ALL`], of the motion by the reference minus the motion by the odometry.
     ///
     /// The Jacobian is computed at the reading, because the measured motion has the noise of the leg, which would bias the estimate.
     pub(super) fn motion_jacobian(
@@ -149,23 +152,23 @@ impl Systematic {
         let (x, y) = (read.x(), read.y());
         let twist = read.log();
         let [start, end] = leg.velocities;
-        let later = Vector3::new(
+        let offset_derivative = Vector3::new(
             cos * end.x - sin * end.y - start.x + start.z * y,
             sin * end.x + cos * end.y - start.y - start.z * x,
             end.z - start.z,
         );
-        let mut by_turn = turn_derivative(&twist, read) * twist.z;
+        let mut turn_scale_derivative = turn_derivative(&twist, read) * twist.z;
         if !model.drives_sideways() {
-            let bent = SE2::exp(&Vector3::new(0.0, twist.y, twist.z));
-            by_turn += Vector3::new(bent.x(), bent.y(), 0.0);
+            let bent_motion = SE2::exp(&Vector3::new(0.0, twist.y, twist.z));
+            turn_scale_derivative += Vector3::new(bent_motion.x(), bent_motion.y(), 0.0);
         }
         SMatrix::from_columns(&[
-            later,
+            offset_derivative,
             Vector3::new(-y, x, 0.0),
             Vector3::new(1.0 - cos, -sin, 0.0),
             Vector3::new(sin, 1.0 - cos, 0.0),
             -Vector3::new(x, y, 0.0) / self.distance_scale,
-            -by_turn / self.turn_scale,
+            -turn_scale_derivative / self.turn_scale,
         ])
     }
 }
@@ -173,20 +176,20 @@ impl Systematic {
 /// Mount yaw (rad) above which the fit needs an initial guess: differences of directions may wrap at π.
 const MIN_INITIAL_YAW: f64 = 0.5;
 
-/// Least length of the sum of all legs' direction differences, as unit vectors, over that of equal ones. Logs of unrelated drives have
-/// about 0.05.
+/// Minimum mean resultant length of the direction differences of all legs: 1 if all differences are equal. Logs of unrelated drives
+/// have about 0.05.
 const MIN_RESULTANT: f64 = 0.5;
 
-fn rotation(angle: f64) -> Matrix2<f64> {
+fn rotation_matrix(angle: f64) -> Matrix2<f64> {
     let (sin, cos) = libm::sincos(angle);
     Matrix2::new(cos, -sin, sin, cos)
 }
 
-/// Returns the derivative, by the turn of a twist, of the motion exp(twist) that ends at `end`. The twist keeps its length.
+/// Returns the derivative of the motion exp(twist), which ends at `end`, with respect to the turn. The twist keeps its length.
 fn turn_derivative(twist: &Vector3<f64>, end: &SE2) -> Vector3<f64> {
-    let half = 0.5 * twist.z;
-    let shrink = 0.5 * log_sinc_derivative(half);
-    Vector3::new(shrink * end.x() - 0.5 * end.y(), shrink * end.y() + 0.5 * end.x(), 1.0)
+    let half_turn = 0.5 * twist.z;
+    let log_chord_change = 0.5 * log_sinc_derivative(half_turn);
+    Vector3::new(log_chord_change * end.x() - 0.5 * end.y(), log_chord_change * end.y() + 0.5 * end.x(), 1.0)
 }
 
 /// Returns the derivative of ln sinc β: cot β − 1/β.

@@ -10,14 +10,14 @@ pub struct Trajectory {
     /// Times (s), each later than the one before.
     times: Vec<f64>,
     poses: Vec<SE2>,
-    /// Indices, in their order, of samples before which the pose may have jumped: no motion is known across.
+    /// Ascending indices of samples before which the pose may have jumped, so that the motion there is unknown.
     breaks: Vec<usize>,
     median_period: f64,
-    /// Longest period (s) without a pause of the recording. In a pause no pose is known; those at both ends are right.
+    /// Longest period (s) that is not a pause of the recording. In a pause no pose is known; the poses at both ends are correct.
     max_period: f64,
 }
 
-/// Reason for which the first sample at fault is not allowed in a trajectory. `sample` is its index, from 0.
+/// Reason why a sample is not allowed in a trajectory. `sample` is the index (from 0) of the first such sample.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 pub enum TrajectoryError {
     /// A time or a coordinate is not finite.
@@ -28,7 +28,7 @@ pub enum TrajectoryError {
     NotLater { sample: usize, before: f64 },
 }
 
-/// Number of median periods above which a period is a pause: a recording drops a message or two now and then.
+/// Number of median periods above which a period is a pause. Shorter gaps are only dropped messages.
 const MAX_PERIOD_RATIO: f64 = 5.0;
 
 /// Longest step (s) between the poses to which a held command is integrated. Legs end at these poses.
@@ -41,8 +41,8 @@ impl Trajectory {
     /// [`TrajectoryError`] at the first sample that is not finite or not later than the one before.
     pub fn new(samples: impl IntoIterator<Item = (f64, SE2)>) -> Result<Self, TrajectoryError> {
         let samples = samples.into_iter();
-        let (count, _) = samples.size_hint();
-        let (mut times, mut poses) = (Vec::with_capacity(count), Vec::with_capacity(count));
+        let (sample_count, _) = samples.size_hint();
+        let (mut times, mut poses) = (Vec::with_capacity(sample_count), Vec::with_capacity(sample_count));
         for (sample, (time, pose)) in samples.enumerate() {
             let pose: SE2 = pose;
             if ![time, pose.x(), pose.y(), pose.theta()].iter().all(|number| number.is_finite()) {
@@ -80,24 +80,24 @@ impl Trajectory {
     ) -> Result<Self, TrajectoryError> {
         let commands: Vec<(f64, f64, f64)> = commands.into_iter().collect();
         // A command that is not finite is refused at its own index.
-        let rows = commands.iter().map(|(t, v, omega)| {
+        let command_times = commands.iter().map(|(t, v, omega)| {
             (if v.is_finite() && omega.is_finite() { *t } else { f64::NAN }, SE2::identity())
         });
-        let step = Self::new(rows)?.median_period.min(MAX_COMMAND_STEP);
-        let (mut samples, mut pose) = (Vec::with_capacity(commands.len()), SE2::identity());
+        let step = Self::new(command_times)?.median_period.min(MAX_COMMAND_STEP);
+        let (mut integrated_samples, mut pose) = (Vec::with_capacity(commands.len()), SE2::identity());
         for (row, (time, v, omega)) in commands.iter().enumerate() {
             let Some((next, ..)) = commands.get(row + 1) else {
-                samples.push((*time, pose));
+                integrated_samples.push((*time, pose));
                 break;
             };
-            let parts = ((next - time) / (1.5 * step)).ceil().clamp(1.0, 1e3);
-            let dt = (next - time) / parts;
-            for part in 0..parts as usize {
-                samples.push((time + part as f64 * dt, pose));
+            let part_count = ((next - time) / (1.5 * step)).ceil().clamp(1.0, 1e3);
+            let dt = (next - time) / part_count;
+            for part in 0..part_count as usize {
+                integrated_samples.push((time + part as f64 * dt, pose));
                 pose = pose.boxplus(Vector3::new(v * dt, 0.0, omega * dt));
             }
         }
-        Ok(Self { max_period: f64::INFINITY, ..Self::new(samples)? })
+        Ok(Self { max_period: f64::INFINITY, ..Self::new(integrated_samples)? })
     }
 
     /// Returns the times (s) and poses of all samples.
@@ -120,7 +120,7 @@ impl Trajectory {
         self.median_period
     }
 
-    /// Returns the unwrapped heading (rad) of each sample less that of the first. Each step turns by less than half a circle.
+    /// Returns the unwrapped heading (rad) of each sample minus that of the first. Each step must turn by less than half a circle.
     pub(super) fn unwrapped_heading(&self) -> Vec<f64> {
         let mut sum = 0.0;
         let steps = self.poses.windows(2).map(|pair| {
@@ -149,23 +149,24 @@ impl Trajectory {
     /// Returns the index of the sample nearest to a time (s). None if it is further away than half of the shortest pause.
     pub(super) fn nearest(&self, time: f64) -> Option<usize> {
         let after = self.times.partition_point(|each| *each < time);
-        let off = |sample: usize| self.times.get(sample).map_or(f64::INFINITY, |at| (at - time).abs());
+        let time_distance =
+            |sample: usize| self.times.get(sample).map_or(f64::INFINITY, |at| (at - time).abs());
         let before = after.saturating_sub(1);
-        let nearest = if off(before) < off(after) { before } else { after };
-        (off(nearest) <= 0.5 * MAX_PERIOD_RATIO * self.median_period).then_some(nearest)
+        let nearest = if time_distance(before) < time_distance(after) { before } else { after };
+        (time_distance(nearest) <= 0.5 * MAX_PERIOD_RATIO * self.median_period).then_some(nearest)
     }
 
     pub(super) fn has_break_before(&self, sample: usize) -> bool {
         self.breaks.binary_search(&sample).is_ok()
     }
 
-    /// Returns whether a pause or a break is between the sample before and this one.
+    /// Returns true if a pause or a break is between the previous sample and this one.
     pub(super) fn has_gap_before(&self, sample: usize) -> bool {
-        let start = self.times[sample.saturating_sub(1)];
-        self.times[sample] - start > self.max_period || self.has_break_before(sample)
+        let time_before = self.times[sample.saturating_sub(1)];
+        self.times[sample] - time_before > self.max_period || self.has_break_before(sample)
     }
 
-    /// Returns whether a break lies between two times (s).
+    /// Returns true if a break lies between two times (s).
     pub(super) fn has_break(&self, from: f64, to: f64) -> bool {
         let next = self.breaks.partition_point(|sample| self.times[*sample] <= from);
         self.breaks.get(next).is_some_and(|sample| self.times[sample - 1] < to)
@@ -177,25 +178,25 @@ impl Trajectory {
         self.interpolated(time).map(|(pose, _)| pose)
     }
 
-    /// Returns [`Trajectory::pose_at`], and the variance of its error over that of one sample, where samples err independently:
-    /// (1 − s)² + s² at the fraction s between two.
-    // Arcs are long code.
+    /// Returns [`Trajectory::pose_at`], and the variance of its error divided by that of one sample. With independent errors it is
+    /// (1 − s)² + s² at the fraction s between two samples.
+    // Not inlined, because the code for arcs is long.
     #[inline(never)]
     pub(super) fn interpolated(&self, time: f64) -> Option<(SE2, f64)> {
         let after = self.times.partition_point(|each| *each < time);
-        let (at, pose) = (*self.times.get(after)?, self.poses[after]);
-        if at == time {
+        let (time_after, pose) = (*self.times.get(after)?, self.poses[after]);
+        if time_after == time {
             return Some((pose, 1.0));
         }
         let before = after.checked_sub(1).filter(|_| !self.has_gap_before(after))?;
-        let fraction = (time - self.times[before]) / (at - self.times[before]);
-        let between = self.poses[before].boxplus(pose.boxminus(&self.poses[before]) * fraction);
-        Some((between, (1.0 - fraction) * (1.0 - fraction) + fraction * fraction))
+        let fraction = (time - self.times[before]) / (time_after - self.times[before]);
+        let interpolated_pose = self.poses[before].boxplus(pose.boxminus(&self.poses[before]) * fraction);
+        Some((interpolated_pose, (1.0 - fraction) * (1.0 - fraction) + fraction * fraction))
     }
 }
 
-/// Returns the upper median; 0 of no numbers. Reorders them.
+/// Returns the upper median; 0 if there are no numbers. Reorders the numbers.
 pub(crate) fn median(numbers: &mut [f64]) -> f64 {
-    let middle = numbers.len() / 2;
-    if numbers.is_empty() { 0.0 } else { *numbers.select_nth_unstable_by(middle, f64::total_cmp).1 }
+    let middle_index = numbers.len() / 2;
+    if numbers.is_empty() { 0.0 } else { *numbers.select_nth_unstable_by(middle_index, f64::total_cmp).1 }
 }

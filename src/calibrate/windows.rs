@@ -15,7 +15,7 @@ use crate::geom::se2::SE2;
 use nalgebra::{Matrix3, Vector3};
 use std::ops::Range;
 
-/// Error of the predicted motion over a window of legs in exponential coordinates, and the covariances of its two causes.
+/// Error of the predicted motion over a window of legs, in exponential coordinates, with its covariances due to wheels and reference.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Window {
     /// log of (expected motion)⁻¹ (motion that the reference measured).
@@ -25,7 +25,7 @@ pub(super) struct Window {
 }
 
 impl Window {
-    fn squared(&self, inflation: f64) -> f64 {
+    fn squared_distance(&self, inflation: f64) -> f64 {
         let covariance = self.wheels * inflation + self.reference;
         covariance.try_inverse().map_or(f64::INFINITY, |inverse| self.error.dot(&(inverse * self.error)))
     }
@@ -40,25 +40,25 @@ impl Sample {
         covariances: &[Option<Matrix3<f64>>],
         parameters: &Parameters,
     ) -> Vec<Window> {
-        let empty = (0.0, SE2::identity(), Matrix3::zeros());
+        let empty_window = (0.0, SE2::identity(), Matrix3::zeros());
         let (mut windows, mut first) = (Vec::new(), range.start);
-        let (mut driven, mut expected, mut wheels) = empty;
+        let (mut driven_distance, mut expected, mut wheels) = empty_window;
         for leg in range {
             let Some(covariance) = covariances[leg] else {
                 first = leg + 1;
                 continue;
             };
             if leg == first || !self.legs[leg].follows {
-                (driven, expected, wheels) = empty;
+                (driven_distance, expected, wheels) = empty_window;
                 first = leg;
             }
-            let motion = &self.observations[leg].expected;
-            let carried = motion.inverse().adjoint();
-            wheels = carried * wheels * carried.transpose() + covariance;
-            expected = expected * *motion;
-            driven += distance(motion);
-            if driven >= length {
-                let (seen, reference) = self.seen(first, leg, parameters);
+            let expected_motion = &self.observations[leg].expected;
+            let to_leg_end = expected_motion.inverse().adjoint();
+            wheels = to_leg_end * wheels * to_leg_end.transpose() + covariance;
+            expected = expected * *expected_motion;
+            driven_distance += distance(expected_motion);
+            if driven_distance >= length {
+                let (seen, reference) = self.reference_motion(first, leg, parameters);
                 windows.push(Window { error: seen.boxminus(&expected), wheels, reference });
                 first = leg + 1;
             }
@@ -67,19 +67,21 @@ impl Sample {
     }
 
     /// Returns the motion that the reference saw over several legs, and the covariance of its error in the frame of their end.
-    fn seen(&self, first: usize, last: usize, parameters: &Parameters) -> (SE2, Matrix3<f64>) {
+    fn reference_motion(&self, first: usize, last: usize, parameters: &Parameters) -> (SE2, Matrix3<f64>) {
         let [start, end] = [first, last].map(|leg| &self.legs[leg]);
-        let whole = Leg {
+        let whole_window = Leg {
             reference: [start.reference[0], end.reference[1]],
             interpolation_variances: [start.interpolation_variances[0], end.interpolation_variances[1]],
             ..*start
         };
-        let seen = self.systematic.motion(&whole);
-        let covariances = self.systematic.reference_jacobians(&whole).map(|jacobian| {
-            let to_end = to_end_frame(&seen) * jacobian;
-            to_end * Matrix3::from_diagonal(&reference_variances(parameters)) * to_end.transpose()
+        let reference_motion = self.systematic.motion(&whole_window);
+        let covariances = self.systematic.reference_jacobians(&whole_window).map(|jacobian| {
+            let rotated_jacobian = to_end_frame(&reference_motion) * jacobian;
+            rotated_jacobian
+                * Matrix3::from_diagonal(&reference_variances(parameters))
+                * rotated_jacobian.transpose()
         });
-        (seen, covariances.iter().sum())
+        (reference_motion, covariances.iter().sum())
     }
 
     /// Returns the covariance of the wheels' noise over one leg, in the frame of its end. None of an outlier, and of a leg that does not
@@ -87,13 +89,13 @@ impl Sample {
     fn wheel_covariance(&self, leg: usize, parameters: &Parameters) -> Option<Matrix3<f64>> {
         let Observation { residuals, coefficients, mut jacobian, expected, .. } = self.observations[leg];
         if residuals[0].is_nan() {
-            let normal = jacobian.row(1).transpose().cross(&jacobian.row(2).transpose());
-            jacobian.set_row(0, &normal.transpose());
+            let wheel_direction = jacobian.row(1).transpose().cross(&jacobian.row(2).transpose());
+            jacobian.set_row(0, &wheel_direction.transpose());
         }
-        let by_noise = jacobian.try_inverse().filter(|_| !self.outliers[leg])?;
-        let to_end = to_end_frame(&expected) * by_noise;
+        let noise_jacobian = jacobian.try_inverse().filter(|_| !self.outliers[leg])?;
+        let rotated_jacobian = to_end_frame(&expected) * noise_jacobian;
         let variances = self.options.model.wheel_variances(&coefficients, parameters);
-        Some(to_end * Matrix3::from_diagonal(&variances) * to_end.transpose())
+        Some(rotated_jacobian * Matrix3::from_diagonal(&variances) * rotated_jacobian.transpose())
     }
 }
 
@@ -106,14 +108,15 @@ fn to_end_frame(motion: &SE2) -> Matrix3<f64> {
 /// Returns the fraction of windows inside of their 95 % ellipsoid, and their NEES: the mean squared Mahalanobis distance divided by its 3
 /// degrees of freedom. The wheels' variances are multiplied by `inflation`.
 fn coverage(windows: &[Window], length: f64, inflation: f64) -> WindowCoverage {
-    let squares: Vec<f64> = windows.iter().map(|window| window.squared(inflation)).collect();
-    let count = squares.len();
-    let inside = squares.iter().filter(|square| **square < CHI2_95[2]).count();
+    let squared_distances: Vec<f64> =
+        windows.iter().map(|window| window.squared_distance(inflation)).collect();
+    let count = squared_distances.len();
+    let inside_count = squared_distances.iter().filter(|square| **square < CHI2_95[2]).count();
     WindowCoverage {
         length,
         count,
-        coverage: inside as f64 / count as f64,
-        nees: squares.iter().sum::<f64>() / (3 * count) as f64,
+        coverage: inside_count as f64 / count as f64,
+        nees: squared_distances.iter().sum::<f64>() / (3 * count) as f64,
     }
 }
 
@@ -125,20 +128,20 @@ fn nees_std(count: usize) -> f64 {
 /// Returns the smallest inflation, 1 at least, under which 95 % of the windows are covered and NEES is not above its 95 % interval. None
 /// where [`MAX_INFLATION`] is not enough.
 fn required_inflation(windows: &[Window]) -> Option<f64> {
-    let holds = |inflation: f64| {
+    let is_covered = |inflation: f64| {
         let WindowCoverage { coverage, nees, count, .. } = coverage(windows, 0.0, inflation);
         coverage >= 0.95 && nees <= 1.0 + 1.96 * nees_std(count)
     };
-    if windows.len() < MIN_WINDOWS || holds(1.0) {
+    if windows.len() < MIN_WINDOWS || is_covered(1.0) {
         return Some(1.0);
     }
-    if !holds(MAX_INFLATION) {
+    if !is_covered(MAX_INFLATION) {
         return None;
     }
     let (mut low, mut high) = (1.0, MAX_INFLATION);
     while high / low > 1.005 {
-        let middle = f64::sqrt(low * high);
-        if holds(middle) { high = middle } else { low = middle }
+        let middle_inflation = f64::sqrt(low * high);
+        if is_covered(middle_inflation) { high = middle_inflation } else { low = middle_inflation }
     }
     Some(high)
 }
@@ -155,71 +158,72 @@ pub(super) struct Recommendation {
     pub windows: Vec<WindowCoverage>,
 }
 
-/// Fits each half of the log, compares the other one with that, and finds the inflation that windows need.
+/// Fits each half of the log, compares each half with the fit to the other one, and finds the inflation that windows need.
 pub(super) fn recommend(fit: &Fit, all: &Sample, alphas: &[Option<f64>]) -> Recommendation {
-    let halves = |count: usize| [0..count / 2, count / 2..count];
+    let half_ranges = |count: usize| [0..count / 2, count / 2..count];
     let count = fit.sample.legs.len();
-    let residuals = halves(count).map(|half| fit.sample.kept(half));
-    let fitted = |half: &Residuals| maximize(half, fit.maximum.parameters, &fit.maximum.free).parameters;
-    let by_other_half = [fitted(&residuals[1]), fitted(&residuals[0])];
-    let (mut inside, mut compared) = (0, 0);
+    let residuals = half_ranges(count).map(|half| fit.sample.inlier_residuals(half));
+    let fit_parameters =
+        |half: &Residuals| maximize(half, fit.maximum.parameters, &fit.maximum.free).parameters;
+    let by_other_half = [fit_parameters(&residuals[1]), fit_parameters(&residuals[0])];
+    let (mut inside, mut compared_count) = (0, 0);
     for (residuals, parameters) in residuals.iter().zip(&by_other_half) {
-        compared += residuals.len();
+        compared_count += residuals.len();
         let filtered = residuals.filtered(parameters);
         inside += filtered
             .leg_fits()
             .filter(|fit| fit.observed() > 0 && fit.squared < CHI2_95[fit.observed() - 1])
             .count();
     }
-    // Variances of n legs have the relative variance 2/3n; α's share them.
+    // Variances estimated from the 3n components of n legs have the relative variance 2/3n; several α's share them.
     let scale_std = (2.0 * alphas.len() as f64 / (3 * count / 2).max(1) as f64).sqrt();
-    let coverage_by_other_half = inside as f64 / compared as f64;
-    let expected = coverage_range(compared, scale_std);
-    let mut checks = vec![Check::new(CheckName::HoldoutCovered, coverage_by_other_half, expected)];
-    // Windows of the whole log, each under the fit to the half in which it is not.
-    let held_out = halves(all.legs.len());
-    let held_out = || held_out.iter().cloned().zip(&by_other_half);
-    let covariances: Vec<Option<Matrix3<f64>>> = held_out()
+    let coverage_by_other_half = inside as f64 / compared_count as f64;
+    let expected_coverage = coverage_range(compared_count, scale_std);
+    let mut checks = vec![Check::new(CheckName::HoldoutCovered, coverage_by_other_half, expected_coverage)];
+    // Windows of the whole log, each under the fit to the other half.
+    let held_out_halves = half_ranges(all.legs.len());
+    let held_out_halves = || held_out_halves.iter().cloned().zip(&by_other_half);
+    let covariances: Vec<Option<Matrix3<f64>>> = held_out_halves()
         .flat_map(|(half, parameters)| half.map(|leg| all.wheel_covariance(leg, parameters)))
         .collect();
     let windows = WINDOW_LENGTHS.map(|length| {
-        let cut = |(half, parameters)| all.windows(half, length, &covariances, parameters);
-        held_out().flat_map(cut).collect::<Vec<_>>()
+        let windows_of_half = |(half, parameters)| all.windows(half, length, &covariances, parameters);
+        held_out_halves().flat_map(windows_of_half).collect::<Vec<_>>()
     });
     let inflation = required_inflation(&windows[0]);
-    let covered: Vec<WindowCoverage> =
+    let window_coverages: Vec<WindowCoverage> =
         windows.iter().zip(WINDOW_LENGTHS).map(|(windows, length)| coverage(windows, length, 1.0)).collect();
-    checks.extend(window_checks(&covered, scale_std));
+    checks.extend(window_checks(&window_coverages, scale_std));
     let recommended = inflation.map(|inflation| Recommended {
         alphas: alphas.iter().map(|alpha| alpha.map(|alpha| inflation * alpha)).collect(),
         inflation,
-        reason: reason(&covered[0], inflation),
+        reason: recommendation_reason(&window_coverages[0], inflation),
     });
-    Recommendation { recommended, checks, windows: covered }
+    Recommendation { recommended, checks, windows: window_coverages }
 }
 
-fn reason(window: &WindowCoverage, inflation: f64) -> String {
+fn recommendation_reason(window: &WindowCoverage, inflation: f64) -> String {
     let WindowCoverage { count, coverage, nees, .. } = *window;
     if count < MIN_WINDOWS {
         return format!(
             "The log has {count} windows of 1 m that were not used for the fit; {MIN_WINDOWS} are needed to judge it, so the fit stands as it is."
         );
     }
-    let percent = decimal(100.0 * coverage, 1);
+    let coverage_percent = format_decimal(100.0 * coverage, 1);
     if inflation == 1.0 {
         return format!(
-            "The fit covers {percent} % of {count} held-out windows of 1 m, where 95 % is right."
+            "The fit covers {coverage_percent} % of {count} held-out windows of 1 m, where 95 % is right."
         );
     }
-    let [nees, inflation] = [nees, inflation].map(|number| decimal(number, 2));
+    let [nees, inflation] = [nees, inflation].map(|number| format_decimal(number, 2));
     format!(
-        "The fit covers {percent} % of {count} held-out windows of 1 m (squared error over predicted variance {nees}, where 1 is right); times {inflation} it covers 95 %."
+        "The fit covers {coverage_percent} % of {count} held-out windows of 1 m (squared error over predicted variance {nees}, where 1 is right); times {inflation} it covers 95 %."
     )
 }
 
-/// Formats a positive number with decimals. The standard formatting of floating-point numbers would be a twentieth of the module for a page.
-fn decimal(number: f64, decimals: usize) -> String {
-    let scale = 10_u64.pow(decimals as u32);
-    let scaled = (number * scale as f64).round() as u64;
-    format!("{}.{:0decimals$}", scaled / scale, scaled % scale)
+/// Formats a positive number with decimals. The standard formatting of floating-point numbers would be 5 % of the wasm module of a page.
+fn format_decimal(number: f64, decimals: usize) -> String {
+    let power_of_ten = 10_u64.pow(decimals as u32);
+    let scaled_number = (number * power_of_ten as f64).round() as u64;
+    format!("{}.{:0decimals$}", scaled_number / power_of_ten, scaled_number % power_of_ten)
 }

@@ -15,6 +15,6 @@ pub fn wrap_angle(angle: f64) -> f64 {
 #[inline(never)]
 fn wrap_far_angle(angle: f64) -> f64 {
     // The remainder is in [−π, π].
-    let turned = libm::remainder(angle, TAU);
-    if turned == -PI { PI } else { turned }
+    let remainder = libm::remainder(angle, TAU);
+    if remainder == -PI { PI } else { remainder }
 }

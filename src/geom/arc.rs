@@ -88,12 +88,12 @@ pub fn invert_arc(x: &SE2, x_next: &SE2, dt: f64) -> ArcInversion {
 /// is 0; along a straight line, which closes no circle, the turn is 0.
 pub fn arc_near(x: &SE2, x_next: &SE2, near: f64) -> (f64, f64) {
     let ArcInversion { v_hat: length, omega_hat: turn, .. } = invert_arc(x, x_next, 1.0);
-    let circles = ((near - turn) / TAU).round();
-    if circles == 0.0 || turn == 0.0 {
+    let whole_circles = ((near - turn) / TAU).round();
+    if whole_circles == 0.0 || turn == 0.0 {
         return (length, turn);
     }
-    let wound = turn + circles * TAU;
-    (length * (wound / turn), wound)
+    let total_turn = turn + whole_circles * TAU;
+    (length * (total_turn / turn), total_turn)
 }
 
 /// The path of a point that leaves `start` along its heading, driving the signed `length` (m) while turning by `turn`
@@ -108,7 +108,8 @@ pub struct Arc {
 impl Arc {
     /// Returns the end pose of the arc.
     pub fn end(&self) -> SE2 {
-        let Driven { end: [x, y], heading, .. } = PreparedPose::new(self.start).drive(self.length, self.turn);
+        let DrivenArc { end: [x, y], heading, .. } =
+            PreparedPose::new(self.start).drive(self.length, self.turn);
         SE2::new(x, y, heading)
     }
 
@@ -130,23 +131,28 @@ impl Arc {
         // No point of the arc is further from its middle than half its length, or than the diameter of its circle.
         let middle = Self { length: 0.5 * self.length, turn: 0.5 * self.turn, ..*self }.end();
         let diameter = if self.turn == 0.0 { f64::INFINITY } else { 2.0 * (self.length / self.turn).abs() };
-        let reach = (0.5 * self.length.abs()).min(diameter);
-        [middle.x() - reach, middle.y() - reach, middle.x() + reach, middle.y() + reach]
+        let max_distance = (0.5 * self.length.abs()).min(diameter);
+        [
+            middle.x() - max_distance,
+            middle.y() - max_distance,
+            middle.x() + max_distance,
+            middle.y() + max_distance,
+        ]
     }
 
-    pub(crate) fn unrolled(&self) -> Unrolled {
+    pub(crate) fn local_arc(&self) -> LocalArc {
         let (sin, cos) = libm::sincos(self.start.theta());
-        let ahead = if self.length < 0.0 { -1.0 } else { 1.0 };
+        let drive_sign = if self.length < 0.0 { -1.0 } else { 1.0 };
         let length = self.length.abs();
         // A drive in reverse is mirrored into a forward drive with the opposite turn, and a right turn into a left turn.
-        let turn = self.turn * ahead;
-        let side = if turn < 0.0 { -1.0 } else { 1.0 };
+        let turn = self.turn * drive_sign;
+        let turn_sign = if turn < 0.0 { -1.0 } else { 1.0 };
         let turn = turn.abs();
         let curvature = if length > MIN_LENGTH && turn > MIN_TURN { turn / length } else { 0.0 };
-        Unrolled {
+        LocalArc {
             origin: [self.start.x(), self.start.y()],
-            forward: [ahead * cos, ahead * sin],
-            left: [-side * sin, side * cos],
+            forward: [drive_sign * cos, drive_sign * sin],
+            left: [-turn_sign * sin, turn_sign * cos],
             length,
             turn,
             curvature,
@@ -165,7 +171,7 @@ pub(crate) struct PreparedPose {
 
 /// Arc with its end pose.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Driven {
+pub(crate) struct DrivenArc {
     pub arc: Arc,
     pub end: [f64; 2],
     /// Heading at the end in (−π, π], rad.
@@ -192,12 +198,12 @@ impl PreparedPose {
 
     /// Returns the arc of [`chord`], composed with the pose.
     #[inline(always)]
-    pub fn drive(&self, length: f64, turn: f64) -> Driven {
-        let half = 0.5 * turn;
-        let half_sine = libm::sin(half);
-        let half_sinc = if half == 0.0 { 1.0 } else { half_sine / half };
+    pub fn drive(&self, length: f64, turn: f64) -> DrivenArc {
+        let half_turn = 0.5 * turn;
+        let half_sine = libm::sin(half_turn);
+        let half_sinc = if half_turn == 0.0 { 1.0 } else { half_sine / half_turn };
         let (forward, left) = (length * sinc(turn), length * (half_sine * half_sinc));
-        self.driven(length, turn, half_sinc, self.transform([forward, left]))
+        self.driven_arc(length, turn, half_sinc, self.transform([forward, left]))
     }
 
     /// Drives four arcs at once. The ends differ from those of [`PreparedPose::drive`] by less than 2e-15 · length.
@@ -207,7 +213,7 @@ impl PreparedPose {
         trigonometry: &Trigonometry,
         length: f64x4,
         turn: f64x4,
-    ) -> impl Fn(usize) -> Driven {
+    ) -> impl Fn(usize) -> DrivenArc {
         // The end is on the bearing φ/2, at the length of the chord.
         let Circle { sinc, sin, cos } = trigonometry.near_or_any_circle(turn * 0.5);
         let distance = length * sinc;
@@ -216,31 +222,31 @@ impl PreparedPose {
         let y = (forward * self.sin + left * self.cos) + self.pose.y();
         let [length, turn, sinc, x, y] = [length, turn, sinc, x, y].map(f64x4::to_array);
         let from = *self;
-        move |i| from.driven(length[i], turn[i], sinc[i], [x[i], y[i]])
+        move |i| from.driven_arc(length[i], turn[i], sinc[i], [x[i], y[i]])
     }
 
-    fn driven(&self, length: f64, turn: f64, half_sinc: f64, end: [f64; 2]) -> Driven {
+    fn driven_arc(&self, length: f64, turn: f64, half_sinc: f64, end: [f64; 2]) -> DrivenArc {
         let heading = wrap_angle(self.pose.theta() + wrap_angle(turn));
-        Driven { arc: Arc { start: self.pose, length, turn }, end, heading, half_sinc }
+        DrivenArc { arc: Arc { start: self.pose, length, turn }, end, heading, half_sinc }
     }
 }
 
-impl Driven {
-    /// Returns the arc in one or two courses of up to half a turn. Anything after a full turn is omitted, because it repeats the
+impl DrivenArc {
+    /// Returns the arc as one or two pieces of up to half a turn. Anything after a full turn is omitted, because it repeats the
     /// circle.
-    pub fn courses(&self) -> impl Iterator<Item = Course> {
+    pub fn arc_pieces(&self) -> impl Iterator<Item = ArcPiece> {
         let Arc { start, length, turn } = self.arc;
         let from = [start.x(), start.y()];
         if turn.abs() <= PI {
-            let course = Course::new(from, self.end, length.abs(), turn, self.half_sinc);
-            return [Some(course), None].into_iter().flatten();
+            let piece = ArcPiece::new(from, self.end, length.abs(), turn, self.half_sinc);
+            return [Some(piece), None].into_iter().flatten();
         }
-        let half = 0.5 * (TAU / turn.abs()).min(1.0);
-        let (length, turn) = (half * length, half * turn);
-        let Driven { end: middle, half_sinc, .. } = PreparedPose::new(start).drive(length, turn);
-        let to = if half < 0.5 { from } else { self.end };
+        let half_fraction = 0.5 * (TAU / turn.abs()).min(1.0);
+        let (length, turn) = (half_fraction * length, half_fraction * turn);
+        let DrivenArc { end: middle, half_sinc, .. } = PreparedPose::new(start).drive(length, turn);
+        let to = if half_fraction < 0.5 { from } else { self.end };
         [(from, middle), (middle, to)]
-            .map(|(from, to)| Some(Course::new(from, to, length.abs(), turn, half_sinc)))
+            .map(|(from, to)| Some(ArcPiece::new(from, to, length.abs(), turn, half_sinc)))
             .into_iter()
             .flatten()
     }
@@ -251,10 +257,10 @@ impl Driven {
             return self.arc.bounding_box();
         }
         let ([x0, y0], [x1, y1]) = ([self.arc.start.x(), self.arc.start.y()], self.end);
-        // The arc lies in the rectangle on its chord that reaches to its middle: tan(φ/4)/2 chords to the right, which is at
-        // most φ/2π of them.
-        let bend = self.arc.turn / TAU;
-        let (rise_x, rise_y) = (bend * (y1 - y0), bend * (x0 - x1));
+        // The arc lies in the rectangle between its chord and its middle. The middle is tan(φ/4)/2 chord lengths to the right of
+        // the chord, which is at most φ/2π of them.
+        let rise_ratio = self.arc.turn / TAU;
+        let (rise_x, rise_y) = (rise_ratio * (y1 - y0), rise_ratio * (x0 - x1));
         [
             x0.min(x1) + rise_x.min(0.0),
             y0.min(y1) + rise_y.min(0.0),
@@ -264,57 +270,61 @@ impl Driven {
     }
 }
 
-/// Approximation of an arc of up to half a turn, for fast computations of its points.
+/// Approximation of an arc of up to half a turn, for fast computation of its points.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Course {
+pub(crate) struct ArcPiece {
     middle: [f64; 2],
     /// Direction of travel in the middle.
     tangent: [f64; 2],
     curvature: f64,
     /// Half its length, m.
-    pub half: f64,
+    pub half_length: f64,
     /// Maximum error of a point, m.
     pub error: f64,
 }
 
-impl Course {
-    /// Creates the course between two points, which has a positive `length` (m) and turns by `turn`; `half_sinc` is sinc(φ/2).
+impl ArcPiece {
+    /// Creates the piece between two points, which has a positive `length` (m) and turns by `turn`; `half_sinc` is sinc(φ/2).
     fn new(from: [f64; 2], to: [f64; 2], length: f64, turn: f64, half_sinc: f64) -> Self {
         let (per_metre, curvature) =
             if length > MIN_LENGTH { (1.0 / (length * half_sinc), turn / length) } else { (0.0, 0.0) };
         let tangent = [(to[0] - from[0]) * per_metre, (to[1] - from[1]) * per_metre];
         let half = 0.5 * length;
-        let ends = Self {
+        let flat_course = Self {
             middle: [0.5 * (from[0] + to[0]), 0.5 * (from[1] + to[1])],
             tangent,
             curvature,
-            half,
+            half_length: half,
             error: 0.0,
         };
-        let [_, rise]: [f64; 2] = ends.local(half);
-        let middle = [ends.middle[0] + rise * tangent[1], ends.middle[1] - rise * tangent[0]];
-        let square = 0.25 * turn * turn;
-        Self { middle, error: half * square * square * square / 2000.0, ..ends }
+        let [_, rise]: [f64; 2] = flat_course.local_point(half);
+        let middle = [flat_course.middle[0] + rise * tangent[1], flat_course.middle[1] - rise * tangent[0]];
+        let half_turn_squared = 0.25 * turn * turn;
+        Self {
+            middle,
+            error: half * half_turn_squared * half_turn_squared * half_turn_squared / 2000.0,
+            ..flat_course
+        }
     }
 
     /// Returns the coordinates ahead and to the left of the middle, for one length or four.
     #[inline(always)]
-    fn local<T>(&self, s: T) -> [T; 2]
+    fn local_point<T>(&self, s: T) -> [T; 2]
     where
         T: Copy + Mul<Output = T> + Mul<f64, Output = T> + Add<f64, Output = T>,
     {
         let angle = s * self.curvature;
-        let square = angle * angle;
+        let angle_squared = angle * angle;
         [
-            s * (square * (square * (1.0 / 120.0) + -1.0 / 6.0) + 1.0),
-            s * angle * (square * (square * (1.0 / 720.0) + -1.0 / 24.0) + 0.5),
+            s * (angle_squared * (angle_squared * (1.0 / 120.0) + -1.0 / 6.0) + 1.0),
+            s * angle * (angle_squared * (angle_squared * (1.0 / 720.0) + -1.0 / 24.0) + 0.5),
         ]
     }
 
     /// Returns the points `s` metres after the middle: their x and y.
     #[inline(always)]
-    pub fn at(&self, s: f64x4) -> [f64x4; 2] {
-        let [ahead, left] = self.local(s);
+    pub fn points_at(&self, s: f64x4) -> [f64x4; 2] {
+        let [ahead, left] = self.local_point(s);
         let [cos, sin] = self.tangent;
         [(ahead * cos - left * sin) + self.middle[0], (ahead * sin + left * cos) + self.middle[1]]
     }
@@ -330,7 +340,7 @@ const MIN_LENGTH: f64 = 1e-100;
 
 /// Arc in the frame of its start, mirrored so that it leads forward and to the left. It starts at the origin along x, with
 /// length, turn and curvature κ ≥ 0. No formula uses the centre, which is far away or undefined if κ is small.
-pub(crate) struct Unrolled {
+pub(crate) struct LocalArc {
     origin: [f64; 2],
     forward: [f64; 2],
     left: [f64; 2],
@@ -340,19 +350,19 @@ pub(crate) struct Unrolled {
     pub end: [f64; 2],
 }
 
-impl Unrolled {
+impl LocalArc {
     pub fn transform(&self, point: [f64; 2]) -> [f64; 2] {
         let (dx, dy) = (point[0] - self.origin[0], point[1] - self.origin[1]);
         [dx * self.forward[0] + dy * self.forward[1], dx * self.left[0] + dy * self.left[1]]
     }
 
     /// Returns κ|p|²/2 − y: 0 on the circle (or line), positive outside (or to the right).
-    pub fn circle(&self, [x, y]: [f64; 2]) -> f64 {
+    pub fn circle_equation(&self, [x, y]: [f64; 2]) -> f64 {
         0.5 * self.curvature * (x * x + y * y) - y
     }
 
     /// Returns true if the point of the circle nearest to `point` belongs to the arc.
-    pub fn passes(&self, [x, y]: [f64; 2]) -> bool {
+    pub fn has_nearest_point(&self, [x, y]: [f64; 2]) -> bool {
         if self.curvature == 0.0 {
             return (0.0..=self.length).contains(&x);
         }
@@ -364,11 +374,11 @@ impl Unrolled {
     pub fn distance(&self, point: [f64; 2]) -> f64 {
         let to_ends =
             libm::hypot(point[0], point[1]).min(libm::hypot(point[0] - self.end[0], point[1] - self.end[1]));
-        if !self.passes(point) {
+        if !self.has_nearest_point(point) {
             return to_ends;
         }
         // |p − c| − 1/κ = (|p − c|² − 1/κ²)/(|p − c| + 1/κ), times κ above and below: the centre c may be far away.
         let from_centre = libm::hypot(self.curvature * point[0], 1.0 - self.curvature * point[1]);
-        (2.0 * self.circle(point) / (1.0 + from_centre)).abs().min(to_ends)
+        (2.0 * self.circle_equation(point) / (1.0 + from_centre)).abs().min(to_ends)
     }
 }

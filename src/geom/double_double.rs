@@ -1,7 +1,7 @@
 //! Double-double arithmetic: numbers with twice the digits of a double, for checking formulas in doubles.
 //!
 //! A number is the sum of two doubles, of which the second is at most half a unit in the last place of the first: 106 bits.
-//! Sums and products by the error-free transformations of Dekker (Numerische Mathematik 18, 1971) and Knuth.
+//! Sums and products use the error-free transformations of Dekker (Numerische Mathematik 18, 1971) and Knuth.
 
 use std::ops::{Add, Mul, Neg, Sub};
 
@@ -21,7 +21,7 @@ const TERMS: i32 = 12;
 /// Number of times that the angle is halved before the series, and doubled after it.
 const HALVINGS: i32 = 4;
 
-/// Returns a + b without an error, if |a| ≥ |b|.
+/// Returns a + b without rounding error, if |a| ≥ |b|.
 fn quick_two_sum(a: f64, b: f64) -> DoubleDouble {
     let high = a + b;
     DoubleDouble { high, low: b - (high - a) }
@@ -30,19 +30,19 @@ fn quick_two_sum(a: f64, b: f64) -> DoubleDouble {
 /// Returns a + b without rounding error.
 fn two_sum(a: f64, b: f64) -> DoubleDouble {
     let high = a + b;
-    let part = high - a;
-    DoubleDouble { high, low: (a - (high - part)) + (b - part) }
+    let b_rounded = high - a;
+    DoubleDouble { high, low: (a - (high - b_rounded)) + (b - b_rounded) }
 }
 
-/// Returns a · b without an error, as long as nothing under- or overflows.
+/// Returns a · b without rounding error, as long as nothing under- or overflows.
 fn two_product(a: f64, b: f64) -> DoubleDouble {
-    let split = |x: f64| {
+    let split_in_halves = |x: f64| {
         let big = SPLITTER * x;
         let high = big - (big - x);
         [high, x - high]
     };
     let high = a * b;
-    let ([a1, a2], [b1, b2]) = (split(a), split(b));
+    let ([a1, a2], [b1, b2]) = (split_in_halves(a), split_in_halves(b));
     DoubleDouble { high, low: ((a1 * b1 - high) + a1 * b2 + a2 * b1) + a2 * b2 }
 }
 
@@ -99,8 +99,8 @@ impl DoubleDouble {
     /// Returns the quotient by a double, with a relative error of at most 2⁻¹⁰⁴.
     pub fn divided_by(self, divisor: f64) -> Self {
         let high = self.high / divisor;
-        let rest = self - two_product(high, divisor);
-        quick_two_sum(high, rest.high / divisor)
+        let remainder = self - two_product(high, divisor);
+        quick_two_sum(high, remainder.high / divisor)
     }
 
     /// Returns the sine and cosine of an angle within a full circle, with an error below 1e-30.
@@ -108,22 +108,22 @@ impl DoubleDouble {
     /// It evaluates Taylor's series for a sixteenth of the angle, and then doubles the angle four times: sin 2a = 2 sin a cos a
     /// and 1 − cos 2a = 2 sin² a. Computing 1 − cos a instead of cos a loses no digits.
     pub fn sin_cos(self) -> (Self, Self) {
-        let scale = f64::from(1 << HALVINGS);
-        let a = Self { high: self.high / scale, low: self.low / scale };
-        let square = a * a;
+        let angle_divisor = f64::from(1 << HALVINGS);
+        let a = Self { high: self.high / angle_divisor, low: self.low / angle_divisor };
+        let angle_squared = a * a;
         // Sine a − a³/3! + …, and versine 1 − cos a = ½a² − a⁴/4! + …
         let mut sine = Self::from(1.0);
         let mut versine = Self::from(1.0);
         for k in (1..TERMS).rev() {
             let n = f64::from(2 * k);
-            sine = Self::from(1.0) - (square * sine).divided_by(n * (n + 1.0));
-            versine = Self::from(1.0) - (square * versine).divided_by((n + 1.0) * (n + 2.0));
+            sine = Self::from(1.0) - (angle_squared * sine).divided_by(n * (n + 1.0));
+            versine = Self::from(1.0) - (angle_squared * versine).divided_by((n + 1.0) * (n + 2.0));
         }
         let mut sine = a * sine;
-        let mut versine = (square * versine).divided_by(2.0);
+        let mut versine = (angle_squared * versine).divided_by(2.0);
         for _ in 0..HALVINGS {
             let cosine = Self::from(1.0) - versine;
-            (sine, versine) = (double(sine * cosine), double(sine * sine));
+            (sine, versine) = (doubled(sine * cosine), doubled(sine * sine));
         }
         (sine, Self::from(1.0) - versine)
     }
@@ -135,12 +135,12 @@ impl DoubleDouble {
         }
         let (sine, _) = self.sin_cos();
         // A quotient in doubles, corrected by its remainder.
-        let first = sine.high / self.high;
-        let rest = sine - self * Self::from(first);
-        quick_two_sum(first, rest.high / self.high)
+        let quotient = sine.high / self.high;
+        let remainder = sine - self * Self::from(quotient);
+        quick_two_sum(quotient, remainder.high / self.high)
     }
 }
 
-fn double(x: DoubleDouble) -> DoubleDouble {
+fn doubled(x: DoubleDouble) -> DoubleDouble {
     DoubleDouble { high: 2.0 * x.high, low: 2.0 * x.low }
 }

@@ -60,7 +60,7 @@ impl Trigonometry {
     /// Returns the sines and cosines of any finite angles (rad). It is fastest if all are up to a quarter turn.
     #[inline(always)]
     pub fn near_or_any_circle(&self, x: f64x4) -> Circle {
-        if beyond(x, FRAC_PI_2) { self.any_circle(x) } else { self.circle(x) }
+        if any_beyond(x, FRAC_PI_2) { self.any_circle(x) } else { self.circle(x) }
     }
 
     /// Returns the sines and cosines of any finite angles (rad). A lane up to a quarter turn gets the bits of
@@ -68,25 +68,25 @@ impl Trigonometry {
     #[inline(never)]
     pub fn any_circle(&self, x: f64x4) -> Circle {
         let half_circles = whole_half_circles(x);
-        let near = self.circle(without_half_circles(x, half_circles));
+        let reduced = self.circle(without_half_circles(x, half_circles));
         // +1 or −1: rounded to an even number, an odd one is off by one.
-        let odd = half_circles - (half_circles + 2.0 * ROUND_TO_INTEGER - 2.0 * ROUND_TO_INTEGER);
-        let sign = f64x4::splat(1.0) - 2.0 * odd.abs();
-        let (sin, cos) = (near.sin * sign, near.cos * sign);
-        let sinc = half_circles.simd_eq(f64x4::splat(0.0)).bitselect(near.sinc, sin / x);
-        if !beyond(x, MAX_REDUCED) {
+        let parity = half_circles - (half_circles + 2.0 * ROUND_TO_INTEGER - 2.0 * ROUND_TO_INTEGER);
+        let sign = f64x4::splat(1.0) - 2.0 * parity.abs();
+        let (sin, cos) = (reduced.sin * sign, reduced.cos * sign);
+        let sinc = half_circles.simd_eq(f64x4::splat(0.0)).bitselect(reduced.sinc, sin / x);
+        if !any_beyond(x, MAX_REDUCED) {
             return Circle { sinc, sin, cos };
         }
-        let by_lane = |of: f64x4, scalar: fn(f64) -> f64| {
+        let lane_by_lane = |of: f64x4, scalar: fn(f64) -> f64| {
             lanes(|i| {
                 let angle = x.to_array()[i];
                 if angle.abs() > MAX_REDUCED { scalar(angle) } else { of.to_array()[i] }
             })
         };
         Circle {
-            sinc: by_lane(sinc, super::sinc::sinc),
-            sin: by_lane(sin, libm::sin),
-            cos: by_lane(cos, libm::cos),
+            sinc: lane_by_lane(sinc, super::sinc::sinc),
+            sin: lane_by_lane(sin, libm::sin),
+            cos: lane_by_lane(cos, libm::cos),
         }
     }
 
@@ -101,14 +101,14 @@ impl Trigonometry {
     /// Half headings that [`Trigonometry::half_turn`] accepts get the same bits as from it.
     #[inline(never)]
     pub fn any_half_turn(&self, half: f64x4, near: f64) -> HalfTurn {
-        let mut wrapped = without_half_circles(half, whole_half_circles(half - near));
-        if beyond(half - near, MAX_REDUCED) {
+        let mut wrapped_half = without_half_circles(half, whole_half_circles(half - near));
+        if any_beyond(half - near, MAX_REDUCED) {
             let by_scalar = |half: f64| near + 0.5 * wrap_angle(2.0 * (half - near));
-            let far = (half - near).abs().simd_gt(f64x4::splat(MAX_REDUCED));
-            wrapped = far.bitselect(lanes(|i| by_scalar(half.to_array()[i])), wrapped);
+            let is_far = (half - near).abs().simd_gt(f64x4::splat(MAX_REDUCED));
+            wrapped_half = is_far.bitselect(lanes(|i| by_scalar(half.to_array()[i])), wrapped_half);
         }
-        let Circle { sinc, sin, cos } = self.any_circle(wrapped);
-        HalfTurn { half: wrapped, cotangent: cos / sinc, sinc, sin, cos }
+        let Circle { sinc, sin, cos } = self.any_circle(wrapped_half);
+        HalfTurn { half: wrapped_half, cotangent: cos / sinc, sinc, sin, cos }
     }
 
     /// Returns (sin x/x, cos x) from z = x², for |x| up to a quarter turn. Exact at 0.
@@ -128,13 +128,13 @@ impl Trigonometry {
 
 /// Returns true if a lane is greater than `most` in absolute value.
 #[inline(always)]
-fn beyond(x: f64x4, most: f64) -> bool {
-    any(x.abs().simd_gt(f64x4::splat(most)))
+fn any_beyond(x: f64x4, most: f64) -> bool {
+    any_lane_set(x.abs().simd_gt(f64x4::splat(most)))
 }
 
 /// Returns true if a lane of a mask is set.
 #[inline(always)]
-pub(crate) fn any(mask: f64x4) -> bool {
+pub(crate) fn any_lane_set(mask: f64x4) -> bool {
     let [low, high] = halves(mask);
     (low | high).any()
 }
@@ -154,23 +154,25 @@ pub(crate) fn lanes(lane: impl FnMut(usize) -> f64) -> f64x4 {
 /// algorithm is explained).
 #[inline(always)]
 pub(crate) fn log(x: f64x4) -> f64x4 {
-    /// The upper half of √2/2; a mantissa is counted from there.
-    const LEAST: u64 = 0x3fe6_a09e << 32;
+    /// Upper 32 bits of √2/2, the smallest reduced mantissa.
+    const HALF_SQRT_2: u64 = 0x3fe6_a09e << 32;
     const ONE: u64 = 0x3ff0_0000 << 32;
     const TWO_52: f64 = 4_503_599_627_370_496.0;
-    let bits = x.to_bits() + u64x4::splat(ONE - LEAST);
-    let biased = f64x4::from_bits((bits >> 52) | u64x4::splat(TWO_52.to_bits()));
-    let power = biased - (TWO_52 + 1023.0);
-    let f = f64x4::from_bits((bits & u64x4::splat((1 << 52) - 1)) + u64x4::splat(LEAST)) - 1.0;
+    let shifted_bits = x.to_bits() + u64x4::splat(ONE - HALF_SQRT_2);
+    let biased_exponent = f64x4::from_bits((shifted_bits >> 52) | u64x4::splat(TWO_52.to_bits()));
+    let exponent = biased_exponent - (TWO_52 + 1023.0);
+    let f = f64x4::from_bits((shifted_bits & u64x4::splat((1 << 52) - 1)) + u64x4::splat(HALF_SQRT_2)) - 1.0;
     let half_square = 0.5 * f * f;
     let s = f / (2.0 + f);
     let z = s * s;
     let w = z * z;
-    let even = w * (LOG_COEFFICIENTS[1] + w * (LOG_COEFFICIENTS[3] + w * LOG_COEFFICIENTS[5]));
-    let odd = z
+    let even_terms = w * (LOG_COEFFICIENTS[1] + w * (LOG_COEFFICIENTS[3] + w * LOG_COEFFICIENTS[5]));
+    let odd_terms = z
         * (LOG_COEFFICIENTS[0]
             + w * (LOG_COEFFICIENTS[2] + w * (LOG_COEFFICIENTS[4] + w * LOG_COEFFICIENTS[6])));
-    s * (half_square + (odd + even)) + power * LN_2_PARTS[1] - half_square + f + power * LN_2_PARTS[0]
+    s * (half_square + (odd_terms + even_terms)) + exponent * LN_2_PARTS[1] - half_square
+        + f
+        + exponent * LN_2_PARTS[0]
 }
 
 /// ln 2 in two parts: the second has the digits that the first lacks.
@@ -200,8 +202,8 @@ pub(crate) const ROUND_TO_INTEGER: f64 = 6_755_399_441_055_744.0;
 #[inline(always)]
 fn whole_half_circles(x: f64x4) -> f64x4 {
     // Within a quarter circle the number is 0. At its ends the rounded quotient may be 1.
-    let near = x.abs().simd_le(f64x4::splat(FRAC_PI_2));
-    near.bitselect(f64x4::splat(0.0), x * FRAC_1_PI + ROUND_TO_INTEGER - ROUND_TO_INTEGER)
+    let is_small = x.abs().simd_le(f64x4::splat(FRAC_PI_2));
+    is_small.bitselect(f64x4::splat(0.0), x * FRAC_1_PI + ROUND_TO_INTEGER - ROUND_TO_INTEGER)
 }
 
 /// Returns x − kπ.

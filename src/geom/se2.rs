@@ -176,8 +176,8 @@ fn half_cotangent(turn: f64) -> f64 {
 
 /// Returns sinc²(ω/2) = 2(1 − cos ω)/ω², without the cancellation of 1 − cos ω.
 fn sinc_squared_half(turn: f64) -> f64 {
-    let root = sinc(0.5 * turn);
-    root * root
+    let half_sinc = sinc(0.5 * turn);
+    half_sinc * half_sinc
 }
 
 /// Minimum |ω| of the closed forms. Below it two quotients would cancel, and are computed by series. Above it the closed forms
@@ -190,12 +190,12 @@ fn sine_defect(turn: f64) -> f64 {
     if turn.abs() >= SERIES_BELOW {
         return (turn - libm::sin(turn)) / (turn * turn);
     }
-    let square = turn * turn;
+    let turn_squared = turn * turn;
     // Horner in −ω², each term its predecessor over (2k)(2k + 1): at |ω| = 1 the first omitted term is 1/21! ≈ 2e-20.
     let mut sum = 1.0;
     for k in (2..=9).rev() {
         let k = f64::from(2 * k);
-        sum = 1.0 - square / (k * (k + 1.0)) * sum;
+        sum = 1.0 - turn_squared / (k * (k + 1.0)) * sum;
     }
     turn / 6.0 * sum
 }
@@ -218,6 +218,6 @@ fn cotangent_defect(turn: f64) -> f64 {
         43_867.0 / 5_109_094_217_170_944_000.0,
         174_611.0 / 802_857_662_698_291_200_000.0,
     ];
-    let square = turn * turn;
-    turn * COEFFICIENTS.iter().rev().fold(0.0, |sum, coefficient| sum * square + coefficient)
+    let turn_squared = turn * turn;
+    turn * COEFFICIENTS.iter().rev().fold(0.0, |sum, coefficient| sum * turn_squared + coefficient)
 }

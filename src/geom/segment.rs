@@ -1,6 +1,6 @@
 //! Line segments, and their exact distance to points and to arcs.
 
-use super::arc::{Arc, Unrolled};
+use super::arc::{Arc, LocalArc};
 use std::f64::consts::PI;
 
 /// A straight line between two points, m. It may have no length.
@@ -25,11 +25,15 @@ impl Segment {
 
     /// Returns the vector from the nearest point of the segment to a point.
     fn offset_of_point(&self, point: [f64; 2]) -> [f64; 2] {
-        let along = [self.to[0] - self.from[0], self.to[1] - self.from[1]];
+        let direction = [self.to[0] - self.from[0], self.to[1] - self.from[1]];
         let offset = [point[0] - self.from[0], point[1] - self.from[1]];
-        let squared = dot(along, along);
-        let t = if squared > 0.0 { (dot(offset, along) / squared).clamp(0.0, 1.0) } else { 0.0 };
-        [offset[0] - t * along[0], offset[1] - t * along[1]]
+        let length_squared = dot(direction, direction);
+        let t = if length_squared > 0.0 {
+            (dot(offset, direction) / length_squared).clamp(0.0, 1.0)
+        } else {
+            0.0
+        };
+        [offset[0] - t * direction[0], offset[1] - t * direction[1]]
     }
 
     /// Returns the distance (m) between the nearest points of the segment and of an arc; 0 where they cross.
@@ -38,63 +42,67 @@ impl Segment {
     /// segment is parallel to the arc and outside its circle. There are no other minima, because inside the circle the distance
     /// to it is concave along a line.
     pub fn distance_to_arc(&self, arc: &Arc) -> f64 {
-        self.distance_to_unrolled(&arc.unrolled())
+        self.distance_to_local_arc(&arc.local_arc())
     }
 
     /// Returns [`Segment::distance_to_arc`] for an arc that is prepared for several segments.
-    pub(crate) fn distance_to_unrolled(&self, local: &Unrolled) -> f64 {
-        let mirrored = self.unrolled(local);
-        if mirrored.crosses(local) { 0.0 } else { mirrored.distance_apart(local) }
+    pub(crate) fn distance_to_local_arc(&self, local: &LocalArc) -> f64 {
+        let local_segment = self.in_arc_frame(local);
+        if local_segment.crosses_arc(local) { 0.0 } else { local_segment.distance_apart(local) }
     }
 
     /// Returns the maximum distance (m) of an arc to the right of the segment's line. The ends of the arc must not be to the right.
-    pub(crate) fn passed_by(&self, arc: &Arc) -> f64 {
-        let along = [self.to[0] - self.from[0], self.to[1] - self.from[1]];
-        let side = libm::hypot(along[0], along[1]);
+    pub(crate) fn max_distance_on_right(&self, arc: &Arc) -> f64 {
+        let direction = [self.to[0] - self.from[0], self.to[1] - self.from[1]];
+        let line_length = libm::hypot(direction[0], direction[1]);
         // The arc is furthest from the line where it is parallel to it, in either direction.
-        let bearing = libm::atan2(along[1], along[0]) - arc.start.theta();
-        let turned = libm::remainder(bearing * arc.turn.signum(), PI);
-        let first = if turned < 0.0 { turned + PI } else { turned };
-        [first, first + PI]
+        let bearing = libm::atan2(direction[1], direction[0]) - arc.start.theta();
+        let parallel_turn = libm::remainder(bearing * arc.turn.signum(), PI);
+        let first_parallel_turn = if parallel_turn < 0.0 { parallel_turn + PI } else { parallel_turn };
+        [first_parallel_turn, first_parallel_turn + PI]
             .into_iter()
             .map(|turned| turned / arc.turn.abs())
             .filter(|share| *share < 1.0)
             .map(|share| Arc { length: share * arc.length, turn: share * arc.turn, ..*arc }.end())
-            .map(|at| ((at.x() - self.from[0]) * along[1] - (at.y() - self.from[1]) * along[0]) / side)
+            .map(|at| {
+                ((at.x() - self.from[0]) * direction[1] - (at.y() - self.from[1]) * direction[0])
+                    / line_length
+            })
             .fold(0.0, f64::max)
     }
 
     /// Returns the segment in the frame of an arc.
-    fn unrolled(&self, local: &Unrolled) -> Self {
+    fn in_arc_frame(&self, local: &LocalArc) -> Self {
         Self { from: local.transform(self.from), to: local.transform(self.to) }
     }
 
     /// Returns true if a segment in the frame of an arc has a point in common with it.
-    fn crosses(&self, local: &Unrolled) -> bool {
+    fn crosses_arc(&self, local: &LocalArc) -> bool {
         let Self { from, to } = *self;
-        let along = [to[0] - from[0], to[1] - from[1]];
+        let direction = [to[0] - from[0], to[1] - from[1]];
         // Points of the segment on the circle: the circle's equation is quadratic along it.
-        let a = 0.5 * local.curvature * dot(along, along);
-        let b = local.curvature * dot(from, along) - along[1];
-        let c = local.circle(from);
+        let a = 0.5 * local.curvature * dot(direction, direction);
+        let b = local.curvature * dot(from, direction) - direction[1];
+        let c = local.circle_equation(from);
         // b² − 4ac, rearranged: a wall much longer than the radius would lose the difference.
-        let offset = local.curvature * (from[0] * along[1] - from[1] * along[0]);
-        let discriminant = along[1] * along[1] - offset * (offset + 2.0 * along[0]);
+        let line_offset = local.curvature * (from[0] * direction[1] - from[1] * direction[0]);
+        let discriminant = direction[1] * direction[1] - line_offset * (line_offset + 2.0 * direction[0]);
         if discriminant < 0.0 {
             return false;
         }
         let q = -0.5 * (b + discriminant.sqrt().copysign(b));
         [q / a, c / q].into_iter().any(|t| {
-            (0.0..=1.0).contains(&t) && local.passes([from[0] + t * along[0], from[1] + t * along[1]])
+            (0.0..=1.0).contains(&t)
+                && local.has_nearest_point([from[0] + t * direction[0], from[1] + t * direction[1]])
         })
     }
 
     /// Returns the distance between an arc and a segment that does not cross it, in the frame of the arc.
-    fn distance_apart(&self, local: &Unrolled) -> f64 {
+    fn distance_apart(&self, local: &LocalArc) -> f64 {
         let Self { from, to } = *self;
-        let along = [to[0] - from[0], to[1] - from[1]];
-        let squared = dot(along, along);
-        let mut least = [
+        let direction = [to[0] - from[0], to[1] - from[1]];
+        let length_squared = dot(direction, direction);
+        let mut min_squared_distance = [
             local.distance(from),
             local.distance(to),
             self.distance_to_point([0.0, 0.0]),
@@ -103,14 +111,15 @@ impl Segment {
         .into_iter()
         .fold(f64::INFINITY, f64::min);
         // The foot of the centre on the segment; a straight path has no centre and needs none.
-        if local.curvature > 0.0 && squared > 0.0 {
-            let t = (along[1] / local.curvature - dot(from, along)) / squared;
+        if local.curvature > 0.0 && length_squared > 0.0 {
+            let t = (direction[1] / local.curvature - dot(from, direction)) / length_squared;
             if (0.0..=1.0).contains(&t) {
                 // Inside the circle it is no minimum, unless rounding has put a line there that touches it.
-                least = least.min(local.distance([from[0] + t * along[0], from[1] + t * along[1]]));
+                min_squared_distance = min_squared_distance
+                    .min(local.distance([from[0] + t * direction[0], from[1] + t * direction[1]]));
             }
         }
-        least
+        min_squared_distance
     }
 }
 

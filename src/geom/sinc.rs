@@ -8,7 +8,7 @@ pub fn sinc(t: f64) -> f64 {
 
 /// Returns the end of an arc of length 1 that turns by φ: (sin φ/φ, (1 − cos φ)/φ), without cancellation.
 pub(crate) fn chord_factors(turn: f64) -> (f64, f64) {
-    let half = 0.5 * turn;
-    let sin = libm::sin(half);
-    (sinc(turn), if half == 0.0 { sin } else { sin * (sin / half) })
+    let half_turn = 0.5 * turn;
+    let sin = libm::sin(half_turn);
+    (sinc(turn), if half_turn == 0.0 { sin } else { sin * (sin / half_turn) })
 }

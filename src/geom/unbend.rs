@@ -16,22 +16,23 @@ use std::f64::consts::PI;
 
 /// Returns the point to which a morph from 0 to 1 takes a twist (m, m, rad).
 pub fn unbend(twist: &Vector3<f64>, morph: f64) -> [f64; 2] {
-    let left = 1.0 - morph;
-    let pose = SE2::exp(&Vector3::new(twist.x, left * twist.y, left * twist.z));
+    let remaining_bend = 1.0 - morph;
+    let pose = SE2::exp(&Vector3::new(twist.x, remaining_bend * twist.y, remaining_bend * twist.z));
     [pose.x(), pose.y() + morph * twist.z]
 }
 
-/// Returns the 2 × 3 Jacobian of [`unbend`] by the twist.
+/// Returns the 2 × 3 Jacobian of [`unbend`] with respect to the twist.
 pub fn unbend_jacobian(twist: &Vector3<f64>, morph: f64) -> Matrix2x3<f64> {
-    let left = 1.0 - morph;
-    let mut jacobian = position_jacobian(&Vector3::new(twist.x, left * twist.y, left * twist.z));
-    jacobian.column_mut(1).scale_mut(left);
-    jacobian.column_mut(2).scale_mut(left);
+    let remaining_bend = 1.0 - morph;
+    let mut jacobian =
+        position_jacobian(&Vector3::new(twist.x, remaining_bend * twist.y, remaining_bend * twist.z));
+    jacobian.column_mut(1).scale_mut(remaining_bend);
+    jacobian.column_mut(2).scale_mut(remaining_bend);
     jacobian[(1, 2)] += morph;
     jacobian
 }
 
-/// Returns the 2 × 3 Jacobian of the position of exp(ξ) by ξ: the upper rows of R(ω)·J_r(ξ).
+/// Returns the 2 × 3 Jacobian of the position of exp(ξ) with respect to ξ: the upper rows of R(ω)·J_r(ξ).
 fn position_jacobian(twist: &Vector3<f64>) -> Matrix2x3<f64> {
     let rotation = SE2::new(0.0, 0.0, twist.z).adjoint();
     (rotation * SE2::right_jacobian(twist)).fixed_view::<2, 3>(0, 0).into_owned()
@@ -59,12 +60,13 @@ pub fn arc_at(place: [f64; 2], near: [f64; 2], morph: f64) -> Option<[f64; 2]> {
     let mut arc = Vector2::from(near);
     for _ in 0..MAX_STEPS {
         let twist = Vector3::new(arc.x, 0.0, arc.y);
-        let missing = Vector2::from(place) - Vector2::from(unbend(&twist, morph));
-        if missing.amax() < 1e-12 * (1.0 + arc.amax()) {
+        let position_error = Vector2::from(place) - Vector2::from(unbend(&twist, morph));
+        if position_error.amax() < 1e-12 * (1.0 + arc.amax()) {
             return Some(arc.into());
         }
         let jacobian = unbend_jacobian(&twist, morph);
-        arc += Matrix2::from_columns(&[jacobian.column(0), jacobian.column(2)]).try_inverse()? * missing;
+        arc +=
+            Matrix2::from_columns(&[jacobian.column(0), jacobian.column(2)]).try_inverse()? * position_error;
     }
     None
 }

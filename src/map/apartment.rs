@@ -2,7 +2,7 @@
 
 use crate::geom::segment::Segment;
 
-/// Least x, least y, greatest x, greatest y, m.
+/// Bounding box: minimum x, minimum y, maximum x, maximum y, m.
 pub(super) const BOUNDS: [f64; 4] = [0.0, 0.0, 12.0, 9.0];
 
 /// Walls in the memory layout of a plan. Code that adds them one by one would take twice the bytes.
@@ -25,7 +25,7 @@ pub(super) static WALLS: [Segment; 18] = [
     wall(4.0, 0.0, 4.0, 3.8),
     wall(8.0, 0.0, 8.0, 3.8),
     wall(6.0, 5.0, 6.0, 9.0),
-    // A counter, a closet's side, a bathroom's corner.
+    // A counter, the side of a closet, the corner of a bathroom.
     wall(4.0, 1.4, 6.2, 1.4),
     wall(2.0, 7.6, 2.0, 9.0),
     wall(9.6, 7.4, 9.6, 9.0),

@@ -1,7 +1,7 @@
 //! Motion conditioned on a map by rejection sampling (Table 5.7), with three acceptance tests.
 
 use super::floor_plan::{FloorPlan, Verdict};
-use crate::geom::arc::{Arc, Driven, PreparedPose};
+use crate::geom::arc::{Arc, DrivenArc, PreparedPose};
 use crate::geom::lanes::Trigonometry;
 use crate::geom::se2::SE2;
 use crate::models::{VelocityCmd, VelocityModel};
@@ -29,7 +29,7 @@ impl Sampler {
         if let Self::SubStepped(parts) = self { parts } else { 1 }
     }
 
-    /// Returns this sampler with another number of parts, if it has any.
+    /// Returns this sampler with another number of parts, if it splits motions.
     pub fn in_parts(self, parts: u32) -> Self {
         if let Self::SubStepped(_) = self { Self::SubStepped(parts) } else { self }
     }
@@ -103,23 +103,24 @@ pub const MAX_DRAWS: usize = 10_000;
 #[derive(Clone, Copy, Debug)]
 pub struct DrawTester<'a> {
     conditioned: &'a MapConditioned<'a>,
-    part: Part,
+    part: PartMotion,
     from: PreparedPose,
     trigonometry: Trigonometry,
 }
 
 impl DrawTester<'_> {
     pub fn judge(&self, unit_noise: [f64; 3]) -> Draw {
-        self.verdicts(self.part.motion(&self.from, unit_noise))
+        self.test_motion(self.part.motion(&self.from, unit_noise))
     }
 
-    /// Tests the lanes `wanted` of four samples, and calls `see` with each result. The poses may differ from those of [`DrawTester::judge`] by rounding.
+    /// Tests the lanes `wanted` of four samples, and calls `see` with each result. The poses may differ by rounding from those of
+    /// [`DrawTester::judge`].
     pub fn test_four(&self, unit_noise: &[f64x4; 3], wanted: Range<usize>, see: impl FnMut(Draw)) {
         let motion = self.part.four_motions(&self.from, &self.trigonometry, unit_noise);
-        wanted.map(|lane| self.verdicts(motion(lane))).for_each(see);
+        wanted.map(|lane| self.test_motion(motion(lane))).for_each(see);
     }
 
-    fn verdicts(&self, (pose, driven): (SE2, Driven)) -> Draw {
+    fn test_motion(&self, (pose, driven): (SE2, DrivenArc)) -> Draw {
         let MapConditioned { plan, clearance, .. } = *self.conditioned;
         let end = plan.point_free(driven.end, clearance);
         Draw { pose, arc: driven.arc, end, path: plan.path_free(&driven, end, clearance) }
@@ -134,16 +135,16 @@ impl DrawTester<'_> {
 
 /// Part of a motion: a command, and the standard deviations of its noise.
 #[derive(Clone, Copy, Debug)]
-struct Part {
+struct PartMotion {
     u: VelocityCmd,
     deviations: [f64; 3],
 }
 
-impl Part {
-    /// Returns the pose under these unit noises, and the arc driven there.
-    fn motion(&self, from: &PreparedPose, unit_noise: [f64; 3]) -> (SE2, Driven) {
+impl PartMotion {
+    /// Returns the end pose under these unit noises, and the arc that is driven.
+    fn motion(&self, from: &PreparedPose, unit_noise: [f64; 3]) -> (SE2, DrivenArc) {
         let [length, turn, last] = self.executed(unit_noise);
-        after(from.drive(length, turn), last)
+        with_last_turn(from.drive(length, turn), last)
     }
 
     /// Computes four motions at once, in the lanes of a SIMD vector. Returns a function of the lane's index.
@@ -153,10 +154,10 @@ impl Part {
         from: &PreparedPose,
         trigonometry: &Trigonometry,
         unit_noise: &[f64x4; 3],
-    ) -> impl Fn(usize) -> (SE2, Driven) {
+    ) -> impl Fn(usize) -> (SE2, DrivenArc) {
         let [length, turn, last] = self.executed(*unit_noise);
         let (driven, last) = (from.drive_four(trigonometry, length, turn), last.to_array());
-        move |lane| after(driven(lane), last[lane])
+        move |lane| with_last_turn(driven(lane), last[lane])
     }
 
     /// Returns the length (m) and turn of the arc, and the turn after it (rad): see [`VelocityModel::executed`].
@@ -170,7 +171,7 @@ impl Part {
 }
 
 /// Returns the pose where an arc ends, turned on the spot by `last` (rad).
-fn after(driven: Driven, last: f64) -> (SE2, Driven) {
+fn with_last_turn(driven: DrivenArc, last: f64) -> (SE2, DrivenArc) {
     let [x, y] = driven.end;
     (SE2::new(x, y, driven.heading + last), driven)
 }
@@ -189,7 +190,7 @@ impl MapConditioned<'_> {
         self.sample_along(u, x, rng, |_| ())
     }
 
-    /// Returns an accepted motion as [`MapConditioned::sample`] does, and calls `along` with each of its arcs.
+    /// Returns an accepted motion as [`MapConditioned::sample`] does, and calls `along` with each arc of the motion.
     pub fn sample_along<R: Rng + ?Sized>(
         &self,
         u: &VelocityCmd,
@@ -206,7 +207,7 @@ impl MapConditioned<'_> {
         Ok(Accepted { pose, path_free, cost })
     }
 
-    /// Returns the cost of one accepted motion in a filter: for each draw only the test that decides is made.
+    /// Returns the cost of one accepted motion in a filter, which makes only the deciding test for each draw.
     pub fn cost<R: Rng + ?Sized>(
         &self,
         u: &VelocityCmd,
@@ -228,12 +229,12 @@ impl MapConditioned<'_> {
         mut along: impl FnMut(&Arc),
     ) -> (Draw, bool) {
         let (steps, step) = self.parts(u);
-        let judged = |from: &SE2, unit_noise| self.tester_of_part(step, from).judge(unit_noise);
-        let mut draw = judged(x, self.unit_noise(rng));
+        let draw_from = |from: &SE2, unit_noise| self.tester_of_part(step, from).judge(unit_noise);
+        let mut draw = draw_from(x, self.unit_noise(rng));
         along(&draw.arc);
         let mut path_free = draw.path.free;
         for _ in 1..steps {
-            draw = judged(&draw.pose, self.unit_noise(rng));
+            draw = draw_from(&draw.pose, self.unit_noise(rng));
             along(&draw.arc);
             path_free &= draw.path.free;
         }
@@ -241,13 +242,13 @@ impl MapConditioned<'_> {
     }
 
     /// Returns the number of parts of a motion, and each of them.
-    fn parts(&self, u: &VelocityCmd) -> (u32, Part) {
+    fn parts(&self, u: &VelocityCmd) -> (u32, PartMotion) {
         let steps = if let Sampler::SubStepped(steps) = self.sampler { steps.max(1) } else { 1 };
         (steps, self.part(&VelocityCmd { dt: u.dt / f64::from(steps), ..*u }))
     }
 
-    fn part(&self, u: &VelocityCmd) -> Part {
-        Part { u: *u, deviations: self.model.deviations(u) }
+    fn part(&self, u: &VelocityCmd) -> PartMotion {
+        PartMotion { u: *u, deviations: self.model.deviations(u) }
     }
 
     fn unit_noise<R: Rng + ?Sized>(&self, rng: &mut R) -> [f64; 3] {
@@ -260,36 +261,36 @@ impl MapConditioned<'_> {
         x: &SE2,
         rng: &mut R,
         cost: &mut Cost,
-        along: &mut dyn FnMut(&Driven, Verdict),
+        along: &mut dyn FnMut(&DrivenArc, Verdict),
     ) -> Result<SE2, NoAcceptedSample> {
         let (steps, step) = self.parts(u);
         (0..steps).try_fold(*x, |pose, _| {
-            let (pose, driven, end) = self.one_step(&step, &PreparedPose::new(pose), rng, cost)?;
+            let (pose, driven, end) = self.draw_until_accepted(&step, &PreparedPose::new(pose), rng, cost)?;
             along(&driven, end);
             Ok(pose)
         })
     }
 
     /// Returns the first draw that is accepted, and the verdict on its end.
-    fn one_step<R: Rng + ?Sized>(
+    fn draw_until_accepted<R: Rng + ?Sized>(
         &self,
-        part: &Part,
+        part: &PartMotion,
         from: &PreparedPose,
         rng: &mut R,
         cost: &mut Cost,
-    ) -> Result<(SE2, Driven, Verdict), NoAcceptedSample> {
+    ) -> Result<(SE2, DrivenArc, Verdict), NoAcceptedSample> {
         for _ in 0..MAX_DRAWS {
-            let (pose, driven) = part.motion(from, self.unit_noise(rng));
-            let end = self.plan.point_free(driven.end, self.clearance);
+            let (end_pose, driven) = part.motion(from, self.unit_noise(rng));
+            let end_verdict = self.plan.point_free(driven.end, self.clearance);
             let deciding = if self.sampler == Sampler::WholeArc {
-                self.plan.path_free(&driven, end, self.clearance)
+                self.plan.path_free(&driven, end_verdict, self.clearance)
             } else {
-                end
+                end_verdict
             };
             cost.draws += 1;
             cost.wall_tests += deciding.wall_tests;
             if deciding.free {
-                return Ok((pose, driven, end));
+                return Ok((end_pose, driven, end_verdict));
             }
         }
         Err(NoAcceptedSample(*cost))
@@ -300,7 +301,7 @@ impl MapConditioned<'_> {
         self.tester_of_part(self.part(u), x)
     }
 
-    fn tester_of_part(&self, part: Part, x: &SE2) -> DrawTester<'_> {
+    fn tester_of_part(&self, part: PartMotion, x: &SE2) -> DrawTester<'_> {
         DrawTester {
             conditioned: self,
             part,

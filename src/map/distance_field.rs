@@ -7,10 +7,10 @@ use std::f64::consts::FRAC_1_SQRT_2;
 use wide::f64x4;
 
 /// Square cells over the bounds of a map, each with a lower bound on the distance of its points to the nearest wall. Most collision tests
-/// need no other distance, and take the same time for any number of walls.
+/// need only this bound, so that they take the same time for any number of walls.
 #[derive(Clone, Debug)]
 pub(super) struct DistanceField {
-    /// Least x and y.
+    /// Minimum x and y.
     corner: [f64; 2],
     cells_per_metre: f64,
     columns: usize,
@@ -21,20 +21,19 @@ pub(super) struct DistanceField {
     /// Uncertainty of the distance from the middle of a cell, m.
     uncertainty: f64,
     /// Distances row by row from the bottom, m. Negative if a wall passes through the cell or its neighbour, −∞ if the
-    /// cell is inside an occupied one, [`UNKNOWN`] if not computed.
+    /// cell is inside an occupied one, [`NOT_COMPUTED`] if unknown.
     lower_bounds: Vec<f32>,
 }
 
-/// Number of cells for each wall, and smallest and largest number for a map. Fewer cells decide less, more take longer
-/// to fill: the apartment's cells have sides of 4 cm and take a millisecond; 2²⁰ cells take 4 MB. A fuzzer fills
-/// millions of fields and uses a few cells, with the same results of the tests.
+/// Number of cells for each wall, and minimum and maximum number for a map. Fewer cells decide fewer tests; more cells take longer
+/// to fill. The apartment's cells have sides of 4 cm and take a millisecond; 2²⁰ cells take 4 MB. Fuzzing fills millions of
+/// fields, and therefore uses few cells. The results of collision tests are the same.
 const CELLS_PER_WALL: f64 = MIN_CELLS;
 const MIN_CELLS: f64 = if cfg!(fuzzing) { 64.0 } else { 4096.0 };
 const MAX_CELLS: f64 = 1_048_576.0;
 
-/// Maximum number of walls or nodes that are measured for a block, and for each of its cells in addition. Where more
-/// are near, as in the middle of a star, filling would take seconds. The distance is then [`UNKNOWN`], and the tree is
-/// searched.
+/// Maximum number of walls or nodes that are measured for a block, and additional number for each of its cells. Where more are
+/// near, as in the middle of a star, filling would take seconds. The distance is then [`NOT_COMPUTED`], and the tree is searched.
 const MAX_WALLS_PER_BLOCK: usize = 32;
 const MAX_WALLS_PER_CELL: usize = 3;
 
@@ -43,20 +42,20 @@ const MAX_WALLS_PER_CELL: usize = 3;
 const BLOCK_UNCERTAINTY: f64 = 0.125;
 
 /// Lower bound of a distance that was not computed.
-const UNKNOWN: f32 = f32::MIN;
+const NOT_COMPUTED: f32 = f32::MIN;
 
-/// A block of cells is not divided further when the nearest wall is this many times its radius away.
+/// Distance to the nearest wall, in radii of a block of cells, beyond which the block is not divided further.
 const UNDIVIDED_DISTANCE: f64 = 8.0;
 
 impl DistanceField {
     /// Fills the field of the walls of a tree within `bounds` (least x, least y, greatest x, greatest y; m). `solid` are the
     /// cells that the walls outline.
     pub fn new(tree: &WallTree, bounds: [f64; 4], solid: Option<&OccupancyGrid>) -> Self {
-        let mut filling = Filling::new(tree, bounds);
-        while let Some(block) = filling.blocks.pop() {
-            filling.fill_block(tree, solid, block);
+        let mut builder = FieldBuilder::new(tree, bounds);
+        while let Some(block) = builder.blocks.pop() {
+            builder.fill_block(tree, solid, block);
         }
-        filling.field
+        builder.field
     }
 
     /// Returns half the diagonal of a cell, m: the resolution of the field.
@@ -70,39 +69,42 @@ impl DistanceField {
         // Rounding can move a point slightly outside; it belongs to the nearest cell.
         let column = (((x - self.corner[0]) * self.cells_per_metre) as u32 as usize).min(self.columns - 1);
         let row = ((y - self.corner[1]) * self.cells_per_metre) as u32 as usize;
-        f64::from(self.lower_bounds.get(row * self.columns + column).copied().unwrap_or(UNKNOWN))
+        f64::from(self.lower_bounds.get(row * self.columns + column).copied().unwrap_or(NOT_COMPUTED))
     }
 
     /// Returns [`DistanceField::lower_bound`] of four points. `points` are their x and y.
     #[inline(always)]
     pub fn lower_bounds(&self, points: &[f64x4; 2]) -> f64x4 {
-        let zero = f64x4::splat(0.0);
+        let zero_lanes = f64x4::splat(0.0);
         // On the border of two cells both are correct, so that rounding may select either.
         let [column, row] = [0, 1].map(|axis| {
-            let cell = (points[axis] - self.corner[axis]) * self.cells_per_metre - 0.5;
-            cell.fast_max(zero).fast_min(f64x4::splat(self.last[axis])) + ROUND_TO_INTEGER - ROUND_TO_INTEGER
+            let cell_coordinate = (points[axis] - self.corner[axis]) * self.cells_per_metre - 0.5;
+            cell_coordinate.fast_max(zero_lanes).fast_min(f64x4::splat(self.last[axis])) + ROUND_TO_INTEGER
+                - ROUND_TO_INTEGER
         });
         // Adding this number to a small whole number puts that number into the last bits of the sum.
         let cells = (row * self.columns as f64 + column + ROUND_TO_INTEGER).to_array();
         lanes(|i| {
-            f64::from(self.lower_bounds.get(cells[i].to_bits() as u32 as usize).copied().unwrap_or(UNKNOWN))
+            f64::from(
+                self.lower_bounds.get(cells[i].to_bits() as u32 as usize).copied().unwrap_or(NOT_COMPUTED),
+            )
         })
     }
 
-    /// Returns the upper bound (m) that belongs to a lower bound; −∞ inside an occupied cell.
+    /// Returns the upper bound (m) on a distance with this lower bound; −∞ inside an occupied cell.
     pub fn upper_bound(&self, least: f64) -> f64 {
         // With the middle of the cell at distance d from the wall, `least` is d − radius and the upper bound d + radius.
         // In a block that was not divided d is known to d/8: at most (1 + 1/8)/(1 − 1/8) times as far.
         let radius = 1.001 * self.radius;
-        let most = (UNDIVIDED_DISTANCE + 1.0) / (UNDIVIDED_DISTANCE - 1.0)
+        let max_distance = (UNDIVIDED_DISTANCE + 1.0) / (UNDIVIDED_DISTANCE - 1.0)
             * (least + radius + self.uncertainty)
             + radius;
-        if least == f64::from(UNKNOWN) { f64::INFINITY } else { most }
+        if least == f64::from(NOT_COMPUTED) { f64::INFINITY } else { max_distance }
     }
 }
 
 /// A field that is being filled.
-struct Filling {
+struct FieldBuilder {
     field: DistanceField,
     rows: usize,
     side: f64,
@@ -121,7 +123,7 @@ struct Filling {
 struct Block {
     first: [usize; 2],
     size: usize,
-    /// Range of the candidates of the block in `near`.
+    /// Range of the candidates of the block in `candidates`.
     range: [usize; 2],
 }
 
@@ -132,22 +134,22 @@ enum Candidate {
     Node(u32),
 }
 
-impl Filling {
+impl FieldBuilder {
     fn new(tree: &WallTree, bounds: [f64; 4]) -> Self {
         let [left, bottom, right, top] = bounds;
         let (width, height) = (right - left, top - bottom);
-        let cells = (CELLS_PER_WALL * tree.count() as f64).clamp(MIN_CELLS, MAX_CELLS);
+        let cell_count = (CELLS_PER_WALL * tree.count() as f64).clamp(MIN_CELLS, MAX_CELLS);
         // A narrow map could otherwise get more cells than that in a single row.
-        let side = (width * height / cells).sqrt().max(width.max(height) / cells);
+        let side = (width * height / cell_count).sqrt().max(width.max(height) / cell_count);
         let [columns, rows] = [width, height].map(|length| (length / side).ceil() as usize + 1);
         let radius = FRAC_1_SQRT_2 * side;
-        let near = if tree.is_leaf(1) {
-            tree.members(1).map(|wall| Candidate::Wall(wall as u32)).collect()
+        let candidates = if tree.is_leaf(1) {
+            tree.distinct_walls(1).map(|wall| Candidate::Wall(wall as u32)).collect()
         } else {
             vec![Candidate::Node(1)]
         };
         let size = columns.max(rows).next_power_of_two();
-        let all = Block { first: [0, 0], size, range: [0, near.len()] };
+        let whole_block = Block { first: [0, 0], size, range: [0, candidates.len()] };
         Self {
             field: DistanceField {
                 corner: [left, bottom],
@@ -156,13 +158,13 @@ impl Filling {
                 last: [columns, rows].map(|count| count as f64 - 1.0),
                 radius,
                 uncertainty: if tree.is_leaf(1) { 0.0 } else { BLOCK_UNCERTAINTY * radius },
-                lower_bounds: vec![UNKNOWN; columns * rows],
+                lower_bounds: vec![NOT_COMPUTED; columns * rows],
             },
             rows,
             side,
-            slack: rounding(&bounds),
-            near,
-            blocks: vec![all],
+            slack: rounding_bound(&bounds),
+            near: candidates,
+            blocks: vec![whole_block],
             open: Vec::new(),
             measured: Vec::new(),
         }
@@ -180,39 +182,45 @@ impl Filling {
         let uncertainty = size as f64 * self.field.uncertainty;
         // Keeps the candidates of the block around this one; those after them belong to blocks that are done.
         self.near.truncate(range[1]);
-        let Some([least, most]) = self.measure(tree, centre, block, uncertainty) else { return };
-        if size > 1 && least <= UNDIVIDED_DISTANCE * radius + uncertainty / BLOCK_UNCERTAINTY {
-            let reach = most + 2.0 * radius + self.slack;
-            self.near
-                .extend(self.measured.iter().filter(|(least, _)| *least <= reach).map(|(_, near)| *near));
+        let Some([min_distance, max_distance_of_block]) =
+            self.measure_candidates(tree, centre, block, uncertainty)
+        else {
+            return;
+        };
+        if size > 1 && min_distance <= UNDIVIDED_DISTANCE * radius + uncertainty / BLOCK_UNCERTAINTY {
+            let child_reach = max_distance_of_block + 2.0 * radius + self.slack;
+            self.near.extend(
+                self.measured.iter().filter(|(least, _)| *least <= child_reach).map(|(_, near)| *near),
+            );
             let range = [range[1], self.near.len()];
-            let half = size / 2;
-            for [column, row] in [[half, half], [0, half], [half, 0], [0, 0]] {
-                self.blocks.push(Block { first: [left + column, bottom + row], size: half, range });
+            let half_size = size / 2;
+            for [column, row] in [[half_size, half_size], [0, half_size], [half_size, 0], [0, 0]] {
+                self.blocks.push(Block { first: [left + column, bottom + row], size: half_size, range });
             }
             return;
         }
         // If `least > radius`, no wall passes through the block, so that all of it is on one side of each outline.
-        let is_in_blocked_cell = least > radius && solid.is_some_and(|solid| solid.is_blocked_at(centre));
+        let is_in_blocked_cell =
+            min_distance > radius && solid.is_some_and(|solid| solid.is_blocked_at(centre));
         for row in bottom..top {
             for column in left..right {
                 let [x, y] = self.centre([column, row], 1);
-                let off = self.field.radius
+                let cell_slack = self.field.radius
                     + ((x - centre[0]) * (x - centre[0]) + (y - centre[1]) * (y - centre[1])).sqrt();
                 // A relative error of 1e-6 is larger than the rounding of an f32.
-                let least = if is_in_blocked_cell {
+                let cell_bound = if is_in_blocked_cell {
                     f64::NEG_INFINITY
                 } else {
-                    least * (1.0 - 1e-6) - off - self.slack
+                    min_distance * (1.0 - 1e-6) - cell_slack - self.slack
                 };
-                self.field.lower_bounds[row * self.field.columns + column] = least as f32;
+                self.field.lower_bounds[row * self.field.columns + column] = cell_bound as f32;
             }
         }
     }
 
     /// Returns bounds on the distance from the middle of a block to the nearest wall, at most `uncertainty` apart (m); None if
     /// too many walls are near. Afterwards `measured` has all walls, or nodes, that may be nearest to a point of the block.
-    fn measure(
+    fn measure_candidates(
         &mut self,
         tree: &WallTree,
         point: [f64; 2],
@@ -223,48 +231,51 @@ impl Filling {
         let Block { size, range: [from, to], .. } = block;
         // A wall that is nearest to some point of the block is at most one diameter of the block further from the middle
         // than the wall nearest to the middle.
-        let reach = 2.0 * size as f64 * self.field.radius + self.slack;
+        let max_excess = 2.0 * size as f64 * self.field.radius + self.slack;
         measured.clear();
         open.clear();
         open.extend_from_slice(&near[from..to]);
-        let mut most = f64::INFINITY;
-        let mut spent = 0;
+        let mut nearest_upper = f64::INFINITY;
+        let mut measured_count = 0;
         while let Some(near) = open.pop() {
-            spent += 1;
-            if spent > MAX_WALLS_PER_BLOCK + MAX_WALLS_PER_CELL * size * size {
+            measured_count += 1;
+            if measured_count > MAX_WALLS_PER_BLOCK + MAX_WALLS_PER_CELL * size * size {
                 return None;
             }
-            let to = |wall: usize| tree.line(wall).square(point).sqrt();
-            let least = match near {
-                Candidate::Wall(wall) => to(wall as usize),
+            let distance_to_wall = |wall: usize| tree.line(wall).squared_distance(point).sqrt();
+            let candidate_distance = match near {
+                Candidate::Wall(wall) => distance_to_wall(wall as usize),
                 Candidate::Node(node) => tree.node(node as usize).lower_bound(point),
             };
-            if least > most + reach {
+            if candidate_distance > nearest_upper + max_excess {
                 continue;
             }
-            if least < most {
-                most = most.min(match near {
-                    Candidate::Wall(_) => least,
-                    Candidate::Node(node) => to(tree.members(node as usize).start),
+            if candidate_distance < nearest_upper {
+                nearest_upper = nearest_upper.min(match near {
+                    Candidate::Wall(_) => candidate_distance,
+                    Candidate::Node(node) => distance_to_wall(tree.distinct_walls(node as usize).start),
                 });
             }
-            if size == 1 && most <= uncertainty {
-                return Some([0.0, most]);
+            if size == 1 && nearest_upper <= uncertainty {
+                return Some([0.0, nearest_upper]);
             }
             match near {
                 Candidate::Node(node)
-                    if least < most - uncertainty || tree.node(node as usize).thickness > 0.5 * reach =>
+                    if candidate_distance < nearest_upper - uncertainty
+                        || tree.node(node as usize).thickness > 0.5 * max_excess =>
                 {
                     if tree.is_leaf(node as usize) {
-                        open.extend(tree.members(node as usize).map(|wall| Candidate::Wall(wall as u32)));
+                        open.extend(
+                            tree.distinct_walls(node as usize).map(|wall| Candidate::Wall(wall as u32)),
+                        );
                     } else {
                         open.extend([2 * node, 2 * node + 1].map(Candidate::Node));
                     }
                 }
-                _ => measured.push((least, near)),
+                _ => measured.push((candidate_distance, near)),
             }
         }
-        Some([measured.iter().map(|(least, _)| *least).fold(most, f64::min), most])
+        Some([measured.iter().map(|(least, _)| *least).fold(nearest_upper, f64::min), nearest_upper])
     }
 
     fn centre(&self, first: [usize; 2], size: usize) -> [f64; 2] {
@@ -276,6 +287,6 @@ impl Filling {
 
 /// Returns a bound on the rounding error of these coordinates, m.
 #[inline(never)]
-pub(super) fn rounding(coordinates: &[f64]) -> f64 {
+pub(super) fn rounding_bound(coordinates: &[f64]) -> f64 {
     1e-12 * coordinates.iter().fold(0.0, |most: f64, coordinate| most.max(coordinate.abs()))
 }

@@ -1,11 +1,11 @@
 //! Floor plans, and collision tests of a round robot.
 
 use super::apartment;
-use super::distance_field::{DistanceField, rounding};
+use super::distance_field::{DistanceField, rounding_bound};
 use super::occupancy::OccupancyGrid;
 use super::wall_tree::{Node, WallTree};
-use crate::geom::arc::{Arc, Course, Driven, PreparedPose, Unrolled};
-use crate::geom::lanes::{LANES, any};
+use crate::geom::arc::{Arc, ArcPiece, DrivenArc, LocalArc, PreparedPose};
+use crate::geom::lanes::{LANES, any_lane_set};
 use crate::geom::segment::Segment;
 use std::cell::OnceCell;
 use std::ops::RangeInclusive;
@@ -17,18 +17,17 @@ use wide::f64x4;
 #[derive(Clone, Debug)]
 pub struct FloorPlan {
     walls: Vec<Segment>,
-    /// Least x, least y, greatest x, greatest y, m.
+    /// Minimum x, minimum y, maximum x, maximum y, m.
     bounds: [f64; 4],
-    /// Cells of a grid whose outlines are the walls, if the plan is from a grid. A point inside an occupied cell is not
-    /// free, however far its sides are.
+    /// Cells of a grid whose outlines are the walls, if the plan is from a grid. A point inside an occupied cell is never free.
     solid: Option<OccupancyGrid>,
     /// Distance field, created when the first motion is tested.
-    survey: OnceLock<Survey>,
+    survey: OnceLock<CollisionIndex>,
 }
 
 /// Search tree and distance field for collision tests.
 #[derive(Clone, Debug)]
-struct Survey {
+struct CollisionIndex {
     tree: WallTree,
     field: DistanceField,
 }
@@ -52,21 +51,25 @@ pub enum FloorPlanError {
 impl FloorPlanError {
     /// Returns the message, with numbers as `number` prints them.
     pub fn message(&self, number: impl Fn(f64) -> String) -> String {
-        let list = |numbers: &[f64]| numbers.iter().map(|x| number(*x)).collect::<Vec<_>>().join(", ");
+        let join_numbers =
+            |numbers: &[f64]| numbers.iter().map(|x| number(*x)).collect::<Vec<_>>().join(", ");
         match self {
             Self::BadBounds(bounds) => format!(
                 "bounds is [{}]; allowed is least x, least y, greatest x, greatest y: numbers from -1000000 to \
                  1000000, the sides from 0.01 to 100000",
-                list(bounds)
+                join_numbers(bounds)
             ),
             Self::BadGrid(bounds) => format!(
                 "origin has the cells from [{}] to [{}]; allowed are coordinates from -1000000 to 1000000, and a grid with \
                  sides from 0.01 to 100000",
-                list(&bounds[..2]),
-                list(&bounds[2..])
+                join_numbers(&bounds[..2]),
+                join_numbers(&bounds[2..])
             ),
             Self::BadWall { index, end } => {
-                format!("walls[{index}] ends at [{}]; allowed is a point inside the bounds", list(end))
+                format!(
+                    "walls[{index}] ends at [{}]; allowed is a point inside the bounds",
+                    join_numbers(end)
+                )
             }
             Self::TooManyWalls(count) => {
                 format!("walls has a length of {count} or more; allowed is at most {}", FloorPlan::MAX_WALLS)
@@ -101,16 +104,15 @@ impl FloorPlan {
     /// Largest number of walls of a plan.
     pub const MAX_WALLS: usize = 20_000;
 
-    /// Creates a plan of `walls` within `bounds` (least x, least y, greatest x, greatest y), m.
+    /// Creates a plan of `walls` within `bounds` (minimum x, minimum y, maximum x, maximum y), m.
     ///
     /// # Errors
     /// [`FloorPlanError`] for the first wall or bound that is not allowed.
     pub fn new(walls: Vec<Segment>, bounds: [f64; 4]) -> Result<Self, FloorPlanError> {
-        Self::with_solid(walls, bounds, None)
+        Self::with_grid(walls, bounds, None)
     }
 
-    /// Returns the plan of a grid: its walls are the outlines of the cells in a robot's way, its bounds those of the
-    /// grid.
+    /// Returns the plan of a grid. Its walls are the outlines of the blocked cells; its bounds are those of the grid.
     ///
     /// # Errors
     /// [`FloorPlanError`] where there are too many walls, or the grid is too large or too small.
@@ -120,18 +122,18 @@ impl FloorPlan {
         for [x, y] in grid.corners() {
             bounds = [bounds[0].min(x), bounds[1].min(y), bounds[2].max(x), bounds[3].max(y)];
         }
-        Self::with_solid(walls, bounds, Some(grid))
+        Self::with_grid(walls, bounds, Some(grid))
     }
 
-    fn with_solid(
+    fn with_grid(
         walls: Vec<Segment>,
         bounds: [f64; 4],
         solid: Option<OccupancyGrid>,
     ) -> Result<Self, FloorPlanError> {
         let [left, bottom, right, top] = bounds;
-        let sides = [right - left, top - bottom];
+        let side_lengths = [right - left, top - bottom];
         if !bounds.iter().all(|bound| COORDINATE_RANGE.contains(bound))
-            || !sides.iter().all(|side| SIDE_RANGE.contains(side))
+            || !side_lengths.iter().all(|side| SIDE_RANGE.contains(side))
         {
             let refused = if solid.is_some() { FloorPlanError::BadGrid } else { FloorPlanError::BadBounds };
             return Err(refused(bounds));
@@ -140,12 +142,13 @@ impl FloorPlan {
             return Err(FloorPlanError::TooManyWalls(walls.len()));
         }
         // Rounding can move a corner of a turned grid slightly outside the grid's own bounds.
-        let slack = rounding(&bounds);
-        let inside = |[x, y]: [f64; 2]| {
-            (left - slack..=right + slack).contains(&x) && (bottom - slack..=top + slack).contains(&y)
+        let rounding_slack = rounding_bound(&bounds);
+        let is_inside = |[x, y]: [f64; 2]| {
+            (left - rounding_slack..=right + rounding_slack).contains(&x)
+                && (bottom - rounding_slack..=top + rounding_slack).contains(&y)
         };
         for (index, wall) in walls.iter().enumerate() {
-            if let Some(end) = [wall.from, wall.to].into_iter().find(|end| !inside(*end)) {
+            if let Some(end) = [wall.from, wall.to].into_iter().find(|end| !is_inside(*end)) {
                 return Err(FloorPlanError::BadWall { index, end });
             }
         }
@@ -177,22 +180,22 @@ impl FloorPlan {
             return Verdict::BLOCKED;
         }
         let field = self.field();
-        let least = field.lower_bound(point);
-        if least > clearance {
+        let nearest_lower_bound = field.lower_bound(point);
+        if nearest_lower_bound > clearance {
             return Verdict::FREE;
         }
-        if field.upper_bound(least) <= clearance || self.is_in_blocked_cell(point) {
+        if field.upper_bound(nearest_lower_bound) <= clearance || self.is_in_blocked_cell(point) {
             return Verdict::BLOCKED;
         }
         let mut wall_tests = 0;
-        let free = self.near_walls_keep(
+        let is_free_between = self.all_near_walls(
             point,
             clearance,
             &mut wall_tests,
             |node| node.is_beyond(point, clearance),
             |wall| wall.distance_to_point(point) > clearance,
         );
-        Verdict { free, wall_tests }
+        Verdict { free: is_free_between, wall_tests }
     }
 
     /// Tests whether a disc of radius `clearance` (m) whose centre drives along `arc` touches no wall and stays inside the
@@ -203,7 +206,7 @@ impl FloorPlan {
     }
 
     /// Tests an arc as [`FloorPlan::arc_free`] does, after its end was tested. The result includes the cost of that test.
-    pub(super) fn path_free(&self, driven: &Driven, end: Verdict, clearance: f64) -> Verdict {
+    pub(super) fn path_free(&self, driven: &DrivenArc, end: Verdict, clearance: f64) -> Verdict {
         let start = [driven.arc.start.x(), driven.arc.start.y()];
         if !end.free || self.leaves_bounds(driven) || self.is_in_blocked_cell(start) {
             return Verdict { free: false, ..end };
@@ -216,20 +219,22 @@ impl FloorPlan {
             unrolled: OnceCell::new(),
             wall_tests: end.wall_tests,
         };
-        let free = driven.courses().all(|course| sweep.free(&course, -course.half, course.half));
-        Verdict { free, wall_tests: sweep.wall_tests }
+        let is_free_between = driven
+            .arc_pieces()
+            .all(|course| sweep.is_free_between(&course, -course.half_length, course.half_length));
+        Verdict { free: is_free_between, wall_tests: sweep.wall_tests }
     }
 
-    fn survey(&self) -> &Survey {
+    fn collision_index(&self) -> &CollisionIndex {
         self.survey.get_or_init(|| {
             let tree = WallTree::new(&self.walls, self.bounds);
             let field = DistanceField::new(&tree, self.bounds, self.solid.as_ref());
-            Survey { tree, field }
+            CollisionIndex { tree, field }
         })
     }
 
     pub(super) fn field(&self) -> &DistanceField {
-        &self.survey().field
+        &self.collision_index().field
     }
 
     /// Returns true if a point is on the map: on the grid where there is one, which may be turned, else inside the bounds.
@@ -245,8 +250,8 @@ impl FloorPlan {
     /// Returns the corners of the map, in order around it.
     fn corners(&self) -> [[f64; 2]; 4] {
         let [left, bottom, right, top] = self.bounds;
-        let of_bounds = [[left, bottom], [right, bottom], [right, top], [left, top]];
-        self.solid.as_ref().map_or(of_bounds, OccupancyGrid::corners)
+        let bounds_corners = [[left, bottom], [right, bottom], [right, top], [left, top]];
+        self.solid.as_ref().map_or(bounds_corners, OccupancyGrid::corners)
     }
 
     #[inline(always)]
@@ -254,7 +259,7 @@ impl FloorPlan {
         self.solid.as_ref().is_some_and(|solid| solid.is_blocked_at(point))
     }
 
-    fn leaves_bounds(&self, driven: &Driven) -> bool {
+    fn leaves_bounds(&self, driven: &DrivenArc) -> bool {
         let [left, bottom, right, top] = driven.bounding_box();
         if [[left, bottom], [right, bottom], [right, top], [left, top]]
             .into_iter()
@@ -268,16 +273,16 @@ impl FloorPlan {
         }
         // Both ends are inside. An arc that only touches an edge counts as inside, up to rounding.
         let corners = self.corners();
-        let slack = rounding(corners.as_flattened());
+        let rounding_slack = rounding_bound(corners.as_flattened());
         (0..4).any(|i| {
             let edge = Segment { from: corners[i], to: corners[(i + 1) % 4] };
-            edge.passed_by(arc) > slack
+            edge.max_distance_on_right(arc) > rounding_slack
         })
     }
 
-    /// Tests whether every wall is `free` whose bounding box is within `reach` (m) of the point in both coordinates.
-    /// Nodes of the tree that are known to be free are skipped.
-    fn near_walls_keep(
+    /// Tests whether `free` holds for every wall whose bounding box is within `reach` (m) of the point in both coordinates.
+    /// Nodes of the tree for which `node_free` holds are skipped.
+    fn all_near_walls(
         &self,
         [x, y]: [f64; 2],
         reach: f64,
@@ -285,7 +290,7 @@ impl FloorPlan {
         node_free: impl FnMut(&Node) -> bool,
         mut free: impl FnMut(&Segment) -> bool,
     ) -> bool {
-        self.survey().tree.all(node_free, |wall| {
+        self.collision_index().tree.all(node_free, |wall| {
             let Segment { from, to } = wall;
             let is_near = from[0].min(to[0]) <= x + reach
                 && from[0].max(to[0]) >= x - reach
@@ -306,62 +311,62 @@ struct Sweep<'a> {
     arc: &'a Arc,
     clearance: f64,
     /// Arc in the frame of its start, computed when the distance to a wall is first measured.
-    unrolled: OnceCell<Unrolled>,
+    unrolled: OnceCell<LocalArc>,
     wall_tests: usize,
 }
 
 impl Sweep<'_> {
-    /// Tests whether a course is free between `from` and `to` metres after its middle, four pieces of it at once.
-    fn free(&mut self, course: &Course, from: f64, to: f64) -> bool {
+    /// Tests whether an arc piece is free between `from` and `to` metres after its middle. Tests four parts of it at once.
+    fn is_free_between(&mut self, course: &ArcPiece, from: f64, to: f64) -> bool {
         let field = self.field;
-        let reach = (to - from) / (2 * LANES) as f64;
-        let needed = self.clearance + course.error + reach;
-        let middles = course.at(f64x4::new([1.0, 3.0, 5.0, 7.0]) * reach + from);
-        let rooms = field.lower_bounds(&middles);
-        if !any(rooms.simd_le(f64x4::splat(needed))) {
+        let half_piece = (to - from) / (2 * LANES) as f64;
+        let needed_distance = self.clearance + course.error + half_piece;
+        let piece_middles = course.points_at(f64x4::new([1.0, 3.0, 5.0, 7.0]) * half_piece + from);
+        let distances = field.lower_bounds(&piece_middles);
+        if !any_lane_set(distances.simd_le(f64x4::splat(needed_distance))) {
             return true;
         }
-        let rooms = rooms.to_array();
-        let least = rooms.into_iter().fold(f64::INFINITY, f64::min);
-        if field.upper_bound(least) <= self.clearance - course.error {
+        let distances = distances.to_array();
+        let nearest_distance = distances.into_iter().fold(f64::INFINITY, f64::min);
+        if field.upper_bound(nearest_distance) <= self.clearance - course.error {
             return false;
         }
-        // A piece no longer than the diagonal of a cell is not divided, because the field is too coarse. Its walls are measured.
-        let divisible = reach > field.radius();
-        let [x, y] = middles.map(|lanes| lanes.to_array());
+        // A part no longer than the diagonal of a cell is not divided, because the field is too coarse. Walls near it are measured.
+        let is_divisible = half_piece > field.radius();
+        let [x, y] = piece_middles.map(|lanes| lanes.to_array());
         (0..LANES).all(|i| {
-            rooms[i] > needed
-                || if divisible {
-                    let first = from + (2 * i) as f64 * reach;
-                    self.free(course, first, first + 2.0 * reach)
+            distances[i] > needed_distance
+                || if is_divisible {
+                    let piece_start = from + (2 * i) as f64 * half_piece;
+                    self.is_free_between(course, piece_start, piece_start + 2.0 * half_piece)
                 } else {
-                    self.walls_keep_clear([x[i], y[i]], reach + course.error, course.error)
+                    self.walls_keep_clear([x[i], y[i]], half_piece + course.error, course.error)
                 }
         })
     }
 
-    /// Tests whether all walls near a piece of the arc keep the clearance. For most walls the distance to the middle of the
-    /// piece decides already.
+    /// Tests whether all walls near a part of the arc keep the clearance. For most walls the distance to the middle of the part
+    /// decides already.
     fn walls_keep_clear(&mut self, middle: [f64; 2], reach: f64, error: f64) -> bool {
         let (arc, clearance) = (self.arc, self.clearance);
-        let unrolled = || self.unrolled.get_or_init(|| arc.unrolled());
+        let local_arc = || self.unrolled.get_or_init(|| arc.local_arc());
         let (near, touching) = (reach + clearance, (clearance - error).max(0.0));
-        self.plan.near_walls_keep(
+        self.plan.all_near_walls(
             middle,
             near,
             &mut self.wall_tests,
             |node| {
                 node.is_beyond(middle, near)
-                    // Pays only if the walls of the node are closer to one line than the piece is long.
+                    // Worth its cost only if the walls of the node are closer to one line than the part is long.
                     || node.thickness < reach
-                        && node.line().distance_to_unrolled(unrolled()) - node.thickness > clearance
+                        && node.line().distance_to_local_arc(local_arc()) - node.thickness > clearance
             },
             |wall| {
-                let square = wall.squared_distance_to_point(middle);
-                if square > near * near || square < touching * touching {
-                    return square > near * near;
+                let squared_distance = wall.squared_distance_to_point(middle);
+                if squared_distance > near * near || squared_distance < touching * touching {
+                    return squared_distance > near * near;
                 }
-                wall.distance_to_unrolled(unrolled()) > clearance
+                wall.distance_to_local_arc(local_arc()) > clearance
             },
         )
     }

@@ -33,7 +33,7 @@ pub enum Mode {
     /// Mode scale: transparent pixels are unknown, dark ones occupied, and all others free. In `map_server`, pixels
     /// between the thresholds have intermediate values.
     Scale,
-    /// Pixel values are occupancies from 0 to 100; 100 is occupied, and what is above it unknown.
+    /// Pixel values are occupancies from 0 to 100. A value of 100 is occupied, and larger values are unknown.
     Raw,
 }
 
@@ -86,16 +86,16 @@ impl Interpretation {
         let Pixel { shade, opacity } = pixel;
         let occupancy = if self.negate { shade } else { 1.0 - shade };
         // Rounded as the grey value is, so that a pixel at a threshold is not beyond it.
-        let (occupied, free) = (self.occupied_thresh as f32, self.free_thresh as f32);
+        let (occupied_threshold, free_threshold) = (self.occupied_thresh as f32, self.free_thresh as f32);
         // Rounding takes long where there is no instruction for it.
-        let value = || (shade * 255.0).round();
+        let grey_value = || (shade * 255.0).round();
         match self.mode {
             Mode::Scale if opacity < 1.0 => Cell::Unknown,
-            Mode::Trinary | Mode::Scale if occupancy > occupied => Cell::Occupied,
+            Mode::Trinary | Mode::Scale if occupancy > occupied_threshold => Cell::Occupied,
             // 1 less a rounded shade may be below the threshold that the shade is at.
-            Mode::Trinary if occupancy > free - f32::EPSILON => Cell::Unknown,
-            Mode::Raw if value() == 100.0 => Cell::Occupied,
-            Mode::Raw if value() > 100.0 => Cell::Unknown,
+            Mode::Trinary if occupancy > free_threshold - f32::EPSILON => Cell::Unknown,
+            Mode::Raw if grey_value() == 100.0 => Cell::Occupied,
+            Mode::Raw if grey_value() > 100.0 => Cell::Unknown,
             _ => Cell::Free,
         }
     }
@@ -111,9 +111,9 @@ pub struct OccupancyGrid {
     height: usize,
     /// Side of a cell, m.
     resolution: f64,
-    /// The lower left corner of the lower left cell, rows and columns along its axes.
+    /// Frame of the grid: at the lower left corner of the lower left cell, with its axes along rows and columns.
     origin: SE2,
-    /// The plane in the frame of the origin.
+    /// Transform from the plane to the frame of the origin.
     to_local: PreparedPose,
     /// Cells row by row from the bottom.
     cells: Vec<Cell>,
@@ -122,7 +122,7 @@ pub struct OccupancyGrid {
 
 impl OccupancyGrid {
     /// Creates the grid of an image whose lower left corner is at `origin`, with cells of `resolution` (m, positive).
-    /// What is unknown is free, see [`OccupancyGrid::with_unknown`].
+    /// Unknown cells are free, see [`OccupancyGrid::with_unknown`].
     ///
     /// As in `map_server`, opacity counts as a fourth colour in mode trinary if the image has transparency.
     pub fn new<P: Copy + PartialEq + Into<Pixel>, Pixels: Clone + IntoIterator<Item = P>>(
@@ -135,15 +135,15 @@ impl OccupancyGrid {
         let cells = vec![Cell::Free; width * height];
         let (to_local, unknown) = (PreparedPose::new(origin.inverse()), Unknown::default());
         let mut grid = Self { width, height, resolution, origin, to_local, cells, unknown };
-        let is_transparent = grid.draw(pixels.clone(), interpretation, false);
+        let is_transparent = grid.fill_cells(pixels.clone(), interpretation, false);
         if is_transparent && interpretation.mode == Mode::Trinary {
-            grid.draw(pixels.clone(), interpretation, true);
+            grid.fill_cells(pixels.clone(), interpretation, true);
         }
         grid
     }
 
-    /// Converts pixels to cells; returns true if a pixel is not opaque. `four_colours` counts opacity as a colour.
-    fn draw<P: Copy + PartialEq + Into<Pixel>>(
+    /// Converts pixels to cells; returns true if a pixel is not opaque. If `four_colours` is true, opacity counts as a colour.
+    fn fill_cells<P: Copy + PartialEq + Into<Pixel>>(
         &mut self,
         pixels: impl IntoIterator<Item = P>,
         interpretation: &Interpretation,
@@ -152,11 +152,11 @@ impl OccupancyGrid {
         let mut pixels = pixels.into_iter();
         let mut is_transparent = false;
         // Cached: most pixels equal the one before them.
-        let mut last = None;
+        let mut previous_pixel = None;
         // The first row of an image is its highest, the first of a grid its lowest.
         for row in self.cells.chunks_mut(self.width.max(1)).rev() {
             for (cell, raw) in row.iter_mut().zip(&mut pixels) {
-                *cell = match last {
+                *cell = match previous_pixel {
                     Some((like, cell)) if like == raw => cell,
                     _ => {
                         let mut pixel: Pixel = raw.into();
@@ -167,13 +167,13 @@ impl OccupancyGrid {
                         interpretation.cell(pixel)
                     }
                 };
-                last = Some((raw, *cell));
+                previous_pixel = Some((raw, *cell));
             }
         }
         is_transparent
     }
 
-    /// Returns the same cells with another treatment of unknown ones.
+    /// Returns the grid with another treatment of unknown cells.
     #[must_use]
     pub fn with_unknown(self, unknown: Unknown) -> Self {
         Self { unknown, ..self }
@@ -189,7 +189,7 @@ impl OccupancyGrid {
         self.resolution
     }
 
-    /// Returns the lower left corner of the lower left cell, rows and columns along its axes.
+    /// Returns the frame of the grid: at the lower left corner of the lower left cell, with its axes along rows and columns.
     pub fn origin(&self) -> SE2 {
         self.origin
     }
@@ -253,33 +253,36 @@ impl OccupancyGrid {
         &self.cells[from..(from + self.width).min(self.cells.len())]
     }
 
-    /// Returns the outlines of the cells that are in a robot's way, neighbouring sides joined: the distance to them is the
-    /// distance to the cells for everyone outside of one. First those along the rows, then those along the columns.
+    /// Returns the outlines of the blocked cells, with neighbouring sides joined. From outside the cells, the distance to the
+    /// outlines is the distance to the cells. Lines along rows come first, then lines along columns.
     ///
     /// # Errors
     /// A lower bound of their number, where there are more than `most`.
     pub fn outlines(&self, most: usize) -> Result<Vec<Segment>, usize> {
         let [columns, rows] = self.size();
         let (mut sides, mut upright) = (Vec::new(), Vec::new());
-        // An outline separates obstacle cells from all others. `began` has, for each grid line between columns, the
+        // An outline separates blocked cells from all others. `outline_starts` has, for each grid line between columns, the
         // row at which the current outline began.
-        let mut began = vec![None; columns + 1];
+        let mut outline_starts = vec![None; columns + 1];
         for row in 0..=rows {
-            let here = self.row(row);
-            let below = row.checked_sub(1).map_or(&[][..], |below| self.row(below));
-            if here == below {
+            let row_cells = self.row(row);
+            let row_below_cells = row.checked_sub(1).map_or(&[][..], |below| self.row(below));
+            if row_cells == row_below_cells {
                 continue;
             }
-            let (mut from, mut left) = (None, false);
+            let (mut row_start, mut was_left_different) = (None, false);
             for column in 0..=columns {
-                let [blocked, was] = [here, below].map(|row| self.is_blocked(row, column));
-                if let Some(from) = outline_end(&mut from, was != blocked, column) {
+                let [is_here_blocked, is_below_blocked] =
+                    [row_cells, row_below_cells].map(|row| self.is_blocked(row, column));
+                if let Some(from) = outline_end(&mut row_start, is_below_blocked != is_here_blocked, column) {
                     sides.push(self.side([from, row], [column, row]));
                 }
-                if let Some(began) = outline_end(&mut began[column], left != blocked, row) {
+                if let Some(began) =
+                    outline_end(&mut outline_starts[column], was_left_different != is_here_blocked, row)
+                {
                     upright.push([column, began, row]);
                 }
-                left = blocked;
+                was_left_different = is_here_blocked;
             }
             if sides.len() + upright.len() > most {
                 return Err(most + 1);
@@ -295,8 +298,8 @@ impl OccupancyGrid {
     }
 }
 
-/// Returns where an outline began that ends at `at` of a grid line. `is_outline` is true if the piece from `at` on is on an outline;
-/// its start is then kept in `began`.
+/// Returns the start of the outline that ends at position `at` of a grid line. `is_outline` is true if an outline continues from `at`
+/// on; its start is kept in `began`.
 fn outline_end(began: &mut Option<usize>, is_outline: bool, at: usize) -> Option<usize> {
     match *began {
         None if is_outline => *began = Some(at),

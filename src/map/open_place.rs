@@ -9,22 +9,22 @@ use std::f64::consts::TAU;
 const HEADINGS: u32 = 72;
 
 /// Number of squares along the longer side of a plan without a grid.
-const SQUARES: f64 = 256.0;
+const SQUARES_ALONG_SIDE: f64 = 256.0;
 
 impl FloorPlan {
-    /// Returns a free pose for a disc of radius `clearance` (m): the centre of the largest square that is known to be free, in the heading
-    /// with the longest free path. If the disc does not fit there, the first place where it fits; None if it fits nowhere.
+    /// Returns a free pose for a disc of radius `clearance` (m): the centre of the largest square that is known to be free, with the
+    /// heading of the longest free path. If the disc does not fit there, takes the first square where it fits; None if it fits nowhere.
     pub fn open_place(&self, clearance: f64) -> Option<SE2> {
-        let squares = Squares::of(self);
-        let open = squares.middle_of_largest().map(|middle| squares.point(middle));
-        let fits = |point: &[f64; 2]| self.point_free(*point, clearance).free;
-        let [x, y] = open.filter(fits).or_else(|| squares.middles().find(fits))?;
-        Some(SE2::new(x, y, squares.heading_of_longest_path([x, y], fits)))
+        let raster = SquareRaster::of(self);
+        let largest_middle = raster.middle_of_largest_free_square().map(|middle| raster.point(middle));
+        let disc_fits = |point: &[f64; 2]| self.point_free(*point, clearance).free;
+        let [x, y] = largest_middle.filter(disc_fits).or_else(|| raster.square_middles().find(disc_fits))?;
+        Some(SE2::new(x, y, raster.heading_of_longest_path([x, y], disc_fits)))
     }
 }
 
-/// A map in squares: the cells of its grid, or those of a raster over its bounds.
-struct Squares<'a> {
+/// A map divided into squares: the cells of its grid, or of a raster over its bounds if it has no grid.
+struct SquareRaster<'a> {
     plan: &'a FloorPlan,
     columns: usize,
     rows: usize,
@@ -32,7 +32,7 @@ struct Squares<'a> {
     sides: [f64; 2],
 }
 
-impl<'a> Squares<'a> {
+impl<'a> SquareRaster<'a> {
     fn of(plan: &'a FloorPlan) -> Self {
         if let Some(grid) = plan.grid() {
             let [columns, rows] = grid.size();
@@ -40,10 +40,10 @@ impl<'a> Squares<'a> {
         }
         let [left, bottom, right, top] = plan.bounds();
         let (width, height) = (right - left, top - bottom);
-        let side = width.max(height) / SQUARES;
-        let sides = [width, height].map(|length| side.min(length));
-        let [columns, rows] = [width / sides[0], height / sides[1]].map(|count| count as usize);
-        Self { plan, columns, rows, sides }
+        let side = width.max(height) / SQUARES_ALONG_SIDE;
+        let square_sides = [width, height].map(|length| side.min(length));
+        let [columns, rows] = [width / square_sides[0], height / square_sides[1]].map(|count| count as usize);
+        Self { plan, columns, rows, sides: square_sides }
     }
 
     fn longer_side(&self) -> f64 {
@@ -57,11 +57,11 @@ impl<'a> Squares<'a> {
     /// Returns the point at these coordinates, in squares from the lower left corner.
     fn point(&self, at: [f64; 2]) -> [f64; 2] {
         let [left, bottom, ..] = self.plan.bounds();
-        let on_plan = [left + at[0] * self.sides[0], bottom + at[1] * self.sides[1]];
-        self.grid().map_or(on_plan, |grid| grid.point(at))
+        let bounds_point = [left + at[0] * self.sides[0], bottom + at[1] * self.sides[1]];
+        self.grid().map_or(bounds_point, |grid| grid.point(at))
     }
 
-    fn middles(&self) -> impl Iterator<Item = [f64; 2]> {
+    fn square_middles(&self) -> impl Iterator<Item = [f64; 2]> {
         let middle = |i: usize| i as f64 + 0.5;
         (0..self.rows).flat_map(move |row| {
             (0..self.columns).map(move |column| self.point([middle(column), middle(row)]))
@@ -69,7 +69,7 @@ impl<'a> Squares<'a> {
     }
 
     /// Returns true if all of a square is known to be free.
-    fn free(&self, column: usize, row: usize) -> bool {
+    fn is_free_square(&self, column: usize, row: usize) -> bool {
         if let Some(grid) = self.grid() {
             return grid.is_known_free(column, row);
         }
@@ -79,32 +79,32 @@ impl<'a> Squares<'a> {
     }
 
     /// Returns the middle of the largest square of free ones, in squares from the lower left corner; None where none is
-    /// free. Of several, that of the first upper right corner, row by row.
-    fn middle_of_largest(&self) -> Option<[f64; 2]> {
-        let (mut largest, mut middle) = (0, None);
+    /// free. Of several, takes the one whose upper right corner comes first, row by row.
+    fn middle_of_largest_free_square(&self) -> Option<[f64; 2]> {
+        let (mut largest_side, mut middle) = (0, None);
         // Row from which on each column has been free so far.
-        let mut free_from = vec![0u32; self.columns];
+        let mut free_since_row = vec![0u32; self.columns];
         for row in 0..self.rows {
-            for (column, from) in free_from.iter_mut().enumerate() {
-                if !self.free(column, row) {
+            for (column, from) in free_since_row.iter_mut().enumerate() {
+                if !self.is_free_square(column, row) {
                     *from = row as u32 + 1;
                 }
             }
             // A square with a side of `largest + 1` ends at this row if each column from `left` to `right` has been free for as many rows.
-            // Columns below `open` were checked already.
-            let (mut left, mut open) = (0, 0);
-            while left + largest < self.columns {
-                let right = left + largest;
-                let is_short = |column: &usize| free_from[*column] as usize + largest > row;
-                if let Some(short) = (left.max(open)..=right).rev().find(is_short) {
-                    (left, open) = (short + 1, right + 1);
+            // Columns below `first_unchecked` were checked already.
+            let (mut left, mut first_unchecked) = (0, 0);
+            while left + largest_side < self.columns {
+                let right = left + largest_side;
+                let was_blocked = |column: &usize| free_since_row[*column] as usize + largest_side > row;
+                if let Some(short) = (left.max(first_unchecked)..=right).rev().find(was_blocked) {
+                    (left, first_unchecked) = (short + 1, right + 1);
                     continue;
                 }
-                largest += 1;
-                let half = 0.5 * largest as f64;
-                middle = Some([right as f64 + 1.0 - half, row as f64 + 1.0 - half]);
+                largest_side += 1;
+                let half_side = 0.5 * largest_side as f64;
+                middle = Some([right as f64 + 1.0 - half_side, row as f64 + 1.0 - half_side]);
                 // The next side is longer by one row, so that all columns are checked again.
-                open = 0;
+                first_unchecked = 0;
             }
         }
         middle
@@ -112,26 +112,26 @@ impl<'a> Squares<'a> {
 
     /// Returns the heading in which the robot gets furthest over free squares.
     fn heading_of_longest_path(&self, [x, y]: [f64; 2], fits: impl Fn(&[f64; 2]) -> bool) -> f64 {
-        let (mut longest, mut heading) = (0, 0.0);
+        let (mut most_steps, mut heading) = (0, 0.0);
         for i in 0..HEADINGS {
-            let angle = TAU * f64::from(i) / f64::from(HEADINGS);
-            let (sin, cos) = libm::sincos(angle);
-            let way = (1..)
+            let tried_heading = TAU * f64::from(i) / f64::from(HEADINGS);
+            let (sin, cos) = libm::sincos(tried_heading);
+            let free_steps = (1..)
                 .map(|steps| 0.5 * self.longer_side() * f64::from(steps))
                 .map(|length| [x + length * cos, y + length * sin])
-                .take_while(|point| self.free_at(*point) && fits(point))
+                .take_while(|point| self.is_free_at(*point) && fits(point))
                 .count();
-            if way > longest {
-                (longest, heading) = (way, angle);
+            if free_steps > most_steps {
+                (most_steps, heading) = (free_steps, tried_heading);
             }
         }
         heading
     }
 
-    fn free_at(&self, [x, y]: [f64; 2]) -> bool {
+    fn is_free_at(&self, [x, y]: [f64; 2]) -> bool {
         let [left, bottom, ..] = self.plan.bounds();
-        let on_plan = [(x - left) / self.sides[0], (y - bottom) / self.sides[1]];
-        let [column, row] = self.grid().map_or(on_plan, |grid| grid.cell_coordinates([x, y]));
-        column >= 0.0 && row >= 0.0 && self.free(column as usize, row as usize)
+        let bounds_point = [(x - left) / self.sides[0], (y - bottom) / self.sides[1]];
+        let [column, row] = self.grid().map_or(bounds_point, |grid| grid.cell_coordinates([x, y]));
+        column >= 0.0 && row >= 0.0 && self.is_free_square(column as usize, row as usize)
     }
 }

@@ -9,9 +9,9 @@ use thiserror::Error;
 pub struct PgmError {
     /// Name of the field: "the width".
     pub field: &'static str,
-    /// The line of the header where it should have been, from 1.
+    /// Line of the header (from 1) in which the field should have been.
     pub line: usize,
-    /// Text found instead, as a sentence quotes it.
+    /// Text found instead, as the message quotes it.
     pub value: String,
     pub allowed: String,
 }
@@ -23,9 +23,9 @@ pub const MAX_PIXELS: usize = 1 << 25;
 pub const MAX_BYTES: usize = 6 * MAX_PIXELS + 4096;
 
 /// Maximum number of characters that an error quotes.
-const QUOTED: usize = 20;
+const MAX_QUOTED_CHARACTERS: usize = 20;
 
-/// Reads a PGM image, binary (P5) or plain (P2), of 8 or 16 bits. All of it is checked, and none of it copied.
+/// Reads a PGM image, binary (P5) or plain (P2), of 8 or 16 bits. Checks the whole file without copying it.
 ///
 /// # Errors
 /// [`PgmError`] with the line of the header, or the line where plain pixels end.
@@ -38,34 +38,38 @@ pub fn read_pgm(bytes: &[u8]) -> Result<Image<Shades<'_>>, PgmError> {
     };
     let width = reader.number("the width", 1, MAX_PIXELS)?;
     let height = reader.number("the height", 1, MAX_PIXELS / width)?;
-    let greatest = reader.number("the greatest value", 1, 65_535)?;
-    let left = width * height;
+    let max_value = reader.number("the greatest value", 1, 65_535)?;
+    let pixel_count = width * height;
     let coding = if is_plain {
         let mut pixels = reader.clone();
-        for _ in 0..left {
-            pixels.number("a pixel", 0, greatest)?;
+        for _ in 0..pixel_count {
+            pixels.number("a pixel", 0, max_value)?;
         }
-        Coding::Plain
+        PixelCoding::Plain
     } else {
-        let (coding, size) = if greatest < 256 { (Coding::Bytes, 1) } else { (Coding::Words, 2) };
-        let wanted = left * size;
+        let (coding, size) = if max_value < 256 { (PixelCoding::Bytes, 1) } else { (PixelCoding::Words, 2) };
+        let raster_bytes = pixel_count * size;
         // One white space character ends the header. Windows editors write two: carriage return and line feed.
-        let is_crlf = bytes[reader.at..].starts_with(b"\r\n") && bytes.len() >= reader.at + 2 + wanted;
+        let is_crlf = bytes[reader.at..].starts_with(b"\r\n") && bytes.len() >= reader.at + 2 + raster_bytes;
         reader.at += if is_crlf { 2 } else { 1 };
-        let there = bytes.len().saturating_sub(reader.at);
-        if there < wanted {
-            let allowed = format!("{wanted} for {width} × {height} pixels");
-            let (field, value) = ("the length of the raster in bytes", there.to_string());
+        let available_bytes = bytes.len().saturating_sub(reader.at);
+        if available_bytes < raster_bytes {
+            let allowed = format!("{raster_bytes} for {width} × {height} pixels");
+            let (field, value) = ("the length of the raster in bytes", available_bytes.to_string());
             return Err(PgmError { field, line: reader.line, value, allowed });
         }
         coding
     };
-    Ok(Image { width, height, pixels: Shades { reader, left, greatest: greatest as u16, coding } })
+    Ok(Image {
+        width,
+        height,
+        pixels: Shades { reader, remaining: pixel_count, greatest: max_value as u16, coding },
+    })
 }
 
 /// Coding of the pixels of a file.
 #[derive(Clone, Copy, Debug)]
-enum Coding {
+enum PixelCoding {
     /// Decimal numbers.
     Plain,
     Bytes,
@@ -91,25 +95,25 @@ impl From<Shade> for Pixel {
 #[derive(Clone, Debug)]
 pub struct Shades<'a> {
     reader: Reader<'a>,
-    /// Number of pixels that are still to be read, all of which are valid.
-    left: usize,
+    /// Number of pixels that are still to be read. They have been checked.
+    remaining: usize,
     greatest: u16,
-    coding: Coding,
+    coding: PixelCoding,
 }
 
 impl Iterator for Shades<'_> {
     type Item = Shade;
 
     fn next(&mut self) -> Option<Shade> {
-        self.left = self.left.checked_sub(1)?;
+        self.remaining = self.remaining.checked_sub(1)?;
         let Self { reader: Reader { bytes, at, .. }, greatest, .. } = *self;
         let value = match self.coding {
-            Coding::Plain => parse_decimal(self.reader.token())? as u16,
-            Coding::Bytes => {
+            PixelCoding::Plain => parse_decimal(self.reader.token())? as u16,
+            PixelCoding::Bytes => {
                 self.reader.at += 1;
                 u16::from(*bytes.get(at)?)
             }
-            Coding::Words => {
+            PixelCoding::Words => {
                 self.reader.at += 2;
                 u16::from_be_bytes(*bytes.get(at..)?.first_chunk()?)
             }
@@ -118,7 +122,7 @@ impl Iterator for Shades<'_> {
     }
 
     fn size_hint(&self) -> (usize, Option<usize>) {
-        (self.left, Some(self.left))
+        (self.remaining, Some(self.remaining))
     }
 }
 
@@ -173,13 +177,13 @@ impl<'a> Reader<'a> {
 
     fn error(&self, field: &'static str, token: &[u8], allowed: String) -> PgmError {
         // Other bytes may be pixels of another image format. A message cannot show them.
-        let readable = |byte: &u8| {
+        let printable = |byte: &u8| {
             if byte.is_ascii_graphic() { char::from(*byte) } else { char::REPLACEMENT_CHARACTER }
         };
         let mut value = String::from("missing");
         if !token.is_empty() {
-            let shown: String = token.iter().take(QUOTED).map(readable).collect();
-            value = format!("\"{shown}{}\"", if token.len() > QUOTED { "…" } else { "" });
+            let quoted: String = token.iter().take(MAX_QUOTED_CHARACTERS).map(printable).collect();
+            value = format!("\"{quoted}{}\"", if token.len() > MAX_QUOTED_CHARACTERS { "…" } else { "" });
         }
         PgmError { field, line: self.line, value, allowed }
     }

@@ -1,4 +1,4 @@
-//! PNG images as maps have them, decoded pixel for pixel: gamma and colour profiles are left alone.
+//! PNG images of maps, decoded pixel for pixel. Gamma and colour profiles are ignored.
 
 use super::occupancy::Image;
 use super::pgm::MAX_PIXELS;
@@ -25,22 +25,22 @@ pub enum PngError {
 /// # Errors
 /// [`PngError`] for an image that is cut short, damaged or too large.
 pub fn read_png(bytes: &[u8]) -> Result<Image<Vec<[u8; 4]>>, PngError> {
-    let mut source = Cursor::new(bytes);
-    let size = Decoder::new(&mut source).read_header_info().map(Info::size);
-    let (width, height) = size.map_err(|_| damaged(&source))?;
+    let mut cursor = Cursor::new(bytes);
+    let size = Decoder::new(&mut cursor).read_header_info().map(Info::size);
+    let (width, height) = size.map_err(|_| damage_error(&cursor))?;
     if u64::from(width) * u64::from(height) > MAX_PIXELS as u64 {
         return Err(PngError::TooLarge { width, height });
     }
-    source.set_position(0);
-    let pixels = decoded(&mut source).map_err(|_| damaged(&source))?;
+    cursor.set_position(0);
+    let pixels = decode_pixels(&mut cursor).map_err(|_| damage_error(&cursor))?;
     Ok(Image { width: width as usize, height: height as usize, pixels })
 }
 
-fn damaged(source: &Cursor<&[u8]>) -> PngError {
+fn damage_error(source: &Cursor<&[u8]>) -> PngError {
     PngError::Damaged { at: source.position(), length: source.get_ref().len() }
 }
 
-fn decoded(source: &mut Cursor<&[u8]>) -> Result<Vec<[u8; 4]>, DecodingError> {
+fn decode_pixels(source: &mut Cursor<&[u8]>) -> Result<Vec<[u8; 4]>, DecodingError> {
     // The largest image has eight bytes a pixel.
     let mut decoder = Decoder::new_with_limits(source, Limits { bytes: 8 * MAX_PIXELS });
     decoder.set_transformations(Transformations::EXPAND);
@@ -48,25 +48,28 @@ fn decoded(source: &mut Cursor<&[u8]>) -> Result<Vec<[u8; 4]>, DecodingError> {
     decoder.set_ignore_iccp_chunk(true);
     let mut reader = decoder.read_info()?;
     let (kind, depth) = reader.output_color_type();
-    let mut samples = vec![0; reader.output_buffer_size().unwrap_or_default()];
-    reader.next_frame(&mut samples)?;
+    let mut sample_bytes = vec![0; reader.output_buffer_size().unwrap_or_default()];
+    reader.next_frame(&mut sample_bytes)?;
     reader.finish()?;
     if depth == BitDepth::Sixteen {
-        samples = samples.as_chunks().0.iter().map(|pair| nearest_byte(u16::from_be_bytes(*pair))).collect();
+        sample_bytes =
+            sample_bytes.as_chunks().0.iter().map(|pair| nearest_byte(u16::from_be_bytes(*pair))).collect();
     }
-    let opaque = |[red, green, blue]: [u8; 3]| [red, green, blue, u8::MAX];
+    let with_full_opacity = |[red, green, blue]: [u8; 3]| [red, green, blue, u8::MAX];
     Ok(match kind {
-        ColorType::Grayscale => samples.iter().map(|grey| opaque([*grey; 3])).collect(),
+        ColorType::Grayscale => sample_bytes.iter().map(|grey| with_full_opacity([*grey; 3])).collect(),
         ColorType::GrayscaleAlpha => {
-            samples.as_chunks().0.iter().map(|&[grey, opacity]| [grey, grey, grey, opacity]).collect()
+            sample_bytes.as_chunks().0.iter().map(|&[grey, opacity]| [grey, grey, grey, opacity]).collect()
         }
-        ColorType::Rgb => samples.as_chunks().0.iter().map(|colours| opaque(*colours)).collect(),
-        ColorType::Rgba => samples.as_chunks().0.to_vec(),
+        ColorType::Rgb => {
+            sample_bytes.as_chunks().0.iter().map(|colours| with_full_opacity(*colours)).collect()
+        }
+        ColorType::Rgba => sample_bytes.as_chunks().0.to_vec(),
         ColorType::Indexed => unreachable!("a palette is expanded"),
     })
 }
 
-/// Scales 16 bits to 8, rounded: 65535 is 255 · 257.
+/// Scales 16 bits to 8 with rounding, by the factor 65535/255 = 257.
 fn nearest_byte(sample: u16) -> u8 {
     ((u32::from(sample) + 128) / 257) as u8
 }

@@ -17,7 +17,7 @@ pub enum ImageError {
     Png(#[from] PngError),
 }
 
-/// Makes the grid of an image file as [`OccupancyGrid::new`] does; the first bytes tell PNG from PGM.
+/// Makes the grid of an image file with [`OccupancyGrid::new`]. The first bytes distinguish PNG from PGM.
 ///
 /// # Errors
 /// [`ImageError`] for a file that is neither, or damaged.

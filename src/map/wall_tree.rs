@@ -4,7 +4,7 @@ use crate::geom::segment::Segment;
 use std::ops::Range;
 
 /// Tree of walls by position and direction. Each node has a capsule, all points within its thickness of one line, that contains its
-/// walls. So long walls side by side need as few comparisons as short ones in one place. Walls that are nearly equal are compared as
+/// walls. Thus long walls side by side need as few comparisons as short walls in one place. Walls that are nearly equal are compared as
 /// one, and a node of equal walls is measured once.
 ///
 /// It is a full binary tree without pointers: the children of node i are 2i and 2i + 1, the root is 1.
@@ -13,18 +13,18 @@ pub(super) struct WallTree {
     /// Walls, those of each node side by side.
     walls: Vec<Segment>,
     /// Walls prepared for distances, in the same order.
-    lines: Vec<Line>,
+    lines: Vec<PreparedWall>,
     nodes: Vec<Node>,
     /// Number of times that the walls are halved.
     depth: u32,
-    /// More than the rounding of any distance on the map, m.
+    /// Upper bound on the rounding error of any distance on the map, m.
     slack: f64,
 }
 
 /// Walls of a subtree.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Node {
-    hull: Line,
+    hull: PreparedWall,
     /// Maximum distance of a wall of the node from the line, m.
     pub thickness: f64,
     /// True if all walls of the node are equal, so that one represents them.
@@ -39,7 +39,7 @@ const MAX_SINGLE_LEAF_WALLS: usize = 32;
 impl WallTree {
     /// Creates the tree of the walls, all of which are inside `bounds`.
     pub fn new(walls: &[Segment], bounds: [f64; 4]) -> Self {
-        let leaves = if walls.len() <= MAX_SINGLE_LEAF_WALLS {
+        let leaf_count = if walls.len() <= MAX_SINGLE_LEAF_WALLS {
             1
         } else {
             walls.len().div_ceil(MAX_LEAF_WALLS).next_power_of_two()
@@ -48,82 +48,106 @@ impl WallTree {
             walls: walls.to_vec(),
             lines: Vec::new(),
             // The root is always visited, and has no sibling.
-            nodes: vec![Node { hull: Line::POINT, thickness: f64::INFINITY, all_equal: false }; 2],
-            depth: leaves.ilog2(),
+            nodes: vec![
+                Node { hull: PreparedWall::AT_ORIGIN, thickness: f64::INFINITY, all_equal: false };
+                2
+            ],
+            depth: leaf_count.ilog2(),
             slack: 1e-9 * bounds.iter().fold(0.0, |most: f64, bound| most.max(bound.abs())),
         };
-        for parent in 1..leaves {
-            tree.halve(parent);
+        for parent in 1..leaf_count {
+            tree.divide_in_half(parent);
             let children = [2 * parent, 2 * parent + 1].map(|child| tree.make_node(child));
             tree.nodes.extend(children);
         }
-        tree.lines = tree.walls.iter().map(Line::new).collect();
+        tree.lines = tree.walls.iter().map(PreparedWall::new).collect();
         tree
     }
 
-    /// Puts the walls of a node in the order of its children: half of them left or right, below or above, longer or
-    /// shorter, or more upright, as they differ most.
-    fn halve(&mut self, at: usize) {
+    /// Sorts the walls of a node into two halves, one for each child. The sort key is the coordinate of [`sort_keys`] that varies
+    /// most: x or y of the midpoint, or x or y of the direction.
+    fn divide_in_half(&mut self, at: usize) {
         let (range, middle) = (self.range(at), self.range(2 * at).end);
         let walls = &mut self.walls[range.clone()];
         let mut ends = [[f64::INFINITY, f64::NEG_INFINITY]; 4];
         for wall in &*walls {
             for ([least, most], place) in ends.iter_mut().zip(sort_keys(wall)) {
-                (*least, *most) = (lesser(*least, place), greater(*most, place));
+                (*least, *most) = (smaller(*least, place), larger(*most, place));
             }
         }
-        let spread = ends.map(|[least, most]| most - least);
-        let axis = (1..4).fold(0, |widest, axis| if spread[axis] > spread[widest] { axis } else { widest });
+        let coordinate_ranges = ends.map(|[least, most]| most - least);
+        let axis =
+            (1..4).fold(
+                0,
+                |widest, axis| {
+                    if coordinate_ranges[axis] > coordinate_ranges[widest] { axis } else { widest }
+                },
+            );
         select_smallest(walls, middle - range.start, axis);
     }
 
     fn make_node(&self, at: usize) -> Node {
         let walls = &self.walls[self.range(at)];
         // The capsule lies along the mean direction of the walls or along an axis, whichever makes it narrowest.
-        let sum = walls.iter().map(sort_keys).fold([0.0; 2], |[x, y], place| [x + place[2], y + place[3]]);
-        let length = libm::hypot(sum[0], sum[1]);
-        let mean = if length > 0.0 { sum.map(|coordinate| coordinate / length) } else { [1.0, 0.0] };
-        let axes = [mean, [1.0, 0.0], [0.0, 1.0]];
-        let mut extents = [[f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY]; 3];
+        let direction_sum =
+            walls.iter().map(sort_keys).fold([0.0; 2], |[x, y], place| [x + place[2], y + place[3]]);
+        let sum_length = libm::hypot(direction_sum[0], direction_sum[1]);
+        let mean_direction = if sum_length > 0.0 {
+            direction_sum.map(|coordinate| coordinate / sum_length)
+        } else {
+            [1.0, 0.0]
+        };
+        let candidate_axes = [mean_direction, [1.0, 0.0], [0.0, 1.0]];
+        let mut axis_extents = [[f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY]; 3];
         for end in walls.iter().flat_map(|wall| [wall.from, wall.to]) {
-            for ([x, y], [back, right, front, left]) in axes.iter().zip(&mut extents) {
+            for ([x, y], [back, right, front, left]) in candidate_axes.iter().zip(&mut axis_extents) {
                 let (along, off) = (end[0] * x + end[1] * y, end[1] * x - end[0] * y);
-                (*back, *right) = (lesser(*back, along), lesser(*right, off));
-                (*front, *left) = (greater(*front, along), greater(*left, off));
+                (*back, *right) = (smaller(*back, along), smaller(*right, off));
+                (*front, *left) = (larger(*front, along), larger(*left, off));
             }
         }
-        let mut narrowest = (f64::INFINITY, Line::POINT);
-        for ([x, y], [back, right, front, left]) in axes.into_iter().zip(extents) {
+        let mut narrowest_capsule = (f64::INFINITY, PreparedWall::AT_ORIGIN);
+        for ([x, y], [back, right, front, left]) in candidate_axes.into_iter().zip(axis_extents) {
             let (middle, width) = (0.5 * (right + left), left - right);
-            // The ends of a capsule are round: what is as wide as it is long is a disc.
-            let round = (0.25 * width).min(0.5 * (front - back));
-            let at = |along: f64| [along * x - middle * y, along * y + middle * x];
-            if width < narrowest.0 {
-                narrowest = (width, Line::new(&Segment { from: at(back + round), to: at(front - round) }));
+            // The ends of a capsule are round, so that a capsule as wide as it is long is a disc.
+            let cap_radius = (0.25 * width).min(0.5 * (front - back));
+            let point_at = |along: f64| [along * x - middle * y, along * y + middle * x];
+            if width < narrowest_capsule.0 {
+                narrowest_capsule = (
+                    width,
+                    PreparedWall::new(&Segment {
+                        from: point_at(back + cap_radius),
+                        to: point_at(front - cap_radius),
+                    }),
+                );
             }
         }
-        let hull = narrowest.1;
-        // No point of a wall is further from the line than the further one of its ends.
+        let capsule_axis = narrowest_capsule.1;
+        // No point of a wall is further from the capsule's axis than the further end of the wall.
         let ends = walls.iter().flat_map(|wall| [wall.from, wall.to]);
-        let furthest = ends.map(|end| hull.square(end)).fold(0.0, greater).sqrt();
-        Node { hull, thickness: furthest + self.slack, all_equal: walls.iter().all(|wall| *wall == walls[0]) }
+        let max_distance = ends.map(|end| capsule_axis.squared_distance(end)).fold(0.0, larger).sqrt();
+        Node {
+            hull: capsule_axis,
+            thickness: max_distance + self.slack,
+            all_equal: walls.iter().all(|wall| *wall == walls[0]),
+        }
     }
 
     /// Returns the range of the walls of a node.
     fn range(&self, at: usize) -> Range<usize> {
         let depth = at.ilog2();
-        let (count, place) = (self.walls.len() as u64, (at - (1 << depth)) as u64);
-        let end = |place: u64| ((count * place) >> depth) as usize;
-        end(place)..end(place + 1)
+        let (count, index_in_level) = (self.walls.len() as u64, (at - (1 << depth)) as u64);
+        let end_index = |place: u64| ((count * place) >> depth) as usize;
+        end_index(index_in_level)..end_index(index_in_level + 1)
     }
 
     /// Returns the indices of the walls of a node: one if all of them are equal.
-    pub fn members(&self, at: usize) -> Range<usize> {
+    pub fn distinct_walls(&self, at: usize) -> Range<usize> {
         let range = self.range(at);
         if self.nodes[at].all_equal { range.start..range.start + 1 } else { range }
     }
 
-    pub fn line(&self, wall: usize) -> &Line {
+    pub fn line(&self, wall: usize) -> &PreparedWall {
         &self.lines[wall]
     }
 
@@ -141,7 +165,7 @@ impl WallTree {
         at >> self.depth > 0 || self.nodes[at].all_equal
     }
 
-    /// Returns true if all walls are `kept`. Walls of nodes that are `far` are skipped.
+    /// Returns true if `kept` holds for all walls. Walls of nodes for which `far` holds are skipped.
     #[inline(always)]
     pub fn all(&self, mut far: impl FnMut(&Node) -> bool, mut kept: impl FnMut(&Segment) -> bool) -> bool {
         let mut at = 1;
@@ -151,7 +175,7 @@ impl WallTree {
                     at *= 2;
                     continue;
                 }
-                if !self.walls[self.members(at)].iter().all(&mut kept) {
+                if !self.walls[self.distinct_walls(at)].iter().all(&mut kept) {
                     return false;
                 }
             }
@@ -169,7 +193,7 @@ impl WallTree {
 impl Node {
     /// Returns the axis of the capsule.
     pub fn line(&self) -> Segment {
-        let Line { from, along, .. } = self.hull;
+        let PreparedWall { from, along, .. } = self.hull;
         Segment { from, to: [from[0] + along[0], from[1] + along[1]] }
     }
 
@@ -177,37 +201,41 @@ impl Node {
     #[inline(always)]
     pub fn is_beyond(&self, point: [f64; 2], reach: f64) -> bool {
         let reach = reach + self.thickness;
-        self.hull.square(point) > reach * reach
+        self.hull.squared_distance(point) > reach * reach
     }
 
     /// Returns a lower bound (m) on the distance from a point to the walls of the node.
     #[inline(always)]
     pub fn lower_bound(&self, point: [f64; 2]) -> f64 {
-        (self.hull.square(point).sqrt() - self.thickness).max(0.0)
+        (self.hull.squared_distance(point).sqrt() - self.thickness).max(0.0)
     }
 }
 
 /// Wall prepared for many distances.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Line {
+pub(super) struct PreparedWall {
     from: [f64; 2],
     along: [f64; 2],
     /// 1/|along|²; 0 for a wall without length.
     per_square: f64,
 }
 
-impl Line {
-    const POINT: Self = Self { from: [0.0; 2], along: [0.0; 2], per_square: 0.0 };
+impl PreparedWall {
+    const AT_ORIGIN: Self = Self { from: [0.0; 2], along: [0.0; 2], per_square: 0.0 };
 
     fn new(wall: &Segment) -> Self {
-        let along = [wall.to[0] - wall.from[0], wall.to[1] - wall.from[1]];
-        let per_square = 1.0 / (along[0] * along[0] + along[1] * along[1]);
-        Self { from: wall.from, along, per_square: if per_square.is_finite() { per_square } else { 0.0 } }
+        let direction = [wall.to[0] - wall.from[0], wall.to[1] - wall.from[1]];
+        let inverse_squared_length = 1.0 / (direction[0] * direction[0] + direction[1] * direction[1]);
+        Self {
+            from: wall.from,
+            along: direction,
+            per_square: if inverse_squared_length.is_finite() { inverse_squared_length } else { 0.0 },
+        }
     }
 
     /// Returns the square of the distance to a point, m².
     #[inline(always)]
-    pub fn square(&self, point: [f64; 2]) -> f64 {
+    pub fn squared_distance(&self, point: [f64; 2]) -> f64 {
         let Self { from, along, per_square } = *self;
         let offset = [point[0] - from[0], point[1] - from[1]];
         let t = ((offset[0] * along[0] + offset[1] * along[1]) * per_square).clamp(0.0, 1.0);
@@ -224,14 +252,14 @@ fn select_smallest(walls: &mut [Segment], count: usize, axis: usize) {
         if high - low < 2 {
             return;
         }
-        let of = |wall: &Segment| sort_keys(wall)[axis];
-        let pivot = of(&walls[(low + high) / 2]);
+        let key_of = |wall: &Segment| sort_keys(wall)[axis];
+        let pivot = key_of(&walls[(low + high) / 2]);
         let (mut left, mut right) = (low, high);
         loop {
-            while of(&walls[left]) < pivot {
+            while key_of(&walls[left]) < pivot {
                 left += 1;
             }
-            while of(&walls[right - 1]) > pivot {
+            while key_of(&walls[right - 1]) > pivot {
                 right -= 1;
             }
             if left < right {
@@ -255,15 +283,14 @@ fn select_smallest(walls: &mut [Segment], count: usize, axis: usize) {
 
 const MAX_SELECTION_ROUNDS: usize = 64;
 
-/// Returns the lesser and the greater of two numbers, neither of which is NaN: `f64::min` and `f64::max` take several
-/// times as long.
+/// Returns the smaller of two numbers, neither of which is NaN. `f64::min` and `f64::max` take several times as long.
 #[inline(always)]
-fn lesser(one: f64, other: f64) -> f64 {
+fn smaller(one: f64, other: f64) -> f64 {
     if other < one { other } else { one }
 }
 
 #[inline(always)]
-fn greater(one: f64, other: f64) -> f64 {
+fn larger(one: f64, other: f64) -> f64 {
     if other > one { other } else { one }
 }
 

@@ -2,7 +2,7 @@
 
 use super::MotionModel;
 use crate::geom::se2::{SE2, wrap_angle};
-use crate::noise::{NoiseKind, Variance, centred_uniform, joint, wrapped_prob};
+use crate::noise::{NoiseKind, Variance, centred_uniform, product_or_zero, wrapped_prob};
 use nalgebra::{Matrix3, Vector3};
 use rand::Rng;
 use std::f64::consts::PI;
@@ -21,8 +21,8 @@ pub struct OdomDelta {
 const MIN_TRANSLATION: f64 = 1e-9;
 
 impl OdomDelta {
-    /// Returns the decomposition of the motion between two poses of the odometry frame (Table 5.5, lines 2–4). A spin
-    /// on the spot is charged to `rot2` alone.
+    /// Returns the decomposition of the motion between two poses of the odometry frame (Table 5.5, lines 2–4). For a turn
+    /// on the spot, `rot1` is 0 and `rot2` the whole turn.
     pub fn from_poses(prev: &SE2, curr: &SE2) -> Self {
         let (dx, dy) = (curr.x() - prev.x(), curr.y() - prev.y());
         let trans = libm::hypot(dx, dy);
@@ -91,10 +91,10 @@ pub trait RotTransRot {
     /// frame of `x` (m², m·rad, rad²).
     fn cartesian_cov(&self, u: &OdomDelta, x: &SE2) -> Matrix3<f64> {
         let (sin, cos) = libm::sincos(x.theta() + u.rot1);
-        let by_rot1 = Vector3::new(-u.trans * sin, u.trans * cos, 1.0);
-        let jacobian = Matrix3::from_columns(&[by_rot1, Vector3::new(cos, sin, 0.0), Vector3::z()]);
-        let legs = self.variances(u).map(|variance| variance.0);
-        jacobian * Matrix3::from_diagonal(&Vector3::from(legs)) * jacobian.transpose()
+        let rot1_column = Vector3::new(-u.trans * sin, u.trans * cos, 1.0);
+        let jacobian = Matrix3::from_columns(&[rot1_column, Vector3::new(cos, sin, 0.0), Vector3::z()]);
+        let leg_variances = self.variances(u).map(|variance| variance.0);
+        jacobian * Matrix3::from_diagonal(&Vector3::from(leg_variances)) * jacobian.transpose()
     }
 }
 
@@ -106,7 +106,7 @@ impl<M: RotTransRot> MotionModel for M {
     fn prob(&self, x_next: &SE2, u: &OdomDelta, x: &SE2) -> f64 {
         let (noise, hat) = (self.noise(), OdomDelta::from_poses(x, x_next));
         let [rot1_variance, trans_variance, rot2_variance] = self.variances(&hat);
-        joint([
+        product_or_zero([
             noise.prob(wrap_angle(u.rot1 - hat.rot1), rot1_variance),
             noise.prob(u.trans - hat.trans, trans_variance),
             noise.prob(wrap_angle(u.rot2 - hat.rot2), rot2_variance),
@@ -124,17 +124,17 @@ impl<M: RotTransRot> MotionModel for M {
         let step = x.between(x_next);
         let distance = libm::hypot(step.x(), step.y());
         let bearing = libm::atan2(step.y(), step.x());
-        let legs: f64 = [(bearing, distance), (bearing + PI, -distance)]
+        let leg_density: f64 = [(bearing, distance), (bearing + PI, -distance)]
             .into_iter()
             .map(|(rot1, trans)| {
-                joint([
+                product_or_zero([
                     wrapped_prob(noise, rot1 - u.rot1, rot1_variance),
                     noise.prob(trans - u.trans, trans_variance),
                     wrapped_prob(noise, step.theta() - rot1 - u.rot2, rot2_variance),
                 ])
             })
             .sum();
-        Some(if legs > 0.0 { legs / distance } else { 0.0 })
+        Some(if leg_density > 0.0 { leg_density / distance } else { 0.0 })
     }
 
     fn sample<R: Rng + ?Sized>(&self, u: &OdomDelta, x: &SE2, rng: &mut R) -> SE2 {
@@ -144,10 +144,14 @@ impl<M: RotTransRot> MotionModel for M {
 }
 
 /// Function that gives the size at which a rotation counts in the noise variances.
-pub(super) type Charge = fn(f64) -> f64;
+pub(super) type RotationSize = fn(f64) -> f64;
 
 /// Returns the variances of the three legs of `delta` (rad², m², rad²).
-pub(super) fn charged_variances(alphas: OdomAlphas, delta: &OdomDelta, charge: Charge) -> [Variance; 3] {
+pub(super) fn variances_by_rotation_size(
+    alphas: OdomAlphas,
+    delta: &OdomDelta,
+    charge: RotationSize,
+) -> [Variance; 3] {
     let [a1, a2, a3, a4] = alphas.0;
     let [rot1_sq, rot2_sq] = [delta.rot1, delta.rot2].map(|rotation| charge(rotation) * charge(rotation));
     let trans_sq = delta.trans * delta.trans;
@@ -164,7 +168,7 @@ impl RotTransRot for OdometryModel {
     }
 
     fn variances(&self, delta: &OdomDelta) -> [Variance; 3] {
-        charged_variances(self.alphas, delta, f64::abs)
+        variances_by_rotation_size(self.alphas, delta, f64::abs)
     }
 }
 
@@ -187,7 +191,7 @@ impl RotTransRot for ReverseAware {
     }
 
     fn variances(&self, delta: &OdomDelta) -> [Variance; 3] {
-        charged_variances(self.0.alphas, delta, turn_either_way)
+        variances_by_rotation_size(self.0.alphas, delta, turn_either_way)
     }
 }
 
@@ -203,7 +207,7 @@ impl RotTransRot for ConfiguredOdometry {
     }
 
     fn variances(&self, delta: &OdomDelta) -> [Variance; 3] {
-        let charge: Charge = if self.reverse_aware { turn_either_way } else { f64::abs };
-        charged_variances(self.model.alphas, delta, charge)
+        let rotation_size: RotationSize = if self.reverse_aware { turn_either_way } else { f64::abs };
+        variances_by_rotation_size(self.model.alphas, delta, rotation_size)
     }
 }

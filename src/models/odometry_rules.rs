@@ -1,6 +1,6 @@
 //! Rules by which localizers add noise to an odometry reading: Table 5.6, and those of deployed software.
 
-use super::odometry::{Charge, OdomAlphas, OdomDelta, charged_variances, turn_either_way};
+use super::odometry::{OdomAlphas, OdomDelta, RotationSize, turn_either_way, variances_by_rotation_size};
 use crate::geom::se2::{SE2, wrap_angle};
 use crate::noise::{NoiseKind, Variance};
 
@@ -16,7 +16,7 @@ pub enum OdometryRule {
     Nav2,
     /// Beluga for a differential drive: `beluga/motion/differential_drive_model.hpp` (Ekumen-OS/beluga, release 2.0 and
     /// later). As [`OdometryRule::Nav2`], but for a reading of exactly a centimetre, which has no first rotation here.
-    /// Before 2.0, α₄ was given the turn as a whole, rot1 + rot2, instead of each.
+    /// Before 2.0, α₄ applied to the whole turn rot1 + rot2 instead of to each rotation.
     Beluga,
     /// AMCL of Navigation2 for a robot that can drive sideways: `nav2_amcl/src/motion_model/omni_motion_model.cpp` (same
     /// commit). The bearing is exact; noise is in the distance, across it (the strafe, α₄ and α₅), and in the turn as a
@@ -28,8 +28,8 @@ impl OdometryRule {
     pub const ALL: [Self; 4] = [Self::Table, Self::Nav2, Self::Beluga, Self::Omni];
 }
 
-/// Readings below this (m) are taken for spins by deployed localizers: the direction of so short a motion is that of the
-/// encoders' jitter. A larger bound would take a slow robot's forward motion for one along its old heading.
+/// Deployed localizers treat readings below this distance (m) as turns on the spot, because the direction of so short a motion
+/// is only jitter of the encoders. A larger bound would lose the bearing of a slow robot's forward motion.
 pub const MAX_SPIN_DISTANCE: f64 = 0.01;
 
 /// Noise parameters α₁…α₅, each 0 or more. Only [`OdometryRule::Omni`] uses the fifth.
@@ -52,12 +52,12 @@ impl OdometryRule {
     /// Returns the legs that the rule makes of a reading: the same motion to within [`MAX_SPIN_DISTANCE`], with the whole turn
     /// in the second rotation where the rule calls it a spin.
     pub fn legs(self, reading: &OdomDelta) -> OdomDelta {
-        let spin = match self {
+        let is_spin = match self {
             Self::Table | Self::Omni => false,
             Self::Nav2 => reading.trans < MAX_SPIN_DISTANCE,
             Self::Beluga => reading.trans <= MAX_SPIN_DISTANCE,
         };
-        if !spin {
+        if !is_spin {
             return *reading;
         }
         OdomDelta { rot1: 0.0, trans: reading.trans, rot2: wrap_angle(reading.rot1 + reading.rot2) }
@@ -67,20 +67,20 @@ impl OdometryRule {
     ///
     /// | rule | rot1 | trans | rot2 | strafe |
     /// |---|---|---|---|---|
-    /// | the others | α₁c₁² + α₂t² | α₃t² + α₄(c₁² + c₂²) | α₁c₂² + α₂t² | 0 |
+    /// | except `Omni` | α₁c₁² + α₂t² | α₃t² + α₄(c₁² + c₂²) | α₁c₂² + α₂t² | 0 |
     /// | `Omni` | 0 | α₃t² + α₄δ² | α₁δ² + α₂t² | α₅t² + α₄δ² |
     ///
     /// In this table t is the length of the drive, cᵢ the angle that rotation i counts as, and δ = rot1 + rot2 the wrapped turn.
     pub fn variances(self, reading: &OdomDelta, alphas: &RuleAlphas) -> LegVariances {
         let [a1, a2, a3, a4, a5] = *alphas;
         let legs = self.legs(reading);
-        let differential = |charge: Charge| {
-            let [rot1, trans, rot2] = charged_variances(OdomAlphas([a1, a2, a3, a4]), &legs, charge);
+        let differential_variances = |charge: RotationSize| {
+            let [rot1, trans, rot2] = variances_by_rotation_size(OdomAlphas([a1, a2, a3, a4]), &legs, charge);
             LegVariances { rot1, trans, rot2, strafe: Variance(0.0) }
         };
         match self {
-            Self::Table => differential(f64::abs),
-            Self::Nav2 | Self::Beluga => differential(turn_either_way),
+            Self::Table => differential_variances(f64::abs),
+            Self::Nav2 | Self::Beluga => differential_variances(turn_either_way),
             Self::Omni => {
                 let turn = wrap_angle(legs.rot1 + legs.rot2);
                 let (trans_sq, turn_sq) = (legs.trans * legs.trans, turn * turn);
@@ -108,9 +108,9 @@ impl ExecutedLegs {
     /// the second turn. All are in the frame in which `x` is given.
     pub fn poses(&self, x: &SE2) -> [SE2; 4] {
         let OdomDelta { rot1, trans, rot2 } = self.legs;
-        let turned = *x * SE2::new(0.0, 0.0, rot1);
-        let driven = turned * SE2::new(trans, self.strafe, 0.0);
-        [*x, turned, driven, driven * SE2::new(0.0, 0.0, rot2)]
+        let after_rot1 = *x * SE2::new(0.0, 0.0, rot1);
+        let after_drive = after_rot1 * SE2::new(trans, self.strafe, 0.0);
+        [*x, after_rot1, after_drive, after_drive * SE2::new(0.0, 0.0, rot2)]
     }
 }
 
@@ -121,11 +121,11 @@ impl LegVariances {
     pub fn executed(&self, legs: &OdomDelta, [across, along, turn]: [f64; 3]) -> ExecutedLegs {
         ExecutedLegs {
             legs: OdomDelta {
-                rot1: legs.rot1 - deviation(self.rot1) * across,
-                trans: legs.trans - deviation(self.trans) * along,
-                rot2: legs.rot2 - deviation(self.rot2) * turn,
+                rot1: legs.rot1 - std_of(self.rot1) * across,
+                trans: legs.trans - std_of(self.trans) * along,
+                rot2: legs.rot2 - std_of(self.rot2) * turn,
             },
-            strafe: -deviation(self.strafe) * across,
+            strafe: -std_of(self.strafe) * across,
         }
     }
 
@@ -138,13 +138,13 @@ impl LegVariances {
     /// Returns the variance (rad²) of the turn made, unwrapped, for a `correlation` of the noises of the two rotations:
     /// σ₁² + σ₂² + 2ρσ₁σ₂.
     pub fn heading(&self, correlation: f64) -> f64 {
-        let [first, second] = [self.rot1, self.rot2].map(deviation);
+        let [first, second] = [self.rot1, self.rot2].map(std_of);
         // As squares: for opposite noises of one size the sum of the three terms might round below 0.
-        let common = first + correlation * second;
-        common * common + (1.0 - correlation * correlation) * second * second
+        let correlated_std = first + correlation * second;
+        correlated_std * correlated_std + (1.0 - correlation * correlation) * second * second
     }
 }
 
-fn deviation(variance: Variance) -> f64 {
+fn std_of(variance: Variance) -> f64 {
     variance.0.sqrt()
 }

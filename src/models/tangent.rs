@@ -42,7 +42,7 @@ pub struct TangentNoiseModel {
 /// Recursions that carry the covariance of x_k ⊟ x̄_k over one more step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Compounding {
-    /// The chapter's recursion A·Σ·Aᵀ + R, A = Ad(exp(τ)⁻¹): takes exp(τ + w) for exp(τ)·exp(w).
+    /// The chapter's recursion A·Σ·Aᵀ + R, A = Ad(exp(τ)⁻¹). It approximates exp(τ + w) by exp(τ)·exp(w).
     Chapter,
     /// A·Σ·Aᵀ + J_r(τ)·R·J_r(τ)ᵀ: right to first order in w.
     FirstOrder,
@@ -120,17 +120,19 @@ impl TangentNoiseModel {
     /// (x, y, θ).
     pub fn log_prob(&self, x_next: &SE2, u: &VelocityCmd, x: &SE2) -> f64 {
         if self.last_turn == 0.0 {
-            let padded = self.r + Matrix3::identity() * PADDING;
-            return log_normal(&(x_next.boxminus(x) - Self::twist(u)), &padded);
+            let padded_cov = self.r + Matrix3::identity() * PADDING;
+            return log_normal(&(x_next.boxminus(x) - Self::twist(u)), &padded_cov);
         }
         let executed = invert_arc(x, x_next, u.dt);
         let (length, turn) = (executed.v_hat * u.dt, executed.omega_hat * u.dt);
         let residual = Vector3::new(length - u.v * u.dt, turn - u.omega * u.dt, executed.gamma_hat * u.dt);
         let variances = Vector3::new(self.r[(0, 0)] + PADDING, self.r[(2, 2)] + PADDING, self.last_turn);
-        let chart = sinc(0.5 * x.between(x_next).theta());
-        let arc = sinc(0.5 * turn);
+        let twist_half_sinc = sinc(0.5 * x.between(x_next).theta());
+        let arc_half_sinc = sinc(0.5 * turn);
         log_normal(&residual, &Matrix3::from_diagonal(&variances))
-            + libm::log(2.0 * chart * chart / (length.abs() * arc * arc))
+            + libm::log(
+                2.0 * twist_half_sinc * twist_half_sinc / (length.abs() * arc_half_sinc * arc_half_sinc),
+            )
     }
 
     /// Returns Σ_k from Σ_{k−1} by the chapter's recursion: `propagate` with [`Compounding::Chapter`].
@@ -142,17 +144,17 @@ impl TangentNoiseModel {
     /// Both are 3 × 3 in the body frame of their pose. The turn after the arc only adds to the heading, without J_r, because it
     /// happens at the end of the arc.
     pub fn propagate(&self, sigma: &Matrix3<f64>, tau: &Vector3<f64>, order: Compounding) -> Matrix3<f64> {
-        let back = SE2::exp(tau).inverse().adjoint();
-        let carried = back * sigma * back.transpose();
+        let inverse_adjoint = SE2::exp(tau).inverse().adjoint();
+        let carried_cov = inverse_adjoint * sigma * inverse_adjoint.transpose();
         let last_turn = Matrix3::from_diagonal(&Vector3::new(0.0, 0.0, self.last_turn));
         if order == Compounding::Chapter {
-            return carried + self.r + last_turn;
+            return carried_cov + self.r + last_turn;
         }
         let jacobian = SE2::right_jacobian(tau);
-        let added = jacobian * self.r * jacobian.transpose() + last_turn;
-        let first_order = carried + added;
+        let added_cov = jacobian * self.r * jacobian.transpose() + last_turn;
+        let first_order = carried_cov + added_cov;
         match order {
-            Compounding::FourthOrder => first_order + fourth_order(&carried, &added),
+            Compounding::FourthOrder => first_order + fourth_order(&carried_cov, &added_cov),
             _ => first_order,
         }
     }
@@ -161,10 +163,10 @@ impl TangentNoiseModel {
 /// Returns the fourth-order part of the covariance of log(exp(a)·exp(b)) for independent a and b with covariances `a` and `b`.
 /// It is (𝒜_a·b + b·𝒜_aᵀ + 𝒜_b·a + a·𝒜_bᵀ)/12 + ℬ/4, with 𝒜_a = E[ad(a)²] and ℬ = E[ad(a)·b·ad(a)ᵀ].
 fn fourth_order(a: &Matrix3<f64>, b: &Matrix3<f64>) -> Matrix3<f64> {
-    let twice = |cov| expectation(cov, |left, right| left * right);
-    let one_sided = twice(a) * b + twice(b) * a;
-    let two_sided = expectation(a, |left, right| left * b * right.transpose());
-    (one_sided + one_sided.transpose()) / 12.0 + two_sided / 4.0
+    let mean_square = |cov| expectation(cov, |left, right| left * right);
+    let one_sided_terms = mean_square(a) * b + mean_square(b) * a;
+    let two_sided_term = expectation(a, |left, right| left * b * right.transpose());
+    (one_sided_terms + one_sided_terms.transpose()) / 12.0 + two_sided_term / 4.0
 }
 
 /// Returns E[f(ad(ξ), ad(ξ))] for a bilinear f and ξ of covariance `cov`: ad is linear, so it is a sum over the basis
@@ -202,23 +204,24 @@ pub(crate) fn covariance_root(cov: &Matrix3<f64>) -> Result<Matrix3<f64>, Tangen
     if (cov - cov.transpose()).amax() > ROUNDING * cov.amax() {
         return Err(TangentNoiseError::NotSymmetric);
     }
-    let mut root = Matrix3::zeros();
+    let mut cov_root = Matrix3::zeros();
     for j in 0..3 {
-        let left_over =
-            |row: usize| cov[(row, j)] - (0..j).map(|k| root[(row, k)] * root[(j, k)]).sum::<f64>();
-        let column = [left_over(0), left_over(1), left_over(2)];
-        let (pivot, rounding) = (column[j], ROUNDING * cov[(j, j)].abs());
+        let remaining_covariance =
+            |row: usize| cov[(row, j)] - (0..j).map(|k| cov_root[(row, k)] * cov_root[(j, k)]).sum::<f64>();
+        let pivot_column = [remaining_covariance(0), remaining_covariance(1), remaining_covariance(2)];
+        let (pivot, rounding) = (pivot_column[j], ROUNDING * cov[(j, j)].abs());
         if pivot > rounding {
             for row in j..3 {
-                root[(row, j)] = column[row] / pivot.sqrt();
+                cov_root[(row, j)] = pivot_column[row] / pivot.sqrt();
             }
             continue;
         }
         // A coordinate with no variance left can have no covariance left: |c_ij| ≤ √(c_ii · c_jj).
-        let shares_none = |row: usize| column[row].abs() <= (rounding * cov[(row, row)].abs()).sqrt();
-        if pivot < -rounding || !(j + 1..3).all(shares_none) {
+        let has_no_covariance =
+            |row: usize| pivot_column[row].abs() <= (rounding * cov[(row, row)].abs()).sqrt();
+        if pivot < -rounding || !(j + 1..3).all(has_no_covariance) {
             return Err(TangentNoiseError::NotPositiveSemidefinite);
         }
     }
-    Ok(root)
+    Ok(cov_root)
 }

@@ -3,7 +3,7 @@
 use super::{MotionModel, TangentNoiseModel};
 use crate::geom::arc::{ArcInversion, chord, invert_arc};
 use crate::geom::se2::SE2;
-use crate::noise::{NoiseKind, Variance, centred_uniform, joint, wrapped_prob};
+use crate::noise::{NoiseKind, Variance, centred_uniform, product_or_zero, wrapped_prob};
 use nalgebra::{Matrix3, Vector3};
 use rand::Rng;
 use std::f64::consts::TAU;
@@ -90,10 +90,11 @@ impl VelocityModel {
         let [along, turn, last] = self.variances(u).map(|variance| u.dt * u.dt * variance.0);
         let twist = TangentNoiseModel::twist(u);
         let jacobian = SE2::right_jacobian(&twist);
-        let arc = jacobian * Matrix3::from_diagonal(&Vector3::new(along, 0.0, turn)) * jacobian.transpose();
-        let body = arc + Matrix3::from_diagonal(&Vector3::new(0.0, 0.0, last));
+        let arc_cov =
+            jacobian * Matrix3::from_diagonal(&Vector3::new(along, 0.0, turn)) * jacobian.transpose();
+        let body_cov = arc_cov + Matrix3::from_diagonal(&Vector3::new(0.0, 0.0, last));
         let rotation = SE2::new(0.0, 0.0, x.theta() + twist.z).adjoint();
-        rotation * body * rotation.transpose()
+        rotation * body_cov * rotation.transpose()
     }
 }
 
@@ -103,7 +104,7 @@ impl MotionModel for VelocityModel {
     fn prob(&self, x_next: &SE2, u: &VelocityCmd, x: &SE2) -> f64 {
         let executed = invert_arc(x, x_next, u.dt);
         let [v_variance, omega_variance, gamma_variance] = self.variances(u);
-        joint([
+        product_or_zero([
             self.noise.prob(u.v - executed.v_hat, v_variance),
             self.noise.prob(u.omega - executed.omega_hat, omega_variance),
             self.noise.prob(executed.gamma_hat, gamma_variance),
@@ -122,12 +123,12 @@ impl MotionModel for VelocityModel {
         let step = x.between(x_next);
         let distance = libm::hypot(step.x(), step.y());
         let shortest_turn = executed.omega_hat * u.dt;
-        let square = distance * distance * u.dt;
-        if square == 0.0 {
+        let squared_distance_dt = distance * distance * u.dt;
+        if squared_distance_dt == 0.0 {
             return Some(if self.noise.prob(u.v, v_variance) > 0.0 { f64::INFINITY } else { 0.0 });
         }
         // On one circle the length driven is proportional to the turn; a straight line closes no circle.
-        let one_way = |windings: f64| {
+        let density_with_windings = |windings: f64| {
             let (v_hat, turn) = if windings == 0.0 {
                 (executed.v_hat, shortest_turn)
             } else if executed.omega_hat == 0.0 {
@@ -137,20 +138,25 @@ impl MotionModel for VelocityModel {
                 (executed.v_hat * (turn / shortest_turn), turn)
             };
             // With |sinc(φ/2)| = d/|v̂Δt| the determinant is d²Δt/(2|v̂|) times the Δt of γ̂.
-            joint([
-                2.0 * v_hat.abs() / square,
+            product_or_zero([
+                2.0 * v_hat.abs() / squared_distance_dt,
                 self.noise.prob(v_hat - u.v, v_variance),
                 self.noise.prob(turn / u.dt - u.omega, omega_variance),
             ])
         };
         // Nine standard deviations reach every turn whose Gaussian density is above the rounding of the sum.
-        let nearest = ((u.omega * u.dt - shortest_turn) / TAU).round();
-        let reach = self.windings(u);
-        let arcs: f64 = (-reach..=reach).map(|k| one_way(nearest + f64::from(k))).sum();
+        let nearest_windings = ((u.omega * u.dt - shortest_turn) / TAU).round();
+        let max_windings = self.windings(u);
+        let arc_density: f64 = (-max_windings..=max_windings)
+            .map(|k| density_with_windings(nearest_windings + f64::from(k)))
+            .sum();
 
         let last_turn = step.theta() - shortest_turn;
         let dt2 = u.dt * u.dt;
-        Some(joint([arcs, wrapped_prob(self.noise, last_turn, Variance(dt2 * gamma_variance.0))]))
+        Some(product_or_zero([
+            arc_density,
+            wrapped_prob(self.noise, last_turn, Variance(dt2 * gamma_variance.0)),
+        ]))
     }
 
     fn sample<R: Rng + ?Sized>(&self, u: &VelocityCmd, x: &SE2, rng: &mut R) -> SE2 {

@@ -2,77 +2,79 @@
 //! precision form PPND16.
 #![expect(clippy::excessive_precision, reason = "the digits as published")]
 
-use crate::geom::lanes::{LANES, any, lanes, log};
+use crate::geom::lanes::{LANES, any_lane_set, lanes, log};
 use std::ops::{Add, Div, Mul};
 use wide::{bytemuck, f64x4};
 
 /// Distance from the probability ½ at which the tails begin.
-const CENTRE: f64 = 0.425;
+const CENTRE_HALF_WIDTH: f64 = 0.425;
 
 /// Returns Φ⁻¹(½ + q) by AS 241's PPND16: a rational function of degree 7 over 7 in each of three ranges.
 #[inline(never)]
-pub(super) fn normal(q: f64) -> f64 {
-    if q.abs() <= CENTRE {
+pub(super) fn normal_quantile(q: f64) -> f64 {
+    if q.abs() <= CENTRE_HALF_WIDTH {
         let r = 0.180_625 - q * q;
-        return q * rational(r, &CENTRE_NUMERATOR, &CENTRE_DENOMINATOR);
+        return q * rational_function(r, &CENTRE_NUMERATOR, &CENTRE_DENOMINATOR);
     }
     let r = (-libm::log(0.5 - q.abs())).sqrt();
-    let tail = if r <= 5.0 {
-        rational(r - 1.6, &MIDDLE_NUMERATOR, &MIDDLE_DENOMINATOR)
+    let tail_quantile = if r <= 5.0 {
+        rational_function(r - 1.6, &MIDDLE_NUMERATOR, &MIDDLE_DENOMINATOR)
     } else {
-        rational(r - 5.0, &FAR_NUMERATOR, &FAR_DENOMINATOR)
+        rational_function(r - 5.0, &FAR_NUMERATOR, &FAR_DENOMINATOR)
     };
-    tail.copysign(q)
+    tail_quantile.copysign(q)
 }
 
 /// Number of vectors in a chunk, whose tails are gathered into full vectors. 1024 numbers take 10 kB of stack. Smaller chunks
 /// would leave more incomplete vectors.
 const CHUNK: usize = 256;
 
-/// Replaces numbers by [`normal`] of them, with the same bits.
-pub(super) fn normals(fours: &mut [f64x4]) {
+/// Replaces numbers by their quantiles, which have the same bits as [`normal_quantile`].
+pub(super) fn normal_quantiles(fours: &mut [f64x4]) {
     fours.chunks_mut(CHUNK).for_each(normals_of_chunk);
 }
 
 /// Replaces the numbers of a chunk. One number in seven is in a tail, and every second vector has one. The tails are gathered
 /// into full vectors, which saves most of their cost, and unpredictable branches.
 fn normals_of_chunk(fours: &mut [f64x4]) {
-    let mut tails = [0.0; LANES * CHUNK + LANES];
-    let mut places = [0u16; LANES * CHUNK + LANES];
-    let mut count = 0;
+    let mut tail_numbers = [0.0; LANES * CHUNK + LANES];
+    let mut tail_indices = [0u16; LANES * CHUNK + LANES];
+    let mut tail_count = 0;
     for (four, q) in fours.iter_mut().enumerate() {
-        let in_tail = q.abs().simd_gt(f64x4::splat(CENTRE)).to_bitmask();
+        let tail_mask = q.abs().simd_gt(f64x4::splat(CENTRE_HALF_WIDTH)).to_bitmask();
         for (lane, tail) in q.to_array().into_iter().enumerate() {
             // The next number overwrites this one unless it is in a tail.
-            tails[count] = tail;
-            places[count] = (LANES * four + lane) as u16;
-            count += (in_tail >> lane & 1) as usize;
+            tail_numbers[tail_count] = tail;
+            tail_indices[tail_count] = (LANES * four + lane) as u16;
+            tail_count += (tail_mask >> lane & 1) as usize;
         }
         let r = f64x4::splat(0.180_625) - *q * *q;
-        *q *= rational(r, &CENTRE_NUMERATOR, &CENTRE_DENOMINATOR);
+        *q *= rational_function(r, &CENTRE_NUMERATOR, &CENTRE_DENOMINATOR);
     }
-    let numbers: &mut [f64] = bytemuck::cast_slice_mut(fours);
-    for (tails, places) in tails[..count].chunks(LANES).zip(places[..count].chunks(LANES)) {
-        let quantiles = tail_lanes(lanes(|lane| *tails.get(lane).unwrap_or(&0.45)));
-        for (place, quantile) in places.iter().zip(quantiles.to_array()) {
-            numbers[usize::from(*place)] = quantile;
+    let chunk_numbers: &mut [f64] = bytemuck::cast_slice_mut(fours);
+    for (tails, places) in
+        tail_numbers[..tail_count].chunks(LANES).zip(tail_indices[..tail_count].chunks(LANES))
+    {
+        let tail_quantiles = tail_lanes(lanes(|lane| *tails.get(lane).unwrap_or(&0.45)));
+        for (place, quantile) in places.iter().zip(tail_quantiles.to_array()) {
+            chunk_numbers[usize::from(*place)] = quantile;
         }
     }
 }
 
-/// Returns [`normal`] of four numbers, each in one of the tails.
+/// Returns [`normal_quantile`] of four numbers, each in one of the tails.
 #[inline(always)]
 fn tail_lanes(q: f64x4) -> f64x4 {
     let r = (-log(f64x4::splat(0.5) - q.abs())).sqrt();
-    if any(r.simd_gt(f64x4::splat(5.0))) {
-        return q.to_array().map(normal).into();
+    if any_lane_set(r.simd_gt(f64x4::splat(5.0))) {
+        return q.to_array().map(normal_quantile).into();
     }
-    rational(r - 1.6, &MIDDLE_NUMERATOR, &MIDDLE_DENOMINATOR).copysign(q)
+    rational_function(r - 1.6, &MIDDLE_NUMERATOR, &MIDDLE_DENOMINATOR).copysign(q)
 }
 
 /// Returns p(r)/q(r), coefficients from the constant term up.
 #[inline(always)]
-fn rational<T>(r: T, numerator: &[f64; 8], denominator: &[f64; 8]) -> T
+fn rational_function<T>(r: T, numerator: &[f64; 8], denominator: &[f64; 8]) -> T
 where
     T: Copy + From<f64> + Mul<Output = T> + Add<f64, Output = T> + Div<Output = T>,
 {
@@ -84,8 +86,8 @@ fn horner<T>(r: T, coefficients: &[f64; 8]) -> T
 where
     T: Copy + From<f64> + Mul<Output = T> + Add<f64, Output = T>,
 {
-    let highest = T::from(coefficients[7]);
-    coefficients[..7].iter().rev().fold(highest, |sum, c| sum * r + *c)
+    let highest_coefficient = T::from(coefficients[7]);
+    coefficients[..7].iter().rev().fold(highest_coefficient, |sum, c| sum * r + *c)
 }
 
 const CENTRE_NUMERATOR: [f64; 8] = [

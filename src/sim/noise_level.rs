@@ -8,7 +8,7 @@ pub fn alphas_of_noise<const N: usize>(n: f64) -> [f64; N] {
     std::array::from_fn(|i| if i + 2 < N { n } else { n / 4.0 })
 }
 
-/// Access to α's as one noise level. They have a level only if they equal [`alphas_of_noise`] of it.
+/// Access to α's as one noise level. α's have a level n only if they are equal to [`alphas_of_noise`] of n.
 pub struct NoiseLevel<'a, const N: usize>(pub &'a mut [f64; N]);
 
 impl<const N: usize> Level for NoiseLevel<'_, N> {

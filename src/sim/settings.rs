@@ -3,9 +3,9 @@
 use std::ops::{ControlFlow, RangeInclusive};
 use thiserror::Error;
 
-/// Error for a setting that has no allowed value. The message has the field, the value and the allowed ones.
+/// Error for a setting whose value is not allowed. The message has the field, the value and the allowed values.
 #[derive(Clone, Debug, PartialEq, Error)]
-#[error("{}", self.message(number))]
+#[error("{}", self.message(number_text))]
 pub struct SettingsError {
     pub field: String,
     pub value: f64,
@@ -18,7 +18,7 @@ pub enum Allowed {
     Whole(RangeInclusive<u64>),
     /// Numbers of samples for which there is enough memory.
     LessMemory,
-    /// Words other than this one.
+    /// Words that are allowed instead of `is`.
     Word {
         is: &'static str,
         allowed: &'static str,
@@ -47,12 +47,12 @@ impl SettingsError {
 }
 
 /// Returns a number as JavaScript would print it.
-fn number(value: f64) -> String {
+fn number_text(value: f64) -> String {
     if value.is_infinite() {
         return if value > 0.0 { "Infinity" } else { "-Infinity" }.to_owned();
     }
-    let plain = value.abs() >= 1e-6 && value.abs() < 1e21;
-    if plain || value == 0.0 || value.is_nan() { format!("{value}") } else { format!("{value:e}") }
+    let is_plain = value.abs() >= 1e-6 && value.abs() < 1e21;
+    if is_plain || value == 0.0 || value.is_nan() { format!("{value}") } else { format!("{value:e}") }
 }
 
 pub(crate) fn check_real(
@@ -93,7 +93,7 @@ pub const MAX_SEED: u64 = (1 << 53) - 1;
 #[derive(Clone, Copy, Debug)]
 pub struct Declaration {
     pub key: &'static str,
-    /// Key of the setting that this one is another form of, such as the α's of a noise level.
+    /// Key of the setting of which this setting is another form: `alphas` for a noise level.
     pub of: Option<&'static str>,
     // The module for browsers omits the sentence and the unit of settings: no page shows them, and they would make the module larger.
     #[cfg(not(target_arch = "wasm32"))]
@@ -139,9 +139,9 @@ impl Setting<'_> {
 
 pub(crate) fn check_group(key: &str, group: &mut dyn Group) -> Result<(), SettingsError> {
     for (i, Field { declaration, allowed }) in group.fields().iter().enumerate() {
-        let number = *group.number(i);
-        if !allowed.contains(&number) {
-            return check_real(&format!("{key}.{}", declaration.key), number, allowed);
+        let number_text = *group.number(i);
+        if !allowed.contains(&number_text) {
+            return check_real(&format!("{key}.{}", declaration.key), number_text, allowed);
         }
     }
     Ok(())
@@ -182,8 +182,8 @@ impl<T: Words> Word for T {
     }
 
     fn set(&mut self, word: &str) -> bool {
-        let found = T::WORDS.iter().find(|(candidate, _)| *candidate == word);
-        found.inspect(|(_, value)| *self = *value).is_some()
+        let matching_word = T::WORDS.iter().find(|(candidate, _)| *candidate == word);
+        matching_word.inspect(|(_, value)| *self = *value).is_some()
     }
 
     fn all(&self) -> Vec<&'static str> {
@@ -289,15 +289,15 @@ pub trait Declared: Copy + Default {
         &mut self,
         mut see: impl FnMut(&'static Declaration, Setting) -> Result<(), E>,
     ) -> Result<(), E> {
-        let mut refusal = None;
+        let mut first_error = None;
         let _ = self.each(&mut |declaration, setting| match see(declaration, setting) {
             Ok(()) => ControlFlow::Continue(()),
             Err(error) => {
-                refusal = Some(error);
+                first_error = Some(error);
                 ControlFlow::Break(())
             }
         });
-        refusal.map_or(Ok(()), Err)
+        first_error.map_or(Ok(()), Err)
     }
 }
 

@@ -32,14 +32,15 @@ impl Ellipse {
     /// coordinates).
     pub fn new(centre: Vector2<f64>, cov: Matrix2<f64>) -> Self {
         let rounding = NO_SPREAD * NO_SPREAD * (centre.norm_squared() + cov.trace());
-        let root = |variance: f64, least: f64| if variance > least { variance.sqrt() } else { 0.0 };
-        let first = root(cov[(0, 0)], rounding);
-        let shared = if first > 0.0 { cov[(1, 0)] / first } else { 0.0 };
-        let second = root(cov[(1, 1)] - shared * shared, rounding.max(NO_AREA * cov[(1, 1)]));
-        let inverse = |extent: f64| if extent > 0.0 { 1.0 / extent } else { 0.0 };
-        let (z, w) = (inverse(first), inverse(second));
-        let whitening = Matrix2::new(z, 0.0, -shared * z * w, w);
-        Self { centre, root: Matrix2::new(first, 0.0, shared, second), whitening }
+        let sqrt_above = |variance: f64, least: f64| if variance > least { variance.sqrt() } else { 0.0 };
+        let first_extent = sqrt_above(cov[(0, 0)], rounding);
+        let shared_extent = if first_extent > 0.0 { cov[(1, 0)] / first_extent } else { 0.0 };
+        let second_extent =
+            sqrt_above(cov[(1, 1)] - shared_extent * shared_extent, rounding.max(NO_AREA * cov[(1, 1)]));
+        let inverse_or_zero = |extent: f64| if extent > 0.0 { 1.0 / extent } else { 0.0 };
+        let (z, w) = (inverse_or_zero(first_extent), inverse_or_zero(second_extent));
+        let whitening = Matrix2::new(z, 0.0, -shared_extent * z * w, w);
+        Self { centre, root: Matrix2::new(first_extent, 0.0, shared_extent, second_extent), whitening }
     }
 
     /// Returns the ellipse of the position (x, y), m.
@@ -156,8 +157,8 @@ impl ExponentialContour {
         for (i, (along, [x, y])) in self.outline(segments).enumerate() {
             let [x, y] = [x - self.start.x(), y - self.start.y()];
             if i > 0 {
-                let cross = before[0] * y - before[1] * x;
-                twice += if along < 0.0 { -cross } else { cross };
+                let doubled_triangle = before[0] * y - before[1] * x;
+                twice += if along < 0.0 { -doubled_triangle } else { doubled_triangle };
             }
             before = [x, y];
         }
@@ -175,26 +176,29 @@ impl ExponentialContour {
 
     /// Returns the twists on the silhouette of the ellipsoid under a morph.
     ///
-    /// The ellipsoid is ξ = m + 2·G·u with |u| = 1, and H(ξ) the Jacobian of the position by ξ. On the silhouette u is
+    /// The ellipsoid is ξ = m + 2·G·u with |u| = 1, and H(ξ) = ∂position/∂ξ. On the silhouette u is
     /// perpendicular to the null vector k with H(ξ)·G·k = 0. The direction of k varies little over the ellipsoid. So the
     /// great circle perpendicular to the principal direction of k approximates the silhouette.
     fn silhouette(&self, segments: usize, morph: f64) -> impl Iterator<Item = Vector3<f64>> {
         let at = move |u: &Vector3<f64>| self.mean + self.root * u * SIGMAS;
         // Samples k at the six ends of the axes. The cross product weights it by the area that H·G maps to the plane.
-        let mut spread = Matrix3::zeros();
+        let mut null_scatter = Matrix3::zeros();
         for axis in [Vector3::x(), Vector3::y(), Vector3::z()] {
             for end in [axis, -axis] {
-                let shift = unbend_jacobian(&at(&end), morph) * self.root;
-                let null_direction = shift.row(0).transpose().cross(&shift.row(1).transpose());
-                spread += null_direction * null_direction.transpose();
+                let position_jacobian = unbend_jacobian(&at(&end), morph) * self.root;
+                let null_direction =
+                    position_jacobian.row(0).transpose().cross(&position_jacobian.row(1).transpose());
+                null_scatter += null_direction * null_direction.transpose();
             }
         }
-        let null_direction = principal_direction(&spread);
+        let null_direction = principal_direction(&null_scatter);
         // Two directions that span the circle. The coordinate axis least parallel to k makes the first well-conditioned.
-        let aside = Matrix3::identity().column(null_direction.iamin()).into_owned();
-        let first = (aside - null_direction * aside.dot(&null_direction)).normalize();
-        let second = null_direction.cross(&first);
-        unit_circle(segments).map(move |direction| at(&(first * direction.x + second * direction.y)))
+        let least_parallel_axis = Matrix3::identity().column(null_direction.iamin()).into_owned();
+        let first_direction =
+            (least_parallel_axis - null_direction * least_parallel_axis.dot(&null_direction)).normalize();
+        let second_direction = null_direction.cross(&first_direction);
+        unit_circle(segments)
+            .map(move |direction| at(&(first_direction * direction.x + second_direction * direction.y)))
     }
 
     /// Returns true if the exponential coordinates of `pose` lie inside the ellipse.
@@ -207,17 +211,18 @@ impl ExponentialContour {
 /// Returns the unit eigenvector of the largest eigenvalue of a symmetric, positive semidefinite matrix; the second axis
 /// for the zero matrix. Ten squarings raise the ratio of the eigenvalues to its 1024th power.
 fn principal_direction(matrix: &Matrix3<f64>) -> Vector3<f64> {
-    let mut power = *matrix;
+    let mut matrix_power = *matrix;
     for _ in 0..10 {
-        let size = power.amax();
-        if size == 0.0 || !size.is_finite() {
+        let largest_entry = matrix_power.amax();
+        if largest_entry == 0.0 || !largest_entry.is_finite() {
             return Vector3::y();
         }
-        power /= size;
-        power *= power;
+        matrix_power /= largest_entry;
+        matrix_power *= matrix_power;
     }
-    let longest = (0..3).map(|i| power.column(i).into_owned()).max_by(|a, b| a.norm().total_cmp(&b.norm()));
-    longest.and_then(|column| column.try_normalize(0.0)).unwrap_or_else(Vector3::y)
+    let longest_column =
+        (0..3).map(|i| matrix_power.column(i).into_owned()).max_by(|a, b| a.norm().total_cmp(&b.norm()));
+    longest_column.and_then(|column| column.try_normalize(0.0)).unwrap_or_else(Vector3::y)
 }
 
 fn unit_circle(segments: usize) -> impl Iterator<Item = Vector2<f64>> {

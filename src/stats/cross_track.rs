@@ -30,10 +30,10 @@ const MIN_VARIANCE: f64 = 1e-100;
 impl CrossTrack {
     const UNDEFINED: Self = Self { skew: f64::NAN, skew_error: f64::NAN, rho_heading: f64::NAN };
 
-    /// Returns the statistics of `poses`, all in a frame whose origin they are near or spread around.
+    /// Returns the statistics of `poses`. The origin of their frame must be near them or among them.
     pub fn from_poses(poses: &[SE2]) -> Self {
         let [first, _, _, ..] = poses else { return Self::UNDEFINED };
-        let count = poses.len() as f64;
+        let pose_count = poses.len() as f64;
         let heading = mean_heading(poses);
         let (sin, cos) = libm::sincos(heading);
         let (mut x, mut y) = (0.0, 0.0);
@@ -41,8 +41,8 @@ impl CrossTrack {
             x += pose.x() - first.x();
             y += pose.y() - first.y();
         }
-        let (x, y) = (x / count, y / count);
-        let mut sums = [0.0; 16];
+        let (x, y) = (x / pose_count, y / pose_count);
+        let mut product_sums = [0.0; 16];
         for pose in poses {
             let (dx, dy) = (pose.x() - first.x() - x, pose.y() - first.y() - y);
             let (a, d, t) = (dx * cos + dy * sin, dy * cos - dx * sin, wrap_angle(pose.theta() - heading));
@@ -53,9 +53,9 @@ impl CrossTrack {
             let [ss, sd, sd2, sd3, tt, td] = [s * s, s * d, s * d2, s * d3, t * t, t * d];
             let squared_distance = a * a + d2;
             let terms = [ad, ad2, d2, d3, d4, d5, d6, ss, sd, sd2, sd3, t, tt, td, squared_distance, c];
-            sums.iter_mut().zip(terms).for_each(|(sum, term)| *sum += term);
+            product_sums.iter_mut().zip(terms).for_each(|(sum, term)| *sum += term);
         }
-        let [products @ .., spread, resultant] = sums.map(|sum| sum / count);
+        let [products @ .., spread, resultant] = product_sums.map(|sum| sum / pose_count);
         let (x, y) = (first.x() + x, first.y() + y);
         let moments = TrackMoments { products, resultant, extent_squared: spread + (x * x + y * y) };
         Self::from_moments(poses.len(), &moments)
@@ -73,15 +73,15 @@ impl CrossTrack {
         let sd = m2.sqrt();
         let skew = m3 / (m2 * sd);
         // Rotating the axis by dh changes d by −along·dh. The influence of a pose on the mean heading is sin(turn)/resultant.
-        let by_heading = 3.0 * (skew * ad / m2 - ad2 / (m2 * sd)) / resultant;
+        let heading_influence = 3.0 * (skew * ad / m2 - ad2 / (m2 * sd)) / resultant;
         // The influence of a pose on the skew is z³ − skew − 3z − 1.5·skew·(z² − 1) + by_heading·sin(turn), with z = d/sd. It
         // is a polynomial in d, so that its mean square is a sum of moments.
-        let influence = [0.5 * skew, -3.0 / sd, -1.5 * skew / m2, 1.0 / (m2 * sd)];
-        let mut squared = by_heading * by_heading * ss;
-        for (i, a) in influence.iter().enumerate() {
-            squared += 2.0 * by_heading * a * sin_d[i];
-            for (j, b) in influence.iter().enumerate() {
-                squared += a * b * d[i + j];
+        let influence_polynomial = [0.5 * skew, -3.0 / sd, -1.5 * skew / m2, 1.0 / (m2 * sd)];
+        let mut mean_squared_influence = heading_influence * heading_influence * ss;
+        for (i, a) in influence_polynomial.iter().enumerate() {
+            mean_squared_influence += 2.0 * heading_influence * a * sin_d[i];
+            for (j, b) in influence_polynomial.iter().enumerate() {
+                mean_squared_influence += a * b * d[i + j];
             }
         }
         let heading_variance = tt - t * t;
@@ -90,7 +90,7 @@ impl CrossTrack {
         } else {
             f64::NAN
         };
-        Self { skew, skew_error: (squared.max(0.0) / count as f64).sqrt(), rho_heading }
+        Self { skew, skew_error: (mean_squared_influence.max(0.0) / count as f64).sqrt(), rho_heading }
     }
 }
 

@@ -43,28 +43,28 @@ impl RayMoments {
     #[inline(never)]
     pub fn add(&mut self, weight: f64, unit: [f64; 2], excess_turn: f64) {
         let [x, y] = *self.reference.get_or_insert(unit);
-        let point = Vector3::new(unit[0] - x, unit[1] - y, excess_turn);
+        let ray_point = Vector3::new(unit[0] - x, unit[1] - y, excess_turn);
         self.total += weight;
-        self.mean += point * weight;
+        self.mean += ray_point * weight;
         // Multiplying by the weight last makes the matrix symmetric to the last bit.
-        self.square += point * point.transpose() * weight;
+        self.square += ray_point * ray_point.transpose() * weight;
     }
 
     /// Returns the mean and covariance of L·u and the turn, with L independent of them. L has this mean and standard deviation.
     #[inline(never)]
     pub fn finish(&self, [length, deviation]: [f64; 2]) -> (Vector3<f64>, Matrix3<f64>) {
         let mean = self.mean / self.total;
-        let mut spread = self.square / self.total - mean * mean.transpose();
+        let mut ray_cov = self.square / self.total - mean * mean.transpose();
         for i in 0..3 {
-            spread[(i, i)] = non_negative(spread[(i, i)]);
+            ray_cov[(i, i)] = non_negative(ray_cov[(i, i)]);
         }
         let [x, y] = self.reference.unwrap_or_default();
         let unit = [mean.x + x, mean.y + y, 0.0];
-        let scale = [length, length, 1.0];
+        let factors = [length, length, 1.0];
         let cov = Matrix3::from_fn(|i, j| {
             // The spread of the length moves the position along u.
-            let along = if i < 2 && j < 2 { spread[(i, j)] + unit[i] * unit[j] } else { 0.0 };
-            spread[(i, j)] * scale[i] * scale[j] + along * deviation * deviation
+            let length_term = if i < 2 && j < 2 { ray_cov[(i, j)] + unit[i] * unit[j] } else { 0.0 };
+            ray_cov[(i, j)] * factors[i] * factors[j] + length_term * deviation * deviation
         });
         (Vector3::new(length * unit[0], length * unit[1], mean.z), cov)
     }
@@ -104,7 +104,7 @@ impl ExactMoments {
         let (mean, mut cov) = moments.finish([length, length_variance.sqrt()]);
         cov[(2, 2)] += last_turn_variance;
         let (sin, cos) = libm::sincos(turn);
-        let across = rays.iter().map(|Ray { weight, unit, .. }| {
+        let lateral_components = rays.iter().map(|Ray { weight, unit, .. }| {
             let lateral = unit[1] * cos - unit[0] * sin;
             let (mean, variance) = (length * lateral, length_variance * lateral * lateral);
             Component { weight: *weight, mean, variance }
@@ -112,7 +112,7 @@ impl ExactMoments {
         Self {
             mean: Vector3::new(mean.x, mean.y, wrap_angle(turn)),
             cov,
-            cross_track_skew: mixture_skew(across, length * length + length_variance),
+            cross_track_skew: mixture_skew(lateral_components, length * length + length_variance),
         }
     }
 }
@@ -124,25 +124,26 @@ impl ExactMoments {
 /// positive semidefinite 3 × 3 matrix.
 pub fn predicted_cross_track_skew(mean: &Vector3<f64>, cov: &Matrix3<f64>) -> f64 {
     let heading_variance = cov[(2, 2)];
-    let regression = if heading_variance > 0.0 {
+    let regression_on_heading = if heading_variance > 0.0 {
         cov.fixed_view::<2, 1>(0, 2) / heading_variance
     } else {
         nalgebra::Vector2::zeros()
     };
-    let left_over = cov.fixed_view::<2, 2>(0, 0) - regression * regression.transpose() * heading_variance;
+    let residual_cov = cov.fixed_view::<2, 2>(0, 0)
+        - regression_on_heading * regression_on_heading.transpose() * heading_variance;
     let (sin, cos) = libm::sincos(mean.z);
-    let across = nodes(NoiseKind::Normal).iter().map(|node| {
+    let lateral_components = nodes(NoiseKind::Normal).iter().map(|node| {
         let excess_turn = heading_variance.max(0.0).sqrt() * node.value;
         let (a, b) = chord_factors(mean.z + excess_turn);
         // The lateral component of V(ω)·ξ, as a row over (along, lateral).
         let row = nalgebra::RowVector2::new(b * cos - a * sin, a * cos + b * sin);
         Component {
             weight: node.weight,
-            mean: (row * (mean.xy() + regression * excess_turn)).x,
-            variance: (row * left_over * row.transpose()).x.max(0.0),
+            mean: (row * (mean.xy() + regression_on_heading * excess_turn)).x,
+            variance: (row * residual_cov * row.transpose()).x.max(0.0),
         }
     });
-    mixture_skew(across, mean.xy().norm_squared() + cov[(0, 0)] + cov[(1, 1)])
+    mixture_skew(lateral_components, mean.xy().norm_squared() + cov[(0, 0)] + cov[(1, 1)])
 }
 
 /// One part of a mixture of symmetric distributions.
@@ -155,12 +156,12 @@ struct Component {
 /// Returns the third standardized moment of the mixture; NaN if its spread is only rounding relative to
 /// `extent_squared`.
 fn mixture_skew(components: impl Iterator<Item = Component> + Clone, extent_squared: f64) -> f64 {
-    let centre: f64 = components.clone().map(|part| part.weight * part.mean).sum();
+    let mixture_mean: f64 = components.clone().map(|part| part.weight * part.mean).sum();
     let (mut m2, mut m3) = (0.0, 0.0);
     for Component { weight, mean, variance } in components {
-        let offset = mean - centre;
-        m2 += weight * (offset * offset + variance);
-        m3 += weight * offset * (offset * offset + 3.0 * variance);
+        let component_offset = mean - mixture_mean;
+        m2 += weight * (component_offset * component_offset + variance);
+        m3 += weight * component_offset * (component_offset * component_offset + 3.0 * variance);
     }
     if m2 > NO_SPREAD * NO_SPREAD * extent_squared { m3 / (m2 * m2.sqrt()) } else { f64::NAN }
 }

@@ -2,7 +2,7 @@
 //! a closed form.
 
 use super::exact::{ExactMoments, RayMoments};
-use super::gain::{Charts, LikelihoodGain, Moments};
+use super::gain::{ChartGaussians, LikelihoodGain, Moments};
 use super::moments::ExponentialMoments;
 use super::quadrature::{Node, broken_nodes};
 use crate::geom::angle::wrap_angle;
@@ -67,11 +67,11 @@ impl ExactGain {
         let [rot1, trans, rot2] = model.variances(u).map(|variance| variance.0.sqrt());
         // The length in a reading is never negative. After a drive in reverse, its first rotation therefore differs by half a circle.
         let half_circles = ((u.rot1 - 0.5 * turn) / PI).round();
-        let ahead = if libm::remainder(half_circles, 2.0) == 0.0 { 1.0 } else { -1.0 };
+        let drive_sign = if libm::remainder(half_circles, 2.0) == 0.0 { 1.0 } else { -1.0 };
         let motion = PolarMotion {
             noise: model.noise(),
             is_arc: false,
-            length: [ahead * u.trans, trans],
+            length: [drive_sign * u.trans, trans],
             bearing: [u.rot1 - half_circles * PI, rot1],
             turn: [turn + wrap_angle(u.rot1 + u.rot2 - turn), rot1, rot2],
         };
@@ -82,19 +82,20 @@ impl ExactGain {
 impl PolarMotion {
     fn gain(&self, plain: &ExactMoments) -> ExactGain {
         let (mean_log_length, [bearing, deviation]) = (self.mean_log_length(), self.bearing);
-        let (twist, chart) = self.twist();
-        let (arc, ratio) = self.arc();
-        let jacobians = [chart, mean_log_length + ratio - LN_2];
-        let charts = Charts::new((plain.mean, plain.cov), twist, arc, jacobians);
+        let (twist, chart) = self.twist_moments();
+        let (arc, ratio) = self.arc_moments();
+        let mean_log_jacobians = [chart, mean_log_length + ratio - LN_2];
+        let charts = ChartGaussians::new((plain.mean, plain.cov), twist, arc, mean_log_jacobians);
         let [turn, by_bearing, after] = self.turn;
-        let if_short_of_circle =
+        let one_if_short_of_circle =
             |turn: f64, reach: f64| if turn.abs() + reach < TAU { 1.0 } else { f64::NAN };
-        let pose = if_short_of_circle(turn, self.reach(by_bearing, after));
-        let floor = if_short_of_circle(2.0 * bearing, self.reach(2.0 * deviation, 0.0));
+        let pose_or_nan = one_if_short_of_circle(turn, self.integration_limit(by_bearing, after));
+        let floor_or_nan =
+            one_if_short_of_circle(2.0 * bearing, self.integration_limit(2.0 * deviation, 0.0));
         let gain = charts.gain();
         ExactGain {
-            value: LikelihoodGain { pose: gain.pose * pose, floor: gain.floor * floor },
-            exponential: ExponentialMoments { mean: twist.0 * pose, cov: twist.1 * pose },
+            value: LikelihoodGain { pose: gain.pose * pose_or_nan, floor: gain.floor * floor_or_nan },
+            exponential: ExponentialMoments { mean: twist.0 * pose_or_nan, cov: twist.1 * pose_or_nan },
         }
     }
 
@@ -103,11 +104,11 @@ impl PolarMotion {
         if deviation == 0.0 {
             return vec![Node { value: 0.0, weight: 1.0 }];
         }
-        broken_nodes(self.noise, self.reach(1.0, 0.0), breaks)
+        broken_nodes(self.noise, self.integration_limit(1.0, 0.0), breaks)
     }
 
     /// Returns the integration limit of the sum of two noises with these standard deviations.
-    fn reach(&self, one: f64, other: f64) -> f64 {
+    fn integration_limit(&self, one: f64, other: f64) -> f64 {
         match self.noise {
             NoiseKind::Normal => MAX_SIGMAS * libm::hypot(one, other),
             NoiseKind::Triangular => 6f64.sqrt() * (one + other),
@@ -116,25 +117,25 @@ impl PolarMotion {
 
     /// Returns the moments of ξ, and the mean of ln sinc²(ξ_ω/2). A chord r on the bearing β with the final heading θ
     /// has ξ = r/sinc(θ/2) · (cos(β − θ/2), sin(β − θ/2)).
-    fn twist(&self) -> (Moments, f64) {
+    fn twist_moments(&self) -> (Moments, f64) {
         let ([bearing, deviation], [turn, by_bearing, after]) = (self.bearing, self.turn);
-        let reach = self.reach(by_bearing, after);
+        let integration_limit = self.integration_limit(by_bearing, after);
         let (mut moments, mut logs) = (RayMoments::default(), MeanLog::default());
-        let last_nodes = self.nodes(after, NO_BREAKS);
+        let last_turn_nodes = self.nodes(after, NO_BREAKS);
         for first in self.nodes(deviation, NO_BREAKS) {
             let bearing = bearing + deviation * first.value;
             let chord = if self.is_arc { sinc(bearing) } else { 1.0 };
-            for last in &last_nodes {
+            for last in &last_turn_nodes {
                 let excess_turn = by_bearing * first.value + after * last.value;
                 let weight = first.weight * last.weight;
-                if excess_turn.abs() > reach {
+                if excess_turn.abs() > integration_limit {
                     continue;
                 }
-                let half = 0.5 * (turn + excess_turn);
-                let chart = sinc(half);
-                let (sin, cos) = libm::sincos(bearing - half);
-                let unit = [cos, sin].map(|part| part * (chord / chart));
-                logs.add(weight, chart * chart);
+                let half_turn = 0.5 * (turn + excess_turn);
+                let twist_sinc = sinc(half_turn);
+                let (sin, cos) = libm::sincos(bearing - half_turn);
+                let unit = [cos, sin].map(|part| part * (chord / twist_sinc));
+                logs.add(weight, twist_sinc * twist_sinc);
                 moments.add(weight, unit, excess_turn);
             }
         }
@@ -144,21 +145,21 @@ impl PolarMotion {
 
     /// Returns the moments of the length and turn φ of the arc that ends at the robot's final position. Also returns the
     /// mean of ln|c·sinc²(φ/2)|, with c the length of that arc divided by the driven length.
-    fn arc(&self) -> (Moments, f64) {
+    fn arc_moments(&self) -> (Moments, f64) {
         let ([bearing, deviation], near) = (self.bearing, 0.5 * self.turn[0]);
         let (mut moments, mut logs) = (RayMoments::default(), MeanLog::default());
         // Statistics of a cloud use the arc whose turn is nearest to the commanded one. That arc is driven in the opposite
         // direction if the bearing differs from half the commanded turn by more than π/2.
-        let breaks = [-0.5 * PI, 0.5 * PI].map(|aside| (near + aside - bearing) / deviation);
-        for node in self.nodes(deviation, breaks) {
-            let driven = bearing + deviation * node.value;
-            let half_circles = ((driven - near) / PI).round();
-            let half = driven - half_circles * PI;
-            let ahead = if libm::remainder(half_circles, 2.0) == 0.0 { 1.0 } else { -1.0 };
-            let half_sinc = sinc(half);
-            let stretch = ahead * if self.is_arc { sinc(driven) } else { 1.0 } / half_sinc;
-            logs.add(node.weight, (stretch * half_sinc * half_sinc).abs());
-            moments.add(node.weight, [stretch, 0.0], 2.0 * (half - bearing));
+        let reversal_breaks = [-0.5 * PI, 0.5 * PI].map(|aside| (near + aside - bearing) / deviation);
+        for node in self.nodes(deviation, reversal_breaks) {
+            let driven_bearing = bearing + deviation * node.value;
+            let half_circles = ((driven_bearing - near) / PI).round();
+            let half_turn_of_arc = driven_bearing - half_circles * PI;
+            let drive_sign = if libm::remainder(half_circles, 2.0) == 0.0 { 1.0 } else { -1.0 };
+            let half_sinc = sinc(half_turn_of_arc);
+            let length_ratio = drive_sign * if self.is_arc { sinc(driven_bearing) } else { 1.0 } / half_sinc;
+            logs.add(node.weight, (length_ratio * half_sinc * half_sinc).abs());
+            moments.add(node.weight, [length_ratio, 0.0], 2.0 * (half_turn_of_arc - bearing));
         }
         let (mean, cov) = moments.finish(self.length);
         let cov = Matrix3::new(cov[(0, 0)], cov[(0, 2)], 0.0, cov[(0, 2)], cov[(2, 2)], 0.0, 0.0, 0.0, 0.0);
@@ -208,16 +209,16 @@ fn normal_mean_log(m: f64) -> f64 {
     const DIGAMMA_HALF: f64 = -1.963_510_026_021_423_5;
     if m > FAR {
         // Terms of the series use E (Z/m)²ᵏ = (2k − 1)!!/m²ᵏ.
-        let square = 1.0 / (m * m);
-        return libm::log(m) - square * (0.5 + square * (0.75 + square * 2.5));
+        let inverse_square = 1.0 / (m * m);
+        return libm::log(m) - inverse_square * (0.5 + inverse_square * (0.75 + inverse_square * 2.5));
     }
-    let rate = 0.5 * m * m;
-    let (mut chance, mut digamma, mut sum) = (libm::exp(-rate), DIGAMMA_HALF, LN_2);
+    let poisson_mean = 0.5 * m * m;
+    let (mut chance, mut digamma, mut sum) = (libm::exp(-poisson_mean), DIGAMMA_HALF, LN_2);
     // Terms up to twelve standard deviations or more beyond the Poisson mean, which is at most 450.
     for j in 0..720 {
         let j = f64::from(j);
         sum += chance * digamma;
-        chance *= rate / (j + 1.0);
+        chance *= poisson_mean / (j + 1.0);
         digamma += 1.0 / (j + 0.5);
     }
     0.5 * sum
@@ -227,12 +228,12 @@ fn normal_mean_log(m: f64) -> f64 {
 /// second difference of the second antiderivative of the logarithm, because T is a sum of two uniform numbers.
 fn triangular_mean_log(m: f64, edge: f64) -> f64 {
     if edge < 0.5 * m {
-        let square = (edge / m) * (edge / m);
+        let ratio_squared = (edge / m) * (edge / m);
         let (mut power, mut sum) = (1.0, libm::log(m));
         for k in 1..=24 {
-            let even = f64::from(2 * k);
-            power *= square;
-            sum -= 2.0 * power / (even * (even + 1.0) * (even + 2.0));
+            let even_index = f64::from(2 * k);
+            power *= ratio_squared;
+            sum -= 2.0 * power / (even_index * (even_index + 1.0) * (even_index + 2.0));
         }
         return sum;
     }

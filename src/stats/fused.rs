@@ -6,11 +6,11 @@
 
 use super::contour::{Ellipse, ExponentialContour};
 use super::cross_track::{CrossTrack, TrackMoments};
-use super::gain::{Charts, Differences, FourRobots, MeasuredGain, Moments};
+use super::gain::{ChartGaussians, Differences, FourRobots, MeasuredGain, Moments};
 use super::moments::{CartesianMoments, ExponentialMoments, non_negative};
 use super::sums::{PairSums, Sums, add};
 use crate::geom::angle::wrap_angle;
-use crate::geom::lanes::{LANES, any, halves};
+use crate::geom::lanes::{LANES, any_lane_set, halves};
 use crate::geom::se2::SE2;
 use nalgebra::{Matrix2, Matrix3, Vector3};
 use std::f64::consts::{LN_2, PI, TAU};
@@ -46,17 +46,17 @@ pub type Reference = [f64; 7];
 
 /// Factors that scale two terms of the Jacobians to about 1, so that a product of many does not underflow. One term is
 /// sinc(ξ_ω/2), with the turn ξ_ω of a twist. The other is |s|·sinc²(φ/2), with the length s and the turn φ of an arc.
-pub type Scale = [f64; 2];
+pub type JacobianScale = [f64; 2];
 
 /// First pass: accumulates means, covariances and the mean logarithms of the Jacobians.
 #[derive(Clone, Debug)]
-pub struct Spread {
+pub struct FirstPass {
     reference: Reference,
-    scale: Scale,
+    scale: JacobianScale,
     sums: Sums<16>,
     /// Sums over arcs that are not regular. The regular values of those arcs are subtracted, because the sums of the unit
     /// noise include them.
-    rest: PairSums,
+    irregular: PairSums,
     /// Products of the scaled factors sinc(ξ_ω/2) and |s|·sinc²(φ/2) over a block, and sums of the logarithms of these
     /// products. One logarithm for each block takes hardly any time. On average the factors are above e⁻¹, and the
     /// product of a block is above 1e-111.
@@ -64,13 +64,13 @@ pub struct Spread {
     logs: [f64; 2],
 }
 
-impl Spread {
-    pub fn new(reference: Reference, scale: Scale) -> Self {
+impl FirstPass {
+    pub fn new(reference: Reference, scale: JacobianScale) -> Self {
         Self {
             reference,
             scale,
             sums: Sums::new(),
-            rest: PairSums::new(),
+            irregular: PairSums::new(),
             products: [f64x2::splat(1.0); 2],
             logs: [0.0; 2],
         }
@@ -93,21 +93,21 @@ impl Spread {
     /// Multiplies the products by the Jacobians of four poses.
     #[inline(always)]
     pub fn multiply(&mut self, poses: &FourPoses, arcs: &FourArcs) {
-        let product = |of: f64x4| {
+        let lane_product = |of: f64x4| {
             let [low, high] = halves(of);
             low * high
         };
-        let (chart, arc) = (product(poses.sinc), product(arcs.sinc));
+        let (chart, arc) = (lane_product(poses.sinc), lane_product(arcs.sinc));
         let [chart_scale, arc_scale] = self.scale;
         self.products[0] *= chart * (chart_scale * chart_scale);
-        self.products[1] *= product(arcs.length) * (arc * arc) * (arc_scale * arc_scale);
+        self.products[1] *= lane_product(arcs.length) * (arc * arc) * (arc_scale * arc_scale);
     }
 
     /// Multiplies the products by the Jacobians of the poses for which `mask` has all bits set.
     #[inline(never)]
     pub fn multiply_some(&mut self, poses: &FourPoses, arcs: &FourArcs, mask: f64x4) {
-        let counted = |of: f64x4| mask.bitselect(of, f64x4::splat(1.0));
-        let [chart, length, arc] = [poses.sinc, arcs.length, arcs.sinc].map(counted);
+        let one_unless_masked = |of: f64x4| mask.bitselect(of, f64x4::splat(1.0));
+        let [chart, length, arc] = [poses.sinc, arcs.length, arcs.sinc].map(one_unless_masked);
         self.multiply(&FourPoses { sinc: chart, ..*poses }, &FourArcs { length, sinc: arc, ..*arcs });
     }
 
@@ -116,13 +116,13 @@ impl Spread {
     #[inline(never)]
     pub fn add_irregular(&mut self, arcs: &FourArcs, regular: [f64x4; 2], mask: f64x4) {
         let [.., length, half_turn] = self.reference;
-        self.rest.add([arcs.length - length, arcs.half - half_turn], mask);
-        self.rest.subtract(regular, mask);
+        self.irregular.add([arcs.length - length, arcs.half - half_turn], mask);
+        self.irregular.subtract(regular, mask);
     }
 
     pub fn close_block(&mut self) {
         self.sums.close_block();
-        self.rest.close_block();
+        self.irregular.close_block();
         for (product, log) in self.products.iter_mut().zip(&mut self.logs) {
             let [a, b] = product.to_array();
             *log += libm::log((a * b).abs());
@@ -132,11 +132,11 @@ impl Spread {
 
     /// Returns the moments of `count` poses. Of the Cartesian covariance it has only the position. `regular` are the sums
     /// over regular arcs, in the order of [`PairSums`].
-    pub fn finish(&self, count: usize, regular: [f64; 5]) -> SpreadMoments {
+    pub fn finish(&self, count: usize, regular: [f64; 5]) -> FirstPassMoments {
         let n = count as f64;
         let [x, y, a, l, h, xx, xy, yy, aa, al, ll, ah, lh, hh, sin_cos, sin_sin] = self.sums.finish();
-        let rest = self.rest.finish();
-        let [s, t, ss, st, tt] = std::array::from_fn(|i| regular[i] + rest[i]);
+        let irregular_sums = self.irregular.finish();
+        let [s, t, ss, st, tt] = std::array::from_fn(|i| regular[i] + irregular_sums[i]);
         // A covariance is the mean of the products minus the product of the means.
         let cov = |product: f64, first: f64, second: f64| {
             if count > 1 { (product - first * (second / n)) / (n - 1.0) } else { f64::NAN }
@@ -146,22 +146,22 @@ impl Spread {
         // sin θ and cos θ of the double angle, turned so that the reference's heading is 0.
         let (sin, cos) = libm::sincos(2.0 * half);
         let (sum_sin, sum_cos) = (2.0 * sin_cos, n - 2.0 * sin_sin);
-        let turned = (sum_sin * cos - sum_cos * sin, sum_cos * cos + sum_sin * sin);
+        let turned_sums = (sum_sin * cos - sum_cos * sin, sum_cos * cos + sum_sin * sin);
         // Equal headings have spread 0, although their sines may be rounded.
-        let turn = if hh == 0.0 { 0.0 } else { libm::atan2(turned.0, turned.1) };
-        let mean_turn = 2.0 * half + turn;
-        let position = [variance(xx, x), cov(xy, x, y), variance(yy, y)];
+        let turn_from_reference = if hh == 0.0 { 0.0 } else { libm::atan2(turned_sums.0, turned_sums.1) };
+        let mean_turn = 2.0 * half + turn_from_reference;
+        let position_entries = [variance(xx, x), cov(xy, x, y), variance(yy, y)];
         let [aa, al, ll] = [variance(aa, a), cov(al, a, l), variance(ll, l)];
         let [ah, lh, hh] = [2.0 * cov(ah, a, h), 2.0 * cov(lh, l, h), 4.0 * variance(hh, h)];
         let [ss, st, tt] = [variance(ss, s), 2.0 * cov(st, s, t), 4.0 * variance(tt, t)];
         // All four lanes are scaled, including those without a pose.
-        let scaled = count.next_multiple_of(LANES) as f64;
-        let [chart, floor] = [0, 1].map(|i| (self.logs[i] - scaled * libm::log(self.scale[i])) / n);
-        SpreadMoments {
+        let scaled_count = count.next_multiple_of(LANES) as f64;
+        let [chart, floor] = [0, 1].map(|i| (self.logs[i] - scaled_count * libm::log(self.scale[i])) / n);
+        FirstPassMoments {
             position: [x0 + x / n, y0 + y / n],
-            position_cov: position,
+            position_cov: position_entries,
             mean_turn,
-            resultant: libm::hypot(turned.0, turned.1) / n,
+            resultant: libm::hypot(turned_sums.0, turned_sums.1) / n,
             exponential: ExponentialMoments {
                 mean: Vector3::new(along + a / n, lateral + l / n, 2.0 * (half + h / n)),
                 cov: Matrix3::new(aa, al, ah, al, ll, lh, ah, lh, hh),
@@ -179,20 +179,21 @@ impl Spread {
     pub fn better_reference(&self, count: usize) -> Option<Reference> {
         let n = count as f64;
         let sums = self.sums.finish();
-        let means = [0, 1, 2, 3, 4].map(|i| sums[i] / n);
-        let squares = [5, 7, 8, 10, 13].map(|i| sums[i] / n);
-        let lost = (0..5).any(|i| means[i] * means[i] > 0.99 * squares[i] && squares[i] > 0.0);
-        lost.then(|| std::array::from_fn(|i| self.reference[i] + means.get(i).unwrap_or(&0.0)))
+        let sum_means = [0, 1, 2, 3, 4].map(|i| sums[i] / n);
+        let mean_squares = [5, 7, 8, 10, 13].map(|i| sums[i] / n);
+        let has_lost_digits =
+            (0..5).any(|i| sum_means[i] * sum_means[i] > 0.99 * mean_squares[i] && mean_squares[i] > 0.0);
+        has_lost_digits.then(|| std::array::from_fn(|i| self.reference[i] + sum_means.get(i).unwrap_or(&0.0)))
     }
 
-    pub fn scale(&self) -> Scale {
+    pub fn scale(&self) -> JacobianScale {
         self.scale
     }
 }
 
 /// Result of the first pass.
 #[derive(Clone, Copy, Debug)]
-pub struct SpreadMoments {
+pub struct FirstPassMoments {
     position: [f64; 2],
     /// Entries xx, xy and yy of the covariance.
     position_cov: [f64; 3],
@@ -209,8 +210,8 @@ pub struct SpreadMoments {
 
 /// Second pass: accumulates moments across the track and counts poses inside the contours.
 #[derive(Clone, Debug)]
-pub struct CloudShape {
-    spread: SpreadMoments,
+pub struct SecondPass {
+    spread: FirstPassMoments,
     /// Sine and cosine of the mean heading.
     heading: (f64, f64),
     ellipse: Ellipse,
@@ -232,9 +233,9 @@ pub struct CloudFigures {
     pub log_area_error: f64,
 }
 
-impl CloudShape {
+impl SecondPass {
     /// Starts the second pass over the same poses, which were driven from `start`.
-    pub fn new(spread: SpreadMoments, start: &SE2) -> Self {
+    pub fn new(spread: FirstPassMoments, start: &SE2) -> Self {
         let [xx, xy, yy] = spread.position_cov;
         Self {
             spread,
@@ -253,20 +254,20 @@ impl CloudShape {
         // The letters are those of `TrackMoments`.
         let d = (y * cos - x * sin) & mask;
         let a = (x * cos + y * sin) & mask;
-        let t = wrapped(poses.half * 2.0 - self.spread.mean_turn) & mask;
+        let t = wrapped_difference(poses.half * 2.0 - self.spread.mean_turn) & mask;
         // sin(θ − h), from the double angle of θ/2.
         let theta_sin = poses.half_sin * poses.half_cos * 2.0;
         let theta_cos = 1.0 - poses.half_sin * poses.half_sin * 2.0;
         let s = (theta_sin * cos - theta_cos * sin) & mask;
-        let counted = f64x4::splat(1.0) & mask;
-        let inside = self.ellipse.contains_four(poses.x, poses.y) & counted;
-        let in_contour = self.twist_ellipse.contains_four(poses.along, poses.half * 2.0) & counted;
+        let one_if_counted = f64x4::splat(1.0) & mask;
+        let in_ellipse = self.ellipse.contains_four(poses.x, poses.y) & one_if_counted;
+        let in_contour = self.twist_ellipse.contains_four(poses.along, poses.half * 2.0) & one_if_counted;
         let d2 = d * d;
         let d3 = d2 * d;
         let [ad, ad2, d4, d5, d6] = [a * d, a * d2, d2 * d2, d2 * d3, d3 * d3];
         let [ss, sd, sd2, sd3, tt, td] = [s * s, s * d, s * d2, s * d3, t * t, t * d];
         let ta = t * a;
-        let terms = [ad, ad2, d2, d3, d4, d5, d6, ss, sd, sd2, sd3, t, tt, td, ta, inside, in_contour];
+        let terms = [ad, ad2, d2, d3, d4, d5, d6, ss, sd, sd2, sd3, t, tt, td, ta, in_ellipse, in_contour];
         add(&mut self.sums.block, terms);
     }
 
@@ -284,19 +285,19 @@ impl CloudShape {
         let means = self.sums.finish().map(|sum| sum / n);
         let [products @ .., ta, inside, in_contour] = means;
         let [.., t, tt, td] = products;
-        let SpreadMoments { position: [x, y], position_cov: [xx, xy, yy], .. } = self.spread;
+        let FirstPassMoments { position: [x, y], position_cov: [xx, xy, yy], .. } = self.spread;
         let (sin, cos) = self.heading;
-        let bessel = if count > 1 { n / (n - 1.0) } else { f64::NAN };
+        let bessel_factor = if count > 1 { n / (n - 1.0) } else { f64::NAN };
         let [x_turn, y_turn, turn_variance] =
-            [ta * cos - td * sin, ta * sin + td * cos, tt - t * t].map(|mean| bessel * mean);
+            [ta * cos - td * sin, ta * sin + td * cos, tt - t * t].map(|mean| bessel_factor * mean);
         let cov = Matrix3::new(xx, xy, x_turn, xy, yy, y_turn, x_turn, y_turn, turn_variance);
-        let track = TrackMoments {
+        let track_moments = TrackMoments {
             products,
-            extent_squared: x * x + y * y + if count > 1 { (xx + yy) / bessel } else { 0.0 },
+            extent_squared: x * x + y * y + if count > 1 { (xx + yy) / bessel_factor } else { 0.0 },
             resultant: self.spread.resultant,
         };
-        let SpreadMoments { exponential, arc, log_jacobians, .. } = self.spread;
-        let charts = Charts::new(
+        let FirstPassMoments { exponential, arc, log_jacobians, .. } = self.spread;
+        let charts = ChartGaussians::new(
             (Vector3::new(x, y, t), cov),
             (exponential.mean, exponential.cov),
             arc,
@@ -305,22 +306,23 @@ impl CloudShape {
         let mut differences = Differences::new(charts);
         for (poses, arcs, weights) in sample {
             let FourPoses { x, y, along, lateral, half, sinc, .. } = poses;
-            let turn = wrapped(half * 2.0 - self.spread.mean_turn);
+            let turn_from_reference = wrapped_difference(half * 2.0 - self.spread.mean_turn);
             let robots = FourRobots {
-                plain: [x, y, turn],
+                plain: [x, y, turn_from_reference],
                 twist: [along, lateral, half * 2.0],
                 arc: [arcs.length, arcs.half * 2.0, f64x4::splat(0.0)],
                 jacobians: [sinc * sinc, arcs.length.abs() * 0.5 * (arcs.sinc * arcs.sinc)],
             };
             differences.add(&robots, weights);
         }
-        let share = |ellipse: &Ellipse, inside: f64| if ellipse.has_area() { inside } else { f64::NAN };
+        let fraction_or_nan =
+            |ellipse: &Ellipse, inside: f64| if ellipse.has_area() { inside } else { f64::NAN };
         CloudFigures {
             cartesian: CartesianMoments { mean: Vector3::new(x, y, wrap_angle(self.spread.mean_turn)), cov },
             exponential: self.spread.exponential,
-            cross_track: CrossTrack::from_moments(count, &track),
-            inside_ellipse: share(&self.ellipse, inside),
-            inside_exponential: share(&self.twist_ellipse, in_contour),
+            cross_track: CrossTrack::from_moments(count, &track_moments),
+            inside_ellipse: fraction_or_nan(&self.ellipse, inside),
+            inside_exponential: fraction_or_nan(&self.twist_ellipse, in_contour),
             gain: differences.finish(count),
             log_area_error: differences.log_area_error(count),
         }
@@ -329,7 +331,7 @@ impl CloudShape {
 
 /// Wraps differences of angles to [−π, π]. The differences must be within [−3π, 3π].
 #[inline(always)]
-fn wrapped(turn: f64x4) -> f64x4 {
+fn wrapped_difference(turn: f64x4) -> f64x4 {
     let far = turn.abs().simd_gt(f64x4::splat(PI));
-    if any(far) { far.bitselect(turn - f64x4::splat(TAU).copysign(turn), turn) } else { turn }
+    if any_lane_set(far) { far.bitselect(turn - f64x4::splat(TAU).copysign(turn), turn) } else { turn }
 }

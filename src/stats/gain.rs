@@ -8,12 +8,12 @@ use crate::models::covariance_root;
 use nalgebra::{Matrix3, Vector3};
 use wide::f64x4;
 
-/// Mean log-likelihood of a cloud under one Gaussian less that under another, in nats a robot. Both Gaussians have the
+/// Mean log-likelihood of a cloud under one Gaussian minus that under another, in nats per robot. Both Gaussians have the
 /// cloud's own moments in their coordinates, and both are densities over the same measure, so that neither units nor the
 /// frame matter.
 ///
 /// A gain is NaN if there are too few poses, or if they fill no volume in (x, y, θ) or no area in (x, y). It is infinite if
-/// they fill one there, but none in the bent coordinates, in which the Gaussian is then infinitely narrow.
+/// they fill a volume (an area) there, but none in exponential (arc) coordinates. The Gaussian is then infinitely narrow.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(target_arch = "wasm32", derive(serde::Serialize, tsify::Tsify))]
 pub struct LikelihoodGain {
@@ -55,7 +55,7 @@ pub(super) struct FourRobots {
 
 /// Gaussians fitted to a cloud or model, one in each of three coordinate systems.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Charts {
+pub(super) struct ChartGaussians {
     plain: Normal,
     twist: Normal,
     arc: Normal,
@@ -67,7 +67,7 @@ pub(super) struct Charts {
 /// Mean and covariance.
 pub(super) type Moments = (Vector3<f64>, Matrix3<f64>);
 
-impl Charts {
+impl ChartGaussians {
     /// Creates the Gaussians from the moments of the coordinates in [`FourRobots`], and the mean logarithms of their
     /// Jacobians.
     pub fn new(plain: Moments, twist: Moments, arc: Moments, log_jacobians: [f64; 2]) -> Self {
@@ -90,7 +90,7 @@ impl Charts {
 /// Sums for the standard errors: differences of two log-densities over a sample.
 #[derive(Clone, Debug)]
 pub(super) struct Differences {
-    charts: Charts,
+    charts: ChartGaussians,
     weights: f64x4,
     /// Squared deviations of the log-density difference from the gain, for pose and floor. The mean difference is the
     /// gain of all robots, so that its own sum is not needed.
@@ -101,7 +101,7 @@ pub(super) struct Differences {
 }
 
 impl Differences {
-    pub fn new(charts: Charts) -> Self {
+    pub fn new(charts: ChartGaussians) -> Self {
         Self {
             charts,
             weights: f64x4::splat(0.0),
@@ -113,46 +113,49 @@ impl Differences {
     /// Adds four robots with these weights; 0 for a lane without a robot.
     #[inline(never)]
     pub fn add(&mut self, robots: &FourRobots, weights: f64x4) {
-        let Charts { plain, twist, arc, gain, jacobian } = &self.charts;
-        let there = weights.simd_gt(f64x4::splat(0.0));
-        let of_plain = plain.squared_distances(&robots.plain);
-        let of_twist = twist.squared_distances(&robots.twist)[2];
-        let of_arc = arc.squared_distances(&robots.arc)[1];
-        let constants = [2, 1].map(|last| plain.log_volumes[last]);
+        let ChartGaussians { plain, twist, arc, gain, jacobian } = &self.charts;
+        let has_robot = weights.simd_gt(f64x4::splat(0.0));
+        let plain_distances = plain.squared_distances(&robots.plain);
+        let twist_distance = twist.squared_distances(&robots.twist)[2];
+        let arc_distance = arc.squared_distances(&robots.arc)[1];
+        let plain_log_volumes = [2, 1].map(|last| plain.log_volumes[last]);
         let (bent, gains) = ([twist.log_volumes[2], arc.log_volumes[1]], [gain.pose, gain.floor]);
-        let distances = [of_plain[2] - of_twist, of_plain[1] - of_arc];
+        let distances = [plain_distances[2] - twist_distance, plain_distances[1] - arc_distance];
         for i in 0..2 {
-            let volumes = constants[i] - bent[i] - gains[i];
-            let differences = (distances[i] * 0.5 - log(robots.jacobians[i]) + volumes) & there;
+            let log_volume_difference = plain_log_volumes[i] - bent[i] - gains[i];
+            let differences =
+                (distances[i] * 0.5 - log(robots.jacobians[i]) + log_volume_difference) & has_robot;
             self.squares[i] += differences * differences * weights;
         }
         let (u, h) = (robots.jacobians[1] / *jacobian - 1.0, distances[1] * 0.5);
         for (sum, term) in self.areas.iter_mut().zip([u, u * u, h * u, h * h]) {
-            *sum += (term & there) * weights;
+            *sum += (term & has_robot) * weights;
         }
         self.weights += weights;
     }
 
     /// Returns the gain of a cloud of `count` poses, of which the added ones are a weighted sample.
     pub fn finish(&self, count: usize) -> MeasuredGain {
-        let degrees = self.weights.reduce_add() - 1.0;
+        let degrees_of_freedom = self.weights.reduce_add() - 1.0;
         let [pose, floor] =
-            self.squares.map(|squares| (squares.reduce_add() / degrees / count as f64).sqrt());
+            self.squares.map(|squares| (squares.reduce_add() / degrees_of_freedom / count as f64).sqrt());
         MeasuredGain { value: self.charts.gain, error: LikelihoodGain { pose, floor } }
     }
 
-    /// Standard error of ln(area of the 2σ ellipse in (x, y) / area on the floor of that in the arc's coordinates), by the delta method.
+    /// Returns the standard error of ln(A/B) by the delta method. A is the area of the 2σ ellipse in (x, y); B is the area of the
+    /// image on the floor of the 2σ ellipse in arc coordinates.
     ///
     /// The areas are 4π√(det Σ_xy) and 4π√(det Σ_sφ) times the mean Jacobian over the ellipse. Uniform points of a 2σ ellipse have the
     /// Gaussian's own covariance, so that to third order this mean is that of the robots. The influence of a robot is then
     /// ½(z² − w²) − J/mean J, up to a constant, with z and w its two Mahalanobis distances. Also the error for the outline in ξ, which
     /// is that of the arcs to first order. With the presets it is 0 to 14 % smaller than the spread of the ratio.
     pub fn log_area_error(&self, count: usize) -> f64 {
-        let total = self.weights.reduce_add();
-        let [u, uu, hu, hh] = self.areas.map(|sum| sum.reduce_add() / total);
-        let mean = 1.0 + u;
-        let variance = hh - 2.0 * hu / mean + (uu - u * u) / (mean * mean);
-        (non_negative(variance) / (total - 1.0) * total / count as f64).sqrt()
+        let weight_sum = self.weights.reduce_add();
+        let [u, uu, hu, hh] = self.areas.map(|sum| sum.reduce_add() / weight_sum);
+        let mean_jacobian_ratio = 1.0 + u;
+        let variance =
+            hh - 2.0 * hu / mean_jacobian_ratio + (uu - u * u) / (mean_jacobian_ratio * mean_jacobian_ratio);
+        (non_negative(variance) / (weight_sum - 1.0) * weight_sum / count as f64).sqrt()
     }
 }
 
@@ -170,14 +173,14 @@ impl Normal {
     /// Creates the Gaussian. The first `lengths` coordinates are in metres, the others in rad.
     #[inline(never)]
     fn new((mean, cov): &Moments, lengths: usize) -> Self {
-        let extent: f64 = (0..lengths).map(|i| mean[i] * mean[i] + cov[(i, i)]).sum();
+        let squared_extent: f64 = (0..lengths).map(|i| mean[i] * mean[i] + cov[(i, i)]).sum();
         let mut root = covariance_root(cov).unwrap_or_else(|_| Matrix3::zeros());
         let mut sum = 0.0;
         let log_volumes = std::array::from_fn(|j| {
             let deviation = root[(j, j)];
-            let flat = deviation <= NO_SPREAD * if j < lengths { extent.sqrt() } else { 1.0 };
-            sum += if flat { f64::NEG_INFINITY } else { libm::log(deviation) };
-            root[(j, j)] = if flat { 0.0 } else { 1.0 / deviation };
+            let is_flat = deviation <= NO_SPREAD * if j < lengths { squared_extent.sqrt() } else { 1.0 };
+            sum += if is_flat { f64::NEG_INFINITY } else { libm::log(deviation) };
+            root[(j, j)] = if is_flat { 0.0 } else { 1.0 / deviation };
             sum
         });
         Self { mean: *mean, root, log_volumes }
@@ -189,9 +192,9 @@ impl Normal {
         let mut offsets: [f64x4; 3] = std::array::from_fn(|j| points[j] - self.mean[j]);
         let mut sum = f64x4::splat(0.0);
         std::array::from_fn(|j| {
-            let whitened = offsets[j] * self.root[(j, j)];
-            (j + 1..3).for_each(|row| offsets[row] -= whitened * self.root[(row, j)]);
-            sum += whitened * whitened;
+            let whitened_offset = offsets[j] * self.root[(j, j)];
+            (j + 1..3).for_each(|row| offsets[row] -= whitened_offset * self.root[(row, j)]);
+            sum += whitened_offset * whitened_offset;
             sum
         })
     }

@@ -1,7 +1,7 @@
 //! Contour lines of a field that is known at the points of a grid (marching squares).
 
 /// Index that stands for no edge of the grid.
-const NONE: usize = usize::MAX;
+const NO_EDGE: usize = usize::MAX;
 
 /// Returns the lines on which a field has the value `level`, by marching squares. Between neighbouring points the field is
 /// interpolated linearly. The mean of the four corners decides how a saddle is connected.
@@ -12,60 +12,61 @@ pub fn level_set(values: &[f64], columns: usize, level: f64) -> Vec<Vec<[f64; 2]
     let rows = values.len() / columns.max(1);
     // The previous and the next edge of a line, for each edge of the grid that it crosses. Edge 2i leads from point i to the
     // next point in its row, and edge 2i + 1 to the point in the next row.
-    let mut links = vec![[NONE; 2]; 2 * values.len()];
-    let mut link = |one: usize, other: usize| {
+    let mut edge_links = vec![[NO_EDGE; 2]; 2 * values.len()];
+    let mut link_edges = |one: usize, other: usize| {
         for (from, to) in [(one, other), (other, one)] {
-            let free = usize::from(links[from][0] != NONE);
-            links[from][free] = to;
+            let free_slot = usize::from(edge_links[from][0] != NO_EDGE);
+            edge_links[from][free_slot] = to;
         }
     };
     for row in 1..rows {
         for column in 1..columns {
             let i = (row - 1) * columns + column - 1;
             // Edges around the cell: corner k lies between the edges k − 1 and k.
-            let corners = [i, i + 1, i + columns + 1, i + columns].map(|point| values[point]);
-            let edges = [2 * i, 2 * i + 3, 2 * (i + columns), 2 * i + 1];
-            let above = corners.map(|value| value > level);
-            let crossed = |k: &usize| above[*k] != above[(k + 1) % 4];
-            let mut ends = (0..4).filter(crossed).map(|k| edges[k]);
-            match (ends.next(), ends.next(), ends.next()) {
-                (Some(from), Some(to), None) => link(from, to),
+            let corner_values = [i, i + 1, i + columns + 1, i + columns].map(|point| values[point]);
+            let cell_edges = [2 * i, 2 * i + 3, 2 * (i + columns), 2 * i + 1];
+            let is_above = corner_values.map(|value| value > level);
+            let is_crossed = |k: &usize| is_above[*k] != is_above[(k + 1) % 4];
+            let mut crossed_edges = (0..4).filter(is_crossed).map(|k| cell_edges[k]);
+            match (crossed_edges.next(), crossed_edges.next(), crossed_edges.next()) {
+                (Some(from), Some(to), None) => link_edges(from, to),
                 (Some(_), Some(_), Some(_)) => {
-                    let joined = corners.iter().sum::<f64>() > 4.0 * level;
-                    let first = if joined == above[0] { 0 } else { 1 };
-                    link(edges[first], edges[(first + 1) % 4]);
-                    link(edges[first + 2], edges[(first + 3) % 4]);
+                    let centre_is_above = corner_values.iter().sum::<f64>() > 4.0 * level;
+                    let first_corner = if centre_is_above == is_above[0] { 0 } else { 1 };
+                    link_edges(cell_edges[first_corner], cell_edges[(first_corner + 1) % 4]);
+                    link_edges(cell_edges[first_corner + 2], cell_edges[(first_corner + 3) % 4]);
                 }
                 _ => {}
             }
         }
     }
-    let point = |edge: usize| {
+    let crossing_point = |edge: usize| {
         let (i, up) = (edge / 2, edge % 2 == 1);
         let (from, to) = (values[i], values[if up { i + columns } else { i + 1 }]);
-        let part = ((level - from) / (to - from)).clamp(0.0, 1.0);
+        let fraction = ((level - from) / (to - from)).clamp(0.0, 1.0);
         let (column, row) = ((i % columns) as f64, (i / columns) as f64);
-        if up { [column, row + part] } else { [column + part, row] }
+        if up { [column, row + fraction] } else { [column + fraction, row] }
     };
     let mut lines = Vec::new();
-    let ends = (0..links.len()).filter(|edge| links[*edge][0] != NONE && links[*edge][1] == NONE);
+    let border_edges = (0..edge_links.len())
+        .filter(|edge| edge_links[*edge][0] != NO_EDGE && edge_links[*edge][1] == NO_EDGE);
     // Lines that end at the border are followed first. The remaining lines are closed.
-    for first in ends.chain(0..links.len()).collect::<Vec<_>>() {
-        if links[first][0] == NONE {
+    for first in border_edges.chain(0..edge_links.len()).collect::<Vec<_>>() {
+        if edge_links[first][0] == NO_EDGE {
             continue;
         }
-        let (mut line, mut at) = (vec![point(first)], first);
+        let (mut line, mut at) = (vec![crossing_point(first)], first);
         loop {
-            let [one, other] = std::mem::replace(&mut links[at], [NONE; 2]);
-            let next = if one != NONE && links[one][0] != NONE { one } else { other };
-            if next == NONE || links[next][0] == NONE {
+            let [one, other] = std::mem::replace(&mut edge_links[at], [NO_EDGE; 2]);
+            let next = if one != NO_EDGE && edge_links[one][0] != NO_EDGE { one } else { other };
+            if next == NO_EDGE || edge_links[next][0] == NO_EDGE {
                 // The line is closed if its first and its last edge are linked.
                 if (one == first || other == first) && line.len() > 2 {
                     line.push(line[0]);
                 }
                 break;
             }
-            line.push(point(next));
+            line.push(crossing_point(next));
             at = next;
         }
         lines.push(line);

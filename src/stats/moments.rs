@@ -47,11 +47,11 @@ impl ExponentialMoments {
     /// one piece. Usually that is x_t ⊟ x_{t−1} itself.
     pub fn from_poses(poses: &[SE2], start: &SE2) -> Self {
         let mean_turn = wrap_angle(mean_heading(poses) - start.theta());
-        let back = start.inverse();
-        let twists = poses.iter().map(|pose| (back * *pose).log_near(mean_turn));
-        let first = twists.clone().next().unwrap_or_else(Vector3::zeros);
-        let (offset, cov) = mean_and_cov(twists.map(|twist| twist - first), poses.len());
-        Self { mean: first + offset, cov }
+        let start_inverse = start.inverse();
+        let twists = poses.iter().map(|pose| (start_inverse * *pose).log_near(mean_turn));
+        let first_twist = twists.clone().next().unwrap_or_else(Vector3::zeros);
+        let (offset, cov) = mean_and_cov(twists.map(|twist| twist - first_twist), poses.len());
+        Self { mean: first_twist + offset, cov }
     }
 }
 

@@ -34,8 +34,8 @@ fn normal_nodes() -> Vec<Node> {
     const HALF_COUNT: i32 = 36;
     (-HALF_COUNT..=HALF_COUNT)
         .map(|i| {
-            let value = STEP * f64::from(i);
-            Node { value, weight: STEP * libm::exp(-0.5 * value * value) / TAU.sqrt() }
+            let node_value = STEP * f64::from(i);
+            Node { value: node_value, weight: STEP * libm::exp(-0.5 * node_value * node_value) / TAU.sqrt() }
         })
         .collect()
 }
@@ -44,13 +44,13 @@ fn normal_nodes() -> Vec<Node> {
 fn triangular_nodes() -> Vec<Node> {
     /// Number of points on each half. The rule is exact for polynomials of degree 63, which suffices for k·√6 up to about 60.
     const POINTS: usize = 32;
-    let end = 6f64.sqrt();
+    let support_end = 6f64.sqrt();
     legendre_nodes(POINTS)
         .into_iter()
         .flat_map(|Node { value, weight }| {
             let fraction = 0.5 * (1.0 + value);
             let weight = 0.5 * weight * (1.0 - fraction);
-            [Node { value: -end * fraction, weight }, Node { value: end * fraction, weight }]
+            [Node { value: -support_end * fraction, weight }, Node { value: support_end * fraction, weight }]
         })
         .collect()
 }
@@ -62,19 +62,19 @@ pub(super) fn broken_nodes(noise: NoiseKind, end: f64, breaks: [f64; 2]) -> Vec<
     /// Number of nodes between breaks. Two noises are combined, so that the cost grows with its square. Fewer nodes would
     /// make displayed digits wrong.
     const POINTS: usize = 16;
-    let legendre = legendre_nodes(POINTS);
+    let unit_nodes = legendre_nodes(POINTS);
     let (mut nodes, mut from) = (Vec::with_capacity(4 * POINTS), -end);
     // The triangular density has another break at 0.
     for to in [breaks[0].max(-end).min(0.0), 0.0, breaks[1].max(0.0).min(end), end] {
         if to > from {
-            let half = 0.5 * (to - from);
-            nodes.extend(legendre.iter().map(|node| {
-                let value = from + half * (1.0 + node.value);
+            let half_width = 0.5 * (to - from);
+            nodes.extend(unit_nodes.iter().map(|node| {
+                let node_value = from + half_width * (1.0 + node.value);
                 let density = match noise {
-                    NoiseKind::Normal => libm::exp(-0.5 * value * value) / TAU.sqrt(),
-                    NoiseKind::Triangular => (6f64.sqrt() - value.abs()) / 6.0,
+                    NoiseKind::Normal => libm::exp(-0.5 * node_value * node_value) / TAU.sqrt(),
+                    NoiseKind::Triangular => (6f64.sqrt() - node_value.abs()) / 6.0,
                 };
-                Node { value, weight: node.weight * half * density }
+                Node { value: node_value, weight: node.weight * half_width * density }
             }));
             from = to;
         }

@@ -19,7 +19,7 @@ impl<const N: usize> Sums<N> {
     }
 
     pub fn close_block(&mut self) {
-        close(&mut self.block, &mut self.total, &mut self.compensation);
+        close_blocks(&mut self.block, &mut self.total, &mut self.compensation);
     }
 
     pub fn finish(&self) -> [f64; N] {
@@ -29,12 +29,12 @@ impl<const N: usize> Sums<N> {
 
 /// Adds blocks to their totals, keeping what rounding loses (Knuth's two-sum).
 #[inline(never)]
-fn close(blocks: &mut [f64x2], totals: &mut [f64x2], compensation: &mut [f64x2]) {
+fn close_blocks(blocks: &mut [f64x2], totals: &mut [f64x2], compensation: &mut [f64x2]) {
     for ((block, total), compensation) in blocks.iter_mut().zip(totals).zip(compensation) {
-        let term = std::mem::replace(block, f64x2::splat(0.0));
-        let sum = *total + term;
-        let of_term = sum - *total;
-        *compensation += (*total - (sum - of_term)) + (term - of_term);
+        let block_sum = std::mem::replace(block, f64x2::splat(0.0));
+        let sum = *total + block_sum;
+        let rounded_term = sum - *total;
+        *compensation += (*total - (sum - rounded_term)) + (block_sum - rounded_term);
         *total = sum;
     }
 }

@@ -11,7 +11,7 @@ use js_sys::TypeError;
 use wasm_bindgen::prelude::*;
 
 configured! {
-    /// The α's of a log, how well they are known, and whether the model is any good. It opens with a simulated log.
+    /// Calibration of α's from a log, with confidence intervals and goodness of fit. It opens with a simulated log.
     JsAlphaCalibrator(AlphaCalibrator), "AlphaCalibrator", "AlphaCalibratorSettings", "Partial<AlphaCalibratorSettings>"
 }
 
@@ -62,7 +62,7 @@ impl JsAlphaCalibrator {
         self.0.is_pending()
     }
 
-    /// Puts a log in the place of the present one: odometry and reference as `calibrate` takes them.
+    /// Replaces the log by another one: odometry and reference in the form that `calibrate` takes.
     #[wasm_bindgen(js_name = setLog)]
     pub fn set_log(
         &mut self,
@@ -79,7 +79,7 @@ impl JsAlphaCalibrator {
         self.0.fits()
     }
 
-    /// The true values of the simulated log; null where the log is another.
+    /// The true values of the simulated log; null for any other log.
     #[wasm_bindgen(getter, unchecked_return_type = "CalibrationTruth | null")]
     pub fn truth(&self) -> Result<JsValue, JsValue> {
         to_plain_js(&self.0.truth())

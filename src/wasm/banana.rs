@@ -30,7 +30,7 @@ export type Moments = CartesianMoments | ExponentialMoments;
 "#;
 
 cloud! {
-    /// One command from the origin, many robots that execute it with noise, and what a Gaussian makes of where they end.
+    /// One command from the origin, many robots that execute it with noise, and Gaussians fitted to their end poses.
     JsBananaMachine(BananaMachine), "BananaMachine", "BananaMachineSettings", "Partial<BananaMachineSettings>", MAX_SAMPLES
 }
 
@@ -55,7 +55,7 @@ impl JsBananaMachine {
         ]))
     }
 
-    /// The noise parameters that each model has, or will have when it is chosen again.
+    /// The noise parameters of each model. A model that is not selected keeps its own.
     #[wasm_bindgen(
         getter,
         js_name = alphasOfModels,
@@ -119,7 +119,7 @@ impl JsBananaMachine {
         to_plain_js(&self.0.contours())
     }
 
-    /// Places inside of the 2σ ellipse where no robot stops, two at most, as x, y pairs in m; empty where the outlines nearly coincide.
+    /// Up to two positions inside the 2σ ellipse where no robot stops, as x, y pairs in m; empty if the outlines nearly coincide.
     #[wasm_bindgen(getter)]
     pub fn gaps(&self) -> Float64Array {
         flat_float_array(&self.0.gaps())

@@ -23,7 +23,7 @@ export interface CalibrationOptions {
   reference: LoggedPoses | LoggedPoses[];
   /** Four α's of odometry (default), five of a robot that can drive sideways, six of velocity commands. */
   model?: 'odometry' | 'omnidirectional' | 'velocity';
-  /** Rule by which the odometry model's variances are made: Table 5.6 as printed (default), Nav2's, Beluga's; "omni" goes with the omnidirectional model. */
+  /** Rule of the odometry variances: Table 5.6 as printed (default), Nav2 or Beluga; "omni" belongs to the omnidirectional model. */
   rule?: 'thrun' | 'nav2' | 'beluga' | 'omni';
   /**
    * Length of a leg: at AMCL's `update_min_d` (m, default 0.25) and `update_min_a` (rad, default 0.2), or a duration
@@ -47,7 +47,7 @@ export interface CalibrationOptions {
 /// Lengths of legs, m, rad or s.
 const LEG_LENGTH_RANGE: RangeInclusive<f64> = 1e-6..=1e6;
 
-/// Standard deviations that can be stated of a reference, m or rad: an exact one has a tiny one.
+/// Range of the standard deviations that can be stated for a reference, m or rad.
 const STD_RANGE: RangeInclusive<f64> = 0.0..=1e3;
 
 /// Fits the α's of a robot to logs of its odometry (or its commands) and of a reference. `doc/calibration-method.md` has the method.
@@ -58,15 +58,15 @@ pub fn calibrated(
     const KEYS: [&str; 9] =
         ["odometry", "reference", "model", "rule", "legs", "outliers", "correct", "positionStd", "yawStd"];
     let fields = Fields::new("options", "", options, &KEYS)?;
-    let std =
+    let std_of =
         |key: &str| fields.optional(key, |path, value| in_range(path, read_number(path, value)?, &STD_RANGE));
     let options = Options {
-        model: model(&fields)?,
-        legs: fields.optional("legs", legs)?.unwrap_or(LegLength::AMCL),
+        model: read_model(&fields)?,
+        legs: fields.optional("legs", read_leg_length)?.unwrap_or(LegLength::AMCL),
         outliers: fields.optional("outliers", read_word)?.unwrap_or_default(),
-        correct: fields.optional("correct", corrected)?.unwrap_or_default(),
-        position_std: std("positionStd")?,
-        yaw_std: std("yawStd")?,
+        correct: fields.optional("correct", read_corrections)?.unwrap_or_default(),
+        position_std: std_of("positionStd")?,
+        yaw_std: std_of("yawStd")?,
     };
     let logs = read_logs(&fields.value("odometry")?, &fields.value("reference")?)?;
     let drives: Vec<Drive> =
@@ -75,28 +75,28 @@ pub fn calibrated(
     calibration_to_js(&calibration, Some(columns_to_js(&calibration)))
 }
 
-fn model(fields: &Fields) -> Result<Model, JsValue> {
-    let asked: Option<Asked> = fields.optional("model", read_word)?;
+fn read_model(fields: &Fields) -> Result<Model, JsValue> {
+    let model_name: Option<Asked> = fields.optional("model", read_word)?;
     let rule: Option<OdometryRule> = fields.optional("rule", read_word)?;
     let is_omni = rule == Some(OdometryRule::Omni);
-    let fits = match asked {
+    let rule_fits_model = match model_name {
         None => true,
         Some(Asked::Odometry) => !is_omni,
         Some(Asked::Omnidirectional) => is_omni || rule.is_none(),
         Some(Asked::Velocity) => rule.is_none(),
     };
-    if !fits {
+    if !rule_fits_model {
         let message = "rule does not go with the model; allowed is thrun, nav2 or beluga with odometry, omni with omnidirectional, and none with velocity";
         return Err(RangeError::new(message).into());
     }
-    Ok(match asked {
+    Ok(match model_name {
         Some(Asked::Velocity) => Model::Velocity,
         Some(Asked::Omnidirectional) => Model::Odometry(OdometryRule::Omni),
         Some(Asked::Odometry) | None => Model::Odometry(rule.unwrap_or(OdometryRule::Table)),
     })
 }
 
-fn legs(field: &str, value: &JsValue) -> Result<LegLength, JsValue> {
+fn read_leg_length(field: &str, value: &JsValue) -> Result<LegLength, JsValue> {
     let fields = Fields::new(field, "legs.", value, &["distance", "angle", "duration"])?;
     let [distance, angle, duration] = ["distance", "angle", "duration"].map(|key| {
         fields.optional(key, |path, value| in_range(path, read_number(path, value)?, &LEG_LENGTH_RANGE))
@@ -115,9 +115,9 @@ fn legs(field: &str, value: &JsValue) -> Result<LegLength, JsValue> {
     }
 }
 
-fn corrected(field: &str, value: &JsValue) -> Result<[Option<bool>; ERROR_COUNT], JsValue> {
-    if let Some(all) = value.as_bool() {
-        return Ok([Some(all); ERROR_COUNT]);
+fn read_corrections(field: &str, value: &JsValue) -> Result<[Option<bool>; ERROR_COUNT], JsValue> {
+    if let Some(all_errors) = value.as_bool() {
+        return Ok([Some(all_errors); ERROR_COUNT]);
     }
     let keys = SYSTEMATIC.map(|(key, _)| key);
     if !value.is_object() {

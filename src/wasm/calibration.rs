@@ -9,7 +9,7 @@ use wasm_bindgen::prelude::*;
 
 #[wasm_bindgen(typescript_custom_section)]
 const TYPES: &str = r#"
-/** An interval that holds the true value in 95 of 100 logs. */
+/** A 95 % confidence interval: it contains the true value in 95 of 100 logs. */
 export type Interval = [number, number];
 
 /** A systematic error. Null where the log does not identify it. */
@@ -118,8 +118,8 @@ pub fn calibration_to_js(calibration: &Calibration, legs: Option<JsValue>) -> Re
     let [position, yaw] = reference_noise.map(|estimate| estimate_to_js(&estimate));
     let checks: Array = diagnostics.checks.iter().map(check_to_js).collect::<Result<_, _>>()?;
     let entries = [
-        ("alphas", alphas(&calibration.alphas)),
-        ("intervals", intervals(&calibration.intervals)),
+        ("alphas", alphas_to_js(&calibration.alphas)),
+        ("intervals", intervals_to_js(&calibration.intervals)),
         ("notIdentifiable", reasons.into()),
         ("systematicErrors", systematic_to_js(calibration)),
         ("referenceNoise", js_object(&[("positionStd", position), ("yawStd", yaw)])),
@@ -145,16 +145,16 @@ pub fn calibration_to_js(calibration: &Calibration, legs: Option<JsValue>) -> Re
     Ok(js_object(&entries.into_iter().chain(legs.map(|legs| ("legs", legs))).collect::<Vec<_>>()))
 }
 
-fn alphas(alphas: &[Option<f64>]) -> JsValue {
+fn alphas_to_js(alphas: &[Option<f64>]) -> JsValue {
     alphas.iter().map(|alpha| number_or_null(*alpha)).collect::<Array>().into()
 }
 
-fn interval(interval: Option<[f64; 2]>) -> JsValue {
+fn interval_to_js(interval: Option<[f64; 2]>) -> JsValue {
     interval.map_or(JsValue::NULL, |interval| js_array(&interval))
 }
 
-fn intervals(intervals: &[Option<[f64; 2]>]) -> JsValue {
-    intervals.iter().map(|each| interval(*each)).collect::<Array>().into()
+fn intervals_to_js(intervals: &[Option<[f64; 2]>]) -> JsValue {
+    intervals.iter().map(|each| interval_to_js(*each)).collect::<Array>().into()
 }
 
 fn estimate_to_js(Estimate { value, interval }: &Estimate) -> JsValue {
@@ -174,27 +174,28 @@ fn reason_word(reason: Option<NotIdentifiable>) -> JsValue {
 }
 
 fn systematic_to_js(calibration: &Calibration) -> JsValue {
-    let value = |error: SystematicError| {
-        let identified = calibration.systematic_stds[error as usize].is_some();
-        number_or_null(identified.then(|| calibration.systematic.get(error)))
+    let value_of = |error: SystematicError| {
+        let is_identified = calibration.systematic_stds[error as usize].is_some();
+        number_or_null(is_identified.then(|| calibration.systematic.get(error)))
     };
-    let of = |error: SystematicError| interval(calibration.interval_of(error));
-    let all = |mask: &ErrorMask, errors: &[SystematicError]| errors.iter().any(|error| mask[*error as usize]);
-    let entries = SYSTEMATIC.iter().map(|(key, errors)| {
+    let interval_of_error = |error: SystematicError| interval_to_js(calibration.interval_of(error));
+    let any_in_mask =
+        |mask: &ErrorMask, errors: &[SystematicError]| errors.iter().any(|error| mask[*error as usize]);
+    let error_entries = SYSTEMATIC.iter().map(|(key, errors)| {
         let [value, interval] = match errors {
-            [error] => [value(*error), of(*error)],
+            [error] => [value_of(*error), interval_of_error(*error)],
             errors => [
-                errors.iter().map(|error| value(*error)).collect::<Array>().into(),
-                errors.iter().map(|error| of(*error)).collect::<Array>().into(),
+                errors.iter().map(|error| value_of(*error)).collect::<Array>().into(),
+                errors.iter().map(|error| interval_of_error(*error)).collect::<Array>().into(),
             ],
         };
-        let constant = all(&calibration.is_constant, errors).into();
-        let corrected = all(&calibration.is_corrected, errors).into();
+        let constant = any_in_mask(&calibration.is_constant, errors).into();
+        let corrected = any_in_mask(&calibration.is_corrected, errors).into();
         let entries =
             [("value", value), ("interval", interval), ("constant", constant), ("corrected", corrected)];
         (*key, js_object(&entries))
     });
-    js_object(&entries.collect::<Vec<_>>())
+    js_object(&error_entries.collect::<Vec<_>>())
 }
 
 fn verdict_word(verdict: Verdict) -> &'static str {
@@ -215,9 +216,9 @@ fn check_to_js(check: &Check) -> Result<JsValue, JsValue> {
     ]))
 }
 
-fn recommended_to_js(Recommended { alphas: all, inflation, reason }: &Recommended) -> JsValue {
+fn recommended_to_js(Recommended { alphas: recommended_alphas, inflation, reason }: &Recommended) -> JsValue {
     js_object(&[
-        ("alphas", alphas(all)),
+        ("alphas", alphas_to_js(recommended_alphas)),
         ("inflation", (*inflation).into()),
         ("reason", reason.as_str().into()),
     ])

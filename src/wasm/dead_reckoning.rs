@@ -30,17 +30,17 @@ cloud! {
 
 #[wasm_bindgen(js_class = DeadReckoning)]
 impl JsDeadReckoning {
-    /// Returns everything that is shown, in one call. `milestones` are after each quarter of the path other than the current step.
+    /// Returns everything that is shown, in one call. There is a milestone after each quarter of the path, except at the current step.
     #[wasm_bindgen(
         unchecked_return_type = "Pick<DeadReckoning, 'config' | 'shown' | 'block' | 'stats' | 'ratios' | 'relativeErrors' | 'commanded' | 'nominal' | 'poses' | 'twists'> & { outlines: StepOutlines; milestones: Milestone[] }"
     )]
     pub fn read(&self) -> Result<JsValue, JsValue> {
         let Settings { step, steps, .. } = *self.0.settings();
-        let milestone = |after: u32| {
+        let milestone_after = |after: u32| {
             let (poses, outlines) = (self.poses_after(after.into())?, self.outlines(after.into())?);
             Ok(js_object(&[("poses", poses.into()), ("outlines", outlines)]))
         };
-        let milestones = quarters_of(steps).filter(|after| *after != step).map(milestone);
+        let milestones = quarters_of(steps).filter(|after| *after != step).map(milestone_after);
         Ok(js_object(&[
             ("config", self.config()),
             ("shown", self.shown().into()),
@@ -68,33 +68,35 @@ impl JsDeadReckoning {
         to_plain_js(&self.0.stats())
     }
 
-    /// Predicted over measured variance of along, lateral and heading after each step, three numbers a step; NaN where there
-    /// is none.
+    /// Predicted divided by measured variance of along, lateral and heading after each step, three numbers a step; NaN if
+    /// undefined.
     #[wasm_bindgen(getter, unchecked_return_type = "ByRecursion<Float64Array>")]
     pub fn ratios(&self) -> JsValue {
-        by_recursion(|order| vectors(self.0.comparison(order).ratios.iter().copied()))
+        js_by_recursion(|order| flat_vectors(self.0.comparison(order).ratios.iter().copied()))
     }
 
-    /// Predicted variances of along, lateral (m²) and heading (rad²) after each step, three numbers a step; NaN where there is
-    /// none.
+    /// Predicted variances of along, lateral (m²) and heading (rad²) after each step, three numbers a step; NaN if
+    /// undefined.
     #[wasm_bindgen(getter, unchecked_return_type = "ByRecursion<Float64Array>")]
     pub fn predicted(&self) -> JsValue {
-        let none = Vector3::repeat(f64::NAN);
-        by_recursion(|order| {
-            vectors(self.0.predicted(order).iter().map(|cov| cov.map_or(none, |cov| cov.diagonal())))
+        let no_variances = Vector3::repeat(f64::NAN);
+        js_by_recursion(|order| {
+            flat_vectors(
+                self.0.predicted(order).iter().map(|cov| cov.map_or(no_variances, |cov| cov.diagonal())),
+            )
         })
     }
 
     /// Measured variances, in the form of `predicted`.
     #[wasm_bindgen(getter)]
     pub fn measured(&self) -> Float64Array {
-        vectors(self.0.measured().iter().map(|measured: &Measured| measured.cov.diagonal()))
+        flat_vectors(self.0.measured().iter().map(|measured: &Measured| measured.cov.diagonal()))
     }
 
     /// Standard errors of the measured variances, relative to them.
     #[wasm_bindgen(getter, js_name = relativeErrors)]
     pub fn relative_errors(&self) -> Float64Array {
-        vectors(self.0.measured().iter().map(|measured: &Measured| measured.relative_error))
+        flat_vectors(self.0.measured().iter().map(|measured: &Measured| measured.relative_error))
     }
 
     /// Path driven without noise, as x, y pairs (m) from the start.
@@ -154,17 +156,17 @@ impl JsDeadReckoning {
 
 /// Returns the steps that end the quarters of a path; fewer if the path has less than four steps.
 fn quarters_of(steps: u32) -> impl Iterator<Item = u32> {
-    let mut ends: Vec<_> =
+    let mut quarter_ends: Vec<_> =
         (1..=4).map(|quarter| ((f64::from(quarter * steps) / 4.0).round() as u32).max(1)).collect();
-    ends.dedup();
-    ends.into_iter()
+    quarter_ends.dedup();
+    quarter_ends.into_iter()
 }
 
-fn vectors(vectors: impl Iterator<Item = Vector3<f64>>) -> Float64Array {
+fn flat_vectors(vectors: impl Iterator<Item = Vector3<f64>>) -> Float64Array {
     flat_float_array(&vectors.map(<[f64; 3]>::from).collect::<Vec<_>>())
 }
 
-fn by_recursion(of: impl Fn(Compounding) -> Float64Array) -> JsValue {
+fn js_by_recursion(of: impl Fn(Compounding) -> Float64Array) -> JsValue {
     let entries: Vec<_> = Compounding::WORDS.iter().map(|(word, order)| (*word, of(*order).into())).collect();
     js_object(&entries)
 }

@@ -5,18 +5,18 @@
 
 /// Constructor, `configure` and `config` of a class.
 ///
-/// `$options` is the TypeScript type of what a caller may leave out in part.
+/// `$options` is the TypeScript type of the settings argument, whose keys are optional.
 macro_rules! configured {
     ($(#[$doc:meta])+ $class:ident($machine:ident), $name:literal, $settings:literal, $options:literal) => {
         $(#[$doc])+
-        /// Metres, radians, seconds throughout. Whatever is out of range throws a TypeError or RangeError that names the field,
+        /// All units are metres, radians and seconds. An argument out of range throws a TypeError or RangeError that names the field,
         /// and changes nothing.
         #[wasm_bindgen(js_name = $name)]
         pub struct $class($machine);
 
         #[wasm_bindgen(js_class = $name)]
         impl $class {
-            /// Settings that are left out are as the widget opens.
+            /// Settings that are left out have their initial values.
             #[wasm_bindgen(constructor)]
             pub fn new(
                 #[wasm_bindgen(unchecked_optional_param_type = $options)] options: &JsValue,
@@ -35,7 +35,7 @@ macro_rules! configured {
                 Ok(self.config())
             }
 
-            /// A copy; changing it changes nothing.
+            /// A copy of the settings, so that changing it does not change the machine.
             #[wasm_bindgen(getter, unchecked_return_type = $settings)]
             pub fn config(&self) -> JsValue {
                 $crate::wasm::values::settings_to_js(self.0.settings())
@@ -70,8 +70,8 @@ macro_rules! cloud {
                 self.0.shown()
             }
 
-            /// Changes the settings that are named, returns all, and shows the first block of `goal` samples, Infinity for all,
-            /// within a few milliseconds. The others are for `addSamples`.
+            /// Changes the given settings and returns all settings. Shows the first block of `goal` samples (Infinity: all samples)
+            /// within a few milliseconds; `addSamples` shows the remaining ones.
             #[wasm_bindgen(js_name = configureFirst, unchecked_return_type = $settings)]
             pub fn configure_first(
                 &mut self,
@@ -84,7 +84,7 @@ macro_rules! cloud {
                 Ok(self.config())
             }
 
-            /// Shows up to `count` samples more. Returns how many are shown then.
+            /// Shows up to `count` more samples. Returns the total number of samples shown.
             #[wasm_bindgen(js_name = addSamples)]
             pub fn add_samples(&mut self, count: f64) -> Result<usize, JsValue> {
                 let count = $crate::wasm::fields::read_integer("count", count, 0..=$most as u64)?;

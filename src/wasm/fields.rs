@@ -32,7 +32,7 @@ impl<'a> Fields<'a> {
         }
         for key in Reflect::own_keys(object)?.iter().filter_map(|key| key.as_string()) {
             if !known.contains(&key.as_str()) {
-                let (key, known) = (shortened(&key), known.join(", "));
+                let (key, known) = (shorten(&key), known.join(", "));
                 return Err(
                     TypeError::new(&format!("{prefix}{key} is an unknown key; allowed are {known}")).into()
                 );
@@ -59,7 +59,7 @@ impl<'a> Fields<'a> {
         Reflect::get(self.object, &key.into())
     }
 
-    /// Reads a field by `read`; None where it is missing or undefined.
+    /// Reads a field with the function `read`; None if the field is missing or undefined.
     pub fn optional<T>(
         &self,
         key: &str,
@@ -80,13 +80,13 @@ pub fn read_number(field: &str, value: &JsValue) -> Result<f64, JsValue> {
     value.as_f64().ok_or_else(|| type_error(field, value, "a number"))
 }
 
-/// Checks that a number is of the given range.
+/// Checks that a number is in the given range.
 pub fn in_range(field: &str, number: f64, allowed: &RangeInclusive<f64>) -> Result<f64, JsValue> {
     check_real(field, number, allowed)?;
     Ok(number)
 }
 
-/// Checks that a number is a whole one of the given range.
+/// Checks that a number is an integer in the given range.
 pub fn read_integer(field: &str, number: f64, allowed: RangeInclusive<u64>) -> Result<u64, JsValue> {
     Ok(check_whole(field, number, &allowed)?)
 }
@@ -105,12 +105,13 @@ pub fn read_word<T: Words>(field: &str, value: &JsValue) -> Result<T, JsValue> {
 }
 
 fn set_word(field: &str, value: &JsValue, word: &mut dyn Word) -> Result<(), JsValue> {
-    let allowed = |word: &dyn Word| word.all().into_iter().map(quoted).collect::<Vec<_>>().join(" or ");
+    let allowed = |word: &dyn Word| word.all().into_iter().map(quote).collect::<Vec<_>>().join(" or ");
     let text = value.as_string().ok_or_else(|| type_error(field, value, &allowed(word)))?;
     if word.set(&text) {
         return Ok(());
     }
-    Err(RangeError::new(&format!("{field} is {}; allowed is {}", describe(value), allowed(word))).into())
+    Err(RangeError::new(&format!("{field} is {}; allowed is {}", description_of(value), allowed(word)))
+        .into())
 }
 
 /// Reads an array (or typed array) of exactly N numbers without checking ranges.
@@ -121,10 +122,12 @@ pub fn read_array<const N: usize>(field: &str, value: &JsValue) -> Result<[f64; 
 }
 
 fn fill_array(field: &str, value: &JsValue, numbers: &mut [f64]) -> Result<(), JsValue> {
-    let expected = format!("an array of {} numbers", numbers.len());
-    let length = array_length(field, value, &expected)?;
+    let expected_type = format!("an array of {} numbers", numbers.len());
+    let length = array_length(field, value, &expected_type)?;
     if length != numbers.len() {
-        return Err(RangeError::new(&format!("{field} has length {length}; allowed is {expected}")).into());
+        return Err(
+            RangeError::new(&format!("{field} has length {length}; allowed is {expected_type}")).into()
+        );
     }
     for (i, slot) in numbers.iter_mut().enumerate() {
         *slot = read_number(&format!("{field}[{i}]"), &array_item(value, i)?)?;
@@ -214,7 +217,7 @@ pub fn array_item(value: &JsValue, index: usize) -> Result<JsValue, JsValue> {
 }
 
 pub fn type_error(field: &str, value: &JsValue, allowed: &str) -> JsValue {
-    TypeError::new(&format!("{field} is {}; allowed is {allowed}", describe(value))).into()
+    TypeError::new(&format!("{field} is {}; allowed is {allowed}", description_of(value))).into()
 }
 
 /// Returns a number as JavaScript prints it.
@@ -223,23 +226,23 @@ pub fn number_text(number: f64) -> String {
     Number::from(number).to_string_with_radix(10).map_or_else(|_| String::new(), String::from)
 }
 
-/// Maximum number of quoted characters: enough to recognize a text, and more than any key or word has.
+/// Maximum number of quoted characters: enough to recognize a text, and longer than any key or word.
 const MAX_CHARACTERS: usize = 40;
 
 /// Shortens a text for quotation in a sentence.
-fn shortened(text: &str) -> String {
+fn shorten(text: &str) -> String {
     let mut characters = text
         .chars()
         .map(|character| if character.is_control() { char::REPLACEMENT_CHARACTER } else { character });
-    let mut shown: String = characters.by_ref().take(MAX_CHARACTERS).collect();
+    let mut shortened_text: String = characters.by_ref().take(MAX_CHARACTERS).collect();
     if characters.next().is_some() {
-        shown.push('…');
+        shortened_text.push('…');
     }
-    shown
+    shortened_text
 }
 
-/// Returns a text in quotation marks. `Debug` would include Unicode tables, a twentieth of the module.
-pub fn quoted(text: &str) -> String {
+/// Returns a text in quotation marks. `Debug` would include Unicode tables, which would be 5 % of the module.
+pub fn quote(text: &str) -> String {
     let mut result = String::from('"');
     for character in text.chars() {
         if matches!(character, '"' | '\\') {
@@ -252,9 +255,9 @@ pub fn quoted(text: &str) -> String {
 }
 
 /// Describes a value for a sentence.
-fn describe(value: &JsValue) -> String {
+fn description_of(value: &JsValue) -> String {
     if let Some(text) = value.as_string() {
-        return quoted(&shortened(&text));
+        return quote(&shorten(&text));
     }
     if let Some(number) = value.as_f64() {
         return number_text(number);

@@ -22,7 +22,10 @@ use wasm_bindgen::prelude::*;
 
 #[wasm_bindgen(typescript_custom_section)]
 const TYPES: &str = r#"
-/** Twist: speeds along the body's x and y (m/s) and turn rate (rad/s). Exponential coordinates of a motion: along (m), lateral (m), heading (rad). */
+/**
+ * Three numbers: a twist, with the speeds along the body's x and y (m/s) and the turn rate (rad/s), or the exponential coordinates of a
+ * motion, along (m), lateral (m) and heading (rad).
+ */
 export type Twist = ArrayLike<number>;
 
 /** Options of a velocity model. */
@@ -92,7 +95,7 @@ impl JsVelocityModel {
         #[wasm_bindgen(unchecked_param_type = "VelocityModelOptions")] options: &JsValue,
     ) -> Result<Self, JsValue> {
         let fields = Fields::new("options", "", options, &["alphas", "noise"])?;
-        Ok(Self(VelocityModel { alphas: VelocityAlphas(alphas(&fields)?), noise: noise(&fields)? }))
+        Ok(Self(VelocityModel { alphas: VelocityAlphas(read_alphas(&fields)?), noise: read_noise(&fields)? }))
     }
 
     /// Scoring function of Table 5.1, with a signed radius, for the arc that turns by at most half a circle. A noise of
@@ -103,7 +106,7 @@ impl JsVelocityModel {
         #[wasm_bindgen(unchecked_param_type = "Command")] command: &JsValue,
         #[wasm_bindgen(unchecked_param_type = "Start")] start: &JsValue,
     ) -> Result<f64, JsValue> {
-        Ok(self.0.prob(&pose("next", next)?, &velocity_command(command)?, &pose("start", start)?))
+        Ok(self.0.prob(&read_pose("next", next)?, &read_command(command)?, &read_pose("start", start)?))
     }
 
     /// Density of the sampler over dx dy dθ; null if a variance is 0, infinite if the robot has not moved at all.
@@ -114,7 +117,8 @@ impl JsVelocityModel {
         #[wasm_bindgen(unchecked_param_type = "Command")] command: &JsValue,
         #[wasm_bindgen(unchecked_param_type = "Start")] start: &JsValue,
     ) -> Result<JsValue, JsValue> {
-        let (next, command, start) = (pose("next", next)?, velocity_command(command)?, pose("start", start)?);
+        let (next, command, start) =
+            (read_pose("next", next)?, read_command(command)?, read_pose("start", start)?);
         Ok(number_or_null(self.0.pose_density(&next, &command, &start)))
     }
 
@@ -126,7 +130,7 @@ impl JsVelocityModel {
         count: f64,
         seed: f64,
     ) -> Result<Float64Array, JsValue> {
-        samples(&self.0, &velocity_command(command)?, start, count, seed)
+        draw_poses(&self.0, &read_command(command)?, start, count, seed)
     }
 }
 
@@ -141,7 +145,7 @@ impl JsOdometryModel {
         #[wasm_bindgen(unchecked_param_type = "OdometryModelOptions")] options: &JsValue,
     ) -> Result<Self, JsValue> {
         let fields = Fields::new("options", "", options, &["alphas", "noise", "reverseAware"])?;
-        let model = OdometryModel { alphas: OdomAlphas(alphas(&fields)?), noise: noise(&fields)? };
+        let model = OdometryModel { alphas: OdomAlphas(read_alphas(&fields)?), noise: read_noise(&fields)? };
         let reverse_aware = fields.optional("reverseAware", read_boolean)?.unwrap_or(false);
         Ok(Self(ConfiguredOdometry { model, reverse_aware }))
     }
@@ -154,7 +158,7 @@ impl JsOdometryModel {
         #[wasm_bindgen(unchecked_param_type = "OdomDelta")] control: &JsValue,
         #[wasm_bindgen(unchecked_param_type = "Start")] start: &JsValue,
     ) -> Result<f64, JsValue> {
-        Ok(self.0.prob(&pose("next", next)?, &legs(control)?, &pose("start", start)?))
+        Ok(self.0.prob(&read_pose("next", next)?, &read_legs(control)?, &read_pose("start", start)?))
     }
 
     /// Density of the sampler over dx dy dθ; null if a variance is 0, infinite if the robot has not moved at all.
@@ -165,7 +169,8 @@ impl JsOdometryModel {
         #[wasm_bindgen(unchecked_param_type = "OdomDelta")] control: &JsValue,
         #[wasm_bindgen(unchecked_param_type = "Start")] start: &JsValue,
     ) -> Result<JsValue, JsValue> {
-        let (next, control, start) = (pose("next", next)?, legs(control)?, pose("start", start)?);
+        let (next, control, start) =
+            (read_pose("next", next)?, read_legs(control)?, read_pose("start", start)?);
         Ok(number_or_null(self.0.pose_density(&next, &control, &start)))
     }
 
@@ -177,20 +182,20 @@ impl JsOdometryModel {
         count: f64,
         seed: f64,
     ) -> Result<Float64Array, JsValue> {
-        samples(&self.0, &legs(control)?, start, count, seed)
+        draw_poses(&self.0, &read_legs(control)?, start, count, seed)
     }
 }
 
 /// Arc that leaves `start` along its heading and reaches the position of `next` in `dt` seconds (Table 5.1, with a
 /// signed radius). Of the arcs on that circle, the one that turns by at most half a circle is returned.
 #[wasm_bindgen(js_name = invertArc, unchecked_return_type = "ArcInversion")]
-pub fn inverted(
+pub fn invert_arc_of_poses(
     #[wasm_bindgen(unchecked_param_type = "Start")] start: &JsValue,
     #[wasm_bindgen(unchecked_param_type = "Start")] next: &JsValue,
     dt: f64,
 ) -> Result<JsValue, JsValue> {
     let (start, next, dt) =
-        (pose("start", start)?, pose("next", next)?, in_range("dt", dt, &DURATION_RANGE)?);
+        (read_pose("start", start)?, read_pose("next", next)?, in_range("dt", dt, &DURATION_RANGE)?);
     let inversion = invert_arc(&start, &next, dt);
     // A straight drive in reverse has the turn rate −0. Adding 0 makes it 0.
     let omega_hat = inversion.omega_hat + 0.0;
@@ -214,7 +219,7 @@ pub fn decompose(
     #[wasm_bindgen(unchecked_param_type = "Start")] start: &JsValue,
     #[wasm_bindgen(unchecked_param_type = "Start")] next: &JsValue,
 ) -> Result<JsValue, JsValue> {
-    to_plain_js(&OdomDelta::from_poses(&pose("start", start)?, &pose("next", next)?))
+    to_plain_js(&OdomDelta::from_poses(&read_pose("start", start)?, &read_pose("next", next)?))
 }
 
 /// Covariance, in exponential coordinates about the noise-free pose, after a command was driven several times. The
@@ -225,29 +230,29 @@ pub fn propagate(
 ) -> Result<Array, JsValue> {
     let fields =
         Fields::new("options", "", options, &["sigma", "command", "alphas", "compounding", "steps"])?;
-    let sigma = fields.optional("sigma", covariance)?.unwrap_or_default();
-    let command = velocity_command(&fields.value("command")?)?;
-    let model = VelocityModel { alphas: VelocityAlphas(alphas(&fields)?), noise: NoiseKind::Normal };
+    let sigma = fields.optional("sigma", read_covariance)?.unwrap_or_default();
+    let command = read_command(&fields.value("command")?)?;
+    let model = VelocityModel { alphas: VelocityAlphas(read_alphas(&fields)?), noise: NoiseKind::Normal };
     let order = fields.optional("compounding", read_word)?.unwrap_or(Compounding::Chapter);
     let steps = fields
         .optional("steps", |field, value| read_integer(field, read_number(field, value)?, 1..=MAX_STEPS))?
         .unwrap_or(1);
     // Arguments in range cannot give a negative or infinite variance.
-    let noise = TangentNoiseModel::from_velocity(&model, &command)
+    let read_noise = TangentNoiseModel::from_velocity(&model, &command)
         .map_err(|error| RangeError::new(&error.to_string()))?;
     let twist = TangentNoiseModel::twist(&command);
-    let mut last = sigma;
+    let mut last_sigma = sigma;
     for step in 0..steps {
-        last = noise.propagate(&last, &twist, order);
+        last_sigma = read_noise.propagate(&last_sigma, &twist, order);
         // The other two methods give sums of covariances, up to rounding.
-        if order == Compounding::FourthOrder && covariance_root(&last).is_err() {
+        if order == Compounding::FourthOrder && covariance_root(&last_sigma).is_err() {
             let message = format!(
                 "steps is {steps}; allowed are at most {step} here: the next leaves no covariance, for the noise is too large"
             );
             return Err(RangeError::new(&message).into());
         }
     }
-    Ok(rows(&last))
+    Ok(matrix_rows(&last_sigma))
 }
 
 /// Exponential map: the pose to which a twist leads from the origin in one unit of time.
@@ -261,7 +266,7 @@ pub fn exp(#[wasm_bindgen(unchecked_param_type = "Twist")] twist: &JsValue) -> R
 pub fn log(
     #[wasm_bindgen(js_name = pose, unchecked_param_type = "Start")] of: &JsValue,
 ) -> Result<JsValue, JsValue> {
-    Ok(js_array(pose("pose", of)?.log().as_slice()))
+    Ok(js_array(read_pose("pose", of)?.log().as_slice()))
 }
 
 /// a · b: the pose `b`, given in the frame of `a`, in the reference frame of `a`.
@@ -270,7 +275,7 @@ pub fn compose(
     #[wasm_bindgen(unchecked_param_type = "Start")] a: &JsValue,
     #[wasm_bindgen(unchecked_param_type = "Start")] b: &JsValue,
 ) -> Result<JsValue, JsValue> {
-    Ok(pose_to_js(pose("a", a)? * pose("b", b)?))
+    Ok(pose_to_js(read_pose("a", a)? * read_pose("b", b)?))
 }
 
 /// Inverse: the origin in the frame of a pose.
@@ -278,7 +283,7 @@ pub fn compose(
 pub fn inverse(
     #[wasm_bindgen(js_name = pose, unchecked_param_type = "Start")] of: &JsValue,
 ) -> Result<JsValue, JsValue> {
-    Ok(pose_to_js(pose("pose", of)?.inverse()))
+    Ok(pose_to_js(read_pose("pose", of)?.inverse()))
 }
 
 /// x ⊞ τ = x · exp(τ).
@@ -287,7 +292,7 @@ pub fn boxplus(
     #[wasm_bindgen(js_name = pose, unchecked_param_type = "Start")] of: &JsValue,
     #[wasm_bindgen(unchecked_param_type = "Twist")] twist: &JsValue,
 ) -> Result<JsValue, JsValue> {
-    Ok(pose_to_js(pose("pose", of)?.boxplus(read_twist("twist", twist)?)))
+    Ok(pose_to_js(read_pose("pose", of)?.boxplus(read_twist("twist", twist)?)))
 }
 
 /// a ⊟ b = log(b⁻¹ · a): the twist that leads from `b` to `a`.
@@ -296,7 +301,7 @@ pub fn boxminus(
     #[wasm_bindgen(unchecked_param_type = "Start")] a: &JsValue,
     #[wasm_bindgen(unchecked_param_type = "Start")] b: &JsValue,
 ) -> Result<JsValue, JsValue> {
-    Ok(js_array(pose("a", a)?.boxminus(&pose("b", b)?).as_slice()))
+    Ok(js_array(read_pose("a", a)?.boxminus(&read_pose("b", b)?).as_slice()))
 }
 
 /// Adjoint of a pose, three rows of three.
@@ -304,7 +309,7 @@ pub fn boxminus(
 pub fn adjoint(
     #[wasm_bindgen(js_name = pose, unchecked_param_type = "Start")] of: &JsValue,
 ) -> Result<Array, JsValue> {
-    Ok(rows(&pose("pose", of)?.adjoint()))
+    Ok(matrix_rows(&read_pose("pose", of)?.adjoint()))
 }
 
 /// Right Jacobian J_r of a twist, three rows of three: exp(τ + δ) is exp(τ) · exp(J_r δ) to first order.
@@ -312,59 +317,59 @@ pub fn adjoint(
 pub fn right_jacobian(
     #[wasm_bindgen(unchecked_param_type = "Twist")] twist: &JsValue,
 ) -> Result<Array, JsValue> {
-    Ok(rows(&SE2::right_jacobian(&read_twist("twist", twist)?)))
+    Ok(matrix_rows(&SE2::right_jacobian(&read_twist("twist", twist)?)))
 }
 
-fn samples<M: MotionModel>(
+fn draw_poses<M: MotionModel>(
     model: &M,
     control: &M::Control,
     start: &JsValue,
     count: f64,
     seed: f64,
 ) -> Result<Float64Array, JsValue> {
-    let start = pose("start", start)?;
+    let start = read_pose("start", start)?;
     let count = read_integer("count", count, 0..=MAX_SAMPLES as u64)? as usize;
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(read_integer("seed", seed, 0..=MAX_SEED)?);
-    let draw = |_| <[f64; 3]>::from(model.sample(control, &start, &mut rng));
-    Ok(flat_float_array(&(0..count).map(draw).collect::<Vec<_>>()))
+    let draw_pose = |_| <[f64; 3]>::from(model.sample(control, &start, &mut rng));
+    Ok(flat_float_array(&(0..count).map(draw_pose).collect::<Vec<_>>()))
 }
 
-fn alphas<const N: usize>(fields: &Fields) -> Result<[f64; N], JsValue> {
-    let alphas = read_array("alphas", &fields.value("alphas")?)?;
-    for (i, alpha) in alphas.iter().enumerate() {
+fn read_alphas<const N: usize>(fields: &Fields) -> Result<[f64; N], JsValue> {
+    let read_alphas = read_array("alphas", &fields.value("alphas")?)?;
+    for (i, alpha) in read_alphas.iter().enumerate() {
         check_real(&format!("alphas[{i}]"), *alpha, &ALPHA_RANGE)?;
     }
-    Ok(alphas)
+    Ok(read_alphas)
 }
 
-fn noise(fields: &Fields) -> Result<NoiseKind, JsValue> {
+fn read_noise(fields: &Fields) -> Result<NoiseKind, JsValue> {
     Ok(fields.optional("noise", read_word)?.unwrap_or(NoiseKind::Normal))
 }
 
-fn pose(field: &str, value: &JsValue) -> Result<SE2, JsValue> {
-    let mut pose = [0.0; 3];
-    group_in_range(field, value, &mut pose)?;
-    Ok(pose.into())
+fn read_pose(field: &str, value: &JsValue) -> Result<SE2, JsValue> {
+    let mut read_pose = [0.0; 3];
+    group_in_range(field, value, &mut read_pose)?;
+    Ok(read_pose.into())
 }
 
-fn velocity_command(value: &JsValue) -> Result<VelocityCmd, JsValue> {
+fn read_command(value: &JsValue) -> Result<VelocityCmd, JsValue> {
     let mut command = VelocityCmd { v: 0.0, omega: 0.0, dt: 0.0 };
     group_in_range("command", value, &mut command)?;
     Ok(command)
 }
 
-fn legs(value: &JsValue) -> Result<OdomDelta, JsValue> {
-    let mut legs = OdomDelta { rot1: 0.0, trans: 0.0, rot2: 0.0 };
-    group_in_range("control", value, &mut legs)?;
-    Ok(legs)
+fn read_legs(value: &JsValue) -> Result<OdomDelta, JsValue> {
+    let mut read_legs = OdomDelta { rot1: 0.0, trans: 0.0, rot2: 0.0 };
+    group_in_range("control", value, &mut read_legs)?;
+    Ok(read_legs)
 }
 
 fn read_twist(field: &str, value: &JsValue) -> Result<Vector3<f64>, JsValue> {
-    Ok(Vector3::from(quantities(field, value)?))
+    Ok(Vector3::from(read_quantities(field, value)?))
 }
 
 /// Reads three numbers in the range of the models.
-fn quantities(field: &str, value: &JsValue) -> Result<[f64; 3], JsValue> {
+fn read_quantities(field: &str, value: &JsValue) -> Result<[f64; 3], JsValue> {
     let numbers = read_array(field, value)?;
     for (i, number) in numbers.iter().enumerate() {
         check_real(&format!("{field}[{i}]"), *number, &QUANTITY_RANGE)?;
@@ -373,7 +378,7 @@ fn quantities(field: &str, value: &JsValue) -> Result<[f64; 3], JsValue> {
 }
 
 /// Reads a covariance, three rows of three.
-fn covariance(field: &str, value: &JsValue) -> Result<Matrix3<f64>, JsValue> {
+fn read_covariance(field: &str, value: &JsValue) -> Result<Matrix3<f64>, JsValue> {
     let allowed = "three rows of three numbers, symmetric, of no negative variance";
     let count = array_length(field, value, allowed)?;
     if count != 3 {
@@ -381,21 +386,21 @@ fn covariance(field: &str, value: &JsValue) -> Result<Matrix3<f64>, JsValue> {
     }
     let mut matrix = Matrix3::zeros();
     for i in 0..3 {
-        let row = quantities(&format!("{field}[{i}]"), &array_item(value, i)?)?;
+        let row = read_quantities(&format!("{field}[{i}]"), &array_item(value, i)?)?;
         matrix.set_row(i, &Vector3::from(row).transpose());
     }
-    let is = match covariance_root(&matrix) {
+    let refusal = match covariance_root(&matrix) {
         Ok(_) => return Ok(matrix),
         Err(TangentNoiseError::NotSymmetric) => "it differs from its transpose",
         Err(_) => "some direction has a negative variance",
     };
-    Err(RangeError::new(&format!("{field} is no covariance: {is}; allowed are {allowed}")).into())
+    Err(RangeError::new(&format!("{field} is no covariance: {refusal}; allowed are {allowed}")).into())
 }
 
 fn pose_to_js(pose: SE2) -> JsValue {
     group_to_js(&mut <[f64; 3]>::from(pose))
 }
 
-fn rows(matrix: &Matrix3<f64>) -> Array {
+fn matrix_rows(matrix: &Matrix3<f64>) -> Array {
     matrix.row_iter().map(|row| js_array(&[row[0], row[1], row[2]])).collect()
 }

@@ -40,10 +40,10 @@ const MAX_ROWS: usize = 10_000_000;
 /// Range of times, s, of any clock.
 const TIME_RANGE: RangeInclusive<f64> = -1e12..=1e12;
 
-/// Range of coordinates (m) and other values: those of any national map grid.
+/// Range of coordinates (m) and other values. It includes the coordinates of any national map grid.
 const COORDINATE_RANGE: RangeInclusive<f64> = -1e9..=1e9;
 
-/// Reads one drive, or arrays of both logs of several drives.
+/// Reads the odometry and the reference of one drive, or arrays of them for several drives.
 pub fn read_logs(odometry: &JsValue, reference: &JsValue) -> Result<Vec<Log>, JsValue> {
     let odometry = read_drives("odometry", odometry, read_odometry)?;
     let reference = read_drives("reference", reference, read_poses)?;
@@ -66,11 +66,11 @@ fn read_drives(
     if !js_sys::Array::is_array(value) {
         return Ok(vec![read(field, value)?]);
     }
-    let count = array_length(field, value, "an array of drives")?;
-    if count == 0 {
+    let drive_count = array_length(field, value, "an array of drives")?;
+    if drive_count == 0 {
         return Err(RangeError::new(&format!("{field} is empty; allowed is one drive at least")).into());
     }
-    (0..count).map(|i| read(&format!("{field}[{i}]"), &array_item(value, i)?)).collect()
+    (0..drive_count).map(|i| read(&format!("{field}[{i}]"), &array_item(value, i)?)).collect()
 }
 
 /// Reads poses or commands.
@@ -109,8 +109,8 @@ fn trajectory_of_poses(fields: &Fields) -> Result<Trajectory, JsValue> {
     checked_trajectory(fields, Trajectory::new(t.iter().copied().zip(poses)))
 }
 
-/// Returns a trajectory with the breaks that the caller states. Errors are formatted here, because formatting numbers by Rust
-/// would take a twentieth of a module.
+/// Returns a trajectory with the breaks that the caller states. Errors are formatted here by JavaScript, because Rust's number
+/// formatting would be 5 % of a module.
 fn checked_trajectory(
     fields: &Fields,
     trajectory: Result<Trajectory, TrajectoryError>,
@@ -131,26 +131,28 @@ fn checked_trajectory(
         let field = fields.path("");
         JsValue::from(RangeError::new(&format!("{}: sample {sample} {what}", field.trim_end_matches('.'))))
     })?;
-    with_breaks(fields, trajectory)
+    with_stated_breaks(fields, trajectory)
 }
 
 /// Adds the breaks that the caller states.
-fn with_breaks(fields: &Fields, mut trajectory: Trajectory) -> Result<Trajectory, JsValue> {
+fn with_stated_breaks(fields: &Fields, mut trajectory: Trajectory) -> Result<Trajectory, JsValue> {
     let (field, breaks) = (fields.path("breaks"), fields.value("breaks")?);
     if breaks.is_undefined() {
         return Ok(trajectory);
     }
-    let (last, mut before) = (trajectory.samples().len() - 1, 0);
+    let (last_index, mut previous_break) = (trajectory.samples().len() - 1, 0);
     for i in 0..array_length(&field, &breaks, "an array of numbers")? {
         let path = format!("{field}[{i}]");
         let sample =
-            read_integer(&path, read_number(&path, &array_item(&breaks, i)?)?, 1..=last as u64)? as usize;
-        if sample <= before {
-            let message = format!("{path} is {sample}; allowed is more than {before}, the one before it");
+            read_integer(&path, read_number(&path, &array_item(&breaks, i)?)?, 1..=last_index as u64)?
+                as usize;
+        if sample <= previous_break {
+            let message =
+                format!("{path} is {sample}; allowed is more than {previous_break}, the one before it");
             return Err(RangeError::new(&message).into());
         }
         trajectory = trajectory.with_breaks_before([sample]);
-        before = sample;
+        previous_break = sample;
     }
     Ok(trajectory)
 }
@@ -171,7 +173,7 @@ fn read_columns<const N: usize>(fields: &Fields, keys: [&str; N]) -> Result<[Vec
             };
             return Err(RangeError::new(&format!("{path} has length {rows}; allowed is {allowed}")).into());
         }
-        columns[i] = read_column(&path, &value, rows)?;
+        columns[i] = read_numbers_of_column(&path, &value, rows)?;
         for (row, number) in columns[i].iter().enumerate() {
             let range = if i == 0 { &TIME_RANGE } else { &COORDINATE_RANGE };
             if !range.contains(number) {
@@ -182,13 +184,13 @@ fn read_columns<const N: usize>(fields: &Fields, keys: [&str; N]) -> Result<[Vec
     Ok(columns)
 }
 
-fn read_column(path: &str, value: &JsValue, rows: usize) -> Result<Vec<f64>, JsValue> {
+fn read_numbers_of_column(path: &str, value: &JsValue, rows: usize) -> Result<Vec<f64>, JsValue> {
     if let Some(doubles) = value.dyn_ref::<Float64Array>() {
         return Ok(doubles.to_vec());
     }
-    let numbers = (0..rows).map(|row| {
+    let read_numbers = (0..rows).map(|row| {
         let item = array_item(value, row)?;
         item.as_f64().map_or_else(|| read_number(&format!("{path}[{row}]"), &item), Ok)
     });
-    numbers.collect()
+    read_numbers.collect()
 }

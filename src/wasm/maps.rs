@@ -42,14 +42,14 @@ pub fn read_plan(plan: &JsValue) -> Result<FloorPlan, JsValue> {
             let allowed = "an array of walls, or a Float64Array of four numbers a wall";
             return Err(type_error("walls", walls, allowed));
         }
-        let segment = |wall: &[f64; 4]| Segment { from: [wall[0], wall[1]], to: [wall[2], wall[3]] };
-        return Ok(FloorPlan::new(walls.to_vec().as_chunks().0.iter().map(segment).collect(), bounds)?);
+        let segment_of = |wall: &[f64; 4]| Segment { from: [wall[0], wall[1]], to: [wall[2], wall[3]] };
+        return Ok(FloorPlan::new(walls.to_vec().as_chunks().0.iter().map(segment_of).collect(), bounds)?);
     }
-    let count = array_length("walls", &walls, "an array of walls, each [x, y, x, y]")?;
-    if count > FloorPlan::MAX_WALLS {
-        return Err(FloorPlanError::TooManyWalls(count).into());
+    let wall_count = array_length("walls", &walls, "an array of walls, each [x, y, x, y]")?;
+    if wall_count > FloorPlan::MAX_WALLS {
+        return Err(FloorPlanError::TooManyWalls(wall_count).into());
     }
-    let segments = (0..count).map(|i| {
+    let segments = (0..wall_count).map(|i| {
         let [x0, y0, x1, y1] = read_array(&format!("walls[{i}]"), &array_item(&walls, i)?)?;
         Ok(Segment { from: [x0, y0], to: [x1, y1] })
     });
@@ -104,13 +104,17 @@ fn read_pixels(image: &JsValue) -> Result<(usize, usize, Vec<u8>), JsValue> {
     let width = read_integer("image.width", fields.number("width")?, 1..=MAX_PIXELS as u64)? as usize;
     let height =
         read_integer("image.height", fields.number("height")?, 1..=(MAX_PIXELS / width) as u64)? as usize;
-    let data = fields.value("data")?;
-    let Some(data) = data.dyn_ref::<Uint8ClampedArray>() else {
-        return Err(type_error("image.data", &data, "a Uint8ClampedArray of red, green, blue, opacity"));
+    let pixel_bytes = fields.value("data")?;
+    let Some(data) = pixel_bytes.dyn_ref::<Uint8ClampedArray>() else {
+        return Err(type_error(
+            "image.data",
+            &pixel_bytes,
+            "a Uint8ClampedArray of red, green, blue, opacity",
+        ));
     };
-    let (length, wanted) = (data.length() as usize, 4 * width * height);
-    if length != wanted {
-        let message = format!("image.data has length {length}; allowed is {wanted}");
+    let (length, expected_length) = (data.length() as usize, 4 * width * height);
+    if length != expected_length {
+        let message = format!("image.data has length {length}; allowed is {expected_length}");
         return Err(RangeError::new(&message).into());
     }
     Ok((width, height, data.to_vec()))

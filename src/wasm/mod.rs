@@ -44,9 +44,9 @@ pub fn random_seed() -> Result<f64, JsError> {
     Ok(f64::from(getrandom::u32()?))
 }
 
-/// Returns the speeds that lead from the origin, heading along x, to (x, y), in m from −1e6 to 1e6, in the time of a
-/// command. Many arcs lead there: the speeds are those of the arc whose turn is nearest to that command's. `morph` is the
-/// stage of the picture, from 0 (the default, the floor) to 1 (exponential coordinates), in which (x, y) is a point.
+/// Returns the speeds that lead from the origin, heading along x, to the point (x, y) of the picture in the duration of the given
+/// command. x and y are from −1e6 to 1e6 m. Of the many arcs that lead there, the one with the turn nearest to that of the command
+/// is used. `morph` is the stage of the picture, from 0 (the default, the floor) to 1 (exponential coordinates).
 #[wasm_bindgen(js_name = commandReaching, unchecked_return_type = "{ v: number; omega: number }")]
 pub fn speeds_reaching(
     x: f64,
@@ -55,9 +55,9 @@ pub fn speeds_reaching(
     morph: Option<f64>,
 ) -> Result<JsValue, JsValue> {
     let (x, y) = (in_range("x", x, &QUANTITY_RANGE)?, in_range("y", y, &QUANTITY_RANGE)?);
-    let mut near = VelocityCmd { v: 0.0, omega: 0.0, dt: 0.0 };
-    group_in_range("command", command, &mut near)?;
+    let mut current_command = VelocityCmd { v: 0.0, omega: 0.0, dt: 0.0 };
+    group_in_range("command", command, &mut current_command)?;
     let morph = in_range("morph", morph.unwrap_or(0.0), &MORPH_RANGE)?;
-    let VelocityCmd { v, omega, .. } = command_seen_at([x, y], &near, morph);
+    let VelocityCmd { v, omega, .. } = command_seen_at([x, y], &current_command, morph);
     Ok(js_object(&[("v", v.into()), ("omega", omega.into())]))
 }

@@ -91,8 +91,11 @@ impl JsOdometryDecomposer {
     pub fn curve(&self, longest: f64, count: f64) -> Result<Float64Array, JsValue> {
         let longest = in_range("longest", longest, &(0.0..=*QUANTITY_RANGE.end()))?;
         let count = read_integer("count", count, 1..=MAX_CURVE_POINTS)? as usize;
-        let point = |CurvePoint { trans, cross_track, lever, along }| [trans, cross_track, lever, along];
-        Ok(flat_float_array(&self.0.curve(longest, count).into_iter().map(point).collect::<Vec<_>>()))
+        let numbers_of_point =
+            |CurvePoint { trans, cross_track, lever, along }| [trans, cross_track, lever, along];
+        Ok(flat_float_array(
+            &self.0.curve(longest, count).into_iter().map(numbers_of_point).collect::<Vec<_>>(),
+        ))
     }
 
     #[wasm_bindgen(getter, unchecked_return_type = "Drifted")]
@@ -108,5 +111,5 @@ impl JsOdometryDecomposer {
     }
 }
 
-/// Number of outcomes whose rotation, translation and rotation are drawn. More would hide those of the reading.
+/// Maximum number of outcomes whose rotation, translation and rotation are drawn. More would hide the legs of the reading.
 const MAX_GHOSTS: f64 = 12.0;

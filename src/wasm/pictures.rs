@@ -1,7 +1,7 @@
 //! Densities for JavaScript: arguments of pictures, and pixels as a view of the core's memory.
 
 use super::fields::{in_range, read_integer};
-use crate::sim::picture::{RAMP, Ramp};
+use crate::sim::picture::{RAMP_STEPS, Ramp};
 use crate::sim::views::{EXTENT_RANGE, Grid, MAX_CELLS, MAX_SIDE};
 use js_sys::{RangeError, Uint8ClampedArray, WebAssembly};
 use std::ops::RangeInclusive;
@@ -13,16 +13,16 @@ pub const RADIUS_RANGE: RangeInclusive<f64> = 0.0..=f64::INFINITY;
 /// Makes a view of pixels in the core's memory.
 pub fn pixel_view(pixels: &[[u8; 4]]) -> Uint8ClampedArray {
     let (start, length) = (pixels.as_ptr() as u32, pixels.as_flattened().len() as u32);
-    let view = || {
+    let create_view = || {
         let memory: WebAssembly::Memory = wasm_bindgen::memory().unchecked_into();
         Uint8ClampedArray::new_with_byte_offset_and_length(&memory.buffer(), start, length)
     };
-    let first = view();
+    let first_view = create_view();
     // Creating the view may have grown the memory, which detaches all views of it. That happens at most once.
-    if first.length() == length { first } else { view() }
+    if first_view.length() == length { first_view } else { create_view() }
 }
 
-/// Finds the index of what is nearest to a point (m) and within `radius` of it; −1 for none.
+/// Returns the index that `find` returns for the point (x, y) (m) and the radius; −1 for none.
 pub fn nearest_index(
     x: f64,
     y: f64,
@@ -32,7 +32,7 @@ pub fn nearest_index(
     Ok(find([x, y], in_range("radius", radius, &RADIUS_RANGE)?).map_or(-1, |index| index as i32))
 }
 
-/// Reads least x, least y, greatest x, greatest y as two corners.
+/// Reads minimum x, minimum y, maximum x, maximum y as two corners.
 pub fn read_bounds([x_min, y_min, x_max, y_max]: [f64; 4]) -> Result<[[f64; 2]; 2], JsValue> {
     let min = [in_range("xMin", x_min, &EXTENT_RANGE)?, in_range("yMin", y_min, &EXTENT_RANGE)?];
     let end = *EXTENT_RANGE.end();
@@ -47,18 +47,18 @@ pub fn read_grid(bounds: [f64; 4], columns: f64, rows: f64) -> Result<Grid, JsVa
     Ok(Grid { min, max, columns: columns as usize, rows: rows as usize })
 }
 
-/// Reads ramps that stand one after the other.
-pub fn read_ramps<const COUNT: usize>(field: &str, bytes: &[u8]) -> Result<[Ramp; COUNT], JsValue> {
-    let mut ramps = [[[0; 4]; RAMP]; COUNT];
-    let room = ramps.as_flattened_mut().as_flattened_mut();
-    if bytes.len() != room.len() {
-        let (length, wanted) = (bytes.len(), room.len());
+/// Reads consecutive colour ramps from their bytes.
+pub fn read_ramps<const RAMP_COUNT: usize>(field: &str, bytes: &[u8]) -> Result<[Ramp; RAMP_COUNT], JsValue> {
+    let mut ramps = [[[0; 4]; RAMP_STEPS]; RAMP_COUNT];
+    let ramp_bytes = ramps.as_flattened_mut().as_flattened_mut();
+    if bytes.len() != ramp_bytes.len() {
+        let (length, wanted) = (bytes.len(), ramp_bytes.len());
         let message = format!(
             "{field} has length {length}; allowed is a Uint8Array of {wanted} bytes, {} colours of four",
-            RAMP * COUNT
+            RAMP_STEPS * RAMP_COUNT
         );
         return Err(RangeError::new(&message).into());
     }
-    room.copy_from_slice(bytes);
+    ramp_bytes.copy_from_slice(bytes);
     Ok(ramps)
 }

@@ -1,14 +1,14 @@
 //! `MapSqueeze` for JavaScript.
 
 use super::face::cloud;
-use super::fields::{quoted, read_integer, read_word};
+use super::fields::{quote, read_integer, read_word};
 use super::maps::{read_map, read_plan};
 use super::pictures::{nearest_index, pixel_view, read_grid, read_ramps};
 use super::values::{flat_float_array, float_array, group_to_js, js_object, number_or_null, to_plain_js};
 use crate::geom::segment::Segment;
 use crate::map::{Cell, FloorPlan, MAX_DRAWS, Sampler};
 use crate::sim::settings::Word;
-use crate::sim::squeeze::{Attempt, MAX_SAMPLES, MAX_STEPS, MAX_TRIAL, MapSqueeze, max_draws};
+use crate::sim::squeeze::{Attempt, MAX_SAMPLES, MAX_STEPS, MAX_TRIAL_PARTS, MapSqueeze, max_draws};
 use js_sys::{Array, Float64Array, RangeError, Uint8Array, Uint8ClampedArray};
 use wasm_bindgen::prelude::*;
 
@@ -50,8 +50,8 @@ impl JsMapSqueeze {
     )]
     pub fn read(&self) -> Result<JsValue, JsValue> {
         let attempts = self.0.attempts().iter().enumerate();
-        let through = attempts.filter(|(_, attempt)| attempt.is_through_wall()).take(MAX_PATHS);
-        let paths = through.map(|(index, _)| self.path(index as f64));
+        let through_wall = attempts.filter(|(_, attempt)| attempt.is_through_wall()).take(MAX_SHOWN_PATHS);
+        let paths = through_wall.map(|(index, _)| self.path(index as f64));
         Ok(js_object(&[
             ("config", self.config()),
             ("shown", self.shown().into()),
@@ -65,7 +65,7 @@ impl JsMapSqueeze {
         ]))
     }
 
-    /// Level n of the noise parameters; null where they are not those of a level.
+    /// Level n of the noise parameters; null if they are not in the ratios of a level.
     #[wasm_bindgen(getter, unchecked_return_type = "number | null")]
     pub fn noise(&self) -> JsValue {
         number_or_null(self.0.settings().noise())
@@ -73,8 +73,8 @@ impl JsMapSqueeze {
 
     #[wasm_bindgen(getter, unchecked_return_type = "Plan")]
     pub fn plan(&self) -> JsValue {
-        let wall = |Segment { from, to }: &Segment| [from[0], from[1], to[0], to[1]];
-        let walls: Vec<_> = self.0.plan().walls().iter().map(wall).collect();
+        let wall_coordinates = |Segment { from, to }: &Segment| [from[0], from[1], to[0], to[1]];
+        let walls: Vec<_> = self.0.plan().walls().iter().map(wall_coordinates).collect();
         js_object(&[
             ("bounds", float_array(&self.0.plan().bounds())),
             ("walls", flat_float_array(&walls).into()),
@@ -86,17 +86,17 @@ impl JsMapSqueeze {
     pub fn grid(&self) -> JsValue {
         let Some(grid) = self.0.plan().grid() else { return JsValue::NULL };
         let ([columns, rows], origin) = (grid.size(), grid.origin());
-        let cells = |kind| {
-            let marks: Vec<u8> = grid.cells().map(|cell| u8::from(cell == kind)).collect();
-            Uint8Array::from(&marks[..]).into()
+        let marks_of = |kind| {
+            let cell_marks: Vec<u8> = grid.cells().map(|cell| u8::from(cell == kind)).collect();
+            Uint8Array::from(&cell_marks[..]).into()
         };
         js_object(&[
             ("columns", (columns as f64).into()),
             ("rows", (rows as f64).into()),
             ("resolution", grid.resolution().into()),
             ("origin", float_array(&<[f64; 3]>::from(origin))),
-            ("occupied", cells(Cell::Occupied)),
-            ("unknown", cells(Cell::Unknown)),
+            ("occupied", marks_of(Cell::Occupied)),
+            ("unknown", marks_of(Cell::Unknown)),
         ])
     }
 
@@ -126,8 +126,8 @@ impl JsMapSqueeze {
     /// for longest. If the robot does not fit there, another pose where it fits; null if there is none.
     #[wasm_bindgen(getter, js_name = openPlace, unchecked_return_type = "Start | null")]
     pub fn open_place(&self) -> JsValue {
-        let place = self.0.open_place();
-        place.map_or(JsValue::NULL, |place| group_to_js(&mut <[f64; 3]>::from(place)))
+        let free_pose = self.0.open_place();
+        free_pose.map_or(JsValue::NULL, |place| group_to_js(&mut <[f64; 3]>::from(place)))
     }
 
     /// True if the robot collides with nothing at its start pose.
@@ -167,7 +167,7 @@ impl JsMapSqueeze {
         to_plain_js(&self.0.stats())
     }
 
-    /// Draws `count` accepted samples with a sampler and forgets them, for timing it; throws where the robot is wedged.
+    /// Draws `count` accepted samples with a sampler and discards them, to measure the time. Throws if too many draws are rejected.
     #[wasm_bindgen(unchecked_return_type = "{ draws: number; wallTests: number }")]
     pub fn trial(
         &self,
@@ -177,13 +177,13 @@ impl JsMapSqueeze {
     ) -> Result<JsValue, JsValue> {
         let steps = read_integer("steps", steps, 1..=MAX_STEPS)?;
         let sampler = read_word::<Sampler>("sampler", sampler)?.in_parts(steps as u32);
-        let count = read_integer("count", count, 1..=MAX_TRIAL / steps)? as usize;
+        let count = read_integer("count", count, 1..=MAX_TRIAL_PARTS / steps)? as usize;
         let cost = self.0.trial(sampler, count).map_err(|wedged| {
-            let most = max_draws(sampler.parts() as usize * count);
+            let max_total_draws = max_draws(sampler.parts() as usize * count);
             RangeError::new(&format!(
-                "sampler is {}, by which {wedged}; allowed is one of at most {MAX_DRAWS} draws an accepted sample and {most} \
+                "sampler is {}, by which {wedged}; allowed is one of at most {MAX_DRAWS} draws an accepted sample and {max_total_draws} \
                  for {count} of them",
-                quoted(sampler.get()),
+                quote(sampler.get()),
             ))
         })?;
         to_plain_js(&cost)
@@ -217,7 +217,7 @@ impl JsMapSqueeze {
 }
 
 /// Maximum number of paths shown: more would be indistinguishable, and take longer than a frame.
-const MAX_PATHS: usize = 60;
+const MAX_SHOWN_PATHS: usize = 60;
 
 /// Decodes a PNG image to red, green, blue and opacity of its pixels, for the core of a figure, which has no decoder.
 #[cfg(not(widget))]

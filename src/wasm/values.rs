@@ -1,4 +1,4 @@
-//! JavaScript values made of Rust's.
+//! Conversion of Rust values to JavaScript values.
 
 use crate::sim::settings::{Declared, Group, Setting, Word, Words};
 use js_sys::{Array, Float64Array, Object, Uint8Array};

@@ -17,9 +17,9 @@ use std::f64::consts::TAU;
 /// True α's of the simulation, with the rule of Table 5.6.
 pub const ALPHAS: [f64; 4] = [0.05, 0.008, 0.004, 0.003];
 
-/// Leg length of these α's: the defaults of AMCL's update triggers, m and rad.
-const DISTANCE: f64 = 0.25;
-pub const ANGLE: f64 = 0.2;
+/// Length of the legs to which these α's apply (m, rad): the defaults of AMCL's update triggers.
+const LEG_DISTANCE: f64 = 0.25;
+pub const LEG_ANGLE: f64 = 0.2;
 
 /// Systematic errors of odometry and reference.
 pub const CLOCK_OFFSET: f64 = 0.15;
@@ -28,15 +28,15 @@ pub const LEVER_ARM: [f64; 2] = [0.12, 0.0];
 pub const DISTANCE_SCALE: f64 = 1.02;
 pub const TURN_SCALE: f64 = 0.97;
 
-/// Jumps of the reference: size (m), number of rows of each, and probability that one begins at a row. They make about one
+/// Jumps of the reference: size (m), number of rows of a jump, and probability that one begins at a row. They make about one
 /// leg in a hundred an outlier.
-const JUMP: f64 = 0.5;
+const JUMP_SIZE: f64 = 0.5;
 const JUMP_ROWS: usize = 25;
 const JUMP_PROBABILITY: f64 = 4e-4;
 
 /// Time between two rows, s, and number of rows.
 const ROW_INTERVAL: f64 = 0.02;
-const ROWS: usize = 9000;
+const ROW_COUNT: usize = 9000;
 
 /// Speed, m/s, and turn rate, rad/s.
 const SPEED: f64 = 0.6;
@@ -46,7 +46,7 @@ const TURN_RATE: f64 = 0.8;
 const TURN_INTERVAL: f64 = 20.0;
 
 /// Returns the target of the robot (m) at a phase (rad): a rosette, which crosses the hall in all directions.
-fn target_at(phase: f64) -> [f64; 2] {
+fn target_position(phase: f64) -> [f64; 2] {
     let radius = 2.1 + 1.1 * libm::cos(2.4 * phase);
     [1.35 * radius * libm::cos(phase), radius * libm::sin(phase)]
 }
@@ -61,7 +61,7 @@ struct Robot {
 
 impl Robot {
     /// Returns the speeds (m/s, rad/s) at a time and estimated pose.
-    fn drive(&mut self, time: f64, pose: &SE2, rng: &mut Xoshiro256PlusPlus) -> [f64; 2] {
+    fn next_speeds(&mut self, time: f64, pose: &SE2, rng: &mut Xoshiro256PlusPlus) -> [f64; 2] {
         if time >= self.next_turn_time {
             self.next_turn_time += TURN_INTERVAL;
             self.remaining_turn = rng.random_range(1.2..3.0) * if rng.random_bool(0.5) { 1.0 } else { -1.0 };
@@ -72,15 +72,15 @@ impl Robot {
             return [0.0, turn / ROW_INTERVAL];
         }
         // The target moves ahead of the robot.
-        let mut target = target_at(self.phase);
+        let mut target = target_position(self.phase);
         while libm::hypot(target[0] - pose.x(), target[1] - pose.y()) < 0.7 {
             self.phase += 0.002;
-            target = target_at(self.phase);
+            target = target_position(self.phase);
         }
         let bearing = libm::atan2(target[1] - pose.y(), target[0] - pose.x());
-        let off = wrap_angle(bearing - pose.theta());
-        let v = SPEED * libm::cos(off).max(0.0);
-        [v, (2.0 * off).clamp(-TURN_RATE, TURN_RATE)]
+        let heading_error = wrap_angle(bearing - pose.theta());
+        let v = SPEED * libm::cos(heading_error).max(0.0);
+        [v, (2.0 * heading_error).clamp(-TURN_RATE, TURN_RATE)]
     }
 }
 
@@ -94,52 +94,56 @@ struct CurrentLeg {
 /// Returns the simulated log of a seed.
 pub fn example(seed: u64) -> Log {
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
-    let [x, y] = target_at(0.0);
+    let [x, y] = target_position(0.0);
     let start = SE2::new(x, y, 1.6);
     let mut robot = Robot { phase: 0.0, remaining_turn: 0.0, next_turn_time: 6.0 };
     let mut odometry = vec![(0.0, SE2::identity())];
     let mut truth = vec![(0.0, start)];
     let mut leg = CurrentLeg { odometry: SE2::identity(), truth: start, rows: vec![(0.0, SE2::identity())] };
-    for row in 1..ROWS {
+    for row in 1..ROW_COUNT {
         let time = ROW_INTERVAL * row as f64;
-        let (_, driven) = leg.rows[leg.rows.len() - 1];
+        let (_, leg_motion) = leg.rows[leg.rows.len() - 1];
         // The robot steers by its odometry. Steering by the true pose would correct the errors, and correlate them with the turns.
-        let [v, omega] = robot.drive(time, &(start * odometry[row - 1].1), &mut rng);
-        let driven = driven * SE2::exp(&Vector3::new(v * ROW_INTERVAL, 0.0, omega * ROW_INTERVAL));
-        let read = Vector3::new(v * ROW_INTERVAL / DISTANCE_SCALE, 0.0, omega * ROW_INTERVAL / TURN_SCALE);
-        let pose = odometry[row - 1].1 * SE2::exp(&read);
+        let [v, omega] = robot.next_speeds(time, &(start * odometry[row - 1].1), &mut rng);
+        let driven = leg_motion * SE2::exp(&Vector3::new(v * ROW_INTERVAL, 0.0, omega * ROW_INTERVAL));
+        let odometry_step =
+            Vector3::new(v * ROW_INTERVAL / DISTANCE_SCALE, 0.0, omega * ROW_INTERVAL / TURN_SCALE);
+        let pose = odometry[row - 1].1 * SE2::exp(&odometry_step);
         odometry.push((time, pose));
         leg.rows.push((time, driven));
-        let moved = |from: f64, to: f64| (to - from).abs() > DISTANCE;
-        let turned = wrap_angle(pose.theta() - leg.odometry.theta()).abs() > ANGLE;
-        if moved(leg.odometry.x(), pose.x()) || moved(leg.odometry.y(), pose.y()) || turned {
+        let has_moved = |from: f64, to: f64| (to - from).abs() > LEG_DISTANCE;
+        let has_turned = wrap_angle(pose.theta() - leg.odometry.theta()).abs() > LEG_ANGLE;
+        if has_moved(leg.odometry.x(), pose.x()) || has_moved(leg.odometry.y(), pose.y()) || has_turned {
             let end = finish_leg(&leg, &mut truth, &mut rng);
             leg = CurrentLeg { odometry: pose, truth: end, rows: vec![(time, SE2::identity())] };
         }
     }
     // The rows after the last complete leg get no noise.
     truth.extend(leg.rows.iter().skip(1).map(|(time, driven)| (*time, leg.truth * *driven)));
-    let trajectory = |samples| {
+    let trajectory_of = |samples| {
         // The times increase, so that this is no error.
         let Ok(trajectory) = Trajectory::new(samples) else { unreachable!() };
         trajectory
     };
-    Log { odometry: trajectory(odometry), reference: trajectory(measured_by_reference(&truth, &mut rng)) }
+    Log {
+        odometry: trajectory_of(odometry),
+        reference: trajectory_of(measured_by_reference(&truth, &mut rng)),
+    }
 }
 
 /// Appends the true poses of a finished leg, and returns its true end. Each row adds an independent part of the noise. If the
 /// noise were proportional to time, legs with other boundaries would have less of it.
 fn finish_leg(leg: &CurrentLeg, truth: &mut Vec<(f64, SE2)>, rng: &mut Xoshiro256PlusPlus) -> SE2 {
     let [a1, a2, a3, a4] = ALPHAS;
-    let rows = &leg.rows[1..];
-    let (_, driven) = leg.rows[rows.len()];
+    let leg_rows = &leg.rows[1..];
+    let (_, driven) = leg.rows[leg_rows.len()];
     let reading = OdomDelta::from_poses(&SE2::identity(), &driven);
     let variances = OdometryRule::Table.variances(&reading, &[a1, a2, a3, a4, 0.0]);
-    let share = Variance(1.0 / rows.len() as f64);
+    let variance_share = Variance(1.0 / leg_rows.len() as f64);
     let mut unit_noise = [0.0; 3];
     let mut end = driven;
-    for (time, pose) in rows {
-        unit_noise.iter_mut().for_each(|noise| *noise += NoiseKind::Normal.sample(share, rng));
+    for (time, pose) in leg_rows {
+        unit_noise.iter_mut().for_each(|noise| *noise += NoiseKind::Normal.sample(variance_share, rng));
         [.., end] = variances.executed(&reading, unit_noise).poses(&SE2::identity());
         truth.push((*time, leg.truth * pose.boxplus(end.boxminus(&driven))));
     }
@@ -149,21 +153,25 @@ fn finish_leg(leg: &CurrentLeg, truth: &mut Vec<(f64, SE2)>, rng: &mut Xoshiro25
 /// Returns the true trajectory as the reference measures it.
 fn measured_by_reference(truth: &[(f64, SE2)], rng: &mut Xoshiro256PlusPlus) -> Vec<(f64, SE2)> {
     let mut jump = SE2::identity();
-    let mut left = 0;
+    let mut remaining_jump_rows = 0;
     truth
         .iter()
         .map(|(time, pose)| {
-            if left > 0 {
-                left -= 1;
+            if remaining_jump_rows > 0 {
+                remaining_jump_rows -= 1;
             } else if rng.random_bool(JUMP_PROBABILITY) {
                 let bearing = TAU * rng.random::<f64>();
-                jump = SE2::new(JUMP * libm::cos(bearing), JUMP * libm::sin(bearing), 0.0);
-                left = JUMP_ROWS;
+                jump = SE2::new(JUMP_SIZE * libm::cos(bearing), JUMP_SIZE * libm::sin(bearing), 0.0);
+                remaining_jump_rows = JUMP_ROWS;
             }
-            let off = if left > 0 { jump } else { SE2::identity() };
-            let mounted = *pose * SE2::new(LEVER_ARM[0], LEVER_ARM[1], MOUNT_YAW);
-            let shown = SE2::new(mounted.x() + off.x(), mounted.y() + off.y(), mounted.theta());
-            (time + CLOCK_OFFSET, shown)
+            let heading_error = if remaining_jump_rows > 0 { jump } else { SE2::identity() };
+            let sensor_pose = *pose * SE2::new(LEVER_ARM[0], LEVER_ARM[1], MOUNT_YAW);
+            let measured_pose = SE2::new(
+                sensor_pose.x() + heading_error.x(),
+                sensor_pose.y() + heading_error.y(),
+                sensor_pose.theta(),
+            );
+            (time + CLOCK_OFFSET, measured_pose)
         })
         .collect()
 }

@@ -97,20 +97,21 @@ impl AlphaCalibrator {
     /// # Errors
     /// [`SettingsError`] for the first setting out of range.
     pub fn new(settings: Settings) -> Result<Self, SettingsError> {
-        Self::with(settings, Source::Simulated, OnceCell::new())
+        Self::from_source(settings, Source::Simulated, OnceCell::new())
     }
 
     /// Creates a machine with a fit that another machine has saved. It has no log. Settings that need another fit are therefore
     /// [pending](AlphaCalibrator::is_pending).
     ///
     /// # Errors
-    /// [`RestoreError`] for settings out of range, or bytes of no fit.
+    /// [`RestoreError`] for settings out of range, or for bytes that are not a fit.
     pub fn restored(settings: Settings, saved: &[u8]) -> Result<Self, RestoreError> {
         let calibration: Calibration = postcard::from_bytes(saved).map_err(|_| RestoreError::Bytes)?;
-        Self::with(settings, Source::Elsewhere, OnceCell::from(calibration)).map_err(RestoreError::Settings)
+        Self::from_source(settings, Source::Elsewhere, OnceCell::from(calibration))
+            .map_err(RestoreError::Settings)
     }
 
-    fn with(
+    fn from_source(
         settings: Settings,
         source: Source,
         calibration: OnceCell<Calibration>,
@@ -133,7 +134,7 @@ impl AlphaCalibrator {
         &self.fit.settings
     }
 
-    /// Returns true while the settings need another fit, which only the machine with the log can make.
+    /// Returns true while the settings need another fit, which only a machine with the log can compute.
     pub fn is_pending(&self) -> bool {
         !self.fit.settings.has_same_fit(&self.settings)
     }
@@ -174,14 +175,14 @@ impl AlphaCalibrator {
         self.fit.calibration.get_or_init(|| {
             let Settings { seed, .. } = self.fit.settings;
             let options = self.fit.settings.options();
-            let fitted = |logs: &[Log]| {
+            let fit_logs = |logs: &[Log]| {
                 let drives: Vec<Drive> =
                     logs.iter().map(|Log { odometry, reference }| Drive { odometry, reference }).collect();
                 calibrate(&drives, &options)
             };
             match &self.source {
-                Source::Simulated => fitted(&[example::example(seed)]).ok(),
-                Source::Own(logs) => fitted(logs).ok(),
+                Source::Simulated => fit_logs(&[example::example(seed)]).ok(),
+                Source::Own(logs) => fit_logs(logs).ok(),
                 Source::Elsewhere => None,
             }
             .unwrap_or_else(|| Calibration::empty(options.model))
@@ -216,12 +217,13 @@ impl AlphaCalibrator {
         let mut draws = Draws::new(self.fit.settings.seed, self.fit.settings.noise);
         draws.extend_to(OUTCOMES);
         let outcomes: Vec<[f64; 3]> = (0..OUTCOMES)
-            .map(|outcome| self.outcome(&reading, draws.unit_noise_of(outcome)))
+            .map(|outcome| self.outcome(&reading, draws.noise_of_sample(outcome)))
             .map(Into::into)
             .collect();
         let poses: Vec<SE2> = outcomes.iter().map(|pose| SE2::from(*pose)).collect();
-        let cloud = Ellipse::from_moments(&CartesianMoments::from_poses(&poses));
-        let outline = if cloud.has_area() { cloud.boundary(OUTLINE_SEGMENTS) } else { vec![] };
+        let position_ellipse = Ellipse::from_moments(&CartesianMoments::from_poses(&poses));
+        let outline =
+            if position_ellipse.has_area() { position_ellipse.boundary(OUTLINE_SEGMENTS) } else { vec![] };
         let read = self.outcome(&reading, [0.0; 3]);
         let ended = self.calibration().corrected.motion(leg);
         Some(LegView { outcomes, outline, read: read.into(), ended: ended.into() })
@@ -231,17 +233,19 @@ impl AlphaCalibrator {
     fn outcome(&self, reading: &[f64; 3], unit_noise: [f64; 3]) -> SE2 {
         let (settings, calibration) = (&self.fit.settings, self.calibration());
         // An α that the log does not identify adds nothing.
-        let alpha =
+        let used_alpha =
             |k: usize| settings.inflation * calibration.alphas.get(k).copied().flatten().unwrap_or(0.0);
         let [first, second, third] = *reading;
         if settings.model == Model::Velocity {
-            let model =
-                VelocityModel { alphas: VelocityAlphas(std::array::from_fn(alpha)), noise: settings.noise };
+            let model = VelocityModel {
+                alphas: VelocityAlphas(std::array::from_fn(used_alpha)),
+                noise: settings.noise,
+            };
             let command = VelocityCmd { v: first, omega: second, dt: third };
             return model.apply_noise(&command, &SE2::identity(), unit_noise);
         }
         let legs = OdomDelta { rot1: first, trans: second, rot2: third };
-        let alphas: RuleAlphas = std::array::from_fn(alpha);
+        let alphas: RuleAlphas = std::array::from_fn(used_alpha);
         let [.., end] =
             settings.rule.variances(&legs, &alphas).executed(&legs, unit_noise).poses(&SE2::identity());
         end
@@ -254,12 +258,17 @@ impl AlphaCalibrator {
             let [from, to] = leg.reference.map(|pose| pose * corrected.base());
             let [dx, dy] = [to.x() - from.x(), to.y() - from.y()];
             let [px, py] = [x - from.x(), y - from.y()];
-            let square = dx * dx + dy * dy;
-            let share = if square > 0.0 { ((px * dx + py * dy) / square).clamp(0.0, 1.0) } else { 0.0 };
-            libm::hypot(px - share * dx, py - share * dy)
+            let squared_length = dx * dx + dy * dy;
+            let path_fraction = if squared_length > 0.0 {
+                ((px * dx + py * dy) / squared_length).clamp(0.0, 1.0)
+            } else {
+                0.0
+            };
+            libm::hypot(px - path_fraction * dx, py - path_fraction * dy)
         };
-        let near = self.legs().iter().map(distance).enumerate();
-        near.filter(|(_, distance)| *distance < radius)
+        let distances = self.legs().iter().map(distance).enumerate();
+        distances
+            .filter(|(_, distance)| *distance < radius)
             .min_by(|(_, one), (_, other)| one.total_cmp(other))
             .map(|(index, _)| index)
     }

@@ -5,7 +5,7 @@ use crate::js::js_structs;
 use crate::models::OdometryRule;
 use crate::sim::settings::Words;
 
-/// Regressor of a variance: each variance has one α for the rotation and one for the distance.
+/// Regressor of a variance. Each variance has one α for the rotation and one for the distance.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Driver {
     /// Squared distance, or squared speed.
@@ -21,7 +21,7 @@ impl Words for Driver {
 /// Number of bins of a panel, with about equal numbers of legs. Legs with equal motions are in one bin.
 pub const BINS: usize = 8;
 
-/// Minimum number of legs of a bin: the standard error of a mean of fewer is meaningless.
+/// Minimum number of legs in a bin. With fewer legs the standard error of their mean is meaningless.
 const MIN_LEGS_PER_BIN: usize = 5;
 
 js_structs! {
@@ -61,48 +61,57 @@ pub fn panels(model: Model, calibration: &Calibration, driver: Driver) -> [Panel
 
 fn panel(model: Model, calibration: &Calibration, kind: usize, driver: Driver) -> Panel {
     let Calibration { alphas, intervals, observations, leg_fits, .. } = calibration;
-    let own = usize::from(is_translation_first(model, kind) != (driver == Driver::Way));
-    let pair = model.component_alphas()[kind];
-    let alpha = pair[own];
-    let slope = alphas[alpha];
-    let points: Vec<[f64; 4]> = observations
+    let alpha_of_component = usize::from(is_translation_first(model, kind) != (driver == Driver::Way));
+    let component_alphas = model.component_alphas()[kind];
+    let alpha = component_alphas[alpha_of_component];
+    let slope_or_none = alphas[alpha];
+    let weighted_points: Vec<[f64; 4]> = observations
         .iter()
         .zip(leg_fits)
         .filter(|(observation, fit)| !observation.residuals[kind].is_nan() && !fit.is_outlier)
         .map(|(observation, fit)| {
-            let coefficient = observation.coefficients[kind][own];
+            let coefficient = observation.coefficients[kind][alpha_of_component];
             let variance = fit.stds[kind] * fit.stds[kind];
-            let explained = variance - slope.unwrap_or(0.0) * coefficient;
-            let square = fit.standardized[kind] * fit.standardized[kind] * variance;
+            let other_variance = variance - slope_or_none.unwrap_or(0.0) * coefficient;
+            let squared_innovation = fit.standardized[kind] * fit.standardized[kind] * variance;
             // The square of a normal variate of variance v has variance 2v².
-            [coefficient, square - explained, 1.0, 2.0 * variance * variance]
+            [coefficient, squared_innovation - other_variance, 1.0, 2.0 * variance * variance]
         })
         .collect();
-    let mut panel =
-        Panel { alpha, x: Vec::new(), y: Vec::new(), error: Vec::new(), slope, interval: intervals[alpha] };
-    // A panel has no bins if its α is not identified, such as one of the rotation for legs that hardly turn.
+    let mut panel = Panel {
+        alpha,
+        x: Vec::new(),
+        y: Vec::new(),
+        error: Vec::new(),
+        slope: slope_or_none,
+        interval: intervals[alpha],
+    };
+    // A panel has no bins if its α is not identified, for example the α of rotation for legs that hardly turn.
     if panel.slope.is_none() {
         return panel;
     }
-    let mut along: Vec<f64> = points.iter().map(|point| point[0]).collect();
-    along.sort_unstable_by(f64::total_cmp);
-    let size = points.len().div_ceil(BINS).max(MIN_LEGS_PER_BIN);
-    let mut after = f64::NEG_INFINITY;
-    for bin in along.chunks(size) {
-        let up_to = bin[bin.len() - 1];
-        let bin: Vec<&[f64; 4]> =
-            points.iter().filter(|point| point[0] > after && point[0] <= up_to).collect();
-        after = up_to;
+    let mut sorted_regressors: Vec<f64> = weighted_points.iter().map(|point| point[0]).collect();
+    sorted_regressors.sort_unstable_by(f64::total_cmp);
+    let bin_size = weighted_points.len().div_ceil(BINS).max(MIN_LEGS_PER_BIN);
+    let mut previous_limit = f64::NEG_INFINITY;
+    for bin in sorted_regressors.chunks(bin_size) {
+        let bin_limit = bin[bin.len() - 1];
+        let bin: Vec<&[f64; 4]> = weighted_points
+            .iter()
+            .filter(|point| point[0] > previous_limit && point[0] <= bin_limit)
+            .collect();
+        previous_limit = bin_limit;
         let sum =
             |value: &dyn Fn(&[f64; 4]) -> f64| bin.iter().map(|point| point[2] * value(point)).sum::<f64>();
-        let total = sum(&|_| 1.0);
-        let [x, y] = [sum(&|point| point[0]) / total, sum(&|point| point[1]) / total];
-        let spread = sum(&|point| (point[1] - y) * (point[1] - y)) / (total * (total - 1.0));
-        let modelled = sum(&|point| point[2] * point[3]) / (total * total);
-        if bin.len() >= MIN_LEGS_PER_BIN && total > 1.0 {
+        let weight_sum = sum(&|_| 1.0);
+        let [x, y] = [sum(&|point| point[0]) / weight_sum, sum(&|point| point[1]) / weight_sum];
+        let scatter_variance =
+            sum(&|point| (point[1] - y) * (point[1] - y)) / (weight_sum * (weight_sum - 1.0));
+        let model_variance = sum(&|point| point[2] * point[3]) / (weight_sum * weight_sum);
+        if bin.len() >= MIN_LEGS_PER_BIN && weight_sum > 1.0 {
             panel.x.push(x);
             panel.y.push(y);
-            panel.error.push(spread.max(modelled).sqrt());
+            panel.error.push(scatter_variance.max(model_variance).sqrt());
         }
     }
     panel

@@ -74,23 +74,23 @@ impl Settings {
         *self = Self { inflation, noise, seed, ..*self };
     }
 
-    /// Returns true if other settings have the same fit to a log: they differ in the predicted cloud only.
+    /// Returns true if other settings have the same fit to a log, because they differ only in the predicted cloud.
     pub(super) fn has_same_fit(&self, other: &Self) -> bool {
-        let mut predicting = *self;
-        predicting.copy_prediction_settings(other);
-        predicting == *other
+        let mut with_other_prediction = *self;
+        with_other_prediction.copy_prediction_settings(other);
+        with_other_prediction == *other
     }
 }
 
 impl Rules for Settings {
-    /// Changes the rule to one of a changed model, or the model to that of a changed rule.
+    /// Changes the rule if the model was changed to one that does not have it, or the model if the rule was changed.
     fn settle(&mut self, _: &Self, named: &[&str]) {
-        let fits = self.omnidirectional() == (self.rule == OdometryRule::Omni);
+        let model_fits_rule = self.omnidirectional() == (self.rule == OdometryRule::Omni);
         match [named.contains(&"model"), named.contains(&"rule")] {
-            [true, false] if !fits => {
+            [true, false] if !model_fits_rule => {
                 self.rule = if self.omnidirectional() { OdometryRule::Omni } else { OdometryRule::Table };
             }
-            [false, true] if !fits => {
+            [false, true] if !model_fits_rule => {
                 self.model =
                     if self.rule == OdometryRule::Omni { Model::Omnidirectional } else { Model::Odometry };
             }
@@ -122,14 +122,14 @@ impl Settings {
         let Self { mount_yaw, lever_arm, distance_scale, turn_scale, clock_offset, .. } = *self;
         let corrected: [bool; ERROR_COUNT] =
             [clock_offset, mount_yaw, lever_arm, lever_arm, distance_scale, turn_scale];
-        let stated = |std: f64| (std > 0.0).then_some(std);
+        let some_if_positive = |std: f64| (std > 0.0).then_some(std);
         Options {
             model: self.model(),
             legs: self.legs(),
             outliers: self.outliers,
             correct: corrected.map(|is| if is { None } else { Some(false) }),
-            position_std: stated(self.position_std),
-            yaw_std: stated(self.yaw_std),
+            position_std: some_if_positive(self.position_std),
+            yaw_std: some_if_positive(self.yaw_std),
         }
     }
 

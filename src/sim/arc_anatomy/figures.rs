@@ -5,12 +5,12 @@ use crate::geom::arc::{Arc, ArcInversion, invert_arc};
 use crate::geom::se2::SE2;
 use crate::js::js_structs;
 use crate::models::MotionModel;
-use crate::noise::{NoiseKind, Variance, joint};
+use crate::noise::{NoiseKind, Variance, product_or_zero};
 
 js_structs! {
     /// An arc with its circle.
     #[derive(Clone, Copy, Debug, PartialEq)]
-    pub struct Bend {
+    pub struct ArcWithCircle {
         /// Length, m; negative in reverse.
         pub arc_length: f64,
         /// Turn, rad, positive to the left.
@@ -25,20 +25,20 @@ js_structs! {
     }
 }
 
-impl Bend {
+impl ArcWithCircle {
     /// Returns the first part of the arc, up to this fraction of its length.
-    pub(super) fn arc(&self, start: SE2, share: f64) -> Arc {
+    pub(super) fn arc_of_velocities(&self, start: SE2, share: f64) -> Arc {
         Arc { start, length: self.arc_length * share, turn: self.turn * share }
     }
 
     fn of(arc: &Arc) -> Self {
         let Arc { start, length, turn } = *arc;
-        let rates = ArcInversion { v_hat: length, omega_hat: turn, gamma_hat: 0.0 };
+        let inversion = ArcInversion { v_hat: length, omega_hat: turn, gamma_hat: 0.0 };
         Self {
             arc_length: length,
             turn,
-            radius: rates.radius(),
-            centre: rates.centre(&start),
+            radius: inversion.radius(),
+            centre: inversion.centre(&start),
             end: arc.end().into(),
         }
     }
@@ -77,14 +77,14 @@ impl Factor {
 }
 
 js_structs! {
-    /// All readouts next to the picture.
+    /// Numbers that are shown next to the picture.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Stats as "AnatomyStats" {
-        pub commanded: Bend,
+        pub commanded: ArcWithCircle,
         /// Arc to the final position.
-        pub inverted: Bend,
+        pub inverted: ArcWithCircle,
         /// Arc that v̂ and ω̂ drive: the inverted one, unless the radius is unsigned as printed.
-        pub driven: Bend,
+        pub driven: ArcWithCircle,
         /// Final turn γ̂Δt, rad.
         pub last_turn: f64,
         /// Factors of v̂, ω̂ and γ̂.
@@ -140,7 +140,7 @@ fn residuals(settings: &Settings, estimates: &ArcInversion) -> [Residual; 3] {
 
 /// Returns p of the final pose.
 pub(super) fn prob(settings: &Settings) -> f64 {
-    joint(
+    product_or_zero(
         residuals(settings, &estimated(settings))
             .map(|Residual { residual, variance, .. }| settings.noise.prob(residual, variance)),
     )
@@ -151,15 +151,16 @@ impl Stats {
         let Settings { command, noise, .. } = settings;
         let (start, next, model) = (settings.start(), settings.next(), settings.model());
         let estimates = estimated(settings);
-        let found = inverted(settings);
+        let inverted_arc = inverted(settings);
         let factors = residuals(settings, &estimates).map(|residual| Factor::of(*noise, residual));
-        let off = |i: &usize| factors[*i].deviations.abs();
-        let weakest = (0..3).rev().max_by(|a, b| off(a).total_cmp(&off(b))).unwrap_or(0);
-        let arc = |v: f64, omega: f64| Arc { start, length: v * command.dt, turn: omega * command.dt };
+        let sigmas_off = |i: &usize| factors[*i].deviations.abs();
+        let weakest = (0..3).rev().max_by(|a, b| sigmas_off(a).total_cmp(&sigmas_off(b))).unwrap_or(0);
+        let arc_of_velocities =
+            |v: f64, omega: f64| Arc { start, length: v * command.dt, turn: omega * command.dt };
         Self {
-            commanded: Bend::of(&arc(command.v, command.omega)),
-            inverted: Bend::of(&arc(found.v_hat, found.omega_hat)),
-            driven: Bend::of(&arc(estimates.v_hat, estimates.omega_hat)),
+            commanded: ArcWithCircle::of(&arc_of_velocities(command.v, command.omega)),
+            inverted: ArcWithCircle::of(&arc_of_velocities(inverted_arc.v_hat, inverted_arc.omega_hat)),
+            driven: ArcWithCircle::of(&arc_of_velocities(estimates.v_hat, estimates.omega_hat)),
             last_turn: estimates.gamma_hat * command.dt,
             factors,
             weakest,

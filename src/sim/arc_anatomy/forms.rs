@@ -44,12 +44,12 @@ pub fn form_errors() -> FormErrors {
     let [first, last] = FIRST_AND_LAST_DECADE.map(|decade| decade * POINTS_PER_DECADE);
     let omega: Vec<f64> =
         (first..=last).map(|i| libm::exp10(f64::from(i) / f64::from(POINTS_PER_DECADE))).collect();
-    let errors: Vec<[f64; 3]> = omega.iter().map(|omega| root_mean_squares(*omega)).collect();
-    let of = |form: usize| errors.iter().map(|error| error[form]).collect();
+    let rms_errors: Vec<[f64; 3]> = omega.iter().map(|omega| root_mean_squares(*omega)).collect();
+    let errors_of_form = |form: usize| rms_errors.iter().map(|error| error[form]).collect();
     FormErrors {
-        arc: of(0),
-        straight: of(1),
-        chord: of(2),
+        arc: errors_of_form(0),
+        straight: errors_of_form(1),
+        chord: errors_of_form(2),
         estimated_crossover: (2.0 * f64::EPSILON).sqrt() / DURATION,
         threshold: CHAPTERS_THRESHOLD,
         omega,
@@ -58,28 +58,28 @@ pub fn form_errors() -> FormErrors {
 
 /// Returns the root mean square errors of the arc, the straight line and the chord.
 fn root_mean_squares(omega: f64) -> [f64; 3] {
-    let mut squares = [0.0; 3];
+    let mut squared_errors = [0.0; 3];
     for i in 0..HEADINGS {
         // The headings avoid the axes, along which one of the coordinates would be exact.
         let theta = TAU * (f64::from(i) + 0.37) / f64::from(HEADINGS) - 0.5 * TAU;
-        let truth = reference(theta, omega);
-        let forms = [arc_form(theta, omega), straight_form(theta), chord_form(theta, omega)];
-        for (square, end) in squares.iter_mut().zip(forms) {
-            for (value, truth) in end.into_iter().zip(truth) {
-                let off = (DoubleDouble::from(value) - truth).to_f64();
-                *square += off * off;
+        let true_end = exact_end(theta, omega);
+        let form_ends = [arc_form(theta, omega), straight_form(theta), chord_form(theta, omega)];
+        for (square, end) in squared_errors.iter_mut().zip(form_ends) {
+            for (value, truth) in end.into_iter().zip(true_end) {
+                let coordinate_error = (DoubleDouble::from(value) - truth).to_f64();
+                *square += coordinate_error * coordinate_error;
             }
         }
     }
-    squares.map(|square| (square / f64::from(HEADINGS)).sqrt())
+    squared_errors.map(|square| (square / f64::from(HEADINGS)).sqrt())
 }
 
 fn arc_form(theta: f64, omega: f64) -> [f64; 2] {
     let radius = SPEED / omega;
-    let next = theta + omega * DURATION;
+    let end_heading = theta + omega * DURATION;
     [
-        radius * libm::sin(next) - radius * libm::sin(theta),
-        radius * libm::cos(theta) - radius * libm::cos(next),
+        radius * libm::sin(end_heading) - radius * libm::sin(theta),
+        radius * libm::cos(theta) - radius * libm::cos(end_heading),
     ]
 }
 
@@ -95,7 +95,7 @@ fn chord_form(theta: f64, omega: f64) -> [f64; 2] {
 }
 
 /// Returns the end of the motion in double-double arithmetic.
-pub fn reference(theta: f64, omega: f64) -> [DoubleDouble; 2] {
+pub fn exact_end(theta: f64, omega: f64) -> [DoubleDouble; 2] {
     let half = DoubleDouble::product(0.5 * omega, DURATION);
     let distance = DoubleDouble::product(SPEED, DURATION) * half.sinc();
     let (sin, cos) = (DoubleDouble::from(theta) + half).sin_cos();

@@ -6,8 +6,8 @@ mod settings;
 mod surface;
 mod table;
 
-pub use figures::{Bend, Factor, Stats};
-pub use forms::{CHAPTERS_THRESHOLD, FormErrors, form_errors, reference};
+pub use figures::{ArcWithCircle, Factor, Stats};
+pub use forms::{CHAPTERS_THRESHOLD, FormErrors, exact_end, form_errors};
 pub use settings::*;
 pub use surface::{CONTOUR_LEVELS, Surface};
 pub use table::Table;
@@ -78,19 +78,19 @@ impl ArcAnatomy {
         let (start, next) = (self.settings.start(), self.settings.next());
         let Stats { commanded, inverted, driven, .. } = self.stats();
         let xi = next.boxminus(&start);
-        let slid = |i: usize, of: usize| start.boxplus(xi * (i as f64 / of as f64));
-        let point = |pose: SE2| [pose.x(), pose.y()];
-        let tick = |i: usize| {
-            let pose = slid(i, LIE_TICKS);
+        let pose_on_lie_path = |i: usize, of: usize| start.boxplus(xi * (i as f64 / of as f64));
+        let position_of = |pose: SE2| [pose.x(), pose.y()];
+        let tick_segment = |i: usize| {
+            let pose = pose_on_lie_path(i, LIE_TICKS);
             let [x, y] = PreparedPose::new(pose).transform([0.0, xi.y]);
             [pose.x(), pose.y(), x, y]
         };
         Paths {
-            commanded: commanded.arc(start, 1.0).points(),
-            inverted: inverted.arc(start, 1.0).points(),
-            driven: driven.arc(start, 1.0).points(),
-            lie: (0..=LIE_CHORDS).map(|i| point(slid(i, LIE_CHORDS))).collect(),
-            ticks: (0..=LIE_TICKS).map(tick).collect(),
+            commanded: commanded.arc_of_velocities(start, 1.0).points(),
+            inverted: inverted.arc_of_velocities(start, 1.0).points(),
+            driven: driven.arc_of_velocities(start, 1.0).points(),
+            lie: (0..=LIE_CHORDS).map(|i| position_of(pose_on_lie_path(i, LIE_CHORDS))).collect(),
+            ticks: (0..=LIE_TICKS).map(tick_segment).collect(),
         }
     }
 
@@ -100,7 +100,11 @@ impl ArcAnatomy {
         let start = self.settings.start();
         let Stats { commanded, driven, .. } = self.stats();
         let xi = self.settings.next().boxminus(&start);
-        [commanded.arc(start, share).end(), driven.arc(start, share).end(), start.boxplus(xi * share)]
+        [
+            commanded.arc_of_velocities(start, share).end(),
+            driven.arc_of_velocities(start, share).end(),
+            start.boxplus(xi * share),
+        ]
     }
 
     /// Returns the heat map over the rectangle from `min` to `max` (m, `min` below `max` in both coordinates); None if no heat

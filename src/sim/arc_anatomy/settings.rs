@@ -37,7 +37,7 @@ impl Words for SurfaceKind {
         &[("none", Self::Nothing), ("prob", Self::Prob), ("density", Self::Density)];
 }
 
-/// Command from the origin, and pose of the robot after it. The pose is off the commanded arc, so that no residual is 0.
+/// Command from the origin, and pose of the robot after the command. The pose is off the commanded arc, so that no residual is 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Preset {
     pub name: &'static str,

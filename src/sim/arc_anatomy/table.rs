@@ -24,7 +24,7 @@ impl Table {
     /// Computes the lines. With the displacement (a, b) in the frame of the start, line 1 is ½ · (−a)/(−b).
     pub(super) fn of(settings: &Settings, stats: &Stats) -> Self {
         let (start, next) = (settings.start(), settings.next());
-        let step = start.between(&next);
+        let displacement = start.between(&next);
         let executed @ ArcInversion { v_hat, omega_hat, gamma_hat } = estimated(settings);
         // The centre does not depend on the sign of the radius.
         let [x, y] = inverted(settings).centre(&start).unwrap_or([f64::INFINITY; 2]);
@@ -32,7 +32,7 @@ impl Table {
         Self {
             lines: [
                 // The quotient is halved last, because half of the smallest double is 0.
-                0.5 * (step.x() / step.y()),
+                0.5 * (displacement.x() / displacement.y()),
                 x,
                 y,
                 executed.radius(),

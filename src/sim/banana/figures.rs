@@ -126,7 +126,7 @@ js_structs! {
         pub cross_track_skew: f64,
         /// Gain in mean log-likelihood of Gaussians in exponential and in arc coordinates; 0 for the linearization.
         pub likelihood_gain: LikelihoodGain,
-        /// Area of the 2σ ellipse in (x, y), divided by that of the 2σ outline; 1 for the linearization.
+        /// Area of the 2σ ellipse in (x, y), divided by that of the 2σ outline in exponential coordinates; 1 for the linearization.
         pub area_ratio: f64,
     }
 

@@ -16,31 +16,31 @@ const MIN_DISTANCE: f64 = 3.7;
 const GAP_FRACTION: f64 = 0.95;
 
 impl BananaMachine {
-    /// Returns up to two points (x, y) in m that are inside the 2σ ellipse, and where no robot stops. One is short of the mean and
-    /// one beyond it, each the point of its side with the largest distance in exponential coordinates.
+    /// Returns up to two points (x, y) in m that are inside the 2σ ellipse, and where no robot stops. One is nearer than the mean and
+    /// the other beyond it. Each is the point of its side with the largest distance in exponential coordinates.
     pub fn gaps(&self) -> Vec<[f64; 2]> {
         let Self { figures, .. } = self;
         if figures.area_ratio.is_nan() || figures.area_ratio < MIN_AREA_RATIO {
             return Vec::new();
         }
-        let floor = Ellipse::from_moments(&figures.cartesian);
+        let plane_ellipse = Ellipse::from_moments(&figures.cartesian);
         let contour = ExponentialContour::new(&figures.exponential, &START);
         let mean = figures.exponential.mean;
-        let candidates: Vec<_> = floor
+        let candidates: Vec<_> = plane_ellipse
             .boundary(OUTLINE_SEGMENTS)
             .into_iter()
             .map(|point| {
-                let [x, y] = floor.inside(point, GAP_FRACTION);
+                let [x, y] = plane_ellipse.inside(point, GAP_FRACTION);
                 let (length, turn) = arc_near(&START, &SE2::new(x, y, 0.0), mean.z);
                 ([x, y], contour.ellipse().distance([length, turn]), length < mean.x)
             })
             .filter(|(_, distance, _)| *distance > MIN_DISTANCE)
             .collect();
-        let furthest = |before: bool| {
-            let side = candidates.iter().filter(|(_, _, is_before)| *is_before == before);
-            side.max_by(|(_, one, _), (_, other, _)| one.total_cmp(other))
+        let furthest_candidate = |before: bool| {
+            let side_candidates = candidates.iter().filter(|(_, _, is_before)| *is_before == before);
+            side_candidates.max_by(|(_, one, _), (_, other, _)| one.total_cmp(other))
         };
-        let mut gaps: Vec<_> = [true, false].into_iter().filter_map(furthest).collect();
+        let mut gaps: Vec<_> = [true, false].into_iter().filter_map(furthest_candidate).collect();
         gaps.sort_by(|(_, one, _), (_, other, _)| other.total_cmp(one));
         gaps.into_iter().map(|(point, _, _)| *point).collect()
     }

@@ -30,29 +30,32 @@ use std::f64::consts::TAU;
 
 impl Settings {
     /// Returns the current model with its input for a command: the command itself, or the noise-free odometry reading of it.
-    fn motion(&self, command: VelocityCmd) -> Motion {
+    fn motion_of(&self, command: VelocityCmd) -> ModelWithInput {
         match self.model {
             ModelKind::Velocity => {
                 let alphas = VelocityAlphas(self.effective(self.velocity_alphas));
-                Motion::Velocity(VelocityModel { alphas, noise: self.noise }, command)
+                ModelWithInput::Velocity(VelocityModel { alphas, noise: self.noise }, command)
             }
             ModelKind::Odometry => {
                 let alphas = OdomAlphas(self.effective(self.odometry_alphas));
                 let reading = OdomDelta::from_poses(&START, &command_end(&command));
                 let model = OdometryModel { alphas, noise: self.noise };
-                Motion::Odometry(ConfiguredOdometry { model, reverse_aware: self.reverse_aware }, reading)
+                ModelWithInput::Odometry(
+                    ConfiguredOdometry { model, reverse_aware: self.reverse_aware },
+                    reading,
+                )
             }
         }
     }
 }
 
 /// Motion model with its input.
-enum Motion {
+enum ModelWithInput {
     Velocity(VelocityModel, VelocityCmd),
     Odometry(ConfiguredOdometry, OdomDelta),
 }
 
-impl Motion {
+impl ModelWithInput {
     fn exact(&self) -> ExactMoments {
         match self {
             Self::Velocity(model, command) => ExactMoments::of_velocity(model, command),
@@ -108,8 +111,8 @@ pub fn command_seen_at([x, y]: [f64; 2], near: &VelocityCmd, morph: f64) -> Velo
     if morph == 0.0 {
         return command_reaching(x, y, near);
     }
-    let found = arc_at([x, y], [v * dt, omega * dt], morph);
-    found.map_or(*near, |[length, turn]| VelocityCmd { v: length / dt, omega: turn / dt, dt })
+    let found_arc = arc_at([x, y], [v * dt, omega * dt], morph);
+    found_arc.map_or(*near, |[length, turn]| VelocityCmd { v: length / dt, omega: turn / dt, dt })
 }
 
 fn command_end(command: &VelocityCmd) -> SE2 {
@@ -118,13 +121,13 @@ fn command_end(command: &VelocityCmd) -> SE2 {
 
 /// Minimum distance of the mean turn from a full circle, in standard deviations, for exponential coordinates to be usable.
 /// At a full circle ξ diverges. With a smaller distance, single samples of a large cloud would dominate its moments.
-const CHART_SIGMAS: f64 = 4.0;
+const MIN_CIRCLE_SIGMAS: f64 = 4.0;
 
 /// Maximum number of points of a skew curve. Each takes about ten microseconds.
 pub const MAX_CURVE_POINTS: u64 = 10_000;
 
 /// Standard deviation (m) of the noise that [`BananaMachine::additive`] adds to x and y. It is √(½ tr Σ) on the arc of the
-/// preset "gentle", rounded. It fits no other distance.
+/// preset "gentle", rounded. It is not correct for other distances.
 pub const ADDITIVE_DEVIATION: f64 = 0.2;
 
 /// Number of samples of the first block, which takes a few milliseconds.
@@ -156,11 +159,11 @@ impl BananaMachine {
     /// Errors are those of [`BananaMachine::new`].
     pub fn showing(settings: Settings, count: usize) -> Result<Self, SettingsError> {
         settings.check()?;
-        let drive = settings.motion(settings.command).drive(&settings.command);
+        let drive = settings.motion_of(settings.command).drive(&settings.command);
         let cloud = Cloud::new(settings.seed, settings.noise, drive);
         let mut machine = Self { settings, cloud, figures: Figures::NONE, picture: Vec::new() };
-        machine.reserve(&settings)?;
-        machine.show(count.min(settings.samples));
+        machine.reserve_memory(&settings)?;
+        machine.show_samples(count.min(settings.samples));
         Ok(machine)
     }
 
@@ -180,28 +183,28 @@ impl BananaMachine {
     /// Errors are those of [`BananaMachine::configure`].
     pub fn configure_first(&mut self, settings: Settings, goal: usize) -> Result<(), SettingsError> {
         settings.check()?;
-        self.reserve(&settings)?;
+        self.reserve_memory(&settings)?;
         self.settings = settings;
-        self.show(goal.min(settings.samples).min(FIRST_BLOCK));
+        self.show_samples(goal.min(settings.samples).min(FIRST_BLOCK));
         Ok(())
     }
 
-    fn reserve(&mut self, settings: &Settings) -> Result<(), SettingsError> {
+    fn reserve_memory(&mut self, settings: &Settings) -> Result<(), SettingsError> {
         self.cloud.reserve(settings.samples).map_err(|_| SettingsError::no_memory(settings.samples))
     }
 
-    fn show(&mut self, count: usize) {
+    fn show_samples(&mut self, count: usize) {
         let Settings { seed, noise, command, .. } = self.settings;
-        let drive = self.settings.motion(command).drive(&command);
+        let drive = self.settings.motion_of(command).drive(&command);
         let figures = self.cloud.refresh(seed, noise, drive, count);
-        self.figures = Figures::of(count, &figures, self.defined());
+        self.figures = Figures::of(count, &figures, self.defined_charts());
     }
 
     /// Shows up to `count` samples more; returns how many are shown.
     pub fn add_samples(&mut self, count: usize) -> usize {
         let goal = self.shown().saturating_add(count).min(self.settings.samples);
         if goal > self.shown() {
-            self.show(goal);
+            self.show_samples(goal);
         }
         self.shown()
     }
@@ -245,35 +248,38 @@ impl BananaMachine {
     /// Returns true if the robots turn by less than a full circle, so that exponential coordinates are defined. Otherwise
     /// statistics and contours in them are undefined.
     pub fn chart_holds(&self) -> bool {
-        self.defined().pose
+        self.defined_charts().pose
     }
 
-    fn defined(&self) -> DefinedCharts {
+    fn defined_charts(&self) -> DefinedCharts {
         let VelocityCmd { omega, dt, .. } = self.settings.command;
-        let holds = |deviation: f64| (omega * dt).abs() + CHART_SIGMAS * deviation < TAU;
-        DefinedCharts { pose: holds(self.cloud.turn_deviation()), arc: holds(self.cloud.arc_deviation()) }
+        let is_short_of_circle = |deviation: f64| (omega * dt).abs() + MIN_CIRCLE_SIGMAS * deviation < TAU;
+        DefinedCharts {
+            pose: is_short_of_circle(self.cloud.turn_deviation()),
+            arc: is_short_of_circle(self.cloud.arc_deviation()),
+        }
     }
 
     /// Returns the model's mean τ and covariance R_u in exponential coordinates. The variance of the final turn is added
     /// to that of the heading. None for the odometry model, whose noise is not additive there.
     pub fn tangent(&self) -> Option<ExponentialMoments> {
-        match self.settings.motion(self.settings.command) {
-            Motion::Velocity(model, command) => {
+        match self.settings.motion_of(self.settings.command) {
+            ModelWithInput::Velocity(model, command) => {
                 let [.., last] = model.variances(&command);
                 let mut cov = model.tangent_cov(&command)?;
                 cov[(2, 2)] += command.dt * command.dt * last.0;
                 Some(ExponentialMoments { mean: TangentNoiseModel::twist(&command), cov })
             }
-            Motion::Odometry(..) => None,
+            ModelWithInput::Odometry(..) => None,
         }
     }
 
-    /// Returns mean and covariance by an EKF's linearization: the noise-free end, and J·Σ·Jᵀ.
+    /// Returns the mean and covariance that an EKF predicts by linearization: the noise-free end, and J·Σ·Jᵀ.
     pub fn linearized(&self) -> CartesianMoments {
         let end = command_end(&self.settings.command);
         CartesianMoments {
             mean: Vector3::new(end.x(), end.y(), end.theta()),
-            cov: self.settings.motion(self.settings.command).linearized_cov(),
+            cov: self.settings.motion_of(self.settings.command).linearized_cov(),
         }
     }
 
@@ -287,13 +293,13 @@ impl BananaMachine {
 
     /// Returns the exact moments of the model, by quadrature.
     pub fn exact(&self) -> ExactMoments {
-        self.settings.motion(self.settings.command).exact()
+        self.settings.motion_of(self.settings.command).exact()
     }
 
     /// Returns the exact moments of the exponential coordinates, by quadrature.
     pub fn exact_gain(&self) -> ExactGain {
         let Settings { command, .. } = self.settings;
-        self.settings.motion(command).exact_gain(&command)
+        self.settings.motion_of(command).exact_gain(&command)
     }
 
     /// Returns the moments of the pose by three methods, and the model's moments of its exponential coordinates.
@@ -337,7 +343,10 @@ impl BananaMachine {
         (0..points)
             .map(|i| {
                 let omega = first + step * i as f64;
-                self.settings.motion(VelocityCmd { omega, ..self.settings.command }).exact().cross_track_skew
+                self.settings
+                    .motion_of(VelocityCmd { omega, ..self.settings.command })
+                    .exact()
+                    .cross_track_skew
             })
             .collect()
     }
@@ -345,17 +354,17 @@ impl BananaMachine {
     /// Returns the curves that are drawn over the cloud.
     pub fn contours(&self) -> Contours {
         let Figures { cartesian, exponential, .. } = &self.figures;
-        let if_any = |holds: bool, outline: Vec<[f64; 2]>| if holds { outline } else { Vec::new() };
-        let enough = self.shown() > 1;
-        let defined = enough && self.chart_holds();
+        let outline_if = |holds: bool, outline: Vec<[f64; 2]>| if holds { outline } else { Vec::new() };
+        let has_outlines = self.shown() > 1;
+        let defined_charts = has_outlines && self.chart_holds();
         let VelocityCmd { v, omega, dt } = self.settings.command;
         let contour = ExponentialContour::new(exponential, &START);
         Contours {
             command: arc_points(v * dt, omega * dt),
-            ellipse: if_any(enough, Ellipse::from_moments(cartesian).boundary(OUTLINE_SEGMENTS)),
+            ellipse: outline_if(has_outlines, Ellipse::from_moments(cartesian).boundary(OUTLINE_SEGMENTS)),
             linearized: Ellipse::from_moments(&self.linearized()).boundary(OUTLINE_SEGMENTS),
-            exponential: if_any(defined, contour.boundary(OUTLINE_SEGMENTS)),
-            twist_ellipse: if_any(defined, contour.ellipse().boundary(OUTLINE_SEGMENTS)),
+            exponential: outline_if(defined_charts, contour.boundary(OUTLINE_SEGMENTS)),
+            twist_ellipse: outline_if(defined_charts, contour.ellipse().boundary(OUTLINE_SEGMENTS)),
             additive: Ellipse::from_moments(&self.additive()).boundary(OUTLINE_SEGMENTS),
         }
     }
@@ -363,11 +372,13 @@ impl BananaMachine {
     /// Returns sample `index` of the samples shown.
     pub fn inspect(&self, index: usize) -> Option<Sample> {
         let pose = self.pose(index)?;
-        let no_arc = ArcInversion { v_hat: f64::NAN, omega_hat: f64::NAN, gamma_hat: f64::NAN };
-        let executed = self.settings.motion(self.settings.command).executed(self.cloud.unit_noise(index));
+        let undefined_arc = ArcInversion { v_hat: f64::NAN, omega_hat: f64::NAN, gamma_hat: f64::NAN };
+        let executed = self.settings.motion_of(self.settings.command).executed(self.cloud.unit_noise(index));
         let (ArcInversion { v_hat, omega_hat, gamma_hat }, legs, path) = match executed {
             Executed::Arc { arc, dt } => (arc, None, arc_points(arc.v_hat * dt, arc.omega_hat * dt)),
-            Executed::Legs(legs) => (no_arc, Some(legs), vec![[START.x(), START.y()], [pose.x(), pose.y()]]),
+            Executed::Legs(legs) => {
+                (undefined_arc, Some(legs), vec![[START.x(), START.y()], [pose.x(), pose.y()]])
+            }
         };
         let (pose, twist) = (pose.into(), self.twist(&pose).into());
         Some(Sample { pose, twist, v_hat, omega_hat, gamma_hat, legs, path })
@@ -376,8 +387,8 @@ impl BananaMachine {
     /// Returns the executed motions of the samples shown: v̂ (m/s), ω̂ and γ̂ (rad/s). Under the odometry model they are
     /// δ̂_rot1 (rad), δ̂_trans (m) and δ̂_rot2 (rad).
     pub fn executed(&self) -> impl ExactSizeIterator<Item = [f64; 3]> {
-        let motion = self.settings.motion(self.settings.command);
-        (0..self.shown()).map(move |index| match motion.executed(self.cloud.unit_noise(index)) {
+        let motion_of = self.settings.motion_of(self.settings.command);
+        (0..self.shown()).map(move |index| match motion_of.executed(self.cloud.unit_noise(index)) {
             Executed::Arc { arc, .. } => [arc.v_hat, arc.omega_hat, arc.gamma_hat],
             Executed::Legs(OdomDelta { rot1, trans, rot2 }) => [rot1, trans, rot2],
         })

@@ -1,7 +1,7 @@
 //! Common random numbers: the unit noise of every sample, drawn once for a seed.
 
-use super::{ALL, BLOCK};
-use crate::geom::lanes::{LANES, any, lanes};
+use super::{ALL_BITS_SET, BLOCK_GROUPS};
+use crate::geom::lanes::{LANES, any_lane_set, lanes};
 use crate::noise::{NoiseKind, centred_uniform};
 use crate::stats::sums::PairSums;
 use rand::SeedableRng;
@@ -18,19 +18,19 @@ use wide::f64x4;
 const FAR_SQUARE: f64 = 13.0;
 const FARTHEST_SQUARE: f64 = 20.0;
 
-/// Number of leading groups that are in the subsample, for near, far and farthest ones: those of the first 2048 robots, of
-/// the first 65 536, and all. Fewer would make the first digit of standard errors wrong. More would take noticeable time.
+/// Number of leading groups of the cloud in the subsample. Near groups are in it among the first 2048 robots, far groups among the
+/// first 65 536, and farthest groups always. Fewer would make the first digit of standard errors wrong; more would take time.
 const SUBSAMPLE_GROUPS: [usize; 3] = [512, 16_384, usize::MAX];
 
 /// Returns the entry of [`SUBSAMPLE_GROUPS`] for a group of four draws.
 #[inline(never)]
 fn subsample_groups([a, b, c]: &[f64x4; 3]) -> usize {
-    let squares = *a * *a + *b * *b + *c * *c;
-    let shell = [FAR_SQUARE, FARTHEST_SQUARE]
+    let squared_distances = *a * *a + *b * *b + *c * *c;
+    let distance_class = [FAR_SQUARE, FARTHEST_SQUARE]
         .iter()
-        .filter(|least| any(squares.simd_gt(f64x4::splat(**least))))
+        .filter(|least| any_lane_set(squared_distances.simd_gt(f64x4::splat(**least))))
         .count();
-    SUBSAMPLE_GROUPS[shell]
+    SUBSAMPLE_GROUPS[distance_class]
 }
 
 /// Random numbers of all samples: three of variance 1 for each, in sample order. They depend only on the seed and the kind of
@@ -95,58 +95,60 @@ impl Draws {
 
     /// Adds the complete blocks among the first `fours` groups to the sums, and lists their farthest groups.
     #[inline(never)]
-    pub fn sum_to(&mut self, fours: usize) {
-        while fours >= self.summed + BLOCK {
-            let block = self.unit_noise[self.summed..][..BLOCK].iter();
-            block.for_each(|noise| self.sums.add([noise[0], noise[1]], f64x4::splat(ALL)));
+    pub fn sum_blocks_to(&mut self, fours: usize) {
+        while fours >= self.summed + BLOCK_GROUPS {
+            let block = self.unit_noise[self.summed..][..BLOCK_GROUPS].iter();
+            block.for_each(|noise| self.sums.add([noise[0], noise[1]], f64x4::splat(ALL_BITS_SET)));
             self.sums.close_block();
-            let later_groups = self.summed.max(SUBSAMPLE_GROUPS[1])..self.summed + BLOCK;
+            let later_groups_range = self.summed.max(SUBSAMPLE_GROUPS[1])..self.summed + BLOCK_GROUPS;
             self.farthest.extend(
-                later_groups.filter(|four| subsample_groups(&self.unit_noise[*four]) > SUBSAMPLE_GROUPS[1]),
+                later_groups_range
+                    .filter(|four| subsample_groups(&self.unit_noise[*four]) > SUBSAMPLE_GROUPS[1]),
             );
-            self.summed += BLOCK;
+            self.summed += BLOCK_GROUPS;
         }
     }
 
     /// Returns the sums of the first two noises, of their squares and of their product over `count` drawn samples.
     #[inline(never)]
     pub fn pair_sums(&mut self, count: usize) -> [f64; 5] {
-        let fours = count / LANES;
-        if self.summed > fours {
+        let groups = count / LANES;
+        if self.summed > groups {
             (self.sums, self.summed) = (PairSums::new(), 0);
             self.farthest.clear();
         }
-        self.sum_to(fours);
-        let mut sums = self.sums.clone();
+        self.sum_blocks_to(groups);
+        let mut all_sums = self.sums.clone();
         for (four, noise) in self.unit_noise[..count.div_ceil(LANES)].iter().enumerate().skip(self.summed) {
-            let mask = lanes(|lane| if LANES * four + lane < count { ALL } else { 0.0 });
-            sums.add([noise[0], noise[1]], mask);
+            let mask = lanes(|lane| if LANES * four + lane < count { ALL_BITS_SET } else { 0.0 });
+            all_sums.add([noise[0], noise[1]], mask);
         }
-        sums.close_block();
-        sums.finish()
+        all_sums.close_block();
+        all_sums.finish()
     }
 
     /// Returns all unit noise drawn so far, in groups of four samples. The last group may have additional samples.
-    pub fn fours(&self) -> &[[f64x4; 3]] {
+    pub fn groups(&self) -> &[[f64x4; 3]] {
         &self.unit_noise
     }
 
     /// Returns the weighted subsample of the first `count` robots, in groups of four: unit noise, and the number of robots
-    /// that each robot represents. Lanes beyond `count` have the weight 0. All of up to 2048 robots are in it.
+    /// that each robot represents. Lanes beyond `count` have the weight 0. A cloud of up to 2048 robots is sampled completely.
     pub fn sample(&self, count: usize) -> impl Iterator<Item = (&[f64x4; 3], f64x4)> {
-        let fours = count.div_ceil(LANES);
-        let later_groups = self.farthest.iter().copied().chain(self.summed.max(SUBSAMPLE_GROUPS[1])..fours);
-        (0..fours.min(SUBSAMPLE_GROUPS[1])).chain(later_groups).filter_map(move |four| {
+        let groups = count.div_ceil(LANES);
+        let later_groups_range =
+            self.farthest.iter().copied().chain(self.summed.max(SUBSAMPLE_GROUPS[1])..groups);
+        (0..groups.min(SUBSAMPLE_GROUPS[1])).chain(later_groups_range).filter_map(move |four| {
             let noise = &self.unit_noise[four];
             let subsample_groups = subsample_groups(noise);
-            let weight = (fours as f64 / subsample_groups as f64).max(1.0);
+            let weight = (groups as f64 / subsample_groups as f64).max(1.0);
             (four < subsample_groups)
                 .then(|| (noise, lanes(|lane| if LANES * four + lane < count { weight } else { 0.0 })))
         })
     }
 
     /// Returns the unit noise of one sample.
-    pub fn unit_noise_of(&self, index: usize) -> [f64; 3] {
+    pub fn noise_of_sample(&self, index: usize) -> [f64; 3] {
         self.unit_noise[index / LANES].map(|lanes| lanes.to_array()[index % LANES])
     }
 }

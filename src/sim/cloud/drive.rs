@@ -1,13 +1,13 @@
 //! Common form of both models for a start at the origin: a distance in a direction, and a final heading.
 
-use crate::geom::lanes::{Circle, HalfTurn, Trigonometry, any};
+use crate::geom::lanes::{Circle, HalfTurn, Trigonometry, any_lane_set};
 use crate::models::{OdomDelta, RotTransRot, VelocityCmd, VelocityModel};
-use crate::stats::fused::{FourArcs, FourPoses, Reference, Scale};
+use crate::stats::fused::{FourArcs, FourPoses, JacobianScale, Reference};
 use std::f64::consts::FRAC_PI_2;
 use wide::f64x4;
 
 /// Affine function of a unit noise: mean + deviation · noise.
-type Affine = [f64; 2];
+type AffineInNoise = [f64; 2];
 
 /// Motion under given settings. Its three unit noises are in the order of the model's draws.
 ///
@@ -19,12 +19,12 @@ pub struct Drive {
     /// True if the length is that of an arc, whose chord is shorter.
     is_arc: bool,
     /// Length, m.
-    length: Affine,
+    length: AffineInNoise,
     /// Bearing of the end, rad.
-    bearing: Affine,
+    bearing: AffineInNoise,
     /// Coefficients of half the heading, which is `share` · bearing + `half_rest` (rad).
     share: f64,
-    half_rest: Affine,
+    half_rest: AffineInNoise,
     /// Half of the commanded turn (rad), which selects the branches of logarithm and arc.
     near: f64,
     /// Middle and half the width (rad) of the interval of half turns in which the short formulas hold.
@@ -44,15 +44,15 @@ pub struct Motions {
 impl Drive {
     pub fn of_velocity(model: &VelocityModel, u: &VelocityCmd) -> Self {
         let [v, omega, gamma] = model.variances(u).map(|variance| variance.0.sqrt() * u.dt);
-        let near = 0.5 * (u.omega * u.dt);
+        let half_commanded_turn = 0.5 * (u.omega * u.dt);
         Self {
             is_arc: true,
             length: [u.v * u.dt, v],
-            bearing: [near, 0.5 * omega],
+            bearing: [half_commanded_turn, 0.5 * omega],
             share: 1.0,
             half_rest: [0.0, 0.5 * gamma],
-            near,
-            short_formula_interval: short_formula_interval(near),
+            near: half_commanded_turn,
+            short_formula_interval: short_formula_interval(half_commanded_turn),
             trigonometry: Trigonometry::default(),
         }
     }
@@ -95,13 +95,13 @@ impl Drive {
     pub fn ends(&self, motions: &Motions) -> ([f64x4; 2], FourArcs, bool) {
         let Motions { length, bearing, .. } = *motions;
         let is_far = self.is_far(motions);
-        let circle =
+        let bearing_functions =
             if is_far { self.trigonometry.any_circle(bearing) } else { self.trigonometry.circle(bearing) };
-        let ends = self.ends_on(motions, &circle);
+        let ends = self.ends_on(motions, &bearing_functions);
         if is_far || !self.is_arc {
             return (ends, self.other_arcs(bearing, ends), false);
         }
-        (ends, FourArcs { length, half: bearing, sinc: circle.sinc }, true)
+        (ends, FourArcs { length, half: bearing, sinc: bearing_functions.sinc }, true)
     }
 
     #[inline(always)]
@@ -112,13 +112,13 @@ impl Drive {
 
     /// Returns the deviations that noise adds to the length and half turn of regular arcs.
     #[inline(always)]
-    pub fn regular(&self, unit_noise: &[f64x4; 3]) -> [f64x4; 2] {
-        let of = if self.is_arc { [self.length[1], self.bearing[1]] } else { [0.0; 2] };
-        [unit_noise[0] * of[0], unit_noise[1] * of[1]]
+    pub fn regular_deviations(&self, unit_noise: &[f64x4; 3]) -> [f64x4; 2] {
+        let deviations_of_noise = if self.is_arc { [self.length[1], self.bearing[1]] } else { [0.0; 2] };
+        [unit_noise[0] * deviations_of_noise[0], unit_noise[1] * deviations_of_noise[1]]
     }
 
     /// Returns the sums of [`Drive::regular`] from those of the unit noise.
-    pub fn regular_sums(&self, [a, b, aa, ab, bb]: [f64; 5]) -> [f64; 5] {
+    pub fn sums_of_regular(&self, [a, b, aa, ab, bb]: [f64; 5]) -> [f64; 5] {
         if !self.is_arc {
             return [0.0; 5];
         }
@@ -142,16 +142,16 @@ impl Drive {
         } else {
             self.trigonometry.half_turn(motions.half)
         };
-        logarithms(ends, turn)
+        with_logarithms(ends, turn)
     }
 
     /// Returns the points to which a morph takes the ends of four motions: see [`crate::geom::unbend`].
     #[inline(always)]
     pub fn unbent(&self, motions: &Motions, ends: &[f64x4; 2], morph: f64) -> [f64x4; 2] {
         let FourPoses { along, lateral, half, .. } = self.poses(motions, ends);
-        let left = 1.0 - morph;
-        let Circle { sinc, sin, cos } = self.trigonometry.near_or_any_circle(half * left);
-        let (along, lateral) = (along * sinc, lateral * sinc * left);
+        let remaining_bend = 1.0 - morph;
+        let Circle { sinc, sin, cos } = self.trigonometry.near_or_any_circle(half * remaining_bend);
+        let (along, lateral) = (along * sinc, lateral * sinc * remaining_bend);
         [along * cos - lateral * sin, along * sin + lateral * cos + half * (2.0 * morph)]
     }
 
@@ -159,34 +159,35 @@ impl Drive {
     #[inline(always)]
     fn is_far(&self, motions: &Motions) -> bool {
         let [middle, reach] = self.short_formula_interval;
-        let beyond = |angle: f64x4| (angle - middle).abs().simd_gt(f64x4::splat(reach));
-        any(beyond(motions.bearing) | beyond(motions.half))
+        let is_beyond = |angle: f64x4| (angle - middle).abs().simd_gt(f64x4::splat(reach));
+        any_lane_set(is_beyond(motions.bearing) | is_beyond(motions.half))
     }
 
-    /// Returns four robots in all coordinates. It uses the formulas for any angle. The passes over a cloud inline those for
-    /// angles up to a quarter turn.
+    /// Returns four robots in all coordinates. It uses the formulas for any angle. The two passes over a cloud inline the short
+    /// formulas for angles up to a quarter turn instead.
     #[inline(never)]
-    pub fn robots(&self, unit_noise: &[f64x4; 3]) -> (FourPoses, FourArcs) {
+    pub fn four_robots(&self, unit_noise: &[f64x4; 3]) -> (FourPoses, FourArcs) {
         let motions = self.motions(unit_noise);
         let circle = self.trigonometry.any_circle(motions.bearing);
         let ends = self.ends_on(&motions, &circle);
         let turn = self.trigonometry.any_half_turn(motions.half, self.near);
-        (logarithms(&ends, turn), self.other_arcs(motions.bearing, ends))
+        (with_logarithms(&ends, turn), self.other_arcs(motions.bearing, ends))
     }
 
     /// Returns the coordinates of the noise-free end, which are subtracted in all sums, and the scales of the Jacobians.
-    pub fn nominal(&self) -> (Reference, Scale) {
-        let (poses, arcs) = self.robots(&[f64x4::splat(0.0); 3]);
-        let mut parts = [poses.x, poses.y, poses.along, poses.lateral, poses.half, arcs.length, arcs.half]
-            .map(|lanes| lanes.to_array()[0]);
+    pub fn nominal(&self) -> (Reference, JacobianScale) {
+        let (poses, arcs) = self.four_robots(&[f64x4::splat(0.0); 3]);
+        let mut reference_coordinates =
+            [poses.x, poses.y, poses.along, poses.lateral, poses.half, arcs.length, arcs.half]
+                .map(|lanes| lanes.to_array()[0]);
         if self.is_arc {
             // The commanded length and half turn are exact. Inverting the end pose would change their last bits.
-            [parts[5], parts[6]] = [self.length[0], self.bearing[0]];
+            [reference_coordinates[5], reference_coordinates[6]] = [self.length[0], self.bearing[0]];
         }
-        let [chart, arc] = [poses.sinc, arcs.sinc].map(|lanes| lanes.to_array()[0].abs());
+        let [chart, arc_sinc] = [poses.sinc, arcs.sinc].map(|lanes| lanes.to_array()[0].abs());
         // Includes the noise of the length, because the command may be 0.
         let length = libm::hypot(self.length[0], self.length[1]);
-        (parts, [1.0 / chart, 1.0 / (length * arc * arc)])
+        (reference_coordinates, [1.0 / chart, 1.0 / (length * arc_sinc * arc_sinc)])
     }
 
     /// Returns the standard deviation (rad) of the turn of the arc that ends at the robot's position.
@@ -197,7 +198,7 @@ impl Drive {
 
 /// Returns the poses at `ends` with the half headings of `turn`, and their logarithms.
 #[inline(always)]
-fn logarithms(ends: &[f64x4; 2], turn: HalfTurn) -> FourPoses {
+fn with_logarithms(ends: &[f64x4; 2], turn: HalfTurn) -> FourPoses {
     let ([x, y], HalfTurn { half, cotangent, sinc, sin, cos }) = (*ends, turn);
     let (along, lateral) = (cotangent * x + half * y, cotangent * y - half * x);
     FourPoses { x, y, along, lateral, half, half_sin: sin, half_cos: cos, sinc }

@@ -10,7 +10,7 @@ pub use views::View;
 use crate::geom::lanes::{LANES, lanes};
 use crate::geom::se2::SE2;
 use crate::noise::NoiseKind;
-use crate::stats::fused::{CloudFigures, CloudShape, Spread};
+use crate::stats::fused::{CloudFigures, FirstPass, SecondPass};
 use draws::Draws;
 use drive::Drive;
 use std::collections::TryReserveError;
@@ -20,9 +20,9 @@ use wide::f64x4;
 /// Start pose of every robot: the origin, heading along x.
 pub const START: SE2 = SE2::identity();
 
-/// Number of groups of four that are summed without compensation: 256 poses. With fewer, compensation would take
+/// Number of groups of four (256 poses) that are summed without compensation for rounding. With fewer, compensation would take
 /// noticeable time; with more, the rounding error would grow in proportion.
-const BLOCK: usize = 64;
+const BLOCK_GROUPS: usize = 64;
 
 /// Cloud as a structure of arrays in groups of four samples. A sample takes 24 bytes of noise and 16 of position. Headings
 /// and logarithms are cheap to compute, and not stored.
@@ -52,37 +52,49 @@ impl Cloud {
         (self.drive, self.shown) = (drive, shown);
         // Sums contain differences from the expected mean of the cloud. They are computed again if the mean is far from it.
         let (reference, scale) = drive.nominal();
-        let mut sums = self.spread_all(Spread::new(reference, scale));
-        if let Some(better) = sums.better_reference(shown) {
-            sums = self.spread_all(Spread::new(better, sums.scale()));
+        let mut first_pass = self.run_first_pass(FirstPass::new(reference, scale));
+        if let Some(better) = first_pass.better_reference(shown) {
+            first_pass = self.run_first_pass(FirstPass::new(better, first_pass.scale()));
         }
-        let regular = drive.regular_sums(self.draws.pair_sums(shown));
-        let mut shapes = CloudShape::new(sums.finish(shown, regular), &START);
+        let regular_sums = drive.sums_of_regular(self.draws.pair_sums(shown));
+        let mut second_pass = SecondPass::new(first_pass.finish(shown, regular_sums), &START);
         for parts in blocks(shown) {
             for (fours, mask) in parts {
-                shape(&drive, &self.draws.fours()[fours.clone()], &self.positions[fours], mask, &mut shapes);
+                add_to_second_pass(
+                    &drive,
+                    &self.draws.groups()[fours.clone()],
+                    &self.positions[fours],
+                    mask,
+                    &mut second_pass,
+                );
             }
-            shapes.close_block();
+            second_pass.close_block();
         }
-        let robots = self.draws.sample(shown).map(|(noise, weights)| {
-            let (poses, arcs) = drive.robots(noise);
+        let weighted_robots = self.draws.sample(shown).map(|(noise, weights)| {
+            let (poses, arcs) = drive.four_robots(noise);
             (poses, arcs, weights)
         });
-        shapes.finish(shown, robots)
+        second_pass.finish(shown, weighted_robots)
     }
 
     /// Draws and drives all samples, and adds them to the sums of the first pass.
-    fn spread_all(&mut self, mut sums: Spread) -> Spread {
+    fn run_first_pass(&mut self, mut sums: FirstPass) -> FirstPass {
         let Self { draws, drive, positions, shown } = self;
         for parts in blocks(*shown) {
             let end = parts[1].0.end;
             draws.extend_to(end * LANES);
-            draws.sum_to((*shown / LANES).min(end));
+            draws.sum_blocks_to((*shown / LANES).min(end));
             if positions.len() < end {
                 positions.resize(end, [f64x4::splat(0.0); 2]);
             }
             for (fours, mask) in parts {
-                spread(drive, &draws.fours()[fours.clone()], &mut positions[fours], mask, &mut sums);
+                add_to_first_pass(
+                    drive,
+                    &draws.groups()[fours.clone()],
+                    &mut positions[fours],
+                    mask,
+                    &mut sums,
+                );
             }
             sums.close_block();
         }
@@ -106,7 +118,7 @@ impl Cloud {
 
     /// Returns the unit noise of a sample.
     pub fn unit_noise(&self, index: usize) -> [f64; 3] {
-        self.draws.unit_noise_of(index)
+        self.draws.noise_of_sample(index)
     }
 
     /// Returns the pose of a sample that is shown.
@@ -114,8 +126,8 @@ impl Cloud {
     pub fn pose(&self, index: usize) -> SE2 {
         let [four, lane] = [index / LANES, index % LANES];
         let [x, y] = self.positions[four].map(|lanes| lanes.to_array()[lane]);
-        let half = self.drive.motions(&self.draws.fours()[four]).half;
-        SE2::new(x, y, 2.0 * half.to_array()[lane])
+        let half_heading = self.drive.motions(&self.draws.groups()[four]).half;
+        SE2::new(x, y, 2.0 * half_heading.to_array()[lane])
     }
 
     /// Calls `see` with the points of each group of four samples in a view. In the last group, lanes without a sample are
@@ -123,23 +135,23 @@ impl Cloud {
     #[inline(always)]
     pub fn each_four(&self, view: View, mut see: impl FnMut([f64x4; 2])) {
         let shown = self.shown();
-        let point = |four: usize| match view {
+        let points_of_group = |four: usize| match view {
             View::Plane => self.positions[four],
             View::Twist => {
-                let motions = self.drive.motions(&self.draws.fours()[four]);
+                let motions = self.drive.motions(&self.draws.groups()[four]);
                 let poses = self.drive.poses(&motions, &self.positions[four]);
                 [poses.along, poses.half * 2.0]
             }
             View::Morph(morph) => {
-                let motions = self.drive.motions(&self.draws.fours()[four]);
+                let motions = self.drive.motions(&self.draws.groups()[four]);
                 self.drive.unbent(&motions, &self.positions[four], morph)
             }
         };
         let (full, rest) = (shown / LANES, shown % LANES);
-        (0..full).for_each(|four| see(point(four)));
+        (0..full).for_each(|four| see(points_of_group(four)));
         if rest > 0 {
-            let there = lanes(|lane| if lane < rest { ALL } else { 0.0 });
-            see(point(full).map(|points| there.bitselect(points, f64x4::splat(f64::INFINITY))));
+            let lane_mask = lanes(|lane| if lane < rest { ALL_BITS_SET } else { 0.0 });
+            see(points_of_group(full).map(|points| lane_mask.bitselect(points, f64x4::splat(f64::INFINITY))));
         }
     }
 }
@@ -148,41 +160,53 @@ impl Cloud {
 /// range of incomplete ones. Each range has the mask of its samples.
 fn blocks(count: usize) -> impl Iterator<Item = [(Range<usize>, f64x4); 2]> {
     let fours = count.div_ceil(LANES);
-    let there = lanes(|lane| if lane < count % LANES { ALL } else { 0.0 });
-    (0..fours.div_ceil(BLOCK).max(1)).map(move |i| {
-        let (start, end) = (BLOCK * i, fours.min(BLOCK * (i + 1)));
-        let full = start.max(end.min(count / LANES));
-        [(start..full, f64x4::splat(ALL)), (full..end, there)]
+    let lane_mask = lanes(|lane| if lane < count % LANES { ALL_BITS_SET } else { 0.0 });
+    (0..fours.div_ceil(BLOCK_GROUPS).max(1)).map(move |i| {
+        let (start, end) = (BLOCK_GROUPS * i, fours.min(BLOCK_GROUPS * (i + 1)));
+        let full_groups = start.max(end.min(count / LANES));
+        [(start..full_groups, f64x4::splat(ALL_BITS_SET)), (full_groups..end, lane_mask)]
     })
 }
 
 /// Mask of a lane with a robot: all bits set.
-const ALL: f64 = f64::from_bits(u64::MAX);
+const ALL_BITS_SET: f64 = f64::from_bits(u64::MAX);
 
 /// Drives the robots, four at a time, and adds them to the sums of the first pass.
 #[inline(never)]
-fn spread(drive: &Drive, noise: &[[f64x4; 3]], ends: &mut [[f64x4; 2]], mask: f64x4, sums: &mut Spread) {
-    let is_whole = mask.all();
+fn add_to_first_pass(
+    drive: &Drive,
+    noise: &[[f64x4; 3]],
+    ends: &mut [[f64x4; 2]],
+    mask: f64x4,
+    sums: &mut FirstPass,
+) {
+    let is_full_group = mask.all();
     for (noise, ends) in noise.iter().zip(ends) {
         let motions = drive.motions(noise);
         let (arcs, is_regular);
         (*ends, arcs, is_regular) = drive.ends(&motions);
         let poses = drive.poses(&motions, ends);
         sums.add(&poses, mask);
-        if is_whole {
+        if is_full_group {
             sums.multiply(&poses, &arcs);
         } else {
             sums.multiply_some(&poses, &arcs, mask);
         }
         if !is_regular {
-            sums.add_irregular(&arcs, drive.regular(noise), mask);
+            sums.add_irregular(&arcs, drive.regular_deviations(noise), mask);
         }
     }
 }
 
-/// Adds the robots that [`spread`] drove to the sums of the second pass.
+/// Adds the robots that [`add_to_first_pass`] drove to the sums of the second pass.
 #[inline(never)]
-fn shape(drive: &Drive, noise: &[[f64x4; 3]], ends: &[[f64x4; 2]], mask: f64x4, sums: &mut CloudShape) {
+fn add_to_second_pass(
+    drive: &Drive,
+    noise: &[[f64x4; 3]],
+    ends: &[[f64x4; 2]],
+    mask: f64x4,
+    sums: &mut SecondPass,
+) {
     for (noise, ends) in noise.iter().zip(ends) {
         sums.add(&drive.poses(&drive.motions(noise), ends), mask);
     }

@@ -5,10 +5,10 @@ use super::views::{Grid, View};
 use crate::geom::lanes::LANES;
 
 /// Colour ramp by the count of a cell relative to the fullest cell: RGBA, one byte each.
-pub type Ramp = [[u8; 4]; RAMP];
+pub type Ramp = [[u8; 4]; RAMP_STEPS];
 
 /// Number of steps of a ramp, one for each value of a byte.
-pub const RAMP: usize = 256;
+pub const RAMP_STEPS: usize = 256;
 
 /// Counts the shown samples in each cell, row by row from the top (largest second coordinate). Samples outside are not
 /// counted.
@@ -28,13 +28,16 @@ pub fn density(cloud: &Cloud, view: View, grid: &Grid) -> Vec<u32> {
 /// Paints a density, one pixel for each cell: ramp[255·√(count/most)], transparent for empty cells. With the square
 /// root the sparse ends of a cloud stay visible.
 pub fn paint(counts: &[u32], ramp: &Ramp) -> Vec<[u8; 4]> {
-    let most = counts.iter().copied().max().unwrap_or(0);
-    counts.iter().map(|count| if *count == 0 { [0; 4] } else { ramp[shade(*count, most)] }).collect()
+    let highest_count = counts.iter().copied().max().unwrap_or(0);
+    counts
+        .iter()
+        .map(|count| if *count == 0 { [0; 4] } else { ramp[ramp_step(*count, highest_count)] })
+        .collect()
 }
 
 /// Returns the step of a ramp for a count: 255·√(count/most).
 #[inline(always)]
-pub fn shade(count: u32, most: u32) -> usize {
-    let share = (f64::from(count) / f64::from(most)).sqrt();
-    ((RAMP - 1) as f64 * share + 0.5) as usize % RAMP
+pub fn ramp_step(count: u32, most: u32) -> usize {
+    let relative_root = (f64::from(count) / f64::from(most)).sqrt();
+    ((RAMP_STEPS - 1) as f64 * relative_root + 0.5) as usize % RAMP_STEPS
 }

@@ -47,17 +47,17 @@ js_structs! {
 
 impl Comparison {
     pub fn new(settings: &Settings, covs: &[Option<Matrix3<f64>>], measured: &[Measured]) -> Self {
-        let least = smallest_spread(settings);
+        let smallest_spreads = smallest_spread(settings);
         let ratios: Vec<Vector3<f64>> = covs
             .iter()
             .zip(measured)
             .map(|(cov, measured)| match cov {
-                Some(cov) => ratio(cov, measured, &least),
+                Some(cov) => variance_ratio(cov, measured, &smallest_spreads),
                 None => Vector3::repeat(f64::NAN),
             })
             .collect();
-        let misses = std::array::from_fn(|axis| misses(&ratios, measured, axis));
-        Self { ratios, misses }
+        let misses_of = std::array::from_fn(|axis| misses_of(&ratios, measured, axis));
+        Self { ratios, misses: misses_of }
     }
 }
 
@@ -66,15 +66,15 @@ impl Comparison {
 pub fn covariances(settings: &Settings, order: Compounding) -> Vec<Option<Matrix3<f64>>> {
     let twist = TangentNoiseModel::twist(&settings.command);
     // All allowed settings have finite variances of 0 or more.
-    let noise = TangentNoiseModel::from_velocity(&settings.model(), &settings.command).ok();
-    let mut sigma = Some(Matrix3::zeros());
+    let tangent_noise = TangentNoiseModel::from_velocity(&settings.model(), &settings.command).ok();
+    let mut covariance = Some(Matrix3::zeros());
     (0..settings.steps)
         .map(|_| {
-            sigma = sigma
-                .zip(noise)
+            covariance = covariance
+                .zip(tangent_noise)
                 .map(|(sigma, noise)| noise.propagate(&sigma, &twist, order))
                 .filter(|next| covariance_root(next).is_ok());
-            sigma
+            covariance
         })
         .collect()
 }
@@ -86,27 +86,28 @@ fn smallest_spread(settings: &Settings) -> Vector3<f64> {
     Vector3::new(length, length, NO_SPREAD)
 }
 
-fn ratio(cov: &Matrix3<f64>, measured: &Measured, least: &Vector3<f64>) -> Vector3<f64> {
+fn variance_ratio(cov: &Matrix3<f64>, measured: &Measured, least: &Vector3<f64>) -> Vector3<f64> {
     Vector3::from_fn(|i, _| {
         let variance = measured.cov[(i, i)];
         if variance > least[i] * least[i] { cov[(i, i)] / variance } else { f64::NAN }
     })
 }
 
-fn misses(ratios: &[Vector3<f64>], measured: &[Measured], axis: usize) -> Misses {
-    let known = || ratios.iter().map(|ratio| ratio[axis]).zip(measured).filter(|(ratio, _)| !ratio.is_nan());
-    let told = known().next().is_some()
-        && known().all(|(_, measured)| measured.relative_error[axis] <= MAX_STANDARD_ERROR);
+fn misses_of(ratios: &[Vector3<f64>], measured: &[Measured], axis: usize) -> Misses {
+    let known_ratios =
+        || ratios.iter().map(|ratio| ratio[axis]).zip(measured).filter(|(ratio, _)| !ratio.is_nan());
+    let told = known_ratios().next().is_some()
+        && known_ratios().all(|(_, measured)| measured.relative_error[axis] <= MAX_STANDARD_ERROR);
     let is_miss = |ratio: &Vector3<f64>| told && (ratio[axis] - 1.0).abs() > TOLERANCE;
-    let step = |index: usize| index as u32 + 1;
+    let step_number = |index: usize| index as u32 + 1;
     let [end, error] = match (ratios.last(), measured.last()) {
         (Some(ratio), Some(measured)) => [ratio[axis] - 1.0, ratio[axis] * measured.relative_error[axis]],
         _ => [f64::NAN; 2],
     };
     Misses {
         told,
-        first: ratios.iter().position(is_miss).map(step),
-        last: ratios.iter().rposition(is_miss).map(step),
+        first: ratios.iter().position(is_miss).map(step_number),
+        last: ratios.iter().rposition(is_miss).map(step_number),
         end,
         error,
     }

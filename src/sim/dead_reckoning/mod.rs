@@ -28,7 +28,7 @@ const MAX_CHORDS: usize = 16;
 
 /// Number of steps of all robots in the first block, and in further blocks. While a handle is dragged, each frame waits for
 /// the first block. Further blocks take some milliseconds.
-const FIRST_STEPS: usize = 80_000;
+const FIRST_BLOCK_STEPS: usize = 80_000;
 const BLOCK_STEPS: usize = 200_000;
 
 /// Simulation of the widget: settings, rollouts, and predictions of the recursions.
@@ -53,7 +53,7 @@ pub struct Stats {
     /// Moments of ξ (m, m, rad) about the commanded pose, after the selected step.
     #[cfg_attr(target_arch = "wasm32", tsify(type = "Moments"))]
     pub measured: ExponentialMoments,
-    /// Predicted covariance after that step; null (None) if the recursion has none.
+    /// Predicted covariance after the selected step; null (None) if the recursion has none.
     #[cfg_attr(target_arch = "wasm32", tsify(type = "ByRecursion<number[][] | null>"))]
     pub predicted: ByRecursion<Option<Covariance>>,
     /// Misses of along, lateral and heading.
@@ -106,10 +106,10 @@ impl DeadReckoning {
             allowed: Allowed::LessMemory,
         })?;
         let predicted = RECURSIONS.map(|order| covariances(&settings, order));
-        let measured = rollouts.measured(0);
-        let comparisons = compare(&settings, &predicted, &measured);
+        let measured = rollouts.moments_from_sums(0);
+        let comparisons = compare_all(&settings, &predicted, &measured);
         let mut machine = Self { settings, rollouts, shown: 0, predicted, measured, comparisons };
-        machine.show(count.min(settings.samples));
+        machine.drive_robots(count.min(settings.samples));
         Ok(machine)
     }
 
@@ -122,7 +122,7 @@ impl DeadReckoning {
     /// Errors are those of [`DeadReckoning::new`], and change nothing.
     pub fn configure(&mut self, settings: Settings) -> Result<(), SettingsError> {
         self.configure_first(settings, 0)?;
-        self.show(settings.samples);
+        self.drive_robots(settings.samples);
         Ok(())
     }
 
@@ -136,32 +136,34 @@ impl DeadReckoning {
         } else {
             *self = Self::showing(settings, 0)?;
         }
-        self.show(goal.min(settings.samples).min(self.block_of(FIRST_STEPS).max(self.shown)));
+        self.drive_robots(
+            goal.min(settings.samples).min(self.block_for_steps(FIRST_BLOCK_STEPS).max(self.shown)),
+        );
         Ok(())
     }
 
-    /// Drives up to `count` robots more; returns how many are driven then.
+    /// Drives up to `count` more robots; returns the total number of robots driven.
     pub fn add_samples(&mut self, count: usize) -> usize {
-        self.show(self.shown.saturating_add(count).min(self.settings.samples));
+        self.drive_robots(self.shown.saturating_add(count).min(self.settings.samples));
         self.shown
     }
 
-    fn show(&mut self, count: usize) {
+    fn drive_robots(&mut self, count: usize) {
         if count == self.shown {
             return;
         }
         self.rollouts.drive_to(count);
         self.shown = count;
-        self.measured = self.rollouts.measured(count);
-        self.comparisons = compare(&self.settings, &self.predicted, &self.measured);
+        self.measured = self.rollouts.moments_from_sums(count);
+        self.comparisons = compare_all(&self.settings, &self.predicted, &self.measured);
     }
 
     /// Returns the number of robots that are driven within a few milliseconds.
     pub fn block(&self) -> usize {
-        self.block_of(BLOCK_STEPS)
+        self.block_for_steps(BLOCK_STEPS)
     }
 
-    fn block_of(&self, steps: usize) -> usize {
+    fn block_for_steps(&self, steps: usize) -> usize {
         (steps / self.settings.steps as usize).next_multiple_of(BLOCK_ROLLOUTS)
     }
 
@@ -256,25 +258,25 @@ impl DeadReckoning {
     fn outlines_at(&self, index: usize, compounding: Compounding) -> Outlines {
         let pose = self.nominal()[index];
         let Measured { mean, cov, .. } = &self.measured()[index];
-        let measured = if self.shown() < 2 { vec![] } else { floor_of_xi(mean, cov) };
+        let measured = if self.shown() < 2 { vec![] } else { ellipse_of_xi(mean, cov) };
         let Some(cov) = self.predicted(compounding)[index] else {
             return Outlines { ellipse: vec![], exponential: vec![], predicted: vec![], measured };
         };
-        let contour = ExponentialMoments { mean: Vector3::zeros(), cov };
+        let xi_moments = ExponentialMoments { mean: Vector3::zeros(), cov };
         let (sin, cos) = libm::sincos(pose.theta());
-        let turn = Matrix2::new(cos, -sin, sin, cos);
-        let plane = turn * cov.fixed_view::<2, 2>(0, 0) * turn.transpose();
-        let ellipse = Ellipse::new(Vector2::new(pose.x(), pose.y()), plane);
+        let rotation = Matrix2::new(cos, -sin, sin, cos);
+        let position_cov = rotation * cov.fixed_view::<2, 2>(0, 0) * rotation.transpose();
+        let ellipse = Ellipse::new(Vector2::new(pose.x(), pose.y()), position_cov);
         Outlines {
             ellipse: ellipse.boundary(OUTLINE_SEGMENTS),
-            exponential: ExponentialContour::new(&contour, &pose).boundary(OUTLINE_SEGMENTS),
-            predicted: floor_of_xi(&Vector3::zeros(), &cov),
+            exponential: ExponentialContour::new(&xi_moments, &pose).boundary(OUTLINE_SEGMENTS),
+            predicted: ellipse_of_xi(&Vector3::zeros(), &cov),
             measured,
         }
     }
 }
 
-fn compare(
+fn compare_all(
     settings: &Settings,
     predicted: &[Vec<Option<Matrix3<f64>>>; 3],
     measured: &[Measured],
@@ -293,6 +295,6 @@ fn index_of_recursion(order: Compounding) -> usize {
 }
 
 /// Returns the 2σ ellipse of ξ along and lateral.
-fn floor_of_xi(mean: &Vector3<f64>, cov: &Matrix3<f64>) -> Vec<[f64; 2]> {
+fn ellipse_of_xi(mean: &Vector3<f64>, cov: &Matrix3<f64>) -> Vec<[f64; 2]> {
     Ellipse::new(mean.xy(), cov.fixed_view::<2, 2>(0, 0).into_owned()).boundary(OUTLINE_SEGMENTS)
 }

@@ -1,7 +1,7 @@
 //! Monte Carlo rollouts: many robots drive one command repeatedly, four at a time. Sums after each step give mean and covariance.
 
 use super::settings::Settings;
-use crate::geom::lanes::{Circle, HalfTurn, LANES, Trigonometry, any, lanes};
+use crate::geom::lanes::{Circle, HalfTurn, LANES, Trigonometry, any_lane_set, lanes};
 use crate::geom::se2::SE2;
 use crate::models::TangentNoiseModel;
 use crate::noise::{NoiseKind, centred_uniform};
@@ -16,14 +16,14 @@ use wide::f64x4;
 
 /// Number of groups of four that are driven through all steps together: 256 rollouts, whose draws and poses take 8 kB.
 /// With fewer, compensated sums would take noticeable time. More would not fit into the first-level cache.
-const BLOCK: usize = 64;
-pub const BLOCK_ROLLOUTS: usize = BLOCK * LANES;
+const BLOCK_GROUPS: usize = 64;
+pub const BLOCK_ROLLOUTS: usize = BLOCK_GROUPS * LANES;
 
 /// Number of the powers and products of ξ = (a, l, h) that are summed: a, l, h; their squares, cubes and fourth powers; al, ah, lh.
 const SUMMED_TERMS: usize = 15;
 
 /// Mask of a lane with a robot: all bits set.
-const ALL: f64 = f64::from_bits(u64::MAX);
+const ALL_BITS_SET: f64 = f64::from_bits(u64::MAX);
 
 /// Quarter turn minus a margin for rounding.
 const MAX_SHORT_FORMULA_ANGLE: f64 = FRAC_PI_2 * (1.0 - 1e-12);
@@ -31,7 +31,7 @@ const MAX_SHORT_FORMULA_ANGLE: f64 = FRAC_PI_2 * (1.0 - 1e-12);
 /// One step of a robot, in exponential coordinates about the commanded pose. With the error pose e = x̄⁻¹·x, e_k =
 /// exp(−τ)·e_{k−1}·exp(τ + w)·(a turn by γ̂Δt). No number grows with the length of the path.
 #[derive(Clone, Copy, Debug)]
-struct Step {
+struct StepInErrorFrame {
     /// Mean and deviation of the length of the arc (m) and of half its turn (rad).
     length: [f64; 2],
     half_turn: [f64; 2],
@@ -72,7 +72,7 @@ pub const MAX_SHOWN_ROBOTS: usize = 600;
 /// Rollouts that have been driven so far.
 #[derive(Clone, Debug)]
 pub struct Rollouts {
-    step: Step,
+    step: StepInErrorFrame,
     seed: u64,
     /// Random stream of the next block. Each block has its own stream. A longer path takes more numbers of it, so that the
     /// first steps of a robot depend on the seed alone.
@@ -87,7 +87,7 @@ pub struct Rollouts {
     poses: Vec<[f64; 3]>,
 }
 
-impl Step {
+impl StepInErrorFrame {
     fn new(settings: &Settings) -> Self {
         let u = &settings.command;
         let [length, turn, last] = settings.model().variances(u).map(|variance| variance.0.sqrt() * u.dt);
@@ -111,16 +111,16 @@ impl Step {
     #[inline(always)]
     fn drive(&self, four: &mut ErrorPoses, [first, second, third]: &[f64x4; 3]) -> [f64x4; 3] {
         let length = *first * self.length[1] + self.length[0];
-        let more = *second * self.half_turn[1];
-        let Circle { sinc, sin, cos } = self.trigonometry.near_or_any_circle(more + self.half_turn[0]);
+        let turn_noise = *second * self.half_turn[1];
+        let Circle { sinc, sin, cos } = self.trigonometry.near_or_any_circle(turn_noise + self.half_turn[0]);
         let chord = length * sinc;
         // The bearing of the chord is the heading of the robot plus half the turn of its arc.
-        let head_sin = 2.0 * four.sin * four.cos;
-        let head_cos = 1.0 - 2.0 * four.sin * four.sin;
-        let x = four.x + chord * (head_cos * cos - head_sin * sin) - self.end[0];
-        let y = four.y + chord * (head_sin * cos + head_cos * sin) - self.end[1];
-        let half = four.half + (more + *third * self.half_last);
-        let is_far = any(half.abs().simd_gt(f64x4::splat(MAX_SHORT_FORMULA_ANGLE)));
+        let heading_sin = 2.0 * four.sin * four.cos;
+        let heading_cos = 1.0 - 2.0 * four.sin * four.sin;
+        let x = four.x + chord * (heading_cos * cos - heading_sin * sin) - self.end[0];
+        let y = four.y + chord * (heading_sin * cos + heading_cos * sin) - self.end[1];
+        let half = four.half + (turn_noise + *third * self.half_last);
+        let is_far = any_lane_set(half.abs().simd_gt(f64x4::splat(MAX_SHORT_FORMULA_ANGLE)));
         let HalfTurn { half, cotangent, sin, cos, .. } = if is_far {
             self.trigonometry.any_half_turn(half, 0.0)
         } else {
@@ -143,7 +143,7 @@ impl Rollouts {
         poses.resize(steps * MAX_SHOWN_ROBOTS, [0.0; 3]);
         let twist = TangentNoiseModel::twist(&settings.command);
         Ok(Self {
-            step: Step::new(settings),
+            step: StepInErrorFrame::new(settings),
             seed: settings.seed,
             stream: Xoshiro256PlusPlus::seed_from_u64(settings.seed),
             driven: 0,
@@ -175,16 +175,16 @@ impl Rollouts {
     }
 
     /// Returns the moments of `goal` robots after each step. It drives those of the last, incomplete block.
-    pub fn measured(&mut self, goal: usize) -> Vec<Measured> {
-        let of = |sums: &[Sums<SUMMED_TERMS>]| {
-            sums.iter().map(|sums| measured(&sums.finish(), goal as f64)).collect()
+    pub fn moments_from_sums(&mut self, goal: usize) -> Vec<Measured> {
+        let moments_of = |sums: &[Sums<SUMMED_TERMS>]| {
+            sums.iter().map(|sums| moments_from_sums(&sums.finish(), goal as f64)).collect()
         };
         if goal == self.driven {
-            return of(&self.sums);
+            return moments_of(&self.sums);
         }
         let mut sums = self.sums.clone();
         self.drive_next(goal - self.driven, &mut sums);
-        of(&sums)
+        moments_of(&sums)
     }
 
     /// Drives the next block and adds the first `count` of its robots.
@@ -195,17 +195,17 @@ impl Rollouts {
         for (k, (sums, nominal)) in sums.iter_mut().zip(nominal).enumerate() {
             block.drive(step);
             for (i, xi) in block.draws.iter().enumerate() {
-                let there = count.saturating_sub(LANES * i);
-                if there >= LANES {
-                    sum(sums, *xi);
+                let remaining_lanes = count.saturating_sub(LANES * i);
+                if remaining_lanes >= LANES {
+                    add_to_sums(sums, *xi);
                 } else {
-                    let mask = lanes(|lane| if lane < there { ALL } else { 0.0 });
-                    sum(sums, xi.map(|lanes| lanes & mask));
+                    let mask = lanes(|lane| if lane < remaining_lanes { ALL_BITS_SET } else { 0.0 });
+                    add_to_sums(sums, xi.map(|lanes| lanes & mask));
                 }
             }
             sums.close_block();
-            let row = poses[k * MAX_SHOWN_ROBOTS..][..MAX_SHOWN_ROBOTS].iter_mut().skip(*driven);
-            for (i, pose) in row.take(BLOCK_ROLLOUTS).enumerate() {
+            let robot_poses = poses[k * MAX_SHOWN_ROBOTS..][..MAX_SHOWN_ROBOTS].iter_mut().skip(*driven);
+            for (i, pose) in robot_poses.take(BLOCK_ROLLOUTS).enumerate() {
                 *pose = block.fours[i / LANES].pose(i % LANES, nominal);
             }
         }
@@ -223,10 +223,10 @@ impl Rollouts {
 
     /// Returns x, y (m) and θ (rad) of one robot after each step.
     pub fn rollout(&self, index: usize) -> Vec<[f64; 3]> {
-        let mut stream = Xoshiro256PlusPlus::seed_from_u64(self.seed);
-        (0..index / BLOCK_ROLLOUTS).for_each(|_| stream.jump());
+        let mut next_stream = Xoshiro256PlusPlus::seed_from_u64(self.seed);
+        (0..index / BLOCK_ROLLOUTS).for_each(|_| next_stream.jump());
         let (four, lane) = (index % BLOCK_ROLLOUTS / LANES, index % LANES);
-        let mut block = Block::new(stream);
+        let mut block = Block::new(next_stream);
         let pose_after = |nominal| {
             block.drive(&self.step);
             block.fours[four].pose(lane, nominal)
@@ -247,20 +247,20 @@ impl ErrorPoses {
 struct Block {
     rng: Xoshiro256PlusPlus,
     /// Error poses of the robots.
-    fours: [ErrorPoses; BLOCK],
+    fours: [ErrorPoses; BLOCK_GROUPS],
     /// Draws of a step, replaced by the resulting ξ.
-    draws: [[f64x4; 3]; BLOCK],
+    draws: [[f64x4; 3]; BLOCK_GROUPS],
 }
 
 impl Block {
     fn new(rng: Xoshiro256PlusPlus) -> Self {
         let [zero, one] = [0.0, 1.0].map(f64x4::splat);
         let start = ErrorPoses { x: zero, y: zero, half: zero, sin: zero, cos: one };
-        Self { rng, fours: [start; BLOCK], draws: [[zero; 3]; BLOCK] }
+        Self { rng, fours: [start; BLOCK_GROUPS], draws: [[zero; 3]; BLOCK_GROUPS] }
     }
 
     #[inline(never)]
-    fn drive(&mut self, step: &Step) {
+    fn drive(&mut self, step: &StepInErrorFrame) {
         let Self { rng, fours, draws } = self;
         for draw in draws.iter_mut() {
             let mut uniforms = [[0.0; LANES]; 3];
@@ -277,7 +277,7 @@ impl Block {
 }
 
 #[inline(always)]
-fn sum(sums: &mut Sums<SUMMED_TERMS>, [a, l, h]: [f64x4; 3]) {
+fn add_to_sums(sums: &mut Sums<SUMMED_TERMS>, [a, l, h]: [f64x4; 3]) {
     let [aa, ll, hh] = [a * a, l * l, h * h];
     let terms = [a, l, h, aa, ll, hh, a * aa, l * ll, h * hh, aa * aa, ll * ll, hh * hh, a * l, a * h, l * h];
     add(&mut sums.block, terms);
@@ -286,23 +286,23 @@ fn sum(sums: &mut Sums<SUMMED_TERMS>, [a, l, h]: [f64x4; 3]) {
 /// Minimum number of robots whose kurtosis is reliable enough for standard errors of variances.
 const MIN_RELIABLE_COUNT: f64 = 30.0;
 
-fn measured(sums: &[f64; SUMMED_TERMS], n: f64) -> Measured {
+fn moments_from_sums(sums: &[f64; SUMMED_TERMS], n: f64) -> Measured {
     let [a, l, h, aa, ll, hh, .., al, ah, lh] = sums.map(|sum| sum / n);
     let mean = Vector3::new(a, l, h);
-    let mut products = Matrix3::new(aa, al, ah, al, ll, lh, ah, lh, hh) - mean * mean.transpose();
+    let mut covariance = Matrix3::new(aa, al, ah, al, ll, lh, ah, lh, hh) - mean * mean.transpose();
     for i in 0..3 {
-        products[(i, i)] = non_negative(products[(i, i)]);
+        covariance[(i, i)] = non_negative(covariance[(i, i)]);
     }
     let relative_error = Vector3::from_fn(|i, _| {
         let [m, square, cube, fourth] = [0, 3, 6, 9].map(|power| sums[power + i] / n);
-        let m2 = products[(i, i)];
+        let m2 = covariance[(i, i)];
         let m4 = fourth - 4.0 * m * cube + 6.0 * m * m * square - 3.0 * m * m * m * m;
         let kurtosis = if m2 > 0.0 { m4 / (m2 * m2) } else { f64::NAN };
-        let estimate = non_negative(kurtosis - 1.0) / n;
+        let kurtosis_error = non_negative(kurtosis - 1.0) / n;
         // The kurtosis of a few robots is unreliable; of two it is always 1. The standard error is then at least that of a
         // normal distribution. `f64::max` would ignore NaN.
-        let of_gaussian = if n < MIN_RELIABLE_COUNT { 2.0 / (n - 1.0) } else { 0.0 };
-        if estimate < of_gaussian { of_gaussian.sqrt() } else { estimate.sqrt() }
+        let gaussian_error = if n < MIN_RELIABLE_COUNT { 2.0 / (n - 1.0) } else { 0.0 };
+        if kurtosis_error < gaussian_error { gaussian_error.sqrt() } else { kurtosis_error.sqrt() }
     });
-    Measured { mean, cov: products * (n / (n - 1.0)), relative_error }
+    Measured { mean, cov: covariance * (n / (n - 1.0)), relative_error }
 }

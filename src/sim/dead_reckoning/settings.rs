@@ -46,7 +46,7 @@ settings! {
         /// Noise parameters, the six of the velocity model.
         alphas: [f64; 6] = [0.02, 0.02, 0.02, 0.02, 0.005, 0.005], in ALPHA_RANGE;
         /// Level h of the heading noise: α₃ and α₄ are h, α₅ and α₆ are h/4. Null if they have other ratios.
-        heading_noise as "headingNoise", by heading_level of alphas, in ALPHA_RANGE;
+        heading_noise as "headingNoise", by heading_noise_level of alphas, in ALPHA_RANGE;
         /// Motion to which the noise parameters apply: each step, or the whole path. Each of n steps then has 1/n of its variance.
         per: NoisePer = NoisePer::Step;
         /// Recursion of the covariance that is shown.
@@ -63,25 +63,25 @@ settings! {
 pub const ALPHA_SENTENCES: [&str; 6] = ["Noise parameter of the velocity model."; 6];
 
 impl Settings {
-    fn heading_level(&mut self) -> NoiseLevel<'_, 4> {
+    fn heading_noise_level(&mut self) -> NoiseLevel<'_, 4> {
         let [_, _, of_heading @ ..] = &mut self.alphas;
         NoiseLevel(of_heading)
     }
 
     /// Returns the level of the heading noise; None if α₃ to α₆ are not in the ratios of a level.
     pub fn heading_noise(mut self) -> Option<f64> {
-        self.heading_level().get()
+        self.heading_noise_level().get()
     }
 
     /// Returns the noise of one step.
     pub fn model(&self) -> VelocityModel {
-        let share = match self.per {
+        let variance_factor = match self.per {
             NoisePer::Step => 1.0,
             // A step has 1/n of the variance of the path: (nΔt)²σ²/n = Δt²·nσ².
             NoisePer::Path => f64::from(self.steps),
         };
         VelocityModel {
-            alphas: VelocityAlphas(self.alphas.map(|alpha| share * alpha)),
+            alphas: VelocityAlphas(self.alphas.map(|alpha| variance_factor * alpha)),
             noise: NoiseKind::Normal,
         }
     }
@@ -91,11 +91,11 @@ impl Settings {
     pub(super) fn has_same_rollouts(&self, other: &Self) -> bool {
         let Self { step, compounding, samples, .. } = *other;
         // −0 equals 0, but leads to other signs of zeros in the results.
-        let signs = |of: &Self| {
+        let sign_bits = |of: &Self| {
             let VelocityCmd { v, omega, dt } = of.command;
             ([v, omega, dt].map(f64::is_sign_negative), of.alphas.map(f64::is_sign_negative))
         };
-        Self { step, compounding, samples, ..*self } == *other && signs(self) == signs(other)
+        Self { step, compounding, samples, ..*self } == *other && sign_bits(self) == sign_bits(other)
     }
 }
 

@@ -37,11 +37,11 @@ impl StraightGrowth {
         let model = VelocityModel { alphas: VelocityAlphas(settings.alphas), noise: NoiseKind::Normal };
         let [first, last] = LOG10_DURATIONS_IN_TENTHS;
         let durations: Vec<f64> = (first..=last).map(|i| libm::pow(10.0, f64::from(i) / 10.0)).collect();
-        let exact = durations.iter().map(|dt| {
+        let exact_variances = durations.iter().map(|dt| {
             let cov = ExactMoments::of_velocity(&model, &VelocityCmd { v, omega: 0.0, dt: *dt }).cov;
             (cov[(0, 0)], cov[(1, 1)])
         });
-        let (along, across) = exact.unzip();
+        let (along, across) = exact_variances.unzip();
         let crossing = 2.0 / v.abs() * (alpha1 / alpha3).sqrt();
         Self {
             along,

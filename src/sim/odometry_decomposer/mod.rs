@@ -54,7 +54,7 @@ js_structs! {
     }
 }
 
-/// Odometry poses in the world, where their frame has drifted, and the legs computed from them.
+/// Odometry poses in the world, in which the odometry frame has drifted, and the legs computed from these poses.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Drifted {
     pub frame: SE2,
@@ -100,7 +100,7 @@ impl OdometryDecomposer {
         settings.check()?;
         let draws = Draws::new(settings.seed, settings.noise);
         let mut machine = Self { settings, draws, shown: count.min(settings.samples), poses: Vec::new() };
-        machine.refresh();
+        machine.update_poses();
         Ok(machine)
     }
 
@@ -120,14 +120,14 @@ impl OdometryDecomposer {
         settings.check()?;
         self.shown = goal.min(settings.samples);
         self.settings = settings;
-        self.refresh();
+        self.update_poses();
         Ok(())
     }
 
     /// Shows up to `count` outcomes more; returns how many are shown.
     pub fn add_samples(&mut self, count: usize) -> usize {
         self.shown = self.shown.saturating_add(count).min(self.settings.samples);
-        self.refresh();
+        self.update_poses();
         self.shown
     }
 
@@ -141,7 +141,7 @@ impl OdometryDecomposer {
         self.shown
     }
 
-    fn refresh(&mut self) {
+    fn update_poses(&mut self) {
         self.draws.restart(self.settings.seed, self.settings.noise);
         self.draws.extend_to(self.shown);
         let start = self.start();
@@ -171,9 +171,9 @@ impl OdometryDecomposer {
         let rho = self.settings.correlation;
         let (legs, variances) = (self.legs(), self.variances());
         (0..count).map(move |index| {
-            let [across, along, independent] = self.draws.unit_noise_of(index);
-            let turn = rho * across + (1.0 - rho * rho).sqrt() * independent;
-            variances.executed(&legs, [across, along, turn])
+            let [across, along, independent] = self.draws.noise_of_sample(index);
+            let turn_noise = rho * across + (1.0 - rho * rho).sqrt() * independent;
+            variances.executed(&legs, [across, along, turn_noise])
         })
     }
 
@@ -196,9 +196,13 @@ impl OdometryDecomposer {
 
     /// Returns the pose of the robot at the selected phase of the motion.
     pub fn robot(&self) -> SE2 {
-        let share = |before: f64| (self.settings.phase - before).clamp(0.0, 1.0);
+        let progress_of_leg = |before: f64| (self.settings.phase - before).clamp(0.0, 1.0);
         let OdomDelta { rot1, trans, rot2 } = self.legs();
-        let legs = OdomDelta { rot1: share(0.0) * rot1, trans: share(1.0) * trans, rot2: share(2.0) * rot2 };
+        let legs = OdomDelta {
+            rot1: progress_of_leg(0.0) * rot1,
+            trans: progress_of_leg(1.0) * trans,
+            rot2: progress_of_leg(2.0) * rot2,
+        };
         legs.apply(&self.start())
     }
 
@@ -224,14 +228,14 @@ impl OdometryDecomposer {
         let Settings { noise, correlation, .. } = self.settings;
         let (legs, variances) = (self.legs(), self.variances());
         let outcomes = self.executed(self.shown);
-        let across = outcomes.clone().map(|ExecutedLegs { legs: executed, strafe }| {
+        let cross_track_offsets = outcomes.clone().map(|ExecutedLegs { legs: executed, strafe }| {
             let (sin, cos) = libm::sincos(executed.rot1 - legs.rot1);
             executed.trans * sin + strafe * cos
         });
-        let turned = outcomes
+        let turn_offsets = outcomes
             .map(|ExecutedLegs { legs: executed, .. }| executed.rot1 - legs.rot1 + executed.rot2 - legs.rot2);
-        let [cross_track, cross_track_error] = spread(across, self.shown);
-        let [heading, heading_error] = spread(turned, self.shown);
+        let [cross_track, cross_track_error] = rms_with_error(cross_track_offsets, self.shown);
+        let [heading, heading_error] = rms_with_error(turn_offsets, self.shown);
         Stats {
             n: self.shown,
             cross_track,
@@ -282,7 +286,7 @@ impl OdometryDecomposer {
 
 /// Returns the root mean square of values with mean 0, and its standard error by the delta method: √((m₄ −
 /// m₂²)/n)/(2√m₂).
-fn spread(values: impl Iterator<Item = f64>, count: usize) -> [f64; 2] {
+fn rms_with_error(values: impl Iterator<Item = f64>, count: usize) -> [f64; 2] {
     if count == 0 {
         return [f64::NAN; 2];
     }

@@ -91,8 +91,8 @@ const fn preset(name: &'static str, to: [f64; 3]) -> Preset {
 /// Initial reading: a drive in reverse, on which the rules disagree.
 pub const REVERSE: Preset = preset("reverse", [-1.2, -0.3, 0.1]);
 
-/// Readings with all three legs, with one or two of them, and readings on which the rules disagree: a drive in reverse,
-/// and jitter of half a centimetre.
+/// Presets: readings with one, two or all three legs, and readings on which the rules disagree (a drive in reverse, and jitter of
+/// half a centimetre).
 pub const PRESETS: [Preset; 6] = [
     preset("all", [1.2, 1.0, 1.2]),
     // 0.6435 rad is the direction of (4, 3).

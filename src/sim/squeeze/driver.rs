@@ -34,7 +34,7 @@ impl Attempt {
             + ACCEPTED * u8::from(self.accepted)
     }
 
-    /// Checks whether the attempt is accepted although its path is not free.
+    /// Returns true if the attempt is accepted although its path is not free.
     pub fn is_through_wall(&self) -> bool {
         self.accepted && !self.path_free
     }
@@ -55,23 +55,23 @@ impl<'a> Driver<'a> {
 
     /// Makes the first of the attempts `indices`, or up to four of them with a sampler that checks each attempt once.
     #[inline(always)]
-    pub fn make_attempts(&self, indices: Range<usize>, mut see: impl FnMut(Attempt, Cost)) {
+    pub fn make_next_attempts(&self, indices: Range<usize>, mut see: impl FnMut(Attempt, Cost)) {
         if let Sampler::SubStepped(steps) = self.settings.sampler {
             let (attempt, cost) = self.drive_parts(indices.start, steps, &mut |_| ());
             return see(attempt, cost);
         }
         let conditioned = self.settings.conditioned;
-        let (four, first) = (indices.start / LANES, indices.start % LANES);
+        let (group, first) = (indices.start / LANES, indices.start % LANES);
         let lanes = first..LANES.min(first + indices.len());
-        self.draw_tester.test_four(&self.draws.fours()[four], lanes, |draw| {
-            let deciding = self.model.deciding(&draw);
+        self.draw_tester.test_four(&self.draws.groups()[group], lanes, |draw| {
+            let deciding_verdict = self.model.deciding(&draw);
             let attempt = Attempt {
                 pose: draw.pose,
-                accepted: !conditioned || deciding.free,
+                accepted: !conditioned || deciding_verdict.free,
                 end_free: draw.end.free,
                 path_free: draw.path.free,
             };
-            let wall_tests = if conditioned { deciding.wall_tests } else { 0 };
+            let wall_tests = if conditioned { deciding_verdict.wall_tests } else { 0 };
             see(attempt, Cost { draws: 1, wall_tests });
         });
     }
@@ -79,7 +79,7 @@ impl<'a> Driver<'a> {
     /// Returns the arcs that are driven in an attempt.
     pub fn arcs(&self, index: usize) -> Vec<Arc> {
         let Sampler::SubStepped(steps) = self.settings.sampler else {
-            return vec![self.draw_tester.arc(self.draws.unit_noise_of(index))];
+            return vec![self.draw_tester.arc(self.draws.noise_of_sample(index))];
         };
         let mut arcs = Vec::new();
         self.drive_parts(index, steps, &mut |arc| arcs.push(*arc));

@@ -7,7 +7,7 @@ mod tally;
 
 pub use super::noise_level::alphas_of_noise;
 pub use driver::{ACCEPTED, Attempt, END_FREE, PATH_FREE};
-pub use picture::{KINDS, Kind};
+pub use picture::{OUTCOME_KINDS, OutcomeKind};
 pub use settings::*;
 pub use tally::{Stats, Tally};
 
@@ -29,7 +29,7 @@ use tally::ratio;
 
 /// Maximum number of parts of motions in a timing trial: accepted samples times the parts of each. A longer trial would block
 /// the page.
-pub const MAX_TRIAL: u64 = 100_000;
+pub const MAX_TRIAL_PARTS: u64 = 100_000;
 
 /// Simulation of the widget: a map, settings, draws, and the attempts shown.
 #[derive(Clone, Debug)]
@@ -37,14 +37,14 @@ pub struct MapSqueeze {
     plan: FloorPlan,
     settings: Settings,
     draws: Draws,
-    shown: Shown,
+    shown: ShownAttempts,
     /// Latest picture. The page reads it in place.
     picture: Vec<[u8; 4]>,
 }
 
 /// Attempts that are shown, with the number of each outcome.
 #[derive(Clone, Debug, Default)]
-struct Shown {
+struct ShownAttempts {
     attempts: Vec<Attempt>,
     tally: Tally,
     gave_up: bool,
@@ -73,7 +73,7 @@ impl MapSqueeze {
             plan: FloorPlan::apartment(),
             settings,
             draws: Draws::new(settings.seed, NoiseKind::Normal),
-            shown: Shown::default(),
+            shown: ShownAttempts::default(),
             picture: Vec::new(),
         };
         machine.configure_first(settings, 0)?;
@@ -93,12 +93,12 @@ impl MapSqueeze {
     /// number if the machine had given up.
     pub fn set_plan(&mut self, plan: FloorPlan) {
         self.plan = plan;
-        let count = if self.gave_up() { self.settings.samples } else { self.shown() };
-        self.clear();
-        self.add_samples(count);
+        let attempt_count = if self.gave_up() { self.settings.samples } else { self.shown() };
+        self.clear_attempts();
+        self.add_samples(attempt_count);
     }
 
-    /// Replaces the map by a grid, as [`MapSqueeze::set_plan`] does by a plan. Unknown cells are treated as the settings say.
+    /// Replaces the map by a grid, as [`MapSqueeze::set_plan`] replaces it by a plan. The settings define how unknown cells count.
     /// Errors are those of [`FloorPlan::from_grid`], and change nothing.
     pub fn set_grid(&mut self, grid: OccupancyGrid) -> Result<(), FloorPlanError> {
         self.set_plan(FloorPlan::from_grid(grid.with_unknown(self.settings.unknown))?);
@@ -120,8 +120,9 @@ impl MapSqueeze {
     /// Errors are those of [`MapSqueeze::configure`].
     pub fn configure_first(&mut self, settings: Settings, goal: usize) -> Result<(), SettingsError> {
         settings.check()?;
-        let changed = self.plan.grid().filter(|_| settings.unknown != self.settings.unknown);
-        let plan = changed.map(|grid| FloorPlan::from_grid(grid.clone().with_unknown(settings.unknown)));
+        let grid_to_rebuild = self.plan.grid().filter(|_| settings.unknown != self.settings.unknown);
+        let plan =
+            grid_to_rebuild.map(|grid| FloorPlan::from_grid(grid.clone().with_unknown(settings.unknown)));
         // A grid that was accepted before can only be refused because of its unknown cells.
         let plan = plan.transpose().map_err(|_| SettingsError {
             field: "unknown".to_owned(),
@@ -132,19 +133,19 @@ impl MapSqueeze {
             },
         })?;
         let no_memory = |_| SettingsError::no_memory(settings.samples);
-        let missing = settings.samples.saturating_sub(self.shown.attempts.len());
-        self.shown.attempts.try_reserve_exact(missing).map_err(no_memory)?;
+        let missing_draws = settings.samples.saturating_sub(self.shown.attempts.len());
+        self.shown.attempts.try_reserve_exact(missing_draws).map_err(no_memory)?;
         self.draws.reserve(settings.samples).map_err(no_memory)?;
         if let Some(plan) = plan {
             self.plan = plan;
         }
         self.settings = settings;
-        self.clear();
+        self.clear_attempts();
         self.add_samples(goal.min(self.block()));
         Ok(())
     }
 
-    fn clear(&mut self) {
+    fn clear_attempts(&mut self) {
         self.shown.attempts.clear();
         (self.shown.tally, self.shown.gave_up) = (Tally::default(), false);
     }
@@ -157,11 +158,11 @@ impl MapSqueeze {
         self.draws.extend_to(goal);
         let steps = self.settings.parts() as usize;
         let Self { plan, settings, draws, shown, .. } = self;
-        let Shown { attempts, tally, gave_up } = shown;
-        let model = conditioned(settings, plan, settings.sampler);
+        let ShownAttempts { attempts, tally, gave_up } = shown;
+        let model = conditioned_model(settings, plan, settings.sampler);
         let driver = Driver::new(&model, settings, draws);
         while attempts.len() < goal && !*gave_up {
-            driver.make_attempts(attempts.len()..goal, |attempt, cost| {
+            driver.make_next_attempts(attempts.len()..goal, |attempt, cost| {
                 tally.draws += cost.draws;
                 tally.wall_tests += cost.wall_tests;
                 tally.accepted += usize::from(attempt.accepted);
@@ -215,9 +216,9 @@ impl MapSqueeze {
 
     /// Paints a density map of the ends of the attempts shown, one pixel for each cell of the grid. The most frequent kind of
     /// attempt in a cell selects the ramp. The colour is ramp[255·√(count/most)], where `count` is the number of attempts in
-    /// the cell and `most` the largest such number. Empty cells are transparent.
-    pub fn paint(&mut self, grid: &Grid, ramps: &[Ramp; KINDS]) -> &[[u8; 4]] {
-        self.picture = picture::paint(&self.shown.attempts, grid, ramps);
+    /// the cell and `most` the largest count of all cells. Empty cells are transparent.
+    pub fn paint(&mut self, grid: &Grid, ramps: &[Ramp; OUTCOME_KINDS]) -> &[[u8; 4]] {
+        self.picture = picture::paint_attempts(&self.shown.attempts, grid, ramps);
         &self.picture
     }
 
@@ -233,7 +234,7 @@ impl MapSqueeze {
         if index >= self.shown.attempts.len() {
             return Vec::new();
         }
-        let model = conditioned(&self.settings, &self.plan, self.settings.sampler);
+        let model = conditioned_model(&self.settings, &self.plan, self.settings.sampler);
         Driver::new(&model, &self.settings, &self.draws).arcs(index)
     }
 
@@ -242,19 +243,19 @@ impl MapSqueeze {
     /// # Errors
     /// [`NoAcceptedSample`] if one of the samples is not accepted, or if all together take so many draws that the machine would give up.
     pub fn trial(&self, sampler: Sampler, count: usize) -> Result<Cost, NoAcceptedSample> {
-        let conditioned = conditioned(&self.settings, &self.plan, sampler);
+        let conditioned_model = conditioned_model(&self.settings, &self.plan, sampler);
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(self.settings.seed);
-        let mut total = Cost::default();
-        let parts = sampler.parts() as usize * count;
+        let mut total_cost = Cost::default();
+        let part_count = sampler.parts() as usize * count;
         for _ in 0..count {
-            let cost = conditioned.cost(&self.settings.command, &self.settings.start(), &mut rng)?;
-            total.draws += cost.draws;
-            total.wall_tests += cost.wall_tests;
-            if total.draws > max_draws(parts) {
-                return Err(NoAcceptedSample(total));
+            let cost = conditioned_model.cost(&self.settings.command, &self.settings.start(), &mut rng)?;
+            total_cost.draws += cost.draws;
+            total_cost.wall_tests += cost.wall_tests;
+            if total_cost.draws > max_draws(part_count) {
+                return Err(NoAcceptedSample(total_cost));
             }
         }
-        Ok(total)
+        Ok(total_cost)
     }
 
     /// Returns a free pose, see [`FloorPlan::open_place`].
@@ -281,7 +282,7 @@ pub fn max_draws(parts: usize) -> usize {
 }
 
 /// Returns the model with these settings, conditioned on a plan by a sampler.
-fn conditioned<'a>(settings: &Settings, plan: &'a FloorPlan, sampler: Sampler) -> MapConditioned<'a> {
+fn conditioned_model<'a>(settings: &Settings, plan: &'a FloorPlan, sampler: Sampler) -> MapConditioned<'a> {
     let model = VelocityModel { alphas: VelocityAlphas(settings.alphas), noise: NoiseKind::Normal };
     MapConditioned { model, plan, clearance: settings.clearance, sampler }
 }

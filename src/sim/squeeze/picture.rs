@@ -1,12 +1,12 @@
 //! Density map of attempts, coloured by their outcome.
 
 use super::driver::Attempt;
-use crate::sim::cloud::picture::{Ramp, shade};
+use crate::sim::cloud::picture::{Ramp, ramp_step};
 use crate::sim::cloud::views::Grid;
 
 /// Outcome of an attempt in the picture. If several kinds are equally frequent in a cell, the last one is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum OutcomeKind {
     Rejected,
     /// Accepted, and the path was free.
     Free,
@@ -15,35 +15,35 @@ pub enum Kind {
 }
 
 /// Number of kinds.
-pub const KINDS: usize = 3;
+pub const OUTCOME_KINDS: usize = 3;
 
 impl Attempt {
-    pub fn kind(&self) -> Kind {
+    pub fn kind(&self) -> OutcomeKind {
         match (self.accepted, self.path_free) {
-            (false, _) => Kind::Rejected,
-            (true, true) => Kind::Free,
-            (true, false) => Kind::ThroughWall,
+            (false, _) => OutcomeKind::Rejected,
+            (true, true) => OutcomeKind::Free,
+            (true, false) => OutcomeKind::ThroughWall,
         }
     }
 }
 
 /// Paints the ends of attempts, row by row from the top.
-pub fn paint(attempts: &[Attempt], grid: &Grid, ramps: &[Ramp; KINDS]) -> Vec<[u8; 4]> {
+pub fn paint_attempts(attempts: &[Attempt], grid: &Grid, ramps: &[Ramp; OUTCOME_KINDS]) -> Vec<[u8; 4]> {
     let (Grid { min, max, .. }, per_metre) = (*grid, grid.cells_per_unit());
-    let mut cells = vec![[0u32; KINDS]; grid.columns * grid.rows];
+    let mut cell_counts = vec![[0u32; OUTCOME_KINDS]; grid.columns * grid.rows];
     for attempt in attempts {
         let column = ((attempt.pose.x() - min[0]) * per_metre[0]).floor();
         let row = ((max[1] - attempt.pose.y()) * per_metre[1]).floor();
         if let Some(cell) = grid.index_of(column, row) {
-            cells[cell][attempt.kind() as usize] += 1;
+            cell_counts[cell][attempt.kind() as usize] += 1;
         }
     }
-    let all = |counts: &[u32; KINDS]| counts.iter().sum::<u32>();
-    let most = cells.iter().map(all).max().unwrap_or(0);
-    let colour = |counts: &[u32; KINDS]| {
-        let count = all(counts);
-        let kind = (0..KINDS).max_by_key(|kind| counts[*kind]).unwrap_or(0);
-        if count == 0 { [0; 4] } else { ramps[kind][shade(count, most)] }
+    let total_count = |counts: &[u32; OUTCOME_KINDS]| counts.iter().sum::<u32>();
+    let highest_count = cell_counts.iter().map(total_count).max().unwrap_or(0);
+    let cell_colour = |counts: &[u32; OUTCOME_KINDS]| {
+        let count = total_count(counts);
+        let kind = (0..OUTCOME_KINDS).max_by_key(|kind| counts[*kind]).unwrap_or(0);
+        if count == 0 { [0; 4] } else { ramps[kind][ramp_step(count, highest_count)] }
     };
-    cells.iter().map(colour).collect()
+    cell_counts.iter().map(cell_colour).collect()
 }

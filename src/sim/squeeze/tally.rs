@@ -30,11 +30,11 @@ impl Tally {
         // 97.5 % quantile of the normal distribution.
         let z = NoiseKind::Normal.quantile(0.475);
         let (middle, scale) = (p + z * z / (2.0 * n), 1.0 + z * z / n);
-        let half = z * (p * (1.0 - p) / n + z * z / (4.0 * n * n)).sqrt();
-        // The interval of a fraction 0 begins at exactly 0, and that of 1 ends at exactly 1. Rounding would miss them.
-        let low = if self.through_wall == 0 { 0.0 } else { (middle - half) / scale };
-        let high = if self.through_wall == self.accepted { 1.0 } else { (middle + half) / scale };
-        if n > 0.0 { [low, high] } else { [0.0, 1.0] }
+        let half_width = z * (p * (1.0 - p) / n + z * z / (4.0 * n * n)).sqrt();
+        // The interval of a fraction of 0 begins at exactly 0, and that of a fraction of 1 ends at exactly 1, despite rounding.
+        let lower = if self.through_wall == 0 { 0.0 } else { (middle - half_width) / scale };
+        let upper = if self.through_wall == self.accepted { 1.0 } else { (middle + half_width) / scale };
+        if n > 0.0 { [lower, upper] } else { [0.0, 1.0] }
     }
 }
 

@@ -1,6 +1,6 @@
 //! configurations.json: settings of machines, and the arguments of the methods that are digested.
 
-use motion::sim::picture::{RAMP, Ramp};
+use motion::sim::picture::{RAMP_STEPS, Ramp};
 use motion::sim::settings::{Rules, Setting};
 use motion::sim::views::Grid;
 use serde_json::Value;
@@ -91,5 +91,5 @@ pub fn numbers<const N: usize>(value: &Value) -> [f64; N] {
 
 /// Returns distinct colours, as digest.js does.
 pub fn ramp(which: usize) -> Ramp {
-    std::array::from_fn(|i| [i as u8, (RAMP - 1 - i) as u8, 85 * which as u8, 255])
+    std::array::from_fn(|i| [i as u8, (RAMP_STEPS - 1 - i) as u8, 85 * which as u8, 255])
 }

@@ -2,9 +2,9 @@
 //! Messages about refused settings write numbers as JavaScript does.
 
 use motion::map::{MAX_BYTES, MAX_PIXELS};
-use motion::sim::picture::RAMP;
+use motion::sim::picture::RAMP_STEPS;
 use motion::sim::settings::{Declaration, Declared, Field, Group, Setting};
-use motion::sim::squeeze::{ACCEPTED, END_FREE, MAX_TRIAL, PATH_FREE};
+use motion::sim::squeeze::{ACCEPTED, END_FREE, MAX_TRIAL_PARTS, PATH_FREE};
 use motion::sim::{alpha_calibrator, arc_anatomy, banana, dead_reckoning, odometry_decomposer, squeeze};
 use std::fmt::Write;
 use std::ops::{ControlFlow, RangeInclusive};
@@ -92,7 +92,7 @@ export const openingAlphas = {{ velocity: {velocity_alphas:?}, odometry: {odomet
  * Limits of the core. `cells` and `bytes` are the largest numbers of cells of a grid or pixels of an image, and of bytes of its file.
  * `trial` limits samples times parts in a call of `MapSqueeze.trial`. `ramp` is the number of colours of a ramp.
  */
-export const limits = {{ cells: {MAX_PIXELS}, bytes: {MAX_BYTES}, trial: {MAX_TRIAL}, ramp: {RAMP} }};
+export const limits = {{ cells: {MAX_PIXELS}, bytes: {MAX_BYTES}, trial: {MAX_TRIAL_PARTS}, ramp: {RAMP_STEPS} }};
 
 /** Bits of a verdict of Map Squeeze. */
 export const verdict = {{ endFree: {END_FREE}, pathFree: {PATH_FREE}, accepted: {ACCEPTED} }};

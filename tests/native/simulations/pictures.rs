@@ -3,8 +3,8 @@
 use crate::common::preset;
 use motion::sim::View;
 use motion::sim::banana::{BananaMachine, Settings};
-use motion::sim::picture::{RAMP, Ramp};
-use motion::sim::squeeze::{self, KINDS, MapSqueeze, PRESETS};
+use motion::sim::picture::{RAMP_STEPS, Ramp};
+use motion::sim::squeeze::{self, MapSqueeze, OUTCOME_KINDS, PRESETS};
 use motion::sim::views::Grid;
 
 /// Returns grids over the middle of a cloud, so that samples are outside on every side. Sixteen empty cells are skipped at once: the widths
@@ -29,7 +29,7 @@ fn cell(grid: &Grid, [x, y]: [f64; 2]) -> Option<usize> {
 
 /// Returns the step of the ramp for a count: 255·√(count/most), rounded.
 fn step(count: u32, most: u32) -> u8 {
-    ((RAMP - 1) as f64 * (f64::from(count) / f64::from(most)).sqrt()).round() as u8
+    ((RAMP_STEPS - 1) as f64 * (f64::from(count) / f64::from(most)).sqrt()).round() as u8
 }
 
 #[test]
@@ -65,9 +65,9 @@ fn attempts_are_painted_by_what_became_of_most() {
     let (_, start) = PRESETS[1];
     let settings = squeeze::Settings { start, samples: 3000, ..squeeze::Settings::default() };
     let mut machine = MapSqueeze::new(settings).expect("a valid setting");
-    let mut shown = [0; KINDS];
+    let mut shown = [0; OUTCOME_KINDS];
     for grid in grids([2.9, 3.4], [3.7, 4.9]) {
-        let mut counts = vec![[0u32; KINDS]; grid.columns * grid.rows];
+        let mut counts = vec![[0u32; OUTCOME_KINDS]; grid.columns * grid.rows];
         for attempt in machine.attempts() {
             if let Some(cell) = cell(&grid, [attempt.pose.x(), attempt.pose.y()]) {
                 counts[cell][attempt.kind() as usize] += 1;

@@ -105,7 +105,7 @@ export function widgets() {
 /** Returns the declarations of a widget. @param {string} tag @returns {Promise<Widget>} */
 async function widget(tag) {
   // They import libraries, which a bare clone does not have yet.
-  const { COMMON, NUMBER, WORD_LIST } = await importTypeScript('www/figure/attributes.ts');
+  const { COMMON_ATTRS, NUMBER_CONVERTER: NUMBER, WORD_LIST_CONVERTER: WORD_LIST } = await importTypeScript('www/figure/attributes.ts');
   const { definition: { attributes, declared, own }, documentation } = await importTypeScript(`www/widgets/${tag}/settings.ts`);
   /** @type {import('../www/figure/attributes.ts').Documentation[]} */
   const documents = [...('marked' in own ? [OF_CLOUDS] : []), ...(documentation ? [documentation] : [])];
@@ -137,7 +137,7 @@ async function widget(tag) {
   };
   const documented = (/** @type {[string, any]} */ [name, { sentence, ...rest }]) => ({ name, description: sentence, ...rest });
 
-  const attributeList = Object.entries({ ...attributes, ...COMMON }).map(attribute);
+  const attributeList = Object.entries({ ...attributes, ...COMMON_ATTRS }).map(attribute);
   /** @type {Declaration[]} */
   const whole = declared.filter((/** @type {Declaration} */ declaration) => !declaration.in && !declaration.of);
   const groups = whole.filter(({ key }) => !(key in attributes)).map(plain);

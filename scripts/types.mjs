@@ -71,7 +71,7 @@ function named(declaration) {
 
 /** Returns the type of a figure with the public members of its class. @param {import('./declarations.mjs').Widget[]} all */
 async function figureType([{ attributes }]) {
-  const { COMMON } = await importTypeScript('www/figure/attributes.ts');
+  const { COMMON_ATTRS } = await importTypeScript('www/figure/attributes.ts');
   const { classes } = await comments();
   /** @type {any[]} */
   const members = classes.get('FigureElement').members.filter((/** @type {any} */ { privacy }) => privacy === 'public');
@@ -81,7 +81,7 @@ async function figureType([{ attributes }]) {
     const given = parameters.map((/** @type {any} */ parameter) => `${parameter.name}: ${typeIn(parameter)}`);
     return { name: kind === 'method' ? `${name}(${given.join(', ')})` : name, type: typeIn(kind === 'method' ? result : { type }), description: oneLine(description), readonly };
   });
-  const common = attributes.filter(({ name }) => name in COMMON).map(({ property, ...each }) => ({ ...each, name: property ?? each.name }));
+  const common = attributes.filter(({ name }) => name in COMMON_ATTRS).map(({ property, ...each }) => ({ ...each, name: property ?? each.name }));
   const events = classes.get('FigureElement').events.map((/** @type {any} */ { name, type, description }) => {
     const text = type?.text ?? 'Event';
     return { name, type: text === 'CustomEvent' ? `CustomEvent<${name[0].toUpperCase()}${name.slice(1)}>` : text, description: oneLine(description) };
@@ -104,11 +104,11 @@ const LISTENERS = ['add', 'remove'].flatMap((verb) => {
 
 /** @param {import('./declarations.mjs').Widget} widget */
 async function elementTypes({ tag, machine, attributes, properties, state }) {
-  const { COMMON } = await importTypeScript('www/figure/attributes.ts');
+  const { COMMON_ATTRS } = await importTypeScript('www/figure/attributes.ts');
   const element = `FigureElement<${machine}State, ${machine}['stats']>`;
   const widget = { name: 'widget', type: `'${tag}'`, description: '' };
   // Members of every figure are in FigureElement.
-  const own = attributes.filter(({ name }) => !(name in COMMON)).map((each) => ({ ...each, isText: true }));
+  const own = attributes.filter(({ name }) => !(name in COMMON_ATTRS)).map((each) => ({ ...each, isText: true }));
   return (
     `${asInterface(`${machine}State`, [widget, ...state], 'FigureState')}\n` +
     `/** \`<${tag}>\`. Its attributes have the properties' names. */\n` +

@@ -8,7 +8,7 @@
 
 import './de.ts';
 import './widgets/index.ts';
-import { COMMON } from './figure/attributes.ts';
+import { COMMON_ATTRS } from './figure/attributes.ts';
 import { includesFields } from './figure/checks.ts';
 import { GLOBAL, elementNamed, sorry } from './named.ts';
 
@@ -121,7 +121,7 @@ function withoutKernel(work: () => void) {
 /** Returns all spellings of traits with their properties. Properties that others depend on come first. */
 function traitsOf(element: any): [trait: string, property: string][] {
   const { properties, own } = element.constructor.definition;
-  const entries: Record<string, { property?: string }> = { ...properties, ...own, ...COMMON, ...Object.fromEntries(GLOBAL.map((name) => [name, {}])) };
+  const entries: Record<string, { property?: string }> = { ...properties, ...own, ...COMMON_ATTRS, ...Object.fromEntries(GLOBAL.map((name) => [name, {}])) };
   return Object.entries(entries).flatMap(([name, { property = name }]) => {
     if (!(property in element)) return [];
     const inPython = property.replaceAll(/[A-Z]/g, (capital) => `_${capital.toLowerCase()}`);

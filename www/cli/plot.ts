@@ -3,7 +3,7 @@
 import { bisectLeft, extent, ticks } from 'd3-array';
 import type { Drive } from '../logs/drives.ts';
 import { aligned, pathOf, poseAt, type Path } from '../logs/path.ts';
-import { escaped } from '../scene/svg.ts';
+import { escapeXml } from '../scene/svg.ts';
 
 /** Width of a panel, its greatest height, and its margins for title and axes, in pixels. */
 const [WIDTH, HEIGHT, MARGIN] = [800, 800, { top: 64, right: 24, bottom: 56, left: 64 }];
@@ -77,8 +77,8 @@ function panelOf({ odometry, reference }: Drive, { legs, systematicErrors }: any
   const key = ([['reference, with the ends of legs', 'reference'], ['odometry, aligned', 'odometry'], ...(outliers.length ? [['outliers', 'outlier'] as const] : [])] as const)
     .map(([label, name], i) => `<path d="M${MARGIN.left + 260 * i} 46h24" ${LINE_STYLES[name]}/><text x="${MARGIN.left + 260 * i + 30}" y="50" fill="${INK}">${label}</text>`);
   const title = `${odometry.name} and ${reference.name}: ${driveLegs.length} legs, ${outliers.length} ${outliers.length === 1 ? 'outlier' : 'outliers'}`;
-  const svg = `<title>${escaped(title)}</title>
-<text x="${MARGIN.left}" y="26" font-size="16" fill="${INK}">${escaped(title)}</text>
+  const svg = `<title>${escapeXml(title)}</title>
+<text x="${MARGIN.left}" y="26" font-size="16" fill="${INK}">${escapeXml(title)}</text>
 ${key.join('')}
 <g fill="${MUTED}"><g fill="none" stroke="${MUTED}"><path d="M${MARGIN.left} ${MARGIN.top}V${height - MARGIN.bottom}H${WIDTH - MARGIN.right}"/></g>${axis(true)}${axis(false)}
 <text x="${(MARGIN.left + WIDTH - MARGIN.right) / 2}" y="${height - 14}" text-anchor="middle">x (m)</text>

@@ -17,7 +17,7 @@ export class Announcer {
   setOutcome(sentence: () => string) {
     if (!this.#due && !this.#outcome) return;
     const text = sentence();
-    // An outcome that the page caused replaces the announced one by silence.
+    // An outcome that the page caused clears the announced one without an announcement.
     this.#text = this.#outcome = this.#due || text === this.#outcome ? text : '';
     this.#due = false;
   }

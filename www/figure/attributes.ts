@@ -1,13 +1,13 @@
 /** Attributes and properties derived from a widget's settings, and their conversion from and to text. */
 
-import { includesFields, refusal, word } from './checks.ts';
+import { includesFields, refusalError, checkedWord } from './checks.ts';
 import type { Declaration } from '../settings.js';
 
 /** Conversion of a value from and to the text of an attribute. */
 export interface Converter {
-  /** Returns an invalid text unchanged; the check of the value refuses it. */
+  /** Converts a text to a value. Returns an invalid text unchanged, which the check of the value then refuses. */
   parse: (text: string) => unknown;
-  /** Returns null for no attribute. */
+  /** Converts a value to a text; null removes the attribute. */
   print: (value: any) => string | null;
 }
 
@@ -18,11 +18,11 @@ export interface Property {
   /** Conversion of a property that is also an attribute. */
   converter?: Converter;
   get: (config: Config) => unknown;
-  /** Returns the part of the configuration that has a new value. */
+  /** Returns the changed part of the configuration for a new value. */
   change: (value: any, config: Config) => Config;
   /** Name of a setting in the core, if different. */
   path?: string;
-  /** Names of the attributes whose values follow from this one. They are only written while this value cannot be written as a text. */
+  /** Names of the attributes that this one determines. They are only written while this attribute's value has no text. */
   covers?: string[];
   /** Allowed words, if the declarations of www/settings.js do not list them. */
   words?: readonly string[];
@@ -38,22 +38,22 @@ export type Properties = Record<string, Property>;
 export type Attribute = Property & { converter: Converter };
 
 /** Documentation by name. Types are in TypeScript. */
-export type Table = Record<string, { type: string, readonly?: true, sentence: string }>;
+export type DocumentationTable = Record<string, { type: string, readonly?: true, sentence: string }>;
 
 /** Documentation that is neither in a declaration nor in the comments of a class. */
 export interface Documentation {
   /** Properties that have no attribute. */
-  properties?: Table;
+  properties?: DocumentationTable;
   /** Fields of the state that are neither settings nor attributes. */
-  state?: Table;
+  state?: DocumentationTable;
 }
 
-export const NUMBER: Converter = {
+export const NUMBER_CONVERTER: Converter = {
   parse: (text) => (text.trim() === '' || Number.isNaN(Number(text)) ? text : Number(text)),
   print: (value) => (value === null ? null : String(value)),
 };
 
-export const WORD: Converter = { parse: (text) => text, print: (value) => value };
+export const WORD_CONVERTER: Converter = { parse: (text) => text, print: (value) => value };
 
 /** Boolean attribute. Without a value it is true, as in HTML. The value "false" makes it false. Other values are refused. */
 const BOOLEAN: Converter = {
@@ -62,17 +62,17 @@ const BOOLEAN: Converter = {
 };
 
 /** Words separated by spaces. */
-export const WORD_LIST: Converter = { parse: (text) => text.split(/\s/).filter(Boolean), print: (value) => value.join(' ') };
+export const WORD_LIST_CONVERTER: Converter = { parse: (text) => text.split(/\s/).filter(Boolean), print: (value) => value.join(' ') };
 
 /** Conversions of the types that fit into an attribute. Objects and arrays have none. */
-const CONVERTERS: Record<string, Converter> = { number: NUMBER, whole: NUMBER, word: WORD, boolean: BOOLEAN };
+const CONVERTERS: Record<string, Converter> = { number: NUMBER_CONVERTER, whole: NUMBER_CONVERTER, word: WORD_CONVERTER, boolean: BOOLEAN };
 
 export const THEMES = ['auto', 'light', 'dark'] as const;
 
 export const HEADING_LEVELS = ['1', '2', '3', '4', '5', '6'] as const;
 
 /** Attributes of every figure. The default is the first word, or null if `nullable`. */
-export const COMMON: Record<string, { words?: readonly string[], nullable?: true, property?: string }> = {
+export const COMMON_ATTRS: Record<string, { words?: readonly string[], nullable?: true, property?: string }> = {
   theme: { words: THEMES },
   share: {},
   presentation: {},
@@ -89,28 +89,28 @@ export const attributesIn = (properties: Properties) =>
 export const fieldProperty = (key: string, converter?: Converter): Property => ({ converter, get: (config) => config[key], change: (value) => ({ [key]: value }) });
 
 function propertyOf({ key, in: group, field = key, index, of, weights = [], type }: Declaration): Property {
-  const plain = fieldProperty(key, CONVERTERS[type]);
+  const plainProperty = fieldProperty(key, CONVERTERS[type]);
   // This setting is a level, which scales several settings of the machine.
-  if (of) return { ...plain, get: (config) => levelOf(config[of], weights) };
-  if (!group) return plain;
+  if (of) return { ...plainProperty, get: (config) => levelOf(config[of], weights) };
+  if (!group) return plainProperty;
   const at = index ?? field;
   return {
-    ...plain,
+    ...plainProperty,
     path: index !== undefined ? `${group}[${index}]` : field === key ? undefined : `${group}.${field}`,
     get: (config) => config[group][at] ?? null,
     change: (value, { [group]: whole }) => {
       if (index === undefined) return { [group]: { ...whole, [at]: value } };
       if (index < whole.length) return { [group]: whole.with(index, value) };
-      throw refusal(key, value, `none, as the last one at present is ${key.replace(/\d/, '')}${whole.length}`);
+      throw refusalError(key, value, `none, as the last one at present is ${key.replace(/\d/, '')}${whole.length}`);
     },
   };
 }
 
 /** Returns the common factor of the last numbers and their weights; null if there is none. */
 function levelOf(numbers: number[], weights: number[]): number | null {
-  const last = numbers.slice(-weights.length);
-  const level = last[0] / weights[0];
-  return last.every((number, i) => number === level * weights[i]) ? level : null;
+  const lastNumbers = numbers.slice(-weights.length);
+  const level = lastNumbers[0] / weights[0];
+  return lastNumbers.every((number, i) => number === level * weights[i]) ? level : null;
 }
 
 /** Settings that presets leave as they are. */
@@ -127,17 +127,17 @@ export function defaultConfig(declared: Declaration[]) {
 
 /** Returns the attribute of a figure's presets. A preset sets all settings except samples and seed. Settings that it does not list get defaults. */
 export function presetPropertyOf(presets: readonly ({ name: string } & Record<string, any>)[], declared: Declaration[]): Attribute {
-  const words = presets.map(({ name }) => name);
+  const presetNames = presets.map(({ name }) => name);
   const properties = propertiesOf(declared);
-  const settings = presets.map(({ name: _, ...given }) => {
+  const presetSettings = presets.map(({ name: _, ...given }) => {
     const config = Object.entries(given).reduce((all, [key, value]) => ({ ...all, ...properties[key].change(value, all) }), defaultConfig(declared));
     return Object.fromEntries(Object.entries(config).filter(([key]) => !KEPT_BY_PRESETS.includes(key)));
   });
   return {
-    converter: WORD,
+    converter: WORD_CONVERTER,
     covers: Object.keys(attributesIn(properties)).filter((key) => !KEPT_BY_PRESETS.includes(key)),
-    words,
-    get: (config) => words[settings.findIndex((each) => includesFields(config, each))] ?? null,
-    change: (name) => settings[words.indexOf(word('preset', name, words))],
+    words: presetNames,
+    get: (config) => presetNames[presetSettings.findIndex((each) => includesFields(config, each))] ?? null,
+    change: (name) => presetSettings[presetNames.indexOf(checkedWord('preset', name, presetNames))],
   };
 }

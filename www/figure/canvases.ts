@@ -7,7 +7,7 @@ import type { Surface } from '../scene/canvas.ts';
 const PRINT_RATIO = 2;
 
 /** Returns true if a canvas has pixels. Narrow figures hide some canvases. */
-export const isShown = ({ width, height }: HTMLCanvasElement) => Math.min(width, height) > 0;
+export const hasPixels = ({ width, height }: HTMLCanvasElement) => Math.min(width, height) > 0;
 
 export class Canvases extends FigureController {
   /** Canvases that are observed; undefined until they are rendered. */
@@ -35,11 +35,11 @@ export class Canvases extends FigureController {
 
   /** Measures the canvases again after a change of the pixel ratio. WebKit's observer does not report device pixels. */
   #followPixels(signal: AbortSignal) {
-    const changed = () => {
+    const ratioChanged = () => {
       this.measure();
       this.#followPixels(signal);
     };
-    matchMedia(`(resolution:${devicePixelRatio}dppx)`).addEventListener('change', changed, { once: true, signal });
+    matchMedia(`(resolution:${devicePixelRatio}dppx)`).addEventListener('change', ratioChanged, { once: true, signal });
   }
 
   /** Observes the sizes of the canvases. The observer also reports the present sizes. */
@@ -59,9 +59,9 @@ export class Canvases extends FigureController {
     if (this.host.renderer.printing) return;
     for (const { target, contentRect, devicePixelContentBoxSize } of entries) {
       const canvas = target as HTMLCanvasElement;
-      const exact = devicePixelContentBoxSize?.[0];
-      canvas.width = Math.round(exact?.inlineSize ?? devicePixelRatio * contentRect.width);
-      canvas.height = Math.round(exact?.blockSize ?? devicePixelRatio * contentRect.height);
+      const devicePixelSize = devicePixelContentBoxSize?.[0];
+      canvas.width = Math.round(devicePixelSize?.inlineSize ?? devicePixelRatio * contentRect.width);
+      canvas.height = Math.round(devicePixelSize?.blockSize ?? devicePixelRatio * contentRect.height);
     }
     this.host.renderer.drawResized();
   }

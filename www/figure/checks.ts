@@ -1,61 +1,61 @@
 /** Checks of values from the page. Error messages have the form of the core's. */
 
-export function refusal(field: string, value: unknown, allowed: string, Kind = RangeError): TypeError | RangeError {
-  return new Kind(`${field} is ${described(value)}; allowed is ${allowed}`);
+export function refusalError(field: string, value: unknown, allowed: string, Kind = RangeError): TypeError | RangeError {
+  return new Kind(`${field} is ${describe(value)}; allowed is ${allowed}`);
 }
 
 /** Replaces the field at the start of an error's message (`path`, by default `name`) by `name`. */
-export function renamed(error: unknown, name: string, path: string = name) {
+export function withFieldRenamed(error: unknown, name: string, path: string = name) {
   if (error instanceof Error && error.message.startsWith(path)) error.message = name + error.message.slice(path.length);
   return error;
 }
 
-function described(value: unknown) {
-  if (typeof value === 'string') return JSON.stringify(shortened(value));
+function describe(value: unknown) {
+  if (typeof value === 'string') return JSON.stringify(shorten(value));
   if (typeof value === 'object' && value !== null) return Array.isArray(value) ? 'an array' : 'an object';
   return ['function', 'symbol', 'bigint'].includes(typeof value) ? `a ${typeof value}` : String(value);
 }
 
 /** Returns the first characters of a text, without splitting a surrogate pair. */
-function shortened(text: string) {
-  const first = String(/.{0,40}/su.exec(text));
-  return first === text ? text : `${first}…`;
+function shorten(text: string) {
+  const firstCharacters = String(/.{0,40}/su.exec(text));
+  return firstCharacters === text ? text : `${firstCharacters}…`;
 }
 
 /** Returns an object after a check of its keys; `checkFirst` runs before it. */
-export function object(field: string, value: unknown, keys: readonly string[], checkFirst?: (value: Record<string, unknown>) => void) {
+export function asObject(field: string, value: unknown, keys: readonly string[], checkFirst?: (value: Record<string, unknown>) => void) {
   if (typeof value !== 'object' || value === null || Array.isArray(value)) {
-    throw refusal(field, value, `an object with keys from ${keys.join(', ')}`, TypeError);
+    throw refusalError(field, value, `an object with keys from ${keys.join(', ')}`, TypeError);
   }
   checkFirst?.(value as Record<string, unknown>);
-  const unknown = Object.keys(value).find((key) => !keys.includes(key));
-  if (unknown !== undefined) {
-    throw new TypeError(`${field}.${shortened(unknown)} is an unknown key; allowed are ${keys.join(', ')}`);
+  const unknownKey = Object.keys(value).find((key) => !keys.includes(key));
+  if (unknownKey !== undefined) {
+    throw new TypeError(`${field}.${shorten(unknownKey)} is an unknown key; allowed are ${keys.join(', ')}`);
   }
   return value as Record<string, unknown>;
 }
 
-export function word<Word extends string>(field: string, value: unknown, allowed: readonly Word[]) {
-  const found = allowed.find((each) => each === value);
-  if (found !== undefined) return found;
-  const Kind = typeof value === 'string' ? RangeError : TypeError;
-  throw refusal(field, value, allowed.map((each) => JSON.stringify(each)).join(' or '), Kind);
+export function checkedWord<Word extends string>(field: string, value: unknown, allowed: readonly Word[]) {
+  const allowedWord = allowed.find((each) => each === value);
+  if (allowedWord !== undefined) return allowedWord;
+  const ErrorClass = typeof value === 'string' ? RangeError : TypeError;
+  throw refusalError(field, value, allowed.map((each) => JSON.stringify(each)).join(' or '), ErrorClass);
 }
 
 export function numberWithin(field: string, value: unknown, least: number, most: number, isWhole = false) {
   const allowed = `${isWhole ? 'a whole number from ' : ''}${least} to ${most}`;
-  if (typeof value !== 'number') throw refusal(field, value, allowed, TypeError);
-  if (!(value >= least && value <= most) || (isWhole && !Number.isInteger(value))) throw refusal(field, value, allowed);
+  if (typeof value !== 'number') throw refusalError(field, value, allowed, TypeError);
+  if (!(value >= least && value <= most) || (isWhole && !Number.isInteger(value))) throw refusalError(field, value, allowed);
   return value;
 }
 
 export const wholeNumber = (field: string, value: unknown, least: number, most: number) => numberWithin(field, value, least, most, true);
 
 /** Returns the allowed names that the array contains, in the order of `allowed`. */
-export function subset(field: string, value: unknown, allowed: readonly string[]): string[] {
-  if (!Array.isArray(value)) throw refusal(field, value, `an array of ${allowed.join(', ')}`, TypeError);
-  const names = value.map((name, i) => word(`${field}[${i}]`, name, allowed));
-  return allowed.filter((name) => names.includes(name));
+export function checkedSubset(field: string, value: unknown, allowed: readonly string[]): string[] {
+  if (!Array.isArray(value)) throw refusalError(field, value, `an array of ${allowed.join(', ')}`, TypeError);
+  const checkedNames = value.map((name, i) => checkedWord(`${field}[${i}]`, name, allowed));
+  return allowed.filter((name) => checkedNames.includes(name));
 }
 
 /** Returns true if `present` has all fields of `given` with the same values. Objects are compared deeply. */

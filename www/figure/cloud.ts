@@ -4,22 +4,22 @@ import { html } from 'lit';
 import { words } from '../messages/registry.ts';
 import { pointOn } from '../scene/canvas.ts';
 import { button } from '../ui/controls.ts';
-import { counted } from '../ui/format.ts';
-import { refusal, wholeNumber } from './checks.ts';
+import { integer } from '../ui/format.ts';
+import { refusalError, wholeNumber } from './checks.ts';
 import { FigureController } from './controller.ts';
 import { freeOnError } from './runtime.ts';
-import { isCalm } from './renderer.ts';
+import { prefersReducedMotion } from './renderer.ts';
 import type { Figure } from './figure.ts';
 import type { Values } from './settings.ts';
 
-/** Number of samples of a machine, or of a reading of it. */
-interface Count {
+/** Numbers of samples of a machine, or of a reading of it. */
+interface SampleCount {
   shown: number;
   /** Number of samples that take a few milliseconds. */
   block: number;
 }
 
-export interface Growing extends Count {
+export interface GrowingMachine extends SampleCount {
   config: { samples: number, seed: number };
   /** Changes settings and shows the first block of `goal` samples. Returns all settings. */
   configureFirst: (settings: Values, goal: number) => Values;
@@ -27,10 +27,10 @@ export interface Growing extends Count {
   addSamples: (count: number) => number;
 }
 
-const STEPS = 150;
+const GROWTH_STEPS = 150;
 
-/** Time for adding samples in a frame, ms. Together with the pictures a frame takes less than 50 ms. */
-const FRAME_WORK = 12;
+/** Time for adding samples in a frame, ms. A frame, with its pictures, then takes less than 50 ms. */
+const MS_PER_FRAME = 12;
 
 export class Cloud extends FigureController {
   playing = false;
@@ -44,12 +44,12 @@ export class Cloud extends FigureController {
     this.#gaveUp = gaveUp;
   }
 
-  get #machine(): Growing {
-    return this.host.machine as Growing;
+  get #machine(): GrowingMachine {
+    return this.host.machine as GrowingMachine;
   }
 
   /** Latest reading, or the machine if it has changed since. */
-  get #latest(): Count {
+  get #latest(): SampleCount {
     return this.host.settings.stale ? this.#machine : this.host.reading;
   }
 
@@ -65,7 +65,7 @@ export class Cloud extends FigureController {
 
   /** Number of samples that a step adds. */
   get #batch() {
-    return Math.ceil(this.#samples / STEPS);
+    return Math.ceil(this.#samples / GROWTH_STEPS);
   }
 
   /** Number of samples to show; all of them if the machine has given up. */
@@ -82,8 +82,8 @@ export class Cloud extends FigureController {
   introduce(state?: Values) {
     this.playing = state ? state.playing : true;
     this.#goal = state && state.shown < this.#samples ? state.shown : Infinity;
-    if (!state && !isCalm()) this.#restart();
-    if (isCalm()) this.finish();
+    if (!state && !prefersReducedMotion()) this.#restart();
+    if (prefersReducedMotion()) this.finish();
   }
 
   /** Changes settings and shows one block of samples; later frames add the others. Returns all settings. */
@@ -97,7 +97,7 @@ export class Cloud extends FigureController {
     this.host.settings.stale = true;
   }
 
-  /** Completes a growing cloud. */
+  /** Shows all samples of a growing cloud at once. */
   finish() {
     if (!this.playing) return;
     this.playing = false;
@@ -111,18 +111,18 @@ export class Cloud extends FigureController {
   }
 
   /** Adds samples for `limit` milliseconds; returns true if all are shown. */
-  refine(limit = FRAME_WORK): boolean {
+  refine(limit = MS_PER_FRAME): boolean {
     const { asked } = this;
-    const end = performance.now() + limit;
+    const endTime = performance.now() + limit;
     const latest = this.#latest;
     const { block } = latest;
     let { shown } = latest;
     while (shown < asked) {
-      if (performance.now() > end) return false;
-      const before = shown;
+      if (performance.now() > endTime) return false;
+      const shownBefore = shown;
       shown = this.#machine.addSamples(Math.min(asked - shown, block));
       // The machine has given up.
-      if (shown === before) break;
+      if (shown === shownBefore) break;
       this.host.settings.stale = true;
     }
     return true;
@@ -135,11 +135,11 @@ export class Cloud extends FigureController {
   /** Returns values that follow from a partial state; throws a TypeError if `playing` is not a boolean. */
   withDerivedFields(present: Values, given: Values): Values {
     const { samples, playing } = { ...present, ...given };
-    if (typeof playing !== 'boolean') throw refusal('state.playing', playing, 'true or false', TypeError);
+    if (typeof playing !== 'boolean') throw refusalError('state.playing', playing, 'true or false', TypeError);
     const { shown = present.shown === present.samples ? samples : Math.min(present.shown, samples) } = given;
-    // Comparisons with undefined are false, so none stays null.
-    const marked = present.marked < (playing ? samples : shown) ? present.marked : null;
-    return { shown, marked };
+    // A comparison with undefined is false, so that a missing selection becomes null.
+    const markedOrNull = present.marked < (playing ? samples : shown) ? present.marked : null;
+    return { shown, marked: markedOrNull };
   }
 
   /** Index of the selected sample; −1 for none. */
@@ -176,12 +176,12 @@ export class Cloud extends FigureController {
     return this.index >= 0 && this.index < this.selectableCount;
   }
 
-  /** Number of selectable samples, with those to come. */
+  /** Number of selectable samples, including those that are still to be added. */
   get selectableCount() {
     return this.playing ? this.#samples : this.asked;
   }
 
-  /** Clears the selection if the selected sample neither is shown nor will be. */
+  /** Clears the selection if the selected sample is not shown and will not be. */
   unmark() {
     if (!this.#isWanted) this.mark(-1);
   }
@@ -189,7 +189,7 @@ export class Cloud extends FigureController {
   /** Adds samples in a frame. The first frame after a change shows one block, so that drags are quick. The last frame adds all samples. */
   advance(isLast: boolean) {
     if (this.playing) this.grow();
-    else if (isLast || !this.host.settings.stale) this.refine(isLast ? Infinity : FRAME_WORK);
+    else if (isLast || !this.host.settings.stale) this.refine(isLast ? Infinity : MS_PER_FRAME);
   }
 
   grow() {
@@ -235,7 +235,7 @@ export class Cloud extends FigureController {
     const [label, other] = this.playing ? [words.pause, say.play] : [say.play, words.pause];
     return html`<div class="buttons">
       ${button(label, () => this.play(), { title: say.playTitle, other })}
-      ${button(words.step, () => this.step(), { title: say.step(counted(this.#batch)), disabled: this.isComplete })}
+      ${button(words.step, () => this.step(), { title: say.step(integer(this.#batch)), disabled: this.isComplete })}
       ${button(words.clear, () => this.clear(), { title: say.clear })}
       ${seedField} ${button(words.newSeed, () => this.reseed(), { title: say.reseed })}
     </div>`;
@@ -246,7 +246,7 @@ export class Cloud extends FigureController {
  * Sets a new machine to a state if there is one, with the first block of its samples, and returns it. An invalid state frees the machine and
  * throws a TypeError or RangeError.
  */
-export function enterCloud<Machine extends Growing & { free(): void }>({ settings }: Figure, machine: Machine, state?: Values): Machine {
+export function enterCloud<M extends GrowingMachine & { free(): void }>({ settings }: Figure, machine: M, state?: Values): M {
   if (!state) return machine;
   return freeOnError(machine, () => {
     machine.configureFirst(settings.pick(state), 0);
@@ -254,7 +254,7 @@ export function enterCloud<Machine extends Growing & { free(): void }>({ setting
   });
 }
 
-/** Read-only properties of an element with a cloud. */
+/** Read-only properties of elements with a cloud. */
 export const cloudProperties: PropertyDescriptorMap & ThisType<Figure> = {
   playing: { get() { return (this.cloud as Cloud).playing; } },
   poses: { get() { return this.ask((machine) => machine.poses); } },

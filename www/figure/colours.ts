@@ -1,6 +1,6 @@
-/** Colours of a figure: those of the page around it, of its theme, or of paper. */
+/** Colours of a figure, which follow the page around it, its own theme, or paper in print. */
 
-import { channels, resolvePalette, type Palette } from '../ui/theme.ts';
+import { colourChannels, resolvePalette, type Palette } from '../ui/theme.ts';
 import { FigureController } from './controller.ts';
 
 export class Colours extends FigureController {
@@ -25,7 +25,7 @@ export class Colours extends FigureController {
     this.host.renderer.requestFrame();
   }
 
-  /** Sets the colours of the surroundings, or those of the figure if its theme differs from the scheme around it. Paper is light. */
+  /** Uses the colours of the surroundings, or the figure's own colours if its theme differs from the scheme around it. Paper is light. */
   resolve() {
     const style = this.#find('.surface')?.style;
     if (!style) return;
@@ -38,7 +38,7 @@ export class Colours extends FigureController {
     for (const [name, colour] of Object.entries(around)) style.setProperty(`--${name}`, isOwnTheme ? '' : colour);
     style.setProperty('--back', isOwnTheme ? 'var(--paper)' : '');
     // Colours that the page sets for its background do not fit the figure's own.
-    for (const name of ['muted', 'rule']) style.setProperty(`--mw-${name}`, isOwnTheme ? 'initial' : '');
+    for (const role of ['muted', 'rule']) style.setProperty(`--mw-${role}`, isOwnTheme ? 'initial' : '');
     this.#palette = undefined;
   }
 
@@ -48,15 +48,15 @@ export class Colours extends FigureController {
 }
 
 /**
- * Colours around a figure. `shade` is the amount by which colours are darkened for this background. `strength` is the fraction of the text
+ * Colours around a figure. `shade` is the amount by which colours are darkened for this background. `strength` is the share of the text
  * colour in muted text. An empty `text` keeps the figure's own colour.
  */
 type Surroundings = { ground: string, text: string, shade: string, strength: string, scheme: 'light' | 'dark' };
 
 /** Background assumed on a page that has light text, but neither a background nor a `color-scheme`. */
-const DARK = '#121212';
+const DARK_BACKGROUND = '#121212';
 
-/** Fractions of the text colour in muted text, percent. The first that is legible is used. */
+/** Shares of the text colour in muted text, percent. The first one that is legible is used. */
 const MUTED_SHARES = [75, 80, 85, 90, 95];
 
 /** Minimum contrast of text: 4.5 by WCAG 2, level AA, and a margin for rounding. */
@@ -64,33 +64,33 @@ const MIN_CONTRAST = 4.55;
 
 /** Returns a node's element and its ancestors across shadow roots, the nearest first. */
 function ancestors(node: Node): Element[] {
-  const all = [];
+  const elements = [];
   let at: any = node;
-  for (; at; at = at.assignedSlot ?? at.parentNode ?? at.host) if (at.nodeType === 1) all.push(at);
-  return all;
+  for (; at; at = at.assignedSlot ?? at.parentNode ?? at.host) if (at.nodeType === 1) elements.push(at);
+  return elements;
 }
 
 /** Returns the surroundings. They are dark if the background is darker than legible text, or than medium grey if the text is not legible. */
 function surroundings(probe: Element): Surroundings {
   const { color, borderTopColor: canvas, colorScheme } = getComputedStyle(probe);
-  const ink = channels(color);
-  const isDarkByDefault = colorScheme === 'normal' && lightness(ink) > 0.5;
-  const grounds = ancestors(probe).map((each) => getComputedStyle(each).backgroundColor);
-  const ground = channels(...[...grounds, isDarkByDefault ? DARK : canvas].reverse());
-  const groundLightness = lightness(ground);
-  const isLegible = contrast(ink, ground) >= MIN_CONTRAST;
-  const scheme = groundLightness < (isLegible ? lightness(ink) : 0.5) ? 'dark' : 'light';
-  // The amount grows with the darkness of the background. Nearly white backgrounds need none.
-  const shade = scheme === 'light' && groundLightness < 0.97 ? `${100 * (1 - groundLightness ** 2.2)}%` : '';
-  const muted = (share: number) => ground.map((channel, i) => channel + (share / 100) * (ink[i] - channel));
-  const strength = isLegible ? `${MUTED_SHARES.find((share) => contrast(muted(share), ground) >= MIN_CONTRAST) ?? 100}%` : '';
-  return { ground: `rgb(${ground})`, text: isLegible ? color : '', shade, strength, scheme };
+  const textColour = colourChannels(color);
+  const isDarkByDefault = colorScheme === 'normal' && lightness(textColour) > 0.5;
+  const ancestorBackgrounds = ancestors(probe).map((each) => getComputedStyle(each).backgroundColor);
+  const ground = colourChannels(...[...ancestorBackgrounds, isDarkByDefault ? DARK_BACKGROUND : canvas].reverse());
+  const backgroundLightness = lightness(ground);
+  const isLegible = contrast(textColour, ground) >= MIN_CONTRAST;
+  const scheme = backgroundLightness < (isLegible ? lightness(textColour) : 0.5) ? 'dark' : 'light';
+  // The darkening grows with the darkness of the background. Nearly white backgrounds need none.
+  const darkening = scheme === 'light' && backgroundLightness < 0.97 ? `${100 * (1 - backgroundLightness ** 2.2)}%` : '';
+  const mutedText = (share: number) => ground.map((channel, i) => channel + (share / 100) * (textColour[i] - channel));
+  const mutedStrength = isLegible ? `${MUTED_SHARES.find((share) => contrast(mutedText(share), ground) >= MIN_CONTRAST) ?? 100}%` : '';
+  return { ground: `rgb(${ground})`, text: isLegible ? color : '', shade: darkening, strength: mutedStrength, scheme };
 }
 
 /** Returns the contrast by WCAG 2. */
 function contrast(one: number[], other: number[]) {
-  const linear = (channel: number) => (channel > 10 ? ((channel / 255 + 0.055) / 1.055) ** 2.4 : channel / 3294.6);
-  const [low, high] = [one, other].map((colour) => lightness(colour.map((channel) => 255 * linear(channel)))).sort((a, b) => a - b);
+  const linearChannel = (channel: number) => (channel > 10 ? ((channel / 255 + 0.055) / 1.055) ** 2.4 : channel / 3294.6);
+  const [low, high] = [one, other].map((colour) => lightness(colour.map((channel) => 255 * linearChannel(channel)))).sort((a, b) => a - b);
   return (high + 0.05) / (low + 0.05);
 }
 

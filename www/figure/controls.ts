@@ -3,9 +3,9 @@
 import { html, noChange, nothing } from 'lit';
 import { live } from 'lit/directives/live.js';
 import { words } from '../messages/registry.ts';
-import { group, inputOf, radioGroup, rich, toggle } from '../ui/controls.ts';
-import { fold } from '../ui/fold.ts';
-import { counted, limit, numberIn, typed } from '../ui/format.ts';
+import { group, inputOf, radioGroup, formatMarkup, toggle } from '../ui/controls.ts';
+import { disclosure } from '../ui/fold.ts';
+import { integer, formatLimit, parseNumber, formatEditable } from '../ui/format.ts';
 import { sliderRow, type SliderRow } from '../ui/slider.ts';
 import { exportButtons } from './export.ts';
 import type { Declaration } from '../settings.js';
@@ -23,18 +23,18 @@ export interface SliderSpec {
   decimals: number;
   /** Value of a slider that shows several settings as one. */
   value?: (config: any) => number;
-  /** Noise parameter that gives the words. */
+  /** Noise parameter whose name and effect label the slider. */
   alpha?: [model: 'velocity' | 'odometry', index: number];
 }
 
-/** Values that can be typed. */
-type Allowed = Pick<Declaration, 'type' | 'unit'> & { min: number, max: number };
+/** Range and type of the values that can be typed. */
+type AllowedNumbers = Pick<Declaration, 'type' | 'unit'> & { min: number, max: number };
 
-/** Row whose `most` limits the value further than the declaration. */
+/** Fields of a slider's row. `most` is an upper limit below that of the declaration. */
 export type Row = Partial<SliderRow> & { most?: number };
 
 /** Returns the slider of a setting; `overrides` replaces fields of its slider row. */
-export function slider(figure: Figure, key: string, overrides?: Row) {
+export function settingSlider(figure: Figure, key: string, overrides?: Row) {
   const { sliderSpecs, attributes } = figure.definition;
   const { symbol, decimals, value, ...look } = sliderSpecs[key];
   const { name, effect } = wordsFor(figure, key);
@@ -45,29 +45,29 @@ export function slider(figure: Figure, key: string, overrides?: Row) {
   return editableSlider(figure, symbol ?? name, declaration, {
     ...look,
     id: key,
-    symbol: symbol && rich(symbol),
-    name: rich(name),
+    symbol: symbol && formatMarkup(symbol),
+    name: formatMarkup(name),
     value: value ? value(config) : (setting.get(config) as number),
-    show: (shown) => typed(shown, decimals) + (unit ? ` ${unit}` : ''),
-    effect: effect && rich(effect),
-    input: (number) => want(figure, key, number),
+    show: (shown) => formatEditable(shown, decimals) + (unit ? ` ${unit}` : ''),
+    effect: effect && formatMarkup(effect),
+    input: (number) => requestValue(figure, key, number),
     commit: () => figure.gesture.commit(),
     ...overrides,
   });
 }
 
 /** Returns a slider whose value can also be typed, within an allowed range. */
-export function editableSlider(figure: Figure, symbol: string, { min, max: most, type, unit }: Allowed, row: Omit<SliderRow, 'keys' | 'type' | 'refusal' | 'forget'> & { most?: number }) {
+export function editableSlider(figure: Figure, symbol: string, { min, max: most, type, unit }: AllowedNumbers, row: Omit<SliderRow, 'keys' | 'type' | 'refusal' | 'forget'> & { most?: number }) {
   const max = row.most ?? most;
-  const whole = type === 'whole';
+  const isInteger = type === 'whole';
   // At an end of the slider, a text says that values beyond it can be typed.
-  const end = row.value >= row.max && row.max < max ? row.max : row.value <= row.min && row.min > min ? row.min : undefined;
+  const sliderEnd = row.value >= row.max && row.max < max ? row.max : row.value <= row.min && row.min > min ? row.min : undefined;
   return sliderRow({
     ...row,
-    effect: end === undefined ? row.effect : words.sliderEnds(row.show(end)),
-    keys: min < 0 ? 'text' : whole ? 'numeric' : 'decimal',
+    effect: sliderEnd === undefined ? row.effect : words.sliderEnds(row.show(sliderEnd)),
+    keys: min < 0 ? 'text' : isInteger ? 'numeric' : 'decimal',
     type: (text) => {
-      const number = entered(figure, row.id, symbol, text, { min, max, type, unit });
+      const number = parseEntered(figure, row.id, symbol, text, { min, max, type, unit });
       if (number === undefined) return undefined;
       row.input(number);
       row.commit();
@@ -79,39 +79,39 @@ export function editableSlider(figure: Figure, symbol: string, { min, max: most,
 }
 
 /** Parses a number that the reader typed. Returns undefined for a text that is refused, and shows the reason. */
-function entered({ settings }: Figure, key: string, name: string, text: string, { min, max, unit, type }: Allowed) {
-  const whole = type === 'whole';
-  const number = numberIn(text, unit, whole);
-  if (number >= min && number <= max && (!whole || Number.isInteger(number))) {
+function parseEntered({ settings }: Figure, key: string, name: string, text: string, { min, max, unit, type }: AllowedNumbers) {
+  const isInteger = type === 'whole';
+  const number = parseNumber(text, unit, isInteger);
+  if (number >= min && number <= max && (!isInteger || Number.isInteger(number))) {
     settings.forgetRefusal();
     return number;
   }
-  const given = Number.isNaN(number) ? `"${text}"` : text.trim().replace('-', '\u2212');
-  settings.refuse(key, words.refused(name.replaceAll(/[*_{}]/g, ''), given, limit(min), limit(max), whole));
+  const typedText = Number.isNaN(number) ? `"${text}"` : text.trim().replace('-', '\u2212');
+  settings.refuse(key, words.refused(name.replaceAll(/[*_{}]/g, ''), typedText, formatLimit(min), formatLimit(max), isInteger));
 }
 
 /** Returns a picture's canvas, on which the pointer selects samples. `Canvases` sets its size. */
 export function canvas(figure: Figure, picture: import('../scene/picture.ts').Picture<any>, description: string) {
-  const point = (event: PointerEvent) => figure.cloud?.point(picture, event);
+  const selectAtPointer = (event: PointerEvent) => figure.cloud?.point(picture, event);
   return html`<canvas
     width="0"
     class=${picture.name}
     role="img"
     aria-label=${description}
-    @pointermove=${point}
-    @click=${point}
+    @pointermove=${selectAtPointer}
+    @click=${selectAtPointer}
     @contextrestored=${() => figure.renderer.requestFrame()}
   ></canvas>`;
 }
 
-export const sliders = (figure: Figure, sliderSpecs: Record<string, SliderSpec>) => Object.keys(sliderSpecs).map((key) => slider(figure, key));
+export const sliders = (figure: Figure, sliderSpecs: Record<string, SliderSpec>) => Object.keys(sliderSpecs).map((key) => settingSlider(figure, key));
 
 /** Returns radio buttons for a setting that is a word, with labels by word. */
-export const choices = (figure: Figure, key: string, labels: Record<string, string>) =>
+export const radios = (figure: Figure, key: string, labels: Record<string, string>) =>
   radioGroup(wordsFor(figure, key).name, key, labels, figure.settings.wanted[key], (word) => figure.gesture.decide({ [key]: word }));
 
-/** Returns the checkbox of a setting that is true or false. */
-export const check = (figure: Figure, key: string, label: unknown) =>
+/** Returns the checkbox of a boolean setting. */
+export const settingCheckbox = (figure: Figure, key: string, label: unknown) =>
   toggle({ label, checked: figure.settings.wanted[key], change: (on) => figure.gesture.decide({ [key]: on }) });
 
 interface Disclosures {
@@ -127,24 +127,24 @@ interface Disclosures {
 /** Returns the two disclosures below a figure, and the buttons that copy a link and present the figure. */
 export function disclosures(figure: Figure, { controls, numbers, mark = figure.reading.config.seed, csvTitle }: Disclosures) {
   return html`<div class="folds">
-    ${fold(words.moreControls, controls, 'more')}
-    ${fold(words.numbersAndData, () => html`${numbers()} ${exportButtons(figure, mark, csvTitle)} ${figure.copies.codeButton()}`, 'numbers')}
+    ${disclosure(words.moreControls, controls, 'more')}
+    ${disclosure(words.numbersAndData, () => html`${numbers()} ${exportButtons(figure, mark, csvTitle)} ${figure.copies.codeButton()}`, 'numbers')}
     ${figure.copies.answer('link')}
     <div class="begin">${figure.copies.linkButton()} ${figure.presenting.button()}</div>
   </div>
-  <p class="on-paper">${noiseOf(figure)}</p>`;
+  <p class="on-paper">${noiseParameters(figure)}</p>`;
 }
 
 /** Returns the noise parameters with their values, for print. */
-function noiseOf({ definition: { attributes, sliderSpecs }, settings: { wanted: config } }: Figure) {
+function noiseParameters({ definition: { attributes, sliderSpecs }, settings: { wanted: config } }: Figure) {
   return Object.entries(sliderSpecs).filter(([, { alpha }]) => alpha).flatMap(([key, { symbol = '', decimals }]) => {
-    const value = attributes[key].get(config) as number | null;
-    return value === null ? [] : html`<span>${rich(`${symbol}\u00a0=\u00a0${typed(value, decimals)}`)}</span> `;
+    const alpha = attributes[key].get(config) as number | null;
+    return alpha === null ? [] : html`<span>${formatMarkup(`${symbol}\u00a0=\u00a0${formatEditable(alpha, decimals)}`)}</span> `;
   });
 }
 
 /** Returns a picture with its handles, below a title. */
-export function panel(title: unknown, picture: unknown, name?: string) {
+export function titledPicture(title: unknown, picture: unknown, name?: string) {
   return html`<figure class="panel ${name ?? ''}">
     <p class="panel-title">${title}</p>
     ${picture}
@@ -163,10 +163,10 @@ export function cloudControls(figure: Figure & { cloud: import('./cloud.ts').Clo
       max: counts[counts.length - 1],
       step: 1,
       stops: counts,
-      show: counted,
+      show: integer,
       effect,
       role: 'truth',
-      input: (count) => want(figure, 'samples', count),
+      input: (count) => requestValue(figure, 'samples', count),
       commit: () => figure.gesture.commit(),
     })}
     ${figure.cloud.buttons(seedField(figure))}`, 'cloud');
@@ -176,7 +176,7 @@ function seedField(figure: Figure) {
   const { settings, gesture } = figure;
   const refusal = settings.refusalOf('seed');
   const enterSeed = (event: Event) => {
-    const seed = entered(figure, 'seed', words.seed, inputOf(event).value, declarationOf(figure, 'seed'));
+    const seed = parseEntered(figure, 'seed', words.seed, inputOf(event).value, declarationOf(figure, 'seed'));
     if (seed !== undefined) settings.want({ seed });
   };
   return html`<label class="seed">
@@ -209,7 +209,7 @@ export function sampleField(figure: Figure & { cloud: import('./cloud.ts').Cloud
   const refusal = settings.refusalOf('marked');
   const enterIndex = (event: Event) => {
     const text = inputOf(event).value;
-    const number = text === '' ? 0 : entered(figure, 'marked', label, text, { min: 1, max: shown, type: 'whole' });
+    const number = text === '' ? 0 : parseEntered(figure, 'marked', label, text, { min: 1, max: shown, type: 'whole' });
     if (number === undefined) return;
     settings.forgetRefusal();
     cloud.mark(number - 1);
@@ -222,7 +222,7 @@ export function sampleField(figure: Figure & { cloud: import('./cloud.ts').Cloud
         type="number"
         min="1"
         max=${Math.max(1, shown)}
-        placeholder=${shown === 0 ? '' : `1–${counted(shown)}`}
+        placeholder=${shown === 0 ? '' : `1–${integer(shown)}`}
         ?disabled=${shown === 0}
         .value=${refusal ? noChange : live(cloud.index < 0 ? '' : String(cloud.index + 1))}
         @input=${enterIndex}
@@ -234,18 +234,18 @@ export function sampleField(figure: Figure & { cloud: import('./cloud.ts').Cloud
 }
 
 /** Requests another value of a setting. */
-function want(figure: Figure, key: string, value: unknown) {
+function requestValue(figure: Figure, key: string, value: unknown) {
   const setting = figure.definition.attributes[key];
   figure.settings.want((wanted) => setting.change(value, wanted));
 }
 
 /** Returns the declaration of a numeric setting. */
-const declarationOf = (figure: Figure, key: string): Declaration & Allowed =>
+const declarationOf = (figure: Figure, key: string): Declaration & AllowedNumbers =>
   figure.definition.declared.find((setting) => setting.key === key) as any;
 
 /** Returns the name of a setting, and its effect, if it has one. */
 function wordsFor(figure: Figure, key: string): { name: string, effect?: string } {
   const [model, index] = figure.definition.sliderSpecs[key]?.alpha ?? [];
-  const ofAlpha = model && { name: words.alphas[model][(index as number)] };
-  return { ...(words.settings as any)[key], ...ofAlpha, ...(words as any)[figure.definition.messageKey].settings[key] };
+  const alphaWords = model && { name: words.alphas[model][(index as number)] };
+  return { ...(words.settings as any)[key], ...alphaWords, ...(words as any)[figure.definition.messageKey].settings[key] };
 }

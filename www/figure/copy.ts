@@ -3,7 +3,7 @@
 import { html, nothing } from 'lit';
 import { address, classic } from '../address.ts';
 import { words } from '../messages/registry.ts';
-import { escaped } from '../scene/svg.ts';
+import { escapeXml } from '../scene/svg.ts';
 import { button } from '../ui/controls.ts';
 import { FigureController } from './controller.ts';
 
@@ -13,8 +13,8 @@ export class CopyMenu extends FigureController {
 
   async #copy(kind: string, text: string, note: string) {
     // Frames without permission may not use the clipboard. Pages without HTTPS do not have it.
-    const done = await Promise.resolve(navigator.clipboard?.writeText(text).then(() => true)).catch(() => undefined);
-    this.#copied = { kind, text, done, note };
+    const isCopied = await Promise.resolve(navigator.clipboard?.writeText(text).then(() => true)).catch(() => undefined);
+    this.#copied = { kind, text, done: isCopied, note };
     this.host.requestUpdate();
   }
 
@@ -24,23 +24,23 @@ export class CopyMenu extends FigureController {
     this.host.requestUpdate();
   }
 
-  /** Returns a button that copies a text. A note follows the message: by default, which parts of the state the text does not have. */
+  /** Returns a button that copies a text. A note follows the message; by default it names the parts of the state that the text lacks. */
   button(kind: string, label: string, textOf: () => string | Promise<string>, { note, ...options }: { note?: string, title?: string, disabled?: boolean }) {
     return button(label, async () => this.#copy(kind, await textOf(), note ?? this.host.exportData.notInCopies ?? ''), options);
   }
 
   linkButton() {
-    const say = words.copies;
-    return this.button('link', say.link, () => this.host.shareLink(), { title: say.linkTitle });
+    const copyWords = words.copies;
+    return this.button('link', copyWords.link, () => this.host.shareLink(), { title: copyWords.linkTitle });
   }
 
   /** Returns the button that copies the HTML, with its message. */
   codeButton() {
-    const say = words.copies;
+    const copyWords = words.copies;
     return html`<fieldset class="copies" part="copies">
-      <legend>${say.label}</legend>
+      <legend>${copyWords.label}</legend>
       <div class="buttons">
-        ${this.button('code', say.code, () => this.host.embedCode(), { title: say.codeTitle })}
+        ${this.button('code', copyWords.code, () => this.host.embedCode(), { title: copyWords.codeTitle })}
       </div>
       ${this.answer('code')}
     </fieldset>`;
@@ -48,29 +48,29 @@ export class CopyMenu extends FigureController {
 
   /** Returns the message of a button, unless its text has changed since. */
   answer(kind: string, text?: string) {
-    const say = words.copies;
+    const copyWords = words.copies;
     const copied = this.#copied?.kind === kind && this.#copied.text === (text ?? this.#copied.text) ? this.#copied : undefined;
-    return html`<output class="copied">${copied ? `${copied.done ? say.done : say.byHand} ${copied.note}` : nothing}</output>
+    return html`<output class="copied">${copied ? `${copied.done ? copyWords.done : copyWords.byHand} ${copied.note}` : nothing}</output>
       ${copied && !copied.done
-        ? html`<textarea readonly rows="3" aria-label=${say.byHand} .value=${copied.text}></textarea>`
+        ? html`<textarea readonly rows="3" aria-label=${copyWords.byHand} .value=${copied.text}></textarea>`
         : nothing}`;
   }
 }
 
 /** Address of the published script, used if the address of this script is unknown. */
-const PUBLISHED = 'https://cdn.jsdelivr.net/npm/motion-widgets@0.1/dist/external.js';
+const PUBLISHED_SCRIPT = 'https://cdn.jsdelivr.net/npm/motion-widgets@0.1/dist/external.js';
 
 /** Returns HTML for any page: the script, and the tag with the attributes that differ from the defaults. */
-export function embedding(figure: import('./figure.ts').Figure) {
-  const given = ['theme', 'lang', 'dir'].map((name) => [name, figure.getAttribute(name) ?? ''] as [string, string]);
-  const needed = figure.machine ? figure.reflection.nonDefaultAttributes() : [];
+export function embeddingHtml(figure: import('./figure.ts').Figure) {
+  const pageAttributes = ['theme', 'lang', 'dir'].map((name) => [name, figure.getAttribute(name) ?? ''] as [string, string]);
+  const stateAttributes = figure.machine ? figure.reflection.nonDefaultAttributes() : [];
   // Addresses of local files and inline scripts do not work on other pages.
-  const known = /^https?:/.test(address);
-  const kind = (known && classic ? ['defer', ''] : ['type', 'module']) as [string, string];
-  const script = tag('script', [kind, ['src', known ? address : PUBLISHED]]);
-  return `${script}\n${tag(figure.localName, [...given.filter(([, text]) => text !== ''), ...needed])}\n`;
+  const isWebAddress = /^https?:/.test(address);
+  const scriptType = (isWebAddress && classic ? ['defer', ''] : ['type', 'module']) as [string, string];
+  const scriptTag = tagHtml('script', [scriptType, ['src', isWebAddress ? address : PUBLISHED_SCRIPT]]);
+  return `${scriptTag}\n${tagHtml(figure.localName, [...pageAttributes.filter(([, text]) => text !== ''), ...stateAttributes])}\n`;
 }
 
-function tag(name: string, attributes: [string, string][]) {
-  return `<${name}${attributes.map(([key, text]) => (text === '' ? ` ${key}` : ` ${key}="${escaped(text)}"`)).join('')}></${name}>`;
+function tagHtml(name: string, attributes: [string, string][]) {
+  return `<${name}${attributes.map(([key, text]) => (text === '' ? ` ${key}` : ` ${key}="${escapeXml(text)}"`)).join('')}></${name}>`;
 }

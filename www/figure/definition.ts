@@ -1,18 +1,18 @@
 /** Definition of a widget: its settings with their sliders, its properties and attributes, and the state of its element. */
 
 import { presets, settings, type Declaration } from '../settings.js';
-import { NUMBER, WORD_LIST, attributesIn, fieldProperty, presetPropertyOf, propertiesOf, type Attribute, type Config, type Properties, type Property } from './attributes.ts';
-import { numberWithin, subset, wholeNumber, word } from './checks.ts';
+import { NUMBER_CONVERTER, WORD_LIST_CONVERTER, attributesIn, fieldProperty, presetPropertyOf, propertiesOf, type Attribute, type Config, type Properties, type Property } from './attributes.ts';
+import { numberWithin, checkedSubset, wholeNumber, checkedWord } from './checks.ts';
 import type { SliderSpec } from './controls.ts';
 import type { LineStyle } from '../scene/draw.ts';
 
 /** Field of the state that the machine does not have. */
-export interface Own extends Pick<Property, 'converter' | 'words' | 'min' | 'max'> {
+export interface ElementField extends Pick<Property, 'converter' | 'words' | 'min' | 'max'> {
   /** Default. */
   opening: unknown;
-  /** True if a preset sets it to its default. */
+  /** True if a preset sets the field to its default. */
   ofPreset?: true;
-  /** True if it is a property, but no attribute. */
+  /** True if the field is a property, but not an attribute. */
   isProperty?: true;
   /** Returns a value after a check; throws if it is invalid. An attribute is checked by its words or its range. */
   check?: (field: string, value: any, selectableCount: number) => any;
@@ -27,25 +27,25 @@ export interface Definition {
   /** Properties that are also attributes. */
   attributes: Record<string, Attribute>;
   /** State of the element that the machine does not have. */
-  own: Record<string, Own>;
+  own: Record<string, ElementField>;
   /** Appearance of the settings that have a slider. */
   sliderSpecs: Record<string, SliderSpec>;
   dependentDefaults?: (config: Config) => Config;
 }
 
-interface Parts extends Pick<Definition, 'messageKey' | 'sliderSpecs' | 'dependentDefaults'> {
+interface Options extends Pick<Definition, 'messageKey' | 'sliderSpecs' | 'dependentDefaults'> {
   /** Styles of the lines and marks in the pictures, which are the words of the attribute `overlays`. */
   lines: Record<string, LineStyle>;
   /** Lines that are drawn by default. */
   opening?: readonly string[];
   /** Attribute of the presets, if it depends on more than the settings. */
   preset?: Attribute;
-  /** State besides that of the overlays and the cloud. */
-  own?: Record<string, Own>;
+  /** State fields of the widget, in addition to those of overlays and cloud. */
+  own?: Record<string, ElementField>;
 }
 
 /** State of an element with samples. */
-const cloudState: Record<string, Own> = {
+const cloudState: Record<string, ElementField> = {
   marked: {
     opening: null,
     isProperty: true,
@@ -53,27 +53,27 @@ const cloudState: Record<string, Own> = {
   },
 };
 
-export function definitionOf(tag: string, { lines, opening = Object.keys(lines), preset, own: ofWidget, ...parts }: Parts): Definition {
+export function definitionOf(tag: string, { lines, opening = Object.keys(lines), preset, own: ofWidget, ...parts }: Options): Definition {
   const declared = settings[tag];
   const widgetPresets = presets[tag as keyof typeof presets];
-  const own: Record<string, Own> = {
+  const elementFields: Record<string, ElementField> = {
     ...(declared.some(({ key }) => key === 'samples') && cloudState),
     ...ofWidget,
-    overlays: { converter: WORD_LIST, words: Object.keys(lines), opening },
+    overlays: { converter: WORD_LIST_CONVERTER, words: Object.keys(lines), opening },
   };
   const properties: Properties = {
     ...(widgetPresets.length > 0 && { preset: preset ?? presetPropertyOf(widgetPresets, declared) }),
     ...propertiesOf(declared),
   };
-  for (const [key, { converter, isProperty, words, min, max }] of Object.entries(own)) {
+  for (const [key, { converter, isProperty, words, min, max }] of Object.entries(elementFields)) {
     if (converter || isProperty) properties[key] = { ...fieldProperty(key, converter), words, min, max };
   }
-  return { ...parts, tag, declared, properties, attributes: attributesIn(properties), own };
+  return { ...parts, tag, declared, properties, attributes: attributesIn(properties), own: elementFields };
 }
 
 /** Returns a value for a field of the state of the element after a check; throws a TypeError or RangeError if it is invalid. */
-export function validated({ converter, words = [], min = -Infinity, max = Infinity, check }: Own, field: string, value: unknown, selectableCount: number) {
+export function validated({ converter, words = [], min = -Infinity, max = Infinity, check }: ElementField, field: string, value: unknown, selectableCount: number) {
   if (check) return check(field, value, selectableCount);
-  if (converter === NUMBER) return numberWithin(field, value, min, max);
-  return converter === WORD_LIST ? subset(field, value, words) : word(field, value, words);
+  if (converter === NUMBER_CONVERTER) return numberWithin(field, value, min, max);
+  return converter === WORD_LIST_CONVERTER ? checkedSubset(field, value, words) : checkedWord(field, value, words);
 }

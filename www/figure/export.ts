@@ -2,8 +2,8 @@
 
 import { html } from 'lit';
 import { words } from '../messages/registry.ts';
-import { inCss } from '../scene/canvas.ts';
-import { SvgContext, escaped, short } from '../scene/svg.ts';
+import { cssSizeOf } from '../scene/canvas.ts';
+import { SvgContext, escapeXml, formatLength } from '../scene/svg.ts';
 import { button } from '../ui/controls.ts';
 import { nameOf } from './surface.ts';
 import type { Figure } from './figure.ts';
@@ -11,7 +11,7 @@ import type { Figure } from './figure.ts';
 /** Content for export besides the picture. */
 export interface ExportData {
   description: string;
-  /** Settings, which the tag of the element precedes. */
+  /** Settings that are exported, after the tag of the element. */
   settings: object;
   /** Names of the columns, with units. */
   columns: string[];
@@ -26,25 +26,25 @@ export interface ExportData {
 const PNG_RATIO = 2;
 
 /** Size in CSS pixels of a figure without layout, such as in a hidden tab panel. */
-const SIZE = { width: 720, height: 432 };
+const DEFAULT_SIZE = { width: 720, height: 432 };
 
 /** Draws the picture in its size and font on the page, with `ratio` pixels per CSS pixel. Returns the size in pixels and the view. */
-function draw({ scene, pictures: [first], exportPicture, canvases, colours }: Figure, ratio: number, contextOf: (size: { width: number, height: number }) => unknown) {
+function drawScene({ scene, pictures: [first], exportPicture, canvases, colours }: Figure, ratio: number, contextOf: (size: { width: number, height: number }) => unknown) {
   const picture = exportPicture ?? first;
   const canvas = canvases.of(first);
-  const box = canvas.clientWidth > 0 ? canvas.getBoundingClientRect() : SIZE;
-  const [clientWidth, height] = exportPicture ? inCss(exportPicture.size, canvas) : [box.width, box.height];
-  const size = { width: Math.round(ratio * clientWidth), height: Math.round(ratio * height) };
-  const surface = { ...size, clientWidth, letters: getComputedStyle(canvas), context: contextOf(size) as CanvasRenderingContext2D };
+  const canvasBox = canvas.clientWidth > 0 ? canvas.getBoundingClientRect() : DEFAULT_SIZE;
+  const [clientWidth, height] = exportPicture ? cssSizeOf(exportPicture.size, canvas) : [canvasBox.width, canvasBox.height];
+  const pxSize = { width: Math.round(ratio * clientWidth), height: Math.round(ratio * height) };
+  const surface = { ...pxSize, clientWidth, letters: getComputedStyle(canvas), context: contextOf(pxSize) as CanvasRenderingContext2D };
   picture.draw(surface, scene, colours.palette, { still: true, atOnce: true, exported: true });
-  return { view: picture.view, ...size };
+  return { view: picture.view, ...pxSize };
 }
 
 /** Returns a PNG image with the background. */
 export async function pngOf(element: Figure): Promise<Blob> {
   const image = document.createElement('canvas');
   const context = image.getContext('2d') as CanvasRenderingContext2D;
-  draw(element, PNG_RATIO, (size) => Object.assign(image, size) && context);
+  drawScene(element, PNG_RATIO, (size) => Object.assign(image, size) && context);
   context.resetTransform();
   context.globalCompositeOperation = 'destination-over';
   context.fillStyle = element.colours.palette.paper;
@@ -55,22 +55,22 @@ export async function pngOf(element: Figure): Promise<Blob> {
 }
 
 /** Returns a hash that makes ids unique on a page, and equal for equal figures. */
-function hash(text: string) {
-  let value = 7;
-  for (let i = 0; i < text.length; i++) value = (Math.imul(value, 31) + text.charCodeAt(i)) >>> 0;
-  return value.toString(36);
+function hashOf(text: string) {
+  let hashValue = 7;
+  for (let i = 0; i < text.length; i++) hashValue = (Math.imul(hashValue, 31) + text.charCodeAt(i)) >>> 0;
+  return hashValue.toString(36);
 }
 
 const settingsText = ({ localName }: Figure, settings: object) => JSON.stringify({ element: localName, ...settings });
 
 export function svgOf(element: Figure) {
   const { settings, description } = element.exportData;
-  const name = `figure-${hash(settingsText(element, settings))}`;
-  const svg = new SvgContext(name);
-  const { view, width, height } = draw(element, 1, () => svg);
-  return `<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height}" viewBox="0 0 ${short(view.width)} ${short(view.height)}" direction="ltr" role="img" aria-labelledby="${name}-title ${name}-text">
-<title id="${name}-title">${escaped(nameOf(element))}</title>
-<desc id="${name}-text">${escaped(description)}</desc>
+  const baseName = `figure-${hashOf(settingsText(element, settings))}`;
+  const svg = new SvgContext(baseName);
+  const { view, width, height } = drawScene(element, 1, () => svg);
+  return `<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height}" viewBox="0 0 ${formatLength(view.width)} ${formatLength(view.height)}" direction="ltr" role="img" aria-labelledby="${baseName}-title ${baseName}-text">
+<title id="${baseName}-title">${escapeXml(nameOf(element))}</title>
+<desc id="${baseName}-text">${escapeXml(description)}</desc>
 <rect width="100%" height="100%" fill="${element.colours.palette.paper}"/>
 ${svg.markup}
 </svg>
@@ -80,8 +80,8 @@ ${svg.markup}
 /** Returns CSV: a comment with settings and seed, a header, and a line for each sample with all digits. */
 export function csvOf(element: Figure) {
   const { settings, columns, row, count } = element.exportData;
-  const lines = [`# ${settingsText(element, settings)}`, columns, ...Array.from({ length: count }, (_, i) => row(i))];
-  return `${lines.join('\n')}\n`;
+  const csvLines = [`# ${settingsText(element, settings)}`, columns, ...Array.from({ length: count }, (_, i) => row(i))];
+  return `${csvLines.join('\n')}\n`;
 }
 
 /** Downloads a file. */
@@ -94,15 +94,15 @@ export function save(name: string, blob: Blob) {
 
 /** Returns the buttons that save the figure; `mark` distinguishes file names of states. */
 export function exportButtons(element: Figure, mark: string | number, csvTitle: string = words.exports.csvTitle) {
-  const say = words.exports;
-  const name = `${element.localName}-${mark}`;
-  const text = (ending: string, type: string, content: string) => save(`${name}.${ending}`, new Blob([content], { type }));
+  const exportWords = words.exports;
+  const baseName = `${element.localName}-${mark}`;
+  const saveText = (ending: string, type: string, content: string) => save(`${baseName}.${ending}`, new Blob([content], { type }));
   return html`<fieldset class="exports" part="exports">
-    <legend>${say.label}</legend>
+    <legend>${exportWords.label}</legend>
     <div class="buttons">
-      ${button(say.png, () => element.toPNG().then((blob) => save(`${name}.png`, blob), (error) => element.runtime.report(error)), { title: say.pngTitle })}
-      ${button(say.svg, () => text('svg', 'image/svg+xml', element.toSVG()), { title: say.svgTitle })}
-      ${button(say.csv, () => text('csv', 'text/csv', element.toCSV()), { title: csvTitle })}
+      ${button(exportWords.png, () => element.toPNG().then((blob) => save(`${baseName}.png`, blob), (error) => element.runtime.report(error)), { title: exportWords.pngTitle })}
+      ${button(exportWords.svg, () => saveText('svg', 'image/svg+xml', element.toSVG()), { title: exportWords.svgTitle })}
+      ${button(exportWords.csv, () => saveText('csv', 'text/csv', element.toCSV()), { title: csvTitle })}
     </div>
   </fieldset>`;
 }

@@ -8,7 +8,7 @@ import { plotStyles } from '../ui/plot.ts';
 import { presentationStyles } from '../ui/presentation.ts';
 import { theme } from '../ui/theme.ts';
 import { Announcer } from './announcer.ts';
-import { COMMON, type HEADING_LEVELS, type THEMES } from './attributes.ts';
+import { COMMON_ATTRS, type HEADING_LEVELS, type THEMES } from './attributes.ts';
 import { Canvases } from './canvases.ts';
 import { Colours } from './colours.ts';
 import { Focus } from './focus.ts';
@@ -23,9 +23,9 @@ import { Settings } from './settings.ts';
 import { Renderer } from './renderer.ts';
 import { State } from './state.ts';
 import { TextHeights } from './text-heights.ts';
-import { surface } from './surface.ts';
+import { figureHtml } from './surface.ts';
 import { Visibility } from './visibility.ts';
-import { CopyMenu, embedding } from './copy.ts';
+import { CopyMenu, embeddingHtml } from './copy.ts';
 import { csvOf, pngOf, svgOf } from './export.ts';
 import type { FigureState, Motion } from '../types.d.ts';
 import type { Values } from './settings.ts';
@@ -37,13 +37,13 @@ addEnglish(en);
 /**
  * Figure with one simulation object of the core. A widget defines its machine, readings, pictures, HTML and export.
  *
- * Attributes and properties have the values that the figure shows, after changes of the reader too, and set them; properties accept texts.
+ * Attributes and properties have the values that the figure shows, also after changes by the reader, and set them; properties accept texts.
  * A value out of range causes an `error` event that names the field, the value and what is allowed, and the last valid value stays;
  * `setState` throws.
  *
  * @attr theme - Colours for a light or a dark page; auto follows the surroundings.
  * @attr share - Keeps the state in the fragment of the page’s address. A state in the address is opened and kept up to date in any case.
- * @attr presentation - Fills the screen, or the window, with pictures and numbers for an audience: C shows the controls, Escape leaves.
+ * @attr presentation - Fills the screen, or the window, with pictures and numbers for an audience. C shows the controls, Escape ends it.
  * @attr heading-level - Makes the slot `title` a heading of this level; the property is `headingLevel`.
  * @slot title - Title above the figure, with its number; also the figure’s name for screen readers.
  * @slot caption - Caption below the figure.
@@ -86,8 +86,8 @@ export abstract class FigureElement<Machine extends { free(): void, stats: objec
   /** Adds the styles that all figures have before those of a widget. */
   static finalizeStyles(own: CSSResultGroup = []) {
     // Lit asks the base class too, which has no definition.
-    const reserved = this.definition ? reservedHeight(this.definition.tag) : [];
-    return super.finalizeStyles([theme, presentationStyles, noticeStyles, reserved, ...layoutStyles, plotStyles, own]);
+    const reservedStyles = this.definition ? reservedHeight(this.definition.tag) : [];
+    return super.finalizeStyles([theme, presentationStyles, noticeStyles, reservedStyles, ...layoutStyles, plotStyles, own]);
   }
 
   /** Colours: light, dark, or auto for those of the surroundings. */
@@ -120,7 +120,7 @@ export abstract class FigureElement<Machine extends { free(): void, stats: objec
   cloud: import('./cloud.ts').Cloud | undefined;
   /** Player of a figure that animates a slider. `advance` returns true while it plays. */
   player: { advance(elapsed: number): boolean, stop(): void } | undefined;
-  /** Handlers of files that are dragged over a figure that takes them. */
+  /** Handlers for dragged files, if the figure accepts files. */
   dropped: { enter?: () => void } & Record<'over' | 'leave' | 'drop', (event: DragEvent) => void> | undefined;
   /** Pictures on the canvases. The first is exported, unless `exportPicture` has a picture for that. */
   pictures: import('../scene/picture.ts').Picture<any>[] = [];
@@ -297,7 +297,7 @@ export abstract class FigureElement<Machine extends { free(): void, stats: objec
   }
 
   /**
-   * Returns the picture with two pixels a CSS pixel, image/png. Throws before `load`, as the next two do.
+   * Returns the picture as PNG, with two pixels per CSS pixel. Throws before `load`, as `toSVG` and `toCSV` do.
    * @public
    */
   async toPNG(): Promise<Blob> {
@@ -329,11 +329,11 @@ export abstract class FigureElement<Machine extends { free(): void, stats: objec
   }
 
   /**
-   * Returns HTML that shows the figure in its present state on another page, without what no attribute carries, such as the reader's map.
+   * Returns HTML that shows the figure in its present state on another page. State without an attribute, such as the reader's map, is lost.
    * @public
    */
   embedCode(): string {
-    return embedding(this);
+    return embeddingHtml(this);
   }
 
   connectedCallback() {
@@ -348,14 +348,14 @@ export abstract class FigureElement<Machine extends { free(): void, stats: objec
 
   static get observedAttributes() {
     // Attributes are in lower case in HTML.
-    return [...super.observedAttributes, ...Object.keys({ ...this.definition?.attributes, ...COMMON }).map((name) => name.toLowerCase())];
+    return [...super.observedAttributes, ...Object.keys({ ...this.definition?.attributes, ...COMMON_ATTRS }).map((k) => k.toLowerCase())];
   }
 
   attributeChangedCallback(name: string, old: string | null, text: string | null) {
     super.attributeChangedCallback(name, old, text);
     if (old === text) return;
     this.reflection.attributeChanged(name, text);
-    if (!(name in COMMON)) return;
+    if (!(name in COMMON_ATTRS)) return;
     this.requestUpdate();
     this.presenting.follow();
     this.colours.update();
@@ -369,14 +369,14 @@ export abstract class FigureElement<Machine extends { free(): void, stats: objec
   }
 
   update(changed: Parameters<LitElement['update']>[0]) {
-    const rendered = () => {
+    const renderContent = () => {
       super.update(changed);
       return this;
     };
     this.#updating = true;
     try {
       // After a trap the previous content stays. After a failure the message is rendered.
-      if (!this.runtime.attemptOrFail(rendered)) rendered();
+      if (!this.runtime.attemptOrFail(renderContent)) renderContent();
     } catch {
       // No template can be rendered on this page, so that further updates are useless.
       this.shouldUpdate = () => false;
@@ -387,12 +387,12 @@ export abstract class FigureElement<Machine extends { free(): void, stats: objec
   }
 
   render() {
-    return surface(this);
+    return figureHtml(this);
   }
 }
 
 // The attributes of every figure hold the values of these properties.
-for (const [name, { property = name, words: allowed, nullable }] of Object.entries(COMMON)) {
+for (const [name, { property = name, words: allowed, nullable }] of Object.entries(COMMON_ATTRS)) {
   Object.defineProperty(FigureElement.prototype, property, {
     configurable: true,
     get(this: Figure) {

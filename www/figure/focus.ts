@@ -4,10 +4,10 @@ import { FigureController } from './controller.ts';
 import type { Figure } from './figure.ts';
 
 /** Elements that the Tab key stops at. */
-const STOPS = ':is(button, input, select, textarea):enabled:not([tabindex]), summary, [tabindex="0"]';
+const FOCUSABLE = ':is(button, input, select, textarea):enabled:not([tabindex]), summary, [tabindex="0"]';
 
-function stopsIn(root: ParentNode): HTMLElement[] {
-  return ([...root.querySelectorAll(STOPS)] as HTMLElement[]).filter((stop) => stop.checkVisibility());
+function focusableIn(root: ParentNode): HTMLElement[] {
+  return ([...root.querySelectorAll(FOCUSABLE)] as HTMLElement[]).filter((stop) => stop.checkVisibility());
 }
 
 export class Focus extends FigureController {
@@ -26,7 +26,7 @@ export class Focus extends FigureController {
     const [control, ...around] = this.#held;
     if (!control || (control.isConnected && control.checkVisibility() && !control.matches(':disabled'))) return;
     for (const each of around) {
-      const [stop] = each.isConnected ? stopsIn(each) : [];
+      const [stop] = each.isConnected ? focusableIn(each) : [];
       if (!stop) continue;
       stop.focus({ preventScroll: true });
       return;
@@ -40,10 +40,10 @@ export async function moveFocusInto(figure: Figure, origin: EventTarget | null) 
   // Waits for the controls, which are rendered after the first picture.
   while (figure.renderer.opening) await new Promise(requestAnimationFrame);
   await figure.updateComplete;
-  // The focus was on the placeholder, and is on the body after its removal. The reader may have moved it.
+  // After the removal of the focused placeholder, the focus is on the body unless the reader has moved it.
   if (!figure.machine || document.activeElement !== document.body) return;
-  const stops = stopsIn(figure.renderRoot);
+  const focusable = focusableIn(figure.renderRoot);
   // With Shift+Tab the focus comes from an element below the figure.
-  const below = origin instanceof Node && figure.compareDocumentPosition(origin) & Node.DOCUMENT_POSITION_FOLLOWING;
-  stops.at(below ? -1 : 0)?.focus();
+  const comesFromBelow = origin instanceof Node && figure.compareDocumentPosition(origin) & Node.DOCUMENT_POSITION_FOLLOWING;
+  focusable.at(comesFromBelow ? -1 : 0)?.focus();
 }

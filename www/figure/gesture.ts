@@ -1,4 +1,4 @@
-/** Events of the reader's changes: one `input` for each step and one `change` at the end, whatever the number of settings. */
+/** Events of changes by the reader: one `input` for each step and one `change` at the end, for any number of settings. */
 
 import { FigureController } from './controller.ts';
 import type { Values } from './settings.ts';
@@ -84,7 +84,7 @@ export class Gesture extends FigureController {
     this.#queue();
   }
 
-  /** Fires the events once after the running handler, which may change several values. */
+  /** Fires one event after the running handler, which may change several values. */
   #queue() {
     queueMicrotask(() => {
       const [step, end] = [this.#step, this.#end];

@@ -7,21 +7,21 @@ import { pack, unpack } from './packing.ts';
 import { FigureController } from './controller.ts';
 
 export class Link extends FigureController {
-  /** Tokens of the latest read and write of the address. The results of earlier ones are dropped. */
+  /** Tokens of the latest read and write of the address. Results of earlier reads and writes are dropped. */
   #latestRead = {};
   #latestWrite = {};
 
   hostConnected() {
     addEventListener('hashchange', this.#changed, { signal: this.host.connection.signal });
-    target ??= openedAt();
-    if (isAnchor(target)) document.getElementById(decoded(target))?.scrollIntoView();
-    else if (target !== parts()[0] || !this.#isOf(target)) return;
+    anchorToScroll ??= openingAnchor();
+    if (isAnchor(anchorToScroll)) document.getElementById(decodeOrKeep(anchorToScroll))?.scrollIntoView();
+    else if (anchorToScroll !== fragmentParts()[0] || !this.#isOf(anchorToScroll)) return;
     else this.#scrollHere();
-    target = '';
+    anchorToScroll = '';
   }
 
   #changed = () => {
-    if (this.#isOf(parts()[0])) this.#scrollHere();
+    if (this.#isOf(fragmentParts()[0])) this.#scrollHere();
     void this.#follow();
   };
 
@@ -33,7 +33,7 @@ export class Link extends FigureController {
   /** Scrolls to the figure that a link names. */
   #scrollHere() {
     const { host } = this;
-    // The figure has its height then.
+    // After the update the figure has its height.
     void host.updateComplete.then(() => host.scrollIntoView());
   }
 
@@ -45,12 +45,12 @@ export class Link extends FigureController {
   /** Applies the state in the page's address, if any, now or as soon as there is a machine. */
   async #follow() {
     const { host } = this;
-    const request = (this.#latestRead = {});
-    const part = parts().find((each) => this.#isOf(each));
+    const token = (this.#latestRead = {});
+    const part = fragmentParts().find((each) => this.#isOf(each));
     if (part === undefined) return;
     try {
       const state = await unpack(part.slice(part.indexOf('=') + 1));
-      if (request === this.#latestRead) host.runtime.attemptOrReport(() => host.setState(state as any));
+      if (token === this.#latestRead) host.runtime.attemptOrReport(() => host.setState(state as any));
     } catch (error) {
       host.runtime.report(error);
     }
@@ -58,11 +58,11 @@ export class Link extends FigureController {
 
   /** Writes the state into the address, if `share` is set or the address has the figure's state. It neither scrolls nor adds to the history. */
   async write() {
-    if (!this.host.share && !parts().some((part) => this.#isOf(part))) return;
-    const request = (this.#latestWrite = {});
-    const text = await this.#pack();
-    if (request !== this.#latestWrite || !this.host.isConnected) return;
-    const address = addressWith(keyOf(this.host), text);
+    if (!this.host.share && !fragmentParts().some((part) => this.#isOf(part))) return;
+    const token = (this.#latestWrite = {});
+    const packedState = await this.#pack();
+    if (token !== this.#latestWrite || !this.host.isConnected) return;
+    const address = addressWith(keyOf(this.host), packedState);
     if (address === location.href) return;
     try {
       history.replaceState(history.state, document.title, address);
@@ -73,7 +73,7 @@ export class Link extends FigureController {
 
   /** Returns the address of this page with the state. The figure's part comes first, or after an anchor of the page. */
   async address(): Promise<string> {
-    return addressWith(keyOf(this.host), await this.#pack(), !isAnchor(parts()[0]));
+    return addressWith(keyOf(this.host), await this.#pack(), !isAnchor(fragmentParts()[0]));
   }
 
   #pack() {
@@ -84,39 +84,39 @@ export class Link extends FigureController {
 /** Returns the key of an element's part: its tag with its id or its index among elements of that tag. Keys of shadow hosts come first. */
 function keyOf(element: Element): string {
   const { localName, id } = element;
-  const root = element.getRootNode() as any;
-  const name = (root.host ? `${keyOf(root.host)}/` : '') + encodeURIComponent(localName);
+  const rootNode = element.getRootNode() as any;
+  const name = (rootNode.host ? `${keyOf(rootNode.host)}/` : '') + encodeURIComponent(localName);
   if (id) return `${name}:${encodeURIComponent(id)}`;
-  return `${name}.${[...root.querySelectorAll(CSS.escape(localName))].indexOf(element) + 1}`;
+  return `${name}.${[...rootNode.querySelectorAll(CSS.escape(localName))].indexOf(element) + 1}`;
 }
 
 /** Returns the page's address with a figure's part added or replaced, or moved to the beginning if `first` is true. */
 function addressWith(key: string, text: string, first: boolean = false): string {
   const part = `${key}=${text}`;
-  const all = parts();
-  const at = all.findIndex((each) => each.startsWith(`${key}=`));
-  const others = all.filter((_, i) => i !== at);
-  const next = first ? [part, ...others] : at < 0 ? [...all, part] : all.with(at, part);
+  const allParts = fragmentParts();
+  const partIndex = allParts.findIndex((each) => each.startsWith(`${key}=`));
+  const otherParts = allParts.filter((_, i) => i !== partIndex);
+  const nextParts = first ? [part, ...otherParts] : partIndex < 0 ? [...allParts, part] : allParts.with(partIndex, part);
   // The address is complete, because a base element would change a relative one.
-  return `${location.href.replace(/#.*/, '')}#${next.join('&')}`;
+  return `${location.href.replace(/#.*/, '')}#${nextParts.join('&')}`;
 }
 
-const parts = () => location.hash.slice(1).split('&').filter((part) => part !== '');
+const fragmentParts = () => location.hash.slice(1).split('&').filter((part) => part !== '');
 
 const isAnchor = (part = '') => part !== '' && !part.includes('=');
 
 /** First part of the fragment of a followed link, until the page has scrolled to it; then an empty text. */
-let target: string | undefined;
+let anchorToScroll: string | undefined;
 
 /** Returns the first part of the fragment that the page was opened with, if the browser does not scroll to it. */
-function openedAt() {
+function openingAnchor() {
   const [navigation] = performance.getEntriesByType('navigation') as PerformanceNavigationTiming[];
-  const [first = '', second] = parts();
+  const [first = '', second] = fragmentParts();
   // On a reload the browser restores the scroll position, and it finds an anchor that is the whole fragment.
   return navigation?.type !== 'navigate' || (isAnchor(first) && !second) ? '' : first;
 }
 
-function decoded(text: string) {
+function decodeOrKeep(text: string) {
   try {
     return decodeURIComponent(text);
   } catch {

@@ -6,7 +6,7 @@ import { button } from '../ui/controls.ts';
 import { FigureController } from './controller.ts';
 
 /** Time that work may take before the notice shows it, ms. */
-const DELAY = 200;
+const DELAY_MS = 200;
 
 export const noticeStyles = css`
   .notice {
@@ -71,8 +71,8 @@ export class Notice extends FigureController {
   /** Shows work that takes long, until it ends. `stop` is called if the reader stops it. */
   async during(work: Promise<unknown>, stop: () => void) {
     const { host } = this;
-    const ended = new AbortController();
-    const begin = () => {
+    const workEnded = new AbortController();
+    const showWork = () => {
       this.#stop = () => {
         host.announcer.announce(words.progress.stopped);
         stop();
@@ -80,14 +80,14 @@ export class Notice extends FigureController {
       host.announcer.announce(words.progress.begins);
       host.requestUpdate();
       // A capturing listener is called before the listeners of the figure.
-      document.addEventListener('keydown', this.#key, { capture: true, signal: ended.signal });
+      document.addEventListener('keydown', this.#key, { capture: true, signal: workEnded.signal });
     };
-    const timer = setTimeout(begin, DELAY);
+    const timer = setTimeout(showWork, DELAY_MS);
     try {
       await work;
     } finally {
       clearTimeout(timer);
-      ended.abort();
+      workEnded.abort();
       this.#stop = undefined;
       host.requestUpdate();
     }
@@ -104,12 +104,12 @@ export class Notice extends FigureController {
 
   render() {
     const { label, stop, stopTitle } = words.progress;
-    const work = this.#stop && html`<div part="progress">
+    const workHtml = this.#stop && html`<div part="progress">
       <progress aria-label=${label}></progress>
       <span aria-hidden="true">${label}</span>
       ${button(stop, this.#stop, { title: stopTitle })}
     </div>`;
-    const sentence = this.isShown && html`<div class="sentence"><span role="alert">${this.#sentence}</span> ${button(words.close, () => this.show(''))}</div>`;
-    return [work, sentence].map((content) => (content ? html`<div class="notice">${content}</div>` : nothing));
+    const sentenceHtml = this.isShown && html`<div class="sentence"><span role="alert">${this.#sentence}</span> ${button(words.close, () => this.show(''))}</div>`;
+    return [workHtml, sentenceHtml].map((content) => (content ? html`<div class="notice">${content}</div>` : nothing));
   }
 }

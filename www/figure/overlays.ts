@@ -2,7 +2,7 @@
 
 import { html, nothing, svg } from 'lit';
 import { words } from '../messages/registry.ts';
-import { rich, toggle } from '../ui/controls.ts';
+import { formatMarkup, toggle } from '../ui/controls.ts';
 import type { LineStyle } from '../scene/draw.ts';
 
 /** Returns the legend of a figure's pictures, with names from the catalogue. `notes` explain missing lines. Entries of `more` have no toggle. */
@@ -10,16 +10,16 @@ export function legend(figure: import('./figure.ts').Figure, styles: Record<stri
   const { overlays } = figure.state.own;
   const { overlays: names } = (words as any)[figure.definition.messageKey];
   const all = Object.keys(styles);
-  const every = figure.definition.attributes.overlays.words as string[];
-  const choose = (name: string, shown: boolean) =>
-    figure.gesture.choose('overlays', every.filter((each) => (each === name ? shown : overlays.includes(each))));
+  const allOverlays = figure.definition.attributes.overlays.words as string[];
+  const setShown = (name: string, shown: boolean) =>
+    figure.gesture.choose('overlays', allOverlays.filter((each) => (each === name ? shown : overlays.includes(each))));
   const highlight = (name: string | null) => (figure.highlight = name);
   return html`<div class="legend" part="legend" role="group" aria-label=${words.legend}>
     ${all.map((name) => html`<span title=${notes[name] ?? nothing} @pointerenter=${() => highlight(name)} @pointerleave=${() => highlight(null)} @focusin=${() => highlight(name)} @focusout=${() => highlight(null)}>
       ${toggle({
-        label: html`${swatch(styles[name])}<span class=${notes[name] ? 'absent' : nothing}>${rich(names[name])}${notes[name] ? html`<span class="visually-hidden">: ${notes[name]}</span>` : nothing}</span>`,
+        label: html`${swatch(styles[name])}<span class=${notes[name] ? 'absent' : nothing}>${formatMarkup(names[name])}${notes[name] ? html`<span class="visually-hidden">: ${notes[name]}</span>` : nothing}</span>`,
         checked: overlays.includes(name),
-        change: (shown) => choose(name, shown),
+        change: (shown) => setShown(name, shown),
       })}
     </span>`)}
     ${more}
@@ -28,7 +28,7 @@ export function legend(figure: import('./figure.ts').Figure, styles: Record<stri
 
 /** Returns the symbol of a legend item: a line, dot, ring or area in its style. */
 export function swatch({ role, dash, width = 2.25, mark = 'line' }: LineStyle) {
-  const shapes = {
+  const markShapes = {
     line: svg`<line x1="1" x2="29" y1="6" y2="6" stroke-width=${width} stroke-dasharray=${dash?.join(' ') ?? nothing} />`,
     dot: svg`<circle class="filled" cx="15" cy="6" r="3" />`,
     ring: svg`<circle cx="15" cy="6" r="4" stroke-width=${width} />`,
@@ -36,5 +36,5 @@ export function swatch({ role, dash, width = 2.25, mark = 'line' }: LineStyle) {
     box: svg`<rect x="9" y="2" width="12" height="8" rx="2" stroke-width=${width} />`,
     cross: svg`<path d="M11 2l8 8m0 -8l-8 8" stroke-width=${width} />`,
   };
-  return html`<svg class="swatch" viewBox="0 0 30 12" aria-hidden="true" data-role=${role}>${shapes[mark]}</svg>`;
+  return html`<svg class="swatch" viewBox="0 0 30 12" aria-hidden="true" data-role=${role}>${markShapes[mark]}</svg>`;
 }

@@ -1,34 +1,34 @@
 /** Conversion of bytes and plain data to text and back. */
 
-import { refusal } from './checks.ts';
+import { refusalError } from './checks.ts';
 
 /** Maximum size of an unpacked state, in bytes, because a link may be malicious. The largest grid takes 11.2 million. */
 const MAX_BYTES = 12_000_000;
 
 /** Returns compressed data as letters, digits, - and _. */
 export async function pack(data: object): Promise<string> {
-  const text = new Blob([JSON.stringify(data)]).stream().pipeThrough(new CompressionStream('deflate-raw'));
-  const bytes = new Uint8Array(await new Response(text).arrayBuffer());
-  return toBase64(bytes).replaceAll('+', '-').replaceAll('/', '_').replaceAll('=', '');
+  const compressed = new Blob([JSON.stringify(data)]).stream().pipeThrough(new CompressionStream('deflate-raw'));
+  const compressedBytes = new Uint8Array(await new Response(compressed).arrayBuffer());
+  return toBase64(compressedBytes).replaceAll('+', '-').replaceAll('/', '_').replaceAll('=', '');
 }
 
 /** Returns the data of a packed text; throws a RangeError for any other text. */
 export async function unpack(text: string): Promise<unknown> {
   try {
     const bytes = fromBase64(text.replaceAll('-', '+').replaceAll('_', '/'));
-    const parts = [];
-    let size = 0;
-    const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream('deflate-raw'));
-    for (const reader = stream.getReader(); ; ) {
+    const chunks = [];
+    let byteCount = 0;
+    const decompressed = new Blob([bytes]).stream().pipeThrough(new DecompressionStream('deflate-raw'));
+    for (const reader = decompressed.getReader(); ; ) {
       const { done, value } = await reader.read();
       if (done) break;
-      size += value.length;
-      if (size > MAX_BYTES) throw new RangeError();
-      parts.push(value);
+      byteCount += value.length;
+      if (byteCount > MAX_BYTES) throw new RangeError();
+      chunks.push(value);
     }
-    return JSON.parse(await new Blob(parts).text());
+    return JSON.parse(await new Blob(chunks).text());
   } catch {
-    throw refusal('state in the address', text, 'what shareLink gives');
+    throw refusalError('state in the address', text, 'what shareLink gives');
   }
 }
 

@@ -6,10 +6,10 @@ import { button } from '../ui/controls.ts';
 import { FigureController } from './controller.ts';
 
 /** Key that shows and hides the controls. */
-const KEY = 'c';
+const CONTROLS_KEY = 'c';
 
-/** Key that restores the state at the beginning of the presentation. */
-const BACK = '0';
+/** Key that restores the state that the figure had when the presentation began. */
+const RESTORE_KEY = '0';
 
 export class Presentation extends FigureController {
   /** True while the controls are shown. */
@@ -43,10 +43,10 @@ export class Presentation extends FigureController {
     host.copies.forget();
     this.#listening = new AbortController();
     addEventListener('keydown', this.#key, { signal: this.#listening.signal });
-    const keyed = host.renderRoot?.querySelector('.to-present:focus-visible');
+    const focusedButton = host.renderRoot?.querySelector('.to-present:focus-visible');
     await host.updateComplete;
     // A click should leave no focus ring in the presentation.
-    this.#focus(keyed ? '.presenting button' : '.presenting');
+    this.#focus(focusedButton ? '.presenting button' : '.presenting');
     // Browsers allow a full screen only after a key press or a click. Some phones have no full screen.
     if (navigator.userActivation.isActive) await host.requestFullscreen?.().catch(() => {});
     if (!this.#listening) await this.#exit();
@@ -86,8 +86,8 @@ export class Presentation extends FigureController {
     const { definition, machine, state } = this.host;
     const preset = definition.attributes.preset?.words?.[Number(key) - 1];
     if (key === 'Escape') this.host.presentation = false;
-    else if (key.toLowerCase() === KEY) this.#toggle();
-    else if (key === BACK) this.#restore();
+    else if (key.toLowerCase() === CONTROLS_KEY) this.#toggle();
+    else if (key === RESTORE_KEY) this.#restore();
     else if (preset !== undefined && machine) state.choosePreset(preset);
   };
 
@@ -105,18 +105,18 @@ export class Presentation extends FigureController {
   }
 
   button() {
-    const say = words.presentation;
-    return button(say.begin, () => (this.host.presentation = true), { title: say.title, name: 'to-present' });
+    const presentationWords = words.presentation;
+    return button(presentationWords.begin, () => (this.host.presentation = true), { title: presentationWords.title, name: 'to-present' });
   }
 
   render() {
     if (!this.#listening) return nothing;
-    const say = words.presentation;
-    const keyed = (key: string, label: string) => html`<kbd>${key}</kbd> ${label}`;
-    return html`<div class="presenting" role="group" tabindex="-1" aria-label=${say.begin}>
-      ${button(keyed(KEY.toUpperCase(), say.controls), () => this.#toggle(), { pressed: this.#controls })}
-      ${button(keyed(BACK, say.back), () => this.#restore(), { title: say.backTitle })}
-      ${button(keyed('Esc', say.end), () => (this.host.presentation = false))}
+    const presentationWords = words.presentation;
+    const keyHint = (key: string, label: string) => html`<kbd>${key}</kbd> ${label}`;
+    return html`<div class="presenting" role="group" tabindex="-1" aria-label=${presentationWords.begin}>
+      ${button(keyHint(CONTROLS_KEY.toUpperCase(), presentationWords.controls), () => this.#toggle(), { pressed: this.#controls })}
+      ${button(keyHint(RESTORE_KEY, presentationWords.back), () => this.#restore(), { title: presentationWords.backTitle })}
+      ${button(keyHint('Esc', presentationWords.end), () => (this.host.presentation = false))}
     </div>`;
   }
 }

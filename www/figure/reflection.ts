@@ -1,14 +1,14 @@
 /** Synchronization of attributes and properties with the settings: values of the page are applied, and changed settings are written as attributes. */
 
-import { COMMON, defaultConfig } from './attributes.ts';
-import { includesFields, renamed, word } from './checks.ts';
+import { COMMON_ATTRS, defaultConfig } from './attributes.ts';
+import { includesFields, withFieldRenamed, checkedWord } from './checks.ts';
 import { cloudProperties } from './cloud.ts';
 import { FigureController } from './controller.ts';
 import type { Config } from './attributes.ts';
 import type { Figure } from './figure.ts';
 
 /** Texts of attributes; null for none. */
-type Texts = Map<string, string | null>;
+type AttributeTexts = Map<string, string | null>;
 
 export class Reflection extends FigureController {
   #attributes = this.host.definition.attributes;
@@ -17,15 +17,15 @@ export class Reflection extends FigureController {
   #order = ['preset', 'map', ...Object.keys(this.#properties), 'log'];
   /** Attributes that were set before there was a machine. */
   #pendingAttributes: Map<string, string | null> = new Map();
-  /** Properties, by name, and states that were set before there was a machine. The key of a state is a new object, so that no state replaces another. */
+  /** Properties and states set before there was a machine. The key is the name of a property, or a new object for each state. */
   #pendingProperties: Map<unknown, { value?: unknown, apply: () => void }> = new Map();
-  /** True from the first connection on: a figure that is moved keeps its settings. */
+  /** True after the first connection: an element that is moved in the page keeps its settings. */
   #hasConnected = false;
   #isWriting = false;
   /** Attribute that is being applied; its text is not overwritten. */
   #incoming: string | undefined;
   /** Texts as last written. */
-  #written: Texts | undefined;
+  #written: AttributeTexts | undefined;
 
   /** Applies properties that were set before the element was upgraded, or that a server wrote as text. */
   hostConnected() {
@@ -35,21 +35,21 @@ export class Reflection extends FigureController {
     for (const name of Object.keys(host)) {
       for (let at = Object.getPrototypeOf(host); at !== HTMLElement.prototype; at = Object.getPrototypeOf(at)) {
         if (!Object.getOwnPropertyDescriptor(at, name)?.set) continue;
-        const value = host[name];
+        const assignedValue = host[name];
         delete host[name];
-        host[name] = value;
+        host[name] = assignedValue;
         break;
       }
     }
   }
 
-  /** Takes lists from text as servers write it, such as `alphas="0.1,0.2"`. The property refuses and reports any other text. */
+  /** Reads list properties from texts that servers write, such as `alphas="0.1,0.2"`. The property refuses and reports any other text. */
   #takeUpLists(host: Record<string, unknown>) {
     for (const name of Object.keys(this.#properties)) {
-      const text = name in this.#attributes || name in this.host.state.own ? null : this.host.getAttribute(name);
-      if (text === null || Object.hasOwn(host, name)) continue;
-      const numbers = text.split(/[\s,]+/).map(Number);
-      host[name] = numbers.every(Number.isFinite) ? numbers : text;
+      const listText = name in this.#attributes || name in this.host.state.own ? null : this.host.getAttribute(name);
+      if (listText === null || Object.hasOwn(host, name)) continue;
+      const numbers = listText.split(/[\s,]+/).map(Number);
+      host[name] = numbers.every(Number.isFinite) ? numbers : listText;
     }
   }
 
@@ -61,12 +61,12 @@ export class Reflection extends FigureController {
     }
     this.#pendingAttributes.clear();
     // Properties between two states are sorted by dependency. States keep their order in time.
-    let since = 0;
-    const pending = [...this.#pendingProperties].map(([name, { apply }]) =>
-      ({ apply, when: typeof name === 'string' ? since + this.#order.indexOf(name) : (since += this.#order.length) }));
+    let firstPending = 0;
+    const sortedPending = [...this.#pendingProperties].map(([name, { apply }]) =>
+      ({ apply, when: typeof name === 'string' ? firstPending + this.#order.indexOf(name) : (firstPending += this.#order.length) }));
     this.#pendingProperties.clear();
-    pending.sort((one, other) => one.when - other.when);
-    for (const { apply } of pending) this.host.runtime.attemptOrReport(apply);
+    sortedPending.sort((one, other) => one.when - other.when);
+    for (const { apply } of sortedPending) this.host.runtime.attemptOrReport(apply);
   }
 
   /** Applies a state, now or as soon as there is a machine. */
@@ -78,27 +78,27 @@ export class Reflection extends FigureController {
   /** Sets a property to a value or to its text. Null or undefined sets the default. A value that is refused is reported. */
   setProperty(name: string, value: any, apply: (value: any) => void) {
     const property = this.#properties[name];
-    const given = typeof value === 'string' && property?.converter ? property.converter.parse(value) : value;
+    const parsedValue = typeof value === 'string' && property?.converter ? property.converter.parse(value) : value;
     const applyIfChanged = () => {
-      const wanted = given ?? property?.get(this.#defaultConfig) ?? null;
-      const current = property ? property.get(this.host.state.config) : Reflect.get(this.host, name);
+      const newValue = parsedValue ?? property?.get(this.#defaultConfig) ?? null;
+      const currentValue = property ? property.get(this.host.state.config) : Reflect.get(this.host, name);
       // A group of settings may be given in part. A map or a log is replaced as a whole.
-      if (!includesFields(current, wanted) || (!property && !includesFields(wanted, current))) apply(wanted);
+      if (!includesFields(currentValue, newValue) || (!property && !includesFields(newValue, currentValue))) apply(newValue);
     };
     if (this.host.machine) {
       this.host.runtime.attemptOrReport(applyIfChanged);
     } else {
       // The latest assignment is applied last.
       this.#pendingProperties.delete(name);
-      this.#pendingProperties.set(name, { value: given, apply: applyIfChanged });
+      this.#pendingProperties.set(name, { value: parsedValue, apply: applyIfChanged });
     }
   }
 
-  /** Returns the value of a property; before there is a machine, the one that waits for it. */
+  /** Returns the value of a property. Before there is a machine, that is the pending value. */
   get(name: string) {
     const { machine, state } = this.host;
-    const pending = this.pendingValue(name);
-    if (pending !== undefined) return pending;
+    const sortedPending = this.pendingValue(name);
+    if (sortedPending !== undefined) return sortedPending;
     if (name in state.own) return structuredClone(state.own[name]);
     return machine ? this.host.ask(() => this.#properties[name].get(state.config)) : undefined;
   }
@@ -116,15 +116,15 @@ export class Reflection extends FigureController {
   /** Sets an attribute that every figure has, after a check; null or undefined removes it. */
   setAttribute(attribute: string, value: unknown) {
     const { host } = this;
-    const { words, property = attribute } = COMMON[attribute] as { words: readonly string[], property?: string };
+    const { words, property = attribute } = COMMON_ATTRS[attribute] as { words: readonly string[], property?: string };
     if (value === null || value === undefined) host.removeAttribute(attribute);
-    else host.runtime.attemptOrReport(() => host.setAttribute(attribute, word(property, typeof value === 'number' ? String(value) : value, words)));
+    else host.runtime.attemptOrReport(() => host.setAttribute(attribute, checkedWord(property, typeof value === 'number' ? String(value) : value, words)));
   }
 
   /** Applies an attribute's new text. The name is in lower case. */
   attributeChanged(attribute: string, text: string | null) {
-    const { words } = COMMON[attribute] ?? {};
-    if (words && text !== null) this.host.runtime.attemptOrReport(() => word(attribute, text, words));
+    const { words } = COMMON_ATTRS[attribute] ?? {};
+    if (words && text !== null) this.host.runtime.attemptOrReport(() => checkedWord(attribute, text, words));
     const name = Object.keys(this.#attributes).find((key) => key.toLowerCase() === attribute);
     if (this.#isWriting || name === undefined) return;
     if (this.host.machine) this.#apply(name, text);
@@ -151,7 +151,7 @@ export class Reflection extends FigureController {
     try {
       settings.assign(change(value, settings.wanted));
     } catch (error) {
-      throw renamed(error, name, path);
+      throw withFieldRenamed(error, name, path);
     }
   }
 
@@ -161,7 +161,7 @@ export class Reflection extends FigureController {
     return { ...defaultConfig(definition.declared), ...state.openings, ...definition.dependentDefaults?.(settings.wanted) };
   }
 
-  #textsOf(config: Config): Texts {
+  #textsOf(config: Config): AttributeTexts {
     return new Map(Object.entries(this.#attributes).map(([name, { converter, get }]) => [name, converter.print(get(config) ?? null)]));
   }
 
@@ -172,18 +172,18 @@ export class Reflection extends FigureController {
     });
   }
 
-  #write(texts: Texts) {
+  #write(texts: AttributeTexts) {
     const written = this.#written;
     this.#written = texts;
     if (!written) return;
-    const changed = new Set([...texts.keys()].filter((name) => texts.get(name) !== written.get(name)));
+    const changedNames = new Set([...texts.keys()].filter((name) => texts.get(name) !== written.get(name)));
     for (const [name, { covers }] of Object.entries(this.#attributes)) {
-      if (!covers || texts.get(name) !== null || !changed.has(name)) continue;
-      const defaults = this.#textsOf(this.#defaultConfig);
-      for (const covered of covers) if (texts.get(covered) !== defaults.get(covered)) changed.add(covered);
+      if (!covers || texts.get(name) !== null || !changedNames.has(name)) continue;
+      const defaultTexts = this.#textsOf(this.#defaultConfig);
+      for (const coveredNames of covers) if (texts.get(coveredNames) !== defaultTexts.get(coveredNames)) changedNames.add(coveredNames);
     }
     this.#isWriting = true;
-    for (const name of changed) {
+    for (const name of changedNames) {
       if (name === this.#incoming) continue;
       const text = texts.get(name) ?? null;
       if (text === null) this.host.removeAttribute(name);
@@ -195,14 +195,14 @@ export class Reflection extends FigureController {
   /** Returns the attributes that a new figure needs to open in the present state. */
   nonDefaultAttributes(): [string, string][] {
     const texts = this.#textsOf(this.host.state.config);
-    const defaults = this.#textsOf(this.#defaultConfig);
-    const covered: Set<string> = new Set();
+    const defaultTexts = this.#textsOf(this.#defaultConfig);
+    const coveredNames: Set<string> = new Set();
     const attributes: [string, string][] = [];
     for (const [name, { covers }] of Object.entries(this.#attributes)) {
       const text = texts.get(name) ?? null;
       if (text === null) continue;
-      if (text !== defaults.get(name) && !covered.has(name)) attributes.push([name, text]);
-      covers?.forEach((each) => covered.add(each));
+      if (text !== defaultTexts.get(name) && !coveredNames.has(name)) attributes.push([name, text]);
+      covers?.forEach((each) => coveredNames.add(each));
     }
     return attributes;
   }

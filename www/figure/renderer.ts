@@ -1,29 +1,29 @@
-/** Frames of a figure: its pictures, and then its text, on the screen while it is visible, and on paper. */
+/** Drawing of a figure: its pictures, and then its text, on the screen while it is visible, and in print. */
 
 import { nothing } from 'lit';
 import { onLanguage } from '../messages/registry.ts';
 import { clamp } from '../ui/clamp.ts';
-import { isShown } from './canvases.ts';
+import { hasPixels } from './canvases.ts';
 import { FigureController } from './controller.ts';
 
 type AnyPicture = import('../scene/picture.ts').Picture<any>;
 
 /** Drawing time, ms, up to which the text is rendered in the same frame. After a longer one it is rendered in the next frame. */
-const SAME_FRAME_TIME = 5;
+const MAX_SAME_FRAME_MS = 5;
 
-/** Time in a frame, ms, after which further pictures wait for the next frame. A slow device then shows more frames of a drag. */
-const PICTURES_TIME = 8;
+/** Drawing time in a frame, ms, after which further pictures wait for the next frame. A slow device then shows more frames of a drag. */
+const MAX_PICTURES_MS = 8;
 
 /** Maximum delay of the text during a drag, ms. */
-const MAX_TEXT_DELAY = 100;
+const MAX_TEXT_DELAY_MS = 100;
 
 /** Longest time step of an animation, ms. After a pause it continues without a jump. */
-const MAX_TIME_STEP = 100;
+const MAX_TIME_STEP_MS = 100;
 
-let calm: MediaQueryList | undefined;
+let reducedMotionQuery: MediaQueryList | undefined;
 
 /** Returns true if the reader prefers reduced motion. */
-export const isCalm = () => (calm ??= matchMedia('(prefers-reduced-motion: reduce)')).matches;
+export const prefersReducedMotion = () => (reducedMotionQuery ??= matchMedia('(prefers-reduced-motion: reduce)')).matches;
 
 export class Renderer extends FigureController {
   isVisible = false;
@@ -47,8 +47,8 @@ export class Renderer extends FigureController {
     addEventListener('beforeprint', () => this.#print(true), { signal });
     addEventListener('afterprint', () => this.#print(false), { signal });
     // Some browsers do not have the events, others fire them too late.
-    const media = matchMedia('print');
-    media.addEventListener('change', () => this.#print(media.matches), { signal });
+    const printQuery = matchMedia('print');
+    printQuery.addEventListener('change', () => this.#print(printQuery.matches), { signal });
     onLanguage(this.host, () => this.#languageChanged(), signal);
   }
 
@@ -93,7 +93,7 @@ export class Renderer extends FigureController {
     this.#previousTime = performance.now();
     this.#frameRequest = requestAnimationFrame((now) => {
       this.#frameRequest = undefined;
-      const elapsed = clamp(now - this.#previousTime, 0, MAX_TIME_STEP);
+      const elapsed = clamp(now - this.#previousTime, 0, MAX_TIME_STEP_MS);
       if (!this.isVisible) this.#updateUnseen();
       else if (this.#undrawn.size > 0) this.#drawNow(elapsed);
       else this.#renderText();
@@ -121,7 +121,7 @@ export class Renderer extends FigureController {
     return this.host.machine !== undefined && !this.#hasRenderedText && this.isVisible && !document.hidden;
   }
 
-  /** Returns content, but nothing in the first frame, so that the first picture is drawn earlier. */
+  /** Returns the content, or nothing in the first frame, so that the first picture is drawn earlier. */
   afterFirstPicture(content: () => unknown) {
     return this.opening ? nothing : content();
   }
@@ -129,7 +129,7 @@ export class Renderer extends FigureController {
   /** @param elapsed milliseconds since the frame before */
   #drawNow(elapsed: number) {
     // In a closed disclosure all sizes are 0.
-    if (!this.host.machine || !this.host.canvases.all?.some(isShown)) return;
+    if (!this.host.machine || !this.host.canvases.all?.some(hasPixels)) return;
     this.host.runtime.attemptOrFail(() => {
       this.#draw(elapsed);
       if (this.host.machine) this.host.runtime.confirmHealthy();
@@ -139,7 +139,7 @@ export class Renderer extends FigureController {
   #draw(elapsed: number) {
     const host = this.host;
     const { reading } = host;
-    const began = performance.now();
+    const beganAt = performance.now();
     host.settings.settle();
     // The machine is missing after a trap.
     if (!host.machine) return;
@@ -147,7 +147,7 @@ export class Renderer extends FigureController {
     const { scene } = host;
     if (host.reading !== reading) this.#addPictures();
     const { pressed: still, previousReading } = host.gesture;
-    const options = { elapsed, still, atOnce: this.printing || isCalm(), previousReading, highlight: host.highlight, handles: this.printing };
+    const options = { elapsed, still, atOnce: this.printing || prefersReducedMotion(), previousReading, highlight: host.highlight, handles: this.printing };
     let isMoving = false;
     this.isBehind = false;
     for (const picture of this.#undrawn) {
@@ -155,23 +155,23 @@ export class Renderer extends FigureController {
       this.#undrawn.delete(picture);
       const canvas = host.canvases.of(picture);
       // A figure may have replaced its picture.
-      if (!host.pictures.includes(picture) || !isShown(canvas)) continue;
+      if (!host.pictures.includes(picture) || !hasPixels(canvas)) continue;
       isMoving = picture.draw(host.canvases.surfaceOf(canvas), scene, host.colours.palette, options) || isMoving;
-      this.isBehind = this.#undrawn.size > 0 && !this.#resizing && performance.now() - began > PICTURES_TIME;
+      this.isBehind = this.#undrawn.size > 0 && !this.#resizing && performance.now() - beganAt > MAX_PICTURES_MS;
     }
     host.placeHandles(scene);
     const now = performance.now();
     const since = this.#textPendingSince;
     // The first picture is drawn without text.
-    if (this.opening ? since : !this.#resizing && (now - began < SAME_FRAME_TIME || now - (since ?? now) > MAX_TEXT_DELAY)) this.#renderText();
+    if (this.opening ? since : !this.#resizing && (now - beganAt < MAX_SAME_FRAME_MS || now - (since ?? now) > MAX_TEXT_DELAY_MS)) this.#renderText();
     else {
-      this.#textPendingSince ??= began;
+      this.#textPendingSince ??= beganAt;
       this.#schedule();
     }
     host.resolveSettled();
-    const playing = host.player?.advance(elapsed);
+    const isPlaying = host.player?.advance(elapsed);
     if (this.isBehind) this.#schedule();
-    if (playing || isMoving || host.cloud?.isSettled === false) this.requestFrame();
+    if (isPlaying || isMoving || host.cloud?.isSettled === false) this.requestFrame();
   }
 
   /** Renders the text of the latest picture and writes the attributes. */

@@ -4,10 +4,10 @@ import { css, unsafeCSS } from 'lit';
 import { preferredWidth } from '../ui/theme.ts';
 
 /** Bounds of the width classes, em, where the layout changes. */
-const WIDTHS = [20, 30, 38, 46, 56, 80];
+const CLASS_WIDTHS_EM = [20, 30, 38, 46, 56, 80];
 
 /** Heights in em by tag and width class, at the lower and the upper bound of the class. Measured in a window 900 px high, with a small margin. */
-const HEIGHTS: Record<string, ([number, number] | string)[]> = {
+const HEIGHTS_EM: Record<string, ([number, number] | string)[]> = {
   'banana-machine': [[92.8, 93], [78.4, 71.1], [55.2, 51.5], [51.7, 54.8], [54.6, 57.9]],
   'map-squeeze': [[83.9, 87], [80.8, 82.2], [44.1, 45], [46, 48.6], [50.3, 46.4]],
   'arc-anatomy': [[81, 70.9], [73.9, 68.5], [42.2, 48.5], [50.9, 50.9], [50.9, 47.9]],
@@ -17,38 +17,38 @@ const HEIGHTS: Record<string, ([number, number] | string)[]> = {
 };
 
 /** Returns the height for any width as a CSS maximum over the classes. Outside of its class, a term is hugely negative. */
-function heightOf(tag: string, unit: '%' | 'cqi') {
-  const heights = HEIGHTS[tag].map((height, i, { length }) => {
-    const [least, next] = [WIDTHS[i], WIDTHS[i + 1]];
+function heightCss(tag: string, unit: '%' | 'cqi') {
+  const heightTerms = HEIGHTS_EM[tag].map((height, i, { length }) => {
+    const [least, next] = [CLASS_WIDTHS_EM[i], CLASS_WIDTHS_EM[i + 1]];
     const width = `min(100${unit},${next}em)`;
-    const line = (from: number, to: number) => `${from}em + ${((to - from) / (next - least)).toFixed(3)}*(${width} - ${least}em)`;
-    const below = i > 0 ? ` - 1e6*max(0em,${least}em - 100${unit})` : '';
-    const above = i === length - 1 ? '' : ` - 1e6*max(0em,100${unit} - ${next - 0.001}em)`;
-    return `${typeof height === 'string' ? height : line(...height)}${below}${above}`;
+    const interpolated = (from: number, to: number) => `${from}em + ${((to - from) / (next - least)).toFixed(3)}*(${width} - ${least}em)`;
+    const penaltyBelow = i > 0 ? ` - 1e6*max(0em,${least}em - 100${unit})` : '';
+    const penaltyAbove = i === length - 1 ? '' : ` - 1e6*max(0em,100${unit} - ${next - 0.001}em)`;
+    return `${typeof height === 'string' ? height : interpolated(...height)}${penaltyBelow}${penaltyAbove}`;
   });
-  return `max(${heights})`;
+  return `max(${heightTerms})`;
 }
 
 /** Returns the style that reserves the height of a figure. */
 export const reservedHeight = (tag: string) => {
-  const height = heightOf(tag, 'cqi');
+  const reserveCss = heightCss(tag, 'cqi');
   return css`
-    ${unsafeCSS(`.reserved{min-height:${height}}.machine{min-height:calc(${height} + var(--motion-sticky-bottom,0px))}`)}
+    ${unsafeCSS(`.reserved{min-height:${reserveCss}}.machine{min-height:calc(${reserveCss} + var(--motion-sticky-bottom,0px))}`)}
   `;
 };
 
 /** Returns the style sheet that reserves heights until the elements are defined. */
 export function preUpgradeCss() {
-  const tags = Object.keys(HEIGHTS);
-  const waiting = (each: string | string[]) => `:is(${each}):not(:defined)`;
+  const tags = Object.keys(HEIGHTS_EM);
+  const undefinedElements = (each: string | string[]) => `:is(${each}):not(:defined)`;
   return [
-    `${waiting(tags)}{display:flow-root;position:relative;min-width:0;max-width:100%}`,
-    `${waiting(tags)}::before{${preferredWidth}}`,
-    `${waiting(tags)}>:not([slot]){position:absolute;top:0;margin:0}`,
+    `${undefinedElements(tags)}{display:flow-root;position:relative;min-width:0;max-width:100%}`,
+    `${undefinedElements(tags)}::before{${preferredWidth}}`,
+    `${undefinedElements(tags)}>:not([slot]){position:absolute;top:0;margin:0}`,
     // The slots have the same styles as in the figure.
-    `:where(${waiting(tags)}>[slot=title]){display:block;font-size:1.1em;line-height:1.4}`,
-    `:where(${waiting(tags)}:has(>[slot=title]))::before{margin-bottom:.297em}`,
-    `:where(${waiting(tags)}>[slot=caption]){font-size:.95em;line-height:1.4}`,
-    ...tags.map((tag) => `${waiting(tag)}::before{padding-top:${heightOf(tag, '%')}}`),
+    `:where(${undefinedElements(tags)}>[slot=title]){display:block;font-size:1.1em;line-height:1.4}`,
+    `:where(${undefinedElements(tags)}:has(>[slot=title]))::before{margin-bottom:.297em}`,
+    `:where(${undefinedElements(tags)}>[slot=caption]){font-size:.95em;line-height:1.4}`,
+    ...tags.map((tag) => `${undefinedElements(tag)}::before{padding-top:${heightCss(tag, '%')}}`),
   ].join('\n');
 }

@@ -36,7 +36,7 @@ export class Runtime extends FigureController {
     this.machine = machine;
   }
 
-  /** Runs work. Recovers from a trap, and returns undefined then. Throws other errors. */
+  /** Runs work. After a trap, replaces the core and returns undefined. Throws other errors. */
   attempt<Result>(work: () => Result): Result | undefined {
     try {
       return work();
@@ -59,12 +59,12 @@ export class Runtime extends FigureController {
     try {
       this.attempt(work);
     } catch (error) {
-      if (isTrap(error)) throw error;
+      if (isWasmTrap(error)) throw error;
       this.report(error);
     }
   }
 
-  /** Marks the core as working, after a picture was drawn: a later trap is recovered from again. */
+  /** Marks the core as working after a picture was drawn, so that the figure recovers from a later trap again. */
   confirmHealthy() {
     this.#hasTrapped = false;
   }
@@ -78,15 +78,15 @@ export class Runtime extends FigureController {
 
   /** Shows an error in the figure's place and fires it. */
   fail(error: unknown) {
-    if (isTrap(error)) this.#abandon();
+    if (isWasmTrap(error)) this.#abandon();
     this.#stop();
     this.failure = messageOf(error);
     this.report(error);
   }
 
-  /** Replaces the core after a trap, because its memory may be damaged. Returns false for other errors, and for a second trap before a picture. */
+  /** Replaces the core after a trap, because its memory may be damaged. Returns false for other errors, and for a trap before a picture. */
   #recover(error: unknown): boolean {
-    if (!isTrap(error) || this.#hasTrapped) return false;
+    if (!isWasmTrap(error) || this.#hasTrapped) return false;
     this.#hasTrapped = true;
     this.#abandon();
     this.report(error);
@@ -156,12 +156,12 @@ export function freeOnError<Machine extends { free(): void }>(machine: Machine, 
 }
 
 /** Returns true for a trap, and for the error of a machine used after one: see writeGlue in scripts/build.mjs. */
-const isTrap = (error: unknown) => typeof WebAssembly !== 'undefined' && error instanceof WebAssembly.RuntimeError;
+const isWasmTrap = (error: unknown) => typeof WebAssembly !== 'undefined' && error instanceof WebAssembly.RuntimeError;
 
-/** Message where Trusted Types refuse the figure's templates. */
-const NO_POLICY = "This page's Content-Security-Policy forbids the figure's templates: its trusted-types directive lacks motion-widgets.";
+/** Error message if Trusted Types refuse the figure's templates. */
+const CSP_ERROR = "This page's Content-Security-Policy forbids the figure's templates: its trusted-types directive lacks motion-widgets.";
 
 function messageOf(error: unknown) {
   const message = error instanceof Error ? error.message : String(error);
-  return message.includes('TrustedHTML') ? NO_POLICY : message;
+  return message.includes('TrustedHTML') ? CSP_ERROR : message;
 }

@@ -12,7 +12,7 @@ export class Settings extends FigureController {
   #present: Values | undefined;
   /** Changes of the reader that wait for the next frame. */
   #pending: Values = {};
-  /** Message on the text that the reader typed last for a setting, if it was refused. */
+  /** Message about the text that the reader typed last, if it was refused, and the setting's key. */
   #refusal: { key: string, message: string } | undefined;
 
   /** Drops pending changes and stops the player, for another machine. */
@@ -47,26 +47,26 @@ export class Settings extends FigureController {
   }
 
   /**
-   * Changes settings in the next frame, for the reader, so that a drag configures the machine once in each frame. State that the machine does
-   * not have is changed at once.
+   * Changes settings in the next frame, as a change by the reader, so that a drag configures the machine once in each frame. State of the
+   * element is changed at once.
    */
   want(change: Values | ((wanted: Values) => Values)) {
     const { runtime, definition, state, gesture, renderer } = this.host;
     runtime.attempt(() => {
       if (!this.host.machine) return;
       this.forgetRefusal();
-      const values = () => (typeof change === 'function' ? change(this.wanted) : change);
-      const given = values();
-      const both = (key: string, other: string) => key in given && other in this.#pending;
+      const changedValues = () => (typeof change === 'function' ? change(this.wanted) : change);
+      const givenValues = changedValues();
+      const overlapsPending = (key: string, other: string) => key in givenValues && other in this.#pending;
       // A setting and the group that has it are applied one after the other.
-      if (definition.declared.some(({ key, of }) => of && (both(key, of) || both(of, key)))) this.settle();
-      for (const [key, value] of Object.entries(values())) (key in state.own ? state.own : this.#pending)[key] = value;
+      if (definition.declared.some(({ key, of }) => of && (overlapsPending(key, of) || overlapsPending(of, key)))) this.settle();
+      for (const [key, value] of Object.entries(changedValues())) (key in state.own ? state.own : this.#pending)[key] = value;
       gesture.step();
       renderer.requestFrame();
     });
   }
 
-  /** Shows why a typed text is no value of a setting. */
+  /** Shows why a typed text is not a valid value of a setting. */
   refuse(key: string, message: string) {
     this.#refusal = { key, message };
     this.host.requestUpdate();
@@ -81,7 +81,7 @@ export class Settings extends FigureController {
     this.#refusal = undefined;
   }
 
-  /** Changes settings at once, for the page; throws a TypeError or RangeError and changes nothing then. */
+  /** Changes settings at once, as a change by the page. Throws a TypeError or RangeError, without a change, for invalid values. */
   assign(values: Values) {
     this.host.runtime.attempt(() => {
       this.settle();
@@ -94,10 +94,10 @@ export class Settings extends FigureController {
 
   /** Applies pending changes. A refused one is reported and dropped. */
   settle() {
-    const pending = this.#pending;
-    if (Object.keys(pending).length === 0) return;
+    const pendingValues = this.#pending;
+    if (Object.keys(pendingValues).length === 0) return;
     this.#pending = {};
-    this.host.runtime.attemptOrReport(() => this.#configure(pending));
+    this.host.runtime.attemptOrReport(() => this.#configure(pendingValues));
   }
 
   #configure(values: Values) {

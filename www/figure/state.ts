@@ -1,12 +1,12 @@
 /** State of the figure as plain data. It is kept after a removal of the element and after a trap. */
 
-import { object, refusal, word } from './checks.ts';
+import { asObject, refusalError, checkedWord } from './checks.ts';
 import { validated } from './definition.ts';
 import { FigureController } from './controller.ts';
 import { freeOnError } from './runtime.ts';
 import type { Values } from './settings.ts';
 
-const VERSION = 1;
+const STATE_VERSION = 1;
 
 export class State extends FigureController {
   /** Last valid state. */
@@ -24,14 +24,14 @@ export class State extends FigureController {
   }
 
   get common(): Values {
-    return { widget: this.host.localName, version: VERSION, ...this.own };
+    return { widget: this.host.localName, version: STATE_VERSION, ...this.own };
   }
 
   keep() {
     if (this.host.machine) this.kept = this.host.snapshot();
   }
 
-  /** Continues with a new machine that has the last valid state, and applies pending changes of the page. */
+  /** Applies pending changes of the page to a new machine that has the last valid state. */
   resume() {
     const { host } = this;
     host.settings.reset();
@@ -46,22 +46,22 @@ export class State extends FigureController {
   enter(state: unknown) {
     const host = this.host;
     host.settings.settle();
-    const current = host.snapshot();
-    const given = object('state', state, Object.keys(current), ({ widget, version }) => {
-      word('state.widget', widget, [host.localName]);
-      if (version !== VERSION) throw refusal('state.version', version, String(VERSION));
+    const currentState = host.snapshot();
+    const checkedState = asObject('state', state, Object.keys(currentState), ({ widget, version }) => {
+      checkedWord('state.widget', widget, [host.localName]);
+      if (version !== STATE_VERSION) throw refusalError('state.version', version, String(STATE_VERSION));
     });
-    const whole: Values = { ...current, ...host.withDerivedFields(current, given) };
-    const machine = freeOnError(host.createMachine(host.motion, whole), (made) => {
-      const selectableCount = whole.playing ? made.config.samples : whole.shown;
-      for (const [name, field] of Object.entries(this.#fields)) whole[name] = validated(field, `state.${name}`, whole[name], selectableCount);
-      host.restore(made, whole);
+    const wholeState: Values = { ...currentState, ...host.withDerivedFields(currentState, checkedState) };
+    const machine = freeOnError(host.createMachine(host.motion, wholeState), (made) => {
+      const selectableCount = wholeState.playing ? made.config.samples : wholeState.shown;
+      for (const [name, field] of Object.entries(this.#fields)) wholeState[name] = validated(field, `state.${name}`, wholeState[name], selectableCount);
+      host.restore(made, wholeState);
     });
-    for (const name of Object.keys(this.own)) this.own[name] = whole[name];
+    for (const name of Object.keys(this.own)) this.own[name] = wholeState[name];
     host.runtime.replace(machine);
     host.settings.reset();
     host.machineChanged();
-    this.#introduce(whole);
+    this.#introduce(wholeState);
     host.renderer.requestFrame();
   }
 
@@ -91,7 +91,7 @@ export class State extends FigureController {
     });
   }
 
-  /** Shows a state of the machine; by default as when the figure opens. */
+  /** Shows a state of the machine, by default the opening state. */
   #introduce(state?: Values) {
     const { host } = this;
     host.renderer.releaseViews();
@@ -102,7 +102,7 @@ export class State extends FigureController {
     host.renderer.requestFrame();
   }
 
-  /** Changes an own field, after a check. */
+  /** Changes a field of the element's own state, after a check. */
   assign(name: string, value: unknown) {
     const { settings, cloud, reflection, renderer } = this.host;
     settings.settle();

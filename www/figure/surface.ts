@@ -9,27 +9,27 @@ import type { Figure } from './figure.ts';
 const RIGHT_TO_LEFT = /^(ar|ckb|dv|fa|he|ps|sd|ug|ur|yi)\b/i;
 
 /** Returns the HTML of a figure, whose language and direction may differ from the page's. */
-export function surface(figure: Figure) {
+export function figureHtml(figure: Figure) {
   speak(figure);
   const { gesture, notice, presenting, colours, presentation, headingLevel } = figure;
-  const recolour = () => colours.update();
+  const updateColours = () => colours.update();
   return html`
-    <span class="scheme-probe" aria-hidden="true" @transitionend=${recolour} @transitioncancel=${recolour}></span>
-    <div class="surface ${presenting.className}" @pointerdown=${(event: PointerEvent) => gesture.press(event)} @input=${stop} @change=${stop} @keydown=${keepUsed}>
-      ${slotOf(figure, 'title', presentation ? nameOf(figure) : '', headingLevel)}
+    <span class="scheme-probe" aria-hidden="true" @transitionend=${updateColours} @transitioncancel=${updateColours}></span>
+    <div class="surface ${presenting.className}" @pointerdown=${(event: PointerEvent) => gesture.press(event)} @input=${stopPropagation} @change=${stopPropagation} @keydown=${stopUsedKey}>
+      ${slotHtml(figure, 'title', presentation ? nameOf(figure) : '', headingLevel)}
       <div class="spoken" lang=${language} dir=${RIGHT_TO_LEFT.test(language) ? 'rtl' : 'ltr'}>
-        ${contentOf(figure)} ${notice.render()} ${presenting.render()}
+        ${contentHtml(figure)} ${notice.render()} ${presenting.render()}
       </div>
-      ${slotOf(figure, 'caption')}
+      ${slotHtml(figure, 'caption')}
     </div>
   `;
 }
 
 /** Returns the content, or `noChange` without a machine, as after a trap or a removal. */
-function contentOf(figure: Figure) {
+function contentHtml(figure: Figure) {
   const { failure } = figure.runtime;
   if (failure !== undefined) return html`<p class="failure" role="alert">${words.failure(failure)}</p>`;
-  if (!figure.machine) return figure.reading ? noChange : placeholder(figure);
+  if (!figure.machine) return figure.reading ? noChange : placeholderHtml(figure);
   const { announcer, dropped, reading } = figure;
   return html`<section
       class="machine"
@@ -45,48 +45,48 @@ function contentOf(figure: Figure) {
 }
 
 /** Returns the placeholder of a figure that has not started. */
-function placeholder(figure: Figure) {
-  const enter = ({ relatedTarget }: FocusEvent) => void moveFocusInto(figure, relatedTarget);
-  return html`<div class="reserved" tabindex="0" role="group" aria-label=${nameOf(figure)} @focus=${enter}></div>`;
+function placeholderHtml(figure: Figure) {
+  const moveFocus = ({ relatedTarget }: FocusEvent) => void moveFocusInto(figure, relatedTarget);
+  return html`<div class="reserved" tabindex="0" role="group" aria-label=${nameOf(figure)} @focus=${moveFocus}></div>`;
 }
 
-const slotted = (figure: Figure, name: string) => [...figure.children].filter(({ slot }) => slot === name);
+const slottedChildren = (figure: Figure, name: string) => [...figure.children].filter(({ slot }) => slot === name);
 
 /** Returns the name of a figure: the page's title, or the widget's own. */
 export function nameOf(figure: Figure) {
-  const title = slotted(figure, 'title').map(({ textContent }) => textContent).join(' ').replace(/\s+/g, ' ').trim();
+  const title = slottedChildren(figure, 'title').map(({ textContent }) => textContent).join(' ').replace(/\s+/g, ' ').trim();
   return title || (words as any)[figure.definition.messageKey].title;
 }
 
 /** Returns a slot of the page, with a text for an empty one. It is a heading if it has a level. */
-function slotOf(figure: Figure, name: string, fallback = '', level: string | null = null) {
+function slotHtml(figure: Figure, name: string, fallback = '', level: string | null = null) {
   return html`<div
     class="${name}-slot"
     role=${level ? 'heading' : nothing}
     aria-level=${level ?? nothing}
-    ?hidden=${!fallback && slotted(figure, name).length === 0}
+    ?hidden=${!fallback && slottedChildren(figure, name).length === 0}
   >
     <slot name=${name} @slotchange=${() => figure.requestUpdate()}>${fallback || nothing}</slot>
   </div>`;
 }
 
 /** Controls that use every key. */
-const FIELD = 'textarea, input:not([type=range], [type=radio], [type=checkbox])';
+const TEXT_FIELDS = 'textarea, input:not([type=range], [type=radio], [type=checkbox])';
 
 /** Keys that move sliders and radio buttons. */
-const MOVES = /Arrow|Page|Home|End/;
+const MOVE_KEYS = /Arrow|Page|Home|End/;
 
-/** Keys that press a button, a box or a summary. */
-const PRESSES = /^( |Enter)$/;
+/** Keys that press a button, a checkbox or a summary. */
+const PRESS_KEYS = /^( |Enter)$/;
 
 /** Stops a key that a control has used. A page with key shortcuts, such as a slide deck, does not see the control in the shadow root. */
-function keepUsed(event: KeyboardEvent) {
+function stopUsedKey(event: KeyboardEvent) {
   const { key, ctrlKey, altKey, metaKey, defaultPrevented } = event;
-  const target = event.target as Element;
-  const isPress = PRESSES.test(key) && target.matches('button, input, summary');
-  const native = target.matches(FIELD) ? key !== 'Escape' : isPress || (target.matches('input') && MOVES.test(key));
-  if (defaultPrevented || (native && !ctrlKey && !altKey && !metaKey)) event.stopPropagation();
+  const keyTarget = event.target as Element;
+  const isPress = PRESS_KEYS.test(key) && keyTarget.matches('button, input, summary');
+  const isUsed = keyTarget.matches(TEXT_FIELDS) ? key !== 'Escape' : isPress || (keyTarget.matches('input') && MOVE_KEYS.test(key));
+  if (defaultPrevented || (isUsed && !ctrlKey && !altKey && !metaKey)) event.stopPropagation();
 }
 
-/** Stops the events of native controls: the element fires its own. */
-const stop = (event: Event) => event.stopPropagation();
+/** Stops the events of native controls, because the element fires its own. */
+const stopPropagation = (event: Event) => event.stopPropagation();

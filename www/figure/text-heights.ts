@@ -4,7 +4,7 @@ import { language } from '../messages/registry.ts';
 import { FigureController } from './controller.ts';
 
 /** Texts that change with the settings. */
-const TEXTS = ':is(p, dl, li, .told):not(.told > *, .slider *, details *, .about, .on-paper)';
+const CHANGING_TEXTS = ':is(p, dl, li, .told):not(.told > *, .slider *, details *, .about, .on-paper)';
 
 /** Keeps the largest height of each text at the present width of the figure and in the present language. */
 export class TextHeights extends FigureController {
@@ -15,7 +15,7 @@ export class TextHeights extends FigureController {
 
   hostUpdated() {
     this.#sizes ??= new ResizeObserver((entries) => this.#keep(entries));
-    for (const text of this.host.renderRoot.querySelectorAll<HTMLElement>(TEXTS)) {
+    for (const text of this.host.renderRoot.querySelectorAll<HTMLElement>(CHANGING_TEXTS)) {
       if (!this.#texts.has(text)) this.#sizes.observe(text);
       this.#texts.add(text);
     }
@@ -29,7 +29,7 @@ export class TextHeights extends FigureController {
       return;
     }
     [this.#width, this.#language] = [clientWidth, language];
-    // A size that changed now would call the observer again in this frame.
+    // Changing a size now would call the observer again in this frame.
     requestAnimationFrame(() => {
       this.#sizes?.disconnect();
       for (const text of this.#texts) text.style.minHeight = '';

@@ -3,7 +3,7 @@
 import { FigureController } from './controller.ts';
 
 /** Distance from the viewport at which a figure starts. Less would show empty frames; more would start unseen figures. */
-const NEAR_MARGIN = '600px';
+const NEAR_MARGIN_CSS = '600px';
 
 export class Visibility extends FigureController {
   #isNear = false;
@@ -11,23 +11,23 @@ export class Visibility extends FigureController {
 
   hostConnected() {
     const { host } = this;
-    const seen = new Map<Element, boolean>();
+    const visibilityOf = new Map<Element, boolean>();
     const setVisible = (entries: IntersectionObserverEntry[]) => {
-      for (const { target, isIntersecting } of entries) seen.set(target, isIntersecting);
-      if (entries.length > 0) host.renderer.setVisible([...seen.values()].includes(true));
+      for (const { target, isIntersecting } of entries) visibilityOf.set(target, isIntersecting);
+      if (entries.length > 0) host.renderer.setVisible([...visibilityOf.values()].includes(true));
     };
     const visibleObserver = (this.#visibleObserver = new IntersectionObserver(setVisible));
-    const nearChanged = (entries: IntersectionObserverEntry[]) => {
+    const updateNear = (entries: IntersectionObserverEntry[]) => {
       // A start depends on the visibility, but the order of the observers' callbacks is undefined.
       setVisible(visibleObserver.takeRecords());
       for (const { isIntersecting } of entries) this.#setNear(isIntersecting);
     };
-    const nearObserver = new IntersectionObserver(nearChanged, { rootMargin: NEAR_MARGIN });
+    const nearObserver = new IntersectionObserver(updateNear, { rootMargin: NEAR_MARGIN_CSS });
     for (const observer of [visibleObserver, nearObserver]) {
       observer.observe(host);
       host.connection.signal.addEventListener('abort', () => observer.disconnect());
     }
-    // The figure has its layout then.
+    // In the next frame the figure has its layout.
     void host.updateComplete.then(() => {
       this.#checkPosition();
       this.hostUpdated();

@@ -2,16 +2,16 @@
 
 import { ticks } from 'd3-array';
 import { powerOfTen, tick } from '../ui/format.ts';
-import { faded, strokeLine, type Brush, type LineStroke } from './canvas.ts';
+import { fade, strokeLine, type Brush, type LineStroke } from './canvas.ts';
 
-/** Distance of ticks below which the axis has a power of ten before its unit. The zeros of the labels would not fit next to the axis. */
-const NEAREST_TICKS = 9e-4;
+/** Tick step below which the axis has a power of ten before its unit. Labels with more zeros would not fit next to the axis. */
+const MIN_PLAIN_STEP = 9e-4;
 
 /** Minimum distances between two ticks, CSS pixels. */
 const TICK_SPACING = { x: 60, y: 48 };
 
-/** Gap between entries of a key, width of a line sample, and line height, relative to the font size. */
-const KEY = { gap: 0.8, sample: 1.5, space: 0.35, line: 1.4 };
+/** Lengths of a key, relative to the font size: gap between entries, width of a line sample, space after it, and line height. */
+const KEY_EM = { gap: 0.8, sample: 1.5, space: 0.35, line: 1.4 };
 
 /**
  * Draws axes with ticks at the left and the bottom, and a faint grid. Above are the name of the vertical axis and a key. Names have units in
@@ -21,29 +21,29 @@ export function drawAxes(brush: Brush, names: { x: string, y: string }, key: Key
   const { context, view, palette, font } = brush;
   const { left, right, top, bottom } = view.frame;
   const { xMin, xMax, yMin, yMax } = view.extent;
-  const rule = (opacity: number, ...line: number[][]) => faded(context, opacity, () => strokeLine(context, line, { colour: palette.rule, width: 1 }));
+  const drawRule = (opacity: number, ...line: number[][]) => fade(context, opacity, () => strokeLine(context, line, { colour: palette.rule, width: 1 }));
 
-  const xTicks = ticksOf(xMin, xMax, (right - left) / TICK_SPACING.x);
+  const xTicks = axisTicks(xMin, xMax, (right - left) / TICK_SPACING.x);
   Object.assign(context, { font, fillStyle: palette.muted, textAlign: 'center', textBaseline: 'top' });
   // The name of the axis takes the place of the last tick label.
   const xName = names.x.replace('(', `(${xTicks.unit}`);
-  const free = right - context.measureText(xName).width - 10;
+  const labelLimit = right - context.measureText(xName).width - 10;
   for (const value of xTicks.values) {
     const x = Math.round(view.toPixelX(value)) + 0.5;
-    rule(grid, [x, top], [x, bottom]);
+    drawRule(grid, [x, top], [x, bottom]);
     const text = xTicks.text(value);
-    if (x + context.measureText(text).width / 2 < free) context.fillText(text, x, bottom + 6);
+    if (x + context.measureText(text).width / 2 < labelLimit) context.fillText(text, x, bottom + 6);
   }
-  const yTicks = ticksOf(yMin, yMax, (bottom - top) / TICK_SPACING.y);
+  const yTicks = axisTicks(yMin, yMax, (bottom - top) / TICK_SPACING.y);
   Object.assign(context, { textAlign: 'right', textBaseline: 'middle' });
   for (const value of yTicks.values) {
     const y = Math.round(view.toPixelY(value)) + 0.5;
-    rule(grid, [left, y], [right, y]);
+    drawRule(grid, [left, y], [right, y]);
     context.fillText(yTicks.text(value), left - 6, y);
   }
 
-  rule(1, [left, bottom + 0.5], [right, bottom + 0.5]);
-  rule(1, [left - 0.5, top], [left - 0.5, bottom]);
+  drawRule(1, [left, bottom + 0.5], [right, bottom + 0.5]);
+  drawRule(1, [left - 0.5, top], [left - 0.5, bottom]);
   Object.assign(context, { font: `italic ${font}`, textBaseline: 'top' });
   context.fillText(xName, right, bottom + 6);
   context.textAlign = 'left';
@@ -59,42 +59,42 @@ export interface KeyEntry {
 /** Returns an entry of a key with a sample of a line. */
 export const lineKey = ({ context }: Brush, name: string, style: LineStroke): KeyEntry => ({ name, draw: (x, y, width) => strokeLine(context, [[x, y], [x + width, y]], style) });
 
-/** Draws a key after the name of an axis. */
+/** Draws a key to the right of the name of an axis. */
 function drawKey({ context, view, palette, font }: Brush, before: string, entries: KeyEntry[]) {
-  const size = parseFloat(font);
-  const [width, line] = [KEY.sample * size, KEY.line * size];
+  const fontSize = parseFloat(font);
+  const [width, line] = [KEY_EM.sample * fontSize, KEY_EM.line * fontSize];
   let y = view.frame.top - 22;
-  const [begin, last] = [2 + context.measureText(before).width, Math.floor(y / line)];
+  const [nameEnd, last] = [2 + context.measureText(before).width, Math.floor(y / line)];
   context.font = font;
-  let [x, row] = [begin, 0];
-  const placed = [];
+  let [x, row] = [nameEnd, 0];
+  const placedEntries = [];
   for (const entry of entries) {
-    const length = (KEY.gap + KEY.space) * size + width + context.measureText(entry.name).width;
+    const entryWidth = (KEY_EM.gap + KEY_EM.space) * fontSize + width + context.measureText(entry.name).width;
     // The first entry of a line has no gap before it.
-    if (x + length > view.width && row < last) [x, row] = [2 - KEY.gap * size, row + 1];
-    if (x + length > view.width) break;
-    placed.push({ ...entry, from: x + KEY.gap * size, row });
-    x += length;
+    if (x + entryWidth > view.width && row < last) [x, row] = [2 - KEY_EM.gap * fontSize, row + 1];
+    if (x + entryWidth > view.width) break;
+    placedEntries.push({ ...entry, from: x + KEY_EM.gap * fontSize, row });
+    x += entryWidth;
   }
   // The last line is nearest to the picture.
   y -= row * line;
   context.font = `italic ${font}`;
   context.fillText(before, 2, y);
   context.font = font;
-  for (const { name, draw, from, row } of placed) {
+  for (const { name, draw, from, row } of placedEntries) {
     context.fillStyle = palette.ink;
-    context.fillText(name, from + width + KEY.space * size, y + row * line);
-    draw(from, y + row * line + size / 2, width);
+    context.fillText(name, from + width + KEY_EM.space * fontSize, y + row * line);
+    draw(from, y + row * line + fontSize / 2, width);
   }
 }
 
-/** Returns about `count` ticks and at least two if possible, with the factor of the unit and the labels. */
-function ticksOf(from: number, to: number, count: number) {
-  const most = Math.max(2, Math.floor(count));
-  const few = ticks(from, to, most);
-  const values = few.length > 1 ? few : ticks(from, to, 2 * most);
+/** Returns about `count` ticks, at least two if possible, with the power of ten for the unit, and a function for the labels. */
+function axisTicks(from: number, to: number, count: number) {
+  const maxTicks = Math.max(2, Math.floor(count));
+  const firstTicks = ticks(from, to, maxTicks);
+  const values = firstTicks.length > 1 ? firstTicks : ticks(from, to, 2 * maxTicks);
   const step = values.length > 1 ? values[1] - values[0] : 1;
-  const exponent = step < NEAREST_TICKS ? Math.floor(Math.log10(step) + 1e-9) : 0;
+  const exponent = step < MIN_PLAIN_STEP ? Math.floor(Math.log10(step) + 1e-9) : 0;
   return {
     values,
     /** Factor before the unit of the axis. */
@@ -104,7 +104,7 @@ function ticksOf(from: number, to: number, count: number) {
 }
 
 /** Clips what `paint` draws to the plot area. */
-export function clipped({ context, view }: Brush, paint: () => void) {
+export function clipToPlot({ context, view }: Brush, paint: () => void) {
   const { left, right, top, bottom } = view.frame;
   context.save();
   context.beginPath();

@@ -39,19 +39,19 @@ export interface Brush {
 }
 
 /** Font size of a picture in pixels of its view. The text of the figure has 16, as in the style of canvases in ui/layout.ts. */
-const LETTERS = 13;
+const FONT_SIZE = 13;
 
 /** Returns a length in pixels of a view as CSS em of the figure. */
-export const length = (pixels: number) => `${pixels / 16}em`;
+export const emOfPixels = (pixels: number) => `${pixels / 16}em`;
 
 /** Converts a size from pixels of a view to CSS pixels, by the font size of the canvas. */
-export const inCss = ({ width, height }: { width: number, height: number }, canvas: Element) => [width, height].map((each) => (each * parseFloat(getComputedStyle(canvas).fontSize)) / LETTERS);
+export const cssSizeOf = ({ width, height }: { width: number, height: number }, canvas: Element) => [width, height].map((each) => (each * parseFloat(getComputedStyle(canvas).fontSize)) / FONT_SIZE);
 
 /** Converts a point of the window to pixels of the view that an element shows. The page may have scaled the element. */
 export function pointOn(element: Element, view: import('./view.ts').View, { clientX, clientY }: { clientX: number, clientY: number }) {
   const { left, top, width } = element.getBoundingClientRect();
-  const zoom = width / view.width;
-  return [(clientX - left) / zoom, (clientY - top) / zoom];
+  const elementScale = width / view.width;
+  return [(clientX - left) / elementScale, (clientY - top) / elementScale];
 }
 
 /** Returns the context of a hidden canvas that is copied to visible ones. It is drawn by the CPU, because a GPU may lose its contents. */
@@ -61,19 +61,19 @@ export function hiddenContext(canvas: OffscreenCanvas) {
 
 /** Clears a canvas, sets the view to its size, and returns the brush for pictures. */
 export function brushOn({ width, height, clientWidth, letters: { fontFamily, fontSize }, context }: Surface, view: import('./view.ts').View, palette: import('../ui/theme.ts').Palette) {
-  const ratio = ((width / Math.max(1, clientWidth)) * parseFloat(fontSize)) / LETTERS;
+  const ratio = ((width / Math.max(1, clientWidth)) * parseFloat(fontSize)) / FONT_SIZE;
   view.resize(width / ratio, height / ratio);
   context.setTransform(ratio, 0, 0, ratio, 0, 0);
   context.clearRect(0, 0, view.width, view.height);
   // In right-to-left languages numbers and units stay in the order of the text.
   context.direction = 'ltr';
-  return { context, view, palette, ratio, font: `${LETTERS}px ${fontFamily}`, placed: [] as Box[] };
+  return { context, view, palette, ratio, font: `${FONT_SIZE}px ${fontFamily}`, placed: [] as Box[] };
 }
 
 type Context = CanvasRenderingContext2D | OffscreenCanvasRenderingContext2D;
 
-/** Draws with an opacity. */
-export function faded(context: Context, opacity: number, paint: () => void) {
+/** Calls `paint` with an opacity for what it draws. */
+export function fade(context: Context, opacity: number, paint: () => void) {
   const { globalAlpha } = context;
   context.globalAlpha = opacity * globalAlpha;
   paint();
@@ -84,7 +84,7 @@ export function faded(context: Context, opacity: number, paint: () => void) {
 export interface LineStroke { colour: string, width: number, dash?: number[] }
 
 /** Strokes a path in pixels. */
-export function stroke(context: Context, { colour, width, dash = [] }: LineStroke, path: () => void) {
+export function strokePath(context: Context, { colour, width, dash = [] }: LineStroke, path: () => void) {
   context.strokeStyle = colour;
   context.lineWidth = width;
   context.setLineDash(dash);
@@ -97,16 +97,16 @@ export function stroke(context: Context, { colour, width, dash = [] }: LineStrok
 /** Adds a line through points in pixels to the path. */
 export const addLine = (context: Context, points: number[][]) => points.forEach(([x, y], i) => (i ? context.lineTo(x, y) : context.moveTo(x, y)));
 
-export const strokeLine = (context: Context, points: number[][], style: LineStroke) => stroke(context, style, () => addLine(context, points));
+export const strokeLine = (context: Context, points: number[][], style: LineStroke) => strokePath(context, style, () => addLine(context, points));
 
 /** Draws a disc in pixels, filled, with an edge, or both. */
 export function drawDisc(context: Context, [x, y]: number[], radius: number, fill?: string, edge?: LineStroke) {
-  const circle = () => context.arc(x, y, radius, 0, 2 * Math.PI);
+  const addCircle = () => context.arc(x, y, radius, 0, 2 * Math.PI);
   if (fill) {
     context.fillStyle = fill;
     context.beginPath();
-    circle();
+    addCircle();
     context.fill();
   }
-  if (edge) stroke(context, edge, circle);
+  if (edge) strokePath(context, edge, addCircle);
 }

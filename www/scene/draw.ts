@@ -2,9 +2,9 @@
 
 import { greatest } from 'd3-array';
 import { limits } from '../settings.js';
-import { channels } from '../ui/theme.ts';
+import { colourChannels } from '../ui/theme.ts';
 import { lineKey, type KeyEntry } from './axes.ts';
-import { addLine, drawDisc, faded, stroke, type Brush, type LineStroke } from './canvas.ts';
+import { addLine, drawDisc, fade, strokePath, type Brush, type LineStroke } from './canvas.ts';
 import { drawLabel } from './labels.ts';
 import type { Callout } from './callout.ts';
 import type { Palette } from '../ui/theme.ts';
@@ -13,7 +13,7 @@ import type { Palette } from '../ui/theme.ts';
  * Number of heading ticks in one stroke. Ticks of the same stroke do not darken each other where they cross. A larger number would hide the
  * density.
  */
-const TICKS_A_STROKE = 25;
+const TICKS_PER_STROKE = 25;
 
 /**
  * Draws samples as translucent dots, so that dense regions are darker. `layout` has the indices of x, y and heading in a triple, and the
@@ -21,25 +21,25 @@ const TICKS_A_STROKE = 25;
  */
 export function drawDots(brush: Brush, triples: Float64Array, layout: { x: number, y: number, heading: number | null, ahead?: number }) {
   const { context, view, palette } = brush;
-  const places = Array.from({ length: triples.length / 3 }, (_, i) => view.toPixel(triples[3 * i + layout.x], triples[3 * i + layout.y]));
-  const few = places.length < 400;
+  const dots = Array.from({ length: triples.length / 3 }, (_, i) => view.toPixel(triples[3 * i + layout.x], triples[3 * i + layout.y]));
+  const isSparse = dots.length < 400;
   // Dots are smaller in a small picture, where the robots have less space.
-  const size = Math.min(1, Math.max(0.7, view.width / 720));
-  const radius = size * (few ? 2.4 : 1.8);
+  const dotScale = Math.min(1, Math.max(0.7, view.width / 720));
+  const radius = dotScale * (isSparse ? 2.4 : 1.8);
   const { heading, ahead = 1 } = layout;
   if (heading !== null) {
-    const length = ahead * size * (few ? 13 : 9);
-    const ticks = (begin: number) => places.slice(begin, begin + TICKS_A_STROKE).forEach((place, i) => headingTick(brush, place, triples[3 * (begin + i) + heading], length));
-    faded(context, few ? 0.6 : 0.32, () => {
-      for (let begin = 0; begin < places.length; begin += TICKS_A_STROKE) stroke(context, { colour: palette.cloud, width: 1 }, () => ticks(begin));
+    const tickLength = ahead * dotScale * (isSparse ? 13 : 9);
+    const addTicks = (begin: number) => dots.slice(begin, begin + TICKS_PER_STROKE).forEach((place, i) => headingTick(brush, place, triples[3 * (begin + i) + heading], tickLength));
+    fade(context, isSparse ? 0.6 : 0.32, () => {
+      for (let begin = 0; begin < dots.length; begin += TICKS_PER_STROKE) strokePath(context, { colour: palette.cloud, width: 1 }, () => addTicks(begin));
     });
   }
-  // Squares with the area of the discs are drawn six times as fast. Many small ones look the same.
+  // Squares with the area of the discs are drawn six times as fast. If they are many and small, they look like discs.
   const side = Math.sqrt(Math.PI) * radius;
   context.fillStyle = palette.cloud;
-  faded(context, few ? 0.9 : 0.5, () => {
-    for (const [x, y] of places) {
-      if (few || brush.exported) drawDisc(context, [x, y], radius, palette.cloud);
+  fade(context, isSparse ? 0.9 : 0.5, () => {
+    for (const [x, y] of dots) {
+      if (isSparse || brush.exported) drawDisc(context, [x, y], radius, palette.cloud);
       else context.fillRect(x - side / 2, y - side / 2, side, side);
     }
   });
@@ -52,36 +52,35 @@ function headingTick({ context, view }: Brush, [x, y]: number[], heading: number
 }
 
 /** Draws many robots at the same position as one marker with a ray for each heading. */
-export function drawHeap(brush: Brush, { x, y, headings, label }: { x: number, y: number, headings: number[], label: string }) {
+export function drawRobotHeap(brush: Brush, { x, y, headings, label }: { x: number, y: number, headings: number[], label: string }) {
   const { context, view, palette: { prediction: colour } } = brush;
-  const place = view.toPixel(x, y);
-  faded(context, Math.min(1, 30 / headings.length), () => {
-    for (const heading of headings) stroke(context, { colour, width: 1 }, () => headingTick(brush, place, heading, 64));
+  const robotPosition = view.toPixel(x, y);
+  fade(context, Math.min(1, 30 / headings.length), () => {
+    for (const heading of headings) strokePath(context, { colour, width: 1 }, () => headingTick(brush, robotPosition, heading, 64));
   });
   // The disc is larger than the handle, which is often at the same position.
-  drawDisc(context, place, 14, colour);
-  drawLabel(brush, { x: place[0] + 14, y: place[1] + 27, towards: 1, text: label, colour });
+  drawDisc(context, robotPosition, 14, colour);
+  drawLabel(brush, { x: robotPosition[0] + 14, y: robotPosition[1] + 27, towards: 1, text: label, colour });
 }
 
 /**
- * Returns the colour ramp of a density as RGBA bytes, from an empty cell to the fullest one. The colour is that of clouds, and its opacity
- * increases.
+ * Returns the colour ramp of a density as RGBA bytes, from an empty cell to the fullest one: the colour of clouds with increasing opacity.
  */
 export function densityRamp(palette: Palette): Uint8Array {
-  const cloud = channels(palette.cloud);
-  const ink = channels(palette.ink);
+  const cloudColour = colourChannels(palette.cloud);
+  const inkColour = colourChannels(palette.ink);
   const ramp = new Uint8Array(4 * limits.ramp);
   for (let i = 0; i < limits.ramp; i++) {
-    const shade = i / (limits.ramp - 1);
-    const darkening = 0.6 * Math.max(0, shade - 0.5);
-    for (let k = 0; k < 3; k++) ramp[4 * i + k] = cloud[k] + darkening * (ink[k] - cloud[k]);
-    ramp[4 * i + 3] = 255 * (0.15 + 0.85 * shade);
+    const relativeCount = i / (limits.ramp - 1);
+    const darkening = 0.6 * Math.max(0, relativeCount - 0.5);
+    for (let k = 0; k < 3; k++) ramp[4 * i + k] = cloudColour[k] + darkening * (inkColour[k] - cloudColour[k]);
+    ramp[4 * i + 3] = 255 * (0.15 + 0.85 * relativeCount);
   }
   return ramp;
 }
 
 /** Adds a polyline through x, y pairs to the path. */
-export function trace({ context, view }: Brush, points: Float64Array) {
+export function addPolyline({ context, view }: Brush, points: Float64Array) {
   context.moveTo(view.toPixelX(points[0]), view.toPixelY(points[1]));
   for (let i = 2; i < points.length; i += 2) {
     context.lineTo(view.toPixelX(points[i]), view.toPixelY(points[i + 1]));
@@ -105,28 +104,28 @@ export interface LineStyle {
 }
 
 /** Factor of the width of a highlighted line. */
-const THICK = 1.9;
+const HIGHLIGHT_WIDTH = 1.9;
 
 /** Opacity of the lines that are not highlighted. */
-const FAINT = 0.3;
+const DIMMED_OPACITY = 0.3;
 
 /** Returns the line styles by name, in the colours of their roles. The highlighted line is thicker, and all others are faint. */
 export function lineStyles<Name extends string>({ palette, highlight }: Pick<Brush, 'palette' | 'highlight'>, lines: Record<Name, LineStyle>) {
-  const isLit = Object.keys(lines).some((name) => name === highlight);
-  const styles = Object.entries(lines as Record<string, LineStyle>).map(([name, { role, width = 2.25, dash = [] }]) => {
-    const colour = isLit && name !== highlight ? `rgb(${channels(palette[role]).join(' ')} / ${FAINT})` : palette[role];
-    return [name, { colour, width: name === highlight ? THICK * width : width, dash }];
+  const isAnyLit = Object.keys(lines).some((name) => name === highlight);
+  const styleEntries = Object.entries(lines as Record<string, LineStyle>).map(([name, { role, width = 2.25, dash = [] }]) => {
+    const colour = isAnyLit && name !== highlight ? `rgb(${colourChannels(palette[role]).join(' ')} / ${DIMMED_OPACITY})` : palette[role];
+    return [name, { colour, width: name === highlight ? HIGHLIGHT_WIDTH * width : width, dash }];
   });
-  return Object.fromEntries(styles) as Record<Name, { colour: string, width: number, dash: number[] }>;
+  return Object.fromEntries(styleEntries) as Record<Name, { colour: string, width: number, dash: number[] }>;
 }
 
 /** Returns the key of an exported picture: the named lines with their words. On the page there is a legend beside the picture. */
 export function lineKeys<Name extends string>(brush: Brush, lines: Record<Name, LineStyle>, names: Name[], say: Record<Name, string>): KeyEntry[] {
-  const styles = lineStyles(brush, lines);
-  return brush.exported ? names.map((name) => lineKey(brush, say[name].replaceAll('*', ''), styles[name])) : [];
+  const stylesByName = lineStyles(brush, lines);
+  return brush.exported ? names.map((name) => lineKey(brush, say[name].replaceAll('*', ''), stylesByName[name])) : [];
 }
 
-/** Checks whether an outline has a length. If all robots are in one place, it has none except for rounding. */
+/** Returns true if an outline has a length. If all robots are at one point, its length is only rounding. */
 export const hasLength = (points: Float64Array) => points.some((value, i) => Math.abs(value - points[i % 2]) > 1e-9);
 
 /**
@@ -137,28 +136,28 @@ export function drawOutlines(brush: Brush, outlines: Outline[]) {
   const { context, palette } = brush;
   const drawn = outlines.filter(({ points }) => hasLength(points));
   context.lineJoin = 'round';
-  faded(context, 0.7, () => strokeLines(brush, drawn.map(({ points, width }) => ({ points, colour: palette.paper, width: width + 2.5 }))));
+  fade(context, 0.7, () => strokeLines(brush, drawn.map(({ points, width }) => ({ points, colour: palette.paper, width: width + 2.5 }))));
   strokeLines(brush, drawn);
 }
 
 /** Number of lines of the same style in one stroke. More are faster, but lines of one stroke do not darken each other where they cross. */
-const LINES_A_STROKE = 10;
+const LINES_PER_STROKE = 10;
 
 /** Draws lines in their own styles. */
 export function strokeLines(brush: Brush, lines: Outline[]) {
-  for (let next = 0; next < lines.length;) {
-    const { points: _, ...style } = lines[next];
-    const end = next + LINES_A_STROKE;
-    const isAlike = ({ colour, width, dash }: Outline) => colour === style.colour && width === style.width && dash === style.dash;
-    stroke(brush.context, style, () => {
-      do trace(brush, lines[next++].points);
-      while (next < Math.min(end, lines.length) && isAlike(lines[next]));
+  for (let nextLine = 0; nextLine < lines.length;) {
+    const { points: _, ...style } = lines[nextLine];
+    const strokeEnd = nextLine + LINES_PER_STROKE;
+    const hasSameStyle = ({ colour, width, dash }: Outline) => colour === style.colour && width === style.width && dash === style.dash;
+    strokePath(brush.context, style, () => {
+      do addPolyline(brush, lines[nextLine++].points);
+      while (nextLine < Math.min(strokeEnd, lines.length) && hasSameStyle(lines[nextLine]));
     });
   }
 }
 
 /** Opacity of earlier outlines. */
-const GHOST = 0.35;
+const EARLIER_OPACITY = 0.35;
 
 /**
  * Draws earlier outlines. Returns a callout that names them, or none if they are out of the view. It points to the visible point that is
@@ -167,12 +166,12 @@ const GHOST = 0.35;
 export function drawGhosts(brush: Brush, outlines: Outline[], from: ArrayLike<number>[], text: string): Callout[] {
   const { context, view, palette } = brush;
   const drawn = outlines.filter(({ points }) => hasLength(points));
-  faded(context, GHOST, () => strokeLines(brush, drawn));
+  fade(context, EARLIER_OPACITY, () => strokeLines(brush, drawn));
   const { xMin, xMax, yMin, yMax } = view.extent;
-  const seen = drawn.flatMap(({ points }) => Array.from({ length: points.length / 2 }, (_, i): [number, number] => [points[2 * i], points[2 * i + 1]]))
+  const visiblePoints = drawn.flatMap(({ points }) => Array.from({ length: points.length / 2 }, (_, i): [number, number] => [points[2 * i], points[2 * i + 1]]))
     .filter(([x, y]) => x > xMin && x < xMax && y > yMin && y < yMax);
-  const at = greatest(seen, ([x, y]) => Math.min(...from.map((place) => Math.hypot(view.scaleX * (x - place[0]), view.scaleY * (y - place[1])))));
-  return at ? [{ text, at, colour: palette.muted }] : [];
+  const calloutPoint = greatest(visiblePoints, ([x, y]) => Math.min(...from.map((place) => Math.hypot(view.scaleX * (x - place[0]), view.scaleY * (y - place[1])))));
+  return calloutPoint ? [{ text, at: calloutPoint, colour: palette.muted }] : [];
 }
 
 export function drawOutline(brush: Brush, points: Float64Array, style: LineStroke) {
@@ -184,7 +183,7 @@ export function drawRobot(brush: Brush, { x, y, heading, colour }: { x: number, 
   const { context, view, palette } = brush;
   const place = view.toPixel(x, y);
   drawDisc(context, place, 8, palette.paper, { colour, width: 2 });
-  stroke(context, { colour, width: 2 }, () => headingTick(brush, place, heading, 14));
+  strokePath(context, { colour, width: 2 }, () => headingTick(brush, place, heading, 14));
 }
 
 /** Draws a handle in files and on paper, where it is no element. Lengths are in pixels. */
@@ -193,11 +192,11 @@ export function drawHandle({ context, palette, handles }: Brush, { x, y, radius,
 }
 
 /** Draws the ring and cross hairs of the selected sample in a colour. */
-export function drawMark(brush: Brush, { x, y, heading }: { x: number, y: number, heading: number | null }, colour: string = brush.palette.accent) {
+export function drawSelectedSample(brush: Brush, { x, y, heading }: { x: number, y: number, heading: number | null }, colour: string = brush.palette.accent) {
   const { context, view, palette } = brush;
   const [px, py] = view.toPixel(x, y);
   for (const style of [{ colour: palette.paper, width: 5 }, { colour, width: 2 }]) {
-    stroke(context, style, () => {
+    strokePath(context, style, () => {
       context.arc(px, py, 7, 0, 2 * Math.PI);
       for (const [dx, dy] of [[1, 0], [0, 1], [-1, 0], [0, -1]]) addLine(context, [[px + 7 * dx, py + 7 * dy], [px + 12 * dx, py + 12 * dy]]);
       if (heading !== null) headingTick(brush, [px, py], heading, 24);

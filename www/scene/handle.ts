@@ -1,7 +1,7 @@
 /** Handle in a picture that the reader drags with a pointer or moves with keys. */
 
 import { html, nothing } from 'lit';
-import { length, pointOn } from './canvas.ts';
+import { emOfPixels, pointOn } from './canvas.ts';
 
 /** Callbacks of a handle; lengths in metres. */
 interface HandleCallbacks {
@@ -26,12 +26,12 @@ export interface HandleLabels {
   text: string;
   /** Text on the limit that the handle has reached, if any. */
   stop?: string | false;
-  /** Hint for a reader who has not used it yet, shown while it pulses once. */
+  /** Hint for a reader who has not used the handle yet, shown while the handle pulses once. */
   hint?: string | false;
 }
 
 /** Steps along x and y (up) by key. Home and End go to the ends of the range along x. */
-const STEPS: Record<string, [number, number]> = {
+const KEY_STEPS: Record<string, [number, number]> = {
   ArrowRight: [1, 0],
   ArrowLeft: [-1, 0],
   ArrowUp: [0, 1],
@@ -45,18 +45,18 @@ const STEPS: Record<string, [number, number]> = {
 /** Steps of an arrow key with Shift. */
 const LONG_STEP = 5;
 
-/** Returns the steps along x and y that a key moves something by; undefined for other keys and those of the browser. */
-export function stepsOf({ key, shiftKey, ctrlKey, metaKey, altKey }: KeyboardEvent): [number, number] | undefined {
-  const steps = ctrlKey || metaKey || altKey ? undefined : STEPS[key];
+/** Returns the steps along x and y by which a key moves something; undefined for other keys and for key shortcuts of the browser. */
+export function stepsOfKey({ key, shiftKey, ctrlKey, metaKey, altKey }: KeyboardEvent): [number, number] | undefined {
+  const steps = ctrlKey || metaKey || altKey ? undefined : KEY_STEPS[key];
   if (!steps || !shiftKey || !key.startsWith('Arrow')) return steps;
   return [LONG_STEP * steps[0], LONG_STEP * steps[1]];
 }
 
 /** Steps of rotation by key, positive to the left. The first two are for keyboards on which brackets need a modifier. */
-const TURNS: Record<string, number> = { ',': 1, '.': -1, '[': 1, ']': -1 };
+const KEY_TURNS: Record<string, number> = { ',': 1, '.': -1, '[': 1, ']': -1 };
 
 /** Returns the steps by which a key turns something, positive to the left; undefined for other keys. */
-export const turnsOf = ({ key, metaKey }: KeyboardEvent): number | undefined => (metaKey ? undefined : TURNS[key]);
+export const turnsOfKey = ({ key, metaKey }: KeyboardEvent): number | undefined => (metaKey ? undefined : KEY_TURNS[key]);
 
 export class Handle {
   #part;
@@ -81,9 +81,9 @@ export class Handle {
 
   element({ name, keys, title, range, now, text, stop, hint }: HandleLabels) {
     // The text about the limit is on the side that faces the middle of the picture.
-    const side = 2 * this.#middle[0] > this.#callbacks.view().width ? 'right' : '';
+    const limitTextSide = 2 * this.#middle[0] > this.#callbacks.view().width ? 'right' : '';
     return html`<div
-      class="handle ${this.#part} ${side} ${this.held ? 'held' : ''}"
+      class="handle ${this.#part} ${limitTextSide} ${this.held ? 'held' : ''}"
       role="slider"
       tabindex="0"
       aria-label=${name}
@@ -108,8 +108,8 @@ export class Handle {
     const handle = root.querySelector(`.handle.${this.#part.replace(' ', '.')}`) as HTMLElement | null;
     if (!handle) return;
     this.#middle = [x, y];
-    if (size !== undefined) handle.style.width = handle.style.height = length(size);
-    handle.style.translate = `${length(x)} ${length(y)}`;
+    if (size !== undefined) handle.style.width = handle.style.height = emOfPixels(size);
+    handle.style.translate = `${emOfPixels(x)} ${emOfPixels(y)}`;
   }
 
   /** Converts a point from pixels of the view to metres. */
@@ -130,8 +130,8 @@ export class Handle {
     handle.setPointerCapture(event.pointerId);
     this.#hold = { id: event.pointerId, by: handle };
     const pointer = this.#pointer(event);
-    const held = this.#callbacks.at?.(pointer) ?? this.#world(this.#middle);
-    this.#grip = [held[0] - pointer[0], held[1] - pointer[1]];
+    const grasped = this.#callbacks.at?.(pointer) ?? this.#world(this.#middle);
+    this.#grip = [grasped[0] - pointer[0], grasped[1] - pointer[1]];
   };
 
   #drag = (event: PointerEvent) => {

@@ -1,6 +1,6 @@
 /** Cached drawing on a hidden canvas, for thousands of lines that change only with the view, the colours, or the data. */
 
-import { addLine, hiddenContext, stroke, type Brush, type LineStroke } from './canvas.ts';
+import { addLine, hiddenContext, strokePath, type Brush, type LineStroke } from './canvas.ts';
 import { Memo } from './memo.ts';
 
 export type Painter = Pick<Brush, 'view' | 'palette' | 'ratio' | 'highlight'> & { context: CanvasRenderingContext2D | OffscreenCanvasRenderingContext2D };
@@ -10,9 +10,9 @@ export class Layer {
   #strokes: Memo<Iterator<void>> = new Memo();
 
   /**
-   * Draws the layer, at most `count` strokes of it in this frame. Returns true if there are more.
+   * Draws the layer, with at most `count` strokes in this frame. Returns true if there are more strokes.
    *
-   * @param question values, besides the view and the colours, that the drawing depends on. When one changes, it begins anew
+   * @param question values, besides the view and the colours, on which the drawing depends. When one changes, the drawing begins anew
    * @param paint returns the strokes of the drawing
    */
   draw({ context, view, palette, ratio, highlight }: Brush, question: unknown[], paint: (painter: Painter) => Iterator<void>, count: number = Infinity): boolean {
@@ -21,41 +21,41 @@ export class Layer {
       // Setting the size clears the canvas.
       this.#canvas.width = Math.round(width * ratio);
       this.#canvas.height = Math.round(height * ratio);
-      const layer = hiddenContext(this.#canvas);
-      layer.scale(ratio, ratio);
-      return paint({ context: layer, view, palette, ratio, highlight });
+      const layerContext = hiddenContext(this.#canvas);
+      layerContext.scale(ratio, ratio);
+      return paint({ context: layerContext, view, palette, ratio, highlight });
     });
-    const isUnfinished = advance(strokes, count);
+    const isUnfinished = drawStrokes(strokes, count);
     context.drawImage(this.#canvas, 0, 0, width, height);
     return isUnfinished;
   }
 }
 
-/** Continues a drawing by some strokes. Returns true if there are more. */
-export function advance(strokes: Iterator<void>, count: number = Infinity): boolean {
+/** Continues a drawing by at most `count` strokes. Returns true if there are more. */
+export function drawStrokes(strokes: Iterator<void>, count: number = Infinity): boolean {
   for (; count > 0; count--) if (strokes.next().done) return false;
   return true;
 }
 
 /** Number of lines in one stroke. Browsers take far longer for one path with many lines. */
-export const LINES_A_STROKE = 500;
+export const LINES_PER_STROKE = 500;
 
 /** Strokes lines through points in pixels, with round ends unless they are dashed. */
 export function* strokeMany(context: Painter['context'], lines: Iterable<number[][]>, style: LineStroke): Generator<undefined, void> {
-  let some: number[][][] = [];
-  let count = 0;
-  const strokeSome = () => {
+  let strokeLines: number[][][] = [];
+  let pointCount = 0;
+  const strokeCollected = () => {
     context.lineCap = style.dash?.length ? 'butt' : 'round';
-    stroke(context, style, () => some.forEach((points) => addLine(context, points)));
+    strokePath(context, style, () => strokeLines.forEach((points) => addLine(context, points)));
     context.lineCap = 'butt';
-    [some, count] = [[], 0];
+    [strokeLines, pointCount] = [[], 0];
   };
   for (const line of lines) {
-    some.push(line);
-    count += line.length - 1;
-    if (count < LINES_A_STROKE) continue;
-    strokeSome();
+    strokeLines.push(line);
+    pointCount += line.length - 1;
+    if (pointCount < LINES_PER_STROKE) continue;
+    strokeCollected();
     yield;
   }
-  strokeSome();
+  strokeCollected();
 }

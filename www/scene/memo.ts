@@ -4,7 +4,7 @@ export class Memo<Answer> {
   #question: unknown[] = [];
   #answer: Answer | undefined;
 
-  /** @param question values that the answer depends on, compared by identity */
+  /** Returns the cached answer, or asks again. @param question values on which the answer depends, compared by identity */
   of(question: unknown[], ask: () => Answer): Answer {
     if (question.length !== this.#question.length || question.some((part, i) => part !== this.#question[i])) {
       this.#answer = ask();

@@ -16,7 +16,7 @@ export interface DrawOptions extends Pick<Brush, 'exported' | 'handles' | 'highl
 }
 
 export class Picture<Scene, Name extends string = string> {
-  /** Reading before the gesture that was drawn last. Another one means a new gesture, which has not zoomed the view out yet. */
+  /** `previousReading` of the latest drawing. Another one means that a new gesture began, which has not zoomed the view out yet. */
   #previousReading: any;
 
   /** Class of the canvas. */
@@ -38,9 +38,9 @@ export class Picture<Scene, Name extends string = string> {
       view.widened = false;
     }
     if (!still || !view.aimed) this.fit(scene);
-    const moving = view.ease(elapsed, atOnce);
+    const isViewMoving = view.ease(elapsed, atOnce);
     const isUnfinished = this.paint({ ...brush, highlight, exported, handles, previousReading: view.widened && !exported ? previousReading : undefined }, scene);
-    return moving || isUnfinished === true;
+    return isViewMoving || isUnfinished === true;
   }
 
   /** Returns the index of the sample nearest to a point in CSS pixels; −1 for none. */
@@ -56,9 +56,9 @@ export class Picture<Scene, Name extends string = string> {
 }
 
 /** Maximum distance from the pointer to a sample that it selects, CSS pixels. */
-const REACH = 14;
+const PICK_RADIUS = 14;
 
 /** Picture of samples that the pointer can select, with the same scale on both axes. */
 export class SamplesPicture<Scene> extends Picture<Scene> {
-  nearest: Picture<any>['nearest'] = (machine, x, y) => machine.nearest(...this.around(x, y, REACH).slice(0, 3));
+  nearest: Picture<any>['nearest'] = (machine, x, y) => machine.nearest(...this.around(x, y, PICK_RADIUS).slice(0, 3));
 }

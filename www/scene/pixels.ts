@@ -5,12 +5,12 @@ import { Memo } from './memo.ts';
 import type { Brush } from './canvas.ts';
 
 /**
- * Image of pixels. Only the part that is not transparent is drawn. Most of a density is empty, and scaling all of it would take longer than
- * the rest of a picture.
+ * Image of pixels. Only the part that is not transparent is drawn, because most of a density is empty: scaling the whole image would take
+ * longer than drawing the rest of a picture.
  */
 export class Pixels {
   #grid = new OffscreenCanvas(1, 1);
-  #inked: ReturnType<typeof inkedPart>;
+  #inked: ReturnType<typeof opaqueBox>;
 
   /**
    * Replaces the pixels.
@@ -21,7 +21,7 @@ export class Pixels {
     const rows = pixels.length / (4 * columns);
     if (this.#grid.width !== columns) this.#grid.width = columns;
     if (this.#grid.height !== rows) this.#grid.height = rows;
-    this.#inked = inkedPart(pixels, columns, rows);
+    this.#inked = opaqueBox(pixels, columns, rows);
     // All pixels are copied, because scaling blends the edges of the visible part with their neighbours.
     if (this.#inked) hiddenContext(this.#grid).putImageData(new ImageData(pixels, columns, rows), 0, 0);
   }
@@ -55,12 +55,12 @@ export class Density {
   }
 }
 
-/** Returns the box of the pixels that are not transparent. It has a border of one pixel, into which scaling blends its edge. */
-function inkedPart(pixels: Uint8ClampedArray<ArrayBuffer>, columns: number, rows: number): [x: number, y: number, width: number, height: number] | undefined {
-  const cells = new Uint32Array(pixels.buffer, pixels.byteOffset, columns * rows);
+/** Returns the bounding box of the pixels that are not transparent, with a border of one pixel, into which scaling blends the edge. */
+function opaqueBox(pixels: Uint8ClampedArray<ArrayBuffer>, columns: number, rows: number): [x: number, y: number, width: number, height: number] | undefined {
+  const pixelValues = new Uint32Array(pixels.buffer, pixels.byteOffset, columns * rows);
   let [left, right, first, last] = [columns, 0, -1, -1];
-  for (let i = 0; i < cells.length; i++) {
-    if (cells[i] === 0) continue;
+  for (let i = 0; i < pixelValues.length; i++) {
+    if (pixelValues[i] === 0) continue;
     if (first < 0) first = i;
     last = i;
     left = Math.min(left, i % columns);

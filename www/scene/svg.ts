@@ -1,20 +1,20 @@
-/** Substitute for the context of a canvas that writes SVG. It has only the methods that scene/draw.ts and the pictures use. */
+/** Canvas context that writes SVG. It has only the methods that scene/draw.ts and the pictures use. */
 
 /** Characters that XML cannot have. */
-const UNWRITABLE = /[^\t\n\r\u0020-\ud7ff\ue000-\ufffd\u{10000}-\u{10ffff}]/gu;
+const INVALID_XML = /[^\t\n\r\u0020-\ud7ff\ue000-\ufffd\u{10000}-\u{10ffff}]/gu;
 
-export const escaped = (text: string) =>
-  text.replace(UNWRITABLE, '\ufffd').replaceAll('&', '&amp;').replaceAll('<', '&lt;').replaceAll('>', '&gt;').replaceAll('"', '&quot;');
+export const escapeXml = (text: string) =>
+  text.replace(INVALID_XML, '\ufffd').replaceAll('&', '&amp;').replaceAll('<', '&lt;').replaceAll('>', '&gt;').replaceAll('"', '&quot;');
 
 /** Prints a length in CSS pixels to a hundredth, which is finer than the resolution of printers. */
-export const short = (length: number) => String(Math.round(100 * length) / 100);
+export const formatLength = (length: number) => String(Math.round(100 * length) / 100);
 
 /** Offsets of the alphabetic baseline from the baselines of the canvas, in em. */
-const BASELINES = { top: '0.8em', middle: '0.33em' } as Record<string, string>;
-const ANCHORS = { center: 'middle', right: 'end' } as Record<string, string>;
+const BASELINE_SHIFTS = { top: '0.8em', middle: '0.33em' } as Record<string, string>;
+const TEXT_ANCHORS = { center: 'middle', right: 'end' } as Record<string, string>;
 
 export class SvgContext {
-  /** True for a context that writes vectors: callers that draw pixels for speed draw shapes instead. */
+  /** True for a context that writes vector graphics. Callers that would draw pixels for speed then draw shapes. */
   vector = true;
   strokeStyle = '';
   fillStyle = '';
@@ -62,29 +62,29 @@ export class SvgContext {
   }
 
   moveTo: CanvasPath['moveTo'] = (x, y) => {
-    this.#path += `M${short(x)},${short(y)}`;
+    this.#path += `M${formatLength(x)},${formatLength(y)}`;
   };
 
   lineTo: CanvasPath['lineTo'] = (x, y) => {
     // The first point of a path is a move, as on a canvas.
-    this.#path += `${this.#path ? 'L' : 'M'}${short(x)},${short(y)}`;
+    this.#path += `${this.#path ? 'L' : 'M'}${formatLength(x)},${formatLength(y)}`;
   };
 
   arc: CanvasPath['arc'] = (x, y, radius, from, to, backwards = false) => {
-    const r = short(radius);
-    const turn = backwards ? from - to : to - from;
-    if (turn >= 2 * Math.PI) {
-      const across = short(2 * radius);
-      this.#path += `M${short(x - radius)},${short(y)}a${r},${r} 0 1 0 ${across},0a${r},${r} 0 1 0 -${across},0Z`;
+    const r = formatLength(radius);
+    const sweep = backwards ? from - to : to - from;
+    if (sweep >= 2 * Math.PI) {
+      const diameter = formatLength(2 * radius);
+      this.#path += `M${formatLength(x - radius)},${formatLength(y)}a${r},${r} 0 1 0 ${diameter},0a${r},${r} 0 1 0 -${diameter},0Z`;
       return;
     }
-    const at = (angle: number) => `${short(x + radius * Math.cos(angle))},${short(y + radius * Math.sin(angle))}`;
-    const [large, clockwise] = [turn > Math.PI, !backwards].map(Number);
-    this.#path += `${this.#path ? 'L' : 'M'}${at(from)}A${r},${r} 0 ${large} ${clockwise} ${at(to)}`;
+    const pointAt = (angle: number) => `${formatLength(x + radius * Math.cos(angle))},${formatLength(y + radius * Math.sin(angle))}`;
+    const [large, clockwise] = [sweep > Math.PI, !backwards].map(Number);
+    this.#path += `${this.#path ? 'L' : 'M'}${pointAt(from)}A${r},${r} 0 ${large} ${clockwise} ${pointAt(to)}`;
   };
 
   rect: CanvasPath['rect'] = (x, y, width, height) => {
-    this.#path += `M${short(x)},${short(y)}h${short(width)}v${short(height)}h${short(-width)}Z`;
+    this.#path += `M${formatLength(x)},${formatLength(y)}h${formatLength(width)}v${formatLength(height)}h${formatLength(-width)}Z`;
   };
 
   closePath() {
@@ -136,21 +136,21 @@ export class SvgContext {
   strokeText: CanvasText['strokeText'] = (text, x, y) => this.#text(text, x, y, ` fill="none"${this.#line()}`);
 
   #text(text: string, x: number, y: number, paint: string) {
-    const dy = BASELINES[this.textBaseline] ?? '0';
-    const anchor = ANCHORS[this.textAlign] ?? 'start';
-    const place = `x="${short(x)}" y="${short(y)}" dy="${dy}" text-anchor="${anchor}"`;
-    this.#marks.push(`<text ${place} style="font:${escaped(this.font)}"${paint}>${escaped(text)}</text>`);
+    const dy = BASELINE_SHIFTS[this.textBaseline] ?? '0';
+    const anchor = TEXT_ANCHORS[this.textAlign] ?? 'start';
+    const textPosition = `x="${formatLength(x)}" y="${formatLength(y)}" dy="${dy}" text-anchor="${anchor}"`;
+    this.#marks.push(`<text ${textPosition} style="font:${escapeXml(this.font)}"${paint}>${escapeXml(text)}</text>`);
   }
 
   /** Draws an image in a rectangle x, y, width, height. Four numbers before these select a part of the image. */
   drawImage(image: CanvasImageSource & { width: number, height: number }, ...place: number[]) {
-    const [x, y, width, height] = place.slice(-4).map(short);
+    const [x, y, width, height] = place.slice(-4).map(formatLength);
     const [fromX, fromY, columns, rows] = place.length > 4 ? place : [0, 0, image.width, image.height];
     const canvas = document.createElement('canvas');
     canvas.width = columns;
     canvas.height = rows;
     (canvas.getContext('2d') as CanvasRenderingContext2D).drawImage(image, -fromX, -fromY);
-    const box = `x="${x}" y="${y}" width="${width}" height="${height}"`;
-    this.#marks.push(`<image ${box} preserveAspectRatio="none" href="${canvas.toDataURL()}"${this.#opacity()}/>`);
+    const imageBox = `x="${x}" y="${y}" width="${width}" height="${height}"`;
+    this.#marks.push(`<image ${imageBox} preserveAspectRatio="none" href="${canvas.toDataURL()}"${this.#opacity()}/>`);
   }
 }

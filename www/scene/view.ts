@@ -9,23 +9,23 @@ import { clamp } from '../ui/clamp.ts';
 export type Extent = { xMin: number, yMin: number, xMax: number, yMax: number };
 
 /** Minimum fraction of a released view that its content fills. Below it the view zooms in. */
-const LOOSEST_FIT = 0.45;
+const MIN_FILL = 0.45;
 
 /** Margin around the content of a view, relative to its size. */
-const MARGIN = 0.06;
+const RELATIVE_MARGIN = 0.06;
 
 /** Time constant of the animation from one extent to the next, ms. */
-const EASING = 90;
+const EASING_MS = 90;
 
-/** Widths of views, except for a power of ten. */
-const LADDER = [1, 1.12, 1.25, 1.4, 1.6, 1.8, 2, 2.25, 2.5, 2.8, 3.2, 3.6, 4, 4.5, 5, 5.6, 6.4, 7.2, 8, 9];
+/** Rounded sizes of views, up to a power of ten. */
+const NICE_SIZES = [1, 1.12, 1.25, 1.4, 1.6, 1.8, 2, 2.25, 2.5, 2.8, 3.2, 3.6, 4, 4.5, 5, 5.6, 6.4, 7.2, 8, 9];
 
 /** Visible part of the world in a picture, with the transform to pixels. */
 export class View {
   /** Extent that is shown now. An animation moves it to `#target`. */
   extent: Extent = { xMin: -1, yMin: -1, xMax: 1, yMax: 1 };
   #target: Extent | undefined;
-  /** Part of the world that the view shows after any change of its size. */
+  /** Part of the world that the view has to show, also after a change of the canvas size. */
   #room: Extent | undefined;
   /** True if the next fit may also zoom in and recenter. */
   #released = false;
@@ -35,7 +35,7 @@ export class View {
   within: Extent | undefined;
   /** True if a metre is as long in y as in x. */
   #equal;
-  /** True if the extent is exactly the needed part of the world, without a margin. A fit after a change of size then starts anew. */
+  /** True if the extent is exactly the needed part of the world, without a margin. After a change of size the view is then fitted anew. */
   #snug;
   /** Canvas size at the last fit, CSS pixels. */
   #fitted = { width: 1, height: 1 };
@@ -119,8 +119,8 @@ export class View {
   /** Returns both ends, in pixels, of a line from a pose in its heading, with a length in pixels. */
   ray({ x, y, theta }: { x: number, y: number, theta: number }, length: number): [from: [x: number, y: number], to: [x: number, y: number]] {
     const from = this.toPixel(x, y);
-    const ahead = this.direction(theta);
-    return [from, [from[0] + length * ahead.x, from[1] + length * ahead.y]];
+    const headingStep = this.direction(theta);
+    return [from, [from[0] + length * headingStep.x, from[1] + length * headingStep.y]];
   }
 
   /** Sets the target of the view, which stays if it contains `needed`. Otherwise the view zooms out. A released view may also zoom in. */
@@ -132,8 +132,8 @@ export class View {
     this.#released = false;
     if (kept && (released ? this.#suits(kept, needed) : isInside(needed, kept))) return;
     this.widened = kept !== undefined && !released;
-    const room = this.#snug ? needed : withMargin(needed);
-    this.#room = kept && this.widened ? extentAround([room.xMin, room.yMin, room.xMax, room.yMax], 2, kept) : room;
+    const padded = this.#snug ? needed : extentWithMargin(needed);
+    this.#room = kept && this.widened ? extentAround([padded.xMin, padded.yMin, padded.xMax, padded.yMax], 2, kept) : padded;
     this.#target = this.#cover(this.#room);
     if (!kept) this.extent = this.#target;
   }
@@ -142,68 +142,68 @@ export class View {
   ease(elapsed: number, atOnce: boolean): boolean {
     const target = this.#target;
     if (!target || target === this.extent) return false;
-    const share = atOnce ? 1 : 1 - Math.exp(-elapsed / EASING);
-    const next = { ...this.extent };
-    for (const key of Object.keys(next) as (keyof Extent)[]) next[key] += share * (target[key] - next[key]);
-    const pixels = Math.abs(next.xMin - target.xMin) + Math.abs(next.xMax - target.xMax);
-    const arrived = pixels * this.scaleX < 0.5;
-    this.extent = arrived || atOnce ? target : next;
+    const progress = atOnce ? 1 : 1 - Math.exp(-elapsed / EASING_MS);
+    const nextExtent = { ...this.extent };
+    for (const key of Object.keys(nextExtent) as (keyof Extent)[]) nextExtent[key] += progress * (target[key] - nextExtent[key]);
+    const remainingDistance = Math.abs(nextExtent.xMin - target.xMin) + Math.abs(nextExtent.xMax - target.xMax);
+    const hasArrived = remainingDistance * this.scaleX < 0.5;
+    this.extent = hasArrived || atOnce ? target : nextExtent;
     return this.extent !== target;
   }
 
-  /** Returns true if the needed part of the world fills enough of an extent. */
+  /** Returns true if an extent contains the needed part of the world, and is filled enough by it. */
   #suits(shown: Extent, needed: Extent) {
-    const fills = [(needed.xMax - needed.xMin) / (shown.xMax - shown.xMin), (needed.yMax - needed.yMin) / (shown.yMax - shown.yMin)];
-    return isInside(needed, shown) && Math[this.#equal ? 'max' : 'min'](...fills) >= LOOSEST_FIT;
+    const fractions = [(needed.xMax - needed.xMin) / (shown.xMax - shown.xMin), (needed.yMax - needed.yMin) / (shown.yMax - shown.yMin)];
+    return isInside(needed, shown) && Math[this.#equal ? 'max' : 'min'](...fractions) >= MIN_FILL;
   }
 
   /** Returns an extent around `room`, moved into the limits. Its size is rounded unless the view is snug. Equal scales determine its aspect ratio. */
   #cover(room: Extent) {
     const { left, right, top, bottom } = this.frame;
-    const size = this.#snug ? (needed: number) => needed : niceSize;
-    const aspect = (bottom - top) / (right - left);
+    const sizeFunction = this.#snug ? (needed: number) => needed : niceSize;
+    const aspectRatio = (bottom - top) / (right - left);
     const [roomX, roomY] = [room.xMax - room.xMin, room.yMax - room.yMin];
-    const width = size(this.#equal ? Math.max(roomX, roomY / aspect) : roomX);
-    const height = this.#equal ? width * aspect : size(roomY);
+    const width = sizeFunction(this.#equal ? Math.max(roomX, roomY / aspectRatio) : roomX);
+    const height = this.#equal ? width * aspectRatio : sizeFunction(roomY);
     const limits = this.within ?? { xMin: -Infinity, xMax: Infinity, yMin: -Infinity, yMax: Infinity };
-    const x = movedInto((room.xMin + room.xMax) / 2, width, limits.xMin, limits.xMax);
-    const y = movedInto((room.yMin + room.yMax) / 2, height, limits.yMin, limits.yMax);
+    const x = movedMiddle((room.xMin + room.xMax) / 2, width, limits.xMin, limits.xMax);
+    const y = movedMiddle((room.yMin + room.yMax) / 2, height, limits.yMin, limits.yMax);
     return { xMin: x - width / 2, xMax: x + width / 2, yMin: y - height / 2, yMax: y + height / 2 };
   }
 }
 
 /** Returns the middle of an interval that is moved between limits. If it is longer than their distance, it is centred on them. */
-function movedInto(middle: number, length: number, from: number, to: number) {
+function movedMiddle(middle: number, length: number, from: number, to: number) {
   return to - from > length ? clamp(middle, from + length / 2, to - length / 2) : (from + to) / 2;
 }
 
 const isInside = (inner: Extent, outer: Extent) =>
   inner.xMin >= outer.xMin && inner.xMax <= outer.xMax && inner.yMin >= outer.yMin && inner.yMax <= outer.yMax;
 
-function withMargin({ xMin, xMax, yMin, yMax }: Extent): Extent {
-  const [x, y] = [MARGIN * (xMax - xMin), MARGIN * (yMax - yMin)];
+function extentWithMargin({ xMin, xMax, yMin, yMax }: Extent): Extent {
+  const [x, y] = [RELATIVE_MARGIN * (xMax - xMin), RELATIVE_MARGIN * (yMax - yMin)];
   return { xMin: xMin - x, xMax: xMax + x, yMin: yMin - y, yMax: yMax + y };
 }
 
-/** Returns the smallest size of the ladder that is not below a size. */
+/** Returns the smallest rounded size that is not below `size`. */
 function niceSize(size: number): number {
   const decade = 10 ** Math.floor(Math.log10(size));
-  const step = LADDER.find((candidate) => candidate * decade >= size * (1 - 1e-9)) ?? 10;
-  return step * decade;
+  const niceStep = NICE_SIZES.find((candidate) => candidate * decade >= size * (1 - 1e-9)) ?? 10;
+  return niceStep * decade;
 }
 
 const EMPTY_EXTENT: Readonly<Extent> = { xMin: Infinity, yMin: Infinity, xMax: -Infinity, yMax: -Infinity };
 
 /** Returns the smallest extent that contains points and the extent `around`. x and y are the first two of each `stride` numbers. */
 export function extentAround(numbers: ArrayLike<number>, stride: number, around: Extent = EMPTY_EXTENT) {
-  const box = { ...around };
+  const bounds = { ...around };
   for (let i = 0; i < numbers.length; i += stride) {
-    box.xMin = Math.min(box.xMin, numbers[i]);
-    box.xMax = Math.max(box.xMax, numbers[i]);
-    box.yMin = Math.min(box.yMin, numbers[i + 1]);
-    box.yMax = Math.max(box.yMax, numbers[i + 1]);
+    bounds.xMin = Math.min(bounds.xMin, numbers[i]);
+    bounds.xMax = Math.max(bounds.xMax, numbers[i]);
+    bounds.yMin = Math.min(bounds.yMin, numbers[i + 1]);
+    bounds.yMax = Math.max(bounds.yMax, numbers[i + 1]);
   }
-  return box;
+  return bounds;
 }
 
 /** Returns the smallest extent that contains points (x, y pairs), with a minimum width and height. */

@@ -211,23 +211,23 @@ export const controlStyles = css`
 `;
 
 /** Pieces of a formula in a message: italics and subscripts. */
-const FORMULA_PIECES = String.raw`\*(?:\\\*|[^*])+\*|[₀-₉]|_\{[^}]+\}`;
-const FORMULA_PIECE = new RegExp(FORMULA_PIECES, 'g');
-const FORMULA = new RegExp(`((?:${FORMULA_PIECES})+)`);
+const FORMULA_PATTERN = String.raw`\*(?:\\\*|[^*])+\*|[₀-₉]|_\{[^}]+\}`;
+const FORMULA_PIECE = new RegExp(FORMULA_PATTERN, 'g');
+const FORMULAS = new RegExp(`((?:${FORMULA_PATTERN})+)`);
 
 /** Returns a message with its formulas as HTML. The text \\* is an asterisk. */
-export function rich(message: string) {
+export function formatMarkup(message: string) {
   // Every second part is a formula.
-  return message.split(FORMULA).map((part, i) => (i % 2 ? symbols(part.match(FORMULA_PIECE)?.map(printed)) : part));
+  return message.split(FORMULAS).map((part, i) => (i % 2 ? untranslated(part.match(FORMULA_PIECE)?.map(formulaPiece)) : part));
 }
 
-function printed(piece: string) {
+function formulaPiece(piece: string) {
   if (piece[0] === '*') return html`<i>${piece.slice(1, -1).replaceAll('\\*', '*')}</i>`;
   return html`<sub>${piece[0] === '_' ? piece.slice(2, -1) : piece.charCodeAt(0) - 0x2080}</sub>`;
 }
 
 /** Returns a value or formula with its own writing direction, which page translators leave unchanged. */
-export const symbols = (content: unknown) => html`<bdi translate="no" class="notranslate">${content}</bdi>`;
+export const untranslated = (content: unknown) => html`<bdi translate="no" class="notranslate">${content}</bdi>`;
 
 /** Returns a group of controls under its heading. */
 export function group(heading: unknown, controls: unknown, name?: string) {
@@ -238,7 +238,7 @@ export function group(heading: unknown, controls: unknown, name?: string) {
 }
 
 /** Returns one of a group of radio buttons, with a name for screen readers if it has no label. */
-export function choice({ group, label, name, checked, choose }: { group: string, label?: unknown, name?: string, checked: boolean, choose: () => void }) {
+export function radioButton({ group, label, name, checked, choose }: { group: string, label?: unknown, name?: string, checked: boolean, choose: () => void }) {
   return html`<label class="choice">
     <input type="radio" name=${group} aria-label=${name ?? nothing} .checked=${live(checked)} @change=${choose} />
     ${label ? html`<span>${label}</span>` : nothing}
@@ -278,12 +278,12 @@ export function inputOf(event: Event) {
 
 /** Returns radio buttons in a row under one name, in the order of the labels. */
 export function radioGroup<Name extends string>(label: string, group: string, labels: Record<Name, string>, current: Name, choose: (name: Name) => void) {
-  const names = Object.keys(labels) as Name[];
+  const choiceNames = Object.keys(labels) as Name[];
   return html`<div class="choices" role="radiogroup" aria-label=${label}>
     <span aria-hidden="true">${label}</span>
     <div class="options">
-      ${names.map((name) =>
-        choice({ group, label: labels[name], checked: name === current, choose: () => choose(name) }),
+      ${choiceNames.map((name) =>
+        radioButton({ group, label: labels[name], checked: name === current, choose: () => choose(name) }),
       )}
     </div>
   </div>`;

@@ -3,15 +3,15 @@
 import { html, noChange, nothing } from 'lit';
 import { Directive, directive } from 'lit/directive.js';
 
-/** Returns a disclosure whose content is rendered only while it is open. An id is for scripts that open it. */
-export function fold(name: string, content: () => unknown, id?: string) {
+/** Returns a disclosure whose content is rendered only while it is open. Scripts can find it by its id. */
+export function disclosure(name: string, content: () => unknown, id?: string) {
   return html`<details part="fold" id=${id ?? nothing} @toggle=${renderHost}>
     <summary>${name}</summary>
     <div class="folded">${whileOpen(content)}</div>
   </details>`;
 }
 
-/** Renders the host. Lit calls a listener with its element as `this`. */
+/** Listener that renders the host element, which Lit passes as `this`. */
 function renderHost(this: import('lit').LitElement) {
   this.requestUpdate();
 }

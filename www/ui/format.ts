@@ -4,69 +4,69 @@ import { language } from '../messages/registry.ts';
 
 const MINUS = '\u2212';
 const THIN_SPACE = '\u202f';
-export const NOTHING = '\u2014';
+export const NO_VALUE = '\u2014';
 
 /** Decimal separators by language. */
-const separators: Map<string, string> = new Map([['en', '.']]);
+const decimalSeparators: Map<string, string> = new Map([['en', '.']]);
 
 /** Returns the decimal separator of the current language between Latin digits. The first use of `Intl` takes longer than the rest of the first frame. */
 function decimalSeparator(): string {
-  let separator = separators.get(language);
-  if (!separator) separators.set(language, (separator = new Intl.NumberFormat(language, { numberingSystem: 'latn' }).formatToParts(0.5).find(({ type }) => type === 'decimal')?.value ?? '.'));
+  let separator = decimalSeparators.get(language);
+  if (!separator) decimalSeparators.set(language, (separator = new Intl.NumberFormat(language, { numberingSystem: 'latn' }).formatToParts(0.5).find(({ type }) => type === 'decimal')?.value ?? '.'));
   return separator;
 }
 
 /** Prints a number with decimals: "−0.301"; "0.000" rather than "−0.000"; "∞"; "—" for NaN. */
 export function fixed(value: number, decimals: number): string {
-  if (Number.isNaN(value)) return NOTHING;
-  // `toFixed` rounds the binary number. A formatter rounds the shortest decimals, and finds ties that are none.
+  if (Number.isNaN(value)) return NO_VALUE;
+  // `toFixed` rounds the exact binary number. `Intl` rounds its shortest decimal form, and may round a false tie up.
   const digits = Math.abs(value).toFixed(decimals);
   const sign = value < 0 && Number(digits) !== 0 ? MINUS : '';
   return sign + (Number.isFinite(value) ? digits.replace('.', decimalSeparator()) : '∞');
 }
 
-/** Maximum number of additional decimals of a short number. */
-const FEW_MORE = 2;
+/** Maximum number of decimals that an editable value may have in addition to the usual ones. */
+const MAX_MORE_DECIMALS = 2;
 
 /**
- * Prints a value as it was typed: with up to two more decimals than usual, if it has no further ones. With 3 decimals 0.0525 is "0.0525",
- * and 0.05210987 is "0.052".
+ * Prints a value as it was typed: with up to two more decimals than usual, if they print it exactly. With 3 decimals 0.0525 is "0.0525",
+ * but 0.05210987 is "0.052".
  */
-export function typed(value: number, decimals: number): string {
-  const all = String(value).split('.')[1]?.length ?? 0;
-  return fixed(value, all > decimals && all <= decimals + FEW_MORE ? all : decimals);
+export function formatEditable(value: number, decimals: number): string {
+  const decimalsTyped = String(value).split('.')[1]?.length ?? 0;
+  return fixed(value, decimalsTyped > decimals && decimalsTyped <= decimals + MAX_MORE_DECIMALS ? decimalsTyped : decimals);
 }
 
 /**
  * Parses a number in the present language, or with a decimal point: "−0,301", "1.5 m/s", "2 000", "2,000"; NaN where it is none. In English
  * a comma may separate groups of three; elsewhere a point may, if a whole number is meant.
  */
-export function numberIn(text: string, unit: string = '', whole: boolean = false): number {
-  const plain = text.replace(/\s/g, '').replace(MINUS, '-');
-  const bare = unit && plain.endsWith(unit) ? plain.slice(0, -unit.length) : plain;
-  const decimal = decimalSeparator();
+export function parseNumber(text: string, unit: string = '', whole: boolean = false): number {
+  const compact = text.replace(/\s/g, '').replace(MINUS, '-');
+  const withoutUnit = unit && compact.endsWith(unit) ? compact.slice(0, -unit.length) : compact;
+  const decimalSign = decimalSeparator();
   // In English, commas separate complete groups of three digits. Where the comma is the decimal separator, points may.
-  const groups = decimal === '.' ? /^-?[1-9]\d{0,2}(,\d{3})+$/ : whole && /^-?[1-9]\d{0,2}(\.\d{3})+$/;
-  const ungrouped = groups && groups.test(bare) ? bare.replace(/[,.]/g, '') : bare;
-  return bare === '' ? NaN : Number(ungrouped.replace(decimal, '.'));
+  const groupPattern = decimalSign === '.' ? /^-?[1-9]\d{0,2}(,\d{3})+$/ : whole && /^-?[1-9]\d{0,2}(\.\d{3})+$/;
+  const ungrouped = groupPattern && groupPattern.test(withoutUnit) ? withoutUnit.replace(/[,.]/g, '') : withoutUnit;
+  return withoutUnit === '' ? NaN : Number(ungrouped.replace(decimalSign, '.'));
 }
 
 /** Prints a limit: "1 000 000"; "1·10⁻⁶". */
-export function limit(value: number): string {
-  return Number.isInteger(value) ? counted(value) : significant(value, 1);
+export function formatLimit(value: number): string {
+  return Number.isInteger(value) ? integer(value) : significant(value, 1);
 }
 
-/** Magnitude below which a number counts as 0 that is rounded. */
-const NOTHING_BELOW = 1e-13;
+/** Magnitude below which a number counts as a rounded 0. */
+const MAX_ROUNDED_ZERO = 1e-13;
 
-/** Maximum number of decimals of a standard error: ten million robots have one of 0.0008. */
+/** Maximum number of decimals of a standard error. With ten million robots the standard error is 0.0008. */
 const MAX_DECIMALS = 5;
 
 const SUPERSCRIPTS = '⁰¹²³⁴⁵⁶⁷⁸⁹';
 
 /** Prints a number with significant digits: "0.0070020"; below 0.0001 and from 100,000 on "1.2500·10⁻⁵". */
 export function significant(value: number, digits: number): string {
-  if (Math.abs(value) < NOTHING_BELOW) return '0';
+  if (Math.abs(value) < MAX_ROUNDED_ZERO) return '0';
   if (!Number.isFinite(value)) return fixed(value, 0);
   const [mantissa, exponent] = value.toExponential(digits - 1).split('e').map(Number);
   if (exponent < -4 || exponent >= 5) return `${fixed(mantissa, digits - 1)}·${powerOfTen(exponent)}`;
@@ -80,24 +80,24 @@ export function powerOfTen(exponent: number): string {
 
 /** Prints a positive number rounded to significant digits: "0.47", "12", "1 200". */
 export function rounded(value: number, digits: number): string {
-  const near = Number(value.toPrecision(digits));
-  const decimals = digits - 1 - Math.floor(Math.log10(near));
-  return decimals > 0 ? fixed(near, decimals) : counted(near);
+  const roundedValue = Number(value.toPrecision(digits));
+  const decimals = digits - 1 - Math.floor(Math.log10(roundedValue));
+  return decimals > 0 ? fixed(roundedValue, decimals) : integer(roundedValue);
 }
 
 /** Prints a count: "100 000". */
-export const counted = (count: number): string => fixed(count, 0).replace(/\B(?=(\d{3})+$)/g, THIN_SPACE);
+export const integer = (count: number): string => fixed(count, 0).replace(/\B(?=(\d{3})+$)/g, THIN_SPACE);
 
 /** Prints a share from 0 to 1 in percent: "86.5 %". */
 export function percent(share: number): string {
-  return Number.isNaN(share) ? NOTHING : `${fixed(100 * share, 1)}${THIN_SPACE}%`;
+  return Number.isNaN(share) ? NO_VALUE : `${fixed(100 * share, 1)}${THIN_SPACE}%`;
 }
 
 /** Prints a value with its standard error: "−0.412 ± 0.031"; "∞" and "—" have none. A small error has as many decimals as show its first digit. */
 export function withError(value: number, error: number, decimals: number): string {
   if (!Number.isFinite(value)) return fixed(value, 0);
-  const needed = error > 0 ? Math.max(decimals, Math.min(MAX_DECIMALS, -Math.floor(Math.log10(error)))) : decimals;
-  return `${fixed(value, needed)} ± ${fixed(error, needed)}`;
+  const neededDecimals = error > 0 ? Math.max(decimals, Math.min(MAX_DECIMALS, -Math.floor(Math.log10(error)))) : decimals;
+  return `${fixed(value, neededDecimals)} ± ${fixed(error, neededDecimals)}`;
 }
 
 /** Prints the label of an axis tick, with as many decimals as the step between ticks needs. */

@@ -1,6 +1,6 @@
 /**
- * Layout of a widget from above: pictures side by side, their sentence, the figures that matter, controls in compact rows, and disclosures.
- * So much is seen without scrolling in a column of 700 pixels.
+ * Layout of a widget from top to bottom: pictures side by side, their sentence, the main numbers, controls in compact rows, and
+ * disclosures. In a column of 700 pixels most of it is visible without scrolling.
  */
 
 import { css } from 'lit';
@@ -8,8 +8,8 @@ import { controlStyles } from './controls.ts';
 import { readoutStyles } from './readouts.ts';
 import { sliderStyles } from './slider.ts';
 
-/** Style of a figure in which only the first picture stays visible while scrolling: all of them would leave no space for the controls. */
-const pictureAlone = css`
+/** Style of a figure in which only the first picture stays visible while scrolling. All pictures would leave no space for the controls. */
+const stickyPicture = css`
   .stage[part='picture'] {
     position: sticky;
     top: var(--top);
@@ -30,7 +30,7 @@ const pictureAlone = css`
   }
 `;
 
-const layout = css`
+const figureLayout = css`
   /* The pictures stay visible within this box, behind text of the page. */
   .machine {
     text-wrap: pretty;
@@ -401,16 +401,16 @@ const layout = css`
     }
 
     @container (width < 30em) {
-      ${pictureAlone}
+      ${stickyPicture}
     }
   }
 
   /* Window at 200 % zoom. */
   @media (22em <= height < 40em) {
     @container (width < 56em) {
-      ${pictureAlone}
+      ${stickyPicture}
     }
   }
 `;
 
-export const layoutStyles = [readoutStyles, controlStyles, sliderStyles, layout];
+export const layoutStyles = [readoutStyles, controlStyles, sliderStyles, figureLayout];

@@ -1,27 +1,27 @@
-/** Chart in SVG: curves with bands, points with error bars, and marks, over linear or logarithmic axes. A slider may lie over it, which sets an x. */
+/** Chart in SVG: curves with bands, points with error bars, and marks, over linear or logarithmic axes. A slider over the chart may set an x. */
 
 import { ticks } from 'd3-array';
 import { css, html, nothing, svg, unsafeCSS } from 'lit';
 import { clamp } from './clamp.ts';
-import { rich } from './controls.ts';
+import { formatMarkup } from './controls.ts';
 import { powerOfTen, tick } from './format.ts';
 import { track } from './slider.ts';
 
-const WIDTH = 380;
-const HEIGHT = 250;
+const CHART_WIDTH = 380;
+const CHART_HEIGHT = 250;
 const LEFT = 46;
-const RIGHT = WIDTH - 12;
+const RIGHT = CHART_WIDTH - 12;
 const TOP = 22;
-const BOTTOM = HEIGHT - 34;
+const BOTTOM = CHART_HEIGHT - 34;
 
-/** Maximum number of labels along an axis: more of them touch. */
-const MOST_LABELS = { x: 6, y: 7 };
+/** Maximum number of labels along an axis. More labels would touch each other. */
+const MAX_LABELS = { x: 6, y: 7 };
 
 /** Coordinate outside every plot, and within the range of SVG paths. */
-const FAR = 10_000;
+const FAR_OUTSIDE = 10_000;
 
 /** Half the width of the ends of an error bar. */
-const SERIF = 4;
+const BAR_CAP = 4;
 
 export const plotStyles = css`
   .plot {
@@ -37,10 +37,10 @@ export const plotStyles = css`
   /* Plot area. A slider's thumb is half a thumb away from its ends. It looks like a grip on a line, because a dot would look like data. */
   .plotted input {
     position: absolute;
-    top: ${unsafeCSS((100 * TOP) / HEIGHT)}%;
-    left: calc(${unsafeCSS((100 * LEFT) / WIDTH)}% - 0.275em);
-    width: calc(${unsafeCSS((100 * (RIGHT - LEFT)) / WIDTH)}% + 0.55em);
-    height: ${unsafeCSS((100 * (BOTTOM - TOP)) / HEIGHT)}%;
+    top: ${unsafeCSS((100 * TOP) / CHART_HEIGHT)}%;
+    left: calc(${unsafeCSS((100 * LEFT) / CHART_WIDTH)}% - 0.275em);
+    width: calc(${unsafeCSS((100 * (RIGHT - LEFT)) / CHART_WIDTH)}% + 0.55em);
+    height: ${unsafeCSS((100 * (BOTTOM - TOP)) / CHART_HEIGHT)}%;
     --thumb: var(--prior);
     --thumb-width: 0.55em;
     --thumb-height: 1.9em;
@@ -138,7 +138,7 @@ export interface Curve {
   y: ArrayLike<number>;
   /** Half the height of a band around the curve. */
   error?: ArrayLike<number>;
-  /** True if there is only the band. */
+  /** True if only the band is drawn. */
   area?: boolean;
   /** True if it is highlighted, false if another curve is. */
   lit?: boolean;
@@ -173,23 +173,23 @@ export interface Plot {
   legend?: unknown;
 }
 
-export function plot({ label, x, y, curves, points = [], marks = [], slider, legend = keyOf(curves) }: Plot) {
-  const [toX, toY] = [placing(x, LEFT, RIGHT), placing(y, BOTTOM, TOP)];
+export function plot({ label, x, y, curves, points = [], marks = [], slider, legend = curveKey(curves) }: Plot) {
+  const [toX, toY] = [pixelScale(x, LEFT, RIGHT), pixelScale(y, BOTTOM, TOP)];
   return html`<div class="plotted" dir="ltr">
-    <svg class="plot" viewBox="0 0 ${WIDTH} ${HEIGHT}" role="img" aria-label=${label} part="chart">
-      ${labelsOf(x, MOST_LABELS.x).map(([value, text]) => gridLine(toX(value), toX(value), TOP, BOTTOM, { x: toX(value), y: BOTTOM + 18, anchor: 'middle', text }))}
-      ${labelsOf(y, MOST_LABELS.y).map(([value, text]) => gridLine(LEFT, RIGHT, toY(value), toY(value), { x: LEFT - 6, y: toY(value) + 4, anchor: 'end', text }))}
+    <svg class="plot" viewBox="0 0 ${CHART_WIDTH} ${CHART_HEIGHT}" role="img" aria-label=${label} part="chart">
+      ${axisLabels(x, MAX_LABELS.x).map(([value, text]) => gridLine(toX(value), toX(value), TOP, BOTTOM, { x: toX(value), y: BOTTOM + 18, anchor: 'middle', text }))}
+      ${axisLabels(y, MAX_LABELS.y).map(([value, text]) => gridLine(LEFT, RIGHT, toY(value), toY(value), { x: LEFT - 6, y: toY(value) + 4, anchor: 'end', text }))}
       <text class="name" x=${RIGHT} y=${BOTTOM + 30} text-anchor="end">${x.name}</text>
       <text class="name" x="0" y="12">${y.name}</text>
       <svg x=${LEFT} y=${TOP} width=${RIGHT - LEFT} height=${BOTTOM - TOP} viewBox="${LEFT} ${TOP} ${RIGHT - LEFT} ${BOTTOM - TOP}">
-        ${curves.map((curve) => curve.error && svg`<path class="band ${litOf(curve)}" fill="var(--${curve.role})" d=${band(curve, toX, toY)} />`)}
-        ${curves.map((curve) => !curve.area && svg`<path class="curve ${litOf(curve)}" stroke="var(--${curve.role})" stroke-dasharray=${curve.dash ?? nothing} d=${line(curve, toX, toY)} />`)}
-        ${marks.map((mark, row) => markOf(mark, row, toX, toY))}
+        ${curves.map((curve) => curve.error && svg`<path class="band ${highlightClass(curve)}" fill="var(--${curve.role})" d=${bandPath(curve, toX, toY)} />`)}
+        ${curves.map((curve) => !curve.area && svg`<path class="curve ${highlightClass(curve)}" stroke="var(--${curve.role})" stroke-dasharray=${curve.dash ?? nothing} d=${curvePath(curve, toX, toY)} />`)}
+        ${marks.map((mark, row) => markSvg(mark, row, toX, toY))}
         ${points.filter(({ y: value, error }) => !Number.isNaN(value + error)).map(
           ({ role, x: at, y: value, error }) => svg`<path
             class="curve"
             stroke="var(--${role})"
-            d="M${toX(at) - SERIF},${toY(value - error)}h${2 * SERIF}m${-SERIF},0V${toY(value + error)}m${-SERIF},0h${2 * SERIF}"
+            d="M${toX(at) - BAR_CAP},${toY(value - error)}h${2 * BAR_CAP}m${-BAR_CAP},0V${toY(value + error)}m${-BAR_CAP},0h${2 * BAR_CAP}"
           /><circle cx=${toX(at)} cy=${toY(value)} r="3" fill="var(--${role})" />`,
         )}
       </svg>
@@ -205,59 +205,59 @@ const gridLine = (x1: number, x2: number, y1: number, y2: number, { x, y, anchor
   <line class="grid" x1=${x1} x2=${x2} y1=${y1} y2=${y2} />
   <text class="notranslate" translate="no" x=${x} y=${y} text-anchor=${anchor}>${text}</text>`;
 
-/** Returns the class of a curve by its highlight. */
-const litOf = ({ lit }: Curve) => (lit === undefined ? '' : lit ? 'lit' : 'unlit');
+/** Returns the CSS class of a curve that is highlighted, or dimmed because another one is. */
+const highlightClass = ({ lit }: Curve) => (lit === undefined ? '' : lit ? 'lit' : 'unlit');
 
-function keyOf(curves: Curve[]) {
+function curveKey(curves: Curve[]) {
   return html`<ul class="plot-key" part="legend">
     ${curves.map(
       ({ name, role, dash, area }) => html`<li>
         <svg viewBox="0 0 36 10" aria-hidden="true">
           <path class=${area ? 'band' : 'curve'} fill="var(--${role})" stroke="var(--${role})" stroke-dasharray=${dash ?? nothing} d=${area ? 'M1 1H35V9H1Z' : 'M1 5H35'} />
-        </svg>${rich(name)}
+        </svg>${formatMarkup(name)}
       </li>`,
     )}
   </ul>`;
 }
 
-/** Returns a function that turns values into pixels; NaN only for NaN. Values that a logarithmic axis does not have are far below it. */
-function placing({ from, to, logarithmic }: Axis, first: number, last: number): (value: number) => number {
-  const scale = logarithmic ? (value: number) => Math.log10(Math.max(value, 0)) : Number;
-  const [start, end] = [scale(from), scale(to)];
-  return (value) => clamp(first + ((scale(value) - start) * (last - first)) / (end - start), -FAR, FAR);
+/** Returns a function that converts values to pixels; NaN only for NaN. On a logarithmic axis, values of 0 or less are far below the axis. */
+function pixelScale({ from, to, logarithmic }: Axis, first: number, last: number): (value: number) => number {
+  const toLinear = logarithmic ? (value: number) => Math.log10(Math.max(value, 0)) : Number;
+  const [start, end] = [toLinear(from), toLinear(to)];
+  return (value) => clamp(first + ((toLinear(value) - start) * (last - first)) / (end - start), -FAR_OUTSIDE, FAR_OUTSIDE);
 }
 
-function labelsOf({ from, to, logarithmic }: Axis, most: number): [value: number, text: string][] {
+function axisLabels({ from, to, logarithmic }: Axis, most: number): [value: number, text: string][] {
   if (!logarithmic) return ticks(from, to, most - 1).map((value, _, all) => [value, tick(value, all.length > 1 ? all[1] - all[0] : 1)]);
   const [first, last] = [Math.ceil(Math.log10(from) - 1e-9), Math.floor(Math.log10(to) + 1e-9)];
-  const step = Math.max(1, Math.ceil((last - first + 1) / most));
-  const exponents = Array.from({ length: Math.floor((last - first) / step) + 1 }, (_, i) => first + i * step);
+  const exponentStep = Math.max(1, Math.ceil((last - first + 1) / most));
+  const exponents = Array.from({ length: Math.floor((last - first) / exponentStep) + 1 }, (_, i) => first + i * exponentStep);
   return exponents.map((exponent) => [10 ** exponent, powerOfTen(exponent)]);
 }
 
 /** Returns a curve as a path, with gaps. */
-function line({ x, y }: Curve, toX: (value: number) => number, toY: (value: number) => number) {
+function curvePath({ x, y }: Curve, toX: (value: number) => number, toY: (value: number) => number) {
   const points = Array.from(x, (value, i) => (Number.isNaN(value + y[i]) ? '' : `${toX(value).toFixed(2)},${toY(y[i]).toFixed(2)}`));
   return points.map((point, i) => point && `${points[i - 1] ? 'L' : 'M'}${point}`).join('');
 }
 
 /** Returns the outline of a curve's band as a path. */
-function band({ x, y, error = [] }: Curve, toX: (value: number) => number, toY: (value: number) => number) {
-  const defined = Array.from(x, (_, i) => i).filter((i) => !Number.isNaN(x[i] + y[i] + error[i]));
-  const edge = (side: number) => defined.map((i) => `${toX(x[i]).toFixed(2)},${toY(y[i] + side * error[i]).toFixed(2)}`);
-  return defined.length > 0 ? `M${[...edge(1), ...edge(-1).reverse()].join('L')}Z` : '';
+function bandPath({ x, y, error = [] }: Curve, toX: (value: number) => number, toY: (value: number) => number) {
+  const definedIndices = Array.from(x, (_, i) => i).filter((i) => !Number.isNaN(x[i] + y[i] + error[i]));
+  const bandEdge = (side: number) => definedIndices.map((i) => `${toX(x[i]).toFixed(2)},${toY(y[i] + side * error[i]).toFixed(2)}`);
+  return definedIndices.length > 0 ? `M${[...bandEdge(1), ...bandEdge(-1).reverse()].join('L')}Z` : '';
 }
 
-/** Returns a mark with its text in a row, so that neighbours do not touch. */
-function markOf({ x, y, text }: Mark, row: number, toX: (value: number) => number, toY: (value: number) => number) {
+/** Returns a mark. The text of a vertical mark is in a row of its own, so that neighbouring texts do not touch. */
+function markSvg({ x, y, text }: Mark, row: number, toX: (value: number) => number, toY: (value: number) => number) {
   if (x !== undefined) {
-    const at = toX(x);
+    const markX = toX(x);
     // Text next to the line, on the side that has space.
-    const [shift, anchor] = 2 * at > LEFT + RIGHT ? [-5, 'end'] : [5, 'start'];
-    return svg`<line class="mark" x1=${at} x2=${at} y1=${TOP} y2=${BOTTOM} />
-      <text class="marked" x=${at + shift} y=${TOP + 13 + 16 * row} text-anchor=${anchor}>${text}</text>`;
+    const [shift, anchor] = 2 * markX > LEFT + RIGHT ? [-5, 'end'] : [5, 'start'];
+    return svg`<line class="mark" x1=${markX} x2=${markX} y1=${TOP} y2=${BOTTOM} />
+      <text class="marked" x=${markX + shift} y=${TOP + 13 + 16 * row} text-anchor=${anchor}>${text}</text>`;
   }
-  const at = toY(y ?? NaN);
-  return svg`<line class="mark" x1=${LEFT} x2=${RIGHT} y1=${at} y2=${at} />
-    <text class="marked" x=${RIGHT - 4} y=${at - 5} text-anchor="end">${text}</text>`;
+  const markY = toY(y ?? NaN);
+  return svg`<line class="mark" x1=${LEFT} x2=${RIGHT} y1=${markY} y2=${markY} />
+    <text class="marked" x=${RIGHT - 4} y=${markY - 5} text-anchor="end">${text}</text>`;
 }

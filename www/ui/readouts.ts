@@ -1,7 +1,7 @@
 /** Numbers as text: a list of readouts, and tables. */
 
 import { css, html, nothing } from 'lit';
-import { rich, symbols } from './controls.ts';
+import { formatMarkup, untranslated } from './controls.ts';
 
 export const readoutStyles = css`
   /* Name above its number, side by side. */
@@ -150,15 +150,15 @@ export function readoutList(rows: [name: string, value: string, detail?: string,
   return html`<dl class="readouts" part="readouts">
     ${rows.map(
       ([name, value, detail, earlier], i) => html`<div class=${i === headline ? 'headline' : nothing}>
-        <dt>${rich(name)}</dt>
-        <dd>${symbols(value)}${earlier ? html` <span class="earlier">${symbols(earlier)}</span>` : nothing}</dd>
-        ${detail ? html`<dd class="detail">${rich(detail)}</dd>` : nothing}
+        <dt>${formatMarkup(name)}</dt>
+        <dd>${untranslated(value)}${earlier ? html` <span class="earlier">${untranslated(earlier)}</span>` : nothing}</dd>
+        ${detail ? html`<dd class="detail">${formatMarkup(detail)}</dd>` : nothing}
       </div>`,
     )}
   </dl>`;
 }
 
-interface Table {
+interface FigureTable {
   caption?: unknown;
   /** Names of the columns, that of the rows' names first. */
   columns: unknown[];
@@ -168,11 +168,11 @@ interface Table {
   outdated?: boolean;
 }
 
-export function figureTable({ caption, columns, rows, outdated = false }: Table) {
-  const cells = ([first, ...others]: unknown[]) =>
+export function figureTable({ caption, columns, rows, outdated = false }: FigureTable) {
+  const rowCells = ([first, ...others]: unknown[]) =>
     others.length === 0
-      ? html`<td colspan=${columns.length - 1}>${symbols(first)}</td>`
-      : [first, ...others].map((cell) => html`<td>${symbols(cell)}</td>`);
+      ? html`<td colspan=${columns.length - 1}>${untranslated(first)}</td>`
+      : [first, ...others].map((cell) => html`<td>${untranslated(cell)}</td>`);
   return html`<table part="table" class=${outdated ? 'outdated' : nothing}>
     ${caption ? html`<caption>${caption}</caption>` : nothing}
     <thead>
@@ -184,7 +184,7 @@ export function figureTable({ caption, columns, rows, outdated = false }: Table)
       ${rows.map(
         ([name, ...row]) => html`<tr>
           <th scope="row">${name}</th>
-          ${cells(row)}
+          ${rowCells(row)}
         </tr>`,
       )}
     </tbody>

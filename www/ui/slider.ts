@@ -1,4 +1,4 @@
-/** Slider with its label, an editable value, and one line about its effect on the picture. */
+/** Slider with a label, an editable value, and a line of text about its effect on the picture. */
 
 import { css, html, noChange, nothing, unsafeCSS } from 'lit';
 import { Directive, directive } from 'lit/directive.js';
@@ -6,7 +6,7 @@ import { live } from 'lit/directives/live.js';
 import { inputOf } from './controls.ts';
 
 /** Returns the styles of the track and thumb of a slider, whose pseudo-elements have other names in each browser. */
-const partsOf = (track: string, thumb: string) => unsafeCSS(`
+const trackAndThumb = (track: string, thumb: string) => unsafeCSS(`
   input[type='range']::${track} {
     height: 2px;
     background: var(--track, var(--muted));
@@ -155,8 +155,8 @@ export const sliderStyles = css`
     touch-action: pan-y;
   }
 
-  ${partsOf('-webkit-slider-runnable-track', '-webkit-slider-thumb')}
-  ${partsOf('-moz-range-track', '-moz-range-thumb')}
+  ${trackAndThumb('-webkit-slider-runnable-track', '-webkit-slider-thumb')}
+  ${trackAndThumb('-moz-range-track', '-moz-range-thumb')}
 
   /* Chromium and WebKit put the top of the thumb on the top of the track. Firefox centres the thumb. */
   input[type='range']::-webkit-slider-thumb {
@@ -174,40 +174,40 @@ export const sliderStyles = css`
 `;
 
 /** Movement (CSS pixels) below which the direction of a touch is undecided. */
-const SLOP = 8;
+const MIN_TOUCH_MOVE = 8;
 
 /**
- * Begin of a touch on a slider, while its direction is undecided. A vertical movement scrolls the page and changes nothing; a horizontal one
- * or a tap sets the slider.
+ * Event that began a touch on a slider, while its direction is undecided. A vertical movement scrolls the page and changes nothing; a
+ * horizontal movement or a tap sets the slider.
  */
-let undecided: PointerEvent | undefined;
+let undecidedTouch: PointerEvent | undefined;
 
-const decide = () => (undecided = undefined);
+const endTouch = () => (undecidedTouch = undefined);
 
 function beginTouch(event: PointerEvent) {
-  undecided = event.pointerType === 'touch' ? event : undefined;
+  undecidedTouch = event.pointerType === 'touch' ? event : undefined;
   // An element that is removed during a touch gets no pointerup.
-  for (const end of ['pointerup', 'pointercancel']) addEventListener(end, decide, { once: true });
+  for (const end of ['pointerup', 'pointercancel']) addEventListener(end, endTouch, { once: true });
 }
 
 /** First character of a number that is typed on a slider. */
-const BEGINS_A_NUMBER = /^[\d.,+\-\u2212]$/;
+const NUMBER_START = /^[\d.,+\-\u2212]$/;
 
 /**
- * Returns a slider row. Its value is a field as well: a typed value may lie beyond the slider. Tab passes the field by; Enter or the first
- * digit leads from the slider into it, Enter and Escape lead back.
+ * Returns a slider row. The printed value is also a text field, in which a value beyond the slider may be typed. Tab skips the field. Enter
+ * or a digit on the slider moves the focus into the field; Enter and Escape move it back.
  */
 export function sliderRow(row: SliderRow) {
-  const shown = row.show(row.value);
-  const longest = [row.show(row.min), row.show(row.max)].reduce((one, other) => (other.length > one.length ? other : one), shown);
+  const printedValue = row.show(row.value);
+  const longText = [row.show(row.min), row.show(row.max)].reduce((one, other) => (other.length > one.length ? other : one), printedValue);
   return html`
     <div class="slider ${row.off ? 'off' : ''} ${row.refusal ? 'refused' : ''}" part="slider" data-role=${row.role}>
       ${row.pick ?? nothing}
       <label for=${row.id} id="${row.id}-name">${row.symbol ? html`<bdi class="symbol notranslate" translate="no">${row.symbol}</bdi>` : nothing}${row.name}</label>
-      ${track({ ...row, ...positionsOf(row), name: undefined, text: shown, describedBy: `${row.id}-effect`, keydown: leadIntoField })}
-      <span class="value notranslate" translate="no" dir="ltr" data-longest=${longest}>
-        <span class="printed">${shown}</span>
-        ${field(row, shown)}
+      ${track({ ...row, ...stopPositions(row), name: undefined, text: printedValue, describedBy: `${row.id}-effect`, keydown: focusField })}
+      <span class="value notranslate" translate="no" dir="ltr" data-longest=${longText}>
+        <span class="printed">${printedValue}</span>
+        ${valueField(row, printedValue)}
       </span>
       <p class="effect" id="${row.id}-effect" role=${row.refusal ? 'alert' : nothing}>${row.refusal || row.effect}</p>
     </div>
@@ -248,15 +248,15 @@ export interface SliderRow extends Range {
   type: (text: string) => string | undefined;
   /** Sentence about a refused text. */
   refusal?: string;
-  /** Called when something else matters more than the refused text. */
+  /** Clears the sentence about a refused text. */
   forget: () => void;
 }
 
 /** Returns the range of a slider over stops, whose positions are the indices of the stops. A value beyond the last stop has the position after it. */
-function positionsOf({ stops, value, input }: SliderRow): Partial<Range> {
+function stopPositions({ stops, value, input }: SliderRow): Partial<Range> {
   if (!stops) return {};
-  const index = stops.findIndex((stop) => stop >= value);
-  return { min: 0, max: stops.length - 1, step: 1, value: index < 0 ? stops.length : index, input: (at) => input(stops[at]) };
+  const stopIndex = stops.findIndex((stop) => stop >= value);
+  return { min: 0, max: stops.length - 1, step: 1, value: stopIndex < 0 ? stops.length : stopIndex, input: (at) => input(stops[at]) };
 }
 
 interface Track extends Range {
@@ -269,21 +269,21 @@ interface Track extends Range {
   keydown?: (event: KeyboardEvent) => void;
 }
 
-/** Returns the track of a slider. A finger that goes up or down over it scrolls the page. */
+/** Returns the track of a slider. A finger that moves up or down over it scrolls the page. */
 export function track({ id, name, min, max, step, value, text, describedBy, keydown, input, commit }: Track) {
   // A browser sets a slider as soon as it is touched. Rendering keeps that value until the touch is a tap or scrolls.
-  const set = (event: Event) => {
-    if (!undecided) input(inputOf(event).valueAsNumber);
+  const setValue = (event: Event) => {
+    if (!undecidedTouch) input(inputOf(event).valueAsNumber);
   };
-  const move = (event: PointerEvent) => {
-    const across = Math.abs(event.clientX - (undecided?.clientX ?? NaN));
-    if (across > SLOP && across > Math.abs(event.clientY - (undecided?.clientY ?? NaN))) decide();
-    if (event.pointerType === 'touch') set(event);
+  const moveTouch = (event: PointerEvent) => {
+    const horizontalMove = Math.abs(event.clientX - (undecidedTouch?.clientX ?? NaN));
+    if (horizontalMove > MIN_TOUCH_MOVE && horizontalMove > Math.abs(event.clientY - (undecidedTouch?.clientY ?? NaN))) endTouch();
+    if (event.pointerType === 'touch') setValue(event);
   };
-  const end = (event: PointerEvent) => {
-    if (!undecided) return;
-    decide();
-    if (event.type === 'pointerup') set(event);
+  const endPointer = (event: PointerEvent) => {
+    if (!undecidedTouch) return;
+    endTouch();
+    if (event.type === 'pointerup') setValue(event);
     else inputOf(event).value = String(value);
   };
   return html`<input
@@ -292,22 +292,22 @@ export function track({ id, name, min, max, step, value, text, describedBy, keyd
     min=${min}
     max=${max}
     step=${step}
-    .value=${undecided ? noChange : live(String(value))}
+    .value=${undecidedTouch ? noChange : live(String(value))}
     aria-label=${name ?? nothing}
     aria-valuetext=${text}
     aria-describedby=${describedBy ?? nothing}
     @keydown=${keydown}
     @pointerdown=${beginTouch}
-    @pointermove=${move}
-    @pointerup=${end}
-    @pointercancel=${end}
-    @input=${set}
+    @pointermove=${moveTouch}
+    @pointerup=${endPointer}
+    @pointercancel=${endPointer}
+    @input=${setValue}
     @change=${commit}
   />`;
 }
 
 /** Keeps the text of a field while the reader types, because a slow picture is drawn after further keys. */
-const untilTyped = directive(
+const keepWhileTyping = directive(
   class extends Directive {
     render(shown: string) {
       return shown;
@@ -315,31 +315,31 @@ const untilTyped = directive(
 
     update({ element }: import('lit').PropertyPart, [shown]: [string]) {
       const input = element as HTMLInputElement;
-      const isHere = input.matches(':focus');
-      if (isHere && input.value !== input.defaultValue) return noChange;
+      const isFocused = input.matches(':focus');
+      if (isFocused && input.value !== input.defaultValue) return noChange;
       if (input.value !== shown) input.value = shown;
-      if (isHere) input.defaultValue = shown;
+      if (isFocused) input.defaultValue = shown;
       return noChange;
     }
   },
 );
 
-function field({ id, keys, type, forget }: Pick<SliderRow, 'id' | 'keys' | 'type' | 'forget'>, shown: string) {
+function valueField({ id, keys, type, forget }: Pick<SliderRow, 'id' | 'keys' | 'type' | 'forget'>, shown: string) {
   /** Takes the typed text; returns true if it became the value. */
-  const take = (input: HTMLInputElement): boolean => {
+  const applyText = (input: HTMLInputElement): boolean => {
     // The default is the text at the time of focus.
     if (input.value === input.defaultValue) return true;
-    const now = type(input.value);
-    input.value = input.defaultValue = now ?? input.defaultValue;
-    return now !== undefined;
+    const appliedText = type(input.value);
+    input.value = input.defaultValue = appliedText ?? input.defaultValue;
+    return appliedText !== undefined;
   };
-  const key = (event: KeyboardEvent) => {
+  const handleKey = (event: KeyboardEvent) => {
     const input = inputOf(event);
     if (event.key === 'Escape') input.value = input.defaultValue = shown;
     else if (event.key !== 'Enter') return;
     // Prevents other effects of the key.
     event.preventDefault();
-    if (take(input)) controlOf(input, 'input[type=range]').focus();
+    if (applyText(input)) controlOfRow(input, 'input[type=range]').focus();
     else input.select();
   };
   return html`<input
@@ -352,29 +352,29 @@ function field({ id, keys, type, forget }: Pick<SliderRow, 'id' | 'keys' | 'type
     spellcheck="false"
     aria-labelledby="${id}-name"
     aria-describedby="${id}-effect"
-    .value=${untilTyped(shown)}
+    .value=${keepWhileTyping(shown)}
     @focus=${(event: Event) => {
       const input = inputOf(event);
       input.defaultValue = input.value;
       input.select();
     }}
     @input=${forget}
-    @keydown=${key}
-    @blur=${(event: Event) => take(inputOf(event))}
+    @keydown=${handleKey}
+    @blur=${(event: Event) => applyText(inputOf(event))}
   />`;
 }
 
-/** Moves the focus from a slider to its field, with the pressed key; all of its text is selected. */
-function leadIntoField(event: KeyboardEvent) {
+/** Moves the focus from a slider to its field and selects the field's text, so that the pressed key replaces it. */
+function focusField(event: KeyboardEvent) {
   const { key, ctrlKey, altKey, metaKey } = event;
-  if (ctrlKey || altKey || metaKey || (key !== 'Enter' && !BEGINS_A_NUMBER.test(key))) return;
+  if (ctrlKey || altKey || metaKey || (key !== 'Enter' && !NUMBER_START.test(key))) return;
   const slider = inputOf(event);
   // Digits select presets in a presentation.
   if (/\d/.test(key) && (slider.getRootNode() as any).host?.presentation) return;
   if (key === 'Enter') event.preventDefault();
   event.stopPropagation();
-  controlOf(slider, '.typed').focus();
+  controlOfRow(slider, '.typed').focus();
 }
 
 /** Returns a control of the row that an element is in. */
-const controlOf = (element: Element, selector: string) => (element.closest('.slider') as Element).querySelector(selector) as HTMLInputElement;
+const controlOfRow = (element: Element, selector: string) => (element.closest('.slider') as Element).querySelector(selector) as HTMLInputElement;

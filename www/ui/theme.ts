@@ -14,8 +14,8 @@ import { css, unsafeCSS } from 'lit';
 const ROLES = ['paper', 'ink', 'muted', 'rule', 'prior', 'prediction', 'cloud', 'truth', 'posterior', 'accent'] as const;
 
 /**
- * Styles of a pseudo-element that gives a figure the width of a book's column in a box that fits its contents. It has two dots with a wide
- * space between them, at which the line breaks in a narrower box.
+ * Styles of a pseudo-element that gives a figure the width of a book's column in a box that fits its contents. The element has two dots
+ * with a wide space between them, at which the line breaks in a narrower box.
  */
 export const preferredWidth =
   "content:'. .';display:block;height:0;overflow:hidden;visibility:hidden;white-space:normal;word-spacing:44em";
@@ -227,32 +227,32 @@ export const theme = css`
 /** Returns the palette of an element with its current style. */
 export function resolvePalette(surface: HTMLElement) {
   // One probe for each role. All are created before the first is read, so that the browser computes styles once.
-  const swatches = ROLES.map((role) => {
-    const swatch = document.createElement('span');
-    swatch.hidden = true;
-    swatch.style.color = `var(--${role})`;
-    // In forced colours, too, the roles keep their hues.
-    swatch.style.forcedColorAdjust = 'none';
-    return swatch;
+  const colourProbes = ROLES.map((role) => {
+    const colourProbe = document.createElement('span');
+    colourProbe.hidden = true;
+    colourProbe.style.color = `var(--${role})`;
+    // The roles keep their hues in forced colours, too.
+    colourProbe.style.forcedColorAdjust = 'none';
+    return colourProbe;
   });
-  surface.append(...swatches);
-  const colours = swatches.map((swatch, i) => {
+  surface.append(...colourProbes);
+  const colours = colourProbes.map((swatch, i) => {
     const { color } = getComputedStyle(swatch);
     // Mixed colours are serialized in notations that few programs read.
-    return [ROLES[i], /^rgb/.test(color) ? color : `rgb(${channels(color)})`];
+    return [ROLES[i], /^rgb/.test(color) ? color : `rgb(${colourChannels(color)})`];
   });
-  for (const swatch of swatches) swatch.remove();
+  for (const colourProbe of colourProbes) colourProbe.remove();
   return Object.fromEntries(colours) as Palette;
 }
 
-let pixel: OffscreenCanvasRenderingContext2D | undefined;
+let pixelContext: OffscreenCanvasRenderingContext2D | undefined;
 
 /** Returns red, green and blue from 0 to 255 of colours in any CSS notation, each painted over the previous ones. */
-export function channels(...colours: string[]): [number, number, number] {
+export function colourChannels(...colours: string[]): [number, number, number] {
   // Browsers serialize most colours in this notation.
-  const plain = colours.at(-1)?.match(/^rgb\((\d+), (\d+), (\d+)\)$/);
-  if (plain) return [Number(plain[1]), Number(plain[2]), Number(plain[3])];
-  const context = (pixel ??= (
+  const plainColour = colours.at(-1)?.match(/^rgb\((\d+), (\d+), (\d+)\)$/);
+  if (plainColour) return [Number(plainColour[1]), Number(plainColour[2]), Number(plainColour[3])];
+  const context = (pixelContext ??= (
     new OffscreenCanvas(1, 1).getContext('2d', { willReadFrequently: true }) as OffscreenCanvasRenderingContext2D
   ));
   context.clearRect(0, 0, 1, 1);

@@ -1,8 +1,8 @@
 /** <alpha-calibrator>: the α's of a log, how well they are known, and whether the model is any good. */
 
 import { html } from 'lit';
-import { object } from '../../figure/checks.ts';
-import { canvas, disclosures, panel } from '../../figure/controls.ts';
+import { asObject } from '../../figure/checks.ts';
+import { canvas, disclosures, titledPicture } from '../../figure/controls.ts';
 import { FigureElement } from '../../figure/figure.ts';
 import { legend } from '../../figure/overlays.ts';
 import { define } from '../../figure/reflection.ts';
@@ -11,7 +11,7 @@ import { words } from '../../messages/registry.ts';
 import { pointOn } from '../../scene/canvas.ts';
 import { Memo } from '../../scene/memo.ts';
 import { group } from '../../ui/controls.ts';
-import { counted } from '../../ui/format.ts';
+import { integer } from '../../ui/format.ts';
 import { startOverButton } from '../shared/presets.ts';
 import { legControls, legLengths, legReadouts, modelControls, predictionControls } from './controls.ts';
 import { diagnostics, panels } from './diagnostics.ts';
@@ -144,7 +144,7 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
 
   set log(log) {
     this.reflection.setProperty('log', log, (given) => {
-      if (given !== null) object('log', given, LOG_KEYS);
+      if (given !== null) asObject('log', given, LOG_KEYS);
       this.service.stop();
       this.open(given, []).then(() => this.reflection.updateAttributes(), this.#report);
     });
@@ -232,9 +232,9 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
       ${dropZone(this, this.#opener)}
       <div class="views">
         <p part="caption" class="caption verdict">${this.renderer.afterFirstPicture(() => verdictLine(this))}</p>
-        ${panel(say.path, html`<div class="stage" part="picture" @click=${this.#press}>${canvas(this, this.#path, wayText(reading, chosen))}</div>`)}
+        ${titledPicture(say.path, html`<div class="stage" part="picture" @click=${this.#press}>${canvas(this, this.#path, wayText(reading, chosen))}</div>`)}
         <div class="one">
-          ${panel(say.oneLeg(counted(chosen + 1)), html`<div class="stage">${canvas(this, this.#legPicture, legText(this.predicted, chosen))}</div>`)}
+          ${titledPicture(say.oneLeg(integer(chosen + 1)), html`<div class="stage">${canvas(this, this.#legPicture, legText(this.predicted, chosen))}</div>`)}
           ${this.renderer.afterFirstPicture(() => html`<div class="looked">${legControls(this)}</div>`)}
         </div>
         ${this.renderer.afterFirstPicture(() => html`
@@ -257,7 +257,7 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
           ${group(say.systematic.title, systematicTable(this))}
           ${group(say.own.title, logSection(this))}
           ${predictionControls(this)}`,
-        numbers: () => html`${group(say.oneLeg(counted(chosen + 1)), legReadouts(this))}
+        numbers: () => html`${group(say.oneLeg(integer(chosen + 1)), legReadouts(this))}
           ${diagnostics(this)}
           ${group(say.panels.title, panels(this))}
           ${group(say.nav2.title, nav2(this))}`,

@@ -1,10 +1,10 @@
 /** Controls of the Alpha Calibrator: the leg that is shown, the model, and the length of legs. */
 
 import { html } from 'lit';
-import { choices, editableSlider, slider } from '../../figure/controls.ts';
+import { radios, editableSlider, settingSlider } from '../../figure/controls.ts';
 import { words } from '../../messages/registry.ts';
 import { button, group, radioGroup } from '../../ui/controls.ts';
-import { NOTHING, counted, fixed, typed } from '../../ui/format.ts';
+import { NO_VALUE, integer, fixed, formatEditable } from '../../ui/format.ts';
 import { readoutList } from '../../ui/readouts.ts';
 import { observedOf } from './reading.ts';
 import { modelRuleOf, settingsFor } from './settings.ts';
@@ -24,7 +24,7 @@ export function legControls(figure: Figure) {
         min: 1,
         max: Math.max(2, legs.count),
         step: 1,
-        show: counted,
+        show: integer,
         effect: undefined,
         role: 'truth',
         off: legs.count < 2,
@@ -41,29 +41,29 @@ export function legReadouts({ reading: { legs }, chosen, predicted: leg }: Figur
   return readoutList([
     [say.off, `${fixed(off, 3)} m`],
     [say.squared(String(observedOf(legs.residuals, chosen))), fixed(leg ? legs.squared[chosen] : NaN, 1)],
-    [say.outlier, leg ? say.isOutlier[legs.outliers[chosen] > 0 ? 'yes' : 'no'] : NOTHING],
+    [say.outlier, leg ? say.isOutlier[legs.outliers[chosen] > 0 ? 'yes' : 'no'] : NO_VALUE],
   ]);
 }
 
 export function modelControls(figure: Figure) {
   const { fit, settings: { model }, kinds, outliers } = words.calibrator;
-  const show = (seconds: number) => (seconds > 0 ? `${typed(seconds, 2)} s` : NOTHING);
+  const show = (seconds: number) => (seconds > 0 ? `${formatEditable(seconds, 2)} s` : NO_VALUE);
   const choose = (kind: import('./settings.ts').ModelRule) => figure.gesture.decide(settingsFor(kind));
   return group(fit, html`${radioGroup(model.name, 'kind', kinds, modelRuleOf(figure.settings.wanted as any), choose)}
-    ${choices(figure, 'outliers', outliers)} ${slider(figure, 'duration', { show })}`, 'fit');
+    ${radios(figure, 'outliers', outliers)} ${settingSlider(figure, 'duration', { show })}`, 'fit');
 }
 
 export function predictionControls(figure: Figure) {
-  return group(words.calibrator.prediction, html`${choices(figure, 'noise', words.noises)} ${slider(figure, 'inflation')}`, 'fit');
+  return group(words.calibrator.prediction, html`${radios(figure, 'noise', words.noises)} ${settingSlider(figure, 'inflation')}`, 'fit');
 }
 
 export function legLengths(figure: Figure) {
   const off = figure.settings.wanted.duration > 0;
-  return group(words.calibrator.leg.group, html`<div class="controls">${slider(figure, 'distance', { off })} ${slider(figure, 'angle', { off })}</div>`);
+  return group(words.calibrator.leg.group, html`<div class="controls">${settingSlider(figure, 'distance', { off })} ${settingSlider(figure, 'angle', { off })}</div>`);
 }
 
 export function referenceNoise(figure: Figure) {
   const row = (key: string, unit: string) =>
-    slider(figure, key, { show: (std: number) => (std > 0 ? `${typed(std, 3)} ${unit}` : words.calibrator.estimated) });
+    settingSlider(figure, key, { show: (std: number) => (std > 0 ? `${formatEditable(std, 3)} ${unit}` : words.calibrator.estimated) });
   return html`<div class="controls">${row('positionStd', 'm')} ${row('yawStd', 'rad')}</div>`;
 }

@@ -2,8 +2,8 @@
 
 import { html } from 'lit';
 import { words } from '../../messages/registry.ts';
-import { button, group, radioGroup, rich } from '../../ui/controls.ts';
-import { NOTHING, counted, fixed, percent, rounded } from '../../ui/format.ts';
+import { button, group, radioGroup, formatMarkup } from '../../ui/controls.ts';
+import { NO_VALUE, integer, fixed, percent, rounded } from '../../ui/format.ts';
 import { plot, type Curve } from '../../ui/plot.ts';
 import { figureTable, readoutList } from '../../ui/readouts.ts';
 import { subscript } from '../shared/sliders.ts';
@@ -41,7 +41,7 @@ function windowsTable({ reading: { stats: { diagnostics: { windows } } } }: Figu
   return figureTable({
     caption: say.caption,
     columns: [say.length, say.count, say.coverage, say.nees],
-    rows: windows.map(({ length, count, coverage, nees }) => [`${counted(length)} m`, counted(count), percent(coverage), fixed(nees, 2)]),
+    rows: windows.map(({ length, count, coverage, nees }) => [`${integer(length)} m`, integer(count), percent(coverage), fixed(nees, 2)]),
   });
 }
 
@@ -56,7 +56,7 @@ function noiseTable({ reading: { stats: { referenceNoise: { positionStd, yawStd 
       row(`${settings.positionStd.name} (m)`, positionStd),
       row(`${settings.yawStd.name} (rad)`, yawStd),
       row(say.correlation, correlation),
-      [say.length, length > 0 ? `${rounded(length, 2)} m` : NOTHING, NOTHING],
+      [say.length, length > 0 ? `${rounded(length, 2)} m` : NO_VALUE, NO_VALUE],
     ],
   });
 }
@@ -65,14 +65,14 @@ function lostLegs({ reading: { stats: { lost }, legs } }: Figure) {
   const say = words.calibrator.lost;
   const causes = ['withoutReference', 'acrossBreaks', 'acrossPauses', 'standing'] as const;
   const outliers = legs.outliers.reduce((sum, is) => sum + is, 0);
-  return readoutList([...causes.map((cause) => [say[cause], counted(lost[cause])] as [string, string]), [say.outliers, counted(outliers)]]);
+  return readoutList([...causes.map((cause) => [say[cause], integer(lost[cause])] as [string, string]), [say.outliers, integer(outliers)]]);
 }
 
 function largestResiduals(figure: Figure) {
   const say = words.calibrator.largest;
   const { worst, legs } = figure.reading;
   return html`<div class="buttons" role="group" aria-label=${say.title}>
-    ${worst.map((leg) => button(say.leg(counted(leg + 1), legs.outliers[leg] > 0), () => figure.choose(leg), { pressed: leg === figure.chosen }))}
+    ${worst.map((leg) => button(say.leg(integer(leg + 1), legs.outliers[leg] > 0), () => figure.choose(leg), { pressed: leg === figure.chosen }))}
   </div>`;
 }
 
@@ -93,7 +93,7 @@ export function panels(figure: Figure) {
         ${noteOf(panel, reading)}
       </figure>`)}
     </div>
-    <figcaption>${rich(say.caption)}</figcaption></figure>`;
+    <figcaption>${formatMarkup(say.caption)}</figcaption></figure>`;
 }
 
 /** Returns the plot of a panel, with the name of its noise and of its axis of squared motion. */
@@ -113,7 +113,7 @@ function panelPlot({ alpha, x, y, error, slope, interval }: CalibrationPanel, ki
     { name: words.calibrator.alphas.interval, role: 'cloud', area: true, x: [0, last], y: [0, scaled(middle * last)], error: [0, scaled(((high - low) / 2) * last)] },
   ];
   return {
-    label: say.label(kind, String(alpha + 1), slope === null ? NOTHING : localized(alphaOrBound(slope, interval))),
+    label: say.label(kind, String(alpha + 1), slope === null ? NO_VALUE : localized(alphaOrBound(slope, interval))),
     x: { name: axis, from: 0, to: last },
     y: { name: `${kind}, ${say.axis}${unit && ` (${unit})`}`, from: scaled(from), to: scaled(highest) },
     curves: [...lines, { name: say.bins, role: 'ink', x: [], y: [] }],
@@ -126,7 +126,7 @@ function noteOf({ alpha, slope, interval }: CalibrationPanel, { fitted: { model 
   const { panels: say, alphas: { lacking } } = words.calibrator;
   if (slope !== null && !isZero(slope, interval)) return '';
   const name = subscript(alpha);
-  return html`<p class="note">${rich(slope === null ? say.noSlope(name) : say.zero(name, adviceOf(lacking, model, missingMotion(model, alpha)).drive))}</p>`;
+  return html`<p class="note">${formatMarkup(slope === null ? say.noSlope(name) : say.zero(name, adviceOf(lacking, model, missingMotion(model, alpha)).drive))}</p>`;
 }
 
 /**

@@ -3,10 +3,10 @@
  * their own.
  */
 
-import { stroke, type Brush } from '../../scene/canvas.ts';
+import { strokePath, type Brush } from '../../scene/canvas.ts';
 import { lineStyles } from '../../scene/draw.ts';
-import { LINES_A_STROKE, Layer, advance, strokeMany, type Painter } from '../../scene/layer.ts';
-import { channels } from '../../ui/theme.ts';
+import { LINES_PER_STROKE, Layer, drawStrokes, strokeMany, type Painter } from '../../scene/layer.ts';
+import { colourChannels } from '../../ui/theme.ts';
 import { CLASSES, LINES, type LineName } from './settings.ts';
 import type { CalibrationLegs } from '../../types.d.ts';
 
@@ -39,7 +39,7 @@ export function styleOf({ palette, highlight }: Pick<Brush, 'palette' | 'highlig
 }
 
 function between(one: string, other: string) {
-  const [from, to] = [channels(one), channels(other)];
+  const [from, to] = [colourChannels(one), colourChannels(other)];
   return `rgb(${from.map((value, i) => Math.round((value + to[i]) / 2))})`;
 }
 
@@ -54,12 +54,12 @@ export class PathLayer {
    */
   draw(brush: Brush, legs: CalibrationLegs, classes: Uint8Array, overlays: LineName[]): boolean {
     const { context, highlight, handles } = brush;
-    if ('vector' in context || legs.count <= MAX_UNCACHED_LEGS) return advance(drawPath(brush, legs, classes, overlays));
+    if ('vector' in context || legs.count <= MAX_UNCACHED_LEGS) return drawStrokes(drawPath(brush, legs, classes, overlays));
     const isOther = legs !== this.#legs;
     this.#legs = legs;
     return this.#layer.draw(brush, [legs, overlays, highlight], (painter) => {
       const strokes = drawPath(painter, legs, classes, overlays);
-      if (!isOther) advance(strokes);
+      if (!isOther) drawStrokes(strokes);
       return strokes;
     }, handles ? Infinity : STROKES_A_FRAME);
   }
@@ -86,7 +86,7 @@ function outlierEnds({ view }: Painter, { outliers, reference }: CalibrationLegs
 
 export function drawRings(brush: Painter, points: [number, number][]) {
   const { context } = brush;
-  stroke(context, styleOf(brush, 'outlier'), () => {
+  strokePath(context, styleOf(brush, 'outlier'), () => {
     for (const [x, y] of points) {
       context.moveTo(x + RING_RADIUS, y);
       context.arc(x, y, RING_RADIUS, 0, 2 * Math.PI);
@@ -122,7 +122,7 @@ function* odometryLines(view: Painter['view'], { count, odometry, reference }: C
     if (square === last) continue;
     last = square;
     line.push(point);
-    if (line.length <= LINES_A_STROKE) continue;
+    if (line.length <= LINES_PER_STROKE) continue;
     yield line;
     line = [point];
   }

@@ -1,8 +1,8 @@
 /** Pictures of the Alpha Calibrator: the path of the robot, and one leg in the frame of its start. */
 
 import { words } from '../../messages/registry.ts';
-import { clipped, drawAxes, lineKey } from '../../scene/axes.ts';
-import { drawDots, drawMark, drawOutline, drawOutlines, drawRobot } from '../../scene/draw.ts';
+import { clipToPlot, drawAxes, lineKey } from '../../scene/axes.ts';
+import { drawDots, drawSelectedSample, drawOutline, drawOutlines, drawRobot } from '../../scene/draw.ts';
 import { Picture, SamplesPicture } from '../../scene/picture.ts';
 import { View, extentAround, extentOf } from '../../scene/view.ts';
 import { CLASSES, LINES, type LineName } from './settings.ts';
@@ -48,12 +48,12 @@ export class PathPicture extends SamplesPicture<Scene> {
     });
     drawAxes(brush, { x: 'x (m)', y: 'y (m)' }, key);
     let isUnfinished = false;
-    clipped(brush, () => {
+    clipToPlot(brush, () => {
       isUnfinished = this.#layer.draw(brush, legs, classes, overlays);
       if (chosen < 0) return;
       const [fromX, fromY, , x, y, heading] = legs.reference.subarray(6 * chosen);
       drawOutline(brush, Float64Array.of(fromX, fromY, x, y), { colour: palette.ink, width: 3.25, dash: [] });
-      drawMark(brush, { x, y, heading }, palette.ink);
+      drawSelectedSample(brush, { x, y, heading }, palette.ink);
     });
     return isUnfinished;
   };
@@ -83,7 +83,7 @@ export class LegPicture extends Picture<Scene> {
       const style = styleOf(brush, name);
       return shows(name) ? [{ points, ...style, width: (WIDTH / LINES[name].width) * style.width }] : [];
     };
-    clipped(brush, () => {
+    clipToPlot(brush, () => {
       if (shows('predicted')) drawDots(brush, outcomes, { x: 0, y: 1, heading: null });
       drawOutlines(brush, [
         ...line('predicted', outline),
@@ -91,8 +91,8 @@ export class LegPicture extends Picture<Scene> {
         ...line('reference', Float64Array.of(0, 0, ended[0], ended[1])),
       ]);
       drawRobot(brush, { x: 0, y: 0, heading: 0, colour: palette.truth });
-      if (shows('odometry')) drawMark(brush, { x: read[0], y: read[1], heading: read[2] }, palette.prior);
-      if (shows('reference')) drawMark(brush, { x: ended[0], y: ended[1], heading: ended[2] }, palette.ink);
+      if (shows('odometry')) drawSelectedSample(brush, { x: read[0], y: read[1], heading: read[2] }, palette.prior);
+      if (shows('reference')) drawSelectedSample(brush, { x: ended[0], y: ended[1], heading: ended[2] }, palette.ink);
     });
   };
 }

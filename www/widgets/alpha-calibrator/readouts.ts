@@ -2,8 +2,8 @@
 
 import { html, nothing, svg } from 'lit';
 import { words } from '../../messages/registry.ts';
-import { rich } from '../../ui/controls.ts';
-import { NOTHING, powerOfTen, tick } from '../../ui/format.ts';
+import { formatMarkup } from '../../ui/controls.ts';
+import { NO_VALUE, powerOfTen, tick } from '../../ui/format.ts';
 import { subscript } from '../shared/sliders.ts';
 import { adviceOf, alphaOrBound, fixed } from './lines.ts';
 import { truthHolds, type Reading } from './reading.ts';
@@ -34,11 +34,11 @@ export function alphaTable(reading: Reading) {
   const axis = axisOf([...alphas, ...intervals.flatMap((interval) => interval ?? []), ...(truth ?? [])]);
   return html`<table class="alphas" part="table">
     <thead>
-      <tr><th scope="col">${rich(say.alpha)}</th><th scope="col">${truth ? trueHead() : say.noise}</th><th scope="col">${say.value}</th><th scope="col">${say.recommended}</th></tr>
+      <tr><th scope="col">${formatMarkup(say.alpha)}</th><th scope="col">${truth ? trueHead() : say.noise}</th><th scope="col">${say.value}</th><th scope="col">${say.recommended}</th></tr>
     </thead>
     <tbody>
       ${alphas.map((alpha, i) => html`<tr>
-        <th scope="row">${rich(`*α*${subscript(i)}`)}</th>
+        <th scope="row">${formatMarkup(`*α*${subscript(i)}`)}</th>
         ${alpha === null
           ? html`<td colspan="3"><div class="of">${noises[i]}</div><span class="unknown">${missingText(reading, i)}</span></td>`
           : html`<td class="chart"><div class="line"><div class="of">${noises[i]}</div>${whisker(axis, alpha, intervals[i], truth?.[i])}</div></td>
@@ -57,7 +57,7 @@ export function alphaTable(reading: Reading) {
 }
 
 function recommendedOf({ stats: { recommended, alphas, intervals } }: Reading, index: number) {
-  return recommended && alphas[index] !== null ? localized(alphaOrBound(alphas[index], intervals[index], recommended.inflation)) : NOTHING;
+  return recommended && alphas[index] !== null ? localized(alphaOrBound(alphas[index], intervals[index], recommended.inflation)) : NO_VALUE;
 }
 
 const fittedOf = ({ stats: { alphas, intervals } }: Reading, index: number) => localized(alphaOrBound(alphas[index], intervals[index]));
@@ -66,7 +66,7 @@ const fittedOf = ({ stats: { alphas, intervals } }: Reading, index: number) => l
 function missingText({ stats: { notIdentifiable }, fitted: { model } }: Reading, index: number) {
   const say = words.calibrator.alphas;
   const reason = notIdentifiable[index];
-  if (!reason) return NOTHING;
+  if (!reason) return NO_VALUE;
   const { lack, drive } = adviceOf(say.lacking, model, reason);
   return say.unknown(lack, drive);
 }
@@ -83,7 +83,7 @@ export function alphaTexts(reading: Reading) {
 
 function betweenOf({ stats: { intervals } }: Reading, index: number) {
   const interval = intervals[index];
-  return interval ? words.calibrator.alphas.between(localized(fixed(interval[0], interval)), localized(fixed(interval[1], interval))) : NOTHING;
+  return interval ? words.calibrator.alphas.between(localized(fixed(interval[0], interval)), localized(fixed(interval[1], interval))) : NO_VALUE;
 }
 
 /** Returns the head of the column of noises, with the symbol of the simulated value. */

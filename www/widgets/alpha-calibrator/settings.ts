@@ -1,6 +1,6 @@
 /** The Alpha Calibrator's settings: their attributes, their part of the state, and their sliders. */
 
-import { wholeNumber, word } from '../../figure/checks.ts';
+import { wholeNumber, checkedWord } from '../../figure/checks.ts';
 import { definitionOf } from '../../figure/definition.ts';
 import type { AlphaCalibratorSettings } from '../../types.d.ts';
 
@@ -77,6 +77,6 @@ export const definition = definitionOf('alpha-calibrator', {
   },
   own: {
     leg: { opening: null, check: (field, leg) => (leg === null ? null : wholeNumber(field, leg, 0, MOST_LEGS)) },
-    driver: { opening: REGRESSORS[0], check: (field, driver) => word(field, driver, REGRESSORS) },
+    driver: { opening: REGRESSORS[0], check: (field, driver) => checkedWord(field, driver, REGRESSORS) },
   },
 });

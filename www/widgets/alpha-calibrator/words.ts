@@ -1,7 +1,7 @@
 /** Texts of the Alpha Calibrator in the current language. */
 
 import { addEnglish, words } from '../../messages/registry.ts';
-import { counted, fixed, percent, powerOfTen } from '../../ui/format.ts';
+import { integer, fixed, percent, powerOfTen } from '../../ui/format.ts';
 import { en } from './en.ts';
 import { correctFirst, failedOf } from './lines.ts';
 import { uncorrectedText } from './systematic.ts';
@@ -29,9 +29,9 @@ export function judgementOf(reading: Reading, given: Warning[]) {
   if (legs.count === 0) return result(say.none, say.longer, ...warnings);
   const failed = failedOf(checks);
   const correction = recommended ? correctFirst(systematicErrors, say.nav2, localized) : [];
-  if (failed.length > 0) return result(say.failed(say.checks.names[failed[0].name], counted(failed.length), counted(checks.length)), ...warnings, messageOf(failed[0]), ...correction);
+  if (failed.length > 0) return result(say.failed(say.checks.names[failed[0].name], integer(failed.length), integer(checks.length)), ...warnings, messageOf(failed[0]), ...correction);
   if (verdict === 'unusable') return result(say.noAlpha, ...warnings);
-  return warnings.length > 0 ? result(warnings[0], ...warnings.slice(1), ...correction) : result(say.passed(counted(checks.length)), say.use, ...correction);
+  return warnings.length > 0 ? result(warnings[0], ...warnings.slice(1), ...correction) : result(say.passed(integer(checks.length)), say.use, ...correction);
 }
 
 /** Returns what a failed check means and what to do. */
@@ -40,7 +40,7 @@ export const messageOf = ({ name, passed, message }: CalibrationCheck) => (passe
 /** Prints the value of a check, or a limit of it. */
 export function checked(name: CalibrationCheck['name'], value: number) {
   if (!Number.isFinite(value)) return Number.isNaN(value) ? percent(value) : '∞';
-  return name === 'enough-legs' ? counted(value) : FRACTION_CHECKS.test(name) ? percent(value) : fixed(value, 3);
+  return name === 'enough-legs' ? integer(value) : FRACTION_CHECKS.test(name) ? percent(value) : fixed(value, 3);
 }
 
 /** Prints the values of a check that pass. */
@@ -54,9 +54,9 @@ export function reasonOf({ stats: { recommended, diagnostics: { checks, windows 
   const say = words.calibrator.recommended;
   if (!recommended) return say.none;
   const [{ count, coverage, nees }] = windows;
-  if (!checks.some(({ name }) => name === 'window-1m-covered')) return say.few(counted(count));
+  if (!checks.some(({ name }) => name === 'window-1m-covered')) return say.few(integer(count));
   const { inflation } = recommended;
-  return inflation === 1 ? say.covered(percent(coverage), counted(count)) : say.inflated(fixed(inflation, 2), percent(coverage), counted(count), fixed(nees, 2));
+  return inflation === 1 ? say.covered(percent(coverage), integer(count)) : say.inflated(fixed(inflation, 2), percent(coverage), integer(count), fixed(nees, 2));
 }
 
 export const noiseNames = (model: Reading['config']['model']) => words.alphas[model === 'velocity' ? 'velocity' : 'odometry'];
@@ -74,7 +74,7 @@ export function thousandths(highest: number): { scaled: (value: number) => numbe
 export function legsText({ legs }: Reading, log: string) {
   if (legs.count === 0) return '';
   const outliers = legs.outliers.reduce((sum, is) => sum + is, 0);
-  return words.calibrator.present(log, counted(legs.count), outliers > 0 ? counted(outliers) : '');
+  return words.calibrator.present(log, integer(legs.count), outliers > 0 ? integer(outliers) : '');
 }
 
 export function captionOf({ reading, warnings, logName }: Figure) {
@@ -85,11 +85,11 @@ export function captionOf({ reading, warnings, logName }: Figure) {
 export function wayText({ legs, classes }: Reading, chosen: number) {
   if (chosen < 0) return words.calibrator.noWay;
   const far = classes.reduce((sum, legClass) => sum + Number(legClass > 1), 0);
-  return words.calibrator.way(counted(legs.count), counted(far), counted(chosen + 1));
+  return words.calibrator.way(integer(legs.count), integer(far), integer(chosen + 1));
 }
 
 export function legText(leg: LegView | null, chosen: number) {
   if (!leg) return words.calibrator.noLeg;
   const [readX, readY, endX, endY] = [leg.read[0], leg.read[1], leg.ended[0], leg.ended[1]];
-  return words.calibrator.legText(counted(chosen + 1), fixed(readX, 3), fixed(readY, 3), fixed(endX, 3), fixed(endY, 3));
+  return words.calibrator.legText(integer(chosen + 1), fixed(readX, 3), fixed(readY, 3), fixed(endX, 3), fixed(endY, 3));
 }

@@ -1,10 +1,10 @@
 /** Controls of Arc Anatomy: the command, the noise, the heat map, the time along the arcs, and the lines of Table 5.1. */
 
 import { html, nothing } from 'lit';
-import { check, choices, sliders } from '../../figure/controls.ts';
+import { settingCheckbox, radios, sliders } from '../../figure/controls.ts';
 import { swatch } from '../../figure/overlays.ts';
 import { words } from '../../messages/registry.ts';
-import { button, group, rich } from '../../ui/controls.ts';
+import { button, group, formatMarkup } from '../../ui/controls.ts';
 import { fixed } from '../../ui/format.ts';
 import { track } from '../../ui/slider.ts';
 import { lineText } from './readouts.ts';
@@ -14,14 +14,14 @@ import type { ArcAnatomyElement as Figure } from './arc-anatomy.ts';
 export const commandControls = (figure: Figure) => group(words.command, sliders(figure, COMMAND));
 
 export const noiseControls = (figure: Figure) =>
-  group(words.noise, html`${choices(figure, 'noise', words.noises)} ${sliders(figure, ALPHAS)}`, 'alphas');
+  group(words.noise, html`${radios(figure, 'noise', words.noises)} ${sliders(figure, ALPHAS)}`, 'alphas');
 
 /** Returns the controls of the likelihood: the sign of the radius, and the heat map with the names of its contours. */
 export function likelihoodControls(figure: Figure) {
   const { likelihood, maps, printed } = words.anatomy;
   const { map } = figure.settings.wanted;
   const contour = (name: 'prob' | 'density') => html`<span>${swatch(CONTOURS[name])} ${maps[name]}</span>`;
-  return group(likelihood, html`${check(figure, 'printed', rich(printed))} ${choices(figure, 'map', maps)}
+  return group(likelihood, html`${settingCheckbox(figure, 'printed', formatMarkup(printed))} ${radios(figure, 'map', maps)}
     ${map === 'none' ? nothing : html`<p class="legend contours">${contour('prob')} ${contour('density')}</p>`}`);
 }
 
@@ -35,7 +35,7 @@ export function lineStepper(figure: Figure) {
   return html`<div class="stepper" role="group" aria-label=${say.label}>
     ${button(sign('‹', say.back), go(line - 1), { disabled: line === 0, title: say.back })}
     ${button(sign('›', say.on), go(line + 1), { disabled: line === TABLE_LINES, title: say.on })}
-    <p role="status">${line === 0 ? say.begin : rich(lineText(figure.reading, line))}</p>
+    <p role="status">${line === 0 ? say.begin : formatMarkup(lineText(figure.reading, line))}</p>
   </div>`;
 }
 

@@ -1,9 +1,9 @@
 /** Arc Anatomy's picture: the commanded arc, the arc that leads to the robot, and their construction. */
 
 import { words } from '../../messages/registry.ts';
-import { clipped, drawAxes } from '../../scene/axes.ts';
-import { addLine, drawDisc, stroke, strokeLine, type Brush, type LineStroke } from '../../scene/canvas.ts';
-import { drawOutlines, drawRobot, lineKeys, lineStyles, strokeLines, trace, densityRamp } from '../../scene/draw.ts';
+import { clipToPlot, drawAxes } from '../../scene/axes.ts';
+import { addLine, drawDisc, strokePath, strokeLine, type Brush, type LineStroke } from '../../scene/canvas.ts';
+import { drawOutlines, drawRobot, lineKeys, lineStyles, strokeLines, addPolyline, densityRamp } from '../../scene/draw.ts';
 import { drawLabel } from '../../scene/labels.ts';
 import { Memo } from '../../scene/memo.ts';
 import { Picture } from '../../scene/picture.ts';
@@ -77,7 +77,7 @@ export class ArcPicture extends Picture<Scene> {
     const shows = (name: LineName) => overlays.includes(name);
     const styles = lineStyles(brush, LINES);
     drawAxes(brush, { x: 'x (m)', y: 'y (m)' }, keyOf(brush, scene));
-    clipped(brush, () => {
+    clipToPlot(brush, () => {
       this.#surface.draw(brush, scene.machine, scene.config);
       const { commanded, inverted, driven, lastTurn } = stats;
       if (shows('commanded')) {
@@ -137,11 +137,11 @@ function drawCircle(brush: Brush, start: Pose, { center, end, turn, arcLength }:
   const ahead = view.direction(start.theta);
   const [offX, offY] = [1.5 * side * ahead.x, 1.5 * side * ahead.y];
   const seen = shareSeen(view.frame, [fromX, fromY], [x, y]);
-  stroke(context, { colour, width: 1.25, dash }, () => {
+  strokePath(context, { colour, width: 1.25, dash }, () => {
     addLine(context, [[fromX + offX, fromY + offY], [x + offX, y + offY]]);
     addLine(context, [[x, y], view.toPixel(end[0], end[1])]);
   });
-  stroke(context, { colour, width: 2 }, () => {
+  strokePath(context, { colour, width: 2 }, () => {
     addLine(context, [[x - CROSS_HALF, y], [x + CROSS_HALF, y]]);
     addLine(context, [[x, y - CROSS_HALF], [x, y + CROSS_HALF]]);
   });
@@ -166,7 +166,7 @@ function drawCircle(brush: Brush, start: Pose, { center, end, turn, arcLength }:
 
 /** Draws an arrow at a point in a direction (rad), downwards from the right. */
 function drawArrow(context: Brush['context'], colour: string, [x, y]: number[], way: number) {
-  stroke(context, { colour, width: 2.25 }, () => {
+  strokePath(context, { colour, width: 2.25 }, () => {
     for (const wing of [2.6, -2.6]) addLine(context, [[x + ARROW_LENGTH * Math.cos(way + wing), y + ARROW_LENGTH * Math.sin(way + wing)], [x, y]]);
   });
 }
@@ -211,8 +211,8 @@ function drawUnderway(brush: Brush, { underway, overlays }: Scene) {
 
 /** Draws the displacements by the lateral velocity of the constant twist, as short lines across its path. */
 function drawTwistTicks(brush: Brush, ticks: Float64Array, colour: string) {
-  stroke(brush.context, { colour, width: 1.25 }, () => {
-    for (let i = 0; i < ticks.length; i += 4) trace(brush, ticks.subarray(i, i + 4));
+  strokePath(brush.context, { colour, width: 1.25 }, () => {
+    for (let i = 0; i < ticks.length; i += 4) addPolyline(brush, ticks.subarray(i, i + 4));
   });
 }
 
@@ -243,7 +243,7 @@ function strokeAngle(context: Brush['context'], [x, y]: number[], [fromX, fromY]
   const first = Math.atan2(fromY - y, fromX - x);
   const radius = Math.min(MAX_ANGLE_RADIUS, 0.4 * Math.hypot(fromX - x, fromY - y));
   // In pixels y points down, so that a turn to the left is negative.
-  stroke(context, style, () => context.arc(x, y, radius, first, first - turn, turn > 0));
+  strokePath(context, style, () => context.arc(x, y, radius, first, first - turn, turn > 0));
 }
 
 /** Prints a radius with its sign: positive if the centre is to the left. */
@@ -264,8 +264,8 @@ class SurfaceLayer {
     this.#pixels.draw(brush);
     brush.context.globalAlpha = 0.7;
     for (const [lines, { role, width, dash }] of [[prob, CONTOURS.prob], [density, CONTOURS.density]] as const) {
-      stroke(brush.context, { colour: palette[role], width, dash }, () => {
-        for (const line of lines) trace(brush, line);
+      strokePath(brush.context, { colour: palette[role], width, dash }, () => {
+        for (const line of lines) addPolyline(brush, line);
       });
     }
     brush.context.globalAlpha = 1;

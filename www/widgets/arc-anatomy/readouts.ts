@@ -3,7 +3,7 @@
 import { html, nothing, svg } from 'lit';
 import { words } from '../../messages/registry.ts';
 import { clamp } from '../../ui/clamp.ts';
-import { rich } from '../../ui/controls.ts';
+import { formatMarkup } from '../../ui/controls.ts';
 import { fixed, powerOfTen } from '../../ui/format.ts';
 import { plot } from '../../ui/plot.ts';
 import { readoutList } from '../../ui/readouts.ts';
@@ -37,10 +37,10 @@ export function factorBars({ stats: { factors, weakest, share } }: Reading, line
     ${factors.map((factor, i) => {
       const { symbol, residual, unit } = FACTORS[i];
       return html`<li class=${i === weakest && share < 1 ? 'weakest' : nothing}>
-        <span class="estimate">${rich(symbol)} ${say.names[i]} = ${fixed(factor.estimate, 2)} ${unit}</span>
+        <span class="estimate">${formatMarkup(symbol)} ${say.names[i]} = ${fixed(factor.estimate, 2)} ${unit}</span>
         ${bar(factor)}
         <span class="keeps">${say.factor(shareText(factor.share))}</span>
-        <span class="off">${rich(residual)}/<i>σ</i> = ${fixed(factor.deviations, 1)}</span>
+        <span class="off">${formatMarkup(residual)}/<i>σ</i> = ${fixed(factor.deviations, 1)}</span>
       </li>`;
     })}
   </ul>`;
@@ -95,9 +95,9 @@ export function lineText({ table: { lines }, config: { printed } }: Reading, lin
 export function tableOf(reading: Reading, lit: number) {
   const say = words.anatomy.table;
   return html`<ol class="lines" part="table">
-      ${FORMULAS.map((_, i) => html`<li class=${i + 1 === lit ? 'lit' : nothing}>${rich(lineText(reading, i + 1))}</li>`)}
+      ${FORMULAS.map((_, i) => html`<li class=${i + 1 === lit ? 'lit' : nothing}>${formatMarkup(lineText(reading, i + 1))}</li>`)}
     </ol>
-    <p class="about">${rich(say.sign)}</p>`;
+    <p class="about">${formatMarkup(say.sign)}</p>`;
 }
 
 /** Range of errors in the plot, m: from below the last digit of the distance to more than all of it. */
@@ -124,6 +124,6 @@ export function formsPlot({ ArcAnatomy }: Motion) {
         { x: threshold, text: powerOfTen(Math.log10(threshold)) },
       ],
     })}
-    <figcaption>${rich(say.caption)}</figcaption>
+    <figcaption>${formatMarkup(say.caption)}</figcaption>
   </figure>`;
 }

@@ -1,9 +1,9 @@
 /** <banana-machine>: one command, thousands of outcomes, and the coordinates in which they are nearly a Gaussian. */
 
 import { html } from 'lit';
-import { object } from '../../figure/checks.ts';
+import { asObject } from '../../figure/checks.ts';
 import { enterCloud } from '../../figure/cloud.ts';
-import { canvas, cloudControls, disclosures, panel } from '../../figure/controls.ts';
+import { canvas, cloudControls, disclosures, titledPicture } from '../../figure/controls.ts';
 import { FigureElement } from '../../figure/figure.ts';
 import { legend } from '../../figure/overlays.ts';
 import { define } from '../../figure/reflection.ts';
@@ -13,7 +13,7 @@ import { openingAlphas } from '../../settings.js';
 import { hasLength } from '../../scene/draw.ts';
 import { Memo } from '../../scene/memo.ts';
 import { clamp } from '../../ui/clamp.ts';
-import { button, rich } from '../../ui/controls.ts';
+import { button, formatMarkup } from '../../ui/controls.ts';
 import { fixed } from '../../ui/format.ts';
 import { plot } from '../../ui/plot.ts';
 import { Player } from '../shared/player.ts';
@@ -144,7 +144,7 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
   }
 
   withDerivedFields(present: Values, given: Values) {
-    const alphas = object('state.alphas', given.alphas ?? {}, Object.keys(openingAlphas));
+    const alphas = asObject('state.alphas', given.alphas ?? {}, Object.keys(openingAlphas));
     return { ...super.withDerivedFields(present, given), alphas: { ...present.alphas, ...alphas } };
   }
 
@@ -225,10 +225,10 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
     const say = words.banana;
     return html`
       <div class="views">
-        ${panel(this.#title, html`<div class="stage" part="picture">
+        ${titledPicture(this.#title, html`<div class="stage" part="picture">
           ${canvas(this, this.#plane, this.#description)} ${this.#handle.render(config.command, this.cloud.asking)}
         </div>`)}
-        ${panel(say.twist, html`<div class="stage">${canvas(this, this.#twist, twistText(reading))}</div>`, 'twist')}
+        ${titledPicture(say.twist, html`<div class="stage">${canvas(this, this.#twist, twistText(reading))}</div>`, 'twist')}
       </div>
       ${this.renderer.afterFirstPicture(() => html`
       <div class="morphing">
@@ -250,9 +250,9 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
 
   #figures(reading: Reading) {
     const say = words.banana;
-    return html`${otherReadouts(reading)}<p>${rich(say.gainIs)}</p>
+    return html`${otherReadouts(reading)}<p>${formatMarkup(say.gainIs)}</p>
       <div class="figures" part="figures">
-        <figure>${this.#chart(reading)}<figcaption>${rich(say.chartCaption)}</figcaption></figure>
+        <figure>${this.#chart(reading)}<figcaption>${formatMarkup(say.chartCaption)}</figcaption></figure>
         <figure>${workedExample(reading)}</figure>
         <figure>${twistTable(reading)}<p>${twistCaption(reading)}</p></figure>
       </div>`;

@@ -1,10 +1,10 @@
 /** The Banana Machine's controls: the command, the noise and the overlays. */
 
 import { html, nothing } from 'lit';
-import { check, choices, slider, sliders } from '../../figure/controls.ts';
+import { settingCheckbox, radios, settingSlider, sliders } from '../../figure/controls.ts';
 import { words } from '../../messages/registry.ts';
-import { choice, group, toggle } from '../../ui/controls.ts';
-import { typed } from '../../ui/format.ts';
+import { radioButton, group, toggle } from '../../ui/controls.ts';
+import { formatEditable } from '../../ui/format.ts';
 import { alphaName } from './reading.ts';
 import { COMMAND } from './settings.ts';
 import type { BananaMachineElement as Figure } from './banana-machine.ts';
@@ -18,8 +18,8 @@ export function modelControls(figure: Figure) {
   const say = words.banana;
   // The index of the α begins at 1; the other model may have fewer.
   const chosen = Math.min(figure.state.own.isolateChoice, alphas.length);
-  return group(say.modelGroup, html`${choices(figure, 'model', say.models)} ${choices(figure, 'noise', words.noises)}
-    ${model === 'odometry' ? check(figure, 'reverseAware', say.reverseAware) : nothing}
+  return group(say.modelGroup, html`${radios(figure, 'model', say.models)} ${radios(figure, 'noise', words.noises)}
+    ${model === 'odometry' ? settingCheckbox(figure, 'reverseAware', say.reverseAware) : nothing}
     ${toggle({
       label: say.isolate,
       checked: isolate !== null,
@@ -51,11 +51,11 @@ function alphaSlider(figure: Figure, key: string, number: number, name: string, 
   const { isolate } = figure.reading.config;
   const off = isolate !== null && isolate !== number;
   const choose = () => figure.isolateAlpha(number);
-  return slider(figure, key, {
+  return settingSlider(figure, key, {
     name,
     off,
-    pick: isolate === null ? undefined : choice({ group: 'isolate', name: words.banana.only(alphaName(number - 1)), checked: !off, choose }),
-    show: (value) => (off ? words.banana.off(typed(value, 3)) : typed(value, 3)),
+    pick: isolate === null ? undefined : radioButton({ group: 'isolate', name: words.banana.only(alphaName(number - 1)), checked: !off, choose }),
+    show: (value) => (off ? words.banana.off(formatEditable(value, 3)) : formatEditable(value, 3)),
     effect: html`<span class="path">${path}:</span> ${picture}.`,
     input: (value) => {
       if (off) choose();

@@ -1,7 +1,7 @@
 /** Ring at the end of the commanded arc, which is dragged with a pointer or moved with keys. */
 
 import { words } from '../../messages/registry.ts';
-import { Handle, stepsOf } from '../../scene/handle.ts';
+import { Handle, stepsOfKey } from '../../scene/handle.ts';
 import { clamp } from '../../ui/clamp.ts';
 import { fixed } from '../../ui/format.ts';
 import { sliderSpecs } from './settings.ts';
@@ -15,7 +15,7 @@ export class ArcHandle extends Handle {
       view: () => figure.pictures[0].view,
       drag: (x, y) => figure.reach(x, y),
       key: (event) => {
-        const steps = stepsOf(event);
+        const steps = stepsOfKey(event);
         if (!steps) return false;
         const [x, y] = figure.runtime.attempt(() => figure.machine && figure.seenEnd) ?? [0, 0];
         // The straight arc reaches furthest.

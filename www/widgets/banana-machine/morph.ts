@@ -3,7 +3,7 @@
 import { ticks } from 'd3-array';
 import { html } from 'lit';
 import { words } from '../../messages/registry.ts';
-import { addLine, stroke, type Brush } from '../../scene/canvas.ts';
+import { addLine, strokePath, type Brush } from '../../scene/canvas.ts';
 import { View, type Extent } from '../../scene/view.ts';
 import { percent } from '../../ui/format.ts';
 import { track } from '../../ui/slider.ts';
@@ -140,7 +140,7 @@ export function drawLattice({ context, view, palette }: Brush, { extent: { xMin,
     const [along, heading] = at(i / CHORDS_PER_LINE);
     return view.toPixel(...placeOf([along, 0, heading], morph));
   }));
-  stroke(context, { colour: palette.rule, width: 1 }, () => {
+  strokePath(context, { colour: palette.rule, width: 1 }, () => {
     for (const along of ticks(xMin, xMax, GRID_LINES)) line((share) => [along, yMin + share * (yMax - yMin)]);
     for (const heading of ticks(yMin, yMax, GRID_LINES)) line((share) => [xMin + share * (xMax - xMin), heading]);
   });

@@ -1,21 +1,21 @@
 /** The Banana Machine's two pictures of the same robots: the floor from above, and exponential coordinates. */
 
 import { words } from '../../messages/registry.ts';
-import { clipped, drawAxes } from '../../scene/axes.ts';
+import { clipToPlot, drawAxes } from '../../scene/axes.ts';
 import { drawCallouts, type Callout } from '../../scene/callout.ts';
-import { densityRamp, drawDots, drawGhosts, drawHandle, drawHeap, drawMark, drawOutline, drawOutlines, drawRobot, hasLength, lineKeys, lineStyles } from '../../scene/draw.ts';
+import { densityRamp, drawDots, drawGhosts, drawHandle, drawRobotHeap, drawSelectedSample, drawOutline, drawOutlines, drawRobot, hasLength, lineKeys, lineStyles } from '../../scene/draw.ts';
 import { drawLabel } from '../../scene/labels.ts';
 import { Memo } from '../../scene/memo.ts';
 import { Picture } from '../../scene/picture.ts';
 import { Density } from '../../scene/pixels.ts';
 import { View, extentOf } from '../../scene/view.ts';
 import { clamp } from '../../ui/clamp.ts';
-import { counted } from '../../ui/format.ts';
+import { integer } from '../../ui/format.ts';
 import { drawLattice, MorphView, placeOf, type Outlines } from './morph.ts';
 import { deviation, type Reading } from './reading.ts';
 import { LINES, type LineName } from './settings.ts';
 import type { BananaMachine, Inspection, Moments } from '../../types.d.ts';
-import { addLine, drawDisc, stroke, type Brush } from '../../scene/canvas.ts';
+import { addLine, drawDisc, strokePath, type Brush } from '../../scene/canvas.ts';
 
 /**
  * Scene of both pictures. Outlines are transformed by the present morph. `morphedEllipse` is the ellipse after a complete morph. Callouts, and the
@@ -166,7 +166,7 @@ export class PlanePicture extends CloudPicture {
     const ghost = ghostOf(brush, scene);
     const earlier = ghost ? lines(scene.outlinesOf(ghost)) : [];
     const callouts = [...scene.callouts];
-    clipped(brush, () => {
+    clipToPlot(brush, () => {
       if (morph > 0 && morph < 1) drawLattice(brush, twist, morph);
       if (scene.driving) {
         drawDriving(brush, machine, scene.driving);
@@ -183,14 +183,14 @@ export class PlanePicture extends CloudPicture {
       callouts.push(...drawGhosts(brush, earlier, [middle, [0, 0]], ghostName(scene)));
       drawOutlines(brush, lines(outlines));
       if (overlays.command && scene.reading && morph === 0) drawReading(brush, scene.reading, end);
-      if (heaped && scene.shown > 0) drawHeap(brush, heapOf(this.places(scene), scene.shown));
+      if (heaped && scene.shown > 0) drawRobotHeap(brush, heapOf(this.places(scene), scene.shown));
       const [endX, endY] = outlines.command.slice(-2);
       drawHandle(brush, { x: view.toPixelX(endX), y: view.toPixelY(endY), radius: HANDLE_RADIUS, colour: palette.prior });
       if (marked) {
         const { pose, twist: at, path } = marked;
         if (morph === 0) drawOutline(brush, path, { colour: palette.accent, width: 1.25, dash: [6, 2] });
         const [x, y] = morph === 0 ? pose : placeOf(at, morph);
-        drawMark(brush, { x, y, heading: morph < 1 ? (1 - morph) * pose[2] : null });
+        drawSelectedSample(brush, { x, y, heading: morph < 1 ? (1 - morph) * pose[2] : null });
       }
     });
     if (callouts.length === 0) return;
@@ -232,13 +232,13 @@ function drawReading(brush: Brush, { rot1, trans, rot2 }: import('../../types.d.
   const last = view.direction(rot1 + rot2);
   const colour = palette.prior;
   const style = { colour, width: 1.5 };
-  stroke(context, style, () => {
+  strokePath(context, style, () => {
     // The heading at the start, the drive, and its continuation, from which the second rotation starts.
     addLine(context, [[fromX + TURN_LINE, fromY], [fromX, fromY], [toX, toY], [toX + TURN_LINE * ahead.x, toY + TURN_LINE * ahead.y]]);
     addLine(context, [[toX, toY], [toX + TURN_LINE * last.x, toY + TURN_LINE * last.y]]);
   });
   // On the screen y points down.
-  const turn = (x: number, y: number, from: number, by: number) => stroke(context, style, () => context.arc(x, y, TURN_RADIUS, -from, -from - by, by > 0));
+  const turn = (x: number, y: number, from: number, by: number) => strokePath(context, style, () => context.arc(x, y, TURN_RADIUS, -from, -from - by, by > 0));
   turn(fromX, fromY, 0, rot1);
   turn(toX, toY, rot1, rot2);
   const turned = (sub: string, atX: number, atY: number, heading: number) => {
@@ -256,7 +256,7 @@ function drawReading(brush: Brush, { rot1, trans, rot2 }: import('../../types.d.
 /** Returns robots that are all in one place, with the headings of the first. */
 function heapOf(poses: Float64Array, shown: number) {
   const headings = [...poses.subarray(0, 3 * MAX_RAYS)].filter((_, i) => i % 3 === 2);
-  return { x: poses[0], y: poses[1], headings, label: words.banana.robotsHere(shown, counted(shown)) };
+  return { x: poses[0], y: poses[1], headings, label: words.banana.robotsHere(shown, integer(shown)) };
 }
 
 /**
@@ -311,7 +311,7 @@ export class TwistPicture extends CloudPicture {
     const middle = middleOf(scene, 1);
     const ghost = ghostOf(brush, scene);
     const callouts: Callout[] = [];
-    clipped(brush, () => {
+    clipToPlot(brush, () => {
       if (scene.driving) return;
       this.paintCloud(brush, scene, 4 * Math.PI * areaOfTwists(scene) * view.scaleX * view.scaleY);
       if (overlays.exponential) {
@@ -322,7 +322,7 @@ export class TwistPicture extends CloudPicture {
         const { v, omega, dt } = config.command;
         drawDisc(context, view.toPixel(v * dt, omega * dt), 5, palette.paper, { ...command, dash: [] });
       }
-      if (marked) drawMark(brush, { x: marked.twist[0], y: marked.twist[2], heading: null });
+      if (marked) drawSelectedSample(brush, { x: marked.twist[0], y: marked.twist[2], heading: null });
     });
     drawCallouts(brush, callouts, { from: middle, lines: [contours.twistEllipse, Float64Array.of(...middle), ...(ghost ? [ghost.contours.twistEllipse] : [])] });
   };

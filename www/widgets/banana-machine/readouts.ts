@@ -3,8 +3,8 @@
 import { html } from 'lit';
 import { sampleField } from '../../figure/controls.ts';
 import { words } from '../../messages/registry.ts';
-import { rich } from '../../ui/controls.ts';
-import { NOTHING, counted, fixed, percent, significant, withError } from '../../ui/format.ts';
+import { formatMarkup } from '../../ui/controls.ts';
+import { NO_VALUE, integer, fixed, percent, significant, withError } from '../../ui/format.ts';
 import { figureTable, readoutList } from '../../ui/readouts.ts';
 import type { Inspection, Moments, Table } from '../../types.d.ts';
 import type { Reading } from './reading.ts';
@@ -23,16 +23,16 @@ export function readouts(reading: Reading, pinned?: Reading) {
   const before = pinned && valuesOf(pinned).map((value) => `${words.banana.pinned}: ${value}`);
   const shares = [coverage.ellipse, coverage.exponential];
   return readoutList([
-    [say.area, values[0], shares.every(Number.isNaN) ? NOTHING : say.areaDetail(Number.isNaN(areaRatioError) ? '' : significant(areaRatioError, 1), percent(shares[0]), percent(shares[1])), before?.[0]],
+    [say.area, values[0], shares.every(Number.isNaN) ? NO_VALUE : say.areaDetail(Number.isNaN(areaRatioError) ? '' : significant(areaRatioError, 1), percent(shares[0]), percent(shares[1])), before?.[0]],
     [gain.unbounded ? say.gainOnFloor : say.gain, values[1], gainText(gain), before?.[1]],
-    [say.skew, values[2], Number.isNaN(exactSkew) ? NOTHING : say.exactly(fixed(exactSkew, 3)), before?.[2]],
+    [say.skew, values[2], Number.isNaN(exactSkew) ? NO_VALUE : say.exactly(fixed(exactSkew, 3)), before?.[2]],
   ], 0);
 }
 
 /** Returns the area ratio, the gain and the skew as they are printed. */
 function valuesOf({ stats, gain }: Reading) {
   return [
-    Number.isNaN(stats.areaRatio) ? NOTHING : `${fixed(stats.areaRatio, 2)} ×`,
+    Number.isNaN(stats.areaRatio) ? NO_VALUE : `${fixed(stats.areaRatio, 2)} ×`,
     withError(gain.value, gain.error, 3),
     withError(stats.crossTrackSkew, stats.crossTrackSkewError, 3),
   ];
@@ -41,7 +41,7 @@ function valuesOf({ stats, gain }: Reading) {
 /** Returns the exact gain, or the reason why it has no limit. */
 function gainText({ unbounded, value, exact, wraps }: Reading['gain']) {
   const { withoutLimit, onLine, exactly, unwrapped, nat } = words.banana.readouts;
-  if (Number.isNaN(value)) return NOTHING;
+  if (Number.isNaN(value)) return NO_VALUE;
   if (value === Infinity) return onLine;
   if (unbounded) return withoutLimit;
   if (Number.isNaN(exact)) return nat;
@@ -52,7 +52,7 @@ export function otherReadouts({ config, stats, table }: Reading) {
   const say = words.banana.readouts;
   const { nOfAll } = words.banana;
   return readoutList([
-    [say.robots, nOfAll(counted(stats.n), counted(config.samples))],
+    [say.robots, nOfAll(integer(stats.n), integer(config.samples))],
     [say.gaussian, fixed(stats.gaussianSkew, 3)],
     [say.rho, fixed(stats.rhoCrossHeading, 3)],
     [say.exactArea, fixed(table.exact.areaRatio, 3)],
@@ -97,9 +97,9 @@ export function workedExample({ table: { linearized, exact, measured }, stats }:
   const measuredSkew = html`${skew} <br />${error.join(' ') || '\u00a0'}`;
   const say = words.banana.table;
   const rows: [unknown, (column: Table['exact']) => number, unknown?][] = [
-    [rich(say.mean('*x*')), ({ mean }) => mean[0]],
-    [rich(say.mean('*y*')), ({ mean }) => mean[1]],
-    [rich(say.mean('*θ*')), ({ mean }) => mean[2]],
+    [formatMarkup(say.mean('*x*')), ({ mean }) => mean[0]],
+    [formatMarkup(say.mean('*y*')), ({ mean }) => mean[1]],
+    [formatMarkup(say.mean('*θ*')), ({ mean }) => mean[2]],
     [covarianceName('xx'), ({ cov }) => cov[0][0]],
     [covarianceName('yy'), ({ cov }) => cov[1][1]],
     [covarianceName('xy'), ({ cov }) => cov[0][1]],
@@ -130,8 +130,8 @@ export function twistTable({ table: { tangent }, stats: { exponential } }: Readi
     caption: say.twistCaption,
     columns: [say.quantity, say.command, say.measured],
     rows: rows.map(([name, of]) => [
-      rich(name),
-      tangent === null ? NOTHING : significant(of(tangent), DIGITS),
+      formatMarkup(name),
+      tangent === null ? NO_VALUE : significant(of(tangent), DIGITS),
       significant(of(exponential), MEASURED_DIGITS),
     ]),
   });

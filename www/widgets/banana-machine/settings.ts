@@ -1,6 +1,6 @@
 /** The Banana Machine's settings: their attributes, their part of the state, and their sliders. */
 
-import { NUMBER } from '../../figure/attributes.ts';
+import { NUMBER_CONVERTER } from '../../figure/attributes.ts';
 import { wholeNumber } from '../../figure/checks.ts';
 import { definitionOf } from '../../figure/definition.ts';
 import { openingAlphas } from '../../settings.js';
@@ -39,7 +39,7 @@ export const definition = definitionOf('banana-machine', {
     /** The α that remains under "Isolate", from 1; remembered while "Isolate" is off. */
     isolateChoice: { opening: 4, check: (field, number) => wholeNumber(field, number, 1, openingAlphas.velocity.length) },
     /** Morph, from the floor (0) to exponential coordinates (1). */
-    morph: { converter: NUMBER, min: 0, max: 1, opening: 0, ofPreset: true },
+    morph: { converter: NUMBER_CONVERTER, min: 0, max: 1, opening: 0, ofPreset: true },
   },
   dependentDefaults: ({ model }) => ({ alphas: openingAlphas[model as keyof typeof openingAlphas] }),
 });

@@ -1,7 +1,7 @@
 /** Texts of the Banana Machine in the present language: sentences about degenerate clouds, and text equivalents of the pictures. */
 
 import { addEnglish, words } from '../../messages/registry.ts';
-import { counted, fixed, percent, withError } from '../../ui/format.ts';
+import { integer, fixed, percent, withError } from '../../ui/format.ts';
 import { commandText } from '../shared/sliders.ts';
 import { en } from './en.ts';
 import { deviation, spreadOf, type Reading } from './reading.ts';
@@ -14,7 +14,7 @@ export function announcementOf({ config, stats, note }: Reading) {
   const outcome = Number.isNaN(stats.crossTrackSkew)
     ? noSkew
     : skew(withError(stats.crossTrackSkew, stats.crossTrackSkewError, 2));
-  return announcement(counted(stats.n), commandText(config.command), note || outcome);
+  return announcement(integer(stats.n), commandText(config.command), note || outcome);
 }
 
 /** Returns the text equivalent of the view of the floor, with the names of the outlines that are shown. */
@@ -26,7 +26,7 @@ export function planeText(reading: Reading, overlays: string[], morph: number) {
   if (stats.n === 0) sentences.push(noRobots);
   else {
     const { mean: centre, cov } = stats.cartesian;
-    sentences.push((spreadOf(table) === 'cloud' ? mean : onePlace)(counted(stats.n), fixed(centre[0], 2), fixed(centre[1], 2)));
+    sentences.push((spreadOf(table) === 'cloud' ? mean : onePlace)(integer(stats.n), fixed(centre[0], 2), fixed(centre[1], 2)));
     if (note) sentences.push(note);
     else sentences.push(spread(deviationText(cov[0][0]), deviationText(cov[1][1])), bendText(reading));
   }

@@ -1,7 +1,7 @@
 /** Dead Reckoning's controls: the recursion, the path, its noise, and the samples. */
 
 import { html } from 'lit';
-import { choices, cloudControls, slider, sliders } from '../../figure/controls.ts';
+import { radios, cloudControls, settingSlider, sliders } from '../../figure/controls.ts';
 import { words } from '../../messages/registry.ts';
 import { group } from '../../ui/controls.ts';
 import { fixed } from '../../ui/format.ts';
@@ -10,7 +10,7 @@ import type { DeadReckoningElement as Figure } from './dead-reckoning.ts';
 
 export function pathControls(figure: Figure) {
   return html`<div class="controls" part="controls">
-    ${slider(figure, 'headingNoise')} ${slider(figure, 'steps', { input: (steps) => figure.settings.want((wanted) => samePath(wanted, steps)) })}
+    ${settingSlider(figure, 'headingNoise')} ${settingSlider(figure, 'steps', { input: (steps) => figure.settings.want((wanted) => samePath(wanted, steps)) })}
   </div>`;
 }
 
@@ -25,9 +25,9 @@ export function moreControls(figure: Figure) {
   const effect = walked(fixed(step * dt, 2), fixed(steps * dt, 2));
   return html`<div class="controls">
     ${group(words.command, html`${sliders(figure, COMMAND)}
-      ${slider(figure, 'step', { max: Math.max(2, steps), most: steps, off: steps === 1, effect })}`)}
-    ${group(words.noise, html`${Object.keys(NOISE).map((key, i) => slider(figure, key, { effect: alphas.effects[i] }))}
-      ${choices(figure, 'per', per)}`)}
+      ${settingSlider(figure, 'step', { max: Math.max(2, steps), most: steps, off: steps === 1, effect })}`)}
+    ${group(words.noise, html`${Object.keys(NOISE).map((key, i) => settingSlider(figure, key, { effect: alphas.effects[i] }))}
+      ${radios(figure, 'per', per)}`)}
     ${cloudControls(figure, SAMPLE_COUNTS)}
   </div>`;
 }

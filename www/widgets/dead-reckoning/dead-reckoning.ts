@@ -2,7 +2,7 @@
 
 import { html } from 'lit';
 import { Cloud, enterCloud } from '../../figure/cloud.ts';
-import { canvas, choices, disclosures, panel } from '../../figure/controls.ts';
+import { canvas, radios, disclosures, titledPicture } from '../../figure/controls.ts';
 import { FigureElement } from '../../figure/figure.ts';
 import { legend } from '../../figure/overlays.ts';
 import { define } from '../../figure/reflection.ts';
@@ -92,14 +92,14 @@ export class DeadReckoningElement extends FigureElement<Machine, Reading> {
     const say = words.reckoning;
     return html`
       <div class="views">
-        ${panel(say.chart, html`<div class="chart">${ratioPlot(this, reading)}</div>`, 'ratios')}
+        ${titledPicture(say.chart, html`<div class="chart">${ratioPlot(this, reading)}</div>`, 'ratios')}
         <div class="said">
           ${headline(reading, overlays)}
           <p part="caption" class="caption ${condition !== 'certain' && 'note'}">${captionOf(reading, overlays)}</p>
-          ${choices(this, 'compounding', say.recursions)}
+          ${radios(this, 'compounding', say.recursions)}
         </div>
-        ${panel(say.floor, html`<div class="stage" part="picture">${canvas(this, this.#floor, planeText(reading))}</div>`, 'floor')}
-        ${panel(say.atStepTitle(step), html`<div class="stage">${canvas(this, this.#step, stepText(reading))}</div>`, 'step')}
+        ${titledPicture(say.floor, html`<div class="stage" part="picture">${canvas(this, this.#floor, planeText(reading))}</div>`, 'floor')}
+        ${titledPicture(say.atStepTitle(step), html`<div class="stage">${canvas(this, this.#step, stepText(reading))}</div>`, 'step')}
       </div>
       ${this.renderer.afterFirstPicture(() => html`
       ${legend(this, OUTLINES)} ${presetButtons(this)} ${pathControls(this)}

@@ -1,9 +1,9 @@
 /** Dead Reckoning's two pictures: the floor with the path, and the selected step in exponential coordinates. */
 
 import { words } from '../../messages/registry.ts';
-import { clipped, drawAxes } from '../../scene/axes.ts';
+import { clipToPlot, drawAxes } from '../../scene/axes.ts';
 import { drawCallouts, type Callout } from '../../scene/callout.ts';
-import { drawDots, drawGhosts, drawMark, drawOutlines, drawRobot, lineKeys, lineStyles, strokeLines } from '../../scene/draw.ts';
+import { drawDots, drawGhosts, drawSelectedSample, drawOutlines, drawRobot, lineKeys, lineStyles, strokeLines } from '../../scene/draw.ts';
 import { Picture, SamplesPicture } from '../../scene/picture.ts';
 import { View, extentAround, extentOf } from '../../scene/view.ts';
 import { significant } from '../../ui/format.ts';
@@ -42,7 +42,7 @@ export class PathPicture extends SamplesPicture<Scene> {
     drawAxes(brush, { x: 'x (m)', y: 'y (m)' }, lineKeys(brush, OUTLINES, drawn(['ellipse', 'exponential', 'command']), words.reckoning.overlays));
     const styled = (of: Scene['outlines']) => predictions.map((name) => ({ points: of[name], ...styles[name] }));
     const ghosts: Callout[] = [];
-    clipped(brush, () => {
+    clipToPlot(brush, () => {
       for (const milestone of milestones) drawPassed(brush, milestone.poses);
       drawDots(brush, poses, { x: 0, y: 1, heading: null });
       drawOutlines(brush, [
@@ -56,7 +56,7 @@ export class PathPicture extends SamplesPicture<Scene> {
       if (!marked) return;
       strokeLines(brush, [{ points: Float64Array.from([0, 0, ...marked.filter((_, i) => i % 3 < 2)]), colour: palette.accent, width: 1.25, dash: [6, 2] }]);
       const [x, y, heading] = marked.subarray(3 * (step - 1));
-      drawMark(brush, { x, y, heading });
+      drawSelectedSample(brush, { x, y, heading });
     });
     drawCallouts(brush, ghosts, { from: [pose[0], pose[1]], lines: [commanded, outlines.ellipse, outlines.exponential] });
   };
@@ -104,7 +104,7 @@ export class StepPicture extends Picture<Scene> {
     drawAxes(brush, axesOf(this.view), lineKeys(brush, OUTLINES, drawn, words.reckoning.overlays));
     const points = { exponential: predicted, measured };
     const ghosts: Callout[] = [];
-    clipped(brush, () => {
+    clipToPlot(brush, () => {
       drawDots(brush, twists, { x: 0, y: 1, heading: null });
       if (brush.previousReading && overlays.includes('exponential')) ghosts.push(...drawGhosts(brush, [{ points: brush.previousReading.outlines.predicted, ...styles.exponential }], [[0, 0]], words.before));
       drawOutlines(brush, drawn.map((name) => ({ points: points[name], ...styles[name] })));

@@ -4,8 +4,8 @@ import { html } from 'lit';
 import { sampleField } from '../../figure/controls.ts';
 import { legend } from '../../figure/overlays.ts';
 import { words } from '../../messages/registry.ts';
-import { rich } from '../../ui/controls.ts';
-import { NOTHING, fixed, significant } from '../../ui/format.ts';
+import { formatMarkup } from '../../ui/controls.ts';
+import { NO_VALUE, fixed, significant } from '../../ui/format.ts';
 import { plot, type Role } from '../../ui/plot.ts';
 import { figureTable, readoutList } from '../../ui/readouts.ts';
 import { COMPONENTS, type Reading } from './reading.ts';
@@ -87,14 +87,14 @@ export function straightPlot({ durations: x, along, across, alongFirstOrder, acr
       ],
       marks: crossing !== null && crossing >= from && crossing <= to ? [{ x: crossing, text: say.mark(distance) }] : [],
     })}
-    <figcaption>${rich(say.caption)}</figcaption>
+    <figcaption>${formatMarkup(say.caption)}</figcaption>
   </figure>`;
 }
 
 /** Returns the range of steps at which a recursion misses the measured variance, as text. */
 function missText({ told, first, last, end }: Misses) {
   const { never, unknown, from } = words.reckoning.misses;
-  if (!told) return Number.isNaN(end) ? NOTHING : unknown;
+  if (!told) return Number.isNaN(end) ? NO_VALUE : unknown;
   return first === null || last === null ? never : from(first, last);
 }
 

@@ -1,7 +1,7 @@
 /** Texts of Dead Reckoning in the current language. */
 
 import { addEnglish, words } from '../../messages/registry.ts';
-import { NOTHING, counted, fixed, withError } from '../../ui/format.ts';
+import { NO_VALUE, integer, fixed, withError } from '../../ui/format.ts';
 import { commandText } from '../shared/sliders.ts';
 import { en } from './en.ts';
 import { COMPONENTS, type Reading } from './reading.ts';
@@ -13,7 +13,7 @@ const CAPTION_STEPS = [1, 2, 5];
 
 /** Prints a share in per cent, with a sign unless it rounds to 0. */
 function signed(share: number, printed: string = fixed(100 * share, 1)) {
-  if (Number.isNaN(share)) return NOTHING;
+  if (Number.isNaN(share)) return NO_VALUE;
   return `${100 * share >= 0.05 ? '+' : ''}${printed}\u202f%`;
 }
 
@@ -27,7 +27,7 @@ export function captionOf({ config: { compounding }, stats: { misses, n }, condi
   const ofAll = misses[compounding];
   const shown = componentsOf(overlays);
   const ifShown = (miss: number, axis: number) => (shown.includes(COMPONENTS[axis]) ? miss : NaN);
-  if (ofAll.every(({ first }) => first === null)) return say.right(counted(n));
+  if (ofAll.every(({ first }) => first === null)) return say.right(integer(n));
   // Components whose ratio is furthest from 1, at the end and at any step.
   const far = furthest(ofAll.map(({ end }, axis) => ifShown(Math.abs(end), axis)));
   const worst = furthest(curves.map(({ ratio }, axis) => ifShown(ratio.reduce((most, value) => Math.max(most, Math.abs(value - 1) || 0), 0), axis)));
@@ -58,7 +58,7 @@ export function worstAt({ config: { step }, curves }: Reading, overlays: string[
 
 export function announcementOf(reading: Reading, overlays: string[]) {
   const { config, shown } = reading;
-  return words.reckoning.announcement(counted(shown), commandText(config.command), String(config.steps), captionOf(reading, overlays));
+  return words.reckoning.announcement(integer(shown), commandText(config.command), String(config.steps), captionOf(reading, overlays));
 }
 
 export function ratioText({ config: { step, compounding }, curves }: Reading, overlays: string[]) {
@@ -73,7 +73,7 @@ export function ratioText({ config: { step, compounding }, curves }: Reading, ov
 export function planeText({ config, shown, pose }: Reading) {
   const { command, steps, step, compounding } = config;
   const say = words.reckoning;
-  return say.plane(commandText(command), String(steps), counted(shown), String(step), fixed(pose[0], 2), fixed(pose[1], 2), say.recursions[compounding]);
+  return say.plane(commandText(command), String(steps), integer(shown), String(step), fixed(pose[0], 2), fixed(pose[1], 2), say.recursions[compounding]);
 }
 
 export function stepText({ config: { step, compounding }, stats: { measured, predicted } }: Reading) {

@@ -1,7 +1,7 @@
 /** Map Squeeze's controls: start positions, command, noise, sampler, and maps of the reader. */
 
 import { html, nothing } from 'lit';
-import { check, choices, cloudControls, slider, sliders } from '../../figure/controls.ts';
+import { settingCheckbox, radios, cloudControls, settingSlider, sliders } from '../../figure/controls.ts';
 import { words } from '../../messages/registry.ts';
 import { button, group, radioGroup } from '../../ui/controls.ts';
 import { EXTENSIONS } from './maps/open.ts';
@@ -39,20 +39,20 @@ export function samplerControls(figure: Figure) {
   return html`<div class="judge">
     ${radioGroup(settings.sampler.name, 'sampler', samplers, sampler, choose)}
     <p class="effect">${samplerEffects[conditioned ? sampler : 'off']}</p>
-    ${conditioned && sampler === 'sub-stepped' ? slider(figure, 'steps') : nothing}
+    ${conditioned && sampler === 'sub-stepped' ? settingSlider(figure, 'steps') : nothing}
   </div>`;
 }
 
 export function motionControls(figure: Figure) {
   return html`${group(words.command, sliders(figure, COMMAND))}
-    ${group(words.noise, slider(figure, 'noise'), 'single')} ${cloudControls(figure, SAMPLE_COUNTS)}`;
+    ${group(words.noise, settingSlider(figure, 'noise'), 'single')} ${cloudControls(figure, SAMPLE_COUNTS)}`;
 }
 
 /** Returns the controls that are changed less often, with that of unknown cells if the map has any. */
 export function robotAndMap(figure: Figure, hasUnknown: boolean) {
   const { robotAndMap: heading, condition, settings, unknown, views } = words.squeeze;
-  return group(heading, html`${slider(figure, 'clearance')} ${check(figure, 'conditioned', condition)}
-    ${hasUnknown ? choices(figure, 'unknown', unknown) : nothing}
+  return group(heading, html`${settingSlider(figure, 'clearance')} ${settingCheckbox(figure, 'conditioned', condition)}
+    ${hasUnknown ? radios(figure, 'unknown', unknown) : nothing}
     ${radioGroup(settings.view.name, 'view', views, figure.state.own.view, (view) => figure.gesture.choose('view', view))}`);
 }
 

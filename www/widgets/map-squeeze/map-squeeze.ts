@@ -2,7 +2,7 @@
 
 import { html, nothing } from 'lit';
 import { Cloud, enterCloud } from '../../figure/cloud.ts';
-import { canvas, disclosures, panel } from '../../figure/controls.ts';
+import { canvas, disclosures, titledPicture } from '../../figure/controls.ts';
 import { FigureElement } from '../../figure/figure.ts';
 import { legend } from '../../figure/overlays.ts';
 import { define } from '../../figure/reflection.ts';
@@ -295,7 +295,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
     const { unknown, ...marks } = LINES;
     return html`
       <div class="views">
-        ${panel(floor, html`<div class="stage" part="picture">
+        ${titledPicture(floor, html`<div class="stage" part="picture">
             ${canvas(this, this.picture, this.#description)}
             ${this.renderer.afterFirstPicture(() => this.#wallHandles.render())}
             ${this.#handles.render()}

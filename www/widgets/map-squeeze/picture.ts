@@ -1,8 +1,8 @@
 /** Map Squeeze's picture: walls, the robot with its command, and the outcome of every draw. */
 
 import { words } from '../../messages/registry.ts';
-import { clipped, drawAxes } from '../../scene/axes.ts';
-import { densityRamp, drawMark, drawOutline, lineStyles, strokeLines } from '../../scene/draw.ts';
+import { clipToPlot, drawAxes } from '../../scene/axes.ts';
+import { densityRamp, drawSelectedSample, drawOutline, lineStyles, strokeLines } from '../../scene/draw.ts';
 import { Density } from '../../scene/pixels.ts';
 import { drawLabel, drawLeader } from '../../scene/labels.ts';
 import { SamplesPicture } from '../../scene/picture.ts';
@@ -13,7 +13,7 @@ import { clamp } from '../../ui/clamp.ts';
 import { drawHeldRobot, drawRobotOutline } from '../shared/robot.ts';
 import { LINES } from './settings.ts';
 import type { MapSqueeze, Plan } from '../../types.d.ts';
-import { addLine, stroke, type Brush } from '../../scene/canvas.ts';
+import { addLine, strokePath, type Brush } from '../../scene/canvas.ts';
 import type { Reading } from './reading.ts';
 
 export interface Scene extends Reading {
@@ -137,7 +137,7 @@ export class FloorPicture extends SamplesPicture<Scene> {
     const has = (name: string) => overlays.includes(name);
     const { accepted, through, rejected, commanded: command } = lineStyles(brush, LINES);
     drawAxes(brush, { x: 'x (m)', y: 'y (m)' }, brush.exported ? keyOf(brush, scene) : []);
-    clipped(brush, () => {
+    clipToPlot(brush, () => {
       // Paths through a wall must not hide it.
       if (sorted) {
         if (has('through')) drawPaths(brush, paths, through.colour);
@@ -160,7 +160,7 @@ export class FloorPicture extends SamplesPicture<Scene> {
       if (marked) {
         const { pose, path, contact } = marked;
         drawOutline(brush, path, { colour: palette.ink, width: 1.5, dash: [2, 3] });
-        drawMark(brush, { x: pose[0], y: pose[1], heading: pose[2] }, palette.ink);
+        drawSelectedSample(brush, { x: pose[0], y: pose[1], heading: pose[2] }, palette.ink);
         if (contact) drawContact(brush, contact);
       }
     });
@@ -231,7 +231,7 @@ function cross(context: Brush['context'], x: number, y: number) {
 
 function drawCrosses({ context, view }: Brush, triples: Float64Array, colour: string) {
   context.globalAlpha = 0.5;
-  stroke(context, { colour, width: 1 }, () => {
+  strokePath(context, { colour, width: 1 }, () => {
     for (let i = 0; i < triples.length; i += 3) cross(context, ...view.toPixel(triples[i], triples[i + 1]));
   });
   context.globalAlpha = 1;

@@ -2,7 +2,7 @@
 
 import { words } from '../../messages/registry.ts';
 import { verdict as bits } from '../../settings.js';
-import { counted, fixed, percent } from '../../ui/format.ts';
+import { integer, fixed, percent } from '../../ui/format.ts';
 import type { MapSqueeze, SqueezeSettings, SqueezeStats } from '../../types.d.ts';
 
 export type Reading = ReturnType<typeof readingOf>;
@@ -40,15 +40,15 @@ export function outcomeOf(verdict: number) {
  */
 export function throughText({ throughWall, throughWallRate, throughWallInterval: [low, high], gaveUp }: Pick<SqueezeStats, 'throughWall' | 'throughWallRate' | 'throughWallInterval' | 'gaveUp'>, certain: boolean) {
   const interval = certain || gaveUp ? '' : `${fixed(100 * low, 1)}\u2060–\u2060${percent(high)}`;
-  return words.squeeze.throughOf(throughWall, counted(throughWall), percent(throughWallRate), interval);
+  return words.squeeze.throughOf(throughWall, integer(throughWall), percent(throughWallRate), interval);
 }
 
 /** Returns a sentence on a robot that gets nowhere; empty for an ordinary cloud. */
 function noteOn(config: SqueezeSettings, stats: SqueezeStats, startFree: boolean): string {
   const { wedged, nothing, noRoom } = words.squeeze;
   const { accepted } = stats;
-  const drawn = counted(stats.drawn);
-  if (stats.gaveUp) return wedged(drawn, accepted, counted(accepted), counted(config.samples), throughText(stats, false));
+  const drawn = integer(stats.drawn);
+  if (stats.gaveUp) return wedged(drawn, accepted, integer(accepted), integer(config.samples), throughText(stats, false));
   if (stats.drawn > 0 && accepted === 0) return nothing(stats.drawn, drawn, config.sampler === 'whole-arc');
   return startFree ? '' : noRoom;
 }

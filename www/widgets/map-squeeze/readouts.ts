@@ -3,7 +3,7 @@
 import { html, nothing } from 'lit';
 import { sampleField } from '../../figure/controls.ts';
 import { words } from '../../messages/registry.ts';
-import { counted, fixed, percent, rounded } from '../../ui/format.ts';
+import { integer, fixed, percent, rounded } from '../../ui/format.ts';
 import { figureTable, readoutList } from '../../ui/readouts.ts';
 import { SAMPLES_PER_SECOND, type Cost, type CostMeter } from './cost.ts';
 import { SAMPLERS } from './settings.ts';
@@ -15,10 +15,10 @@ export function tally({ stats, config: { conditioned, sampler }, paths: { length
   const say = words.squeeze.tally;
   const certain = conditioned && sampler === 'whole-arc';
   return readoutList([
-    [say.drawn, counted(stats.drawn)],
-    [say.accepted, counted(stats.accepted), say.ofDrawn(percent(stats.acceptanceRate), conditioned && sampler === 'sub-stepped')],
-    [say.through, certain ? say.byConstruction : counted(stats.throughWall), certain ? undefined : say.ofAccepted(percent(stats.throughWallRate))],
-    [say.paths, paths < stats.throughWall ? say.first(counted(paths)) : counted(paths)],
+    [say.drawn, integer(stats.drawn)],
+    [say.accepted, integer(stats.accepted), say.ofDrawn(percent(stats.acceptanceRate), conditioned && sampler === 'sub-stepped')],
+    [say.through, certain ? say.byConstruction : integer(stats.throughWall), certain ? undefined : say.ofAccepted(percent(stats.throughWallRate))],
+    [say.paths, paths < stats.throughWall ? say.first(integer(paths)) : integer(paths)],
     [say.draws, fixed(stats.drawsPerAccepted, 2)],
     [say.tests, fixed(stats.wallTestsPerAccepted, 2)],
   ]);

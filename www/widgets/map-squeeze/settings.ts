@@ -1,6 +1,6 @@
 /** Map Squeeze's settings: their attributes, their part of the state, and their sliders. */
 
-import { WORD, presetPropertyOf } from '../../figure/attributes.ts';
+import { WORD_CONVERTER, presetPropertyOf } from '../../figure/attributes.ts';
 import { definitionOf } from '../../figure/definition.ts';
 import { presets, settings } from '../../settings.js';
 import { COMMAND_DASH, commandSliders } from '../shared/sliders.ts';
@@ -39,7 +39,7 @@ export const definition = definitionOf('map-squeeze', {
   // Presets are places in the apartment.
   preset: { ...PRESET_SETTING, get: (config) => (config.map ? null : PRESET_SETTING.get(config)) },
   own: {
-    view: { converter: WORD, words: VIEWS, opening: 'close' },
+    view: { converter: WORD_CONVERTER, words: VIEWS, opening: 'close' },
     /** Map of the reader; null for the apartment. A machine has checked it. */
     map: { opening: null, check: (_, map) => map },
   },

@@ -4,7 +4,7 @@ import { html, nothing } from 'lit';
 import { swatch } from '../../figure/overlays.ts';
 import { FigureController } from '../../figure/controller.ts';
 import { words } from '../../messages/registry.ts';
-import { Handle, stepsOf, turnsOf } from '../../scene/handle.ts';
+import { Handle, stepsOfKey, turnsOfKey } from '../../scene/handle.ts';
 import { Memo } from '../../scene/memo.ts';
 import { clamp } from '../../ui/clamp.ts';
 import { fixed } from '../../ui/format.ts';
@@ -112,13 +112,13 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
   }
 
   #key(event: KeyboardEvent, grip: Grip) {
-    const turn = turnsOf(event);
+    const turn = turnsOfKey(event);
     if (turn) {
       event.preventDefault();
       this.#go(nameOf(grip), -turn);
       return false;
     }
-    const steps = stepsOf(event);
+    const steps = stepsOfKey(event);
     if (!steps) return false;
     const [dx, dy] = steps;
     // Keys across the axis have the same effect as keys along it, as with every slider.

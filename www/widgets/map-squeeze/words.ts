@@ -5,7 +5,7 @@
 import { addEnglish, words } from '../../messages/registry.ts';
 import { verdict as bits } from '../../settings.js';
 import { clamp } from '../../ui/clamp.ts';
-import { counted, fixed } from '../../ui/format.ts';
+import { integer, fixed } from '../../ui/format.ts';
 import { commandText } from '../shared/sliders.ts';
 import { en } from './en.ts';
 import { throughText, type Reading } from './reading.ts';
@@ -58,7 +58,7 @@ export function captionOf({ config: { conditioned, sampler }, stats, note }: Rea
   // For a robot that cannot move, the note contains the number of motions.
   if (note && (accepted === 0 || gaveUp)) return note;
   if (attempts === 0) return `${say.headline.untried}.`;
-  const tested = say.tested[conditioned ? sampler : 'off'](counted(accepted), counted(attempts));
+  const tested = say.tested[conditioned ? sampler : 'off'](integer(accepted), integer(attempts));
   const sentence = say.verdictOf(tested, throughText(stats, conditioned && sampler === 'whole-arc'));
   return note ? `${sentence} ${note}` : sentence;
 }
@@ -67,7 +67,7 @@ export function captionOf({ config: { conditioned, sampler }, stats, note }: Rea
 export function mapText(name: string, { bounds, walls }: Plan) {
   const [left, bottom, right, top] = bounds;
   const count = walls.length / 4;
-  return words.squeeze.mapText(name, fixed(right - left, 1), fixed(top - bottom, 1), count, counted(count));
+  return words.squeeze.mapText(name, fixed(right - left, 1), fixed(top - bottom, 1), count, integer(count));
 }
 
 /** Returns the text equivalent of the picture, with the map as `mapText` has it. */
@@ -79,7 +79,7 @@ export function pictureText({ config, stats, sorted, note }: Reading, map: strin
   return [
     say.picture(map),
     say.robotAt(fixed(x, 2), fixed(y, 2), fixed(theta, 2), commandText(config.command)),
-    say.outcome(counted(drawn), parts, counted(accepted), counted(throughWall), !sorted),
+    say.outcome(integer(drawn), parts, integer(accepted), integer(throughWall), !sorted),
     accepted < attempts && config.conditioned ? say.rest(!sorted) : '',
     note,
   ].filter(Boolean).join(' ');

@@ -1,9 +1,9 @@
 /** The Odometry Decomposer's controls: the table that compares the noise models, animated sliders, and the distribution of the noise. */
 
 import { html } from 'lit';
-import { choices, cloudControls, slider, sliders } from '../../figure/controls.ts';
+import { radios, cloudControls, settingSlider, sliders } from '../../figure/controls.ts';
 import { words } from '../../messages/registry.ts';
-import { choice, group, rich } from '../../ui/controls.ts';
+import { radioButton, group, formatMarkup } from '../../ui/controls.ts';
 import { fixed } from '../../ui/format.ts';
 import { figureTable } from '../../ui/readouts.ts';
 import { NOISE, SAMPLE_COUNTS } from './settings.ts';
@@ -17,10 +17,10 @@ export function rulesTable(figure: Figure) {
   const rows = rules.map(({ deviations, crossTrack, heading }) => [...deviations, crossTrack, heading].map((value) => fixed(value, 3)));
   return html`<div class="rules" role="radiogroup" aria-label=${settings.rule.name}>
     ${figureTable({
-      caption: rich(say.caption),
-      columns: [settings.rule.name, ...say.columns.map(rich)],
+      caption: formatMarkup(say.caption),
+      columns: [settings.rule.name, ...say.columns.map(formatMarkup)],
       rows: rules.map(({ rule }, i) => [
-        choice({ group: 'rule', label: names[rule], checked: rule === currentRule, choose: () => figure.gesture.decide({ rule }) }),
+        radioButton({ group: 'rule', label: names[rule], checked: rule === currentRule, choose: () => figure.gesture.decide({ rule }) }),
         ...rows[i].map((cell, column) => (cell === rows[0][column] ? cell : html`<strong>${cell}</strong>`)),
       ]),
     })}
@@ -33,14 +33,14 @@ export function playable(figure: Figure, key: 'phase' | 'drift', legend: string)
   const { plays } = words.decomposer;
   return html`<fieldset class="playable ${key}">
     <legend class="visually-hidden">${legend}</legend>
-    ${slider(figure, key, { input: (value) => player.put(key, value) })} ${player.button(key, plays[key])}
+    ${settingSlider(figure, key, { input: (value) => player.put(key, value) })} ${player.button(key, plays[key])}
   </fieldset>`;
 }
 
 export function noiseControls(figure: Figure) {
   return html`<div class="controls">
-      ${group(words.noise, html`${sliders(figure, NOISE)} ${choices(figure, 'noise', words.noises)}`, 'alphas')}
+      ${group(words.noise, html`${sliders(figure, NOISE)} ${radios(figure, 'noise', words.noises)}`, 'alphas')}
       ${cloudControls(figure, SAMPLE_COUNTS)}
     </div>
-    <p>${rich(words.decomposer.hinges)}</p>`;
+    <p>${formatMarkup(words.decomposer.hinges)}</p>`;
 }

@@ -1,7 +1,7 @@
 /** Marks of both pictures: turns as arcs with an arrow, and sectors of uncertainty. */
 
 import type { Pose } from '../../types.d.ts';
-import { addLine, stroke, strokeLine, type Brush } from '../../scene/canvas.ts';
+import { addLine, strokePath, strokeLine, type Brush } from '../../scene/canvas.ts';
 
 /** Half the width and the length of an arrow's head, pixels. */
 const ARROW_HEAD = { half: 4, length: 9 };
@@ -53,7 +53,7 @@ export function drawFan(brush: Brush, middle: Pose, deviation: number, radius: n
   fan();
   context.fill();
   context.globalAlpha = 0.75;
-  stroke(context, { colour, width: 1, dash: [5, 3] }, fan);
+  strokePath(context, { colour, width: 1, dash: [5, 3] }, fan);
   context.globalAlpha = 1;
 }
 
@@ -62,7 +62,7 @@ export function drawBar({ context, view }: Brush, pose: Pose, deviation: number,
   if (deviation === 0) return;
   const ahead = view.direction(pose.theta);
   const reach = deviation * view.scaleX;
-  stroke(context, { colour, width: 1.75 }, () => {
+  strokePath(context, { colour, width: 1.75 }, () => {
     for (const side of [-reach, reach]) {
       const [middle, [endX, endY]] = view.ray(pose, side);
       addLine(context, [middle, [endX, endY]]);

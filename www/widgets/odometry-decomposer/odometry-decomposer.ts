@@ -2,12 +2,12 @@
 
 import { html } from 'lit';
 import { Cloud, enterCloud } from '../../figure/cloud.ts';
-import { canvas, disclosures, panel } from '../../figure/controls.ts';
+import { canvas, disclosures, titledPicture } from '../../figure/controls.ts';
 import { FigureElement } from '../../figure/figure.ts';
 import { legend } from '../../figure/overlays.ts';
 import { define } from '../../figure/reflection.ts';
 import { words } from '../../messages/registry.ts';
-import { rich } from '../../ui/controls.ts';
+import { formatMarkup } from '../../ui/controls.ts';
 import { fixed } from '../../ui/format.ts';
 import { Memo } from '../../scene/memo.ts';
 import { Player } from '../shared/player.ts';
@@ -80,13 +80,13 @@ export class OdometryDecomposerElement extends FigureElement<Machine, Reading> {
     const say = words.decomposer;
     return html`
       <div class="views">
-        ${panel(say.legsTitle, html`<div class="stage" part="picture">
+        ${titledPicture(say.legsTitle, html`<div class="stage" part="picture">
           ${canvas(this, this.#legs, legsText(reading))} ${this.#handles.map((handle) => handle.render())}
         </div>`, 'legs')}
-        ${panel(say.worldTitle, html`<div class="stage">${canvas(this, this.#world, worldText(reading))}</div>`)}
+        ${titledPicture(say.worldTitle, html`<div class="stage">${canvas(this, this.#world, worldText(reading))}</div>`)}
         ${this.renderer.afterFirstPicture(() => html`
         <div class="said">${headline(reading)} <p class="caption" part="caption">${captionOf(reading)}</p></div>
-        <p class="caption">${rich(say.worldCaption(fixed(driftDistance(reading), 2)))}</p>`)}
+        <p class="caption">${formatMarkup(say.worldCaption(fixed(driftDistance(reading), 2)))}</p>`)}
       </div>
       ${this.renderer.afterFirstPicture(() => html`
       ${legend(this, LINES)} ${presetButtons(this)} ${rulesTable(this)}

@@ -1,8 +1,8 @@
 /** The Odometry Decomposer's two pictures: the three legs in the odometry frame, and the same in the world. */
 
 import { words } from '../../messages/registry.ts';
-import { clipped, drawAxes } from '../../scene/axes.ts';
-import { drawDots, drawMark, lineKeys, lineStyles, strokeLines } from '../../scene/draw.ts';
+import { clipToPlot, drawAxes } from '../../scene/axes.ts';
+import { drawDots, drawSelectedSample, lineKeys, lineStyles, strokeLines } from '../../scene/draw.ts';
 import { LABELS_ABOVE, drawLabelsAbove } from '../../scene/labels.ts';
 import { SamplesPicture } from '../../scene/picture.ts';
 import { View, extentOf } from '../../scene/view.ts';
@@ -12,7 +12,7 @@ import { directionsOf, drawBar, drawFan, drawTurn } from './marks.ts';
 import { poseIn } from './reading.ts';
 import { LINES } from './settings.ts';
 import type { Pose } from '../../types.d.ts';
-import { addLine, drawDisc, stroke, strokeLine, type Brush, type LineStroke } from '../../scene/canvas.ts';
+import { addLine, drawDisc, strokePath, strokeLine, type Brush, type LineStroke } from '../../scene/canvas.ts';
 
 export type LineName = keyof typeof LINES;
 
@@ -78,7 +78,7 @@ class OutcomesPicture extends SamplesPicture<Scene> {
   view: View = new View({ top: LABELS_ABOVE, snug: true });
 
   paintMark(brush: Brush, { marked }: Scene) {
-    if (marked) drawMark(brush, { x: marked[0], y: marked[1], heading: marked[2] });
+    if (marked) drawSelectedSample(brush, { x: marked[0], y: marked[1], heading: marked[2] });
   }
 }
 
@@ -128,7 +128,7 @@ export class LegsPicture extends OutcomesPicture {
     const styles = lineStyles(brush, LINES);
     const spread = overlays.includes('deviation');
     const { colour } = styles.deviation;
-    clipped(brush, () => {
+    clipToPlot(brush, () => {
       if (spread) drawFan(brush, turned, deviations.rot1, Math.max(legs.trans * this.view.scaleX, second), colour);
       if (overlays.includes('outcomes')) this.#paintGhosts(brush, scene);
       drawOutcomes(brush, scene);
@@ -179,7 +179,7 @@ export class LegsPicture extends OutcomesPicture {
   #paintGhosts({ context, view, palette }: Brush, { ghosts }: Scene) {
     const point = (index: number) => view.toPixel(ghosts[3 * index], ghosts[3 * index + 1]);
     context.globalAlpha = 0.5;
-    stroke(context, { colour: palette.cloud, width: 1 }, () => {
+    strokePath(context, { colour: palette.cloud, width: 1 }, () => {
       for (let i = 0; i < ghosts.length / 3; i += 4) addLine(context, [0, 1, 2, 3].map((k) => point(i + k)));
     });
     context.globalAlpha = 1;
@@ -213,7 +213,7 @@ export class WorldPicture extends OutcomesPicture {
     const [start, end] = [poseIn(scene.linkage, 0), poseIn(scene.linkage, 3)];
     const styles = lineStyles(brush, LINES);
     drawAxes(brush, AXES, keyOf(brush, scene, ['prediction', 'odometry', 'difference']));
-    clipped(brush, () => {
+    clipToPlot(brush, () => {
       if (overlays.includes('odometry')) {
         this.#paintFrame(brush, frame);
         drawSegment(brush, from, to, styles.odometry);

@@ -5,7 +5,7 @@
 
 import { html } from 'lit';
 import { words } from '../../messages/registry.ts';
-import { rich } from '../../ui/controls.ts';
+import { formatMarkup } from '../../ui/controls.ts';
 import { fixed, withError } from '../../ui/format.ts';
 import { plot } from '../../ui/plot.ts';
 import { readoutList } from '../../ui/readouts.ts';
@@ -56,6 +56,6 @@ export function spreadPlot(curveOf: (longest: number, points: number) => Float64
       points: [{ role: 'prediction', x: legs.trans, y: stats.crossTrack, error: stats.crossTrackError }],
       marks: [{ x: legs.trans, text: say.here }],
     })}
-    <figcaption>${rich(say.caption)}</figcaption>
+    <figcaption>${formatMarkup(say.caption)}</figcaption>
   </figure>`;
 }

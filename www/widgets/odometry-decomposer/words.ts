@@ -1,7 +1,7 @@
 /** Texts of the Odometry Decomposer in the current language. */
 
 import { addEnglish, words } from '../../messages/registry.ts';
-import { counted, fixed } from '../../ui/format.ts';
+import { integer, fixed } from '../../ui/format.ts';
 import { en } from './en.ts';
 import { poseIn, type Reading } from './reading.ts';
 
@@ -35,7 +35,7 @@ export function driftDistance({ drifted, linkage }: Reading) {
 export function legsText(reading: Reading) {
   const { legs: { rot1, trans, rot2 }, config: { to }, stats } = reading;
   const say = words.decomposer;
-  const outcomes = stats.n === 0 ? say.none : say.outcomes(counted(stats.n), fixed(stats.crossTrack, 2), fixed(stats.heading, 2));
+  const outcomes = stats.n === 0 ? say.none : say.outcomes(integer(stats.n), fixed(stats.crossTrack, 2), fixed(stats.heading, 2));
   return `${say.picture(fixed(rot1, 2), fixed(trans, 2), fixed(rot2, 2), fixed(to.x, 2), fixed(to.y, 2))} ${outcomes} ${captionOf(reading)}`;
 }
 

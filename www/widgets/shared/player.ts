@@ -2,7 +2,7 @@
 
 import { nothing } from 'lit';
 import { FigureController } from '../../figure/controller.ts';
-import { isCalm } from '../../figure/renderer.ts';
+import { prefersReducedMotion } from '../../figure/renderer.ts';
 import { words } from '../../messages/registry.ts';
 import { button } from '../../ui/controls.ts';
 
@@ -74,6 +74,6 @@ export class Player<Key extends string> extends FigureController {
   /** Returns the button that plays and pauses, with a label for the animation. With reduced motion there is only the slider. */
   button(key: Key, label: string) {
     const [now, other] = this.#key === key ? [words.pause, label] : [label, words.pause];
-    return isCalm() ? nothing : button(now, () => this.#toggle(key), { other });
+    return prefersReducedMotion() ? nothing : button(now, () => this.#toggle(key), { other });
   }
 }

@@ -2,7 +2,7 @@
 
 import { FigureController } from '../../figure/controller.ts';
 import { words } from '../../messages/registry.ts';
-import { Handle, stepsOf, turnsOf } from '../../scene/handle.ts';
+import { Handle, stepsOfKey, turnsOfKey } from '../../scene/handle.ts';
 import { clamp } from '../../ui/clamp.ts';
 import { fixed } from '../../ui/format.ts';
 import { turnDistance } from './robot.ts';
@@ -40,16 +40,16 @@ export class PoseHandles extends FigureController<import('../../figure/figure.ts
       ...hooks,
       at: () => [this.#pose.x, this.#pose.y],
       drag: (x, y) => this.#moveTo(x, y),
-      key: (event) => this.#moveBy(stepsOf(event)) || this.#turnBy(turnsOf(event)),
+      key: (event) => this.#moveBy(stepsOfKey(event)) || this.#turnBy(turnsOfKey(event)),
     });
     this.#turn = new Handle(`turn ${setting}`, {
       ...hooks,
       at: (pointer) => pointer,
       drag: (x, y) => this.#turnTo(Math.atan2(y - this.#pose.y, x - this.#pose.x)),
       key: (event) => {
-        const steps = stepsOf(event);
+        const steps = stepsOfKey(event);
         // To the left is counter-clockwise, as for a driver.
-        return this.#turnBy(turnsOf(event) ?? (steps && steps[1] - steps[0]));
+        return this.#turnBy(turnsOfKey(event) ?? (steps && steps[1] - steps[0]));
       },
     });
   }

@@ -1,6 +1,6 @@
 /** Maps as plain data, the form in which a state contains a map of the reader. */
 
-import { object, refusal, renamed, wholeNumber } from '../../../figure/checks.ts';
+import { asObject, refusalError, withFieldRenamed, wholeNumber } from '../../../figure/checks.ts';
 import { fromBase64, toBase64 } from '../../../figure/packing.ts';
 import { limits } from '../../../settings.js';
 import type { Cells } from '../../../scene/walls.ts';
@@ -53,11 +53,11 @@ function flatWalls(walls: unknown) {
 /** Sets the map of a machine. Throws a TypeError or RangeError that names the field, and then changes nothing. */
 export function applyMap(machine: MapSqueeze, data: unknown) {
   if (typeof data !== 'object' || data === null || Array.isArray(data)) {
-    throw refusal('map', data, `a plan, an object of ${PLAN_KEYS.join(', ')}, or a grid, one of ${GRID_KEYS.join(', ')}`, TypeError);
+    throw refusalError('map', data, `a plan, an object of ${PLAN_KEYS.join(', ')}, or a grid, one of ${GRID_KEYS.join(', ')}`, TypeError);
   }
   const isGrid = GRID_ONLY_KEYS.some((key) => key in data);
-  const map = object('map', data, isGrid ? GRID_KEYS : PLAN_KEYS);
-  if (map.name !== undefined && typeof map.name !== 'string') throw refusal('map.name', map.name, 'a text', TypeError);
+  const map = asObject('map', data, isGrid ? GRID_KEYS : PLAN_KEYS);
+  if (map.name !== undefined && typeof map.name !== 'string') throw refusalError('map.name', map.name, 'a text', TypeError);
   if (!isGrid) {
     renamingFields(PLAN_KEYS, () => machine.setPlan({ bounds: map.bounds, walls: flatWalls(map.walls) }));
     return;
@@ -77,9 +77,9 @@ function renamingFields(keys: string[], take: () => void) {
   try {
     take();
   } catch (refused) {
-    const error = renamed(refused, 'occupied', 'image');
+    const error = withFieldRenamed(refused, 'occupied', 'image');
     const key = keys.find((each) => error instanceof Error && error.message.startsWith(each));
-    throw key === undefined ? error : renamed(error, `map.${key}`, key);
+    throw key === undefined ? error : withFieldRenamed(error, `map.${key}`, key);
   }
 }
 
@@ -106,13 +106,13 @@ function packBits(cells: Uint8Array): string {
 function bitsOf(field: string, text: unknown, count: number) {
   const length = Math.ceil(count / 8);
   const allowed = `base64 of ${length} bytes, a bit for each cell`;
-  if (typeof text !== 'string') throw refusal(field, text, allowed, TypeError);
+  if (typeof text !== 'string') throw refusalError(field, text, allowed, TypeError);
   let bytes;
   try {
     bytes = fromBase64(text);
   } catch {
-    throw refusal(field, text, allowed);
+    throw refusalError(field, text, allowed);
   }
-  if (bytes.length !== length) throw refusal(field, text, allowed);
+  if (bytes.length !== length) throw refusalError(field, text, allowed);
   return bytes;
 }

@@ -197,10 +197,10 @@ test('chunks with another checksum or size than they state are not read', async 
 
 test('a file that is read in pieces has its bytes, one after the other, across pieces and after gaps', async () => {
   const next = generator(7);
-  const bytes = Buffer.alloc(20e6, Buffer.from(Array.from({ length: 9973 }, () => next() * 256)));
+  const bytes = Buffer.alloc(60e6, Buffer.from(Array.from({ length: 9973 }, () => next() * 256)));
   const read = readAhead(new File([bytes], 'run.mcap'));
   for (let from = 0; from < bytes.length; ) {
-    const to = Math.min(bytes.length, from + Math.floor(next() ** 8 * 6e6));
+    const to = Math.min(bytes.length, from + Math.floor(next() ** 8 * 3e7));
     assert.deepEqual([to, bytes.compare(await read(from, to), 0, to - from, from, to)], [to, 0]);
     from = next() < 0.05 ? Math.min(bytes.length, to + 3e6) : to;
   }

@@ -84,7 +84,7 @@ interface TimedEdge {
   link: string;
   isStatic: boolean;
   edge: Edge;
-  message: Omit<Message, 'data'>;
+  message: Pick<Message, 'channel' | 'seconds' | 'nanoseconds'>;
   number: number;
 }
 

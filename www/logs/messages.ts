@@ -1,6 +1,6 @@
 /** Readers of ROS 1 and ROS 2 messages with poses, commands or transforms. They read leading fields, and ignore the rest, such as covariances. */
 
-import { viewOf, type Channel } from './formats/container.ts';
+import { viewOf, type Channel, type Message } from './formats/container.ts';
 import { unzstdMessage } from './formats/zstd.ts';
 import type { Series } from './log.ts';
 import { headingOf, isRotation } from './quaternion.ts';
@@ -38,8 +38,7 @@ const [CDR, CDR_2] = [[0, 1], [6, 7, 16, 17]];
 /** Number of bytes of the CDR header. Values are aligned relative to its end. */
 const CDR_HEADER = 4;
 
-/** Cached view of the latest buffer, which the messages of a block share. Creating a view takes as long as reading a message. */
-let latest: DataView = new DataView(new ArrayBuffer(0));
+type Bytes = Pick<Message, 'block' | 'from' | 'to'>;
 
 /** Reader of the values of a message: packed in ROS 1, aligned to their size in ROS 2. */
 class Reader {
@@ -51,11 +50,10 @@ class Reader {
   #isLittle = true;
   #alignment = 1;
 
-  constructor(encoding: string, { buffer, byteOffset, byteLength }: Uint8Array) {
-    if (latest.buffer !== buffer) latest = new DataView(buffer);
-    this.#view = latest;
-    this.#at = this.#start = byteOffset;
-    this.#end = byteOffset + byteLength;
+  constructor({ encoding }: Channel, { block, from, to }: Bytes) {
+    this.#view = block;
+    this.#at = this.#start = from;
+    this.#end = to;
     if (encoding === 'ros1') return;
     this.#start += CDR_HEADER;
     const kind = this.#view.getUint8(this.#next(CDR_HEADER) + 1);
@@ -87,7 +85,7 @@ class Reader {
   string(): string {
     const length = this.uint32();
     this.seek(length);
-    return new TextDecoder().decode(new Uint8Array(this.#view.buffer, this.#at - length, length)).replace(/\0$/, '');
+    return new TextDecoder().decode(bytesOf(this.#view, this.#at - length, this.#at)).replace(/\0$/, '');
   }
 
   /** Returns the position of a value, and moves past it. */
@@ -98,6 +96,8 @@ class Reader {
     return at;
   }
 }
+
+const bytesOf = (block: DataView, from: number, to: number) => new Uint8Array(block.buffer, block.byteOffset + from, to - from);
 
 const NO_STAMP: Stamp = { seconds: 0, nanoseconds: 0 };
 
@@ -168,26 +168,29 @@ export function kindOf(type: string): Series['kind'] {
 /** Checks whether messages are serialized as ROS 1 or ROS 2 does. */
 export const isReadable = ({ encoding }: Channel) => encoding === 'cdr' || encoding === 'ros1';
 
-/** Magic number of a message that rosbag2 compressed. Other messages start with 0. */
+/** Magic number of a message that rosbag2 compressed. Other messages of ROS 2 start with 0. */
 const ZSTD = 0x28b52ffd;
 
-function readerOf(encoding: string, data: Uint8Array): Reader {
-  if (encoding === 'ros1' || data[0] === 0 || viewOf(data).getUint32(0) !== ZSTD) return new Reader(encoding, data);
-  return new Reader(encoding, unzstdMessage(data));
+function readerOf(channel: Channel, message: Bytes): Reader {
+  const { block, from, to } = message;
+  if (channel.encoding === 'ros1' || block.getUint32(from) !== ZSTD) return new Reader(channel, message);
+  const bytes = unzstdMessage(bytesOf(block, from, to));
+  return new Reader(channel, { block: viewOf(bytes), from: 0, to: bytes.length });
 }
 
 /** Returns a reader of poses or commands, which throws an error if the bytes are no such message. */
-export function poseReader({ type, encoding }: Channel): (data: Uint8Array) => Sample {
-  const read = POSES[plainType(type)] ?? COMMANDS[plainType(type)];
-  return (data) => read(readerOf(encoding, data));
+export function poseReader(channel: Channel): (message: Bytes) => Sample {
+  const type = plainType(channel.type);
+  const read = POSES[type] ?? COMMANDS[type];
+  return (message) => read(readerOf(channel, message));
 }
 
 /** Returns the name of a frame without the leading slash of the first tf. */
 export const withoutSlash = (name: string) => name.replace(/^\/+/, '');
 
 /** Reads transforms; throws an error if the bytes are no such message. */
-export function edgesOf({ encoding }: Channel, data: Uint8Array): Edge[] {
-  const reader = readerOf(encoding, data);
+export function edgesOf(message: Message): Edge[] {
+  const reader = readerOf(message.channel, message);
   const edges: Edge[] = [];
   for (let left = reader.uint32(); left > 0; left--) {
     const { seconds, nanoseconds } = reader.stamp();

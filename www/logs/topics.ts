@@ -52,10 +52,10 @@ async function seriesOf(container: Container): Promise<Series[]> {
     if (each.kind !== 'transforms' || isStatic({ topic: each.name, type: each.type })) continue;
     const tree = new FrameTree();
     let messages = 0;
-    const take = ({ channel, data }: Message) => {
+    const take = (message: Message) => {
       messages += 1;
       try {
-        for (const edge of edgesOf(channel, data)) tree.take(edge, isStatic(channel));
+        for (const edge of edgesOf(message)) tree.take(edge, isStatic(message.channel));
       } catch {
         // A damaged message is counted when the log is read.
       }
@@ -146,15 +146,15 @@ class TopicReader {
     const chain = this.#chain;
     if (!chain) {
       const pose = poseReader(channel);
-      return (message) => this.#add(pose(message.data), message, this.#number);
+      return (message) => this.#add(pose(message), message, this.#number);
     }
     const fixed = isStatic(channel);
     return (message) => {
-      for (const edge of edgesOf(channel, message.data)) chain.take(edge, fixed, message, this.#number);
+      for (const edge of edgesOf(message)) chain.take(edge, fixed, message, this.#number);
     };
   }
 
-  #add({ seconds, nanoseconds, a, b, c, isRotation }: Sample, recorded: Omit<Message, 'data'>, number: number): void {
+  #add({ seconds, nanoseconds, a, b, c, isRotation }: Sample, recorded: Pick<Message, 'seconds' | 'nanoseconds'>, number: number): void {
     if (Math.max(Math.abs(a), Math.abs(b), Math.abs(c)) > MAX_VALUE) return this.#drop(number, 'a value is out of range');
     if (!isRotation) return this.#rows.drop('noRotation', number);
     this.#rows.add(seconds, nanoseconds / 1e9, a, b, c, number, recorded.seconds, recorded.nanoseconds / 1e9);

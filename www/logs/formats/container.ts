@@ -21,7 +21,10 @@ export interface Message {
   /** Time of recording. */
   seconds: number;
   nanoseconds: number;
-  data: Uint8Array;
+  /** Block with the serialized message, and its range there. Messages share views, because creating one takes as long as reading a message. */
+  block: DataView;
+  from: number;
+  to: number;
 }
 
 export interface Container {
@@ -40,30 +43,38 @@ export interface Container {
 /** Maximum size of a block in bytes: recorders write one to four million. */
 export const MAX_BLOCK = 2 ** 26;
 
-/** Number of bytes that are read at once. */
-const PIECE_BYTES = 2 ** 22;
+/** Number of bytes that are read at once, and number of such pieces that are read in advance. */
+const [PIECE_BYTES, PIECES_AHEAD] = [2 ** 23, 2];
 
 /**
  * Returns a function that reads bytes of a source. Positions must increase from call to call. While positions follow each other, the next
- * piece is read during the work on the present one.
+ * pieces are read during the work on the present one.
  */
 export function readAhead(source: Source): (from: number, to: number) => Promise<Uint8Array> {
-  let start = 0;
-  let piece: Uint8Array = new Uint8Array();
-  let next: Promise<Uint8Array> | undefined;
-  const read = (from: number, to = from) => bytesOf(source, from, Math.min(Math.max(to, from + PIECE_BYTES), source.size));
+  const pieces = new Map<number, Uint8Array | Promise<Uint8Array>>();
+  let last = -1;
+  const request = (i: number) => {
+    if (pieces.has(i) || i * PIECE_BYTES >= source.size) return;
+    const bytes = bytesOf(source, i * PIECE_BYTES, Math.min((i + 1) * PIECE_BYTES, source.size));
+    pieces.set(i, bytes);
+    // If the piece is never needed, an error of its read has no effect.
+    bytes.then((read) => pieces.has(i) && pieces.set(i, read), () => {});
+  };
   return async (from, to) => {
-    const end = start + piece.length;
-    if (from < start || to > end) {
-      const follows = from >= start && from <= end;
-      const isRead = follows && next && to <= end + PIECE_BYTES;
-      piece = isRead ? joined(piece.subarray(from - start), await next!) : await read(from, to);
-      start = from;
-      next = follows ? read(start + piece.length) : undefined;
-      // If the piece is never needed, an error of its read has no effect.
-      next?.catch(() => {});
+    const first = Math.floor(from / PIECE_BYTES);
+    const ahead = first <= last + 1 ? PIECES_AHEAD : 0;
+    last = Math.max(first, Math.floor((to - 1) / PIECE_BYTES));
+    for (const i of pieces.keys()) if (i < first) pieces.delete(i);
+    for (let i = first; i <= last + ahead; i++) request(i);
+    let bytes: Uint8Array = new Uint8Array();
+    for (let i = first; i <= last; i++) {
+      const piece = pieces.get(i) ?? bytes;
+      const start = i * PIECE_BYTES;
+      // Awaiting a piece that is there would take longer than reading a record.
+      const part = (piece instanceof Uint8Array ? piece : await piece).subarray(Math.max(from - start, 0), to - start);
+      bytes = i === first ? part : joined(bytes, part);
     }
-    return piece.subarray(from - start, to - start);
+    return bytes;
   };
 }
 
@@ -79,13 +90,11 @@ export const viewOf = ({ buffer, byteOffset, byteLength }: Uint8Array) => new Da
 /** Returns a number of eight bytes that is below 2^53. */
 export const uint53 = (view: DataView, at: number) => view.getUint32(at, true) + 2 ** 32 * view.getUint32(at + 4, true);
 
-/** Splits a time in nanoseconds into seconds and nanoseconds, by digits of 16 bits. A BigInt would take as long as the rest of a message. */
+/** Splits a time in nanoseconds into seconds and nanoseconds. A BigInt would take as long as the rest of a message. */
 export function stampAt(view: DataView, at: number) {
-  let [seconds, rest] = [0, view.getUint32(at + 4, true)];
-  for (const from of [at + 2, at]) {
-    rest = rest * 2 ** 16 + view.getUint16(from, true);
-    seconds = seconds * 2 ** 16 + Math.floor(rest / 1e9);
-    rest %= 1e9;
-  }
-  return { seconds, nanoseconds: rest };
+  // The quotient of rounded numbers may be wrong by 1. The lower 32 bits of the remainder are exact, and reveal it.
+  const seconds = Math.floor(uint53(view, at) / 1e9);
+  const rest = (view.getUint32(at, true) - Math.imul(seconds, 1e9)) | 0;
+  const carry = rest < 0 ? -1 : rest < 1e9 ? 0 : 1;
+  return { seconds: seconds + carry, nanoseconds: rest - 1e9 * carry };
 }

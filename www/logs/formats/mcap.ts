@@ -133,7 +133,7 @@ class Mcap implements Container {
       if (bytes[at] === MESSAGE) {
         const channel = this.#channels.get(view.getUint16(at + RECORD_HEAD_BYTES, true));
         if (channel && isWanted(channel)) {
-          each({ channel, ...stampAt(view, at + RECORD_HEAD_BYTES + 6), data: bytes.subarray(at + RECORD_HEAD_BYTES + 22, next) });
+          each({ channel, ...stampAt(view, at + RECORD_HEAD_BYTES + 6), block: view, from: at + RECORD_HEAD_BYTES + 22, to: next });
         }
       } else {
         const reader = new McapStreamReader({ noMagicPrefix: true });

@@ -24,14 +24,18 @@ export async function openRosbag(source: Source): Promise<Container> {
   return bag;
 }
 
-/** Header of a record: named fields, each after its length. */
+/** Header of a record, a range of a block: named fields, each after its length. */
 class Fields {
   #bytes;
   #view;
+  #from;
+  #to;
 
-  constructor(bytes: Uint8Array) {
+  constructor(bytes: Uint8Array, view = viewOf(bytes), from = 0, to = bytes.length) {
     this.#bytes = bytes;
-    this.#view = viewOf(bytes);
+    this.#view = view;
+    this.#from = from;
+    this.#to = to;
   }
 
   /** Returns the bytes of a field; throws a RangeError if there is none. */
@@ -68,7 +72,7 @@ class Fields {
   /** Returns start and end of a value; zeros if there is none. */
   #find(name: string): [number, number] {
     const bytes = this.#bytes;
-    for (let at = 0, end; at < bytes.length; at = end) {
+    for (let at = this.#from, end; at < this.#to; at = end) {
       end = at + 4 + this.#view.getUint32(at, true);
       const equals = at + 4 + name.length;
       if (bytes[equals] !== 0x3d) continue;
@@ -80,12 +84,12 @@ class Fields {
   }
 }
 
-/** Record at a position of a block, with the position of the next one. Throws a RangeError if it is cut short. */
-function recordAt(bytes: Uint8Array, view: DataView, at: number): { fields: Fields; data: Uint8Array; next: number } {
+/** Header of the record at a position of a block, and the range of its data, which ends at the next record. Throws a RangeError if it is cut short. */
+function recordAt(bytes: Uint8Array, view: DataView, at: number): { fields: Fields; from: number; next: number } {
   const header = at + 4 + view.getUint32(at, true);
   const next = header + 4 + view.getUint32(header, true);
   if (next > bytes.length) throw new RangeError('a record is cut short');
-  return { fields: new Fields(bytes.subarray(at + 4, header)), data: bytes.subarray(header + 4, next), next };
+  return { fields: new Fields(bytes, view, at + 4, header), from: header + 4, next };
 }
 
 class Rosbag implements Container {
@@ -115,12 +119,13 @@ class Rosbag implements Container {
       const [start, count] = [fields.uint64('index_pos'), fields.uint32('chunk_count')];
       if (fields.byte('op') !== BAG || start === 0 || start > size) return false;
       const bytes = await bytesOf(this.#source, start, size);
+      const view = viewOf(bytes);
       const chunks = [];
       for (let at = 0; at < bytes.length; ) {
-        const { fields, data, next } = recordAt(bytes, viewOf(bytes), at);
-        if (fields.byte('op') === CONNECTION) this.#addConnection(fields, data);
+        const { fields, from, next } = recordAt(bytes, view, at);
+        if (fields.byte('op') === CONNECTION) this.#addConnection(fields, bytes.subarray(from, next));
         if (fields.byte('op') === CHUNK_INFO) {
-          const pairs = Array.from({ length: fields.uint32('count') }, (_, i) => [0, 4].map((part) => viewOf(data).getUint32(8 * i + part, true)));
+          const pairs = Array.from({ length: fields.uint32('count') }, (_, i) => [0, 4].map((part) => view.getUint32(from + 8 * i + part, true)));
           for (const [id, messages] of pairs) {
             const channel = this.#channels.get(id);
             if (channel) channel.count += messages;
@@ -188,12 +193,12 @@ class Rosbag implements Container {
     const bytes = await this.#decompress(chunk.text('compression'), compressed, chunk.uint32('size'));
     const view = viewOf(bytes);
     for (let at = 0; at < bytes.length; ) {
-      const { fields, data, next } = recordAt(bytes, view, at);
+      const { fields, from, next } = recordAt(bytes, view, at);
       const op = fields.byte('op');
-      if (op === CONNECTION) this.#addConnection(fields, data);
+      if (op === CONNECTION) this.#addConnection(fields, bytes.subarray(from, next));
       if (op === MESSAGE) {
         const channel = this.#channels.get(fields.uint32('conn'));
-        if (channel && isWanted(channel)) each({ channel, seconds: fields.uint32('time'), nanoseconds: fields.uint32('time', 4), data });
+        if (channel && isWanted(channel)) each({ channel, seconds: fields.uint32('time'), nanoseconds: fields.uint32('time', 4), block: view, from, to: next });
       }
       at = next;
     }

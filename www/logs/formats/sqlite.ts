@@ -108,7 +108,8 @@ class Rosbag2 implements Container {
     const [topicId, timestamp, data] = ['topic_id', 'timestamp', 'data'].map((column) => this.#messages.columns.indexOf(column));
     const take = (channel: Channel, bytes: Uint8Array) => {
       const time = BigInt(valueOf(bytes, timestamp) as bigint);
-      each({ channel, seconds: Number(time / NANOSECONDS), nanoseconds: Number(time % NANOSECONDS), data: valueOf(bytes, data) as Uint8Array });
+      const block = viewOf(valueOf(bytes, data) as Uint8Array);
+      each({ channel, seconds: Number(time / NANOSECONDS), nanoseconds: Number(time % NANOSECONDS), block, from: 0, to: block.byteLength });
     };
     await this.#eachRow(this.#messages, (row) => {
       const channel = wanted.get(valueOf(row.bytes, topicId));

@@ -44,7 +44,7 @@ export interface Container {
 export const MAX_BLOCK = 2 ** 26;
 
 /** Number of bytes that are read at once, and number of such pieces that are read in advance. */
-const [PIECE_BYTES, PIECES_AHEAD] = [2 ** 23, 2];
+const [PIECE_BYTES, PIECES_AHEAD] = [2 ** 22, 3];
 
 /**
  * Returns a function that reads bytes of a source. Positions must increase from call to call. While positions follow each other, the next

@@ -155,20 +155,23 @@ test('names and units of columns that a table does not state are asked for, and 
   await expect(caption(widget)).toHaveText(/of odom\.csv, truth\.csv[.,]/);
 });
 
-test('the files of a dropped folder are one recording', async ({ page }) => {
+test('the files of a dropped folder are one recording, and others are not used', async ({ page }) => {
   const widget = await openCalibrator(page);
-  const recording = await recordingWith(['/mocap/pose']);
-  await widget.locator('section.machine').evaluate(async (section, base64) => {
-    const content = await (await fetch(`data:;base64,${base64}`)).arrayBuffer();
+  const camera = await recordingOf([0, 1].map((t) => ({ topic: '/image', type: 'std_msgs/msg/String', t, message: { data: '' } })));
+  const recordings = [await recordingWith(['/mocap/pose']), camera].map((bytes) => bytes.toString('base64'));
+  await widget.locator('section.machine').evaluate(async (section, all) => {
+    const [content, other] = await Promise.all(all.map(async (base64) => (await fetch(`data:;base64,${base64}`)).arrayBuffer()));
     const text = 'rosbag2_bagfile_information:\n  relative_file_paths: [run_0.mcap]\n';
-    const entries = [new File([content], 'run_0.mcap'), new File([text], 'metadata.yaml')].map((file) =>
+    const journal = new File([new Uint8Array([0x37, 0x7f, 0x06, 0x82])], 'run_0.db3-wal');
+    const entries = [new File([content], 'run_0.mcap'), new File([text], 'metadata.yaml'), new File([other], 'camera.mcap'), journal].map((file) =>
       ({ name: file.name, isDirectory: false, fullPath: `/run/${file.name}`, file: (/** @type {(file: File) => void} */ take) => take(file) }));
     const rest = [entries, []];
     const entry = { isDirectory: true, createReader: () => ({ readEntries: (/** @type {(some: unknown) => void} */ take) => take(rest.shift()) }) };
     const dataTransfer = { types: ['Files'], items: [{ kind: 'file', webkitGetAsEntry: () => entry, getAsFile: () => null }] };
     section.dispatchEvent(Object.defineProperty(new Event('drop'), 'dataTransfer', { value: dataTransfer }));
-  }, recording.toString('base64'));
+  }, recordings);
   await expect(caption(widget)).toHaveText(/of run, \/odom, \/mocap\/pose[.,]/);
+  await expect(widget.locator('.choosers > p')).toHaveText([/^Not used: run_0\.db3-wal: it is a journal /, /^Not used: camera\.mcap: the topics are \/image /]);
 });
 
 test('a log without enough legs is refused, and the present log keeps its place and its name', async ({ page }) => {

@@ -134,6 +134,8 @@ test('bad input has the exit code 2 and a sentence', async () => {
     [['a.csv', 'b.csv', '--reference-columns', 't,x,y,yaw'], '--reference-columns needs --reference FILE.'],
     [['--odometri', 'a'], 'unknown option --odometri; the nearest is --odometry, --help lists all.'],
     [['--ref', 'a'], 'unknown option --ref; the nearest is --reference, --help lists all.'],
+    [['--topic', '/odom'], 'unknown option --topic; the nearest are --odometry-topic and --reference-topic, --help lists all.'],
+    [['--bag', 'run.bag'], 'unknown option --bag; files need no option, as in calibrate run.bag, --help lists all.'],
     [['--seed', '1'], 'unknown option --seed; --help lists all.'],
     [['--update-min-d', '--json'], "Option '--update-min-d' argument is ambiguous."],
     [['--columns', '-,t,x,y,yaw'], "Option '--columns' argument is ambiguous. Did you forget to specify the option argument for '--columns'? To specify an option argument starting with a dash use '--columns=-XYZ'."],
@@ -177,7 +179,7 @@ test('a shell gets help, errors, and a pipe that is closed', () => {
   for (const help of [shell(), shell('calibrate', '--help')]) assert.deepEqual([help.status, help.stdout, help.stderr], [0, HELP, '']);
   const refused = shell('calibrate', '--odometry', 'no.csv', '--reference', 'no.csv');
   assert.deepEqual([refused.status, refused.stdout, refused.stderr], [2, '', 'no.csv: there is no such file or folder.\n']);
-  assert.match(shell('calibrat').stderr, /^the command must be calibrate or inspect \(got “calibrat”\); --help has examples\.$/m);
+  assert.match(shell('calibrat').stderr, /^the command must be calibrate or inspect \(got “calibrat”\), as in npx motion-widgets inspect run\.bag; --help has examples\.$/m);
   const closed = spawnSync('sh', ['-c', '"$0" "$@" | head -c 1', process.execPath, CLI, 'calibrate', ...FILES, '--json'], { encoding: 'utf8' });
   assert.deepEqual([closed.stdout, closed.stderr], ['{', '']);
 });
@@ -243,12 +245,14 @@ test('a folder gives its logs, and other files are skipped', async () => {
   for (const [name, from] of [['odom.csv', 'odometry'], ['truth.csv', 'reference']]) writeFileSync(join(path, name), readFileSync(example(from)));
   writeFileSync(join(path, '._odom.csv'), readFileSync(example('odometry')));
   writeFileSync(join(path, 'README.md'), '# A drive\n\nwith words, and no numbers\n');
+  writeFileSync(join(path, 'run.db3-wal'), Buffer.from('377f0682', 'hex'));
+  writeFileSync(join(path, 'camera.mcap'), await recordingOf([0, 1].map((t) => ({ topic: '/image', type: 'std_msgs/msg/String', t, message: { data: '' } }))));
   let inspected = '';
   await run(['inspect', path], { load, print: (text) => (inspected += text), complain: () => {} });
   assert.match(inspected, /^ {2}npx motion-widgets calibrate \S+\/drive --rule nav2$/m);
   const { code, out, err } = await outputOf([path]);
   assert.deepEqual([code, out.match(/^\w+: .*\.csv$/gm)], [0, ['Odometry: odom.csv', 'Reference: truth.csv']]);
-  assert.match(err, /^skipped: README\.md: it does not look like a log, .*\n$/);
+  assert.match(err, /^skipped: run\.db3-wal: it is a journal .*\nskipped: README\.md: it does not look like a log, .*\nskipped: camera\.mcap: the topics are \/image \(String\); .*\n$/);
 });
 
 /** Writes the reference of another drive: the path of the example from its end to its start. */

@@ -107,6 +107,11 @@ test('several recordings are drives of their own, or give one log each', async (
   assert.deepEqual([unpaired.odometry[0].choice.series, unpaired.reference[0].choice.series], ['/odom', '/mocap']);
   const { drives, unpaired: { odometry: [ofBag] } } = planDrives([both, recording({ '': 'columns' }, { name: 'truth.csv', format: 'csv' })]);
   assert.deepEqual([drives.length, ofBag.choice.series], [0, '/odom']);
+  // A recording without any log is left out, unless it was given as one.
+  const camera = recording({ '/image': 'text' }, { name: 'camera.mcap' });
+  const { drives: [drive], unused } = planDrives([camera, both]);
+  assert.deepEqual([drive.odometry.recording, unused.map(({ message }) => message.slice(0, 48))], [both, ['camera.mcap: the topics are /image (String); exp']]);
+  assert.match(await sentenceOf(planned([both, camera], { roles: new Map([[camera, 'reference']]) })), /^camera\.mcap: the topics are \/image \(String\); /);
   const tables = async (/** @type {string[]} */ ...names) => {
     const plan = planDrives(names.map((name) => recording({ '': 'columns' }, { name, format: 'csv' })));
     return [plan.unpaired.odometry, plan.unpaired.reference].map((parts) => parts.map(({ recording: { name } }) => name));

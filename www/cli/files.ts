@@ -2,31 +2,15 @@
 
 import { openAsBlob } from 'node:fs';
 import { readdir, stat } from 'node:fs/promises';
-import { basename, dirname, join, relative, resolve } from 'node:path';
+import { basename, join, relative, resolve } from 'node:path';
 import { LogError } from '../logs/log-error.ts';
 import type { Recording, Source } from '../logs/log.ts';
 import { openRecordings } from '../logs/open.ts';
 import type { Input } from './options.ts';
 
-/**
- * Opens a file or a folder; rejects with a LogError. In a folder without metadata.yaml other files than logs are skipped, each with a call
- * of `onSkip`.
- */
-export async function recordingsOf({ path, open }: Input, onSkip: (reason: string) => void): Promise<Recording[]> {
-  const sources = await sourcesOf(path);
-  const bagFolders = sources.filter(({ name }) => name === 'metadata.yaml').map((source) => dirname(source.path ?? ''));
-  const isJoined = ({ path = '' }: Source) => bagFolders.includes(dirname(path));
-  const joined = sources.filter(isJoined);
-  const recordings = joined.length > 0 ? await openRecordings(joined, open) : [];
-  for (const source of sources.filter((each) => !isJoined(each))) {
-    try {
-      recordings.push(...(await openRecordings([source], open)));
-    } catch (error) {
-      if (!(error instanceof LogError) || sources.length === 1) throw error;
-      onSkip(error.message);
-    }
-  }
-  return recordings;
+/** Opens a file or a folder; rejects with a LogError. In a folder other files than logs are skipped, each with a call of `onSkip`. */
+export async function recordingsOf({ path, open }: Input, onSkip: (error: LogError) => void): Promise<Recording[]> {
+  return openRecordings(await sourcesOf(path), open, onSkip);
 }
 
 async function sourcesOf(path: string): Promise<Source[]> {

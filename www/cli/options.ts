@@ -6,6 +6,7 @@ import type { Wishes } from '../logs/drives.ts';
 import { cut } from '../logs/log-error.ts';
 import { ROLES, UNITS, type Frames, type OpenOptions, type Role } from '../logs/log.ts';
 import { SYSTEMATIC_ERRORS } from '../widgets/alpha-calibrator/lines.ts';
+import { quoted } from './advice.ts';
 
 /** Error about the options; its message is a sentence. */
 export class UsageError extends Error {}
@@ -125,7 +126,10 @@ export function optionsOf(args: string[]): Calibrate | Inspect | 'help' | 'versi
     const stated = Object.entries(values).filter((each): each is [string, string] => typeof each[1] === 'string');
     return { command, inputs: all.map((path) => ({ path, open: open() })), stated, isJson: values.json ?? false };
   }
-  if (command !== 'calibrate') throw new UsageError(`the command must be calibrate or inspect (got “${cut(command ?? '')}”); --help has examples.`);
+  if (command !== 'calibrate') {
+    const path = paths[0] ?? (isPath(command) ? command : 'run.bag');
+    throw new UsageError(`the command must be calibrate or inspect (got “${cut(command ?? '')}”), as in npx motion-widgets inspect ${quoted(path)}; --help has examples.`);
+  }
   const number = (name: 'update-min-d' | 'update-min-a' | 'duration' | 'reference-position-std' | 'reference-yaw-std') => {
     const value = values[name];
     if (value === undefined) return undefined;
@@ -218,20 +222,29 @@ function parsed(args: string[]) {
   } catch (error) {
     const { code, message } = error as NodeJS.ErrnoException;
     const [, name] = (code === 'ERR_PARSE_ARGS_UNKNOWN_OPTION' && /'--?([^']*)'/.exec(message)) || [];
-    throw new UsageError(name === undefined ? message.replaceAll('\n', ' ') : `unknown option --${cut(name)}; ${nearestOption(name)}--help lists all.`);
+    if (name === undefined) throw new UsageError(message.replaceAll('\n', ' '));
+    const at = args.findIndex((arg) => arg.replace(/^-+|=.*/g, '') === name);
+    const value = /=(.*)/.exec(args[at])?.[1] ?? args[at + 1];
+    const hint = nearestOptions(name) || (isPath(value) ? `files need no option, as in calibrate ${quoted(value)}, ` : '');
+    throw new UsageError(`unknown option --${cut(name)}; ${hint}--help lists all.`);
   }
 }
 
-/** Returns a hint at the option that begins with a name, or has the most pairs of letters in common with it. */
-function nearestOption(name: string): string {
+/** Checks whether an argument has an extension or is in a folder. */
+const isPath = (argument = '') => /\.\w+$|\//.test(argument);
+
+/** Returns a hint at the options that begin or end with a name, or have the most pairs of letters in common with it. */
+function nearestOptions(name: string): string {
   const pairs = (word: string) => Array.from(word, (letter, i) => letter + (word[i + 1] ?? ''));
   const own = pairs(name);
   const scores = Object.keys(OPTIONS).map((option) => {
     const other = pairs(option);
-    return { option, score: option.startsWith(name) ? 1 : own.filter((pair) => other.includes(pair)).length / Math.max(own.length, other.length) };
+    const common = own.filter((pair) => other.includes(pair)).length / Math.max(own.length, other.length);
+    return { option, score: option.startsWith(name) ? 1 + common : option.endsWith(`-${name}`) ? 1 : common };
   });
-  const { option, score } = scores.reduce((best, each) => (each.score > best.score ? each : best));
-  return score > 0.4 ? `the nearest is --${option}, ` : '';
+  const best = Math.max(0.4, ...scores.map(({ score }) => score));
+  const nearest = scores.filter(({ score }) => score === best).map(({ option }) => `--${option}`);
+  return nearest.length ? `the nearest ${nearest.length > 1 ? 'are' : 'is'} ${new Intl.ListFormat('en').format(nearest)}, ` : '';
 }
 
 function framesOf(name: string, value: string | undefined): Frames | undefined {

@@ -31,7 +31,7 @@ const [SUCCESS, BAD_INPUT, UNUSABLE] = [0, 2, 3];
 /** Runs a command, and returns the exit code; rejects on a defect of the program. */
 export async function run(args: string[], environment: Environment): Promise<number> {
   const { print, complain, onProgress } = environment;
-  const onSkip = (reason: string) => complain(`skipped: ${reason}\n`);
+  const onSkip = ({ message }: LogError) => complain(`skipped: ${message}\n`);
   try {
     const options = optionsOf(args);
     if (options === 'help') print(HELP);
@@ -52,7 +52,7 @@ export async function run(args: string[], environment: Environment): Promise<num
   }
 }
 
-async function calibrate({ inputs, wishes, fit, output, plot }: Calibrate, { load, print, complain, onProgress, isColored = false, now = new Date() }: Environment, onSkip: (reason: string) => void): Promise<number> {
+async function calibrate({ inputs, wishes, fit, output, plot }: Calibrate, { load, print, complain, onProgress, isColored = false, now = new Date() }: Environment, onSkip: (error: LogError) => void): Promise<number> {
   const roles = new Map();
   const recordings = [];
   for (const kind of ['recording', 'odometry', 'reference'] as const) {
@@ -64,6 +64,7 @@ async function calibrate({ inputs, wishes, fit, output, plot }: Calibrate, { loa
   }
   if (recordings.length === 0) throw new UsageError('there are no logs in the folder.');
   const plan = planDrives(recordings, { ...wishes, roles });
+  plan.unused.forEach(onSkip);
   if (plan.isByOrder) complain(`${byOrder(plan)}\n`);
   const drives = await readDrives(plan, onProgress);
   onProgress?.(undefined);

@@ -44,7 +44,7 @@ const UNSUPPORTED_FORMATS: typeof import('./en.ts').UNSUPPORTED_FORMATS = {
   ulog: 'ein PX4-Log (ULog); mit „ulog2csv“ umwandeln und zwei der Tabellen angeben.',
   dataflash: 'ein ArduPilot-Log; mit „mavlogdump.py --format csv --types POS“ umwandeln.',
   pcap: 'ein Netzwerkmitschnitt; erwartet wird eine Aufzeichnung von „ros2 bag record“ oder „rosbag record“.',
-  wal: 'das Journal einer SQLite-Datenbank; die .db3-Datei einmal mit „sqlite3“ öffnen, das es zurückschreibt, und diese angeben.',
+  wal: `ein Journal mit Nachrichten, die seiner .db3-Datei fehlen; das Aufzeichnen beenden, oder sie mit „sqlite3 DATEI.db3 'PRAGMA wal_checkpoint'“ zurückschreiben.`,
   zip: 'ein Zip-Archiv oder eine Arbeitsmappe (.xlsx, .ods); entpacken und die Dateien angeben, oder die Tabelle als CSV speichern.',
   gzip: 'mit gzip komprimiert; mit „gunzip“ dekomprimieren und das Ergebnis angeben.',
   bzip2: 'mit bzip2 komprimiert; mit „bunzip2“ dekomprimieren und das Ergebnis angeben.',
@@ -148,6 +148,7 @@ export const german: Words = {
   choose: {
     roles: ROLES,
     open: 'auswählen',
+    skipped: (reason) => `Nicht verwendet: ${reason}`,
     byOrder: 'Kein Name sagt, was welche ist: Stimmt das?',
     timeUnit: (file) => `Einheit der Zeiten in ${file}`,
     lengthUnit: (file) => `Einheit der Längen in ${file}`,

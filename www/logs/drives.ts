@@ -16,6 +16,8 @@ export interface Plan {
   unpaired: Record<Role, Part[]>;
   /** True if neither names nor contents of two files are signs of their roles. The first is the odometry then. */
   isByOrder: boolean;
+  /** Errors of recordings that are left out, because none of their topics can be read. */
+  unused: LogError[];
 }
 
 /** Choices of the user. Missing ones are guessed. */
@@ -35,9 +37,11 @@ const described = (series: Series[]) => listed(series.map(({ name, type }) => (n
 const isSame = (one: Choice, other?: Choice) => one.series === other?.series && one.frames?.parent === other.frames?.parent && one.frames?.child === other.frames?.child;
 
 /** Assigns the logs of recordings to drives. Throws a LogError, which has a question if the choice is ambiguous. */
-export function planDrives(recordings: Recording[], wishes: Wishes = {}): Plan {
+export function planDrives(all: Recording[], wishes: Wishes = {}): Plan {
+  const useful = all.filter((recording) => wishes.roles?.has(recording) || usefulSeries(recording).length > 0);
+  const recordings = useful.length > 0 ? useful : all;
   const unpaired: Plan['unpaired'] = { odometry: [], reference: [] };
-  const plan: Plan = { drives: [], unpaired, isByOrder: false };
+  const plan: Plan = { drives: [], unpaired, isByOrder: false, unused: all.filter((each) => !recordings.includes(each)).map(unusable) };
   const unnamed: Recording[] = [];
   for (const recording of recordings) {
     const role = wishes.roles?.get(recording) ?? (recordings.length > 1 ? onlyRole(recording, wishes) : 'both');
@@ -144,10 +148,7 @@ function guessedChoice(recording: Recording, role: Role, wishes: Wishes, other?:
   if (best.length === 1) return best[0];
   const file = recording.name;
   const useful = usefulSeries(recording);
-  if (useful.length === 0) {
-    const short = recording.series.find(({ kind }) => kind !== null);
-    throw new LogError({ file, topic: short?.name }, (say) => (short ? say.noMessages : say.noTopics(described(recording.series))));
-  }
+  if (useful.length === 0) throw unusable(recording);
   const transforms = useful.filter(({ kind }) => kind === 'transforms');
   if (transforms.length === useful.length) throw framesError(recording, transforms.find((each) => each.frames) ?? transforms[0], role);
   if (role === 'reference' && useful.every(({ kind }) => kind === 'commands')) throw new LogError({ file }, (say) => say.noPoses(described(useful)));
@@ -166,6 +167,12 @@ function guessedChoice(recording: Recording, role: Role, wishes: Wishes, other?:
   );
 }
 
+/** Returns the error of a recording of which no series can be read. */
+function unusable({ name: file, series }: Recording): LogError {
+  const short = series.find(({ kind }) => kind !== null);
+  return new LogError({ file, topic: short?.name }, (say) => (short ? say.noMessages : say.noTopics(described(series))));
+}
+
 /** Returns the role of the only series of a recording by its contents or by the name of the file; undefined if neither is a sign. */
 function knownRole({ name: file }: Recording, { name, type, kind, hasCommands }: Series): Role | undefined {
   if (kind === 'commands') return 'odometry';
@@ -173,7 +180,7 @@ function knownRole({ name: file }: Recording, { name, type, kind, hasCommands }:
 }
 
 /** Reads the logs of a plan and pairs them. Their times are relative to one start. Rejects with a LogError. */
-export async function readDrives({ drives, unpaired }: Omit<Plan, 'isByOrder'>, onProgress?: (share: number) => void): Promise<Drive[]> {
+export async function readDrives({ drives, unpaired }: Pick<Plan, 'drives' | 'unpaired'>, onProgress?: (share: number) => void): Promise<Drive[]> {
   const reads = [...drives.map((drive) => [drive.odometry, drive.reference]), ...[...unpaired.odometry, ...unpaired.reference].map((part) => [part])];
   const logs: Log[] = [];
   for (const [i, parts] of reads.entries()) {

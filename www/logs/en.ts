@@ -54,7 +54,7 @@ export const UNSUPPORTED_FORMATS = {
   ulog: 'a PX4 log (ULog); convert it with “ulog2csv”, and give two of the tables.',
   dataflash: 'an ArduPilot log; convert it with “mavlogdump.py --format csv --types POS”.',
   pcap: 'a network capture; expected is a recording of “ros2 bag record” or “rosbag record”.',
-  wal: 'the journal of an SQLite database; open the .db3 file once with “sqlite3”, which writes it back, and give that.',
+  wal: `a journal with messages that its .db3 file lacks; end the recorder, or write them back with “sqlite3 FILE.db3 'PRAGMA wal_checkpoint'”.`,
   zip: 'a zip archive or a workbook (.xlsx, .ods); unzip it and give its files, or save the sheet as CSV.',
   gzip: 'compressed by gzip; decompress it with “gunzip”, and give the result.',
   bzip2: 'compressed by bzip2; decompress it with “bunzip2”, and give the result.',
@@ -161,6 +161,7 @@ export const english = {
   choose: {
     roles: { odometry: 'Odometry', reference: 'Reference' },
     open: 'choose',
+    skipped: (reason: string) => `Not used: ${reason}`,
     byOrder: 'Neither name says which is which: is this right?',
     timeUnit: (file: string) => `Unit of times in ${file}`,
     lengthUnit: (file: string) => `Unit of lengths in ${file}`,

@@ -33,28 +33,39 @@ const MAX_MAGIC_BYTES = 32;
  * lists become one recording.
  *
  * @param options of all files, or of each by its name
+ * @param onSkip is called with the errors of files among others, which are then skipped
  */
-export async function openRecordings(files: Source[], options: OpenOptions | ((file: string) => OpenOptions | undefined) = {}): Promise<Recording[]> {
+export async function openRecordings(files: Source[], options: OpenOptions | ((file: string) => OpenOptions | undefined) = {}, onSkip?: (error: LogError) => void): Promise<Recording[]> {
   const optionsOf = (file: string) => (typeof options === 'function' ? options(file) : options) ?? {};
+  const attempt = (work: () => Promise<void>) => work().catch((error) => {
+    if (!(error instanceof LogError) || !onSkip || files.length === 1) throw error;
+    onSkip(error);
+  });
   const formats = new Map<Source, Format | undefined>();
   for (const file of files) {
-    const format = await formatOf(file);
-    const source = format === 'zstd' ? await (await import('./formats/zstd.ts')).unzstdFile(file) : file;
-    formats.set(source, format === 'zstd' ? await formatOf(source) : format);
+    await attempt(async () => {
+      const format = await formatOf(file);
+      const source = format === 'zstd' ? await (await import('./formats/zstd.ts')).unzstdFile(file) : file;
+      formats.set(source, format === 'zstd' ? await formatOf(source) : format);
+    });
   }
   const sources = [...formats.keys()];
   const recordings: Recording[] = [];
   for (const metadata of sources.filter((source) => formats.get(source) === 'metadata')) {
-    const { filesOf, joined } = await import('./formats/folder.ts');
-    const { name, found, missing } = await filesOf(metadata, sources);
-    const parts: Container[] = [];
-    for (const source of found) parts.push(await containerOf(source, formats.get(source)));
-    recordings.push(await (await import('./topics.ts')).recordingOf(name, joined(parts, missing), optionsOf(name)));
-    for (const source of [metadata, ...found]) formats.delete(source);
+    await attempt(async () => {
+      const { filesOf, joined } = await import('./formats/folder.ts');
+      formats.delete(metadata);
+      const { name, found, missing } = await filesOf(metadata, sources);
+      const parts = found.map((source) => containerOf(source, formats.get(source)));
+      for (const source of found) formats.delete(source);
+      recordings.push(await (await import('./topics.ts')).recordingOf(name, joined(await Promise.all(parts), missing), optionsOf(name)));
+    });
   }
   for (const [source, format] of formats) {
-    if (!format) recordings.push(await openTable(source, optionsOf(source.name)));
-    else recordings.push(await (await import('./topics.ts')).recordingOf(source.name, await containerOf(source, format), optionsOf(source.name)));
+    await attempt(async () => {
+      if (!format) recordings.push(await openTable(source, optionsOf(source.name)));
+      else recordings.push(await (await import('./topics.ts')).recordingOf(source.name, await containerOf(source, format), optionsOf(source.name)));
+    });
   }
   return recordings;
 }

@@ -48,13 +48,14 @@ class LogSession {
     this.#machine = new this.#motion.AlphaCalibrator();
   }
 
-  async open(_: OnProgress, sources: { file: Source; path: string }[], answers: Record<string, OpenOptions>): Promise<Opened[]> {
-    this.#recordings = await openRecordings(sources.map(({ file, path }) => Object.assign(file, { path })), (name) => answers[name]);
-    return this.#recordings.map(({ name, format, series }, place) => ({ name, format, series, place }) as Opened);
+  async open(_: OnProgress, sources: { file: Source; path: string }[], answers: Record<string, OpenOptions>): Promise<{ recordings: Opened[]; skipped: Failure[] }> {
+    const skipped: Failure[] = [];
+    this.#recordings = await openRecordings(sources.map(({ file, path }) => Object.assign(file, { path })), (name) => answers[name], (error) => skipped.push(failureOf(error)));
+    return { recordings: this.#recordings.map(({ name, format, series }, place) => ({ name, format, series, place }) as Opened), skipped };
   }
 
   /** Reads the logs of a plan of the page, and keeps them for `calibrate`. */
-  async read(onProgress: OnProgress, { drives, unpaired }: Plan): Promise<Drive[]> {
+  async read(onProgress: OnProgress, { drives, unpaired }: Pick<Plan, 'drives' | 'unpaired'>): Promise<Drive[]> {
     const held = ({ recording, choice }: Part) => ({ recording: this.#recordings[(recording as Opened).place], choice });
     const plan = {
       drives: drives.map(({ odometry, reference }) => ({ odometry: held(odometry), reference: held(reference) })),

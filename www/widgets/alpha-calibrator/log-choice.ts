@@ -33,7 +33,7 @@ function optionsOf(recording: Recording, role?: Role): [label: string, Choice][]
 export function choosers(opener: LogOpener) {
   const { chosen, say } = opener;
   if (!chosen || !say) return nothing;
-  const { recordings, questions, plan } = chosen;
+  const { recordings, skipped, questions, plan } = chosen;
   const isSingle = (recording: Recording) => optionsOf(recording).length === 1;
   const which = [
     ...(recordings.every(isSingle) ? [] : ROLES.map((role) => seriesSelect(opener, chosen, role, say))),
@@ -42,6 +42,7 @@ export function choosers(opener: LogOpener) {
   return html`<div class="choosers">
     ${which.length ? html`<div class="topics">${which} ${plan?.isByOrder ? say.choose.byOrder : nothing}</div>` : nothing}
     ${questions.map((asked) => questionOf(opener, chosen, asked, say))}
+    ${[...skipped, ...(plan?.unused ?? [])].filter((each) => each !== opener.refusal).map((each) => html`<p class="muted">${say.choose.skipped(opener.explain(each))}</p>`)}
   </div>`;
 }
 

@@ -60,19 +60,19 @@ export class LogService {
   }
 
   /** Opens files, with the options of each by its name, and aborts the request in progress. */
-  async open(files: Source[], answers: Record<string, OpenOptions>): Promise<Opened[]> {
+  async open(files: Source[], answers: Record<string, OpenOptions>): Promise<{ recordings: Opened[]; skipped: LogFailure[] }> {
     this.stop();
     this.isOpen = false;
     // A copied `File` has no path.
-    const opened = await this.#ask<Opened[]>('open', [files.map((file) => ({ file, path: file.path ?? '' })), answers]);
+    const { recordings, skipped } = await this.#ask<{ recordings: Opened[]; skipped: Failure[] }>('open', [files.map((file) => ({ file, path: file.path ?? '' })), answers]);
     this.isOpen = true;
-    return opened;
+    return { recordings, skipped: skipped.map((each) => new LogFailure(each)) };
   }
 
   /** Reads the drives of a plan for the opened recordings. The worker then has their logs. */
-  async read(plan: Plan, onProgress: OnProgress): Promise<Drive[]> {
+  async read({ drives: planned, unpaired }: Plan, onProgress: OnProgress): Promise<Drive[]> {
     this.#held = undefined;
-    const drives = await this.#ask<Drive[]>('read', [plan], onProgress);
+    const drives = await this.#ask<Drive[]>('read', [{ drives: planned, unpaired }], onProgress);
     this.#held = drives.map(({ odometry }) => odometry.data);
     return drives;
   }

@@ -24,6 +24,8 @@ export interface Asked { file: string; ask: Question }
 export interface Chosen {
   files: File[];
   recordings: Recording[];
+  /** Errors of the files that were skipped. */
+  skipped: LogFailure[];
   /** Options of files by their names. */
   answers: Record<string, OpenOptions>;
   questions: Asked[];
@@ -115,7 +117,7 @@ export class LogOpener extends FileOpener<Figure> {
 
   choose(files: File[]) {
     const logs = files.filter(isLog);
-    if (files.length > 0) this.#open({ files: logs.length ? logs : files, recordings: [], answers: {}, questions: [], wishes: {}, roles: new Map() });
+    if (files.length > 0) this.#open({ files: logs.length ? logs : files, recordings: [], skipped: [], answers: {}, questions: [], wishes: {}, roles: new Map() });
   }
 
   /** Stores an answer to a question, and opens the files with it. */
@@ -134,7 +136,7 @@ export class LogOpener extends FileOpener<Figure> {
     this.chosen = { ...chosen, plan: undefined, drives: undefined, log: undefined };
     const now = this.chosen;
     this.#restart(async (reader) => {
-      if (now.recordings.length === 0) now.recordings = await this.host.service.open(now.files, now.answers);
+      if (now.recordings.length === 0) Object.assign(now, await this.host.service.open(now.files, now.answers));
       await this.#read(now, await this.#plan(now, reader), reader);
     });
   }
@@ -144,13 +146,16 @@ export class LogOpener extends FileOpener<Figure> {
     try {
       return planOf(reader, chosen, this.kind);
     } catch (error) {
+      // A skipped file may be the missing log, so its question comes first.
+      const skipped = chosen.skipped.find(({ ask }) => ask) ?? (chosen.recordings.length === 0 && chosen.skipped[0]);
+      if (skipped) throw skipped;
       const before = this.#lone;
       const isLone = chosen.recordings.length === 1 && (error as LogError).ask !== undefined;
       if (isLone) this.#lone = { ...chosen };
       if (!isLone || !before || before.files === chosen.files) throw error;
       const [files, questions] = [[...before.files, ...chosen.files], [...before.questions, ...chosen.questions]];
       Object.assign(chosen, { files, questions, answers: { ...before.answers, ...chosen.answers } });
-      chosen.recordings = await this.host.service.open(files, chosen.answers);
+      Object.assign(chosen, await this.host.service.open(files, chosen.answers));
       return planOf(reader, chosen, this.kind);
     }
   }
@@ -209,7 +214,7 @@ export class LogOpener extends FileOpener<Figure> {
 }
 
 /** Checks whether a file may be a log, because folders also have other files. */
-const isLog = ({ name, path }: File & { path?: string }) => path === undefined || name === 'metadata.yaml' || EXTENSIONS.slice(0, -1).some((extension) => name.endsWith(extension));
+const isLog = ({ name, path }: File & { path?: string }) => path === undefined || name === 'metadata.yaml' || [...EXTENSIONS.slice(0, -1), '-wal'].some((extension) => name.endsWith(extension));
 
 function planOf(reader: Reader, { recordings, wishes, roles }: Chosen, kind: 'commands' | undefined): Plan {
   return reader.planDrives(recordings, { ...wishes, kind, roles: new Map([...roles].map(([index, role]) => [recordings[index], role])) });

@@ -3,9 +3,9 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { en } from '../../www/widgets/alpha-calibrator/en.ts';
-import { alphaOrBound, formatInterval as ends, fixed, nav2Lines, short } from '../../www/widgets/alpha-calibrator/lines.ts';
-import { classesOf, truthHolds } from '../../www/widgets/alpha-calibrator/reading.ts';
-import { SIMULATED } from '../../www/widgets/alpha-calibrator/settings.ts';
+import { alphaOrBound, formatInterval as ends, fixed, nav2Lines, toText } from '../../www/widgets/alpha-calibrator/lines.ts';
+import { classesOf, truthApplies } from '../../www/widgets/alpha-calibrator/reading.ts';
+import { SIMULATED_LEGS } from '../../www/widgets/alpha-calibrator/settings.ts';
 import { localized } from '../../www/widgets/alpha-calibrator/words.ts';
 import { settings } from '../../www/settings.js';
 
@@ -33,7 +33,7 @@ test('numbers of files: as many digits as the interval has a meaning in, with an
   ])) {
     assert.deepEqual([fixed(value, interval), ends(interval)], [text, range]);
   }
-  assert.deepEqual([short(1e-7), short(-2.5e-9), short(0.25)], ['1.0e-7', '-2.5e-9', '0.25']);
+  assert.deepEqual([toText(1e-7), toText(-2.5e-9), toText(0.25)], ['1.0e-7', '-2.5e-9', '0.25']);
   assert.deepEqual([ends([0, Infinity]), ends([-Infinity, Infinity]), ends(null)], ['', '', '']);
 });
 
@@ -97,7 +97,7 @@ test('lines for Nav2 warn of failed checks, of another rule, and of a localizer 
 
 test('legs of the simulated log are those that the settings open with', () => {
   const config = Object.fromEntries(settings['alpha-calibrator'].map((each) => [each.key, each.default]));
-  assert.deepEqual(SIMULATED, { distance: config.distance, angle: config.angle });
-  const holds = (/** @type {object} */ change) => truthHolds(/** @type {any} */ ({ truth: {}, fitted: { ...config, ...change } }));
+  assert.deepEqual(SIMULATED_LEGS, { distance: config.distance, angle: config.angle });
+  const holds = (/** @type {object} */ change) => truthApplies(/** @type {any} */ ({ truth: {}, fitted: { ...config, ...change } }));
   assert.deepEqual([holds({}), holds({ distance: 0.3 }), holds({ angle: 0.3 }), holds({ duration: 1 }), holds({ rule: 'nav2' })], [true, false, false, false, false]);
 });

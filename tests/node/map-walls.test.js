@@ -2,7 +2,7 @@
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { contactOf, gripsOf, movedWalls } from '../../www/widgets/map-squeeze/walls.ts';
+import { wallContact, wallGrips, movedWalls } from '../../www/widgets/map-squeeze/walls.ts';
 
 /** Room of 6 m × 4 m with a wall at x = 3 that has a doorway, and a wall that ends at its lower part. */
 const BOUNDS = Float64Array.of(0, 0, 6, 4);
@@ -11,10 +11,10 @@ const WALLS = Float64Array.of(...SHELL, 3, 0, 3, 1.5, 3, 2.5, 3, 4, 0, 1, 3, 1);
 const LOWER = SHELL.length;
 
 /** @param {string} part @param {number} [wall] */
-const gripOf = (part, wall = LOWER) => gripsOf({ bounds: BOUNDS, walls: WALLS }).find((grip) => grip?.part === part && grip.wall === wall);
+const gripOf = (part, wall = LOWER) => wallGrips({ bounds: BOUNDS, walls: WALLS }).find((grip) => grip?.part === part && grip.wall === wall);
 
 test('free ends and inner walls have grips, the shell and ends at other walls have none', () => {
-  const grips = gripsOf({ bounds: BOUNDS, walls: WALLS });
+  const grips = wallGrips({ bounds: BOUNDS, walls: WALLS });
   assert.equal(grips.length, (3 * WALLS.length) / 4);
   const found = grips.filter((grip) => grip !== undefined).map(({ part, wall }) => `${part} ${(wall - LOWER) / 4}`);
   assert.deepEqual(found, ['to 0', 'side 0', 'from 1', 'side 1', 'side 2']);
@@ -37,7 +37,7 @@ test('a wall goes across, and the wall that ends at it follows', () => {
 });
 
 test('the contact is at the wall that the robot touches first, none on a path that keeps clear', () => {
-  const [x, y] = contactOf([1, 0.5, 5.9, 0.5], WALLS, 0.1) ?? [];
+  const [x, y] = wallContact([1, 0.5, 5.9, 0.5], WALLS, 0.1) ?? [];
   assert.deepEqual([x, y], [3, 0.5]);
-  assert.equal(contactOf([1, 2, 5, 2], WALLS, 0.2), undefined);
+  assert.equal(wallContact([1, 2, 5, 2], WALLS, 0.2), undefined);
 });

@@ -5,7 +5,7 @@ import { ROLES, type Summary } from '../logs/log.ts';
 import { warningsOf } from '../logs/pairs.ts';
 import { en as shared } from '../messages/en.ts';
 import { en } from '../widgets/alpha-calibrator/en.ts';
-import { adviceOf, alphaOrBound, correctFirst, formatInterval, failedOf, fixed, isOfNav2, nav2Lines, percent, short } from '../widgets/alpha-calibrator/lines.ts';
+import { adviceOf, alphaOrBound, correctFirst, formatInterval, failedOf, fixed, isOfNav2, nav2Lines, percent, toText } from '../widgets/alpha-calibrator/lines.ts';
 
 type Interval = [number, number] | null;
 
@@ -104,7 +104,7 @@ function verdictSentence({ diagnostics: { verdict, checks } }: any): string {
 }
 
 function lengthOf({ distance, angle, duration }: { distance?: number; angle?: number; duration?: number }): string {
-  return duration === undefined ? en.nav2.moved(short(distance ?? null), short(angle ?? null)) : en.nav2.lasted(short(duration));
+  return duration === undefined ? en.nav2.moved(toText(distance ?? null), toText(angle ?? null)) : en.nav2.lasted(toText(duration));
 }
 
 /** Returns the table of the α's, the reason for the inflation, and what to drive for those that are not identifiable. */
@@ -150,16 +150,16 @@ function systematicRow([key, name, unit]: [string, string, string], { systematic
 }
 
 function persistenceRow({ persistence: { correlation: { value, interval }, length } }: any): string[] {
-  return ['correlation of neighbouring legs', fixed(value, interval), formatInterval(interval), length > 0 ? `errors persist over ${short(length, 2)} m` : ''];
+  return ['correlation of neighbouring legs', fixed(value, interval), formatInterval(interval), length > 0 ? `errors persist over ${toText(length, 2)} m` : ''];
 }
 
 function checkRow({ name, value, expected: [low, high], passed }: any): string[] {
-  const range = low === -Infinity ? `≤ ${short(high)}` : high === Infinity ? `≥ ${short(low)}` : `${short(low)} to ${short(high)}`;
-  return [name, value === Infinity ? '∞' : short(value), range, passed ? 'ok' : 'FAILED'];
+  const range = low === -Infinity ? `≤ ${toText(high)}` : high === Infinity ? `≥ ${toText(low)}` : `${toText(low)} to ${toText(high)}`;
+  return [name, value === Infinity ? '∞' : toText(value), range, passed ? 'ok' : 'FAILED'];
 }
 
 function windowRow({ length, count, coverage, nees }: any): string[] {
-  return [`of ${short(length)} m`, String(count), percent(coverage), short(nees)];
+  return [`of ${toText(length)} m`, String(count), percent(coverage), toText(nees)];
 }
 
 /** Lists outliers by their times after the start of the odometry. */

@@ -14,23 +14,23 @@ import { group } from '../../ui/controls.ts';
 import { integer } from '../../ui/format.ts';
 import { startOverButton } from '../shared/presets.ts';
 import { legControls, legLengths, legReadouts, modelControls, predictionControls } from './controls.ts';
-import { diagnostics, panels } from './diagnostics.ts';
+import { diagnostics, regressionPanels } from './diagnostics.ts';
 import { LogService, isStopped } from './log-service.ts';
-import { copyAnswer, copyButton, nav2 } from './nav2.ts';
+import { copyMessage, copyButton, nav2Exports } from './nav2.ts';
 import { LogOpener, dropZone, logSection } from './open.ts';
 import { LegPicture, PathPicture } from './pictures.ts';
 import { SummaryPicture } from './summary-picture.ts';
 import { legOf, readingOf, type Reading } from './reading.ts';
 import { alphaTable, alphaTexts, verdictLine } from './readouts.ts';
-import { COMPONENTS, LINES, definition, modelRuleOf } from './settings.ts';
+import { NOISE_COMPONENTS, LINE_STYLES, definition, modelRuleOf } from './settings.ts';
 import { styles } from './styles.ts';
 import { systematicTable, systematicTexts } from './systematic.ts';
-import { captionOf, judgementOf, legText, reasonOf, wayText } from './words.ts';
+import { captionOf, judgementOf, legText, reasonOf, pathText } from './words.ts';
 import type { AlphaCalibrator as Machine, CalibrationLog, CalibrationPanel, LegView, Motion } from '../../types.d.ts';
 import type { Warning } from '../../logs/log.ts';
 
 /** Log of the reader or of the page, with the fit that the service has made, and the settings of the fit. */
-interface Given {
+interface OpenedLog {
   log: CalibrationLog;
   /** Notes of the logs that leave the α's doubtful. */
   warnings: Warning[];
@@ -63,12 +63,12 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
   #predicted: Memo<LegView | null> = new Memo();
   #panels: Memo<CalibrationPanel[]> = new Memo();
   /** Log that was given; null for the simulated one. */
-  #given: Given | null = null;
+  #given: OpenedLog | null = null;
 
   createMachine: FigureElement<Machine, Reading>['createMachine'] = (motion, state) =>
     state ? this.#machineOf(motion, this.settings.pick(state), this.#given) : new motion.AlphaCalibrator();
 
-  #machineOf({ AlphaCalibrator }: Motion, requested: Partial<Machine['config']>, given: Given | null): Machine {
+  #machineOf({ AlphaCalibrator }: Motion, requested: Partial<Machine['config']>, given: OpenedLog | null): Machine {
     if (!given) return new AlphaCalibrator(requested);
     return freeOnError(AlphaCalibrator.restored(given.config, given.fit), (machine) => machine.configure(requested));
   }
@@ -160,13 +160,13 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
    */
   async open(log: CalibrationLog | null, warnings: Warning[], check?: (machine: Machine) => void) {
     const config = this.settings.pick(this.settings.present) as Machine['config'];
-    const given = log && { log, warnings, config, fit: await this.service.calibrate(config, log) };
+    const openedLog = log && { log, warnings, config, fit: await this.service.calibrate(config, log) };
     this.runtime.attempt(() => {
       if (!this.machine) return;
-      const machine = this.#machineOf(this.motion, this.settings.pick(this.settings.present), given);
+      const machine = this.#machineOf(this.motion, this.settings.pick(this.settings.present), openedLog);
       freeOnError(machine, () => check?.(machine));
       if (log !== this.log) this.state.own.leg = null;
-      this.#given = given;
+      this.#given = openedLog;
       this.runtime.replace(machine);
       this.settings.stale = true;
       this.renderer.requestFrame();
@@ -204,13 +204,13 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
   get exportData() {
     const { fitted, legs } = this.currentReading;
     const of = (numbers: Float64Array, i: number, size: number) => numbers.subarray(size * i, size * (i + 1));
-    const poses = (whose: string) => ['from', 'to'].flatMap((end) => ['x_m', 'y_m', 'theta_rad'].map((name) => `${whose}_${end}_${name}`));
+    const columns = (whose: string) => ['from', 'to'].flatMap((end) => ['x_m', 'y_m', 'theta_rad'].map((key) => `${whose}_${end}_${key}`));
     return {
-      description: [wayText(this.reading, this.chosen), ...alphaTexts(this.reading).map((text) => `${text}.`), captionOf(this), reasonOf(this.reading), ...systematicTexts(this.reading)].join(' '),
+      description: [pathText(this.reading, this.chosen), ...alphaTexts(this.reading).map((text) => `${text}.`), captionOf(this), reasonOf(this.reading), ...systematicTexts(this.reading)].join(' '),
       settings: { log: this.log?.name ?? null, ...fitted },
       columns: [
-        'begins_s', 'ends_s', ...poses('odometry'), ...poses('reference'), 'reading_1', 'reading_2', 'reading_3',
-        ...['residual', 'standardized', 'std'].flatMap((what) => COMPONENTS[fitted.model].map((name) => `${what}_${name}`)), 'squared_mahalanobis', 'outlier',
+        'begins_s', 'ends_s', ...columns('odometry'), ...columns('reference'), 'reading_1', 'reading_2', 'reading_3',
+        ...['residual', 'standardized', 'std'].flatMap((what) => NOISE_COMPONENTS[fitted.model].map((name) => `${what}_${name}`)), 'squared_mahalanobis', 'outlier',
       ],
       row: (i: number) => [
         ...of(legs.times, i, 2), ...of(legs.odometry, i, 6), ...of(legs.reference, i, 6), ...of(legs.readings, i, 3),
@@ -232,7 +232,7 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
       ${dropZone(this, this.#opener)}
       <div class="views">
         <p part="caption" class="caption verdict">${this.renderer.afterFirstPicture(() => verdictLine(this))}</p>
-        ${titledPicture(say.path, html`<div class="stage" part="picture" @click=${this.#press}>${canvas(this, this.#path, wayText(reading, chosen))}</div>`)}
+        ${titledPicture(say.path, html`<div class="stage" part="picture" @click=${this.#press}>${canvas(this, this.#path, pathText(reading, chosen))}</div>`)}
         <div class="one">
           ${titledPicture(say.oneLeg(integer(chosen + 1)), html`<div class="stage">${canvas(this, this.#legPicture, legText(this.predicted, chosen))}</div>`)}
           ${this.renderer.afterFirstPicture(() => html`<div class="looked">${legControls(this)}</div>`)}
@@ -246,11 +246,11 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
           <p class="to-do">${judgementOf(reading, this.warnings).toDo}</p>
           ${alphaTable(reading)}
           <p class="muted reason">${reasonOf(reading)}</p>
-          ${copyAnswer(this)}
+          ${copyMessage(this)}
         </div>`)}
       </div>
       ${this.renderer.afterFirstPicture(() => html`
-      ${legend(this, LINES)}
+      ${legend(this, LINE_STYLES)}
       <div part="controls">${legLengths(this)}</div>
       ${disclosures(this, {
         controls: () => html`${modelControls(this)}
@@ -259,11 +259,11 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
           ${predictionControls(this)}`,
         numbers: () => html`${group(say.oneLeg(integer(chosen + 1)), legReadouts(this))}
           ${diagnostics(this)}
-          ${group(say.panels.title, panels(this))}
-          ${group(say.nav2.title, nav2(this))}`,
+          ${group(say.panels.title, regressionPanels(this))}
+          ${group(say.nav2.title, nav2Exports(this))}`,
         csvTitle: say.csvTitle,
       })}
-      ${this.#opener.reader?.summaryOf(this.#opener)}`)}
+      ${this.#opener.reader?.logSummary(this.#opener)}`)}
     `;
   }
 }

@@ -6,7 +6,7 @@ import { words } from '../../messages/registry.ts';
 import { button, group, radioGroup } from '../../ui/controls.ts';
 import { NO_VALUE, integer, fixed, formatEditable } from '../../ui/format.ts';
 import { readoutList } from '../../ui/readouts.ts';
-import { observedOf } from './reading.ts';
+import { observedCount } from './reading.ts';
 import { modelRuleOf, settingsFor } from './settings.ts';
 import type { AlphaCalibratorElement as Figure } from './alpha-calibrator.ts';
 
@@ -14,7 +14,7 @@ export function legControls(figure: Figure) {
   const { reading: { legs, worst }, chosen } = figure;
   const say = words.calibrator.leg;
   // If the selected leg is one of them, the button selects the next one.
-  const next = worst[(worst.indexOf(figure.state.own.leg) + 1) % Math.max(1, worst.length)];
+  const nextLeg = worst[(worst.indexOf(figure.state.own.leg) + 1) % Math.max(1, worst.length)];
   return html`<fieldset class="leg">
       <legend class="visually-hidden">${say.name}</legend>
       ${editableSlider(figure, say.name, { min: 1, max: legs.count, type: 'whole' }, {
@@ -32,7 +32,7 @@ export function legControls(figure: Figure) {
         commit: () => figure.gesture.commit(),
       })}
     </fieldset>
-    ${button(say.worst, () => figure.choose(next), { disabled: next === undefined })}`;
+    ${button(say.worst, () => figure.choose(nextLeg), { disabled: nextLeg === undefined })}`;
 }
 
 export function legReadouts({ reading: { legs }, chosen, predicted: leg }: Figure) {
@@ -40,17 +40,17 @@ export function legReadouts({ reading: { legs }, chosen, predicted: leg }: Figur
   const off = leg ? Math.hypot(leg.ended[0] - leg.read[0], leg.ended[1] - leg.read[1]) : NaN;
   return readoutList([
     [say.off, `${fixed(off, 3)} m`],
-    [say.squared(String(observedOf(legs.residuals, chosen))), fixed(leg ? legs.squared[chosen] : NaN, 1)],
+    [say.squared(String(observedCount(legs.residuals, chosen))), fixed(leg ? legs.squared[chosen] : NaN, 1)],
     [say.outlier, leg ? say.isOutlier[legs.outliers[chosen] > 0 ? 'yes' : 'no'] : NO_VALUE],
   ]);
 }
 
 export function modelControls(figure: Figure) {
   const { fit, settings: { model }, kinds, outliers } = words.calibrator;
-  const show = (seconds: number) => (seconds > 0 ? `${formatEditable(seconds, 2)} s` : NO_VALUE);
-  const choose = (kind: import('./settings.ts').ModelRule) => figure.gesture.decide(settingsFor(kind));
-  return group(fit, html`${radioGroup(model.name, 'kind', kinds, modelRuleOf(figure.settings.wanted as any), choose)}
-    ${radios(figure, 'outliers', outliers)} ${settingSlider(figure, 'duration', { show })}`, 'fit');
+  const formatDuration = (seconds: number) => (seconds > 0 ? `${formatEditable(seconds, 2)} s` : NO_VALUE);
+  const chooseModel = (kind: import('./settings.ts').ModelRule) => figure.gesture.decide(settingsFor(kind));
+  return group(fit, html`${radioGroup(model.name, 'kind', kinds, modelRuleOf(figure.settings.wanted as any), chooseModel)}
+    ${radios(figure, 'outliers', outliers)} ${settingSlider(figure, 'duration', { show: formatDuration })}`, 'fit');
 }
 
 export function predictionControls(figure: Figure) {

@@ -6,10 +6,10 @@ import { button, group, radioGroup, formatMarkup } from '../../ui/controls.ts';
 import { NO_VALUE, integer, fixed, percent, rounded } from '../../ui/format.ts';
 import { plot, type Curve } from '../../ui/plot.ts';
 import { figureTable, readoutList } from '../../ui/readouts.ts';
-import { subscript } from '../shared/sliders.ts';
+import { subscriptOf } from '../shared/sliders.ts';
 import { adviceOf, alphaOrBound, isZero, missingMotion } from './lines.ts';
-import { COMPONENTS, type Driver } from './settings.ts';
-import { checked, expectedOf, messageOf, localized, thousandths } from './words.ts';
+import { NOISE_COMPONENTS, type Regressor } from './settings.ts';
+import { checkText, expectedOf, messageOf, localized, thousandsScale } from './words.ts';
 import type { CalibrationPanel } from '../../types.d.ts';
 import type { AlphaCalibratorElement as Figure } from './alpha-calibrator.ts';
 
@@ -29,7 +29,7 @@ function checksTable({ reading: { stats: { diagnostics: { checks } } } }: Figure
     columns: [say.check, say.value, say.expected, say.result],
     rows: checks.map((check) => [
       html`${say.names[check.name]}<div class="muted">${messageOf(check)}</div>`,
-      checked(check.name, check.value),
+      checkText(check.name, check.value),
       expectedOf(check),
       check.passed ? `✓ ${say.passed}` : html`<strong>✕ ${say.failed}</strong>`,
     ]),
@@ -47,8 +47,8 @@ function windowsTable({ reading: { stats: { diagnostics: { windows } } } }: Figu
 
 function noiseTable({ reading: { stats: { referenceNoise: { positionStd, yawStd }, persistence: { correlation, length } } } }: Figure) {
   const { noise: say, settings, alphas: { interval: intervalName, between } } = words.calibrator;
-  const print = (value: number) => (value === 0 ? '0' : Number.isFinite(value) ? rounded(value, 2) : '∞');
-  const row = (name: string, { value, interval: [low, high] }: import('../../types.d.ts').Estimate) => [name, print(value), between(print(low), print(high))];
+  const formatStd = (value: number) => (value === 0 ? '0' : Number.isFinite(value) ? rounded(value, 2) : '∞');
+  const row = (name: string, { value, interval: [low, high] }: import('../../types.d.ts').Estimate) => [name, formatStd(value), between(formatStd(low), formatStd(high))];
   return figureTable({
     caption: say.caption,
     columns: [say.what, say.value, intervalName],
@@ -80,17 +80,17 @@ function largestResiduals(figure: Figure) {
 const MIN_REGRESSOR = 1e-6;
 
 /** Returns the plots of the squared residuals of the three noises against their regressors. */
-export function panels(figure: Figure) {
+export function regressionPanels(figure: Figure) {
   const { reading, reading: { fitted: { model } }, state: { own: { driver } }, gesture } = figure;
   const say = words.calibrator.panels;
-  const axes = model === 'velocity' ? { turn: say.turnRate, way: say.speed } : { turn: say.turn, way: say.way };
+  const axisNames = model === 'velocity' ? { turn: say.turnRate, way: say.speed } : { turn: say.turn, way: say.way };
   if (reading.legs.count === 0) return html`<p>${words.calibrator.none}</p>`;
-  const choose = (name: Driver) => gesture.choose('driver', name);
-  return html`${radioGroup(say.against, 'driver', say.drivers, driver, choose)}
+  const chooseDriver = (name: Regressor) => gesture.choose('driver', name);
+  return html`${radioGroup(say.against, 'driver', say.drivers, driver, chooseDriver)}
     <figure><div class="panels">
       ${figure.panels.map((panel, i) => html`<figure>
-        ${plot(panelPlot(panel, say.kinds[COMPONENTS[model][i]], axes[driver as Driver]))}
-        ${noteOf(panel, reading)}
+        ${plot(panelPlot(panel, say.kinds[NOISE_COMPONENTS[model][i]], axisNames[driver as Regressor]))}
+        ${identifiabilityNote(panel, reading)}
       </figure>`)}
     </div>
     <figcaption>${formatMarkup(say.caption)}</figcaption></figure>`;
@@ -99,34 +99,34 @@ export function panels(figure: Figure) {
 /** Returns the plot of a panel, with the name of its noise and of its axis of squared motion. */
 function panelPlot({ alpha, x, y, error, slope, interval }: CalibrationPanel, kind: string, axis: string): import('../../ui/plot.ts').Plot {
   const say = words.calibrator.panels;
-  const furthest = Math.max(0, ...x);
+  const maxRegressor = Math.max(0, ...x);
   // A log without rotation or without translation has an empty axis.
-  const last = furthest > MIN_REGRESSOR ? 1.06 * furthest : 1;
-  const { from, to } = axisOfSquares(y, error, (slope ?? 0) * last);
-  const highest = 1.1 * Math.max(x.length ? 1e-12 : 1, to);
-  const { scaled, unit } = thousandths(Math.max(highest, -from));
-  const name = subscript(alpha);
+  const axisEnd = maxRegressor > MIN_REGRESSOR ? 1.06 * maxRegressor : 1;
+  const { from, to } = axisOfSquares(y, error, (slope ?? 0) * axisEnd);
+  const axisTop = 1.1 * Math.max(x.length ? 1e-12 : 1, to);
+  const { scaled, unit } = thousandsScale(Math.max(axisTop, -from));
+  const alphaIndex = subscriptOf(alpha);
   const [low, high] = interval ?? [NaN, NaN];
-  const middle = (low + high) / 2;
-  const lines: Curve[] = slope === null ? [] : [
-    { name: say.slope(name), role: 'prediction', x: [0, last], y: [0, scaled(slope * last)] },
-    { name: words.calibrator.alphas.interval, role: 'cloud', area: true, x: [0, last], y: [0, scaled(middle * last)], error: [0, scaled(((high - low) / 2) * last)] },
+  const slopeMiddle = (low + high) / 2;
+  const slopeLines: Curve[] = slope === null ? [] : [
+    { name: say.slope(alphaIndex), role: 'prediction', x: [0, axisEnd], y: [0, scaled(slope * axisEnd)] },
+    { name: words.calibrator.alphas.interval, role: 'cloud', area: true, x: [0, axisEnd], y: [0, scaled(slopeMiddle * axisEnd)], error: [0, scaled(((high - low) / 2) * axisEnd)] },
   ];
   return {
     label: say.label(kind, String(alpha + 1), slope === null ? NO_VALUE : localized(alphaOrBound(slope, interval))),
-    x: { name: axis, from: 0, to: last },
-    y: { name: `${kind}, ${say.axis}${unit && ` (${unit})`}`, from: scaled(from), to: scaled(highest) },
-    curves: [...lines, { name: say.bins, role: 'ink', x: [], y: [] }],
+    x: { name: axis, from: 0, to: axisEnd },
+    y: { name: `${kind}, ${say.axis}${unit && ` (${unit})`}`, from: scaled(from), to: scaled(axisTop) },
+    curves: [...slopeLines, { name: say.bins, role: 'ink', x: [], y: [] }],
     points: x.map((at, i) => ({ role: 'ink' as const, x: at, y: scaled(y[i]), error: scaled(error[i]) })),
   };
 }
 
 /** Returns a note on an α that is not identifiable, or not distinguishable from 0. */
-function noteOf({ alpha, slope, interval }: CalibrationPanel, { fitted: { model } }: import('./reading.ts').Reading) {
+function identifiabilityNote({ alpha, slope, interval }: CalibrationPanel, { fitted: { model } }: import('./reading.ts').Reading) {
   const { panels: say, alphas: { lacking } } = words.calibrator;
   if (slope !== null && !isZero(slope, interval)) return '';
-  const name = subscript(alpha);
-  return html`<p class="note">${formatMarkup(slope === null ? say.noSlope(name) : say.zero(name, adviceOf(lacking, model, missingMotion(model, alpha)).drive))}</p>`;
+  const alphaIndex = subscriptOf(alpha);
+  return html`<p class="note">${formatMarkup(slope === null ? say.noSlope(alphaIndex) : say.zero(alphaIndex, adviceOf(lacking, model, missingMotion(model, alpha)).drive))}</p>`;
 }
 
 /**
@@ -135,10 +135,10 @@ function noteOf({ alpha, slope, interval }: CalibrationPanel, { fitted: { model 
  */
 function axisOfSquares(squares: number[], error: number[], line: number): { from: number, to: number } {
   const [lowest, highest] = [Math.min(0, ...squares), Math.max(0, line, ...squares)];
-  const ends = (side: number) => squares.map((square, i) => square + side * error[i]);
-  const room = (highest - lowest) / 2;
+  const errorBarEnds = (side: number) => squares.map((square, i) => square + side * error[i]);
+  const errorBarRoom = (highest - lowest) / 2;
   return {
-    from: Math.max(lowest - room, Math.min(lowest, ...ends(-1))),
-    to: Math.min(highest + room, Math.max(highest, ...ends(1))),
+    from: Math.max(lowest - errorBarRoom, Math.min(lowest, ...errorBarEnds(-1))),
+    to: Math.min(highest + errorBarRoom, Math.max(highest, ...errorBarEnds(1))),
   };
 }

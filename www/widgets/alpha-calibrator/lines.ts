@@ -4,7 +4,7 @@ import type { Warning } from '../../logs/log.ts';
 
 export type Interval = [number, number] | null;
 
-export interface Fitted {
+export interface FittedLog {
   /** Calibration of the core. */
   calibration: any;
   count: number;
@@ -49,10 +49,10 @@ const NAV2_RULES = ['nav2', 'omni'];
 /** Checks whether Nav2 moves its particles by a rule. */
 export const isOfNav2 = (model: string, rule: string): boolean => model !== 'odometry' || NAV2_RULES.includes(rule);
 
-export const short = (value: number | null, digits = VALUE_DIGITS) => (value !== null && Number.isFinite(value) ? pointed(String(Number(value.toPrecision(digits)))) : NO_NUMBER);
+export const toText = (value: number | null, digits = VALUE_DIGITS) => (value !== null && Number.isFinite(value) ? withPointInMantissa(String(Number(value.toPrecision(digits)))) : NO_NUMBER);
 
 /** Adds a point to an exponent, without which YAML 1.1 reads a text. */
-const pointed = (number: string) => number.replace(/^(-?\d)e/, '$1.0e');
+const withPointInMantissa = (number: string) => number.replace(/^(-?\d)e/, '$1.0e');
 
 /** Adds decimals to a whole number, which Nav2 refuses for its doubles. */
 const withDecimals = (number: string) => (number.includes('.') ? number : `${number}.0`);
@@ -60,11 +60,11 @@ const withDecimals = (number: string) => (number.includes('.') ? number : `${num
 /** Prints a value with the decimals that are significant for its interval. */
 export function fixed(value: number | null, interval: Interval | undefined) {
   const intervalWidth = interval ? interval[1] - interval[0] : 0;
-  if (value === null || !(Math.abs(value) < MAX_PLAIN_NUMBER) || !(intervalWidth > 0 && intervalWidth < Infinity)) return short(value);
+  if (value === null || !(Math.abs(value) < MAX_PLAIN_NUMBER) || !(intervalWidth > 0 && intervalWidth < Infinity)) return toText(value);
   const decimals = WIDTH_DIGITS - 1 - Math.floor(Math.log10(intervalWidth));
   if (intervalWidth >= MIN_PLAIN_NUMBER || Math.abs(value) >= MIN_PLAIN_NUMBER) return value.toFixed(Math.max(0, Math.min(MOST_DECIMALS, decimals)));
-  const digits = decimals + Math.floor(Math.log10(Math.abs(value)));
-  return digits < 0 ? '0' : pointed(value.toExponential(Math.min(MOST_DECIMALS, digits)));
+  const significantDigits = decimals + Math.floor(Math.log10(Math.abs(value)));
+  return significantDigits < 0 ? '0' : withPointInMantissa(value.toExponential(Math.min(MOST_DECIMALS, significantDigits)));
 }
 
 /** Prints an interval; empty if an end is not finite. */
@@ -73,15 +73,15 @@ export const formatInterval = (interval: Interval | undefined) => (interval?.eve
 /** Checks whether an α is 0 in the digits of its interval. A printed zero would look like a result. */
 export const isZero = (alpha: number | null, interval: Interval | undefined) => alpha !== null && Number(fixed(alpha, interval)) === 0;
 
-export const percent = (fraction: number | null) => (fraction !== null && Number.isFinite(fraction) ? `${short(100 * fraction)} %` : NO_NUMBER);
+export const percent = (fraction: number | null) => (fraction !== null && Number.isFinite(fraction) ? `${toText(100 * fraction)} %` : NO_NUMBER);
 
 /** Prints the upper end of an interval. */
-const upperEnd = (interval: Interval | undefined) => short(interval?.[1] ?? null, WIDTH_DIGITS);
+const upperEnd = (interval: Interval | undefined) => toText(interval?.[1] ?? null, WIDTH_DIGITS);
 
-const scaled = (interval: Interval, factor: number): Interval => interval && [factor * interval[0], factor * interval[1]];
+const scaledInterval = (interval: Interval, factor: number): Interval => interval && [factor * interval[0], factor * interval[1]];
 
 /** Prints an α times a factor, or its upper bound if it is not significantly different from 0. */
-export const alphaOrBound = (alpha: number | null, interval: Interval, factor = 1) => (isZero(alpha, interval) ? `≤ ${upperEnd(scaled(interval, factor))}` : fixed(alpha && factor * alpha, scaled(interval, factor)));
+export const alphaOrBound = (alpha: number | null, interval: Interval, factor = 1) => (isZero(alpha, interval) ? `≤ ${upperEnd(scaledInterval(interval, factor))}` : fixed(alpha && factor * alpha, scaledInterval(interval, factor)));
 
 /** Returns why an α is not identifiable, and the drive that would identify it. */
 export function adviceOf(lacking: typeof import('./en.ts').en.alphas.lacking, model: string, reason: keyof typeof lacking) {
@@ -99,34 +99,34 @@ export function missingMotion(model: string, index: number): 'insufficient-rotat
  * Returns the lines with the recommended α's, and the fitted ones in comments. There are none if Nav2 has no such model, or no α's are
  * recommended.
  */
-export function nav2Lines({ calibration, count, model, rule, legs, log, warnings, date }: Fitted, say: Words): string[] {
+export function nav2Lines({ calibration, count, model, rule, legs, log, warnings, date }: FittedLog, say: Words): string[] {
   const { alphas, intervals, recommended, systematicErrors, diagnostics: { checks, windows: [window] } } = calibration;
   if (!Object.hasOwn(NAV2_PLUGINS, model) || recommended === null) return [];
   const { inflation } = recommended;
   const { distance, angle, duration } = legs;
-  const failed = failedOf(checks).map(({ name }) => name).join(', ');
-  const notes = [
-    say.of(String(count), duration === undefined ? say.moved(short(distance ?? null), short(angle ?? null)) : say.lasted(short(duration)), log, date),
-    say.recommended(short(inflation), percent(window.coverage), String(window.count)),
+  const failedNames = failedOf(checks).map(({ name }) => name).join(', ');
+  const noteTexts = [
+    say.of(String(count), duration === undefined ? say.moved(toText(distance ?? null), toText(angle ?? null)) : say.lasted(toText(duration)), log, date),
+    say.recommended(toText(inflation), percent(window.coverage), String(window.count)),
     ...(isOfNav2(model, rule) ? [] : [say.otherRule]),
     ...correctionOf(systematicErrors).map((errors) => say.corrected(errors)),
     ...correctFirst(systematicErrors, say),
-    ...(failed ? [say.failed(failed)] : []),
+    ...(failedNames ? [say.failed(failedNames)] : []),
     ...warnings.map((name) => say[name]),
   ];
-  const lines = alphas.map((alpha: number | null, i: number) => {
+  const alphaLines = alphas.map((alpha: number | null, i: number) => {
     const interval = intervals[i];
     if (alpha === null) return `# alpha${i + 1}: ${say.notIdentifiable}`;
-    if (isZero(alpha, interval)) return `# alpha${i + 1}: ${say.zero(upperEnd(scaled(interval, inflation)))}`;
-    const value = fixed(inflation * alpha, scaled(interval, inflation));
-    if (inflation * alpha > MAX_PLAUSIBLE_ALPHA) return `# alpha${i + 1}: ${value}, ${say.tooLarge}`;
-    return `alpha${i + 1}: ${withDecimals(value)}  # ${say.fitted(fixed(alpha, interval), formatInterval(interval))}`;
+    if (isZero(alpha, interval)) return `# alpha${i + 1}: ${say.zero(upperEnd(scaledInterval(interval, inflation)))}`;
+    const formattedAlpha = fixed(inflation * alpha, scaledInterval(interval, inflation));
+    if (inflation * alpha > MAX_PLAUSIBLE_ALPHA) return `# alpha${i + 1}: ${formattedAlpha}, ${say.tooLarge}`;
+    return `alpha${i + 1}: ${withDecimals(formattedAlpha)}  # ${say.fitted(fixed(alpha, interval), formatInterval(interval))}`;
   });
   // A line break in a file's name would end the comment.
-  const comments = notes.map((note) => `# ${note.replaceAll(/\s+/g, ' ')}`);
-  const fifth = alphas.length < 5 ? [`# ${say.fifth}`] : [];
-  const triggers = duration === undefined ? [`update_min_d: ${withDecimals(short(distance ?? null))}`, `update_min_a: ${withDecimals(short(angle ?? null))}`] : [];
-  const all = [...comments, `robot_model_type: "${NAV2_PLUGINS[model]}"`, ...lines, ...fifth, ...triggers];
+  const commentLines = noteTexts.map((note) => `# ${note.replaceAll(/\s+/g, ' ')}`);
+  const fifthAlphaNote = alphas.length < 5 ? [`# ${say.fifth}`] : [];
+  const updateTriggers = duration === undefined ? [`update_min_d: ${withDecimals(toText(distance ?? null))}`, `update_min_a: ${withDecimals(toText(angle ?? null))}`] : [];
+  const all = [...commentLines, `robot_model_type: "${NAV2_PLUGINS[model]}"`, ...alphaLines, ...fifthAlphaNote, ...updateTriggers];
   return ['amcl:', '  ros__parameters:', ...all.map((line) => `    ${line}`)];
 }
 
@@ -146,7 +146,7 @@ export function correctFirst(systematicErrors: any, say: Words, print = (number:
 
 /** Lists the systematic errors that were corrected, in one text or none. */
 function correctionOf(systematicErrors: any): string[] {
-  const corrected = Object.entries<any>(systematicErrors).filter(([, each]) => each.corrected);
-  const list = corrected.map(([name, { value, interval }]) => `${name} ${[value].flat().map((one, i) => fixed(one, Array.isArray(value) ? interval[i] : interval)).join(', ')}`);
-  return list.length ? [list.join('; ')] : [];
+  const correctedErrors = Object.entries<any>(systematicErrors).filter(([, each]) => each.corrected);
+  const errorList = correctedErrors.map(([name, { value, interval }]) => `${name} ${[value].flat().map((one, i) => fixed(one, Array.isArray(value) ? interval[i] : interval)).join(', ')}`);
+  return errorList.length ? [errorList.join('; ')] : [];
 }

@@ -12,9 +12,9 @@ import { radioGroup } from '../../ui/controls.ts';
 import { fixed } from '../../ui/format.ts';
 import type { Drive } from '../../logs/drives.ts';
 import type { AlphaCalibratorElement } from './alpha-calibrator.ts';
-import type { Asked, Chosen, LogOpener, LogWords } from './open.ts';
+import type { OpenQuestion, ChosenFiles, LogOpener, LogWords } from './open.ts';
 
-const FIELDS = ['t', 'x', 'y', 'yaw', 'qx', 'qy', 'qz', 'qw', 'v', 'omega'] as const;
+const COLUMN_FIELDS = ['t', 'x', 'y', 'yaw', 'qx', 'qy', 'qz', 'qw', 'v', 'omega'] as const;
 
 /** Maximum number of characters of a cell next to the number of its column. */
 const MAX_CELL_LENGTH = 16;
@@ -24,8 +24,8 @@ export const labelOf = ({ series, frames }: Choice) => (frames ? `${series}: ${f
 
 /** Returns all options for a role. Each chain of transforms is a separate option. */
 function optionsOf(recording: Recording, role?: Role): [label: string, Choice][] {
-  const useful = usefulSeries(recording).filter(({ kind }) => role !== 'reference' || kind !== 'commands');
-  const choices = useful.flatMap(({ name: series, kind, frames = [] }): Choice[] => (kind === 'transforms' ? frames.map((each) => ({ series, frames: each })) : [{ series }]));
+  const usableSeries = usefulSeries(recording).filter(({ kind }) => role !== 'reference' || kind !== 'commands');
+  const choices = usableSeries.flatMap(({ name: series, kind, frames = [] }): Choice[] => (kind === 'transforms' ? frames.map((each) => ({ series, frames: each })) : [{ series }]));
   return choices.map((choice) => [labelOf(choice) || recording.name, choice]);
 }
 
@@ -35,18 +35,18 @@ export function choosers(opener: LogOpener) {
   if (!chosen || !say) return nothing;
   const { recordings, skipped, questions, plan } = chosen;
   const isSingle = (recording: Recording) => optionsOf(recording).length === 1;
-  const which = [
+  const roleChoosers = [
     ...(recordings.every(isSingle) ? [] : ROLES.map((role) => seriesSelect(opener, chosen, role, say))),
     ...(recordings.length > 1 ? recordings.flatMap((recording, index) => (isSingle(recording) ? [roleSelect(opener, chosen, index, say)] : [])) : []),
   ];
   return html`<div class="choosers">
-    ${which.length ? html`<div class="topics">${which} ${plan?.isByOrder ? say.choose.byOrder : nothing}</div>` : nothing}
+    ${roleChoosers.length ? html`<div class="topics">${roleChoosers} ${plan?.isByOrder ? say.choose.byOrder : nothing}</div>` : nothing}
     ${questions.map((asked) => questionOf(opener, chosen, asked, say))}
     ${[...skipped, ...(plan?.unused ?? [])].filter((each) => each !== opener.refusal).map((each) => html`<p class="muted">${say.choose.skipped(opener.explain(each))}</p>`)}
   </div>`;
 }
 
-function select(id: string, label: string, value: string, options: [value: string, label: string][], choose: (value: string) => void, open: string) {
+function selectField(id: string, label: string, value: string, options: [value: string, label: string][], choose: (value: string) => void, open: string) {
   const all = options.some(([each]) => each === value) ? options : [['', open], ...options];
   return html`<label>
     ${label}
@@ -56,35 +56,35 @@ function select(id: string, label: string, value: string, options: [value: strin
   </label>`;
 }
 
-function seriesSelect(opener: LogOpener, { recordings, wishes, plan }: Chosen, role: Role, { choose: say }: LogWords) {
-  const options = new Map(recordings.flatMap((recording) => optionsOf(recording, role)));
+function seriesSelect(opener: LogOpener, { recordings, wishes, plan }: ChosenFiles, role: Role, { choose: say }: LogWords) {
+  const choiceByLabel = new Map(recordings.flatMap((recording) => optionsOf(recording, role)));
   const [planned] = plan ? [...plan.drives.map((drive) => drive[role]), ...plan.unpaired[role]] : [];
-  const chosen = (wishes[role] as Choice | undefined) ?? planned?.choice ?? guessOf(recordings[0], role, opener.kind);
-  return select(`log-${role}`, say.roles[role], chosen ? labelOf(chosen) || (planned?.recording ?? recordings[0]).name : '', [...options.keys()].map((label) => [label, label]), (label) => {
-    const choice = options.get(label);
+  const chosenChoice = (wishes[role] as Choice | undefined) ?? planned?.choice ?? guessOf(recordings[0], role, opener.kind);
+  return selectField(`log-${role}`, say.roles[role], chosenChoice ? labelOf(chosenChoice) || (planned?.recording ?? recordings[0]).name : '', [...choiceByLabel.keys()].map((label) => [label, label]), (label) => {
+    const choice = choiceByLabel.get(label);
     if (choice) opener.change({ wishes: { ...wishes, [role]: choice } });
   }, say.open);
 }
 
 /** Returns the likeliest choice; undefined if there are several. */
 function guessOf(recording: Recording, role: Role, kind: 'commands' | undefined): Choice | undefined {
-  const best = candidates(recording, role, { kind }).find(({ length }) => length > 0);
-  return best?.length === 1 ? best[0] : undefined;
+  const likeliestChoice = candidates(recording, role, { kind }).find(({ length }) => length > 0);
+  return likeliestChoice?.length === 1 ? likeliestChoice[0] : undefined;
 }
 
-function roleSelect(opener: LogOpener, { recordings, roles, plan }: Chosen, index: number, { choose: say }: LogWords) {
+function roleSelect(opener: LogOpener, { recordings, roles, plan }: ChosenFiles, index: number, { choose: say }: LogWords) {
   const { name } = recordings[index];
-  const chosen = roles.get(index) ?? ROLES.find((role) => plan?.unpaired[role].some(({ recording }) => recording === recordings[index]));
-  return select(`log-role-${index}`, name, chosen ?? '', ROLES.map((role) => [role, say.roles[role]]), (value) => {
+  const ownRole = roles.get(index) ?? ROLES.find((role) => plan?.unpaired[role].some(({ recording }) => recording === recordings[index]));
+  return selectField(`log-role-${index}`, name, ownRole ?? '', ROLES.map((role) => [role, say.roles[role]]), (value) => {
     const role = value as Role;
-    const changed = new Map(roles).set(index, role);
+    const changedRoles = new Map(roles).set(index, role);
     // The other one of two files has the other role.
-    if (recordings.length === 2 && optionsOf(recordings[1 - index]).length === 1) changed.set(1 - index, role === 'odometry' ? 'reference' : 'odometry');
-    opener.change({ roles: changed });
+    if (recordings.length === 2 && optionsOf(recordings[1 - index]).length === 1) changedRoles.set(1 - index, role === 'odometry' ? 'reference' : 'odometry');
+    opener.change({ roles: changedRoles });
   }, say.open);
 }
 
-function questionOf(opener: LogOpener, { answers }: Chosen, asked: Asked, { choose: say }: LogWords) {
+function questionOf(opener: LogOpener, { answers }: ChosenFiles, asked: OpenQuestion, { choose: say }: LogWords) {
   const { file, ask: { what, choices } } = asked;
   if (what === 'columns') return columnsForm(opener, asked, answers[file]?.columns, say);
   if (what !== 'timeUnit' && what !== 'lengthUnit' && what !== 'angleUnit') return nothing;
@@ -95,25 +95,25 @@ function questionOf(opener: LogOpener, { answers }: Chosen, asked: Asked, { choo
 }
 
 /** Returns a form with one `<select>` for each field, which assigns a column to it. */
-function columnsForm(opener: LogOpener, asked: Asked, answer: string[] | undefined, say: LogWords['choose']) {
+function columnsForm(opener: LogOpener, asked: OpenQuestion, answer: string[] | undefined, say: LogWords['choose']) {
   const { file, ask: { choices: [defaultNames = ''], columns = [] } } = asked;
-  const assigned = answer ?? defaultNames.split(',');
+  const assignedFields = answer ?? defaultNames.split(',');
   const options = columns.map((cell, at): [string, string] => [String(at), say.column(at + 1, cell.trim().slice(0, MAX_CELL_LENGTH))]);
-  const taken = (event: Event) => {
+  const takeColumns = (event: Event) => {
     event.preventDefault();
-    const names = columns.map(() => '-');
-    for (const [field, at] of new FormData(event.target as HTMLFormElement)) if (at !== '') names[Number(at)] = String(field);
-    opener.answer(asked, { columns: names });
+    const fieldNames = columns.map(() => '-');
+    for (const [field, at] of new FormData(event.target as HTMLFormElement)) if (at !== '') fieldNames[Number(at)] = String(field);
+    opener.answer(asked, { columns: fieldNames });
   };
-  return html`<form id=${idOf(asked)} @submit=${taken}>
+  return html`<form id=${idOf(asked)} @submit=${takeColumns}>
     <fieldset>
       <legend>${say.columns(file)}</legend>
       <div class="topics">
-        ${FIELDS.map((field) => html`<label>
+        ${COLUMN_FIELDS.map((field) => html`<label>
           ${say.fields[field]}
           <select name=${field} aria-label=${say.fields[field]} aria-describedby="refusal">
             <option value="">${say.none}</option>
-            ${options.map(([at, label]) => html`<option value=${at} ?selected=${assigned[Number(at)] === field}>${label}</option>`)}
+            ${options.map(([at, label]) => html`<option value=${at} ?selected=${assignedFields[Number(at)] === field}>${label}</option>`)}
           </select>
         </label>`)}
         <button type="submit" part="button">${say.read}</button>
@@ -122,16 +122,16 @@ function columnsForm(opener: LogOpener, asked: Asked, answer: string[] | undefin
   </form>`;
 }
 
-const idOf = ({ file, ask: { what } }: Asked) => `log-${what}-${file.replaceAll(/[^\w-]/g, '_')}`;
+const idOf = ({ file, ask: { what } }: OpenQuestion) => `log-${what}-${file.replaceAll(/[^\w-]/g, '_')}`;
 
 /** Moves the focus to the chooser of a question, unless it is in one. Returns whether there is one. */
-export function focusOn({ renderRoot }: AlphaCalibratorElement, asked: Asked): boolean {
+export function focusChooser({ renderRoot }: AlphaCalibratorElement, asked: OpenQuestion): boolean {
   const { what, role = 'odometry' }: Question = asked.ask;
-  const places = { series: `#log-${role}`, frames: `#log-${role}`, roles: '[id^=log-role-]' } as Partial<Record<Question['what'], string>>;
-  const chooser = renderRoot.querySelector<HTMLElement>(places[what] ?? `#${idOf(asked)}`);
-  const control = chooser?.matches('select') ? chooser : chooser?.querySelector<HTMLElement>('select, input');
-  if (!control) return false;
-  if (!control.closest('.choosers')?.contains((renderRoot as ShadowRoot).activeElement)) control.focus();
+  const targets = { series: `#log-${role}`, frames: `#log-${role}`, roles: '[id^=log-role-]' } as Partial<Record<Question['what'], string>>;
+  const chooserElement = renderRoot.querySelector<HTMLElement>(targets[what] ?? `#${idOf(asked)}`);
+  const firstControl = chooserElement?.matches('select') ? chooserElement : chooserElement?.querySelector<HTMLElement>('select, input');
+  if (!firstControl) return false;
+  if (!firstControl.closest('.choosers')?.contains((renderRoot as ShadowRoot).activeElement)) firstControl.focus();
   return true;
 }
 
@@ -139,10 +139,10 @@ export function focusOn({ renderRoot }: AlphaCalibratorElement, asked: Asked): b
 const [WIDTH, HEIGHT, MARGIN] = [220, 150, 4];
 
 /** Maximum number of points of a path: several for each pixel. */
-const POINTS = 1500;
+const MAX_POINTS = 1500;
 
 /** Returns what was read of each drive, shown while it is fitted and below the result. */
-export function summaryOf({ chosen, say, host }: LogOpener) {
+export function logSummary({ chosen, say, host }: LogOpener) {
   // The page may have given another log since.
   if (!chosen?.drives || !say || (chosen.log && chosen.log !== host.log)) return nothing;
   const { drives } = chosen;
@@ -150,7 +150,7 @@ export function summaryOf({ chosen, say, host }: LogOpener) {
     <summary>${say.found.title}</summary>
     ${guard([drives, say, language], () => drives.map((drive, i) => html`<div class="drive">
       ${tableOf(drive, drives.length > 1 ? say.found.drive(i + 1) : '', say)}
-      ${pathsOf(drive, say)}
+      ${pathsPicture(drive, say)}
     </div>`))}
   </details>`;
 }
@@ -158,7 +158,7 @@ export function summaryOf({ chosen, say, host }: LogOpener) {
 function tableOf({ odometry, reference }: Drive, caption: string, { choose, found }: LogWords) {
   const logs = [odometry, reference];
   const lines = logs.map((log) => linesOf(log, found));
-  const cell = (texts: string[] = []) => html`<td>${texts.length ? texts.map((text, i) => html`${i ? html`<br />` : nothing}${text}`) : '—'}</td>`;
+  const tableCell = (texts: string[] = []) => html`<td>${texts.length ? texts.map((text, i) => html`${i ? html`<br />` : nothing}${text}`) : '—'}</td>`;
   const labels = (Object.keys(found.labels) as (keyof typeof found.labels)[]).filter((label) => lines.some((each) => each[label]?.length));
   return html`<table>
     ${caption ? html`<caption>${caption}</caption>` : nothing}
@@ -166,27 +166,27 @@ function tableOf({ odometry, reference }: Drive, caption: string, { choose, foun
       <tr><td></td>${ROLES.map((role, i) => html`<th scope="col">${choose.roles[role]}: ${logs[i].name}</th>`)}</tr>
     </thead>
     <tbody>
-      ${labels.map((label) => html`<tr><th scope="row">${found.labels[label]}</th>${lines.map((each) => cell(each[label]))}</tr>`)}
+      ${labels.map((label) => html`<tr><th scope="row">${found.labels[label]}</th>${lines.map((each) => tableCell(each[label]))}</tr>`)}
     </tbody>
   </table>`;
 }
 
 /** Returns a picture of both paths, of which the odometry is aligned with the reference. */
-function pathsOf({ odometry, reference }: Drive, { found }: LogWords) {
-  const [driven, truth] = [odometry.data, reference.data].map((data) => pathOf(data, Math.ceil(data.t.length / POINTS)));
+function pathsPicture({ odometry, reference }: Drive, { found }: LogWords) {
+  const [driven, truth] = [odometry.data, reference.data].map((data) => pathOf(data, Math.ceil(data.t.length / MAX_POINTS)));
   const odometryPath = aligned(driven, truth);
   const all = [...odometryPath.poses, ...truth.poses];
-  const ends = ([0, 1] as const).map((axis) => [Math.min(...all.map((pose) => pose[axis])), Math.max(...all.map((pose) => pose[axis]))]);
-  const [width, height] = ends.map(([low, high]) => high - low);
+  const ranges = ([0, 1] as const).map((axis) => [Math.min(...all.map((pose) => pose[axis])), Math.max(...all.map((pose) => pose[axis]))]);
+  const [width, height] = ranges.map(([low, high]) => high - low);
   const scale = Math.min((WIDTH - 2 * MARGIN) / Math.max(width, 0.1), (HEIGHT - 2 * MARGIN) / Math.max(height, 0.1));
-  const coordinate = (value: number) => value.toFixed(1);
-  const line = ({ poses, breaks }: Path) => poses.map(([x, y], i) =>
-    `${i === 0 || breaks.has(i) ? 'M' : 'L'}${coordinate(MARGIN + (x - ends[0][0]) * scale)} ${coordinate(HEIGHT - MARGIN - (y - ends[1][0]) * scale)}`).join('');
-  const text = found.paths(fixed(width, 1), fixed(height, 1));
+  const formatCoordinate = (value: number) => value.toFixed(1);
+  const pathData = ({ poses, breaks }: Path) => poses.map(([x, y], i) =>
+    `${i === 0 || breaks.has(i) ? 'M' : 'L'}${formatCoordinate(MARGIN + (x - ranges[0][0]) * scale)} ${formatCoordinate(HEIGHT - MARGIN - (y - ranges[1][0]) * scale)}`).join('');
+  const sizesText = found.paths(fixed(width, 1), fixed(height, 1));
   return html`<figure class="paths">
-    <svg viewBox="0 0 ${WIDTH} ${HEIGHT}" role="img" aria-label=${text}>
-      ${svg`<path class="reference" d=${line(truth)}></path><path class="odometry" d=${line(odometryPath)}></path>`}
+    <svg viewBox="0 0 ${WIDTH} ${HEIGHT}" role="img" aria-label=${sizesText}>
+      ${svg`<path class="reference" d=${pathData(truth)}></path><path class="odometry" d=${pathData(odometryPath)}></path>`}
     </svg>
-    <figcaption>${text}</figcaption>
+    <figcaption>${sizesText}</figcaption>
   </figure>`;
 }

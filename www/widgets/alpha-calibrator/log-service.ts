@@ -9,7 +9,7 @@ import type { AlphaCalibratorSettings, CalibrationLog } from '../../types.d.ts';
 type Trajectory = Exclude<CalibrationLog['odometry'], unknown[]>;
 
 /** Connection to the worker, or to the same module in the page's thread. */
-interface Link {
+interface WorkerLink {
   port: Worker | MessagePort;
   end(): void;
 }
@@ -32,7 +32,7 @@ export const isStopped = (error: unknown) => error instanceof DOMException && er
 /** Client of the worker: one request at a time. */
 export class LogService {
   #tag: string;
-  #link: Promise<Link> | undefined;
+  #link: Promise<WorkerLink> | undefined;
   /** Number of the latest request: other answers are ignored. */
   #number = 0;
   #fail: ((error: unknown) => void) | undefined;
@@ -56,7 +56,7 @@ export class LogService {
   }
 
   get #connected() {
-    return (this.#link ??= connect(this.#tag));
+    return (this.#link ??= connectService(this.#tag));
   }
 
   /** Opens files, with the options of each by its name, and aborts the request in progress. */
@@ -81,9 +81,9 @@ export class LogService {
   async calibrate(config: AlphaCalibratorSettings, log: CalibrationLog): Promise<Uint8Array> {
     this.stop();
     const odometry = [log.odometry].flat();
-    const isHeld = this.#held?.length === odometry.length && odometry.every((each, i) => each === this.#held?.[i]);
+    const hasWorkerLog = this.#held?.length === odometry.length && odometry.every((each, i) => each === this.#held?.[i]);
     this.#held = undefined;
-    const fit = await this.#ask<Uint8Array>('calibrate', [config, isHeld ? undefined : log]);
+    const fit = await this.#ask<Uint8Array>('calibrate', [config, hasWorkerLog ? undefined : log]);
     this.#held = odometry;
     return fit;
   }
@@ -103,38 +103,38 @@ export class LogService {
   }
 
   #ask<Result>(method: Request['method'], parameters: unknown[], onProgress?: OnProgress): Promise<Result> {
-    const number = ++this.#number;
-    const asked = new Promise<Result>((resolve, reject) => {
+    const requestNumber = ++this.#number;
+    const answerPromise = new Promise<Result>((resolve, reject) => {
       this.#fail = reject;
-      const post = async () => {
+      const postRequest = async () => {
         const { port } = await this.#connected;
-        if (number !== this.#number) return;
+        if (requestNumber !== this.#number) return;
         port.onmessage = ({ data }: MessageEvent<Answer>) => {
           if (data.number !== this.#number) return;
           if ('progress' in data) onProgress?.(data.progress);
           else if ('failure' in data) reject(new LogFailure(data.failure));
           else resolve(data.result as Result);
         };
-        port.postMessage({ number, method, parameters } satisfies Request);
+        port.postMessage({ number: requestNumber, method, parameters } satisfies Request);
       };
-      post().catch((error) => {
+      postRequest().catch((error) => {
         this.#link = undefined;
         reject(error);
       });
     });
-    return asked.finally(() => {
-      if (number === this.#number) this.#fail = undefined;
+    return answerPromise.finally(() => {
+      if (requestNumber === this.#number) this.#fail = undefined;
     });
   }
 }
 
-async function connect(tag: string): Promise<Link> {
+async function connectService(tag: string): Promise<WorkerLink> {
   const core = await sharedCore(tag);
-  return (await workerOf(core)) ?? inPage(core);
+  return (await startLogWorker(core)) ?? linkInPage(core);
 }
 
 /** Starts a worker; undefined where there is none, or the page's policy or origin forbids it. */
-async function workerOf(core: SharedCore): Promise<Link | undefined> {
+async function startLogWorker(core: SharedCore): Promise<WorkerLink | undefined> {
   try {
     const worker = startWorker();
     if (!worker) return undefined;
@@ -154,7 +154,7 @@ async function workerOf(core: SharedCore): Promise<Link | undefined> {
   return undefined;
 }
 
-async function inPage(core: SharedCore): Promise<Link> {
+async function linkInPage(core: SharedCore): Promise<WorkerLink> {
   const { serve } = await import('../../logs/worker.ts');
   const { port1, port2 } = new MessageChannel();
   serve(port2);

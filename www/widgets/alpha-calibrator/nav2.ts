@@ -13,33 +13,33 @@ function yamlOf({ reading, logName, warnings }: Figure): string {
   const { fitted: config, stats, legs: { count } } = reading;
   const { model, rule } = config;
   const date = new Date().toISOString().slice(0, 10);
-  const fitted = { calibration: stats, count, model, rule, legs: legLengthOption(config), log: logName, warnings, date };
-  return nav2Lines(fitted, words.calibrator.nav2).map((line) => `${line}\n`).join('');
+  const fittedLog = { calibration: stats, count, model, rule, legs: legLengthOption(config), log: logName, warnings, date };
+  return nav2Lines(fittedLog, words.calibrator.nav2).map((line) => `${line}\n`).join('');
 }
 
 /** Returns all results as JSON, with typed arrays as plain ones. */
 function jsonOf({ reading: { fitted, stats, legs, truth }, logName }: Figure) {
-  const all = { log: logName, date: new Date().toISOString(), settings: fitted, ...stats, ...(truth && { truth }), legs };
-  return JSON.stringify(all, (_, value) => (ArrayBuffer.isView(value) ? [...(value as Float64Array)] : value), 1);
+  const allResults = { log: logName, date: new Date().toISOString(), settings: fitted, ...stats, ...(truth && { truth }), legs };
+  return JSON.stringify(allResults, (_, value) => (ArrayBuffer.isView(value) ? [...(value as Float64Array)] : value), 1);
 }
 
 export function copyButton(figure: Figure) {
   const say = words.calibrator.nav2;
   const { model, rule } = figure.reading.fitted;
   const yaml = yamlOf(figure);
-  const note = isOfNav2(model, rule) ? '' : say.chooseRule;
-  return figure.copies.button('nav2', say.copy, () => yaml, { disabled: !yaml, title: yaml ? say.label : say.none, note });
+  const ruleNote = isOfNav2(model, rule) ? '' : say.chooseRule;
+  return figure.copies.button('nav2', say.copy, () => yaml, { disabled: !yaml, title: yaml ? say.label : say.none, note: ruleNote });
 }
 
 /** Returns the message of the button, which stands where it moves neither the button nor the table. */
-export const copyAnswer = (figure: Figure) => figure.copies.answer('nav2', yamlOf(figure));
+export const copyMessage = (figure: Figure) => figure.copies.answer('nav2', yamlOf(figure));
 
-export function nav2(figure: Figure) {
+export function nav2Exports(figure: Figure) {
   const say = words.calibrator.nav2;
   const yaml = yamlOf(figure);
-  const name = `${figure.localName}-${figure.reading.config.seed}.json`;
+  const fileName = `${figure.localName}-${figure.reading.config.seed}.json`;
   return html`${yaml ? html`<textarea class="yaml" readonly rows=${yaml.split('\n').length} aria-label=${say.label} .value=${yaml}></textarea>` : html`<p>${say.none}</p>`}
     <div class="buttons">
-      ${button(say.json, () => save(name, new Blob([jsonOf(figure)], { type: 'application/json' })))}
+      ${button(say.json, () => save(fileName, new Blob([jsonOf(figure)], { type: 'application/json' })))}
     </div>`;
 }

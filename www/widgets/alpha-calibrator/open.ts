@@ -18,17 +18,17 @@ type LogError = import('../../logs/log-error.ts').LogError;
 type Reader = Awaited<ReturnType<typeof loadReader>>;
 
 /** Question about a file, which the reader has answered or has to answer. */
-export interface Asked { file: string; ask: Question }
+export interface OpenQuestion { file: string; ask: Question }
 
 /** Files with their recordings, the reader's choices, and what was read by them. */
-export interface Chosen {
+export interface ChosenFiles {
   files: File[];
   recordings: Recording[];
   /** Errors of the files that were skipped. */
   skipped: LogFailure[];
   /** Options of files by their names. */
   answers: Record<string, OpenOptions>;
-  questions: Asked[];
+  questions: OpenQuestion[];
   /** Choices of the reader; what is missing is guessed. */
   wishes: Pick<Wishes, Role>;
   /** Roles that the reader chose for recordings with one log, by the index of the recording. */
@@ -48,9 +48,9 @@ const MAX_NAMED_FILES = 4;
 
 export class LogOpener extends FileOpener<Figure> {
   id = 'log';
-  chosen: Chosen | undefined;
+  chosen: ChosenFiles | undefined;
   /** Files with only one log of a drive. The next file may contain the other log. */
-  #lone: Chosen | undefined;
+  #lone: ChosenFiles | undefined;
   /** Module that reads and shows logs, and its words; undefined until a file is chosen. */
   reader: Reader | undefined;
   /** Fraction of the files that has been read; undefined if no file is being read. */
@@ -116,23 +116,23 @@ export class LogOpener extends FileOpener<Figure> {
   };
 
   choose(files: File[]) {
-    const logs = files.filter(isLog);
-    if (files.length > 0) this.#open({ files: logs.length ? logs : files, recordings: [], skipped: [], answers: {}, questions: [], wishes: {}, roles: new Map() });
+    const logFiles = files.filter(isLog);
+    if (files.length > 0) this.#open({ files: logFiles.length ? logFiles : files, recordings: [], skipped: [], answers: {}, questions: [], wishes: {}, roles: new Map() });
   }
 
   /** Stores an answer to a question, and opens the files with it. */
-  answer({ file }: Asked, answer: OpenOptions) {
+  answer({ file }: OpenQuestion, answer: OpenOptions) {
     if (!this.chosen) return;
     const { answers } = this.chosen;
     this.#open({ ...this.chosen, recordings: [], answers: { ...answers, [file]: { ...answers[file], ...answer } } });
   }
 
   /** Stores a choice of logs. */
-  change(change: Pick<Chosen, 'wishes'> | Pick<Chosen, 'roles'>) {
+  change(change: Pick<ChosenFiles, 'wishes'> | Pick<ChosenFiles, 'roles'>) {
     if (this.chosen) this.#open({ ...this.chosen, ...change });
   }
 
-  #open(chosen: Chosen) {
+  #open(chosen: ChosenFiles) {
     this.chosen = { ...chosen, plan: undefined, drives: undefined, log: undefined };
     const now = this.chosen;
     this.#restart(async (reader) => {
@@ -142,7 +142,7 @@ export class LogOpener extends FileOpener<Figure> {
   }
 
   /** Plans what is read. A file with one log is paired with the file before it, if that has one log too. */
-  async #plan(chosen: Chosen, reader: Reader): Promise<Plan> {
+  async #plan(chosen: ChosenFiles, reader: Reader): Promise<Plan> {
     try {
       return planOf(reader, chosen, this.kind);
     } catch (error) {
@@ -150,9 +150,9 @@ export class LogOpener extends FileOpener<Figure> {
       const skipped = chosen.skipped.find(({ ask }) => ask) ?? (chosen.recordings.length === 0 && chosen.skipped[0]);
       if (skipped) throw skipped;
       const before = this.#lone;
-      const isLone = chosen.recordings.length === 1 && (error as LogError).ask !== undefined;
-      if (isLone) this.#lone = { ...chosen };
-      if (!isLone || !before || before.files === chosen.files) throw error;
+      const isLoneLog = chosen.recordings.length === 1 && (error as LogError).ask !== undefined;
+      if (isLoneLog) this.#lone = { ...chosen };
+      if (!isLoneLog || !before || before.files === chosen.files) throw error;
       const [files, questions] = [[...before.files, ...chosen.files], [...before.questions, ...chosen.questions]];
       Object.assign(chosen, { files, questions, answers: { ...before.answers, ...chosen.answers } });
       Object.assign(chosen, await this.host.service.open(files, chosen.answers));
@@ -160,7 +160,7 @@ export class LogOpener extends FileOpener<Figure> {
     }
   }
 
-  async #read(chosen: Chosen, plan: Plan, reader: Reader) {
+  async #read(chosen: ChosenFiles, plan: Plan, reader: Reader) {
     const { service } = this.host;
     chosen.plan = plan;
     if (!service.isOpen) await service.open(chosen.files, chosen.answers);
@@ -169,13 +169,13 @@ export class LogOpener extends FileOpener<Figure> {
       this.host.requestUpdate();
     });
     const log = { name: nameOf(plan, reader), ...reader.logOf(drives) };
-    const fitted = this.host.open(log, reader.warningsOf(drives.map(({ reference }) => reference)), ({ count }) => {
+    const fitPromise = this.host.open(log, reader.warningsOf(drives.map(({ reference }) => reference)), ({ count }) => {
       if (count === 0) throw new RangeError(words.calibrator.none);
     });
     // The summary of logs is shown while they are fitted.
     chosen.drives = drives;
     this.host.requestUpdate();
-    await fitted;
+    await fitPromise;
     chosen.log = log;
     this.#lone = undefined;
     this.host.gesture.complete();
@@ -184,8 +184,8 @@ export class LogOpener extends FileOpener<Figure> {
   explain(refusal: Error & Partial<LogError & LogFailure>) {
     if (isStopped(refusal)) return words.progress.stopped;
     const { message, sentence, sentences, ask } = refusal;
-    const reason = sentences?.[language === 'de' ? 'de' : 'en'] ?? (sentence && this.say ? sentence(this.say) : words.calibrator.own.refused(message));
-    return [reason, ...(ask?.what === 'other' && this.say ? [this.say.choose.other] : [])].join(' ');
+    const refusalReason = sentences?.[language === 'de' ? 'de' : 'en'] ?? (sentence && this.say ? sentence(this.say) : words.calibrator.own.refused(message));
+    return [refusalReason, ...(ask?.what === 'other' && this.say ? [this.say.choose.other] : [])].join(' ');
   }
 
   /** Shows why a log was refused, and what to choose. */
@@ -198,7 +198,7 @@ export class LogOpener extends FileOpener<Figure> {
     if (asked && !chosen.questions.some((each) => each.file === asked.file && each.ask.what === ask.what)) chosen.questions.push(asked);
     this.host.requestUpdate();
     await this.host.updateComplete;
-    if (!(asked && this.reader?.focusOn(this.host, asked))) await this.showRefusal();
+    if (!(asked && this.reader?.focusChooser(this.host, asked))) await this.showRefusal();
   }
 
   /** Cancels reading, and starts again. */
@@ -216,7 +216,7 @@ export class LogOpener extends FileOpener<Figure> {
 /** Checks whether a file may be a log, because folders also have other files. */
 const isLog = ({ name, path }: File & { path?: string }) => path === undefined || name === 'metadata.yaml' || [...EXTENSIONS.slice(0, -1), '-wal'].some((extension) => name.endsWith(extension));
 
-function planOf(reader: Reader, { recordings, wishes, roles }: Chosen, kind: 'commands' | undefined): Plan {
+function planOf(reader: Reader, { recordings, wishes, roles }: ChosenFiles, kind: 'commands' | undefined): Plan {
   return reader.planDrives(recordings, { ...wishes, kind, roles: new Map([...roles].map(([index, role]) => [recordings[index], role])) });
 }
 
@@ -225,9 +225,9 @@ const choicesOf = (plan: Plan | undefined) => JSON.stringify(plan && [plan.drive
 
 /** Returns the files of a log, and the topics of both where one recording has them. */
 function nameOf({ drives, unpaired }: Plan, reader: Reader) {
-  const parts = [...drives.map(({ odometry }) => odometry), ...unpaired.odometry, ...unpaired.reference];
-  const names = parts.map(({ recording }) => recording.name);
-  const [only] = parts.length === 1 ? drives : [];
+  const planParts = [...drives.map(({ odometry }) => odometry), ...unpaired.odometry, ...unpaired.reference];
+  const names = planParts.map(({ recording }) => recording.name);
+  const [only] = planParts.length === 1 ? drives : [];
   return [...names.slice(0, MAX_NAMED_FILES), ...(names.length > MAX_NAMED_FILES ? ['…'] : []), ...(only ? [only.odometry, only.reference].map(({ choice }) => reader.labelOf(choice)) : [])].filter(Boolean).join(', ');
 }
 

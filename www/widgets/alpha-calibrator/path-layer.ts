@@ -7,16 +7,16 @@ import { strokePath, type Brush } from '../../scene/canvas.ts';
 import { lineStyles } from '../../scene/draw.ts';
 import { LINES_PER_STROKE, Layer, drawStrokes, strokeMany, type Painter } from '../../scene/layer.ts';
 import { colourChannels } from '../../ui/theme.ts';
-import { CLASSES, LINES, type LineName } from './settings.ts';
+import { LEG_CLASSES, LINE_STYLES, type LineName } from './settings.ts';
 import type { CalibrationLegs } from '../../types.d.ts';
 
-export type Style = { colour: string, width: number, dash: number[] };
+export type PathStyle = { colour: string, width: number, dash: number[] };
 
 /** Maximum number of legs that are drawn directly. The drawing of more legs is cached in another canvas, which takes memory. */
 const MAX_UNCACHED_LEGS = 2000;
 
 /** Number of strokes of a new log in a frame, which take about 10 ms. */
-const STROKES_A_FRAME = 4;
+const STROKES_PER_FRAME = 4;
 
 /** Side of squares (CSS pixels) in each of which only one of the shorter steps is drawn, because others would not be visible. */
 const FINE_SQUARE = 1;
@@ -33,12 +33,12 @@ const RING_RADIUS = 6;
 /** Width of the thinnest lines, CSS pixels. */
 const HAIRLINE_WIDTH = 1;
 
-export function styleOf({ palette, highlight }: Pick<Brush, 'palette' | 'highlight'>, name: LineName): Style {
-  const truth = name === 'plausible' ? between(palette.truth, palette.cloud) : palette.truth;
-  return lineStyles({ palette: { ...palette, truth }, highlight }, LINES)[name];
+export function pathStyle({ palette, highlight }: Pick<Brush, 'palette' | 'highlight'>, name: LineName): PathStyle {
+  const legColour = name === 'plausible' ? mixedColour(palette.truth, palette.cloud) : palette.truth;
+  return lineStyles({ palette: { ...palette, truth: legColour }, highlight }, LINE_STYLES)[name];
 }
 
-function between(one: string, other: string) {
+function mixedColour(one: string, other: string) {
   const [from, to] = [colourChannels(one), colourChannels(other)];
   return `rgb(${from.map((value, i) => Math.round((value + to[i]) / 2))})`;
 }
@@ -55,38 +55,38 @@ export class PathLayer {
   draw(brush: Brush, legs: CalibrationLegs, classes: Uint8Array, overlays: LineName[]): boolean {
     const { context, highlight, handles } = brush;
     if ('vector' in context || legs.count <= MAX_UNCACHED_LEGS) return drawStrokes(drawPath(brush, legs, classes, overlays));
-    const isOther = legs !== this.#legs;
+    const isOtherLog = legs !== this.#legs;
     this.#legs = legs;
     return this.#layer.draw(brush, [legs, overlays, highlight], (painter) => {
       const strokes = drawPath(painter, legs, classes, overlays);
-      if (!isOther) drawStrokes(strokes);
+      if (!isOtherLog) drawStrokes(strokes);
       return strokes;
-    }, handles ? Infinity : STROKES_A_FRAME);
+    }, handles ? Infinity : STROKES_PER_FRAME);
   }
 }
 
 function* drawPath(brush: Painter, legs: CalibrationLegs, classes: Uint8Array, overlays: LineName[]) {
-  if (overlays.includes('odometry')) yield* strokeMany(brush.context, odometryLines(brush.view, legs), styleOf(brush, 'odometry'));
+  if (overlays.includes('odometry')) yield* strokeMany(brush.context, odometryLines(brush.view, legs), pathStyle(brush, 'odometry'));
   // While the coverage by legs grows from 1 to 2, lines get thinner little by little, so that nothing jumps when a plot is resized.
-  const extra = Math.max(0, Math.min(1, 2 - coverageOf(brush.view, legs.reference)));
-  for (const [index, name] of CLASSES.entries()) {
+  const thickening = Math.max(0, Math.min(1, 2 - pathCoverage(brush.view, legs.reference)));
+  for (const [index, name] of LEG_CLASSES.entries()) {
     if (!overlays.includes(name)) continue;
-    const style = styleOf(brush, name);
-    const lines = visibleLegs(brush.view, legs.reference, (leg) => classes[leg] === index);
-    yield* strokeMany(brush.context, lines, { ...style, width: HAIRLINE_WIDTH + extra * (style.width - HAIRLINE_WIDTH) });
+    const style = pathStyle(brush, name);
+    const legLines = visibleLegs(brush.view, legs.reference, (leg) => classes[leg] === index);
+    yield* strokeMany(brush.context, legLines, { ...style, width: HAIRLINE_WIDTH + thickening * (style.width - HAIRLINE_WIDTH) });
   }
   if (overlays.includes('outlier')) drawRings(brush, outlierEnds(brush, legs));
 }
 
 /** Returns the ends of the outliers, CSS pixels. */
 function outlierEnds({ view }: Painter, { outliers, reference }: CalibrationLegs): [number, number][] {
-  const all = [...outliers.keys()].filter((leg) => outliers[leg] > 0);
-  return all.map((leg) => view.toPixel(reference[6 * leg + 3], reference[6 * leg + 4]));
+  const outlierLegs = [...outliers.keys()].filter((leg) => outliers[leg] > 0);
+  return outlierLegs.map((leg) => view.toPixel(reference[6 * leg + 3], reference[6 * leg + 4]));
 }
 
 export function drawRings(brush: Painter, points: [number, number][]) {
   const { context } = brush;
-  strokePath(context, styleOf(brush, 'outlier'), () => {
+  strokePath(context, pathStyle(brush, 'outlier'), () => {
     for (const [x, y] of points) {
       context.moveTo(x + RING_RADIUS, y);
       context.arc(x, y, RING_RADIUS, 0, 2 * Math.PI);
@@ -98,48 +98,48 @@ export function drawRings(brush: Painter, points: [number, number][]) {
  * Returns the coverage: the area of the legs at the usual line width, relative to that of the squares in which they end. Above 1 wide lines
  * would hide each other, while as hairlines each class covers its share of the legs.
  */
-function coverageOf(view: Painter['view'], reference: Float64Array) {
-  const squares: Set<number> = new Set();
-  let length = 0;
+function pathCoverage(view: Painter['view'], reference: Float64Array) {
+  const endSquares: Set<number> = new Set();
+  let coveredLength = 0;
   for (let at = 0; at < reference.length; at += 6) {
     const [x, y] = [view.toPixelX(reference[at + 3]), view.toPixelY(reference[at + 4])];
-    squares.add(squareOf(x, y, COARSE_SQUARE));
+    endSquares.add(squareOf(x, y, COARSE_SQUARE));
     // Only one square's length of a leg counts for the square in which it ends.
-    length += Math.min(COARSE_SQUARE, Math.hypot(x - view.toPixelX(reference[at]), y - view.toPixelY(reference[at + 1])));
+    coveredLength += Math.min(COARSE_SQUARE, Math.hypot(x - view.toPixelX(reference[at]), y - view.toPixelY(reference[at + 1])));
   }
-  return (length * LINES.likely.width) / (squares.size * COARSE_SQUARE ** 2);
+  return (coveredLength * LINE_STYLES.likely.width) / (endSquares.size * COARSE_SQUARE ** 2);
 }
 
 /** Returns the odometry from the first pose of the reference on, in pieces. It drifts away, and each leg is compared by itself. */
 function* odometryLines(view: Painter['view'], { count, odometry, reference }: CalibrationLegs) {
-  const turn = reference[2] - odometry[2];
-  const [cos, sin] = [Math.cos(turn), Math.sin(turn)];
+  const frameRotation = reference[2] - odometry[2];
+  const [cos, sin] = [Math.cos(frameRotation), Math.sin(frameRotation)];
   let [last, line] = [NaN, [] as number[][]];
   for (let leg = 0; leg < count; leg++) {
     const [dx, dy] = [odometry[6 * leg + 3] - odometry[0], odometry[6 * leg + 4] - odometry[1]];
-    const point = view.toPixel(reference[0] + cos * dx - sin * dy, reference[1] + sin * dx + cos * dy);
-    const square = squareOf(...point);
+    const legEnd = view.toPixel(reference[0] + cos * dx - sin * dy, reference[1] + sin * dx + cos * dy);
+    const square = squareOf(...legEnd);
     if (square === last) continue;
     last = square;
-    line.push(point);
+    line.push(legEnd);
     if (line.length <= LINES_PER_STROKE) continue;
     yield line;
-    line = [point];
+    line = [legEnd];
   }
   yield line;
 }
 
 /** Returns the legs that are drawn as lines between their ends. */
 function* visibleLegs(view: Painter['view'], reference: Float64Array, isDrawn: (leg: number) => boolean) {
-  const drawn: Set<number> = new Set();
+  const drawnSquares: Set<number> = new Set();
   for (let leg = 0; leg < reference.length / 6; leg++) {
     if (!isDrawn(leg)) continue;
     const at = 6 * leg;
     const [from, to] = [view.toPixel(reference[at], reference[at + 1]), view.toPixel(reference[at + 3], reference[at + 4])];
     if (Math.hypot(to[0] - from[0], to[1] - from[1]) < FINE_SQUARE) {
       const square = squareOf(...to);
-      if (drawn.has(square)) continue;
-      drawn.add(square);
+      if (drawnSquares.has(square)) continue;
+      drawnSquares.add(square);
     }
     yield [from, to];
   }

@@ -5,8 +5,8 @@ import { clipToPlot, drawAxes, lineKey } from '../../scene/axes.ts';
 import { drawDots, drawSelectedSample, drawOutline, drawOutlines, drawRobot } from '../../scene/draw.ts';
 import { Picture, SamplesPicture } from '../../scene/picture.ts';
 import { View, extentAround, extentOf } from '../../scene/view.ts';
-import { CLASSES, LINES, type LineName } from './settings.ts';
-import { PathLayer, drawRings, styleOf } from './path-layer.ts';
+import { LEG_CLASSES, LINE_STYLES, type LineName } from './settings.ts';
+import { PathLayer, drawRings, pathStyle } from './path-layer.ts';
 import type { LegView } from '../../types.d.ts';
 import type { Reading } from './reading.ts';
 
@@ -14,7 +14,7 @@ import type { Reading } from './reading.ts';
 export type Scene = Reading & { chosen: number, leg: LegView | null, overlays: LineName[] };
 
 /** Width of the lines of a single leg, CSS pixels. */
-const WIDTH = 2.25;
+const LEG_LINE_WIDTH = 2.25;
 
 /** Space around the mark of an end, as a share of the leg. */
 const MARK_ROOM = 0.08;
@@ -41,10 +41,10 @@ export class PathPicture extends SamplesPicture<Scene> {
 
   paint: Picture<Scene>['paint'] = (brush, { legs, classes, chosen, overlays }) => {
     const { palette } = brush;
-    const keyed = brush.exported ? ([...CLASSES.toReversed(), 'odometry', 'outlier'] as const).filter((name) => overlays.includes(name)) : [];
-    const key = keyed.map((name) => {
-      const entry = lineKey(brush, words.calibrator.overlays[name].replaceAll('*', ''), styleOf(brush, name));
-      return name === 'outlier' ? { ...entry, draw: (x: number, y: number, length: number) => drawRings(brush, [[x + length / 2, y]]) } : entry;
+    const keyedNames = brush.exported ? ([...LEG_CLASSES.toReversed(), 'odometry', 'outlier'] as const).filter((name) => overlays.includes(name)) : [];
+    const key = keyedNames.map((name) => {
+      const keyEntry = lineKey(brush, words.calibrator.overlays[name].replaceAll('*', ''), pathStyle(brush, name));
+      return name === 'outlier' ? { ...keyEntry, draw: (x: number, y: number, length: number) => drawRings(brush, [[x + length / 2, y]]) } : keyEntry;
     });
     drawAxes(brush, { x: 'x (m)', y: 'y (m)' }, key);
     let isUnfinished = false;
@@ -68,9 +68,9 @@ export class LegPicture extends Picture<Scene> {
     if (!leg) return;
     const { outline, read, ended } = leg;
     this.view.release();
-    const room = MARK_ROOM * Math.hypot(ended[0], ended[1]);
-    const marks = [read, ended].flatMap(([x, y]) => [x - room, y - room, x + room, y + room]);
-    this.view.fit(extentOf([0, 0, ...outline, ...marks], 0.05));
+    const markRoom = MARK_ROOM * Math.hypot(ended[0], ended[1]);
+    const markCorners = [read, ended].flatMap(([x, y]) => [x - markRoom, y - markRoom, x + markRoom, y + markRoom]);
+    this.view.fit(extentOf([0, 0, ...outline, ...markCorners], 0.05));
   }
 
   paint: Picture<Scene>['paint'] = (brush, { leg, overlays }) => {
@@ -78,21 +78,21 @@ export class LegPicture extends Picture<Scene> {
     drawAxes(brush, { x: words.calibrator.axisAhead, y: words.calibrator.axisLeft }, []);
     if (!leg) return;
     const { outcomes, outline, read, ended } = leg;
-    const shows = (name: LineName) => overlays.includes(name);
-    const line = (name: LineName, points: Float64Array) => {
-      const style = styleOf(brush, name);
-      return shows(name) ? [{ points, ...style, width: (WIDTH / LINES[name].width) * style.width }] : [];
+    const showsLine = (name: LineName) => overlays.includes(name);
+    const lineInStyle = (name: LineName, points: Float64Array) => {
+      const lineStyle = pathStyle(brush, name);
+      return showsLine(name) ? [{ points, ...lineStyle, width: (LEG_LINE_WIDTH / LINE_STYLES[name].width) * lineStyle.width }] : [];
     };
     clipToPlot(brush, () => {
-      if (shows('predicted')) drawDots(brush, outcomes, { x: 0, y: 1, heading: null });
+      if (showsLine('predicted')) drawDots(brush, outcomes, { x: 0, y: 1, heading: null });
       drawOutlines(brush, [
-        ...line('predicted', outline),
-        ...line('odometry', Float64Array.of(0, 0, read[0], read[1])),
-        ...line('reference', Float64Array.of(0, 0, ended[0], ended[1])),
+        ...lineInStyle('predicted', outline),
+        ...lineInStyle('odometry', Float64Array.of(0, 0, read[0], read[1])),
+        ...lineInStyle('reference', Float64Array.of(0, 0, ended[0], ended[1])),
       ]);
       drawRobot(brush, { x: 0, y: 0, heading: 0, colour: palette.truth });
-      if (shows('odometry')) drawSelectedSample(brush, { x: read[0], y: read[1], heading: read[2] }, palette.prior);
-      if (shows('reference')) drawSelectedSample(brush, { x: ended[0], y: ended[1], heading: ended[2] }, palette.ink);
+      if (showsLine('odometry')) drawSelectedSample(brush, { x: read[0], y: read[1], heading: read[2] }, palette.prior);
+      if (showsLine('reference')) drawSelectedSample(brush, { x: ended[0], y: ended[1], heading: ended[2] }, palette.ink);
     });
   };
 }

@@ -1,6 +1,6 @@
 /** View model of the Alpha Calibrator. */
 
-import { SIMULATED } from './settings.ts';
+import { SIMULATED_LEGS } from './settings.ts';
 import type { AlphaCalibrator as Machine, CalibrationLegs, CalibrationLog } from '../../types.d.ts';
 
 export type Reading = ReturnType<typeof fitOf> & {
@@ -19,9 +19,9 @@ export type Reading = ReturnType<typeof fitOf> & {
 /** Reads the machine for pictures and readouts, once a change. The fit and the true values are copied only if they are not those before. */
 export function readingOf(machine: Machine, log: CalibrationLog | null, before: Reading | undefined): Reading {
   const { config, fittedConfig: fitted, fits, isPending } = machine.read();
-  const isSame = before?.machine === machine;
-  const fit = isSame && before.fits === fits ? before : fitOf(machine, fits, fitted);
-  const truth = isSame && before.log === log ? before.truth : machine.truth;
+  const isSameMachine = before?.machine === machine;
+  const fit = isSameMachine && before.fits === fits ? before : fitOf(machine, fits, fitted);
+  const truth = isSameMachine && before.log === log ? before.truth : machine.truth;
   return { ...fit, truth, log, config, fitted, isPending };
 }
 
@@ -36,9 +36,9 @@ function fitOf(machine: Machine, fits: number, { duration, distance }: Machine['
     /** Class of each leg, as an index of `CLASSES`. */
     classes: classesOf(legs),
     /** Legs with the largest residuals, the largest first. */
-    worst: worstOf(legs),
+    worst: worstLegsOf(legs),
     /** Leg that is shown if none was chosen. */
-    opening: openingOf(legs, duration > 0 ? MIN_DIRECTED_LEG : distance),
+    opening: openingLegOf(legs, duration > 0 ? MIN_DIRECTED_LEG : distance),
   };
 }
 
@@ -49,39 +49,39 @@ const MIN_DIRECTED_LEG = 0.01;
 const LISTED_RESIDUALS = 10;
 
 /** Quantiles 0.5, 0.95 and 0.999 of χ² with 0 to 3 degrees of freedom. */
-const CHI2 = [[0, 0, 0], [0.455, 3.841, 10.828], [1.386, 5.991, 13.816], [2.366, 7.815, 16.266]];
+const CHI2_QUANTILES = [[0, 0, 0], [0.455, 3.841, 10.828], [1.386, 5.991, 13.816], [2.366, 7.815, 16.266]];
 
 /** Returns the class of each leg: the index of the first quantile that its squared Mahalanobis distance does not exceed. */
 export function classesOf({ count, squared, residuals }: Pick<CalibrationLegs, 'count' | 'squared' | 'residuals'>) {
   return Uint8Array.from({ length: count }, (_, leg) => {
-    const quantiles = CHI2[observedOf(residuals, leg)];
-    const index = quantiles.findIndex((quantile) => squared[leg] <= quantile);
-    return index < 0 ? quantiles.length : index;
+    const quantiles = CHI2_QUANTILES[observedCount(residuals, leg)];
+    const classIndex = quantiles.findIndex((quantile) => squared[leg] <= quantile);
+    return classIndex < 0 ? quantiles.length : classIndex;
   });
 }
 
 /** Returns the number of residuals of a leg that are defined. */
-export const observedOf = (residuals: Float64Array, leg: number) => residuals.subarray(3 * leg, 3 * leg + 3).reduce((count, residual) => count + Number(!Number.isNaN(residual)), 0);
+export const observedCount = (residuals: Float64Array, leg: number) => residuals.subarray(3 * leg, 3 * leg + 3).reduce((count, residual) => count + Number(!Number.isNaN(residual)), 0);
 
-function worstOf({ squared }: Pick<CalibrationLegs, 'squared'>) {
-  const least = squared.toSorted()[Math.max(0, squared.length - LISTED_RESIDUALS)];
-  const candidates = [...squared.keys()].filter((leg) => squared[leg] >= least);
-  return candidates.sort((one, other) => squared[other] - squared[one]).slice(0, LISTED_RESIDUALS);
+function worstLegsOf({ squared }: Pick<CalibrationLegs, 'squared'>) {
+  const smallestListed = squared.toSorted()[Math.max(0, squared.length - LISTED_RESIDUALS)];
+  const worstLegs = [...squared.keys()].filter((leg) => squared[leg] >= smallestListed);
+  return worstLegs.sort((one, other) => squared[other] - squared[one]).slice(0, LISTED_RESIDUALS);
 }
 
 /**
  * Returns the leg with the largest residual that is no outlier and as long as `distance`; −1 where there is none. An outlier is no evidence
  * against the model, and a turn on the spot shows no cloud.
  */
-function openingOf({ squared, outliers, odometry }: CalibrationLegs, distance: number): number {
-  const isDriven = (leg: number) => Math.hypot(odometry[6 * leg + 3] - odometry[6 * leg], odometry[6 * leg + 4] - odometry[6 * leg + 1]) >= distance;
-  const worst = squared.reduce((found, error, leg) => (outliers[leg] === 0 && isDriven(leg) && error > (squared[found] ?? -1) ? leg : found), -1);
-  return worst < 0 && squared.length > 0 ? 0 : worst;
+function openingLegOf({ squared, outliers, odometry }: CalibrationLegs, distance: number): number {
+  const isFullLeg = (leg: number) => Math.hypot(odometry[6 * leg + 3] - odometry[6 * leg], odometry[6 * leg + 4] - odometry[6 * leg + 1]) >= distance;
+  const worstLeg = squared.reduce((found, error, leg) => (outliers[leg] === 0 && isFullLeg(leg) && error > (squared[found] ?? -1) ? leg : found), -1);
+  return worstLeg < 0 && squared.length > 0 ? 0 : worstLeg;
 }
 
 /** Returns the leg that is shown; −1 if there is none. */
 export const legOf = ({ opening, legs }: Reading, chosen: number | null) => (chosen !== null && chosen < legs.count ? chosen : opening);
 
 /** Checks whether the true α's are of the rule and the legs of the present fit. */
-export const truthHolds = ({ truth, fitted: { rule, model, distance, angle, duration } }: Pick<Reading, 'truth' | 'fitted'>) =>
-  truth !== null && model === 'odometry' && rule === 'thrun' && distance === SIMULATED.distance && angle === SIMULATED.angle && duration === 0;
+export const truthApplies = ({ truth, fitted: { rule, model, distance, angle, duration } }: Pick<Reading, 'truth' | 'fitted'>) =>
+  truth !== null && model === 'odometry' && rule === 'thrun' && distance === SIMULATED_LEGS.distance && angle === SIMULATED_LEGS.angle && duration === 0;

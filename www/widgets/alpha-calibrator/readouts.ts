@@ -4,9 +4,9 @@ import { html, nothing, svg } from 'lit';
 import { words } from '../../messages/registry.ts';
 import { formatMarkup } from '../../ui/controls.ts';
 import { NO_VALUE, powerOfTen, tick } from '../../ui/format.ts';
-import { subscript } from '../shared/sliders.ts';
+import { subscriptOf } from '../shared/sliders.ts';
 import { adviceOf, alphaOrBound, fixed } from './lines.ts';
-import { truthHolds, type Reading } from './reading.ts';
+import { truthApplies, type Reading } from './reading.ts';
 import { judgementOf, legsText, localized, noiseNames } from './words.ts';
 import type { AlphaCalibratorElement as Figure } from './alpha-calibrator.ts';
 
@@ -29,20 +29,20 @@ export function verdictLine({ reading, logName, warnings }: Figure) {
 export function alphaTable(reading: Reading) {
   const { alphas, intervals } = reading.stats;
   const say = words.calibrator.alphas;
-  const noises = noiseNames(reading.fitted.model);
-  const truth = truthHolds(reading) ? reading.truth?.alphas : undefined;
+  const noiseLabels = noiseNames(reading.fitted.model);
+  const truth = truthApplies(reading) ? reading.truth?.alphas : undefined;
   const axis = axisOf([...alphas, ...intervals.flatMap((interval) => interval ?? []), ...(truth ?? [])]);
   return html`<table class="alphas" part="table">
     <thead>
-      <tr><th scope="col">${formatMarkup(say.alpha)}</th><th scope="col">${truth ? trueHead() : say.noise}</th><th scope="col">${say.value}</th><th scope="col">${say.recommended}</th></tr>
+      <tr><th scope="col">${formatMarkup(say.alpha)}</th><th scope="col">${truth ? noiseColumnHead() : say.noise}</th><th scope="col">${say.value}</th><th scope="col">${say.recommended}</th></tr>
     </thead>
     <tbody>
       ${alphas.map((alpha, i) => html`<tr>
-        <th scope="row">${formatMarkup(`*α*${subscript(i)}`)}</th>
+        <th scope="row">${formatMarkup(`*α*${subscriptOf(i)}`)}</th>
         ${alpha === null
-          ? html`<td colspan="3"><div class="of">${noises[i]}</div><span class="unknown">${missingText(reading, i)}</span></td>`
-          : html`<td class="chart"><div class="line"><div class="of">${noises[i]}</div>${whisker(axis, alpha, intervals[i], truth?.[i])}</div></td>
-            <td><div class="line"><div class="fitted-value" data-longest="0.0000">${fittedOf(reading, i)}</div><div class="between" data-longest=${say.between('0.0000', '0.0000')}>${betweenOf(reading, i)}</div></div></td>
+          ? html`<td colspan="3"><div class="of">${noiseLabels[i]}</div><span class="unknown">${missingText(reading, i)}</span></td>`
+          : html`<td class="chart"><div class="line"><div class="of">${noiseLabels[i]}</div>${whisker(axis, alpha, intervals[i], truth?.[i])}</div></td>
+            <td><div class="line"><div class="fitted-value" data-longest="0.0000">${fittedText(reading, i)}</div><div class="between" data-longest=${say.between('0.0000', '0.0000')}>${intervalText(reading, i)}</div></div></td>
             <td class="recommended" data-longest="0.0000">${recommendedOf(reading, i)}</td>`}
       </tr>`)}
       <tr class="axis" aria-hidden="true">
@@ -60,7 +60,7 @@ function recommendedOf({ stats: { recommended, alphas, intervals } }: Reading, i
   return recommended && alphas[index] !== null ? localized(alphaOrBound(alphas[index], intervals[index], recommended.inflation)) : NO_VALUE;
 }
 
-const fittedOf = ({ stats: { alphas, intervals } }: Reading, index: number) => localized(alphaOrBound(alphas[index], intervals[index]));
+const fittedText = ({ stats: { alphas, intervals } }: Reading, index: number) => localized(alphaOrBound(alphas[index], intervals[index]));
 
 /** Returns why an α is not determined, and which drive would determine it. */
 function missingText({ stats: { notIdentifiable }, fitted: { model } }: Reading, index: number) {
@@ -76,44 +76,44 @@ export function alphaTexts(reading: Reading) {
   const { stats: { alphas }, fitted } = reading;
   const { recommendedText } = words.calibrator.alphas;
   return alphas.map((alpha, i) => {
-    const texts = alpha === null ? [missingText(reading, i)] : [fittedOf(reading, i), betweenOf(reading, i), recommendedText(recommendedOf(reading, i))];
-    return `α${subscript(i)} ${noiseNames(fitted.model)[i]}: ${texts.join(', ')}`;
+    const alphaParts = alpha === null ? [missingText(reading, i)] : [fittedText(reading, i), intervalText(reading, i), recommendedText(recommendedOf(reading, i))];
+    return `α${subscriptOf(i)} ${noiseNames(fitted.model)[i]}: ${alphaParts.join(', ')}`;
   });
 }
 
-function betweenOf({ stats: { intervals } }: Reading, index: number) {
+function intervalText({ stats: { intervals } }: Reading, index: number) {
   const interval = intervals[index];
   return interval ? words.calibrator.alphas.between(localized(fixed(interval[0], interval)), localized(fixed(interval[1], interval))) : NO_VALUE;
 }
 
 /** Returns the head of the column of noises, with the symbol of the simulated value. */
-function trueHead() {
+function noiseColumnHead() {
   const [before, after] = words.calibrator.alphas.noiseTrue.split('|');
   return html`${before}<svg class="sample" viewBox="0 0 6 12" aria-hidden="true"><path class="true" d="M3 1V11" /></svg>${after}`;
 }
 
 /** Returns a logarithmic axis over the decades of some values. */
 function axisOf(values: (number | null)[]) {
-  const logs = values.filter((value) => value !== null && value > 0 && Number.isFinite(value)).map((value) => Math.log10(value as number));
-  const from = Math.floor(Math.min(0, ...(logs.length ? [Math.max(Math.min(...logs), Math.max(...logs) - 4)] : [-3])));
-  const to = Math.max(from + 1, Math.ceil(logs.length ? Math.max(...logs) : 0));
+  const log10 = values.filter((value) => value !== null && value > 0 && Number.isFinite(value)).map((value) => Math.log10(value as number));
+  const from = Math.floor(Math.min(0, ...(log10.length ? [Math.max(Math.min(...log10), Math.max(...log10) - 4)] : [-3])));
+  const to = Math.max(from + 1, Math.ceil(log10.length ? Math.max(...log10) : 0));
   const { width, inset } = WHISKER_ROW;
   const at = (value: number) => {
-    const share = (Math.log10(Math.max(value, 0)) - from) / (to - from);
+    const axisFraction = (Math.log10(Math.max(value, 0)) - from) / (to - from);
     // A mark outside the axis is drawn at its edge.
-    return Math.max(inset / 3, Math.min(width - inset / 3, inset + share * (width - 2 * inset)));
+    return Math.max(inset / 3, Math.min(width - inset / 3, inset + axisFraction * (width - 2 * inset)));
   };
   // More labels would touch.
-  const step = Math.ceil((to - from) / MAX_AXIS_INTERVALS);
-  return { at, decades: Array.from({ length: Math.floor((to - from) / step) + 1 }, (_, i) => 10 ** (from + i * step)) };
+  const labelStep = Math.ceil((to - from) / MAX_AXIS_INTERVALS);
+  return { at, decades: Array.from({ length: Math.floor((to - from) / labelStep) + 1 }, (_, i) => 10 ** (from + i * labelStep)) };
 }
 
 function whisker({ at }: ReturnType<typeof axisOf>, value: number, interval: [number, number] | null, truth: number | undefined) {
   const { width, height, middle } = WHISKER_ROW;
-  const [low, high] = (interval ?? [value, value]).map(at);
+  const [lowX, high] = (interval ?? [value, value]).map(at);
   return html`<svg viewBox="0 0 ${width} ${height}" preserveAspectRatio="none" aria-hidden="true">
     ${truth === undefined ? nothing : svg`<path class="true" d="M${at(truth)} 2V${height - 2}" />`}
-    <path class="whisker" d="M${low} ${middle}H${high}M${low} ${middle - 4}v8M${high} ${middle - 4}v8" />
+    <path class="whisker" d="M${lowX} ${middle}H${high}M${lowX} ${middle - 4}v8M${high} ${middle - 4}v8" />
     <path class="dot" d="M${at(value)} ${middle}h0" />
   </svg>`;
 }

@@ -8,7 +8,7 @@ import type { AlphaCalibratorSettings } from '../../types.d.ts';
 const ODOMETRY_DASH = [2.5, 3.5];
 
 /** Styles of the lines and marks in the pictures: the classes of legs, the most usual first, then the rest. */
-export const LINES = {
+export const LINE_STYLES = {
   likely: { role: 'truth', width: 1.5, dash: [] },
   plausible: { role: 'truth', width: 2, dash: [] },
   unlikely: { role: 'prediction', width: 3.25, dash: [] },
@@ -19,18 +19,18 @@ export const LINES = {
   reference: { role: 'ink', width: 2.25, dash: [] },
 } satisfies Record<string, import('../../scene/draw.ts').LineStyle>;
 
-export type LineName = keyof typeof LINES;
+export type LineName = keyof typeof LINE_STYLES;
 
 /** Classes of legs, the most usual first. */
-export const CLASSES = ['likely', 'plausible', 'unlikely', 'implausible'] as const satisfies LineName[];
+export const LEG_CLASSES = ['likely', 'plausible', 'unlikely', 'implausible'] as const satisfies LineName[];
 
 /** Motions that squared residuals are plotted against. */
 const REGRESSORS = ['turn', 'way'] as const;
 
-export type Driver = (typeof REGRESSORS)[number];
+export type Regressor = (typeof REGRESSORS)[number];
 
 /** Maximum index of a leg in a shared link. The number of legs is not known before the fit, so that it cannot be the limit. */
-const MOST_LEGS = 9_999_999;
+const MAX_LEG_INDEX = 9_999_999;
 
 export const documentation: import('../../figure/attributes.ts').Documentation = {
   state: {
@@ -43,7 +43,7 @@ export const documentation: import('../../figure/attributes.ts').Documentation =
 const MODEL_RULES = ['thrun', 'nav2', 'beluga', 'omni', 'velocity'] as const;
 
 /** Legs of the simulated log: those that the element opens with. */
-export const SIMULATED = { distance: 0.25, angle: 0.2 };
+export const SIMULATED_LEGS = { distance: 0.25, angle: 0.2 };
 
 export type ModelRule = (typeof MODEL_RULES)[number];
 
@@ -58,7 +58,7 @@ export function settingsFor(kind: ModelRule) {
 }
 
 /** Noise components by model, in the order of the residuals. */
-export const COMPONENTS = {
+export const NOISE_COMPONENTS = {
   odometry: ['rot1', 'trans', 'rot2'],
   omnidirectional: ['rot2', 'trans', 'strafe'],
   velocity: ['v', 'omega', 'gamma'],
@@ -66,7 +66,7 @@ export const COMPONENTS = {
 
 export const definition = definitionOf('alpha-calibrator', {
   messageKey: 'calibrator',
-  lines: LINES,
+  lines: LINE_STYLES,
   sliderSpecs: {
     distance: { symbol: '*d*', role: 'prior', min: 0.05, max: 1, step: 0.01, decimals: 2 },
     angle: { symbol: '*φ*', role: 'prior', min: 0.05, max: 1, step: 0.01, decimals: 2 },
@@ -76,7 +76,7 @@ export const definition = definitionOf('alpha-calibrator', {
     inflation: { symbol: '*f*', role: 'prediction', min: 0.1, max: 5, step: 0.05, decimals: 2 },
   },
   own: {
-    leg: { opening: null, check: (field, leg) => (leg === null ? null : wholeNumber(field, leg, 0, MOST_LEGS)) },
+    leg: { opening: null, check: (field, leg) => (leg === null ? null : wholeNumber(field, leg, 0, MAX_LEG_INDEX)) },
     driver: { opening: REGRESSORS[0], check: (field, driver) => checkedWord(field, driver, REGRESSORS) },
   },
 });

@@ -18,7 +18,7 @@ const PATH_SIZE = { width: 430, height: 344 };
 const KEY_HEIGHT = 42;
 
 /** Line height. */
-const LINE = 18;
+const LINE_HEIGHT = 18;
 
 export class SummaryPicture extends Picture<Scene> {
   size = { width: WIDTH, height: HEIGHT };
@@ -35,40 +35,40 @@ export class SummaryPicture extends Picture<Scene> {
   draw(surface: Parameters<Picture<Scene>['draw']>[0], scene: Parameters<Picture<Scene>['draw']>[1], palette: Parameters<Picture<Scene>['draw']>[2]) {
     const { reading } = this.#figure;
     const brush = { ...brushOn(surface, this.view, palette), exported: true };
-    const way = this.#path;
-    way.view.resize(PATH_SIZE.width, PATH_SIZE.height);
-    way.fit(scene);
-    way.view.ease(0, true);
+    const pathPicture = this.#path;
+    pathPicture.view.resize(PATH_SIZE.width, PATH_SIZE.height);
+    pathPicture.fit(scene);
+    pathPicture.view.ease(0, true);
     const { context } = brush;
     context.save();
-    way.paint({ ...brush, view: way.view }, scene);
+    pathPicture.paint({ ...brush, view: pathPicture.view }, scene);
     context.restore();
     context.fillStyle = palette.ink;
     context.font = brush.font;
     context.textAlign = 'left';
     context.textBaseline = 'top';
-    const beside = PATH_SIZE.width + 20;
+    const alphasLeft = PATH_SIZE.width + 20;
     let y = 2;
-    for (const text of [`${words.calibrator.alphas.caption}:`, ...alphaTexts(reading)]) y = write(context, text, beside, y, WIDTH - beside) + LINE / 3;
-    y = Math.max(PATH_SIZE.height, y) + LINE;
-    for (const text of [captionOf(this.#figure), reasonOf(reading), ...systematicTexts(reading)]) y = write(context, text, 2, y, WIDTH - 2);
+    for (const text of [`${words.calibrator.alphas.caption}:`, ...alphaTexts(reading)]) y = wrap(context, text, alphasLeft, y, WIDTH - alphasLeft) + LINE_HEIGHT / 3;
+    y = Math.max(PATH_SIZE.height, y) + LINE_HEIGHT;
+    for (const text of [captionOf(this.#figure), reasonOf(reading), ...systematicTexts(reading)]) y = wrap(context, text, 2, y, WIDTH - 2);
     return false;
   }
 }
 
 /** Writes a text in lines that are not longer than the width, and returns the y of the next line. */
-function write(context: CanvasRenderingContext2D, text: string, x: number, y: number, width: number): number {
-  let line = '';
-  for (const word of text.split(' ')) {
-    const longer = line && `${line} ${word}`;
-    if (longer && context.measureText(longer).width <= width) {
-      line = longer;
+function wrap(context: CanvasRenderingContext2D, text: string, x: number, y: number, width: number): number {
+  let textLine = '';
+  for (const nextWord of text.split(' ')) {
+    const extendedLine = textLine && `${textLine} ${nextWord}`;
+    if (extendedLine && context.measureText(extendedLine).width <= width) {
+      textLine = extendedLine;
       continue;
     }
-    if (line) context.fillText(line, x, y);
-    if (line) y += LINE;
-    line = word;
+    if (textLine) context.fillText(textLine, x, y);
+    if (textLine) y += LINE_HEIGHT;
+    textLine = nextWord;
   }
-  context.fillText(line, x, y);
-  return y + LINE;
+  context.fillText(textLine, x, y);
+  return y + LINE_HEIGHT;
 }

@@ -13,32 +13,32 @@ import type { AlphaCalibratorElement as Figure } from './alpha-calibrator.ts';
 type SystematicError = Reading['stats']['systematicErrors']['mountYaw' | 'leverArm'];
 
 /** Maximum number of decimals of a systematic error: a micrometre. */
-const MOST_DECIMALS = 6;
+const MAX_DECIMALS = 6;
 
 /** Returns the systematic errors in two sentences: those that were corrected, and those that the α's include. */
 export function systematicTexts({ stats: { systematicErrors: errors } }: Reading) {
   const say = words.calibrator.systematic;
-  const list = (corrected: boolean) => SYSTEMATIC_ERRORS.filter((key) => errors[key].corrected === corrected).flatMap((key) => textOf(key, errors[key])).join('; ');
-  const [corrected, left] = [list(true), list(false)];
+  const textsOf = (corrected: boolean) => SYSTEMATIC_ERRORS.filter((key) => errors[key].corrected === corrected).flatMap((key) => textOf(key, errors[key])).join('; ');
+  const [corrected, left] = [textsOf(true), textsOf(false)];
   return [...(corrected ? [say.removed(corrected)] : []), ...(left ? [say.left(left)] : [])];
 }
 
 /** Names the systematic errors that differ from 0, or a scale from 1, but are not to be corrected; empty if there are none. */
 export function uncorrectedText({ stats: { systematicErrors: errors }, fitted }: Reading): string {
   const say = words.calibrator.systematic;
-  const uncorrected = SYSTEMATIC_ERRORS.filter((key) => !fitted[key] && matters(key, errors[key])).flatMap((key) => textOf(key, errors[key]));
+  const uncorrected = SYSTEMATIC_ERRORS.filter((key) => !fitted[key] && isSignificant(key, errors[key])).flatMap((key) => textOf(key, errors[key]));
   return uncorrected.length > 0 ? say.matters(uncorrected.join('; ')) : '';
 }
 
 /** Checks whether an error differs from 0, or a scale from 1, beyond its interval. */
-function matters(key: string, { interval }: SystematicError) {
-  const neutral = key.endsWith('Scale') ? 1 : 0;
-  return intervalsOf(interval).some((ends) => ends && (ends[0] > neutral || ends[1] < neutral));
+function isSignificant(key: string, { interval }: SystematicError) {
+  const neutralValue = key.endsWith('Scale') ? 1 : 0;
+  return intervalsOf(interval).some((ends) => ends && (ends[0] > neutralValue || ends[1] < neutralValue));
 }
 
 /** Returns an error as text, with its name; an empty array if the error is not identifiable. */
 function textOf(key: typeof SYSTEMATIC_ERRORS[number], error: SystematicError): string[] {
-  const { values, halves } = digitsOf(error);
+  const { values, halves } = printedError(error);
   return values.length ? [`${words.calibrator.systematic.names[key]} ${values.map((value, i) => `${value} ± ${halves[i]}`).join(', ')}`] : [];
 }
 
@@ -53,25 +53,25 @@ export function systematicTable(figure: Figure) {
   const say = words.calibrator.systematic;
   const { wanted } = figure.settings;
   const rows = SYSTEMATIC_ERRORS.map((key) => {
-    const { values, halves } = digitsOf(errors[key]);
-    const box = toggle({ label: say.names[key], checked: wanted[key], change: (on) => figure.gesture.decide({ [key]: on }) });
-    if (values.length === 0) return [box, say.unknown];
+    const { values, halves } = printedError(errors[key]);
+    const correctCheckbox = toggle({ label: say.names[key], checked: wanted[key], change: (on) => figure.gesture.decide({ [key]: on }) });
+    if (values.length === 0) return [correctCheckbox, say.unknown];
     return [
-      box,
-      lines(values),
-      html`<div class="between">${lines(halves.map((half) => `± ${half}`))}</div>`,
+      correctCheckbox,
+      stackedTexts(values),
+      html`<div class="between">${stackedTexts(halves.map((half) => `± ${half}`))}</div>`,
       errors[key].corrected ? say.corrected : errors[key].constant ? say.notCorrected : say.notConstant,
-      ...(truth ? [html`<div class="muted">${lines([truth[key]].flat().map((each) => fixed(each, 3)))}</div>`] : []),
+      ...(truth ? [html`<div class="muted">${stackedTexts([truth[key]].flat().map((each) => fixed(each, 3)))}</div>`] : []),
     ];
   });
   const columns = [say.what, say.value, say.interval, say.treatment, ...(truth ? [say.truth] : [])];
   return html`<div class="systematic">${figureTable({ columns, rows })}</div>`;
 }
 
-const lines = (texts: string[]) => texts.map((text) => html`<div>${text}</div>`);
+const stackedTexts = (texts: string[]) => texts.map((text) => html`<div>${text}</div>`);
 
 /** Prints an error as far as it is determined: its values, two for a lever arm, and half the width of each interval. */
-function digitsOf({ value, interval }: SystematicError) {
+function printedError({ value, interval }: SystematicError) {
   const halfWidths = intervalsOf(interval).map((each) => each && (each[1] - each[0]) / 2);
   return {
     values: [value].flat().flatMap((each, i) => (each === null ? [] : [fixed(each, decimalsOf(halfWidths[i]))])),
@@ -80,4 +80,4 @@ function digitsOf({ value, interval }: SystematicError) {
 }
 
 /** Returns the number of decimals of an error: three, or more if its interval is narrower than a thousandth. */
-const decimalsOf = (half: number | null | undefined) => (half ? Math.min(MOST_DECIMALS, Math.max(3, -Math.floor(Math.log10(2 * half)))) : 3);
+const decimalsOf = (half: number | null | undefined) => (half ? Math.min(MAX_DECIMALS, Math.max(3, -Math.floor(Math.log10(2 * half)))) : 3);

@@ -25,28 +25,28 @@ export function judgementOf(reading: Reading, given: Warning[]) {
   const say = words.calibrator;
   const warnings = [uncorrectedText(reading), ...given.map((name) => say.nav2[name])].filter(Boolean);
   const rating = verdict === 'consistent' && warnings.length > 0 ? 'questionable' : verdict;
-  const result = (finding: string, ...toDo: string[]) => ({ rating, badge: say.badges[rating], finding, toDo: toDo.join(' ') });
-  if (legs.count === 0) return result(say.none, say.longer, ...warnings);
-  const failed = failedOf(checks);
+  const judgement = (finding: string, ...toDo: string[]) => ({ rating, badge: say.badges[rating], finding, toDo: toDo.join(' ') });
+  if (legs.count === 0) return judgement(say.none, say.longer, ...warnings);
+  const failedChecks = failedOf(checks);
   const correction = recommended ? correctFirst(systematicErrors, say.nav2, localized) : [];
-  if (failed.length > 0) return result(say.failed(say.checks.names[failed[0].name], integer(failed.length), integer(checks.length)), ...warnings, messageOf(failed[0]), ...correction);
-  if (verdict === 'unusable') return result(say.noAlpha, ...warnings);
-  return warnings.length > 0 ? result(warnings[0], ...warnings.slice(1), ...correction) : result(say.passed(integer(checks.length)), say.use, ...correction);
+  if (failedChecks.length > 0) return judgement(say.failed(say.checks.names[failedChecks[0].name], integer(failedChecks.length), integer(checks.length)), ...warnings, messageOf(failedChecks[0]), ...correction);
+  if (verdict === 'unusable') return judgement(say.noAlpha, ...warnings);
+  return warnings.length > 0 ? judgement(warnings[0], ...warnings.slice(1), ...correction) : judgement(say.passed(integer(checks.length)), say.use, ...correction);
 }
 
 /** Returns what a failed check means and what to do. */
 export const messageOf = ({ name, passed, message }: CalibrationCheck) => (passed ? '' : words.calibrator.checks.message(name, message));
 
 /** Prints the value of a check, or a limit of it. */
-export function checked(name: CalibrationCheck['name'], value: number) {
+export function checkText(name: CalibrationCheck['name'], value: number) {
   if (!Number.isFinite(value)) return Number.isNaN(value) ? percent(value) : '∞';
   return name === 'enough-legs' ? integer(value) : FRACTION_CHECKS.test(name) ? percent(value) : fixed(value, 3);
 }
 
 /** Prints the values of a check that pass. */
 export function expectedOf({ name, expected: [low, high] }: CalibrationCheck) {
-  if (high === Infinity) return `≥ ${checked(name, low)}`;
-  return low === 0 ? `≤ ${checked(name, high)}` : words.calibrator.alphas.between(checked(name, low), checked(name, high));
+  if (high === Infinity) return `≥ ${checkText(name, low)}`;
+  return low === 0 ? `≤ ${checkText(name, high)}` : words.calibrator.alphas.between(checkText(name, low), checkText(name, high));
 }
 
 /** Returns why the recommended α's are what they are. */
@@ -65,7 +65,7 @@ export const noiseNames = (model: Reading['config']['model']) => words.alphas[mo
 export const localized = (number: string) => number.replace('.', fixed(0.5, 1)[1]).replace(/e(-?\d+)$/, (_, exponent) => `·${powerOfTen(Number(exponent))}`);
 
 /** Scales small numbers by a power of 1000, so that labels fit next to an axis. The unit is empty for the power 1. */
-export function thousandths(highest: number): { scaled: (value: number) => number, unit: string } {
+export function thousandsScale(highest: number): { scaled: (value: number) => number, unit: string } {
   const exponent = Math.min(0, 3 * Math.floor(Math.log10(highest) / 3));
   return { scaled: (value) => value * 10 ** -exponent, unit: exponent < 0 ? powerOfTen(exponent) : '' };
 }
@@ -73,8 +73,8 @@ export function thousandths(highest: number): { scaled: (value: number) => numbe
 /** Returns the number of legs and outliers of the named log in a sentence; empty if there are no legs. */
 export function legsText({ legs }: Reading, log: string) {
   if (legs.count === 0) return '';
-  const outliers = legs.outliers.reduce((sum, is) => sum + is, 0);
-  return words.calibrator.present(log, integer(legs.count), outliers > 0 ? integer(outliers) : '');
+  const outlierCount = legs.outliers.reduce((sum, is) => sum + is, 0);
+  return words.calibrator.present(log, integer(legs.count), outlierCount > 0 ? integer(outlierCount) : '');
 }
 
 export function captionOf({ reading, warnings, logName }: Figure) {
@@ -82,10 +82,10 @@ export function captionOf({ reading, warnings, logName }: Figure) {
   return [`${badge}.`, finding, legsText(reading, logName), toDo].filter(Boolean).join(' ');
 }
 
-export function wayText({ legs, classes }: Reading, chosen: number) {
+export function pathText({ legs, classes }: Reading, chosen: number) {
   if (chosen < 0) return words.calibrator.noWay;
-  const far = classes.reduce((sum, legClass) => sum + Number(legClass > 1), 0);
-  return words.calibrator.way(integer(legs.count), integer(far), integer(chosen + 1));
+  const unlikelyLegs = classes.reduce((sum, legClass) => sum + Number(legClass > 1), 0);
+  return words.calibrator.way(integer(legs.count), integer(unlikelyLegs), integer(chosen + 1));
 }
 
 export function legText(leg: LegView | null, chosen: number) {

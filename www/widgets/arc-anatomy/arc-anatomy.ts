@@ -10,9 +10,9 @@ import { Player } from '../shared/player.ts';
 import { PoseHandles } from '../shared/pose-handles.ts';
 import { presetButtons } from '../shared/presets.ts';
 import { commandControls, likelihoodControls, lineStepper, noiseControls, timeControl } from './controls.ts';
-import { formsPlot, factorBars, headline, likelihoods, tableOf } from './readouts.ts';
+import { formsPlot, factorBars, headline, likelihoodReadouts, tableLines } from './readouts.ts';
 import { ArcPicture, ROBOT_RADIUS } from './picture.ts';
-import { LINES, MAX_COORDINATE, UNDERWAY_AT_END, definition } from './settings.ts';
+import { LINE_STYLES, MAX_COORDINATE, UNDERWAY_AT_END, definition } from './settings.ts';
 import { styles } from './styles.ts';
 import { captionOf, pictureText, type Reading } from './words.ts';
 import type { ArcAnatomy as Machine } from '../../types.d.ts';
@@ -82,13 +82,13 @@ export class ArcAnatomyElement extends FigureElement<Machine, Reading> {
         <div class="aside">${headline(reading)} ${factorBars(reading, this.state.own.line)}</div>`)}
       </div>
       ${this.renderer.afterFirstPicture(() => html`
-      ${legend(this, LINES)}
+      ${legend(this, LINE_STYLES)}
       <p class="verdict caption" part="caption">${captionOf(reading)}</p>
       ${presetButtons(this)}
       <div class="controls" part="controls">${commandControls(this)} ${timeControl(this)}</div>
       ${disclosures(this, {
         controls: () => html`<div class="controls">${likelihoodControls(this)} ${noiseControls(this)}</div>`,
-        numbers: () => html`${lineStepper(this)} ${tableOf(reading, this.state.own.line)} ${likelihoods(reading)} ${formsPlot(this.motion)}`,
+        numbers: () => html`${lineStepper(this)} ${tableLines(reading, this.state.own.line)} ${likelihoodReadouts(reading)} ${formsPlot(this.motion)}`,
         mark: 'figure',
         csvTitle: say.csvTitle,
       })}`)}

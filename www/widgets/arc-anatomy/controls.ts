@@ -8,33 +8,33 @@ import { button, group, formatMarkup } from '../../ui/controls.ts';
 import { fixed } from '../../ui/format.ts';
 import { track } from '../../ui/slider.ts';
 import { lineText } from './readouts.ts';
-import { CONTOURS, ALPHAS, COMMAND, TABLE_LINES, UNDERWAY_AT_END } from './settings.ts';
+import { CONTOUR_STYLES, ALPHA_SLIDERS, COMMAND_SLIDERS, TABLE_LINES, UNDERWAY_AT_END } from './settings.ts';
 import type { ArcAnatomyElement as Figure } from './arc-anatomy.ts';
 
-export const commandControls = (figure: Figure) => group(words.command, sliders(figure, COMMAND));
+export const commandControls = (figure: Figure) => group(words.command, sliders(figure, COMMAND_SLIDERS));
 
 export const noiseControls = (figure: Figure) =>
-  group(words.noise, html`${radios(figure, 'noise', words.noises)} ${sliders(figure, ALPHAS)}`, 'alphas');
+  group(words.noise, html`${radios(figure, 'noise', words.noises)} ${sliders(figure, ALPHA_SLIDERS)}`, 'alphas');
 
 /** Returns the controls of the likelihood: the sign of the radius, and the heat map with the names of its contours. */
 export function likelihoodControls(figure: Figure) {
   const { likelihood, maps, printed } = words.anatomy;
   const { map } = figure.settings.wanted;
-  const contour = (name: 'prob' | 'density') => html`<span>${swatch(CONTOURS[name])} ${maps[name]}</span>`;
+  const contourEntry = (name: 'prob' | 'density') => html`<span>${swatch(CONTOUR_STYLES[name])} ${maps[name]}</span>`;
   return group(likelihood, html`${settingCheckbox(figure, 'printed', formatMarkup(printed))} ${radios(figure, 'map', maps)}
-    ${map === 'none' ? nothing : html`<p class="legend contours">${contour('prob')} ${contour('density')}</p>`}`);
+    ${map === 'none' ? nothing : html`<p class="legend contours">${contourEntry('prob')} ${contourEntry('density')}</p>`}`);
 }
 
 /** Returns an icon with a text that screen readers read instead. */
-const sign = (seen: string, heard: string) => html`<span aria-hidden="true">${seen}</span><span class="visually-hidden">${heard}</span>`;
+const icon = (seen: string, heard: string) => html`<span aria-hidden="true">${seen}</span><span class="visually-hidden">${heard}</span>`;
 
 export function lineStepper(figure: Figure) {
   const say = words.anatomy.table;
   const { line } = figure.state.own;
-  const go = (to: number) => () => figure.gesture.choose('line', to);
+  const chooseLine = (to: number) => () => figure.gesture.choose('line', to);
   return html`<div class="stepper" role="group" aria-label=${say.label}>
-    ${button(sign('‹', say.back), go(line - 1), { disabled: line === 0, title: say.back })}
-    ${button(sign('›', say.on), go(line + 1), { disabled: line === TABLE_LINES, title: say.on })}
+    ${button(icon('‹', say.back), chooseLine(line - 1), { disabled: line === 0, title: say.back })}
+    ${button(icon('›', say.on), chooseLine(line + 1), { disabled: line === TABLE_LINES, title: say.on })}
     <p role="status">${line === 0 ? say.begin : formatMarkup(lineText(figure.reading, line))}</p>
   </div>`;
 }
@@ -42,13 +42,13 @@ export function lineStepper(figure: Figure) {
 export function timeControl({ player, gesture, reading, state }: Figure) {
   const { underway } = state.own;
   const { dt } = reading.config.command;
-  const shown = words.anatomy.timeOf(fixed((underway / UNDERWAY_AT_END) * dt, 2), fixed(dt, 2));
+  const timeText = words.anatomy.timeOf(fixed((underway / UNDERWAY_AT_END) * dt, 2), fixed(dt, 2));
   return group(words.anatomy.time, html`<div class="underway">
     ${player.button('underway', words.play)}
     <div class="slider" part="slider" data-role="truth">
       <label for="underway"><bdi class="symbol notranslate" translate="no"><i>t</i></bdi>${words.anatomy.underway}</label>
-      ${track({ id: 'underway', min: 0, max: UNDERWAY_AT_END, step: 1, value: underway, text: shown, input: (at) => player.put('underway', at), commit: () => gesture.commit() })}
-      <output class="value" for="underway">${shown}</output>
+      ${track({ id: 'underway', min: 0, max: UNDERWAY_AT_END, step: 1, value: underway, text: timeText, input: (at) => player.put('underway', at), commit: () => gesture.commit() })}
+      <output class="value" for="underway">${timeText}</output>
     </div>
   </div>`);
 }

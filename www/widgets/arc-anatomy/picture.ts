@@ -12,7 +12,7 @@ import { View, extentAround } from '../../scene/view.ts';
 import { clamp } from '../../ui/clamp.ts';
 import { fixed, significant } from '../../ui/format.ts';
 import { drawHeldRobot, drawRobotOutline } from '../shared/robot.ts';
-import { CONTOURS, LINES, type LineName } from './settings.ts';
+import { CONTOUR_STYLES, LINE_STYLES, type LineName } from './settings.ts';
 import type { ArcAnatomy, Bend, Pose, AnatomySurface } from '../../types.d.ts';
 import type { Palette } from '../../ui/theme.ts';
 import type { Reading } from './words.ts';
@@ -26,7 +26,7 @@ export const ROBOT_RADIUS = 0.06;
 const MAX_CENTRE = { ways: 3, metres: 1.5 };
 
 /** Margin around everything, m. */
-const MARGIN = 0.15;
+const MARGIN_METRES = 0.15;
 
 /** Maximum radius of the arcs that mark angles, CSS pixels. */
 const MAX_ANGLE_RADIUS = 40;
@@ -63,65 +63,65 @@ export class ArcPicture extends Picture<Scene> {
   fit({ config: { start, next }, stats: { commanded, inverted }, paths }: Scene) {
     let box = extentAround([start.x, start.y, next.x, next.y], 2);
     for (const path of [paths.commanded, paths.inverted, paths.driven]) box = extentAround(path, 2, box);
-    const way = Math.hypot(box.xMax - box.xMin, box.yMax - box.yMin);
+    const pathExtent = Math.hypot(box.xMax - box.xMin, box.yMax - box.yMin);
     for (const { center, radius } of [commanded, inverted]) {
-      if (center && Math.abs(radius) < Math.max(MAX_CENTRE.metres, MAX_CENTRE.ways * way)) box = extentAround(center, 2, box);
+      if (center && Math.abs(radius) < Math.max(MAX_CENTRE.metres, MAX_CENTRE.ways * pathExtent)) box = extentAround(center, 2, box);
     }
     const { xMin, yMin, xMax, yMax } = box;
-    this.view.fit({ xMin: xMin - MARGIN, yMin: yMin - MARGIN, xMax: xMax + MARGIN, yMax: yMax + MARGIN });
+    this.view.fit({ xMin: xMin - MARGIN_METRES, yMin: yMin - MARGIN_METRES, xMax: xMax + MARGIN_METRES, yMax: yMax + MARGIN_METRES });
   }
 
   paint: Picture<Scene>['paint'] = (brush, scene) => {
     const { config: { start, next, printed }, stats, paths, overlays } = scene;
     const { palette } = brush;
-    const shows = (name: LineName) => overlays.includes(name);
-    const styles = lineStyles(brush, LINES);
+    const showsLine = (name: LineName) => overlays.includes(name);
+    const styles = lineStyles(brush, LINE_STYLES);
     drawAxes(brush, { x: 'x (m)', y: 'y (m)' }, keyOf(brush, scene));
     clipToPlot(brush, () => {
       this.#surface.draw(brush, scene.machine, scene.config);
       const { commanded, inverted, driven, lastTurn } = stats;
-      if (shows('commanded')) {
+      if (showsLine('commanded')) {
         drawCircle(brush, start, commanded, { ...styles.commanded, side: -1, angle: `ωΔt = ${fixed(commanded.turn, 2)}`, radius: '' });
       }
-      if (shows('inverted')) {
+      if (showsLine('inverted')) {
         drawCircle(brush, start, inverted, {
           ...styles.inverted,
           side: 1,
           angle: `ω̂Δt = ${fixed(inverted.turn, 2)}`,
-          radius: `r* = ${printed ? fixed(Math.abs(inverted.radius), 2) : signedText(inverted.radius)} m`,
+          radius: `r* = ${printed ? fixed(Math.abs(inverted.radius), 2) : signedRadius(inverted.radius)} m`,
         });
       }
-      if (shows('chord')) strokeLines(brush, [{ points: Float64Array.of(start.x, start.y, next.x, next.y), ...styles.chord }]);
-      if (shows('wedge')) drawWedge(brush, next, lastTurn, styles.wedge.colour);
-      if (shows('twist')) drawTwistTicks(brush, paths.ticks, styles.twist.colour);
+      if (showsLine('chord')) strokeLines(brush, [{ points: Float64Array.of(start.x, start.y, next.x, next.y), ...styles.chord }]);
+      if (showsLine('wedge')) drawWedge(brush, next, lastTurn, styles.wedge.colour);
+      if (showsLine('twist')) drawTwistTicks(brush, paths.ticks, styles.twist.colour);
       drawOutlines(brush, [
-        ...(shows('commanded') ? [{ points: paths.commanded, ...styles.commanded }] : []),
-        ...(shows('twist') ? [{ points: paths.lie, ...styles.twist }] : []),
-        ...(shows('inverted') ? [{ points: paths.driven, ...styles.inverted }] : []),
+        ...(showsLine('commanded') ? [{ points: paths.commanded, ...styles.commanded }] : []),
+        ...(showsLine('twist') ? [{ points: paths.lie, ...styles.twist }] : []),
+        ...(showsLine('inverted') ? [{ points: paths.driven, ...styles.inverted }] : []),
       ]);
-      if (shows('inverted') && driven.arcLength !== inverted.arcLength) {
+      if (showsLine('inverted') && driven.arcLength !== inverted.arcLength) {
         drawOutlines(brush, [{ points: paths.inverted, colour: styles.inverted.colour, width: 1, dash: [2, 3] }]);
       }
-      drawLit(brush, scene);
-      if (shows('commanded')) {
+      markLine(brush, scene);
+      if (showsLine('commanded')) {
         const [endX, endY, endTheta] = commanded.end;
         drawRobotOutline(brush, endX, endY, ROBOT_RADIUS, styles.commanded.colour);
         strokeLine(brush.context, brush.view.ray({ x: endX, y: endY, theta: endTheta }, HEADING_LENGTH), { colour: styles.commanded.colour, width: 1.5 });
       }
-      drawUnderway(brush, scene);
+      drawMovingRobots(brush, scene);
       drawHeldRobot(brush, start, ROBOT_RADIUS, palette.truth);
       drawHeldRobot(brush, next, ROBOT_RADIUS, palette.prediction);
-      if (shows('wedge')) drawLabel(brush, { ...besideWedge(brush, next, lastTurn), text: `γ̂Δt = ${fixed(lastTurn, 2)}`, colour: styles.wedge.colour });
+      if (showsLine('wedge')) drawLabel(brush, { ...wedgeLabelPlace(brush, next, lastTurn), text: `γ̂Δt = ${fixed(lastTurn, 2)}`, colour: styles.wedge.colour });
     });
   };
 }
 
 /** Returns the key of an exported picture. The last turn has its label in the picture. */
 function keyOf(brush: Brush, { overlays, config: { map } }: Scene) {
-  const drawn = (['inverted', 'commanded', 'chord', 'twist'] as LineName[]).filter((name) => overlays.includes(name));
+  const drawnNames = (['inverted', 'commanded', 'chord', 'twist'] as LineName[]).filter((name) => overlays.includes(name));
   return [
-    ...lineKeys(brush, LINES, drawn, words.anatomy.overlays),
-    ...lineKeys(brush, CONTOURS, map === 'none' ? [] : ['prob', 'density'], words.anatomy.maps),
+    ...lineKeys(brush, LINE_STYLES, drawnNames, words.anatomy.overlays),
+    ...lineKeys(brush, CONTOUR_STYLES, map === 'none' ? [] : ['prob', 'density'], words.anatomy.maps),
   ];
 }
 
@@ -136,7 +136,7 @@ function drawCircle(brush: Brush, start: Pose, { center, end, turn, arcLength }:
   const [fromX, fromY] = view.toPixel(start.x, start.y);
   const ahead = view.direction(start.theta);
   const [offX, offY] = [1.5 * side * ahead.x, 1.5 * side * ahead.y];
-  const seen = shareSeen(view.frame, [fromX, fromY], [x, y]);
+  const visibleShare = visibleFractionOf(view.frame, [fromX, fromY], [x, y]);
   strokePath(context, { colour, width: 1.25, dash }, () => {
     addLine(context, [[fromX + offX, fromY + offY], [x + offX, y + offY]]);
     addLine(context, [[x, y], view.toPixel(end[0], end[1])]);
@@ -148,34 +148,34 @@ function drawCircle(brush: Brush, start: Pose, { center, end, turn, arcLength }:
   strokeAngle(context, [x, y], [fromX, fromY], turn, { colour, width: 1.5 });
   // The labels are behind the robot, away from the arc. If the centre is outside the picture, they are ahead: the picture may end behind
   // the robot.
-  const beside = Math.sign(arcLength) * (seen === 1 ? -1 : 1);
-  const label = (text: string, share: number) => {
-    const at = [fromX + share * (x - fromX) + 10 * beside * ahead.x, fromY + share * (y - fromY) + 10 * beside * ahead.y];
-    const towards = beside * ahead.x;
-    drawLabel(brush, { x: at[0], y: at[1], towards: Math.abs(towards) < 0.3 ? 0 : Math.sign(towards), text, colour });
+  const labelSide = Math.sign(arcLength) * (visibleShare === 1 ? -1 : 1);
+  const drawArcLabel = (text: string, share: number) => {
+    const labelPoint = [fromX + share * (x - fromX) + 10 * labelSide * ahead.x, fromY + share * (y - fromY) + 10 * labelSide * ahead.y];
+    const towards = labelSide * ahead.x;
+    drawLabel(brush, { x: labelPoint[0], y: labelPoint[1], towards: Math.abs(towards) < 0.3 ? 0 : Math.sign(towards), text, colour });
   };
-  label(signed, seen / 2);
-  if (seen === 1) {
-    label(angle, 1);
+  drawArcLabel(signed, visibleShare / 2);
+  if (visibleShare === 1) {
+    drawArcLabel(angle, 1);
     return;
   }
-  drawArrow(context, colour, [fromX + seen * (x - fromX), fromY + seen * (y - fromY)], Math.atan2(y - fromY, x - fromX));
+  drawArrow(context, colour, [fromX + visibleShare * (x - fromX), fromY + visibleShare * (y - fromY)], Math.atan2(y - fromY, x - fromX));
   const distance = significant(Math.hypot(center[0] - start.x, center[1] - start.y), 2);
-  label(`${words.anatomy.centreAt(distance)}, ${angle}`, seen);
+  drawArcLabel(`${words.anatomy.centreAt(distance)}, ${angle}`, visibleShare);
 }
 
 /** Draws an arrow at a point in a direction (rad), downwards from the right. */
 function drawArrow(context: Brush['context'], colour: string, [x, y]: number[], way: number) {
   strokePath(context, { colour, width: 2.25 }, () => {
-    for (const wing of [2.6, -2.6]) addLine(context, [[x + ARROW_LENGTH * Math.cos(way + wing), y + ARROW_LENGTH * Math.sin(way + wing)], [x, y]]);
+    for (const wingAngle of [2.6, -2.6]) addLine(context, [[x + ARROW_LENGTH * Math.cos(way + wingAngle), y + ARROW_LENGTH * Math.sin(way + wingAngle)], [x, y]]);
   });
 }
 
 /** Returns the visible fraction of the line from a visible point to another point. */
-function shareSeen({ left, right, top, bottom }: import('../../scene/view.ts').View['frame'], [fromX, fromY]: [x: number, y: number], [x, y]: [x: number, y: number]) {
-  const along = (start: number, end: number, least: number, most: number) =>
+function visibleFractionOf({ left, right, top, bottom }: import('../../scene/view.ts').View['frame'], [fromX, fromY]: [x: number, y: number], [x, y]: [x: number, y: number]) {
+  const fractionAlong = (start: number, end: number, least: number, most: number) =>
     end >= least && end <= most ? 1 : (clamp(end, least, most) - start) / (end - start);
-  return Math.min(along(fromX, x, left, right), along(fromY, y, top, bottom));
+  return Math.min(fractionAlong(fromX, x, left, right), fractionAlong(fromY, y, top, bottom));
 }
 
 /** Draws the last turn in radians, by which the final heading differs from that of the arc. */
@@ -194,18 +194,18 @@ function drawWedge({ context, view }: Brush, next: Pose, turn: number, colour: s
 }
 
 /** Returns the place of the wedge's label, which covers nothing of the wedge, CSS pixels. */
-function besideWedge({ view }: Brush, next: Pose, turn: number): { x: number, y: number, towards: number } {
+function wedgeLabelPlace({ view }: Brush, next: Pose, turn: number): { x: number, y: number, towards: number } {
   const ahead = view.direction(next.theta - turn / 2);
   return { x: view.toPixelX(next.x) + (WEDGE_RADIUS + 8) * ahead.x, y: view.toPixelY(next.y) + (WEDGE_RADIUS + 20) * ahead.y, towards: ahead.x };
 }
 
 /** Draws the robot at one time on each path that is shown. */
-function drawUnderway(brush: Brush, { underway, overlays }: Scene) {
+function drawMovingRobots(brush: Brush, { underway, overlays }: Scene) {
   if (!underway) return;
   for (const [i, name] of (['commanded', 'inverted', 'twist'] as const).entries()) {
     if (!overlays.includes(name)) continue;
     const [x, y, theta] = underway.subarray(3 * i);
-    drawRobot(brush, { x, y, heading: theta, colour: brush.palette[LINES[name].role] });
+    drawRobot(brush, { x, y, heading: theta, colour: brush.palette[LINE_STYLES[name].role] });
   }
 }
 
@@ -217,37 +217,37 @@ function drawTwistTicks(brush: Brush, ticks: Float64Array, colour: string) {
 }
 
 /** Draws the construction of the highlighted line of Table 5.1. */
-function drawLit(brush: Brush, { config: { start, next }, stats: { inverted, lastTurn }, table: { middle }, paths, line: number }: Scene) {
+function markLine(brush: Brush, { config: { start, next }, stats: { inverted, lastTurn }, table: { middle }, paths, line: number }: Scene) {
   const lit = CONSTRUCTIONS[number] ?? [];
   const { context, view, palette: { accent } } = brush;
-  const at = ([x, y]: number[]) => view.toPixel(x, y);
-  const line = (width: number, ...points: number[][]) => strokeLine(context, points, { colour: accent, width });
-  const from = at([start.x, start.y]);
-  const to = at([next.x, next.y]);
+  const toPixel = ([x, y]: number[]) => view.toPixel(x, y);
+  const drawAccentLine = (width: number, ...points: number[][]) => strokeLine(context, points, { colour: accent, width });
+  const startPixel = toPixel([start.x, start.y]);
+  const endPixel = toPixel([next.x, next.y]);
   if (lit.includes('arc')) drawOutlines(brush, [{ points: paths.driven, colour: accent, width: 5, dash: [] }]);
   if (lit.includes('wedge')) drawWedge(brush, next, lastTurn, accent);
   if (!inverted.center) return;
-  const centre = at(inverted.center);
+  const centrePixel = toPixel(inverted.center);
   if (lit.includes('bisector')) {
-    strokeLine(context, [at(middle), centre], { colour: accent, width: 2.5, dash: [6, 4] });
-    line(2.5, from, centre);
-    line(2.5, from, to);
+    strokeLine(context, [toPixel(middle), centrePixel], { colour: accent, width: 2.5, dash: [6, 4] });
+    drawAccentLine(2.5, startPixel, centrePixel);
+    drawAccentLine(2.5, startPixel, endPixel);
   }
-  if (lit.includes('radius')) line(3, from, centre, to);
-  if (lit.includes('centre')) drawDisc(context, centre, 8, undefined, { colour: accent, width: 3 });
-  if (lit.includes('angle')) strokeAngle(context, centre, from, inverted.turn, { colour: accent, width: 4 });
+  if (lit.includes('radius')) drawAccentLine(3, startPixel, centrePixel, endPixel);
+  if (lit.includes('centre')) drawDisc(context, centrePixel, 8, undefined, { colour: accent, width: 3 });
+  if (lit.includes('angle')) strokeAngle(context, centrePixel, startPixel, inverted.turn, { colour: accent, width: 4 });
 }
 
 /** Strokes an arc about a centre that marks a turn in radians from the direction of a point; both in pixels. */
 function strokeAngle(context: Brush['context'], [x, y]: number[], [fromX, fromY]: number[], turn: number, style: LineStroke) {
-  const first = Math.atan2(fromY - y, fromX - x);
+  const firstAngle = Math.atan2(fromY - y, fromX - x);
   const radius = Math.min(MAX_ANGLE_RADIUS, 0.4 * Math.hypot(fromX - x, fromY - y));
   // In pixels y points down, so that a turn to the left is negative.
-  strokePath(context, style, () => context.arc(x, y, radius, first, first - turn, turn > 0));
+  strokePath(context, style, () => context.arc(x, y, radius, firstAngle, firstAngle - turn, turn > 0));
 }
 
 /** Prints a radius with its sign: positive if the centre is to the left. */
-const signedText = (radius: number) => (radius > 0 ? `+${fixed(radius, 2)}` : fixed(radius, 2));
+const signedRadius = (radius: number) => (radius > 0 ? `+${fixed(radius, 2)}` : fixed(radius, 2));
 
 class SurfaceLayer {
   #pixels = new Pixels();
@@ -260,10 +260,10 @@ class SurfaceLayer {
     const surface = this.#surface.of([config, xMin, yMin, xMax, yMax], () => machine.surface(xMin, yMin, xMax, yMax));
     if (!surface) return;
     const { columns, shades, prob, density } = surface;
-    this.#coloured.of([surface, palette], () => this.#pixels.put(coloured(shades, palette), columns));
+    this.#coloured.of([surface, palette], () => this.#pixels.put(colouredPixels(shades, palette), columns));
     this.#pixels.draw(brush);
     brush.context.globalAlpha = 0.7;
-    for (const [lines, { role, width, dash }] of [[prob, CONTOURS.prob], [density, CONTOURS.density]] as const) {
+    for (const [lines, { role, width, dash }] of [[prob, CONTOUR_STYLES.prob], [density, CONTOUR_STYLES.density]] as const) {
       strokePath(brush.context, { colour: palette[role], width, dash }, () => {
         for (const line of lines) addPolyline(brush, line);
       });
@@ -272,9 +272,9 @@ class SurfaceLayer {
   }
 }
 
-function coloured(shades: Uint8Array, palette: Palette) {
-  const colours = new Uint32Array(densityRamp(palette).buffer);
+function colouredPixels(shades: Uint8Array, palette: Palette) {
+  const rampColours = new Uint32Array(densityRamp(palette).buffer);
   // The lowest shade is transparent.
-  colours[0] = 0;
-  return new Uint8ClampedArray(Uint32Array.from(shades, (shade) => colours[shade]).buffer);
+  rampColours[0] = 0;
+  return new Uint8ClampedArray(Uint32Array.from(shades, (shade) => rampColours[shade]).buffer);
 }

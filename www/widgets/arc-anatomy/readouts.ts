@@ -16,7 +16,7 @@ const BAR_SCALE = { most: 4, pixels: 22 };
 const BAR_MIDDLE = BAR_SCALE.most * BAR_SCALE.pixels + 4;
 
 /** Symbols and units of the factors, with the residuals of the table. */
-const FACTORS = [
+const FACTOR_SYMBOLS = [
   { symbol: '*v̂*', residual: '(*v* − *v̂*)', unit: 'm/s' },
   { symbol: '*ω̂*', residual: '(*ω* − *ω̂*)', unit: 'rad/s' },
   { symbol: '*γ̂*', residual: '*γ̂*', unit: 'rad/s' },
@@ -35,7 +35,7 @@ export function factorBars({ stats: { factors, weakest, share } }: Reading, line
   const say = words.anatomy.bars;
   return html`<ul part="readouts" class="factors ${line === TABLE_LINES ? 'lit' : ''}" aria-label=${say.label}>
     ${factors.map((factor, i) => {
-      const { symbol, residual, unit } = FACTORS[i];
+      const { symbol, residual, unit } = FACTOR_SYMBOLS[i];
       return html`<li class=${i === weakest && share < 1 ? 'weakest' : nothing}>
         <span class="estimate">${formatMarkup(symbol)} ${say.names[i]} = ${fixed(factor.estimate, 2)} ${unit}</span>
         ${bar(factor)}
@@ -47,19 +47,19 @@ export function factorBars({ stats: { factors, weakest, share } }: Reading, line
 }
 
 function bar({ deviations }: Factor) {
-  const at = (value: number) => BAR_MIDDLE + BAR_SCALE.pixels * clamp(value, -BAR_SCALE.most, BAR_SCALE.most);
-  const beyond = Math.abs(deviations) > BAR_SCALE.most;
-  const end = at(deviations);
-  const side = Math.sign(deviations);
-  const ticks = Array.from({ length: 2 * BAR_SCALE.most + 1 }, (_, i) => i - BAR_SCALE.most);
+  const barX = (value: number) => BAR_MIDDLE + BAR_SCALE.pixels * clamp(value, -BAR_SCALE.most, BAR_SCALE.most);
+  const isBeyondScale = Math.abs(deviations) > BAR_SCALE.most;
+  const barEnd = barX(deviations);
+  const barSide = Math.sign(deviations);
+  const barTicks = Array.from({ length: 2 * BAR_SCALE.most + 1 }, (_, i) => i - BAR_SCALE.most);
   return html`<svg viewBox="0 0 ${2 * BAR_MIDDLE} 20" preserveAspectRatio="none" aria-hidden="true">
-    ${ticks.map((tick) => svg`<line class="tick" x1=${at(tick)} x2=${at(tick)} y1=${tick === 0 ? 0 : 14} y2="20" />`)}
-    <rect x=${Math.min(at(0), end)} width=${Math.abs(end - at(0))} y="3" height="11" />
-    ${beyond ? svg`<path class="beyond" d="M${end - 6 * side},1l${6 * side},7.5l${-6 * side},7.5" />` : nothing}
+    ${barTicks.map((tick) => svg`<line class="tick" x1=${barX(tick)} x2=${barX(tick)} y1=${tick === 0 ? 0 : 14} y2="20" />`)}
+    <rect x=${Math.min(barX(0), barEnd)} width=${Math.abs(barEnd - barX(0))} y="3" height="11" />
+    ${isBeyondScale ? svg`<path class="beyond" d="M${barEnd - 6 * barSide},1l${6 * barSide},7.5l${-6 * barSide},7.5" />` : nothing}
   </svg>`;
 }
 
-export function likelihoods({ stats: { prob, density, xi } }: Reading) {
+export function likelihoodReadouts({ stats: { prob, density, xi } }: Reading) {
   const say = words.anatomy.likelihoods;
   const [along, lateral, heading] = xi;
   return readoutList([
@@ -70,7 +70,7 @@ export function likelihoods({ stats: { prob, density, xi } }: Reading) {
 }
 
 /** Lines of Table 5.1, in the markup of messages. */
-const FORMULAS = [
+const TABLE_FORMULAS = [
   '*μ* = ½ · [(*x* − *x*′) cos *θ* + (*y* − *y*′) sin *θ*] / [(*y* − *y*′) cos *θ* − (*x* − *x*′) sin *θ*]',
   '*x\\** = (*x* + *x*′)/2 + *μ*(*y* − *y*′)',
   '*y\\** = (*y* + *y*′)/2 + *μ*(*x*′ − *x*)',
@@ -82,20 +82,20 @@ const FORMULAS = [
   '*p* = prob(*v* − *v̂*) · prob(*ω* − *ω̂*) · prob(*γ̂*)',
 ];
 
-const UNITS = ['', ' m', ' m', ' m', ' rad', ' m/s', ' rad/s', ' rad/s', ''];
+const LINE_UNITS = ['', ' m', ' m', ' m', ' rad', ' m/s', ' rad/s', ' rad/s', ''];
 
 /** Returns a line of the table, counted from 1, with its value. */
 export function lineText({ table: { lines }, config: { printed } }: Reading, line: number) {
   const value = lines[line - 1];
-  const formula = printed ? FORMULAS[line - 1].replace('±', '') : FORMULAS[line - 1];
-  const number = line === TABLE_LINES ? densityText(value) : fixed(value, 3);
-  return `${line}. ${formula} = ${number}${UNITS[line - 1]}`;
+  const lineFormula = printed ? TABLE_FORMULAS[line - 1].replace('±', '') : TABLE_FORMULAS[line - 1];
+  const valueText = line === TABLE_LINES ? densityText(value) : fixed(value, 3);
+  return `${line}. ${lineFormula} = ${valueText}${LINE_UNITS[line - 1]}`;
 }
 
-export function tableOf(reading: Reading, lit: number) {
+export function tableLines(reading: Reading, lit: number) {
   const say = words.anatomy.table;
   return html`<ol class="lines" part="table">
-      ${FORMULAS.map((_, i) => html`<li class=${i + 1 === lit ? 'lit' : nothing}>${formatMarkup(lineText(reading, i + 1))}</li>`)}
+      ${TABLE_FORMULAS.map((_, i) => html`<li class=${i + 1 === lit ? 'lit' : nothing}>${formatMarkup(lineText(reading, i + 1))}</li>`)}
     </ol>
     <p class="about">${formatMarkup(say.sign)}</p>`;
 }
@@ -104,11 +104,11 @@ export function tableOf(reading: Reading, lit: number) {
 const ERROR_RANGE = { from: 1e-18, to: 1 };
 
 /** Cache of the errors of the forms, which depend on no setting. */
-let errors: FormErrors | undefined;
+let cachedErrors: FormErrors | undefined;
 
 export function formsPlot({ ArcAnatomy }: Motion) {
   const say = words.anatomy.forms;
-  const { omega, arc, straight, chord, estimatedCrossover, threshold } = (errors ??= ArcAnatomy.formErrors());
+  const { omega, arc, straight, chord, estimatedCrossover, threshold } = (cachedErrors ??= ArcAnatomy.formErrors());
   return html`<figure class="forms">
     ${plot({
       label: say.text,

@@ -11,7 +11,7 @@ export const TABLE_LINES = 9;
 export const UNDERWAY_AT_END = 100;
 
 /** Styles of the lines in the picture. */
-export const LINES = {
+export const LINE_STYLES = {
   commanded: { role: 'prior', width: 2.5, dash: COMMAND_DASH },
   inverted: { role: 'prediction', width: 2.75, dash: [] },
   wedge: { role: 'accent', mark: 'area' },
@@ -20,12 +20,12 @@ export const LINES = {
 } satisfies Record<string, import('../../scene/draw.ts').LineStyle>;
 
 /** Styles of the contours, which do not depend on which of the two is the image. */
-export const CONTOURS = {
+export const CONTOUR_STYLES = {
   prob: { role: 'ink', width: 1, dash: [5, 4] },
   density: { role: 'ink', width: 1, dash: [] },
 } satisfies Record<string, import('../../scene/draw.ts').LineStyle>;
 
-export type LineName = keyof typeof LINES;
+export type LineName = keyof typeof LINE_STYLES;
 
 export const documentation: import('../../figure/attributes.ts').Documentation = {
   state: {
@@ -34,15 +34,15 @@ export const documentation: import('../../figure/attributes.ts').Documentation =
   },
 };
 
-export const COMMAND = commandSliders(4);
+export const COMMAND_SLIDERS = commandSliders(4);
 
-export const ALPHAS = alphaSliders(6);
+export const ALPHA_SLIDERS = alphaSliders(6);
 
 export const definition = definitionOf('arc-anatomy', {
   messageKey: 'anatomy',
-  lines: LINES,
+  lines: LINE_STYLES,
   opening: ['commanded', 'inverted', 'wedge', 'chord'],
-  sliderSpecs: { ...COMMAND, ...ALPHAS },
+  sliderSpecs: { ...COMMAND_SLIDERS, ...ALPHA_SLIDERS },
   own: {
     line: { opening: 0, ofPreset: true, check: (field, line) => wholeNumber(field, line, 0, TABLE_LINES) },
     underway: { opening: UNDERWAY_AT_END, ofPreset: true, check: (field, share) => wholeNumber(field, share, 0, UNDERWAY_AT_END) },

@@ -26,17 +26,17 @@ export const shareText = (share: number) => (isTiny(share) ? powerText(share) : 
 
 export const densityText = (density: number) => (isTiny(density) ? powerText(density) : significant(density, 3));
 
-const SYMBOLS = ['v̂', 'ω̂', 'γ̂'];
+const ESTIMATE_SYMBOLS = ['v̂', 'ω̂', 'γ̂'];
 
 /** Returns a sentence about the factor that makes p small. */
 export function captionOf({ config, stats: { factors, weakest, share, driven, inverted } }: Reading) {
   const say = words.anatomy.verdict;
-  const { deviations, share: kept, deviation } = factors[weakest];
-  const estimate = `${words.anatomy.bars.names[weakest]} ${SYMBOLS[weakest]}`;
+  const { deviations, share: keptShare, deviation } = factors[weakest];
+  const estimateName = `${words.anatomy.bars.names[weakest]} ${ESTIMATE_SYMBOLS[weakest]}`;
   if (config.printed && driven.arcLength !== inverted.arcLength) return say.printed(fixed(factors[0].estimate, 2), shareText(share));
   if (share === 1) return say.peak;
-  if (deviation === 0) return say.noiseless(estimate);
-  return say.off(estimate, fixed(Math.abs(deviations), 1), shareText(kept), shareText(share));
+  if (deviation === 0) return say.noiseless(estimateName);
+  return say.off(estimateName, fixed(Math.abs(deviations), 1), shareText(keptShare), shareText(share));
 }
 
 const poseText = ({ x, y, theta }: Pose) => words.anatomy.pose(fixed(x, 2), fixed(y, 2), fixed(theta, 2));

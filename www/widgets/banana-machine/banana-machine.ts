@@ -21,11 +21,11 @@ import { alphaControls, bendingControl, commandControls, modelControls } from '.
 import { presetButtons } from '../shared/presets.ts';
 import { ArcHandle } from './handle.ts';
 import { IntroducedCloud } from './introduction.ts';
-import { MORPH_MS, lineMorph, morphControl, outlinesAt, placeOf, ringsOf } from './morph.ts';
+import { MORPH_MS, lineMorphOf, morphControl, outlinesAt, morphedPoint, confidenceRings } from './morph.ts';
 import { PlanePicture, TwistPicture } from './pictures.ts';
 import { readingOf, type Reading } from './reading.ts';
 import { markedRobot, otherReadouts, readouts, twistTable, workedExample } from './readouts.ts';
-import { LINES, OVERLAYS, SAMPLE_COUNTS, definition, sliderSpecs } from './settings.ts';
+import { LINE_STYLES, OVERLAYS, SAMPLE_COUNTS, definition, sliderSpecs } from './settings.ts';
 import { styles } from './styles.ts';
 import { announcementOf, calloutsOf, captionOf, floorTitle, planeText, skewText, twistCaption, twistText } from './words.ts';
 import type { BananaMachine as Machine, Inspection } from '../../types.d.ts';
@@ -78,8 +78,8 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
     if (!state) return machine;
     const { model, alphas } = state;
     // Each model keeps its own α's.
-    const other = model === 'velocity' ? 'odometry' : 'velocity';
-    freeOnError(machine, () => machine.configureFirst({ model: other, alphas: alphas[other] }, 0));
+    const otherModel = model === 'velocity' ? 'odometry' : 'velocity';
+    freeOnError(machine, () => machine.configureFirst({ model: otherModel, alphas: alphas[otherModel] }, 0));
     return enterCloud(this, machine, { ...state, alphas: alphas[model] });
   };
 
@@ -90,26 +90,26 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
     const { motion } = this;
     const pinned = this.#pinned;
     const { overlays, morph } = this.state.own;
-    const shown = Object.fromEntries(OVERLAYS.map((name) => [name, overlays.includes(name)]));
+    const shownOverlays = Object.fromEntries(OVERLAYS.map((name) => [name, overlays.includes(name)]));
     // There are no callouts while a cloud grows or is dragged, because outlines move, nor away from the floor, where their sentences are
     // wrong.
     const isMoving = this.cloud.playing || (this.gesture.pressed && reading !== this.gesture.previousReading);
-    const others = OVERLAYS.filter((name) => name !== 'command' && shown[name] && hasLength(reading.contours[name]));
-    const callouts = isMoving || morph > 0 || others.join() !== 'ellipse,exponential' ? [] : calloutsOf(reading);
+    const otherOverlays = OVERLAYS.filter((name) => name !== 'command' && shownOverlays[name] && hasLength(reading.contours[name]));
+    const callouts = isMoving || morph > 0 || otherOverlays.join() !== 'ellipse,exponential' ? [] : calloutsOf(reading);
     return {
       ...reading,
       machine: this.machine,
-      overlays: shown,
+      overlays: shownOverlays,
       marked: this.#inspection,
       morph,
       outlinesOf: (of: Reading) => outlinesAt(motion, of, morph),
       callouts,
-      ringsOf: () => ringsOf(motion, reading),
+      ringsOf: () => confidenceRings(motion, reading),
       pinned,
       pinnedAt: (at: number) =>
-        pinned ? Object.entries(outlinesAt(motion, pinned, at)).flatMap(([name, line]) => (shown[name] ? [...line] : [])) : [],
+        pinned ? Object.entries(outlinesAt(motion, pinned, at)).flatMap(([name, line]) => (shownOverlays[name] ? [...line] : [])) : [],
       driving: this.cloud.driving,
-      morphedEllipse: morph > 0 ? lineMorph(motion, reading, 1)(reading.contours.ellipse) : reading.contours.ellipse,
+      morphedEllipse: morph > 0 ? lineMorphOf(motion, reading, 1)(reading.contours.ellipse) : reading.contours.ellipse,
     };
   }
 
@@ -151,7 +151,7 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
   /** Place of the end of the commanded arc, in the view's world. */
   get seenEnd() {
     const { v, omega, dt } = this.currentReading.config.command;
-    return placeOf([v * dt, 0, omega * dt], this.state.own.morph);
+    return morphedPoint([v * dt, 0, omega * dt], this.state.own.morph);
   }
 
   placeHandles() {
@@ -197,8 +197,8 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
   reach(x: number, y: number) {
     this.settings.want(({ command }) => {
       const { v, omega } = this.motion.commandReaching(x, y, command, this.state.own.morph);
-      const within = (value: number, { min, max }: { min: number, max: number }) => clamp(value, min, max);
-      return { command: { ...command, v: within(v, sliderSpecs.v), omega: within(omega, sliderSpecs.omega) } };
+      const clampToSlider = (value: number, { min, max }: { min: number, max: number }) => clamp(value, min, max);
+      return { command: { ...command, v: clampToSlider(v, sliderSpecs.v), omega: clampToSlider(omega, sliderSpecs.omega) } };
     });
   }
 
@@ -210,14 +210,14 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
   /** Returns a note for each outline that is on, but has no image under the morph. */
   #missing(reading: Reading) {
     const { morph, overlays } = this.state.own;
-    const lost = morph === 0 ? [] : Object.entries(outlinesAt(this.motion, reading, morph)).filter(([name, { length }]) => length === 0 && overlays.includes(name));
-    return Object.fromEntries(lost.map(([name]) => [name, words.banana.notCarried]));
+    const missingOutlines = morph === 0 ? [] : Object.entries(outlinesAt(this.motion, reading, morph)).filter(([name, { length }]) => length === 0 && overlays.includes(name));
+    return Object.fromEntries(missingOutlines.map(([name]) => [name, words.banana.notCarried]));
   }
 
   get #description() {
     const { overlays } = this.state.own as { overlays: (typeof OVERLAYS)[number][] };
-    const drawn = overlays.filter((name) => hasLength(this.reading.contours[name]));
-    return planeText(this.reading, drawn.map((name) => words.banana.overlays[name]), this.state.own.morph);
+    const drawnOutlines = overlays.filter((name) => hasLength(this.reading.contours[name]));
+    return planeText(this.reading, drawnOutlines.map((name) => words.banana.overlays[name]), this.state.own.morph);
   }
 
   content(reading: Reading) {
@@ -235,7 +235,7 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
         ${morphControl(this)}
         ${button(say.pin, () => this.#pin(), { title: say.pinTitle, pressed: this.#pinned !== undefined })}
       </div>
-      ${legend(this, LINES, this.#missing(reading))}
+      ${legend(this, LINE_STYLES, this.#missing(reading))}
       <p part="caption" class="caption ${note && 'note'}">${captionOf(reading)}</p>
       ${readouts(reading, this.#pinned)} ${presetButtons(this)}
       <div class="controls" part="controls">
@@ -264,16 +264,16 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
     const { min, max, step } = sliderSpecs.omega;
     // The curve depends on some of the settings only.
     const curve = this.#curve.of([JSON.stringify([model, noise, v, dt, alphas, isolate])], () => (this.machine as Machine).skewCurve(min, max, CURVE_POINTS));
-    const peak = curve.reduce((most, value) => Math.max(most, Math.abs(value) || 0), 0);
-    const height = CHART_HEIGHTS.find((each) => each >= peak) ?? peak;
-    const ends = [min, max];
+    const maxSkew = curve.reduce((most, value) => Math.max(most, Math.abs(value) || 0), 0);
+    const chartHeight = CHART_HEIGHTS.find((each) => each >= maxSkew) ?? maxSkew;
+    const omegaRange = [min, max];
     return plot({
       label: say.chart,
       x: { name: 'ω (rad/s)', from: min, to: max },
-      y: { name: say.chartAxis, from: -height, to: height },
+      y: { name: say.chartAxis, from: -chartHeight, to: chartHeight },
       curves: [
         { name: say.chartAxis, role: 'ink', x: curve.map((_, i) => min + (i * (max - min)) / (curve.length - 1)), y: curve },
-        { name: say.chartGaussian, role: 'prediction', dash: '7 4', x: ends, y: [0, 0] },
+        { name: say.chartGaussian, role: 'prediction', dash: '7 4', x: omegaRange, y: [0, 0] },
       ],
       points: [
         { role: 'prior', x: omega, y: exactSkew, error: 0 },

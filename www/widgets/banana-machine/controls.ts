@@ -6,24 +6,24 @@ import { words } from '../../messages/registry.ts';
 import { radioButton, group, toggle } from '../../ui/controls.ts';
 import { formatEditable } from '../../ui/format.ts';
 import { alphaName } from './reading.ts';
-import { COMMAND } from './settings.ts';
+import { COMMAND_SLIDERS } from './settings.ts';
 import type { BananaMachineElement as Figure } from './banana-machine.ts';
 
 export function commandControls(figure: Figure) {
-  return group(words.command, sliders(figure, COMMAND));
+  return group(words.command, sliders(figure, COMMAND_SLIDERS));
 }
 
 export function modelControls(figure: Figure) {
   const { model, alphas, isolate } = figure.reading.config;
   const say = words.banana;
   // The index of the α begins at 1; the other model may have fewer.
-  const chosen = Math.min(figure.state.own.isolateChoice, alphas.length);
+  const isolatedAlpha = Math.min(figure.state.own.isolateChoice, alphas.length);
   return group(say.modelGroup, html`${radios(figure, 'model', say.models)} ${radios(figure, 'noise', words.noises)}
     ${model === 'odometry' ? settingCheckbox(figure, 'reverseAware', say.reverseAware) : nothing}
     ${toggle({
       label: say.isolate,
       checked: isolate !== null,
-      change: (on) => figure.gesture.decide({ isolate: on ? chosen : null }),
+      change: (on) => figure.gesture.decide({ isolate: on ? isolatedAlpha : null }),
     })}`);
 }
 
@@ -38,9 +38,9 @@ export const alphaControls = (figure: Figure) => alphaGroup(figure, (index) => i
 function alphaGroup(figure: Figure, isIn: (index: number) => boolean, name: string) {
   const { model, alphas } = figure.reading.config;
   const { effects } = words.banana.settings.alphas;
-  const names = words.alphas[(model as 'velocity' | 'odometry')];
-  const slider = (index: number) => alphaSlider(figure, `alpha${index + 1}`, index + 1, names[index], effects[model][index]);
-  return group(words.noise, [...alphas.keys()].filter(isIn).map(slider), name);
+  const alphaNames = words.alphas[(model as 'velocity' | 'odometry')];
+  const sliderOfAlpha = (index: number) => alphaSlider(figure, `alpha${index + 1}`, index + 1, alphaNames[index], effects[model][index]);
+  return group(words.noise, [...alphas.keys()].filter(isIn).map(sliderOfAlpha), name);
 }
 
 /**

@@ -19,8 +19,8 @@ export class ArcHandle extends Handle {
         if (!steps) return false;
         const [x, y] = figure.runtime.attempt(() => figure.machine && figure.seenEnd) ?? [0, 0];
         // The straight arc reaches furthest.
-        const farthestX = sliderSpecs.v.max * figure.settings.wanted.command.dt;
-        figure.reach(clamp(x + KEY_STEP * steps[0], -farthestX, farthestX), y + KEY_STEP * steps[1]);
+        const maxX = sliderSpecs.v.max * figure.settings.wanted.command.dt;
+        figure.reach(clamp(x + KEY_STEP * steps[0], -maxX, maxX), y + KEY_STEP * steps[1]);
         return true;
       },
       commit: () => figure.gesture.commit(),
@@ -31,7 +31,7 @@ export class ArcHandle extends Handle {
   render({ v, omega }: import('../../types.d.ts').Command, isAsking: boolean) {
     const say = words.banana;
     const { min, max } = sliderSpecs.omega;
-    const ends = [v - sliderSpecs.v.min, sliderSpecs.v.max - v, omega - min, max - omega].some((left) => left <= 0);
+    const isAtLimit = [v - sliderSpecs.v.min, sliderSpecs.v.max - v, omega - min, max - omega].some((left) => left <= 0);
     return this.element({
       name: say.handle,
       keys: say.handleKeys,
@@ -39,7 +39,7 @@ export class ArcHandle extends Handle {
       range: [min, max],
       now: omega,
       text: `v = ${fixed(v, 2)} m/s, ω = ${fixed(omega, 2)} rad/s`,
-      stop: ends && say.slidersEnd,
+      stop: isAtLimit && say.slidersEnd,
       hint: isAsking && say.handleHint,
     });
   }

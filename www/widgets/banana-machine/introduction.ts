@@ -14,9 +14,9 @@ const STORAGE_KEY = 'motion-widgets.introduced';
 /** Returns true if the introduction was not shown in this session, and marks it as shown. */
 function isFirstInSession() {
   try {
-    const seen = sessionStorage.getItem(STORAGE_KEY);
+    const wasShown = sessionStorage.getItem(STORAGE_KEY);
     sessionStorage.setItem(STORAGE_KEY, 'yes');
-    return seen === null;
+    return wasShown === null;
   } catch {
     // Without storage it would be shown again and again.
     return false;
@@ -46,8 +46,8 @@ export class IntroducedCloud extends Cloud {
     this.#phase = 'none';
     super.introduce(state);
     const { host } = this;
-    const isAsked = host.presentation || Object.keys(host.definition.attributes).some((name) => host.hasAttribute(name));
-    if (state || !this.playing || isAsked || host.settings.present.samples < DRIVING_ROBOTS || !isFirstInSession()) return;
+    const isConfigured = host.presentation || Object.keys(host.definition.attributes).some((name) => host.hasAttribute(name));
+    if (state || !this.playing || isConfigured || host.settings.present.samples < DRIVING_ROBOTS || !isFirstInSession()) return;
     this.#phase = 'driving';
     this.show(DRIVING_ROBOTS);
     for (const event of ['pointerdown', 'keydown']) addEventListener(event, this.skip, { capture: true });

@@ -23,29 +23,29 @@ const MORPH_STEP = 0.01;
  * Returns the point to which a morph takes a twist (m, m, rad), as `geom::unbend` of the core does. The morph runs from 0, the floor, to 1,
  * exponential coordinates.
  */
-export function placeOf({ 0: along, 1: lateral, 2: heading }: ArrayLike<number>, morph: number): [number, number] {
-  const half = ((1 - morph) * heading) / 2;
-  const sinc = half === 0 ? 1 : Math.sin(half) / half;
+export function morphedPoint({ 0: along, 1: lateral, 2: heading }: ArrayLike<number>, morph: number): [number, number] {
+  const halfHeading = ((1 - morph) * heading) / 2;
+  const sinc = halfHeading === 0 ? 1 : Math.sin(halfHeading) / halfHeading;
   const [ahead, aside] = [sinc * along, sinc * (1 - morph) * lateral];
-  const [cos, sin] = [Math.cos(half), Math.sin(half)];
+  const [cos, sin] = [Math.cos(halfHeading), Math.sin(halfHeading)];
   return [ahead * cos - aside * sin, ahead * sin + aside * cos + morph * heading];
 }
 
 /** Returns the function that transforms a line of points on the floor by a morph. */
-export const lineMorph = (motion: Motion, { config: { command } }: Reading, morph: number) => (line: Float64Array) =>
+export const lineMorphOf = (motion: Motion, { config: { command } }: Reading, morph: number) => (line: Float64Array) =>
   morph === 0 ? line : motion.unbendLine(line, command.omega * command.dt, morph);
 
 /** Returns the outlines after a morph. Those on the floor are transformed point by point, that in exponential coordinates is computed anew. */
 export function outlinesAt(motion: Motion, reading: Reading, morph: number): Outlines {
   const { contours, stats } = reading;
   if (morph === 0) return contours;
-  const carried = lineMorph(motion, reading, morph);
+  const morphLine = lineMorphOf(motion, reading, morph);
   const { mean, cov } = stats.exponential;
   return {
     command: commandAt(reading, morph),
-    ellipse: carried(contours.ellipse),
-    linearized: carried(contours.linearized),
-    additive: carried(contours.additive),
+    ellipse: morphLine(contours.ellipse),
+    linearized: morphLine(contours.linearized),
+    additive: morphLine(contours.additive),
     exponential: contours.exponential.length > 0 ? motion.unbendGaussian(Float64Array.from([...mean, ...cov.flat()]), morph) : contours.exponential,
   };
 }
@@ -54,7 +54,7 @@ export function outlinesAt(motion: Motion, reading: Reading, morph: number): Out
 const RING_SIZES = [0.5, 1, 1.5];
 
 /** Returns outlines on the floor of the Gaussian in exponential coordinates, with nearly the whole cloud inside of the largest. */
-export function ringsOf(motion: Motion, { stats: { exponential: { mean, cov } }, contours }: Reading) {
+export function confidenceRings(motion: Motion, { stats: { exponential: { mean, cov } }, contours }: Reading) {
   if (contours.exponential.length === 0) return [];
   return RING_SIZES.map((size) => motion.unbendGaussian(Float64Array.from([...mean, ...cov.flat().map((each) => size ** 2 * each)]), 0));
 }
@@ -62,8 +62,8 @@ export function ringsOf(motion: Motion, { stats: { exponential: { mean, cov } },
 /** Returns the commanded arc at a morph. */
 function commandAt({ config: { command: { v, omega, dt } }, contours }: Reading, morph: number) {
   const chords = contours.command.length / 2 - 1;
-  const part = (i: number) => placeOf([(i / chords) * v * dt, 0, (i / chords) * omega * dt], morph);
-  return Float64Array.from(Array.from({ length: chords + 1 }, (_, i) => part(i)).flat());
+  const pointAtChord = (i: number) => morphedPoint([(i / chords) * v * dt, 0, (i / chords) * omega * dt], morph);
+  return Float64Array.from(Array.from({ length: chords + 1 }, (_, i) => pointAtChord(i)).flat());
 }
 
 /**
@@ -106,11 +106,11 @@ export class MorphView extends View {
   }
 
   ease(elapsed: Parameters<View['ease']>[0], atOnce: Parameters<View['ease']>[1]) {
-    const moving = this.ends.map((end) => end.ease(elapsed, atOnce)).includes(true);
+    const isMoving = this.ends.map((end) => end.ease(elapsed, atOnce)).includes(true);
     const [floor, twist] = this.ends.map(({ extent }) => extent);
-    const between = (key: keyof Extent) => floor[key] + this.morph * (twist[key] - floor[key]);
-    this.extent = { xMin: between('xMin'), yMin: between('yMin'), xMax: between('xMax'), yMax: between('yMax') };
-    return moving;
+    const interpolate = (key: keyof Extent) => floor[key] + this.morph * (twist[key] - floor[key]);
+    this.extent = { xMin: interpolate('xMin'), yMin: interpolate('yMin'), xMax: interpolate('xMax'), yMax: interpolate('yMax') };
+    return isMoving;
   }
 }
 
@@ -133,16 +133,16 @@ const GRID_LINES = 7;
 const CHORDS_PER_LINE = 32;
 
 /** Draws the grid of exponential coordinates at a morph. `end` is the view at the end of the morph. */
-export function drawLattice({ context, view, palette }: Brush, { extent: { xMin, xMax, yMin, yMax } }: View, morph: number) {
+export function drawMorphGrid({ context, view, palette }: Brush, { extent: { xMin, xMax, yMin, yMax } }: View, morph: number) {
   // It becomes visible early in the morph, and ends as the straight grid of the axes.
   context.globalAlpha = 0.7 * Math.min(1, 5 * morph);
-  const line = (at: (share: number) => [along: number, heading: number]) => addLine(context, Array.from({ length: CHORDS_PER_LINE + 1 }, (_, i) => {
+  const drawGridLine = (at: (share: number) => [along: number, heading: number]) => addLine(context, Array.from({ length: CHORDS_PER_LINE + 1 }, (_, i) => {
     const [along, heading] = at(i / CHORDS_PER_LINE);
-    return view.toPixel(...placeOf([along, 0, heading], morph));
+    return view.toPixel(...morphedPoint([along, 0, heading], morph));
   }));
   strokePath(context, { colour: palette.rule, width: 1 }, () => {
-    for (const along of ticks(xMin, xMax, GRID_LINES)) line((share) => [along, yMin + share * (yMax - yMin)]);
-    for (const heading of ticks(yMin, yMax, GRID_LINES)) line((share) => [xMin + share * (xMax - xMin), heading]);
+    for (const along of ticks(xMin, xMax, GRID_LINES)) drawGridLine((share) => [along, yMin + share * (yMax - yMin)]);
+    for (const heading of ticks(yMin, yMax, GRID_LINES)) drawGridLine((share) => [xMin + share * (xMax - xMin), heading]);
   });
   context.globalAlpha = 1;
 }

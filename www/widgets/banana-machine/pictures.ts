@@ -11,9 +11,9 @@ import { Density } from '../../scene/pixels.ts';
 import { View, extentOf } from '../../scene/view.ts';
 import { clamp } from '../../ui/clamp.ts';
 import { integer } from '../../ui/format.ts';
-import { drawLattice, MorphView, placeOf, type Outlines } from './morph.ts';
+import { drawMorphGrid, MorphView, morphedPoint, type Outlines } from './morph.ts';
 import { deviation, type Reading } from './reading.ts';
-import { LINES, type LineName } from './settings.ts';
+import { LINE_STYLES, type LineName } from './settings.ts';
 import type { BananaMachine, Inspection, Moments } from '../../types.d.ts';
 import { addLine, drawDisc, strokePath, type Brush } from '../../scene/canvas.ts';
 
@@ -71,7 +71,7 @@ class CloudPicture extends Picture<Scene, import('../../types.d.ts').ViewName> {
   /** Returns the places of the robots that are drawn as dots, with the headings that the morph leaves of them. */
   places({ machine, stats }: Scene): Float64Array {
     const { morph } = this;
-    return this.#places.of([stats, morph], () => (morph === 0 ? machine.firstPoses(MAX_DOTS) : placesOf(machine.twists, morph)));
+    return this.#places.of([stats, morph], () => (morph === 0 ? machine.firstPoses(MAX_DOTS) : morphedTriples(machine.twists, morph)));
   }
 
   /** Draws the robots, which cover an area in square pixels. */
@@ -89,12 +89,12 @@ class CloudPicture extends Picture<Scene, import('../../types.d.ts').ViewName> {
 }
 
 /** Returns x, y and heading of each robot at a morph. The heading shrinks to 0 towards exponential coordinates. */
-function placesOf(twists: Float64Array, morph: number) {
-  const places = new Float64Array(twists.length);
+function morphedTriples(twists: Float64Array, morph: number) {
+  const triples = new Float64Array(twists.length);
   for (let i = 0; i < twists.length; i += 3) {
-    places.set([...placeOf(twists.subarray(i, i + 3), morph), (1 - morph) * twists[i + 2]], i);
+    triples.set([...morphedPoint(twists.subarray(i, i + 3), morph), (1 - morph) * twists[i + 2]], i);
   }
-  return places;
+  return triples;
 }
 
 /** Returns the size of the density's cells in CSS pixels, for a cloud with an area in square pixels. Many robots allow small cells. */
@@ -137,72 +137,72 @@ export class PlanePicture extends CloudPicture {
     if (overlays.additive) points.push(...contours.additive);
     const box = extentOf(points, 0.4);
     // Space for a fan of headings around the end, which may be all that is visible.
-    const fan = 0.2 * (box.xMax - box.xMin);
+    const fanMargin = 0.2 * (box.xMax - box.xMin);
     const [x, y] = end;
-    this.view.fitEnd(extentOf([...points, x - fan, y - fan, x + fan, y + fan], 0.4), 0);
+    this.view.fitEnd(extentOf([...points, x - fanMargin, y - fanMargin, x + fanMargin, y + fanMargin], 0.4), 0);
   }
 
   paint: Picture<Scene>['paint'] = (brush, scene) => {
     const { context, view, palette } = brush;
     const { machine, overlays, table, marked, end, morph } = scene;
     const outlines = scene.outlinesOf(scene);
-    const styles = lineStyles(brush, LINES);
-    const drawn = (name: OutlineName) => overlays[name] && hasLength(outlines[name]);
-    const key = lineKeys(brush, LINES, KEY_ORDER.filter(drawn), words.banana.overlays);
+    const styles = lineStyles(brush, LINE_STYLES);
+    const isDrawn = (name: OutlineName) => overlays[name] && hasLength(outlines[name]);
+    const key = lineKeys(brush, LINE_STYLES, KEY_ORDER.filter(isDrawn), words.banana.overlays);
     // One pair of axes fades out before the other fades in.
     const [floor, twist] = this.view.ends;
-    const axes = [
+    const axesAtEnds = [
       { view: floor, there: 1 - 2 * morph, names: { x: 'x (m)', y: 'y (m)' } },
       { view: twist, there: 2 * morph - 1, names: { x: words.banana.axisAlong, y: words.banana.axisHeading } },
     ];
-    for (const { view: of, there, names } of axes) {
+    for (const { view: of, there, names } of axesAtEnds) {
       context.globalAlpha = clamp(there, 0, 1);
       // The lattice is the grid of exponential coordinates until it is straight.
       if (there > 0) drawAxes({ ...brush, view: of }, names, key, of === twist && morph < 1 ? 0 : undefined);
     }
     context.globalAlpha = 1;
-    const middle = middleOf(scene, morph);
-    const lines = (of: Outlines) => PAINT_ORDER.filter(drawn).map((name) => ({ points: of[name], ...styles[name] }));
-    const ghost = ghostOf(brush, scene);
-    const earlier = ghost ? lines(scene.outlinesOf(ghost)) : [];
+    const cloudMiddle = morphedMiddle(scene, morph);
+    const outlinesInStyle = (of: Outlines) => PAINT_ORDER.filter(isDrawn).map((name) => ({ points: of[name], ...styles[name] }));
+    const earlierReading = earlierReadingOf(brush, scene);
+    const earlierOutlines = earlierReading ? outlinesInStyle(scene.outlinesOf(earlierReading)) : [];
     const callouts = [...scene.callouts];
     clipToPlot(brush, () => {
-      if (morph > 0 && morph < 1) drawLattice(brush, twist, morph);
+      if (morph > 0 && morph < 1) drawMorphGrid(brush, twist, morph);
       if (scene.driving) {
         drawDriving(brush, machine, scene.driving);
         return;
       }
       const { cov } = table.exact;
-      const heaped = morph === 0 && deviation(cov[0][0] + cov[1][1]) * view.scaleX < MIN_CLOUD_DEVIATION;
-      if (!heaped) {
+      const isHeap = morph === 0 && deviation(cov[0][0] + cov[1][1]) * view.scaleX < MIN_CLOUD_DEVIATION;
+      if (!isHeap) {
         const determinant = Math.max(0, cov[0][0] * cov[1][1] - cov[0][1] * cov[1][0]);
-        const area = Math.sqrt(determinant) + morph * (areaOfTwists(scene) - Math.sqrt(determinant));
-        this.paintCloud(brush, scene, 4 * Math.PI * area * view.scaleX * view.scaleY);
+        const cloudArea = Math.sqrt(determinant) + morph * (areaOfTwists(scene) - Math.sqrt(determinant));
+        this.paintCloud(brush, scene, 4 * Math.PI * cloudArea * view.scaleX * view.scaleY);
       }
       drawRobot(brush, { x: 0, y: 0, heading: 0, colour: palette.truth });
-      callouts.push(...drawGhosts(brush, earlier, [middle, [0, 0]], ghostName(scene)));
-      drawOutlines(brush, lines(outlines));
+      callouts.push(...drawGhosts(brush, earlierOutlines, [cloudMiddle, [0, 0]], earlierName(scene)));
+      drawOutlines(brush, outlinesInStyle(outlines));
       if (overlays.command && scene.reading && morph === 0) drawReading(brush, scene.reading, end);
-      if (heaped && scene.shown > 0) drawRobotHeap(brush, heapOf(this.places(scene), scene.shown));
+      if (isHeap && scene.shown > 0) drawRobotHeap(brush, robotHeap(this.places(scene), scene.shown));
       const [endX, endY] = outlines.command.slice(-2);
       drawHandle(brush, { x: view.toPixelX(endX), y: view.toPixelY(endY), radius: HANDLE_RADIUS, colour: palette.prior });
       if (marked) {
         const { pose, twist: at, path } = marked;
         if (morph === 0) drawOutline(brush, path, { colour: palette.accent, width: 1.25, dash: [6, 2] });
-        const [x, y] = morph === 0 ? pose : placeOf(at, morph);
+        const [x, y] = morph === 0 ? pose : morphedPoint(at, morph);
         drawSelectedSample(brush, { x, y, heading: morph < 1 ? (1 - morph) * pose[2] : null });
       }
     });
     if (callouts.length === 0) return;
-    const rings = morph > 0 ? [outlines.exponential] : scene.ringsOf();
-    drawCallouts(brush, callouts, { from: middle, lines: [outlines.command, outlines.ellipse, ...rings, ...earlier.map(({ points }) => points)] });
+    const ringOutlines = morph > 0 ? [outlines.exponential] : scene.ringsOf();
+    drawCallouts(brush, callouts, { from: cloudMiddle, lines: [outlines.command, outlines.ellipse, ...ringOutlines, ...earlierOutlines.map(({ points }) => points)] });
   };
 }
 
 /** Returns the reading of the machine whose outlines stay in the picture: the pinned one, or the one before the latest change. */
-const ghostOf = ({ previousReading }: Brush, { pinned }: Scene): Reading | undefined => pinned ?? previousReading;
+const earlierReadingOf = ({ previousReading }: Brush, { pinned }: Scene): Reading | undefined => pinned ?? previousReading;
 
-const ghostName = ({ pinned }: Scene) => (pinned ? words.banana.pinned : words.before);
+const earlierName = ({ pinned }: Scene) => (pinned ? words.banana.pinned : words.before);
 
 function drawDriving(brush: Brush, machine: BananaMachine, { robots, share }: { robots: number, share: number }) {
   const { palette } = brush;
@@ -210,12 +210,12 @@ function drawDriving(brush: Brush, machine: BananaMachine, { robots, share }: { 
     const { path, pose } = machine.inspect(i);
     // The first robot has arrived when the others start.
     const chords = path.length / 2 - 1;
-    const at = (i === 0 && robots > 1 ? 1 : share) * chords;
-    const begin = Math.min(Math.floor(at), chords - 1);
-    const [x, y, nextX, nextY] = path.subarray(2 * begin, 2 * begin + 4);
-    const [endX, endY] = [x + (at - begin) * (nextX - x), y + (at - begin) * (nextY - y)];
-    drawOutline(brush, Float64Array.of(...path.subarray(0, 2 * begin + 2), endX, endY), { colour: palette.cloud, width: 1.5, dash: [] });
-    const heading = at === chords ? pose[2] : Math.atan2(nextY - y, nextX - x);
+    const chordPosition = (i === 0 && robots > 1 ? 1 : share) * chords;
+    const chord = Math.min(Math.floor(chordPosition), chords - 1);
+    const [x, y, nextX, nextY] = path.subarray(2 * chord, 2 * chord + 4);
+    const [endX, endY] = [x + (chordPosition - chord) * (nextX - x), y + (chordPosition - chord) * (nextY - y)];
+    drawOutline(brush, Float64Array.of(...path.subarray(0, 2 * chord + 2), endX, endY), { colour: palette.cloud, width: 1.5, dash: [] });
+    const heading = chordPosition === chords ? pose[2] : Math.atan2(nextY - y, nextX - x);
     drawRobot(brush, { x: endX, y: endY, heading, colour: palette.cloud });
   }
 }
@@ -229,24 +229,24 @@ function drawReading(brush: Brush, { rot1, trans, rot2 }: import('../../types.d.
   const { context, view, palette } = brush;
   const [[fromX, fromY], [toX, toY]] = [view.toPixel(0, 0), view.toPixel(x, y)];
   const ahead = view.direction(rot1);
-  const last = view.direction(rot1 + rot2);
+  const finalDirection = view.direction(rot1 + rot2);
   const colour = palette.prior;
   const style = { colour, width: 1.5 };
   strokePath(context, style, () => {
     // The heading at the start, the drive, and its continuation, from which the second rotation starts.
     addLine(context, [[fromX + TURN_LINE, fromY], [fromX, fromY], [toX, toY], [toX + TURN_LINE * ahead.x, toY + TURN_LINE * ahead.y]]);
-    addLine(context, [[toX, toY], [toX + TURN_LINE * last.x, toY + TURN_LINE * last.y]]);
+    addLine(context, [[toX, toY], [toX + TURN_LINE * finalDirection.x, toY + TURN_LINE * finalDirection.y]]);
   });
   // On the screen y points down.
-  const turn = (x: number, y: number, from: number, by: number) => strokePath(context, style, () => context.arc(x, y, TURN_RADIUS, -from, -from - by, by > 0));
-  turn(fromX, fromY, 0, rot1);
-  turn(toX, toY, rot1, rot2);
-  const turned = (sub: string, atX: number, atY: number, heading: number) => {
+  const strokeTurn = (x: number, y: number, from: number, by: number) => strokePath(context, style, () => context.arc(x, y, TURN_RADIUS, -from, -from - by, by > 0));
+  strokeTurn(fromX, fromY, 0, rot1);
+  strokeTurn(toX, toY, rot1, rot2);
+  const labelTurn = (sub: string, atX: number, atY: number, heading: number) => {
     const out = view.direction(heading);
     drawLabel(brush, { x: atX + (TURN_LINE + 6) * out.x, y: atY + (TURN_LINE + 6) * out.y, towards: out.x < 0 ? -1 : 1, symbol: 'δ', sub, colour });
   };
-  turned('rot1', fromX, fromY, rot1 / 2);
-  turned('rot2', toX, toY, rot1 + rot2 / 2);
+  labelTurn('rot1', fromX, fromY, rot1 / 2);
+  labelTurn('rot2', toX, toY, rot1 + rot2 / 2);
   if (trans > 0) {
     const [atX, atY] = [(fromX + toX) / 2 + 10 * ahead.y, (fromY + toY) / 2 - 10 * ahead.x + 6];
     drawLabel(brush, { x: atX, y: atY, towards: 1, symbol: 'δ', sub: 'trans', colour });
@@ -254,7 +254,7 @@ function drawReading(brush: Brush, { rot1, trans, rot2 }: import('../../types.d.
 }
 
 /** Returns robots that are all in one place, with the headings of the first. */
-function heapOf(poses: Float64Array, shown: number) {
+function robotHeap(poses: Float64Array, shown: number) {
   const headings = [...poses.subarray(0, 3 * MAX_RAYS)].filter((_, i) => i % 3 === 2);
   return { x: poses[0], y: poses[1], headings, label: words.banana.robotsHere(shown, integer(shown)) };
 }
@@ -264,17 +264,17 @@ function heapOf(poses: Float64Array, shown: number) {
  * twist, with the variance of the whole position as that along the track.
  */
 function twistMoments({ config, stats, table }: Scene): Moments[] {
-  const known = [table.tangent, stats.exponential].filter((moments) => moments !== null);
-  const finite = known.filter(({ cov }) => Number.isFinite(cov[0][0]));
-  if (finite.length > 0) return finite;
+  const definedMoments = [table.tangent, stats.exponential].filter((moments) => moments !== null);
+  const finiteMoments = definedMoments.filter(({ cov }) => Number.isFinite(cov[0][0]));
+  if (finiteMoments.length > 0) return finiteMoments;
   const { v, omega, dt } = config.command;
   const { cov } = table.exact;
-  const along = cov[0][0] + cov[1][1];
-  return [{ mean: [v * dt, 0, omega * dt], cov: [[along, 0, 0], [0, 0, 0], [0, 0, cov[2][2]]] }];
+  const alongVariance = cov[0][0] + cov[1][1];
+  return [{ mean: [v * dt, 0, omega * dt], cov: [[alongVariance, 0, 0], [0, 0, 0], [0, 0, cov[2][2]]] }];
 }
 
 /** Returns the place of the middle of the cloud at a morph. */
-const middleOf = (scene: Scene, morph: number) => placeOf(twistMoments(scene)[0].mean, morph);
+const morphedMiddle = (scene: Scene, morph: number) => morphedPoint(twistMoments(scene)[0].mean, morph);
 
 /** Returns points around what there is to see in exponential coordinates. */
 function pointsOfTwists(scene: Scene) {
@@ -305,17 +305,17 @@ export class TwistPicture extends CloudPicture {
   paint: Picture<Scene>['paint'] = (brush, scene) => {
     const { context, view, palette } = brush;
     const { config, contours, overlays, marked } = scene;
-    const { exponential, command } = lineStyles(brush, LINES);
-    const isOutlined = overlays.exponential && hasLength(contours.twistEllipse);
-    drawAxes(brush, { x: words.banana.axisAlong, y: words.banana.axisHeading }, lineKeys(brush, LINES, isOutlined ? ['exponential'] : [], words.banana.overlays));
-    const middle = middleOf(scene, 1);
-    const ghost = ghostOf(brush, scene);
+    const { exponential, command } = lineStyles(brush, LINE_STYLES);
+    const showsOutline = overlays.exponential && hasLength(contours.twistEllipse);
+    drawAxes(brush, { x: words.banana.axisAlong, y: words.banana.axisHeading }, lineKeys(brush, LINE_STYLES, showsOutline ? ['exponential'] : [], words.banana.overlays));
+    const twistMiddle = morphedMiddle(scene, 1);
+    const earlierReading = earlierReadingOf(brush, scene);
     const callouts: Callout[] = [];
     clipToPlot(brush, () => {
       if (scene.driving) return;
       this.paintCloud(brush, scene, 4 * Math.PI * areaOfTwists(scene) * view.scaleX * view.scaleY);
       if (overlays.exponential) {
-        if (ghost) callouts.push(...drawGhosts(brush, [{ points: ghost.contours.twistEllipse, ...exponential }], [middle], ghostName(scene)));
+        if (earlierReading) callouts.push(...drawGhosts(brush, [{ points: earlierReading.contours.twistEllipse, ...exponential }], [twistMiddle], earlierName(scene)));
         drawOutline(brush, contours.twistEllipse, exponential);
       }
       if (overlays.command) {
@@ -324,6 +324,6 @@ export class TwistPicture extends CloudPicture {
       }
       if (marked) drawSelectedSample(brush, { x: marked.twist[0], y: marked.twist[2], heading: null });
     });
-    drawCallouts(brush, callouts, { from: middle, lines: [contours.twistEllipse, Float64Array.of(...middle), ...(ghost ? [ghost.contours.twistEllipse] : [])] });
+    drawCallouts(brush, callouts, { from: twistMiddle, lines: [contours.twistEllipse, Float64Array.of(...twistMiddle), ...(earlierReading ? [earlierReading.contours.twistEllipse] : [])] });
   };
 }

@@ -1,7 +1,7 @@
 /** View model of the Banana Machine. */
 
 import { words } from '../../messages/registry.ts';
-import { subscript } from '../shared/sliders.ts';
+import { subscriptOf } from '../shared/sliders.ts';
 import type { BananaMachine as Machine, BananaMachineSettings as Settings, Stats, Table } from '../../types.d.ts';
 
 export type Reading = ReturnType<typeof readingOf>;
@@ -14,7 +14,7 @@ export function readingOf(machine: Machine) {
   const { config, stats, contours, table, chartHolds } = reading;
   return {
     ...reading,
-    note: noteOn(config, table, stats, chartHolds),
+    note: cloudNote(config, table, stats, chartHolds),
     exactSkew: table.exact.crossTrackSkew,
     gain: gainOf(stats, table),
     bowTie: bowTieOf(config),
@@ -30,9 +30,9 @@ export function readingOf(machine: Machine) {
  * it is the gain of the arc's own coordinates over (x, y).
  */
 function gainOf({ n, likelihoodGain, likelihoodGainError }: Stats, { exact }: Table) {
-  const unbounded = exact.likelihoodGain.pose === Infinity;
-  const kind = unbounded ? 'floor' : 'pose';
-  return { n, unbounded, value: likelihoodGain[kind], error: likelihoodGainError[kind], exact: exact.likelihoodGain[kind], wraps: 4 * Math.sqrt(exact.cov[2][2]) > Math.PI };
+  const isUnbounded = exact.likelihoodGain.pose === Infinity;
+  const gainKind = isUnbounded ? 'floor' : 'pose';
+  return { n, unbounded: isUnbounded, value: likelihoodGain[gainKind], error: likelihoodGainError[gainKind], exact: exact.likelihoodGain[gainKind], wraps: 4 * Math.sqrt(exact.cov[2][2]) > Math.PI };
 }
 
 /**
@@ -47,25 +47,25 @@ function bowTieOf({ model, command: { v, omega, dt }, alphas, isolate, reverseAw
     return turning > straight && deviation > Math.abs(v) ? { model, length: v, deviation } : null;
   }
   const turn = omega * dt;
-  const length = Math.abs(v * dt * (turn === 0 ? 1 : Math.sin(turn / 2) / (turn / 2)));
+  const chordLength = Math.abs(v * dt * (turn === 0 ? 1 : Math.sin(turn / 2) / (turn / 2)));
   // Half of the turn is before the drive and half after it. In reverse, by the table, each is half a turn minus that.
-  const rotation = v < 0 && !reverseAware ? Math.PI - Math.abs(turn) / 2 : turn / 2;
-  const [straight, turning] = [a3 * length * length, 2 * a4 * rotation * rotation];
+  const tableRotation = v < 0 && !reverseAware ? Math.PI - Math.abs(turn) / 2 : turn / 2;
+  const [straight, turning] = [a3 * chordLength * chordLength, 2 * a4 * tableRotation * tableRotation];
   const deviation = Math.sqrt(straight + turning);
-  return turning > straight && deviation > length ? { model, length, deviation } : null;
+  return turning > straight && deviation > chordLength ? { model, length: chordLength, deviation } : null;
 }
 
 /** Returns the name of an α, counted from 0. */
-export const alphaName = (index: number) => `α${subscript(index)}`;
+export const alphaName = (index: number) => `α${subscriptOf(index)}`;
 
 /** Speed that each α of a model multiplies, squared: v or ω. */
 const ALPHA_CAUSES = { velocity: [...'vωvωvω'], odometry: [...'ωvvω'] } as const;
 
 /** Returns a sentence on an isolated α (index from 0) without effect: its factor in the command is 0. */
-function silenceOf(model: Settings['model'], index: number) {
+function silentAlphaText(model: Settings['model'], index: number) {
   const { alphaIsSilent, nothingToMultiply, settings } = words.banana;
-  const cause = ALPHA_CAUSES[model][index] as 'v' | 'ω';
-  return alphaIsSilent(alphaName(index), nothingToMultiply[model][cause], cause, settings.alphas.effects[model][index][2]);
+  const speedName = ALPHA_CAUSES[model][index] as 'v' | 'ω';
+  return alphaIsSilent(alphaName(index), nothingToMultiply[model][speedName], speedName, settings.alphas.effects[model][index][2]);
 }
 
 /** Returns the standard deviation of a variance, which may round to less than 0. */
@@ -74,7 +74,7 @@ export function deviation(variance: number) {
 }
 
 /** Returns the kind of spread by the exact covariance: one pose, one place with many headings, or a cloud. */
-export function spreadOf({ exact: { cov } }: Table): 'point' | 'headings' | 'cloud' {
+export function spreadKind({ exact: { cov } }: Table): 'point' | 'headings' | 'cloud' {
   if (deviation(Math.max(cov[0][0], cov[1][1])) > NO_SPREAD) return 'cloud';
   return deviation(cov[2][2]) > NO_SPREAD ? 'headings' : 'point';
 }
@@ -83,16 +83,16 @@ export function spreadOf({ exact: { cov } }: Table): 'point' | 'headings' | 'clo
  * Returns a sentence about an unusual cloud, with the settings that cause it; empty for a usual cloud. `chartHolds` is false if robots turn
  * so far that exponential coordinates are undefined.
  */
-function noteOn({ model, command, alphas, isolate, reverseAware }: Settings, table: Table, stats: Stats, chartHolds: boolean): string {
+function cloudNote({ model, command, alphas, isolate, reverseAware }: Settings, table: Table, stats: Stats, chartHolds: boolean): string {
   const { notes, alphaIsZero } = words.banana;
-  const spread = spreadOf(table);
+  const kindOfSpread = spreadKind(table);
   const { v, omega } = command;
-  if (spread === 'point') {
+  if (kindOfSpread === 'point') {
     if (v === 0 && omega === 0) return notes.still;
     if (isolate === null) return alphas.every((alpha) => alpha === 0) ? notes.silent : notes.unfed;
-    return alphas[isolate - 1] === 0 ? alphaIsZero(alphaName(isolate - 1)) : silenceOf(model, isolate - 1);
+    return alphas[isolate - 1] === 0 ? alphaIsZero(alphaName(isolate - 1)) : silentAlphaText(model, isolate - 1);
   }
-  if (spread === 'headings') return notes.headings;
+  if (kindOfSpread === 'headings') return notes.headings;
   if (!chartHolds) return notes.circle;
   if (model === 'odometry' && v < 0 && !reverseAware) return notes.backwards;
   return stats.n > 2 && Object.values(stats.coverage).some(Number.isNaN) ? notes.line : '';

@@ -19,18 +19,18 @@ const FRACTION_IN_ELLIPSE = 1 - Math.exp(-2);
 export function readouts(reading: Reading, pinned?: Reading) {
   const say = words.banana.readouts;
   const { stats: { coverage, areaRatioError }, exactSkew, gain } = reading;
-  const values = valuesOf(reading);
-  const before = pinned && valuesOf(pinned).map((value) => `${words.banana.pinned}: ${value}`);
-  const shares = [coverage.ellipse, coverage.exponential];
+  const printedValues = printedStatistics(reading);
+  const pinnedValues = pinned && printedStatistics(pinned).map((value) => `${words.banana.pinned}: ${value}`);
+  const coverages = [coverage.ellipse, coverage.exponential];
   return readoutList([
-    [say.area, values[0], shares.every(Number.isNaN) ? NO_VALUE : say.areaDetail(Number.isNaN(areaRatioError) ? '' : significant(areaRatioError, 1), percent(shares[0]), percent(shares[1])), before?.[0]],
-    [gain.unbounded ? say.gainOnFloor : say.gain, values[1], gainText(gain), before?.[1]],
-    [say.skew, values[2], Number.isNaN(exactSkew) ? NO_VALUE : say.exactly(fixed(exactSkew, 3)), before?.[2]],
+    [say.area, printedValues[0], coverages.every(Number.isNaN) ? NO_VALUE : say.areaDetail(Number.isNaN(areaRatioError) ? '' : significant(areaRatioError, 1), percent(coverages[0]), percent(coverages[1])), pinnedValues?.[0]],
+    [gain.unbounded ? say.gainOnFloor : say.gain, printedValues[1], gainText(gain), pinnedValues?.[1]],
+    [say.skew, printedValues[2], Number.isNaN(exactSkew) ? NO_VALUE : say.exactly(fixed(exactSkew, 3)), pinnedValues?.[2]],
   ], 0);
 }
 
 /** Returns the area ratio, the gain and the skew as they are printed. */
-function valuesOf({ stats, gain }: Reading) {
+function printedStatistics({ stats, gain }: Reading) {
   return [
     Number.isNaN(stats.areaRatio) ? NO_VALUE : `${fixed(stats.areaRatio, 2)} ×`,
     withError(gain.value, gain.error, 3),
@@ -64,39 +64,39 @@ export function otherReadouts({ config, stats, table }: Reading) {
 export function markedRobot(figure: import('./banana-machine.ts').BananaMachineElement, inspection: Inspection | undefined): import('lit').TemplateResult {
   const { robot, markHint } = words.banana;
   const { shown } = figure.reading;
-  const quantity = (symbol: string, value: number, unit: string) =>
+  const quantityHtml = (symbol: string, value: number, unit: string) =>
     html`<span><i>${symbol}</i> = ${fixed(value, 3)} ${unit}</span>`;
-  const selected = inspection && (inspection.legs
+  const selectedText = inspection && (inspection.legs
     ? legNoise(inspection.legs, figure.reading.reading as import('../../types.d.ts').OdomDelta)
     : [
-        quantity('v̂', inspection.vHat, 'm/s'),
-        quantity('ω̂', inspection.omegaHat, 'rad/s'),
-        quantity('γ̂', inspection.gammaHat, 'rad/s'),
+        quantityHtml('v̂', inspection.vHat, 'm/s'),
+        quantityHtml('ω̂', inspection.omegaHat, 'rad/s'),
+        quantityHtml('γ̂', inspection.gammaHat, 'rad/s'),
       ]);
-  return sampleField(figure, { id: 'robot', label: robot, hint: markHint, shown, selected });
+  return sampleField(figure, { id: 'robot', label: robot, hint: markHint, shown, selected: selectedText });
 }
 
 /** Returns the noise of each leg: the reading minus the executed motion, as Table 5.6 subtracts it. */
 function legNoise(driven: import('../../types.d.ts').OdomDelta, read: import('../../types.d.ts').OdomDelta) {
   return ([['rot1', 'rad'], ['trans', 'm'], ['rot2', 'rad']] as const).map(([leg, unit]) => {
-    const noise = read[leg] - driven[leg];
-    return html`<span><i>ε</i><sub>${leg}</sub> = ${fixed(noise, 3)} ${unit}</span>`;
+    const legNoiseValue = read[leg] - driven[leg];
+    return html`<span><i>ε</i><sub>${leg}</sub> = ${fixed(legNoiseValue, 3)} ${unit}</span>`;
   });
 }
 
 /** Decimals of computed numbers, as in the book, and of numbers with a standard error. */
-const DIGITS = 5;
-const MEASURED_DIGITS = 3;
+const COMPUTED_DECIMALS = 5;
+const MEASURED_DECIMALS = 3;
 
 const covarianceName = (indices: string) => html`<i>Σ</i><sub><i>${indices}</i></sub>`;
 
 export function workedExample({ table: { linearized, exact, measured }, stats }: Reading) {
-  const computed = [linearized, exact];
+  const computedColumns = [linearized, exact];
   const [skew, ...error] = withError(stats.crossTrackSkew, stats.crossTrackSkewError, 3).split(' ');
   // Two lines, also without an error, so that the row keeps its height.
   const measuredSkew = html`${skew} <br />${error.join(' ') || '\u00a0'}`;
   const say = words.banana.table;
-  const rows: [unknown, (column: Table['exact']) => number, unknown?][] = [
+  const exampleRows: [unknown, (column: Table['exact']) => number, unknown?][] = [
     [formatMarkup(say.mean('*x*')), ({ mean }) => mean[0]],
     [formatMarkup(say.mean('*y*')), ({ mean }) => mean[1]],
     [formatMarkup(say.mean('*θ*')), ({ mean }) => mean[2]],
@@ -112,27 +112,27 @@ export function workedExample({ table: { linearized, exact, measured }, stats }:
   return figureTable({
     caption: say.caption,
     columns: [say.quantity, say.linearized, say.exact, say.measured],
-    rows: rows.map(([name, of, withItsError]) => [
+    rows: exampleRows.map(([name, of, withItsError]) => [
       name,
-      ...computed.map((column) => significant(of(column), DIGITS)),
-      withItsError ?? significant(of(measured), MEASURED_DIGITS),
+      ...computedColumns.map((column) => significant(of(column), COMPUTED_DECIMALS)),
+      withItsError ?? significant(of(measured), MEASURED_DECIMALS),
     ]),
   });
 }
 
 export function twistTable({ table: { tangent }, stats: { exponential } }: Reading) {
   const say = words.banana.table;
-  const rows = say.axes.flatMap((axis, i) => [
+  const twistRows = say.axes.flatMap((axis, i) => [
     [say.mean(axis), ({ mean }) => mean[i]],
     [say.variance(axis), ({ cov }) => cov[i][i]],
   ] as [string, (moments: Moments) => number][]);
   return figureTable({
     caption: say.twistCaption,
     columns: [say.quantity, say.command, say.measured],
-    rows: rows.map(([name, of]) => [
+    rows: twistRows.map(([name, of]) => [
       formatMarkup(name),
-      tangent === null ? NO_VALUE : significant(of(tangent), DIGITS),
-      significant(of(exponential), MEASURED_DIGITS),
+      tangent === null ? NO_VALUE : significant(of(tangent), COMPUTED_DECIMALS),
+      significant(of(exponential), MEASURED_DECIMALS),
     ]),
   });
 }

@@ -7,7 +7,7 @@ import { openingAlphas } from '../../settings.js';
 import { COMMAND_DASH, alphaSliders, commandSliders } from '../shared/sliders.ts';
 
 /** Styles of the lines in the pictures. */
-export const LINES = {
+export const LINE_STYLES = {
   command: { role: 'prior', width: 2.5, dash: COMMAND_DASH },
   ellipse: { role: 'prediction', width: 2, dash: [7, 4] },
   exponential: { role: 'posterior', width: 2.25, dash: [] },
@@ -15,9 +15,9 @@ export const LINES = {
   additive: { role: 'prediction', width: 2.5, dash: [1.5, 5] },
 } satisfies Record<string, import('../../scene/draw.ts').LineStyle>;
 
-export type LineName = keyof typeof LINES;
+export type LineName = keyof typeof LINE_STYLES;
 
-export const OVERLAYS = Object.keys(LINES) as LineName[];
+export const OVERLAYS = Object.keys(LINE_STYLES) as LineName[];
 
 export const documentation: import('../../figure/attributes.ts').Documentation = {
   state: {
@@ -26,13 +26,13 @@ export const documentation: import('../../figure/attributes.ts').Documentation =
   },
 };
 
-export const COMMAND = commandSliders(3);
+export const COMMAND_SLIDERS = commandSliders(3);
 
-export const sliderSpecs = { ...COMMAND, ...alphaSliders(6) };
+export const sliderSpecs = { ...COMMAND_SLIDERS, ...alphaSliders(6) };
 
 export const definition = definitionOf('banana-machine', {
   messageKey: 'banana',
-  lines: LINES,
+  lines: LINE_STYLES,
   opening: ['command', 'ellipse', 'exponential'],
   sliderSpecs,
   own: {

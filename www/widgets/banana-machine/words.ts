@@ -4,34 +4,34 @@ import { addEnglish, words } from '../../messages/registry.ts';
 import { integer, fixed, percent, withError } from '../../ui/format.ts';
 import { commandText } from '../shared/sliders.ts';
 import { en } from './en.ts';
-import { deviation, spreadOf, type Reading } from './reading.ts';
+import { deviation, spreadKind, type Reading } from './reading.ts';
 import type { Callout } from '../../scene/callout.ts';
 
 addEnglish({ banana: en });
 
 export function announcementOf({ config, stats, note }: Reading) {
   const { announcement, skew, noSkew } = words.banana;
-  const outcome = Number.isNaN(stats.crossTrackSkew)
+  const outcomeText = Number.isNaN(stats.crossTrackSkew)
     ? noSkew
     : skew(withError(stats.crossTrackSkew, stats.crossTrackSkewError, 2));
-  return announcement(integer(stats.n), commandText(config.command), note || outcome);
+  return announcement(integer(stats.n), commandText(config.command), note || outcomeText);
 }
 
 /** Returns the text equivalent of the view of the floor, with the names of the outlines that are shown. */
 export function planeText(reading: Reading, overlays: string[], morph: number) {
   const { config, stats, table, note } = reading;
   const { plane, between, noRobots, mean, onePlace, spread, drawnOver } = words.banana;
-  const command = commandText(config.command);
-  const sentences = [morph === 0 ? plane(command) : between(percent(morph), command)];
-  if (stats.n === 0) sentences.push(noRobots);
+  const commandPhrase = commandText(config.command);
+  const planeSentences = [morph === 0 ? plane(commandPhrase) : between(percent(morph), commandPhrase)];
+  if (stats.n === 0) planeSentences.push(noRobots);
   else {
     const { mean: centre, cov } = stats.cartesian;
-    sentences.push((spreadOf(table) === 'cloud' ? mean : onePlace)(integer(stats.n), fixed(centre[0], 2), fixed(centre[1], 2)));
-    if (note) sentences.push(note);
-    else sentences.push(spread(deviationText(cov[0][0]), deviationText(cov[1][1])), bendText(reading));
+    planeSentences.push((spreadKind(table) === 'cloud' ? mean : onePlace)(integer(stats.n), fixed(centre[0], 2), fixed(centre[1], 2)));
+    if (note) planeSentences.push(note);
+    else planeSentences.push(spread(deviationText(cov[0][0]), deviationText(cov[1][1])), bendText(reading));
   }
-  if (overlays.length) sentences.push(drawnOver(overlays.join(', ')));
-  return sentences.filter(Boolean).join(' ');
+  if (overlays.length) planeSentences.push(drawnOver(overlays.join(', ')));
+  return planeSentences.filter(Boolean).join(' ');
 }
 
 function deviationText(variance: number) {
@@ -39,7 +39,7 @@ function deviationText(variance: number) {
 }
 
 /** Absolute value of an exact skew below which it counts as 0. The rounding of the quadrature is about 1e-15. */
-const NO_SKEW = 1e-9;
+const MIN_NONZERO_SKEW = 1e-9;
 
 /** Absolute skew below which the asymmetry of a cloud is not visible. */
 const VISIBLE_SKEW = 0.05;
@@ -70,13 +70,13 @@ function bendText({ stats: { crossTrackSkew: skew, crossTrackSkewError: error, a
   if (Number.isNaN(skew)) return '';
   const say = words.banana.bend;
   // A line break must not separate a number from its error.
-  const unbroken = (number: string) => number.replaceAll(' ', '\u00a0');
-  const [measured, exactly] = [unbroken(withError(skew, error, 3)), fixed(exactSkew, 3)];
+  const withoutBreaks = (number: string) => number.replaceAll(' ', '\u00a0');
+  const [measured, exactly] = [withoutBreaks(withError(skew, error, 3)), fixed(exactSkew, 3)];
   if (bowTie) return say.bowTie[bowTie.model](fixed(bowTie.length, 2), fixed(bowTie.deviation, 2), measured);
   if (Math.abs(exactSkew) < VISIBLE_SKEW) {
-    const lean = Math.abs(exactSkew) < NO_SKEW ? say.neither(measured) : say.hardly(measured, exactly);
+    const lean = Math.abs(exactSkew) < MIN_NONZERO_SKEW ? say.neither(measured) : say.hardly(measured, exactly);
     if (Math.min(areaRatio, table.exact.areaRatio) > VISIBLE_AREA_RATIO) return `${say.wide(fixed(areaRatio, 2))} ${lean}`;
-    return Math.min(gain.value, gain.exact) > MIN_GAIN ? `${say.gains(unbroken(withError(gain.value, gain.error, 3)))} ${lean}` : lean;
+    return Math.min(gain.value, gain.exact) > MIN_GAIN ? `${say.gains(withoutBreaks(withError(gain.value, gain.error, 3)))} ${lean}` : lean;
   }
   if (Math.abs(skew) < 2 * error || skew * exactSkew < 0) return say.unsure(measured, exactly);
   return exactSkew < 0 ? say.right(measured) : say.left(measured);
@@ -96,17 +96,17 @@ export function twistCaption({ config: { model, noise, alphas, isolate }, note }
   const { twist, twistIs } = words.banana;
   if (note) return `${twist}.`;
   const hasFinalTurn = alphas.some((alpha, i) => i >= 4 && alpha > 0 && (isolate === null || isolate === i + 1));
-  const kind = model === 'odometry' ? model : noise === 'triangular' ? noise : hasFinalTurn ? 'turned' : 'exact';
-  return `${twist}: ${twistIs[kind]}`;
+  const captionKind = model === 'odometry' ? model : noise === 'triangular' ? noise : hasFinalTurn ? 'turned' : 'exact';
+  return `${twist}: ${twistIs[captionKind]}`;
 }
 
 export function twistText({ stats: { n, exponential, coverage } }: Reading) {
   const { mean, cov } = exponential;
   const { twist, twistAxes, noRobots, oneRobot, twistMoments } = words.banana;
-  const start = `${twist}, ${twistAxes}.`;
-  if (n < 2) return `${start} ${n === 0 ? noRobots : oneRobot}`;
+  const textStart = `${twist}, ${twistAxes}.`;
+  if (n < 2) return `${textStart} ${n === 0 ? noRobots : oneRobot}`;
   const [along, heading] = [fixed(mean[0], 2), fixed(mean[2], 2)];
   const [ofAlong, ofHeading] = [deviationText(cov[0][0]), deviationText(cov[2][2])];
-  const share = Number.isNaN(coverage.exponential) ? '' : percent(coverage.exponential);
-  return `${start} ${twistMoments(along, heading, ofAlong, ofHeading, share)}`;
+  const coverageText = Number.isNaN(coverage.exponential) ? '' : percent(coverage.exponential);
+  return `${textStart} ${twistMoments(along, heading, ofAlong, ofHeading, coverageText)}`;
 }

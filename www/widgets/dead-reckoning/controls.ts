@@ -5,28 +5,28 @@ import { radios, cloudControls, settingSlider, sliders } from '../../figure/cont
 import { words } from '../../messages/registry.ts';
 import { group } from '../../ui/controls.ts';
 import { fixed } from '../../ui/format.ts';
-import { COMMAND, NOISE, SAMPLE_COUNTS } from './settings.ts';
+import { COMMAND_SLIDERS, NOISE_SLIDERS, SAMPLE_COUNTS } from './settings.ts';
 import type { DeadReckoningElement as Figure } from './dead-reckoning.ts';
 
 export function pathControls(figure: Figure) {
   return html`<div class="controls" part="controls">
-    ${settingSlider(figure, 'headingNoise')} ${settingSlider(figure, 'steps', { input: (steps) => figure.settings.want((wanted) => samePath(wanted, steps)) })}
+    ${settingSlider(figure, 'headingNoise')} ${settingSlider(figure, 'steps', { input: (steps) => figure.settings.want((wanted) => pathInSteps(wanted, steps)) })}
   </div>`;
 }
 
 /** Returns the settings of the same path in another number of steps, with the selected step at the same place. */
-function samePath({ command, steps: before, step }: Record<string, any>, steps: number) {
+function pathInSteps({ command, steps: before, step }: Record<string, any>, steps: number) {
   return { steps, step: Math.max(1, Math.round((step * steps) / before)), command: { ...command, dt: (command.dt * before) / steps } };
 }
 
 export function moreControls(figure: Figure) {
   const { steps, step, command: { dt } } = figure.settings.wanted;
   const { settings: { alphas }, walked, per } = words.reckoning;
-  const effect = walked(fixed(step * dt, 2), fixed(steps * dt, 2));
+  const walkedText = walked(fixed(step * dt, 2), fixed(steps * dt, 2));
   return html`<div class="controls">
-    ${group(words.command, html`${sliders(figure, COMMAND)}
-      ${settingSlider(figure, 'step', { max: Math.max(2, steps), most: steps, off: steps === 1, effect })}`)}
-    ${group(words.noise, html`${Object.keys(NOISE).map((key, i) => settingSlider(figure, key, { effect: alphas.effects[i] }))}
+    ${group(words.command, html`${sliders(figure, COMMAND_SLIDERS)}
+      ${settingSlider(figure, 'step', { max: Math.max(2, steps), most: steps, off: steps === 1, effect: walkedText })}`)}
+    ${group(words.noise, html`${Object.keys(NOISE_SLIDERS).map((key, i) => settingSlider(figure, key, { effect: alphas.effects[i] }))}
       ${radios(figure, 'per', per)}`)}
     ${cloudControls(figure, SAMPLE_COUNTS)}
   </div>`;

@@ -13,7 +13,7 @@ import { moreControls, pathControls } from './controls.ts';
 import { PathPicture, StepPicture } from './pictures.ts';
 import { COMPONENTS, readingOf, type Reading } from './reading.ts';
 import { headline, markedRobot, missTable, ratioPlot, straightPlot } from './readouts.ts';
-import { OUTLINES, RECURSIONS, definition } from './settings.ts';
+import { OUTLINE_STYLES, RECURSIONS, definition } from './settings.ts';
 import { styles } from './styles.ts';
 import { announcementOf, captionOf, planeText, stepText } from './words.ts';
 import type { Values } from '../../figure/settings.ts';
@@ -102,7 +102,7 @@ export class DeadReckoningElement extends FigureElement<Machine, Reading> {
         ${titledPicture(say.atStepTitle(step), html`<div class="stage">${canvas(this, this.#step, stepText(reading))}</div>`, 'step')}
       </div>
       ${this.renderer.afterFirstPicture(() => html`
-      ${legend(this, OUTLINES)} ${presetButtons(this)} ${pathControls(this)}
+      ${legend(this, OUTLINE_STYLES)} ${presetButtons(this)} ${pathControls(this)}
       ${disclosures(this, {
         controls: () => moreControls(this),
         numbers: () => html`${missTable(reading, overlays)} ${markedRobot(this, this.#marked)} ${straightPlot(this.#straight.of([reading.stats], () => (this.machine as Machine).straightGrowth))}`,

@@ -7,7 +7,7 @@ import { drawDots, drawGhosts, drawSelectedSample, drawOutlines, drawRobot, line
 import { Picture, SamplesPicture } from '../../scene/picture.ts';
 import { View, extentAround, extentOf } from '../../scene/view.ts';
 import { significant } from '../../ui/format.ts';
-import { OUTLINES } from './settings.ts';
+import { OUTLINE_STYLES } from './settings.ts';
 import { drawDisc, type Brush } from '../../scene/canvas.ts';
 
 /** Scene of both pictures, with the poses of the selected robot after each step. */
@@ -17,9 +17,9 @@ export type Scene = import('./reading.ts').Reading & { marked: Float64Array | un
 const SHOWN_DEVIATIONS = 3.2;
 
 /** Dots of the clouds of steps that are not selected: maximum number, radius in CSS pixels, and opacity. */
-const PASSED_DOTS = { most: 200, radius: 1.3, alpha: 0.4 };
+const PAST_DOTS = { most: 200, radius: 1.3, alpha: 0.4 };
 
-export type OutlineName = keyof typeof OUTLINES;
+export type OutlineName = keyof typeof OUTLINE_STYLES;
 
 /** The floor from above. */
 export class PathPicture extends SamplesPicture<Scene> {
@@ -27,38 +27,38 @@ export class PathPicture extends SamplesPicture<Scene> {
   view: View = new View();
 
   fit({ commanded, outlines, milestones, poses }: Scene) {
-    const all = [outlines, ...milestones.map((milestone) => milestone.outlines)].flatMap(({ ellipse, exponential }) => [...ellipse, ...exponential]);
-    const points = [...commanded, ...all];
+    const outlineNumbers = [outlines, ...milestones.map((milestone) => milestone.outlines)].flatMap(({ ellipse, exponential }) => [...ellipse, ...exponential]);
+    const points = [...commanded, ...outlineNumbers];
     // Without a prediction the view shows the robots.
     const box = extentAround(poses, 3, extentAround(points, 2));
-    this.view.fit(extentOf(all.length > 0 ? points : [box.xMin, box.yMin, box.xMax, box.yMax], 0.4));
+    this.view.fit(extentOf(outlineNumbers.length > 0 ? points : [box.xMin, box.yMin, box.xMax, box.yMax], 0.4));
   }
 
   paint: Picture<Scene>['paint'] = (brush, { commanded, outlines, milestones, poses, pose, marked, overlays, config: { step } }) => {
     const { palette } = brush;
-    const styles = lineStyles(brush, OUTLINES);
-    const drawn = (names: OutlineName[]) => names.filter((name) => overlays.includes(name));
-    const predictions = drawn(['ellipse', 'exponential']) as ('ellipse' | 'exponential')[];
-    drawAxes(brush, { x: 'x (m)', y: 'y (m)' }, lineKeys(brush, OUTLINES, drawn(['ellipse', 'exponential', 'command']), words.reckoning.overlays));
-    const styled = (of: Scene['outlines']) => predictions.map((name) => ({ points: of[name], ...styles[name] }));
-    const ghosts: Callout[] = [];
+    const styles = lineStyles(brush, OUTLINE_STYLES);
+    const namesShown = (names: OutlineName[]) => names.filter((name) => overlays.includes(name));
+    const shownNames = namesShown(['ellipse', 'exponential']) as ('ellipse' | 'exponential')[];
+    drawAxes(brush, { x: 'x (m)', y: 'y (m)' }, lineKeys(brush, OUTLINE_STYLES, namesShown(['ellipse', 'exponential', 'command']), words.reckoning.overlays));
+    const linesOf = (of: Scene['outlines']) => shownNames.map((name) => ({ points: of[name], ...styles[name] }));
+    const callouts: Callout[] = [];
     clipToPlot(brush, () => {
-      for (const milestone of milestones) drawPassed(brush, milestone.poses);
+      for (const milestone of milestones) drawMilestone(brush, milestone.poses);
       drawDots(brush, poses, { x: 0, y: 1, heading: null });
       drawOutlines(brush, [
-        ...drawn(['command']).map((name) => ({ points: commanded, ...styles[name] })),
-        ...predictions.flatMap((name) => milestones.map(({ outlines: passed }) => ({ points: passed[name], ...styles[name], width: 1 }))),
+        ...namesShown(['command']).map((name) => ({ points: commanded, ...styles[name] })),
+        ...shownNames.flatMap((name) => milestones.map(({ outlines: passed }) => ({ points: passed[name], ...styles[name], width: 1 }))),
       ]);
-      if (brush.previousReading) ghosts.push(...drawGhosts(brush, styled(brush.previousReading.outlines), [pose, [0, 0]], words.before));
-      drawOutlines(brush, styled(outlines));
+      if (brush.previousReading) callouts.push(...drawGhosts(brush, linesOf(brush.previousReading.outlines), [pose, [0, 0]], words.before));
+      drawOutlines(brush, linesOf(outlines));
       drawRobot(brush, { x: 0, y: 0, heading: 0, colour: palette.truth });
-      drawPlace(brush, pose);
+      drawEndMark(brush, pose);
       if (!marked) return;
       strokeLines(brush, [{ points: Float64Array.from([0, 0, ...marked.filter((_, i) => i % 3 < 2)]), colour: palette.accent, width: 1.25, dash: [6, 2] }]);
       const [x, y, heading] = marked.subarray(3 * (step - 1));
       drawSelectedSample(brush, { x, y, heading });
     });
-    drawCallouts(brush, ghosts, { from: [pose[0], pose[1]], lines: [commanded, outlines.ellipse, outlines.exponential] });
+    drawCallouts(brush, callouts, { from: [pose[0], pose[1]], lines: [commanded, outlines.ellipse, outlines.exponential] });
   };
 }
 
@@ -66,17 +66,17 @@ export class PathPicture extends SamplesPicture<Scene> {
 const END_MARK_RADIUS = 4;
 
 /** Marks the end of the command after the step: small, so that the cloud is seen around it. */
-function drawPlace({ context, view, palette }: Brush, [x, y]: Float64Array) {
+function drawEndMark({ context, view, palette }: Brush, [x, y]: Float64Array) {
   drawDisc(context, view.toPixel(x, y), END_MARK_RADIUS, palette.prior, { colour: palette.paper, width: 1.5 });
 }
 
-function drawPassed({ context, view, palette }: Brush, poses: Float64Array) {
+function drawMilestone({ context, view, palette }: Brush, poses: Float64Array) {
   context.fillStyle = palette.cloud;
-  context.globalAlpha = PASSED_DOTS.alpha;
-  const side = 2 * PASSED_DOTS.radius;
-  const count = Math.min(PASSED_DOTS.most, poses.length / 3);
-  for (let i = 0; i < count; i++) {
-    context.fillRect(view.toPixelX(poses[3 * i]) - PASSED_DOTS.radius, view.toPixelY(poses[3 * i + 1]) - PASSED_DOTS.radius, side, side);
+  context.globalAlpha = PAST_DOTS.alpha;
+  const dotSide = 2 * PAST_DOTS.radius;
+  const dotCount = Math.min(PAST_DOTS.most, poses.length / 3);
+  for (let i = 0; i < dotCount; i++) {
+    context.fillRect(view.toPixelX(poses[3 * i]) - PAST_DOTS.radius, view.toPixelY(poses[3 * i + 1]) - PAST_DOTS.radius, dotSide, dotSide);
   }
   context.globalAlpha = 1;
 }
@@ -92,24 +92,24 @@ export class StepPicture extends Picture<Scene> {
     if (along + lateral > 0) points.push(mean[0] - along, mean[1] - lateral, mean[0] + along, mean[1] + lateral);
     const box = extentAround(points, 2);
     // Minimum heights and widths of the box keep both scales finite. The height is at least a thousandth of the width.
-    const room = Math.max(1e-6, 1e-3 * (box.xMax - box.xMin));
-    const addedHeight = Math.max(0, room - (box.yMax - box.yMin)) / 2;
+    const minHeight = Math.max(1e-6, 1e-3 * (box.xMax - box.xMin));
+    const addedHeight = Math.max(0, minHeight - (box.yMax - box.yMin)) / 2;
     const addedWidth = Math.max(0, 1e-6 - (box.xMax - box.xMin)) / 2;
     this.view.fit({ xMin: box.xMin - addedWidth, xMax: box.xMax + addedWidth, yMin: box.yMin - addedHeight, yMax: box.yMax + addedHeight });
   }
 
   paint: Picture<Scene>['paint'] = (brush, { outlines: { predicted, measured }, overlays, twists }) => {
-    const styles = lineStyles(brush, OUTLINES);
-    const drawn = (['exponential', 'measured'] as ('exponential' | 'measured')[]).filter((name) => overlays.includes(name));
-    drawAxes(brush, axesOf(this.view), lineKeys(brush, OUTLINES, drawn, words.reckoning.overlays));
+    const styles = lineStyles(brush, OUTLINE_STYLES);
+    const namesShown = (['exponential', 'measured'] as ('exponential' | 'measured')[]).filter((name) => overlays.includes(name));
+    drawAxes(brush, axesOf(this.view), lineKeys(brush, OUTLINE_STYLES, namesShown, words.reckoning.overlays));
     const points = { exponential: predicted, measured };
-    const ghosts: Callout[] = [];
+    const earlierCallouts: Callout[] = [];
     clipToPlot(brush, () => {
       drawDots(brush, twists, { x: 0, y: 1, heading: null });
-      if (brush.previousReading && overlays.includes('exponential')) ghosts.push(...drawGhosts(brush, [{ points: brush.previousReading.outlines.predicted, ...styles.exponential }], [[0, 0]], words.before));
-      drawOutlines(brush, drawn.map((name) => ({ points: points[name], ...styles[name] })));
+      if (brush.previousReading && overlays.includes('exponential')) earlierCallouts.push(...drawGhosts(brush, [{ points: brush.previousReading.outlines.predicted, ...styles.exponential }], [[0, 0]], words.before));
+      drawOutlines(brush, namesShown.map((name) => ({ points: points[name], ...styles[name] })));
     });
-    drawCallouts(brush, ghosts, { from: [0, 0], lines: [predicted, measured] });
+    drawCallouts(brush, earlierCallouts, { from: [0, 0], lines: [predicted, measured] });
   };
 }
 
@@ -125,6 +125,6 @@ export function stretchesOf({ scaleX, scaleY }: Pick<View, 'scaleX' | 'scaleY'>)
 function axesOf(view: View) {
   const { axisAlong: x, axisLateral, stretched } = words.reckoning;
   const [along, lateral] = stretchesOf(view);
-  const factor = along ? stretched.along(along) : lateral && stretched.lateral(lateral);
-  return { x, y: factor ? `${axisLateral}, ${factor}` : axisLateral };
+  const stretchText = along ? stretched.along(along) : lateral && stretched.lateral(lateral);
+  return { x, y: stretchText ? `${axisLateral}, ${stretchText}` : axisLateral };
 }

@@ -11,29 +11,29 @@ export function readingOf(machine: Machine) {
   const reading = machine.read();
   const { config, stats, ratios, relativeErrors, nominal } = reading;
   const { step, compounding } = config;
-  const ratio = ratios[compounding];
+  const ratiosOfRecursion = ratios[compounding];
   return {
     ...reading,
     /** Curve of each component by step, from 1. */
-    curves: COMPONENTS.map((_, axis) => curveOf(ratio, relativeErrors, axis)),
+    curves: COMPONENTS.map((_, axis) => axisCurve(ratiosOfRecursion, relativeErrors, axis)),
     /** Commanded pose after the step. */
     pose: nominal.subarray(3 * (step - 1), 3 * step),
-    condition: conditionOf(config, stats, ratio),
+    condition: ratioCondition(config, stats, ratiosOfRecursion),
   };
 }
 
 /** Returns the curve of a component; ratios are three a step. */
-function curveOf(ratios: Float64Array, relativeErrors: Float64Array, axis: number) {
-  const ofAxis = (triples: Float64Array) => triples.filter((_, i) => i % 3 === axis);
-  const ratio = ofAxis(ratios);
-  return { ratio, error: ofAxis(relativeErrors).map((error, i) => error * ratio[i]) };
+function axisCurve(ratios: Float64Array, relativeErrors: Float64Array, axis: number) {
+  const componentOf = (triples: Float64Array) => triples.filter((_, i) => i % 3 === axis);
+  const axisRatios = componentOf(ratios);
+  return { ratio: axisRatios, error: componentOf(relativeErrors).map((error, i) => error * axisRatios[i]) };
 }
 
 /**
  * Returns the reason for which the ratios are undefined or uncertain: no robots, no spread, no covariance at the end, or too few robots.
  * Returns 'certain' if there is none.
  */
-function conditionOf({ compounding }: DeadReckoningSettings, { n, predicted, measured, misses }: Machine['stats'], ratios: Float64Array): 'none' | 'still' | 'lost' | 'few' | 'certain' {
+function ratioCondition({ compounding }: DeadReckoningSettings, { n, predicted, measured, misses }: Machine['stats'], ratios: Float64Array): 'none' | 'still' | 'lost' | 'few' | 'certain' {
   if (n === 0) return 'none';
   // A single robot has no variance.
   if (n === 1) return 'few';

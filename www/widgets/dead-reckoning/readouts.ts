@@ -9,8 +9,8 @@ import { NO_VALUE, fixed, significant } from '../../ui/format.ts';
 import { plot, type Role } from '../../ui/plot.ts';
 import { figureTable, readoutList } from '../../ui/readouts.ts';
 import { COMPONENTS, type Reading } from './reading.ts';
-import { CURVES, RECURSIONS } from './settings.ts';
-import { componentsOf, endText, ratioText, worstAt } from './words.ts';
+import { CURVE_STYLES, RECURSIONS } from './settings.ts';
+import { shownComponentsOf, endText, ratioText, worstComponentAt } from './words.ts';
 import type { Misses } from '../../types.d.ts';
 
 /** Allowed heights of the plot, so that its axis does not change with every step of a drag. */
@@ -25,18 +25,18 @@ export function ratioPlot(figure: import('./dead-reckoning.ts').DeadReckoningEle
   const { overlays } = figure.state.own;
   const say = words.reckoning;
   const x = Array.from({ length: steps }, (_, i) => i + 1);
-  const highest = Math.max(...curves.flatMap(({ ratio }) => Array.from(ratio, (value) => value || 0)));
-  const shown = COMPONENTS.map((name, axis) => ({ ...lookOf(name, figure.highlight), name, ...curves[axis] })).filter(({ name }) => overlays.includes(name));
-  const band = { name: say.overlays.tolerance, ...lookOf('tolerance', figure.highlight), x: [0, steps], y: [1, 1], error: [TOLERANCE, TOLERANCE], area: true };
+  const highestRatio = Math.max(...curves.flatMap(({ ratio }) => Array.from(ratio, (value) => value || 0)));
+  const shownCurves = COMPONENTS.map((name, axis) => ({ ...curveStyle(name, figure.highlight), name, ...curves[axis] })).filter(({ name }) => overlays.includes(name));
+  const toleranceBand = { name: say.overlays.tolerance, ...curveStyle('tolerance', figure.highlight), x: [0, steps], y: [1, 1], error: [TOLERANCE, TOLERANCE], area: true };
   return plot({
     label: ratioText(reading, overlays),
     x: { name: say.stepAxis, from: 0, to: steps },
-    y: { name: say.ratioAxis, from: 0, to: CHART_HEIGHTS.find((height) => height >= highest) ?? highest },
+    y: { name: say.ratioAxis, from: 0, to: CHART_HEIGHTS.find((height) => height >= highestRatio) ?? highestRatio },
     curves: [
-      ...(overlays.includes('tolerance') ? [band] : []),
-      ...shown.map(({ ratio, ...curve }) => ({ ...curve, x, y: ratio })),
+      ...(overlays.includes('tolerance') ? [toleranceBand] : []),
+      ...shownCurves.map(({ ratio, ...curve }) => ({ ...curve, x, y: ratio })),
     ],
-    points: shown.map(({ role, ratio, error }) => ({ role, x: step, y: ratio[step - 1], error: error[step - 1] })),
+    points: shownCurves.map(({ role, ratio, error }) => ({ role, x: step, y: ratio[step - 1], error: error[step - 1] })),
     marks: [{ x: step, text: say.atStepMark(step) }],
     slider: {
       id: 'chart-step',
@@ -47,21 +47,21 @@ export function ratioPlot(figure: import('./dead-reckoning.ts').DeadReckoningEle
       input: (to) => figure.settings.want({ step: Math.max(1, to) }),
       commit: () => figure.gesture.commit(),
     },
-    legend: legend(figure, CURVES),
+    legend: legend(figure, CURVE_STYLES),
   });
 }
 
 /** Returns role, dash and highlight of a curve in the chart of ratios. */
-function lookOf(name: keyof typeof CURVES, highlight: string | null) {
-  const { role, dash } = CURVES[name] as import('../../scene/draw.ts').LineStyle & { role: Role };
-  const lit = highlight !== null && highlight in CURVES ? name === highlight : undefined;
+function curveStyle(name: keyof typeof CURVE_STYLES, highlight: string | null) {
+  const { role, dash } = CURVE_STYLES[name] as import('../../scene/draw.ts').LineStyle & { role: Role };
+  const lit = highlight !== null && highlight in CURVE_STYLES ? name === highlight : undefined;
   return { role, dash: dash?.join(' '), lit };
 }
 
 /** Returns the ratio at the selected step that is furthest from 1, as the message of the figure. */
 export function headline(reading: Reading, overlays: string[]) {
   const say = words.reckoning;
-  const { ratio, component } = worstAt(reading, overlays);
+  const { ratio, component } = worstComponentAt(reading, overlays);
   return readoutList([[say.predicted(say.of[component]), fixed(ratio, 2), say.ofMeasured(reading.config.step)]], 0);
 }
 
@@ -72,11 +72,11 @@ export function straightPlot({ durations: x, along, across, alongFirstOrder, acr
   const say = words.reckoning.straight;
   const [from, to] = GROWTH_AXES.durations;
   const [least, most] = GROWTH_AXES.variances;
-  const distance = crossing === null ? '' : significant(crossing, 3);
+  const crossingText = crossing === null ? '' : significant(crossing, 3);
   return html`<figure>
     <p class="panel-title">${say.title}</p>
     ${plot({
-      label: say.label(crossing === null ? say.never : say.crossing(distance)),
+      label: say.label(crossing === null ? say.never : say.crossing(crossingText)),
       x: { name: say.x, from, to, logarithmic: true },
       y: { name: say.y, from: least, to: most, logarithmic: true },
       curves: [
@@ -85,7 +85,7 @@ export function straightPlot({ durations: x, along, across, alongFirstOrder, acr
         // Both exact curves, with a gap in between.
         { name: say.exact, role: 'truth', dash: '2 3', x: [...x, NaN, ...x], y: [...along, NaN, ...across] },
       ],
-      marks: crossing !== null && crossing >= from && crossing <= to ? [{ x: crossing, text: say.mark(distance) }] : [],
+      marks: crossing !== null && crossing >= from && crossing <= to ? [{ x: crossing, text: say.mark(crossingText) }] : [],
     })}
     <figcaption>${formatMarkup(say.caption)}</figcaption>
   </figure>`;
@@ -104,7 +104,7 @@ export function missTable({ stats: { misses } }: Reading, overlays: string[]) {
   return figureTable({
     caption: say.misses.caption,
     columns: [say.misses.component, ...RECURSIONS.map((recursion) => say.recursions[recursion])],
-    rows: componentsOf(overlays).flatMap((component) => {
+    rows: shownComponentsOf(overlays).flatMap((component) => {
       const ofEach = RECURSIONS.map((recursion) => misses[recursion][COMPONENTS.indexOf(component)]);
       return [[say.components[component], ...ofEach.map(missText)], [say.misses.endOf(say.components[component]), ...ofEach.map(endText)]];
     }),
@@ -115,7 +115,7 @@ export function missTable({ stats: { misses } }: Reading, overlays: string[]) {
 export function markedRobot(figure: import('./dead-reckoning.ts').DeadReckoningElement, marked: Float64Array | undefined): import('lit').TemplateResult {
   const { robot, markHint, markedAt } = words.reckoning;
   const { config: { step }, shown } = figure.reading;
-  const pose = marked?.subarray(3 * (step - 1), 3 * step);
-  const selected = pose && [markedAt(fixed(pose[0], 3), fixed(pose[1], 3), fixed(pose[2], 3))];
-  return sampleField(figure, { id: 'robot', label: robot, hint: markHint, shown, selected });
+  const poseAtStep = marked?.subarray(3 * (step - 1), 3 * step);
+  const selectedText = poseAtStep && [markedAt(fixed(poseAtStep[0], 3), fixed(poseAtStep[1], 3), fixed(poseAtStep[2], 3))];
+  return sampleField(figure, { id: 'robot', label: robot, hint: markHint, shown, selected: selectedText });
 }

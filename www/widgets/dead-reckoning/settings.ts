@@ -3,16 +3,16 @@
 import { defaultConfig } from '../../figure/attributes.ts';
 import { definitionOf } from '../../figure/definition.ts';
 import { settings } from '../../settings.js';
-import { ALPHA, COMMAND_DASH, alphaSliders, commandSliders } from '../shared/sliders.ts';
+import { ALPHA_SLIDER, COMMAND_DASH, alphaSliders, commandSliders } from '../shared/sliders.ts';
 import type { DeadReckoningSettings } from '../../types.d.ts';
 
-const declared = settings['dead-reckoning'];
+const declarations = settings['dead-reckoning'];
 
 /** Recursions in the order in which they are offered. */
-export const RECURSIONS = declared.find(({ key }) => key === 'compounding')?.words as DeadReckoningSettings['compounding'][];
+export const RECURSIONS = declarations.find(({ key }) => key === 'compounding')?.words as DeadReckoningSettings['compounding'][];
 
 /** Styles of the ratios in the chart. */
-export const CURVES = {
+export const CURVE_STYLES = {
   lateral: { role: 'prediction', width: 1.9 },
   along: { role: 'ink', width: 1.9, dash: [8, 4] },
   heading: { role: 'muted', width: 1.9, dash: [9, 3, 2, 3] },
@@ -20,29 +20,29 @@ export const CURVES = {
 } satisfies Record<string, import('../../scene/draw.ts').LineStyle>;
 
 /** Styles of the outlines in the pictures, in the order in which they are painted. */
-export const OUTLINES = {
+export const OUTLINE_STYLES = {
   command: { role: 'prior', width: 2.25, dash: COMMAND_DASH },
   measured: { role: 'truth', width: 2.25, dash: [3, 3] },
   ellipse: { role: 'prediction', width: 2, dash: [7, 4] },
   exponential: { role: 'posterior', width: 2.25, dash: [] },
 } satisfies Record<string, import('../../scene/draw.ts').LineStyle>;
 
-export const COMMAND: Record<string, import('../../figure/controls.ts').SliderSpec> = commandSliders(1);
+export const COMMAND_SLIDERS: Record<string, import('../../figure/controls.ts').SliderSpec> = commandSliders(1);
 
-export const NOISE = alphaSliders(6);
+export const NOISE_SLIDERS = alphaSliders(6);
 
 export const definition = definitionOf('dead-reckoning', {
   messageKey: 'reckoning',
-  lines: { ...CURVES, ...OUTLINES },
+  lines: { ...CURVE_STYLES, ...OUTLINE_STYLES },
   sliderSpecs: {
-    ...COMMAND,
-    ...NOISE,
+    ...COMMAND_SLIDERS,
+    ...NOISE_SLIDERS,
     step: { symbol: '*k*', role: 'truth', min: 1, max: 200, step: 1, decimals: 0 },
     steps: { symbol: '*K*', role: 'prior', min: 1, max: 200, step: 1, decimals: 0 },
     // The slider shows α₃, even if the other three are not in the usual ratio to it.
-    headingNoise: { ...ALPHA, step: 0.005, value: ({ alphas, headingNoise = alphas[2] }) => headingNoise },
+    headingNoise: { ...ALPHA_SLIDER, step: 0.005, value: ({ alphas, headingNoise = alphas[2] }) => headingNoise },
   },
-  dependentDefaults: ({ steps }) => ({ step: Math.min(defaultConfig(declared).step, steps) }),
+  dependentDefaults: ({ steps }) => ({ step: Math.min(defaultConfig(declarations).step, steps) }),
 });
 
 /** Sample counts of the slider; larger clouds would not follow the slider. */

@@ -12,47 +12,47 @@ addEnglish({ reckoning: en });
 const CAPTION_STEPS = [1, 2, 5];
 
 /** Prints a share in per cent, with a sign unless it rounds to 0. */
-function signed(share: number, printed: string = fixed(100 * share, 1)) {
+function signedPercent(share: number, printed: string = fixed(100 * share, 1)) {
   if (Number.isNaN(share)) return NO_VALUE;
   return `${100 * share >= 0.05 ? '+' : ''}${printed}\u202f%`;
 }
 
 /** Returns the relative error of the predicted variance after the last step, as text. */
-export const endText = ({ end, error }: { end: number, error: number }) => signed(end, withError(100 * end, 100 * error, 1));
+export const endText = ({ end, error }: { end: number, error: number }) => signedPercent(end, withError(100 * end, 100 * error, 1));
 
 /** Returns how well the recursion predicts the components that are shown. */
 export function captionOf({ config: { compounding }, stats: { misses, n }, condition, curves }: Reading, overlays: string[]) {
   const say = words.reckoning;
   if (condition !== 'certain') return say.conditions[condition];
-  const ofAll = misses[compounding];
-  const shown = componentsOf(overlays);
-  const ifShown = (miss: number, axis: number) => (shown.includes(COMPONENTS[axis]) ? miss : NaN);
-  if (ofAll.every(({ first }) => first === null)) return say.right(integer(n));
+  const recursionMisses = misses[compounding];
+  const shownComponents = shownComponentsOf(overlays);
+  const missIfShown = (miss: number, axis: number) => (shownComponents.includes(COMPONENTS[axis]) ? miss : NaN);
+  if (recursionMisses.every(({ first }) => first === null)) return say.right(integer(n));
   // Components whose ratio is furthest from 1, at the end and at any step.
-  const far = furthest(ofAll.map(({ end }, axis) => ifShown(Math.abs(end), axis)));
-  const worst = furthest(curves.map(({ ratio }, axis) => ifShown(ratio.reduce((most, value) => Math.max(most, Math.abs(value - 1) || 0), 0), axis)));
-  const list = listOf(Array.from(curves[worst].ratio));
-  const [end, of] = [signed(ofAll[far].end), say.of[COMPONENTS[worst]]];
-  return far === worst ? say.wrong(of, list, end) : say.worse(of, list, end, say.of[COMPONENTS[far]]);
+  const endAxis = greatestMiss(recursionMisses.map(({ end }, axis) => missIfShown(Math.abs(end), axis)));
+  const worstAxis = greatestMiss(curves.map(({ ratio }, axis) => missIfShown(ratio.reduce((most, value) => Math.max(most, Math.abs(value - 1) || 0), 0), axis)));
+  const ratioList = ratiosAtSteps(Array.from(curves[worstAxis].ratio));
+  const [end, of] = [signedPercent(recursionMisses[endAxis].end), say.of[COMPONENTS[worstAxis]]];
+  return endAxis === worstAxis ? say.wrong(of, ratioList, end) : say.worse(of, ratioList, end, say.of[COMPONENTS[endAxis]]);
 }
 
 /** Returns the index of the greatest miss; NaN is not a miss. */
-const furthest = (misses: number[]): number => misses.reduce((most, miss, i) => (miss > (misses[most] || 0) ? i : most), 0);
+const greatestMiss = (misses: number[]): number => misses.reduce((most, miss, i) => (miss > (misses[most] || 0) ? i : most), 0);
 
-const listOf = (ratios: number[]) =>
+const ratiosAtSteps = (ratios: number[]) =>
   CAPTION_STEPS.filter((step) => step <= ratios.length).map((step) => words.reckoning.atStep(fixed(ratios[step - 1], 2), String(step))).join(', ');
 
 /** Returns the components whose curves are shown; all where none is. */
-export function componentsOf(overlays: string[]): readonly (typeof COMPONENTS)[number][] {
-  const shown = COMPONENTS.filter((name) => overlays.includes(name));
-  return shown.length > 0 ? shown : COMPONENTS;
+export function shownComponentsOf(overlays: string[]): readonly (typeof COMPONENTS)[number][] {
+  const selectedComponents = COMPONENTS.filter((name) => overlays.includes(name));
+  return selectedComponents.length > 0 ? selectedComponents : COMPONENTS;
 }
 
 /** Returns the component whose ratio at the selected step is furthest from 1, of those shown. */
-export function worstAt({ config: { step }, curves }: Reading, overlays: string[]) {
+export function worstComponentAt({ config: { step }, curves }: Reading, overlays: string[]) {
   const ratios = curves.map(({ ratio }) => ratio[step - 1]);
-  const shown = componentsOf(overlays);
-  const worst = furthest(ratios.map((ratio, axis) => (shown.includes(COMPONENTS[axis]) ? Math.abs(ratio - 1) : NaN)));
+  const shown = shownComponentsOf(overlays);
+  const worst = greatestMiss(ratios.map((ratio, axis) => (shown.includes(COMPONENTS[axis]) ? Math.abs(ratio - 1) : NaN)));
   return { component: COMPONENTS[worst], ratio: ratios[worst] };
 }
 
@@ -63,11 +63,11 @@ export function announcementOf(reading: Reading, overlays: string[]) {
 
 export function ratioText({ config: { step, compounding }, curves }: Reading, overlays: string[]) {
   const say = words.reckoning;
-  const ratios = componentsOf(overlays).map((name) => {
+  const ratioTexts = shownComponentsOf(overlays).map((name) => {
     const { ratio, error } = curves[COMPONENTS.indexOf(name)];
     return `${say.components[name]} ${withError(ratio[step - 1], error[step - 1], 2)}`;
   });
-  return say.ratioText(say.recursions[compounding], String(step), ratios.join(', '));
+  return say.ratioText(say.recursions[compounding], String(step), ratioTexts.join(', '));
 }
 
 export function planeText({ config, shown, pose }: Reading) {
@@ -78,6 +78,6 @@ export function planeText({ config, shown, pose }: Reading) {
 
 export function stepText({ config: { step, compounding }, stats: { measured, predicted } }: Reading) {
   const say = words.reckoning;
-  const deviations = (cov: number[][] | null) => [0, 1].map((axis) => fixed(Math.sqrt(cov?.[axis][axis] ?? NaN), 4));
-  return say.stepText(String(step), deviations(measured.cov), deviations(predicted[compounding]));
+  const planeDeviations = (cov: number[][] | null) => [0, 1].map((axis) => fixed(Math.sqrt(cov?.[axis][axis] ?? NaN), 4));
+  return say.stepText(String(step), planeDeviations(measured.cov), planeDeviations(predicted[compounding]));
 }

@@ -6,7 +6,7 @@ import { words } from '../../messages/registry.ts';
 import { button, group, radioGroup } from '../../ui/controls.ts';
 import { EXTENSIONS } from './maps/open.ts';
 import { presetButtons, startOverButton } from '../shared/presets.ts';
-import { COMMAND, MAX_SAMPLES, SAMPLE_COUNTS } from './settings.ts';
+import { COMMAND_SLIDERS, MAX_SAMPLES, SAMPLE_COUNTS } from './settings.ts';
 import type { MapSqueezeElement as Figure } from './map-squeeze.ts';
 
 /** Example of a floor plan: a room with a gap in its wall. */
@@ -20,7 +20,7 @@ const EXAMPLE_PLAN = `{
 }`;
 
 /** Returns the buttons of start positions in the current map. The presets are in the apartment, and are offered there only. */
-export function placeControls(figure: Figure) {
+export function startControls(figure: Figure) {
   const { map, left } = figure;
   const { own, pasted } = words.squeeze;
   if (!map) return presetButtons(figure, left ? button(own.back(left.map.name || pasted), () => figure.returnToMap()) : nothing);
@@ -34,17 +34,17 @@ export function samplerControls(figure: Figure) {
   const { conditioned, sampler, samples, steps } = figure.reading.config;
   const { settings, samplers, samplerEffects } = words.squeeze;
   // With sub-steps each sample takes several draws.
-  const most = (name: string) => (name === 'sub-stepped' ? Math.floor(MAX_SAMPLES / steps) : MAX_SAMPLES);
-  const choose = (name: string) => figure.gesture.decide({ sampler: name, ...(samples > most(name) && { samples: most(name) }) });
+  const maxOf = (name: string) => (name === 'sub-stepped' ? Math.floor(MAX_SAMPLES / steps) : MAX_SAMPLES);
+  const chooseSampler = (name: string) => figure.gesture.decide({ sampler: name, ...(samples > maxOf(name) && { samples: maxOf(name) }) });
   return html`<div class="judge">
-    ${radioGroup(settings.sampler.name, 'sampler', samplers, sampler, choose)}
+    ${radioGroup(settings.sampler.name, 'sampler', samplers, sampler, chooseSampler)}
     <p class="effect">${samplerEffects[conditioned ? sampler : 'off']}</p>
     ${conditioned && sampler === 'sub-stepped' ? settingSlider(figure, 'steps') : nothing}
   </div>`;
 }
 
 export function motionControls(figure: Figure) {
-  return html`${group(words.command, sliders(figure, COMMAND))}
+  return html`${group(words.command, sliders(figure, COMMAND_SLIDERS))}
     ${group(words.noise, settingSlider(figure, 'noise'), 'single')} ${cloudControls(figure, SAMPLE_COUNTS)}`;
 }
 
@@ -59,9 +59,9 @@ export function robotAndMap(figure: Figure, hasUnknown: boolean) {
 /** Returns the controls for a map of the reader's own, with the name and size of the present map. */
 export function ownMap(figure: Figure, opener: import('./maps/open.ts').MapOpener, map: string) {
   const say = words.squeeze.own;
-  const paste = () => {
-    const text = figure.renderRoot.querySelector('#map-text') as HTMLTextAreaElement;
-    opener.paste(text.value);
+  const pasteMap = () => {
+    const mapField = figure.renderRoot.querySelector('#map-text') as HTMLTextAreaElement;
+    opener.paste(mapField.value);
   };
   return group(say.legend, html`<div class="own-map">
     <div>
@@ -74,7 +74,7 @@ export function ownMap(figure: Figure, opener: import('./maps/open.ts').MapOpene
     <div>
       <label for="map-text">${say.plan}</label>
       <textarea id="map-text" rows="8" spellcheck="false" autocomplete="off" .defaultValue=${EXAMPLE_PLAN}></textarea>
-      ${button(say.use, paste)}
+      ${button(say.use, pasteMap)}
     </div>
   </div>`);
 }

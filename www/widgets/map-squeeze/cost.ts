@@ -6,7 +6,7 @@ import { SAMPLERS } from './settings.ts';
 import type { MapSqueeze, SamplerName, SqueezeSettings } from '../../types.d.ts';
 
 /** Cost of one accepted sample. */
-export interface Cost {
+export interface SampleCost {
   /** Microseconds. */
   micros: number;
   draws: number;
@@ -23,36 +23,36 @@ const MIN_RUN_MS = 12;
 const RUNS_PER_COST = 5;
 
 /** Measures one run at a time, so that the page can handle events between two runs. Returns the cost, or the reason why there is none. */
-function* measureCost(machine: MapSqueeze, sampler: SamplerName, parts: number): Generator<undefined, Cost | 'wedged' | 'few'> {
-  const most = Math.floor(limits.trial / parts);
-  let count = 1;
-  const run = () => {
-    const start = performance.now();
-    const { draws, wallTests } = machine.trial(sampler, parts, count);
-    return { draws, wallTests, elapsed: performance.now() - start };
+function* measureCost(machine: MapSqueeze, sampler: SamplerName, parts: number): Generator<undefined, SampleCost | 'wedged' | 'few'> {
+  const maxCount = Math.floor(limits.trial / parts);
+  let sampleCount = 1;
+  const timeRun = () => {
+    const startTime = performance.now();
+    const { draws, wallTests } = machine.trial(sampler, parts, sampleCount);
+    return { draws, wallTests, elapsed: performance.now() - startTime };
   };
   try {
     for (;;) {
-      const warmUp = run();
-      if (warmUp.elapsed >= MIN_RUN_MS || count === most) {
-        const runs = [];
-        while (runs.length < RUNS_PER_COST) {
+      const warmUpRun = timeRun();
+      if (warmUpRun.elapsed >= MIN_RUN_MS || sampleCount === maxCount) {
+        const timedRuns = [];
+        while (timedRuns.length < RUNS_PER_COST) {
           yield;
-          runs.push(run());
+          timedRuns.push(timeRun());
         }
-        runs.sort((one, other) => one.elapsed - other.elapsed);
-        const { draws, wallTests, elapsed } = runs[(RUNS_PER_COST - 1) / 2];
+        timedRuns.sort((one, other) => one.elapsed - other.elapsed);
+        const { draws, wallTests, elapsed } = timedRuns[(RUNS_PER_COST - 1) / 2];
         // A shorter run means that only the warm-up was long, as on a busy device: then more samples are needed.
-        if (elapsed >= MIN_RUN_MS / 2 || count === most) {
-          return { micros: (1000 * elapsed) / count, draws: draws / count, wallTests: wallTests / count };
+        if (elapsed >= MIN_RUN_MS / 2 || sampleCount === maxCount) {
+          return { micros: (1000 * elapsed) / sampleCount, draws: draws / sampleCount, wallTests: wallTests / sampleCount };
         }
       }
       yield;
-      count = Math.min(most, 2 * count);
+      sampleCount = Math.min(maxCount, 2 * sampleCount);
     }
   } catch (error) {
     if (!(error instanceof RangeError && error.message.includes('wedged'))) throw error;
-    return count === 1 ? 'wedged' : 'few';
+    return sampleCount === 1 ? 'wedged' : 'few';
   }
 }
 
@@ -62,7 +62,7 @@ const IDLE_MS = 300;
 /** Measures the samplers one after the other when the figure is idle, and reports each. */
 export class CostMeter extends FigureController {
   /** Latest costs, or the reasons why there are none. */
-  costs: Partial<Record<SamplerName, Cost | 'wedged' | 'few'>> = {};
+  costs: Partial<Record<SamplerName, SampleCost | 'wedged' | 'few'>> = {};
   /** True if the costs are those of the present settings. */
   current = false;
   /** Settings that were measured, or will be. */
@@ -77,9 +77,9 @@ export class CostMeter extends FigureController {
 
   /** Measures once these settings have not changed for a while, and nothing moves. */
   measureWhenIdle(config: SqueezeSettings, atRest: boolean) {
-    const settings = JSON.stringify(config);
-    if (settings !== this.#settings) this.outdate();
-    this.#settings = settings;
+    const settingsKey = JSON.stringify(config);
+    if (settingsKey !== this.#settings) this.outdate();
+    this.#settings = settingsKey;
     if (atRest && !this.current && this.#timer === undefined) this.#measureSoon(config.steps);
   }
 
@@ -88,11 +88,11 @@ export class CostMeter extends FigureController {
     const { machine } = host;
     if (!machine) return;
     const measurement = this.#measure(machine, steps);
-    const step = () => host.runtime.attempt(() => {
+    const runStep = () => host.runtime.attempt(() => {
       // The element, with its machine, may have been removed.
-      if (host.machine === machine && !measurement.next().done) this.#timer = setTimeout(step);
+      if (host.machine === machine && !measurement.next().done) this.#timer = setTimeout(runStep);
     });
-    this.#timer = setTimeout(step, IDLE_MS);
+    this.#timer = setTimeout(runStep, IDLE_MS);
   }
 
   *#measure(machine: MapSqueeze, steps: number) {

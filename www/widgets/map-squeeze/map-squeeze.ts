@@ -11,17 +11,17 @@ import { words } from '../../messages/registry.ts';
 import { verdict as bits } from '../../settings.js';
 import { Memo } from '../../scene/memo.ts';
 import { PoseHandles } from '../shared/pose-handles.ts';
-import { motionControls, ownMap, placeControls, robotAndMap, samplerControls } from './controls.ts';
+import { motionControls, ownMap, startControls, robotAndMap, samplerControls } from './controls.ts';
 import { CostMeter } from './cost.ts';
 import { applyMap, cellsOf, mapData } from './maps/data.ts';
 import { MapOpener } from './maps/open.ts';
-import { overview, costTable, markedDraw, tally } from './readouts.ts';
+import { overviewMap, costTable, markedSample, tallyReadouts } from './readouts.ts';
 import { FloorPicture } from './picture.ts';
-import { outcomeOf, readingOf, type Reading } from './reading.ts';
-import { LINES, OPENING_START, PRESET_SETTING, definition } from './settings.ts';
+import { outcomeIndex, readingOf, type Reading } from './reading.ts';
+import { LINE_STYLES, OPENING_START, PRESET_SETTING, definition } from './settings.ts';
 import { styles } from './styles.ts';
 import { WallHandles } from './wall-handles.ts';
-import { contactOf } from './walls.ts';
+import { wallContact } from './walls.ts';
 import { captionOf, headlineOf, mapText, pictureText } from './words.ts';
 import type { Values } from '../../figure/settings.ts';
 import type { Cells } from '../../scene/walls.ts';
@@ -103,8 +103,8 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
   #marked(index: number) {
     const { poses, verdicts, config } = this.currentReading;
     const path = this.#path.of([poses, index], () => (this.machine as Machine).path(index));
-    const isThrough = outcomeOf(verdicts[index]) === 2;
-    return { pose: poses.subarray(3 * index), path, contact: isThrough ? contactOf(path, this.picture.plan.walls, config.clearance) : undefined };
+    const isThrough = outcomeIndex(verdicts[index]) === 2;
+    return { pose: poses.subarray(3 * index), path, contact: isThrough ? wallContact(path, this.picture.plan.walls, config.clearance) : undefined };
   }
 
   get exportData() {
@@ -136,9 +136,9 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
 
   set preset(name) {
     this.reflection.setProperty('preset', name, (given) => {
-      const settings = PRESET_SETTING.change(given, {});
+      const presetSettings = PRESET_SETTING.change(given, {});
       this.#leave();
-      this.settings.assign(settings);
+      this.settings.assign(presetSettings);
     });
   }
 
@@ -159,7 +159,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
         // The robot may have no room where it is.
         if (this.machine && !this.machine.startFree) this.settings.assign({ start: OPENING_START });
       } else {
-        this.#enter(mapOf(given));
+        this.#enter(ownMapOf(given));
       }
       this.reflection.updateAttributes();
       this.renderer.requestFrame();
@@ -212,7 +212,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
   /** Returns to the reader's map, as it was left. */
   returnToMap() {
     const { left } = this;
-    if (left) this.open({ ...mapOf(left.map), start: left.start });
+    if (left) this.open({ ...ownMapOf(left.map), start: left.start });
   }
 
   /** Puts the robot into a map of the reader. */
@@ -228,9 +228,9 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
   moveWalls(walls: Float64Array) {
     const { bounds } = this.picture.plan;
     const name = this.map?.name ?? words.squeeze.edited;
-    const apply: OwnMap['apply'] = (machine) => machine.setPlan({ bounds: [...bounds], walls });
+    const applyWalls: OwnMap['apply'] = (machine) => machine.setPlan({ bounds: [...bounds], walls });
     this.runtime.attemptOrReport(() => {
-      this.#enter({ name, apply, start: this.settings.wanted.start });
+      this.#enter({ name, apply: applyWalls, start: this.settings.wanted.start });
       this.gesture.step();
     });
     this.renderer.requestFrame();
@@ -261,14 +261,14 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
       machine.configureFirst(settings.pick(settings.wanted), 0);
       apply(machine);
       const isGrid = this.#gridOf(machine) !== null;
-      const place = start ?? (isGrid || !machine.startFree ? this.#findFreePose(machine) : undefined);
-      machine.configureFirst(place ? { start: place } : {}, this.cloud.asked);
+      const startPose = start ?? (isGrid || !machine.startFree ? this.#findFreePose(machine) : undefined);
+      machine.configureFirst(startPose ? { start: startPose } : {}, this.cloud.asked);
     });
-    const data = mapData(machine, name, this.#gridOf(machine));
+    const newMap = mapData(machine, name, this.#gridOf(machine));
     this.runtime.replace(machine);
     settings.reset();
     this.left = null;
-    this.#adoptMap(data);
+    this.#adoptMap(newMap);
   }
 
   /** Shows the map of the machine, which is the reader's or, for null, the apartment. */
@@ -292,7 +292,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
     const { config, sorted, stats, note } = reading;
     const { hasUnknown } = this.picture;
     const { floor, density } = words.squeeze;
-    const { unknown, ...marks } = LINES;
+    const { unknown, ...marks } = LINE_STYLES;
     return html`
       <div class="views">
         ${titledPicture(floor, html`<div class="stage" part="picture">
@@ -306,7 +306,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
             <p class="headline">${headlineOf(stats)}</p>
             <p class="verdict caption ${note && 'note'}" part="caption">${captionOf(reading)}</p>
           </div>
-          ${placeControls(this)} ${samplerControls(this)} ${overview(this.picture, reading)}
+          ${startControls(this)} ${samplerControls(this)} ${overviewMap(this.picture, reading)}
         </div>`)}
       </div>
       ${this.renderer.afterFirstPicture(() => html`
@@ -314,13 +314,13 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
       ${sorted ? nothing : html`<p class="about">${density}</p>`}
       ${disclosures(this, {
         controls: () => html`<div class="controls">${robotAndMap(this, hasUnknown)}</div> ${ownMap(this, this.#opener, this.#mapText)}`,
-        numbers: () => html`${tally(reading)} ${markedDraw(this)} ${costTable(this.#meter, config.steps)}`,
+        numbers: () => html`${tallyReadouts(reading)} ${markedSample(this)} ${costTable(this.#meter, config.steps)}`,
       })}`)}
     `;
   }
 }
 
-const mapOf = (map: MapData): OwnMap => ({
+const ownMapOf = (map: MapData): OwnMap => ({
   name: map.name ?? '',
   apply: (machine) => applyMap(machine, map),
 });

@@ -11,7 +11,7 @@ import { WallLayer, cornerOf, type Cells } from '../../scene/walls.ts';
 import { limits } from '../../settings.js';
 import { clamp } from '../../ui/clamp.ts';
 import { drawHeldRobot, drawRobotOutline } from '../shared/robot.ts';
-import { LINES } from './settings.ts';
+import { LINE_STYLES } from './settings.ts';
 import type { MapSqueeze, Plan } from '../../types.d.ts';
 import { addLine, strokePath, type Brush } from '../../scene/canvas.ts';
 import type { Reading } from './reading.ts';
@@ -101,23 +101,23 @@ export class FloorPicture extends SamplesPicture<Scene> {
   }
 
   fit({ commanded, config }: Scene) {
-    const mapped = this.mapped(config.start);
+    const mappedExtent = this.mapped(config.start);
     if (!this.close) {
-      this.#whole.fit(mapped);
+      this.#whole.fit(mappedExtent);
       return;
     }
-    const length = Math.abs(config.command.v * config.command.dt);
-    const room = Math.max(MIN_END_ROOM, END_ROOM * length) + config.clearance;
+    const driveLength = Math.abs(config.command.v * config.command.dt);
+    const endRoom = Math.max(MIN_END_ROOM, END_ROOM * driveLength) + config.clearance;
     const [x, y] = commanded.slice(-2);
-    const way = extentAround(commanded, 2);
-    const wayside = [way.xMin - PATH_MARGIN, way.yMin - PATH_MARGIN, way.xMax + PATH_MARGIN, way.yMax + PATH_MARGIN];
-    const needed = extentAround([...wayside, x - room, y - room, x + room, y + room], 2);
-    this.#near.within = mapped;
+    const arcBox = extentAround(commanded, 2);
+    const pathCorners = [arcBox.xMin - PATH_MARGIN, arcBox.yMin - PATH_MARGIN, arcBox.xMax + PATH_MARGIN, arcBox.yMax + PATH_MARGIN];
+    const neededExtent = extentAround([...pathCorners, x - endRoom, y - endRoom, x + endRoom, y + endRoom], 2);
+    this.#near.within = mappedExtent;
     this.#near.fit({
-      xMin: Math.max(needed.xMin, mapped.xMin),
-      yMin: Math.max(needed.yMin, mapped.yMin),
-      xMax: Math.min(needed.xMax, mapped.xMax),
-      yMax: Math.min(needed.yMax, mapped.yMax),
+      xMin: Math.max(neededExtent.xMin, mappedExtent.xMin),
+      yMin: Math.max(neededExtent.yMin, mappedExtent.yMin),
+      xMax: Math.min(neededExtent.xMax, mappedExtent.xMax),
+      yMax: Math.min(neededExtent.yMax, mappedExtent.yMax),
     });
   }
 
@@ -125,33 +125,33 @@ export class FloorPicture extends SamplesPicture<Scene> {
   mapped({ x, y }: { x: number, y: number }) {
     const [xMin, yMin, xMax, yMax] = this.plan.bounds;
     const box = extentAround(this.#known, 2, { xMin: x, yMin: y, xMax: x, yMax: y });
-    const inside = box.xMin < x && x < box.xMax && box.yMin < y && y < box.yMax;
-    const { xMin: left, yMin: bottom, xMax: right, yMax: top } = inside ? box : { xMin, yMin, xMax, yMax };
-    const edge = MAP_MARGIN * Math.max(right - left, top - bottom);
-    return { xMin: left - edge, yMin: bottom - edge, xMax: right + edge, yMax: top + edge };
+    const isInside = box.xMin < x && x < box.xMax && box.yMin < y && y < box.yMax;
+    const { xMin: left, yMin: bottom, xMax: right, yMax: top } = isInside ? box : { xMin, yMin, xMax, yMax };
+    const mapMargin = MAP_MARGIN * Math.max(right - left, top - bottom);
+    return { xMin: left - mapMargin, yMin: bottom - mapMargin, xMax: right + mapMargin, yMax: top + mapMargin };
   }
 
   paint: SamplesPicture<Scene>['paint'] = (brush, scene) => {
     const { sorted, paths, commanded, config, marked, overlays } = scene;
     const { palette } = brush;
-    const has = (name: string) => overlays.includes(name);
-    const { accepted, through, rejected, commanded: command } = lineStyles(brush, LINES);
+    const showsLine = (name: string) => overlays.includes(name);
+    const { accepted, through, rejected, commanded: command } = lineStyles(brush, LINE_STYLES);
     drawAxes(brush, { x: 'x (m)', y: 'y (m)' }, brush.exported ? keyOf(brush, scene) : []);
     clipToPlot(brush, () => {
       // Paths through a wall must not hide it.
       if (sorted) {
-        if (has('through')) drawPaths(brush, paths, through.colour);
-        if (has('accepted')) drawSamples(brush, sorted.free, accepted.colour);
-        if (has('through')) drawSamples(brush, sorted.through, through.colour);
-        this.#walls.draw(brush, has('unknown'));
-        if (has('rejected')) drawCrosses(brush, sorted.rejected, rejected.colour);
+        if (showsLine('through')) drawPaths(brush, paths, through.colour);
+        if (showsLine('accepted')) drawSamples(brush, sorted.free, accepted.colour);
+        if (showsLine('through')) drawSamples(brush, sorted.through, through.colour);
+        this.#walls.draw(brush, showsLine('unknown'));
+        if (showsLine('rejected')) drawCrosses(brush, sorted.rejected, rejected.colour);
       } else {
         this.#drawDensity(brush, scene);
-        this.#walls.draw(brush, has('unknown'));
-        if (has('through')) drawPaths(brush, paths.slice(0, PATHS_ON_DENSITY), through.colour);
+        this.#walls.draw(brush, showsLine('unknown'));
+        if (showsLine('through')) drawPaths(brush, paths.slice(0, PATHS_ON_DENSITY), through.colour);
       }
       const { start, clearance } = config;
-      if (has('commanded')) {
+      if (showsLine('commanded')) {
         drawOutline(brush, commanded, command);
         const [endX, endY] = commanded.slice(-2);
         drawRobotOutline(brush, endX, endY, clearance, command.colour);
@@ -161,40 +161,40 @@ export class FloorPicture extends SamplesPicture<Scene> {
         const { pose, path, contact } = marked;
         drawOutline(brush, path, { colour: palette.ink, width: 1.5, dash: [2, 3] });
         drawSelectedSample(brush, { x: pose[0], y: pose[1], heading: pose[2] }, palette.ink);
-        if (contact) drawContact(brush, contact);
+        if (contact) drawWallContact(brush, contact);
       }
     });
   };
 
   #drawDensity(brush: Brush, { machine, stats, overlays }: Scene) {
     const { palette } = brush;
-    const roles = [['rejected', palette.truth], ['accepted', palette.cloud], ['through', palette.accent]] as const;
-    const ramps = roles.flatMap(([name, cloud]) => [...(overlays.includes(name) ? densityRamp({ ...palette, cloud }) : TRANSPARENT_RAMP)]);
-    const cell = clamp(DENSITY_CELL.most * Math.sqrt(DENSITY_CELL.samples / stats.attempts) / 2, DENSITY_CELL.least, DENSITY_CELL.most);
-    this.#density.draw(brush, cell, [stats, palette, overlays], (...part) => machine.picture(...part, Uint8Array.from(ramps)));
+    const kinds = [['rejected', palette.truth], ['accepted', palette.cloud], ['through', palette.accent]] as const;
+    const ramps = kinds.flatMap(([name, cloud]) => [...(overlays.includes(name) ? densityRamp({ ...palette, cloud }) : TRANSPARENT_RAMP)]);
+    const cellSize = clamp(DENSITY_CELL.most * Math.sqrt(DENSITY_CELL.samples / stats.attempts) / 2, DENSITY_CELL.least, DENSITY_CELL.most);
+    this.#density.draw(brush, cellSize, [stats, palette, overlays], (...part) => machine.picture(...part, Uint8Array.from(ramps)));
   }
 }
 
 /** Returns the corners of the bounding box of the known cells of a grid, as x, y pairs. */
 function knownCorners(grid: Cells, unknown: Uint8Array) {
   const { columns } = grid;
-  const box = { left: Infinity, bottom: Infinity, right: -Infinity, top: -Infinity };
+  const knownBox = { left: Infinity, bottom: Infinity, right: -Infinity, top: -Infinity };
   for (let row = 0; row * columns < unknown.length; row++) {
-    const cells = unknown.subarray(row * columns, (row + 1) * columns);
-    const first = cells.indexOf(0);
-    if (first < 0) continue;
-    box.left = Math.min(box.left, first);
-    box.right = Math.max(box.right, cells.lastIndexOf(0) + 1);
-    box.bottom = Math.min(box.bottom, row);
-    box.top = row + 1;
+    const rowCells = unknown.subarray(row * columns, (row + 1) * columns);
+    const firstKnown = rowCells.indexOf(0);
+    if (firstKnown < 0) continue;
+    knownBox.left = Math.min(knownBox.left, firstKnown);
+    knownBox.right = Math.max(knownBox.right, rowCells.lastIndexOf(0) + 1);
+    knownBox.bottom = Math.min(knownBox.bottom, row);
+    knownBox.top = row + 1;
   }
-  if (box.left > box.right) return [];
-  const { left, bottom, right, top } = box;
+  if (knownBox.left > knownBox.right) return [];
+  const { left, bottom, right, top } = knownBox;
   return [left, right].flatMap((column) => [bottom, top].flatMap((row) => cornerOf(grid, column, row)));
 }
 
 /** Draws the contact of a path with a wall, a point in metres, with a leader to it. */
-function drawContact(brush: Brush, contact: number[]) {
+function drawWallContact(brush: Brush, contact: number[]) {
   const { context, view, palette } = brush;
   const [x, y] = view.toPixel(contact[0], contact[1]);
   const { left, right, top, bottom } = view.frame;
@@ -206,17 +206,17 @@ function drawContact(brush: Brush, contact: number[]) {
 
 /** Returns the key of an exported picture: the marks, or the colours of a density. */
 function keyOf({ context, palette }: Brush, { overlays, sorted }: Scene): import('../../scene/axes.ts').KeyEntry[] {
-  const names = (['accepted', 'through', 'rejected'] as const).filter((name) => overlays.includes(name));
-  return names.map((name) => ({
+  const keyNames = (['accepted', 'through', 'rejected'] as const).filter((name) => overlays.includes(name));
+  return keyNames.map((name) => ({
     name: words.squeeze.overlays[name],
     draw: (x, y, width) => {
-      const middle = x + width / 2;
-      context.strokeStyle = context.fillStyle = palette[LINES[name].role];
+      const sampleMiddle = x + width / 2;
+      context.strokeStyle = context.fillStyle = palette[LINE_STYLES[name].role];
       context.lineWidth = 1;
       context.beginPath();
-      if (!sorted) context.rect(middle - 5, y - 5, 10, 10);
-      else if (name === 'rejected') cross(context, middle, y);
-      else context.arc(middle, y, SAMPLE_DOT.most, 0, 2 * Math.PI);
+      if (!sorted) context.rect(sampleMiddle - 5, y - 5, 10, 10);
+      else if (name === 'rejected') addCross(context, sampleMiddle, y);
+      else context.arc(sampleMiddle, y, SAMPLE_DOT.most, 0, 2 * Math.PI);
       context.fill();
       context.stroke();
     },
@@ -224,7 +224,7 @@ function keyOf({ context, palette }: Brush, { overlays, sorted }: Scene): import
 }
 
 /** Adds a cross at a point in CSS pixels to the path. */
-function cross(context: Brush['context'], x: number, y: number) {
+function addCross(context: Brush['context'], x: number, y: number) {
   addLine(context, [[x - CROSS_HALF, y - CROSS_HALF], [x + CROSS_HALF, y + CROSS_HALF]]);
   addLine(context, [[x - CROSS_HALF, y + CROSS_HALF], [x + CROSS_HALF, y - CROSS_HALF]]);
 }
@@ -232,7 +232,7 @@ function cross(context: Brush['context'], x: number, y: number) {
 function drawCrosses({ context, view }: Brush, triples: Float64Array, colour: string) {
   context.globalAlpha = 0.5;
   strokePath(context, { colour, width: 1 }, () => {
-    for (let i = 0; i < triples.length; i += 3) cross(context, ...view.toPixel(triples[i], triples[i + 1]));
+    for (let i = 0; i < triples.length; i += 3) addCross(context, ...view.toPixel(triples[i], triples[i + 1]));
   });
   context.globalAlpha = 1;
 }
@@ -248,10 +248,10 @@ function drawPaths(brush: Brush, paths: Float64Array[], colour: string) {
 function drawSamples({ context, view }: Brush, triples: Float64Array, colour: string) {
   context.fillStyle = colour;
   context.globalAlpha = SAMPLE_DOT.alpha;
-  const radius = clamp(view.width / SAMPLE_DOT.per, SAMPLE_DOT.least, SAMPLE_DOT.most);
+  const dotRadius = clamp(view.width / SAMPLE_DOT.per, SAMPLE_DOT.least, SAMPLE_DOT.most);
   for (let i = 0; i < triples.length; i += 3) {
     context.beginPath();
-    context.arc(...view.toPixel(triples[i], triples[i + 1]), radius, 0, 2 * Math.PI);
+    context.arc(...view.toPixel(triples[i], triples[i + 1]), dotRadius, 0, 2 * Math.PI);
     context.fill();
   }
   context.globalAlpha = 1;

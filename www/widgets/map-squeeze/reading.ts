@@ -15,21 +15,21 @@ export function readingOf(machine: MapSqueeze) {
   const { config, stats, verdicts, poses, startFree } = reading;
   return {
     ...reading,
-    sorted: stats.attempts > MAX_DOTS ? undefined : sort(poses, verdicts),
-    note: noteOn(config, stats, startFree),
+    sorted: stats.attempts > MAX_DOTS ? undefined : posesByOutcome(poses, verdicts),
+    note: stuckNote(config, stats, startFree),
   };
 }
 
-function sort(poses: Float64Array, verdicts: Uint8Array) {
-  const posesOf = (wanted: number) => {
-    const some = [...verdicts.keys()].filter((i) => outcomeOf(verdicts[i]) === wanted);
-    return Float64Array.from(some.flatMap((i) => [poses[3 * i], poses[3 * i + 1], poses[3 * i + 2]]));
+function posesByOutcome(poses: Float64Array, verdicts: Uint8Array) {
+  const posesOfOutcome = (wanted: number) => {
+    const indices = [...verdicts.keys()].filter((i) => outcomeIndex(verdicts[i]) === wanted);
+    return Float64Array.from(indices.flatMap((i) => [poses[3 * i], poses[3 * i + 1], poses[3 * i + 2]]));
   };
-  return { rejected: posesOf(0), free: posesOf(1), through: posesOf(2) };
+  return { rejected: posesOfOutcome(0), free: posesOfOutcome(1), through: posesOfOutcome(2) };
 }
 
 /** Returns 0 for a rejected sample, 1 for an accepted one, and 2 for an accepted one whose path goes through a wall. */
-export function outcomeOf(verdict: number) {
+export function outcomeIndex(verdict: number) {
   if ((verdict & bits.accepted) === 0) return 0;
   return (verdict & bits.pathFree) === 0 ? 2 : 1;
 }
@@ -44,11 +44,11 @@ export function throughText({ throughWall, throughWallRate, throughWallInterval:
 }
 
 /** Returns a sentence on a robot that gets nowhere; empty for an ordinary cloud. */
-function noteOn(config: SqueezeSettings, stats: SqueezeStats, startFree: boolean): string {
+function stuckNote(config: SqueezeSettings, stats: SqueezeStats, startFree: boolean): string {
   const { wedged, nothing, noRoom } = words.squeeze;
   const { accepted } = stats;
-  const drawn = integer(stats.drawn);
-  if (stats.gaveUp) return wedged(drawn, accepted, integer(accepted), integer(config.samples), throughText(stats, false));
-  if (stats.drawn > 0 && accepted === 0) return nothing(stats.drawn, drawn, config.sampler === 'whole-arc');
+  const drawnText = integer(stats.drawn);
+  if (stats.gaveUp) return wedged(drawnText, accepted, integer(accepted), integer(config.samples), throughText(stats, false));
+  if (stats.drawn > 0 && accepted === 0) return nothing(stats.drawn, drawnText, config.sampler === 'whole-arc');
   return startFree ? '' : noRoom;
 }

@@ -5,40 +5,40 @@ import { sampleField } from '../../figure/controls.ts';
 import { words } from '../../messages/registry.ts';
 import { integer, fixed, percent, rounded } from '../../ui/format.ts';
 import { figureTable, readoutList } from '../../ui/readouts.ts';
-import { SAMPLES_PER_SECOND, type Cost, type CostMeter } from './cost.ts';
+import { SAMPLES_PER_SECOND, type SampleCost, type CostMeter } from './cost.ts';
 import { SAMPLERS } from './settings.ts';
 import { verdictText } from './words.ts';
 import type { SamplerName } from '../../types.d.ts';
 import type { Reading } from './reading.ts';
 
-export function tally({ stats, config: { conditioned, sampler }, paths: { length: paths } }: Reading) {
+export function tallyReadouts({ stats, config: { conditioned, sampler }, paths: { length: paths } }: Reading) {
   const say = words.squeeze.tally;
-  const certain = conditioned && sampler === 'whole-arc';
+  const excludesWalls = conditioned && sampler === 'whole-arc';
   return readoutList([
     [say.drawn, integer(stats.drawn)],
     [say.accepted, integer(stats.accepted), say.ofDrawn(percent(stats.acceptanceRate), conditioned && sampler === 'sub-stepped')],
-    [say.through, certain ? say.byConstruction : integer(stats.throughWall), certain ? undefined : say.ofAccepted(percent(stats.throughWallRate))],
+    [say.through, excludesWalls ? say.byConstruction : integer(stats.throughWall), excludesWalls ? undefined : say.ofAccepted(percent(stats.throughWallRate))],
     [say.paths, paths < stats.throughWall ? say.first(integer(paths)) : integer(paths)],
     [say.draws, fixed(stats.drawsPerAccepted, 2)],
     [say.tests, fixed(stats.wallTestsPerAccepted, 2)],
   ]);
 }
 
-export function markedDraw(figure: import('./map-squeeze.ts').MapSqueezeElement): import('lit').TemplateResult {
+export function markedSample(figure: import('./map-squeeze.ts').MapSqueezeElement): import('lit').TemplateResult {
   const { cloud, reading: { config, stats, verdicts } } = figure;
   const { sample, markHint } = words.squeeze;
-  const selected = cloud.isMarked ? verdictText(verdicts[cloud.index], config) : '';
-  return sampleField(figure, { id: 'sample', label: sample, hint: markHint, shown: stats.attempts, selected });
+  const selectedVerdict = cloud.isMarked ? verdictText(verdicts[cloud.index], config) : '';
+  return sampleField(figure, { id: 'sample', label: sample, hint: markHint, shown: stats.attempts, selected: selectedVerdict });
 }
 
 export function costTable({ costs, current }: CostMeter, steps: number) {
   const { samplers, costs: say } = words.squeeze;
   const row = (sampler: SamplerName) => {
-    const name = samplers[sampler];
-    const cost = costs[sampler] ?? 'none';
+    const samplerName = samplers[sampler];
+    const costOrReason = costs[sampler] ?? 'none';
     return [
-      sampler === 'sub-stepped' ? `${name} (${steps})` : name,
-      ...(typeof cost === 'string' ? [say[cost]] : costText(cost)),
+      sampler === 'sub-stepped' ? `${samplerName} (${steps})` : samplerName,
+      ...(typeof costOrReason === 'string' ? [say[costOrReason]] : costText(costOrReason)),
     ];
   };
   return html`<div class="table" aria-busy=${!current}>
@@ -51,26 +51,26 @@ export function costTable({ costs, current }: CostMeter, steps: number) {
   </div>`;
 }
 
-function costText({ draws, wallTests, micros }: Cost) {
-  const share = `${rounded(100 * micros * 1e-6 * SAMPLES_PER_SECOND, 2)}\u202f%`;
-  return [fixed(draws, 2), fixed(wallTests, 2), rounded(micros, 2), share];
+function costText({ draws, wallTests, micros }: SampleCost) {
+  const cpuShare = `${rounded(100 * micros * 1e-6 * SAMPLES_PER_SECOND, 2)}\u202f%`;
+  return [fixed(draws, 2), fixed(wallTests, 2), rounded(micros, 2), cpuShare];
 }
 
 /** Largest fraction of the map's area in a close view that has an overview. */
 const MAX_SHOWN_FRACTION = 0.6;
 
 /** Returns the overview, or nothing where the picture shows most of the map. */
-export function overview(picture: import('./picture.ts').FloorPicture, { config, commanded }: import('./reading.ts').Reading) {
+export function overviewMap(picture: import('./picture.ts').FloorPicture, { config, commanded }: import('./reading.ts').Reading) {
   const { xMin, yMin, xMax, yMax } = picture.mapped(config.start);
   const [width, height] = [xMax - xMin, yMax - yMin];
   const { extent } = picture.view;
-  const shown = [extent.xMax - extent.xMin, extent.yMax - extent.yMin];
-  if (!picture.close || shown[0] * shown[1] > MAX_SHOWN_FRACTION * width * height) return nothing;
+  const shownSize = [extent.xMax - extent.xMin, extent.yMax - extent.yMin];
+  if (!picture.close || shownSize[0] * shownSize[1] > MAX_SHOWN_FRACTION * width * height) return nothing;
   return html`<svg class="overview" viewBox=${`${xMin} ${-yMax} ${width} ${height}`} aria-hidden="true">
     <g transform="scale(1 -1)">
       <path class="walls" d=${picture.outline} />
       <polyline class="way" points=${[...commanded].join(' ')} />
-      <rect x=${extent.xMin} y=${extent.yMin} width=${shown[0]} height=${shown[1]} />
+      <rect x=${extent.xMin} y=${extent.yMin} width=${shownSize[0]} height=${shownSize[1]} />
     </g>
   </svg>`;
 }

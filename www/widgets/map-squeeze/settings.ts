@@ -6,18 +6,18 @@ import { presets, settings } from '../../settings.js';
 import { COMMAND_DASH, commandSliders } from '../shared/sliders.ts';
 import type { SamplerName } from '../../types.d.ts';
 
-const declared = settings['map-squeeze'];
+const declarations = settings['map-squeeze'];
 
 /** Presets: positions in the apartment, with settings that show their effect. */
-export const PRESET_SETTING = presetPropertyOf(presets['map-squeeze'], declared);
+export const PRESET_SETTING = presetPropertyOf(presets['map-squeeze'], declarations);
 
 /** Pose of the robot where a map has been left. */
 export const OPENING_START = presets['map-squeeze'][0].start;
 
-const VIEWS = ['close', 'whole'];
+const VIEW_NAMES = ['close', 'whole'];
 
 /** Marks and lines of the picture. */
-export const LINES = {
+export const LINE_STYLES = {
   accepted: { role: 'cloud', mark: 'dot' },
   through: { role: 'accent', mark: 'dot' },
   rejected: { role: 'muted', mark: 'cross', width: 1.5 },
@@ -25,13 +25,13 @@ export const LINES = {
   unknown: { role: 'muted', mark: 'area' },
 } satisfies Record<string, import('../../scene/draw.ts').LineStyle>;
 
-export const COMMAND = commandSliders(4);
+export const COMMAND_SLIDERS = commandSliders(4);
 
 export const definition = definitionOf('map-squeeze', {
   messageKey: 'squeeze',
-  lines: LINES,
+  lines: LINE_STYLES,
   sliderSpecs: {
-    ...COMMAND,
+    ...COMMAND_SLIDERS,
     noise: { role: 'prediction', min: 0, max: 0.4, step: 0.005, decimals: 3, value: ({ alphas, noise = alphas[0] }) => noise },
     clearance: { symbol: '*r*', role: 'truth', min: 0, max: 0.4, step: 0.01, decimals: 2 },
     steps: { role: 'prediction', min: 1, max: 64, step: 1, decimals: 0 },
@@ -39,17 +39,17 @@ export const definition = definitionOf('map-squeeze', {
   // Presets are places in the apartment.
   preset: { ...PRESET_SETTING, get: (config) => (config.map ? null : PRESET_SETTING.get(config)) },
   own: {
-    view: { converter: WORD_CONVERTER, words: VIEWS, opening: 'close' },
+    view: { converter: WORD_CONVERTER, words: VIEW_NAMES, opening: 'close' },
     /** Map of the reader; null for the apartment. A machine has checked it. */
     map: { opening: null, check: (_, map) => map },
   },
 });
 
 /** Samplers in the order in which they are offered. */
-export const SAMPLERS = declared.find(({ key }) => key === 'sampler')?.words as SamplerName[];
+export const SAMPLERS = declarations.find(({ key }) => key === 'sampler')?.words as SamplerName[];
 
 /** Sample counts of the slider. The machine accepts more, but they would not follow a slider. */
 export const SAMPLE_COUNTS = [1, 2, 5, 10, 20, 50, 100, 200, 300, 600, 1000, 2000, 5000, 10_000, 20_000, 50_000, 100_000];
 
 /** Maximum number of samples for a command in one step; it is divided by the number of sub-steps. */
-export const MAX_SAMPLES = declared.find(({ key }) => key === 'samples')?.max ?? 0;
+export const MAX_SAMPLES = declarations.find(({ key }) => key === 'samples')?.max ?? 0;

@@ -8,7 +8,7 @@ import { Handle, stepsOfKey, turnsOfKey } from '../../scene/handle.ts';
 import { Memo } from '../../scene/memo.ts';
 import { clamp } from '../../ui/clamp.ts';
 import { fixed } from '../../ui/format.ts';
-import { gripsOf, movedWalls, type Grip } from './walls.ts';
+import { wallGrips, movedWalls, type Grip } from './walls.ts';
 import type { View } from '../../scene/view.ts';
 
 /** Distance that a key moves a wall, metres. */
@@ -32,7 +32,7 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
   /** Grips of the plan in the picture. */
   get #present() {
     const { plan, movable } = this.host.picture;
-    return this.#grips.of([plan], () => (movable && plan.walls.length <= 4 * MAX_HANDLED_WALLS ? gripsOf(plan) : []));
+    return this.#grips.of([plan], () => (movable && plan.walls.length <= 4 * MAX_HANDLED_WALLS ? wallGrips(plan) : []));
   }
 
   get #walls() {
@@ -68,46 +68,46 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
   }
 
   place(view: View) {
-    const shown = [this.host.picture.plan, view.extent, view.frame];
-    if (shown.some((each, i) => each !== this.#shown[i])) this.#place(view);
-    this.#shown = shown;
+    const planAndView = [this.host.picture.plan, view.extent, view.frame];
+    if (planAndView.some((each, i) => each !== this.#shown[i])) this.#place(view);
+    this.#shown = planAndView;
   }
 
   #place(view: View) {
     const root = this.host.renderRoot;
-    const shown = this.#present.filter((grip) => grip !== undefined).map((grip) => {
-      const element = root.querySelector(`.handle.${nameOf(grip)}`) as HTMLElement | null;
-      const middle = grip.part === 'side' ? this.#middleIn(grip, view) : this.#gripOf(grip, view);
-      const at = middle && [view.toPixelX(middle[0]), view.toPixelY(middle[1])];
+    const placedHandles = this.#present.filter((grip) => grip !== undefined).map((grip) => {
+      const handleElement = root.querySelector(`.handle.${handleName(grip)}`) as HTMLElement | null;
+      const gripPoint = grip.part === 'side' ? this.#middleIn(grip, view) : this.#gripOf(grip, view);
+      const at = gripPoint && [view.toPixelX(gripPoint[0]), view.toPixelY(gripPoint[1])];
       const { left, right, top, bottom } = view.frame;
       const isShown = at !== undefined && at[0] > left && at[0] < right && at[1] > top && at[1] < bottom;
-      if (element) {
-        element.style.visibility = isShown ? '' : 'hidden';
-        if (grip.part === 'side') element.style.rotate = `${Math.atan(grip.axis[0] / grip.axis[1])}rad`;
+      if (handleElement) {
+        handleElement.style.visibility = isShown ? '' : 'hidden';
+        if (grip.part === 'side') handleElement.style.rotate = `${Math.atan(grip.axis[0] / grip.axis[1])}rad`;
       }
       if (isShown) this.#handleOf(grip).place(root, at[0], at[1]);
-      return { name: nameOf(grip), element: isShown ? element : null };
+      return { name: handleName(grip), element: isShown ? handleElement : null };
     });
-    const present = shown.filter(({ element }) => element);
-    const current = present.find(({ name }) => name === this.#current) ?? present[0];
-    for (const each of present) (each.element as HTMLElement).tabIndex = each === current ? 0 : -1;
+    const presentHandles = placedHandles.filter(({ element }) => element);
+    const tabHandle = presentHandles.find(({ name }) => name === this.#current) ?? presentHandles[0];
+    for (const each of presentHandles) (each.element as HTMLElement).tabIndex = each === tabHandle ? 0 : -1;
   }
 
   #handleOf(grip: Grip) {
-    const name = nameOf(grip);
+    const gripName = handleName(grip);
     // The wall may be missing in a new plan, until its handle is removed.
-    const withGrip = <Result>(use: (present: Grip) => Result) => {
-      const present = this.#present.find((each) => each && nameOf(each) === name);
-      return present && use(present);
+    const callWithGrip = <Result>(use: (present: Grip) => Result) => {
+      const presentHandles = this.#present.find((each) => each && handleName(each) === gripName);
+      return presentHandles && use(presentHandles);
     };
-    const handle = this.#handles.get(name) ?? new Handle(`${grip.part === 'side' ? 'side' : 'jamb'} ${name}`, {
+    const handle = this.#handles.get(gripName) ?? new Handle(`${grip.part === 'side' ? 'side' : 'jamb'} ${gripName}`, {
       view: () => this.host.picture.view,
-      at: () => withGrip((present) => this.#pointOf(present)),
-      drag: (x, y) => withGrip((present) => this.#move(present, (point, axis) => (x - point[0]) * axis[0] + (y - point[1]) * axis[1])),
-      key: (event) => withGrip((present) => this.#key(event, present)) ?? false,
+      at: () => callWithGrip((present) => this.#pointOf(present)),
+      drag: (x, y) => callWithGrip((present) => this.#move(present, (point, axis) => (x - point[0]) * axis[0] + (y - point[1]) * axis[1])),
+      key: (event) => callWithGrip((present) => this.#key(event, present)) ?? false,
       commit: () => this.host.gesture.commit(),
     });
-    this.#handles.set(name, handle);
+    this.#handles.set(gripName, handle);
     return handle;
   }
 
@@ -115,7 +115,7 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
     const turn = turnsOfKey(event);
     if (turn) {
       event.preventDefault();
-      this.#go(nameOf(grip), -turn);
+      this.#go(handleName(grip), -turn);
       return false;
     }
     const steps = stepsOfKey(event);
@@ -127,20 +127,20 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
 
   /** Moves the focus to another handle. */
   #go(name: string, turn: number) {
-    const all = ([...this.host.renderRoot.querySelectorAll('.handle:is(.jamb, .side)')] as HTMLElement[]).filter(({ style }) => !style.visibility);
-    const from = all.findIndex((element) => element.classList.contains(name));
-    const next = all[(from + turn + all.length) % all.length];
-    this.#current = next.classList[2];
-    next.focus();
+    const handleElements = ([...this.host.renderRoot.querySelectorAll('.handle:is(.jamb, .side)')] as HTMLElement[]).filter(({ style }) => !style.visibility);
+    const focusedIndex = handleElements.findIndex((element) => element.classList.contains(name));
+    const nextHandle = handleElements[(focusedIndex + turn + handleElements.length) % handleElements.length];
+    this.#current = nextHandle.classList[2];
+    nextHandle.focus();
     this.#place(this.host.picture.view);
   }
 
   /** Moves a grip along its axis by the wanted distance, within its range. Returns false if the distance is NaN. */
   #move(grip: Grip, distanceOf: (point: number[], axis: number[]) => number) {
-    this.#current = nameOf(grip);
-    const distance = clamp(distanceOf(this.#pointOf(grip), grip.axis), grip.range[0], grip.range[1]);
-    if (distance) this.host.moveWalls(movedWalls(this.#walls, grip, distance));
-    return !Number.isNaN(distance);
+    this.#current = handleName(grip);
+    const moveDistance = clamp(distanceOf(this.#pointOf(grip), grip.axis), grip.range[0], grip.range[1]);
+    if (moveDistance) this.host.moveWalls(movedWalls(this.#walls, grip, moveDistance));
+    return !Number.isNaN(moveDistance);
   }
 
   /** Returns the end of a wall that a grip moves, or its first end. */
@@ -152,8 +152,8 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
   #gripOf(grip: Grip, view: View) {
     const [x, y] = this.#pointOf(grip);
     const [ux, uy] = grip.axis;
-    const inward = this.#lengthOf(grip) * this.#inward(grip, view);
-    return [x - inward * ux, y - inward * uy];
+    const insetLength = this.#lengthOf(grip) * this.#inward(grip, view);
+    return [x - insetLength * ux, y - insetLength * uy];
   }
 
   #lengthOf({ wall }: Grip) {
@@ -172,17 +172,17 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
     const { xMin, yMin, xMax, yMax } = view.extent;
     const [x, y, x1, y1] = this.#walls.subarray(wall, wall + 4);
     const [dx, dy] = [x1 - x, y1 - y];
-    const taken = (part: Grip['part']) => (this.#present.some((each) => each?.wall === wall && each.part === part) ? 2 * this.#inward(grip, view) : 0);
-    let [from, to] = [taken('from'), 1 - taken('to')];
+    const fractionAtEnd = (part: Grip['part']) => (this.#present.some((each) => each?.wall === wall && each.part === part) ? 2 * this.#inward(grip, view) : 0);
+    let [from, to] = [fractionAtEnd('from'), 1 - fractionAtEnd('to')];
     for (const [at, delta, least, most] of [[x, dx, xMin, xMax], [y, dy, yMin, yMax]]) {
       if (!delta) continue;
-      const shares = [(least - at) / delta, (most - at) / delta];
-      [from, to] = [Math.max(from, Math.min(...shares)), Math.min(to, Math.max(...shares))];
+      const boundFractions = [(least - at) / delta, (most - at) / delta];
+      [from, to] = [Math.max(from, Math.min(...boundFractions)), Math.min(to, Math.max(...boundFractions))];
     }
-    const share = (from + to) / 2;
-    return from < to ? [x + share * dx, y + share * dy] : undefined;
+    const middleFraction = (from + to) / 2;
+    return from < to ? [x + middleFraction * dx, y + middleFraction * dy] : undefined;
   }
 }
 
 /** Returns the class of a grip's handle. */
-const nameOf = ({ wall, part }: Grip) => `${part}-${wall / 4}`;
+const handleName = ({ wall, part }: Grip) => `${part}-${wall / 4}`;

@@ -14,32 +14,32 @@ const MIN_TOUCH_RADIUS = 0.02;
 const POINTS_PER_RADIUS = 4;
 
 /** Returns the point of a wall that is nearest to another point, with the distance. `k` is the index of the wall's first number. */
-function nearestOn(walls: ArrayLike<number>, k: number, x: number, y: number) {
+function nearestWallPoint(walls: ArrayLike<number>, k: number, x: number, y: number) {
   const [x0, y0] = [walls[k], walls[k + 1]];
   const [dx, dy] = [walls[k + 2] - x0, walls[k + 3] - y0];
-  const along = ((x - x0) * dx + (y - y0) * dy) / (dx * dx + dy * dy || 1);
-  const share = Math.min(1, Math.max(0, along));
-  const point = [x0 + share * dx, y0 + share * dy];
-  return { point, distance: Math.hypot(x - point[0], y - point[1]) };
+  const projection = ((x - x0) * dx + (y - y0) * dy) / (dx * dx + dy * dy || 1);
+  const wallFraction = Math.min(1, Math.max(0, projection));
+  const wallPoint = [x0 + wallFraction * dx, y0 + wallFraction * dy];
+  return { point: wallPoint, distance: Math.hypot(x - wallPoint[0], y - wallPoint[1]) };
 }
 
 /** Returns the point of a wall that a robot of a radius touches first on a path of x, y pairs; undefined for none. */
-export function contactOf(path: ArrayLike<number>, walls: Float64Array, radius: number) {
-  const reach = Math.max(radius, MIN_TOUCH_RADIUS);
-  const box = extentAround(path, 2);
-  const near = [];
+export function wallContact(path: ArrayLike<number>, walls: Float64Array, radius: number) {
+  const touchRadius = Math.max(radius, MIN_TOUCH_RADIUS);
+  const pathBox = extentAround(path, 2);
+  const nearWalls = [];
   for (let k = 0; k < walls.length; k += 4) {
     const wall = extentAround(walls.subarray(k, k + 4), 2);
-    const apart = Math.max(wall.xMin - box.xMax, box.xMin - wall.xMax, wall.yMin - box.yMax, box.yMin - wall.yMax);
-    if (apart < reach) near.push(k);
+    const boxDistance = Math.max(wall.xMin - pathBox.xMax, pathBox.xMin - wall.xMax, wall.yMin - pathBox.yMax, pathBox.yMin - wall.yMax);
+    if (boxDistance < touchRadius) nearWalls.push(k);
   }
   for (let i = 0; i + 3 < path.length; i += 2) {
     const [dx, dy] = [path[i + 2] - path[i], path[i + 3] - path[i + 1]];
-    const steps = Math.ceil((POINTS_PER_RADIUS * Math.hypot(dx, dy)) / reach) || 1;
-    for (let step = 0; step <= steps; step++) {
-      const [x, y] = [path[i] + (step / steps) * dx, path[i + 1] + (step / steps) * dy];
-      const [first] = near.map((k) => nearestOn(walls, k, x, y)).sort((one, other) => one.distance - other.distance);
-      if (first?.distance < reach) return first.point;
+    const stepCount = Math.ceil((POINTS_PER_RADIUS * Math.hypot(dx, dy)) / touchRadius) || 1;
+    for (let step = 0; step <= stepCount; step++) {
+      const [x, y] = [path[i] + (step / stepCount) * dx, path[i + 1] + (step / stepCount) * dy];
+      const [first] = nearWalls.map((k) => nearestWallPoint(walls, k, x, y)).sort((one, other) => one.distance - other.distance);
+      if (first?.distance < touchRadius) return first.point;
     }
   }
 }
@@ -60,71 +60,71 @@ export interface Grip {
  * Returns three grips of each wall, in the order of the walls: two ends, which can be moved where they touch no other wall, and the side.
  * The outer walls of the map have none.
  */
-export function gripsOf({ bounds, walls }: Plan): (Grip | undefined)[] {
+export function wallGrips({ bounds, walls }: Plan): (Grip | undefined)[] {
   const grips = [];
   for (let wall = 0; wall < walls.length; wall += 4) {
     const [x0, y0, x1, y1] = walls.subarray(wall, wall + 4);
-    const length = Math.hypot(x1 - x0, y1 - y0);
-    const along = [(x1 - x0) / length, (y1 - y0) / length];
-    const side = [-along[1], along[0]];
-    const isShell = [0, 1].some((i) => [bounds[i], bounds[i + 2]].some((bound) => walls[wall + i] === bound && walls[wall + i + 2] === bound));
-    const ends: [part: 'from' | 'to', end: number[], axis: number[]][] = [['from', [x0, y0], along.map((each) => -each)], ['to', [x1, y1], along]];
-    for (const [part, end, axis] of ends) {
-      const most = Math.min(rangeWithin(bounds, [end], axis)[1], roomAhead(walls, wall, end, axis));
-      const range = [Math.min(0, MIN_GAP - length), Math.max(0, most)];
-      grips.push(isShell || length < MIN_GAP || !isFree(walls, wall, end) ? undefined : { wall, part, axis, range });
+    const wallLength = Math.hypot(x1 - x0, y1 - y0);
+    const wallDirection = [(x1 - x0) / wallLength, (y1 - y0) / wallLength];
+    const wallNormal = [-wallDirection[1], wallDirection[0]];
+    const isOuterWall = [0, 1].some((i) => [bounds[i], bounds[i + 2]].some((bound) => walls[wall + i] === bound && walls[wall + i + 2] === bound));
+    const endGrips: [part: 'from' | 'to', end: number[], axis: number[]][] = [['from', [x0, y0], wallDirection.map((each) => -each)], ['to', [x1, y1], wallDirection]];
+    for (const [part, end, axis] of endGrips) {
+      const maxMove = Math.min(moveRange(bounds, [end], axis)[1], freeDistance(walls, wall, end, axis));
+      const range = [Math.min(0, MIN_GAP - wallLength), Math.max(0, maxMove)];
+      grips.push(isOuterWall || wallLength < MIN_GAP || !isFreeEnd(walls, wall, end) ? undefined : { wall, part, axis, range });
     }
-    const range = rangeWithin(bounds, [[x0, y0], [x1, y1]], side);
-    grips.push(isShell || length < MIN_GAP ? undefined : { wall, part: 'side' as const, axis: side, range });
+    const range = moveRange(bounds, [[x0, y0], [x1, y1]], wallNormal);
+    grips.push(isOuterWall || wallLength < MIN_GAP ? undefined : { wall, part: 'side' as const, axis: wallNormal, range });
   }
   return grips;
 }
 
 /** Returns whether an end of a wall touches no other wall. */
-function isFree(walls: Float64Array, wall: number, [x, y]: readonly number[]) {
-  for (let k = 0; k < walls.length; k += 4) if (k !== wall && nearestOn(walls, k, x, y).distance < TOUCH_DISTANCE) return false;
+function isFreeEnd(walls: Float64Array, wall: number, [x, y]: readonly number[]) {
+  for (let k = 0; k < walls.length; k += 4) if (k !== wall && nearestWallPoint(walls, k, x, y).distance < TOUCH_DISTANCE) return false;
   return true;
 }
 
 /** Returns how far points may move along an axis within bounds. */
-function rangeWithin(bounds: ArrayLike<number>, points: readonly (readonly number[])[], axis: readonly number[]): [number, number] {
+function moveRange(bounds: ArrayLike<number>, points: readonly (readonly number[])[], axis: readonly number[]): [number, number] {
   let [least, most] = [-Infinity, Infinity];
-  for (const point of points) {
+  for (const wallPoint of points) {
     for (const i of [0, 1].filter((each) => Math.abs(axis[each]) > TOUCH_DISTANCE)) {
-      const ends = [bounds[i] + MIN_GAP, bounds[i + 2] - MIN_GAP].map((bound) => (bound - point[i]) / axis[i]).sort((a, b) => a - b);
-      [least, most] = [Math.max(least, ends[0]), Math.min(most, ends[1])];
+      const moves = [bounds[i] + MIN_GAP, bounds[i + 2] - MIN_GAP].map((bound) => (bound - wallPoint[i]) / axis[i]).sort((a, b) => a - b);
+      [least, most] = [Math.max(least, moves[0]), Math.min(most, moves[1])];
     }
   }
   return [Math.min(0, least), Math.max(0, most)];
 }
 
 /** Returns how far the end of a wall may move ahead before it is near another wall. */
-function roomAhead(walls: Float64Array, wall: number, [x, y]: readonly number[], [ux, uy]: readonly number[]) {
-  let room = Infinity;
+function freeDistance(walls: Float64Array, wall: number, [x, y]: readonly number[], [ux, uy]: readonly number[]) {
+  let nearestDistance = Infinity;
   for (let k = 0; k < walls.length; k += 4) {
     if (k === wall) continue;
-    const ends = [k, k + 2].map((i) => [(walls[i] - x) * ux + (walls[i + 1] - y) * uy, (walls[i + 1] - y) * ux - (walls[i] - x) * uy]);
-    const [[ahead, left], [further, right]] = ends;
+    const wallEnds = [k, k + 2].map((i) => [(walls[i] - x) * ux + (walls[i + 1] - y) * uy, (walls[i + 1] - y) * ux - (walls[i] - x) * uy]);
+    const [[ahead, left], [further, right]] = wallEnds;
     if (Math.min(left, right) > TOUCH_DISTANCE || Math.max(left, right) < -TOUCH_DISTANCE) continue;
     const at = Math.abs(right - left) < TOUCH_DISTANCE ? Math.min(ahead, further) : ahead - (left * (further - ahead)) / (right - left);
-    if (at > 0) room = Math.min(room, at - MIN_GAP);
+    if (at > 0) nearestDistance = Math.min(nearestDistance, at - MIN_GAP);
   }
-  return room;
+  return nearestDistance;
 }
 
 /** Returns the walls with one of them moved along an axis. Walls that end on a wall that moves sideways follow it, if they only get longer or shorter. */
 export function movedWalls(walls: Float64Array, { wall, part, axis: [ux, uy] }: Grip, distance: number) {
-  const moved = walls.slice();
-  const move = (at: number) => {
-    moved[at] = walls[at] + distance * ux;
-    moved[at + 1] = walls[at + 1] + distance * uy;
+  const movedNumbers = walls.slice();
+  const moveEnd = (at: number) => {
+    movedNumbers[at] = walls[at] + distance * ux;
+    movedNumbers[at + 1] = walls[at + 1] + distance * uy;
   };
-  if (part !== 'to') move(wall);
-  if (part !== 'from') move(wall + 2);
+  if (part !== 'to') moveEnd(wall);
+  if (part !== 'from') moveEnd(wall + 2);
   for (let k = 0; k < walls.length && part === 'side'; k += 4) {
     const [dx, dy] = [walls[k + 2] - walls[k], walls[k + 3] - walls[k + 1]];
     if (k === wall || Math.abs(dx * uy - dy * ux) > TOUCH_DISTANCE) continue;
-    for (const end of [k, k + 2]) if (nearestOn(walls, wall, walls[end], walls[end + 1]).distance < TOUCH_DISTANCE) move(end);
+    for (const end of [k, k + 2]) if (nearestWallPoint(walls, wall, walls[end], walls[end + 1]).distance < TOUCH_DISTANCE) moveEnd(end);
   }
-  return moved;
+  return movedNumbers;
 }

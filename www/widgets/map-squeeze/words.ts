@@ -15,14 +15,14 @@ addEnglish({ squeeze: en });
 
 /** Returns the text of a verdict, whose bits are in `verdict` of settings.js. */
 export function verdictText(verdict: number, config: Settings) {
-  const is = (bit: number) => (verdict & bit) !== 0;
+  const hasBit = (bit: number) => (verdict & bit) !== 0;
   const { overlays, verdict: reasons } = words.squeeze;
-  const accepted = is(bits.accepted);
-  if (!accepted && config.sampler === 'sub-stepped') return `${overlays.rejected}: ${reasons.part}`;
-  const outcome = accepted ? overlays.accepted : overlays.rejected;
-  if (!is(bits.endFree)) return `${outcome}: ${reasons.end}`;
-  if (is(bits.pathFree)) return `${outcome}: ${reasons.free}`;
-  return `${accepted ? overlays.through : outcome}: ${reasons.way}`;
+  const isAccepted = hasBit(bits.accepted);
+  if (!isAccepted && config.sampler === 'sub-stepped') return `${overlays.rejected}: ${reasons.part}`;
+  const outcomeText = isAccepted ? overlays.accepted : overlays.rejected;
+  if (!hasBit(bits.endFree)) return `${outcomeText}: ${reasons.end}`;
+  if (hasBit(bits.pathFree)) return `${outcomeText}: ${reasons.free}`;
+  return `${isAccepted ? overlays.through : outcomeText}: ${reasons.way}`;
 }
 
 /** Denominators of the fractions of a headline, by preference. */
@@ -35,9 +35,9 @@ const NEARLY_ALL_ABOVE = 0.95;
 /** Returns a share between 0 and 1 as a simple fraction. */
 function fractionOf(share: number): [few: number, of: number] {
   if (share < ONE_IN_N_BELOW) return [1, Number((1 / share).toPrecision(2))];
-  const fractions = DENOMINATORS.map((of) => [clamp(Math.round(share * of), 1, of - 1), of] as [number, number]);
-  const off = ([few, of]: [number, number]) => Math.abs(few / of - share);
-  return fractions.reduce((best, each) => (off(each) < off(best) - 1e-9 ? each : best));
+  const simpleFractions = DENOMINATORS.map((of) => [clamp(Math.round(share * of), 1, of - 1), of] as [number, number]);
+  const roundingError = ([few, of]: [number, number]) => Math.abs(few / of - share);
+  return simpleFractions.reduce((best, each) => (roundingError(each) < roundingError(best) - 1e-9 ? each : best));
 }
 
 /** Returns the headline: the share of accepted motions that went through a wall. */
@@ -46,9 +46,9 @@ export function headlineOf({ attempts, accepted, throughWall }: Pick<Stats, 'att
   if (attempts === 0) return say.untried;
   if (accepted === 0) return say.nothing;
   if (throughWall === 0) return say.none;
-  const share = throughWall / accepted;
-  if (share === 1) return say.all;
-  return share > NEARLY_ALL_ABOVE ? say.most : say.share(...fractionOf(share));
+  const throughShare = throughWall / accepted;
+  if (throughShare === 1) return say.all;
+  return throughShare > NEARLY_ALL_ABOVE ? say.most : say.share(...fractionOf(throughShare));
 }
 
 /** Returns the caption: the counts of the samples, or why the robot cannot move. */
@@ -58,16 +58,16 @@ export function captionOf({ config: { conditioned, sampler }, stats, note }: Rea
   // For a robot that cannot move, the note contains the number of motions.
   if (note && (accepted === 0 || gaveUp)) return note;
   if (attempts === 0) return `${say.headline.untried}.`;
-  const tested = say.tested[conditioned ? sampler : 'off'](integer(accepted), integer(attempts));
-  const sentence = say.verdictOf(tested, throughText(stats, conditioned && sampler === 'whole-arc'));
-  return note ? `${sentence} ${note}` : sentence;
+  const testedText = say.tested[conditioned ? sampler : 'off'](integer(accepted), integer(attempts));
+  const throughSentence = say.verdictOf(testedText, throughText(stats, conditioned && sampler === 'whole-arc'));
+  return note ? `${throughSentence} ${note}` : throughSentence;
 }
 
 /** Returns the name of a map with its size. */
 export function mapText(name: string, { bounds, walls }: Plan) {
   const [left, bottom, right, top] = bounds;
-  const count = walls.length / 4;
-  return words.squeeze.mapText(name, fixed(right - left, 1), fixed(top - bottom, 1), count, integer(count));
+  const wallCount = walls.length / 4;
+  return words.squeeze.mapText(name, fixed(right - left, 1), fixed(top - bottom, 1), wallCount, integer(wallCount));
 }
 
 /** Returns the text equivalent of the picture, with the map as `mapText` has it. */
@@ -75,11 +75,11 @@ export function pictureText({ config, stats, sorted, note }: Reading, map: strin
   const { x, y, theta } = config.start;
   const { attempts, accepted, drawn, throughWall } = stats;
   const say = words.squeeze;
-  const parts = config.conditioned && config.sampler === 'sub-stepped';
+  const isSplit = config.conditioned && config.sampler === 'sub-stepped';
   return [
     say.picture(map),
     say.robotAt(fixed(x, 2), fixed(y, 2), fixed(theta, 2), commandText(config.command)),
-    say.outcome(integer(drawn), parts, integer(accepted), integer(throughWall), !sorted),
+    say.outcome(integer(drawn), isSplit, integer(accepted), integer(throughWall), !sorted),
     accepted < attempts && config.conditioned ? say.rest(!sorted) : '',
     note,
   ].filter(Boolean).join(' ');

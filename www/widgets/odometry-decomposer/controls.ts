@@ -6,29 +6,29 @@ import { words } from '../../messages/registry.ts';
 import { radioButton, group, formatMarkup } from '../../ui/controls.ts';
 import { fixed } from '../../ui/format.ts';
 import { figureTable } from '../../ui/readouts.ts';
-import { NOISE, SAMPLE_COUNTS } from './settings.ts';
+import { NOISE_SLIDERS, SAMPLE_COUNTS } from './settings.ts';
 import type { OdometryDecomposerElement as Figure } from './odometry-decomposer.ts';
 
 /** Returns the table of standard deviations by noise model. Values that differ from Table 5.6 are bold. */
-export function rulesTable(figure: Figure) {
+export function noiseModelTable(figure: Figure) {
   const { rules: names, table: say, settings } = words.decomposer;
   const { rules } = figure.reading;
   const currentRule = figure.settings.wanted.rule;
-  const rows = rules.map(({ deviations, crossTrack, heading }) => [...deviations, crossTrack, heading].map((value) => fixed(value, 3)));
+  const cellRows = rules.map(({ deviations, crossTrack, heading }) => [...deviations, crossTrack, heading].map((value) => fixed(value, 3)));
   return html`<div class="rules" role="radiogroup" aria-label=${settings.rule.name}>
     ${figureTable({
       caption: formatMarkup(say.caption),
       columns: [settings.rule.name, ...say.columns.map(formatMarkup)],
       rows: rules.map(({ rule }, i) => [
         radioButton({ group: 'rule', label: names[rule], checked: rule === currentRule, choose: () => figure.gesture.decide({ rule }) }),
-        ...rows[i].map((cell, column) => (cell === rows[0][column] ? cell : html`<strong>${cell}</strong>`)),
+        ...cellRows[i].map((cell, column) => (cell === cellRows[0][column] ? cell : html`<strong>${cell}</strong>`)),
       ]),
     })}
   </div>`;
 }
 
 /** Returns a slider, with a play button unless the reader prefers reduced motion. */
-export function playable(figure: Figure, key: 'phase' | 'drift', legend: string) {
+export function playableSlider(figure: Figure, key: 'phase' | 'drift', legend: string) {
   const { player } = figure;
   const { plays } = words.decomposer;
   return html`<fieldset class="playable ${key}">
@@ -39,7 +39,7 @@ export function playable(figure: Figure, key: 'phase' | 'drift', legend: string)
 
 export function noiseControls(figure: Figure) {
   return html`<div class="controls">
-      ${group(words.noise, html`${sliders(figure, NOISE)} ${radios(figure, 'noise', words.noises)}`, 'alphas')}
+      ${group(words.noise, html`${sliders(figure, NOISE_SLIDERS)} ${radios(figure, 'noise', words.noises)}`, 'alphas')}
       ${cloudControls(figure, SAMPLE_COUNTS)}
     </div>
     <p>${formatMarkup(words.decomposer.hinges)}</p>`;

@@ -10,63 +10,63 @@ const ARROW_HEAD = { half: 4, length: 9 };
 const CHORD_ANGLE = 0.1;
 
 /** Returns the directions, rad, from a heading to its turn by some radians. */
-export function directionsOf(heading: number, turn: number) {
+export function turnDirections(heading: number, turn: number) {
   const count = Math.max(1, Math.ceil(Math.abs(turn) / CHORD_ANGLE));
   return Array.from({ length: count + 1 }, (_, i) => heading + (turn * i) / count);
 }
 
 /** Returns the points of an arc about a pose, from its heading by a turn in radians, with a radius in pixels. */
-function arcOf({ view }: Brush, { x, y, theta }: Pose, turn: number, radius: number) {
-  return directionsOf(theta, turn).map((heading) => view.ray({ x, y, theta: heading }, radius)[1]);
+function arcPoints({ view }: Brush, { x, y, theta }: Pose, turn: number, radius: number) {
+  return turnDirections(theta, turn).map((heading) => view.ray({ x, y, theta: heading }, radius)[1]);
 }
 
 /** Draws a turn in radians from a pose's heading, as an arc with an arrow, with a radius in pixels. */
 export function drawTurn(brush: Brush, from: Pose, turn: number, radius: number, colour: string) {
   const { context, view } = brush;
-  const points = arcOf(brush, from, turn, radius);
+  const points = arcPoints(brush, from, turn, radius);
   strokeLine(context, points, { colour, width: 1.75 });
   // The arrow head is smaller on a short arc.
-  const length = Math.min(ARROW_HEAD.length, radius * Math.abs(turn));
+  const headLength = Math.min(ARROW_HEAD.length, radius * Math.abs(turn));
   const tip = points[points.length - 1];
-  const back = { ...from, theta: from.theta + turn - (Math.sign(turn) * length) / radius };
-  const share = length / ARROW_HEAD.length;
-  const foot = (side: number) => view.ray(back, radius + side * share * ARROW_HEAD.half)[1];
+  const headBase = { ...from, theta: from.theta + turn - (Math.sign(turn) * headLength) / radius };
+  const headScale = headLength / ARROW_HEAD.length;
+  const headCorner = (side: number) => view.ray(headBase, radius + side * headScale * ARROW_HEAD.half)[1];
   context.fillStyle = colour;
   context.beginPath();
-  addLine(context, [tip, foot(1), foot(-1)]);
+  addLine(context, [tip, headCorner(1), headCorner(-1)]);
   context.fill();
 }
 
 /** Draws a standard deviation (rad) to either side of a heading, as a fan with a radius in pixels. */
 export function drawFan(brush: Brush, middle: Pose, deviation: number, radius: number, colour: string) {
-  const half = Math.min(deviation, Math.PI);
-  if (half === 0) return;
+  const halfAngle = Math.min(deviation, Math.PI);
+  if (halfAngle === 0) return;
   const { context, view } = brush;
-  const rim = arcOf(brush, { ...middle, theta: middle.theta - half }, 2 * half, radius);
-  const fan = () => {
+  const rim = arcPoints(brush, { ...middle, theta: middle.theta - halfAngle }, 2 * halfAngle, radius);
+  const addFan = () => {
     addLine(context, [view.toPixel(middle.x, middle.y), ...rim]);
     context.closePath();
   };
   context.fillStyle = colour;
   context.globalAlpha = 0.14;
   context.beginPath();
-  fan();
+  addFan();
   context.fill();
   context.globalAlpha = 0.75;
-  strokePath(context, { colour, width: 1, dash: [5, 3] }, fan);
+  strokePath(context, { colour, width: 1, dash: [5, 3] }, addFan);
   context.globalAlpha = 1;
 }
 
 /** Draws a standard deviation (m) to either side of a place along its heading, as a bar with ends. */
 export function drawBar({ context, view }: Brush, pose: Pose, deviation: number, colour: string) {
   if (deviation === 0) return;
-  const ahead = view.direction(pose.theta);
-  const reach = deviation * view.scaleX;
+  const barDirection = view.direction(pose.theta);
+  const halfLength = deviation * view.scaleX;
   strokePath(context, { colour, width: 1.75 }, () => {
-    for (const side of [-reach, reach]) {
-      const [middle, [endX, endY]] = view.ray(pose, side);
+    for (const endOffset of [-halfLength, halfLength]) {
+      const [middle, [endX, endY]] = view.ray(pose, endOffset);
       addLine(context, [middle, [endX, endY]]);
-      addLine(context, [[endX - ARROW_HEAD.half * ahead.y, endY + ARROW_HEAD.half * ahead.x], [endX + ARROW_HEAD.half * ahead.y, endY - ARROW_HEAD.half * ahead.x]]);
+      addLine(context, [[endX - ARROW_HEAD.half * barDirection.y, endY + ARROW_HEAD.half * barDirection.x], [endX + ARROW_HEAD.half * barDirection.y, endY - ARROW_HEAD.half * barDirection.x]]);
     }
   });
 }

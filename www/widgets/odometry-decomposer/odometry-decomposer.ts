@@ -13,11 +13,11 @@ import { Memo } from '../../scene/memo.ts';
 import { Player } from '../shared/player.ts';
 import { PoseHandles } from '../shared/pose-handles.ts';
 import { presetButtons } from '../shared/presets.ts';
-import { noiseControls, playable, rulesTable } from './controls.ts';
+import { noiseControls, playableSlider, noiseModelTable } from './controls.ts';
 import { LegsPicture, ROBOT_RADIUS, WorldPicture } from './pictures.ts';
 import { readingOf, type Reading } from './reading.ts';
 import { headline, readouts, spreadPlot } from './readouts.ts';
-import { LINES, definition, sliderSpecs } from './settings.ts';
+import { LINE_STYLES, definition, sliderSpecs } from './settings.ts';
 import { styles } from './styles.ts';
 import { driftDistance, captionOf, legsText, worldText } from './words.ts';
 import type { OdometryDecomposer as Machine } from '../../types.d.ts';
@@ -89,8 +89,8 @@ export class OdometryDecomposerElement extends FigureElement<Machine, Reading> {
         <p class="caption">${formatMarkup(say.worldCaption(fixed(driftDistance(reading), 2)))}</p>`)}
       </div>
       ${this.renderer.afterFirstPicture(() => html`
-      ${legend(this, LINES)} ${presetButtons(this)} ${rulesTable(this)}
-      <div class="plays" part="controls">${playable(this, 'phase', say.path)} ${playable(this, 'drift', say.drift)}</div>
+      ${legend(this, LINE_STYLES)} ${presetButtons(this)} ${noiseModelTable(this)}
+      <div class="plays" part="controls">${playableSlider(this, 'phase', say.path)} ${playableSlider(this, 'drift', say.drift)}</div>
       ${disclosures(this, {
         controls: () => noiseControls(this),
         numbers: () => html`${readouts(reading)} ${spreadPlot(this.#curveOf, reading)}`,

@@ -8,13 +8,13 @@ import { SamplesPicture } from '../../scene/picture.ts';
 import { View, extentOf } from '../../scene/view.ts';
 import { fixed } from '../../ui/format.ts';
 import { drawHeldRobot, drawRobotOutline, turnDistance } from '../shared/robot.ts';
-import { directionsOf, drawBar, drawFan, drawTurn } from './marks.ts';
+import { turnDirections, drawBar, drawFan, drawTurn } from './marks.ts';
 import { poseIn } from './reading.ts';
-import { LINES } from './settings.ts';
+import { LINE_STYLES } from './settings.ts';
 import type { Pose } from '../../types.d.ts';
 import { addLine, drawDisc, strokePath, strokeLine, type Brush, type LineStroke } from '../../scene/canvas.ts';
 
-export type LineName = keyof typeof LINES;
+export type LineName = keyof typeof LINE_STYLES;
 
 /** Scene of both pictures, with the names of the lines that are shown. */
 export type Scene = import('./reading.ts').Reading & { marked: Float64Array | undefined, overlays: string[] };
@@ -46,26 +46,26 @@ const MIN_DRAWN_TURN = 0.005;
 /** Candidate ends of a leader on the arc of a turn, as fractions of it. */
 const LEADER_ENDS = [0.5, 0.3, 0.7, 0.1, 0.9];
 
-const AXES = { x: 'x (m)', y: 'y (m)' };
+const AXIS_NAMES = { x: 'x (m)', y: 'y (m)' };
 
 /** Length of the axes of the odometry frame, m: less than the margin, so that none is clipped. */
 const FRAME_AXIS_LENGTH = 0.28;
 
 /** Returns the key of an exported picture for the lines that are shown. */
 const keyOf = (brush: Brush, { overlays }: Scene, names: LineName[]) =>
-  lineKeys(brush, LINES, names.filter((name) => overlays.includes(name)), words.decomposer.overlays);
+  lineKeys(brush, LINE_STYLES, names.filter((name) => overlays.includes(name)), words.decomposer.overlays);
 
 /** Returns points around the start and the outcomes, as x, y pairs, that a picture has to show. */
-function surroundings({ linkage, legs, deviations, stats }: Scene): number[] {
+function neededPoints({ linkage, legs, deviations, stats }: Scene): number[] {
   const [{ x, y }, driven] = [poseIn(linkage, 0), poseIn(linkage, 2)];
-  const along = Math.min(MARGINS.deviations * deviations.trans, legs.trans + 2);
+  const alongMargin = Math.min(MARGINS.deviations * deviations.trans, legs.trans + 2);
   // No limit is needed here: a rotation moves the end across by at most the length of the drive.
-  const across = MARGINS.deviations * stats.exactCrossTrack;
+  const acrossMargin = MARGINS.deviations * stats.exactCrossTrack;
   const [dx, dy] = [Math.abs(Math.cos(driven.theta)), Math.abs(Math.sin(driven.theta))];
-  const room = [MARGINS.metres + along * dx + across * dy, MARGINS.metres + along * dy + across * dx];
+  const pointMargins = [MARGINS.metres + alongMargin * dx + acrossMargin * dy, MARGINS.metres + alongMargin * dy + acrossMargin * dx];
   return [
     ...[x - MARGINS.metres, y - MARGINS.metres, x + MARGINS.metres, y + MARGINS.metres],
-    ...[driven.x - room[0], driven.y - room[1], driven.x + room[0], driven.y + room[1]],
+    ...[driven.x - pointMargins[0], driven.y - pointMargins[1], driven.x + pointMargins[0], driven.y + pointMargins[1]],
   ];
 }
 
@@ -83,7 +83,7 @@ class OutcomesPicture extends SamplesPicture<Scene> {
 }
 
 /** Returns the radii of the arcs of both turns, pixels. */
-const reachesAt = (view: Pick<View, 'scaleX'>) => [0, 1].map((arc) => turnDistance(view, ROBOT_RADIUS) + ARC_GAPS.handle + arc * ARC_GAPS.arcs);
+const turnRadii = (view: Pick<View, 'scaleX'>) => [0, 1].map((arc) => turnDistance(view, ROBOT_RADIUS) + ARC_GAPS.handle + arc * ARC_GAPS.arcs);
 
 /** Picture in the odometry frame: the legs as a linkage, and the effect of noise on it. */
 export class LegsPicture extends OutcomesPicture {
@@ -92,50 +92,50 @@ export class LegsPicture extends OutcomesPicture {
   fit(scene: Scene) {
     const { view } = this;
     const { linkage, legs, overlays } = scene;
-    const room = surroundings(scene);
+    const worldPoints = neededPoints(scene);
     if (!overlays.includes('legs')) {
-      view.fit(extentOf(room, 1.2));
+      view.fit(extentOf(worldPoints, 1.2));
       return;
     }
     const { left, right, top, bottom } = view.frame;
-    const most = MAX_ARC_SHARE * Math.min(right - left, bottom - top);
-    const boxAt = (scale: number) => {
-      const reaches = reachesAt({ scaleX: scale });
-      const arcs = [legs.rot1, legs.rot2].flatMap((by, i) => {
-        const centre = poseIn(linkage, 2 * i);
-        const reach = Math.min(reaches[i], most) / scale;
-        return directionsOf(centre.theta, by).flatMap((theta) => [centre.x + reach * Math.cos(theta), centre.y + reach * Math.sin(theta)]);
+    const maxTurnRadius = MAX_ARC_SHARE * Math.min(right - left, bottom - top);
+    const boxAtScale = (scale: number) => {
+      const radii = turnRadii({ scaleX: scale });
+      const arcCorners = [legs.rot1, legs.rot2].flatMap((by, i) => {
+        const pivot = poseIn(linkage, 2 * i);
+        const radius = Math.min(radii[i], maxTurnRadius) / scale;
+        return turnDirections(pivot.theta, by).flatMap((theta) => [pivot.x + radius * Math.cos(theta), pivot.y + radius * Math.sin(theta)]);
       });
-      return extentOf([...room, ...arcs], 1.2);
+      return extentOf([...worldPoints, ...arcCorners], 1.2);
     };
     // The arcs, whose size is in pixels, fit at half the scale of the world alone.
-    let high = view.scaleFor(extentOf(room, 1.2));
-    let low = high / 2;
+    let maxScale = view.scaleFor(extentOf(worldPoints, 1.2));
+    let low = maxScale / 2;
     for (let i = 0; i < SCALE_BISECTIONS; i++) {
-      const scale = (low + high) / 2;
-      if (view.scaleFor(boxAt(scale)) < scale) high = scale;
-      else low = scale;
+      const middleScale = (low + maxScale) / 2;
+      if (view.scaleFor(boxAtScale(middleScale)) < middleScale) maxScale = middleScale;
+      else low = middleScale;
     }
-    view.fit(boxAt(low));
+    view.fit(boxAtScale(low));
   }
 
   paint: SamplesPicture<Scene>['paint'] = (brush, scene) => {
     const { palette } = brush;
     const { linkage, legs, deviations, config, overlays } = scene;
     const [start, turned, driven] = [0, 1, 2].map((index) => poseIn(linkage, index));
-    drawAxes(brush, AXES, keyOf(brush, scene, ['legs', 'deviation', 'outcomes']));
-    const [first, second] = reachesAt(this.view);
-    const styles = lineStyles(brush, LINES);
-    const spread = overlays.includes('deviation');
+    drawAxes(brush, AXIS_NAMES, keyOf(brush, scene, ['legs', 'deviation', 'outcomes']));
+    const [first, second] = turnRadii(this.view);
+    const styles = lineStyles(brush, LINE_STYLES);
+    const showsDeviation = overlays.includes('deviation');
     const { colour } = styles.deviation;
     clipToPlot(brush, () => {
-      if (spread) drawFan(brush, turned, deviations.rot1, Math.max(legs.trans * this.view.scaleX, second), colour);
+      if (showsDeviation) drawFan(brush, turned, deviations.rot1, Math.max(legs.trans * this.view.scaleX, second), colour);
       if (overlays.includes('outcomes')) this.#paintGhosts(brush, scene);
       drawOutcomes(brush, scene);
       if (overlays.includes('legs')) drawSegment(brush, start, driven, styles.legs);
       drawHeldRobot(brush, start, ROBOT_RADIUS, palette.prior);
       drawHeldRobot(brush, config.to, ROBOT_RADIUS, palette.prior);
-      if (spread) {
+      if (showsDeviation) {
         drawBar(brush, driven, deviations.trans, colour);
         drawBar(brush, { ...driven, theta: driven.theta + Math.PI / 2 }, deviations.strafe, colour);
         drawFan(brush, { ...driven, theta: driven.theta + legs.rot2 }, deviations.rot2, second, colour);
@@ -154,7 +154,7 @@ export class LegsPicture extends OutcomesPicture {
   /** Returns labels with the value and standard deviation of each leg that is long enough to see. The arcs of both turns have radii in pixels. */
   #labels({ view, palette: { prior: colour } }: Brush, { linkage, legs, deviations }: Scene, first: number, second: number) {
     const [start, driven] = [0, 2].map((index) => poseIn(linkage, index));
-    const label = (sub: 'rot1' | 'trans' | 'rot2', unit: string, place: { x: number, y: number }) => ({
+    const legLabel = (sub: 'rot1' | 'trans' | 'rot2', unit: string, place: { x: number, y: number }) => ({
       ...place,
       symbol: 'δ',
       sub,
@@ -162,34 +162,34 @@ export class LegsPicture extends OutcomesPicture {
       colour,
     });
     // The place of an arc that is nearest to the labels, and inside of the axes.
-    const onArc = ({ x, y, theta }: Pose, by: number, reach: number) => {
-      const places = LEADER_ENDS.map((share) => view.ray({ x, y, theta: theta + share * by }, reach)[1])
+    const leaderEnd = ({ x, y, theta }: Pose, by: number, reach: number) => {
+      const endCandidates = LEADER_ENDS.map((share) => view.ray({ x, y, theta: theta + share * by }, reach)[1])
         .map(([placeX, placeY]) => ({ x: placeX, y: placeY }))
         .sort((one, other) => one.y - other.y);
-      return places.find((place) => place.y > view.frame.top) ?? places[places.length - 1];
+      return endCandidates.find((place) => place.y > view.frame.top) ?? endCandidates[endCandidates.length - 1];
     };
-    const middle = { x: view.toPixelX((start.x + driven.x) / 2), y: view.toPixelY((start.y + driven.y) / 2) };
+    const driveMiddle = { x: view.toPixelX((start.x + driven.x) / 2), y: view.toPixelY((start.y + driven.y) / 2) };
     return [
-      ...(Math.abs(legs.rot1) < MIN_DRAWN_TURN ? [] : [label('rot1', 'rad', onArc(start, legs.rot1, first))]),
-      ...(legs.trans * view.scaleX < MIN_LABELLED_DRIVE ? [] : [label('trans', 'm', middle)]),
-      ...(Math.abs(legs.rot2) < MIN_DRAWN_TURN ? [] : [label('rot2', 'rad', onArc(driven, legs.rot2, second))]),
+      ...(Math.abs(legs.rot1) < MIN_DRAWN_TURN ? [] : [legLabel('rot1', 'rad', leaderEnd(start, legs.rot1, first))]),
+      ...(legs.trans * view.scaleX < MIN_LABELLED_DRIVE ? [] : [legLabel('trans', 'm', driveMiddle)]),
+      ...(Math.abs(legs.rot2) < MIN_DRAWN_TURN ? [] : [legLabel('rot2', 'rad', leaderEnd(driven, legs.rot2, second))]),
     ];
   }
 
   #paintGhosts({ context, view, palette }: Brush, { ghosts }: Scene) {
-    const point = (index: number) => view.toPixel(ghosts[3 * index], ghosts[3 * index + 1]);
+    const ghostPixel = (index: number) => view.toPixel(ghosts[3 * index], ghosts[3 * index + 1]);
     context.globalAlpha = 0.5;
     strokePath(context, { colour: palette.cloud, width: 1 }, () => {
-      for (let i = 0; i < ghosts.length / 3; i += 4) addLine(context, [0, 1, 2, 3].map((k) => point(i + k)));
+      for (let i = 0; i < ghosts.length / 3; i += 4) addLine(context, [0, 1, 2, 3].map((k) => ghostPixel(i + k)));
     });
     context.globalAlpha = 1;
   }
 
   #paintRobot({ context, view, palette }: Brush, pose: Pose) {
     const radius = Math.max(7, 0.7 * ROBOT_RADIUS * view.scaleX);
-    const edge = { colour: palette.paper, width: 2 };
-    drawDisc(context, view.toPixel(pose.x, pose.y), radius, palette.accent, edge);
-    strokeLine(context, view.ray(pose, radius), edge);
+    const robotEdge = { colour: palette.paper, width: 2 };
+    drawDisc(context, view.toPixel(pose.x, pose.y), radius, palette.accent, robotEdge);
+    strokeLine(context, view.ray(pose, radius), robotEdge);
   }
 }
 
@@ -199,11 +199,11 @@ export class WorldPicture extends OutcomesPicture {
 
   fit(scene: Scene) {
     const { poses } = scene.drifted;
-    const around = [0, 1, 2].flatMap((index) => {
+    const robotCorners = [0, 1, 2].flatMap((index) => {
       const { x, y } = poseIn(poses, index);
       return [x - MARGINS.metres, y - MARGINS.metres, x + MARGINS.metres, y + MARGINS.metres];
     });
-    this.view.fit(extentOf([...surroundings(scene), ...around], 1.2));
+    this.view.fit(extentOf([...neededPoints(scene), ...robotCorners], 1.2));
   }
 
   paint: SamplesPicture<Scene>['paint'] = (brush, scene) => {
@@ -211,8 +211,8 @@ export class WorldPicture extends OutcomesPicture {
     const { overlays } = scene;
     const [frame, from, to] = [0, 1, 2].map((index) => poseIn(scene.drifted.poses, index));
     const [start, end] = [poseIn(scene.linkage, 0), poseIn(scene.linkage, 3)];
-    const styles = lineStyles(brush, LINES);
-    drawAxes(brush, AXES, keyOf(brush, scene, ['prediction', 'odometry', 'difference']));
+    const styles = lineStyles(brush, LINE_STYLES);
+    drawAxes(brush, AXIS_NAMES, keyOf(brush, scene, ['prediction', 'odometry', 'difference']));
     clipToPlot(brush, () => {
       if (overlays.includes('odometry')) {
         this.#paintFrame(brush, frame);
@@ -232,9 +232,9 @@ export class WorldPicture extends OutcomesPicture {
   };
 
   #paintFrame({ context, view, palette }: Brush, frame: Pose) {
-    const length = FRAME_AXIS_LENGTH * view.scaleX;
-    const [, yEnd] = view.ray({ ...frame, theta: frame.theta + Math.PI / 2 }, length);
-    strokeLine(context, [yEnd, ...view.ray(frame, length)], { colour: palette.prior, width: 1.25 });
+    const axisLength = FRAME_AXIS_LENGTH * view.scaleX;
+    const [, yEnd] = view.ray({ ...frame, theta: frame.theta + Math.PI / 2 }, axisLength);
+    strokeLine(context, [yEnd, ...view.ray(frame, axisLength)], { colour: palette.prior, width: 1.25 });
   }
 
   #paintOdometry(brush: Brush, pose: Pose) {

@@ -6,14 +6,14 @@ export type Reading = ReturnType<typeof readingOf>;
 
 export function readingOf(machine: OdometryDecomposer) {
   const reading = machine.read();
-  return { ...reading, ...partsOf(reading.rules, reading.config) };
+  return { ...reading, ...currentRuleParts(reading.rules, reading.config) };
 }
 
 /** Returns the legs and standard deviations of the current rule. */
-function partsOf(rules: RuleFigures[], config: OdometryDecomposerSettings) {
-  const current = rules.find(({ rule }) => rule === config.rule) as RuleFigures;
-  const [rot1, trans, rot2, strafe] = current.deviations;
-  return { legs: current.legs, deviations: { rot1, trans, rot2, strafe } };
+function currentRuleParts(rules: RuleFigures[], config: OdometryDecomposerSettings) {
+  const currentRule = rules.find(({ rule }) => rule === config.rule) as RuleFigures;
+  const [rot1, trans, rot2, strafe] = currentRule.deviations;
+  return { legs: currentRule.legs, deviations: { rot1, trans, rot2, strafe } };
 }
 
 /** Returns one of several poses in an array of x, y, θ triples. */

@@ -11,24 +11,24 @@ import { plot } from '../../ui/plot.ts';
 import { readoutList } from '../../ui/readouts.ts';
 import type { Reading } from './reading.ts';
 
-const metres = (value: number) => `${fixed(value, 3)} m`;
+const formatMetres = (value: number) => `${fixed(value, 3)} m`;
 
 /** Returns the deviation across the path by the present noise model, as the message of the figure. */
 export function headline({ config: { rule }, stats }: Reading) {
   const say = words.decomposer;
-  return readoutList([[say.readouts.across, `± ${metres(stats.exactCrossTrack)}`, say.rules[rule]]], 0);
+  return readoutList([[say.readouts.across, `± ${formatMetres(stats.exactCrossTrack)}`, say.rules[rule]]], 0);
 }
 
 /** Returns the readouts: the contribution of the first rotation, and the standard deviations of the outcomes. */
 export function readouts({ stats }: Reading) {
   const say = words.decomposer.readouts;
   const { crossTrack, crossTrackError, exactCrossTrack, heading, headingError, exactHeading, independentHeading } = stats;
-  const exactly = say.exactly(fixed(exactHeading, 3));
-  const both = say.independent(fixed(exactHeading, 3), fixed(independentHeading, 3));
+  const exactText = say.exactly(fixed(exactHeading, 3));
+  const independentText = say.independent(fixed(exactHeading, 3), fixed(independentHeading, 3));
   return readoutList([
-    [say.lever, metres(stats.lever)],
-    [say.crossTrack, `${withError(crossTrack, crossTrackError, 3)} m`, say.exactly(metres(exactCrossTrack))],
-    [say.heading, `${withError(heading, headingError, 3)} rad`, exactHeading === independentHeading ? exactly : both],
+    [say.lever, formatMetres(stats.lever)],
+    [say.crossTrack, `${withError(crossTrack, crossTrackError, 3)} m`, say.exactly(formatMetres(exactCrossTrack))],
+    [say.heading, `${withError(heading, headingError, 3)} rad`, exactHeading === independentHeading ? exactText : independentText],
   ]);
 }
 
@@ -37,17 +37,17 @@ const CURVE_POINTS = 121;
 
 export function spreadPlot(curveOf: (longest: number, points: number) => Float64Array, { legs, stats }: Reading) {
   const say = words.decomposer.plot;
-  const longest = Math.max(1, 2 * legs.trans);
-  const rows = curveOf(longest, CURVE_POINTS);
-  const column = (index: number) => Float64Array.from({ length: CURVE_POINTS }, (_, i) => rows[4 * i + index]);
-  const [x, crossTrack, lever, along] = [0, 1, 2, 3].map(column);
-  const highest = Math.max(0.1, ...crossTrack, ...along, stats.crossTrack + stats.crossTrackError || 0);
+  const maxLength = Math.max(1, 2 * legs.trans);
+  const curveRows = curveOf(maxLength, CURVE_POINTS);
+  const curveColumn = (index: number) => Float64Array.from({ length: CURVE_POINTS }, (_, i) => curveRows[4 * i + index]);
+  const [x, crossTrack, lever, along] = [0, 1, 2, 3].map(curveColumn);
+  const plotTop = Math.max(0.1, ...crossTrack, ...along, stats.crossTrack + stats.crossTrackError || 0);
   return html`<figure>
     <p class="panel-title">${say.title}</p>
     ${plot({
       label: say.label(fixed(legs.trans, 2), fixed(stats.exactCrossTrack, 3)),
-      x: { name: say.x, from: 0, to: longest },
-      y: { name: say.y, from: 0, to: 1.08 * highest },
+      x: { name: say.x, from: 0, to: maxLength },
+      y: { name: say.y, from: 0, to: 1.08 * plotTop },
       curves: [
         { name: say.crossTrack, role: 'prediction', x, y: crossTrack },
         { name: say.lever, role: 'muted', dash: '2 4', x, y: lever },

@@ -4,7 +4,7 @@ import { definitionOf } from '../../figure/definition.ts';
 import { alphaSliders } from '../shared/sliders.ts';
 
 /** Styles of the lines and marks in the pictures. */
-export const LINES = {
+export const LINE_STYLES = {
   legs: { role: 'prior', width: 3, dash: [] },
   deviation: { role: 'prediction', width: 1.25, dash: [5, 3] },
   outcomes: { role: 'cloud', mark: 'dot' },
@@ -14,17 +14,17 @@ export const LINES = {
 } satisfies Record<string, import('../../scene/draw.ts').LineStyle>;
 
 /** Sliders of the noise parameters and of the correlation. */
-export const NOISE = {
+export const NOISE_SLIDERS = {
   ...alphaSliders(5, 'odometry'),
   correlation: { symbol: '*ρ*', role: 'prediction' as const, min: -1, max: 1, step: 0.05, decimals: 2 },
 };
 
 export const sliderSpecs: Record<string, import('../../figure/controls.ts').SliderSpec> = {
-  ...NOISE,
+  ...NOISE_SLIDERS,
   phase: { role: 'prior', min: 0, max: 3, step: 0.01, decimals: 2 },
   drift: { role: 'truth', min: 0, max: 120, step: 1, decimals: 0 },
 };
 
-export const definition = definitionOf('odometry-decomposer', { messageKey: 'decomposer', lines: LINES, sliderSpecs });
+export const definition = definitionOf('odometry-decomposer', { messageKey: 'decomposer', lines: LINE_STYLES, sliderSpecs });
 
 export const SAMPLE_COUNTS = [10, 20, 50, 100, 200, 500, 1000, 2000, 5000];

@@ -13,14 +13,14 @@ const MAX_JITTER = 0.01;
 export function captionOf({ config: { rule, alphas }, rules, legs, deviations, stats }: Reading) {
   const say = words.decomposer.caption;
   const [{ legs: { rot1, trans } }] = rules;
-  const eitherWay = rule === 'nav2' || rule === 'beluga';
-  const millimetres = fixed(1000 * trans, 1);
+  const countsEitherWay = rule === 'nav2' || rule === 'beluga';
+  const transMillimetres = fixed(1000 * trans, 1);
   if (alphas.every((alpha) => alpha === 0)) return say.still;
   if (rule === 'omni') return say.omni(fixed(deviations.strafe, 2));
-  if (trans > 0 && trans < MAX_JITTER) return eitherWay ? say.restSpin(millimetres) : say.rest(millimetres, fixed(rot1, 2));
+  if (trans > 0 && trans < MAX_JITTER) return countsEitherWay ? say.restSpin(transMillimetres) : say.rest(transMillimetres, fixed(rot1, 2));
   if (trans === 0) {
-    const left = Math.PI - Math.abs(legs.rot2);
-    return eitherWay && left < Math.PI / 2 ? say.spinEitherWay(fixed(left, 2)) : say.spin;
+    const remainingTurn = Math.PI - Math.abs(legs.rot2);
+    return countsEitherWay && remainingTurn < Math.PI / 2 ? say.spinEitherWay(fixed(remainingTurn, 2)) : say.spin;
   }
   if (rule === 'thrun' && Math.abs(rot1) > Math.PI / 2 && Math.abs(legs.rot2) > Math.PI / 2) return say.reverse;
   return say.lever(fixed(deviations.rot1, 2), fixed(trans, 2), fixed(stats.exactCrossTrack, 2));
@@ -35,8 +35,8 @@ export function driftDistance({ drifted, linkage }: Reading) {
 export function legsText(reading: Reading) {
   const { legs: { rot1, trans, rot2 }, config: { to }, stats } = reading;
   const say = words.decomposer;
-  const outcomes = stats.n === 0 ? say.none : say.outcomes(integer(stats.n), fixed(stats.crossTrack, 2), fixed(stats.heading, 2));
-  return `${say.picture(fixed(rot1, 2), fixed(trans, 2), fixed(rot2, 2), fixed(to.x, 2), fixed(to.y, 2))} ${outcomes} ${captionOf(reading)}`;
+  const outcomesText = stats.n === 0 ? say.none : say.outcomes(integer(stats.n), fixed(stats.crossTrack, 2), fixed(stats.heading, 2));
+  return `${say.picture(fixed(rot1, 2), fixed(trans, 2), fixed(rot2, 2), fixed(to.x, 2), fixed(to.y, 2))} ${outcomesText} ${captionOf(reading)}`;
 }
 
 export function worldText(reading: Reading) {

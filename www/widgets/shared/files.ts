@@ -41,8 +41,8 @@ export abstract class FileOpener<Host extends Figure> extends FigureController<H
 
   /** Runs an attempt to open files, which takes the place of an earlier one. Returns false if a later one has taken its place. */
   async run(work: (isLatest: () => boolean) => Promise<void>) {
-    const number = ++this.#latest;
-    const isLatest = () => number === this.#latest;
+    const attempt = ++this.#latest;
+    const isLatest = () => attempt === this.#latest;
     this.refusal = undefined;
     this.host.requestUpdate();
     try {
@@ -97,37 +97,37 @@ export abstract class FileOpener<Host extends Figure> extends FigureController<H
     event.preventDefault();
     // The disclosure shows the result.
     if (this.#place instanceof HTMLDetailsElement) this.#place.open = true;
-    filesOf(event.dataTransfer).then((files) => this.take(files, true));
+    droppedFiles(event.dataTransfer).then((files) => this.take(files, true));
   };
 
   /** Returns a button that opens files with some extensions. */
   button(id: string, label: string, extensions: string[]) {
-    const open = (event: Event) => {
+    const openChosen = (event: Event) => {
       const input = inputOf(event);
       this.take([...(input.files ?? [])]);
       // Reset, so that choosing the same file again after a correction fires an event.
       input.value = '';
     };
     return html`<label class="choice files" @click=${this.enter}>
-      ${label} <input id=${id} type="file" multiple accept=${extensions.join(',')} @change=${open} />
+      ${label} <input id=${id} type="file" multiple accept=${extensions.join(',')} @change=${openChosen} />
     </label>`;
   }
 }
 
 /** Returns what was dropped, with the files of folders and their paths in them. */
-async function filesOf({ items }: DataTransfer): Promise<File[]> {
+async function droppedFiles({ items }: DataTransfer): Promise<File[]> {
   // All entries are read synchronously: the list is empty afterwards.
-  const dropped = [...items].filter(({ kind }) => kind === 'file').map((item) => ({ entry: item.webkitGetAsEntry(), file: item.getAsFile() }));
-  const files = await Promise.all(dropped.map(({ entry, file }) => (entry?.isDirectory ? filesIn(entry as FileSystemDirectoryEntry) : file ? [file] : [])));
+  const droppedItems = [...items].filter(({ kind }) => kind === 'file').map((item) => ({ entry: item.webkitGetAsEntry(), file: item.getAsFile() }));
+  const files = await Promise.all(droppedItems.map(({ entry, file }) => (entry?.isDirectory ? filesIn(entry as FileSystemDirectoryEntry) : file ? [file] : [])));
   return files.flat();
 }
 
 async function filesIn(folder: FileSystemDirectoryEntry): Promise<File[]> {
   const reader = folder.createReader();
   const entries: FileSystemEntry[] = [];
-  const more = () => new Promise<FileSystemEntry[]>((resolve, reject) => reader.readEntries(resolve, reject));
+  const readEntries = () => new Promise<FileSystemEntry[]>((resolve, reject) => reader.readEntries(resolve, reject));
   // Browsers return a hundred entries at a time.
-  for (let some = await more(); some.length > 0; some = await more()) entries.push(...some);
+  for (let entryBatch = await readEntries(); entryBatch.length > 0; entryBatch = await readEntries()) entries.push(...entryBatch);
   const files = await Promise.all(entries.filter(({ name }) => !name.startsWith('.')).map(async (entry) => {
     if (entry.isDirectory) return filesIn(entry as FileSystemDirectoryEntry);
     const file = await new Promise<File>((resolve, reject) => (entry as FileSystemFileEntry).file(resolve, reject));

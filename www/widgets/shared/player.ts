@@ -6,7 +6,7 @@ import { prefersReducedMotion } from '../../figure/renderer.ts';
 import { words } from '../../messages/registry.ts';
 import { button } from '../../ui/controls.ts';
 
-interface Played {
+interface PlayedSetting {
   /** Maximum of the setting. */
   to: number;
   /** Duration from 0 to the maximum, milliseconds. */
@@ -22,7 +22,7 @@ export class Player<Key extends string> extends FigureController {
   /** Remainder of the last movement that a setting with whole steps could not take. */
   #beyond = 0;
 
-  constructor(host: import('../../figure/figure.ts').Figure, played: Record<Key, Played>) {
+  constructor(host: import('../../figure/figure.ts').Figure, played: Record<Key, PlayedSetting>) {
     super(host);
     this.#played = played;
   }
@@ -43,16 +43,16 @@ export class Player<Key extends string> extends FigureController {
   }
 
   #put(key: Key, value: number) {
-    const next = this.#played[key].whole ? Math.floor(value) : value;
-    if (next !== this.#at(key)) this.host.settings.want({ [key]: next });
+    const nextValue = this.#played[key].whole ? Math.floor(value) : value;
+    if (nextValue !== this.#at(key)) this.host.settings.want({ [key]: nextValue });
   }
 
   #toggle(key: Key) {
     const { host: { gesture, renderer } } = this;
-    const playing = this.#key !== key;
+    const willPlay = this.#key !== key;
     if (this.#key) gesture.commit();
-    if (playing && this.#at(key) >= this.#played[key].to) this.#put(key, 0);
-    this.#key = playing ? key : undefined;
+    if (willPlay && this.#at(key) >= this.#played[key].to) this.#put(key, 0);
+    this.#key = willPlay ? key : undefined;
     this.#beyond = 0;
     renderer.requestFrame();
     this.host.requestUpdate();

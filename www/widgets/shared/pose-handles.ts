@@ -14,10 +14,10 @@ const KEY_STEP = 0.05;
 const KEY_TURN = Math.PI / 36;
 
 /** Minimum size of the body's handle, CSS pixels. */
-const MIN_BODY = 32;
+const MIN_BODY_SIZE = 32;
 
 /** Minimum distance of the turning handle from the edge of the picture, CSS pixels. */
-const MARGIN = 12;
+const EDGE_MARGIN = 12;
 
 export class PoseHandles extends FigureController<import('../../figure/figure.ts').Figure> {
   #setting;
@@ -35,15 +35,15 @@ export class PoseHandles extends FigureController<import('../../figure/figure.ts
     this.#setting = setting;
     this.#view = view;
     this.#bounds = bounds;
-    const hooks = { view, commit: () => host.gesture.commit() };
+    const callbacks = { view, commit: () => host.gesture.commit() };
     this.#body = new Handle(`body ${setting}`, {
-      ...hooks,
+      ...callbacks,
       at: () => [this.#pose.x, this.#pose.y],
       drag: (x, y) => this.#moveTo(x, y),
       key: (event) => this.#moveBy(stepsOfKey(event)) || this.#turnBy(turnsOfKey(event)),
     });
     this.#turn = new Handle(`turn ${setting}`, {
-      ...hooks,
+      ...callbacks,
       at: (pointer) => pointer,
       drag: (x, y) => this.#turnTo(Math.atan2(y - this.#pose.y, x - this.#pose.x)),
       key: (event) => {
@@ -88,9 +88,9 @@ export class PoseHandles extends FigureController<import('../../figure/figure.ts
     const view = this.#view();
     const root = this.host.renderRoot;
     const [[x, y], [turnX, turnY]] = view.ray(config[this.#setting], turnDistance(view, radius));
-    const inside = (at: number, size: number) => clamp(at, MARGIN, size - MARGIN);
-    this.#body.place(root, x, y, Math.max(MIN_BODY, 2 * radius * view.scaleX));
-    this.#turn.place(root, inside(turnX, view.width), inside(turnY, view.height));
+    const clampToPicture = (at: number, size: number) => clamp(at, EDGE_MARGIN, size - EDGE_MARGIN);
+    this.#body.place(root, x, y, Math.max(MIN_BODY_SIZE, 2 * radius * view.scaleX));
+    this.#turn.place(root, clampToPicture(turnX, view.width), clampToPicture(turnY, view.height));
   }
 
   /** Moves the robot by steps along x and y; returns false if there are none. */

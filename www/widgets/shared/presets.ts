@@ -8,11 +8,11 @@ import { button } from '../../ui/controls.ts';
 export function presetButtons(figure: import('../../figure/figure.ts').Figure, more: unknown = nothing) {
   const { definition, settings, state } = figure;
   const { presets } = (words as any)[definition.messageKey];
-  const preset = definition.attributes.preset;
-  const current = preset.get(settings.wanted);
+  const presetAttribute = definition.attributes.preset;
+  const currentPreset = presetAttribute.get(settings.wanted);
   return html`<div class="buttons presets" role="group" aria-label=${words.presets}>
     ${Object.entries(presets).map(([name, label]) =>
-      button(label, () => state.choosePreset(name), { pressed: name === current, name: 'preset' }))}
+      button(label, () => state.choosePreset(name), { pressed: name === currentPreset, name: 'preset' }))}
     ${more} ${startOverButton(figure)}
   </div>`;
 }

@@ -20,20 +20,20 @@ export function turnDistance(view: Pick<View, 'scaleX'>, radius: number): number
 export function drawHeldRobot(brush: Brush, pose: Pose, radius: number, colour: string) {
   const { context, view, palette, placed } = brush;
   const [middle, turn] = view.ray(pose, turnDistance(view, radius));
-  const edge = { colour, width: 2.25 };
-  const body = radiusOn(view, radius);
-  drawDisc(context, middle, body, palette.paper, edge);
-  strokeLine(context, [middle, turn], edge);
+  const edgeStyle = { colour, width: 2.25 };
+  const body = radiusInPixels(view, radius);
+  drawDisc(context, middle, body, palette.paper, edgeStyle);
+  strokeLine(context, [middle, turn], edgeStyle);
   for (const [[x, y], size] of [[middle, body], [turn, TURN_HANDLE_RADIUS + 3]] as const) placed.push({ x, y, across: size, down: size });
   drawHandle(brush, { x: turn[0], y: turn[1], radius: TURN_HANDLE_RADIUS, colour });
 }
 
 /** Draws the dashed outline of a robot where a command would bring it; lengths in metres. */
 export function drawRobotOutline({ context, view }: Brush, x: number, y: number, radius: number, colour: string) {
-  drawDisc(context, view.toPixel(x, y), radiusOn(view, radius), undefined, { colour, width: 1.5, dash: [3, 3] });
+  drawDisc(context, view.toPixel(x, y), radiusInPixels(view, radius), undefined, { colour, width: 1.5, dash: [3, 3] });
 }
 
 /** Returns the radius of a robot, metres, in CSS pixels. */
-function radiusOn(view: View, radius: number): number {
+function radiusInPixels(view: View, radius: number): number {
   return Math.max(MIN_RADIUS, radius * view.scaleX);
 }

@@ -6,13 +6,13 @@ import { fixed } from '../../ui/format.ts';
 /** Dash of the commanded path, CSS pixels. */
 export const COMMAND_DASH = [2.5, 3.5];
 
-const SPEED = { role: 'prior' as const, step: 0.01, decimals: 2 };
+const SPEED_SLIDER = { role: 'prior' as const, step: 0.01, decimals: 2 };
 
 /** Returns the sliders of a command, with the longest duration in s. Handles and charts that set the command stay within these ranges. */
 export const commandSliders = (longest: number) => ({
-  v: { ...SPEED, symbol: '*v*', min: -1.5, max: 1.5 },
-  omega: { ...SPEED, symbol: '*ω*', min: -2, max: 2 },
-  dt: { ...SPEED, symbol: '*Δt*', min: 0.1, max: longest, step: 0.05 },
+  v: { ...SPEED_SLIDER, symbol: '*v*', min: -1.5, max: 1.5 },
+  omega: { ...SPEED_SLIDER, symbol: '*ω*', min: -2, max: 2 },
+  dt: { ...SPEED_SLIDER, symbol: '*Δt*', min: 0.1, max: longest, step: 0.05 },
 });
 
 export function commandText({ v, omega, dt }: import('../../types.d.ts').Command) {
@@ -20,14 +20,14 @@ export function commandText({ v, omega, dt }: import('../../types.d.ts').Command
 }
 
 /** Returns the subscript of an α, counted from 0. */
-export const subscript = (index: number) => String.fromCharCode(0x2081 + index);
+export const subscriptOf = (index: number) => String.fromCharCode(0x2081 + index);
 
 /** Slider of a noise parameter, up to a standard deviation of nearly half the command. */
-export const ALPHA = { role: 'prediction' as const, min: 0, max: 0.2, step: 0.001, decimals: 3 };
+export const ALPHA_SLIDER = { role: 'prediction' as const, min: 0, max: 0.2, step: 0.001, decimals: 3 };
 
 /** Returns the sliders of a model's first noise parameters, by the names of their settings. */
 export function alphaSliders(count: number, model: 'velocity' | 'odometry' = 'velocity'): Record<string, import('../../figure/controls.ts').SliderSpec> {
   return Object.fromEntries(
-    Array.from({ length: count }, (_, i) => [`alpha${i + 1}`, { ...ALPHA, symbol: `*α*${subscript(i)}`, alpha: [model, i] }]),
+    Array.from({ length: count }, (_, i) => [`alpha${i + 1}`, { ...ALPHA_SLIDER, symbol: `*α*${subscriptOf(i)}`, alpha: [model, i] }]),
   );
 }

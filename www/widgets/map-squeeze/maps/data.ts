@@ -6,7 +6,7 @@ import { limits } from '../../../settings.js';
 import type { Cells } from '../../../scene/walls.ts';
 import type { MapData, MapSqueeze } from '../../../types.d.ts';
 
-const frozen = Object.freeze;
+const freeze = Object.freeze;
 
 const PLAN_KEYS = ['name', 'bounds', 'walls'];
 const GRID_KEYS = ['name', 'columns', 'rows', 'resolution', 'origin', 'occupied', 'unknown'];
@@ -31,23 +31,23 @@ export function mapData(machine: MapSqueeze, name: string, grid: Cells | null): 
     const { columns, rows, resolution, origin } = grid;
     const occupied = packBits(grid.occupied);
     const unknownField = grid.unknown && { unknown: packBits(grid.unknown) };
-    return frozen({ name, columns, rows, resolution, origin: frozen([...origin]), occupied, ...unknownField });
+    return freeze({ name, columns, rows, resolution, origin: freeze([...origin]), occupied, ...unknownField });
   }
   const { bounds, walls } = machine.plan;
-  const listed = [];
-  for (let i = 0; i < walls.length; i += 4) listed.push(frozen([walls[i], walls[i + 1], walls[i + 2], walls[i + 3]]));
-  return frozen({ name, bounds: frozen([...bounds]), walls: frozen(listed) });
+  const wallList = [];
+  for (let i = 0; i < walls.length; i += 4) wallList.push(freeze([walls[i], walls[i + 1], walls[i + 2], walls[i + 3]]));
+  return freeze({ name, bounds: freeze([...bounds]), walls: freeze(wallList) });
 }
 
 /** Flattens the walls of a floor plan, because the core reads one array fastest. Other values are unchanged, and the core refuses them. */
 function flatWalls(walls: unknown) {
   if (!Array.isArray(walls) || walls.length > MAX_WALLS) return walls;
-  const numbers = new Float64Array(4 * walls.length);
+  const wallNumbers = new Float64Array(4 * walls.length);
   for (const [i, wall] of walls.entries()) {
     if (!Array.isArray(wall) || wall.length !== 4 || !wall.every((each) => typeof each === 'number')) return walls;
-    numbers.set(wall, 4 * i);
+    wallNumbers.set(wall, 4 * i);
   }
-  return numbers;
+  return wallNumbers;
 }
 
 /** Sets the map of a machine. Throws a TypeError or RangeError that names the field, and then changes nothing. */
@@ -64,12 +64,12 @@ export function applyMap(machine: MapSqueeze, data: unknown) {
   }
   const columns = wholeNumber('map.columns', map.columns, 1, limits.cells);
   const rows = wholeNumber('map.rows', map.rows, 1, Math.floor(limits.cells / columns));
-  const count = columns * rows;
-  const occupiedBits = bitsOf('map.occupied', map.occupied, count);
-  const unknownBits = map.unknown === undefined ? new Uint8Array(occupiedBits.length) : bitsOf('map.unknown', map.unknown, count);
-  const description = { resolution: map.resolution, origin: map.origin, negate: 1 };
-  const image = imageOf(columns, rows, occupiedBits, unknownBits);
-  renamingFields(GRID_KEYS, () => machine.setGrid(description, image));
+  const cellCount = columns * rows;
+  const occupiedBits = bitsOf('map.occupied', map.occupied, cellCount);
+  const unknownBits = map.unknown === undefined ? new Uint8Array(occupiedBits.length) : bitsOf('map.unknown', map.unknown, cellCount);
+  const gridDescription = { resolution: map.resolution, origin: map.origin, negate: 1 };
+  const pgmImage = imageOf(columns, rows, occupiedBits, unknownBits);
+  renamingFields(GRID_KEYS, () => machine.setGrid(gridDescription, pgmImage));
 }
 
 /** Calls a machine with fields of a map. In an error of the machine, the field gets its name in the map. */
@@ -77,42 +77,42 @@ function renamingFields(keys: string[], take: () => void) {
   try {
     take();
   } catch (refused) {
-    const error = withFieldRenamed(refused, 'occupied', 'image');
-    const key = keys.find((each) => error instanceof Error && error.message.startsWith(each));
-    throw key === undefined ? error : withFieldRenamed(error, `map.${key}`, key);
+    const renamedError = withFieldRenamed(refused, 'occupied', 'image');
+    const fieldKey = keys.find((each) => renamedError instanceof Error && renamedError.message.startsWith(each));
+    throw fieldKey === undefined ? renamedError : withFieldRenamed(renamedError, `map.${fieldKey}`, fieldKey);
   }
 }
 
 /** Returns cells as a PGM image. Rows of an image begin at the top, those of a grid at the bottom; negated, white is occupied. */
 function imageOf(columns: number, rows: number, occupiedBits: Uint8Array, unknownBits: Uint8Array) {
-  const header = new TextEncoder().encode(`P5 ${columns} ${rows} ${OCCUPIED_SHADE}\n`);
-  const image = new Uint8Array(header.length + columns * rows);
-  image.set(header);
+  const pgmHeader = new TextEncoder().encode(`P5 ${columns} ${rows} ${OCCUPIED_SHADE}\n`);
+  const pgmImage = new Uint8Array(pgmHeader.length + columns * rows);
+  pgmImage.set(pgmHeader);
   const bit = (bits: Uint8Array, i: number) => (bits[i >> 3] >> (7 - (i & 7))) & 1;
   for (let row = 0, i = 0; row < rows; row++) {
-    const start = image.length - columns * (row + 1);
-    for (let at = start; at < start + columns; at++, i++) image[at] = OCCUPIED_SHADE * bit(occupiedBits, i) + UNKNOWN_SHADE * bit(unknownBits, i);
+    const rowStart = pgmImage.length - columns * (row + 1);
+    for (let at = rowStart; at < rowStart + columns; at++, i++) pgmImage[at] = OCCUPIED_SHADE * bit(occupiedBits, i) + UNKNOWN_SHADE * bit(unknownBits, i);
   }
-  return image;
+  return pgmImage;
 }
 
 /** Returns cells of 0 or 1 as base64 of eight a byte, the first one highest. */
 function packBits(cells: Uint8Array): string {
-  const bytes = new Uint8Array(Math.ceil(cells.length / 8));
-  for (let i = 0; i < cells.length; i++) bytes[i >> 3] |= cells[i] << (7 - (i & 7));
-  return toBase64(bytes);
+  const packedBytes = new Uint8Array(Math.ceil(cells.length / 8));
+  for (let i = 0; i < cells.length; i++) packedBytes[i >> 3] |= cells[i] << (7 - (i & 7));
+  return toBase64(packedBytes);
 }
 
 function bitsOf(field: string, text: unknown, count: number) {
-  const length = Math.ceil(count / 8);
-  const allowed = `base64 of ${length} bytes, a bit for each cell`;
-  if (typeof text !== 'string') throw refusalError(field, text, allowed, TypeError);
-  let bytes;
+  const byteLength = Math.ceil(count / 8);
+  const allowedText = `base64 of ${byteLength} bytes, a bit for each cell`;
+  if (typeof text !== 'string') throw refusalError(field, text, allowedText, TypeError);
+  let packedBytes;
   try {
-    bytes = fromBase64(text);
+    packedBytes = fromBase64(text);
   } catch {
-    throw refusalError(field, text, allowed);
+    throw refusalError(field, text, allowedText);
   }
-  if (bytes.length !== length) throw refusalError(field, text, allowed);
-  return bytes;
+  if (packedBytes.length !== byteLength) throw refusalError(field, text, allowedText);
+  return packedBytes;
 }

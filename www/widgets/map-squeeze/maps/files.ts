@@ -3,7 +3,7 @@
 import { limits } from '../../../settings.js';
 import type { MapSqueeze } from '../../../types.d.ts';
 
-export type Refused = import('../../../messages/registry.ts').Messages['squeeze']['refused'];
+export type RefusalWords = import('../../../messages/registry.ts').Messages['squeeze']['refused'];
 
 /** Decodes a PNG image. Throws a RangeError for other files. */
 export type DecodePng = (bytes: Uint8Array) => Promise<Pick<ImageData, 'width' | 'height' | 'data'>>;
@@ -16,12 +16,12 @@ export interface OwnMap {
 
 /** Error with one sentence that names the file, the line or field, and what was expected. */
 export class MapFileError extends Error {
-  sentence: (say: Refused) => string;
+  sentence: (say: RefusalWords) => string;
 
   /** Creates the error of a file; the sentence is made when it is shown, in the language of that time. */
-  constructor(file: string, sentence: (say: Refused, file: string) => string) {
+  constructor(file: string, sentence: (say: RefusalWords, file: string) => string) {
     super('The map is refused.');
-    this.sentence = (say: Refused) => sentence(say, quoted(file));
+    this.sentence = (say: RefusalWords) => sentence(say, quoteText(file));
   }
 }
 
@@ -45,16 +45,16 @@ const PLAN_FORM = '{"bounds": [x0, y0, x1, y1], "walls": [[x0, y0, x1, y1], …]
 
 /** Reads the map in files; rejects with a MapFileError. */
 export async function readMapFiles(files: File[], decodePng: DecodePng): Promise<OwnMap> {
-  const named = (pattern: RegExp) => files.filter(({ name }) => pattern.test(name));
-  const [plans, descriptions, images] = [named(/\.json$/i), named(/\.ya?ml$/i), named(/\.(pgm|png)$/i)];
+  const filesNamed = (pattern: RegExp) => files.filter(({ name }) => pattern.test(name));
+  const [plans, descriptions, images] = [filesNamed(/\.json$/i), filesNamed(/\.ya?ml$/i), filesNamed(/\.(pgm|png)$/i)];
   const otherFile = files.find((file) => ![...plans, ...descriptions, ...images].includes(file));
   if (otherFile) {
     throw new MapFileError(otherFile.name, (say, name) => say.kind(name));
   }
-  const maps = plans.length + descriptions.length;
-  if (maps > 1) {
-    const names = [...plans, ...descriptions].map(({ name }) => name).join(', ');
-    throw new MapFileError(names, (say, those) => say.several(those, maps));
+  const mapCount = plans.length + descriptions.length;
+  if (mapCount > 1) {
+    const mapNames = [...plans, ...descriptions].map(({ name }) => name).join(', ');
+    throw new MapFileError(mapNames, (say, those) => say.several(those, mapCount));
   }
   if (plans.length) return readPlan(plans[0].name, await textOf(plans[0], MAX_PLAN_BYTES));
   if (descriptions.length) return readGrid(descriptions[0], images, decodePng);
@@ -79,29 +79,29 @@ function checkSize(name: string, size: number, most: number) {
 }
 
 /** Shortens a text that a sentence quotes. */
-function quoted(text: string) {
+function quoteText(text: string) {
   return text.length > MAX_QUOTED ? `${text.slice(0, MAX_QUOTED)}…` : text;
 }
 
 /** Reads a floor plan from the JSON of a file; rejects with a MapFileError. */
 export async function readPlan(name: string, text: string): Promise<OwnMap> {
   checkSize(name, text.length, MAX_PLAN_BYTES);
-  const plan = await planOf(name, text);
+  const parsedPlan = await parsePlan(name, text);
   return {
     name,
     apply: (machine) =>
-      applyOrExplain(name, () => machine.setPlan(plan ?? null), (say, file, reason) => say.plan(file, reason, PLAN_FORM)),
+      applyOrExplain(name, () => machine.setPlan(parsedPlan ?? null), (say, file, reason) => say.plan(file, reason, PLAN_FORM)),
   };
 }
 
 /** Parses a plan. The browser parses JSON fifty times as fast as the YAML library, which also reads text that is not quite JSON. */
-async function planOf(name: string, text: string) {
+async function parsePlan(name: string, text: string) {
   try {
     return JSON.parse(text);
   } catch (error) {
-    if (text.length <= MAX_TOLERANT_LENGTH) return parsed(name, text, 'JSON');
+    if (text.length <= MAX_TOLERANT_LENGTH) return parseYamlOrJson(name, text, 'JSON');
     const { message } = error as SyntaxError;
-    throw new MapFileError(name, (say, file) => say.syntax(file, 0, 'JSON', quoted(message), say.planForm(PLAN_FORM)));
+    throw new MapFileError(name, (say, file) => say.syntax(file, 0, 'JSON', quoteText(message), say.planForm(PLAN_FORM)));
   }
 }
 
@@ -113,15 +113,15 @@ function isObject(value: unknown): value is Record<string, unknown> {
  * Parses a text by the library for YAML, which reads JSON too. It forgives a trailing comma or a comment in a plan written by hand, and
  * knows the line of a mistake. It is loaded with the first map that needs it.
  */
-async function parsed(name: string, text: string, language: 'JSON' | 'YAML') {
+async function parseYamlOrJson(name: string, text: string, language: 'JSON' | 'YAML') {
   const { YAMLException, parseYaml } = await import('./yaml.ts');
   try {
     return parseYaml(text);
   } catch (error) {
     if (!(error instanceof YAMLException)) throw error;
-    const line = error.mark ? error.mark.line + 1 : 0;
+    const errorLine = error.mark ? error.mark.line + 1 : 0;
     throw new MapFileError(name, (say, file) =>
-      say.syntax(file, line, language, quoted(error.reason), language === 'JSON' ? say.planForm(PLAN_FORM) : say.yamlForm),
+      say.syntax(file, errorLine, language, quoteText(error.reason), language === 'JSON' ? say.planForm(PLAN_FORM) : say.yamlForm),
     );
   }
 }
@@ -130,27 +130,27 @@ async function readGrid(file: File, images: File[], decodePng: DecodePng): Promi
   const description = await readDescription(file.name, await textOf(file, MAX_YAML_BYTES));
   const { image: path } = description;
   if (typeof path !== 'string' || path === '') {
-    throw new MapFileError(file.name, (say, name) => say.image(name, path === undefined ? '' : quoted(JSON.stringify(path))));
+    throw new MapFileError(file.name, (say, name) => say.image(name, path === undefined ? '' : quoteText(JSON.stringify(path))));
   }
-  const wanted = path.slice(Math.max(path.lastIndexOf('/'), path.lastIndexOf('\\')) + 1);
-  const image = images.find(({ name }) => name === wanted);
+  const imageName = path.slice(Math.max(path.lastIndexOf('/'), path.lastIndexOf('\\')) + 1);
+  const image = images.find(({ name }) => name === imageName);
   if (!image) {
-    const given = images.map(({ name }) => name).join(', ');
-    throw new MapFileError(file.name, (say, name) => say.pair(name, quoted(wanted), quoted(given)));
+    const givenNames = images.map(({ name }) => name).join(', ');
+    throw new MapFileError(file.name, (say, name) => say.pair(name, quoteText(imageName), quoteText(givenNames)));
   }
   const bytes = await bytesOf(image, limits.bytes);
   const isPng = PNG_MAGIC.every((byte, i) => byte === bytes[i]);
-  const refusePng = (error: Error) => {
+  const throwPngError = (error: Error) => {
     throw error instanceof RangeError ? new MapFileError(image.name, (say, name) => say.broken(name, error.message)) : error;
   };
-  const pixels = isPng ? await decodePng(bytes).catch(refusePng) : bytes;
+  const pixelsOrBytes = isPng ? await decodePng(bytes).catch(throwPngError) : bytes;
   return {
     name: file.name,
     apply: (machine) =>
       applyOrExplain(
         file.name,
-        () => machine.setGrid(description, pixels),
-        (say, name, reason) => gridComplaint(say, name, quoted(image.name), reason),
+        () => machine.setGrid(description, pixelsOrBytes),
+        (say, name, reason) => gridComplaint(say, name, quoteText(image.name), reason),
       ),
   };
 }
@@ -162,33 +162,33 @@ const BOOLEAN_WORDS = new Map([['true', true], ['yes', true], ['on', true], ['fa
 const NUMBER_FIELDS = ['resolution', 'origin', 'negate', 'occupied_thresh', 'free_thresh'];
 
 /** Returns a number in quotes as a number, and other values unchanged. */
-function unquoted(value: unknown): unknown {
-  if (Array.isArray(value)) return value.map(unquoted);
+function numberFromText(value: unknown): unknown {
+  if (Array.isArray(value)) return value.map(numberFromText);
   return typeof value === 'string' && value.trim() !== '' && Number.isFinite(Number(value)) ? Number(value) : value;
 }
 
 /** Parses a description as leniently as map_server does. */
 async function readDescription(name: string, text: string) {
   // YAML forbids tabs as indentation, and the fields have none.
-  const description = await parsed(name, text.replaceAll(/^\t+/gm, '').replaceAll('\t', ' '), 'YAML');
+  const description = await parseYamlOrJson(name, text.replaceAll(/^\t+/gm, '').replaceAll('\t', ' '), 'YAML');
   if (!isObject(description)) throw new MapFileError(name, (say, file) => say.fields(file));
-  const fields = { ...description };
-  for (const key of NUMBER_FIELDS) if (key in fields) fields[key] = unquoted(fields[key]);
-  const { negate, mode } = fields;
-  if (typeof negate === 'string') fields.negate = BOOLEAN_WORDS.get(negate.toLowerCase()) ?? negate;
-  if (typeof mode === 'string') fields.mode = mode.toLowerCase();
-  return fields;
+  const yamlFields = { ...description };
+  for (const key of NUMBER_FIELDS) if (key in yamlFields) yamlFields[key] = numberFromText(yamlFields[key]);
+  const { negate, mode } = yamlFields;
+  if (typeof negate === 'string') yamlFields.negate = BOOLEAN_WORDS.get(negate.toLowerCase()) ?? negate;
+  if (typeof mode === 'string') yamlFields.mode = mode.toLowerCase();
+  return yamlFields;
 }
 
 /** Returns the sentence about a grid that the core refuses, with the name of the YAML file or of the image. */
-function gridComplaint(say: Refused, description: string, image: string, reason: string) {
-  const line = /^line (\d+): (.*)$/.exec(reason);
-  if (line) return say.line(image, line[1], line[2]);
+function gridComplaint(say: RefusalWords, description: string, image: string, reason: string) {
+  const errorLine = /^line (\d+): (.*)$/.exec(reason);
+  if (errorLine) return say.line(image, errorLine[1], errorLine[2]);
   return `${reason.startsWith('image') ? image : description}: ${reason}.`;
 }
 
 /** Calls the core with the map of a file, and explains why it is refused. */
-function applyOrExplain(name: string, take: () => void, sentence: (say: Refused, file: string, reason: string) => string) {
+function applyOrExplain(name: string, take: () => void, sentence: (say: RefusalWords, file: string, reason: string) => string) {
   try {
     take();
   } catch (error) {
